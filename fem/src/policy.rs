@@ -20,6 +20,10 @@ pub const LESS_HOURGLASS: &str = "for a sheet that pleats, law = \"tension-field
     else a tenth of hourglass or smaller elements";
 /// Share of the stored energy in contact at the end that is warned of: layers that lie on each other hold next to none.
 pub const CAUGHT: f64 = 0.05;
+/// Negative volume over (wall area)^(3/2) from which the walls of a chamber have passed through each other: a hundredth of a pillow's.
+pub const INSIDE_OUT: f64 = 1e-3;
+/// Volume of gas over (wall area)^(3/2) below which a sealed chamber is empty: 0.2 cm³ in a pillow of 200 mm.
+pub const NO_GAS: f64 = 1e-5;
 /// Share of its reference area below which an element counts as collapsed.
 pub const COLLAPSED: f64 = 1e-4;
 /// A mesh longer than this was hardly meant in metres \[m\].
@@ -66,6 +70,16 @@ pub const ACROSS: f64 = 0.0175;
 /// Whether an element has lost its area, of its share of that at rest.
 pub fn is_collapsed(share: f64) -> bool {
     share.is_nan() || share < COLLAPSED
+}
+
+/// Whether a chamber is inside out, of its volume over (wall area)^(3/2).
+pub fn is_inside_out(share: f64) -> bool {
+    share < -INSIDE_OUT
+}
+
+/// Whether a sealed chamber has something in it, of its volume over (wall area)^(3/2).
+pub fn holds_gas(share: f64) -> bool {
+    share >= NO_GAS
 }
 
 /// Whether a mesh is as long as no robot \[m\].
@@ -184,6 +198,8 @@ mod tests {
     fn a_run_is_stopped_or_warned_of_by_shares() {
         turns_at(1e-4, |share| !is_collapsed(share));
         assert!(is_collapsed(f64::NAN));
+        turns_at(1e-3, |share| is_inside_out(-share));
+        turns_at(1e-5, holds_gas);
         turns_at(20.0, is_huge);
         turns_at(0.2, is_pressed);
         turns_at(1.0, is_heavy);

@@ -2,7 +2,7 @@
 
 mod print;
 pub(crate) mod solid;
-mod start;
+pub(crate) mod start;
 
 use crate::FemError;
 pub use crate::amplitude::Amplitude;
@@ -66,9 +66,9 @@ pub struct Chamber {
     pub name: String,
     /// How its gauge pressure comes about.
     pub pressure: Pressure,
-    /// Axis (0 x, 1 y, 2 z) along which the chamber is open at both ends, between two planes that hold the fabric's edge
-    /// (plane strain); its volume then is that between the planes. `None`: the chamber is closed.
-    pub open_axis: Option<usize>,
+    /// Axes (x, y, z) along which the chamber is open: it ends at planes perpendicular to them that hold the fabric's edge
+    /// (planes of symmetry, plane strain between two). Its volume is that of the part in the model. `None`: the chamber is closed.
+    pub open_axis: Option<[bool; 3]>,
 }
 
 /// How the gauge pressure of a chamber comes about.
@@ -76,16 +76,54 @@ pub struct Chamber {
 pub enum Pressure {
     /// Set from outside \[Pa\].
     Set(Amplitude),
-    /// Set until `sealed_at_s`, then a constant mass of gas at constant temperature:
-    /// (p + p_atm)·V = const \[Pa, s\]. Valid while the gas has time to keep its temperature.
+    /// Set until `sealed_at_s`; then the gas in the chamber decides.
     Sealed {
         /// Pressure before sealing \[Pa\].
         filling: Amplitude,
         /// Time of sealing \[s\].
         sealed_at_s: f64,
-        /// Atmospheric pressure \[Pa\].
-        atmosphere_pa: f64,
+        /// The gas and its ways in and out.
+        gas: Gas,
     },
+}
+
+/// The gas of a chamber without a supply that sets its pressure.
+///
+/// ```text
+/// dP/dt = n/(V + V_d) · [p_atm (q − C p) − P dV/dt]        P = p + p_atm
+/// ```
+///
+/// | symbol | meaning | unit |
+/// |---|---|---|
+/// | P, p | absolute and gauge pressure | Pa |
+/// | V, V_d | volume of the chamber, dead volume | m³ |
+/// | n | polytropic exponent | – |
+/// | q | inflow, as volume at p_atm and room temperature | m³/s |
+/// | C | leak, as the same volume per gauge pressure | m³/(s Pa) |
+///
+/// Without q and C it is P (V + V_d)ⁿ = const. Valid for an ideal gas that flows at room temperature: exact for n = 1 and for filling
+/// with n = γ; a leaking gas with n > 1 has another temperature, an error of the order of (n − 1) p/p_atm of the leak.
+/// Source: Richer, Hurmuzlu 2000, A high performance pneumatic force actuator system, part I, with one n for all three terms.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gas {
+    /// Pressure of the surroundings p_atm \[Pa\].
+    pub atmosphere_pa: f64,
+    /// Volume V_d of hose and fittings, which the mesh does not have \[m³\].
+    pub dead_m3: f64,
+    /// n: 1 isothermal (slow), the heat ratio 1.4 adiabatic (fast).
+    pub exponent: f64,
+    /// C \[m³/(s Pa)\].
+    pub leak_m3_s_pa: f64,
+    /// q over time \[m³/s\].
+    pub inflow_m3_s: Amplitude,
+}
+
+impl Default for Gas {
+    /// A constant mass of air at constant temperature, all of it in the chamber.
+    fn default() -> Gas {
+        let inflow_m3_s = Amplitude::Constant(0.0);
+        Gas { atmosphere_pa: 101_325.0, dead_m3: 0.0, exponent: 1.0, leak_m3_s_pa: 0.0, inflow_m3_s }
+    }
 }
 
 /// Nodes whose motion is prescribed.
@@ -348,8 +386,10 @@ impl Problem {
         }
         let chambers: Vec<&str> = self.chambers.iter().map(|c| c.name.as_str()).collect();
         let open: Vec<&str> = self.open.iter().map(String::as_str).collect();
-        crate::mesh::check::check_open(&self.mesh, &chambers, &open)?;
+        let quality = crate::mesh::check::check_open(&self.mesh, &chambers, &open)?;
+        self.check_gas(&quality.volumes_m3)?;
         self.check_rims()?;
+        self.check_warps()?;
         self.check_supports()?;
         if self.settings.selective_mass && self.contact.as_ref().is_some_and(|c| c.edges) {
             let message = "contact: edges need each node's own mass; leave out edges, or selective_mass";

@@ -39,10 +39,11 @@ fn walls(name: &Text, table: &Spanned<RawChamber>, is_single: bool, file: &mut M
         },
     };
     let numbers: Vec<usize> = (0..all.len()).filter(|i| parts.contains(&all[*i])).collect();
-    let turned = match enclose(&mut file.mesh, name.get_ref(), &numbers, open_axis(table.get_ref())?) {
-        Err(FemError::Mesh(message)) => return Err(FemError::Case { message, span: Some(name.span()) }),
-        other => other?,
-    };
+    let turned =
+        match enclose(&mut file.mesh, name.get_ref(), &numbers, open_axis(table.get_ref())?.unwrap_or_default()) {
+            Err(FemError::Mesh(message)) => return Err(FemError::Case { message, span: Some(name.span()) }),
+            other => other?,
+        };
     let over =
         if turned > 0 { format!("; {turned} elements were turned over to look out of it") } else { String::new() };
     file.told.push(format!("chamber `{}` is enclosed by {}{over}", name.get_ref(), parts.join(", ")));

@@ -1,18 +1,20 @@
 //! Chambers, supports, rigid bodies, forces, gravity, obstacles and contact of a case.
 
 use super::range::{
-    ATMOSPHERE, Checked, GAP, LENGTH, POSITION, PRESSURE, Range, TIME, amplitude, choice, direction, number, optional,
+    ATMOSPHERE, Checked, GAP, GAUGE, LENGTH, POSITION, Range, TIME, amplitude, choice, direction, number, optional,
     plain, refuse, rising, si, unknown_name, vector,
 };
 use super::raw::{Raw, RawChamber, RawObstacle, RawSupport, Text};
 use crate::mesh::Mesh;
 use crate::problem::{
-    Amplitude, Chamber, Contact, Gravity, NodalForce, Obstacle, ObstacleShape, Pressure, Rigid, Support,
+    Amplitude, Chamber, Contact, Gas, Gravity, NodalForce, Obstacle, ObstacleShape, Pressure, Rigid, Support,
 };
 use spelling::Exactly;
 use std::collections::BTreeSet;
+use std::ops::Range as Place;
 use toml::Spanned;
 
+type Span = Place<usize>;
 /// Pressure over time of the paper's body: up within 0.1 s, then held.
 const BODY: [f64; 2] = [0.0, 0.1];
 /// Pressure over time of the paper's actuators: up from 0.1 s to 1.1 s.
@@ -20,6 +22,20 @@ const ACTUATOR: [f64; 2] = [0.1, 1.1];
 const FACTOR: Range = plain(-1e3, 1e3, "a multiplier over time: 0 is off, 1 is all");
 const FORCE: Range = plain(-1e5, 1e5, "write newtons: the sum over the set, [x, y, z]");
 const ACCELERATION: Range = plain(-1e4, 1e4, "write m/s², for example [0, 0, -9.81]");
+/// Litres per minute in m³/s.
+const L_MIN: f64 = 1e-3 / 60.0;
+const FLOW: Range = Range {
+    si: L_MIN,
+    unit: "L/min",
+    ..plain(0.0, 1e4, "write litres per minute at the pressure and temperature of the room")
+};
+const LEAK: Range = Range { si: L_MIN * 1e-3, unit: "L/min per kPa", ..plain(0.0, 1e3, FLOW.too_large) };
+const DEAD: Range = Range {
+    si: 1e-6,
+    unit: "cm³",
+    ..plain(0.0, 1e6, "write cubic centimetres: a hose of 4 mm bore has 12.6 cm³ per metre")
+};
+const EXPONENT: Range = plain(1.0, 1.67, "1 is isothermal (slow), 1.4 adiabatic air (fast)");
 const FRICTION: Range = plain(0.0, 2.0, "a Coulomb coefficient: 0 slides freely, 0.3 is usual for fabric");
 
 /// Every chamber of the mesh, with its pressure.
@@ -40,32 +56,82 @@ pub(super) fn chambers(raw: &Raw, mesh: &Mesh) -> Checked<Vec<Chamber>> {
     raw.chamber.iter().map(build).collect()
 }
 
-/// Axis along which a chamber is open.
-pub(super) fn open_axis(raw: &RawChamber) -> Checked<Option<usize>> {
-    let axis = raw.open_axis.as_ref();
-    axis.map(|axis| choice("open_axis", axis, &[("x", 0), ("y", 1), ("z", 2)])).transpose()
+/// Axes along which a chamber is open.
+pub(super) fn open_axis(raw: &RawChamber) -> Checked<Option<[bool; 3]>> {
+    raw.open_axis.as_ref().map(|text| axes("open_axis", text)).transpose()
 }
 
 fn pressure(table: &Spanned<RawChamber>) -> Checked<Pressure> {
     let raw = table.get_ref();
     let filling = filling(table)?;
-    let atmosphere_pa = optional("atmosphere_kPa", &raw.atmosphere_kpa, &ATMOSPHERE)?;
-    match (&raw.sealed_at_s, &raw.atmosphere_kpa) {
-        (Some(at), _) => {
-            let sealed_at_s = si("sealed_at_s", at, &TIME)?;
-            Ok(Pressure::Sealed { filling, sealed_at_s, atmosphere_pa: atmosphere_pa.unwrap_or(101_325.0) })
+    let atmosphere_pa = optional("atmosphere_kPa", &raw.atmosphere_kpa, &ATMOSPHERE)?.unwrap_or(101_325.0);
+    if let Some(low) = lowest(&filling).filter(|low| *low < -atmosphere_pa) {
+        let message = format!("cannot fill to {} kPa: a vacuum is {} kPa", low * 1e-3, -atmosphere_pa * 1e-3);
+        return refuse(message, "write gauge pressures, from minus atmosphere_kPa on", table.span());
+    }
+    let Some(at) = &raw.sealed_at_s else {
+        // The room's pressure also bounds a vacuum.
+        let keys: [(&str, Option<Span>); 7] = [
+            (
+                "atmosphere_kPa",
+                raw.atmosphere_kpa.as_ref().filter(|_| lowest(&filling) >= Some(0.0)).map(Spanned::span),
+            ),
+            ("dead_volume_cm3", raw.dead_volume_cm3.as_ref().map(Spanned::span)),
+            ("polytropic_exponent", raw.polytropic_exponent.as_ref().map(Spanned::span)),
+            ("leak_l_min_kPa", raw.leak_l_min_kpa.as_ref().map(Spanned::span)),
+            ("inflow_l_min", raw.inflow_l_min.as_ref().map(Spanned::span)),
+            ("inflow_smooth_s_l_min", raw.inflow_smooth_s_l_min.as_ref().map(Spanned::span)),
+            ("inflow_linear_s_l_min", raw.inflow_linear_s_l_min.as_ref().map(Spanned::span)),
+        ];
+        return match keys.into_iter().find_map(|(key, span)| Some((key, span?))) {
+            Some((key, span)) => refuse(
+                format!("{key} is used by a sealed chamber only"),
+                "add sealed_at_s, the time from which the gas decides the pressure (0 from the start), or remove it",
+                span,
+            ),
+            None => Ok(Pressure::Set(filling)),
+        };
+    };
+    let usual = Gas::default();
+    Ok(Pressure::Sealed {
+        filling,
+        sealed_at_s: si("sealed_at_s", at, &TIME)?,
+        gas: Gas {
+            atmosphere_pa,
+            dead_m3: optional("dead_volume_cm3", &raw.dead_volume_cm3, &DEAD)?.unwrap_or(usual.dead_m3),
+            exponent: optional("polytropic_exponent", &raw.polytropic_exponent, &EXPONENT)?.unwrap_or(usual.exponent),
+            leak_m3_s_pa: optional("leak_l_min_kPa", &raw.leak_l_min_kpa, &LEAK)?.unwrap_or(usual.leak_m3_s_pa),
+            inflow_m3_s: inflow(raw)?.unwrap_or(usual.inflow_m3_s),
+        },
+    })
+}
+
+/// Flow over time, as a constant or a curve.
+fn inflow(raw: &RawChamber) -> Checked<Option<Amplitude>> {
+    let curve = amplitude(&raw.inflow_smooth_s_l_min, &raw.inflow_linear_s_l_min, &FLOW)?;
+    match (&raw.inflow_l_min, curve) {
+        (Some(constant), Some(_)) => {
+            refuse("a constant inflow and a curve at once", "keep one of the two", constant.span())
         }
-        (None, Some(unused)) => {
-            refuse("atmosphere_kPa is used by a sealed chamber only", "add sealed_at_s, or remove it", unused.span())
+        (Some(constant), None) => Ok(Some(Amplitude::Constant(si("inflow_l_min", constant, &FLOW)?))),
+        (None, curve) => Ok(curve),
+    }
+}
+
+/// Least value that a supply ever sets \[Pa\].
+pub(super) fn lowest(filling: &Amplitude) -> Option<f64> {
+    match filling {
+        Amplitude::Constant(value) => Some(*value),
+        Amplitude::Smooth(points) | Amplitude::Linear(points) | Amplitude::Growing { points, .. } => {
+            points.iter().map(|p| p.1).min_by(f64::total_cmp)
         }
-        (None, None) => Ok(Pressure::Set(filling)),
     }
 }
 
 fn filling(table: &Spanned<RawChamber>) -> Checked<Amplitude> {
     let raw = table.get_ref();
-    let given = amplitude(&raw.smooth_s_kpa, &raw.linear_s_kpa, &PRESSURE)?;
-    let constant = optional("pressure_kPa", &raw.pressure_kpa, &PRESSURE)?;
+    let given = amplitude(&raw.smooth_s_kpa, &raw.linear_s_kpa, &GAUGE)?;
+    let constant = optional("pressure_kPa", &raw.pressure_kpa, &GAUGE)?;
     let help = "write pressure_kPa = 5, or smooth_s_kPa = [[0, 0], [0.05, 5]]";
     match (constant, given, &raw.preset) {
         (Some(pa), None, None) => Ok(Amplitude::Constant(pa)),
@@ -82,6 +148,19 @@ fn filling(table: &Spanned<RawChamber>) -> Checked<Amplitude> {
     }
 }
 
+/// What happens in a vacuum without contact.
+pub(super) fn vacuum(raw: &Raw, chambers: &[Chamber]) -> Option<String> {
+    let below = |chamber: &&Chamber| {
+        let (Pressure::Set(filling) | Pressure::Sealed { filling, .. }) = &chamber.pressure;
+        lowest(filling) < Some(0.0)
+    };
+    let chamber = chambers.iter().find(below).filter(|_| raw.contact.is_none())?;
+    Some(format!(
+        "chamber `{}` goes below the pressure of the room, and without [contact] its walls pass through each other where they meet",
+        chamber.name
+    ))
+}
+
 /// Supports; an encastre one gets a node set of its own in the mesh.
 pub(super) fn supports(raw: &Raw, mesh: &mut Mesh) -> Checked<Vec<Support>> {
     raw.support.iter().map(|s| support(s, mesh)).collect()
@@ -91,7 +170,7 @@ fn support(table: &Spanned<RawSupport>, mesh: &mut Mesh) -> Checked<Support> {
     let raw = table.get_ref();
     let mut set = set_name(&raw.set, mesh)?;
     let axes = match &raw.axes {
-        Some(text) => axes(text)?,
+        Some(text) => axes("axes", text)?,
         None => [true; 3],
     };
     if raw.encastre == Some(true) {
@@ -103,12 +182,13 @@ fn support(table: &Spanned<RawSupport>, mesh: &mut Mesh) -> Checked<Support> {
     Ok(Support { set, axes, motion: motion(&raw.smooth_s_mm, &raw.linear_s_mm)? })
 }
 
-fn axes(text: &Text) -> Checked<[bool; 3]> {
+/// Some of the letters x, y and z.
+fn axes(key: &str, text: &Text) -> Checked<[bool; 3]> {
     let held = ['x', 'y', 'z'].map(|axis| text.get_ref().contains(axis));
     let letters = text.get_ref().chars().count();
     if letters == 0 || letters != held.iter().filter(|h| **h).count() {
-        let message = format!("axes = \"{}\" is not understood", text.get_ref());
-        return refuse(message, "write the held ones of x, y and z, for example \"xyz\" or \"z\"", text.span());
+        let message = format!("{key} = \"{}\" is not understood", text.get_ref());
+        return refuse(message, "write some of x, y and z, each once, for example \"xyz\" or \"z\"", text.span());
     }
     Ok(held)
 }

@@ -5,7 +5,7 @@ use super::law::plain_number;
 use super::range::{Checked, LENGTH, Range, choice, number, plain, refuse, unknown_name};
 use super::raw::{Free, Text};
 use crate::mesh::Part;
-use crate::mesh::check::{check_open, rim};
+use crate::mesh::check::{check_open, near, rim};
 use crate::mesh::file::MeshFile;
 use crate::mesh::generate::{self, Around, Cap, Tube};
 use crate::policy;
@@ -196,9 +196,9 @@ pub(super) fn check(table: &Spanned<Free>, mesh: &Mesh, chambers: &[Chamber]) ->
             // Every set may be an opening: does the mesh close then?
             let all: Vec<&str> = mesh.sets.keys().map(String::as_str).collect();
             let opens = chambers.iter().all(|c| c.open_axis.is_none()) && check_open(mesh, &names, &all).is_ok();
-            let axis = if opens { open_axis(mesh, &names) } else { None };
-            let help = axis.map_or(CORRECT.to_string(), |(chamber, axis)| {
-                format!("\nit is open between planes: write open_axis = \"{axis}\" in [chamber.{chamber}]")
+            let open = if opens { open_axis(mesh, &names) } else { None };
+            let help = open.map_or(CORRECT.to_string(), |(chamber, axes)| {
+                format!("\nit is open between planes: write open_axis = \"{axes}\" in [chamber.{chamber}]")
             });
             Err(FemError::Case { message: message + &help, span: Some(table.span()) })
         }
@@ -214,19 +214,21 @@ pub(super) fn open_at<'a>(mesh: &'a Mesh, chambers: &[Chamber]) -> Vec<&'a str> 
     }
 }
 
-/// The first chamber with open edges, and the axis that they are perpendicular to.
-fn open_axis<'a>(mesh: &Mesh, chambers: &[&'a str]) -> Option<(&'a str, char)> {
-    chambers.iter().find_map(|name| {
-        let rim = rim(mesh, name);
-        let flat = |k: usize| {
-            // Two planes: every node at one end or the other.
-            let along = || rim.iter().map(|n| mesh.start_of(*n as usize)[k]);
-            let (low, high) = (along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max));
-            high > low && along().all(|x| (x - low).min(high - x) <= 1e-6 * (high - low))
-        };
-        let axis = (0..3).find(|k| !rim.is_empty() && flat(*k))?;
-        Some((*name, ['x', 'y', 'z'][axis]))
-    })
+/// The first chamber with open edges, and the fewest axes whose planes at the ends of the mesh have them all.
+fn open_axis<'a>(mesh: &Mesh, chambers: &[&'a str]) -> Option<(&'a str, &'static str)> {
+    let name = chambers.iter().find(|name| !rim(mesh, name).is_empty())?;
+    let rim = rim(mesh, name);
+    let ends = [0, 1, 2].map(|k| {
+        let along = || (0..mesh.points.len()).map(|i| mesh.start_of(i)[k]);
+        [along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max)]
+    });
+    let near = near(mesh, &rim);
+    let at_end = |edge: &[u32; 2], k: usize| {
+        ends[k].iter().any(|end| edge.iter().all(|n| (mesh.start_of(*n as usize)[k] - end).abs() <= near))
+    };
+    let all = ["x", "y", "z", "xy", "xz", "yz", "xyz"];
+    let fits = |axes: &&str| rim.iter().all(|edge| axes.bytes().any(|axis| at_end(edge, usize::from(axis - b'x'))));
+    Some((*name, all.into_iter().find(fits)?))
 }
 
 /// A text of the table, if it is there.

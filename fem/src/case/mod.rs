@@ -108,10 +108,12 @@ impl Case {
         range::choice("kind", &raw.kind, &[("fem", ())])?;
         let mut file = mesh::mesh(&raw.mesh, read_mesh)?;
         enclosed::chambers(&raw, &mut file)?;
-        let MeshFile { mut mesh, told: notices, .. } = file;
+        let MeshFile { mut mesh, unread, told: mut notices, .. } = file;
         let chambers = load::chambers(&raw, &mesh)?;
+        section::forget_warps(&raw, &mut mesh);
         mesh::check(&raw.mesh, &mesh, &chambers)?;
-        let sections = section::sections(&raw, &mesh)?;
+        let sections = section::sections(&raw, &mut mesh, &unread)?;
+        notices.extend(load::vacuum(&raw, &chambers));
         let outputs = settings::outputs(&raw.output, &mesh)?;
         let supports = load::supports(&raw, &mut mesh)?;
         let open = mesh::open_at(&mesh, &chambers).into_iter().map(String::from).collect();

@@ -27,6 +27,9 @@ pub(crate) const POSITION: Range =
     Range { low: -1e5, too_small: "any number of this size is accepted with its sign", ..LENGTH };
 /// Gauge pressures.
 pub(crate) const PRESSURE: Range = Range::PRESSURE;
+/// Gauge pressures of a chamber, below the room's too.
+pub(crate) const GAUGE: Range =
+    Range { low: -1000.0, too_small: "this looks like pascals: write kilopascals, -101.325 is a vacuum", ..PRESSURE };
 /// Pressure of the surroundings.
 pub(crate) const ATMOSPHERE: Range = Range {
     low: 1.0,

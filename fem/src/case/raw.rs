@@ -56,6 +56,7 @@ pub(super) struct RawPart {
     pub density_kg_m3: Num,
     pub bending_factor: Option<Num>,
     pub rest_curvature: Option<bool>,
+    pub warp: Option<Spanned<toml::Value>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -78,6 +79,13 @@ pub(super) struct RawChamber {
     pub sealed_at_s: Option<Num>,
     #[serde(rename = "atmosphere_kPa", alias = "atmosphere_kpa")]
     pub atmosphere_kpa: Option<Num>,
+    pub dead_volume_cm3: Option<Num>,
+    pub polytropic_exponent: Option<Num>,
+    #[serde(rename = "leak_l_min_kPa", alias = "leak_l_min_kpa")]
+    pub leak_l_min_kpa: Option<Num>,
+    pub inflow_l_min: Option<Num>,
+    pub inflow_smooth_s_l_min: Option<Points>,
+    pub inflow_linear_s_l_min: Option<Points>,
     pub open_axis: Option<Text>,
     pub parts: Option<Spanned<Vec<Text>>>,
 }

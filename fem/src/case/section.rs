@@ -1,26 +1,78 @@
 //! Parts and their plies.
 
 use super::law::{self, Fabrics};
-use super::range::{ANGLE, Checked, DENSITY, Range, optional, plain, refuse, si, unknown_name};
+use super::range::{ANGLE, Checked, DENSITY, Range, direction, optional, plain, refuse, si, unknown_name};
 use super::raw::{Num, Raw, RawPart, Text};
 use crate::mesh::{Mesh, Part};
+use crate::problem::start::{has_directions, warp_fault};
 use crate::problem::{Ply, Section};
+use spelling::Exactly;
 use std::sync::Arc;
-use toml::Spanned;
+use toml::{Spanned, Value};
 
 /// The entry of all parts that have none of their own.
 const ALL: &str = "all";
 const BENDING: Range = plain(0.0, 10.0, "1 is a solid film, 0.1 coated woven fabric, 0 a membrane");
 
-/// One section per part of the mesh, in its order.
-pub(super) fn sections(raw: &Raw, mesh: &Mesh) -> Checked<Vec<Section>> {
+/// Forgets the warp that the mesh has where the case has another.
+pub(super) fn forget_warps(raw: &Raw, mesh: &mut Mesh) {
+    let replaced = |part: &&mut Part| entry(raw, part).is_ok_and(|table| table.get_ref().warp.is_some());
+    mesh.parts.iter_mut().filter(replaced).for_each(|part| part.warp.clear());
+}
+
+/// One section per part of the mesh, in its order; parts get their warp. `unread` is what a file says of the warp and is not understood.
+pub(super) fn sections(raw: &Raw, mesh: &mut Mesh, unread: &[(String, String)]) -> Checked<Vec<Section>> {
     let fabrics = law::fabrics(&raw.fabric)?;
     let mut known: Vec<&str> = mesh.parts.iter().map(|p| p.name.as_str()).collect();
     known.push(ALL);
     if let Some(name) = raw.part.keys().find(|name| !known.contains(&name.get_ref().as_str())) {
         return Err(unknown_name("part", name, &known));
     }
-    mesh.parts.iter().map(|part| section(entry(raw, part)?, &fabrics)).collect()
+    let mut sections = Vec::new();
+    for i in 0..mesh.parts.len() {
+        let table = entry(raw, &mesh.parts[i])?;
+        let section = section(table, &fabrics)?;
+        let warp = table.get_ref().warp.as_ref();
+        if let Some(value) = warp {
+            mesh.parts[i].warp = vec![direction_of(value)?];
+        }
+        let part = &mesh.parts[i];
+        if let Some((message, help)) = warp_fault(mesh, part, &section) {
+            return refuse(message, format!("try {help}"), warp.map_or(table.span(), Spanned::span));
+        }
+        let foreign = unread.iter().find(|(name, _)| warp.is_none() && *name == part.name);
+        if let Some((name, what)) = foreign.filter(|_| has_directions(&section)) {
+            let message = format!("part `{name}` of the mesh file has {what}, which is not read");
+            let help = format!(
+                "write warp = \"x\" (or \"y\", \"z\", [x, y, z]) into [part.{name}]: it is laid onto every element; a warp that turns \
+                 within a part needs our own mesh format"
+            );
+            return refuse(message, help, table.span());
+        }
+        sections.push(section);
+    }
+    Ok(sections)
+}
+
+/// An axis by its letter, or a vector.
+fn direction_of(value: &Spanned<Value>) -> Checked<[f64; 3]> {
+    let numbers = |list: &[Value]| {
+        let number = |v: &Value| v.as_float().or_else(|| v.as_integer().map(|i| i as f64));
+        list.iter().map(number).collect::<Option<Vec<f64>>>()
+    };
+    match value.get_ref() {
+        Value::String(text) if text == "x" => return Ok([1.0, 0.0, 0.0]),
+        Value::String(text) if text == "y" => return Ok([0.0, 1.0, 0.0]),
+        Value::String(text) if text == "z" => return Ok([0.0, 0.0, 1.0]),
+        Value::Array(list) => {
+            if let Some(&[x, y, z]) = numbers(list).as_deref() {
+                return direction("warp", &Spanned::new(value.span(), Exactly([x, y, z])));
+            }
+        }
+        _ => {}
+    }
+    let message = format!("warp = {} is not understood", value.get_ref());
+    refuse(message, "write warp = \"x\", \"y\" or \"z\", or a vector such as [0, 1, 0.5]", value.span())
 }
 
 fn entry<'a>(raw: &'a Raw, part: &Part) -> Checked<&'a Spanned<RawPart>> {

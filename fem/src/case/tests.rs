@@ -3,7 +3,7 @@
 mod document;
 
 use super::*;
-use crate::problem::{Amplitude, MassScaling, ObstacleShape, Pressure};
+use crate::problem::{Amplitude, Gas, MassScaling, ObstacleShape, Pressure};
 
 /// A case that uses every table.
 const WHOLE: &str = r#"
@@ -149,9 +149,9 @@ fn every_table_arrives_in_si() {
     assert_eq!((p.sections[0].plies.len(), p.sections[0].bonded, p.sections[0].density_kg_m3), (2, true, 1100.0));
     assert_eq!((p.sections[1].plies.len(), p.sections[1].bonded, p.sections[1].bending_factor), (1, false, 0.1));
     assert!((p.sections[1].plies[0].fabric.thickness_m() - 2e-4).abs() < 1e-15, "two plies of 0.1 mm");
-    let Pressure::Sealed { filling, sealed_at_s, atmosphere_pa } = &p.chambers[0].pressure else { panic!() };
+    let Pressure::Sealed { filling, sealed_at_s, gas } = &p.chambers[0].pressure else { panic!() };
     assert_eq!((filling.at(0.1), filling.at(1.1)), (0.0, 3e3));
-    assert_eq!((*sealed_at_s, *atmosphere_pa), (1.2, 101_325.0));
+    assert_eq!((*sealed_at_s, gas), (1.2, &Gas::default()));
     assert_eq!((p.supports[0].axes, p.supports[0].motion.is_none()), ([true, true, false], true));
     let motion = p.supports[1].motion.as_ref().unwrap();
     assert_eq!((motion[0].at(1.0), motion[2].at(1.0)), (0.0, 0.02));

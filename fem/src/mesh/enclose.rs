@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::check::signed_volume;
+use super::check::{counted, near, planes, signed_volume};
 use super::{Mesh, Part};
 use crate::FemError;
 
@@ -19,9 +19,9 @@ type Neighbours = BTreeMap<usize, Vec<(usize, bool)>>;
 ///
 /// # Errors
 /// [`FemError::Mesh`] for a part that would have two chambers on one side, or that two chambers want turned in different ways.
-pub fn enclose(mesh: &mut Mesh, chamber: &str, parts: &[usize], open_axis: Option<usize>) -> Result<usize, FemError> {
+pub fn enclose(mesh: &mut Mesh, chamber: &str, parts: &[usize], open: [bool; 3]) -> Result<usize, FemError> {
     let faces: Vec<Face> = parts.iter().flat_map(|p| (0..mesh.parts[*p].len()).map(move |i| (*p, i))).collect();
-    let outward = outward(mesh, &faces, open_axis);
+    let outward = outward(mesh, &faces, open);
     let mut turned = 0;
     for part in parts {
         let signs: Vec<bool> =
@@ -51,9 +51,10 @@ pub fn enclose(mesh: &mut Mesh, chamber: &str, parts: &[usize], open_axis: Optio
 }
 
 /// Whether every face looks out of the chamber.
-fn outward(mesh: &Mesh, faces: &[Face], open_axis: Option<usize>) -> Vec<bool> {
-    let neighbours = neighbours(mesh, faces);
-    let axes: Vec<usize> = (0..3).filter(|k| Some(*k) != open_axis).collect();
+fn outward(mesh: &Mesh, faces: &[Face], open: [bool; 3]) -> Vec<bool> {
+    let edges = edges(mesh, faces);
+    let neighbours = neighbours(&edges);
+    let counted = counted(mesh, &ends(mesh, &edges, open));
     let mut outward: Vec<Option<bool>> = vec![None; faces.len()];
     for first in 0..faces.len() {
         if outward[first].is_some() {
@@ -75,10 +76,15 @@ fn outward(mesh: &Mesh, faces: &[Face], open_axis: Option<usize>) -> Vec<bool> {
             let (part, i) = faces[*face];
             (mesh.parts[part].nodes(i), if *outward { 1.0 } else { -1.0 })
         };
-        let (volume, has_sign) = signed_volume(mesh, sheet.iter().zip(&ways).map(way_of), &axes);
+        let signed = |(axes, origin): &(Vec<usize>, [f64; 3])| {
+            signed_volume(mesh, sheet.iter().zip(&ways).map(way_of), axes, *origin)
+        };
         // A flat pouch has no inside yet: most of its elements look as the file says.
         let majority = 2 * ways.iter().filter(|way| **way).count() >= ways.len();
-        let right = if has_sign { volume > 0.0 } else { majority };
+        let right = match counted.as_ref().map(signed) {
+            Some((volume, true)) => volume > 0.0,
+            _ => majority,
+        };
         if !right {
             sheet.iter().for_each(|face| outward[*face] = outward[*face].map(|way| !way));
         }
@@ -86,9 +92,11 @@ fn outward(mesh: &Mesh, faces: &[Face], open_axis: Option<usize>) -> Vec<bool> {
     outward.into_iter().map(|way| way == Some(true)).collect()
 }
 
-/// Faces that meet two by two.
-fn neighbours(mesh: &Mesh, faces: &[Face]) -> Neighbours {
-    let mut edges: BTreeMap<(u32, u32), Vec<(usize, bool)>> = BTreeMap::new();
+/// Faces by the edges that they have, and whether they run along them to the higher node.
+type Edges = BTreeMap<(u32, u32), Vec<(usize, bool)>>;
+
+fn edges(mesh: &Mesh, faces: &[Face]) -> Edges {
+    let mut edges = Edges::new();
     for (face, (part, i)) in faces.iter().enumerate() {
         let nodes = mesh.parts[*part].nodes(*i);
         for k in 0..nodes.len() {
@@ -96,6 +104,11 @@ fn neighbours(mesh: &Mesh, faces: &[Face]) -> Neighbours {
             edges.entry((a.min(b), a.max(b))).or_default().push((face, a < b));
         }
     }
+    edges
+}
+
+/// Faces that meet two by two.
+fn neighbours(edges: &Edges) -> Neighbours {
     let mut neighbours = Neighbours::new();
     for meeting in edges.values() {
         if let [(a, up), (b, other)] = meeting[..] {
@@ -104,6 +117,24 @@ fn neighbours(mesh: &Mesh, faces: &[Face]) -> Neighbours {
         }
     }
     neighbours
+}
+
+/// Where the faces end along the axes along which the chamber is open: planes with open edges that nothing is beyond.
+fn ends(mesh: &Mesh, edges: &Edges, open: [bool; 3]) -> [Vec<f64>; 3] {
+    let rim: Vec<[u32; 2]> = edges.iter().filter(|(_, faces)| faces.len() == 1).map(|((a, b), _)| [*a, *b]).collect();
+    let near = near(mesh, &rim);
+    let beyond = |k: usize, at: f64, sign: f64| {
+        edges.keys().any(|(a, b)| [a, b].iter().any(|n| sign * (mesh.start_of(**n as usize)[k] - at) > near))
+    };
+    let mut all = planes(mesh, &rim, |_, k| open[k]);
+    (0..3).for_each(|k| all[k].retain(|at| !beyond(k, *at, 1.0) || !beyond(k, *at, -1.0)));
+    // An opening without such an edge is open all the same: along this axis nothing is counted.
+    let uncounted = |places: Vec<f64>, open| match open && places.is_empty() {
+        true => vec![f64::NEG_INFINITY, f64::INFINITY],
+        false => places,
+    };
+    let mut open = open.into_iter();
+    all.map(|places| uncounted(places, open.next() == Some(true)))
 }
 
 /// Turns an element over.

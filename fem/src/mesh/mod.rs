@@ -47,7 +47,7 @@ pub struct Part {
     /// 3-node elements.
     pub triangles: Vec<[u32; 3]>,
     /// Warp direction: one vector for the whole part, or one per element (quads first). Projected onto each element;
-    /// need not be unit. Empty: the global x axis, or y where x is within 1 degree of the element normal.
+    /// need not be unit. Empty: the global x axis, which a fabric with directions must have in its sheet.
     pub warp: Vec<[f64; 3]>,
     /// Chamber that the front of the elements faces; `None`: the surroundings.
     pub front: Option<String>,

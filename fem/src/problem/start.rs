@@ -1,27 +1,112 @@
 //! What contradicts itself before the first step.
 
-use super::{Problem, Support};
-use crate::FemError;
+use super::{Pressure, Problem, Section, Support};
+use crate::mesh::check::{near, planes, rim};
+use crate::mesh::{Mesh, Part};
+use crate::vec3::{V3, area, centre, cross, norm, sub};
+use crate::{FemError, policy};
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+/// The warp of a part that has none.
+pub(crate) const X: V3 = [1.0, 0.0, 0.0];
 
 impl Problem {
-    /// Edges of a chamber that is open between two planes must stay in these planes: what is beyond them is not there.
+    /// Edges of a chamber that is open between planes must stay in these planes: what is beyond them is not there.
     pub(super) fn check_rims(&self) -> Result<(), FemError> {
-        for (chamber, axis) in self.chambers.iter().filter_map(|c| Some((&c.name, c.open_axis?))) {
-            let holds = |set: &str| self.supports.iter().any(|s| s.set == set && s.axes[axis]);
-            let held: Vec<&Vec<u32>> = self.mesh.sets.iter().filter(|(set, _)| holds(set)).map(|s| s.1).collect();
-            let rim = crate::mesh::check::rim(&self.mesh, chamber);
-            let Some(node) = rim.into_iter().find(|n| !held.iter().any(|set| set.contains(n))) else { continue };
-            let letter = ["x", "y", "z"][axis];
-            let sets = self.mesh.sets.iter().filter(|(_, nodes)| nodes.contains(&node)).map(|(name, _)| name.as_str());
-            let sets = sets.collect::<Vec<_>>().join(", ");
-            return Err(FemError::Problem(format!(
-                "chamber `{chamber}` is open along {letter}, and node {} on its edge is not held along {letter}: its pressure would \
-                 push it out of its plane. Add [[support]] with axes = \"{letter}\" for the sets of these edges (this node is in: {})",
-                node + 1,
-                if sets.is_empty() { "none" } else { &sets }
-            )));
+        for (chamber, open) in self.chambers.iter().filter_map(|c| Some((&c.name, c.open_axis?))) {
+            let rim = rim(&self.mesh, chamber);
+            let held = self.held();
+            let (near, at) = (near(&self.mesh, &rim), |n: u32| self.mesh.start_of(n as usize));
+            let lies = |[a, b]: &[u32; 2], k: usize| (at(*a)[k] - at(*b)[k]).abs() <= near;
+            let rests = |edge: &[u32; 2], k: usize| lies(edge, k) && edge.iter().all(|n| held[*n as usize][k]);
+            if let Some(edge) = rim.iter().find(|edge| !(0..3).any(|k| open[k] && rests(edge, k))) {
+                let axis = |fits: &dyn Fn(usize) -> bool| (0..3).find(|k| fits(*k));
+                let other = axis(&|k| !open[k] && rests(edge, k));
+                return Err(FemError::Problem(match (other, axis(&|k| open[k] && lies(edge, k))) {
+                    (Some(other), _) => {
+                        let all: String = (0..3).filter(|k| open[*k] || *k == other).map(|k| AXES[k]).collect();
+                        format!(
+                            "{} along {} and held there too. Try: open_axis = \"{all}\"",
+                            self.ends(chamber, *edge),
+                            AXES[other]
+                        )
+                    }
+                    (None, Some(k)) => self.free(chamber, *edge, k, &held),
+                    (None, None) => format!(
+                        "{} in no plane perpendicular to an axis of open_axis. Try: a mesh whose edge there lies in one",
+                        self.ends(chamber, *edge)
+                    ),
+                }));
+            }
+            let planes = planes(&self.mesh, &rim, |n, k| held[n as usize][k]);
+            if open == [true; 3] && planes.iter().all(|along| along.len() > 1) {
+                return Err(FemError::Problem(format!(
+                    "chamber `{chamber}` ends at two planes or more along each of x, y and z, and its volume cannot be counted. \
+                     Try: a model that ends at one plane along one of them"
+                )));
+            }
         }
         Ok(())
+    }
+
+    /// A chamber that is sealed from the start must hold some gas; `volumes_m3` are those of the start.
+    pub(super) fn check_gas(&self, volumes_m3: &[(String, f64)]) -> Result<(), FemError> {
+        for (chamber, (name, volume_m3)) in self.chambers.iter().zip(volumes_m3) {
+            let Pressure::Sealed { sealed_at_s, gas, .. } = &chamber.pressure else { continue };
+            let faces =
+                |part: &&Part| [&part.front, &part.back].iter().any(|side| side.as_deref() == Some(name.as_str()));
+            let area = |part: &Part| (0..part.len()).map(|i| norm(normal(&self.mesh, part, i))).sum::<f64>();
+            let area_m2: f64 = self.mesh.parts.iter().filter(faces).map(area).sum();
+            if *sealed_at_s == 0.0 && !policy::holds_gas((volume_m3 + gas.dead_m3) / area_m2.powf(1.5)) {
+                return Err(FemError::Problem(format!(
+                    "chamber `{name}` holds no gas when it is sealed: its volume is {:.3} cm³ with its dead volume. Try: \
+                     dead_volume_cm3 for the hose, or sealed_at_s after it is filled",
+                    1e6 * (volume_m3 + gas.dead_m3)
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Which nodes rest along which axes.
+    fn held(&self) -> Vec<[bool; 3]> {
+        let mut held = vec![[false; 3]; self.mesh.points.len()];
+        for support in &self.supports {
+            let rests = |k: usize| support.axes[k] && support.motion.as_ref().is_none_or(|m| m[k].peak() == 0.0);
+            for node in self.mesh.sets.get(&support.set).into_iter().flatten() {
+                (0..3).for_each(|k| held[*node as usize][k] |= rests(k));
+            }
+        }
+        held
+    }
+
+    fn ends(&self, chamber: &str, [a, b]: [u32; 2]) -> String {
+        let [x, y, z] = centre(&[a, b].map(|n| self.mesh.start_of(n as usize))).map(|c| c * 1e3 + 0.0);
+        format!(
+            "chamber `{chamber}` ends at the edge between nodes {} and {} at ({x:.1}, {y:.1}, {z:.1}) mm, open",
+            a + 1,
+            b + 1
+        )
+    }
+
+    /// Words for an edge that may leave its plane.
+    fn free(&self, chamber: &str, edge: [u32; 2], axis: usize, held: &[[bool; 3]]) -> String {
+        let node = if held[edge[0] as usize][axis] { edge[1] } else { edge[0] };
+        let sets = self.mesh.sets.iter().filter(|(_, nodes)| nodes.contains(&node)).map(|(name, _)| name.as_str());
+        let (letter, sets) = (AXES[axis], sets.collect::<Vec<_>>().join(", "));
+        format!(
+            "chamber `{chamber}` is open along {letter}, and node {} on its edge is not held along {letter}: its pressure would \
+             push it out of its plane. Add [[support]] with axes = \"{letter}\" for the sets of these edges (this node is in: {})",
+            node + 1,
+            if sets.is_empty() { "none" } else { &sets }
+        )
+    }
+
+    /// A fabric with directions needs a warp that lies in every element.
+    pub(super) fn check_warps(&self) -> Result<(), FemError> {
+        let parts = self.mesh.parts.iter().zip(&self.sections);
+        let found = parts.map(|(part, section)| warp_fault(&self.mesh, part, section)).find_map(|fault| fault);
+        found.map_or(Ok(()), |(message, help)| Err(FemError::Problem(format!("{message}. Try: {help}"))))
     }
 
     /// Two supports that move one node along one axis must agree.
@@ -43,7 +128,7 @@ impl Problem {
                          the sets, or leave the axis out of one of the supports",
                         words(other),
                         node + 1,
-                        ["x", "y", "z"][axis],
+                        AXES[axis],
                         words(support)
                     )));
                 }
@@ -51,4 +136,64 @@ impl Problem {
         }
         Ok(())
     }
+}
+
+/// The first element of a part onto which its warp, or x where it has none, cannot be laid, and what to do. Without a warp of its own
+/// only a section with directions has a fault.
+pub(crate) fn warp_fault(mesh: &Mesh, part: &Part, section: &Section) -> Option<(String, String)> {
+    if part.warp.is_empty() && !has_directions(section) {
+        return None;
+    }
+    let lies = |i: usize, warp: V3| {
+        let normal = normal(mesh, part, i);
+        policy::is_in_sheet(norm(cross(warp, normal)) / (norm(warp) * norm(normal)))
+    };
+    let warp = |i: usize| part.warp_of(i).unwrap_or(X);
+    let i = (0..part.len()).find(|i| !lies(*i, warp(*i)))?;
+    let axis = |k: usize| [0, 1, 2].map(|c| f64::from(u8::from(c == k)));
+    let fit: Vec<String> = (0..3)
+        .filter(|k| (0..part.len()).all(|i| lies(i, axis(*k))))
+        .map(|k| format!("warp = \"{}\"", AXES[k]))
+        .collect();
+    let name = &part.name;
+    let help = match fit.is_empty() {
+        true => format!("warp = [x, y, z] in [part.{name}], or parts of their own for sheets that face different ways"),
+        false => format!("{} in [part.{name}]", fit.join(" or ")),
+    };
+    let [x, y, z] = warp(i);
+    let whose = if part.warp.is_empty() { "the x axis, which it is without the key warp" } else { "its direction" };
+    let what = crate::mesh::check::describe(part, i);
+    let message = format!(
+        "cannot lay the warp of part `{name}` onto {what}: {whose} ({x}, {y}, {z}) is along the normal there, within one degree"
+    );
+    Some((message, help))
+}
+
+/// Area vector of an element where it is free of stress.
+fn normal(mesh: &Mesh, part: &Part, i: usize) -> V3 {
+    area(&part.nodes(i).iter().map(|n| mesh.free_of(*n as usize)).collect::<Vec<_>>())
+}
+
+/// Whether it matters where the warp of a section is.
+pub(crate) fn has_directions(section: &Section) -> bool {
+    !section.plies.iter().all(|ply| is_isotropic(&*ply.fabric))
+}
+
+/// Whether tensions turn with strains, so that it does not matter where the warp is.
+fn is_isotropic(fabric: &dyn models::Fabric) -> bool {
+    // (11, 22, 12) turned by an angle; shear as it enters, once in a tension and twice in a strain.
+    let turned = |[a, b, c]: V3, shear: f64, angle: f64| {
+        let ((s2, c2), c) = ((2.0 * angle).sin_cos(), c / shear);
+        let (mean, half) = (0.5 * (a + b), 0.5 * (a - b));
+        let (half, c) = (half * c2 - c * s2, half * s2 + c * c2);
+        [mean + half, mean - half, shear * c]
+    };
+    let states = [[0.01, 0.004, 0.003], [0.01, -0.02, 0.004]];
+    states.iter().all(|e| {
+        let s = fabric.tension(*e, &[0.0; 2]);
+        [0.4, 1.1, std::f64::consts::FRAC_PI_2].iter().all(|angle| {
+            let (wanted, found) = (turned(s, 1.0, *angle), fabric.tension(turned(*e, 2.0, *angle), &[0.0; 2]));
+            norm(sub(wanted, found)) <= 1e-9 * norm(s)
+        })
+    })
 }

@@ -1,5 +1,6 @@
 //! Stops for runs whose result cannot be trusted.
 
+use models::fabrics::Kind;
 use models::{Account, Pose};
 
 use super::{Ledger, Simulation, highest, setup};
@@ -60,6 +61,13 @@ impl Simulation {
         let books = self.books;
         if !(books.kinetic.is_finite() && books.stored.is_finite()) {
             return Err(self.stopped(self.not_a_number()));
+        }
+        if let Some(air) = self.sheet.air.iter().find(|air| air.is_inside_out()) {
+            let cm3 = 1e6 * air.now.volume_m3.unwrap_or(0.0);
+            return Err(self.stopped(format!(
+                "chamber `{}` is inside out, with {cm3:.1} cm³: its walls passed through each other. Add [contact]",
+                air.name()
+            )));
         }
         let ledger = self.ledger();
         self.books.scale = ledger.scale_j;
@@ -134,6 +142,9 @@ impl Simulation {
         let pose = Pose::nodes(self.x.as_flattened());
         let mut others = vec![0.0; self.x.len()];
         self.others().for_each(|term| term.stiffness_bound(&pose, &mut others));
+        // Until after the next estimate.
+        let until_s = self.clock.time_s + 1000.0 * self.clock.dt_s;
+        self.sheet.add_gas_bound(until_s, self.x.as_flattened(), &mut others);
         let mut bound = others.clone();
         self.sheet.stiffness_bound(&pose, &mut bound);
         setup::give_tied_bounds(&self.mesh, &mut bound);
@@ -181,9 +192,10 @@ impl Simulation {
                 )));
             }
             // A quadrilateral is inside out when most of its corners turn against its mean normal. One that is stretched in no
-            // direction is fabric in folds, which has no shape.
+            // direction is fabric in folds, which has no shape; so is one of a film that wrinkles below the mesh.
             let c = [dot(f1, f1), dot(f2, f2), dot(f1, f2)];
-            if element.corners == 4 && largest(c[0], c[1], c[2]) > 1.0 {
+            let wrinkles = matches!(self.sheet.fabrics[element.part].kind(), Kind::WrinklingFilm(_));
+            if element.corners == 4 && !wrinkles && largest(c[0], c[1], c[2]) > 1.0 {
                 let against = (0..4).filter(|n| {
                     let (here, next, last) = (at(*n), at((n + 1) % 4), at((n + 3) % 4));
                     let corner = cross([0, 1, 2].map(|k| next[k] - here[k]), [0, 1, 2].map(|k| last[k] - here[k]));

@@ -42,6 +42,7 @@ impl Simulation {
         let count = mesh.points.len();
         let mut fixed = vec![[false; 3]; count];
         let driven = driven(problem, &mesh, &mut fixed)?;
+        sheet.air.iter_mut().for_each(|air| air.cut(&mesh, &fixed));
         let mut x: Vec<[f64; 4]> = (0..count).map(|i| mesh.start_of(i)).map(|p| [p[0], p[1], p[2], 0.0]).collect();
         imperfect(&mut x, &mesh, &order, &fixed, settings.imperfection, settings.seed);
         let bent = bent(problem, &mesh, &sheet);
@@ -122,6 +123,7 @@ fn masses_and_step(
     let pose = Pose::nodes(x.as_flattened());
     let mut others = vec![0.0; x.len()];
     bent.iter().for_each(|term| term.stiffness_bound(&pose, &mut others));
+    sheet.add_gas_bound(0.0, x.as_flattened(), &mut others);
     let mut bound = others.clone();
     sheet.stiffness_bound(&pose, &mut bound);
     give_tied_bounds(mesh, &mut bound);

@@ -7,6 +7,7 @@
 use models::Fabric;
 use models::fabrics::{Kind, Past, WrinklingFilm};
 
+use super::chamber::Air;
 use super::reference::mean_stiffness;
 use super::tangent::Tangent;
 use super::{Element, Sheet};
@@ -85,9 +86,14 @@ impl Sheet {
         if rate > 0.0 { 2.0 * self.viscosity * mean_stiffness(fabric) / rate } else { 0.0 }
     }
 
-    /// True if some fabric may stiffen faster than linear and neo-Hookean ones do.
+    /// True if some fabric may stiffen faster than linear and neo-Hookean ones do, or some gas.
     pub(crate) fn stiffens(&self) -> bool {
-        self.fabrics.iter().any(|f| matches!(f.kind(), Kind::Other))
+        self.fabrics.iter().any(|f| matches!(f.kind(), Kind::Other)) || self.air.iter().any(Air::follows)
+    }
+
+    /// Adds the bound of the gas in chambers that are sealed, or will be before `until_s` \[N/m\].
+    pub(crate) fn add_gas_bound(&self, until_s: f64, q: &[f64], bound: &mut [f64]) {
+        self.air.iter().for_each(|air| air.add_bound(until_s, &self.elements, q.as_chunks().0, bound));
     }
 
     /// Adds each node's stiffness bound at positions `q` (stride 4) \[N/m\].

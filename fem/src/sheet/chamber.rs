@@ -2,14 +2,33 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::problem::{Chamber, Pressure};
+use super::Element;
+use crate::mesh::Mesh;
+use crate::mesh::check::{planes, rim};
+use crate::policy;
+use crate::problem::{Chamber, Gas, Pressure};
+use crate::vec3::{add, cross, node, scale, sub};
 
 /// A chamber while a run goes on.
 #[derive(Debug, Clone)]
 pub struct Air {
     chamber: Chamber,
+    /// Elements of its wall, and +1 where their front is outside.
+    wall: Vec<(u32, f64)>,
+    /// Area of the wall at rest \[m²\].
+    area_m2: f64,
+    /// Where the chamber ends at planes of all three axes.
+    cut: Option<Cut>,
     /// What changes.
     pub now: AirNow,
+}
+
+/// One plane perpendicular to an axis, and the edges of the wall at all planes, run along with the outside in front.
+#[derive(Debug, Clone)]
+struct Cut {
+    axis: usize,
+    at_m: f64,
+    rim: Vec<[u32; 2]>,
 }
 
 /// What a checkpoint holds of a chamber.
@@ -19,24 +38,36 @@ pub struct AirNow {
     pub pressure_pa: f64,
     /// Volume at the last step \[m³\]; `None` before the first.
     pub volume_m3: Option<f64>,
-    /// Volume a step earlier \[m³\].
-    before_m3: f64,
     /// Pressure when the volume was taken last \[Pa\].
     booked_pa: f64,
     /// Work done on the fabric so far \[J\].
     pub work_j: f64,
-    /// (p + p_atm) V once sealed \[J\].
-    sealed_j: Option<f64>,
+    /// P (V + V_d)ⁿ since sealing, and its time \[s\].
+    content: Option<(f64, f64)>,
 }
 
 impl Air {
     /// At rest, before the first step.
-    pub fn new(chamber: &Chamber) -> Air {
-        let pressure_pa = match &chamber.pressure {
-            Pressure::Set(amplitude) | Pressure::Sealed { filling: amplitude, .. } => amplitude.at(0.0),
-        };
-        let chamber = chamber.clone();
-        Air { chamber, now: AirNow { pressure_pa, ..AirNow::default() } }
+    pub fn new(chamber: &Chamber, mesh: &Mesh, elements: &[Element]) -> Air {
+        let faces = |name: &Option<String>| f64::from(u8::from(name.as_ref() == Some(&chamber.name)));
+        let side: Vec<f64> = mesh.parts.iter().map(|part| faces(&part.back) - faces(&part.front)).collect();
+        let of = |(index, element): (usize, &Element)| (index as u32, side[element.part]);
+        let wall: Vec<(u32, f64)> = elements.iter().enumerate().map(of).filter(|(_, side)| *side != 0.0).collect();
+        let area_m2 = wall.iter().map(|(index, _)| elements[*index as usize].reference.area).sum();
+        let mut air = Air { chamber: chamber.clone(), wall, area_m2, cut: None, now: AirNow::default() };
+        air.now.pressure_pa = air.supply(0.0);
+        air
+    }
+
+    /// Finds the plane from which the volume is counted where the chamber is open along all axes.
+    pub fn cut(&mut self, mesh: &Mesh, fixed: &[[bool; 3]]) {
+        if self.chamber.open_axis != Some([true; 3]) {
+            return;
+        }
+        let rim = rim(mesh, &self.chamber.name);
+        let planes = planes(mesh, &rim, |node, axis| fixed[node as usize][axis]);
+        let single = (0..3).find(|k| planes[*k].len() == 1);
+        self.cut = single.map(|axis| Cut { axis, at_m: planes[axis][0], rim });
     }
 
     /// Name.
@@ -44,34 +75,53 @@ impl Air {
         &self.chamber.name
     }
 
-    /// Largest pressure the supply ever sets \[Pa\].
+    /// Pressure that the supply sets \[Pa\].
+    fn supply(&self, t: f64) -> f64 {
+        let (Pressure::Set(amplitude) | Pressure::Sealed { filling: amplitude, .. }) = &self.chamber.pressure;
+        amplitude.at(t)
+    }
+
+    /// Largest pressure that the supply ever sets, and the gas had so far \[Pa\].
     pub fn peak_pa(&self) -> f64 {
-        match &self.chamber.pressure {
-            Pressure::Set(amplitude) | Pressure::Sealed { filling: amplitude, .. } => amplitude.peak(),
-        }
+        let (Pressure::Set(amplitude) | Pressure::Sealed { filling: amplitude, .. }) = &self.chamber.pressure;
+        amplitude.peak().max(self.now.pressure_pa.abs())
     }
 
-    /// True if the volume is needed at this step: the pressure depends on it, or has changed by more than a hundredth
-    /// since the work ∫p dV was booked.
+    /// True if its walls have passed through each other.
+    pub fn is_inside_out(&self) -> bool {
+        policy::is_inside_out(self.now.volume_m3.unwrap_or(0.0) / self.area_m2.powf(1.5))
+    }
+
+    /// True if the gas decides the pressure at some time: the volume is then taken at every step, before the forces.
+    pub fn follows(&self) -> bool {
+        matches!(self.chamber.pressure, Pressure::Sealed { .. })
+    }
+
+    /// True if the pressure has changed by more than a hundredth since the work ∫p dV was booked.
     pub fn wants_volume(&self) -> bool {
-        let follows = matches!(self.chamber.pressure, Pressure::Sealed { .. });
-        follows || (self.now.pressure_pa - self.now.booked_pa).abs() > 0.01 * self.now.pressure_pa.abs()
+        !self.follows() && (self.now.pressure_pa - self.now.booked_pa).abs() > 0.01 * self.now.pressure_pa.abs()
     }
 
-    /// Sets the pressure for a step at time `t`. A sealed chamber extrapolates its volume by one step, to second order.
-    pub fn set_pressure(&mut self, t: f64) {
-        self.now.pressure_pa = match &self.chamber.pressure {
-            Pressure::Set(amplitude) => amplitude.at(t),
-            Pressure::Sealed { filling, sealed_at_s, .. } if t < *sealed_at_s => filling.at(t),
-            Pressure::Sealed { filling, atmosphere_pa, .. } => match self.now.volume_m3 {
-                None => filling.at(t),
-                Some(volume) => {
-                    let next = 2.0 * volume - self.now.before_m3;
-                    let content = *self.now.sealed_j.get_or_insert((self.now.pressure_pa + atmosphere_pa) * volume);
-                    if next > 0.0 { content / next - atmosphere_pa } else { self.now.pressure_pa }
-                }
-            },
+    /// Sets the pressure for a step at time `t`; books the work of a chamber that follows its volume.
+    pub fn advance(&mut self, t: f64, elements: &[Element], q: &[[f64; 4]]) {
+        let volume = self.follows().then(|| self.volume_at(elements, q));
+        self.now.pressure_pa = match (&self.chamber.pressure, volume) {
+            (Pressure::Sealed { sealed_at_s, gas, .. }, Some(volume)) if t >= *sealed_at_s => {
+                let all = volume + gas.dead_m3;
+                let (pressure_pa, content) = match self.now.content {
+                    // Inside out: what stopped making sense goes on unchanged until a guard sees it.
+                    _ if all <= 0.0 => (self.now.pressure_pa, self.now.content),
+                    None => gas.sealed(self.supply(*sealed_at_s), all, t),
+                    Some((content, before_s)) => gas.flows(content, all, before_s, t),
+                };
+                self.now.content = content;
+                pressure_pa
+            }
+            _ => self.supply(t),
         };
+        if let Some(volume) = volume {
+            self.take_volume(volume);
+        }
     }
 
     /// Takes the volume of this step and books the work ½(p + p′)ΔV since the last time.
@@ -80,15 +130,82 @@ impl Air {
             self.now.work_j += 0.5 * (self.now.pressure_pa + self.now.booked_pa) * (volume_m3 - before);
         }
         self.now.booked_pa = self.now.pressure_pa;
-        self.now.before_m3 = self.now.volume_m3.unwrap_or(volume_m3);
         self.now.volume_m3 = Some(volume_m3);
     }
 
-    /// Volume from the fluxes ∫ x n_x, ∫ y n_y, ∫ z n_z: their mean, without an open axis.
-    pub fn volume_of(&self, flux: [f64; 3]) -> f64 {
-        match self.chamber.open_axis {
-            None => (flux[0] + flux[1] + flux[2]) / 3.0,
-            Some(open) => 0.5 * (0..3).filter(|k| *k != open).map(|k| flux[k]).sum::<f64>(),
+    /// Volume from the fluxes ∫ x n_x, ∫ y n_y, ∫ z n_z of the wall: their mean over the axes along which it is not open. Where it is
+    /// along all, ∫ (x − c) n_x from the one plane at c, with ∫ n dA = ½ ∮ x × dx.
+    pub fn volume_of(&self, flux: [f64; 3], q: &[[f64; 4]]) -> f64 {
+        if let Some(Cut { axis, at_m, rim }) = &self.cut {
+            let area = |[a, b]: &[u32; 2]| 0.5 * cross(node(q, *a as usize), node(q, *b as usize))[*axis];
+            return flux[*axis] - at_m * rim.iter().map(area).sum::<f64>();
+        }
+        let open = self.chamber.open_axis.unwrap_or([false; 3]);
+        let closed = || (0..3).filter(|k| !open[*k]).map(|k| flux[k]);
+        closed().sum::<f64>() / closed().count() as f64
+    }
+
+    /// Volume at positions `q`, of the wall with its quadrilaterals as the pressure sees them: with x = m + ξ a + η b + ξη c,
+    /// ∫ x n dA = 4 m (a × b) + ⁴⁄₃ [a (a × c) + b (c × b)], axis by axis.
+    fn volume_at(&self, elements: &[Element], q: &[[f64; 4]]) -> f64 {
+        let mut flux = [0.0; 3];
+        for (index, side) in &self.wall {
+            let element = &elements[*index as usize];
+            let x: [[f64; 3]; 4] = element.node.map(|n| node(q, n as usize));
+            let [mid, more] = if element.corners == 4 {
+                let [d, e] = [sub(x[2], x[0]), sub(x[3], x[1])];
+                let [a, b] = [scale(sub(d, e), 0.25), scale(add(d, e), 0.25)];
+                let c = scale(sub(add(x[0], x[2]), add(x[1], x[3])), 0.25);
+                let (first, second) = (cross(a, c), cross(c, b));
+                let mid = scale(add(add(x[0], x[1]), add(x[2], x[3])), 0.25);
+                let normal = scale(cross(a, b), 4.0);
+                let part = |k: usize| 4.0 / 3.0 * (a[k] * first[k] + b[k] * second[k]);
+                [[0, 1, 2].map(|k| mid[k] * normal[k]), [0, 1, 2].map(part)]
+            } else {
+                let normal = scale(cross(sub(x[1], x[0]), sub(x[2], x[0])), 0.5);
+                [[0, 1, 2].map(|k| (x[0][k] + x[1][k] + x[2][k]) / 3.0 * normal[k]), [0.0; 3]]
+            };
+            (0..3).for_each(|k| flux[k] += side * (mid[k] + more[k]));
+        }
+        self.volume_of(flux, q)
+    }
+
+    /// Adds to the nodes the stiffness of the gas at positions `q`, |∂V/∂xᵢ| Σ|∂V/∂xⱼ| n P/(V + V_d), where it decides the pressure
+    /// before `until_s` \[N/m\]. Row sums of the matrix: no mode is stiffer.
+    pub fn add_bound(&self, until_s: f64, elements: &[Element], q: &[[f64; 4]], bound: &mut [f64]) {
+        let Pressure::Sealed { sealed_at_s, gas, .. } = &self.chamber.pressure else { return };
+        let all = self.volume_at(elements, q) + gas.dead_m3;
+        if until_s < *sealed_at_s || all <= 0.0 {
+            return;
+        }
+        let spring = gas.exponent * (self.now.pressure_pa + gas.atmosphere_pa) / all * self.area_m2;
+        for element in self.wall.iter().map(|(index, _)| &elements[*index as usize]) {
+            let share = element.reference.area / element.corners as f64;
+            element.nodes().iter().for_each(|n| bound[*n as usize] += spring * share);
         }
     }
 }
+
+impl Gas {
+    /// Gauge pressure \[Pa\] at sealing, and what is conserved from then on.
+    fn sealed(&self, pressure_pa: f64, all_m3: f64, t: f64) -> (f64, Option<(f64, f64)>) {
+        let content = (pressure_pa + self.atmosphere_pa) * all_m3.powf(self.exponent);
+        (pressure_pa, Some((content, t)))
+    }
+
+    /// The same after the gas had the volume and flowed from `before_s` to `t`: exact at constant volume and inflow.
+    fn flows(&self, content: f64, all_m3: f64, before_s: f64, t: f64) -> (f64, Option<(f64, f64)>) {
+        let power = all_m3.powf(self.exponent);
+        let closed_pa = content / power - self.atmosphere_pa;
+        let (leak, dt) = (self.leak_m3_s_pa, t - before_s);
+        let rate = self.exponent * self.atmosphere_pa / all_m3 * dt;
+        let faded = if leak > 0.0 { -(-rate * leak).exp_m1() / leak } else { rate };
+        let flow = self.inflow_m3_s.at(t - 0.5 * dt) - leak * closed_pa;
+        let pressure_pa = closed_pa + flow * faded;
+        (pressure_pa, Some(((pressure_pa + self.atmosphere_pa) * power, t)))
+    }
+}
+
+#[cfg(test)]
+#[path = "chamber_tests.rs"]
+mod tests;

@@ -96,10 +96,10 @@ impl Sheet {
         let stiffness: Vec<f64> = sections.iter().map(reference::bending_stiffness).collect();
         let bending = BendingMatrix::new(mesh.points.len(), &bending::curvature_rows(mesh, &stiffness));
         let mut sheet = Sheet {
+            air: chambers.iter().map(|chamber| Air::new(chamber, mesh, &elements)).collect(),
             elements,
             fabrics,
             areal_density,
-            air: chambers.iter().map(Air::new).collect(),
             bending_bound: (0..mesh.points.len()).map(|i| bending.row(i).map(|(_, k)| k.abs()).sum()).collect(),
             patches: Vec::new(),
             viscous_j: 0.0,
@@ -186,14 +186,14 @@ impl Sheet {
         sum
     }
 
-    fn volumes(&self) -> Vec<f64> {
+    fn volumes(&self, q: &[f64]) -> Vec<f64> {
         let mut flux = vec![[0.0; 3]; self.air.len()];
         for patch in &self.patches {
             for (sum, part) in flux.iter_mut().zip(&patch.flux) {
                 (0..3).for_each(|k| sum[k] += part[k]);
             }
         }
-        self.air.iter().zip(flux).map(|(air, flux)| air.volume_of(flux)).collect()
+        self.air.iter().zip(flux).map(|(air, flux)| air.volume_of(flux, q.as_chunks().0)).collect()
     }
 
     fn pass(&mut self, q: &[f64], force: &mut [f64], rate: f64, books: bool, keep: bool) {
@@ -216,20 +216,22 @@ impl Term for Sheet {
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
         let mut copy = self.clone();
         copy.pass(at.q, force, 0.0, true, false);
-        let work: f64 = copy.air.iter().zip(copy.volumes()).map(|(air, v)| air.now.pressure_pa * v).sum();
+        let work: f64 = copy.air.iter().zip(copy.volumes(at.q)).map(|(air, v)| air.now.pressure_pa * v).sum();
         copy.stored().iter().sum::<f64>() - work
     }
 }
 
 impl Transient for Sheet {
     fn advance(&mut self, at: &Pose, tick: &Tick, force: &mut [f64]) -> f64 {
-        self.air.iter_mut().for_each(|air| air.set_pressure(tick.time_s));
+        let elements = &self.elements;
+        self.air.iter_mut().for_each(|air| air.advance(tick.time_s, elements, at.q.as_chunks().0));
         let books = self.measure || tick.step.is_multiple_of(BOOKS_EVERY) || self.air.iter().any(Air::wants_volume);
         self.pass(at.q, force, 1.0 / tick.dt_s, books, true);
         self.viscous_j += self.patches.iter().map(|p| p.sums.viscous).sum::<f64>();
         if books {
-            let volumes = self.volumes();
-            self.air.iter_mut().zip(volumes).for_each(|(air, volume)| air.take_volume(volume));
+            let volumes = self.volumes(at.q);
+            let set = self.air.iter_mut().zip(volumes).filter(|(air, _)| !air.follows());
+            set.for_each(|(air, volume)| air.take_volume(volume));
         }
         self.stored().iter().sum()
     }

@@ -9,8 +9,10 @@
 
 use models::Fabric;
 
+use crate::policy;
 use crate::problem::Section;
-use crate::vec3::{along, area, cross, direction, dot, sub};
+use crate::problem::start::X;
+use crate::vec3::{along, area, cross, direction, dot, norm, sub};
 
 /// Reference data of one element.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,8 +65,9 @@ impl Reference {
 }
 
 fn axes(normal: [f64; 3], warp: Option<[f64; 3]>, angle_rad: f64) -> [[f64; 3]; 3] {
-    // Within 1 degree of the normal, x gives no direction in the sheet.
-    let wanted = warp.unwrap_or(if normal[0].abs() > 0.9998 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] });
+    // Any direction will do across x: a sheet with directions is refused without a warp there.
+    let any = if policy::is_in_sheet(norm(cross(X, normal))) { X } else { [0.0, 1.0, 0.0] };
+    let wanted = warp.unwrap_or(any);
     let warp = direction(along(wanted, -dot(wanted, normal), normal));
     let fill = cross(normal, warp);
     let (sin, cos) = angle_rad.sin_cos();

@@ -3,6 +3,7 @@
 use super::apart::{masses, momentum};
 use super::setup::*;
 use fem::mesh::{Tie, generate};
+use fem::problem::Gas;
 use fem::vec3::{V3, cross, dot, sub};
 use models::fabrics::Orthotropic;
 
@@ -150,7 +151,7 @@ fn scaled() -> Found {
 fn sealed() -> Found {
     let mesh = generate::sphere(0.05, 8)?;
     let filling = rise(0.01, 5e3);
-    let pressure = Pressure::Sealed { filling, sealed_at_s: 0.02, atmosphere_pa: 101_325.0 };
+    let pressure = Pressure::Sealed { filling, sealed_at_s: 0.02, gas: Gas::default() };
     let air = Chamber { name: "air".into(), pressure, open_axis: None };
     let mut problem = problem("sealed", mesh, section(film(), 0.1), vec![air]);
     let push = Amplitude::Smooth(vec![(0.02, 0.0), (0.06, -0.02)]);

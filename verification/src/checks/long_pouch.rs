@@ -46,7 +46,7 @@ fn run() -> Found {
 fn blown(right: Support) -> Result<(Mesh, Simulation), FemError> {
     let mesh = generate::long_pouch(POUCH.length_m, POUCH.width_m, 40, 2, 1e-4)?;
     let film = Arc::new(NeoHookean { c10_pa: C10_PA, thickness_m: THICKNESS_M });
-    let air = Chamber { open_axis: Some(1), ..chamber("air", rise(0.02, PRESSURE_PA)) };
+    let air = Chamber { open_axis: Some([false, true, false]), ..chamber("air", rise(0.02, PRESSURE_PA)) };
     let mut problem = problem("long pouch", mesh, section(film, 0.0), vec![air]);
     problem.open = vec!["open_0".into(), "open_1".into()];
     let across = [false, true, false];

@@ -132,9 +132,10 @@ pub(super) fn ordered(order: &Order, x: &[[f64; 3]]) -> Vec<[f64; NODE]> {
 /// Forces of the shells on their nodes at rest \[N\], in mesh order: at a support, what the structure pushes with.
 pub(super) fn node_forces(problem: &Problem, x: &[[f64; 3]], time_s: f64) -> Result<Vec<[f64; 3]>, FemError> {
     let (mut sheet, _, order) = shells(problem)?;
-    sheet.air.iter_mut().for_each(|air| air.set_pressure(time_s));
+    let (q, elements) = (ordered(&order, x), &sheet.elements);
+    sheet.air.iter_mut().for_each(|air| air.advance(time_s, elements, &q));
     let mut force = vec![[0.0; NODE]; x.len()];
-    sheet.add(&Pose::nodes(ordered(&order, x).as_flattened()), force.as_flattened_mut());
+    sheet.add(&Pose::nodes(q.as_flattened()), force.as_flattened_mut());
     Ok(order.new.iter().map(|place| force[*place as usize]).map(|f| [f[0], f[1], f[2]]).collect())
 }
 

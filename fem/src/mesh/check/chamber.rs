@@ -36,7 +36,7 @@ pub(super) fn check(mesh: &Mesh, chambers: &[&str], open: &[&str]) -> Result<Clo
     let mut closed = Closed { volumes_m3: Vec::new(), seams: 0 };
     for name in chambers {
         let uses = uses(mesh, name);
-        let mut cuts = [false; 3];
+        let mut cuts: [Vec<f64>; 3] = Default::default();
         let mut turned: Vec<(Use, Use)> = Vec::new();
         for edge in uses.chunk_by(|a, b| (a.low, a.high) == (b.low, b.high)) {
             let up = edge.iter().filter(|u| u.ascending).count();
@@ -44,7 +44,10 @@ pub(super) fn check(mesh: &Mesh, chambers: &[&str], open: &[&str]) -> Result<Clo
                 closed.seams += usize::from(edge.len() > 2);
             } else if edge.len() == 1 {
                 match opening(mesh, &openings, edge[0])? {
-                    Some(axis) => cuts[axis] = true,
+                    Some(flat) => (0..3).filter(|k| flat[*k]).for_each(|k| {
+                        let at_m = mesh.start_of(edge[0].low as usize)[k];
+                        cuts[k].push(at_m);
+                    }),
                     None if tied[edge[0].low as usize] && tied[edge[0].high as usize] => {}
                     None => return Err(leak(mesh, name, edge[0], &uses)),
                 }
@@ -62,12 +65,51 @@ pub(super) fn check(mesh: &Mesh, chambers: &[&str], open: &[&str]) -> Result<Clo
     Ok(closed)
 }
 
-/// Nodes of the edges at which one chamber ends, ties left out.
-pub fn rim(mesh: &Mesh, chamber: &str) -> std::collections::BTreeSet<u32> {
+/// Edges at which one chamber ends, ties left out, run along with its outside in front.
+pub fn rim(mesh: &Mesh, chamber: &str) -> Vec<[u32; 2]> {
     let (uses, tied) = (uses(mesh, chamber), tied(mesh));
     let edges = uses.chunk_by(|a, b| (a.low, a.high) == (b.low, b.high)).filter(|edge| edge.len() == 1);
-    let free = edges.map(|edge| [edge[0].low, edge[0].high]).filter(|ends| !ends.iter().all(|n| tied[*n as usize]));
-    free.flatten().collect()
+    let along = |edge: &Use| if edge.ascending { [edge.low, edge.high] } else { [edge.high, edge.low] };
+    edges.map(|edge| along(&edge[0])).filter(|ends| !ends.iter().all(|n| tied[*n as usize])).collect()
+}
+
+/// Places along x, y and z of the planes perpendicular to them in which edges lie at the start; `held` chooses nodes and axes.
+pub fn planes(mesh: &Mesh, edges: &[[u32; 2]], held: impl Fn(u32, usize) -> bool) -> [Vec<f64>; 3] {
+    [0, 1, 2].map(|k| {
+        let at = |n: u32| mesh.start_of(n as usize)[k];
+        let near = near(mesh, edges);
+        let lies = |[a, b]: &&[u32; 2]| (at(*a) - at(*b)).abs() <= near && held(*a, k) && held(*b, k);
+        distinct(edges.iter().filter(lies).map(|[a, _]| at(*a)).collect(), near)
+    })
+}
+
+/// Distance within which nodes of these edges count as lying in one plane \[m\].
+pub fn near(mesh: &Mesh, edges: &[[u32; 2]]) -> f64 {
+    let reach = |k: usize| {
+        let along = || edges.iter().flatten().map(|n| mesh.start_of(*n as usize)[k]);
+        along().fold(f64::NEG_INFINITY, f64::max) - along().fold(f64::INFINITY, f64::min)
+    };
+    IN_PLANE * (0..3).map(reach).fold(0.0, f64::max)
+}
+
+/// Sorted, those within `near` of another left out.
+fn distinct(mut places: Vec<f64>, near: f64) -> Vec<f64> {
+    places.sort_by(f64::total_cmp);
+    places.dedup_by(|b, a| *b - *a <= near);
+    places
+}
+
+/// The axes along which a chamber's volume is counted and the point that it is counted from: those without a plane at which it ends,
+/// or else one with one plane, from there.
+pub(in crate::mesh) fn counted(mesh: &Mesh, planes: &[Vec<f64>; 3]) -> Option<(Vec<usize>, [f64; 3])> {
+    let mut origin = mesh.start_of(0);
+    let closed: Vec<usize> = (0..3).filter(|k| planes[*k].is_empty()).collect();
+    if !closed.is_empty() {
+        return Some((closed, origin));
+    }
+    let single = (0..3).find(|k| planes[*k].len() == 1)?;
+    origin[single] = planes[single][0];
+    Some((vec![single], origin))
 }
 
 /// +1 if the element's normal points out of the chamber, −1 if into it, 0 if it does not bound it.
@@ -120,22 +162,21 @@ fn openings(mesh: &Mesh, open: &[&str]) -> Result<Vec<Opening>, FemError> {
     Ok(openings)
 }
 
-/// Axis perpendicular to the opening that an edge lies in, if it does.
-fn opening(mesh: &Mesh, openings: &[Opening], edge: Use) -> Result<Option<usize>, FemError> {
+/// Axes perpendicular to the openings that an edge lies in, if it does.
+fn opening(mesh: &Mesh, openings: &[Opening], edge: Use) -> Result<Option<[bool; 3]>, FemError> {
     let inside = |o: &&Opening| o.nodes[edge.low as usize] && o.nodes[edge.high as usize];
-    let Some(opening) = openings.iter().find(inside) else { return Ok(None) };
-    // Layers that start flat on each other are open along a line; the cut is across the sheet, not along it.
-    let ends = [edge.low, edge.high].map(|n| mesh.start_of(n as usize));
-    let nodes = mesh.parts[edge.part].nodes(edge.element).iter();
-    let away = sub(centre(&nodes.map(|n| mesh.start_of(*n as usize)).collect::<Vec<_>>()), centre(&ends));
-    let axis = (0..3).filter(|k| opening.flat[*k]).max_by(|a, b| away[*a].abs().total_cmp(&away[*b].abs()));
-    if axis.is_none() {
-        let place = millimetres(centre(&ends));
+    let mut sets = openings.iter().filter(inside).peekable();
+    if sets.peek().is_none() {
+        return Ok(None);
+    }
+    let flat = sets.fold([false; 3], |flat, set| [0, 1, 2].map(|k| flat[k] || set.flat[k]));
+    if flat == [false; 3] {
+        let place = millimetres(centre(&[edge.low, edge.high].map(|n| mesh.start_of(n as usize))));
         return fault(format!(
             "the open edge at {place} is not in a set that lies in a plane perpendicular to x, y or z"
         ));
     }
-    Ok(axis)
+    Ok(Some(flat))
 }
 
 /// Nodes that follow an element or are followed: an edge between two such nodes is closed by its ties.
@@ -197,15 +238,18 @@ fn flipped(mesh: &Mesh, chamber: &str, turned: &[(Use, Use)]) -> FemError {
     ))
 }
 
-/// V = Σ x·A over the axes that are not cut, divided by their number; refused if clearly negative.
-fn volume(mesh: &Mesh, chamber: &str, cuts: [bool; 3]) -> Result<f64, FemError> {
-    let axes: Vec<usize> = (0..3).filter(|k| !cuts[*k]).collect();
-    if axes.is_empty() {
-        return fault(format!("chamber `{chamber}` is open along x, y and z, so it has no volume; open it along two"));
-    }
+/// V = Σ x·A over the axes along which it is [`counted`], divided by their number; refused if clearly negative.
+fn volume(mesh: &Mesh, chamber: &str, cuts: [Vec<f64>; 3]) -> Result<f64, FemError> {
+    let all: Vec<f64> = cuts.iter().flatten().copied().collect();
+    let near = IN_PLANE * (all.iter().fold(0.0_f64, |m, x| m.max(x.abs())));
+    let Some((axes, origin)) = counted(mesh, &cuts.map(|places| distinct(places, near))) else {
+        return fault(format!(
+            "chamber `{chamber}` is open at two planes along each of x, y and z, so it has no volume; close it at one"
+        ));
+    };
     let walls = mesh.parts.iter().map(|part| (part, side(part, chamber))).filter(|(_, side)| *side != 0.0);
     let faces = walls.flat_map(|(part, side)| (0..part.len()).map(move |i| (part.nodes(i), side)));
-    let (volume, has_sign) = signed_volume(mesh, faces, &axes);
+    let (volume, has_sign) = signed_volume(mesh, faces, &axes, origin);
     if has_sign && volume < 0.0 {
         let volume = volume * 1e9;
         return fault(format!(
@@ -215,13 +259,14 @@ fn volume(mesh: &Mesh, chamber: &str, cuts: [bool; 3]) -> Result<f64, FemError> 
     Ok(volume)
 }
 
-/// Σ x·A over axes, divided by their number, of faces whose normals count +1 outwards; and whether that is more than rounding.
+/// Σ x·A over axes from a point, divided by their number, of faces whose normals count +1 outwards; and whether that is more than
+/// rounding.
 pub(in crate::mesh) fn signed_volume<'a>(
     mesh: &Mesh,
     faces: impl Iterator<Item = (&'a [u32], f64)>,
     axes: &[usize],
+    origin: [f64; 3],
 ) -> (f64, bool) {
-    let origin = mesh.start_of(0);
     let (mut sum, mut surface) = (0.0, 0.0);
     for (nodes, side) in faces {
         let mut corners = [origin; 4];

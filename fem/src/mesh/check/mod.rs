@@ -15,8 +15,8 @@ mod chamber;
 mod elements;
 mod quality;
 
-pub use chamber::rim;
-pub(super) use chamber::signed_volume;
+pub(super) use chamber::{counted, signed_volume};
+pub use chamber::{near, planes, rim};
 pub use quality::{LowMidHigh, Quality};
 
 use crate::FemError;
@@ -51,7 +51,7 @@ pub fn check_open(mesh: &Mesh, chambers: &[&str], open: &[&str]) -> Result<Quali
 }
 
 /// Element `i` of a part, as messages name it.
-fn describe(part: &Part, i: usize) -> String {
+pub(crate) fn describe(part: &Part, i: usize) -> String {
     let nodes: Vec<String> = part.nodes(i).iter().map(|n| (u64::from(*n) + 1).to_string()).collect();
     format!("element {} of part `{}` (nodes {})", i + 1, part.name, nodes.join(", "))
 }

@@ -13,6 +13,9 @@ pub(super) struct Builder {
     pub(super) mesh: Mesh,
     /// Surfaces that may be chambers.
     pub(super) surfaces: Vec<Surface>,
+    /// Parts, and the directions of their warp that are not read.
+    pub(super) unread: Vec<(String, String)>,
+    warps: Vec<String>,
     nodes: HashMap<u64, u32>,
     parts: HashMap<String, usize>,
     seen: HashSet<Vec<u32>>,
@@ -72,6 +75,16 @@ impl Builder {
         &mut parts[at]
     }
 
+    /// Gives the warp of a part, if there is one of that name.
+    pub(super) fn warp(&mut self, part: &str, [x, y, z]: [f64; 3], source: &str) {
+        if self.parts.contains_key(part) {
+            self.part(part).warp = vec![[x, y, z]];
+            // Adding 0 turns −0 into 0.
+            let [x, y, z] = [x, y, z].map(|c| (c * 1e4).round() / 1e4 + 0.0);
+            self.warps.push(format!("the warp of part `{part}` is ({x}, {y}, {z}), laid onto it: {source}"));
+        }
+    }
+
     /// Adds nodes to a set.
     pub(super) fn set(&mut self, name: &str, nodes: impl IntoIterator<Item = u32>) {
         self.mesh.sets.entry(name.into()).or_default().extend(nodes);
@@ -89,7 +102,7 @@ impl Builder {
         if self.mesh.elements() == 0 {
             return Err("there is no triangle and no quadrilateral in this file; export a mesh of surfaces".into());
         }
-        let mut told = Vec::new();
+        let mut told = std::mem::take(&mut self.warps);
         let unused = drop_unused(&mut self.mesh);
         if unused > 0 {
             told.push(format!("{unused} nodes belong to no element and are left out"));
@@ -98,7 +111,7 @@ impl Builder {
             let list: Vec<String> = self.ignored.iter().map(|(what, line)| format!("{what} (line {line})")).collect();
             told.push(format!("left out, because the case says it: {}", list.join(", ")));
         }
-        Ok(MeshFile { mesh: self.mesh, surfaces: self.surfaces, told, ..MeshFile::default() })
+        Ok(MeshFile { mesh: self.mesh, surfaces: self.surfaces, unread: self.unread, told, ..MeshFile::default() })
     }
 }
 

@@ -32,6 +32,8 @@ pub struct MeshFile {
     pub format: &'static str,
     /// Surfaces that may be chambers.
     pub surfaces: Vec<Surface>,
+    /// Parts, and what the file says of their warp that is not read.
+    pub unread: Vec<(String, String)>,
     /// What was left out or changed.
     pub told: Vec<String>,
 }

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::super::build::Builder;
 use super::super::{MeshFile, Surface};
-use super::{Group, Instance, Member, Model, Scan, Sides};
+use super::{Group, Instance, Member, Model, Orientation, Scan, Section, Sides};
 use crate::vec3::{add, cross, dot, norm, scale, sub};
 
 /// What is wrong, and its line.
@@ -155,14 +155,22 @@ impl Assembly {
 
     /// Elements by section, else by the set of their keyword line, else by instance.
     fn parts(&mut self, model: &Model) -> Result<(), Fault> {
+        let mut turned = Vec::new();
         for (i, inst) in model.instances.iter().enumerate() {
-            for (set, line) in &model.bodies[inst.body].sections {
+            for Section { set, orientation, line } in &model.bodies[inst.body].sections {
                 let items = self.named(model, i, true, set).map_err(|message| (*line, message))?;
                 for item in items {
                     let name = self.prefixed(model, item.0, set);
                     if let Some((_, part)) = self.elements.get_mut(&item).filter(|(_, part)| part.is_empty()) {
                         *part = name;
                     }
+                }
+                if let Some(name) = orientation {
+                    turned.push((
+                        self.prefixed(model, i, set),
+                        orientation_of(model, inst, name).map_err(|m| (*line, m))?,
+                        inst,
+                    ));
                 }
             }
         }
@@ -179,6 +187,16 @@ impl Assembly {
                 self.builder.element(&part, &corners).map_err(|message| (element.line, message))?;
                 self.elements.insert((i, element.number), (corners, part));
             }
+        }
+        for (part, orientation, inst) in turned {
+            if let Some(fault) = &orientation.other {
+                let what = format!("*ORIENTATION `{}` (line {}), {fault}", orientation.name, orientation.line);
+                self.builder.unread.push((part, what));
+                continue;
+            }
+            let warp = warp(orientation).map_err(|message| (orientation.line, message))?;
+            let [x, y, z] = warp_in(inst, warp);
+            self.builder.warp(&part, [x, y, z], &format!("*ORIENTATION `{}`", orientation.name));
         }
         Ok(())
     }
@@ -257,6 +275,44 @@ impl Assembly {
 fn instance(model: &Model, name: &str) -> Result<usize, String> {
     let found = model.instances.iter().skip(1).position(|instance| instance.name.eq_ignore_ascii_case(name));
     found.map(|at| at + 1).ok_or_else(|| format!("there is no instance `{name}` above"))
+}
+
+/// An orientation by its name: of the part, else of the assembly.
+fn orientation_of<'a>(model: &'a Model, inst: &Instance, name: &str) -> Result<&'a Orientation, String> {
+    let bodies = [inst.body, 0].into_iter().flat_map(|body| &model.bodies[body].orientations);
+    let mut named = bodies.filter(|it| it.name.eq_ignore_ascii_case(name));
+    named.next().ok_or_else(|| format!("there is no *ORIENTATION `{name}`; write it, or leave ORIENTATION out"))
+}
+
+/// The warp of a rectangular orientation. x' points from c to a, and y' to the side of b; about the axis that is most normal to the
+/// sheet, the two others are turned, and the first that follows it (x' after z') is laid onto the sheet.
+fn warp(orientation: &Orientation) -> Result<[f64; 3], String> {
+    let rows = &orientation.rows;
+    let points = rows.first().map_or(&[][..], Vec::as_slice);
+    let c = match points.len() {
+        6 => [0.0; 3],
+        9 => [points[6], points[7], points[8]],
+        count => return Err(format!("expected 6 or 9 numbers below *ORIENTATION (points a, b and c), found {count}")),
+    };
+    let [a, b] = [0, 3].map(|k| sub([points[k], points[k + 1], points[k + 2]], c));
+    let across = cross(a, b);
+    if !(norm(across) > 0.0 && norm(across).is_finite()) {
+        return Err("points a, b and c of *ORIENTATION are on one line; write three that span a plane".into());
+    }
+    let unit = |v: [f64; 3]| scale(v, 1.0 / norm(v));
+    let axes = [unit(a), unit(cross(across, a)), unit(across)];
+    let turn = rows.get(1).map_or(&[][..], Vec::as_slice);
+    let about = match turn.first().copied().unwrap_or(1.0) {
+        axis if [1.0, 2.0, 3.0].contains(&axis) => axis as usize,
+        other => return Err(format!("the second row of *ORIENTATION is an axis (1, 2 or 3) and degrees, not {other}")),
+    };
+    let (sin, cos) = turn.get(1).copied().unwrap_or(0.0).to_radians().sin_cos();
+    Ok(add(scale(axes[about % 3], cos), scale(axes[(about + 1) % 3], sin)))
+}
+
+/// A direction of a part as its instance stands.
+fn warp_in(instance: &Instance, warp: [f64; 3]) -> [f64; 3] {
+    sub(stand(instance, warp), stand(instance, [0.0; 3]))
 }
 
 /// Where a point of a part stands: moved, then turned by Rodrigues' formula.

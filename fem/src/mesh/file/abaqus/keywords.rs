@@ -37,7 +37,7 @@ pub(super) const REFUSED: [(&str, &str); 13] = [
 ];
 
 /// Keywords about materials, loads and results, which a case has in its own words.
-pub(super) const IGNORED: [&str; 56] = [
+pub(super) const IGNORED: [&str; 55] = [
     "HEADING",
     "PREPRINT",
     "MATERIAL",
@@ -58,7 +58,6 @@ pub(super) const IGNORED: [&str; 56] = [
     "EXPANSION",
     "DEPVAR",
     "USERMATERIAL",
-    "ORIENTATION",
     "DISTRIBUTION",
     "DISTRIBUTIONTABLE",
     "NODALTHICKNESS",

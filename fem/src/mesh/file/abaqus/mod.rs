@@ -30,8 +30,25 @@ struct Body {
     elements: Vec<Element>,
     groups: Vec<Group>,
     surfaces: Vec<Sides>,
-    /// Element sets of sections, with their lines.
-    sections: Vec<(String, usize)>,
+    sections: Vec<Section>,
+    orientations: Vec<Orientation>,
+}
+
+/// Elements of one section.
+struct Section {
+    set: String,
+    orientation: Option<String>,
+    line: usize,
+}
+
+/// Local axes of a material.
+struct Orientation {
+    name: String,
+    /// Points a, b and c; the axis of the last turn and its angle.
+    rows: Vec<Vec<f64>>,
+    /// The kind that is not read.
+    other: Option<String>,
+    line: usize,
 }
 
 struct Element {
@@ -82,6 +99,7 @@ enum Reading {
     Surface,
     Place,
     Pressed,
+    Orientation,
 }
 
 struct Reader {
@@ -147,10 +165,11 @@ impl Reader {
             "NSET" | "ELSET" => self.group(keyword)?,
             "SURFACE" => self.surface(keyword)?,
             "SHELLSECTION" | "MEMBRANESECTION" | "SHELLGENERALSECTION" | "SURFACESECTION" => {
-                let section = (keyword.needed("ELSET")?, keyword.line);
-                self.body().sections.push(section);
+                let (set, orientation) = (keyword.needed("ELSET")?, keyword.get("ORIENTATION"));
+                self.body().sections.push(Section { set, orientation, line: keyword.line });
                 self.ignore(keyword);
             }
+            "ORIENTATION" => self.orientation(keyword)?,
             _ => {
                 if let Some((_, why)) = REFUSED.iter().find(|(known, _)| *known == name) {
                     return Err(format!("*{} is not read: {why}", keyword.written));
@@ -171,8 +190,16 @@ impl Reader {
     }
 
     fn ignore(&mut self, keyword: &Keyword) {
-        let warp = if keyword.name == "ORIENTATION" { ": the warp is x, turned by angle_deg" } else { "" };
-        self.model.ignored.push((format!("*{}{warp}", keyword.written), keyword.line));
+        self.model.ignored.push((format!("*{}", keyword.written), keyword.line));
+    }
+
+    fn orientation(&mut self, keyword: &Keyword) -> Result<(), String> {
+        let other = |name: &str, usual: &str| keyword.get(name).filter(|value| !value.eq_ignore_ascii_case(usual));
+        let other = other("SYSTEM", "RECTANGULAR").or_else(|| other("DEFINITION", "COORDINATES"));
+        let (name, line) = (keyword.needed("NAME")?, keyword.line);
+        self.body().orientations.push(Orientation { name, rows: Vec::new(), other, line });
+        self.reading = Reading::Orientation;
+        Ok(())
     }
 
     fn instance(&mut self, keyword: &Keyword) -> Result<(), String> {
@@ -286,6 +313,14 @@ impl Reader {
                 }
             }
             Reading::Place => self.place(&cells)?,
+            Reading::Orientation => {
+                if let Some(orientation) = self.body().orientations.last_mut().filter(|it| it.other.is_none()) {
+                    match number(cells[0]) {
+                        Err(_) if orientation.rows.is_empty() => orientation.other = Some("DISTRIBUTION".into()),
+                        _ => orientation.rows.push(numbers(&cells)?),
+                    }
+                }
+            }
             Reading::Pressed => self.model.pressed.push(cells[0].trim_matches('"').to_string()),
         }
         Ok(())
