@@ -363,4 +363,8 @@ pub struct SimulateArgs {
     #[arg(long, num_args = 0..=1, default_missing_value = "30", value_name = "ROBOTS",
           value_parser = clap::value_parser!(u64).range(5..=1000), conflicts_with_all = ["separate", "seeds"])]
     pub uncertain: Option<u64>,
+    /// Robots: the run again with every numerical setting a third and three times as large and the mesh half as large: how far the
+    /// tip depends on the numerics
+    #[arg(long, conflicts_with_all = ["uncertain", "separate", "seeds", "from", "export"])]
+    pub numerics: bool,
 }

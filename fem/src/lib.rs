@@ -50,7 +50,7 @@ pub use run::{ChangedSides, Simulation};
 pub use transient::{Tick, Transient};
 
 /// Raised whenever the same problem gives other numbers than before: stored results of an older engine are then not used.
-pub const ENGINE: u32 = 10;
+pub const ENGINE: u32 = 11;
 
 /// Numbers per node in position, velocity and force arrays: x, y, z and one of padding (always 0).
 pub const NODE: usize = 4;

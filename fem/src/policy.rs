@@ -133,9 +133,9 @@ pub fn is_valid(kinetic_share: f64) -> bool {
     kinetic_share < KINETIC_OF_INTERNAL / (1.0 + KINETIC_OF_INTERNAL)
 }
 
-/// Movement of a tip that counts as none \[m\], of its displacement and the robot's length \[m\].
-pub fn moves_no_more_m(tip_m: f64, length_m: f64) -> f64 {
-    CREEP * tip_m.max(BENT * length_m)
+/// Movement of a tip that counts as none \[m\], of the share allowed ([`CREEP`]), its displacement and the robot's length \[m\].
+pub fn moves_no_more_m(creep: f64, tip_m: f64, length_m: f64) -> f64 {
+    creep * tip_m.max(BENT * length_m)
 }
 
 /// Whether a valley parts two peaks, of the walls' kinetic energies.
@@ -216,7 +216,7 @@ mod tests {
     #[test]
     fn a_tip_moves_by_half_a_per_cent_of_its_way_or_of_a_tenth_of_the_length() {
         for (tip_m, allowed_m) in [(0.1, 5e-4), (0.001, 1.8e-4)] {
-            assert!((moves_no_more_m(tip_m, 0.36) / allowed_m - 1.0).abs() < 1e-9);
+            assert!((moves_no_more_m(CREEP, tip_m, 0.36) / allowed_m - 1.0).abs() < 1e-9);
         }
     }
 

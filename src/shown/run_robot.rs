@@ -63,6 +63,7 @@ fn state(readings: &[Reading]) -> String {
         "in",
         "at mm",
         "kinetic %",
+        "at rest",
     ];
     head.extend(strength.then_some(["weld", "of its strength"]).into_iter().flatten());
     let rows = readings.iter().map(|r| {
@@ -77,6 +78,11 @@ fn state(readings: &[Reading]) -> String {
             r.seam_part.clone(),
             format!("{:.0}", r.seam_at_m * MM),
             format!("{:.2}", 100.0 * r.kinetic_share),
+            match (r.is_at_rest, r.ahead_m) {
+                (true, _) => "yes".into(),
+                (false, Some(ahead_m)) => format!("no, {:.1} mm ahead", ahead_m * MM),
+                (false, None) => "not known".into(),
+            },
         ];
         let share = r.seam_share.map(|share| [r.seam.clone(), format!("{share:.2}")]);
         row.extend(share.into_iter().flatten());

@@ -108,7 +108,7 @@ fn put(output: Output, r: &Reading, run: &FeRun, study: &Study, numbers: &mut Ve
                 "actuator_gas" => -1e3 * r.actuator_pa * r.actuator_m3,
                 "body_gas" => -1e3 * r.body_pa * r.body_m3,
                 "wall" => stored("bending") + stored("folds"),
-                "stretch" => stored("membrane"),
+                "stretch" => stored("membrane") + stored("compressed sheets"),
                 "contact" => stored("contact"),
                 "numerical" => stored("hourglass"),
                 _ => f64::NAN,

@@ -45,9 +45,10 @@ pub use model::Preset;
 pub use reading::{Reading, RobotGauge};
 pub use rest::{Rest, Settling};
 pub use seams::{SeamForce, Seams};
+pub(crate) use settings::MASS_FACTOR;
 pub use settings::RobotSettings;
 pub use snaps::{Sample, Snap, Watch, snaps};
-pub use table::{KEYS, OTHERS, RunKey, with_fem};
+pub use table::{KEYS, NUMERICAL, OTHERS, RunKey, with_fem};
 
 use models::Scenario;
 use models::actuators::pattern::Pattern;
@@ -240,6 +241,8 @@ fn numerics(problem: &Problem, settings: &RobotSettings) -> Settings {
         mass_scaling: MassScaling::TargetStep((mass_factor * allowed).sqrt() * smallest / fastest),
         selective_mass: settings.selective_mass,
         mass_passes,
+        cfl: settings.cfl,
+        viscosity: settings.viscosity,
         mass_damping_1_s: settings.mass_damping_1_s,
         hourglass: settings.hourglass,
         imperfection: settings.imperfection,

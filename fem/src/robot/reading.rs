@@ -161,7 +161,9 @@ impl RobotGauge {
     pub fn read(&self, run: &Simulation, rest: Rest) -> Result<Reading, FemError> {
         let (positions, fields) = (run.positions(), run.element_fields());
         let (waited_s, ahead_m, is_at_rest) = match rest {
-            Rest::Over { waited_s, ahead_m, is_at_rest } => (waited_s, ahead_m.is_finite().then_some(ahead_m), is_at_rest),
+            Rest::Over { waited_s, ahead_m, is_at_rest } => {
+                (waited_s, ahead_m.is_finite().then_some(ahead_m), is_at_rest)
+            }
             Rest::Until(_) => (0.0, None, false),
         };
         let moved = |line: &CentreLine, start: &[[f64; 3]]| -> Result<Vec<[f64; 3]>, FemError> {
@@ -178,7 +180,7 @@ impl RobotGauge {
         let strips_pa: Vec<f64> = strips.iter().map(|c| c.pressure_pa).collect();
         // The base is the only thing that is held, with one row of nodes or two.
         let base = run.reactions().first();
-        let ledger = run.ledger();
+        let ledger = run.ledger_in_detail();
         let mut rows = vec![("kinetic".to_string(), "stored".to_string(), ledger.kinetic_j)];
         rows.extend(ledger.rows.iter().map(|r| (r.name.to_string(), r.kind.word().to_string(), r.energy_j)));
         Ok(Reading {

@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! ahead = |Δ₂| r/(1 − r)                                a decay of rate r goes on (Aitken); |Δ₂| where it swings back
-//! at rest: |Δ₂| and ahead ≤ SHARE · max(|u|, L/10)      in two windows one after the other
+//! at rest: |Δ₂| and ahead ≤ creep · max(|u|, L/10)      in two windows one after the other
 //! ```
 //!
 //! | symbol | meaning | unit |
@@ -15,8 +15,6 @@
 //! The kinetic share cannot replace this: an overdamped robot creeps with next to no kinetic energy.
 
 use serde::{Deserialize, Serialize};
-
-use crate::policy;
 
 /// Length of a window \[s\].
 const WINDOW_S: f64 = 0.01;
@@ -52,15 +50,14 @@ impl Settling {
         (!self.tip_m.is_empty()).then(|| self.from_s + self.tip_m.len() as f64 * WINDOW_S)
     }
 
-    /// Judges the tip's displacement \[m\] of a robot of this length \[m\] after so much waiting of the run \[s\], of which a hold may
-    /// take `longest_s`.
-    pub fn look(&mut self, tip_m: [f64; 3], length_m: f64, waited_s: f64, longest_s: f64) -> Rest {
+    /// Judges the tip's displacement \[m\], of which so much may be ahead \[m\], after so much waiting of the run \[s\], of which a hold
+    /// may take `longest_s`.
+    pub fn look(&mut self, tip_m: [f64; 3], allowed_m: f64, waited_s: f64, longest_s: f64) -> Rest {
         if self.tip_m.is_empty() {
             self.from_s = waited_s;
         }
         self.tip_m.push(tip_m);
         let own_s = waited_s - self.from_s;
-        let allowed_m = policy::moves_no_more_m(norm(tip_m), length_m);
         let ahead = |last: usize| self.ahead_m(last);
         let now_m = ahead(self.tip_m.len() - 1);
         let is_at_rest = now_m <= allowed_m && ahead(self.tip_m.len().saturating_sub(2)) <= allowed_m;
@@ -95,12 +92,14 @@ fn norm(v: [f64; 3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::policy::{CREEP, moves_no_more_m};
 
     /// Waits for a tip that moves as told; the time waited, what is ahead and whether it rests.
     fn waited(tip: impl Fn(f64) -> f64, longest_s: f64) -> (f64, f64, bool) {
         let (mut settling, mut time_s) = (Settling::default(), 1.0);
         loop {
-            match settling.look([0.0, tip(time_s - 1.0), 0.0], 0.36, time_s, longest_s) {
+            let tip_m = tip(time_s - 1.0);
+            match settling.look([0.0, tip_m, 0.0], moves_no_more_m(CREEP, tip_m, 0.36), time_s, longest_s) {
                 Rest::Until(next_s) => time_s = next_s,
                 Rest::Over { waited_s, ahead_m, is_at_rest } => return (waited_s, ahead_m, is_at_rest),
             }
@@ -113,7 +112,7 @@ mod tests {
             let creeps = |t: f64| 0.04 - 0.01 * (-rate_1_s * t).exp();
             let (waited_s, ahead_m, is_at_rest) = waited(creeps, 2.0);
             let left_m = 0.01 * (-rate_1_s * waited_s).exp();
-            assert!(is_at_rest && left_m <= 1.001 * policy::moves_no_more_m(0.04, 0.36), "{rate_1_s}: {left_m}");
+            assert!(is_at_rest && left_m <= 1.001 * moves_no_more_m(CREEP, 0.04, 0.36), "{rate_1_s}: {left_m}");
             assert!(ahead_m >= 0.999 * left_m, "{ahead_m} {left_m}");
         }
     }

@@ -1,8 +1,8 @@
 //! Everything about a robot that its scenario does not say, each with how it is known.
 
 use super::table::KEYS;
-use crate::FemError;
 use crate::problem::{Amplitude, Guards};
+use crate::{FemError, policy};
 
 /// Distance of the rings under a taped sheet over its element size: its margins of stuck plies fold across in the middle of every
 /// pouch, and with seven rows from weld to middle seams snap or hold from seed to seed.
@@ -16,7 +16,7 @@ pub(super) const FINE_M: f64 = 1.5e-3;
 /// `mass_factor`: of all robots, and of such fine ones whose layers touch. Contact makes their step
 /// dear, and stuck plies, which make a longer one expensive in mass, are few: the cPAM gets 66 % of mass with 3.6, 31 with 2.4, and ends
 /// where 222 % had left it before.
-pub(super) const MASS_FACTOR: [f64; 2] = [2.4, 3.6];
+pub(crate) const MASS_FACTOR: [f64; 2] = [2.4, 3.6];
 /// Thickness of a tape that only ties two sheets \[m\].
 const TIE_M: f64 = 1e-6;
 
@@ -92,6 +92,12 @@ pub struct RobotSettings {
     /// Passes of the selective masses, 2, 4 or 6 ([`crate::problem::Settings::mass_passes`]), and the longer step that they allow
     /// beside `mass_factor`; `None`: 2, and 6 for elements below 1.5 mm.
     pub mass_passes: Option<usize>,
+    /// Movement of the tip that a hold does not wait for, as a share of its displacement ([`super::Settling`]).
+    pub creep: f64,
+    /// Share of the stable step that is used.
+    pub cfl: f64,
+    /// In-plane viscosity ([`crate::problem::Settings::viscosity`]).
+    pub viscosity: f64,
     /// Mass damping \[1/s\].
     pub mass_damping_1_s: f64,
     /// Hourglass coefficient.
@@ -165,6 +171,9 @@ impl RobotSettings {
             mass_factor: None,
             selective_mass: true,
             mass_passes: None,
+            creep: policy::CREEP,
+            cfl: 0.9,
+            viscosity: 0.06,
             mass_damping_1_s: 40.0,
             hourglass: 3e-3,
             guard_hourglass: Guards::default().hourglass,

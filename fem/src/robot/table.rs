@@ -101,6 +101,11 @@ pub const KEYS: &[RunKey] = &[
         |s| s.mass_factor, |s, v| s.mass_factor = Some(v)),
     key("mass_passes", 1.0, [2.0, 6.0], "passes of the selective masses, 2, 4 or 6: more allow longer steps and make longer waves heavy",
         |s| s.mass_passes.map(|n| n as f64), |s, v| s.mass_passes = Some(v as usize)),
+    key("creep", 1.0, [1e-6, 1.0], "movement of the tip that a hold does not wait for, over its displacement",
+        |s| Some(s.creep), |s, v| s.creep = v),
+    key("cfl", 1.0, [1e-3, 1.0], "share of the stable step that is used", |s| Some(s.cfl), |s, v| s.cfl = v),
+    key("viscosity", 1.0, [0.0, 10.0], "in-plane viscosity as a share of critical damping of the highest mode",
+        |s| Some(s.viscosity), |s, v| s.viscosity = v),
     key("mass_damping_1_s", 1.0, [0.0, 1e5], "mass damping", |s| Some(s.mass_damping_1_s), |s, v| s.mass_damping_1_s = v),
     key("hourglass", 1.0, [0.0, 1.0], "hourglass coefficient", |s| Some(s.hourglass), |s, v| s.hourglass = v),
     key("guard_hourglass", 1.0, [0.0, 1.0], "share of the stored energy that hourglass control may hold at the end",
@@ -110,6 +115,28 @@ pub const KEYS: &[RunKey] = &[
     key("waviness_mm", 1e-3, [0.0, 1.0], "departure of the sewn shape from the pattern, root mean square along each axis",
         |s| Some(s.waviness_m), |s, v| s.waviness_m = v),
     key("seed", 1.0, [0.0, 4e15], "seed of imperfection and waviness_mm", |s| Some(s.seed as f64), |s, v| s.seed = v as u64),
+];
+
+/// Keys that decide how a robot is computed and not what it is: no tip may depend on them.
+pub const NUMERICAL: [&str; 18] = [
+    "ring_spacing",
+    "seam_row_mm",
+    "layer_gap_mm",
+    "wrinkle_length",
+    "body_ramp_s",
+    "actuator_ramp_s",
+    "ramp_floor_kpa",
+    "hold_s",
+    "rest_s",
+    "creep",
+    "mass_factor",
+    "cfl",
+    "viscosity",
+    "mass_damping_1_s",
+    "hourglass",
+    "imperfection",
+    "body_mesh_mm",
+    "actuator_mesh_mm",
 ];
 
 /// Keys that are no single number.

@@ -354,6 +354,18 @@ impl Simulation {
         Ledger::close(self.books.kinetic, rows, self.books.start, self.books.scale)
     }
 
+    /// The same with the energy of compressed sheets apart from that of the membranes; dearer, for what is read now and then.
+    pub fn ledger_in_detail(&self) -> Ledger {
+        let mut ledger = self.ledger();
+        let compressed_j = self.sheet.compressed_j(self.x.as_flattened());
+        if let Some(membrane) = ledger.rows.iter_mut().find(|row| row.name == "membrane") {
+            membrane.energy_j -= compressed_j;
+            let compressed = Row { name: "compressed sheets", energy_j: compressed_j, ..*membrane };
+            ledger.rows.push(compressed);
+        }
+        ledger
+    }
+
     /// Pressure and volume of every chamber.
     pub fn chambers(&self) -> Vec<ChamberState> {
         let state = |air: &crate::sheet::chamber::Air| ChamberState {

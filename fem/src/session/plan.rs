@@ -2,7 +2,7 @@
 
 use super::{Source, rounded};
 use crate::FemError;
-use crate::robot::{ASSUMED, Assumed, KEYS, RobotRun, RobotSettings, RunKey, hypercube};
+use crate::robot::{ASSUMED, Assumed, KEYS, MASS_FACTOR, NUMERICAL, RobotRun, RobotSettings, RunKey, hypercube};
 use models::CHANNELS;
 
 /// Keys of `[fem]` and their values as in TOML.
@@ -54,6 +54,29 @@ pub fn product(run: &RobotRun, seeds: Option<u64>, separate: bool, meshes: &[[f6
         cases = extended(&cases, &run.pressures_pa.iter().map(of).collect::<Vec<_>>());
     }
     cases
+}
+
+/// The robot as it is, then with every numerical setting a third and three times as large, the mesh half as large and the steps shorter.
+/// What a setting leaves to the program is not varied, but for the mass factor.
+pub fn numerics(run: &RobotRun) -> Vec<Variation> {
+    let mut all = vec![Variation::default()];
+    let mut add = |label: String, changes: Changes| all.push(Variation { label, changes, ..Variation::default() });
+    let settings = &run.settings;
+    let number = |si: f64, key: &RunKey| format!("{:.4e}", si / key.si);
+    for key in KEYS.iter().filter(|key| NUMERICAL.contains(&key.name) && !key.name.ends_with("mesh_mm")) {
+        let own = (key.get)(settings).or((key.name == "mass_factor").then_some(MASS_FACTOR[0]));
+        let Some(own) = own.filter(|own| *own != 0.0) else { continue };
+        for (label, factor) in [("third", 1.0 / 3.0), ("triple", 3.0)] {
+            let [low, high] = key.bounds;
+            let value = (own * factor).clamp(low * key.si, high * key.si);
+            if (value / own - 1.0).abs() > 0.2 {
+                add(format!("{}-{label}", key.name), vec![(key.name.into(), number(value, key))]);
+            }
+        }
+    }
+    let half = [settings.body_size_m, settings.actuator_size_m].map(|m| rounded(0.5e3 * m));
+    add("mesh-half".into(), mesh_keys(&half).to_vec());
+    all
 }
 
 /// Label, keys of `[fem]`, and whether means are taken apart for it.

@@ -38,7 +38,7 @@ fn own(loaded: &Loaded, run: &FeRun, state: &Simulation) -> Result<Vec<(String, 
                 ("snaps.csv", snaps_csv(&read.snaps)),
             ];
             let tables = tables.map(|(name, text)| (name.to_string(), text.into_bytes())).to_vec();
-            (tables, pictures(robot, mesh, state)?)
+            (tables, pictures(robot, mesh, state, read.readings.last().is_none_or(|r| r.is_at_rest))?)
         }
         _ if loaded.case.outputs.pictures => (Vec::new(), vec![end(loaded, state)?]),
         _ => (Vec::new(), Vec::new()),
@@ -99,6 +99,8 @@ fn readings_csv(readings: &[Reading]) -> String {
             line(&format!("reaction_m{axis}"), "base".into(), r.base_nm[k], "N m");
         }
         line("kinetic_share", String::new(), r.kinetic_share, "1");
+        line("waited", String::new(), r.waited_s, "s");
+        line("at_rest", String::new(), f64::from(u8::from(r.is_at_rest)), "1");
         for (name, kind, energy) in &r.ledger {
             line(&format!("energy {kind}"), name.clone(), *energy, "J");
         }
@@ -145,14 +147,19 @@ fn snaps_csv(found: &[Snap]) -> String {
 }
 
 /// Side view, cross-section through the middle of a unit, and cut along the robot; with strips round the body from above too.
-fn pictures(robot: &WatchedRobot, mesh: &Mesh, run: &Simulation) -> Result<Vec<(&'static str, Image)>, FemError> {
+fn pictures(
+    robot: &WatchedRobot,
+    mesh: &Mesh,
+    run: &Simulation,
+    is_at_rest: bool,
+) -> Result<Vec<(&'static str, Image)>, FemError> {
     let (stress_mpa, positions) = (stress_mpa(run), run.positions());
     let actuator = &robot.scenario.actuator;
     let unit = actuator.shape.length_m;
     let middle_m = actuator.start_m + ((actuator.count - 1) / 2) as f64 * unit + 0.5 * unit;
     let across = picture::Cut { normal: [1.0, 0.0, 0.0], at_m: middle_m };
     let along = picture::Cut { normal: [0.0, 0.0, 1.0], at_m: 0.0 };
-    let look = |what: &str| look(robot, what, &stress_mpa);
+    let look = |what: &str| look(robot, what, &stress_mpa, is_at_rest);
     let end = PictureLook { view: Viewpoint::End, ..look(&format!("section that was at {:.0} mm", middle_m * MM)) };
     let section = picture::section(mesh, &positions, &stress_mpa, &across, &end)?;
     let cut = picture::section(mesh, &positions, &stress_mpa, &along, &look("middle plane"))?;
@@ -171,7 +178,7 @@ fn stress_mpa(run: &Simulation) -> Vec<f64> {
 }
 
 /// One colour scale for all pictures of a run: from 0 to a round number above nearly all stresses.
-fn look(robot: &WatchedRobot, what: &str, stress_mpa: &[f64]) -> PictureLook {
+fn look(robot: &WatchedRobot, what: &str, stress_mpa: &[f64], is_at_rest: bool) -> PictureLook {
     let mut sorted = stress_mpa.to_vec();
     sorted.sort_by(f64::total_cmp);
     let nearly_all = sorted.get((WITHIN * sorted.len() as f64) as usize).copied().unwrap_or(0.0);
@@ -184,7 +191,8 @@ fn look(robot: &WatchedRobot, what: &str, stress_mpa: &[f64]) -> PictureLook {
     if strips.iter().all(|pressure| *pressure == strips[0]) {
         strips.truncate(1);
     }
-    let title = format!("{what}, von Mises [MPa], {} kPa", strips.join("/"));
+    let moves = if is_at_rest { "" } else { ", not at rest" };
+    let title = format!("{what}, von Mises [MPa], {} kPa{moves}", strips.join("/"));
     PictureLook {
         view: Viewpoint::Side,
         limits: Some((0.0, picture::round_above(nearly_all))),

@@ -133,7 +133,9 @@ impl<'a> Running<'a> {
             }
             while let Some(robot) = &mut self.robot {
                 match robot.rest(&self.run) {
-                    Rest::Until(waited_s) => self.advance(Goal::Waited(waited_s), &mut teller, &mut keeper, progress)?,
+                    Rest::Until(waited_s) => {
+                        self.advance(Goal::Waited(waited_s), &mut teller, &mut keeper, progress)?
+                    }
                     rest => {
                         robot.read(&self.run, rest)?;
                         break;

@@ -211,7 +211,7 @@ impl Summary {
     /// Reads a run that has reached its end.
     pub(super) fn of(case: &Case, running: &Running, robot: Option<&WatchedRobot>) -> Summary {
         let (run, mesh) = (&running.run, &case.problem.mesh);
-        let ledger = run.ledger();
+        let ledger = run.ledger_in_detail();
         let energy =
             |r: &models::Row| EnergyLine { name: r.name.into(), kind: r.kind.word().into(), energy_j: r.energy_j };
         let chamber = |c: crate::run::ChamberState| ChamberEnd {

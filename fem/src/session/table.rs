@@ -13,6 +13,8 @@ pub struct Heights {
     pub marker_mm: f64,
     /// Tip \[mm\].
     pub tip_mm: f64,
+    /// Whether it was at rest.
+    pub is_at_rest: bool,
 }
 
 /// Heights of one run.
@@ -83,12 +85,12 @@ impl RunTable {
 
     /// `table.csv`.
     pub fn csv(&self) -> String {
-        let mut out = String::from("run,changes,p_act_kpa,marker_mm,tip_mm,cpu_s\n");
+        let mut out = String::from("run,changes,p_act_kpa,marker_mm,tip_mm,at_rest,cpu_s\n");
         for RunRow { variation: Variation { label, changes, .. }, heights, cpu_s, .. } in &self.rows {
             let changes: Vec<String> = changes.iter().map(|(k, v)| format!("{k}={v}").replace(',', ";")).collect();
             let changes = changes.join(" ");
-            for Heights { actuator_kpa, marker_mm, tip_mm } in heights {
-                out.push_str(&format!("{label},{changes},{actuator_kpa},{marker_mm},{tip_mm},{cpu_s}\n"));
+            for Heights { actuator_kpa, marker_mm, tip_mm, is_at_rest } in heights {
+                out.push_str(&format!("{label},{changes},{actuator_kpa},{marker_mm},{tip_mm},{is_at_rest},{cpu_s}\n"));
             }
         }
         out
@@ -109,7 +111,7 @@ fn heights(run: &FeRun) -> Vec<Heights> {
     let pressed = run.readings().iter().filter(|r| r.actuator_pa > 0.0);
     let of = pressed.map(|r| {
         let [marker_mm, tip_mm] = heights_mm(r);
-        Heights { actuator_kpa: rounded(r.actuator_pa * 1e-3), marker_mm, tip_mm }
+        Heights { actuator_kpa: rounded(r.actuator_pa * 1e-3), marker_mm, tip_mm, is_at_rest: r.is_at_rest }
     });
     of.collect()
 }

@@ -2,6 +2,7 @@
 
 use super::rounded;
 use crate::robot::{HoldEnd, KEYS, Reading, Rest, RobotGauge, RobotRun, RunKey, Sample, Settling, Snap, Watch, snaps};
+use crate::vec3::norm;
 use crate::{FemError, Problem, Simulation, policy};
 use models::Scenario;
 use models::scenario::Wall;
@@ -47,6 +48,7 @@ impl WatchedRobot {
             readings: Vec::new(),
             length_m: self.scenario.length_m,
             rest_s: self.run.settings.longest_rest_s(),
+            creep: self.run.settings.creep,
             settling: Settling::default(),
             watch: Watch::new(&problem.mesh),
         }
@@ -63,6 +65,7 @@ pub(super) struct Watched {
     holds: Vec<HoldEnd>,
     length_m: f64,
     rest_s: f64,
+    creep: f64,
     settling: Settling,
     /// Readings so far.
     pub readings: Vec<Reading>,
@@ -94,7 +97,9 @@ impl Watched {
         if let Some(next_s) = self.settling.next_s().filter(|next_s| run.waited_s() + 0.5 * run.dt_s() < *next_s) {
             return Rest::Until(next_s);
         }
-        self.settling.look(self.gauge.tip_moved_m(run), self.length_m, run.waited_s(), self.rest_s)
+        let tip_m = self.gauge.tip_moved_m(run);
+        let allowed_m = policy::moves_no_more_m(self.creep, norm(tip_m), self.length_m);
+        self.settling.look(tip_m, allowed_m, run.waited_s(), self.rest_s)
     }
 
     /// Reads the robot.
@@ -193,7 +198,7 @@ fn with_needed<'de, D: Deserializer<'de>>(from: D) -> Result<BTreeMap<String, Op
 }
 
 impl RobotSummary {
-    /// What to know before believing the readings: welds beyond their strength, and a planar robot that leaves its plane.
+    /// What to know before believing the readings: a tip that moves, welds beyond their strength, a planar robot that leaves its plane.
     pub(super) fn warnings(&self) -> Vec<String> {
         let kpa = |r: &Reading| rounded(r.actuator_pa * 1e-3);
         let torn = self.readings.iter().find(|r| r.seam_share.is_some_and(policy::is_torn)).map(|r| {
@@ -212,7 +217,17 @@ impl RobotSummary {
                 100.0 * share(&r)
             )
         });
-        torn.into_iter().chain(aside).collect()
+        // Without any time to rest, every reading is one of a movement, as is wanted.
+        let moving = self.readings.iter().filter(|r| !r.is_at_rest && r.waited_s > 0.0).map(|r| {
+            format!(
+                "at {} kPa the tip still moves after {:.2} s (at rest it would be up to {} mm further). Try: a longer rest_s, less or more \
+                 mass_damping_1_s",
+                kpa(r),
+                r.waited_s,
+                r.ahead_m.map_or("an unknown number of".into(), |m| format!("{:.1}", m * 1e3))
+            )
+        });
+        moving.chain(torn).chain(aside).collect()
     }
 
     /// A key of `[fem]`, in the unit of its name.

@@ -1,5 +1,7 @@
 //! Stress, strain, thickness and wrinkling of every element, for pictures and reports.
 
+use models::fabrics::{Kind, WrinklingFilm};
+
 use super::{Element, Sheet};
 use crate::vec3::{along, cross, direction, dot};
 
@@ -34,6 +36,22 @@ impl Sheet {
             );
         }
         fields
+    }
+
+    /// Energy that compression of films stores at positions `q` (stride 4) \[J\]: flat ones up to the load of their wrinkles, and wrinkled
+    /// ones. It is part of the membrane energy.
+    pub fn compressed_j(&self, q: &[f64]) -> f64 {
+        let of = |element: &Element| {
+            let film = match self.fabrics[element.part].kind() {
+                Kind::WrinklingFilm(film) => *film,
+                Kind::NeoHookean(film) => WrinklingFilm { film: *film, load_n_per_m: f64::INFINITY },
+                _ => return 0.0,
+            };
+            let f = element.deformation(q.as_chunks().0);
+            let e = [0.5 * (dot(f[0], f[0]) - 1.0), 0.5 * (dot(f[1], f[1]) - 1.0), dot(f[0], f[1])];
+            element.reference.area * film.compressed_j_per_m2(e)
+        };
+        self.elements.iter().map(of).sum()
     }
 
     fn push(&self, fields: &mut ElementFields, element: &Element, f: [[f64; 3]; 2], past: &[f64; 2]) {

@@ -121,6 +121,12 @@ impl WrinklingFilm {
         self.load_n_per_m * self.load_n_per_m / (6.0 * self.k())
     }
 
+    /// Part of the energy that compression stores: W_N − W_r \[J/m²\].
+    pub fn compressed_j_per_m2(&self, e: [f64; 3]) -> f64 {
+        let relaxed = |folded: Folded| self.k() * folded.pull()[0];
+        Self::folded(e).map_or(0.0, |folded| self.energy(e, &[0.0; 2]) - relaxed(folded))
+    }
+
     /// √X − c and √X; `None` where the film is flat.
     fn beyond(&self, full: f64, relaxed: f64) -> Option<[f64; 2]> {
         let (root, c) = ((full - relaxed).max(0.0).sqrt(), self.flat_n_per_m().sqrt());

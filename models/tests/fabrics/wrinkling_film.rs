@@ -1,14 +1,14 @@
-//! A neo-Hookean film that wrinkles: the least energy over folds, one tension, and one film of several sheets.
+//! A neo-Hookean film that wrinkles: the least energy over folds, the load of the wrinkles, and one film of several sheets.
 
 use crate::support::*;
 use models::Fabric;
-use models::fabrics::{Kind, Laminate, NeoHookean, Ply, WrinklingFilm};
+use models::fabrics::{Kind, Laminate, NeoHookean, Ply, WrinklingFilm, wrinkling_load_n_per_m};
 use std::sync::Arc;
 
 const FILM: NeoHookean = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
 
-fn with(share: f64) -> WrinklingFilm {
-    WrinklingFilm { film: FILM, share }
+fn with(load_n_per_m: f64) -> WrinklingFilm {
+    WrinklingFilm { film: FILM, load_n_per_m }
 }
 
 /// Least of the film's energy over folds e + β n⊗n, β ≥ 0, by golden section in β for every direction.
@@ -89,28 +89,81 @@ fn without_its_folds_a_film_is_as_little_taut_as_can_be() {
     assert!((50..200).contains(&changed), "{changed}");
 }
 
+/// Compressed along one direction and free across it, a film resists with its stiffness up to the load of its wrinkles, then with that load.
 #[test]
-fn the_share_is_what_compression_meets_and_all_of_it_is_the_film() {
-    let e = [-0.01, -0.02, 0.004];
-    let full = FILM.tension(e, &FRESH);
-    assert!(apart(with(0.05).tension(e, &FRESH), full.map(|s| 0.05 * s), 0.0) < 1e-12);
-    let mut random = Random::new(22);
-    for _ in 0..200 {
-        let e = random.strain(0.1);
-        assert_eq!(with(1.0).tension(e, &FRESH), FILM.tension(e, &FRESH));
-        assert_eq!(with(1.0).energy(e, &FRESH), FILM.energy(e, &FRESH));
+fn the_load_of_wrinkles_is_constant_in_strain_and_the_slope_of_the_energy() {
+    let (load, stiffness) = (5.0, 6.0 * FILM.c10_pa * FILM.thickness_m);
+    let energy = |short: f64| {
+        // Compressed along 1 by `short` at the stretch of 2 that a pull alone gives it.
+        let (along, across) = (1.0 - short, 1.01_f64);
+        let along = along * across.powf(-0.5);
+        with(load).energy([0.5 * (along * along - 1.0), 0.5 * (across * across - 1.0), 0.0], &FRESH)
+    };
+    let carried = |short: f64| (energy(short + 1e-7) - energy(short - 1e-7)) / 2e-7;
+    let limit = load / stiffness;
+    assert!((carried(0.3 * limit) / (0.3 * load) - 1.0).abs() < 0.03, "{}", carried(0.3 * limit));
+    for (short, above) in [(5.0 * limit, 0.02), (0.02, 0.03), (0.1, 0.13)] {
+        let ratio = carried(short) / load;
+        assert!((0.98..1.0 + above).contains(&ratio), "{short}: {ratio}");
     }
 }
 
 #[test]
-fn two_films_of_one_share_are_one_film() {
-    let two = |shares: [f64; 2]| {
-        let ply = |share: f64| Ply { fabric: Arc::new(with(share)) as Arc<dyn Fabric>, angle_rad: 0.3 };
-        Laminate::new(shares.map(ply).to_vec()).unwrap()
+fn a_film_of_any_load_is_the_film_and_the_slopes_are_those_of_its_energy() {
+    let mut random = Random::new(22);
+    let mut wrinkled = 0;
+    for _ in 0..200 {
+        let e = random.strain(0.1);
+        assert_eq!(with(f64::INFINITY).tension(e, &FRESH), FILM.tension(e, &FRESH));
+        assert_eq!(with(f64::INFINITY).energy(e, &FRESH), FILM.energy(e, &FRESH));
+        let film = with(300.0);
+        let (s, d) = (film.tension(e, &FRESH), film.tangent(e, &FRESH));
+        wrinkled += usize::from(film.energy(e, &FRESH) < FILM.energy(e, &FRESH));
+        for j in 0..3 {
+            let moved = |by: f64| {
+                let mut at = e;
+                at[j] += by;
+                at
+            };
+            let [up, down] = [moved(1e-6), moved(-1e-6)];
+            let slope = (film.energy(up, &FRESH) - film.energy(down, &FRESH)) / 2e-6;
+            assert!((slope - s[j]).abs() < 1e-5 * stiffness_n_per_m() * 0.1, "{e:?}: {slope} {}", s[j]);
+            let [a, b] = [film.tension(up, &FRESH), film.tension(down, &FRESH)];
+            for i in 0..3 {
+                let slope = (a[i] - b[i]) / 2e-6;
+                assert!((slope - d[i][j]).abs() < 2e-4 * stiffness_n_per_m(), "{e:?} {i} {j}: {slope} {}", d[i][j]);
+            }
+        }
+        let stored = film.compressed_j_per_m2(e);
+        assert!(stored >= 0.0 && stored <= film.energy(e, &FRESH) * (1.0 + 1e-12));
+    }
+    assert!((20..180).contains(&wrinkled), "{wrinkled}");
+}
+
+fn stiffness_n_per_m() -> f64 {
+    6.0 * FILM.c10_pa * FILM.thickness_m
+}
+
+#[test]
+fn two_films_that_wrinkle_at_one_strain_are_one_film() {
+    let two = |loads: [f64; 2]| {
+        let ply = |load: f64| Ply { fabric: Arc::new(with(load)) as Arc<dyn Fabric>, angle_rad: 0.3 };
+        Laminate::new(loads.map(ply).to_vec()).unwrap()
     };
-    let same = two([0.01; 2]);
+    let same = two([5.0; 2]);
     let Kind::WrinklingFilm(film) = same.kind() else { panic!("{:?}", same.kind()) };
     let e = [0.02, -0.03, 0.01];
     assert!(apart(film.tension(e, &FRESH), same.tension(e, &FRESH), 0.0) < 1e-12);
-    assert!(matches!(two([0.01, 0.02]).kind(), Kind::Other));
+    assert!(matches!(two([5.0, 10.0]).kind(), Kind::Other));
+}
+
+#[test]
+fn the_load_is_the_least_that_bending_and_tension_leave() {
+    let (bending_nm, tension_n_per_m, length_m) = (5e-5, 80.0, 0.08);
+    let of = |wave_m: f64| {
+        let pi = std::f64::consts::PI;
+        4.0 * pi * pi * bending_nm / (wave_m * wave_m) + tension_n_per_m * wave_m * wave_m / (4.0 * length_m * length_m)
+    };
+    let least = (1..10_000).map(|k| of(f64::from(k) * 1e-5)).fold(f64::INFINITY, f64::min);
+    assert!((wrinkling_load_n_per_m(bending_nm, tension_n_per_m, length_m) / least - 1.0).abs() < 1e-5);
 }

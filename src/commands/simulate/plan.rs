@@ -6,7 +6,7 @@ use crate::commands::inputs::{self, plain};
 use crate::failure::Failure;
 use compare::ScenarioFile;
 use fem::robot::{KEYS, OTHERS};
-use fem::session::{Cube, Source, Variation, cube, mesh_keys, pressures_in_toml, product, rounded};
+use fem::session::{Cube, Source, Variation, cube, mesh_keys, numerics, pressures_in_toml, product, rounded};
 use models::scenario::quantity::parse_pressures;
 use std::path::{Path, PathBuf};
 
@@ -28,6 +28,7 @@ impl RunPlan {
         let stem = Path::new(&args.case).file_stem().unwrap_or_default().to_string_lossy();
         let kind = match self {
             RunPlan::Uncertain(_) => "uncertain",
+            RunPlan::Table(..) if args.numerics => "numerics",
             RunPlan::Table(..) => "batch",
             RunPlan::Single(_) => "simulate",
         };
@@ -66,6 +67,9 @@ pub fn plan(args: &SimulateArgs, source: Source) -> Result<RunPlan, Failure> {
         return Ok(RunPlan::Uncertain(cube(base, &known, robots as usize)?));
     }
     let (_, run) = base.robot_run()?;
+    if args.numerics {
+        return Ok(RunPlan::Table(base, numerics(&run)));
+    }
     let of_run = || run.meshes_m.iter().map(|sizes| sizes.map(|m| rounded(m * 1e3))).collect();
     let meshes = typed.unwrap_or_else(of_run);
     let separate = args.separate || (run.separate && run.pressures_pa.len() > 1);
@@ -84,6 +88,7 @@ fn robot_option(args: &SimulateArgs) -> Option<&'static str> {
         ("--mesh", args.mesh.is_some()),
         ("--set", !args.set.is_empty()),
         ("--uncertain", args.uncertain.is_some()),
+        ("--numerics", args.numerics),
     ];
     given.iter().find(|(_, given)| *given).map(|(option, _)| *option)
 }

@@ -70,6 +70,9 @@ pub struct EngineRun {
     pub known: String,
     /// States, the filled body without actuator pressure first.
     pub states: Vec<EngineState>,
+    /// States on the way back from the highest pressure, if the run came down again.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub down: Vec<EngineState>,
 }
 
 /// One state of a finite element run.
@@ -91,6 +94,9 @@ pub struct EngineState {
     pub energies_mj: [f64; 5],
     /// Kinetic over kinetic and stored energy.
     pub kinetic_share: f64,
+    /// Whether the tip was at rest; runs that did not keep it were not watched.
+    #[serde(default)]
+    pub is_at_rest: bool,
     /// Largest von Mises stress \[MPa\].
     pub von_mises_mpa: f64,
     /// Largest pull on a weld \[N/m\].

@@ -13,6 +13,9 @@ use std::path::Path;
 pub fn as_run(run: &FeRun) -> Option<EngineRun> {
     let summary = &run.summary;
     let about = summary.robot.as_ref().filter(|robot| !robot.readings.is_empty())?;
+    let highest = about.readings.iter().map(|r| r.actuator_pa).fold(0.0, f64::max);
+    let top = about.readings.iter().position(|r| r.actuator_pa >= highest)?;
+    let (up, down) = about.readings.split_at(top + 1);
     Some(EngineRun {
         actuator: about.actuator.clone(),
         scenario: summary.name.clone(),
@@ -29,7 +32,8 @@ pub fn as_run(run: &FeRun) -> Option<EngineRun> {
         seed: about.setting("seed") as u64,
         stations_mm: about.readings[0].stations_m.iter().rev().skip(1).rev().map(|s| rounded(s * 1e3)).collect(),
         known: "assumed".into(),
-        states: about.readings.iter().map(state).collect(),
+        states: up.iter().map(state).collect(),
+        down: down.iter().map(state).collect(),
     })
 }
 
@@ -40,7 +44,8 @@ fn state(r: &Reading) -> EngineState {
     let short = |v: f64| format!("{v:.6e}").parse().unwrap_or(v);
     let plane = |d: &[f64; 3]| [short(d[0] * 1e3), short(d[1] * 1e3)];
     let bending = stored("bending") + stored("folds");
-    let energies_mj = [stored("membrane"), bending, stored("contact"), stored("hourglass"), lost].map(short);
+    let membrane = stored("membrane") + stored("compressed sheets");
+    let energies_mj = [membrane, bending, stored("contact"), stored("hourglass"), lost].map(short);
     EngineState {
         actuator_kpa: short(r.actuator_pa * 1e-3),
         marker_mm: short(marker_mm),
@@ -50,6 +55,7 @@ fn state(r: &Reading) -> EngineState {
         actuator_cm3: short(r.actuator_m3 * 1e6),
         energies_mj,
         kinetic_share: short(r.kinetic_share),
+        is_at_rest: r.is_at_rest,
         von_mises_mpa: short(r.von_mises_pa * 1e-6),
         weld_n_per_m: short(r.seam_n_per_m),
         base_n: r.base_n.map(short),
@@ -66,7 +72,12 @@ pub(in crate::study) fn is_paper(summary: &Summary) -> bool {
     summary.robot.as_ref().is_some_and(|robot| robot.model == Preset::Paper.name())
 }
 
-/// Every robot with every seed, at its own pressures or at these \[kPa\].
+/// Pressures up and down again.
+fn and_back(up: &[f64]) -> Vec<f64> {
+    up.iter().chain(up.iter().rev().skip(1)).copied().collect()
+}
+
+/// Every robot with every seed, up through its own pressures or these \[kPa\] and down again.
 ///
 /// # Errors
 /// [`FemError::Setting`] for a scenario whose `[fem]` cannot be changed.
@@ -77,9 +88,12 @@ pub fn seed_jobs(
 ) -> Result<Vec<Job>, FemError> {
     let mut jobs = Vec::new();
     for (source, scenario) in robots {
+        let own: Vec<f64> = source.robot_run()?.1.pressures_pa.iter().map(|p| rounded(p[0] * 1e-3)).collect();
+        let is_planar = !scenario.is_spatial();
         for seed in 1..=seeds {
             let mut changes = vec![("seed".to_string(), seed.to_string())];
-            changes.extend(pressures_kpa.map(|kpa| ("pressures_kpa".to_string(), format!("{kpa:?}"))));
+            let kpa = pressures_kpa.map(<[f64]>::to_vec).or(is_planar.then(|| own.clone()));
+            changes.extend(kpa.map(|kpa| ("pressures_kpa".to_string(), format!("{:?}", and_back(&kpa)))));
             let what = format!("{}, seed {seed}", scenario.name);
             jobs.push(Job { source: source.with(&changes)?, what, folder: None });
         }
