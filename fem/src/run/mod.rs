@@ -36,6 +36,7 @@ use crate::sheet::Sheet;
 use crate::sheet::order::Order;
 use crate::{FemError, Mesh, Problem, Transient};
 use constraint::{Body, Driven};
+pub(crate) use guard::LESS_HOURGLASS;
 use reaction::Reactions;
 use selective::Selective;
 pub(crate) use selective::gain;
