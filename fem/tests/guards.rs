@@ -87,6 +87,18 @@ fn a_run_of_so_few_steps_that_no_guard_looks_is_refused() {
 }
 
 #[test]
+fn a_run_that_has_not_begun_misses_nothing_whatever_it_starts_with() {
+    let mut problem = plate();
+    problem.sections[0].rest_curvature = true;
+    let bump = |[x, y, _]: [f64; 3]| [x, y, 0.1 * x * x];
+    problem.mesh.start = std::mem::take(&mut problem.mesh.points);
+    problem.mesh.points = problem.mesh.start.iter().map(|p| bump(*p)).collect();
+    let ledger = Simulation::new(&problem).unwrap().ledger();
+    let stored: f64 = ledger.rows.iter().map(|row| row.energy_j).sum();
+    assert!(stored > 0.0 && ledger.residual_j == 0.0, "{ledger:?}");
+}
+
+#[test]
 fn a_forced_step_that_becomes_unstable_stops_the_run() {
     // The yarns get five times stiffer at 1 % strain: the step must fall with it.
     let yarn = || Yarn::new(Curve::table(&[[0.0, 0.0], [0.03, 3e6], [0.06, 18e6]]).unwrap(), None).unwrap();

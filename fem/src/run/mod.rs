@@ -281,7 +281,10 @@ impl Simulation {
         if !self.driven.is_empty() {
             rows.push(row("supports", Account::Load, RowKind::Supplied, self.books.support.sum));
         }
-        Ledger::close(self.books.kinetic, rows, self.books.start, self.books.scale)
+        // Before the first step, what terms store already is the energy of the start.
+        let stored = rows.iter().filter(|r| r.kind == RowKind::Stored).map(|r| r.energy_j);
+        let start = if self.clock.step == 0 { stored.sum() } else { self.books.start };
+        Ledger::close(self.books.kinetic, rows, start, self.books.scale)
     }
 
     /// Pressure and volume of every chamber.
