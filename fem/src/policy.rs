@@ -14,10 +14,6 @@ pub const SIDES: f64 = 0.05;
 pub const HOURGLASS: f64 = 0.15;
 /// Share of it that is warned of.
 pub const HOURGLASS_WARNED: f64 = 0.05;
-/// Remedy for both: a hundredth of the coefficient alone does not help a film that carries compression, whose pleats are as long as
-/// elements.
-pub const LESS_HOURGLASS: &str = "for a sheet that pleats, law = \"tension-field\" with the same moduli and a hundredth of hourglass; \
-    else a tenth of hourglass or smaller elements";
 /// Share of the stored energy in contact at the end that is warned of: layers that lie on each other hold next to none.
 pub const CAUGHT: f64 = 0.05;
 /// Negative volume over (wall area)^(3/2) from which the walls of a chamber have passed through each other: a hundredth of a pillow's.
@@ -52,7 +48,7 @@ pub const VALLEY: f64 = 0.5;
 pub const SMALLEST_DROP: f64 = 0.005;
 /// Fewest rows of elements between two welds.
 pub const FEWEST_ROWS: usize = 4;
-/// Fewest steps of a run: guards look every 64 steps, so a shorter one is never judged.
+/// Fewest steps of a run whose masses are all raised: guards look every 64 steps, so a shorter one is never judged.
 pub const FEWEST_STEPS: f64 = 64.0;
 /// More outputs than this fill a disk before they help.
 pub const MOST_OUTPUTS: f64 = 100_000.0;

@@ -6,7 +6,9 @@ use std::sync::Arc;
 
 use fem::case::Case;
 use fem::mesh::generate;
-use fem::problem::{Amplitude, Chamber, Contact, NodalForce, Obstacle, ObstacleShape, Ply, Pressure, Section, Support};
+use fem::problem::{
+    Amplitude, Chamber, Contact, MassScaling, NodalForce, Obstacle, ObstacleShape, Ply, Pressure, Section, Support,
+};
 use fem::{FemError, Mesh, Problem, Simulation};
 use models::Fabric;
 use models::fabrics::{Curve, NeoHookean, Orthotropic, Woven, Yarn};
@@ -72,6 +74,28 @@ fn a_forced_step_that_is_not_stable_is_refused_at_once() {
         problem.settings.dt_s = Some(wrong);
         says(&refused(&problem), &["step"]);
     }
+}
+
+#[test]
+fn a_run_of_so_few_steps_that_no_guard_looks_is_refused() {
+    let mut problem = plate();
+    problem.settings.mass_scaling = MassScaling::Fixed(1e6);
+    problem.settings.end_s = 0.1;
+    says(&refused(&problem), &["cannot follow a motion in ", "64 steps", "mass_scaling"]);
+    problem.settings.mass_scaling = MassScaling::Fixed(1e3);
+    assert!(Simulation::new(&problem).is_ok());
+}
+
+#[test]
+fn a_run_that_has_not_begun_misses_nothing_whatever_it_starts_with() {
+    let mut problem = plate();
+    problem.sections[0].rest_curvature = true;
+    let bump = |[x, y, _]: [f64; 3]| [x, y, 0.1 * x * x];
+    problem.mesh.start = std::mem::take(&mut problem.mesh.points);
+    problem.mesh.points = problem.mesh.start.iter().map(|p| bump(*p)).collect();
+    let ledger = Simulation::new(&problem).unwrap().ledger();
+    let stored: f64 = ledger.rows.iter().map(|row| row.energy_j).sum();
+    assert!(stored > 0.0 && ledger.residual_j == 0.0, "{ledger:?}");
 }
 
 #[test]
@@ -165,7 +189,12 @@ fn a_shape_that_is_that_of_hourglass_control_is_no_result_unless_it_is_allowed()
     let (much, Err(error)) = judged(0.1, None) else { panic!("not stopped") };
     says(
         &error.to_string(),
-        &[&format!("{:.0} % of the stored energy", 100.0 * much), "limit 15 %", "guard_hourglass"],
+        &[
+            &format!("{:.0} % of the stored energy", 100.0 * much),
+            "allowed up to 15 %",
+            "tension-field",
+            "guard_hourglass",
+        ],
     );
     assert!(judged(0.1, Some(1.0)).1.is_ok());
     let (little, fine) = judged(0.0, None);

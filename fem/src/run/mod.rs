@@ -36,6 +36,7 @@ use crate::sheet::Sheet;
 use crate::sheet::order::Order;
 use crate::{FemError, Mesh, Problem, Transient};
 use constraint::{Body, Driven};
+pub(crate) use guard::LESS_HOURGLASS;
 use reaction::Reactions;
 use selective::Selective;
 pub(crate) use selective::gain;
@@ -351,7 +352,10 @@ impl Simulation {
         if !self.driven.is_empty() {
             rows.push(row("supports", Account::Load, RowKind::Supplied, self.books.support.sum));
         }
-        Ledger::close(self.books.kinetic, rows, self.books.start, self.books.scale)
+        // Before the first step, what terms store already is the energy of the start.
+        let stored = rows.iter().filter(|r| r.kind == RowKind::Stored).map(|r| r.energy_j);
+        let start = if self.clock.step == 0 { stored.sum() } else { self.books.start };
+        Ledger::close(self.books.kinetic, rows, start, self.books.scale)
     }
 
     /// The same with the energy of compressed sheets apart from that of the membranes; dearer, for what is read now and then.

@@ -288,12 +288,14 @@ fn choose_step(stable_s: f64, settings: &Settings) -> Result<f64, FemError> {
              smallest elements, or raise masses with mass_scaling"
         )));
     }
-    let (steps, least) = (settings.end_s / dt, policy::FEWEST_STEPS);
-    if policy::is_too_short(steps) {
+    let steps = settings.end_s / dt;
+    let raised = matches!(settings.mass_scaling, MassScaling::Fixed(_));
+    if steps < 1.0 || raised && policy::is_too_short(steps) {
         return Err(FemError::Problem(format!(
-            "cannot follow a motion in {steps:.1} steps: the step is {dt:.3e} s and end_s is {} s (allowed: {least} steps or more). \
-             Try: a longer end_s, a smaller mass_scaling or target_step_s, or smaller elements",
-            settings.end_s
+            "cannot follow a motion in {steps:.1} steps: the step is {dt:.3e} s and end_s is {} s (allowed with mass_scaling: {} steps \
+             or more). Try: a smaller mass_scaling or target_step_s, a longer end_s, or smaller elements",
+            settings.end_s,
+            policy::FEWEST_STEPS
         )));
     }
     Ok(dt)

@@ -5,6 +5,7 @@ use super::watch::{RobotSummary, WatchedRobot};
 use crate::case::Case;
 use crate::policy;
 use crate::record::RecordShape;
+use crate::run::LESS_HOURGLASS;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
@@ -263,7 +264,7 @@ impl Summary {
     pub fn warnings(&self) -> Vec<String> {
         let mut found = self.robot.as_ref().map_or(Vec::new(), RobotSummary::warnings);
         if policy::is_warped(self.hourglass_share) {
-            found.push(format!("over 5 %, it is no longer small. Try: {}", policy::LESS_HOURGLASS));
+            found.push(format!("over 5 %, it is no longer small. Try: {}", LESS_HOURGLASS));
         }
         let stored = |of: &dyn Fn(&str) -> bool| {
             let rows = self.ledger.iter().filter(|row| row.kind == "stored" && of(&row.name));
@@ -284,7 +285,10 @@ impl Summary {
             ));
         }
         if policy::is_heavy(self.added_mass_share) {
-            found.push("more mass was added than there is: weight and speed are not those of the fabric, and slow motions are late".into());
+            found.push(
+                "more mass was added than there is: speeds are not those of the fabric, and slow motions are late"
+                    .into(),
+            );
         }
         if let Some(Through { nodes, share, first: Some(first) }) = &self.changed_sides {
             found.push(format!(
