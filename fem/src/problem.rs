@@ -1,6 +1,7 @@
 //! What a run needs besides the mesh: sections, chambers, supports, loads, contact, settings.
 
 mod print;
+mod gas;
 pub(crate) mod solid;
 pub(crate) mod start;
 
@@ -9,6 +10,8 @@ pub use crate::amplitude::Amplitude;
 use crate::mesh::Mesh;
 use crate::policy;
 pub use print::{GRAVITY, Loads, force_on, motion_of, pressure_of};
+pub use gas::Gas;
+pub use models::fabrics::Ply;
 
 /// Everything that defines a run.
 #[derive(Debug, Clone)]
@@ -56,9 +59,6 @@ pub struct Section {
     pub rest_curvature: bool,
 }
 
-/// One sheet of a section.
-pub use models::fabrics::Ply;
-
 /// A volume of air with one pressure.
 #[derive(Debug, Clone)]
 pub struct Chamber {
@@ -85,45 +85,6 @@ pub enum Pressure {
         /// The gas and its ways in and out.
         gas: Gas,
     },
-}
-
-/// The gas of a chamber without a supply that sets its pressure.
-///
-/// ```text
-/// dP/dt = n/(V + V_d) · [p_atm (q − C p) − P dV/dt]        P = p + p_atm
-/// ```
-///
-/// | symbol | meaning | unit |
-/// |---|---|---|
-/// | P, p | absolute and gauge pressure | Pa |
-/// | V, V_d | volume of the chamber, dead volume | m³ |
-/// | n | polytropic exponent | – |
-/// | q | inflow, as volume at p_atm and room temperature | m³/s |
-/// | C | leak, as the same volume per gauge pressure | m³/(s Pa) |
-///
-/// Without q and C it is P (V + V_d)ⁿ = const. Valid for an ideal gas that flows at room temperature: exact for n = 1 and for filling
-/// with n = γ; a leaking gas with n > 1 has another temperature, an error of the order of (n − 1) p/p_atm of the leak.
-/// Source: Richer, Hurmuzlu 2000, A high performance pneumatic force actuator system, part I, with one n for all three terms.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Gas {
-    /// Pressure of the surroundings p_atm \[Pa\].
-    pub atmosphere_pa: f64,
-    /// Volume V_d of hose and fittings, which the mesh does not have \[m³\].
-    pub dead_m3: f64,
-    /// n: 1 isothermal (slow), the heat ratio 1.4 adiabatic (fast).
-    pub exponent: f64,
-    /// C \[m³/(s Pa)\].
-    pub leak_m3_s_pa: f64,
-    /// q over time \[m³/s\].
-    pub inflow_m3_s: Amplitude,
-}
-
-impl Default for Gas {
-    /// A constant mass of air at constant temperature, all of it in the chamber.
-    fn default() -> Gas {
-        let inflow_m3_s = Amplitude::Constant(0.0);
-        Gas { atmosphere_pa: 101_325.0, dead_m3: 0.0, exponent: 1.0, leak_m3_s_pa: 0.0, inflow_m3_s }
-    }
 }
 
 /// Nodes whose motion is prescribed.

@@ -143,6 +143,7 @@ pub fn clean(ran: &Ran) -> Result<(), String> {
         "expected a gauge",
         "Take ",
         "Add ",
+        "Try: ",
     ];
     if ran.code != 0 && !remedies.iter().any(|word| told.contains(word)) {
         return Err("no remedy".into());

@@ -39,6 +39,13 @@ impl Problem {
                 }));
             }
             let planes = planes(&self.mesh, &rim, |n, k| held[n as usize][k]);
+            if let Some(k) = (0..3).find(|k| open[*k] && planes[*k].is_empty()) {
+                return Err(FemError::Problem(format!(
+                    "chamber `{chamber}` does not end at a plane perpendicular to {}. Try: open_axis without this letter, or no \
+                     open_axis for a closed chamber",
+                    AXES[k]
+                )));
+            }
             if open == [true; 3] && planes.iter().all(|along| along.len() > 1) {
                 return Err(FemError::Problem(format!(
                     "chamber `{chamber}` ends at two planes or more along each of x, y and z, and its volume cannot be counted. \
@@ -161,10 +168,13 @@ pub(crate) fn warp_fault(mesh: &Mesh, part: &Part, section: &Section) -> Option<
         false => format!("{} in [part.{name}]", fit.join(" or ")),
     };
     let [x, y, z] = warp(i);
-    let whose = if part.warp.is_empty() { "the x axis, which it is without the key warp" } else { "its direction" };
+    let direction = match part.warp.is_empty() {
+        true => "x, its direction without the key warp,".to_string(),
+        false => format!("its direction ({x}, {y}, {z})"),
+    };
     let what = crate::mesh::check::describe(part, i);
     let message = format!(
-        "cannot lay the warp of part `{name}` onto {what}: {whose} ({x}, {y}, {z}) is along the normal there, within one degree"
+        "cannot lay the warp of part `{name}` onto {what}: {direction} is along the normal there, within one degree"
     );
     Some((message, help))
 }

@@ -6,7 +6,7 @@ use super::Element;
 use crate::mesh::Mesh;
 use crate::mesh::check::{planes, rim};
 use crate::policy;
-use crate::problem::{Chamber, Gas, Pressure};
+use crate::problem::{Chamber, Pressure};
 use crate::vec3::{add, cross, node, scale, sub};
 
 /// A chamber while a run goes on.
@@ -185,27 +185,3 @@ impl Air {
         }
     }
 }
-
-impl Gas {
-    /// Gauge pressure \[Pa\] at sealing, and what is conserved from then on.
-    fn sealed(&self, pressure_pa: f64, all_m3: f64, t: f64) -> (f64, Option<(f64, f64)>) {
-        let content = (pressure_pa + self.atmosphere_pa) * all_m3.powf(self.exponent);
-        (pressure_pa, Some((content, t)))
-    }
-
-    /// The same after the gas had the volume and flowed from `before_s` to `t`: exact at constant volume and inflow.
-    fn flows(&self, content: f64, all_m3: f64, before_s: f64, t: f64) -> (f64, Option<(f64, f64)>) {
-        let power = all_m3.powf(self.exponent);
-        let closed_pa = content / power - self.atmosphere_pa;
-        let (leak, dt) = (self.leak_m3_s_pa, t - before_s);
-        let rate = self.exponent * self.atmosphere_pa / all_m3 * dt;
-        let faded = if leak > 0.0 { -(-rate * leak).exp_m1() / leak } else { rate };
-        let flow = self.inflow_m3_s.at(t - 0.5 * dt) - leak * closed_pa;
-        let pressure_pa = closed_pa + flow * faded;
-        (pressure_pa, Some(((pressure_pa + self.atmosphere_pa) * power, t)))
-    }
-}
-
-#[cfg(test)]
-#[path = "chamber_tests.rs"]
-mod tests;
