@@ -3,14 +3,23 @@
 
 /// Energy residual over external work that stops a run.
 pub const RESIDUAL: f64 = 0.02;
-/// The residual is not judged before this much work went in \[J\].
-pub const RESIDUAL_FLOOR_J: f64 = 1e-6;
+/// Share of the energy that the loads of a run can turn over, which the residual is judged against at least: elements that start
+/// strained lose a part of that energy in the first steps, while pressures are still near zero.
+pub const TURNED_OVER: f64 = 5e-3;
+/// Uniform strain of all fabric whose energy it is judged against at least: far above rounding, far below any load.
+pub const STRAIN_FLOOR: f64 = 1e-5;
 /// Share of the nodes in contact that may change side of a layer.
 pub const SIDES: f64 = 0.05;
 /// Share of the stored energy that hourglass control may hold at the end.
 pub const HOURGLASS: f64 = 0.15;
 /// Share of it that is warned of.
 pub const HOURGLASS_WARNED: f64 = 0.05;
+/// Remedy for both: a hundredth of the coefficient alone does not help a film that carries compression, whose pleats are as long as
+/// elements.
+pub const LESS_HOURGLASS: &str = "for a sheet that pleats, law = \"tension-field\" with the same moduli and a hundredth of hourglass; \
+    else a tenth of hourglass or smaller elements";
+/// Share of the stored energy in contact at the end that is warned of: layers that lie on each other hold next to none.
+pub const CAUGHT: f64 = 0.05;
 /// Share of its reference area below which an element counts as collapsed.
 pub const COLLAPSED: f64 = 1e-4;
 /// A mesh longer than this was hardly meant in metres \[m\].
@@ -35,6 +44,8 @@ pub const VALLEY: f64 = 0.5;
 pub const SMALLEST_DROP: f64 = 0.005;
 /// Fewest rows of elements between two welds.
 pub const FEWEST_ROWS: usize = 4;
+/// Fewest steps of a run: guards look every 64 steps, so a shorter one is never judged.
+pub const FEWEST_STEPS: f64 = 64.0;
 /// More outputs than this fill a disk before they help.
 pub const MOST_OUTPUTS: f64 = 100_000.0;
 /// Largest number of nodes a generator makes: a slip in a count is a message, not a full memory.
@@ -66,6 +77,11 @@ pub fn is_coarse(median_side_m: f64) -> bool {
 /// Whether contact is a likely cause of a stop, of its share of the stored energy.
 pub fn is_pressed(share: f64) -> bool {
     share > PRESSED
+}
+
+/// Whether layers are caught in each other at the end, of the share of the stored energy that contact holds.
+pub fn is_caught(share: f64) -> bool {
+    share > CAUGHT
 }
 
 /// Whether more mass was added than there is.
@@ -114,6 +130,11 @@ pub fn is_fine(rows: usize) -> bool {
     rows >= FEWEST_ROWS
 }
 
+/// Whether a run has too few steps to follow any motion.
+pub fn is_too_short(steps: f64) -> bool {
+    steps < FEWEST_STEPS
+}
+
 /// Whether a node starts inside an obstacle \[m\].
 pub fn is_inside(depth_m: f64) -> bool {
     depth_m > TOUCHING_M
@@ -143,6 +164,7 @@ mod tests {
     fn a_mesh_is_refused_by_what_no_robot_is() {
         turns_at(0.5, is_coarse);
         turns_at(1e-5, is_inside);
+        turns_at(64.0, |steps| !is_too_short(steps));
         turns_at(1e-9, |area| is_area(area, 1.0));
         assert!(!is_area(f64::INFINITY, 1.0));
         turns_at(0.0175, is_in_sheet);
@@ -157,6 +179,7 @@ mod tests {
         turns_at(0.2, is_pressed);
         turns_at(1.0, is_heavy);
         turns_at(0.05, is_warped);
+        turns_at(0.05, is_caught);
     }
 
     #[test]

@@ -242,8 +242,6 @@ pub enum MassScaling {
 pub struct Guards {
     /// Energy residual over external work that stops the run (0.02).
     pub residual: f64,
-    /// Do not judge the residual before this much work went in \[J\].
-    pub residual_floor_j: f64,
     /// Speed that no physics here explains \[m/s\]; 0: the speed of sound in the stiffest fabric.
     pub speed_m_s: f64,
     /// Stop at an element that lost its area or turned inside out.
@@ -258,7 +256,6 @@ impl Default for Guards {
     fn default() -> Guards {
         Guards {
             residual: policy::RESIDUAL,
-            residual_floor_j: policy::RESIDUAL_FLOOR_J,
             speed_m_s: 0.0,
             inverted: true,
             sides: policy::SIDES,

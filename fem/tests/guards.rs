@@ -157,7 +157,6 @@ fn a_shape_that_is_that_of_hourglass_control_is_no_result_unless_it_is_allowed()
     let judged = |hourglass: f64, limit: Option<f64>| {
         let mut problem = pillow(1e3);
         (problem.settings.mass_damping_1_s, problem.settings.hourglass) = (300.0, hourglass);
-        problem.settings.guards.residual_floor_j = 1e-3;
         limit.into_iter().for_each(|limit| problem.settings.guards.hourglass = limit);
         let mut run = Simulation::new(&problem).unwrap();
         run.advance_until(0.03, &mut |_| true).unwrap();

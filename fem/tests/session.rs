@@ -11,10 +11,7 @@ use std::path::Path;
 fn small() -> Source {
     let text = fem::case::shipped_case("pillow").unwrap();
     let text = text.replace("elements = 32 ", "elements = 8 ").replace("end_s = 0.15", "end_s = 0.01");
-    Source::new(
-        "pillow",
-        &text.replace("output_every_s = 0.005", "output_every_s = 0.002\nguard_residual_floor_j = 1e-3"),
-    )
+    Source::new("pillow", &text.replace("output_every_s = 0.005", "output_every_s = 0.002"))
 }
 
 fn into(folder: &Path) -> Settings {

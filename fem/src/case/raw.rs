@@ -157,7 +157,6 @@ pub(super) struct RawSettings {
     pub imperfection: Option<Num>,
     pub seed: Option<Spanned<i64>>,
     pub guard_residual: Option<Num>,
-    pub guard_residual_floor_j: Option<Num>,
     pub guard_speed_m_s: Option<Num>,
     pub guard_inverted: Option<bool>,
     pub guard_sides: Option<Num>,

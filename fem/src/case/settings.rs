@@ -28,7 +28,6 @@ const IMPERFECTION: Range = plain(0.0, 0.2, "a share of the element size; 0.001 
 const CONTROL: Range = plain(0.0, 1.0, "share of the stored energy that hourglass control may hold; 0.15 is usual");
 const SIDES: Range = plain(0.0, 1.0, "share of the nodes in contact that may change side of a layer; 0.05 is usual");
 const RESIDUAL: Range = plain(1e-6, 1.0, "energy missing from the balance over the work done; 0.02 is usual");
-const FLOOR: Range = plain(0.0, 1e3, "J; 1e-6 is usual");
 const SPEED: Range = plain(0.0, 1e5, "m/s; 0 is the speed of sound in the stiffest fabric");
 
 /// The paper's run: true masses, 1.1 s; its damping is not printed, 5 1/s is assumed.
@@ -106,8 +105,6 @@ fn guards(raw: &RawSettings) -> Checked<Guards> {
     let usual = Guards::default();
     Ok(Guards {
         residual: optional("guard_residual", &raw.guard_residual, &RESIDUAL)?.unwrap_or(usual.residual),
-        residual_floor_j: optional("guard_residual_floor_j", &raw.guard_residual_floor_j, &FLOOR)?
-            .unwrap_or(usual.residual_floor_j),
         speed_m_s: optional("guard_speed_m_s", &raw.guard_speed_m_s, &SPEED)?.unwrap_or(usual.speed_m_s),
         inverted: raw.guard_inverted.unwrap_or(usual.inverted),
         sides: optional("guard_sides", &raw.guard_sides, &SIDES)?.unwrap_or(usual.sides),

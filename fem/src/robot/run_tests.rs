@@ -283,8 +283,9 @@ fn gravity_weighs_on_the_base_of_a_filled_body_and_its_tip_hangs() {
     let problem = run.problem(&scenario).unwrap();
     let gauge = RobotGauge::new(&scenario, &problem).unwrap();
     let mut body = crate::Simulation::new(&problem).unwrap();
-    body.advance_until(0.25, &mut |_| true).unwrap();
-    let (reading, loads) = (gauge.read(&body).unwrap(), problem.loads_at(0.25));
+    let filled_s = run.holds()[0].time_s;
+    body.advance_until(filled_s, &mut |_| true).unwrap();
+    let (reading, loads) = (gauge.read(&body).unwrap(), problem.loads_at(filled_s));
     let areas = problem.mesh.parts.iter().zip(&problem.sections).map(|(part, section)| {
         let corners = |i: usize| part.nodes(i).iter().map(|n| problem.mesh.points[*n as usize]).collect::<Vec<_>>();
         let area: f64 = (0..part.len()).map(|i| crate::vec3::norm(crate::vec3::area(&corners(i)))).sum();

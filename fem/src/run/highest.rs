@@ -17,6 +17,7 @@ use crate::mesh::Tie;
 use crate::random::gaussian;
 use crate::sheet::Sheet;
 use crate::sheet::tangent::Tangent;
+use crate::vec3::cross;
 
 /// Factor on the estimated frequency: Lanczos comes from below. 80 steps find up to a thousandth more.
 const SURE: f64 = 1.01;
@@ -41,11 +42,12 @@ pub(super) fn gain(
     let inverse = |m: &f64| if *m > 0.0 { 1.0 / m } else { 0.0 };
     let inverse = mass.iter().map(inverse).collect();
     let mut whole = Whole { tangents, rest: others, ties, inverse, selective, rate_1_s: 2.0 / nodes_s };
-    let mut gain = 2.0 / (SURE * whole.highest_1_s2().sqrt() * nodes_s);
+    let start = whole.start(sheet, x);
+    let mut gain = 2.0 / (SURE * whole.highest_1_s2(&start).sqrt() * nodes_s);
     if selective.is_some() && gain > 1.0 {
         // Twice the step is viscosity's half: once more, from a step that is still too short.
         whole.rate_1_s /= gain;
-        gain = 2.0 / (SURE * whole.highest_1_s2().sqrt() * nodes_s);
+        gain = 2.0 / (SURE * whole.highest_1_s2(&start).sqrt() * nodes_s);
     }
     // Not a number, too: the bounds hold then.
     if gain > 1.0 { gain } else { 1.0 }
@@ -82,12 +84,26 @@ impl Whole<'_> {
         self.selective.map_or(u.clone(), |selective| selective.smoothed(&u))
     }
 
+    /// Random forces with a part along every mode, drawn in the axes of the elements: they turn with the mesh, and so do all
+    /// digits of γ but the last.
+    fn start(&self, sheet: &Sheet, x: &[[f64; 4]]) -> Vec<[f64; 4]> {
+        let mut force = vec![[0.0; 4]; x.len()];
+        for (i, item) in sheet.elements.iter().enumerate() {
+            let [f1, f2] = item.deformation(x);
+            let axes = [f1, f2, cross(f1, f2)];
+            for (corner, node) in item.nodes().iter().enumerate().filter(|(_, n)| self.inverse[**n as usize] > 0.0) {
+                for (k, axis) in axes.iter().enumerate() {
+                    let draw = gaussian(0, (12 * i + 3 * corner + k) as u64) / self.inverse[*node as usize];
+                    (0..3).for_each(|c| force[*node as usize][c] += draw * axis[c]);
+                }
+            }
+        }
+        force
+    }
+
     /// The largest eigenvalue, from below.
-    fn highest_1_s2(&self) -> f64 {
-        let draw = |i: usize| [0, 1, 2].map(|k| gaussian(0, (4 * i + k) as u64));
-        let start = |(i, w): (usize, &f64)| if *w > 0.0 { draw(i).map(|d| d / w) } else { [0.0; 3] };
-        let start = self.inverse.iter().enumerate().map(start).map(|[x, y, z]| [x, y, z, 0.0]);
-        let mut v = self.light(&start.collect::<Vec<_>>());
+    fn highest_1_s2(&self, start: &[[f64; 4]]) -> f64 {
+        let mut v = self.light(start);
         let mut pull = self.stiff(&v);
         let mut before = vec![[0.0; 4]; v.len()];
         let (mut diagonal, mut beside, mut largest) = (Vec::new(), Vec::new(), 0.0);

@@ -13,7 +13,8 @@ pub struct Ledger {
     pub residual_j: f64,
     /// Work done from outside so far \[J\].
     pub external_work_j: f64,
-    /// What the residual is judged against: the largest external work, or energy present at the start, so far \[J\].
+    /// What the residual is judged against: the largest external work, or energy present at the start, so far, and at least what
+    /// `run::guard` expects of the loads \[J\].
     pub scale_j: f64,
 }
 
@@ -50,7 +51,7 @@ impl Ledger {
         if all > 0.0 { self.stored_j(|row| row.account == account) / all } else { 0.0 }
     }
 
-    fn stored_j(&self, wanted: impl Fn(&Row) -> bool) -> f64 {
+    pub(super) fn stored_j(&self, wanted: impl Fn(&Row) -> bool) -> f64 {
         let rows = self.rows.iter().filter(|r| r.kind == RowKind::Stored && wanted(r));
         rows.map(|r| r.energy_j).sum()
     }

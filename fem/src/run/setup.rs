@@ -6,9 +6,10 @@ use super::constraint::{Body, Driven, bodies, driven, set};
 use super::reaction::Reactions;
 use super::selective::Selective;
 use super::team::Team;
-use super::{Books, Clock, Limits, Simulation, highest};
+use super::{Books, Clock, Limits, Simulation, guard, highest};
 use crate::contact::Contact;
 use crate::contact::edges::Edges;
+use crate::policy;
 use crate::problem::{MassScaling, Settings};
 use crate::random::gaussian;
 use crate::sheet::Sheet;
@@ -17,9 +18,6 @@ use crate::sheet::reference::bending_stiffness;
 use crate::terms::{Folds, Gravity, NodalForces, Obstacles, RestCurvature, penalty_stiffness_n_m};
 use crate::vec3::{area, norm};
 use crate::{FemError, Mesh, Problem, Transient};
-
-/// Penalty stiffness of obstacles as a share of m/dt².
-const OBSTACLE_SHARE: f64 = 0.1;
 
 impl Simulation {
     /// Prepares a run.
@@ -48,10 +46,11 @@ impl Simulation {
         imperfect(&mut x, &mesh, &order, &fixed, settings.imperfection, settings.seed);
         let bent = bent(problem, &mesh, &sheet);
         let still = Still { fixed: listed(&fixed), carried: carried(problem, &mesh, &driven)? };
-        let Masses { mass, added_mass, gain, dt_s } = masses_and_step(settings, &mesh, &sheet, &bent, &x, &still)?;
+        let Masses { true_mass, mass, added_mass, gain, dt_s } =
+            masses_and_step(settings, &mesh, &sheet, &bent, &x, &still)?;
         let (mass, added_mass, dt_s) = earlier.cloned().unwrap_or((mass, added_mass, dt_s));
         mesh.start = x.iter().map(|x| [x[0], x[1], x[2]]).collect();
-        let terms = terms(problem, &mesh, &mass, dt_s, bent)?;
+        let terms = terms(problem, &mesh, [&true_mass, &mass], dt_s, bent)?;
         let touching = problem.contact.as_ref();
         let contact = touching.map(|c| contact(problem, c, &mesh, &order, &mass, dt_s)).transpose()?;
         sheet.start(x.as_flattened());
@@ -69,7 +68,7 @@ impl Simulation {
             selective: still.selective(settings, &mesh, &mass),
             force: vec![[0.0; 4]; count],
             clock: Clock { step: 0, time_s: 0.0, dt_s, before_s: 0.0, longest_s: dt_s, gain },
-            books: Books::default(),
+            books: Books { scale: guard::least_scale_j(problem, &mesh, &sheet, &true_mass), ..Books::default() },
             limits: limits(settings, &sheet, added_mass),
             team: Some(Team::new(settings.threads)?),
             cpu_s: 0.0,
@@ -95,6 +94,8 @@ impl Simulation {
 
 /// Masses and the first time step.
 struct Masses {
+    /// Before scaling, ties handed over \[kg\].
+    true_mass: Vec<f64>,
     /// After scaling \[kg\].
     mass: Vec<f64>,
     /// What scaling added, over the true mass.
@@ -116,8 +117,8 @@ fn masses_and_step(
     x: &[[f64; 4]],
     still: &Still,
 ) -> Result<Masses, FemError> {
-    let mut mass = sheet.masses(x.len());
-    give_tied_masses(mesh, &mut mass);
+    let mut true_mass = sheet.masses(x.len());
+    give_tied_masses(mesh, &mut true_mass);
     let pose = Pose::nodes(x.as_flattened());
     let mut others = vec![0.0; x.len()];
     bent.iter().for_each(|term| term.stiffness_bound(&pose, &mut others));
@@ -132,11 +133,10 @@ fn masses_and_step(
         let selective = still.selective(settings, mesh, mass);
         (highest::gain(sheet, &mesh.ties, x, others.clone(), mass, nodes, selective.as_ref()), nodes)
     };
-    let true_mass: f64 = mass.iter().sum();
     let scaled = |weight: &f64| {
         let shares: Vec<f64> = bound.iter().zip(&bending).map(|(all, bending)| all + weight * bending).collect();
         // With masses for the shares first: what the whole mesh then gains in step, it does not need in mass.
-        let (mut raised, mut mass) = (mass.clone(), mass.clone());
+        let (mut raised, mut mass) = (true_mass.clone(), true_mass.clone());
         scale_masses(settings, &shares, 1.0, &mut raised);
         let (gain, nodes) = gain(&raised);
         scale_masses(settings, &shares, gain * (nodes / stable_step(&shares, &raised, settings.viscosity)), &mut mass);
@@ -146,11 +146,12 @@ fn masses_and_step(
     let asked = matches!(settings.mass_scaling, MassScaling::TargetStep(_));
     let weights = if asked && settings.mass_passes > 2 { &BENDING[..] } else { &BENDING[..1] };
     let lightest = weights.iter().map(scaled).min_by(|a, b| a.0.total_cmp(&b.0));
-    let (all, mass) = lightest.unwrap_or((true_mass, mass));
-    let added_mass = all / true_mass - 1.0;
+    let alone: f64 = true_mass.iter().sum();
+    let (all, mass) = lightest.unwrap_or((alone, true_mass.clone()));
+    let added_mass = all / alone - 1.0;
     let (gain, nodes) = gain(&mass);
-    let dt_s = choose_step(gain * nodes, settings.cfl, settings.dt_s)?;
-    Ok(Masses { mass, added_mass, gain, dt_s })
+    let dt_s = choose_step(gain * nodes, settings)?;
+    Ok(Masses { true_mass, mass, added_mass, gain, dt_s })
 }
 
 /// What does not move as forces say.
@@ -225,7 +226,7 @@ fn contact(
 fn terms(
     problem: &Problem,
     mesh: &Mesh,
-    mass: &[f64],
+    [true_mass, mass]: [&[f64]; 2],
     dt_s: f64,
     mut terms: Vec<Box<dyn Transient>>,
 ) -> Result<Vec<Box<dyn Transient>>, FemError> {
@@ -233,10 +234,10 @@ fn terms(
         terms.push(Box::new(NodalForces::new(mesh, &problem.forces)?));
     }
     if let Some(gravity) = &problem.gravity {
-        terms.push(Box::new(Gravity::new(gravity, mass)?));
+        terms.push(Box::new(Gravity::new(gravity, true_mass)?));
     }
     if !problem.obstacles.is_empty() {
-        let stiffness = penalty_stiffness_n_m(mass, dt_s, OBSTACLE_SHARE);
+        let stiffness = penalty_stiffness_n_m(mass, dt_s);
         terms.push(Box::new(Obstacles::new(mesh, &problem.obstacles, &stiffness)?));
     }
     Ok(terms)
@@ -268,15 +269,23 @@ fn damped(viscosity: f64) -> f64 {
     (1.0 + viscosity * viscosity).sqrt() - viscosity
 }
 
-fn choose_step(stable_s: f64, cfl: f64, forced_s: Option<f64>) -> Result<f64, FemError> {
-    match forced_s {
-        None => Ok(cfl * stable_s),
-        Some(dt) if dt <= stable_s => Ok(dt),
-        Some(dt) => Err(FemError::Problem(format!(
+fn choose_step(stable_s: f64, settings: &Settings) -> Result<f64, FemError> {
+    let dt = settings.dt_s.unwrap_or(settings.cfl * stable_s);
+    if dt > stable_s {
+        return Err(FemError::Problem(format!(
             "the time step {dt:e} s is not stable: this mesh allows {stable_s:.3e} s. Leave the step out, coarsen the \
              smallest elements, or raise masses with mass_scaling"
-        ))),
+        )));
     }
+    let (steps, least) = (settings.end_s / dt, policy::FEWEST_STEPS);
+    if policy::is_too_short(steps) {
+        return Err(FemError::Problem(format!(
+            "cannot follow a motion in {steps:.1} steps: the step is {dt:.3e} s and end_s is {} s (allowed: {least} steps or more). \
+             Try: a longer end_s, a smaller mass_scaling or target_step_s, or smaller elements",
+            settings.end_s
+        )));
+    }
+    Ok(dt)
 }
 
 fn scale_masses(settings: &Settings, bound: &[f64], gain: f64, mass: &mut [f64]) {

@@ -143,12 +143,13 @@ impl Simulation {
         if let Some(selective) = &mut self.selective {
             selective.carry(&self.moved, &self.v);
         }
-        if self.clock.step == 0 {
-            self.books.start = stored + before;
-        }
         self.books.kinetic = kinetic;
         self.books.stored = stored;
         self.books.damping.add(self.limits.damping_1_s * dv * damped);
+        if self.clock.step == 0 {
+            // The potential of loads, which `stored` has, depends on where the origin is.
+            self.books.start = before + self.ledger().stored_j(|_| true);
+        }
         self.clock.before_s = dt;
         self.clock.time_s += dt;
         self.clock.step += 1;

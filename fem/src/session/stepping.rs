@@ -168,12 +168,10 @@ impl<'a> Running<'a> {
     /// Writes one output.
     fn output(&mut self) -> Result<(), FemError> {
         let record = Record::of(&self.run);
-        // Before the guard judges it, the residual is rounding over next to no work.
-        let judged = record.ledger.scale_j > self.case.problem.settings.guards.residual_floor_j;
         self.balances.push(Balance {
             time_s: record.time_s,
             kinetic_share: record.ledger.kinetic_share(),
-            residual_share: if judged { record.ledger.residual_share() } else { 0.0 },
+            residual_share: record.ledger.residual_share(),
         });
         self.next += 1;
         let Some(files) = &mut self.files else { return Ok(()) };

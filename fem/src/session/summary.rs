@@ -263,8 +263,19 @@ impl Summary {
     pub fn warnings(&self) -> Vec<String> {
         let mut found = self.robot.as_ref().map_or(Vec::new(), RobotSummary::warnings);
         if policy::is_warped(self.hourglass_share) {
-            let rule = "over 5 %, it is no longer small. Compare with smaller elements, or with a tenth of hourglass";
-            found.push(rule.to_string());
+            found.push(format!("over 5 %, it is no longer small. Try: {}", policy::LESS_HOURGLASS));
+        }
+        let stored = |of: &dyn Fn(&str) -> bool| {
+            let rows = self.ledger.iter().filter(|row| row.kind == "stored" && of(&row.name));
+            rows.map(|row| row.energy_j).sum::<f64>()
+        };
+        let contact = stored(&|name| name.ends_with("contact")) / stored(&|_| true);
+        if policy::is_caught(contact) {
+            found.push(format!(
+                "contact holds {:.0} % of the stored energy at the end (usual: below 1 %): layers are caught in each other. Try: edges = \
+                 true in [contact], a slower load, more mass_damping_1_s, or smaller elements",
+                100.0 * contact
+            ));
         }
         if let Some(end) = self.kinetic_share.end.filter(|end| !policy::is_at_rest(*end)) {
             found.push(format!(

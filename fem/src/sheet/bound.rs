@@ -20,13 +20,14 @@ struct At<'a> {
     past: Past,
     /// C₁₁, C₂₂, C₁₂.
     c: [f64; 3],
+    /// Tangent that the step must bear \[N/m\].
+    d: [[f64; 3]; 3],
 }
 
 impl At<'_> {
     /// Bound of the largest eigenvalue of A·Bᵀ D B \[N/m\].
     fn material(&self, element: &Element) -> f64 {
-        let (g, c) = (element.reference.metric(element.corners), self.c);
-        let d = self.fabric.tangent(self.e, &self.past);
+        let (g, c, d) = (element.reference.metric(element.corners), self.c, self.d);
         // B Bᵀ of the strain operator in (E₁₁, E₂₂, 2E₁₂).
         let bb = [
             [c[0] * g[0], c[2] * g[2], c[0] * g[2] + c[2] * g[0]],
@@ -51,33 +52,25 @@ impl At<'_> {
     }
 }
 
-/// Strain that a fabric may go on between two estimates of the step.
+/// Strain by which a fabric may go on or back between two estimates of the step.
 const AHEAD: f64 = 0.01;
 
-/// The stiffest state of what comes next, and its bound: curves stiffen at their rows, a way back may be steeper than the way there, and
-/// a film that is slack comes back taut, at a strain that has no folds. Linear and neo-Hookean fabrics change too little to
-/// look ahead.
+/// The stiffest state of what comes next, and its bound: [`Fabric::steepest`] has curves that stiffen and ways back that are steeper
+/// than the way there, and a film that is slack comes back taut, at a strain that has no folds.
 fn ahead<'a>(item: &Element, here: At<'a>) -> (At<'a>, f64) {
     let bounded = |at: At<'a>| (at, at.all(item));
     let stiffer = |a: (At<'a>, f64), b: (At<'a>, f64)| if b.1 > a.1 { b } else { a };
     if let Kind::WrinklingFilm(wrinkling) = here.fabric.kind() {
         let e = WrinklingFilm::unfolded(here.e);
-        let taut = At { fabric: &wrinkling.film, e, c: [1.0 + 2.0 * e[0], 1.0 + 2.0 * e[1], e[2]], ..here };
+        let d = wrinkling.film.tangent(e, &here.past);
+        let taut = At { fabric: &wrinkling.film, e, c: [1.0 + 2.0 * e[0], 1.0 + 2.0 * e[1], e[2]], d, ..here };
         return stiffer(bounded(here), bounded(taut));
     }
-    if !matches!(here.fabric.kind(), Kind::Other) {
-        return bounded(here);
-    }
-    let e = here.e;
-    let next = [e, [e[0] + AHEAD, e[1] + AHEAD, e[2]], [e[0], e[1], e[2] + AHEAD.copysign(e[2])]];
-    let pasts = [here.past, [0.0; 2]];
-    let pasts = if here.fabric.has_memory() { &pasts[..] } else { &pasts[1..] };
-    let all = next.iter().flat_map(|e| pasts.iter().map(|past| bounded(At { e: *e, past: *past, ..here })));
-    all.fold(bounded(here), stiffer)
+    bounded(here)
 }
 
 /// Larger eigenvalue of the symmetric matrix (a, b; off-diagonal c).
-fn largest(a: f64, b: f64, c: f64) -> f64 {
+pub(crate) fn largest(a: f64, b: f64, c: f64) -> f64 {
     0.5 * (a + b) + (0.25 * (a - b) * (a - b) + c * c).sqrt()
 }
 
@@ -85,7 +78,8 @@ impl Sheet {
     /// η = 2 ξ A/ω \[N s/m\], which makes ξ the damping ratio of an unstrained element's highest mode on its own masses.
     pub(super) fn viscosity_n_s_m(&self, element: &Element) -> f64 {
         let (fabric, area) = (&*self.fabrics[element.part], element.reference.area);
-        let stiffness = At { fabric, e: [0.0; 3], past: [0.0; 2], c: [1.0, 1.0, 0.0] }.all(element);
+        let (e, past) = ([0.0; 3], [0.0; 2]);
+        let stiffness = At { fabric, e, past, c: [1.0, 1.0, 0.0], d: fabric.tangent(e, &past) }.all(element);
         let mass = self.areal_density[element.part] * area / element.corners as f64;
         let rate = (stiffness / mass).sqrt();
         if rate > 0.0 { 2.0 * self.viscosity * mean_stiffness(fabric) / rate } else { 0.0 }
@@ -112,8 +106,7 @@ impl Sheet {
         self.each_ahead(q, bound, |item, (at, _), f| {
             // A film that comes taut is as long as its unfolded strain says.
             let f = [0, 1].map(|k| f[k].map(|x| x * (at.c[k] / dot(f[k], f[k])).sqrt()));
-            let d = at.fabric.tangent(at.e, &at.past);
-            all.push(Tangent::new(item, f, d, self.viscosity_n_s_m(item)));
+            all.push(Tangent::new(item, f, at.d, self.viscosity_n_s_m(item)));
             at.rest(item)
         });
         all
@@ -129,7 +122,8 @@ impl Sheet {
             let f = item.deformation(q);
             let c = [dot(f[0], f[0]), dot(f[1], f[1]), dot(f[0], f[1])];
             let e = [0.5 * (c[0] - 1.0), 0.5 * (c[1] - 1.0), c[2]];
-            let here = At { fabric, e, past: past.get(index).copied().unwrap_or_default(), c };
+            let past = past.get(index).copied().unwrap_or_default();
+            let here = At { fabric, e, past, c, d: fabric.steepest(e, &past, AHEAD) };
             // Follower pressure: ∂(p N n)/∂x is of the order of p times an edge.
             let k = of(item, ahead(item, here), f) + pressure * item.reference.area.sqrt();
             item.nodes().iter().for_each(|n| bound[*n as usize] += k);

@@ -6,11 +6,11 @@
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | m | mass of a node, as it is accelerated (scaled masses included) | kg |
+//! | m | true mass of a node: mass scaling changes how fast a node accelerates, not its weight | kg |
 //! | g | acceleration | m/s² |
 //! | A | amplitude | - |
 //!
-//! **Validity**: uniform field. With scaled masses the weight is scaled too: give the unscaled masses where that matters.
+//! **Validity**: uniform field. A body with scaled masses falls with g over the factor; at rest the factor plays no role.
 
 use models::{Account, LedgerLine, Pose, Row, RowKind, Term};
 
@@ -31,7 +31,7 @@ pub struct Gravity {
 }
 
 impl Gravity {
-    /// Weight of nodes of these masses (solver's node order).
+    /// Weight of nodes of these true masses (solver's node order).
     ///
     /// # Errors
     /// [`FemError::Problem`] for an acceleration that is not finite.

@@ -1,14 +1,15 @@
-//! Rigid solids in the way of the nodes, fixed or moved: frictionless penalty plus Coulomb friction.
+//! Rigid solids in the way of the nodes, fixed or moved: penalty and damping along the normal, Coulomb friction across it.
 //!
 //! ```text
 //! d = (x − P)·n            plane;  d = |r| − R, n = r/|r|, r = (x − P) − a (a·(x − P))    cylinder
-//! E = ½ k (−d)₊² + ½ k |e|²       N = k (−d)₊       |T| = k |e| ≤ μ N
+//! E = ½ k (−d)₊² + ½ k |e|²       N = k (−d)₊ − c ḋ ≥ 0       |T| = k |e| ≤ μ N
 //! P ← P + s(t)      work of the motion: W ← W + ½ (F_new + F_old)·(s_new − s_old)
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | k | penalty stiffness of the node, see [`penalty_stiffness_n_m`](super::penalty_stiffness_n_m) | N/m |
+//! | c | 2 ζ √(k m), ζ = 0.4: a node comes to rest on the solid instead of bouncing, which would end each time it sticks | N·s/m |
 //! | e | elastic slide remembered per node and obstacle | m |
 //! | μ | friction coefficient | - |
 //! | s | displacement of a solid that moves | m |
@@ -30,6 +31,9 @@ use crate::{Tick, Transient};
 
 /// Nodes per parallel chunk.
 const CHUNK: usize = 1024;
+/// c/(k Δt) = 2 ζ/√(k Δt²/m) with ζ = 0.4 and k Δt²/m = [`SHARE`](super::SHARE). Central differences bear 2 c Δt/m = 0.5 beside k
+/// and a mesh at 0.9 of its own limit.
+const DAMPING: f64 = 2.53;
 
 /// All obstacles of a run.
 #[derive(Debug, Clone)]
@@ -37,14 +41,15 @@ pub struct Obstacles {
     solids: Vec<Solid>,
     paths: Vec<Path>,
     stiffness_n_m: Vec<f64>,
-    /// Elastic slide of every node, one block of nodes per obstacle.
-    springs_m: Vec<Vec<[f64; 3]>>,
+    /// Of every node, one block of nodes per obstacle.
+    grips: Vec<Vec<Grip>>,
     /// Positions of the step before; empty before the first step.
     before_m: Vec<[f64; 4]>,
-    /// Energy, loss and force of each chunk.
-    sums: Vec<[f64; 5]>,
+    /// Energies of each chunk, and force on its nodes.
+    sums: Vec<[f64; 6]>,
     stored_j: f64,
-    friction_j: f64,
+    /// Lost by friction and by damping.
+    lost_j: [f64; 2],
     /// Work of solids that move.
     work_j: f64,
 }
@@ -65,6 +70,9 @@ impl Path {
     }
 }
 
+/// What a node remembers of an obstacle: elastic slide \[m\] and force of damping \[N\].
+type Grip = (V3, f64);
+
 impl Obstacles {
     /// Obstacles for the nodes of `mesh` (solver's node order), with a penalty stiffness per node.
     ///
@@ -77,39 +85,39 @@ impl Obstacles {
         }
         let solids = obstacles.iter().enumerate().map(|(i, o)| Solid::new(i, o)).collect::<Result<Vec<_>, _>>()?;
         Ok(Obstacles {
-            springs_m: vec![vec![[0.0; 3]; nodes]; solids.len()],
+            grips: vec![vec![Grip::default(); nodes]; solids.len()],
             paths: obstacles.iter().map(Path::of).collect(),
             solids,
             stiffness_n_m: stiffness_n_m.to_vec(),
             before_m: Vec::new(),
-            sums: vec![[0.0; 5]; nodes.div_ceil(CHUNK)],
+            sums: vec![[0.0; 6]; nodes.div_ceil(CHUNK)],
             stored_j: 0.0,
-            friction_j: 0.0,
+            lost_j: [0.0; 2],
             work_j: 0.0,
         })
     }
     fn solids_as_text(&self) -> String {
         format!("{:?}", self.solids)
     }
-    /// One step of a solid: energy, loss and force on all nodes.
-    fn rub(&mut self, solid: usize, x: &[[f64; 4]], force: &mut [[f64; 4]]) -> [f64; 5] {
+    /// Energy stored and lost by friction and by damping, in this step, and force on all nodes.
+    fn rub(&mut self, solid: usize, x: &[[f64; 4]], force: &mut [[f64; 4]]) -> [f64; 6] {
         let Path { now_m, before_m, .. } = self.paths[solid];
         let (body, before, stiffness) = (&self.solids[solid], &self.before_m, &self.stiffness_n_m);
-        let springs = &mut self.springs_m[solid];
-        force.par_chunks_mut(CHUNK).zip(springs.par_chunks_mut(CHUNK)).zip(&mut self.sums).enumerate().for_each(
-            |(chunk, ((force, springs), sums))| {
-                *sums = [0.0; 5];
-                for (local, (f, spring)) in force.iter_mut().zip(springs).enumerate() {
+        let grips = &mut self.grips[solid];
+        force.par_chunks_mut(CHUNK).zip(grips.par_chunks_mut(CHUNK)).zip(&mut self.sums).enumerate().for_each(
+            |(chunk, ((force, grips), sums))| {
+                *sums = [0.0; 6];
+                for (local, (f, grip)) in force.iter_mut().zip(grips).enumerate() {
                     let i = chunk * CHUNK + local;
                     let [at, was] = [from(&x[i], now_m), from(&before[i], before_m)];
                     let others = *f;
-                    let [energy, lost] = body.step(&at, &was, stiffness[i], spring, f);
-                    let own = [energy, lost, f[0] - others[0], f[1] - others[1], f[2] - others[2]];
-                    (0..5).for_each(|k| sums[k] += own[k]);
+                    let energies = body.step(&at, &was, stiffness[i], grip, f);
+                    (0..3).for_each(|k| sums[k] += energies[k]);
+                    (0..3).for_each(|k| sums[3 + k] += f[k] - others[k]);
                 }
             },
         );
-        self.sums.iter().fold([0.0; 5], |sum, s| std::array::from_fn(|k| sum[k] + s[k]))
+        self.sums.iter().fold([0.0; 6], |sum, s| std::array::from_fn(|k| sum[k] + s[k]))
     }
 }
 
@@ -125,8 +133,8 @@ impl Term for Obstacles {
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
         let (x, force) = (at.q.as_chunks::<4>().0, force.as_chunks_mut::<4>().0);
         let mut energy_j = 0.0;
-        for ((solid, springs), path) in self.solids.iter().zip(&self.springs_m).zip(&self.paths) {
-            for (i, (f, spring)) in force.iter_mut().zip(springs).enumerate() {
+        for ((solid, grips), path) in self.solids.iter().zip(&self.grips).zip(&self.paths) {
+            for (i, (f, (spring, _))) in force.iter_mut().zip(grips).enumerate() {
                 let at = from(&x[i], path.now_m);
                 // After a step the places before are those of this moment.
                 let before = self.before_m.get(i).map_or(at, |before| from(before, path.now_m));
@@ -147,9 +155,10 @@ impl Transient for Obstacles {
         let mut energy_j = 0.0;
         for solid in 0..self.solids.len() {
             self.paths[solid].now_m = self.paths[solid].obstacle.moved_m(tick.time_s);
-            let [energy, lost, fx, fy, fz] = self.rub(solid, x, force);
+            let [energy, friction, damping, fx, fy, fz] = self.rub(solid, x, force);
             energy_j += energy;
-            self.friction_j += lost;
+            self.lost_j[0] += friction;
+            self.lost_j[1] += damping;
             let Path { now_m, before_m, force_n, .. } = &mut self.paths[solid];
             if !first {
                 self.work_j += 0.5 * dot(add([fx, fy, fz], *force_n), sub(*now_m, *before_m));
@@ -164,15 +173,16 @@ impl Transient for Obstacles {
     fn ledger(&self, at: &Pose) -> Vec<Row> {
         let first = self.before_m.is_empty();
         let stored = if first { self.add(at, &mut vec![0.0; at.q.len()]) } else { self.stored_j };
+        let lost = |name, lost_j| LedgerLine { name, account: Account::Load }.row(RowKind::Dissipated, lost_j);
+        let [friction_j, damping_j] = self.lost_j;
+        let moves = self.paths.iter().any(|path| path.obstacle.motion.is_some());
+        let motion = LedgerLine { name: "obstacle motion", account: Account::Load };
         let mut rows = vec![
             self.line().row(RowKind::Stored, stored),
-            LedgerLine { name: "obstacle friction", account: Account::Load }.row(RowKind::Dissipated, self.friction_j),
+            lost("obstacle friction", friction_j),
+            lost("obstacle damping", damping_j),
         ];
-        if self.paths.iter().any(|path| path.obstacle.motion.is_some()) {
-            rows.push(
-                LedgerLine { name: "obstacle motion", account: Account::Load }.row(RowKind::Supplied, self.work_j),
-            );
-        }
+        rows.extend(moves.then(|| motion.row(RowKind::Supplied, self.work_j)));
         rows
     }
     fn stiffness_bound(&self, at: &Pose, bound: &mut [f64]) {
@@ -187,31 +197,19 @@ impl Transient for Obstacles {
     }
     fn save(&self) -> Vec<u8> {
         let paths: Vec<_> = self.paths.iter().map(|p| [p.now_m, p.before_m, p.force_n]).collect();
-        pack(&(
-            self.solids_as_text(),
-            self.stored_j,
-            self.friction_j,
-            self.work_j,
-            &self.before_m,
-            &self.springs_m,
-            paths,
-        ))
+        pack(&(self.solids_as_text(), [self.stored_j, self.work_j], self.lost_j, &self.before_m, &self.grips, paths))
     }
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let Some((solids, stored_j, friction_j, work_j, before_m, springs_m, paths)) = unpack::<Saved>(saved) else {
+        let Some((solids, [stored_j, work_j], lost_j, before_m, grips, paths)) = unpack::<Saved>(saved) else {
             return false;
         };
-        let lengths = |springs: &[Vec<V3>]| springs.iter().map(Vec::len).collect::<Vec<_>>();
+        let lengths = |grips: &[Vec<Grip>]| grips.iter().map(Vec::len).collect::<Vec<_>>();
         let fits = before_m.is_empty() || before_m.len() == self.stiffness_n_m.len();
-        if !fits
-            || solids != self.solids_as_text()
-            || lengths(&springs_m) != lengths(&self.springs_m)
-            || paths.len() != self.paths.len()
-        {
+        if !fits || solids != self.solids_as_text() || lengths(&grips) != lengths(&self.grips) {
             return false;
         }
-        (self.stored_j, self.friction_j, self.work_j) = (stored_j, friction_j, work_j);
-        (self.before_m, self.springs_m) = (before_m, springs_m);
+        (self.stored_j, self.work_j, self.lost_j) = (stored_j, work_j, lost_j);
+        (self.before_m, self.grips) = (before_m, grips);
         for (path, saved) in self.paths.iter_mut().zip(paths) {
             [path.now_m, path.before_m, path.force_n] = saved;
         }
@@ -219,29 +217,43 @@ impl Transient for Obstacles {
     }
 }
 
-/// Solids, stored and lost energy, work of the motion, positions before, springs, ways.
-type Saved = (String, f64, f64, f64, Vec<[f64; 4]>, Vec<Vec<V3>>, Vec<[V3; 3]>);
+/// Solids, energy stored and work, energies lost, positions before, memory of the nodes, ways.
+type Saved = (String, [f64; 2], [f64; 2], Vec<[f64; 4]>, Vec<Vec<Grip>>, Vec<[V3; 3]>);
 
 impl Solid {
-    /// One step: force, energy and loss; the spring is updated.
+    /// One step: force, energy stored and lost by friction and by damping; the memory is updated. Damping has what the normal
+    /// force did in the step less what the penalty stores: with it what a step takes or gives that begins or ends outside.
     #[inline]
-    fn step(&self, x: &[f64; 4], before: &[f64; 4], k: f64, spring: &mut V3, force: &mut [f64; 4]) -> [f64; 2] {
+    fn step(&self, x: &[f64; 4], before: &[f64; 4], k: f64, grip: &mut Grip, force: &mut [f64; 4]) -> [f64; 3] {
         let touch = self.touch(x);
-        if touch.depth_m <= 0.0 && *spring == [0.0; 3] {
-            return [0.0; 2];
+        if touch.depth_m <= 0.0 && *grip == Grip::default() {
+            return [0.0; 3];
         }
-        let normal_n = k * touch.depth_m.max(0.0);
-        let mut lost = 0.0;
+        let (spring, damped_n) = grip;
+        let last_m = self.touch(before).depth_m;
+        let (deep, was, closed) = (touch.depth_m.max(0.0), last_m.max(0.0), touch.depth_m - last_m);
+        let damped_before_n = *damped_n;
+        // The solid does not pull: damping takes no more than the penalty gives.
+        *damped_n = if deep > 0.0 { k * (DAMPING * closed).max(-deep) } else { 0.0 };
+        let work = 0.5 * (*damped_n + damped_before_n + k * (deep + was)) * closed;
+        let damping = work - 0.5 * k * (deep * deep - was * was);
+        let (normal_n, mut friction) = (k * deep + *damped_n, 0.0);
         if self.friction > 0.0 {
-            (*spring, lost) = slide(*spring, moved(x, before), touch.normal, k, self.friction * normal_n);
+            (*spring, friction) = slide(*spring, moved(x, before), touch.normal, k, self.friction * normal_n);
         }
         push(force, normal_n, touch.normal, k, spring);
-        [0.5 * k * (touch.depth_m.max(0.0).powi(2) + dot(*spring, *spring)), lost]
+        [0.5 * k * (deep * deep + dot(*spring, *spring)), friction, damping]
     }
-    /// Force and energy at a pose, with the spring moved there from where it was remembered; nothing is remembered.
+    /// Force and energy at a pose without damping, with the spring moved there from where it was remembered; nothing is
+    /// remembered.
     fn hold(&self, x: &[f64; 4], before: &[f64; 4], k: f64, spring: &V3, force: &mut [f64; 4]) -> f64 {
-        let mut spring = *spring;
-        self.step(x, before, k, &mut spring, force)[0]
+        let touch = self.touch(x);
+        let (deep, mut spring) = (touch.depth_m.max(0.0), *spring);
+        if self.friction > 0.0 {
+            spring = slide(spring, moved(x, before), touch.normal, k, self.friction * k * deep).0;
+        }
+        push(force, k * deep, touch.normal, k, &spring);
+        0.5 * k * (deep * deep + dot(spring, spring))
     }
 }
 

@@ -31,9 +31,10 @@ impl Block {
         }
         self.step += 1;
     }
-    fn rows(&self) -> [f64; 2] {
+    /// Stored, lost by friction, by damping.
+    fn rows(&self) -> [f64; 3] {
         let rows = self.term.ledger(&Pose::nodes(&self.x));
-        [rows[0].energy_j, rows[1].energy_j]
+        [0, 1, 2].map(|row: usize| rows[row].energy_j)
     }
 }
 
@@ -67,15 +68,15 @@ fn a_block_on_an_incline_slides_with_the_acceleration_of_coulomb() {
     }
     let exact = G * (angle.sin() - friction * angle.cos());
     assert!((block.v[0] / 1.0 - exact).abs() < 0.01 * exact, "{} against {exact} m/s", block.v[0]);
-    let [stored, lost] = block.rows();
+    let [stored, lost, damping] = block.rows();
     let work = block.pull[0] * block.x[0];
     let kinetic = 0.5 * block.v[0] * block.v[0];
-    assert!((work - kinetic - lost - stored).abs() < 2e-3 * work, "{work} {kinetic} {lost} {stored}");
+    assert!((work - kinetic - lost - stored - damping).abs() < 2e-3 * work, "{work} {kinetic} {lost} {stored}");
     assert!((lost - friction * G * angle.cos() * block.x[0]).abs() < 2e-3 * lost);
 }
 
 #[test]
-fn a_ball_bounces_from_a_plane_as_high_as_it_fell_from() {
+fn a_node_that_fell_on_a_plane_comes_to_rest_on_it_and_damping_has_its_energy() {
     let plane = ObstacleShape::Plane { point: [0.0; 3], normal: [0.0, 0.0, 2.0] };
     let mut ball = Block {
         term: term(plane, 0.0, &[K]),
@@ -85,14 +86,19 @@ fn a_ball_bounces_from_a_plane_as_high_as_it_fell_from() {
         step: 0,
     };
     let (mut lowest, mut highest): (f64, f64) = (1.0, 0.0);
-    for _ in 0..3000 {
+    for _ in 0..5000 {
         ball.step();
         lowest = lowest.min(ball.x[2]);
         highest = if lowest < 0.0 { highest.max(ball.x[2]) } else { 0.0 };
     }
     let speed = (2.0 * G * 0.1_f64).sqrt();
-    assert!(-lowest < 1.1 * speed / K.sqrt(), "depth {lowest}");
-    assert!((highest - 0.1).abs() < 0.1 * 0.05, "{highest}");
+    assert!(-lowest < speed / K.sqrt(), "depth {lowest}");
+    // A dashpot of 0.4 of critical that does not pull returns a third of the speed.
+    assert!((0.005..0.02).contains(&highest), "{highest}");
+    assert!((ball.x[2] + G / K).abs() < 1e-3 * G / K && ball.v[2].abs() < 1e-9, "{} {}", ball.x[2], ball.v[2]);
+    let fallen = G * (0.1 - ball.x[2]);
+    let [stored, _, damping] = ball.rows();
+    assert!((stored + damping - fallen).abs() < 2e-3 * fallen, "{stored} + {damping} of {fallen}");
 }
 
 #[test]
@@ -177,14 +183,14 @@ fn the_work_of_an_obstacle_that_moves_is_kinetic_potential_stored_and_lost_energ
         if step % 1000 == 999 {
             // The ledger is of the last force, half a step of motion before.
             let rows = block.term.ledger(&Pose::nodes(&block.x));
-            let [stored, lost, work] = [0, 1, 2].map(|k| rows[k].energy_j);
+            let sum = |kind: RowKind| rows.iter().filter(|r| r.kind == kind).map(|r| r.energy_j).sum::<f64>();
+            let [stored, lost, work] = [RowKind::Stored, RowKind::Dissipated, RowKind::Supplied].map(sum);
             let kinetic: f64 = 0.5 * block.v.iter().map(|v| v * v).sum::<f64>();
             let gained = kinetic + G * (block.x[2] - start) + (stored - 0.5 * G * G / K) + lost;
             assert!((work - gained).abs() < 2e-3 * (lost + 0.05 * G), "{step}: {work} {gained} {lost}");
-            assert_eq!(rows[2].kind, RowKind::Supplied);
         }
     }
     // The plate outruns the block, which Coulomb's force accelerates and stops again.
-    assert!(fastest > 0.2 && fastest < 1.0 && block.v[0].abs() < 1e-2, "{fastest} {:?}", block.v);
+    assert!(fastest > 0.2 && fastest < 1.0 && block.x[0] > 0.1 && block.x[0] < 0.35, "{fastest} {:?}", block.x);
     assert!((block.x[2] - start - 0.05).abs() < 1e-3, "{}", block.x[2]);
 }

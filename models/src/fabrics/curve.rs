@@ -63,6 +63,12 @@ impl Curve {
         self.piece(x).slope
     }
 
+    /// Largest slope between two places.
+    pub fn steepest(&self, from: f64, to: f64) -> f64 {
+        let [first, last] = [from, to].map(|x| self.rows.partition_point(|r| r[0] < x));
+        self.pieces[first..=last].iter().fold(0.0, |most, p| f64::max(most, p.slope))
+    }
+
     /// ∫₀ˣ y dx, never negative.
     pub fn integral(&self, x: f64) -> f64 {
         let p = self.piece(x);
@@ -224,6 +230,9 @@ mod tests {
         }
         assert!((c.initial_slope() - 10.0).abs() < 1e-12 && (c.last_slope() - 40.0).abs() < 1e-12);
         assert!((c.slope_range()[0] - 10.0).abs() < 1e-12 && (c.slope_range()[1] - 40.0).abs() < 1e-12);
+        for (from, to, steepest) in [(0.01, 0.1, 10.0), (-0.05, 0.1, 30.0), (0.19, 0.21, 40.0), (0.4, 0.5, 40.0)] {
+            assert!((c.steepest(from, to) - steepest).abs() < 1e-12, "{from} to {to}");
+        }
     }
 
     #[test]

@@ -107,6 +107,16 @@ impl Laminate {
         let plies: Vec<_> = plies.into_iter().map(|p| (p.fabric, Turn::new(p.angle_rad))).collect();
         Ok(Laminate { mixed: Mixed::of(&plies), film: film_of(&plies), plies })
     }
+
+    /// The plies' tangents at their own strains, turned into the laminate's axes and added.
+    fn sum(&self, e: [f64; 3], of: impl Fn(&dyn Fabric, [f64; 3]) -> [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+        let mut sum = [[0.0; 3]; 3];
+        for (fabric, turn) in &self.plies {
+            let turned = turn.tangent(&of(&**fabric, turn.strain(e)));
+            sum = std::array::from_fn(|i| std::array::from_fn(|j| sum[i][j] + turned[i][j]));
+        }
+        sum
+    }
 }
 
 /// Wrinkling films of one share are one film; `None` if a ply is something else.
@@ -174,12 +184,11 @@ impl Fabric for Laminate {
     }
 
     fn tangent(&self, e: [f64; 3], past: &Past) -> [[f64; 3]; 3] {
-        let mut sum = [[0.0; 3]; 3];
-        for (fabric, turn) in &self.plies {
-            let turned = turn.tangent(&fabric.tangent(turn.strain(e), past));
-            sum = std::array::from_fn(|i| std::array::from_fn(|j| sum[i][j] + turned[i][j]));
-        }
-        sum
+        self.sum(e, |fabric, e| fabric.tangent(e, past))
+    }
+
+    fn steepest(&self, e: [f64; 3], past: &Past, reach: f64) -> [[f64; 3]; 3] {
+        self.sum(e, |fabric, e| fabric.steepest(e, past, reach))
     }
 
     fn has_memory(&self) -> bool {

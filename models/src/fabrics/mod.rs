@@ -24,6 +24,7 @@ pub mod specimen;
 mod tension_field;
 mod woven;
 mod wrinkling_film;
+mod yarn;
 
 pub use bias_extension::BiasExtension;
 pub use curve::Curve;
@@ -34,8 +35,9 @@ pub use orthotropic::{Orthotropic, shear_modulus};
 pub use pull::Pull;
 pub use recipe::{CurveInput, Law, Need, Parameter, Recipe};
 pub use tension_field::TensionField;
-pub use woven::{Woven, Yarn};
+pub use woven::Woven;
 pub use wrinkling_film::WrinklingFilm;
+pub use yarn::Yarn;
 
 use std::fmt::Debug;
 
@@ -82,6 +84,12 @@ pub trait Fabric: Send + Sync + Debug {
             }
         }
         columns
+    }
+
+    /// A tangent that none exceeds, in stiffness, at strains within `reach` of `e` and on the way back from them \[N/m\]: what a
+    /// time step must bear. The tangent itself unless a law stiffens in between.
+    fn steepest(&self, e: [f64; 3], past: &Past, _reach: f64) -> [[f64; 3]; 3] {
+        self.tangent(e, past)
     }
 
     /// True if [`Fabric::remember`] does something.

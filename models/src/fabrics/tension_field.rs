@@ -209,6 +209,10 @@ impl Fabric for TensionField {
         };
         std::array::from_fn(|i| std::array::from_fn(|j| (1.0 - self.share) * own[i][j] + self.share * full[i][j]))
     }
+
+    fn steepest(&self, e: [f64; 3], past: &Past, _reach: f64) -> [[f64; 3]; 3] {
+        self.sheet.tangent(e, past)
+    }
 }
 
 /// What a point of the sheet does.

@@ -34,7 +34,7 @@ use std::sync::Arc;
 
 use super::orthotropic::{coupling_fits, shear_modulus};
 use super::recipe::{CurveInput, Law, Need, Parameter, Recipe, THICKNESS, Values, modulus, ratio};
-use super::{BiasExtension, Curve, Fabric, Past};
+use super::{BiasExtension, Curve, Fabric, Past, Yarn};
 
 pub(super) const ENTRY: Law = Law {
     name: "woven",
@@ -87,13 +87,6 @@ pub(super) const ENTRY: Law = Law {
     make: |recipe| Ok(Arc::new(from_values(&ENTRY.read(recipe)?)?)),
 };
 
-/// One yarn family.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Yarn {
-    load: Curve,
-    unload: Option<Curve>,
-}
-
 /// Woven fabric.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Woven {
@@ -101,68 +94,6 @@ pub struct Woven {
     yarns: [Yarn; 2],
     shear: Curve,
     coupling_pa: f64,
-}
-
-impl Yarn {
-    /// Stress over nominal strain \[Pa\], and the shape of the way back if it differs.
-    ///
-    /// # Errors
-    /// An unloading curve with rows below zero, or one that would create energy: unloading over loading stress must not fall
-    /// with strain.
-    pub fn new(load: Curve, unload: Option<Curve>) -> Result<Yarn, String> {
-        if let Some(back) = &unload {
-            loses_energy(&load, back)?;
-        }
-        Ok(Yarn { load, unload })
-    }
-
-    /// Stress \[Pa\].
-    fn stress(&self, strain: f64, past: f64) -> f64 {
-        match &self.unload {
-            Some(back) if strain > 0.0 && strain < past => self.scale(back, past) * back.value(strain),
-            _ => self.load.value(strain),
-        }
-    }
-
-    /// dT/dε \[Pa\].
-    fn slope(&self, strain: f64, past: f64) -> f64 {
-        match &self.unload {
-            Some(back) if strain > 0.0 && strain < past => self.scale(back, past) * back.slope(strain),
-            _ => self.load.slope(strain),
-        }
-    }
-
-    /// Recoverable energy per volume \[J/m³\].
-    fn energy(&self, strain: f64, past: f64) -> f64 {
-        match &self.unload {
-            Some(back) if strain > 0.0 && strain < past => self.scale(back, past) * back.integral(strain),
-            Some(_) if strain > 0.0 => self.load.integral(strain) - self.lost(past),
-            _ => self.load.integral(strain),
-        }
-    }
-
-    /// D(ε*) \[J/m³\].
-    fn lost(&self, past: f64) -> f64 {
-        match &self.unload {
-            Some(back) if past > 0.0 => {
-                (self.load.integral(past) - self.scale(back, past) * back.integral(past)).max(0.0)
-            }
-            _ => 0.0,
-        }
-    }
-
-    fn scale(&self, back: &Curve, past: f64) -> f64 {
-        self.load.value(past) / back.value(past)
-    }
-
-    /// A slope that the stress never undercuts, loading or unloading. T(ε*)/u(ε*) falls towards the ratio of the last slopes.
-    fn least_slope(&self) -> f64 {
-        let load = self.load.slope_range()[0];
-        match &self.unload {
-            Some(back) => load.min(back.slope_range()[0] * self.load.last_slope() / back.last_slope()),
-            None => load,
-        }
-    }
 }
 
 impl Woven {
@@ -192,6 +123,23 @@ impl Woven {
     }
 }
 
+impl Woven {
+    /// ∂S/∂e with these slopes of the yarns' curves and of shear.
+    fn stiffness(&self, yarns: &Stretch, past: &Past, slopes: [f64; 2], steep: f64) -> [[f64; 3]; 3] {
+        let t12 = self.shear.value(yarns.gamma);
+        let (turn, turns) = yarns.turn();
+        let mut k: [[f64; 3]; 3] =
+            std::array::from_fn(|i| std::array::from_fn(|j| steep * turn[i] * turn[j] + t12 * turns[i][j]));
+        for (i, (yarn, l)) in self.yarns.iter().zip(yarns.lambda).enumerate() {
+            let (own, other) = (yarns.nominal[i], yarns.nominal[1 - i]);
+            let stress = yarn.stress(own, past[i]) + self.coupling_pa * other;
+            k[i][i] += (slopes[i] - stress / l) / (l * l);
+            k[i][1 - i] += self.coupling_pa / (l * yarns.lambda[1 - i]);
+        }
+        k.map(|row| row.map(|x| x * self.thickness_m))
+    }
+}
+
 impl Fabric for Woven {
     fn thickness_m(&self) -> f64 {
         self.thickness_m
@@ -217,17 +165,14 @@ impl Fabric for Woven {
 
     fn tangent(&self, e: [f64; 3], past: &Past) -> [[f64; 3]; 3] {
         let yarns = Stretch::new(e);
-        let (t12, steep) = (self.shear.value(yarns.gamma), self.shear.slope(yarns.gamma));
-        let (turn, turns) = yarns.turn();
-        let mut k: [[f64; 3]; 3] =
-            std::array::from_fn(|i| std::array::from_fn(|j| steep * turn[i] * turn[j] + t12 * turns[i][j]));
-        for (i, (yarn, l)) in self.yarns.iter().zip(yarns.lambda).enumerate() {
-            let (own, other) = (yarns.nominal[i], yarns.nominal[1 - i]);
-            let stress = yarn.stress(own, past[i]) + self.coupling_pa * other;
-            k[i][i] += (yarn.slope(own, past[i]) - stress / l) / (l * l);
-            k[i][1 - i] += self.coupling_pa / (l * yarns.lambda[1 - i]);
-        }
-        k.map(|row| row.map(|x| x * self.thickness_m))
+        let slopes = [0, 1].map(|i| self.yarns[i].slope(yarns.nominal[i], past[i]));
+        self.stiffness(&yarns, past, slopes, self.shear.slope(yarns.gamma))
+    }
+
+    fn steepest(&self, e: [f64; 3], past: &Past, reach: f64) -> [[f64; 3]; 3] {
+        let yarns = Stretch::new(e);
+        let slopes = [0, 1].map(|i| self.yarns[i].steepest(yarns.nominal[i], past[i], reach));
+        self.stiffness(&yarns, past, slopes, self.shear.steepest(yarns.gamma - reach, yarns.gamma + reach))
     }
 
     fn has_memory(&self) -> bool {
@@ -277,30 +222,6 @@ impl Stretch {
         };
         let rows = [0, 1].map(|i| [0, 1, 2].map(|j| along(i, j)));
         (g, [rows[0], rows[1], [rows[0][2], rows[1][2], across * across * tan]])
-    }
-}
-
-/// u/T must not fall. Both are straight between their joint rows, so their ratio is monotone there: the rows and the slopes
-/// at both ends tell all.
-fn loses_energy(load: &Curve, back: &Curve) -> Result<(), String> {
-    if back.has_negative_rows() {
-        return Err(
-            "the unloading curve has rows below zero strain; leave them out, slack yarns unload as they load".into()
-        );
-    }
-    let mut at: Vec<f64> = load.rows().iter().chain(back.rows()).map(|r| r[0]).filter(|x| *x > 0.0).collect();
-    at.sort_by(f64::total_cmp);
-    let inside = at.iter().map(|x| (*x, back.value(*x) / load.value(*x)));
-    let start = (0.0, back.initial_slope() / load.initial_slope());
-    let end = (f64::INFINITY, back.last_slope() / load.last_slope());
-    let ratios: Vec<(f64, f64)> = [start].into_iter().chain(inside).chain([end]).collect();
-    match ratios.windows(2).find(|w| w[1].1 < w[0].1 * (1.0 - 1e-9)) {
-        None => Ok(()),
-        Some(w) => Err(format!(
-            "the unloading curve would create energy beyond strain {}: unloading over loading stress falls from {:.4} to \
-             {:.4} there; write unloading stresses that start lower and rise more steeply than those of loading",
-            w[0].0, w[0].1, w[1].1
-        )),
     }
 }
 

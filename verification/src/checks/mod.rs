@@ -14,11 +14,16 @@ mod drops;
 mod energy;
 mod fold;
 pub(crate) mod folded;
+mod folded_start;
+mod friction;
 mod gradient;
+mod hanging;
 mod long_pouch;
 mod patch;
 mod pillow;
+mod pleats;
 mod pulled;
+mod reversal;
 mod ring;
 mod robots;
 mod run;
@@ -130,6 +135,10 @@ pub const CHECKS: &[Check] = &[
     bodies::RIGID,
     bodies::TIES,
     bodies::SCALED,
+    hanging::CHECK,
+    friction::INCLINE,
+    friction::CAPSTAN,
+    reversal::CHECK,
     bodies::SEALED,
     tube::CHECK,
     ring::CHECK,
@@ -137,6 +146,8 @@ pub const CHECKS: &[Check] = &[
     cantilever::SLOPE,
     bias_tube::CHECK,
     balloon::CHECK,
+    pleats::CHECK,
+    folded_start::CHECK,
     fold::SEALED,
     pillow::CHECK,
     cantilever::WRINKLING,

@@ -81,6 +81,22 @@ pub(super) fn energy_j(run: &Simulation, name: &str) -> f64 {
     run.ledger().rows.iter().filter(|r| r.name == name).map(|r| r.energy_j).sum()
 }
 
+/// The same problem with every kind of mass: true, ten times, raised for twice the step, selective.
+pub(super) fn each_mass(problem: &Problem) -> Result<Vec<(&'static str, Problem)>, FemError> {
+    let twice = MassScaling::TargetStep(2.0 * Simulation::new(problem)?.dt_s());
+    let with = |name, scaling: MassScaling, selective: bool| {
+        let mut problem = problem.clone();
+        (problem.settings.mass_scaling, problem.settings.selective_mass) = (scaling, selective);
+        (name, problem)
+    };
+    Ok(vec![
+        with("true masses", MassScaling::None, false),
+        with("ten times the mass", MassScaling::Fixed(10.0), false),
+        with("twice the step", twice, false),
+        with("selective masses", MassScaling::None, true),
+    ])
+}
+
 /// The energy balance, one per cent at most.
 pub(super) fn balance(residual_share: f64) -> Line {
     Line::at_most("energy residual over external work", residual_share, 0.01)
