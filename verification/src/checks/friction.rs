@@ -27,7 +27,7 @@ fn incline() -> Found {
         let film = Orthotropic::isotropic(50e6, 0.3, thickness_m);
         let mut problem = problem("incline", mesh, section(Arc::new(film), 1.0), vec![]);
         let shape = ObstacleShape::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
-        problem.obstacles = vec![Obstacle { shape, friction }];
+        problem.obstacles = vec![Obstacle { shape, friction, motion: None }];
         let g_m_s2 = [G * TURN.sin(), 0.0, -G * TURN.cos()];
         problem.gravity = Some(Gravity { g_m_s2, amplitude: Amplitude::Constant(1.0) });
         for (name, problem) in each_mass(&problem)? {
@@ -87,7 +87,7 @@ fn strip(friction: f64) -> Result<Problem, FemError> {
     let film = Orthotropic::isotropic(50e6, 0.0, 1e-3);
     let mut problem = problem("capstan", mesh, section(Arc::new(film), 0.0), vec![]);
     let shape = ObstacleShape::Cylinder { point: [0.0; 3], axis: [0.0, 1.0, 0.0], radius_m: RADIUS_M };
-    problem.obstacles = vec![Obstacle { shape, friction }];
+    problem.obstacles = vec![Obstacle { shape, friction, motion: None }];
     let amplitude = Amplitude::Constant(1.0);
     problem.forces = vec![NodalForce { set: "left".into(), total_n: [0.0, 0.0, -PULL_N], amplitude }];
     let way = Amplitude::Linear(vec![(0.0, 0.0), (0.5, 8e-3)]);
