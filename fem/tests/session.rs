@@ -92,10 +92,10 @@ fn a_complete_run_goes_on_to_a_later_end_as_if_it_had_been_asked_for_at_once() {
     let folder = tempfile::tempdir().unwrap();
     let whole = simulate(&small(), &into(&folder.path().join("whole")), &mut go_on).unwrap();
     let until = |end_s: f64| Settings { end_s: Some(end_s), ..into(&folder.path().join("longer")) };
-    assert!(simulate(&small(), &until(0.006), &mut go_on).unwrap().fresh);
-    assert!(!simulate(&small(), &until(0.006), &mut go_on).unwrap().fresh);
-    let back = simulate(&small(), &until(0.004), &mut go_on).unwrap_err();
-    assert!(back.to_string().contains("after --end 0.004 s"), "{back}");
+    assert!(simulate(&small(), &until(0.008), &mut go_on).unwrap().fresh);
+    assert!(!simulate(&small(), &until(0.008), &mut go_on).unwrap().fresh);
+    let back = simulate(&small(), &until(0.007), &mut go_on).unwrap_err();
+    assert!(back.to_string().contains("after --end 0.007 s"), "{back}");
     // It is an unfinished run until it is complete again.
     assert!(matches!(simulate(&small(), &until(0.01), &mut stop).unwrap_err(), FemError::Interrupted { .. }));
     let longer = simulate(&small(), &until(0.01), &mut go_on).unwrap();
@@ -124,7 +124,7 @@ fn a_run_that_goes_on_from_another_keeps_time_shape_and_books() {
     // Weight that only the second run has works on it alone, and the third keeps that work when the weight is gone.
     let pulled = simulate(&heavy, &from(&place("first"), &place("heavy")), &mut go_on).unwrap();
     assert!(pulled.summary.residual_share < 1e-3 && pulled.notices.is_empty(), "{:?}", pulled.notices);
-    let last = Source { text: longer.text.replace("end_s = 0.02", "end_s = 0.022"), ..small() };
+    let last = Source { text: longer.text.replace("end_s = 0.02", "end_s = 0.022\nguard_hourglass = 1"), ..small() };
     let light = simulate(&last, &from(&place("heavy"), &place("light")), &mut go_on).unwrap();
     assert!(light.notices[0].contains("gravity [m/s²] jumps from -90"), "{:?}", light.notices);
     assert_eq!(energy(&light, "earlier loads"), energy(&pulled, "gravity"));

@@ -101,17 +101,18 @@ impl Earlier {
                 format!("change only pressures, forces, gravity, obstacles, outputs and times of {}", own.display());
             return Err(FemError::setting(message, help));
         }
-        if problem.settings.end_s <= self.time_s {
+        let foreign =
+            || FemError::setting(format!("the end of the run in {from} does not fit"), "make it again with --force");
+        let saved = stepping::run_of(&self.session).ok_or_else(foreign)?;
+        let run = Simulation::go_on(problem, &saved).map_err(|error| loaded.source.refused(error))?;
+        // Steps are not shortened to meet a moment.
+        if problem.settings.end_s <= self.time_s + run.dt_s() {
             let message = format!(
                 "cannot end at {} s: the run in {from} ended at {:.6} s, and time goes on from there",
                 problem.settings.end_s, self.time_s
             );
             return Err(FemError::setting(message, "give a later end with --end, or as end_s of the case"));
         }
-        let foreign =
-            || FemError::setting(format!("the end of the run in {from} does not fit"), "make it again with --force");
-        let saved = stepping::run_of(&self.session).ok_or_else(foreign)?;
-        let run = Simulation::go_on(problem, &saved).map_err(|error| loaded.source.refused(error))?;
         let jumps = self.jumps(&problem.loads_at(self.time_s));
         loaded.case.notices.extend(jumps);
         Ok(run)

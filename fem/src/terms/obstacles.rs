@@ -45,7 +45,7 @@ pub struct Obstacles {
     grips: Vec<Vec<Grip>>,
     /// Positions of the step before; empty before the first step.
     before_m: Vec<[f64; 4]>,
-    /// Energies and force of each chunk.
+    /// Energies of each chunk, and force on its nodes.
     sums: Vec<[f64; 6]>,
     stored_j: f64,
     /// Lost by friction and by damping.
@@ -99,7 +99,7 @@ impl Obstacles {
     fn solids_as_text(&self) -> String {
         format!("{:?}", self.solids)
     }
-    /// One step of a solid: energy stored, lost by friction and by damping, and its force on all nodes.
+    /// Energy stored and lost by friction and by damping, in this step, and force on all nodes.
     fn rub(&mut self, solid: usize, x: &[[f64; 4]], force: &mut [[f64; 4]]) -> [f64; 6] {
         let Path { now_m, before_m, .. } = self.paths[solid];
         let (body, before, stiffness) = (&self.solids[solid], &self.before_m, &self.stiffness_n_m);
@@ -111,9 +111,9 @@ impl Obstacles {
                     let i = chunk * CHUNK + local;
                     let [at, was] = [from(&x[i], now_m), from(&before[i], before_m)];
                     let others = *f;
-                    let [energy, friction, damping] = body.step(&at, &was, stiffness[i], grip, f);
-                    let own = [energy, friction, damping, f[0] - others[0], f[1] - others[1], f[2] - others[2]];
-                    (0..6).for_each(|k| sums[k] += own[k]);
+                    let energies = body.step(&at, &was, stiffness[i], grip, f);
+                    (0..3).for_each(|k| sums[k] += energies[k]);
+                    (0..3).for_each(|k| sums[3 + k] += f[k] - others[k]);
                 }
             },
         );
@@ -173,16 +173,16 @@ impl Transient for Obstacles {
     fn ledger(&self, at: &Pose) -> Vec<Row> {
         let first = self.before_m.is_empty();
         let stored = if first { self.add(at, &mut vec![0.0; at.q.len()]) } else { self.stored_j };
-        let row = |name, kind, energy_j| LedgerLine { name, account: Account::Load }.row(kind, energy_j);
+        let lost = |name, lost_j| LedgerLine { name, account: Account::Load }.row(RowKind::Dissipated, lost_j);
         let [friction_j, damping_j] = self.lost_j;
+        let moves = self.paths.iter().any(|path| path.obstacle.motion.is_some());
+        let motion = LedgerLine { name: "obstacle motion", account: Account::Load };
         let mut rows = vec![
             self.line().row(RowKind::Stored, stored),
-            row("obstacle friction", RowKind::Dissipated, friction_j),
-            row("obstacle damping", RowKind::Dissipated, damping_j),
+            lost("obstacle friction", friction_j),
+            lost("obstacle damping", damping_j),
         ];
-        if self.paths.iter().any(|path| path.obstacle.motion.is_some()) {
-            rows.push(row("obstacle motion", RowKind::Supplied, self.work_j));
-        }
+        rows.extend(moves.then(|| motion.row(RowKind::Supplied, self.work_j)));
         rows
     }
     fn stiffness_bound(&self, at: &Pose, bound: &mut [f64]) {
@@ -197,23 +197,18 @@ impl Transient for Obstacles {
     }
     fn save(&self) -> Vec<u8> {
         let paths: Vec<_> = self.paths.iter().map(|p| [p.now_m, p.before_m, p.force_n]).collect();
-        let solids = self.solids_as_text();
-        pack(&(solids, self.stored_j, self.lost_j, self.work_j, &self.before_m, &self.grips, paths))
+        pack(&(self.solids_as_text(), [self.stored_j, self.work_j], self.lost_j, &self.before_m, &self.grips, paths))
     }
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let Some((solids, stored_j, lost_j, work_j, before_m, grips, paths)) = unpack::<Saved>(saved) else {
+        let Some((solids, [stored_j, work_j], lost_j, before_m, grips, paths)) = unpack::<Saved>(saved) else {
             return false;
         };
         let lengths = |grips: &[Vec<Grip>]| grips.iter().map(Vec::len).collect::<Vec<_>>();
         let fits = before_m.is_empty() || before_m.len() == self.stiffness_n_m.len();
-        if !fits
-            || solids != self.solids_as_text()
-            || lengths(&grips) != lengths(&self.grips)
-            || paths.len() != self.paths.len()
-        {
+        if !fits || solids != self.solids_as_text() || lengths(&grips) != lengths(&self.grips) {
             return false;
         }
-        (self.stored_j, self.lost_j, self.work_j) = (stored_j, lost_j, work_j);
+        (self.stored_j, self.work_j, self.lost_j) = (stored_j, work_j, lost_j);
         (self.before_m, self.grips) = (before_m, grips);
         for (path, saved) in self.paths.iter_mut().zip(paths) {
             [path.now_m, path.before_m, path.force_n] = saved;
@@ -222,8 +217,8 @@ impl Transient for Obstacles {
     }
 }
 
-/// Solids, stored and lost energies, work of the motion, positions before, memory of the nodes, ways.
-type Saved = (String, f64, [f64; 2], f64, Vec<[f64; 4]>, Vec<Vec<Grip>>, Vec<[V3; 3]>);
+/// Solids, energy stored and work, energies lost, positions before, memory of the nodes, ways.
+type Saved = (String, [f64; 2], [f64; 2], Vec<[f64; 4]>, Vec<Vec<Grip>>, Vec<[V3; 3]>);
 
 impl Solid {
     /// One step: force, energy stored and lost by friction and by damping; the memory is updated. Damping has what the normal

@@ -183,14 +183,14 @@ fn the_work_of_an_obstacle_that_moves_is_kinetic_potential_stored_and_lost_energ
         if step % 1000 == 999 {
             // The ledger is of the last force, half a step of motion before.
             let rows = block.term.ledger(&Pose::nodes(&block.x));
-            let [stored, lost, work] = [0, 1, 2].map(|k| rows[k].energy_j);
+            let sum = |kind: RowKind| rows.iter().filter(|r| r.kind == kind).map(|r| r.energy_j).sum::<f64>();
+            let [stored, lost, work] = [RowKind::Stored, RowKind::Dissipated, RowKind::Supplied].map(sum);
             let kinetic: f64 = 0.5 * block.v.iter().map(|v| v * v).sum::<f64>();
             let gained = kinetic + G * (block.x[2] - start) + (stored - 0.5 * G * G / K) + lost;
             assert!((work - gained).abs() < 2e-3 * (lost + 0.05 * G), "{step}: {work} {gained} {lost}");
-            assert_eq!(rows[2].kind, RowKind::Supplied);
         }
     }
     // The plate outruns the block, which Coulomb's force accelerates and stops again.
-    assert!(fastest > 0.2 && fastest < 1.0 && block.v[0].abs() < 1e-2, "{fastest} {:?}", block.v);
+    assert!(fastest > 0.2 && fastest < 1.0 && block.x[0] > 0.1 && block.x[0] < 0.35, "{fastest} {:?}", block.x);
     assert!((block.x[2] - start - 0.05).abs() < 1e-3, "{}", block.x[2]);
 }
