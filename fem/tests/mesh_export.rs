@@ -4,7 +4,7 @@
 
 use fem::Mesh;
 use fem::mesh::file::read;
-use fem::session::{Source, export};
+use fem::session::{Solver, Source, export};
 
 const FILM: &str = "[fabric.film]\nlaw = \"isotropic\"\ne_MPa = 588\nnu = 0.4\nthickness_mm = 0.3\n\
                     [part.all]\nfabric = \"film\"\ndensity_kg_m3 = 1000\n";
@@ -16,7 +16,7 @@ fn an_exported_robot_is_read_back_as_it_is() {
         let robot = Source::new(name, models::shipped(name).unwrap());
         let mesh = robot.load().unwrap().case.problem.mesh;
         let path = folder.path().join(format!("{name}.inp"));
-        let export = export(&robot, &path).unwrap();
+        let export = export(&robot, &path, Solver::Abaqus).unwrap();
         assert_eq!((export.nodes, export.elements), (mesh.points.len(), mesh.elements()));
         let back = read(&path).unwrap();
         let starts: Vec<[f64; 3]> = (0..mesh.points.len()).map(|i| mesh.start_of(i)).collect();
@@ -58,7 +58,7 @@ fn an_exported_part_is_the_plate_of_the_same_stiffness() {
             "[chamber.air]\nsmooth_s_kPa = [[0, 0], [0.05, 5]]\n[[support]]\nset = \"centre_top\"\naxes = \"xy\"\n";
         let source = Source::new("pillow", &format!("{mesh}{film}{pressure}"));
         let path = folder.path().join(format!("{share}.inp"));
-        export(&source, &path).unwrap();
+        export(&source, &path, Solver::Abaqus).unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
         let root = share.sqrt();
         let (e, g) = (588e6 / root, 588e6 / 2.8 / root);
@@ -69,7 +69,7 @@ fn an_exported_part_is_the_plate_of_the_same_stiffness() {
         for words in [pressed, "*BOUNDARY\ncentre_top, 1, 1\n", "*DSLOAD, AMPLITUDE=pressure_1\nair, P, 1.\n"] {
             assert!(text.contains(words), "{words}");
         }
-        let wrong = export(&source, &folder.path().join("a.foo")).unwrap_err();
+        let wrong = export(&source, &folder.path().join("a.foo"), Solver::Abaqus).unwrap_err();
         let told = format!("{wrong}\n{}", wrong.help().unwrap_or_default());
         assert!(told.contains("end it with .inp"), "{told}");
     }
