@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The whole check of this repository, and all that CI runs. `./check.sh fast` is the short form while editing:
 # no release build, no slow tests. `./check.sh all` also builds and tries the page in a browser and a sweep through Slurm and HyperQueue,
-# where these are installed.
+# and compares the engine with other programs, where these are installed.
 # Needs Rust (rust-version in Cargo.toml) with rustfmt and clippy, and the C compiler that Rust links with.
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -49,6 +49,10 @@ else
     web/test.sh
     step a sweep through Slurm and HyperQueue
     tests/clusters.sh
+    for foreign in tests/foreign/*.sh; do
+      step "${foreign#tests/}"
+      "$foreign"
+    done
   fi
 fi
 printf '\nall checks passed in %ss\n' "$SECONDS"

@@ -337,9 +337,12 @@ pub struct SimulateArgs {
     /// Write no ParaView frames
     #[arg(long)]
     pub no_frames: bool,
-    /// Run nothing: write mesh, sections, loads and step for another solver (.inp, Abaqus), or the mesh alone (.vtu, .ibrmesh)
+    /// Run nothing: write mesh, sections, loads and step for another solver (.inp), or the mesh alone (.vtu, .ibrmesh)
     #[arg(long, value_name = "FILE")]
     pub export: Option<PathBuf>,
+    /// Who reads the .inp of --export; default: abaqus
+    #[arg(long = "for", value_name = "SOLVER", value_parser = ["abaqus", "calculix"], requires = "export")]
+    pub solver: Option<String>,
     /// Robots: actuator pressures in one ramp with a hold at each, for example 10kPa,20kPa,30kPa; `/` separates supply channels
     #[arg(long, short, allow_hyphen_values = true)]
     pub pressure: Option<String>,

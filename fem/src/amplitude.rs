@@ -22,10 +22,10 @@ pub enum Amplitude {
 impl Amplitude {
     /// Value at time `t` \[s\].
     pub fn at(&self, t: f64) -> f64 {
-        let points = match self {
-            Amplitude::Constant(value) => return *value,
-            Amplitude::Smooth(points) | Amplitude::Linear(points) | Amplitude::Growing { points, .. } => points,
-        };
+        if let Amplitude::Constant(value) = self {
+            return *value;
+        }
+        let points = self.points();
         let Some(next) = points.iter().position(|p| p.0 > t) else { return points.last().map_or(0.0, |p| p.1) };
         if next == 0 {
             return points[0].1;
@@ -45,9 +45,15 @@ impl Amplitude {
     pub fn peak(&self) -> f64 {
         match self {
             Amplitude::Constant(value) => value.abs(),
-            Amplitude::Smooth(points) | Amplitude::Linear(points) | Amplitude::Growing { points, .. } => {
-                points.iter().fold(0.0, |m, p| m.max(p.1.abs()))
-            }
+            _ => self.points().iter().fold(0.0, |m, p| m.max(p.1.abs())),
+        }
+    }
+
+    /// Its (time \[s\], value) points; none of a constant.
+    pub fn points(&self) -> &[(f64, f64)] {
+        match self {
+            Amplitude::Constant(_) => &[],
+            Amplitude::Smooth(points) | Amplitude::Linear(points) | Amplitude::Growing { points, .. } => points,
         }
     }
 }

@@ -157,6 +157,10 @@ fn a_case_is_exported_for_another_solver_once_and_runs_from_its_own_mesh_again()
     assert_eq!((ran.code, ran.stdout.as_str()), (0, "a.inp: 130 nodes, 128 elements\n"), "{}", ran.stderr);
     assert!(ran.stderr.contains("the file does not say: curves, wrinkling"), "{}", ran.stderr);
     refuse(&folder, &["simulate", "my.toml", "--export", "a.inp"], 2, &["a.inp exists already", "--force"]);
+    let ran = folder.run(&["simulate", "my.toml", "--export", "ccx.inp", "--for", "calculix"]);
+    assert_eq!((ran.code, ran.stdout.as_str()), (0, "ccx.inp: 130 nodes, 128 elements\n"), "{}", ran.stderr);
+    let help = ["CalculiX does not read a.vtu", "end it with .inp"];
+    refuse(&folder, &["simulate", "my.toml", "--export", "a.vtu", "--for", "calculix"], 2, &help);
     refuse(&folder, &["simulate", "my.toml", "--export", "a.foo"], 2, &["no ending", ".ibrmesh"]);
     refuse(&folder, &["simulate", "epam", "--seeds", "2", "--export", "b.inp"], 2, &["one run", "--seeds"]);
     assert_eq!(folder.run(&["simulate", "my.toml", "--export", "a.ibrmesh"]).code, 0);

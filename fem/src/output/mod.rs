@@ -7,15 +7,15 @@
 //! | [`centre_line`] | `centre_line.csv`: the middle of every section over time |
 //! | [`checkpoint`] | where a stopped run goes on, to the bit |
 //! | [`picture`] | a PNG of the deformed mesh |
-//! | [`abaqus`] | the problem for another solver |
+//! | [`deck`] | the problem for another solver |
 //!
 //! Files that are replaced (frames, series, checkpoints) are written under another name and renamed, so that a reader, a
 //! full disk or a kill never meets half a file. Tables grow line by line and are cut back to the checkpoint on resume:
 //! an interrupted and resumed run leaves the same bytes as an uninterrupted one.
 
-pub mod abaqus;
 pub mod centre_line;
 pub mod checkpoint;
+pub mod deck;
 mod frame;
 pub mod history;
 pub mod picture;

@@ -1,7 +1,8 @@
 //! A problem before it runs, as a file for another program.
 
 use super::Source;
-use crate::output::{Frame, abaqus, vtu};
+pub use crate::output::deck::Solver;
+use crate::output::{Frame, deck, vtu};
 use crate::{FemError, Simulation, mesh};
 use std::path::Path;
 
@@ -18,20 +19,24 @@ pub struct Export {
     pub left_out: Vec<String>,
 }
 
-/// Writes the problem that a text describes: `.inp` for Abaqus and its relatives with materials, loads and a step, `.vtu` for
+/// Writes the problem that a text describes: `.inp` for a solver with materials, loads and a step, `.vtu` for
 /// ParaView, `.ibrmesh` as our own mesh. An earlier file stays until the new one is complete.
 ///
 /// # Errors
-/// [`FemError::Setting`] for another ending; as [`super::simulate`] for the text; [`FemError::Io`].
-pub fn export(source: &Source, path: &Path) -> Result<Export, FemError> {
+/// [`FemError::Setting`] for another ending, and for a solver that does not read the format; as [`super::simulate`] for the text; [`FemError::Io`].
+pub fn export(source: &Source, path: &Path, solver: Solver) -> Result<Export, FemError> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+    if solver != Solver::Abaqus && ending.as_deref() != Some("inp") {
+        let message = format!("CalculiX does not read {}", path.display());
+        return Err(FemError::setting(message, "end it with .inp, or leave out --for"));
+    }
     let loaded = source.load()?;
     let problem = &loaded.case.problem;
     let mut left_out = Vec::new();
     match ending.as_deref() {
         Some("inp") => {
             problem.check().map_err(|error| source.refused(error))?;
-            let (text, missing) = abaqus::text(problem);
+            let (text, missing) = deck::text(problem, solver);
             left_out = missing;
             crate::atomic::replace(path, &mut |out| out.write_all(text.as_bytes()))?;
         }
@@ -42,7 +47,10 @@ pub fn export(source: &Source, path: &Path) -> Result<Export, FemError> {
         Some("ibrmesh") => mesh::file::write(path, &problem.mesh)?,
         _ => {
             let message = format!("{} has no ending that says what to write", path.display());
-            return Err(FemError::setting(message, "end it with .inp (Abaqus), .vtu (ParaView) or .ibrmesh (our own)"));
+            return Err(FemError::setting(
+                message,
+                "end it with .inp (Abaqus, CalculiX), .vtu (ParaView) or .ibrmesh (our own)",
+            ));
         }
     }
     let (nodes, elements) = (problem.mesh.points.len(), problem.mesh.elements());

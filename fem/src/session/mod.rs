@@ -48,7 +48,7 @@ mod together;
 mod watch;
 
 pub use exchange::in_one_step as exchange_folders;
-pub use export::{Export, export};
+pub use export::{Export, Solver, export};
 pub use folder::is_finished;
 pub use manifest::{FileHash, MANIFEST, Maker, Manifest, sha256};
 pub use many::{Job, Many, Shard, finished_below, problems, simulate_all};

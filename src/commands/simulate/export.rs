@@ -4,7 +4,7 @@ use super::plan::RunPlan;
 use crate::cli::SimulateArgs;
 use crate::commands::Outcome;
 use crate::failure::Failure;
-use fem::session::{Export, export};
+use fem::session::{Export, Solver, export};
 use std::path::Path;
 
 /// Writes the problem for another program.
@@ -19,7 +19,8 @@ pub fn written(args: &SimulateArgs, plan: &RunPlan, file: &Path) -> Result<Outco
         let help = "give --force to replace it, or another name";
         return Err(Failure::usage(format!("{} exists already", file.display()), help));
     }
-    let Export { nodes, elements, notices, left_out } = export(source, file)?;
+    let solver = if args.solver.as_deref() == Some("calculix") { Solver::CalculiX } else { Solver::Abaqus };
+    let Export { nodes, elements, notices, left_out } = export(source, file, solver)?;
     let text = format!("{}: {nodes} nodes, {elements} elements\n", file.display());
     let left_out = left_out.into_iter().map(|what| format!("the file does not say: {what}"));
     Ok(Outcome { text, notes: notices.into_iter().chain(left_out).collect(), ..Outcome::default() })
