@@ -223,8 +223,10 @@ fn open_axis<'a>(mesh: &Mesh, chambers: &[&'a str]) -> Option<(&'a str, &'static
         [along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max)]
     });
     let near = near(mesh, &rim);
+    // A flat sheet is at both ends of its normal; whether it is half a chamber cannot be seen.
     let at_end = |edge: &[u32; 2], k: usize| {
-        ends[k].iter().any(|end| edge.iter().all(|n| (mesh.start_of(*n as usize)[k] - end).abs() <= near))
+        ends[k][1] > ends[k][0] + near
+            && ends[k].iter().any(|end| edge.iter().all(|n| (mesh.start_of(*n as usize)[k] - end).abs() <= near))
     };
     let all = ["x", "y", "z", "xy", "xz", "yz", "xyz"];
     let fits = |axes: &&str| rim.iter().all(|edge| axes.bytes().any(|axis| at_end(edge, usize::from(axis - b'x'))));
