@@ -1,7 +1,7 @@
 //! What a run needs besides the mesh: sections, chambers, supports, loads, contact, settings.
 
-mod print;
 mod gas;
+mod print;
 pub(crate) mod solid;
 pub(crate) mod start;
 
@@ -9,9 +9,9 @@ use crate::FemError;
 pub use crate::amplitude::Amplitude;
 use crate::mesh::Mesh;
 use crate::policy;
-pub use print::{GRAVITY, Loads, force_on, motion_of, pressure_of};
 pub use gas::Gas;
 pub use models::fabrics::Ply;
+pub use print::{GRAVITY, Loads, force_on, motion_of, pressure_of};
 
 /// Everything that defines a run.
 #[derive(Debug, Clone)]
