@@ -102,7 +102,7 @@ pub(super) fn check(run: &RobotRun, table: &Free) -> Checked<()> {
     for (name, list) in LISTS.iter().zip(&lists).filter(|(_, list)| !list.is_empty()) {
         let (entries, pressures) = (list.len(), run.pressures_pa.len());
         if entries != pressures {
-            let help = "write one entry for every pressure; a pressure may stand twice: pressures_kpa = [30, 30]";
+            let help = "write one entry for every pressure; a pressure may appear twice: pressures_kpa = [30, 30]";
             return refuse(format!("{name} has {entries} entries and pressures_kpa {pressures}"), help, span(name));
         }
         if run.separate {

@@ -123,7 +123,7 @@ struct Books {
     support: Halves,
     start: f64,
     scale: f64,
-    /// Supplied and dissipated by loads of an earlier run that this one has not.
+    /// Supplied and dissipated by loads of an earlier run that are absent from this one.
     earlier: [f64; 2],
 }
 

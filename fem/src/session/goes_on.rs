@@ -1,7 +1,7 @@
 //! A run that goes on where another one ended: for longer in the same folder, or in a folder of its own with other loads.
 //!
-//! A complete run keeps its end in `checkpoint.end`. Time goes on from there, and so does the ledger: loads that a later run has not
-//! any more are its line `earlier loads`.
+//! A complete run keeps its end in `checkpoint.end`. Time goes on from there, and so does the ledger: loads that are absent
+//! from a later run are its line `earlier loads`.
 
 use super::folder::{self, RunIdentity, Workplace};
 use super::stepping::{self, Running};
