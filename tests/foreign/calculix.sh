@@ -10,8 +10,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export OMP_NUM_THREADS=1
 for case in $(python3 "$here/compare.py" cases); do
-  "$ibr" --quiet simulate "$here/$case.toml" --out "$work/$case" > "$work/$case.txt"
-  "$ibr" --quiet simulate "$here/$case.toml" --export "$work/$case/deck.inp" --for calculix > "$work/$case.txt"
+  "$ibr" --quiet simulate "$here/$case.toml" --out "$work/$case" > "$work/$case.txt" 2>&1
+  "$ibr" --quiet simulate "$here/$case.toml" --export "$work/$case/deck.inp" --for calculix > "$work/$case.txt" 2>&1
   (cd "$work/$case" && timeout 600 ccx deck > ccx.txt) || { tail -5 "$work/$case/ccx.txt"; echo "$case: CalculiX stops"; exit 1; }
 done
 python3 "$here/compare.py" table "$work"

@@ -119,10 +119,10 @@ def table(folder):
         first, *less = probe.split("-")
         of = lambda read: read(folder / case, first, axis) - sum(read(folder / case, name, axis) for name in less)
         ours, theirs = of(engine), of(calculix)
-        exact = f"{form(tomllib.loads((HERE / f'{case}.toml').read_text())):.3f}" if form else "–"
+        exact = f"{form(tomllib.loads((HERE / f'{case}.toml').read_text())):.4g}" if form else "–"
         apart = ours / theirs - 1
         is_near &= abs(apart) <= LIMIT
-        print(f"| {what} | {ours:.3f} | {theirs:.3f} | {100 * apart:+.1f} | {exact} |")
+        print(f"| {what} | {ours:.4g} | {theirs:.4g} | {100 * apart:+.1f} | {exact} |")
     return 0 if is_near else 1
 
 

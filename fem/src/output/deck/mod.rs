@@ -22,7 +22,7 @@ use std::fmt::Write;
 
 use crate::Problem;
 use crate::amplitude::Amplitude;
-use crate::mesh::Part;
+use crate::mesh::{Mesh, Part};
 use crate::problem::{MassScaling, Pressure, Section};
 use crate::sheet::reference::bending_stiffness;
 use crate::vec3::{area, cross, direction, dot};
@@ -334,16 +334,16 @@ fn left_out(problem: &Problem, solver: Solver) -> Vec<String> {
         let [a11, .., a16, a26] = in_plane(section);
         a16.abs().max(a26.abs()) > 1e-6 * a11
     };
-    let flattens = |(part, section): (&Part, &Section)| {
-        !section.rest_curvature && bending_stiffness(section) > 0.0 && !is_flat(problem, part)
-    };
+    let bends = |section: &Section| bending_stiffness(section) > 0.0;
+    let flattens =
+        |(part, section): (&Part, &Section)| bends(section) && !section.rest_curvature && !is_flat(mesh, part.layer);
     let sealed = problem.chambers.iter().any(|c| matches!(c.pressure, Pressure::Sealed { .. }));
     let cases = [
         (true, "curves, wrinkling and memory of fabrics: they are linear in it"),
         (problem.sections.iter().any(coupled), "shear that comes with stretch in plies at an angle"),
         (
             mesh.parts.iter().zip(&problem.sections).any(flattens),
-            "that a curved sheet is free of bending where it is flat: in it, the shape of the mesh is (rest_curvature = true)",
+            "that curved sheets and corners want to be flat: in it they are free of bending as they are (rest_curvature = true)",
         ),
         (!mesh.start.is_empty(), "that the fabric is free of stress in another shape than it starts in"),
         (!mesh.membrane.is_empty(), "that wavy sheets bend from their even pattern"),
@@ -355,17 +355,18 @@ fn left_out(problem: &Problem, solver: Solver) -> Vec<String> {
         (is_calculix && problem.contact.is_some(), "contact: layers pass through each other"),
         (is_calculix && settings.mass_scaling != MassScaling::None, "scaled masses: it has the true ones"),
         (
-            is_calculix && problem.sections.iter().any(|section| bending_stiffness(section) == 0.0),
+            is_calculix && !problem.sections.iter().all(bends),
             "that membranes do not bend: they bend as films of their thickness",
         ),
     ];
     cases.iter().filter(|(is, _)| *is).map(|(_, what)| (*what).to_string()).collect()
 }
 
-/// True if all elements of a part have one normal.
-fn is_flat(problem: &Problem, part: &Part) -> bool {
-    let corners = |i| part.nodes(i).iter().map(|n| problem.mesh.points[*n as usize]).collect::<Vec<[f64; 3]>>();
-    let mut normals = (0..part.len()).map(|i| direction(area(&corners(i))));
+/// True if all elements of a layer have one normal.
+fn is_flat(mesh: &Mesh, layer: u32) -> bool {
+    let parts = mesh.parts.iter().filter(|part| part.layer == layer);
+    let corners = |nodes: &[u32]| nodes.iter().map(|n| mesh.points[*n as usize]).collect::<Vec<[f64; 3]>>();
+    let mut normals = parts.flat_map(|part| (0..part.len()).map(|i| direction(area(&corners(part.nodes(i))))));
     let first = normals.next().unwrap_or_default();
     normals.all(|normal| dot(normal, first) > 1.0 - ROUNDING)
 }
