@@ -259,7 +259,8 @@ fn held_sets(out: &mut String, problem: &Problem, mesh: &Quadratic) {
 fn material(out: &mut String, problem: &Problem, index: usize, part: &Part, section: &Section) {
     let Plate { thickness_m, moduli_pa: [e1, e2, g], nu12, density_kg_m3, .. } = plate(section);
     put(out, format_args!("*MATERIAL, NAME={}", part.name));
-    let is_isotropic = (e1 / e2 - 1.0).abs() < 1e-9 && (2.0 * g * (1.0 + nu12) / e1 - 1.0).abs() < 1e-9;
+    // CalculiX refuses an isotropic ν of ½, which incompressible films have.
+    let is_isotropic = nu12 < 0.499 && (e1 / e2 - 1.0).abs() < 1e-9 && (2.0 * g * (1.0 + nu12) / e1 - 1.0).abs() < 1e-9;
     if is_isotropic {
         put(out, format_args!("*ELASTIC\n{}", row(&[e1, nu12])));
     } else {
