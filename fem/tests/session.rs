@@ -15,7 +15,7 @@ fn small() -> Source {
 }
 
 fn into(folder: &Path) -> Settings {
-    Settings { folder: Some(folder.into()), resume: true, threads: 1, ..Settings::default() }
+    Settings { folder: Some(folder.into()), resume: true, keep_end: true, threads: 1, ..Settings::default() }
 }
 
 fn go_on(_: &str, _: Option<f64>) -> ControlFlow<()> {

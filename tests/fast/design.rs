@@ -18,7 +18,7 @@ const CORRECTED: [&str; 6] = ["design", "wish.toml", "--correct", "2", "--out", 
 
 #[test]
 fn the_model_is_corrected_by_finite_elements_and_the_best_checked_design_is_written() {
-    let folder = with_wish(0.01);
+    let folder = with_wish(0.0001);
     let ran = folder.run(&[&CORRECTED[..], &["--json"]].concat());
     let told: serde_json::Value = serde_json::from_str(&ran.stdout).unwrap();
     let designs = told["designs"].as_array().unwrap();
@@ -42,7 +42,7 @@ fn the_model_is_corrected_by_finite_elements_and_the_best_checked_design_is_writ
 
 #[test]
 fn runs_are_kept_and_the_same_command_makes_none_again() {
-    let folder = with_wish(0.01);
+    let folder = with_wish(0.0001);
     let first = folder.run(&CORRECTED);
     assert!(
         first.stdout.contains("corrected by finite elements") && first.code <= 1,

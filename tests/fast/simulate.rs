@@ -44,7 +44,7 @@ fn a_run_leaves_frames_history_picture_summary_and_a_manifest_whose_hashes_match
     wanted.extend(frames.iter().map(String::as_str));
     wanted.extend(["picture.png", "summary.json"]);
     assert_eq!(names, wanted);
-    assert_eq!(folder.contents().len(), names.len() + 2, "manifest, my.toml and nothing else");
+    assert_eq!(folder.contents().len(), names.len() + 3, "manifest, end of the run, my.toml and nothing else");
 }
 
 #[test]
@@ -88,7 +88,7 @@ fn options_choose_the_end_and_leave_frames_out() {
     assert_eq!(ran.code, 0, "{}", ran.stderr);
     assert!(ran.stderr.contains("history: a/b/history.csv"), "{}", ran.stderr);
     let names: Vec<String> = results(&folder, "a/b").into_iter().map(|(name, _)| name).collect();
-    assert_eq!(names, ["case.toml", "history.csv", "picture.png", "summary.json"]);
+    assert_eq!(names, ["case.toml", "checkpoint.end", "history.csv", "picture.png", "summary.json"]);
     let history = String::from_utf8(std::fs::read(folder.path("a/b/history.csv")).unwrap()).unwrap();
     assert_eq!(history.lines().count(), 1 + 3, "0, 2 and 4 ms");
     for wrong in ["5", "x", "5h", "20us", "nans"] {
@@ -106,7 +106,7 @@ fn a_finished_run_is_replaced_only_by_force_and_only_when_the_new_one_is_complet
     let first = results(&folder, "run");
     refuse(&folder, &["simulate", "my.toml", "--out", "run"], 3, &["holds a finished run", "--force"]);
     let again = folder.run(&["simulate", "my.toml", "--out", "run", "--resume"]);
-    assert!(again.code == 0 && again.stderr.contains("is complete; nothing was done"), "{}", again.stderr);
+    assert!(again.code == 0 && again.stderr.contains("is complete at t =") && again.stderr.contains("nothing was done"), "{}", again.stderr);
     assert!(again.stdout.contains("centre_top"), "the summary is shown again: {}", again.stdout);
     folder.write("my.toml", small() + "frames = false\n");
     assert_eq!(folder.run(&["simulate", "my.toml", "--out", "run", "--force"]).code, 0);

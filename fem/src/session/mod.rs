@@ -112,7 +112,7 @@ impl Default for Settings {
             folder: None,
             resume: false,
             from: None,
-            keep_end: true,
+            keep_end: false,
             force: false,
             frames: true,
             end_s: None,

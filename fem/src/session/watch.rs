@@ -248,7 +248,7 @@ mod tests {
             "time_s": 1, "actuator_pa": 20e3, "body_pa": 2e3, "stations_m": [0.3], "moved_m": [[0, 0.1, aside_m]],
             "seen_moved_m": none, "ring_moved_m": none, "tip_angle_rad": 0, "body_m3": 0, "actuator_m3": 0, "von_mises_pa": 0,
             "von_mises_part": "", "von_mises_at_m": 0, "seam_n_per_m": 900, "seam_part": "top", "seam_at_m": 0.12,
-            "seam": "seam 3", "seam_share": share, "ledger": none, "kinetic_share": 0,
+            "seam": "seam 3", "seam_share": share, "ledger": none, "kinetic_share": 0, "waited_s": 0.1, "ahead_m": 0, "is_at_rest": true,
         });
         let summary = json!({
             "actuator": "epam", "length_m": 0.3, "body_pa": 2e3, "radius_m": 0.04, "width_m": 0.06, "pouch_m": 0.06, "count": 5,

@@ -6,19 +6,19 @@
 //! slack     L₁ ≤ 1                         W_r = 0
 //! wrinkled  L₁ > 1 and L₂ √L₁ < 1          W_r = t C₁₀ (λ₁² + 2/λ₁ − 3),   S_r = 2 t C₁₀ (1 − λ₁⁻³) n₁⊗n₁
 //! taut      otherwise                      W_r = W
-//! X = W − W_r       W_N = W_r + X                      √X ≤ c = N/√(2K)      flat: K resists
-//!                   W_N = W_r + 2c√X − c² = W − (√X − c)²       beyond       wrinkled: N resists
+//! X = W − W_r       W_N = W_r + X = W                  √X ≤ c = N/√(2K)      flat: K resists
+//!                   W_N = W_r + c (2√X − c)            beyond                wrinkled: N resists
 //! S_N = S_r + (c/√X)(S − S_r) beyond
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | N | load of the wrinkles, constant in strain | N/m |
-//! | K | 6 t C₁₀, stiffness of the film under uniaxial load | N/m |
+//! | K | 8 t C₁₀, stiffness of the film against compression across a fixed stretch | N/m |
 //! | n₁ | direction of the larger stretch, along the wrinkles | – |
 //!
 //! A film pulled by λ₁ alone has the width λ₁^(−1/2); a narrower one is compressed by δ, and X = ½ K δ² at small strain. It stays flat up
-//! to Kδ = N, then wrinkles, and the compressive load stays at N (5 % above at δ = 0.1, where X exceeds ½ K δ²). W_N is one energy with a
+//! to Kδ = N, then wrinkles, and the compressive load stays at N (11 % above at δ = 0.1, where X exceeds ½ K δ²). W_N is one energy with a
 //! continuous slope. N = 0 is Pipkin's relaxed energy, N = ∞ the film itself.
 //!
 //! **The load follows from bending.** Wrinkles of wavelength Λ across a tension T over a length ℓ cost N(Λ) = 4π² D/Λ² + T Λ²/4ℓ² per
@@ -118,7 +118,7 @@ impl WrinklingFilm {
 
     /// c² \[N/m\]: X at which the film wrinkles.
     pub fn flat_n_per_m(&self) -> f64 {
-        self.load_n_per_m * self.load_n_per_m / (6.0 * self.k())
+        self.load_n_per_m * self.load_n_per_m / (8.0 * self.k())
     }
 
     /// Part of the energy that compression stores: W_N − W_r \[J/m²\].
@@ -127,10 +127,10 @@ impl WrinklingFilm {
         Self::folded(e).map_or(0.0, |folded| self.energy(e, &[0.0; 2]) - relaxed(folded))
     }
 
-    /// √X − c and √X; `None` where the film is flat.
+    /// c and √X; `None` where the film is flat.
     fn beyond(&self, full: f64, relaxed: f64) -> Option<[f64; 2]> {
         let (root, c) = ((full - relaxed).max(0.0).sqrt(), self.flat_n_per_m().sqrt());
-        (root > c).then_some([root - c, root])
+        (root > c).then_some([c, root])
     }
 }
 
@@ -155,17 +155,18 @@ impl Fabric for WrinklingFilm {
 
     fn energy(&self, e: [f64; 3], past: &Past) -> f64 {
         let full = self.film.energy(e, past);
-        let beyond = Self::folded(e).and_then(|folded| self.beyond(full, self.k() * folded.pull()[0]));
-        beyond.map_or(full, |[over, _]| full - over * over)
+        let Some(folded) = Self::folded(e) else { return full };
+        let relaxed = self.k() * folded.pull()[0];
+        self.beyond(full, relaxed).map_or(full, |[c, root]| relaxed + c * (2.0 * root - c))
     }
 
     fn tension(&self, e: [f64; 3], past: &Past) -> [f64; 3] {
         let full = self.film.tension(e, past);
         let Some(folded) = Self::folded(e) else { return full };
         let pull = folded.pull();
-        let Some([over, root]) = self.beyond(self.film.energy(e, past), self.k() * pull[0]) else { return full };
+        let Some([c, root]) = self.beyond(self.film.energy(e, past), self.k() * pull[0]) else { return full };
         let (sigma, along) = (self.k() * pull[1], folded.along());
-        std::array::from_fn(|i| full[i] + over / root * (sigma * along[i] - full[i]))
+        std::array::from_fn(|i| sigma * along[i] + c / root * (full[i] - sigma * along[i]))
     }
 
     /// With σ = k (1 − L₁^(−3/2)), N = n₁⊗n₁ and η = c/√X: ∂(σN)ᵢ/∂eⱼ = 2σ′ NᵢNⱼ + σ ∂Nᵢ/∂eⱼ and ∂η/∂X = −η/2X.
@@ -173,7 +174,7 @@ impl Fabric for WrinklingFilm {
         let full = self.film.tangent(e, past);
         let Some(folded) = Self::folded(e) else { return full };
         let pull = folded.pull();
-        let Some([over, root]) = self.beyond(self.film.energy(e, past), self.k() * pull[0]) else { return full };
+        let Some([flat, root]) = self.beyond(self.film.energy(e, past), self.k() * pull[0]) else { return full };
         let Folded { d, c, z, .. } = folded;
         let r = folded.r.max(f64::MIN_POSITIVE);
         let (sigma, n) = (self.k() * pull[1], folded.along());
@@ -182,11 +183,11 @@ impl Fabric for WrinklingFilm {
         let shear = [-c / r * (d / r), c / r * (d / r), d / r * (d / r)].map(|v| 0.5 * sigma * v / r);
         let rows = [turn, turn.map(|v| -v), shear];
         let own = |i: usize, j: usize| slope * n[i] * n[j] + rows[i][j];
-        let (share, tension) = (over / root, self.film.tension(e, past));
+        let (carried, tension) = (flat / root, self.film.tension(e, past));
         let excess: [f64; 3] = std::array::from_fn(|i| tension[i] - sigma * n[i]);
-        let fall = 0.5 * (1.0 - share) / (root * root);
+        let fall = 0.5 * carried / (root * root);
         std::array::from_fn(|i| {
-            std::array::from_fn(|j| full[i][j] + share * (own(i, j) - full[i][j]) - fall * excess[i] * excess[j])
+            std::array::from_fn(|j| own(i, j) + carried * (full[i][j] - own(i, j)) - fall * excess[i] * excess[j])
         })
     }
 

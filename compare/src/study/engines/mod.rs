@@ -94,9 +94,9 @@ pub struct EngineState {
     pub energies_mj: [f64; 5],
     /// Kinetic over kinetic and stored energy.
     pub kinetic_share: f64,
-    /// Whether the tip was at rest; runs that did not keep it were not watched.
-    #[serde(default)]
-    pub is_at_rest: bool,
+    /// Whether the tip was at rest; `None` in runs that did not keep it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub is_at_rest: Option<bool>,
     /// Largest von Mises stress \[MPa\].
     pub von_mises_mpa: f64,
     /// Largest pull on a weld \[N/m\].

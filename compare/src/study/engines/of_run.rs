@@ -55,7 +55,7 @@ fn state(r: &Reading) -> EngineState {
         actuator_cm3: short(r.actuator_m3 * 1e6),
         energies_mj,
         kinetic_share: short(r.kinetic_share),
-        is_at_rest: r.is_at_rest,
+        is_at_rest: Some(r.is_at_rest),
         von_mises_mpa: short(r.von_mises_pa * 1e-6),
         weld_n_per_m: short(r.seam_n_per_m),
         base_n: r.base_n.map(short),
