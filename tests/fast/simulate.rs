@@ -106,7 +106,11 @@ fn a_finished_run_is_replaced_only_by_force_and_only_when_the_new_one_is_complet
     let first = results(&folder, "run");
     refuse(&folder, &["simulate", "my.toml", "--out", "run"], 3, &["holds a finished run", "--force"]);
     let again = folder.run(&["simulate", "my.toml", "--out", "run", "--resume"]);
-    assert!(again.code == 0 && again.stderr.contains("is complete at t =") && again.stderr.contains("nothing was done"), "{}", again.stderr);
+    assert!(
+        again.code == 0 && again.stderr.contains("is complete at t =") && again.stderr.contains("nothing was done"),
+        "{}",
+        again.stderr
+    );
     assert!(again.stdout.contains("centre_top"), "the summary is shown again: {}", again.stdout);
     folder.write("my.toml", small() + "frames = false\n");
     assert_eq!(folder.run(&["simulate", "my.toml", "--out", "run", "--force"]).code, 0);
