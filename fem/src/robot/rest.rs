@@ -47,7 +47,7 @@ pub enum Rest {
 impl Settling {
     /// Waited time of the run at the end of the present window \[s\]; `None` between holds.
     pub fn next_s(&self) -> Option<f64> {
-        (!self.tip_m.is_empty()).then(|| self.from_s + self.tip_m.len() as f64 * WINDOW_S)
+        (!self.tip_m.is_empty()).then_some(self.from_s + self.tip_m.len() as f64 * WINDOW_S)
     }
 
     /// Judges the tip's displacement \[m\], of which so much may be ahead \[m\], after so much waiting of the run \[s\], of which a hold
