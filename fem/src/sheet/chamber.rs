@@ -87,9 +87,10 @@ impl Air {
         amplitude.peak().max(self.now.pressure_pa.abs())
     }
 
-    /// True if its walls have passed through each other.
+    /// True if its walls have passed through each other and the pressure does not part them again: below the room's, or of enclosed gas.
     pub fn is_inside_out(&self) -> bool {
-        policy::is_inside_out(self.now.volume_m3.unwrap_or(0.0) / self.area_m2.powf(1.5))
+        let closes = self.now.pressure_pa < 0.0 || self.follows();
+        closes && policy::is_inside_out(self.now.volume_m3.unwrap_or(0.0) / self.area_m2.powf(1.5))
     }
 
     /// True if the gas decides the pressure at some time: the volume is then taken at every step, before the forces.
