@@ -131,7 +131,7 @@ impl RobotSettings {
     /// | selective masses | the step asks for an eighth and less of the mass that it asks for without |
     /// | ramp floor 2 kPa | the body's pressure: there a robot bends most per pascal, and gussets open |
     /// | mass damping 40 1/s | holds last until the tip is at rest, so that it decides how long a run takes |
-    /// | hourglass .003 | with .001 elements of the pouches turn inside out; .01 holds 9 to 16 % of the stored energy |
+    /// | hourglass .002 | .01 holds 9 to 16 % of the stored energy, .003 up to 6, .002 less than 5 |
     /// | compressed sheets carry the load of their wrinkles | 2π √(D T)/ℓ, from D, T = p_b R and the geometry: no number of its own |
     /// | bending factor 0.2 | droop of a heat-bondable coated nylon, measured by others: 0.1 to 0.5 |
     /// | tape 0.05 mm over the whole face, no margin | assumed: the usual thickness, a sheet cut at its welds |
@@ -175,7 +175,7 @@ impl RobotSettings {
             cfl: 0.9,
             viscosity: 0.06,
             mass_damping_1_s: 40.0,
-            hourglass: 3e-3,
+            hourglass: 2e-3,
             guard_hourglass: Guards::default().hourglass,
             contact: None,
             encastre: false,

@@ -123,10 +123,10 @@ fn sealed() -> Found {
             1e6 * sealed_volume_m3(&pouch, theta),
             0.03,
         ));
-        if ratio > 1.0 {
+        if ratio > 1.5 {
             lines.push(Line::value(format!("W/L = {ratio}: contraction"), ends, contraction(theta), 0.03));
         } else {
-            // A volume that is flat at its largest leaves the contraction of the square pouch to what the approximation lacks.
+            // A volume that is flat at its largest leaves the contraction of squat pouches to what the approximation lacks.
             lines.push(Line::between(
                 format!("W/L = {ratio}: contraction"),
                 ends,

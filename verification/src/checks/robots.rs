@@ -118,7 +118,7 @@ fn pull_n_m(element: &Element, fabric: &dyn Fabric, direction: V3, x: &[[f64; 4]
     (a * a * s[0] + b * b * s[1] + 2.0 * a * b * s[2]).max(0.0)
 }
 
-/// A robot at the end of one ramp.
+/// A robot at the end of one ramp, at rest.
 fn bend(name: &str, settings: &RobotSettings) -> Result<End, FemError> {
     let (scenario, mut problem) = shipped(name, settings)?;
     problem.settings.threads = 1;
@@ -127,6 +127,7 @@ fn bend(name: &str, settings: &RobotSettings) -> Result<End, FemError> {
     let mut run = Simulation::new(&problem)?;
     let start = line.at(&run.positions())?;
     advance(&mut run, problem.settings.end_s)?;
+    run.wait_until(0.1, &mut |_| true)?;
     let end = line.at(&run.positions())?;
     Ok(End { run, problem, y_mm: 1e3 * (end[0][1] - start[0][1]) })
 }
