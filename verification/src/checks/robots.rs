@@ -55,7 +55,8 @@ fn run() -> Found {
 }
 
 fn folds() -> Found {
-    let low = RobotSettings { actuator_pa: 10e3, ..RobotSettings::default() };
+    // Without wrinkles below the mesh, so that the tension beside a fold is that of the elements' shape.
+    let low = RobotSettings { actuator_pa: 10e3, wrinkle_length: None, ..RobotSettings::default() };
     let stiff = RobotSettings { bending_factor: 10.0 * low.bending_factor, ..low.clone() };
     let [soft, stiff] = [bend("epam", &low)?, bend("epam", &stiff)?];
     let stored = |end: &End| energy_j(&end.run, "folds");
