@@ -1,4 +1,4 @@
-//! Loads of a robot beside its pressures: one for the whole run, or one at every pressure.
+//! Loads of a robot in addition to its pressures: one for the whole run, or one at every pressure.
 //!
 //! A list has an entry for every pressure, and the load goes from one to the next while the pressure does: a pressure written twice,
 //! `pressures_kpa = [30, 30]` with `tip_force_n = [[0, 0, 0], [0, -0.5, 0]]`, loads the robot at pressure. All steps are of fifth

@@ -63,7 +63,6 @@ impl Settling {
         let is_at_rest = now_m <= allowed_m && ahead(self.tip_m.len().saturating_sub(2)) <= allowed_m;
         if is_at_rest || own_s + WINDOW_S > longest_s * (1.0 + 1e-9) {
             self.tip_m.clear();
-            return Rest::Over { waited_s: own_s, ahead_m: now_m, is_at_rest };
         }
         self.next_s().map_or(Rest::Over { waited_s: own_s, ahead_m: now_m, is_at_rest }, Rest::Until)
     }
@@ -94,7 +93,7 @@ mod tests {
     use super::*;
     use crate::policy::{CREEP, moves_no_more_m};
 
-    /// Waits for a tip that moves as told; the time waited, what is ahead and whether it rests.
+    /// Waits for a tip with this motion; returns the time waited, the estimate of the remaining way and whether it rests.
     fn waited(tip: impl Fn(f64) -> f64, longest_s: f64) -> (f64, f64, bool) {
         let (mut settling, mut time_s) = (Settling::default(), 1.0);
         loop {

@@ -132,7 +132,7 @@ impl RobotSettings {
     /// | ramp floor 2 kPa | the body's pressure: there a robot bends most per pascal, and gussets open |
     /// | mass damping 40 1/s | holds last until the tip is at rest, so that it decides how long a run takes |
     /// | hourglass .002 | .01 holds 9 to 16 % of the stored energy, .003 up to 6, .002 less than 5 |
-    /// | compressed sheets carry the load of their wrinkles | 2π √(D T)/ℓ, from D, T = p_b R and the geometry: no number of its own |
+    /// | compressed sheets carry the load of their wrinkles | 2π √(D T)/ℓ, from D, T = p_b R and the geometry: not an independent number |
     /// | bending factor 0.2 | droop of a heat-bondable coated nylon, measured by others: 0.1 to 0.5 |
     /// | tape 0.05 mm over the whole face, no margin | assumed: the usual thickness, a sheet cut at its welds |
     /// | ν₁₂ = 0.2 | assumed: the middle of 0 to 0.4 |

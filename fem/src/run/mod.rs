@@ -9,6 +9,7 @@
 //! kinetic energy the balance of a linear undamped system is kept to rounding.
 //! Reference: Belytschko, Liu, Moran, Nonlinear Finite Elements, ch. 6.
 
+mod clock;
 mod constraint;
 mod guard;
 mod highest;
@@ -35,6 +36,7 @@ use crate::problem::Guards;
 use crate::sheet::Sheet;
 use crate::sheet::order::Order;
 use crate::{FemError, Mesh, Problem, Transient};
+use clock::{Books, Clock};
 use constraint::{Body, Driven};
 pub(crate) use guard::LESS_HOURGLASS;
 use reaction::Reactions;
@@ -87,58 +89,6 @@ struct Limits {
     speed_m_s: f64,
     /// Added mass over true mass.
     added_mass: f64,
-}
-
-/// Where the run stands.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-struct Clock {
-    step: u64,
-    /// Time of loads and supports; it stops while the run waits.
-    time_s: f64,
-    /// Time that the run has waited.
-    waited_s: f64,
-    waits: bool,
-    dt_s: f64,
-    /// Length of the step before; 0 at the start.
-    before_s: f64,
-    /// Longest step that the start allowed.
-    longest_s: f64,
-    /// γ: the stable step of the whole mesh over that of the nodes' bounds.
-    gain: f64,
-}
-
-impl Clock {
-    /// The clock that runs.
-    fn runs_s(&self) -> f64 {
-        if self.waits { self.waited_s } else { self.time_s }
-    }
-}
-
-/// Energies that only stepping can add up \[J\].
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-struct Books {
-    kinetic: f64,
-    stored: f64,
-    damping: Halves,
-    support: Halves,
-    start: f64,
-    scale: f64,
-    /// Supplied and dissipated by loads of an earlier run that are absent from this one.
-    earlier: [f64; 2],
-}
-
-/// A sum of what happens from half a step before to half a step after each moment, read at the moments.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-struct Halves {
-    sum: f64,
-    last: f64,
-}
-
-impl Halves {
-    fn add(&mut self, whole: f64) {
-        self.sum += 0.5 * (self.last + whole);
-        self.last = whole;
-    }
 }
 
 /// What a checkpoint holds of a run.

@@ -1,4 +1,4 @@
-//! A run that goes on where another one ended: for longer in the same folder, or in a folder of its own with other loads.
+//! A run that goes on where another one ended: for longer in the same folder, or in another folder with other loads.
 //!
 //! A complete run keeps its end in `checkpoint.end`. Time goes on from there, and so does the ledger: loads that are absent
 //! from a later run are its line `earlier loads`.

@@ -56,14 +56,14 @@ pub fn product(run: &RobotRun, seeds: Option<u64>, separate: bool, meshes: &[[f6
     cases
 }
 
-/// The robot as it is, then with every numerical setting a third and three times as large, the mesh half as large and the steps shorter.
-/// What a setting leaves to the program is not varied, but for the mass factor.
+/// The robot as it is, then with each of [`NUMERICAL`] a third and three times as large, and on elements of half the size. A setting
+/// that the program chooses by itself is left out, except the mass factor.
 pub fn numerics(run: &RobotRun) -> Vec<Variation> {
     let mut all = vec![Variation::default()];
     let mut add = |label: String, changes: Changes| all.push(Variation { label, changes, ..Variation::default() });
     let settings = &run.settings;
     let number = |si: f64, key: &RunKey| format!("{:.4e}", si / key.si);
-    for key in KEYS.iter().filter(|key| NUMERICAL.contains(&key.name) && !key.name.ends_with("mesh_mm")) {
+    for key in KEYS.iter().filter(|key| NUMERICAL.contains(&key.name)) {
         let own = (key.get)(settings).or((key.name == "mass_factor").then_some(MASS_FACTOR[0]));
         let Some(own) = own.filter(|own| *own != 0.0) else { continue };
         for (label, factor) in [("third", 1.0 / 3.0), ("triple", 3.0)] {

@@ -217,7 +217,7 @@ impl RobotSummary {
                 100.0 * share(&r)
             )
         });
-        // Without any time to rest, every reading is one of a movement, as is wanted.
+        // With rest_s = 0 every reading is taken in motion on purpose.
         let moving = self.readings.iter().filter(|r| !r.is_at_rest && r.waited_s > 0.0).map(|r| {
             format!(
                 "at {} kPa the tip still moves after {:.2} s (at rest it would be up to {} mm further). Try: a longer rest_s, less or more \

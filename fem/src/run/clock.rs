@@ -1,0 +1,58 @@
+//! Time and energies of a run that only stepping can add up.
+
+use serde::{Deserialize, Serialize};
+
+/// Where a run stands in time \[s\].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) struct Clock {
+    /// Steps done.
+    pub step: u64,
+    /// Time of loads and supports; it stops while the run waits.
+    pub time_s: f64,
+    /// Time that the run has waited.
+    pub waited_s: f64,
+    /// Whether it waits now.
+    pub waits: bool,
+    /// Length of a step.
+    pub dt_s: f64,
+    /// Length of the step before; 0 at the start.
+    pub before_s: f64,
+    /// Longest step that the start allowed.
+    pub longest_s: f64,
+    /// γ: the stable step of the whole mesh over that of the nodes' bounds.
+    pub gain: f64,
+}
+
+impl Clock {
+    /// The clock that runs.
+    pub fn runs_s(&self) -> f64 {
+        if self.waits { self.waited_s } else { self.time_s }
+    }
+}
+
+/// Energies that only stepping can add up \[J\].
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Books {
+    pub kinetic: f64,
+    pub stored: f64,
+    pub damping: Halves,
+    pub support: Halves,
+    pub start: f64,
+    pub scale: f64,
+    /// Supplied and dissipated by loads of an earlier run that are absent from this one.
+    pub earlier: [f64; 2],
+}
+
+/// A sum of what happens from half a step before to half a step after each moment, read at the moments.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Halves {
+    pub sum: f64,
+    last: f64,
+}
+
+impl Halves {
+    pub fn add(&mut self, whole: f64) {
+        self.sum += 0.5 * (self.last + whole);
+        self.last = whole;
+    }
+}
