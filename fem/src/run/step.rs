@@ -36,15 +36,19 @@ impl Simulation {
         self.advance(time_s, go_on)
     }
 
-    /// Steps with all loads and supports as they are, until the run has waited for so long in all \[s\], or `go_on` returns false.
+    /// Steps with all loads and supports as they are at `at_s`, within half a step of now, until the run has waited for `waited_s` in all
+    /// \[s\], or `go_on` returns false.
     ///
     /// # Errors
     /// As [`Simulation::advance_until`].
     pub fn wait_until(
         &mut self,
         waited_s: f64,
+        at_s: f64,
         go_on: &mut (dyn FnMut(&Simulation) -> bool + Send),
     ) -> Result<Advance, FemError> {
+        // A run reaches a time within half a step; loads that then stand still would have begun with what comes next.
+        self.clock.time_s = at_s;
         self.clock.waits = true;
         self.advance(waited_s, go_on)
     }

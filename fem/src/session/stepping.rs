@@ -127,23 +127,29 @@ impl<'a> Running<'a> {
             let output_s = if self.next == last { end_s } else { self.next as f64 * every_s };
             let hold_s = self.robot.as_ref().and_then(Watched::next_s).filter(|hold_s| *hold_s <= output_s);
             self.advance(Goal::Time(hold_s.unwrap_or(output_s)), &mut teller, &mut keeper, progress)?;
-            if hold_s.is_none() {
-                self.output()?;
-                continue;
-            }
-            while let Some(robot) = &mut self.robot {
-                match robot.rest(&self.run) {
-                    Rest::Until(waited_s) => {
-                        self.advance(Goal::Waited(waited_s), &mut teller, &mut keeper, progress)?
-                    }
-                    rest => {
-                        robot.read(&self.run, rest)?;
-                        break;
-                    }
-                }
+            match hold_s {
+                Some(hold_s) => self.rest(hold_s, &mut teller, &mut keeper, progress)?,
+                None => self.output()?,
             }
         }
         self.run.judge_end()
+    }
+
+    /// Waits at the end of a hold until the robot is at rest, then reads it.
+    fn rest(
+        &mut self,
+        hold_s: f64,
+        teller: &mut Teller,
+        keeper: &mut Keeper,
+        progress: Progress,
+    ) -> Result<(), FemError> {
+        while let Some(robot) = &mut self.robot {
+            match robot.rest(&self.run) {
+                Rest::Until(waited_s) => self.advance(Goal::Waited(waited_s, hold_s), teller, keeper, progress)?,
+                rest => return robot.read(&self.run, rest),
+            }
+        }
+        Ok(())
     }
 
     /// Steps to a moment, with checkpoints on the way; [`FemError::Interrupted`] once `progress` asks to end.
@@ -168,7 +174,7 @@ impl<'a> Running<'a> {
         };
         let advanced = match goal {
             Goal::Time(time_s) => self.run.advance_until(time_s, &mut each)?,
-            Goal::Waited(waited_s) => self.run.wait_until(waited_s, &mut each)?,
+            Goal::Waited(waited_s, at_s) => self.run.wait_until(waited_s, at_s, &mut each)?,
         };
         fault.map_or(Ok(()), Err)?;
         if advanced == Advance::Interrupted {
@@ -291,8 +297,8 @@ fn centre_line(case: &Case) -> Result<Option<CentreLine>, FemError> {
 enum Goal {
     /// A time of its loads.
     Time(f64),
-    /// A time waited in all.
-    Waited(f64),
+    /// A time waited in all, with the loads of a moment.
+    Waited(f64, f64),
 }
 
 /// When to write a checkpoint.

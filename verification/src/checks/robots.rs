@@ -128,7 +128,7 @@ fn bend(name: &str, settings: &RobotSettings) -> Result<End, FemError> {
     let mut run = Simulation::new(&problem)?;
     let start = line.at(&run.positions())?;
     advance(&mut run, problem.settings.end_s)?;
-    run.wait_until(0.1, &mut |_| true)?;
+    run.wait_until(0.1, problem.settings.end_s, &mut |_| true)?;
     let end = line.at(&run.positions())?;
     Ok(End { run, problem, y_mm: 1e3 * (end[0][1] - start[0][1]) })
 }
