@@ -54,9 +54,9 @@ pub(super) struct Plies<'a> {
 pub(super) struct Wrinkles {
     /// T = p_b R, the hoop tension of the body \[N/m\].
     tension_n_per_m: f64,
-    /// In the wall: half of the circumference between two strips, from the edge of a strip to the line that stays taut \[m\].
+    /// In the wall: half of the circumference between two strips, from the side weld of a strip to the line that stays taut \[m\].
     wall_m: f64,
-    /// In the actuator's sheets: half of the strip's width, from its side to its middle \[m\].
+    /// In the actuator's sheets: half of the width between the side welds, from a side to the middle \[m\].
     sheet_m: f64,
 }
 
