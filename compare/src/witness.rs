@@ -16,7 +16,7 @@ use crate::diagnosis::{Answer, Diagnosis, ParameterValue, Ranked, Standing, with
 use crate::error::CompareError;
 use crate::moment::{CurvePoint, at_turn, degrees};
 use crate::policy;
-use crate::study::engines::{EngineRun, Ensemble, TERMS, between, ensemble, mean_and_deviation};
+use crate::study::engines::{Energies, EngineRun, Ensemble, TERMS, between, ensemble, mean_and_deviation};
 use crate::study::predict::{fit_scenario, predict_dataset};
 use crate::wording::{list, short};
 use data::{About, Dataset, Phase};
@@ -56,7 +56,7 @@ pub struct WitnessRow {
     /// `base`, or the effects it has beyond it.
     pub name: String,
     /// Ledger in [`TERMS`] at the finite elements' bend \[mJ\].
-    pub energies_mj: [f64; 6],
+    pub energies_mj: Energies,
     /// Σ of the differences from the finite elements' \[mJ\].
     pub apart_mj: f64,
     /// The diagnosis names it: one of those that the data do not tell apart, or the attempt.
@@ -95,7 +95,7 @@ pub struct Witness {
     pub actuator_kpa: f64,
     /// Their ledger in [`TERMS`] from the first bend to that pressure, mean over seeds \[mJ\]; `None` if the calibrated model
     /// cannot bend as they do.
-    pub fe_mj: Option<[f64; 6]>,
+    pub fe_mj: Option<Energies>,
     /// The base first, then candidates, nearest ledger first; empty without a ledger.
     pub models: Vec<WitnessRow>,
     /// What follows, in sentences.
@@ -119,7 +119,7 @@ impl Witness {
 
     /// Name, ledger in [`TERMS`] and distance from the finite elements' ledger, which is the last row \[mJ\].
     pub fn ledger_rows(&self) -> Vec<Vec<String>> {
-        let row = |name: &str, energies: &[f64; 6], apart: Option<f64>| {
+        let row = |name: &str, energies: &Energies, apart: Option<f64>| {
             let mut row = vec![name.to_string()];
             row.extend(energies.iter().map(|e| format!("{e:.0}")));
             row.push(apart.map_or("–".into(), |e| format!("{e:.0}")));
@@ -268,12 +268,12 @@ fn beside(
     scenario: &Scenario,
     ensemble: &Ensemble,
     (kpa, named): (f64, bool),
-) -> Option<(WitnessRow, [f64; 6])> {
-    let ledgers: Vec<[[f64; 6]; 2]> =
+) -> Option<(WitnessRow, Energies)> {
+    let ledgers: Vec<[Energies; 2]> =
         ensemble.runs.iter().map(|run| between(scenario, run, kpa)).collect::<Option<_>>()?;
     let mean =
         |which: usize| std::array::from_fn(|k| ledgers.iter().map(|l| l[which][k]).sum::<f64>() / ledgers.len() as f64);
-    let (fe, own): ([f64; 6], [f64; 6]) = (mean(0), mean(1));
+    let (fe, own): (Energies, Energies) = (mean(0), mean(1));
     let apart_mj = (0..PHYSICAL).map(|k| (fe[k] - own[k]).abs()).sum();
     Some((WitnessRow { name: name.into(), energies_mj: own, apart_mj, named }, fe))
 }
@@ -326,14 +326,14 @@ fn meeting(w: &Witness) -> String {
 }
 
 /// A calibrated B that holds far more energy than the wall.
-fn stiffness(base: &WitnessRow, fe: &[f64; 6]) -> Option<String> {
+fn stiffness(base: &WitnessRow, fe: &Energies) -> Option<String> {
     let (own, theirs) = (base.energies_mj[BENDING], fe[BENDING]);
     (own > 2.0 * theirs.max(0.0) && own > 0.1 * fe[GAS].abs()).then(|| {
         format!("On the way there the calibrated B stores {own:.0} mJ in the wall, theirs {theirs:.0} mJ: in a robot like theirs this B stands for something that is not bending.")
     })
 }
 
-fn nearest(base: &WitnessRow, others: &[WitnessRow], fe: &[f64; 6], d: &Diagnosis) -> String {
+fn nearest(base: &WitnessRow, others: &[WitnessRow], fe: &Energies, d: &Diagnosis) -> String {
     let off = |m: &WitnessRow, k: usize| (fe[k] - m.energies_mj[k]).abs();
     let widest = (0..PHYSICAL).max_by(|a, b| off(base, *a).total_cmp(&off(base, *b))).unwrap_or(GAS);
     let where_ = format!("{} ({:.0} mJ, theirs {:.0} mJ)", TERMS[widest], base.energies_mj[widest], fe[widest]);

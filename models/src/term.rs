@@ -152,6 +152,8 @@ pub enum Account {
     Wall,
     /// Stretch and shear of fabric.
     Stretch,
+    /// Sheets that are compressed and wrinkle.
+    Compression,
     /// What touches.
     Contact,
     /// What numbers need and nature has not.

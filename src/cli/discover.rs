@@ -145,6 +145,9 @@ pub struct BreakdownArgs {
     /// Element size, or those of body and actuator, for example 8mm/4mm; default: the scenario's
     #[arg(long, value_name = "[BODY/]ACTUATOR", allow_hyphen_values = true)]
     pub mesh: Option<String>,
+    /// Run every robot with a tenth of its bending stiffness and of the load of compressed sheets too: which of them carries a departure
+    #[arg(long, conflicts_with = "stored")]
+    pub carriers: bool,
     /// Machines beside each other
     #[command(flatten)]
     pub shards: ShardArgs,

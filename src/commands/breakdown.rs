@@ -53,6 +53,7 @@ fn runs(args: &BreakdownArgs, context: &mut Context) -> Result<Result<Made, Outc
         pouch_mm: list("--pouch", &args.pouch, Quantity::Length, 1e3)?,
         actuator_kpa: list("--pressure", &args.pressure, Quantity::Pressure, 1e-3)?,
         mesh_mm: meshes.first().copied(),
+        carriers: args.carriers,
     };
     let (jobs, settings) = (jobs(&robots(&args.scenarios)?.0, &ranges)?, kept(&args.runs, args.threads));
     if let Some(told) = shared(&args.shards, &jobs, &settings, context)? {

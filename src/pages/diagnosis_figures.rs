@@ -4,7 +4,7 @@ use super::PageError;
 use super::figures::measured;
 use compare::diagnosis::{Answer, Diagnosis, Group, Standing};
 use compare::extension::ErrorStep;
-use compare::study::engines::TERMS;
+use compare::study::engines::{Energies, TERMS};
 use compare::study::predict::predict_dataset;
 use compare::witness::{Witness, WitnessRow};
 use data::{Dataset, Phase};
@@ -239,7 +239,7 @@ pub(super) fn witness_cases(w: &Witness, d: &Diagnosis) -> Vec<plots::LedgerCase
         (true, false) => format!(" ({})", d.attempt_words()),
         (false, true) => format!(" ({FITS_WORSE})"),
     };
-    let case = |label: String, e: &[f64; 6]| plots::LedgerCase { label, energies_mj: e.to_vec() };
+    let case = |label: String, e: &Energies| plots::LedgerCase { label, energies_mj: e.to_vec() };
     let mut cases = vec![case(base.name.clone(), &base.energies_mj)];
     cases.extend(
         named.chain(nearest).map(|m| case(m.name.trim_start_matches("+ ").to_string() + &what(m), &m.energies_mj)),

@@ -35,7 +35,7 @@ pub fn text(rows: &[Parting]) -> String {
             percent(bare),
             format!("{:.1}", p.reduced_mm[1]),
             percent(p),
-            p.carrier().unwrap_or("–").into(),
+            p.carrier.map_or("–".into(), |c| format!("{} ({:+.0} % without)", c.term, 100.0 * c.difference_without)),
         ]
     };
     let shapes = shapes(rows);

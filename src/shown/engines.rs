@@ -3,7 +3,8 @@
 use crate::failure::Failure;
 use crate::tables::table;
 use compare::study::engines::{
-    EngineLine, Engines, HEADS, SUMMARY, TERMS, VOLUMES, VOLUMES_CAPTION, cells, summary, volume_cells,
+    BRANCHES, EngineLine, Engines, HEADS, SUMMARY, TERMS, VOLUMES, VOLUMES_CAPTION, branch_cells, cells, summary,
+    volume_cells,
 };
 
 /// Tables of a comparison of both engines.
@@ -19,7 +20,18 @@ pub fn text(lines: &[EngineLine], engines: &Engines) -> Result<String, Failure> 
     }
     out.push_str("All pressures that the paper prints\n");
     out.push_str(&table(&HEADS, 1, lines.iter().map(cells).collect()));
-    Ok(out + &ledgers(engines) + &volumes(engines))
+    Ok(out + &branches(engines) + &ledgers(engines) + &volumes(engines))
+}
+
+fn branches(engines: &Engines) -> String {
+    let rows = branch_cells(&engines.robots);
+    if rows.is_empty() {
+        return String::new();
+    }
+    format!(
+        "\nFinite elements on the way up and down again, mean ± standard deviation over seeds\n{}",
+        table(&BRANCHES, 1, rows)
+    )
 }
 
 fn ledgers(engines: &Engines) -> String {
@@ -37,8 +49,9 @@ fn ledgers(engines: &Engines) -> String {
             row.push(if engine == "finite elements" { format!("{:.0}", pair.lost_mj) } else { "–".into() });
             rows.push(row);
         }
-        if let Some(carrier) = pair.carrier() {
-            let mut row = vec![String::new(), format!("carried by: {carrier}")];
+        if let Some(carrier) = pair.carrier {
+            let without = 100.0 * carrier.difference_without;
+            let mut row = vec![String::new(), format!("carried by: {} ({without:+.0} % without)", carrier.term)];
             row.resize(TERMS.len() + 3, String::new());
             rows.push(row);
         }

@@ -32,9 +32,9 @@ pub fn text(one: &OneNumber) -> String {
     if !one.not_met_by.is_empty() {
         out.push_str(&format!("At no value within its bounds: {}.\n", one.not_met_by.join(", ")));
     }
-    if let Some(term) = &one.fe_ledger {
+    if let Some(term) = &one.fe_carrier {
         out.push_str(&format!(
-            "In the finite element run's ledger the difference from the model as shipped is carried by: {term}.\n"
+            "The finite elements differ from the model as shipped by: {term}. Without it in both, the difference is less than half.\n"
         ));
     }
     out

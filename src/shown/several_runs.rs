@@ -2,19 +2,18 @@
 
 use crate::tables::table;
 use compare::study::uncertain::{Member, Uncertain, Weight};
-use fem::session::{Heights, RunRow, RunTable, SeedGroup};
+use fem::session::{AS_IT_IS, Heights, RunRow, RunTable, SeedGroup};
 
 /// Every run, then mean and spread of those that differ in the seed only.
 pub fn table_text(all: &RunTable) -> String {
     // A robot as it is comes first, then what was changed about it.
-    let first = all.rows.first().filter(|run| run.variation.label.is_empty()).map_or(&[][..], |run| &run.heights);
+    let first = all.rows.first().filter(|run| run.variation.label == AS_IT_IS).map_or(&[][..], |run| &run.heights);
     let row = |run: &RunRow, (k, h): (usize, &Heights)| {
-        let label = if run.variation.label.is_empty() { "as it is" } else { &run.variation.label };
         let [marker, tip, cpu] = [h.marker_mm, h.tip_mm, run.cpu_s].map(|v| format!("{v:.1}"));
         let own = first.get(k).filter(|own| own.actuator_kpa == h.actuator_kpa && own.tip_mm.abs() > 0.0);
         let change = own.map_or("–".into(), |own| format!("{:+.1}", 100.0 * (h.tip_mm / own.tip_mm - 1.0)));
-        let rest = if h.is_at_rest { "" } else { "moves" };
-        vec![label.to_string(), h.actuator_kpa.to_string(), marker, tip, change, rest.into(), cpu]
+        let rest = if h.is_at_rest { "yes" } else { "no" };
+        vec![run.variation.label.clone(), h.actuator_kpa.to_string(), marker, tip, change, rest.into(), cpu]
     };
     let lines = all.rows.iter().flat_map(|run| run.heights.iter().enumerate().map(|h| row(run, h)));
     let head = ["run", "actuator kPa", "outermost marker mm", "tip mm", "change %", "at rest", "run CPU s"];

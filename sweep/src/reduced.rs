@@ -7,11 +7,12 @@ use compare::ScenarioFile;
 use models::{Account, CHANNELS, Loads, Model, Prediction};
 
 /// Accounts of the ledger, in the order of their columns.
-pub const ACCOUNTS: [(&str, Account); 7] = [
+pub const ACCOUNTS: [(&str, Account); 8] = [
     ("actuator_gas", Account::ActuatorGas),
     ("body_gas", Account::BodyGas),
     ("wall", Account::Wall),
     ("stretch", Account::Stretch),
+    ("compressed_sheets", Account::Compression),
     ("contact", Account::Contact),
     ("numerical", Account::Numerical),
     ("load", Account::Load),

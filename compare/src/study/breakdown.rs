@@ -1,6 +1,6 @@
 //! Over which pressures and pouches the reduced model parts from the finite elements.
 
-use super::engines::{EnginePair, EngineRun, SHAPE, pairs, varied};
+use super::engines::{CUTS, Carrier, Energies, EnginePair, EngineRun, SHAPE, and_back, pairs, varied};
 use crate::error::CompareError;
 use fem::FemError;
 use fem::session::{Job, Source, mesh_keys, rounded};
@@ -19,9 +19,12 @@ pub struct Ranges {
     pub actuator_kpa: Vec<f64>,
     /// Element sizes of body and actuator, if not its own \[mm\].
     pub mesh_mm: Option<[f64; 2]>,
+    /// Whether every robot is run with a tenth of each term of [`CUTS`] too.
+    pub carriers: bool,
 }
 
-/// Every robot at every body pressure, and with every pouch length at its own.
+/// Every robot at every body pressure, and with every pouch length at its own, up through the pressures and down again; with a term
+/// cut, up only.
 ///
 /// # Errors
 /// [`FemError::Setting`] for pouches longer than the actuator.
@@ -30,10 +33,17 @@ pub fn jobs(robots: &[(Source, Scenario)], ranges: &Ranges) -> Result<Vec<Job>, 
     for (source, scenario) in robots {
         for (body_kpa, pouch_mm) in places(scenario, ranges) {
             let above: Vec<f64> = ranges.actuator_kpa.iter().copied().filter(|p| *p >= body_kpa).collect();
-            let mut changes = vec![("pressures_kpa".to_string(), format!("{above:?}"))];
-            changes.extend(ranges.mesh_mm.iter().flat_map(mesh_keys));
-            let source = source.varied(body_kpa, pouch_mm)?.with(&changes)?;
-            jobs.push(Job { source, what: scenario.name.clone(), folder: None });
+            let source = source.varied(body_kpa, pouch_mm)?;
+            let mut add = |what: String, kpa: &[f64], more: Option<(&str, f64)>| {
+                let mut changes = vec![("pressures_kpa".to_string(), format!("{kpa:?}"))];
+                changes.extend(ranges.mesh_mm.iter().flat_map(mesh_keys));
+                changes.extend(more.map(|(key, value)| (key.to_string(), value.to_string())));
+                source.with(&changes).map(|source| jobs.push(Job { source, what, folder: None }))
+            };
+            add(scenario.name.clone(), &and_back(&above), None)?;
+            for cut in CUTS.iter().filter(|_| ranges.carriers) {
+                add(format!("{}, a tenth of {}", scenario.name, cut.term), &above, Some(cut.key))?;
+            }
         }
     }
     Ok(jobs)
@@ -68,11 +78,11 @@ pub struct Parting {
 /// A model without equilibrium.
 pub fn partings(scenarios: &[Scenario], runs: &[EngineRun]) -> Result<Vec<Parting>, CompareError> {
     let mut rows = Vec::new();
-    for run in runs {
+    for run in runs.iter().filter(|run| run.cut.is_empty()) {
         let Some(scenario) = scenarios.iter().find(|s| s.name == run.scenario) else { continue };
         let scenario = varied(scenario, run);
-        let bare = pairs(&scenario.bare(), run)?;
-        let both = pairs(&scenario, run)?.into_iter().zip(bare);
+        let bare = pairs(&scenario.bare(), run, runs)?;
+        let both = pairs(&scenario, run, runs)?.into_iter().zip(bare);
         rows.extend(both.map(|(own, bare)| Parting { run: run.clone(), bare, own }));
     }
     Ok(rows)
@@ -86,7 +96,7 @@ pub fn csv(rows: &[Parting]) -> String {
     for cell in rows.iter().map(PartingCell::of) {
         let difference = cell.difference.map_or(String::new(), |d| (100.0 * d).to_string());
         let PartingCell { robot, mesh_mm, body_kpa, pouch_mm, actuator_kpa, reduced_tip_mm, fe_tip_mm, .. } = cell;
-        let (carrier, bare) = (cell.carried_by.unwrap_or_default(), cell.bare_tip_mm);
+        let (carrier, bare) = (cell.carried_by.map_or("", |c| c.term), cell.bare_tip_mm);
         out.push_str(&format!("{robot},{mesh_mm},{body_kpa},{pouch_mm},{actuator_kpa},"));
         out.push_str(&format!("{reduced_tip_mm},{fe_tip_mm},{difference},{carrier},{bare}\n"));
     }
@@ -112,10 +122,10 @@ pub struct PartingCell<'a> {
     pub fe_tip_mm: f64,
     /// Reduced minus finite elements over the latter.
     pub difference: Option<f64>,
-    /// The term that carries it.
-    pub carried_by: Option<&'static str>,
+    /// The term that carries it, and the difference without it.
+    pub carried_by: Option<Carrier>,
     /// Excess of every term \[mJ\].
-    pub excess_mj: Option<[f64; 6]>,
+    pub excess_mj: Option<Energies>,
     /// Tip of the scenario without its effects \[mm\].
     pub bare_tip_mm: f64,
     /// Its difference.
@@ -144,7 +154,7 @@ impl PartingCell<'_> {
             reduced_tip_mm: own.reduced_mm[1],
             fe_tip_mm: own.fe_mm[1],
             difference: own.difference(),
-            carried_by: own.carrier(),
+            carried_by: own.carrier,
             excess_mj: own.excess_mj,
             bare_tip_mm: bare.reduced_mm[1],
             bare_difference: bare.difference(),

@@ -52,8 +52,8 @@ pub struct OneNumber {
     pub met_by: Vec<Explanation>,
     /// Effects that meet it at no value within their bounds.
     pub not_met_by: Vec<String>,
-    /// Term that takes the work in the finite element run, where one carries the difference.
-    pub fe_ledger: Option<String>,
+    /// Term whose cut in both engines removes their difference at the highest pressure, where one does.
+    pub fe_carrier: Option<String>,
 }
 
 impl OneNumber {
@@ -109,7 +109,7 @@ pub fn one_number(kind: &str) -> Result<OneNumber, CompareError> {
         }
     }
     met_by.sort_by(|a, b| size(a).total_cmp(&size(b)));
-    let fe_ledger = engines(&[shipped], &stored()?)?.robots.first().and_then(|r| r.pairs.last()?.carrier());
+    let fe_carrier = engines(&[shipped], &stored()?)?.robots.first().and_then(|r| r.pairs.last()?.carrier);
     Ok(OneNumber {
         robot: actuator.printed_name.clone(),
         actuator: kind.into(),
@@ -118,7 +118,7 @@ pub fn one_number(kind: &str) -> Result<OneNumber, CompareError> {
         bare_mm: curve(&bare)?,
         met_by,
         not_met_by,
-        fe_ledger: fe_ledger.map(String::from),
+        fe_carrier: fe_carrier.map(|carrier| carrier.term.to_string()),
     })
 }
 

@@ -39,7 +39,7 @@ impl Problem {
     }
 
     /// A number that two problems share if a run of one can go on from the end of the other: mesh, sections, what is held, contact and
-    /// numerics agree. Pressures, forces, gravity, obstacles, amplitudes of supports, guards, end time and outputs may differ.
+    /// numerics agree. Pressures, forces, gravity, obstacles, amplitudes of supports, guards, patience, end time and outputs may differ.
     pub fn fingerprint_of_structure(&self) -> u64 {
         let mut plain = self.clone();
         plain.name.clear();
@@ -47,7 +47,8 @@ impl Problem {
         plain.chambers.iter_mut().for_each(|chamber| chamber.pressure = Pressure::Set(Amplitude::Constant(0.0)));
         let still = || [0; 3].map(|_| Amplitude::Constant(0.0));
         plain.supports.iter_mut().for_each(|support| support.motion = support.motion.as_ref().map(|_| still()));
-        (plain.settings.output_every_s, plain.settings.guards) = (0.0, Guards::default());
+        let s = &mut plain.settings;
+        (s.output_every_s, s.patience, s.guards) = (0.0, None, Guards::default());
         plain.fingerprint_of_any_length()
     }
 

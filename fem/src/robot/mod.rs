@@ -59,12 +59,16 @@ use crate::mesh::check::check_open;
 pub use crate::output::centre_line::CentreLine;
 use crate::output::picture::Viewpoint;
 use crate::policy;
-use crate::problem::{Amplitude, Chamber, Contact, Guards, MassScaling, Pressure, Settings, Support};
+use crate::problem::{Amplitude, Chamber, Contact, Guards, MassScaling, Patience, Pressure, Settings, Support};
 use crate::run;
 use crate::sheet::reference::mean_stiffness;
+use crate::vec3::{area, norm};
 use crate::{FemError, Mesh, Problem};
 use lines::Lines;
 use plies::Plies;
+
+/// Mass damping over ω of [`Settling`]: half of what is critical for the ePAM, whose tip then overshoots by a sixth.
+const DAMPING: f64 = 1.4;
 
 /// The robot of a scenario as a problem, ready to run.
 ///
@@ -127,7 +131,8 @@ fn sewn(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> 
     let set = if settings.encastre { encastre(&mut problem.mesh, sew::BASE) } else { sew::BASE.into() };
     problem.supports = vec![Support { set, axes: [true; 3], motion: None }];
     problem.contact = contact(&problem.mesh, &patterns[0], settings);
-    problem.settings = numerics(&problem, settings);
+    let pace_1_s = pace_1_s(scenario, &problem);
+    problem.settings = numerics(&problem, settings, pace_1_s);
     Ok(problem)
 }
 
@@ -223,7 +228,19 @@ fn contact(mesh: &Mesh, pattern: &Pattern, settings: &RobotSettings) -> Option<C
     wanted.then(|| Contact { gap_m: 0.5 * settings.layer_gap_m, parts, ..Contact::default() })
 }
 
-fn numerics(problem: &Problem, settings: &RobotSettings) -> Settings {
+/// ω of [`Settling`] \[1/s\].
+fn pace_1_s(scenario: &Scenario, problem: &Problem) -> f64 {
+    let parts = problem.mesh.parts.iter().zip(&problem.sections);
+    let mass_kg = parts.map(|(part, section)| {
+        let corners = |i| part.nodes(i).iter().map(|n| problem.mesh.points[*n as usize]).collect::<Vec<_>>();
+        let area_m2: f64 = (0..part.len()).map(|i| norm(area(&corners(i)))).sum();
+        area_m2 * section.density_kg_m3 * section.plies.iter().map(|ply| ply.fabric.thickness_m()).sum::<f64>()
+    });
+    let pull_n = scenario.p_body_pa * std::f64::consts::PI * scenario.radius_m.powi(2);
+    (4.0 * pull_n / (mass_kg.sum::<f64>() * scenario.length_m)).sqrt()
+}
+
+fn numerics(problem: &Problem, settings: &RobotSettings, pace_1_s: f64) -> Settings {
     let speed = |section: &crate::problem::Section| {
         let stiffness: f64 = section.plies.iter().map(|p| mean_stiffness(&*p.fabric)).sum();
         let mass: f64 = section.plies.iter().map(|p| p.fabric.thickness_m()).sum::<f64>() * section.density_kg_m3;
@@ -233,8 +250,8 @@ fn numerics(problem: &Problem, settings: &RobotSettings) -> Settings {
     let smallest = settings.body_size_m.min(settings.actuator_size_m);
     let is_fine = smallest < settings::FINE_M;
     let mass_passes = settings.mass_passes.unwrap_or(if is_fine { 6 } else { 2 });
-    let heavy = is_fine && settings.selective_mass && problem.contact.is_some();
-    let mass_factor = settings.mass_factor.unwrap_or(settings::MASS_FACTOR[usize::from(heavy)]);
+    let touches = problem.contact.is_some() && !is_fine;
+    let mass_factor = settings.mass_factor.unwrap_or(settings::MASS_FACTOR[usize::from(!touches)]);
     let allowed = if settings.selective_mass { run::gain(mass_passes) } else { 1.0 };
     Settings {
         end_s: settings.body_ramp_s + settings.actuator_ramp_s + settings.hold_s,
@@ -243,10 +260,15 @@ fn numerics(problem: &Problem, settings: &RobotSettings) -> Settings {
         mass_passes,
         cfl: settings.cfl,
         viscosity: settings.viscosity,
-        mass_damping_1_s: settings.mass_damping_1_s,
+        mass_damping_1_s: settings.mass_damping_1_s.unwrap_or(DAMPING * pace_1_s),
         hourglass: settings.hourglass,
         imperfection: settings.imperfection,
         seed: settings.seed,
+        patience: Some(Patience {
+            creep: settings.creep,
+            longest_s: settings.longest_rest_s(),
+            window_s: rest::WINDOW / pace_1_s,
+        }),
         // Crumpled gussets pass each other between nodes; how many is told with every run, and no robot is lost by it.
         guards: Guards { sides: 1.0, hourglass: settings.guard_hourglass, ..Guards::default() },
         ..Settings::default()

@@ -152,14 +152,15 @@ impl Plies<'_> {
     }
 
     fn loose(&self, plies: Vec<Ply>) -> Section {
-        let (density_kg_m3, bending_factor) = (self.settings.density_kg_m3, self.settings.bending_factor);
-        Section { plies, bonded: false, density_kg_m3, bending_factor, rest_curvature: false }
+        let s = self.settings;
+        let bending_factor = s.bending_factor * s.bending_share;
+        Section { plies, bonded: false, density_kg_m3: s.density_kg_m3, bending_factor, rest_curvature: false }
     }
 
     fn bonded(&self, plies: Vec<Ply>) -> Section {
         let wanted = laminate_stiffness(&plies, self.settings.bond, self.settings.bending_factor);
         let solid = Section { bonded: true, bending_factor: 1.0, ..self.loose(plies) };
-        let bending_factor = wanted / bending_stiffness(&solid);
+        let bending_factor = self.settings.bending_share * wanted / bending_stiffness(&solid);
         Section { bending_factor, ..solid }
     }
 }

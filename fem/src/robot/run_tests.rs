@@ -99,7 +99,7 @@ fn fine_meshes_take_more_passes_of_selective_masses_and_fewer_steps() {
     let (scenario, coarse) = parsed("mesh_mm = 16").unwrap();
     let problem = coarse.problem(&scenario).unwrap();
     let of = |more: &str| {
-        let settings = numerics(&problem, &parsed(&format!("mesh_mm = 16\n{more}")).unwrap().1.settings);
+        let settings = numerics(&problem, &parsed(&format!("mesh_mm = 16\n{more}")).unwrap().1.settings, 64.0);
         let MassScaling::TargetStep(step_s) = settings.mass_scaling else { panic!("no step") };
         (settings.mass_passes, step_s)
     };
@@ -117,7 +117,8 @@ fn fine_meshes_take_more_passes_of_selective_masses_and_fewer_steps() {
     let [touching, told] = ["contact = true", "contact = true\nmass_factor = 2.4"].map(|more| {
         let (scenario, run) = parsed(&format!("mesh_mm = 16\n{more}")).unwrap();
         let settings = RobotSettings { actuator_size_m: 1.4e-3, ..run.settings.clone() };
-        let MassScaling::TargetStep(step_s) = numerics(&run.problem(&scenario).unwrap(), &settings).mass_scaling else {
+        let MassScaling::TargetStep(step_s) = numerics(&run.problem(&scenario).unwrap(), &settings, 64.0).mass_scaling
+        else {
             panic!("no step")
         };
         (step_s / fine.1).powi(2)

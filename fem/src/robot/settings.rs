@@ -13,9 +13,8 @@ pub(super) const TAPED_SPACING: f64 = 0.8;
 pub(super) const FOLDED_ROW: f64 = 2.0 / 3.0;
 /// Elements shorter than this \[m\] are much finer than what moves: their selective masses take six passes.
 pub(super) const FINE_M: f64 = 1.5e-3;
-/// `mass_factor`: of all robots, and of such fine ones whose layers touch. Contact makes their step
-/// dear, and stuck plies, which make a longer one expensive in mass, are few: the cPAM gets 66 % of mass with 3.6, 31 with 2.4, and ends
-/// where 222 % had left it before.
+/// `mass_factor`: of robots whose layers touch on elements that are not fine, and of all others. On the former 3.6 adds 57 % of mass where 2.4
+/// adds 30, and moves the cPAM by 1.4 % at 10 kPa; the ePAM moves by less than 0.7 %.
 pub(crate) const MASS_FACTOR: [f64; 2] = [2.4, 3.6];
 /// Thickness of a tape that only ties two sheets \[m\].
 const TIE_M: f64 = 1e-6;
@@ -39,6 +38,9 @@ pub struct RobotSettings {
     pub weld_m: f64,
     /// Share of the bending stiffness of a solid plate that one sheet of coated fabric has. Assumed.
     pub bending_factor: f64,
+    /// Share of the bending stiffness of sheets, welds and glued plies that is kept; wrinkles keep their load. 1 but for a study of
+    /// what carries a difference.
+    pub bending_share: f64,
     /// Length of the wrinkles of single sheets over the length that the geometry gives (`plies`), to which their load is inverse
     /// ([`models::fabrics::WrinklingFilm`]). `None`: sheets carry all of compression. Assumed.
     pub wrinkle_length: Option<f64>,
@@ -98,8 +100,8 @@ pub struct RobotSettings {
     pub cfl: f64,
     /// In-plane viscosity ([`crate::problem::Settings::viscosity`]).
     pub viscosity: f64,
-    /// Mass damping \[1/s\].
-    pub mass_damping_1_s: f64,
+    /// Mass damping \[1/s\]; `None`: 1.4 ω, the estimate of the tip's lowest frequency ([`super::Settling`]).
+    pub mass_damping_1_s: Option<f64>,
     /// Hourglass coefficient.
     pub hourglass: f64,
     /// Share of the stored energy that hourglass control may hold at the end ([`crate::problem::Guards::hourglass`]).
@@ -127,11 +129,11 @@ impl RobotSettings {
     /// | rows of 2 mm beside the welds of a folded sheet | full pouches set these welds on edge, which longer rows cannot follow |
     /// | waviness 0.1 mm | assumed; without it all seeds of a robot take the folds that its mesh prefers |
     /// | welds 3 mm wide | assumed; of all numbers the one that decides most |
-    /// | 0.04 + 0.36 s and holds until rest, masses raised | with rate-free fabrics only the number of steps counts |
+    /// | 0.04 + 0.12 s and holds until rest, masses raised | three times the ramp moves ePAM and cPAM by less than 0.8 % |
     /// | selective masses | the step asks for an eighth and less of the mass that it asks for without |
     /// | ramp floor 2 kPa | the body's pressure: there a robot bends most per pascal, and gussets open |
-    /// | mass damping 40 1/s | holds last until the tip is at rest, so that it decides how long a run takes |
-    /// | hourglass .002 | .01 holds 9 to 16 % of the stored energy, .003 up to 6, .002 less than 5 |
+    /// | mass damping from the tip's frequency | holds last until the tip is at rest, so that it decides how long a run takes |
+    /// | hourglass .0007 | a third and three times as much move ePAM and cPAM by less than 1.2 %; .002 held up to 5 % of the stored energy |
     /// | compressed sheets carry the load of their wrinkles | 2π √(D T)/ℓ, from D, T = p_b R and the geometry: not an independent number |
     /// | bending factor 0.2 | droop of a heat-bondable coated nylon, measured by others: 0.1 to 0.5 |
     /// | tape 0.05 mm over the whole face, no margin | assumed: the usual thickness, a sheet cut at its welds |
@@ -147,6 +149,7 @@ impl RobotSettings {
             layer_gap_m: 1e-5,
             weld_m: 3e-3,
             bending_factor: 0.2,
+            bending_share: 1.0,
             wrinkle_length: Some(1.0),
             bond: 1.0,
             tape_m: 5e-5,
@@ -164,9 +167,9 @@ impl RobotSettings {
             density_kg_m3: 1000.0,
             actuator_pa: 30e3,
             body_ramp_s: 0.04,
-            actuator_ramp_s: 0.36,
+            actuator_ramp_s: 0.12,
             ramp_floor_pa: Some(2e3),
-            hold_s: 0.03,
+            hold_s: 4e-3,
             rest_s: None,
             mass_factor: None,
             selective_mass: true,
@@ -174,8 +177,8 @@ impl RobotSettings {
             creep: policy::CREEP,
             cfl: 0.9,
             viscosity: 0.06,
-            mass_damping_1_s: 40.0,
-            hourglass: 2e-3,
+            mass_damping_1_s: None,
+            hourglass: 7e-4,
             guard_hourglass: Guards::default().hourglass,
             contact: None,
             encastre: false,
@@ -207,6 +210,7 @@ impl RobotSettings {
             ring_spacing: Some(1.0),
             weld_m: 0.0,
             bending_factor: 1.0,
+            bending_share: 1.0,
             wrinkle_length: None,
             tape_m: TIE_M,
             tape_margin_m: 0.0,
@@ -216,7 +220,7 @@ impl RobotSettings {
             ramp_floor_pa: None,
             hold_s: 0.0,
             rest_s: Some(0.0),
-            mass_damping_1_s: 5.0,
+            mass_damping_1_s: Some(5.0),
             waviness_m: 0.0,
             ..RobotSettings::compressed()
         }
@@ -224,7 +228,7 @@ impl RobotSettings {
 
     /// Longest time that a hold waits for rest \[s\].
     pub fn longest_rest_s(&self) -> f64 {
-        self.rest_s.unwrap_or(2.0 * self.actuator_ramp_s)
+        self.rest_s.unwrap_or(6.0 * self.actuator_ramp_s)
     }
 
     /// The actuator's pressure through (time \[s\], pressure \[Pa\]) points.

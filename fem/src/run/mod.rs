@@ -26,7 +26,7 @@ pub use ledger::Ledger;
 pub use reaction::Reaction;
 pub use sides::ChangedSides;
 
-use models::{Account, Pose, Row, RowKind};
+use models::{Account, LedgerLine, Pose, Row, RowKind};
 use serde::{Deserialize, Serialize};
 
 use crate::bytes::{pack, unpack};
@@ -314,7 +314,8 @@ impl Simulation {
         let compressed_j = self.sheet.compressed_j(self.x.as_flattened());
         if let Some(membrane) = ledger.rows.iter_mut().find(|row| row.name == "membrane") {
             membrane.energy_j -= compressed_j;
-            let compressed = Row { name: "compressed sheets", energy_j: compressed_j, ..*membrane };
+            let line = LedgerLine { name: "compressed sheets", account: Account::Compression };
+            let compressed = line.row(membrane.kind, compressed_j);
             ledger.rows.push(compressed);
         }
         ledger

@@ -53,7 +53,7 @@ pub use folder::is_finished;
 pub use manifest::{FileHash, MANIFEST, Maker, Manifest, sha256};
 pub use many::{Job, Many, Shard, finished_below, problems, simulate_all};
 pub use memory::least_bytes;
-pub use plan::{Changes, Cube, Felt, Variation, cube, felt, mesh_keys, numerics, pressures_in_toml, product};
+pub use plan::{AS_IT_IS, Changes, Cube, Felt, Variation, cube, felt, mesh_keys, numerics, pressures_in_toml, product};
 pub use source::{Loaded, Source};
 pub use summary::{
     ChamberEnd, Cost, EnergyLine, FirstThrough, KineticShares, MeshQuality, ProbeEnd, ReactionEnd, Rule, SUMMARY,

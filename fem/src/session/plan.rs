@@ -3,7 +3,10 @@
 use super::{Source, rounded};
 use crate::FemError;
 use crate::robot::{ASSUMED, Assumed, KEYS, MASS_FACTOR, NUMERICAL, RobotRun, RobotSettings, RunKey, hypercube};
-use models::CHANNELS;
+use models::{CHANNELS, Scenario};
+
+/// Label of a robot of which nothing is varied.
+pub const AS_IT_IS: &str = "as-it-is";
 
 /// Keys of `[fem]` and their values as in TOML.
 pub type Changes = Vec<(String, String)>;
@@ -57,14 +60,22 @@ pub fn product(run: &RobotRun, seeds: Option<u64>, separate: bool, meshes: &[[f6
 }
 
 /// The robot as it is, then with each of [`NUMERICAL`] a third and three times as large, and on elements of half the size. A setting
-/// that the program chooses by itself is left out, except the mass factor.
-pub fn numerics(run: &RobotRun) -> Vec<Variation> {
-    let mut all = vec![Variation::default()];
+/// that the program chooses by itself is varied from that value, or left out where there is none.
+///
+/// # Errors
+/// A robot that cannot be built.
+pub fn numerics(scenario: &Scenario, run: &RobotRun) -> Result<Vec<Variation>, FemError> {
+    let mut all = vec![Variation { label: AS_IT_IS.into(), ..Variation::default() }];
     let mut add = |label: String, changes: Changes| all.push(Variation { label, changes, ..Variation::default() });
-    let settings = &run.settings;
+    let (settings, chosen) = (&run.settings, run.problem(scenario)?.settings);
     let number = |si: f64, key: &RunKey| format!("{:.4e}", si / key.si);
     for key in KEYS.iter().filter(|key| NUMERICAL.contains(&key.name)) {
-        let own = (key.get)(settings).or((key.name == "mass_factor").then_some(MASS_FACTOR[0]));
+        let own = (key.get)(settings).or(match key.name {
+            "mass_factor" => Some(MASS_FACTOR[0]),
+            "mass_damping_1_s" => Some(chosen.mass_damping_1_s),
+            "rest_s" => Some(settings.longest_rest_s()),
+            _ => None,
+        });
         let Some(own) = own.filter(|own| *own != 0.0) else { continue };
         for (label, factor) in [("third", 1.0 / 3.0), ("triple", 3.0)] {
             let [low, high] = key.bounds;
@@ -76,7 +87,7 @@ pub fn numerics(run: &RobotRun) -> Vec<Variation> {
     }
     let half = [settings.body_size_m, settings.actuator_size_m].map(|m| rounded(0.5e3 * m));
     add("mesh-half".into(), mesh_keys(&half).to_vec());
-    all
+    Ok(all)
 }
 
 /// Label, keys of `[fem]`, and whether means are taken apart for it.

@@ -1,6 +1,7 @@
 //! What is read of a robot while it runs.
 
 use super::rounded;
+use crate::problem::Patience;
 use crate::robot::{HoldEnd, KEYS, Reading, Rest, RobotGauge, RobotRun, RunKey, Sample, Settling, Snap, Watch, snaps};
 use crate::vec3::norm;
 use crate::{FemError, Problem, Simulation, policy};
@@ -47,8 +48,7 @@ impl WatchedRobot {
             holds: holds.collect(),
             readings: Vec::new(),
             length_m: self.scenario.length_m,
-            rest_s: self.run.settings.longest_rest_s(),
-            creep: self.run.settings.creep,
+            patience: problem.settings.patience,
             settling: Settling::default(),
             watch: Watch::new(&problem.mesh),
         }
@@ -64,8 +64,7 @@ pub(super) struct Watched {
     gauge: RobotGauge,
     holds: Vec<HoldEnd>,
     length_m: f64,
-    rest_s: f64,
-    creep: f64,
+    patience: Option<Patience>,
     settling: Settling,
     /// Readings so far.
     pub readings: Vec<Reading>,
@@ -97,9 +96,12 @@ impl Watched {
         if let Some(next_s) = self.settling.next_s().filter(|next_s| run.waited_s() + 0.5 * run.dt_s() < *next_s) {
             return Rest::Until(next_s);
         }
+        let Some(patience) = self.patience else {
+            return Rest::Over { waited_s: 0.0, ahead_m: f64::INFINITY, is_at_rest: false };
+        };
         let tip_m = self.gauge.tip_moved_m(run);
-        let allowed_m = policy::moves_no_more_m(self.creep, norm(tip_m), self.length_m);
-        self.settling.look(tip_m, allowed_m, run.waited_s(), self.rest_s)
+        let allowed_m = policy::moves_no_more_m(patience.creep, norm(tip_m), self.length_m);
+        self.settling.look(tip_m, allowed_m, run.waited_s(), patience)
     }
 
     /// Reads the robot.

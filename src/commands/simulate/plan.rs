@@ -66,9 +66,10 @@ pub fn plan(args: &SimulateArgs, source: Source) -> Result<RunPlan, Failure> {
         let known: Vec<&str> = args.set.iter().filter_map(|text| text.split('=').next()).map(str::trim).collect();
         return Ok(RunPlan::Uncertain(cube(base, &known, robots as usize)?));
     }
-    let (_, run) = base.robot_run()?;
+    let (scenario, run) = base.robot_run()?;
     if args.numerics {
-        return Ok(RunPlan::Table(base, numerics(&run)));
+        let all = numerics(&scenario, &run)?;
+        return Ok(RunPlan::Table(base, all));
     }
     let of_run = || run.meshes_m.iter().map(|sizes| sizes.map(|m| rounded(m * 1e3))).collect();
     let meshes = typed.unwrap_or_else(of_run);

@@ -127,6 +127,29 @@ pub fn cells(line: &EngineLine) -> Vec<String> {
 pub const HEADS: [&str; 8] =
     ["robot", "kPa", "source", "how known", "marker mm", "sd of seeds mm", "tip mm", "accuracy %"];
 
+/// Heads of [`branch_cells`].
+pub const BRANCHES: [&str; 6] = ["robot", "kPa", "tip up mm", "tip down mm", "down over up %", "at rest"];
+
+/// Tips of the finite elements at every pressure of every robot on the way up and on the way down again, mean and standard deviation
+/// over the seeds; no rows for runs that did not come down.
+pub fn branch_cells(robots: &[EngineRobot]) -> Vec<Vec<String>> {
+    let mm = |(mean, spread): (f64, Option<f64>)| match spread {
+        Some(spread) => format!("{mean:.1} ± {spread:.1}"),
+        None => format!("{mean:.1}"),
+    };
+    let row = |robot: &EngineRobot, kpa: f64| {
+        let ([_, up], down) = (robot.ensemble.at(kpa)?, robot.ensemble.back_at(kpa)?);
+        let rest = if robot.ensemble.is_at_rest(kpa) { "yes" } else { "no" };
+        let more = format!("{:+.1}", 100.0 * (down.0 / up.0 - 1.0));
+        Some(vec![robot.scenario.actuator.kind.name.into(), format!("{kpa:.0}"), mm(up), mm(down), more, rest.into()])
+    };
+    let of = |robot: &EngineRobot| {
+        let states = robot.ensemble.runs.first().map_or(&[][..], |run| &run.states);
+        states.iter().filter_map(|state| row(robot, state.actuator_kpa)).collect::<Vec<_>>()
+    };
+    robots.iter().flat_map(of).collect()
+}
+
 /// Heads of [`volume_cells`].
 pub const VOLUMES: [&str; 7] = [
     "robot",

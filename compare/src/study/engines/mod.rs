@@ -7,18 +7,19 @@
 //! excess of a term = E_fe(θ) − E_reduced(θ)        gas: −P ΔV, counted from the filled body
 //! ```
 //!
-//! Where the finite elements bend less, the term with the largest excess carries the difference: energy that the reduced model
-//! does not know of. Where they bend more, the one with the largest lack. **Validity**: a statement about energies, not about
-//! their slopes, which decide the equilibrium; it names what to look at, it proves nothing.
+//! Energies at one bend do not decide the equilibrium, their slopes do. Which term carries a difference of the tips is
+//! therefore tried: [`carrier`] cuts the term in both engines and looks whether the difference goes.
 
+mod carrier;
 mod lines;
 mod of_run;
 mod robots;
 mod volumes;
 
+pub use carrier::{CUTS, Carrier, Cut, carrier};
 pub use lines::*;
-pub(in crate::study) use of_run::is_paper;
 pub use of_run::{all_runs, as_run, known_runs, of_the_program, runs_of, seed_jobs};
+pub(in crate::study) use of_run::{and_back, is_paper};
 pub use robots::{EngineRobot, Engines, PartingMap, engines, varied};
 pub use volumes::{BodyVolumes, MeanOverSeeds, MeanVolumes, Volumes, body_volumes, volumes};
 
@@ -31,7 +32,10 @@ use models::{Account, Loads, Model, Scenario, Target};
 use serde::{Deserialize, Serialize};
 
 /// Terms of the common ledger.
-pub const TERMS: [&str; 6] = ["pouch gas", "body folds", "wall bending", "stretch", "contact", "hourglass"];
+pub const TERMS: [&str; 7] =
+    ["pouch gas", "body folds", "wall bending", "stretch", "compressed sheets", "contact", "hourglass"];
+/// Energies in [`TERMS`] \[mJ\].
+pub type Energies = [f64; TERMS.len()];
 /// Highest pressure at which a model is asked for a bend \[Pa\].
 const HIGHEST_PA: f64 = 500e3;
 
@@ -68,6 +72,9 @@ pub struct EngineRun {
     pub stations_mm: Vec<f64>,
     /// `calibrated` if a number of the run was fitted to the tip it is compared with, else `assumed`.
     pub known: String,
+    /// Term of [`CUTS`] of which the robot has a tenth; empty for a robot as it is.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub cut: String,
     /// States, the filled body without actuator pressure first.
     pub states: Vec<EngineState>,
     /// States on the way back from the highest pressure, if the run came down again.
@@ -90,8 +97,8 @@ pub struct EngineState {
     pub body_cm3: f64,
     /// Volume of the actuator \[cm³\].
     pub actuator_cm3: f64,
-    /// Stored in membrane, bending, contact and hourglass control, and lost so far \[mJ\].
-    pub energies_mj: [f64; 5],
+    /// Stored in membrane, compressed sheets, bending, contact and hourglass control, and lost so far \[mJ\].
+    pub energies_mj: [f64; 6],
     /// Kinetic over kinetic and stored energy.
     pub kinetic_share: f64,
     /// Whether the tip was at rest; `None` in runs that did not keep it.
@@ -126,15 +133,17 @@ pub struct EnginePair {
     /// Outermost marker and tip of the finite elements \[mm\].
     pub fe_mm: [f64; 2],
     /// Ledger of the reduced model in [`TERMS`] \[mJ\], at its own bend.
-    pub reduced_mj: [f64; 6],
+    pub reduced_mj: Energies,
     /// Ledger of the finite elements \[mJ\].
-    pub fe_mj: [f64; 6],
+    pub fe_mj: Energies,
     /// The same minus the reduced model's at this bend \[mJ\]; `None` if it cannot bend so.
-    pub excess_mj: Option<[f64; 6]>,
+    pub excess_mj: Option<Energies>,
     /// What the finite elements have lost since the body was full \[mJ\].
     pub lost_mj: f64,
     /// Reduced model and finite elements in [`SHAPE`]; `None` without pouches, and for runs that did not keep it.
     pub shape: Option<[[f64; 5]; 2]>,
+    /// What carries the difference; `None` where the models meet, and where no term was cut or none carries it.
+    pub carrier: Option<Carrier>,
 }
 
 /// Quantities of [`EnginePair::shape`]; lengths in mm, volumes in cm³.
@@ -151,24 +160,19 @@ impl EnginePair {
     pub fn parts(&self) -> bool {
         self.difference().is_some_and(|off| !policy::meets(off))
     }
-
-    /// The term that carries the difference, where they do.
-    pub fn carrier(&self) -> Option<&'static str> {
-        let difference = self.difference().filter(|_| self.parts())?;
-        let excess = self.excess_mj?;
-        let signed = |k: &usize| excess[*k] * difference.signum();
-        let k = (0..TERMS.len()).max_by(|a, b| signed(a).total_cmp(&signed(b)))?;
-        (signed(&k) > 0.0).then_some(TERMS[k])
-    }
 }
 
-/// Both engines at every pressure of a run.
+/// Both engines at every pressure of a run; among all runs those of the same robot with a term cut say what carries a difference.
 ///
 /// # Errors
 /// A model without equilibrium.
-pub fn pairs(scenario: &Scenario, run: &EngineRun) -> Result<Vec<EnginePair>, CompareError> {
+pub fn pairs(scenario: &Scenario, run: &EngineRun, all: &[EngineRun]) -> Result<Vec<EnginePair>, CompareError> {
     let Some((filled, states)) = run.states.split_first() else { return Ok(Vec::new()) };
-    states.iter().map(|state| pair(scenario, run, filled, state)).collect()
+    let mut pairs = states.iter().map(|state| pair(scenario, run, filled, state)).collect::<Result<Vec<_>, _>>()?;
+    for pair in &mut pairs {
+        pair.carrier = carrier(scenario, run, pair, all)?;
+    }
+    Ok(pairs)
 }
 
 fn pair(
@@ -192,9 +196,10 @@ fn pair(
     let fe_mj = fe_ledger(run, filled, state);
     let at_this_bend = reduced_at(&model, run, state, state.actuator_kpa, &mut at);
     let excess_mj = at_this_bend.map(|reduced| std::array::from_fn(|k| fe_mj[k] - reduced[k]));
-    let lost_mj = state.energies_mj[4] - filled.energies_mj[4];
+    let lost_mj = state.energies_mj[5] - filled.energies_mj[5];
     let fe_mm = [state.marker_mm, state.tip_mm];
-    Ok(EnginePair { actuator_kpa: state.actuator_kpa, reduced_mm, fe_mm, reduced_mj, fe_mj, excess_mj, lost_mj, shape })
+    let (actuator_kpa, carrier) = (state.actuator_kpa, None);
+    Ok(EnginePair { actuator_kpa, reduced_mm, fe_mm, reduced_mj, fe_mj, excess_mj, lost_mj, shape, carrier })
 }
 
 /// Ledger of the reduced model at the bend of a state, its gas at a pressure in the volume that this bend takes \[mJ\];
@@ -205,7 +210,7 @@ fn reduced_at(
     state: &EngineState,
     gas_kpa: f64,
     at: &mut models::Prediction,
-) -> Option<[f64; 6]> {
+) -> Option<Energies> {
     let body_pa = run.body_kpa * 1e3;
     let pa = model.pressure_for(Target::Angle(state.turn_rad), body_pa, at).ok().filter(|pa| *pa > 0.0)?;
     Some(reduced_ledger(model, &Loads::uniform(body_pa, pa), at, gas_kpa * 1e3 / pa))
@@ -214,7 +219,7 @@ fn reduced_at(
 /// Ledgers of finite elements and of the reduced model at the same bends, from the first pressure that bends the robot by a tenth
 /// of the turn at the given one to that one \[mJ\]: what filling a slack actuator takes is in neither. `None` if
 /// the run lacks the two states or the model cannot bend so.
-pub fn between(scenario: &Scenario, run: &EngineRun, actuator_kpa: f64) -> Option<[[f64; 6]; 2]> {
+pub fn between(scenario: &Scenario, run: &EngineRun, actuator_kpa: f64) -> Option<[Energies; 2]> {
     let model = Model::new(&Scenario { p_max_pa: HIGHEST_PA, ..scenario.clone() });
     let mut at = model.prediction();
     let high = run.states.iter().find(|s| policy::is_same_reading(s.actuator_kpa, actuator_kpa))?;
@@ -225,8 +230,8 @@ pub fn between(scenario: &Scenario, run: &EngineRun, actuator_kpa: f64) -> Optio
     Some([fe_ledger(run, low, high), std::array::from_fn(|k| to[k] - from[k])])
 }
 
-fn reduced_ledger(model: &Model, loads: &Loads, at: &models::Prediction, gas: f64) -> [f64; 6] {
-    let mut out = [0.0; 6];
+fn reduced_ledger(model: &Model, loads: &Loads, at: &models::Prediction, gas: f64) -> Energies {
+    let mut out = [0.0; TERMS.len()];
     for line in model.ledger(loads, at) {
         let (term, factor) = match line.account {
             Account::ActuatorGas => (0, gas),
@@ -234,8 +239,9 @@ fn reduced_ledger(model: &Model, loads: &Loads, at: &models::Prediction, gas: f6
             // The runs have no loads beside their gas.
             Account::Wall | Account::Load => (2, 1.0),
             Account::Stretch => (3, 1.0),
-            Account::Contact => (4, 1.0),
-            Account::Numerical => (5, 1.0),
+            Account::Compression => (4, 1.0),
+            Account::Contact => (5, 1.0),
+            Account::Numerical => (6, 1.0),
         };
         out[term] += factor * line.energy_j * 1e3;
     }
@@ -243,15 +249,16 @@ fn reduced_ledger(model: &Model, loads: &Loads, at: &models::Prediction, gas: f6
 }
 
 /// Gas −P ΔV in mJ (kPa·cm³ is mJ), the rest as stored since the body was full.
-fn fe_ledger(run: &EngineRun, filled: &EngineState, state: &EngineState) -> [f64; 6] {
+fn fe_ledger(run: &EngineRun, filled: &EngineState, state: &EngineState) -> Energies {
     let since = |k: usize| state.energies_mj[k] - filled.energies_mj[k];
     [
         -state.actuator_kpa * (state.actuator_cm3 - filled.actuator_cm3),
         -run.body_kpa * (state.body_cm3 - filled.body_cm3),
-        since(1),
-        since(0),
         since(2),
+        since(0),
+        since(1),
         since(3),
+        since(4),
     ]
 }
 
@@ -261,7 +268,7 @@ pub fn accuracy(model_mm: f64, measured_mm: f64) -> Option<f64> {
 }
 
 /// Files of finite element runs.
-const RUNS: RecordShape = RecordShape { schema: "ibr.fem_runs", version: 1 };
+const RUNS: RecordShape = RecordShape { schema: "ibr.fem_runs", version: 2 };
 
 #[derive(Deserialize)]
 struct EngineRuns {
@@ -312,6 +319,20 @@ impl Ensemble {
         (!found.is_empty()).then(|| [of(0), of(1)])
     }
 
+    /// Mean and standard deviation of the tip on the way back at a pressure \[mm\]; `None` where no run came back to it.
+    pub fn back_at(&self, actuator_kpa: f64) -> Option<(f64, Option<f64>)> {
+        let at = |state: &&EngineState| policy::is_same_reading(state.actuator_kpa, actuator_kpa);
+        let found: Vec<f64> = self.runs.iter().filter_map(|run| Some(run.down.iter().find(at)?.tip_mm)).collect();
+        (!found.is_empty()).then(|| mean_and_deviation(&found))
+    }
+
+    /// Whether the tips of all runs were at rest at a pressure, on both ways.
+    pub fn is_at_rest(&self, actuator_kpa: f64) -> bool {
+        let here = |state: &&EngineState| policy::is_same_reading(state.actuator_kpa, actuator_kpa);
+        let mut all = self.runs.iter().flat_map(|run| run.states.iter().chain(&run.down)).filter(here);
+        all.all(|state| state.is_at_rest != Some(false))
+    }
+
     /// Mean and standard deviation of the height of the marker, on the wall, at a station \[mm\]; `None` where no run has it at that pressure.
     pub fn marker_at(&self, station_m: f64, actuator_kpa: f64) -> Option<(f64, Option<f64>)> {
         let here = |run: &EngineRun| {
@@ -358,6 +379,7 @@ fn finest(runs: Vec<&EngineRun>) -> Ensemble {
 pub fn as_it_is(run: &EngineRun, scenario: &Scenario) -> bool {
     let near = |a: f64, b: f64| (a - b).abs() < 1e-6 * b.abs();
     run.actuator == scenario.actuator.kind.name
+        && run.cut.is_empty()
         && run.scenario == scenario.name
         && run.count == scenario.actuator.count
         && near(run.body_kpa, scenario.p_body_pa * 1e-3)

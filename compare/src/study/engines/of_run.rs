@@ -1,6 +1,6 @@
 //! A finite element run as a comparison wants it, and the runs of a folder or of the program.
 
-use super::{EngineRun, EngineState, ensemble, stored};
+use super::{Cut, EngineRun, EngineState, ensemble, stored};
 use fem::FemError;
 use fem::robot::{Preset, Reading};
 use fem::session::{
@@ -32,6 +32,7 @@ pub fn as_run(run: &FeRun) -> Option<EngineRun> {
         seed: about.setting("seed") as u64,
         stations_mm: about.readings[0].stations_m.iter().rev().skip(1).rev().map(|s| rounded(s * 1e3)).collect(),
         known: "assumed".into(),
+        cut: Cut::of(about).map_or(String::new(), |cut| cut.term.into()),
         states: up.iter().map(state).collect(),
         down: down.iter().map(state).collect(),
     })
@@ -44,8 +45,8 @@ fn state(r: &Reading) -> EngineState {
     let short = |v: f64| format!("{v:.6e}").parse().unwrap_or(v);
     let plane = |d: &[f64; 3]| [short(d[0] * 1e3), short(d[1] * 1e3)];
     let bending = stored("bending") + stored("folds");
-    let membrane = stored("membrane") + stored("compressed sheets");
-    let energies_mj = [membrane, bending, stored("contact"), stored("hourglass"), lost].map(short);
+    let [membrane, compressed] = ["membrane", "compressed sheets"].map(stored);
+    let energies_mj = [membrane, compressed, bending, stored("contact"), stored("hourglass"), lost].map(short);
     EngineState {
         actuator_kpa: short(r.actuator_pa * 1e-3),
         marker_mm: short(marker_mm),
@@ -73,7 +74,7 @@ pub(in crate::study) fn is_paper(summary: &Summary) -> bool {
 }
 
 /// Pressures up and down again.
-fn and_back(up: &[f64]) -> Vec<f64> {
+pub(in crate::study) fn and_back(up: &[f64]) -> Vec<f64> {
     up.iter().chain(up.iter().rev().skip(1)).copied().collect()
 }
 

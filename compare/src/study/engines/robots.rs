@@ -75,7 +75,7 @@ fn robot(scenario: &Scenario, runs: &[EngineRun]) -> Result<EngineRobot, Compare
     let uncertain = if shipped { uncertain::stored()? } else { Vec::new() };
     let uncertain = uncertain.into_iter().filter(|u| u.scenario == scenario.name).collect();
     let run = ensemble.runs.first().cloned();
-    let pairs = run.as_ref().map_or(Ok(Vec::new()), |run| pairs(scenario, run))?;
+    let pairs = run.as_ref().map_or(Ok(Vec::new()), |run| pairs(scenario, run, runs))?;
     let bodies = body_volumes(scenario, runs);
     Ok(EngineRobot {
         scenario: scenario.clone(),
@@ -91,8 +91,9 @@ fn robot(scenario: &Scenario, runs: &[EngineRun]) -> Result<EngineRobot, Compare
 
 /// Maps over body pressure and over pouch length, each from runs on the finest mesh that has two rows of it.
 fn parting_maps(scenario: &Scenario, runs: &[EngineRun]) -> Result<Vec<PartingMap>, CompareError> {
-    let kind = scenario.actuator.kind.name;
-    let mine: Vec<&EngineRun> = runs.iter().filter(|r| r.scenario == scenario.name && r.actuator == kind).collect();
+    let (kind, all) = (scenario.actuator.kind.name, runs);
+    let of_it = |r: &&EngineRun| r.scenario == scenario.name && r.actuator == kind && r.cut.is_empty();
+    let mine: Vec<&EngineRun> = runs.iter().filter(of_it).collect();
     let own_pouch = |r: &&EngineRun| (r.pouch_mm * 1e-3 - scenario.actuator.shape.length_m).abs() < 1e-6;
     let own_body = |r: &&EngineRun| (r.body_kpa * 1e3 - scenario.p_body_pa).abs() < 1e-3;
     let body: Vec<&EngineRun> = mine.iter().copied().filter(own_pouch).collect();
@@ -104,7 +105,7 @@ fn parting_maps(scenario: &Scenario, runs: &[EngineRun]) -> Result<Vec<PartingMa
     ] {
         let rows = one_per_value(runs, value);
         let Some(mesh_mm) = rows.first().map(|r| r.mesh_mm[1]) else { continue };
-        let rows = rows.iter().map(|r| Ok((format!("{}", value(r)), pairs(&varied(scenario, r), r)?)));
+        let rows = rows.iter().map(|r| Ok((format!("{}", value(r)), pairs(&varied(scenario, r), r, all)?)));
         let rows = rows.collect::<Result<Vec<_>, CompareError>>()?;
         maps.push(PartingMap { actuator: kind.to_string(), row_label: row_label.into(), rows, mesh_mm });
     }
