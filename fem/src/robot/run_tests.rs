@@ -93,6 +93,13 @@ fn a_study_of_the_mesh_names_its_meshes_and_one_of_them_takes_their_place() {
     assert_eq!((one.meshes_m, one.settings.actuator_size_m), (Vec::new(), 4e-3));
 }
 
+/// Mass damping of a robot whose tip swings with 64 rad/s.
+fn usual_damping(mass_damping_1_s: Option<f64>) -> f64 {
+    let (scenario, run) = parsed("mesh_mm = 16").unwrap();
+    let settings = RobotSettings { mass_damping_1_s, ..run.settings.clone() };
+    numerics(&run.problem(&scenario).unwrap(), &settings, 64.0).mass_damping_1_s
+}
+
 /// Elements below 1.5 mm take six passes and half the steps; what is said holds on every mesh.
 #[test]
 fn fine_meshes_take_more_passes_of_selective_masses_and_fewer_steps() {
@@ -113,17 +120,20 @@ fn fine_meshes_take_more_passes_of_selective_masses_and_fewer_steps() {
     assert_eq!([usual.0, fine.0, said.0, more.0], [2, 6, 2, 6]);
     let (longer, same) = (fine.1 / said.1, usual.1 / 8.0 * 1.4 / said.1);
     assert!((1.8..1.9).contains(&longer) && (same - 1.0).abs() < 1e-12, "{longer} {same}");
-    // Where layers of fine elements touch, masses are raised further; one says how far.
-    let [touching, told] = ["contact = true", "contact = true\nmass_factor = 2.4"].map(|more| {
+    // Where layers of such elements touch, masses are raised less; one says how far.
+    for (more, size_mm, raised) in [
+        ("contact = true", 1.4, 1.0),
+        ("contact = true", 8.0, 1.0 / 1.5),
+        ("contact = true\nmass_factor = 7.2", 8.0, 2.0),
+    ] {
         let (scenario, run) = parsed(&format!("mesh_mm = 16\n{more}")).unwrap();
-        let settings = RobotSettings { actuator_size_m: 1.4e-3, ..run.settings.clone() };
-        let MassScaling::TargetStep(step_s) = numerics(&run.problem(&scenario).unwrap(), &settings, 64.0).mass_scaling
-        else {
-            panic!("no step")
-        };
-        (step_s / fine.1).powi(2)
-    });
-    assert!((touching - 1.5).abs() < 1e-9 && (told - 1.0).abs() < 1e-9, "{touching} {told}");
+        let settings = RobotSettings { actuator_size_m: size_mm * 1e-3, ..run.settings.clone() };
+        let chosen = numerics(&run.problem(&scenario).unwrap(), &settings, 64.0);
+        let MassScaling::TargetStep(step_s) = chosen.mass_scaling else { panic!("no step") };
+        let free_s = if size_mm < 1.5 { fine.1 } else { usual.1 };
+        assert!(((step_s / free_s).powi(2) / raised - 1.0).abs() < 1e-9, "{more}: {step_s} {free_s}");
+    }
+    assert_eq!((usual_damping(None), usual_damping(Some(40.0))), (1.4 * 64.0, 40.0));
     let (_, run) = parsed("selective_mass = false\nmass_passes = 6").unwrap();
     assert_eq!((run.settings.selective_mass, run.settings.mass_passes), (false, Some(6)));
 }

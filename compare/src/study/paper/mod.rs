@@ -62,7 +62,7 @@ pub struct Peak {
 }
 
 /// Files of such runs.
-const RUNS: RecordShape = RecordShape { schema: "ibr.paper_runs", version: 1 };
+const RUNS: RecordShape = RecordShape { schema: "ibr.paper_runs", version: 2 };
 
 #[derive(Deserialize)]
 struct PaperRuns {
