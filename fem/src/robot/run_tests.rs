@@ -93,6 +93,19 @@ fn a_study_of_the_mesh_names_its_meshes_and_one_of_them_takes_their_place() {
     assert_eq!((one.meshes_m, one.settings.actuator_size_m), (Vec::new(), 4e-3));
 }
 
+#[test]
+fn a_run_that_waits_otherwise_is_another_one_and_goes_on_from_the_same_ends() {
+    let of = |more: &str| {
+        let (scenario, run) = parsed(&format!("mesh_mm = 16\n{more}")).unwrap();
+        run.problem(&scenario).unwrap()
+    };
+    let usual = of("");
+    for other in ["creep = 0.001", "rest_s = 0.1"].map(of) {
+        assert_ne!(other.fingerprint(), usual.fingerprint());
+        assert_eq!(other.fingerprint_of_structure(), usual.fingerprint_of_structure());
+    }
+}
+
 /// Mass damping of a robot whose tip swings with 64 rad/s.
 fn usual_damping(mass_damping_1_s: Option<f64>) -> f64 {
     let (scenario, run) = parsed("mesh_mm = 16").unwrap();
