@@ -35,3 +35,12 @@ cube fpam fpam 30
 cube spam spam 30
 cube spam-face spam 12 --set tape_margin_mm=0
 cube spam-seams spam 12 --set taped=seams
+
+# Marker data of the stored runs.
+cargo build --release --quiet
+for robot in $robots; do
+    "$ibr" data fem "$robot-textbook" --stored --seed 21 --force --out "data/sets/fem-$robot" > "$folder/fem-$robot.txt"
+    rm "data/sets/fem-$robot/manifest.json"
+done
+cp "$folder/cubes/epam/markers.png" docs/robots/epam-uncertain.png
+cp "$folder/cubes/epam/tornado.png" docs/robots/epam-tornado.png

@@ -291,18 +291,14 @@ fn at_two_body_pressures(robot: &str) -> (Scenario, [Dataset; 2]) {
     (scenario, sets)
 }
 
-/// The bodies of these finite elements lose more than the turn says, 1.3 to 1.6 times what the sPAM's actuator gains at 2 kPa
+/// The bodies of these finite elements lose more than the turn says, 1.4 to 1.7 times what the sPAM's actuator gains at 2 kPa
 /// (`ibr compare --engines --stored`). At one body pressure that is an offset of the pressure, and no candidate unless measured.
 #[test]
-fn two_body_pressures_name_the_gas_that_the_pouches_of_the_finite_elements_push_aside() {
+fn gas_that_pouches_push_aside_is_a_candidate_at_two_body_pressures_or_with_measured_volumes() {
     let (scenario, [low, high]) = at_two_body_pressures("spam");
     let d = of_two(&scenario, [(&low, None), (&high, None)]);
     assert_eq!(d.verdict, Some(Verdict::OutOfCatalog));
-    // A wall that softens comes as close here, to a fifth, and is named first.
-    let has_gas = |as_close: &&AsClose| as_close.effects.iter().any(|name| name == "displaced_gas");
-    let gas = d.attempt_alike.iter().find(has_gas).unwrap_or_else(|| panic!("{:?}", d.attempt_alike));
-    let before = d.base.systematic_mm;
-    assert!(gas.systematic_after_mm < 0.6 * before, "{before} to {} mm over all data", gas.systematic_after_mm);
+    assert!(d.ranked.iter().any(|r| r.effect == "displaced_gas"), "{:?}", d.ranked);
     let is_tried = |about: Option<&About>| {
         let d = of_one(&scenario, &low, about, &quick()).unwrap();
         d.ranked.iter().any(|r| r.effect == "displaced_gas")

@@ -189,13 +189,21 @@ fn predict_everywhere(scenario: &Scenario, dataset: &Dataset) -> Result<Predicte
         };
         // First the hold itself: an error shall name its own pressures.
         let middle = at(1.0)?;
-        let (low, high) = (at(1.0 - PRESSURE_STEP)?, at(1.0 + PRESSURE_STEP)?);
+        // Beside the last pressure with an equilibrium there is none on one side.
+        let (low, high) = (at(1.0 - PRESSURE_STEP), at(1.0 + PRESSURE_STEP));
+        let sides = f64::from(u8::from(low.is_ok()) + u8::from(high.is_ok()));
+        let (low, high) = match (low, high) {
+            (Ok(low), Ok(high)) => (low, high),
+            (Ok(low), Err(_)) => (low, middle.clone()),
+            (Err(_), Ok(high)) => (middle.clone(), high),
+            (Err(error), Err(_)) => return Err(error),
+        };
         for sample in 0..dataset.samples_per_hold {
             for (m, xy) in middle.iter().enumerate() {
                 let i = dataset.offset(h, sample, m);
                 for axis in 0..2 {
                     out.xy_m[i + axis] = xy[axis];
-                    out.d_ln_pressure_m[i + axis] = (high[m][axis] - low[m][axis]) / (2.0 * PRESSURE_STEP);
+                    out.d_ln_pressure_m[i + axis] = (high[m][axis] - low[m][axis]) / (sides * PRESSURE_STEP);
                 }
             }
         }

@@ -240,6 +240,8 @@ mod tests {
             .map(|(v, state)| share_of_both(&scenario, state.turn_rad, v.actuator_cm3))
             .collect();
         let found: Vec<f64> = shares.iter().flatten().copied().collect();
-        assert!(found.len() == 6 && found.is_sorted() && found[0] < 0.47 && found[5] > 0.51, "{shares:?}");
+        // At 30 kPa the robot bends beyond what any share allows with so little gas.
+        assert!(found.len() == 5 && shares[5].is_none(), "{shares:?}");
+        assert!(found.is_sorted() && found[0] < 0.47 && found[4] > 0.51, "{shares:?}");
     }
 }
