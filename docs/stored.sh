@@ -36,8 +36,9 @@ cube spam spam 30
 cube spam-face spam 12 --set tape_margin_mm=0
 cube spam-seams spam 12 --set taped=seams
 
-# Marker data of the stored runs.
+# Marker data of the stored runs, by a program that has them.
 cargo build --release --quiet
+ibr=target/release/ibr
 for robot in $robots; do
     "$ibr" data fem "$robot-textbook" --stored --seed 21 --force --out "data/sets/fem-$robot" > "$folder/fem-$robot.txt"
     rm "data/sets/fem-$robot/manifest.json"
