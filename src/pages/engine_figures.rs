@@ -32,7 +32,7 @@ pub fn parting_plot(map: &PartingMap) -> Result<Drawn, PageError> {
             };
             let sign = if share > 0.0 { "+" } else { "" };
             let words = if share.is_finite() { format!("{sign}{} %", number(100.0 * share, 0)) } else { "–".into() };
-            let carrier = found.and_then(|p| p.carrier).map_or("", |c| c.term);
+            let carrier = found.and_then(|p| p.carrier).and_then(|c| c.term.split(' ').next_back()).unwrap_or_default();
             marks.push(Mark::Cell([row, column], strength, words, carrier.into()));
         }
     }
