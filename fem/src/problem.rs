@@ -222,20 +222,9 @@ pub struct Settings {
     /// Seed of the imperfection.
     pub seed: u64,
     /// How a robot's holds wait until its tip is at rest; `None` for other cases.
-    pub patience: Option<Patience>,
+    pub patience: Option<crate::robot::Patience>,
     /// Stops of an untrustworthy run.
     pub guards: Guards,
-}
-
-/// How a hold waits for rest ([`crate::robot::Settling`]).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Patience {
-    /// Movement of the tip that counts as none, over its displacement.
-    pub creep: f64,
-    /// Longest time of a hold that loads stand still \[s\].
-    pub longest_s: f64,
-    /// Time between two looks at the tip \[s\].
-    pub window_s: f64,
 }
 
 /// How masses are raised to lengthen the step. With rate-free fabrics this equals a shorter simulated time.

@@ -189,7 +189,7 @@ fn predict_everywhere(scenario: &Scenario, dataset: &Dataset) -> Result<Predicte
         };
         // First the hold itself: an error shall name its own pressures.
         let middle = at(1.0)?;
-        // Beside the last pressure with an equilibrium there is none on one side.
+        // One step above or below the last pressure with an equilibrium there may be none.
         let (low, high) = (at(1.0 - PRESSURE_STEP), at(1.0 + PRESSURE_STEP));
         let sides = f64::from(u8::from(low.is_ok()) + u8::from(high.is_ok()));
         let (low, high) = match (low, high) {

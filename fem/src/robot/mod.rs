@@ -43,9 +43,8 @@ pub use loading::{HoldEnd, RobotRun};
 pub use loads::{Load, RobotStart};
 pub use model::Preset;
 pub use reading::{Reading, RobotGauge};
-pub use rest::{Rest, Settling};
+pub use rest::{Patience, Rest, Settling};
 pub use seams::{SeamForce, Seams};
-pub(crate) use settings::MASS_FACTOR;
 pub use settings::RobotSettings;
 pub use snaps::{Sample, Snap, Watch, snaps};
 pub use table::{KEYS, NUMERICAL, OTHERS, RunKey, with_fem};
@@ -59,7 +58,7 @@ use crate::mesh::check::check_open;
 pub use crate::output::centre_line::CentreLine;
 use crate::output::picture::Viewpoint;
 use crate::policy;
-use crate::problem::{Amplitude, Chamber, Contact, Guards, MassScaling, Patience, Pressure, Settings, Support};
+use crate::problem::{Amplitude, Chamber, Contact, Guards, MassScaling, Pressure, Settings, Support};
 use crate::run;
 use crate::sheet::reference::mean_stiffness;
 use crate::vec3::{area, norm};
@@ -250,8 +249,7 @@ fn numerics(problem: &Problem, settings: &RobotSettings, pace_1_s: f64) -> Setti
     let smallest = settings.body_size_m.min(settings.actuator_size_m);
     let is_fine = smallest < settings::FINE_M;
     let mass_passes = settings.mass_passes.unwrap_or(if is_fine { 6 } else { 2 });
-    let touches = problem.contact.is_some() && !is_fine;
-    let mass_factor = settings.mass_factor.unwrap_or(settings::MASS_FACTOR[usize::from(!touches)]);
+    let mass_factor = settings.mass_factor_for(problem.contact.is_some());
     let allowed = if settings.selective_mass { run::gain(mass_passes) } else { 1.0 };
     Settings {
         end_s: settings.body_ramp_s + settings.actuator_ramp_s + settings.hold_s,

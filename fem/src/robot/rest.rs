@@ -15,12 +15,22 @@
 //!
 //! A window lasts 0.64/ω, so that four of them are more than half a swing: at its turning point a tip is slow and not at rest.
 //! The kinetic share cannot replace this: an overdamped robot creeps with next to no kinetic energy. **Validity**: ω decides how long a hold lasts,
-//! and no state at rest. The frequency of the ePAM at 5 and 10 kPa is 1.4 ω.
+//! and the damping. A third of it and three times as much move the ePAM by up to 1.5 and the cPAM by up to 2.2 % (`docs/robots.md`). The frequency of the ePAM at 5 and 10 kPa is 1.4 ω.
 
 use serde::{Deserialize, Serialize};
 
-use crate::problem::Patience;
 use crate::vec3::{dot, norm, sub};
+
+/// How a hold waits for rest ([`Settling`]).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Patience {
+    /// Movement of the tip that counts as none, over its displacement.
+    pub creep: f64,
+    /// Longest time of a hold that loads stand still \[s\].
+    pub longest_s: f64,
+    /// Time between two looks at the tip \[s\].
+    pub window_s: f64,
+}
 
 /// Length of a window times ω.
 pub(super) const WINDOW: f64 = 0.64;

@@ -15,7 +15,7 @@ pub(super) const FOLDED_ROW: f64 = 2.0 / 3.0;
 pub(super) const FINE_M: f64 = 1.5e-3;
 /// `mass_factor`: of robots whose layers touch on elements that are not fine, and of all others. On the former 3.6 adds 57 % of mass where 2.4
 /// adds 30, and moves the cPAM by 1.4 % at 10 kPa; the ePAM moves by less than 0.7 %.
-pub(crate) const MASS_FACTOR: [f64; 2] = [2.4, 3.6];
+const MASS_FACTOR: [f64; 2] = [2.4, 3.6];
 /// Thickness of a tape that only ties two sheets \[m\].
 const TIE_M: f64 = 1e-6;
 
@@ -133,7 +133,7 @@ impl RobotSettings {
     /// | selective masses | the step asks for an eighth and less of the mass that it asks for without |
     /// | ramp floor 2 kPa | the body's pressure: there a robot bends most per pascal, and gussets open |
     /// | mass damping from the tip's frequency | holds last until the tip is at rest, so that it decides how long a run takes |
-    /// | hourglass .0007 | a third and three times as much move ePAM and cPAM by less than 1.2 %; .002 held up to 5 % of the stored energy |
+    /// | hourglass .0007 | a third and three times as much move the ePAM by up to 0.6 and the cPAM by up to 1.4 %; .002 held up to 5 % of the stored energy |
     /// | compressed sheets carry the load of their wrinkles | 2π √(D T)/ℓ, from D, T = p_b R and the geometry: not an independent number |
     /// | bending factor 0.2 | droop of a heat-bondable coated nylon, measured by others: 0.1 to 0.5 |
     /// | tape 0.05 mm over the whole face, no margin | assumed: the usual thickness, a sheet cut at its welds |
@@ -224,6 +224,12 @@ impl RobotSettings {
             waviness_m: 0.0,
             ..RobotSettings::compressed()
         }
+    }
+
+    /// `mass_factor`, or what the program takes for a robot whose layers touch or do not.
+    pub(crate) fn mass_factor_for(&self, touches: bool) -> f64 {
+        let is_fine = self.body_size_m.min(self.actuator_size_m) < FINE_M;
+        self.mass_factor.unwrap_or(MASS_FACTOR[usize::from(is_fine || !touches)])
     }
 
     /// Longest time that a hold waits for rest \[s\].

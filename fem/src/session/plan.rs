@@ -2,7 +2,7 @@
 
 use super::{Source, rounded};
 use crate::FemError;
-use crate::robot::{ASSUMED, Assumed, KEYS, MASS_FACTOR, NUMERICAL, RobotRun, RobotSettings, RunKey, hypercube};
+use crate::robot::{ASSUMED, Assumed, KEYS, NUMERICAL, RobotRun, RobotSettings, RunKey, hypercube};
 use models::{CHANNELS, Scenario};
 
 /// Label of a robot of which nothing is varied.
@@ -67,11 +67,12 @@ pub fn product(run: &RobotRun, seeds: Option<u64>, separate: bool, meshes: &[[f6
 pub fn numerics(scenario: &Scenario, run: &RobotRun) -> Result<Vec<Variation>, FemError> {
     let mut all = vec![Variation { label: AS_IT_IS.into(), ..Variation::default() }];
     let mut add = |label: String, changes: Changes| all.push(Variation { label, changes, ..Variation::default() });
-    let (settings, chosen) = (&run.settings, run.problem(scenario)?.settings);
+    let problem = run.problem(scenario)?;
+    let (settings, chosen, touches) = (&run.settings, &problem.settings, problem.contact.is_some());
     let number = |si: f64, key: &RunKey| format!("{:.4e}", si / key.si);
     for key in KEYS.iter().filter(|key| NUMERICAL.contains(&key.name)) {
         let own = (key.get)(settings).or(match key.name {
-            "mass_factor" => Some(MASS_FACTOR[0]),
+            "mass_factor" => Some(settings.mass_factor_for(touches)),
             "mass_damping_1_s" => Some(chosen.mass_damping_1_s),
             "rest_s" => Some(settings.longest_rest_s()),
             _ => None,

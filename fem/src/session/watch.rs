@@ -1,8 +1,9 @@
 //! What is read of a robot while it runs.
 
 use super::rounded;
-use crate::problem::Patience;
-use crate::robot::{HoldEnd, KEYS, Reading, Rest, RobotGauge, RobotRun, RunKey, Sample, Settling, Snap, Watch, snaps};
+use crate::robot::{
+    HoldEnd, KEYS, Patience, Reading, Rest, RobotGauge, RobotRun, RunKey, Sample, Settling, Snap, Watch, snaps,
+};
 use crate::vec3::norm;
 use crate::{FemError, Problem, Simulation, policy};
 use models::Scenario;

@@ -4,9 +4,9 @@
 //! d = tip_reduced/tip_fe − 1        d′: the same without the term        carried by the term of the least |d′| < ½ |d|
 //! ```
 //!
-//! The finite elements keep a tenth of the term, since a robot without bending stiffness is no robot; the reduced model loses
+//! The finite elements keep a tenth of the term, since a mesh without bending stiffness crumples; the reduced model loses
 //! the effects that store energy on the account of the term. A bare model has none, and stays as it is: it is the model that does not
-//! know the term. **Validity**: terms that a setting of the robot scales. The work of the gas is no such term: it is the load.
+//! know the term. **Validity**: terms that a setting of the robot scales. The work of the gas is the load and cannot be cut.
 
 use super::{EnginePair, EngineRun, EngineState};
 use crate::error::CompareError;
@@ -42,7 +42,7 @@ pub struct Carrier {
 }
 
 impl Cut {
-    /// That of a run.
+    /// The cut of a run, if a term was cut.
     pub(super) fn of(about: &RobotSummary) -> Option<&'static Cut> {
         CUTS.iter().find(|cut| (about.setting(cut.key.0) / cut.key.1 - 1.0).abs() < 1e-9)
     }

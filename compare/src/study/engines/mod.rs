@@ -162,7 +162,7 @@ impl EnginePair {
     }
 }
 
-/// Both engines at every pressure of a run; among all runs those of the same robot with a term cut say what carries a difference.
+/// Both engines at every pressure of a run; runs of the same robot with a term cut say what carries a difference.
 ///
 /// # Errors
 /// A model without equilibrium.
