@@ -184,4 +184,25 @@ mod tests {
         assert_eq!(keys.len(), ASSUMED.len(), "{keys:?}");
         assert!(keys.iter().enumerate().all(|(i, key)| !keys[..i].contains(key)), "{keys:?}");
     }
+
+    /// The mass factor and the damping that the program chooses; contact of the cPAM asks for less mass.
+    #[test]
+    fn numerical_settings_are_a_third_and_three_times_what_the_robot_has() {
+        for (robot, mass_factor) in [("epam", 3.6), ("cpam", 2.4)] {
+            let (scenario, run) = Source::new(robot, models::shipped(robot).unwrap()).robot_run().unwrap();
+            let all = numerics(&scenario, &run).unwrap();
+            let written = |label: &str| -> f64 {
+                let found = all.iter().find(|v| v.label == label).unwrap_or_else(|| panic!("{label}"));
+                found.changes[0].1.parse().unwrap()
+            };
+            let damping_1_s = run.problem(&scenario).unwrap().settings.mass_damping_1_s;
+            for (key, own) in [("mass_factor", mass_factor), ("mass_damping_1_s", damping_1_s), ("rest_s", 0.72)] {
+                // A factor below 1 is out of bounds.
+                let third = if key == "mass_factor" { f64::max(own / 3.0, 1.0) } else { own / 3.0 };
+                assert!((written(&format!("{key}-third")) / third - 1.0).abs() < 1e-3, "{robot} {key}");
+                assert!((written(&format!("{key}-triple")) / (3.0 * own) - 1.0).abs() < 1e-3, "{robot} {key}");
+            }
+            assert!(all[0].label == AS_IT_IS && all[0].changes.is_empty());
+        }
+    }
 }
