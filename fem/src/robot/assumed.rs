@@ -1,4 +1,5 @@
-//! What nobody measured about the published robots: numbers with intervals, and a hypercube over all of them.
+//! What nobody measured about the published robots, and the numerical settings that their tips feel: numbers with intervals, and a
+//! hypercube over all of them.
 //!
 //! A Latin hypercube of n robots cuts the interval of every number into n parts of equal probability and gives every robot one part of
 //! each, in an order that is drawn for every number anew; within its part a number is drawn, too. So n robots say about each number what n
@@ -102,6 +103,25 @@ pub const ASSUMED: &[Assumed] = &[
         spread: Spread::Even,
         reason: "nylon 1140, coats 900 to 1200, air between yarns",
         set: |s, v| s.density_kg_m3 = v,
+    },
+    // Numerical settings that move a tip by more than 1 % when they are a third or three times as large (`ibr simulate epam --numerics`).
+    Assumed {
+        interval: [7e-4 / 3.0, 3.0 * 7e-4],
+        spread: Spread::Factor,
+        reason: "numerical: a third to three times the default",
+        set: |s, v| s.hourglass = v,
+    },
+    Assumed {
+        interval: [1e-5 / 3.0, 3e-5],
+        spread: Spread::Factor,
+        reason: "numerical: a third to three times the published distance of layers",
+        set: |s, v| s.layer_gap_m = v,
+    },
+    Assumed {
+        interval: [25.0, 230.0],
+        spread: Spread::Factor,
+        reason: "numerical: a third to three times the default of the ePAM",
+        set: |s, v| s.mass_damping_1_s = Some(v),
     },
 ];
 

@@ -84,10 +84,10 @@ pub struct RobotSettings {
     pub ramp_floor_pa: Option<f64>,
     /// Time at full pressure before the robot is watched \[s\].
     pub hold_s: f64,
-    /// Longest time that a hold then waits until the tip is at rest \[s\]; `None`: twice the actuator's ramp.
+    /// Longest time that a hold then waits until the tip is at rest \[s\]; `None`: six times the actuator's ramp.
     pub rest_s: Option<f64>,
     /// Square of the step over the time that sound takes through the smallest element; masses are raised as the highest mode of the
-    /// mesh needs (`mass_scaling`). `None`: 2.4, and 3.6 for elements below 1.5 mm whose layers touch.
+    /// mesh needs (`mass_scaling`). `None`: 3.6, and 2.4 where layers of elements of 1.5 mm and more touch.
     pub mass_factor: Option<f64>,
     /// Whether waves of a few elements are heavy in place of everything ([`crate::problem::Settings::selective_mass`]).
     pub selective_mass: bool,
