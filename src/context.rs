@@ -1,7 +1,9 @@
 //! What commands share: the outside that they may use, the wish to end, and what they have to say.
 
 use crate::failure::{Failure, INTERRUPTED};
+use crate::shown::as_json;
 use fem::session::Progress;
+use serde::Serialize;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -92,6 +94,11 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// A text, and the same as JSON of a shape in its first version.
+    pub fn answer(text: String, schema: &'static str, body: &impl Serialize) -> Outcome {
+        Outcome::new(text, as_json(schema, body))
+    }
+
     /// A text, and the same as JSON.
     pub fn new(text: String, json: serde_json::Value) -> Outcome {
         Outcome { text, json: Some(json), notes: Vec::new(), code: 0 }

@@ -50,6 +50,7 @@ pub mod shown;
 pub mod studies;
 pub mod studio;
 mod tables;
+pub mod words;
 
 pub use ::compare as study;
 pub use ::sweep;

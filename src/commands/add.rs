@@ -4,7 +4,7 @@ use super::inputs::{self, positive};
 use super::{Context, Outcome};
 use crate::cli::AddArgs;
 use crate::failure::Failure;
-use crate::shown::extension::{steps_text, to_json};
+use crate::shown::extension::{AddAnswer, steps_text};
 use compare::diagnosis::Options;
 use compare::extension::{Extension, Wish, add};
 use compare::progress::part;
@@ -35,7 +35,8 @@ pub fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome, Failure> {
     data::write_atomically(&target, found.file.text.as_bytes())?;
     *written = true;
     let target = target.display().to_string();
-    let mut outcome = Outcome::new(words(args, &found, &target), to_json(&file, &evidence, &found, &target)?);
+    let answer = AddAnswer::of(&file, &evidence, &found, &target)?;
+    let mut outcome = Outcome::answer(words(args, &found, &target), "ibr.add", &answer);
     outcome.warn(&found.warnings);
     Ok(outcome)
 }

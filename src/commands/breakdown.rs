@@ -6,13 +6,12 @@ use super::{Context, Outcome};
 use crate::cli::BreakdownArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
-use crate::shown::breakdown::text;
+use crate::shown::breakdown::{Breakdown, text};
 use compare::study::breakdown::{PartingCell, Ranges, csv, jobs, partings};
 use compare::study::engines::{EngineRun, engines, runs_json, runs_of, stored};
 use ibr::pages::{Files, parting_plot};
 use models::Scenario;
 use models::scenario::quantity::Quantity;
-use serde_json::json;
 
 pub fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome, Failure> {
     check_folder(&args.out)?;
@@ -29,8 +28,8 @@ pub fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome, Failu
     files.text("breakdown.csv", csv(&rows));
     files.text("runs.json", runs_json(&runs));
     write_files(&args.out, &files, &[], context)?;
-    let cells: Vec<PartingCell> = rows.iter().map(PartingCell::of).collect();
-    let mut outcome = Outcome::new(text(&rows), json!({"schema": "ibr.breakdown", "version": 1, "cells": cells}));
+    let answer = Breakdown { cells: rows.iter().map(PartingCell::of).collect() };
+    let mut outcome = Outcome::answer(text(&rows), "ibr.breakdown", &answer);
     outcome.notes.extend(stopped.iter().map(|error| format!("left out of the map: {}", error.render().trim())));
     outcome.notes.push(format!("maps and tables: {}", args.out.display()));
     Ok(outcome)

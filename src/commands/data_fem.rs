@@ -1,6 +1,6 @@
 //! `ibr data fem`: marker data from finite element runs.
 
-use super::data::{write, written_json};
+use super::data::write;
 use super::fem_inputs::{kept, list, pressures};
 use super::inputs;
 use super::inputs::scattered;
@@ -8,6 +8,7 @@ use super::{Context, Outcome};
 use crate::cli::DataFemArgs;
 use crate::failure::Failure;
 use crate::output::{check_set_folder, set_name};
+use crate::shown::imported::SeenByFem;
 use compare::study::Generator;
 use compare::study::engines::{EngineRun, of_the_program, runs_of, seed_jobs};
 use compare::study::generate::about;
@@ -52,7 +53,8 @@ pub fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome, Failure
         dataset.runs.len(),
         args.out.display()
     );
-    Ok(Outcome::new(text, written_json("ibr.data.fem", &args.out, &dataset)))
+    let answer = SeenByFem { folder: args.out.display().to_string(), runs: dataset.runs.len() };
+    Ok(Outcome::answer(text, "ibr.data.fem", &answer))
 }
 
 /// The robot, at another body pressure if one is named.

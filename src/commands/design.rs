@@ -5,7 +5,7 @@ use super::{Context, Outcome};
 use crate::cli::DesignArgs;
 use crate::failure::Failure;
 use crate::output::{Input, check_folder, maker, sha256, write_files};
-use crate::shown::designed::{design_json, design_text};
+use crate::shown::designed::{DesignAnswer, design_text};
 use fem::FemError;
 use fem::session::{FeRun, Job, Progress, Settings, Source, simulate, simulate_all};
 use ibr::pages::design_files;
@@ -40,7 +40,8 @@ pub fn run(args: &DesignArgs, context: &mut Context) -> Result<Outcome, Failure>
     let input = |name: String, text: &[u8]| Input { name, sha256: sha256(text) };
     let own = input(args.wish.display().to_string(), &std::fs::read(&args.wish).unwrap_or_default());
     write_files(&folder, &files, &[own, input(wish.base.name.clone(), wish.base.text.as_bytes())], context)?;
-    let mut outcome = Outcome::new(design_text(&wish, &rounds), design_json(&args.wish, &wish, &rounds));
+    let answer = DesignAnswer::of(args.wish.display().to_string(), &wish, &rounds);
+    let mut outcome = Outcome::answer(design_text(&wish, &rounds), "ibr.design", &answer);
     outcome.notes.extend(pattern.err().map(|why| format!("no pattern: {why}")));
     outcome.notes.push(format!("robot: {}", folder.join("design.toml").display()));
     outcome.code = u8::from(!rounds.reached(&wish));

@@ -5,7 +5,7 @@ use super::{Context, Outcome};
 use crate::cli::DiagnoseArgs;
 use crate::failure::Failure;
 use crate::output::{Input, check_folder, imprint, write_files};
-use crate::shown::diagnosis::{text, to_json};
+use crate::shown::diagnosis::{DiagnosisAnswer, text};
 use compare::diagnose;
 use compare::diagnosis::Options;
 use compare::progress::part;
@@ -41,9 +41,9 @@ pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failur
     let runs = known_runs(args.runs.as_deref())?;
     let first = &evidence[0];
     let witness = witness(&diagnosis, &file, &first.dataset, first.about.as_ref(), &runs)?;
-    let answer = to_json(&diagnosis, witness.as_ref(), &args.scenario);
-    let json = format!("{answer:#}\n").into_bytes();
-    let mut outcome = Outcome::new(text(&diagnosis, witness.as_ref(), args.tables), answer);
+    let answer = DiagnosisAnswer::of(&diagnosis, witness.as_ref(), &args.scenario);
+    let mut outcome = Outcome::answer(text(&diagnosis, witness.as_ref(), args.tables), "ibr.diagnose", &answer);
+    let json = outcome.json.as_ref().map_or(Vec::new(), |answer| format!("{answer:#}\n").into_bytes());
     let told_first = |warning: &&String| diagnosis.slips.contains(warning);
     outcome.warn(diagnosis.warnings.iter().filter(|w| !told_first(w)));
     if let (Some(folder), None) = (&args.runs, &witness) {

@@ -3,11 +3,9 @@
 use super::{Context, Outcome, held, inputs};
 use crate::cli::DiagnoseArgs;
 use crate::failure::Failure;
-use crate::shown::bench_diagnosis::text;
+use crate::shown::bench_diagnosis::{BenchDiagnosisAnswer, text};
 use compare::diagnosis::{BenchOptions, diagnose_bench};
 use compare::progress::shares::READ;
-use fem::record::RecordShape;
-use serde_json::json;
 
 /// The diagnosis, if what was typed last is a table of bench tests.
 pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Option<Outcome>, Failure> {
@@ -25,9 +23,8 @@ pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Option<Outcome>
     (context.progress)("fitting every effect", Some(READ));
     let options = BenchOptions { sigma, refit: args.refit, ..BenchOptions::default() };
     let found = diagnose_bench(&bench, scenario.as_ref(), &options)?;
-    let mut answer = RecordShape { schema: "ibr.diagnose.bench", version: 1 }.stamped(&found);
-    answer["provenance"] = json!(bench.provenance.word());
-    Ok(Some(Outcome::new(text(&found, &bench), answer)))
+    let answer = BenchDiagnosisAnswer { found: &found, provenance: bench.provenance };
+    Ok(Some(Outcome::answer(text(&found, &bench), "ibr.diagnose.bench", &answer)))
 }
 
 /// What is about markers, and what to do instead.

@@ -5,12 +5,11 @@ use super::{Context, Outcome};
 use crate::cli::CompareArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, imprint, write_files};
-use crate::shown::engines::text;
+use crate::shown::engines::{EnginesAnswer, text};
 use compare::study::engines::{EngineLine, EngineRun, all_runs, engines, lines, runs_json, runs_of, seed_jobs, stored};
 use fem::session::Source;
 use ibr::pages::engines_page;
 use models::Scenario;
-use serde_json::json;
 use std::path::PathBuf;
 
 pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
@@ -24,14 +23,7 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
     for robot in &found.robots {
         all.extend(lines(robot)?);
     }
-    let mut outcome = Outcome::new(
-        text(&all, &found)?,
-        json!({
-            "schema": "ibr.engines", "version": 1, "lines": all,
-            "ledgers": found.robots.iter().map(|r| json!({"robot": r.scenario.name, "pairs": r.pairs})).collect::<Vec<_>>(),
-            "volumes": found.robots.iter().flat_map(|r| &r.bodies).collect::<Vec<_>>(),
-        }),
-    );
+    let mut outcome = Outcome::answer(text(&all, &found)?, "ibr.engines", &EnginesAnswer::of(&all, &found));
     (context.progress)("drawing the report", None);
     let imprint = imprint();
     let mut files = engines_page(&found, &imprint)?;

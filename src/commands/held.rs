@@ -4,13 +4,12 @@ use super::inputs;
 use super::{Context, Outcome};
 use crate::cli::CompareArgs;
 use crate::failure::Failure;
-use crate::shown::held::{as_json, text};
+use crate::shown::held::{BenchAnswer, HeldTable, text};
 use compare::ScenarioFile;
 use compare::bench::held;
 use compare::study::Knob;
 use compare::typed_effect::with_effect;
 use models::Scenario;
-use serde_json::json;
 
 /// The comparison, if the data are a table of bench tests.
 pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Option<Outcome>, Failure> {
@@ -35,9 +34,9 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Option<Outcome>,
         scenario = Some(with_effect(before, text)?.0);
     }
     let held = held(&bench, scenario.as_ref(), args.calibrate.is_some())?;
-    let answer = json!({"schema": "ibr.compare.bench", "version": 1, "data": data_spec, "kind": bench.kind.name,
-        "provenance": bench.provenance.word(), "held": as_json(&held)});
-    Ok(Some(Outcome::new(text(&held), answer)))
+    let (kind, provenance) = (bench.kind.name, bench.provenance);
+    let answer = BenchAnswer { data: data_spec, kind, provenance, held: HeldTable::of(&held) };
+    Ok(Some(Outcome::answer(text(&held), "ibr.compare.bench", &answer)))
 }
 
 /// The scenario that lies beside the data.

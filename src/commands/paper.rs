@@ -5,11 +5,10 @@ use super::{Context, Outcome};
 use crate::cli::CompareArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
-use crate::shown::paper::text;
+use crate::shown::paper::{PaperAnswer, text};
 use compare::study::engines::runs_of;
 use compare::study::paper::{MESHES_MM, PaperRun, facts, heights, jobs, ordered, runs_below, runs_json, stored};
 use ibr::pages::Files;
-use serde_json::json;
 
 pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
@@ -17,8 +16,8 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
     let paper = data::published()?;
     let (against, rows) = (heights(&paper, &runs, &MESHES_MM), facts(&paper, &runs));
     let text = text(&against, &rows, &runs);
-    let answer = json!({"schema": "ibr.paper", "version": 1, "runs": runs.len(), "heights": against, "facts": rows});
-    let mut outcome = Outcome::new(text.clone(), answer);
+    let answer = PaperAnswer { runs: runs.len(), heights: &against, facts: &rows };
+    let mut outcome = Outcome::answer(text.clone(), "ibr.paper", &answer);
     if let Some(folder) = &args.out {
         let mut files = Files::default();
         files.text("paper.md", text);

@@ -5,7 +5,7 @@ use crate::cli::ShardArgs;
 use crate::failure::Failure;
 use fem::FemError;
 use fem::session::{Job, Settings, Shard, is_finished, problems, simulate_all};
-use serde_json::json;
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 use sweep::schedule::{self, Cluster};
 
@@ -74,6 +74,18 @@ pub fn by_scheduler(args: &ShardArgs, work: &Work, context: &mut Context) -> Res
     if left > 0 && !work.may_fail { Err(job.useless().into()) } else { Ok(None) }
 }
 
+/// `ibr.shard`: `ibr breakdown`, `ibr simulate --seeds 8` and `ibr bench discovery`, each with `--shard K/N`, while runs or sets of other
+/// shards are missing
+#[derive(Serialize)]
+struct ShardAnswer {
+    /// Runs or sets of this shard that were made now
+    made: usize,
+    /// Those of all shards that are not there
+    missing: usize,
+    /// Those in all
+    runs: usize,
+}
+
 /// Makes one shard, or has a scheduler run all of them. `None`: the command goes on with all of the work, and makes what is not there;
 /// else what it has to say. `make` says how many parts it made, and why others stopped.
 pub fn in_shards(
@@ -96,8 +108,8 @@ pub fn in_shards(
         "{made} {parts} of shard {which}/{of} were made; {missing} of all {all} are not there. \
          The command without --shard makes them and goes on\n"
     );
-    let told = json!({"schema": "ibr.shard", "version": 1, "made": made, "missing": missing, "runs": all});
-    Ok(Some(Outcome { notes: stopped, ..Outcome::new(text, told) }))
+    let answer = ShardAnswer { made, missing, runs: *all };
+    Ok(Some(Outcome { notes: stopped, ..Outcome::answer(text, "ibr.shard", &answer) }))
 }
 
 /// The same for finite element runs.

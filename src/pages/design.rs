@@ -1,8 +1,8 @@
 //! A design beside its wish.
 
 use super::figures::{LINE_POINTS, mm};
-use super::predicted::pressure_words;
 use super::{Files, PageError};
+use crate::words::pressure_words;
 use ::sweep::design::{Design, Wish};
 use models::Model;
 use report::chart::{Chart, Key, KeyLook, Mark, Space};

@@ -3,7 +3,7 @@
 use super::compare::origin;
 use super::figures::{LINE_POINTS, MOST_POSES};
 use super::{Files, Imprint, PageError, effect};
-use crate::shown::in_space::{along, hold_name, misses};
+use crate::words::{along, hold_name, misses};
 use ::compare::study::in_space::{InSpace, SpaceErrors, SpaceHold, SpaceMarker, SpaceVariant, loads};
 use data::{Column, Table};
 use models::Model;

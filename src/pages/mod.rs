@@ -36,13 +36,14 @@ pub use in_space::{markers as space_markers, space_page};
 pub use ladder::{Climbed, ladder_page};
 pub use one_number::one_number_files;
 pub use pattern::pattern_sheet;
-pub use predicted::{predicted_files, pressure_words};
+pub use predicted::predicted_files;
 pub use run_plots::{mesh_plot, run_plots};
 pub use sweep::{sweep_picture_names, sweep_pictures};
 pub use tables::residuals;
 pub use tracks::tracks_plot;
 pub use uncertain::{marker_intervals, what_to_measure};
 
+use crate::words::{effect, in_words, number};
 use report::Drawn;
 use serde_json::{Value, json};
 
@@ -133,20 +134,4 @@ pub struct Imprint {
     pub date: String,
     /// Machine in words, for timings.
     pub machine: String,
-}
-
-/// A number with `digits` decimals, or a dash where there is none.
-pub fn number(value: Option<f64>, digits: usize) -> String {
-    value.map_or_else(|| "–".into(), |v| format!("{v:.digits$}"))
-}
-
-/// An effect as it is called in words.
-fn effect(name: &str) -> String {
-    name.replace('_', " ")
-}
-
-/// A sentence with its effects called so.
-fn in_words(sentence: &str) -> String {
-    let names = models::effects::EFFECTS.iter().map(|e| e.name);
-    names.fold(sentence.to_string(), |text, name| text.replace(name, &effect(name)))
 }

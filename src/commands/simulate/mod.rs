@@ -11,11 +11,11 @@ use crate::failure::Failure;
 use crate::output::{check_folder, maker};
 use crate::shown::run::{cost_text, text};
 use fem::FemError;
-use fem::session::{FeRun, Further, SUMMARY, Settings, Source, Summary, simulate};
+use fem::session::{Cost, FeRun, Further, SUMMARY, Settings, Source, Summary, simulate};
 use ibr::fe_source;
 use ibr::pages::run_plots;
 use plan::RunPlan;
-use serde_json::json;
+use serde::Serialize;
 use std::path::Path;
 use std::time::Duration;
 
@@ -68,22 +68,33 @@ fn one(args: &SimulateArgs, source: &Source, settings: &Settings, context: &mut 
         }
         other => other?,
     };
-    let mut outcome = Outcome::new(text(&run.summary), SUMMARY.stamped(&run.summary));
+    let cost = run.fresh.then_some(&run.cost);
+    let answer = SimulateAnswer { summary: &run.summary, cost, folder: cost.map(|_| folder.display().to_string()) };
+    let mut outcome = Outcome::new(text(&run.summary), SUMMARY.stamped(&answer));
     if !run.fresh {
-        let Summary { time_s, .. } = run.summary;
-        let folder = folder.display();
+        let (time_s, folder) = (run.summary.time_s, folder.display());
         outcome.notes.push(format!(
             "the run in {folder} is complete at t = {time_s:.6} s; nothing was done. A later --end goes on with it"
         ));
         return Ok(outcome);
     }
-    outcome.text.push_str(&cost_text(&run.cost));
-    if let Some(answer) = &mut outcome.json {
-        answer["cost"] = json!(run.cost);
-        answer["folder"] = json!(folder.display().to_string());
-    }
+    outcome.text += &cost_text(&run.cost);
     outcome.notes = notes(&run, folder);
     Ok(outcome)
+}
+
+/// `ibr.simulate`: `ibr simulate CASE`
+#[derive(Serialize)]
+struct SimulateAnswer<'a> {
+    /// What the run came to
+    #[serde(flatten)]
+    summary: &'a Summary,
+    /// What it took
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cost: Option<&'a Cost>,
+    /// Folder that was written
+    #[serde(skip_serializing_if = "Option::is_none")]
+    folder: Option<String>,
 }
 
 /// What to know about a run, and what to open.
