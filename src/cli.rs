@@ -33,6 +33,12 @@ pub struct Cli {
     /// No progress
     #[arg(long, short, global = true)]
     pub quiet: bool,
+    /// Threads; 0: one per core. Results do not depend on it
+    #[arg(long, global = true, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
+    pub threads: u64,
+    /// Replace what is there; a finished run stays until the new one is complete
+    #[arg(long, global = true)]
+    pub force: bool,
     /// What to do
     #[command(subcommand)]
     pub command: Command,
@@ -154,9 +160,6 @@ pub struct BenchArgs {
     /// With discovery: machines beside each other
     #[command(flatten)]
     pub shards: ShardArgs,
-    /// With discovery: threads, with --engine those of each shard; 0: one per core
-    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
-    pub threads: u64,
     /// With fem: also whole runs, pillows of the nodes of up to 80 000 triangles and the four robots, about two minutes
     #[arg(long)]
     pub all: bool,
@@ -264,34 +267,27 @@ pub struct CompareArgs {
     /// The paper's finite elements, reproduced: runs with its own modelling choices beside what it prints, fact by fact
     #[arg(long, conflicts_with_all = ["engines", "calibrate", "effect", "sigma", "max_error"])]
     pub paper: bool,
-    /// Folder of finished runs; missing ones are made there. Default: ibr-report/runs; with --paper the runs that come
-    /// with the program
-    #[arg(long)]
-    pub runs: Option<PathBuf>,
+    /// With --engines or --paper
+    #[command(flatten)]
+    pub runs: RunsArgs,
     /// With --paper and --runs: meshes of the runs, body and actuator; the paper's final one is 4mm/1mm and takes hours
     #[arg(long, value_name = "[BODY/]ACTUATOR", requires_all = ["paper", "runs"], default_value = "4mm", allow_hyphen_values = true)]
     pub mesh: String,
-    /// With --engines: only the runs that come with the program
-    #[arg(long, requires = "engines")]
-    pub stored: bool,
     /// With --engines: runs of every robot, with other random imperfections each
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1000))]
     pub seeds: u64,
     /// Actuator pressures of the runs; default: the scenario's, and with --paper also 11, 12 and 13 kPa of the cPAM
     #[arg(long, allow_hyphen_values = true)]
     pub pressure: Option<String>,
-    /// With --engines: threads, shared by runs beside each other; 0: one per core
-    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
-    pub threads: u64,
     /// Also fit the bending stiffness B to these data, or with =body-pressure that of the body, and show what that brings
     #[arg(long, value_name = "WHAT", num_args = 0..=1, require_equals = true, default_missing_value = "bending")]
     pub calibrate: Option<Knob>,
     /// Also hold the model with this effect against the data: name or name:key=value[,key=value]; repeatable, cumulative
     #[arg(long, short)]
     pub effect: Vec<String>,
-    /// Camera noise of one coordinate, for data of a single run, for example 1mm
-    #[arg(long, allow_hyphen_values = true)]
-    pub sigma: Option<String>,
+    /// Noise
+    #[command(flatten)]
+    pub noise: NoiseArgs,
     /// Exit with code 1 if the error beyond noise of the last model exceeds this, for example 5mm
     #[arg(long, allow_hyphen_values = true)]
     pub max_error: Option<String>,
@@ -300,11 +296,52 @@ pub struct CompareArgs {
     pub out: Option<PathBuf>,
 }
 
-impl CompareArgs {
+/// Finite element runs.
+#[derive(Debug, Args)]
+pub struct RunsArgs {
+    /// Folder of finished runs; missing ones are made there. Default: ibr-report/runs; with --paper the runs that come
+    /// with the program
+    #[arg(long)]
+    pub runs: Option<PathBuf>,
+    /// Only the runs that come with the program: nothing is simulated
+    #[arg(long, conflicts_with = "runs")]
+    pub stored: bool,
+}
+
+impl RunsArgs {
     /// Where runs are kept.
-    pub fn runs_folder(&self) -> PathBuf {
+    pub fn folder(&self) -> PathBuf {
         self.runs.clone().unwrap_or_else(|| PathBuf::from("ibr-report/runs"))
     }
+}
+
+/// Noise of measurements.
+#[derive(Debug, Args)]
+pub struct NoiseArgs {
+    /// Camera noise of one coordinate, for data of a single run, for example 1mm; for a table of bench tests the scatter of a row
+    /// without a standard deviation, for example 3%
+    #[arg(long, allow_hyphen_values = true)]
+    pub sigma: Option<String>,
+}
+
+/// How effects are fitted to measurements.
+#[derive(Debug, Args)]
+pub struct FitArgs {
+    /// Further data of the same robot, each with its own protocol, loads and direct measurements (about.toml), fitted along; repeatable
+    #[arg(long, value_name = "DATA")]
+    pub also: Vec<String>,
+    /// Keep the scenario's bending stiffness instead of fitting it: it was measured separately
+    #[arg(long)]
+    pub keep_bending: bool,
+    /// An effect that cannot be here, and is left out; or pressure_slip: the pressures are right although they look wrong; repeatable
+    #[arg(long, value_name = "EFFECT")]
+    pub not: Vec<String>,
+    /// Noise
+    #[command(flatten)]
+    pub noise: NoiseArgs,
+    /// Differences up to this are good enough; default: the larger of 0.15 mm and 0.5 % of the largest deflection
+    #[arg(long, allow_hyphen_values = true)]
+    pub tolerance: Option<String>,
 }
 
 /// `ibr simulate`
@@ -315,19 +352,13 @@ pub struct SimulateArgs {
     /// Folder of the run; default: ibr-report/simulate-<case>
     #[arg(long)]
     pub out: Option<PathBuf>,
-    /// Threads; 0: one per core. Results do not depend on it
-    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
-    pub threads: u64,
     /// Go on with the interrupted run in the folder, or with a complete one to a later --end; the result is the same to the bit
     #[arg(long)]
     pub resume: bool,
     /// Go on from the end of the complete run in this folder, with other loads: a robot's pressures and loads begin there, the
     /// times of a case count on
-    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["uncertain", "separate", "seeds", "export"])]
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["uncertain", "seeds", "export"])]
     pub from: Option<PathBuf>,
-    /// Run again where a run is; a finished one stays until the new one is complete
-    #[arg(long)]
-    pub force: bool,
     /// Simulated time, for example 0.15s or 150ms; default: the case's
     #[arg(long, allow_hyphen_values = true)]
     pub end: Option<String>,
@@ -346,9 +377,6 @@ pub struct SimulateArgs {
     /// Robots: actuator pressures in one ramp with a hold at each, for example 10kPa,20kPa,30kPa; `/` separates supply channels
     #[arg(long, short, allow_hyphen_values = true)]
     pub pressure: Option<String>,
-    /// Robots: a run of its own for every pressure
-    #[arg(long)]
-    pub separate: bool,
     /// Robots: as many runs with other random imperfections, and their mean and spread
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..=1000))]
     pub seeds: Option<u64>,
@@ -364,10 +392,10 @@ pub struct SimulateArgs {
     /// Robots: so many robots (30) whose assumed numbers fill their intervals as a Latin hypercube: median and 80 % interval of every
     /// marker, and which number to measure first
     #[arg(long, num_args = 0..=1, default_missing_value = "30", value_name = "ROBOTS",
-          value_parser = clap::value_parser!(u64).range(5..=1000), conflicts_with_all = ["separate", "seeds"])]
+          value_parser = clap::value_parser!(u64).range(5..=1000), conflicts_with = "seeds")]
     pub uncertain: Option<u64>,
     /// Robots: the run again with every numerical setting a third and three times as large and the mesh half as large: how far the
     /// tip depends on the numerics
-    #[arg(long, conflicts_with_all = ["uncertain", "separate", "seeds", "from", "export"])]
+    #[arg(long, conflicts_with_all = ["uncertain", "seeds", "from", "export"])]
     pub numerics: bool,
 }

@@ -16,6 +16,10 @@ pub struct Context<'a> {
     pub typed: Vec<String>,
     /// JSON is wanted.
     pub json: bool,
+    /// Threads; 0: one per core.
+    pub threads: usize,
+    /// What is there may be replaced.
+    pub force: bool,
     /// Told what is being done, and which share of the whole is done if known.
     pub progress: &'a mut (dyn FnMut(&str, Option<f64>) + Send),
     /// Told text for standard output before the command ends; nothing is printed where JSON is wanted.

@@ -39,9 +39,6 @@ pub struct SweepArgs {
     /// Machines beside each other
     #[command(flatten)]
     pub shards: ShardArgs,
-    /// Threads, with --engine those of each shard; 0: one per core
-    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
-    pub threads: u64,
     /// Write table.parquet in place of table.csv
     #[arg(long)]
     pub parquet: bool,
@@ -63,7 +60,4 @@ pub struct DesignArgs {
     #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "no_check")]
     #[arg(value_parser = clap::value_parser!(u64).range(0..=20))]
     pub correct: u64,
-    /// Threads; 0: one per core
-    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
-    pub threads: u64,
 }

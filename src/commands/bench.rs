@@ -34,7 +34,7 @@ pub fn run(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure> 
 fn discovery(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let laws = if args.laws == "second" { Laws::Second } else { Laws::First };
     let options = DiscoveryOptions { seed: args.seed, sets: args.sets as usize, laws };
-    let threads = args.threads as usize;
+    let threads = context.threads;
     let Some(folder) = &args.out else {
         if args.shards.asked() {
             return Err(Failure::usage("shards need a folder that all of them see", "add --out FOLDER"));
@@ -51,7 +51,6 @@ fn discovery(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure
     let bench = discovery::Work::plan(options, Some((folder, &this_program()?)))?;
     let work = Work {
         folder,
-        threads: args.threads,
         parts: "sets",
         all: bench.pieces(),
         missing: &|| bench.missing(Shard::WHOLE),

@@ -40,7 +40,7 @@ type Made = (Vec<EngineRun>, Vec<Failure>);
 
 /// Runs that come with the program or those of the folder, which gets what is missing; or what is said of a shard of them.
 fn runs(args: &BreakdownArgs, context: &mut Context) -> Result<Result<Made, Outcome>, Failure> {
-    if args.stored {
+    if args.runs.stored {
         return Ok(Ok((stored()?.into_iter().filter(|run| run.seed == 1).collect(), Vec::new())));
     }
     let meshes = args.mesh.as_deref().map(sizes).transpose()?.unwrap_or_default();
@@ -54,7 +54,7 @@ fn runs(args: &BreakdownArgs, context: &mut Context) -> Result<Result<Made, Outc
         mesh_mm: meshes.first().copied(),
         carriers: args.carriers,
     };
-    let (jobs, settings) = (jobs(&robots(&args.scenarios)?.0, &ranges)?, kept(&args.runs, args.threads));
+    let (jobs, settings) = (jobs(&robots(&args.scenarios)?.0, &ranges)?, kept(&args.runs.folder(), context));
     if let Some(told) = shared(&args.shards, &jobs, &settings, context)? {
         return Ok(Err(told));
     }

@@ -20,7 +20,7 @@ pub fn run(command: &ChallengeCommand, context: &mut Context) -> Result<Outcome,
 }
 
 fn make(args: &ChallengeNewArgs, context: &mut Context) -> Result<Outcome, Failure> {
-    check_set_folder(&args.out, args.force)?;
+    check_set_folder(&args.out, context.force)?;
     let ChallengeNewArgs { seed, effect, actuator, runs, sigma, protocol, .. } = args.clone();
     let camera_sd_m = sigma.map(|text| scatter("--sigma", &text)).transpose()?;
     let riddle = Riddle { seed, effects: effect, actuator, runs: runs.map(|n| n as usize), camera_sd_m, protocol };

@@ -16,14 +16,19 @@ use ibr::pages::{Files, compare_page, space_page};
 use std::path::PathBuf;
 
 pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
+    if args.runs.stored || args.runs.runs.is_some() || args.pressure.is_some() {
+        let message = "--runs, --stored and --pressure are about finite element runs";
+        return Err(Failure::usage(message, "add --engines or --paper, or leave them out"));
+    }
     if let Some(outcome) = super::held::run(args, context)? {
         return Ok(outcome);
     }
     let (file, data_spec) = both(args)?;
     let limit_m = positive("--max-error", args.max_error.as_ref())?;
-    let sigma_m = positive("--sigma", args.sigma.as_ref())?;
+    let sigma_m = positive("--sigma", args.noise.sigma.as_ref())?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     // What is asked for is refused before data are read.
+    inputs::each_once("--effect", inputs::effect_names(&args.effect))?;
     let models = contenders(&file, &args.effect)?;
     let evidence = inputs::evidence(data_spec, context)?;
     (context.progress)("comparing", Some(READ));

@@ -78,7 +78,7 @@ fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome, Failure> 
     let generator =
         Generator { seed: args.seed, runs: args.runs as usize, gauge: args.gauge, ..scattered(&args.scatter)? };
     let generator = generator.with_protocol(&args.protocol)?;
-    check_set_folder(&args.out, args.force)?;
+    check_set_folder(&args.out, context.force)?;
     let named = ibr::studies::scenario_in_space(&args.scenario)?;
     let model = Model::new(&named.scenario);
     (0..generator.protocol.len()).try_for_each(|hold| check_fed(&model, &generator.loads(hold, 1.0).actuator_pa))?;

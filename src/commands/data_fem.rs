@@ -18,7 +18,7 @@ use models::Scenario;
 use models::scenario::quantity::Quantity;
 
 pub fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome, Failure> {
-    check_set_folder(&args.out, args.force)?;
+    check_set_folder(&args.out, context.force)?;
     let truth = inputs::scenario(&args.scenario)?;
     let (robot, scenario) = robot(args)?;
     let kpa = pressures(&args.pressure)?;
@@ -33,7 +33,7 @@ pub fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome, Failure
         protocol: std::iter::once(0.0).chain(kpa.iter().map(|p| p * 1e3)).map(|p| [body_pa, p]).collect(),
         ..scattered(&args.scatter)?
     };
-    let runs = match args.stored {
+    let runs = match args.fem.stored {
         true => of_the_program(&scenario, args.seeds as usize)?,
         false => made(args, &robot, &scenario, &kpa, context)?,
     };
@@ -81,7 +81,7 @@ fn made(
     context: &mut Context,
 ) -> Result<Vec<EngineRun>, Failure> {
     let jobs = seed_jobs(&[(robot.clone(), scenario.clone())], args.seeds, Some(kpa))?;
-    let settings = kept(&args.runs, args.threads);
+    let settings = kept(&args.fem.folder(), context);
     let found = context.fem(|progress| runs_of(&jobs, &settings, progress))?;
     Ok(found.into_iter().collect::<Result<Vec<EngineRun>, _>>()?)
 }

@@ -24,7 +24,7 @@ pub fn run(args: &Import, context: &mut Context) -> Result<Outcome, Failure> {
     }
     let options = options(args)?;
     if let Some(folder) = &args.out {
-        check_set_folder(folder, args.force)?;
+        check_set_folder(folder, context.force)?;
     }
     let mut tell =
         |done: u64, total: u64| (context.progress)("reading tracks", Some(done as f64 / total.max(1) as f64));

@@ -16,7 +16,7 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
     let folder = args.out.clone().unwrap_or_else(|| PathBuf::from("ibr-report/compare-engines"));
     check_folder(&folder)?;
     let (named, inputs) = robots(&args.inputs)?;
-    let runs = if args.stored { stored()? } else { made(args, &named, context)? };
+    let runs = if args.runs.stored { stored()? } else { made(args, &named, context)? };
     let scenarios: Vec<Scenario> = named.into_iter().map(|s| s.1).collect();
     let found = engines(&scenarios, &runs)?;
     let mut all: Vec<EngineLine> = Vec::new();
@@ -36,8 +36,8 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
 /// Runs of the folder, which gets what is missing.
 fn made(args: &CompareArgs, robots: &[(Source, Scenario)], context: &mut Context) -> Result<Vec<EngineRun>, Failure> {
     let kpa = args.pressure.as_deref().map(pressures).transpose()?;
-    let (jobs, folder) = (seed_jobs(robots, args.seeds, kpa.as_deref())?, args.runs_folder());
-    let settings = kept(&folder, args.threads);
+    let (jobs, folder) = (seed_jobs(robots, args.seeds, kpa.as_deref())?, args.runs.folder());
+    let settings = kept(&folder, context);
     let own = context.fem(|progress| runs_of(&jobs, &settings, progress))?;
     let mut own = own.into_iter().collect::<Result<Vec<EngineRun>, _>>()?;
     // Runs of the map are there if they were made.

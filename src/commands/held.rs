@@ -27,6 +27,7 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Option<Outcome>,
         (_, Some(text)) => Some(own(data_spec, text)?),
         _ => None,
     };
+    inputs::each_once("--effect", inputs::effect_names(&args.effect))?;
     for text in &args.effect {
         let Some(before) = &scenario else {
             return Err(Failure::usage("--effect without a scenario", "name a scenario before the table"));
@@ -46,7 +47,7 @@ pub fn own(data_spec: &str, text: &str) -> Result<Scenario, Failure> {
 
 fn marker_option(args: &CompareArgs) -> Option<&'static str> {
     let given = [
-        ("--sigma", args.sigma.is_some()),
+        ("--sigma", args.noise.sigma.is_some()),
         ("--max-error", args.max_error.is_some()),
         ("--out", args.out.is_some()),
         ("--calibrate=body-pressure", args.calibrate == Some(Knob::BodyPressure)),

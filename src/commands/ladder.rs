@@ -1,6 +1,6 @@
 //! `ibr ladder`
 
-use super::inputs::{self, plain, positive};
+use super::inputs::{self, plain};
 use super::{Context, Outcome};
 use crate::cli::LadderArgs;
 use crate::failure::Failure;
@@ -29,20 +29,12 @@ struct LadderAnswer<'a> {
 }
 
 pub fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome, Failure> {
-    let tolerance_m = positive("--tolerance", args.tolerance.as_ref())?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let file = inputs::scenario(&args.scenario)?;
-    let evidence = inputs::all_evidence(&args.data, &args.also, context)?;
-    let options = Options {
-        tolerance_m,
-        keep_bending: args.keep_bending,
-        not: args.not.clone(),
-        next_experiment: false,
-        missing_moment: false,
-        ..Options::default()
-    };
+    let evidence = inputs::all_evidence(&args.data, &args.fit.also, context)?;
+    let options = Options { next_experiment: false, missing_moment: false, ..inputs::fit_options(&args.fit)? };
     let climb = ladder(&file, &evidence, &options, MOST_EFFECTS, &mut part(context.progress, [READ, CLIMBED]))?;
-    let LadderArgs { scenario, data, also, .. } = args;
+    let (LadderArgs { scenario, data, .. }, also) = (args, &args.fit.also);
     let answer = LadderAnswer { climb: &climb, scenario_file: scenario, data, also };
     let mut outcome = Outcome::answer(climb_text(&climb), "ibr.ladder", &answer);
     outcome.warn(&climb.warnings);

@@ -30,7 +30,7 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
 
 /// Stored runs, or all in the folder, which gets what is missing.
 fn runs(args: &CompareArgs, context: &mut Context) -> Result<Vec<PaperRun>, Failure> {
-    let Some(folder) = &args.runs else {
+    let Some(folder) = &args.runs.runs else {
         if !args.inputs.is_empty() || args.pressure.is_some() {
             let help = "add --runs FOLDER to make runs; without it all that come with the program are printed";
             return Err(Failure::usage("--paper alone takes no scenario and no --pressure", help));
@@ -39,7 +39,7 @@ fn runs(args: &CompareArgs, context: &mut Context) -> Result<Vec<PaperRun>, Fail
     };
     let kpa = args.pressure.as_deref().map(pressures).transpose()?;
     let jobs = jobs(&robots(&args.inputs)?.0, &sizes(&args.mesh)?, kpa.as_deref())?;
-    let settings = kept(folder, args.threads);
+    let settings = kept(folder, context);
     let made = context.fem(|progress| runs_of(&jobs, &settings, progress))?;
     made.into_iter().collect::<Result<Vec<_>, _>>()?;
     Ok(ordered(runs_below(folder)?))

@@ -21,11 +21,11 @@ pub fn shard(args: &ShardArgs) -> Result<Shard, Failure> {
 }
 
 /// What is submitted: the command as it was typed, with a shard. Its files go below `folder`.
-fn job(args: &ShardArgs, threads: u64, folder: &Path, context: &Context) -> Result<schedule::Job, Failure> {
+fn job(args: &ShardArgs, folder: &Path, context: &Context) -> Result<schedule::Job, Failure> {
     let program = std::env::current_exe()
         .map_err(|cause| Failure::usage(format!("this program cannot be found: {cause}"), "run the shards by hand"))?;
     let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_path_buf());
-    let (shards, threads) = (args.shards as usize, (threads as usize).max(1));
+    let (shards, threads) = (args.shards as usize, context.threads.max(1));
     Ok(schedule::Job { program, words: without(&context.typed), folder, shards, threads })
 }
 
@@ -48,8 +48,6 @@ fn without(typed: &[String]) -> Vec<String> {
 pub struct Work<'w> {
     /// Folder of the job and its logs, seen by all machines.
     pub folder: &'w Path,
-    /// Threads of each shard.
-    pub threads: u64,
     /// What it consists of, for example runs.
     pub parts: &'w str,
     /// How many of them there are.
@@ -63,7 +61,7 @@ pub struct Work<'w> {
 /// Has a scheduler run all shards, if one was asked for. `None`: the command goes on; else what it has to say.
 pub fn by_scheduler(args: &ShardArgs, work: &Work, context: &mut Context) -> Result<Option<Outcome>, Failure> {
     let Some(cluster) = cluster(args) else { return Ok(None) };
-    let job = job(args, work.threads, work.folder, context)?;
+    let job = job(args, work.folder, context)?;
     if args.script {
         return Ok(Some(Outcome { text: job.script(cluster), ..Outcome::default() }));
     }
@@ -130,7 +128,6 @@ pub fn shared(
     let all: Vec<(&Job, PathBuf)> = problems(jobs, &root)?;
     let work = Work {
         folder: &root,
-        threads: settings.threads as u64,
         parts: "runs",
         all: all.len(),
         missing: &|| all.iter().filter(|(_, folder)| !is_finished(folder)).count(),

@@ -18,18 +18,18 @@ pub fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome, Failure> 
     check_folder(&folder)?;
     let missing = || parts_missing(&study, &folder);
     let (all, may_fail) = (missing(), false);
-    let work = Work { folder: &folder, threads: args.threads, parts: "parts", all, missing: &missing, may_fail };
+    let work = Work { folder: &folder, parts: "parts", all, missing: &missing, may_fail };
     if let Some(script) = by_scheduler(&args.shards, &work, context)? {
         return Ok(script);
     }
     let shard = shard(&args.shards)?;
     let runs = fem::session::Settings {
         frames: false,
-        threads: args.threads as usize,
+        threads: context.threads,
         maker: maker(),
         ..fem::session::Settings::default()
     };
-    let settings = Settings { folder: folder.clone(), shard, threads: args.threads as usize, runs };
+    let settings = Settings { folder: folder.clone(), shard, threads: context.threads, runs };
     // Ctrl-C leaves what is complete.
     let found = context.fem(|progress| compute(&study, &settings, progress))?;
     match collect(&study, &folder) {

@@ -22,7 +22,7 @@ use std::time::Duration;
 pub fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let plan = plan::plan(args, fe_source(&args.case)?)?;
     if let Some(file) = &args.export {
-        return export::written(args, &plan, file);
+        return export::written(args, &plan, file, context.force);
     }
     if args.from.is_some() && !matches!(plan, RunPlan::Single(_)) {
         let help = "name one mesh and leave separate out, then go on from one run to another";
@@ -33,10 +33,10 @@ pub fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome, Failur
         resume: args.resume,
         from: args.from.clone(),
         keep_end: true,
-        force: args.force,
+        force: context.force,
         frames: !args.no_frames,
         end_s: args.end.as_deref().map(|text| seconds("--end", text)).transpose()?,
-        threads: args.threads as usize,
+        threads: context.threads,
         checkpoint_every: Duration::from_secs_f64(seconds("--checkpoint-every", &args.checkpoint_every)?),
         further: Some(run_plots as Further),
         maker: maker(),
@@ -45,7 +45,7 @@ pub fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome, Failur
     check_folder(&folder)?;
     match plan {
         RunPlan::Single(_) if args.shards.shard.is_some() || args.shards.engine.is_some() => {
-            let help = "add --seeds, --separate, --uncertain or several --mesh, or leave --shard and --engine out";
+            let help = "add --seeds, --uncertain, --set separate=true or several --mesh, or leave --shard and --engine out";
             Err(Failure::usage("one run has no shards", help))
         }
         RunPlan::Single(source) => one(args, &source, &settings, context),
@@ -58,7 +58,7 @@ fn one(args: &SimulateArgs, source: &Source, settings: &Settings, context: &mut 
     let folder = settings.folder.as_deref().unwrap_or(Path::new(""));
     let run = match context.fem(|progress| simulate(source, settings, progress)) {
         Err(FemError::Interrupted { time_s, step, .. }) => {
-            let force = if args.force { " --force" } else { "" };
+            let force = if context.force { " --force" } else { "" };
             return Ok(Outcome::interrupted(format!(
                 "interrupted at t = {time_s:.6} s, step {step}; go on with: ibr simulate {}{} --out {} --resume{force}",
                 args.case,
