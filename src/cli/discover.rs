@@ -95,7 +95,13 @@ pub struct BreakdownArgs {
     #[command(flatten)]
     pub runs: RunsArgs,
     /// Actuator pressures
-    #[arg(long, short, default_value = "5kPa,10kPa,15kPa,20kPa,25kPa,30kPa", conflicts_with = "stored", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        short,
+        default_value = "5kPa,10kPa,15kPa,20kPa,25kPa,30kPa",
+        conflicts_with = "stored",
+        allow_hyphen_values = true
+    )]
     pub pressure: String,
     /// Body pressures beside the scenario's own
     #[arg(long, default_value = "1kPa,4kPa", conflicts_with = "stored", allow_hyphen_values = true)]

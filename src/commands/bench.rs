@@ -49,13 +49,8 @@ fn discovery(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure
     };
     check_folder(folder)?;
     let bench = discovery::Work::plan(options, Some((folder, &this_program()?)))?;
-    let work = Work {
-        folder,
-        parts: "sets",
-        all: bench.pieces(),
-        missing: &|| bench.missing(Shard::WHOLE),
-        may_fail: false,
-    };
+    let work =
+        Work { folder, parts: "sets", all: bench.pieces(), missing: &|| bench.missing(Shard::WHOLE), may_fail: false };
     let told = in_shards(&args.shards, &work, context, |shard, context| {
         let made = bench.missing(shard);
         context.fem(|progress| bench.answers(shard, threads, progress))?;

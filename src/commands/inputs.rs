@@ -73,7 +73,8 @@ fn changed(mut file: ScenarioFile, set: Set, args: &RobotArgs) -> Result<(Scenar
     each_once("--set", changes.iter().map(|(key, _)| *key))?;
     each_once("--effect", effect_names(&args.effect))?;
     if !changes.is_empty() {
-        file = set(&file, &changes.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect::<Vec<_>>())?;
+        file =
+            set(&file, &changes.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect::<Vec<_>>())?;
     }
     let mut changed = if args.bare { file.bare() } else { file.scenario.clone() };
     for text in &args.effect {

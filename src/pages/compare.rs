@@ -1,10 +1,10 @@
 //! The page of a scenario held against a dataset.
 
-use super::{Files, Imprint, PageError, effect, figures, number, residual_figure, tables};
+use super::{Files, Imprint, PageError, Values, effect, figures, number, residual_figure, tables};
+use ::compare::Evaluation;
 use ::compare::metrics::HoldMetrics;
 use ::compare::study::{Comparison, Variant};
 use data::{About, Dataset};
-use serde_json::{Value, json};
 
 /// The page of a comparison and the files beside it.
 ///
@@ -13,12 +13,15 @@ use serde_json::{Value, json};
 pub fn compare_page(study: &Comparison, imprint: &Imprint) -> Result<Files, PageError> {
     let mut files = compare_files(study)?;
     let (first, dataset) = (&study.variants[0], &study.dataset);
-    let variants: Vec<Value> = study.variants.iter().map(variant).collect();
-    let values = json!({
-        "title": format!("{} held against {}", first.scenario.name, dataset.name),
-        "lead": lead(study), "first": variants[0], "variants": variants, "provenance": provenance(study),
-        "several_bodies": figures::several_bodies(dataset), "map_colours": residual_figure::MAP_COLOURS,
-    });
+    let variants: Vec<Values> = study.variants.iter().map(variant).collect();
+    let values = Values::new()
+        .with("title", format!("{} held against {}", first.scenario.name, dataset.name))
+        .with("lead", lead(study))
+        .with("first", &variants[0])
+        .with("variants", variants)
+        .with("provenance", provenance(study))
+        .with("several_bodies", figures::several_bodies(dataset))
+        .with("map_colours", residual_figure::MAP_COLOURS);
     files.page("compare.html", values, imprint)?;
     Ok(files)
 }
@@ -45,15 +48,25 @@ pub fn compare_files(study: &Comparison) -> Result<Files, PageError> {
     Ok(files)
 }
 
-fn variant(v: &Variant) -> Value {
+fn variant(v: &Variant) -> Values {
     let metrics = &v.evaluation.metrics;
     let several = metrics.holds.iter().any(|h| h.p_body_kpa != metrics.holds[0].p_body_kpa);
-    let holds = metrics.holds.iter().map(|h| json!({"name": hold_name(h, several), "of": h}));
-    json!({
-        "label": v.label, "known": v.known.word(), "why": v.why, "overall": metrics.overall,
-        "holds": holds.collect::<Vec<_>>(), "noise": v.evaluation.noise, "scaling": v.evaluation.scaling.sentence,
-        "where_it_fails": v.evaluation.where_it_fails.iter().map(|s| &s.sentence).collect::<Vec<_>>(),
-    })
+    let holds = metrics
+        .holds
+        .iter()
+        .map(|h| Values::new().with("name", hold_name(h, several)).with("of", h))
+        .collect::<Vec<_>>();
+    let Evaluation { noise, scaling, where_it_fails, .. } = &v.evaluation;
+    let fails = where_it_fails.iter().map(|s| &s.sentence).collect::<Vec<_>>();
+    Values::new()
+        .with("label", &v.label)
+        .with("known", &v.known)
+        .with("why", &v.why)
+        .with("overall", &metrics.overall)
+        .with("holds", holds)
+        .with("noise", noise)
+        .with("scaling", &scaling.sentence)
+        .with("where_it_fails", fails)
 }
 
 /// `10 kPa load`; the body pressure is named if the data have several.

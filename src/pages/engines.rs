@@ -1,12 +1,12 @@
 //! Both engines and the published numbers on one page: displacement, accuracy, ledgers, and where the models part.
 
 use super::engine_figures::{bars, curve, displaced, ledger, parting_plot};
-use super::{Files, Imprint, PAPER, PageError, marker_intervals, what_to_measure};
+use super::{Files, Imprint, PAPER, PageError, Values, marker_intervals, what_to_measure};
 use ::compare::study::engines::{
-    EngineRobot, Engines, HEADS, SUMMARY, VOLUMES, VOLUMES_CAPTION, cells, csv, lines, summary, volume_cells,
+    EngineRobot, Engines, HEADS, SUMMARY, VOLUMES, VOLUMES_CAPTION, cells, csv, lines as engine_lines, summary,
+    volume_cells,
 };
 use ::compare::study::uncertain::Uncertain;
-use serde_json::{Value, json};
 
 /// The page with the plots and tables beside it.
 ///
@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 /// What cannot be drawn.
 pub fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files, PageError> {
     let mut files = Files::default();
-    let mut values = overview(engines, &mut files)?;
+    let overview = overview(engines, &mut files)?;
     let (mut cubes, mut kinds, mut maps) = (Vec::new(), Vec::new(), Vec::new());
     for robot in &engines.robots {
         for cube in &robot.uncertain {
@@ -33,50 +33,51 @@ pub fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files, PageE
     for (k, map) in engines.maps.iter().enumerate() {
         let name = format!("breakdown_{}_{k}", map.actuator);
         files.plot(&name, parting_plot(map)?);
-        maps.push(json!({"name": name, "mesh_mm": map.mesh_mm}));
+        maps.push(Values::new().with("name", name).with("mesh_mm", &map.mesh_mm));
     }
-    for (key, value) in [
-        ("title", json!("Two engines against the published displacements")),
-        ("lead", json!(lead(engines))),
-        ("cubes", json!(cubes)),
-        ("kinds", json!(kinds)),
-        ("maps", json!(maps)),
-        ("volumes", json!(volume_cells(&engines.robots))),
-        ("volume_heads", heads(&VOLUMES, &[])),
-        ("volume_caption", json!(VOLUMES_CAPTION)),
-        ("provenance", json!(provenance(engines, imprint))),
-    ] {
-        values[key] = value;
-    }
+    let values = Values::new()
+        .with("title", "Two engines against the published displacements")
+        .with("lead", lead(engines))
+        .with("cubes", cubes)
+        .with("kinds", kinds)
+        .with("maps", maps)
+        .with("volumes", volume_cells(&engines.robots))
+        .with("volume_heads", heads(&VOLUMES, &[]))
+        .with("volume_caption", VOLUMES_CAPTION)
+        .with("provenance", provenance(engines, imprint))
+        .and(overview);
     files.page("engines.html", values, imprint)?;
     Ok(files)
 }
 
 /// One row a robot, with the bars of their displacements, and all lines as a table beside.
-pub(super) fn overview(engines: &Engines, files: &mut Files) -> Result<Value, PageError> {
+pub(super) fn overview(engines: &Engines, files: &mut Files) -> Result<Values, PageError> {
     let (mut all, mut rows) = (Vec::new(), Vec::new());
     for robot in &engines.robots {
-        all.extend(lines(robot)?);
+        all.extend(engine_lines(robot)?);
         rows.extend(summary(robot)?);
     }
     files.text("engines.csv", csv(&all));
     if let Some(bars) = bars(engines)? {
         files.plot("engines", bars);
     }
-    Ok(json!({
-        "summary": rows, "summary_heads": heads(&SUMMARY, &[1, 6]),
-        "lines": all.iter().map(cells).collect::<Vec<_>>(), "line_heads": heads(&HEADS, &[2, 3]),
-    }))
+    let lines = all.iter().map(cells).collect::<Vec<_>>();
+    let (summary_heads, line_heads) = (heads(&SUMMARY, &[1, 6]), heads(&HEADS, &[2, 3]));
+    Ok(Values::new()
+        .with("summary", rows)
+        .with("summary_heads", summary_heads)
+        .with("lines", lines)
+        .with("line_heads", line_heads))
 }
 
 /// Heads of a table, those of words marked.
-fn heads(names: &[&str], words: &[usize]) -> Value {
+pub(super) fn heads<'n>(names: &[&'n str], words: &[usize]) -> Vec<[&'n str; 3]> {
     let mark = |k: usize| if words.contains(&k) { "l" } else { "" };
-    json!(names.iter().enumerate().map(|(k, name)| [name, "", mark(k)]).collect::<Vec<_>>())
+    names.iter().enumerate().map(|(k, name)| [*name, "", mark(k)]).collect()
 }
 
 /// Heights of all markers with their intervals, and what to measure first.
-fn draw_cube(robot: &EngineRobot, cube: &Uncertain, files: &mut Files) -> Result<Value, PageError> {
+fn draw_cube(robot: &EngineRobot, cube: &Uncertain, files: &mut Files) -> Result<Values, PageError> {
     let last = cube.stations_mm.last().copied().unwrap_or(f64::NAN);
     let own = robot.published.iter().map(|p| (p.d_max_pressure_pa * 1e-3, [last, p.d_max_m * 1e3]));
     let words: String = cube.variant.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
@@ -84,7 +85,7 @@ fn draw_cube(robot: &EngineRobot, cube: &Uncertain, files: &mut Files) -> Result
     files.plot(&format!("{name}_uncertain"), marker_intervals(cube, &own.collect::<Vec<_>>())?);
     let top = cube.pressures_kpa().into_iter().fold(0.0, f64::max);
     files.plot(&format!("{name}_tornado"), what_to_measure(cube, top)?);
-    Ok(json!({"name": name, "robots": cube.members.len(), "variant": cube.variant}))
+    Ok(Values::new().with("name", name).with("robots", cube.members.len()).with("variant", &cube.variant))
 }
 
 fn lead(engines: &Engines) -> String {

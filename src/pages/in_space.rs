@@ -2,13 +2,12 @@
 
 use super::compare::origin;
 use super::figures::{LINE_POINTS, MOST_POSES};
-use super::{Files, Imprint, PageError, effect};
+use super::{Files, Imprint, PageError, Values, effect};
 use crate::words::{along, hold_name, misses};
-use ::compare::study::in_space::{InSpace, SpaceErrors, SpaceHold, SpaceMarker, SpaceVariant, loads};
+use ::compare::study::in_space::{InSpace, SpaceHold, SpaceMarker, SpaceVariant, loads};
 use data::{Column, Table};
 use models::Model;
 use report::{Drawn, MeasuredPoint, ShapePose, Shapes, shapes};
-use serde_json::{Value, json};
 
 /// The page and the files beside it.
 ///
@@ -22,11 +21,13 @@ pub fn space_page(study: &InSpace, imprint: &Imprint) -> Result<Files, PageError
         files.plot("shapes_z", seen(study, 2)?);
     }
     files.table("markers", markers(study))?;
-    let values = json!({
-        "title": format!("{} held against {}", first.scenario.name, study.dataset.name),
-        "lead": lead(study), "provenance": origin(&first.scenario.name, &study.dataset, study.about.as_ref(), &study.warnings), "where_it_fails": misses(first),
-        "axes": if study.axes == 3 { "x, y, z" } else { "x, y" }, "variants": study.variants.iter().map(variant).collect::<Vec<_>>(),
-    });
+    let values = Values::new()
+        .with("title", format!("{} held against {}", first.scenario.name, study.dataset.name))
+        .with("lead", lead(study))
+        .with("provenance", origin(&first.scenario.name, &study.dataset, study.about.as_ref(), &study.warnings))
+        .with("where_it_fails", misses(first))
+        .with("axes", if study.axes == 3 { "x, y, z" } else { "x, y" })
+        .with("variants", study.variants.iter().map(variant).collect::<Vec<_>>());
     files.page("in_space.html", values, imprint)?;
     Ok(files)
 }
@@ -88,18 +89,26 @@ pub fn markers(study: &InSpace) -> Table {
     Table { columns }
 }
 
-fn variant(v: &SpaceVariant) -> Value {
-    let row = |name: String, of: &SpaceErrors, tip: [Value; 2]| {
-        let [tip, tip_distance] = tip;
-        json!({"name": name, "of": of, "bias": along(&of.bias_mm), "tip": tip, "tip_distance_mm": tip_distance})
+fn variant(v: &SpaceVariant) -> Values {
+    let of_hold = |h: &SpaceHold| {
+        let (bias, tip) = (along(&h.errors.bias_mm), along(&h.tip_error_mm));
+        Values::new()
+            .with("name", hold_name(h))
+            .with("of", &h.errors)
+            .with("bias", bias)
+            .with("tip", tip)
+            .with("tip_distance_mm", &h.tip_distance_mm)
     };
-    let of_hold =
-        |h: &SpaceHold| row(hold_name(h), &h.errors, [json!(along(&h.tip_error_mm)), json!(h.tip_distance_mm)]);
-    let all = row("all".into(), &v.overall, [json!(""), Value::Null]);
-    json!({
-        "label": effect(&v.label), "known": v.known.word(), "why": v.why,
-        "holds": v.holds.iter().map(of_hold).chain([all]).collect::<Vec<_>>(),
-    })
+    let no_tip: Option<f64> = None;
+    let bias = along(&v.overall.bias_mm);
+    let all = Values::new()
+        .with("name", "all")
+        .with("of", &v.overall)
+        .with("bias", bias)
+        .with("tip", "")
+        .with("tip_distance_mm", no_tip);
+    let holds = v.holds.iter().map(of_hold).chain([all]).collect::<Vec<_>>();
+    Values::new().with("label", effect(&v.label)).with("known", &v.known).with("why", &v.why).with("holds", holds)
 }
 
 /// The answer in a paragraph.

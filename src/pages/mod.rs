@@ -45,7 +45,8 @@ pub use uncertain::{marker_intervals, what_to_measure};
 
 use crate::words::{effect, in_words, number};
 use report::Drawn;
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::{Map, Value};
 
 /// Files of one result, in memory until all are done; the report is last.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -86,16 +87,47 @@ impl Files {
     }
 
     /// Adds the page of a template, with the plots that were added before.
-    fn page(&mut self, template: &str, mut values: Value, imprint: &Imprint) -> Result<(), PageError> {
-        for (key, text) in [("program", &imprint.program), ("date", &imprint.date), ("machine", &imprint.machine)] {
-            values[key] = json!(text);
-        }
+    fn page(&mut self, template: &str, values: Values, imprint: &Imprint) -> Result<(), PageError> {
+        let Imprint { program, date, machine } = imprint;
+        let values = Values::new().with("program", program).with("date", date).with("machine", machine).and(values);
         let svg = |(name, bytes): &(String, Vec<u8>)| {
             Some((name.strip_suffix(".svg")?.to_string(), String::from_utf8(bytes.clone()).ok()?))
         };
         let page = report::page::render(template, &values, self.files.iter().filter_map(svg).collect())?;
         self.text("report.html", page);
         Ok(())
+    }
+}
+
+/// What a template is filled with, by name.
+#[derive(Debug, Clone, Default, Serialize)]
+#[serde(transparent)]
+pub(crate) struct Values(Map<String, Value>);
+
+impl Values {
+    /// None yet.
+    fn new() -> Values {
+        Values::default()
+    }
+
+    /// The fields of a result.
+    fn of(result: &impl Serialize) -> Values {
+        match serde_json::to_value(result) {
+            Ok(Value::Object(fields)) => Values(fields),
+            _ => Values::default(),
+        }
+    }
+
+    /// One more. Numbers that are not finite are none.
+    fn with(mut self, name: &str, value: impl Serialize) -> Values {
+        self.0.insert(name.into(), serde_json::to_value(value).unwrap_or_default());
+        self
+    }
+
+    /// Further ones; those that are there stay.
+    fn and(mut self, further: Values) -> Values {
+        further.0.into_iter().for_each(|(name, value)| _ = self.0.entry(name).or_insert(value));
+        self
     }
 }
 

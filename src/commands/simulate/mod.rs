@@ -45,7 +45,8 @@ pub fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome, Failur
     check_folder(&folder)?;
     match plan {
         RunPlan::Single(_) if args.shards.shard.is_some() || args.shards.engine.is_some() => {
-            let help = "add --seeds, --uncertain, --set separate=true or several --mesh, or leave --shard and --engine out";
+            let help =
+                "add --seeds, --uncertain, --set separate=true or several --mesh, or leave --shard and --engine out";
             Err(Failure::usage("one run has no shards", help))
         }
         RunPlan::Single(source) => one(args, &source, &settings, context),
