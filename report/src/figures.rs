@@ -1,7 +1,7 @@
 //! Figures that several pages have, as charts.
 
 use crate::axis::{common_decimals, number, short_number};
-use crate::chart::{Bar, Chart, ChartRow, Key, KeyLook, Mark, RowPlace, Space, finite};
+use crate::chart::{Bar, Chart, ChartRow, Key, KeyLook, Mark, Point, RowPlace, Space, finite};
 use crate::palette::{Ink, SERIES};
 use crate::scene::Symbol;
 use crate::{Drawn, ReportError, at_most, same_length};
@@ -41,6 +41,30 @@ pub struct LineSeries {
     pub colour: Option<usize>,
 }
 
+impl Lines {
+    /// Series over two axes with their labels.
+    pub fn new(title: impl Into<String>, x_label: &str, y_label: &str, series: Vec<LineSeries>) -> Lines {
+        Lines { title: title.into(), x_label: x_label.into(), y_label: y_label.into(), series }
+    }
+}
+
+impl LineSeries {
+    /// A series in the colour of its place in the list.
+    pub fn new(name: impl Into<String>, style: LineStyle, points: Vec<[f64; 2]>) -> LineSeries {
+        LineSeries { name: name.into(), points, style, ..LineSeries::default() }
+    }
+
+    /// In this colour.
+    pub fn coloured(self, colour: usize) -> LineSeries {
+        LineSeries { colour: Some(colour), ..self }
+    }
+
+    /// With error bars of these half-widths.
+    pub fn with_errors(self, half_width: Vec<f64>) -> LineSeries {
+        LineSeries { half_width, ..self }
+    }
+}
+
 /// How a [`LineSeries`] is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LineStyle {
@@ -78,15 +102,15 @@ pub fn lines(data: &Lines) -> Result<Drawn, ReportError> {
         }
         if !matches!(series.style, LineStyle::Line | LineStyle::Dashed) {
             let open = series.style == LineStyle::OpenPoints;
-            let point = |(k, at): (usize, &[f64; 2])| Mark::Point {
+            let point = |(k, at): (usize, &[f64; 2])| Point {
                 at: *at,
                 error: [0.0, half(k)],
                 ink,
                 symbol,
                 open,
-                label: String::new(),
+                ..Point::default()
             };
-            points.extend(series.points.iter().enumerate().map(point));
+            points.extend(series.points.iter().enumerate().map(point).map(Mark::Point));
         }
         let look = match series.style {
             LineStyle::Line => KeyLook::Line,
@@ -152,8 +176,7 @@ pub fn shapes(data: &Shapes) -> Result<Drawn, ReportError> {
     let lines = inked().map(|(pose, ink)| Mark::Line { points: pose.curve_mm.clone(), ink, dashed: false });
     marks.extend(lines);
     for (pose, ink) in inked() {
-        let point =
-            |at, error, open| Mark::Point { at, error, ink, symbol: Symbol::Circle, open, label: String::new() };
+        let point = |at, error, open| Mark::Point(Point { at, error, ink, open, ..Point::default() });
         marks.extend(pose.predicted_mm.iter().map(|at| point(*at, [0.0; 2], true)));
         marks.extend(pose.measured.iter().map(|m| point(m.at_mm, m.half_width_mm.map(f64::abs), false)));
         marks.extend(tip(pose).map(|at| Mark::Tip { at, label: pose.label.clone(), ink }));

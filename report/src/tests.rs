@@ -1,7 +1,7 @@
 //! Laws that every chart obeys: both formats for good data, an error or a drawing but never a panic for odd data; and what every
 //! page must hold.
 
-use crate::chart::{Bar, Chart, ChartColumn, ChartRow, Key, KeyLook, Mark, RowPlace, Space};
+use crate::chart::{Bar, Chart, ChartColumn, ChartRow, Key, KeyLook, Mark, Point, RowPlace, Space};
 use crate::*;
 use std::collections::BTreeMap;
 
@@ -40,13 +40,9 @@ fn planes(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, ReportError
         body_radius_mm: v(1),
         poses: vec![pose.clone(), pose],
     };
-    let point = |i: usize| Mark::Point {
-        at: [v(i), v(i + 1)],
-        error: [0.0; 2],
-        ink: Ink::Series(i),
-        symbol: Symbol::of(i),
-        open: false,
-        label: label(name),
+    let point = |i: usize| {
+        let (at, ink, symbol, label) = ([v(i), v(i + 1)], Ink::Series(i), Symbol::of(i), label(name));
+        Mark::Point(Point { at, ink, symbol, label, ..Point::default() })
     };
     let front = Mark::Line { points: points.clone(), ink: Ink::Axis, dashed: true };
     let marks = vec![front, point(0), point(1)];

@@ -179,24 +179,19 @@ pub(super) fn candidate_curves(
     for (i, answer) in candidates.iter().enumerate() {
         let own = heights(&answer.on(scenario, level));
         let point = |k: usize| [1e-3 * top_pa * (k as f64 / f64::from(POINTS)).powi(2), own[k] - zero[k]];
-        series.push(LineSeries {
-            name: format!("+ {}{}", super::effect(&answer.name()), attempted(d, answer)),
-            points: (0..own.len()).map(point).collect(),
-            style: if answer.standing == Standing::Other { LineStyle::Dashed } else { LineStyle::Line },
-            colour: Some(if i < MEASURED { i } else { i + 1 }),
-            ..LineSeries::default()
-        });
+        let style = if answer.standing == Standing::Other { LineStyle::Dashed } else { LineStyle::Line };
+        let name = format!("+ {}{}", super::effect(&answer.name()), attempted(d, answer));
+        let line = LineSeries::new(name, style, (0..own.len()).map(point).collect());
+        series.push(line.coloured(if i < MEASURED { i } else { i + 1 }));
     }
     let body =
         if super::figures::several_bodies(dataset) { super::figures::body(first.p_body_pa) } else { String::new() };
     let with = if d.base.bending.is_empty() { "B as given" } else { "fitted B alone" };
-    let data = plots::Lines {
-        title: "What the candidates predict differently".into(),
-        x_label: format!("actuator pressure{body} [kPa]"),
-        y_label: format!("outermost marker, difference from the model with {with} [mm]"),
-        series,
-    };
-    Ok(Some(plots::lines(&data)?))
+    let (x, y) = (
+        format!("actuator pressure{body} [kPa]"),
+        format!("outermost marker, difference from the model with {with} [mm]"),
+    );
+    Ok(Some(plots::lines(&plots::Lines::new("What the candidates predict differently", &x, &y, series))?))
 }
 
 /// Mean time of the samples in their holds under pressure \[s\].
@@ -278,6 +273,6 @@ fn deviations(base: &Scenario, dataset: &Dataset) -> Result<LineSeries, PageErro
         points.push([hold.p_act_pa * 1e-3, MM * (mean[1] - model / dataset.samples_per_hold as f64)]);
         half_width.push(spread[1] * MM / (dataset.runs.len() as f64).sqrt());
     }
-    let name = "measured (± standard error)".into();
-    Ok(LineSeries { name, points, half_width, style: LineStyle::Points, colour: Some(MEASURED) })
+    let line = LineSeries::new("measured (± standard error)", LineStyle::Points, points);
+    Ok(line.with_errors(half_width).coloured(MEASURED))
 }

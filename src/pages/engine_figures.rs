@@ -6,7 +6,7 @@ use compare::study::engines::{EngineRobot, Engines, PartingMap};
 use data::published::printed;
 use models::actuators::Family;
 use report::chart::{Chart, ChartColumn, ChartRow, Mark, Space};
-use report::{self as plots, Drawn, number};
+use report::{self as plots, Drawn, LineSeries, LineStyle, Lines, number};
 
 /// Share at which the colour of a map saturates.
 const STRONGEST: f64 = 1.5;
@@ -91,12 +91,13 @@ pub(super) fn displaced(robots: &[EngineRobot]) -> Result<Option<Drawn>, PageErr
             let (points, half_width): (Vec<[f64; 2]>, Vec<f64>) =
                 known.map(|(kpa, (mean, sd))| ([kpa, mean], sd.unwrap_or(0.0))).unzip();
             let style = match (body.own, body.body_kpa * 1e3 < robot.scenario.p_body_pa) {
-                (true, _) => plots::LineStyle::LinePoints,
-                (false, true) => plots::LineStyle::Dashed,
-                (false, false) => plots::LineStyle::Line,
+                (true, _) => LineStyle::LinePoints,
+                (false, true) => LineStyle::Dashed,
+                (false, false) => LineStyle::Line,
             };
             let name = format!("{}, body {} kPa", body.actuator, body.body_kpa);
-            series.push((body.own, plots::LineSeries { name, points, half_width, style, colour: Some(colour) }));
+            let line = LineSeries::new(name, style, points).with_errors(half_width);
+            series.push((body.own, line.coloured(colour)));
         }
     }
     // Of more than a plot holds, robots at their own body pressure come first.
@@ -105,27 +106,15 @@ pub(super) fn displaced(robots: &[EngineRobot]) -> Result<Option<Drawn>, PageErr
     if series.is_empty() {
         return Ok(None);
     }
-    let data = plots::Lines {
-        title: "Body volume lost beyond πR³ × turn".into(),
-        x_label: "actuator pressure [kPa]".into(),
-        y_label: "displaced per actuator volume χ [-]".into(),
-        series,
-    };
-    Ok(Some(plots::lines(&data)?))
+    let (x, y) = ("actuator pressure [kPa]", "displaced per actuator volume χ [-]");
+    Ok(Some(plots::lines(&Lines::new("Body volume lost beyond πR³ × turn", x, y, series))?))
 }
 
 /// Outermost marker over pressure: both engines, every seed of the finite elements.
 pub(super) fn curve(robot: &EngineRobot) -> Result<Drawn, PageError> {
-    let series = |name: &str, points, half_width, style, colour| plots::LineSeries {
-        name: name.into(),
-        points,
-        half_width,
-        style,
-        colour: Some(colour),
-    };
     let reduced = robot.pairs.iter().map(|p| [p.actuator_kpa, p.reduced_mm[0]]);
     let reduced = std::iter::once([0.0, 0.0]).chain(reduced).collect();
-    let mut all = vec![series("reduced, as shipped", reduced, vec![], plots::LineStyle::LinePoints, 0)];
+    let mut all = vec![LineSeries::new("reduced, as shipped", LineStyle::LinePoints, reduced)];
     let ensemble = &robot.ensemble;
     if let Some(run) = ensemble.runs.first() {
         let states = run.states.iter().filter_map(|s| Some((s.actuator_kpa, ensemble.at(s.actuator_kpa)?[0])));
@@ -135,19 +124,15 @@ pub(super) fn curve(robot: &EngineRobot) -> Result<Drawn, PageError> {
             1 => "finite elements".to_string(),
             n => format!("finite elements, mean and sd of {n} seeds"),
         };
-        all.push(series(&name, points, spread, plots::LineStyle::LinePoints, 1));
+        all.push(LineSeries::new(name, LineStyle::LinePoints, points).with_errors(spread).coloured(1));
     }
     if let Some(p) = &robot.published {
         let at = vec![[p.d_max_pressure_pa * 1e-3, p.d_max_m * 1e3]];
-        all.push(series("measured", at, vec![], plots::LineStyle::OpenPoints, 3));
+        all.push(LineSeries::new("measured", LineStyle::OpenPoints, at).coloured(3));
     }
-    let data = plots::Lines {
-        title: format!("{}: outermost marker over pressure", robot.scenario.actuator.kind.name),
-        x_label: "actuator pressure [kPa]".into(),
-        y_label: "displacement of the outermost marker [mm]".into(),
-        series: all,
-    };
-    Ok(plots::lines(&data)?)
+    let title = format!("{}: outermost marker over pressure", robot.scenario.actuator.kind.name);
+    let (x, y) = ("actuator pressure [kPa]", "displacement of the outermost marker [mm]");
+    Ok(plots::lines(&Lines::new(title, x, y, all))?)
 }
 
 /// Ledgers at every pressure, both engines.

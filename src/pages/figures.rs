@@ -9,8 +9,8 @@ use data::published::printed;
 use data::{Dataset, Phase};
 use models::Known;
 use models::{Loads, Model, Scenario};
-use report::chart::{Chart, Key, KeyLook, Mark, Space};
-use report::{self as plots, Drawn, Ink, Symbol};
+use report::chart::{Chart, Key, KeyLook, Mark, Point, Space};
+use report::{self as plots, Drawn, Ink, LineSeries, LineStyle, Lines, Symbol};
 
 const MM: f64 = 1e3;
 /// Points of a drawn centre line.
@@ -139,31 +139,22 @@ pub(super) fn pressure_curve(title: &str, study: &Comparison) -> Result<Drawn, P
         for (name, unload) in [("measured, loading", false), ("measured, unloading", true)] {
             let (points, half_width) = branch(dataset, *p_body, unload);
             if !points.is_empty() {
-                series.push(plots::LineSeries {
-                    name: named(name, *p_body),
-                    points,
-                    half_width,
-                    style: if k == 0 { plots::LineStyle::Points } else { plots::LineStyle::OpenPoints },
-                    colour: Some(usize::from(unload)),
-                });
+                let style = if k == 0 { LineStyle::Points } else { LineStyle::OpenPoints };
+                let line = LineSeries::new(named(name, *p_body), style, points).with_errors(half_width);
+                series.push(line.coloured(usize::from(unload)));
             }
         }
     }
     for (i, variant) in shown_variants(study, bodies.len()) {
         for (k, p_body) in bodies.iter().enumerate() {
-            let style = if k == 0 { plots::LineStyle::Line } else { plots::LineStyle::Dashed };
+            let style = if k == 0 { LineStyle::Line } else { LineStyle::Dashed };
             let points = model_curve(&variant.scenario, dataset, *p_body)?;
             let name = named(&super::effect(&variant.label), *p_body);
-            series.push(plots::LineSeries { name, points, half_width: vec![], style, colour: Some(i + 2) });
+            series.push(LineSeries::new(name, style, points).coloured(i + 2));
         }
     }
-    let lines = plots::Lines {
-        title: title.into(),
-        x_label: "actuator pressure [kPa]".into(),
-        y_label: "height of the outermost marker [mm]".into(),
-        series,
-    };
-    Ok(plots::lines(&lines)?)
+    let (x, y) = ("actuator pressure [kPa]", "height of the outermost marker [mm]");
+    Ok(plots::lines(&Lines::new(title, x, y, series))?)
 }
 
 /// All models, or the first and the last where several body pressures multiply their curves.
@@ -340,14 +331,9 @@ pub fn tradeoff(timings: &[Timing]) -> Result<Drawn, PageError> {
         let alike = |other: Option<&&Timing>| other.is_some_and(|o| is_reduced(o) && o.actuator == t.actuator);
         let between = is_reduced(t) && k > 0 && alike(shown.get(k - 1)) && alike(shown.get(k + 1));
         let group = groups.iter().position(|name| *name == t.actuator).unwrap_or(0);
-        Mark::Point {
-            at: at(t),
-            error: [0.0; 2],
-            ink: Ink::Series(group),
-            symbol: Symbol::of(group),
-            open: false,
-            label: if between { String::new() } else { super::effect(&t.model) },
-        }
+        let label = if between { String::new() } else { super::effect(&t.model) };
+        let (at, ink, symbol) = (at(t), Ink::Series(group), Symbol::of(group));
+        Mark::Point(Point { at, ink, symbol, label, ..Point::default() })
     };
     let mut marks = vec![front(shown.iter().map(|t| at(t)).collect())];
     marks.extend(shown.iter().enumerate().map(point));

@@ -5,12 +5,9 @@ use crate::tables::{Table, lines};
 use compare::Diagnosis;
 use compare::bench::Held;
 use compare::demo::{Demo, Told};
-use compare::metrics::OverallMetrics;
 use compare::study::published::PublishedLadder;
 use compare::study::{Comparison, Timing};
-use compare::where_it_fails::Statement;
 use fem::robot::Reading;
-use models::Known;
 use serde::Serialize;
 
 /// Published displacement against every rung.
@@ -69,10 +66,6 @@ fn sets_text(found: &[Comparison]) -> String {
 pub struct DemoAnswer<'a> {
     /// Bench tests beside their models
     pub measured: Vec<HeldTable<'a>>,
-    /// Published displacements
-    pub published: Vec<PublishedRungs<'a>>,
-    /// Embedded marker sets
-    pub marker_sets: Vec<ModelsOfSet<'a>>,
     /// What is missing in one of them
     pub diagnosis: &'a Diagnosis,
     /// Run time against error
@@ -96,95 +89,11 @@ pub struct SmallRun<'a> {
     pub readings: &'a [Reading],
 }
 
-/// Models of one published actuator.
-#[derive(Serialize)]
-pub struct PublishedRungs<'a> {
-    /// Actuator kind
-    pub actuator: &'a str,
-    /// Displacement that the paper printed
-    pub measured_mm: f64,
-    /// How that is known
-    pub measured_is: Known,
-    /// Bare model first
-    pub rungs: Vec<RungShown<'a>>,
-    /// B that makes the last uncalibrated model meet the displacement; null if no B does
-    pub calibrated_bending_nm2: Option<f64>,
-}
-
-/// A model of a published actuator.
-#[derive(Serialize)]
-pub struct RungShown<'a> {
-    /// In words
-    pub model: &'a str,
-    /// How the value added is known
-    pub how_known: Known,
-    /// Height of the outermost marker
-    pub y_mm: f64,
-    /// Its range over the range of the added value
-    pub range_mm: Option<[f64; 2]>,
-    /// Where the value is from
-    pub why: &'a str,
-}
-
-/// Models on one marker set.
-#[derive(Serialize)]
-pub struct ModelsOfSet<'a> {
-    /// Data
-    pub data: &'a str,
-    /// Bare model first
-    pub models: Vec<ModelOverall<'a>>,
-    /// Where the bare model fails
-    pub where_it_fails: &'a [Statement],
-}
-
-/// A model on one marker set.
-#[derive(Serialize)]
-pub struct ModelOverall<'a> {
-    /// In words
-    pub model: &'a str,
-    /// How its values are known
-    pub how_known: Known,
-    /// Over all holds
-    pub overall: &'a OverallMetrics,
-}
-
 impl<'a> DemoAnswer<'a> {
     /// Of the demonstration and the run that was made with it.
     pub fn of(demo: &'a Demo, small_run: SmallRun<'a>) -> DemoAnswer<'a> {
-        let rungs = |l: &'a PublishedLadder| {
-            let rung = l.rungs.iter().map(|r| RungShown {
-                model: &r.label,
-                how_known: r.known,
-                y_mm: r.y_m * 1e3,
-                range_mm: r.range_m.map(|range| range.map(|v| v * 1e3)),
-                why: &r.why,
-            });
-            rung.collect()
-        };
-        let published = demo.ladders.iter().map(|l| PublishedRungs {
-            actuator: &l.published.kind,
-            measured_mm: l.published.d_max_m * 1e3,
-            measured_is: Known::Published,
-            rungs: rungs(l),
-            calibrated_bending_nm2: l.calibrated_bending,
-        });
-        let models = |s: &'a Comparison| {
-            let model = s.variants.iter().map(|v| ModelOverall {
-                model: &v.label,
-                how_known: v.known,
-                overall: &v.evaluation.metrics.overall,
-            });
-            model.collect()
-        };
-        let sets = demo.studies.iter().map(|s| ModelsOfSet {
-            data: &s.dataset.name,
-            models: models(s),
-            where_it_fails: &s.variants[0].evaluation.where_it_fails,
-        });
         DemoAnswer {
             measured: demo.measured.iter().map(HeldTable::of).collect(),
-            published: published.collect(),
-            marker_sets: sets.collect(),
             diagnosis: &demo.diagnosed.diagnosis,
             timings: &demo.timings,
             small_run,
