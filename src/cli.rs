@@ -19,7 +19,7 @@ pub use import::Import;
 use std::path::PathBuf;
 pub use sweep::{DesignArgs, ShardArgs, SweepArgs};
 
-/// Models of pneumatic bending actuators on inflated-beam robots, held against measurements.
+/// Models of pneumatic bending actuators on inflated-beam robots, compared with measurements.
 #[derive(Debug, Parser)]
 #[command(version, about, max_term_width = 100)]
 #[command(after_help = "A SCENARIO is a TOML file or a shipped robot: spam, cpam, epam, fpam.\n\
@@ -36,7 +36,7 @@ pub struct Cli {
     /// Threads; 0: one per core. Results do not depend on it
     #[arg(long, global = true, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
     pub threads: u64,
-    /// Replace what is there; a finished run stays until the new one is complete
+    /// Replace existing files; a finished run stays until the new one is complete
     #[arg(long, global = true)]
     pub force: bool,
     /// What to do
@@ -49,7 +49,7 @@ pub struct Cli {
 pub enum Command {
     /// The whole story on embedded data, with a report
     Demo(OutDirArgs),
-    /// Shape and markers at given pressures, or the pressure for a wanted tip
+    /// Shape and markers at given pressures, or the pressure for a target tip
     Predict(PredictArgs),
     /// A robot for a controller: tables as C code, or its linear form
     #[command(subcommand)]
@@ -72,7 +72,7 @@ pub enum Command {
     Simulate(SimulateArgs),
     /// Many cases of one robot, a row each: keys that vary, in shards or on a cluster
     Sweep(SweepArgs),
-    /// The robot for a wanted shape: sizes and pressures within your ranges, ready to cut
+    /// The robot for a target shape: sizes and pressures within your ranges, ready to cut
     Design(DesignArgs),
     /// From tensile tests of a fabric to its moduli, curves and a table for cases
     Characterize(CharacterizeArgs),
@@ -120,12 +120,12 @@ pub struct StudioArgs {
     /// Port on 127.0.0.1; 0 for a free one
     #[arg(long, default_value_t = 0)]
     pub port: u16,
-    /// The page; default: web/dist/ibr.html here, or ibr.html beside the program
+    /// The page; default: web/dist/ibr.html here, or ibr.html next to the program
     #[arg(long, value_name = "FILE")]
     pub page: Option<PathBuf>,
 }
 
-/// What is checked.
+/// Choice of checks.
 #[derive(Debug, Args)]
 pub struct VerifyArgs {
     /// Also the finite element checks that take long, some minutes in all
@@ -139,7 +139,7 @@ pub struct VerifyArgs {
     pub plots: Option<PathBuf>,
 }
 
-/// What is measured.
+/// Choice of measurements.
 #[derive(Debug, Args)]
 pub struct BenchArgs {
     /// model, fem or discovery: how often a diagnosis is right on data with hidden effects
@@ -157,7 +157,7 @@ pub struct BenchArgs {
     /// With discovery: folder where every answer is kept, so that an interrupted bench goes on and shards share it
     #[arg(long, value_name = "FOLDER")]
     pub out: Option<PathBuf>,
-    /// With discovery: machines beside each other
+    /// With discovery: work on several machines
     #[command(flatten)]
     pub shards: ShardArgs,
     /// With fem: also whole runs, pillows of the nodes of up to 80 000 triangles and the four robots, about two minutes
@@ -258,13 +258,13 @@ pub struct PatternArgs {
 /// `ibr compare`
 #[derive(Debug, Args)]
 pub struct CompareArgs {
-    /// Scenario file or shipped robot, then marker data; with --engines or --paper any number of scenarios, those of the paper if none
+    /// Scenario file or shipped robot, then marker data; with --engines or --paper any number of scenarios, the paper's if none
     #[arg(value_name = "SCENARIO DATA")]
     pub inputs: Vec<String>,
     /// Hold the reduced model and finite element runs against each other and against the published numbers
     #[arg(long, visible_alias = "published", conflicts_with_all = ["calibrate", "effect", "sigma", "max_error"])]
     pub engines: bool,
-    /// The paper's finite elements, reproduced: runs with its own modelling choices beside what it prints, fact by fact
+    /// The paper's finite elements, reproduced: runs with its own modelling choices, compared with what it prints, fact by fact
     #[arg(long, conflicts_with_all = ["engines", "calibrate", "effect", "sigma", "max_error"])]
     pub paper: bool,
     /// With --engines or --paper
@@ -380,13 +380,13 @@ pub struct SimulateArgs {
     /// Robots: as many runs with other random imperfections, and their mean and spread
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..=1000))]
     pub seeds: Option<u64>,
-    /// Robots: element size, or those of body and actuator, for example 8mm/3mm; several (8mm/4mm,8mm/3mm) are several runs
+    /// Robots: element size, or body and actuator, for example 8mm/3mm; several (8mm/4mm,8mm/3mm) are several runs
     #[arg(long, value_name = "[BODY/]ACTUATOR", allow_hyphen_values = true)]
     pub mesh: Option<String>,
     /// Robots: another value of a key of [fem] or of the scenario, for example bond=0.5 or body.radius_mm=45; repeatable
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Machines beside each other
+    /// Work on several machines
     #[command(flatten)]
     pub shards: ShardArgs,
     /// Robots: so many robots (30) whose assumed numbers fill their intervals as a Latin hypercube: median and 80 % interval of every

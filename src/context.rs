@@ -14,15 +14,15 @@ use std::time::{Duration, Instant};
 pub struct Context<'a> {
     /// What was typed after the name of the program.
     pub typed: Vec<String>,
-    /// JSON is wanted.
+    /// JSON is asked for.
     pub json: bool,
     /// Threads; 0: one per core.
     pub threads: usize,
-    /// What is there may be replaced.
+    /// Existing files may be replaced.
     pub force: bool,
-    /// Told what is being done, and which share of the whole is done if known.
+    /// Takes what is being done, and which share of the whole is done if known.
     pub progress: &'a mut (dyn FnMut(&str, Option<f64>) + Send),
-    /// Told text for standard output before the command ends; nothing is printed where JSON is wanted.
+    /// Takes text for standard output before the command ends; nothing is printed where JSON is asked for.
     pub say: &'a mut (dyn FnMut(&str) + Send),
     /// Held while files are written; true once they are.
     pub written: &'a Mutex<bool>,
@@ -113,12 +113,12 @@ impl Outcome {
         Outcome { notes: vec![note], code: INTERRUPTED, ..Outcome::default() }
     }
 
-    /// Says cautions.
+    /// Adds cautions.
     pub fn warn<'w>(&mut self, warnings: impl IntoIterator<Item = &'w String>) {
         self.notes.extend(warnings.into_iter().map(|w| format!("warning: {w}")));
     }
 
-    /// Says where the report is.
+    /// States where the report is.
     pub fn report(&mut self, folder: &Path) {
         self.notes.push(format!("report: {}", folder.join("report.html").display()));
     }

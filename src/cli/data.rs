@@ -45,11 +45,11 @@ pub struct CharacterizeArgs {
 /// `ibr data`
 #[derive(Debug, Subcommand)]
 pub enum DataCommand {
-    /// Read data and say what is in them
+    /// Read data and describe them
     Check {
         /// Marker data
         data: String,
-        /// The robot's scenario, whose model is asked whether a column of pressures is in another unit; default: the one beside the data
+        /// The robot's scenario, whose model is asked whether a column of pressures is in another unit; default: the one in the folder of the data
         #[arg(long)]
         scenario: Option<String>,
     },

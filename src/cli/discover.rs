@@ -103,19 +103,19 @@ pub struct BreakdownArgs {
         allow_hyphen_values = true
     )]
     pub pressure: String,
-    /// Body pressures beside the scenario's own
+    /// Body pressures in addition to the scenario's own
     #[arg(long, default_value = "1kPa,4kPa", conflicts_with = "stored", allow_hyphen_values = true)]
     pub body_pressure: String,
-    /// Lengths of a pouch beside the scenario's own, at its body pressure
+    /// Lengths of a pouch in addition to the scenario's own, at its body pressure
     #[arg(long, default_value = "45mm,90mm", conflicts_with = "stored", allow_hyphen_values = true)]
     pub pouch: String,
-    /// Element size, or those of body and actuator, for example 8mm/4mm; default: the scenario's
+    /// Element size, or body and actuator, for example 8mm/4mm; default: the scenario's
     #[arg(long, value_name = "[BODY/]ACTUATOR", allow_hyphen_values = true, conflicts_with = "stored")]
     pub mesh: Option<String>,
     /// Run every robot with a tenth of its bending stiffness and of the load of compressed sheets too: which of them carries a departure
     #[arg(long, conflicts_with = "stored")]
     pub carriers: bool,
-    /// Machines beside each other
+    /// Work on several machines
     #[command(flatten)]
     pub shards: ShardArgs,
 }

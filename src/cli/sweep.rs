@@ -30,13 +30,13 @@ impl ShardArgs {
 /// `ibr sweep`
 #[derive(Debug, Args)]
 pub struct SweepArgs {
-    /// Study: a TOML file that says what varies (docs/sweep.md)
+    /// Study: a TOML file of what varies (docs/sweep.md)
     pub study: PathBuf,
     /// Folder of the table, the pictures and of what is computed; what is there already is kept.
     /// Default: ibr-report/sweep-<study>
     #[arg(long)]
     pub out: Option<PathBuf>,
-    /// Machines beside each other
+    /// Work on several machines
     #[command(flatten)]
     pub shards: ShardArgs,
     /// Write table.parquet in place of table.csv
@@ -47,7 +47,7 @@ pub struct SweepArgs {
 /// `ibr design`
 #[derive(Debug, Args)]
 pub struct DesignArgs {
-    /// Wish: a TOML file that says what is wanted and what may be chosen (docs/design.md)
+    /// Wish: a TOML file of the target and of what may be chosen (docs/design.md)
     pub wish: PathBuf,
     /// Folder of the robot, its picture and its pattern. Default: ibr-report/design-<wish>
     #[arg(long)]

@@ -1,4 +1,4 @@
-//! The page of a scenario held against a dataset.
+//! The page of a scenario compared with a dataset.
 
 use super::{Files, Imprint, PageError, Values, effect, figures, number, residual_figure, tables};
 use ::compare::Evaluation;
@@ -6,7 +6,7 @@ use ::compare::metrics::HoldMetrics;
 use ::compare::study::{Comparison, Variant};
 use data::{About, Dataset};
 
-/// The page of a comparison and the files beside it.
+/// The page of a comparison and its files.
 ///
 /// # Errors
 /// What cannot be drawn.
@@ -26,7 +26,7 @@ pub fn compare_page(study: &Comparison, imprint: &Imprint) -> Result<Files, Page
     Ok(files)
 }
 
-/// What is beside the page: plots and tables.
+/// Files of the page: plots and tables.
 ///
 /// # Errors
 /// What cannot be drawn.

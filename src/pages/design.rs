@@ -1,4 +1,4 @@
-//! A design beside its wish.
+//! A design and its wish.
 
 use super::figures::{LINE_POINTS, mm};
 use super::{Files, PageError};

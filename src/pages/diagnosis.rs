@@ -21,7 +21,7 @@ use report::Drawn;
 
 /// Errors below this are no bar \[mm\].
 const SMALLEST_BAR_MM: f64 = 0.005;
-/// Explanations told in plain words; the tables have all.
+/// Explanations in plain words; the tables have all.
 const MOST_TOLD: usize = 6;
 
 /// A diagnosis with what it was made of.
@@ -199,7 +199,7 @@ fn answer(d: &Diagnosis, answer: &Answer) -> Values {
         .with("cancels", cancels)
 }
 
-/// Every effect of the told answers once. Notes of its own fit are no notes of a pair's.
+/// Every effect of the stated answers once. Notes of its own fit are no notes of a pair's.
 fn explained(d: &Diagnosis) -> Vec<Values> {
     let mut seen: Vec<&str> = Vec::new();
     let mut out = Vec::new();

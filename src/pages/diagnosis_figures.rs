@@ -70,7 +70,7 @@ pub(super) fn waterfall(title: &str, rungs: &[ErrorStep], floor_mm: Option<f64>)
     Ok(plots::bars(&data)?)
 }
 
-/// What the colour of a bar of the ranking says.
+/// Meaning of the colour of a bar of the ranking.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Rank {
     Alike,
@@ -207,7 +207,7 @@ pub(super) fn waited_s(dataset: &Dataset) -> f64 {
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
-/// What is said behind the name of an attempt.
+/// Words behind the name of an attempt.
 fn attempted(d: &Diagnosis, answer: &Answer) -> String {
     if answer.standing == Standing::Attempt { format!(" ({})", d.attempt_words()) } else { String::new() }
 }

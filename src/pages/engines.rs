@@ -8,7 +8,7 @@ use ::compare::study::engines::{
 };
 use ::compare::study::uncertain::Uncertain;
 
-/// The page with the plots and tables beside it.
+/// The page with its plots and tables.
 ///
 /// # Errors
 /// What cannot be drawn.
@@ -50,7 +50,7 @@ pub fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files, PageE
     Ok(files)
 }
 
-/// One row a robot, with the bars of their displacements, and all lines as a table beside.
+/// One row a robot, with the bars of their displacements, and all lines as a table.
 pub(super) fn overview(engines: &Engines, files: &mut Files) -> Result<Values, PageError> {
     let (mut all, mut rows) = (Vec::new(), Vec::new());
     for robot in &engines.robots {
@@ -70,7 +70,7 @@ pub(super) fn overview(engines: &Engines, files: &mut Files) -> Result<Values, P
         .with("line_heads", line_heads))
 }
 
-/// Heads of a table, those of words marked.
+/// Heads of a table; columns of words are marked.
 pub(super) fn heads<'n>(names: &[&'n str], words: &[usize]) -> Vec<[&'n str; 3]> {
     let mark = |k: usize| if words.contains(&k) { "l" } else { "" };
     names.iter().enumerate().map(|(k, name)| [*name, "", mark(k)]).collect()

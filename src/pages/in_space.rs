@@ -1,4 +1,4 @@
-//! The page of a scenario held against a dataset in x, y and z.
+//! The page of a scenario compared with a dataset in x, y and z.
 
 use super::compare::origin;
 use super::figures::{LINE_POINTS, MOST_POSES};
@@ -9,7 +9,7 @@ use data::{Column, Table};
 use models::Model;
 use report::{Drawn, MeasuredPoint, ShapePose, Shapes, shapes};
 
-/// The page and the files beside it.
+/// The page and its files.
 ///
 /// # Errors
 /// What cannot be drawn.

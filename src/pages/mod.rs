@@ -1,4 +1,4 @@
-//! Pages and files made of results: one report and the plots and tables beside it. Words stand in the templates of `report`.
+//! Pages and files made of results: one report with its plots and tables. Words stand in the templates of `report`.
 
 mod characterize;
 mod compare;
@@ -157,7 +157,7 @@ impl From<models::Unsolved> for PageError {
 /// Where the published numbers are from.
 const PAPER: &str = "du Pasquier, Jeong, Okamura, IEEE RA-L 2023, doi 10.1109/LRA.2023.3320010";
 
-/// What every page says about its origin.
+/// Origin on every page.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Imprint {
     /// Program and version.

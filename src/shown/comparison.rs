@@ -47,7 +47,7 @@ pub struct CompareAnswer<'a> {
     sentence: Option<&'a str>,
 }
 
-/// A model held against the data.
+/// A model compared with the data.
 #[derive(Serialize)]
 pub struct ModelOnData<'a> {
     /// In words

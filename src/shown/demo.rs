@@ -64,9 +64,9 @@ fn sets_text(found: &[Comparison]) -> String {
 /// `ibr.demo`: `ibr demo`
 #[derive(Serialize)]
 pub struct DemoAnswer<'a> {
-    /// Bench tests beside their models
+    /// Bench tests with their models
     pub measured: Vec<HeldTable<'a>>,
-    /// What is missing in one of them
+    /// The missing effect in one of them
     pub diagnosis: &'a Diagnosis,
     /// Run time against error
     pub timings: &'a [Timing],

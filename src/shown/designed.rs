@@ -189,7 +189,7 @@ pub struct DesignAnswer<'a> {
     pub starts: usize,
     /// Starts that ended at this design or an equal one
     pub starts_that_agree: usize,
-    /// What one run of the design says
+    /// Result of one run of the design
     pub finite_elements: Option<&'a Checked>,
     /// Why there is no finite element run
     pub unchecked: Option<&'a str>,
@@ -221,7 +221,7 @@ pub struct CheckedDesign<'a> {
     pub worst_mm: f64,
     /// The wish by the model with what finite elements differed at the design before; null for the first
     pub corrected_by_finite_elements: Option<&'a [Miss]>,
-    /// What one run of the design says
+    /// Result of one run of the design
     pub finite_elements: Option<&'a Checked>,
     /// Why there is no finite element run
     pub unchecked: Option<&'a str>,

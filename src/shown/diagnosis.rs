@@ -30,7 +30,7 @@ impl<'a> DiagnosisAnswer<'a> {
     }
 }
 
-/// Explanations in the short table, and those that are told in words.
+/// Explanations in the short table, and those in words.
 const ROWS: usize = 5;
 const TOLD: usize = 3;
 
@@ -113,7 +113,7 @@ fn to_check(d: &Diagnosis) -> String {
     let told: Vec<&Ranked> = d.ranked.iter().filter(|r| is_told(d, r)).collect();
     let mut out = "\n".to_string();
     for r in told.iter().take(TOLD) {
-        // What is added is told above.
+        // Additions are stated above.
         let added = d.added.iter().any(|added| added.effect == r.effect);
         let sentence = if added { String::new() } else { format!(" {}", r.sentence) };
         out.push_str(&wrapped(&format!("{} ({}):{sentence} To check: {}", r.effect, r.group.word(), r.remedy), 2));
@@ -128,7 +128,7 @@ fn to_check(d: &Diagnosis) -> String {
     out
 }
 
-/// It is told in words: of the answer, or of the set where no pair is stated.
+/// It is stated in words: of the answer, or of the set where no pair is stated.
 pub fn is_told(d: &Diagnosis, r: &Ranked) -> bool {
     d.speaks_of(&r.effect) || r.in_set && d.pairs.is_empty()
 }

@@ -75,7 +75,7 @@ pub struct AddedEffect<'a> {
     pub effect: &'a str,
     /// `assumed` or `calibrated`
     pub how_known: &'static str,
-    /// What is written, by key
+    /// Values written, by key
     pub values: BTreeMap<&'a str, f64>,
     /// Fitted values; null for a value that was given
     pub parameters: Option<&'a [ParameterValue]>,

@@ -1,4 +1,4 @@
-//! Bench tests held against a model, in words and for JSON.
+//! Bench tests compared with a model, in words and for JSON.
 
 use crate::tables::{Table, lines};
 use compare::bench::{Held, HeldRow};
@@ -15,16 +15,16 @@ pub struct BenchAnswer<'a> {
     pub kind: &'a str,
     /// How its numbers came to be
     pub provenance: Provenance,
-    /// The table beside its model
+    /// The table with its model
     pub held: HeldTable<'a>,
 }
 
-/// A table of bench tests beside its model.
+/// Bench tests with their model.
 #[derive(Serialize)]
 pub struct HeldTable<'a> {
     /// One line
     pub title: &'a str,
-    /// What is compared, with unit
+    /// Quantity compared, with unit
     pub quantity: &'a str,
     /// How the model's numbers are known
     pub how_known: Known,
@@ -36,14 +36,14 @@ pub struct HeldTable<'a> {
     pub notes: &'a [String],
 }
 
-/// A row of bench tests beside its model.
+/// A row of bench tests with its model.
 #[derive(Serialize)]
 pub struct HeldTest<'a> {
     /// Where on the bench
     pub at: &'a str,
     /// As measured
     pub measured: f64,
-    /// As the model says
+    /// By the model
     pub model: Option<f64>,
     /// Model over measurement, less one
     pub off: Option<f64>,

@@ -38,7 +38,7 @@ pub struct SpaceAnswer<'a> {
     pub warnings: &'a [String],
 }
 
-/// A model held against the data in space.
+/// A model compared with the data in space.
 #[derive(Serialize)]
 pub struct SpaceModel<'a> {
     /// In words

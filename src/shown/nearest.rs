@@ -1,9 +1,9 @@
-//! What became of a wanted place of the tip.
+//! What became of a target place of the tip.
 
 use models::{End, Steered};
 use serde::Serialize;
 
-/// A tip that is nearer than this is where it is wanted \[m\].
+/// A tip that is nearer than this is on target \[m\].
 const MET_M: f64 = 1e-6;
 
 /// What keeps the tip away, channel by channel.
@@ -17,7 +17,7 @@ fn held(found: &Steered) -> impl Iterator<Item = (usize, &'static str, f64)> + '
     })
 }
 
-/// What became of a place that the tip was wanted at.
+/// What became of the target place of the tip.
 #[derive(Serialize)]
 pub struct NearestPlace {
     /// Target

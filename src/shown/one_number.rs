@@ -1,4 +1,4 @@
-//! What one displacement can tell.
+//! What one displacement can show.
 
 use crate::tables::Table;
 use compare::diagnosis::words::{three, with_unit};

@@ -13,7 +13,7 @@ pub struct PatternAnswer<'a> {
     pub weld_mm: f64,
     /// Fabric beyond welds and ends
     pub allowance_mm: f64,
-    /// What is cut
+    /// Pieces to cut
     pub pieces: &'a [PatternPiece],
     /// What the plan leaves to its reader
     pub notes: &'a [String],

@@ -72,7 +72,7 @@ fn slope_words(mm_per_kpa: f64) -> String {
     if mm_per_kpa.is_nan() { "-".into() } else { format!("{mm_per_kpa:.3}") }
 }
 
-/// What the scenario says of the body's fabric.
+/// The body's fabric in the scenario.
 fn wall_words(scenario: &Scenario) -> String {
     let wall = &scenario.wall;
     let part = |name: &str, value: Option<f64>| value.map(|v| format!(", {name} {v:.0} N/m"));
@@ -266,7 +266,7 @@ pub fn beyond_words(model: &Model, state: &AtPressure) -> Vec<String> {
     model.beyond(&state.loads, &state.prediction).into_iter().map(words).collect()
 }
 
-/// A note if a pressure exceeds what the scenario says its actuator stands.
+/// A note if a pressure exceeds the scenario's largest.
 pub fn above_limit(scenario: &Scenario, states: &[AtPressure]) -> Option<String> {
     let highest = states.iter().flat_map(|s| s.loads.actuator_pa).fold(0.0, f64::max);
     let limit = scenario.p_max_pa;

@@ -34,7 +34,7 @@ pub fn table_text(all: &RunTable) -> String {
     text + &several.under("Tip, mean and standard deviation over the seeds")
 }
 
-/// Robots that differ in what nobody measured.
+/// Robots that differ in unmeasured numbers.
 pub fn uncertain_text(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> String {
     let stopped: Vec<&Member> = all.members.iter().filter(|m| m.stopped.is_some()).collect();
     let mut out = format!(
