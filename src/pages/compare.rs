@@ -1,9 +1,8 @@
 //! The page of a scenario compared with a dataset.
 
 use super::{Files, Imprint, PageError, Values, effect, figures, number, residual_figure, tables};
-use ::compare::Evaluation;
-use ::compare::metrics::HoldMetrics;
-use ::compare::study::{Comparison, Variant};
+use crate::shown::comparison::CompareAnswer;
+use ::compare::study::Comparison;
 use data::{About, Dataset};
 
 /// The page of a comparison and its files.
@@ -13,12 +12,10 @@ use data::{About, Dataset};
 pub fn compare_page(study: &Comparison, imprint: &Imprint) -> Result<Files, PageError> {
     let mut files = compare_files(study)?;
     let (first, dataset) = (&study.variants[0], &study.dataset);
-    let variants: Vec<Values> = study.variants.iter().map(variant).collect();
     let values = Values::new()
         .with("title", format!("{} held against {}", first.scenario.name, dataset.name))
         .with("lead", lead(study))
-        .with("first", &variants[0])
-        .with("variants", variants)
+        .with("found", CompareAnswer::of(&first.scenario.name, study, None))
         .with("provenance", provenance(study))
         .with("several_bodies", figures::several_bodies(dataset))
         .with("map_colours", residual_figure::MAP_COLOURS);
@@ -46,34 +43,6 @@ pub fn compare_files(study: &Comparison) -> Result<Files, PageError> {
         files.plot("ledger", figures::ledgers(&title, &cases, &loads)?);
     }
     Ok(files)
-}
-
-fn variant(v: &Variant) -> Values {
-    let metrics = &v.evaluation.metrics;
-    let several = metrics.holds.iter().any(|h| h.p_body_kpa != metrics.holds[0].p_body_kpa);
-    let holds = metrics
-        .holds
-        .iter()
-        .map(|h| Values::new().with("name", hold_name(h, several)).with("of", h))
-        .collect::<Vec<_>>();
-    let Evaluation { noise, scaling, where_it_fails, .. } = &v.evaluation;
-    let fails = where_it_fails.iter().map(|s| &s.sentence).collect::<Vec<_>>();
-    Values::new()
-        .with("label", &v.label)
-        .with("known", &v.known)
-        .with("why", &v.why)
-        .with("overall", &metrics.overall)
-        .with("holds", holds)
-        .with("noise", noise)
-        .with("scaling", &scaling.sentence)
-        .with("where_it_fails", fails)
-}
-
-/// `10 kPa load`; the body pressure is named if the data have several.
-fn hold_name(hold: &HoldMetrics, several_bodies: bool) -> String {
-    let again = if hold.occurrence > 0 { format!(" ({})", hold.occurrence + 1) } else { String::new() };
-    let body = if several_bodies { format!(", body {:.0} kPa", hold.p_body_kpa) } else { String::new() };
-    format!("{:.0} kPa {}{again}{body}", hold.p_act_kpa, hold.phase)
 }
 
 /// The answer in a paragraph.

@@ -3,7 +3,7 @@
 use super::diagnosis::{Diagnosed, draw, verdict};
 use super::engines::overview;
 use super::{Files, Imprint, PAPER, PageError, Values, figures, residual_figure};
-use ::compare::bench::Held;
+use crate::shown::held::HeldTable;
 use ::compare::demo::{Demo, HIDDEN_IN, Story};
 use ::compare::progress::shares::PICTURES as SHARES;
 use ::compare::progress::{Progress, part};
@@ -35,7 +35,7 @@ pub fn demo_page(demo: &Demo, imprint: &Imprint, progress: &mut Progress) -> Res
     let values = Values::new()
         .with("title", "Four pneumatic bending actuators: models held against measurements")
         .with("ladders", demo.ladders.iter().map(ladder).collect::<Vec<_>>())
-        .with("measured", demo.measured.iter().map(held).collect::<Vec<_>>())
+        .with("measured", demo.measured.iter().map(HeldTable::of).collect::<Vec<_>>())
         .with("studies", studies)
         .with("diagnosis", verdict(&found))
         .with("map_colours", residual_figure::MAP_COLOURS)
@@ -82,10 +82,6 @@ fn ladder(l: &PublishedLadder) -> Values {
         .with("left_mm", last_mm - measured_mm)
         .with("absorbing_nm2", &l.calibrated_bending)
         .with("rungs", l.rungs.iter().map(rung).collect::<Vec<_>>())
-}
-
-fn held(h: &Held) -> Values {
-    Values::new().with("title", &h.title).with("rows", h.rows.len()).with("known", &h.known).with("rms", h.rms())
 }
 
 fn draw_study(study: &Comparison, files: &mut Files) -> Result<Values, PageError> {

@@ -5,9 +5,7 @@ use super::diagnosis_figures::{
 };
 use super::engines::heads;
 use super::{Files, Imprint, PageError, Values, figures, in_words, moment_figure, residual_figure};
-use ::compare::diagnosis::{
-    Answer, Combination, Diagnosis, ParameterValue, Ranked, Separation, Standing, Undetectable, Verdict,
-};
+use ::compare::diagnosis::{Answer, Combination, Diagnosis, ParameterValue, Ranked, Separation, Standing, Verdict};
 use ::compare::extension::error_steps;
 use ::compare::progress::Progress;
 use ::compare::residuals::{Deviation, ResidualCell, ResidualMap};
@@ -168,11 +166,12 @@ fn values(found: &Diagnosed) -> Values {
         .with("ranked", d.ranked.iter().map(|r| ranked(d, r)).collect::<Vec<_>>())
         .with("pairs", d.pairs.iter().map(|p| pair(d, p)).collect::<Vec<_>>())
         .with("explained", explained(d))
-        .with("unseen", d.undetectable.iter().map(unseen).collect::<Vec<_>>())
         .with("map_colours", residual_figure::MAP_COLOURS)
         .with("cautions", d.warnings.iter().filter(|w| !d.slips.contains(w)).collect::<Vec<_>>())
         .with("provenance", provenance(found))
-        .and(Values::new().and(verdict(found)).and(Values::new().and(experiments(d)).and(witness(found.witness))))
+        .and(verdict(found))
+        .and(experiments(d))
+        .and(witness(found.witness))
 }
 
 /// What the verdict states, or the attempt; nothing where nothing is missing.
@@ -275,15 +274,6 @@ fn pair(d: &Diagnosis, p: &Combination) -> Values {
 
 fn bare_p(p: Option<f64>) -> String {
     p.map_or("–".into(), |p| p_value(p).trim_start_matches("p = ").replace("p < ", "< "))
-}
-
-fn unseen(u: &Undetectable) -> Values {
-    let size = match (u.smallest_detectable, u.unit.as_str()) {
-        (None, _) => "not within its bounds".into(),
-        (Some(s), "-") => three(s),
-        (Some(s), unit) => format!("{} {unit}", three(s)),
-    };
-    Values::new().with("effect", &u.effect).with("size", size).with("times", &u.times_typical)
 }
 
 fn experiments(d: &Diagnosis) -> Values {

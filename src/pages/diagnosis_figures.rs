@@ -43,31 +43,23 @@ pub(super) fn supply(d: &Diagnosis) -> Result<Option<Drawn>, PageError> {
         let values = std::iter::once(gauge.before_kpa).chain(after.as_ref().map(|_| gauge.after_kpa));
         (format!("gauge in {}", gauge.dataset), values.collect(), false)
     };
-    let data = plots::Bars {
-        title: "The supply, before and after".into(),
-        value_label: "supply's laws against the gauge, rms [kPa]".into(),
-        groups: std::iter::once("supply of the scenario".to_string()).chain(after.clone()).collect(),
-        series: d.gauges.iter().map(series).collect(),
-        target: None,
-    };
-    Ok(Some(plots::bars(&data)?))
+    let groups: Vec<String> = std::iter::once("supply of the scenario".to_string()).chain(after.clone()).collect();
+    let series: Vec<_> = d.gauges.iter().map(series).collect();
+    let label = "supply's laws against the gauge, rms [kPa]";
+    Ok(Some(plots::bars("The supply, before and after", label, &groups, &series, None)?))
 }
 
 /// Error of every model, training and left-out data, with the noise of the mean.
 pub(super) fn waterfall(title: &str, rungs: &[ErrorStep], floor_mm: Option<f64>) -> Result<Drawn, PageError> {
     let series = |name: &str, of: fn(&ErrorStep) -> f64| (name.to_string(), rungs.iter().map(of).collect(), false);
-    let data = plots::Bars {
-        title: title.into(),
-        value_label: "error beyond noise [mm]".into(),
-        groups: rungs.iter().map(|r| super::effect(&r.label())).collect(),
-        series: vec![
-            series("data of the fit", |r| r.training_mm),
-            series("pressures left out", |r| r.heldout_pressure_mm.unwrap_or(f64::NAN)),
-            series("runs left out", |r| r.heldout_run_mm.unwrap_or(f64::NAN)),
-        ],
-        target: floor_mm.map(|value| ("noise of the mean".into(), value)),
-    };
-    Ok(plots::bars(&data)?)
+    let groups: Vec<String> = rungs.iter().map(|r| super::effect(&r.label())).collect();
+    let series = [
+        series("data of the fit", |r| r.training_mm),
+        series("pressures left out", |r| r.heldout_pressure_mm.unwrap_or(f64::NAN)),
+        series("runs left out", |r| r.heldout_run_mm.unwrap_or(f64::NAN)),
+    ];
+    let target = floor_mm.map(|value| ("noise of the mean".into(), value));
+    Ok(plots::bars(title, "error beyond noise [mm]", &groups, &series, target)?)
 }
 
 /// Meaning of the colour of a bar of the ranking.
@@ -246,15 +238,10 @@ pub(super) fn witness_cases(w: &Witness, d: &Diagnosis) -> Vec<plots::LedgerCase
 
 /// Their drawing.
 pub(super) fn witness_ledger(w: &Witness, d: &Diagnosis) -> Result<Drawn, PageError> {
-    let cases = witness_cases(w, d).into_iter();
-    let cases = cases.map(|case| plots::LedgerCase { label: super::effect(&case.label), ..case });
-    let data = plots::LedgerBars {
-        title: format!("Where the energy goes, to {:.0} kPa", w.actuator_kpa),
-        value_label: "energy taken up since the first bend [mJ]".into(),
-        terms: TERMS.map(String::from).to_vec(),
-        cases: cases.collect(),
-    };
-    Ok(plots::ledger(&data)?)
+    let mut cases = witness_cases(w, d);
+    cases.iter_mut().for_each(|case| case.label = super::effect(&case.label));
+    let title = format!("Where the energy goes, to {:.0} kPa", w.actuator_kpa);
+    Ok(plots::ledger(&title, "energy taken up since the first bend [mJ]", &TERMS.map(String::from), &cases)?)
 }
 
 /// Measured minus calibrated base at the loading holds of the first body pressure.

@@ -63,19 +63,15 @@ pub(super) fn bars(engines: &Engines) -> Result<Option<Drawn>, PageError> {
         (name.to_string(), shown.iter().map(|r| of(r)).collect(), grey)
     };
     let last = |r: &EngineRobot| r.pairs.last().cloned();
-    let data = plots::Bars {
-        title: "Outermost marker at 30 kPa".into(),
-        value_label: "displacement [mm]".into(),
-        groups: shown.iter().map(|r| r.published.as_ref().map_or(String::new(), |p| printed(&p.kind).into())).collect(),
-        series: vec![
-            series("reduced, as shipped", &|r| last(r).map_or(f64::NAN, |p| p.reduced_mm[0]), false),
-            series("reduced, with effects", &|r| r.with_effects.as_ref().map_or(f64::NAN, |g| g.y_m * 1e3), false),
-            series("finite elements", &|r| r.ensemble.at(30.0).map_or(f64::NAN, |[marker, _]| marker.0), false),
-            series("measured", &|r| r.published.as_ref().map_or(f64::NAN, |p| p.d_max_m * 1e3), true),
-        ],
-        target: None,
-    };
-    Ok(Some(plots::bars(&data)?))
+    let name = |r: &&EngineRobot| r.published.as_ref().map_or(String::new(), |p| printed(&p.kind).into());
+    let groups: Vec<String> = shown.iter().map(name).collect();
+    let series = [
+        series("reduced, as shipped", &|r| last(r).map_or(f64::NAN, |p| p.reduced_mm[0]), false),
+        series("reduced, with effects", &|r| r.with_effects.as_ref().map_or(f64::NAN, |g| g.y_m * 1e3), false),
+        series("finite elements", &|r| r.ensemble.at(30.0).map_or(f64::NAN, |[marker, _]| marker.0), false),
+        series("measured", &|r| r.published.as_ref().map_or(f64::NAN, |p| p.d_max_m * 1e3), true),
+    ];
+    Ok(Some(plots::bars("Outermost marker at 30 kPa", "displacement [mm]", &groups, &series, None)?))
 }
 
 /// Series that a plot holds.
@@ -162,16 +158,12 @@ fn ahead_cm3(robot: &EngineRobot) -> f64 {
 /// Their drawing.
 pub(super) fn ledger(robot: &EngineRobot) -> Result<Drawn, PageError> {
     let first = robot.pairs.first().map_or(0.0, |p| p.actuator_kpa);
-    let data = plots::LedgerBars {
-        title: format!("{}: where the energy is", robot.scenario.actuator.kind.name),
-        value_label: match robot.scenario.actuator.kind.family {
-            Family::Pouch => "potential energy [mJ]".into(),
-            Family::Mckibben => format!("potential energy [mJ]; gas beyond what fills the muscle at {first:.0} kPa"),
-        },
-        terms: TERMS.map(String::from).to_vec(),
-        cases: ledger_cases(robot),
+    let title = format!("{}: where the energy is", robot.scenario.actuator.kind.name);
+    let label = match robot.scenario.actuator.kind.family {
+        Family::Pouch => "potential energy [mJ]".into(),
+        Family::Mckibben => format!("potential energy [mJ]; gas beyond what fills the muscle at {first:.0} kPa"),
     };
-    Ok(plots::ledger(&data)?)
+    Ok(plots::ledger(&title, &label, &TERMS.map(String::from), &ledger_cases(robot))?)
 }
 
 #[cfg(test)]

@@ -213,13 +213,10 @@ pub(super) fn published_ladder(ladder: &PublishedLadder) -> Result<Drawn, PageEr
         range: rung.range_m.map(|r| r.map(|v| v * MM)),
         known: known(rung.known),
     };
-    let data = plots::Staircase {
-        title: format!("{}: displacement at 30 kPa", printed(&ladder.published.kind)),
-        value_label: "displacement of the outermost marker [mm]".into(),
-        steps: ladder.rungs.iter().map(step).collect(),
-        target: Some(("measured (published)".into(), ladder.published.d_max_m * MM)),
-    };
-    Ok(plots::ladder(&data)?)
+    let steps: Vec<_> = ladder.rungs.iter().map(step).collect();
+    let title = format!("{}: displacement at 30 kPa", printed(&ladder.published.kind));
+    let target = ("measured (published)".into(), ladder.published.d_max_m * MM);
+    Ok(plots::ladder(&title, "displacement of the outermost marker [mm]", &steps, Some(target))?)
 }
 
 /// Error beyond noise, rung by rung, with the noise floor.
@@ -230,13 +227,9 @@ pub(super) fn error_ladder(title: &str, variants: &[Variant]) -> Result<Drawn, P
         plots::LadderStep { label: super::effect(&v.label), value, range: None, known: known(v.known) }
     };
     let floor = variants.first().and_then(|v| v.evaluation.metrics.overall.noise_floor_mm);
-    let data = plots::Staircase {
-        title: title.into(),
-        value_label: "error beyond noise, all markers and holds [mm]".into(),
-        steps: variants.iter().map(step).collect(),
-        target: floor.map(|value| ("noise of the mean".into(), value)),
-    };
-    Ok(plots::ladder(&data)?)
+    let steps: Vec<_> = variants.iter().map(step).collect();
+    let target = floor.map(|value| ("noise of the mean".into(), value));
+    Ok(plots::ladder(title, "error beyond noise, all markers and holds [mm]", &steps, target)?)
 }
 
 /// Highest actuator pressure of the data, and the title of a ledger there; `None` if the actuator is never filled.
@@ -278,13 +271,9 @@ pub(super) fn ledgers(title: &str, cases: &[(String, Scenario)], loads: &Loads) 
         plots::LedgerCase { label: super::effect(label), energies_mj: large.iter().map(energy).chain(others).collect() }
     };
     let others = (!small.is_empty()).then(|| "others".to_string());
-    let data = plots::LedgerBars {
-        title: title.into(),
-        value_label: "potential energy at equilibrium [mJ]".into(),
-        terms: large.iter().map(|name| super::effect(name)).chain(others).collect(),
-        cases: columns.into_iter().map(case).collect(),
-    };
-    Ok(plots::ledger(&data)?)
+    let terms: Vec<String> = large.iter().map(|name| super::effect(name)).chain(others).collect();
+    let cases: Vec<_> = columns.into_iter().map(case).collect();
+    Ok(plots::ledger(title, "potential energy at equilibrium [mJ]", &terms, &cases)?)
 }
 
 /// Bare, last uncalibrated and published displacement of the four actuators.
@@ -292,18 +281,14 @@ pub(super) fn published_bars(ladders: &[PublishedLadder]) -> Result<Drawn, PageE
     let series = |name: &str, of: fn(&PublishedLadder) -> f64, grey| {
         (name.to_string(), ladders.iter().map(|l| of(l) * MM).collect(), grey)
     };
-    let data = plots::Bars {
-        title: "Displacement at 30 kPa: models and measurement".into(),
-        value_label: "displacement of the outermost marker [mm]".into(),
-        groups: ladders.iter().map(|l| printed(&l.published.kind).into()).collect(),
-        series: vec![
-            series("bare model", |l| l.rungs[0].y_m, false),
-            series("with effects, nothing fitted", |l| last(l).map_or(f64::NAN, |rung| rung.y_m), false),
-            series("measured (published)", |l| l.published.d_max_m, true),
-        ],
-        target: None,
-    };
-    Ok(plots::bars(&data)?)
+    let groups: Vec<String> = ladders.iter().map(|l| printed(&l.published.kind).into()).collect();
+    let series = [
+        series("bare model", |l| l.rungs[0].y_m, false),
+        series("with effects, nothing fitted", |l| last(l).map_or(f64::NAN, |rung| rung.y_m), false),
+        series("measured (published)", |l| l.published.d_max_m, true),
+    ];
+    let title = "Displacement at 30 kPa: models and measurement";
+    Ok(plots::bars(title, "displacement of the outermost marker [mm]", &groups, &series, None)?)
 }
 
 /// The last rung of which nothing is fitted.

@@ -3,8 +3,9 @@
 use super::compare::origin;
 use super::figures::{LINE_POINTS, MOST_POSES};
 use super::{Files, Imprint, PageError, Values, effect};
-use crate::words::{along, hold_name, misses};
-use ::compare::study::in_space::{InSpace, SpaceHold, SpaceMarker, SpaceVariant, loads};
+use crate::shown::in_space::SpaceAnswer;
+use crate::words::hold_name;
+use ::compare::study::in_space::{InSpace, SpaceMarker, SpaceVariant, loads};
 use data::{Column, Table};
 use models::Model;
 use report::{Drawn, MeasuredPoint, ShapePose, Shapes, shapes};
@@ -21,13 +22,13 @@ pub fn space_page(study: &InSpace, imprint: &Imprint) -> Result<Files, PageError
         files.plot("shapes_z", seen(study, 2)?);
     }
     files.table("markers", markers(study))?;
+    let name = &first.scenario.name;
     let values = Values::new()
-        .with("title", format!("{} held against {}", first.scenario.name, study.dataset.name))
+        .with("title", format!("{name} held against {}", study.dataset.name))
         .with("lead", lead(study))
-        .with("provenance", origin(&first.scenario.name, &study.dataset, study.about.as_ref(), &study.warnings))
-        .with("where_it_fails", misses(first))
-        .with("axes", if study.axes == 3 { "x, y, z" } else { "x, y" })
-        .with("variants", study.variants.iter().map(variant).collect::<Vec<_>>());
+        .with("found", SpaceAnswer::of(name, study))
+        .with("provenance", origin(name, &study.dataset, study.about.as_ref(), &study.warnings))
+        .with("axes", if study.axes == 3 { "x, y, z" } else { "x, y" });
     files.page("in_space.html", values, imprint)?;
     Ok(files)
 }
@@ -87,28 +88,6 @@ pub fn markers(study: &InSpace) -> Table {
         columns.push((format!("predicted_{axis}_mm"), numbers(&|m| m.predicted_mm[k])));
     }
     Table { columns }
-}
-
-fn variant(v: &SpaceVariant) -> Values {
-    let of_hold = |h: &SpaceHold| {
-        let (bias, tip) = (along(&h.errors.bias_mm), along(&h.tip_error_mm));
-        Values::new()
-            .with("name", hold_name(h))
-            .with("of", &h.errors)
-            .with("bias", bias)
-            .with("tip", tip)
-            .with("tip_distance_mm", &h.tip_distance_mm)
-    };
-    let no_tip: Option<f64> = None;
-    let bias = along(&v.overall.bias_mm);
-    let all = Values::new()
-        .with("name", "all")
-        .with("of", &v.overall)
-        .with("bias", bias)
-        .with("tip", "")
-        .with("tip_distance_mm", no_tip);
-    let holds = v.holds.iter().map(of_hold).chain([all]).collect::<Vec<_>>();
-    Values::new().with("label", effect(&v.label)).with("known", &v.known).with("why", &v.why).with("holds", holds)
 }
 
 /// The answer in a paragraph.

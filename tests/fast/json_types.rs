@@ -345,7 +345,7 @@ fn records_of(key: &JsonKey) -> Vec<String> {
 fn table(keys: &[JsonKey]) -> String {
     let row = |key: &JsonKey| {
         let mark = if key.optional { "?" } else { "" };
-        format!("| {}{mark} | {} | {} | {} |\n", key.name, key.kind, key.unit, key.meaning)
+        format!("| {}{mark} | {} | {} | {} |\n", key.name, key.kind, key.unit, key.meaning.replace('|', "\\|"))
     };
     format!("| key | type | unit | meaning |\n|---|---|---|---|\n{}", keys.iter().map(row).collect::<String>())
 }
