@@ -10,8 +10,10 @@
 //! For L₀ = 60 mm, f = 24 mm it is 0: the ideal pouch. Derived here from the published inner-area factor 2.60 =
 //! (W + 4f)/W, which says that the folds are at the two lateral sides (inferred, not printed).
 
+use super::actuator::{Actuator, Family};
 use super::pattern::{Joint, Pattern, flat, panel};
-use super::{Actuator, ActuatorShape, Family, pouch};
+use super::pouch;
+use super::shape::ActuatorShape;
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Actuator = Actuator {

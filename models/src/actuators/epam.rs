@@ -2,8 +2,9 @@
 //!
 //! Law of [`super::pouch`] with the line of action in the wall: the arm from the taut generator is 2R.
 
+use super::actuator::{Actuator, Family};
 use super::pattern::{Joint, Pattern, flat};
-use super::{Actuator, Family, pouch};
+use super::pouch;
 
 pub(super) const ENTRY: Actuator = Actuator {
     name: "epam",

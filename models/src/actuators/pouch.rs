@@ -19,7 +19,8 @@
 //! is the effect `sealed_sides`). **Do not use** for pouches much longer than wide: there the side seams decide.
 //! Reference: Niiyama et al., Soft Robotics 2(2), 2015 (pouch motor); the volume and its derivative are derived here.
 
-use super::{ActuatorShape, Demand, Stroke, converged};
+use super::actuator::{Demand, Stroke, converged};
+use super::shape::ActuatorShape;
 use crate::trig::sin_cos;
 use std::f64::consts::{FRAC_PI_2, PI};
 

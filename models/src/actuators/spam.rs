@@ -4,8 +4,9 @@
 //! bulge, h/2, so the arm grows with pressure. That is the effect `arm_growth` with β = 1, stated in the scenario, so
 //! that a user sees what it costs.
 
+use super::actuator::{Actuator, Family};
 use super::pattern::{Film, Joint, flat};
-use super::{Actuator, Family, pouch};
+use super::pouch;
 
 pub(super) const ENTRY: Actuator = Actuator {
     name: "spam",

@@ -13,7 +13,7 @@
 //! `N = −U'/(ηε' − κD')`. Validity: β from geometry for external actuators (β = 1), unknown for embedded ones.
 //! Derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "arm_growth",

@@ -11,7 +11,7 @@
 //! At the moments of the hinge alone it is the constant moment πR³p₀ of `tail_tension`; beside a wall, gas displaced or loads
 //! near collapse it is not. **Validity**: the same at all pressures. Supply stage: acts before the balance. Definition.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "body_pressure_offset",

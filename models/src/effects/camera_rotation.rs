@@ -11,7 +11,7 @@
 //!
 //! Validity: the axis is on the line of the straight robot. Geometry.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "camera_rotation",

@@ -10,7 +10,7 @@
 //!
 //! Validity: checkerboard not in the plane of the markers, or wrong square size. Geometry.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "camera_scale",

@@ -14,7 +14,7 @@
 //! taut; finite elements of the shipped robots have 69 to 70 mm (ePAM) and 68 to 69 mm (cPAM). Derived here, geometry in
 //! `section.rs`.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "chord_arm",

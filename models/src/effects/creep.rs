@@ -23,7 +23,7 @@
 //! fabrics creep over several decades of time, of which a test sees the one it lasts. Reference: standard linear solid
 //! (Zener 1948); the form over a step is derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "creep",

@@ -22,7 +22,7 @@
 //! third of ε, is not taken off, nor is the bending of the sheets beside the weld added. Beam on a foundation: Hetényi 1946, §7; foundation derived
 //! here.
 
-use super::*;
+use super::entry::*;
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {

@@ -15,7 +15,7 @@
 //! the wall in, χ is larger (finite elements at 2 kPa: 0.5 cPAM, 0.9 fPAM, 1.1 ePAM, 1.3 sPAM; `docs/robots.md`).
 //! **Validity**: one χ for all pressures; a body that is kept at its pressure. Derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "displaced_gas",

@@ -18,7 +18,7 @@
 //! assumption of this project. For pouches `sealed_sides` derives both from mechanics; the two together count it twice.
 //! Reference: A. Robin 2004 (paper bag problem), volume formula; the end factor is derived here.
 
-use super::*;
+use super::entry::*;
 use crate::actuators::{Actuator, ActuatorShape, Family};
 use std::f64::consts::PI;
 

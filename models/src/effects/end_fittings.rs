@@ -14,7 +14,7 @@
 //! the single force printed at L/2r₀ = 5.4 (103 N) is half of what that fit says (220 N), so there it may claim too much. **Validity**: L/2r₀ from 4 to 60.
 //! Reference: Bolen 2026 (Actuators); that it scales with the diameter is assumed.
 
-use super::*;
+use super::entry::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 pub(super) const ENTRY: Effect = Effect {

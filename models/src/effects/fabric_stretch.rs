@@ -13,7 +13,7 @@
 //! Validity: linear elastic, uniform over the width. Reference: the pressure correction of Niiyama et al. 2015 has the
 //! same origin; this form is derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "fabric_stretch",

@@ -15,7 +15,7 @@
 //! Finite elements of the shipped robot: 7.5 mm per end, 7.9 here. **Validity**: L/2r above 3; the fabric between the generators
 //! folds freely. Derived here; the paper-bag volume (Robin 2004) loses 0.45 W at two ends where this has 0.39 W.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "flat_ends",

@@ -19,7 +19,7 @@
 //! farther apart than √(D/T), a fraction of a millimetre at high pressures; stiff welds; 0 < θ < π. Elastica: Love 1927, §262, in
 //! `verification::exact::fold`; the sum derived here.
 
-use super::*;
+use super::entry::*;
 use crate::trig::sin_cos;
 use std::f64::consts::PI;
 

@@ -18,7 +18,7 @@
 //! gradual onset. Reference: Coulomb's law with elastic slide (Prandtl); friction of the braid of McKibben muscles: Tondu
 //! & Lopez 2000.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "friction",

@@ -15,7 +15,7 @@
 //! [`crate::muscle`] has the law. **Validity**: glued over the flat width to a wall with yarns along and across. A muscle that
 //! is glued along a line, or hangs in loops, has none of it. Derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "glued_face",

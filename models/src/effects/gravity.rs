@@ -13,7 +13,7 @@
 //! Validity: needs a fine enough division (12 segments give 0.1 % of the droop of a 360 mm robot). Vanishes when the
 //! robot bends in a horizontal plane. Derived here; kept as dead load on the deformed shape.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "gravity",

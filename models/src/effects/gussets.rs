@@ -23,8 +23,8 @@
 //! flap. The welds sit below the middle of the pouch, which displaces less of the body's gas than `displaced_gas` says; that is left
 //! out. Derived here.
 
+use super::entry::*;
 use super::sealed_sides::SealedSides;
-use super::*;
 use crate::actuators::pouch::RANGE;
 use crate::gusset::{GATHERED, Lens, Sloped, Sums, narrowed};
 use std::f64::consts::PI;

@@ -11,7 +11,7 @@
 //!
 //! Acts only where B > 0. Validity: small κ₀. Derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "initial_curvature",

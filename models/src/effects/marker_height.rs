@@ -12,7 +12,7 @@
 //!
 //! Both are taken relative to the straight robot, whose markers are where they were said to be. Validity: same e for all markers. Geometry.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "marker_height",

@@ -12,7 +12,7 @@
 //! A pure bending moment is balanced inside the robot and does not reach the base; what turns it is the hose, the clamp or
 //! the first pouch pressing on it. **Validity**: elastic mount, rotation about the base point. Geometry.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "mount_rotation",

@@ -18,7 +18,7 @@
 //! the pouches. **Validity**: o g² below about 1; the body's own pressure moment stays that of the round section. Reference:
 //! Brazier 1927 for the squared curvature; this form is derived here.
 
-use super::*;
+use super::entry::*;
 use crate::site::SectionLaw;
 
 /// Curvature g_r at which o is the flattening whatever the exponent \[1/m\].

@@ -15,7 +15,7 @@
 //! `−½Bsκ² − ½Bs(1 − s)m²` beyond, where the largest bend goes along. Acts only where B > 0. **Validity**: creases and
 //! yarns that stay bent; no recovery with time. Reference: linear plastic hardening without threshold; derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "plastic_set",

@@ -12,7 +12,7 @@
 //! **Validity**: steady flow, small gauge pressures. With n = 1 it looks like a stiffer body. Supply stage: acts before the balance.
 //! Reference: Hagen–Poiseuille and orifice flow in series, incompressible.
 
-use super::*;
+use super::entry::*;
 
 /// Pressure at which the lost share is f \[Pa\].
 const REFERENCE_PA: f64 = 20e3;

@@ -11,7 +11,7 @@
 //!
 //! Validity: constant over the range of pressures. Supply stage: acts before the balance. Definition.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "pressure_offset",

@@ -24,7 +24,7 @@
 //! Below P = p_b (χ + (π − 2) A'/2W), A' = R' cosα, the body's gas at the sides keeps the pouch flat.
 //! **Validity**: inextensible fabric; a ≤ W/π, so W ≥ ⅔L. Derived here; `verification::exact::pouch::sealed_volume_m3` is its volume.
 
-use super::*;
+use super::entry::*;
 use crate::gusset::NARROWED;
 use crate::trig::sin_cos;
 use std::f64::consts::PI;

@@ -12,7 +12,7 @@
 //! For small θ the contraction goes as θ²/6, so this is a constant moment 3kD/L₀: there it cannot be told from
 //! `tail_tension`. Validity: elastic folds. Derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "seam_stiffness",

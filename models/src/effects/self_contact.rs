@@ -20,7 +20,7 @@
 //!
 //! Validity: pouches or folds side by side; for pouches φ = π is derived here, another value is to be seen on the robot or fitted.
 
-use super::*;
+use super::entry::*;
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {

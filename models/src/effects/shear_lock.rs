@@ -15,7 +15,7 @@
 //! **Validity**: sudden locking with a large K; yarns that are pressed together little by little have a smaller one. Bias-extension tests lock near 45° for a plain weave, far beyond the muscle's stroke; a coating or
 //! a tight weave locks earlier. Reference: trellis kinematics, Cao et al. 2008; the penalty is an assumption.
 
-use super::*;
+use super::entry::*;
 use std::f64::consts::FRAC_PI_2;
 
 pub(super) const ENTRY: Effect = Effect {

@@ -16,7 +16,7 @@
 //! Beside stretching yarns the part with n = 1 turns with them, the rest with the tube of stiff yarns. Derived here; modulus
 //! relation of an orthotropic sheet at 45° with ν₁₂ ≈ 0.
 
-use super::*;
+use super::entry::*;
 
 /// Shear at which G_t is the stiffness whatever the exponent \[rad\].
 const REFERENCE_RAD: f64 = 0.3;

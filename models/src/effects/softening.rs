@@ -13,7 +13,7 @@
 //!
 //! Validity: no memory, so folds open again; bends towards the actuator; needs B > 0.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "softening",

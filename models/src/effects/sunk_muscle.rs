@@ -22,7 +22,7 @@
 //! 3 p_b; glued over the whole flat width; an arm that the scenario gives is replaced. Finite elements of the shipped robot at
 //! 30 kPa: axis 70 mm from the far side. Derived here.
 
-use super::*;
+use super::entry::*;
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {

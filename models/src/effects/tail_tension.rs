@@ -11,7 +11,7 @@
 //!
 //! Validity: tension constant along the robot. Derived here.
 
-use super::*;
+use super::entry::*;
 use crate::body::soft_step;
 
 pub(super) const ENTRY: Effect = Effect {

@@ -14,7 +14,7 @@
 //! Acts only where B > 0; divides the body into segments, as transverse loads do. **Validity**: linear. Derived here.
 
 use super::base_clamp::{END, REACH, clamp, share};
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "tip_clamp",

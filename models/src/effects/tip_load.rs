@@ -10,7 +10,7 @@
 //!
 //! Validity: dead load at the end of the centre line. Statics.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "tip_load",

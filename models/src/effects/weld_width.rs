@@ -11,7 +11,7 @@
 //!
 //! **Validity**: welds that keep their length, b < L₀. Derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "weld_width",

@@ -19,7 +19,7 @@
 //! are those of a wall that does: κ_w half of the curvature at which the robots work.
 //! **Validity**: membrane without bending stiffness, circular section. Reference: Comer & Levy, AIAA Journal 1(7), 1963.
 
-use super::*;
+use super::entry::*;
 use crate::body::{BODY_PRESSURE, BodyLaw};
 use crate::comer_levy::{gamma0_from_curvature_ratio, moment_ratio};
 use std::f64::consts::PI;

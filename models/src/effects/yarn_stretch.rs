@@ -16,7 +16,7 @@
 //! the sign. (96.5 + 120)/2 MPa × 50 µm and ν = 0.2 give 1.48e-4 m/N; [`crate::muscle`] has the derivation. **Validity**: yarns
 //! linear in Green strain, equal in both families (unequal ones twist: `verification::exact::tube`). Derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "yarn_stretch",

@@ -1,6 +1,7 @@
 //! What a user can type wrong, and what the scenario says then.
 
 use super::*;
+use crate::effects::EFFECTS;
 
 fn broken(from: &str, to: &str) -> ScenarioError {
     let text = shipped("epam-textbook").unwrap();
