@@ -83,7 +83,7 @@ impl Robot {
         let now = file.dials();
         let value = |place: &str| now.iter().find(|d| d.place == place).map(|d| d.value);
         let dials: Vec<Value> =
-            given.dials().iter().map(|dial| json!({"dial": dial, "value": value(dial.place)})).collect();
+            given.dials().iter().map(|dial| json!({"dial": dial, "value": value(&dial.place)})).collect();
         let catalogue = file.catalogue();
         let possible = catalogue.effects().filter(|effect| file.takes(effect));
         let effects: Vec<Value> = possible.map(|effect| effect_told(&effect, &given, &file)).collect();

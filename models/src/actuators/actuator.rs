@@ -47,6 +47,16 @@ pub struct Actuator {
     pub pattern: fn(&ActuatorShape) -> Pattern,
 }
 
+impl Actuator {
+    /// Whether it is a row of pouches, flat without pressure; a muscle is one tube of yarns, round from the start.
+    pub fn has_pouches(&self) -> bool {
+        match self.family {
+            Family::Pouch => true,
+            Family::Mckibben => false,
+        }
+    }
+}
+
 /// Restoring moment over P·area·D₀, `m = m₀ + m₁ ε D₀/D`, neither negative \[-\], on an arm `D = D₀ (1 + growth·lift)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Demand {

@@ -20,8 +20,6 @@ use super::entry::*;
 pub(super) const ENTRY: Effect = Effect {
     name: "displaced_gas",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "E = χ p_b v per metre; flat for P ≤ χ p_b",
     sentence: "The actuator bulges into the body and pushes its gas aside, so it works against the body's pressure and not against the air.",
     differs: "The bend comes late by a share of the body's pressure: the curve over pressure shifts with that of the body.",
@@ -31,7 +29,6 @@ pub(super) const ENTRY: Effect = Effect {
     parameters: &[Parameter {
         key: "share",
         symbol: "χ",
-        unit: "-",
         typical: 1.0,
         upper: 2.5,
         fitted: Fitted::WithBodyPressures,
@@ -40,6 +37,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Actuator,
     add,
+    ..BALANCE
 };
 
 struct DisplacedGas {

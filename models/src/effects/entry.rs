@@ -95,6 +95,23 @@ pub struct Parameter<'a> {
     pub meaning: &'a str,
 }
 
+/// What most effects are; entries say how they differ.
+pub(super) const BALANCE: Effect<'static> = Effect {
+    name: "",
+    group: Group::Actuator,
+    stage: Stage::Balance,
+    history: false,
+    formula: "",
+    sentence: "",
+    differs: "",
+    remedy: "",
+    validity: "",
+    reference: "",
+    parameters: &[],
+    needs: Needs::Body,
+    add: |_, _| {},
+};
+
 /// What most parameters are; entries say how they differ.
 pub(super) const PLAIN: Parameter<'static> = Parameter {
     key: "",

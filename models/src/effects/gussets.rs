@@ -32,8 +32,6 @@ use std::f64::consts::PI;
 pub(super) const ENTRY: Effect = Effect {
     name: "gussets",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "sealed_sides with 4 a u more of section, u = min(f, f − (B² − M²)/(2B)), B = 2f − (½π − 1) a, M² = r²[(θ − φ)² − (sinθ − sinφ)²]",
     sentence: "Side gussets are welded shut at both ends of a pouch, so they open only as far as their diagonals allow.",
     differs: "Folded pouches hold less than free ones and bend less, most at low pressures and where they are short.",
@@ -43,6 +41,7 @@ pub(super) const ENTRY: Effect = Effect {
     parameters: &[Parameter { meaning: "1: folds that their ends hold, 0: sides that open freely", ..SHARE }],
     needs: Needs::Family(Family::Pouch),
     add,
+    ..BALANCE
 };
 
 struct Gussets {

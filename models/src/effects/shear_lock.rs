@@ -21,8 +21,6 @@ use std::f64::consts::FRAC_PI_2;
 pub(super) const ENTRY: Effect = Effect {
     name: "shear_lock",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "E = K (γ − γ_L)²₊ W per metre, γ = 2(α − α₀), cosα = (1 − ε) cosα₀",
     sentence: "The yarns of the muscle jam at a certain shear angle and stop it.",
     differs: "The bend stops at a value that no further pressure exceeds; below it nothing changes.",
@@ -59,6 +57,7 @@ pub(super) const ENTRY: Effect = Effect {
     ],
     needs: Needs::Family(Family::Mckibben),
     add,
+    ..BALANCE
 };
 
 /// Usual stiffness of the jammed weave \[N/m\].
