@@ -44,13 +44,13 @@ fn site(scenario: &Scenario, span: &Span) -> Site {
     site
 }
 
-/// Segment that holds a station, and the distance from its start; the last segment takes what lies beyond the tip.
+/// Segment that holds a station, and the distance from its start; the last segment takes stations beyond the tip.
 pub(crate) fn locate(segments: &[Segment], station_m: f64) -> (usize, f64) {
     let index = segments.iter().rposition(|s| s.start_m <= station_m).unwrap_or(0);
     (index, station_m - segments[index].start_m)
 }
 
-/// Adds what is switched on to a model under construction.
+/// Adds the effects of a scenario to a model under construction.
 pub(crate) fn add_effects(scenario: &Scenario, assembly: &mut Assembly) {
     for chosen in &scenario.effects {
         match (by_name(&chosen.name), scenario.formulas.iter().find(|formula| formula.name == chosen.name)) {

@@ -42,5 +42,5 @@ pub(crate) fn line_tension(y: f64, x: f64, q: f64) -> f64 {
     if q == 0.0 || y <= 0.0 { y / x } else { 2.0 * y / (x + (x * x + 4.0 * q * y).sqrt()) }
 }
 
-/// Ledger line of the fabric along the line of action: no term, its energy follows from the equilibrium.
+/// Ledger line of the fabric along the line of action, which has no term: its energy follows from the equilibrium.
 pub(crate) const FABRIC_STRETCH: LedgerLine = LedgerLine { name: "fabric_stretch", account: Account::Stretch };

@@ -334,7 +334,7 @@ pub(crate) fn check(loads: &Loads) -> Result<(), Unsolved> {
     }
 }
 
-/// Ledger line of what is no term: its energy follows from the equilibrium.
+/// Ledger line of the shear, which has no term: its energy follows from the equilibrium.
 const WALL_SHEAR: LedgerLine = LedgerLine { name: "wall_shear", account: Account::Wall };
 
 /// Adds to the row of that name and kind, or opens it.

@@ -11,7 +11,7 @@ use serde::Deserialize;
 use std::path::Path;
 use toml::{Spanned, Value};
 
-/// The key of the actuator pressure, which is no key of a scenario.
+/// The key of the actuator pressure, which a scenario does not have.
 pub const PRESSURE: &str = "pressure_kpa";
 
 /// A share this close to an end is at it.

@@ -75,7 +75,7 @@ impl Part {
     }
 }
 
-/// All parts of a study in order: those of the reduced model in equal pieces, a robot each for finite elements.
+/// All parts of a study in order: equal pieces for the reduced model, one robot each for finite elements.
 pub fn parts(study: &Study) -> Vec<Part> {
     let of = |engine: &Engine| {
         let size = match engine {

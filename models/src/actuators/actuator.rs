@@ -23,7 +23,7 @@ pub struct Actuator {
     pub sentence: &'static str,
     /// Stroke law in Unicode.
     pub formula: &'static str,
-    /// Literature and what is derived here.
+    /// Literature, and which parts are derived here.
     pub reference: &'static str,
     /// When the law holds and when not to use it.
     pub validity: &'static str,

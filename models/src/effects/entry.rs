@@ -77,11 +77,11 @@ pub struct Parameter<'a> {
     pub neutral: f64,
     /// Typical size where the effect matters.
     pub typical: f64,
-    /// From here a fit looks, and a value is taken whose source is not told.
+    /// Least value that a fit tries, and that is accepted without a known source.
     pub lower: f64,
-    /// To there.
+    /// Largest value of that kind.
     pub upper: f64,
-    /// What is physically possible: a test of its own may find that much.
+    /// Physically possible values: a separate test may find that much.
     pub possible: [f64; 2],
     /// Where a fit starts if one start is not enough: thresholds and time scales; empty: at the typical size.
     pub starts: &'a [f64],
@@ -133,7 +133,7 @@ pub(super) const PLAIN: Parameter<'static> = Parameter {
 pub(super) const SHARE: Parameter<'static> =
     Parameter { key: "share", symbol: "σ", possible: [0.0, 1.0], fitted: Fitted::FromDesign, ..PLAIN };
 
-/// What is possible of a stiffness, a weight, a friction.
+/// Possible values of a stiffness, a weight, a friction.
 pub(super) const POSITIVE: [f64; 2] = [0.0, f64::INFINITY];
 /// Of a time, or of a stiffness that is never nothing.
 pub(super) const ABOVE_ZERO: [f64; 2] = [f64::MIN_POSITIVE, f64::INFINITY];
@@ -148,11 +148,11 @@ pub(super) const SHAPE: Parameter<'static> = Parameter { typical: 0.0, fitted: F
 pub enum Fitted {
     /// All.
     Always,
-    /// All, about its neutral value: it shapes a law whose exact form nobody knows, and does nothing by itself.
+    /// All, about its neutral value: it shapes a law whose exact form is not known, and has no effect alone.
     Shape,
-    /// Only data of a robot whose bending stiffness is not fitted: next to it this shape of a law says nothing of its own.
+    /// Only data of a robot whose bending stiffness is not fitted: both together cannot be separated.
     WithKeptBending,
-    /// Only data at several body pressures, or with a test of its own: at one pressure it is another effect's curve.
+    /// Only data at several body pressures, or a separate test: at one pressure it has the curve of another effect.
     WithBodyPressures,
     /// None: it follows from how the robot is cut and joined, or from a test of its fabric.
     FromDesign,
@@ -217,7 +217,7 @@ impl Parameter<'_> {
         self.words(self.lower, self.upper)
     }
 
-    /// `0 to 1`, `0 N/m and above`: what is possible.
+    /// `0 to 1`, `0 N/m and above`: the possible values.
     pub fn possible_words(&self) -> String {
         let [low, high] = self.possible;
         match (low.is_finite(), high.is_finite()) {

@@ -1,4 +1,4 @@
-//! What a table may be, and why there is none.
+//! Limits of a table, and the reasons for refusing one.
 
 use crate::error::Unsolved;
 use thiserror::Error;

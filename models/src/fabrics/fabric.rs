@@ -102,7 +102,7 @@ pub struct WrinklingFilm {
     pub load_n_per_m: f64,
 }
 
-/// Bonded neo-Hookean and linear plies as one formula, W = W_rubber(e) + ½ e·A e: what is isotropic or linear adds up.
+/// Bonded neo-Hookean and linear plies as one formula, W = W_rubber(e) + ½ e·A e: isotropic and linear parts add up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mixed {
     /// All neo-Hookean plies: Σ t, and C₁₀ = Σ t C₁₀/Σ t. Thickness 0 without any.

@@ -1,4 +1,4 @@
-//! What every formula may use, and where it stands among the inputs.
+//! Names that every formula may use, and their places among the inputs.
 
 use spelling::units::Dimension;
 

@@ -13,7 +13,7 @@ use crate::term::Pose;
 const MAX_ITERATIONS: usize = 60;
 /// Halvings of a Newton step before it is given up.
 const HALVINGS: usize = 12;
-/// Agreement of moments wanted, relative to the largest one.
+/// Agreement of moments at the end, relative to the largest one.
 const MOMENT_TOLERANCE: f64 = 1e-10;
 
 /// Newton on the moments m of the transverse loads: `G(κ(m)) − m = 0`, each κ(m) by the bracketed solve of its place.
@@ -42,7 +42,7 @@ fn not_converged(work: &Workspace, iterations: usize, residual: f64) -> Unsolved
     Unsolved::NotConverged { iterations, p_act_kpa, residual }
 }
 
-/// Takes the Newton step, halved until the disagreement falls; returns what is left of it.
+/// Takes the Newton step, halved until the disagreement falls; returns the rest.
 fn damped_step(
     assembly: &Assembly,
     p_body_pa: f64,

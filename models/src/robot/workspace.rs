@@ -6,7 +6,7 @@ use crate::shape::Arc;
 use crate::site::SiteState;
 use crate::space::SpaceWork;
 
-/// Curvatures to hold, and what is missing there; empty where nothing is held.
+/// Curvatures to hold, and the missing moments there; empty where nothing is held.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Held {
     /// Per segment \[1/m\].

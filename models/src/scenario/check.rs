@@ -1,4 +1,4 @@
-//! Raw values → SI: what the tables say together, with errors that say what was probably meant.
+//! Raw values → SI: the tables together, with errors that name the probable slip.
 
 use super::choice::ActuatorChoice;
 use super::formulas::formulas;
@@ -62,7 +62,7 @@ fn wall(body: &Given) -> Checked<Wall> {
     let stiffness_n_per_m = body.number("wall_stiffness_n_per_m")?;
     let shear_n_per_m = body.number("wall_shear_n_per_m")?;
     if let (Some(wall), true) = (stiffness_n_per_m, body.has_any(&["hinge_curvature_per_m"])) {
-        let message = format!("hinge_curvature_per_m beside a wall of {wall} N/m says the same twice");
+        let message = format!("hinge_curvature_per_m repeats a wall of {wall} N/m");
         let help = "remove it: a wall has its own, pressure_kpa over E t";
         return refuse(message, help, body.span_of("hinge_curvature_per_m"));
     }

@@ -49,7 +49,7 @@ impl ActuatorChoice {
         matches!((self.kind.pattern)(&self.shape).joint, Joint::Wall)
     }
 
-    /// Whether an effect can act on this robot: those of a family, and all that act in an actuator, need one.
+    /// Whether an effect can act on this robot: effects of a family, and all inside an actuator, need one.
     pub fn takes(&self, effect: &Effect) -> bool {
         effect.applies_to(self.kind.family) && (self.exists() || !effect.needs_actuator())
     }

@@ -49,7 +49,7 @@ impl Scenario {
                 "bending_stiffness_nm2" => (0.0, STIFF_NM2.max(2.0 * value)),
                 _ => ((0.5 * value / step).ceil() * step, (2.0 * value / step).floor() * step),
             };
-            // What is not there cannot be turned, nor can the count of one.
+            // Missing parts cannot be turned, nor can a count of one.
             let is_there = table == "body" || value > if name == "count" { 1.0 } else { 0.0 };
             let unit = key.range?.unit;
             is_there.then(|| Dial { place: key.place(), name: words, unit, value, low, high, step })

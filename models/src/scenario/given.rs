@@ -1,4 +1,4 @@
-//! A table of the text, read key by key: what is unknown, missing or out of range is refused with its place.
+//! A table of the text, read key by key: unknown, missing and impossible values are refused with their place.
 
 use super::keys::{Key, key, names};
 use super::raw::{Entries, syntax};
@@ -23,7 +23,7 @@ pub(super) fn unit(name: &str) -> String {
     if name == "-" { String::new() } else { format!(" {name}") }
 }
 
-/// What one table of the text says.
+/// The entries of one table of the text.
 pub(super) struct Given<'a> {
     /// Where it is in the text.
     pub span: Range<usize>,
@@ -69,7 +69,7 @@ impl<'a> Given<'a> {
         self.at(name).map_or(self.span.clone(), |(_, value)| value.span())
     }
 
-    /// A value as it stands.
+    /// A value as written.
     pub fn raw(&self, name: &str) -> Option<&'a Spanned<Value>> {
         self.at(name).map(|(_, value)| *value)
     }

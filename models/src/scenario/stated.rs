@@ -1,4 +1,4 @@
-//! A scenario in SI units, and what is tried with it.
+//! A scenario in SI units, and its variants.
 
 use super::choice::ActuatorChoice;
 use crate::catalogue::Catalogue;
@@ -48,11 +48,11 @@ pub struct Scenario {
     pub line: Option<Line>,
     /// Effects, in catalogue order.
     pub effects: Vec<EffectChoice>,
-    /// The scenario's own effects, in the order of the text: they follow those of the catalogue.
+    /// The scenario's own effects, in the order of the text: they follow the catalogue's.
     pub formulas: Vec<Arc<Formula>>,
 }
 
-/// What is known of the body's fabric.
+/// Known properties of the body's fabric.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Wall {
     /// Membrane stiffness E t along the body \[N/m\]: the body is then a [`crate::body::BodyWall`].
@@ -109,7 +109,7 @@ impl Scenario {
     }
 
     /// The same with an effect set (added, or its values replaced); values in SI, catalogue order is kept. What shapes its
-    /// law stands last and may be left out: the law then has its usual form.
+    /// law comes last and may be left out: the law then has its usual form.
     ///
     /// # Panics
     /// The catalogue has no effect of that name, or it has another number of parameters: a slip in the calling code, which
@@ -132,7 +132,7 @@ impl Scenario {
         changed
     }
 
-    /// Every effect this scenario may use: those of all, and its own formulas.
+    /// Every effect this scenario may use: the common ones, and its own formulas.
     pub fn catalogue(&self) -> Catalogue<'_> {
         Catalogue::new(&self.formulas)
     }
@@ -163,7 +163,7 @@ impl Scenario {
         !self.more_strips.is_empty() || self.actuator.azimuth_rad != 0.0 || self.actuator.turns != 0.0
     }
 
-    /// Whether an effect can act on this robot: as [`ActuatorChoice::takes`], and those of [`IN_SPACE`] where strips lie round the body.
+    /// Whether an effect can act on this robot: as [`ActuatorChoice::takes`]; with strips round the body only effects in [`IN_SPACE`].
     pub fn takes(&self, effect: &Effect) -> bool {
         self.actuator.takes(effect) && (!self.is_spatial() || IN_SPACE.contains(&effect.name))
     }

@@ -50,13 +50,13 @@ pub(super) fn actuator(given: &Given, radius_m: f64, length_m: f64) -> Checked<A
 
 /// Refuses a key that moves nothing of such an actuator.
 fn of_family(given: &Given, kind: &Actuator) -> Checked<()> {
-    let (key, says) = match kind.family {
+    let (key, meaning) = match kind.family {
         Family::Pouch => ("bias_deg", "the angle of a muscle's yarns"),
         Family::Mckibben => ("fold_mm", "the depth of a pouch's folds"),
     };
     match given.has_any(&[key]) {
         true => {
-            let message = format!("{key} is {says}; a {} has none", kind.name);
+            let message = format!("{key} is {meaning}; a {} has none", kind.name);
             refuse(message, "leave the line out", given.span_of(key))
         }
         false => Ok(()),
