@@ -7,7 +7,7 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`mesh`] | nodes, parts, sets; generators; the plain mesh file; quality and closedness checks |
+//! | [`mesh`] | nodes, parts, sets; generators; mesh files; quality and closedness checks |
 //! | [`problem`] | what a run needs besides the mesh |
 //! | [`sheet`] | shells: membrane, hourglass control, viscosity, bending, follower pressure; the fast kernels |
 //! | [`terms`] | nodal force, gravity, obstacles, rest curvature, tension-only yarns: the other entries of the list |

@@ -265,35 +265,25 @@ const SMALLEST_M: f64 = 1e-3;
 
 /// The mesh in metres, and what was understood.
 fn in_metres(mut file: MeshFile, named: &Text, unit: Option<Text>) -> Checked<MeshFile> {
-    let is_own = file.format.is_empty();
-    let per_m = match &unit {
-        Some(unit) if is_own => {
-            return refuse("our own mesh files are in metres", "remove unit", unit.span());
-        }
-        Some(unit) => choice("unit", unit, &UNITS)?,
-        None if is_own => 1.0,
-        None => {
-            let [x, y, z] = extent(&file.mesh);
-            let message = format!("{} ({}) does not say its unit", named.get_ref(), file.format);
-            let help = format!("its size is {x:.4} × {y:.4} × {z:.4}: write unit = \"mm\" (or m, cm, in) below file");
-            return refuse(message, help, named.span());
-        }
+    let Some(unit) = unit else {
+        let [x, y, z] = extent(&file.mesh);
+        let message = format!("{} ({}) does not say its unit", named.get_ref(), file.format);
+        let help = format!("its size is {x:.4} × {y:.4} × {z:.4}: write unit = \"mm\" (or m, cm, in) below file");
+        return refuse(message, help, named.span());
     };
+    let per_m = choice("unit", &unit, &UNITS)?;
     file.mesh.points.iter_mut().flatten().for_each(|x| *x /= per_m);
     let (side, largest) = (median_side_m(&file.mesh), extent(&file.mesh).into_iter().fold(0.0, f64::max));
     if policy::is_coarse(side) {
-        let help = if is_own { "the file is in metres: divide its coordinates by 1000" } else { "write unit = \"mm\"" };
         let message =
             format!("half of the elements of this mesh have sides over {side:.2} m: it looks like millimetres");
-        return refuse(message, help, unit.unwrap_or(named.clone()).span());
+        return refuse(message, "write unit = \"mm\"", unit.span());
     }
-    if let Some(unit) = unit {
-        if largest < SMALLEST_M {
-            let message = format!("the whole mesh is {:.4} mm long: it looks like metres", largest * 1e3);
-            return refuse(message, "write unit = \"m\"", unit.span());
-        }
-        file.told.insert(0, understood(&file, named.get_ref(), unit.get_ref()));
+    if largest < SMALLEST_M {
+        let message = format!("the whole mesh is {:.4} mm long: it looks like metres", largest * 1e3);
+        return refuse(message, "write unit = \"m\"", unit.span());
     }
+    file.told.insert(0, understood(&file, named.get_ref(), unit.get_ref()));
     Ok(file)
 }
 

@@ -44,8 +44,8 @@ pub(super) fn sections(raw: &Raw, mesh: &mut Mesh, unread: &[(String, String)]) 
         if let Some((name, what)) = foreign.filter(|_| has_directions(&section)) {
             let message = format!("part `{name}` of the mesh file has {what}, which is not read");
             let help = format!(
-                "write warp = \"x\" (or \"y\", \"z\", [x, y, z]) into [part.{name}]: it is laid onto every element; a warp that turns \
-                 within a part needs our own mesh format"
+                "write warp = \"x\" (or \"y\", \"z\", [x, y, z]) into [part.{name}]: it is laid onto every element; where the warp turns, \
+                 make several parts"
             );
             return refuse(message, help, table.span());
         }

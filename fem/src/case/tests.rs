@@ -338,7 +338,7 @@ fn broken_toml_and_wrong_types_have_their_place() {
 fn a_mesh_file_is_read_through_the_given_function_only() {
     let start = WHOLE.find("generator").unwrap();
     let end = WHOLE.find("[fabric.film]").unwrap();
-    let text = format!("{}file = \"sub/robot.mesh\"\n{}", &WHOLE[..start], &WHOLE[end..]);
+    let text = format!("{}file = \"sub/robot.mesh\"\nunit = \"m\"\n{}", &WHOLE[..start], &WHOLE[end..]);
     let pillow = parse(WHOLE).unwrap().problem.mesh;
     let mut asked = Vec::new();
     let case = Case::parse(&text, &mut |path: &Path| {

@@ -1,20 +1,12 @@
-//! Mesh files: our own (`.ibrmesh`, [`parse`] and [`write()`]) and those of other programs, each in a file of its own and in the list
-//! of `known.rs`. Which one a file is, its content tells.
+//! Mesh files of other programs, each format in a file of its own and in the list of `known.rs`. The content tells the format.
 
 mod abaqus;
 mod build;
 mod corners;
 mod gmsh;
 mod known;
-mod medit;
-mod obj;
-mod own;
 mod scan;
 mod stl;
-mod write;
-
-pub use own::parse;
-pub use write::write;
 
 use crate::FemError;
 use crate::mesh::Mesh;
@@ -28,7 +20,7 @@ use std::path::Path;
 pub struct MeshFile {
     /// Its mesh, in the unit of the file.
     pub mesh: Mesh,
-    /// Name of the format; empty for our own, which is in metres and names its chambers.
+    /// Name of the format; empty for a generated mesh, which is in metres and names its chambers.
     pub format: &'static str,
     /// Surfaces that may be chambers.
     pub surfaces: Vec<Surface>,
@@ -52,7 +44,7 @@ pub struct Surface {
 }
 
 impl From<Mesh> for MeshFile {
-    /// A mesh as our own files give it.
+    /// A generated mesh.
     fn from(mesh: Mesh) -> MeshFile {
         MeshFile { mesh, ..MeshFile::default() }
     }
@@ -78,13 +70,6 @@ fn understood(bytes: &[u8], path: &Path) -> Result<MeshFile, FemError> {
     let format = known::format(bytes).map_err(|message| fault(1, message))?;
     let file = match format.read {
         Read::Bytes(read) => read(bytes).map_err(|message| fault(1, message))?,
-        Read::Own => match std::str::from_utf8(bytes) {
-            Ok(text) => return parse(text, path).map(MeshFile::from),
-            Err(place) => {
-                let line = 1 + bytes[..place.valid_up_to()].iter().filter(|b| **b == b'\n').count();
-                return Err(fault(line, "this is not text (UTF-8); a mesh file is plain text".into()));
-            }
-        },
         Read::Text(read) => {
             // Names in other encodings are names still.
             let text = String::from_utf8_lossy(bytes);
@@ -94,6 +79,3 @@ fn understood(bytes: &[u8], path: &Path) -> Result<MeshFile, FemError> {
     };
     Ok(MeshFile { format: format.name, ..file })
 }
-
-#[cfg(test)]
-mod tests;

@@ -131,7 +131,7 @@ fn joined(facets: &[Facet], solids: &[String]) -> Result<MeshFile, String> {
     if passing > 0 {
         file.told.push(format!(
             "sheets lie on each other along {passing} sides; they are joined where one ends only: STL cannot tell a seam between \
-             pouches, Gmsh, Abaqus and OBJ can"
+             pouches, Gmsh and Abaqus can"
         ));
     }
     Ok(file)
