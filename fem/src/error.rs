@@ -90,7 +90,7 @@ pub enum FemError {
     },
     /// A record of a run cannot be read.
     #[error("{}", .0.place())]
-    Record(Box<crate::record::Damage>),
+    Record(Box<Damage>),
     /// A file could not be read or written.
     #[error("{}: {source}", path.display())]
     Io {
@@ -134,6 +134,31 @@ impl Refusal {
     fn line(&self) -> Option<usize> {
         let before = self.text.bytes().take(self.span.as_ref()?.start);
         Some(before.filter(|byte| *byte == b'\n').count() + 1)
+    }
+}
+
+/// What is wrong with a record, and where.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Damage {
+    /// The file.
+    pub file: String,
+    /// Line, counted from 1; `None` if the whole file is of another kind.
+    pub line: Option<u64>,
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub help: String,
+}
+
+impl Damage {
+    pub(crate) fn error(file: &str, line: Option<u64>, message: String, help: &str) -> FemError {
+        FemError::Record(Box::new(Damage { file: file.into(), line, message, help: help.into() }))
+    }
+
+    /// File, line and what is wrong.
+    fn place(&self) -> String {
+        let Damage { file, line, message, .. } = self;
+        line.map_or_else(|| format!("{file}: {message}"), |line| format!("{file}:{line}: {message}"))
     }
 }
 

@@ -20,6 +20,8 @@
 //!
 //! `fem` never sees a measurement.
 
+#![warn(unreachable_pub)]
+
 mod amplitude;
 mod atomic;
 mod bytes;
@@ -43,6 +45,7 @@ pub mod terms;
 mod transient;
 pub mod vec3;
 
+pub use case::Key;
 pub use error::FemError;
 pub use mesh::{Mesh, Part};
 pub use problem::Problem;

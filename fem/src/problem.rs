@@ -204,7 +204,7 @@ pub struct Settings {
     pub selective_mass: bool,
     /// Passes over the elements' sides that selective masses take, 2, 4 or 6: 4 allow 1.4 times the step of 2, 6 1.8 times, and
     /// waves of up to about twice and three times as many elements are heavy. For meshes much finer than what moves.
-    pub mass_passes: usize,
+    pub(crate) mass_passes: usize,
     /// Mass-proportional damping α \[1/s\]; its work is on the ledger.
     pub mass_damping_1_s: f64,
     /// In-plane viscosity as a share of critical damping of the highest membrane mode (0.06 is usual).
@@ -222,9 +222,20 @@ pub struct Settings {
     /// Seed of the imperfection.
     pub seed: u64,
     /// How a robot's holds wait until its tip is at rest; `None` for other cases.
-    pub patience: Option<crate::robot::Patience>,
+    pub patience: Option<Patience>,
     /// Stops of an untrustworthy run.
     pub guards: Guards,
+}
+
+/// How a hold waits for rest ([`crate::robot::Settling`]).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Patience {
+    /// Movement of the tip that counts as none, over its displacement.
+    pub creep: f64,
+    /// Longest time of a hold that loads stand still \[s\].
+    pub(crate) longest_s: f64,
+    /// Time between two looks at the tip \[s\].
+    pub(crate) window_s: f64,
 }
 
 /// How masses are raised to lengthen the step. With rate-free fabrics this equals a shorter simulated time.

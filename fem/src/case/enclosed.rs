@@ -1,8 +1,8 @@
 //! Which parts of a foreign mesh enclose which chamber. The generators say it themselves.
 
 use super::load::{open_axis, part_names};
-use super::range::{Checked, refuse};
-use super::raw::{Raw, RawChamber, Text};
+use super::range::{Checked, Text, refuse};
+use super::raw::{Raw, RawChamber};
 use crate::FemError;
 use crate::mesh::enclose;
 use crate::mesh::file::{MeshFile, Surface};

@@ -1,10 +1,10 @@
 //! Chambers, supports, rigid bodies, forces, gravity, obstacles and contact of a case.
 
 use super::range::{
-    ATMOSPHERE, Checked, GAP, GAUGE, LENGTH, POSITION, Range, TIME, amplitude, choice, direction, number, optional,
-    plain, refuse, rising, si, unknown_name, vector,
+    ATMOSPHERE, Checked, GAP, GAUGE, LENGTH, POSITION, Range, TIME, Text, amplitude, choice, direction, number,
+    optional, plain, refuse, rising, si, unknown_name, vector,
 };
-use super::raw::{Raw, RawChamber, RawObstacle, RawSupport, Text};
+use super::raw::{Raw, RawChamber, RawForce, RawObstacle, RawSupport};
 use crate::mesh::Mesh;
 use crate::problem::{
     Amplitude, Chamber, Contact, Gas, Gravity, NodalForce, Obstacle, ObstacleShape, Pressure, Rigid, Support,
@@ -249,7 +249,6 @@ pub(super) fn set_name(name: &Text, mesh: &Mesh) -> Checked<String> {
     }
 }
 
-/// Parts of the mesh, by name.
 pub(super) fn part_names(names: &[Text], mesh: &Mesh) -> Checked<Vec<String>> {
     let known: Vec<&str> = mesh.parts.iter().map(|p| p.name.as_str()).collect();
     match names.iter().find(|name| !known.contains(&name.get_ref().as_str())) {
@@ -263,7 +262,7 @@ pub(super) fn rigid(raw: &Raw, mesh: &Mesh) -> Checked<Vec<Rigid>> {
 }
 
 pub(super) fn forces(raw: &Raw, mesh: &Mesh) -> Checked<Vec<NodalForce>> {
-    let force = |f: &super::raw::RawForce| {
+    let force = |f: &RawForce| {
         Ok(NodalForce {
             set: set_name(&f.set, mesh)?,
             total_n: vector("total_n", &f.total_n, &FORCE)?,

@@ -1,9 +1,9 @@
 //! `[mesh]`: a generator with its parameters, or a mesh file.
 
 use super::ReadMesh;
-use super::law::plain_number;
-use super::range::{Checked, LENGTH, Range, choice, number, plain, refuse, unknown_name};
-use super::raw::{Free, Text};
+use super::range::{
+    Checked, Free, LENGTH, Range, Text, choice, find, number, plain, plain_number, refuse, unknown_name,
+};
 use crate::mesh::Part;
 use crate::mesh::check::{check_open, near, rim};
 use crate::mesh::file::MeshFile;
@@ -173,7 +173,6 @@ pub const GENERATORS: &[MeshGenerator] = &[
     },
 ];
 
-/// The mesh that the table describes.
 pub(super) fn mesh(table: &Spanned<Free>, read_mesh: ReadMesh) -> Checked<MeshFile> {
     match (entry(table, "generator")?, entry(table, "file")?) {
         (Some(_), Some(file)) => refuse("a generator and a file at once", "keep one of the two", file.span()),
@@ -235,7 +234,7 @@ fn open_axis<'a>(mesh: &Mesh, chambers: &[&'a str]) -> Option<(&'a str, &'static
 
 /// A text of the table, if it is there.
 fn entry(table: &Spanned<Free>, wanted: &str) -> Checked<Option<Text>> {
-    let Some((_, value)) = table.get_ref().iter().find(|(key, _)| key.get_ref() == wanted) else { return Ok(None) };
+    let Some(value) = find(table.get_ref(), wanted) else { return Ok(None) };
     match value.get_ref() {
         Value::String(text) => Ok(Some(Spanned::new(value.span(), text.clone()))),
         _ => refuse(format!("{wanted} must be a text"), format!("for example {wanted} = \"pillow\""), value.span()),
@@ -287,7 +286,6 @@ fn in_metres(mut file: MeshFile, named: &Text, unit: Option<Text>) -> Checked<Me
     Ok(file)
 }
 
-/// One line about a foreign file.
 fn understood(file: &MeshFile, name: &str, unit: &str) -> String {
     let mesh = &file.mesh;
     let count = |count: usize, kind: &str| (count > 0).then(|| format!("{count} {kind}"));
@@ -307,7 +305,6 @@ fn understood(file: &MeshFile, name: &str, unit: &str) -> String {
     )
 }
 
-/// Size along x, y and z.
 fn extent(mesh: &Mesh) -> [f64; 3] {
     [0, 1, 2].map(|k| {
         let along = || mesh.points.iter().map(|p| p[k]);
@@ -345,8 +342,7 @@ fn generated(table: &Spanned<Free>, name: &Text) -> Checked<Mesh> {
 }
 
 fn value(table: &Spanned<Free>, key: &GeneratorKey) -> Checked<f64> {
-    let found = table.get_ref().iter().find(|(name, _)| name.get_ref() == key.key).map(|(_, value)| value);
-    let (v, span) = match (found, key.default) {
+    let (v, span) = match (find(table.get_ref(), key.key), key.default) {
         (Some(value), _) => (typed(key, value)?, value.span()),
         (None, Some(default)) => (default, table.span()),
         (None, None) => {

@@ -26,15 +26,16 @@
 //! what to type. All keys: `docs/case.md`.
 
 mod enclosed;
+pub(crate) mod key;
 mod law;
 mod load;
 mod mesh;
 pub(crate) mod range;
-pub(crate) mod raw;
+mod raw;
 mod section;
 mod settings;
 
-pub(crate) use law::plain_number;
+pub use key::Key;
 pub(crate) use load::encastre;
 pub use mesh::{GENERATORS, GeneratorKey, MeshGenerator};
 
@@ -62,9 +63,8 @@ pub struct Outputs {
     /// Stations of the centre line \[m\], along the axis through the reference shape; empty: no centre line.
     pub stations_m: Vec<f64>,
     /// Parts whose sections make the centre line; empty: all.
-    pub station_parts: Vec<String>,
-    /// Direction of the stations.
-    pub station_axis: [f64; 3],
+    pub(crate) station_parts: Vec<String>,
+    pub(crate) station_axis: [f64; 3],
     /// Write the deformed mesh at every output.
     pub frames: bool,
     /// Draw the end state.

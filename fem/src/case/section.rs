@@ -1,8 +1,8 @@
 //! Parts and their plies.
 
 use super::law::{self, Fabrics};
-use super::range::{ANGLE, Checked, DENSITY, Range, direction, optional, plain, refuse, si, unknown_name};
-use super::raw::{Num, Raw, RawPart, Text};
+use super::range::{ANGLE, Checked, DENSITY, Num, Range, Text, direction, optional, plain, refuse, si, unknown_name};
+use super::raw::{Raw, RawPart};
 use crate::mesh::{Mesh, Part};
 use crate::problem::start::{has_directions, warp_fault};
 use crate::problem::{Ply, Section};

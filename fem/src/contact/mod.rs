@@ -208,7 +208,6 @@ impl Contact {
         self.arrange();
     }
 
-    /// Lists the chunks' nodes.
     fn arrange(&mut self) {
         let (surface, nodes) = (&self.surface, self.placed_m.len());
         let mark = || vec![surface::NONE; nodes];

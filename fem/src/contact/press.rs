@@ -86,7 +86,6 @@ fn grow(k: f64, rest_m: f64, touch: &mut Touch, last_m: f64, step: &Step, sums: 
     by_m
 }
 
-/// The normal part of a pair.
 struct Spring {
     k: f64,
     /// Damping coefficient over the step.
@@ -119,7 +118,6 @@ fn positive(value: f64) -> f64 {
     if value > 0.0 { value } else { 0.0 }
 }
 
-/// Friction force of a pair.
 #[inline]
 fn rub(record: &mut Record, touch: &Touch, normal_n: f64, step: &Step, sums: &mut Sums) -> V3 {
     let k = record.stiffness_n_m;

@@ -83,7 +83,7 @@ impl Part {
         }
     }
     /// Warp direction given for element `i`, if any.
-    pub fn warp_of(&self, i: usize) -> Option<[f64; 3]> {
+    pub(crate) fn warp_of(&self, i: usize) -> Option<[f64; 3]> {
         match self.warp.len() {
             0 => None,
             1 => Some(self.warp[0]),
@@ -98,7 +98,7 @@ impl Mesh {
         self.parts.iter().map(Part::len).sum()
     }
     /// Where the membrane at node `i` is free of stress.
-    pub fn free_of(&self, i: usize) -> [f64; 3] {
+    pub(crate) fn free_of(&self, i: usize) -> [f64; 3] {
         if self.membrane.is_empty() { self.points[i] } else { self.membrane[i] }
     }
     /// Where node `i` starts.

@@ -5,7 +5,7 @@ use crate::{FemError, Mesh, Simulation};
 
 /// The state of all nodes and elements at one moment, in mesh order.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Frame {
+pub(crate) struct Frame {
     /// Steps done.
     pub step: u64,
     /// Time \[s\].
@@ -25,8 +25,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The present state of a run.
-    pub fn of(run: &Simulation) -> Frame {
+    pub(crate) fn of(run: &Simulation) -> Frame {
         Frame {
             step: run.step(),
             time_s: run.time_s(),
@@ -40,7 +39,7 @@ impl Frame {
     }
 
     /// Checks that the frame fits the mesh and that every number is finite.
-    pub fn check(&self, mesh: &Mesh) -> Result<(), FemError> {
+    pub(crate) fn check(&self, mesh: &Mesh) -> Result<(), FemError> {
         let (nodes, elements) = (mesh.points.len(), mesh.elements());
         let Frame { fields, .. } = self;
         self.finite("time", "run", 1, [self.time_s].iter().map(std::slice::from_ref))?;

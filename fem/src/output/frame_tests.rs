@@ -40,7 +40,7 @@ pub fn frame(time_s: f64) -> Frame {
 }
 
 /// Every way in which one number of a frame is not finite, or one value too many.
-pub fn spoilt() -> Vec<(&'static str, Frame)> {
+pub(crate) fn spoilt() -> Vec<(&'static str, Frame)> {
     let mut all: Vec<(&'static str, Frame)> = Vec::new();
     let mut add = |name: &'static str, change: &dyn Fn(&mut Frame)| {
         let mut bad = frame(0.5);

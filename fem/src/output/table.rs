@@ -19,7 +19,7 @@ pub(super) struct Table {
 impl Table {
     /// The table after the outputs at `times_s` \[s\], of so many rows each, which must be there: later rows, and a last line that a
     /// kill cut short, are dropped. Without any output it is empty, whatever was there.
-    pub fn open(path: &Path, times_s: &[f64], rows_each: usize) -> Result<Table, FemError> {
+    pub(super) fn open(path: &Path, times_s: &[f64], rows_each: usize) -> Result<Table, FemError> {
         let text = content(path)?;
         let (header, last_step, kept) = kept(path, &text, times_s, rows_each)?;
         if kept.len() < text.len() || !path.exists() {
@@ -29,7 +29,7 @@ impl Table {
     }
 
     /// Refuses what [`Table::open`] refuses, and touches nothing.
-    pub fn check(path: &Path, times_s: &[f64], rows_each: usize) -> Result<(), FemError> {
+    pub(super) fn check(path: &Path, times_s: &[f64], rows_each: usize) -> Result<(), FemError> {
         kept(path, &content(path)?, times_s, rows_each).map(|_| ())
     }
 
@@ -39,7 +39,7 @@ impl Table {
     }
 
     /// Adds the rows (each ending in a newline) of one step. A step that is in the table already is not written again.
-    pub fn append(&mut self, step: u64, header: &str, rows: &str) -> Result<(), FemError> {
+    pub(super) fn append(&mut self, step: u64, header: &str, rows: &str) -> Result<(), FemError> {
         if self.last_step == Some(step) || rows.is_empty() {
             return Ok(());
         }
@@ -65,7 +65,7 @@ impl Table {
     }
 
     /// Waits until the disk has all rows; to be called before a checkpoint is written.
-    pub fn sync(&self) -> Result<(), FemError> {
+    pub(super) fn sync(&self) -> Result<(), FemError> {
         self.file.sync_all().map_err(|source| io(&self.path, source))
     }
 }

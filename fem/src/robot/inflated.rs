@@ -27,7 +27,6 @@ pub struct InflatedPouch {
     pub height_m: f64,
 }
 
-/// Nodes to measure between.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tape {
     welds: Vec<u32>,
@@ -38,7 +37,7 @@ pub(super) struct Tape {
 
 impl Tape {
     /// `None` for an actuator of one unit.
-    pub fn of(scenario: &Scenario, mesh: &Mesh) -> Option<Tape> {
+    pub(super) fn of(scenario: &Scenario, mesh: &Mesh) -> Option<Tape> {
         let (actuator, radius_m) = (&scenario.actuator, scenario.radius_m);
         let far = mesh.sets.get("far_generator").filter(|_| actuator.count > 1)?.clone();
         let own = body_parts(mesh);
@@ -64,8 +63,7 @@ impl Tape {
         Some(Tape { welds, far, sides, sheets })
     }
 
-    /// For node positions in mesh order.
-    pub fn read(&self, positions: &[[f64; 3]]) -> InflatedPouch {
+    pub(super) fn read(&self, positions: &[[f64; 3]]) -> InflatedPouch {
         let place = |node: &u32| positions[*node as usize];
         let apart = |pair: &[u32; 2]| distance(place(&pair[0]), place(&pair[1]));
         let line: Vec<[f64; 3]> = self.far.iter().map(place).collect();

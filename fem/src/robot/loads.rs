@@ -9,8 +9,7 @@ use toml::{Spanned, Value};
 
 use super::loading::RobotRun;
 use super::{sew, table::triple};
-use crate::case::range::{Checked, POSITION, Range, plain, refuse};
-use crate::case::raw::Free;
+use crate::case::range::{Checked, Free, POSITION, Range, find, plain, refuse};
 use crate::problem::{Amplitude, GRAVITY, Gravity, Loads, NodalForce, force_on, motion_of, pressure_of};
 use crate::{FemError, Problem};
 
@@ -41,9 +40,9 @@ pub struct RobotStart {
     /// Force on the tip \[N\].
     pub tip_force_n: [f64; 3],
     /// Gravity \[m/s²\].
-    pub gravity_m_s2: [f64; 3],
+    pub(crate) gravity_m_s2: [f64; 3],
     /// How far the obstacle has moved \[m\].
-    pub obstacle_m: [f64; 3],
+    pub(crate) obstacle_m: [f64; 3],
 }
 
 impl RobotStart {
@@ -71,7 +70,6 @@ const FORCE: Range = plain(-1e4, 1e4, "write newtons: [x, y, z], or [[x, y, z], 
 const ACCELERATION: Range =
     plain(-1e3, 1e3, "write m/s²: [0, -9.81, 0], or [[0, 0, 0], …] with one for every pressure");
 
-/// Reads a key of [`LISTS`].
 pub(super) fn read(run: &mut RobotRun, name: &str, value: &Spanned<Value>) -> Checked<()> {
     let each = |range: &Range| -> Checked<Vec<[f64; 3]>> {
         let list = value.get_ref().as_array().map_or(&[][..], Vec::as_slice);
@@ -96,7 +94,7 @@ pub(super) fn read(run: &mut RobotRun, name: &str, value: &Spanned<Value>) -> Ch
 
 /// Refuses lists of another length than that of the pressures, and a step in which nothing changes.
 pub(super) fn check(run: &RobotRun, table: &Free) -> Checked<()> {
-    let span = |name: &str| table.iter().find(|(key, _)| key.get_ref() == name).map_or(0..0, |(_, value)| value.span());
+    let span = |name: &str| find(table, name).map_or(0..0, Spanned::span);
     let of = |load: &Load| if let Load::AtPressures(list) = load { list.clone() } else { Vec::new() };
     let lists = [of(&run.tip_force_n), of(&run.gravity_m_s2), run.obstacle_moves_m.clone()];
     for (name, list) in LISTS.iter().zip(&lists).filter(|(_, list)| !list.is_empty()) {
@@ -133,7 +131,6 @@ pub(super) fn check(run: &RobotRun, table: &Free) -> Checked<()> {
 }
 
 impl RobotRun {
-    /// Puts the loads into a problem.
     pub(super) fn load(&self, made: &mut Problem) -> Result<(), FemError> {
         let start = self.start.clone().unwrap_or_default();
         let force = self.steps(&self.tip_force_n, start.tip_force_n);

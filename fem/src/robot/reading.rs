@@ -20,7 +20,7 @@ impl Reading {
     }
 
     /// The displacement of the tip along z over its whole displacement; 0 where it did not move.
-    pub fn out_of_plane_share(&self) -> f64 {
+    pub(crate) fn out_of_plane_share(&self) -> f64 {
         let [x, y, z] = self.moved_m.last().copied().unwrap_or_default();
         let way = x.hypot(y).hypot(z);
         if way > 0.0 { z.abs() / way } else { 0.0 }
@@ -216,7 +216,7 @@ impl RobotGauge {
     }
 
     /// Displacement of the mean of the tip's ring \[m\].
-    pub fn tip_moved_m(&self, run: &Simulation) -> [f64; 3] {
+    pub(crate) fn tip_moved_m(&self, run: &Simulation) -> [f64; 3] {
         self.moved(&self.tip, &run.positions())
     }
 

@@ -19,18 +19,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::problem::Patience;
 use crate::vec3::{dot, norm, sub};
-
-/// How a hold waits for rest ([`Settling`]).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Patience {
-    /// Movement of the tip that counts as none, over its displacement.
-    pub creep: f64,
-    /// Longest time of a hold that loads stand still \[s\].
-    pub longest_s: f64,
-    /// Time between two looks at the tip \[s\].
-    pub window_s: f64,
-}
 
 /// Length of a window times ω.
 pub(super) const WINDOW: f64 = 0.64;
@@ -66,7 +56,7 @@ pub enum Rest {
 
 impl Settling {
     /// Waited time of the run at the end of the present window \[s\]; `None` between holds.
-    pub fn next_s(&self) -> Option<f64> {
+    pub(crate) fn next_s(&self) -> Option<f64> {
         (!self.tip_m.is_empty()).then_some(self.from_s + self.tip_m.len() as f64 * self.window_s)
     }
 

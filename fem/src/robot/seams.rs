@@ -30,7 +30,7 @@ pub struct SeamForce {
     /// Element, in mesh order.
     pub element: usize,
     /// Whether the weld runs across the robot, and not along a side of its actuator.
-    pub is_across: bool,
+    pub(crate) is_across: bool,
 }
 
 impl Seams {

@@ -27,10 +27,10 @@ pub struct RobotSettings {
     /// Element size of the strip under the actuator and of the actuator \[m\].
     pub actuator_size_m: f64,
     /// Distance of the rings at the actuator over `actuator_size_m`; `None`: 1, and 0.8 under a taped sheet.
-    pub ring_spacing: Option<f64>,
+    pub(crate) ring_spacing: Option<f64>,
     /// Length of the rows beside welds \[m\], from which rows grow by a quarter each to the distance of the rings; `None`: no shorter
     /// than those, and two thirds of a weld under a folded sheet.
-    pub seam_row_m: Option<f64>,
+    pub(crate) seam_row_m: Option<f64>,
     /// Distance between layers at the start \[m\]. Published: 0.01 mm.
     pub layer_gap_m: f64,
     /// Width of the welds across the robot and along the actuator's sides \[m\]; 0 is a line, along which taped plies fold
@@ -47,30 +47,30 @@ pub struct RobotSettings {
     /// How far taped and glued plies bend as one: 1 without slip, 0 as loose sheets. Assumed.
     pub bond: f64,
     /// Thickness of the transfer tape \[m\]. Assumed.
-    pub tape_m: f64,
+    pub(crate) tape_m: f64,
     /// Young's modulus of the tape's adhesive \[Pa\]. Assumed.
-    pub tape_e_pa: f64,
+    pub(crate) tape_e_pa: f64,
     /// Width of the taped sheet beyond the welds along its sides \[m\]. Assumed.
-    pub tape_margin_m: f64,
+    pub(crate) tape_margin_m: f64,
     /// Whether tape holds separate pouches at their seams only, and not over their whole face. The paper prints neither.
     pub taped_at_seams: bool,
     /// Thickness of the glue film \[m\]. Assumed.
-    pub glue_m: f64,
+    pub(crate) glue_m: f64,
     /// Young's modulus of the glue (silicone) \[Pa\]. Assumed.
-    pub glue_e_pa: f64,
+    pub(crate) glue_e_pa: f64,
     /// Contraction along fill per stretch along warp of an anisotropic fabric; `None` keeps the material's own.
     /// Assumed.
     pub nu12: Option<f64>,
     /// Thickness of the actuator's sheet \[m\]; `None`: that of its fabric.
     pub sheet_m: Option<f64>,
     /// Young's modulus of the actuator's sheet \[Pa\]; `None`: that of its fabric. Isotropic fabrics only.
-    pub sheet_e_pa: Option<f64>,
+    pub(crate) sheet_e_pa: Option<f64>,
     /// Thickness of the body's sheet \[m\]; `None`: that of its fabric.
-    pub body_sheet_m: Option<f64>,
+    pub(crate) body_sheet_m: Option<f64>,
     /// Young's modulus of the body's sheet \[Pa\]; `None`: that of its fabric. Isotropic fabrics only.
-    pub body_sheet_e_pa: Option<f64>,
+    pub(crate) body_sheet_e_pa: Option<f64>,
     /// Force per length that a weld carries \[N/m\], from a peel or tensile test of a seam; `None`: not known. Changes no run.
-    pub weld_strength_n_per_m: Option<f64>,
+    pub(crate) weld_strength_n_per_m: Option<f64>,
     /// Mass per volume of all fabrics, tape and glue \[kg/m³\]. Assumed.
     pub density_kg_m3: f64,
     /// Actuator gauge pressure at the end \[Pa\].
@@ -81,19 +81,19 @@ pub struct RobotSettings {
     pub actuator_ramp_s: f64,
     /// The actuator's pressure grows by equal shares of itself plus this in equal times \[Pa\]: a robot bends most, and its
     /// folds open, while this is about the body's pressure. `None`: a fifth-order step of the pressure itself.
-    pub ramp_floor_pa: Option<f64>,
+    pub(crate) ramp_floor_pa: Option<f64>,
     /// Time at full pressure before the robot is watched \[s\].
     pub hold_s: f64,
     /// Longest time that a hold then waits until the tip is at rest \[s\]; `None`: six times the actuator's ramp.
-    pub rest_s: Option<f64>,
+    pub(crate) rest_s: Option<f64>,
     /// Square of the step over the time that sound takes through the smallest element; masses are raised as the highest mode of the
     /// mesh needs (`mass_scaling`). `None`: 3.6, and 2.4 where layers of elements of 1.5 mm and more touch.
-    pub mass_factor: Option<f64>,
+    pub(crate) mass_factor: Option<f64>,
     /// Whether waves of a few elements are heavy in place of everything ([`crate::problem::Settings::selective_mass`]).
     pub selective_mass: bool,
     /// Passes of the selective masses, 2, 4 or 6 ([`crate::problem::Settings::mass_passes`]), and the longer step that they allow
     /// beside `mass_factor`; `None`: 2, and 6 for elements below 1.5 mm.
-    pub mass_passes: Option<usize>,
+    pub(crate) mass_passes: Option<usize>,
     /// Movement of the tip that a hold does not wait for, as a share of its displacement ([`super::Settling`]).
     pub creep: f64,
     /// Share of the stable step that is used.
@@ -114,7 +114,7 @@ pub struct RobotSettings {
     pub imperfection: f64,
     /// How far the sewn shape, free of membrane stress, departs from the pattern \[m\]: root mean square along each axis, in random
     /// waves of 30 to 120 mm. A seed is the same robot on every mesh. Assumed.
-    pub waviness_m: f64,
+    pub(crate) waviness_m: f64,
     /// Seed of both.
     pub seed: u64,
 }
@@ -233,7 +233,7 @@ impl RobotSettings {
     }
 
     /// Longest time that a hold waits for rest \[s\].
-    pub fn longest_rest_s(&self) -> f64 {
+    pub(crate) fn longest_rest_s(&self) -> f64 {
         self.rest_s.unwrap_or(6.0 * self.actuator_ramp_s)
     }
 

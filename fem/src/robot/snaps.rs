@@ -85,7 +85,6 @@ impl Watch {
         &self.samples
     }
 
-    /// From a checkpoint.
     pub(crate) fn restore(&mut self, samples: Vec<Sample>) {
         self.samples = samples;
     }
@@ -172,7 +171,6 @@ fn peaks(samples: &[Sample]) -> Vec<[usize; 3]> {
 mod tests {
     use super::*;
 
-    /// Samples a millisecond apart.
     fn run(of: impl Fn(f64) -> (f64, f64)) -> Vec<Sample> {
         let sample = |i: usize| {
             let time_s = i as f64 * 1e-3;

@@ -19,42 +19,15 @@ use super::loading::highest_pa;
 use super::loads::{self, Load};
 use super::{Preset, RobotRun, RobotSettings};
 use crate::FemError;
-use crate::case::plain_number;
-use crate::case::range::{Checked, LENGTH, POSITION, PRESSURE, Range, number, plain, refuse};
-use crate::case::raw::{Free, unknown};
+use crate::case::key::{Key, key, named};
+use crate::case::range::{
+    Checked, Free, LENGTH, POSITION, PRESSURE, Range, find, number, plain, plain_number, refuse, switch, unknown_name,
+};
 use crate::problem::{Obstacle, ObstacleShape};
-
-/// One number of the table.
-#[derive(Debug, Clone, Copy)]
-pub struct RunKey {
-    /// Name with unit, as in the file.
-    pub name: &'static str,
-    /// Factor from the file to SI.
-    pub si: f64,
-    /// Accepted numbers, as in the file.
-    pub bounds: [f64; 2],
-    /// What it is.
-    pub meaning: &'static str,
-    /// Reads it \[SI\], if it is set.
-    pub get: fn(&RobotSettings) -> Option<f64>,
-    /// Writes it \[SI\].
-    pub set: fn(&mut RobotSettings, f64),
-}
-
-const fn key(
-    name: &'static str,
-    si: f64,
-    bounds: [f64; 2],
-    meaning: &'static str,
-    get: fn(&RobotSettings) -> Option<f64>,
-    set: fn(&mut RobotSettings, f64),
-) -> RunKey {
-    RunKey { name, si, bounds, meaning, get, set }
-}
 
 /// All numbers of the table.
 #[rustfmt::skip]
-pub const KEYS: &[RunKey] = &[
+pub const KEYS: &[Key<RobotSettings>] = &[
     key("mesh_mm", 1e-3, [0.5, 50.0], "element size of body and actuator",
         |s| Some(s.body_size_m), |s, v| { s.body_size_m = v; s.actuator_size_m = v; }),
     key("body_mesh_mm", 1e-3, [0.5, 50.0], "element size of the body", |s| Some(s.body_size_m), |s, v| s.body_size_m = v),
@@ -199,9 +172,7 @@ fn usual_pressures(scenario: &Scenario) -> Vec<[f64; CHANNELS]> {
 }
 
 fn model(table: &Free) -> Checked<Preset> {
-    let Some((_, value)) = table.iter().find(|(key, _)| key.get_ref() == "model") else {
-        return Ok(Preset::default());
-    };
+    let Some(value) = find(table, "model") else { return Ok(Preset::default()) };
     let known = || format!("known: {}", Preset::ALL.map(Preset::name).join(", "));
     let unknown = || refuse(format!("unknown model {}", value.get_ref()), known(), value.span());
     value.get_ref().as_str().and_then(Preset::named).map_or_else(unknown, Ok)
@@ -209,28 +180,18 @@ fn model(table: &Free) -> Checked<Preset> {
 
 fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Checked<()> {
     let name = key.get_ref().as_str();
-    if let Some(known) = KEYS.iter().find(|k| k.name == name) {
-        let (low, high) = (known.bounds[0], known.bounds[1]);
-        let range = Range { si: known.si, ..plain(low, high, known.meaning) };
-        let si = number(name, plain_number(name, value)?, value.span(), &range)?;
-        if name == "seed" && si.fract() != 0.0 {
-            return refuse(format!("seed must be a whole number, not {si}"), "write for example 1", value.span());
-        }
-        if name == "mass_passes" && ![2.0, 4.0, 6.0].contains(&si) {
-            return refuse(format!("mass_passes cannot be {si}"), "write 2, 4 or 6", value.span());
-        }
-        (known.set)(&mut run.settings, si);
-        return Ok(());
+    if let Some(known) = named(KEYS, name) {
+        return known.read(&mut run.settings, value);
     }
     match name {
         "model" => {}
-        "separate" => run.separate = yes_or_no(name, value, "as the model has it")?,
+        "separate" => run.separate = switch(name, value, "as the model has it")?,
         "base" => run.settings.encastre = encastre(value)?,
         "pressures_kpa" => run.pressures_pa = pressures(value)?,
         "meshes_mm" => run.meshes_m = meshes(value)?,
-        "contact" => run.settings.contact = Some(yes_or_no(name, value, "where the pattern folds")?),
+        "contact" => run.settings.contact = Some(switch(name, value, "where the pattern folds")?),
         "taped" => run.settings.taped_at_seams = at_seams(value)?,
-        "selective_mass" => run.settings.selective_mass = yes_or_no(name, value, "short waves are heavy then")?,
+        "selective_mass" => run.settings.selective_mass = switch(name, value, "short waves are heavy then")?,
         "tip_force_n" | "gravity_m_s2" => loads::read(run, name, value)?,
         "obstacle_mm" => {
             let [x, y, radius] = triple(name, value, &POSITION)?;
@@ -253,7 +214,7 @@ fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Ch
         }
         _ => {
             let known: Vec<&str> = OTHERS.into_iter().chain(KEYS.iter().map(|k| k.name)).collect();
-            return Err(FemError::Case { message: unknown("key", name, &known), span: Some(key.span()) });
+            return Err(unknown_name("key", key, &known));
         }
     }
     Ok(())
@@ -265,11 +226,6 @@ fn encastre(value: &Spanned<Value>) -> Checked<bool> {
         Some("encastre") => Ok(true),
         _ => refuse(format!("base cannot be {}", value.get_ref()), "write \"pinned\" or \"encastre\"", value.span()),
     }
-}
-
-fn yes_or_no(name: &str, value: &Spanned<Value>, without: &str) -> Checked<bool> {
-    let told = || refuse(format!("{name} must be true or false"), format!("leave it out: {without}"), value.span());
-    value.get_ref().as_bool().map_or_else(told, Ok)
 }
 
 fn at_seams(value: &Spanned<Value>) -> Checked<bool> {
@@ -341,7 +297,7 @@ fn above_body(run: &RobotRun, scenario: &Scenario, table: &Free) -> Checked<()> 
     };
     let Some(low) = run.pressures_pa.iter().find_map(low) else { return Ok(()) };
     let [low, body] = [low, body_pa].map(|p| p * 1e-3);
-    let span = table.iter().find(|(key, _)| key.get_ref() == "pressures_kpa").map(|(_, value)| value.span());
+    let span = find(table, "pressures_kpa").map(Spanned::span);
     let message = format!("an actuator at {low} kPa in a body at {body} kPa stays flat\nraise the actuator pressure");
     Err(FemError::Case { message, span })
 }

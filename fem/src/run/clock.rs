@@ -16,16 +16,16 @@ pub(super) struct Clock {
     /// Length of a step.
     pub dt_s: f64,
     /// Length of the step before; 0 at the start.
-    pub before_s: f64,
+    pub(crate) before_s: f64,
     /// Longest step that the start allowed.
-    pub longest_s: f64,
+    pub(crate) longest_s: f64,
     /// γ: the stable step of the whole mesh over that of the nodes' bounds.
     pub gain: f64,
 }
 
 impl Clock {
     /// The clock that runs.
-    pub fn runs_s(&self) -> f64 {
+    pub(crate) fn runs_s(&self) -> f64 {
         if self.waits { self.waited_s } else { self.time_s }
     }
 }
@@ -51,7 +51,7 @@ pub(super) struct Halves {
 }
 
 impl Halves {
-    pub fn add(&mut self, whole: f64) {
+    pub(super) fn add(&mut self, whole: f64) {
         self.sum += 0.5 * (self.last + whole);
         self.last = whole;
     }

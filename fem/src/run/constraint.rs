@@ -5,7 +5,7 @@ use crate::{FemError, Mesh};
 
 /// Nodes whose motion is prescribed along some axes.
 #[derive(Debug, Clone)]
-pub struct Driven {
+pub(super) struct Driven {
     /// Nodes.
     pub nodes: Vec<u32>,
     /// Prescribed axes.
@@ -18,7 +18,7 @@ pub struct Driven {
 
 /// A rigid body: nodes that keep their distances.
 #[derive(Debug, Clone)]
-pub struct Body {
+pub(super) struct Body {
     /// Nodes.
     pub nodes: Vec<u32>,
     /// Mass of each node \[kg\].
@@ -39,7 +39,7 @@ pub struct Body {
 ///
 /// # Errors
 /// Unknown or empty set, with the names there are.
-pub fn set<'a>(mesh: &'a Mesh, name: &str, what: &str) -> Result<&'a [u32], FemError> {
+pub(super) fn set<'a>(mesh: &'a Mesh, name: &str, what: &str) -> Result<&'a [u32], FemError> {
     match mesh.sets.get(name) {
         Some(nodes) if !nodes.is_empty() => Ok(nodes),
         Some(_) => Err(FemError::Problem(format!("{what}: node set `{name}` is empty"))),
@@ -51,7 +51,7 @@ pub fn set<'a>(mesh: &'a Mesh, name: &str, what: &str) -> Result<&'a [u32], FemE
 }
 
 /// Prescribed nodes of a problem; axes that hold still are only masked.
-pub fn driven(problem: &Problem, mesh: &Mesh, fixed: &mut [[bool; 3]]) -> Result<Vec<Driven>, FemError> {
+pub(super) fn driven(problem: &Problem, mesh: &Mesh, fixed: &mut [[bool; 3]]) -> Result<Vec<Driven>, FemError> {
     let mut all = Vec::new();
     for support in &problem.supports {
         let nodes = set(mesh, &support.set, "support")?;
@@ -69,7 +69,15 @@ pub fn driven(problem: &Problem, mesh: &Mesh, fixed: &mut [[bool; 3]]) -> Result
 impl Driven {
     /// Gives the nodes the velocity that brings them to where they must be at `t`, and returns the work done on the
     /// structure over the step: (m Δv/Δt − f)·v̄ Δt.
-    pub fn step(&self, t: f64, dt: f64, mass: &[f64], force: &[[f64; 4]], x: &[[f64; 4]], v: &mut [[f64; 4]]) -> f64 {
+    pub(super) fn step(
+        &self,
+        t: f64,
+        dt: f64,
+        mass: &[f64],
+        force: &[[f64; 4]],
+        x: &[[f64; 4]],
+        v: &mut [[f64; 4]],
+    ) -> f64 {
         let mut work = 0.0;
         let shift = [0, 1, 2].map(|k| self.motion[k].at(t));
         for (node, start) in self.nodes.iter().zip(&self.start) {
@@ -86,8 +94,7 @@ impl Driven {
     }
 }
 
-/// Rigid bodies of a problem.
-pub fn bodies(problem: &Problem, mesh: &Mesh, mass: &[f64]) -> Result<Vec<Body>, FemError> {
+pub(super) fn bodies(problem: &Problem, mesh: &Mesh, mass: &[f64]) -> Result<Vec<Body>, FemError> {
     let make = |rigid: &crate::problem::Rigid| {
         let nodes = set(mesh, &rigid.set, "rigid")?;
         if nodes.len() < 3 {
@@ -121,7 +128,15 @@ impl Body {
 
     /// One step of the body under the forces on its nodes; sets the velocities that bring them to their places.
     /// Leapfrog in momentum and angular momentum; the orientation turns by the mid-step angular velocity.
-    pub fn step(&mut self, dv: f64, dt: f64, damping: f64, force: &[[f64; 4]], x: &[[f64; 4]], v: &mut [[f64; 4]]) {
+    pub(super) fn step(
+        &mut self,
+        dv: f64,
+        dt: f64,
+        damping: f64,
+        force: &[[f64; 4]],
+        x: &[[f64; 4]],
+        v: &mut [[f64; 4]],
+    ) {
         let mut push = [0.0; 3];
         let mut moment = [0.0; 3];
         for node in &self.nodes {
@@ -155,7 +170,7 @@ impl Body {
     }
 
     /// Takes momentum and angular momentum from the velocities of the nodes.
-    pub fn take_velocities(&mut self, x: &[[f64; 4]], v: &[[f64; 4]]) {
+    pub(crate) fn take_velocities(&mut self, x: &[[f64; 4]], v: &[[f64; 4]]) {
         (self.velocity, self.spin) = ([0.0; 3], [0.0; 3]);
         let total: f64 = self.mass.iter().sum();
         for (node, m) in self.nodes.iter().zip(&self.mass) {
@@ -183,15 +198,13 @@ impl Body {
         solve(inertia, self.spin)
     }
 
-    /// For a checkpoint.
-    pub fn save(&self) -> [f64; 13] {
+    pub(super) fn save(&self) -> [f64; 13] {
         let ([x, y, z], [u, v, w], [p, q, r]) = (self.centre, self.velocity, self.spin);
         let [a, b, c, d] = self.turn;
         [x, y, z, u, v, w, p, q, r, a, b, c, d]
     }
 
-    /// From a checkpoint.
-    pub fn restore(&mut self, from: &[f64; 13]) {
+    pub(super) fn restore(&mut self, from: &[f64; 13]) {
         self.centre.copy_from_slice(&from[0..3]);
         self.velocity.copy_from_slice(&from[3..6]);
         self.spin.copy_from_slice(&from[6..9]);
@@ -239,7 +252,7 @@ fn solve(a: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 /// Hands the forces on tied nodes to the nodes they follow.
-pub fn hand_over(ties: &[crate::mesh::Tie], force: &mut [[f64; 4]]) {
+pub(crate) fn hand_over(ties: &[crate::mesh::Tie], force: &mut [[f64; 4]]) {
     for tie in ties {
         let own = std::mem::take(&mut force[tie.node as usize]);
         for (node, weight) in &tie.to {
@@ -249,7 +262,7 @@ pub fn hand_over(ties: &[crate::mesh::Tie], force: &mut [[f64; 4]]) {
 }
 
 /// Puts tied nodes where the nodes they follow have gone; `offset` is their distance from there at the start.
-pub fn follow(ties: &[crate::mesh::Tie], offset: &[[f64; 3]], x: &mut [[f64; 4]], v: &mut [[f64; 4]]) {
+pub(super) fn follow(ties: &[crate::mesh::Tie], offset: &[[f64; 3]], x: &mut [[f64; 4]], v: &mut [[f64; 4]]) {
     for (tie, offset) in ties.iter().zip(offset) {
         let mut place = *offset;
         let mut speed = [0.0; 3];

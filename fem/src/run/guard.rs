@@ -26,7 +26,6 @@ struct Evidence {
     extent_m: f64,
     forced_dt_s: Option<f64>,
     added_mass: f64,
-    /// Contact's share of the stored energy.
     contact_share: f64,
 }
 
@@ -61,7 +60,6 @@ impl Evidence {
 }
 
 impl Simulation {
-    /// Judges the last step.
     pub(super) fn guard(&mut self) -> Result<(), FemError> {
         let books = self.books;
         if !(books.kinetic.is_finite() && books.stored.is_finite()) {

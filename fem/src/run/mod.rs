@@ -309,7 +309,7 @@ impl Simulation {
     }
 
     /// The same with the energy of compressed sheets apart from that of the membranes; dearer, for what is read now and then.
-    pub fn ledger_in_detail(&self) -> Ledger {
+    pub(crate) fn ledger_in_detail(&self) -> Ledger {
         let mut ledger = self.ledger();
         let compressed_j = self.sheet.compressed_j(self.x.as_flattened());
         if let Some(membrane) = ledger.rows.iter_mut().find(|row| row.name == "membrane") {

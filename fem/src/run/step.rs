@@ -226,7 +226,7 @@ pub(super) struct Update {
     pub dt: f64,
     /// α \[1/s\].
     pub damping: f64,
-    pub arch: pulp::Arch,
+    pub(crate) arch: pulp::Arch,
 }
 
 impl Update {

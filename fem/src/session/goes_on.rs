@@ -26,7 +26,7 @@ struct End {
 }
 
 /// The end of a complete run.
-pub struct Earlier {
+pub(super) struct Earlier {
     folder: PathBuf,
     /// When \[s\].
     pub time_s: f64,
@@ -58,7 +58,7 @@ impl Earlier {
     ///
     /// # Errors
     /// [`FemError::Setting`] for a folder without the end of a run, [`FemError::Checkpoint`] for a damaged one.
-    pub fn read(folder: &Path) -> Result<Earlier, FemError> {
+    pub(super) fn read(folder: &Path) -> Result<Earlier, FemError> {
         let refused = |cause: &str, help: &str| {
             FemError::setting(format!("cannot go on from {}: {cause}", folder.display()), help)
         };

@@ -113,7 +113,6 @@ pub fn problems<'a>(jobs: &'a [Job], root: &Path) -> Result<Vec<(&'a Job, PathBu
 /// What a step with contact costs, in steps without.
 const CONTACT: f64 = 2.5;
 
-/// A problem to be run.
 struct Task {
     /// Its first job.
     at: usize,

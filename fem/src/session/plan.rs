@@ -2,7 +2,8 @@
 
 use super::{Source, rounded};
 use crate::FemError;
-use crate::robot::{ASSUMED, Assumed, KEYS, NUMERICAL, RobotRun, RobotSettings, RunKey, hypercube};
+use crate::case::key::{Key, named};
+use crate::robot::{ASSUMED, Assumed, KEYS, NUMERICAL, RobotRun, RobotSettings, hypercube};
 use models::{CHANNELS, Scenario};
 
 /// Label of a robot of which nothing is varied.
@@ -69,7 +70,7 @@ pub fn numerics(scenario: &Scenario, run: &RobotRun) -> Result<Vec<Variation>, F
     let mut add = |label: String, changes: Changes| all.push(Variation { label, changes, ..Variation::default() });
     let problem = run.problem(scenario)?;
     let (settings, chosen, touches) = (&run.settings, &problem.settings, problem.contact.is_some());
-    let number = |si: f64, key: &RunKey| format!("{:.4e}", si / key.si);
+    let number = |si: f64, key: &Key<RobotSettings>| format!("{:.4e}", si / key.si);
     for key in KEYS.iter().filter(|key| NUMERICAL.contains(&key.name)) {
         let own = (key.get)(settings).or(match key.name {
             "mass_factor" => Some(settings.mass_factor_for(touches)),
@@ -108,7 +109,7 @@ fn extended(cases: &[Variation], ways: &[Way]) -> Vec<Variation> {
 const CUBE: u64 = 1;
 
 /// A number that nobody measured and that a robot feels, and the key that writes it.
-pub type Felt = (&'static Assumed, &'static RunKey);
+pub type Felt = (&'static Assumed, &'static Key<RobotSettings>);
 
 /// Robots that fill the intervals of assumed numbers as a Latin hypercube.
 #[derive(Debug, Clone)]
@@ -142,7 +143,7 @@ pub fn cube(base: Source, known: &[&str], robots: usize) -> Result<Cube, FemErro
 pub fn felt(base: &Source, known: &[&str]) -> Result<Vec<Felt>, FemError> {
     let mut numbers = Vec::new();
     for unknown in ASSUMED {
-        let Some(key) = key_of(unknown).filter(|key| !known.contains(&key.name)) else { continue };
+        let Some(key) = named(KEYS, unknown.key).filter(|key| !known.contains(&key.name)) else { continue };
         let print = |si: f64| {
             let changed = base.with(&[(key.name.to_string(), rounded(si / key.si).to_string())])?;
             Ok::<u64, FemError>(changed.load()?.case.problem.fingerprint())
@@ -162,25 +163,13 @@ fn robot(number: usize, numbers: &[Felt], shares: &[f64]) -> Variation {
     Variation { label: format!("robot-{number}"), changes, group: String::new() }
 }
 
-/// The key that writes what an assumed number writes.
-fn key_of(unknown: &Assumed) -> Option<&'static RunKey> {
-    let after = |set: fn(&mut RobotSettings, f64), value: f64| {
-        let mut changed = RobotSettings::default();
-        set(&mut changed, value);
-        changed
-    };
-    // One end may be the default of several keys.
-    let fits = |key: &&RunKey| unknown.interval.iter().all(|v| after(key.set, *v) == after(unknown.set, *v));
-    KEYS.iter().find(fits)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn every_assumed_number_has_a_key_of_its_own() {
-        let keys: Vec<&str> = ASSUMED.iter().filter_map(|unknown| Some(key_of(unknown)?.name)).collect();
+        let keys: Vec<&str> = ASSUMED.iter().filter_map(|unknown| Some(named(KEYS, unknown.key)?.name)).collect();
         assert_eq!(keys.len(), ASSUMED.len(), "{keys:?}");
         assert!(keys.iter().enumerate().all(|(i, key)| !keys[..i].contains(key)), "{keys:?}");
     }

@@ -32,14 +32,13 @@ pub(super) struct Balance {
     pub residual_share: f64,
 }
 
-/// A run and its files.
 pub(super) struct Running<'a> {
     /// The run.
     pub run: Simulation,
     /// Energies at all outputs so far.
     pub balances: Vec<Balance>,
     /// Processor seconds of earlier sessions.
-    pub cpu_before_s: f64,
+    pub(crate) cpu_before_s: f64,
     /// What to tell the user in the end.
     pub notices: Vec<String>,
     /// Where this session began: steps, and processor seconds.
@@ -62,7 +61,7 @@ struct Files {
 
 impl<'a> Running<'a> {
     /// A run from its start, or from the end of another one, in a folder.
-    pub fn start(
+    pub(super) fn start(
         case: &'a Case,
         run: Simulation,
         folder: Option<&Path>,
@@ -76,7 +75,7 @@ impl<'a> Running<'a> {
     }
 
     /// Goes on from the last checkpoint of a folder; from the beginning if there is none yet.
-    pub fn resume(
+    pub(super) fn resume(
         case: &'a Case,
         fresh: Simulation,
         folder: &Path,
@@ -116,7 +115,7 @@ impl<'a> Running<'a> {
     }
 
     /// Steps to the end of the case, or until `progress` asks to end, which is [`FemError::Interrupted`].
-    pub fn step_on(&mut self, checkpoint_every: Duration, progress: Progress) -> Result<(), FemError> {
+    pub(crate) fn step_on(&mut self, checkpoint_every: Duration, progress: Progress) -> Result<(), FemError> {
         let settings = &self.case.problem.settings;
         let (end_s, every_s) = (settings.end_s, settings.output_every_s);
         // The last output is the end itself; a whole number of intervals shall not get a second one just before it.
@@ -189,7 +188,6 @@ impl<'a> Running<'a> {
         files.try_for_each(|files| files.save(&self.run, self.next, &self.balances, self.robot.as_ref(), cpu_s))
     }
 
-    /// Writes one output.
     fn output(&mut self) -> Result<(), FemError> {
         let record = Record::of(&self.run);
         self.balances.push(Balance {
@@ -211,12 +209,12 @@ impl<'a> Running<'a> {
     }
 
     /// The end of the run, the same to the bit however often it was interrupted.
-    pub fn end(&self) -> Vec<u8> {
+    pub(super) fn end(&self) -> Vec<u8> {
         Saved::pack(&self.run, self.next, &self.balances, self.robot.as_ref(), 0.0)
     }
 
     /// Processor seconds of this session: of the steps, and of this thread, which writes.
-    pub fn cpu_s(&self) -> f64 {
+    pub(super) fn cpu_s(&self) -> f64 {
         self.run.cpu_s() + thread_seconds() - self.began.1
     }
 }
@@ -324,7 +322,6 @@ impl Keeper {
     }
 }
 
-/// Tells how far a run is.
 struct Teller {
     began: Instant,
     from_s: f64,

@@ -118,7 +118,7 @@ pub struct MeshQuality {
     /// Worst ratio of Jacobians.
     pub jacobian_ratio: f64,
     /// Worst warpage.
-    pub warpage: f64,
+    pub(crate) warpage: f64,
 }
 
 /// Mean displacement of a node set from where it started.
@@ -347,7 +347,6 @@ fn kinetic(balances: &[Balance]) -> KineticShares {
 }
 
 impl Cost {
-    /// Of this session and those before.
     pub(super) fn of(case: &Case, running: &Running, wall: Duration) -> Cost {
         let (run, cpu_s) = (&running.run, running.cpu_s());
         let element_steps = (run.step() - running.began.0) as f64 * run.elements() as f64;

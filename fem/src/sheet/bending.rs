@@ -41,7 +41,7 @@ pub struct CurvatureRow {
     /// (node, weight), weights summing to 0.
     pub weights: Vec<(u32, f64)>,
     /// Area vectors of its shares of the elements, for the normal of the sheet.
-    pub facets: Vec<Facet>,
+    pub(crate) facets: Vec<Facet>,
 }
 
 /// Share of an element that belongs to a corner: `share` (x_b − x_a) × (x_d − x_c) is its area vector \[m²\].
@@ -126,7 +126,7 @@ impl Fan {
 
 impl Facet {
     /// Area vector with the nodes at these places \[m²\].
-    pub fn area_vector(&self, at: impl Fn(u32) -> [f64; 3]) -> [f64; 3] {
+    pub(crate) fn area_vector(&self, at: impl Fn(u32) -> [f64; 3]) -> [f64; 3] {
         let [a, b, c, d] = self.nodes.map(at);
         cross(sub(b, a), sub(d, c)).map(|v| self.share * v)
     }

@@ -102,7 +102,7 @@ impl Sheet {
     }
 
     /// Adds each node's part of the bound that is bending's \[N/m\].
-    pub fn add_bending_bound(&self, bound: &mut [f64]) {
+    pub(crate) fn add_bending_bound(&self, bound: &mut [f64]) {
         bound.iter_mut().zip(&self.bending_bound).for_each(|(bound, bending)| *bound += bending);
     }
 

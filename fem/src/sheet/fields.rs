@@ -13,13 +13,13 @@ pub struct ElementFields {
     /// Principal Cauchy stresses, larger first \[Pa\].
     pub principal_stress_pa: Vec<[f64; 2]>,
     /// Unit vectors along them, in the sheet; the first has no component against the fabric's warp.
-    pub principal_direction: Vec<[[f64; 3]; 2]>,
+    pub(crate) principal_direction: Vec<[[f64; 3]; 2]>,
     /// Principal Green–Lagrange strains, larger first.
-    pub principal_strain: Vec<[f64; 2]>,
+    pub(crate) principal_strain: Vec<[f64; 2]>,
     /// Current thickness of the section (incompressible) \[m\].
     pub thickness_m: Vec<f64>,
     /// 0 taut, 1 wrinkled (smaller principal stress not tensile), 2 slack (larger not tensile either).
-    pub wrinkle_state: Vec<u8>,
+    pub(crate) wrinkle_state: Vec<u8>,
 }
 
 impl Sheet {
@@ -40,7 +40,7 @@ impl Sheet {
 
     /// Energy that compression of films stores at positions `q` (stride 4) \[J\]: flat ones up to the load of their wrinkles, and wrinkled
     /// ones. It is part of the membrane energy.
-    pub fn compressed_j(&self, q: &[f64]) -> f64 {
+    pub(crate) fn compressed_j(&self, q: &[f64]) -> f64 {
         let of = |element: &Element| {
             let film = match self.fabrics[element.part].kind() {
                 Kind::WrinklingFilm(film) => *film,

@@ -3,7 +3,7 @@
 use super::reference::Reference;
 
 /// Elements per group: one AVX-512 register of f64, two of AVX2.
-pub const LANES: usize = 8;
+pub(crate) const LANES: usize = 8;
 /// One number for each element of a group.
 pub type Lane = [f64; LANES];
 
@@ -13,7 +13,7 @@ pub struct ElementGroup {
     /// Places of its shape and its stock in their tables.
     pub shape: u32,
     /// See [`Stock`].
-    pub stock: u32,
+    pub(crate) stock: u32,
     /// Corner nodes by lane, numbered within the patch; a triangle repeats its third.
     pub node: [[u32; 4]; LANES],
 }
@@ -72,7 +72,7 @@ pub struct Item {
 
 impl ElementGroup {
     /// Corner nodes of up to eight elements; an empty lane repeats the last.
-    pub fn pack(items: &[Item], shape: u32, stock: u32) -> ElementGroup {
+    pub(crate) fn pack(items: &[Item], shape: u32, stock: u32) -> ElementGroup {
         let item = |lane: usize| &items[lane.min(items.len() - 1)].node;
         let corner = |lane: usize| std::array::from_fn(|c| item(lane)[c.min(item(lane).len() - 1)]);
         ElementGroup { shape, stock, node: std::array::from_fn(corner) }
@@ -85,7 +85,7 @@ const ALIKE: f64 = 1e-12;
 impl RestShape {
     /// Packs up to eight elements. An empty lane repeats the last one without area and stiffness, so that its arithmetic stays
     /// finite and its forces vanish.
-    pub fn pack(items: &[Item]) -> RestShape {
+    pub(crate) fn pack(items: &[Item]) -> RestShape {
         let zero = [0.0; LANES];
         let mut shape = RestShape { b: [[zero; 2]; 2], s: [zero; 2], area: zero, hourglass: zero, viscosity: zero };
         for lane in 0..LANES {
@@ -121,7 +121,7 @@ impl RestShape {
 
 impl Stock {
     /// Packs up to eight elements, of which the first `counted_before` are counted by an earlier group.
-    pub fn pack(items: &[Item], counted_before: usize) -> Stock {
+    pub(crate) fn pack(items: &[Item], counted_before: usize) -> Stock {
         let zero = [0.0; LANES];
         let mut stock = Stock { per: zero, flat: zero, own: zero, real: zero };
         for (lane, item) in items.iter().enumerate() {
@@ -141,6 +141,6 @@ impl Stock {
 }
 
 /// Sign, exponent and the 40 leading bits of the fraction, rounded.
-pub fn leading_bits(value: f64) -> i64 {
+pub(crate) fn leading_bits(value: f64) -> i64 {
     (value.to_bits() as i64 + (1 << 11)) >> 12
 }

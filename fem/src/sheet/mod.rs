@@ -63,7 +63,7 @@ pub struct Sheet {
     /// Fabric of each part.
     pub fabrics: Vec<Arc<dyn Fabric>>,
     /// Mass per area of each part \[kg/m²\].
-    pub areal_density: Vec<f64>,
+    pub(crate) areal_density: Vec<f64>,
     /// Chambers in the order of the problem.
     pub air: Vec<Air>,
     /// Row sums of |K| in bending, for the stable step \[N/m\]; of K itself the patches keep what they need.

@@ -61,7 +61,6 @@ pub struct Folds {
     stored_j: Option<f64>,
 }
 
-/// Edge between two elements.
 #[derive(Debug, Clone)]
 struct Edge {
     /// Both ends of the edge, then the nodes opposite.
@@ -73,7 +72,6 @@ struct Edge {
     stiffness_n: f64,
 }
 
-/// Element beside an edge.
 #[derive(Debug, Clone)]
 struct Side {
     element: Element,
@@ -154,7 +152,6 @@ impl Folds {
     }
 }
 
-/// Row of one side.
 struct SideRow {
     ends: [f64; 2],
     opposite: f64,

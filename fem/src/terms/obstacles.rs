@@ -29,7 +29,6 @@ use crate::vec3::{V3, add, dot, sub};
 use crate::{FemError, Mesh};
 use crate::{Tick, Transient};
 
-/// Nodes per parallel chunk.
 const CHUNK: usize = 1024;
 /// c/(k Δt) = 2 ζ/√(k Δt²/m) with ζ = 0.4 and k Δt²/m = [`SHARE`](super::SHARE). Central differences bear 2 c Δt/m = 0.5 beside k
 /// and a mesh at 0.9 of its own limit.

@@ -27,12 +27,11 @@ pub(super) struct Held {
     pub lost_j: f64,
 }
 
-/// A step about to be taken.
 pub(crate) struct Step<'a> {
     pub x: &'a [[f64; 4]],
     pub v: &'a [[f64; 4]],
     /// Time between the middles of the last step and this one \[s\].
-    pub dv_s: f64,
+    pub(crate) dv_s: f64,
     pub dt_s: f64,
     /// Mass damping \[1/s\].
     pub damping_1_s: f64,

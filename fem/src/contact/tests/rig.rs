@@ -9,8 +9,8 @@ use crate::{FemError, problem};
 use crate::{Tick, Transient};
 
 /// Areal mass \[kg/m²\] and stretching stiffness \[N/m\] of the fabric: 0.2 mm at 1000 kg/m³ and 50 MPa.
-pub const AREAL: f64 = 0.2;
-pub const STIFF: f64 = 1e4;
+pub(crate) const AREAL: f64 = 0.2;
+pub(crate) const STIFF: f64 = 1e4;
 
 /// Adds a part of n × m quads; `place` maps the unit square to space, fronts up for a right-handed map.
 pub fn sheet(mesh: &mut Mesh, layer: u32, n: usize, m: usize, place: impl Fn(f64, f64) -> V3) {
@@ -169,7 +169,7 @@ impl Rig {
         self.run_with(steps, |_| ());
     }
 
-    pub fn run_with(&mut self, steps: usize, mut look: impl FnMut(&Rig)) {
+    pub(crate) fn run_with(&mut self, steps: usize, mut look: impl FnMut(&Rig)) {
         // The first step has no step before it; afterwards the way of a step is dt v.
         for _ in 0..steps {
             let before: Vec<[f64; 4]> = if self.step == 0 {
@@ -195,13 +195,13 @@ impl Rig {
     }
 
     /// Moves everything of a part by a velocity.
-    pub fn throw(&mut self, nodes: std::ops::Range<usize>, velocity: V3) {
+    pub(crate) fn throw(&mut self, nodes: std::ops::Range<usize>, velocity: V3) {
         for v in &mut self.v[nodes] {
             *v = [velocity[0], velocity[1], velocity[2], 0.0];
         }
     }
 
-    pub fn kinetic_of(&self, v: V3, nodes: std::ops::Range<usize>) -> f64 {
+    pub(crate) fn kinetic_of(&self, v: V3, nodes: std::ops::Range<usize>) -> f64 {
         0.5 * self.mass[nodes].iter().sum::<f64>() * dot(v, v)
     }
 }

@@ -29,7 +29,6 @@ struct Use {
     ascending: bool,
 }
 
-/// Checks all chambers.
 pub(super) fn check(mesh: &Mesh, chambers: &[&str], open: &[&str]) -> Result<Closed, FemError> {
     let openings = openings(mesh, open)?;
     let tied = tied(mesh);

@@ -65,7 +65,6 @@ impl Builder {
         Ok(true)
     }
 
-    /// The part of that name.
     pub(super) fn part(&mut self, name: &str) -> &mut Part {
         let parts = &mut self.mesh.parts;
         let at = *self.parts.entry(name.into()).or_insert_with(|| {
@@ -85,7 +84,6 @@ impl Builder {
         }
     }
 
-    /// Adds nodes to a set.
     pub(super) fn set(&mut self, name: &str, nodes: impl IntoIterator<Item = u32>) {
         self.mesh.sets.entry(name.into()).or_default().extend(nodes);
     }

@@ -3,15 +3,12 @@
 use super::scan::Scan;
 use super::{MeshFile, abaqus, gmsh, stl};
 
-/// A format of mesh files.
 pub(super) struct Format {
-    /// Name for messages.
     pub(super) name: &'static str,
     is: fn(&Head) -> bool,
     pub(super) read: Read,
 }
 
-/// How a format is read.
 #[derive(Clone, Copy)]
 pub(super) enum Read {
     /// Line by line.
@@ -20,12 +17,10 @@ pub(super) enum Read {
     Bytes(fn(&[u8]) -> Result<MeshFile, String>),
 }
 
-/// What a file begins with.
 struct Head<'a> {
     bytes: &'a [u8],
     /// The first line that says something.
     line: &'a str,
-    /// Its first word.
     word: &'a str,
 }
 
@@ -55,7 +50,6 @@ const OTHERS: [(&str, &str); 14] = [
     ("-1", "Universal (UNV)"),
 ];
 
-/// The format of a file.
 pub(super) fn format(bytes: &[u8]) -> Result<&'static Format, String> {
     let text = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
     let text = text.trim_start_matches('\u{feff}');

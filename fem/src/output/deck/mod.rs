@@ -45,7 +45,7 @@ pub enum Solver {
 }
 
 /// The text, and what it does not say.
-pub fn text(problem: &Problem, solver: Solver) -> (String, Vec<String>) {
+pub(crate) fn text(problem: &Problem, solver: Solver) -> (String, Vec<String>) {
     if solver == Solver::CalculiX {
         return calculix::text(problem);
     }
@@ -78,7 +78,6 @@ fn put(out: &mut String, line: impl std::fmt::Display) {
     let _ = writeln!(out, "{line}");
 }
 
-/// A name as a label.
 fn label(name: &str) -> String {
     let plain = name.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c));
     if plain { name.into() } else { format!("\"{}\"", name.replace('"', "'")) }

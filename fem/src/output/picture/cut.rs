@@ -11,9 +11,8 @@ use crate::{FemError, Mesh};
 /// Width of a line \[pixels\].
 const LINE: f64 = 3.0;
 
-/// A plane through the reference shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cut {
+pub(crate) struct Cut {
     /// Its normal, a unit vector.
     pub normal: [f64; 3],
     /// Its distance from the origin along it \[m\].
@@ -21,7 +20,7 @@ pub struct Cut {
 }
 
 /// Draws a cut. Across the view (its normal along the view's depth at the start) the section is turned to face the viewer.
-pub fn section(
+pub(crate) fn section(
     mesh: &Mesh,
     positions: &[[f64; 3]],
     values: &[f64],

@@ -29,7 +29,6 @@ pub(super) fn write(image: &mut Image, [left, base]: [f64; 2], size: f64, text: 
     }
 }
 
-/// Width of a text \[pixels\].
 pub(super) fn width(size: f64, text: &str) -> f64 {
     lay_out(size, text).map_or(0.0, |(_, _, advance)| advance)
 }

@@ -9,9 +9,9 @@ mod ink;
 mod notes;
 mod raster;
 
-pub use colour::viridis;
-pub use cut::{Cut, section};
-pub use notes::round_above;
+pub(crate) use colour::viridis;
+pub(crate) use cut::{Cut, section};
+pub(crate) use notes::round_above;
 
 use crate::vec3::{cross, dot, norm, sub};
 use crate::{FemError, Mesh};
@@ -57,9 +57,8 @@ impl Viewpoint {
     }
 }
 
-/// How a picture is made.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PictureLook {
+pub(crate) struct PictureLook {
     /// Where from.
     pub view: Viewpoint,
     /// Width in pixels, 128 to 4096.
@@ -99,7 +98,7 @@ impl Default for PictureLook {
 
 /// Pixels, row by row from the top left, red green blue.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Image {
+pub(crate) struct Image {
     /// Pixels per row.
     pub width: usize,
     /// Rows.
@@ -109,7 +108,12 @@ pub struct Image {
 }
 
 /// Draws the mesh with its nodes at `positions` \[m\], elements coloured by `values` (mesh order, any unit; empty: grey).
-pub fn render(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &PictureLook) -> Result<Image, FemError> {
+pub(crate) fn render(
+    mesh: &Mesh,
+    positions: &[[f64; 3]],
+    values: &[f64],
+    look: &PictureLook,
+) -> Result<Image, FemError> {
     check(mesh, positions, values, look)?;
     let limits = look.limits.unwrap_or_else(|| range(values));
     let axes = look.view.axes();
@@ -132,7 +136,7 @@ pub fn render(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &Pictur
 }
 
 /// The bytes of an image as PNG; empty if it cannot be encoded, which only an image of another size than it says can.
-pub fn png_bytes(image: &Image) -> Vec<u8> {
+pub(crate) fn png_bytes(image: &Image) -> Vec<u8> {
     let mut bytes = Vec::new();
     if encode(image, &mut bytes).is_err() {
         bytes.clear();

@@ -100,7 +100,7 @@ fn round_below(value: f64) -> f64 {
 }
 
 /// A round number, with round quarters, from `value` to a third above: where a colour scale may end.
-pub fn round_above(value: f64) -> f64 {
+pub(crate) fn round_above(value: f64) -> f64 {
     let ten = power_of_ten(value);
     let steps = [1.0, 1.2, 1.6, 2.0, 2.4, 3.0, 4.0, 5.0, 6.0, 8.0].into_iter();
     steps.map(|step| step * ten).find(|round| *round >= value * (1.0 - 1e-9)).unwrap_or(10.0 * ten)

@@ -22,7 +22,7 @@ use runs::Stretch;
 
 /// What one pass over a patch adds up, in SI units.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Sums {
+pub(super) struct Sums {
     /// Membrane energy \[J\].
     pub membrane: f64,
     /// Hourglass energy \[J\].
@@ -37,7 +37,7 @@ pub struct Sums {
 
 /// Elements that run through the same loop: same kind, fabric and chambers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct LoopKey {
+pub(super) struct LoopKey {
     /// Corners, 3 or 4.
     pub corners: usize,
     /// Fabric number.
@@ -61,7 +61,7 @@ struct Run {
 /// Consecutive nodes and what their forces need. Within the patch, its own nodes and those of neighbours that its elements
 /// and bending rows need are numbered in mesh order, so that rows of a structured mesh stay whole.
 #[derive(Debug, Clone)]
-pub struct Patch {
+pub(super) struct Patch {
     /// The nodes this patch owns.
     pub nodes: Range<usize>,
     /// Nodes of the patch, its own and those of neighbours.
@@ -87,12 +87,12 @@ pub struct Patch {
     /// What the last pass added up.
     pub sums: Sums,
     /// Flux into each chamber, see [`super::chamber::Air::volume_of`].
-    pub flux: Vec<[f64; 3]>,
+    pub(crate) flux: Vec<[f64; 3]>,
 }
 
 /// What all patches share during a pass.
 #[derive(Clone, Copy)]
-pub struct PassShared<'a> {
+pub(super) struct PassShared<'a> {
     /// Node positions.
     pub q: &'a [[f64; 4]],
     /// Fabrics by number.
@@ -104,12 +104,12 @@ pub struct PassShared<'a> {
     /// Whether energies and fluxes are wanted; without, only the heat of viscosity is summed up.
     pub books: bool,
     /// Vector instructions of this machine.
-    pub arch: pulp::Arch,
+    pub(crate) arch: pulp::Arch,
 }
 
 impl Patch {
     /// Packs the elements by key; `items` carry places of nodes, `mesh_number` turns a place into a number of the mesh.
-    pub fn new(
+    pub(super) fn new(
         nodes: Range<usize>,
         items: BTreeMap<LoopKey, Vec<Item>>,
         bending: &BendingMatrix,
@@ -170,7 +170,7 @@ impl Patch {
 
     /// Adds the shell forces of the own nodes to `force` (their slice) and keeps the sums. With `keep`, strains and
     /// fabric memory move on by this step.
-    pub fn pass(&mut self, shared: PassShared, force: &mut [[f64; 4]], keep: bool) {
+    pub(super) fn pass(&mut self, shared: PassShared, force: &mut [[f64; 4]], keep: bool) {
         let strains = if keep { Vec::new() } else { self.strains.clone() };
         self.dispatch(shared, force);
         if !keep {
@@ -198,7 +198,7 @@ impl Patch {
     }
 
     /// Sets the strains that viscosity compares with to those at `q`.
-    pub fn start_strains(&mut self, shared: PassShared) {
+    pub(crate) fn start_strains(&mut self, shared: PassShared) {
         let mut unused = vec![[0.0; 4]; self.nodes.len()];
         self.dispatch(shared, &mut unused);
     }

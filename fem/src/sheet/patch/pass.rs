@@ -11,7 +11,7 @@ use super::room::Room;
 use super::{PassShared, Patch, Run, Sums};
 
 /// The pass as a value, so that it can be handed to the dispatcher.
-pub struct Pass<'a, 'b> {
+pub(super) struct Pass<'a, 'b> {
     pub patch: &'a mut Patch,
     pub room: Room<'a>,
     pub shared: PassShared<'b>,

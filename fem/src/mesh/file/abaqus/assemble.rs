@@ -93,7 +93,6 @@ impl Assembly {
         Ok(())
     }
 
-    /// Members of a group.
     fn members(&self, model: &Model, scope: usize, group: &Group) -> Result<Vec<Item>, String> {
         let scope = group.instance.as_deref().map_or(Ok(scope), |name| instance(model, name))?;
         let (mut found, mut seen) = (Vec::new(), HashSet::new());

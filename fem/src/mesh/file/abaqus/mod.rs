@@ -34,14 +34,12 @@ struct Body {
     orientations: Vec<Orientation>,
 }
 
-/// Elements of one section.
 struct Section {
     set: String,
     orientation: Option<String>,
     line: usize,
 }
 
-/// Local axes of a material.
 struct Orientation {
     name: String,
     /// Points a, b and c; the axis of the last turn and its angle.
@@ -90,7 +88,6 @@ struct Instance {
     turned: Option<([f64; 3], [f64; 3], f64)>,
 }
 
-/// What data lines mean.
 enum Reading {
     Nothing,
     Nodes { grouped: bool },
@@ -111,7 +108,6 @@ struct Reader {
     in_step: bool,
 }
 
-/// Reads it.
 pub(super) fn read(scan: &mut Scan) -> Result<MeshFile, String> {
     let whole_text = Instance { name: String::new(), body: 0, moved: [0.0; 3], turned: None };
     let (bodies, instances) = (vec![Body::default()], vec![whole_text]);
