@@ -74,7 +74,7 @@ pub struct Outputs {
 }
 
 /// Reads the mesh file that a case names in `[mesh] file`; the path is as written there.
-pub type ReadMesh<'a> = &'a mut dyn FnMut(&Path) -> Result<MeshFile, FemError>;
+pub(crate) type ReadMesh<'a> = &'a mut dyn FnMut(&Path) -> Result<MeshFile, FemError>;
 
 /// The cases that come with the library, by name.
 pub fn shipped_case(name: &str) -> Option<&'static str> {

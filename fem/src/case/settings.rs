@@ -44,7 +44,7 @@ pub(super) const NUMBERS: &[Key<Settings>] = &[
         |s| Some(s.guards.hourglass), |s, v| s.guards.hourglass = v),
 ];
 /// Keys that are no single number.
-const OTHERS: [&str; 4] = ["preset", "mass_scaling", "selective_mass", "guard_inverted"];
+pub(super) const OTHERS: [&str; 4] = ["preset", "mass_scaling", "selective_mass", "guard_inverted"];
 const FACTOR: Range = plain(1.0, 1e6, "1 is the true mass; 10 makes the step 3.2 times longer");
 
 /// The paper's run: true masses, 1.1 s; its damping is not printed, 5 1/s is assumed.

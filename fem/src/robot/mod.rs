@@ -42,11 +42,14 @@ pub use inflated::InflatedPouch;
 pub use loading::{HoldEnd, RobotRun};
 pub use loads::{Load, RobotStart};
 pub use model::Preset;
-pub use reading::{Reading, RobotGauge};
-pub use rest::{Rest, Settling};
+pub use reading::Reading;
+pub(crate) use reading::RobotGauge;
+pub use rest::Rest;
+pub(crate) use rest::Settling;
 pub use seams::{SeamForce, Seams};
 pub use settings::RobotSettings;
-pub use snaps::{Sample, Snap, Watch, snaps};
+pub(crate) use snaps::Watch;
+pub use snaps::{Sample, Snap, snaps};
 pub use table::{KEYS, NUMERICAL, OTHERS, with_fem};
 
 use models::Scenario;

@@ -29,7 +29,7 @@ impl Reading {
 
 /// Reads a robot while it runs.
 #[derive(Debug, Clone)]
-pub struct RobotGauge {
+pub(crate) struct RobotGauge {
     line: CentreLine,
     start_m: Vec<[f64; 3]>,
     seen: CentreLine,
@@ -120,7 +120,7 @@ impl RobotGauge {
     ///
     /// # Errors
     /// [`FemError::Problem`] for a marker off the robot.
-    pub fn new(scenario: &Scenario, problem: &Problem) -> Result<RobotGauge, FemError> {
+    pub(crate) fn new(scenario: &Scenario, problem: &Problem) -> Result<RobotGauge, FemError> {
         let mesh = problem.mesh.clone();
         let mut stations_m = scenario.markers_m.clone();
         let mut rings: Vec<Vec<u32>> = (1..=stations_m.len()).map(|k| ring(&mesh, &format!("marker_{k}"))).collect();
@@ -158,7 +158,7 @@ impl RobotGauge {
     ///
     /// # Errors
     /// [`FemError::Problem`] if the run is of another mesh.
-    pub fn read(&self, run: &Simulation, rest: Rest) -> Result<Reading, FemError> {
+    pub(crate) fn read(&self, run: &Simulation, rest: Rest) -> Result<Reading, FemError> {
         let (positions, fields) = (run.positions(), run.element_fields());
         let (waited_s, ahead_m, is_at_rest) = match rest {
             Rest::Over { waited_s, ahead_m, is_at_rest } => {
@@ -221,7 +221,7 @@ impl RobotGauge {
     }
 
     /// Part and place along the straight robot of an element.
-    pub fn place(&self, element: usize) -> (String, f64) {
+    pub(crate) fn place(&self, element: usize) -> (String, f64) {
         let mut first = 0;
         for part in &self.mesh.parts {
             if element < first + part.len() {

@@ -29,7 +29,7 @@ const STILL: usize = 4;
 
 /// The tip during a hold.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct Settling {
+pub(crate) struct Settling {
     /// Waited time of the run at its beginning \[s\].
     from_s: f64,
     /// Length of a window \[s\].
@@ -61,7 +61,7 @@ impl Settling {
     }
 
     /// Judges the tip's displacement \[m\], of which so much may be ahead \[m\], after so much waiting of the run \[s\].
-    pub fn look(&mut self, tip_m: [f64; 3], allowed_m: f64, waited_s: f64, patience: Patience) -> Rest {
+    pub(crate) fn look(&mut self, tip_m: [f64; 3], allowed_m: f64, waited_s: f64, patience: Patience) -> Rest {
         if self.tip_m.is_empty() {
             (self.from_s, self.window_s) = (waited_s, patience.window_s);
         }

@@ -46,7 +46,7 @@ pub struct CurvatureRow {
 
 /// Share of an element that belongs to a corner: `share` (x_b − x_a) × (x_d − x_c) is its area vector \[m²\].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Facet {
+pub(crate) struct Facet {
     /// Nodes a, b, c, d.
     pub nodes: [u32; 4],
     /// ⅛ of a quadrilateral's diagonals, ⅙ of a triangle's sides.

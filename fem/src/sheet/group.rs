@@ -5,11 +5,11 @@ use super::reference::Reference;
 /// Elements per group: one AVX-512 register of f64, two of AVX2.
 pub(crate) const LANES: usize = 8;
 /// One number for each element of a group.
-pub type Lane = [f64; LANES];
+pub(crate) type Lane = [f64; LANES];
 
 /// Eight elements of one kind, section and pair of chambers.
 #[derive(Debug, Clone)]
-pub struct ElementGroup {
+pub(crate) struct ElementGroup {
     /// Places of its shape and its stock in their tables.
     pub shape: u32,
     /// See [`Stock`].
@@ -22,7 +22,7 @@ pub struct ElementGroup {
 /// stays in the first cache; where every element has its own, as in a wavy robot, this is what each step must fetch.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
-pub struct RestShape {
+pub(crate) struct RestShape {
     /// Shape gradients, see [`Reference::b`] \[1/m\].
     pub b: [[Lane; 2]; 2],
     /// A quarter of the hourglass offsets s_a \[m\].
@@ -38,7 +38,7 @@ pub struct RestShape {
 /// What eight elements are made of and who counts them.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
-pub struct Stock {
+pub(crate) struct Stock {
     /// What the law's answer is per: 2 t C₁₀ \[N/m\] for films, 1 for others.
     pub per: Lane,
     /// Root of the energy of compression, per `per`, at which a film wrinkles.
@@ -105,7 +105,7 @@ impl RestShape {
     }
 
     /// The same for shapes that are equal but for rounding, save where they lie just beside a step of it.
-    pub fn key(&self) -> Vec<i64> {
+    pub(crate) fn key(&self) -> Vec<i64> {
         let steps = |value: f64| (value / ALIKE).round() as i64;
         let mut key = Vec::new();
         for lane in 0..LANES {
@@ -134,7 +134,7 @@ impl Stock {
     }
 
     /// As [`RestShape::key`].
-    pub fn key(&self) -> Vec<i64> {
+    pub(crate) fn key(&self) -> Vec<i64> {
         let all = [self.per, self.flat, self.own, self.real];
         all.as_flattened().iter().map(|value| leading_bits(*value)).collect()
     }

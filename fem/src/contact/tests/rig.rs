@@ -45,7 +45,7 @@ pub fn masses(mesh: &Mesh) -> Vec<f64> {
     mass
 }
 
-pub struct Rig {
+pub(crate) struct Rig {
     pub mesh: Mesh,
     pub mass: Vec<f64>,
     springs: Vec<(u32, u32, f64)>,
