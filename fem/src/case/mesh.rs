@@ -1,6 +1,5 @@
 //! `[mesh]`: a generator with its parameters, or a mesh file.
 
-use super::ReadMesh;
 use super::range::{
     Checked, Free, LENGTH, Range, Text, choice, find, number, plain, plain_number, refuse, unknown_name,
 };
@@ -13,6 +12,9 @@ use crate::problem::Chamber;
 use crate::{FemError, Mesh};
 use std::path::Path;
 use toml::{Spanned, Value};
+
+/// Reads the mesh file that a case names in `[mesh] file`; the path is as written there.
+pub(crate) type ReadMesh<'a> = &'a mut dyn FnMut(&Path) -> Result<MeshFile, FemError>;
 
 /// A generator of meshes as cases name it.
 #[derive(Debug, Clone, Copy)]

@@ -1,6 +1,5 @@
 //! Numerical settings and outputs of a case.
 
-use super::Outputs;
 use super::key::{Key, key, named};
 use super::load::{part_names, set_name};
 use super::range::{
@@ -109,6 +108,23 @@ fn mass_scaling(value: &Spanned<Value>) -> Checked<MassScaling> {
 }
 
 /// What a run writes besides the energy ledger.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outputs {
+    /// Node sets whose mean displacement is recorded.
+    pub probes: Vec<String>,
+    /// Stations of the centre line \[m\], along the axis through the reference shape; empty: no centre line.
+    pub stations_m: Vec<f64>,
+    /// Parts whose sections make the centre line; empty: all.
+    pub(crate) station_parts: Vec<String>,
+    pub(crate) station_axis: [f64; 3],
+    /// Write the deformed mesh at every output.
+    pub frames: bool,
+    /// Draw the end state.
+    pub pictures: bool,
+    /// Where it is seen from.
+    pub view: Viewpoint,
+}
+
 pub(super) fn outputs(raw: &RawOutput, mesh: &Mesh) -> Checked<Outputs> {
     let axis = raw.station_axis.as_ref().map(|axis| direction("station_axis", axis)).transpose()?;
     Ok(Outputs {

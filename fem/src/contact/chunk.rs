@@ -6,7 +6,7 @@ use super::ask::{Question, Questions};
 use super::closest::{Closest, Feature, describe, nearest};
 use super::pack::{Pack, Touches};
 use super::press::{Push, Sums, press_lane, press_round, push};
-use super::record::{Reach, Record};
+use super::record::{Record, Step, Touch};
 use super::surface::Surface;
 use crate::sheet::group::{LANES, Lane};
 use crate::vec3::{V3, along, cross, dot, node, norm, scale, sub};
@@ -63,28 +63,6 @@ pub(super) struct Chunk {
     pub asked: Vec<Question>,
     #[serde(skip)]
     pub(crate) square_m2: Vec<Lane>,
-}
-
-#[derive(Clone, Copy)]
-pub(super) struct Step<'a> {
-    pub(crate) arch: pulp::Arch,
-    pub surface: &'a Surface,
-    pub x: &'a [[f64; 4]],
-    pub before: &'a [[f64; 4]],
-    pub reach: Reach,
-    pub dt_s: f64,
-    pub friction: f64,
-    /// Way of the fastest node since the start, summed over steps.
-    pub(crate) path_m: f64,
-}
-
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Touch {
-    /// Rest gap minus distance.
-    pub(crate) depth_m: f64,
-    /// Way in which the distance grows.
-    pub normal: V3,
-    pub weights: [f64; 3],
 }
 
 impl Chunk {

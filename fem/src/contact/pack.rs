@@ -6,8 +6,7 @@
 
 use pulp::Simd;
 
-use super::chunk::Touch;
-use super::record::Record;
+use super::record::{Record, Touch};
 use crate::sheet::group::{LANES, Lane};
 use crate::sheet::lanes::{V, axes, inner, product};
 

@@ -1,8 +1,7 @@
 //! Forces of pairs: spring, damping and friction, and the energies that go with them.
 
-use super::chunk::{Step, Touch};
 use super::pack::{Pack, Touches};
-use super::record::Record;
+use super::record::{Record, Step, Touch};
 use crate::terms::slide;
 use crate::vec3::{V3, add, along, node, scale, sub};
 

@@ -161,3 +161,25 @@ fn signed(record: &Record, found: &Closest, distance: f64) -> f64 {
         _ => record.sign * distance,
     }
 }
+
+#[derive(Clone, Copy)]
+pub(super) struct Step<'a> {
+    pub(crate) arch: pulp::Arch,
+    pub surface: &'a Surface,
+    pub x: &'a [[f64; 4]],
+    pub before: &'a [[f64; 4]],
+    pub reach: Reach,
+    pub dt_s: f64,
+    pub friction: f64,
+    /// Way of the fastest node since the start, summed over steps.
+    pub(crate) path_m: f64,
+}
+
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Touch {
+    /// Rest gap minus distance.
+    pub(crate) depth_m: f64,
+    /// Way in which the distance grows.
+    pub normal: V3,
+    pub weights: [f64; 3],
+}

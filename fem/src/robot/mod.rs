@@ -23,7 +23,9 @@
 
 mod assumed;
 mod inflated;
+mod keys;
 mod lines;
+mod load;
 mod loading;
 mod loads;
 mod model;
@@ -39,8 +41,9 @@ mod waviness;
 
 pub use assumed::{ASSUMED, Assumed, Spread, hypercube};
 pub use inflated::InflatedPouch;
+pub use keys::{KEYS, NUMERICAL, OTHERS};
+pub use load::{Load, RobotStart};
 pub use loading::{HoldEnd, RobotRun};
-pub use loads::{Load, RobotStart};
 pub use model::Preset;
 pub use reading::Reading;
 pub(crate) use reading::RobotGauge;
@@ -50,7 +53,7 @@ pub use seams::{SeamForce, Seams};
 pub use settings::RobotSettings;
 pub(crate) use snaps::Watch;
 pub use snaps::{Sample, Snap, snaps};
-pub use table::{KEYS, NUMERICAL, OTHERS, with_fem};
+pub use table::with_fem;
 
 use models::Scenario;
 use models::actuators::pattern::Pattern;

@@ -1,8 +1,7 @@
 //! Everything about a robot that its scenario does not say, each with how it is known.
 
-use super::table::KEYS;
+use crate::policy;
 use crate::problem::{Amplitude, Guards};
-use crate::{FemError, policy};
 
 /// Distance of the rings under a taped sheet over its element size: its margins of stuck plies fold across in the middle of every
 /// pouch, and with seven rows from weld to middle seams snap or hold from seed to seed.
@@ -243,27 +242,6 @@ impl RobotSettings {
             Some(floor) => Amplitude::Growing { points, floor },
             None => Amplitude::Smooth(points),
         }
-    }
-
-    /// Refuses numbers that cannot be meant.
-    ///
-    /// # Errors
-    /// [`FemError::Problem`] with the name, the number and what is accepted.
-    pub fn check(&self) -> Result<(), FemError> {
-        for key in KEYS {
-            let Some(value) = (key.get)(self).map(|value| value / key.si) else { continue };
-            let [low, high] = key.bounds;
-            // A number that is none lies outside too.
-            if !(low * (1.0 - 1e-12)..=high * (1.0 + 1e-12)).contains(&value) {
-                let message = format!("robot: {} is {value}; write a number from {low} to {high}", key.name);
-                return Err(FemError::Problem(message));
-            }
-        }
-        if !(0.0..=1e6).contains(&self.actuator_pa) {
-            let message = format!("robot: the actuator's pressure is {} Pa; 0 to 1e6 are accepted", self.actuator_pa);
-            return Err(FemError::Problem(message));
-        }
-        Ok(())
     }
 }
 

@@ -3,7 +3,8 @@
 use models::fabrics::Kind;
 use models::{Account, Pose};
 
-use super::{Ledger, Simulation, highest, setup};
+use super::stable::{give_tied_bounds, stable_step};
+use super::{Ledger, Simulation, highest};
 use crate::policy;
 use crate::problem::Guards;
 use crate::sheet::Sheet;
@@ -150,8 +151,8 @@ impl Simulation {
         self.sheet.add_gas_bound(until_s, self.x.as_flattened(), &mut others);
         let mut bound = others.clone();
         self.sheet.stiffness_bound(&pose, &mut bound);
-        setup::give_tied_bounds(&self.mesh, &mut bound);
-        let nodes = setup::stable_step(&bound, &self.mass, self.limits.viscosity);
+        give_tied_bounds(&self.mesh, &mut bound);
+        let nodes = stable_step(&bound, &self.mass, self.limits.viscosity);
         if self.clock.step.is_multiple_of(WHOLE) {
             self.clock.gain = highest::gain(
                 &self.sheet,

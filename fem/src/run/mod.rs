@@ -18,8 +18,10 @@ mod reaction;
 mod selective;
 mod setup;
 mod sides;
+mod stable;
 mod step;
 mod team;
+mod update;
 
 pub use crate::sheet::fields::ElementFields;
 pub use ledger::Ledger;

@@ -23,7 +23,7 @@
 
 use std::f64::consts::PI;
 
-use super::step::{PIECE, Update};
+use super::update::{PIECE, Update};
 use crate::mesh::Mesh;
 
 /// s: waves of two elements along one side of a grid have D⁻¹L = 0.9.

@@ -5,6 +5,7 @@ use models::Pose;
 use super::constraint::{Body, Driven, bodies, driven, set};
 use super::reaction::Reactions;
 use super::selective::Selective;
+use super::stable::{damped, give_tied_bounds, give_tied_masses, stable_step};
 use super::team::Team;
 use super::{Books, Clock, Limits, Simulation, guard, highest};
 use crate::contact::Contact;
@@ -269,17 +270,6 @@ fn bent(problem: &Problem, mesh: &Mesh, sheet: &Sheet) -> Vec<Box<dyn Transient>
     terms
 }
 
-/// Largest stable step \[s\] from the nodes' stiffness bounds \[N/m\] and masses \[kg\].
-pub(super) fn stable_step(bound: &[f64], mass: &[f64], viscosity: f64) -> f64 {
-    let square = bound.iter().zip(mass).filter(|(_, m)| **m > 0.0).map(|(k, m)| k / m).fold(0.0, f64::max);
-    2.0 / square.sqrt() * damped(viscosity)
-}
-
-/// What viscosity leaves of the stable step.
-fn damped(viscosity: f64) -> f64 {
-    (1.0 + viscosity * viscosity).sqrt() - viscosity
-}
-
 fn choose_step(stable_s: f64, settings: &Settings) -> Result<f64, FemError> {
     let dt = settings.dt_s.unwrap_or(settings.cfl * stable_s);
     if dt > stable_s {
@@ -312,23 +302,6 @@ fn scale_masses(settings: &Settings, bound: &[f64], gain: f64, mass: &mut [f64])
                 *m = m.max(0.25 * k * dt * dt);
             }
         }
-    }
-}
-
-/// Tied nodes hand their mass to the nodes they follow.
-fn give_tied_masses(mesh: &Mesh, mass: &mut [f64]) {
-    for tie in &mesh.ties {
-        let own = std::mem::take(&mut mass[tie.node as usize]);
-        tie.to.iter().for_each(|(node, weight)| mass[*node as usize] += weight * own);
-    }
-}
-
-/// Tied nodes hand their stiffness to the nodes they follow: |Σ w u|² ≤ Σ|w| Σ |w| u².
-pub(super) fn give_tied_bounds(mesh: &Mesh, bound: &mut [f64]) {
-    for tie in &mesh.ties {
-        let own = std::mem::take(&mut bound[tie.node as usize]);
-        let sum: f64 = tie.to.iter().map(|(_, weight)| weight.abs()).sum();
-        tie.to.iter().for_each(|(node, weight)| bound[*node as usize] += sum * weight.abs() * own);
     }
 }
 

@@ -34,6 +34,15 @@ pub fn pressures_in_toml(channels_pa: &[f64; CHANNELS]) -> String {
     if kpa.iter().all(|p| *p == kpa[0]) { kpa[0].to_string() } else { format!("{kpa:?}") }
 }
 
+impl Source {
+    /// A robot of one mesh, so that a run's own `case.toml` is that run and no study of several.
+    pub(super) fn of_one_mesh(self) -> Result<Source, FemError> {
+        let (_, run) = self.robot_run()?;
+        let sizes_mm = [run.settings.body_size_m, run.settings.actuator_size_m].map(|m| rounded(m * 1e3));
+        if run.meshes_m.is_empty() { Ok(self) } else { self.with(&mesh_keys(&sizes_mm)) }
+    }
+}
+
 /// Every mesh \[mm\] with every seed at every pressure of `run`, if these are `separate` runs.
 pub fn product(run: &RobotRun, seeds: Option<u64>, separate: bool, meshes: &[[f64; 2]]) -> Vec<Variation> {
     let mut cases = vec![Variation::default()];

@@ -7,6 +7,7 @@ pub mod bending;
 pub mod bound;
 pub mod chamber;
 pub mod edge;
+mod element;
 pub mod fields;
 pub mod group;
 mod kernel;
@@ -27,33 +28,13 @@ use crate::bytes::{pack, unpack};
 use crate::mesh::Mesh;
 use crate::problem::{Chamber, Section, Settings};
 use crate::{FemError, NODE, Tick, Transient};
+pub use element::Element;
+
 use bending::BendingMatrix;
 use chamber::{Air, AirNow};
 use group::Item;
 use patch::{LoopKey, PassShared, Patch};
 use reference::{Reference, mean_stiffness};
-
-/// One element, for everything that is not the hot loop.
-#[derive(Debug, Clone)]
-pub struct Element {
-    /// Corner nodes; a triangle repeats its third.
-    pub node: [u32; 4],
-    /// 3 or 4.
-    pub corners: usize,
-    /// Part number.
-    pub part: usize,
-    /// Reference data.
-    pub reference: Reference,
-    /// Hourglass stiffness k \[N/m\].
-    pub hourglass: f64,
-}
-
-impl Element {
-    /// Corner nodes without repetition.
-    pub fn nodes(&self) -> &[u32] {
-        &self.node[..self.corners]
-    }
-}
 
 /// All shells of a run, with the air in their chambers.
 #[derive(Debug, Clone)]

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
 
-use super::Edges;
+use super::body::Edges;
 use super::chunk::{Chunk, Hit, Look};
 use crate::contact::push;
 use crate::vec3::{V3, along, dot, node, sub};
@@ -16,16 +16,6 @@ const ROUNDS: usize = 20;
 const MOST_ROUNDS: usize = 200;
 /// Two closer than this share of the gap are one.
 const ONE: f64 = 1e-4;
-
-/// Forces that changed the last step.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Held {
-    pub forces: Vec<(u32, V3)>,
-    /// Positions one step before.
-    pub before_m: Vec<[f64; 4]>,
-    /// Energy lost so far \[J\].
-    pub lost_j: f64,
-}
 
 pub(crate) struct Step<'a> {
     pub x: &'a [[f64; 4]],

@@ -1,6 +1,6 @@
 //! Chambers: closed, bounded by one consistently oriented surface, with the gas inside.
 
-use super::{describe, fault, millimetres};
+use super::words::{describe, fault, millimetres};
 use crate::FemError;
 use crate::mesh::names::meant;
 use crate::mesh::{Mesh, Part};

@@ -2,53 +2,20 @@
 
 mod abaqus;
 mod build;
+mod content;
 mod corners;
 mod gmsh;
 mod known;
 mod scan;
 mod stl;
 
+pub use content::{MeshFile, Surface};
+
 use crate::FemError;
-use crate::mesh::Mesh;
 use known::Read;
 use scan::Scan;
 use spelling::files::{MOST_DATA, read_whole};
 use std::path::Path;
-
-/// What a mesh file says.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct MeshFile {
-    /// Its mesh, in the unit of the file.
-    pub mesh: Mesh,
-    /// Name of the format; empty for a generated mesh, which is in metres and names its chambers.
-    pub format: &'static str,
-    /// Surfaces that may be chambers.
-    pub surfaces: Vec<Surface>,
-    /// Parts, and what the file says of their warp that is not read.
-    pub unread: Vec<(String, String)>,
-    /// What was left out or changed.
-    pub told: Vec<String>,
-}
-
-/// A named surface of parts seen from one side each.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Surface {
-    /// Its name.
-    pub name: String,
-    /// Parts, and whether their back is meant.
-    pub faces: Vec<(String, bool)>,
-    /// A pressure of the file acts on it.
-    pub is_pressed: bool,
-    /// Why it is no chamber.
-    pub fault: Option<String>,
-}
-
-impl From<Mesh> for MeshFile {
-    /// A generated mesh.
-    fn from(mesh: Mesh) -> MeshFile {
-        MeshFile { mesh, ..MeshFile::default() }
-    }
-}
 
 /// Reads a mesh file. Says nothing about its fitness: see [`crate::mesh::check::check`].
 ///

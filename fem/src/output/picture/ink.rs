@@ -2,7 +2,7 @@
 
 use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
 
-use super::Image;
+use super::raster::Image;
 
 /// DejaVu Sans, as in the plots: Latin, Greek, signs of mathematics.
 const FONT: &[u8] = include_bytes!("../../../../assets/DejaVuSans-subset.ttf");

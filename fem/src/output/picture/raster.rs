@@ -1,6 +1,15 @@
 //! Triangles into pixels: the nearest one wins.
 
-use super::Image;
+/// Pixels, row by row from the top left, red green blue.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Image {
+    /// Pixels per row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// 3 bytes per pixel.
+    pub rgb: Vec<u8>,
+}
 
 /// A corner on the canvas: pixels to the right and down, metres towards the viewer.
 #[derive(Debug, Clone, Copy, PartialEq)]

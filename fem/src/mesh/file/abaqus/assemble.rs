@@ -3,8 +3,9 @@
 use std::collections::{HashMap, HashSet};
 
 use super::super::build::Builder;
+use super::super::scan::Scan;
 use super::super::{MeshFile, Surface};
-use super::{Group, Instance, Member, Model, Orientation, Scan, Section, Sides};
+use super::model::{Group, Instance, Member, Model, Orientation, Section, Sides};
 use crate::vec3::{add, cross, dot, norm, scale, sub};
 
 /// What is wrong, and its line.
