@@ -94,7 +94,8 @@ fn tube(ends: [&str; 2]) -> String {
         format!("{} {} {}", 0.01 * ring as f64, radius * angle.cos(), radius * angle.sin())
     };
     let node = |ring: usize, i: usize| 24 * ring + i % 24 + 1;
-    let line = |group: usize, ring: usize, i: usize| format!("1 2 {group} {group} {} {}", node(ring, i), node(ring, i + 1));
+    let line =
+        |group: usize, ring: usize, i: usize| format!("1 2 {group} {group} {} {}", node(ring, i), node(ring, i + 1));
     let quad = |ring: usize, i: usize| {
         let corners = [node(ring, i), node(ring, i + 1), node(ring + 1, i + 1), node(ring + 1, i)];
         format!("3 2 1 1 {}", corners.map(|n| n.to_string()).join(" "))

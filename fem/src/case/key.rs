@@ -14,7 +14,7 @@ pub struct Key<S: 'static> {
     /// Accepted numbers, as in the file.
     pub(crate) bounds: [f64; 2],
     /// What it is, and what is usual.
-    pub(crate) meaning: &'static str,
+    pub meaning: &'static str,
     /// Reads it \[SI\], if it is set.
     pub(crate) get: fn(&S) -> Option<f64>,
     /// Writes it \[SI\].

@@ -205,12 +205,8 @@ pub(crate) fn encastre(mesh: &mut Mesh, set: &str) -> String {
 fn with_next_row(mesh: &Mesh, nodes: &[u32]) -> Vec<u32> {
     let seed: BTreeSet<u32> = nodes.iter().copied().collect();
     let mut wider = seed.clone();
-    for part in &mesh.parts {
-        for element in (0..part.len()).map(|i| part.nodes(i)) {
-            if element.iter().any(|n| seed.contains(n)) {
-                wider.extend(element);
-            }
-        }
+    for element in mesh.faces().filter(|nodes| nodes.iter().any(|n| seed.contains(n))) {
+        wider.extend(element);
     }
     wider.into_iter().collect()
 }

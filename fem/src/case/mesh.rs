@@ -81,95 +81,67 @@ const WARP: GeneratorKey = GeneratorKey {
 };
 
 /// All generators.
+#[rustfmt::skip]
 pub const GENERATORS: &[MeshGenerator] = &[
     MeshGenerator {
-        name: "pillow",
-        sentence: "Two squares welded along their four edges.",
+        name: "pillow", sentence: "Two squares welded along their four edges.",
         keys: &[length("side_mm", "side of the flat square"), count("elements", "elements along a side, even"), GAP],
         make: |v| generate::pillow(v[0], v[1] as usize, v[2]),
     },
     MeshGenerator {
-        name: "disc_balloon",
-        sentence: "Two discs welded along their rim.",
-        keys: &[
-            length("diameter_mm", "diameter of the flat disc"),
-            count("elements", "elements across the core, even"),
-        ],
+        name: "disc_balloon", sentence: "Two discs welded along their rim.",
+        keys: &[length("diameter_mm", "diameter of the flat disc"), count("elements", "elements across the core, even")],
         make: |v| generate::disc_balloon(0.5 * v[0], v[1] as usize),
     },
     MeshGenerator {
-        name: "long_pouch",
-        sentence: "A strip of an endlessly wide pouch: two strips welded at their ends, open at the sides.",
+        name: "long_pouch", sentence: "A strip of an endlessly wide pouch: two strips welded at their ends, open at the sides.",
         keys: &[
-            length("length_mm", "flat length between the welds"),
-            length("width_mm", "width of the strip"),
+            length("length_mm", "flat length between the welds"), length("width_mm", "width of the strip"),
             count("elements_along", "elements between the welds, even"),
-            count("elements_across", "elements across the strip, even"),
-            GAP,
+            count("elements_across", "elements across the strip, even"), GAP,
         ],
         make: |v| generate::long_pouch(v[0], v[1], v[2] as usize, v[3] as usize, v[4]),
     },
     MeshGenerator {
-        name: "flat_tube",
-        sentence: "A fabric muscle: a flat tube with welded ends and its warp at an angle.",
+        name: "flat_tube", sentence: "A fabric muscle: a flat tube with welded ends and its warp at an angle.",
         keys: &[
-            length("width_mm", "flat width"),
-            length("length_mm", "length between the welds"),
+            length("width_mm", "flat width"), length("length_mm", "length between the welds"),
             count("elements_across", "elements across the flat width, even"),
-            count("elements_along", "elements along the tube, a multiple of 4"),
-            WARP,
-            GAP,
+            count("elements_along", "elements along the tube, a multiple of 4"), WARP, GAP,
         ],
         make: |v| generate::flat_tube(v[0], v[1], v[2] as usize, v[3] as usize, v[4], v[5]),
     },
     MeshGenerator {
-        name: "tube",
-        sentence: "An inflated cylinder along x with caps.",
+        name: "tube", sentence: "An inflated cylinder along x with caps.",
         keys: &[
-            length("diameter_mm", "diameter"),
-            length("length_mm", "length"),
-            count("elements_around", "elements around the circumference"),
-            count("elements_along", "elements along the axis"),
-            cap("base_cap", "how the end at x = 0 is closed"),
-            cap("tip_cap", "how the other end is closed"),
-            WARP,
+            length("diameter_mm", "diameter"), length("length_mm", "length"),
+            count("elements_around", "elements around the circumference"), count("elements_along", "elements along the axis"),
+            cap("base_cap", "how the end at x = 0 is closed"), cap("tip_cap", "how the other end is closed"), WARP,
         ],
         make: |v| {
-            generate::tube(&Tube {
-                radius_m: 0.5 * v[0],
-                length_m: v[1],
-                around: Around::Even(v[2] as usize),
-                along: v[3] as usize,
-                caps: [CAPS[v[4] as usize], CAPS[v[5] as usize]],
-                warp_rad: v[6],
-            })
+            let caps = [CAPS[v[4] as usize], CAPS[v[5] as usize]];
+            let (around, along) = (Around::Even(v[2] as usize), v[3] as usize);
+            generate::tube(&Tube { radius_m: 0.5 * v[0], length_m: v[1], around, along, caps, warp_rad: v[6] })
         },
     },
     MeshGenerator {
-        name: "sphere",
-        sentence: "A sphere of quads.",
+        name: "sphere", sentence: "A sphere of quads.",
         keys: &[length("diameter_mm", "diameter"), count("elements", "elements along a sixth of a great circle")],
         make: |v| generate::sphere(0.5 * v[0], v[1] as usize),
     },
     MeshGenerator {
-        name: "plate",
-        sentence: "A flat rectangle.",
+        name: "plate", sentence: "A flat rectangle.",
         keys: &[
-            length("length_mm", "side along x"),
-            length("width_mm", "side along y"),
-            count("elements_along", "elements along x"),
-            count("elements_across", "elements along y"),
+            length("length_mm", "side along x"), length("width_mm", "side along y"),
+            count("elements_along", "elements along x"), count("elements_across", "elements along y"),
         ],
         make: |v| generate::plate(v[0], v[1], v[2] as usize, v[3] as usize, None),
     },
     MeshGenerator {
-        name: "crossed_sheets",
-        sentence: "Two strips, one across the other.",
+        name: "crossed_sheets", sentence: "Two strips, one across the other.",
         keys: &[
-            length("length_mm", "length of a strip"),
-            length("width_mm", "width of a strip"),
-            count("elements", "elements across a strip"),
-            GeneratorKey { default: None, ..GAP },
+            length("length_mm", "length of a strip"), length("width_mm", "width of a strip"),
+            count("elements", "elements across a strip"), GeneratorKey { default: None, ..GAP },
         ],
         make: |v| generate::crossed_sheets(v[0], v[1], v[2] as usize, v[3]),
     },
@@ -315,13 +287,11 @@ fn extent(mesh: &Mesh) -> [f64; 3] {
 }
 
 fn median_side_m(mesh: &Mesh) -> f64 {
-    let mut sides: Vec<f64> = Vec::new();
-    for part in &mesh.parts {
-        for nodes in (0..part.len()).map(|i| part.nodes(i)) {
-            let [a, b] = [nodes[0], nodes[1]].map(|n| mesh.points[n as usize]);
-            sides.push((0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt());
-        }
-    }
+    let side = |nodes: &[u32]| {
+        let [a, b] = [nodes[0], nodes[1]].map(|n| mesh.points[n as usize]);
+        (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+    };
+    let mut sides: Vec<f64> = mesh.faces().map(side).collect();
     sides.sort_by(f64::total_cmp);
     sides.get(sides.len() / 2).copied().unwrap_or(0.0)
 }

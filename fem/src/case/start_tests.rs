@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used)] // a test that cannot be set up must fail
 
+use std::path::Path;
+
 use super::tests::{parse, refused};
 use super::*;
 use crate::Mesh;

@@ -2,6 +2,8 @@
 
 mod document;
 
+use std::path::Path;
+
 use super::*;
 use crate::problem::{Amplitude, Gas, MassScaling, ObstacleShape, Pressure};
 

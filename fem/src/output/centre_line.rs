@@ -192,7 +192,7 @@ impl<'a> Sections<'a> {
     }
 
     fn elements(&self) -> impl Iterator<Item = &[u32]> {
-        self.chosen.iter().flat_map(|part| (0..part.len()).map(|i| part.nodes(i)))
+        self.chosen.iter().flat_map(|part| part.faces())
     }
 
     fn range(&self) -> (f64, f64) {

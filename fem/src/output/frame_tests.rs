@@ -4,7 +4,7 @@ use super::*;
 use crate::Part;
 
 /// Two parts: a quad and a triangle sharing an edge, then one more triangle.
-pub fn mesh() -> Mesh {
+pub(crate) fn mesh() -> Mesh {
     let points = vec![[0., 0., 0.], [0.1, 0., 0.], [0.1, 0.1, 0.], [0., 0.1, 0.], [0.2, 0.05, 0.], [0., 0.2, 0.03]];
     let body = Part { name: "body".into(), quads: vec![[0, 1, 2, 3]], triangles: vec![[1, 4, 2]], ..Part::default() };
     let cap = Part { name: "cap".into(), triangles: vec![[3, 2, 5]], ..Part::default() };
@@ -12,7 +12,7 @@ pub fn mesh() -> Mesh {
 }
 
 /// Numbers without pattern or round values.
-pub fn frame(time_s: f64) -> Frame {
+pub(crate) fn frame(time_s: f64) -> Frame {
     let mesh = mesh();
     let noise = |i: usize, k: usize| ((i * 7 + k * 13 + 1) as f64 * 0.7 + time_s).sin();
     let triple = |i: usize| [noise(i, 0), noise(i, 1), noise(i, 2)];

@@ -10,8 +10,7 @@ impl Problem {
     /// [`FemError::Problem`] saying which value is wrong and what to write.
     pub fn check(&self) -> Result<(), FemError> {
         self.check_but_obstacles()?;
-        let start: Vec<[f64; 3]> = (0..self.mesh.points.len()).map(|node| self.mesh.start_of(node)).collect();
-        solid::check(&start, &self.obstacles, 0.0)
+        solid::check(&self.mesh.starts(), &self.obstacles, 0.0)
     }
 
     /// The same where the run goes on from a later shape.

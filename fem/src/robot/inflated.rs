@@ -43,7 +43,7 @@ impl Tape {
         let own = body_parts(mesh);
         let [wall, sheet] = [true, false].map(|of_body| {
             let parts = mesh.parts.iter().filter(|p| p.name != "tip_cap" && own.contains(&p.name) == of_body);
-            let mut nodes: Vec<u32> = parts.flat_map(|p| (0..p.len()).flat_map(|e| p.nodes(e).to_vec())).collect();
+            let mut nodes: Vec<u32> = parts.flat_map(|p| p.faces().flatten().copied()).collect();
             nodes.sort_unstable();
             nodes.dedup();
             nodes

@@ -129,7 +129,7 @@ impl RobotGauge {
         stations_m.push(scenario.length_m);
         rings.push(tip.clone());
         let line = sections(&mesh, &stations_m)?;
-        let start: Vec<[f64; 3]> = (0..mesh.points.len()).map(|node| mesh.start_of(node)).collect();
+        let start = mesh.starts();
         let start_m = line.at(&start)?;
         let seen = match scenario.is_spatial() {
             true => sections(&mesh, &scenario.markers_m)?,
@@ -191,7 +191,7 @@ impl RobotGauge {
             stations_m: self.line.stations_m().to_vec(),
             moved_m: moved(&self.line, &self.start_m)?,
             seen_moved_m: moved(&self.seen, &self.seen_start_m)?,
-            ring_moved_m: self.rings.iter().map(|ring| self.moved(ring, &positions)).collect(),
+            ring_moved_m: self.rings.iter().map(|ring| self.mesh.mean_moved(ring, &positions)).collect(),
             tip_angle_rad: self.turn_rad(&positions),
             body_m3: body.first().map_or(0.0, |c| c.volume_m3),
             actuator_m3: strips.iter().map(|c| c.volume_m3).sum(),
@@ -217,7 +217,7 @@ impl RobotGauge {
 
     /// Displacement of the mean of the tip's ring \[m\].
     pub(crate) fn tip_moved_m(&self, run: &Simulation) -> [f64; 3] {
-        self.moved(&self.tip, &run.positions())
+        self.mesh.mean_moved(&self.tip, &run.positions())
     }
 
     /// Part and place along the straight robot of an element.
@@ -244,15 +244,6 @@ impl RobotGauge {
             true => format!("seam {:.0}{of}", pouches.round().max(0.0) + 1.0),
             false => format!("side of pouch {:.0}{of}", pouches.floor().max(0.0) + 1.0),
         }
-    }
-
-    fn moved(&self, ring: &[u32], positions: &[[f64; 3]]) -> [f64; 3] {
-        let mut sum = [0.0; 3];
-        for node in ring {
-            let (now, start) = (positions[*node as usize], self.mesh.start_of(*node as usize));
-            (0..3).for_each(|k| sum[k] += (now[k] - start[k]) / ring.len() as f64);
-        }
-        sum
     }
 
     /// Turn of the tip's ring for node positions in mesh order \[rad\]: its height vector Σ (y₀ − ȳ₀) x turns with the tip.

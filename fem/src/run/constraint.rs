@@ -35,26 +35,11 @@ pub(super) struct Body {
     pub turn: [f64; 4],
 }
 
-/// Nodes of a named set.
-///
-/// # Errors
-/// Unknown or empty set, with the names there are.
-pub(super) fn set<'a>(mesh: &'a Mesh, name: &str, what: &str) -> Result<&'a [u32], FemError> {
-    match mesh.sets.get(name) {
-        Some(nodes) if !nodes.is_empty() => Ok(nodes),
-        Some(_) => Err(FemError::Problem(format!("{what}: node set `{name}` is empty"))),
-        None => {
-            let known: Vec<&str> = mesh.sets.keys().map(String::as_str).collect();
-            Err(FemError::Problem(format!("{what}: there is no node set `{name}`; the mesh has {}", known.join(", "))))
-        }
-    }
-}
-
 /// Prescribed nodes of a problem; axes that hold still are only masked.
 pub(super) fn driven(problem: &Problem, mesh: &Mesh, fixed: &mut [[bool; 3]]) -> Result<Vec<Driven>, FemError> {
     let mut all = Vec::new();
     for support in &problem.supports {
-        let nodes = set(mesh, &support.set, "support")?;
+        let nodes = mesh.set(&support.set, "support")?;
         for node in nodes {
             (0..3).for_each(|k| fixed[*node as usize][k] |= support.axes[k]);
         }
@@ -96,7 +81,7 @@ impl Driven {
 
 pub(super) fn bodies(problem: &Problem, mesh: &Mesh, mass: &[f64]) -> Result<Vec<Body>, FemError> {
     let make = |rigid: &crate::problem::Rigid| {
-        let nodes = set(mesh, &rigid.set, "rigid")?;
+        let nodes = mesh.set(&rigid.set, "rigid")?;
         if nodes.len() < 3 {
             return Err(FemError::Problem(format!("rigid: node set `{}` has fewer than 3 nodes", rigid.set)));
         }

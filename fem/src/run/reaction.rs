@@ -7,7 +7,6 @@
 //! structure**, and R·v of a driven set is the power that goes in. A node and axis that several supports name counts for the first of
 //! them, so that sums over all supports are right. Nodes that a rigid body or a tie carries along are not held by a support.
 
-use super::constraint::set;
 use crate::problem::Problem;
 use crate::{FemError, Mesh};
 
@@ -37,7 +36,7 @@ impl Reactions {
     pub(super) fn new(problem: &Problem, mesh: &Mesh) -> Result<Reactions, FemError> {
         let mut free = vec![[true; 3]; mesh.points.len()];
         for rigid in &problem.rigid {
-            set(mesh, &rigid.set, "rigid")?.iter().for_each(|node| free[*node as usize] = [false; 3]);
+            mesh.set(&rigid.set, "rigid")?.iter().for_each(|node| free[*node as usize] = [false; 3]);
         }
         mesh.ties.iter().for_each(|tie| free[tie.node as usize] = [false; 3]);
         let mut reactions = Reactions::default();
@@ -45,7 +44,7 @@ impl Reactions {
             let place = reactions.place_of(&support.set);
             let Reaction { axes, .. } = &mut reactions.all[place];
             (0..3).for_each(|k| axes[k] |= support.axes[k]);
-            for node in set(mesh, &support.set, "support")? {
+            for node in mesh.set(&support.set, "support")? {
                 let free = &mut free[*node as usize];
                 let own = [0, 1, 2].map(|k| support.axes[k] && free[k]);
                 (0..3).for_each(|k| free[k] &= !support.axes[k]);

@@ -230,15 +230,12 @@ fn mixed(smooth: f64, u: f64) -> f64 {
 /// Nodes at the other ends of the sides at each node, and how many elements have the side.
 fn shared(mesh: &Mesh, takes_part: impl Fn(u32) -> bool) -> Vec<Vec<(u32, f64)>> {
     let mut shared: Vec<Vec<(u32, f64)>> = vec![Vec::new(); mesh.points.len()];
-    for part in &mesh.parts {
-        for i in 0..part.len() {
-            let corners = part.nodes(i);
-            for (k, a) in corners.iter().enumerate() {
-                let b = &corners[(k + 1) % corners.len()];
-                if takes_part(*a) && takes_part(*b) {
-                    link(&mut shared[*a as usize], *b);
-                    link(&mut shared[*b as usize], *a);
-                }
+    for corners in mesh.faces() {
+        for (k, a) in corners.iter().enumerate() {
+            let b = &corners[(k + 1) % corners.len()];
+            if takes_part(*a) && takes_part(*b) {
+                link(&mut shared[*a as usize], *b);
+                link(&mut shared[*b as usize], *a);
             }
         }
     }

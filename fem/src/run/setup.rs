@@ -2,7 +2,7 @@
 
 use models::Pose;
 
-use super::constraint::{Body, Driven, bodies, driven, set};
+use super::constraint::{Body, Driven, bodies, driven};
 use super::reaction::Reactions;
 use super::selective::Selective;
 use super::stable::{damped, give_tied_bounds, give_tied_masses, stable_step};
@@ -184,7 +184,7 @@ impl Still {
 fn carried(problem: &Problem, mesh: &Mesh, driven: &[Driven]) -> Result<Vec<bool>, FemError> {
     let mut carried = vec![false; mesh.points.len()];
     for rigid in &problem.rigid {
-        set(mesh, &rigid.set, "rigid")?.iter().for_each(|node| carried[*node as usize] = true);
+        mesh.set(&rigid.set, "rigid")?.iter().for_each(|node| carried[*node as usize] = true);
     }
     let others = driven.iter().flat_map(|d| &d.nodes).chain(mesh.ties.iter().map(|t| &t.node));
     others.for_each(|node| carried[*node as usize] = true);
@@ -333,13 +333,11 @@ fn imperfect(x: &mut [[f64; 4]], mesh: &Mesh, order: &Order, fixed: &[[bool; 3]]
         return;
     }
     let mut normal = vec![[0.0; 3]; x.len()];
-    for part in &mesh.parts {
-        for i in 0..part.len() {
-            let corner: Vec<[f64; 3]> = part.nodes(i).iter().map(|n| mesh.start_of(*n as usize)).collect();
-            let area = area(&corner);
-            for node in part.nodes(i) {
-                (0..3).for_each(|k| normal[*node as usize][k] += area[k] / corner.len() as f64);
-            }
+    for nodes in mesh.faces() {
+        let corner: Vec<[f64; 3]> = nodes.iter().map(|n| mesh.start_of(*n as usize)).collect();
+        let area = area(&corner);
+        for node in nodes {
+            (0..3).for_each(|k| normal[*node as usize][k] += area[k] / corner.len() as f64);
         }
     }
     for (place, (x, n)) in x.iter_mut().zip(&normal).enumerate().filter(|(place, _)| fixed[*place] == [false; 3]) {

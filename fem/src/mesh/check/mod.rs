@@ -116,10 +116,7 @@ fn names(mesh: &Mesh, chambers: &[&str]) -> Result<(), FemError> {
 /// A node without elements would have no mass.
 fn every_node_used(mesh: &Mesh) -> Result<(), FemError> {
     let mut used = vec![false; mesh.points.len()];
-    for part in &mesh.parts {
-        let corners = part.quads.iter().flatten().chain(part.triangles.iter().flatten());
-        corners.for_each(|n| used[*n as usize] = true);
-    }
+    mesh.faces().flatten().for_each(|n| used[*n as usize] = true);
     let unused = used.iter().filter(|used| !**used).count();
     match used.iter().position(|used| !used) {
         None => Ok(()),

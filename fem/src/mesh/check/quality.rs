@@ -36,13 +36,10 @@ pub struct LowMidHigh {
 pub(super) fn measure(mesh: &Mesh, closed: Closed) -> Quality {
     let [mut aspect, mut jacobian_ratio, mut warpage] = [1.0_f64, 1.0, 0.0];
     let mut sides = Vec::with_capacity(4 * mesh.elements());
-    for part in &mesh.parts {
-        for i in 0..part.len() {
-            let mut corners = [[0.0; 3]; 4];
-            let found = measures(stress_free(mesh, part.nodes(i), &mut corners), &mut sides);
-            (aspect, jacobian_ratio, warpage) =
-                (aspect.max(found[0]), jacobian_ratio.min(found[1]), warpage.max(found[2]));
-        }
+    for nodes in mesh.faces() {
+        let mut corners = [[0.0; 3]; 4];
+        let found = measures(stress_free(mesh, nodes, &mut corners), &mut sides);
+        (aspect, jacobian_ratio, warpage) = (aspect.max(found[0]), jacobian_ratio.min(found[1]), warpage.max(found[2]));
     }
     let Closed { volumes_m3, seams } = closed;
     Quality { side_m: spread(sides), aspect, jacobian_ratio, warpage, volumes_m3, seams }

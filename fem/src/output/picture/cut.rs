@@ -76,8 +76,7 @@ fn pieces(mesh: &Mesh, positions: &[[f64; 3]], cut: &Cut) -> Vec<Piece> {
     // A node in the plane counts as behind it: a ring of nodes is then drawn once, by the elements on one side.
     let before = |node: u32| height[node as usize] > 1e-9;
     let mut pieces = Vec::new();
-    let elements = mesh.parts.iter().flat_map(|part| (0..part.len()).map(|i| part.nodes(i)));
-    for (element, nodes) in elements.enumerate() {
+    for (element, nodes) in mesh.faces().enumerate() {
         let sides = (0..nodes.len()).map(|k| (nodes[k], nodes[(k + 1) % nodes.len()]));
         let ends: Vec<[f64; 3]> = sides
             .filter(|(a, b)| before(*a) != before(*b))

@@ -45,8 +45,7 @@ pub(crate) fn render(
     let with_bar = look.bar && !values.is_empty();
     let place = Placing::of(&seen, look, with_bar);
     let mut canvas = Canvas::new(look.width * FINE, look.height * FINE);
-    let elements = mesh.parts.iter().flat_map(|part| (0..part.len()).map(|i| part.nodes(i)));
-    for (index, nodes) in elements.enumerate() {
+    for (index, nodes) in mesh.faces().enumerate() {
         let corners: Vec<[f64; 3]> = nodes.iter().map(|&node| seen[node as usize]).collect();
         let base = values.get(index).map_or(PLAIN, |&value| viridis(share(value, limits)));
         let light = shade(&corners);
@@ -95,8 +94,7 @@ fn check(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &PictureLook
     if let Some(element) = values.iter().position(|value| !value.is_finite()) {
         return refuse(format!("the value of element {} is {}", element + 1, values[element]));
     }
-    let mut corners = mesh.parts.iter().flat_map(|part| (0..part.len()).flat_map(|i| part.nodes(i)));
-    if let Some(node) = corners.find(|&&node| node as usize >= nodes) {
+    if let Some(node) = mesh.faces().flatten().find(|&&node| node as usize >= nodes) {
         return refuse(format!("an element has node {}, the mesh has {nodes}", node + 1));
     }
     match (look.limits, look.bounds) {

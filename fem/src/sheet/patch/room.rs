@@ -68,7 +68,7 @@ impl Room<'_> {
 
     /// Fills this thread's room with what no result may depend on.
     #[cfg(test)]
-    pub fn spoil() {
+    pub(crate) fn spoil() {
         STORE.with_borrow_mut(|store| {
             store.numbers.fill(f64::NAN);
             store.scratch.as_flattened_mut().as_flattened_mut().as_flattened_mut().fill(f64::NAN);
