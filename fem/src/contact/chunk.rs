@@ -50,7 +50,6 @@ pub(super) struct Chunk {
     pub(crate) next_m: f64,
     /// Path of the fastest node at which the motion must be measured again.
     pub(crate) due_m: f64,
-    /// Forces of the step.
     #[serde(skip)]
     pub pushes: Vec<Push>,
     #[serde(skip)]

@@ -55,6 +55,7 @@ use rayon::prelude::*;
 
 use crate::problem;
 use crate::terms::slide;
+use crate::transient::row;
 use crate::vec3::{dot, norm, scale};
 use crate::{FemError, Mesh};
 use crate::{Tick, Transient};
@@ -208,7 +209,6 @@ impl Transient for Contact {
     fn ledger(&self, at: &Pose) -> Vec<Row> {
         let first = self.before_m.is_empty();
         let stored = if first { self.add(at, &mut vec![0.0; at.q.len()]) } else { self.sums.stored };
-        let row = |name, account, kind, energy_j| Row { name, account, kind, energy_j };
         vec![
             row("contact", Account::Contact, RowKind::Stored, stored),
             row("friction", Account::Contact, RowKind::Dissipated, self.sums.friction),

@@ -11,7 +11,6 @@ const GROWTH: f64 = 0.02;
 /// Force of a pair on its node; the corners of the triangle take their shares of its opposite.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Push {
-    /// Node, corners.
     pub nodes: [u32; 4],
     pub weights: [f64; 3],
     pub force_n: V3,

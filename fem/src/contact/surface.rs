@@ -28,7 +28,6 @@ pub(super) struct Surface {
     pub rank: Vec<u32>,
     /// Reference area of each node \[m²\].
     pub area_m2: Vec<f64>,
-    /// Mean edge length \[m\].
     pub size_m: f64,
 }
 

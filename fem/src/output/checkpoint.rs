@@ -28,9 +28,7 @@ const END: &str = "checkpoint.end";
 pub(crate) struct Checkpoint {
     /// Number that stands for the problem; a run of another problem must not go on from here.
     pub fingerprint: u64,
-    /// Steps done.
     pub step: u64,
-    /// Time \[s\].
     pub time_s: f64,
     /// What [`crate::Simulation::save`] gave.
     pub payload: Vec<u8>,
@@ -38,7 +36,6 @@ pub(crate) struct Checkpoint {
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct LoadedCheckpoint {
-    /// It.
     pub checkpoint: Checkpoint,
     /// Set if the newest one was not good and the one before it is used instead: what to tell the user.
     pub(crate) notice: Option<String>,
@@ -85,7 +82,7 @@ pub(crate) fn read_end(folder: &Path) -> Result<Option<(Checkpoint, Vec<u8>)>, F
     let path = folder.join(END);
     let bytes = match std::fs::read(&path) {
         Err(source) if source.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-        read => read.map_err(|source| FemError::Io { path: path.clone(), source })?,
+        read => read.map_err(FemError::io(&path))?,
     };
     match decode(&bytes, None) {
         Found::Good(end) => Ok(Some((end, bytes))),
@@ -121,14 +118,12 @@ fn write_through(folder: &Path, checkpoint: &Checkpoint, put: Put) -> Result<Pat
         std::fs::rename(&partial, &newest)?;
         sync_folder(folder)
     });
-    match replaced {
-        Ok(()) => Ok(newest),
-        Err(source) => {
-            // The first failure is the one to report.
-            let _ = std::fs::remove_file(&partial);
-            Err(FemError::Io { path: newest, source })
-        }
-    }
+    replaced.map_err(|source| {
+        // The first failure is the one to report.
+        let _ = std::fs::remove_file(&partial);
+        FemError::io(&newest)(source)
+    })?;
+    Ok(newest)
 }
 
 fn encode(checkpoint: &Checkpoint) -> Vec<u8> {
@@ -151,7 +146,7 @@ fn read_file(path: &Path, fingerprint: u64) -> Result<Found, FemError> {
     match std::fs::read(path) {
         Ok(bytes) => Ok(decode(&bytes, Some(fingerprint))),
         Err(source) if source.kind() == std::io::ErrorKind::NotFound => Ok(Found::Nothing),
-        Err(source) => Err(FemError::Io { path: path.to_path_buf(), source }),
+        Err(source) => Err(FemError::io(path)(source)),
     }
 }
 

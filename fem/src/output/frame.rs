@@ -6,19 +6,13 @@ use crate::{FemError, Mesh, Simulation};
 /// The state of all nodes and elements at one moment, in mesh order.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Frame {
-    /// Steps done.
     pub step: u64,
-    /// Time \[s\].
     pub time_s: f64,
-    /// Positions \[m\].
     pub positions: Vec<[f64; 3]>,
-    /// Velocities \[m/s\].
     pub velocities: Vec<[f64; 3]>,
-    /// Element results.
     pub fields: ElementFields,
     /// Contact pressure at every node \[Pa\]; empty without contact.
     pub contact_pressure_pa: Vec<f64>,
-    /// Chambers.
     pub chambers: Vec<ChamberState>,
     /// Pressure of the hold that the moment leads to or lies in \[Pa\], of a robot that is read at holds.
     pub hold_pa: Option<f64>,

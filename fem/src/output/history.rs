@@ -26,15 +26,10 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Record {
-    /// Steps done.
     pub step: u64,
-    /// Time \[s\].
     pub time_s: f64,
-    /// Step length \[s\].
     pub dt_s: f64,
-    /// Energy balance.
     pub ledger: Ledger,
-    /// Chambers.
     pub chambers: Vec<ChamberState>,
     /// What supports do to the structure.
     pub reactions: Vec<Reaction>,

@@ -1,7 +1,7 @@
 //! A CSV file that grows as the run does and is cut back to the checkpoint on resume.
 
 use std::fs::{File, OpenOptions};
-use std::io::{Error, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::FemError;
@@ -34,7 +34,7 @@ impl Table {
     }
 
     fn append_to(path: &Path, header: String, last_step: Option<u64>) -> Result<Table, FemError> {
-        let file = OpenOptions::new().append(true).open(path).map_err(|source| io(path, source))?;
+        let file = OpenOptions::new().append(true).open(path).map_err(FemError::io(path))?;
         Ok(Table { path: path.to_path_buf(), file, header, last_step })
     }
 
@@ -58,7 +58,7 @@ impl Table {
             )));
         }
         let text = if first { format!("{header}\n{rows}") } else { rows.to_string() };
-        self.file.write_all(text.as_bytes()).map_err(|source| io(&self.path, source))?;
+        self.file.write_all(text.as_bytes()).map_err(FemError::io(&self.path))?;
         self.header = header.to_string();
         self.last_step = Some(step);
         Ok(())
@@ -66,7 +66,7 @@ impl Table {
 
     /// Waits until the disk has all rows; to be called before a checkpoint is written.
     pub(super) fn sync(&self) -> Result<(), FemError> {
-        self.file.sync_all().map_err(|source| io(&self.path, source))
+        self.file.sync_all().map_err(FemError::io(&self.path))
     }
 }
 
@@ -115,12 +115,8 @@ pub(super) fn check_label(label: &str, what: &str) -> Result<(), FemError> {
     Ok(())
 }
 
-fn io(path: &Path, source: Error) -> FemError {
-    FemError::Io { path: path.to_path_buf(), source }
-}
-
 fn content(path: &Path) -> Result<String, FemError> {
-    if path.exists() { std::fs::read_to_string(path).map_err(|source| io(path, source)) } else { Ok(String::new()) }
+    if path.exists() { std::fs::read_to_string(path).map_err(FemError::io(path)) } else { Ok(String::new()) }
 }
 
 /// Header, last step and rows that an interrupted run goes on after.

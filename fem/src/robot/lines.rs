@@ -35,7 +35,6 @@ pub(super) struct Lines {
     pub strips: Vec<StripLines>,
     /// Angles of all generators \[rad\], ascending from the edge of the first strip; where they turn, those at the base.
     pub angles: Vec<f64>,
-    /// Ring of every marker.
     pub markers: Vec<usize>,
     turn: Option<Turn>,
 }
@@ -44,7 +43,6 @@ pub(super) struct Lines {
 pub(super) struct StripLines {
     /// Rows of elements that are welded flat: (first ring, last ring); equal for a weld without width.
     pub welds: Vec<[usize; 2]>,
-    /// Its first generator.
     pub first: usize,
     /// Places across the strip \[m\], from edge to edge of the sheet, its side welds included.
     pub s_m: Vec<f64>,

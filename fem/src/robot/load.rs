@@ -22,14 +22,11 @@ impl Default for Load {
 
 /// Pressures and loads at the end of a run that another one goes on from.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[allow(missing_docs, reason = "names and units say it")]
 pub struct RobotStart {
-    /// When \[s\].
     pub time_s: f64,
-    /// Pressure of the body \[Pa\].
     pub body_pa: f64,
-    /// Pressures of the channels \[Pa\].
     pub pressures_pa: [f64; CHANNELS],
-    /// Force on the tip \[N\].
     pub tip_force_n: [f64; 3],
     /// Gravity \[m/s²\].
     pub(crate) gravity_m_s2: [f64; 3],

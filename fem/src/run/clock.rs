@@ -5,15 +5,12 @@ use serde::{Deserialize, Serialize};
 /// Where a run stands in time \[s\].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Clock {
-    /// Steps done.
     pub step: u64,
     /// Time of loads and supports; it stops while the run waits.
     pub time_s: f64,
     /// Time that the run has waited.
     pub waited_s: f64,
-    /// Whether it waits now.
     pub waits: bool,
-    /// Length of a step.
     pub dt_s: f64,
     /// Length of the step before; 0 at the start.
     pub(crate) before_s: f64,

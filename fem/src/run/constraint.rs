@@ -2,37 +2,40 @@
 
 use crate::problem::{Amplitude, Problem};
 use crate::{FemError, Mesh};
+use serde::{Deserialize, Serialize};
 
 /// Nodes whose motion is prescribed along some axes.
 #[derive(Debug, Clone)]
 pub(super) struct Driven {
-    /// Nodes.
     pub nodes: Vec<u32>,
-    /// Prescribed axes.
     pub axes: [bool; 3],
     /// Displacement from the start \[m\].
     pub motion: [Amplitude; 3],
-    /// Where the nodes started \[m\].
     pub start: Vec<[f64; 3]>,
 }
 
 /// A rigid body: nodes that keep their distances.
 #[derive(Debug, Clone)]
 pub(super) struct Body {
-    /// Nodes.
     pub nodes: Vec<u32>,
     /// Mass of each node \[kg\].
     mass: Vec<f64>,
     /// Positions relative to the centre of mass at the start \[m\].
     arm: Vec<[f64; 3]>,
+    pub now: BodyNow,
+}
+
+/// Where a body is, and how it moves.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub(super) struct BodyNow {
     /// Centre of mass \[m\].
-    pub centre: [f64; 3],
+    centre: [f64; 3],
     /// Its velocity half a step back \[m/s\].
-    pub velocity: [f64; 3],
+    velocity: [f64; 3],
     /// Angular momentum half a step back \[kg m²/s\].
-    pub spin: [f64; 3],
+    spin: [f64; 3],
     /// Orientation as a unit quaternion (w, x, y, z).
-    pub turn: [f64; 4],
+    turn: [f64; 4],
 }
 
 /// Prescribed nodes of a problem; axes that hold still are only masked.
@@ -100,15 +103,8 @@ impl Body {
             (0..3).for_each(|k| centre[k] += m / total * x[k]);
         }
         let arm = nodes.iter().map(|n| at(*n as usize)).map(|x| [0, 1, 2].map(|k| x[k] - centre[k])).collect();
-        Body {
-            nodes: nodes.to_vec(),
-            mass: own,
-            arm,
-            centre,
-            velocity: [0.0; 3],
-            spin: [0.0; 3],
-            turn: [1.0, 0.0, 0.0, 0.0],
-        }
+        let now = BodyNow { centre, velocity: [0.0; 3], spin: [0.0; 3], turn: [1.0, 0.0, 0.0, 0.0] };
+        Body { nodes: nodes.to_vec(), mass: own, arm, now }
     }
 
     /// One step of the body under the forces on its nodes; sets the velocities that bring them to their places.
@@ -127,7 +123,7 @@ impl Body {
         for node in &self.nodes {
             let i = *node as usize;
             let f = [force[i][0], force[i][1], force[i][2]];
-            let arm = [0, 1, 2].map(|k| x[i][k] - self.centre[k]);
+            let arm = [0, 1, 2].map(|k| x[i][k] - self.now.centre[k]);
             let m = crate::vec3::cross(arm, f);
             (0..3).for_each(|k| push[k] += f[k]);
             (0..3).for_each(|k| moment[k] += m[k]);
@@ -135,20 +131,20 @@ impl Body {
         let total: f64 = self.mass.iter().sum();
         let (keep, gain) = ((1.0 - 0.5 * damping * dv) / (1.0 + 0.5 * damping * dv), 1.0 / (1.0 + 0.5 * damping * dv));
         for k in 0..3 {
-            self.velocity[k] = self.velocity[k] * keep + gain * dv * push[k] / total;
-            self.spin[k] = self.spin[k] * keep + gain * dv * moment[k];
+            self.now.velocity[k] = self.now.velocity[k] * keep + gain * dv * push[k] / total;
+            self.now.spin[k] = self.now.spin[k] * keep + gain * dv * moment[k];
         }
-        let half = rotate_by(self.turn, self.omega(self.turn), 0.5 * dt);
+        let half = rotate_by(self.now.turn, self.omega(self.now.turn), 0.5 * dt);
         let omega = self.omega(half);
-        self.turn = rotate_by(self.turn, omega, dt);
-        let after = matrix(self.turn);
+        self.now.turn = rotate_by(self.now.turn, omega, dt);
+        let after = matrix(self.now.turn);
         for k in 0..3 {
-            self.centre[k] += dt * self.velocity[k];
+            self.now.centre[k] += dt * self.now.velocity[k];
         }
         for (node, arm) in self.nodes.iter().zip(&self.arm) {
             let i = *node as usize;
             for k in 0..3 {
-                let target = self.centre[k] + after[k][0] * arm[0] + after[k][1] * arm[1] + after[k][2] * arm[2];
+                let target = self.now.centre[k] + after[k][0] * arm[0] + after[k][1] * arm[1] + after[k][2] * arm[2];
                 v[i][k] = (target - x[i][k]) / dt;
             }
         }
@@ -156,14 +152,14 @@ impl Body {
 
     /// Takes momentum and angular momentum from the velocities of the nodes.
     pub(crate) fn take_velocities(&mut self, x: &[[f64; 4]], v: &[[f64; 4]]) {
-        (self.velocity, self.spin) = ([0.0; 3], [0.0; 3]);
+        (self.now.velocity, self.now.spin) = ([0.0; 3], [0.0; 3]);
         let total: f64 = self.mass.iter().sum();
         for (node, m) in self.nodes.iter().zip(&self.mass) {
             let (x, v) = (x[*node as usize], v[*node as usize]);
-            let arm = [0, 1, 2].map(|k| x[k] - self.centre[k]);
+            let arm = [0, 1, 2].map(|k| x[k] - self.now.centre[k]);
             let spin = crate::vec3::cross(arm, [v[0], v[1], v[2]]);
-            (0..3).for_each(|k| self.velocity[k] += m / total * v[k]);
-            (0..3).for_each(|k| self.spin[k] += m * spin[k]);
+            (0..3).for_each(|k| self.now.velocity[k] += m / total * v[k]);
+            (0..3).for_each(|k| self.now.spin[k] += m * spin[k]);
         }
     }
 
@@ -180,20 +176,7 @@ impl Body {
                 }
             }
         }
-        solve(inertia, self.spin)
-    }
-
-    pub(super) fn save(&self) -> [f64; 13] {
-        let ([x, y, z], [u, v, w], [p, q, r]) = (self.centre, self.velocity, self.spin);
-        let [a, b, c, d] = self.turn;
-        [x, y, z, u, v, w, p, q, r, a, b, c, d]
-    }
-
-    pub(super) fn restore(&mut self, from: &[f64; 13]) {
-        self.centre.copy_from_slice(&from[0..3]);
-        self.velocity.copy_from_slice(&from[3..6]);
-        self.spin.copy_from_slice(&from[6..9]);
-        self.turn.copy_from_slice(&from[9..13]);
+        solve(inertia, self.now.spin)
     }
 }
 

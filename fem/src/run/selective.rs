@@ -48,7 +48,6 @@ pub(super) struct Selective {
     passes: Vec<f64>,
     /// Prescribed axes, which stand still or are set by others.
     fixed: Vec<(u32, [bool; 3])>,
-    /// u \[m/s\].
     pub u: Vec<[f64; 4]>,
     /// u after some passes, and room for the next.
     half: Vec<[f64; 4]>,

@@ -10,11 +10,8 @@ pub(super) const PIECE: usize = 3072;
 /// The update of velocities and positions; leaves the forces at zero.
 #[derive(Clone, Copy)]
 pub(super) struct Update {
-    /// Between the mid-steps \[s\].
     pub dv: f64,
-    /// The step \[s\].
     pub dt: f64,
-    /// α \[1/s\].
     pub damping: f64,
     pub(crate) arch: pulp::Arch,
 }

@@ -82,7 +82,7 @@ use stepping::Running;
 pub fn simulate(source: &Source, settings: &Settings, progress: Progress) -> Result<FeRun, FemError> {
     let started = Instant::now();
     let earlier = settings.from.as_deref().map(Earlier::read).transpose()?;
-    let mut loaded = source.load_after(earlier.as_ref().map(|earlier| (earlier.time_s, &earlier.loads)))?;
+    let mut loaded = source.load_after(earlier.as_ref().map(|earlier| (earlier.time_s, &earlier.end.loads)))?;
     let numerics = &mut loaded.case.problem.settings;
     numerics.end_s = settings.end_s.unwrap_or(numerics.end_s);
     numerics.threads = settings.threads;

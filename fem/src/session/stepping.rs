@@ -24,7 +24,6 @@ const TELL_EVERY: Duration = Duration::from_millis(50);
 /// Energies at one output, for the judgement at the end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Balance {
-    /// Time \[s\].
     pub time_s: f64,
     /// Kinetic energy over kinetic and stored energy.
     pub kinetic_share: f64,
@@ -33,7 +32,6 @@ pub(super) struct Balance {
 }
 
 pub(super) struct Running<'a> {
-    /// The run.
     pub run: Simulation,
     /// Energies at all outputs so far.
     pub balances: Vec<Balance>,
@@ -120,14 +118,14 @@ impl<'a> Running<'a> {
         let (end_s, every_s) = (settings.end_s, settings.output_every_s);
         // The last output is the end itself; a whole number of intervals shall not get a second one just before it.
         let last = (end_s / every_s - 1e-6).ceil().max(1.0) as u64;
-        let mut teller = Teller::new(&self.run, end_s);
-        let mut keeper = Keeper { every: checkpoint_every, saved_at: Instant::now(), saving: Duration::ZERO };
+        let keeper = Keeper { every: checkpoint_every, saved_at: Instant::now(), saving: Duration::ZERO };
+        let mut pace = Pace { teller: Teller::new(&self.run, end_s), keeper, progress };
         while self.next <= last {
             let output_s = if self.next == last { end_s } else { self.next as f64 * every_s };
             let hold_s = self.robot.as_ref().and_then(Watched::next_s).filter(|hold_s| *hold_s <= output_s);
-            self.advance(Goal::Time(hold_s.unwrap_or(output_s)), &mut teller, &mut keeper, progress)?;
+            self.advance(Goal::Time(hold_s.unwrap_or(output_s)), &mut pace)?;
             match hold_s {
-                Some(hold_s) => self.rest(hold_s, &mut teller, &mut keeper, progress)?,
+                Some(hold_s) => self.rest(hold_s, &mut pace)?,
                 None => self.output()?,
             }
         }
@@ -135,16 +133,10 @@ impl<'a> Running<'a> {
     }
 
     /// Waits at the end of a hold until the robot is at rest, then reads it.
-    fn rest(
-        &mut self,
-        hold_s: f64,
-        teller: &mut Teller,
-        keeper: &mut Keeper,
-        progress: Progress,
-    ) -> Result<(), FemError> {
+    fn rest(&mut self, hold_s: f64, pace: &mut Pace) -> Result<(), FemError> {
         while let Some(robot) = &mut self.robot {
             match robot.rest(&self.run) {
-                Rest::Until(waited_s) => self.advance(Goal::Waited(waited_s, hold_s), teller, keeper, progress)?,
+                Rest::Until(waited_s) => self.advance(Goal::Waited(waited_s, hold_s), pace)?,
                 rest => return robot.read(&self.run, rest),
             }
         }
@@ -152,13 +144,7 @@ impl<'a> Running<'a> {
     }
 
     /// Steps to a moment, with checkpoints on the way; [`FemError::Interrupted`] once `progress` asks to end.
-    fn advance(
-        &mut self,
-        goal: Goal,
-        teller: &mut Teller,
-        keeper: &mut Keeper,
-        progress: Progress,
-    ) -> Result<(), FemError> {
+    fn advance(&mut self, goal: Goal, Pace { teller, keeper, progress }: &mut Pace) -> Result<(), FemError> {
         let (next, balances, files, robot) = (self.next, &self.balances, &self.files, &mut self.robot);
         let outside_s = self.cpu_before_s + thread_seconds() - self.began.1;
         let mut fault = None;
@@ -299,7 +285,13 @@ enum Goal {
     Waited(f64, f64),
 }
 
-/// When to write a checkpoint.
+/// Who is told on the way, and when checkpoints are written.
+struct Pace<'a> {
+    teller: Teller,
+    keeper: Keeper,
+    progress: Progress<'a>,
+}
+
 struct Keeper {
     every: Duration,
     saved_at: Instant,

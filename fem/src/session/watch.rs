@@ -58,7 +58,6 @@ impl WatchedRobot {
 
 /// Readings of a run so far.
 pub(super) struct Watched {
-    /// Energies between outputs.
     pub watch: Watch,
     filled_s: f64,
     weld_strength_n_per_m: Option<f64>,
@@ -67,7 +66,6 @@ pub(super) struct Watched {
     length_m: f64,
     patience: Option<Patience>,
     settling: Settling,
-    /// Readings so far.
     pub readings: Vec<Reading>,
 }
 

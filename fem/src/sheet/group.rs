@@ -51,20 +51,15 @@ pub(crate) struct Stock {
 
 /// One element before packing.
 #[derive(Debug, Clone)]
-pub struct Item {
-    /// Corner nodes, 3 or 4.
+pub(crate) struct Item {
     pub node: Vec<u32>,
-    /// Reference data.
     pub reference: Reference,
     /// The lanes `per` and `flat` of [`Stock`].
     pub law: [f64; 2],
-    /// Hourglass stiffness \[N/m\].
     pub hourglass: f64,
-    /// Viscosity \[N s/m\].
     pub viscosity: f64,
     /// Whether this patch counts its energy.
     pub own: bool,
-    /// Part number.
     pub part: u32,
     /// Number of the element in mesh order.
     pub element: u32,

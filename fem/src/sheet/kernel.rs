@@ -28,9 +28,7 @@ pub(super) type CornerForces = [Lane3; 4];
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[repr(C, align(64))]
 pub(super) struct Tally {
-    /// Membrane energy \[J\].
     pub membrane: Lane,
-    /// Hourglass energy \[J\].
     pub hourglass: Lane,
     /// Energy turned to heat by viscosity in this step \[J\].
     pub viscous: Lane,
@@ -54,13 +52,11 @@ pub(super) enum Corners<'a> {
 /// What a batch of groups has in common.
 #[derive(Clone, Copy)]
 pub(super) struct BatchInputs<'a> {
-    /// Node positions by axis.
     pub x: [&'a [f64]; 3],
     /// Pressure behind minus pressure in front \[Pa\].
     pub pressure: f64,
     /// 1/Δt, or 0 without viscosity \[1/s\].
     pub rate: f64,
-    /// Elements of the batch.
     pub groups: &'a [ElementGroup],
     /// Shapes of all groups of the patch.
     pub shapes: &'a [RestShape],

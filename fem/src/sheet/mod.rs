@@ -27,6 +27,7 @@ use models::{Account, Fabric, LedgerLine, Pose, Row, RowKind, Term};
 use crate::bytes::{pack, unpack};
 use crate::mesh::Mesh;
 use crate::problem::{Chamber, Section, Settings};
+use crate::transient::row;
 use crate::{FemError, NODE, Tick, Transient};
 pub use element::Element;
 
@@ -219,7 +220,6 @@ impl Transient for Sheet {
 
     fn ledger(&self, _at: &Pose) -> Vec<Row> {
         let [membrane, bending, hourglass] = self.stored();
-        let row = |name, account, kind, energy_j| Row { name, account, kind, energy_j };
         let mut rows = vec![
             row("membrane", Account::Stretch, RowKind::Stored, membrane),
             row("bending", Account::Wall, RowKind::Stored, bending),

@@ -39,6 +39,7 @@ use models::{Account, Fabric, LedgerLine, Pose, Row, RowKind, Term};
 use crate::Mesh;
 use crate::bytes::{pack, unpack};
 use crate::sheet::{Element, Sheet};
+use crate::transient::row;
 use crate::vec3::{V3, add, along, dot, node, norm, scale, sub};
 use crate::{Tick, Transient};
 
@@ -264,7 +265,7 @@ impl Transient for Folds {
         let energy_j = self.stored_j.unwrap_or_else(|| self.edges.iter().map(|e| e.energy_j(x)).sum());
         vec![
             self.line().row(RowKind::Stored, energy_j),
-            LedgerLine { name: "tension of folds", account: Account::Wall }.row(RowKind::Supplied, self.tension_work_j),
+            row("tension of folds", Account::Wall, RowKind::Supplied, self.tension_work_j),
         ]
     }
 

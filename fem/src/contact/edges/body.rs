@@ -20,7 +20,6 @@ pub(super) struct Held {
     pub forces: Vec<(u32, V3)>,
     /// Positions one step before.
     pub before_m: Vec<[f64; 4]>,
-    /// Energy lost so far \[J\].
     pub lost_j: f64,
 }
 

@@ -26,7 +26,6 @@ pub(super) struct Hit {
 
 pub(super) struct Look<'a> {
     pub x: &'a [[f64; 4]],
-    /// Motion of every node.
     pub by: &'a [V3],
     /// How far the fastest node will have come.
     pub(crate) path_m: f64,
@@ -43,7 +42,6 @@ pub(super) struct Chunk {
     /// Way at which the spring of each pair may push, and at which the two may meet.
     pub(crate) press_at_m: Vec<f64>,
     pub(crate) cross_at_m: Vec<f64>,
-    /// Nodes of the pairs, ascending.
     #[serde(skip)]
     pub nodes: Vec<u32>,
     /// Positions when the way was summed up last.

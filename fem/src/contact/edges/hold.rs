@@ -23,7 +23,6 @@ pub(crate) struct Step<'a> {
     /// Time between the middles of the last step and this one \[s\].
     pub(crate) dv_s: f64,
     pub dt_s: f64,
-    /// Mass damping \[1/s\].
     pub damping_1_s: f64,
 }
 

@@ -48,6 +48,7 @@ use models::{Account, LedgerLine, Pose, Row, RowKind, Term};
 use rayon::prelude::*;
 
 use super::push;
+use crate::transient::row;
 use crate::{Tick, Transient};
 pub use body::Edges;
 
@@ -92,7 +93,6 @@ impl Transient for Edges {
 
     /// Lines at the positions of the last step.
     fn ledger(&self, _at: &Pose) -> Vec<Row> {
-        let row = |name, account, kind, energy_j| Row { name, account, kind, energy_j };
         vec![
             row("edge contact", Account::Contact, RowKind::Stored, self.stored_j),
             row("edge damping", Account::Contact, RowKind::Dissipated, self.lost_j),

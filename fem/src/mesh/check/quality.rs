@@ -24,12 +24,10 @@ pub struct Quality {
 
 /// Smallest, median and largest of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[allow(missing_docs, reason = "the names say it")]
 pub struct LowMidHigh {
-    /// Smallest.
     pub min: f64,
-    /// Median.
     pub median: f64,
-    /// Largest.
     pub max: f64,
 }
 

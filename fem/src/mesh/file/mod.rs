@@ -22,7 +22,7 @@ use std::path::Path;
 /// # Errors
 /// [`FemError::Io`] if it cannot be read, [`FemError::MeshFile`] with the line of the first fault.
 pub fn read(path: &Path) -> Result<MeshFile, FemError> {
-    let bytes = read_whole(path, MOST_DATA).map_err(|source| FemError::Io { path: path.to_path_buf(), source })?;
+    let bytes = read_whole(path, MOST_DATA).map_err(FemError::io(path))?;
     let mut file = understood(&bytes, path)?;
     file.told.extend(corners::turn(&mut file.mesh).map_err(|message| FemError::MeshFile {
         path: path.to_path_buf(),

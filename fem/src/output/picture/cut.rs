@@ -13,7 +13,6 @@ const LINE: f64 = 3.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Cut {
-    /// Its normal, a unit vector.
     pub normal: [f64; 3],
     /// Its distance from the origin along it \[m\].
     pub at_m: f64,

@@ -41,7 +41,6 @@ impl Viewpoint {
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PictureLook {
-    /// Where from.
     pub view: Viewpoint,
     /// Width in pixels, 128 to 4096.
     pub width: usize,

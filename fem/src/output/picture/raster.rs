@@ -3,11 +3,8 @@
 /// Pixels, row by row from the top left, red green blue.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Image {
-    /// Pixels per row.
     pub width: usize,
-    /// Rows.
     pub height: usize,
-    /// 3 bytes per pixel.
     pub rgb: Vec<u8>,
 }
 

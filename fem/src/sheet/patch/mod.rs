@@ -22,13 +22,10 @@ use runs::Stretch;
 /// What one pass over a patch adds up, in SI units.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(super) struct Sums {
-    /// Membrane energy \[J\].
     pub membrane: f64,
-    /// Hourglass energy \[J\].
     pub hourglass: f64,
     /// Energy turned to heat by viscosity in this step \[J\].
     pub viscous: f64,
-    /// Bending energy \[J\].
     pub bending: f64,
     /// Energy lost in fabrics with memory \[J\].
     pub hysteresis: f64,
@@ -39,11 +36,8 @@ pub(super) struct Sums {
 pub(super) struct LoopKey {
     /// Corners, 3 or 4.
     pub corners: usize,
-    /// Fabric number.
     pub fabric: usize,
-    /// Chamber in front, if any.
     pub front: Option<usize>,
-    /// Chamber behind, if any.
     pub back: Option<usize>,
 }
 
@@ -61,7 +55,6 @@ struct Run {
 /// and bending rows need are numbered in mesh order, so that rows of a structured mesh stay whole.
 #[derive(Debug, Clone)]
 pub(super) struct Patch {
-    /// The nodes this patch owns.
     pub nodes: Range<usize>,
     /// Nodes of the patch, its own and those of neighbours.
     count: usize,
@@ -92,9 +85,7 @@ pub(super) struct Patch {
 /// What all patches share during a pass.
 #[derive(Clone, Copy)]
 pub(super) struct PassShared<'a> {
-    /// Node positions.
     pub q: &'a [[f64; 4]],
-    /// Fabrics by number.
     pub fabrics: &'a [Arc<dyn Fabric>],
     /// Gauge pressure of each chamber \[Pa\].
     pub pressure_pa: &'a [f64],

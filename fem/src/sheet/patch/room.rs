@@ -30,7 +30,6 @@ struct Store {
 /// Arrays over the nodes of a patch.
 #[derive(Debug)]
 pub(crate) struct Room<'a> {
-    /// Positions by axis.
     pub x: [&'a mut [f64]; 3],
     /// K x by axis.
     pub(crate) kx: [&'a mut [f64]; 3],

@@ -13,7 +13,6 @@ use super::super::group::{Item, LANES};
 /// A group of eight as a range of `items`, and how many of its first lanes the group before it counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Eight {
-    /// First item.
     pub first: usize,
     /// Lanes counted by the group before.
     pub counted: usize,
