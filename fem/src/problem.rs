@@ -204,7 +204,7 @@ pub struct Settings {
     pub selective_mass: bool,
     /// Passes over the elements' sides that selective masses take, 2, 4 or 6: 4 allow 1.4 times the step of 2, 6 1.8 times, and
     /// waves of up to about twice and three times as many elements are heavy. For meshes much finer than what moves.
-    pub(crate) mass_passes: usize,
+    pub mass_passes: usize,
     /// Mass-proportional damping α \[1/s\]; its work is on the ledger.
     pub mass_damping_1_s: f64,
     /// In-plane viscosity as a share of critical damping of the highest membrane mode (0.06 is usual).
@@ -233,9 +233,9 @@ pub struct Patience {
     /// Movement of the tip that counts as none, over its displacement.
     pub creep: f64,
     /// Longest time of a hold that loads stand still \[s\].
-    pub(crate) longest_s: f64,
+    pub longest_s: f64,
     /// Time between two looks at the tip \[s\].
-    pub(crate) window_s: f64,
+    pub window_s: f64,
 }
 
 /// How masses are raised to lengthen the step. With rate-free fabrics this equals a shorter simulated time.

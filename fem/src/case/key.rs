@@ -12,13 +12,13 @@ pub struct Key<S: 'static> {
     /// Factor from the file to SI.
     pub si: f64,
     /// Accepted numbers, as in the file.
-    pub(crate) bounds: [f64; 2],
+    pub bounds: [f64; 2],
     /// What it is, and what is usual.
     pub meaning: &'static str,
     /// Reads it \[SI\], if it is set.
-    pub(crate) get: fn(&S) -> Option<f64>,
+    pub get: fn(&S) -> Option<f64>,
     /// Writes it \[SI\].
-    pub(crate) set: fn(&mut S, f64),
+    pub set: fn(&mut S, f64),
 }
 
 pub(crate) const fn key<S>(

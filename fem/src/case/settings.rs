@@ -115,8 +115,9 @@ pub struct Outputs {
     /// Stations of the centre line \[m\], along the axis through the reference shape; empty: no centre line.
     pub stations_m: Vec<f64>,
     /// Parts whose sections make the centre line; empty: all.
-    pub(crate) station_parts: Vec<String>,
-    pub(crate) station_axis: [f64; 3],
+    pub station_parts: Vec<String>,
+    /// Direction of the stations.
+    pub station_axis: [f64; 3],
     /// Write the deformed mesh at every output.
     pub frames: bool,
     /// Draw the end state.

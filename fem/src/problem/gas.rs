@@ -22,15 +22,15 @@ use super::Amplitude;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gas {
     /// Pressure of the surroundings p_atm \[Pa\].
-    pub(crate) atmosphere_pa: f64,
+    pub atmosphere_pa: f64,
     /// Volume V_d of hose and fittings, which the mesh does not have \[m³\].
     pub dead_m3: f64,
     /// n: 1 isothermal (slow), the heat ratio 1.4 adiabatic (fast).
     pub exponent: f64,
     /// C \[m³/(s Pa)\].
-    pub(crate) leak_m3_s_pa: f64,
+    pub leak_m3_s_pa: f64,
     /// q over time \[m³/s\].
-    pub(crate) inflow_m3_s: Amplitude,
+    pub inflow_m3_s: Amplitude,
 }
 
 impl Default for Gas {

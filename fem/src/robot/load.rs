@@ -29,9 +29,9 @@ pub struct RobotStart {
     pub pressures_pa: [f64; CHANNELS],
     pub tip_force_n: [f64; 3],
     /// Gravity \[m/s²\].
-    pub(crate) gravity_m_s2: [f64; 3],
+    pub gravity_m_s2: [f64; 3],
     /// How far the obstacle has moved \[m\].
-    pub(crate) obstacle_m: [f64; 3],
+    pub obstacle_m: [f64; 3],
 }
 
 impl RobotStart {

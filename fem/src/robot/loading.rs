@@ -31,11 +31,11 @@ pub struct RobotRun {
     /// Dead load on the tip's ring \[N\].
     pub tip_force_n: Load,
     /// Gravity \[m/s²\], which acts on the true mass.
-    pub(crate) gravity_m_s2: Load,
+    pub gravity_m_s2: Load,
     /// A cylinder along z in the way.
     pub obstacle: Option<Obstacle>,
     /// How far it has moved at every pressure \[m\]; empty: it does not.
-    pub(crate) obstacle_moves_m: Vec<[f64; 3]>,
+    pub obstacle_moves_m: Vec<[f64; 3]>,
     /// Where another run ended that this one goes on from.
     pub start: Option<RobotStart>,
     /// Element sizes of body and actuator that a study of the mesh runs beside each other \[m\]; `settings` has those of one run.

@@ -30,7 +30,7 @@ pub struct SeamForce {
     /// Element, in mesh order.
     pub element: usize,
     /// Whether the weld runs across the robot, and not along a side of its actuator.
-    pub(crate) is_across: bool,
+    pub is_across: bool,
 }
 
 impl Seams {

@@ -25,9 +25,9 @@ pub struct RobotSettings {
     pub body_size_m: f64,
     pub actuator_size_m: f64,
     /// `None`: 1, and 0.8 under a taped sheet.
-    pub(crate) ring_spacing: Option<f64>,
+    pub ring_spacing: Option<f64>,
     /// Rows grow by a quarter each. `None`: as long as the others, and two thirds of a weld under a folded sheet.
-    pub(crate) seam_row_m: Option<f64>,
+    pub seam_row_m: Option<f64>,
     /// Published: 0.01 mm.
     pub layer_gap_m: f64,
     /// Assumed. Along a line (0) taped plies fold without end as the mesh gets finer.
@@ -40,37 +40,37 @@ pub struct RobotSettings {
     pub wrinkle_length: Option<f64>,
     /// Assumed: 1 without slip, 0 as loose sheets.
     pub bond: f64,
-    pub(crate) tape_m: f64,
-    pub(crate) tape_e_pa: f64,
-    pub(crate) tape_margin_m: f64,
+    pub tape_m: f64,
+    pub tape_e_pa: f64,
+    pub tape_margin_m: f64,
     /// Whether tape holds separate pouches at their seams only, and not over their whole face. The paper prints neither.
     pub taped_at_seams: bool,
-    pub(crate) glue_m: f64,
-    pub(crate) glue_e_pa: f64,
+    pub glue_m: f64,
+    pub glue_e_pa: f64,
     /// Assumed. `None`: the material's own.
     pub nu12: Option<f64>,
     /// `None` in these four: that of the fabric. Moduli are for isotropic fabrics only.
     pub sheet_m: Option<f64>,
-    pub(crate) sheet_e_pa: Option<f64>,
-    pub(crate) body_sheet_m: Option<f64>,
-    pub(crate) body_sheet_e_pa: Option<f64>,
+    pub sheet_e_pa: Option<f64>,
+    pub body_sheet_m: Option<f64>,
+    pub body_sheet_e_pa: Option<f64>,
     /// From a peel or tensile test of a seam. Changes no run.
-    pub(crate) weld_strength_n_per_m: Option<f64>,
+    pub weld_strength_n_per_m: Option<f64>,
     pub density_kg_m3: f64,
     /// Actuator gauge pressure at the end \[Pa\].
     pub actuator_pa: f64,
     pub body_ramp_s: f64,
     pub actuator_ramp_s: f64,
     /// A robot bends most, and its folds open, at about the body's pressure. `None`: a fifth-order step of the pressure.
-    pub(crate) ramp_floor_pa: Option<f64>,
+    pub ramp_floor_pa: Option<f64>,
     pub hold_s: f64,
-    pub(crate) rest_s: Option<f64>,
+    pub rest_s: Option<f64>,
     /// Masses are raised as the highest mode of the mesh needs. `None`: 3.6, and 2.4 where layers of elements of 1.5 mm and more touch.
-    pub(crate) mass_factor: Option<f64>,
+    pub mass_factor: Option<f64>,
     /// Whether waves of a few elements are heavy in place of everything ([`crate::problem::Settings::selective_mass`]).
     pub selective_mass: bool,
     /// They allow a longer step beside `mass_factor`. `None`: 2, and 6 for elements below 1.5 mm.
-    pub(crate) mass_passes: Option<usize>,
+    pub mass_passes: Option<usize>,
     pub creep: f64,
     pub cfl: f64,
     pub viscosity: f64,
@@ -85,7 +85,7 @@ pub struct RobotSettings {
     /// A push that breaks the symmetry.
     pub imperfection: f64,
     /// Assumed: random waves of 30 to 120 mm. A seed is the same robot on every mesh.
-    pub(crate) waviness_m: f64,
+    pub waviness_m: f64,
     pub seed: u64,
 }
 

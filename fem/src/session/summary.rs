@@ -118,7 +118,7 @@ pub struct MeshQuality {
     /// Worst ratio of Jacobians.
     pub jacobian_ratio: f64,
     /// Worst warpage.
-    pub(crate) warpage: f64,
+    pub warpage: f64,
 }
 
 /// Mean displacement of a node set from where it started.

@@ -13,13 +13,13 @@ pub struct ElementFields {
     /// Principal Cauchy stresses, larger first \[Pa\].
     pub principal_stress_pa: Vec<[f64; 2]>,
     /// Unit vectors along them, in the sheet; the first has no component against the fabric's warp.
-    pub(crate) principal_direction: Vec<[[f64; 3]; 2]>,
+    pub principal_direction: Vec<[[f64; 3]; 2]>,
     /// Principal Green–Lagrange strains, larger first.
-    pub(crate) principal_strain: Vec<[f64; 2]>,
+    pub principal_strain: Vec<[f64; 2]>,
     /// Current thickness of the section (incompressible) \[m\].
     pub thickness_m: Vec<f64>,
     /// 0 taut, 1 wrinkled (smaller principal stress not tensile), 2 slack (larger not tensile either).
-    pub(crate) wrinkle_state: Vec<u8>,
+    pub wrinkle_state: Vec<u8>,
 }
 
 impl Sheet {

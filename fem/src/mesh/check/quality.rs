@@ -15,7 +15,7 @@ pub struct Quality {
     /// Smallest ratio of smallest to largest corner area (Jacobian) of a quad; 1 is best.
     pub jacobian_ratio: f64,
     /// Largest distance of the corners of a quad from its mean plane over the root of its area; 0 is flat.
-    pub(crate) warpage: f64,
+    pub warpage: f64,
     /// Volume of every chamber at the start \[m³\].
     pub volumes_m3: Vec<(String, f64)>,
     /// Edges at which a chamber touches itself (pouches of one supply line sharing a seam).
