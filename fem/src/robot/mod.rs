@@ -39,7 +39,7 @@ mod snaps;
 mod table;
 mod waviness;
 
-pub use assumed::{ASSUMED, Assumed, Spread, hypercube};
+pub use assumed::{ASSUMED, Assumed, Spread, hypercube, latin};
 pub use inflated::InflatedPouch;
 pub use keys::{KEYS, NUMERICAL, OTHERS};
 pub use load::{Load, RobotStart};
