@@ -65,12 +65,16 @@ impl Noise {
         Noise { runs, sigma2, dof, of_mean: variance.map(|v| v / runs as f64), tested, u }
     }
 
-    /// L⁻¹ of Σ = L Lᵀ of some values.
-    fn whitening(&self, rows: &[usize]) -> DMatrix<f64> {
+    /// Σ of some values, as in tests.
+    fn covariance(&self, rows: &[usize]) -> DMatrix<f64> {
         let u = self.u.select_rows(rows);
         let shared = &u * DMatrix::from_diagonal(&DVector::from_row_slice(&self.tested)) * u.transpose();
-        let sigma = shared + DMatrix::identity(rows.len(), rows.len()) * (self.sigma2 / self.runs as f64);
-        sigma.cholesky().unwrap().l().try_inverse().unwrap()
+        shared + DMatrix::identity(rows.len(), rows.len()) * (self.sigma2 / self.runs as f64)
+    }
+
+    /// L⁻¹ of Σ = L Lᵀ of some values.
+    fn whitening(&self, rows: &[usize]) -> DMatrix<f64> {
+        self.covariance(rows).cholesky().unwrap().l().try_inverse().unwrap()
     }
 
     /// Mean variance of some values of the mean, best estimate \[m²\].
@@ -154,15 +158,27 @@ pub struct Reference<'a> {
     levels_pa: Vec<f64>,
     /// B at the first level as it was measured, and its standard deviation.
     tested: Option<[f64; 2]>,
+    /// The parameter of the first effect as it was measured, and its standard deviation.
+    measured: Option<[f64; 2]>,
     pub noise: Vec<Noise>,
     whitening: Vec<DMatrix<f64>>,
 }
 
 impl<'a> Reference<'a> {
     /// The noise needs ∂f/∂ln p, which needs the fitted B, which needs the noise: two rounds.
-    pub fn of(base: &'a Scenario, data: &[&'a Dataset], levels_pa: &[f64], tested: Option<[f64; 2]>) -> Reference<'a> {
-        let (data, levels_pa) = (data.to_vec(), levels_pa.to_vec());
-        let mut reference = Reference { base, data, levels_pa, tested, noise: Vec::new(), whitening: Vec::new() };
+    pub fn of(base: &'a Scenario, data: &[&'a Dataset], levels_pa: &[f64]) -> Reference<'a> {
+        Reference::with_tests(base, data, levels_pa, [None; 2])
+    }
+
+    /// The same with values and standard deviations of tests of their own: of the first B, and of the first effect.
+    pub fn with_tests(
+        base: &'a Scenario,
+        data: &[&'a Dataset],
+        levels_pa: &[f64],
+        [tested, measured]: [Option<[f64; 2]>; 2],
+    ) -> Reference<'a> {
+        let (data, levels_pa, noise, whitening) = (data.to_vec(), levels_pa.to_vec(), Vec::new(), Vec::new());
+        let mut reference = Reference { base, data, levels_pa, tested, measured, noise, whitening };
         reference.estimate(&vec![base.bending_stiffness; reference.levels_pa.len()]);
         let first = reference.base();
         reference.estimate(&first.at);
@@ -171,7 +187,7 @@ impl<'a> Reference<'a> {
 
     fn estimate(&mut self, bending: &[f64]) {
         let slope = |data: &&Dataset| -> Vec<f64> {
-            let [low, high] = [1.0 - 1e-4, 1.0 + 1e-4].map(|factor| self.positions(data, None, bending, factor));
+            let [low, high] = [1.0 - 1e-4, 1.0 + 1e-4].map(|factor| self.positions(data, &[], bending, factor));
             high.iter().zip(&low).map(|(high, low)| (high - low) / 2e-4).collect()
         };
         self.noise = self.data.iter().map(|data| Noise::of(data, &slope(data))).collect();
@@ -180,11 +196,14 @@ impl<'a> Reference<'a> {
     }
 
     /// Positions with an effect, hold by hold at the B of the nearest body pressure.
-    fn positions(&self, data: &Dataset, effect: Option<&str>, at: &[f64], factor: f64) -> Vec<f64> {
+    fn positions(&self, data: &Dataset, effects: &[&str], at: &[f64], factor: f64) -> Vec<f64> {
         let (bending, values) = at.split_at(self.levels_pa.len());
         let robot = |level: usize| {
             let plain = self.base.with_bending(bending[level]);
-            effect.map_or(plain.clone(), |name| plain.with_effect(name, values))
+            match effects {
+                [one] => plain.with_effect(one, values),
+                more => more.iter().zip(values).fold(plain, |robot, (name, value)| robot.with_effect(name, &[*value])),
+            }
         };
         let all: Vec<Vec<f64>> =
             (0..bending.len()).map(|level| positions(&robot(level), &data.holds, factor)).collect();
@@ -197,38 +216,45 @@ impl<'a> Reference<'a> {
         (0..self.levels_pa.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap()
     }
 
-    fn residuals(&self, effect: Option<&str>, measured: Option<[f64; 2]>, at: &[f64]) -> DVector<f64> {
+    fn residuals(&self, effects: &[&str], at: &[f64]) -> DVector<f64> {
         let mut all = Vec::new();
         for (data, whitening) in self.data.iter().zip(&self.whitening) {
-            let off = DVector::from_vec(self.positions(data, effect, at, 1.0)) - mean(data, |_| true);
+            let off = DVector::from_vec(self.positions(data, effects, at, 1.0)) - mean(data, |_| true);
             all.extend((whitening * off).iter());
         }
         all.extend(self.tested.map(|[value, sd]| (at[0] - value) / sd));
-        all.extend(measured.map(|[value, sd]| (at[self.levels_pa.len()] - value) / sd));
+        let of_effect = at.get(self.levels_pa.len());
+        all.extend(self.measured.zip(of_effect).map(|([value, sd], found)| (found - value) / sd));
         DVector::from_vec(all)
     }
 
     /// The base with its bending stiffnesses fitted.
     pub fn base(&self) -> Fit {
         let start = vec![self.base.bending_stiffness; self.levels_pa.len()];
-        least_squares(&|at| self.residuals(None, None, at), &start, None)
+        least_squares(&|at| self.residuals(&[], at), &start, None)
     }
 
-    /// The base with an effect of one parameter, which a test of its own may have `measured`.
-    pub fn with(&self, effect: &str, measured: Option<[f64; 2]>) -> Fit {
-        let start = [self.base().at, vec![0.0]].concat();
-        least_squares(&|at| self.residuals(Some(effect), measured, at), &start, None)
+    /// The base with effects of one parameter each.
+    pub fn with(&self, effects: &[&str]) -> Fit {
+        let start = [self.base().at, vec![0.0; effects.len()]].concat();
+        least_squares(&|at| self.residuals(effects, at), &start, None)
     }
 
     /// Error of a fit in the first data beyond the noise of their mean \[mm\].
-    pub fn error_mm(&self, effect: Option<&str>, at: &[f64]) -> f64 {
-        let off = DVector::from_vec(self.positions(self.data[0], effect, at, 1.0)) - mean(self.data[0], |_| true);
+    pub fn error_mm(&self, effects: &[&str], at: &[f64]) -> f64 {
+        self.error_in_mm(0, effects, at)
+    }
+
+    /// The same in the data with that number.
+    pub fn error_in_mm(&self, which: usize, effects: &[&str], at: &[f64]) -> f64 {
+        let data = self.data[which];
+        let off = DVector::from_vec(self.positions(data, effects, at, 1.0)) - mean(data, |_| true);
         let all: Vec<usize> = (0..off.len()).collect();
-        1e3 * (off.norm_squared() / off.len() as f64 - self.noise[0].mean_square(&all)).max(0.0).sqrt()
+        1e3 * (off.norm_squared() / off.len() as f64 - self.noise[which].mean_square(&all)).max(0.0).sqrt()
     }
 
     /// 95 % interval of a number of a fit of the first data; followed along the profile where it is wide, or where a bound is near.
-    pub fn interval(&self, effect: Option<&str>, fit: &Fit, k: usize, [lower, upper]: [f64; 2]) -> [f64; 2] {
+    pub fn interval(&self, effects: &[&str], fit: &Fit, k: usize, [lower, upper]: [f64; 2]) -> [f64; 2] {
         let (noise, covariance) = (&self.noise[0], fit.covariance());
         let weights = self.whitening[0].tr_mul(&(&fit.slope * covariance.column(k)));
         let runs = noise.runs as f64;
@@ -246,7 +272,7 @@ impl<'a> Reference<'a> {
         let rise = |x: f64| {
             let mut start = fit.at.clone();
             start[k] = x;
-            least_squares(&|at| self.residuals(effect, None, at), &start, Some(k)).cost() - fit.cost()
+            least_squares(&|at| self.residuals(effects, at), &start, Some(k)).cost() - fit.cost()
         };
         [(-half, lower), (half, upper)].map(|(step, bound)| {
             let (mut inside, mut outside) = (value, value + 3.0 * step);
@@ -259,7 +285,7 @@ impl<'a> Reference<'a> {
     }
 
     /// Error beyond noise at actuator pressures left out of a fit of the first data, one after the other \[mm\].
-    pub fn left_out_pressure_mm(&self, effect: Option<&str>, fit: &Fit) -> f64 {
+    pub fn left_out_pressure_mm(&self, effects: &[&str], fit: &Fit) -> f64 {
         let (data, all) = (self.data[0], mean(self.data[0], |_| true));
         let mut levels: Vec<f64> = data.holds.iter().map(|hold| hold.p_act_pa).filter(|p| *p > 0.0).collect();
         levels.dedup();
@@ -268,30 +294,36 @@ impl<'a> Reference<'a> {
             let (out, kept): (Vec<usize>, Vec<usize>) =
                 (0..all.len()).partition(|i| data.holds[i / width].p_act_pa == *level);
             let noise_m2 = self.noise[0].mean_square(&out);
-            self.left_out(effect, fit, (&kept, &all), (&out, &all), noise_m2)
+            self.left_out(effects, fit, (&kept, &all), (&out, &all), noise_m2)
         });
         rms_mm(parts)
     }
 
     /// The same for runs: the mean of the others is fitted, and a run alone scatters more than their mean.
-    pub fn left_out_run_mm(&self, effect: Option<&str>, fit: &Fit) -> f64 {
+    pub fn left_out_run_mm(&self, effects: &[&str], fit: &Fit) -> f64 {
         let data = self.data[0];
         let every: Vec<usize> = (0..data.values_per_run()).collect();
         let noise_of_run_m2 = self.noise[0].mean_square(&every) * data.runs.len() as f64;
         let parts = (0..data.runs.len()).map(|out| {
             let (others, truth) = (mean(data, |run| run != out), mean(data, |run| run == out));
-            self.left_out(effect, fit, (&every, &others), (&every, &truth), noise_of_run_m2)
+            self.left_out(effects, fit, (&every, &others), (&every, &truth), noise_of_run_m2)
         });
         rms_mm(parts)
     }
 
     /// Sum of squares of what a fit of some values misses at others, without their noise and what the fit took over, and their number.
-    fn left_out(&self, effect: Option<&str>, start: &Fit, kept: Values, out: Values, noise_m2: f64) -> [f64; 2] {
+    fn left_out(&self, effects: &[&str], start: &Fit, kept: Values, out: Values, noise_m2: f64) -> [f64; 2] {
         let pick = |rows: &[usize], of: &DVector<f64>| DVector::from_iterator(rows.len(), rows.iter().map(|i| of[*i]));
         let predicted =
-            |rows: &[usize], at: &[f64]| pick(rows, &DVector::from_vec(self.positions(self.data[0], effect, at, 1.0)));
+            |rows: &[usize], at: &[f64]| pick(rows, &DVector::from_vec(self.positions(self.data[0], effects, at, 1.0)));
         let whitening = self.noise[0].whitening(kept.0);
-        let refit = least_squares(&|at| &whitening * (predicted(kept.0, at) - pick(kept.0, kept.1)), &start.at, None);
+        // Further data and tests of their own stay in the fit.
+        let further = |at: &[f64]| self.residuals(effects, at).rows_range(self.data[0].values_per_run()..).into_owned();
+        let residuals = |at: &[f64]| {
+            let first = &whitening * (predicted(kept.0, at) - pick(kept.0, kept.1));
+            DVector::from_iterator(first.len() + further(at).len(), first.iter().chain(further(at).iter()).copied())
+        };
+        let refit = least_squares(&residuals, &start.at, None);
         let slope = here(&|at| predicted(out.0, at), &refit.at).slope;
         let taken_over_m2 = (&slope * refit.covariance() * slope.transpose()).trace() / out.0.len() as f64;
         let off = predicted(out.0, &refit.at) - pick(out.0, out.1);
@@ -299,10 +331,21 @@ impl<'a> Reference<'a> {
         [off.norm_squared() - n * (noise_m2 + taken_over_m2), n]
     }
 
-    /// Change of the whitened residuals by a first bit of an effect, with the base fitted out.
-    pub fn trace(&self, effect: &str, values: &[f64]) -> DVector<f64> {
+    /// P of χ² over its degrees of freedom of means over values that have the same key, of what a fit leaves in the first data.
+    pub fn lack_of_means(&self, effects: &[&str], at: &[f64], key: impl Fn(usize) -> usize, dof: usize) -> f64 {
+        let off = DVector::from_vec(self.positions(self.data[0], effects, at, 1.0)) - mean(self.data[0], |_| true);
+        let all: Vec<usize> = (0..off.len()).collect();
+        let count = 1 + all.iter().map(|i| key(*i)).max().unwrap();
+        let means = DMatrix::from_fn(count, off.len(), |k, i| f64::from(u8::from(key(i) == k)));
+        let sigma = &means * self.noise[0].covariance(&all) * means.transpose();
+        let left = &means * off;
+        f_tail(left.dot(&sigma.cholesky().unwrap().solve(&left)) / dof as f64, dof, self.noise[0].dof)
+    }
+
+    /// Change of the whitened residuals by an effect, with the base fitted out.
+    pub fn trace(&self, effects: &[&str], values: &[f64]) -> DVector<f64> {
         let base = self.base();
-        let change = self.residuals(Some(effect), None, &[&base.at, values].concat()) - &base.rest;
+        let change = self.residuals(effects, &[&base.at, values].concat()) - &base.rest;
         let fitted = &base.slope * base.covariance() * base.slope.tr_mul(&change);
         change - fitted
     }

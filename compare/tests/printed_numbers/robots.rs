@@ -50,6 +50,15 @@ pub fn curvature(robot: &Scenario, p_body_pa: f64, p_act_pa: f64) -> f64 {
     model.states(&at)[0].curvature
 }
 
+/// What a robot misses where it is held at a curvature \[N·m\].
+pub fn missing_moment(robot: &Scenario, p_body_pa: f64, p_act_pa: f64, curvature: f64) -> f64 {
+    let model = Model::new(robot);
+    let step = Step { t_s: 0.0, loads: Loads::uniform(p_body_pa, p_act_pa) };
+    let (held, mut missing) = (vec![curvature; model.segments().len()], 0.0);
+    model.hold(&[step], &[held], &mut model.prediction(), &mut |_, at| missing = at.missing_moments()[0]).unwrap();
+    missing
+}
+
 /// Normal numbers without a package: sums of twelve uniform ones.
 struct Normal(u64);
 
@@ -63,8 +72,15 @@ impl Normal {
     }
 }
 
+/// Runs of a robot at the holds.
+pub fn scattered(truth: &Scenario, name: &str, holds: &[Hold], runs: usize, seed: u64) -> Dataset {
+    let at = |factor: f64| positions(truth, holds, factor);
+    let slope: Vec<f64> = at(1.0 + 1e-4).iter().zip(at(1.0 - 1e-4)).map(|(high, low)| (high - low) / 2e-4).collect();
+    measured(name, holds, (&at(1.0), &slope), runs, seed)
+}
+
 /// Runs of given positions `truth_m` with camera noise, shifts of the camera and, along `slope_m` = ∂f/∂ln p, errors of the pressure.
-pub fn measured(name: &str, holds: &[Hold], (truth_m, slope_m): (&[f64], &[f64]), runs: usize, seed: u64) -> Dataset {
+fn measured(name: &str, holds: &[Hold], (truth_m, slope_m): (&[f64], &[f64]), runs: usize, seed: u64) -> Dataset {
     let (camera_m, shift_m, pressure) = (1.2e-3, 0.3e-3, 0.01);
     let mut normal = Normal(seed);
     let mut xy_m = Vec::new();
