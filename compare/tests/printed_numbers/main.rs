@@ -1,4 +1,41 @@
-//! Printed numbers of made-up robots.
+//! Made-up robots × printed numbers: each number is derived a second time, by dense matrices or in closed form.
+//!
+//! The table lists mutants, one-line changes of `diagnosis`, `moment`, `extension` and `ladder`, that a test here notices.
+//!
+//! | mutant | killed by |
+//! |---|---|
+//! | 1 pressures left out stay in the fit | `errors_at_what_was_left_out…` |
+//! | 2 of a run left out, the noise of the mean is taken off in place of a run's | `errors_at_what_was_left_out…` |
+//! | 3 what a fit took over of the scatter is not taken off | `errors_at_what_was_left_out…` |
+//! | 4 the B of another body pressure is written | `an_extension_writes…` |
+//! | 5 a second, contradicting test counts | `tests_of_their_own…` |
+//! | 6 the price of a parameter has the wrong sign | `the_order_counts…` |
+//! | 7 the prior of an effect's size is dropped | `the_order_counts…` |
+//! | 8 degrees of freedom are off by the number of parameters | `chances_count…` |
+//! | 9 intervals ignore what the other numbers may be | `intervals_count…` |
+//! | 10 two intervals of one number | `intervals_count…` |
+//! | 11 a change of the moment contains the drift before it | `missing_moments_are…` |
+//! | 12 an extension writes the value of another candidate | `an_extension_writes…` |
+//! | 13 a climb ends one effect early | `a_climb_adds…` |
+//! | 14 a gauge is ignored | `positions_are_predicted…` |
+//! | 15 `[direct]` of `about.toml` is ignored | `what_was_measured_directly…` |
+//! | 16 `[bending]` of `about.toml` is ignored | `tests_of_their_own…` |
+//! | 17 bands of curves have the inverse of the covariance | `curves_of_the_missing_moment…` |
+//! | an extension reports the B of another candidate; the nearest body pressure is the farthest; B without the effect is the given one | `an_extension_writes…` |
+//! | errors contain the noise of the mean | `values_gains_and_errors…` |
+//! | p of one test in place of all; the worst of the set decides; hold means or marker means with other degrees of freedom | `chances_count…` |
+//! | missing moments are relative to the fitted B | `missing_moments_are…` |
+//! | a band is moved along the curve the wrong way, or is twice as wide | `curves_of_the_missing_moment…` |
+//! | the second effect of a pair gets the value of the first | `two_effects_have…` |
+//! | the smallest size ignores how many effects were tried | `the_smallest_size…` |
+//! | lacking what a test found costs nothing; p is not corrected for several data; further data leave the fit of what is left out; errors in them are those of the first | `tests_of_their_own…` |
+//! | a learned law has the errors of the base; the table of an extension has the given B | `a_learned_law…` |
+//! | scatter of a moment is that of its bend; a hold has the sum of its samples | `missing_moments_are…` |
+//! | a row of the table has the error of another | `a_table_of_errors…` |
+//! | intervals from the variance that tests use | `intervals_count…` |
+//! | a price that ignores the allowance | `the_order_counts…` |
+//!
+//! Not noticed: the covariance of a shape is not widened where the shape itself misses the markers.
 
 mod one_robot;
 mod other_robots;

@@ -1,6 +1,7 @@
 //! Robots with two bodies, with two effects, with tests of their own, with a gauge; and one that changes within a hold.
 
 use crate::reference::Reference;
+use crate::robots;
 use crate::robots::{BENDING, about, curvature, exact, holds, missing_moment, positions, scattered, scenario, text};
 use crate::{diagnosed, only, ranked, same};
 use compare::diagnosis::Options;
@@ -96,7 +97,9 @@ fn tests_of_their_own_count_as_one_value_each() {
     let base = scenario();
     let holds = holds(&[[2000.0, 0.0], [2001.0, 10e3], [2000.0, 19e3], [2001.0, 28e3]], 2);
     let truth = base.with_bending(1.35).with_effect("tail_tension", &[0.3]);
-    let [one, other] = [21, 22].map(|seed| scattered(&truth, &seed.to_string(), &holds, 4, seed));
+    let elsewhere = robots::holds(&[[2000.0, 0.0], [2001.0, 13e3], [2000.0, 24e3], [2001.0, 33e3]], 2);
+    let [one, other] =
+        [(&holds, 21), (&elsewhere, 22)].map(|(holds, seed)| scattered(&truth, &seed.to_string(), holds, 4, seed));
     let first =
         about("[bending]\nstiffness_nm2 = 1.2\nsd_nm2 = 0.03\n[measured.tail_tension]\nmoment_nm = [0.2, 0.03]\n");
     let second = about("[measured.tail_tension]\nmoment_nm = [0.5, 0.02]\n");
@@ -224,5 +227,6 @@ fn a_learned_law_has_the_numbers_and_errors_of_its_own_fit() {
     same("B that is written", extension.file.bending_stiffness, fit.at[0], 1e-3);
     let written = extension.file.effects.iter().find(|e| e.name == "learned").unwrap();
     same("number that is written", written.values[0], fit.at[1], 1e-3);
+    same("B in the table", extension.steps.last().unwrap().bending_nm2, fit.at[0], 1e-3);
     same("error in the table", extension.steps.last().unwrap().training_mm, law.after_mm, 1e-9);
 }
