@@ -204,7 +204,7 @@ fn curves_of_the_missing_moment_are_the_laws_and_their_bands_the_covariance_of_t
     }
 }
 
-/// One effect is missing: of one that may be added it is, of none it is not, and what is left then is noise.
+/// One effect is missing: it is added where one may be added, and then noise is left.
 #[test]
 fn a_climb_adds_as_many_effects_as_it_may() {
     let (t, file) = (tail(), ScenarioFile::parse("tail", &text()).unwrap());

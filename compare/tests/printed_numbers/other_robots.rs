@@ -1,4 +1,4 @@
-//! Robots with two bodies, with two effects, with tests of their own, with a gauge; and one that changes within a hold.
+//! Robots with two bodies, with two effects, with separate tests, with a gauge; and one that changes within a hold.
 
 use crate::reference::Reference;
 use crate::robots;
@@ -10,8 +10,8 @@ use compare::{Evidence, ScenarioFile, extend};
 use data::{Dataset, Hold};
 use models::Scenario;
 
-/// A robot that stiffens within every hold: what is missing of a hold is the mean over its samples, and a change is what came
-/// since the first of them. B as given is what both are relative to, not the fitted one.
+/// A robot that stiffens within every hold: a hold misses the mean over its samples, and a change is the difference to the
+/// first of them. B as given is what both are relative to, not the fitted one.
 #[test]
 fn missing_moments_are_means_over_a_hold_and_changes_since_its_first_sample() {
     let base = scenario();
@@ -93,7 +93,7 @@ fn an_extension_writes_the_fit_of_its_own_effect_and_the_stiffness_of_its_own_bo
 
 /// Of two tests of one quantity that contradict each other the first counts, once; so does a bending test.
 #[test]
-fn tests_of_their_own_count_as_one_value_each() {
+fn separate_tests_count_as_one_value_each() {
     let base = scenario();
     let holds = holds(&[[2000.0, 0.0], [2001.0, 10e3], [2000.0, 19e3], [2001.0, 28e3]], 2);
     let truth = base.with_bending(1.35).with_effect("tail_tension", &[0.3]);
@@ -110,7 +110,7 @@ fn tests_of_their_own_count_as_one_value_each() {
     let row = ranked(&d, "tail_tension");
     same("moment", row.value, fit.at[1], 2e-3);
     same("its B", row.bending_nm2[0], fit.at[0], 1e-3);
-    // A base without the effect misses what was found of it.
+    // The base has no such effect and pays for the value that the test found.
     let base = r.base();
     same("gain", row.gain, base.cost() + (0.2_f64 / 0.03).powi(2) - fit.cost(), 1e-3);
     for (printed, (effects, at)) in

@@ -1,4 +1,4 @@
-//! The numbers of a diagnosis derived a second time, with dense matrices: noise, fit, intervals, errors at what was left out.
+//! The numbers of a diagnosis derived a second time, with dense matrices: noise, fit, intervals, errors at data left out.
 //!
 //! ```text
 //! Σ = σ²/R I + U diag(v) Uᵀ      U = [∂f/∂ln p, δx, δy, rotation]      θ̂ = argmin (f − y)ᵀ Σ⁻¹ (f − y)
@@ -170,7 +170,7 @@ impl<'a> Reference<'a> {
         Reference::with_tests(base, data, levels_pa, [None; 2])
     }
 
-    /// The same with values and standard deviations of tests of their own: of the first B, and of the first effect.
+    /// The same with values and standard deviations that separate tests found: of the first B, and of the first effect.
     pub fn with_tests(
         base: &'a Scenario,
         data: &[&'a Dataset],
@@ -311,13 +311,13 @@ impl<'a> Reference<'a> {
         rms_mm(parts)
     }
 
-    /// Sum of squares of what a fit of some values misses at others, without their noise and what the fit took over, and their number.
+    /// Sum of squares of the errors at some values of a fit to others, minus their noise and the noise in the fit; number of values.
     fn left_out(&self, effects: &[&str], start: &Fit, kept: Values, out: Values, noise_m2: f64) -> [f64; 2] {
         let pick = |rows: &[usize], of: &DVector<f64>| DVector::from_iterator(rows.len(), rows.iter().map(|i| of[*i]));
         let predicted =
             |rows: &[usize], at: &[f64]| pick(rows, &DVector::from_vec(self.positions(self.data[0], effects, at, 1.0)));
         let whitening = self.noise[0].whitening(kept.0);
-        // Further data and tests of their own stay in the fit.
+        // Further data and separate tests stay in the fit.
         let further = |at: &[f64]| self.residuals(effects, at).rows_range(self.data[0].values_per_run()..).into_owned();
         let residuals = |at: &[f64]| {
             let first = &whitening * (predicted(kept.0, at) - pick(kept.0, kept.1));
@@ -331,7 +331,7 @@ impl<'a> Reference<'a> {
         [off.norm_squared() - n * (noise_m2 + taken_over_m2), n]
     }
 
-    /// P of χ² over its degrees of freedom of means over values that have the same key, of what a fit leaves in the first data.
+    /// p of the residuals in the first data, averaged over values with the same key.
     pub fn lack_of_means(&self, effects: &[&str], at: &[f64], key: impl Fn(usize) -> usize, dof: usize) -> f64 {
         let off = DVector::from_vec(self.positions(self.data[0], effects, at, 1.0)) - mean(self.data[0], |_| true);
         let all: Vec<usize> = (0..off.len()).collect();
