@@ -270,9 +270,10 @@ pub fn accuracy(model_mm: f64, measured_mm: f64) -> Option<f64> {
 /// Files of finite element runs.
 const RUNS: RecordShape = RecordShape { schema: "ibr.fem_runs", version: 2 };
 
+/// A record of runs.
 #[derive(Deserialize)]
-struct EngineRuns {
-    runs: Vec<EngineRun>,
+pub(in crate::study) struct Listed<R> {
+    pub runs: Vec<R>,
 }
 
 /// Finite element runs that come with the program, made by its own commands (`ibr breakdown`, `ibr simulate`).
@@ -289,7 +290,7 @@ pub fn stored() -> Result<Vec<EngineRun>, FemError> {
 /// [`FemError::Record`] with the line and the field.
 pub fn read_runs(file: &str, text: &str) -> Result<Vec<EngineRun>, FemError> {
     let help = "make the file again: `ibr compare --engines --runs FOLDER` writes runs.json beside its report";
-    Ok(RUNS.read::<EngineRuns>(file, text, help)?.runs)
+    Ok(RUNS.read::<Listed<EngineRun>>(file, text, help)?.runs)
 }
 
 /// Runs as they are stored: one a line.
