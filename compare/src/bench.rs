@@ -90,7 +90,7 @@ pub fn held(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Resu
 }
 
 pub(crate) fn refuse<T>(bench: &Bench, problem: &str, help: &str) -> Result<T, CompareError> {
-    Err(CompareError::Bench { file: bench.file.clone(), problem: problem.into(), help: help.into() })
+    Err(CompareError::told(format!("{}: {problem}: {help}", bench.file)))
 }
 
 fn half(row: &BenchRow, sd: &str, unit: f64) -> Option<f64> {

@@ -24,7 +24,10 @@ impl Layout {
         let layout =
             Layout { holds: dataset.holds.len(), samples: dataset.samples_per_hold, markers: dataset.markers.len() };
         if layout.values() == 0 || dataset.runs.is_empty() {
-            return Err(CompareError::Empty { name: dataset.name.clone() });
+            return Err(CompareError::told(format!(
+                "the dataset `{}` is empty: it needs at least one run, one hold, one marker and one sample",
+                dataset.name
+            )));
         }
         if dataset.xy_m.len() != layout.values() * dataset.runs.len() {
             return Err(layout.wrong_length("the dataset (per run)", dataset.xy_m.len() / dataset.runs.len()));
@@ -58,11 +61,12 @@ impl Layout {
         }
         match values.iter().position(|v| !policy::is_a_length(*v)) {
             None => Ok(()),
-            Some(i) => Err(CompareError::NotFinite {
-                what,
-                hold: i / (2 * self.markers * self.samples) + 1,
-                marker: i / 2 % self.markers + 1,
-            }),
+            Some(i) => Err(CompareError::told(format!(
+                "{what} is not a usable number at hold {}, marker {} (counted from 1): check the model or the file there \
+                 (finite, below 1 km)",
+                i / (2 * self.markers * self.samples) + 1,
+                i / 2 % self.markers + 1
+            ))),
         }
     }
 
@@ -84,7 +88,11 @@ impl Layout {
 
     fn wrong_length(&self, what: &'static str, found: usize) -> CompareError {
         let Layout { holds, samples, markers } = *self;
-        CompareError::WrongLength { what, found, expected: self.values(), holds, samples, markers }
+        CompareError::told(format!(
+            "{what} has {found} values, one run of the data has {} ({holds} holds x {samples} samples x {markers} markers x 2): \
+             predict at the holds, sample times and markers of the dataset",
+            self.values()
+        ))
     }
 }
 

@@ -45,11 +45,7 @@ pub mod witness;
 pub mod wording;
 
 #[cfg(test)]
-mod monte_carlo_tests;
-#[cfg(test)]
-mod scenarios_tests;
-#[cfg(test)]
-mod synthetic;
+mod tests;
 
 pub use diagnosis::{Diagnosis, diagnose};
 pub use error::CompareError;

@@ -233,6 +233,11 @@ impl NoiseModel {
         self.directions[range].iter().filter(|u| **u != [0.0; 4]).count()
     }
 
+    /// Values of a whole run that enough runs saw.
+    pub fn all_seen(&self) -> usize {
+        self.seen(0..self.directions.len())
+    }
+
     /// The noisiest and the quietest hold, if their scatter differs by more than chance (F test, p < 0.01 after
     /// correction for all pairs) and by more than half: significance is then overstated at the noisiest hold.
     pub fn uneven_holds(&self) -> Option<(usize, usize)> {
@@ -336,7 +341,7 @@ fn quadratic(vector: &[f64; 4], variances: &[f64; 4]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::{CAMERA, SyntheticRobot};
+    use crate::tests::synthetic::{CAMERA, SyntheticRobot};
 
     /// What one run cannot show is as the sensors are specified: 0.3 % of the pressure, 0.1 mm, 0.5 mrad.
     #[test]

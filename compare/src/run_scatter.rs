@@ -93,7 +93,10 @@ pub fn session_groups(sessions: &[usize], runs: usize) -> Result<Vec<Vec<usize>>
         return Ok(vec![(0..runs).collect()]);
     }
     if sessions.len() != runs {
-        return Err(CompareError::WrongSessions { found: sessions.len(), runs });
+        let found = sessions.len();
+        return Err(CompareError::told(format!(
+            "{found} session labels for {runs} runs: give one label per run, or none if all runs are one session"
+        )));
     }
     let mut labels: Vec<usize> = Vec::new();
     let mut groups: Vec<Vec<usize>> = Vec::new();
@@ -107,7 +110,10 @@ pub fn session_groups(sessions: &[usize], runs: usize) -> Result<Vec<Vec<usize>>
         }
     }
     if runs > 1 && groups.len() == runs {
-        return Err(CompareError::SessionsWithoutRepeats);
+        return Err(CompareError::told(
+            "every session has one run only, so run-to-run scatter cannot be told from session differences: repeat at least \
+             one session, or leave the session labels out",
+        ));
     }
     Ok(groups)
 }

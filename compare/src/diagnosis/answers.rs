@@ -1,7 +1,7 @@
 //! Answers to what is missing, as they are drawn and told: one effect or two, each at the values of its own fit.
 
 use super::fitted::with_fitted;
-use super::result::{Combination, Diagnosis, ParameterValue, Ranked, Verdict};
+use super::result::{Added, Combination, Diagnosis, ParameterValue, Ranked, Verdict};
 use crate::policy;
 use models::{Known, Scenario};
 
@@ -162,7 +162,7 @@ impl Diagnosis {
 
     /// The closest in mm may be too far down the list of pairs to be in it.
     fn unreported_attempt(&self) -> Answer<'_> {
-        let member = |a: &'_ super::result::Added| self.ranked.iter().position(|r| r.effect == a.effect);
+        let member = |a: &'_ Added| self.ranked.iter().position(|r| r.effect == a.effect);
         let members = self.attempt.iter().filter_map(|a| Some((&self.ranked[member(a)?], a.parameters.as_slice())));
         Answer {
             effects: members.collect(),

@@ -5,7 +5,6 @@ use super::least_squares::{dot, square};
 /// Part of a column that must be new for it to count.
 const NEW_PART: f64 = 1e-6;
 
-/// An orthonormal basis.
 #[derive(Debug, Clone, Default)]
 pub struct Basis {
     columns: Vec<Vec<f64>>,
@@ -21,7 +20,6 @@ impl Basis {
         basis
     }
 
-    /// Its columns.
     pub fn columns(&self) -> &[Vec<f64>] {
         &self.columns
     }
@@ -48,6 +46,12 @@ impl Basis {
         self.columns.push(rest.iter().map(|r| r / new).collect());
         true
     }
+}
+
+/// What is left of a column when all others are fitted to it.
+pub fn own_part(columns: &[Vec<f64>], k: usize) -> Vec<f64> {
+    let others: Vec<Vec<f64>> = (0..columns.len()).filter(|j| *j != k).map(|j| columns[j].clone()).collect();
+    Basis::of(&others).rest(&columns[k])
 }
 
 /// Cosine of the angle between two vectors; 0 if one vanishes.

@@ -6,28 +6,13 @@
 use super::case::Case;
 use super::experiments::bending_test;
 use super::problem::Fit;
+use super::result::BendingAlarm;
 use crate::policy;
-use serde::Serialize;
-
-/// A fitted stiffness that is not the one that was told.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct BendingAlarm {
-    /// What the scenario or the bending test says \[N·m²\].
-    pub told_nm2: f64,
-    /// Standard deviation of the bending test; `None`: the scenario says it \[N·m²\].
-    pub test_sd_nm2: Option<f64>,
-    /// Fitted without an effect \[N·m²\].
-    pub base_nm2: f64,
-    /// Of the answer; without one, of the base \[N·m²\].
-    pub answer_nm2: f64,
-    /// What it may mean, and what to do.
-    pub words: String,
-}
 
 /// The alarm, where the stiffness is fitted and was told.
 pub(super) fn bending_alarm(case: &Case, last: &Fit) -> Option<BendingAlarm> {
     let test = case.problem.known_bending;
-    let told = test.map_or(case.scenario.bending_stiffness, |[found, _]| found);
+    let told = test.map_or(case.first().scenario.bending_stiffness, |[found, _]| found);
     let is_off = |b: f64| match test {
         Some([found, sd]) => policy::disagree((b - found) / sd),
         None => told > 0.0 && policy::bending_moves(told, b),
@@ -44,7 +29,7 @@ pub(super) fn bending_alarm(case: &Case, last: &Fit) -> Option<BendingAlarm> {
         answer_nm2: last.theta()[worst],
         words: String::new(),
     };
-    Some(BendingAlarm { words: words(&alarm, last.effects.len() > case.always.len()), ..alarm })
+    Some(BendingAlarm { words: words(&alarm, !case.added(last).is_empty()), ..alarm })
 }
 
 fn words(alarm: &BendingAlarm, has_answer: bool) -> String {

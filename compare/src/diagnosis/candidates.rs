@@ -1,10 +1,10 @@
 //! The effects that may be missing: the one place where the diagnosis meets the catalogue.
 
-use super::result::Group;
+use super::least_squares::Range;
 use crate::policy;
 use data::MeasuredValue;
 use models::Scenario;
-use models::effects::{Effect, Fitted, Stage};
+use models::effects::{Effect, Fitted, Group, Stage};
 
 /// An effect that can be switched on, with what a fit and a reader need.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,6 +72,14 @@ impl Free {
         if self.fitted == Fitted::FromDesign { self.typical } else { self.neutral }
     }
 
+    /// Range of a fit; a single value where it is not fitted.
+    pub fn range(&self) -> Range {
+        match self.is_free() {
+            true => Range { lower: self.lower, upper: self.upper, scale: self.scale() },
+            false => Range::fixed(self.held_at(), self.scale()),
+        }
+    }
+
     /// Length of one step of the fit.
     pub fn scale(&self) -> f64 {
         let typical = (self.typical - self.neutral).abs();
@@ -136,6 +144,17 @@ impl Candidate {
         self.parameters.iter().all(|p| p.fitted == Fitted::FromDesign)
     }
 
+    /// First parameter whose typical value is not its neutral one.
+    pub fn lead(&self) -> usize {
+        self.parameters.iter().position(|p| p.typical != p.neutral).unwrap_or(0)
+    }
+
+    /// Values that a scenario has; neutral ones where it lacks the effect.
+    pub fn own_values(&self, scenario: &Scenario) -> Vec<f64> {
+        let own = scenario.effects.iter().find(|e| e.name == self.name);
+        own.map_or_else(|| self.at(0.0), |e| e.values.clone())
+    }
+
     /// Number of parameters that are fitted.
     pub fn count(&self) -> usize {
         self.parameters.iter().filter(|p| p.is_free()).count()
@@ -168,25 +187,16 @@ impl Candidate {
     }
 }
 
-/// What the data hold beside markers at one body pressure.
-pub struct Held<'a> {
-    /// The bending stiffness is kept.
-    pub kept_bending: bool,
-    /// Several body pressures.
-    pub body_pressures: bool,
-    /// Values that tests of their own found.
-    pub measured: &'a [&'a MeasuredValue],
-}
-
-/// Holds parameters at their neutral values that the data do not hold.
-pub fn hold(candidates: &mut [Candidate], held: &Held) {
+/// Holds parameters at their neutral values that the data do not hold: a bending stiffness that is kept, several body pressures and
+/// tests of their own hold more.
+pub fn hold(candidates: &mut [Candidate], kept_bending: bool, body_pressures: bool, measured: &[&MeasuredValue]) {
     for Candidate { name, parameters, .. } in candidates {
         for p in parameters {
-            let is_measured = held.measured.iter().any(|m| m.effect == *name && m.key == p.key);
+            let is_measured = measured.iter().any(|m| m.effect == *name && m.key == p.key);
             p.is_held = match p.fitted {
                 Fitted::Always | Fitted::Shape => false,
-                Fitted::WithKeptBending => !held.kept_bending,
-                Fitted::WithBodyPressures => !held.body_pressures && !is_measured,
+                Fitted::WithKeptBending => !kept_bending,
+                Fitted::WithBodyPressures => !body_pressures && !is_measured,
                 Fitted::FromDesign => true,
             };
         }

@@ -4,39 +4,30 @@ use super::case::Case;
 use super::closest::{as_close, closest};
 use super::lack_of_fit::{lack_of_fit, with_supply};
 use super::options::Options;
-use super::order;
+use super::order::{self, Ordered};
 use super::pairs::{another_wanted, fit_pairs, indistinguishable as alike_pairs, p_over};
 use super::patterns::Fault;
 use super::problem::Fit;
-use super::result::{Group, LackOfFit, Verdict};
+use super::result::{LackOfFit, Verdict};
 use super::singles::indistinguishable;
+use super::source::Source;
 use super::stands_out::{Simpler, StandsOut, alone, stands_out};
 use crate::error::CompareError;
 use crate::policy;
 use crate::progress::Progress;
 use crate::stats::reported_p;
+use models::effects::Group;
 
 /// Everything that was fitted, and what follows.
 pub struct Decision {
-    /// Single effects, best first.
-    pub singles: Vec<Fit>,
-    /// Allowance for the form of their laws.
-    pub allowance: f64,
-    /// Those that cannot be told apart.
-    pub set: Vec<usize>,
-    /// Pairs, best first; empty if one effect is enough.
-    pub pairs: Vec<Fit>,
-    /// Allowance for the form of their laws.
-    pub pair_allowance: f64,
-    /// Those that cannot be told apart.
-    pub pair_set: Vec<usize>,
-    /// Pairs tried.
-    pub pairs_tried: usize,
+    pub singles: Ordered,
+    /// Empty if one effect is enough.
+    pub pairs: Ordered,
     /// The final model; `None`: the base.
     pub last: Option<Fit>,
     /// Where nothing explains the data: the final model and what comes as close.
     pub as_close: Vec<Fit>,
-    /// Verdict; `None` without p-values.
+    /// `None` without p-values.
     pub verdict: Option<Verdict>,
     /// One corrected p of "nothing is missing".
     pub p_value: Option<f64>,
@@ -51,18 +42,15 @@ pub struct Decision {
 impl Decision {
     /// Everything of the catalogue that was fitted: single effects and pairs.
     pub fn rivals(&self) -> Vec<Fit> {
-        [&self.singles[..], &self.pairs].concat()
+        [&self.singles.fits[..], &self.pairs.fits].concat()
     }
 
     /// The same without an answer: the data are not what they say.
-    pub fn withhold(&mut self) {
-        self.verdict = None;
-        self.last = None;
-        self.fault = None;
-        self.set.clear();
-        self.pairs.clear();
-        self.as_close.clear();
-        self.after = self.before;
+    pub fn withheld(self) -> Decision {
+        let singles = Ordered { set: Vec::new(), ..self.singles };
+        let (pairs, p_value, before) = (Ordered::default(), self.p_value, self.before);
+        let (last, as_close, verdict, fault) = (None, Vec::new(), None, None);
+        Decision { singles, pairs, last, as_close, verdict, p_value, fault, before, after: before }
     }
 }
 
@@ -81,13 +69,8 @@ pub fn decide(
     let p_effect = set.iter().filter_map(|i| p_of(case, &singles[*i])).reduce(f64::min);
     let p_value = before.map(|lof| combined(p_effect.unwrap_or(1.0), lof.p_value));
     let mut decision = Decision {
-        singles,
-        allowance,
-        set,
-        pairs: Vec::new(),
-        pair_allowance: 1.0,
-        pair_set: Vec::new(),
-        pairs_tried: 0,
+        singles: Ordered { tried: singles.len(), fits: singles, allowance, set },
+        pairs: Ordered::default(),
         last: None,
         as_close: Vec::new(),
         fault: None,
@@ -99,7 +82,7 @@ pub fn decide(
     if p_value.is_none_or(|p| p >= case.alpha) {
         return Ok(decision);
     }
-    if policy::is_good_enough(case.error_in_all_mm(&case.base), 1e3 * case.tolerance_m) && !is_gauged(case) {
+    if policy::is_good_enough(case.error_in_all_mm(&case.base), 1e3 * case.tolerance_m) && !case.is_gauged() {
         decision.verdict = Some(Verdict::TooSmall);
         return Ok(decision);
     }
@@ -117,7 +100,7 @@ fn explain(
     significant: bool,
     progress: &mut Progress,
 ) -> Result<(), CompareError> {
-    let single = decision.set.first().filter(|_| significant).map(|i| decision.singles[*i].clone());
+    let single = decision.singles.stated().next().filter(|_| significant).cloned();
     let mut last = single.clone();
     let mut of_one = None;
     let one_is_enough = match &single {
@@ -133,25 +116,26 @@ fn explain(
     decision.after = test(case, &last)?;
     let unexplained = match of_one {
         // No pair has taken its place: the same question.
-        Some(answer) if decision.pairs.is_empty() => answer,
-        _ => is_unexplained(case, &last, decision.after, if decision.pairs.is_empty() { 1 } else { 2 }),
+        Some(answer) if decision.pairs.fits.is_empty() => answer,
+        _ => is_unexplained(case, &last, decision.after, if decision.pairs.fits.is_empty() { 1 } else { 2 }),
     };
     if unexplained {
-        let closest = closest(case, decision, last);
+        let fits = [&decision.singles.fits[..], &decision.pairs.fits];
+        let closest = closest(case, fits, last);
         // What hardly moves the model is no attempt.
         if !policy::is_closer(case.error_in_all_mm(&closest), case.error_in_all_mm(&case.base)) {
             decision.after = decision.before;
             return Ok(());
         }
         decision.after = test(case, &closest)?;
-        decision.as_close = as_close(case, decision, &closest);
+        decision.as_close = as_close(case, fits, &closest);
         decision.last = Some(closest);
         return Ok(());
     }
     decision.fault = simpler(case, &last);
     if decision.fault.is_none() && !pays(case, &last) {
         (decision.verdict, decision.after) = (Some(Verdict::TooSmall), decision.before);
-        (decision.pairs, decision.pair_set) = (Vec::new(), Vec::new());
+        decision.pairs = Ordered::default();
         return Ok(());
     }
     if decision.fault.is_none() {
@@ -163,13 +147,9 @@ fn explain(
 
 /// Whether an answer takes a fifth of the error over all data. What a gauge shows of the supply, the positions do not see.
 fn pays(case: &Case, fit: &Fit) -> bool {
-    let mut added = fit.effects[case.always.len()..].iter();
-    let is_of_supply = is_gauged(case) && added.all(|e| case.candidate(*e).group == Group::Supply);
+    let mut added = case.added(fit).iter();
+    let is_of_supply = case.is_gauged() && added.all(|e| case.candidate(*e).group == Group::Supply);
     is_of_supply || policy::is_closer(case.error_in_all_mm(fit), case.error_in_all_mm(&case.base))
-}
-
-fn is_gauged(case: &Case) -> bool {
-    case.sources().any(|(source, _)| source.gauge.is_some())
 }
 
 /// Whether a fit of so many effects leaves a share of the error that the tests see as more than noise, at the level that is theirs.
@@ -196,7 +176,7 @@ fn is_a_place_left(case: &Case, fit: &Fit, seen: &StandsOut) -> bool {
 /// answer. One effect is as simple: a place must be clearly better, for a law that is not quite its formula leaves one now and
 /// then, and a hold says nothing against it, because three pressures and B leave every law one hold to miss.
 fn simpler(case: &Case, last: &Fit) -> Option<Simpler> {
-    let (kinds, margin): (&[Fault], f64) = match last.effects.len() - case.always.len() {
+    let (kinds, margin): (&[Fault], f64) = match case.added(last).len() {
         ..=1 => (&[Fault::Place], policy::SAME_EVIDENCE),
         _ => (&[Fault::Place, Fault::Hold], 0.0),
     };
@@ -215,21 +195,18 @@ fn simpler(case: &Case, last: &Fit) -> Option<Simpler> {
 /// Takes the best pair in place of the single effect, or of the base, if it is significantly better, and in mm too: by the whitened
 /// sum of squares alone a second name may mend quiet holds and leave the error as it was.
 fn add_second(case: &Case, decision: &mut Decision, last: &mut Option<Fit>, progress: &mut Progress) {
-    let (mut pairs, tried) = fit_pairs(case, &decision.singles, progress);
-    decision.pairs_tried = tried;
+    let (mut fits, tried) = fit_pairs(case, &decision.singles.fits, progress);
     let before = last.as_ref().unwrap_or(&case.base);
-    let allowance = order::sort(case, &mut pairs, before);
+    let allowance = order::sort(case, &mut fits, before);
     let error_mm = |fit: &Fit| case.error_in_all_mm(fit);
     let enough_mm =
         last.as_ref().map_or(f64::INFINITY, |one| (policy::CLOSER * error_mm(one)).max(1e3 * case.tolerance_m));
-    if let Some(best) = pairs.first()
+    if let Some(best) = fits.first()
         && p_over(case, best, before, tried).is_some_and(|p| p < case.alpha)
         && error_mm(best) < enough_mm
     {
-        decision.pair_allowance = allowance;
-        decision.pair_set = alike_pairs(case, &pairs, allowance);
         *last = Some(best.clone());
-        decision.pairs = pairs;
+        decision.pairs = Ordered { set: alike_pairs(case, &fits, allowance), fits, allowance, tried };
     }
 }
 
@@ -249,9 +226,11 @@ fn is_significant(case: &Case, fit: &Fit) -> Result<bool, CompareError> {
 /// Lack of fit; of several data the clearest, corrected for their number.
 fn test(case: &Case, fit: &Fit) -> Result<Option<LackOfFit>, CompareError> {
     let mut tests = Vec::new();
-    for (i, (source, noise)) in case.sources().enumerate() {
-        let positions = lack_of_fit(source.dataset, noise, &case.prediction_of(i, fit), fit.theta().len())?;
-        let supply = source.gauge.zip(case.supply_of(i, fit));
+    for (block, noise) in case.problem.blocks.iter().zip(&case.noises) {
+        let Source { dataset, gauge, .. } = &*block.source;
+        let positions = lack_of_fit(dataset, noise, &case.prediction_of(block, fit), fit.theta().len())?;
+        let supply = |gauge| (gauge, case.problem.supply(block, &fit.effects, fit.theta()));
+        let supply = gauge.as_ref().map(supply);
         tests.push(positions.map(|lof| supply.map_or(lof, |(gauge, white)| with_supply(lof, gauge, &white))));
     }
     let count = tests.len() as f64;

@@ -3,8 +3,7 @@
 use super::basis::Basis;
 use super::case::Case;
 use super::least_squares::square;
-use super::outliers::Undetectable;
-use super::result::Added;
+use super::result::{Added, Undetectable};
 use crate::policy;
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -16,8 +15,8 @@ const CLOSE: f64 = 0.02;
 /// Smallest detectable size of an effect: where its trace, base fitted out, reaches (z_{α/2m} + z_0.9)² in units of noise.
 pub fn smallest_detectable(case: &Case, effect: usize) -> Undetectable {
     let candidate = case.candidate(effect);
-    let share = case.noise.is_known().then(|| smallest_share(case, effect)).flatten();
-    let free = &candidate.parameters[lead(candidate)];
+    let share = case.noise().is_known().then(|| smallest_share(case, effect)).flatten();
+    let free = &candidate.parameters[candidate.lead()];
     let value = share.map(|s| (free.neutral + s * (free.typical - free.neutral)) / free.si);
     Undetectable {
         effect: candidate.name.clone(),
@@ -32,11 +31,6 @@ pub fn smallest_detectable(case: &Case, effect: usize) -> Undetectable {
 pub fn needed(case: &Case) -> f64 {
     let z = Normal::new(0.0, 1.0).map_or(4.0, |n| n.inverse_cdf(1.0 - case.alpha / (2.0 * case.tests)));
     (z + policy::Z_POWER).powi(2)
-}
-
-/// First parameter whose typical value is not its neutral one.
-pub fn lead(candidate: &super::candidates::Candidate) -> usize {
-    candidate.parameters.iter().position(|p| p.typical != p.neutral).unwrap_or(0)
 }
 
 /// The size as a multiple of the typical one; `None` if no size within the bounds is enough.
@@ -71,8 +65,7 @@ fn smallest_share(case: &Case, effect: usize) -> Option<f64> {
 /// Squared whitened trace of an effect, the base's own parameters fitted out.
 fn trace(case: &Case, base: &Basis, effect: usize, share: f64) -> f64 {
     let effects: Vec<usize> = case.always.iter().copied().chain([effect]).collect();
-    let values = case.candidate(effect).at(share);
-    let theta: Vec<f64> = case.base.theta().iter().copied().chain(values).collect();
+    let theta = case.base.theta_with(&case.candidate(effect).at(share));
     let Some(moved) = case.problem.residuals(&effects, &theta) else { return 0.0 };
     let change: Vec<f64> = moved.iter().zip(&case.base.minimum.residual).map(|(a, b)| a - b).collect();
     square(&base.rest(&change))

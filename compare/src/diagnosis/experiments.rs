@@ -165,7 +165,7 @@ fn tipped(scenario: &Scenario, force_n: f64) -> Scenario {
 
 /// Twice the first body pressure, or the middle of the two that are there.
 fn second_body(dataset: &Dataset, body: f64) -> f64 {
-    let other = super::blocks::body_pressures([dataset]).get(1).copied();
+    let other = super::source::body_pressures([dataset]).get(1).copied();
     other.map_or(2.0 * body, |other| 0.5 * (other + body))
 }
 

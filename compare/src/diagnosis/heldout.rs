@@ -7,13 +7,11 @@
 //! The first term is the error; the second and third, what was left out scatters and what the fit took over of the scatter of the
 //! rest, are taken off. J is the whitened derivative at the data of the fit, D the plain one \[m\] at the n values left out.
 
-use super::blocks::block;
 use super::case::Case;
-use super::least_squares::{dot, square};
+use super::least_squares::{dot, products, square};
 use super::problem::{Fit, Problem};
 use crate::error::CompareError;
 use crate::policy;
-use nalgebra::DMatrix;
 
 /// Parts into which many runs are divided.
 const MOST_FOLDS: usize = 5;
@@ -68,9 +66,8 @@ fn error_mm(folds: &[Fold], fit: &Fit) -> Option<f64> {
     for fold in folds {
         let refit = fold.problem.fit(&fit.effects, &[fit.theta().to_vec()])?;
         let block = &fold.problem.blocks[0];
-        let (candidates, bendings) = (fold.problem.candidates, fold.problem.bendings);
-        let predicted = block.predict_at(&fold.holds, candidates, &fit.effects, refit.theta(), bendings)?;
-        let width = predicted.len() / block.dataset.holds.len();
+        let predicted = fold.problem.predict(block, &fold.holds, &fit.effects, refit.theta())?;
+        let width = predicted.len() / block.source.dataset.holds.len();
         let seen = |i: &usize| !fold.unseen.contains(i);
         let rows: Vec<usize> = fold.holds.iter().flat_map(|h| h * width..(h + 1) * width).filter(seen).collect();
         let noise_m2 = fold.noise_m2 + taken_over_m2(fold, &refit, &predicted, &rows).min(fold.fitted_m2);
@@ -82,18 +79,14 @@ fn error_mm(folds: &[Fold], fit: &Fit) -> Option<f64> {
 
 /// tr(D C Dᵀ)/n of the parameters that change anything \[m²\]; infinite if they cannot be told apart.
 fn taken_over_m2(fold: &Fold, fit: &Fit, predicted_m: &[f64], rows: &[usize]) -> f64 {
-    let Problem { blocks, candidates, bendings, .. } = &fold.problem;
     let ranges = fold.problem.ranges(&fit.effects);
     let free: Vec<usize> = (0..ranges.len()).filter(|k| square(&fit.minimum.jacobian[*k]) > 0.0).collect();
-    let squares = DMatrix::from_fn(free.len(), free.len(), |i, j| {
-        dot(&fit.minimum.jacobian[free[i]], &fit.minimum.jacobian[free[j]])
-    });
-    let Some(covariance) = squares.try_inverse() else { return f64::INFINITY };
+    let Some(covariance) = products(&fit.minimum.jacobian, &free).try_inverse() else { return f64::INFINITY };
     let column = |k: &usize| -> Option<Vec<f64>> {
         let step = DIFFERENCE * ranges[*k].scale;
         let mut theta = fit.theta().to_vec();
         theta[*k] += if theta[*k] + step > ranges[*k].upper { -step } else { step };
-        let moved = blocks[0].predict_at(&fold.holds, candidates, &fit.effects, &theta, *bendings)?;
+        let moved = fold.problem.predict(&fold.problem.blocks[0], &fold.holds, &fit.effects, &theta)?;
         let by = theta[*k] - fit.theta()[*k];
         Some(rows.iter().map(|i| (moved[*i] - predicted_m[*i]) / by).collect())
     };
@@ -108,8 +101,9 @@ fn taken_over_m2(fold: &Fold, fit: &Fit, predicted_m: &[f64], rows: &[usize]) ->
 }
 
 fn pressure_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
+    let dataset = &case.first().dataset;
     let mut levels: Vec<f64> = Vec::new();
-    for hold in case.dataset.holds.iter().filter(|h| h.p_act_pa > policy::ZERO_PRESSURE_PA) {
+    for hold in dataset.holds.iter().filter(|h| h.p_act_pa > policy::ZERO_PRESSURE_PA) {
         if !levels.iter().any(|l| policy::is_same_pressure(*l, hold.p_act_pa)) {
             levels.push(hold.p_act_pa);
         }
@@ -117,52 +111,55 @@ fn pressure_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
     if levels.len() < 2 {
         return Ok(Vec::new());
     }
-    let mean = case.dataset.mean_over_runs();
-    let width = mean.len() / case.dataset.holds.len();
+    let (mean, noise) = (dataset.mean_over_runs(), case.noise());
+    let width = mean.len() / dataset.holds.len();
     let fold = |level: &f64| {
-        let is_out = |h: &usize| policy::is_same_pressure(*level, case.dataset.holds[*h].p_act_pa);
-        let (out, kept): (Vec<usize>, Vec<usize>) = (0..case.dataset.holds.len()).partition(is_out);
-        let count = |h: &usize| case.noise.seen(h * width..(h + 1) * width) as f64;
-        let of_hold = |h: &usize| case.noise.mean_square(h * width..(h + 1) * width).unwrap_or(0.0) * count(h);
+        let is_out = |h: &usize| policy::is_same_pressure(*level, dataset.holds[*h].p_act_pa);
+        let (out, kept): (Vec<usize>, Vec<usize>) = (0..dataset.holds.len()).partition(is_out);
+        let count = |h: &usize| noise.seen(h * width..(h + 1) * width) as f64;
+        let of_hold = |h: &usize| noise.mean_square(h * width..(h + 1) * width).unwrap_or(0.0) * count(h);
         let noise_m2 = out.iter().map(of_hold).sum::<f64>() / out.iter().map(count).sum::<f64>().max(1.0);
-        let problem = problem(case, &kept, mean.clone())?;
-        let fitted_m2 = case.noise.mean_square(0..mean.len()).unwrap_or(0.0);
-        let unseen = case.dataset.unseen_values().collect();
-        Ok(Fold { problem, truth_m: mean.clone(), noise_m2, fitted_m2, holds: out, unseen })
+        let fitted_m2 = noise.mean_square(0..mean.len()).unwrap_or(0.0);
+        fold(case, (kept, mean.clone()), (out, mean.clone()), [noise_m2, fitted_m2])
     };
     levels.iter().map(fold).collect()
 }
 
 fn run_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
-    let runs = case.dataset.runs.len();
+    let dataset = &case.first().dataset;
+    let runs = dataset.runs.len();
     if runs < 2 {
         return Ok(Vec::new());
     }
     let folds = runs.min(MOST_FOLDS);
-    let all: Vec<usize> = (0..case.dataset.holds.len()).collect();
+    let all: Vec<usize> = (0..dataset.holds.len()).collect();
     let mean_of = |chosen: &dyn Fn(usize) -> bool| -> Vec<f64> {
         let picked: Vec<usize> = (0..runs).filter(|r| chosen(*r)).collect();
-        let mut mean = vec![0.0; case.dataset.values_per_run()];
+        let mut mean = vec![0.0; dataset.values_per_run()];
         for run in &picked {
-            mean.iter_mut().zip(case.dataset.run(*run)).for_each(|(m, y)| *m += y / picked.len() as f64);
+            mean.iter_mut().zip(dataset.run(*run)).for_each(|(m, y)| *m += y / picked.len() as f64);
         }
         mean
     };
-    let noise = case.noise.mean_square(0..case.dataset.values_per_run()).unwrap_or(0.0);
+    let noise = case.noise().mean_square(0..dataset.values_per_run()).unwrap_or(0.0);
     let fold = |k: usize| {
         let out = (k..runs).step_by(folds).count() as f64;
-        let problem = problem(case, &all, mean_of(&|r| r % folds != k))?;
-        let truth_m = mean_of(&|r| r % folds == k);
-        let [noise_m2, fitted_m2] = [out, runs as f64 - out].map(|count| noise * runs as f64 / count);
-        let unseen = case.dataset.unseen_values().collect();
-        Ok(Fold { problem, holds: all.clone(), truth_m, noise_m2, fitted_m2, unseen })
+        let (kept, truth) = (mean_of(&|r| r % folds != k), mean_of(&|r| r % folds == k));
+        let noises = [out, runs as f64 - out].map(|count| noise * runs as f64 / count);
+        fold(case, (all.clone(), kept), (all.clone(), truth), noises)
     };
     (0..folds).map(fold).collect()
 }
 
-fn problem<'a>(case: &Case<'a>, holds: &[usize], target_m: Vec<f64>) -> Result<Problem<'a>, CompareError> {
-    let mut blocks = vec![block(&case.source(), holds, target_m, &case.noise, &case.body_pa)?];
-    blocks.extend(case.blocks_beside()?);
-    let Problem { candidates, bendings, known_bending, ref known, .. } = case.problem;
-    Ok(Problem { candidates, blocks, bendings, known_bending, known: known.clone(), enough: ENOUGH })
+/// A fit to some holds of the first data, and what is predicted then.
+fn fold<'a>(
+    case: &Case<'a>,
+    (kept, target_m): (Vec<usize>, Vec<f64>),
+    (holds, truth_m): (Vec<usize>, Vec<f64>),
+    [noise_m2, fitted_m2]: [f64; 2],
+) -> Result<Fold<'a>, CompareError> {
+    let mut problem = Problem { enough: ENOUGH, ..case.problem.clone() };
+    problem.blocks[0] = problem.blocks[0].to_meet(kept, target_m, case.noise())?;
+    let unseen = case.first().dataset.unseen_values().collect();
+    Ok(Fold { problem, holds, truth_m, noise_m2, fitted_m2, unseen })
 }

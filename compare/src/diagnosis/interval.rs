@@ -1,22 +1,21 @@
 //! Intervals of the parameters of a fit ([`crate::interval`]).
 
-use super::basis::Basis;
+use super::basis::own_part;
 use super::case::Case;
-use super::least_squares::{minimise, square};
+use super::least_squares::{Range, minimise, square};
 use super::problem::Fit;
 use super::source::Source;
 use crate::interval::{FittedData, half_width, interval};
-use crate::noise::NoiseModel;
 
 /// Intervals of all parameters of a fit, SI; `None` if the noise is unknown or the data do not hold the parameter.
 pub fn intervals<'c>(case: &'c Case<'c>, fit: &Fit, profiled: bool) -> Vec<Option<[f64; 2]>> {
-    let part = |(i, (source, noise)): (usize, (Source<'c>, &'c NoiseModel))| -> FittedData<'c> {
-        let target_m = &case.problem.blocks[i].target_m;
-        let residual_m = case.prediction_of(i, fit).iter().zip(target_m).map(|(f, y)| f - y).collect();
-        let readings = source.gauge.map_or(0, |gauge| gauge.readings.len());
-        FittedData { dataset: source.dataset, noise, residual_m, misfit: fit.misfit[i], readings }
+    let part = |(i, source): (usize, &'c Source)| -> FittedData<'c> {
+        let block = &case.problem.blocks[i];
+        let residual_m = case.prediction_of(block, fit).iter().zip(&block.target_m).map(|(f, y)| f - y).collect();
+        let readings = source.gauge.as_ref().map_or(0, |gauge| gauge.readings.len());
+        FittedData { dataset: &source.dataset, noise: &case.noises[i], residual_m, misfit: fit.misfit[i], readings }
     };
-    let data: Vec<FittedData> = case.sources().enumerate().map(part).collect();
+    let data: Vec<FittedData> = case.sources.iter().enumerate().map(part).collect();
     let Some(jacobian) = case.problem.jacobian_allowing(fit) else { return vec![None; fit.theta().len()] };
     (0..fit.theta().len()).map(|k| one(case, fit, (&data, &jacobian), k, profiled)).collect()
 }
@@ -29,18 +28,17 @@ fn one(
     profiled: bool,
 ) -> Option<[f64; 2]> {
     let ranges = case.problem.ranges(&fit.effects);
-    let others: Vec<Vec<f64>> = (0..jacobian.len()).filter(|j| *j != k).map(|j| jacobian[j].clone()).collect();
-    let own = Basis::of(&others).rest(&jacobian[k]);
+    let own = own_part(jacobian, k);
     let squares = square(&own);
     if squares <= 1e-9 * square(&jacobian[k]) || squares == 0.0 {
         return None;
     }
-    let fitted = ranges.iter().filter(|range| range.lower < range.upper).count();
+    let fitted = ranges.iter().filter(|range| range.is_free()).count();
     let half = half_width(data, &own.iter().map(|v| v / squares).collect::<Vec<_>>(), fitted)?;
     let least = square(&case.problem.residuals_allowing(&fit.misfit, &fit.effects, fit.theta())?);
     let (mut theta, mut held) = (fit.theta().to_vec(), case.problem.ranges(&fit.effects));
     let mut rise = |x: f64| {
-        (held[k].lower, held[k].upper, theta[k]) = (x, x, x);
+        (held[k], theta[k]) = (Range::fixed(x, held[k].scale), x);
         let mut residuals = |at: &[f64]| case.problem.residuals_allowing(&fit.misfit, &fit.effects, at);
         minimise(&theta, &held, 1e-2, &mut residuals).map_or(f64::INFINITY, |found| found.cost - least)
     };

@@ -5,9 +5,6 @@
 //! more than |W Δf|, what the effect of that size changes at the markers. A weave that locks beyond the muscle's stroke changes nothing.
 
 use super::candidates::Candidate;
-use super::least_squares::square;
-use super::problem::{Fit, Problem};
-use super::screen::starts;
 use crate::error::CompareError;
 use crate::policy;
 use data::MeasuredValue;
@@ -109,29 +106,6 @@ pub fn add_shapes(known: &mut Vec<Known>, candidates: &[Candidate]) {
     }
 }
 
-/// Bounds what lacking an effect costs by what it changes at the markers where the robot is fitted with it: with the base alone, whose
-/// stiffness has taken its place, it might not act at all.
-pub fn bound(problem: &Problem, base: &Fit, known: &mut [Known]) {
-    for i in 0..known.len() {
-        let effect = known[i].effect;
-        if known[i].usual || base.effects.contains(&effect) {
-            continue;
-        }
-        let mut values = problem.candidates[effect].at(1.0);
-        known.iter().filter(|k| k.effect == effect).for_each(|k| values[k.parameter] = k.value);
-        let effects: Vec<usize> = base.effects.iter().copied().chain([effect]).collect();
-        let measured: Vec<f64> = base.theta().iter().copied().chain(values).collect();
-        let starts = [vec![measured], starts(problem, base, effect, true)].concat();
-        let Some(with) = problem.fit(&effects, &starts) else { continue };
-        let own = with.theta().len() - problem.candidates[effect].parameters.len();
-        let Some(without) = problem.residuals(&base.effects, &with.theta()[..own]) else { continue };
-        let seen = without.len() - problem.known.len();
-        let change: Vec<f64> = with.minimum.residual.iter().zip(&without).take(seen).map(|(a, b)| a - b).collect();
-        let most = square(&change).sqrt();
-        known[i].lacking = known[i].lacking.clamp(-most, most);
-    }
-}
-
 /// What a bench test would measure of the catalogue: effect and parameter; nothing of effects that are not candidates.
 pub fn parameters_of(test: &BenchTest, candidates: &[Candidate]) -> Vec<(usize, usize)> {
     test.parameters.iter().filter_map(|(effect, key)| place(candidates, effect, key)).collect()
@@ -170,7 +144,7 @@ fn check(scenario: &Scenario, m: &MeasuredValue) -> Result<(), CompareError> {
     let MeasuredValue { effect: name, key, value, sd, .. } = m;
     let wrong = |problem: String| {
         let place = if m.place.is_empty() { "about.toml".to_string() } else { m.place.clone() };
-        Err(CompareError::WrongMeasured { place, problem })
+        Err(CompareError::told(format!("{place}: [measured] {problem}")))
     };
     let catalogue = scenario.catalogue();
     let Some(effect) = catalogue.by_name(name) else {

@@ -7,102 +7,15 @@ use super::heldout::HeldOut;
 use super::missing::{Seen, curves_of, missing_moment, seen};
 use super::options::Options;
 use super::problem::{Block, Fit};
-use super::result::{Diagnosis, ParameterValue, Verdict};
+use super::result::{Diagnosis, LearnedLaw, LearnedLine, LearnedTried, ParameterValue, Verdict};
 use super::singles::parameter_values;
 use super::source::Source;
-use super::story::with_interval;
+use super::words::with_interval;
 use crate::error::CompareError;
 use crate::moment::learned::{Form, Material, PULL, Tried, rank, taken};
-use crate::moment::{MomentCurve, MomentPoint};
+use crate::moment::{MissingMoment, MomentCurve, MomentPoint};
 use models::Scenario;
 use nalgebra::{DMatrix, DVector};
-use serde::Serialize;
-
-/// A law that was learned.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct LearnedLaw {
-    /// Name as an effect.
-    pub name: String,
-    /// What it is, in words.
-    pub words: String,
-    /// The moment as a formula, with its numbers and units.
-    pub formula: String,
-    /// Its numbers.
-    pub parameters: Vec<ParameterValue>,
-    /// Where the line of the markers lies, where that was fitted along.
-    pub line: Option<LearnedLine>,
-    /// Error beyond noise without either, B fitted unless it is kept \[mm\].
-    pub before_mm: f64,
-    /// The same at pressures left out of the fit.
-    pub heldout_before_mm: Option<f64>,
-    /// Error with the law and the line \[mm\].
-    pub after_mm: f64,
-    /// The same at pressures left out of the fit of both.
-    pub heldout_after_mm: Option<f64>,
-    /// The same for runs left out.
-    pub heldout_run_after_mm: Option<f64>,
-    /// B with it, one per body pressure; empty where it was kept, or where the law takes its place \[N·m²\].
-    pub bending_nm2: Vec<f64>,
-    /// What such a law usually is.
-    pub usual: String,
-    /// What tells.
-    pub check: String,
-    /// What was fitted to the markers: nothing, and the laws that fit the missing moments best.
-    pub tried: Vec<LearnedTried>,
-    /// The entry of a scenario.
-    #[serde(skip)]
-    pub toml: String,
-}
-
-/// The line of the markers, further from the taut side than the scenario says.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct LearnedLine {
-    /// By so much \[mm\].
-    pub value_mm: f64,
-    /// Ends of its 95 % interval \[mm\].
-    pub interval_mm: Option<[f64; 2]>,
-    /// Error beyond noise with it alone \[mm\].
-    pub training_mm: f64,
-    /// The same at pressures left out.
-    pub heldout_mm: Option<f64>,
-}
-
-/// A law of the library that was fitted to the markers.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct LearnedTried {
-    /// In words.
-    pub words: String,
-    /// Its numbers, and those of the stiffness.
-    pub numbers: usize,
-    /// Square of what it misses at pressures left out, over that of noise, in moments.
-    pub missed: f64,
-    /// Error beyond noise at pressures left out \[mm\].
-    pub heldout_mm: f64,
-}
-
-impl LearnedLaw {
-    /// What was learned, in sentences.
-    pub fn sentences(&self) -> Vec<String> {
-        let mm = |v: Option<f64>| v.map_or("unknown".into(), |mm| format!("{mm:.2}"));
-        let (before, after) = (mm(self.heldout_before_mm), mm(self.heldout_after_mm));
-        let line = self.line.as_ref().map_or(String::new(), |line| {
-            let side = if line.value_mm < 0.0 { "nearer to" } else { "further from" };
-            let alone = mm(line.heldout_mm);
-            format!("; of that the line of the markers, {:.1} mm {side} the taut side than the scenario says, brings it to {alone} mm", line.value_mm.abs())
-        });
-        vec![
-            format!("A law learned from the missing moment, {}: {}.", self.words, self.formula),
-            format!(
-                "With it the error at pressures left out of the fit goes from {before} to {after} mm{line}. It was chosen by that \
-                 figure: try it on other data."
-            ),
-            format!(
-                "A law of this shape is usually {}. To tell: {}. `ibr add SCENARIO learned DATA` writes it as a formula.",
-                self.usual, self.check
-            ),
-        ]
-    }
-}
 
 /// Its name as an effect.
 const NAME: &str = "learned";
@@ -120,22 +33,19 @@ const SHARE: f64 = 0.5;
 pub fn moments(
     case: &Case,
     decision: &Decision,
-    made: (&[Source], &[Vec<usize>]),
     options: &Options,
-    found: &mut Diagnosis,
-) -> Result<(), CompareError> {
+    found: &Diagnosis,
+) -> Result<(Option<MissingMoment>, Option<LearnedLaw>), CompareError> {
     let seen = seen(case)?;
     let mut shown = missing_moment(case, &seen, decision, found)?;
+    let mut learned = None;
     if (options.learn || found.verdict == Some(Verdict::OutOfCatalog))
-        && let Some((law, curves)) = learn(case, &seen, made, options, found, &shown.points)?
+        && let Some((law, curves)) = learn(case, &seen, options, found, &shown.points)?
     {
         shown.curves.extend(curves);
-        found.learned = Some(law);
+        learned = Some(law);
     }
-    if options.missing_moment {
-        found.missing_moment = Some(shown);
-    }
-    Ok(())
+    Ok((Some(shown).filter(|_| options.missing_moment), learned))
 }
 
 type Told = (LearnedLaw, Vec<MomentCurve>);
@@ -146,16 +56,15 @@ const SHORT_LIST: usize = 7;
 fn learn(
     case: &Case,
     seen: &[Seen],
-    (sources, sessions): (&[Source], &[Vec<usize>]),
     options: &Options,
     found: &Diagnosis,
     points: &[MomentPoint],
 ) -> Result<Option<Told>, CompareError> {
     let Some(nothing_mm) = found.base.heldout_mm else { return Ok(None) };
     let ranked = rank(&material(case, seen)?, seen[0].robot());
-    let name = free_name(case.scenario);
+    let name = free_name(&case.first().scenario);
     let noise_mm = found.base.noise_floor_mm.unwrap_or(0.0).max(found.tolerance_mm);
-    let ground = Ground { sources, sessions, options, line: line(case, seen), name: &name };
+    let ground = Ground { sources: case.sources, options, line: line(case, seen), name: &name };
     let (mut laws, mut tried) = (vec![(case.problem.bendings, nothing_mm / noise_mm)], Vec::new());
     let mut kept = Vec::new();
     for law in ranked.iter().filter(|t| t.form.is_some()).take(SHORT_LIST) {
@@ -179,8 +88,7 @@ fn learn(
 
 /// What all laws are fitted on.
 struct Ground<'a> {
-    sources: &'a [Source<'a>],
-    sessions: &'a [Vec<usize>],
+    sources: &'a [Source],
     options: &'a Options,
     line: Option<f64>,
     name: &'a str,
@@ -193,13 +101,15 @@ impl Ground<'_> {
     /// Fits a law to the markers; `None` without equilibrium.
     fn with<T>(&self, law: &Tried, each: &mut Use<T>) -> Result<Option<T>, CompareError> {
         let Some(form) = law.form else { return Ok(None) };
-        let extended = |source: &Source| extended(source.scenario, form, self.name, self.line);
-        let scenarios: Vec<Scenario> = self.sources.iter().map(extended).collect();
-        let sources = self.sources.iter().zip(&scenarios).map(|(source, scenario)| Source { scenario, ..*source });
-        let candidates = candidates(&scenarios[0], self.name, self.line);
+        let extended = |source: &Source| Source {
+            scenario: extended(&source.scenario, form, self.name, self.line),
+            ..source.clone()
+        };
+        let sources: Vec<Source> = self.sources.iter().map(extended).collect();
+        let candidates = candidates(&sources[0].scenario, self.name, self.line);
         let options = Options { keep_bending: self.options.keep_bending || form.has_spring(), ..self.options.clone() };
         let own = (&candidates[..], candidates.len() - 1);
-        let case = Case::new(&sources.collect::<Vec<_>>(), self.sessions, own, &options)?;
+        let case = Case::new(&sources, own, &options)?;
         let Some(fit) = fitted(&case, &law.values) else { return Ok(None) };
         each(&case, &fit, form)
     }
@@ -250,9 +160,9 @@ fn pulls(block: &Block, seen: &Seen) -> Result<Vec<Vec<f64>>, CompareError> {
 
 /// Where the line of the markers lies, if the shapes say elsewhere than the scenario \[m\].
 fn line(case: &Case, seen: &[Seen]) -> Option<f64> {
-    let is_there = case.scenario.effects.iter().any(|e| e.name == LINE);
+    let is_there = case.first().scenario.effects.iter().any(|e| e.name == LINE);
     let shared = seen[0].shape.shared.first()?;
-    (!is_there && !case.direct.frame && crate::moment::is_told(shared)).then_some(shared.value)
+    (!is_there && !case.first().direct.frame && crate::moment::is_told(shared)).then_some(shared.value)
 }
 
 fn free_name(scenario: &Scenario) -> String {
@@ -286,7 +196,7 @@ fn fitted(case: &Case, values: &[f64]) -> Option<Fit> {
     let start = |share: f64| {
         let value = |(v, p): (&f64, &super::candidates::Free)| if p.neutral == 0.0 { share * v } else { *v };
         let law = values.iter().zip(own).map(|pair| value(pair).clamp(pair.1.lower, pair.1.upper));
-        case.base.theta().iter().copied().chain(law).collect::<Vec<f64>>()
+        case.base.theta_with(&law.collect::<Vec<f64>>())
     };
     case.problem.fit(&effects, &STARTS.map(start))
 }
@@ -304,7 +214,7 @@ fn told(case: &Case, fit: &Fit, form: &Form, name: &str, found: &Diagnosis) -> R
     Ok(LearnedLaw {
         name: name.into(),
         words: form.words.into(),
-        formula: printed(&form.moment_of(case.scenario), &own),
+        formula: printed(&form.moment_of(&case.first().scenario), &own),
         parameters: own,
         line,
         before_mm: found.base.systematic_mm,
@@ -312,11 +222,11 @@ fn told(case: &Case, fit: &Fit, form: &Form, name: &str, found: &Diagnosis) -> R
         after_mm: case.error_mm(&case.prediction(fit)),
         heldout_after_mm: held_out.pressure_mm(fit),
         heldout_run_after_mm: held_out.run_mm(fit),
-        bending_nm2: fit.theta()[..case.problem.bendings].to_vec(),
+        bending_nm2: case.bendings(fit),
         usual: form.usual.words.into(),
         check: form.usual.check.into(),
         tried: Vec::new(),
-        toml: form.toml(name, case.scenario),
+        toml: form.toml(name, &case.first().scenario),
     })
 }
 

@@ -10,9 +10,7 @@ use nalgebra::{DMatrix, DVector};
 /// Range and natural step of one coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
-    /// Least value.
     pub lower: f64,
-    /// Largest value.
     pub upper: f64,
     /// A change of this size matters.
     pub scale: f64,
@@ -21,14 +19,24 @@ pub struct Range {
 /// Where a minimisation ended.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Minimum {
-    /// Place.
     pub at: Vec<f64>,
-    /// Residuals there.
     pub residual: Vec<f64>,
-    /// Their sum of squares.
+    /// Sum of squares of the residuals.
     pub cost: f64,
     /// Derivative of the residuals, one column per coordinate.
     pub jacobian: Vec<Vec<f64>>,
+}
+
+impl Range {
+    /// A single value.
+    pub fn fixed(at: f64, scale: f64) -> Range {
+        Range { lower: at, upper: at, scale }
+    }
+
+    /// Whether it has more than one value.
+    pub fn is_free(&self) -> bool {
+        self.lower < self.upper
+    }
 }
 
 /// Step of the one-sided differences in units of the scale: a compromise between their curvature and the accuracy of
@@ -71,8 +79,7 @@ fn improve(from: &Minimum, ranges: &[Range], damping: &mut f64, residuals: &mut 
     if free.is_empty() {
         return None;
     }
-    let squares =
-        DMatrix::from_fn(free.len(), free.len(), |i, j| dot(&from.jacobian[free[i]], &from.jacobian[free[j]]));
+    let squares = products(&from.jacobian, &free);
     while *damping < DAMPING[1] {
         let step = damped_step(&squares, &free, &gradient, ranges, *damping);
         let mut at = from.at.clone();
@@ -143,6 +150,11 @@ pub fn jacobian(at: &Minimum, ranges: &[Range], residuals: &mut Residuals) -> Ve
         columns.push(column.unwrap_or_else(|| vec![0.0; at.residual.len()]));
     }
     columns
+}
+
+/// JᵀJ of some columns.
+pub fn products(jacobian: &[Vec<f64>], chosen: &[usize]) -> DMatrix<f64> {
+    DMatrix::from_fn(chosen.len(), chosen.len(), |i, j| dot(&jacobian[chosen[i]], &jacobian[chosen[j]]))
 }
 
 /// Scalar product.

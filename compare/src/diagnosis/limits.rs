@@ -1,11 +1,11 @@
 //! What data cannot show, whatever the model.
 
 use super::basis::Basis;
-use super::blocks::{body_pressures, whole_block};
 use super::case::Case;
 use super::least_squares::square;
-use super::outliers::Undetectable;
 use super::problem::Problem;
+use super::result::Undetectable;
+use super::source::body_pressures;
 use crate::policy;
 use crate::wording::list;
 use data::{Dataset, Phase};
@@ -50,11 +50,7 @@ pub fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Vec<Strin
 /// Says so if the markers, fitted without it, ask for another bending stiffness than the bending test found.
 fn bending_test(case: &Case) -> Option<String> {
     let [found, sd] = case.problem.known_bending.filter(|_| case.problem.bendings > 0)?;
-    let sources = case.sources();
-    let blocks = sources.map(|(s, noise)| whole_block(&s, s.dataset.mean_over_runs(), noise, &case.body_pa));
-    let blocks = blocks.collect::<Result<Vec<_>, _>>().ok()?;
-    let Problem { candidates, bendings, ref known, enough, .. } = case.problem;
-    let alone = Problem { candidates, blocks, bendings, known_bending: None, known: known.clone(), enough };
+    let alone = Problem { known_bending: None, ..case.problem.clone() };
     let fit = alone.fit(&case.always, &[case.base.theta().to_vec()])?;
     let (own, others) = fit.minimum.jacobian.split_first()?;
     let (markers, weight) = (fit.theta()[0], square(&Basis::of(others).rest(own)));
@@ -102,7 +98,7 @@ pub fn warnings(case: &Case) -> Vec<String> {
         ));
     }
     for (group, bending) in case.base.theta()[..case.problem.bendings].iter().enumerate() {
-        let nominal = case.scenario.bending_stiffness;
+        let nominal = case.first().scenario.bending_stiffness;
         if case.base.binding[group] {
             warnings.push(format!(
                 "B = {bending:.2} N·m² is on the bound of its search: stiffness does not explain the data"

@@ -1,11 +1,12 @@
 //! The missing moment of a diagnosis: its points from all data, and the answers as curves through them.
 
+use super::answers::{Answer, Standing};
 use super::case::Case;
 use super::decide::Decision;
-use super::least_squares::dot;
+use super::least_squares::{products, square};
 use super::problem::{Block, Fit};
 use super::result::Diagnosis;
-use super::{Answer, Standing};
+use super::source::{Source, nearest};
 use crate::error::CompareError;
 use crate::moment::{
     MeasuredShape, MissingMoment, MomentCurve, MomentPoint, Moments, Path, Robot, Shape, View, band, curve, degrees,
@@ -13,7 +14,6 @@ use crate::moment::{
 };
 use models::Scenario;
 use models::effects::Stage;
-use nalgebra::DMatrix;
 
 /// Answers drawn as curves.
 const MOST_CURVES: usize = 4;
@@ -43,12 +43,13 @@ pub fn missing_moment(
 ) -> Result<MissingMoment, CompareError> {
     let (mut shapes, mut points) = (Vec::new(), Vec::new());
     for (block, seen) in case.problem.blocks.iter().zip(seen) {
-        shapes.push(MeasuredShape::of(&block.dataset, &seen.shape));
-        points.extend(told(&block.dataset, &seen.shape, &seen.moments, block.scenario.length_m));
+        let Source { scenario, dataset, .. } = &*block.source;
+        shapes.push(MeasuredShape::of(dataset, &seen.shape));
+        points.extend(told(dataset, &seen.shape, &seen.moments, scenario.length_m));
     }
     let curves = curves(case, decision, found, &points)?;
     let mut told = sentences(&points);
-    told.extend(shape_sentences(&shapes, case.noise.is_known()));
+    told.extend(shape_sentences(&shapes, case.noise().is_known()));
     Ok(MissingMoment { shapes, sentences: told, points, curves, bending_nm2: own_bending(case) })
 }
 
@@ -64,10 +65,9 @@ pub struct Seen {
 
 impl Seen {
     fn of(case: &Case, block: &Block) -> Result<Seen, CompareError> {
-        let base = scenarios(case, block, &case.base, &reference(case));
+        let base = case.problem.scenarios(block, &case.base.effects, &reference(case));
         let shape = shape(&view(block, &base[0]))?;
-        let single = vec![0; block.bending_of.len()];
-        let of_hold = if case.problem.bendings == 0 { single } else { block.bending_of.clone() };
+        let of_hold = block.bending_of.clone();
         let moments = moments(&view(block, &base[0]), &shape, &Robot { scenarios: &base, of_hold: &of_hold })?;
         Ok(Seen { base, of_hold, shape, moments })
     }
@@ -102,8 +102,8 @@ pub fn seen(case: &Case) -> Result<Vec<Seen>, CompareError> {
 }
 
 fn view<'a>(block: &'a Block, scenario: &'a Scenario) -> View<'a> {
-    let Block { dataset, direct, target_m, whitener, .. } = block;
-    View { scenario, dataset, direct: *direct, target_m, whitener }
+    let Block { source, target_m, whitener, .. } = block;
+    View { scenario, dataset: &source.dataset, direct: source.direct, target_m, whitener }
 }
 
 /// Parameters of the base with the bending stiffness as it was measured by itself, or as the scenario has it.
@@ -114,12 +114,7 @@ fn reference(case: &Case) -> Vec<f64> {
 }
 
 fn own_bending(case: &Case) -> f64 {
-    case.problem.known_bending.map_or(case.scenario.bending_stiffness, |[value, _]| value)
-}
-
-/// Scenarios of a fit, one per bending stiffness.
-fn scenarios(case: &Case, block: &Block, fit: &Fit, theta: &[f64]) -> Vec<Scenario> {
-    super::blocks::fitted_scenarios(&case.problem, block, &fit.effects, theta)
+    case.problem.known_bending.map_or(case.first().scenario.bending_stiffness, |[value, _]| value)
 }
 
 fn curves(
@@ -164,29 +159,24 @@ pub fn curves_of(
 
 /// Whether a fit changes anything but what the camera sees: that is no moment.
 fn has_moment(case: &Case, fit: &Fit) -> bool {
-    let added = &fit.effects[case.always.len()..];
+    let added = case.added(fit);
     added.is_empty() || added.iter().any(|e| case.candidate(*e).stage != Stage::Camera)
 }
 
 /// The fit behind an answer.
 fn fit_of<'a>(case: &Case, decision: &'a Decision, name: &str) -> Option<&'a Fit> {
-    let own = case.always.len();
-    let called = |fit: &&Fit| {
-        let names = fit.effects[own..].iter().map(|e| case.candidate(*e).name.as_str());
-        names.collect::<Vec<_>>().join(" + ") == name
-    };
     let Decision { singles, pairs, as_close, last, .. } = decision;
-    singles.iter().chain(pairs).chain(as_close).chain(last).find(called)
+    let mut all = singles.fits.iter().chain(&pairs.fits).chain(as_close).chain(last);
+    all.find(|fit| case.names(fit).join(" + ") == name)
 }
 
 /// Ways up, and down where points lie there, at every body pressure, with the number of its stiffness.
 fn paths(case: &Case, points: &[MomentPoint]) -> Vec<(usize, Path)> {
-    let dataset = case.dataset;
-    let wait_s = dataset.holds.first().and_then(|hold| Some(hold.t_s.last()? - 0.0)).unwrap_or(0.0).max(0.0);
+    let first = case.first().dataset.holds.first();
+    let wait_s = first.and_then(|hold| hold.t_s.last().copied()).unwrap_or(0.0).max(0.0);
     let mut paths = Vec::new();
     for (level, p_body_pa) in case.body_pa.iter().enumerate() {
-        let own =
-            |p: &&MomentPoint| p.is_of_hold() && super::blocks::nearest(&case.body_pa, 1e3 * p.p_body_kpa) == level;
+        let own = |p: &&MomentPoint| p.is_of_hold() && nearest(&case.body_pa, 1e3 * p.p_body_kpa) == level;
         let highest = points.iter().filter(own).map(|p| 1e3 * p.p_act_kpa).fold(0.0, f64::max);
         if highest <= 0.0 {
             continue;
@@ -206,14 +196,14 @@ fn paths(case: &Case, points: &[MomentPoint]) -> Vec<(usize, Path)> {
 fn drawn(case: &Case, fit: &Fit, level: usize, path: &Path) -> Result<Vec<[f64; 4]>, CompareError> {
     let block = &case.problem.blocks[0];
     let at = |fit: &Fit, theta: &[f64]| -> Scenario {
-        let all = scenarios(case, block, fit, theta);
+        let all = case.problem.scenarios(block, &fit.effects, theta);
         all[level.min(all.len() - 1)].clone()
     };
     let base = at(&case.base, &reference(case));
     let middle = curve(&base, &at(fit, fit.theta()), path)?;
     let shifted = shifts(case, fit).into_iter().map(|theta| curve(&base, &at(fit, &theta), path));
     let half = band(&middle, &shifted.collect::<Result<Vec<_>, _>>()?);
-    let per = degrees(block.scenario.length_m);
+    let per = degrees(block.source.scenario.length_m);
     let point = |((p, [kappa, moment]), half): ((&f64, &[f64; 2]), f64)| [1e-3 * p, per * kappa, *moment, BAND * half];
     let all = path.p_act_pa.iter().zip(&middle).zip(half).map(point);
     Ok(all.filter(|point| point.iter().all(|v| v.is_finite())).collect())
@@ -223,11 +213,10 @@ fn drawn(case: &Case, fit: &Fit, level: usize, path: &Path) -> Result<Vec<[f64; 
 fn shifts(case: &Case, fit: &Fit) -> Vec<Vec<f64>> {
     let Some(jacobian) = case.problem.jacobian_allowing(fit) else { return Vec::new() };
     let ranges = case.problem.ranges(&fit.effects);
-    let free: Vec<usize> = (0..ranges.len())
-        .filter(|k| ranges[*k].lower < ranges[*k].upper && dot(&jacobian[*k], &jacobian[*k]) > 0.0)
-        .collect();
-    let normal = DMatrix::from_fn(free.len(), free.len(), |i, j| dot(&jacobian[free[i]], &jacobian[free[j]]));
-    let Some(root) = normal.cholesky().and_then(|c| c.inverse().cholesky()) else { return Vec::new() };
+    let free: Vec<usize> = (0..ranges.len()).filter(|k| ranges[*k].is_free() && square(&jacobian[*k]) > 0.0).collect();
+    let Some(root) = products(&jacobian, &free).cholesky().and_then(|c| c.inverse().cholesky()) else {
+        return Vec::new();
+    };
     let shifted = |column: nalgebra::DVectorView<f64>| {
         let mut theta = fit.theta().to_vec();
         for (k, step) in free.iter().zip(column.iter()) {

@@ -11,16 +11,14 @@
 //!
 //! with the allowance A for the form of laws and the gain G expected of a there ([`super::order`]); 16 where A = 1.
 
-use super::blocks::{fitted_scenarios, nearest, whole_block};
 use super::case::Case;
 use super::decide::Decision;
 use super::experiments::{BENDING_TEST, Instruments, Part, Plan, bending_test, plans, protocol_text};
 use super::known::{BENCH_TEST, BENCH_TESTS, BenchTest, Known, parameters_of};
 use super::order::allowance;
-use super::problem::{Block, Fit, Problem, Readings, with};
-use super::proposed::{Experiment, NextExperiment, Separation};
-use super::result::Verdict;
-use super::source::is_rolled;
+use super::problem::{Block, Fit, Problem, with};
+use super::result::{Experiment, NextExperiment, Separation, Verdict};
+use super::source::{Source, is_rolled, nearest};
 use crate::directions::nuisance_directions;
 use crate::error::CompareError;
 use crate::gauge::Gauge;
@@ -51,7 +49,7 @@ pub fn next_experiment(
     outside: Option<String>,
 ) -> Result<Option<NextExperiment>, CompareError> {
     let hypotheses = hypotheses(decision);
-    let is_separable = hypotheses.len() > 1 && case.noise.is_known();
+    let is_separable = hypotheses.len() > 1 && case.noise().is_known();
     if !is_separable {
         let only =
             |sentence| NextExperiment { best: String::new(), needed_now: enough(0.0), sentence, ..Default::default() };
@@ -65,8 +63,9 @@ pub fn next_experiment(
         return Ok(Some(NextExperiment { best, now, needed_now, sentence, ..Default::default() }));
     }
     let mut tried = Vec::new();
-    let set = case.gauge.map_or_else(|| case.dataset.clone(), |gauge| gauge.as_set(case.dataset));
-    let mut plans = plans(case.scenario, &set, case.direct, instruments(case, &hypotheses));
+    let Source { scenario, dataset, direct, gauge, .. } = case.first();
+    let set = gauge.as_ref().map_or_else(|| dataset.clone(), |gauge| gauge.as_set(dataset));
+    let mut plans = plans(scenario, &set, *direct, instruments(case, &hypotheses));
     plans.extend((case.problem.bendings > 0 && case.problem.known_bending.is_none()).then(bending_test));
     for plan in plans {
         // A planned pressure without equilibrium is no experiment to propose.
@@ -91,15 +90,15 @@ pub fn next_experiment(
 fn hypotheses(decision: &Decision) -> Vec<&Fit> {
     match decision.verdict {
         Some(Verdict::None | Verdict::TooSmall) => Vec::new(),
-        _ if !decision.pairs.is_empty() => decision.pair_set.iter().map(|i| &decision.pairs[*i]).collect(),
-        _ => decision.set.iter().map(|i| &decision.singles[*i]).collect(),
+        _ if !decision.pairs.fits.is_empty() => decision.pairs.stated().collect(),
+        _ => decision.singles.stated().collect(),
     }
 }
 
 /// What would have to be measured directly so that none of the explanations is one of supply or camera, or one that a test of its
 /// own measures.
 fn instruments(case: &Case, hypotheses: &[&Fit]) -> Instruments {
-    let tried: Vec<usize> = hypotheses.iter().flat_map(|fit| &fit.effects[case.always.len()..]).copied().collect();
+    let tried: Vec<usize> = hypotheses.iter().flat_map(|fit| case.added(fit)).copied().collect();
     let has = |stage: Stage| tried.iter().any(|e| case.candidate(*e).stage == stage);
     let is_open = |test: &&BenchTest| {
         let mut measures = parameters_of(test, case.problem.candidates).into_iter();
@@ -114,8 +113,7 @@ fn instruments(case: &Case, hypotheses: &[&Fit]) -> Instruments {
 }
 
 fn label(case: &Case, fit: &Fit) -> String {
-    let names: Vec<String> = fit.effects[case.always.len()..].iter().map(|e| case.candidate(*e).name.clone()).collect();
-    names.join(" + ")
+    case.names(fit).join(" + ")
 }
 
 /// λ that tells two explanations apart in about nine of ten cases where the better one gains that much.
@@ -129,7 +127,7 @@ fn experiment(case: &Case, plan: &Plan, separations: Vec<Separation>, gain: f64)
     let within_reach = separations.iter().map(|s| s.lambda).filter(|l| policy::is_worth_its_time(*l)).reduce(f64::min);
     let largest = separations.iter().map(|s| s.lambda).fold(0.0, f64::max);
     // More runs make more of λ and of what a law's form shows, which may never be enough.
-    let at_hand = case.noise.runs.max(1);
+    let at_hand = case.noise().runs.max(1);
     let suffices = |runs: usize, lambda: f64| {
         let times = runs as f64 / at_hand as f64;
         times * lambda >= enough(times * gain)
@@ -140,7 +138,7 @@ fn experiment(case: &Case, plan: &Plan, separations: Vec<Separation>, gain: f64)
         name: plan.name.clone(),
         sentence: plan.sentence.clone(),
         protocol: protocol_text(plan),
-        direct: plan.parts.first().map_or(case.direct, |part| part.direct),
+        direct: plan.parts.first().map_or(case.first().direct, |part| part.direct),
         tests: plan.tests.iter().map(|test| test.name.to_string()).collect(),
         needed,
         separated,
@@ -175,27 +173,30 @@ struct Expected<'a> {
 }
 
 impl<'a> Expected<'a> {
-    fn of<'p: 'a>(case: &'a Case, plan: Option<&'p Plan>, truth: &Fit) -> Result<Expected<'a>, CompareError> {
-        let old = case.sources().enumerate();
-        let old = old.map(|(i, (s, noise))| whole_block(&s, case.prediction_of(i, truth), noise, &case.body_pa));
-        let old = old.collect::<Result<Vec<_>, _>>()?;
+    fn of(case: &Case<'a>, plan: Option<&Plan>, truth: &Fit) -> Result<Expected<'a>, CompareError> {
+        let expected = |block: &Block<'a>| Block { target_m: case.prediction_of(block, truth), ..block.clone() };
         let parts: &[Part] = plan.map_or(&[], |plan| &plan.parts);
         let body = parts.first().map(|part| part.dataset.holds[0].p_body_pa);
         let mut levels = case.body_pa.clone();
         let is_new = |p: &f64| levels.iter().all(|l| !policy::is_same_pressure(*l, *p));
         let added = usize::from(case.problem.bendings > 0 && body.as_ref().is_some_and(is_new));
         levels.extend(body.filter(|_| added > 0));
-        let bendings = case.problem.bendings + added;
         let theta = extended(truth, case.problem.bendings, added);
         // As the hypothesis has it: what is expected of itself it meets.
         let tested = plan.is_some_and(|plan| plan.parts.is_empty() && plan.tests.is_empty());
         let sd_nm2 = |b: f64| case.problem.known_bending.map(|[_, sd]| sd).or(tested.then_some(BENDING_TEST * b));
         let known_bending = theta.first().and_then(|b| sd_nm2(*b).filter(|sd| *sd > 0.0).map(|sd| [*b, sd]));
-        let Problem { candidates, .. } = case.problem;
-        let known = expected_tests(case, plan, truth);
-        let mut problem = Problem { candidates, blocks: old, bendings, known_bending, known, enough: LAMBDA_ERROR };
+        let mut problem = Problem {
+            candidates: case.problem.candidates,
+            blocks: case.problem.blocks.iter().map(expected).collect(),
+            bendings: case.problem.bendings + added,
+            known_bending,
+            known: expected_tests(case, plan, truth),
+            enough: LAMBDA_ERROR,
+        };
+        let levels = if problem.bendings == 0 { &[][..] } else { &levels };
         for part in parts {
-            let planned = planned(case, &problem, part, &levels, (truth, &theta))?;
+            let planned = planned(case, &problem, part, levels, (truth, &theta))?;
             problem.blocks.push(planned);
         }
         Ok(Expected { problem, added })
@@ -238,44 +239,38 @@ fn extended(fit: &Fit, bendings: usize, added: usize) -> Vec<f64> {
 /// A planned part as the hypothesis `truth` predicts it, with the noise of as many runs as at hand.
 fn planned<'a>(
     case: &Case,
-    problem: &Problem,
-    part: &'a Part,
+    problem: &Problem<'a>,
+    part: &Part,
     levels: &[f64],
     (truth, theta): (&Fit, &[f64]),
 ) -> Result<Block<'a>, CompareError> {
+    let (noise, own) = (case.noise(), case.first());
     let gauge = part.direct.pressure.then(|| {
-        let laws = with(&part.scenario, problem.candidates, &truth.effects, &theta[problem.bendings..], &|stage| {
-            stage == Stage::Supply
-        });
-        let run_sd = case.noise.run_sd[0].unwrap_or(policy::SENSOR_SD[0]);
-        Gauge::planned(&part.dataset, &part.scenario, &Supply::of(&laws), case.noise.runs, run_sd)
+        let is_supply = |stage| stage == Stage::Supply;
+        let laws = with(&part.scenario, problem.candidates, &truth.effects, &theta[problem.bendings..], &is_supply);
+        let run_sd = noise.run_sd[0].unwrap_or(policy::SENSOR_SD[0]);
+        Gauge::planned(&part.dataset, &part.scenario, &Supply::of(&laws), noise.runs, run_sd)
     });
-    let dataset = match &gauge {
-        Some(gauge) => Cow::Owned(gauge.positions(&part.dataset)),
-        None => Cow::Borrowed(&part.dataset),
-    };
+    let dataset = gauge.as_ref().map_or_else(|| part.dataset.clone(), |gauge| gauge.positions(&part.dataset));
+    let rolled = is_rolled(part.scenario.gravity_direction, own.scenario.gravity_direction);
+    let (scenario, direct) = (without_settled(&part.scenario, part.direct), part.direct);
+    let source = Source { direct, gauge, rolled, ..Source::of(scenario, dataset, None) };
     let mut block = Block {
-        scenario: without_settled(&part.scenario, part.direct),
-        direct: part.direct,
-        rolled: is_rolled(&part.scenario, case.scenario),
-        holds: (0..dataset.holds.len()).collect(),
-        bending_of: dataset.holds.iter().map(|h| nearest(levels, h.p_body_pa)).collect(),
-        target_m: Vec::new(),
-        whitener: Whitener::new(&[[0.0; 4]; 4], 1.0, &[0.0; 4])?,
-        gauge: None,
-        dataset,
+        holds: (0..source.dataset.holds.len()).collect(),
+        bending_of: source.dataset.holds.iter().map(|h| nearest(levels, h.p_body_pa)).collect(),
+        of_gauge: source.gauge.as_ref().map(|gauge| gauge.whitener()).transpose()?,
+        source: Cow::Owned(source),
+        ..problem.blocks[0].clone()
     };
-    let scenarios = fitted_scenarios(problem, &block, &truth.effects, theta);
-    let own = scenarios.get(block.bending_of[0]).or(scenarios.first());
-    let predicted = predict_dataset(own.unwrap_or(&block.scenario), &block.dataset)?;
+    let scenarios = problem.scenarios(&block, &truth.effects, theta);
+    let predicted = predict_dataset(&scenarios[block.bending_of[0]], &block.source.dataset)?;
     let directions = nuisance_directions(&predicted.xy_m, &predicted.d_ln_pressure_m);
-    let mut variance = case.noise.test_variance;
-    let errors = gauge.as_ref().map(|gauge| gauge.errors_m(&block.dataset, &predicted.d_ln_pressure_m));
+    let errors = block.source.gauge.as_ref().map(|g| g.errors_m(&block.source.dataset, &predicted.d_ln_pressure_m));
+    let mut variance = noise.test_variance;
     if errors.is_some() {
         variance[0] = 0.0;
     }
-    block.whitener = Whitener::with_columns(&directions, case.noise.unit_m(), &variance, &errors.unwrap_or_default())?;
-    block.gauge = gauge.map(Readings::of).transpose()?;
+    block.whitener = Whitener::with_columns(&directions, noise.unit_m(), &variance, &errors.unwrap_or_default())?;
     block.target_m = predicted.xy_m;
     Ok(block)
 }

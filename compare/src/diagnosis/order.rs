@@ -21,9 +21,27 @@
 
 use super::candidates::Free;
 use super::case::Case;
-use super::detect::lead;
 use super::problem::Fit;
 use crate::policy;
+
+/// Explanations of as many effects, best first.
+#[derive(Default)]
+pub struct Ordered {
+    pub fits: Vec<Fit>,
+    /// For the form of their laws.
+    pub allowance: f64,
+    /// Those that cannot be told apart.
+    pub set: Vec<usize>,
+    /// How many there are in all.
+    pub tried: usize,
+}
+
+impl Ordered {
+    /// Those that cannot be told apart.
+    pub fn stated(&self) -> impl Iterator<Item = &Fit> {
+        self.set.iter().map(|i| &self.fits[*i])
+    }
+}
 
 /// What a gain that large makes of differences between sums of squares.
 pub fn allowance(best_gain: f64) -> f64 {
@@ -37,7 +55,7 @@ pub fn criterion(case: &Case, fit: &Fit, allowance: f64) -> f64 {
 
 /// The same of a sum of squares and a number of parameters added.
 pub fn criterion_of(case: &Case, cost: f64, added: usize, allowance: f64) -> f64 {
-    let values = case.sources().map(|(_, noise)| noise.seen(0..noise.directions.len())).sum::<usize>();
+    let values = case.noises.iter().map(|noise| noise.all_seen()).sum::<usize>();
     criterion_from(values, cost, added, allowance)
 }
 
@@ -66,7 +84,7 @@ fn oddness(case: &Case, fit: &Fit) -> f64 {
     let mut sum = 0.0;
     for (i, effect) in fit.effects.iter().enumerate() {
         let candidate = case.candidate(*effect);
-        let k = lead(candidate);
+        let k = candidate.lead();
         let p = &candidate.parameters[k];
         let size = (fit.theta()[from + k] - p.neutral).abs() / p.scale();
         if i >= case.always.len() && candidate.sizes() == 1 {

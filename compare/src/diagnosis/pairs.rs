@@ -2,8 +2,7 @@
 
 use super::basis::{Basis, cosine};
 use super::case::Case;
-use super::decide::Decision;
-use super::order;
+use super::order::{Ordered, criterion};
 use super::problem::Fit;
 use super::result::Combination;
 use super::screen::{score, starts};
@@ -29,7 +28,7 @@ pub fn another_wanted(case: &Case, fit: &Fit) -> f64 {
 pub fn fit_pairs(case: &Case, singles: &[Fit], progress: &mut Progress) -> (Vec<Fit>, usize) {
     let fit = |(a, b): &(usize, usize)| {
         let (first, second) = (&singles[*a], &singles[*b]);
-        let effects: Vec<usize> = first.effects.iter().copied().chain([own(second)]).collect();
+        let effects = [&first.effects[..], &[own(second)]].concat();
         let mut all = starts(&case.problem, first, own(second), false);
         all.truncate(2);
         all.extend(swapped(case, first, second));
@@ -70,33 +69,33 @@ fn swapped(case: &Case, first: &Fit, second: &Fit) -> Option<Vec<f64>> {
     let kept = second.theta().len() - case.candidate(own(second)).parameters.len();
     let (base, own) = second.theta().split_at(kept);
     let values = case.candidate(effect).at(amount);
-    Some(base.iter().copied().chain(values).chain(own.iter().copied()).collect())
+    Some([base, &values, own].concat())
 }
 
 /// Indices of the pairs that cannot be told from the best one.
 pub fn indistinguishable(case: &Case, pairs: &[Fit], allowance: f64) -> Vec<usize> {
     let Some(best) = pairs.first() else { return Vec::new() };
-    let c = |fit: &Fit| order::criterion(case, fit, allowance);
+    let c = |fit: &Fit| criterion(case, fit, allowance);
     let is_alike = |i: &usize| policy::is_alike(c(&pairs[*i]), c(best));
     (0..pairs.len()).filter(is_alike).collect()
 }
 
 /// What a reader needs of the best pairs.
-pub fn describe(case: &Case, decision: &Decision, single: &Fit) -> Vec<Combination> {
-    let (pairs, set, tried) = (&decision.pairs, &decision.pair_set, decision.pairs_tried);
-    let c = |fit: &Fit| order::criterion(case, fit, decision.pair_allowance);
+pub fn describe(case: &Case, pairs: &Ordered, single: &Fit) -> Vec<Combination> {
+    let Ordered { fits, allowance, set, tried } = pairs;
+    let c = |fit: &Fit| criterion(case, fit, *allowance);
     let entry = |(i, fit): (usize, &Fit)| Combination {
-        effects: fit.effects[case.always.len()..].iter().map(|e| case.candidate(*e).name.clone()).collect(),
+        effects: case.names(fit),
         parameters: parameter_values(case, fit, false),
         gain: case.gain(fit),
-        bic_difference: c(fit) - c(&pairs[0]),
-        p_corrected: p_over(case, fit, single, tried).map(reported_p),
+        bic_difference: c(fit) - c(&fits[0]),
+        p_corrected: p_over(case, fit, single, *tried).map(reported_p),
         systematic_after_mm: case.error_mm(&case.prediction(fit)),
-        bending_nm2: fit.theta()[..case.problem.bendings].to_vec(),
+        bending_nm2: case.bendings(fit),
         in_set: set.contains(&i),
         cancels: cancels(case, fit),
     };
-    pairs.iter().take(REPORTED.max(set.len())).enumerate().map(entry).collect()
+    fits.iter().take(REPORTED.max(set.len())).enumerate().map(entry).collect()
 }
 
 /// p of the gain of a pair over the best single effect, or over the base.

@@ -5,7 +5,7 @@ use super::stands_out::{StandsOut, stands_out};
 use super::tests::of_one;
 use super::*;
 use crate::study::{Generator, generate, published::textbook_scenario};
-use data::{Dataset, Direct};
+use data::Dataset;
 
 fn robot(kind: &str, bending_nm2: f64) -> Scenario {
     textbook_scenario(kind).unwrap().with_bending(bending_nm2)
@@ -18,17 +18,9 @@ fn measured(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
 /// What the calibrated base leaves, as `look` sees it.
 pub fn of_base<T>(scenario: &Scenario, data: &Dataset, look: impl Fn(&Case) -> T) -> T {
     let options = Options::default();
-    let source = Source {
-        scenario,
-        dataset: data,
-        direct: Direct::default(),
-        gauge: None,
-        rolled: false,
-        bending_nm2: None,
-        measured: &[],
-    };
-    let (candidates, own) = catalogue(&[source], &options);
-    let case = Case::new(&[source], &[Vec::new()], (&candidates, own), &options).unwrap();
+    let sources = [Source::of(scenario.clone(), data.clone(), None)];
+    let (candidates, own) = catalogue(&sources, &options);
+    let case = Case::new(&sources, (&candidates, own), &options).unwrap();
     look(&case)
 }
 

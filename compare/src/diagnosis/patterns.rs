@@ -97,10 +97,10 @@ struct Outline {
 
 /// All patterns for a prediction in run layout \[m\]; none for data of another shape.
 pub fn patterns(case: &Case, prediction_m: &[f64]) -> Patterns {
-    let Ok(layout) = Layout::of(case.dataset) else { return Patterns::default() };
-    let (names, outlines) = (&case.dataset.markers, outlines(case, &layout, prediction_m));
+    let Ok(layout) = Layout::of(&case.first().dataset) else { return Patterns::default() };
+    let (names, outlines) = (&case.first().dataset.markers, outlines(case, &layout, prediction_m));
     let bent = bending(&layout, prediction_m);
-    let stations = order(&case.scenario.markers_m);
+    let stations = order(&case.first().scenario.markers_m);
     let always = vec![1.0; layout.holds];
     let mut found = Patterns::default();
     let place = |place: Place| shape(case, &layout, &outlines, &place);
@@ -145,7 +145,7 @@ pub fn patterns(case: &Case, prediction_m: &[f64]) -> Patterns {
         }
     }
     let whole = next(along(|_| 1.0));
-    let read = case.sources().any(|(source, _)| source.gauge.is_some());
+    let read = case.is_gauged();
     for (i, When { words, check, time }) in times.into_iter().enumerate() {
         let (words, check) = (format!("the whole robot bends otherwise {words}"), look::whole(&check, read));
         // Single holds come first.
@@ -158,12 +158,12 @@ pub fn patterns(case: &Case, prediction_m: &[f64]) -> Patterns {
 /// Uniform bending of every hold by itself, what any law of a uniform robot may do: of the outline, and as the model bends with
 /// pressure, which knows stretches without actuator.
 pub fn uniform_bending(case: &Case, prediction_m: &[f64]) -> Vec<Vec<f64>> {
-    let Ok(layout) = Layout::of(case.dataset) else { return Vec::new() };
+    let Ok(layout) = Layout::of(&case.first().dataset) else { return Vec::new() };
     let outlines = outlines(case, &layout, prediction_m);
     let bent = shape(case, &layout, &outlines, &Place::Bends(stretches(case).iter().map(|[_, ds]| *ds).collect()));
     let by_model = |h: usize| {
         let own = layout.hold_range(h);
-        let slope = case.noise.directions.iter().enumerate();
+        let slope = case.noise().directions.iter().enumerate();
         slope.map(|(i, u)| if own.contains(&i) { u[0] } else { 0.0 }).collect()
     };
     let by_outline = |h: usize| bent.direction(&alone(layout.holds, h));
@@ -172,7 +172,7 @@ pub fn uniform_bending(case: &Case, prediction_m: &[f64]) -> Vec<Vec<f64>> {
 
 /// Stretches between neighbouring markers, the first from the base: middle and length over the last station.
 fn stretches(case: &Case) -> Vec<[f64; 2]> {
-    let stations = &case.scenario.markers_m;
+    let stations = &case.first().scenario.markers_m;
     let ordered: Vec<f64> = order(stations).iter().map(|m| stations[*m]).collect();
     let last = ordered.last().copied().filter(|last| *last > 0.0).unwrap_or(1.0);
     let mut before = 0.0;
@@ -190,7 +190,7 @@ fn alone(holds: usize, hold: usize) -> Time {
 
 /// Times that single out holds, with words; every hold by itself first.
 fn times(case: &Case, bent: &Time) -> Vec<When> {
-    let holds = &case.dataset.holds;
+    let holds = &case.first().dataset.holds;
     let mut all: Vec<When> = Vec::new();
     for (h, hold) in holds.iter().enumerate() {
         let (words, check) =
@@ -227,8 +227,8 @@ fn between<'a>(order: &[usize], k: usize, name: impl Fn(usize) -> &'a String) ->
 }
 
 fn outlines(case: &Case, layout: &Layout, prediction_m: &[f64]) -> Vec<Outline> {
-    let order = order(&case.scenario.markers_m);
-    let centre_m = case.scenario.centre_line_m.unwrap_or(case.scenario.radius_m);
+    let order = order(&case.first().scenario.markers_m);
+    let centre_m = case.first().scenario.centre_line_m.unwrap_or(case.first().scenario.radius_m);
     let outline = |sample: &[f64]| {
         let mut xy = vec![[0.0; 2]];
         xy.extend(order.iter().map(|m| [sample[2 * m], sample[2 * m + 1]]));
@@ -265,7 +265,7 @@ fn shape(case: &Case, layout: &Layout, outlines: &[Outline], place: &Place) -> S
         })
     };
     let moved: Vec<usize> = (0..layout.markers).filter(beyond).collect();
-    Shape::of(layout, &moved, &|sample, marker| match case.dataset.is_seen(sample / layout.samples, marker) {
+    Shape::of(layout, &moved, &|sample, marker| match case.first().dataset.is_seen(sample / layout.samples, marker) {
         true => displacement(&outlines[sample], place, marker),
         false => [0.0; 2],
     })

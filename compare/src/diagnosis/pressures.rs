@@ -18,33 +18,15 @@ use super::case::{Case, catalogue};
 use super::decide::decide;
 use super::options::{Options, PRESSURES_ARE_RIGHT};
 use super::order;
-use super::part::Part;
 use super::problem::Fit;
-use super::result::Diagnosis;
 use super::singles::fit_all;
 use super::source::Source;
-use super::story::story;
 use crate::error::CompareError;
 use crate::evidence::Evidence;
 use crate::policy;
-use crate::slips::pressure::{BestEffect, PressureSlip, PressureSlipFound, pressure_words};
+use crate::slips::pressure::{BestEffect, PressureSlip, PressureSlipFound};
 use data::Dataset;
 use models::Scenario;
-
-impl PressureSlipFound {
-    /// A diagnosis whose verdict waits for the column; what its numbers alone look like is said once.
-    pub(super) fn withholds(self, mut diagnosis: Diagnosis, evidence: &[Evidence]) -> Diagnosis {
-        let in_numbers: Vec<String> = evidence.iter().flat_map(|e| pressure_words(&e.dataset)).collect();
-        for told in [&mut diagnosis.slips, &mut diagnosis.warnings] {
-            told.retain(|words| !in_numbers.contains(words));
-            told.insert(0, self.words.clone());
-        }
-        diagnosis.bending_alarm = None;
-        diagnosis.pressure_slip = Some(self);
-        diagnosis.summary = story(&diagnosis);
-        diagnosis
-    }
-}
 
 /// What a hypothesis leaves, and what it costs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,14 +39,14 @@ struct Weighed {
 
 /// All data of a diagnosis.
 pub(super) struct Pressures<'p> {
-    pub parts: &'p [Part],
-    pub sessions: &'p [Vec<usize>],
+    pub sources: &'p [Source],
     pub options: &'p Options,
 }
 
 /// A slip undone, and the base then.
 struct Undone {
-    part: usize,
+    /// Index of the source.
+    of: usize,
     slip: PressureSlip,
     weighed: Weighed,
     /// The numbers alone look like it.
@@ -94,7 +76,7 @@ impl Pressures<'_> {
             return Ok(None);
         }
         let nearest = rivals.iter().min_by(|a, b| a.0.left_mm.total_cmp(&b.0.left_mm));
-        let best_effect = nearest.map(|(rival, fit)| BestEffect { effects: names(case, fit), left_mm: rival.left_mm });
+        let best_effect = nearest.map(|(rival, fit)| BestEffect { effects: case.names(fit), left_mm: rival.left_mm });
         Ok(Some(self.told(&all, Some(own.left_mm), best_effect)))
     }
 
@@ -111,23 +93,22 @@ impl Pressures<'_> {
     fn instead(&self) -> Option<PressureSlipFound> {
         let all = self.undone_slips(false);
         let best = all.first()?;
-        let moved_mm = 1e3 * moved_m(&self.parts[best.part].prepared.dataset);
+        let moved_mm = 1e3 * moved_m(&self.sources[best.of].dataset);
         policy::is_mostly_gone(best.weighed.left_mm, moved_mm).then(|| self.told(&all, None, None))
     }
 
     /// All slips, the best first; `in_numbers`: those that the numbers alone look like.
     fn undone_slips(&self, in_numbers: bool) -> Vec<Undone> {
-        let all = (0..self.parts.len()).flat_map(|part| {
-            let Part { scenario, prepared, .. } = &self.parts[part];
-            PressureSlip::all(&prepared.dataset, scenario.p_body_pa).into_iter().map(move |slip| (part, slip))
+        let all = self.sources.iter().enumerate().flat_map(|(of, Source { scenario, dataset, .. })| {
+            PressureSlip::all(dataset, scenario.p_body_pa).into_iter().map(move |slip| (of, slip))
         });
-        let undone = |(part, slip): (usize, PressureSlip)| {
-            let Part { scenario, prepared, gauge, .. } = &self.parts[part];
-            let seen = slip.is_in_numbers(&prepared.dataset, scenario.p_body_pa);
+        let undone = |(of, slip): (usize, PressureSlip)| {
+            let Source { scenario, dataset, gauge, .. } = &self.sources[of];
+            let seen = slip.is_in_numbers(dataset, scenario.p_body_pa);
             // A body's slip shows in numbers; readings of a gauge are the actuator's own.
             let possible = if slip.is_of_body() { seen } else { gauge.is_none() && (seen || !in_numbers) };
-            let weighed = possible.then(|| self.undone(part, &slip))??;
-            Some(Undone { part, slip, weighed, in_numbers: seen })
+            let weighed = possible.then(|| self.undone(of, &slip))??;
+            Some(Undone { of, slip, weighed, in_numbers: seen })
         };
         let mut undone: Vec<Undone> = all.filter_map(undone).collect();
         undone.sort_by(|a, b| a.weighed.criterion.total_cmp(&b.weighed.criterion));
@@ -135,20 +116,17 @@ impl Pressures<'_> {
     }
 
     /// The base refitted with a slip of one of the data undone; `None` without equilibrium.
-    fn undone(&self, part: usize, slip: &PressureSlip) -> Option<Weighed> {
-        let mended: Dataset = slip.undone(&self.parts[part].prepared.dataset);
-        let first = &self.parts[0].scenario;
-        let mut sources: Vec<Source> = self.parts.iter().map(|p| p.source(first)).collect();
-        sources[part].dataset = &mended;
+    fn undone(&self, of: usize, slip: &PressureSlip) -> Option<Weighed> {
+        let mut sources = self.sources.to_vec();
+        sources[of].dataset = slip.undone(&sources[of].dataset);
         let (candidates, own) = catalogue(&sources, self.options);
-        let case = Case::new(&sources, self.sessions, (&candidates[..own], own), self.options).ok()?;
+        let case = Case::new(&sources, (&candidates[..own], own), self.options).ok()?;
         Some(weighed(&case, &case.base))
     }
 
     fn told(&self, all: &[Undone], before_mm: Option<f64>, best_effect: Option<BestEffect>) -> PressureSlipFound {
-        let Undone { part, slip, weighed, .. } = &all[0];
-        let dataset = &self.parts[*part].prepared.dataset;
-        let (name, after_mm) = (dataset.name.clone(), weighed.left_mm);
+        let Undone { of, slip, weighed, .. } = &all[0];
+        let (name, after_mm) = (self.sources[*of].dataset.name.clone(), weighed.left_mm);
         let brings = match before_mm {
             Some(before_mm) => format!("the error beyond noise goes from {before_mm:.1} to {after_mm:.2} mm"),
             None => format!("{after_mm:.2} mm are left, and as they are written the robot has no equilibrium"),
@@ -181,16 +159,13 @@ pub fn pressure_slip(
     evidence: &Evidence,
     options: &Options,
 ) -> Result<Option<PressureSlipFound>, CompareError> {
-    let (part, _) = Part::of(scenario, evidence)?;
-    let parts = [part];
-    let sources = [parts[0].source(&parts[0].scenario)];
-    let sessions = [parts[0].prepared.sessions.clone()];
+    let sources = [Source::prepared(scenario, evidence)?.0];
     let (candidates, own) = catalogue(&sources, options);
-    let pressures = Pressures { parts: &parts, sessions: &sessions, options };
-    let case = Case::new(&sources, &sessions, (&candidates, own), options).map_err(|error| pressures.refusal(error))?;
+    let pressures = Pressures { sources: &sources, options };
+    let case = Case::new(&sources, (&candidates, own), options).map_err(|error| pressures.refusal(error))?;
     let rivals = || {
         let mut wider = Vec::new();
-        let mut case = Case::new(&sources, &sessions, (&candidates, own), options)?;
+        let mut case = Case::new(&sources, (&candidates, own), options)?;
         let singles = fit_all(&mut case, &mut wider, &mut |_, _| ());
         Ok(decide(&case, singles, options, &mut |_, _| ())?.rivals())
     };
@@ -213,8 +188,8 @@ impl Undone {
 }
 
 fn weighed(case: &Case, fit: &Fit) -> Weighed {
-    let bendings = &fit.theta()[..case.problem.bendings];
-    let told = case.scenario.bending_stiffness;
+    let bendings = case.bendings(fit);
+    let told = case.first().scenario.bending_stiffness;
     Weighed {
         criterion: order::criterion(case, fit, 1.0) + bendings.iter().map(|b| oddness(case, *b)).sum::<f64>(),
         left_mm: case.error_in_all_mm(fit),
@@ -224,16 +199,12 @@ fn weighed(case: &Case, fit: &Fit) -> Weighed {
 
 /// How odd a stiffness is before any data; a bending test is among the squares already.
 fn oddness(case: &Case, bending: f64) -> f64 {
-    let told = case.scenario.bending_stiffness;
+    let told = case.first().scenario.bending_stiffness;
     if told == 0.0 || case.problem.known_bending.is_some() {
         return 0.0;
     }
     let size = (bending / told).clamp(1.0 / policy::ODDEST, policy::ODDEST);
     (size.ln() / policy::SAME_STIFFNESS.ln()).powi(2)
-}
-
-fn names(case: &Case, fit: &Fit) -> Vec<String> {
-    fit.effects[case.always.len()..].iter().map(|e| case.candidate(*e).name.clone()).collect()
 }
 
 /// Root mean square of how far the markers moved \[m\].

@@ -1,69 +1,89 @@
 //! The fit behind every hypothesis: bending stiffness and effect parameters to the whitened mean over runs.
 
-use super::basis::Basis;
+use super::basis::own_part;
 use super::candidates::{Candidate, Free, NEAR};
 use super::evaluator::positions;
 use super::known::Known;
 use super::least_squares::{Minimum, Range, dot, jacobian, minimise, square};
+use super::source::{Source, nearest};
 use crate::error::CompareError;
-use crate::gauge::Gauge;
+use crate::layout::Weights;
+use crate::noise::NoiseModel;
 use crate::policy;
 use crate::study::predict::is_open;
 use crate::whiten::{MISFIT_ROUNDS, Whitener};
-use data::{Dataset, Direct};
+use data::Dataset;
 use models::Scenario;
 use models::effects::Stage;
 use std::borrow::Cow;
 
 /// A change of B that matters \[N·m²\], for the steps of the fit.
 const BENDING_SCALE: f64 = 0.5;
+/// Values of B from which the fit of the base is started.
+const BENDINGS_TRIED: u32 = 24;
 
 /// Whitener of the block with that number.
 type WhitenerOf<'w> = dyn Fn(usize) -> Cow<'w, Whitener> + 'w;
 
-/// Measurements under one set of loads, and their noise.
+/// What a fit meets of a dataset.
+#[derive(Clone)]
 pub struct Block<'a> {
-    /// The base with the loads of this block.
-    pub scenario: Scenario,
-    /// Protocol and markers.
-    pub dataset: Cow<'a, Dataset>,
-    /// What was measured directly: effects there change nothing in this block.
-    pub direct: Direct,
-    /// Rolled by 180° against the first block: what is fixed to the room acts the other way.
-    pub rolled: bool,
+    pub source: Cow<'a, Source>,
     /// Holds that are fitted, rising.
     pub holds: Vec<usize>,
-    /// Index of the bending stiffness of every hold of the dataset.
+    /// Index of the bending stiffness of every hold of the dataset; 0 if B is kept.
     pub bending_of: Vec<usize>,
     /// What is to be met \[m\], in run layout.
     pub target_m: Vec<f64>,
     /// Whitens the values of the fitted holds.
     pub whitener: Whitener,
-    /// A gauge at the actuator, at whose readings the positions are predicted.
-    pub gauge: Option<Readings>,
+    /// Whitens differences of the supply's laws to the readings of the gauge.
+    pub of_gauge: Option<Whitener>,
 }
 
-/// What the supply's laws are held against.
-pub struct Readings {
-    /// The readings.
-    pub gauge: Gauge,
-    /// Whitens their differences to a law.
-    pub whitener: Whitener,
-}
+impl<'a> Block<'a> {
+    /// All holds of a dataset's mean; `levels` are body pressures with a stiffness of their own \[Pa\].
+    pub fn of(source: &'a Source, noise: &NoiseModel, levels: &[f64]) -> Result<Block<'a>, CompareError> {
+        let dataset = &source.dataset;
+        let all: Vec<usize> = (0..dataset.holds.len()).collect();
+        Ok(Block {
+            source: Cow::Borrowed(source),
+            bending_of: dataset.holds.iter().map(|h| nearest(levels, h.p_body_pa)).collect(),
+            target_m: dataset.mean_over_runs(),
+            whitener: noise.whitener_of(&values_of(dataset, &all))?,
+            of_gauge: source.gauge.as_ref().map(|gauge| gauge.whitener()).transpose()?,
+            holds: all,
+        })
+    }
 
-impl Readings {
-    /// # Errors
-    /// If the covariance cannot be decomposed.
-    pub fn of(gauge: Gauge) -> Result<Readings, CompareError> {
-        Ok(Readings { whitener: gauge.whitener()?, gauge })
+    /// The same with another target at some of its holds.
+    pub fn to_meet(
+        &self,
+        holds: Vec<usize>,
+        target_m: Vec<f64>,
+        noise: &NoiseModel,
+    ) -> Result<Block<'a>, CompareError> {
+        let whitener = noise.whitener_of(&values_of(&self.source.dataset, &holds))?;
+        Ok(Block { whitener, holds, target_m, ..self.clone() })
+    }
+
+    /// Values of a hold.
+    fn width(&self) -> usize {
+        self.source.dataset.values_per_run() / self.source.dataset.holds.len()
     }
 }
 
+/// Every value of some holds.
+fn values_of(dataset: &Dataset, holds: &[usize]) -> Vec<Weights> {
+    let width = dataset.values_per_run() / dataset.holds.len();
+    holds.iter().flat_map(|h| h * width..(h + 1) * width).map(|i| vec![(i, 1.0)]).collect()
+}
+
 /// A list of blocks with shared parameters.
+#[derive(Clone)]
 pub struct Problem<'a> {
     /// Catalogue.
     pub candidates: &'a [Candidate],
-    /// Measurements.
     pub blocks: Vec<Block<'a>>,
     /// Bending stiffnesses that are fitted; 0 if B is kept as the scenarios say.
     pub bendings: usize,
@@ -98,72 +118,59 @@ impl Fit {
         self.minimum.cost
     }
 
-    /// Parameters.
     pub fn theta(&self) -> &[f64] {
         &self.minimum.at
     }
-}
 
-impl Block<'_> {
-    /// Positions in run layout \[m\]; holds that are not asked for are zero. `None` without equilibrium.
-    fn predict(&self, candidates: &[Candidate], effects: &[usize], theta: &[f64], bendings: usize) -> Option<Vec<f64>> {
-        self.predict_at(&self.holds, candidates, effects, theta, bendings)
+    /// Parameters with those of one more effect.
+    pub fn theta_with(&self, values: &[f64]) -> Vec<f64> {
+        [self.theta(), values].concat()
     }
 
-    /// The same at other holds.
-    pub fn predict_at(
-        &self,
-        holds: &[usize],
-        candidates: &[Candidate],
-        effects: &[usize],
-        theta: &[f64],
-        bendings: usize,
-    ) -> Option<Vec<f64>> {
-        let mut model = self.with_effects(candidates, effects, &theta[bendings..]);
-        let mut out = vec![0.0; self.dataset.values_per_run()];
-        if bendings == 0 {
-            positions(&model, &self.dataset, holds, &mut out).ok()?;
-        }
-        for (group, bending) in theta[..bendings].iter().enumerate() {
-            let own: Vec<usize> = holds.iter().copied().filter(|h| self.bending_of[*h] == group).collect();
+    /// Change of the whitened residuals from another fit.
+    pub fn change_from(&self, other: &Fit) -> Vec<f64> {
+        self.minimum.residual.iter().zip(&other.minimum.residual).map(|(a, b)| a - b).collect()
+    }
+}
+
+impl Problem<'_> {
+    /// The base of a block with effects at values in SI: one scenario per bending stiffness, one alone if B is kept.
+    pub fn scenarios(&self, block: &Block, effects: &[usize], theta: &[f64]) -> Vec<Scenario> {
+        let Source { scenario, direct, rolled, .. } = &*block.source;
+        let (bendings, values) = theta.split_at(self.bendings);
+        let in_room = effects.iter().flat_map(|e| &self.candidates[*e].parameters).map(|p| p.in_room && *rolled);
+        let values: Vec<f64> = in_room.zip(values).map(|(turned, v)| if turned { -v } else { *v }).collect();
+        let model = with(scenario, self.candidates, effects, &values, &|stage| is_open(stage, *direct));
+        if bendings.is_empty() { vec![model] } else { bendings.iter().map(|b| model.with_bending(*b)).collect() }
+    }
+
+    /// Positions at some holds of a block in run layout \[m\], others zero; `None` without equilibrium.
+    pub fn predict(&self, block: &Block, holds: &[usize], effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
+        let mut out = vec![0.0; block.source.dataset.values_per_run()];
+        for (group, scenario) in self.scenarios(block, effects, theta).iter().enumerate() {
+            let own: Vec<usize> = holds.iter().copied().filter(|h| block.bending_of[*h] == group).collect();
             if !own.is_empty() {
-                model.bending_stiffness = *bending;
-                positions(&model, &self.dataset, &own, &mut out).ok()?;
+                positions(scenario, &block.source.dataset, &own, &mut out).ok()?;
             }
         }
         Some(out)
     }
 
-    /// The base of this block with effects at values in SI, one effect's parameters after the other's.
-    pub fn with_effects(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Scenario {
-        let turned = if self.rolled { turned(candidates, effects, values) } else { values.to_vec() };
-        with(&self.scenario, candidates, effects, &turned, &|stage| is_open(stage, self.direct))
-    }
-
-    /// Differences of the supply's laws to the readings of the gauge \[Pa\]; none without one.
-    pub fn supply_pa(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Vec<f64> {
-        self.gauge.as_ref().map_or(Vec::new(), |Readings { gauge, .. }| {
-            let laws = with(&gauge.scenario, candidates, effects, values, &|stage| stage == Stage::Supply);
+    /// Differences of the supply's laws to the readings of a block's gauge \[Pa\]; none without one.
+    pub fn supply_pa(&self, block: &Block, effects: &[usize], theta: &[f64]) -> Vec<f64> {
+        block.source.gauge.as_ref().map_or(Vec::new(), |gauge| {
+            let is_supply = |stage| stage == Stage::Supply;
+            let laws = with(&gauge.scenario, self.candidates, effects, &theta[self.bendings..], &is_supply);
             gauge.differences_pa(&laws)
         })
     }
 
     /// The same, whitened.
-    pub fn supply(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Option<Vec<f64>> {
-        let Readings { whitener, .. } = self.gauge.as_ref()?;
-        Some(whitener.whiten(&self.supply_pa(candidates, effects, values)))
+    pub fn supply(&self, block: &Block, effects: &[usize], theta: &[f64]) -> Vec<f64> {
+        let whitened = |whitener: &Whitener| whitener.whiten(&self.supply_pa(block, effects, theta));
+        block.of_gauge.as_ref().map(whitened).unwrap_or_default()
     }
 
-    /// Whitened difference of a prediction to the target.
-    fn whiten_by(&self, whitener: &Whitener, predicted_m: &[f64]) -> Vec<f64> {
-        let width = predicted_m.len() / self.dataset.holds.len();
-        let rows = self.holds.iter().flat_map(|h| h * width..(h + 1) * width);
-        let residual: Vec<f64> = rows.map(|i| predicted_m[i] - self.target_m[i]).collect();
-        whitener.whiten(&residual)
-    }
-}
-
-impl Problem<'_> {
     /// Whitened residuals of all blocks, prediction minus target, and of what was measured by itself.
     pub fn residuals(&self, effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
         self.residuals_by(&|i| Cow::Borrowed(&self.blocks[i].whitener), effects, theta)
@@ -172,26 +179,27 @@ impl Problem<'_> {
     fn residuals_by(&self, whitener: &WhitenerOf, effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
         let mut all = Vec::new();
         for (i, block) in self.blocks.iter().enumerate() {
-            let predicted = block.predict(self.candidates, effects, theta, self.bendings)?;
-            all.append(&mut block.whiten_by(&whitener(i), &predicted));
-            all.append(&mut block.supply(self.candidates, effects, &theta[self.bendings..]).unwrap_or_default());
+            let (predicted, width) = (self.predict(block, &block.holds, effects, theta)?, block.width());
+            let rows = block.holds.iter().flat_map(|h| h * width..(h + 1) * width);
+            let residual: Vec<f64> = rows.map(|i| predicted[i] - block.target_m[i]).collect();
+            all.append(&mut whitener(i).whiten(&residual));
+            all.append(&mut self.supply(block, effects, theta));
         }
         // Last, so that every block keeps its place.
-        all.extend(self.known_bending.zip(theta[..self.bendings].first()).map(|([known, sd], b)| (b - known) / sd));
-        let values = &theta[self.bendings..];
+        let (bendings, values) = theta.split_at(self.bendings);
+        all.extend(self.known_bending.zip(bendings.first()).map(|([known, sd], b)| (b - known) / sd));
         all.extend(self.known.iter().map(|known| known.residual(self.candidates, effects, values)));
         Some(all)
+    }
+
+    fn parameters(&self, effects: &[usize]) -> impl Iterator<Item = &Free> {
+        effects.iter().flat_map(|e| &self.candidates[*e].parameters)
     }
 
     /// Ranges of the parameters of a hypothesis.
     pub fn ranges(&self, effects: &[usize]) -> Vec<Range> {
         let bending = Range { lower: 0.0, upper: policy::MOST_BENDING, scale: BENDING_SCALE };
-        let free = effects.iter().flat_map(|e| &self.candidates[*e].parameters);
-        let free = free.map(|p| match p.is_free() {
-            true => Range { lower: p.lower, upper: p.upper, scale: p.scale() },
-            false => Range { lower: p.held_at(), upper: p.held_at(), scale: p.scale() },
-        });
-        std::iter::repeat_n(bending, self.bendings).chain(free).collect()
+        std::iter::repeat_n(bending, self.bendings).chain(self.parameters(effects).map(Free::range)).collect()
     }
 
     /// Number of fitted parameters of a hypothesis beyond the bending stiffnesses, without those that shape a law.
@@ -202,32 +210,27 @@ impl Problem<'_> {
     /// The best fit from several starts; `None` if none of them has an equilibrium.
     pub fn fit(&self, effects: &[usize], starts: &[Vec<f64>]) -> Option<Fit> {
         let ranges = self.ranges(effects);
-        let mut costs = Vec::new();
-        let mut best: Option<Minimum> = None;
-        for start in starts {
-            let Some(found) = minimise(start, &ranges, self.enough, &mut |theta| self.residuals(effects, theta)) else {
-                continue;
-            };
-            costs.push(found.cost);
-            if best.as_ref().is_none_or(|b| found.cost < b.cost) {
-                best = Some(found);
-            }
-        }
-        let minimum = best?;
-        let several_minima = costs.iter().any(|c| policy::is_another_minimum(*c, minimum.cost));
-        let neutral = self.neutral(effects);
-        let free: Vec<&Free> = effects.iter().flat_map(|e| &self.candidates[*e].parameters).collect();
-        // No end of a range says no to a form, its prior does.
-        let is_shape = |k: usize| k.checked_sub(self.bendings).is_some_and(|own| free[own].is_shape());
+        let from =
+            |start: &Vec<f64>| minimise(start, &ranges, self.enough, &mut |theta| self.residuals(effects, theta));
+        let found: Vec<Minimum> = starts.iter().filter_map(from).collect();
+        let least = found.iter().map(|m| m.cost).fold(f64::INFINITY, f64::min);
+        let several_minima = found.iter().any(|m| policy::is_another_minimum(m.cost, least));
+        let minimum = found.into_iter().find(|m| m.cost == least)?;
+        let free: Vec<&Free> = self.parameters(effects).collect();
+        let own = |k: usize| k.checked_sub(self.bendings).map(|own| free[own]);
+        // No end of a range says no to a form, its prior does; stiffnesses always act.
         let pushed = |m: &Minimum| -> Vec<bool> {
-            (0..ranges.len()).map(|k| !is_shape(k) && is_binding(m, k, &ranges[k], neutral[k])).collect()
+            let is_pushed = |k: usize| {
+                let neutral = own(k).map_or(f64::NAN, |p| p.neutral);
+                !own(k).is_some_and(Free::is_shape) && is_binding(m, k, &ranges[k], neutral)
+            };
+            (0..ranges.len()).map(is_pushed).collect()
         };
         let (pushed, minimum, misfit) = match self.allowing(effects, &ranges, &minimum) {
             Some((wide, misfit)) => (pushed(&wide), self.at(effects, &ranges, wide.at)?, misfit),
             None => (pushed(&minimum), minimum, vec![1.0; self.blocks.len()]),
         };
-        let is_forbidden =
-            |k: usize| k.checked_sub(self.bendings).is_none_or(|own| free[own].is_forbidden_beyond(minimum.at[k]));
+        let is_forbidden = |k: usize| own(k).is_none_or(|p| p.is_forbidden_beyond(minimum.at[k]));
         let (binding, open) =
             (0..pushed.len()).map(|k| (pushed[k] && is_forbidden(k), pushed[k] && !is_forbidden(k))).unzip();
         Some(Fit { effects: effects.to_vec(), minimum, misfit, binding, open, several_minima })
@@ -273,18 +276,15 @@ impl Problem<'_> {
     /// Mean square of the whitened residuals of each block, no less than one.
     fn factors(&self, residual: &[f64]) -> Vec<f64> {
         let mut from = 0;
-        self.blocks
-            .iter()
-            .map(|block| {
-                let width = block.target_m.len() / block.dataset.holds.len() * block.holds.len();
-                let own = &residual[from..from + width];
-                let unseen = |h: &&usize| block.dataset.lost.unseen.iter().filter(|[hold, _]| hold == *h).count();
-                let unseen: usize = block.holds.iter().map(|h| unseen(&h)).sum();
-                let seen = width - unseen * 2 * block.dataset.samples_per_hold;
-                from += width + block.gauge.as_ref().map_or(0, |g| g.gauge.differences_pa(&g.gauge.scenario).len());
-                (square(own) / seen as f64).max(1.0)
-            })
-            .collect()
+        let mut factor = |block: &Block| {
+            let Source { dataset, gauge, .. } = &*block.source;
+            let width = block.width() * block.holds.len();
+            let own = &residual[from..from + width];
+            let unseen = dataset.lost.unseen.iter().filter(|[hold, _]| block.holds.contains(hold)).count();
+            from += width + gauge.as_ref().map_or(0, |gauge| gauge.readings.len());
+            (square(own) / (width - unseen * 2 * dataset.samples_per_hold) as f64).max(1.0)
+        };
+        self.blocks.iter().map(&mut factor).collect()
     }
 
     /// Residuals and derivatives at a place.
@@ -297,32 +297,16 @@ impl Problem<'_> {
 
     /// Fit of the base: B scanned from zero up, evenly in √B, then refined.
     pub fn fit_base(&self, always: &[usize], own_values: &[f64]) -> Option<Fit> {
-        let start = |bending: f64| -> Vec<f64> {
-            std::iter::repeat_n(bending, self.bendings).chain(own_values.iter().copied()).collect()
+        let start = |i: u32| -> Vec<f64> {
+            let bending = policy::MOST_BENDING * (f64::from(i) / f64::from(BENDINGS_TRIED)).powi(2);
+            [&vec![bending; self.bendings], own_values].concat()
         };
-        let cost = |theta: &[f64]| {
-            self.residuals(always, theta).map_or(f64::INFINITY, |r| r.iter().map(|r| r * r).sum::<f64>())
-        };
-        let grid = if self.bendings == 0 { 0 } else { 24 };
-        let scan: Vec<Vec<f64>> =
-            (0..=grid).map(|i| start(policy::MOST_BENDING * (f64::from(i) / 24.0).powi(2))).collect();
-        let costs: Vec<f64> = scan.iter().map(|theta| cost(theta)).collect();
+        let scan: Vec<Vec<f64>> = (0..=if self.bendings == 0 { 0 } else { BENDINGS_TRIED }).map(start).collect();
+        let cost = |theta: &Vec<f64>| self.residuals(always, theta).map_or(f64::INFINITY, |r| square(&r));
+        let costs: Vec<f64> = scan.iter().map(cost).collect();
         let best = (0..scan.len()).min_by(|a, b| costs[*a].total_cmp(&costs[*b]))?;
         self.fit(always, &scan[best..=best])
     }
-
-    /// Values at which parameters do nothing; NaN for bending stiffnesses, which always act.
-    fn neutral(&self, effects: &[usize]) -> Vec<f64> {
-        let free = effects.iter().flat_map(|e| &self.candidates[*e].parameters).map(|p| p.neutral);
-        std::iter::repeat_n(f64::NAN, self.bendings).chain(free).collect()
-    }
-}
-
-/// Values as a robot rolled by 180° sees them.
-fn turned(candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Vec<f64> {
-    let chosen = effects.iter().map(|e| &candidates[*e]);
-    let in_room = chosen.flat_map(|c| c.parameters.iter().map(|p| p.in_room));
-    in_room.zip(values).map(|(in_room, v)| if in_room { -v } else { *v }).collect()
 }
 
 /// A scenario with those of the effects whose stage is open, at values in SI.
@@ -333,14 +317,13 @@ pub fn with(
     values: &[f64],
     is_open: &dyn Fn(Stage) -> bool,
 ) -> Scenario {
-    let mut model = scenario.clone();
-    let mut from = 0;
+    let (mut model, mut rest) = (scenario.clone(), values);
     for candidate in effects.iter().map(|e| &candidates[*e]) {
-        let to = from + candidate.parameters.len();
+        let (own, others) = rest.split_at(candidate.parameters.len());
         if is_open(candidate.stage) {
-            model = candidate.apply(&model, &values[from..to]);
+            model = candidate.apply(&model, own);
         }
-        from = to;
+        rest = others;
     }
     model
 }
@@ -352,9 +335,7 @@ pub(super) fn is_binding(minimum: &Minimum, k: usize, range: &Range, neutral: f6
     if !at_bound || (minimum.at[k] - neutral).abs() < near {
         return false;
     }
-    let others: Vec<Vec<f64>> =
-        (0..minimum.at.len()).filter(|j| *j != k).map(|j| minimum.jacobian[j].clone()).collect();
-    let own = Basis::of(&others).rest(&minimum.jacobian[k]);
+    let own = own_part(&minimum.jacobian, k);
     let (squares, slope) = (square(&own), dot(&own, &minimum.residual));
     squares > 0.0 && slope * slope / squares > policy::BINDING
 }

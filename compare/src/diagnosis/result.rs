@@ -1,10 +1,6 @@
 //! What a diagnosis says: plain structs, printed units, no NaN.
 
-use super::bending_alarm::BendingAlarm;
-use super::fitted::{FittedBeside, GaugeFit};
-use super::learned::LearnedLaw;
-use super::outliers::Undetectable;
-use super::proposed::NextExperiment;
+pub use super::explained::*;
 use crate::evidence::Used;
 use crate::moment::MissingMoment;
 use crate::noise_summary::NoiseSummary;
@@ -12,6 +8,7 @@ use crate::prepare::Outliers;
 use crate::residuals::ResidualMap;
 use crate::slips::pressure::PressureSlipFound;
 use crate::where_it_fails::Statement;
+use data::Direct;
 pub use models::effects::Group;
 use serde::{Deserialize, Serialize};
 
@@ -41,109 +38,6 @@ pub enum Confidence {
     IdentifiedInCatalog,
 }
 
-/// One parameter of a fit, in the unit of the scenario.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ParameterValue {
-    /// Key in the scenario, with the unit as suffix.
-    pub key: String,
-    /// Letter in the formula.
-    pub symbol: String,
-    /// Unit.
-    pub unit: String,
-    /// Best value; **calibrated** on these data unless it was held.
-    pub value: f64,
-    /// It was not fitted, because these data do not hold it: it stays neutral, or as the scenario has it.
-    pub held: bool,
-    /// Lower end of the 95 % interval; `None` if the noise is unknown, or if it was held.
-    pub lo: Option<f64>,
-    /// Upper end of the 95 % interval.
-    pub hi: Option<f64>,
-    /// The best value sits on a physical bound and the data push against it.
-    pub at_bound: bool,
-}
-
-impl ParameterValue {
-    /// What follows a value that was not fitted; empty for others.
-    pub fn held_mark(&self) -> &'static str {
-        if self.held { " (held)" } else { "" }
-    }
-}
-
-/// One effect of the catalogue, refitted together with the base.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Ranked {
-    /// Name in scenarios.
-    pub effect: String,
-    /// Group.
-    pub group: Group,
-    /// One plain sentence.
-    pub sentence: String,
-    /// What measurements show where it acts and the model lacks it.
-    pub differs: String,
-    /// What to measure or change on the robot.
-    pub remedy: String,
-    /// Value of its first parameter.
-    pub value: f64,
-    /// Unit of that parameter.
-    pub unit: String,
-    /// Lower end of its 95 % interval.
-    pub lo: Option<f64>,
-    /// Upper end of its 95 % interval.
-    pub hi: Option<f64>,
-    /// A value sits on a physical bound and the data push against it: the effect is rejected.
-    pub at_bound: bool,
-    /// All parameters.
-    pub parameters: Vec<ParameterValue>,
-    /// Fall of the whitened sum of squares against the calibrated base.
-    pub gain: f64,
-    /// BIC minus that of the best effect, with an allowance for the form of the law and a weak prior of the size.
-    pub bic_difference: f64,
-    /// p of the gain, corrected for all effects tried; `None` with fewer than three runs.
-    pub p_corrected: Option<f64>,
-    /// Error beyond noise of the calibrated base \[mm\]; root-mean-square error if the noise is unknown.
-    pub systematic_before_mm: f64,
-    /// The same with the effect \[mm\].
-    pub systematic_after_mm: f64,
-    /// Error beyond noise at actuator pressures left out of the fit, rms over the pressures \[mm\]; `None` with one
-    /// pressure.
-    pub heldout_mm: Option<f64>,
-    /// Error beyond noise of runs left out of the fit, rms over the runs \[mm\]; `None` with one run.
-    pub heldout_run_mm: Option<f64>,
-    /// Effective bending stiffness with the effect, one per body pressure \[N·m²\].
-    pub bending_nm2: Vec<f64>,
-    /// Cosine between this effect's and the best one's trace in the data, base fitted out; ±1: cannot be told apart.
-    pub cosine_with_best: f64,
-    /// Member of the indistinguishable set.
-    pub in_set: bool,
-    /// Different starts of the fit ended in different minima; the best one is given.
-    pub several_minima: bool,
-    /// Cautions about this effect.
-    pub notes: Vec<String>,
-}
-
-/// Several effects together.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Combination {
-    /// Names.
-    pub effects: Vec<String>,
-    /// Values of all parameters, effect by effect.
-    pub parameters: Vec<ParameterValue>,
-    /// Fall of the whitened sum of squares against the calibrated base.
-    pub gain: f64,
-    /// BIC minus that of the best combination, with the same allowance and prior.
-    pub bic_difference: f64,
-    /// p of the gain over the best single effect, corrected for all combinations tried.
-    pub p_corrected: Option<f64>,
-    /// Error beyond noise \[mm\].
-    pub systematic_after_mm: f64,
-    /// Effective bending stiffness with them, one per body pressure \[N·m²\].
-    pub bending_nm2: Vec<f64>,
-    /// Cannot be told from the best combination with these data.
-    pub in_set: bool,
-    /// The two terms cancel each other: opposite contributions, nearly the same trace.
-    pub cancels: bool,
-}
-
 /// An answer that hangs on the bending stiffness.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KeptBending {
@@ -153,26 +47,6 @@ pub struct KeptBending {
     pub indistinguishable: Vec<String>,
     /// Error beyond noise with the best of them \[mm\].
     pub systematic_after_mm: f64,
-}
-
-/// An attempt, or something that leaves the same distance.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct AsClose {
-    /// Names.
-    pub effects: Vec<String>,
-    /// Error beyond noise with it \[mm\], over all data.
-    pub systematic_after_mm: f64,
-}
-
-/// An effect that the verdict adds to the model.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Added {
-    /// Name in scenarios.
-    pub effect: String,
-    /// Group.
-    pub group: Group,
-    /// Values in the final model.
-    pub parameters: Vec<ParameterValue>,
 }
 
 /// The calibrated base: the scenario with only the bending stiffness fitted.
@@ -254,6 +128,55 @@ pub struct LeftPattern {
     pub simpler: bool,
     /// Of these two the fault explains no more than the attempt, and is told first for its single number alone.
     pub either: bool,
+}
+
+/// A fitted stiffness that is not the one that was told.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BendingAlarm {
+    /// What the scenario or the bending test says \[N·m²\].
+    pub told_nm2: f64,
+    /// Standard deviation of the bending test; `None`: the scenario says it \[N·m²\].
+    pub test_sd_nm2: Option<f64>,
+    /// Fitted without an effect \[N·m²\].
+    pub base_nm2: f64,
+    /// Of the answer; without one, of the base \[N·m²\].
+    pub answer_nm2: f64,
+    /// What it may mean, and what to do.
+    pub words: String,
+}
+
+/// Data of the same robot that were fitted along with the first.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FittedBeside {
+    /// Dataset.
+    pub dataset: String,
+    /// Runs.
+    pub runs: usize,
+    /// What was measured directly in it.
+    pub direct: Direct,
+    /// Error beyond noise of the calibrated base there \[mm\].
+    pub systematic_mm: f64,
+    /// The same with what was added, or attempted \[mm\].
+    pub systematic_with_added_mm: f64,
+}
+
+/// What a gauge at the actuator read, beside what was set.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct GaugeFit {
+    /// Dataset.
+    pub dataset: String,
+    /// Set pressures \[kPa\].
+    pub set_kpa: Vec<f64>,
+    /// For how long they had been set \[s\].
+    pub held_s: Vec<f64>,
+    /// Mean readings there \[kPa\].
+    pub read_kpa: Vec<f64>,
+    /// The same by the supply's laws with what was added, or attempted \[kPa\].
+    pub with_added_kpa: Vec<f64>,
+    /// Root-mean-square difference of the base's laws to the readings \[kPa\].
+    pub before_kpa: f64,
+    /// The same with what was added, or attempted \[kPa\].
+    pub after_kpa: f64,
 }
 
 /// Everything a diagnosis found.

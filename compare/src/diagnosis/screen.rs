@@ -5,6 +5,7 @@
 //! shows nothing. It gives starts for the fits and asks whether another effect is wanted; it decides nothing alone.
 
 use super::basis::Basis;
+use super::known::Known;
 use super::least_squares::{dot, square};
 use super::problem::{Fit, Problem};
 
@@ -23,9 +24,8 @@ pub struct Score {
 /// Whitened trace of the first bit of an effect per typical size, everything free fitted out; `None` if it leaves none.
 pub fn trace(problem: &Problem, fit: &Fit, free: &Basis, effect: usize) -> Option<Vec<f64>> {
     let candidate = &problem.candidates[effect];
-    let theta = |share: f64| -> Vec<f64> { fit.theta().iter().copied().chain(candidate.at(share)).collect() };
     let effects: Vec<usize> = fit.effects.iter().copied().chain([effect]).collect();
-    let moved = problem.residuals(&effects, &theta(FIRST_BIT))?;
+    let moved = problem.residuals(&effects, &fit.theta_with(&candidate.at(FIRST_BIT)))?;
     let change: Vec<f64> = moved.iter().zip(&fit.minimum.residual).map(|(a, b)| (a - b) / FIRST_BIT).collect();
     let rest = free.rest(&change);
     let squares = square(&rest);
@@ -53,6 +53,27 @@ pub fn starts(problem: &Problem, fit: &Fit, effect: usize, own: bool) -> Vec<Vec
         .filter(|s| s.amount != 0.0)
         .map(|s| candidate.at(s.amount));
     let catalogue = if own || expected.is_none() { candidate.starts() } else { Vec::new() };
-    let all = expected.into_iter().chain(catalogue);
-    all.map(|values| fit.theta().iter().copied().chain(values).collect()).collect()
+    expected.into_iter().chain(catalogue).map(|values| fit.theta_with(&values)).collect()
+}
+
+/// Bounds what lacking an effect costs by what it changes at the markers where the robot is fitted with it: with the base alone, whose
+/// stiffness has taken its place, it might not act at all.
+pub fn bound(problem: &Problem, base: &Fit, known: &mut [Known]) {
+    for i in 0..known.len() {
+        let effect = known[i].effect;
+        if known[i].usual || base.effects.contains(&effect) {
+            continue;
+        }
+        let mut values = problem.candidates[effect].at(1.0);
+        known.iter().filter(|k| k.effect == effect).for_each(|k| values[k.parameter] = k.value);
+        let effects: Vec<usize> = base.effects.iter().copied().chain([effect]).collect();
+        let starts = [vec![base.theta_with(&values)], starts(problem, base, effect, true)].concat();
+        let Some(with) = problem.fit(&effects, &starts) else { continue };
+        let own = with.theta().len() - problem.candidates[effect].parameters.len();
+        let Some(without) = problem.residuals(&base.effects, &with.theta()[..own]) else { continue };
+        let seen = without.len() - problem.known.len();
+        let change: Vec<f64> = with.minimum.residual.iter().zip(&without).take(seen).map(|(a, b)| a - b).collect();
+        let most = square(&change).sqrt();
+        known[i].lacking = known[i].lacking.clamp(-most, most);
+    }
 }

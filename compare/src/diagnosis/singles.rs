@@ -1,14 +1,11 @@
 //! Every effect of the catalogue refitted together with the base, and the set that the data cannot tell apart.
 
 use super::basis::{Basis, cosine};
-use super::blocks::fitted_scenarios;
 use super::candidates::Candidate;
 use super::case::Case;
-use super::decide::Decision;
-use super::detect;
 use super::heldout::HeldOut;
 use super::interval::intervals;
-use super::order;
+use super::order::{Ordered, criterion, sort};
 use super::problem::Fit;
 use super::result::{ParameterValue, Ranked};
 use super::screen::starts;
@@ -21,10 +18,9 @@ use crate::study::predict_dataset;
 /// a range that ends where physics does not, the case searches further from then on, in the catalogue `wider`.
 pub fn fit_all<'a>(case: &mut Case<'a>, wider: &'a mut Vec<Candidate>, progress: &mut Progress) -> (Vec<Fit>, f64) {
     let fit = |case: &Case, effect: usize, from: Option<&Fit>| {
-        let effects: Vec<usize> = case.always.iter().copied().chain([effect]).collect();
         let from = from.map(|fit| fit.theta().to_vec());
         let starts = from.into_iter().chain(starts(&case.problem, &case.base, effect, true));
-        case.problem.fit(&effects, &starts.collect::<Vec<_>>())
+        case.problem.fit(&case.with(effect), &starts.collect::<Vec<_>>())
     };
     let first = each(&case.tried, "fitting every effect", progress, |effect| fit(case, *effect, None));
     let mut fits: Vec<Fit> = first.into_iter().flatten().collect();
@@ -35,7 +31,7 @@ pub fn fit_all<'a>(case: &mut Case<'a>, wider: &'a mut Vec<Candidate>, progress:
             *at_end = further;
         }
     }
-    let allowance = order::sort(case, &mut fits, &case.base);
+    let allowance = sort(case, &mut fits, &case.base);
     (fits, allowance)
 }
 
@@ -62,11 +58,10 @@ pub fn left_out(case: &Case, fits: &[Fit]) -> Vec<String> {
     let Case { problem, base, .. } = case;
     let is_fitted = |effect: &usize| fits.iter().any(|fit| fit.effects.last() == Some(effect));
     let why = |effect: usize| {
-        let effects: Vec<usize> = case.always.iter().copied().chain([effect]).collect();
-        let theta = [base.theta(), &case.candidate(effect).at(1.0)].concat();
+        let theta = base.theta_with(&case.candidate(effect).at(1.0));
         let unsolved = problem.blocks.iter().find_map(|block| {
-            let scenarios = fitted_scenarios(problem, block, &effects, &theta);
-            scenarios.iter().find_map(|scenario| predict_dataset(scenario, &block.dataset).err())
+            let scenarios = problem.scenarios(block, &case.with(effect), &theta);
+            scenarios.iter().find_map(|scenario| predict_dataset(scenario, &block.source.dataset).err())
         });
         unsolved.map_or("no equilibrium at any of the values tried".into(), |error| error.to_string())
     };
@@ -85,7 +80,7 @@ fn is_shape_at_end(case: &Case, fit: &Fit) -> bool {
 pub fn indistinguishable(case: &Case, fits: &[Fit], allowance: f64) -> Vec<usize> {
     let acceptable = |i: &usize| !case.is_rejected(&fits[*i]) && case.gain(&fits[*i]) > 0.0;
     let Some(best) = (0..fits.len()).find(acceptable) else { return Vec::new() };
-    let c = |i: usize| order::criterion(case, &fits[i], allowance);
+    let c = |i: usize| criterion(case, &fits[i], allowance);
     let near_mm = is_shape_at_end(case, &fits[best]).then(|| case.error_in_all_mm(&fits[best]) / policy::CLOSER);
     let is_near = |i: usize| near_mm.is_some_and(|most| case.error_in_all_mm(&fits[i]) < most);
     let is_alike = |i: &usize| policy::is_alike(c(*i), c(best)) || is_near(*i);
@@ -93,24 +88,19 @@ pub fn indistinguishable(case: &Case, fits: &[Fit], allowance: f64) -> Vec<usize
 }
 
 /// What a reader needs of every fit.
-pub fn rank(case: &Case, decision: &Decision, held_out: &HeldOut) -> Vec<Ranked> {
-    let (fits, set) = (&decision.singles, &decision.set);
-    let c = |fit: &Fit| order::criterion(case, fit, decision.allowance);
+pub fn rank(case: &Case, singles: &Ordered, held_out: &HeldOut) -> Vec<Ranked> {
+    let Ordered { fits, allowance, set, .. } = singles;
+    let c = |fit: &Fit| criterion(case, fit, *allowance);
     let before = case.error_mm(&case.prediction(&case.base));
     let best = set.first().copied().unwrap_or(0);
-    let trace = |fit: &Fit| -> Vec<f64> {
-        let change: Vec<f64> =
-            fit.minimum.residual.iter().zip(&case.base.minimum.residual).map(|(a, b)| a - b).collect();
-        Basis::of(&case.base.minimum.jacobian).rest(&change)
-    };
+    let trace = |fit: &Fit| Basis::of(&case.base.minimum.jacobian).rest(&fit.change_from(&case.base));
     let best_trace = fits.get(best).map(trace).unwrap_or_default();
     let least = fits.get(best).map_or(0.0, c);
     let entry = |(i, fit): (usize, &Fit)| {
-        let effect = fit.effects[fit.effects.len() - 1];
-        let candidate = case.candidate(effect);
+        let candidate = case.candidate(added(fit));
         let parameters = parameter_values(case, fit, set.contains(&i));
         let own = parameters[parameters.len() - candidate.parameters.len()..].to_vec();
-        let lead = own[detect::lead(candidate)].clone();
+        let lead = own[candidate.lead()].clone();
         let gain = case.gain(fit);
         Ranked {
             effect: candidate.name.clone(),
@@ -130,7 +120,7 @@ pub fn rank(case: &Case, decision: &Decision, held_out: &HeldOut) -> Vec<Ranked>
             systematic_after_mm: case.error_mm(&case.prediction(fit)),
             heldout_mm: held_out.pressure_mm(fit),
             heldout_run_mm: held_out.run_mm(fit),
-            bending_nm2: fit.theta()[..case.problem.bendings].to_vec(),
+            bending_nm2: case.bendings(fit),
             cosine_with_best: cosine(&best_trace, &trace(fit)),
             in_set: set.contains(&i),
             several_minima: fit.several_minima,

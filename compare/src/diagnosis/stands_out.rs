@@ -115,7 +115,7 @@ pub fn alone(
 /// more of it than `last` does, else what `last` leaves.
 pub fn left_pattern(case: &Case, last: Option<&Fit>, fault: Option<&Simpler>) -> Option<LeftPattern> {
     let told = |fit: &Fit, seen: &StandsOut, p_value: f64, instead: bool| LeftPattern {
-        share: seen.gain / excess(case, case.first(&fit.minimum.residual)).max(seen.gain),
+        share: seen.gain / excess(case, case.of_first(&fit.minimum.residual)).max(seen.gain),
         words: seen.words.clone(),
         check: seen.check.clone(),
         p_value,
@@ -145,7 +145,7 @@ fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Look {
     let mut seen: Vec<StandsOut> = Vec::new();
     for trace in &traces.left {
         let Pattern { words, check, is_uniform, fault, .. } = traces.pattern(trace);
-        let (gain, p_alone) = (trace.t * trace.t, two_sided_p(trace.t, case.noise.pure_error_dof));
+        let (gain, p_alone) = (trace.t * trace.t, two_sided_p(trace.t, case.noise().pure_error_dof));
         seen.push(StandsOut {
             words: words.clone(),
             check: check.clone(),
@@ -161,7 +161,8 @@ fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Look {
 
 /// What is fitted out of every pattern, and out of places.
 fn fitted_out(case: &Case, fit: &Fit, prediction_m: &[f64], beside_bending: bool) -> [Basis; 2] {
-    let fitted = Basis::of(&fit.minimum.jacobian.iter().map(|column| case.first(column).to_vec()).collect::<Vec<_>>());
+    let fitted =
+        Basis::of(&fit.minimum.jacobian.iter().map(|column| case.of_first(column).to_vec()).collect::<Vec<_>>());
     let mut of_places = fitted.clone();
     if beside_bending {
         for column in uniform_bending(case, prediction_m) {
@@ -172,7 +173,7 @@ fn fitted_out(case: &Case, fit: &Fit, prediction_m: &[f64], beside_bending: bool
 }
 
 fn beside<'a>(case: &'a Case, fit: &'a Fit, fitted: &'a Basis, of_places: &'a Basis) -> Beside<'a> {
-    let residual = case.first(&fit.minimum.residual);
+    let residual = case.of_first(&fit.minimum.residual);
     Beside { whitener: &case.problem.blocks[0].whitener, fitted, of_places, residual }
 }
 
@@ -183,7 +184,7 @@ fn of_several(p: f64, tests: f64) -> f64 {
 
 /// What whitened residuals have beyond noise.
 fn excess(case: &Case, white: &[f64]) -> f64 {
-    square(white) - case.noise.seen(0..white.len()) as f64
+    square(white) - case.noise().seen(0..white.len()) as f64
 }
 
 /// Number of independent normals whose largest has the same 99 % quantile as that of normals so correlated.
@@ -236,9 +237,26 @@ fn largest_of(factor: &[Vec<f64>], noise: &[[f64; TOGETHER]]) -> [f64; TOGETHER]
 #[cfg(test)]
 mod tests {
     use super::super::pattern_tests::of_base;
-    use super::super::traces::plain;
+    use super::super::traces::LEFT;
     use super::*;
     use crate::study::{Generator, generate, published::textbook_scenario};
+
+    /// Index of every pattern that is left, and its unit vector.
+    fn units(patterns: &Patterns, beside: &Beside) -> Vec<(usize, Vec<f64>)> {
+        let unit = |(i, pattern): (usize, &Pattern)| {
+            let white = beside.whitener.whiten(&patterns.shapes[pattern.shape].direction(&pattern.time));
+            let rest = if pattern.is_uniform { beside.fitted } else { beside.of_places }.rest(&white);
+            let left = square(&rest);
+            let is_left = left > LEFT * LEFT * square(&white) && left > 0.0;
+            is_left.then(|| (i, rest.iter().map(|v| v / left.sqrt()).collect()))
+        };
+        patterns.all.iter().enumerate().filter_map(unit).collect()
+    }
+
+    /// Correlations of unit vectors.
+    fn correlations(units: &[(usize, Vec<f64>)]) -> DMatrix<f64> {
+        DMatrix::from_fn(units.len(), units.len(), |i, j| dot(&units[i].1, &units[j].1))
+    }
 
     /// Whitened, projected and multiplied at length, one by one.
     #[test]
@@ -265,7 +283,7 @@ mod tests {
         let prediction = case.prediction(&case.base);
         let [fitted, of_places] = fitted_out(case, &case.base, &prediction, beside_bending);
         let beside = beside(case, &case.base, &fitted, &of_places);
-        let units = plain::units(&patterns(case, &prediction), &beside);
+        let units = units(&patterns(case, &prediction), &beside);
         let traces = Traces::of(patterns(case, &prediction), &beside);
         assert!(units.len() > 60 && units.iter().map(|u| u.0).eq(traces.left.iter().map(|t| t.pattern)));
         let largest = traces.left.iter().map(|t| t.t.abs()).fold(1.0, f64::max);
@@ -273,7 +291,7 @@ mod tests {
             let t = dot(unit, beside.residual);
             assert!((trace.t - t).abs() < 1e-9 * largest, "{}: {} {t}", traces.pattern(trace).words, trace.t);
         }
-        let (fast, slow) = (traces.correlations(), plain::correlations(&units));
+        let (fast, slow) = (traces.correlations(), correlations(&units));
         assert!((&fast - &slow).amax() < 1e-9, "{}", (&fast - &slow).amax());
         let [fast, slow] = [fast, slow].map(|correlations| independent(&correlations).unwrap());
         assert!((fast / slow - 1.0).abs() < 1e-5, "{fast} {slow}");

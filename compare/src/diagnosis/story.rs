@@ -3,9 +3,11 @@
 use crate::policy;
 use data::Direct;
 
-use super::fitted::{FittedBeside, GaugeFit};
-use super::result::{AsClose, Confidence, Diagnosis, Group, KeptBending, LeftPattern, ParameterValue, Ranked, Verdict};
-use super::words::quantity;
+use super::result::{
+    AsClose, Confidence, Diagnosis, FittedBeside, GaugeFit, Group, KeptBending, LearnedLaw, LeftPattern, Ranked,
+    Verdict,
+};
+use super::words::{quantity, with_interval};
 use crate::wording::{list, p_value};
 
 /// What comes as close as an attempt is named up to that many; `diagnosis.json` has all.
@@ -21,6 +23,30 @@ impl Diagnosis {
     /// The answer that hangs on B, if there is one, in words.
     pub fn told_of_kept_bending(&self) -> Option<String> {
         self.kept_bending.as_ref().map(|kept| with_kept_bending(self, kept))
+    }
+}
+
+impl LearnedLaw {
+    /// What was learned, in sentences.
+    pub fn sentences(&self) -> Vec<String> {
+        let mm = |v: Option<f64>| v.map_or("unknown".into(), |mm| format!("{mm:.2}"));
+        let (before, after) = (mm(self.heldout_before_mm), mm(self.heldout_after_mm));
+        let line = self.line.as_ref().map_or(String::new(), |line| {
+            let side = if line.value_mm < 0.0 { "nearer to" } else { "further from" };
+            let alone = mm(line.heldout_mm);
+            format!("; of that the line of the markers, {:.1} mm {side} the taut side than the scenario says, brings it to {alone} mm", line.value_mm.abs())
+        });
+        vec![
+            format!("A law learned from the missing moment, {}: {}.", self.words, self.formula),
+            format!(
+                "With it the error at pressures left out of the fit goes from {before} to {after} mm{line}. It was chosen by that \
+                 figure: try it on other data."
+            ),
+            format!(
+                "A law of this shape is usually {}. To tell: {}. `ibr add SCENARIO learned DATA` writes it as a formula.",
+                self.usual, self.check
+            ),
+        ]
     }
 }
 
@@ -282,15 +308,4 @@ fn looks_like(pattern: &LeftPattern) -> String {
     let LeftPattern { words, share, p_value: p, instead, .. } = pattern;
     let (what, percent, p) = (if *instead { "It looks" } else { "What is left looks" }, 100.0 * share, p_value(*p));
     format!("{what} as if {words}: that alone makes up {percent:.0} % of it ({p} among all such patterns).")
-}
-
-/// `β = 0.42 (0.40 to 0.44)`, `n = 1 (held)`.
-pub fn with_interval(p: &ParameterValue) -> String {
-    let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
-    let range = match (p.lo, p.hi) {
-        (Some(lo), Some(hi)) if lo == hi => format!("{unit} (the end of its range)"),
-        (Some(lo), Some(hi)) => format!(" ({} to {}){unit}", super::words::value(lo), super::words::value(hi)),
-        _ => format!("{unit}{}", p.held_mark()),
-    };
-    format!("{} = {}{range}", p.symbol, super::words::value(p.value))
 }

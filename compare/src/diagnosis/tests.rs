@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::study::{Generator, generate, parse_protocol, published::textbook_scenario};
-use data::{About, Dataset, Direct};
+use data::{About, Dataset};
 
 /// B at which the shipped robots bend about as far as measured \[N·m²\].
 pub(super) fn robot(kind: &str) -> Scenario {
@@ -99,10 +99,10 @@ fn tail_tension_on_an_spam_is_reported_with_seam_stiffness_and_no_experiment_par
 fn a_name_is_a_hint_up_to_a_gain_of_25_and_identified_alone_above_200() {
     use Confidence::*;
     assert_eq!(
-        [24.0, 26.0, 199.0, 201.0].map(|gain| confidence_of(gain, 1)),
+        [24.0, 26.0, 199.0, 201.0].map(|gain| assemble::confidence_of(gain, 1)),
         [Hint, LikelyOneOf, LikelyOneOf, IdentifiedInCatalog]
     );
-    assert_eq!([24.0, 201.0].map(|gain| confidence_of(gain, 2)), [Hint, LikelyOneOf]);
+    assert_eq!([24.0, 201.0].map(|gain| assemble::confidence_of(gain, 2)), [Hint, LikelyOneOf]);
 }
 
 #[test]
@@ -159,7 +159,7 @@ fn copies_are_not_repeats() {
 fn a_shifted_marker_is_outside_the_catalogue_and_named() {
     let plain = robot("epam");
     let mut data = measured(&plain, 5, 71);
-    crate::synthetic::displace(&mut data, |_, _, marker| [0.0, if marker == 2 { 4e-3 } else { 0.0 }]);
+    crate::tests::synthetic::displace(&mut data, |_, _, marker| [0.0, if marker == 2 { 4e-3 } else { 0.0 }]);
     let d = run(&plain, &data);
     assert_eq!(d.verdict, Some(Verdict::OutOfCatalog));
     assert!(d.added.is_empty() && d.indistinguishable.is_empty());
@@ -287,18 +287,10 @@ fn effects_of_the_scenario_are_no_candidates_but_are_refitted_on_demand() {
 fn what_the_data_do_not_hold_of_the_scenarios_own_effects_stays_as_given() {
     let scenario = robot("epam").with_effect("end_constraint", &[0.4, 0.3]);
     let data = measured(&scenario, 3, 125);
-    let source = Source {
-        scenario: &scenario,
-        dataset: &data,
-        direct: Direct::default(),
-        gauge: None,
-        rolled: false,
-        bending_nm2: None,
-        measured: &[],
-    };
+    let sources = [Source::of(scenario.clone(), data.clone(), None)];
     let own = |keep_bending: bool| {
         let options = Options { refit_present: true, keep_bending, ..quick() };
-        let (list, own) = case::catalogue(&[source], &options);
+        let (list, own) = case::catalogue(&sources, &options);
         assert_eq!((own, list[0].name.as_str()), (1, "end_constraint"));
         let stroke = &list[0].parameters[1];
         (stroke.is_free(), stroke.neutral)

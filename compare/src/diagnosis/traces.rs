@@ -23,7 +23,7 @@ use crate::whiten::Whitener;
 use nalgebra::DMatrix;
 
 /// A pattern of which fits leave less than this share cannot be told from them.
-const LEFT: f64 = 0.02;
+pub(super) const LEFT: f64 = 0.02;
 /// Share of |d|²/s² below which the difference is no longer trusted: ten digits are left.
 const CANCELLED: f64 = 1e-6;
 
@@ -135,28 +135,4 @@ impl Traces {
 /// Σ over the holds of products by hold times both factors.
 fn at_times(by_hold: &[f64], one: &[f64], other: &[f64]) -> f64 {
     by_hold.iter().zip(one).zip(other).map(|((product, a), b)| product * a * b).sum()
-}
-
-#[cfg(test)]
-pub mod plain {
-    //! The same at length.
-
-    use super::*;
-
-    /// Index of every pattern that is left, and its unit vector.
-    pub fn units(patterns: &Patterns, beside: &Beside) -> Vec<(usize, Vec<f64>)> {
-        let unit = |(i, pattern): (usize, &Pattern)| {
-            let white = beside.whitener.whiten(&patterns.shapes[pattern.shape].direction(&pattern.time));
-            let rest = if pattern.is_uniform { beside.fitted } else { beside.of_places }.rest(&white);
-            let left = square(&rest);
-            let is_left = left > LEFT * LEFT * square(&white) && left > 0.0;
-            is_left.then(|| (i, rest.iter().map(|v| v / left.sqrt()).collect()))
-        };
-        patterns.all.iter().enumerate().filter_map(unit).collect()
-    }
-
-    /// Correlations of unit vectors.
-    pub fn correlations(units: &[(usize, Vec<f64>)]) -> DMatrix<f64> {
-        DMatrix::from_fn(units.len(), units.len(), |i, j| dot(&units[i].1, &units[j].1))
-    }
 }

@@ -37,3 +37,14 @@ pub fn named(p: &ParameterValue) -> String {
 pub fn listed(values: &[ParameterValue]) -> String {
     values.iter().map(named).collect::<Vec<_>>().join(", ")
 }
+
+/// `β = 0.42 (0.40 to 0.44)`, `n = 1 (held)`.
+pub fn with_interval(p: &ParameterValue) -> String {
+    let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
+    let range = match (p.lo, p.hi) {
+        (Some(lo), Some(hi)) if lo == hi => format!("{unit} (the end of its range)"),
+        (Some(lo), Some(hi)) => format!(" ({} to {}){unit}", value(lo), value(hi)),
+        _ => format!("{unit}{}", p.held_mark()),
+    };
+    format!("{} = {}{range}", p.symbol, value(p.value))
+}

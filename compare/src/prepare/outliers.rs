@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 /// Samples and runs that stand out from the others.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Outliers {
     /// Samples far from the median over runs; they were replaced by the mean of the other runs.
     pub samples: Vec<data::check::Outlier>,

@@ -5,8 +5,7 @@ use super::table::Table;
 use super::{BenchDiagnosis, BenchRanked, LeftOut};
 use crate::bench::is_free;
 use crate::diagnosis::result::Verdict;
-use crate::diagnosis::story::with_interval;
-use crate::diagnosis::words::quantity;
+use crate::diagnosis::words::{quantity, with_interval};
 use crate::policy;
 use crate::wording::{list, p_value, short};
 

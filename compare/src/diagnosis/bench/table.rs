@@ -12,7 +12,8 @@ use super::laws::{Law, Trial, laws};
 use super::reading::{Reading, groups, steady};
 use crate::CompareError;
 use crate::bench::{ANY_WIDTH_M, is_free, measured, modelled, own_or_braid, refuse, specimen};
-use crate::diagnosis::basis::Basis;
+use crate::diagnosis::basis::own_part;
+use crate::diagnosis::candidates::Free;
 use crate::diagnosis::least_squares::{Minimum, Range, minimise, square};
 use crate::diagnosis::problem::is_binding;
 use crate::diagnosis::result::ParameterValue;
@@ -200,11 +201,7 @@ impl<'a> Table<'a> {
     }
 
     fn ranges(&self, law: Option<usize>) -> Vec<Range> {
-        let range = |p: &crate::diagnosis::candidates::Free| match p.is_free() {
-            true => Range { lower: p.lower, upper: p.upper, scale: p.scale() },
-            false => Range { lower: p.neutral, upper: p.neutral, scale: p.scale() },
-        };
-        self.of(law).flat_map(|l| l.candidate.parameters.iter().map(range)).collect()
+        self.of(law).flat_map(|l| l.candidate.parameters.iter().map(Free::range)).collect()
     }
 
     fn starts(&self) -> Vec<Vec<f64>> {
@@ -233,7 +230,7 @@ impl<'a> Table<'a> {
     fn finished(&self, law: Option<usize>, minimum: Minimum) -> Fit {
         let ranges = self.ranges(law);
         let neutral: Vec<f64> = self.of(law).flat_map(|l| l.candidate.parameters.iter().map(|p| p.neutral)).collect();
-        let binding = |k: usize| ranges[k].lower < ranges[k].upper && is_binding(&minimum, k, &ranges[k], neutral[k]);
+        let binding = |k: usize| ranges[k].is_free() && is_binding(&minimum, k, &ranges[k], neutral[k]);
         Fit { law, binding: (0..ranges.len()).map(binding).collect(), minimum }
     }
 
@@ -264,7 +261,7 @@ impl<'a> Table<'a> {
     /// Parameters of a fit, the base's first, with 95 % intervals.
     pub fn values(&self, fit: &Fit) -> Vec<ParameterValue> {
         let free = self.of(fit.law).flat_map(|l| &l.candidate.parameters);
-        let of = |(k, p): (usize, &crate::diagnosis::candidates::Free)| {
+        let of = |(k, p): (usize, &Free)| {
             let interval = if p.is_free() { self.interval(fit, k) } else { None };
             ParameterValue {
                 key: p.key.clone(),
@@ -283,8 +280,7 @@ impl<'a> Table<'a> {
     /// Noise and, where the law misses by more or the noise is not known, what it misses by, with curves as the unit.
     fn interval(&self, fit: &Fit, k: usize) -> Option<[f64; 2]> {
         let Minimum { at, residual, cost, jacobian } = &fit.minimum;
-        let others: Vec<Vec<f64>> = (0..at.len()).filter(|j| *j != k).map(|j| jacobian[j].clone()).collect();
-        let own = Basis::of(&others).rest(&jacobian[k]);
+        let own = own_part(jacobian, k);
         let squares = square(&own);
         if squares <= 1e-9 * square(&jacobian[k]) || squares == 0.0 {
             return None;
@@ -312,7 +308,7 @@ impl<'a> Table<'a> {
         let all: Vec<usize> = (0..self.readings.len()).collect();
         let (mut theta, mut held) = (at.clone(), self.ranges(fit.law));
         let mut rise = |x: f64| {
-            (held[k].lower, held[k].upper, theta[k]) = (x, x, x);
+            (held[k], theta[k]) = (Range::fixed(x, held[k].scale), x);
             let mut residuals = |at: &[f64]| self.residuals(fit.law, at, &all);
             minimise(&theta, &held, 1e-2, &mut residuals).map_or(f64::INFINITY, |found| found.cost - cost)
         };

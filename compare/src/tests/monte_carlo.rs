@@ -7,7 +7,7 @@ use crate::metrics::{MetricsOptions, metrics};
 use crate::noise::NoiseModel;
 use crate::residuals::residual_map;
 use crate::stats::{f_tail, two_sided_p};
-use crate::synthetic::{CAMERA, SyntheticNoise, SyntheticRobot, TYPICAL};
+use crate::tests::synthetic::{CAMERA, SyntheticNoise, SyntheticRobot, TYPICAL};
 use crate::where_it_fails::{FailureOptions, Finding, where_it_fails};
 use data::Dataset;
 

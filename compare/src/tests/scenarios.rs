@@ -5,7 +5,7 @@ use crate::evaluate::{EvaluateOptions, Evaluation, evaluate};
 use crate::layout::Layout;
 use crate::noise::NoiseStatus;
 use crate::scaling::{ScalingVerdict, scaling_of_model};
-use crate::synthetic::{CAMERA, SyntheticNoise, SyntheticRobot, TYPICAL, displace};
+use crate::tests::synthetic::{CAMERA, SyntheticNoise, SyntheticRobot, TYPICAL, displace};
 use crate::where_it_fails::{Finding, Statement};
 use data::Dataset;
 
@@ -219,9 +219,10 @@ fn degenerate_shapes_give_finite_numbers_or_clear_errors() {
     let robot = SyntheticRobot::paper();
     let mut empty = robot.measured(3, TYPICAL, 14);
     let short = evaluate(&empty, &[0.0; 3], &robot.slope(), &EvaluateOptions::default()).unwrap_err();
-    assert!(matches!(short, CompareError::WrongLength { found: 3, expected: 300, .. }));
+    assert!(short.to_string().contains("has 3 values") && short.to_string().contains("has 300"), "{short}");
     empty.markers.clear();
-    assert!(matches!(evaluate(&empty, &[], &[], &EvaluateOptions::default()), Err(CompareError::Empty { .. })));
+    let none = evaluate(&empty, &[], &[], &EvaluateOptions::default()).unwrap_err();
+    assert!(none.to_string().contains("is empty"), "{none}");
 }
 
 #[test]
@@ -239,8 +240,9 @@ fn sessions_that_differ_widen_the_noise_of_the_mean() {
     assert!(noise.run_sd[2].unwrap() < 5e-4, "within a session the alignment is good: {:?}", noise.run_sd);
     // Session means 4 mm apart in y only, pooled with x: b = (4²/2)/2 mm², divided by two sessions.
     assert!((1e6 * noise.mean_variance[2] - 2.0).abs() < 0.3, "{:?}", noise.mean_variance);
-    assert!(matches!(with(&[1, 2]), Err(CompareError::WrongSessions { found: 2, runs: 6 })));
-    assert!(matches!(with(&[1, 2, 3, 4, 5, 6]), Err(CompareError::SessionsWithoutRepeats)));
+    let refused = |sessions: &[usize], words: &str| with(sessions).unwrap_err().to_string().contains(words);
+    assert!(refused(&[1, 2], "2 session labels for 6 runs"));
+    assert!(refused(&[1, 2, 3, 4, 5, 6], "one run only"));
 }
 
 #[test]
