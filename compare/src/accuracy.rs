@@ -29,7 +29,6 @@ pub fn relative_pct(accuracy: f64) -> f64 {
 /// 95 % intervals of the accuracy, from resampling whole runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Band {
-    /// Per hold.
     pub holds: Vec<Option<[f64; 2]>>,
     /// Of the mean over the loading holds under pressure.
     pub overall: Option<[f64; 2]>,

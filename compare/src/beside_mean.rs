@@ -8,7 +8,6 @@ use data::{Dataset, Phase};
 
 /// A prediction f and the mean over runs ȳ of one dataset, with the noise of ȳ. Lengths in metres.
 pub struct BesideMean<'a> {
-    /// The measurements.
     pub dataset: &'a Dataset,
     /// The noise of their mean.
     pub noise: &'a NoiseModel,

@@ -22,10 +22,10 @@
 //! reading, the zero of the gauge, is not used. Where the pressure runs down during a hold, every sample has its own reading.
 
 use crate::error::CompareError;
+use crate::fit::whiten::Whitener;
 use crate::policy;
 use crate::stats::t_inflation;
 use crate::study::generate::held;
-use crate::whiten::Whitener;
 use data::{Dataset, Hold, Lost};
 use models::{Scenario, Supply};
 use std::collections::BTreeSet;

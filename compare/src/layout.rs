@@ -9,9 +9,7 @@ use data::Dataset;
 pub struct Layout {
     /// Holds of the protocol.
     pub holds: usize,
-    /// Samples per hold.
     pub samples: usize,
-    /// Markers.
     pub markers: usize,
 }
 

@@ -1,38 +1,38 @@
 //! Residuals, metrics and reports: the only crate that knows both model and measurement.
 //!
-//! The statistics of a comparison, from the data up: [`layout`] (shape of one run) → [`noise`] (run as the unit) →
-//! [`beside_mean`] (prediction beside the mean) → [`metrics`], [`residuals`], [`where_it_fails`], [`scaling`] →
+//! The statistics of a comparison, from the data up: `layout` (shape of one run) → [`noise`] (run as the unit) →
+//! `beside_mean` (prediction beside the mean) → [`metrics`], [`residuals`], [`where_it_fails`], `scaling` →
 //! [`evaluate`](mod@evaluate), which bundles them. Predictions arrive as plain slices in run layout.
 //!
 //! What a user does: [`ScenarioFile`] and [`Evidence`] → [`compare`] → [`diagnose`] → [`extend`] → [`validate`] on other data;
 //! [`ladder`](fn@ladder) repeats the middle.
 
-pub mod accuracy;
+mod accuracy;
 pub mod bench;
-pub mod beside_mean;
+mod beside_mean;
 pub mod characterize;
 mod data_slope;
 pub mod demo;
 pub mod diagnosis;
-pub mod directions;
+mod directions;
 pub mod error;
 pub mod evaluate;
 pub mod evidence;
 pub mod extension;
-pub mod gauge;
-mod interval;
+mod fit;
+mod gauge;
 pub mod ladder;
-pub mod layout;
+mod layout;
 pub mod metrics;
 pub mod moment;
 pub mod noise;
-pub mod noise_summary;
+mod noise_summary;
 pub mod policy;
 mod prepare;
 pub mod progress;
 pub mod residuals;
 mod run_scatter;
-pub mod scaling;
+mod scaling;
 pub mod scenario_file;
 pub mod slips;
 pub mod stats;
@@ -40,7 +40,6 @@ pub mod study;
 pub mod typed_effect;
 pub mod validation;
 pub mod where_it_fails;
-pub mod whiten;
 pub mod witness;
 pub mod wording;
 

@@ -30,11 +30,11 @@
 use crate::data_slope::data_slope;
 use crate::directions::{DirectionFit, directions_of};
 use crate::error::CompareError;
+use crate::fit::whiten::Whitener;
 use crate::layout::{Layout, Weights};
 use crate::policy;
 use crate::run_scatter::{between_sessions, pooled, session_groups, within_sessions};
 use crate::stats::{f_tail, t_inflation};
-use crate::whiten::Whitener;
 use data::Dataset;
 use serde::Serialize;
 

@@ -9,11 +9,8 @@ use serde::Serialize;
 /// What a reader needs to know about the noise of a dataset.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NoiseSummary {
-    /// Measured, supplied or unknown.
     pub status: NoiseStatus,
-    /// Runs R.
     pub runs: usize,
-    /// Sessions S.
     pub sessions: usize,
     /// Camera noise of one coordinate \[mm\].
     pub camera_mm: Option<f64>,

@@ -11,13 +11,11 @@ pub use outliers::{Outliers, OutlyingRun};
 
 /// Data ready for a fit.
 pub struct Prepared {
-    /// The data.
     pub dataset: Dataset,
     /// Session of every run; empty if there is one.
     pub sessions: Vec<usize>,
     /// What was found on the way; outlying runs come later.
     pub outliers: Outliers,
-    /// Cautions.
     pub warnings: Vec<String>,
 }
 

@@ -6,11 +6,11 @@
 //! friction, tail tension, a regulator offset); collapse speaks for geometry alone.
 
 use crate::error::CompareError;
+use crate::fit::whiten::Whitener;
 use crate::layout::{Layout, Weights, apply};
 use crate::noise::NoiseModel;
 use crate::policy;
 use crate::stats::{f_tail, holm, reported_p};
-use crate::whiten::Whitener;
 use crate::wording::{list, short};
 use data::{Dataset, Hold, Phase};
 use serde::Serialize;
@@ -19,7 +19,7 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ScalingVerdict {
-    /// Shapes at the same ratio agree to within noise (for a model: to within the tolerance).
+    /// Shapes at the same ratio agree to within noise.
     Collapses,
     /// Shapes at the same ratio differ.
     DoesNotCollapse,
@@ -46,7 +46,7 @@ pub struct ScalingPair {
     pub rms_mm: f64,
     /// Outermost marker that both saw: y at the high body pressure minus y at the low one \[mm\].
     pub tip_mm: f64,
-    /// χ²/dof of the difference; `None` if the noise is unknown or for a model.
+    /// χ²/dof of the difference; `None` if the noise is unknown.
     pub reduced_chi2: Option<f64>,
     /// p of the difference, Holm-corrected over pairs, never below 1e-6; 3 runs or more.
     pub p_corrected: Option<f64>,
@@ -55,11 +55,9 @@ pub struct ScalingPair {
 /// The result of the scaling-law check.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScalingCheck {
-    /// The outcome.
     pub verdict: ScalingVerdict,
     /// In words, with what to measure if it cannot be checked.
     pub sentence: String,
-    /// The matching pairs.
     pub pairs: Vec<ScalingPair>,
 }
 
@@ -72,14 +70,14 @@ pub struct ScalingCheck {
 pub fn scaling_of_data(dataset: &Dataset, noise: &NoiseModel, alpha: f64) -> Result<ScalingCheck, CompareError> {
     let layout = Layout::of(dataset)?;
     let mean = dataset.mean_over_runs();
-    let mut pairs = matching_pairs(&dataset.holds, &layout, &mean, &|hold, marker| dataset.is_seen(hold, marker));
+    let mut pairs = matching_pairs(dataset, &layout, &mean);
     if pairs.is_empty() {
         return Ok(cannot_be_checked(&dataset.holds));
     }
     let mut raw = Vec::new();
     for pair in &mut pairs {
         let chi2 = chi_square(dataset, &layout, noise, &mean, pair)?;
-        let dof = 2 * seen_in_both(dataset, pair).count();
+        let dof = 2 * seen_in_both(dataset, [pair.low_hold, pair.high_hold]).count();
         pair.reduced_chi2 = noise.is_known().then_some(chi2 / dof as f64);
         raw.push(f_tail(chi2 / dof as f64, dof, noise.pure_error_dof));
     }
@@ -96,98 +94,50 @@ pub fn scaling_of_data(dataset: &Dataset, noise: &NoiseModel, alpha: f64) -> Res
     Ok(ScalingCheck { verdict, sentence, pairs })
 }
 
-/// Check a model's own predictions in run layout \[m\] at the given holds; no noise, a tolerance instead.
-///
-/// `dprediction_dlnp` (run layout) excuses a ratio mismatch inside the matching tolerance; zeros excuse nothing.
-///
-/// # Errors
-/// Arrays that do not have the shape, or hold values that are not finite.
-pub fn scaling_of_model(
-    holds: &[Hold],
-    layout: &Layout,
-    prediction_m: &[f64],
-    dprediction_dlnp: &[f64],
-) -> Result<ScalingCheck, CompareError> {
-    layout.check("the prediction", prediction_m)?;
-    layout.check("the derivative with respect to ln p", dprediction_dlnp)?;
-    let pairs = matching_pairs(holds, layout, prediction_m, &|_, _| true);
-    if pairs.is_empty() {
-        return Ok(cannot_be_checked(holds));
-    }
-    let deflection = prediction_m.iter().skip(1).step_by(2).fold(0.0, |d: f64, y| d.max(y.abs()));
-    let tolerance_mm = 1e3 * policy::tolerance_m(deflection);
-    let slopes = layout.hold_means(dprediction_dlnp);
-    let excused =
-        |p: &ScalingPair| 1e3 * mismatch(holds, p).abs() * largest_norm(hold_part(&slopes, layout, p.low_hold));
-    let differing = pairs.iter().filter(|p| p.largest_mm > tolerance_mm + excused(p)).count();
-    let worst = largest(&pairs);
-    let (verdict, sentence) = match differing {
-        0 => (
-            ScalingVerdict::Collapses,
-            format!(
-                "The model depends on the pressures only through P/p (largest difference at the same ratio \
-                 {worst:.2} mm, tolerance {tolerance_mm:.2} mm)."
-            ),
-        ),
-        _ => (
-            ScalingVerdict::DoesNotCollapse,
-            format!(
-                "The model does not depend on P/p alone: at the same ratio its shapes differ by up to {worst:.1} mm."
-            ),
-        ),
-    };
-    Ok(ScalingCheck { verdict, sentence, pairs })
-}
-
-/// Whether a marker was seen in a hold.
-type Seen<'s> = dyn Fn(usize, usize) -> bool + 's;
-
 /// Pairs of holds that show one marker at least.
-fn matching_pairs(holds: &[Hold], layout: &Layout, values: &[f64], is_seen: &Seen) -> Vec<ScalingPair> {
+fn matching_pairs(dataset: &Dataset, layout: &Layout, mean: &[f64]) -> Vec<ScalingPair> {
+    let holds = &dataset.holds;
     let usable = |h: &Hold| h.p_act_pa > policy::ZERO_PRESSURE_PA && h.p_body_pa > policy::ZERO_PRESSURE_PA;
     let unloading = |h: &Hold| h.phase == Phase::Unload;
-    let means = layout.hold_means(values);
+    let means = layout.hold_means(mean);
     let mut pairs = Vec::new();
     for (i, a) in holds.iter().enumerate() {
         for (j, b) in holds.iter().enumerate().skip(i + 1) {
             let comparable = usable(a) && usable(b) && unloading(a) == unloading(b);
             let apart = comparable && policy::bodies_differ(a.p_body_pa, b.p_body_pa);
             if apart && policy::is_same_ratio(ratio(a), ratio(b)) {
-                let (low, high) = if a.p_body_pa < b.p_body_pa { (i, j) } else { (j, i) };
-                pairs.extend(pair(holds, layout, &means, (low, high), is_seen));
+                let ends = if a.p_body_pa < b.p_body_pa { [i, j] } else { [j, i] };
+                pairs.extend(pair(dataset, layout, &means, ends));
             }
         }
     }
     pairs
 }
 
-fn pair(
-    holds: &[Hold],
-    layout: &Layout,
-    means: &[f64],
-    (low_hold, high_hold): (usize, usize),
-    is_seen: &Seen,
-) -> Option<ScalingPair> {
-    let (low, high) = (hold_part(means, layout, low_hold), hold_part(means, layout, high_hold));
-    let seen = |i: &usize| is_seen(low_hold, i / 2) && is_seen(high_hold, i / 2);
-    let difference: Vec<f64> = (0..high.len()).filter(seen).map(|i| high[i] - low[i]).collect();
-    let squares: f64 = difference.iter().map(|d| d * d).sum();
+fn pair(dataset: &Dataset, layout: &Layout, means: &[f64], ends: [usize; 2]) -> Option<ScalingPair> {
+    let [low_hold, high_hold] = ends;
+    let [low, high] = ends.map(|hold| &dataset.holds[hold]);
+    let width = 2 * layout.markers;
+    let of = |marker: usize| {
+        [0, 1].map(|k| means[high_hold * width + 2 * marker + k] - means[low_hold * width + 2 * marker + k])
+    };
+    let differences: Vec<[f64; 2]> = seen_in_both(dataset, ends).map(of).collect();
+    let squares: f64 = differences.iter().flatten().map(|d| d * d).sum();
     Some(ScalingPair {
         low_hold,
         high_hold,
-        ratio: 0.5 * (ratio(&holds[low_hold]) + ratio(&holds[high_hold])),
-        p_body_kpa: [1e-3 * holds[low_hold].p_body_pa, 1e-3 * holds[high_hold].p_body_pa],
-        largest_mm: 1e3 * largest_norm(&difference),
-        rms_mm: 1e3 * (squares / difference.len() as f64).sqrt(),
-        tip_mm: 1e3 * difference.last()?,
+        ratio: 0.5 * (ratio(low) + ratio(high)),
+        p_body_kpa: [1e-3 * low.p_body_pa, 1e-3 * high.p_body_pa],
+        largest_mm: 1e3 * differences.iter().fold(0.0, |l: f64, [x, y]| l.max(x.hypot(*y))),
+        rms_mm: 1e3 * (squares / (2 * differences.len()) as f64).sqrt(),
+        tip_mm: 1e3 * differences.last()?[1],
         reduced_chi2: None,
         p_corrected: None,
     })
 }
 
-/// Markers that were seen in both holds of a pair.
-fn seen_in_both<'d>(dataset: &'d Dataset, pair: &ScalingPair) -> impl Iterator<Item = usize> + 'd {
-    let holds = [pair.low_hold, pair.high_hold];
+/// Markers that were seen in both holds.
+fn seen_in_both(dataset: &Dataset, holds: [usize; 2]) -> impl Iterator<Item = usize> + '_ {
     (0..dataset.markers.len()).filter(move |marker| holds.iter().all(|hold| dataset.is_seen(*hold, *marker)))
 }
 
@@ -202,7 +152,7 @@ fn chi_square(
 ) -> Result<f64, CompareError> {
     let mut difference = Vec::new();
     let mut rows = Vec::new();
-    for marker in seen_in_both(dataset, pair) {
+    for marker in seen_in_both(dataset, [pair.low_hold, pair.high_hold]) {
         for axis in 0..2 {
             let mut weights: Weights = layout.mean_weights(pair.high_hold, marker, axis);
             let low = layout.mean_weights(pair.low_hold, marker, axis);
@@ -283,15 +233,6 @@ fn ratio(hold: &Hold) -> f64 {
 /// ln of the two ratios' quotient.
 fn mismatch(holds: &[Hold], pair: &ScalingPair) -> f64 {
     (ratio(&holds[pair.high_hold]) / ratio(&holds[pair.low_hold])).ln()
-}
-
-fn hold_part<'a>(means: &'a [f64], layout: &Layout, hold: usize) -> &'a [f64] {
-    let width = 2 * layout.markers;
-    &means[hold * width..(hold + 1) * width]
-}
-
-fn largest_norm(xy: &[f64]) -> f64 {
-    xy.chunks_exact(2).fold(0.0, |l: f64, p| l.max(p[0].hypot(p[1])))
 }
 
 fn largest(pairs: &[ScalingPair]) -> f64 {

@@ -1,6 +1,6 @@
 //! The effects that may be missing: the one place where the diagnosis meets the catalogue.
 
-use super::least_squares::Range;
+use crate::fit::least_squares::Range;
 use crate::policy;
 use data::MeasuredValue;
 use models::Scenario;
@@ -9,17 +9,13 @@ use models::effects::{Effect, Fitted, Group, Stage};
 /// An effect that can be switched on, with what a fit and a reader need.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {
-    /// Name in scenarios.
     pub name: String,
-    /// Group.
     pub group: Group,
     /// Where in a prediction it acts.
     pub stage: Stage,
-    /// One plain sentence.
     pub sentence: String,
     /// What measurements show where it acts and the model lacks it.
     pub differs: String,
-    /// What to measure or change.
     pub remedy: String,
     /// Its parameters, SI inside.
     pub parameters: Vec<Free>,
@@ -28,9 +24,7 @@ pub struct Candidate {
 /// A parameter to fit; values in SI, `si` leads back to `unit`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Free {
-    /// Key in the scenario.
     pub key: String,
-    /// Letter.
     pub symbol: String,
     /// Unit of the scenario value.
     pub unit: String,
@@ -38,13 +32,11 @@ pub struct Free {
     pub si: f64,
     /// Value at which the effect vanishes.
     pub neutral: f64,
-    /// Typical size.
     pub typical: f64,
     /// Lower bound of a fit.
     pub lower: f64,
     /// Upper bound of a fit.
     pub upper: f64,
-    /// What is physically possible.
     pub possible: [f64; 2],
     /// Where a fit starts beside neutral and typical: thresholds and time scales.
     pub starts: Vec<f64>,

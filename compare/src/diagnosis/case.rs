@@ -1,15 +1,15 @@
 //! A scenario and its datasets made ready for hypotheses: noise, calibrated base, catalogue.
 
-use super::basis::{Basis, cosine};
 use super::candidates::{Candidate, candidates, hold, present};
 use super::known::{Known, add_shapes, known, make_room};
-use super::least_squares::square;
 use super::options::Options;
 use super::problem::{Block, Fit, Problem};
 use super::screen::{bound, trace};
 use super::source::{Source, body_pressures};
 use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
+use crate::fit::basis::{Basis, cosine};
+use crate::fit::least_squares::square;
 use crate::layout::Layout;
 use crate::noise::NoiseModel;
 use crate::policy;
@@ -39,7 +39,6 @@ pub struct Case<'a> {
     pub tried: Vec<usize>,
     /// Body pressures with a bending stiffness of their own \[Pa\].
     pub body_pa: Vec<f64>,
-    /// The calibrated base.
     pub base: Fit,
     /// Independent tests among the effects tried.
     pub tests: f64,
@@ -156,7 +155,6 @@ impl<'a> Case<'a> {
         &self.noises[0]
     }
 
-    /// Catalogue entry.
     pub fn candidate(&self, effect: usize) -> &Candidate {
         &self.problem.candidates[effect]
     }
@@ -166,7 +164,6 @@ impl<'a> Case<'a> {
         &fit.effects[self.always.len()..]
     }
 
-    /// Their names.
     pub fn names(&self, fit: &Fit) -> Vec<String> {
         self.added(fit).iter().map(|e| self.candidate(*e).name.clone()).collect()
     }

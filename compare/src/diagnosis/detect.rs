@@ -1,9 +1,9 @@
 //! How large an effect would have to be to be seen in these data.
 
-use super::basis::Basis;
 use super::case::Case;
-use super::least_squares::square;
 use super::result::{Added, Undetectable};
+use crate::fit::basis::Basis;
+use crate::fit::least_squares::square;
 use crate::policy;
 use statrs::distribution::{ContinuousCDF, Normal};
 

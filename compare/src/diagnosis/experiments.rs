@@ -18,9 +18,7 @@ pub const BENDING_TEST_NAME: &str = "bending test";
 
 /// An experiment: one or more parts, each a protocol under loads, or a bending test of the body by itself.
 pub struct Plan {
-    /// Short name.
     pub name: String,
-    /// What to do.
     pub sentence: String,
     /// Parts, each measured as often as the data at hand; none of a bending test.
     pub parts: Vec<Part>,
@@ -51,13 +49,11 @@ pub fn bending_test() -> Plan {
     }
 }
 
-/// A protocol under loads.
 pub struct Part {
     /// The base with the loads of this part.
     pub scenario: Scenario,
     /// Protocol and markers; one run without values.
     pub dataset: Dataset,
-    /// What is measured directly.
     pub direct: Direct,
 }
 
@@ -103,7 +99,6 @@ fn with_instruments(before: Direct, now: Direct, tests: &[&BenchTest]) -> (Strin
     (names.join(", "), words.join(" and "))
 }
 
-/// Protocols and loads.
 fn protocols(scenario: &Scenario, dataset: &Dataset, direct: Direct) -> Vec<Plan> {
     let top = dataset.holds.iter().map(|h| h.p_act_pa).fold(policy::ZERO_PRESSURE_PA, f64::max);
     let body = dataset.holds[0].p_body_pa;

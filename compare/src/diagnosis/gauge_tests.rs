@@ -1,5 +1,6 @@
 //! Laws of a diagnosis with a gauge at the actuator. Data by the catalogue's own formulas, seeded.
 
+use super::candidates::candidates;
 use super::tests::{of_one, quick, robot};
 use super::*;
 use crate::study::{Generator, generate};

@@ -8,9 +8,9 @@
 //! rest, are taken off. J is the whitened derivative at the data of the fit, D the plain one \[m\] at the n values left out.
 
 use super::case::Case;
-use super::least_squares::{dot, products, square};
 use super::problem::{Fit, Problem};
 use crate::error::CompareError;
+use crate::fit::least_squares::{dot, products, square};
 use crate::policy;
 
 /// Parts into which many runs are divided.
@@ -23,7 +23,6 @@ const ENOUGH: f64 = 1e-2;
 /// One part left out.
 struct Fold<'a> {
     problem: Problem<'a>,
-    /// Holds that are predicted.
     holds: Vec<usize>,
     /// What was measured there \[m\], in run layout.
     truth_m: Vec<f64>,

@@ -1,11 +1,11 @@
-//! Intervals of the parameters of a fit ([`crate::interval`]).
+//! Intervals of the parameters of a fit ([`crate::fit::interval`]).
 
-use super::basis::own_part;
 use super::case::Case;
-use super::least_squares::{Range, minimise, square};
 use super::problem::Fit;
 use super::source::Source;
-use crate::interval::{FittedData, half_width, interval};
+use crate::fit::basis::own_part;
+use crate::fit::interval::{FittedData, half_width, interval};
+use crate::fit::least_squares::{Range, minimise, square};
 
 /// Intervals of all parameters of a fit, SI; `None` if the noise is unknown or the data do not hold the parameter.
 pub fn intervals<'c>(case: &'c Case<'c>, fit: &Fit, profiled: bool) -> Vec<Option<[f64; 2]>> {

@@ -15,11 +15,9 @@ use models::Scenario;
 pub struct Known {
     /// Effect, as an index into the catalogue.
     pub effect: usize,
-    /// Its parameter.
     pub parameter: usize,
     /// What was found.
     pub value: f64,
-    /// Its standard deviation.
     pub sd: f64,
     /// What a hypothesis without the effect differs from it by, in standard deviations.
     pub lacking: f64,

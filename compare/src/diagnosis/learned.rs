@@ -19,7 +19,6 @@ use nalgebra::{DMatrix, DVector};
 
 /// Its name as an effect.
 const NAME: &str = "learned";
-/// Its curve.
 const CURVE: &str = "learned law";
 /// The effect that moves the line of the markers.
 const LINE: &str = "marker_height";
@@ -162,7 +161,7 @@ fn pulls(block: &Block, seen: &Seen) -> Result<Vec<Vec<f64>>, CompareError> {
 fn line(case: &Case, seen: &[Seen]) -> Option<f64> {
     let is_there = case.first().scenario.effects.iter().any(|e| e.name == LINE);
     let shared = seen[0].shape.shared.first()?;
-    (!is_there && !case.first().direct.frame && crate::moment::is_told(shared)).then_some(shared.value)
+    (!is_there && !case.first().direct.frame && shared.is_told()).then_some(1e-3 * shared.value)
 }
 
 fn free_name(scenario: &Scenario) -> String {

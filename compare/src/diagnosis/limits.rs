@@ -1,16 +1,15 @@
 //! What data cannot show, whatever the model.
 
-use super::basis::Basis;
 use super::case::Case;
-use super::least_squares::square;
 use super::problem::Problem;
 use super::result::Undetectable;
 use super::source::body_pressures;
+use crate::fit::basis::Basis;
+use crate::fit::least_squares::square;
 use crate::policy;
 use crate::wording::list;
 use data::{Dataset, Phase};
 
-/// What the protocols hide.
 pub fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Vec<String> {
     let mut limits = Vec::new();
     let holds = || datasets.iter().flat_map(|dataset| &dataset.holds);
@@ -81,7 +80,6 @@ fn tests_of_their_own(case: &Case) -> Vec<String> {
     told.collect()
 }
 
-/// Cautions about the base.
 pub fn warnings(case: &Case) -> Vec<String> {
     let mut warnings: Vec<String> = bending_test(case).into_iter().chain(tests_of_their_own(case)).collect();
     let target = &case.problem.blocks[0].target_m;

@@ -9,7 +9,6 @@ use crate::residuals::ResidualCell;
 use crate::wording::{list, short};
 use data::{Hold, Phase};
 
-/// A stretch that bends otherwise.
 pub fn stretch(at: &str) -> String {
     format!(
         "look at the body and the actuator {at} (a pouch that does not fill, a fold, tape, a leak), and hang a known force on \
@@ -68,7 +67,6 @@ pub fn whole(when: &str, read: bool) -> String {
     format!("{when}{gauge}")
 }
 
-/// To take one hold again.
 pub fn one_hold(number: usize, hold: &Hold) -> String {
     let pressure = short(1e-3 * hold.p_act_pa);
     let branch = if hold.phase == Phase::Unload { " on the way down" } else { "" };

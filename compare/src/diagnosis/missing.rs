@@ -3,11 +3,11 @@
 use super::answers::{Answer, Standing};
 use super::case::Case;
 use super::decide::Decision;
-use super::least_squares::{products, square};
 use super::problem::{Block, Fit};
 use super::result::Diagnosis;
 use super::source::{Source, nearest};
 use crate::error::CompareError;
+use crate::fit::least_squares::{products, square};
 use crate::moment::{
     MeasuredShape, MissingMoment, MomentCurve, MomentPoint, Moments, Path, Robot, Shape, View, band, curve, degrees,
     missing, moments, sentences, shape, shape_sentences, told,
@@ -15,7 +15,6 @@ use crate::moment::{
 use models::Scenario;
 use models::effects::Stage;
 
-/// Answers drawn as curves.
 const MOST_CURVES: usize = 4;
 /// Others than those that are told, so that there is something to compare with.
 const OTHERS: usize = 1;
@@ -57,9 +56,7 @@ pub fn missing_moment(
 pub struct Seen {
     base: Vec<Scenario>,
     of_hold: Vec<usize>,
-    /// The shape.
     pub shape: Shape,
-    /// Missing moments.
     pub moments: Moments,
 }
 
@@ -87,7 +84,6 @@ impl Seen {
         missing(&view(block, &other[0]), &self.shape, &robot, &self.shape.bends())
     }
 
-    /// The base.
     pub fn robot(&self) -> &Scenario {
         &self.base[0]
     }

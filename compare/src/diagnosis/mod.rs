@@ -16,7 +16,6 @@
 
 mod answers;
 mod assemble;
-mod basis;
 mod bench;
 mod bending_alarm;
 mod candidates;
@@ -36,7 +35,6 @@ mod interval;
 mod known;
 mod lack_of_fit;
 mod learned;
-mod least_squares;
 mod limits;
 mod look;
 #[cfg(test)]
@@ -71,10 +69,9 @@ pub use crate::prepare::{Outliers, OutlyingRun};
 pub use crate::slips::pressure::{BestEffect, PressureSlipFound};
 pub use answers::{Answer, Standing};
 pub use bench::{BenchDiagnosis, BenchOptions, BenchRanked, LeftOut, diagnose_bench};
-pub use candidates::{Candidate, Free, candidates};
 pub use distance::{Distances, KnownNoise, distances, power};
 pub use experiments::{BENDING_TEST, BENDING_TEST_NAME};
-pub use fitted::with_fitted;
+pub(crate) use fitted::with_fitted;
 pub use known::{BENCH_TEST, BENCH_TESTS, BenchTest};
 pub use options::{Options, PRESSURES_ARE_RIGHT};
 pub use pressures::pressure_slip;

@@ -21,11 +21,11 @@ use super::result::{Experiment, NextExperiment, Separation, Verdict};
 use super::source::{Source, is_rolled, nearest};
 use crate::directions::nuisance_directions;
 use crate::error::CompareError;
+use crate::fit::whiten::Whitener;
 use crate::gauge::Gauge;
 use crate::policy;
 use crate::study::predict::without_settled;
 use crate::study::predict_dataset;
-use crate::whiten::Whitener;
 use data::Direct;
 use models::Supply;
 use models::effects::Stage;
@@ -33,7 +33,6 @@ use std::borrow::Cow;
 
 /// Most times the runs at hand that are proposed.
 const MOST_REPEATS: usize = 20;
-/// Rivals looked at.
 const RIVALS: usize = 5;
 /// Accuracy of λ.
 const LAMBDA_ERROR: f64 = 0.05;

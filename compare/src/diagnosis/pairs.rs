@@ -1,19 +1,18 @@
 //! Two effects at once, when one is not enough: greedy search alone fails where two compensate each other.
 
-use super::basis::{Basis, cosine};
 use super::case::Case;
 use super::order::{Ordered, criterion};
 use super::problem::Fit;
 use super::result::Combination;
 use super::screen::{score, starts};
 use super::singles::parameter_values;
+use crate::fit::basis::{Basis, cosine};
 use crate::policy;
 use crate::progress::{Progress, each};
 use crate::stats::reported_p;
 
 /// Pairs refitted, the most promising by screening every effect on top of every other.
 const REFITTED: usize = 32;
-/// Pairs that are reported.
 const REPORTED: usize = 12;
 
 /// The p that another effect is wanted on top of a fit, screened and corrected for all effects; 1 if none.

@@ -22,7 +22,6 @@ use crate::policy;
 /// Directions of the image.
 const AXES: [(&str, [f64; 2]); 2] = [("x", [1.0, 0.0]), ("y", [0.0, 1.0])];
 
-/// A pattern in the data.
 pub struct Pattern {
     /// What it looks like, to follow "What is left looks as if".
     pub words: String,
@@ -41,9 +40,7 @@ pub struct Pattern {
 /// All patterns, and the displacements of their places \[any unit\].
 #[derive(Default)]
 pub struct Patterns {
-    /// What may be seen.
     pub all: Vec<Pattern>,
-    /// Where it acts.
     pub shapes: Vec<Shape>,
 }
 
@@ -56,7 +53,6 @@ pub enum Fault {
     Hold,
 }
 
-/// Where a pattern acts.
 enum Place {
     /// A rotation halfway between neighbouring markers, 0 between base and first marker.
     Bend(usize),
@@ -64,7 +60,6 @@ enum Place {
     Bends(Vec<f64>),
     /// One marker in x or y.
     Marker(usize, [f64; 2]),
-    /// One marker along the robot.
     Along(usize),
     /// All markers in x or y.
     All([f64; 2]),
@@ -77,7 +72,6 @@ type Time = Vec<f64>;
 struct When {
     /// To follow what happens then.
     words: String,
-    /// How it would be shown.
     check: String,
     time: Time,
 }

@@ -1,17 +1,17 @@
 //! The fit behind every hypothesis: bending stiffness and effect parameters to the whitened mean over runs.
 
-use super::basis::own_part;
 use super::candidates::{Candidate, Free, NEAR};
 use super::evaluator::positions;
 use super::known::Known;
-use super::least_squares::{Minimum, Range, dot, jacobian, minimise, square};
 use super::source::{Source, nearest};
 use crate::error::CompareError;
+use crate::fit::basis::own_part;
+use crate::fit::least_squares::{Minimum, Range, dot, jacobian, minimise, square};
+use crate::fit::whiten::{MISFIT_ROUNDS, Whitener};
 use crate::layout::Weights;
 use crate::noise::NoiseModel;
 use crate::policy;
 use crate::study::predict::is_open;
-use crate::whiten::{MISFIT_ROUNDS, Whitener};
 use data::Dataset;
 use models::Scenario;
 use models::effects::Stage;
@@ -82,7 +82,6 @@ fn values_of(dataset: &Dataset, holds: &[usize]) -> Vec<Weights> {
 /// A list of blocks with shared parameters.
 #[derive(Clone)]
 pub struct Problem<'a> {
-    /// Catalogue.
     pub candidates: &'a [Candidate],
     pub blocks: Vec<Block<'a>>,
     /// Bending stiffnesses that are fitted; 0 if B is kept as the scenarios say.

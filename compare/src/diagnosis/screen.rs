@@ -4,10 +4,10 @@
 //! `gain = (gᵀPr)²/(gᵀPg)` at the amount `−gᵀPr/(gᵀPg)`. Cheap and explainable, but local: an effect with a threshold
 //! shows nothing. It gives starts for the fits and asks whether another effect is wanted; it decides nothing alone.
 
-use super::basis::Basis;
 use super::known::Known;
-use super::least_squares::{dot, square};
 use super::problem::{Fit, Problem};
+use crate::fit::basis::Basis;
+use crate::fit::least_squares::{dot, square};
 
 /// Share of the typical size at which an effect is tried.
 const FIRST_BIT: f64 = 0.02;

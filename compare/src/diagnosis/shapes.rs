@@ -3,14 +3,13 @@
 //! A pattern is a shape times a factor per hold. Of n markers, a rotation moves those beyond it and a marker itself alone, so
 //! that products of all pairs of patterns, taken hold by hold and shared by all times of a shape, cost n² and not n³.
 
-use super::least_squares::dot;
+use crate::fit::least_squares::dot;
 use crate::layout::Layout;
 use std::ops::Range;
 
 /// Displacement per unit of a place in every sample.
 pub struct Shape {
     layout: Layout,
-    /// Markers outside are not moved.
     markers: Range<usize>,
     /// `[hold][sample][marker][x, y]` of those inside.
     xy: Vec<f64>,

@@ -1,6 +1,5 @@
 //! Every effect of the catalogue refitted together with the base, and the set that the data cannot tell apart.
 
-use super::basis::{Basis, cosine};
 use super::candidates::Candidate;
 use super::case::Case;
 use super::heldout::HeldOut;
@@ -9,6 +8,7 @@ use super::order::{Ordered, criterion, sort};
 use super::problem::Fit;
 use super::result::{ParameterValue, Ranked};
 use super::screen::starts;
+use crate::fit::basis::{Basis, cosine};
 use crate::policy;
 use crate::progress::{Progress, each};
 use crate::stats::reported_p;
@@ -35,7 +35,6 @@ pub fn fit_all<'a>(case: &mut Case<'a>, wider: &'a mut Vec<Candidate>, progress:
     (fits, allowance)
 }
 
-/// The catalogue with those ranges.
 fn widened(case: &Case, fits: &[Fit]) -> Vec<Candidate> {
     let mut candidates = case.problem.candidates.to_vec();
     for fit in fits {

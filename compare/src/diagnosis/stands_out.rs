@@ -4,13 +4,13 @@
 //! dof of σ² as σ is estimated. Patterns resemble each other; the largest |t| of all is as if from m independent ones, m so that
 //! the 99 % quantile of the largest of simulated correlated normals is met (fixed seed), and p = 1 − (1 − p₁)^m.
 
-use super::basis::Basis;
 use super::case::Case;
-use super::least_squares::{dot, square};
 use super::patterns::{Fault, Pattern, Patterns, patterns, uniform_bending};
 use super::problem::Fit;
 use super::result::LeftPattern;
 use super::traces::{Beside, Traces};
+use crate::fit::basis::Basis;
+use crate::fit::least_squares::{dot, square};
 use crate::stats::{SMALLEST_P, reported_p, two_sided_p};
 use crate::study::generate::Scatter;
 use nalgebra::DMatrix;
@@ -31,9 +31,7 @@ const NEW: f64 = 1e-6;
 /// The clearest pattern of a kind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StandsOut {
-    /// What it looks like.
     pub words: String,
-    /// What would show it.
     pub check: String,
     /// The whole robot bends otherwise at some time.
     pub is_uniform: bool,
@@ -50,7 +48,6 @@ pub struct StandsOut {
 pub struct Simpler {
     /// The fault.
     pub fault: StandsOut,
-    /// Its p as reported.
     pub p_value: f64,
     /// It explains no more than they do, and is preferred for its single number.
     pub either: bool,

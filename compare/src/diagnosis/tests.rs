@@ -1,6 +1,7 @@
 //! Laws of the diagnosis, on data of this crate's own generator: the formulas are those of the catalogue, so these tests
 //! hold the statistics, not the physics. Everything is seeded.
 
+use super::candidates::candidates;
 use super::*;
 use crate::study::{Generator, generate, parse_protocol, published::textbook_scenario};
 use data::{About, Dataset};

@@ -1,5 +1,6 @@
 //! Laws of a diagnosis of several data at once. Data by the catalogue's own formulas, seeded.
 
+use super::candidates::candidates;
 use super::tests::{measured, of_one, quick, robot, run};
 use super::*;
 use data::{About, Dataset, Direct, MeasuredValue};

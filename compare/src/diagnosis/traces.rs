@@ -16,10 +16,10 @@
 //! so that all of it comes from products of the shapes with some twenty vectors and, for correlations, with each other. Where
 //! nearly all of a pattern is taken off, the difference loses its digits: such a one is whitened and projected at length.
 
-use super::basis::Basis;
-use super::least_squares::{dot, square};
 use super::patterns::{Pattern, Patterns};
-use crate::whiten::Whitener;
+use crate::fit::basis::Basis;
+use crate::fit::least_squares::{dot, square};
+use crate::fit::whiten::Whitener;
 use nalgebra::DMatrix;
 
 /// A pattern of which fits leave less than this share cannot be told from them.
@@ -27,15 +27,12 @@ pub(super) const LEFT: f64 = 0.02;
 /// Share of |d|²/s² below which the difference is no longer trusted: ten digits are left.
 const CANCELLED: f64 = 1e-6;
 
-/// What patterns are held against.
 pub struct Beside<'a> {
-    /// Whitens the values.
     pub whitener: &'a Whitener,
     /// What the fit takes of any pattern.
     pub fitted: &'a Basis,
     /// The same and more, of those that are a place; begins with the columns of `fitted`.
     pub of_places: &'a Basis,
-    /// Whitened residuals.
     pub residual: &'a [f64],
 }
 
@@ -43,11 +40,9 @@ pub struct Beside<'a> {
 pub struct Trace {
     /// Index of the pattern.
     pub pattern: usize,
-    /// Standard normal under noise.
     pub t: f64,
     /// v of the formula, first what is taken of every pattern.
     taken: Vec<f64>,
-    /// |g|.
     length: f64,
 }
 

@@ -6,7 +6,8 @@ mod text;
 
 pub(crate) use steps::Ground;
 pub use steps::{ErrorStep, error_steps};
-pub use text::{Addition, NewBending, Origin, extended, origins};
+pub use text::{Addition, NewBending};
+pub(crate) use text::{Origin, extended, origins};
 
 use crate::diagnosis::words::{listed, named, three};
 use crate::diagnosis::{Added, Diagnosis, Options, ParameterValue, Ranked, diagnose};

@@ -1,7 +1,7 @@
 //! The missing moment as it is told: printed units, no NaN.
 
 use super::points::{Moments, Point};
-use super::shape::{Shape, Shared};
+use super::shape::Shape;
 use data::Dataset;
 use serde::Serialize;
 
@@ -100,17 +100,11 @@ pub fn degrees(length_m: f64) -> f64 {
 impl MeasuredShape {
     /// Of a shape.
     pub fn of(dataset: &Dataset, shape: &Shape) -> MeasuredShape {
-        let shared = shape.shared.iter().map(|s| SharedNumber {
-            name: s.words.into(),
-            unit: s.unit.into(),
-            value: s.per_si * s.value,
-            sd: s.per_si * s.sd,
-        });
         MeasuredShape {
             dataset: dataset.name.clone(),
             places_mm: shape.division.places.iter().map(|p| [1e3 * p.from_m, 1e3 * p.to_m]).collect(),
             floor_mm: shape.floor_mm,
-            shared: shared.collect(),
+            shared: shape.shared.clone(),
         }
     }
 }
@@ -164,19 +158,21 @@ impl MissingMoment {
     }
 }
 
-/// Standard deviations from which a shared number is told, and least share of its unit.
+/// Standard deviations from which a shared number is told, and least value in its unit.
 const TOLD: (f64, f64) = (4.0, 1.0);
 
-/// Whether a shared number is clearly another than the scenario's.
-pub fn is_told(shared: &Shared) -> bool {
-    (shared.per_si * shared.value).abs() > (shared.per_si * TOLD.0 * shared.sd).max(TOLD.1)
+impl SharedNumber {
+    /// Whether it is clearly another than the scenario's.
+    pub fn is_told(&self) -> bool {
+        self.value.abs() > (TOLD.0 * self.sd).max(TOLD.1)
+    }
 }
 
 /// What the shapes say: where the tracked line lies otherwise than the scenario says, and what no bending explains.
 pub fn shape_sentences(shapes: &[MeasuredShape], noise_known: bool) -> Vec<String> {
     let mut sentences = Vec::new();
     for shape in shapes {
-        let Some(line) = shape.shared.first().filter(|s| s.value.abs() > (TOLD.0 * s.sd).max(TOLD.1)) else { continue };
+        let Some(line) = shape.shared.first().filter(|s| s.is_told()) else { continue };
         let side = if line.value < 0.0 { "nearer to" } else { "further from" };
         sentences.push(format!(
             "{}: the line of the markers lies {:.1} ± {:.1} mm {side} the taut side than the scenario says. That changes how it shortens as it bends, and no law of bending can mend it.",

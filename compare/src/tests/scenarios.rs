@@ -2,10 +2,9 @@
 
 use crate::error::CompareError;
 use crate::evaluate::{EvaluateOptions, Evaluation, evaluate};
-use crate::layout::Layout;
 use crate::noise::NoiseStatus;
-use crate::scaling::{ScalingVerdict, scaling_of_model};
-use crate::tests::synthetic::{CAMERA, SyntheticNoise, SyntheticRobot, TYPICAL, displace};
+use crate::scaling::ScalingVerdict;
+use crate::tests::synthetic::{SyntheticNoise, SyntheticRobot, TYPICAL, displace};
 use crate::where_it_fails::{Finding, Statement};
 use data::Dataset;
 
@@ -265,19 +264,4 @@ fn the_scaling_law_is_confirmed_refuted_or_the_missing_holds_are_named() {
     assert_eq!(e.scaling.verdict, ScalingVerdict::CannotBeChecked);
     let advice = "add holds at 4 kPa body pressure with 20, 40 and 60 kPa, or at 1 kPa with 5, 10 and 15 kPa";
     assert!(e.scaling.sentence.contains(advice), "{}", e.scaling.sentence);
-}
-
-#[test]
-fn the_scaling_check_of_a_model_needs_no_noise() {
-    let layout = Layout { holds: 2, samples: 1, markers: 6 };
-    let verdict = |resistance_kpa, p_high| {
-        let pressures_kpa = vec![(10.0, 2.0), (p_high, 4.0)];
-        let model = SyntheticRobot { pressures_kpa, samples: 1, resistance_kpa, ..SyntheticRobot::paper() };
-        let holds = model.measured(1, CAMERA, 0).holds;
-        scaling_of_model(&holds, &layout, &model.shape(1.0), &model.slope()).unwrap().verdict
-    };
-    assert_eq!(verdict(0.0, 20.0), ScalingVerdict::Collapses);
-    assert_eq!(verdict(0.0, 20.5), ScalingVerdict::Collapses, "2.5 % off the ratio is excused by the slope");
-    assert_eq!(verdict(1.0, 20.0), ScalingVerdict::DoesNotCollapse);
-    assert_eq!(verdict(0.0, 25.0), ScalingVerdict::CannotBeChecked);
 }

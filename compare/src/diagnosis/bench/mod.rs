@@ -7,7 +7,7 @@
 //!
 //! The statistics are those of a diagnosis of markers: gains of the whitened sum of squares against the base, one p corrected for
 //! all laws tried, a set of what the data cannot tell apart ([`super::order`]), intervals with what the law misses by
-//! ([`crate::interval`]). The unit of what was left out is a pressure or a specimen; with one of each, a fifth of the loads.
+//! ([`crate::fit::interval`]). The unit of what was left out is a pressure or a specimen; with one of each, a fifth of the loads.
 
 mod laws;
 mod reading;

@@ -5,12 +5,10 @@ use crate::bench::{is_free, measured, place, specimen};
 use data::bench::BenchRow;
 use models::Scenario;
 
-/// One row.
 pub struct Reading<'a> {
     pub row: &'a BenchRow,
     /// As measured, SI.
     pub measured: f64,
-    /// e.
     pub small: f64,
     /// Standard error of the mean and its degrees of freedom; of d where these are infinite.
     pub error: Option<[f64; 2]>,
@@ -20,7 +18,6 @@ pub struct Reading<'a> {
     pub specimen: String,
     /// Load over collapse load, or contraction.
     pub drive: f64,
-    /// In words.
     pub at: String,
 }
 
@@ -30,7 +27,6 @@ impl<'a> Reading<'a> {
         (model / self.small).asinh() - (self.measured / self.small).asinh()
     }
 
-    /// Standard error as a ratio.
     pub fn noise(&self) -> Option<f64> {
         let [error, dof] = self.error?;
         Some(if dof.is_finite() { error / self.measured.hypot(self.small) } else { error })

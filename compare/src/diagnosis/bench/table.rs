@@ -12,12 +12,12 @@ use super::laws::{Law, Trial, laws};
 use super::reading::{Reading, groups, steady};
 use crate::CompareError;
 use crate::bench::{ANY_WIDTH_M, is_free, measured, modelled, own_or_braid, refuse, specimen};
-use crate::diagnosis::basis::own_part;
 use crate::diagnosis::candidates::Free;
-use crate::diagnosis::least_squares::{Minimum, Range, minimise, square};
 use crate::diagnosis::problem::is_binding;
 use crate::diagnosis::result::ParameterValue;
-use crate::interval::{Half, interval, misfit};
+use crate::fit::basis::own_part;
+use crate::fit::interval::{Half, interval, misfit};
+use crate::fit::least_squares::{Minimum, Range, minimise, square};
 use crate::policy;
 use crate::stats::{normal_score, t_975};
 use data::Bench;
@@ -38,7 +38,6 @@ const STARTS: usize = 3;
 pub struct Table<'a> {
     pub readings: Vec<Reading<'a>>,
     pub laws: Vec<Law>,
-    /// Fitted along with every law.
     pub always: Vec<usize>,
     trial: Trial,
     /// Laws that act by a size which nobody told.

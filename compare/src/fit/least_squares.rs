@@ -16,7 +16,6 @@ pub struct Range {
     pub scale: f64,
 }
 
-/// Where a minimisation ended.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Minimum {
     pub at: Vec<f64>,
@@ -28,7 +27,11 @@ pub struct Minimum {
 }
 
 impl Range {
-    /// A single value.
+    /// Every value.
+    pub fn endless(scale: f64) -> Range {
+        Range { lower: f64::NEG_INFINITY, upper: f64::INFINITY, scale }
+    }
+
     pub fn fixed(at: f64, scale: f64) -> Range {
         Range { lower: at, upper: at, scale }
     }
@@ -50,13 +53,27 @@ const DAMPING: [f64; 2] = [1e-3, 1e8];
 /// Residuals at a place; `None` where they do not exist, which counts as infinitely bad.
 pub type Residuals<'a> = dyn FnMut(&[f64]) -> Option<Vec<f64>> + 'a;
 
+/// Derivatives of residuals at a place, one column per coordinate.
+pub type Slopes<'a> = dyn FnMut(&Minimum, &mut Residuals) -> Vec<Vec<f64>> + 'a;
+
 /// Minimises the sum of squares from `start` until a round lowers it by less than `enough`; `None` if the residuals do
 /// not exist there.
 pub fn minimise(start: &[f64], ranges: &[Range], enough: f64, residuals: &mut Residuals) -> Option<Minimum> {
+    minimise_by(start, ranges, enough, residuals, &mut |at, residuals| jacobian(at, ranges, residuals))
+}
+
+/// The same with derivatives from elsewhere.
+pub fn minimise_by(
+    start: &[f64],
+    ranges: &[Range],
+    enough: f64,
+    residuals: &mut Residuals,
+    slopes: &mut Slopes,
+) -> Option<Minimum> {
     let at: Vec<f64> = start.iter().zip(ranges).map(|(x, r)| x.clamp(r.lower, r.upper)).collect();
     let residual = residuals(&at)?;
     let mut best = Minimum { cost: square(&residual), at, residual, jacobian: Vec::new() };
-    best.jacobian = jacobian(&best, ranges, residuals);
+    best.jacobian = slopes(&best, residuals);
     let mut damping = DAMPING[0];
     for _ in 0..ROUNDS {
         let before = best.cost;
@@ -64,7 +81,7 @@ pub fn minimise(start: &[f64], ranges: &[Range], enough: f64, residuals: &mut Re
             Some(next) => best = next,
             None => break,
         }
-        best.jacobian = jacobian(&best, ranges, residuals);
+        best.jacobian = slopes(&best, residuals);
         if before - best.cost < enough + 1e-9 * best.cost {
             break;
         }
@@ -157,7 +174,6 @@ pub fn products(jacobian: &[Vec<f64>], chosen: &[usize]) -> DMatrix<f64> {
     DMatrix::from_fn(chosen.len(), chosen.len(), |i, j| dot(&jacobian[chosen[i]], &jacobian[chosen[j]]))
 }
 
-/// Scalar product.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

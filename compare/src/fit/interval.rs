@@ -39,7 +39,6 @@ const MOST_DOF: f64 = 1e4;
 
 /// Data that a fit was held against.
 pub struct FittedData<'a> {
-    /// Protocol.
     pub dataset: &'a Dataset,
     /// Noise of their mean.
     pub noise: &'a NoiseModel,
