@@ -9,6 +9,7 @@
 
 use super::case::Case;
 use super::problem::{Fit, Problem};
+use super::source::pressure_levels;
 use crate::error::CompareError;
 use crate::fit::least_squares::{dot, products, square};
 use crate::policy;
@@ -101,12 +102,7 @@ fn taken_over_m2(fold: &Fold, fit: &Fit, predicted_m: &[f64], rows: &[usize]) ->
 
 fn pressure_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
     let dataset = &case.first().dataset;
-    let mut levels: Vec<f64> = Vec::new();
-    for hold in dataset.holds.iter().filter(|h| h.p_act_pa > policy::ZERO_PRESSURE_PA) {
-        if !levels.iter().any(|l| policy::is_same_pressure(*l, hold.p_act_pa)) {
-            levels.push(hold.p_act_pa);
-        }
-    }
+    let levels = pressure_levels(&dataset.holds);
     if levels.len() < 2 {
         return Ok(Vec::new());
     }

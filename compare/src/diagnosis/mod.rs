@@ -53,7 +53,6 @@ mod pressures_tests;
 mod problem;
 mod result;
 mod screen;
-mod shapes;
 mod singles;
 mod source;
 mod stands_out;
@@ -62,7 +61,6 @@ mod story;
 mod tests;
 #[cfg(test)]
 mod together_tests;
-mod traces;
 pub mod words;
 
 pub use crate::prepare::{Outliers, OutlyingRun};

@@ -14,14 +14,13 @@
 //! No pattern knows an effect. A misfit along one of them more than along all effects is what "outside the catalogue" means.
 
 use super::case::Case;
-use super::look;
-use super::shapes::Shape;
+use super::experiments::TIP_FORCE_N;
+use super::source::pressure_levels;
 use crate::layout::Layout;
-use crate::policy;
+use crate::wording::short;
+use data::{Hold, Phase};
 
-/// Directions of the image.
-const AXES: [(&str, [f64; 2]); 2] = [("x", [1.0, 0.0]), ("y", [0.0, 1.0])];
-
+/// A pattern in the data.
 pub struct Pattern {
     /// What it looks like, to follow "What is left looks as if".
     pub words: String,
@@ -31,17 +30,8 @@ pub struct Pattern {
     pub is_uniform: bool,
     /// What broke, if this is what something broken looks like.
     pub fault: Option<Fault>,
-    /// Its place, as an index into [`Patterns::shapes`].
-    pub shape: usize,
-    /// When: one factor per hold.
-    pub time: Vec<f64>,
-}
-
-/// All patterns, and the displacements of their places \[any unit\].
-#[derive(Default)]
-pub struct Patterns {
-    pub all: Vec<Pattern>,
-    pub shapes: Vec<Shape>,
+    /// In run layout \[any unit\].
+    pub direction: Vec<f64>,
 }
 
 /// A fault that one pattern tells by itself.
@@ -53,6 +43,7 @@ pub enum Fault {
     Hold,
 }
 
+/// Where a pattern acts.
 enum Place {
     /// A rotation halfway between neighbouring markers, 0 between base and first marker.
     Bend(usize),
@@ -60,20 +51,19 @@ enum Place {
     Bends(Vec<f64>),
     /// One marker in x or y.
     Marker(usize, [f64; 2]),
+    /// One marker along the robot.
     Along(usize),
     /// All markers in x or y.
     All([f64; 2]),
 }
-
-/// When: one factor per hold.
-type Time = Vec<f64>;
 
 /// A time that singles out holds.
 struct When {
     /// To follow what happens then.
     words: String,
     check: String,
-    time: Time,
+    /// One factor per hold.
+    time: Vec<f64>,
 }
 
 /// The robot seen in one sample: base and markers in the order of their stations.
@@ -90,77 +80,101 @@ struct Outline {
 }
 
 /// All patterns for a prediction in run layout \[m\]; none for data of another shape.
-pub fn patterns(case: &Case, prediction_m: &[f64]) -> Patterns {
-    let Ok(layout) = Layout::of(&case.first().dataset) else { return Patterns::default() };
-    let (names, outlines) = (&case.first().dataset.markers, outlines(case, &layout, prediction_m));
+pub fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
+    let Ok(layout) = Layout::of(&case.first().dataset) else { return Vec::new() };
+    let (markers, outlines) = (&case.first().dataset.markers, outlines(case, &layout, prediction_m));
     let bent = bending(&layout, prediction_m);
     let stations = order(&case.first().scenario.markers_m);
     let always = vec![1.0; layout.holds];
-    let mut found = Patterns::default();
-    let place = |place: Place| shape(case, &layout, &outlines, &place);
-    let mut add = |words: String, check: String, shape: usize, time: &Time| {
+    let mut found = Vec::new();
+    let mut add = |words: String, check: String, place: &Place, time: &Vec<f64>| {
         let fault = (*time == always || *time == bent).then_some(Fault::Place);
-        found.all.push(Pattern { words, check, is_uniform: false, fault, shape, time: time.clone() });
-    };
-    let mut shapes = Vec::new();
-    let mut next = |shape: Shape| {
-        shapes.push(shape);
-        shapes.len() - 1
+        let direction = direction(case, &layout, &outlines, place, time);
+        found.push(Pattern { words, check, is_uniform: false, fault, direction });
     };
     // A rotation before the first marker is one of mount or camera, which the catalogue has.
     for k in 1..layout.markers {
-        let at = between(&stations, k, |m| &names[m].name);
-        let one = next(place(Place::Bend(k)));
-        let words = format!("the robot bends otherwise {at} in proportion to its bending");
-        add(words, look::stretch(&at), one, &bent);
-        add(format!("the robot has a fixed kink {at}"), look::kink(&at), one, &always);
+        let [before, beyond] = [k - 1, k].map(|at| &markers[stations[at]].name);
+        let at = format!("between markers {before} and {beyond}");
+        let look = format!(
+            "look at the body and the actuator {at} (a pouch that does not fill, a fold, tape, a leak), and hang a known force on \
+             the tip with the actuator vented: a wall that is stiffer there bends less there then too, an actuator that pulls less \
+             does not"
+        );
+        add(format!("the robot bends otherwise {at} in proportion to its bending"), look, &Place::Bend(k), &bent);
+        let look = format!(
+            "photograph the inflated body with the actuator vented, and once more rolled by 180°: a kink {at} is there without \
+             actuator and rolls along, an error of camera or markers does not"
+        );
+        add(format!("the robot has a fixed kink {at}"), look, &Place::Bend(k), &always);
     }
-    let along = |f: fn(f64) -> f64| place(Place::Bends(stretches(case).iter().map(|[s, ds]| f(*s) * ds).collect()));
-    let steady = next(along(|s| 1.0 - 2.0 * s));
-    add("stiffness changes steadily along the robot".into(), look::along(), steady, &bent);
-    let middle = next(along(|s| 1.0 - 6.0 * s + 6.0 * s * s));
-    add("the robot's middle bends otherwise than its ends".into(), look::along(), middle, &bent);
-    for (m, marker) in names.iter().enumerate() {
+    let all_along = |f: fn(f64) -> f64| Place::Bends(stretches(case).iter().map(|[s, ds]| f(*s) * ds).collect());
+    let look = "hang a known force on the inflated body with the actuator vented, first on its middle and then on its tip: a wall \
+                that is not the same all along gives two stiffnesses, one that is the same leaves the actuator, whose widths and \
+                seams are measured from base to tip";
+    let steady = all_along(|s| 1.0 - 2.0 * s);
+    add("stiffness changes steadily along the robot".into(), look.into(), &steady, &bent);
+    let middle = all_along(|s| 1.0 - 6.0 * s + 6.0 * s * s);
+    add("the robot's middle bends otherwise than its ends".into(), look.into(), &middle, &bent);
+    for (m, marker) in markers.iter().enumerate() {
         let name = &marker.name;
-        let station = next(place(Place::Along(m)));
-        add(format!("marker {name} sits elsewhere along the robot"), look::station(name), station, &always);
+        let look = format!(
+            "measure the station of marker {name} along the straight robot with a tape, and correct s_mm in about.toml if it is \
+             another one"
+        );
+        add(format!("marker {name} sits elsewhere along the robot"), look, &Place::Along(m), &always);
         for (axis, unit) in AXES {
-            let words = format!("marker {name} stands alone in {axis}");
-            add(words, look::marker(name), next(place(Place::Marker(m, unit))), &always);
+            let look = format!(
+                "look at marker {name} in the images (what the tracking follows there, labels that are exchanged), glue it on \
+                 anew and take one run again: what is the marker's own moves with it"
+            );
+            add(format!("marker {name} stands alone in {axis}"), look, &Place::Marker(m, unit), &always);
         }
     }
     let times = times(case, &bent);
-    let tip = next(along(|s| 1.0 - s));
-    let images = AXES.map(|(axis, unit)| (axis, next(place(Place::All(unit)))));
+    let tip = all_along(|s| 1.0 - s);
     for When { words, check, time } in &times {
-        add(format!("something bends the robot from its tip {words}"), look::tip(check), tip, time);
-        for (axis, image) in images {
-            add(format!("the image shifts in {axis} {words}"), look::image(check), image, time);
+        let look = format!(
+            "look for what touches or pulls the tip (a hose, a cable, the floor), and {check}, also with ±{TIP_FORCE_N} N on the tip"
+        );
+        add(format!("something bends the robot from its tip {words}"), look, &tip, time);
+        for (axis, unit) in AXES {
+            let look = format!(
+                "put fiducials on the clamp and in the room and {check}: camera and mount move them too, the robot does not"
+            );
+            add(format!("the image shifts in {axis} {words}"), look, &Place::All(unit), time);
         }
     }
-    let whole = next(along(|_| 1.0));
-    let read = case.is_gauged();
+    let whole = all_along(|_| 1.0);
+    let gauge = if case.is_gauged() { "" } else { ", with a gauge read at the actuator (column p_gauge_kpa)" };
     for (i, When { words, check, time }) in times.into_iter().enumerate() {
-        let (words, check) = (format!("the whole robot bends otherwise {words}"), look::whole(&check, read));
-        // Single holds come first.
-        let fault = (i < layout.holds).then_some(Fault::Hold);
-        found.all.push(Pattern { words, check, is_uniform: true, fault, shape: whole, time });
+        found.push(Pattern {
+            words: format!("the whole robot bends otherwise {words}"),
+            check: format!("{check}{gauge}"),
+            is_uniform: true,
+            // Single holds come first.
+            fault: (i < layout.holds).then_some(Fault::Hold),
+            direction: direction(case, &layout, &outlines, &whole, &time),
+        });
     }
-    Patterns { shapes, ..found }
+    found
 }
+
+/// Directions of the image.
+const AXES: [(&str, [f64; 2]); 2] = [("x", [1.0, 0.0]), ("y", [0.0, 1.0])];
 
 /// Uniform bending of every hold by itself, what any law of a uniform robot may do: of the outline, and as the model bends with
 /// pressure, which knows stretches without actuator.
 pub fn uniform_bending(case: &Case, prediction_m: &[f64]) -> Vec<Vec<f64>> {
     let Ok(layout) = Layout::of(&case.first().dataset) else { return Vec::new() };
     let outlines = outlines(case, &layout, prediction_m);
-    let bent = shape(case, &layout, &outlines, &Place::Bends(stretches(case).iter().map(|[_, ds]| *ds).collect()));
+    let bent = Place::Bends(stretches(case).iter().map(|[_, ds]| *ds).collect());
     let by_model = |h: usize| {
         let own = layout.hold_range(h);
         let slope = case.noise().directions.iter().enumerate();
         slope.map(|(i, u)| if own.contains(&i) { u[0] } else { 0.0 }).collect()
     };
-    let by_outline = |h: usize| bent.direction(&alone(layout.holds, h));
+    let by_outline = |h: usize| direction(case, &layout, &outlines, &bent, &alone(layout.holds, h));
     (0..layout.holds).flat_map(|h| [by_outline(h), by_model(h)]).collect()
 }
 
@@ -178,32 +192,34 @@ fn stretches(case: &Case) -> Vec<[f64; 2]> {
     ordered.iter().map(&mut stretch).collect()
 }
 
-fn alone(holds: usize, hold: usize) -> Time {
+fn alone(holds: usize, hold: usize) -> Vec<f64> {
     (0..holds).map(|i| f64::from(u8::from(i == hold))).collect()
 }
 
 /// Times that single out holds, with words; every hold by itself first.
-fn times(case: &Case, bent: &Time) -> Vec<When> {
+fn times(case: &Case, bent: &[f64]) -> Vec<When> {
     let holds = &case.first().dataset.holds;
-    let mut all: Vec<When> = Vec::new();
-    for (h, hold) in holds.iter().enumerate() {
-        let (words, check) =
-            (format!("in hold {} alone ({:.0} kPa)", h + 1, hold.p_act_pa / 1e3), look::one_hold(h + 1, hold));
-        all.push(When { words, check, time: alone(holds.len(), h) });
-    }
+    let one = |(h, hold): (usize, &Hold)| {
+        let (number, pressure) = (h + 1, short(1e-3 * hold.p_act_pa));
+        let branch = if hold.phase == Phase::Unload { " on the way down" } else { "" };
+        let check = format!(
+            "take hold {number} again ({pressure} kPa{branch}), early and late in a run: what belongs to the pressure comes again, \
+             what happened once does not"
+        );
+        let words = format!("in hold {number} alone ({:.0} kPa)", hold.p_act_pa / 1e3);
+        When { words, check, time: alone(holds.len(), h) }
+    };
+    let mut all: Vec<When> = holds.iter().enumerate().map(one).collect();
+    let finer = |from: &str| format!("repeat in finer steps of pressure{from} to see where it begins and how it grows");
     let time = bent.iter().map(|b| b * b).collect();
-    all.push(When { words: "faster than its bending".into(), check: look::finer(None), time });
-    let mut levels: Vec<f64> = Vec::new();
-    for p in holds.iter().map(|h| h.p_act_pa).filter(|p| *p > policy::ZERO_PRESSURE_PA) {
-        if !levels.iter().any(|l| policy::is_same_pressure(*l, p)) {
-            levels.push(p);
-        }
-    }
+    all.push(When { words: "faster than its bending".into(), check: finer(""), time });
+    let mut levels = pressure_levels(holds);
     levels.sort_by(f64::total_cmp);
     // Above the last but one level there is one hold level left, which stands alone already.
     for from in levels.iter().take(levels.len().saturating_sub(2)) {
         let time = holds.iter().map(|h| (h.p_act_pa - from).max(0.0)).collect();
-        all.push(When { words: format!("from {:.0} kPa on", from / 1e3), check: look::finer(Some(*from)), time });
+        let check = finer(&format!(" around and above {} kPa", short(1e-3 * from)));
+        all.push(When { words: format!("from {:.0} kPa on", from / 1e3), check, time });
     }
     all
 }
@@ -213,11 +229,6 @@ fn order(stations_m: &[f64]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..stations_m.len()).collect();
     order.sort_by(|a, b| stations_m[*a].total_cmp(&stations_m[*b]));
     order
-}
-
-/// Where the k-th point lies, k ≥ 1.
-fn between<'a>(order: &[usize], k: usize, name: impl Fn(usize) -> &'a String) -> String {
-    format!("between markers {} and {}", name(order[k - 1]), name(order[k]))
 }
 
 fn outlines(case: &Case, layout: &Layout, prediction_m: &[f64]) -> Vec<Outline> {
@@ -238,31 +249,27 @@ fn outlines(case: &Case, layout: &Layout, prediction_m: &[f64]) -> Vec<Outline> 
 }
 
 /// Deflection of the farthest marker per hold, last sample, over the largest.
-fn bending(layout: &Layout, prediction_m: &[f64]) -> Time {
+fn bending(layout: &Layout, prediction_m: &[f64]) -> Vec<f64> {
     let tip = |h: usize| {
         let last = layout.index(h, layout.samples - 1, 0);
         let sample = &prediction_m[last..last + 2 * layout.markers];
         sample.chunks_exact(2).map(|xy| xy[1]).fold(0.0, |a: f64, y| if y.abs() > a.abs() { y } else { a })
     };
-    let all: Time = (0..layout.holds).map(tip).collect();
+    let all: Vec<f64> = (0..layout.holds).map(tip).collect();
     let most = all.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     if most > 0.0 { all.iter().map(|b| b / most).collect() } else { all }
 }
 
-/// Of markers where they were seen.
-fn shape(case: &Case, layout: &Layout, outlines: &[Outline], place: &Place) -> Shape {
-    let beyond = |m: &usize| {
-        outlines.first().is_some_and(|outline| match place {
-            Place::Bend(k) => outline.place[*m] > *k,
-            Place::Marker(own, _) | Place::Along(own) => own == m,
-            Place::Bends(_) | Place::All(_) => true,
-        })
-    };
-    let moved: Vec<usize> = (0..layout.markers).filter(beyond).collect();
-    Shape::of(layout, &moved, &|sample, marker| match case.first().dataset.is_seen(sample / layout.samples, marker) {
-        true => displacement(&outlines[sample], place, marker),
-        false => [0.0; 2],
-    })
+/// Displacements of a place at some times, of markers where they were seen.
+fn direction(case: &Case, layout: &Layout, outlines: &[Outline], place: &Place, time: &[f64]) -> Vec<f64> {
+    let mut all = Vec::with_capacity(layout.values());
+    for (sample, outline) in outlines.iter().enumerate() {
+        let hold = sample / layout.samples;
+        let factor = |marker: usize| if case.first().dataset.is_seen(hold, marker) { time[hold] } else { 0.0 };
+        let moved = |marker: usize| displacement(outline, place, marker).map(|d| factor(marker) * d);
+        all.extend((0..layout.markers).flat_map(moved));
+    }
+    all
 }
 
 fn displacement(outline: &Outline, place: &Place, marker: usize) -> [f64; 2] {

@@ -10,7 +10,7 @@ use crate::prepare::{Outliers, prepare};
 use crate::slips::slips;
 use crate::study::fit_scenario;
 use crate::study::predict::{is_open, without_settled};
-use data::{About, Dataset, Direct, MeasuredValue};
+use data::{About, Dataset, Direct, Hold, MeasuredValue};
 use models::Scenario;
 use models::effects::Stage;
 
@@ -34,10 +34,19 @@ pub fn seen_rolled(scenario: &Scenario) -> Scenario {
 
 /// Distinct body pressures in order of appearance \[Pa\].
 pub fn body_pressures<'d>(datasets: impl IntoIterator<Item = &'d Dataset>) -> Vec<f64> {
+    levels(datasets.into_iter().flat_map(|dataset| &dataset.holds).map(|hold| hold.p_body_pa))
+}
+
+/// Distinct actuator pressures above zero in order of appearance \[Pa\].
+pub fn pressure_levels(holds: &[Hold]) -> Vec<f64> {
+    levels(holds.iter().map(|h| h.p_act_pa).filter(|p| *p > policy::ZERO_PRESSURE_PA))
+}
+
+fn levels(pressures_pa: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut levels: Vec<f64> = Vec::new();
-    for hold in datasets.into_iter().flat_map(|dataset| &dataset.holds) {
-        if !levels.iter().any(|l| policy::is_same_pressure(*l, hold.p_body_pa)) {
-            levels.push(hold.p_body_pa);
+    for p in pressures_pa {
+        if !levels.iter().any(|l| policy::is_same_pressure(*l, p)) {
+            levels.push(p);
         }
     }
     levels

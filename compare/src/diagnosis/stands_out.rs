@@ -5,13 +5,12 @@
 //! the 99 % quantile of the largest of simulated correlated normals is met (fixed seed), and p = 1 − (1 − p₁)^m.
 
 use super::case::Case;
-use super::patterns::{Fault, Pattern, Patterns, patterns, uniform_bending};
+use super::patterns::{Fault, Pattern, patterns, uniform_bending};
 use super::problem::Fit;
 use super::result::LeftPattern;
-use super::traces::{Beside, Traces};
 use crate::fit::basis::Basis;
 use crate::fit::least_squares::{dot, square};
-use crate::stats::{SMALLEST_P, reported_p, two_sided_p};
+use crate::stats::{SMALLEST_P, quantile, reported_p, two_sided_p};
 use crate::study::generate::Scatter;
 use nalgebra::DMatrix;
 use std::cell::OnceCell;
@@ -25,6 +24,8 @@ const TOGETHER: usize = 8;
 const QUANTILE: f64 = 0.99;
 /// Seed of the simulation.
 const SEED: u64 = 20_261_121;
+/// A pattern of which fits leave less than this share cannot be told from them.
+const LEFT: f64 = 0.02;
 /// Share of a pattern's variance below which the patterns before it contain it.
 const NEW: f64 = 1e-6;
 
@@ -57,7 +58,8 @@ pub struct Simpler {
 pub struct Look {
     /// The clearest first.
     pub seen: Vec<StandsOut>,
-    traces: Traces,
+    /// Unit vectors of all patterns.
+    units: Vec<Vec<f64>>,
     tests: OnceCell<f64>,
 }
 
@@ -84,7 +86,9 @@ impl Look {
     }
 
     fn tests(&self) -> f64 {
-        *self.tests.get_or_init(|| independent(&self.traces.correlations()).unwrap_or(self.seen.len() as f64))
+        let count = self.units.len();
+        let correlations = || DMatrix::from_fn(count, count, |i, j| dot(&self.units[i], &self.units[j]));
+        *self.tests.get_or_init(|| independent(&correlations()).unwrap_or(count as f64))
     }
 }
 
@@ -134,44 +138,32 @@ pub fn left_pattern(case: &Case, last: Option<&Fit>, fault: Option<&Simpler>) ->
     look.is_below(&seen, case.alpha).then(|| told(fit, &seen, look.p_value(&seen), instead))
 }
 
+/// `beside_bending`: what uniform bending explains of a place is fitted out.
 fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Look {
-    let prediction = case.prediction(fit);
-    let patterns = if case.gives_p_values() { patterns(case, &prediction) } else { Patterns::default() };
-    let [fitted, of_places] = fitted_out(case, fit, &prediction, beside_bending);
-    let traces = Traces::of(patterns, &beside(case, fit, &fitted, &of_places));
-    let mut seen: Vec<StandsOut> = Vec::new();
-    for trace in &traces.left {
-        let Pattern { words, check, is_uniform, fault, .. } = traces.pattern(trace);
-        let (gain, p_alone) = (trace.t * trace.t, two_sided_p(trace.t, case.noise().pure_error_dof));
-        seen.push(StandsOut {
-            words: words.clone(),
-            check: check.clone(),
-            is_uniform: *is_uniform,
-            fault: *fault,
-            gain,
-            p_alone,
-        });
-    }
-    seen.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-    Look { seen, traces, tests: OnceCell::new() }
-}
-
-/// What is fitted out of every pattern, and out of places.
-fn fitted_out(case: &Case, fit: &Fit, prediction_m: &[f64], beside_bending: bool) -> [Basis; 2] {
-    let fitted =
-        Basis::of(&fit.minimum.jacobian.iter().map(|column| case.of_first(column).to_vec()).collect::<Vec<_>>());
+    let (prediction, whitener) = (case.prediction(fit), &case.problem.blocks[0].whitener);
+    let patterns = if case.gives_p_values() { patterns(case, &prediction) } else { Vec::new() };
+    let columns: Vec<Vec<f64>> = fit.minimum.jacobian.iter().map(|column| case.of_first(column).to_vec()).collect();
+    let fitted = Basis::of(&columns);
     let mut of_places = fitted.clone();
-    if beside_bending {
-        for column in uniform_bending(case, prediction_m) {
-            of_places.add(&case.problem.blocks[0].whitener.whiten(&column));
+    for column in if beside_bending { uniform_bending(case, &prediction) } else { Vec::new() } {
+        of_places.add(&whitener.whiten(&column));
+    }
+    let residual = case.of_first(&fit.minimum.residual);
+    let (mut seen, mut units) = (Vec::new(), Vec::new());
+    for Pattern { words, check, is_uniform, fault, direction } in patterns {
+        let white = whitener.whiten(&direction);
+        let mut unit = if is_uniform { &fitted } else { &of_places }.rest(&white);
+        let left = square(&unit);
+        if left > LEFT * LEFT * square(&white) && left > 0.0 {
+            unit.iter_mut().for_each(|v| *v /= left.sqrt());
+            let t = dot(&unit, residual);
+            let (gain, p_alone) = (t * t, two_sided_p(t, case.noise().pure_error_dof));
+            seen.push(StandsOut { words, check, is_uniform, fault, gain, p_alone });
+            units.push(unit);
         }
     }
-    [fitted, of_places]
-}
-
-fn beside<'a>(case: &'a Case, fit: &'a Fit, fitted: &'a Basis, of_places: &'a Basis) -> Beside<'a> {
-    let residual = case.of_first(&fit.minimum.residual);
-    Beside { whitener: &case.problem.blocks[0].whitener, fitted, of_places, residual }
+    seen.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    Look { seen, units, tests: OnceCell::new() }
 }
 
 /// p of the clearest of several independent ones.
@@ -196,7 +188,7 @@ fn independent(correlations: &DMatrix<f64>) -> Option<f64> {
         largest.extend(largest_of(&factor, &noise));
     }
     largest.sort_by(f64::total_cmp);
-    let quantile = crate::stats::quantile(&largest, QUANTILE)?;
+    let quantile = quantile(&largest, QUANTILE)?;
     Some((QUANTILE.ln() / (-two_sided_p(quantile, 0)).ln_1p()).clamp(1.0, m as f64))
 }
 
@@ -234,70 +226,25 @@ fn largest_of(factor: &[Vec<f64>], noise: &[[f64; TOGETHER]]) -> [f64; TOGETHER]
 #[cfg(test)]
 mod tests {
     use super::super::pattern_tests::of_base;
-    use super::super::traces::LEFT;
     use super::*;
     use crate::study::{Generator, generate, published::textbook_scenario};
 
-    /// Index of every pattern that is left, and its unit vector.
-    fn units(patterns: &Patterns, beside: &Beside) -> Vec<(usize, Vec<f64>)> {
-        let unit = |(i, pattern): (usize, &Pattern)| {
-            let white = beside.whitener.whiten(&patterns.shapes[pattern.shape].direction(&pattern.time));
-            let rest = if pattern.is_uniform { beside.fitted } else { beside.of_places }.rest(&white);
-            let left = square(&rest);
-            let is_left = left > LEFT * LEFT * square(&white) && left > 0.0;
-            is_left.then(|| (i, rest.iter().map(|v| v / left.sqrt()).collect()))
-        };
-        patterns.all.iter().enumerate().filter_map(unit).collect()
-    }
-
-    /// Correlations of unit vectors.
-    fn correlations(units: &[(usize, Vec<f64>)]) -> DMatrix<f64> {
-        DMatrix::from_fn(units.len(), units.len(), |i, j| dot(&units[i].1, &units[j].1))
-    }
-
-    /// Whitened, projected and multiplied at length, one by one.
     #[test]
-    fn many_patterns_at_once_are_the_same_as_one_by_one() {
-        let usual = Generator::default();
-        // Pressures scatter a thousand times as much as the camera: nearly all of some patterns is taken off.
-        let scattered = Generator { camera_sd_m: 2e-5, pressure_sd: 0.1, ..usual.clone() };
-        for (kind, bending, effect, value, generator) in [
-            ("spam", 6.0, "end_constraint", 0.1, &usual),
-            ("fpam", 0.3, "friction", 0.3, &usual),
-            ("epam", 1.35, "base_clamp", 1.0, &scattered),
-        ] {
+    fn what_bounds_answer_is_what_the_number_of_tests_answers() {
+        for (kind, bending, effect, value) in [("spam", 6.0, "end_constraint", 0.1), ("fpam", 0.3, "friction", 0.3)] {
             let plain = textbook_scenario(kind).unwrap().with_bending(bending);
-            let length_m = plain.markers_m.last().copied().unwrap();
-            let told = plain.with_markers(&(1..=14).map(|i| length_m * f64::from(i) / 14.0).collect::<Vec<_>>());
             let candidate = models::effects::EFFECTS.iter().find(|e| e.name == effect).unwrap();
             let values = [&[value], &candidate.typical()[1..]].concat();
-            let data = generate(&told.with_effect(effect, &values), "made", generator).unwrap();
-            of_base(&told, &data, |case| [true, false].into_iter().for_each(|bent| agree(case, bent)));
-        }
-    }
-
-    fn agree(case: &Case, beside_bending: bool) {
-        let prediction = case.prediction(&case.base);
-        let [fitted, of_places] = fitted_out(case, &case.base, &prediction, beside_bending);
-        let beside = beside(case, &case.base, &fitted, &of_places);
-        let units = units(&patterns(case, &prediction), &beside);
-        let traces = Traces::of(patterns(case, &prediction), &beside);
-        assert!(units.len() > 60 && units.iter().map(|u| u.0).eq(traces.left.iter().map(|t| t.pattern)));
-        let largest = traces.left.iter().map(|t| t.t.abs()).fold(1.0, f64::max);
-        for (trace, (_, unit)) in traces.left.iter().zip(&units) {
-            let t = dot(unit, beside.residual);
-            assert!((trace.t - t).abs() < 1e-9 * largest, "{}: {} {t}", traces.pattern(trace).words, trace.t);
-        }
-        let (fast, slow) = (traces.correlations(), correlations(&units));
-        assert!((&fast - &slow).amax() < 1e-9, "{}", (&fast - &slow).amax());
-        let [fast, slow] = [fast, slow].map(|correlations| independent(&correlations).unwrap());
-        assert!((fast / slow - 1.0).abs() < 1e-5, "{fast} {slow}");
-        // What bounds answer is what the number of tests answers.
-        let look = look(case, &case.base, beside_bending);
-        for seen in &look.seen {
-            let p = of_several(seen.p_alone, look.tests());
-            assert_eq!(look.p_value(seen), reported_p(p));
-            assert!([0.002, 0.01, 0.2].iter().all(|level| look.is_below(seen, *level) == (p < *level)));
+            let data = generate(&plain.with_effect(effect, &values), "made", &Generator::default()).unwrap();
+            of_base(&plain, &data, |case| {
+                let look = look(case, &case.base, true);
+                assert!(look.seen.len() > 30);
+                for seen in &look.seen {
+                    let p = of_several(seen.p_alone, look.tests());
+                    assert_eq!(look.p_value(seen), reported_p(p));
+                    assert!([0.002, 0.01, 0.2].iter().all(|level| look.is_below(seen, *level) == (p < *level)));
+                }
+            });
         }
     }
 

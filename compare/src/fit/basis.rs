@@ -20,10 +20,6 @@ impl Basis {
         basis
     }
 
-    pub fn columns(&self) -> &[Vec<f64>] {
-        &self.columns
-    }
-
     /// What is left of a vector when the span is fitted to it. Twice, because once leaves rounding.
     pub fn rest(&self, vector: &[f64]) -> Vec<f64> {
         let mut rest = vector.to_vec();

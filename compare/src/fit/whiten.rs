@@ -65,16 +65,6 @@ impl Whitener {
         self.unit_m
     }
 
-    /// Columns √ℓ b/s for which |whitened r|² = |r|²/s² − Σ (column·r)²; ℓ = w/(s² + w) is the share of the variance along b that
-    /// scatters between runs.
-    pub fn lost(&self) -> impl Iterator<Item = Vec<f64>> {
-        let s = self.unit_m;
-        self.basis.iter().zip(&self.spread_m2).map(move |(b, w)| {
-            let factor = (w / (s * s + w)).sqrt() / s;
-            b.iter().map(|b| factor * b).collect()
-        })
-    }
-
     /// The residuals \[m\] in units of their standard deviation, uncorrelated.
     pub fn whiten(&self, residual_m: &[f64]) -> Vec<f64> {
         let mut white = residual_m.to_vec();
