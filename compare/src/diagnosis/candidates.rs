@@ -1,5 +1,6 @@
 //! The effects that may be missing: the one place where the diagnosis meets the catalogue.
 
+use super::explained::ParameterValue;
 use crate::fit::least_squares::Range;
 use crate::policy;
 use data::MeasuredValue;
@@ -69,6 +70,20 @@ impl Free {
         match self.is_free() {
             true => Range { lower: self.lower, upper: self.upper, scale: self.scale() },
             false => Range::fixed(self.held_at(), self.scale()),
+        }
+    }
+
+    /// As a fit found it, in SI.
+    pub fn found(&self, value: f64, interval: Option<[f64; 2]>, at_bound: bool) -> ParameterValue {
+        ParameterValue {
+            key: self.key.clone(),
+            symbol: self.symbol.clone(),
+            unit: self.unit.clone(),
+            value: value / self.si,
+            held: !self.is_free(),
+            lo: interval.map(|i| i[0] / self.si),
+            hi: interval.map(|i| i[1] / self.si),
+            at_bound,
         }
     }
 

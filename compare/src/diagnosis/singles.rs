@@ -1,6 +1,6 @@
 //! Every effect of the catalogue refitted together with the base, and the set that the data cannot tell apart.
 
-use super::candidates::Candidate;
+use super::candidates::{Candidate, Free};
 use super::case::Case;
 use super::heldout::HeldOut;
 use super::interval::intervals;
@@ -133,20 +133,9 @@ pub fn rank(case: &Case, singles: &Ordered, held_out: &HeldOut) -> Vec<Ranked> {
 /// Parameters of all effects of a fit in the units of the scenario.
 pub fn parameter_values(case: &Case, fit: &Fit, profiled: bool) -> Vec<ParameterValue> {
     let intervals = intervals(case, fit, profiled);
-    let from = case.problem.bendings;
     let free = fit.effects.iter().flat_map(|e| &case.candidate(*e).parameters);
-    free.enumerate()
-        .map(|(k, p)| ParameterValue {
-            key: p.key.clone(),
-            symbol: p.symbol.clone(),
-            unit: p.unit.clone(),
-            value: fit.theta()[from + k] / p.si,
-            held: !p.is_free(),
-            lo: intervals[from + k].map(|i| i[0] / p.si),
-            hi: intervals[from + k].map(|i| i[1] / p.si),
-            at_bound: fit.binding[from + k],
-        })
-        .collect()
+    let found = |(k, p): (usize, &Free)| p.found(fit.theta()[k], intervals[k], fit.binding[k]);
+    (case.problem.bendings..).zip(free).map(found).collect()
 }
 
 fn notes(case: &Case, fit: &Fit, own: &[ParameterValue]) -> Vec<String> {

@@ -6,7 +6,7 @@ mod text;
 
 pub(crate) use steps::Ground;
 pub use steps::{ErrorStep, error_steps};
-pub use text::{Addition, NewBending};
+pub use text::{Addition, NewBending, today};
 pub(crate) use text::{Origin, extended, origins};
 
 use crate::diagnosis::words::{listed, named, three};
@@ -43,6 +43,26 @@ pub struct Extension {
     pub told: Vec<String>,
     /// Cautions.
     pub warnings: Vec<String>,
+}
+
+impl Extension {
+    /// A new text, without errors on the way.
+    fn written(
+        file: &ScenarioFile,
+        bending: Option<NewBending>,
+        additions: Vec<Addition>,
+        told: Vec<String>,
+    ) -> Result<Extension, CompareError> {
+        let (fitted, steps, warnings) = (Vec::new(), Vec::new(), Vec::new());
+        let file = extended(file, bending.as_ref(), &additions)?;
+        Ok(Extension { file, additions, fitted, bending, steps, noise_floor_mm: None, told, warnings })
+    }
+
+    /// The same with the last step of a diagnosis.
+    fn climbed(self, ground: &Ground, step: ErrorStep) -> Extension {
+        let steps = ground.first_steps().into_iter().chain([step]).collect();
+        Extension { steps, noise_floor_mm: ground.d.base.noise_floor_mm, warnings: ground.warnings(), ..self }
+    }
 }
 
 /// An effect and its fitted values.
@@ -157,17 +177,7 @@ fn assumed(file: &ScenarioFile, name: &str, values: &Values) -> Result<Extension
         remarks: sentence.into_iter().collect(),
     };
     let told = vec![format!("Assumed: {}. Nothing was fitted; name data to fit it.", with_values_told(&addition))];
-    let additions = vec![addition];
-    Ok(Extension {
-        file: extended(file, None, &additions)?,
-        additions,
-        fitted: Vec::new(),
-        bending: None,
-        steps: Vec::new(),
-        noise_floor_mm: None,
-        told,
-        warnings: Vec::new(),
-    })
+    Extension::written(file, None, vec![addition], told)
 }
 
 fn fitted(file: &ScenarioFile, ground: &Ground, name: &str) -> Result<Extension, CompareError> {
@@ -221,16 +231,7 @@ fn climbed(
     told: Vec<String>,
 ) -> Result<Extension, CompareError> {
     let bending = ground.new_bending(step.bending_nm2);
-    Ok(Extension {
-        file: extended(file, bending.as_ref(), &additions)?,
-        additions,
-        fitted: Vec::new(),
-        bending,
-        steps: ground.first_steps().into_iter().chain([step]).collect(),
-        noise_floor_mm: ground.d.base.noise_floor_mm,
-        told,
-        warnings: ground.warnings(),
-    })
+    Ok(Extension::written(file, bending, additions, told)?.climbed(ground, step))
 }
 
 fn with_values(scenario: &Scenario, name: &str, values: &Values) -> Scenario {
@@ -279,9 +280,4 @@ fn ranked<'a>(d: &'a Diagnosis, name: &str) -> Result<&'a Ranked, CompareError> 
         return Err(CompareError::refused(message, by_hand));
     }
     Ok(r)
-}
-
-/// Today's date, UTC.
-pub fn today() -> String {
-    time::OffsetDateTime::now_utc().date().to_string()
 }

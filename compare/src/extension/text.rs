@@ -228,6 +228,11 @@ fn set_body(document: &mut DocumentMut, new: &BodyValue) -> Option<()> {
     Some(())
 }
 
+/// Today's date, UTC.
+pub fn today() -> String {
+    time::OffsetDateTime::now_utc().date().to_string()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

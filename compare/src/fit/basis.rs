@@ -1,6 +1,6 @@
 //! Orthonormal bases of a few long columns: what is left of a trace when others are fitted out.
 
-use crate::fit::least_squares::{dot, square};
+use super::least_squares::{dot, square};
 
 /// Part of a column that must be new for it to count.
 const NEW_PART: f64 = 1e-6;

@@ -26,11 +26,17 @@
 //! is near or the interval exceeds 30 % of the value, the profile of the sum of squares replaces the linear one; not where the law
 //! misses, because that sum's rise is then no measure of it.
 
+use super::basis::own_part;
+use super::least_squares::{Range, Residuals, minimise, square};
 use crate::noise::NoiseModel;
 use crate::policy;
 use data::Dataset;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
+/// Part of a column that must be its own for the data to hold the parameter.
+const LEAST_OWN: f64 = 1e-9;
+/// A round of a profile's fit that lowers the sum of squares by less is the last one.
+const ENOUGH: f64 = 1e-2;
 /// Halvings of the bracket of a profile's end.
 const HALVINGS: usize = 10;
 /// Degrees of freedom beyond which t is normal to three digits. The quantile of `statrs` is 1.83 in place of 1.96 at 1e7, and at
@@ -168,6 +174,34 @@ pub fn interval(
     }
 }
 
+/// Weights of a parameter on whitened values, and half of the second derivative of the least sum of squares; `None` if the data do not
+/// hold it.
+pub fn weights(jacobian: &[Vec<f64>], k: usize) -> Option<(Vec<f64>, f64)> {
+    let own = own_part(jacobian, k);
+    let squares = square(&own);
+    let is_held = squares > LEAST_OWN * square(&jacobian[k]) && squares > 0.0;
+    is_held.then(|| (own.iter().map(|v| v / squares).collect(), squares))
+}
+
+/// The interval of a parameter of a fit; `residuals` make its profile.
+pub fn of_parameter(
+    k: usize,
+    at: &[f64],
+    ranges: &[Range],
+    (half, squares): (Half, f64),
+    residuals: Option<&mut Residuals>,
+) -> Option<[f64; 2]> {
+    let (linear, bounds) = ((at[k], half, squares), [ranges[k].lower, ranges[k].upper]);
+    let Some(residuals) = residuals else { return Some(interval(linear, bounds, None)) };
+    let least = square(&residuals(at)?);
+    let (mut theta, mut held) = (at.to_vec(), ranges.to_vec());
+    let mut rise = |x: f64| {
+        (held[k], theta[k]) = (Range::fixed(x, held[k].scale), x);
+        minimise(&theta, &held, ENOUGH, residuals).map_or(f64::INFINITY, |found| found.cost - least)
+    };
+    Some(interval(linear, bounds, Some(&mut rise)))
+}
+
 /// Where `is_inside` ends, or the bound.
 fn profile_end(value: f64, step: f64, bound: f64, is_inside: &mut dyn FnMut(f64) -> bool) -> f64 {
     let beyond = |x: f64| if step > 0.0 { x >= bound } else { x <= bound };
@@ -187,10 +221,6 @@ fn profile_end(value: f64, step: f64, bound: f64, is_inside: &mut dyn FnMut(f64)
         if is_inside(middle) { inside = middle } else { outside = middle }
     }
     0.5 * (inside + outside)
-}
-
-fn square(a: &[f64]) -> f64 {
-    a.iter().map(|v| v * v).sum()
 }
 
 #[cfg(test)]

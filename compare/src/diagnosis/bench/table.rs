@@ -15,8 +15,7 @@ use crate::bench::{ANY_WIDTH_M, is_free, measured, modelled, own_or_braid, refus
 use crate::diagnosis::candidates::Free;
 use crate::diagnosis::problem::is_binding;
 use crate::diagnosis::result::ParameterValue;
-use crate::fit::basis::own_part;
-use crate::fit::interval::{Half, interval, misfit};
+use crate::fit::interval::{Half, misfit, of_parameter, weights};
 use crate::fit::least_squares::{Minimum, Range, minimise, square};
 use crate::policy;
 use crate::stats::{normal_score, t_975};
@@ -262,16 +261,7 @@ impl<'a> Table<'a> {
         let free = self.of(fit.law).flat_map(|l| &l.candidate.parameters);
         let of = |(k, p): (usize, &Free)| {
             let interval = if p.is_free() { self.interval(fit, k) } else { None };
-            ParameterValue {
-                key: p.key.clone(),
-                symbol: p.symbol.clone(),
-                unit: p.unit.clone(),
-                value: fit.minimum.at[k] / p.si,
-                held: !p.is_free(),
-                lo: interval.map(|i| i[0] / p.si),
-                hi: interval.map(|i| i[1] / p.si),
-                at_bound: fit.binding[k],
-            }
+            p.found(fit.minimum.at[k], interval, fit.binding[k])
         };
         free.enumerate().map(of).collect()
     }
@@ -279,14 +269,9 @@ impl<'a> Table<'a> {
     /// Noise and, where the law misses by more or the noise is not known, what it misses by, with curves as the unit.
     fn interval(&self, fit: &Fit, k: usize) -> Option<[f64; 2]> {
         let Minimum { at, residual, cost, jacobian } = &fit.minimum;
-        let own = own_part(jacobian, k);
-        let squares = square(&own);
-        if squares <= 1e-9 * square(&jacobian[k]) || squares == 0.0 {
-            return None;
-        }
+        let (weights, squares) = weights(jacobian, k)?;
         let missed = cost / residual.len() as f64;
         let misses = !self.known || policy::misses(missed);
-        let weights: Vec<f64> = own.iter().map(|v| v / squares).collect();
         let curves: Vec<[f64; 2]> = self
             .curves()
             .iter()
@@ -303,15 +288,9 @@ impl<'a> Table<'a> {
         let of_noise = if self.known { 0.0 } else { noise * noise / spare };
         let dof = total * total / (more * more / dof + of_noise);
         let half = Half { width: t_975(if dof < 1e4 { dof.max(1.0) as usize } else { 0 }) * total.sqrt(), misses };
-        let ranges = self.ranges(fit.law);
         let all: Vec<usize> = (0..self.readings.len()).collect();
-        let (mut theta, mut held) = (at.clone(), self.ranges(fit.law));
-        let mut rise = |x: f64| {
-            (held[k], theta[k]) = (Range::fixed(x, held[k].scale), x);
-            let mut residuals = |at: &[f64]| self.residuals(fit.law, at, &all);
-            minimise(&theta, &held, 1e-2, &mut residuals).map_or(f64::INFINITY, |found| found.cost - cost)
-        };
-        Some(interval((at[k], half, squares), [ranges[k].lower, ranges[k].upper], Some(&mut rise)))
+        let mut residuals = |at: &[f64]| self.residuals(fit.law, at, &all);
+        of_parameter(k, at, &self.ranges(fit.law), (half, squares), Some(&mut residuals))
     }
 
     /// How much more a fit scatters than its slopes say, because it leans on rows that showed a small deviation by chance:
