@@ -71,21 +71,58 @@ impl Held {
     }
 }
 
-/// Makes a model of a table and holds them together.
-type Compare = fn(&Bench, Option<&Scenario>, bool) -> Result<Held, CompareError>;
-
-/// The list: kind of table and what it is held against.
-const COMPARISONS: &[(&str, Compare)] = &[("load_deflection", beams), ("force_contraction", muscles)];
-
 /// Holds a table against a model; `calibrate` fits the one number that is usually not known (E t of a beam, the braid angle of
 /// a muscle) to one row, which is then marked.
 ///
 /// # Errors
 /// A kind without a model, or a scenario that is missing.
 pub fn held(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Result<Held, CompareError> {
-    match COMPARISONS.iter().find(|(kind, _)| *kind == bench.kind.name) {
-        Some((_, compare)) => compare(bench, scenario, calibrate),
-        None => refuse(bench, "no model is held against it", "ibr characterize reads it"),
+    let beam = is_beam(bench)?;
+    let scenario = own_or_braid(bench, scenario)?;
+    let of_one_specimen: &[&str] = if beam { &["p_body", "radius"] } else { &["muscle"] };
+    let (mut rows, mut notes) = (Vec::new(), Vec::new());
+    for group in bench.rows.chunk_by(|a, b| of_one_specimen.iter().all(|key| a.get(key) == b.get(key))) {
+        let mut trial = Trial { scenario: scenario.clone(), bias_rad: None };
+        let fitted = calibrated_on(group).filter(|_| calibrate);
+        if let Some(row) = fitted {
+            let specimen = trial.specimen_of(bench, &group[0]);
+            notes.push(if beam { trial.calibrate_wall(row, &specimen?) } else { trial.calibrate_angle(row) });
+        }
+        for row in group {
+            let (specimen, sd) = (trial.specimen_of(bench, row)?, if beam { "deflection_sd" } else { "force_sd" });
+            let unit = match (beam, is_free(row)) {
+                (true, _) => 1e3,
+                (false, true) => 100.0,
+                (false, false) => 1.0,
+            };
+            rows.push(HeldRow {
+                at: place(row, &specimen),
+                measured: unit * measured(row),
+                model: modelled(row, &specimen).map(|v| unit * v),
+                half: if is_free(row) { None } else { half(row, sd, unit) },
+                fitted: fitted.is_some_and(|f| f.line == row.line),
+            });
+        }
+    }
+    let (what, quantity) = if beam { ("Inflated beam", "deflection mm") } else { ("Muscle", "value") };
+    let known = match (beam, notes.is_empty()) {
+        (true, _) if !calibrate => Known::Predicted,
+        (false, true) => Known::Assumed,
+        _ => Known::Calibrated,
+    };
+    let title = format!("{what}, {} against {}", scenario.name, bench.file);
+    Ok(Held { title, quantity: quantity.into(), known, rows, notes })
+}
+
+/// Whether the table is one of beams; else it is one of muscles.
+///
+/// # Errors
+/// A kind without a model.
+pub(crate) fn is_beam(bench: &Bench) -> Result<bool, CompareError> {
+    match bench.kind.name {
+        "load_deflection" => Ok(true),
+        "force_contraction" => Ok(false),
+        _ => refuse(bench, "no model is held against it", "ibr characterize reads it"),
     }
 }
 
@@ -121,40 +158,89 @@ pub(crate) fn modelled(row: &BenchRow, specimen: &Scenario) -> Option<f64> {
     }
 }
 
-/// The scenario in the size and at the pressure of a row; `bias_rad` goes before the angle of the table.
-///
-/// # Errors
-/// What is missing, and what to add.
-pub(crate) fn specimen(
-    row: &BenchRow,
-    scenario: &Scenario,
-    bias_rad: Option<f64>,
-) -> Result<Scenario, [&'static str; 2]> {
-    if row.get("load").is_some() {
-        let radius_m = row.get("radius").unwrap_or(scenario.radius_m);
-        return Ok(Scenario { p_body_pa: row.value("p_body"), radius_m, ..scenario.clone() });
+/// A scenario in which something is tried, and a yarn angle that goes before the table's.
+#[derive(Clone)]
+pub(crate) struct Trial {
+    pub scenario: Scenario,
+    pub bias_rad: Option<f64>,
+}
+
+impl Trial {
+    /// The scenario in the size and at the pressure of a row, or what is missing and what to add.
+    pub fn specimen(&self, row: &BenchRow) -> Result<Scenario, [&'static str; 2]> {
+        let Trial { scenario, bias_rad } = self;
+        if row.get("load").is_some() {
+            let radius_m = row.get("radius").unwrap_or(scenario.radius_m);
+            return Ok(Scenario { p_body_pa: row.value("p_body"), radius_m, ..scenario.clone() });
+        }
+        let ActuatorChoice { kind, shape, .. } = scenario.actuator;
+        let (diameter, bias) = (row.get("diameter"), bias_rad.or(row.get("bias").map(f64::to_radians)));
+        if !scenario.actuator.exists() {
+            return Err(["the scenario has no actuator", "name one with [actuator], or none"]);
+        }
+        if kind.family == Family::Pouch && diameter.or(bias).is_some() {
+            let help = "name a scenario with kind = \"fpam\", or none";
+            return Err(["the table tells of a tube of yarns, and the scenario's actuator is a pouch", help]);
+        }
+        let (bias_rad, width_m) = (bias.unwrap_or(shape.bias_rad), diameter.map_or(shape.width_m, |d| FRAC_PI_2 * d));
+        // What pulls nothing may have any size.
+        let width_m = if width_m.is_nan() && is_free(row) { ANY_WIDTH_M } else { width_m };
+        if bias_rad.is_nan() || width_m.is_nan() {
+            let help = "add bias_deg and diameter_mm, name a scenario before the table, or add --calibrate";
+            return Err(["a muscle needs its size and its yarns' angle", help]);
+        }
+        let told = row.get("length").unwrap_or(shape.length_m);
+        let length_m = if told.is_nan() { LONG * width_m } else { told };
+        let shape = ActuatorShape { length_m, width_m, bias_rad, ..shape };
+        let actuator = ActuatorChoice { shape, count: 1, start_m: 0.0, ..scenario.actuator };
+        Ok(Scenario { length_m, actuator, zones: Vec::new(), ..scenario.clone() })
     }
-    let ActuatorChoice { kind, shape, .. } = scenario.actuator;
-    let (diameter, bias) = (row.get("diameter"), bias_rad.or(row.get("bias").map(f64::to_radians)));
-    if !scenario.actuator.exists() {
-        return Err(["the scenario has no actuator", "name one with [actuator], or none"]);
+
+    fn specimen_of(&self, bench: &Bench, row: &BenchRow) -> Result<Scenario, CompareError> {
+        self.specimen(row).or_else(|[problem, help]| refuse(bench, problem, help))
     }
-    if kind.family == Family::Pouch && diameter.or(bias).is_some() {
-        let help = "name a scenario with kind = \"fpam\", or none";
-        return Err(["the table tells of a tube of yarns, and the scenario's actuator is a pouch", help]);
+
+    /// E t that gives a beam the deflection of a row; it falls with E t. In words.
+    fn calibrate_wall(&mut self, row: &BenchRow, beam: &Scenario) -> String {
+        let off = |e: f64| {
+            let mut beam = beam.clone();
+            beam.wall.stiffness_n_per_m = Some(e);
+            deflection_m(&beam, row.value("load")).map_or(f64::INFINITY, |v| v - row.value("deflection"))
+        };
+        let at = format!("{:.0} kPa, {:.0} mm", 1e-3 * beam.p_body_pa, 1e3 * beam.radius_m);
+        let (mut soft, mut stiff) = (1e3_f64, 1e8_f64);
+        if !(off(soft) > 0.0 && off(stiff) < 0.0) {
+            self.scenario.wall.stiffness_n_per_m = None;
+            return format!("{at}: no E t between 1 kN/m and 100 MN/m gives the first load's deflection");
+        }
+        for _ in 0..50 {
+            let middle = (soft * stiff).sqrt();
+            *(if off(middle) > 0.0 { &mut soft } else { &mut stiff }) = middle;
+        }
+        let wall = (soft * stiff).sqrt();
+        self.scenario.wall.stiffness_n_per_m = Some(wall);
+        format!("{at}: E t = {:.0} kN/m, calibrated on the first load", 1e-3 * wall)
     }
-    let (bias_rad, width_m) = (bias.unwrap_or(shape.bias_rad), diameter.map_or(shape.width_m, |d| FRAC_PI_2 * d));
-    // What pulls nothing may have any size.
-    let width_m = if width_m.is_nan() && is_free(row) { ANY_WIDTH_M } else { width_m };
-    if bias_rad.is_nan() || width_m.is_nan() {
-        let help = "add bias_deg and diameter_mm, name a scenario before the table, or add --calibrate";
-        return Err(["a muscle needs its size and its yarns' angle", help]);
+
+    /// Angle at rest of the yarns of an ideal braid that shortens so far without load; not a number above 1 − 1/√3. In words.
+    fn calibrate_angle(&mut self, row: &BenchRow) -> String {
+        let bias_rad = (1.0 / (3.0_f64.sqrt() * (1.0 - row.value("contraction")))).acos();
+        self.bias_rad = Some(bias_rad);
+        format!("yarns at {:.1}°, calibrated on the largest contraction", bias_rad.to_degrees())
     }
-    let told = row.get("length").unwrap_or(shape.length_m);
-    let length_m = if told.is_nan() { LONG * width_m } else { told };
-    let shape = ActuatorShape { length_m, width_m, bias_rad, ..shape };
-    let actuator = ActuatorChoice { shape, count: 1, start_m: 0.0, ..scenario.actuator };
-    Ok(Scenario { length_m, actuator, zones: Vec::new(), ..scenario.clone() })
+}
+
+/// The row on which the number of a specimen is calibrated: the least load of a beam, the largest contraction of a free muscle.
+fn calibrated_on(group: &[BenchRow]) -> Option<&BenchRow> {
+    let loaded = group.iter().filter(|r| r.get("load").is_some_and(|load| load > 0.0) && r.value("deflection") > 0.0);
+    let contraction = |r: &&BenchRow| r.value("contraction");
+    match group[0].get("load") {
+        Some(_) => loaded.min_by(|a, b| a.value("load").total_cmp(&b.value("load"))),
+        None => group
+            .iter()
+            .max_by(|a, b| contraction(a).total_cmp(&contraction(b)))
+            .filter(|row| is_free(row) && row.get("bias").is_none()),
+    }
 }
 
 /// Flat width of a free muscle of unknown size \[m\].
@@ -193,37 +279,6 @@ pub(crate) fn place(row: &BenchRow, specimen: &Scenario) -> String {
     format!("{muscle}{}{}{:.0} kPa, {at}", told("diameter", "thick"), told("length", "long"), 1e-3 * row.value("p_act"))
 }
 
-fn beams(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Result<Held, CompareError> {
-    let scenario = own_or_braid(bench, scenario)?;
-    let mut rows = Vec::new();
-    let mut notes = Vec::new();
-    let same = |a: &BenchRow, b: &BenchRow| a.get("p_body") == b.get("p_body") && a.get("radius") == b.get("radius");
-    for group in bench.rows.chunk_by(same) {
-        let mut beam = specimen(&group[0], &scenario, None).or_else(|[problem, help]| refuse(bench, problem, help))?;
-        let loaded = group.iter().filter(|r| r.value("load") > 0.0 && r.value("deflection") > 0.0);
-        let first = loaded.min_by(|a, b| a.value("load").total_cmp(&b.value("load"))).filter(|_| calibrate);
-        if let Some(row) = first {
-            let wall = wall_n_per_m(&beam, row.value("load"), row.value("deflection"));
-            beam.wall.stiffness_n_per_m = wall;
-            let at = format!("{:.0} kPa, {:.0} mm", 1e-3 * beam.p_body_pa, 1e3 * beam.radius_m);
-            notes.push(match wall {
-                Some(e) => format!("{at}: E t = {:.0} kN/m, calibrated on the first load", 1e-3 * e),
-                None => format!("{at}: no E t between 1 kN/m and 100 MN/m gives the first load's deflection"),
-            });
-        }
-        rows.extend(group.iter().map(|row| HeldRow {
-            at: place(row, &beam),
-            measured: 1e3 * row.value("deflection"),
-            model: modelled(row, &beam).map(|v| 1e3 * v),
-            half: half(row, "deflection_sd", 1e3),
-            fitted: first.is_some_and(|f| f.line == row.line),
-        }));
-    }
-    let known = if calibrate { Known::Calibrated } else { Known::Predicted };
-    let title = format!("Inflated beam, {} against {}", scenario.name, bench.file);
-    Ok(Held { title, quantity: "deflection mm".into(), known, rows, notes })
-}
-
 /// Tip deflection from where the tip is without the force, under a force across it; none beyond collapse.
 fn deflection_m(beam: &Scenario, force_n: f64) -> Option<f64> {
     let known = beam.effects.iter().find(|e| e.name == "tip_load").map_or([0.0; 2], |e| [e.values[0], e.values[1]]);
@@ -235,55 +290,6 @@ fn deflection_m(beam: &Scenario, force_n: f64) -> Option<f64> {
     };
     let at_rest = if beam.effects.is_empty() { 0.0 } else { tip(0.0)? };
     Some(at_rest - tip(force_n)?)
-}
-
-/// E t that gives a deflection under a load \[N/m\]; it falls with E t.
-fn wall_n_per_m(beam: &Scenario, force_n: f64, wanted_m: f64) -> Option<f64> {
-    let off = |e: f64| {
-        let mut beam = beam.clone();
-        beam.wall.stiffness_n_per_m = Some(e);
-        deflection_m(&beam, force_n).map_or(f64::INFINITY, |v| v - wanted_m)
-    };
-    let (mut soft, mut stiff) = (1e3_f64, 1e8_f64);
-    if !(off(soft) > 0.0 && off(stiff) < 0.0) {
-        return None;
-    }
-    for _ in 0..50 {
-        let middle = (soft * stiff).sqrt();
-        *(if off(middle) > 0.0 { &mut soft } else { &mut stiff }) = middle;
-    }
-    Some((soft * stiff).sqrt())
-}
-
-/// Angle at rest of the yarns of an ideal braid that shortens so far without load \[rad\]; not a number above 1 − 1/√3.
-fn bias_rad(free_contraction: f64) -> f64 {
-    (1.0 / (3.0_f64.sqrt() * (1.0 - free_contraction))).acos()
-}
-
-fn muscles(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Result<Held, CompareError> {
-    let scenario = own_or_braid(bench, scenario)?;
-    let mut rows = Vec::new();
-    let mut notes = Vec::new();
-    for group in bench.rows.chunk_by(|a, b| a.get("muscle") == b.get("muscle")) {
-        let most = group.iter().max_by(|a, b| a.value("contraction").total_cmp(&b.value("contraction")));
-        let fitted = most.filter(|row| calibrate && is_free(row) && row.get("bias").is_none());
-        let bias = fitted.map(|row| bias_rad(row.value("contraction")));
-        notes.extend(bias.map(|b| format!("yarns at {:.1}°, calibrated on the largest contraction", b.to_degrees())));
-        for row in group {
-            let muscle = specimen(row, &scenario, bias).or_else(|[problem, help]| refuse(bench, problem, help))?;
-            let unit = if is_free(row) { 100.0 } else { 1.0 };
-            rows.push(HeldRow {
-                at: place(row, &muscle),
-                measured: unit * measured(row),
-                model: modelled(row, &muscle).map(|v| unit * v),
-                half: if is_free(row) { None } else { half(row, "force_sd", 1.0) },
-                fitted: fitted.is_some_and(|f| f.line == row.line),
-            });
-        }
-    }
-    let known = if notes.is_empty() { Known::Assumed } else { Known::Calibrated };
-    let title = format!("Muscle, {} against {}", scenario.name, bench.file);
-    Ok(Held { title, quantity: "value".into(), known, rows, notes })
 }
 
 #[cfg(test)]

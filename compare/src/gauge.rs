@@ -187,9 +187,6 @@ impl Gauge {
     }
 
     /// Whitens the differences between laws and readings.
-    ///
-    /// # Errors
-    /// If the covariance cannot be decomposed.
     pub fn whitener(&self) -> Result<Whitener, CompareError> {
         let column = |of: &dyn Fn(&Reading) -> f64| self.readings.iter().map(of).collect::<Vec<f64>>();
         let columns = [

@@ -69,9 +69,6 @@ pub fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate>, usiz
 
 impl<'a> Case<'a> {
     /// Estimates the noise and fits the base, twice: each needs the other.
-    ///
-    /// # Errors
-    /// What the model or the noise estimate returns; data beside the first with fewer than three runs.
     pub fn new(
         sources: &'a [Source],
         (candidates, own): (&'a [Candidate], usize),
@@ -92,9 +89,6 @@ impl<'a> Case<'a> {
     }
 
     /// The same with noise from elsewhere.
-    ///
-    /// # Errors
-    /// What the model or the noise returns.
     pub fn with_noise(
         sources: &'a [Source],
         noise: &NoiseOf,

@@ -55,9 +55,6 @@ impl Decision {
 }
 
 /// Tests fits of single effects, fits pairs where they are wanted, and decides.
-///
-/// # Errors
-/// What the tests return.
 pub fn decide(
     case: &Case,
     (singles, allowance): (Vec<Fit>, f64),

@@ -31,9 +31,6 @@ const BAND: f64 = 1.96;
 
 /// What is missing in all data, relative to the scenario as given: with its own bending stiffness, or the one that was measured by
 /// itself. A fitted one would hide in the points whatever it takes the place of; it is a curve among the others.
-///
-/// # Errors
-/// A curve without equilibrium.
 pub fn missing_moment(
     case: &Case,
     seen: &[Seen],
@@ -71,9 +68,6 @@ impl Seen {
 
     /// What another robot misses at the bends that were measured, moment after moment and place after place \[N·m\]: the base,
     /// changed.
-    ///
-    /// # Errors
-    /// Pressures or times that are refused.
     pub fn missing(
         &self,
         block: &Block,
@@ -134,9 +128,6 @@ fn curves(
 }
 
 /// The curves of one fit: ways up and down at every body pressure.
-///
-/// # Errors
-/// A pressure that is refused.
 pub fn curves_of(
     case: &Case,
     fit: &Fit,

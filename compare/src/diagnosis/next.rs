@@ -39,9 +39,6 @@ const LAMBDA_ERROR: f64 = 0.05;
 
 /// Looks for the experiment; `None` if there is nothing to separate or the noise is unknown. Where the answer is outside the
 /// catalogue the names at hand are wrong anyhow: nothing is computed to separate them, and `outside` says what to look at.
-///
-/// # Errors
-/// What the model returns for a planned experiment.
 pub fn next_experiment(
     case: &Case,
     decision: &Decision,

@@ -55,9 +55,6 @@ struct Undone {
 
 impl Pressures<'_> {
     /// The slip that beats the base and all `rivals`, if there is one.
-    ///
-    /// # Errors
-    /// What the rivals return.
     pub fn found(
         &self,
         case: &Case,

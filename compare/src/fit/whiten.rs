@@ -22,17 +22,11 @@ pub struct Whitener {
 
 impl Whitener {
     /// `directions` are the rows of U, `unit_m` is s \[m\] (positive), `variances` is v.
-    ///
-    /// # Errors
-    /// If the eigenproblem does not converge (values that are not finite).
     pub fn new(directions: &[[f64; 4]], unit_m: f64, variances: &[f64; 4]) -> Result<Whitener, CompareError> {
         Self::with_columns(directions, unit_m, variances, &[])
     }
 
     /// The same with further columns of U, each times the square root of its variance.
-    ///
-    /// # Errors
-    /// As [`Whitener::new`].
     pub fn with_columns(
         directions: &[[f64; 4]],
         unit_m: f64,

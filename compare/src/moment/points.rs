@@ -66,9 +66,6 @@ const COMPLETE: f64 = 3.0;
 type Sum = Vec<(f64, usize, usize)>;
 
 /// What a robot misses at a shape.
-///
-/// # Errors
-/// Pressures or times that are refused.
 pub fn moments(view: &View, shape: &Shape, robot: &Robot) -> Result<Moments, CompareError> {
     let field = Field::of(view, shape, robot)?;
     let layout = Layout::of(&shape.division);
@@ -198,9 +195,6 @@ impl Field {
 }
 
 /// Missing moment of every place at given bends, moment after moment \[N·m\].
-///
-/// # Errors
-/// Pressures or times that are refused.
 pub fn missing(view: &View, shape: &Shape, robot: &Robot, bends: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, CompareError> {
     let steps = shape.division.steps(view.dataset);
     let places = shape.division.places.len();

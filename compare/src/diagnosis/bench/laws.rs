@@ -1,16 +1,10 @@
 //! What may be missing on a bench: effects of the catalogue, and numbers of the scenario that are usually not known.
 
+use crate::bench::Trial;
 use crate::diagnosis::candidates::{Candidate, Free, candidate, hold, hold_shapes};
 use data::Bench;
 use models::Scenario;
 use models::effects::{Effect, Fitted, Group, Stage};
-
-/// A scenario with something tried, and a yarn angle that goes before the table's.
-#[derive(Clone)]
-pub struct Trial {
-    pub scenario: Scenario,
-    pub bias_rad: Option<f64>,
-}
 
 /// An effect, or a number of the scenario.
 pub struct Law {

@@ -1,9 +1,8 @@
 //! One row of a table: what was measured, how well, of which specimen, at what load.
 
 use super::scatter::steadied;
-use crate::bench::{is_free, measured, place, specimen};
+use crate::bench::{Trial, is_free, measured, place};
 use data::bench::BenchRow;
-use models::Scenario;
 
 pub struct Reading<'a> {
     pub row: &'a BenchRow,
@@ -33,9 +32,9 @@ impl<'a> Reading<'a> {
     }
 
     /// A row of a scenario's table.
-    pub fn new(row: &'a BenchRow, scenario: &Scenario, small: f64, sigma: Option<f64>) -> Reading<'a> {
+    pub fn new(row: &'a BenchRow, trial: &Trial, small: f64, sigma: Option<f64>) -> Reading<'a> {
         let beam = row.get("load").is_some();
-        let sized = specimen(row, scenario, None).unwrap_or_else(|_| scenario.clone());
+        let sized = trial.specimen(row).unwrap_or_else(|_| trial.scenario.clone());
         let sd = row.get(if beam { "deflection_sd" } else { "force_sd" }).filter(|_| !is_free(row));
         let told = sd.zip(row.get("n")).map(|(sd, n)| [sd / n.sqrt(), n - 1.0]);
         let collapse_n = std::f64::consts::PI * sized.p_body_pa * sized.radius_m.powi(3) / sized.length_m;

@@ -8,10 +8,10 @@
 //! where both are well above e, and a share of e below: half and double are as far off. Without standard deviations σ is what
 //! the best explanation leaves: differences are then ordered, and no p-value is formed.
 
-use super::laws::{Law, Trial, laws};
+use super::laws::{Law, laws};
 use super::reading::{Reading, groups, steady};
 use crate::CompareError;
-use crate::bench::{ANY_WIDTH_M, is_free, measured, modelled, own_or_braid, refuse, specimen};
+use crate::bench::{ANY_WIDTH_M, Trial, is_beam, is_free, measured, modelled, own_or_braid, refuse};
 use crate::diagnosis::candidates::Free;
 use crate::diagnosis::problem::is_binding;
 use crate::diagnosis::result::ParameterValue;
@@ -63,9 +63,7 @@ impl<'a> Table<'a> {
         sigma: Option<f64>,
         refit: bool,
     ) -> Result<Table<'a>, CompareError> {
-        if bench.kind.columns.iter().all(|c| c.base != "load" && c.base != "contraction") {
-            return refuse(bench, "no model is held against it", "ibr characterize reads it");
-        }
+        is_beam(bench)?;
         let scenario = own_or_braid(bench, scenario)?;
         let scenario = Scenario { segments: scenario.segments.min(SEGMENTS), ..scenario };
         let (laws, always) = laws(bench, &scenario, refit);
@@ -80,7 +78,7 @@ impl<'a> Table<'a> {
         };
         let mut readings = Vec::new();
         for row in &bench.rows {
-            readings.push(Reading::new(row, &trial.scenario, LEAST_SHARE * largest(is_free(row)), sigma));
+            readings.push(Reading::new(row, &trial, LEAST_SHARE * largest(is_free(row)), sigma));
         }
         for free in [false, true] {
             steady(readings.iter_mut().filter(|r| is_free(r.row) == free));
@@ -109,7 +107,7 @@ impl<'a> Table<'a> {
         let theta: Vec<f64> = self.always.iter().flat_map(|i| self.laws[*i].candidate.at(1.0)).collect();
         let trial = self.tried(None, &theta);
         for r in &self.readings {
-            if let Err([problem, help]) = specimen(r.row, &trial.scenario, trial.bias_rad) {
+            if let Err([problem, help]) = trial.specimen(r.row) {
                 let help = help.replace(", or add --calibrate", "");
                 return refuse(bench, &format!("line {}: {problem}", r.row.line), &help);
             }
@@ -173,7 +171,7 @@ impl<'a> Table<'a> {
 
     fn predicted_by(&self, trial: &Trial) -> Option<Vec<f64>> {
         let of = |r: &Reading| {
-            let specimen = specimen(r.row, &trial.scenario, trial.bias_rad).ok()?;
+            let specimen = trial.specimen(r.row).ok()?;
             // A beam that has folded hangs from its clamp.
             modelled(r.row, &specimen).or(r.row.get("load").map(|_| specimen.length_m)).filter(|v| v.is_finite())
         };
