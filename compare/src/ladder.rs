@@ -1,7 +1,7 @@
 //! Diagnose and extend until what is left is noise.
 
 use crate::diagnosis::words::listed;
-use crate::diagnosis::{Added, Confidence, Diagnosis, Group, KeptBending, Options, Verdict, diagnose};
+use crate::diagnosis::{Added, Confidence, Diagnosis, Group, KeptBending, Options, Verdict, diagnose, names_of};
 use crate::error::CompareError;
 use crate::evidence::Evidence;
 use crate::extension::{ErrorStep, Extension, FittedEffect, Ground, extend, extended};
@@ -100,8 +100,7 @@ impl Climb {
     fn step(&mut self, file: &ScenarioFile, d: &Diagnosis) -> Result<ScenarioFile, CompareError> {
         let Extension { file, steps, fitted, .. } = extend(file, d)?;
         let number = self.steps.len() + 1;
-        let names: Vec<&str> = d.added.iter().map(|a| a.effect.as_str()).collect();
-        let written = format!("step-{number}-{}.toml", names.join("-"));
+        let written = format!("step-{number}-{}.toml", names_of(&d.added).join("-"));
         self.told.push(told(number, d));
         self.rungs.extend(steps.into_iter().last());
         self.files.push((written.clone(), file.text.clone()));
@@ -145,8 +144,7 @@ fn end(d: &Diagnosis, left: f64, (count, most): (usize, usize)) -> Option<(&'sta
             ("out_of_catalog", format!("Nothing in the catalogue explains what is left, {left:.2} mm. {places}{kept}"))
         }
         Some(Verdict::Effect) if count + d.added.len() > most => {
-            let names: Vec<&str> = d.added.iter().map(|a| a.effect.as_str()).collect();
-            let next = names.join(" and ");
+            let next = names_of(&d.added).join(" and ");
             (
                 "most_effects",
                 format!(

@@ -1,7 +1,6 @@
 //! Answers to what is missing, as they are drawn and told: one effect or two, each at the values of its own fit.
 
-use super::fitted::with_fitted;
-use super::result::{Added, Combination, Diagnosis, ParameterValue, Ranked, Verdict};
+use super::result::{Combination, Diagnosis, ParameterValue, Ranked, Verdict};
 use crate::policy;
 use models::{Known, Scenario};
 
@@ -77,6 +76,17 @@ impl<'d> Answer<'d> {
 }
 
 impl Diagnosis {
+    /// Which of the fitted bending stiffnesses, one per body pressure, belongs to a body pressure \[kPa\]: the nearest.
+    pub fn level(&self, p_body_kpa: f64) -> usize {
+        let away = |k: &usize| (self.base.bending[*k].p_body_kpa - p_body_kpa).abs();
+        (0..self.base.bending.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
+    }
+
+    /// The scenario with the calibrated B of a level; its own if B was kept.
+    pub fn calibrated(&self, scenario: &Scenario, level: usize) -> Scenario {
+        with_fitted(scenario, &[], self.base.bending.get(level).map(|b| b.value_nm2))
+    }
+
     /// Every effect and every reported pair: what is stated first and in that order, or the attempt and what comes as close; then
     /// others by their gain; those on a bound last.
     pub fn answers(&self) -> Vec<Answer<'_>> {
@@ -148,8 +158,7 @@ impl Diagnosis {
 
     /// The effects of a pair with their share of its values; refitted effects of the scenario come before them.
     fn members<'d>(&'d self, pair: &'d Combination) -> Vec<(&'d Ranked, &'d [ParameterValue])> {
-        let ranked = |name: &String| self.ranked.iter().find(|r| r.effect == *name);
-        let effects: Vec<&Ranked> = pair.effects.iter().filter_map(ranked).collect();
+        let effects: Vec<&Ranked> = pair.effects.iter().filter_map(|name| self.ranked(name)).collect();
         let own: usize = effects.iter().map(|r| r.parameters.len()).sum();
         let mut values = pair.parameters.get(pair.parameters.len().saturating_sub(own)..).unwrap_or(&[]);
         let mut member = |r: &'d Ranked| {
@@ -160,10 +169,14 @@ impl Diagnosis {
         effects.into_iter().map(&mut member).collect()
     }
 
+    /// An effect as it is ranked.
+    pub fn ranked(&self, effect: &str) -> Option<&Ranked> {
+        self.ranked.iter().find(|r| r.effect == effect)
+    }
+
     /// The closest in mm may be too far down the list of pairs to be in it.
     fn unreported_attempt(&self) -> Answer<'_> {
-        let member = |a: &'_ Added| self.ranked.iter().position(|r| r.effect == a.effect);
-        let members = self.attempt.iter().filter_map(|a| Some((&self.ranked[member(a)?], a.parameters.as_slice())));
+        let members = self.attempt.iter().filter_map(|a| Some((self.ranked(&a.effect)?, a.parameters.as_slice())));
         Answer {
             effects: members.collect(),
             bending_nm2: &self.base.bending_with_added_nm2,
@@ -172,4 +185,19 @@ impl Diagnosis {
             standing: Standing::Attempt,
         }
     }
+}
+
+/// The scenario with effects at their fitted values, and a B if one is given. Names that the scenario does not know are left out.
+pub fn with_fitted(scenario: &Scenario, added: &[(&str, &[ParameterValue])], bending_nm2: Option<f64>) -> Scenario {
+    let catalogue = scenario.catalogue();
+    let mut with = scenario.clone();
+    for (name, fitted) in added {
+        let Some(effect) = catalogue.by_name(name) else { continue };
+        let value = |p: &models::effects::Parameter| {
+            fitted.iter().find(|v| v.key == p.key).map_or(p.neutral, |v| v.value) * p.si
+        };
+        let values: Vec<f64> = effect.parameters.iter().map(value).collect();
+        with = with.with_effect(name, &values);
+    }
+    bending_nm2.map_or(with.clone(), |b| with.with_bending(b))
 }

@@ -116,6 +116,11 @@ pub struct AsClose {
     pub systematic_after_mm: f64,
 }
 
+/// Names of effects that are added.
+pub(crate) fn names_of(added: &[Added]) -> Vec<String> {
+    added.iter().map(|a| a.effect.clone()).collect()
+}
+
 /// An effect that the verdict adds to the model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Added {

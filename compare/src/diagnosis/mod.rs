@@ -27,7 +27,6 @@ mod distance;
 mod evaluator;
 mod experiments;
 mod explained;
-mod fitted;
 #[cfg(test)]
 mod gauge_tests;
 mod heldout;
@@ -65,11 +64,11 @@ pub mod words;
 
 pub use crate::prepare::{Outliers, OutlyingRun};
 pub use crate::slips::pressure::{BestEffect, PressureSlipFound};
+pub(crate) use answers::with_fitted;
 pub use answers::{Answer, Standing};
 pub use bench::{BenchDiagnosis, BenchOptions, BenchRanked, LeftOut, diagnose_bench};
 pub use distance::{Distances, KnownNoise, distances, power};
 pub use experiments::{BENDING_TEST, BENDING_TEST_NAME};
-pub(crate) use fitted::with_fitted;
 pub use known::{BENCH_TEST, BENCH_TESTS, BenchTest};
 pub use options::{Options, PRESSURES_ARE_RIGHT};
 pub use pressures::pressure_slip;

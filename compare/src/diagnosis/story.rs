@@ -5,7 +5,7 @@ use data::Direct;
 
 use super::result::{
     AsClose, Confidence, Diagnosis, FittedBeside, GaugeFit, Group, KeptBending, LearnedLaw, LeftPattern, Ranked,
-    Verdict,
+    Verdict, names_of,
 };
 use super::words::{quantity, with_interval};
 use crate::wording::{list, p_value};
@@ -79,6 +79,11 @@ pub fn story(d: &Diagnosis) -> Vec<String> {
     told
 }
 
+/// p of "nothing is missing".
+fn p_of(d: &Diagnosis) -> String {
+    d.p_value.map(p_value).unwrap_or_default()
+}
+
 fn opening(d: &Diagnosis) -> String {
     let noise = d.base.noise_floor_mm.map_or("noise unknown".into(), |n| format!("noise of the mean {n:.2} mm"));
     let calibrated = if d.base.bending.is_empty() { "with the scenario's B" } else { "after fitting B" };
@@ -110,7 +115,7 @@ fn gauge(fit: &GaugeFit) -> Option<String> {
 
 fn by_design(d: &Diagnosis, entry: &AsClose) -> String {
     let name = list(&entry.effects);
-    let sentence = d.ranked.iter().find(|r| entry.effects.contains(&r.effect)).map_or("", |r| r.sentence.as_str());
+    let sentence = d.ranked.iter().find(|r| entry.effects.contains(&r.effect)).map_or("", |r| &r.sentence);
     format!(
         "First look at how the robot is made. {sentence} The scenario has no {name}: switched on as the design has it, with \
          nothing of it fitted, it brings the misfit over all data to {:.2} mm.",
@@ -131,11 +136,8 @@ fn ranking_only(d: &Diagnosis) -> Vec<String> {
 }
 
 fn nothing(d: &Diagnosis) -> Vec<String> {
-    let mut told = vec![format!(
-        "No missing effect detectable ({} after correcting for {} effects).",
-        d.p_value.map(p_value).unwrap_or_default(),
-        d.ranked.len()
-    )];
+    let mut told =
+        vec![format!("No missing effect detectable ({} after correcting for {} effects).", p_of(d), d.ranked.len())];
     let mut seen: Vec<_> =
         d.undetectable.iter().filter_map(|u| Some((u, u.smallest_detectable?, u.times_typical?))).collect();
     seen.sort_by(|a, b| b.2.total_cmp(&a.2));
@@ -148,7 +150,7 @@ fn nothing(d: &Diagnosis) -> Vec<String> {
 }
 
 fn too_small(d: &Diagnosis) -> String {
-    let p = d.p_value.map(p_value).unwrap_or_default();
+    let p = p_of(d);
     match policy::is_good_enough(d.base.systematic_mm, d.tolerance_mm) {
         true => {
             format!("More than noise ({p}), and within the tolerance of {:.2} mm: too small to name.", d.tolerance_mm)
@@ -160,7 +162,7 @@ fn too_small(d: &Diagnosis) -> String {
 }
 
 fn effect(d: &Diagnosis) -> Vec<String> {
-    let names: Vec<String> = d.added.iter().map(|a| a.effect.clone()).collect();
+    let names = names_of(&d.added);
     let supply = d.gauges.first().filter(|_| d.added.iter().all(|a| a.group == Group::Supply));
     let brings = match supply {
         Some(gauge) => format!("the supply within {:.2} kPa of the gauge", gauge.after_kpa),
@@ -169,12 +171,12 @@ fn effect(d: &Diagnosis) -> Vec<String> {
     let mut told = vec![format!(
         "Adding {} brings {brings} ({} after correcting for {} effects).",
         list(&names),
-        d.p_value.map(p_value).unwrap_or_default(),
+        p_of(d),
         d.ranked.len()
     )];
     for added in &d.added {
         let values: Vec<String> = added.parameters.iter().map(with_interval).collect();
-        let sentence = d.ranked.iter().find(|r| r.effect == added.effect).map_or("", |r| r.sentence.as_str());
+        let sentence = d.ranked(&added.effect).map_or("", |r| &r.sentence);
         told.push(format!("{}: {}. {sentence}", added.effect, values.join(", ")));
     }
     if let Some(r) = d.ranked.iter().find(|r| names.len() == 1 && r.effect == names[0] && supply.is_none()) {
@@ -222,8 +224,8 @@ fn held_out(d: &Diagnosis, r: &Ranked) -> Option<String> {
 }
 
 fn outside(d: &Diagnosis) -> Vec<String> {
-    let p = d.p_value.map(p_value).unwrap_or_default();
-    let tried = list(&d.attempt.iter().map(|a| a.effect.clone()).collect::<Vec<_>>());
+    let p = p_of(d);
+    let tried = list(&names_of(&d.attempt));
     let (before, after) = (d.base.systematic_mm, d.base.systematic_with_added_mm);
     let simpler = d.pattern.as_ref().filter(|pattern| pattern.simpler);
     let mut told = vec![if simpler.is_some_and(|pattern| pattern.either) {

@@ -261,7 +261,7 @@ fn too_few_runs(evidence: &Evidence) -> Option<String> {
 
 /// The effect as the diagnosis ranks it, or why it cannot be added.
 fn ranked<'a>(d: &'a Diagnosis, name: &str) -> Result<&'a Ranked, CompareError> {
-    let Some(r) = d.ranked.iter().find(|r| r.effect == name) else {
+    let Some(r) = d.ranked(name) else {
         let message = format!("{name} is not a candidate on these data");
         return Err(CompareError::refused(message, "`ibr diagnose` prints the candidates"));
     };

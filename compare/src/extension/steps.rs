@@ -71,7 +71,7 @@ impl<'a> Ground<'a> {
 
     /// An effect to be written.
     pub fn addition(&self, name: &str, values: Vec<(String, f64)>, known: Known) -> Addition {
-        let ranked = self.d.ranked.iter().find(|r| r.effect == name);
+        let ranked = self.d.ranked(name);
         Addition {
             name: name.into(),
             values,
