@@ -2,7 +2,7 @@
 
 use super::steps::Ground;
 use super::text::{Addition, BodyValue, today, with_formula};
-use super::{Extension, FittedEffect};
+use super::written::{Extension, FittedEffect};
 use crate::diagnosis::{Diagnosis, LearnedLaw};
 use crate::error::CompareError;
 use crate::policy;

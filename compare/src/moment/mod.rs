@@ -9,6 +9,7 @@
 mod curve;
 pub(crate) mod learned;
 mod points;
+mod result;
 mod shape;
 #[cfg(test)]
 mod tests;
@@ -17,7 +18,7 @@ mod view;
 
 pub(crate) use curve::{CurvePoint, Path, at_turn, band, curve};
 pub(crate) use points::{Moments, Robot, missing, moments};
+pub use result::{MeasuredShape, MissingMoment, MomentCurve, MomentPoint, SharedNumber};
 pub(crate) use shape::{Shape, shape};
-pub use told::{MeasuredShape, MissingMoment, MomentCurve, MomentPoint, SharedNumber};
 pub(crate) use told::{degrees, sentences, shape_sentences, told};
 pub(crate) use view::View;

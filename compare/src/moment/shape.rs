@@ -9,7 +9,7 @@
 //! elsewhere, a camera that moved. The numbers that are shared are where the tracked line lies, by which it shortens as it
 //! bends (a marker's height is the same number), and the camera's scale and roll. Each is held near nothing by a wide prior.
 
-use super::told::SharedNumber;
+use super::result::SharedNumber;
 use super::view::{Division, Pieces, View};
 use crate::error::CompareError;
 use crate::fit::least_squares::{Range, minimise_by, products, square};

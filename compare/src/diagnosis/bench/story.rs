@@ -1,8 +1,8 @@
 //! The diagnosis of a table in sentences, and where a model fails.
 
 use super::reading::{Reading, groups};
+use super::result::{BenchDiagnosis, BenchRanked, LeftOut};
 use super::table::Table;
-use super::{BenchDiagnosis, BenchRanked, LeftOut};
 use crate::bench::is_free;
 use crate::diagnosis::result::Verdict;
 use crate::diagnosis::words::{quantity, with_interval};
