@@ -1,7 +1,7 @@
 //! Experiments that may be proposed, for any robot: its own pressures scaled, not ours.
 
 use super::known::BenchTest;
-use super::source::seen_rolled;
+use super::source::{Source, body_pressures, seen_rolled};
 use crate::policy;
 use data::{Dataset, Direct, Hold, Lost, Phase};
 use models::Scenario;
@@ -21,7 +21,7 @@ pub struct Plan {
     pub name: String,
     pub sentence: String,
     /// Parts, each measured as often as the data at hand; none of a bending test.
-    pub parts: Vec<Part>,
+    pub parts: Vec<Source>,
     /// Tests of their own beside them.
     pub tests: Vec<&'static BenchTest>,
 }
@@ -47,14 +47,6 @@ pub fn bending_test() -> Plan {
         parts: Vec::new(),
         tests: Vec::new(),
     }
-}
-
-pub struct Part {
-    /// The base with the loads of this part.
-    pub scenario: Scenario,
-    /// Protocol and markers; one run without values.
-    pub dataset: Dataset,
-    pub direct: Direct,
 }
 
 /// All experiments for the robot and the protocol of the data at hand; then the same with what `instruments` measure directly,
@@ -103,17 +95,11 @@ fn protocols(scenario: &Scenario, dataset: &Dataset, direct: Direct) -> Vec<Plan
     let top = dataset.holds.iter().map(|h| h.p_act_pa).fold(policy::ZERO_PRESSURE_PA, f64::max);
     let body = dataset.holds[0].p_body_pa;
     let steps = |n: usize| (0..=n).map(|i| top * i as f64 / n as f64).collect::<Vec<f64>>();
-    let then_zero = |mut p: Vec<f64>| {
-        p.push(0.0);
-        p
-    };
-    let standard = then_zero(steps(3));
-    let fine = then_zero(steps(6));
+    let [standard, fine] = [3, 6].map(|n| [&steps(n)[..], &[0.0]].concat());
     let up_down: Vec<f64> = steps(3).into_iter().chain(steps(3).into_iter().rev().skip(1)).collect();
-    let part = |scenario: &Scenario, pressures: &[f64], body: f64, hold_s: f64| Part {
-        scenario: scenario.clone(),
-        dataset: protocol(dataset, pressures, body, hold_s),
-        direct,
+    let part = |scenario: &Scenario, pressures: &[f64], body: f64, hold_s: f64| {
+        let planned = protocol(dataset, pressures, body, hold_s);
+        Source { direct, ..Source::of(scenario.clone(), planned, None) }
     };
     let one = |pressures: &[f64], body: f64, hold_s: f64| vec![part(scenario, pressures, body, hold_s)];
     let usual = hold_length_s(dataset);
@@ -160,7 +146,7 @@ fn tipped(scenario: &Scenario, force_n: f64) -> Scenario {
 
 /// Twice the first body pressure, or the middle of the two that are there.
 fn second_body(dataset: &Dataset, body: f64) -> f64 {
-    let other = super::source::body_pressures([dataset]).get(1).copied();
+    let other = body_pressures([dataset]).get(1).copied();
     other.map_or(2.0 * body, |other| 0.5 * (other + body))
 }
 

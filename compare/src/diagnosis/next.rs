@@ -13,7 +13,7 @@
 
 use super::case::Case;
 use super::decide::Decision;
-use super::experiments::{BENDING_TEST, Instruments, Part, Plan, bending_test, plans, protocol_text};
+use super::experiments::{BENDING_TEST, Instruments, Plan, bending_test, plans, protocol_text};
 use super::known::{BENCH_TEST, BENCH_TESTS, BenchTest, Known, parameters_of};
 use super::order::allowance;
 use super::problem::{Block, Fit, Problem, with};
@@ -171,7 +171,7 @@ struct Expected<'a> {
 impl<'a> Expected<'a> {
     fn of(case: &Case<'a>, plan: Option<&Plan>, truth: &Fit) -> Result<Expected<'a>, CompareError> {
         let expected = |block: &Block<'a>| Block { target_m: case.prediction_of(block, truth), ..block.clone() };
-        let parts: &[Part] = plan.map_or(&[], |plan| &plan.parts);
+        let parts: &[Source] = plan.map_or(&[], |plan| &plan.parts);
         let body = parts.first().map(|part| part.dataset.holds[0].p_body_pa);
         let mut levels = case.body_pa.clone();
         let is_new = |p: &f64| levels.iter().all(|l| !policy::is_same_pressure(*l, *p));
@@ -236,7 +236,7 @@ fn extended(fit: &Fit, bendings: usize, added: usize) -> Vec<f64> {
 fn planned<'a>(
     case: &Case,
     problem: &Problem<'a>,
-    part: &Part,
+    part: &Source,
     levels: &[f64],
     (truth, theta): (&Fit, &[f64]),
 ) -> Result<Block<'a>, CompareError> {
@@ -249,8 +249,8 @@ fn planned<'a>(
     });
     let dataset = gauge.as_ref().map_or_else(|| part.dataset.clone(), |gauge| gauge.positions(&part.dataset));
     let rolled = is_rolled(part.scenario.gravity_direction, own.scenario.gravity_direction);
-    let (scenario, direct) = (without_settled(&part.scenario, part.direct), part.direct);
-    let source = Source { direct, gauge, rolled, ..Source::of(scenario, dataset, None) };
+    let scenario = without_settled(&part.scenario, part.direct);
+    let source = Source { scenario, dataset, gauge, rolled, ..part.clone() };
     let mut block = Block {
         holds: (0..source.dataset.holds.len()).collect(),
         bending_of: source.dataset.holds.iter().map(|h| nearest(levels, h.p_body_pa)).collect(),
