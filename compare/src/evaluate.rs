@@ -81,7 +81,7 @@ pub fn evaluate(
     dprediction_dlnp: &[f64],
     options: &EvaluateOptions,
 ) -> Result<Evaluation, CompareError> {
-    check(options)?;
+    check_level(options.alpha, options.tolerance_m)?;
     let noise = NoiseModel::estimate(dataset, dprediction_dlnp, &options.sessions, options.sigma_m)?;
     let c = BesideMean::new(dataset, &noise, prediction_m)?;
     let EvaluateOptions { fitted_parameters, bootstrap_samples, seed, alpha, .. } = *options;
@@ -102,13 +102,15 @@ pub fn evaluate(
     })
 }
 
-fn check(options: &EvaluateOptions) -> Result<(), CompareError> {
-    let in_range = |name, value: f64, ok: bool, expected| match ok {
-        true => Ok(()),
-        false => Err(CompareError::BadOption { name, value, expected }),
+/// Refuses a level or a tolerance that is none.
+pub(crate) fn check_level(alpha: f64, tolerance_m: Option<f64>) -> Result<(), CompareError> {
+    let tolerance = tolerance_m.unwrap_or(0.0);
+    let (name, value, expected) = match () {
+        () if !(alpha > 0.0 && alpha < 1.0) => ("alpha", alpha, "the significance level lies between 0 and 1"),
+        () if !(tolerance >= 0.0 && tolerance.is_finite()) => {
+            ("tolerance_m", tolerance, "a length in metres, not negative")
+        }
+        () => return Ok(()),
     };
-    let alpha = options.alpha;
-    in_range("alpha", alpha, alpha > 0.0 && alpha < 1.0, "the significance level lies between 0 and 1")?;
-    let tolerance = options.tolerance_m.unwrap_or(0.0);
-    in_range("tolerance_m", tolerance, tolerance >= 0.0 && tolerance.is_finite(), "a length in metres, not negative")
+    Err(CompareError::BadOption { name, value, expected })
 }

@@ -7,7 +7,7 @@ use crate::extension::{Origin, origins};
 use crate::policy;
 use crate::scenario_file::ScenarioFile;
 use crate::study::comparison::{Comparison, Contender, compare_all};
-use data::About;
+use data::Geometry;
 use models::Known;
 use models::Scenario;
 use serde::Serialize;
@@ -87,11 +87,13 @@ impl BeforeAfter {
     pub fn judge(&self, evidence: &Evidence, sigma_m: Option<f64>) -> Result<Validation, CompareError> {
         let sha256 = evidence.sha256()?;
         let fitted_to_these = self.origins.iter().any(|o| o.data_sha256.contains(&sha256));
-        let (geometry_of_data, sized) = match &evidence.about {
-            Some(about) => in_size([&self.before, &self.after], about),
-            None => (Vec::new(), [self.before.clone(), self.after.clone()]),
-        };
-        let models = sized.map(|scenario| Contender { known: Known::Predicted, ..Contender::as_given(&scenario) });
+        let mut geometry_of_data = Vec::new();
+        let geometry = evidence.about.as_ref().and_then(|about| about.geometry.as_ref());
+        let models = [&self.before, &self.after].map(|model| {
+            geometry_of_data.clear();
+            let scenario = geometry.and_then(|own| resized(model, own, &mut geometry_of_data));
+            Contender { known: Known::Predicted, ..Contender::as_given(&scenario.unwrap_or_else(|| model.clone())) }
+        });
         let options = EvaluateOptions { sigma_m, bootstrap_samples: 0, ..EvaluateOptions::default() };
         let found = compare_all(&models, evidence, &options, None)?;
         let [before, after] = [0, 1].map(|k| how_far(&found, k));
@@ -177,21 +179,10 @@ fn judged(before: f64, after: f64, tolerance_mm: f64, fitted_to_these: bool) -> 
     }
 }
 
-/// Both models in the size that the data's `about.toml` states, and what was changed.
-fn in_size(models: [&Scenario; 2], about: &About) -> (Vec<String>, [Scenario; 2]) {
-    let mut changed = Vec::new();
-    let sized = models.map(|model| {
-        let mut own = Vec::new();
-        let scenario = resized(model, about, &mut own);
-        changed = own;
-        scenario
-    });
-    (changed, sized)
-}
-
-fn resized(scenario: &Scenario, about: &About, changed: &mut Vec<String>) -> Scenario {
+/// A model in the size that the data's `about.toml` states, and what was changed; `None`: half a robot of the data and half of the
+/// scenario would be neither, and the comparison then warns of the difference.
+fn resized(scenario: &Scenario, g: &Geometry, changed: &mut Vec<String>) -> Option<Scenario> {
     let mut sized = scenario.clone();
-    let Some(g) = &about.geometry else { return sized };
     let mut set = |what: &str, mine: &mut f64, theirs: Option<f64>| {
         if let Some(v) = theirs.filter(|v| policy::is_other_length(*v, *mine)) {
             changed.push(format!("{what} {:.1} mm, not {:.1}", v * 1e3, *mine * 1e3));
@@ -213,9 +204,8 @@ fn resized(scenario: &Scenario, about: &About, changed: &mut Vec<String>) -> Sce
     }
     let end = sized.actuator.start_m + sized.actuator.shape.length_m * sized.actuator.count as f64;
     if end > sized.length_m * (1.0 + 1e-9) || !sized.zones.is_empty() {
-        // Half a robot of the data and half of the scenario would be neither; the comparison then warns of the difference.
         changed.clear();
-        return scenario.clone();
+        return None;
     }
-    sized
+    Some(sized)
 }
