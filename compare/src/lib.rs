@@ -7,41 +7,20 @@
 //! What a user does: [`ScenarioFile`] and [`Evidence`] → [`compare`] → [`diagnose`] → [`extend`] → [`validate`] on other data;
 //! [`ladder`](fn@ladder) repeats the middle.
 
-mod accuracy;
-pub mod bench;
-mod beside_mean;
 pub mod characterize;
-mod data_slope;
 pub mod demo;
 pub mod diagnosis;
-mod directions;
 pub mod error;
-pub mod evaluate;
-pub mod evidence;
 pub mod extension;
 mod fit;
-mod gauge;
-pub mod ladder;
-mod layout;
-pub mod metrics;
+mod judge;
 pub mod moment;
-pub mod noise;
-mod noise_summary;
 pub mod policy;
-mod prepare;
 pub mod progress;
-pub mod residuals;
-mod run_scatter;
-mod scaling;
-pub mod scenario_file;
+mod readings;
 pub mod slips;
-pub mod stats;
 pub mod study;
-pub mod typed_effect;
-pub mod validation;
-pub mod where_it_fails;
 pub mod witness;
-pub mod wording;
 
 #[cfg(test)]
 mod tests;
@@ -51,9 +30,15 @@ pub use error::CompareError;
 pub use evaluate::{EvaluateOptions, Evaluation, evaluate};
 pub use evidence::Evidence;
 pub use extension::{Extension, extend};
+pub use extension::{ladder, scenario_file, typed_effect, validation};
+pub use judge::{evaluate, metrics, residuals, stats, where_it_fails, wording};
 pub use ladder::ladder;
 pub use progress::Progress;
+pub use readings::{bench, evidence, noise};
 pub use scenario_file::ScenarioFile;
 pub use study::comparison::{Comparison, compare};
 pub use study::in_space::{InSpace, compare_in_space};
 pub use validation::{Validation, validate};
+
+use judge::{accuracy, beside_mean, scaling};
+use readings::{data_slope, directions, gauge, layout, noise_summary, prepare, run_scatter};

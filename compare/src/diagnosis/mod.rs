@@ -14,53 +14,18 @@
 //! neutral value and thresholds make that conservative (Chernoff; Davies). The set is what the data cannot tell apart: BIC within 6 of the
 //! best, or 95 % of its gain. A name is the best explanation *in the catalogue*, never a proof.
 
-mod answers;
-mod assemble;
 mod bench;
-mod bending_alarm;
-mod candidates;
 mod case;
-mod closest;
-mod decide;
-mod detect;
 mod distance;
-mod evaluator;
-mod experiments;
-mod explained;
-#[cfg(test)]
-mod gauge_tests;
-mod heldout;
-mod interval;
-mod known;
-mod lack_of_fit;
-mod learned;
-mod limits;
-mod look;
-#[cfg(test)]
-mod lost_tests;
-mod missing;
+mod hypotheses;
+mod moments;
 mod next;
 mod options;
-mod order;
-mod pairs;
-#[cfg(test)]
-mod pattern_tests;
-mod patterns;
-mod pressures;
-#[cfg(test)]
-mod pressures_tests;
-mod problem;
 mod result;
-mod screen;
-mod singles;
 mod source;
-mod stands_out;
-mod story;
 #[cfg(test)]
 mod tests;
-#[cfg(test)]
-mod together_tests;
-pub mod words;
+mod verdict;
 
 pub use crate::prepare::{Outliers, OutlyingRun};
 pub use crate::slips::pressure::{BestEffect, PressureSlipFound};
@@ -84,10 +49,14 @@ use crate::slips::pressure::pressure_words;
 use assemble::{Beside, assemble};
 use case::{Case, catalogue};
 use decide::decide;
+use hypotheses::{candidates, detect, evaluator, heldout, interval, known, order, pairs, problem, screen, singles};
 use models::Scenario;
+use moments::{learned, missing};
+use next::experiments;
 use pressures::Pressures;
 use source::Source;
 use story::story;
+use verdict::{assemble, bending_alarm, closest, decide, lack_of_fit, limits, patterns, pressures, stands_out};
 
 /// Diagnoses measurements: is an effect missing in the scenario, which, and what would tell. Several data of one robot lie each
 /// under its own protocol and loads: one bending stiffness for every body pressure and one value of every parameter must meet

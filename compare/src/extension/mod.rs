@@ -1,8 +1,12 @@
 //! A scenario with one more effect: fitted on data, chosen by the diagnosis, or given.
 
+pub mod ladder;
 mod learned;
+pub mod scenario_file;
 mod steps;
 mod text;
+pub mod typed_effect;
+pub mod validation;
 mod written;
 
 pub(crate) use steps::Ground;

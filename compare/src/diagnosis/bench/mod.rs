@@ -6,7 +6,7 @@
 //! ```
 //!
 //! The statistics are those of a diagnosis of markers: gains of the whitened sum of squares against the base, one p corrected for
-//! all laws tried, a set of what the data cannot tell apart ([`super::order`]), intervals with what the law misses by
+//! all laws tried, a set of what the data cannot tell apart ([`crate::diagnosis::order`]), intervals with what the law misses by
 //! ([`crate::fit::interval`]). The unit of what was left out is a pressure or a specimen; with one of each, a fifth of the loads.
 
 mod laws;
@@ -20,11 +20,11 @@ mod tests;
 
 pub use result::{BenchDiagnosis, BenchRanked, LeftOut};
 
-use super::decide::combined;
-use super::order;
-use super::result::Verdict;
 use crate::CompareError;
 use crate::bench::refuse;
+use crate::diagnosis::decide::combined;
+use crate::diagnosis::order;
+use crate::diagnosis::result::Verdict;
 use crate::policy;
 use crate::stats::{chi2_tail, reported_p};
 use data::Bench;
@@ -45,7 +45,7 @@ pub struct BenchOptions {
 
 impl Default for BenchOptions {
     fn default() -> Self {
-        BenchOptions { alpha: super::Options::default().alpha, sigma: None, refit: false }
+        BenchOptions { alpha: crate::diagnosis::Options::default().alpha, sigma: None, refit: false }
     }
 }
 
