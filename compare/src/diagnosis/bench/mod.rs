@@ -45,7 +45,7 @@ pub struct BenchOptions {
 
 impl Default for BenchOptions {
     fn default() -> Self {
-        BenchOptions { alpha: crate::diagnosis::Options::default().alpha, sigma: None, refit: false }
+        BenchOptions { alpha: crate::diagnosis::options::Options::default().alpha, sigma: None, refit: false }
     }
 }
 

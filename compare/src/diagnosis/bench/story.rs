@@ -5,7 +5,7 @@ use super::result::{BenchDiagnosis, BenchRanked, LeftOut};
 use super::table::Table;
 use crate::bench::is_free;
 use crate::diagnosis::result::Verdict;
-use crate::diagnosis::words::{quantity, with_interval};
+use crate::diagnosis::result::words::{quantity, with_interval};
 use crate::policy;
 use crate::wording::{list, p_value, short};
 

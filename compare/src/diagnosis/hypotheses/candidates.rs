@@ -1,6 +1,6 @@
 //! The effects that may be missing: the one place where the diagnosis meets the catalogue.
 
-use crate::diagnosis::explained::ParameterValue;
+use crate::diagnosis::result::explained::ParameterValue;
 use crate::fit::least_squares::Range;
 use crate::policy;
 use data::MeasuredValue;
@@ -233,7 +233,7 @@ pub fn present(scenario: &Scenario) -> Vec<Candidate> {
     catalogue.effects().filter(own).map(|e| candidate(&e, actuator)).collect()
 }
 
-pub(in crate::diagnosis) fn candidate(effect: &Effect, actuator: &str) -> Candidate {
+pub fn candidate(effect: &Effect, actuator: &str) -> Candidate {
     let free = |p: &models::effects::Parameter| Free {
         key: p.key.to_string(),
         symbol: p.symbol.to_string(),

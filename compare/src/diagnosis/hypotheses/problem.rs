@@ -328,7 +328,7 @@ pub fn with(
 }
 
 /// On a bound that is not the neutral value, and the sum of squares would fall beyond it by more than noise explains.
-pub(in crate::diagnosis) fn is_binding(minimum: &Minimum, k: usize, range: &Range, neutral: f64) -> bool {
+pub fn is_binding(minimum: &Minimum, k: usize, range: &Range, neutral: f64) -> bool {
     let near = NEAR * range.scale;
     let at_bound = minimum.at[k] - range.lower < near || range.upper - minimum.at[k] < near;
     if !at_bound || (minimum.at[k] - neutral).abs() < near {

@@ -144,7 +144,7 @@ fn notes(case: &Case, fit: &Fit, own: &[ParameterValue]) -> Vec<String> {
         notes.push(format!(
             "rejected: the best {} sits on its physical bound {}, and the data push beyond it",
             p.symbol,
-            crate::diagnosis::words::quantity(p.value, &p.unit)
+            crate::diagnosis::result::words::quantity(p.value, &p.unit)
         ));
     }
     let effect = case.candidate(added(fit));
@@ -153,7 +153,7 @@ fn notes(case: &Case, fit: &Fit, own: &[ParameterValue]) -> Vec<String> {
         let free = &effect.parameters[k];
         if fit.open[from + k] {
             let at_least = if fit.theta()[from + k] >= free.upper { "at least" } else { "at most" };
-            let value = crate::diagnosis::words::quantity(p.value, &p.unit);
+            let value = crate::diagnosis::result::words::quantity(p.value, &p.unit);
             notes.push(format!("{} is {at_least} {value}: the data push beyond the range that is searched", p.symbol));
         }
     }

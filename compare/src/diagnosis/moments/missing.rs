@@ -1,10 +1,10 @@
 //! The missing moment of a diagnosis: its points from all data, and the answers as curves through them.
 
-use crate::diagnosis::answers::{Answer, Standing};
 use crate::diagnosis::case::Case;
 use crate::diagnosis::decide::Decision;
 use crate::diagnosis::problem::{Block, Fit};
 use crate::diagnosis::result::Diagnosis;
+use crate::diagnosis::result::answers::{Answer, Standing};
 use crate::diagnosis::source::{Source, nearest};
 use crate::error::CompareError;
 use crate::fit::least_squares::{products, square};

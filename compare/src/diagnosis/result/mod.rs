@@ -6,7 +6,7 @@ pub(super) mod look;
 pub(super) mod story;
 pub mod words;
 
-pub use crate::diagnosis::explained::*;
+pub use crate::diagnosis::result::explained::*;
 use crate::evidence::Used;
 use crate::moment::MissingMoment;
 use crate::noise_summary::NoiseSummary;

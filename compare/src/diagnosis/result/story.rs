@@ -3,11 +3,11 @@
 use crate::policy;
 use data::Direct;
 
+use crate::diagnosis::result::words::{quantity, with_interval};
 use crate::diagnosis::result::{
     AsClose, Confidence, Diagnosis, FittedBeside, GaugeFit, Group, KeptBending, LearnedLaw, LeftPattern, Ranked,
     Verdict, names_of,
 };
-use crate::diagnosis::words::{quantity, with_interval};
 use crate::wording::{list, p_value};
 
 /// What comes as close as an attempt is named up to that many; `diagnosis.json` has all.

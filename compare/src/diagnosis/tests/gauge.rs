@@ -54,10 +54,10 @@ fn a_gauge_tells_the_exponent_of_a_loss() {
     assert!(!f.held && !n.held && width(n) > told, "{told}: {loss:?}");
     let n = &ParameterValue { value: 1.0, lo: None, hi: None, held: true, ..n.clone() };
     let pinned = ParameterValue { lo: Some(n.value), hi: Some(n.value), held: false, ..n.clone() };
-    assert_eq!(crate::diagnosis::words::with_interval(&pinned), "n = 1 (the end of its range)");
+    assert_eq!(crate::diagnosis::result::words::with_interval(&pinned), "n = 1 (the end of its range)");
     assert!(
-        crate::diagnosis::words::with_interval(n) == "n = 1 (held)"
-            && !crate::diagnosis::words::with_interval(f).contains("held")
+        crate::diagnosis::result::words::with_interval(n) == "n = 1 (held)"
+            && !crate::diagnosis::result::words::with_interval(f).contains("held")
     );
 }
 

@@ -13,22 +13,22 @@ use crate::study::{Generator, generate, parse_protocol, published::textbook_scen
 use data::{About, Dataset};
 
 /// B at which the shipped robots bend about as far as measured \[N·m²\].
-pub(in crate::diagnosis) fn robot(kind: &str) -> Scenario {
+pub fn robot(kind: &str) -> Scenario {
     let bending = [("spam", 6.0), ("epam", 1.35), ("cpam", 0.9), ("fpam", 0.3)];
     let bending = bending.iter().find(|(name, _)| *name == kind).unwrap().1;
     textbook_scenario(kind).unwrap().with_bending(bending)
 }
 
-pub(in crate::diagnosis) fn measured(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
+pub fn measured(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
     generate(truth, "made", &Generator { runs, seed, ..Generator::default() }).unwrap()
 }
 
 /// Without the search for the next experiment, which most tests do not look at; everything that is seen matters.
-pub(in crate::diagnosis) fn quick() -> Options {
+pub fn quick() -> Options {
     Options { next_experiment: false, missing_moment: false, tolerance_m: Some(0.0), ..Options::default() }
 }
 
-pub(in crate::diagnosis) fn of_one(
+pub fn of_one(
     scenario: &Scenario,
     data: &Dataset,
     about: Option<&About>,
@@ -37,7 +37,7 @@ pub(in crate::diagnosis) fn of_one(
     diagnose(scenario, &[Evidence::of(data.clone(), about.cloned())], options, &mut |_, _| ())
 }
 
-pub(in crate::diagnosis) fn run(scenario: &Scenario, data: &Dataset) -> Diagnosis {
+pub fn run(scenario: &Scenario, data: &Dataset) -> Diagnosis {
     of_one(scenario, data, None, &quick()).unwrap()
 }
 

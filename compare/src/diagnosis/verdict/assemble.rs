@@ -184,7 +184,7 @@ fn confidence(case: &Case, decision: &Decision) -> Option<Confidence> {
 }
 
 /// By the gain of an answer and the number of those that cannot be told from it, itself among them.
-pub(in crate::diagnosis) fn confidence_of(gain: f64, rivals: usize) -> Confidence {
+pub fn confidence_of(gain: f64, rivals: usize) -> Confidence {
     match gain {
         gain if policy::is_a_hint(gain) => Confidence::Hint,
         gain if policy::is_beyond_doubt(gain) && rivals == 1 => Confidence::IdentifiedInCatalog,

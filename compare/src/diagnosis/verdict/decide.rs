@@ -241,7 +241,7 @@ fn p_of(case: &Case, fit: &Fit) -> Option<f64> {
 }
 
 /// Weighted Bonferroni over the two kinds of tests.
-pub(in crate::diagnosis) fn combined(p_effect: f64, p_lack_of_fit: f64) -> f64 {
+pub fn combined(p_effect: f64, p_lack_of_fit: f64) -> f64 {
     (p_effect / policy::SHARE_OF_EFFECTS).min(p_lack_of_fit / (1.0 - policy::SHARE_OF_EFFECTS)).min(1.0)
 }
 

@@ -69,7 +69,7 @@ fn tests_of_their_own(case: &Case) -> Vec<String> {
         let effect = case.candidate(known.effect);
         let p = &effect.parameters[known.parameter];
         policy::disagree(known.lacking).then(|| {
-            let [value, sd] = [known.value, known.sd].map(|v| crate::diagnosis::words::value(v / p.si));
+            let [value, sd] = [known.value, known.sd].map(|v| crate::diagnosis::result::words::value(v / p.si));
             format!(
                 "about.toml says that {} was measured: {} = {value} ± {sd} {}, and the scenario lacks it; whether the markers \
                  show it is a question of its own",

@@ -38,7 +38,7 @@ struct Weighed {
 }
 
 /// All data of a diagnosis.
-pub(in crate::diagnosis) struct Pressures<'p> {
+pub struct Pressures<'p> {
     pub sources: &'p [Source],
     pub options: &'p Options,
 }
