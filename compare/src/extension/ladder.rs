@@ -1,6 +1,6 @@
 //! Diagnose and extend until what is left is noise.
 
-use crate::diagnosis::result::words::listed;
+use crate::diagnosis::words::listed;
 use crate::diagnosis::{Added, Confidence, Diagnosis, Group, KeptBending, Options, Verdict, diagnose, names_of};
 use crate::error::CompareError;
 use crate::evidence::Evidence;

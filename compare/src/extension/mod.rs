@@ -15,7 +15,7 @@ pub use text::{Addition, NewBending, today};
 pub(crate) use text::{Origin, extended, origins};
 pub use written::{Extension, FittedEffect};
 
-use crate::diagnosis::result::words::{listed, named, three};
+use crate::diagnosis::words::{listed, named, three};
 use crate::diagnosis::{Added, Diagnosis, Options, Ranked, diagnose};
 use crate::error::CompareError;
 use crate::evidence::Evidence;

@@ -1,7 +1,7 @@
 //! From a diagnosis to what is written into a scenario, and the error before and after.
 
 use super::text::{Addition, NewBending, today};
-use crate::diagnosis::result::words::three;
+use crate::diagnosis::words::three;
 use crate::diagnosis::{Diagnosis, LearnedLaw, ParameterValue, Ranked};
 use models::Known;
 use models::Scenario;
