@@ -49,6 +49,13 @@ pub struct Statement {
     pub largest: Option<Deviation>,
 }
 
+impl Statement {
+    /// Without evidence.
+    fn of(finding: Finding, sentence: String) -> Statement {
+        Statement { finding, sentence, holds: Vec::new(), markers: Vec::new(), largest: None }
+    }
+}
+
 /// Settings of [`where_it_fails`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FailureOptions {
@@ -214,7 +221,7 @@ impl<'a> Judge<'a> {
             times_the_noise(&d),
         );
         let holds = gaps.iter().flat_map(|l| [l.load_hold, l.unload_hold]).collect();
-        Some(Statement { finding: Finding::Loop, sentence, holds, markers: Vec::new(), largest: Some(d) })
+        Some(Statement { holds, largest: Some(d), ..Statement::of(Finding::Loop, sentence) })
     }
 
     fn lengthwise(&self, sign: f64) -> Option<Statement> {
@@ -252,8 +259,7 @@ impl<'a> Judge<'a> {
             worst.deviation.mm.abs(),
             times_the_noise(&worst.deviation),
         );
-        let largest = Some(worst.deviation);
-        Some(Statement { finding: Finding::Drift, sentence, holds, markers: Vec::new(), largest })
+        Some(Statement { holds, largest: Some(worst.deviation), ..Statement::of(Finding::Drift, sentence) })
     }
 
     fn nothing_stands_out(&self, chi2_p: Option<f64>, options: &FailureOptions) -> Statement {
@@ -262,33 +268,23 @@ impl<'a> Judge<'a> {
         let largest = by(|d| d.in_noise.unwrap_or(d.mm).abs());
         let size = largest.map_or(String::new(), |d| format!("{:.2} mm{}", d.mm.abs(), times_the_noise(&d)));
         let (finding, sentence) = if !self.c.noise.is_known() {
-            let text = format!("No difference above {:.2} mm was found (largest {size}).", self.least_mm);
-            (Finding::WithinTolerance, text)
+            let least = self.least_mm;
+            (Finding::WithinTolerance, format!("No difference above {least:.2} mm was found (largest {size})."))
         } else if entries().any(|d| d.stands_out(self.alpha) == Some(true)) {
-            let text = format!(
-                "Every difference is below the tolerance of {:.2} mm, though not all are noise (most significant \
-                 {size}).",
-                1e3 * options.tolerance_m
-            );
-            (Finding::WithinTolerance, text)
+            let tolerance = 1e3 * options.tolerance_m;
+            let below = format!("Every difference is below the tolerance of {tolerance:.2} mm");
+            (Finding::WithinTolerance, format!("{below}, though not all are noise (most significant {size})."))
         } else if let Some(p) = chi2_p.filter(|p| *p < self.alpha) {
-            let text = format!(
-                "As a whole the misfit is more than noise ({}), but no single marker and pressure stands out (most \
-                 significant difference {size}).",
-                p_value(p)
-            );
-            (Finding::Diffuse, text)
+            let more = format!("As a whole the misfit is more than noise ({}), but no single marker and pressure", p_value(p));
+            (Finding::Diffuse, format!("{more} stands out (most significant difference {size})."))
         } else if self.c.noise.gives_p_values() {
-            let text = format!(
-                "The model agrees with the measurements to within noise at every pressure and marker (most significant \
-                 difference {size})."
-            );
-            (Finding::Agrees, text)
+            let agrees = "The model agrees with the measurements to within noise at every pressure and marker";
+            (Finding::Agrees, format!("{agrees} (most significant difference {size})."))
         } else {
-            let text = format!("Nothing stands out from the noise (largest {size}); no significance can be given.");
-            (Finding::Agrees, text)
+            let nothing = format!("Nothing stands out from the noise (largest {size}); no significance can be given.");
+            (Finding::Agrees, nothing)
         };
-        Statement { finding, sentence, holds: Vec::new(), markers: Vec::new(), largest }
+        Statement { largest, ..Statement::of(finding, sentence) }
     }
 }
 
@@ -314,7 +310,6 @@ impl CellGroup {
 
 fn unknown_noise() -> Statement {
     let sentence = "The noise is unknown (one run only), so no significance can be given: what follows describes \
-                    differences, some of which may be noise. Repeat the protocol at least 3 times."
-        .to_string();
-    Statement { finding: Finding::NoiseUnknown, sentence, holds: Vec::new(), markers: Vec::new(), largest: None }
+                    differences, some of which may be noise. Repeat the protocol at least 3 times.";
+    Statement::of(Finding::NoiseUnknown, sentence.into())
 }

@@ -1,5 +1,6 @@
 //! The nuisance directions of a run and the fit of a run's deviation to them.
 
+use crate::fit::least_squares::dot;
 use data::Dataset;
 
 /// Part of a unit direction that must be new for it to be told apart from those before it; below this its coefficient
@@ -100,10 +101,6 @@ impl DirectionFit {
         self.inverse.push(inverse.map(|t| t / new_part));
         self.columns.push(j);
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]
