@@ -1,6 +1,7 @@
 //! Text tables: a list of columns over rows.
 
 use crate::words::number;
+use compare::study::columns::TextTable;
 
 /// Rows, and columns that each have a head and what they say of a row.
 pub struct Table<R> {
@@ -103,6 +104,12 @@ fn drawn(head: Vec<String>, flush_right: &[bool], rows: Vec<Vec<String>>) -> Str
 /// A line for each text, after a prefix.
 pub fn lines<S: AsRef<str>>(prefix: &str, texts: impl IntoIterator<Item = S>) -> String {
     texts.into_iter().map(|text| format!("{prefix}{}\n", text.as_ref())).collect()
+}
+
+/// The same under its caption.
+pub fn printed(TextTable { caption, heads, left, rows }: &TextTable) -> String {
+    let caption = if caption.is_empty() { String::new() } else { format!("{caption}\n") };
+    caption + &table(heads, *left, rows.clone())
 }
 
 /// Columns of text to read.

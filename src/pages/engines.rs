@@ -2,10 +2,8 @@
 
 use super::engine_figures::{bars, curve, displaced, ledger, parting_plot};
 use super::{Files, Imprint, PAPER, PageError, Values, marker_intervals, what_to_measure};
-use ::compare::study::engines::{
-    EngineRobot, Engines, HEADS, SUMMARY, VOLUMES, VOLUMES_CAPTION, cells, csv, lines as engine_lines, summary,
-    volume_cells,
-};
+use ::compare::study::columns::csv;
+use ::compare::study::engines::{EngineRobot, Engines, LINES_CSV, line_table, lines, summary, volume_table};
 use ::compare::study::uncertain::Uncertain;
 
 /// The page with its plots and tables.
@@ -35,15 +33,16 @@ pub fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files, PageE
         files.plot(&name, parting_plot(map)?);
         maps.push(Values::new().with("name", name).with("mesh_mm", &map.mesh_mm));
     }
+    let volumes = volume_table(&engines.robots);
     let values = Values::new()
         .with("title", "Two engines against the published displacements")
         .with("lead", lead(engines))
         .with("cubes", cubes)
         .with("kinds", kinds)
         .with("maps", maps)
-        .with("volumes", volume_cells(&engines.robots))
-        .with("volume_heads", heads(&VOLUMES, &[]))
-        .with("volume_caption", VOLUMES_CAPTION)
+        .with("volume_heads", heads(&volumes.heads, &[]))
+        .with("volumes", volumes.rows)
+        .with("volume_caption", volumes.caption)
         .with("provenance", provenance(engines, imprint))
         .and(overview);
     files.page("engines.html", values, imprint)?;
@@ -52,22 +51,20 @@ pub fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files, PageE
 
 /// One row a robot, with the bars of their displacements, and all lines as a table.
 pub(super) fn overview(engines: &Engines, files: &mut Files) -> Result<Values, PageError> {
-    let (mut all, mut rows) = (Vec::new(), Vec::new());
+    let mut all = Vec::new();
     for robot in &engines.robots {
-        all.extend(engine_lines(robot)?);
-        rows.extend(summary(robot)?);
+        all.extend(lines(robot)?);
     }
-    files.text("engines.csv", csv(&all));
+    let (summary, lines) = (summary(&engines.robots)?, line_table(&all));
+    files.text("engines.csv", csv(&LINES_CSV, &all));
     if let Some(bars) = bars(engines)? {
         files.plot("engines", bars);
     }
-    let lines = all.iter().map(cells).collect::<Vec<_>>();
-    let (summary_heads, line_heads) = (heads(&SUMMARY, &[1, 6]), heads(&HEADS, &[2, 3]));
     Ok(Values::new()
-        .with("summary", rows)
-        .with("summary_heads", summary_heads)
-        .with("lines", lines)
-        .with("line_heads", line_heads))
+        .with("summary_heads", heads(&summary.heads, &[1, 6]))
+        .with("summary", summary.rows)
+        .with("line_heads", heads(&lines.heads, &[2, 3]))
+        .with("lines", lines.rows))
 }
 
 /// Heads of a table; columns of words are marked.
@@ -78,13 +75,11 @@ pub(super) fn heads<'n>(names: &[&'n str], words: &[usize]) -> Vec<[&'n str; 3]>
 
 /// Heights of all markers with their intervals, and what to measure first.
 fn draw_cube(robot: &EngineRobot, cube: &Uncertain, files: &mut Files) -> Result<Values, PageError> {
-    let last = cube.stations_mm.last().copied().unwrap_or(f64::NAN);
-    let own = robot.published.iter().map(|p| (p.d_max_pressure_pa * 1e-3, [last, p.d_max_m * 1e3]));
+    let own = if robot.published.is_some() { cube.measured() } else { Vec::new() };
     let words: String = cube.variant.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
     let name = [cube.actuator.as_str(), &words].iter().filter(|w| !w.is_empty()).copied().collect::<Vec<_>>().join("-");
-    files.plot(&format!("{name}_uncertain"), marker_intervals(cube, &own.collect::<Vec<_>>())?);
-    let top = cube.pressures_kpa().into_iter().fold(0.0, f64::max);
-    files.plot(&format!("{name}_tornado"), what_to_measure(cube, top)?);
+    files.plot(&format!("{name}_uncertain"), marker_intervals(cube, &own)?);
+    files.plot(&format!("{name}_tornado"), what_to_measure(cube, cube.top_kpa())?);
     Ok(Values::new().with("name", name).with("robots", cube.members.len()).with("variant", &cube.variant))
 }
 

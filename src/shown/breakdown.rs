@@ -1,53 +1,55 @@
 //! Where the engines part, in words.
 
-use crate::tables::Table;
-use compare::study::breakdown::{Parting, PartingCell};
-use compare::study::engines::{EnginePair, SHAPE};
+use crate::tables::{printed, table};
+use compare::study::breakdown::Parting;
+use compare::study::columns::{TextColumn, TextTable};
+use compare::study::engines::SHAPE;
 use serde::Serialize;
 
 /// `ibr.breakdown`: `ibr breakdown`
 #[derive(Serialize)]
 pub struct Breakdown<'a> {
     /// One robot at one pressure
-    pub cells: Vec<PartingCell<'a>>,
+    pub cells: &'a [Parting],
 }
 
-/// Every run at every pressure.
+const COLUMNS: [TextColumn<Parting>; 11] = [
+    ("robot", |row| row.robot.clone()),
+    ("mesh mm", |row| row.mesh_mm.to_string()),
+    ("body kPa", |row| row.body_kpa.to_string()),
+    ("pouch mm", |row| row.pouch_mm.to_string()),
+    ("actuator kPa", |row| format!("{:.0}", row.actuator_kpa)),
+    ("FE tip mm", |row| format!("{:.1}", row.fe_tip_mm)),
+    ("bare tip mm", |row| format!("{:.1}", row.bare_tip_mm)),
+    ("difference %", |row| percent(row.bare_difference)),
+    ("reduced tip mm", |row| format!("{:.1}", row.reduced_tip_mm)),
+    ("difference %", |row| percent(row.difference)),
+    ("carried by", |row| {
+        let words = row.carried_by.map(|c| format!("{} ({:+.0} % without)", c.term, 100.0 * c.difference_without));
+        words.unwrap_or("–".into())
+    }),
+];
+
+fn percent(share: Option<f64>) -> String {
+    share.map_or("–".into(), |d| format!("{:+.0}", 100.0 * d))
+}
+
+/// Every run at every pressure; then arm, width, height and volumes of both engines, where a run kept them.
 pub fn text(rows: &[Parting]) -> String {
-    let percent = |pair: &EnginePair| pair.difference().map(|d| 100.0 * d);
-    let carrier = |r: &&Parting| {
-        let carrier = r.own.carrier.as_ref();
-        carrier.map_or("–".into(), |c| format!("{} ({:+.0} % without)", c.term, 100.0 * c.difference_without))
+    let all = TextTable::of("", 1, &COLUMNS, rows);
+    let shape = |row: &Parting| {
+        let shape = row.shape.as_ref()?;
+        let both = shape.reduced.iter().zip(shape.fe);
+        let both = both.map(|(own, fe)| format!("{own:.1} / {fe:.1} ({:+.1})", 100.0 * (own / fe - 1.0)));
+        let place = [0, 2, 3, 4].map(|column| COLUMNS[column].1(row));
+        Some(place.into_iter().chain(both).collect())
     };
-    let table = Table::of(rows).words("robot", |r| &r.run.actuator).right("mesh mm", |r| r.run.mesh_mm[1].to_string());
-    let table = at(table)
-        .number("FE tip mm", 1, |r| r.own.fe_mm[1])
-        .number("bare tip mm", 1, |r| r.bare.reduced_mm[1])
-        .signed("difference %", 0, |r| percent(&r.bare))
-        .number("reduced tip mm", 1, |r| r.own.reduced_mm[1])
-        .signed("difference %", 0, |r| percent(&r.own))
-        .right("carried by", carrier);
-    table.text() + &shapes(rows)
-}
-
-/// Where the run is.
-fn at(table: Table<&Parting>) -> Table<&Parting> {
-    table.right("body kPa", |r| r.run.body_kpa.to_string()).right("pouch mm", |r| r.run.pouch_mm.to_string()).number(
-        "actuator kPa",
-        0,
-        |r| r.own.actuator_kpa,
-    )
-}
-
-/// Arm, width, height and volumes of both, where a run kept them.
-fn shapes(rows: &[Parting]) -> String {
-    let found = rows.iter().filter(|r| r.own.shape.is_some());
-    let mut table = at(Table::of(found).words("robot", |r| &r.run.actuator));
-    for (k, name) in SHAPE.iter().enumerate() {
-        table = table.right(format!("{name} {}", if k < 3 { "mm" } else { "cm³" }), |r| {
-            let [own, fe] = r.own.shape.map_or([f64::NAN; 2], |[own, fe]| [own[k], fe[k]]);
-            format!("{own:.1} / {fe:.1} ({:+.1})", 100.0 * (own / fe - 1.0))
-        });
+    let shapes: Vec<Vec<String>> = rows.iter().filter_map(shape).collect();
+    if shapes.is_empty() {
+        return printed(&all);
     }
-    table.under("Inflated pouches and body: reduced model / finite elements (difference in %)")
+    let names = SHAPE.iter().enumerate().map(|(k, name)| format!("{name} {}", if k < 3 { "mm" } else { "cm³" }));
+    let heads: Vec<String> = [0, 2, 3, 4].map(|column| COLUMNS[column].0.into()).into_iter().chain(names).collect();
+    let caption = "Inflated pouches and body: reduced model / finite elements (difference in %)";
+    format!("{}\n{caption}\n{}", printed(&all), table(&heads, 1, shapes))
 }

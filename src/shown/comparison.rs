@@ -1,11 +1,11 @@
 //! A comparison.
 
 use crate::tables::{Table, lines};
-use compare::Evaluation;
 use compare::metrics::{HoldMetrics, OverallMetrics};
-use compare::noise_summary::NoiseSummary;
+use compare::{Evaluation, NoiseSummary, ScalingCheck};
+
 use compare::residuals::ResidualMap;
-use compare::scaling::ScalingCheck;
+
 use compare::study::comparison::{Comparison, Variant};
 use compare::validation::{HowFar, Validation};
 use compare::where_it_fails::Statement;

@@ -1,11 +1,9 @@
 //! Both engines in words.
 
 use crate::failure::Failure;
-use crate::tables::table;
-use crate::words::number;
+use crate::tables::printed;
 use compare::study::engines::{
-    BRANCHES, BodyVolumes, Energies, EngineLine, EnginePair, Engines, HEADS, SUMMARY, TERMS, VOLUMES, VOLUMES_CAPTION,
-    branch_cells, cells, summary, volume_cells,
+    BodyVolumes, EngineLine, EnginePair, Engines, branches, ledgers, line_table, summary, volume_table,
 };
 use serde::Serialize;
 
@@ -39,48 +37,7 @@ impl<'a> EnginesAnswer<'a> {
 }
 
 /// Tables of a comparison of both engines.
-pub fn text(lines: &[EngineLine], engines: &Engines) -> Result<String, Failure> {
-    let short: Vec<Vec<String>> = engines.robots.iter().map(summary).collect::<Result<Vec<_>, _>>()?.concat();
-    let title = "Outermost marker at 30 kPa; finite elements: median and 80 % interval over all numbers that nobody measured; as \
-                 recommended: mean ± standard deviation over seeds";
-    let mut out = if short.is_empty() { String::new() } else { format!("{title}\n{}\n", table(&SUMMARY, 1, short)) };
-    out += "All pressures that the paper prints\n";
-    out += &table(&HEADS, 1, lines.iter().map(cells).collect());
-    let branches = "Finite elements on the way up and down again, mean ± standard deviation over seeds";
-    out += &under(branches, &BRANCHES, branch_cells(&engines.robots));
-    Ok(out + &ledgers(engines) + &under(VOLUMES_CAPTION, &VOLUMES, volume_cells(&engines.robots)))
-}
-
-/// A table below its title; nothing without rows.
-fn under(title: &str, head: &[&str], rows: Vec<Vec<String>>) -> String {
-    if rows.is_empty() { String::new() } else { format!("\n{title}\n{}", table(head, 1, rows)) }
-}
-
-fn ledgers(engines: &Engines) -> String {
-    let mut rows = Vec::new();
-    for robot in &engines.robots {
-        let Some(pair) = robot.pairs.last() else { continue };
-        let name = robot.scenario.actuator.kind.name.to_string();
-        let mut row = |engine: &str, energies: Energies, lost: Option<f64>| {
-            let energies = energies.map(|e| format!("{e:.0}"));
-            rows.push([&[name.clone(), engine.into()][..], &energies, &[number(lost, 0)]].concat());
-        };
-        row("reduced", pair.reduced_mj, None);
-        row("finite elements", pair.fe_mj, Some(pair.lost_mj));
-        if let Some(excess) = pair.excess_mj {
-            row("excess at the same bend", excess, None);
-        }
-        if let Some(carrier) = pair.carrier {
-            let without = 100.0 * carrier.difference_without;
-            let mut row = vec![String::new(), format!("carried by: {} ({without:+.0} % without)", carrier.term)];
-            row.resize(TERMS.len() + 3, String::new());
-            rows.push(row);
-        }
-    }
-    if rows.is_empty() {
-        return String::new();
-    }
-    let head = [&["robot", "engine"], &TERMS[..], &["lost"]].concat();
-    let title = "Ledgers at the highest pressure [mJ]: gas −P ΔV, what is stored, what was lost";
-    format!("\n{title}\n{}", table(&head, 2, rows))
+pub fn text(lines: &[EngineLine], Engines { robots, .. }: &Engines) -> Result<String, Failure> {
+    let tables = [summary(robots)?, line_table(lines), branches(robots), ledgers(robots), volume_table(robots)];
+    Ok(tables.iter().filter(|table| !table.rows.is_empty()).map(printed).collect::<Vec<_>>().join("\n"))
 }

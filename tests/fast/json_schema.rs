@@ -103,6 +103,7 @@ impl Checker {
                 "text" => value.is_string(),
                 "bool" => value.is_boolean(),
                 "list" => value.is_array(),
+                "any" => true,
                 record => return self.object(place, record, value, &[]),
             },
         };

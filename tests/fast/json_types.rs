@@ -243,7 +243,9 @@ impl Types {
                 let value = inside.rsplit(", ").next().unwrap_or_default();
                 (format!("map of {}", self.kind(from, value).0), String::new())
             }
+            // A parameter of a type is one letter.
             "Value" => ("any".into(), String::new()),
+            parameter if parameter.len() == 1 => ("any".into(), String::new()),
             _ => {
                 let found = self.get(from, name);
                 match &found.shape {
