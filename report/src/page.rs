@@ -47,7 +47,7 @@ fn environment(figures: BTreeMap<String, String>) -> Result<Environment<'static>
     env.add_filter("tags", |text: &str| Value::from_safe_string(markup::with_tags(text)));
     env.add_filter("effect", |text: &str| text.replace('_', " "));
     env.add_filter("fixed", |value: Value, digits: usize| number(&value, 1.0, |v| format!("{v:.digits$}")));
-    env.add_filter("digits", |value: Value| number(&value, 1.0, crate::short_number));
+    env.add_filter("digits", |value: Value| number(&value, 1.0, three));
     env.add_filter("signed", |value: Value, digits: usize| number(&value, 1.0, |v| format!("{v:+.digits$}")));
     env.add_filter("percent", |value: Value, digits: usize| number(&value, 100.0, |v| format!("{v:.digits$}")));
     let names: Vec<String> = figures.keys().cloned().collect();
@@ -67,6 +67,15 @@ fn number(value: &Value, scale: f64, words: impl Fn(f64) -> String) -> String {
     match text.contains(|c: char| ('1'..='9').contains(&c)) {
         true => text.replace('-', "−"),
         false => text.replace(['-', '+'], ""),
+    }
+}
+
+/// Three significant digits.
+fn three(v: f64) -> String {
+    match v.abs() {
+        0.0 => "0".into(),
+        size if size < 1e-3 => format!("{v:.1e}"),
+        size => format!("{v:.*}", (2 - size.log10().floor() as i32).max(0) as usize),
     }
 }
 
