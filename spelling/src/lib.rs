@@ -1,5 +1,7 @@
 //! What people type: the nearest known name for a misspelling, rows of exactly so many numbers, units; and their files, read whole.
 
+#![warn(unreachable_pub)]
+
 pub mod files;
 pub mod quantity;
 pub mod units;

@@ -81,7 +81,7 @@ fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 impl<'a> Section<'a> {
-    pub fn new(assembly: &'a Assembly, index: usize, p_body_pa: f64) -> Section<'a> {
+    pub(crate) fn new(assembly: &'a Assembly, index: usize, p_body_pa: f64) -> Section<'a> {
         let (segment, strips) = (assembly.segments[index], assembly.around[index].as_slice());
         let body = &assembly.sites[segment.site];
         let round_m2 = PI * body.radius_m.powi(2);
@@ -219,7 +219,7 @@ impl<'a> Section<'a> {
     }
 
     /// The equilibrium; `strips` has the pressures, and gets the rest.
-    pub fn solve(&self, strips: &mut [StripState]) -> Result<Bend, Unsolved> {
+    pub(crate) fn solve(&self, strips: &mut [StripState]) -> Result<Bend, Unsolved> {
         for state in &mut *strips {
             (state.coordinate, state.tension) = (0.0, 0.0);
         }
@@ -317,7 +317,7 @@ impl<'a> Section<'a> {
     }
 
     /// Energies per metre of body \[J/m\] by line of the ledger.
-    pub fn energies(&self, bend: &Bend, strips: &[StripState], post: &mut dyn FnMut(LedgerLine, f64)) {
+    pub(crate) fn energies(&self, bend: &Bend, strips: &[StripState], post: &mut dyn FnMut(LedgerLine, f64)) {
         let mut unused = [0.0; actuator_q::LEN];
         for (strip, state) in self.strips.iter().zip(strips) {
             let site = &self.sites[strip.site];
