@@ -5,6 +5,7 @@ use fem::FemError;
 use std::path::{Path, PathBuf};
 
 /// Why a sweep ended.
+#[expect(missing_docs, reason = "fields have the words and units of their message")]
 #[derive(Debug, thiserror::Error)]
 pub enum SweepError {
     /// A study or a robot with a fault.
@@ -15,20 +16,10 @@ pub enum SweepError {
     Run(#[from] FemError),
     /// A folder that cannot be written to.
     #[error("cannot write to {}: {cause}", path.display())]
-    Write {
-        /// Where.
-        path: PathBuf,
-        /// Why.
-        cause: String,
-    },
+    Write { path: PathBuf, cause: String },
     /// A scheduler that did not do what it was asked.
     #[error("{message}")]
-    Cluster {
-        /// What it said.
-        message: String,
-        /// What to do.
-        help: String,
-    },
+    Cluster { message: String, help: String },
 }
 
 impl SweepError {
