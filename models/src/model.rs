@@ -5,13 +5,12 @@ mod in_space;
 use crate::assemble::{add_effects, assemble, divide, locate};
 use crate::assembly::{Assembly, Segment, Sighting};
 use crate::error::Unsolved;
-use crate::linkage::FABRIC_STRETCH;
 use crate::robot::{Workspace, equilibrium, place};
 use crate::scenario::{ActuatorChoice, Scenario, Span};
 use crate::shape::Stretch;
 use crate::site::{Site, SiteState};
 use crate::space::around;
-use crate::term::{Account, LedgerLine, Loads, Pose, Row, RowKind, Term, actuator_q};
+use crate::term::{Account, LedgerLine, Loads, Pose, Row, RowKind, Term};
 
 /// A robot with its list of terms. Made once from a scenario; predicting does not change it.
 pub struct Model {
@@ -264,31 +263,22 @@ impl Model {
         lines: &mut Vec<Row>,
     ) {
         let (state, h) = (&work.states[index], segment.length_m);
-        let mut unused = [0.0; actuator_q::LEN];
+        let mut post = |line, energy: f64| post(lines, line, RowKind::Stored, energy * h);
+        let at = Pose { s_m: segment.middle_m(), ..Pose::new(&[], p_body_pa, p_act_pa) };
         if let Some(actuator) = site.actuator.filter(|_| p_act_pa > 0.0) {
             let stroke = (actuator.stroke)(&site.shape, state.coordinate);
-            let rest = (actuator.stroke)(&site.shape, 0.0_f64.max(actuator.range.0));
-            let q = [state.coordinate, stroke.contraction, stroke.volume - rest.volume, site.geometric(&stroke)];
-            for term in &site.actuator_terms {
-                let pose = Pose { s_m: segment.middle_m(), ..Pose::new(&q, p_body_pa, p_act_pa) };
-                let energy = term.add(&pose, &mut unused) * site.linkage.active_fraction;
-                post(lines, term.line(), RowKind::Stored, energy * h);
-            }
-            let stretch = 0.5 * site.linkage.compliance_per_n * state.tension * state.tension;
-            if stretch != 0.0 {
-                post(lines, FABRIC_STRETCH, RowKind::Stored, stretch * h);
-            }
+            site.actuator_energies(&stroke, [state.coordinate, state.tension], &at, &mut post);
         }
         let q = [state.curvature];
-        let mut pose = Pose { s_m: segment.middle_m(), ..Pose::new(&q, p_body_pa, p_act_pa) };
+        let (mut pose, mut unused) = (Pose { q: &q, ..at }, [0.0]);
         let mut rest = work.history.of_segment(index);
         for term in [&*site.body_pressure, &site.bending as &dyn Term] {
-            post(lines, term.line(), RowKind::Stored, term.add(&pose, &mut unused) * h);
+            post(term.line(), term.add(&pose, &mut unused));
         }
         for term in &site.body_terms {
             // At the memory of this very state and without time: what is stored.
             (pose.memory, rest) = rest.split_at(term.memory().values.min(rest.len()));
-            post(lines, term.line(), RowKind::Stored, term.add(&pose, &mut unused) * h);
+            post(term.line(), term.add(&pose, &mut unused));
         }
     }
 

@@ -6,10 +6,9 @@ use crate::actuators::Actuator;
 use crate::assembly::{Assembly, Segment, Strip};
 use crate::body::BODY_PRESSURE;
 use crate::error::Unsolved;
-use crate::linkage::FABRIC_STRETCH;
 use crate::root::{Start, find_root};
 use crate::site::{Site, SiteLoads, SiteState};
-use crate::term::{LedgerLine, Pose, Term, actuator_q};
+use crate::term::{LedgerLine, Pose, Term};
 use std::f64::consts::PI;
 
 /// Newton steps; a dozen are usual.
@@ -318,21 +317,14 @@ impl<'a> Section<'a> {
 
     /// Energies per metre of body \[J/m\] by line of the ledger.
     pub(crate) fn energies(&self, bend: &Bend, strips: &[StripState], post: &mut dyn FnMut(LedgerLine, f64)) {
-        let mut unused = [0.0; actuator_q::LEN];
         for (strip, state) in self.strips.iter().zip(strips) {
             let site = &self.sites[strip.site];
             let Some(actuator) = site.actuator.filter(|_| state.p_act_pa > 0.0) else { continue };
             let stroke = (actuator.stroke)(&site.shape, state.coordinate.max(actuator.range.0));
-            let rest = (actuator.stroke)(&site.shape, 0.0_f64.max(actuator.range.0));
-            let q = [state.coordinate, stroke.contraction, stroke.volume - rest.volume, site.geometric(&stroke)];
-            let pose = Pose { s_m: self.segment.middle_m(), ..Pose::new(&q, self.p_body_pa, state.p_act_pa) };
-            for term in &site.actuator_terms {
-                post(term.line(), term.add(&pose, &mut unused) * site.linkage.active_fraction / strip.cos_slant);
-            }
-            let stretch = 0.5 * site.linkage.compliance_per_n * state.tension * state.tension;
-            if stretch != 0.0 {
-                post(FABRIC_STRETCH, stretch / strip.cos_slant);
-            }
+            let at = Pose { s_m: self.segment.middle_m(), ..Pose::new(&[], self.p_body_pa, state.p_act_pa) };
+            site.actuator_energies(&stroke, [state.coordinate, state.tension], &at, &mut |line, energy| {
+                post(line, energy / strip.cos_slant);
+            });
         }
         let gas = self.area_m2 * bend.contraction + dot(self.moment_m3, bend.kappa);
         post(BODY_PRESSURE, self.p_body_pa * gas);
