@@ -26,7 +26,7 @@ impl From<SweepError> for Told {
 /// `ibr sweep`: the table as a dictionary of arrays. A study with a line break is its text, else its file.
 #[pyfunction]
 #[pyo3(signature = (study, folder, threads, progress = None))]
-pub fn sweep<'py>(
+pub(crate) fn sweep<'py>(
     py: Python<'py>,
     study: String,
     folder: PathBuf,
