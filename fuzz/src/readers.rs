@@ -260,9 +260,8 @@ fn cases() -> Vec<Vec<u8>> {
 }
 
 fn case(bytes: &[u8]) -> bool {
-    let mut read_mesh = |_: &Path| -> Result<MeshFile, FemError> {
-        fem::mesh::file::read(&repository("fem/tests/meshes/cushion.msh"))
-    };
+    let mut read_mesh =
+        |_: &Path| -> Result<MeshFile, FemError> { fem::mesh::file::read(&repository("fem/tests/meshes/cushion.msh")) };
     std::str::from_utf8(bytes).is_ok_and(|text| Case::parse(text, &mut read_mesh).is_ok())
 }
 
