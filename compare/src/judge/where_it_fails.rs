@@ -275,7 +275,8 @@ impl<'a> Judge<'a> {
             let below = format!("Every difference is below the tolerance of {tolerance:.2} mm");
             (Finding::WithinTolerance, format!("{below}, though not all are noise (most significant {size})."))
         } else if let Some(p) = chi2_p.filter(|p| *p < self.alpha) {
-            let more = format!("As a whole the misfit is more than noise ({}), but no single marker and pressure", p_value(p));
+            let more =
+                format!("As a whole the misfit is more than noise ({}), but no single marker and pressure", p_value(p));
             (Finding::Diffuse, format!("{more} stands out (most significant difference {size})."))
         } else if self.c.noise.gives_p_values() {
             let agrees = "The model agrees with the measurements to within noise at every pressure and marker";
