@@ -1,8 +1,8 @@
 //! Run time against accuracy of every model present.
 
+use super::{PublishedLadder, Rung};
 use crate::error::CompareError;
-use crate::study::engines::{EngineRun, Ensemble, as_it_is, ensemble};
-use crate::study::published::{PublishedLadder, Rung};
+use crate::study::engines::{EngineRun, as_it_is, ensemble};
 use models::{Loads, Model, Scenario};
 use std::time::Instant;
 
@@ -58,56 +58,43 @@ pub fn time_prediction(scenario: &Scenario) -> Result<f64, CompareError> {
 pub fn tradeoff(ladders: &[PublishedLadder]) -> Result<Vec<Timing>, CompareError> {
     let mut timings = Vec::new();
     for ladder in ladders {
-        for rung in &ladder.rungs {
-            timings.push(timing(ladder, rung)?);
+        for Rung { label, scenario, y_m, known, .. } in &ladder.rungs {
+            let seconds = time_prediction(scenario)?;
+            timings.push(timing("reduced", ladder, label, seconds, y_m - ladder.published.d_max_m, known.word()));
         }
     }
     Ok(timings)
 }
 
-/// Finite element runs of the published robots at their own body pressure, at 30 kPa, on every mesh.
+/// Finite element runs of the published robots at their own body pressure, at 30 kPa, on every mesh: the mean over the seeds.
 pub fn of_runs(ladders: &[PublishedLadder], runs: &[EngineRun]) -> Vec<Timing> {
     let mut timings = Vec::new();
     for ladder in ladders {
-        let Some(rung) = ladder.rungs.first() else { continue };
-        let own: Vec<&EngineRun> = runs.iter().filter(|run| as_it_is(run, &rung.scenario)).collect();
+        let Some(Rung { scenario, .. }) = ladder.rungs.first() else { continue };
+        let own: Vec<&EngineRun> = runs.iter().filter(|run| as_it_is(run, scenario)).collect();
         let mut meshes: Vec<f64> = own.iter().map(|run| run.mesh_mm[1]).collect();
         meshes.sort_by(|a, b| b.total_cmp(a));
         meshes.dedup();
         for mesh in meshes {
-            let of_mesh: Vec<EngineRun> = own.iter().filter(|r| r.mesh_mm[1] == mesh).map(|r| (*r).clone()).collect();
-            timings.extend(of_ensemble(ladder, &ensemble(&of_mesh, &rung.scenario), format!("FE {mesh} mm")));
+            let of_mesh = own.iter().filter(|r| r.mesh_mm[1] == mesh);
+            let ensemble = ensemble(&of_mesh.map(|r| (*r).clone()).collect::<Vec<_>>(), scenario);
+            let reached = ensemble.at(ladder.published.d_max_pressure_pa * 1e-3);
+            let (Some(run), Some([(marker_mm, _), _])) = (ensemble.runs.first(), reached) else { continue };
+            let (label, off_m) = (format!("FE {mesh} mm"), 1e-3 * marker_mm - ladder.published.d_max_m);
+            timings.push(timing("finite elements", ladder, &label, ensemble.cpu_s(), off_m, &run.known));
         }
     }
     timings
 }
 
-/// Mean over the seeds, outermost marker.
-fn of_ensemble(ladder: &PublishedLadder, ensemble: &Ensemble, model: String) -> Option<Timing> {
-    let run = ensemble.runs.first()?;
-    let [(marker_mm, _), _] = ensemble.at(ladder.published.d_max_pressure_pa * 1e-3)?;
-    let measured_mm = ladder.published.d_max_m * 1e3;
-    let error_mm = marker_mm - measured_mm;
-    Some(Timing {
-        engine: "finite elements".into(),
-        actuator: run.actuator.clone(),
-        model,
-        prediction_us: ensemble.cpu_s() * 1e6,
-        error_mm,
-        error_pct: 100.0 * error_mm / measured_mm,
-        known: run.known.clone(),
-    })
-}
-
-fn timing(ladder: &PublishedLadder, rung: &Rung) -> Result<Timing, CompareError> {
-    let error = rung.y_m - ladder.published.d_max_m;
-    Ok(Timing {
-        engine: "reduced".into(),
+fn timing(engine: &str, ladder: &PublishedLadder, model: &str, seconds: f64, off_m: f64, known: &str) -> Timing {
+    Timing {
+        engine: engine.into(),
         actuator: ladder.published.kind.clone(),
-        model: rung.label.clone(),
-        prediction_us: time_prediction(&rung.scenario)? * 1e6,
-        error_mm: error * 1e3,
-        error_pct: 100.0 * error / ladder.published.d_max_m,
-        known: rung.known.word().to_string(),
-    })
+        model: model.into(),
+        prediction_us: seconds * 1e6,
+        error_mm: off_m * 1e3,
+        error_pct: 100.0 * off_m / ladder.published.d_max_m,
+        known: known.into(),
+    }
 }

@@ -4,10 +4,10 @@
 //! its bounds does; all of these models are then equally good there, and differ at the pressures in between. Values are
 //! *calibrated* on that one number, so meeting it is no evidence for any of them.
 
+use super::{height, textbook_scenario};
 use crate::error::CompareError;
 use crate::policy;
 use crate::study::engines::{engines, stored};
-use crate::study::published::{height, textbook_scenario};
 use data::{PublishedActuator, published};
 use models::effects::{Effect, Parameter};
 use models::{Loads, Scenario};
@@ -72,44 +72,42 @@ pub fn one_number(kind: &str) -> Result<OneNumber, CompareError> {
     let paper = published()?;
     let missing = || CompareError::NoScenario { kind: kind.into(), problem: "nothing is published about it".into() };
     let actuator: &PublishedActuator = paper.actuator(kind).ok_or_else(missing)?;
-    let shipped = textbook_scenario(kind)?;
+    let (shipped, top_pa) = (textbook_scenario(kind)?, actuator.d_max_pressure_pa);
     let bare = shipped.with_bending(0.0);
     let mut pressures: Vec<f64> =
-        paper.actuator_pressures_pa.iter().copied().filter(|p| *p > 0.0 && *p < actuator.d_max_pressure_pa).collect();
-    pressures.push(actuator.d_max_pressure_pa);
+        paper.actuator_pressures_pa.iter().copied().filter(|p| *p > 0.0 && *p < top_pa).collect();
+    pressures.push(top_pa);
     let loads: Vec<Loads> = pressures.iter().map(|p| Loads::uniform(paper.body_pressure_pa, *p)).collect();
-    let has = |name: &str| bare.effects.iter().any(|e| e.name == name);
     let curve =
         |s: &Scenario| loads.iter().map(|l| Ok(1e3 * height(s, l)?)).collect::<Result<Vec<f64>, CompareError>>();
-    let aim = Aim { loads: &loads[loads.len() - 1], wanted_m: actuator.d_max_m };
+    let aim = Aim { loads: loads[loads.len() - 1], wanted_m: actuator.d_max_m };
     let (mut met_by, mut not_met_by) = (Vec::new(), Vec::new());
     if let Some(value) = aim.reached(0.0, policy::MOST_BENDING, &|b| bare.with_bending(b)) {
         let y_mm = curve(&bare.with_bending(value))?;
         let [effect, key, unit] = ["bending_stiffness", "bending_stiffness_nm2", "N m²"].map(String::from);
         met_by.push(Explanation { effect, key, unit, value, times_typical: None, y_mm });
     }
-    for effect in models::effects::EFFECTS
-        .iter()
-        .filter(|e| e.applies_to(bare.actuator.kind.family) && e.is_fitted() && !has(e.name))
-    {
-        match aim.meets(&bare, effect) {
-            Some((p, value)) => {
-                let y_mm = curve(&with(&bare, effect, p, value))?;
-                let typical = p.typical_for(kind) * p.si - p.neutral * p.si;
-                met_by.push(Explanation {
-                    effect: effect.name.into(),
-                    key: p.key.into(),
-                    unit: p.unit.into(),
-                    value: value / p.si,
-                    times_typical: Some((value - p.neutral * p.si) / typical),
-                    y_mm,
-                });
-            }
-            None => not_met_by.push(effect.name.to_string()),
-        }
+    let family = bare.actuator.kind.family;
+    let is_new = |e: &&Effect| e.applies_to(family) && e.is_fitted() && bare.effects.iter().all(|b| b.name != e.name);
+    for effect in models::effects::EFFECTS.iter().filter(is_new) {
+        let Some((p, value)) = aim.meets(&bare, effect) else {
+            not_met_by.push(effect.name.to_string());
+            continue;
+        };
+        let neutral = p.neutral * p.si;
+        met_by.push(Explanation {
+            effect: effect.name.into(),
+            key: p.key.into(),
+            unit: p.unit.into(),
+            value: value / p.si,
+            times_typical: Some((value - neutral) / (p.typical_for(kind) * p.si - neutral)),
+            y_mm: curve(&with(&bare, effect, p, value))?,
+        });
     }
+    let size = |e: &Explanation| e.times_typical.map_or(0.0, f64::abs);
     met_by.sort_by(|a, b| size(a).total_cmp(&size(b)));
-    let fe_carrier = engines(&[shipped], &stored()?)?.robots.first().and_then(|r| r.pairs.last()?.carrier);
+    let robots = engines(&[shipped], &stored()?)?.robots;
+    let carrier = robots.first().and_then(|r| r.pairs.last()?.carrier);
     Ok(OneNumber {
         robot: actuator.printed_name.clone(),
         actuator: kind.into(),
@@ -118,28 +116,23 @@ pub fn one_number(kind: &str) -> Result<OneNumber, CompareError> {
         bare_mm: curve(&bare)?,
         met_by,
         not_met_by,
-        fe_carrier: fe_carrier.map(|carrier| carrier.term.to_string()),
+        fe_carrier: carrier.map(|carrier| carrier.term.to_string()),
     })
 }
 
-fn size(e: &Explanation) -> f64 {
-    e.times_typical.map_or(0.0, |t| t.abs())
-}
-
 /// The displacement to be met.
-struct Aim<'a> {
-    loads: &'a Loads,
+struct Aim {
+    loads: Loads,
     wanted_m: f64,
 }
 
-impl Aim<'_> {
+impl Aim {
     /// The parameter that is varied and the value nearest neutral at which the effect alone meets the displacement.
     fn meets(&self, bare: &Scenario, effect: &Effect<'static>) -> Option<(&'static Parameter<'static>, f64)> {
         let p = effect.parameters.iter().find(|p| p.typical != p.neutral)?;
-        let model = |value: f64| with(bare, effect, p, value);
-        let ends = [p.upper * p.si, p.lower * p.si];
-        let found = ends.iter().filter_map(|end| self.reached(p.neutral * p.si, *end, &model));
-        let away = |v: &f64| (v - p.neutral * p.si).abs();
+        let (neutral, model) = (p.neutral * p.si, |value: f64| with(bare, effect, p, value));
+        let found = [p.upper, p.lower].into_iter().filter_map(|end| self.reached(neutral, end * p.si, &model));
+        let away = |v: &f64| (v - neutral).abs();
         found.min_by(|a, b| away(a).total_cmp(&away(b))).map(|value| (p, value))
     }
 
@@ -148,43 +141,36 @@ impl Aim<'_> {
         if from == to {
             return None;
         }
-        let miss = |v: f64| height(&model(v), self.loads).ok().map(|y| y - self.wanted_m);
+        let miss = |v: f64| height(&model(v), &self.loads).ok().map(|y| y - self.wanted_m);
         // Denser near neutral, where most effects act first.
         let at = |i: u32| from + (to - from) * (f64::from(i) / f64::from(GRID)).powi(2);
         let mut low = (at(0), miss(at(0))?);
         for i in 1..=GRID {
             let next = miss(at(i))?;
             if low.1 * next <= 0.0 && low.1 != next {
-                return Some(self.halved(low, at(i), &miss));
+                let is_before = |v: f64| miss(v).is_some_and(|y| y * low.1 > 0.0);
+                return Some(halved([low.0, at(i)], is_before));
             }
             low = (at(i), next);
         }
         None
     }
+}
 
-    fn halved(&self, low: (f64, f64), high: f64, miss: &dyn Fn(f64) -> Option<f64>) -> f64 {
-        let (mut a, mut b) = (low.0, high);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (a + b);
-            match miss(middle) {
-                Some(y) if y * low.1 > 0.0 => a = middle,
-                _ => b = middle,
-            }
-        }
-        0.5 * (a + b)
+/// Where something stops being so between two values.
+fn halved([mut low, mut high]: [f64; 2], is_before: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if is_before(middle) { low = middle } else { high = middle }
     }
+    0.5 * (low + high)
 }
 
 /// The bare model with one parameter of one effect set, others typical.
 fn with(bare: &Scenario, effect: &Effect, varied: &Parameter, value_si: f64) -> Scenario {
-    let kind = bare.actuator.kind.name;
-    let others = effect.typical_for(kind);
-    let values: Vec<f64> = effect
-        .parameters
-        .iter()
-        .zip(others)
-        .map(|(p, typical)| if p.key == varied.key { value_si } else { typical })
-        .collect();
+    let mut values = effect.typical_for(bare.actuator.kind.name);
+    let own = effect.parameters.iter().position(|p| p.key == varied.key);
+    own.into_iter().for_each(|k| values[k] = value_si);
     bare.with_effect(effect.name, &values)
 }
 

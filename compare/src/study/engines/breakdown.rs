@@ -1,7 +1,9 @@
 //! Over which pressures and pouches the reduced model parts from the finite elements.
 
-use super::engines::{CUTS, Carrier, Energies, EnginePair, EngineRun, SHAPE, and_back, pairs, varied};
+use super::lines::exact;
+use super::{CUTS, Carrier, Energies, EngineRun, SHAPE, and_back, pairs, varied};
 use crate::error::CompareError;
+use crate::study::columns::TextColumn;
 use fem::FemError;
 use fem::session::{Job, Source, mesh_keys, rounded};
 use models::Scenario;
@@ -60,53 +62,11 @@ fn places(scenario: &Scenario, ranges: &Ranges) -> Vec<(f64, Option<f64>)> {
     wanted
 }
 
-/// One run at one pressure.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Parting {
-    /// The run.
-    pub run: EngineRun,
-    /// The scenario without its effects.
-    pub bare: EnginePair,
-    /// The scenario as it is.
-    pub own: EnginePair,
-}
-
-/// Every run of one of these robots at every pressure.
-///
-/// # Errors
-/// A model without equilibrium.
-pub fn partings(scenarios: &[Scenario], runs: &[EngineRun]) -> Result<Vec<Parting>, CompareError> {
-    let mut rows = Vec::new();
-    for run in runs.iter().filter(|run| run.cut.is_empty()) {
-        let Some(scenario) = scenarios.iter().find(|s| s.name == run.scenario) else { continue };
-        let scenario = varied(scenario, run);
-        let bare = pairs(&scenario.bare(), run, runs)?;
-        let both = pairs(&scenario, run, runs)?.into_iter().zip(bare);
-        rows.extend(both.map(|(own, bare)| Parting { run: run.clone(), bare, own }));
-    }
-    Ok(rows)
-}
-
-/// `breakdown.csv`.
-pub fn csv(rows: &[Parting]) -> String {
-    let mut out = String::from(
-        "robot,mesh_mm,p_body_kpa,pouch_mm,p_act_kpa,reduced_tip_mm,fe_tip_mm,difference_pct,carried_by,bare_tip_mm\n",
-    );
-    for cell in rows.iter().map(PartingCell::of) {
-        let difference = cell.difference.map_or(String::new(), |d| (100.0 * d).to_string());
-        let PartingCell { robot, mesh_mm, body_kpa, pouch_mm, actuator_kpa, reduced_tip_mm, fe_tip_mm, .. } = cell;
-        let (carrier, bare) = (cell.carried_by.map_or("", |c| c.term), cell.bare_tip_mm);
-        out.push_str(&format!("{robot},{mesh_mm},{body_kpa},{pouch_mm},{actuator_kpa},"));
-        out.push_str(&format!("{reduced_tip_mm},{fe_tip_mm},{difference},{carrier},{bare}\n"));
-    }
-    out
-}
-
-/// A [`Parting`] as it is told.
+/// Both engines in one run at one pressure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PartingCell<'a> {
+pub struct Parting {
     /// Actuator kind.
-    pub robot: &'a str,
+    pub robot: String,
     /// Element size at the actuator \[mm\].
     pub mesh_mm: f64,
     /// Body gauge pressure \[kPa\].
@@ -137,15 +97,24 @@ pub struct PartingCell<'a> {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PartingShape {
     names: [&'static str; 5],
-    reduced: [f64; 5],
-    fe: [f64; 5],
+    /// Of the reduced model.
+    pub reduced: [f64; 5],
+    /// Of the finite elements.
+    pub fe: [f64; 5],
 }
 
-impl PartingCell<'_> {
-    /// Of a parting.
-    pub fn of(Parting { run, bare, own }: &Parting) -> PartingCell<'_> {
-        PartingCell {
-            robot: &run.actuator,
+/// Every run of one of these robots at every pressure.
+///
+/// # Errors
+/// A model without equilibrium.
+pub fn partings(scenarios: &[Scenario], runs: &[EngineRun]) -> Result<Vec<Parting>, CompareError> {
+    let mut rows = Vec::new();
+    for run in runs.iter().filter(|run| run.cut.is_empty()) {
+        let Some(scenario) = scenarios.iter().find(|s| s.name == run.scenario) else { continue };
+        let scenario = varied(scenario, run);
+        let bare = pairs(&scenario.bare(), run, runs)?;
+        rows.extend(pairs(&scenario, run, runs)?.into_iter().zip(bare).map(|(own, bare)| Parting {
+            robot: run.actuator.clone(),
             mesh_mm: run.mesh_mm[1],
             body_kpa: run.body_kpa,
             pouch_mm: run.pouch_mm,
@@ -158,6 +127,21 @@ impl PartingCell<'_> {
             bare_tip_mm: bare.reduced_mm[1],
             bare_difference: bare.difference(),
             shape: own.shape.map(|[reduced, fe]| PartingShape { names: SHAPE, reduced, fe }),
-        }
+        }));
     }
+    Ok(rows)
 }
+
+/// Columns of `breakdown.csv`.
+pub const PARTINGS_CSV: [TextColumn<Parting>; 10] = [
+    ("robot", |row| row.robot.clone()),
+    ("mesh_mm", |row| row.mesh_mm.to_string()),
+    ("p_body_kpa", |row| row.body_kpa.to_string()),
+    ("pouch_mm", |row| row.pouch_mm.to_string()),
+    ("p_act_kpa", |row| row.actuator_kpa.to_string()),
+    ("reduced_tip_mm", |row| row.reduced_tip_mm.to_string()),
+    ("fe_tip_mm", |row| row.fe_tip_mm.to_string()),
+    ("difference_pct", |row| exact(row.difference.map(|d| 100.0 * d))),
+    ("carried_by", |row| row.carried_by.map_or(String::new(), |c| c.term.into())),
+    ("bare_tip_mm", |row| row.bare_tip_mm.to_string()),
+];

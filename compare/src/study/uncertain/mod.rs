@@ -109,12 +109,12 @@ const RECORD: RecordShape = RecordShape { schema: "ibr.uncertain", version: 1 };
 
 /// Hypercubes of the paper's robots, as `ibr simulate NAME --uncertain` wrote them.
 const STORED: &[&str] = &[
-    include_str!("../../assets/uncertain/spam.json"),
-    include_str!("../../assets/uncertain/spam-face.json"),
-    include_str!("../../assets/uncertain/spam-seams.json"),
-    include_str!("../../assets/uncertain/cpam.json"),
-    include_str!("../../assets/uncertain/epam.json"),
-    include_str!("../../assets/uncertain/fpam.json"),
+    include_str!("../../../assets/uncertain/spam.json"),
+    include_str!("../../../assets/uncertain/spam-face.json"),
+    include_str!("../../../assets/uncertain/spam-seams.json"),
+    include_str!("../../../assets/uncertain/cpam.json"),
+    include_str!("../../../assets/uncertain/epam.json"),
+    include_str!("../../../assets/uncertain/fpam.json"),
 ];
 
 /// Hypercubes that come with the program.

@@ -4,9 +4,13 @@
 //! from geometry, from a fabric test or from a formula (never from the measured displacement, unless the rung says
 //! *calibrated*), does to the prediction.
 
+mod mechanics;
+pub mod one_number;
+pub mod tradeoff;
+
 use crate::error::CompareError;
-use crate::study::mechanics::{additions, with};
 use data::{Published, PublishedActuator, published};
+use mechanics::{additions, with};
 use models::Known;
 use models::{Loads, Model, Scenario, shipped};
 
@@ -118,11 +122,16 @@ fn start(scenario: &Scenario, loads: &Loads) -> Result<Rung, CompareError> {
     Ok(Rung { label: "bare model".into(), scenario: bare, y_m, range_m: None, known: Known::Predicted, why })
 }
 
-pub(crate) fn height(scenario: &Scenario, loads: &Loads) -> Result<f64, CompareError> {
+/// Heights of the outermost marker, else of the tip, and of the tip \[m\].
+pub(crate) fn heights_m(scenario: &Scenario, loads: &Loads) -> Result<[f64; 2], CompareError> {
     let model = Model::new(scenario);
     let mut state = model.prediction();
     model.predict(loads, &mut state)?;
-    Ok(state.markers.last().map_or(state.tip.y_m, |xy| xy[1]))
+    Ok([state.markers.last().map_or(state.tip.y_m, |xy| xy[1]), state.tip.y_m])
+}
+
+pub(crate) fn height(scenario: &Scenario, loads: &Loads) -> Result<f64, CompareError> {
+    Ok(heights_m(scenario, loads)?[0])
 }
 
 /// Adds the rung with the B ≥ 0 that meets the displacement: one number fitted to one number, shown as such.
