@@ -2,7 +2,7 @@
 
 use crate::tables::{printed, table};
 use compare::study::breakdown::Parting;
-use compare::study::columns::{TextColumn, TextTable, or_dash};
+use compare::study::columns::{TextColumn, TextTable};
 use compare::study::engines::SHAPE;
 
 const COLUMNS: [TextColumn<Parting>; 11] = [
