@@ -14,7 +14,7 @@ pub(crate) fn replace(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> Resu
     written.map_err(|source| {
         // The first failure is the one to report.
         let _ = std::fs::remove_file(&partial);
-        FemError::Io { path: path.to_path_buf(), source }
+        FemError::io(path)(source)
     })
 }
 
@@ -42,7 +42,7 @@ pub(super) fn sync_folder(folder: &Path) -> Result<(), Error> {
 
 /// Creates a folder and those above it.
 pub(super) fn make_folder(folder: &Path) -> Result<(), FemError> {
-    std::fs::create_dir_all(folder).map_err(|source| FemError::Io { path: folder.to_path_buf(), source })
+    std::fs::create_dir_all(folder).map_err(FemError::io(folder))
 }
 
 #[cfg(test)]

@@ -16,13 +16,13 @@ pub mod uncertain;
 
 pub use calibrate::{Calibration, Knob, calibrate};
 pub use comparison::{Comparison, Contender, Variant, compare, compare_all};
+pub use engines::breakdown;
 pub use generate::{Generator, generate, parse_protocol};
 pub use in_space::{InSpace, compare_in_space};
 pub(crate) use predict::first_slope;
 pub use predict::{Predicted, fit_scenario, predict_dataset};
-pub use engines::breakdown;
-pub use published::{Rung, one_number, published_ladders, tradeoff};
 pub use published::tradeoff::{Timing, time_prediction};
+pub use published::{Rung, one_number, published_ladders, tradeoff};
 
 #[cfg(test)]
 mod space_tests;

@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 /// Lets `new` and `old` change places, so that `old` is one of the two at every moment.
-pub fn exchange(new: &Path, old: &Path, aside: &Path) -> io::Result<()> {
+pub(super) fn exchange(new: &Path, old: &Path, aside: &Path) -> io::Result<()> {
     in_one_step(new, old).or_else(|_| in_renames(new, old, aside, &|from, to| std::fs::rename(from, to)))
 }
 
@@ -39,7 +39,7 @@ fn in_renames(new: &Path, old: &Path, aside: &Path, rename: Rename) -> io::Resul
 }
 
 /// After a kill between those renames: the older run, which lies `aside`, goes back unless the new one is there.
-pub fn mend(folder: &Path, aside: &Path) -> io::Result<()> {
+pub(super) fn mend(folder: &Path, aside: &Path) -> io::Result<()> {
     if folder.exists() { std::fs::remove_dir_all(aside) } else { std::fs::rename(aside, folder) }
 }
 

@@ -1,0 +1,84 @@
+//! What a [`Model`] says of a robot in space.
+
+use super::{Model, Prediction, Tip, post};
+use crate::assembly::Segment;
+use crate::error::Unsolved;
+use crate::robot::Workspace;
+use crate::space::{Bend, Section, SectionState, Stretch, StripState};
+use crate::term::{Row, RowKind};
+
+impl Model {
+    /// Whether strips lie round the body: see [`crate::space`].
+    pub fn is_spatial(&self) -> bool {
+        !self.assembly().around.is_empty()
+    }
+
+    /// Refuses what is built for planar robots alone.
+    pub(crate) fn planar(&self, what: &'static str) -> Result<(), Unsolved> {
+        if self.is_spatial() { Err(Unsolved::InSpace { what }) } else { Ok(()) }
+    }
+
+    /// Sections of a robot in space, base to tip; none of a planar one.
+    pub fn sections<'a>(&'a self, at: &'a Prediction) -> impl Iterator<Item = SectionState<'a>> + 'a {
+        let work = &at.work.space;
+        let section = |(segment, (bend, strips)): (&Segment, (&Bend, &'a Vec<StripState>))| SectionState {
+            segment: *segment,
+            kappa: bend.kappa,
+            contraction: bend.contraction,
+            strips,
+        };
+        self.assembly().segments.iter().zip(work.bends.iter().zip(&work.strips)).map(section)
+    }
+
+    pub(crate) fn stretch_in_space(&self, work: &Workspace, segment: usize) -> Stretch {
+        let site = &self.assembly().sites[self.assembly().segments[segment].site];
+        let bend = work.space.bends[segment];
+        let contraction = bend.contraction + (site.centre_line_m - site.radius_m) * bend.size();
+        Stretch { from: work.space.frames[segment], bend, contraction }
+    }
+
+    /// Places the nodes and the tip.
+    pub(crate) fn place_in_space(&self, out: &mut Prediction) {
+        let mut turned = 0.0;
+        for (i, segment) in self.assembly().segments.iter().enumerate() {
+            let end = self.stretch_in_space(&out.work, i).at(segment.length_m);
+            out.work.space.frames[i + 1] = end;
+            turned += out.work.space.bends[i].size() * segment.length_m;
+            out.work.nodes[2 * i + 2] = end.at[0];
+            out.work.nodes[2 * i + 3] = end.at[1];
+            out.work.headings[i + 1] = turned;
+        }
+        let [x_m, y_m, z_m] = out.work.space.frames[self.assembly().segments.len()].at;
+        out.tip = Tip { x_m, y_m, z_m, angle_rad: turned };
+    }
+
+    /// Markers on the centre line: effects of the camera are refused in space.
+    pub(crate) fn see_in_space(&self, places: &[(usize, f64)], out: &mut Prediction) {
+        for (i, (segment, offset)) in places.iter().enumerate() {
+            let [x, y, z] = self.stretch_in_space(&out.work, *segment).at(*offset).at;
+            (out.markers[i], out.markers_z_m[i]) = ([x, y], z);
+        }
+    }
+
+    /// Sets the strips' pressures from those of the channels.
+    pub(crate) fn supply_strips(&self, actuator_pa: &[f64], work: &mut Workspace) {
+        let held_s = work.history.held_s;
+        for (states, strips) in work.space.strips.iter_mut().zip(&self.assembly().around) {
+            for (state, strip) in states.iter_mut().zip(strips) {
+                let site = &self.assembly().sites[strip.site];
+                let set = if site.actuator.is_some() { actuator_pa[site.channel] } else { 0.0 };
+                state.p_act_pa = self.assembly().supply.iter().fold(set, |p, law| law(p, held_s));
+            }
+        }
+    }
+
+    /// Ledger of a robot in space.
+    pub(crate) fn ledger_in_space(&self, body_pa: f64, at: &Prediction, rows: &mut Vec<Row>) {
+        for (i, segment) in self.assembly().segments.iter().enumerate() {
+            let section = Section::new(self.assembly(), i, body_pa);
+            section.energies(&at.work.space.bends[i], &at.work.space.strips[i], &mut |line, energy| {
+                post(rows, line, RowKind::Stored, energy * segment.length_m);
+            });
+        }
+    }
+}
