@@ -19,7 +19,7 @@ pub use import::Import;
 use std::path::PathBuf;
 pub use sweep::{DesignArgs, ShardArgs, SweepArgs};
 
-/// Models of pneumatic bending actuators on inflated-beam robots, held against measurements.
+/// Models of pneumatic bending actuators on inflated-beam robots, compared with measurements.
 #[derive(Debug, Parser)]
 #[command(version, about, max_term_width = 100)]
 #[command(after_help = "A SCENARIO is a TOML file or a shipped robot: spam, cpam, epam, fpam.\n\
@@ -33,6 +33,12 @@ pub struct Cli {
     /// No progress
     #[arg(long, short, global = true)]
     pub quiet: bool,
+    /// Threads; 0: one per core. Results do not depend on it
+    #[arg(long, global = true, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
+    pub threads: u64,
+    /// Replace existing files; a finished run stays until the new one is complete
+    #[arg(long, global = true)]
+    pub force: bool,
     /// What to do
     #[command(subcommand)]
     pub command: Command,
@@ -43,7 +49,7 @@ pub struct Cli {
 pub enum Command {
     /// The whole story on embedded data, with a report
     Demo(OutDirArgs),
-    /// Shape and markers at given pressures, or the pressure for a wanted tip
+    /// Shape and markers at given pressures, or the pressure for a target tip
     Predict(PredictArgs),
     /// A robot for a controller: tables as C code, or its linear form
     #[command(subcommand)]
@@ -66,7 +72,7 @@ pub enum Command {
     Simulate(SimulateArgs),
     /// Many cases of one robot, a row each: keys that vary, in shards or on a cluster
     Sweep(SweepArgs),
-    /// The robot for a wanted shape: sizes and pressures within your ranges, ready to cut
+    /// The robot for a target shape: sizes and pressures within your ranges, ready to cut
     Design(DesignArgs),
     /// From tensile tests of a fabric to its moduli, curves and a table for cases
     Characterize(CharacterizeArgs),
@@ -114,12 +120,12 @@ pub struct StudioArgs {
     /// Port on 127.0.0.1; 0 for a free one
     #[arg(long, default_value_t = 0)]
     pub port: u16,
-    /// The page; default: web/dist/ibr.html here, or ibr.html beside the program
+    /// The page; default: web/dist/ibr.html here, or ibr.html next to the program
     #[arg(long, value_name = "FILE")]
     pub page: Option<PathBuf>,
 }
 
-/// What is checked.
+/// Choice of checks.
 #[derive(Debug, Args)]
 pub struct VerifyArgs {
     /// Also the finite element checks that take long, some minutes in all
@@ -133,7 +139,7 @@ pub struct VerifyArgs {
     pub plots: Option<PathBuf>,
 }
 
-/// What is measured.
+/// Choice of measurements.
 #[derive(Debug, Args)]
 pub struct BenchArgs {
     /// model, fem or discovery: how often a diagnosis is right on data with hidden effects
@@ -151,12 +157,9 @@ pub struct BenchArgs {
     /// With discovery: folder where every answer is kept, so that an interrupted bench goes on and shards share it
     #[arg(long, value_name = "FOLDER")]
     pub out: Option<PathBuf>,
-    /// With discovery: machines beside each other
+    /// With discovery: work on several machines
     #[command(flatten)]
     pub shards: ShardArgs,
-    /// With discovery: threads, with --engine those of each shard; 0: one per core
-    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
-    pub threads: u64,
     /// With fem: also whole runs, pillows of the nodes of up to 80 000 triangles and the four robots, about two minutes
     #[arg(long)]
     pub all: bool,
@@ -255,43 +258,36 @@ pub struct PatternArgs {
 /// `ibr compare`
 #[derive(Debug, Args)]
 pub struct CompareArgs {
-    /// Scenario file or shipped robot, then marker data; with --engines or --paper any number of scenarios, those of the paper if none
+    /// Scenario file or shipped robot, then marker data; with --engines or --paper any number of scenarios, the paper's if none
     #[arg(value_name = "SCENARIO DATA")]
     pub inputs: Vec<String>,
     /// Hold the reduced model and finite element runs against each other and against the published numbers
     #[arg(long, visible_alias = "published", conflicts_with_all = ["calibrate", "effect", "sigma", "max_error"])]
     pub engines: bool,
-    /// The paper's finite elements, reproduced: runs with its own modelling choices beside what it prints, fact by fact
+    /// The paper's finite elements, reproduced: runs with its own modelling choices, compared with what it prints, fact by fact
     #[arg(long, conflicts_with_all = ["engines", "calibrate", "effect", "sigma", "max_error"])]
     pub paper: bool,
-    /// Folder of finished runs; missing ones are made there. Default: ibr-report/runs; with --paper the runs that come
-    /// with the program
-    #[arg(long)]
-    pub runs: Option<PathBuf>,
+    /// With --engines or --paper
+    #[command(flatten)]
+    pub runs: RunsArgs,
     /// With --paper and --runs: meshes of the runs, body and actuator; the paper's final one is 4mm/1mm and takes hours
     #[arg(long, value_name = "[BODY/]ACTUATOR", requires_all = ["paper", "runs"], default_value = "4mm", allow_hyphen_values = true)]
     pub mesh: String,
-    /// With --engines: only the runs that come with the program
-    #[arg(long, requires = "engines")]
-    pub stored: bool,
     /// With --engines: runs of every robot, with other random imperfections each
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1000))]
     pub seeds: u64,
     /// Actuator pressures of the runs; default: the scenario's, and with --paper also 11, 12 and 13 kPa of the cPAM
     #[arg(long, allow_hyphen_values = true)]
     pub pressure: Option<String>,
-    /// With --engines: threads, shared by runs beside each other; 0: one per core
-    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
-    pub threads: u64,
     /// Also fit the bending stiffness B to these data, or with =body-pressure that of the body, and show what that brings
     #[arg(long, value_name = "WHAT", num_args = 0..=1, require_equals = true, default_missing_value = "bending")]
     pub calibrate: Option<Knob>,
     /// Also hold the model with this effect against the data: name or name:key=value[,key=value]; repeatable, cumulative
     #[arg(long, short)]
     pub effect: Vec<String>,
-    /// Camera noise of one coordinate, for data of a single run, for example 1mm
-    #[arg(long, allow_hyphen_values = true)]
-    pub sigma: Option<String>,
+    /// Noise
+    #[command(flatten)]
+    pub noise: NoiseArgs,
     /// Exit with code 1 if the error beyond noise of the last model exceeds this, for example 5mm
     #[arg(long, allow_hyphen_values = true)]
     pub max_error: Option<String>,
@@ -300,11 +296,52 @@ pub struct CompareArgs {
     pub out: Option<PathBuf>,
 }
 
-impl CompareArgs {
+/// Finite element runs.
+#[derive(Debug, Args)]
+pub struct RunsArgs {
+    /// Folder of finished runs; missing ones are made there. Default: ibr-report/runs; with --paper the runs that come
+    /// with the program
+    #[arg(long)]
+    pub runs: Option<PathBuf>,
+    /// Only the runs that come with the program: nothing is simulated
+    #[arg(long, conflicts_with = "runs")]
+    pub stored: bool,
+}
+
+impl RunsArgs {
     /// Where runs are kept.
-    pub fn runs_folder(&self) -> PathBuf {
+    pub fn folder(&self) -> PathBuf {
         self.runs.clone().unwrap_or_else(|| PathBuf::from("ibr-report/runs"))
     }
+}
+
+/// Noise of measurements.
+#[derive(Debug, Args)]
+pub struct NoiseArgs {
+    /// Camera noise of one coordinate, for data of a single run, for example 1mm; for a table of bench tests the scatter of a row
+    /// without a standard deviation, for example 3%
+    #[arg(long, allow_hyphen_values = true)]
+    pub sigma: Option<String>,
+}
+
+/// How effects are fitted to measurements.
+#[derive(Debug, Args)]
+pub struct FitArgs {
+    /// Further data of the same robot, each with its own protocol, loads and direct measurements (about.toml), fitted along; repeatable
+    #[arg(long, value_name = "DATA")]
+    pub also: Vec<String>,
+    /// Keep the scenario's bending stiffness instead of fitting it: it was measured separately
+    #[arg(long)]
+    pub keep_bending: bool,
+    /// An effect that cannot be here, and is left out; or pressure_slip: the pressures are right although they look wrong; repeatable
+    #[arg(long, value_name = "EFFECT")]
+    pub not: Vec<String>,
+    /// Noise
+    #[command(flatten)]
+    pub noise: NoiseArgs,
+    /// Differences up to this are good enough; default: the larger of 0.15 mm and 0.5 % of the largest deflection
+    #[arg(long, allow_hyphen_values = true)]
+    pub tolerance: Option<String>,
 }
 
 /// `ibr simulate`
@@ -315,19 +352,13 @@ pub struct SimulateArgs {
     /// Folder of the run; default: ibr-report/simulate-<case>
     #[arg(long)]
     pub out: Option<PathBuf>,
-    /// Threads; 0: one per core. Results do not depend on it
-    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
-    pub threads: u64,
     /// Go on with the interrupted run in the folder, or with a complete one to a later --end; the result is the same to the bit
     #[arg(long)]
     pub resume: bool,
     /// Go on from the end of the complete run in this folder, with other loads: a robot's pressures and loads begin there, the
     /// times of a case count on
-    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["uncertain", "separate", "seeds", "export"])]
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["uncertain", "seeds", "export"])]
     pub from: Option<PathBuf>,
-    /// Run again where a run is; a finished one stays until the new one is complete
-    #[arg(long)]
-    pub force: bool,
     /// Simulated time, for example 0.15s or 150ms; default: the case's
     #[arg(long, allow_hyphen_values = true)]
     pub end: Option<String>,
@@ -346,28 +377,25 @@ pub struct SimulateArgs {
     /// Robots: actuator pressures in one ramp with a hold at each, for example 10kPa,20kPa,30kPa; `/` separates supply channels
     #[arg(long, short, allow_hyphen_values = true)]
     pub pressure: Option<String>,
-    /// Robots: a run of its own for every pressure
-    #[arg(long)]
-    pub separate: bool,
     /// Robots: as many runs with other random imperfections, and their mean and spread
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..=1000))]
     pub seeds: Option<u64>,
-    /// Robots: element size, or those of body and actuator, for example 8mm/3mm; several (8mm/4mm,8mm/3mm) are several runs
+    /// Robots: element size, or body and actuator, for example 8mm/3mm; several (8mm/4mm,8mm/3mm) are several runs
     #[arg(long, value_name = "[BODY/]ACTUATOR", allow_hyphen_values = true)]
     pub mesh: Option<String>,
     /// Robots: another value of a key of [fem] or of the scenario, for example bond=0.5 or body.radius_mm=45; repeatable
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Machines beside each other
+    /// Work on several machines
     #[command(flatten)]
     pub shards: ShardArgs,
     /// Robots: so many robots (30) whose assumed numbers fill their intervals as a Latin hypercube: median and 80 % interval of every
     /// marker, and which number to measure first
     #[arg(long, num_args = 0..=1, default_missing_value = "30", value_name = "ROBOTS",
-          value_parser = clap::value_parser!(u64).range(5..=1000), conflicts_with_all = ["separate", "seeds"])]
+          value_parser = clap::value_parser!(u64).range(5..=1000), conflicts_with = "seeds")]
     pub uncertain: Option<u64>,
     /// Robots: the run again with every numerical setting a third and three times as large and the mesh half as large: how far the
     /// tip depends on the numerics
-    #[arg(long, conflicts_with_all = ["uncertain", "separate", "seeds", "from", "export"])]
+    #[arg(long, conflicts_with_all = ["uncertain", "seeds", "from", "export"])]
     pub numerics: bool,
 }

@@ -1,4 +1,4 @@
-//! A scenario held against measurements, with all that is told of it.
+//! A scenario compared with measurements, with all that is printed of it.
 
 use compare::diagnosis::{Options, pressure_slip};
 use compare::study::Knob;
@@ -17,7 +17,7 @@ pub struct Compared {
 
 impl Compared {
     /// Holds the scenario against measurements, then with one effect after the other, each typed as `name` or
-    /// `name:key=value,…`; with a knob, also with that number fitted. A slip of the pressures is told first.
+    /// `name:key=value,…`; with a knob, also with that number fitted. A slip of the pressures comes first.
     ///
     /// # Errors
     /// An effect that is not possible; as [`fn@compare::compare`].

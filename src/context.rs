@@ -1,7 +1,9 @@
 //! What commands share: the outside that they may use, the wish to end, and what they have to say.
 
 use crate::failure::{Failure, INTERRUPTED};
+use crate::shown::as_json;
 use fem::session::Progress;
+use serde::Serialize;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -12,11 +14,15 @@ use std::time::{Duration, Instant};
 pub struct Context<'a> {
     /// What was typed after the name of the program.
     pub typed: Vec<String>,
-    /// JSON is wanted.
+    /// JSON is asked for.
     pub json: bool,
-    /// Told what is being done, and which share of the whole is done if known.
+    /// Threads; 0: one per core.
+    pub threads: usize,
+    /// Existing files may be replaced.
+    pub force: bool,
+    /// Takes what is being done, and which share of the whole is done if known.
     pub progress: &'a mut (dyn FnMut(&str, Option<f64>) + Send),
-    /// Told text for standard output before the command ends; nothing is printed where JSON is wanted.
+    /// Takes text for standard output before the command ends; nothing is printed where JSON is asked for.
     pub say: &'a mut (dyn FnMut(&str) + Send),
     /// Held while files are written; true once they are.
     pub written: &'a Mutex<bool>,
@@ -92,6 +98,11 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// A text, and the same as JSON of a shape in its first version.
+    pub fn answer(text: String, schema: &'static str, body: &impl Serialize) -> Outcome {
+        Outcome::new(text, as_json(schema, body))
+    }
+
     /// A text, and the same as JSON.
     pub fn new(text: String, json: serde_json::Value) -> Outcome {
         Outcome { text, json: Some(json), notes: Vec::new(), code: 0 }
@@ -102,12 +113,12 @@ impl Outcome {
         Outcome { notes: vec![note], code: INTERRUPTED, ..Outcome::default() }
     }
 
-    /// Says cautions.
+    /// Adds cautions.
     pub fn warn<'w>(&mut self, warnings: impl IntoIterator<Item = &'w String>) {
         self.notes.extend(warnings.into_iter().map(|w| format!("warning: {w}")));
     }
 
-    /// Says where the report is.
+    /// States where the report is.
     pub fn report(&mut self, folder: &Path) {
         self.notes.push(format!("report: {}", folder.join("report.html").display()));
     }

@@ -139,7 +139,7 @@ struct Lines<R> {
 }
 
 impl<R: BufRead> Lines<R> {
-    /// With what the header says.
+    /// With the header.
     fn begin<T>(
         input: R,
         from: &str,
@@ -183,7 +183,7 @@ impl<R: BufRead> Lines<R> {
     }
 }
 
-/// What the header says, with a time or without; a channel that feeds nothing is refused.
+/// The columns of the header, with a time or without; a channel that feeds nothing is refused.
 fn columns(header: &str, fed: &[usize], timed: bool) -> Result<Vec<(Column, Unit)>, String> {
     let mut found: Vec<(Column, Unit)> = Vec::new();
     for name in header.split(',').map(|name| name.trim().to_lowercase()) {

@@ -1,4 +1,4 @@
-//! `ibr`: models of pneumatic bending actuators on inflated-beam robots, held against measurements.
+//! `ibr`: models of pneumatic bending actuators on inflated-beam robots, compared with measurements.
 //!
 //! What a user does, as functions: [`ScenarioFile::read`] and [`Evidence::read`], then [`compare`](fn@compare) (how far off, and
 //! where), [`diagnose`] (which physical effect is missing), [`extend`] (a new scenario with it), [`validate`] (does it help on
@@ -50,6 +50,7 @@ pub mod shown;
 pub mod studies;
 pub mod studio;
 mod tables;
+pub mod words;
 
 pub use ::compare as study;
 pub use ::sweep;

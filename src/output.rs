@@ -42,7 +42,7 @@ pub fn check_folder(folder: &Path) -> Result<(), Failure> {
     }
 }
 
-/// The same for a set of data, which replaces one only if told.
+/// The same for a set of data, which replaces one only with --force.
 pub fn check_set_folder(folder: &Path, force: bool) -> Result<(), Failure> {
     let there = [("seal.toml", "a challenge"), ("markers.csv", "a dataset")];
     match there.iter().find(|(file, _)| !force && folder.join(file).exists()) {
@@ -218,7 +218,7 @@ pub fn program() -> String {
     format!("ibr {}", env!("CARGO_PKG_VERSION"))
 }
 
-/// What a report says of its origin.
+/// Origin of a report.
 pub fn imprint() -> Imprint {
     Imprint { program: program(), date: today(), machine: machine() }
 }

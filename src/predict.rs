@@ -1,4 +1,4 @@
-//! Shapes of a robot at given pressures, and the pressure for a wanted tip.
+//! Shapes of a robot at given pressures, and the pressure for a target tip.
 
 use compare::CompareError;
 use models::{Aim, CHANNELS, HOLD_S, Limits, Loads, Model, Prediction, Scenario, Steered, Step, Target, TipSlope};
@@ -37,7 +37,7 @@ pub(crate) fn state(model: &Model, loads: Loads, prediction: Prediction) -> Resu
     Ok(AtPressure { loads, prediction, slopes })
 }
 
-/// The state, at the scenario's body pressure, in which the tip is where it is wanted.
+/// The state, at the scenario's body pressure, in which the tip is on target.
 ///
 /// # Errors
 /// A place that the tip does not reach.

@@ -62,7 +62,7 @@ impl Predictor {
         state(&self.model, *loads, at)
     }
 
-    /// The state, on the first loading, in which the tip is where it is wanted, and its pressures.
+    /// The state, on the first loading, in which the tip is on target, and its pressures.
     ///
     /// # Errors
     /// A place that the tip does not reach.
@@ -99,7 +99,7 @@ impl Predictor {
         Ok(self.model.jacobian(loads, &mut self.model.prediction())?)
     }
 
-    /// Many states beside each other on so many threads, one per core if 0; bits do not depend on the number.
+    /// Many states in parallel on so many threads, one per core if 0; bits do not depend on the number.
     ///
     /// # Errors
     /// A state without equilibrium, with its number from 0; an effect with history, whose states have an order.

@@ -1,4 +1,4 @@
-//! What is printed: names from files and arguments may hold what a terminal obeys.
+//! Printable text: names from files and arguments may hold what a terminal obeys.
 
 /// The text with every control character but line ends and tabs as `?`, one for each of its bytes, so that places in it stay.
 pub fn printable(text: &str) -> String {

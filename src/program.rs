@@ -29,6 +29,8 @@ pub fn run(typed: impl IntoIterator<Item = OsString>) -> u8 {
     let mut context = Context {
         typed: words,
         json: cli.json,
+        threads: cli.threads as usize,
+        force: cli.force,
         progress: &mut |what, share| bar.tell(what, share),
         say: &mut |text| {
             if !cli.json {

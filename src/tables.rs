@@ -1,21 +1,109 @@
-//! Text tables.
+//! Text tables: a list of columns over rows.
 
-use comfy_table::{CellAlignment, Table, presets};
+use crate::words::number;
 use compare::study::columns::TextTable;
-pub use ibr::pages::number;
 
-/// A table of text; columns after the first `left` ones are flush right.
+/// Rows, and columns that each have a head and what they say of a row.
+pub struct Table<R> {
+    rows: Vec<R>,
+    columns: Vec<TextColumn>,
+}
+
+struct TextColumn {
+    head: String,
+    flush_right: bool,
+    cells: Vec<String>,
+}
+
+impl<R> Table<R> {
+    /// A table of these rows that has no column yet.
+    pub fn of(rows: impl IntoIterator<Item = R>) -> Table<R> {
+        Table { rows: rows.into_iter().collect(), columns: Vec::new() }
+    }
+
+    fn column<S: Into<String>>(mut self, head: impl Into<String>, flush_right: bool, cell: impl Fn(&R) -> S) -> Self {
+        let cells = self.rows.iter().map(|row| cell(row).into()).collect();
+        self.columns.push(TextColumn { head: head.into(), flush_right, cells });
+        self
+    }
+
+    /// A column of words, flush left.
+    pub fn words<S: Into<String>>(self, head: impl Into<String>, cell: impl Fn(&R) -> S) -> Self {
+        self.column(head, false, cell)
+    }
+
+    /// A column of text, flush right.
+    pub fn right<S: Into<String>>(self, head: impl Into<String>, cell: impl Fn(&R) -> S) -> Self {
+        self.column(head, true, cell)
+    }
+
+    /// A column of numbers with so many decimals; a dash where there is none.
+    pub fn number<V: Into<Option<f64>>>(self, head: impl Into<String>, digits: usize, cell: impl Fn(&R) -> V) -> Self {
+        self.column(head, true, |row| number(cell(row).into(), digits))
+    }
+
+    /// The same with a sign.
+    pub fn signed<V: Into<Option<f64>>>(self, head: impl Into<String>, digits: usize, cell: impl Fn(&R) -> V) -> Self {
+        self.column(head, true, |row| cell(row).into().map_or("–".into(), |v| format!("{v:+.digits$}")))
+    }
+
+    /// The table with further columns on a condition.
+    pub fn when(self, wanted: bool, more: impl FnOnce(Self) -> Self) -> Self {
+        if wanted { more(self) } else { self }
+    }
+
+    /// Whether it has no rows.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// As text.
+    pub fn text(self) -> String {
+        let (mut heads, mut cells, mut flush_right) = (Vec::new(), Vec::new(), Vec::new());
+        for column in self.columns {
+            heads.push(column.head);
+            cells.push(column.cells.into_iter());
+            flush_right.push(column.flush_right);
+        }
+        let rows = (0..self.rows.len()).map(|_| cells.iter_mut().filter_map(Iterator::next).collect()).collect();
+        drawn(heads, &flush_right, rows)
+    }
+
+    /// As text below a title; empty without rows.
+    pub fn under(self, title: &str) -> String {
+        if self.rows.is_empty() { String::new() } else { format!("\n{title}\n{}", self.text()) }
+    }
+}
+
+/// A table of finished cells; columns after the first `left` ones are flush right.
 pub fn table<S: AsRef<str>>(head: &[S], left: usize, rows: Vec<Vec<String>>) -> String {
-    let mut table = Table::new();
-    table.load_preset(presets::ASCII_MARKDOWN);
-    table.set_header(head.iter().map(AsRef::as_ref).collect::<Vec<&str>>());
-    for row in rows {
-        table.add_row(row);
+    let flush_right: Vec<bool> = (0..head.len()).map(|k| k >= left).collect();
+    drawn(head.iter().map(|name| name.as_ref().to_string()).collect(), &flush_right, rows)
+}
+
+/// As Markdown draws it, with columns of one width.
+fn drawn(head: Vec<String>, flush_right: &[bool], rows: Vec<Vec<String>>) -> String {
+    let all = || std::iter::once(&head).chain(&rows);
+    let width = |k: usize| all().filter_map(|row| row.get(k)).map(|cell| cell.chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..head.len()).map(width).collect();
+    let mut out = String::new();
+    for (r, row) in all().enumerate() {
+        for (k, width) in widths.iter().enumerate() {
+            let cell = row.get(k).map_or("", String::as_str);
+            out += &if flush_right[k] { format!("| {cell:>width$} ") } else { format!("| {cell:<width$} ") };
+        }
+        out += "|\n";
+        if r == 0 {
+            widths.iter().for_each(|width| out += &format!("|{}", "-".repeat(width + 2)));
+            out += "|\n";
+        }
     }
-    for (i, column) in table.column_iter_mut().enumerate() {
-        column.set_cell_alignment(if i < left { CellAlignment::Left } else { CellAlignment::Right });
-    }
-    format!("{table}\n")
+    out
+}
+
+/// A line for each text, after a prefix.
+pub fn lines<S: AsRef<str>>(prefix: &str, texts: impl IntoIterator<Item = S>) -> String {
+    texts.into_iter().map(|text| format!("{prefix}{}\n", text.as_ref())).collect()
 }
 
 /// The same under its caption.
@@ -49,6 +137,13 @@ pub fn wrapped(text: &str, indent: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn columns_are_as_wide_as_their_widest_cell_and_numbers_are_flush_right() {
+        let rows = [("µ", Some(1.25)), ("name", None)];
+        let text = Table::of(rows).words("a", |r| r.0).number("mm", 1, |r| r.1).text();
+        assert_eq!(text, "| a    |  mm |\n|------|-----|\n| µ    | 1.2 |\n| name |   – |\n");
+    }
 
     #[test]
     fn words_are_kept_and_lines_are_short() {

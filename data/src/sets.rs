@@ -8,7 +8,7 @@ use crate::error::{DataError, Fault};
 static SETS: Dir = include_dir!("$CARGO_MANIFEST_DIR/sets");
 
 /// What `ibr data list` prints of an embedded set.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct SetInfo {
     /// Folder name; `load` accepts it.
     pub name: String,

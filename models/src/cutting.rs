@@ -5,10 +5,13 @@
 
 use crate::actuators::pattern::{Film, Joint, Panel, Pattern};
 use crate::scenario::{Scenario, Span};
+use serde::Serialize;
+use spelling::si;
 use std::f64::consts::PI;
 
 /// What a mark on a piece means.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum MarkKind {
     /// Welded to the piece under it.
     Weld,
@@ -29,18 +32,20 @@ pub enum MarkKind {
 }
 
 /// A mark: an area, a line if one side has no length, a point if none has.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PatternMark {
     /// What it means.
     pub kind: MarkKind,
-    /// From and to along the robot \[m\].
+    /// From and to along the robot \[m\]; equal for a line or a point.
+    #[serde(rename = "x_mm", serialize_with = "si::mm")]
     pub x_m: [f64; 2],
     /// From and to across \[m\].
+    #[serde(rename = "y_mm", serialize_with = "si::mm")]
     pub y_m: [f64; 2],
 }
 
 /// A rectangle of fabric.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PatternPiece {
     /// What it becomes.
     pub name: String,
@@ -49,10 +54,13 @@ pub struct PatternPiece {
     /// Material, in [`crate::fabrics::MATERIALS`].
     pub fabric: &'static str,
     /// Angle of the warp to the robot's axis \[rad\], counter-clockwise.
+    #[serde(rename = "warp_deg", serialize_with = "si::deg")]
     pub warp_rad: f64,
     /// Cut edges along the robot \[m\], from its base.
+    #[serde(rename = "x_mm", serialize_with = "si::mm")]
     pub x_m: [f64; 2],
     /// Cut edges across \[m\].
+    #[serde(rename = "y_mm", serialize_with = "si::mm")]
     pub y_m: [f64; 2],
     /// All that is drawn on it.
     pub marks: Vec<PatternMark>,

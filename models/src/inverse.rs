@@ -5,6 +5,7 @@ use crate::model::{Model, Prediction};
 use crate::reach::{MET, Reach, SAMPLES, reach};
 use crate::root::{Start, find_root};
 use crate::term::{CHANNELS, Loads};
+use spelling::si;
 
 /// What the tip shall do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,13 +17,16 @@ pub enum Target {
 }
 
 /// Slopes of the tip pose by the pressure of one channel.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct TipSlope {
     /// ∂x/∂P \[m/Pa\].
+    #[serde(rename = "x_mm_per_kpa", serialize_with = "si::mm_per_kpa")]
     pub x_per_pa: f64,
     /// ∂y/∂P \[m/Pa\].
+    #[serde(rename = "y_mm_per_kpa", serialize_with = "si::mm_per_kpa")]
     pub y_per_pa: f64,
     /// ∂(angle)/∂P \[rad/Pa\].
+    #[serde(rename = "angle_deg_per_kpa", serialize_with = "si::deg_per_kpa")]
     pub angle_per_pa: f64,
 }
 

@@ -1,7 +1,8 @@
 //! How a number came to be known; measured, published, assumed, calibrated and predicted never mix.
 
 /// How a number came to be known; every report keeps these apart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Known {
     /// Measured by the user or in the named dataset.
     Measured,

@@ -5,10 +5,13 @@ use crate::error::Unsolved;
 use crate::model::{Model, Prediction};
 use crate::scenario::Scenario;
 use crate::term::Loads;
+use serde::Serialize;
+use spelling::si;
 use std::f64::consts::PI;
 
 /// What is beyond its limit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Limit {
     /// Outer loads carry more moment than the pressure can, πp_bR³, against the bend of the actuators or where they have
     /// none: a membrane would fold here, and only B and other effects hold the pose.
@@ -18,13 +21,15 @@ pub enum Limit {
 }
 
 /// A stretch beyond a limit.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Beyond {
     /// Which.
     pub limit: Limit,
     /// Start along the taut generator \[m\].
+    #[serde(rename = "s_mm", serialize_with = "si::mm")]
     pub start_m: f64,
     /// Length \[m\].
+    #[serde(rename = "length_mm", serialize_with = "si::mm")]
     pub length_m: f64,
     /// Largest share of the limit there \[-\]: above 1.
     pub share: f64,

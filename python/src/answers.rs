@@ -9,6 +9,7 @@ use ibr::compared::{Compared, contenders, unused_sigma};
 use ibr::data::Table;
 use ibr::pages::{Diagnosed, Files, PageError, compare_page, diagnosis_page, residuals, space_markers, space_page};
 use ibr::program::imprint;
+use ibr::shown::as_json;
 use ibr::shown::comparison::{CompareAnswer, text};
 use ibr::shown::{diagnosis, extension, in_space, validation};
 use ibr::study::study::Knob;
@@ -96,15 +97,15 @@ pub(crate) fn compare(
         let contenders = contenders(file, &effects).map_err(raised)?;
         let found = py.detach(|| ibr::compare_in_space(&contenders, evidence, sigma_m)).map_err(raised)?;
         let warnings = found.warnings.iter().cloned().chain(unused_sigma(sigma_m, evidence)).collect();
-        let told = Answer::of(in_space::text(&found), &in_space::as_json(&file.name, &found), warnings);
+        let told = Answer::of(in_space::text(&found), &as_json("ibr.compare.space", &in_space::SpaceAnswer::of(&file.name, &found)), warnings);
         let table = space_markers(&found);
         return Ok(Answer { table, page: Some(Box::new(move || space_page(&found, &imprint()))), ..told });
     }
     let Compared { found, added } =
         py.detach(|| Compared::of(file, evidence, &effects, sigma_m, knob)).map_err(raised)?;
-    let answer = CompareAnswer { scenario: &file.name, found: &found, added: added.as_ref() };
+    let answer = CompareAnswer::of(&file.name, &found, added.as_ref());
     let warnings = found.warnings.iter().cloned().chain(unused_sigma(sigma_m, evidence)).collect();
-    let told = Answer::of(text(&answer), &answer.json(), warnings);
+    let told = Answer::of(text(&answer), &as_json("ibr.compare", &answer), warnings);
     let table = residuals(&found);
     Ok(Answer { table, page: Some(Box::new(move || compare_page(&found, &imprint()))), ..told })
 }
@@ -180,7 +181,7 @@ pub(crate) fn diagnose(
     raised_meanwhile.map_or(Ok(()), Err)?;
     let whole = made.map_err(|error: ibr::Error| raised(error))?;
     let d = &whole.diagnosis;
-    let json = diagnosis::to_json(d, whole.witness.as_ref(), &whole.file.name);
+    let json = as_json("ibr.diagnose", &diagnosis::DiagnosisAnswer::of(d, whole.witness.as_ref(), &whole.file.name));
     let warnings = d.warnings.iter().cloned().chain(unused_sigma(options.sigma_m, &whole.first)).collect();
     let told = Answer::of(diagnosis::text(d, whole.witness.as_ref(), false), &json, warnings);
     Ok(Answer { diagnosis: Some(d.clone()), page: Some(Box::new(move || whole.page())), ..told })
@@ -191,7 +192,7 @@ fn no_data() -> ibr::Error {
 }
 
 fn extended(file: &ScenarioFile, evidence: &[Evidence], found: Extension) -> PyResult<Answer> {
-    let json = extension::to_json(file, evidence, &found, "").map_err(raised)?;
+    let json = as_json("ibr.add", &extension::AddAnswer::of(file, evidence, &found, "").map_err(raised)?);
     let mut text: String = found.told.iter().map(|sentence| format!("{sentence}\n")).collect();
     if !found.steps.is_empty() {
         text += &format!("\n{}", extension::steps_text(&found.steps, found.noise_floor_mm));
@@ -248,6 +249,6 @@ pub(crate) fn validate(
     });
     let (both, found) = judged.map_err(|error: ibr::Error| raised(error))?;
     let warnings = found.iter().flat_map(|v| v.warnings.iter().map(|w| format!("{}: {w}", v.data))).collect();
-    let json = validation::to_json(&file.name, &both, &found);
+    let json = as_json("ibr.validate", &validation::ValidateAnswer::of(&file.name, &both, &found));
     Ok(Answer::of(validation::text(&file.name, &both, &found), &json, warnings))
 }

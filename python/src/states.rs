@@ -6,7 +6,7 @@ use crate::robot::Robot;
 use ibr::AtPressure;
 use ibr::models::{Loads, Prediction, Tip};
 use ibr::pages::predicted_files;
-use ibr::shown::predicted::{above_limit, beyond_words, state_json, text};
+use ibr::shown::predicted::{PredictedState, above_limit, beyond_words, text};
 use numpy::ndarray::Array3;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
 use pyo3::prelude::*;
@@ -117,7 +117,7 @@ impl State {
     /// One state of `ibr predict --json`.
     fn to_json(&self) -> PyResult<String> {
         let robot = &self.robot.predictor;
-        Ok(state_json(robot.model(), robot.scenario(), self.whole()?).to_string())
+        Ok(PredictedState::of(robot.model(), robot.scenario(), self.whole()?).json().to_string())
     }
 
     /// The same as a dictionary.
@@ -144,7 +144,7 @@ impl State {
 
     fn __repr__(&self) -> String {
         let Tip { x_m, y_m, z_m, angle_rad } = self.tip;
-        let pressure = ibr::pages::pressure_words(&self.loads);
+        let pressure = ibr::words::pressure_words(&self.loads);
         let z = self.markers_z_m.as_ref().map_or(String::new(), |_| format!(", {:.2}", z_m * 1e3));
         let (x, y, angle) = (x_m * 1e3, y_m * 1e3, angle_rad.to_degrees());
         format!("State({pressure} kPa: tip {x:.2}, {y:.2}{z} mm, {angle:.2} deg)")

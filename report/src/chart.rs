@@ -93,20 +93,7 @@ pub enum Mark {
     /// A filled outline.
     Band(Vec<[f64; 2]>),
     /// A symbol with error bars and a label beside it.
-    Point {
-        /// Where.
-        at: [f64; 2],
-        /// Half-widths of its error bars.
-        error: [f64; 2],
-        /// Colour.
-        ink: Ink,
-        /// Shape.
-        symbol: Symbol,
-        /// Whether only its rim is drawn.
-        open: bool,
-        /// Label; empty for none.
-        label: String,
-    },
+    Point(Point),
     /// A label at the right edge, joined to its point.
     Tip {
         /// The point.
@@ -122,6 +109,23 @@ pub enum Mark {
     Cell([usize; 2], f64, String, String),
     /// A dashed line across all rows.
     Rule(f64),
+}
+
+/// A symbol of a [`Chart`].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Point {
+    /// Where.
+    pub at: [f64; 2],
+    /// Half-widths of its error bars.
+    pub error: [f64; 2],
+    /// Colour.
+    pub ink: Ink,
+    /// Shape.
+    pub symbol: Symbol,
+    /// Whether only its rim is drawn.
+    pub open: bool,
+    /// Label; empty for none.
+    pub label: String,
 }
 
 /// A bar of a [`Chart`].
@@ -208,10 +212,10 @@ impl Mark {
             Mark::Line { points, .. } | Mark::Band(points) => {
                 points.iter().filter(|p| finite(p)).flatten().copied().collect()
             }
-            Mark::Point { at, .. } if finite(at) => at.to_vec(),
+            Mark::Point(Point { at, .. }) if finite(at) => at.to_vec(),
             Mark::Bar(bar) => vec![bar.span[1]],
             Mark::Cell(_, strength, ..) => vec![*strength],
-            Mark::Point { .. } | Mark::Tip { .. } | Mark::Rule(_) => Vec::new(),
+            Mark::Point(_) | Mark::Tip { .. } | Mark::Rule(_) => Vec::new(),
         }
     }
 
@@ -221,13 +225,13 @@ impl Mark {
             Mark::Line { points, .. } | Mark::Band(points) => {
                 points.iter().filter(|p| finite(p)).map(|p| p[k]).collect()
             }
-            Mark::Point { at, error, .. } if finite(at) => {
+            Mark::Point(Point { at, error, .. }) if finite(at) => {
                 let half = if error[k].is_finite() { error[k] } else { 0.0 };
                 vec![at[k] - half, at[k] + half]
             }
             Mark::Bar(bar) => bar.span.into_iter().chain(bar.range.into_iter().flatten()).collect(),
             Mark::Rule(value) => vec![*value],
-            Mark::Point { .. } | Mark::Tip { .. } | Mark::Cell(..) => Vec::new(),
+            Mark::Point(_) | Mark::Tip { .. } | Mark::Cell(..) => Vec::new(),
         }
     }
 }

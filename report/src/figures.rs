@@ -1,7 +1,7 @@
 //! Figures that several pages have, as charts.
 
 use crate::axis::{common_decimals, number, short_number};
-use crate::chart::{Bar, Chart, ChartRow, Key, KeyLook, Mark, RowPlace, Space, finite};
+use crate::chart::{Bar, Chart, ChartRow, Key, KeyLook, Mark, Point, RowPlace, Space, finite};
 use crate::palette::{Ink, SERIES};
 use crate::scene::Symbol;
 use crate::{Drawn, ReportError, at_most, same_length};
@@ -41,6 +41,30 @@ pub struct LineSeries {
     pub colour: Option<usize>,
 }
 
+impl Lines {
+    /// Series over two axes with their labels.
+    pub fn new(title: impl Into<String>, x_label: &str, y_label: &str, series: Vec<LineSeries>) -> Lines {
+        Lines { title: title.into(), x_label: x_label.into(), y_label: y_label.into(), series }
+    }
+}
+
+impl LineSeries {
+    /// A series in the colour of its place in the list.
+    pub fn new(name: impl Into<String>, style: LineStyle, points: Vec<[f64; 2]>) -> LineSeries {
+        LineSeries { name: name.into(), points, style, ..LineSeries::default() }
+    }
+
+    /// In this colour.
+    pub fn coloured(self, colour: usize) -> LineSeries {
+        LineSeries { colour: Some(colour), ..self }
+    }
+
+    /// With error bars of these half-widths.
+    pub fn with_errors(self, half_width: Vec<f64>) -> LineSeries {
+        LineSeries { half_width, ..self }
+    }
+}
+
 /// How a [`LineSeries`] is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LineStyle {
@@ -78,15 +102,15 @@ pub fn lines(data: &Lines) -> Result<Drawn, ReportError> {
         }
         if !matches!(series.style, LineStyle::Line | LineStyle::Dashed) {
             let open = series.style == LineStyle::OpenPoints;
-            let point = |(k, at): (usize, &[f64; 2])| Mark::Point {
+            let point = |(k, at): (usize, &[f64; 2])| Point {
                 at: *at,
                 error: [0.0, half(k)],
                 ink,
                 symbol,
                 open,
-                label: String::new(),
+                ..Point::default()
             };
-            points.extend(series.points.iter().enumerate().map(point));
+            points.extend(series.points.iter().enumerate().map(point).map(Mark::Point));
         }
         let look = match series.style {
             LineStyle::Line => KeyLook::Line,
@@ -152,8 +176,7 @@ pub fn shapes(data: &Shapes) -> Result<Drawn, ReportError> {
     let lines = inked().map(|(pose, ink)| Mark::Line { points: pose.curve_mm.clone(), ink, dashed: false });
     marks.extend(lines);
     for (pose, ink) in inked() {
-        let point =
-            |at, error, open| Mark::Point { at, error, ink, symbol: Symbol::Circle, open, label: String::new() };
+        let point = |at, error, open| Mark::Point(Point { at, error, ink, open, ..Point::default() });
         marks.extend(pose.predicted_mm.iter().map(|at| point(*at, [0.0; 2], true)));
         marks.extend(pose.measured.iter().map(|m| point(m.at_mm, m.half_width_mm.map(f64::abs), false)));
         marks.extend(tip(pose).map(|at| Mark::Tip { at, label: pose.label.clone(), ink }));
@@ -200,32 +223,23 @@ fn tip(pose: &ShapePose) -> Option<[f64; 2]> {
     last(&pose.curve_mm).or_else(|| last(&pose.predicted_mm)).or_else(|| pose.measured.last().map(|m| m.at_mm))
 }
 
-/// Grouped bars, e.g. predicted beside published displacement for each actuator.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Bars {
-    /// Title above the plot; empty for none.
-    pub title: String,
-    /// Axis label with unit, e.g. `largest displacement [mm]`.
-    pub value_label: String,
-    /// Names of the groups.
-    pub groups: Vec<String>,
-    /// Name, values per group (non-finite ones show "–"), and whether it is in grey, for what was measured or published.
-    pub series: Vec<(String, Vec<f64>, bool)>,
-    /// What to compare with, as a dashed line: its name and value.
-    pub target: Option<(String, f64)>,
-}
-
-/// Draws grouped horizontal bars from zero.
+/// Draws grouped horizontal bars from zero, e.g. predicted next to published displacement for each actuator. A series has a name, a value per
+/// group (non-finite ones show "–"), and is grey if it was measured or published; the target, a name and a value, is a dashed line.
 ///
 /// # Errors
 /// No finite value, a series whose length differs from the groups, over 120 bars, values beyond 1e15.
-pub fn bars(data: &Bars) -> Result<Drawn, ReportError> {
-    at_most("bars", "bars", MOST_BARS, data.groups.len().saturating_mul(data.series.len()))?;
-    let all = || data.series.iter().flat_map(|(_, values, _)| values.iter().copied());
-    let digits = decimals(all());
+pub fn bars(
+    title: &str,
+    value_label: &str,
+    groups: &[String],
+    series: &[(String, Vec<f64>, bool)],
+    target: Option<(String, f64)>,
+) -> Result<Drawn, ReportError> {
+    at_most("bars", "bars", MOST_BARS, groups.len().saturating_mul(series.len()))?;
+    let digits = decimals(series.iter().flat_map(|(_, values, _)| values.iter().copied()));
     let (mut marks, mut keys, mut colour) = (Vec::new(), Vec::new(), 0);
-    for (lane, (name, values, grey)) in data.series.iter().enumerate() {
-        same_length("bars", "values in a series", data.groups.len(), values.len())?;
+    for (lane, (name, values, grey)) in series.iter().enumerate() {
+        same_length("bars", "values in a series", groups.len(), values.len())?;
         let ink = if *grey { Ink::Muted } else { Ink::Series(colour) };
         colour += usize::from(!grey);
         keys.push(Key::new(KeyLook::Patch, ink, name));
@@ -234,25 +248,12 @@ pub fn bars(data: &Bars) -> Result<Drawn, ReportError> {
         };
         marks.extend(values.iter().enumerate().map(bar));
     }
-    target(data.target.as_ref(), &mut marks, &mut keys);
-    let row = |name: &String| ChartRow { name: name.clone(), lanes: data.series.len(), ..ChartRow::default() };
-    rows(&data.title, &data.value_label, data.groups.iter().map(row).collect(), marks, keys).draw("bars")
+    rule(target, &mut marks, &mut keys);
+    let row = |name: &String| ChartRow { name: name.clone(), lanes: series.len(), ..ChartRow::default() };
+    rows(title, value_label, groups.iter().map(row).collect(), marks, keys).draw("bars")
 }
 
-/// Waterfall of a value over a growing list of effects.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Staircase {
-    /// Title above the plot; empty for none.
-    pub title: String,
-    /// Axis label with unit, e.g. `tip displacement [mm]`.
-    pub value_label: String,
-    /// Steps from the bare model on.
-    pub steps: Vec<LadderStep>,
-    /// What the steps should reach: its name and value.
-    pub target: Option<(String, f64)>,
-}
-
-/// One step of a [`Staircase`].
+/// One step of a [`ladder`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LadderStep {
     /// What is added, e.g. `+ sealed-edge loss, η = 0.60`.
@@ -265,15 +266,21 @@ pub struct LadderStep {
     pub known: (&'static str, Ink),
 }
 
-/// Draws the ladder, one row per step: its bar, and in pale what it changes.
+/// Draws a waterfall of a value over a growing list of effects, one row per step from the bare model on: its bar, and in pale what it
+/// changes. The target, a name and a value, is a dashed line.
 ///
 /// # Errors
 /// No finite value, more than 120 steps, values beyond 1e15.
-pub fn ladder(data: &Staircase) -> Result<Drawn, ReportError> {
-    at_most("ladder", "steps", MOST_BARS, data.steps.len())?;
-    let digits = decimals(data.steps.iter().map(|step| step.value));
+pub fn ladder(
+    title: &str,
+    value_label: &str,
+    steps: &[LadderStep],
+    target: Option<(String, f64)>,
+) -> Result<Drawn, ReportError> {
+    at_most("ladder", "steps", MOST_BARS, steps.len())?;
+    let digits = decimals(steps.iter().map(|step| step.value));
     let (mut marks, mut keys, mut rungs, mut before) = (Vec::new(), Vec::new(), Vec::new(), None);
-    for (row, step) in data.steps.iter().enumerate() {
+    for (row, step) in steps.iter().enumerate() {
         let (word, ink) = step.known;
         let change = before.map(|from: f64| step.value - from).filter(|change| change.is_finite());
         let sign = |change: f64| if change > 0.0 { "+" } else { "" };
@@ -286,24 +293,11 @@ pub fn ladder(data: &Staircase) -> Result<Drawn, ReportError> {
         rungs.push(ChartRow { name: step.label.clone(), lanes: 1, aside: word.into(), ink, ..ChartRow::default() });
         before = Some(step.value).filter(|v| v.is_finite()).or(before);
     }
-    target(data.target.as_ref(), &mut marks, &mut keys);
-    rows(&data.title, &data.value_label, rungs, marks, keys).draw("ladder")
+    rule(target, &mut marks, &mut keys);
+    rows(title, value_label, rungs, marks, keys).draw("ladder")
 }
 
-/// The energy ledger: stacked bars of signed energies, one bar per case.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct LedgerBars {
-    /// Title above the plot; empty for none.
-    pub title: String,
-    /// Axis label with unit, e.g. `energy [mJ], stored or spent → positive`.
-    pub value_label: String,
-    /// Names of up to eight terms; more cannot be told apart by colour, so join the small ones.
-    pub terms: Vec<String>,
-    /// One bar per case, e.g. per pressure or per engine.
-    pub cases: Vec<LedgerCase>,
-}
-
-/// One bar of a [`LedgerBars`].
+/// One bar of a [`ledger`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LedgerCase {
     /// Label above the bar, e.g. `30 kPa`.
@@ -312,16 +306,17 @@ pub struct LedgerCase {
     pub energies_mj: Vec<f64>,
 }
 
-/// Draws the ledger with the sum of each case at the right, which is zero when the balance closes.
+/// Draws the energy ledger: stacked bars of signed energies of up to eight terms, one bar per case, e.g. per pressure or per engine, with
+/// the sum of each case at the right, which is zero when the balance closes.
 ///
 /// # Errors
 /// No finite value, a case whose length differs from the terms, over 8 terms or 24 cases.
-pub fn ledger(data: &LedgerBars) -> Result<Drawn, ReportError> {
-    at_most("ledger", "terms", SERIES, data.terms.len())?;
-    at_most("ledger", "cases", MOST_SERIES, data.cases.len())?;
+pub fn ledger(title: &str, value_label: &str, terms: &[String], bars: &[LedgerCase]) -> Result<Drawn, ReportError> {
+    at_most("ledger", "terms", SERIES, terms.len())?;
+    at_most("ledger", "cases", MOST_SERIES, bars.len())?;
     let (mut marks, mut cases) = (Vec::new(), Vec::new());
-    for (row, case) in data.cases.iter().enumerate() {
-        same_length("ledger", "energies in a case", data.terms.len(), case.energies_mj.len())?;
+    for (row, case) in bars.iter().enumerate() {
+        same_length("ledger", "energies in a case", terms.len(), case.energies_mj.len())?;
         let mut reached = [0.0, 0.0];
         let own = case.energies_mj.iter().copied().enumerate().filter(|(_, energy)| energy.is_finite());
         let (mut sum, mut largest) = (0.0, 0.0_f64);
@@ -338,8 +333,8 @@ pub fn ledger(data: &LedgerBars) -> Result<Drawn, ReportError> {
         cases.push(ChartRow { name, lanes: 1, aside, ink: Ink::Muted, ..ChartRow::default() });
     }
     let key = |(i, name): (usize, &String)| Key::new(KeyLook::Patch, Ink::Series(i), name);
-    let keys = data.terms.iter().enumerate().map(key).collect();
-    rows(&data.title, &data.value_label, cases, marks, keys).draw("ledger")
+    let keys = terms.iter().enumerate().map(key).collect();
+    rows(title, value_label, cases, marks, keys).draw("ledger")
 }
 
 /// A chart of rows.
@@ -353,10 +348,11 @@ pub fn decimals(values: impl Iterator<Item = f64>) -> usize {
     common_decimals(values.filter(|v| v.is_finite()).fold(0.0, |a, b| f64::max(a, b.abs())))
 }
 
-fn target(target: Option<&(String, f64)>, marks: &mut Vec<Mark>, keys: &mut Vec<Key>) {
+/// A dashed line at a target.
+fn rule(target: Option<(String, f64)>, marks: &mut Vec<Mark>, keys: &mut Vec<Key>) {
     if let Some((name, value)) = target.filter(|(_, value)| value.is_finite()) {
-        marks.push(Mark::Rule(*value));
-        keys.push(Key::new(KeyLook::Dashed, Ink::Ink, name));
+        marks.push(Mark::Rule(value));
+        keys.push(Key::new(KeyLook::Dashed, Ink::Ink, &name));
     }
 }
 

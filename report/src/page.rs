@@ -47,6 +47,7 @@ fn environment(figures: BTreeMap<String, String>) -> Result<Environment<'static>
     env.add_filter("tags", |text: &str| Value::from_safe_string(markup::with_tags(text)));
     env.add_filter("effect", |text: &str| text.replace('_', " "));
     env.add_filter("fixed", |value: Value, digits: usize| number(&value, 1.0, |v| format!("{v:.digits$}")));
+    env.add_filter("digits", |value: Value| number(&value, 1.0, crate::short_number));
     env.add_filter("signed", |value: Value, digits: usize| number(&value, 1.0, |v| format!("{v:+.digits$}")));
     env.add_filter("percent", |value: Value, digits: usize| number(&value, 100.0, |v| format!("{v:.digits$}")));
     let names: Vec<String> = figures.keys().cloned().collect();

@@ -5,7 +5,7 @@ use crate::chart::{Chart, Mark, Space, finite};
 use crate::draw::{RIM, TEXT, on_paper, x_axis};
 use crate::palette::Ink;
 use crate::scene::{Anchor, Point, Scene, Symbol};
-use crate::{WIDTH, place, text};
+use crate::{WIDTH, chart, place, text};
 
 /// Widest label of a tip, and of a point [design px].
 const TIP: f64 = 130.0;
@@ -26,7 +26,7 @@ pub(crate) fn draw(scene: &mut Scene, chart: &Chart, [x, y]: [Axis; 2], top: f64
     if chart.space == Space::Plane && zero > plane.y.pixels[1] && zero < plane.y.pixels[0] - 1.0 {
         scene.line(&[[plane.x.pixels[0], zero], [plane.x.pixels[1], zero]], Ink::Axis, 1.2);
     }
-    let (points, others): (Vec<&Mark>, Vec<&Mark>) = chart.marks.iter().partition(|m| matches!(m, Mark::Point { .. }));
+    let (points, others): (Vec<&Mark>, Vec<&Mark>) = chart.marks.iter().partition(|m| matches!(m, Mark::Point(_)));
     others.into_iter().for_each(|mark| plane.mark(scene, mark));
     labels(scene, &plane, &chart.marks);
     points.into_iter().for_each(|mark| plane.mark(scene, mark));
@@ -89,7 +89,7 @@ impl Plane {
                 }
             }
             Mark::Band(outline) => scene.fill(&self.path(outline), Ink::Soft, 1.0),
-            Mark::Point { at, error, ink, symbol, open, .. } => {
+            Mark::Point(chart::Point { at, error, ink, symbol, open, .. }) => {
                 let Some(at) = self.at(at) else { return };
                 for (axis, half, vertical) in [(&self.x, error[0], false), (&self.y, error[1], true)] {
                     let half = (axis.at(half) - axis.at(0.0)).abs();
@@ -129,7 +129,7 @@ fn labels(scene: &mut Scene, plane: &Plane, marks: &[Mark]) {
     let points: Vec<(Point, String)> = marks
         .iter()
         .filter_map(|mark| match mark {
-            Mark::Point { at, label, .. } => Some((plane.at(at)?, text::fit(label, TEXT, LABEL))),
+            Mark::Point(chart::Point { at, label, .. }) => Some((plane.at(at)?, text::fit(label, TEXT, LABEL))),
             _ => None,
         })
         .collect();

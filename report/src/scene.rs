@@ -15,9 +15,10 @@ pub(crate) enum Anchor {
 }
 
 /// Marker shapes, in the order in which series take them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Symbol {
     /// ●
+    #[default]
     Circle,
     /// ■
     Square,

@@ -1,7 +1,7 @@
 //! Laws that every chart obeys: both formats for good data, an error or a drawing but never a panic for odd data; and what every
 //! page must hold.
 
-use crate::chart::{Bar, Chart, ChartColumn, ChartRow, Key, KeyLook, Mark, RowPlace, Space};
+use crate::chart::{Bar, Chart, ChartColumn, ChartRow, Key, KeyLook, Mark, Point, RowPlace, Space};
 use crate::*;
 use std::collections::BTreeMap;
 
@@ -40,13 +40,9 @@ fn planes(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, ReportError
         body_radius_mm: v(1),
         poses: vec![pose.clone(), pose],
     };
-    let point = |i: usize| Mark::Point {
-        at: [v(i), v(i + 1)],
-        error: [0.0; 2],
-        ink: Ink::Series(i),
-        symbol: Symbol::of(i),
-        open: false,
-        label: label(name),
+    let point = |i: usize| {
+        let (at, ink, symbol, label) = ([v(i), v(i + 1)], Ink::Series(i), Symbol::of(i), label(name));
+        Mark::Point(Point { at, ink, symbol, label, ..Point::default() })
     };
     let front = Mark::Line { points: points.clone(), ink: Ink::Axis, dashed: true };
     let marks = vec![front, point(0), point(1)];
@@ -73,27 +69,22 @@ fn stacks(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, ReportError
         range: Some([v(i + 1), v(i + 2)]),
         known: ("assumed", Ink::Series(4)),
     };
-    let [title, value_label] = [label(name), label(name)];
-    let steps = Staircase { title, value_label, steps: vec![step(0), step(1)], target: target.clone() };
+    let steps = [step(0), step(1)];
     let bar = |i: usize| (label(name), vec![v(i), v(i + 1)], i == 0);
-    let groups = Bars {
-        title: label(name),
-        value_label: label(name),
-        groups: vec![label(name); 2],
-        series: vec![bar(0), bar(1)],
-        target,
-    };
+    let series = [bar(0), bar(1)];
     let case = LedgerCase { label: label(name), energies_mj: vec![v(0), v(1), v(2)] };
-    let book = LedgerBars {
-        title: label(name),
-        value_label: label(name),
-        terms: vec![label(name); 3],
-        cases: vec![case.clone(), case],
-    };
     let bar = |row: usize| Mark::Bar(Bar { row, text: number(v(row), 1), ..Bar::to(v(row)) });
     let keys = vec![Key::new(KeyLook::Patch, Ink::Grid, name)];
     let order = rows(name, name, vec![ChartRow::beside(name), ChartRow::beside(name)], vec![bar(0), bar(1)], keys);
-    vec![ladder(&steps), bars(&groups), ledger(&book), order.draw("ranking"), map(name, v).draw("map")]
+    let (groups, terms) = ([label(name), label(name)], [label(name), label(name), label(name)]);
+    let (rungs, grouped) = (ladder(name, name, &steps, target.clone()), bars(name, name, &groups, &series, target));
+    vec![
+        rungs,
+        grouped,
+        ledger(name, name, &terms, &[case.clone(), case]),
+        order.draw("ranking"),
+        map(name, v).draw("map"),
+    ]
 }
 
 /// A heat map of two panels.
@@ -153,10 +144,10 @@ fn odd_values_give_a_drawing_or_an_error() {
 fn charts_without_a_finite_value_say_so() {
     let empty = [
         shapes(&Shapes::default()),
-        ladder(&Staircase::default()),
-        bars(&Bars::default()),
+        ladder("", "", &[], None),
+        bars("", "", &[], &[], None),
         lines(&Lines::default()),
-        ledger(&LedgerBars::default()),
+        ledger("", "", &[], &[]),
         Chart::default().draw("chart"),
         Chart { space: Space::Grid(Vec::new(), Vec::new()), ..Chart::default() }.draw("map"),
     ];
@@ -167,9 +158,7 @@ fn charts_without_a_finite_value_say_so() {
 
 #[test]
 fn lists_that_do_not_match_are_named() {
-    let ragged =
-        Bars { groups: vec![label("a"), label("b")], series: vec![(label("s"), vec![1.0], false)], ..Bars::default() };
-    let error = bars(&ragged).unwrap_err();
+    let error = bars("", "", &[label("a"), label("b")], &[(label("s"), vec![1.0], false)], None).unwrap_err();
     assert!(matches!(error, ReportError::Length { chart: "bars", expected: 2, found: 1, .. }), "{error}");
     let poses = vec![ShapePose::default(); 7];
     assert!(matches!(shapes(&Shapes { poses, ..Shapes::default() }), Err(ReportError::TooMany { most: 6, .. })));

@@ -4,6 +4,7 @@
 
 pub mod files;
 pub mod quantity;
+pub mod si;
 pub mod units;
 
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};

@@ -1,5 +1,6 @@
 //! Measurements: fabric tests and marker data.
 
+use super::RunsArgs;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
@@ -44,11 +45,11 @@ pub struct CharacterizeArgs {
 /// `ibr data`
 #[derive(Debug, Subcommand)]
 pub enum DataCommand {
-    /// Read data and say what is in them
+    /// Read data and describe them
     Check {
         /// Marker data
         data: String,
-        /// The robot's scenario, whose model is asked whether a column of pressures is in another unit; default: the one beside the data
+        /// The robot's scenario, whose model is asked whether a column of pressures is in another unit; default: the one in the folder of the data
         #[arg(long)]
         scenario: Option<String>,
     },
@@ -70,12 +71,9 @@ pub struct DataFemArgs {
     /// Folder for markers.csv, about.toml and truth.toml
     #[arg(long)]
     pub out: PathBuf,
-    /// Only the finite element runs that come with the program
-    #[arg(long)]
-    pub stored: bool,
-    /// Folder of finished runs; missing ones are made there
-    #[arg(long, default_value = "ibr-report/runs")]
-    pub runs: PathBuf,
+    /// The finite element runs
+    #[command(flatten)]
+    pub fem: RunsArgs,
     /// Runs, each with other random imperfections
     #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=1000))]
     pub seeds: u64,
@@ -91,12 +89,6 @@ pub struct DataFemArgs {
     /// Noise
     #[command(flatten)]
     pub scatter: ScatterArgs,
-    /// Threads of a run; 0: one per core
-    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
-    pub threads: u64,
-    /// Replace existing files
-    #[arg(long)]
-    pub force: bool,
 }
 
 /// Noise of made data.
@@ -136,7 +128,4 @@ pub struct GenerateArgs {
     /// Noise
     #[command(flatten)]
     pub scatter: ScatterArgs,
-    /// Replace existing files
-    #[arg(long)]
-    pub force: bool,
 }

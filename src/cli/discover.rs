@@ -1,6 +1,6 @@
 //! The commands around a missing effect: diagnose, add, ladder, validate, breakdown, challenge.
 
-use super::ShardArgs;
+use super::{FitArgs, NoiseArgs, RunsArgs, ShardArgs};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
@@ -12,30 +12,15 @@ pub struct DiagnoseArgs {
     pub scenario: String,
     /// Marker data, or a table of bench tests: load_deflection of a beam, force_contraction of a muscle
     pub data: Option<String>,
-    /// Further data of the same robot, each with its own protocol, loads and direct measurements (about.toml), fitted along;
-    /// may be given several times
-    #[arg(long, value_name = "DATA", conflicts_with = "published")]
-    pub also: Vec<String>,
     /// Instead of data: which effects alone meet the one displacement that the paper printed of this robot
-    #[arg(long, conflicts_with_all = ["data", "refit", "keep_bending", "sigma", "tolerance"])]
+    #[arg(long, conflicts_with_all = ["data", "refit", "also", "keep_bending", "not", "sigma", "tolerance"])]
     pub published: bool,
     /// Also fit the values of the effects that the scenario already has
     #[arg(long)]
     pub refit: bool,
-    /// Keep the scenario's bending stiffness instead of fitting it: it was measured separately
-    #[arg(long)]
-    pub keep_bending: bool,
-    /// An effect that cannot be here, and is left out; or pressure_slip: the pressures are right although they look wrong; may be given
-    /// several times
-    #[arg(long, value_name = "EFFECT", conflicts_with = "published")]
-    pub not: Vec<String>,
-    /// Camera noise of one coordinate, for data of a single run, for example 1mm; of a table of bench tests what a row without a
-    /// standard deviation scatters by, for example 3%
-    #[arg(long, allow_hyphen_values = true)]
-    pub sigma: Option<String>,
-    /// What an answer may leave, and a misfit that is too small to matter; default: the larger of 0.15 mm and 0.5 % of the largest deflection
-    #[arg(long, allow_hyphen_values = true)]
-    pub tolerance: Option<String>,
+    /// How effects are fitted
+    #[command(flatten)]
+    pub fit: FitArgs,
     /// Folder of finite element runs of the robot, as `compare --engines` makes them; default: those that come with the
     /// program
     #[arg(long, conflicts_with = "published")]
@@ -55,18 +40,9 @@ pub struct LadderArgs {
     pub scenario: String,
     /// Marker data
     pub data: String,
-    /// Further data of the same robot, fitted along; may be given several times
-    #[arg(long, value_name = "DATA")]
-    pub also: Vec<String>,
-    /// Keep the scenario's bending stiffness instead of fitting it: it was measured separately
-    #[arg(long)]
-    pub keep_bending: bool,
-    /// An effect that cannot be here, and is left out; may be given several times
-    #[arg(long, value_name = "EFFECT")]
-    pub not: Vec<String>,
-    /// Differences up to this are good enough; default: the larger of 0.15 mm and 0.5 % of the largest deflection
-    #[arg(long, allow_hyphen_values = true)]
-    pub tolerance: Option<String>,
+    /// How effects are fitted
+    #[command(flatten)]
+    pub fit: FitArgs,
     /// Folder for the waterfall and the scenario of every step; default: ibr-report/ladder-<data>, with --json: none
     #[arg(long)]
     pub out: Option<PathBuf>,
@@ -82,24 +58,12 @@ pub struct AddArgs {
     pub effect: String,
     /// Marker data: the value is fitted on them, B with it, and the error is shown before and after
     pub data: Option<String>,
-    /// Further data of the same robot, fitted along; may be given several times
-    #[arg(long, value_name = "DATA", requires = "data")]
-    pub also: Vec<String>,
     /// New scenario; default: <scenario>-<effect>.toml
     #[arg(long)]
     pub out: Option<PathBuf>,
-    /// Replace an existing file
-    #[arg(long)]
-    pub force: bool,
-    /// Keep the scenario's bending stiffness instead of fitting it: it was measured separately
-    #[arg(long)]
-    pub keep_bending: bool,
-    /// An effect that cannot be here, and is left out; may be given several times
-    #[arg(long, value_name = "EFFECT")]
-    pub not: Vec<String>,
-    /// Camera noise of one coordinate, for data of a single run, for example 1mm
-    #[arg(long, allow_hyphen_values = true)]
-    pub sigma: Option<String>,
+    /// How the effect is fitted
+    #[command(flatten)]
+    pub fit: FitArgs,
 }
 
 /// `ibr validate`
@@ -113,9 +77,9 @@ pub struct ValidateArgs {
     /// Effect to judge; default: those written by ibr add; repeatable
     #[arg(long, value_name = "EFFECT")]
     pub without: Vec<String>,
-    /// Camera noise of one coordinate, for data of a single run, for example 1mm
-    #[arg(long, allow_hyphen_values = true)]
-    pub sigma: Option<String>,
+    /// Noise
+    #[command(flatten)]
+    pub noise: NoiseArgs,
 }
 
 /// `ibr breakdown`
@@ -127,33 +91,33 @@ pub struct BreakdownArgs {
     /// Folder for maps and tables
     #[arg(long, default_value = "ibr-report/breakdown")]
     pub out: PathBuf,
-    /// Only the runs that come with the program, one seed each: nothing is simulated
-    #[arg(long, conflicts_with_all = ["runs", "pressure", "body_pressure", "pouch", "mesh"])]
-    pub stored: bool,
-    /// Folder of finished runs; missing ones are made there
-    #[arg(long, default_value = "ibr-report/runs")]
-    pub runs: PathBuf,
+    /// Runs; of those that come with the program one seed each
+    #[command(flatten)]
+    pub runs: RunsArgs,
     /// Actuator pressures
-    #[arg(long, short, default_value = "5kPa,10kPa,15kPa,20kPa,25kPa,30kPa", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        short,
+        default_value = "5kPa,10kPa,15kPa,20kPa,25kPa,30kPa",
+        conflicts_with = "stored",
+        allow_hyphen_values = true
+    )]
     pub pressure: String,
-    /// Body pressures beside the scenario's own
-    #[arg(long, default_value = "1kPa,4kPa", allow_hyphen_values = true)]
+    /// Body pressures in addition to the scenario's own
+    #[arg(long, default_value = "1kPa,4kPa", conflicts_with = "stored", allow_hyphen_values = true)]
     pub body_pressure: String,
-    /// Lengths of a pouch beside the scenario's own, at its body pressure
-    #[arg(long, default_value = "45mm,90mm", allow_hyphen_values = true)]
+    /// Lengths of a pouch in addition to the scenario's own, at its body pressure
+    #[arg(long, default_value = "45mm,90mm", conflicts_with = "stored", allow_hyphen_values = true)]
     pub pouch: String,
-    /// Element size, or those of body and actuator, for example 8mm/4mm; default: the scenario's
-    #[arg(long, value_name = "[BODY/]ACTUATOR", allow_hyphen_values = true)]
+    /// Element size, or body and actuator, for example 8mm/4mm; default: the scenario's
+    #[arg(long, value_name = "[BODY/]ACTUATOR", allow_hyphen_values = true, conflicts_with = "stored")]
     pub mesh: Option<String>,
     /// Run every robot with a tenth of its bending stiffness and of the load of compressed sheets too: which of them carries a departure
     #[arg(long, conflicts_with = "stored")]
     pub carriers: bool,
-    /// Machines beside each other
+    /// Work on several machines
     #[command(flatten)]
     pub shards: ShardArgs,
-    /// Threads; 0: one per core
-    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
-    pub threads: u64,
 }
 
 /// `ibr challenge`
@@ -197,7 +161,4 @@ pub struct ChallengeNewArgs {
     /// Actuator pressures in kPa at a body pressure in kPa; default: 0,10,20,30,0@2
     #[arg(long)]
     pub protocol: Option<String>,
-    /// Replace existing files
-    #[arg(long)]
-    pub force: bool,
 }

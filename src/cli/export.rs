@@ -19,13 +19,13 @@ pub struct ExportArgs {
     /// The robot
     #[command(flatten)]
     pub robot: RobotArgs,
-    /// C file to write, with its header beside it; names in it begin with the file's
+    /// C file to write, with its header next to it; names in it begin with the file's
     #[arg(long, default_value = "robot.c")]
     pub out: PathBuf,
     /// Actuator pressures from:to, for example 0:40kPa; default: 0 to the scenario's max_pressure_kpa
     #[arg(long, short, allow_hyphen_values = true, value_name = "FROM:TO")]
     pub pressure: Option<String>,
-    /// A robot with history (friction, creep): its first loading from rest, which the file then says
+    /// A robot with history (friction, creep): its first loading from rest, which the file then states
     #[arg(long)]
     pub loading: bool,
 }

@@ -78,9 +78,6 @@ pub struct Import {
     /// Places of the markers on the undeformed body: a=90mm,b=210mm; left out: estimated at rest
     #[arg(long, value_delimiter = ',', value_name = "MARKER=LENGTH")]
     pub stations: Vec<String>,
-    /// Replace existing files
-    #[arg(long)]
-    pub force: bool,
     /// Instead, write a made-up recording of DeepLabCut and its pressure log into this folder
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["files", "out"])]
     pub example: Option<PathBuf>,

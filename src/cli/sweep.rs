@@ -30,18 +30,15 @@ impl ShardArgs {
 /// `ibr sweep`
 #[derive(Debug, Args)]
 pub struct SweepArgs {
-    /// Study: a TOML file that says what varies (docs/sweep.md)
+    /// Study: a TOML file of what varies (docs/sweep.md)
     pub study: PathBuf,
     /// Folder of the table, the pictures and of what is computed; what is there already is kept.
     /// Default: ibr-report/sweep-<study>
     #[arg(long)]
     pub out: Option<PathBuf>,
-    /// Machines beside each other
+    /// Work on several machines
     #[command(flatten)]
     pub shards: ShardArgs,
-    /// Threads, with --engine those of each shard; 0: one per core
-    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
-    pub threads: u64,
     /// Write table.parquet in place of table.csv
     #[arg(long)]
     pub parquet: bool,
@@ -50,7 +47,7 @@ pub struct SweepArgs {
 /// `ibr design`
 #[derive(Debug, Args)]
 pub struct DesignArgs {
-    /// Wish: a TOML file that says what is wanted and what may be chosen (docs/design.md)
+    /// Wish: a TOML file of the target and of what may be chosen (docs/design.md)
     pub wish: PathBuf,
     /// Folder of the robot, its picture and its pattern. Default: ibr-report/design-<wish>
     #[arg(long)]
@@ -63,7 +60,4 @@ pub struct DesignArgs {
     #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "no_check")]
     #[arg(value_parser = clap::value_parser!(u64).range(0..=20))]
     pub correct: u64,
-    /// Threads; 0: one per core
-    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
-    pub threads: u64,
 }

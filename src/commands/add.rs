@@ -1,10 +1,10 @@
 //! `ibr add`
 
-use super::inputs::{self, positive};
+use super::inputs;
 use super::{Context, Outcome};
 use crate::cli::AddArgs;
 use crate::failure::Failure;
-use crate::shown::extension::{steps_text, to_json};
+use crate::shown::extension::{AddAnswer, steps_text};
 use compare::diagnosis::Options;
 use compare::extension::{Extension, Wish, add};
 use compare::progress::part;
@@ -13,35 +13,29 @@ use std::path::{Path, PathBuf};
 use std::sync::PoisonError;
 
 pub fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome, Failure> {
-    let sigma_m = positive("--sigma", args.sigma.as_ref())?;
     let file = inputs::scenario(&args.scenario)?;
     let wish = Wish::read(&file, &args.effect, args.data.is_some())?;
     let evidence = match &args.data {
-        Some(data) => inputs::all_evidence(data, &args.also, context)?,
-        None => Vec::new(),
+        Some(data) => inputs::all_evidence(data, &args.fit.also, context)?,
+        None if args.fit.also.is_empty() => Vec::new(),
+        None => return Err(Failure::usage("--also without data", "name the first data before --also")),
     };
-    let options = Options {
-        sigma_m,
-        keep_bending: args.keep_bending,
-        not: args.not.clone(),
-        next_experiment: false,
-        missing_moment: false,
-        ..Options::default()
-    };
+    let options = Options { next_experiment: false, missing_moment: false, ..inputs::fit_options(&args.fit)? };
     let found = add(&file, &wish, &evidence, &options, &mut part(context.progress, [READ, 1.0]))?;
     let names: Vec<&str> = found.additions.iter().map(|a| a.name.as_str()).collect();
-    let target = target(args, &names.join("-"))?;
+    let target = target(args, &names.join("-"), context.force)?;
     let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
     data::write_atomically(&target, found.file.text.as_bytes())?;
     *written = true;
     let target = target.display().to_string();
-    let mut outcome = Outcome::new(words(args, &found, &target), to_json(&file, &evidence, &found, &target)?);
+    let answer = AddAnswer::of(&file, &evidence, &found, &target)?;
+    let mut outcome = Outcome::answer(words(args, &found, &target), "ibr.add", &answer);
     outcome.warn(&found.warnings);
     Ok(outcome)
 }
 
 /// Where the new scenario goes: never onto the old one, and onto another file only if told.
-fn target(args: &AddArgs, names: &str) -> Result<PathBuf, Failure> {
+fn target(args: &AddArgs, names: &str, force: bool) -> Result<PathBuf, Failure> {
     let old = Path::new(&args.scenario);
     let stem = old.file_stem().map_or("scenario".into(), |s| s.to_string_lossy().into_owned());
     let file = format!("{stem}-{names}.toml");
@@ -57,7 +51,7 @@ fn target(args: &AddArgs, names: &str) -> Result<PathBuf, Failure> {
             let help = format!("give a file, for example --out {}", target.join(&file).display());
             (format!("{shown} is a folder, not a file"), help)
         }
-        () if target.exists() && !args.force => {
+        () if target.exists() && !force => {
             let help = "choose another file with --out, or replace it with --force";
             (format!("{shown} exists already"), help.into())
         }

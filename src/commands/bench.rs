@@ -34,7 +34,7 @@ pub fn run(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure> 
 fn discovery(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let laws = if args.laws == "second" { Laws::Second } else { Laws::First };
     let options = DiscoveryOptions { seed: args.seed, sets: args.sets as usize, laws };
-    let threads = args.threads as usize;
+    let threads = context.threads;
     let Some(folder) = &args.out else {
         if args.shards.asked() {
             return Err(Failure::usage("shards need a folder that all of them see", "add --out FOLDER"));
@@ -49,14 +49,8 @@ fn discovery(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure
     };
     check_folder(folder)?;
     let bench = discovery::Work::plan(options, Some((folder, &this_program()?)))?;
-    let work = Work {
-        folder,
-        threads: args.threads,
-        parts: "sets",
-        all: bench.pieces(),
-        missing: &|| bench.missing(Shard::WHOLE),
-        may_fail: false,
-    };
+    let work =
+        Work { folder, parts: "sets", all: bench.pieces(), missing: &|| bench.missing(Shard::WHOLE), may_fail: false };
     let told = in_shards(&args.shards, &work, context, |shard, context| {
         let made = bench.missing(shard);
         context.fem(|progress| bench.answers(shard, threads, progress))?;

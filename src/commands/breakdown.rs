@@ -6,14 +6,13 @@ use super::{Context, Outcome};
 use crate::cli::BreakdownArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
-use crate::shown::breakdown::text;
+use crate::shown::breakdown::{Breakdown, text};
 use compare::study::breakdown::{PARTINGS_CSV, Ranges, jobs, partings};
 use compare::study::columns::csv;
 use compare::study::engines::{EngineRun, engines, runs_json, runs_of, stored};
 use ibr::pages::{Files, parting_plot};
 use models::Scenario;
 use models::scenario::quantity::Quantity;
-use serde_json::json;
 
 pub fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome, Failure> {
     check_folder(&args.out)?;
@@ -30,7 +29,7 @@ pub fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome, Failu
     files.text("breakdown.csv", csv(&PARTINGS_CSV, &rows));
     files.text("runs.json", runs_json(&runs));
     write_files(&args.out, &files, &[], context)?;
-    let mut outcome = Outcome::new(text(&rows), json!({"schema": "ibr.breakdown", "version": 1, "cells": rows}));
+    let mut outcome = Outcome::answer(text(&rows), "ibr.breakdown", &Breakdown { cells: &rows });
     outcome.notes.extend(stopped.iter().map(|error| format!("left out of the map: {}", error.render().trim())));
     outcome.notes.push(format!("maps and tables: {}", args.out.display()));
     Ok(outcome)
@@ -41,7 +40,7 @@ type Made = (Vec<EngineRun>, Vec<Failure>);
 
 /// Runs that come with the program or those of the folder, which gets what is missing; or what is said of a shard of them.
 fn runs(args: &BreakdownArgs, context: &mut Context) -> Result<Result<Made, Outcome>, Failure> {
-    if args.stored {
+    if args.runs.stored {
         return Ok(Ok((stored()?.into_iter().filter(|run| run.seed == 1).collect(), Vec::new())));
     }
     let meshes = args.mesh.as_deref().map(sizes).transpose()?.unwrap_or_default();
@@ -55,7 +54,7 @@ fn runs(args: &BreakdownArgs, context: &mut Context) -> Result<Result<Made, Outc
         mesh_mm: meshes.first().copied(),
         carriers: args.carriers,
     };
-    let (jobs, settings) = (jobs(&robots(&args.scenarios)?.0, &ranges)?, kept(&args.runs, args.threads));
+    let (jobs, settings) = (jobs(&robots(&args.scenarios)?.0, &ranges)?, kept(&args.runs.folder(), context));
     if let Some(told) = shared(&args.shards, &jobs, &settings, context)? {
         return Ok(Err(told));
     }

@@ -1,14 +1,14 @@
 //! `ibr challenge new | reveal | list`: data with a hidden effect whose truth is sealed until someone asks for it.
 
 use super::inputs::scatter;
-use super::tables::table;
 use super::{Context, Outcome, inputs};
 use crate::cli::{ChallengeCommand, ChallengeNewArgs};
 use crate::failure::Failure;
 use crate::output::{check_set_folder, set_name, write_files};
-use challenge::{ALSO, Claim, HIDDEN, HiddenEffect, Laws, OUTSIDE, Riddle, score};
+use crate::tables::Table;
+use challenge::{ALSO, Claim, ClaimScore, HIDDEN, HiddenEffect, Laws, OUTSIDE, Riddle, Truth, score};
 use ibr::pages::Files;
-use serde_json::{Value, json};
+use serde::Serialize;
 use std::path::Path;
 
 pub fn run(command: &ChallengeCommand, context: &mut Context) -> Result<Outcome, Failure> {
@@ -20,7 +20,7 @@ pub fn run(command: &ChallengeCommand, context: &mut Context) -> Result<Outcome,
 }
 
 fn make(args: &ChallengeNewArgs, context: &mut Context) -> Result<Outcome, Failure> {
-    check_set_folder(&args.out, args.force)?;
+    check_set_folder(&args.out, context.force)?;
     let ChallengeNewArgs { seed, effect, actuator, runs, sigma, protocol, .. } = args.clone();
     let camera_sd_m = sigma.map(|text| scatter("--sigma", &text)).transpose()?;
     let riddle = Riddle { seed, effects: effect, actuator, runs: runs.map(|n| n as usize), camera_sd_m, protocol };
@@ -35,27 +35,24 @@ fn make(args: &ChallengeNewArgs, context: &mut Context) -> Result<Outcome, Failu
         made.dataset.actuator,
         made.sha256
     );
-    let json = json!({"schema": "ibr.challenge.new", "version": 1, "folder": folder.to_string(), "sha256": made.sha256,
-        "runs": made.dataset.runs.len()});
-    Ok(Outcome::new(text, json))
+    let answer = NewChallenge { folder: folder.to_string(), sha256: made.sha256, runs: made.dataset.runs.len() };
+    Ok(Outcome::answer(text, "ibr.challenge.new", &answer))
 }
 
 fn reveal(folder: &Path, diagnosis: Option<&Path>, context: &mut Context) -> Result<Outcome, Failure> {
     let (truth, sha256) = challenge::reveal(folder)?;
     let mut text = format!("The seal {sha256} is intact.\n{}", truth.words());
-    let mut scored = Value::Null;
+    let mut diagnosis_scored = None;
     if let Some(path) = diagnosis {
         let data = inputs::evidence(&folder.display().to_string(), context)?;
         let answer = Claim::read(path, folder, &data.sha256()?)?;
         // Without a verdict there is nothing to be right or wrong.
         let score = answer.verdict.as_ref().map(|_| score(&truth, &answer));
         text.push_str(&answer.words(&truth, score.as_ref()));
-        scored =
-            json!({"answer": {"verdict": answer.verdict, "set": answer.set, "added": answer.added}, "score": score});
+        let Claim { verdict, set, added, .. } = answer;
+        diagnosis_scored = Some(Scored { answer: StatedAnswer { verdict, set, added }, score });
     }
-    let json =
-        json!({"schema": "ibr.challenge.reveal", "version": 1, "sha256": sha256, "truth": truth, "diagnosis": scored});
-    Ok(Outcome::new(text, json))
+    Ok(Outcome::answer(text, "ibr.challenge.reveal", &Revealed { sha256, truth, diagnosis: diagnosis_scored }))
 }
 
 /// Everything that can be hidden.
@@ -68,18 +65,84 @@ fn list() -> Outcome {
     text.push_str("\nNo effect of the catalogue describes these\n");
     text.push_str(&rows(&OUTSIDE.iter().collect::<Vec<_>>()));
     text.push_str("\nThe second law of each mechanism, for `ibr bench discovery --laws second`\n");
-    let second = |e: &&HiddenEffect| vec![e.name.to_string(), e.law(Laws::Second).words.to_string()];
-    text.push_str(&table(&["effect", "law: its source"], 2, inside.iter().map(second).collect()));
-    let entry = |effect: &HiddenEffect| {
-        let second = (!effect.is_outside()).then(|| effect.law(Laws::Second).words);
-        json!({"name": effect.name, "sentence": effect.sentence, "law": effect.law(Laws::First).words, "second_law": second,
-            "in_catalog": !effect.is_outside()})
+    text +=
+        &Table::of(&inside).words("effect", |e| e.name).words("law: its source", |e| e.law(Laws::Second).words).text();
+    let entry = |effect: &'static HiddenEffect| HiddenEntry {
+        name: effect.name,
+        sentence: effect.sentence,
+        law: effect.law(Laws::First).words,
+        second_law: (!effect.is_outside()).then(|| effect.law(Laws::Second).words),
+        in_catalog: !effect.is_outside(),
     };
-    let all: Vec<Value> = inside.into_iter().chain(OUTSIDE).map(entry).collect();
-    Outcome::new(text, json!({"schema": "ibr.challenge.list", "version": 1, "effects": all}))
+    let effects = inside.into_iter().chain(OUTSIDE).map(entry).collect();
+    Outcome::answer(text, "ibr.challenge.list", &HiddenEntries { effects })
 }
 
 fn rows(effects: &[&HiddenEffect]) -> String {
-    let row = |e: &&HiddenEffect| [e.name, e.sentence, e.law(Laws::First).words].map(str::to_string).to_vec();
-    table(&["effect", "what happens", "law"], 3, effects.iter().map(row).collect())
+    let table = Table::of(effects).words("effect", |e| e.name).words("what happens", |e| e.sentence);
+    table.words("law", |e| e.law(Laws::First).words).text()
+}
+
+/// `ibr.challenge.new`: `ibr challenge new`
+#[derive(Serialize)]
+struct NewChallenge {
+    /// Folder that was written
+    folder: String,
+    /// SHA-256 of salt and truth
+    sha256: String,
+    /// Runs
+    runs: usize,
+}
+
+/// `ibr.challenge.reveal`: `ibr challenge reveal FOLDER`
+#[derive(Serialize)]
+struct Revealed {
+    /// SHA-256 of salt and truth
+    sha256: String,
+    /// What was hidden
+    truth: Truth,
+    /// The diagnosis and its score; null without one
+    diagnosis: Option<Scored>,
+}
+
+/// A diagnosis and its score.
+#[derive(Serialize)]
+struct Scored {
+    /// The answer to all data
+    answer: StatedAnswer,
+    /// Its score; null without a verdict
+    score: Option<ClaimScore>,
+}
+
+/// What a diagnosis states.
+#[derive(Serialize)]
+struct StatedAnswer {
+    /// `none`, `too_small`, `effect` or `out_of_catalog`; null if it gives no verdict
+    verdict: Option<String>,
+    /// The indistinguishable set; a pair is written `a + b`
+    set: Vec<String>,
+    /// Effects it adds to the model
+    added: Vec<String>,
+}
+
+/// `ibr.challenge.list`: `ibr challenge list`
+#[derive(Serialize)]
+struct HiddenEntries {
+    /// What can be hidden
+    effects: Vec<HiddenEntry>,
+}
+
+/// What can be hidden.
+#[derive(Serialize)]
+struct HiddenEntry {
+    /// Name
+    name: &'static str,
+    /// One plain sentence
+    sentence: &'static str,
+    /// Its law
+    law: &'static str,
+    /// Another law of it; null where the catalogue has none
+    second_law: Option<&'static str>,
+    /// Whether the catalogue of effects has it, by another law
+    in_catalog: bool,
 }

@@ -5,13 +5,13 @@ use super::{Context, Outcome};
 use crate::cli::CharacterizeArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, program, spares_inputs, write_files};
-use crate::shown::characterized::{text, to_json};
+use crate::shown::characterized::{FabricAnswer, text};
+use crate::shown::imported::CharacterizeExample;
 use compare::characterize::write::{fabric_toml, missing};
 use compare::characterize::{FabricTests, Reduction, example};
 use data::CouponDefaults;
 use ibr::pages::{Files, characterized_files};
 use models::scenario::quantity::Quantity;
-use serde_json::json;
 use std::path::Path;
 
 /// Seed of the example: the documents show its numbers.
@@ -38,7 +38,7 @@ pub fn run(args: &CharacterizeArgs, context: &mut Context) -> Result<Outcome, Fa
         let also = fabric.as_ref().map_or("", |_| ", fabric.toml");
         text.push_str(&format!("Plots, tables{also} in {}\n", folder.display()));
     }
-    Ok(Outcome::new(text, to_json(&found, fabric.as_deref())))
+    Ok(Outcome::answer(text, "ibr.characterize", &FabricAnswer::of(&found, fabric.as_deref())))
 }
 
 fn settings(args: &CharacterizeArgs) -> Result<Reduction, Failure> {
@@ -81,5 +81,5 @@ fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome, Failure
         "Made-up tests of a fabric with E0 = 96.5, E90 = 120, G12 = 1.03 MPa and locking at 45°\nibr characterize {}\n",
         names.join(" ")
     );
-    Ok(Outcome::new(text, json!({"schema": "ibr.characterize.example", "version": 1, "files": names})))
+    Ok(Outcome::answer(text, "ibr.characterize.example", &CharacterizeExample { files: names }))
 }

@@ -6,7 +6,7 @@ use crate::cli::CompareArgs;
 use crate::failure::{Failure, MISSED};
 use crate::output::{check_folder, imprint, write_files};
 use crate::shown::comparison::{CompareAnswer, text};
-use crate::shown::in_space;
+use crate::shown::in_space::{self, SpaceAnswer};
 use compare::progress::shares::{COMPARED, READ};
 use compare::study::comparison::Variant;
 use compare::study::in_space::{SpaceVariant, compare_in_space};
@@ -16,14 +16,19 @@ use ibr::pages::{Files, compare_page, space_page};
 use std::path::PathBuf;
 
 pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
+    if args.runs.stored || args.runs.runs.is_some() || args.pressure.is_some() {
+        let message = "--runs, --stored and --pressure are about finite element runs";
+        return Err(Failure::usage(message, "add --engines or --paper, or leave them out"));
+    }
     if let Some(outcome) = super::held::run(args, context)? {
         return Ok(outcome);
     }
     let (file, data_spec) = both(args)?;
     let limit_m = positive("--max-error", args.max_error.as_ref())?;
-    let sigma_m = positive("--sigma", args.sigma.as_ref())?;
+    let sigma_m = positive("--sigma", args.noise.sigma.as_ref())?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     // What is asked for is refused before data are read.
+    inputs::each_once("--effect", inputs::effect_names(&args.effect))?;
     let models = contenders(&file, &args.effect)?;
     let evidence = inputs::evidence(data_spec, context)?;
     (context.progress)("comparing", Some(READ));
@@ -34,7 +39,8 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
             return Err(Failure::usage(message, "leave it out: the comparison in x, y and z has no fitted number"));
         }
         let found = compare_in_space(&models, &evidence, sigma_m)?;
-        let mut outcome = Outcome::new(in_space::text(&found), in_space::as_json(scenario, &found));
+        let mut outcome =
+            Outcome::answer(in_space::text(&found), "ibr.compare.space", &SpaceAnswer::of(scenario, &found));
         report(args, &file, &evidence, &mut outcome, context, || Ok(space_page(&found, &imprint())?))?;
         outcome.warn(&found.warnings);
         outcome.notes.extend(unused_sigma(sigma_m, &evidence));
@@ -42,8 +48,8 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
         return Ok(outcome);
     }
     let Compared { found, added } = Compared::of(&file, &evidence, &args.effect, sigma_m, args.calibrate)?;
-    let answer = CompareAnswer { scenario, found: &found, added: added.as_ref() };
-    let mut outcome = Outcome::new(text(&answer), answer.json());
+    let answer = CompareAnswer::of(scenario, &found, added.as_ref());
+    let mut outcome = Outcome::answer(text(&answer), "ibr.compare", &answer);
     report(args, &file, &evidence, &mut outcome, context, || Ok(compare_page(&found, &imprint())?))?;
     outcome.warn(&found.warnings);
     outcome.notes.extend(unused_sigma(sigma_m, &evidence));

@@ -5,7 +5,8 @@ use super::{Context, Outcome, list};
 use crate::cli::{DataCommand, GenerateArgs};
 use crate::failure::Failure;
 use crate::output::{Input, check_set_folder, set_name, write_files};
-use crate::shown::check::check_text;
+use crate::shown::check::{BenchCheck, Check, Checked, check_text};
+use crate::shown::imported::Generated;
 use compare::diagnosis::{Options, pressure_slip};
 use compare::slips::pressure::pressure_words;
 use compare::slips::slips;
@@ -15,7 +16,6 @@ use data::{About, Dataset};
 use ibr::check_fed;
 use ibr::pages::Files;
 use models::Model;
-use serde_json::{Value, json};
 use std::path::Path;
 
 pub fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome, Failure> {
@@ -30,10 +30,9 @@ pub fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome, Fail
 
 fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Outcome, Failure> {
     if let Some(bench) = data::bench::bench(spec)? {
-        let words =
-            format!("{spec}: {}, {} rows ({})\n", bench.kind.sentence, bench.rows.len(), bench.provenance.word());
-        let check = json!({"kind": bench.kind.name, "rows": bench.rows.len(), "provenance": bench.provenance.word()});
-        return Ok(Outcome::new(words, json!({"schema": "ibr.data.check", "version": 1, "check": check})));
+        let check = BenchCheck { kind: bench.kind.name, rows: bench.rows.len(), provenance: bench.provenance };
+        let words = format!("{spec}: {}, {} rows ({})\n", bench.kind.sentence, check.rows, check.provenance.word());
+        return Ok(Outcome::answer(words, "ibr.data.check", &Checked { check: Check::Bench(check) }));
     }
     let evidence = inputs::evidence(spec, context)?;
     let Evidence { dataset, about, .. } = &evidence;
@@ -56,7 +55,8 @@ fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Ou
         report.warnings.retain(|warning| !in_numbers.contains(warning));
         report.warnings.push(found.words);
     }
-    Ok(Outcome::new(check_text(&report), json!({"schema": "ibr.data.check", "version": 1, "check": report})))
+    let words = check_text(&report);
+    Ok(Outcome::answer(words, "ibr.data.check", &Checked { check: Check::Markers(Box::new(report)) }))
 }
 
 /// What is said of a table with z or several channels.
@@ -78,7 +78,7 @@ fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome, Failure> 
     let generator =
         Generator { seed: args.seed, runs: args.runs as usize, gauge: args.gauge, ..scattered(&args.scatter)? };
     let generator = generator.with_protocol(&args.protocol)?;
-    check_set_folder(&args.out, args.force)?;
+    check_set_folder(&args.out, context.force)?;
     let named = ibr::studies::scenario_in_space(&args.scenario)?;
     let model = Model::new(&named.scenario);
     (0..generator.protocol.len()).try_for_each(|hold| check_fed(&model, &generator.loads(hold, 1.0).actuator_pa))?;
@@ -95,7 +95,8 @@ fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome, Failure> 
     write(&args.out, &dataset, &about, named.text, &inputs, context)?;
     let values = dataset.xy_m.len() + dataset.z_m.as_ref().map_or(0, Vec::len);
     let text = format!("{values} values of {} runs in {}\n", dataset.runs.len(), args.out.display());
-    Ok(Outcome::new(text, written_json("ibr.data.generate", &args.out, &dataset)))
+    let answer = Generated { folder: args.out.display().to_string(), runs: dataset.runs.len() };
+    Ok(Outcome::answer(text, "ibr.data.generate", &answer))
 }
 
 /// Writes a made set with its truth.
@@ -110,9 +111,4 @@ pub fn write(
     let mut files = Files { files: data::set_files(dataset, about)?.into(), ..Files::default() };
     files.text("truth.toml", truth);
     write_files(folder, &files, inputs, context)
-}
-
-/// What is said of it.
-pub fn written_json(schema: &str, folder: &Path, dataset: &Dataset) -> Value {
-    json!({"schema": schema, "version": 1, "folder": folder.display().to_string(), "runs": dataset.runs.len()})
 }

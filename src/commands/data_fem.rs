@@ -1,6 +1,6 @@
 //! `ibr data fem`: marker data from finite element runs.
 
-use super::data::{write, written_json};
+use super::data::write;
 use super::fem_inputs::{kept, list, pressures};
 use super::inputs;
 use super::inputs::scattered;
@@ -8,6 +8,7 @@ use super::{Context, Outcome};
 use crate::cli::DataFemArgs;
 use crate::failure::Failure;
 use crate::output::{check_set_folder, set_name};
+use crate::shown::imported::SeenByFem;
 use compare::study::Generator;
 use compare::study::engines::{EngineRun, of_the_program, runs_of, seed_jobs};
 use compare::study::generate::about;
@@ -17,7 +18,7 @@ use models::Scenario;
 use models::scenario::quantity::Quantity;
 
 pub fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome, Failure> {
-    check_set_folder(&args.out, args.force)?;
+    check_set_folder(&args.out, context.force)?;
     let truth = inputs::scenario(&args.scenario)?;
     let (robot, scenario) = robot(args)?;
     let kpa = pressures(&args.pressure)?;
@@ -32,7 +33,7 @@ pub fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome, Failure
         protocol: std::iter::once(0.0).chain(kpa.iter().map(|p| p * 1e3)).map(|p| [body_pa, p]).collect(),
         ..scattered(&args.scatter)?
     };
-    let runs = match args.stored {
+    let runs = match args.fem.stored {
         true => of_the_program(&scenario, args.seeds as usize)?,
         false => made(args, &robot, &scenario, &kpa, context)?,
     };
@@ -52,7 +53,8 @@ pub fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome, Failure
         dataset.runs.len(),
         args.out.display()
     );
-    Ok(Outcome::new(text, written_json("ibr.data.fem", &args.out, &dataset)))
+    let answer = SeenByFem { folder: args.out.display().to_string(), runs: dataset.runs.len() };
+    Ok(Outcome::answer(text, "ibr.data.fem", &answer))
 }
 
 /// The robot, at another body pressure if one is named.
@@ -79,7 +81,7 @@ fn made(
     context: &mut Context,
 ) -> Result<Vec<EngineRun>, Failure> {
     let jobs = seed_jobs(&[(robot.clone(), scenario.clone())], args.seeds, Some(kpa))?;
-    let settings = kept(&args.runs, args.threads);
+    let settings = kept(&args.fem.folder(), context);
     let found = context.fem(|progress| runs_of(&jobs, &settings, progress))?;
     Ok(found.into_iter().collect::<Result<Vec<EngineRun>, _>>()?)
 }

@@ -5,10 +5,9 @@ use super::{Context, Outcome};
 use crate::cli::Import;
 use crate::failure::Failure;
 use crate::output::{Input, check_folder, check_set_folder, spares_inputs, write_files};
-use crate::shown::imported::{to_json, told};
+use crate::shown::imported::{ImportAnswer, ImportExample, told};
 use data::import::{Imported, import};
 use ibr::pages::{Files, tracks_plot};
-use serde_json::json;
 use std::path::Path;
 
 /// Three runs of an ePAM with sealed edges as DeepLabCut writes them, and the log of their pressures.
@@ -25,7 +24,7 @@ pub fn run(args: &Import, context: &mut Context) -> Result<Outcome, Failure> {
     }
     let options = options(args)?;
     if let Some(folder) = &args.out {
-        check_set_folder(folder, args.force)?;
+        check_set_folder(folder, context.force)?;
     }
     let mut tell =
         |done: u64, total: u64| (context.progress)("reading tracks", Some(done as f64 / total.max(1) as f64));
@@ -43,7 +42,7 @@ pub fn run(args: &Import, context: &mut Context) -> Result<Outcome, Failure> {
         }
         None => text.push_str("\nNothing was written: add --out FOLDER\n"),
     }
-    Ok(Outcome::new(text, to_json(&made, args.out.as_deref())))
+    Ok(Outcome::answer(text, "ibr.data.import", &ImportAnswer::of(&made, args.out.as_deref())))
 }
 
 fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
@@ -61,7 +60,7 @@ fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome, Failure
          ibr data import {shown}/run*.csv --pressure {shown}/pressure.csv --fps 30 --scale 3.1px/mm --base 212,540 --actuator epam\n"
     );
     let names: Vec<String> = EXAMPLE.iter().map(|(name, _)| folder.join(name).display().to_string()).collect();
-    Ok(Outcome::new(text, json!({"schema": "ibr.data.import.example", "version": 1, "files": names})))
+    Ok(Outcome::answer(text, "ibr.data.import.example", &ImportExample { files: names }))
 }
 
 /// Runs with a picture.

@@ -3,14 +3,13 @@
 use super::{Context, Outcome};
 use crate::failure::Failure;
 use crate::output::{check_folder, imprint, write_files};
-use crate::shown::demo::{text, to_json};
+use crate::shown::demo::{DemoAnswer, SmallRun, text};
 use compare::demo::demo;
 use compare::progress::part;
 use compare::progress::shares::SHOWN;
 use fem::session::{FeRun, Settings, Source, heights_mm, simulate};
 use ibr::pages::demo_page;
 use ibr::studies::SMALL_RUN;
-use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -24,7 +23,7 @@ pub fn run(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
     let picture = small.files.iter().find(|(name, _)| name == "side.png");
     files.files.splice(0..0, picture.map(|(_, png)| ("small_run.png".to_string(), png.clone())));
     write_files(folder, &files, &[], context)?;
-    let mut outcome = Outcome::new(String::new(), to_json(&computed, small_json(&small)));
+    let mut outcome = Outcome::answer(String::new(), "ibr.demo", &DemoAnswer::of(&computed, small_json(&small)));
     outcome.report(folder);
     Ok(outcome)
 }
@@ -62,9 +61,12 @@ fn snaps(small: &FeRun) -> usize {
     small.summary.robot.as_ref().map_or(0, |robot| robot.snaps.len())
 }
 
-fn small_json(small: &FeRun) -> Value {
-    json!({
-        "elements": small.summary.elements, "cpu_s": small.cost.cpu_s, "residual_share": small.summary.residual_share,
-        "buckling_events": snaps(small), "readings": small.readings(),
-    })
+fn small_json(small: &FeRun) -> SmallRun<'_> {
+    SmallRun {
+        elements: small.summary.elements,
+        cpu_s: small.cost.cpu_s,
+        residual_share: small.summary.residual_share,
+        buckling_events: snaps(small),
+        readings: small.readings(),
+    }
 }

@@ -5,7 +5,7 @@ use super::{Context, Outcome};
 use crate::cli::DesignArgs;
 use crate::failure::Failure;
 use crate::output::{Input, check_folder, maker, sha256, write_files};
-use crate::shown::designed::{design_json, design_text};
+use crate::shown::designed::{DesignAnswer, design_text};
 use fem::FemError;
 use fem::session::{FeRun, Job, Progress, Settings, Source, simulate, simulate_all};
 use ibr::pages::design_files;
@@ -21,10 +21,10 @@ pub fn run(args: &DesignArgs, context: &mut Context) -> Result<Outcome, Failure>
     let folder = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("ibr-report/design-{stem}")));
     check_folder(&folder)?;
     let mut rounds = Rounds::new(args.correct as usize);
-    while searched(&mut rounds, &wish, args.threads as usize, context)? {
+    while searched(&mut rounds, &wish, context)? {
         let checked = match args.no_check {
             true => Err("left out".to_string()),
-            false => checked(&wish, &rounds, args.threads as usize, &folder, context)?,
+            false => checked(&wish, &rounds, &folder, context)?,
         };
         rounds.tell(checked);
     }
@@ -40,7 +40,8 @@ pub fn run(args: &DesignArgs, context: &mut Context) -> Result<Outcome, Failure>
     let input = |name: String, text: &[u8]| Input { name, sha256: sha256(text) };
     let own = input(args.wish.display().to_string(), &std::fs::read(&args.wish).unwrap_or_default());
     write_files(&folder, &files, &[own, input(wish.base.name.clone(), wish.base.text.as_bytes())], context)?;
-    let mut outcome = Outcome::new(design_text(&wish, &rounds), design_json(&args.wish, &wish, &rounds));
+    let answer = DesignAnswer::of(args.wish.display().to_string(), &wish, &rounds);
+    let mut outcome = Outcome::answer(design_text(&wish, &rounds), "ibr.design", &answer);
     outcome.notes.extend(pattern.err().map(|why| format!("no pattern: {why}")));
     outcome.notes.push(format!("robot: {}", folder.join("design.toml").display()));
     outcome.code = u8::from(!rounds.reached(&wish));
@@ -48,8 +49,8 @@ pub fn run(args: &DesignArgs, context: &mut Context) -> Result<Outcome, Failure>
 }
 
 /// The next search, if there is one; Ctrl-C ends it, and nothing is written.
-fn searched(rounds: &mut Rounds, wish: &Wish, threads: usize, context: &mut Context) -> Result<bool, Failure> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+fn searched(rounds: &mut Rounds, wish: &Wish, context: &mut Context) -> Result<bool, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(context.threads).build();
     let mut search = |progress: Progress| rounds.search(wish, progress).map(|found| found.is_some());
     Ok(context.fem(|progress| match pool {
         Ok(pool) => pool.install(|| search(progress)),
@@ -61,7 +62,6 @@ fn searched(rounds: &mut Rounds, wish: &Wish, threads: usize, context: &mut Cont
 fn checked(
     wish: &Wish,
     rounds: &Rounds,
-    threads: usize,
     folder: &Path,
     context: &mut Context,
 ) -> Result<Result<Checked, String>, Failure> {
@@ -77,7 +77,7 @@ fn checked(
     let set = [("fem.pressures_kpa".to_string(), format!("[{}]", fem::session::rounded(1e-3 * all[0])))];
     let file = found.file.with(&set)?;
     let source = Source { text: file.text.clone(), name: "design.toml".into(), folder: wish.folder.clone() };
-    let mut settings = Settings { frames: false, threads, maker: maker(), ..Settings::default() };
+    let mut settings = Settings { frames: false, threads: context.threads, maker: maker(), ..Settings::default() };
     let made = match rounds.corrections {
         0 => context.fem(|progress| simulate(&source, &settings, progress)),
         more => {

@@ -1,11 +1,11 @@
 //! `ibr diagnose`
 
-use super::inputs::{self, positive};
+use super::inputs;
 use super::{Context, Outcome};
 use crate::cli::DiagnoseArgs;
 use crate::failure::Failure;
 use crate::output::{Input, check_folder, imprint, write_files};
-use crate::shown::diagnosis::{text, to_json};
+use crate::shown::diagnosis::{DiagnosisAnswer, text};
 use compare::diagnose;
 use compare::diagnosis::Options;
 use compare::progress::part;
@@ -28,22 +28,19 @@ pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failur
         let help = "for example `ibr diagnose epam synthetic-epam`, `ibr diagnose festo-bolen-2026`, `ibr diagnose epam --published`";
         return Err(Failure::usage(message, help));
     };
-    let sigma_m = positive("--sigma", args.sigma.as_ref())?;
-    let tolerance_m = positive("--tolerance", args.tolerance.as_ref())?;
+    let fit = &args.fit;
+    let options = Options { refit_present: args.refit, ..inputs::fit_options(fit)? };
     let file = inputs::scenario(&args.scenario)?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
-    let evidence = inputs::all_evidence(data, &args.also, context)?;
-    let (refit_present, keep_bending) = (args.refit, args.keep_bending);
-    let not = args.not.clone();
-    let options = Options { sigma_m, tolerance_m, refit_present, keep_bending, not, ..Options::default() };
+    let evidence = inputs::all_evidence(data, &fit.also, context)?;
     let end = args.out.as_ref().map_or(1.0, |_| DIAGNOSED);
     let diagnosis = diagnose(&file, &evidence, &options, &mut part(context.progress, [READ, end]))?;
     let runs = known_runs(args.runs.as_deref())?;
     let first = &evidence[0];
     let witness = witness(&diagnosis, &file, &first.dataset, first.about.as_ref(), &runs)?;
-    let answer = to_json(&diagnosis, witness.as_ref(), &args.scenario);
-    let json = format!("{answer:#}\n").into_bytes();
-    let mut outcome = Outcome::new(text(&diagnosis, witness.as_ref(), args.tables), answer);
+    let answer = DiagnosisAnswer::of(&diagnosis, witness.as_ref(), &args.scenario);
+    let mut outcome = Outcome::answer(text(&diagnosis, witness.as_ref(), args.tables), "ibr.diagnose", &answer);
+    let json = outcome.json.as_ref().map_or(Vec::new(), |answer| format!("{answer:#}\n").into_bytes());
     let told_first = |warning: &&String| diagnosis.slips.contains(warning);
     outcome.warn(diagnosis.warnings.iter().filter(|w| !told_first(w)));
     if let (Some(folder), None) = (&args.runs, &witness) {
@@ -51,7 +48,7 @@ pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failur
         outcome.notes.push(format!("warning: no finite element run in {} {why}", folder.display()));
     }
     if let Some(folder) = &args.out {
-        let also = args.also.iter().map(|data| format!(" --also {data}"));
+        let also = fit.also.iter().map(|data| format!(" --also {data}"));
         let found = Diagnosed {
             diagnosis: &diagnosis,
             scenario: &file,
@@ -60,8 +57,8 @@ pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failur
             witness: witness.as_ref(),
             typed: [&args.scenario, data],
             more: also
-                .chain(args.keep_bending.then(|| " --keep-bending".into()))
-                .chain(args.not.iter().map(|not| format!(" --not {not}")))
+                .chain(fit.keep_bending.then(|| " --keep-bending".into()))
+                .chain(fit.not.iter().map(|not| format!(" --not {not}")))
                 .collect(),
         };
         // What was found took long, and is printed where it cannot be written.
@@ -70,7 +67,7 @@ pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failur
             Err(failure) => outcome.fail(&failure),
         }
     }
-    outcome.notes.extend(unused_sigma(sigma_m, first));
+    outcome.notes.extend(unused_sigma(options.sigma_m, first));
     Ok(outcome)
 }
 

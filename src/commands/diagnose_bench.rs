@@ -3,20 +3,18 @@
 use super::{Context, Outcome, held, inputs};
 use crate::cli::DiagnoseArgs;
 use crate::failure::Failure;
-use crate::shown::bench_diagnosis::text;
+use crate::shown::bench_diagnosis::{BenchDiagnosisAnswer, text};
 use compare::diagnosis::{BenchOptions, diagnose_bench};
 use compare::progress::shares::READ;
-use fem::record::RecordShape;
-use serde_json::json;
 
 /// The diagnosis, if what was typed last is a table of bench tests.
 pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Option<Outcome>, Failure> {
     let spec = args.data.as_deref().unwrap_or(&args.scenario);
     let Some(bench) = data::bench::bench(spec)? else {
-        return args.also.iter().try_for_each(|also| held::needs_markers(also)).map(|()| None);
+        return args.fit.also.iter().try_for_each(|also| held::needs_markers(also)).map(|()| None);
     };
     refuse_options(args, spec)?;
-    let sigma = args.sigma.as_deref().map(share).transpose()?;
+    let sigma = args.fit.noise.sigma.as_deref().map(share).transpose()?;
     let scenario = match (&args.data, &bench.scenario) {
         (Some(_), _) => Some(inputs::scenario(&args.scenario)?.scenario),
         (None, Some(text)) => Some(held::own(spec, text)?),
@@ -25,18 +23,17 @@ pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Option<Outcome>
     (context.progress)("fitting every effect", Some(READ));
     let options = BenchOptions { sigma, refit: args.refit, ..BenchOptions::default() };
     let found = diagnose_bench(&bench, scenario.as_ref(), &options)?;
-    let mut answer = RecordShape { schema: "ibr.diagnose.bench", version: 1 }.stamped(&found);
-    answer["provenance"] = json!(bench.provenance.word());
-    Ok(Some(Outcome::new(text(&found, &bench), answer)))
+    let answer = BenchDiagnosisAnswer { found: &found, provenance: bench.provenance };
+    Ok(Some(Outcome::answer(text(&found, &bench), "ibr.diagnose.bench", &answer)))
 }
 
 /// What is about markers, and what to do instead.
 fn refuse_options(args: &DiagnoseArgs, spec: &str) -> Result<(), Failure> {
     let given = [
-        ("--also", !args.also.is_empty(), "put the rows of all tests of one kind into one table"),
-        ("--keep-bending", args.keep_bending, "a table has nothing fitted that was not asked for"),
-        ("--not", !args.not.is_empty(), "a table's ranking shows every effect by itself"),
-        ("--tolerance", args.tolerance.is_some(), "say what a row scatters by instead, --sigma 3%"),
+        ("--also", !args.fit.also.is_empty(), "put the rows of all tests of one kind into one table"),
+        ("--keep-bending", args.fit.keep_bending, "a table has nothing fitted that was not asked for"),
+        ("--not", !args.fit.not.is_empty(), "a table's ranking shows every effect by itself"),
+        ("--tolerance", args.fit.tolerance.is_some(), "say what a row scatters by instead, --sigma 3%"),
         ("--runs", args.runs.is_some(), "finite elements are held against robots"),
         ("--out", args.out.is_some(), "a table has no report; --json gives everything that was found"),
     ];

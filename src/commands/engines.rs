@@ -5,33 +5,25 @@ use super::{Context, Outcome};
 use crate::cli::CompareArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, imprint, write_files};
-use crate::shown::engines::text;
+use crate::shown::engines::{EnginesAnswer, text};
 use compare::study::engines::{EngineLine, EngineRun, all_runs, engines, lines, runs_json, runs_of, seed_jobs, stored};
 use fem::session::Source;
 use ibr::pages::engines_page;
 use models::Scenario;
-use serde_json::json;
 use std::path::PathBuf;
 
 pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let folder = args.out.clone().unwrap_or_else(|| PathBuf::from("ibr-report/compare-engines"));
     check_folder(&folder)?;
     let (named, inputs) = robots(&args.inputs)?;
-    let runs = if args.stored { stored()? } else { made(args, &named, context)? };
+    let runs = if args.runs.stored { stored()? } else { made(args, &named, context)? };
     let scenarios: Vec<Scenario> = named.into_iter().map(|s| s.1).collect();
     let found = engines(&scenarios, &runs)?;
     let mut all: Vec<EngineLine> = Vec::new();
     for robot in &found.robots {
         all.extend(lines(robot)?);
     }
-    let mut outcome = Outcome::new(
-        text(&all, &found)?,
-        json!({
-            "schema": "ibr.engines", "version": 1, "lines": all,
-            "ledgers": found.robots.iter().map(|r| json!({"robot": r.scenario.name, "pairs": r.pairs})).collect::<Vec<_>>(),
-            "volumes": found.robots.iter().flat_map(|r| &r.bodies).collect::<Vec<_>>(),
-        }),
-    );
+    let mut outcome = Outcome::answer(text(&all, &found)?, "ibr.engines", &EnginesAnswer::of(&all, &found));
     (context.progress)("drawing the report", None);
     let imprint = imprint();
     let mut files = engines_page(&found, &imprint)?;
@@ -44,8 +36,8 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
 /// Runs of the folder, which gets what is missing.
 fn made(args: &CompareArgs, robots: &[(Source, Scenario)], context: &mut Context) -> Result<Vec<EngineRun>, Failure> {
     let kpa = args.pressure.as_deref().map(pressures).transpose()?;
-    let (jobs, folder) = (seed_jobs(robots, args.seeds, kpa.as_deref())?, args.runs_folder());
-    let settings = kept(&folder, args.threads);
+    let (jobs, folder) = (seed_jobs(robots, args.seeds, kpa.as_deref())?, args.runs.folder());
+    let settings = kept(&folder, context);
     let own = context.fem(|progress| runs_of(&jobs, &settings, progress))?;
     let mut own = own.into_iter().collect::<Result<Vec<EngineRun>, _>>()?;
     // Runs of the map are there if they were made.

@@ -5,11 +5,11 @@ use super::predict::wanted;
 use super::{Context, Outcome};
 use crate::cli::{ExportArgs, ExportCommand, LinearArgs};
 use crate::failure::Failure;
-use crate::shown::linear;
-use models::export::{Linear, Origin, Table, Untabulated};
+use crate::shown::linear::{LinearAnswer, text as linear_text};
+use models::export::{Bound, Linear, Origin, Table, Untabulated};
 use models::scenario::quantity::Quantity;
 use models::{Model, Scenario};
-use serde_json::json;
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::sync::PoisonError;
 
@@ -35,8 +35,8 @@ fn linear(args: &LinearArgs) -> Result<Outcome, Failure> {
     };
     let units = if scenario.actuator.count > 1 { scenario.actuator.count } else { JOINTS };
     let chain = Linear::new(&scenario, args.joints.map_or(units, |joints| joints as usize), &loads)?;
-    let answer = linear::as_json(&args.robot.scenario, &scenario, &chain);
-    let mut outcome = Outcome::new(linear::text(&scenario, &chain), answer);
+    let answer = LinearAnswer::of(&args.robot.scenario, &scenario, &chain);
+    let mut outcome = Outcome::answer(linear_text(&scenario, &chain), "ibr.export.linear", &answer);
     if chain.joints.iter().any(|joint| joint.stiffness_nm.is_nan() || joint.offset_nm.is_nan()) {
         outcome.notes.push("note: an actuator is flat or at the end of its stroke there, and has no slope".into());
     }
@@ -103,6 +103,33 @@ fn refused(error: Untabulated) -> Failure {
     Failure::usage(error.to_string(), help)
 }
 
+/// `ibr.export.c`: `ibr export c SCENARIO`
+#[derive(Serialize)]
+struct TableAnswer<'a> {
+    /// Scenario as typed
+    scenario: &'a str,
+    /// Files
+    written: &'a [String],
+    /// Constants, in single precision
+    bytes: usize,
+    /// Polynomials of each output
+    pieces: usize,
+    /// Of the polynomials
+    degree: usize,
+    /// Markers in the table
+    markers: usize,
+    /// Body pressure
+    p_body_kpa: f64,
+    /// Actuator pressures, from and to
+    p_act_kpa: [f64; 2],
+    /// Pressure up to which the actuator is flat
+    p_open_kpa: f64,
+    /// Heights of the tip that have one pressure, from and to
+    heights_mm: Option<[f64; 2]>,
+    /// Largest differences from the model
+    bound: &'a Bound,
+}
+
 fn told(args: &ExportArgs, table: &Table, names: &[String]) -> Outcome {
     let (bound, kpa) = (&table.bound, |pa: f64| pa / 1e3);
     let markers = match table.markers() {
@@ -124,18 +151,20 @@ fn told(args: &ExportArgs, table: &Table, names: &[String]) -> Outcome {
         bound.tip_m / table.length_m,
         bound.angle_rad.to_degrees(),
     );
-    let answer = json!({
-        "schema": "ibr.export.c", "version": 1, "scenario": args.robot.scenario, "written": names, "bytes": table.bytes(),
-        "pieces": table.pieces(), "degree": table.degree, "markers": table.markers(), "p_body_kpa": kpa(table.body_pa),
-        "p_act_kpa": table.range_pa.map(kpa), "p_open_kpa": kpa(table.open_pa),
-        "heights_mm": table.heights_m().map(|h| h.map(|m| m * 1e3)),
-        "bound": {
-            "pressures": bound.pressures, "tip_mm": bound.tip_m * 1e3, "angle_deg": bound.angle_rad.to_degrees(),
-            "marker_mm": bound.marker_m * 1e3, "slope_mm_per_kpa": bound.slope_m_per_pa * 1e6,
-            "slope_from_kpa": kpa(bound.slope_from_pa),
-        },
-    });
-    let mut outcome = Outcome::new(text, answer);
+    let answer = TableAnswer {
+        scenario: &args.robot.scenario,
+        written: names,
+        bytes: table.bytes(),
+        pieces: table.pieces(),
+        degree: table.degree,
+        markers: table.markers(),
+        p_body_kpa: kpa(table.body_pa),
+        p_act_kpa: table.range_pa.map(kpa),
+        p_open_kpa: kpa(table.open_pa),
+        heights_mm: table.heights_m().map(|h| h.map(|m| m * 1e3)),
+        bound,
+    };
+    let mut outcome = Outcome::answer(text, "ibr.export.c", &answer);
     if table.markers() == 0 {
         outcome.notes.push("note: no markers in the table: the scenario has none, or they do not fit".into());
     }

@@ -1,5 +1,6 @@
 //! What finite element commands are given: cases and robots by name, pressures, sizes, times.
 
+use super::Context;
 use super::inputs::quantity;
 use crate::failure::Failure;
 use crate::output::{Input, maker};
@@ -34,9 +35,9 @@ pub fn robots(specs: &[String]) -> Result<Robots, Failure> {
 }
 
 /// How runs are made that are kept in a folder by their hash.
-pub fn kept(folder: &Path, threads: u64) -> Settings {
+pub fn kept(folder: &Path, context: &Context) -> Settings {
     let further = Some(ibr::pages::run_plots as fem::session::Further);
-    let (folder, threads) = (Some(folder.to_path_buf()), threads as usize);
+    let (folder, threads) = (Some(folder.to_path_buf()), context.threads);
     Settings { folder, threads, frames: false, further, maker: maker(), ..Settings::default() }
 }
 

@@ -4,13 +4,12 @@ use super::inputs;
 use super::{Context, Outcome};
 use crate::cli::CompareArgs;
 use crate::failure::Failure;
-use crate::shown::held::{as_json, text};
+use crate::shown::held::{BenchAnswer, HeldTable, text};
 use compare::ScenarioFile;
 use compare::bench::held;
 use compare::study::Knob;
 use compare::typed_effect::with_effect;
 use models::Scenario;
-use serde_json::json;
 
 /// The comparison, if the data are a table of bench tests.
 pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Option<Outcome>, Failure> {
@@ -28,6 +27,7 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Option<Outcome>,
         (_, Some(text)) => Some(own(data_spec, text)?),
         _ => None,
     };
+    inputs::each_once("--effect", inputs::effect_names(&args.effect))?;
     for text in &args.effect {
         let Some(before) = &scenario else {
             return Err(Failure::usage("--effect without a scenario", "name a scenario before the table"));
@@ -35,9 +35,9 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Option<Outcome>,
         scenario = Some(with_effect(before, text)?.0);
     }
     let held = held(&bench, scenario.as_ref(), args.calibrate.is_some())?;
-    let answer = json!({"schema": "ibr.compare.bench", "version": 1, "data": data_spec, "kind": bench.kind.name,
-        "provenance": bench.provenance.word(), "held": as_json(&held)});
-    Ok(Some(Outcome::new(text(&held), answer)))
+    let (kind, provenance) = (bench.kind.name, bench.provenance);
+    let answer = BenchAnswer { data: data_spec, kind, provenance, held: HeldTable::of(&held) };
+    Ok(Some(Outcome::answer(text(&held), "ibr.compare.bench", &answer)))
 }
 
 /// The scenario that lies beside the data.
@@ -47,7 +47,7 @@ pub fn own(data_spec: &str, text: &str) -> Result<Scenario, Failure> {
 
 fn marker_option(args: &CompareArgs) -> Option<&'static str> {
     let given = [
-        ("--sigma", args.sigma.is_some()),
+        ("--sigma", args.noise.sigma.is_some()),
         ("--max-error", args.max_error.is_some()),
         ("--out", args.out.is_some()),
         ("--calibrate=body-pressure", args.calibrate == Some(Knob::BodyPressure)),

@@ -1,9 +1,10 @@
 //! Scenarios, data and quantities as typed on the command line.
 
 use super::Context;
-use crate::cli::{RobotArgs, ScatterArgs};
+use crate::cli::{FitArgs, RobotArgs, ScatterArgs};
 use crate::failure::Failure;
 use crate::output::Input;
+use compare::diagnosis::Options;
 use compare::progress::part;
 use compare::progress::shares::READ;
 use compare::study::Generator;
@@ -33,14 +34,46 @@ pub fn setting<'t>(text: &'t str, help: &str) -> Result<(&'t str, &'t str), Fail
     both.ok_or_else(|| Failure::usage(format!("--set {text}: there is no ="), help))
 }
 
+/// Names that were typed for an option, each once.
+pub fn each_once<'t>(option: &str, names: impl IntoIterator<Item = &'t str>) -> Result<(), Failure> {
+    let mut seen = Vec::new();
+    for name in names {
+        if seen.contains(&name) {
+            let help = "leave one of the two out";
+            return Err(Failure::usage(format!("{option} gives {name} twice"), help));
+        }
+        seen.push(name);
+    }
+    Ok(())
+}
+
+/// Names of effects that were typed as `name` or `name:key=value`.
+pub fn effect_names(typed: &[String]) -> impl Iterator<Item = &str> {
+    typed.iter().map(|text| text.split([':', '=']).next().unwrap_or_default())
+}
+
+/// How effects are fitted, as typed.
+pub fn fit_options(args: &FitArgs) -> Result<Options, Failure> {
+    Ok(Options {
+        sigma_m: positive("--sigma", args.noise.sigma.as_ref())?,
+        tolerance_m: positive("--tolerance", args.tolerance.as_ref())?,
+        keep_bending: args.keep_bending,
+        not: args.not.clone(),
+        ..Options::default()
+    })
+}
+
 /// Sets values of keys in a scenario.
 type Set = fn(&ScenarioFile, &[(String, String)]) -> Result<ScenarioFile, CompareError>;
 
 fn changed(mut file: ScenarioFile, set: Set, args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
-    if !args.set.is_empty() {
-        let help = "write for example --set body.radius_mm=45";
-        let changes = args.set.iter().map(|text| setting(text, help).map(|(key, value)| (key.into(), value.into())));
-        file = set(&file, &changes.collect::<Result<Vec<(String, String)>, _>>()?)?;
+    let help = "write for example --set body.radius_mm=45";
+    let changes = args.set.iter().map(|text| setting(text, help)).collect::<Result<Vec<_>, _>>()?;
+    each_once("--set", changes.iter().map(|(key, _)| *key))?;
+    each_once("--effect", effect_names(&args.effect))?;
+    if !changes.is_empty() {
+        file =
+            set(&file, &changes.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect::<Vec<_>>())?;
     }
     let mut changed = if args.bare { file.bare() } else { file.scenario.clone() };
     for text in &args.effect {

@@ -1,40 +1,42 @@
 //! `ibr ladder`
 
-use super::inputs::{self, plain, positive};
+use super::inputs::{self, plain};
 use super::{Context, Outcome};
 use crate::cli::LadderArgs;
 use crate::failure::Failure;
 use crate::output::{Input, check_folder, imprint, write_files};
 use crate::shown::extension::climb_text;
 use compare::diagnosis::Options;
-use compare::ladder::{MOST_EFFECTS, ladder};
+use compare::ladder::{Climb, MOST_EFFECTS, ladder};
 use compare::progress::part;
 use compare::progress::shares::{CLIMBED, READ};
-use fem::record::RecordShape;
 use ibr::pages::{Climbed, ladder_page};
-use serde_json::json;
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 
+/// `ibr.ladder`: `ibr ladder SCENARIO DATA`
+#[derive(Serialize)]
+struct LadderAnswer<'a> {
+    /// What was found
+    #[serde(flatten)]
+    climb: &'a Climb,
+    /// Scenario as typed
+    scenario_file: &'a str,
+    /// Data as typed
+    data: &'a str,
+    /// Data that were fitted along, as typed
+    also: &'a [String],
+}
+
 pub fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome, Failure> {
-    let tolerance_m = positive("--tolerance", args.tolerance.as_ref())?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let file = inputs::scenario(&args.scenario)?;
-    let evidence = inputs::all_evidence(&args.data, &args.also, context)?;
-    let options = Options {
-        tolerance_m,
-        keep_bending: args.keep_bending,
-        not: args.not.clone(),
-        next_experiment: false,
-        missing_moment: false,
-        ..Options::default()
-    };
+    let evidence = inputs::all_evidence(&args.data, &args.fit.also, context)?;
+    let options = Options { next_experiment: false, missing_moment: false, ..inputs::fit_options(&args.fit)? };
     let climb = ladder(&file, &evidence, &options, MOST_EFFECTS, &mut part(context.progress, [READ, CLIMBED]))?;
-    let LadderArgs { scenario, data, also, .. } = args;
-    let mut answer = RecordShape { schema: "ibr.ladder", version: 1 }.stamped(&climb);
-    answer["scenario_file"] = json!(scenario);
-    answer["data"] = json!(data);
-    answer["also"] = json!(also);
-    let mut outcome = Outcome::new(climb_text(&climb), answer);
+    let (LadderArgs { scenario, data, .. }, also) = (args, &args.fit.also);
+    let answer = LadderAnswer { climb: &climb, scenario_file: scenario, data, also };
+    let mut outcome = Outcome::answer(climb_text(&climb), "ibr.ladder", &answer);
     outcome.warn(&climb.warnings);
     let name = &evidence[0].dataset.name;
     let folder = || PathBuf::from(format!("ibr-report/ladder-{}", plain(name)));

@@ -2,42 +2,35 @@
 
 use super::Outcome;
 use crate::failure::Failure;
-use crate::shown::lists::{actuators, cases, datasets, effects};
+use crate::shown::lists::Lists;
 use fem::case::{SHIPPED_CASES, shipped_case};
 use ibr::studies::{STUDIES, study};
 use models::scenario::SHIPPED;
-use serde_json::{Value, json};
-
-/// Makes a list as text and as JSON.
-type List = fn() -> (String, Value);
+use serde::Serialize;
 
 pub fn run(what: Option<&str>) -> Result<Outcome, Failure> {
-    let wanted = |name: &str| what.is_none_or(|w| w == name);
-    let mut text = String::new();
-    let mut object = serde_json::Map::new();
-    object.insert("schema".into(), "ibr.list".into());
-    object.insert("version".into(), 1.into());
-    let parts: [(&str, List); 4] =
-        [("actuators", actuators), ("effects", effects), ("datasets", datasets), ("cases", cases)];
-    for (name, list) in parts {
-        if wanted(name) {
-            let (words, value) = list();
-            text.push_str(&words);
-            object.insert(name.into(), value);
-        }
-    }
-    Ok(Outcome::new(text, Value::Object(object)))
+    let lists = Lists::of(what);
+    Ok(Outcome::answer(lists.text(), "ibr.list", &lists))
+}
+
+/// `ibr.new`: `ibr new KIND`
+#[derive(Serialize)]
+struct NewAnswer {
+    /// Text of the case
+    #[serde(skip_serializing_if = "Option::is_none")]
+    case_toml: Option<&'static str>,
+    /// Text of the scenario
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scenario_toml: Option<&'static str>,
 }
 
 pub fn new(kind: &str) -> Result<Outcome, Failure> {
-    let (key, text) = match (models::shipped(kind).or(study(kind)), shipped_case(kind)) {
-        (Some(text), _) => ("scenario_toml", text),
-        (None, Some(text)) => ("case_toml", text),
-        (None, None) => {
-            let names = SHIPPED.iter().chain(SHIPPED_CASES).map(|s| s.0).chain(STUDIES.iter().map(|s| s.0));
-            let help = spelling::known(kind, &names.collect::<Vec<_>>());
-            return Err(Failure::usage(format!("no shipped scenario `{kind}`"), help));
-        }
+    let scenario_toml = models::shipped(kind).or(study(kind));
+    let case_toml = shipped_case(kind).filter(|_| scenario_toml.is_none());
+    let Some(text) = scenario_toml.or(case_toml) else {
+        let names = SHIPPED.iter().chain(SHIPPED_CASES).map(|s| s.0).chain(STUDIES.iter().map(|s| s.0));
+        let help = spelling::known(kind, &names.collect::<Vec<_>>());
+        return Err(Failure::usage(format!("no shipped scenario `{kind}`"), help));
     };
-    Ok(Outcome::new(text.to_string(), json!({"schema": "ibr.new", "version": 1, key: text})))
+    Ok(Outcome::answer(text.to_string(), "ibr.new", &NewAnswer { case_toml, scenario_toml }))
 }

@@ -5,11 +5,10 @@ use super::{Context, Outcome};
 use crate::cli::CompareArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
-use crate::shown::paper::text;
+use crate::shown::paper::{PaperAnswer, text};
 use compare::study::engines::runs_of;
 use compare::study::paper::{MESHES_MM, PaperRun, facts, heights, jobs, ordered, runs_below, runs_json, stored};
 use ibr::pages::Files;
-use serde_json::json;
 
 pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
@@ -17,8 +16,8 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
     let paper = data::published()?;
     let (against, rows) = (heights(&paper, &runs, &MESHES_MM), facts(&paper, &runs));
     let text = text(&against, &rows, &runs);
-    let answer = json!({"schema": "ibr.paper", "version": 1, "runs": runs.len(), "heights": against, "facts": rows});
-    let mut outcome = Outcome::new(text.clone(), answer);
+    let answer = PaperAnswer { runs: runs.len(), heights: &against, facts: &rows };
+    let mut outcome = Outcome::answer(text.clone(), "ibr.paper", &answer);
     if let Some(folder) = &args.out {
         let mut files = Files::default();
         files.text("paper.md", text);
@@ -31,7 +30,7 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
 
 /// Stored runs, or all in the folder, which gets what is missing.
 fn runs(args: &CompareArgs, context: &mut Context) -> Result<Vec<PaperRun>, Failure> {
-    let Some(folder) = &args.runs else {
+    let Some(folder) = &args.runs.runs else {
         if !args.inputs.is_empty() || args.pressure.is_some() {
             let help = "add --runs FOLDER to make runs; without it all that come with the program are printed";
             return Err(Failure::usage("--paper alone takes no scenario and no --pressure", help));
@@ -40,7 +39,7 @@ fn runs(args: &CompareArgs, context: &mut Context) -> Result<Vec<PaperRun>, Fail
     };
     let kpa = args.pressure.as_deref().map(pressures).transpose()?;
     let jobs = jobs(&robots(&args.inputs)?.0, &sizes(&args.mesh)?, kpa.as_deref())?;
-    let settings = kept(folder, args.threads);
+    let settings = kept(folder, context);
     let made = context.fem(|progress| runs_of(&jobs, &settings, progress))?;
     made.into_iter().collect::<Result<Vec<_>, _>>()?;
     Ok(ordered(runs_below(folder)?))

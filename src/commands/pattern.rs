@@ -4,7 +4,7 @@ use super::inputs::{self, quantity};
 use super::{Context, Outcome};
 use crate::cli::PatternArgs;
 use crate::failure::Failure;
-use crate::shown::pattern::{to_json, words};
+use crate::shown::pattern::PatternAnswer;
 use ibr::pages::pattern_sheet;
 use models::Scenario;
 use models::cutting::{CuttingPlan, Making};
@@ -41,7 +41,8 @@ pub fn run(args: &PatternArgs, context: &mut Context) -> Result<Outcome, Failure
     files.iter().try_for_each(|(path, text)| data::write_atomically(path, text.as_bytes()))?;
     *written = true;
     let names: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
-    Ok(Outcome::new(words(&plan, &told, &names), to_json(&args.scenario, &plan, &making, &told, &names)))
+    let answer = PatternAnswer::of(&args.scenario, &plan, &making, &told, &names);
+    Ok(Outcome::answer(answer.text(), "ibr.pattern", &answer))
 }
 
 /// The width of the welds and how it is known.

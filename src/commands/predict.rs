@@ -5,13 +5,12 @@ use super::{Context, Outcome, limits};
 use crate::cli::PredictArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
-use crate::shown::nearest::{nearest_json, nearest_words};
-use crate::shown::predicted::{above_limit, beyond_words, columns, state_json, text};
+use crate::shown::nearest::{NearestPlace, nearest_words};
+use crate::shown::predicted::{PredictAnswer, PredictedState, above_limit, beyond_words, columns, text};
 use ibr::pages::predicted_files;
 use ibr::{check_fed, predict, predict_for, predict_near};
 use models::scenario::quantity::{MOST, Quantity, parse_pressures};
 use models::{CHANNELS, Loads, Model, Scenario, Target};
-use serde_json::{Value, json};
 
 pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
@@ -41,16 +40,16 @@ pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure
         write_files(folder, &predicted_files(&scenario, &states)?, &inputs::named(&file, [])?, context)?;
     }
     // Rows of numbers may be many, and their objects are not printed.
-    let told: Vec<Value> = states.iter().filter(|_| !args.csv).map(|s| state_json(&model, &scenario, s)).collect();
-    let effects: Vec<&str> = scenario.effects.iter().map(|e| e.name.as_str()).collect();
-    let mut answer = json!({
-        "schema": "ibr.predict", "version": 1, "scenario": typed, "name": scenario.name,
-        "actuator": scenario.actuator.kind.name, "effects": effects, "states": told,
-    });
-    if let Some((place, found)) = &steered {
-        answer["nearest"] = nearest_json(*place, found);
-    }
-    let mut outcome = Outcome::new(text(&scenario, &states), answer);
+    let told = states.iter().filter(|_| !args.csv).map(|s| PredictedState::of(&model, &scenario, s));
+    let answer = PredictAnswer {
+        scenario: typed,
+        name: &scenario.name,
+        actuator: scenario.actuator.kind.name,
+        effects: scenario.effects.iter().map(|e| e.name.as_str()).collect(),
+        states: told.collect(),
+        nearest: steered.as_ref().map(|(place, found)| NearestPlace::of(*place, found)),
+    };
+    let mut outcome = Outcome::answer(text(&scenario, &states), "ibr.predict", &answer);
     if args.csv {
         let mut csv = Vec::new();
         columns(&scenario, &states).to_csv(&mut csv)?;

@@ -3,11 +3,10 @@
 use super::{Context, Outcome};
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
-use crate::shown::one_number::text;
+use crate::shown::one_number::{OneNumberAnswer, text};
 use compare::study::one_number::one_number;
 use ibr::pages::one_number_files;
 use models::scenario::SHIPPED;
-use serde_json::json;
 use std::path::Path;
 
 pub fn run(kind: &str, out: Option<&Path>, context: &mut Context) -> Result<Outcome, Failure> {
@@ -19,7 +18,7 @@ pub fn run(kind: &str, out: Option<&Path>, context: &mut Context) -> Result<Outc
         return Err(Failure::usage(message, help));
     }
     let one = one_number(kind)?;
-    let mut outcome = Outcome::new(text(&one), json!({"schema": "ibr.one_number", "version": 1, "result": one}));
+    let mut outcome = Outcome::answer(text(&one), "ibr.one_number", &OneNumberAnswer { result: &one });
     if let Some(folder) = out {
         write_files(folder, &one_number_files(&one)?, &[], context)?;
         outcome.notes.push(format!("plot: {}", folder.join(format!("one_number_{kind}.png")).display()));

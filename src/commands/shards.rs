@@ -5,7 +5,7 @@ use crate::cli::ShardArgs;
 use crate::failure::Failure;
 use fem::FemError;
 use fem::session::{Job, Settings, Shard, is_finished, problems, simulate_all};
-use serde_json::json;
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 use sweep::schedule::{self, Cluster};
 
@@ -21,11 +21,11 @@ pub fn shard(args: &ShardArgs) -> Result<Shard, Failure> {
 }
 
 /// What is submitted: the command as it was typed, with a shard. Its files go below `folder`.
-fn job(args: &ShardArgs, threads: u64, folder: &Path, context: &Context) -> Result<schedule::Job, Failure> {
+fn job(args: &ShardArgs, folder: &Path, context: &Context) -> Result<schedule::Job, Failure> {
     let program = std::env::current_exe()
         .map_err(|cause| Failure::usage(format!("this program cannot be found: {cause}"), "run the shards by hand"))?;
     let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_path_buf());
-    let (shards, threads) = (args.shards as usize, (threads as usize).max(1));
+    let (shards, threads) = (args.shards as usize, context.threads.max(1));
     Ok(schedule::Job { program, words: without(&context.typed), folder, shards, threads })
 }
 
@@ -48,8 +48,6 @@ fn without(typed: &[String]) -> Vec<String> {
 pub struct Work<'w> {
     /// Folder of the job and its logs, seen by all machines.
     pub folder: &'w Path,
-    /// Threads of each shard.
-    pub threads: u64,
     /// What it consists of, for example runs.
     pub parts: &'w str,
     /// How many of them there are.
@@ -63,7 +61,7 @@ pub struct Work<'w> {
 /// Has a scheduler run all shards, if one was asked for. `None`: the command goes on; else what it has to say.
 pub fn by_scheduler(args: &ShardArgs, work: &Work, context: &mut Context) -> Result<Option<Outcome>, Failure> {
     let Some(cluster) = cluster(args) else { return Ok(None) };
-    let job = job(args, work.threads, work.folder, context)?;
+    let job = job(args, work.folder, context)?;
     if args.script {
         return Ok(Some(Outcome { text: job.script(cluster), ..Outcome::default() }));
     }
@@ -72,6 +70,18 @@ pub fn by_scheduler(args: &ShardArgs, work: &Work, context: &mut Context) -> Res
         job.run(cluster, work.missing, &mut |left: usize| progress(&what, Some(1.0 - left as f64 / all)))
     })?;
     if left > 0 && !work.may_fail { Err(job.useless().into()) } else { Ok(None) }
+}
+
+/// `ibr.shard`: `ibr breakdown`, `ibr simulate --seeds 8` and `ibr bench discovery`, each with `--shard K/N`, while runs or sets of other
+/// shards are missing
+#[derive(Serialize)]
+struct ShardAnswer {
+    /// Runs or sets of this shard that were made now
+    made: usize,
+    /// Those of all shards that are not there
+    missing: usize,
+    /// Those in all
+    runs: usize,
 }
 
 /// Makes one shard, or has a scheduler run all of them. `None`: the command goes on with all of the work, and makes what is not there;
@@ -96,8 +106,8 @@ pub fn in_shards(
         "{made} {parts} of shard {which}/{of} were made; {missing} of all {all} are not there. \
          The command without --shard makes them and goes on\n"
     );
-    let told = json!({"schema": "ibr.shard", "version": 1, "made": made, "missing": missing, "runs": all});
-    Ok(Some(Outcome { notes: stopped, ..Outcome::new(text, told) }))
+    let answer = ShardAnswer { made, missing, runs: *all };
+    Ok(Some(Outcome { notes: stopped, ..Outcome::answer(text, "ibr.shard", &answer) }))
 }
 
 /// The same for finite element runs.
@@ -118,7 +128,6 @@ pub fn shared(
     let all: Vec<(&Job, PathBuf)> = problems(jobs, &root)?;
     let work = Work {
         folder: &root,
-        threads: settings.threads as u64,
         parts: "runs",
         all: all.len(),
         missing: &|| all.iter().filter(|(_, folder)| !is_finished(folder)).count(),

@@ -5,7 +5,7 @@ use super::{Context, Outcome};
 use crate::cli::SweepArgs;
 use crate::failure::Failure;
 use crate::output::{Input, check_folder, maker, sha256, write_files};
-use crate::shown::swept::{swept_json, swept_text};
+use crate::shown::swept::{SweepAnswer, swept_text};
 use data::Table;
 use ibr::pages::{sweep_picture_names, sweep_pictures};
 use std::path::{Path, PathBuf};
@@ -18,18 +18,18 @@ pub fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome, Failure> 
     check_folder(&folder)?;
     let missing = || parts_missing(&study, &folder);
     let (all, may_fail) = (missing(), false);
-    let work = Work { folder: &folder, threads: args.threads, parts: "parts", all, missing: &missing, may_fail };
+    let work = Work { folder: &folder, parts: "parts", all, missing: &missing, may_fail };
     if let Some(script) = by_scheduler(&args.shards, &work, context)? {
         return Ok(script);
     }
     let shard = shard(&args.shards)?;
     let runs = fem::session::Settings {
         frames: false,
-        threads: args.threads as usize,
+        threads: context.threads,
         maker: maker(),
         ..fem::session::Settings::default()
     };
-    let settings = Settings { folder: folder.clone(), shard, threads: args.threads as usize, runs };
+    let settings = Settings { folder: folder.clone(), shard, threads: context.threads, runs };
     // Ctrl-C leaves what is complete.
     let found = context.fem(|progress| compute(&study, &settings, progress))?;
     match collect(&study, &folder) {
@@ -39,7 +39,7 @@ pub fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome, Failure> 
                 "{} parts of shard {}/{} are there; {missing} of other shards are not yet. The last shard writes the table\n",
                 found.parts, shard.which, shard.of
             );
-            Ok(Outcome::new(text, swept_json(&args.study, &study, &found, None)))
+            Ok(Outcome::answer(text, "ibr.sweep", &SweepAnswer::of(&args.study, &study, &found, None)))
         }
     }
 }
@@ -57,8 +57,8 @@ fn whole(
     let mut files = sweep_pictures(study, &table)?;
     let both = |name: &str| ["svg", "png"].map(|kind| format!("{name}.{kind}"));
     files.retired = sweep_picture_names().into_iter().flat_map(both).collect();
-    let mut outcome =
-        Outcome::new(swept_text(study, found, &table), swept_json(&args.study, study, found, Some(&table)));
+    let answer = SweepAnswer::of(&args.study, study, found, Some(&table));
+    let mut outcome = Outcome::answer(swept_text(study, found, &table), "ibr.sweep", &answer);
     let name = if args.parquet { "table.parquet" } else { "table.csv" };
     match args.parquet {
         true => files.parquet.push((name.into(), table)),

@@ -1,15 +1,15 @@
 //! `ibr tradeoff`
 
-use super::tables::table;
 use super::{Context, Outcome};
 use crate::cli::TradeoffArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, machine, write_files};
+use crate::tables::Table;
 use compare::study::engines::known_runs;
 use compare::study::published::published_ladders;
-use compare::study::tradeoff::{of_runs, tradeoff};
+use compare::study::tradeoff::{Timing, of_runs, tradeoff};
 use ibr::pages::{Files, tradeoff_plot};
-use serde_json::json;
+use serde::Serialize;
 
 pub fn run(args: &TradeoffArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let out = args.out.as_deref();
@@ -18,30 +18,35 @@ pub fn run(args: &TradeoffArgs, context: &mut Context) -> Result<Outcome, Failur
     let ladders = published_ladders()?;
     let mut timings = tradeoff(&ladders)?;
     timings.extend(of_runs(&ladders, &known_runs(args.runs.as_deref())?));
-    let rows = timings.iter().map(|t| {
-        vec![
-            t.engine.clone(),
-            t.actuator.clone(),
-            t.model.clone(),
-            t.known.clone(),
-            time(t.prediction_us),
-            format!("{:+.1}", t.error_mm),
-            format!("{:.1}", t.error_pct.abs()),
-        ]
-    });
-    let head = ["engine", "actuator", "model", "how known", "time", "error [mm]", "error [%]"];
     let mut text = format!(
         "One prediction of the reduced model (equilibrium, six markers) on {}, one finite element run to 30 kPa \
         (processor time); error of the published displacement: outermost marker, finite elements mean of seeds\n",
         machine()
     );
-    text.push_str(&table(&head, 4, rows.collect()));
+    text += &Table::of(&timings)
+        .words("engine", |t| &t.engine)
+        .words("actuator", |t| &t.actuator)
+        .words("model", |t| &t.model)
+        .words("how known", |t| &t.known)
+        .right("time", |t| time(t.prediction_us))
+        .signed("error [mm]", 1, |t| t.error_mm)
+        .number("error [%]", 1, |t| t.error_pct.abs())
+        .text();
     if let Some(folder) = out {
         let mut files = Files::default();
         files.plot("tradeoff", tradeoff_plot(&timings)?);
         write_files(folder, &files, &[], context)?;
     }
-    Ok(Outcome::new(text, json!({"schema": "ibr.tradeoff", "version": 1, "machine": machine(), "models": timings})))
+    Ok(Outcome::answer(text, "ibr.tradeoff", &TradeoffAnswer { machine: machine(), models: timings }))
+}
+
+/// `ibr.tradeoff`: `ibr tradeoff`
+#[derive(Serialize)]
+struct TradeoffAnswer {
+    /// Processor, cores, system
+    machine: String,
+    /// Models
+    models: Vec<Timing>,
 }
 
 /// Microseconds to minutes.

@@ -4,11 +4,11 @@ use super::inputs::{self, positive};
 use super::{Context, Outcome};
 use crate::cli::ValidateArgs;
 use crate::failure::Failure;
-use crate::shown::validation::{text, to_json};
+use crate::shown::validation::{ValidateAnswer, text};
 use compare::validation::BeforeAfter;
 
 pub fn run(args: &ValidateArgs, context: &mut Context) -> Result<Outcome, Failure> {
-    let sigma_m = positive("--sigma", args.sigma.as_ref())?;
+    let sigma_m = positive("--sigma", args.noise.sigma.as_ref())?;
     let file = inputs::scenario(&args.scenario)?;
     let both = BeforeAfter::of(&file, &args.without)?;
     let mut found = Vec::new();
@@ -17,7 +17,8 @@ pub fn run(args: &ValidateArgs, context: &mut Context) -> Result<Outcome, Failur
         (context.progress)(&format!("comparing with {spec}"), None);
         found.push(both.judge(&evidence, sigma_m)?);
     }
-    let mut outcome = Outcome::new(text(&args.scenario, &both, &found), to_json(&args.scenario, &both, &found));
+    let answer = ValidateAnswer::of(&args.scenario, &both, &found);
+    let mut outcome = Outcome::answer(text(&args.scenario, &both, &found), "ibr.validate", &answer);
     let warnings = found.iter().flat_map(|v| v.warnings.iter().map(|w| format!("warning: {}: {w}", v.data)));
     outcome.notes.extend(warnings);
     Ok(outcome)

@@ -53,20 +53,11 @@ fn draw(figure: &Figure) -> Result<Vec<u8>, Failure> {
     let series = figure.curves.iter().map(|curve| {
         let place = &mut seen[usize::from(curve.exact)];
         *place += 1;
-        LineSeries {
-            name: curve.label.clone(),
-            points: curve.points.clone(),
-            style: if curve.exact { LineStyle::Line } else { LineStyle::Points },
-            // An engine's marks have the colour of the line that they belong to.
-            colour: paired.then_some(*place - 1),
-            ..LineSeries::default()
-        }
+        let style = if curve.exact { LineStyle::Line } else { LineStyle::Points };
+        let line = LineSeries::new(&curve.label, style, curve.points.clone());
+        // An engine's marks have the colour of the line that they belong to.
+        if paired { line.coloured(*place - 1) } else { line }
     });
-    let lines = Lines {
-        title: figure.title.clone(),
-        x_label: figure.x.clone(),
-        y_label: figure.y.clone(),
-        series: series.collect(),
-    };
+    let lines = Lines::new(&figure.title, &figure.x, &figure.y, series.collect());
     Ok(report::lines(&lines)?.png)
 }

@@ -38,30 +38,18 @@ fn tension(found: &Characterized) -> Option<Lines> {
         let word = yarn.direction.word();
         let all = found.of(yarn.direction).map(|s| scaled(&s.stress, [100.0, 1e-6]));
         series.push(specimens(&format!("{word}, {}", count(found.of(yarn.direction).count())), all, 2 * k));
-        series.push(LineSeries {
-            name: format!("{word}, mean{}", if found.of(yarn.direction).count() > 1 { " ± sd" } else { "" }),
-            points: scaled(&yarn.rows, [100.0, 1e-6]),
-            half_width: yarn.sd_pa.iter().map(|s| s.map_or(0.0, |s| 1e-6 * s)).collect(),
-            style: LineStyle::Points,
-            colour: Some(2 * k),
-        });
+        let spread = if found.of(yarn.direction).count() > 1 { " ± sd" } else { "" };
+        let mean =
+            LineSeries::new(format!("{word}, mean{spread}"), LineStyle::Points, scaled(&yarn.rows, [100.0, 1e-6]));
+        let sd = yarn.sd_pa.iter().map(|s| s.map_or(0.0, |s| 1e-6 * s)).collect();
+        series.push(mean.coloured(2 * k).with_errors(sd));
     }
     let reach = found.yarns.iter().filter_map(|y| y.rows.last()).map(|row| row[0]).fold(0.0, f64::max);
     let c10 = found.quantity("c10").map(|q| q.scatter.mean)?;
     let law = (0..=60).map(|i| reach * f64::from(i) / 60.0).map(|e| [100.0 * e, fit::neo_hookean_pa(c10, e)]);
-    series.push(LineSeries {
-        name: format!("neo-Hookean, C10 = {c10:.1} MPa"),
-        points: law.collect(),
-        style: LineStyle::Dashed,
-        colour: Some(1),
-        ..LineSeries::default()
-    });
-    Some(Lines {
-        title: "Pulled along the yarns".into(),
-        x_label: "nominal strain [%]".into(),
-        y_label: "nominal stress [MPa]".into(),
-        series,
-    })
+    let name = format!("neo-Hookean, C10 = {c10:.1} MPa");
+    series.push(LineSeries::new(name, LineStyle::Dashed, law.collect()).coloured(1));
+    Some(Lines::new("Pulled along the yarns", "nominal strain [%]", "nominal stress [MPa]", series))
 }
 
 /// The 45° test as it was made: force over strain, and the force that the mean shear curve gives back.
@@ -79,22 +67,13 @@ fn bias(found: &Characterized) -> Option<Lines> {
         let [d, f] = first.pulled(row[0], |x| fit::at(&shear.rows, x), yarns);
         [100.0 * d / first.length_m, f]
     };
-    series.push(LineSeries {
-        name: "from the mean shear curve".into(),
-        points: shear.rows.iter().map(force).collect(),
-        style: LineStyle::Points,
-        colour: Some(1),
-        ..LineSeries::default()
-    });
+    let law = shear.rows.iter().map(force).collect();
+    series.push(LineSeries::new("from the mean shear curve", LineStyle::Points, law).coloured(1));
     let top = highest(&series);
     let limit = strain(PAPER_LIMIT_RAD);
     series.push(upright(&format!("validity limit: {limit:.0} % here is 36°"), limit, top, LIMIT));
-    Some(Lines {
-        title: format!("Bias extension, {:.0} mm by {:.0} mm", 1e3 * first.length_m, 1e3 * first.width_m),
-        x_label: "displacement over free length [%]".into(),
-        y_label: "force [N]".into(),
-        series,
-    })
+    let title = format!("Bias extension, {:.0} mm by {:.0} mm", 1e3 * first.length_m, 1e3 * first.width_m);
+    Some(Lines::new(title, "displacement over free length [%]", "force [N]", series))
 }
 
 /// Shear force over shear angle, with the angles at which it stops being true.
@@ -103,13 +82,9 @@ fn shear(found: &Characterized) -> Option<Lines> {
     let degrees = 180.0 / std::f64::consts::PI;
     let all = found.strips().map(|(_, s)| scaled(&s.shear, [degrees, 1.0]));
     let mut series = vec![specimens(&count(found.strips().count()), all, 0)];
-    series.push(LineSeries {
-        name: if found.strips().count() > 1 { "mean ± sd" } else { "rows of the table" }.into(),
-        points: scaled(&shear.rows, [degrees, 1.0]),
-        half_width: shear.sd_n_per_m.iter().map(|s| s.unwrap_or(0.0)).collect(),
-        style: LineStyle::Points,
-        colour: Some(1),
-    });
+    let name = if found.strips().count() > 1 { "mean ± sd" } else { "rows of the table" };
+    let mean = LineSeries::new(name, LineStyle::Points, scaled(&shear.rows, [degrees, 1.0])).coloured(1);
+    series.push(mean.with_errors(shear.sd_n_per_m.iter().map(|s| s.unwrap_or(0.0)).collect()));
     let top = highest(&series);
     let last = shear.rows.last().map_or(0.0, |row| row[0]);
     for (name, angle) in [
@@ -124,12 +99,7 @@ fn shear(found: &Characterized) -> Option<Lines> {
         let at = locking.scatter.mean;
         series.push(upright(&format!("locking at {at:.0}°"), at, top, 3));
     }
-    Some(Lines {
-        title: "Shear from bias extension".into(),
-        x_label: "shear angle [°]".into(),
-        y_label: "shear force per length [N/m]".into(),
-        series,
-    })
+    Some(Lines::new("Shear from bias extension", "shear angle [°]", "shear force per length [N/m]", series))
 }
 
 fn count(n: usize) -> String {
@@ -143,7 +113,7 @@ fn scaled(rows: &[[f64; 2]], by: [f64; 2]) -> Vec<[f64; 2]> {
 /// All curves as one series: a point that is not finite lifts the pen.
 fn specimens(name: &str, curves: impl Iterator<Item = Vec<[f64; 2]>>, colour: usize) -> LineSeries {
     let points = curves.flat_map(|curve| curve.into_iter().chain([[f64::NAN; 2]])).collect();
-    LineSeries { name: name.into(), points, colour: Some(colour), ..LineSeries::default() }
+    LineSeries::new(name, LineStyle::Line, points).coloured(colour)
 }
 
 fn highest(series: &[LineSeries]) -> f64 {
@@ -151,8 +121,7 @@ fn highest(series: &[LineSeries]) -> f64 {
 }
 
 fn upright(name: &str, x: f64, top: f64, colour: usize) -> LineSeries {
-    let points = vec![[x, 0.0], [x, top]];
-    LineSeries { name: name.into(), points, style: LineStyle::Dashed, colour: Some(colour), ..LineSeries::default() }
+    LineSeries::new(name, LineStyle::Dashed, vec![[x, 0.0], [x, top]]).coloured(colour)
 }
 
 #[cfg(test)]

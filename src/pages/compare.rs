@@ -1,29 +1,29 @@
-//! The page of a scenario held against a dataset.
+//! The page of a scenario compared with a dataset.
 
-use super::{Files, Imprint, PageError, effect, figures, number, residual_figure, tables};
-use ::compare::metrics::HoldMetrics;
-use ::compare::study::{Comparison, Variant};
+use super::{Files, Imprint, PageError, Values, effect, figures, number, residual_figure, tables};
+use crate::shown::comparison::CompareAnswer;
+use ::compare::study::Comparison;
 use data::{About, Dataset};
-use serde_json::{Value, json};
 
-/// The page of a comparison and the files beside it.
+/// The page of a comparison and its files.
 ///
 /// # Errors
 /// What cannot be drawn.
 pub fn compare_page(study: &Comparison, imprint: &Imprint) -> Result<Files, PageError> {
     let mut files = compare_files(study)?;
     let (first, dataset) = (&study.variants[0], &study.dataset);
-    let variants: Vec<Value> = study.variants.iter().map(variant).collect();
-    let values = json!({
-        "title": format!("{} held against {}", first.scenario.name, dataset.name),
-        "lead": lead(study), "first": variants[0], "variants": variants, "provenance": provenance(study),
-        "several_bodies": figures::several_bodies(dataset), "map_colours": residual_figure::MAP_COLOURS,
-    });
+    let values = Values::new()
+        .with("title", format!("{} held against {}", first.scenario.name, dataset.name))
+        .with("lead", lead(study))
+        .with("found", CompareAnswer::of(&first.scenario.name, study, None))
+        .with("provenance", provenance(study))
+        .with("several_bodies", figures::several_bodies(dataset))
+        .with("map_colours", residual_figure::MAP_COLOURS);
     files.page("compare.html", values, imprint)?;
     Ok(files)
 }
 
-/// What is beside the page: plots and tables.
+/// Files of the page: plots and tables.
 ///
 /// # Errors
 /// What cannot be drawn.
@@ -43,24 +43,6 @@ pub fn compare_files(study: &Comparison) -> Result<Files, PageError> {
         files.plot("ledger", figures::ledgers(&title, &cases, &loads)?);
     }
     Ok(files)
-}
-
-fn variant(v: &Variant) -> Value {
-    let metrics = &v.evaluation.metrics;
-    let several = metrics.holds.iter().any(|h| h.p_body_kpa != metrics.holds[0].p_body_kpa);
-    let holds = metrics.holds.iter().map(|h| json!({"name": hold_name(h, several), "of": h}));
-    json!({
-        "label": v.label, "known": v.known.word(), "why": v.why, "overall": metrics.overall,
-        "holds": holds.collect::<Vec<_>>(), "noise": v.evaluation.noise, "scaling": v.evaluation.scaling.sentence,
-        "where_it_fails": v.evaluation.where_it_fails.iter().map(|s| &s.sentence).collect::<Vec<_>>(),
-    })
-}
-
-/// `10 kPa load`; the body pressure is named if the data have several.
-fn hold_name(hold: &HoldMetrics, several_bodies: bool) -> String {
-    let again = if hold.occurrence > 0 { format!(" ({})", hold.occurrence + 1) } else { String::new() };
-    let body = if several_bodies { format!(", body {:.0} kPa", hold.p_body_kpa) } else { String::new() };
-    format!("{:.0} kPa {}{again}{body}", hold.p_act_kpa, hold.phase)
 }
 
 /// The answer in a paragraph.

@@ -2,15 +2,14 @@
 
 use super::diagnosis::{Diagnosed, draw, verdict};
 use super::engines::overview;
-use super::{Files, Imprint, PAPER, PageError, figures, residual_figure};
-use ::compare::bench::Held;
+use super::{Files, Imprint, PAPER, PageError, Values, figures, residual_figure};
+use crate::shown::held::HeldTable;
 use ::compare::demo::{Demo, HIDDEN_IN, Story};
 use ::compare::progress::shares::PICTURES as SHARES;
 use ::compare::progress::{Progress, part};
 use ::compare::study::Comparison;
 use ::compare::study::published::PublishedLadder;
 use data::published::printed;
-use serde_json::{Value, json};
 
 /// Pictures of the diagnosis that the page has.
 const PICTURES: [&str; 5] = ["missing_moment", "residuals_before", "ranking", "before_after", "candidates"];
@@ -27,23 +26,28 @@ pub fn demo_page(demo: &Demo, imprint: &Imprint, progress: &mut Progress) -> Res
         files.plot(&format!("ladder_{}", ladder.published.kind), figures::published_ladder(ladder)?);
     }
     progress("plots of both engines", Some(SHARES[0]));
-    let mut values = overview(&demo.engines, &mut files)?;
+    let overview = overview(&demo.engines, &mut files)?;
     progress("plots of the marker sets", Some(SHARES[1]));
     let studies = demo.studies.iter().map(|study| draw_study(study, &mut files)).collect::<Result<Vec<_>, _>>()?;
     let found = found(&demo.diagnosed);
     draw(&found, "diagnosis_", &PICTURES, &mut files, &mut part(progress, [SHARES[2], 1.0]))?;
     files.plot("tradeoff", figures::tradeoff(&demo.timings)?);
-    for (key, value) in [
-        ("title", json!("Four pneumatic bending actuators: models held against measurements")),
-        ("ladders", json!(demo.ladders.iter().map(ladder).collect::<Vec<_>>())),
-        ("measured", json!(demo.measured.iter().map(held).collect::<Vec<_>>())),
-        ("studies", json!(studies)),
-        ("diagnosis", verdict(&found)),
-        ("map_colours", json!(residual_figure::MAP_COLOURS)),
-        ("provenance", provenance(imprint)),
-    ] {
-        values[key] = value;
-    }
+    let values = Values::new()
+        .with("title", "Four pneumatic bending actuators: models held against measurements")
+        .with("ladders", demo.ladders.iter().map(ladder).collect::<Vec<_>>())
+        .with("measured", demo.measured.iter().map(HeldTable::of).collect::<Vec<_>>())
+        .with("studies", studies)
+        .with("diagnosis", verdict(&found))
+        .with("map_colours", residual_figure::MAP_COLOURS)
+        .with(
+            "provenance",
+            [
+                ["published numbers", PAPER],
+                ["marker sets", "synthetic, made by this program's generator; no measurement"],
+                ["machine", &imprint.machine],
+            ],
+        )
+        .and(overview);
     files.page("demo.html", values, imprint)?;
     Ok(files)
 }
@@ -60,39 +64,36 @@ fn found(story: &Story) -> Diagnosed<'_> {
     }
 }
 
-fn ladder(l: &PublishedLadder) -> Value {
+fn ladder(l: &PublishedLadder) -> Values {
     let (last_mm, measured_mm) = (figures::last(l).map_or(f64::NAN, |rung| rung.y_m * 1e3), l.published.d_max_m * 1e3);
     let rung = |r: &::compare::study::Rung| {
         let range_mm = r.range_m.map(|range| range.map(|v| v * 1e3));
-        json!({"label": r.label, "known": r.known.word(), "y_mm": r.y_m * 1e3, "range_mm": range_mm})
+        Values::new()
+            .with("label", &r.label)
+            .with("known", &r.known)
+            .with("y_mm", r.y_m * 1e3)
+            .with("range_mm", range_mm)
     };
-    json!({
-        "name": printed(&l.published.kind), "kind": l.published.kind, "measured_mm": measured_mm, "last_mm": last_mm,
-        "left_mm": last_mm - measured_mm, "absorbing_nm2": l.calibrated_bending,
-        "rungs": l.rungs.iter().map(rung).collect::<Vec<_>>(),
-    })
+    Values::new()
+        .with("name", printed(&l.published.kind))
+        .with("kind", &l.published.kind)
+        .with("measured_mm", measured_mm)
+        .with("last_mm", last_mm)
+        .with("left_mm", last_mm - measured_mm)
+        .with("absorbing_nm2", &l.calibrated_bending)
+        .with("rungs", l.rungs.iter().map(rung).collect::<Vec<_>>())
 }
 
-fn held(h: &Held) -> Value {
-    json!({"title": h.title, "rows": h.rows.len(), "known": h.known.word(), "rms": h.rms()})
-}
-
-fn draw_study(study: &Comparison, files: &mut Files) -> Result<Value, PageError> {
+fn draw_study(study: &Comparison, files: &mut Files) -> Result<Values, PageError> {
     let (first, name) = (&study.variants[0], &study.dataset.name);
     let last = study.variants.last().unwrap_or(first);
     let map = residual_figure::map("Bare model: where it misses", &first.evaluation.residual_map, &study.dataset)?;
     files.plot(&format!("{name}_map"), map);
-    Ok(json!({
-        "data": name, "label": last.label, "known": last.known.word(),
-        "first": first.evaluation.metrics.overall, "last": last.evaluation.metrics.overall,
-        "where_it_fails": first.evaluation.where_it_fails.iter().map(|s| &s.sentence).collect::<Vec<_>>(),
-    }))
-}
-
-fn provenance(imprint: &Imprint) -> Value {
-    json!([
-        ["published numbers", PAPER],
-        ["marker sets", "synthetic, made by this program's generator; no measurement"],
-        ["machine", imprint.machine],
-    ])
+    Ok(Values::new()
+        .with("data", name)
+        .with("label", &last.label)
+        .with("known", &last.known)
+        .with("first", &first.evaluation.metrics.overall)
+        .with("last", &last.evaluation.metrics.overall)
+        .with("where_it_fails", first.evaluation.where_it_fails.iter().map(|s| &s.sentence).collect::<Vec<_>>()))
 }

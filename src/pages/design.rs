@@ -1,11 +1,11 @@
-//! A design beside its wish.
+//! A design and its wish.
 
 use super::figures::{LINE_POINTS, mm};
-use super::predicted::pressure_words;
 use super::{Files, PageError};
+use crate::words::pressure_words;
 use ::sweep::design::{Design, Wish};
 use models::Model;
-use report::chart::{Chart, Key, KeyLook, Mark, Space};
+use report::chart::{Chart, Key, KeyLook, Mark, Point, Space};
 use report::{Ink, Symbol};
 
 /// The shape of a design, with the places that are wished for and, where there are, those of finite elements (tip last) \[m\].
@@ -20,8 +20,7 @@ pub fn design_files(wish: &Wish, found: &Design, elements_m: Option<&[[f64; 2]]>
     let line = mm(&model.centre_line(&found.pose, LINE_POINTS));
     let end = line.last().copied().unwrap_or_default();
     let [wished, predicted, other] = [Ink::Ink, Ink::Series(0), Ink::Series(2)];
-    let point =
-        |at: [f64; 2], ink, symbol, open| Mark::Point { at, error: [0.0; 2], ink, symbol, open, label: String::new() };
+    let point = |at: [f64; 2], ink, symbol, open| Mark::Point(Point { at, ink, symbol, open, ..Point::default() });
     let mut marks = vec![
         Mark::Band(above.iter().chain(below.iter().rev()).copied().collect()),
         Mark::Line { points: rest.to_vec(), ink: Ink::Muted, dashed: true },

@@ -3,7 +3,8 @@
 use super::diagnosis_figures::{
     candidate_curves, ledger_cases, left_out, ranking, shown, supply, waterfall, witness_ledger,
 };
-use super::{Files, Imprint, PageError, figures, in_words, moment_figure, residual_figure};
+use super::engines::heads;
+use super::{Files, Imprint, PageError, Values, figures, in_words, moment_figure, residual_figure};
 use ::compare::diagnosis::{Answer, Combination, Diagnosis, ParameterValue, Ranked, Separation, Standing, Verdict};
 use ::compare::extension::error_steps;
 use ::compare::progress::Progress;
@@ -15,11 +16,10 @@ use ::compare::wording::{p_value, short};
 use data::{About, Dataset};
 use models::{Loads, Scenario};
 use report::Drawn;
-use serde_json::{Value, json};
 
 /// Errors below this are no bar \[mm\].
 const SMALLEST_BAR_MM: f64 = 0.005;
-/// Explanations told in plain words; the tables have all.
+/// Explanations in plain words; the tables have all.
 const MOST_TOLD: usize = 6;
 
 /// A diagnosis with what it was made of.
@@ -128,7 +128,7 @@ pub(super) fn draw(
 }
 
 /// What the template needs of the verdict box.
-pub(super) fn verdict(found: &Diagnosed) -> Value {
+pub(super) fn verdict(found: &Diagnosed) -> Values {
     let d = found.diagnosis;
     let verdict = match d.verdict {
         Some(Verdict::None) => "none",
@@ -139,41 +139,39 @@ pub(super) fn verdict(found: &Diagnosed) -> Value {
         None if d.pressure_slip.is_some() => "withheld",
         None => "no_answer",
     };
-    let mut told_as = json!(d);
-    told_as["summary"] = d.summary.iter().map(|s| in_words(s)).collect();
-    if let Some(next) = &d.next_experiment {
-        told_as["next_experiment"]["sentence"] = json!(in_words(&next.sentence));
-    }
-    json!({"verdict": verdict, "told": told(d).iter().map(|a| answer(d, a)).collect::<Vec<_>>(), "d": told_as, "typed": found.typed})
+    let next = d.next_experiment.as_ref();
+    let next = next.map(|next| Values::new().with("sentence", in_words(&next.sentence)).and(Values::of(next)));
+    let summary = d.summary.iter().map(|s| in_words(s)).collect::<Vec<_>>();
+    let d_in_words = Values::new().with("summary", summary).with("next_experiment", &next).and(Values::of(d));
+    let told = told(d).iter().map(|a| answer(d, a)).collect::<Vec<_>>();
+    Values::new().with("verdict", verdict).with("told", told).with("d", d_in_words).with("typed", &found.typed)
 }
 
-fn values(found: &Diagnosed) -> Value {
+fn values(found: &Diagnosed) -> Values {
     let d = found.diagnosis;
-    let mut values = verdict(found);
     let worst = largest(&d.residuals_before, |cell| cell.y).zip(largest(&d.residuals_before, |cell| cell.x));
     let looks = match d.indistinguishable.is_empty() {
         true => [d.attempt_words(), "others"],
         false => ["cannot be told apart", "fits worse"],
     };
-    let page = json!({
-        "title": format!("{} held against {}: what is missing?", d.scenario, d.dataset),
-        "lead": d.summary.iter().take(2).map(|s| in_words(s)).collect::<Vec<_>>().join(" "),
-        "evidence": evidence(d), "worst": worst, "looks": looks, "more": found.more,
-        "left_out": left_out(d, &shown(d)).map_or(String::new(), |words| words + " "),
-        "leftover": d.leftover.iter().map(|s| &s.sentence).collect::<Vec<_>>(),
-        "ranked": d.ranked.iter().map(|r| ranked(d, r)).collect::<Vec<_>>(),
-        "pairs": d.pairs.iter().map(|p| pair(d, p)).collect::<Vec<_>>(),
-        "explained": explained(d), "unseen": unseen(d), "map_colours": residual_figure::MAP_COLOURS,
-        "cautions": d.warnings.iter().filter(|w| !d.slips.contains(w)).collect::<Vec<_>>(),
-        "provenance": provenance(found),
-    });
-    let parts = [page, experiments(d), witness(found.witness)];
-    if let Value::Object(all) = &mut values {
-        all.extend(
-            parts.into_iter().filter_map(|part| if let Value::Object(map) = part { Some(map) } else { None }).flatten(),
-        );
-    }
-    values
+    Values::new()
+        .with("title", format!("{} held against {}: what is missing?", d.scenario, d.dataset))
+        .with("lead", d.summary.iter().take(2).map(|s| in_words(s)).collect::<Vec<_>>().join(" "))
+        .with("evidence", evidence(d))
+        .with("worst", worst)
+        .with("looks", looks)
+        .with("more", &found.more)
+        .with("left_out", left_out(d, &shown(d)).map_or(String::new(), |words| words + " "))
+        .with("leftover", d.leftover.iter().map(|s| &s.sentence).collect::<Vec<_>>())
+        .with("ranked", d.ranked.iter().map(|r| ranked(d, r)).collect::<Vec<_>>())
+        .with("pairs", d.pairs.iter().map(|p| pair(d, p)).collect::<Vec<_>>())
+        .with("explained", explained(d))
+        .with("map_colours", residual_figure::MAP_COLOURS)
+        .with("cautions", d.warnings.iter().filter(|w| !d.slips.contains(w)).collect::<Vec<_>>())
+        .with("provenance", provenance(found))
+        .and(verdict(found))
+        .and(experiments(d))
+        .and(witness(found.witness))
 }
 
 /// What the verdict states, or the attempt; nothing where nothing is missing.
@@ -184,20 +182,24 @@ fn told(d: &Diagnosis) -> Vec<Answer<'_>> {
 }
 
 /// An answer with the values of its fit and what it brings.
-fn answer(d: &Diagnosis, answer: &Answer) -> Value {
+fn answer(d: &Diagnosis, answer: &Answer) -> Values {
     let values = answer.effects.iter().map(|(r, values)| match answer.effects.len() {
         1 => listed(values),
         _ => format!("{}, {}", super::effect(&r.effect), listed(values)),
     });
     let mark = if answer.standing == Standing::Attempt { format!(", {}", d.attempt_words()) } else { String::new() };
-    json!({
-        "name": answer.name(), "mark": mark, "values": values.collect::<Vec<_>>().join("; "), "after_mm": answer.after_mm,
-        "cancels": d.pairs.iter().any(|p| p.cancels && p.effects.join(" + ") == answer.name()),
-    })
+    let cancels = d.pairs.iter().any(|p| p.cancels && p.effects.join(" + ") == answer.name());
+    let values = values.collect::<Vec<_>>().join("; ");
+    Values::new()
+        .with("name", answer.name())
+        .with("mark", mark)
+        .with("values", values)
+        .with("after_mm", &answer.after_mm)
+        .with("cancels", cancels)
 }
 
-/// Every effect of the told answers once. Notes of its own fit are no notes of a pair's.
-fn explained(d: &Diagnosis) -> Vec<Value> {
+/// Every effect of the stated answers once. Notes of its own fit are no notes of a pair's.
+fn explained(d: &Diagnosis) -> Vec<Values> {
     let mut seen: Vec<&str> = Vec::new();
     let mut out = Vec::new();
     let answers = told(d);
@@ -206,10 +208,7 @@ fn explained(d: &Diagnosis) -> Vec<Value> {
             if !seen.contains(&r.effect.as_str()) {
                 seen.push(&r.effect);
                 let notes = if answer.effects.len() == 1 { r.notes.as_slice() } else { &[] };
-                out.push(json!({
-                    "effect": r.effect, "group": r.group.word(), "sentence": r.sentence, "differs": r.differs,
-                    "remedy": r.remedy, "notes": notes,
-                }));
+                out.push(Values::new().with("notes", notes).and(Values::of(r)));
             }
         }
     }
@@ -245,7 +244,7 @@ fn largest(map: &ResidualMap, of: fn(&ResidualCell) -> Deviation) -> Option<Stri
     Some(format!("{:+.1} mm{noise} {place}", d.mm))
 }
 
-fn ranked(d: &Diagnosis, r: &Ranked) -> Value {
+fn ranked(d: &Diagnosis, r: &Ranked) -> Values {
     let stated = |name: &String| name.split(" + ").any(|part| part == r.effect);
     let note = match () {
         () if d.indistinguishable.contains(&r.effect) => "cannot be told apart",
@@ -254,49 +253,53 @@ fn ranked(d: &Diagnosis, r: &Ranked) -> Value {
         () if r.at_bound => "on a bound: rejected",
         () => "",
     };
-    json!({"of": r, "group": r.group.word(), "values": listed(&r.parameters), "p": bare_p(r.p_corrected), "note": note})
+    Values::new()
+        .with("of", r)
+        .with("group", &r.group)
+        .with("values", listed(&r.parameters))
+        .with("p", bare_p(r.p_corrected))
+        .with("note", note)
 }
 
-fn pair(d: &Diagnosis, p: &Combination) -> Value {
+fn pair(d: &Diagnosis, p: &Combination) -> Values {
     let stated = p.in_set && d.verdict == Some(Verdict::Effect);
-    json!({"of": p, "name": p.effects.join(" + "), "values": listed(&p.parameters), "p": bare_p(p.p_corrected), "stated": stated})
+    let (name, values) = (p.effects.join(" + "), listed(&p.parameters));
+    Values::new()
+        .with("of", p)
+        .with("name", name)
+        .with("values", values)
+        .with("p", bare_p(p.p_corrected))
+        .with("stated", stated)
 }
 
 fn bare_p(p: Option<f64>) -> String {
     p.map_or("–".into(), |p| p_value(p).trim_start_matches("p = ").replace("p < ", "< "))
 }
 
-fn unseen(d: &Diagnosis) -> Vec<Value> {
-    let size = |u: &::compare::diagnosis::Undetectable| match (u.smallest_detectable, u.unit.as_str()) {
-        (None, _) => "not within its bounds".into(),
-        (Some(s), "-") => three(s),
-        (Some(s), unit) => format!("{} {unit}", three(s)),
-    };
-    d.undetectable.iter().map(|u| json!({"effect": u.effect, "size": size(u), "times": u.times_typical})).collect()
-}
-
-fn experiments(d: &Diagnosis) -> Value {
-    let Some(next) = &d.next_experiment else { return json!({}) };
-    let mut heads = vec![["experiment", "", ""], ["protocol [kPa]", "", "l"], ["suffices", "", ""]];
+fn experiments(d: &Diagnosis) -> Values {
+    let Some(next) = &d.next_experiment else { return Values::new() };
     let rivals: Vec<String> = next.now.iter().map(|s| super::effect(&s.rival)).collect();
+    let mut heads = vec![["experiment", "", ""], ["protocol [kPa]", "", "l"], ["suffices", "", ""]];
     heads.extend(rivals.iter().map(|rival| [rival, "", ""]));
     let row = |name: &str, protocol: &str, needed: f64, found: &[Separation]| {
         let lambdas: Vec<f64> = found.iter().map(|s| s.lambda).collect();
-        json!({"name": name, "protocol": protocol, "needed": needed, "lambdas": lambdas})
+        Values::new().with("name", name).with("protocol", protocol).with("needed", needed).with("lambdas", lambdas)
     };
     let mut rows = vec![row("data at hand", "–", next.needed_now, &next.now)];
     rows.extend(next.tried.iter().map(|e| row(&e.name, e.shown_protocol(), e.needed, &e.separations)));
-    json!({"experiments": rows, "experiments_heads": heads})
+    Values::new().with("experiments", rows).with("experiments_heads", heads)
 }
 
-fn witness(witness: Option<&Witness>) -> Value {
-    let Some(w) = witness else { return json!({"witness": null}) };
-    let heads = |names: &[&str]| json!(names.iter().map(|name| [name, "", ""]).collect::<Vec<_>>());
+fn witness(witness: Option<&Witness>) -> Values {
+    let Some(w) = witness else { return Values::new().with("witness", ()) };
+    let sentences = w.sentences.iter().map(|s| in_words(s)).collect::<Vec<_>>();
     let terms = [&["model"], &TERMS[..], &["apart"]].concat();
-    json!({
-        "witness": {"sentences": w.sentences.iter().map(|s| in_words(s)).collect::<Vec<_>>()}, "heights": w.height_rows(), "height_heads": heads(&HEIGHTS),
-        "ledgers": w.ledger_rows(), "ledger_heads": heads(&terms),
-    })
+    Values::new()
+        .with("witness", Values::new().with("sentences", sentences))
+        .with("heights", w.height_rows())
+        .with("height_heads", heads(&HEIGHTS, &[]))
+        .with("ledgers", w.ledger_rows())
+        .with("ledger_heads", heads(&terms, &[]))
 }
 
 fn provenance(found: &Diagnosed) -> Vec<[String; 2]> {

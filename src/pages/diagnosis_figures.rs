@@ -43,34 +43,26 @@ pub(super) fn supply(d: &Diagnosis) -> Result<Option<Drawn>, PageError> {
         let values = std::iter::once(gauge.before_kpa).chain(after.as_ref().map(|_| gauge.after_kpa));
         (format!("gauge in {}", gauge.dataset), values.collect(), false)
     };
-    let data = plots::Bars {
-        title: "The supply, before and after".into(),
-        value_label: "supply's laws against the gauge, rms [kPa]".into(),
-        groups: std::iter::once("supply of the scenario".to_string()).chain(after.clone()).collect(),
-        series: d.gauges.iter().map(series).collect(),
-        target: None,
-    };
-    Ok(Some(plots::bars(&data)?))
+    let groups: Vec<String> = std::iter::once("supply of the scenario".to_string()).chain(after.clone()).collect();
+    let series: Vec<_> = d.gauges.iter().map(series).collect();
+    let label = "supply's laws against the gauge, rms [kPa]";
+    Ok(Some(plots::bars("The supply, before and after", label, &groups, &series, None)?))
 }
 
 /// Error of every model, training and left-out data, with the noise of the mean.
 pub(super) fn waterfall(title: &str, rungs: &[ErrorStep], floor_mm: Option<f64>) -> Result<Drawn, PageError> {
     let series = |name: &str, of: fn(&ErrorStep) -> f64| (name.to_string(), rungs.iter().map(of).collect(), false);
-    let data = plots::Bars {
-        title: title.into(),
-        value_label: "error beyond noise [mm]".into(),
-        groups: rungs.iter().map(|r| super::effect(&r.label())).collect(),
-        series: vec![
-            series("data of the fit", |r| r.training_mm),
-            series("pressures left out", |r| r.heldout_pressure_mm.unwrap_or(f64::NAN)),
-            series("runs left out", |r| r.heldout_run_mm.unwrap_or(f64::NAN)),
-        ],
-        target: floor_mm.map(|value| ("noise of the mean".into(), value)),
-    };
-    Ok(plots::bars(&data)?)
+    let groups: Vec<String> = rungs.iter().map(|r| super::effect(&r.label())).collect();
+    let series = [
+        series("data of the fit", |r| r.training_mm),
+        series("pressures left out", |r| r.heldout_pressure_mm.unwrap_or(f64::NAN)),
+        series("runs left out", |r| r.heldout_run_mm.unwrap_or(f64::NAN)),
+    ];
+    let target = floor_mm.map(|value| ("noise of the mean".into(), value));
+    Ok(plots::bars(title, "error beyond noise [mm]", &groups, &series, target)?)
 }
 
-/// What the colour of a bar of the ranking says.
+/// Meaning of the colour of a bar of the ranking.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Rank {
     Alike,
@@ -179,24 +171,19 @@ pub(super) fn candidate_curves(
     for (i, answer) in candidates.iter().enumerate() {
         let own = heights(&answer.on(scenario, level));
         let point = |k: usize| [1e-3 * top_pa * (k as f64 / f64::from(POINTS)).powi(2), own[k] - zero[k]];
-        series.push(LineSeries {
-            name: format!("+ {}{}", super::effect(&answer.name()), attempted(d, answer)),
-            points: (0..own.len()).map(point).collect(),
-            style: if answer.standing == Standing::Other { LineStyle::Dashed } else { LineStyle::Line },
-            colour: Some(if i < MEASURED { i } else { i + 1 }),
-            ..LineSeries::default()
-        });
+        let style = if answer.standing == Standing::Other { LineStyle::Dashed } else { LineStyle::Line };
+        let name = format!("+ {}{}", super::effect(&answer.name()), attempted(d, answer));
+        let line = LineSeries::new(name, style, (0..own.len()).map(point).collect());
+        series.push(line.coloured(if i < MEASURED { i } else { i + 1 }));
     }
     let body =
         if super::figures::several_bodies(dataset) { super::figures::body(first.p_body_pa) } else { String::new() };
     let with = if d.base.bending.is_empty() { "B as given" } else { "fitted B alone" };
-    let data = plots::Lines {
-        title: "What the candidates predict differently".into(),
-        x_label: format!("actuator pressure{body} [kPa]"),
-        y_label: format!("outermost marker, difference from the model with {with} [mm]"),
-        series,
-    };
-    Ok(Some(plots::lines(&data)?))
+    let (x, y) = (
+        format!("actuator pressure{body} [kPa]"),
+        format!("outermost marker, difference from the model with {with} [mm]"),
+    );
+    Ok(Some(plots::lines(&plots::Lines::new("What the candidates predict differently", &x, &y, series))?))
 }
 
 /// Mean time of the samples in their holds under pressure \[s\].
@@ -212,7 +199,7 @@ pub(super) fn waited_s(dataset: &Dataset) -> f64 {
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
-/// What is said behind the name of an attempt.
+/// Words behind the name of an attempt.
 fn attempted(d: &Diagnosis, answer: &Answer) -> String {
     if answer.standing == Standing::Attempt { format!(" ({})", d.attempt_words()) } else { String::new() }
 }
@@ -251,15 +238,10 @@ pub(super) fn witness_cases(w: &Witness, d: &Diagnosis) -> Vec<plots::LedgerCase
 
 /// Their drawing.
 pub(super) fn witness_ledger(w: &Witness, d: &Diagnosis) -> Result<Drawn, PageError> {
-    let cases = witness_cases(w, d).into_iter();
-    let cases = cases.map(|case| plots::LedgerCase { label: super::effect(&case.label), ..case });
-    let data = plots::LedgerBars {
-        title: format!("Where the energy goes, to {:.0} kPa", w.actuator_kpa),
-        value_label: "energy taken up since the first bend [mJ]".into(),
-        terms: TERMS.map(String::from).to_vec(),
-        cases: cases.collect(),
-    };
-    Ok(plots::ledger(&data)?)
+    let mut cases = witness_cases(w, d);
+    cases.iter_mut().for_each(|case| case.label = super::effect(&case.label));
+    let title = format!("Where the energy goes, to {:.0} kPa", w.actuator_kpa);
+    Ok(plots::ledger(&title, "energy taken up since the first bend [mJ]", &TERMS.map(String::from), &cases)?)
 }
 
 /// Measured minus calibrated base at the loading holds of the first body pressure.
@@ -278,6 +260,6 @@ fn deviations(base: &Scenario, dataset: &Dataset) -> Result<LineSeries, PageErro
         points.push([hold.p_act_pa * 1e-3, MM * (mean[1] - model / dataset.samples_per_hold as f64)]);
         half_width.push(spread[1] * MM / (dataset.runs.len() as f64).sqrt());
     }
-    let name = "measured (± standard error)".into();
-    Ok(LineSeries { name, points, half_width, style: LineStyle::Points, colour: Some(MEASURED) })
+    let line = LineSeries::new("measured (± standard error)", LineStyle::Points, points);
+    Ok(line.with_errors(half_width).coloured(MEASURED))
 }

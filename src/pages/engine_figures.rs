@@ -6,7 +6,7 @@ use compare::study::engines::{EngineRobot, Engines, PartingMap};
 use data::published::printed;
 use models::actuators::Family;
 use report::chart::{Chart, ChartColumn, ChartRow, Mark, Space};
-use report::{self as plots, Drawn, number};
+use report::{self as plots, Drawn, LineSeries, LineStyle, Lines, number};
 
 /// Share at which the colour of a map saturates.
 const STRONGEST: f64 = 1.5;
@@ -63,19 +63,15 @@ pub(super) fn bars(engines: &Engines) -> Result<Option<Drawn>, PageError> {
         (name.to_string(), shown.iter().map(|r| of(r)).collect(), grey)
     };
     let last = |r: &EngineRobot| r.pairs.last().cloned();
-    let data = plots::Bars {
-        title: "Outermost marker at 30 kPa".into(),
-        value_label: "displacement [mm]".into(),
-        groups: shown.iter().map(|r| r.published.as_ref().map_or(String::new(), |p| printed(&p.kind).into())).collect(),
-        series: vec![
-            series("reduced, as shipped", &|r| last(r).map_or(f64::NAN, |p| p.reduced_mm[0]), false),
-            series("reduced, with effects", &|r| r.with_effects.as_ref().map_or(f64::NAN, |g| g.y_m * 1e3), false),
-            series("finite elements", &|r| r.ensemble.at(30.0).map_or(f64::NAN, |[marker, _]| marker.0), false),
-            series("measured", &|r| r.published.as_ref().map_or(f64::NAN, |p| p.d_max_m * 1e3), true),
-        ],
-        target: None,
-    };
-    Ok(Some(plots::bars(&data)?))
+    let name = |r: &&EngineRobot| r.published.as_ref().map_or(String::new(), |p| printed(&p.kind).into());
+    let groups: Vec<String> = shown.iter().map(name).collect();
+    let series = [
+        series("reduced, as shipped", &|r| last(r).map_or(f64::NAN, |p| p.reduced_mm[0]), false),
+        series("reduced, with effects", &|r| r.with_effects.as_ref().map_or(f64::NAN, |g| g.y_m * 1e3), false),
+        series("finite elements", &|r| r.ensemble.at(30.0).map_or(f64::NAN, |[marker, _]| marker.0), false),
+        series("measured", &|r| r.published.as_ref().map_or(f64::NAN, |p| p.d_max_m * 1e3), true),
+    ];
+    Ok(Some(plots::bars("Outermost marker at 30 kPa", "displacement [mm]", &groups, &series, None)?))
 }
 
 /// Series that a plot holds.
@@ -91,12 +87,13 @@ pub(super) fn displaced(robots: &[EngineRobot]) -> Result<Option<Drawn>, PageErr
             let (points, half_width): (Vec<[f64; 2]>, Vec<f64>) =
                 known.map(|(kpa, (mean, sd))| ([kpa, mean], sd.unwrap_or(0.0))).unzip();
             let style = match (body.own, body.body_kpa * 1e3 < robot.scenario.p_body_pa) {
-                (true, _) => plots::LineStyle::LinePoints,
-                (false, true) => plots::LineStyle::Dashed,
-                (false, false) => plots::LineStyle::Line,
+                (true, _) => LineStyle::LinePoints,
+                (false, true) => LineStyle::Dashed,
+                (false, false) => LineStyle::Line,
             };
             let name = format!("{}, body {} kPa", body.actuator, body.body_kpa);
-            series.push((body.own, plots::LineSeries { name, points, half_width, style, colour: Some(colour) }));
+            let line = LineSeries::new(name, style, points).with_errors(half_width);
+            series.push((body.own, line.coloured(colour)));
         }
     }
     // Of more than a plot holds, robots at their own body pressure come first.
@@ -105,27 +102,15 @@ pub(super) fn displaced(robots: &[EngineRobot]) -> Result<Option<Drawn>, PageErr
     if series.is_empty() {
         return Ok(None);
     }
-    let data = plots::Lines {
-        title: "Body volume lost beyond πR³ × turn".into(),
-        x_label: "actuator pressure [kPa]".into(),
-        y_label: "displaced per actuator volume χ [-]".into(),
-        series,
-    };
-    Ok(Some(plots::lines(&data)?))
+    let (x, y) = ("actuator pressure [kPa]", "displaced per actuator volume χ [-]");
+    Ok(Some(plots::lines(&Lines::new("Body volume lost beyond πR³ × turn", x, y, series))?))
 }
 
 /// Outermost marker over pressure: both engines, every seed of the finite elements.
 pub(super) fn curve(robot: &EngineRobot) -> Result<Drawn, PageError> {
-    let series = |name: &str, points, half_width, style, colour| plots::LineSeries {
-        name: name.into(),
-        points,
-        half_width,
-        style,
-        colour: Some(colour),
-    };
     let reduced = robot.pairs.iter().map(|p| [p.actuator_kpa, p.reduced_mm[0]]);
     let reduced = std::iter::once([0.0, 0.0]).chain(reduced).collect();
-    let mut all = vec![series("reduced, as shipped", reduced, vec![], plots::LineStyle::LinePoints, 0)];
+    let mut all = vec![LineSeries::new("reduced, as shipped", LineStyle::LinePoints, reduced)];
     let ensemble = &robot.ensemble;
     if let Some(run) = ensemble.runs.first() {
         let states = run.states.iter().filter_map(|s| Some((s.actuator_kpa, ensemble.at(s.actuator_kpa)?[0])));
@@ -135,19 +120,15 @@ pub(super) fn curve(robot: &EngineRobot) -> Result<Drawn, PageError> {
             1 => "finite elements".to_string(),
             n => format!("finite elements, mean and sd of {n} seeds"),
         };
-        all.push(series(&name, points, spread, plots::LineStyle::LinePoints, 1));
+        all.push(LineSeries::new(name, LineStyle::LinePoints, points).with_errors(spread).coloured(1));
     }
     if let Some(p) = &robot.published {
         let at = vec![[p.d_max_pressure_pa * 1e-3, p.d_max_m * 1e3]];
-        all.push(series("measured", at, vec![], plots::LineStyle::OpenPoints, 3));
+        all.push(LineSeries::new("measured", LineStyle::OpenPoints, at).coloured(3));
     }
-    let data = plots::Lines {
-        title: format!("{}: outermost marker over pressure", robot.scenario.actuator.kind.name),
-        x_label: "actuator pressure [kPa]".into(),
-        y_label: "displacement of the outermost marker [mm]".into(),
-        series: all,
-    };
-    Ok(plots::lines(&data)?)
+    let title = format!("{}: outermost marker over pressure", robot.scenario.actuator.kind.name);
+    let (x, y) = ("actuator pressure [kPa]", "displacement of the outermost marker [mm]");
+    Ok(plots::lines(&Lines::new(title, x, y, all))?)
 }
 
 /// Ledgers at every pressure, both engines.
@@ -177,16 +158,12 @@ fn ahead_cm3(robot: &EngineRobot) -> f64 {
 /// Their drawing.
 pub(super) fn ledger(robot: &EngineRobot) -> Result<Drawn, PageError> {
     let first = robot.pairs.first().map_or(0.0, |p| p.actuator_kpa);
-    let data = plots::LedgerBars {
-        title: format!("{}: where the energy is", robot.scenario.actuator.kind.name),
-        value_label: match robot.scenario.actuator.kind.family {
-            Family::Pouch => "potential energy [mJ]".into(),
-            Family::Mckibben => format!("potential energy [mJ]; gas beyond what fills the muscle at {first:.0} kPa"),
-        },
-        terms: TERMS.map(String::from).to_vec(),
-        cases: ledger_cases(robot),
+    let title = format!("{}: where the energy is", robot.scenario.actuator.kind.name);
+    let label = match robot.scenario.actuator.kind.family {
+        Family::Pouch => "potential energy [mJ]".into(),
+        Family::Mckibben => format!("potential energy [mJ]; gas beyond what fills the muscle at {first:.0} kPa"),
     };
-    Ok(plots::ledger(&data)?)
+    Ok(plots::ledger(&title, &label, &TERMS.map(String::from), &ledger_cases(robot))?)
 }
 
 #[cfg(test)]

@@ -1,19 +1,18 @@
 //! Both engines and the published numbers on one page: displacement, accuracy, ledgers, and where the models part.
 
 use super::engine_figures::{bars, curve, displaced, ledger, parting_plot};
-use super::{Files, Imprint, PAPER, PageError, marker_intervals, what_to_measure};
-use ::compare::study::columns::{TextTable, csv};
+use super::{Files, Imprint, PAPER, PageError, Values, marker_intervals, what_to_measure};
+use ::compare::study::columns::csv;
 use ::compare::study::engines::{EngineRobot, Engines, LINES_CSV, line_table, lines, summary, volume_table};
 use ::compare::study::uncertain::Uncertain;
-use serde_json::{Value, json};
 
-/// The page with the plots and tables beside it.
+/// The page with its plots and tables.
 ///
 /// # Errors
 /// What cannot be drawn.
 pub fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files, PageError> {
     let mut files = Files::default();
-    let mut values = overview(engines, &mut files)?;
+    let overview = overview(engines, &mut files)?;
     let (mut cubes, mut kinds, mut maps) = (Vec::new(), Vec::new(), Vec::new());
     for robot in &engines.robots {
         for cube in &robot.uncertain {
@@ -32,28 +31,26 @@ pub fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files, PageE
     for (k, map) in engines.maps.iter().enumerate() {
         let name = format!("breakdown_{}_{k}", map.actuator);
         files.plot(&name, parting_plot(map)?);
-        maps.push(json!({"name": name, "mesh_mm": map.mesh_mm}));
+        maps.push(Values::new().with("name", name).with("mesh_mm", &map.mesh_mm));
     }
     let volumes = volume_table(&engines.robots);
-    for (key, value) in [
-        ("title", json!("Two engines against the published displacements")),
-        ("lead", json!(lead(engines))),
-        ("cubes", json!(cubes)),
-        ("kinds", json!(kinds)),
-        ("maps", json!(maps)),
-        ("volumes", json!(volumes.rows)),
-        ("volume_heads", heads(&volumes, &[])),
-        ("volume_caption", json!(volumes.caption)),
-        ("provenance", json!(provenance(engines, imprint))),
-    ] {
-        values[key] = value;
-    }
+    let values = Values::new()
+        .with("title", "Two engines against the published displacements")
+        .with("lead", lead(engines))
+        .with("cubes", cubes)
+        .with("kinds", kinds)
+        .with("maps", maps)
+        .with("volume_heads", heads(&volumes.heads, &[]))
+        .with("volumes", volumes.rows)
+        .with("volume_caption", volumes.caption)
+        .with("provenance", provenance(engines, imprint))
+        .and(overview);
     files.page("engines.html", values, imprint)?;
     Ok(files)
 }
 
-/// One row a robot, with the bars of their displacements, and all lines as a table beside.
-pub(super) fn overview(engines: &Engines, files: &mut Files) -> Result<Value, PageError> {
+/// One row a robot, with the bars of their displacements, and all lines as a table.
+pub(super) fn overview(engines: &Engines, files: &mut Files) -> Result<Values, PageError> {
     let mut all = Vec::new();
     for robot in &engines.robots {
         all.extend(lines(robot)?);
@@ -63,26 +60,27 @@ pub(super) fn overview(engines: &Engines, files: &mut Files) -> Result<Value, Pa
     if let Some(bars) = bars(engines)? {
         files.plot("engines", bars);
     }
-    Ok(json!({
-        "summary": summary.rows, "summary_heads": heads(&summary, &[1, 6]),
-        "lines": lines.rows, "line_heads": heads(&lines, &[2, 3]),
-    }))
+    Ok(Values::new()
+        .with("summary_heads", heads(&summary.heads, &[1, 6]))
+        .with("summary", summary.rows)
+        .with("line_heads", heads(&lines.heads, &[2, 3]))
+        .with("lines", lines.rows))
 }
 
-/// Heads of a table, those of words marked.
-fn heads(table: &TextTable, words: &[usize]) -> Value {
+/// Heads of a table; columns of words are marked.
+pub(super) fn heads<'n>(names: &[&'n str], words: &[usize]) -> Vec<[&'n str; 3]> {
     let mark = |k: usize| if words.contains(&k) { "l" } else { "" };
-    json!(table.heads.iter().enumerate().map(|(k, name)| [name, "", mark(k)]).collect::<Vec<_>>())
+    names.iter().enumerate().map(|(k, name)| [*name, "", mark(k)]).collect()
 }
 
 /// Heights of all markers with their intervals, and what to measure first.
-fn draw_cube(robot: &EngineRobot, cube: &Uncertain, files: &mut Files) -> Result<Value, PageError> {
+fn draw_cube(robot: &EngineRobot, cube: &Uncertain, files: &mut Files) -> Result<Values, PageError> {
     let own = if robot.published.is_some() { cube.measured() } else { Vec::new() };
     let words: String = cube.variant.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
     let name = [cube.actuator.as_str(), &words].iter().filter(|w| !w.is_empty()).copied().collect::<Vec<_>>().join("-");
     files.plot(&format!("{name}_uncertain"), marker_intervals(cube, &own)?);
     files.plot(&format!("{name}_tornado"), what_to_measure(cube, cube.top_kpa())?);
-    Ok(json!({"name": name, "robots": cube.members.len(), "variant": cube.variant}))
+    Ok(Values::new().with("name", name).with("robots", cube.members.len()).with("variant", &cube.variant))
 }
 
 fn lead(engines: &Engines) -> String {

@@ -9,8 +9,8 @@ use data::published::printed;
 use data::{Dataset, Phase};
 use models::Known;
 use models::{Loads, Model, Scenario};
-use report::chart::{Chart, Key, KeyLook, Mark, Space};
-use report::{self as plots, Drawn, Ink, Symbol};
+use report::chart::{Chart, Key, KeyLook, Mark, Point, Space};
+use report::{self as plots, Drawn, Ink, LineSeries, LineStyle, Lines, Symbol};
 
 const MM: f64 = 1e3;
 /// Points of a drawn centre line.
@@ -139,31 +139,22 @@ pub(super) fn pressure_curve(title: &str, study: &Comparison) -> Result<Drawn, P
         for (name, unload) in [("measured, loading", false), ("measured, unloading", true)] {
             let (points, half_width) = branch(dataset, *p_body, unload);
             if !points.is_empty() {
-                series.push(plots::LineSeries {
-                    name: named(name, *p_body),
-                    points,
-                    half_width,
-                    style: if k == 0 { plots::LineStyle::Points } else { plots::LineStyle::OpenPoints },
-                    colour: Some(usize::from(unload)),
-                });
+                let style = if k == 0 { LineStyle::Points } else { LineStyle::OpenPoints };
+                let line = LineSeries::new(named(name, *p_body), style, points).with_errors(half_width);
+                series.push(line.coloured(usize::from(unload)));
             }
         }
     }
     for (i, variant) in shown_variants(study, bodies.len()) {
         for (k, p_body) in bodies.iter().enumerate() {
-            let style = if k == 0 { plots::LineStyle::Line } else { plots::LineStyle::Dashed };
+            let style = if k == 0 { LineStyle::Line } else { LineStyle::Dashed };
             let points = model_curve(&variant.scenario, dataset, *p_body)?;
             let name = named(&super::effect(&variant.label), *p_body);
-            series.push(plots::LineSeries { name, points, half_width: vec![], style, colour: Some(i + 2) });
+            series.push(LineSeries::new(name, style, points).coloured(i + 2));
         }
     }
-    let lines = plots::Lines {
-        title: title.into(),
-        x_label: "actuator pressure [kPa]".into(),
-        y_label: "height of the outermost marker [mm]".into(),
-        series,
-    };
-    Ok(plots::lines(&lines)?)
+    let (x, y) = ("actuator pressure [kPa]", "height of the outermost marker [mm]");
+    Ok(plots::lines(&Lines::new(title, x, y, series))?)
 }
 
 /// All models, or the first and the last where several body pressures multiply their curves.
@@ -222,13 +213,10 @@ pub(super) fn published_ladder(ladder: &PublishedLadder) -> Result<Drawn, PageEr
         range: rung.range_m.map(|r| r.map(|v| v * MM)),
         known: known(rung.known),
     };
-    let data = plots::Staircase {
-        title: format!("{}: displacement at 30 kPa", printed(&ladder.published.kind)),
-        value_label: "displacement of the outermost marker [mm]".into(),
-        steps: ladder.rungs.iter().map(step).collect(),
-        target: Some(("measured (published)".into(), ladder.published.d_max_m * MM)),
-    };
-    Ok(plots::ladder(&data)?)
+    let steps: Vec<_> = ladder.rungs.iter().map(step).collect();
+    let title = format!("{}: displacement at 30 kPa", printed(&ladder.published.kind));
+    let target = ("measured (published)".into(), ladder.published.d_max_m * MM);
+    Ok(plots::ladder(&title, "displacement of the outermost marker [mm]", &steps, Some(target))?)
 }
 
 /// Error beyond noise, rung by rung, with the noise floor.
@@ -239,13 +227,9 @@ pub(super) fn error_ladder(title: &str, variants: &[Variant]) -> Result<Drawn, P
         plots::LadderStep { label: super::effect(&v.label), value, range: None, known: known(v.known) }
     };
     let floor = variants.first().and_then(|v| v.evaluation.metrics.overall.noise_floor_mm);
-    let data = plots::Staircase {
-        title: title.into(),
-        value_label: "error beyond noise, all markers and holds [mm]".into(),
-        steps: variants.iter().map(step).collect(),
-        target: floor.map(|value| ("noise of the mean".into(), value)),
-    };
-    Ok(plots::ladder(&data)?)
+    let steps: Vec<_> = variants.iter().map(step).collect();
+    let target = floor.map(|value| ("noise of the mean".into(), value));
+    Ok(plots::ladder(title, "error beyond noise, all markers and holds [mm]", &steps, target)?)
 }
 
 /// Highest actuator pressure of the data, and the title of a ledger there; `None` if the actuator is never filled.
@@ -287,13 +271,9 @@ pub(super) fn ledgers(title: &str, cases: &[(String, Scenario)], loads: &Loads) 
         plots::LedgerCase { label: super::effect(label), energies_mj: large.iter().map(energy).chain(others).collect() }
     };
     let others = (!small.is_empty()).then(|| "others".to_string());
-    let data = plots::LedgerBars {
-        title: title.into(),
-        value_label: "potential energy at equilibrium [mJ]".into(),
-        terms: large.iter().map(|name| super::effect(name)).chain(others).collect(),
-        cases: columns.into_iter().map(case).collect(),
-    };
-    Ok(plots::ledger(&data)?)
+    let terms: Vec<String> = large.iter().map(|name| super::effect(name)).chain(others).collect();
+    let cases: Vec<_> = columns.into_iter().map(case).collect();
+    Ok(plots::ledger(title, "potential energy at equilibrium [mJ]", &terms, &cases)?)
 }
 
 /// Bare, last uncalibrated and published displacement of the four actuators.
@@ -301,18 +281,14 @@ pub(super) fn published_bars(ladders: &[PublishedLadder]) -> Result<Drawn, PageE
     let series = |name: &str, of: fn(&PublishedLadder) -> f64, grey| {
         (name.to_string(), ladders.iter().map(|l| of(l) * MM).collect(), grey)
     };
-    let data = plots::Bars {
-        title: "Displacement at 30 kPa: models and measurement".into(),
-        value_label: "displacement of the outermost marker [mm]".into(),
-        groups: ladders.iter().map(|l| printed(&l.published.kind).into()).collect(),
-        series: vec![
-            series("bare model", |l| l.rungs[0].y_m, false),
-            series("with effects, nothing fitted", |l| last(l).map_or(f64::NAN, |rung| rung.y_m), false),
-            series("measured (published)", |l| l.published.d_max_m, true),
-        ],
-        target: None,
-    };
-    Ok(plots::bars(&data)?)
+    let groups: Vec<String> = ladders.iter().map(|l| printed(&l.published.kind).into()).collect();
+    let series = [
+        series("bare model", |l| l.rungs[0].y_m, false),
+        series("with effects, nothing fitted", |l| last(l).map_or(f64::NAN, |rung| rung.y_m), false),
+        series("measured (published)", |l| l.published.d_max_m, true),
+    ];
+    let title = "Displacement at 30 kPa: models and measurement";
+    Ok(plots::bars(title, "displacement of the outermost marker [mm]", &groups, &series, None)?)
 }
 
 /// The last rung of which nothing is fitted.
@@ -340,14 +316,9 @@ pub fn tradeoff(timings: &[Timing]) -> Result<Drawn, PageError> {
         let alike = |other: Option<&&Timing>| other.is_some_and(|o| is_reduced(o) && o.actuator == t.actuator);
         let between = is_reduced(t) && k > 0 && alike(shown.get(k - 1)) && alike(shown.get(k + 1));
         let group = groups.iter().position(|name| *name == t.actuator).unwrap_or(0);
-        Mark::Point {
-            at: at(t),
-            error: [0.0; 2],
-            ink: Ink::Series(group),
-            symbol: Symbol::of(group),
-            open: false,
-            label: if between { String::new() } else { super::effect(&t.model) },
-        }
+        let label = if between { String::new() } else { super::effect(&t.model) };
+        let (at, ink, symbol) = (at(t), Ink::Series(group), Symbol::of(group));
+        Mark::Point(Point { at, ink, symbol, label, ..Point::default() })
     };
     let mut marks = vec![front(shown.iter().map(|t| at(t)).collect())];
     marks.extend(shown.iter().enumerate().map(point));

@@ -1,16 +1,16 @@
-//! The page of a scenario held against a dataset in x, y and z.
+//! The page of a scenario compared with a dataset in x, y and z.
 
 use super::compare::origin;
 use super::figures::{LINE_POINTS, MOST_POSES};
-use super::{Files, Imprint, PageError, effect};
-use crate::shown::in_space::{along, hold_name, misses};
-use ::compare::study::in_space::{InSpace, SpaceErrors, SpaceHold, SpaceMarker, SpaceVariant, loads};
+use super::{Files, Imprint, PageError, Values, effect};
+use crate::shown::in_space::SpaceAnswer;
+use crate::words::hold_name;
+use ::compare::study::in_space::{InSpace, SpaceMarker, SpaceVariant, loads};
 use data::{Column, Table};
 use models::Model;
 use report::{Drawn, MeasuredPoint, ShapePose, Shapes, shapes};
-use serde_json::{Value, json};
 
-/// The page and the files beside it.
+/// The page and its files.
 ///
 /// # Errors
 /// What cannot be drawn.
@@ -22,11 +22,13 @@ pub fn space_page(study: &InSpace, imprint: &Imprint) -> Result<Files, PageError
         files.plot("shapes_z", seen(study, 2)?);
     }
     files.table("markers", markers(study))?;
-    let values = json!({
-        "title": format!("{} held against {}", first.scenario.name, study.dataset.name),
-        "lead": lead(study), "provenance": origin(&first.scenario.name, &study.dataset, study.about.as_ref(), &study.warnings), "where_it_fails": misses(first),
-        "axes": if study.axes == 3 { "x, y, z" } else { "x, y" }, "variants": study.variants.iter().map(variant).collect::<Vec<_>>(),
-    });
+    let name = &first.scenario.name;
+    let values = Values::new()
+        .with("title", format!("{name} held against {}", study.dataset.name))
+        .with("lead", lead(study))
+        .with("found", SpaceAnswer::of(name, study))
+        .with("provenance", origin(name, &study.dataset, study.about.as_ref(), &study.warnings))
+        .with("axes", if study.axes == 3 { "x, y, z" } else { "x, y" });
     files.page("in_space.html", values, imprint)?;
     Ok(files)
 }
@@ -86,20 +88,6 @@ pub fn markers(study: &InSpace) -> Table {
         columns.push((format!("predicted_{axis}_mm"), numbers(&|m| m.predicted_mm[k])));
     }
     Table { columns }
-}
-
-fn variant(v: &SpaceVariant) -> Value {
-    let row = |name: String, of: &SpaceErrors, tip: [Value; 2]| {
-        let [tip, tip_distance] = tip;
-        json!({"name": name, "of": of, "bias": along(&of.bias_mm), "tip": tip, "tip_distance_mm": tip_distance})
-    };
-    let of_hold =
-        |h: &SpaceHold| row(hold_name(h), &h.errors, [json!(along(&h.tip_error_mm)), json!(h.tip_distance_mm)]);
-    let all = row("all".into(), &v.overall, [json!(""), Value::Null]);
-    json!({
-        "label": effect(&v.label), "known": v.known.word(), "why": v.why,
-        "holds": v.holds.iter().map(of_hold).chain([all]).collect::<Vec<_>>(),
-    })
 }
 
 /// The answer in a paragraph.

@@ -1,10 +1,8 @@
 //! The page of a climb: one effect after the other until what is left is noise.
 
 use super::diagnosis_figures::waterfall;
-use super::{Files, Imprint, PageError};
-use ::compare::extension::ErrorStep;
+use super::{Files, Imprint, PageError, Values};
 use ::compare::ladder::Climb;
-use serde_json::{Value, json};
 
 /// A climb from bare to extended, and what it was made of.
 pub struct Climbed<'a> {
@@ -30,11 +28,15 @@ pub fn ladder_page(page: &Climbed, imprint: &Imprint) -> Result<Files, PageError
     files.plot("waterfall", waterfall(title, &climb.rungs, climb.noise_floor_mm)?);
     let mut provenance = vec![["scenario", typed[0]], ["data", typed[1]]];
     provenance.extend(also.iter().map(|data| ["fitted along", data]));
-    let rung = |step: &ErrorStep| json!({"label": step.label(), "of": step});
-    let values = json!({
-        "title": format!("{robot}: one effect after the other, on {data}"), "lead": climb.ending, "told": climb.told,
-        "rungs": climb.rungs.iter().map(rung).collect::<Vec<Value>>(), "provenance": provenance,
-    });
+    let rungs =
+        climb.rungs.iter().map(|step| Values::new().with("label", step.label()).with("of", step)).collect::<Vec<_>>();
+    let title = format!("{robot}: one effect after the other, on {data}");
+    let values = Values::new()
+        .with("title", title)
+        .with("lead", &climb.ending)
+        .with("told", &climb.told)
+        .with("rungs", rungs)
+        .with("provenance", provenance);
     files.page("ladder.html", values, imprint)?;
     Ok(files)
 }

@@ -1,4 +1,4 @@
-//! Pages and files made of results: one report and the plots and tables beside it. Words stand in the templates of `report`.
+//! Pages and files made of results: one report with its plots and tables. Words stand in the templates of `report`.
 
 mod characterize;
 mod compare;
@@ -36,15 +36,17 @@ pub use in_space::{markers as space_markers, space_page};
 pub use ladder::{Climbed, ladder_page};
 pub use one_number::one_number_files;
 pub use pattern::pattern_sheet;
-pub use predicted::{predicted_files, pressure_words};
+pub use predicted::predicted_files;
 pub use run_plots::{mesh_plot, run_plots};
 pub use sweep::{sweep_picture_names, sweep_pictures};
 pub use tables::residuals;
 pub use tracks::tracks_plot;
 pub use uncertain::{marker_intervals, what_to_measure};
 
+use crate::words::{effect, in_words, number};
 use report::Drawn;
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::{Map, Value};
 
 /// Files of one result, in memory until all are done; the report is last.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -85,16 +87,47 @@ impl Files {
     }
 
     /// Adds the page of a template, with the plots that were added before.
-    fn page(&mut self, template: &str, mut values: Value, imprint: &Imprint) -> Result<(), PageError> {
-        for (key, text) in [("program", &imprint.program), ("date", &imprint.date), ("machine", &imprint.machine)] {
-            values[key] = json!(text);
-        }
+    fn page(&mut self, template: &str, values: Values, imprint: &Imprint) -> Result<(), PageError> {
+        let Imprint { program, date, machine } = imprint;
+        let values = Values::new().with("program", program).with("date", date).with("machine", machine).and(values);
         let svg = |(name, bytes): &(String, Vec<u8>)| {
             Some((name.strip_suffix(".svg")?.to_string(), String::from_utf8(bytes.clone()).ok()?))
         };
         let page = report::page::render(template, &values, self.files.iter().filter_map(svg).collect())?;
         self.text("report.html", page);
         Ok(())
+    }
+}
+
+/// What a template is filled with, by name.
+#[derive(Debug, Clone, Default, Serialize)]
+#[serde(transparent)]
+pub(crate) struct Values(Map<String, Value>);
+
+impl Values {
+    /// None yet.
+    fn new() -> Values {
+        Values::default()
+    }
+
+    /// The fields of a result.
+    fn of(result: &impl Serialize) -> Values {
+        match serde_json::to_value(result) {
+            Ok(Value::Object(fields)) => Values(fields),
+            _ => Values::default(),
+        }
+    }
+
+    /// One more. Numbers that are not finite are none.
+    fn with(mut self, name: &str, value: impl Serialize) -> Values {
+        self.0.insert(name.into(), serde_json::to_value(value).unwrap_or_default());
+        self
+    }
+
+    /// Further ones; those that are there stay.
+    fn and(mut self, further: Values) -> Values {
+        further.0.into_iter().for_each(|(name, value)| _ = self.0.entry(name).or_insert(value));
+        self
     }
 }
 
@@ -124,7 +157,7 @@ impl From<models::Unsolved> for PageError {
 /// Where the published numbers are from.
 const PAPER: &str = "du Pasquier, Jeong, Okamura, IEEE RA-L 2023, doi 10.1109/LRA.2023.3320010";
 
-/// What every page says about its origin.
+/// Origin on every page.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Imprint {
     /// Program and version.
@@ -133,20 +166,4 @@ pub struct Imprint {
     pub date: String,
     /// Machine in words, for timings.
     pub machine: String,
-}
-
-/// A number with `digits` decimals, or a dash where there is none.
-pub fn number(value: Option<f64>, digits: usize) -> String {
-    value.map_or_else(|| "–".into(), |v| format!("{v:.digits$}"))
-}
-
-/// An effect as it is called in words.
-fn effect(name: &str) -> String {
-    name.replace('_', " ")
-}
-
-/// A sentence with its effects called so.
-fn in_words(sentence: &str) -> String {
-    let names = models::effects::EFFECTS.iter().map(|e| e.name);
-    names.fold(sentence.to_string(), |text, name| text.replace(name, &effect(name)))
 }

@@ -4,7 +4,7 @@ use super::PageError;
 use compare::moment::{MissingMoment, MomentCurve, MomentPoint};
 use compare::witness::FeMoment;
 use compare::wording::short;
-use report::chart::{Chart, Key, KeyLook, Mark, Space};
+use report::chart::{Chart, Key, KeyLook, Mark, Point, Space};
 use report::{Drawn, Ink, Symbol};
 
 /// Pressures that differ by less have one colour [kPa].
@@ -65,30 +65,23 @@ fn furthest(found: &MissingMoment) -> f64 {
 }
 
 fn point(p: &MomentPoint, levels: &[f64], bodies: &[f64]) -> Mark {
-    Mark::Point {
+    Mark::Point(Point {
         at: [p.bend_deg, p.moment_nm],
         error: [p.bend_sd_deg, p.moment_sd_nm],
         ink: Ink::Series(nearest(levels, p.p_act_kpa)),
         symbol: Symbol::of(nearest(bodies, p.p_body_kpa)),
         open: p.phase == "unload",
-        label: String::new(),
-    }
+        ..Point::default()
+    })
 }
 
 /// Their moments on a thin line, so that no pressure of the data is taken for one of theirs.
 fn finite_elements(beside: &[FeMoment]) -> Vec<Mark> {
-    let line = Mark::Line {
-        points: beside.iter().map(|p| [p.bend_deg, p.moment_nm]).collect(),
-        ink: Ink::Axis,
-        dashed: false,
-    };
-    let point = |p: &FeMoment| Mark::Point {
-        at: [p.bend_deg, p.moment_nm],
-        error: [p.bend_sd_deg, p.moment_sd_nm],
-        ink: Ink::Muted,
-        symbol: FINITE_ELEMENTS,
-        open: true,
-        label: String::new(),
+    let points = beside.iter().map(|p| [p.bend_deg, p.moment_nm]).collect();
+    let line = Mark::Line { points, ink: Ink::Axis, dashed: false };
+    let point = |p: &FeMoment| {
+        let (at, error) = ([p.bend_deg, p.moment_nm], [p.bend_sd_deg, p.moment_sd_nm]);
+        Mark::Point(Point { at, error, ink: Ink::Muted, symbol: FINITE_ELEMENTS, open: true, ..Point::default() })
     };
     std::iter::once(line).filter(|_| beside.len() > 1).chain(beside.iter().map(point)).collect()
 }

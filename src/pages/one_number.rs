@@ -32,27 +32,14 @@ fn drawn(one: &OneNumber) -> Vec<&Explanation> {
 
 fn curves(one: &OneNumber) -> Lines {
     let points = |y_mm: &[f64]| one.p_act_kpa.iter().zip(y_mm).map(|(p, y)| [*p, *y]).collect::<Vec<_>>();
-    let line = |name: &str, y_mm: &[f64], style| LineSeries {
-        name: name.into(),
-        points: points(y_mm),
-        style,
-        ..LineSeries::default()
-    };
+    let line = |name: &str, y_mm: &[f64], style| LineSeries::new(name, style, points(y_mm));
     let top = one.p_act_kpa.len() - 1;
     let mut series = vec![line("without B", &one.bare_mm, LineStyle::Dashed)];
     series.extend(drawn(one).into_iter().map(|e| line(&effect(&e.effect), &e.y_mm, LineStyle::LinePoints)));
-    series.push(LineSeries {
-        name: "published".into(),
-        points: vec![[one.p_act_kpa[top], one.measured_mm]],
-        style: LineStyle::OpenPoints,
-        ..LineSeries::default()
-    });
-    Lines {
-        title: format!("{}: all of these meet the one published number", printed(&one.actuator)),
-        x_label: "actuator pressure [kPa]".into(),
-        y_label: "displacement [mm]".into(),
-        series,
-    }
+    let published = vec![[one.p_act_kpa[top], one.measured_mm]];
+    series.push(LineSeries::new("published", LineStyle::OpenPoints, published));
+    let title = format!("{}: all of these meet the one published number", printed(&one.actuator));
+    Lines::new(title, "actuator pressure [kPa]", "displacement [mm]", series)
 }
 
 #[cfg(test)]

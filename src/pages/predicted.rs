@@ -3,7 +3,8 @@
 use super::figures::{LINE_POINTS, MOST_POSES, mm};
 use super::{Files, PageError};
 use crate::AtPressure;
-use models::{Loads, Model, Scenario};
+use crate::words::pressure_words;
+use models::{Model, Scenario};
 use report::{ShapePose, Shapes, shapes};
 
 /// The first few predicted shapes in one plot.
@@ -44,13 +45,4 @@ fn seen(scenario: &Scenario, model: &Model, states: &[AtPressure], axis: usize) 
         body_radius_mm: scenario.radius_m * 1e3,
         poses: states.iter().take(MOST_POSES).map(pose).collect(),
     }
-}
-
-/// Pressures of the channels \[kPa\]; one number where they are equal.
-pub fn pressure_words(loads: &Loads) -> String {
-    let p = loads.actuator_pa;
-    if p.iter().all(|x| *x == p[0]) {
-        return format!("{:.3}", p[0] / 1e3);
-    }
-    p.map(|x| format!("{:.3}", x / 1e3).trim_end_matches('0').trim_end_matches('.').to_string()).join("/")
 }

@@ -25,18 +25,13 @@ pub fn run_plots(loaded: &Loaded, run: &FeRun) -> Result<Vec<(String, Vec<u8>)>,
 fn displacement(name: &str, run: &FeRun) -> Option<Lines> {
     let readings = run.readings();
     let stations = &readings.first().filter(|_| readings.len() > 2)?.stations_m;
-    let series = |k: usize| LineSeries {
-        name: format!("{:.0} mm", stations[k] * 1e3),
-        points: readings.iter().map(|r| [r.actuator_pa * 1e-3, r.moved_m[k][1] * 1e3]).collect(),
-        style: LineStyle::LinePoints,
-        ..LineSeries::default()
+    let series = |k: usize| {
+        let points = readings.iter().map(|r| [r.actuator_pa * 1e-3, r.moved_m[k][1] * 1e3]).collect();
+        LineSeries::new(format!("{:.0} mm", stations[k] * 1e3), LineStyle::LinePoints, points)
     };
-    Some(Lines {
-        title: format!("{name}: displacement towards the actuator, by distance from the base"),
-        x_label: "actuator pressure [kPa]".into(),
-        y_label: "displacement [mm]".into(),
-        series: (0..stations.len()).map(series).collect(),
-    })
+    let title = format!("{name}: displacement towards the actuator, by distance from the base");
+    let series = (0..stations.len()).map(series).collect();
+    Some(Lines::new(title, "actuator pressure [kPa]", "displacement [mm]", series))
 }
 
 /// Stored and kinetic energy over time with the buckling events.
@@ -45,13 +40,7 @@ fn history(name: &str, run: &FeRun) -> Option<Lines> {
     if samples.is_empty() {
         return None;
     }
-    let series = |name: &str, points: Vec<[f64; 2]>, style, colour| LineSeries {
-        name: name.into(),
-        points,
-        style,
-        colour: Some(colour),
-        ..LineSeries::default()
-    };
+    let series = |name: &str, points, style, colour| LineSeries::new(name, style, points).coloured(colour);
     let over = |energy: fn(&fem::robot::Sample) -> f64| samples.iter().map(|s| [s.time_s, energy(s) * 1e3]).collect();
     let found = run.summary.robot.iter().flat_map(|robot| &robot.snaps);
     let marks: Vec<[f64; 2]> = found.map(|s| [s.time_s, s.kinetic_j * 1e3]).collect();
@@ -63,12 +52,7 @@ fn history(name: &str, run: &FeRun) -> Option<Lines> {
     if !marks.is_empty() {
         all.push(series("buckling", marks, LineStyle::Points, 3));
     }
-    Some(Lines {
-        title: format!("{name}: energy over time"),
-        x_label: "time [s]".into(),
-        y_label: "energy [mJ]".into(),
-        series: all,
-    })
+    Some(Lines::new(format!("{name}: energy over time"), "time [s]", "energy [mJ]", all))
 }
 
 /// Outermost marker over the actuator's element size, a line for every pressure; `None` unless there are several sizes.
@@ -85,20 +69,15 @@ pub fn mesh_plot(name: &str, table: &RunTable) -> Option<Lines> {
     }
     let scatter =
         |all: &Vec<f64>| Scatter::of(all.iter().copied()).map_or([f64::NAN, 0.0], |s| [s.mean, s.sd.unwrap_or(0.0)]);
-    let series = |(kpa, sizes): (&u64, &BTreeMap<u64, Vec<f64>>)| LineSeries {
-        name: format!("{} kPa", f64::from_bits(*kpa)),
-        points: sizes.iter().map(|(size, all)| [f64::from_bits(*size), scatter(all)[0]]).collect(),
-        half_width: sizes.values().map(|all| scatter(all)[1]).collect(),
-        style: LineStyle::LinePoints,
-        colour: None,
+    let series = |(kpa, sizes): (&u64, &BTreeMap<u64, Vec<f64>>)| {
+        let points = sizes.iter().map(|(size, all)| [f64::from_bits(*size), scatter(all)[0]]).collect();
+        let line = LineSeries::new(format!("{} kPa", f64::from_bits(*kpa)), LineStyle::LinePoints, points);
+        line.with_errors(sizes.values().map(|all| scatter(all)[1]).collect())
     };
     let several = lines_of.values().any(|sizes| sizes.len() > 1);
     let seeds = lines_of.values().flat_map(|sizes| sizes.values()).any(|markers| markers.len() > 1);
     let spread = if seeds { ", standard deviation over the seeds" } else { "" };
-    several.then(|| Lines {
-        title: format!("{name}: outermost marker and the mesh{spread}"),
-        x_label: "element size at the actuator [mm]".into(),
-        y_label: "displacement of the outermost marker [mm]".into(),
-        series: lines_of.iter().map(series).collect(),
-    })
+    let title = format!("{name}: outermost marker and the mesh{spread}");
+    let (x, y) = ("element size at the actuator [mm]", "displacement of the outermost marker [mm]");
+    several.then(|| Lines::new(title, x, y, lines_of.iter().map(series).collect()))
 }

@@ -13,12 +13,8 @@ pub fn marker_intervals(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> Result
     for (colour, kpa) in all.pressures_kpa().into_iter().filter(|kpa| *kpa > 0.0).enumerate() {
         let found: Vec<(f64, [f64; 3])> =
             all.stations_mm.iter().enumerate().filter_map(|(m, s)| Some((*s, all.quantiles_mm(kpa, m, 1)?))).collect();
-        let line = |name: String, k: usize, style| LineSeries {
-            name,
-            points: found.iter().map(|(s, q)| [*s, q[k]]).collect(),
-            style,
-            colour: Some(colour),
-            ..LineSeries::default()
+        let line = |name: String, k: usize, style| {
+            LineSeries::new(name, style, found.iter().map(|(s, q)| [*s, q[k]]).collect()).coloured(colour)
         };
         series.push(line(format!("{kpa} kPa, median"), 1, LineStyle::LinePoints));
         series.push(line(String::new(), 0, LineStyle::Dashed));
@@ -27,22 +23,12 @@ pub fn marker_intervals(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> Result
         let points: Vec<[f64; 2]> = own.collect();
         if !points.is_empty() {
             let name = format!("{kpa} kPa, measured");
-            series.push(LineSeries {
-                name,
-                points,
-                style: LineStyle::OpenPoints,
-                colour: Some(colour),
-                ..LineSeries::default()
-            });
+            series.push(LineSeries::new(name, LineStyle::OpenPoints, points).coloured(colour));
         }
     }
-    let data = Lines {
-        title: format!("{}: median and 80 % interval (dashed) over what nobody measured", all.scenario),
-        x_label: "marker along the straight robot [mm]".into(),
-        y_label: "displacement towards the actuator [mm]".into(),
-        series,
-    };
-    lines(&data)
+    let title = format!("{}: median and 80 % interval (dashed) over what nobody measured", all.scenario);
+    let (x, y) = ("marker along the straight robot [mm]", "displacement towards the actuator [mm]");
+    lines(&Lines::new(title, x, y, series))
 }
 
 /// What every number does to the outermost marker at a pressure.

@@ -4,6 +4,14 @@ use crate::tables::{printed, table};
 use compare::study::breakdown::Parting;
 use compare::study::columns::{TextColumn, TextTable};
 use compare::study::engines::SHAPE;
+use serde::Serialize;
+
+/// `ibr.breakdown`: `ibr breakdown`
+#[derive(Serialize)]
+pub struct Breakdown<'a> {
+    /// One robot at one pressure
+    pub cells: &'a [Parting],
+}
 
 const COLUMNS: [TextColumn<Parting>; 11] = [
     ("robot", |row| row.robot.clone()),

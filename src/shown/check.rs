@@ -1,48 +1,69 @@
 //! What a table of markers holds.
 
-use crate::tables::{number, table};
-use data::CheckReport;
+use crate::tables::{Table, lines};
+use data::{CheckReport, Provenance};
+use serde::Serialize;
+
+/// `ibr.data.check`: `ibr data check DATA`
+#[derive(Serialize)]
+pub struct Checked {
+    /// What was found
+    pub check: Check,
+}
+
+/// What was found in data.
+#[derive(Serialize)]
+#[serde(untagged)]
+pub enum Check {
+    /// In a table of markers
+    Markers(Box<CheckReport>),
+    /// In a table of bench tests
+    Bench(BenchCheck),
+}
+
+/// A table of bench tests.
+#[derive(Serialize)]
+pub struct BenchCheck {
+    /// Kind of the table of bench tests
+    pub kind: &'static str,
+    /// Rows of that table
+    pub rows: usize,
+    /// How its numbers came to be
+    pub provenance: Provenance,
+}
 
 /// For readers.
 pub fn check_text(report: &CheckReport) -> String {
+    let CheckReport { name, runs, actuator, holds, markers, samples_per_hold, .. } = report;
+    let provenance = report.provenance.as_ref().map_or(String::new(), |p| format!(" ({p})"));
     let mut out = format!(
-        "{}: {} runs of actuator {}, {} holds, {} markers, {} samples per hold{}\n",
-        report.name,
-        report.runs.len(),
-        report.actuator,
-        report.holds.len(),
-        report.markers.len(),
-        report.samples_per_hold,
-        report.provenance.as_ref().map_or(String::new(), |p| format!(" ({p})"))
+        "{name}: {} runs of actuator {actuator}, {} holds, {} markers, {samples_per_hold} samples per hold{provenance}\n",
+        runs.len(),
+        holds.len(),
+        markers.len(),
     );
-    let holds = report.holds.iter().map(|h| {
-        let more = h.p_act_channels_kpa.iter().skip(1).map(|p| format!("/{p:.2}"));
-        let cells =
-            [format!("{:.2}{}", h.p_act_kpa, more.collect::<String>()), format!("{:.2}", h.p_body_kpa), h.phase.into()];
-        let rest = [format!("{:.1}", h.duration_s), number(h.scatter_mm, 2)];
-        let read = h.gauge_kpa.map(|kpa| format!("{kpa:.2}"));
-        cells.into_iter().chain(rest).chain(read).collect()
-    });
-    let head = ["P [kPa]", "body [kPa]", "phase", "duration [s]", "scatter of runs [mm]", "gauge [kPa]"];
-    let head = &head[..head.len() - usize::from(report.holds.iter().any(|h| h.gauge_kpa.is_none()))];
-    out.push_str(&table(head, 0, holds.collect()));
-    let markers = report.markers.iter().map(|m| vec![m.name.clone(), number(m.s_mm, 1), number(m.scatter_mm, 2)]);
-    out.push_str(&table(&["marker", "station [mm]", "scatter of runs [mm]"], 1, markers.collect()));
+    out += &Table::of(holds)
+        .right("P [kPa]", |h| {
+            let more = h.p_act_channels_kpa.iter().skip(1).map(|p| format!("/{p:.2}"));
+            format!("{:.2}{}", h.p_act_kpa, more.collect::<String>())
+        })
+        .number("body [kPa]", 2, |h| h.p_body_kpa)
+        .right("phase", |h| h.phase)
+        .number("duration [s]", 1, |h| h.duration_s)
+        .number("scatter of runs [mm]", 2, |h| h.scatter_mm)
+        .when(holds.iter().all(|h| h.gauge_kpa.is_some()), |t| t.number("gauge [kPa]", 2, |h| h.gauge_kpa))
+        .text();
+    out += &Table::of(markers)
+        .words("marker", |m| &m.name)
+        .number("station [mm]", 1, |m| m.s_mm)
+        .number("scatter of runs [mm]", 2, |m| m.scatter_mm)
+        .text();
     for o in &report.outliers {
-        out.push_str(&format!(
-            "outlier: run {}, hold {}, sample {}, marker {}: {:+.1}, {:+.1}{} mm off\n",
-            o.run,
-            o.hold + 1,
-            o.sample + 1,
-            o.marker,
-            o.dx_mm,
-            o.dy_mm,
-            o.dz_mm.map_or(String::new(), |dz| format!(", {dz:+.1}"))
-        ));
+        let (run, hold, sample, marker) = (&o.run, o.hold + 1, o.sample + 1, &o.marker);
+        let dz = o.dz_mm.map_or(String::new(), |dz| format!(", {dz:+.1}"));
+        let off = format!("{:+.1}, {:+.1}{dz} mm off", o.dx_mm, o.dy_mm);
+        out += &format!("outlier: run {run}, hold {hold}, sample {sample}, marker {marker}: {off}\n");
     }
-    for [a, b] in &report.identical_runs {
-        out.push_str(&format!("runs {a} and {b} are identical copies\n"));
-    }
-    report.warnings.iter().for_each(|w| out.push_str(&format!("note: {w}\n")));
-    out
+    out += &lines("", report.identical_runs.iter().map(|[a, b]| format!("runs {a} and {b} are identical copies")));
+    out + &lines("note: ", &report.warnings)
 }

@@ -1,96 +1,165 @@
 //! A comparison.
 
-use crate::tables::{number, table};
-use compare::study::comparison::{Comparison, Variant};
-use compare::validation::Validation;
-use serde_json::{Value, json};
+use crate::tables::{Table, lines};
+use compare::metrics::{HoldMetrics, OverallMetrics};
+use compare::{Evaluation, NoiseSummary, ScalingCheck};
 
-/// A comparison with what goes with it.
+use compare::residuals::ResidualMap;
+
+use compare::study::comparison::{Comparison, Variant};
+use compare::validation::{HowFar, Validation};
+use compare::where_it_fails::Statement;
+use data::Provenance;
+use models::Known;
+use serde::Serialize;
+
+/// `ibr.compare`: `ibr compare SCENARIO DATA`
+#[derive(Serialize)]
 pub struct CompareAnswer<'a> {
-    /// The scenario, as typed.
+    /// Scenario as typed, or `its own`
     pub scenario: &'a str,
-    /// What was found.
-    pub found: &'a Comparison,
-    /// Effects that were added to the scenario, and what they bring here.
-    pub added: Option<&'a (Vec<String>, Validation)>,
+    /// Data as typed
+    pub data: &'a str,
+    /// Actuator kind
+    pub actuator: &'a str,
+    /// Runs
+    pub runs: usize,
+    /// How the data came to be; null without about.toml
+    pub provenance: Option<Provenance>,
+    /// Noise of the mean over runs
+    pub noise: &'a NoiseSummary,
+    /// How prediction and measurement are paired
+    pub pairing: &'a str,
+    /// How far off the scenario as given is
+    #[serde(flatten)]
+    pub errors: ModelErrors<'a>,
+    /// Whether shapes depend on P/p only
+    pub scaling: &'a ScalingCheck,
+    /// The scenario, then every addition and calibration
+    pub models: Vec<ModelOnData<'a>>,
+    /// What effects that `ibr add` wrote bring here; null without any
+    pub added: Option<AddedOnData<'a>>,
+    /// Cautions
+    pub warnings: &'a [String],
+    #[serde(skip)]
+    found: &'a Comparison,
+    #[serde(skip)]
+    sentence: Option<&'a str>,
 }
 
-impl CompareAnswer<'_> {
-    /// `ibr.compare`
-    pub fn json(&self) -> Value {
-        let CompareAnswer { scenario, found, added } = self;
-        let variant = |v: &Variant| {
-            json!({
-                "label": v.label, "how_known": v.known.word(), "why": v.why,
-                "bending_nm2": v.scenario.bending_stiffness,
-                "effects": v.scenario.effects.iter().map(|e| e.name.clone()).collect::<Vec<_>>(),
-                "holds": v.evaluation.metrics.holds, "overall": v.evaluation.metrics.overall,
-                "residual_map": v.evaluation.residual_map, "where_it_fails": v.evaluation.where_it_fails,
-            })
-        };
-        let added = added.map(|(effects, v)| {
-            json!({"effects": effects, "before": v.before, "after": v.after, "fitted_to_these": v.fitted_to_these})
-        });
+/// A model compared with the data.
+#[derive(Serialize)]
+pub struct ModelOnData<'a> {
+    /// In words
+    pub label: &'a str,
+    /// How its values are known
+    pub how_known: Known,
+    /// Where its values come from
+    pub why: &'a str,
+    /// Bending stiffness
+    pub bending_nm2: f64,
+    /// Names of effects
+    pub effects: Vec<&'a str>,
+    /// How far off it is
+    #[serde(flatten)]
+    pub errors: ModelErrors<'a>,
+}
+
+/// How far off a model is, and where.
+#[derive(Serialize)]
+pub struct ModelErrors<'a> {
+    /// Accuracy and its companions, hold by hold
+    pub holds: &'a [HoldMetrics],
+    /// The same over all holds
+    pub overall: &'a OverallMetrics,
+    /// Residuals, marker by hold
+    pub residual_map: &'a ResidualMap,
+    /// Where it fails, in plain language
+    pub where_it_fails: &'a [Statement],
+}
+
+impl<'a> ModelErrors<'a> {
+    fn of(Evaluation { metrics, residual_map, where_it_fails, .. }: &'a Evaluation) -> ModelErrors<'a> {
+        ModelErrors { holds: &metrics.holds, overall: &metrics.overall, residual_map, where_it_fails }
+    }
+}
+
+/// What added effects bring on the data.
+#[derive(Serialize)]
+pub struct AddedOnData<'a> {
+    /// Effects that were added to the scenario
+    pub effects: &'a [String],
+    /// Without them
+    pub before: &'a HowFar,
+    /// With the effects
+    pub after: &'a HowFar,
+    /// They were fitted to these very data: no test
+    pub fitted_to_these: bool,
+}
+
+impl<'a> CompareAnswer<'a> {
+    /// Of a scenario, as typed, and what was found; with effects that were added to it, and what they bring here.
+    pub fn of(scenario: &'a str, found: &'a Comparison, added: Option<&'a (Vec<String>, Validation)>) -> Self {
         let first = &found.variants[0].evaluation;
-        json!({
-            "schema": "ibr.compare", "version": 1, "scenario": scenario, "data": found.dataset.name,
-            "actuator": found.dataset.actuator, "runs": found.dataset.runs.len(),
-            "provenance": found.about.as_ref().map(|a| a.provenance.word()),
-            "noise": first.noise, "holds": first.metrics.holds, "overall": first.metrics.overall,
-            "pairing": first.metrics.pairing, "residual_map": first.residual_map,
-            "where_it_fails": first.where_it_fails, "scaling": first.scaling,
-            "models": found.variants.iter().map(variant).collect::<Vec<_>>(),
-            "added": added, "warnings": found.warnings,
-        })
+        let model = |v: &'a Variant| ModelOnData {
+            label: &v.label,
+            how_known: v.known,
+            why: &v.why,
+            bending_nm2: v.scenario.bending_stiffness,
+            effects: v.scenario.effects.iter().map(|e| e.name.as_str()).collect(),
+            errors: ModelErrors::of(&v.evaluation),
+        };
+        let on_data = |(effects, v): &'a (Vec<String>, Validation)| {
+            let Validation { before, after, fitted_to_these, .. } = v;
+            AddedOnData { effects, before, after, fitted_to_these: *fitted_to_these }
+        };
+        CompareAnswer {
+            scenario,
+            data: &found.dataset.name,
+            actuator: &found.dataset.actuator,
+            runs: found.dataset.runs.len(),
+            provenance: found.about.as_ref().map(|a| a.provenance),
+            noise: &first.noise,
+            pairing: first.metrics.pairing,
+            errors: ModelErrors::of(first),
+            scaling: &first.scaling,
+            models: found.variants.iter().map(model).collect(),
+            added: added.map(on_data),
+            warnings: &found.warnings,
+            found,
+            sentence: added.map(|(_, v)| v.sentence.as_str()),
+        }
     }
 }
 
 /// For readers.
 pub fn text(answer: &CompareAnswer) -> String {
-    let CompareAnswer { found, added, .. } = answer;
+    let CompareAnswer { found, added, sentence, .. } = answer;
     let first = &found.variants[0];
     let mut out = format!("{} held against {}\n", first.scenario.name, found.dataset.name);
-    out.push_str(&format!("{}\n", first.evaluation.noise.sentence));
+    out += &format!("{}\n", first.evaluation.noise.sentence);
     for variant in &found.variants {
-        out.push_str(&format!("\n{} ({}): {}\n", variant.label, variant.known.word(), variant.why));
-        out.push_str(&holds(variant));
+        out += &format!("\n{} ({}): {}\n{}", variant.label, variant.known.word(), variant.why, holds(variant));
     }
-    if let Some((effects, v)) = added {
-        out.push_str(&format!("\nError beyond noise without → with {}: {}.\n", effects.join(", "), v.sentence));
+    if let Some((added, sentence)) = added.as_ref().zip(*sentence) {
+        out += &format!("\nError beyond noise without → with {}: {sentence}.\n", added.effects.join(", "));
     }
-    out.push_str("\nWhere the scenario's model fails:\n");
-    for statement in &first.evaluation.where_it_fails {
-        out.push_str(&format!("  - {}\n", statement.sentence));
-    }
-    out.push_str(&format!("\nP/p scaling: {}\n", first.evaluation.scaling.sentence));
-    out
+    let fails = lines("  - ", first.evaluation.where_it_fails.iter().map(|s| &s.sentence));
+    let scaling = &first.evaluation.scaling.sentence;
+    out + &format!("\nWhere the scenario's model fails:\n{fails}\nP/p scaling: {scaling}\n")
 }
 
 fn holds(variant: &Variant) -> String {
-    let head = [
-        "hold",
-        "paper accuracy %",
-        "noise ceiling %",
-        "rms rel. %",
-        "RMSE mm",
-        "noise floor mm",
-        "beyond noise mm",
-        "tip error mm",
-        "χ²/dof",
-    ];
-    let percent = |v: Option<f64>| number(v.map(|a| 100.0 * a), 1);
-    let rows = variant.evaluation.metrics.holds.iter().map(|h| {
-        vec![
-            format!("{:.0} kPa {} (body {:.0})", h.p_act_kpa, h.phase, h.p_body_kpa),
-            percent(h.paper_accuracy),
-            percent(h.noise_ceiling),
-            number(h.rms_relative_pct, 1),
-            number(Some(h.rmse_mm), 2),
-            number(h.noise_floor_mm, 2),
-            number(h.systematic_mm, 2),
-            format!("{:+.2}", h.tip_error_mm),
-            number(h.reduced_chi2, 1),
-        ]
-    });
-    table(&head, 1, rows.collect())
+    let percent = |share: Option<f64>| share.map(|a| 100.0 * a);
+    Table::of(&variant.evaluation.metrics.holds)
+        .words("hold", |h| format!("{:.0} kPa {} (body {:.0})", h.p_act_kpa, h.phase, h.p_body_kpa))
+        .number("paper accuracy %", 1, |h| percent(h.paper_accuracy))
+        .number("noise ceiling %", 1, |h| percent(h.noise_ceiling))
+        .number("rms rel. %", 1, |h| h.rms_relative_pct)
+        .number("RMSE mm", 2, |h| h.rmse_mm)
+        .number("noise floor mm", 2, |h| h.noise_floor_mm)
+        .number("beyond noise mm", 2, |h| h.systematic_mm)
+        .signed("tip error mm", 2, |h| h.tip_error_mm)
+        .number("χ²/dof", 1, |h| h.reduced_chi2)
+        .text()
 }

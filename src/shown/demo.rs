@@ -1,33 +1,29 @@
 //! The demonstration.
 
-use super::held;
-use crate::tables::{number, table};
+use super::held::{self, HeldTable};
+use crate::tables::{Table, lines};
+use compare::Diagnosis;
 use compare::bench::Held;
 use compare::demo::{Demo, Told};
 use compare::study::published::PublishedLadder;
-use compare::study::{Comparison, Variant};
-use models::Known;
-use serde_json::{Value, json};
+use compare::study::{Comparison, Timing};
+use fem::robot::Reading;
+use serde::Serialize;
 
 /// Published displacement against every rung.
 fn published_text(ladders: &[PublishedLadder]) -> String {
-    let head = ["actuator", "model", "how known", "model mm", "range mm", "measured mm", "difference mm"];
-    let mut rows = Vec::new();
-    for ladder in ladders {
-        let measured = ladder.published.d_max_m * 1e3;
-        for rung in &ladder.rungs {
-            rows.push(vec![
-                ladder.published.printed_name.clone(),
-                rung.label.clone(),
-                rung.known.word().into(),
-                format!("{:.1}", rung.y_m * 1e3),
-                rung.range_m.map_or("–".into(), |r| format!("{:.1}–{:.1}", r[0] * 1e3, r[1] * 1e3)),
-                format!("{measured:.1}"),
-                format!("{:+.1}", rung.y_m * 1e3 - measured),
-            ]);
-        }
-    }
-    table(&head, 3, rows)
+    let rungs = ladders.iter().flat_map(|ladder| ladder.rungs.iter().map(move |rung| (&ladder.published, rung)));
+    Table::of(rungs)
+        .words("actuator", |(p, _)| &p.printed_name)
+        .words("model", |(_, rung)| &rung.label)
+        .words("how known", |(_, rung)| rung.known.word())
+        .number("model mm", 1, |(_, rung)| rung.y_m * 1e3)
+        .right("range mm", |(_, rung)| {
+            rung.range_m.map_or("–".into(), |r| format!("{:.1}–{:.1}", r[0] * 1e3, r[1] * 1e3))
+        })
+        .number("measured mm", 1, |(p, _)| p.d_max_m * 1e3)
+        .signed("difference mm", 1, |(p, rung)| (rung.y_m - p.d_max_m) * 1e3)
+        .text()
 }
 
 /// What has just been computed, for readers.
@@ -44,68 +40,63 @@ pub fn text(told: Told) -> String {
         }
         Told::Sets(found) => sets_text(found),
         Told::Missing(d) => {
-            let story: String = d.summary.iter().map(|s| format!("  - {s}\n")).collect();
-            format!("\nWhat is missing in {} on {}:\n{story}", d.scenario, d.dataset)
+            format!("\nWhat is missing in {} on {}:\n{}", d.scenario, d.dataset, lines("  - ", &d.summary))
         }
     }
 }
 
 fn sets_text(found: &[Comparison]) -> String {
-    let head = ["data", "model", "how known", "paper acc. %", "beyond noise mm", "χ²/dof", "largest tip error mm"];
-    let row = |c: &Comparison, v: &Variant| {
-        let all = &v.evaluation.metrics.overall;
-        let numbers = [
-            number(all.paper_accuracy.map(|a| 100.0 * a), 1),
-            number(all.systematic_mm, 2),
-            number(all.reduced_chi2, 1),
-            format!("{:+.1}", all.largest_tip_error_mm),
-        ];
-        [vec![c.dataset.name.clone(), v.label.clone(), v.known.word().into()], numbers.to_vec()].concat()
-    };
-    let rows = found.iter().flat_map(|c| c.variants.iter().map(move |v| row(c, v)));
+    let models = found.iter().flat_map(|c| c.variants.iter().map(move |v| (c, v, &v.evaluation.metrics.overall)));
+    let table = Table::of(models)
+        .words("data", |(c, ..)| &c.dataset.name)
+        .words("model", |(_, v, _)| &v.label)
+        .words("how known", |(_, v, _)| v.known.word())
+        .number("paper acc. %", 1, |(.., all)| all.paper_accuracy.map(|a| 100.0 * a))
+        .number("beyond noise mm", 2, |(.., all)| all.systematic_mm)
+        .number("χ²/dof", 1, |(.., all)| all.reduced_chi2)
+        .signed("largest tip error mm", 1, |(.., all)| all.largest_tip_error_mm)
+        .under("Synthetic marker sets: error beyond noise as effects are added");
     let fails = found.iter().filter_map(|c| Some((c, c.variants[0].evaluation.where_it_fails.first()?)));
-    format!(
-        "\nSynthetic marker sets: error beyond noise as effects are added\n{}\nWhere the bare models fail:\n{}",
-        table(&head, 3, rows.collect()),
-        fails.map(|(c, s)| format!("  - {}: {}\n", c.dataset.name, s.sentence)).collect::<String>()
-    )
+    let fails = lines("  - ", fails.map(|(c, s)| format!("{}: {}", c.dataset.name, s.sentence)));
+    format!("{table}\nWhere the bare models fail:\n{fails}")
 }
 
-/// `ibr.demo`
-pub fn to_json(demo: &Demo, small_run: Value) -> Value {
-    let ladder = |l: &PublishedLadder| {
-        let rungs: Vec<Value> = l
-            .rungs
-            .iter()
-            .map(|r| {
-                let range = r.range_m.map(|range| range.map(|v| v * 1e3));
-                json!({"model": r.label, "how_known": r.known.word(), "y_mm": r.y_m * 1e3, "range_mm": range, "why": r.why})
-            })
-            .collect();
-        json!({
-            "actuator": l.published.kind, "measured_mm": l.published.d_max_m * 1e3, "measured_is": Known::Published.word(),
-            "rungs": rungs, "calibrated_bending_nm2": l.calibrated_bending,
-        })
-    };
-    let studies: Vec<Value> = demo
-        .studies
-        .iter()
-        .map(|s| {
-            let models: Vec<Value> = s
-                .variants
-                .iter()
-                .map(
-                    |v| json!({"model": v.label, "how_known": v.known.word(), "overall": v.evaluation.metrics.overall}),
-                )
-                .collect();
-            json!({"data": s.dataset.name, "models": models, "where_it_fails": s.variants[0].evaluation.where_it_fails})
-        })
-        .collect();
-    json!({
-        "schema": "ibr.demo", "version": 1,
-        "measured": demo.measured.iter().map(held::as_json).collect::<Vec<_>>(),
-        "published": demo.ladders.iter().map(ladder).collect::<Vec<_>>(),
-        "marker_sets": studies, "diagnosis": demo.diagnosed.diagnosis, "timings": demo.timings,
-        "small_run": small_run,
-    })
+/// `ibr.demo`: `ibr demo`
+#[derive(Serialize)]
+pub struct DemoAnswer<'a> {
+    /// Bench tests with their models
+    pub measured: Vec<HeldTable<'a>>,
+    /// The missing effect in one of them
+    pub diagnosis: &'a Diagnosis,
+    /// Run time against error
+    pub timings: &'a [Timing],
+    /// A finite element run made just now
+    pub small_run: SmallRun<'a>,
+}
+
+/// A finite element run made just now.
+#[derive(Serialize)]
+pub struct SmallRun<'a> {
+    /// Elements
+    pub elements: usize,
+    /// Processor time
+    pub cpu_s: f64,
+    /// Energy that is missing in the balance, as a share
+    pub residual_share: f64,
+    /// Buckling events
+    pub buckling_events: usize,
+    /// States, by time
+    pub readings: &'a [Reading],
+}
+
+impl<'a> DemoAnswer<'a> {
+    /// Of the demonstration and the run that was made with it.
+    pub fn of(demo: &'a Demo, small_run: SmallRun<'a>) -> DemoAnswer<'a> {
+        DemoAnswer {
+            measured: demo.measured.iter().map(HeldTable::of).collect(),
+            diagnosis: &demo.diagnosed.diagnosis,
+            timings: &demo.timings,
+            small_run,
+        }
+    }
 }

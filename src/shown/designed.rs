@@ -1,10 +1,9 @@
 //! A design as text and JSON.
 
-use crate::pages::pressure_words;
-use crate::tables::table;
-use ::sweep::design::{Checked, End, Held, Miss, Round, Rounds, Wish};
-use serde_json::{Value, json};
-use std::path::Path;
+use crate::tables::{Table, table};
+use crate::words::pressure_words;
+use ::sweep::design::{Checked, End, Held, Miss, Round, Rounds, Spread, Wish};
+use serde::Serialize;
 
 fn shown(values: &[f64]) -> String {
     match values {
@@ -35,7 +34,7 @@ pub fn design_text(wish: &Wish, rounds: &Rounds) -> String {
             format!("{name}: {by}no design that was tried has the wish; the nearest misses it by {within}\n\n")
         }
     };
-    text += &table(&["chosen", "value"], 1, found.chosen.iter().map(|(k, v)| vec![k.clone(), v.clone()]).collect());
+    text += &Table::of(&found.chosen).words("chosen", |(key, _)| key).right("value", |(_, value)| value).text();
     text += &format!(
         "Pressure {} kPa, body {} kPa.\n\n",
         pressure_words(&found.loads),
@@ -48,21 +47,18 @@ pub fn design_text(wish: &Wish, rounds: &Rounds) -> String {
             "Pressures of single channels are not in design.toml: ibr predict design.toml --pressure {typed}\n\n"
         );
     }
-    let row = |miss: &Miss| {
-        let mut row =
-            vec![miss.what.clone(), shown(&miss.wanted), shown(&miss.found), format!("{:.1}", 1e3 * miss.miss_m)];
-        if checked.is_ok() {
-            let other = best.by_elements(&miss.what);
-            row.push(other.map_or("not read".into(), |other| shown(&other.found)));
-            row.push(other.map_or(String::new(), |other| format!("{:.1}", 1e3 * other.miss_m)));
-        }
-        row
-    };
-    let mut head = vec!["wish [mm]", "wanted", "model, predicted", "miss [mm]"];
-    if checked.is_ok() {
-        head.extend(["finite elements", "miss [mm]"]);
-    }
-    text += &table(&head, 1, found.misses.iter().map(row).collect());
+    let other = |miss: &&Miss| best.by_elements(&miss.what);
+    text += &Table::of(&found.misses)
+        .words("wish [mm]", |miss| &miss.what)
+        .right("wanted", |miss| shown(&miss.wanted))
+        .right("model, predicted", |miss| shown(&miss.found))
+        .number("miss [mm]", 1, |miss| 1e3 * miss.miss_m)
+        .when(checked.is_ok(), |table| {
+            table
+                .right("finite elements", |miss| other(miss).map_or("not read".into(), |other| shown(&other.found)))
+                .right("miss [mm]", |miss| other(miss).map_or(String::new(), |o| format!("{:.1}", 1e3 * o.miss_m)))
+        })
+        .text();
     if let Err(why) = checked {
         text += &format!("No finite element run: {why}.\n");
     }
@@ -121,17 +117,22 @@ fn rounds_text(wish: &Wish, rounds: &Rounds) -> String {
         std::iter::once("design").chain(keys).chain(["model", "corrected", "finite elements"]).collect();
     let mut text = "\nDesigns and their largest miss [mm]: by the model, by the model corrected by finite elements, and by finite elements.\n".to_string();
     text += &table(&head, 0, rounds.all.iter().enumerate().map(row).collect());
-    let part = |(k, round): (usize, &Round)| -> Vec<Vec<String>> {
-        let corrected = |at: usize| round.corrected.as_ref().map_or("none".into(), |all| shown(&all[at].found));
-        let elements = |what: &str| round.by_elements(what).map_or("not read".into(), |other| shown(&other.found));
-        let of = |(at, miss): (usize, &Miss)| {
-            vec![(k + 1).to_string(), miss.what.clone(), shown(&miss.found), corrected(at), elements(&miss.what)]
-        };
-        round.design.misses.iter().enumerate().map(of).collect()
-    };
-    let head = ["design", "wish [mm]", "model, predicted", "corrected by finite elements", "finite elements"];
+    let parts =
+        rounds.all.iter().enumerate().flat_map(|(k, round)| {
+            round.design.misses.iter().enumerate().map(move |(at, miss)| (k + 1, round, at, miss))
+        });
     text += "\n";
-    text += &table(&head, 2, rounds.all.iter().enumerate().flat_map(part).collect());
+    text += &Table::of(parts)
+        .words("design", |(number, ..)| number.to_string())
+        .words("wish [mm]", |(.., miss)| &miss.what)
+        .right("model, predicted", |(.., miss)| shown(&miss.found))
+        .right("corrected by finite elements", |(_, round, at, _)| {
+            round.corrected.as_ref().map_or("none".into(), |all| shown(&all[*at].found))
+        })
+        .right("finite elements", |(_, round, _, miss)| {
+            round.by_elements(&miss.what).map_or("not read".into(), |other| shown(&other.found))
+        })
+        .text();
     text += &match (best, rounds.all.len()) {
         (_, 1) => "The first design is written.".to_string(),
         (0, _) => {
@@ -161,53 +162,107 @@ fn rounds_text(wish: &Wish, rounds: &Rounds) -> String {
     text
 }
 
-/// For programs.
-pub fn design_json(file: &Path, wish: &Wish, rounds: &Rounds) -> Value {
-    let best = rounds.best();
-    let Round { design: found, checked, .. } = &rounds.all[best];
-    let chosen = |round: &Round| -> Vec<Value> {
-        round.design.chosen.iter().map(|(key, value)| json!({"key": key, "value": value})).collect()
-    };
-    let elements = |checked: &Result<Checked, String>| {
-        checked.as_ref().ok().map(|c| json!({"misses": misses_json(&c.misses), "warnings": c.warnings}))
-    };
-    let mm = |ends: [f64; 2]| ends.map(|m| 1e3 * m);
-    let interval =
-        found.spread.map(|s| json!({"tip_x_mm": mm(s.x_m), "tip_y_mm": mm(s.y_m), "worst_mm": 1e3 * s.worst_m}));
-    let held = |h: &Held| json!({"key": h.key, "end": h.value, "gain_mm": 1e3 * h.gain_m});
-    let mut told = json!({
-        "schema": "ibr.design", "version": 1, "wish": file.display().to_string(), "scenario": wish.base.name,
-        "reached": rounds.reached(wish), "tolerance_mm": 1e3 * wish.tolerance * found.file.length_m,
-        "chosen": chosen(&rounds.all[best]),
-        "p_act_channels_kpa": found.loads.actuator_pa.map(|pa| 1e-3 * pa), "p_body_kpa": 1e-3 * found.loads.body_pa,
-        "misses": misses_json(&found.misses), "interval": interval, "held": found.held.iter().map(held).collect::<Vec<_>>(),
-        "starts": found.starts[0], "starts_that_agree": found.starts[1],
-        "finite_elements": elements(checked), "unchecked": checked.as_ref().err(),
-    });
-    if rounds.corrections > 0 {
-        let one = |(k, round): (usize, &Round)| {
-            json!({
-                "chosen": chosen(round), "misses": misses_json(&round.design.misses), "worst_mm": 1e3 * round.worst_m(),
-                "corrected_by_finite_elements": round.corrected.as_ref().map(|misses| misses_json(misses)),
-                "finite_elements": elements(&round.checked), "unchecked": round.checked.as_ref().err(), "written": k == best,
-            })
-        };
-        told["designs"] = rounds.all.iter().enumerate().map(one).collect();
-        told["ended"] = json!(rounds.end(wish).map(|end| match end {
-            End::Reached => "reached",
-            End::Spent => "spent",
-            End::Same => "same",
-            End::Unchecked => "unchecked",
-        }));
-    }
-    told
+/// `ibr.design`: `ibr design WISH`
+#[derive(Serialize)]
+pub struct DesignAnswer<'a> {
+    /// The wish as typed
+    pub wish: String,
+    /// The robot that it began with
+    pub scenario: &'a str,
+    /// Every part of the wish is within the tolerance by the model; with `--correct` by finite elements
+    pub reached: bool,
+    /// Share of the length by which a wish may be missed
+    pub tolerance_mm: f64,
+    /// Values of the free keys
+    pub chosen: Vec<ChosenValue<'a>>,
+    /// Actuator pressure of every channel
+    pub p_act_channels_kpa: Vec<f64>,
+    /// Body pressure
+    pub p_body_kpa: f64,
+    /// The wish, part by part
+    pub misses: &'a [Miss],
+    /// Over the assumed numbers, where some are named
+    pub interval: Option<Spread>,
+    /// Ends of ranges that hold the design back, the most first
+    pub held: &'a [Held],
+    /// Starts of the search
+    pub starts: usize,
+    /// Starts that ended at this design or an equal one
+    pub starts_that_agree: usize,
+    /// Result of one run of the design
+    pub finite_elements: Option<&'a Checked>,
+    /// Why there is no finite element run
+    pub unchecked: Option<&'a str>,
+    /// With `--correct`: all that were checked, in their order
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub designs: Option<Vec<CheckedDesign<'a>>>,
+    /// With `--correct`, why there is no further one
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ended: Option<Option<End>>,
 }
 
-fn misses_json(misses: &[Miss]) -> Vec<Value> {
-    let shown = |values: &[f64]| match values {
-        [rad] => vec![rad.to_degrees()],
-        more => more.iter().map(|m| 1e3 * m).collect(),
-    };
-    let one = |m: &Miss| json!({"what": m.what, "wanted": shown(&m.wanted), "found": shown(&m.found), "miss_mm": 1e3 * m.miss_m});
-    misses.iter().map(one).collect()
+/// A value of a design.
+#[derive(Serialize)]
+pub struct ChosenValue<'a> {
+    /// Key of the scenario
+    pub key: &'a str,
+    /// Value as written there
+    pub value: &'a str,
+}
+
+/// A design that was checked.
+#[derive(Serialize)]
+pub struct CheckedDesign<'a> {
+    /// Values of the free keys
+    pub chosen: Vec<ChosenValue<'a>>,
+    /// The wish by the model as it is
+    pub misses: &'a [Miss],
+    /// Largest miss by finite elements, and by the model of parts that they do not read
+    pub worst_mm: f64,
+    /// The wish by the model with what finite elements differed at the design before; null for the first
+    pub corrected_by_finite_elements: Option<&'a [Miss]>,
+    /// Result of one run of the design
+    pub finite_elements: Option<&'a Checked>,
+    /// Why there is no finite element run
+    pub unchecked: Option<&'a str>,
+    /// Whether this is the one that is written
+    pub written: bool,
+}
+
+impl<'a> DesignAnswer<'a> {
+    /// What came of a wish, as typed.
+    pub fn of(typed: String, wish: &'a Wish, rounds: &'a Rounds) -> DesignAnswer<'a> {
+        let best = rounds.best();
+        let Round { design: found, checked, .. } = &rounds.all[best];
+        let chosen =
+            |round: &'a Round| round.design.chosen.iter().map(|(key, value)| ChosenValue { key, value }).collect();
+        let one = |(k, round): (usize, &'a Round)| CheckedDesign {
+            chosen: chosen(round),
+            misses: &round.design.misses,
+            worst_mm: 1e3 * round.worst_m(),
+            corrected_by_finite_elements: round.corrected.as_deref(),
+            finite_elements: round.checked.as_ref().ok(),
+            unchecked: round.checked.as_ref().err().map(String::as_str),
+            written: k == best,
+        };
+        let corrected = rounds.corrections > 0;
+        DesignAnswer {
+            wish: typed,
+            scenario: &wish.base.name,
+            reached: rounds.reached(wish),
+            tolerance_mm: 1e3 * wish.tolerance * found.file.length_m,
+            chosen: chosen(&rounds.all[best]),
+            p_act_channels_kpa: found.loads.actuator_pa.iter().map(|pa| 1e-3 * pa).collect(),
+            p_body_kpa: 1e-3 * found.loads.body_pa,
+            misses: &found.misses,
+            interval: found.spread,
+            held: &found.held,
+            starts: found.starts[0],
+            starts_that_agree: found.starts[1],
+            finite_elements: checked.as_ref().ok(),
+            unchecked: checked.as_ref().err().map(String::as_str),
+            designs: corrected.then(|| rounds.all.iter().enumerate().map(one).collect()),
+            ended: corrected.then(|| rounds.end(wish)),
+        }
+    }
 }

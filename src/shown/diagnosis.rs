@@ -1,24 +1,36 @@
 //! A diagnosis, as a page to read; its tables are in [`super::diagnosis_tables`].
 
 use super::diagnosis_tables::tables;
-use crate::tables::{number, table, wrapped};
+use crate::tables::{Table, wrapped};
+use crate::words::effect;
 use compare::diagnosis::words::{listed, three, with_unit};
-use compare::diagnosis::{Diagnosis, ParameterValue, Ranked, Verdict};
+use compare::diagnosis::{Diagnosis, Ranked, Verdict};
 use compare::witness::Witness;
-use fem::record::RecordShape;
-use serde_json::{Value, json};
+use serde::Serialize;
 
-/// `ibr.diagnose`
-pub fn to_json(diagnosis: &Diagnosis, witness: Option<&Witness>, scenario: &str) -> Value {
-    let data: Vec<&str> = diagnosis.evidence.iter().map(|used| used.sha256.as_str()).collect();
-    let mut answer = RecordShape { schema: "ibr.diagnose", version: 1 }.stamped(diagnosis);
-    answer["finite_elements"] = json!(witness);
-    answer["scenario_file"] = json!(scenario);
-    answer["data_sha256"] = json!(data);
-    answer
+/// `ibr.diagnose`: `ibr diagnose SCENARIO DATA`, and `diagnosis.json`
+#[derive(Serialize)]
+pub struct DiagnosisAnswer<'a> {
+    /// What was found
+    #[serde(flatten)]
+    pub diagnosis: &'a Diagnosis,
+    /// The same robot in finite elements; null without runs
+    pub finite_elements: Option<&'a Witness>,
+    /// Scenario as typed
+    pub scenario_file: &'a str,
+    /// SHA-256 of every table as read
+    pub data_sha256: Vec<&'a str>,
 }
 
-/// Explanations in the short table, and those that are told in words.
+impl<'a> DiagnosisAnswer<'a> {
+    /// Of a diagnosis, with finite elements of the robot and the scenario as typed.
+    pub fn of(diagnosis: &'a Diagnosis, finite_elements: Option<&'a Witness>, scenario_file: &'a str) -> Self {
+        let data_sha256 = diagnosis.evidence.iter().map(|used| used.sha256.as_str()).collect();
+        DiagnosisAnswer { diagnosis, finite_elements, scenario_file, data_sha256 }
+    }
+}
+
+/// Explanations in the short table, and those in words.
 const ROWS: usize = 5;
 const TOLD: usize = 3;
 
@@ -56,7 +68,7 @@ pub fn verdict(d: &Diagnosis) -> String {
         Some(Verdict::None) => "no missing effect detectable".into(),
         Some(Verdict::TooSmall) => "more than noise, too small to name".into(),
         Some(Verdict::Effect) => {
-            let names: Vec<String> = d.indistinguishable.iter().map(|name| name.replace('_', " ")).collect();
+            let names: Vec<String> = d.indistinguishable.iter().map(|name| effect(name)).collect();
             let tie = if names.len() > 1 { "; these data do not choose between them" } else { "" };
             format!("an effect is missing: {}{tie}", names.join(" or "))
         }
@@ -75,20 +87,22 @@ fn closest(d: &Diagnosis) -> String {
         return String::new();
     }
     let stated = |r: &&Ranked| !d.pairs.is_empty() || !r.in_set;
-    let row = |name: String, alike: bool, values: &[ParameterValue], after: f64, left_out: Option<f64>| {
-        let mark = if alike { "=" } else { "" };
-        vec![mark.into(), name, listed(values), format!("{after:.2}"), number(left_out, 2)]
-    };
     let pairs = d.pairs.iter().take(ROWS / 2);
-    let pairs = pairs.map(|p| row(p.effects.join(" + "), p.in_set, &p.parameters, p.systematic_after_mm, None));
+    let pairs = pairs.map(|p| (p.effects.join(" + "), p.in_set, &p.parameters, p.systematic_after_mm, None));
     let (first, mut others): (Vec<&Ranked>, Vec<&Ranked>) = d.ranked.iter().partition(|r| !stated(r));
     others.retain(|r| !r.at_bound);
     others.sort_by(|a, b| a.systematic_after_mm.total_cmp(&b.systematic_after_mm));
-    let single = |r: &Ranked| row(r.effect.clone(), !stated(&r), &r.parameters, r.systematic_after_mm, r.heldout_mm);
-    let rows = pairs.chain(first.into_iter().chain(others).map(single)).take(ROWS);
+    let singles = first.into_iter().chain(others);
+    let singles = singles.map(|r| (r.effect.clone(), !stated(&r), &r.parameters, r.systematic_after_mm, r.heldout_mm));
     let before = format!("{:.2} mm beyond noise without any of them", d.base.systematic_mm);
-    let head = ["", "with", "value, 95 %", "after mm", "pressures left out mm"];
-    format!("\nWhat it could be ({before}; = cannot be told apart):\n{}", table(&head, 3, rows.collect()))
+    let rows = Table::of(pairs.chain(singles).take(ROWS))
+        .words("", |(_, alike, ..)| if *alike { "=" } else { "" })
+        .words("with", |(name, ..)| name.clone())
+        .words("value, 95 %", |(_, _, values, ..)| listed(values))
+        .number("after mm", 2, |(.., after, _)| *after)
+        .number("pressures left out mm", 2, |(.., left_out)| *left_out)
+        .text();
+    format!("\nWhat it could be ({before}; = cannot be told apart):\n{rows}")
 }
 
 /// What the answer means on the robot, and where the model fails with it.
@@ -99,7 +113,7 @@ fn to_check(d: &Diagnosis) -> String {
     let told: Vec<&Ranked> = d.ranked.iter().filter(|r| is_told(d, r)).collect();
     let mut out = "\n".to_string();
     for r in told.iter().take(TOLD) {
-        // What is added is told above.
+        // Additions are stated above.
         let added = d.added.iter().any(|added| added.effect == r.effect);
         let sentence = if added { String::new() } else { format!(" {}", r.sentence) };
         out.push_str(&wrapped(&format!("{} ({}):{sentence} To check: {}", r.effect, r.group.word(), r.remedy), 2));
@@ -114,7 +128,7 @@ fn to_check(d: &Diagnosis) -> String {
     out
 }
 
-/// It is told in words: of the answer, or of the set where no pair is stated.
+/// It is stated in words: of the answer, or of the set where no pair is stated.
 pub fn is_told(d: &Diagnosis, r: &Ranked) -> bool {
     d.speaks_of(&r.effect) || r.in_set && d.pairs.is_empty()
 }

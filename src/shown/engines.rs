@@ -2,7 +2,39 @@
 
 use crate::failure::Failure;
 use crate::tables::printed;
-use compare::study::engines::{EngineLine, Engines, branches, ledgers, line_table, summary, volume_table};
+use compare::study::engines::{
+    BodyVolumes, EngineLine, EnginePair, Engines, branches, ledgers, line_table, summary, volume_table,
+};
+use serde::Serialize;
+
+/// `ibr.engines`: `ibr compare --engines`
+#[derive(Serialize)]
+pub struct EnginesAnswer<'a> {
+    /// Every source at every pressure
+    pub lines: &'a [EngineLine],
+    /// Ledgers of both engines
+    pub ledgers: Vec<RobotLedgers<'a>>,
+    /// Volumes of body and actuator
+    pub volumes: Vec<&'a BodyVolumes>,
+}
+
+/// Ledgers of a robot.
+#[derive(Serialize)]
+pub struct RobotLedgers<'a> {
+    /// Name of the robot
+    pub robot: &'a str,
+    /// Ledgers of both engines, by pressure
+    pub pairs: &'a [EnginePair],
+}
+
+impl<'a> EnginesAnswer<'a> {
+    /// Of all lines and robots.
+    pub fn of(lines: &'a [EngineLine], engines: &'a Engines) -> EnginesAnswer<'a> {
+        let ledgers = engines.robots.iter().map(|r| RobotLedgers { robot: &r.scenario.name, pairs: &r.pairs });
+        let volumes = engines.robots.iter().flat_map(|r| &r.bodies).collect();
+        EnginesAnswer { lines, ledgers: ledgers.collect(), volumes }
+    }
+}
 
 /// Tables of a comparison of both engines.
 pub fn text(lines: &[EngineLine], Engines { robots, .. }: &Engines) -> Result<String, Failure> {

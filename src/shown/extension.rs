@@ -1,63 +1,128 @@
 //! Errors on the way to an extended scenario.
 
-use crate::tables::{number, table};
+use crate::tables::{Table, lines};
+use compare::diagnosis::ParameterValue;
 use compare::diagnosis::words::three;
 use compare::extension::{Addition, ErrorStep, Extension, today};
 use compare::ladder::Climb;
 use compare::{CompareError, Evidence, ScenarioFile};
-use serde_json::{Map, Value, json};
+use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// Errors on the way as a text table.
 pub fn steps_text(steps: &[ErrorStep], noise_floor_mm: Option<f64>) -> String {
-    let head = ["model", "how known", "training mm", "left-out pressures mm", "left-out runs mm", "B N m²"];
-    let row = |step: &ErrorStep| {
-        let errors = [Some(step.training_mm), step.heldout_pressure_mm, step.heldout_run_mm].map(|mm| number(mm, 2));
-        [vec![step.model.clone(), step.how_known.into()], errors.to_vec(), vec![three(step.bending_nm2)]].concat()
-    };
     let floor = noise_floor_mm.map_or("noise unknown with one run: root-mean-square errors".to_string(), |n| {
         format!("noise of the mean {n:.2} mm, already taken off")
     });
-    format!("Error beyond noise ({floor})\n{}", table(&head, 2, steps.iter().map(row).collect()))
+    let steps = Table::of(steps)
+        .words("model", |step| &step.model)
+        .words("how known", |step| step.how_known)
+        .number("training mm", 2, |step| step.training_mm)
+        .number("left-out pressures mm", 2, |step| step.heldout_pressure_mm)
+        .number("left-out runs mm", 2, |step| step.heldout_run_mm)
+        .right("B N m²", |step| three(step.bending_nm2));
+    format!("Error beyond noise ({floor})\n{}", steps.text())
 }
 
 /// A climb as text.
 pub fn climb_text(climb: &Climb) -> String {
     let mut out = steps_text(&climb.rungs, climb.noise_floor_mm);
-    climb.told.iter().for_each(|s| out.push_str(&format!("  - {s}\n")));
+    out += &lines("  - ", &climb.told);
     if climb.steps.len() > 1 {
-        out.push_str("Effects of earlier steps keep the values of their step; B is fitted anew on each.\n");
+        out += "Effects of earlier steps keep the values of their step; B is fitted anew on each.\n";
     }
     if !climb.steps.is_empty() {
-        out.push_str("A smaller error does not prove a name: `ibr validate` tries it on data it was not fitted to.\n");
+        out += "A smaller error does not prove a name: `ibr validate` tries it on data it was not fitted to.\n";
     }
     out
 }
 
-/// An extension for programs.
-///
-/// # Errors
-/// A table that cannot be written.
-pub fn to_json(
-    file: &ScenarioFile,
-    evidence: &[Evidence],
-    found: &Extension,
-    target: &str,
-) -> Result<Value, CompareError> {
-    let effect = |a: &Addition| {
-        let fitted = found.fitted.iter().find(|f| f.effect == a.name).map(|f| &f.parameters);
-        let values: Map<String, Value> = a.values.iter().map(|(k, v)| (k.clone(), json!(v))).collect();
-        json!({"effect": a.name, "how_known": a.basis, "values": values, "parameters": fitted})
-    };
-    let data = |e: &Evidence| Ok(json!({"name": e.name, "sha256": e.sha256()?}));
-    let data = evidence.iter().map(data).collect::<Result<Vec<Value>, CompareError>>()?;
-    Ok(json!({
-        "schema": "ibr.add", "version": 1,
-        "scenario_file": file.name, "scenario_sha256": file.sha256(), "written": target,
-        "effects": found.additions.iter().map(effect).collect::<Vec<_>>(),
-        "bending_nm2": found.bending.as_ref().map(|b| b.value_nm2),
-        "before": found.steps.iter().rev().nth(1), "after": found.steps.last(), "rungs": found.steps,
-        "noise_floor_mm": found.noise_floor_mm,
-        "data": data.first(), "also": data.iter().skip(1).collect::<Vec<_>>(),
-        "date": today(), "warnings": found.warnings,
-    }))
+/// `ibr.add`: `ibr add SCENARIO EFFECT [DATA]`
+#[derive(Serialize)]
+pub struct AddAnswer<'a> {
+    /// Scenario as typed
+    pub scenario_file: &'a str,
+    /// SHA-256 of the scenario
+    pub scenario_sha256: String,
+    /// File that was written
+    pub written: &'a str,
+    /// What was added
+    pub effects: Vec<AddedEffect<'a>>,
+    /// B that was written; null if it was kept
+    pub bending_nm2: Option<f64>,
+    /// Without it, B calibrated
+    pub before: Option<&'a ErrorStep>,
+    /// With the effect
+    pub after: Option<&'a ErrorStep>,
+    /// Errors on the way, as given first
+    pub rungs: &'a [ErrorStep],
+    /// Noise of the mean
+    pub noise_floor_mm: Option<f64>,
+    /// Data of the fit; null without
+    pub data: Option<InputFile<'a>>,
+    /// Data that were fitted along
+    pub also: Vec<InputFile<'a>>,
+    /// Date
+    pub date: String,
+    /// Cautions
+    pub warnings: &'a [String],
+}
+
+/// An effect that was added.
+#[derive(Serialize)]
+pub struct AddedEffect<'a> {
+    /// Name of the effect
+    pub effect: &'a str,
+    /// `assumed` or `calibrated`
+    pub how_known: &'static str,
+    /// Values written, by key
+    pub values: BTreeMap<&'a str, f64>,
+    /// Fitted values; null for a value that was given
+    pub parameters: Option<&'a [ParameterValue]>,
+}
+
+/// A table of data.
+#[derive(Serialize)]
+pub struct InputFile<'a> {
+    /// As typed
+    pub name: &'a str,
+    /// SHA-256 of the table as read
+    pub sha256: String,
+}
+
+impl<'a> AddAnswer<'a> {
+    /// Of an extension of a scenario, written to a file.
+    ///
+    /// # Errors
+    /// A table that cannot be written.
+    pub fn of(
+        file: &'a ScenarioFile,
+        evidence: &'a [Evidence],
+        found: &'a Extension,
+        written: &'a str,
+    ) -> Result<AddAnswer<'a>, CompareError> {
+        let effect = |a: &'a Addition| AddedEffect {
+            effect: &a.name,
+            how_known: a.basis,
+            values: a.values.iter().map(|(key, value)| (key.as_str(), *value)).collect(),
+            parameters: found.fitted.iter().find(|f| f.effect == a.name).map(|f| &f.parameters[..]),
+        };
+        let data = evidence.iter().map(|e| Ok(InputFile { name: &e.name, sha256: e.sha256()? }));
+        let mut data = data.collect::<Result<Vec<_>, CompareError>>()?.into_iter();
+        Ok(AddAnswer {
+            scenario_file: &file.name,
+            scenario_sha256: file.sha256(),
+            written,
+            effects: found.additions.iter().map(effect).collect(),
+            bending_nm2: found.bending.as_ref().map(|b| b.value_nm2),
+            before: found.steps.iter().rev().nth(1),
+            after: found.steps.last(),
+            rungs: &found.steps,
+            noise_floor_mm: found.noise_floor_mm,
+            data: data.next(),
+            also: data.collect(),
+            date: today(),
+            warnings: &found.warnings,
+        })
+    }
 }

@@ -1,25 +1,86 @@
-//! Bench tests held against a model, in words and for JSON.
+//! Bench tests compared with a model, in words and for JSON.
 
-use crate::tables::table;
+use crate::tables::{Table, lines};
 use compare::bench::{Held, HeldRow};
-use serde_json::{Value, json};
+use data::Provenance;
+use models::Known;
+use serde::Serialize;
+
+/// `ibr.compare.bench`: `ibr compare TABLE`, a table of bench tests
+#[derive(Serialize)]
+pub struct BenchAnswer<'a> {
+    /// Data as typed
+    pub data: &'a str,
+    /// Kind of table
+    pub kind: &'a str,
+    /// How its numbers came to be
+    pub provenance: Provenance,
+    /// The table with its model
+    pub held: HeldTable<'a>,
+}
+
+/// Bench tests with their model.
+#[derive(Serialize)]
+pub struct HeldTable<'a> {
+    /// One line
+    pub title: &'a str,
+    /// Quantity compared, with unit
+    pub quantity: &'a str,
+    /// How the model's numbers are known
+    pub how_known: Known,
+    /// Rms of `off` over rows that nothing was fitted to
+    pub rms_off: Option<f64>,
+    /// Rows
+    pub rows: Vec<HeldTest<'a>>,
+    /// Remarks
+    pub notes: &'a [String],
+}
+
+/// A row of bench tests with its model.
+#[derive(Serialize)]
+pub struct HeldTest<'a> {
+    /// Where on the bench
+    pub at: &'a str,
+    /// As measured
+    pub measured: f64,
+    /// By the model
+    pub model: Option<f64>,
+    /// Model over measurement, less one
+    pub off: Option<f64>,
+    /// Half of the 95 % interval
+    pub interval_half: Option<f64>,
+    /// It was used for a fit
+    pub fitted: bool,
+    /// What follows
+    pub verdict: String,
+}
+
+impl<'a> HeldTable<'a> {
+    /// Of what was held.
+    pub fn of(held: &'a Held) -> HeldTable<'a> {
+        let rows = held.rows.iter().map(|r| HeldTest {
+            at: &r.at,
+            measured: r.measured,
+            model: r.model,
+            off: r.off(),
+            interval_half: r.half,
+            fitted: r.fitted,
+            verdict: r.verdict(),
+        });
+        let Held { title, quantity, known, notes, .. } = held;
+        HeldTable { title, quantity, how_known: *known, rms_off: held.rms(), rows: rows.collect(), notes }
+    }
+}
 
 /// A table, and how far the model is off where it was not fitted.
 pub fn text(held: &Held) -> String {
-    let percent = |r: &HeldRow| r.off().map_or("–".into(), |o| format!("{:+.1}", 100.0 * o));
-    let row = |r: &HeldRow| {
-        let model = r.model.map_or("–".into(), |m| format!("{m:.2}"));
-        vec![r.at.clone(), format!("{:.2}", r.measured), model, percent(r), r.verdict()]
-    };
-    let quantity = &held.quantity;
-    let head = [quantity.as_str(), "measured", "model", "off %", "verdict"];
-    format!(
-        "{} ({})\n{}{}",
-        held.title,
-        held.known.word(),
-        table(&head, 1, held.rows.iter().map(row).collect()),
-        closing(held)
-    )
+    let table = Table::of(&held.rows)
+        .words(&held.quantity, |r| &r.at)
+        .number("measured", 2, |r| r.measured)
+        .number("model", 2, |r| r.model)
+        .signed("off %", 1, |r| r.off().map(|off| 100.0 * off))
+        .right("verdict", |r| r.verdict());
+    format!("{} ({})\n{}{}", held.title, held.known.word(), table.text(), closing(held))
 }
 
 /// Rms and notes.
@@ -27,32 +88,15 @@ pub fn closing(held: &Held) -> String {
     let mut out = String::new();
     if let Some(rms) = held.rms() {
         let fitted = held.rows.iter().filter(|r| r.fitted).count();
-        let least = held
-            .rows
-            .iter()
-            .filter(|r| !r.fitted)
-            .filter_map(HeldRow::off)
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], o| [a.min(o), b.max(o)]);
-        out.push_str(&format!(
+        let free = held.rows.iter().filter(|r| !r.fitted).filter_map(HeldRow::off);
+        let [low, high] = free.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], o| [a.min(o), b.max(o)]);
+        out = format!(
             "rms off {:.1} % ({:+.1} to {:+.1} %) of {} rows that nothing was fitted to; {fitted} fitted\n",
             100.0 * rms,
-            100.0 * least[0],
-            100.0 * least[1],
+            100.0 * low,
+            100.0 * high,
             held.rows.len() - fitted
-        ));
+        );
     }
-    held.notes.iter().for_each(|n| out.push_str(&format!("note: {n}\n")));
-    out
-}
-
-/// For JSON.
-pub fn as_json(held: &Held) -> Value {
-    let row = |r: &HeldRow| {
-        json!({"at": r.at, "measured": r.measured, "model": r.model, "off": r.off(), "interval_half": r.half,
-            "fitted": r.fitted, "verdict": r.verdict()})
-    };
-    json!({
-        "title": held.title, "quantity": held.quantity, "how_known": held.known.word(), "rms_off": held.rms(),
-        "rows": held.rows.iter().map(row).collect::<Vec<_>>(), "notes": held.notes,
-    })
+    out + &lines("note: ", &held.notes)
 }

@@ -1,109 +1,118 @@
 //! Actuators, effects, datasets and cases.
 
 use compare::diagnosis::words::with_unit;
-use fem::case::{GENERATORS, SHIPPED_CASES};
+use data::SetInfo;
+use fem::case::{GENERATORS, MeshGenerator, SHIPPED_CASES};
 use ibr::studies::STUDIES;
-use models::actuators::ACTUATORS;
-use models::effects::EFFECTS;
-use serde_json::{Value, json};
+use models::actuators::{ACTUATORS, Actuator};
+use models::effects::{EFFECTS, Effect};
+use serde::Serialize;
 
-/// As text, and for programs.
-pub fn actuators() -> (String, Value) {
-    let mut text = String::from("ACTUATORS\n");
-    for a in ACTUATORS {
-        text.push_str(&format!(
-            "  {:<6} {}\n         {}\n         {}\n         {}\n         source: {}\n",
-            a.name, a.title, a.sentence, a.formula, a.validity, a.reference
-        ));
-    }
-    let value = ACTUATORS.iter().map(|a| {
-        json!({"name": a.name, "title": a.title, "sentence": a.sentence, "formula": a.formula, "validity": a.validity, "reference": a.reference})
-    });
-    (text, value.collect())
+/// `ibr.list`: `ibr list`, `ibr data list`
+#[derive(Serialize, Default)]
+pub struct Lists {
+    /// Actuators
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub actuators: Option<&'static [Actuator]>,
+    /// Finite element cases
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cases: Option<Cases>,
+    /// Embedded data
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub datasets: Option<Vec<SetInfo>>,
+    /// Effects
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub effects: Option<&'static [Effect<'static>]>,
 }
 
-/// As text, and for programs.
-pub fn effects() -> (String, Value) {
-    let mut text = String::from("EFFECTS\n");
-    for e in EFFECTS {
-        text.push_str(&format!("  {:<18} [{}] {}\n    {}\n", e.name, e.stage.word(), e.sentence, e.formula));
-        text.push_str(&format!("    in data: {}\n", e.differs));
-        for p in e.parameters {
-            text.push_str(&format!(
-                "    {} ({}): {}; typical {}, {} to {}, no effect at {}\n",
-                p.key,
-                p.symbol,
-                p.meaning,
-                with_unit(&p.typical.to_string(), p.unit),
-                p.lower,
-                p.upper,
-                p.neutral
-            ));
+/// Finite element cases.
+#[derive(Serialize)]
+pub struct Cases {
+    /// Cases that come with the program
+    pub shipped: Vec<NamedText>,
+    /// Robots that come with it in addition to the four
+    pub studies: Vec<NamedText>,
+    /// Meshes for cases
+    pub generators: &'static [MeshGenerator],
+}
+
+/// A name and what it is.
+#[derive(Serialize)]
+pub struct NamedText {
+    /// Name
+    pub name: &'static str,
+    /// One line
+    pub title: &'static str,
+}
+
+impl Lists {
+    /// The list of this name, or all of them.
+    pub fn of(what: Option<&str>) -> Lists {
+        let wanted = |name: &str| what.is_none_or(|w| w == name);
+        let title = |toml: &'static str| toml.lines().find_map(|line| line.strip_prefix("name = ")).unwrap_or_default();
+        let shipped = SHIPPED_CASES.iter().map(|(name, toml)| NamedText { name, title: title(toml).trim_matches('"') });
+        let studies = STUDIES.iter().map(|(name, title, _)| NamedText { name, title });
+        let cases = || Cases { shipped: shipped.collect(), studies: studies.collect(), generators: GENERATORS };
+        Lists {
+            actuators: wanted("actuators").then_some(ACTUATORS),
+            effects: wanted("effects").then_some(EFFECTS),
+            datasets: wanted("datasets").then(data::sets),
+            cases: wanted("cases").then(cases),
         }
-        text.push_str(&format!("    valid: {}; to check: {}; source: {}\n", e.validity, e.remedy, e.reference));
     }
-    let value = EFFECTS.iter().map(|e| {
-        let parameters: Vec<Value> = e
-            .parameters
-            .iter()
-            .map(|p| json!({"key": p.key, "symbol": p.symbol, "unit": p.unit, "neutral": p.neutral, "typical": p.typical, "lower": p.lower, "upper": p.upper, "starts": p.starts, "meaning": p.meaning}))
-            .collect();
-        json!({"name": e.name, "stage": e.stage.word(), "group": e.group.word(), "history": e.history, "differs": e.differs, "sentence": e.sentence, "formula": e.formula, "remedy": e.remedy, "validity": e.validity, "reference": e.reference, "parameters": parameters})
-    });
-    (text, value.collect())
+
+    /// For readers.
+    pub fn text(&self) -> String {
+        let mut out = String::new();
+        if let Some(all) = self.actuators {
+            out += "ACTUATORS\n";
+            for Actuator { name, title, sentence, formula, validity, reference, .. } in all {
+                let lines =
+                    [title, sentence, formula, validity, &format!("source: {reference}")[..]].join("\n         ");
+                out += &format!("  {name:<6} {lines}\n");
+            }
+        }
+        if let Some(all) = self.effects {
+            out += "EFFECTS\n";
+            all.iter().for_each(|effect| out += &effect_text(effect));
+        }
+        if let Some(all) = &self.datasets {
+            out += "DATASETS\n";
+            for set in all {
+                let SetInfo { name, title, provenance, source, licence, .. } = set;
+                let (provenance, kind) = (provenance.word(), kind(set));
+                out += &format!("  {name:<28} {title} ({provenance}, {kind})\n    {source}; licence {licence}\n");
+            }
+        }
+        if let Some(cases) = &self.cases {
+            out += "CASES (ibr simulate; ibr new prints them)\n";
+            cases.shipped.iter().for_each(|c| out += &format!("  {:<16} {}\n", c.name, c.title));
+            out += "  robots in finite elements, in addition to the four of ibr list actuators\n";
+            cases.studies.iter().for_each(|s| out += &format!("    {:<14} {}\n", s.name, s.title));
+            out += "  meshes for cases of your own, [mesh] generator = …\n";
+            for g in cases.generators {
+                let keys = g.keys.iter().map(|k| k.key).collect::<Vec<_>>().join(", ");
+                out += &format!("    {:<14} {}\n                   {keys}\n", g.name, g.sentence);
+            }
+        }
+        out
+    }
 }
 
-/// As text, and for programs.
-pub fn datasets() -> (String, Value) {
-    let sets = data::sets();
-    let mut text = String::from("DATASETS\n");
-    for s in &sets {
-        let table = data::bench::KINDS.iter().find(|k| s.files.contains(&format!("{}.csv", k.name))).map(|k| k.name);
-        let coupons = s.files.iter().any(|f| f.starts_with("coupon_")).then_some("tensile tests");
-        let markers = s.has_markers().then_some("markers");
-        let kind = markers.or(table).or(coupons).unwrap_or("published numbers");
-        text.push_str(&format!(
-            "  {:<28} {} ({}, {kind})\n    {}; licence {}\n",
-            s.name,
-            s.title,
-            s.provenance.word(),
-            s.source,
-            s.licence
-        ));
+fn effect_text(effect: &Effect) -> String {
+    let Effect { name, stage, sentence, formula, differs, validity, remedy, reference, .. } = effect;
+    let mut out = format!("  {name:<18} [{}] {sentence}\n    {formula}\n    in data: {differs}\n", stage.word());
+    for p in effect.parameters {
+        let typical = with_unit(&p.typical.to_string(), p.unit);
+        let range = format!("typical {typical}, {} to {}, no effect at {}", p.lower, p.upper, p.neutral);
+        out += &format!("    {} ({}): {}; {range}\n", p.key, p.symbol, p.meaning);
     }
-    let value = sets.iter().map(|s| {
-        json!({"name": s.name, "title": s.title, "provenance": s.provenance.word(), "source": s.source, "licence": s.licence, "files": s.files})
-    });
-    (text, value.collect())
+    out + &format!("    valid: {validity}; to check: {remedy}; source: {reference}\n")
 }
 
-/// As text, and for programs.
-pub fn cases() -> (String, Value) {
-    let mut text = String::from("CASES (ibr simulate; ibr new prints them)\n");
-    let mut shipped = Vec::new();
-    for (name, toml) in SHIPPED_CASES {
-        let title = toml.lines().find_map(|line| line.strip_prefix("name = ")).unwrap_or_default().trim_matches('"');
-        text.push_str(&format!("  {name:<16} {title}\n"));
-        shipped.push(json!({"name": name, "title": title}));
-    }
-    text.push_str("  robots in finite elements, beside the four of ibr list actuators\n");
-    let mut studies = Vec::new();
-    for (name, about, _) in STUDIES {
-        text.push_str(&format!("    {name:<14} {about}\n"));
-        studies.push(json!({"name": name, "title": about}));
-    }
-    text.push_str("  meshes for cases of your own, [mesh] generator = …\n");
-    for g in GENERATORS {
-        let keys = g.keys.iter().map(|k| k.key).collect::<Vec<_>>().join(", ");
-        text.push_str(&format!("    {:<14} {}\n                   {keys}\n", g.name, g.sentence));
-    }
-    let generators: Vec<Value> = GENERATORS
-        .iter()
-        .map(|g| {
-            let keys: Vec<Value> =
-                g.keys.iter().map(|k| json!({"key": k.key, "default": k.default, "meaning": k.meaning})).collect();
-            json!({"name": g.name, "sentence": g.sentence, "keys": keys})
-        })
-        .collect();
-    (text, json!({"shipped": shipped, "studies": studies, "generators": generators}))
+/// What a set holds.
+fn kind(set: &SetInfo) -> &'static str {
+    let table = data::bench::KINDS.iter().find(|k| set.files.contains(&format!("{}.csv", k.name))).map(|k| k.name);
+    let coupons = set.files.iter().any(|f| f.starts_with("coupon_")).then_some("tensile tests");
+    set.has_markers().then_some("markers").or(table).or(coupons).unwrap_or("published numbers")
 }

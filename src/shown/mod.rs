@@ -26,3 +26,11 @@ pub mod run_robot;
 pub mod several_runs;
 pub mod swept;
 pub mod validation;
+
+use fem::record::RecordShape;
+use serde::Serialize;
+
+/// An answer as JSON of a shape in its first version.
+pub fn as_json(schema: &'static str, body: &impl Serialize) -> serde_json::Value {
+    RecordShape { schema, version: 1 }.stamped(body)
+}

@@ -1,9 +1,9 @@
-//! What became of a wanted place of the tip.
+//! What became of a target place of the tip.
 
 use models::{End, Steered};
-use serde_json::{Value, json};
+use serde::Serialize;
 
-/// A tip that is nearer than this is where it is wanted \[m\].
+/// A tip that is nearer than this is on target \[m\].
 const MET_M: f64 = 1e-6;
 
 /// What keeps the tip away, channel by channel.
@@ -17,11 +17,37 @@ fn held(found: &Steered) -> impl Iterator<Item = (usize, &'static str, f64)> + '
     })
 }
 
-/// As JSON.
-pub fn nearest_json(place_m: [f64; 2], found: &Steered) -> Value {
-    let held: Vec<Value> =
-        held(found).map(|(channel, limit, kpa)| json!({"channel": channel, "limit": limit, "p_kpa": kpa})).collect();
-    json!({"x_mm": place_m[0] * 1e3, "y_mm": place_m[1] * 1e3, "miss_mm": found.miss_m * 1e3, "held_back": held})
+/// What became of the target place of the tip.
+#[derive(Serialize)]
+pub struct NearestPlace {
+    /// Target
+    pub x_mm: f64,
+    /// Target
+    pub y_mm: f64,
+    /// Distance of the tip from the place
+    pub miss_mm: f64,
+    /// Channels whose limit keeps the tip away
+    pub held_back: Vec<ChannelLimit>,
+}
+
+/// A channel at a limit.
+#[derive(Serialize)]
+pub struct ChannelLimit {
+    /// Supply channel
+    pub channel: usize,
+    /// `least` or `largest`
+    pub limit: &'static str,
+    /// Its pressure
+    pub p_kpa: f64,
+}
+
+impl NearestPlace {
+    /// Of a place \[m\].
+    pub fn of(place_m: [f64; 2], found: &Steered) -> NearestPlace {
+        let [x_mm, y_mm] = place_m.map(|m| m * 1e3);
+        let held_back = held(found).map(|(channel, limit, p_kpa)| ChannelLimit { channel, limit, p_kpa }).collect();
+        NearestPlace { x_mm, y_mm, miss_mm: found.miss_m * 1e3, held_back }
+    }
 }
 
 /// A warning where it is not reached.

@@ -1,9 +1,17 @@
-//! What one displacement can tell.
+//! What one displacement can show.
 
-use crate::tables::{number, table};
+use crate::tables::Table;
 use compare::diagnosis::words::{three, with_unit};
-use compare::study::one_number::{Explanation, OneNumber};
+use compare::study::one_number::OneNumber;
 use data::published::printed;
+use serde::Serialize;
+
+/// `ibr.one_number`: `ibr diagnose SCENARIO --published`
+#[derive(Serialize)]
+pub struct OneNumberAnswer<'a> {
+    /// What was found
+    pub result: &'a OneNumber,
+}
 
 /// For readers.
 pub fn text(one: &OneNumber) -> String {
@@ -15,18 +23,14 @@ pub fn text(one: &OneNumber) -> String {
         one.p_act_kpa[top],
         one.measured_mm
     );
-    let mut head = vec!["effect".to_string(), "value".into(), "times typical".into()];
-    head.extend(one.p_act_kpa.iter().map(|p| format!("mm at {p:.0} kPa")));
-    let row = |e: &Explanation| {
-        let mut cells = vec![
-            e.effect.clone(),
-            format!("{} = {}", e.key, with_unit(&three(e.value), &e.unit)),
-            number(e.times_typical, 2),
-        ];
-        cells.extend(e.y_mm.iter().map(|y| format!("{y:.1}")));
-        cells
-    };
-    out.push_str(&table(&head, 2, one.met_by.iter().map(row).collect()));
+    let mut met = Table::of(&one.met_by)
+        .words("effect", |e| &e.effect)
+        .words("value", |e| format!("{} = {}", e.key, with_unit(&three(e.value), &e.unit)))
+        .number("times typical", 2, |e| e.times_typical);
+    for (k, p) in one.p_act_kpa.iter().enumerate() {
+        met = met.number(format!("mm at {p:.0} kPa"), 1, |e| e.y_mm.get(k).copied());
+    }
+    out += &met.text();
     out.push_str("Each value is calibrated on that one number: meeting it is evidence for none of them.\n");
     out.push_str(&told(one));
     if !one.not_met_by.is_empty() {

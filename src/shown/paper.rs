@@ -1,64 +1,69 @@
 //! The paper's finite elements in words.
 
-use crate::tables::table;
+use crate::tables::Table;
 use compare::study::paper::{FactRow, HeightRow, PaperRun, mesh_name};
+use serde::Serialize;
+
+/// `ibr.paper`: `ibr compare --paper`
+#[derive(Serialize)]
+pub struct PaperAnswer<'a> {
+    /// Runs
+    pub runs: usize,
+    /// Heights of markers against its figures
+    pub heights: &'a [HeightRow],
+    /// What the paper prints, fact by fact
+    pub facts: &'a [FactRow],
+}
 
 /// Heights, facts and numerics.
 pub fn text(against: &[HeightRow], rows: &[FactRow], runs: &[PaperRun]) -> String {
     let mut out = format!(
-        "The paper's finite elements, reproduced: {} runs of [fem] model = \"paper\", nothing calibrated.\n\n",
+        "The paper's finite elements, reproduced: {} runs of [fem] model = \"paper\", nothing calibrated.\n\n{READING}",
         runs.len()
     );
-    out.push_str(
-        "Height of the outermost marker [mm] beside what the paper's accuracy a implies: e = √(1 − a) is the rms of\n",
-    );
-    out.push_str("(y_FEA − y_EXP)/y_FEA over six markers. Assumed in reading it: the error is alike along the robot, its sign is\n");
-    out.push_str("unknown; then y_FEA = y_EXP/(1 + e), the low branch, or y_EXP/(1 − e), the high one. y_EXP is printed at 30 kPa\n");
-    out.push_str("only; it is nowhere more than there. A height within a tenth of a branch holds.\n");
-    let head = ["robot", "kPa", "mesh", "e %", "low", "high", "at most", "engine", "tip", "verdict"];
-    out.push_str(&left_last(&head, against.iter().map(height_cells).collect()));
-    out.push_str("\nHeights of the six markers [mm], base first; the paper draws them and prints none\n");
-    let most = against.iter().map(|a| a.markers_mm.len()).max().unwrap_or(0);
-    let mut head: Vec<String> = ["robot", "kPa", "mesh"].map(String::from).to_vec();
-    head.extend((1..=most).map(|k| format!("marker {k}")));
-    out.push_str(&table(&head, 3, against.iter().map(marker_cells).collect()));
-    out.push_str("\nEvery sentence of the paper with something to check\n");
-    let facts = rows.iter().map(|r| vec![r.says.clone(), r.place.clone(), r.found.clone(), r.verdict.words()]);
-    out.push_str(&table(&["the paper says", "in", "engine, or the paper elsewhere", "verdict"], 4, facts.collect()));
+    let branch = |a: &HeightRow, k: usize| a.implied.branches_mm.map(|b| b[k]);
+    let most = against.iter().map(|a| a.verdict.chars().count()).max().unwrap_or(0);
+    out += &place(against)
+        .number("e %", 0, |a| 100.0 * a.implied.error)
+        .number("low", 0, |a| branch(a, 0))
+        .number("high", 0, |a| branch(a, 1))
+        .number("at most", 0, |a| a.implied.at_most_mm)
+        .number("engine", 1, |a| a.outermost_mm())
+        .number("tip", 1, |a| a.tip_mm)
+        // Words of one width are flush left below a head that is flush right.
+        .right("verdict", |a| format!("{:<most$}", a.verdict))
+        .text();
+    out += "\nHeights of the six markers [mm], base first; the paper draws them and prints none\n";
+    let mut markers = place(against);
+    for k in 0..against.iter().map(|a| a.markers_mm.len()).max().unwrap_or(0) {
+        markers = markers
+            .right(format!("marker {}", k + 1), |a| a.markers_mm.get(k).map_or(String::new(), |mm| format!("{mm:.1}")));
+    }
+    out += &markers.text();
+    out += "\nEvery sentence of the paper with something to check\n";
+    out += &Table::of(rows)
+        .words("the paper says", |r| &r.says)
+        .words("in", |r| &r.place)
+        .words("engine, or the paper elsewhere", |r| &r.found)
+        .words("verdict", |r| r.verdict.words())
+        .text();
     out + &counted(rows) + &numerics(runs)
 }
 
-/// A table whose last column is words.
-fn left_last(head: &[&str], rows: Vec<Vec<String>>) -> String {
-    // A right-flushed column of words is padded to one width, which makes it flush left.
-    let most = rows.iter().filter_map(|r| r.last()).map(|w| w.chars().count()).max().unwrap_or(0);
-    let padded = rows.into_iter().map(|mut row| {
-        row.iter_mut().last().into_iter().for_each(|w| *w = format!("{w:<most$}"));
-        row
-    });
-    table(head, 3, padded.collect())
-}
+/// How the paper's accuracy is read.
+const READING: &str = "\
+Height of the outermost marker [mm] beside what the paper's accuracy a implies: e = √(1 − a) is the rms of
+(y_FEA − y_EXP)/y_FEA over six markers. Assumed in reading it: the error is alike along the robot, its sign is
+unknown; then y_FEA = y_EXP/(1 + e), the low branch, or y_EXP/(1 − e), the high one. y_EXP is printed at 30 kPa
+only; it is nowhere more than there. A height within a tenth of a branch holds.
+";
 
-fn height_cells(a: &HeightRow) -> Vec<String> {
-    let branch = |k: usize| a.implied.branches_mm.map_or("–".into(), |b| format!("{:.0}", b[k]));
-    vec![
-        a.robot.clone(),
-        format!("{:.0}", a.actuator_kpa),
-        mesh_name(a.mesh_mm),
-        format!("{:.0}", 100.0 * a.implied.error),
-        branch(0),
-        branch(1),
-        format!("{:.0}", a.implied.at_most_mm),
-        format!("{:.1}", a.outermost_mm()),
-        format!("{:.1}", a.tip_mm),
-        a.verdict.clone(),
-    ]
-}
-
-fn marker_cells(a: &HeightRow) -> Vec<String> {
-    let mut cells = vec![a.robot.clone(), format!("{:.0}", a.actuator_kpa), mesh_name(a.mesh_mm)];
-    cells.extend(a.markers_mm.iter().map(|mm| format!("{mm:.1}")));
-    cells
+/// Robot, pressure and mesh.
+fn place(against: &[HeightRow]) -> Table<&HeightRow> {
+    Table::of(against)
+        .words("robot", |a| &a.robot)
+        .words("kPa", |a| format!("{:.0}", a.actuator_kpa))
+        .words("mesh", |a| mesh_name(a.mesh_mm))
 }
 
 /// How many facts hold, miss, contradict each other or cannot be checked.

@@ -1,40 +1,50 @@
 //! Cutting plans.
 
-use crate::tables::table;
+use crate::tables::{Table, lines};
 use models::cutting::{CuttingPlan, Making, PatternPiece};
-use serde_json::{Value, json};
+use serde::Serialize;
 
-/// For readers.
-pub fn words(plan: &CuttingPlan, told: &[String], names: &[String]) -> String {
-    let rows = plan.pieces.iter().map(|p| {
-        let size = [p.x_m, p.y_m].map(|[a, b]| format!("{:.1}", 1e3 * (b - a)));
-        let [x, y] = size;
-        vec![p.name.clone(), p.copies.to_string(), p.fabric.into(), format!("{:.0}", p.warp_rad.to_degrees()), x, y]
-    });
-    let head = ["piece", "copies", "fabric", "warp [deg]", "along [mm]", "across [mm]"];
-    let mut out = table(&head, 1, rows.collect());
-    told.iter().for_each(|line| out.push_str(&format!("{line}\n")));
-    out.push_str(&format!("\n1:1, written: {}\n", names.join(", ")));
-    out
+/// `ibr.pattern`: `ibr pattern SCENARIO`
+#[derive(Serialize)]
+pub struct PatternAnswer<'a> {
+    /// Scenario as typed
+    pub scenario: &'a str,
+    /// Width of the welds
+    pub weld_mm: f64,
+    /// Fabric beyond welds and ends
+    pub allowance_mm: f64,
+    /// Pieces to cut
+    pub pieces: &'a [PatternPiece],
+    /// What the plan leaves to its reader
+    pub notes: &'a [String],
+    /// Files
+    pub written: &'a [String],
 }
 
-/// For programs.
-pub fn to_json(scenario: &str, plan: &CuttingPlan, making: &Making, told: &[String], names: &[String]) -> Value {
-    let mm = |v: [f64; 2]| v.map(|m| 1e3 * m);
-    let piece = |p: &PatternPiece| {
-        let marks: Vec<Value> = p
-            .marks
-            .iter()
-            .map(|m| json!({"kind": format!("{:?}", m.kind).to_lowercase(), "x_mm": mm(m.x_m), "y_mm": mm(m.y_m)}))
-            .collect();
-        json!({
-            "name": p.name, "copies": p.copies, "fabric": p.fabric, "warp_deg": p.warp_rad.to_degrees(),
-            "x_mm": mm(p.x_m), "y_mm": mm(p.y_m), "marks": marks,
-        })
-    };
-    json!({
-        "schema": "ibr.pattern", "version": 1, "scenario": scenario,
-        "weld_mm": 1e3 * making.weld_m, "allowance_mm": 1e3 * making.allowance_m,
-        "pieces": plan.pieces.iter().map(piece).collect::<Vec<_>>(), "notes": told, "written": names,
-    })
+impl<'a> PatternAnswer<'a> {
+    /// Of a plan, its notes and the files that were written.
+    pub fn of(
+        scenario: &'a str,
+        plan: &'a CuttingPlan,
+        making: &Making,
+        notes: &'a [String],
+        written: &'a [String],
+    ) -> PatternAnswer<'a> {
+        let (weld_mm, allowance_mm) = (1e3 * making.weld_m, 1e3 * making.allowance_m);
+        PatternAnswer { scenario, weld_mm, allowance_mm, pieces: &plan.pieces, notes, written }
+    }
+
+    /// For readers.
+    pub fn text(&self) -> String {
+        let size = |[a, b]: [f64; 2]| 1e3 * (b - a);
+        let pieces = Table::of(self.pieces)
+            .words("piece", |p| &p.name)
+            .right("copies", |p| p.copies.to_string())
+            .right("fabric", |p| p.fabric)
+            .number("warp [deg]", 0, |p| p.warp_rad.to_degrees())
+            .number("along [mm]", 1, |p| size(p.x_m))
+            .number("across [mm]", 1, |p| size(p.y_m))
+            .text();
+        format!("{pieces}{}\n1:1, written: {}\n", lines("", self.notes), self.written.join(", "))
+    }
 }

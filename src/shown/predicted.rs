@@ -1,57 +1,48 @@
 //! Predicted states.
 
-use crate::tables::table;
+use super::nearest::NearestPlace;
+use crate::tables::Table;
+use crate::words::pressure_words;
 use ::sweep::PRESSURE;
-use data::{Column, Table};
+use data::Column;
 use ibr::AtPressure;
-use ibr::pages::pressure_words;
 use models::space::SectionState;
-use models::{Beyond, CHANNELS, Limit, Model, RowKind, Scenario};
-use serde_json::{Value, json};
+use models::{Beyond, CHANNELS, Limit, Model, Row, RowKind, Scenario, TipSlope};
+use serde::Serialize;
 
 /// For readers.
 pub fn text(scenario: &Scenario, states: &[AtPressure]) -> String {
     let is_spatial = scenario.is_spatial();
-    let mut head = vec!["P [kPa]", "tip x [mm]", "tip y [mm]", "angle [deg]", "dy/dP [mm/kPa]"];
-    if is_spatial {
-        head.insert(3, "tip z [mm]");
-    }
-    let rows = states.iter().map(|s| {
-        let tip = s.prediction.tip;
-        let mut row = vec![
-            pressure_words(&s.loads),
-            format!("{:.2}", tip.x_m * 1e3),
-            format!("{:.2}", tip.y_m * 1e3),
-            format!("{:.3}", tip.angle_rad.to_degrees()),
-            slope_words(total_slope(s) * 1e6),
-        ];
-        if is_spatial {
-            row.insert(3, format!("{:.2}", tip.z_m * 1e3));
-        }
-        row
-    });
+    let tip = |s: &AtPressure| s.prediction.tip;
+    let states = || states.iter();
     let mut out =
         format!("{} at body pressure {} kPa{}\n", scenario.name, scenario.p_body_pa / 1e3, wall_words(scenario));
-    out.push_str(&table(&head, 0, rows.collect()));
-    if !scenario.markers_m.is_empty() {
-        let axes = if is_spatial { "x, y, z" } else { "x, y" };
-        let mut head = vec!["marker at s [mm]".to_string()];
-        head.extend(states.iter().map(|s| format!("{} [mm] at {} kPa", axes, pressure_words(&s.loads))));
-        let rows = scenario.markers_m.iter().enumerate().map(|(i, s)| {
-            let place = |state: &AtPressure| {
-                let [x, y] = state.prediction.markers[i].map(|v| v * 1e3);
-                let z = state.prediction.markers_z_m[i] * 1e3;
-                if is_spatial { format!("{x:.2}, {y:.2}, {z:.2}") } else { format!("{x:.2}, {y:.2}") }
-            };
-            std::iter::once(format!("{:.1}", s * 1e3)).chain(states.iter().map(place)).collect()
-        });
-        out.push_str(&table(&head, 0, rows.collect()));
+    out += &Table::of(states())
+        .right("P [kPa]", |s| pressure_words(&s.loads))
+        .number("tip x [mm]", 2, |s| tip(s).x_m * 1e3)
+        .number("tip y [mm]", 2, |s| tip(s).y_m * 1e3)
+        .when(is_spatial, |table| table.number("tip z [mm]", 2, |s| tip(s).z_m * 1e3))
+        .number("angle [deg]", 3, |s| tip(s).angle_rad.to_degrees())
+        .right("dy/dP [mm/kPa]", |s| slope_words(total_slope(s) * 1e6))
+        .text();
+    if scenario.markers_m.is_empty() {
+        return out;
     }
-    out
+    let axes = if is_spatial { "x, y, z" } else { "x, y" };
+    let mut markers =
+        Table::of(scenario.markers_m.iter().enumerate()).number("marker at s [mm]", 1, |(_, s)| **s * 1e3);
+    for state in states() {
+        markers = markers.right(format!("{axes} [mm] at {} kPa", pressure_words(&state.loads)), |(i, _)| {
+            let [x, y] = state.prediction.markers[*i].map(|v| v * 1e3);
+            let z = state.prediction.markers_z_m[*i] * 1e3;
+            if is_spatial { format!("{x:.2}, {y:.2}, {z:.2}") } else { format!("{x:.2}, {y:.2}") }
+        });
+    }
+    out + &markers.text()
 }
 
 /// For other programs: a row per pressure, with columns named as those of a sweep.
-pub fn columns(scenario: &Scenario, states: &[AtPressure]) -> Table {
+pub fn columns(scenario: &Scenario, states: &[AtPressure]) -> data::Table {
     let axes = if scenario.is_spatial() { &["x", "y", "z"][..] } else { &["x", "y"] };
     let of = |value: &dyn Fn(&AtPressure) -> f64| Column::F64(states.iter().map(value).collect());
     let mut columns = Vec::new();
@@ -73,7 +64,7 @@ pub fn columns(scenario: &Scenario, states: &[AtPressure]) -> Table {
             columns.push((format!("marker_{}_{axis}_mm", m + 1), of(&place)));
         }
     }
-    Table { columns }
+    data::Table { columns }
 }
 
 /// A slope; none where a pouch is flat.
@@ -81,7 +72,7 @@ fn slope_words(mm_per_kpa: f64) -> String {
     if mm_per_kpa.is_nan() { "-".into() } else { format!("{mm_per_kpa:.3}") }
 }
 
-/// What the scenario says of the body's fabric.
+/// The body's fabric in the scenario.
 fn wall_words(scenario: &Scenario) -> String {
     let wall = &scenario.wall;
     let part = |name: &str, value: Option<f64>| value.map(|v| format!(", {name} {v:.0} N/m"));
@@ -95,71 +86,159 @@ fn total_slope(state: &AtPressure) -> f64 {
     state.slopes.iter().map(|s| s.y_per_pa).sum()
 }
 
-/// One state of `ibr.predict`.
-pub fn state_json(model: &Model, scenario: &Scenario, s: &AtPressure) -> Value {
-    let tip = s.prediction.tip;
-    let seen = scenario.markers_m.iter().zip(&s.prediction.markers);
-    let markers: Vec<Value> =
-        seen.map(|(at, xy)| json!({"s_mm": at * 1e3, "x_mm": xy[0] * 1e3, "y_mm": xy[1] * 1e3})).collect();
-    let segments: Vec<Value> = model
-        .curvatures(&s.prediction)
-        .map(|(segment, _)| json!({"s_mm": segment.start_m * 1e3, "length_mm": segment.length_m * 1e3}))
-        .collect();
-    let curvature: Vec<f64> = model.curvatures(&s.prediction).map(|(_, kappa)| kappa).collect();
-    let ledger: Vec<Value> = model
-        .ledger(&s.loads, &s.prediction)
-        .iter()
-        .map(|line| json!({"term": line.name, "kind": kind(line.kind), "energy_mj": line.energy_j * 1e3}))
-        .collect();
-    let channels: Vec<f64> = s.loads.actuator_pa.iter().map(|p| p / 1e3).collect();
-    let slopes: Vec<Value> = s
-        .slopes
-        .iter()
-        .map(|j| {
-            let angle = j.angle_per_pa.to_degrees() * 1e3;
-            json!({"x_mm_per_kpa": j.x_per_pa * 1e6, "y_mm_per_kpa": j.y_per_pa * 1e6, "angle_deg_per_kpa": angle})
-        })
-        .collect();
-    let (mut tip_json, mut markers) =
-        (json!({"x_mm": tip.x_m * 1e3, "y_mm": tip.y_m * 1e3, "angle_deg": tip.angle_rad.to_degrees()}), markers);
-    if model.is_spatial() {
-        tip_json["z_mm"] = json!(tip.z_m * 1e3);
-        for (marker, z) in markers.iter_mut().zip(&s.prediction.markers_z_m) {
-            marker["z_mm"] = json!(z * 1e3);
-        }
-    }
-    let beyond: Vec<Value> = model.beyond(&s.loads, &s.prediction).iter().map(beyond_json).collect();
-    let mut told = json!({
-        "p_act_kpa": channels[0], "p_act_channels_kpa": channels, "p_body_kpa": s.loads.body_pa / 1e3,
-        "markers": markers,
-        "tip": tip_json,
-        "curvature_per_m": curvature, "segments": segments, "jacobian": slopes, "ledger": ledger, "beyond": beyond,
-    });
-    if model.is_spatial() {
-        let sections: Vec<Value> = model.sections(&s.prediction).map(|section| section_json(&section)).collect();
-        told["sections"] = json!(sections);
-    }
-    told
+/// `ibr.predict`: `ibr predict SCENARIO`
+#[derive(Serialize)]
+pub struct PredictAnswer<'a> {
+    /// Scenario as typed
+    pub scenario: &'a str,
+    /// Name in the scenario
+    pub name: &'a str,
+    /// Actuator kind
+    pub actuator: &'a str,
+    /// Names of effects
+    pub effects: Vec<&'a str>,
+    /// One for each pressure
+    pub states: Vec<PredictedState>,
+    /// With `--inverse X,Y`: what became of the place
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nearest: Option<NearestPlace>,
+}
+
+/// A state at one pressure.
+#[derive(Serialize)]
+pub struct PredictedState {
+    /// Actuator pressure
+    pub p_act_kpa: f64,
+    /// Actuator pressure of every channel
+    pub p_act_channels_kpa: Vec<f64>,
+    /// Body pressure
+    pub p_body_kpa: f64,
+    /// Markers as the camera sees them
+    pub markers: Vec<PredictedMarker>,
+    /// Tip
+    pub tip: PredictedTip,
+    /// Curvature of every segment
+    pub curvature_per_m: Vec<f64>,
+    /// Segments
+    pub segments: Vec<SegmentAt>,
+    /// Change of the tip with the pressure of each channel
+    pub jacobian: Vec<TipSlope>,
+    /// Energies at equilibrium
+    pub ledger: Vec<PredictedEnergy>,
+    /// Stretches that the robot would not hold
+    pub beyond: Vec<Beyond>,
+    /// Bend and contraction of every segment, with strips round the body
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sections: Option<Vec<SpaceSection>>,
+}
+
+/// A marker as the camera sees it.
+#[derive(Serialize)]
+pub struct PredictedMarker {
+    /// Station along the body
+    pub s_mm: f64,
+    /// Along the straight robot
+    pub x_mm: f64,
+    /// Across it
+    pub y_mm: f64,
+    /// Towards azimuth 90°, with strips round the body
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z_mm: Option<f64>,
+}
+
+/// The tip.
+#[derive(Serialize)]
+pub struct PredictedTip {
+    /// Along the straight robot
+    pub x_mm: f64,
+    /// Across it
+    pub y_mm: f64,
+    /// Towards azimuth 90°, with strips round the body
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z_mm: Option<f64>,
+    /// Angle
+    pub angle_deg: f64,
+}
+
+/// Where a segment is.
+#[derive(Serialize)]
+pub struct SegmentAt {
+    /// Where it begins
+    pub s_mm: f64,
+    /// Length
+    pub length_mm: f64,
+}
+
+/// A line of the ledger.
+#[derive(Serialize)]
+pub struct PredictedEnergy {
+    /// Effect
+    pub term: String,
+    /// `stored`, `lost` or `supplied`
+    pub kind: &'static str,
+    /// Energy
+    pub energy_mj: f64,
 }
 
 /// A section of a robot with strips round the body.
-fn section_json(section: &SectionState) -> Value {
-    let tensions: Vec<f64> = section.strips.iter().map(|strip| strip.tension).collect();
-    json!({
-        "s_mm": section.segment.start_m * 1e3, "length_mm": section.segment.length_m * 1e3,
-        "curvature_yz_per_m": section.kappa, "contraction": section.contraction, "tension_n": tensions,
-    })
+#[derive(Serialize)]
+pub struct SpaceSection {
+    /// Where it is
+    #[serde(flatten)]
+    pub segment: SegmentAt,
+    /// Bend towards azimuth 0° and 90° of a frame that follows the body without twist
+    pub curvature_yz_per_m: [f64; 2],
+    /// Contraction of the axis
+    pub contraction: f64,
+    /// Tension along every strip
+    pub tension_n: Vec<f64>,
 }
 
-/// A stretch of a pose that the robot would not hold.
-fn beyond_json(beyond: &Beyond) -> Value {
-    let limit = match beyond.limit {
-        Limit::Collapse => "collapse",
-        Limit::Fold => "fold",
-    };
-    json!({
-        "limit": limit, "s_mm": beyond.start_m * 1e3, "length_mm": beyond.length_m * 1e3, "share": beyond.share,
-    })
+impl PredictedState {
+    /// As JSON.
+    pub fn json(&self) -> serde_json::Value {
+        // Keys are texts: nothing here can fail.
+        serde_json::to_value(self).unwrap_or_default()
+    }
+
+    /// Of a model and its scenario.
+    pub fn of(model: &Model, scenario: &Scenario, s: &AtPressure) -> PredictedState {
+        let (at, is_spatial) = (&s.prediction, model.is_spatial());
+        let segment = |start_m: f64, length_m: f64| SegmentAt { s_mm: start_m * 1e3, length_mm: length_m * 1e3 };
+        let z_mm = |z_m: f64| is_spatial.then_some(z_m * 1e3);
+        let marker = |(i, s_m): (usize, &f64)| {
+            let [x_mm, y_mm] = at.markers[i].map(|m| m * 1e3);
+            PredictedMarker { s_mm: s_m * 1e3, x_mm, y_mm, z_mm: at.markers_z_m.get(i).copied().and_then(z_mm) }
+        };
+        let energy =
+            |l: &Row| PredictedEnergy { term: l.name.to_string(), kind: kind(l.kind), energy_mj: l.energy_j * 1e3 };
+        let section = |section: SectionState| SpaceSection {
+            segment: segment(section.segment.start_m, section.segment.length_m),
+            curvature_yz_per_m: section.kappa,
+            contraction: section.contraction,
+            tension_n: section.strips.iter().map(|strip| strip.tension).collect(),
+        };
+        let (segments, curvature_per_m) =
+            model.curvatures(at).map(|(s, kappa)| (segment(s.start_m, s.length_m), kappa)).unzip();
+        PredictedState {
+            p_act_kpa: s.loads.actuator_pa[0] / 1e3,
+            p_act_channels_kpa: s.loads.actuator_pa.iter().map(|p| p / 1e3).collect(),
+            p_body_kpa: s.loads.body_pa / 1e3,
+            markers: scenario.markers_m.iter().enumerate().map(marker).collect(),
+            tip: PredictedTip {
+                x_mm: at.tip.x_m * 1e3,
+                y_mm: at.tip.y_m * 1e3,
+                z_mm: z_mm(at.tip.z_m),
+                angle_deg: at.tip.angle_rad.to_degrees(),
+            },
+            curvature_per_m,
+            segments,
+            jacobian: s.slopes.to_vec(),
+            ledger: model.ledger(&s.loads, at).iter().map(energy).collect(),
+            beyond: model.beyond(&s.loads, at),
+            sections: is_spatial.then(|| model.sections(at).map(section).collect()),
+        }
+    }
 }
 
 fn kind(kind: RowKind) -> &'static str {
@@ -187,7 +266,7 @@ pub fn beyond_words(model: &Model, state: &AtPressure) -> Vec<String> {
     model.beyond(&state.loads, &state.prediction).into_iter().map(words).collect()
 }
 
-/// A note if a pressure exceeds what the scenario says its actuator stands.
+/// A note if a pressure exceeds the scenario's largest.
 pub fn above_limit(scenario: &Scenario, states: &[AtPressure]) -> Option<String> {
     let highest = states.iter().flat_map(|s| s.loads.actuator_pa).fold(0.0, f64::max);
     let limit = scenario.p_max_pa;

@@ -1,8 +1,8 @@
 //! A run's summary in words, and what a user should know before believing it.
 
 use super::run_robot;
-use crate::tables::table;
-use fem::session::{ChamberEnd, Cost, MeshQuality, ProbeEnd, ReactionEnd, Rule, Summary};
+use crate::tables::{Table, lines};
+use fem::session::{Cost, MeshQuality, ProbeEnd, Rule, Summary};
 
 /// The physics of a run as text.
 pub fn text(s: &Summary) -> String {
@@ -24,40 +24,50 @@ pub fn text(s: &Summary) -> String {
             "element sides {min:.2} to {max:.2} mm, median {median:.2}; worst aspect {aspect:.1}, worst Jacobian ratio {jacobian_ratio:.2}\n"
         ));
     }
-    let probe =
-        |p: &ProbeEnd| std::iter::once(p.set.clone()).chain(p.displacement_mm.map(|d| format!("{d:+.3}"))).collect();
-    out.push_str(&section(&["probe", "dx mm", "dy mm", "dz mm"], 1, s.probes.iter().map(probe).collect()));
-    let chamber =
-        |c: &ChamberEnd| vec![c.name.clone(), format!("{:.3}", c.pressure_kpa), format!("{:.3}", c.volume_cm3)];
-    out.push_str(&section(&["chamber", "pressure kPa", "volume cm³"], 1, s.chambers.iter().map(chamber).collect()));
-    let force = |r: &ReactionEnd| {
-        let held = r.force_n.map(|n| n.map_or("–".into(), signed));
-        std::iter::once(r.set.clone()).chain(held).chain(r.moment_nm.map(signed)).collect()
-    };
-    let head = ["force of the support on", "x N", "y N", "z N", "about x N·m", "about y", "about z"];
-    out.push_str(&section(&head, 1, s.reactions.iter().map(force).collect()));
-    out.push_str(&s.robot.as_ref().map(run_robot::text).unwrap_or_default());
-    out.push_str(&section(&["energy", "", "J"], 2, ledger(s)));
-    out.push_str(&judgement(s));
-    out
+    let moved = |p: &ProbeEnd, k: usize| p.displacement_mm[k];
+    out += &below(
+        Table::of(&s.probes)
+            .words("probe", |p| &p.set)
+            .signed("dx mm", 3, |p| moved(p, 0))
+            .signed("dy mm", 3, |p| moved(p, 1))
+            .signed("dz mm", 3, |p| moved(p, 2)),
+    );
+    out += &below(
+        Table::of(&s.chambers).words("chamber", |c| &c.name).number("pressure kPa", 3, |c| c.pressure_kpa).number(
+            "volume cm³",
+            3,
+            |c| c.volume_cm3,
+        ),
+    );
+    let mut forces = Table::of(&s.reactions).words("force of the support on", |r| &r.set);
+    for (k, head) in ["x N", "y N", "z N"].into_iter().enumerate() {
+        forces = forces.right(head, |r| r.force_n[k].map_or("–".into(), signed));
+    }
+    for (k, head) in ["about x N·m", "about y", "about z"].into_iter().enumerate() {
+        forces = forces.right(head, |r| signed(r.moment_nm[k]));
+    }
+    out += &below(forces);
+    out += &s.robot.as_ref().map(run_robot::text).unwrap_or_default();
+    let ledger = s.ledger.iter().map(|r| (r.name.as_str(), r.kind.as_str(), r.energy_j));
+    let (first, last) = (("kinetic", "stored", s.kinetic_j), ("residual", "missing", s.residual_j));
+    out += &below(
+        Table::of(std::iter::once(first).chain(ledger).chain([last]))
+            .words("energy", |(name, ..)| *name)
+            .words("", |(_, kind, _)| *kind)
+            .number("J", 6, |(.., energy_j)| *energy_j),
+    );
+    out + &judgement(s)
+}
+
+/// A table after an empty line; nothing without rows.
+fn below<R>(table: Table<R>) -> String {
+    if table.is_empty() { String::new() } else { format!("\n{}", table.text()) }
 }
 
 /// With its sign, unless it is zero in these digits.
 fn signed(value: f64) -> String {
     let text = format!("{value:+.4}");
     if text.ends_with("0.0000") && value.abs() < 1.0 { "0".into() } else { text }
-}
-
-fn section(head: &[&str], left: usize, rows: Vec<Vec<String>>) -> String {
-    if rows.is_empty() { String::new() } else { format!("\n{}", table(head, left, rows)) }
-}
-
-fn ledger(s: &Summary) -> Vec<Vec<String>> {
-    let line = |name: &str, kind: &str, energy_j: f64| vec![name.into(), kind.into(), format!("{energy_j:.6}")];
-    let mut rows = vec![line("kinetic", "stored", s.kinetic_j)];
-    rows.extend(s.ledger.iter().map(|r| line(&r.name, &r.kind, r.energy_j)));
-    rows.push(line("residual", "missing", s.residual_j));
-    rows
 }
 
 fn judgement(s: &Summary) -> String {
@@ -86,7 +96,7 @@ fn judgement(s: &Summary) -> String {
     ));
     out.push_str(&rule("below 1 % of total energy (what the paper kept)", &k.below_1_pct_of_total));
     out.push_str(&format!("hourglass share of stored energy: {:.3} %\n", 100.0 * s.hourglass_share));
-    s.warnings().iter().for_each(|warning| out.push_str(&format!("warning: {warning}\n")));
+    out += &lines("warning: ", s.warnings());
     if s.changed_sides.as_ref().is_some_and(|changed| changed.first.is_none()) {
         out.push_str("nodes that came through a layer: none\n");
     }

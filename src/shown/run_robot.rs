@@ -1,6 +1,6 @@
 //! A robot's run in words.
 
-use crate::tables::table;
+use crate::tables::Table;
 use fem::robot::{Reading, Snap};
 use fem::session::RobotSummary;
 
@@ -10,37 +10,27 @@ const MM: f64 = 1e3;
 pub fn text(robot: &RobotSummary) -> String {
     let readings = &robot.readings;
     let Some(last) = readings.last() else { return String::new() };
-    let mut out = String::new();
-    if robot.is_spatial {
-        out.push_str("\nDisplacement of the sections [mm] along y and z; the turn is that of the tip's normal\n");
-    } else {
-        out.push_str(
-            "\nDisplacement towards the actuator [mm]: section at the station; at the tip also the mean of its ring\n",
-        );
-    }
-    let axes = if robot.is_spatial { &[("y", 1), ("z", 2)][..] } else { &[("", 1)] };
-    let mut head = vec!["actuator kPa".to_string()];
-    head.extend(robot.is_spatial.then(|| "along".to_string()));
-    head.extend(last.stations_m.iter().map(|s| format!("s = {:.0}", s * MM)));
-    head.extend(["tip ring", "tip x", "turn deg"].map(String::from));
-    head.extend((!robot.is_spatial).then_some(["tip z", "most z"]).into_iter().flatten().map(String::from));
-    let row = |r: &Reading, (name, axis): (&str, usize)| {
-        let mut row = vec![pressures(r)];
-        row.extend(robot.is_spatial.then(|| name.to_string()));
-        row.extend(r.moved_m.iter().map(|d| format!("{:.1}", d[axis] * MM)));
-        row.push(r.ring_moved_m.last().map_or("–".into(), |d| format!("{:.1}", d[axis] * MM)));
-        row.push(r.moved_m.last().map_or("–".into(), |d| format!("{:.1}", d[0] * MM)));
-        row.push(format!("{:.1}", r.tip_angle_rad.to_degrees()));
-        let aside = (!robot.is_spatial).then(|| r.out_of_plane_m().map(|m| format!("{:.1}", m * MM)));
-        row.extend(aside.into_iter().flatten());
-        row
+    let title = match robot.is_spatial {
+        true => "Displacement of the sections [mm] along y and z; the turn is that of the tip's normal",
+        false => "Displacement towards the actuator [mm]: section at the station; at the tip also the mean of its ring",
     };
-    let rows = readings.iter().flat_map(|r| axes.iter().map(|axis| row(r, *axis)));
-    out.push_str(&table(&head, 0, rows.collect()));
-    out.push('\n');
-    out.push_str(&state(readings));
-    out.push_str(&buckling(&robot.snaps));
-    out
+    let axes = if robot.is_spatial { &[("y", 1), ("z", 2)][..] } else { &[("", 1)] };
+    let rows = readings.iter().flat_map(|r| axes.iter().map(move |(name, axis)| (r, *name, *axis)));
+    let mut moved = Table::of(rows)
+        .right("actuator kPa", |(r, ..)| pressures(r))
+        .when(robot.is_spatial, |table| table.right("along", |(_, name, _)| *name));
+    for (k, s) in last.stations_m.iter().enumerate() {
+        moved = moved.number(format!("s = {:.0}", s * MM), 1, |(r, _, axis)| r.moved_m.get(k).map(|d| d[*axis] * MM));
+    }
+    let aside = |r: &Reading, k: usize| r.out_of_plane_m()[k] * MM;
+    let moved = moved
+        .number("tip ring", 1, |(r, _, axis)| r.ring_moved_m.last().map(|d| d[*axis] * MM))
+        .number("tip x", 1, |(r, ..)| r.moved_m.last().map(|d| d[0] * MM))
+        .number("turn deg", 1, |(r, ..)| r.tip_angle_rad.to_degrees())
+        .when(!robot.is_spatial, |table| {
+            table.number("tip z", 1, |(r, ..)| aside(r, 0)).number("most z", 1, |(r, ..)| aside(r, 1))
+        });
+    format!("{}\n{}{}", moved.under(title), state(readings), buckling(&robot.snaps))
 }
 
 /// Of all strips, or one number where they are alike \[kPa\].
@@ -51,44 +41,26 @@ fn pressures(r: &Reading) -> String {
 }
 
 fn state(readings: &[Reading]) -> String {
+    let at_rest = |r: &&Reading| match (r.is_at_rest, r.ahead_m) {
+        (true, _) => "yes".into(),
+        (false, Some(ahead_m)) => format!("no, {:.1} mm ahead", ahead_m * MM),
+        (false, None) => "not known".into(),
+    };
     let strength = readings.iter().any(|r| r.seam_share.is_some());
-    let mut head = vec![
-        "actuator kPa",
-        "body cm³",
-        "actuator cm³",
-        "von Mises MPa",
-        "in",
-        "at mm",
-        "weld N/m",
-        "in",
-        "at mm",
-        "kinetic %",
-        "at rest",
-    ];
-    head.extend(strength.then_some(["weld", "of its strength"]).into_iter().flatten());
-    let rows = readings.iter().map(|r| {
-        let mut row = vec![
-            pressures(r),
-            format!("{:.1}", r.body_m3 * 1e6),
-            format!("{:.1}", r.actuator_m3 * 1e6),
-            format!("{:.1}", r.von_mises_pa * 1e-6),
-            r.von_mises_part.clone(),
-            format!("{:.0}", r.von_mises_at_m * MM),
-            format!("{:.0}", r.seam_n_per_m),
-            r.seam_part.clone(),
-            format!("{:.0}", r.seam_at_m * MM),
-            format!("{:.2}", 100.0 * r.kinetic_share),
-            match (r.is_at_rest, r.ahead_m) {
-                (true, _) => "yes".into(),
-                (false, Some(ahead_m)) => format!("no, {:.1} mm ahead", ahead_m * MM),
-                (false, None) => "not known".into(),
-            },
-        ];
-        let share = r.seam_share.map(|share| [r.seam.clone(), format!("{share:.2}")]);
-        row.extend(share.into_iter().flatten());
-        row
-    });
-    table(&head, 0, rows.collect())
+    Table::of(readings)
+        .right("actuator kPa", |r| pressures(r))
+        .number("body cm³", 1, |r| r.body_m3 * 1e6)
+        .number("actuator cm³", 1, |r| r.actuator_m3 * 1e6)
+        .number("von Mises MPa", 1, |r| r.von_mises_pa * 1e-6)
+        .right("in", |r| &r.von_mises_part)
+        .number("at mm", 0, |r| r.von_mises_at_m * MM)
+        .number("weld N/m", 0, |r| r.seam_n_per_m)
+        .right("in", |r| &r.seam_part)
+        .number("at mm", 0, |r| r.seam_at_m * MM)
+        .number("kinetic %", 2, |r| 100.0 * r.kinetic_share)
+        .right("at rest", at_rest)
+        .when(strength, |t| t.right("weld", |r| &r.seam).number("of its strength", 2, |r| r.seam_share))
+        .text()
 }
 
 fn buckling(found: &[Snap]) -> String {
@@ -99,14 +71,11 @@ fn buckling(found: &[Snap]) -> String {
     largest.sort_by(|a, b| b.released_j.total_cmp(&a.released_j));
     let released_mj: f64 = found.iter().map(|s| s.released_j * 1e3).sum();
     let mut out = format!("\n{} buckling events, {released_mj:.0} mJ released in all; the largest:\n", found.len());
-    let rows = largest.iter().take(8).map(|s| {
-        vec![
-            format!("{:.3}", s.time_s),
-            format!("{:.0}", s.place_m * MM),
-            format!("{:.1}", s.released_j * 1e3),
-            format!("{:.1}", s.kinetic_j * 1e3),
-        ]
-    });
-    out.push_str(&table(&["time s", "at mm", "released mJ", "walls' kinetic peak mJ"], 0, rows.collect()));
+    out += &Table::of(largest.into_iter().take(8))
+        .number("time s", 3, |s| s.time_s)
+        .number("at mm", 0, |s| s.place_m * MM)
+        .number("released mJ", 1, |s| s.released_j * 1e3)
+        .number("walls' kinetic peak mJ", 1, |s| s.kinetic_j * 1e3)
+        .text();
     out
 }

@@ -1,10 +1,10 @@
 //! A sweep as text and JSON.
 
-use crate::tables::table as printed;
+use crate::tables::{Table as Rows, lines};
 use ::sweep::influence::{influences, pairs};
 use ::sweep::{Found, Study};
 use data::table::{Column, Table};
-use serde_json::{Value, json};
+use serde::Serialize;
 use std::path::Path;
 
 /// Failed cases by their reason, the most frequent first.
@@ -53,14 +53,11 @@ pub fn swept_text(study: &Study, found: &Found, table: &Table) -> String {
     );
     for engine in &study.engines {
         for (output, what) in study.heights() {
-            let rows: Vec<Vec<String>> = influences(study, table, *engine, output)
-                .iter()
-                .map(|i| vec![i.key.clone(), format!("{:.1}", i.range()[0]), format!("{:.1}", i.range()[1])])
-                .collect();
-            if !rows.is_empty() {
-                text += &format!("\nMean {what} over the values of each key, {}:\n", engine.word());
-                text += &printed(&["key", "lowest mm", "highest mm"], 1, rows);
-            }
+            text += &Rows::of(influences(study, table, *engine, output))
+                .words("key", |i| i.key.clone())
+                .number("lowest mm", 1, |i| i.range()[0])
+                .number("highest mm", 1, |i| i.range()[1])
+                .under(&format!("Mean {what} over the values of each key, {}:", engine.word()));
         }
     }
     study.heights().iter().for_each(|height| text += &agreement(table, *height));
@@ -69,18 +66,50 @@ pub fn swept_text(study: &Study, found: &Found, table: &Table) -> String {
     if count > 0 {
         text += &format!("\n{count} rows failed:\n");
     }
-    failed.iter().take(MOST_REASONS).for_each(|(why, n)| text += &format!("  - {n}: {why}\n"));
-    text
+    text + &lines("  - ", failed.iter().take(MOST_REASONS).map(|(why, n)| format!("{n}: {why}")))
 }
 
-/// The same for programs; without a table only a shard was made.
-pub fn swept_json(file: &Path, study: &Study, found: &Found, table: Option<&Table>) -> Value {
-    let failed = table.map_or(Vec::new(), failures);
-    json!({
-        "schema": "ibr.sweep", "version": 1, "study": file.display().to_string(), "scenario": study.base.name,
-        "cases": study.cases(sweep::Engine::Reduced), "engines": study.engines.iter().map(|engine| engine.word()).collect::<Vec<_>>(),
-        "parts": found.parts, "kept": found.kept, "missing": found.missing, "cpu_s": found.cpu_s,
-        "failed": failed.iter().map(|(reason, rows)| json!({"reason": reason, "rows": rows})).collect::<Vec<_>>(),
-        "columns": sweep::names(study),
-    })
+/// `ibr.sweep`: `ibr sweep STUDY`
+#[derive(Serialize)]
+pub struct SweepAnswer<'a> {
+    /// The study as typed
+    pub study: String,
+    /// The robot
+    pub scenario: &'a str,
+    /// Cases of the study
+    pub cases: usize,
+    /// What computes the cases
+    pub engines: Vec<&'static str>,
+    /// What was done
+    #[serde(flatten)]
+    pub found: &'a Found,
+    /// Rows without numbers, by their reason
+    pub failed: Vec<FailedRows>,
+    /// Columns of the table
+    pub columns: Vec<String>,
+}
+
+/// Rows without numbers for one reason.
+#[derive(Serialize)]
+pub struct FailedRows {
+    /// Why
+    pub reason: String,
+    /// How many
+    pub rows: usize,
+}
+
+impl<'a> SweepAnswer<'a> {
+    /// Of a study in a file; without a table only a shard was made.
+    pub fn of(file: &Path, study: &'a Study, found: &'a Found, table: Option<&Table>) -> SweepAnswer<'a> {
+        let failed = table.map_or(Vec::new(), failures).into_iter();
+        SweepAnswer {
+            study: file.display().to_string(),
+            scenario: &study.base.name,
+            cases: study.cases(sweep::Engine::Reduced),
+            engines: study.engines.iter().map(|engine| engine.word()).collect(),
+            found,
+            failed: failed.map(|(reason, rows)| FailedRows { reason, rows }).collect(),
+            columns: sweep::names(study),
+        }
+    }
 }

@@ -1,16 +1,37 @@
 //! A scenario with and without effects on other data.
 
-use crate::tables::{number, table};
+use crate::tables::Table;
 use compare::validation::{BeforeAfter, Validation};
-use serde_json::{Value, json};
+use serde::Serialize;
 
-/// `ibr.validate`
-pub fn to_json(file: &str, both: &BeforeAfter, found: &[Validation]) -> Value {
-    let bending = json!({"before": both.before.bending_stiffness, "after": both.after.bending_stiffness});
-    json!({
-        "schema": "ibr.validate", "version": 1, "scenario_file": file, "added": both.effects, "bending_nm2": bending,
-        "datasets": found,
-    })
+/// `ibr.validate`: `ibr validate SCENARIO DATA`
+#[derive(Serialize)]
+pub struct ValidateAnswer<'a> {
+    /// Scenario as typed
+    pub scenario_file: &'a str,
+    /// Effects that are judged
+    pub added: &'a [String],
+    /// Bending stiffness
+    pub bending_nm2: TwoStiffnesses,
+    /// One for each of the data
+    pub datasets: &'a [Validation],
+}
+
+/// A bending stiffness without and with effects.
+#[derive(Serialize)]
+pub struct TwoStiffnesses {
+    /// Without them
+    pub before: f64,
+    /// With the effects
+    pub after: f64,
+}
+
+impl<'a> ValidateAnswer<'a> {
+    /// Of a scenario, as typed, and what was found.
+    pub fn of(scenario_file: &'a str, both: &'a BeforeAfter, datasets: &'a [Validation]) -> ValidateAnswer<'a> {
+        let bending_nm2 = TwoStiffnesses { before: both.before.bending_stiffness, after: both.after.bending_stiffness };
+        ValidateAnswer { scenario_file, added: &both.effects, bending_nm2, datasets }
+    }
 }
 
 /// For readers.
@@ -22,15 +43,17 @@ pub fn text(file: &str, both: &BeforeAfter, found: &[Validation]) -> String {
         both.before.bending_stiffness
     );
     let levels = |l: &[f64]| l.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
-    let row = |v: &Validation| {
-        let words = [v.data.clone(), levels(&v.p_act_kpa), levels(&v.p_body_kpa), v.runs.to_string()];
-        let errors = [v.noise_floor_mm, Some(v.before.beyond_noise_mm), Some(v.after.beyond_noise_mm)];
-        let chi = [v.before.reduced_chi2, v.after.reduced_chi2];
-        [&words[..], &errors.map(|mm| number(mm, 2)), &chi.map(|c| number(c, 1))].concat()
-    };
-    let head =
-        ["data", "actuator kPa", "body kPa", "runs", "noise mm", "before mm", "after mm", "χ²/dof before", "after"];
-    out.push_str(&table(&head, 1, found.iter().map(row).collect()));
+    out += &Table::of(found)
+        .words("data", |v| &v.data)
+        .right("actuator kPa", |v| levels(&v.p_act_kpa))
+        .right("body kPa", |v| levels(&v.p_body_kpa))
+        .right("runs", |v| v.runs.to_string())
+        .number("noise mm", 2, |v| v.noise_floor_mm)
+        .number("before mm", 2, |v| v.before.beyond_noise_mm)
+        .number("after mm", 2, |v| v.after.beyond_noise_mm)
+        .number("χ²/dof before", 1, |v| v.before.reduced_chi2)
+        .number("after", 1, |v| v.after.reduced_chi2)
+        .text();
     for v in found {
         out.push_str(&format!("  - {}: {}.\n", v.data, v.sentence));
         if !v.geometry_of_data.is_empty() {

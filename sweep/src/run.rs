@@ -22,7 +22,7 @@ pub struct Settings {
 }
 
 /// What was done.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Found {
     /// Parts of this shard.
     pub parts: usize,

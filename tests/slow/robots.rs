@@ -32,7 +32,7 @@ fn simulate(folder: &Folder, more: &[&str]) -> Value {
 fn seeds_and_separate_pressures_are_runs_of_their_own_which_are_kept() {
     let _alone = alone();
     let folder = Folder::new();
-    let more = ["--pressure", "10kPa,15kPa", "--separate", "--seeds", "2", "--out", "batch"];
+    let more = ["--pressure", "10kPa,15kPa", "--set", "separate=true", "--seeds", "2", "--out", "batch"];
     let answer = simulate(&folder, &more);
     let runs = answer["runs"].as_array().unwrap();
     let labels: Vec<&str> = runs.iter().map(|r| r["run"].as_str().unwrap()).collect();
@@ -163,7 +163,7 @@ fn a_breakdown_is_drawn_from_runs_that_are_kept() {
 fn runs_of_shards_are_those_of_the_whole_and_the_last_shard_draws() {
     let _alone = alone();
     let (whole, parts) = (Folder::new(), Folder::new());
-    let more = ["--pressure", "10kPa,15kPa", "--separate", "--seeds", "2", "--out", "batch"];
+    let more = ["--pressure", "10kPa,15kPa", "--set", "separate=true", "--seeds", "2", "--out", "batch"];
     let expected = simulate(&whole, &more);
     let shard = |shard: &str| simulate(&parts, &[&more[..], &["--shard", shard]].concat());
     let first = shard("1/3");

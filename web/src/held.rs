@@ -8,8 +8,9 @@ use compare::{CompareError, Evidence};
 use data::Dataset;
 use ibr::compared::Compared;
 use ibr::pages::{Diagnosed, Files, PageError, compare_files, diagnosis_plots, measured};
+use ibr::shown::as_json;
 use ibr::shown::comparison::CompareAnswer;
-use ibr::shown::diagnosis::{to_json, verdict};
+use ibr::shown::diagnosis::{DiagnosisAnswer, verdict};
 use report::page::inline;
 use serde_json::{Map, Value, json};
 
@@ -20,7 +21,7 @@ use serde_json::{Map, Value, json};
 pub fn compared(robot: &Robot, data: &Measured) -> Result<Value, CompareError> {
     let (file, evidence) = (robot.planar()?, data.evidence()?);
     let Compared { found, added } = Compared::of(&file, &evidence, &[], None, None)?;
-    let mut told = CompareAnswer { scenario: &file.name, found: &found, added: added.as_ref() }.json();
+    let mut told = as_json("ibr.compare", &CompareAnswer::of(&file.name, &found, added.as_ref()));
     told["error_mm"] = json!(found.error_mm());
     told["measured_m"] = means(&found.dataset);
     told["pictures"] = pictures(compare_files(&found))?;
@@ -34,7 +35,7 @@ pub fn compared(robot: &Robot, data: &Measured) -> Result<Value, CompareError> {
 pub fn diagnosed(robot: &Robot, data: &Measured) -> Result<Value, CompareError> {
     let (file, evidence) = (robot.planar()?, data.evidence()?);
     let d = diagnose(&file, std::slice::from_ref(&evidence), &Options::default(), &mut |_, _| ())?;
-    let mut told = to_json(&d, None, &file.name);
+    let mut told = as_json("ibr.diagnose", &DiagnosisAnswer::of(&d, None, &file.name));
     told["verdict_words"] = json!(verdict(&d));
     let level = d.level(1e-3 * file.p_body_pa);
     told["candidates"] = d.answers().iter().filter(|a| a.helps()).map(|a| candidate(&d, a, level)).collect();

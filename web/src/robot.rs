@@ -2,7 +2,7 @@
 
 use crate::seen::views;
 use compare::{CompareError, ScenarioFile};
-use ibr::shown::predicted::{above_limit, beyond_words, state_json};
+use ibr::shown::predicted::{PredictedState, above_limit, beyond_words};
 use ibr::studies::{IN_SPACE, scenario_in_space};
 use ibr::{AtPressure, Predictor};
 use models::effects::{Effect, Parameter};
@@ -126,7 +126,7 @@ fn units(scenario: &Scenario) -> Value {
 
 /// A state as `ibr predict --json` tells it, with what is drawn \[m\].
 fn drawn(of: &Predictor, state: &AtPressure, with_units: bool) -> Value {
-    let mut told = state_json(of.model(), of.scenario(), state);
+    let mut told = PredictedState::of(of.model(), of.scenario(), state).json();
     match views(of, state, STATIONS, with_units) {
         Some(views) => told["views"] = views,
         None => told["sides"] = json!(of.model().outline(&state.prediction, STATIONS)),

@@ -81,7 +81,7 @@ fn robots_with_strips_round_the_body_are_the_library_s() {
         let pa: Vec<f64> = kpa.iter().map(|p| 1e3 * p).collect();
         let own = ibr::Predictor::new(&ibr::studies::scenario_in_space(name).unwrap());
         let state = own.state(&own.loads(None, &pa).unwrap()).unwrap();
-        let wanted = ibr::shown::predicted::state_json(own.model(), own.scenario(), &state);
+        let wanted = ibr::shown::predicted::PredictedState::of(own.model(), own.scenario(), &state).json();
         assert!(wanted["tip"]["z_mm"].as_f64().unwrap().abs() > 1.0 && wanted["sections"].is_array());
         same(&wanted, &found, 1e-12);
         // The edges of both sides end around the tip.

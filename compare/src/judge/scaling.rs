@@ -55,9 +55,11 @@ pub struct ScalingPair {
 /// The result of the scaling-law check.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScalingCheck {
+    /// What follows.
     pub verdict: ScalingVerdict,
     /// In words, with what to measure if it cannot be checked.
     pub sentence: String,
+    /// The pairs that were compared.
     pub pairs: Vec<ScalingPair>,
 }
 

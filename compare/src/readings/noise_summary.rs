@@ -9,8 +9,11 @@ use serde::Serialize;
 /// What a reader needs to know about the noise of a dataset.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NoiseSummary {
+    /// How well it is known.
     pub status: NoiseStatus,
+    /// Runs.
     pub runs: usize,
+    /// Sessions.
     pub sessions: usize,
     /// Camera noise of one coordinate \[mm\].
     pub camera_mm: Option<f64>,

@@ -17,7 +17,7 @@ use toml::{Spanned, Value};
 pub(crate) type ReadMesh<'a> = &'a mut dyn FnMut(&Path) -> Result<MeshFile, FemError>;
 
 /// A generator of meshes as cases name it.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, serde::Serialize)]
 pub struct MeshGenerator {
     /// Name in `[mesh] generator`.
     pub name: &'static str,
@@ -25,18 +25,20 @@ pub struct MeshGenerator {
     pub sentence: &'static str,
     /// Its keys.
     pub keys: &'static [GeneratorKey],
+    #[serde(skip)]
     make: fn(&[f64]) -> Result<Mesh, FemError>,
 }
 
 /// A value of a generator.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, serde::Serialize)]
 pub struct GeneratorKey {
     /// Key, with the unit as suffix.
     pub key: &'static str,
-    /// Value if it is left out, as typed; `None`: it must be given.
+    /// Value if it is left out, as typed; null: it must be given.
     pub default: Option<f64>,
     /// What it is.
     pub meaning: &'static str,
+    #[serde(skip)]
     kind: Kind,
 }
 

@@ -13,7 +13,7 @@ pub enum Family {
 }
 
 /// An actuator kind. Plain data: formulas as text for `ibr list`, laws as functions.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, serde::Serialize)]
 pub struct Actuator {
     /// Name in scenarios and data: `spam`, `cpam`, `epam`, `fpam`.
     pub name: &'static str,
@@ -28,22 +28,30 @@ pub struct Actuator {
     /// When the law holds and when not to use it.
     pub validity: &'static str,
     /// Contraction mechanism; decides which effects apply.
+    #[serde(skip)]
     pub family: Family,
     /// Contraction, volume and lift at a coordinate.
+    #[serde(skip)]
     pub stroke: fn(&ActuatorShape, f64) -> Stroke,
     /// Coordinate interval in which equilibrium is sought.
+    #[serde(skip)]
     pub range: (f64, f64),
     /// Coordinate at which the actuator meets a demand, to rounding, and the slope there of the weighted imbalance over
     /// P·area·D₀.
+    #[serde(skip)]
     pub guess: fn(&ActuatorShape, &Demand) -> (f64, f64),
     /// Area A so that P·A is a typical actuator force \[m²\].
+    #[serde(skip)]
     pub area: fn(&ActuatorShape) -> f64,
     /// Arm from the taut generator to the line of action at rest \[m\], from body radius and shape; used if the
     /// scenario gives none.
+    #[serde(skip)]
     pub arm: fn(f64, &ActuatorShape) -> f64,
     /// Share of the sealed-edge loss that the edges of this actuator suffer: 1 for sealed edges, 0 for free ones.
+    #[serde(skip)]
     pub edge_restraint: fn(&ActuatorShape) -> f64,
     /// How it is cut, folded, welded and joined to the body.
+    #[serde(skip)]
     pub pattern: fn(&ActuatorShape) -> Pattern,
 }
 

@@ -7,7 +7,8 @@ pub(super) use crate::site::{Besides, Site};
 pub(super) use crate::term::{Account, LedgerLine, Memory, Pose, Remembering, Term, actuator_q};
 
 /// Where in a prediction an effect acts; stages always run in this order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Stage {
     /// Set pressure → pressure in the actuator.
     Supply,
@@ -63,7 +64,7 @@ impl Group {
 }
 
 /// One parameter of an effect. Values are in `unit` in scenarios and tables, in SI (`value × si`) inside.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Parameter<'a> {
     /// Key in the scenario, with the unit as suffix.
     pub key: &'a str,
@@ -72,6 +73,7 @@ pub struct Parameter<'a> {
     /// Unit of the scenario value.
     pub unit: &'a str,
     /// Factor to SI.
+    #[serde(skip)]
     pub si: f64,
     /// Value at which the effect vanishes.
     pub neutral: f64,
@@ -82,14 +84,18 @@ pub struct Parameter<'a> {
     /// Largest value of that kind.
     pub upper: f64,
     /// Physically possible values: a separate test may find that much.
+    #[serde(skip)]
     pub possible: [f64; 2],
     /// Where a fit starts if one start is not enough: thresholds and time scales; empty: at the typical size.
     pub starts: &'a [f64],
     /// Typical size for single actuators, where it depends on their curvature and stiffness.
+    #[serde(skip)]
     pub by_actuator: &'a [(&'a str, f64)],
     /// When a fit may change it; otherwise it stays neutral.
+    #[serde(skip)]
     pub fitted: Fitted,
     /// It belongs to the room: a robot rolled by 180° sees it with the other sign.
+    #[serde(skip)]
     pub in_room: bool,
     /// What it is.
     pub meaning: &'a str,
@@ -170,7 +176,7 @@ pub enum Needs {
 }
 
 /// A physical effect as an entry of the catalogue, or of a scenario's own ([`crate::Catalogue`]).
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, serde::Serialize)]
 pub struct Effect<'a> {
     /// Name in scenarios.
     pub name: &'a str,
@@ -196,8 +202,10 @@ pub struct Effect<'a> {
     /// Parameters in the order `add` takes them.
     pub parameters: &'a [Parameter<'a>],
     /// What it acts in.
+    #[serde(skip)]
     pub needs: Needs,
     /// Adds it to a model under construction; values in SI. A formula adds itself.
+    #[serde(skip)]
     pub(crate) add: fn(&[f64], &mut Assembly),
 }
 

@@ -13,23 +13,31 @@ use crate::follow::Step;
 use crate::model::{Model, Prediction};
 use crate::scenario::Scenario;
 use crate::term::{CHANNELS, Loads};
+use serde::Serialize;
+use spelling::si;
 
 /// A joint: a piece of the body, bent as a whole.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Joint {
     /// Start of its piece along the undeformed body \[m\].
+    #[serde(rename = "s_mm", serialize_with = "si::mm")]
     pub start_m: f64,
     /// Length of its piece \[m\].
+    #[serde(rename = "length_mm", serialize_with = "si::mm")]
     pub length_m: f64,
     /// Angle q at the working point \[rad\].
     pub angle_rad: f64,
-    /// K \[N·m/rad\]; NaN where the actuator is flat and no bend has a slope.
+    /// K \[N·m/rad\]; NaN (null) where the actuator is flat and no bend has a slope.
+    #[serde(rename = "k_nm_per_rad")]
     pub stiffness_nm: f64,
-    /// B of each channel \[N·m/Pa\]; NaN likewise.
+    /// B of each channel \[N·m/Pa\]; NaN (null) likewise.
+    #[serde(rename = "b_nm_per_kpa", serialize_with = "si::per_kpa")]
     pub per_pa: [f64; CHANNELS],
-    /// b \[N·m\]; NaN likewise.
+    /// b \[N·m\]; NaN (null) likewise.
+    #[serde(rename = "b_nm")]
     pub offset_nm: f64,
     /// C \[N·m·s/rad\]: of slow motion with the effect `creep`; `None` without, for nothing else here depends on the rate.
+    #[serde(rename = "c_nms_per_rad")]
     pub damping_nms: Option<f64>,
 }
 

@@ -9,6 +9,8 @@
 use super::fit::{Fitter, Sampler, horner};
 use super::untabulated::{MOST_BYTES, MOST_MISS, Untabulated};
 use crate::model::Model;
+use serde::Serialize;
+use spelling::si;
 
 /// Misses that the pieces aim at, the first that fits into the bytes counts.
 const GOALS: [f64; 3] = [5e-5, 2e-4, 8e-4];
@@ -44,19 +46,24 @@ pub struct Table {
 }
 
 /// Largest differences between a table and its model, over thousands of pressures.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Bound {
     /// Pressures looked at.
     pub pressures: usize,
     /// Distance of the tip \[m\].
+    #[serde(rename = "tip_mm", serialize_with = "si::mm")]
     pub tip_m: f64,
     /// Total bend \[rad\].
+    #[serde(rename = "angle_deg", serialize_with = "si::deg")]
     pub angle_rad: f64,
     /// Distance of a marker \[m\].
+    #[serde(rename = "marker_mm", serialize_with = "si::mm")]
     pub marker_m: f64,
     /// Slope of the tip's height \[m/Pa\], from [`Bound::slope_from_pa`] on.
+    #[serde(rename = "slope_mm_per_kpa", serialize_with = "si::mm_per_kpa")]
     pub slope_m_per_pa: f64,
     /// Least pressure at which slopes were compared \[Pa\].
+    #[serde(rename = "slope_from_kpa", serialize_with = "si::kpa")]
     pub slope_from_pa: f64,
 }
 

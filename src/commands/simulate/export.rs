@@ -8,14 +8,14 @@ use fem::session::{Export, Solver, export};
 use std::path::Path;
 
 /// Writes the problem for another program.
-pub fn written(args: &SimulateArgs, plan: &RunPlan, file: &Path) -> Result<Outcome, Failure> {
+pub fn written(args: &SimulateArgs, plan: &RunPlan, file: &Path, force: bool) -> Result<Outcome, Failure> {
     let RunPlan::Single(source) = plan else {
         return Err(Failure::usage(
             "--export writes one run, and this is several",
-            "leave out --seeds, --separate, --uncertain and further values of --mesh",
+            "leave out --seeds, --uncertain and further values of --mesh",
         ));
     };
-    if file.exists() && !args.force {
+    if file.exists() && !force {
         let help = "give --force to replace it, or another name";
         return Err(Failure::usage(format!("{} exists already", file.display()), help));
     }

@@ -11,18 +11,18 @@ use crate::failure::Failure;
 use crate::output::{check_folder, maker};
 use crate::shown::run::{cost_text, text};
 use fem::FemError;
-use fem::session::{FeRun, Further, SUMMARY, Settings, Source, Summary, simulate};
+use fem::session::{Cost, FeRun, Further, SUMMARY, Settings, Source, Summary, simulate};
 use ibr::fe_source;
 use ibr::pages::run_plots;
 use plan::RunPlan;
-use serde_json::json;
+use serde::Serialize;
 use std::path::Path;
 use std::time::Duration;
 
 pub fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let plan = plan::plan(args, fe_source(&args.case)?)?;
     if let Some(file) = &args.export {
-        return export::written(args, &plan, file);
+        return export::written(args, &plan, file, context.force);
     }
     if args.from.is_some() && !matches!(plan, RunPlan::Single(_)) {
         let help = "name one mesh and leave separate out, then go on from one run to another";
@@ -33,10 +33,10 @@ pub fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome, Failur
         resume: args.resume,
         from: args.from.clone(),
         keep_end: true,
-        force: args.force,
+        force: context.force,
         frames: !args.no_frames,
         end_s: args.end.as_deref().map(|text| seconds("--end", text)).transpose()?,
-        threads: args.threads as usize,
+        threads: context.threads,
         checkpoint_every: Duration::from_secs_f64(seconds("--checkpoint-every", &args.checkpoint_every)?),
         further: Some(run_plots as Further),
         maker: maker(),
@@ -45,7 +45,8 @@ pub fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome, Failur
     check_folder(&folder)?;
     match plan {
         RunPlan::Single(_) if args.shards.shard.is_some() || args.shards.engine.is_some() => {
-            let help = "add --seeds, --separate, --uncertain or several --mesh, or leave --shard and --engine out";
+            let help =
+                "add --seeds, --uncertain, --set separate=true or several --mesh, or leave --shard and --engine out";
             Err(Failure::usage("one run has no shards", help))
         }
         RunPlan::Single(source) => one(args, &source, &settings, context),
@@ -58,7 +59,7 @@ fn one(args: &SimulateArgs, source: &Source, settings: &Settings, context: &mut 
     let folder = settings.folder.as_deref().unwrap_or(Path::new(""));
     let run = match context.fem(|progress| simulate(source, settings, progress)) {
         Err(FemError::Interrupted { time_s, step, .. }) => {
-            let force = if args.force { " --force" } else { "" };
+            let force = if context.force { " --force" } else { "" };
             return Ok(Outcome::interrupted(format!(
                 "interrupted at t = {time_s:.6} s, step {step}; go on with: ibr simulate {}{} --out {} --resume{force}",
                 args.case,
@@ -68,22 +69,33 @@ fn one(args: &SimulateArgs, source: &Source, settings: &Settings, context: &mut 
         }
         other => other?,
     };
-    let mut outcome = Outcome::new(text(&run.summary), SUMMARY.stamped(&run.summary));
+    let cost = run.fresh.then_some(&run.cost);
+    let answer = SimulateAnswer { summary: &run.summary, cost, folder: cost.map(|_| folder.display().to_string()) };
+    let mut outcome = Outcome::new(text(&run.summary), SUMMARY.stamped(&answer));
     if !run.fresh {
-        let Summary { time_s, .. } = run.summary;
-        let folder = folder.display();
+        let (time_s, folder) = (run.summary.time_s, folder.display());
         outcome.notes.push(format!(
             "the run in {folder} is complete at t = {time_s:.6} s; nothing was done. A later --end goes on with it"
         ));
         return Ok(outcome);
     }
-    outcome.text.push_str(&cost_text(&run.cost));
-    if let Some(answer) = &mut outcome.json {
-        answer["cost"] = json!(run.cost);
-        answer["folder"] = json!(folder.display().to_string());
-    }
+    outcome.text += &cost_text(&run.cost);
     outcome.notes = notes(&run, folder);
     Ok(outcome)
+}
+
+/// `ibr.simulate`: `ibr simulate CASE`
+#[derive(Serialize)]
+struct SimulateAnswer<'a> {
+    /// What the run came to
+    #[serde(flatten)]
+    summary: &'a Summary,
+    /// What it took
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cost: Option<&'a Cost>,
+    /// Folder that was written
+    #[serde(skip_serializing_if = "Option::is_none")]
+    folder: Option<String>,
 }
 
 /// What to know about a run, and what to open.

@@ -49,6 +49,7 @@ pub fn plan(args: &SimulateArgs, source: Source) -> Result<RunPlan, Failure> {
         };
     }
     let set = args.set.iter().map(|text| setting(text)).collect::<Result<Vec<_>, _>>()?;
+    inputs::each_once("--set", set.iter().map(|(key, _)| key.as_str()))?;
     // A key with a table before it is one of the scenario, as in a sweep.
     let (of_robot, mut common): (Vec<_>, Vec<_>) = set.into_iter().partition(|(key, _)| key.contains('.'));
     let source = if of_robot.is_empty() { source } else { changed(source, &of_robot)? };
@@ -73,7 +74,7 @@ pub fn plan(args: &SimulateArgs, source: Source) -> Result<RunPlan, Failure> {
     }
     let of_run = || run.meshes_m.iter().map(|sizes| sizes.map(|m| rounded(m * 1e3))).collect();
     let meshes = typed.unwrap_or_else(of_run);
-    let separate = args.separate || (run.separate && run.pressures_pa.len() > 1);
+    let separate = run.separate && run.pressures_pa.len() > 1;
     if meshes.len() < 2 && !separate && args.seeds.is_none() {
         return Ok(RunPlan::Single(base));
     }
@@ -84,7 +85,6 @@ pub fn plan(args: &SimulateArgs, source: Source) -> Result<RunPlan, Failure> {
 fn robot_option(args: &SimulateArgs) -> Option<&'static str> {
     let given = [
         ("--pressure", args.pressure.is_some()),
-        ("--separate", args.separate),
         ("--seeds", args.seeds.is_some()),
         ("--mesh", args.mesh.is_some()),
         ("--set", !args.set.is_empty()),

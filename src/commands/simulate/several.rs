@@ -4,13 +4,11 @@ use crate::cli::{ShardArgs, SimulateArgs};
 use crate::commands::shards::shared;
 use crate::commands::{Context, Outcome};
 use crate::failure::Failure;
-use crate::shown::several_runs::{table_text, uncertain_text};
+use crate::shown::several_runs::{SimulationsAnswer, UncertainAnswer, table_text, uncertain_text};
 use compare::study::uncertain::Uncertain;
-use fem::session::{Cube, Job, RunRow, RunTable, Settings, Source, Variation, simulate_all};
+use fem::session::{Cube, Job, RunTable, Settings, Source, Variation, simulate_all};
 use ibr::pages::{marker_intervals, mesh_plot, what_to_measure};
 use report::lines;
-use serde_json::{Value, json};
-use std::collections::BTreeMap;
 use std::path::Path;
 
 fn jobs(base: &Source, variations: &[Variation]) -> Result<Vec<Job>, Failure> {
@@ -34,23 +32,11 @@ pub fn table(
     }
     let many = context.fem(|progress| simulate_all(&jobs, settings, progress))?;
     let table = RunTable::of(variations, many)?;
-    let mut outcome = Outcome::new(
-        table_text(&table),
-        json!({"schema": "ibr.simulations", "version": 1, "runs": records(&table), "groups": table.groups()}),
-    );
+    let mut outcome = Outcome::answer(table_text(&table), "ibr.simulations", &SimulationsAnswer::of(&table));
     let png = mesh_plot(&base.name, &table).and_then(|plot| lines(&plot).ok()).map(|drawn| drawn.png);
     let files = [("plot", "mesh.png", png), ("table", "table.csv", Some(table.csv().into_bytes()))];
     write(&mut outcome, settings, files.into_iter().filter_map(|(what, name, bytes)| Some((what, name, bytes?))))?;
     Ok(outcome)
-}
-
-fn records(table: &RunTable) -> Vec<Value> {
-    let record = |row: &RunRow| {
-        let changes: BTreeMap<&str, &str> =
-            row.variation.changes.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect();
-        json!({"run": row.variation.label, "changes": changes, "folder": row.folder, "heights": row.heights, "cpu_s": row.cpu_s})
-    };
-    table.rows.iter().map(record).collect()
 }
 
 pub fn uncertain(
@@ -68,13 +54,14 @@ pub fn uncertain(
     let all = Uncertain::of(cube, &many, &args.set)?;
     let (measured, top) = (all.measured(), all.top_kpa());
     let weights = all.weights(top);
-    let mut outcome = Outcome::new(
-        uncertain_text(&all, &measured),
-        json!({
-            "schema": "ibr.uncertain", "version": 1, "robots": all.members.len(), "numbers": all.numbers,
-            "pressures": all.intervals(), "weights": weights.as_ref().map(|w| &w.0), "rest": weights.as_ref().map(|w| w.1),
-        }),
-    );
+    let answer = UncertainAnswer {
+        robots: all.members.len(),
+        numbers: &all.numbers,
+        pressures: all.intervals(),
+        weights: weights.as_ref().map(|w| &w.0[..]),
+        rest: weights.as_ref().map(|w| w.1),
+    };
+    let mut outcome = Outcome::answer(uncertain_text(&all, &measured), "ibr.uncertain", &answer);
     let markers = marker_intervals(&all, &measured).map(|drawn| ("written", "markers.png", drawn.png));
     let tornado = weights.as_ref().map(|_| what_to_measure(&all, top)).transpose()?;
     let tornado = tornado.map(|drawn| ("written", "tornado.png", drawn.png));

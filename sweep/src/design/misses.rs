@@ -1,18 +1,31 @@
 //! How far a robot is from the parts of a wish.
 
 use super::wish::Wish;
+use serde::{Serialize, Serializer};
+use spelling::si;
 
 /// One part of the wish and how far it is missed.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Miss {
     /// What: `tip`, `tip angle`, `station 150 mm`, `turn 0 to 100 mm`.
     pub what: String,
-    /// Wanted: x, y \[m\], or one angle \[rad\].
+    /// Wanted: x, y \[m\], or one angle \[rad\]; written in mm or degrees.
+    #[serde(serialize_with = "written")]
     pub wanted: Vec<f64>,
     /// What the robot has.
+    #[serde(serialize_with = "written")]
     pub found: Vec<f64>,
     /// Distance \[m\], or angle times length.
+    #[serde(rename = "miss_mm", serialize_with = "si::mm")]
     pub miss_m: f64,
+}
+
+fn written<S: Serializer>(values: &[f64], to: S) -> Result<S::Ok, S::Error> {
+    let all: Vec<f64> = match values {
+        [rad] => vec![rad.to_degrees()],
+        more => more.iter().map(|m| 1e3 * m).collect(),
+    };
+    all.serialize(to)
 }
 
 impl Miss {

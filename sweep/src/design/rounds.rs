@@ -7,15 +7,17 @@ use crate::SweepError;
 use fem::session::Progress;
 
 /// What one finite element run says of a design.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, serde::Serialize)]
 pub struct Checked {
     /// Where the stations are, the last is the tip \[m\].
+    #[serde(skip)]
     pub places_m: Vec<[f64; 2]>,
     /// The parts of the wish that it can read.
     pub misses: Vec<Miss>,
     /// What makes the run doubtful.
     pub warnings: Vec<String>,
     /// Its pictures by name.
+    #[serde(skip)]
     pub pictures: Vec<(String, Vec<u8>)>,
 }
 
@@ -61,7 +63,8 @@ impl Round {
 }
 
 /// Why no further design is checked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum End {
     /// The last one has the wish by finite elements.
     Reached,

@@ -12,6 +12,7 @@ use argmin::solver::neldermead::NelderMead;
 use compare::{CompareError, ScenarioFile};
 use fem::session::Progress;
 use models::{CHANNELS, Loads, Model, Prediction};
+use spelling::si;
 use toml::Value;
 
 /// Starts for every combination of the entries of lists, and in all.
@@ -32,24 +33,29 @@ const NONE: f64 = 1e12;
 const NEAR: f64 = 1.0;
 
 /// How far the tip and the miss go over the assumed numbers.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Spread {
     /// Smallest and largest x of the tip \[m\].
+    #[serde(rename = "tip_x_mm", serialize_with = "si::mm")]
     pub x_m: [f64; 2],
     /// Smallest and largest y \[m\].
+    #[serde(rename = "tip_y_mm", serialize_with = "si::mm")]
     pub y_m: [f64; 2],
     /// Largest miss of any part of the wish \[m\].
+    #[serde(rename = "worst_mm", serialize_with = "si::mm")]
     pub worst_m: f64,
 }
 
 /// A free key at an end of its range or list that holds the design back.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Held {
     /// The key.
     pub key: String,
-    /// The end.
+    /// The end, in the unit of the key.
+    #[serde(rename = "end")]
     pub value: f64,
     /// What a unit beyond it would take off the largest miss, the other keys as they are \[m\].
+    #[serde(rename = "gain_mm", serialize_with = "si::mm")]
     pub gain_m: f64,
 }
 

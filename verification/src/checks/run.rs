@@ -5,7 +5,8 @@ use crate::exact::{OracleRow, oracle_table};
 use crate::{Error, Findings, Printed};
 use compare::Progress;
 use fem::cost::process_seconds;
-use serde_json::{Value, json};
+use fem::record::RecordShape;
+use serde::Serialize;
 
 /// What is verified.
 #[derive(Debug, Clone, Copy)]
@@ -37,7 +38,7 @@ pub fn verify(choice: &Choice, progress: &mut Progress) -> Result<(Findings, Fig
         missed += outcome.lines.iter().filter(|line| !line.passes()).count();
         lines += outcome.lines.len();
         cells.extend(outcome.lines.iter().enumerate().map(|(n, line)| row(check, line, n == 0, cpu_s)));
-        engine.push(as_json(check, &outcome, cpu_s));
+        engine.push(engine_check(check, &outcome, cpu_s));
         figures.extend(outcome.figure.map(|figure| (check.name, figure)));
     }
     let head = &["check", "quantity", "measured", "known", "error", "", "CPU-s"];
@@ -48,12 +49,15 @@ pub fn verify(choice: &Choice, progress: &mut Progress) -> Result<(Findings, Fig
         parts.push(Printed::Text(format!("{left} longer checks were left out; `ibr verify --slow` runs them too\n")));
     }
     let wrong = rows.iter().filter(|r| !r.agrees()).count();
-    let list = rows.iter().map(|r| {
-        json!({"section": r.section, "quantity": r.quantity, "expected": r.printed, "computed": r.computed,
-            "agrees": r.agrees()})
+    let list = rows.iter().map(|r| KnownNumber {
+        section: r.section,
+        quantity: r.quantity,
+        expected: r.printed,
+        computed: r.computed,
+        agrees: r.agrees(),
     });
-    let json = json!({"schema": "ibr.verify", "version": 1, "wrong": wrong, "rows": list.collect::<Vec<_>>(),
-        "engine_missed": missed, "engine": engine});
+    let answer = Verified { wrong, rows: list.collect(), engine_missed: missed, engine };
+    let json = RecordShape { schema: "ibr.verify", version: 1 }.stamped(&answer);
     Ok((Findings { parts, json, missed: wrong + missed > 0 }, figures))
 }
 
@@ -115,16 +119,93 @@ fn short(x: f64) -> String {
     }
 }
 
-fn as_json(check: &Check, outcome: &CheckOutcome, cpu_s: f64) -> Value {
+fn engine_check<'a>(check: &'a Check, outcome: &CheckOutcome, cpu_s: f64) -> EngineCheck<'a> {
     let line = |line: &Line| {
-        let against = match line.against {
-            Against::Value { exact, tolerance } => json!({"exact": exact, "tolerance": tolerance}),
-            Against::AtMost(limit) => json!({"at_most": limit}),
-            Against::AtLeast(limit) => json!({"at_least": limit}),
-            Against::Between(low, high) => json!({"between": [low, high]}),
-        };
-        json!({"quantity": line.quantity, "measured": line.measured, "against": against, "passes": line.passes()})
+        let mut against = Target::default();
+        match line.against {
+            Against::Value { exact, tolerance } => (against.exact, against.tolerance) = (Some(exact), Some(tolerance)),
+            Against::AtMost(limit) => against.at_most = Some(limit),
+            Against::AtLeast(limit) => against.at_least = Some(limit),
+            Against::Between(low, high) => against.between = Some([low, high]),
+        }
+        CheckLine { quantity: line.quantity.clone(), measured: line.measured, against, passes: line.passes() }
     };
-    let lines: Vec<Value> = outcome.lines.iter().map(line).collect();
-    json!({"check": check.name, "sentence": check.sentence, "source": check.source, "cpu_s": cpu_s, "lines": lines})
+    let lines = outcome.lines.iter().map(line).collect();
+    EngineCheck { check: check.name, sentence: check.sentence, source: check.source, cpu_s, lines }
+}
+
+/// `ibr.verify`: `ibr verify`
+#[derive(Serialize)]
+struct Verified<'a> {
+    /// Known numbers that are missed
+    wrong: usize,
+    /// Known numbers
+    rows: Vec<KnownNumber<'a>>,
+    /// Lines that do not pass
+    engine_missed: usize,
+    /// Finite element checks
+    engine: Vec<EngineCheck<'a>>,
+}
+
+/// A number of a closed form.
+#[derive(Serialize)]
+struct KnownNumber<'a> {
+    /// Closed form
+    section: &'a str,
+    /// Which number
+    quantity: &'a str,
+    /// As known
+    expected: &'a str,
+    /// As computed
+    computed: f64,
+    /// Whether they agree
+    agrees: bool,
+}
+
+/// A finite element check.
+#[derive(Serialize)]
+struct EngineCheck<'a> {
+    /// Name of the check
+    check: &'a str,
+    /// One plain sentence
+    sentence: &'a str,
+    /// Who or what it comes from
+    source: &'a str,
+    /// Processor time
+    cpu_s: f64,
+    /// What is compared
+    lines: Vec<CheckLine>,
+}
+
+/// A line of a finite element check.
+#[derive(Serialize)]
+struct CheckLine {
+    /// What is compared, with unit
+    quantity: String,
+    /// What the engine gave
+    measured: f64,
+    /// What it is compared with
+    against: Target,
+    /// Whether it passes
+    passes: bool,
+}
+
+/// What a line is compared with.
+#[derive(Serialize, Default)]
+struct Target {
+    /// Exact value
+    #[serde(skip_serializing_if = "Option::is_none")]
+    exact: Option<f64>,
+    /// Largest difference from it
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tolerance: Option<f64>,
+    /// Upper limit
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at_most: Option<f64>,
+    /// Lower limit
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at_least: Option<f64>,
+    /// Both limits
+    #[serde(skip_serializing_if = "Option::is_none")]
+    between: Option<[f64; 2]>,
 }

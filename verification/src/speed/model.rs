@@ -4,7 +4,8 @@ use crate::{Error, Findings, Printed};
 use compare::Progress;
 use compare::study::published::shipped_scenario;
 use models::{Loads, Model, Scenario, Target, Unsolved};
-use serde_json::{Value, json};
+use fem::record::RecordShape;
+use serde::Serialize;
 use std::time::Instant;
 
 /// Median over this many batches.
@@ -43,10 +44,40 @@ impl Figure {
         vec![self.id.clone(), textbook, limit, shipped, format!("{:.2}", self.ratio()), wanted, met.into()]
     }
 
-    fn json(&self) -> Value {
-        json!({"id": self.id, "textbook_us": self.median_us[0], "target_us": self.wanted_us, "shipped_us": self.median_us[1],
-            "ratio": self.ratio(), "target_ratio": self.compared.then_some(WANTED_RATIO), "met": self.met()})
+    fn told(&self) -> BenchFigure<'_> {
+        let [textbook_us, shipped_us] = self.median_us;
+        let target_ratio = self.compared.then_some(WANTED_RATIO);
+        let (id, target_us) = (&self.id, self.wanted_us);
+        BenchFigure { id, textbook_us, target_us, shipped_us, ratio: self.ratio(), target_ratio, met: self.met() }
     }
+}
+
+/// `ibr.bench`: `ibr bench`
+#[derive(Serialize)]
+struct BenchAnswer<'a> {
+    /// Processor, cores, system
+    machine: &'a str,
+    /// Times
+    figures: Vec<BenchFigure<'a>>,
+}
+
+/// A time of the model.
+#[derive(Serialize)]
+struct BenchFigure<'a> {
+    /// What is timed
+    id: &'a str,
+    /// Median time, textbook robot
+    textbook_us: f64,
+    /// Longest time allowed
+    target_us: f64,
+    /// Median time, shipped robot
+    shipped_us: f64,
+    /// Shipped over textbook robot
+    ratio: f64,
+    /// Largest ratio allowed
+    target_ratio: Option<f64>,
+    /// Whether the target is met
+    met: bool,
 }
 
 /// Times every actuator's robot; `machine` says on what.
@@ -60,13 +91,13 @@ pub fn measure(machine: &str, progress: &mut Progress) -> Result<Findings, Error
         figures.extend(of_kind(kind)?);
     }
     let head = &["what", "textbook [µs]", "wanted [µs]", "shipped [µs]", "ratio", "wanted", "met"];
-    let list: Vec<Value> = figures.iter().map(Figure::json).collect();
+    let answer = BenchAnswer { machine, figures: figures.iter().map(Figure::told).collect() };
     Ok(Findings {
         parts: vec![
             Printed::Text(format!("Median time on one core of {machine}\n")),
             Printed::table(head, 1, figures.iter().map(Figure::row)),
         ],
-        json: json!({"schema": "ibr.bench", "version": 2, "machine": machine, "figures": list}),
+        json: RecordShape { schema: "ibr.bench", version: 2 }.stamped(&answer),
         missed: !figures.iter().all(Figure::met),
     })
 }

@@ -1,0 +1,80 @@
+//! Serialising SI numbers in the units that the key names: `#[serde(rename = "x_mm", serialize_with = "si::mm")] x_m: f64`.
+
+use serde::{Serialize, Serializer};
+
+/// A number, or several.
+pub trait Numbers {
+    /// What is written.
+    type Written: Serialize;
+    /// All of them converted.
+    fn converted(&self, to: fn(f64) -> f64) -> Self::Written;
+}
+
+impl Numbers for f64 {
+    type Written = f64;
+    fn converted(&self, to: fn(f64) -> f64) -> f64 {
+        to(*self)
+    }
+}
+
+impl Numbers for Option<f64> {
+    type Written = Option<f64>;
+    fn converted(&self, to: fn(f64) -> f64) -> Option<f64> {
+        self.map(to)
+    }
+}
+
+impl<const N: usize> Numbers for [f64; N] {
+    type Written = Vec<f64>;
+    fn converted(&self, to: fn(f64) -> f64) -> Vec<f64> {
+        self.iter().copied().map(to).collect()
+    }
+}
+
+/// Metres as millimetres.
+///
+/// # Errors
+/// Those of the serializer.
+pub fn mm<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
+    value.converted(|m| 1e3 * m).serialize(to)
+}
+
+/// Pascals as kilopascals.
+///
+/// # Errors
+/// Those of the serializer.
+pub fn kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
+    value.converted(|pa| pa / 1e3).serialize(to)
+}
+
+/// What is per pascal, per kilopascal.
+///
+/// # Errors
+/// Those of the serializer.
+pub fn per_kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
+    value.converted(|per_pa| 1e3 * per_pa).serialize(to)
+}
+
+/// Metres per pascal as millimetres per kilopascal.
+///
+/// # Errors
+/// Those of the serializer.
+pub fn mm_per_kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
+    value.converted(|m_per_pa| 1e6 * m_per_pa).serialize(to)
+}
+
+/// Radians per pascal as degrees per kilopascal.
+///
+/// # Errors
+/// Those of the serializer.
+pub fn deg_per_kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
+    value.converted(|rad_per_pa| 1e3 * rad_per_pa.to_degrees()).serialize(to)
+}
+
+/// Radians as degrees.
+///
+/// # Errors
+/// Those of the serializer.
+pub fn deg<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
+    value.converted(f64::to_degrees).serialize(to)
+}
