@@ -68,6 +68,12 @@ impl Provenance {
             Provenance::Published => "published",
         }
     }
+
+    /// The one of this word, in upper or lower case.
+    pub fn of(word: &str) -> Option<Provenance> {
+        let all = [Provenance::Measured, Provenance::Digitised, Provenance::Synthetic, Provenance::Published];
+        all.into_iter().find(|provenance| provenance.word().eq_ignore_ascii_case(word))
+    }
 }
 
 /// Description of a dataset, in SI units.
@@ -189,7 +195,7 @@ pub fn read_about(path: &Path) -> Result<About, DataError> {
     let read = read_whole(path, MOST_TEXT).and_then(|bytes| String::from_utf8(bytes).map_err(std::io::Error::other));
     let text = read.map_err(|cause| {
         let help = "check the path; the file must be UTF-8 text";
-        DataError::File(Box::new(Fault::of_file(&shown, format!("cannot read the file: {cause}"), help)))
+        DataError::file(&shown, format!("cannot read the file: {cause}"), help)
     })?;
     parse_about(&shown, &text)
 }

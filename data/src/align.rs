@@ -87,7 +87,7 @@ fn check_seen(file: &str, dataset: &Dataset) -> Result<(), DataError> {
         ),
         _ => return Ok(()),
     };
-    Err(DataError::Runs(Box::new(Fault::of_file(file, message, help))))
+    Err(DataError::runs(file, message, help))
 }
 
 /// By station where all are known, else by first appearance.

@@ -4,7 +4,7 @@
 //! for a few seconds); in every hold each **marker** is seen `samples_per_hold` times. All lengths are metres, all
 //! pressures pascals, all times seconds; units are converted where the file is read and nowhere else.
 
-use crate::error::{DataError, Fault};
+use crate::error::DataError;
 
 /// Whether a hold was reached by raising the actuator pressure, by lowering it, or without changing it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -186,7 +186,7 @@ impl Dataset {
         let readings = self.runs.len() * self.holds.len() * self.samples_per_hold;
         let wrong = |message: String| {
             let help = "lay xy_m out as [run][hold][sample][marker][x, y], with samples_per_hold times in every hold";
-            Err(DataError::Runs(Box::new(Fault::of_file(&self.name, message, help))))
+            Err(DataError::runs(&self.name, message, help))
         };
         match (empty, timed, finite) {
             (true, ..) => wrong("the dataset has no values".to_string()),

@@ -130,6 +130,26 @@ pub enum DataError {
 }
 
 impl DataError {
+    /// A file that cannot be opened or written.
+    pub fn file(file: &str, message: impl Into<String>, help: impl Into<String>) -> DataError {
+        DataError::File(Box::new(Fault::of_file(file, message, help)))
+    }
+
+    /// A file that is no table as a whole.
+    pub fn layout(file: &str, message: impl Into<String>, help: impl Into<String>) -> DataError {
+        DataError::Layout(Box::new(Fault::of_file(file, message, help)))
+    }
+
+    /// Runs, holds or markers of a file that do not fit together.
+    pub fn runs(file: &str, message: impl Into<String>, help: impl Into<String>) -> DataError {
+        DataError::Runs(Box::new(Fault::of_file(file, message, help)))
+    }
+
+    /// A description that is wrong as a whole.
+    pub fn about(file: &str, message: impl Into<String>, help: impl Into<String>) -> DataError {
+        DataError::About(Box::new(Fault::of_file(file, message, help)))
+    }
+
     /// The fault inside.
     pub fn fault(&self) -> &Fault {
         use DataError::{About, Cell, Column, Feature, File, Layout, Runs, Unit};

@@ -8,6 +8,7 @@ mod align;
 pub mod bench;
 mod cells;
 pub mod check;
+mod columns;
 pub mod coupons;
 pub mod dataset;
 pub mod error;

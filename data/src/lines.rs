@@ -156,7 +156,7 @@ impl<'a> Lines<'a> {
     fn cr_only(&self) -> DataError {
         let help = "save the table again as CSV (UTF-8), or convert the line ends: tr '\\r' '\\n' < old.csv > new.csv";
         let message = "the line ends are CR only, as old Macintosh programs write them: the whole file is one line";
-        DataError::Layout(Box::new(Fault::of_file(&self.file, message, help)))
+        DataError::layout(&self.file, message, help)
     }
 
     fn too_long(&self) -> DataError {

@@ -46,7 +46,7 @@ fn load_set(
     let file = shown(name, "markers.csv");
     let text = set_file(name, "markers.csv").map_err(|_| {
         let help = "it holds published tables only; `ibr data list` shows the sets with marker positions";
-        DataError::File(Box::new(Fault::of_file(&file, format!("the set {name} has no marker positions"), help)))
+        DataError::file(&file, format!("the set {name} has no marker positions"), help)
     })?;
     let options = ReadOptions { about: Some(&about), actuator, bytes_total: text.len() as u64 };
     let mut dataset = parse_markers(&file, &mut text.as_bytes(), options, progress)?;
@@ -96,5 +96,5 @@ fn nothing(place: &str) -> DataError {
     let meant = spelling::meant(place, known.iter().copied());
     let help =
         format!("{meant}give a .csv or .parquet file, a folder with markers.csv, or one of {}", known.join(", "));
-    DataError::File(Box::new(Fault::of_file(place, "no such file, folder or embedded set", help)))
+    DataError::file(place, "no such file, folder or embedded set", help)
 }

@@ -7,7 +7,7 @@
 use serde::Deserialize;
 
 use crate::about::parse_toml;
-use crate::error::{DataError, Fault};
+use crate::error::DataError;
 use crate::sets::{set_file, shown};
 
 /// Name of the embedded set.
@@ -145,7 +145,7 @@ fn parse_published(file: &str, text: &str) -> Result<Published, DataError> {
     let highest_pa = pressures_pa.iter().copied().fold(0.0, f64::max);
     if let Some(odd) = raw.actuator.iter().find(|actuator| actuator.accuracy_pct.len() != pressures_pa.len()) {
         let message = format!("{} has not one accuracy per pressure", odd.kind);
-        return Err(DataError::About(Box::new(Fault::of_file(file, message, "give one accuracy_pct per pressure"))));
+        return Err(DataError::about(file, message, "give one accuracy_pct per pressure"));
     }
     let simulation = PublishedSimulation {
         body_mesh_m: raw.simulation.body_mesh_mm / 1e3,

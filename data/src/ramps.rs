@@ -1,7 +1,8 @@
 //! Whether pressures were kept at all: a hold has a least duration, and a ramp has none.
 
 use crate::error::{DataError, Fault};
-use crate::policy;
+use crate::rows::lowest_mean_pa;
+use crate::streams::pressures::PRESSURES;
 use crate::streams::{Recorder, Segment, Stream};
 use crate::units::kpa;
 
@@ -14,21 +15,17 @@ const RAMP: f64 = 0.3;
 /// A piece of a ramp has less than this part of the rows of the usual hold.
 const FEW_ROWS: f64 = 0.2;
 
-/// Refuses recordings without holds, or with ramps between them, and holds whose mean pressure is below zero.
+/// Refuses recordings without holds, or with ramps between them, and holds whose mean pressure is below its bounds.
 ///
 /// # Errors
 /// Such a recording.
 pub(crate) fn check_kept(file: &str, recorder: &Recorder) -> Result<(), DataError> {
     let segments = || recorder.streams.iter().flat_map(|stream| &stream.segments);
-    let below = |segment: &Segment| {
-        segment
-            .below_zero
-            .iter()
-            .zip(segment.means_pa())
-            .find(|(_, mean)| *mean < policy::LOWEST_GAUGE_PA)
-            .and_then(|(fault, _)| fault.clone())
+    let too_low = |segment: &Segment| {
+        let mut means = segment.too_low.iter().zip(segment.means_pa()).zip(PRESSURES);
+        means.find(|((_, mean), quantity)| *mean < lowest_mean_pa(*quantity)).and_then(|((fault, _), _)| fault.clone())
     };
-    if let Some(fault) = segments().find_map(below) {
+    if let Some(fault) = segments().find_map(too_low) {
         return Err(DataError::Cell(fault));
     }
     let fullest = recorder.streams.iter().max_by_key(|stream| stream.segments.len());

@@ -68,7 +68,7 @@ pub(crate) fn read_markers_of(
     let shown = path.display().to_string();
     let mut file = File::open(path).map_err(|cause| {
         let help = "check the path; `ibr data list` shows the embedded sets";
-        DataError::File(Box::new(Fault::of_file(&shown, format!("cannot open the file: {cause}"), help)))
+        DataError::file(&shown, format!("cannot open the file: {cause}"), help)
     })?;
     let bytes_total = file.metadata().map_or(0, |metadata| metadata.len());
     parse_markers(&shown, &mut file, ReadOptions { bytes_total, ..options }, progress)
@@ -107,8 +107,8 @@ pub fn parse_markers(
     }
     recorder.placeholders.take_out_shared(&mut recorder.streams);
     let told = told(&cells, &recorder)?;
-    check_kept(file, &recorder)?;
     check_units(&cells, &recorder)?;
+    check_kept(file, &recorder)?;
     check_about_runs(file, &recorder, options.about)?;
     let stations_m = stations(file, &recorder, options.about)?;
     let stem = Path::new(file).file_stem().map_or(file.to_string(), |stem| stem.to_string_lossy().into_owned());
@@ -202,15 +202,15 @@ fn no_rows(file: &str, kind: &Kind, lost_frames: u64) -> DataError {
     if lost_frames > 0 {
         let help = "fill in x and y where the marker was seen";
         let message = format!("none of the {lost_frames} rows has a position");
-        return DataError::Layout(Box::new(Fault::of_file(file, message, help)));
+        return DataError::layout(file, message, help);
     }
     let Some(wanted) = &kind.wanted else {
         let help = "add one row per run, time and marker below the header";
-        return DataError::Layout(Box::new(Fault::of_file(file, "the file has a header and no rows", help)));
+        return DataError::layout(file, "the file has a header and no rows", help);
     };
     let seen: Vec<_> = kind.seen.iter().map(String::as_str).collect();
     let message = format!("no rows of actuator {wanted}; found {}", seen.join(", "));
-    DataError::Runs(Box::new(Fault::of_file(file, message, "choose one of the kinds found")))
+    DataError::runs(file, message, "choose one of the kinds found")
 }
 
 fn check_kind(file: &str, kind: &str, about: Option<&About>) -> Result<(), DataError> {
@@ -231,12 +231,18 @@ fn check_about_runs(file: &str, recorder: &Recorder, about: Option<&About>) -> R
     let help =
         format!("{meant}correct `id = \"{unknown}\"` in about.toml; a [[run]] without rows would lose its tip force");
     let message = format!("about.toml describes run {unknown}, which has no rows");
-    Err(DataError::Runs(Box::new(Fault::of_file(file, message, help))))
+    Err(DataError::runs(file, message, help))
 }
 
 /// Stations in order of `recorder.markers`, from the `s_mm` column or from `about.toml`.
 fn stations(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<Vec<Option<f64>>, DataError> {
-    let Some(about) = about.filter(|about| !about.markers.is_empty()) else { return Ok(recorder.stations_m.clone()) };
+    let Some(about) = about.filter(|about| !about.markers.is_empty()) else {
+        let all: Option<Vec<f64>> = recorder.stations_m.iter().copied().collect();
+        return match all.and_then(|all| one_station(&all)) {
+            Some(message) => Err(DataError::runs(file, message, SAME_STATION)),
+            None => Ok(recorder.stations_m.clone()),
+        };
+    };
     let mut stations = Vec::with_capacity(recorder.stations_m.len());
     for (name, column_m) in recorder.markers.names.iter().zip(&recorder.stations_m) {
         let Some(marker) = about.markers.iter().find(|marker| marker.name == *name) else {
@@ -252,6 +258,15 @@ fn stations(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<Ve
     }
     Ok(stations)
 }
+
+/// What is wrong with stations that are all the same.
+pub(crate) fn one_station(stations_m: &[f64]) -> Option<String> {
+    let first = *stations_m.first()?;
+    let same = stations_m.len() > 1 && stations_m.iter().all(|s| (s - first).abs() <= policy::SAME_STATION_M);
+    same.then(|| format!("all {} markers have the station {} mm", stations_m.len(), first * 1e3))
+}
+
+pub(crate) const SAME_STATION: &str = "write for each marker its own distance from the base along the undeformed body";
 
 fn unknown_marker(file: &str, recorder: &Recorder, name: &str, about: &About) -> DataError {
     let known: Vec<&str> = about.markers.iter().map(|marker| marker.name.as_str()).collect();

@@ -8,6 +8,7 @@ use crate::header::{
 };
 use crate::lines::Line;
 use crate::policy;
+use spelling::units::Range;
 
 /// One observation; texts borrow from the reader.
 #[derive(Debug)]
@@ -57,6 +58,16 @@ const PLACEHOLDERS: [(f64, &str); 9] = [
 
 /// Words for seconds behind a time.
 const SECONDS: [&str; 4] = ["seconds", "secs", "sec", "s"];
+
+/// Bounds of a pressure.
+pub(crate) fn pressure_bounds(quantity: usize) -> &'static Range {
+    if quantity == P_BODY { &Range::BODY_PRESSURE } else { &Range::ACTUATOR_PRESSURE }
+}
+
+/// Means of holds below this are no noise of a sensor \[Pa\].
+pub(crate) fn lowest_mean_pa(quantity: usize) -> f64 {
+    if quantity == P_BODY { Range::BODY_PRESSURE.low * Range::BODY_PRESSURE.si } else { policy::LOWEST_GAUGE_PA }
+}
 
 impl RowReader {
     pub fn new(header: Header) -> RowReader {
@@ -205,14 +216,14 @@ impl RowReader {
             run: label(self.word(line, RUN)?),
             marker: label(self.word(line, MARKER)?),
             phase: self.phase(line)?,
-            t_s: self.time(line)?,
+            t_s: self.bounded(line, TIME, &Range::TIME)?,
             p_body_pa: self.pressure(line, P_BODY)?,
             p_act_pa: self.pressure(line, P_ACT)?,
             more_act_pa,
             x_m: self.length(line, X)?,
             y_m: if self.header.y_down { -y_m } else { y_m },
             z_m: if self.has(Z) { Some(self.length(line, Z)?) } else { None },
-            station_m: if self.has(STATION) { Some(self.station(line)?) } else { None },
+            station_m: if self.has(STATION) { Some(self.bounded(line, STATION, &Range::STATION)?) } else { None },
             gauge_pa: if self.has(GAUGE) { Some(self.pressure(line, GAUGE)?) } else { None },
         })
     }
@@ -266,7 +277,7 @@ impl RowReader {
     fn number(&self, line: &Line, quantity: usize) -> Result<f64, DataError> {
         let text = self.text(quantity);
         let unit = self.header.columns[quantity].as_ref().and_then(|column| column.unit);
-        let seconds = quantity == TIME && unit.is_some_and(|unit| unit.symbol == "s");
+        let seconds = quantity == TIME && self.header.unit(TIME) == "s";
         let suffix = SECONDS.iter().filter(|_| seconds).find_map(|word| text.strip_suffix(word));
         let plain = suffix.unwrap_or(text).trim_end();
         let comma = || (self.header.delimiter != b',').then(|| with_comma(plain)).flatten();
@@ -309,47 +320,33 @@ impl RowReader {
         Ok(value)
     }
 
-    fn station(&self, line: &Line) -> Result<f64, DataError> {
-        let value = self.length(line, STATION)?;
-        if value < 0.0 {
-            let message = format!("the station of a marker is below zero: {}", self.text(STATION));
-            let help = "stations count from the robot's base along the undeformed body".to_string();
-            return Err(DataError::Cell(self.cell_fault(line, STATION, message, help)));
-        }
-        Ok(value)
+    /// A number of a quantity within its bounds.
+    fn bounded(&self, line: &Line, quantity: usize, bounds: &Range) -> Result<f64, DataError> {
+        let value = self.number(line, quantity)?;
+        bounds
+            .check(value)
+            .map_err(|(message, help)| DataError::Cell(self.cell_fault(line, quantity, message, help.into())))
     }
 
-    fn time(&self, line: &Line) -> Result<f64, DataError> {
-        let value = self.number(line, TIME)?;
-        if value < 0.0 {
-            let message = format!("the time is below zero: {}", self.text(TIME));
-            let help = "times count from the start of the run, when the first pressure was set: add the same number to \
-                        all times of the run";
-            return Err(DataError::Cell(self.cell_fault(line, TIME, message, help.to_string())));
-        }
-        Ok(value)
-    }
-
+    /// Readings below zero are judged by the mean of their hold, but for a gauge, which belongs to no hold.
     fn pressure(&self, line: &Line, quantity: usize) -> Result<f64, DataError> {
         let value = self.number(line, quantity)?;
-        let base = QUANTITIES[quantity].base;
-        if value > policy::HIGHEST_GAUGE_PA {
-            let unit = self.header.columns[quantity].as_ref().and_then(|column| column.unit).map_or("", |u| u.symbol);
-            let better = if unit == "kPa" { ("Pa", "pa") } else { ("kPa", "kpa") };
-            let message = format!("{} {unit} is above 1 MPa; it looks like {}", self.text(quantity), better.0);
-            let help = format!("name the column {base}_{}", better.1);
+        let bounds = pressure_bounds(quantity);
+        let Err((message, _)) = bounds.check(value) else { return Ok(value) };
+        if value > bounds.high * bounds.si {
+            let better = if self.header.unit(quantity) == "kPa" { "pa" } else { "kpa" };
+            let help = format!("name the column {}_{better}", QUANTITIES[quantity].base);
             return Err(DataError::Unit(self.cell_fault(line, quantity, message, help)));
         }
         if quantity == GAUGE && value < policy::LOWEST_GAUGE_PA {
-            return Err(DataError::Cell(self.below_zero(line, quantity)));
+            return Err(DataError::Cell(self.too_low(line, quantity, value)));
         }
         Ok(value)
     }
 
-    /// The fault of a pressure below zero.
-    pub fn below_zero(&self, line: &Line, quantity: usize) -> Box<Fault> {
-        let what = if quantity == P_BODY { "body" } else { "actuator" };
-        let message = format!("{what} pressure below zero: {}", self.text(quantity));
+    /// The fault of a pressure below its bounds.
+    pub fn too_low(&self, line: &Line, quantity: usize, value_pa: f64) -> Box<Fault> {
+        let message = pressure_bounds(quantity).check(value_pa).err().map_or(String::new(), |(message, _)| message);
         let help = "give gauge pressure (0 is the air of the room); subtract the sensor's zero".to_string();
         self.cell_fault(line, quantity, message, help)
     }

@@ -3,7 +3,7 @@
 use include_dir::{Dir, include_dir};
 
 use crate::about::{About, Provenance, parse_about};
-use crate::error::{DataError, Fault};
+use crate::error::DataError;
 
 static SETS: Dir = include_dir!("$CARGO_MANIFEST_DIR/sets");
 
@@ -47,12 +47,10 @@ pub fn set_file(set: &str, file: &str) -> Result<&'static str, DataError> {
     let shown = shown(set, file);
     let missing = || {
         let help = format!("embedded sets: {}", names().join(", "));
-        DataError::File(Box::new(Fault::of_file(&shown, "no such file among the embedded sets", help)))
+        DataError::file(&shown, "no such file among the embedded sets", help)
     };
     let found = SETS.get_file(format!("{set}/{file}")).ok_or_else(missing)?;
-    found.contents_utf8().ok_or_else(|| {
-        DataError::Layout(Box::new(Fault::of_file(&shown, "the text is not UTF-8", "save the file as UTF-8")))
-    })
+    found.contents_utf8().ok_or_else(|| DataError::layout(&shown, "the text is not UTF-8", "save the file as UTF-8"))
 }
 
 /// The description of an embedded set.

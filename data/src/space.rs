@@ -1,7 +1,7 @@
 //! A third coordinate and pressures of several supply channels: what a planar robot leaves aside, and when it must not.
 
 use crate::dataset::Dataset;
-use crate::error::{DataError, Fault};
+use crate::error::DataError;
 use crate::policy::{self, tolerance_act_pa};
 use crate::streams::plausible::check_y_up_later;
 use crate::units::mm;
@@ -56,8 +56,7 @@ impl Dataset {
     /// Markers that move towards z more than towards y; channels at different pressures; y that points down, which is not asked
     /// before of a table with z.
     pub fn left_aside(&self) -> Result<Option<String>, DataError> {
-        let refused =
-            |message: String, help: &str| Err(DataError::Runs(Box::new(Fault::of_file(&self.name, message, help))));
+        let refused = |message: String, help: &str| Err(DataError::runs(&self.name, message, help));
         if self.channels_differ() {
             let message = format!(
                 "the table has pressures of {} supply channels, and this is built for one",

@@ -15,7 +15,7 @@ use crate::error::{DataError, Fault};
 use crate::header::{Header, MARKER, RUN, STATION, TIME};
 use crate::lines::{KeptLine, Line};
 use crate::policy;
-use crate::rows::{Row, RowReader};
+use crate::rows::{Row, RowReader, lowest_mean_pa};
 pub(crate) use labels::Labels;
 use placeholders::Placeholders;
 use plausible::Extremes;
@@ -63,8 +63,8 @@ pub(crate) struct Segment {
     pub rows: u64,
     /// The first actuator pressure and the last \[Pa\].
     pub ends_pa: [f64; 2],
-    /// The first reading that is below zero, in the order of [`PRESSURES`], to be judged by the mean.
-    pub below_zero: [Option<Box<Fault>>; PRESSURES.len()],
+    /// The first reading below its bounds, in the order of [`PRESSURES`], to be judged by the mean.
+    pub too_low: [Option<Box<Fault>>; PRESSURES.len()],
     /// Observations per sample; doubles whenever neighbours are merged.
     stride: u64,
     /// Sums of the pressures.
@@ -79,7 +79,7 @@ impl Segment {
             samples: Vec::new(),
             rows: 0,
             ends_pa: [row.p_act_pa; 2],
-            below_zero: Default::default(),
+            too_low: Default::default(),
             stride: 1,
             sums_pa: [0.0; PRESSURES.len()],
         }
@@ -114,8 +114,8 @@ impl Segment {
         self.rows += one.rows;
         self.sums_pa.iter_mut().zip(one.sums_pa).for_each(|(sum, other)| *sum += other);
         one.samples.into_iter().for_each(|sample| self.push(sample));
-        let below = self.below_zero.iter_mut().zip(one.below_zero);
-        below.for_each(|(own, other)| *own = own.take().or(other));
+        let low = self.too_low.iter_mut().zip(one.too_low);
+        low.for_each(|(own, other)| *own = own.take().or(other));
     }
 
     /// Takes samples out, and says how many rows they were.
@@ -269,8 +269,8 @@ impl Recorder {
         }
         if let Some(segment) = stream.segments.last_mut() {
             for (which, (pressure_pa, quantity)) in pressures_pa(row).into_iter().zip(PRESSURES).enumerate() {
-                if pressure_pa < policy::LOWEST_GAUGE_PA && segment.below_zero[which].is_none() {
-                    segment.below_zero[which] = Some(cells.below_zero(line, quantity));
+                if pressure_pa < lowest_mean_pa(quantity) && segment.too_low[which].is_none() {
+                    segment.too_low[which] = Some(cells.too_low(line, quantity, pressure_pa));
                 }
             }
             segment.add(row);

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::io::{Read, Write};
 use std::path::Path;
 
-use crate::error::{DataError, Fault};
+use crate::error::DataError;
 use crate::write::{cannot_write, quoted};
 
 /// One column.
@@ -143,7 +143,7 @@ mod parquet {
     use polars_parquet::parquet::page::CompressedPage;
     use polars_parquet::parquet::read::get_page_iterator;
 
-    use super::{Column, DataError, Fault, PARQUET_READER, Path, Table};
+    use super::{Column, DataError, PARQUET_READER, Path, Table};
     use crate::write::write_atomically;
 
     /// Largest number of rows; a table of that many is larger than the memory.
@@ -206,7 +206,7 @@ mod parquet {
     }
 
     fn file_error(path: &Path, message: String, help: &str) -> DataError {
-        DataError::File(Box::new(Fault::of_file(&path.display().to_string(), message, help)))
+        DataError::file(&path.display().to_string(), message, help)
     }
 
     fn frame(table: &Table) -> PolarsResult<DataFrame> {
@@ -234,7 +234,8 @@ mod parquet {
 
 #[cfg(not(feature = "parquet"))]
 mod parquet {
-    use super::{DataError, Fault, Path, Table};
+    use super::{DataError, Path, Table};
+    use crate::error::Fault;
 
     pub fn write(_table: &Table, path: &Path) -> Result<(), DataError> {
         Err(absent(path))

@@ -1,13 +1,14 @@
 //! Writing: marker tables, descriptions, and files that are either whole or not there.
 
 use std::fmt::Write as _;
-use std::fs::File;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+
+use spelling::files::{clear, folder_of, replace};
 
 use crate::about::{About, Direct, MeasuredValue};
 use crate::dataset::Dataset;
-use crate::error::{DataError, Fault};
+use crate::error::DataError;
 use crate::units::{kpa, mm};
 
 /// Writes the tidy marker table of a dataset: mm and kPa with four decimals, so that the same data give the same bytes.
@@ -141,31 +142,14 @@ fn tidy_mm(length_m: f64) -> String {
     format!("{:?}", (mm(length_m) * 1e6).round() / 1e6)
 }
 
-/// Writes `bytes` to `path` so that a reader, a full disk or an interruption never leaves half a file: into a temporary
-/// file of the same folder, flushed to the disk, then renamed. The folder must exist.
+/// Writes `bytes` to `path`, whole or not at all, and removes what a kill left of earlier tries. The folder must exist.
 ///
 /// # Errors
 /// The folder does not exist or is not writable, or the disk is full; an earlier file at `path` is then untouched.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), DataError> {
-    let shown = path.display().to_string();
-    let temporary = temporary_name(path);
-    let written = write_and_sync(&temporary, bytes).and_then(|()| std::fs::rename(&temporary, path));
-    written.map_err(|cause| {
-        // The temporary file may not exist; the first failure is the one to report.
-        let _ = std::fs::remove_file(&temporary);
-        cannot_write(&shown, &cause)
-    })
-}
-
-fn temporary_name(path: &Path) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!(".{name}.{}.tmp", std::process::id()))
-}
-
-fn write_and_sync(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut file = File::create(path)?;
-    file.write_all(bytes)?;
-    file.sync_all()
+    clear(&folder_of(path), &|whole| whole == name);
+    replace(path, &mut |out| out.write_all(bytes)).map_err(|cause| cannot_write(&path.display().to_string(), &cause))
 }
 
 pub(crate) fn cannot_write(shown: &str, cause: &std::io::Error) -> DataError {
@@ -175,5 +159,5 @@ pub(crate) fn cannot_write(shown: &str, cause: &std::io::Error) -> DataError {
         std::io::ErrorKind::StorageFull => "free some disk space, or give a folder on another disk",
         _ => "give another path",
     };
-    DataError::File(Box::new(Fault::of_file(shown, format!("cannot write: {cause}"), help)))
+    DataError::file(shown, format!("cannot write: {cause}"), help)
 }

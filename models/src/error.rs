@@ -35,15 +35,13 @@ impl ScenarioError {
 /// Why no prediction came out.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Unsolved {
-    /// A pressure that means nothing.
-    #[error("{what} is {value_kpa} kPa; expected a gauge pressure from 0 to {limit_kpa} kPa")]
+    /// A pressure out of its bounds.
+    #[error("{message}; {help}")]
     BadPressure {
-        /// Which pressure.
-        what: &'static str,
-        /// Its value \[kPa\].
-        value_kpa: f64,
-        /// Largest accepted \[kPa\].
-        limit_kpa: f64,
+        /// What is wrong.
+        message: String,
+        /// What to write.
+        help: &'static str,
     },
     /// A wanted place or limits that mean nothing.
     #[error("{what}")]
@@ -59,11 +57,13 @@ pub enum Unsolved {
         /// What was asked for.
         what: &'static str,
     },
-    /// A time that is not a number of seconds.
-    #[error("the time {t_s} s of a step of the protocol is not finite")]
+    /// A time out of its bounds.
+    #[error("{message}; {help}")]
     BadTime {
-        /// Its value \[s\].
-        t_s: f64,
+        /// What is wrong.
+        message: String,
+        /// What to write.
+        help: &'static str,
     },
     /// The moment balance of a stretch has no root.
     #[error(

@@ -1,6 +1,8 @@
-//! What people type: the nearest known name for a misspelling, rows of exactly so many numbers, units; and their files, read whole.
+//! What people type: the nearest known name for a misspelling, rows of exactly so many numbers, units. And files and folders: read
+//! whole, and written whole or not at all.
 
 pub mod files;
+pub mod folders;
 pub mod quantity;
 pub mod units;
 

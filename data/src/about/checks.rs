@@ -9,6 +9,8 @@ use super::{AboutRun, Geometry, MarkerStation, MeasuredValue, RawBending, RawGeo
 use crate::cells::label;
 use crate::error::{DataError, Fault, Location};
 use crate::policy::LARGEST_TIP_FORCE_N;
+use crate::read::{SAME_STATION, one_station};
+use spelling::units::Range;
 
 /// As many as a scenario takes.
 const MOST_POUCHES: usize = 10_000;
@@ -82,17 +84,15 @@ impl Check<'_> {
             let message = format!("marker {} is there twice", names[twice]);
             return Err(self.fault("names", &raw.names, &message, "name every marker once"));
         }
-        if s_mm.iter().any(|s| !s.is_finite() || *s < 0.0) {
-            return Err(self.fault(
-                "s_mm",
-                &raw.s_mm,
-                "holds a value below zero",
-                "stations count from the base in mm",
-            ));
-        }
         let farthest = s_mm.iter().copied().fold(0.0, f64::max);
         if farthest > 0.0 && farthest < 2.0 {
             return Err(self.fault("s_mm", &raw.s_mm, "looks like metres", "give millimetres: multiply by 1000"));
+        }
+        let bounds = Range::STATION;
+        let stations_m = s_mm.iter().map(|s| bounds.si(bounds.name, *s)).collect::<Result<Vec<f64>, _>>();
+        let stations_m = stations_m.map_err(|(message, help)| self.fault("s_mm", &raw.s_mm, &message, help))?;
+        if let Some(message) = one_station(&stations_m) {
+            return Err(self.fault("s_mm", &raw.s_mm, &message, SAME_STATION));
         }
         let pair = |(name, s): (&String, &f64)| MarkerStation { name: label(name).to_string(), station_m: s / 1e3 };
         Ok(names.iter().zip(s_mm).map(pair).collect())

@@ -13,9 +13,10 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::about::Provenance;
+pub use crate::columns::Field;
+use crate::columns::{field, plain};
 use crate::error::{DataError, Fault};
 use crate::sets;
-use crate::units::Measured;
 use spelling::files::{MOST_DATA, read_whole};
 
 pub use bending_length::bending_lengths_m;
@@ -34,26 +35,6 @@ pub struct BenchKind {
     pub columns: &'static [Field],
     /// What a row must fulfil beyond its columns: message and what to write.
     check: fn(&BenchRow) -> Result<(), [String; 2]>,
-}
-
-/// A column.
-#[derive(Debug, Clone, Copy)]
-pub struct Field {
-    /// Name without unit; the whole name of a number without one.
-    pub base: &'static str,
-    /// Name as usually written.
-    pub expected: &'static str,
-    dimension: Option<Measured>,
-    /// Whether a table of this kind has it always.
-    pub needed: bool,
-}
-
-const fn field(base: &'static str, expected: &'static str, dimension: Measured, needed: bool) -> Field {
-    Field { base, expected, dimension: Some(dimension), needed }
-}
-
-const fn plain(name: &'static str, needed: bool) -> Field {
-    Field { base: name, expected: name, dimension: None, needed }
 }
 
 /// One row in SI units (ratios as 1, angles in degrees), by the columns of its kind.
@@ -199,7 +180,7 @@ mod tests {
         refused(&format!("{head}\n20,1,x\n"), &["a.csv:2, column deflection_mm", "found \"x\""]);
         refused(&format!("{head}\n20,1\n"), &["a.csv:2", "2 cells, the header 3"]);
         refused(&format!("{head}\n"), &["no rows"]);
-        refused(&format!("{head}\n-2,1,1\n"), &["a.csv:2", "body pressure is -2 kPa"]);
+        refused(&format!("{head}\n-2,1,1\n"), &["a.csv:2", "body pressure must be from 0.5 to 100 kPa, not -2"]);
         refused(&format!("{head},deflection_sd_mm\n20,1,1,0.1\n"), &["belong together", "n of 2 or more"]);
         refused(&format!("{head},deflection_sd_mm,n\n20,1,1,0.1,1\n"), &["of 1 tests"]);
         refused("p_body,load_n,deflection_mm\n20,1,1\n", &["p_body has no unit", "p_body_kpa"]);

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::options::ImportOptions;
-use super::recording::{Lengths, Pivot};
+use super::recording::Lengths;
 use super::sheet::CellText;
 use crate::error::DataError;
 use crate::units::Measured;
@@ -247,26 +247,6 @@ impl Roles {
         lengths(first).ok_or_else(|| {
             sheet.fault(line, format!("{first} is no unit of length that is known"), "say it: --scale mm")
         })
-    }
-
-    /// Gives the pressures of a row to the recording of its run.
-    ///
-    /// # Errors
-    /// A cell that is no number.
-    pub fn read_pressures(
-        &self,
-        sheet: &CellText,
-        line: u64,
-        cells: &[&str],
-        run: &mut Pivot,
-        frame: usize,
-    ) -> Result<(), DataError> {
-        for (which, column) in self.pressures.iter().enumerate() {
-            let Some((index, pa)) = column else { continue };
-            let cell = cells.get(*index).copied().unwrap_or_default();
-            run.read(frame, which, pa * sheet.expect(cell, line, "pressure")?);
-        }
-        Ok(())
     }
 }
 

@@ -3,7 +3,7 @@
 use super::options::ImportOptions;
 use super::recording::Recording;
 use super::sheet::CellText;
-use super::{deeplabcut, kinovea, long, motive, sleap, tracker, trackmate, wide};
+use super::{deeplabcut, kinovea, motive, sleap, tables, tracker, trackmate};
 use crate::error::DataError;
 
 /// A kind of tracking file.
@@ -13,6 +13,8 @@ pub struct Format {
     pub name: &'static str,
     /// How it is known.
     pub known_by: &'static str,
+    /// A small file of this kind below `data/tests`.
+    pub fixture: &'static str,
     /// Likelihood below which positions are lost, unless the caller says another; `None` if there is none.
     pub likelihood: Option<f64>,
     /// Whether a text, of which these are the first lines as cells, is of this kind.
@@ -28,12 +30,15 @@ pub const FORMATS: [&Format; 10] = [
     &motive::FORMAT,
     &tracker::FORMAT,
     &kinovea::TRAJECTORIES,
-    &kinovea::KINEMATICS,
+    &tables::KINEMATICS,
     &trackmate::XML,
     &trackmate::SPOTS,
-    &long::FORMAT,
-    &wide::FORMAT,
+    &tables::LONG,
+    &tables::WIDE,
 ];
+
+/// A pressure log below `data/tests`.
+pub const LOG_FIXTURE: &str = "cases/c01-deeplabcut/pressure.csv";
 
 /// Lines that a kind is known by.
 const LOOKED_AT: usize = 8;

@@ -12,6 +12,7 @@ use crate::error::{DataError, Fault};
 use crate::policy::is_a_room;
 use crate::units::kpa;
 use spelling::files::{MOST_DATA, read_whole};
+use spelling::units::Range;
 
 /// A file's text.
 ///
@@ -19,9 +20,8 @@ use spelling::files::{MOST_DATA, read_whole};
 /// It cannot be read, or is no text.
 pub(crate) fn text_of(path: &Path) -> Result<String, DataError> {
     let shown = path.display().to_string();
-    let bytes = read_whole(path, MOST_DATA).map_err(|cause| {
-        DataError::File(Box::new(Fault::of_file(&shown, format!("cannot open the file: {cause}"), "check the path")))
-    })?;
+    let bytes = read_whole(path, MOST_DATA)
+        .map_err(|cause| DataError::file(&shown, format!("cannot open the file: {cause}"), "check the path"))?;
     if let [0xff, 0xfe, rest @ ..] = &bytes[..] {
         let units: Vec<u16> = rest.chunks_exact(2).map(|pair| u16::from_le_bytes([pair[0], pair[1]])).collect();
         return Ok(String::from_utf16_lossy(&units));
@@ -114,9 +114,6 @@ impl Joined {
     }
 }
 
-/// No clock counts as far, in seconds or frames.
-const LATEST_TIME: f64 = 1e15;
-
 /// # Errors
 /// Hardly anything in the run, or a marker at two places at once.
 fn check_run(sheet: &CellText, run: &Recording) -> Result<(), DataError> {
@@ -124,12 +121,8 @@ fn check_run(sheet: &CellText, run: &Recording) -> Result<(), DataError> {
         let message = format!("marker {marker} has two places at {time} of one run");
         return Err(sheet.fault(0, message, "give every run a file of its own, or a column run"));
     }
-    if let Some(time) = run.times.iter().find(|time| time.abs() > LATEST_TIME) {
-        return Err(sheet.fault(
-            0,
-            format!("no recording has a time or frame of {time}"),
-            "correct it, or export again",
-        ));
+    if let Some((message, help)) = run.times.iter().find_map(|time| Range::TIME.check(time.abs()).err()) {
+        return Err(sheet.fault(0, message, help));
     }
     if run.times.len() < 2 || run.places.iter().flatten().all(|place| place[0].is_nan()) {
         let help = "check the export, or lower --likelihood";
@@ -157,7 +150,7 @@ fn logs(
             format!("{count} pressure logs for {files} tracking files"),
         );
         let help = "give one log for all runs, or one for every file in the same order";
-        return Err(DataError::Runs(Box::new(Fault::of_file(&file, message, help))));
+        return Err(DataError::runs(&file, message, help));
     }
     let mut logs = Vec::new();
     for path in &options.pressure_logs {
@@ -182,6 +175,8 @@ fn seconds(sheet: &CellText, run: &mut Recording, options: &ImportOptions) -> Re
             Err(sheet.fault(0, "the file counts frames and does not say how many there are in a second", help))
         }
         (FrameClock::Frames, Some(fps)) => {
+            let checked = Range::FRAME_RATE.check(fps);
+            checked.map_err(|(message, help)| sheet.fault(0, format!("--fps: {message}"), help))?;
             run.times.iter_mut().for_each(|t| *t /= fps);
             Ok(format!("frame 0 is at 0 s, {fps} frames are a second, as given"))
         }
@@ -209,6 +204,8 @@ fn pressures(
         return Err(sheet.fault(0, "the actuator's pressure is not known", help));
     }
     if let Some(body_pa) = options.body_pa {
+        let checked = Range::BODY_PRESSURE.check(body_pa);
+        checked.map_err(|(message, help)| sheet.fault(0, format!("--body-pressure: {message}"), help))?;
         if run.pressures[0].is_some() {
             return Err(sheet.fault(
                 0,

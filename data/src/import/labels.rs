@@ -5,7 +5,7 @@ use std::path::Path;
 use super::frame::{RestAndTop, where_is};
 use super::options::ImportOptions;
 use super::recording::Recording;
-use crate::error::{DataError, Fault};
+use crate::error::DataError;
 
 /// Labels of runs that have none: what the names of their files do not have in common.
 pub(crate) fn number_runs(runs: &mut [(String, Recording)]) {
@@ -65,7 +65,7 @@ pub(crate) fn same_markers(file: &str, runs: &mut [(String, Recording)]) -> Resu
                 markers.join(", ")
             );
             let help = "export the same markers of every run, under the same names";
-            return Err(DataError::Runs(Box::new(Fault::of_file(file, message, help))));
+            return Err(DataError::runs(file, message, help));
         }
         if run.named {
             let place = |name: &String| run.markers.iter().position(|own| own == name).unwrap_or_default();
@@ -109,7 +109,7 @@ pub(crate) fn rename(
     }
     if given.len() != known.len() {
         let message = format!("--markers names {}, the file has {}: {}", given.len(), known.len(), known.join(", "));
-        return Err(DataError::Runs(Box::new(Fault::of_file(file, message, "name every marker, in this order"))));
+        return Err(DataError::runs(file, message, "name every marker, in this order"));
     }
     told.push(format!("markers {} are called {}", known.join(", "), given.join(", ")));
     runs.iter_mut().for_each(|run| run.markers.clone_from(given));

@@ -18,7 +18,7 @@ mod homography;
 mod join;
 mod kinovea;
 mod labels;
-mod long;
+mod layout;
 mod motive;
 mod options;
 mod pressure;
@@ -26,23 +26,23 @@ mod recording;
 pub(crate) mod sheet;
 mod sleap;
 mod table;
+mod tables;
 mod tracker;
 mod trackmate;
 pub mod typed;
-mod wide;
 
 use std::path::{Path, PathBuf};
 
 use crate::about::{About, parse_about};
 use crate::dataset::Dataset;
-use crate::error::{DataError, Fault};
+use crate::error::DataError;
 use crate::policy::tolerance_act_pa;
 use crate::read::{ReadOptions, parse_markers};
 use crate::units::kpa;
 pub use board::read_board;
 pub use columns::QUANTITIES;
 use cut::{Cut, cut};
-pub use formats::{FORMATS, Format};
+pub use formats::{FORMATS, Format, LOG_FIXTURE};
 use frame::{PlacedRuns, RestAndTop, place};
 use join::Joined;
 pub use options::{FileAxis, FilePlace, ImportOptions, Offset, Scale};
@@ -95,11 +95,7 @@ pub fn import(
 ) -> Result<Imported, DataError> {
     let shown: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
     let Some(first) = shown.first() else {
-        return Err(DataError::File(Box::new(Fault::of_file(
-            "import",
-            "no file was given",
-            "name the tracking files",
-        ))));
+        return Err(DataError::file("import", "no file was given", "name the tracking files"));
     };
     let Joined { program, mut runs, mut told } = join::recordings(files, options, progress)?;
     labels::number_runs(&mut runs);
@@ -132,11 +128,7 @@ impl MadeTable<'_> {
         let MadeTable { program, files, cut, markers, actuator, options } = *self;
         if let Some((unknown, _)) = options.stations_m.iter().find(|(name, _)| !markers.contains(name)) {
             let help = format!("the markers are {}", markers.join(", "));
-            return Err(DataError::Runs(Box::new(Fault::of_file(
-                &files[0],
-                format!("--stations names {unknown}, which is no marker"),
-                help,
-            ))));
+            return Err(DataError::runs(&files[0], format!("--stations names {unknown}, which is no marker"), help));
         }
         let stations = table::stations(cut, markers, options);
         if stations.iter().any(|(.., given)| !given) {
@@ -171,7 +163,7 @@ impl MadeTable<'_> {
             self.cut.iter().map(|(run, kept)| format!("run {}: {}", run.label, holds(kept))).collect();
         let message = format!("{}; holds found [kPa]: {}", error.message(), runs.join("; "));
         let help = format!("{}; --hold, --frames, --settle and --bin change what is a hold", error.help());
-        DataError::Runs(Box::new(Fault::of_file(&self.files[0], message, help)))
+        DataError::runs(&self.files[0], message, help)
     }
 }
 
@@ -213,11 +205,7 @@ fn ends(file: &str, run: &Recording) -> Result<RestAndTop, DataError> {
     if high - low <= 2.0 * tolerance_act_pa(low) {
         let message =
             format!("the actuator's pressure stays between {:.1} and {:.1} kPa in a run", kpa(low), kpa(high));
-        return Err(DataError::Runs(Box::new(Fault::of_file(
-            file,
-            message,
-            "check the column, its unit and the clock of the pressure log",
-        ))));
+        return Err(DataError::runs(file, message, "check the column, its unit and the clock of the pressure log"));
     }
     let near = |level: f64| (0..act.len()).filter(|k| (act[*k] - level).abs() <= tolerance_act_pa(level)).collect();
     Ok(RestAndTop { rest: near(low), top: near(high) })
@@ -231,6 +219,6 @@ fn actuator(file: &str, runs: &[Recording], options: &ImportOptions) -> Result<S
         .or_else(|| runs.iter().find_map(|run| run.actuator.clone()));
     known.ok_or_else(|| {
         let help = "add --actuator epam, or the kind that your scenario has";
-        DataError::Runs(Box::new(Fault::of_file(file, "the kind of the actuator is not known", help)))
+        DataError::runs(file, "the kind of the actuator is not known", help)
     })
 }

@@ -7,7 +7,7 @@ use super::recording::Recording;
 use super::sheet::CellText;
 use crate::error::DataError;
 use crate::policy::{HIGHEST_GAUGE_PA, ROOM_PA};
-use crate::units::kpa;
+use spelling::units::Range;
 
 /// Readings over time.
 #[derive(Debug, Clone)]
@@ -63,9 +63,10 @@ impl Log {
             for (column, values) in roles.pressures.iter().zip(&mut log.values_pa) {
                 if let (Some((index, pa)), Some(values)) = (column, values) {
                     let pressure_pa = pa * sheet.expect(cell(*index), number, "pressure")?;
+                    // Absolute pressures are those of the room more.
                     if pressure_pa.abs() > HIGHEST_GAUGE_PA + ROOM_PA[1] {
-                        let message =
-                            format!("a pressure of {:.4e} kPa is more than any fabric stands", kpa(pressure_pa));
+                        let told = Range::ACTUATOR_PRESSURE.check(pressure_pa.abs()).err();
+                        let message = told.map_or(String::new(), |(message, _)| message);
                         return Err(sheet.fault(number, message, "check the reading and the unit of the column"));
                     }
                     values.push(pressure_pa);

@@ -32,7 +32,7 @@ impl<'a> CellText<'a> {
     pub fn new(file: &'a str, text: &'a str) -> Result<CellText<'a>, DataError> {
         if text.contains('\0') {
             let (message, help) = ("the file is no text", "export it as text: CSV, TXT or XML");
-            return Err(DataError::Layout(Box::new(Fault::of_file(file, message, help))));
+            return Err(DataError::layout(file, message, help));
         }
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let said = text.lines().next().and_then(|line| line.trim().strip_prefix("sep="));
@@ -95,9 +95,17 @@ impl<'a> CellText<'a> {
     /// # Errors
     /// Anything else than a finite number or a word for none.
     pub fn expect(&self, text: &str, number: u64, column: &str) -> Result<f64, DataError> {
-        self.number(text)
-            .filter(|value| !value.is_infinite())
-            .ok_or_else(|| self.bad_cell(text, number, column, "type a number, or leave the cell empty"))
+        self.finite(text).ok_or_else(|| self.no_number(text, number, column))
+    }
+
+    /// The number of a cell but for infinity.
+    pub fn finite(&self, text: &str) -> Option<f64> {
+        self.number(text).filter(|value| !value.is_infinite())
+    }
+
+    /// The fault of a cell that is no number.
+    pub fn no_number(&self, text: &str, number: u64, column: &str) -> DataError {
+        self.bad_cell(text, number, column, "type a number, or leave the cell empty")
     }
 
     /// # Errors

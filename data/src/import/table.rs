@@ -117,6 +117,9 @@ pub(crate) fn about_toml(
     text
 }
 
+/// A marker at the base \[m\].
+const LEAST_STATION_M: f64 = 1e-3;
+
 /// Stations given, or the places at rest along the robot.
 pub(crate) fn stations(
     runs: &[(PressedRun, Vec<Kept>)],
@@ -131,7 +134,7 @@ pub(crate) fn stations(
             (!seen.is_empty()).then(|| seen.iter().sum::<f64>() / seen.len() as f64)
         };
         let found: Vec<f64> = runs.iter().filter_map(of_run).collect();
-        (found.iter().sum::<f64>() / found.len().max(1) as f64).max(0.0)
+        (found.iter().sum::<f64>() / found.len().max(1) as f64).max(LEAST_STATION_M)
     };
     let given = |name: &String| options.stations_m.iter().find(|(known, _)| known == name).map(|(_, s)| *s);
     let station = |(marker, name): (usize, &String)| {

@@ -5,16 +5,17 @@ use std::collections::HashMap;
 use super::columns::{ColumnName, is_frame, lengths, si};
 use super::counted;
 use super::formats::Format;
+use super::layout::Layout;
 use super::options::ImportOptions;
 use super::recording::{FrameClock, Lengths, Pivot, Recording};
 use super::sheet::CellText;
-use crate::cells::is_nothing;
 use crate::error::DataError;
 use crate::units::Measured;
 
 pub(super) const SPOTS: Format = Format {
     name: "TrackMate, spots",
     known_by: "columns TRACK_ID and POSITION_X",
+    fixture: "made/trackmate_spots.csv",
     likelihood: None,
     recognise: |_, head, _| head.first().is_some_and(|row| row.contains(&"TRACK_ID") && row.contains(&"POSITION_X")),
     read: spots,
@@ -23,44 +24,39 @@ pub(super) const SPOTS: Format = Format {
 pub(super) const XML: Format = Format {
     name: "TrackMate, XML",
     known_by: "a <TrackMate> or <Tracks> element",
+    fixture: "made/trackmate_tracks.xml",
     likelihood: None,
     recognise: |sheet, _, _| tags(sheet.text).take(4).any(|tag| matches!(tag.name, "TrackMate" | "Tracks")),
     read: xml,
 };
 
 fn spots(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
-    let mut lines = sheet.lines();
-    let header = lines.next().map_or(Vec::new(), |(_, line)| sheet.split(line));
+    let header = sheet.head(1).pop().unwrap_or_default();
     let column = |name: &str| header.iter().position(|known| *known == name);
     let [track, x, y, z, t, frame] =
         ["TRACK_ID", "POSITION_X", "POSITION_Y", "POSITION_Z", "POSITION_T", "FRAME"].map(column);
-    let mut pivot = Pivot::new(Lengths::Pixels, FrameClock::Frames);
-    let (mut cells, mut single, mut second) = (Vec::new(), 0, None);
-    for (number, line) in lines {
-        sheet.split_into(line, &mut cells);
-        let cell = |index: Option<usize>| index.and_then(|index| cells.get(index).copied()).unwrap_or_default();
-        // Up to three more rows of names and units.
-        if sheet.number(cell(x)).is_none() {
-            let unit = |index| ColumnName::of(&format!("x {}", cell(index))).unit;
-            pivot.recording.lengths = unit(x).and_then(|unit| lengths(&unit)).unwrap_or(pivot.recording.lengths);
-            second = unit(t).filter(|unit| !is_frame(unit)).and_then(|unit| si(&unit, Measured::Time)).or(second);
-            continue;
-        }
-        if is_nothing(cell(track)) {
-            single += 1;
-            continue;
-        }
-        let time = match second {
-            Some(second) => second * sheet.time(cell(t), number, "POSITION_T")?,
-            None => sheet.time(cell(frame.or(t)), number, "FRAME")?,
-        };
-        let value = |index: Option<usize>, name| index.map_or(Ok(0.0), |_| sheet.expect(cell(index), number, name));
-        let place = [value(x, "POSITION_X")?, value(y, "POSITION_Y")?, value(z, "POSITION_Z")?];
-        let (at, marker) = (pivot.frame(time), pivot.marker(cell(track)));
-        pivot.put(at, marker, place, true);
+    // Up to three more rows of names and units.
+    let cell = |cells: &[&str], index: Option<usize>| -> String {
+        index.and_then(|index| cells.get(index)).map_or(String::new(), ToString::to_string)
+    };
+    let is_head = |line: &str| sheet.number(&cell(&sheet.split(line), x)).is_none();
+    let heads: Vec<Vec<&str>> = sheet
+        .lines()
+        .skip(1)
+        .map(|(_, line)| line)
+        .take_while(|line| is_head(line))
+        .map(|line| sheet.split(line))
+        .collect();
+    let unit = |index| heads.iter().rev().find_map(|cells| ColumnName::of(&format!("x {}", cell(cells, index))).unit);
+    let second = unit(t).filter(|unit| !is_frame(unit)).and_then(|unit| si(&unit, Measured::Time));
+    let time = if second.is_some() { t } else { frame.or(t) };
+    let lengths = unit(x).and_then(|unit| lengths(&unit)).unwrap_or(Lengths::Pixels);
+    let mut layout = Layout::new(time.unwrap_or_default(), second, lengths);
+    (layout.marker, layout.named, layout.row_of) = (track, false, ["spot", "track"]);
+    for (part, index) in [x, y, z].into_iter().enumerate() {
+        index.map_or(Ok(()), |index| layout.add(sheet, 1, "", part, index))?;
     }
-    pivot.recording.clock = if second.is_some() { FrameClock::Seconds } else { FrameClock::Frames };
-    Ok(vec![told(pivot, single)])
+    layout.read(sheet, 1, 2, sheet.lines().skip(1 + heads.len()))
 }
 
 fn told(mut pivot: Pivot, single: usize) -> Recording {

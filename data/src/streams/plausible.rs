@@ -42,7 +42,7 @@ impl Extremes {
 /// Metres in a millimetre column or millimetres in a metre column; psi, bar or MPa in the kPa columns.
 pub(crate) fn check_units(cells: &RowReader, recorder: &Recorder) -> Result<(), DataError> {
     let extremes = &recorder.extremes;
-    let unit = |quantity: usize| cells.header.columns[quantity].as_ref().and_then(|c| c.unit).map_or("", |u| u.symbol);
+    let unit = |quantity: usize| cells.header.unit(quantity);
     let known_robot = extremes.p_act_pa > 0.0 || recorder.stations_m.iter().any(Option::is_some);
     let looks = |quantity, value, word: &str| Err(unit_error(&cells.header, quantity, value, word));
     if unit(X) == "mm"
@@ -70,7 +70,7 @@ pub(crate) fn check_units(cells: &RowReader, recorder: &Recorder) -> Result<(), 
 fn unit_error(header: &Header, quantity: usize, largest: f64, word: &str) -> DataError {
     let (base, suffix) = (QUANTITIES[quantity].base, if word == "metres" { "m" } else { "mm" });
     let message = format!("the largest value of this column is {largest:.4}: it looks like {word}");
-    DataError::Unit(column_fault(header, quantity, message, format!("name the column {base}_{suffix}")))
+    DataError::Unit(header.fault(quantity, message, format!("name the column {base}_{suffix}")))
 }
 
 fn check_small_pressures(cells: &RowReader, p_body: f64, p_act: f64) -> Result<(), DataError> {
@@ -84,7 +84,7 @@ fn check_small_pressures(cells: &RowReader, p_body: f64, p_act: f64) -> Result<(
         "name the columns p_act_{suffix}, p_body_{suffix}; if they really are that small, give them in Pa as p_act_pa, \
          p_body_pa"
     );
-    Err(DataError::Unit(column_fault(&cells.header, P_ACT, message, help)))
+    Err(DataError::Unit(cells.header.fault(P_ACT, message, help)))
 }
 
 /// How y is not what it should be.
@@ -117,8 +117,7 @@ impl WrongY {
 /// As [`wrong_y`].
 pub(crate) fn check_y_up(header: &Header, dataset: &Dataset) -> Result<(), DataError> {
     let Some((wrong, message)) = wrong_y(dataset) else { return Ok(()) };
-    let unit = header.columns[Y].as_ref().and_then(|column| column.unit).map_or("mm", |unit| unit.symbol);
-    Err(DataError::Unit(column_fault(header, Y, message, wrong.help(unit, header.y_down))))
+    Err(DataError::Unit(header.fault(Y, message, wrong.help(header.unit(Y), header.y_down))))
 }
 
 /// The same of a table that was read before and is now of a planar robot.
@@ -169,17 +168,4 @@ fn wrong_y(dataset: &Dataset) -> Option<(WrongY, String)> {
         mm(moved_m)
     );
     Some((WrongY::Down, message))
-}
-
-/// A fault of a whole column, shown at its name in the header.
-fn column_fault(header: &Header, quantity: usize, message: String, help: String) -> Box<Fault> {
-    let line = header.line.line();
-    let mut fault = line.fault(message, help);
-    let Some(column) = &header.columns[quantity] else { return fault };
-    let name = &header.names[column.index];
-    let before = line.text.split(header.delimiter as char).take(column.index).map(|cell| cell.len() + 1).sum::<usize>();
-    let at = line.text[before.min(line.text.len())..].find(name.as_str()).map_or(before, |at| before + at);
-    fault.location.column_name = Some(name.clone());
-    fault.span = Some((line.start + at, line.start + at + name.len()));
-    fault
 }

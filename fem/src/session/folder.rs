@@ -1,11 +1,12 @@
 //! The folder of a run: what it holds, who may write to it, and how a complete run takes the place of an older one.
 
-use super::exchange::{exchange, mend};
 use super::manifest::{Manifest, sha256};
 use crate::FemError;
 use crate::atomic::replace;
 use crate::record::RecordShape;
 use serde::{Deserialize, Serialize};
+use spelling::files::is_partial;
+use spelling::folders::{self, exchange, mend};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
@@ -215,7 +216,7 @@ fn look(folder: &Path) -> Result<Found, FemError> {
         return Ok(Found::Nothing);
     }
     // What a kill between two files can leave behind is of no use to anyone.
-    let names: Vec<String> = sorted(folder)?.into_iter().filter(|n| n != LOCK && !is_leftover(n)).collect();
+    let names: Vec<String> = sorted(folder)?.into_iter().filter(|n| n != LOCK && !is_partial(n)).collect();
     let has = |name: &str| names.iter().any(|n| n == name);
     if let Some(name) = foreign(folder, &names)? {
         return Ok(Found::Foreign(name));
@@ -239,7 +240,7 @@ fn foreign(folder: &Path, names: &[String]) -> Result<Option<String>, FemError> 
     }
     let frames = folder.join("frames");
     let frames = if frames.is_dir() { sorted(&frames)? } else { Vec::new() };
-    let is_frame = |n: &String| n.starts_with("run_") && n.ends_with(".vtu") || is_leftover(n);
+    let is_frame = |n: &String| n.starts_with("run_") && n.ends_with(".vtu") || is_partial(n);
     Ok(frames.iter().find(|n| !is_frame(n)).map(|n| format!("frames/{n}")))
 }
 
@@ -354,34 +355,19 @@ impl Workplace {
     }
 }
 
-/// A file that was being written when a run was killed.
-fn is_leftover(name: &str) -> bool {
-    name.ends_with(".partial") || (name.starts_with('.') && name.ends_with(".tmp"))
-}
-
-/// Removes what a kill left behind.
+/// Removes what a kill left behind; whoever holds the lock is alone.
 fn sweep(folder: &Path) -> Result<(), FemError> {
-    let Ok(entries) = std::fs::read_dir(folder) else { return Ok(()) };
-    let leftovers = entries.filter_map(|e| Some(e.ok()?.path()));
-    leftovers.filter(|p| is_leftover(&p.file_name().unwrap_or_default().to_string_lossy())).try_for_each(|p| remove(&p))
+    let leftovers = folders::names(folder).unwrap_or_default().into_iter().filter(|name| is_partial(name));
+    leftovers.map(|name| folder.join(name)).try_for_each(|path| remove(&path))
 }
 
 fn sorted(folder: &Path) -> Result<Vec<String>, FemError> {
-    let entries = std::fs::read_dir(folder).map_err(|cause| unwritable(folder, &cause))?;
-    let mut names: Vec<String> =
-        entries.filter_map(|e| Some(e.ok()?.file_name().to_string_lossy().into_owned())).collect();
-    names.sort();
-    Ok(names)
+    folders::names(folder).map_err(|cause| unwritable(folder, &cause))
 }
 
 /// Removes a file or a folder that a run made, if it is there.
 fn remove(path: &Path) -> Result<(), FemError> {
-    let removed = match path.symlink_metadata() {
-        Err(_) => return Ok(()),
-        Ok(about) if about.is_dir() => std::fs::remove_dir_all(path),
-        Ok(_) => std::fs::remove_file(path),
-    };
-    removed.map_err(|cause| unwritable(path, &cause))
+    folders::remove(path).map_err(|cause| unwritable(path, &cause))
 }
 
 #[cfg(test)]

@@ -23,7 +23,7 @@
 //! | `stepping` | rows, frames and checkpoints as a run goes |
 //! | `watch`, `robot_files` | what is read of a robot, its tables and pictures |
 //! | `goes_on` | the end of a complete run, and runs that go on from it |
-//! | `folder`, `exchange` | who may write to a run's folder, and how a new run takes the place of an older one |
+//! | `folder` | who may write to a run's folder, and how a new run takes the place of an older one |
 //! | `memory` | whether a mesh fits into this machine |
 //! | `summary` | the records `summary.json` and the cost of a run |
 //! | `plan`, `many`, `table` | runs that differ in seed, pressure, mesh or assumed numbers; several beside each other; the cache by hash; what they gave |
@@ -31,7 +31,6 @@
 //! A run in a folder is marked as unfinished until its last file is written; killed at any moment it can go on with
 //! [`Settings::resume`], and ends with the same bits.
 
-mod exchange;
 mod export;
 mod folder;
 mod goes_on;
@@ -47,7 +46,6 @@ mod table;
 mod together;
 mod watch;
 
-pub use exchange::in_one_step as exchange_folders;
 pub use export::{Export, Solver, export};
 pub use folder::is_finished;
 pub use manifest::{FileHash, MANIFEST, Maker, Manifest, sha256};
@@ -62,6 +60,7 @@ pub use summary::{
 pub use table::{Heights, RunRow, RunTable, SeedGroup};
 pub use watch::{RobotSummary, WatchedRobot};
 
+use crate::record::Damage;
 use crate::robot::{Reading, Sample};
 use crate::{FemError, Simulation};
 use folder::{Opened, RunIdentity, RunWish, Workplace};
@@ -152,6 +151,7 @@ impl FeRun {
         #[derive(Deserialize)]
         struct Made {
             cost: Cost,
+            outputs: Vec<FileHash>,
         }
         let text = |name: &str| {
             let path = folder.join(name);
@@ -160,10 +160,14 @@ impl FeRun {
         };
         let help =
             format!("delete {} and give the command again: that run is made anew, others are kept", folder.display());
-        let (file, summary) = text("summary.json")?;
-        let summary = SUMMARY.read(&file, &summary, &help)?;
-        let (file, manifest) = text("manifest.json")?;
-        let cost = MANIFEST.read::<Made>(&file, &manifest, &help)?.cost;
+        let (file, summary_text) = text("summary.json")?;
+        let summary = SUMMARY.read(&file, &summary_text, &help)?;
+        let (listed, manifest) = text("manifest.json")?;
+        let Made { cost, outputs } = MANIFEST.read(&listed, &manifest, &help)?;
+        let own = FileHash::of("summary.json", summary_text.as_bytes());
+        if outputs.iter().any(|output| output.name == own.name && output.sha256 != own.sha256) {
+            return Err(Damage::changed(&file, &help));
+        }
         let (notices, energies, files) = (Vec::new(), Vec::new(), Vec::new());
         Ok(FeRun { summary, cost, folder: Some(folder.into()), fresh: false, notices, energies, files })
     }

@@ -19,14 +19,8 @@ pub(super) type Checked<T> = Result<T, ScenarioError>;
 
 const LENGTH: Range = Range::LENGTH;
 const POSITION: Range = Range { name: "position", low: 0.0, too_small: "positions count from the base", ..LENGTH };
-const PRESSURE: Range = Range::PRESSURE;
+const PRESSURE: Range = Range::ACTUATOR_PRESSURE;
 const MOST_PRESSURE: Range = Range { low: 0.001, too_small: "the inverse looks up to it", ..PRESSURE };
-const BODY_PRESSURE: Range = Range {
-    low: 0.5,
-    high: 100.0,
-    too_small: "this looks like psi: write kilopascals, for example 2 for 0.29 psi (1 psi is 6.895 kPa)",
-    ..PRESSURE
-};
 const STIFFNESS: Range = Range {
     name: "bending stiffness",
     unit: "N m²",
@@ -72,7 +66,7 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
         name: raw.name.clone(),
         radius_m,
         length_m,
-        p_body_pa: si(&body.pressure_kpa, &BODY_PRESSURE)?,
+        p_body_pa: si(&body.pressure_kpa, &Range::BODY_PRESSURE)?,
         bending_stiffness: optional(&body.bending_stiffness_nm2, &STIFFNESS)?.unwrap_or(0.0),
         hinge_curvature: optional(&body.hinge_curvature_per_m, &HINGE)?.unwrap_or(0.05),
         hinge_share: optional(&body.hinge_moment_share, &SHARE)?.unwrap_or(1.0),
@@ -237,7 +231,7 @@ fn zone(raw: &Spanned<RawZone>, length_m: f64, actuator: &ActuatorChoice) -> Che
 fn stations(raw: &[Spanned<f64>], length_m: f64) -> Checked<Vec<f64>> {
     let mut stations: Vec<f64> = Vec::with_capacity(raw.len());
     for value in raw {
-        let s = si(value, &POSITION)?;
+        let s = si(value, &Range::STATION)?;
         if s > length_m * (1.0 + 1e-9) {
             let message = format!("marker at {} mm is off the body of {} mm", value.get_ref(), length_m * 1e3);
             return refuse(message, "stations are measured along the undeformed body from its base", value.span());
