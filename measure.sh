@@ -1,11 +1,10 @@
 #!/usr/bin/env bash
-# The size of this repository: lines and characters of code without tests, in one format for every version; modules that
-# import each other in a circle; named constants; type names with two meanings; the binary. `./measure.sh build` times a clean build too.
-# Needs rustfmt, awk and tsort.
+# The size of this repository: lines and characters of code without tests, in one format for every version; circles of files; named
+# constants; type names with two meanings; the binary. `./measure.sh build` times a clean build too. Needs rustfmt and awk.
 set -euo pipefail
 cd "$(dirname "$0")"
-product="models fem data compare report src spelling"
-development="challenge verification"
+product="models fem data compare report src sweep spelling python capi web"
+development="challenge verification fuzz"
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 
@@ -31,28 +30,7 @@ printf '%-44s %s\n' "lines of the development crates" "$(lines $development)"
 for part in $product $development; do printf '  %-42s %s\n' "$part" "$(lines "$part")"; done
 printf '%-44s %s\n' "characters of code of the product" "$(code $product)"
 
-# Modules of a crate: files or folders below src; `crate::NAME` in one of them is an arrow.
-circles=0
-where=
-for crate in models fem data compare report challenge verification src; do
-  root=$([ "$crate" = src ] && echo src || echo "$crate/src")
-  arrows=$(cd "$copy/$root" && find . -name '*.rs' -exec awk '
-    /^ *\/\// { next }
-    { line = $0
-      while (match(line, /crate::[a-z_][a-z_0-9]*/)) {
-        from = FILENAME; sub(/^\.\//, "", from); sub(/(\.rs|\/.*)$/, "", from)
-        print from, substr(line, RSTART + 7, RLENGTH - 7)
-        line = substr(line, RSTART + RLENGTH)
-      } }' {} + | awk '$1 != $2 && $1 != "lib" && $1 != "main"' | sort -u | while read -r from to; do
-      if [ -e "$to.rs" ] || [ -d "$to" ]; then echo "$from $to"; fi
-    done)
-  while read -r circle; do
-    circles=$((circles + 1))
-    where="$where\n  $crate: $circle"
-  done < <(tsort <<< "$arrows" 2>&1 > /dev/null | sed 's/^tsort: //' | awk '/loop/ { if (held) print held; held = ""; next } { held = held " " $0 } END { if (held) print held }')
-done
-printf '%-44s %s\n' "circles between modules" "$circles"
-printf '%b\n' "$where" | sed '/^$/d'
+printf '%-44s %s\n' "circles of files" "$(cargo test --release --quiet -p ibr-spelling --test circles -- --nocapture | grep -c ' files: ')"
 printf '%-44s %s\n' "named constants of numbers" "$(grep -rhE '^\s*(pub )?(pub\([a-z]+\) )?const [A-Z_0-9]+: (f64|usize|u32|u64)' "$copy" | wc -l)"
 # A type that the rest of its crate, or everybody, sees; and every type.
 meanings() { grep -rhoE "^\s*($1)(struct|enum|trait) [A-Z][A-Za-z0-9]*" "$copy" --include='*.rs' | awk '{ print $NF }' | sort | uniq -d | wc -l; }
