@@ -76,7 +76,7 @@ fn listed(folder: &Path) -> Vec<Input> {
     MANIFEST.read::<Listed>(MANIFEST_FILE, &text, "").map_or(Vec::new(), |manifest| manifest.outputs)
 }
 
-/// Those of them that nobody changed or removed.
+/// The listed files that are unchanged.
 fn unchanged(folder: &Path) -> Vec<Input> {
     let same = |ours: &Input| std::fs::read(folder.join(&ours.name)).is_ok_and(|bytes| sha256(&bytes) == ours.sha256);
     listed(folder).into_iter().filter(same).collect()
@@ -96,7 +96,7 @@ fn can_be_made(folder: &Path) -> Result<(), Failure> {
     }
 }
 
-/// The same for a set of data, which replaces one only if told.
+/// The same for a set of data, which is replaced only with `--force`.
 pub fn check_set_folder(folder: &Path, force: bool) -> Result<(), Failure> {
     let there = [
         ("seal.toml", "a challenge"),
@@ -187,7 +187,7 @@ pub fn program() -> String {
     format!("ibr {}", env!("CARGO_PKG_VERSION"))
 }
 
-/// What a report says of its origin.
+/// The origin of a report.
 pub fn imprint() -> Imprint {
     Imprint { program: program(), date: today(), machine: machine() }
 }

@@ -105,7 +105,7 @@ struct Grid<'a> {
     streams: Vec<Vec<&'a Stream>>,
     /// `[run][marker][hold]` → segment; `None` where the marker was lost
     segments: Vec<Vec<Vec<Option<usize>>>>,
-    /// The stream with the most holds, which are those of the protocol.
+    /// The stream with the most holds: the holds of the protocol.
     reference: &'a [Segment],
 }
 
@@ -267,7 +267,6 @@ fn series(recorder: &Recorder, stream: &Stream) -> String {
     format!("run {}, marker {}", recorder.runs.names[stream.run], recorder.markers.names[stream.marker])
 }
 
-/// What every run needs.
 const SAME_HOLDS: &str = "every run needs the same holds (pressures, phase, number of repetitions): keep only rows recorded while \
                           the pressures are steady, and put other protocols into files of their own";
 

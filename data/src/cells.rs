@@ -7,7 +7,7 @@ use crate::lines::{KeptLine, Line};
 const NOTHING: [&str; 13] =
     ["", "na", "n/a", "#n/a", "nan", "null", "none", "-", "nan(ind)", "nan(snan)", "1.#qnan", "1.#ind", "missing"];
 
-/// Whether a cell says that there is no number.
+/// Whether a cell means that there is no number.
 pub(crate) fn is_nothing(text: &str) -> bool {
     let plain = text.strip_prefix(['-', '+']).filter(|rest| !rest.is_empty()).unwrap_or(text);
     NOTHING.iter().any(|word| plain.eq_ignore_ascii_case(word))
@@ -51,7 +51,7 @@ pub(crate) struct Decimals {
 }
 
 impl Decimals {
-    /// The number of a cell; `allowed` says whether a comma may stand in it (it does not separate cells).
+    /// The number of a cell; `allowed`: a comma may be in it (it does not separate cells).
     ///
     /// # Errors
     /// A file that writes decimals both with a point and with a comma.
@@ -115,6 +115,15 @@ fn both(line: &Line, text: &str) -> DataError {
         text.replace([',', '.'], "")
     );
     DataError::Layout(line.fault(message, "write all decimals alike, and no commas of thousands"))
+}
+
+/// A label as a CSV cell.
+pub(crate) fn quoted(label: &str) -> String {
+    if label.contains([',', '"', ';', '\t', '\n', '\r']) {
+        format!("\"{}\"", label.replace('"', "\"\""))
+    } else {
+        label.to_string()
+    }
 }
 
 #[cfg(test)]

@@ -133,7 +133,7 @@ pub(crate) fn fault(line: &Line, names: &[String], index: usize, message: String
     fault
 }
 
-/// The fault of a column that names a field without a unit, or with an unknown one. `is_asked` says of a field whether an unknown
+/// The fault of a column that names a field without a unit, or with an unknown one. `is_asked` answers for a field whether an unknown
 /// unit is a fault too; `None` if none is.
 pub(crate) fn without_unit(
     line: &Line,

@@ -11,7 +11,7 @@ use crate::error::DataError;
 pub enum Phase {
     /// The actuator pressure was raised to reach this hold (the first hold of a run counts as `Load`).
     Load,
-    /// The actuator pressure is that of the hold before.
+    /// The actuator pressure is the same as in the hold before.
     Hold,
     /// The actuator pressure was lowered to reach this hold.
     Unload,
@@ -33,7 +33,7 @@ impl Phase {
 pub struct Hold {
     /// Body gauge pressure p_b \[Pa\], mean over runs of the recorded value.
     pub p_body_pa: f64,
-    /// Actuator gauge pressure P \[Pa\], mean over runs of the recorded value; that of supply channel 0 where there are more.
+    /// Actuator gauge pressure P \[Pa\], mean over runs of the recorded value; of supply channel 0 where there are more.
     pub p_act_pa: f64,
     /// The same of the supply channels 1, 2, … \[Pa\]; empty where the table has one actuator pressure.
     pub more_act_pa: Vec<f64>,
@@ -62,7 +62,7 @@ impl Hold {
 pub struct Marker {
     /// Label, exactly as written in the `marker` column.
     pub name: String,
-    /// Station along the undeformed body from the base \[m\]; `None` if neither the file nor `about.toml` says.
+    /// Station along the undeformed body from the base \[m\]; `None` if neither the file nor `about.toml` gives it.
     pub station_m: Option<f64>,
 }
 

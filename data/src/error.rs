@@ -1,6 +1,6 @@
 //! What can be wrong with a user's file, said once, with the place and with what to type instead.
 //!
-//! Every error carries the same [`Fault`]; the variant only says of which kind it is. The binary shows the offending
+//! Every error carries the same [`Fault`]; the variant is only its kind. The binary shows the offending
 //! line with a caret from [`DataError::source_line`] and [`DataError::caret`], without opening the file again.
 
 use std::fmt;
@@ -14,16 +14,16 @@ pub struct Location {
     pub line: u64,
     /// Name of the column or key.
     pub column_name: Option<String>,
-    /// Text of the cell as it stands in the file.
+    /// Text of the cell as in the file.
     pub cell: Option<String>,
 }
 
-/// One fault in one file: where, what is wrong, what to type, and the line itself where it was at hand.
+/// One fault in one file: where, the mistake, what to type, and the line itself where it was at hand.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Fault {
     /// Where.
     pub location: Location,
-    /// What is wrong, one sentence without a full stop.
+    /// The mistake, one sentence without a full stop.
     pub message: String,
     /// What to do or type.
     pub help: String,
@@ -85,7 +85,7 @@ impl Fault {
         Some((inside(start), inside(end)))
     }
 
-    /// The same fault, placed in line `line` of its file (where the text of the line is no longer at hand).
+    /// The same fault, placed in line `line` of its file (where the text of the line is gone).
     pub fn at_line(mut self, line: u64) -> Fault {
         self.location.line = line;
         self
@@ -135,7 +135,7 @@ impl DataError {
         DataError::File(Box::new(Fault::of_file(file, message, help)))
     }
 
-    /// A file that is no table as a whole.
+    /// A file that is not a table as a whole.
     pub fn layout(file: &str, message: impl Into<String>, help: impl Into<String>) -> DataError {
         DataError::Layout(Box::new(Fault::of_file(file, message, help)))
     }
@@ -158,7 +158,7 @@ impl DataError {
         }
     }
 
-    /// What is wrong, without the place.
+    /// The mistake, without the place.
     pub fn message(&self) -> &str {
         &self.fault().message
     }

@@ -40,16 +40,13 @@ pub(crate) const QUANTITIES: [Field; 15] = [
     field("p_act_3", "p_act_3_kpa", Measured::Pressure, false),
 ];
 
-/// The header line, understood.
 #[derive(Debug, Clone)]
 pub(crate) struct Header {
-    /// Column names as written.
     pub names: Vec<String>,
     /// The column of each quantity; optional ones may be absent.
     pub columns: Vec<Option<Column>>,
     /// The y column was called `y_down_…`: its sign is turned on reading.
     pub y_down: bool,
-    /// Cell separator.
     pub delimiter: u8,
     /// A line `sep=;` named it.
     pub named: bool,
@@ -126,7 +123,7 @@ fn parse_header(line: &Line, said: Option<u8>) -> Result<Header, DataError> {
         });
     }
     for quantity in [GAUGE, Z].into_iter().chain(P_MORE).filter(|q| columns[*q].is_none()) {
-        // Another program's z_score or z_px is no place.
+        // Another program's z_score or z_px is not a coordinate.
         if let Some(fault) = without_unit(line, &names, quantity, quantity != Z) {
             return Err(fault);
         }
@@ -187,7 +184,6 @@ fn absent(line: &Line, names: &[String], delimiter: u8, missing: usize) -> DataE
     DataError::Column(line.fault(message, format!("add it; the columns are {}", wanted())))
 }
 
-/// Column names in a message.
 const MOST_LISTED: usize = 30;
 
 /// The column names, of very many the first.

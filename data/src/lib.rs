@@ -5,6 +5,7 @@
 
 pub mod about;
 mod align;
+mod atomic;
 pub mod bench;
 mod cells;
 pub mod check;
@@ -34,6 +35,7 @@ pub mod write;
 mod tests;
 
 pub use about::{About, AboutRun, Direct, Geometry, MarkerStation, MeasuredValue, Provenance, parse_about, read_about};
+pub use atomic::write_atomically;
 pub use bench::{Bench, bench, parse_bench};
 pub use check::{CheckReport, check};
 pub use coupons::{Coupon, CouponDefaults, Direction, Pulled, parse_coupons, read_coupons};
@@ -46,4 +48,4 @@ pub use published::{Published, PublishedActuator, PublishedFabric, PublishedFact
 pub use read::{ReadOptions, markers_of_table, parse_markers, read_markers};
 pub use sets::{SetInfo, set_about, set_file, sets};
 pub use table::{Column, Table, read_parquet};
-pub use write::{about_toml, set_files, write_atomically, write_markers_csv};
+pub use write::{about_toml, set_files, write_markers_csv};

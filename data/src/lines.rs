@@ -16,7 +16,6 @@ const PROGRESS_STEP: u64 = 1 << 20;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Line<'a> {
     pub file: &'a str,
-    /// Counted from 1.
     pub number: u64,
     /// Byte offset of the first character in the file.
     pub start: usize,
@@ -62,7 +61,6 @@ impl KeptLine {
     }
 }
 
-/// Reads lines and reports progress.
 pub(crate) struct Lines<'a> {
     reader: BufReader<&'a mut dyn Read>,
     progress: &'a mut dyn FnMut(u64, u64),

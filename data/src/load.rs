@@ -10,7 +10,7 @@ use crate::sets::{names, set_about, set_file, shown};
 use crate::table::{TableReader, read_parquet};
 
 /// Loads the dataset that `spec` names: an embedded set, a folder with `markers.csv` (or `.parquet`) and `about.toml`,
-/// a `.csv` or a `.parquet` file (an `about.toml` beside it is used). `#kind` at the end chooses one actuator.
+/// a `.csv` or a `.parquet` file (an `about.toml` next to it is used). `#kind` at the end chooses one actuator.
 ///
 /// # Errors
 /// Nothing of that name, or any fault of its files.

@@ -61,7 +61,7 @@ fn no_pieces(file: &str, recorder: &Recorder, run: usize) -> Result<(), DataErro
     Err(remedy(file, message, piece.first_line))
 }
 
-/// Segments too short to be holds beside the one in which the middle row lies.
+/// Segments too short to be holds, compared with the one that contains the middle row.
 fn pieces(stream: &Stream) -> impl Iterator<Item = &Segment> {
     let mut rows: Vec<u64> = stream.segments.iter().map(|segment| segment.rows).collect();
     rows.sort_unstable();

@@ -9,7 +9,7 @@
 //! | `x_mm`, `y_mm` | position, x along the undeformed body from its base, y towards the actuator; both empty or NaN where the marker was not seen |
 //! | `z_mm` (optional) | third coordinate, right-handed: of robots with strips round the body |
 //! | `s_mm` (optional) | station of the marker on the undeformed body |
-//! | `p_act_1_kpa`, … `p_act_3_kpa` (optional) | pressures of supply channels 1 to 3; `p_act_kpa` is then that of channel 0 |
+//! | `p_act_1_kpa`, … `p_act_3_kpa` (optional) | pressures of supply channels 1 to 3; `p_act_kpa` is then the pressure of channel 0 |
 //! | `p_gauge_kpa` (optional) | reading of a gauge at the actuator, where `p_act_kpa` is what was set |
 //!
 //! Other units by suffix: mm, cm, m; kPa, Pa, MPa, psi, bar, mbar, inH2O; s, ms, min. `y_down_mm` means −y. Extra columns are ignored.
@@ -37,7 +37,7 @@ use crate::table::{Table, TableReader};
 /// Actuator kinds remembered for the error message that lists them.
 const MOST_KINDS: usize = 20;
 
-/// What is known about a marker table besides the table.
+/// Context of a marker table, in addition to the table.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ReadOptions<'a> {
     /// Its description: stations and labels are taken from it and checked against the table.
@@ -107,7 +107,7 @@ pub fn parse_markers(
     }
     recorder.placeholders.take_out_shared(&mut recorder.streams);
     let told = told(&cells, &recorder)?;
-    check_units(&cells, &recorder)?;
+    check_units(&cells, &recorder.extremes)?;
     check_kept(file, &recorder)?;
     check_about_runs(file, &recorder, options.about)?;
     let stations_m = stations(file, &recorder, options.about)?;
@@ -238,8 +238,8 @@ fn check_about_runs(file: &str, recorder: &Recorder, about: Option<&About>) -> R
 fn stations(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<Vec<Option<f64>>, DataError> {
     let Some(about) = about.filter(|about| !about.markers.is_empty()) else {
         let all: Option<Vec<f64>> = recorder.stations_m.iter().copied().collect();
-        return match all.and_then(|all| one_station(&all)) {
-            Some(message) => Err(DataError::runs(file, message, SAME_STATION)),
+        return match all.and_then(|all| policy::one_station(&all)) {
+            Some(message) => Err(DataError::runs(file, message, policy::SAME_STATION)),
             None => Ok(recorder.stations_m.clone()),
         };
     };
@@ -258,15 +258,6 @@ fn stations(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<Ve
     }
     Ok(stations)
 }
-
-/// What is wrong with stations that are all the same.
-pub(crate) fn one_station(stations_m: &[f64]) -> Option<String> {
-    let first = *stations_m.first()?;
-    let same = stations_m.len() > 1 && stations_m.iter().all(|s| (s - first).abs() <= policy::SAME_STATION_M);
-    same.then(|| format!("all {} markers have the station {} mm", stations_m.len(), first * 1e3))
-}
-
-pub(crate) const SAME_STATION: &str = "write for each marker its own distance from the base along the undeformed body";
 
 fn unknown_marker(file: &str, recorder: &Recorder, name: &str, about: &About) -> DataError {
     let known: Vec<&str> = about.markers.iter().map(|marker| marker.name.as_str()).collect();

@@ -59,7 +59,6 @@ const PLACEHOLDERS: [(f64, &str); 9] = [
 /// Words for seconds behind a time.
 const SECONDS: [&str; 4] = ["seconds", "secs", "sec", "s"];
 
-/// Bounds of a pressure.
 pub(crate) fn pressure_bounds(quantity: usize) -> &'static Range {
     if quantity == P_BODY { &Range::BODY_PRESSURE } else { &Range::ACTUATOR_PRESSURE }
 }
@@ -166,7 +165,7 @@ impl RowReader {
         self.word(line, ACTUATOR)
     }
 
-    /// Whether the line split last says that its marker was not seen: no coordinate, or NaN for each.
+    /// Whether the line split last has a marker that was not seen: no coordinate, or NaN for each.
     pub fn is_lost(&self) -> bool {
         [X, Y].iter().all(|axis| is_nothing(self.text(*axis))) && (!self.has(Z) || is_nothing(self.text(Z)))
     }
@@ -176,7 +175,7 @@ impl RowReader {
         self.header.columns[quantity].is_some()
     }
 
-    /// What stands in the place of a position that was not seen, as some programs write it: 0, 0 or -1, -1 or 9999, 9999.
+    /// The placeholder of a position that was not seen, as some programs write it: 0, 0 or -1, -1 or 9999, 9999.
     pub fn placeholder(&self) -> Option<&'static str> {
         let (x, y) = (self.text(X), self.text(Y));
         // Most positions begin with another digit.
@@ -184,7 +183,7 @@ impl RowReader {
             return None;
         }
         let (x, y) = (x.parse::<f64>().ok()?, y.parse::<f64>().ok()?);
-        // A third coordinate of its own is a place.
+        // Another third coordinate is a place.
         if self.has(Z) && self.text(Z).parse().is_ok_and(|z: f64| z != x) {
             return None;
         }

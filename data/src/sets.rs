@@ -1,4 +1,4 @@
-//! The embedded datasets: every folder of `data/sets/` is in the binary, there is no list to edit.
+//! The embedded datasets: every folder of `data/sets/` is in the binary, without a list to edit.
 
 use include_dir::{Dir, include_dir};
 
@@ -61,7 +61,6 @@ pub fn set_about(set: &str) -> Result<About, DataError> {
     parse_about(&shown(set, "about.toml"), set_file(set, "about.toml")?)
 }
 
-/// Names of all folders, sorted.
 pub(crate) fn names() -> Vec<&'static str> {
     let mut names: Vec<&str> = SETS.dirs().filter_map(|dir| dir.path().file_name()?.to_str()).collect();
     names.sort_unstable();

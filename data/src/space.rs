@@ -10,7 +10,7 @@ use crate::units::mm;
 const TOLD_MM: f64 = 0.05;
 
 impl Dataset {
-    /// Whether the table says more than one plane and one actuator pressure.
+    /// Whether the table has more than one plane and one actuator pressure.
     pub fn is_spatial(&self) -> bool {
         self.z_m.is_some() || self.more_channels() > 0
     }
@@ -32,7 +32,7 @@ impl Dataset {
     }
 
     /// How far a marker was at most from its place in the first hold that saw it, along an axis \[m\]: means over the samples of a
-    /// hold, each run by itself. 0 of a table without that axis.
+    /// hold, each run alone. 0 of a table without that axis.
     pub fn travel_m(&self, axis: usize) -> f64 {
         let at = |run: usize, hold: usize, marker: usize| {
             let values =

@@ -6,13 +6,14 @@ use std::fmt::Write as _;
 use std::io::{Read, Write};
 use std::path::Path;
 
+use crate::atomic::cannot_write;
+use crate::cells::quoted;
 use crate::error::DataError;
-use crate::write::{cannot_write, quoted};
 
 /// One column.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Column {
-    /// Floating point numbers; NaN stands for an empty cell.
+    /// Floating point numbers; NaN for an empty cell.
     F64(Vec<f64>),
     /// Texts.
     Str(Vec<String>),
@@ -30,12 +31,13 @@ impl Column {
         }
     }
 
-    /// Whether there is no row.
+    /// Whether it has no row.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    fn cell(&self, row: usize) -> String {
+    /// The text of a cell in a CSV file.
+    pub(crate) fn cell(&self, row: usize) -> String {
         match self {
             Column::F64(values) if values[row].is_nan() => String::new(),
             Column::F64(values) => values[row].to_string(),
@@ -144,7 +146,7 @@ mod parquet {
     use polars_parquet::parquet::read::get_page_iterator;
 
     use super::{Column, DataError, PARQUET_READER, Path, Table};
-    use crate::write::write_atomically;
+    use crate::atomic::write_atomically;
 
     /// Largest number of rows; a table of that many is larger than the memory.
     const MOST_ROWS: usize = 1 << 30;

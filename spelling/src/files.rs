@@ -60,7 +60,7 @@ pub fn write_new(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> Result<()
     out.into_inner().map_err(std::io::IntoInnerError::into_error)?.sync_all()
 }
 
-/// Whether a name is that of a file that was being written, also by earlier versions.
+/// Whether a name belongs to a file that was being written, also by earlier versions.
 pub fn is_partial(name: &str) -> bool {
     name.ends_with(PARTIAL) || (name.starts_with('.') && name.ends_with(".tmp"))
 }
@@ -115,7 +115,7 @@ pub fn sync_folder(folder: &Path) -> Result<(), Error> {
     if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
 }
 
-/// The folder of a file: that of the process for a bare name.
+/// The folder of a file: the process's own for a bare name.
 pub fn folder_of(path: &Path) -> PathBuf {
     let above = path.parent().filter(|above| !above.as_os_str().is_empty());
     above.unwrap_or(Path::new(".")).to_path_buf()

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Between the name of a folder and the number of the process that makes its contents ready.
 const INCOMPLETE: &str = ".incomplete-";
 
-/// Where the contents of a folder are made ready. What is left of it is removed on drop.
+/// Where the contents of a folder are made ready. It is removed on drop.
 #[derive(Debug)]
 pub struct Staged {
     /// The folder itself, where a link to it leads.
@@ -103,7 +103,7 @@ fn clear(folder: &Path, prefix: &str) {
     }
 }
 
-/// A folder that nobody misses when another takes its place: files only, and no process works in it.
+/// A folder that another may replace: files only, and no process works in it.
 fn is_results_only(folder: &Path) -> bool {
     let is_here = std::env::current_dir().is_ok_and(|here| here.starts_with(folder));
     let Ok(mut entries) = std::fs::read_dir(folder) else { return !folder.exists() };
@@ -138,7 +138,7 @@ fn in_renames(new: &Path, old: &Path, aside: &Path, rename: &dyn Fn(&Path, &Path
     rename(aside, new)
 }
 
-/// After a kill between those renames: the older folder, which lies `aside`, goes back unless the new one is there.
+/// After a kill between those renames: the older folder, now at `aside`, goes back unless the new one is there.
 ///
 /// # Errors
 /// It cannot be moved or removed.

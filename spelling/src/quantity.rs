@@ -29,7 +29,7 @@ impl Quantity {
 /// Reads one quantity into SI.
 ///
 /// # Errors
-/// A message that says what is wrong and what to type.
+/// A message with the mistake and what to type.
 ///
 /// ```
 /// use spelling::quantity::{Quantity, parse};

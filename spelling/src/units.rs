@@ -126,7 +126,7 @@ pub fn units_of(dimension: Dimension) -> impl Iterator<Item = Unit> + Clone {
 /// Accepted interval of a quantity as typed, its factor to SI, and the slip to suspect outside.
 #[derive(Debug, Clone, Copy)]
 pub struct Range {
-    /// What it is, where no key says so.
+    /// Its name, where it has no key.
     pub name: &'static str,
     /// Unit after the number; empty for a pure one.
     pub unit: &'static str,
@@ -202,7 +202,7 @@ impl Range {
     /// A number in SI.
     ///
     /// # Errors
-    /// What is wrong with the number called `name`, and what to type.
+    /// The mistake in the number called `name`, and what to type.
     pub fn si(&self, name: &str, value: f64) -> Result<f64, (String, &'static str)> {
         let Range { unit, low, high, .. } = self;
         if (*low..=*high).contains(&value) {

@@ -17,7 +17,7 @@ use syn::visit::Visit;
 const CIRCLES: [(&str, usize); 13] = [
     ("models", 5),
     ("fem", 17),
-    ("data", 5),
+    ("data", 1),
     ("compare", 8),
     ("report", 1),
     ("sweep", 2),

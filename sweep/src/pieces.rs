@@ -1,4 +1,4 @@
-//! Pieces of work that do not depend on each other, each with a file of its own.
+//! Independent pieces of work, each with its own file.
 
 use crate::SweepError;
 use fem::FemError;
@@ -10,11 +10,11 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Mutex;
 
-/// Makes pieces beside each other on threads (0: one per core); the answers are in order. `progress` is told what is made and how far
-/// it is, and says whether to go on.
+/// Makes pieces in parallel on threads (0: one per core); the answers are in order. `progress` gets the name of the work and the
+/// share that is done, and returns whether to go on.
 ///
 /// # Errors
-/// What `make` says; [`FemError::Interrupted`] if `progress` asked to end.
+/// The error of `make`; [`FemError::Interrupted`] if `progress` asked to end.
 pub fn beside<T: Send>(
     pieces: usize,
     threads: usize,

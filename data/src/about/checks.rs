@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use serde::Deserialize;
 use spelling::Exactly;
 use toml::Spanned;
 
-use super::{AboutRun, Geometry, MarkerStation, MeasuredValue, RawBending, RawGeometry, RawMarkers, RawRun};
+use super::{AboutRun, Direct, Geometry, MarkerStation, MeasuredValue, Provenance};
 use crate::cells::label;
 use crate::error::{DataError, Fault, Location};
-use crate::policy::LARGEST_TIP_FORCE_N;
-use crate::read::{SAME_STATION, one_station};
+use crate::policy::{LARGEST_TIP_FORCE_N, SAME_STATION, one_station};
 use spelling::units::Range;
 
 /// As many as a scenario takes.
@@ -166,4 +166,65 @@ impl Check<'_> {
         }
         Ok(runs)
     }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawAbout {
+    pub title: Spanned<String>,
+    pub provenance: Provenance,
+    pub source: Spanned<String>,
+    pub licence: Spanned<String>,
+    pub actuator: Option<String>,
+    pub notes: Option<String>,
+    pub geometry: Option<RawGeometry>,
+    pub markers: Option<RawMarkers>,
+    pub gravity: Option<RawGravity>,
+    #[serde(default)]
+    pub direct: Direct,
+    pub bending: Option<RawBending>,
+    #[serde(default)]
+    pub measured: BTreeMap<String, BTreeMap<String, Spanned<Exactly<2>>>>,
+    #[serde(default)]
+    pub run: Vec<RawRun>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawGeometry {
+    pub body_radius_mm: Spanned<f64>,
+    pub body_length_mm: Spanned<f64>,
+    pub pouch_length_mm: Option<Spanned<f64>>,
+    pub pouch_width_mm: Option<Spanned<f64>>,
+    pub pouches: Option<Spanned<usize>>,
+    pub fold_mm: Option<Spanned<f64>>,
+    pub arm_mm: Option<Spanned<f64>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawMarkers {
+    pub names: Spanned<Vec<String>>,
+    pub s_mm: Spanned<Vec<f64>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawGravity {
+    pub direction: Spanned<Exactly<2>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawBending {
+    pub stiffness_nm2: Spanned<f64>,
+    pub sd_nm2: Spanned<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawRun {
+    pub id: Spanned<String>,
+    pub tip_force_n: Option<Spanned<Exactly<2>>>,
+    pub session: Option<String>,
 }

@@ -1,6 +1,7 @@
 //! A muscle: force over contraction at an actuator pressure, in a testing machine. Force 0 is free contraction.
 
-use super::{BenchKind, BenchRow, Field, field, plain, scatter};
+use super::kind::{BenchKind, BenchRow, scatter};
+use crate::columns::{Field, field, plain};
 use crate::units::Measured::{Angle, Force, Length, Pressure, Ratio};
 use spelling::units::Range;
 

@@ -1,6 +1,7 @@
 //! A beam: tip deflection under a transverse load, at a body pressure. One end is clamped.
 
-use super::{BenchKind, BenchRow, Field, field, plain, scatter};
+use super::kind::{BenchKind, BenchRow, scatter};
+use crate::columns::{Field, field, plain};
 use crate::policy;
 use crate::units::Measured::{Force, Length, Pressure};
 use spelling::units::Range;

@@ -1,6 +1,6 @@
 //! Text to rows, for every kind.
 
-use super::{Bench, BenchKind, BenchRow, KINDS};
+use super::kind::{Bench, BenchKind, BenchRow};
 use crate::about::Provenance;
 use crate::columns::{self, Column, Meaning};
 use crate::error::{DataError, Fault};
@@ -25,7 +25,7 @@ impl Note {
 }
 
 /// Reads a table; `None` if its header is of no kind.
-pub(super) fn parse(file: &str, text: &str) -> Result<Option<Bench>, DataError> {
+pub(super) fn parse(kinds: &'static [BenchKind], file: &str, text: &str) -> Result<Option<Bench>, DataError> {
     let mut progress = |_, _| ();
     let mut bytes = text.as_bytes();
     let mut lines = Lines::new(file, &mut bytes, text.len() as u64, &mut progress);
@@ -36,7 +36,7 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Option<Bench>, DataError> 
             Some(comment) => notes.extend(Note::of(comment, &line)),
             None => {
                 let (names, delimiter) = columns::split(line.text, None);
-                let Some(kind) = KINDS.iter().find(|kind| is_of(kind, &names, &notes)) else { return Ok(None) };
+                let Some(kind) = kinds.iter().find(|kind| is_of(kind, &names, &notes)) else { return Ok(None) };
                 let meaning = |name: &str| Meaning::of(name, kind.columns);
                 if let Some(fault) = columns::without_unit(&line, &names, kind.columns, &meaning, &|_| Some(true)) {
                     return Err(fault);

@@ -8,10 +8,8 @@ use super::sheet::CellText;
 use crate::error::DataError;
 use crate::units::Measured;
 
-/// A name taken apart.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ColumnName {
-    /// The text without the unit.
     base: String,
     /// Words in lower case, digits apart from letters, and their places in it.
     words: Vec<(String, Range<usize>)>,
@@ -53,7 +51,6 @@ pub(crate) fn is_pixel(unit: &str) -> bool {
     matches!(unit, "px" | "pixel" | "pixels")
 }
 
-/// Whether a unit counts frames.
 pub(crate) fn is_frame(unit: &str) -> bool {
     matches!(unit, "frame" | "frames")
 }
@@ -142,9 +139,7 @@ pub(crate) struct Roles {
     pub marker: Option<usize>,
     /// Body's and actuator's pressure, with their pascals.
     pub pressures: [Option<(usize, f64)>; 2],
-    /// Coordinates: column, axis, marker, unit.
     pub coordinates: Vec<(usize, usize, String, Option<String>)>,
-    /// What was assumed.
     pub told: Vec<String>,
 }
 

@@ -1,9 +1,8 @@
-//! Runs cut into holds or bins, cleaned, and held against each other.
+//! Runs cut into holds or bins, cleaned, and compared with each other.
 
-use super::counted;
 use super::holds::{Kept, PressedRun, bins, clean, plateaus};
 use super::options::ImportOptions;
-use super::recording::Recording;
+use super::recording::{Recording, counted};
 use crate::error::DataError;
 use crate::policy::tolerance_act_pa;
 use crate::units::kpa;
@@ -14,7 +13,7 @@ pub(crate) type Cut = Vec<(PressedRun, Vec<Kept>)>;
 /// Cuts runs, whose places in the robot's frame are `xy_m`.
 ///
 /// # Errors
-/// Fewer than two holds; bins that cannot be told apart.
+/// Fewer than two holds; bins that cannot be separated.
 pub(crate) fn cut(
     file: &str,
     recordings: Vec<Recording>,
@@ -35,7 +34,6 @@ pub(crate) fn cut(
     }
 }
 
-/// Runs by their plateaus.
 fn held(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut Vec<String>) -> Result<Cut, DataError> {
     let (mut cut, mut used, mut taken) = (Vec::new(), 0, [0, 0]);
     let frames: usize = runs.iter().map(|run| run.times_s.len()).sum();
@@ -90,7 +88,7 @@ fn length_m(run: &PressedRun) -> f64 {
 }
 
 /// Without bins at the ends of a branch that the pressure only touches, so that their mean is too near to the next bin's to be
-/// told apart.
+/// separated.
 fn apart(bins: Vec<(usize, i64, Kept)>) -> Vec<(usize, i64, Kept)> {
     let of =
         |branch: usize, k: i64| bins.iter().find(|(b, j, _)| (*b, *j) == (branch, k)).map(|(.., kept)| kept.act_pa);

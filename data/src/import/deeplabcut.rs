@@ -1,6 +1,6 @@
 //! DeepLabCut: rows `scorer`, `individuals` (with several animals), `bodyparts`, `coords`, then a row for every frame.
 
-use super::formats::Format;
+use super::format::Format;
 use super::layout::{Layout, PARTS};
 use super::options::ImportOptions;
 use super::recording::{Lengths, Recording};

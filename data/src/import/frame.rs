@@ -6,7 +6,7 @@ use super::recording::{LOST, Lengths, Recording};
 use crate::error::{DataError, Fault};
 use crate::units::mm;
 
-/// A marker that moves less than this does not tell where the actuator is \[m\].
+/// A marker that moves less than this does not show where the actuator is \[m\].
 const TELLING_M: f64 = 0.005;
 /// Largest angle of the robot at rest to an axis of the file \[rad\].
 const ASKEW: f64 = 0.26;
@@ -36,20 +36,17 @@ pub(crate) struct RestAndTop {
     pub top: Vec<usize>,
 }
 
-/// Runs in the robot's frame.
 pub(crate) struct PlacedRuns {
     /// `[run][marker][frame]` \[m\], NaN where not seen.
     pub xy_m: Vec<Vec<Vec<[f64; 2]>>>,
-    /// Labels.
     pub markers: Vec<String>,
-    /// What was assumed.
     pub told: Vec<String>,
 }
 
 /// Puts runs into the robot's frame; they have the same markers in the same order.
 ///
 /// # Errors
-/// Scale, base or axes are not known and not told by the data.
+/// Scale, base or axes are not known and cannot be found from the data.
 pub(crate) fn place(
     file: &str,
     runs: &[Recording],
@@ -120,7 +117,7 @@ fn of_file(metres: f64) -> (Map, Vec<String>) {
     (Map::Factor(metres), vec![format!("lengths are in {}, as the file says", unit(metres))])
 }
 
-/// The scale that the caller knows or that a distance or a board tells.
+/// The scale that the caller knows, or from a distance or a board.
 fn given(file: &str, runs: &[Recording], ends: &[RestAndTop], scale: &Scale) -> Result<(Map, Vec<String>), DataError> {
     let (map, words) = match scale {
         Scale::PixelsPerMetre(pixels) => {
@@ -196,7 +193,7 @@ pub(crate) fn where_is(
     Ok((at, Some(marker)))
 }
 
-/// The base of every run \[m\], and the marker that stands for it.
+/// The base of every run \[m\], and the marker at it.
 fn bases(
     file: &str,
     runs: &[Recording],
@@ -253,7 +250,7 @@ impl Moved {
         Moved { rest, by }
     }
 
-    /// The axis along which the markers lie at rest: that of their spread, or of a single one's distance from the base.
+    /// The axis along which the markers are at rest: of their spread, or of a single one's distance from the base.
     fn along(&self) -> usize {
         let seen: Vec<&[f64; 3]> = self.rest.iter().filter(|at| at[0].is_finite()).collect();
         let spread = |axis: usize| {

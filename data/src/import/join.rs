@@ -2,11 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::counted;
 use super::formats;
 use super::options::ImportOptions;
 use super::pressure::Log;
-use super::recording::{FrameClock, Recording};
+use super::recording::{FrameClock, Recording, counted};
 use super::sheet::CellText;
 use crate::error::{DataError, Fault};
 use crate::policy::is_a_room;
@@ -17,7 +16,7 @@ use spelling::units::Range;
 /// A file's text.
 ///
 /// # Errors
-/// It cannot be read, or is no text.
+/// It cannot be read, or is not a text.
 pub(crate) fn text_of(path: &Path) -> Result<String, DataError> {
     let shown = path.display().to_string();
     let bytes = read_whole(path, MOST_DATA)
@@ -27,19 +26,17 @@ pub(crate) fn text_of(path: &Path) -> Result<String, DataError> {
         return Ok(String::from_utf16_lossy(&units));
     }
     String::from_utf8(bytes).or_else(|error| {
-        // Names with accents in an old encoding; what is no text at all has zero bytes, and is refused for them.
+        // Names with accents in an old encoding; a file that is not a text has zero bytes, and is refused for them.
         let bytes = error.into_bytes();
         Ok(bytes.iter().map(|byte| char::from(*byte)).collect())
     })
 }
 
-/// Recordings of all files.
 pub(crate) struct Joined {
     /// The program that wrote the files.
     pub program: &'static str,
     /// Every run with its file, times in seconds and pressures in place.
     pub runs: Vec<(String, Recording)>,
-    /// What was understood and assumed.
     pub told: Vec<String>,
 }
 
@@ -80,7 +77,6 @@ pub(crate) fn recordings(
 }
 
 impl Joined {
-    /// The runs of a file.
     fn add(&mut self, sheet: &CellText, log: Option<&Log>, options: &ImportOptions) -> Result<(), DataError> {
         let format = formats::recognised(sheet, options)?;
         if !self.program.is_empty() && self.program != format.name {
@@ -106,7 +102,6 @@ impl Joined {
         Ok(())
     }
 
-    /// Tells it once.
     fn tell(&mut self, word: String) {
         if !self.told.contains(&word) {
             self.told.push(word);
@@ -164,7 +159,7 @@ fn logs(
     Ok(logs)
 }
 
-/// Frames become seconds; says how.
+/// Frames become seconds; returns how.
 ///
 /// # Errors
 /// Frames without a rate.

@@ -1,6 +1,6 @@
 //! Kinovea: trajectories as a text, blocks separated by blank lines, with clock times. Its kinematics are a wide table.
 
-use super::formats::Format;
+use super::format::Format;
 use super::options::ImportOptions;
 use super::recording::{FrameClock, Lengths, Pivot, Recording};
 use super::sheet::CellText;

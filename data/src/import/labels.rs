@@ -77,7 +77,7 @@ pub(crate) fn same_markers(file: &str, runs: &mut [(String, Recording)]) -> Resu
     Ok(())
 }
 
-/// Markers without names are numbered from the base outwards; names that the caller gives replace those of the files.
+/// Markers without names are numbered from the base outwards; names that the caller gives replace the files' names.
 ///
 /// # Errors
 /// Another number of names than of markers.

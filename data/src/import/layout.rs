@@ -3,8 +3,7 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-use super::counted;
-use super::recording::{FrameClock, Lengths, Pivot, Recording};
+use super::recording::{FrameClock, Lengths, Pivot, Recording, counted};
 use super::sheet::CellText;
 use crate::cells::{is_nothing, label};
 use crate::error::DataError;
@@ -21,11 +20,9 @@ struct Track {
 
 /// The columns of a table with a row for every frame, or for every frame and marker.
 pub(super) struct Layout {
-    /// Column of the time.
     pub time: usize,
     /// Seconds of its unit; `None` for numbers of frames.
     pub second: Option<f64>,
-    /// Unit of the coordinates.
     pub lengths: Lengths,
     /// Columns that name the run, the actuator and the marker of a row.
     pub run: Option<usize>,
@@ -35,19 +32,16 @@ pub(super) struct Layout {
     pub pressures: [Option<(usize, f64)>; 2],
     /// Least likelihood of a position, and the largest that there is.
     pub likely: [f64; 2],
-    /// y points down.
     pub y_down: bool,
     /// Cells of every row; `None` if rows may be shorter.
     pub width: Option<usize>,
     /// The time rises from row to row of a run.
     pub rises: bool,
-    /// Labels are the user's.
     pub named: bool,
     /// What a row is, and what names its marker.
     pub row_of: [&'static str; 2],
     /// What to do about a marker that has two places at one time; `None` if every run has its own file.
     pub twice: Option<&'static str>,
-    /// What was assumed.
     pub told: Vec<String>,
     tracks: Vec<Track>,
 }

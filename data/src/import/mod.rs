@@ -4,13 +4,14 @@
 //! tracking files ─► recordings ─► + pressures by time ─► robot's frame ─► holds or bins ─► markers.csv, about.toml
 //! ```
 //!
-//! Every kind of file is one entry of [`FORMATS`], known by its content. What is not in the files comes from the caller
-//! ([`ImportOptions`]); what was assumed is told ([`Imported::told`]); what can be read in two ways is refused.
+//! Every kind of file is one entry of [`FORMATS`], known by its content. Anything else comes from the caller
+//! ([`ImportOptions`]); assumptions are listed ([`Imported::told`]); files that can be read in two ways are refused.
 
 mod board;
 mod columns;
 mod cut;
 mod deeplabcut;
+mod format;
 mod formats;
 mod frame;
 mod holds;
@@ -42,11 +43,12 @@ use crate::units::kpa;
 pub use board::read_board;
 pub use columns::QUANTITIES;
 use cut::{Cut, cut};
-pub use formats::{FORMATS, Format, LOG_FIXTURE};
+pub use format::Format;
+pub use formats::{FORMATS, LOG_FIXTURE};
 use frame::{PlacedRuns, RestAndTop, place};
 use join::Joined;
 pub use options::{FileAxis, FilePlace, ImportOptions, Offset, Scale};
-use recording::{Dropped, Recording};
+use recording::{Dropped, Recording, counted};
 
 /// What an import made.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,7 +89,7 @@ const MOST_POINTS: usize = 1_500;
 ///
 /// # Errors
 /// A file that is not understood; scale, base, axes, frame rate or pressures that are not known; clocks that disagree; no holds;
-/// runs that do not fit together. Every message says what to add.
+/// runs that do not fit together. Every message names the option to add.
 pub fn import(
     files: &[PathBuf],
     options: &ImportOptions,
@@ -167,7 +169,6 @@ impl MadeTable<'_> {
     }
 }
 
-/// A run for a picture.
 fn track(run: &holds::PressedRun, kept: &[holds::Kept], markers: &[String]) -> RunTrack {
     let step = run.times_s.len().div_ceil(MOST_POINTS).max(1);
     let points =
@@ -190,11 +191,6 @@ fn losses(runs: &[Recording]) -> Vec<String> {
     let kinds = [(all.blank, "blank"), (all.unlikely, "below the limit of likelihood"), (all.zero, "written as 0, 0")];
     let lost = |(count, what): &(u64, &str)| format!("lost markers: {} {what}", counted(*count, "position"));
     kinds.iter().filter(|(count, _)| *count > 0).map(lost).collect()
-}
-
-/// `1 run`, `3 runs`.
-pub(crate) fn counted(count: u64, word: &str) -> String {
-    format!("{count} {word}{}", if count == 1 { "" } else { "s" })
 }
 
 /// Frames at the lowest and at the highest pressure.

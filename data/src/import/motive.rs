@@ -1,11 +1,10 @@
 //! Motive (OptiTrack): a line of settings, then rows Type, Name, ID, Position, axes, and a row for every frame.
 
 use super::columns::lengths;
-use super::counted;
-use super::formats::Format;
+use super::format::Format;
 use super::layout::Layout;
 use super::options::ImportOptions;
-use super::recording::{Lengths, Recording};
+use super::recording::{Lengths, Recording, counted};
 use super::sheet::CellText;
 use crate::error::DataError;
 
@@ -18,7 +17,6 @@ pub(super) const FORMAT: Format = Format {
     read,
 };
 
-/// The rows above the frames.
 #[derive(Default)]
 struct Head<'a> {
     settings: Vec<&'a str>,

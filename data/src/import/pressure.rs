@@ -1,22 +1,19 @@
 //! Pressure logs: read, and joined to frames by time (as-of: the last reading counts until the next).
 
 use super::columns::Roles;
-use super::counted;
 use super::options::{ImportOptions, Offset};
-use super::recording::Recording;
+use super::recording::{Recording, counted};
 use super::sheet::CellText;
 use crate::error::DataError;
 use crate::policy::{HIGHEST_GAUGE_PA, ROOM_PA};
 use spelling::units::Range;
 
-/// Readings over time.
 #[derive(Debug, Clone)]
 pub(crate) struct Log {
     file: String,
     times_s: Vec<f64>,
     /// Body's and actuator's pressure \[Pa\].
     values_pa: [Option<Vec<f64>>; 2],
-    /// What was assumed.
     pub told: Vec<String>,
 }
 
@@ -24,11 +21,10 @@ pub(crate) struct Log {
 const SAME_TIME_S: f64 = 1e-6;
 /// Frames and readings used to find the offset of the clocks.
 const USED: [usize; 2] = [1_500, 20_000];
-/// Offsets tried at first.
 const TRIED: usize = 3_000;
 /// Share of the frames that must lie within the log.
 const OVERLAP: f64 = 0.6;
-/// Fewest frames from which clocks that disagree can be told.
+/// Fewest frames from which clocks that disagree can be found.
 const FEWEST_FRAMES: usize = 100;
 /// Clocks disagree if another offset fits so much better, and is so far away \[s\].
 const DISAGREE: (f64, f64) = (0.05, 0.3);
@@ -37,7 +33,7 @@ impl Log {
     /// Reads a log.
     ///
     /// # Errors
-    /// No column of time or pressure; a cell that is no number; times that go back.
+    /// No column of time or pressure; a cell without a number; times that go back.
     pub fn read(sheet: &CellText, options: &ImportOptions) -> Result<Log, DataError> {
         let mut lines = sheet.lines().filter(|(_, line)| !line.starts_with('#'));
         let Some((first, header)) = lines.next() else {
@@ -63,7 +59,7 @@ impl Log {
             for (column, values) in roles.pressures.iter().zip(&mut log.values_pa) {
                 if let (Some((index, pa)), Some(values)) = (column, values) {
                     let pressure_pa = pa * sheet.expect(cell(*index), number, "pressure")?;
-                    // Absolute pressures are those of the room more.
+                    // Absolute pressures include the room's.
                     if pressure_pa.abs() > HIGHEST_GAUGE_PA + ROOM_PA[1] {
                         let told = Range::ACTUATOR_PRESSURE.check(pressure_pa.abs()).err();
                         let message = told.map_or(String::new(), |(message, _)| message);
@@ -86,7 +82,7 @@ impl Log {
     /// Puts the log's pressures into the frames of a recording (times in seconds); on a ramp readings are joined by lines.
     ///
     /// # Errors
-    /// The clocks disagree; hardly any frame lies within the log.
+    /// The clocks disagree; hardly any frame is within the log.
     pub fn join(&self, recording: &mut Recording, options: &ImportOptions) -> Result<Vec<String>, DataError> {
         let (offset_s, mut told) = self.offset(recording, options.offset)?;
         let places = self.readings_at(&recording.times, offset_s);

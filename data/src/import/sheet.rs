@@ -9,18 +9,14 @@ const LOOKED_AT: usize = 400;
 /// Share of the lines in which a separator must stand.
 const MOST_LINES: f64 = 0.7;
 
-/// A file as cells.
 #[derive(Debug)]
 pub(crate) struct CellText<'a> {
-    /// Its name in errors.
     pub file: &'a str,
     /// Everything in it, without byte order mark and `sep=` line.
     pub text: &'a str,
-    /// What parts cells.
     pub delimiter: char,
     /// Decimals are written with a comma.
     pub comma: bool,
-    /// Lines before `text`.
     before: u64,
 }
 
@@ -81,7 +77,7 @@ impl<'a> CellText<'a> {
         cells.extend(parts.map(|cell| cell.trim().trim_matches('"').trim()));
     }
 
-    /// The number of a cell; NaN for a word that says that there is none.
+    /// The number of a cell; NaN for a word for none.
     pub fn number(&self, text: &str) -> Option<f64> {
         match text.parse() {
             Ok(value) => Some(value),
@@ -103,13 +99,13 @@ impl<'a> CellText<'a> {
         self.number(text).filter(|value| !value.is_infinite())
     }
 
-    /// The fault of a cell that is no number.
+    /// The fault of a cell without a number.
     pub fn no_number(&self, text: &str, number: u64, column: &str) -> DataError {
         self.bad_cell(text, number, column, "type a number, or leave the cell empty")
     }
 
     /// # Errors
-    /// A row that was cut, or has cells that no name stands above.
+    /// A row that was cut, or has cells without a name above.
     pub fn whole_row(&self, cells: &[&str], names: usize, number: u64) -> Result<(), DataError> {
         if cells.len() == names {
             return Ok(());
@@ -154,7 +150,7 @@ impl<'a> CellText<'a> {
     }
 }
 
-/// The rarest sign that stands in most lines: a tab or a semicolon parts cells where there is one, else a comma.
+/// The rarest sign that is in most lines: a tab or a semicolon separates cells where there is one, else a comma.
 fn delimiter(text: &str) -> char {
     let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).take(LOOKED_AT).collect();
     let has = |sign: char| lines.iter().filter(|line| line.contains(sign)).count() as f64;

@@ -1,6 +1,6 @@
 //! SLEAP analysis CSV: `track,frame_idx,instance.score,NODE.x,NODE.y,NODE.score,…`, a row for every track and frame.
 
-use super::formats::Format;
+use super::format::Format;
 use super::layout::Layout;
 use super::options::ImportOptions;
 use super::recording::{Lengths, Recording};

@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 
 use super::holds::{Kept, PressedRun};
 use super::options::ImportOptions;
+use crate::cells::quoted;
 use crate::dataset::Phase;
 use crate::policy::tolerance_act_pa;
 use crate::units::{kpa, mm};
-use crate::write::quoted;
 
 /// Rows of a hold and marker; consecutive frames are averaged where there are more.
 const MOST_ROWS: usize = 20;
@@ -53,7 +53,7 @@ fn add_rows(text: &mut String, run: &PressedRun, frames: &[usize], phase: Phase,
     }
 }
 
-/// How every hold was reached, by its pressure and that of the hold before.
+/// How every hold was reached, by its pressure and the pressure of the hold before.
 pub(crate) fn phases(holds: &[Kept]) -> Vec<Phase> {
     let mut before = f64::NEG_INFINITY;
     let phase = |hold: &Kept| {
@@ -76,7 +76,7 @@ pub(crate) fn phases(holds: &[Kept]) -> Vec<Phase> {
     holds.iter().map(phase).collect()
 }
 
-/// A description with what is known, and questions where it is not.
+/// A description of all that is known, with questions for the rest.
 pub(crate) fn about_toml(
     program: &str,
     files: &[String],

@@ -1,7 +1,7 @@
-//! Tables whose names no program fixes: this program's own, those of people, and those of Kinovea's kinematics.
+//! Tables whose names no program fixes: this program's own, other people's, and Kinovea's kinematics.
 
 use super::columns::{ColumnName, Roles};
-use super::formats::Format;
+use super::format::Format;
 use super::layout::Layout;
 use super::options::ImportOptions;
 use super::recording::Recording;

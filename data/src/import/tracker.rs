@@ -1,7 +1,7 @@
 //! Tracker (physlets.org): a row with the names of the tracks, a row `t, x, y, …`, then a row for every step.
 
 use super::columns::{ColumnName, lengths, si};
-use super::formats::Format;
+use super::format::Format;
 use super::layout::Layout;
 use super::options::ImportOptions;
 use super::recording::{Lengths, Recording};
@@ -18,7 +18,7 @@ pub(super) const FORMAT: Format = Format {
     read,
 };
 
-/// Which of the first rows has the names of tracks; that of the columns is the next.
+/// Which of the first rows has the names of tracks; the names of columns are in the next.
 fn rows(head: &[Vec<&str>]) -> Option<usize> {
     let first = usize::from(head.first()?.first()?.starts_with("#multi"));
     let (names, columns) = (head.get(first)?, head.get(first + 1)?);

@@ -3,11 +3,10 @@
 use std::collections::HashMap;
 
 use super::columns::{ColumnName, is_frame, lengths, si};
-use super::counted;
-use super::formats::Format;
+use super::format::Format;
 use super::layout::Layout;
 use super::options::ImportOptions;
-use super::recording::{FrameClock, Lengths, Pivot, Recording};
+use super::recording::{FrameClock, Lengths, Pivot, Recording, counted};
 use super::sheet::CellText;
 use crate::error::DataError;
 use crate::units::Measured;
@@ -93,7 +92,6 @@ impl<'a> Tag<'a> {
     }
 }
 
-/// Opening tags in their order.
 fn tags(text: &str) -> impl Iterator<Item = Tag<'_>> {
     text.split('<').skip(1).filter_map(|part| {
         let inside = part.split_once('>').map_or(part, |(inside, _)| inside).trim_end_matches('/');

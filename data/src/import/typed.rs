@@ -1,4 +1,4 @@
-//! What the caller knows of a tracking file, as people type it. Errors say what is wrong and what to type.
+//! What the caller knows of a tracking file, as people type it. Errors name the mistake and what to type.
 
 use super::columns::QUANTITIES;
 use super::options::{FileAxis, FilePlace, Offset, Scale};
@@ -115,7 +115,7 @@ pub fn column(text: &str) -> Result<(String, String), String> {
 /// A marker and its station \[m\]: `a=90mm`.
 ///
 /// # Errors
-/// No equals sign, or a length that is no station.
+/// No equals sign, or a length out of the bounds of a station.
 pub fn station(text: &str) -> Result<(String, f64), String> {
     let example = "write MARKER=LENGTH for every marker, for example a=90mm,b=210mm";
     let wrong = || format!("`{text}` is not understood: {example}");

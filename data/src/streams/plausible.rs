@@ -2,7 +2,6 @@
 //!
 //! These checks look at the whole file and say which column to rename; they never convert anything themselves.
 
-use super::Recorder;
 use crate::dataset::Dataset;
 use crate::error::{DataError, Fault};
 use crate::header::{Header, P_ACT, P_BODY, QUANTITIES, STATION, X, Y, Z};
@@ -40,10 +39,9 @@ impl Extremes {
 ///
 /// # Errors
 /// Metres in a millimetre column or millimetres in a metre column; psi, bar or MPa in the kPa columns.
-pub(crate) fn check_units(cells: &RowReader, recorder: &Recorder) -> Result<(), DataError> {
-    let extremes = &recorder.extremes;
+pub(crate) fn check_units(cells: &RowReader, extremes: &Extremes) -> Result<(), DataError> {
     let unit = |quantity: usize| cells.header.unit(quantity);
-    let known_robot = extremes.p_act_pa > 0.0 || recorder.stations_m.iter().any(Option::is_some);
+    let known_robot = extremes.p_act_pa > 0.0 || extremes.station_m > 0.0;
     let looks = |quantity, value, word: &str| Err(unit_error(&cells.header, quantity, value, word));
     if unit(X) == "mm"
         && known_robot
@@ -90,14 +88,12 @@ fn check_small_pressures(cells: &RowReader, p_body: f64, p_act: f64) -> Result<(
 /// How y is not what it should be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum WrongY {
-    /// x and y are exchanged.
     Exchanged,
-    /// y points down.
     Down,
 }
 
 impl WrongY {
-    /// What to do, where y stands in a column of this unit.
+    /// What to do, where y is in a column of this unit.
     fn help(self, unit: &str, down: bool) -> String {
         match (self, down) {
             (WrongY::Exchanged, _) => {
@@ -130,7 +126,7 @@ pub(crate) fn check_y_up_later(dataset: &Dataset) -> Result<(), DataError> {
 }
 
 /// Whether the last marker is, at the highest actuator pressure, more than 5 mm below its place in the first hold (mean over runs).
-/// Markers that lie along y rather than x in that hold are told apart from a y that points down.
+/// Markers along y rather than x in that hold are not reported as a y that points down.
 fn wrong_y(dataset: &Dataset) -> Option<(WrongY, String)> {
     let holds = &dataset.holds;
     let by_pressure = |&a: &usize, &b: &usize| holds[a].p_act_pa.total_cmp(&holds[b].p_act_pa);

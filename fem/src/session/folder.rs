@@ -10,14 +10,14 @@ use spelling::folders::{self, exchange, mend};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-/// There while a run is not complete; says what it is a run of.
+/// There while a run is not complete, with the identity of the run.
 const MARKER: &str = "unfinished.json";
 const UNFINISHED: RecordShape = RecordShape { schema: "ibr.unfinished", version: 1 };
 /// The last file of a complete run.
 const LAST: &str = "manifest.json";
 /// Held by the process that writes to the folder.
 const LOCK: &str = ".lock";
-/// The case of the run; the mark of an unfinished one is believed only beside it, or alone.
+/// The case of the run; the mark of an unfinished one is believed only with it, or alone.
 const CASE: &str = "case.toml";
 /// Everything that a run leaves behind, folders too.
 const OWN: &[&str] = &[
@@ -41,7 +41,7 @@ const OWN: &[&str] = &[
     "checkpoint.end",
 ];
 
-/// What tells one run from another, besides the case itself.
+/// Separates one run from another, in addition to the case itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunIdentity {
     /// SHA-256 of the case's text.
@@ -55,7 +55,7 @@ pub struct RunIdentity {
     pub from: Option<String>,
 }
 
-/// What is asked for.
+/// A request to open a folder.
 #[derive(Debug, Clone, Copy)]
 pub struct RunWish<'a> {
     /// Folder.
@@ -162,7 +162,7 @@ pub fn reopen(
     Ok(place)
 }
 
-/// The new run is made beside the finished one, which stays until then.
+/// The new run is made next to the finished one, which stays until then.
 fn open_beside(wish: &RunWish) -> Result<Opened, FemError> {
     let beside = named_like(wish.folder, ".new");
     match look(&beside)? {
@@ -183,7 +183,7 @@ fn named_like(folder: &Path, more: &str) -> PathBuf {
     folder.with_file_name(name)
 }
 
-/// Where an older run lies for a moment while a new one takes its place, where folders cannot be exchanged.
+/// Where an older run is for a moment while a new one takes its place, where folders cannot be exchanged.
 fn aside(folder: &Path) -> PathBuf {
     named_like(folder, ".new-replaces")
 }
@@ -286,8 +286,8 @@ impl Workplace {
         &self.target
     }
 
-    /// Clears away an earlier run and marks the folder as that of a run in progress. Killed at any point, the folder is known as
-    /// that of an unfinished run: of the earlier case until its files are gone, then of this one.
+    /// Clears away an earlier run and marks the folder as a run in progress. Killed at any point, the folder is known as
+    /// an unfinished run: of the earlier case until its files are gone, then of this one.
     pub fn start(&self, marker: &RunIdentity, text: &str) -> Result<(), FemError> {
         self.begin(marker, text, &mut |step| step())
     }
@@ -337,7 +337,7 @@ impl Workplace {
         Ok(found)
     }
 
-    /// Writes the manifest, and lets the complete run take its place; what to tell of an older one that was there.
+    /// Writes the manifest, and lets the complete run take its place; returns a notice on an older one that was there.
     pub fn complete(self, manifest: &Manifest) -> Result<Option<String>, FemError> {
         write(&self.folder.join(LAST), manifest.text().as_bytes())?;
         for name in [MARKER, "checkpoint", "checkpoint.previous", LOCK] {
