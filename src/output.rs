@@ -32,7 +32,7 @@ pub fn replace_files(folder: &Path, files: &Files, inputs: &[Input], context: &m
 fn check_own<'n>(folder: &Path, names: impl Iterator<Item = &'n str>) -> Result<(), Failure> {
     let listed = listed(folder);
     let is_own = |name: &str| name == MANIFEST_FILE || listed.iter().any(|ours| ours.name == name);
-    let is_foreign = |name: &&str| folder.join(name).exists() && (listed.is_empty() || !is_own(name));
+    let is_foreign = |name: &&str| folder.join(name).is_file() && (listed.is_empty() || !is_own(name));
     match names.chain([MANIFEST_FILE]).find(is_foreign) {
         Some(name) => {
             let message = format!("{} exists, and ibr did not write it", folder.join(name).display());

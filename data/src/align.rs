@@ -1,7 +1,7 @@
 //! From streams of holds to the dense tensor: the same holds in every run, the same markers, the same sample count.
 
 use crate::dataset::{Dataset, Hold, Lost, Marker};
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
 use crate::lost::fill;
 use crate::policy;
 use crate::streams::pressures::{PRESSURES, are_near};
@@ -21,7 +21,7 @@ pub(crate) fn align(
     actuator: String,
     recorder: &Recorder,
     stations_m: &[Option<f64>],
-) -> Result<Dataset, DataError> {
+) -> Result<Dataset> {
     let grid = Grid::new(file, recorder)?;
     let order = marker_order(stations_m);
     let samples = grid.common_samples();
@@ -69,7 +69,7 @@ pub(crate) fn align(
 
 /// # Errors
 /// A marker that too few runs saw in every hold, a hold in which too few runs saw any marker.
-fn check_seen(file: &str, dataset: &Dataset) -> Result<(), DataError> {
+fn check_seen(file: &str, dataset: &Dataset) -> Result<()> {
     let (holds, markers) = (0..dataset.holds.len(), 0..dataset.markers.len());
     let blind = markers.clone().find(|m| holds.clone().all(|h| !dataset.is_seen(h, *m)));
     let dark = holds.clone().find(|h| markers.clone().all(|m| !dataset.is_seen(*h, m)));
@@ -110,7 +110,7 @@ struct Grid<'a> {
 }
 
 impl<'a> Grid<'a> {
-    fn new(file: &str, recorder: &'a Recorder) -> Result<Grid<'a>, DataError> {
+    fn new(file: &str, recorder: &'a Recorder) -> Result<Grid<'a>> {
         let streams = by_run_and_marker(file, recorder)?;
         let more = |best: &'a Stream, of: &&'a Stream| if of.segments.len() > best.segments.len() { of } else { best };
         let fullest: &Stream = streams.iter().flatten().fold(streams[0][0], |best, of| more(best, of));
@@ -200,7 +200,7 @@ impl<'a> Grid<'a> {
     }
 }
 
-fn by_run_and_marker<'a>(file: &str, recorder: &'a Recorder) -> Result<Vec<Vec<&'a Stream>>, DataError> {
+fn by_run_and_marker<'a>(file: &str, recorder: &'a Recorder) -> Result<Vec<Vec<&'a Stream>>> {
     let (runs, markers) = (&recorder.runs.names, &recorder.markers.names);
     let mut table: Vec<Vec<Option<&Stream>>> = vec![vec![None; markers.len()]; runs.len()];
     recorder.streams.iter().for_each(|stream| table[stream.run][stream.marker] = Some(stream));
@@ -292,7 +292,7 @@ fn check_not_run_together(
     recorder: &Recorder,
     run: &[&Stream],
     matched: &[Vec<Option<usize>>],
-) -> Result<(), DataError> {
+) -> Result<()> {
     if matched.iter().flatten().all(Option::is_some) {
         return Ok(());
     }

@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use crate::error::DataError;
+use crate::error::{DataError, Result};
 use spelling::files::{clear, folder_of, replace};
 
 /// Writes `bytes` to `path`, whole or not at all, and removes what a kill left of earlier tries. The folder must exist.
 ///
 /// # Errors
 /// The folder does not exist or is not writable, or the disk is full; an earlier file at `path` is then untouched.
-pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), DataError> {
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     clear(&folder_of(path), &|whole| whole == name);
     replace(path, &mut |out| out.write_all(bytes)).map_err(|cause| cannot_write(&path.display().to_string(), &cause))

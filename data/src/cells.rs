@@ -1,6 +1,6 @@
 //! What people and programs write into a cell: numbers with a point or a comma, words for nothing, durations, labels.
 
-use crate::error::DataError;
+use crate::error::{DataError, Result};
 use crate::lines::{KeptLine, Line};
 
 /// What spreadsheets, pandas, R and C libraries write where there is no number.
@@ -55,7 +55,7 @@ impl Decimals {
     ///
     /// # Errors
     /// A file that writes decimals both with a point and with a comma.
-    pub fn number(&mut self, text: &str, allowed: bool, line: &Line) -> Result<Option<f64>, DataError> {
+    pub fn number(&mut self, text: &str, allowed: bool, line: &Line) -> Result<Option<f64>> {
         if !(allowed && text.contains(',')) {
             let value = text.parse().ok();
             self.point |= allowed && text.contains('.') && value.is_some();
@@ -77,7 +77,7 @@ impl Decimals {
     ///
     /// # Errors
     /// Every comma may be one of thousands; a point elsewhere.
-    pub fn finish(&self) -> Result<bool, DataError> {
+    pub fn finish(&self) -> Result<bool> {
         match &self.doubtful {
             Some((line, text)) if self.point => Err(both(&line.line(), text)),
             Some((line, text)) if !self.comma => Err(thousands(&line.line(), text)),

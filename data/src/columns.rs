@@ -1,6 +1,6 @@
 //! Names in the header of a table: what a kind of table may hold, and which column holds it in which unit.
 
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
 use crate::lines::Line;
 use crate::units::Measured;
 use spelling::units::Unit;
@@ -102,7 +102,7 @@ pub(crate) fn find(
     names: &[String],
     fields: &[Field],
     meaning: &dyn Fn(&str) -> Meaning,
-) -> Result<Vec<Option<Column>>, DataError> {
+) -> Result<Vec<Option<Column>>> {
     let mut columns: Vec<Option<Column>> = vec![None; fields.len()];
     for (index, name) in names.iter().enumerate() {
         let Meaning::Known(at, unit) = meaning(name) else { continue };

@@ -4,7 +4,7 @@
 //! for a few seconds); in every hold each **marker** is seen `samples_per_hold` times. All lengths are metres, all
 //! pressures pascals, all times seconds; units are converted where the file is read and nowhere else.
 
-use crate::error::DataError;
+use crate::error::{DataError, Result};
 
 /// Whether a hold was reached by raising the actuator pressure, by lowering it, or without changing it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -175,7 +175,7 @@ impl Dataset {
     ///
     /// # Errors
     /// No run, hold, marker or sample; a wrong number of values or times; a value that is not finite.
-    pub fn checked(self) -> Result<Dataset, DataError> {
+    pub fn checked(self) -> Result<Dataset> {
         let empty = self.runs.is_empty() || self.values_per_run() == 0;
         let timed = self.holds.iter().all(|hold| hold.t_s.len() == self.samples_per_hold);
         let gauge = self.gauge_pa.as_deref().unwrap_or_default();

@@ -100,6 +100,9 @@ fn floor_boundary(text: &str, at: usize) -> usize {
     at
 }
 
+/// What reading or writing gives, or why not.
+pub type Result<T, E = DataError> = std::result::Result<T, E>;
+
 /// Why a dataset, a description or a table could not be read or written.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum DataError {

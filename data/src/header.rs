@@ -1,7 +1,7 @@
 //! The header line: which column holds which quantity, in which unit.
 
 use crate::columns::{self, Column, Field, Meaning, field, plain};
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
 use crate::lines::{KeptLine, Line, Lines};
 use crate::units::Measured;
 
@@ -84,7 +84,7 @@ impl Header {
 ///
 /// # Errors
 /// Empty file; a column missing, there twice, misspelt or without unit.
-pub(crate) fn read_header(lines: &mut Lines) -> Result<Header, DataError> {
+pub(crate) fn read_header(lines: &mut Lines) -> Result<Header> {
     let mut said = None;
     loop {
         let file = lines.file().to_string();
@@ -109,7 +109,7 @@ fn wanted() -> String {
     names.join(",")
 }
 
-fn parse_header(line: &Line, said: Option<u8>) -> Result<Header, DataError> {
+fn parse_header(line: &Line, said: Option<u8>) -> Result<Header> {
     let (names, delimiter) = columns::split(line.text, said);
     let columns = columns::find(line, &names, &QUANTITIES, &meaning)?;
     let lacks = |quantity: &usize| QUANTITIES[*quantity].needed && columns[*quantity].is_none();

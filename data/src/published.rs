@@ -7,7 +7,7 @@
 use serde::{Deserialize, Deserializer};
 
 use crate::about::parse_toml;
-use crate::error::DataError;
+use crate::error::{DataError, Result};
 use crate::sets::{set_file, shown};
 
 /// Name of the embedded set.
@@ -150,11 +150,11 @@ impl Published {
 ///
 /// # Errors
 /// The embedded file is wrong (a test of this crate sees to it that it is not).
-pub fn published() -> Result<Published, DataError> {
+pub fn published() -> Result<Published> {
     parse_published(&shown(PAPER, "published.toml"), set_file(PAPER, "published.toml")?)
 }
 
-fn parse_published(file: &str, text: &str) -> Result<Published, DataError> {
+fn parse_published(file: &str, text: &str) -> Result<Published> {
     let Raw { title, doi, protocol, simulation, fabric, mut actuator, fact } = parse_toml(file, text)?;
     let highest_pa = protocol.actuator_pressures_pa.iter().copied().fold(0.0, f64::max);
     for own in &mut actuator {

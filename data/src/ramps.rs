@@ -1,6 +1,6 @@
 //! Whether pressures were kept at all: a hold has a least duration, and a ramp has none.
 
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
 use crate::rows::lowest_mean_pa;
 use crate::streams::pressures::PRESSURES;
 use crate::streams::{Recorder, Segment, Stream};
@@ -19,7 +19,7 @@ const FEW_ROWS: f64 = 0.2;
 ///
 /// # Errors
 /// Such a recording.
-pub(crate) fn check_kept(file: &str, recorder: &Recorder) -> Result<(), DataError> {
+pub(crate) fn check_kept(file: &str, recorder: &Recorder) -> Result<()> {
     let segments = || recorder.streams.iter().flat_map(|stream| &stream.segments);
     let too_low = |segment: &Segment| {
         let mut means = segment.too_low.iter().zip(segment.means_pa()).zip(PRESSURES);
@@ -47,7 +47,7 @@ fn is_ramp(segments: &[Segment]) -> bool {
 }
 
 /// Pieces of a ramp between holds are in the rows of every marker of a run; a glimpse of one marker is not.
-fn no_pieces(file: &str, recorder: &Recorder, run: usize) -> Result<(), DataError> {
+fn no_pieces(file: &str, recorder: &Recorder, run: usize) -> Result<()> {
     let streams = || recorder.streams.iter().filter(move |stream| stream.run == run);
     let Some(first) = streams().min_by_key(|stream| pieces(stream).count()) else { return Ok(()) };
     let Some(piece) = pieces(first).next() else { return Ok(()) };

@@ -3,7 +3,7 @@
 use include_dir::{Dir, include_dir};
 
 use crate::about::{About, Provenance, parse_about};
-use crate::error::DataError;
+use crate::error::{DataError, Result};
 
 static SETS: Dir = include_dir!("$CARGO_MANIFEST_DIR/sets");
 
@@ -43,7 +43,7 @@ pub fn sets() -> Vec<SetInfo> {
 ///
 /// # Errors
 /// No such set or file, or it is not UTF-8.
-pub fn set_file(set: &str, file: &str) -> Result<&'static str, DataError> {
+pub fn set_file(set: &str, file: &str) -> Result<&'static str> {
     let shown = shown(set, file);
     let missing = || {
         let help = format!("embedded sets: {}", names().join(", "));
@@ -57,7 +57,7 @@ pub fn set_file(set: &str, file: &str) -> Result<&'static str, DataError> {
 ///
 /// # Errors
 /// No such set, or its `about.toml` is wrong.
-pub fn set_about(set: &str) -> Result<About, DataError> {
+pub fn set_about(set: &str) -> Result<About> {
     parse_about(&shown(set, "about.toml"), set_file(set, "about.toml")?)
 }
 
@@ -72,7 +72,7 @@ pub(crate) fn shown(set: &str, file: &str) -> String {
     format!("set:{set}/{file}")
 }
 
-fn info(name: &str) -> Result<SetInfo, DataError> {
+fn info(name: &str) -> Result<SetInfo> {
     let About { title, provenance, source, licence, .. } = set_about(name)?;
     let files = SETS.get_dir(name).into_iter().flat_map(Dir::files);
     let mut files: Vec<String> =

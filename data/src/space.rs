@@ -1,7 +1,7 @@
 //! A third coordinate and pressures of several supply channels: what a planar robot leaves aside, and when it must not.
 
 use crate::dataset::Dataset;
-use crate::error::DataError;
+use crate::error::{DataError, Result};
 use crate::policy::{self, tolerance_act_pa};
 use crate::streams::plausible::check_y_up_later;
 use crate::units::mm;
@@ -55,7 +55,7 @@ impl Dataset {
     /// # Errors
     /// Markers that move towards z more than towards y; channels at different pressures; y that points down, which is not asked
     /// before of a table with z.
-    pub fn left_aside(&self) -> Result<Option<String>, DataError> {
+    pub fn left_aside(&self) -> Result<Option<String>> {
         let refused = |message: String, help: &str| Err(DataError::runs(&self.name, message, help));
         if self.channels_differ() {
             let message = format!(

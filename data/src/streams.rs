@@ -11,11 +11,11 @@ mod segments;
 
 use std::collections::HashMap;
 
-use crate::error::DataError;
+use crate::error::{DataError, Result};
 use crate::header::{Header, MARKER, RUN, STATION, TIME};
 use crate::lines::{KeptLine, Line};
 use crate::policy;
-use crate::rows::{Row, RowReader, lowest_mean_pa};
+use crate::rows::{Cells, Row, lowest_mean_pa};
 pub(crate) use labels::Labels;
 use placeholders::Placeholders;
 use plausible::Extremes;
@@ -53,12 +53,12 @@ impl Recorder {
     ///
     /// # Errors
     /// Time not increasing in its stream, a station that changes, too many runs, markers or holds.
-    pub fn add(&mut self, cells: &RowReader, line: &Line) -> Result<(), DataError> {
-        let row = cells.row(line)?;
+    pub fn add(&mut self, cells: Cells) -> Result<()> {
+        let row = cells.row()?;
         let (run, marker) = (self.runs.number(row.run), self.markers.number(row.marker));
         let limit = |quantity, what: &str, most| {
             let help = format!("split the file: at most {most} {what}s are read at once; is the {what} column right?");
-            DataError::Layout(cells.cell_fault(line, quantity, format!("more than {most} {what}s"), help))
+            DataError::Layout(cells.fault(quantity, format!("more than {most} {what}s"), help))
         };
         if run >= policy::MOST_RUNS {
             return Err(limit(RUN, "run", policy::MOST_RUNS));
@@ -66,46 +66,39 @@ impl Recorder {
         if marker >= policy::MOST_MARKERS {
             return Err(limit(MARKER, "marker", policy::MOST_MARKERS));
         }
-        self.first_row.get_or_insert_with(|| line.keep());
+        self.first_row.get_or_insert_with(|| cells.line.keep());
         self.extremes.widen(&row);
-        self.set_station(marker, &row, cells, line)?;
-        self.add_to_stream(run, marker, &row, cells, line)
+        self.set_station(marker, &row, cells)?;
+        self.add_to_stream([run, marker], &row, cells)
     }
 
-    fn add_to_stream(
-        &mut self,
-        run: usize,
-        marker: usize,
-        row: &Row,
-        cells: &RowReader,
-        line: &Line,
-    ) -> Result<(), DataError> {
+    fn add_to_stream(&mut self, [run, marker]: [usize; 2], row: &Row, cells: Cells) -> Result<()> {
         let index = *self.by_pair.entry((run, marker)).or_insert(self.streams.len());
         if index == self.streams.len() {
             self.streams.push(Stream {
                 run,
                 marker,
-                first_line: line.number,
+                first_line: cells.line.number,
                 first_t_s: row.t_s,
                 segments: Vec::new(),
                 last_t_s: f64::NEG_INFINITY,
             });
         }
         let stream = &mut self.streams[index];
-        check_time(stream, row, cells, line)?;
+        check_time(stream, row, cells)?;
         stream.last_t_s = row.t_s;
         stream.take_back(row);
         if !stream.segments.last().is_some_and(|segment| segment.continues_with(row)) {
             if policy::is_full(stream.segments.len(), self.series) {
-                return Err(too_many_holds(line));
+                return Err(too_many_holds(cells.line));
             }
             self.series += 1;
-            stream.segments.push(Segment::new(row, line.number));
+            stream.segments.push(Segment::new(row, cells.line.number));
         }
         if let Some(segment) = stream.segments.last_mut() {
             for (which, (pressure_pa, quantity)) in pressures_pa(row).into_iter().zip(PRESSURES).enumerate() {
                 if pressure_pa < lowest_mean_pa(quantity) && segment.too_low[which].is_none() {
-                    segment.too_low[which] = Some(cells.too_low(line, quantity, pressure_pa));
+                    segment.too_low[which] = Some(cells.too_low(quantity, pressure_pa));
                 }
             }
             segment.add(row);
@@ -113,7 +106,7 @@ impl Recorder {
         Ok(())
     }
 
-    fn set_station(&mut self, marker: usize, row: &Row, cells: &RowReader, line: &Line) -> Result<(), DataError> {
+    fn set_station(&mut self, marker: usize, row: &Row, cells: Cells) -> Result<()> {
         if self.stations_m.len() <= marker {
             self.stations_m.resize(marker + 1, None);
         }
@@ -126,11 +119,11 @@ impl Recorder {
         }
         let message = format!("marker {} has two stations: {} mm and {} mm", row.marker, old * 1e3, new * 1e3);
         let help = "the station is the place on the undeformed robot: write the same number in every row".to_string();
-        Err(DataError::Cell(cells.cell_fault(line, STATION, message, help)))
+        Err(DataError::Cell(cells.fault(STATION, message, help)))
     }
 }
 
-fn check_time(stream: &Stream, row: &Row, cells: &RowReader, line: &Line) -> Result<(), DataError> {
+fn check_time(stream: &Stream, row: &Row, cells: Cells) -> Result<()> {
     if row.t_s > stream.last_t_s {
         return Ok(());
     }
@@ -142,7 +135,7 @@ fn check_time(stream: &Stream, row: &Row, cells: &RowReader, line: &Line) -> Res
                     sort the rows, give repeated tests their own run label, and look for rows copied twice";
         (format!("time goes backwards in {of}: {} s after {} s", row.t_s, stream.last_t_s), help.to_string())
     };
-    Err(DataError::Cell(cells.cell_fault(line, TIME, message, help)))
+    Err(DataError::Cell(cells.fault(TIME, message, help)))
 }
 
 fn too_many_holds(line: &Line) -> DataError {

@@ -5,7 +5,7 @@ use std::io::Write;
 use crate::about::{About, Direct, MeasuredValue};
 use crate::atomic::cannot_write;
 use crate::dataset::Dataset;
-use crate::error::DataError;
+use crate::error::Result;
 use crate::table::{Column, Table};
 use crate::units::mm;
 
@@ -14,7 +14,7 @@ use crate::units::mm;
 ///
 /// # Errors
 /// The writer fails.
-pub fn write_markers_csv(dataset: &Dataset, out: &mut dyn Write) -> Result<(), DataError> {
+pub fn write_markers_csv(dataset: &Dataset, out: &mut dyn Write) -> Result<()> {
     let Table { mut columns } = dataset.to_table();
     // Phase and marker come before the place.
     let labels: Vec<_> = columns.drain(2..4).collect();
@@ -37,7 +37,7 @@ pub fn write_markers_csv(dataset: &Dataset, out: &mut dyn Write) -> Result<(), D
 ///
 /// # Errors
 /// As [`write_markers_csv`].
-pub fn set_files(dataset: &Dataset, about: &About) -> Result<[(String, Vec<u8>); 2], DataError> {
+pub fn set_files(dataset: &Dataset, about: &About) -> Result<[(String, Vec<u8>); 2]> {
     let mut csv = Vec::new();
     write_markers_csv(dataset, &mut csv)?;
     Ok([("about.toml".into(), about_toml(about).into_bytes()), ("markers.csv".into(), csv)])

@@ -6,13 +6,13 @@ use spelling::files::{MOST_TEXT, read_whole};
 
 use super::About;
 use super::checks::{Check, RawAbout};
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
 
 /// Reads an `about.toml`.
 ///
 /// # Errors
 /// File not readable; unknown key, wrong type, missing key; a length not positive; a direction that is not a unit vector.
-pub fn read_about(path: &Path) -> Result<About, DataError> {
+pub fn read_about(path: &Path) -> Result<About> {
     let shown = path.display().to_string();
     let read = read_whole(path, MOST_TEXT).and_then(|bytes| String::from_utf8(bytes).map_err(std::io::Error::other));
     let text = read.map_err(|cause| {
@@ -26,7 +26,7 @@ pub fn read_about(path: &Path) -> Result<About, DataError> {
 ///
 /// # Errors
 /// As [`read_about`].
-pub fn parse_about(file: &str, text: &str) -> Result<About, DataError> {
+pub fn parse_about(file: &str, text: &str) -> Result<About> {
     let raw: RawAbout = parse_toml(file, text)?;
     let check = Check { file, text };
     let geometry = raw.geometry.map(|geometry| check.geometry(geometry)).transpose()?;
@@ -48,7 +48,7 @@ pub fn parse_about(file: &str, text: &str) -> Result<About, DataError> {
 }
 
 /// Parses TOML into a struct with the place of every fault.
-pub(crate) fn parse_toml<T: serde::de::DeserializeOwned>(file: &str, text: &str) -> Result<T, DataError> {
+pub(crate) fn parse_toml<T: serde::de::DeserializeOwned>(file: &str, text: &str) -> Result<T> {
     toml::from_str(text).map_err(|cause| {
         let span = cause.span().map(|span| (span.start, span.end));
         let message = cause.message().trim().replace('\n', "; ");

@@ -14,7 +14,7 @@ use std::io::Read;
 use std::path::Path;
 
 pub use crate::columns::Field;
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
 use crate::sets;
 use spelling::files::{MOST_DATA, read_whole};
 
@@ -28,7 +28,7 @@ pub const KINDS: &[BenchKind] = &[load_deflection::ENTRY, force_contraction::ENT
 ///
 /// # Errors
 /// A fault of the table, with line, column and what to write.
-pub fn bench(spec: &str) -> Result<Option<Bench>, DataError> {
+pub fn bench(spec: &str) -> Result<Option<Bench>> {
     let path = Path::new(spec);
     if path.is_file() {
         let first = |most: u64| {
@@ -81,7 +81,7 @@ const HEADER: u64 = 1 << 16;
 ///
 /// # Errors
 /// As [`bench()`].
-pub fn parse_bench(file: &str, text: &str) -> Result<Option<Bench>, DataError> {
+pub fn parse_bench(file: &str, text: &str) -> Result<Option<Bench>> {
     read::parse(KINDS, file, text)
 }
 

@@ -3,7 +3,7 @@
 use super::kind::{Bench, BenchKind, BenchRow};
 use crate::about::Provenance;
 use crate::columns::{self, Column, Meaning};
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
 use crate::lines::{Line, Lines};
 
 /// A comment above the header, `# key: value`.
@@ -25,7 +25,7 @@ impl Note {
 }
 
 /// Reads a table; `None` if its header is of no kind.
-pub(super) fn parse(kinds: &'static [BenchKind], file: &str, text: &str) -> Result<Option<Bench>, DataError> {
+pub(super) fn parse(kinds: &'static [BenchKind], file: &str, text: &str) -> Result<Option<Bench>> {
     let mut progress = |_, _| ();
     let mut bytes = text.as_bytes();
     let mut lines = Lines::new(file, &mut bytes, text.len() as u64, &mut progress);
@@ -76,7 +76,7 @@ fn is_of(kind: &BenchKind, names: &[String], notes: &[Note]) -> bool {
 }
 
 /// What the comments say for all rows, by field.
-fn shared(kind: &BenchKind, notes: &[Note]) -> Result<Vec<Option<f64>>, DataError> {
+fn shared(kind: &BenchKind, notes: &[Note]) -> Result<Vec<Option<f64>>> {
     let mut values = vec![None; kind.columns.len()];
     for note in notes {
         let meaning = Meaning::of(&note.key, kind.columns);
@@ -106,7 +106,7 @@ struct BenchTable {
 }
 
 impl BenchTable {
-    fn row(&self, shared: &[Option<f64>], line: &Line) -> Result<BenchRow, DataError> {
+    fn row(&self, shared: &[Option<f64>], line: &Line) -> Result<BenchRow> {
         let BenchTable { kind, names, delimiter, columns } = self;
         let cells: Vec<&str> = line.text.split(*delimiter as char).map(str::trim).collect();
         if cells.len() != names.len() {
@@ -140,7 +140,7 @@ impl BenchTable {
     }
 }
 
-fn provenance(notes: &[Note]) -> Result<Provenance, DataError> {
+fn provenance(notes: &[Note]) -> Result<Provenance> {
     let mut all = notes.iter().filter(|note| note.key == "provenance");
     let Some(note) = all.next() else { return Ok(Provenance::Measured) };
     if let Some(again) = all.next() {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::options::ImportOptions;
 use super::recording::Lengths;
 use super::sheet::CellText;
-use crate::error::DataError;
+use crate::error::Result;
 use crate::units::Measured;
 
 #[derive(Debug, Clone, PartialEq)]
@@ -151,7 +151,7 @@ impl Roles {
     ///
     /// # Errors
     /// A column that the caller named and that is not there, two of one kind, a pressure without unit.
-    pub fn of(sheet: &CellText, line: u64, header: &[&str], options: &ImportOptions) -> Result<Roles, DataError> {
+    pub fn of(sheet: &CellText, line: u64, header: &[&str], options: &ImportOptions) -> Result<Roles> {
         let mut roles = Roles::default();
         // A quantity that was given a column of this table has no other.
         let is_named = |quantity: &&str| {
@@ -187,7 +187,7 @@ impl Roles {
         index: usize,
         name: &ColumnName,
         options: &ImportOptions,
-    ) -> Result<(), DataError> {
+    ) -> Result<()> {
         let unit = name.unit.as_deref();
         let taken = match quantity {
             "t" | "frame" => {
@@ -232,7 +232,7 @@ impl Roles {
     ///
     /// # Errors
     /// Different units.
-    pub fn lengths(&self, sheet: &CellText, line: u64) -> Result<Lengths, DataError> {
+    pub fn lengths(&self, sheet: &CellText, line: u64) -> Result<Lengths> {
         let units: Vec<_> = self.coordinates.iter().map(|(.., unit)| unit.as_deref()).collect();
         let Some(first) = units.first().copied().flatten() else { return Ok(Lengths::Unsaid) };
         if let Some(other) = units.iter().find(|unit| **unit != Some(first)) {

@@ -3,7 +3,7 @@
 use super::holds::{Kept, PressedRun, bins, clean, plateaus};
 use super::options::ImportOptions;
 use super::recording::{Recording, counted};
-use crate::error::DataError;
+use crate::error::{DataError, Result};
 use crate::policy::tolerance_act_pa;
 use crate::units::kpa;
 
@@ -20,7 +20,7 @@ pub(crate) fn cut(
     xy_m: Vec<Vec<Vec<[f64; 2]>>>,
     options: &ImportOptions,
     told: &mut Vec<String>,
-) -> Result<Cut, DataError> {
+) -> Result<Cut> {
     let run = |(recording, xy_m): (Recording, _)| PressedRun {
         label: recording.run.unwrap_or_default(),
         times_s: recording.times,
@@ -34,7 +34,7 @@ pub(crate) fn cut(
     }
 }
 
-fn held(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut Vec<String>) -> Result<Cut, DataError> {
+fn held(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut Vec<String>) -> Result<Cut> {
     let (mut cut, mut used, mut taken) = (Vec::new(), 0, [0, 0]);
     let frames: usize = runs.iter().map(|run| run.times_s.len()).sum();
     for mut run in runs {
@@ -103,7 +103,7 @@ fn apart(bins: Vec<(usize, i64, Kept)>) -> Vec<(usize, i64, Kept)> {
 }
 
 /// Runs by bins of pressure, those bins that all of them have.
-fn binned(file: &str, runs: Vec<PressedRun>, bin_pa: f64, told: &mut Vec<String>) -> Result<Cut, DataError> {
+fn binned(file: &str, runs: Vec<PressedRun>, bin_pa: f64, told: &mut Vec<String>) -> Result<Cut> {
     let found: Vec<_> = runs.iter().map(|run| apart(bins(run, bin_pa))).collect();
     let highest_pa = found.iter().flatten().map(|(.., kept)| kept.act_pa).fold(0.0, f64::max);
     let least_pa = 1.1 * tolerance_act_pa(highest_pa);

@@ -5,7 +5,7 @@ use super::layout::{Layout, PARTS};
 use super::options::ImportOptions;
 use super::recording::{Lengths, Recording};
 use super::sheet::CellText;
-use crate::error::DataError;
+use crate::error::Result;
 
 pub(super) const FORMAT: Format = Format {
     name: "DeepLabCut",
@@ -23,7 +23,7 @@ const LIKELIHOOD: f64 = 0.9;
 /// Names of the rows above the frames.
 const HEADS: [&str; 4] = ["scorer", "individuals", "bodyparts", "coords"];
 
-fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
+fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> {
     let is_head = |(_, line): &(u64, &str)| HEADS.contains(&sheet.split(line)[0]);
     let heads: Vec<Vec<&str>> = sheet.lines().take_while(is_head).map(|(_, line)| sheet.split(line)).collect();
     let first = sheet.lines().nth(heads.len()).map_or(0, |(number, _)| number);

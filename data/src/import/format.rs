@@ -3,7 +3,7 @@
 use super::options::ImportOptions;
 use super::recording::Recording;
 use super::sheet::CellText;
-use crate::error::DataError;
+use crate::error::Result;
 
 /// A kind of tracking file.
 #[derive(Debug)]
@@ -19,5 +19,5 @@ pub struct Format {
     /// Whether a text, of which these are the first lines as cells, is of this kind.
     pub(crate) recognise: fn(&CellText, &[Vec<&str>], &ImportOptions) -> bool,
     /// Its runs.
-    pub(crate) read: fn(&CellText, &ImportOptions) -> Result<Vec<Recording>, DataError>,
+    pub(crate) read: fn(&CellText, &ImportOptions) -> Result<Vec<Recording>>,
 }

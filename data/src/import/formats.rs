@@ -4,7 +4,7 @@ use super::format::Format;
 use super::options::ImportOptions;
 use super::sheet::CellText;
 use super::{deeplabcut, kinovea, motive, sleap, tables, tracker, trackmate};
-use crate::error::DataError;
+use crate::error::Result;
 
 /// All kinds.
 pub const FORMATS: [&Format; 10] = [
@@ -30,7 +30,7 @@ const LOOKED_AT: usize = 8;
 ///
 /// # Errors
 /// None of them.
-pub(crate) fn recognised(sheet: &CellText, options: &ImportOptions) -> Result<&'static Format, DataError> {
+pub(crate) fn recognised(sheet: &CellText, options: &ImportOptions) -> Result<&'static Format> {
     let head = sheet.head(LOOKED_AT);
     let found = FORMATS.into_iter().find(|format| (format.recognise)(sheet, &head, options));
     found.ok_or_else(|| {

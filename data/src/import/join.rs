@@ -7,7 +7,8 @@ use super::options::ImportOptions;
 use super::pressure::Log;
 use super::recording::{FrameClock, Recording, counted};
 use super::sheet::CellText;
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
+use crate::lines::Progress;
 use crate::policy::is_a_room;
 use crate::units::kpa;
 use spelling::files::{MOST_DATA, read_whole};
@@ -17,7 +18,7 @@ use spelling::units::Range;
 ///
 /// # Errors
 /// It cannot be read, or is not a text.
-pub(crate) fn text_of(path: &Path) -> Result<String, DataError> {
+pub(crate) fn text_of(path: &Path) -> Result<String> {
     let shown = path.display().to_string();
     let bytes = read_whole(path, MOST_DATA)
         .map_err(|cause| DataError::file(&shown, format!("cannot open the file: {cause}"), "check the path"))?;
@@ -44,11 +45,7 @@ pub(crate) struct Joined {
 ///
 /// # Errors
 /// A file that is not understood, of another program, or without frame rate or pressures; a named column that is nowhere.
-pub(crate) fn recordings(
-    files: &[PathBuf],
-    options: &ImportOptions,
-    progress: &mut dyn FnMut(u64, u64),
-) -> Result<Joined, DataError> {
+pub(crate) fn recordings(files: &[PathBuf], options: &ImportOptions, progress: Progress) -> Result<Joined> {
     let mut absent: Vec<&(String, String)> = options.columns.iter().collect();
     let mut joined = Joined { program: "", runs: Vec::new(), told: Vec::new() };
     let logs = logs(files.len(), options, &mut joined.told, &mut absent)?;
@@ -77,7 +74,7 @@ pub(crate) fn recordings(
 }
 
 impl Joined {
-    fn add(&mut self, sheet: &CellText, log: Option<&Log>, options: &ImportOptions) -> Result<(), DataError> {
+    fn add(&mut self, sheet: &CellText, log: Option<&Log>, options: &ImportOptions) -> Result<()> {
         let format = formats::recognised(sheet, options)?;
         if !self.program.is_empty() && self.program != format.name {
             let message = format!("this file is of {}, the others are of {}", format.name, self.program);
@@ -111,7 +108,7 @@ impl Joined {
 
 /// # Errors
 /// Hardly anything in the run, or a marker at two places at once.
-fn check_run(sheet: &CellText, run: &Recording) -> Result<(), DataError> {
+fn check_run(sheet: &CellText, run: &Recording) -> Result<()> {
     if let Some((marker, time)) = &run.twice {
         let message = format!("marker {marker} has two places at {time} of one run");
         return Err(sheet.fault(0, message, "give every run a file of its own, or a column run"));
@@ -137,7 +134,7 @@ fn logs(
     options: &ImportOptions,
     told: &mut Vec<String>,
     absent: &mut Vec<&(String, String)>,
-) -> Result<Vec<Log>, DataError> {
+) -> Result<Vec<Log>> {
     let count = options.pressure_logs.len();
     if count > 1 && count != files {
         let (file, message) = (
@@ -163,7 +160,7 @@ fn logs(
 ///
 /// # Errors
 /// Frames without a rate.
-fn seconds(sheet: &CellText, run: &mut Recording, options: &ImportOptions) -> Result<String, DataError> {
+fn seconds(sheet: &CellText, run: &mut Recording, options: &ImportOptions) -> Result<String> {
     match (run.clock, options.frames_per_s) {
         (FrameClock::Frames, None) => {
             let help = "add --fps with the camera's frames per second, for example --fps 30";
@@ -181,12 +178,7 @@ fn seconds(sheet: &CellText, run: &mut Recording, options: &ImportOptions) -> Re
 }
 
 /// Puts every pressure in place: of the file, of the log, or as given.
-fn pressures(
-    sheet: &CellText,
-    run: &mut Recording,
-    log: Option<&Log>,
-    options: &ImportOptions,
-) -> Result<Vec<String>, DataError> {
+fn pressures(sheet: &CellText, run: &mut Recording, log: Option<&Log>, options: &ImportOptions) -> Result<Vec<String>> {
     let mut told = Vec::new();
     if let Some(log) = log {
         if run.pressures.iter().any(Option::is_some) {

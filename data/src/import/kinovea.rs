@@ -5,7 +5,7 @@ use super::options::ImportOptions;
 use super::recording::{FrameClock, Lengths, Pivot, Recording};
 use super::sheet::CellText;
 use crate::cells::clock_s;
-use crate::error::DataError;
+use crate::error::Result;
 
 pub(super) const TRAJECTORIES: Format = Format {
     name: "Kinovea, trajectories",
@@ -16,7 +16,7 @@ pub(super) const TRAJECTORIES: Format = Format {
     read: trajectories,
 };
 
-fn trajectories(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
+fn trajectories(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     // Pixels, or the units of a calibration: the file does not say.
     let mut pivot = Pivot::new(Lengths::Unsaid, FrameClock::Seconds);
     let (mut block, mut open) = (0_usize, false);

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use super::recording::{FrameClock, Lengths, Pivot, Recording, counted};
 use super::sheet::CellText;
 use crate::cells::{is_nothing, label};
-use crate::error::DataError;
+use crate::error::Result;
 
 /// What a column of a marker holds.
 pub(super) const PARTS: [&str; 4] = ["x", "y", "z", "likelihood"];
@@ -73,14 +73,7 @@ impl Layout {
     ///
     /// # Errors
     /// Two columns of one part.
-    pub fn add(
-        &mut self,
-        sheet: &CellText,
-        line: u64,
-        name: &str,
-        part: usize,
-        column: usize,
-    ) -> Result<(), DataError> {
+    pub fn add(&mut self, sheet: &CellText, line: u64, name: &str, part: usize, column: usize) -> Result<()> {
         let at = self.tracks.iter().position(|track| track.name == name).unwrap_or_else(|| {
             self.tracks.push(Track { name: name.to_string(), columns: [None; PARTS.len()] });
             self.tracks.len() - 1
@@ -102,7 +95,7 @@ impl Layout {
         header: u64,
         parts: usize,
         rows: impl Iterator<Item = (u64, &'s str)>,
-    ) -> Result<Vec<Recording>, DataError> {
+    ) -> Result<Vec<Recording>> {
         for track in &self.tracks {
             if let Some(part) = (0..parts).find(|part| track.columns[*part].is_none()) {
                 let message = format!("{} has no column of {}", of(&track.name), PARTS[part]);
@@ -137,7 +130,7 @@ impl Layout {
         cells: &[&str],
         marker: Option<&str>,
         pivot: &mut Pivot,
-    ) -> Result<(), DataError> {
+    ) -> Result<()> {
         let time = cell(cells, self.time);
         let t = self.second.unwrap_or(1.0) * sheet.time(time, number, "time")?;
         if self.rises && pivot.recording.times.last().is_some_and(|last| t <= *last) {

@@ -36,7 +36,8 @@ use std::path::{Path, PathBuf};
 
 use crate::about::{About, parse_about};
 use crate::dataset::Dataset;
-use crate::error::DataError;
+use crate::error::{DataError, Result};
+use crate::lines::Progress;
 use crate::policy::tolerance_act_pa;
 use crate::read::{ReadOptions, parse_markers};
 use crate::units::kpa;
@@ -45,7 +46,7 @@ pub use columns::QUANTITIES;
 use cut::{Cut, cut};
 pub use format::Format;
 pub use formats::{FORMATS, LOG_FIXTURE};
-use frame::{PlacedRuns, RestAndTop, place};
+use frame::{PlacedRuns, RestAndTop, Scene};
 use join::Joined;
 pub use options::{FileAxis, FilePlace, ImportOptions, Offset, Scale};
 use recording::{Dropped, Recording, counted};
@@ -90,11 +91,7 @@ const MOST_POINTS: usize = 1_500;
 /// # Errors
 /// A file that is not understood; scale, base, axes, frame rate or pressures that are not known; clocks that disagree; no holds;
 /// runs that do not fit together. Every message names the option to add.
-pub fn import(
-    files: &[PathBuf],
-    options: &ImportOptions,
-    progress: &mut dyn FnMut(u64, u64),
-) -> Result<Imported, DataError> {
+pub fn import(files: &[PathBuf], options: &ImportOptions, progress: Progress) -> Result<Imported> {
     let shown: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
     let Some(first) = shown.first() else {
         return Err(DataError::file("import", "no file was given", "name the tracking files"));
@@ -107,8 +104,7 @@ pub fn import(
     let ends: Vec<RestAndTop> = runs.iter().map(|run| ends(first, run)).collect::<Result<_, _>>()?;
     labels::rename(first, &mut runs, &ends, options, &mut told)?;
     let actuator = actuator(first, &runs, options)?;
-    let PlacedRuns { xy_m, markers, told: words } = place(first, &runs, &ends, options)?;
-    told.extend(words);
+    let PlacedRuns { xy_m, markers } = Scene { file: first, runs: &runs, ends: &ends, options }.place(&mut told)?;
     let cut = cut(first, runs, xy_m, options, &mut told)?;
     let made = MadeTable { program, files: &shown, cut: &cut, markers: &markers, actuator: &actuator, options };
     made.finish(told)
@@ -126,7 +122,7 @@ struct MadeTable<'a> {
 
 impl MadeTable<'_> {
     /// Writes both and reads them back.
-    fn finish(&self, mut told: Vec<String>) -> Result<Imported, DataError> {
+    fn finish(&self, mut told: Vec<String>) -> Result<Imported> {
         let MadeTable { program, files, cut, markers, actuator, options } = *self;
         if let Some((unknown, _)) = options.stations_m.iter().find(|(name, _)| !markers.contains(name)) {
             let help = format!("the markers are {}", markers.join(", "));
@@ -194,7 +190,7 @@ fn losses(runs: &[Recording]) -> Vec<String> {
 }
 
 /// Frames at the lowest and at the highest pressure.
-fn ends(file: &str, run: &Recording) -> Result<RestAndTop, DataError> {
+fn ends(file: &str, run: &Recording) -> Result<RestAndTop> {
     let act = run.pressures[1].as_deref().unwrap_or_default();
     let known = || act.iter().copied().filter(|p| p.is_finite());
     let (low, high) = (known().fold(f64::INFINITY, f64::min), known().fold(f64::NEG_INFINITY, f64::max));
@@ -207,7 +203,7 @@ fn ends(file: &str, run: &Recording) -> Result<RestAndTop, DataError> {
     Ok(RestAndTop { rest: near(low), top: near(high) })
 }
 
-fn actuator(file: &str, runs: &[Recording], options: &ImportOptions) -> Result<String, DataError> {
+fn actuator(file: &str, runs: &[Recording], options: &ImportOptions) -> Result<String> {
     let known = options
         .actuator
         .clone()

@@ -6,7 +6,7 @@ use super::layout::Layout;
 use super::options::ImportOptions;
 use super::recording::{Lengths, Recording, counted};
 use super::sheet::CellText;
-use crate::error::DataError;
+use crate::error::Result;
 
 pub(super) const FORMAT: Format = Format {
     name: "Motive (OptiTrack)",
@@ -34,7 +34,7 @@ impl Head<'_> {
     }
 }
 
-fn read(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
+fn read(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     let mut head = Head::default();
     let mut lines = sheet.lines();
     let (number, axes) = loop {
@@ -73,7 +73,7 @@ fn read(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>, Da
     layout.read(sheet, number, 3, lines)
 }
 
-fn unit(sheet: &CellText, head: &Head) -> Result<Lengths, DataError> {
+fn unit(sheet: &CellText, head: &Head) -> Result<Lengths> {
     let said = head.settings.iter().position(|cell| *cell == "Length Units").and_then(|at| head.settings.get(at + 1));
     let Some(word) = said else { return Ok(Lengths::Unsaid) };
     let help = "export in meters, centimeters or millimeters";

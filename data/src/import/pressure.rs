@@ -4,7 +4,7 @@ use super::columns::Roles;
 use super::options::{ImportOptions, Offset};
 use super::recording::{Recording, counted};
 use super::sheet::CellText;
-use crate::error::DataError;
+use crate::error::{DataError, Result};
 use crate::policy::{HIGHEST_GAUGE_PA, ROOM_PA};
 use spelling::units::Range;
 
@@ -34,7 +34,7 @@ impl Log {
     ///
     /// # Errors
     /// No column of time or pressure; a cell without a number; times that go back.
-    pub fn read(sheet: &CellText, options: &ImportOptions) -> Result<Log, DataError> {
+    pub fn read(sheet: &CellText, options: &ImportOptions) -> Result<Log> {
         let mut lines = sheet.lines().filter(|(_, line)| !line.starts_with('#'));
         let Some((first, header)) = lines.next() else {
             return Err(sheet.fault(0, "the pressure log is empty", "export it again"));
@@ -83,7 +83,7 @@ impl Log {
     ///
     /// # Errors
     /// The clocks disagree; hardly any frame is within the log.
-    pub fn join(&self, recording: &mut Recording, options: &ImportOptions) -> Result<Vec<String>, DataError> {
+    pub fn join(&self, recording: &mut Recording, options: &ImportOptions) -> Result<Vec<String>> {
         let (offset_s, mut told) = self.offset(recording, options.offset)?;
         let places = self.readings_at(&recording.times, offset_s);
         let outside = places.iter().filter(|place| place.is_none()).count();
@@ -115,7 +115,7 @@ impl Log {
     ///
     /// # Errors
     /// None, or frames in its place; no pressure.
-    fn columns(sheet: &CellText, line: u64, roles: &Roles) -> Result<(usize, f64), DataError> {
+    fn columns(sheet: &CellText, line: u64, roles: &Roles) -> Result<(usize, f64)> {
         let (message, help) = match roles.time {
             Some((time, Some(second))) if roles.pressures.iter().any(Option::is_some) => return Ok((time, second)),
             Some((_, Some(_))) => ("a pressure", "say which: --map p_act=NAME, and p_body=NAME if there is one"),
@@ -151,7 +151,7 @@ impl Log {
     }
 
     /// The log's time minus the camera's.
-    fn offset(&self, recording: &Recording, wanted: Offset) -> Result<(f64, Vec<String>), DataError> {
+    fn offset(&self, recording: &Recording, wanted: Offset) -> Result<(f64, Vec<String>)> {
         if let Offset::Given(offset_s) = wanted {
             return Ok((
                 offset_s,

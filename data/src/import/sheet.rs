@@ -1,7 +1,7 @@
 //! A text of cells whatever its dialect: separator, decimal sign and line ends are found, not asked for.
 
 use crate::cells::{Decimals, clock_s, is_nothing, with_comma};
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
 use crate::lines::Line;
 
 /// Lines looked at to find separator and decimal sign.
@@ -25,7 +25,7 @@ impl<'a> CellText<'a> {
     ///
     /// # Errors
     /// No text; numbers with a comma that may be decimal or of thousands.
-    pub fn new(file: &'a str, text: &'a str) -> Result<CellText<'a>, DataError> {
+    pub fn new(file: &'a str, text: &'a str) -> Result<CellText<'a>> {
         if text.contains('\0') {
             let (message, help) = ("the file is no text", "export it as text: CSV, TXT or XML");
             return Err(DataError::layout(file, message, help));
@@ -90,7 +90,7 @@ impl<'a> CellText<'a> {
     ///
     /// # Errors
     /// Anything else than a finite number or a word for none.
-    pub fn expect(&self, text: &str, number: u64, column: &str) -> Result<f64, DataError> {
+    pub fn expect(&self, text: &str, number: u64, column: &str) -> Result<f64> {
         self.finite(text).ok_or_else(|| self.no_number(text, number, column))
     }
 
@@ -106,7 +106,7 @@ impl<'a> CellText<'a> {
 
     /// # Errors
     /// A row that was cut, or has cells without a name above.
-    pub fn whole_row(&self, cells: &[&str], names: usize, number: u64) -> Result<(), DataError> {
+    pub fn whole_row(&self, cells: &[&str], names: usize, number: u64) -> Result<()> {
         if cells.len() == names {
             return Ok(());
         }
@@ -118,7 +118,7 @@ impl<'a> CellText<'a> {
     ///
     /// # Errors
     /// Anything else.
-    pub fn time(&self, text: &str, number: u64, column: &str) -> Result<f64, DataError> {
+    pub fn time(&self, text: &str, number: u64, column: &str) -> Result<f64> {
         let plain = ["seconds", "secs", "sec", "s"].iter().find_map(|unit| text.strip_suffix(unit)).unwrap_or(text);
         let found = self.number(plain.trim()).filter(|t| t.is_finite()).or_else(|| clock_s(text));
         found.ok_or_else(|| self.bad_cell(text, number, column, "a time is a number, or hours:minutes:seconds"))
@@ -138,7 +138,7 @@ impl<'a> CellText<'a> {
 
     /// # Errors
     /// All commas may be of thousands, or points and commas are both used.
-    fn has_decimal_comma(&self) -> Result<bool, DataError> {
+    fn has_decimal_comma(&self) -> Result<bool> {
         let mut decimals = Decimals::default();
         for (number, text) in self.lines().take(LOOKED_AT) {
             let line = Line { file: self.file, number, start: 0, text, ended: true };

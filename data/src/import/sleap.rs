@@ -6,7 +6,7 @@ use super::options::ImportOptions;
 use super::recording::{Lengths, Recording};
 use super::sheet::CellText;
 use crate::cells::is_nothing;
-use crate::error::DataError;
+use crate::error::Result;
 
 pub(super) const FORMAT: Format = Format {
     name: "SLEAP",
@@ -22,7 +22,7 @@ pub(super) const FORMAT: Format = Format {
 /// Peaks of a confidence map below this are what SLEAP itself discards at most.
 const SCORE: f64 = 0.2;
 
-fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
+fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> {
     let header = sheet.head(1).pop().unwrap_or_default();
     let column = |name: &str| header.iter().position(|known| *known == name);
     let limit = options.likelihood.unwrap_or(SCORE);

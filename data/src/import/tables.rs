@@ -6,7 +6,7 @@ use super::layout::Layout;
 use super::options::ImportOptions;
 use super::recording::Recording;
 use super::sheet::CellText;
-use crate::error::DataError;
+use crate::error::Result;
 
 pub(super) const LONG: Format = Format {
     name: "a long table",
@@ -44,7 +44,7 @@ fn of_roles(sheet: &CellText, head: &[Vec<&str>], options: &ImportOptions, also:
 }
 
 /// A row for every time and marker.
-fn long(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
+fn long(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> {
     let (first, roles, mut layout) = begin(sheet, options)?;
     layout.marker = roles.marker;
     for axis in 0..3 {
@@ -57,7 +57,7 @@ fn long(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>, Dat
 }
 
 /// A row for every time and two columns or three for every marker: `t, x1, y1, x2, y2, …`.
-fn wide(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
+fn wide(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> {
     let (first, roles, mut layout) = begin(sheet, options)?;
     roles.coordinates.iter().try_for_each(|(column, axis, name, _)| layout.add(sheet, first, name, *axis, *column))?;
     layout.rises = true;
@@ -65,7 +65,7 @@ fn wide(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>, Dat
 }
 
 /// The header of a table, and what both kinds have.
-fn begin(sheet: &CellText, options: &ImportOptions) -> Result<(u64, Roles, Layout), DataError> {
+fn begin(sheet: &CellText, options: &ImportOptions) -> Result<(u64, Roles, Layout)> {
     let (first, header) = sheet.lines().next().unwrap_or_default();
     let roles = Roles::of(sheet, first, &sheet.split(header), options)?;
     let Some((time, second)) = roles.time else {

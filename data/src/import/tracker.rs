@@ -6,7 +6,7 @@ use super::layout::Layout;
 use super::options::ImportOptions;
 use super::recording::{Lengths, Recording};
 use super::sheet::CellText;
-use crate::error::DataError;
+use crate::error::Result;
 use crate::units::Measured;
 
 pub(super) const FORMAT: Format = Format {
@@ -29,7 +29,7 @@ fn rows(head: &[Vec<&str>]) -> Option<usize> {
     (named && count(names) < count(columns) && timed && has("x") && has("y")).then_some(first)
 }
 
-fn read(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
+fn read(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     let head = sheet.head(3);
     let first = rows(&head).unwrap_or_default();
     let columns: Vec<ColumnName> = head[first + 1].iter().map(|cell| ColumnName::of(cell)).collect();

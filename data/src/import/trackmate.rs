@@ -8,7 +8,7 @@ use super::layout::Layout;
 use super::options::ImportOptions;
 use super::recording::{FrameClock, Lengths, Pivot, Recording, counted};
 use super::sheet::CellText;
-use crate::error::DataError;
+use crate::error::{DataError, Result};
 use crate::units::Measured;
 
 pub(super) const SPOTS: Format = Format {
@@ -29,7 +29,7 @@ pub(super) const XML: Format = Format {
     read: xml,
 };
 
-fn spots(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
+fn spots(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     let header = sheet.head(1).pop().unwrap_or_default();
     let column = |name: &str| header.iter().position(|known| *known == name);
     let [track, x, y, z, t, frame] =
@@ -100,7 +100,7 @@ fn tags(text: &str) -> impl Iterator<Item = Tag<'_>> {
     })
 }
 
-fn xml(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
+fn xml(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     let said = |key: &str| tags(sheet.text).take(8).find_map(|tag| tag.get(key));
     let unit = said("spaceUnits").or_else(|| said("spatialunits")).and_then(|unit| lengths(&unit.to_lowercase()));
     let time = said("timeUnits").or_else(|| said("timeunits")).map(str::to_lowercase).unwrap_or_default();
@@ -115,7 +115,7 @@ fn xml(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>, Dat
 }
 
 /// `<particle>` with `<detection t x y z>`; t counts frames of `frameInterval`.
-fn detections(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<usize, DataError> {
+fn detections(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<usize> {
     let interval = tags(sheet.text).find_map(|tag| tag.number("frameInterval")).unwrap_or(1.0);
     let step = second.map_or(1.0, |second| second * interval);
     let mut track = 0;
@@ -140,7 +140,7 @@ fn detections(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Resul
 }
 
 /// `<Spot>` elements, joined to tracks by the `<Edge>` elements of every `<Track>`; returns how many have none.
-fn model(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<usize, DataError> {
+fn model(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<usize> {
     let mut track_of: HashMap<&str, String> = HashMap::new();
     let (mut track, mut count) = (String::new(), 0);
     for tag in tags(sheet.text) {

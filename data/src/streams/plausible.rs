@@ -3,7 +3,7 @@
 //! These checks look at the whole file and say which column to rename; they never convert anything themselves.
 
 use crate::dataset::Dataset;
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
 use crate::header::{Header, P_ACT, P_BODY, QUANTITIES, STATION, X, Y, Z};
 use crate::policy;
 use crate::rows::{Row, RowReader};
@@ -39,7 +39,7 @@ impl Extremes {
 ///
 /// # Errors
 /// Metres in a millimetre column or millimetres in a metre column; psi, bar or MPa in the kPa columns.
-pub(crate) fn check_units(cells: &RowReader, extremes: &Extremes) -> Result<(), DataError> {
+pub(crate) fn check_units(cells: &RowReader, extremes: &Extremes) -> Result<()> {
     let unit = |quantity: usize| cells.header.unit(quantity);
     let known_robot = extremes.p_act_pa > 0.0 || extremes.station_m > 0.0;
     let looks = |quantity, value, word: &str| Err(unit_error(&cells.header, quantity, value, word));
@@ -71,7 +71,7 @@ fn unit_error(header: &Header, quantity: usize, largest: f64, word: &str) -> Dat
     DataError::Unit(header.fault(quantity, message, format!("name the column {base}_{suffix}")))
 }
 
-fn check_small_pressures(cells: &RowReader, p_body: f64, p_act: f64) -> Result<(), DataError> {
+fn check_small_pressures(cells: &RowReader, p_body: f64, p_act: f64) -> Result<()> {
     let fits = |([body, act], _): &([f64; 2], &str)| p_body > 0.0 && p_act > 0.0 && p_body < *body && p_act < *act;
     // Smallest unit last.
     let units = [(policy::LIKE_PSI, "psi"), (policy::LIKE_BAR, "bar"), (policy::LIKE_MPA, "MPa")];
@@ -111,7 +111,7 @@ impl WrongY {
 ///
 /// # Errors
 /// As [`wrong_y`].
-pub(crate) fn check_y_up(header: &Header, dataset: &Dataset) -> Result<(), DataError> {
+pub(crate) fn check_y_up(header: &Header, dataset: &Dataset) -> Result<()> {
     let Some((wrong, message)) = wrong_y(dataset) else { return Ok(()) };
     Err(DataError::Unit(header.fault(Y, message, wrong.help(header.unit(Y), header.y_down))))
 }
@@ -120,7 +120,7 @@ pub(crate) fn check_y_up(header: &Header, dataset: &Dataset) -> Result<(), DataE
 ///
 /// # Errors
 /// As [`wrong_y`].
-pub(crate) fn check_y_up_later(dataset: &Dataset) -> Result<(), DataError> {
+pub(crate) fn check_y_up_later(dataset: &Dataset) -> Result<()> {
     let Some((wrong, message)) = wrong_y(dataset) else { return Ok(()) };
     Err(DataError::Unit(Box::new(Fault::of_file(&dataset.name, message, wrong.help("mm", false)))))
 }
