@@ -114,7 +114,10 @@ impl Drive {
             push: self.strength * p_act_pa * d_volume - self.resistance(a),
             arm: self.arm_m + self.lift_share * lift[0] + swell,
             d_arm: self.lift_share * lift[1] + d_swell,
-            weight: if self.family == Family::Pouch { a } else { 1.0 },
+            weight: match self.family {
+                Family::Pouch => a,
+                Family::Mckibben => 1.0,
+            },
         }
     }
 

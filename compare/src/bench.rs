@@ -6,7 +6,7 @@
 
 use data::Bench;
 use data::bench::BenchRow;
-use models::actuators::{ActuatorShape, Family};
+use models::actuators::ActuatorShape;
 use models::scenario::ActuatorChoice;
 use models::{Loads, Machine, Model, Scenario};
 use std::f64::consts::FRAC_PI_2;
@@ -139,7 +139,7 @@ pub(crate) fn specimen(
     if !scenario.actuator.exists() {
         return Err(["the scenario has no actuator", "name one with [actuator], or none"]);
     }
-    if kind.family == Family::Pouch && diameter.or(bias).is_some() {
+    if kind.has_pouches() && diameter.or(bias).is_some() {
         let help = "name a scenario with kind = \"fpam\", or none";
         return Err(["the table tells of a tube of yarns, and the scenario's actuator is a pouch", help]);
     }

@@ -1,9 +1,7 @@
 //! A model under construction: what effects change.
 
 use crate::actuators::Family;
-use crate::scenario::Span;
 use crate::site::Site;
-use crate::space::Strip;
 use crate::term::Term;
 
 /// Set pressure \[Pa\], and for how long it has been held \[s\] → pressure in the actuator \[Pa\].
@@ -38,6 +36,17 @@ impl Segment {
     pub fn middle_m(&self) -> f64 {
         self.start_m + 0.5 * self.length_m
     }
+}
+
+/// A strip of actuators where it passes a segment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Strip {
+    /// Index of its site.
+    pub site: usize,
+    /// Azimuth in the middle of the segment, from y towards z \[rad\].
+    pub azimuth_rad: f64,
+    /// cos β of its slant to the axis.
+    pub cos_slant: f64,
 }
 
 /// Everything a model is made of.
@@ -100,18 +109,4 @@ impl Assembly {
         }
         lengths
     }
-}
-
-/// Every span in about `total · length/whole` equal segments, at least one.
-pub(crate) fn divide(spans: &[Span], total: usize) -> Vec<Segment> {
-    let whole: f64 = spans.iter().map(|s| s.length_m).sum();
-    let mut segments = Vec::new();
-    for (site, span) in spans.iter().enumerate() {
-        let count = ((total as f64 * span.length_m / whole).round() as usize).max(1);
-        let length_m = span.length_m / count as f64;
-        for i in 0..count {
-            segments.push(Segment { site, start_m: span.start_m + i as f64 * length_m, length_m });
-        }
-    }
-    segments
 }

@@ -12,6 +12,7 @@
 //! ```
 
 pub mod actuators;
+mod assemble;
 pub mod assembly;
 mod batch;
 pub mod body;

@@ -1,5 +1,7 @@
 //! The linkage between an actuator and the body: arm, active share, compliance, law of the section.
 
+use crate::term::{Account, LedgerLine};
+
 /// How the actuator's contraction becomes curvature of the body.
 #[derive(Debug, Clone, Copy)]
 pub struct Linkage {
@@ -39,3 +41,6 @@ impl Linkage {
 pub(crate) fn line_tension(y: f64, x: f64, q: f64) -> f64 {
     if q == 0.0 || y <= 0.0 { y / x } else { 2.0 * y / (x + (x * x + 4.0 * q * y).sqrt()) }
 }
+
+/// Ledger line of the fabric along the line of action, which has no term: its energy follows from the equilibrium.
+pub(crate) const FABRIC_STRETCH: LedgerLine = LedgerLine { name: "fabric_stretch", account: Account::Stretch };

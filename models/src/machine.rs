@@ -14,8 +14,8 @@
 //! act through these change nothing here. **Validity**: one unit, slow pull; pressures as set, after the supply's laws.
 
 use crate::actuators::Actuator;
+use crate::assemble::{add_effects, assemble};
 use crate::assembly::Assembly;
-use crate::model::assemble;
 use crate::scenario::Scenario;
 use crate::site::{Site, SiteLoads};
 
@@ -33,7 +33,7 @@ impl Machine {
     /// The first actuator of a scenario; `None` if it has none.
     pub fn new(scenario: &Scenario) -> Option<Machine> {
         let mut assembly = assemble(scenario, &scenario.spans(), 1);
-        scenario.add_effects(&mut assembly);
+        add_effects(scenario, &mut assembly);
         for site in &mut assembly.sites {
             (site.weave.wall_n_per_m, site.weave.drawn_in_m2) = (0.0, 0.0);
             crate::muscle::complete(site);

@@ -1,15 +1,17 @@
 //! A model: a scenario put together, ready to predict.
 
-use crate::actuators::ActuatorShape;
-use crate::assembly::{Assembly, Segment, Sighting, divide};
-use crate::body::{Bending, BodyLaw, BodyPressure, BodyWall};
+mod in_space;
+
+use crate::assemble::{add_effects, assemble, divide, locate};
+use crate::assembly::{Assembly, Segment, Sighting};
 use crate::error::Unsolved;
+use crate::linkage::FABRIC_STRETCH;
 use crate::robot::{Workspace, equilibrium, place};
 use crate::scenario::{ActuatorChoice, Scenario, Span};
 use crate::shape::Stretch;
-use crate::site::{Linkage, Site, SiteState};
+use crate::site::{Site, SiteState};
 use crate::space::around;
-use crate::term::{Account, CHANNELS, LedgerLine, Loads, Pose, Row, RowKind, Term, actuator_q};
+use crate::term::{Account, LedgerLine, Loads, Pose, Row, RowKind, Term, actuator_q};
 use spelling::units::Range;
 
 /// A robot with its list of terms. Made once from a scenario; predicting does not change it.
@@ -67,7 +69,7 @@ impl Model {
     /// The same with segments of its own.
     pub(crate) fn with_segments(scenario: &Scenario, spans: &[Span], segments: Option<Vec<Segment>>) -> Model {
         let mut assembly = assemble(scenario, spans, scenario.segments);
-        scenario.add_effects(&mut assembly);
+        add_effects(scenario, &mut assembly);
         for site in &mut assembly.sites {
             crate::muscle::complete(site);
             site.tabulate(scenario.p_body_pa, scenario.p_max_pa);
@@ -342,8 +344,7 @@ pub(crate) fn check(loads: &Loads) -> Result<(), Unsolved> {
     bounded(loads, &ANY_BODY_PRESSURE)
 }
 
-/// Ledger lines of what is no term: its energy follows from the equilibrium.
-pub(crate) const FABRIC_STRETCH: LedgerLine = LedgerLine { name: "fabric_stretch", account: Account::Stretch };
+/// Ledger line of the shear, which has no term: its energy follows from the equilibrium.
 const WALL_SHEAR: LedgerLine = LedgerLine { name: "wall_shear", account: Account::Wall };
 
 /// Adds to the row of that name and kind, or opens it.
@@ -352,46 +353,4 @@ pub(crate) fn post(rows: &mut Vec<Row>, line: LedgerLine, kind: RowKind, energy_
         Some(row) => row.energy_j += energy_j,
         None => rows.push(line.row(kind, energy_j)),
     }
-}
-
-pub(crate) fn assemble(scenario: &Scenario, spans: &[Span], segments: usize) -> Assembly {
-    let mut sites: Vec<Site> = spans.iter().map(|span| site(scenario, span)).collect();
-    for strip in &scenario.more_strips {
-        sites.extend(spans.iter().map(|span| site(scenario, &span.of_strip(strip, scenario.radius_m))));
-    }
-    let segments = divide(spans, segments);
-    Assembly { sites, segments, ..Assembly::empty(scenario.gravity_direction) }
-}
-
-fn site(scenario: &Scenario, span: &Span) -> Site {
-    let shape: ActuatorShape = span.shape;
-    let linkage = Linkage {
-        active_fraction: 1.0,
-        stroke_fraction: 1.0,
-        arm_m: span.arm_m,
-        arm_growth: 0.0,
-        compliance_per_n: 0.0,
-        section: None,
-    };
-    let pressure = BodyPressure {
-        radius_m: span.radius_m,
-        hinge_curvature: scenario.hinge_curvature,
-        share: scenario.hinge_share,
-    };
-    let bending = Bending { stiffness: span.bending_stiffness };
-    debug_assert!(span.channel < CHANNELS);
-    let mut site = Site::new(span.radius_m, pressure, bending, linkage, span.actuator, shape, span.channel);
-    site.centre_line_m = span.centre_line_m;
-    site.wall_shear_n_per_m = scenario.wall.shear_n_per_m;
-    if let Some(stiffness_n_per_m) = scenario.wall.stiffness_n_per_m {
-        let wall = BodyWall { radius_m: span.radius_m, stiffness_n_per_m, share: scenario.hinge_share };
-        site.body_pressure = BodyLaw::Wall(wall);
-    }
-    site
-}
-
-/// Segment that holds a station, and the distance from its start; the last segment takes what lies beyond the tip.
-pub(crate) fn locate(segments: &[Segment], station_m: f64) -> (usize, f64) {
-    let index = segments.iter().rposition(|s| s.start_m <= station_m).unwrap_or(0);
-    (index, station_m - segments[index].start_m)
 }

@@ -18,7 +18,6 @@
 //! **Validity**: regulated pressures. Volumes of folds that round off are in it, as their tension follows the pressure. Derived here
 //! (the envelope theorem); the finite elements measure the same on their mesh, `fem::robot::Inflated`.
 
-use crate::actuators::Family;
 use crate::assembly::Segment;
 use crate::gusset;
 use crate::model::{Model, Prediction};
@@ -54,7 +53,7 @@ impl Model {
             let [actuator_m3, lost_m3] = self.volumes(site, segment, body_pa, at, index);
             shape.actuator_m3 += actuator_m3;
             shape.body_m3 += site.area_m2 * segment.length_m - lost_m3;
-            let Some(actuator) = site.actuator.filter(|a| a.family == Family::Pouch) else { continue };
+            let Some(actuator) = site.actuator.filter(|a| a.has_pouches()) else { continue };
             let theta = at.work.states[index].coordinate.max(actuator.range.0);
             let stroke = (actuator.stroke)(&site.shape, theta);
             let folded = site.gusset_share * gusset::narrowing_m(site.shape.length_m, site.shape.fold_m, theta);

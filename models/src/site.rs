@@ -15,6 +15,7 @@
 mod gas;
 mod held;
 mod starts;
+mod tabulated;
 mod wall;
 
 use crate::actuators::{Actuator, ActuatorShape, Demand, Stroke};

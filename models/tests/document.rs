@@ -2,8 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "tests: a panic is the failure to report")]
 
+use models::Scenario;
 use models::actuators::Family;
 use models::effects::{EFFECTS, Effect, Fitted, Group, Needs, Parameter};
+use models::scenario::{KEYS, key};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -80,4 +82,51 @@ fn the_page_of_effects_is_the_catalogue() {
     }
     let told = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(told == document(), "docs/effects.md is not the catalogue: WRITE=1 cargo test --test document");
+}
+
+/// A bound as the document writes it.
+fn bound(value: f64) -> String {
+    let size = value.abs();
+    let digits = match size {
+        _ if size >= 1e6 || size > 0.0 && size < 1e-3 => format!("{size:e}"),
+        _ if size >= 1e4 => format!("{} {:03}", (size / 1e3).floor(), size % 1e3),
+        _ => size.to_string(),
+    };
+    if value < 0.0 { format!("−{digits}") } else { digits }
+}
+
+#[test]
+fn the_page_of_scenarios_has_every_key_and_its_bounds() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/scenario.md");
+    let page = std::fs::read_to_string(path).unwrap();
+    for key in KEYS {
+        let names = [format!("`{}`", key.name), format!("`{}.{}`", key.tables[0], key.name)];
+        let rows: Vec<&str> =
+            page.lines().filter(|line| line.starts_with("| ") && names.iter().any(|n| line.contains(n))).collect();
+        assert!(!rows.is_empty(), "{} is not in docs/scenario.md", key.place());
+        let Some(range) = key.range else { continue };
+        let bounds = format!("{} – {}", bound(range.low), bound(range.high));
+        let has = |row: &&str| row.contains(&bounds) || row.contains("as there") || row.contains("body length");
+        assert!(rows.iter().any(has), "docs/scenario.md has other bounds of {} than {bounds}: {rows:?}", key.place());
+    }
+}
+
+#[test]
+fn a_key_is_read_where_its_table_says_and_its_value_comes_back() {
+    let text = models::shipped("fpam-textbook").unwrap();
+    for key in KEYS.iter().filter(|key| matches!(key.tables[0], "body" | "actuator" | "predict")) {
+        let (Ok(scenario), Some(range)) = (Scenario::parse(text), key.range) else { continue };
+        let Some(value) = key.value(&scenario) else { continue };
+        assert!((range.low..=range.high).contains(&value), "{}: {value}", key.place());
+        let beyond = format!("{} = {}\n", key.name, range.high.mul_add(2.0, 1.0));
+        let table = format!("[{}]\n", key.tables[0]);
+        let written = |line: &&str| !line.trim_start().starts_with(&format!("{} =", key.name));
+        let own = text.replacen(&table, &format!("{table}#\n"), 1);
+        let (head, tail) = own.split_once(&format!("{table}#\n")).unwrap();
+        let end = tail.find("\n[").unwrap_or(tail.len());
+        let kept: Vec<&str> = tail[..end].lines().filter(written).collect();
+        let changed = format!("{head}{table}{beyond}{}{}", kept.join("\n"), &tail[end..]);
+        assert!(Scenario::parse(&changed).is_err(), "{} takes {beyond}", key.place());
+    }
+    assert!(key("body", "width_mm").is_none() && key("zone", "width_mm").is_some());
 }

@@ -6,6 +6,7 @@ mod arrays;
 mod errors;
 mod inputs;
 mod progress;
+mod robot;
 mod runs;
 mod scenario;
 mod states;

@@ -3,27 +3,15 @@
 use crate::arrays::{Numbers, matrix, numbers};
 use crate::errors::{raised, refused};
 use crate::inputs::{Pressures, places};
+use crate::robot::Robot;
 use crate::states::{State, States};
-use ibr::models::{Aim, CHANNELS, Limits, Loads, Prediction, Target};
+use ibr::models::{Aim, CHANNELS, Limits, Loads, Target};
 use ibr::{Follower, Predictor, ScenarioFile};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex};
-
-/// A robot put together, and buffers for one prediction at a time.
-pub struct Robot {
-    pub predictor: Predictor,
-    scratch: Mutex<Prediction>,
-}
-
-impl Robot {
-    fn new(file: &ScenarioFile) -> Robot {
-        let predictor = Predictor::new(file);
-        Robot { scratch: Mutex::new(predictor.model().prediction()), predictor }
-    }
-}
+use std::sync::Arc;
 
 /// A robot: its body, actuators and physical effects, as a text in TOML.
 #[pyclass(frozen, module = "ibr")]

@@ -2,7 +2,7 @@
 
 use crate::arrays::{matrix, rows_mm, vector, with_z};
 use crate::errors::raised;
-use crate::scenario::Robot;
+use crate::robot::Robot;
 use ibr::AtPressure;
 use ibr::models::{Loads, Prediction, Tip};
 use ibr::pages::predicted_files;

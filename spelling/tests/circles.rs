@@ -15,14 +15,14 @@ use syn::visit::Visit;
 
 /// Circles of files in each crate. The numbers only fall: lower one when a circle is broken.
 const CIRCLES: [(&str, usize); 13] = [
-    ("models", 5),
+    ("models", 0),
     ("fem", 17),
     ("data", 1),
     ("compare", 8),
     ("report", 1),
-    ("sweep", 2),
+    ("sweep", 0),
     ("spelling", 0),
-    ("python", 1),
+    ("python", 0),
     ("capi", 0),
     ("web", 0),
     ("challenge", 2),

@@ -10,7 +10,6 @@ use compare::study::Generator;
 use compare::typed_effect::with_effect;
 use compare::{CompareError, Evidence, ScenarioFile};
 use models::Scenario;
-use models::actuators::Family;
 use models::scenario::quantity::{Quantity, parse};
 use spelling::units::Range;
 
@@ -121,7 +120,7 @@ pub fn plain(name: &str) -> String {
 pub fn superseded(scenario: &Scenario) -> Option<String> {
     let has = |name: &str| scenario.effects.iter().any(|e| e.name == name && e.values[0] > 0.0);
     let also = if has("sealed_sides") { ", and both together count it twice" } else { "" };
-    let pouches = scenario.actuator.kind.family == Family::Pouch;
+    let pouches = scenario.actuator.kind.has_pouches();
     (pouches && has("end_constraint")).then(|| {
         format!(
             "note: end_constraint is a share, taken from measured bags, of what sealed sides cost{also}; the effect sealed_sides \

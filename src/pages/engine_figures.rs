@@ -168,7 +168,7 @@ fn ledger_cases(robot: &EngineRobot) -> Vec<plots::LedgerCase> {
 /// By how much the finite elements' muscle, which lies flat at first, has gained more than the reduced model's, which is round
 /// from the start, at the first pressure; pouches are flat in both.
 fn ahead_cm3(robot: &EngineRobot) -> f64 {
-    let is_muscle = robot.scenario.actuator.kind.family == Family::Mckibben;
+    let is_muscle = !robot.scenario.actuator.kind.has_pouches();
     let first = robot.pairs.iter().find(|p| is_muscle && p.actuator_kpa > 0.0);
     // mJ over kPa are cm³.
     first.map_or(0.0, |p| (p.reduced_mj[0] - p.fe_mj[0]) / p.actuator_kpa)

@@ -2,7 +2,6 @@
 
 use crate::form::Wrong;
 use crate::policy::MOST_CASES;
-use crate::study::PRESSURE;
 use compare::ScenarioFile;
 use fem::FemError;
 use fem::robot::Spread;
@@ -11,6 +10,9 @@ use models::{CHANNELS, Model};
 use serde::Deserialize;
 use std::path::Path;
 use toml::{Spanned, Value};
+
+/// The key of the actuator pressure, which a scenario does not have.
+pub const PRESSURE: &str = "pressure_kpa";
 
 /// A share this close to an end is at it.
 const AT_END: f64 = 1e-3;
@@ -185,6 +187,9 @@ pub(crate) fn axes(raw: &[Spanned<RawAxis>], sampled: bool, base: &ScenarioFile)
         };
         if all.iter().any(|other| other.key == axis.key) {
             return wrong(format!("`{}` is there twice", axis.key), "leave one of them out");
+        }
+        if models::scenario::moves_nothing(&axis.key) {
+            return wrong(format!("`{}` moves nothing", axis.key), "vary a size, a pressure or a value of an effect");
         }
         if axis.key.ends_with(".pressures_kpa") {
             return wrong(format!("`{}` is a list of pressures", axis.key), "vary pressure_kpa");

@@ -1,10 +1,9 @@
 //! Parts by finite elements: one run per robot, read at all its pressures.
 
 use crate::SweepError;
+use crate::columns::{ACCOUNTS, columns, fail};
 use crate::part::{Part, Rows};
-use crate::reduced::{ACCOUNTS, fail};
 use crate::study::{Output, Study};
-use crate::table::columns;
 use compare::wording::short;
 use fem::FemError;
 use fem::robot::Reading;

@@ -8,6 +8,7 @@
 //! computed twice, a killed sweep goes on where it was, and a shard is nothing but every N-th part.
 
 mod axis;
+mod columns;
 pub mod design;
 mod elements;
 mod error;

@@ -1,6 +1,7 @@
 //! Some cases that are computed together, and their file.
 
 use crate::axis::Changes;
+use crate::policy::PART;
 use crate::study::{Engine, Output, Study};
 use crate::{SweepError, pieces};
 use fem::session::sha256;
@@ -72,6 +73,19 @@ impl Part {
         let first = robot * per_robot;
         self.cases.start.max(first) - first..self.cases.end.min(first + per_robot) - first
     }
+}
+
+/// All parts of a study in order: equal pieces for the reduced model, one robot each for finite elements.
+pub fn parts(study: &Study) -> Vec<Part> {
+    let of = |engine: &Engine| {
+        let size = match engine {
+            Engine::Reduced => PART,
+            Engine::Elements => study.per_robot(),
+        };
+        let (engine, cases) = (*engine, study.cases(*engine));
+        (0..cases.div_ceil(size)).map(move |k| Part { engine, cases: k * size..cases.min((k + 1) * size) })
+    };
+    study.engines.iter().flat_map(of).collect()
 }
 
 fn output_word(output: &Output) -> &'static str {

@@ -1,22 +1,10 @@
 //! A part by the reduced model.
 
+use crate::columns::{ACCOUNTS, Failed, columns, fail};
 use crate::part::{Part, Rows};
 use crate::study::{Output, Study};
-use crate::table::columns;
 use compare::ScenarioFile;
-use models::{Account, CHANNELS, Loads, Model, Prediction};
-
-/// Accounts of the ledger, in the order of their columns.
-pub const ACCOUNTS: [(&str, Account); 8] = [
-    ("actuator_gas", Account::ActuatorGas),
-    ("body_gas", Account::BodyGas),
-    ("wall", Account::Wall),
-    ("stretch", Account::Stretch),
-    ("compressed_sheets", Account::Compression),
-    ("contact", Account::Contact),
-    ("numerical", Account::Numerical),
-    ("load", Account::Load),
-];
+use models::{CHANNELS, Loads, Model, Prediction};
 
 /// Computes the cases of a part.
 pub fn compute(study: &Study, part: &Part) -> Rows {
@@ -31,14 +19,6 @@ pub fn compute(study: &Study, part: &Part) -> Rows {
         }
     }
     Rows { numbers, failed, cpu_s: started.elapsed().as_secs_f64() }
-}
-
-type Failed = Vec<(usize, String)>;
-
-/// A row without numbers, and why.
-pub fn fail(width: usize, why: String, numbers: &mut Vec<f64>, failed: &mut Failed) {
-    failed.push((numbers.len() / width, why));
-    numbers.extend(std::iter::repeat_n(f64::NAN, width));
 }
 
 fn of_robot(

@@ -1,10 +1,9 @@
 //! A sweep, or a shard of it: what is missing is computed.
 
-use crate::part::{Part, Rows};
+use crate::columns::columns;
+use crate::part::{Part, Rows, parts};
 use crate::pieces::{self, beside};
-use crate::policy::PART;
 use crate::study::{Engine, Study};
-use crate::table::columns;
 use crate::{SweepError, elements, reduced};
 use fem::session::{Progress, Shard};
 use std::path::PathBuf;
@@ -33,19 +32,6 @@ pub struct Found {
     pub missing: usize,
     /// Processor time of the parts of this shard \[s\].
     pub cpu_s: f64,
-}
-
-/// All parts of a study in order: those of the reduced model in equal pieces, a robot each for finite elements.
-pub fn parts(study: &Study) -> Vec<Part> {
-    let of = |engine: &Engine| {
-        let size = match engine {
-            Engine::Reduced => PART,
-            Engine::Elements => study.per_robot(),
-        };
-        let (engine, cases) = (*engine, study.cases(*engine));
-        (0..cases.div_ceil(size)).map(move |k| Part { engine, cases: k * size..cases.min((k + 1) * size) })
-    };
-    study.engines.iter().flat_map(of).collect()
 }
 
 /// Parts of a study that are not in a folder.

@@ -47,16 +47,6 @@ impl Points {
 
 fn latin(cases: usize, axes: usize, seed: u32) -> Points {
     let mut random = ChaCha8Rng::seed_from_u64(u64::from(seed));
-    let mut uniform = move || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-    let mut all = vec![0.0; cases * axes];
-    for axis in 0..axes {
-        let mut order: Vec<usize> = (0..cases).collect();
-        for i in (1..cases).rev() {
-            order.swap(i, (uniform() * (i + 1) as f64) as usize);
-        }
-        for (case, stratum) in order.into_iter().enumerate() {
-            all[case * axes + axis] = (stratum as f64 + uniform()) / cases as f64;
-        }
-    }
-    Points { axes, all }
+    let uniform = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+    Points { axes, all: fem::robot::latin(cases, axes, uniform) }
 }

@@ -1,6 +1,6 @@
 //! The TOML file of a sweep: what is varied, and what is asked of every case.
 
-pub use crate::axis::Axis;
+pub use crate::axis::{Axis, PRESSURE};
 use crate::axis::{Changes, Levels, RawAxis, as_number, assumed, axes, channel};
 use crate::form::{Form, Wrong};
 use crate::policy::MOST_CASES;
@@ -10,9 +10,6 @@ use models::CHANNELS;
 use serde::Deserialize;
 use std::path::Path;
 use toml::{Spanned, Value};
-
-/// The key of the actuator pressure, which is no key of a scenario.
-pub const PRESSURE: &str = "pressure_kpa";
 
 /// What computes the cases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -162,6 +159,11 @@ impl Study {
         let outputs = listed_once(raw.outputs.as_ref(), &[Output::Tip, Output::Limits], "outputs")?;
         let raw_sample = raw.sample.as_ref();
         let mut axes = axes(&raw.vary, raw_sample.is_some(), &base)?;
+        let is_run = |axis: &Axis| axis.key.starts_with("fem.") && !engines.contains(&Engine::Elements);
+        if let Some(idle) = axes.iter().position(is_run) {
+            let message = format!("`{}` moves nothing of the reduced model", axes[idle].key);
+            return Err((Some(raw.vary[idle].span()), message, "add engines = [\"finite elements\"]"));
+        }
         if let Some(span) = raw.assumed.as_ref().filter(|wish| *wish.get_ref()).map(Spanned::span) {
             let wrong = |message: &str, help| (Some(span.clone()), message.to_string(), help);
             if raw_sample.is_none() || !engines.contains(&Engine::Elements) {

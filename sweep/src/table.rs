@@ -2,35 +2,12 @@
 
 use crate::SweepError;
 use crate::axis::as_number;
-use crate::part::{Part, Rows};
-use crate::reduced::ACCOUNTS;
-use crate::run::parts;
-use crate::study::{Output, PRESSURE, Study};
+use crate::columns::{CPU_S, columns};
+use crate::part::{Part, Rows, parts};
+use crate::study::{PRESSURE, Study};
 use data::table::{Column, Table};
 use std::path::Path;
 use toml::Value;
-
-/// Column of processor time \[s\].
-const CPU_S: &str = "cpu_s";
-
-/// Columns of numbers that a study asks for.
-pub fn columns(study: &Study) -> Vec<String> {
-    let of = |output: &Output| -> Vec<String> {
-        match output {
-            Output::Tip => {
-                let places = study.axes_of_place().iter().map(|axis| format!("tip_{axis}_mm"));
-                places.chain(["tip_angle_deg".into()]).collect()
-            }
-            Output::Markers => (1..=study.base.markers_m.len())
-                .flat_map(|m| study.axes_of_place().iter().map(move |axis| format!("marker_{m}_{axis}_mm")))
-                .collect(),
-            Output::Ledger => ACCOUNTS.map(|(name, _)| format!("{name}_mj")).to_vec(),
-            Output::Limits => vec!["trusted".into()],
-            Output::Time => vec![CPU_S.into()],
-        }
-    };
-    study.outputs.iter().flat_map(of).collect()
-}
 
 /// Names of all columns of the table.
 pub fn names(study: &Study) -> Vec<String> {

@@ -104,7 +104,7 @@ fn parts_that_do_not_fit_on_the_body_are_refused() {
     refused(epam_with("330]", "200]"), &["marker stations must rise", "sort them from base to tip"]);
     let zone = |text: &str| format!("{}\n[[zone]]\n{text}\n", models::shipped("epam-textbook").unwrap());
     refused(zone("from_mm = 100\nto_mm = 50"), &["a zone from 100 to 50 mm is not on the body", "to_mm ≤ 360"]);
-    refused(zone("from_mm = 0\nto_mm = 50\nchannel = 9"), &["channel must be 0 to 3"]);
+    refused(zone("from_mm = 0\nto_mm = 50\nchannel = 9"), &["channel must be from 0 to 3"]);
 }
 
 #[test]

@@ -5,7 +5,6 @@ use compare::{CompareError, ScenarioFile};
 use ibr::shown::predicted::{above_limit, beyond_words, state_json};
 use ibr::studies::{IN_SPACE, scenario_in_space};
 use ibr::{AtPressure, Predictor};
-use models::actuators::Family;
 use models::effects::{Effect, Parameter};
 use models::scenario::SHIPPED;
 use models::{Known, Model, Scenario};
@@ -83,7 +82,7 @@ impl Robot {
         let now = file.dials();
         let value = |place: &str| now.iter().find(|d| d.place == place).map(|d| d.value);
         let dials: Vec<Value> =
-            given.dials().iter().map(|dial| json!({"dial": dial, "value": value(dial.place)})).collect();
+            given.dials().iter().map(|dial| json!({"dial": dial, "value": value(&dial.place)})).collect();
         let catalogue = file.catalogue();
         let possible = catalogue.effects().filter(|effect| file.takes(effect));
         let effects: Vec<Value> = possible.map(|effect| effect_told(&effect, &given, &file)).collect();
@@ -121,7 +120,7 @@ fn units(scenario: &Scenario) -> Value {
     let a = &scenario.actuator;
     json!({
         "start_m": a.start_m, "length_m": a.shape.length_m, "width_m": a.shape.width_m, "count": a.count,
-        "is_pouch": a.kind.family == Family::Pouch, "in_wall": a.in_wall(),
+        "is_pouch": a.kind.has_pouches(), "in_wall": a.in_wall(),
     })
 }
 

@@ -1,7 +1,6 @@
 //! A robot with strips round the body as it is seen from two sides, with what is drawn \[m\].
 
 use ibr::{AtPressure, Predictor};
-use models::actuators::Family;
 use models::scenario::ActuatorChoice;
 use models::space::Frame;
 use serde_json::{Value, json};
@@ -92,7 +91,7 @@ struct Unit {
 /// The units of a strip: pouches as lenses of their height, a muscle as a tube in pieces.
 fn placed(of: &Predictor, state: &AtPressure, index: usize, strip: &ActuatorChoice) -> Vec<Unit> {
     let (scenario, model, at) = (of.scenario(), of.model(), &state.prediction);
-    let (radius_m, is_pouch) = (scenario.radius_m, strip.kind.family == Family::Pouch);
+    let (radius_m, is_pouch) = (scenario.radius_m, strip.kind.has_pouches());
     let count = if is_pouch { strip.count } else { PIECES };
     let (length_m, covered_m) = (strip.strip_m() / count as f64, strip.covered_m(radius_m));
     let width_m = if is_pouch { strip.shape.width_m } else { 2.0 * strip.shape.width_m / PI };

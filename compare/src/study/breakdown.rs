@@ -5,7 +5,6 @@ use crate::error::CompareError;
 use fem::FemError;
 use fem::session::{Job, Source, mesh_keys, rounded};
 use models::Scenario;
-use models::actuators::Family;
 use serde::Serialize;
 
 /// What is run of every robot.
@@ -54,7 +53,7 @@ fn places(scenario: &Scenario, ranges: &Ranges) -> Vec<(f64, Option<f64>)> {
     let bodies = ranges.body_kpa.iter().copied().filter(|p| *p != own);
     let mut wanted: Vec<(f64, Option<f64>)> = std::iter::once(own).chain(bodies).map(|p| (p, None)).collect();
     // An actuator of one piece has no pouches to divide.
-    if scenario.actuator.kind.family == Family::Pouch {
+    if scenario.actuator.kind.has_pouches() {
         let other = |mm: &&f64| (**mm * 1e-3 - scenario.actuator.shape.length_m).abs() > 1e-9;
         wanted.extend(ranges.pouch_mm.iter().filter(other).map(|mm| (own, Some(*mm))));
     }

@@ -6,6 +6,7 @@
 use data::{Published, PublishedFabric};
 use models::Known;
 use models::Scenario;
+use models::actuators::Family;
 use models::fabrics::shear_modulus;
 use models::scenario::ActuatorChoice;
 
@@ -31,10 +32,10 @@ pub(super) fn additions(paper: &Published, actuator: &ActuatorChoice) -> Vec<Mec
     let Some(fabric) = paper.actuator(kind).and_then(|a| paper.fabrics.iter().find(|f| f.name == a.fabric)) else {
         return Vec::new();
     };
-    match kind {
-        "fpam" => muscle(fabric),
-        "spam" => std::iter::once(GROWTH).chain(pouch(fabric)).collect(),
-        _ => pouch(fabric),
+    match actuator.kind.family {
+        Family::Mckibben => muscle(fabric),
+        Family::Pouch if actuator.in_wall() => pouch(fabric),
+        Family::Pouch => std::iter::once(GROWTH).chain(pouch(fabric)).collect(),
     }
 }
 

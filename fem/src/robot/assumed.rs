@@ -128,18 +128,23 @@ pub const ASSUMED: &[Assumed] = &[
 /// Shares 0 to 1 of the interval of each of `numbers` numbers for `robots` robots; the same seed gives the same hypercube everywhere.
 pub fn hypercube(robots: usize, numbers: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut draws = Draws(seed);
-    let mut cube = vec![Vec::with_capacity(numbers); robots];
-    for _ in 0..numbers {
-        let mut parts: Vec<usize> = (0..robots).collect();
+    latin(robots, numbers, || draws.next()).chunks(numbers.max(1)).map(<[f64]>::to_vec).collect()
+}
+
+/// A Latin hypercube from numbers drawn from 0 to below 1: case by case its shares of all axes.
+pub fn latin(cases: usize, axes: usize, mut draw: impl FnMut() -> f64) -> Vec<f64> {
+    let mut all = vec![0.0; cases * axes];
+    for axis in 0..axes {
+        let mut parts: Vec<usize> = (0..cases).collect();
         // Fisher and Yates.
-        for i in (1..robots).rev() {
-            parts.swap(i, (draws.next() * (i + 1) as f64) as usize);
+        for i in (1..cases).rev() {
+            parts.swap(i, (draw() * (i + 1) as f64) as usize);
         }
-        for (robot, part) in cube.iter_mut().zip(parts) {
-            robot.push((part as f64 + draws.next()) / robots as f64);
+        for (case, part) in parts.into_iter().enumerate() {
+            all[case * axes + axis] = (part as f64 + draw()) / cases as f64;
         }
     }
-    cube
+    all
 }
 
 #[cfg(test)]

@@ -37,7 +37,7 @@ mod snaps;
 mod table;
 mod waviness;
 
-pub use assumed::{ASSUMED, Assumed, Spread, hypercube};
+pub use assumed::{ASSUMED, Assumed, Spread, hypercube, latin};
 pub use inflated::InflatedPouch;
 pub use loading::{HoldEnd, RobotRun};
 pub use loads::{Load, RobotStart};

@@ -1,7 +1,8 @@
 //! A beam without actuator: what a scenario without `[actuator]` is. No stretch of it is active, so none of its laws is asked.
 
+use super::actuator::{Actuator, Family, Stroke};
 use super::pattern::{Joint, Pattern, flat};
-use super::{Actuator, ActuatorShape, Family, Stroke};
+use super::shape::ActuatorShape;
 
 /// In a scenario without `[actuator]`; not in the list of actuators.
 pub const BEAM: Actuator = Actuator {

@@ -10,8 +10,10 @@
 //! For L₀ = 60 mm, f = 24 mm it is 0: the ideal pouch. Derived here from the published inner-area factor 2.60 =
 //! (W + 4f)/W, which says that the folds are at the two lateral sides (inferred, not printed).
 
+use super::actuator::Actuator;
 use super::pattern::{Joint, Pattern, flat, panel};
-use super::{Actuator, ActuatorShape, Family, pouch};
+use super::pouch::POUCH;
+use super::shape::ActuatorShape;
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Actuator = Actuator {
@@ -21,14 +23,9 @@ pub(super) const ENTRY: Actuator = Actuator {
     formula: "ε = 1 − sinθ/θ;  N = P W L₀ cosθ/θ;  arm = 2R;  edge restraint = max(0, 1 − πf/L₀)",
     reference: "Kübler et al. 2023 (cPAM; equations not available here); gusset reading derived here",
     validity: "Textbook: folds that open at once and weigh nothing; how far they open is the effect `gussets`.",
-    family: Family::Pouch,
-    stroke: pouch::stroke,
-    range: pouch::RANGE,
-    guess: pouch::guess,
-    area: pouch::area,
-    arm: pouch::arm,
     edge_restraint,
     pattern,
+    ..POUCH
 };
 
 fn edge_restraint(shape: &ActuatorShape) -> f64 {

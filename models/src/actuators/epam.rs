@@ -2,8 +2,9 @@
 //!
 //! Law of [`super::pouch`] with the line of action in the wall: the arm from the taut generator is 2R.
 
+use super::actuator::Actuator;
 use super::pattern::{Joint, Pattern, flat};
-use super::{Actuator, Family, pouch};
+use super::pouch::POUCH;
 
 pub(super) const ENTRY: Actuator = Actuator {
     name: "epam",
@@ -12,13 +13,7 @@ pub(super) const ENTRY: Actuator = Actuator {
     formula: "ε = 1 − sinθ/θ;  N = P W L₀ cosθ/θ;  arm = 2R",
     reference: "Niiyama et al. 2015 (pouch); Abrar et al. 2021 (ePAM; its model text was not available here)",
     validity: "Sealed side edges are not in the bare law, which bends too far: see sealed_sides.",
-    family: Family::Pouch,
-    stroke: pouch::stroke,
-    range: pouch::RANGE,
-    guess: pouch::guess,
-    area: pouch::area,
-    arm: pouch::arm,
-    edge_restraint: |_| 1.0,
     // Published: two cylinders welded in a pattern; that they are loose beside the pouches is assumed.
     pattern: |shape| Pattern { body_sheets: 2, ..flat(shape, Joint::Wall) },
+    ..POUCH
 };

@@ -20,8 +20,9 @@
 //! cut off 45° has them at α₀ and α₀ − 90° and twists as well, see `verification::exact::tube`. Reference: Chou & Hannaford 1996
 //! (McKibben); Naclerio & Hawkes 2020 (fPAM); the form over the contraction is derived here.
 
+use super::actuator::{Actuator, Demand, Family, Stroke, converged};
 use super::pattern::{Film, Joint, Pattern, flat};
-use super::{Actuator, ActuatorShape, Demand, Family, Stroke, converged};
+use super::shape::ActuatorShape;
 use std::f64::consts::{FRAC_PI_4, PI};
 
 pub(super) const ENTRY: Actuator = Actuator {

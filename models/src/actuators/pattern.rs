@@ -15,7 +15,7 @@
 //!
 //! To add a pattern: state it in the file of its actuator. The mesher reads nothing else.
 
-use super::ActuatorShape;
+use super::shape::ActuatorShape;
 
 /// How an actuator is made. Lengths lie flat on the body; s is the arc from the middle of the strip.
 #[derive(Debug, Clone, PartialEq)]

@@ -19,9 +19,29 @@
 //! is the effect `sealed_sides`). **Do not use** for pouches much longer than wide: there the side seams decide.
 //! Reference: Niiyama et al., Soft Robotics 2(2), 2015 (pouch motor); the volume and its derivative are derived here.
 
-use super::{ActuatorShape, Demand, Stroke, converged};
+use super::actuator::{Actuator, Demand, Family, Stroke, converged};
+use super::pattern::{Joint, flat};
+use super::shape::ActuatorShape;
 use crate::trig::sin_cos;
 use std::f64::consts::{FRAC_PI_2, PI};
+
+/// What all pouches share; entries say how they differ.
+pub(super) const POUCH: Actuator = Actuator {
+    name: "",
+    title: "",
+    sentence: "",
+    formula: "",
+    reference: "",
+    validity: "",
+    family: Family::Pouch,
+    stroke,
+    range: RANGE,
+    guess,
+    area,
+    arm,
+    edge_restraint: |_| 1.0,
+    pattern: |shape| flat(shape, Joint::Wall),
+};
 
 /// θ stays below a full circle; at π the two arcs would meet.
 pub(crate) const RANGE: (f64, f64) = (1e-6, PI - 1e-6);
@@ -77,7 +97,7 @@ pub fn half_angle(contraction: f64) -> f64 {
 }
 
 /// Root of `cosθ − θ m` by Newton, m the need at θ.
-pub(super) fn guess(shape: &ActuatorShape, demand: &Demand) -> (f64, f64) {
+fn guess(shape: &ActuatorShape, demand: &Demand) -> (f64, f64) {
     let (m0, m1) = (demand.constant, demand.per_contraction);
     let growth = 0.5 * shape.length_m * demand.growth;
     // A start within a few thousandths at working pressures: growth as at θ = 1.45, or 1.1 where the wall is stiff, the root
@@ -118,12 +138,12 @@ fn rough_cbrt(x: f64) -> f64 {
 }
 
 /// P·W·L₀ is the force at cosθ = θ.
-pub(super) fn area(shape: &ActuatorShape) -> f64 {
+fn area(shape: &ActuatorShape) -> f64 {
     shape.volume_gain * shape.width_m * shape.length_m
 }
 
 /// Pouch in or on the wall: its chord lies on the body surface, one diameter from the taut generator.
-pub(super) fn arm(radius_m: f64, _shape: &ActuatorShape) -> f64 {
+fn arm(radius_m: f64, _shape: &ActuatorShape) -> f64 {
     2.0 * radius_m
 }
 

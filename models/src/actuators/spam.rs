@@ -4,8 +4,9 @@
 //! bulge, h/2, so the arm grows with pressure. That is the effect `arm_growth` with β = 1, stated in the scenario, so
 //! that a user sees what it costs.
 
+use super::actuator::Actuator;
 use super::pattern::{Film, Joint, flat};
-use super::{Actuator, Family, pouch};
+use super::pouch::POUCH;
 
 pub(super) const ENTRY: Actuator = Actuator {
     name: "spam",
@@ -14,13 +15,7 @@ pub(super) const ENTRY: Actuator = Actuator {
     formula: "ε = 1 − sinθ/θ;  N = P W L₀ cosθ/θ;  arm = 2R + β h/2, h = L₀(1 − cosθ)/θ",
     reference: "Niiyama et al. 2015 (pouch motor); arm of an external pouch derived here",
     validity: "Sealed side edges and stiff tape are not in the bare law, which bends too far: see sealed_sides.",
-    family: Family::Pouch,
-    stroke: pouch::stroke,
-    range: pouch::RANGE,
-    guess: pouch::guess,
-    area: pouch::area,
-    arm: pouch::arm,
-    edge_restraint: |_| 1.0,
     // Published: two layers welded at their sides and taped onto the body; the whole face is assumed to be taped.
     pattern: |shape| flat(shape, Joint::Bonded { film: Film::Tape, warp_rad: 0.0 }),
+    ..POUCH
 };

@@ -13,13 +13,11 @@
 //! `N = −U'/(ηε' − κD')`. Validity: β from geometry for external actuators (β = 1), unknown for embedded ones.
 //! Derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "arm_growth",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "D = D₀ + β·lift;  pouch: lift = L₀(1 − cosθ)/(2θ);  fPAM: lift = r − r₀",
     sentence: "The swelling actuator lifts its own line of action off the body, so the same stroke bends it less.",
     differs: "The more the actuator swells, the more bend is missing: the curve over pressure flattens.",
@@ -29,7 +27,6 @@ pub(super) const ENTRY: Effect = Effect {
     parameters: &[Parameter {
         key: "beta",
         symbol: "β",
-        unit: "-",
         typical: 0.8,
         upper: 2.0,
         possible: [0.0, 2.0],
@@ -38,6 +35,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Actuator,
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

@@ -14,13 +14,11 @@
 //! Acts only where B > 0; divides the body into segments, as transverse loads do. **Validity**: linear; s is taken in the middle of
 //! a segment. Derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "base_clamp",
     group: Group::Body,
-    stage: Stage::Balance,
-    history: false,
     formula: "B(s) = B (1 + b e^{−(s/λ)ᵐ}), λ = c R",
     sentence: "The clamp at the base stiffens the body next to it.",
     differs: "The first markers bend too little and the others only follow: the missing angle is gained near the base.",
@@ -30,18 +28,18 @@ pub(super) const ENTRY: Effect = Effect {
     parameters: &[share("extra stiffness at the base as a share of B"), REACH, END],
     needs: Needs::Body,
     add,
+    ..BALANCE
 };
 
 /// How much stiffer either end is.
 pub(super) const fn share(meaning: &'static str) -> Parameter<'static> {
-    Parameter { key: "share", symbol: "b", unit: "-", typical: 2.0, upper: 8.0, meaning, ..PLAIN }
+    Parameter { key: "share", symbol: "b", typical: 2.0, upper: 8.0, meaning, ..PLAIN }
 }
 
 /// How far the stiffer stretch reaches, of either end.
 pub(super) const REACH: Parameter = Parameter {
     key: "reach_radii",
     symbol: "c",
-    unit: "-",
     neutral: 1.5,
     typical: 1.5,
     lower: 0.5,

@@ -11,13 +11,12 @@
 //! At the moments of the hinge alone it is the constant moment πR³p₀ of `tail_tension`; beside a wall, gas displaced or loads
 //! near collapse it is not. **Validity**: the same at all pressures. Supply stage: acts before the balance. Definition.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "body_pressure_offset",
     group: Group::Supply,
     stage: Stage::Supply,
-    history: false,
     formula: "p_b = max(0, p_set − p₀)",
     sentence: "The body holds another pressure than its gauge says.",
     differs: "A steady moment is missing or too much, alike at all actuator pressures.",
@@ -39,6 +38,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Body,
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

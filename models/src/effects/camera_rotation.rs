@@ -11,13 +11,12 @@
 //!
 //! Validity: the axis is on the line of the straight robot. Geometry.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "camera_rotation",
     group: Group::Measurement,
     stage: Stage::Camera,
-    history: false,
     formula: "x → x_c + (x − x_c) cosδ − y sinδ;  y → (x − x_c) sinδ + y cosδ;  x_c = c L",
     sentence: "The camera is rolled, so a straight robot does not look horizontal.",
     differs: "The straight robot is not horizontal, and the same roll is in every hold.",
@@ -48,6 +47,7 @@ pub(super) const ENTRY: Effect = Effect {
     ],
     needs: Needs::Body,
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

@@ -10,13 +10,12 @@
 //!
 //! Validity: checkerboard not in the plane of the markers, or wrong square size. Geometry.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "camera_scale",
     group: Group::Measurement,
     stage: Stage::Camera,
-    history: false,
     formula: "(x, y) → (1 + s)(x, y)",
     sentence: "The camera's millimetre is not a millimetre: all positions are off by the same percentage.",
     differs: "All positions are off by the same percentage, also those of the straight robot.",
@@ -26,7 +25,6 @@ pub(super) const ENTRY: Effect = Effect {
     parameters: &[Parameter {
         key: "scale_error",
         symbol: "s",
-        unit: "-",
         typical: 0.025,
         lower: -0.2,
         upper: 0.2,
@@ -36,6 +34,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Body,
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

@@ -14,13 +14,11 @@
 //! taut; finite elements of the shipped robots have 69 to 70 mm (ePAM) and 68 to 69 mm (cPAM). Derived here, geometry in
 //! `section.rs`.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "chord_arm",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "D = D₀ − 2R + R' (1 + cosα), w/(2πR − w) = sinα/(π − α), w = share × width; hinge p_b A ȳ",
     sentence: "The weld lines are pulled straight across the body, so the actuator sits nearer to the far side than a diameter.",
     differs: "More bend per stroke and a weaker pull than a round body gives.",
@@ -30,6 +28,7 @@ pub(super) const ENTRY: Effect = Effect {
     parameters: &[Parameter { symbol: "w/W", meaning: "share of the pouch's width that is pulled straight", ..SHARE }],
     needs: Needs::Family(Family::Pouch),
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

@@ -23,12 +23,11 @@
 //! fabrics creep over several decades of time, of which a test sees the one it lasts. Reference: standard linear solid
 //! (Zener 1948); the form over a step is derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "creep",
     group: Group::Body,
-    stage: Stage::Balance,
     history: true,
     formula: "M = −a B (κ − q), q' = (κ − q)/τ",
     sentence: "The wall gives way slowly: the robot goes on bending in a hold, and straightens slowly after it.",
@@ -40,7 +39,6 @@ pub(super) const ENTRY: Effect = Effect {
         Parameter {
             key: "share",
             symbol: "a",
-            unit: "-",
             typical: 0.25,
             upper: 2.0,
             meaning: "relaxing stiffness as a share of B",
@@ -62,6 +60,7 @@ pub(super) const ENTRY: Effect = Effect {
     ],
     needs: Needs::Body,
     add,
+    ..BALANCE
 };
 
 struct Creep {

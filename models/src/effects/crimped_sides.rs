@@ -22,14 +22,12 @@
 //! third of ε, is not taken off, nor is the bending of the sheets beside the weld added. Beam on a foundation: Hetényi 1946, §7; foundation derived
 //! here.
 
-use super::*;
+use super::entry::*;
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "crimped_sides",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "E = 2 F ε per metre, F = 2 √(4/(4 − π) · (P − χ p_b) D_w b)",
     sentence: "The side welds are too long for a pouch that has shortened, so they fold, and bonded plies resist.",
     differs: "The bend comes late and less, most where the pull is weak: at low pressures.",
@@ -48,6 +46,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Family(Family::Pouch),
     add,
+    ..BALANCE
 };
 
 /// Curvature of the lost area over the weld's displacement.

@@ -15,13 +15,11 @@
 //! the wall in, χ is larger (finite elements at 2 kPa: 0.5 cPAM, 0.9 fPAM, 1.1 ePAM, 1.3 sPAM; `docs/robots.md`).
 //! **Validity**: one χ for all pressures; a body that is kept at its pressure. Derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "displaced_gas",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "E = χ p_b v per metre; flat for P ≤ χ p_b",
     sentence: "The actuator bulges into the body and pushes its gas aside, so it works against the body's pressure and not against the air.",
     differs: "The bend comes late by a share of the body's pressure: the curve over pressure shifts with that of the body.",
@@ -31,7 +29,6 @@ pub(super) const ENTRY: Effect = Effect {
     parameters: &[Parameter {
         key: "share",
         symbol: "χ",
-        unit: "-",
         typical: 1.0,
         upper: 2.5,
         fitted: Fitted::WithBodyPressures,
@@ -40,6 +37,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Actuator,
     add,
+    ..BALANCE
 };
 
 struct DisplacedGas {

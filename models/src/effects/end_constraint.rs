@@ -18,15 +18,13 @@
 //! assumption of this project. For pouches `sealed_sides` derives both from mechanics; the two together count it twice.
 //! Reference: A. Robin 2004 (paper bag problem), volume formula; the end factor is derived here.
 
-use super::*;
+use super::entry::*;
 use crate::actuators::{Actuator, ActuatorShape, Family};
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "end_constraint",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "η = 1 − β e (L₀/W)(1 − 10^(−W/L₀)) on volume, 1 − σ (1 − η) on stroke; fPAM: η = 1 − 4β r₀/L",
     sentence: "The sealed side edges (or tube ends) hold the actuator back, so only part of its volume and stroke is usable.",
     differs: "The same share of the bend is missing at every pressure (σ = 1), or most at low ones (σ = 0), at every place.",
@@ -37,7 +35,6 @@ pub(super) const ENTRY: Effect = Effect {
         Parameter {
             key: "beta",
             symbol: "β",
-            unit: "-",
             typical: 0.446,
             upper: 1.0,
             possible: [0.0, 1.0],
@@ -47,7 +44,6 @@ pub(super) const ENTRY: Effect = Effect {
         Parameter {
             key: "stroke",
             symbol: "σ",
-            unit: "-",
             neutral: 1.0,
             typical: 1.0,
             upper: 1.0,
@@ -60,6 +56,7 @@ pub(super) const ENTRY: Effect = Effect {
     ],
     needs: Needs::Actuator,
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

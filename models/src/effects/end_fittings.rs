@@ -14,14 +14,12 @@
 //! the single force printed at L/2r₀ = 5.4 (103 N) is half of what that fit says (220 N), so there it may claim too much. **Validity**: L/2r₀ from 4 to 60.
 //! Reference: Bolen 2026 (Actuators); that it scales with the diameter is assumed.
 
-use super::*;
+use super::entry::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "end_fittings",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "η = 1 − σ (1 − φ), φ = (2/π) arctan(0.1903 (L/2r₀ − 0.75))",
     sentence: "A muscle that is clamped on plugs stays narrow near them, so a short one pulls less.",
     differs: "The same share of the force is missing at every pressure, more in short muscles.",
@@ -31,6 +29,7 @@ pub(super) const ENTRY: Effect = Effect {
     parameters: &[Parameter { meaning: "share of the loss of plugs", ..SHARE }],
     needs: Needs::Family(Family::Mckibben),
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

@@ -13,13 +13,11 @@
 //! Validity: linear elastic, uniform over the width. Reference: the pressure correction of Niiyama et al. 2015 has the
 //! same origin; this form is derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "fabric_stretch",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "κD = ηε − c N/W",
     sentence: "The actuator's fabric stretches under its own tension, so part of the stroke is lost; more at high force.",
     differs: "Most bend is missing where the actuator pulls hardest: it grows with both pressures.",
@@ -37,6 +35,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Actuator,
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

@@ -15,13 +15,11 @@
 //! Finite elements of the shipped robot: 7.5 mm per end, 7.9 here. **Validity**: L/2r above 3; the fabric between the generators
 //! folds freely. Derived here; the paper-bag volume (Robin 2004) loses 0.45 W at two ends where this has 0.39 W.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "flat_ends",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "δ = r (√m − √(m − 1)) per end, m = 2 + 2N/(P π r²)",
     sentence: "A muscle that is sealed flat shortens at its ends as well, where it changes from flat to round.",
     differs: "More bend than the weave can make, from low pressure on; most in short muscles.",
@@ -31,7 +29,6 @@ pub(super) const ENTRY: Effect = Effect {
     parameters: &[Parameter {
         key: "ends",
         symbol: "n",
-        unit: "-",
         typical: 2.0,
         upper: 2.0,
         possible: [0.0, 2.0],
@@ -41,6 +38,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Family(Family::Mckibben),
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

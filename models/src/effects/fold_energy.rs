@@ -19,15 +19,13 @@
 //! farther apart than √(D/T), a fraction of a millimetre at high pressures; stiff welds; 0 < θ < π. Elastica: Love 1927, §262, in
 //! `verification::exact::fold`; the sum derived here.
 
-use super::*;
+use super::entry::*;
 use crate::trig::sin_cos;
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "fold_energy",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "U = 4 √(D T)(1 − cos ½φ) per width of each fold; ends φ = θ, T = P r and (P − p_b) r; sides φ = ψ₀, T = P̄ρ",
     sentence: "The sheets must be folded at the welds, and a fabric that is stiff in bending resists.",
     differs: "The bend comes late and less, more so at low pressures and with stiff fabrics.",
@@ -46,6 +44,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Family(Family::Pouch),
     add,
+    ..BALANCE
 };
 
 struct FoldEnergy {

@@ -18,12 +18,11 @@
 //! gradual onset. Reference: Coulomb's law with elastic slide (Prandtl); friction of the braid of McKibben muscles: Tondu
 //! & Lopez 2000.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "friction",
     group: Group::Body,
-    stage: Stage::Balance,
     history: true,
     formula: "M = ∓M_f against the change of κ, elastic within ±M_f",
     sentence: "Threads, folds and layers rub on each other, so the robot bends less going up and springs back less coming down.",
@@ -44,6 +43,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Body,
     add,
+    ..BALANCE
 };
 
 /// Elastic slide \[1/m\].

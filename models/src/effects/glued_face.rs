@@ -15,13 +15,11 @@
 //! [`crate::muscle`] has the law. **Validity**: glued over the flat width to a wall with yarns along and across. A muscle that
 //! is glued along a line, or hangs in loops, has none of it. Derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "glued_face",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "E += ½K e² + ½K ((xₗ² − 1)/2)₊² per metre and width of the glued half",
     sentence: "Half of the muscle is stuck to the wall of the body, whose yarns keep that half from shearing.",
     differs: "Most bend is missing at every pressure, as if the muscle were weaker.",
@@ -40,6 +38,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Family(Family::Mckibben),
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

@@ -13,13 +13,11 @@
 //! Validity: needs a fine enough division (12 segments give 0.1 % of the droop of a 360 mm robot). Vanishes when the
 //! robot bends in a horizontal plane. Derived here; kept as dead load on the deformed shape.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "gravity",
     group: Group::Load,
-    stage: Stage::Balance,
-    history: false,
     formula: "E = −Σ w hᵢ ĝ·xᵢ",
     sentence: "The robot's weight bends it: most at the base, and the other way when the robot is turned over.",
     differs: "The error is largest near the base, and changes its sign when the robot is turned over.",
@@ -37,6 +35,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Body,
     add,
+    ..BALANCE
 };
 
 struct Gravity {

@@ -23,8 +23,8 @@
 //! flap. The welds sit below the middle of the pouch, which displaces less of the body's gas than `displaced_gas` says; that is left
 //! out. Derived here.
 
+use super::entry::*;
 use super::sealed_sides::SealedSides;
-use super::*;
 use crate::actuators::pouch::RANGE;
 use crate::gusset::{GATHERED, Lens, Sloped, Sums, narrowed};
 use std::f64::consts::PI;
@@ -32,8 +32,6 @@ use std::f64::consts::PI;
 pub(super) const ENTRY: Effect = Effect {
     name: "gussets",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "sealed_sides with 4 a u more of section, u = min(f, f − (B² − M²)/(2B)), B = 2f − (½π − 1) a, M² = r²[(θ − φ)² − (sinθ − sinφ)²]",
     sentence: "Side gussets are welded shut at both ends of a pouch, so they open only as far as their diagonals allow.",
     differs: "Folded pouches hold less than free ones and bend less, most at low pressures and where they are short.",
@@ -43,6 +41,7 @@ pub(super) const ENTRY: Effect = Effect {
     parameters: &[Parameter { meaning: "1: folds that their ends hold, 0: sides that open freely", ..SHARE }],
     needs: Needs::Family(Family::Pouch),
     add,
+    ..BALANCE
 };
 
 struct Gussets {

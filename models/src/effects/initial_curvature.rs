@@ -11,13 +11,11 @@
 //!
 //! Acts only where B > 0. Validity: small κ₀. Derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "initial_curvature",
     group: Group::Body,
-    stage: Stage::Balance,
-    history: false,
     formula: "E = ½B(κ − κ₀)² − ½Bκ² per metre",
     sentence: "The robot is already a little bent when nothing is switched on.",
     differs: "The robot is bent at zero pressure already, and after unloading as before.",
@@ -38,6 +36,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Body,
     add,
+    ..BALANCE
 };
 
 struct InitialCurvature {

@@ -13,7 +13,7 @@
 //! loss is steady: use `pressure_loss`. Supply stage. Reference: discharge of a volume through a leak (k = 1: Poiseuille,
 //! k = ½: Torricelli); for small r t it is 1 − r t.
 
-use super::*;
+use super::entry::*;
 
 /// Pressure at which r is the share lost per second, whatever the exponent \[Pa\].
 const REFERENCE_PA: f64 = 20e3;

@@ -12,13 +12,12 @@
 //!
 //! Both are taken relative to the straight robot, whose markers are where they were said to be. Validity: same e for all markers. Geometry.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "marker_height",
     group: Group::Measurement,
     stage: Stage::Camera,
-    history: false,
     formula: "x = x_c − e sinψ + a (cosψ − 1);  y = y_c + e (cosψ − 1) + a sinψ;  a = e tanβ",
     sentence: "The markers sit above or below the robot's axis, so rotation moves them along the robot.",
     differs: "Markers move along the robot as it turns: x is off by the sine of the local angle.",
@@ -52,6 +51,7 @@ pub(super) const ENTRY: Effect = Effect {
     ],
     needs: Needs::Body,
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

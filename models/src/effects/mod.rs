@@ -14,6 +14,7 @@ mod crimped_sides;
 mod displaced_gas;
 mod end_constraint;
 mod end_fittings;
+mod entry;
 mod fabric_stretch;
 mod flat_ends;
 mod fold_energy;
@@ -43,12 +44,7 @@ mod weld_width;
 mod wrinkling;
 mod yarn_stretch;
 
-// Effects see these through `use super::*`.
-use crate::actuators::{ActuatorShape, Family};
-use crate::assembly::Assembly;
-use crate::section::Section;
-use crate::site::{Besides, Site};
-use crate::term::{Account, LedgerLine, Memory, Pose, Remembering, Term, actuator_q};
+pub use entry::{Effect, Fitted, Group, Needs, Parameter, Stage};
 
 /// The list, in the order in which effects are added to a model.
 pub const EFFECTS: &[Effect] = &[
@@ -94,266 +90,27 @@ pub const EFFECTS: &[Effect] = &[
     camera_rotation::ENTRY,
 ];
 
-/// Where in a prediction an effect acts; stages always run in this order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Stage {
-    /// Set pressure → pressure in the actuator.
-    Supply,
-    /// Pressure → curvature.
-    Balance,
-    /// Centre line → what the camera sees.
-    Camera,
-}
-
-impl Stage {
-    /// Lower-case word for tables and JSON.
-    pub fn word(self) -> &'static str {
-        match self {
-            Stage::Supply => "supply",
-            Stage::Balance => "balance",
-            Stage::Camera => "camera",
-        }
-    }
-}
-
-/// What an effect belongs to: where to look for it on the robot. Supply and measurement are to be ruled out before physics.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Group {
-    /// The actuator and its fabric.
-    Actuator,
-    /// The body's wall.
-    Body,
-    /// What pulls on the robot from outside.
-    Load,
-    /// The air on its way to the actuator.
-    Supply,
-    /// Camera, markers and mount: to be ruled out before any physics.
-    Measurement,
-}
-
-impl Group {
-    /// Whether it is checked on the bench before physics is blamed.
-    pub fn is_nuisance(self) -> bool {
-        matches!(self, Group::Supply | Group::Measurement)
-    }
-
-    /// Lower-case word for tables and JSON.
-    pub fn word(self) -> &'static str {
-        match self {
-            Group::Actuator => "actuator",
-            Group::Body => "body",
-            Group::Load => "load",
-            Group::Supply => "supply",
-            Group::Measurement => "measurement",
-        }
-    }
-}
-
-/// One parameter of an effect. Values are in `unit` in scenarios and tables, in SI (`value × si`) inside.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Parameter<'a> {
-    /// Key in the scenario, with the unit as suffix.
-    pub key: &'a str,
-    /// Letter in the formula.
-    pub symbol: &'a str,
-    /// Unit of the scenario value.
-    pub unit: &'a str,
-    /// Factor to SI.
-    pub si: f64,
-    /// Value at which the effect vanishes.
-    pub neutral: f64,
-    /// Typical size where the effect matters.
-    pub typical: f64,
-    /// From here a fit looks, and a value is taken whose source is not told.
-    pub lower: f64,
-    /// To there.
-    pub upper: f64,
-    /// What is physically possible: a test of its own may find that much.
-    pub possible: [f64; 2],
-    /// Where a fit starts if one start is not enough: thresholds and time scales; empty: at the typical size.
-    pub starts: &'a [f64],
-    /// Typical size for single actuators, where it depends on their curvature and stiffness.
-    pub by_actuator: &'a [(&'a str, f64)],
-    /// When a fit may change it; otherwise it stays neutral.
-    pub fitted: Fitted,
-    /// It belongs to the room: a robot rolled by 180° sees it with the other sign.
-    pub in_room: bool,
-    /// What it is.
-    pub meaning: &'a str,
-}
-
-/// What most parameters are; entries say how they differ.
-const PLAIN: Parameter<'static> = Parameter {
-    key: "",
-    symbol: "",
-    unit: "-",
-    si: 1.0,
-    neutral: 0.0,
-    typical: 1.0,
-    lower: 0.0,
-    upper: 1.0,
-    possible: POSITIVE,
-    starts: &[],
-    by_actuator: &[],
-    fitted: Fitted::Always,
-    in_room: false,
-    meaning: "",
-};
-/// Whether a mechanism is there, from 0 to 1, by design.
-const SHARE: Parameter<'static> =
-    Parameter { key: "share", symbol: "σ", possible: [0.0, 1.0], fitted: Fitted::FromDesign, ..PLAIN };
-
-/// What is possible of a stiffness, a weight, a friction.
-const POSITIVE: [f64; 2] = [0.0, f64::INFINITY];
-/// Of a time, or of a stiffness that is never nothing.
-const ABOVE_ZERO: [f64; 2] = [f64::MIN_POSITIVE, f64::INFINITY];
-/// Of what has a direction.
-const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-
-/// A number that shapes a law, neutral where the law has its usual form.
-const SHAPE: Parameter<'static> = Parameter { typical: 0.0, fitted: Fitted::Shape, ..PLAIN };
-
-/// Which data hold a parameter.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fitted {
-    /// All.
-    Always,
-    /// All, about its neutral value: it shapes a law whose exact form nobody knows, and does nothing by itself.
-    Shape,
-    /// Only data of a robot whose bending stiffness is not fitted: next to it this shape of a law says nothing of its own.
-    WithKeptBending,
-    /// Only data at several body pressures, or with a test of its own: at one pressure it is another effect's curve.
-    WithBodyPressures,
-    /// None: it follows from how the robot is cut and joined, or from a test of its fabric.
-    FromDesign,
-}
-
-/// What an effect acts in: without it there is nothing to change.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Needs {
-    /// Any body, a passive beam too.
-    Body,
-    /// Any actuator, or its supply.
-    Actuator,
-    /// An actuator of this contraction mechanism.
-    Family(Family),
-}
-
-/// A physical effect as an entry of the catalogue, or of a scenario's own ([`crate::Catalogue`]).
-#[derive(Debug, Clone, Copy)]
-pub struct Effect<'a> {
-    /// Name in scenarios.
-    pub name: &'a str,
-    /// What it belongs to.
-    pub group: Group,
-    /// Stage in which it acts.
-    pub stage: Stage,
-    /// Whether a state depends on those before it or on the time in a hold: needs data with an unloading branch or with
-    /// several samples in a hold.
-    pub history: bool,
-    /// Formula in Unicode.
-    pub formula: &'a str,
-    /// One plain sentence for a user.
-    pub sentence: &'a str,
-    /// What measurements show where it acts and the model lacks it.
-    pub differs: &'a str,
-    /// What to measure or change on the robot.
-    pub remedy: &'a str,
-    /// When it holds.
-    pub validity: &'a str,
-    /// Source.
-    pub reference: &'a str,
-    /// Parameters in the order `add` takes them.
-    pub parameters: &'a [Parameter<'a>],
-    /// What it acts in.
-    pub needs: Needs,
-    /// Adds it to a model under construction; values in SI. A formula adds itself.
-    pub(crate) add: fn(&[f64], &mut Assembly),
-}
+/// Effects that act with strips round the body: those inside an actuator, and on its supply. Others are refused.
+pub const IN_SPACE: &[&str] = &[
+    "chord_arm",
+    "weld_width",
+    "end_constraint",
+    "arm_growth",
+    "fabric_stretch",
+    "shear_stiffness",
+    "shear_lock",
+    "seam_stiffness",
+    "displaced_gas",
+    "gussets",
+    "sealed_sides",
+    "fold_energy",
+    "crimped_sides",
+    "pressure_offset",
+    "pressure_loss",
+    "body_pressure_offset",
+];
 
 /// The entry of that name.
 pub fn by_name(name: &str) -> Option<&'static Effect<'static>> {
     EFFECTS.iter().find(|e| e.name == name)
-}
-
-impl Parameter<'_> {
-    /// Whether a value is where a fit looks.
-    pub fn is_usual(&self, value: f64) -> bool {
-        (self.lower..=self.upper).contains(&value)
-    }
-
-    /// Whether there can be such a value.
-    pub fn is_possible(&self, value: f64) -> bool {
-        value.is_finite() && (self.possible[0]..=self.possible[1]).contains(&value)
-    }
-
-    /// `0 to 8 N/m`: where a fit looks.
-    pub fn usual_words(&self) -> String {
-        self.words(self.lower, self.upper)
-    }
-
-    /// `0 to 1`, `0 N/m and above`: what is possible.
-    pub fn possible_words(&self) -> String {
-        let [low, high] = self.possible;
-        match (low.is_finite(), high.is_finite()) {
-            (true, true) => self.words(low, high),
-            (true, false) if low == f64::MIN_POSITIVE => format!("above 0{}", self.after()),
-            (true, false) => format!("{low}{} and above", self.after()),
-            _ => "any number".into(),
-        }
-    }
-
-    fn words(&self, low: f64, high: f64) -> String {
-        format!("{low} to {high}{}", self.after())
-    }
-
-    /// The unit after a number.
-    fn after(&self) -> String {
-        if self.unit == "-" { String::new() } else { format!(" {}", self.unit) }
-    }
-
-    /// Typical size on an actuator, in `unit`.
-    pub fn typical_for(&self, actuator: &str) -> f64 {
-        self.by_actuator.iter().find(|(name, _)| *name == actuator).map_or(self.typical, |(_, typical)| *typical)
-    }
-}
-
-impl Effect<'static> {
-    /// Line of its term in the energy ledger.
-    const fn line(&self, account: Account) -> LedgerLine {
-        LedgerLine { name: self.name, account }
-    }
-}
-
-impl Effect<'_> {
-    /// Neutral values of all parameters, SI.
-    pub fn neutral(&self) -> Vec<f64> {
-        self.parameters.iter().map(|p| p.neutral * p.si).collect()
-    }
-
-    /// Typical values of all parameters, SI.
-    pub fn typical(&self) -> Vec<f64> {
-        self.parameters.iter().map(|p| p.typical * p.si).collect()
-    }
-
-    /// Typical values of all parameters on an actuator, SI.
-    pub fn typical_for(&self, actuator: &str) -> Vec<f64> {
-        self.parameters.iter().map(|p| p.typical_for(actuator) * p.si).collect()
-    }
-
-    /// Whether a fit may change one of its parameters.
-    pub fn is_fitted(&self) -> bool {
-        self.parameters.iter().any(|p| p.fitted != Fitted::FromDesign)
-    }
-
-    /// Whether it acts in an actuator or on its supply: a passive beam has neither.
-    pub fn needs_actuator(&self) -> bool {
-        self.needs != Needs::Body
-    }
-
-    /// Whether the effect exists for an actuator of this family.
-    pub fn applies_to(&self, family: Family) -> bool {
-        !matches!(self.needs, Needs::Family(needed) if needed != family)
-    }
 }

@@ -12,13 +12,12 @@
 //! A pure bending moment is balanced inside the robot and does not reach the base; what turns it is the hose, the clamp or
 //! the first pouch pressing on it. **Validity**: elastic mount, rotation about the base point. Geometry.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "mount_rotation",
     group: Group::Measurement,
     stage: Stage::Camera,
-    history: false,
     formula: "δ = c P; x → x cosδ − y sinδ; y → x sinδ + y cosδ",
     sentence: "The base turns when the actuator is inflated, so the whole robot swings like a stiff arm.",
     differs: "The whole robot swings like a stiff arm as pressure rises: y is off in proportion to x.",
@@ -39,6 +38,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Body,
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

@@ -18,7 +18,7 @@
 //! the pouches. **Validity**: o g² below about 1; the body's own pressure moment stays that of the round section. Reference:
 //! Brazier 1927 for the squared curvature; this form is derived here.
 
-use super::*;
+use super::entry::*;
 use crate::site::SectionLaw;
 
 /// Curvature g_r at which o is the flattening whatever the exponent \[1/m\].
@@ -27,8 +27,6 @@ const REFERENCE_PER_M: f64 = 2.0;
 pub(super) const ENTRY: Effect = Effect {
     name: "ovalization",
     group: Group::Body,
-    stage: Stage::Balance,
-    history: false,
     formula: "D = D₀/(1 + o g_r² (g/g_r)ⁿ), g = ηε/D₀, g_r = 2 /m;  n = 2: κ = g (1 + o g²)",
     sentence: "The bent body flattens, so the actuator sits closer to its far wall: shorter lever, more bend per stroke.",
     differs: "Less bend at low pressure than at high: the curve over pressure stays steep where others flatten.",
@@ -60,6 +58,7 @@ pub(super) const ENTRY: Effect = Effect {
     ],
     needs: Needs::Body,
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

@@ -15,12 +15,11 @@
 //! `−½Bsκ² − ½Bs(1 − s)m²` beyond, where the largest bend goes along. Acts only where B > 0. **Validity**: creases and
 //! yarns that stay bent; no recovery with time. Reference: linear plastic hardening without threshold; derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "plastic_set",
     group: Group::Body,
-    stage: Stage::Balance,
     history: true,
     formula: "M = −B (κ − s κ_max)",
     sentence: "The wall keeps a share of the largest bend it has seen, as a creased sheet does.",
@@ -31,7 +30,6 @@ pub(super) const ENTRY: Effect = Effect {
     parameters: &[Parameter {
         key: "share",
         symbol: "s",
-        unit: "-",
         typical: 0.12,
         upper: 0.5,
         possible: [0.0, 1.0],
@@ -40,6 +38,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Body,
     add,
+    ..BALANCE
 };
 
 struct PlasticSet {

@@ -12,7 +12,7 @@
 //! **Validity**: steady flow, small gauge pressures. With n = 1 it looks like a stiffer body. Supply stage: acts before the balance.
 //! Reference: Hagen–Poiseuille and orifice flow in series, incompressible.
 
-use super::*;
+use super::entry::*;
 
 /// Pressure at which the lost share is f \[Pa\].
 const REFERENCE_PA: f64 = 20e3;
@@ -21,7 +21,6 @@ pub(super) const ENTRY: Effect = Effect {
     name: "pressure_loss",
     group: Group::Supply,
     stage: Stage::Supply,
-    history: false,
     formula: "P = P_set − f P_r (P_set/P_r)ⁿ, P_r = 20 kPa",
     sentence: "A leak takes part of the set pressure.",
     differs: "The curve over pressure is stretched sideways, by the same factor everywhere if n = 1.",
@@ -32,7 +31,6 @@ pub(super) const ENTRY: Effect = Effect {
         Parameter {
             key: "fraction",
             symbol: "f",
-            unit: "-",
             typical: 0.15,
             upper: 0.8,
             possible: [0.0, 1.0],
@@ -42,7 +40,6 @@ pub(super) const ENTRY: Effect = Effect {
         Parameter {
             key: "exponent",
             symbol: "n",
-            unit: "-",
             neutral: 1.0,
             typical: 1.0,
             lower: 0.5,
@@ -55,6 +52,7 @@ pub(super) const ENTRY: Effect = Effect {
     ],
     needs: Needs::Actuator,
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

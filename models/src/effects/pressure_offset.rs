@@ -11,13 +11,12 @@
 //!
 //! Validity: constant over the range of pressures. Supply stage: acts before the balance. Definition.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "pressure_offset",
     group: Group::Supply,
     stage: Stage::Supply,
-    history: false,
     formula: "P = max(0, P_set − P₀); for P₀ < 0 P_set + min(−P₀, P_set)",
     sentence: "The pressure is off by a constant: dead band, sensor bias, or pouches that open only against the body's pressure; below zero more arrives than is set.",
     differs: "The curve over pressure is shifted sideways: the error is largest where it is steep.",
@@ -38,6 +37,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Actuator,
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

@@ -24,7 +24,7 @@
 //! Below P = p_b (χ + (π − 2) A'/2W), A' = R' cosα, the body's gas at the sides keeps the pouch flat.
 //! **Validity**: inextensible fabric; a ≤ W/π, so W ≥ ⅔L. Derived here; `verification::exact::pouch::sealed_volume_m3` is its volume.
 
-use super::*;
+use super::entry::*;
 use crate::gusset::NARROWED;
 use crate::trig::sin_cos;
 use std::f64::consts::PI;
@@ -32,8 +32,6 @@ use std::f64::consts::PI;
 pub(super) const ENTRY: Effect = Effect {
     name: "sealed_sides",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "E = (P − χ p_b) π∫a²dx − p_b ∫(ΔA − κΔQ)dx(1 + κD + κ²D²) per pitch, a = r(cosφ − cosθ), w = W − (π − 2)a",
     sentence: "The sealed sides of a pouch are round as well, so it cannot become a free lens: it contracts less and holds less.",
     differs: "Much of the bend is missing at high pressures, where the free lens would still contract.",
@@ -43,6 +41,7 @@ pub(super) const ENTRY: Effect = Effect {
     parameters: &[Parameter { meaning: "1: sealed sides, 0: sides that open freely", ..SHARE }],
     needs: Needs::Family(Family::Pouch),
     add,
+    ..BALANCE
 };
 
 pub(super) struct SealedSides {

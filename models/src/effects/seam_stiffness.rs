@@ -12,13 +12,11 @@
 //! For small θ the contraction goes as θ²/6, so this is a constant moment 3kD/L₀: there it cannot be told from
 //! `tail_tension`. Validity: elastic folds. Derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "seam_stiffness",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "E = ½ k θ²/L₀ per metre",
     sentence: "Welds and folds of the pouches resist rolling up, like a small spring in every pouch.",
     differs: "A steady moment is missing: nothing moves at first, then the bend comes late.",
@@ -36,6 +34,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Family(Family::Pouch),
     add,
+    ..BALANCE
 };
 
 struct SeamStiffness {

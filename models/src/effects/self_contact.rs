@@ -20,14 +20,12 @@
 //!
 //! Validity: pouches or folds side by side; for pouches φ = π is derived here, another value is to be seen on the robot or fitted.
 
-use super::*;
+use super::entry::*;
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "self_contact",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "E = ½ k (2θ + κL₀ − φ)₊²/L₀ per metre; fPAM: E = ½ k (κ·1 m − φ)₊²/1 m",
     sentence: "Neighbouring pouches (under a muscle: the inner wall's folds) press on each other and stop the bend.",
     differs: "The bend stops at a value that no further pressure exceeds.",
@@ -61,6 +59,7 @@ pub(super) const ENTRY: Effect = Effect {
     ],
     needs: Needs::Actuator,
     add,
+    ..BALANCE
 };
 
 struct SelfContact {

@@ -15,14 +15,12 @@
 //! **Validity**: sudden locking with a large K; yarns that are pressed together little by little have a smaller one. Bias-extension tests lock near 45° for a plain weave, far beyond the muscle's stroke; a coating or
 //! a tight weave locks earlier. Reference: trellis kinematics, Cao et al. 2008; the penalty is an assumption.
 
-use super::*;
+use super::entry::*;
 use std::f64::consts::FRAC_PI_2;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "shear_lock",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "E = K (γ − γ_L)²₊ W per metre, γ = 2(α − α₀), cosα = (1 − ε) cosα₀",
     sentence: "The yarns of the muscle jam at a certain shear angle and stop it.",
     differs: "The bend stops at a value that no further pressure exceeds; below it nothing changes.",
@@ -59,6 +57,7 @@ pub(super) const ENTRY: Effect = Effect {
     ],
     needs: Needs::Family(Family::Mckibben),
     add,
+    ..BALANCE
 };
 
 /// Usual stiffness of the jammed weave \[N/m\].

@@ -16,7 +16,7 @@
 //! Beside stretching yarns the part with n = 1 turns with them, the rest with the tube of stiff yarns. Derived here; modulus
 //! relation of an orthotropic sheet at 45° with ν₁₂ ≈ 0.
 
-use super::*;
+use super::entry::*;
 
 /// Shear at which G_t is the stiffness whatever the exponent \[rad\].
 const REFERENCE_RAD: f64 = 0.3;
@@ -24,8 +24,6 @@ const REFERENCE_RAD: f64 = 0.3;
 pub(super) const ENTRY: Effect = Effect {
     name: "shear_stiffness",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "E = G_t γ² W · 2/(1 + n) (γ/γ_r)ⁿ⁻¹ per metre, γ_r = 0.3, γ = 2(α − α₀), cosα = (1 − ε) cosα₀",
     sentence: "The coated weave resists shearing, so the muscle contracts less, most at low pressure.",
     differs: "Most bend is missing at low pressure; the free stroke rises with pressure.",
@@ -56,6 +54,7 @@ pub(super) const ENTRY: Effect = Effect {
     ],
     needs: Needs::Family(Family::Mckibben),
     add,
+    ..BALANCE
 };
 
 struct ShearStiffness {

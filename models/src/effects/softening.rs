@@ -13,13 +13,11 @@
 //!
 //! Validity: no memory, so folds open again; bends towards the actuator; needs B > 0.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "softening",
     group: Group::Body,
-    stage: Stage::Balance,
-    history: false,
     formula: "M = B κ/(1 + a κ)",
     sentence: "The wall softens as it bends: creases and buckles, once there, fold more easily.",
     differs: "Small bends meet a stiff wall, large ones a soft one: the curve over pressure stays steep where others flatten.",
@@ -37,6 +35,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Body,
     add,
+    ..BALANCE
 };
 
 struct Softening {

@@ -22,14 +22,12 @@
 //! 3 p_b; glued over the whole flat width; an arm that the scenario gives is replaced. Finite elements of the shipped robot at
 //! 30 kPa: axis 70 mm from the far side. Derived here.
 
-use super::*;
+use super::entry::*;
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "sunk_muscle",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "D = R' (1 + cosβ), 2r₀/(2πR − W) = sinβ/(π − β); hinge p_b A_b ȳ_b",
     sentence: "The muscle is glued over its whole width, draws the wall in and lies half inside the body, nearer to the far side.",
     differs: "More bend per stroke than an arm outside the body allows, and a body that resists less.",
@@ -39,6 +37,7 @@ pub(super) const ENTRY: Effect = Effect {
     parameters: &[Parameter { meaning: "1: half in the wall, 0: on it", ..SHARE }],
     needs: Needs::Family(Family::Mckibben),
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

@@ -11,14 +11,12 @@
 //!
 //! Validity: tension constant along the robot. Derived here.
 
-use super::*;
+use super::entry::*;
 use crate::body::soft_step;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "tail_tension",
     group: Group::Body,
-    stage: Stage::Balance,
-    history: false,
     formula: "E = ΔM k₀ ln cosh(κ/k₀) per metre",
     sentence: "A pull along the robot (tail, tether, offset seam) adds a constant resisting moment.",
     differs: "A steady moment is missing, alike at all pressures: largest share of the bend at low pressure.",
@@ -38,6 +36,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Body,
     add,
+    ..BALANCE
 };
 
 /// Curvature over which the step sets in \[1/m\], as for the body's hinge.

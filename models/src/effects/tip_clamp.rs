@@ -14,13 +14,11 @@
 //! Acts only where B > 0; divides the body into segments, as transverse loads do. **Validity**: linear. Derived here.
 
 use super::base_clamp::{END, REACH, clamp, share};
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "tip_clamp",
     group: Group::Body,
-    stage: Stage::Balance,
-    history: false,
     formula: "B(s) = B (1 + b e^{−((L − s)/λ)ᵐ}), λ = c R",
     sentence: "The cap at the tip stiffens the body next to it.",
     differs: "Only the last markers are off: the end of the robot stays straight.",
@@ -30,6 +28,7 @@ pub(super) const ENTRY: Effect = Effect {
     parameters: &[share("extra stiffness at the tip as a share of B"), REACH, END],
     needs: Needs::Body,
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

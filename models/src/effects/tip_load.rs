@@ -10,13 +10,11 @@
 //!
 //! Validity: dead load at the end of the centre line. Statics.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "tip_load",
     group: Group::Load,
-    stage: Stage::Balance,
-    history: false,
     formula: "E = −F·x_tip",
     sentence: "A force pulls or pushes the tip: a payload, a cable, a camera.",
     differs: "The tip is bent at zero pressure already; the error grows from the base as a lever does.",
@@ -26,6 +24,7 @@ pub(super) const ENTRY: Effect = Effect {
     parameters: &[force("force_x_n", "F_x", 0.0, false), force("force_y_n", "F_y", -0.4, true)],
     needs: Needs::Body,
     add,
+    ..BALANCE
 };
 
 const fn force(key: &'static str, symbol: &'static str, typical: f64, in_room: bool) -> Parameter<'static> {

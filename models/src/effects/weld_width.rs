@@ -11,13 +11,11 @@
 //!
 //! **Validity**: welds that keep their length, b < L₀. Derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "weld_width",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "L = L₀ − b, W' = W − b; ε = (L/L₀)(1 − sinθ/θ)",
     sentence: "Welds have a width: what they take of the strip neither contracts nor fills.",
     differs: "A little of the bend is missing at every pressure, more of it with more and shorter pouches.",
@@ -37,6 +35,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Family(Family::Pouch),
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

@@ -19,7 +19,7 @@
 //! are those of a wall that does: κ_w half of the curvature at which the robots work.
 //! **Validity**: membrane without bending stiffness, circular section. Reference: Comer & Levy, AIAA Journal 1(7), 1963.
 
-use super::*;
+use super::entry::*;
 use crate::body::{BODY_PRESSURE, BodyLaw};
 use crate::comer_levy::{gamma0_from_curvature_ratio, moment_ratio};
 use std::f64::consts::PI;
@@ -27,8 +27,6 @@ use std::f64::consts::PI;
 pub(super) const ENTRY: Effect = Effect {
     name: "wrinkling",
     group: Group::Body,
-    stage: Stage::Balance,
-    history: false,
     formula: "M = π p_b R³ α(κ/κ_w), κ_w = p_b c/2, α from 0 over 1/2 (first wrinkle) to 1 (hinge)",
     sentence: "The wall wrinkles gradually: small bends meet less resistance than the full hinge moment.",
     differs: "Small bends come more easily than predicted; large ones hardly change.",
@@ -48,6 +46,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Body,
     add,
+    ..BALANCE
 };
 
 struct Wrinkling {

@@ -16,13 +16,11 @@
 //! the sign. (96.5 + 120)/2 MPa × 50 µm and ν = 0.2 give 1.48e-4 m/N; [`crate::muscle`] has the derivation. **Validity**: yarns
 //! linear in Green strain, equal in both families (unequal ones twist: `verification::exact::tube`). Derived here.
 
-use super::*;
+use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "yarn_stretch",
     group: Group::Actuator,
-    stage: Stage::Balance,
-    history: false,
     formula: "E = −π P² r₀³ c (1 − ε)²/(2 sin⁴α₀) per metre",
     sentence: "The yarns of the muscle stretch under its pressure, so it widens and grows longer instead of pulling.",
     differs: "At high pressure the bend rises no further, or falls.",
@@ -41,6 +39,7 @@ pub(super) const ENTRY: Effect = Effect {
     }],
     needs: Needs::Family(Family::Mckibben),
     add,
+    ..BALANCE
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {

@@ -1,6 +1,6 @@
 //! Fitting a table: the model's answers over u, and pieces halved until polynomials follow them.
 
-use super::table::{MOST_BYTES, Untabulated, horner};
+use super::untabulated::{MOST_BYTES, Untabulated};
 use crate::error::Unsolved;
 use crate::model::{Model, Prediction};
 use crate::term::Loads;
@@ -64,6 +64,11 @@ impl Sampler<'_> {
         }
         Ok(found)
     }
+}
+
+/// Value and slope of a polynomial of single precision; the C code has the same order.
+pub(super) fn horner(c: &[f32], t: f64) -> [f64; 2] {
+    c.iter().rev().fold([0.0, 0.0], |[value, slope], c| [value * t + f64::from(*c), slope * t + value])
 }
 
 /// One piece under way.

@@ -4,7 +4,9 @@ mod c;
 mod fit;
 mod linear;
 mod table;
+mod untabulated;
 
 pub use c::Origin;
 pub use linear::{Joint, Linear};
-pub use table::{Bound, MOST_BYTES, MOST_MISS, Table, Untabulated};
+pub use table::{Bound, Table};
+pub use untabulated::{MOST_BYTES, MOST_MISS, Untabulated};

@@ -6,15 +6,10 @@
 //!
 //! P₀ is the pressure up to which every actuator is flat, P₁ the largest. The root takes the steep start of a pouch away.
 
-use super::fit::{Fitter, Sampler};
-use crate::error::Unsolved;
+use super::fit::{Fitter, Sampler, horner};
+use super::untabulated::{MOST_BYTES, MOST_MISS, Untabulated};
 use crate::model::Model;
-use thiserror::Error;
 
-/// Most bytes of constants of a table that is given out.
-pub const MOST_BYTES: usize = 4096;
-/// Its largest miss, as a share of the robot's length or in rad.
-pub const MOST_MISS: f64 = 1e-3;
 /// Misses that the pieces aim at, the first that fits into the bytes counts.
 const GOALS: [f64; 3] = [5e-5, 2e-4, 8e-4];
 /// Degrees tried; higher ones lose digits in single precision.
@@ -63,53 +58,6 @@ pub struct Bound {
     pub slope_m_per_pa: f64,
     /// Least pressure at which slopes were compared \[Pa\].
     pub slope_from_pa: f64,
-}
-
-/// Why there is no table.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum Untabulated {
-    /// The model has no prediction somewhere in the range.
-    #[error(transparent)]
-    Unsolved(#[from] Unsolved),
-    /// Pressures that do not rise.
-    #[error("pressures from {low_kpa} to {high_kpa} kPa are no range: they rise, from 0 or more")]
-    Order {
-        /// Least \[kPa\].
-        low_kpa: f64,
-        /// Largest \[kPa\].
-        high_kpa: f64,
-    },
-    /// A range in which the actuator stays flat.
-    #[error(
-        "pressures from {low_kpa} to {high_kpa} kPa are no range that opens the actuator (it is flat up to {open_kpa:.3} kPa)"
-    )]
-    Range {
-        /// Least \[kPa\].
-        low_kpa: f64,
-        /// Largest \[kPa\].
-        high_kpa: f64,
-        /// Up to which it is flat \[kPa\].
-        open_kpa: f64,
-    },
-    /// One pressure does not say where the robot is.
-    #[error("{channels} supply channels move this robot, and a table knows one pressure")]
-    Channels {
-        /// How many.
-        channels: usize,
-    },
-    /// Too rough a response.
-    #[error(
-        "no table of {MOST_BYTES} bytes follows this robot to {MOST_MISS} of its length: it has a jump or a corner at {at_kpa:.3} kPa"
-    )]
-    TooRough {
-        /// The roughest place \[kPa\].
-        at_kpa: f64,
-    },
-}
-
-/// Value and slope of a polynomial of single precision; the C code has the same order.
-pub(super) fn horner(c: &[f32], t: f64) -> [f64; 2] {
-    c.iter().rev().fold([0.0, 0.0], |[value, slope], c| [value * t + f64::from(*c), slope * t + value])
 }
 
 impl Table {

@@ -34,7 +34,7 @@
 
 use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
-use super::Fabric;
+use super::fabric::Fabric;
 
 /// Iterations that more than suffice: the yarns' stretch is a contraction of its own small size.
 const MOST: usize = 60;

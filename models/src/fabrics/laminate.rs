@@ -17,8 +17,8 @@
 
 use std::sync::Arc;
 
+use super::fabric::{Fabric, Kind, Mixed, NeoHookean, Orthotropic, Past, Ply, WrinklingFilm};
 use super::recipe::{Law, Need, Recipe, THICKNESS, modulus, ratio};
-use super::{Fabric, Kind, NeoHookean, Orthotropic, Past, WrinklingFilm};
 
 /// Several fabrics bonded face to face, each at its own angle: they share one strain and add their tensions.
 pub(super) const LAMINATE: Law = Law {
@@ -55,30 +55,12 @@ pub(super) const GLUED: Law = Law {
     },
 };
 
-/// One sheet of a laminate.
-#[derive(Debug, Clone)]
-pub struct Ply {
-    /// Its law, thickness included.
-    pub fabric: Arc<dyn Fabric>,
-    /// Angle from the laminate's warp to this ply's warp \[rad\], counter-clockwise.
-    pub angle_rad: f64,
-}
-
 /// Bonded plies.
 #[derive(Debug, Clone)]
 pub struct Laminate {
     plies: Vec<(Arc<dyn Fabric>, Turn)>,
     mixed: Option<Mixed>,
     film: Option<WrinklingFilm>,
-}
-
-/// Bonded neo-Hookean and linear plies as one formula, W = W_rubber(e) + ½ e·A e: what is isotropic or linear adds up.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mixed {
-    /// All neo-Hookean plies: Σ t, and C₁₀ = Σ t C₁₀/Σ t. Thickness 0 without any.
-    pub rubber: NeoHookean,
-    /// A of all linear plies in the laminate's axes, symmetric \[N/m\].
-    pub linear: [[f64; 3]; 3],
 }
 
 impl Laminate {

@@ -14,6 +14,7 @@
 
 mod bias_extension;
 mod curve;
+mod fabric;
 mod laminate;
 mod materials;
 mod neo_hookean;
@@ -28,18 +29,16 @@ mod yarn;
 
 pub use bias_extension::BiasExtension;
 pub use curve::Curve;
-pub use laminate::{Laminate, Mixed, Ply};
+pub use fabric::{Fabric, Kind, Mixed, NeoHookean, Orthotropic, Past, Ply, WrinklingFilm};
+pub use laminate::Laminate;
 pub use materials::{MATERIALS, Material, material};
-pub use neo_hookean::NeoHookean;
-pub use orthotropic::{Orthotropic, shear_modulus};
+pub use orthotropic::shear_modulus;
 pub use pull::Pull;
 pub use recipe::{CurveInput, Law, Need, Parameter, Recipe};
 pub use tension_field::TensionField;
 pub use woven::Woven;
-pub use wrinkling_film::{WrinklingFilm, wrinkling_load_n_per_m};
+pub use wrinkling_film::wrinkling_load_n_per_m;
 pub use yarn::Yarn;
-
-use std::fmt::Debug;
 
 /// The list.
 pub const FABRICS: &[Law] = &[
@@ -56,70 +55,4 @@ pub const FABRICS: &[Law] = &[
 /// The law of that name.
 pub fn by_name(name: &str) -> Option<&'static Law> {
     FABRICS.iter().find(|law| law.name == name)
-}
-
-/// Largest strain each yarn family has seen (warp, fill); what a fabric with different unloading remembers.
-pub type Past = [f64; 2];
-
-/// The membrane law of one sheet of fabric, in warp and fill axes.
-pub trait Fabric: Send + Sync + Debug {
-    /// Reference thickness t \[m\].
-    fn thickness_m(&self) -> f64;
-    /// Recoverable energy W(e) per reference area \[J/m²\].
-    fn energy(&self, e: [f64; 3], past: &Past) -> f64;
-    /// Second Piola–Kirchhoff tension S = ∂W/∂e \[N/m\].
-    fn tension(&self, e: [f64; 3], past: &Past) -> [f64; 3];
-
-    /// Tangent ∂S/∂e \[N/m\]; by central differences unless a law knows better.
-    fn tangent(&self, e: [f64; 3], past: &Past) -> [[f64; 3]; 3] {
-        const STEP: f64 = 1e-6;
-        let mut columns = [[0.0; 3]; 3];
-        for (k, column) in columns.iter_mut().enumerate() {
-            let (mut up, mut down) = (e, e);
-            up[k] += STEP;
-            down[k] -= STEP;
-            let (high, low) = (self.tension(up, past), self.tension(down, past));
-            for i in 0..3 {
-                column[i] = (high[i] - low[i]) / (2.0 * STEP);
-            }
-        }
-        columns
-    }
-
-    /// A tangent that none exceeds, in stiffness, at strains within `reach` of `e` and on the way back from them \[N/m\]: what a
-    /// time step must bear. The tangent itself unless a law stiffens in between.
-    fn steepest(&self, e: [f64; 3], past: &Past, _reach: f64) -> [[f64; 3]; 3] {
-        self.tangent(e, past)
-    }
-
-    /// True if [`Fabric::remember`] does something.
-    fn has_memory(&self) -> bool {
-        false
-    }
-    /// Updates the memory after a strain was reached.
-    fn remember(&self, _e: [f64; 3], _past: &mut Past) {}
-    /// Energy per reference area lost for good on the way to `past` \[J/m²\].
-    fn dissipated(&self, _past: &Past) -> f64 {
-        0.0
-    }
-
-    /// The laws that the element kernels compile for themselves; others are called sheet by sheet.
-    fn kind(&self) -> Kind<'_> {
-        Kind::Other
-    }
-}
-
-/// A fabric whose formula the finite element kernels inline.
-#[derive(Debug, Clone, Copy)]
-pub enum Kind<'a> {
-    /// Incompressible neo-Hookean sheet.
-    NeoHookean(&'a NeoHookean),
-    /// Linear orthotropic sheet.
-    Orthotropic(&'a Orthotropic),
-    /// Bonded sheets of these two.
-    Mixed(&'a Mixed),
-    /// Neo-Hookean sheet that wrinkles.
-    WrinklingFilm(&'a WrinklingFilm),
-    /// Any other law.
-    Other,
 }

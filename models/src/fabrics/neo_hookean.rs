@@ -15,8 +15,8 @@
 
 use std::sync::Arc;
 
+use super::fabric::{Fabric, Kind, NeoHookean, Past};
 use super::recipe::{Law, Need, Recipe, THICKNESS, modulus};
-use super::{Fabric, Kind, Past};
 
 pub(super) const ENTRY: Law = Law {
     name: "neo-hookean",
@@ -30,15 +30,6 @@ pub(super) const ENTRY: Law = Law {
         Ok(Arc::new(NeoHookean { c10_pa: v.get("c10_MPa")?, thickness_m: v.get("thickness_mm")? }))
     },
 };
-
-/// Incompressible neo-Hookean sheet.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NeoHookean {
-    /// C₁₀ \[Pa\], positive.
-    pub c10_pa: f64,
-    /// Thickness \[m\], positive.
-    pub thickness_m: f64,
-}
 
 impl Fabric for NeoHookean {
     fn thickness_m(&self) -> f64 {

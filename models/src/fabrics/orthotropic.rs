@@ -19,8 +19,8 @@
 
 use std::sync::Arc;
 
+use super::fabric::{Fabric, Kind, Orthotropic, Past};
 use super::recipe::{Law, Need, Parameter, Recipe, THICKNESS, Values, modulus, ratio};
-use super::{Fabric, Kind, Past};
 
 /// A linear fabric: stiff along warp and fill, soft in between, with contraction across the pull.
 pub(super) const ORTHOTROPIC: Law = Law {
@@ -72,21 +72,6 @@ pub(super) fn from_values(v: &Values) -> Result<Orthotropic, String> {
         None => Orthotropic::checked(e0, e90, nu12, v.get("g_MPa")?, t),
     }
     .map_err(|m| v.says(m))
-}
-
-/// Linear orthotropic sheet.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Orthotropic {
-    /// A₁₁ \[N/m\].
-    pub a11: f64,
-    /// A₂₂ \[N/m\].
-    pub a22: f64,
-    /// A₁₂ \[N/m\].
-    pub a12: f64,
-    /// A₆₆ = Gt \[N/m\].
-    pub a66: f64,
-    /// Thickness \[m\].
-    pub thickness_m: f64,
 }
 
 impl Orthotropic {

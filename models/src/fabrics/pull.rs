@@ -14,7 +14,8 @@
 
 use std::sync::Arc;
 
-use super::{Fabric, Laminate, Ply};
+use super::fabric::{Fabric, Ply};
+use super::laminate::Laminate;
 
 /// A law seen along a pull at an angle to its warp.
 #[derive(Debug, Clone)]

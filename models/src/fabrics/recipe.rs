@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::{Curve, Fabric, Ply};
+use super::curve::Curve;
+use super::fabric::{Fabric, Ply};
 
 /// What a user wrote about one fabric, in the units of the keys.
 #[derive(Debug, Clone, Default)]

@@ -18,7 +18,7 @@
 //! of the stress itself, and that of the share, Σ (1 − P_law/P)², which counts small strains as much as large ones.
 //! Reference: Treloar, The Physics of Rubber Elasticity (law); the fits are linear least squares, derived here.
 
-use super::BiasExtension;
+use super::bias_extension::BiasExtension;
 
 /// Nominal stress of the law at a nominal strain \[Pa\].
 pub fn neo_hookean_pa(c10_pa: f64, strain: f64) -> f64 {

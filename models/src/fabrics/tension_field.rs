@@ -24,8 +24,8 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use super::fabric::{Fabric, Orthotropic, Past};
 use super::recipe::{Law, Need, Recipe, THICKNESS, modulus, ratio};
-use super::{Fabric, Orthotropic, Past};
 
 pub(super) const ENTRY: Law = Law {
     name: "tension-field",

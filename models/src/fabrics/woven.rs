@@ -32,9 +32,12 @@
 
 use std::sync::Arc;
 
+use super::bias_extension::BiasExtension;
+use super::curve::Curve;
+use super::fabric::{Fabric, Past};
 use super::orthotropic::{coupling_fits, shear_modulus};
 use super::recipe::{CurveInput, Law, Need, Parameter, Recipe, THICKNESS, Values, modulus, ratio};
-use super::{BiasExtension, Curve, Fabric, Past, Yarn};
+use super::yarn::Yarn;
 
 pub(super) const ENTRY: Law = Law {
     name: "woven",

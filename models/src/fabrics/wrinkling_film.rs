@@ -36,8 +36,8 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+use super::fabric::{Fabric, Kind, NeoHookean, Past, WrinklingFilm};
 use super::recipe::{Law, Need, Parameter, Recipe, THICKNESS, modulus};
-use super::{Fabric, Kind, NeoHookean, Past};
 
 pub(super) const ENTRY: Law = Law {
     name: "wrinkling-film",
@@ -64,15 +64,6 @@ pub(super) const ENTRY: Law = Law {
         Ok(Arc::new(WrinklingFilm { film, load_n_per_m: v.get("wrinkling_load_n_per_m")? }))
     },
 };
-
-/// A film with a constant load in compression.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WrinklingFilm {
-    /// The film, which carries all tension.
-    pub film: NeoHookean,
-    /// Load of its wrinkles N, 0 or more \[N/m\].
-    pub load_n_per_m: f64,
-}
 
 /// Load of wrinkles across a tension \[N/m\] over a length \[m\], for a bending stiffness \[N m\]: N_w of the module \[N/m\].
 pub fn wrinkling_load_n_per_m(bending_nm: f64, tension_n_per_m: f64, length_m: f64) -> f64 {

@@ -2,7 +2,7 @@
 //!
 //! T = T(ε*) u(ε)/u(ε*) below ε*, the largest strain seen: see [`super::woven`].
 
-use super::Curve;
+use super::curve::Curve;
 
 /// One yarn family.
 #[derive(Debug, Clone, PartialEq)]

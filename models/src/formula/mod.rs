@@ -18,8 +18,10 @@
 //! equilibrium, or several.
 
 mod compile;
+mod integral;
 mod program;
 mod pull;
+mod variables;
 
 use crate::assembly::Assembly;
 use crate::effects::{Effect, Fitted, Group, Needs, Parameter, Stage};
@@ -27,12 +29,15 @@ use crate::root::POLE;
 use crate::site::Besides;
 use crate::term::{Account, Extreme, LedgerLine, Pose, Remembering, Term};
 use compile::{Compiled, Name, compile};
+use integral::integral;
 use program::{Op, run};
 use pull::PullTerm;
 use spelling::units::{self, Dimension};
 use std::sync::Arc;
+use variables::{INPUTS, KAPPA, PULL, STATION, VARIABLES};
 
 pub(crate) use compile::Slip;
+pub(crate) use variables::{MOST_PARAMETERS, is_variable};
 
 /// An effect of the scenario's own.
 #[derive(Debug, Clone)]
@@ -101,29 +106,6 @@ impl PartialEq for Formula {
         let texts = |f: &Formula| [&f.name, &f.moment, &f.sentence, &f.differs, &f.remedy].map(String::clone);
         texts(self) == texts(other) && self.parameters == other.parameters
     }
-}
-
-/// Names that every formula may use; the parameters follow.
-const VARIABLES: [(&str, Dimension); 8] = [
-    ("kappa", Dimension([0.0, -1.0, 0.0])),
-    ("theta", Dimension::NONE),
-    ("p_act", Dimension::PRESSURE),
-    ("p_body", Dimension::PRESSURE),
-    ("s", Dimension::LENGTH),
-    ("R", Dimension::LENGTH),
-    ("B", Dimension([1.0, 3.0, -2.0])),
-    ("pull", Dimension::MOMENT),
-];
-const KAPPA: usize = 0;
-const STATION: usize = 4;
-const PULL: usize = 7;
-/// Most parameters of one formula.
-pub(crate) const MOST_PARAMETERS: usize = 8;
-const INPUTS: usize = VARIABLES.len() + MOST_PARAMETERS;
-
-/// Whether a name means something in every formula.
-pub(crate) fn is_variable(name: &str) -> bool {
-    VARIABLES.iter().any(|(known, _)| *known == name)
 }
 
 /// What the text says of a formula, its parameters checked.
@@ -337,38 +319,6 @@ fn largest(f: &mut dyn FnMut(f64) -> f64, [low, high]: [f64; 2]) -> (f64, f64) {
         if at_left > at_right { b = right } else { a = left }
     }
     best
-}
-
-/// Nodes and weights of Lobatto's rule with five points on \[−1, 1\]: it sees the ends, so a corner close to one is not missed.
-const LOBATTO: [(f64, f64); 5] = [
-    (-1.0, 0.1),
-    (-0.654_653_670_707_977_1, 49.0 / 90.0),
-    (0.0, 32.0 / 45.0),
-    (0.654_653_670_707_977_1, 49.0 / 90.0),
-    (1.0, 0.1),
-];
-/// Halvings of the interval around a corner: its share of the integral is then below rounding.
-const HALVINGS: u32 = 40;
-
-/// ∫₀^end f, halved three times and then where two halves disagree with the whole.
-fn integral(f: &mut dyn FnMut(f64) -> f64, end: f64) -> f64 {
-    let whole = lobatto(f, 0.0, end);
-    let size = whole.abs() + f(end).abs() * end.abs();
-    refined(f, (0.0, end), whole, 1e-14 * size, HALVINGS)
-}
-
-fn refined(f: &mut dyn FnMut(f64) -> f64, (a, b): (f64, f64), whole: f64, error: f64, left: u32) -> f64 {
-    let middle = 0.5 * (a + b);
-    let (low, high) = (lobatto(f, a, middle), lobatto(f, middle, b));
-    if left == 0 || (left < HALVINGS - 2 && (low + high - whole).abs() <= error) {
-        return low + high;
-    }
-    refined(f, (a, middle), low, error, left - 1) + refined(f, (middle, b), high, error, left - 1)
-}
-
-fn lobatto(f: &mut dyn FnMut(f64) -> f64, a: f64, b: f64) -> f64 {
-    let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
-    LOBATTO.iter().map(|(x, weight)| weight * f(middle + half * x)).sum::<f64>() * half
 }
 
 #[cfg(test)]

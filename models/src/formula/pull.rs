@@ -4,7 +4,8 @@
 //! pull = η P v'(a)/κ'(a)      E(a) = −∫₀^a M(κ, pull) κ' da' / η      κ of inextensible fabric
 //! ```
 
-use super::{INPUTS, KAPPA, PULL, integral};
+use super::integral::integral;
+use super::variables::{INPUTS, KAPPA, PULL};
 use crate::actuators::{Actuator, ActuatorShape};
 use crate::formula::program::{Op, run};
 use crate::linkage::Linkage;

@@ -162,7 +162,7 @@ fn the_force_is_minus_the_slope_of_the_energy_also_at_corners() {
     ] {
         let formula = Formula::new(draft(moment, &parameters)).unwrap_or_else(|e| panic!("{moment}: {e:?}"));
         let robot = Scenario::parse(shipped("epam-textbook").unwrap()).unwrap();
-        let mut assembly = crate::model::assemble(&robot, &robot.spans(), 12);
+        let mut assembly = crate::assemble::assemble(&robot, &robot.spans(), 12);
         formula.add(&vec![0.5; parameters.len()], &mut assembly);
         let term = assembly.sites[0].body_terms.last().unwrap();
         let energy = |kappa: f64| {
@@ -237,7 +237,7 @@ fn the_force_of_a_share_of_the_pull_is_minus_the_slope_of_its_energy() {
     for kind in ["epam", "fpam", "spam"] {
         let robot = Scenario::parse(shipped(kind).unwrap()).unwrap();
         let scenario = pulled(&robot, kind, "-a*(1 - theta)*pull*exp(-s/R)", &[0.4]);
-        let mut assembly = crate::model::assemble(&robot, &robot.spans(), 12);
+        let mut assembly = crate::assemble::assemble(&robot, &robot.spans(), 12);
         scenario.formulas[0].add(&[0.4], &mut assembly);
         let term = assembly.sites[0].actuator_terms.last().unwrap();
         let energy = |a: f64| {

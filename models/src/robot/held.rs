@@ -1,17 +1,9 @@
 //! The whole robot held in a shape, or taken as it is.
 
-use super::{Workspace, disagreement, place_of};
+use super::coupled::{disagreement, place_of};
+use super::workspace::Workspace;
 use crate::assembly::Assembly;
 use crate::site::SiteState;
-
-/// Curvatures to hold, and what is missing there; empty where nothing is held.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Held {
-    /// Per segment \[1/m\].
-    pub curvatures: Vec<f64>,
-    /// Per segment \[N·m\].
-    pub missing: Vec<f64>,
-}
 
 /// Takes the curvatures that are held, and what is missing there for an equilibrium.
 pub(crate) fn hold(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) {

@@ -1,6 +1,7 @@
 //! What cannot be built: one place for the scenario and for the finite elements.
 
-use super::{ActuatorChoice, Scenario};
+use super::choice::ActuatorChoice;
+use super::stated::Scenario;
 use crate::actuators::pattern::Pattern;
 use std::f64::consts::PI;
 

@@ -1,12 +1,13 @@
 //! Numbers of a scenario that a hand may turn: where they stand in the text, and from where to where.
 
-use super::Scenario;
+use super::keys::key;
+use super::stated::Scenario;
 
 /// A number to turn, in the unit of its key.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Dial {
     /// Place in the scenario's text, as `body.radius_mm`.
-    pub place: &'static str,
+    pub place: String,
     /// What it is, in words.
     pub name: &'static str,
     /// Unit.
@@ -21,6 +22,19 @@ pub struct Dial {
     pub step: f64,
 }
 
+/// What a hand may turn: place, words and step.
+const DIALS: &[(&str, &str, &str, f64)] = &[
+    ("body", "pressure_kpa", "body pressure", 0.1),
+    ("body", "radius_mm", "body radius", 1.0),
+    ("body", "length_mm", "body length", 1.0),
+    ("body", "bending_stiffness_nm2", "bending stiffness of the body", 0.01),
+    ("actuator", "length_mm", "length of one unit", 1.0),
+    ("actuator", "width_mm", "width of one unit", 1.0),
+    ("actuator", "count", "units in a row", 1.0),
+    ("actuator", "turns", "turns of the strip round the body", 0.05),
+    ("actuator", "fold_mm", "depth of the folds", 1.0),
+];
+
 /// Bending stiffness to which a body of fabric can be turned \[N·m²\]; fits of the robots here end below.
 const STIFF_NM2: f64 = 2.0;
 
@@ -28,46 +42,19 @@ impl Scenario {
     /// Sizes, body pressure and stiffness, each from half to twice what it is. A size may not fit the others all the way: the
     /// scenario is then refused as any other.
     pub fn dials(&self) -> Vec<Dial> {
-        let a = &self.actuator;
-        let around = |place, name, unit, value: f64, step: f64| Dial {
-            place,
-            name,
-            unit,
-            value,
-            low: (0.5 * value / step).ceil() * step,
-            high: (2.0 * value / step).floor() * step,
-            step,
+        let dial = |&(table, name, words, step): &(&str, &'static str, &'static str, f64)| {
+            let key = key(table, name)?;
+            let value = key.value(self)?;
+            let (low, high) = match name {
+                "bending_stiffness_nm2" => (0.0, STIFF_NM2.max(2.0 * value)),
+                _ => ((0.5 * value / step).ceil() * step, (2.0 * value / step).floor() * step),
+            };
+            // Missing parts cannot be turned, nor can a count of one.
+            let is_there = table == "body" || value > if name == "count" { 1.0 } else { 0.0 };
+            let unit = key.range?.unit;
+            is_there.then(|| Dial { place: key.place(), name: words, unit, value, low, high, step })
         };
-        let mm = |place, name, value_m: f64| around(place, name, "mm", 1e3 * value_m, 1.0);
-        let stiffness = Dial {
-            low: 0.0,
-            high: STIFF_NM2.max(2.0 * self.bending_stiffness),
-            ..around(
-                "body.bending_stiffness_nm2",
-                "bending stiffness of the body",
-                "N m²",
-                self.bending_stiffness,
-                0.01,
-            )
-        };
-        let mut dials = vec![
-            around("body.pressure_kpa", "body pressure", "kPa", 1e-3 * self.p_body_pa, 0.1),
-            mm("body.radius_mm", "body radius", self.radius_m),
-            mm("body.length_mm", "body length", self.length_m),
-            stiffness,
-        ];
-        if a.exists() {
-            let count = around("actuator.count", "units in a row", "", a.count as f64, 1.0);
-            dials.push(mm("actuator.length_mm", "length of one unit", a.shape.length_m));
-            dials.push(mm("actuator.width_mm", "width of one unit", a.shape.width_m));
-            dials.extend((a.count > 1).then_some(count));
-            let turns = around("actuator.turns", "turns of the strip round the body", "", a.turns, 0.05);
-            dials.extend((a.turns > 0.0).then_some(turns));
-        }
-        if a.shape.fold_m > 0.0 {
-            dials.push(mm("actuator.fold_mm", "depth of the folds", a.shape.fold_m));
-        }
-        dials
+        DIALS.iter().filter_map(dial).collect()
     }
 }
 

@@ -1,6 +1,6 @@
 //! `[[formula]]`: the scenario's own effects.
 
-use super::check::{Checked, refuse, unit};
+use super::given::{Checked, refuse, unit};
 use super::raw::{Raw, RawFormula, RawParameter};
 use crate::effects::EFFECTS;
 use crate::error::ScenarioError;

@@ -16,90 +16,28 @@ pub(super) struct Raw {
     /// Free text; read by people.
     #[serde(default, rename = "notes")]
     pub _notes: String,
-    pub body: Spanned<Body>,
-    pub actuator: Option<Spanned<RawActuator>>,
+    pub body: Spanned<Entries>,
+    pub actuator: Option<Spanned<Entries>>,
     #[serde(default)]
-    pub strip: Vec<Spanned<RawStrip>>,
+    pub strip: Vec<Spanned<Entries>>,
     #[serde(default)]
-    pub zone: Vec<Spanned<RawZone>>,
+    pub zone: Vec<Spanned<Entries>>,
     #[serde(default)]
     pub markers: Markers,
     #[serde(default)]
     pub predict: Predict,
-    pub supply: Option<Spanned<RawSupply>>,
+    pub supply: Option<Spanned<Entries>>,
     #[serde(default)]
     pub formula: Vec<Spanned<RawFormula>>,
     #[serde(default)]
-    pub effects: BTreeMap<Spanned<String>, BTreeMap<Spanned<String>, Spanned<toml::Value>>>,
+    pub effects: BTreeMap<Spanned<String>, Entries>,
     /// Settings of the finite element run; read by the engine, which is not known here.
     #[serde(default, rename = "fem")]
     pub _fem: Option<serde::de::IgnoredAny>,
 }
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Body {
-    pub radius_mm: Num,
-    pub length_mm: Num,
-    pub pressure_kpa: Num,
-    pub bending_stiffness_nm2: Option<Num>,
-    pub hinge_curvature_per_m: Option<Num>,
-    pub hinge_moment_share: Option<Num>,
-    pub wall_stiffness_n_per_m: Option<Num>,
-    pub wall_shear_n_per_m: Option<Num>,
-    pub wall_basis: Option<Spanned<toml::Value>>,
-    pub centre_line_mm: Option<Num>,
-    pub gravity: Option<Spanned<Exactly<2>>>,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawActuator {
-    pub kind: Spanned<String>,
-    pub length_mm: Num,
-    pub width_mm: Num,
-    pub count: Spanned<i64>,
-    pub start_mm: Option<Num>,
-    pub arm_mm: Option<Num>,
-    pub fold_mm: Option<Num>,
-    pub volume_gain: Option<Num>,
-    pub bias_deg: Option<Num>,
-    pub channel: Option<Spanned<i64>>,
-    pub max_pressure_kpa: Option<Num>,
-    pub azimuth_deg: Option<Num>,
-    pub turns: Option<Num>,
-}
-
-/// A further strip: keys left out are those of `[actuator]`.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawStrip {
-    pub azimuth_deg: Num,
-    pub turns: Option<Num>,
-    pub length_mm: Option<Num>,
-    pub width_mm: Option<Num>,
-    pub count: Option<Spanned<i64>>,
-    pub start_mm: Option<Num>,
-    pub arm_mm: Option<Num>,
-    pub fold_mm: Option<Num>,
-    pub volume_gain: Option<Num>,
-    pub channel: Option<Spanned<i64>>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawZone {
-    pub from_mm: Num,
-    pub to_mm: Num,
-    pub radius_mm: Option<Num>,
-    pub bending_stiffness_nm2: Option<Num>,
-    pub passive: Option<bool>,
-    pub length_mm: Option<Num>,
-    pub width_mm: Option<Num>,
-    pub fold_mm: Option<Num>,
-    pub arm_mm: Option<Num>,
-    pub channel: Option<Spanned<i64>>,
-}
+/// A table whose keys are in [`super::keys`].
+pub(super) type Entries = BTreeMap<Spanned<String>, Spanned<toml::Value>>;
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -114,15 +52,6 @@ pub(super) struct Predict {
     #[serde(default)]
     pub pressures_kpa: Vec<Num>,
     pub segments: Option<Spanned<i64>>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawSupply {
-    pub valve_time_s: Option<Num>,
-    pub conductance_l_per_s_bar: Option<Num>,
-    pub critical_ratio: Option<Num>,
-    pub volume_ml: Option<Num>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -1,6 +1,7 @@
 //! The body cut into stretches of equal design.
 
-use super::{ActuatorChoice, Scenario, Zone};
+use super::choice::ActuatorChoice;
+use super::stated::{Scenario, Zone};
 use crate::actuators::{Actuator, ActuatorShape};
 
 /// A stretch of equal design.
@@ -29,9 +30,11 @@ pub struct Span {
 /// Stretches shorter than this are rounding of two boundaries meant to be one \[m\].
 const MERGE_BELOW_M: f64 = 1e-9;
 
-pub(super) fn spans(scenario: &Scenario) -> Vec<Span> {
-    let cuts = cuts(scenario);
-    cuts.windows(2).map(|pair| span(scenario, pair[0], pair[1])).collect()
+impl Scenario {
+    /// Stretches of equal design, base to tip.
+    pub fn spans(&self) -> Vec<Span> {
+        cuts(self).windows(2).map(|pair| span(self, pair[0], pair[1])).collect()
+    }
 }
 
 fn active(strip: &ActuatorChoice, radius_m: f64) -> (f64, f64) {

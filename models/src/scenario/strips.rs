@@ -1,86 +1,108 @@
-//! Strips round the body: `azimuth_deg` and `turns` of `[actuator]`, and `[[strip]]`.
+//! The strips of actuators: `[actuator]`, and each `[[strip]]` round the body.
 
-use super::check::{Checked, actuator, optional, refuse};
-use super::raw::{Raw, RawActuator, RawStrip};
-use super::{ActuatorChoice, Scenario};
-use crate::space::IN_SPACE;
-use spelling::units::Range;
-use std::f64::consts::{PI, TAU};
+use super::choice::ActuatorChoice;
+use super::given::{Checked, Given, refuse};
+use super::raw::{Entries, Raw};
+use super::stated::Scenario;
+use crate::actuators::{self, ACTUATORS, Actuator, ActuatorShape, BIAS, Family};
+use crate::effects::IN_SPACE;
+use std::f64::consts::TAU;
 use toml::Spanned;
 
-const AZIMUTH: Range = Range {
-    name: "azimuth",
-    unit: "deg",
-    si: PI / 180.0,
-    ..Range::plain(-360.0, 360.0, "write degrees from y towards z: 90 is z")
-};
-const TURNS: Range =
-    Range { name: "turns", ..Range::plain(-20.0, 20.0, "write turns round the body from start to end") };
+/// A strip of units on a body.
+pub(super) fn actuator(given: &Given, radius_m: f64, length_m: f64) -> Checked<ActuatorChoice> {
+    let name: String = given.needed("kind", given.read("kind")?)?;
+    let Some(kind) = actuators::by_name(&name) else {
+        let known: Vec<&str> = ACTUATORS.iter().map(|a| a.name).collect();
+        let help = spelling::known(&name, &known);
+        return refuse(format!("unknown actuator \"{name}\""), help, given.span_of("kind"));
+    };
+    of_family(given, kind)?;
+    let choice = ActuatorChoice {
+        kind,
+        shape: ActuatorShape {
+            length_m: given.need("length_mm")?,
+            width_m: given.need("width_mm")?,
+            fold_m: given.number("fold_mm")?.unwrap_or(0.0),
+            volume_gain: given.number("volume_gain")?.unwrap_or(1.0),
+            bias_rad: given.number("bias_deg")?.unwrap_or(BIAS),
+        },
+        count: given.needed("count", given.whole("count")?)?,
+        start_m: given.number("start_mm")?.unwrap_or(0.0),
+        arm_m: given.number("arm_mm")?,
+        channel: given.whole("channel")?.unwrap_or(0),
+        azimuth_rad: given.number("azimuth_deg")?.unwrap_or(0.0),
+        turns: given.number("turns")?.unwrap_or(0.0),
+    };
+    check_turns(given, &choice, radius_m)?;
+    let end_m = choice.start_m + choice.covered_m(radius_m);
+    if end_m > length_m * (1.0 + 1e-9) {
+        let [unit, start, end, length] = [choice.shape.length_m, choice.start_m, end_m, length_m].map(|m| m * 1e3);
+        let message = format!(
+            "{} units of {unit} mm from {start} mm end at {end:.1} mm, beyond the body's {length:.1} mm",
+            choice.count
+        );
+        let help = "lower count, length_mm or start_mm, or raise body.length_mm";
+        return refuse(message, help, given.span_of("count"));
+    }
+    Ok(choice)
+}
 
-/// Azimuth \[rad\] and turns.
-pub(super) fn round_the_body(a: &RawActuator) -> Checked<(f64, f64)> {
-    Ok((optional(&a.azimuth_deg, &AZIMUTH)?.unwrap_or(0.0), optional(&a.turns, &TURNS)?.unwrap_or(0.0)))
+/// Refuses a key that moves nothing of such an actuator.
+fn of_family(given: &Given, kind: &Actuator) -> Checked<()> {
+    let (key, meaning) = match kind.family {
+        Family::Pouch => ("bias_deg", "the angle of a muscle's yarns"),
+        Family::Mckibben => ("fold_mm", "the depth of a pouch's folds"),
+    };
+    match given.has_any(&[key]) {
+        true => {
+            let message = format!("{key} is {meaning}; a {} has none", kind.name);
+            refuse(message, "leave the line out", given.span_of(key))
+        }
+        false => Ok(()),
+    }
 }
 
 /// Refuses a helix that its strip is too short for.
-pub(super) fn check_turns(a: &RawActuator, choice: &ActuatorChoice, radius_m: f64) -> Checked<()> {
-    let (Some(turns), round_m) = (&a.turns, TAU * radius_m * choice.turns.abs()) else { return Ok(()) };
+fn check_turns(given: &Given, choice: &ActuatorChoice, radius_m: f64) -> Checked<()> {
     // Beyond 60° the strip goes round the body rather than along it.
     if choice.turns == 0.0 || choice.cos_slant(radius_m) >= 0.5 {
         return Ok(());
     }
-    let (strip, round) = (choice.strip_m() * 1e3, round_m * 1e3);
+    let (strip, round) = (choice.strip_m() * 1e3, TAU * radius_m * choice.turns.abs() * 1e3);
     let message = format!(
         "{} turns take {round:.1} mm round the body, of a strip of {strip:.1} mm: it would lie more than 60° off the axis",
-        turns.get_ref()
+        choice.turns
     );
-    refuse(message, "write fewer turns, or more or longer units", turns.span())
+    refuse(message, "write fewer turns, or more or longer units", given.span_of("turns"))
 }
 
 /// `[[strip]]`: keys left out are those of `[actuator]`.
 pub(super) fn more_strips(
-    raw: &Raw,
+    tables: &[Spanned<Entries>],
+    model: Option<&Given>,
     first: &ActuatorChoice,
     radius_m: f64,
     length_m: f64,
 ) -> Checked<Vec<ActuatorChoice>> {
-    let Some(model) = raw.actuator.as_ref() else {
-        return match raw.strip.first() {
-            Some(strip) => refuse("a strip of an actuator that is not there".into(), "add [actuator]", strip.span()),
-            None => Ok(Vec::new()),
-        };
-    };
     let mut strips: Vec<ActuatorChoice> = Vec::new();
-    for strip in &raw.strip {
-        let merged = Spanned::new(strip.span(), merged(model.get_ref(), strip.get_ref()));
-        let next = actuator(&merged, radius_m, length_m)?;
+    for table in tables {
+        let Some(model) = model else {
+            return refuse("a strip of an actuator that is not there".into(), "add [actuator]", table.span());
+        };
+        let own = Given::new("strip", table)?;
+        own.need("azimuth_deg")?;
+        let next = actuator(&own.or(model), radius_m, length_m)?;
         if let Some(other) = std::iter::once(first).chain(&strips).find(|other| overlap(other, &next, radius_m)) {
             let (a, b) = (other.azimuth_rad.to_degrees(), next.azimuth_rad.to_degrees());
             let message = format!("the strips from azimuth {a:.0} and {b:.0} degrees lie on each other");
             let help =
                 "move azimuth_deg or start_mm, or make them narrower: width_mm over the radius is the angle they take";
-            return refuse(message, help, strip.span());
+            return refuse(message, help, table.span());
         }
         strips.push(next);
     }
     Ok(strips)
-}
-
-fn merged(model: &RawActuator, strip: &RawStrip) -> RawActuator {
-    let own = strip;
-    RawActuator {
-        length_mm: own.length_mm.clone().unwrap_or_else(|| model.length_mm.clone()),
-        width_mm: own.width_mm.clone().unwrap_or_else(|| model.width_mm.clone()),
-        count: own.count.clone().unwrap_or_else(|| model.count.clone()),
-        start_mm: own.start_mm.clone().or_else(|| model.start_mm.clone()),
-        arm_mm: own.arm_mm.clone().or_else(|| model.arm_mm.clone()),
-        fold_mm: own.fold_mm.clone().or_else(|| model.fold_mm.clone()),
-        volume_gain: own.volume_gain.clone().or_else(|| model.volume_gain.clone()),
-        channel: own.channel.clone().or_else(|| model.channel.clone()),
-        azimuth_deg: Some(own.azimuth_deg.clone()),
-        turns: own.turns.clone().or_else(|| model.turns.clone()),
-        ..model.clone()
-    }
 }
 
 /// Whether two strips lie on each other somewhere: closer round the body than half of both widths.
@@ -100,27 +122,18 @@ fn overlap(a: &ActuatorChoice, b: &ActuatorChoice, radius_m: f64) -> bool {
 }
 
 /// Refuses what is not built for strips round the body.
-pub(super) fn check_space(scenario: &Scenario, raw: &Raw) -> Checked<()> {
+pub(super) fn check_space(scenario: &Scenario, raw: &Raw, body: &Given) -> Checked<()> {
     if !scenario.is_spatial() {
         return Ok(());
     }
-    let only = format!("strips round the body take {}", IN_SPACE.join(", "));
-    for name in raw.effects.keys() {
-        if !IN_SPACE.contains(&name.get_ref().as_str()) {
-            let message = format!("the effect {} is not built for strips round the body", name.get_ref());
-            return refuse(message, only, name.span());
-        }
+    if let Some(name) = raw.effects.keys().find(|name| !IN_SPACE.contains(&name.get_ref().as_str())) {
+        let message = format!("the effect {} is not built for strips round the body", name.get_ref());
+        return refuse(message, format!("strips round the body take {}", IN_SPACE.join(", ")), name.span());
     }
-    let body = raw.body.get_ref();
-    let walls = [
-        ("wall_stiffness_n_per_m", &body.wall_stiffness_n_per_m),
-        ("wall_shear_n_per_m", &body.wall_shear_n_per_m),
-        ("hinge_moment_share", &body.hinge_moment_share),
-    ];
-    for (key, value) in walls {
-        if let Some(value) = value {
+    for key in ["wall_stiffness_n_per_m", "wall_shear_n_per_m", "hinge_moment_share"] {
+        if body.has_any(&[key]) {
             let message = format!("{key} is not built for strips round the body");
-            return refuse(message, "leave it out: the wall is then inextensible", value.span());
+            return refuse(message, "leave it out: the wall is then inextensible", body.span_of(key));
         }
     }
     match raw.zone.first() {

@@ -1,6 +1,7 @@
 //! What a user can type wrong, and what the scenario says then.
 
 use super::*;
+use crate::effects::EFFECTS;
 
 fn broken(from: &str, to: &str) -> ScenarioError {
     let text = shipped("epam-textbook").unwrap();
@@ -187,7 +188,7 @@ fn a_wall_is_told_once_and_with_how_it_is_known() {
     assert_eq!((wall.stiffness_n_per_m, wall.basis.as_str()), (Some(41600.0), "assumed"));
     let refused = [
         ("wall_stiffness_n_per_m = 41.6", "wall stiffness must be", "N/mm"),
-        ("wall_stiffness_n_per_m = 41600\nhinge_curvature_per_m = 0.1", "says the same twice", "remove"),
+        ("wall_stiffness_n_per_m = 41600\nhinge_curvature_per_m = 0.1", "repeats a wall", "remove"),
         ("wall_stiffness_n_per_m = 41600\nwall_basis = \"geometry\"", "is none of the words", "predicted"),
         ("wall_basis = \"measured\"", "wall_basis without a wall", "add"),
     ];

@@ -5,8 +5,8 @@
 //! Δ = (1 − ε) h (t sin u/u + n (1 − cos u)/u)      ε contraction of the centre line
 //! ```
 
-use super::Bend;
 use crate::shape::sinc_pair;
+use std::f64::consts::FRAC_PI_2;
 
 /// A place and the frame there: tangent, and the directions of azimuth 0° and 90°.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,6 +23,34 @@ impl Frame {
     /// The clamp.
     pub(crate) const BASE: Frame =
         Frame { at: [0.0; 3], tangent: [1.0, 0.0, 0.0], sides: [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
+}
+
+/// Unit vector (y, z) at an azimuth, exact at quarter turns.
+pub(crate) fn direction(azimuth_rad: f64) -> [f64; 2] {
+    let quarters = (azimuth_rad / FRAC_PI_2).round();
+    let (sin, cos) = (azimuth_rad - quarters * FRAC_PI_2).sin_cos();
+    match (quarters as i64).rem_euclid(4) {
+        0 => [cos, sin],
+        1 => [-sin, cos],
+        2 => [-cos, -sin],
+        _ => [sin, -cos],
+    }
+}
+
+/// Bend and contraction of a section.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Bend {
+    /// κ_y, κ_z per unpressurised length \[1/m\].
+    pub kappa: [f64; 2],
+    /// Contraction ε₀ of the axis.
+    pub contraction: f64,
+}
+
+impl Bend {
+    /// |κ| \[1/m\].
+    pub fn size(&self) -> f64 {
+        self.kappa[0].hypot(self.kappa[1])
+    }
 }
 
 /// A stretch of one bend.

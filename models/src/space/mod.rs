@@ -24,102 +24,25 @@
 //! terms see the bend ε/D that its contraction would make alone. The body does not twist. A bend has no shear. The wall's step at
 //! κ = 0 is sharp: `hinge_curvature_per_m` acts in sections with one upright strip alone. Derived here.
 
-mod drawn;
 mod frame;
-mod model;
 mod section;
+mod state;
 #[cfg(test)]
 mod tests;
 
-use crate::assembly::{Assembly, Segment};
+use crate::assembly::{Assembly, Segment, Strip};
 use crate::body::BodyLaw;
+pub use crate::effects::IN_SPACE;
 use crate::error::Unsolved;
-use crate::robot::Workspace;
 use crate::scenario::ActuatorChoice;
 #[cfg(doc)]
 use crate::site::Site;
+use crate::site::SiteState;
 pub use frame::Frame;
-pub(crate) use frame::Stretch;
-pub use model::SectionState;
-use section::Section;
-use std::f64::consts::{FRAC_PI_2, TAU};
-
-/// Effects that act with strips round the body: those inside an actuator, and on its supply. Others are refused.
-pub const IN_SPACE: &[&str] = &[
-    "chord_arm",
-    "weld_width",
-    "end_constraint",
-    "arm_growth",
-    "fabric_stretch",
-    "shear_stiffness",
-    "shear_lock",
-    "seam_stiffness",
-    "displaced_gas",
-    "gussets",
-    "sealed_sides",
-    "fold_energy",
-    "crimped_sides",
-    "pressure_offset",
-    "pressure_loss",
-    "body_pressure_offset",
-];
-
-/// A strip of actuators where it passes a segment.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Strip {
-    /// Index of its site.
-    pub site: usize,
-    /// Azimuth in the middle of the segment, from y towards z \[rad\].
-    pub azimuth_rad: f64,
-    /// cos β of its slant to the axis.
-    pub cos_slant: f64,
-}
-
-/// Unit vector (y, z) at an azimuth, exact at quarter turns.
-pub(crate) fn direction(azimuth_rad: f64) -> [f64; 2] {
-    let quarters = (azimuth_rad / FRAC_PI_2).round();
-    let (sin, cos) = (azimuth_rad - quarters * FRAC_PI_2).sin_cos();
-    match (quarters as i64).rem_euclid(4) {
-        0 => [cos, sin],
-        1 => [-sin, cos],
-        2 => [-cos, -sin],
-        _ => [sin, -cos],
-    }
-}
-
-impl ActuatorChoice {
-    /// Length along the strip, all units \[m\].
-    pub fn strip_m(&self) -> f64 {
-        self.count as f64 * self.shape.length_m
-    }
-
-    /// Length of body that it covers, on a body of radius `radius_m` \[m\]: a helix is longer than that. NaN where so many turns
-    /// need a longer strip.
-    pub fn covered_m(&self, radius_m: f64) -> f64 {
-        if self.turns == 0.0 {
-            return self.strip_m();
-        }
-        (self.strip_m().powi(2) - (TAU * radius_m * self.turns).powi(2)).sqrt()
-    }
-
-    /// Azimuth at a station \[rad\].
-    pub fn azimuth_at(&self, radius_m: f64, s_m: f64) -> f64 {
-        if self.turns == 0.0 {
-            return self.azimuth_rad;
-        }
-        self.azimuth_rad + TAU * self.turns * (s_m - self.start_m) / self.covered_m(radius_m)
-    }
-
-    /// cos β of the slant to the axis.
-    pub fn cos_slant(&self, radius_m: f64) -> f64 {
-        if self.turns == 0.0 { 1.0 } else { self.covered_m(radius_m) / self.strip_m() }
-    }
-
-    /// sin β, positive from y towards z.
-    pub fn sin_slant(&self, radius_m: f64) -> f64 {
-        if self.turns == 0.0 { 0.0 } else { TAU * radius_m * self.turns / self.strip_m() }
-    }
-}
+pub(crate) use frame::{Bend, Stretch};
+pub(crate) use section::Section;
+pub(crate) use state::SpaceWork;
+pub use state::{SectionState, StripState};
 
 /// Strips of every segment; `spans` sites per strip, those of the first strip first.
 pub(crate) fn around(strips: &[ActuatorChoice], radius_m: f64, spans: usize, segments: &[Segment]) -> Vec<Vec<Strip>> {
@@ -131,69 +54,25 @@ pub(crate) fn around(strips: &[ActuatorChoice], radius_m: f64, spans: usize, seg
     segments.iter().map(|segment| strips.iter().enumerate().map(|s| strip(segment, s)).collect()).collect()
 }
 
-/// A strip at equilibrium.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct StripState {
-    /// Pressure after the supply stage \[Pa\].
-    pub p_act_pa: f64,
-    /// Its actuators' coordinate; 0 where they are flat.
-    pub coordinate: f64,
-    /// Tension along the strip \[N\].
-    pub tension: f64,
-}
-
-/// Buffers of a robot in space; empty for a planar one.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct SpaceWork {
-    /// Per segment.
-    pub bends: Vec<Bend>,
-    /// Per segment and strip.
-    pub strips: Vec<Vec<StripState>>,
-    /// Place and frame at each node.
-    pub frames: Vec<Frame>,
-}
-
-/// Bend and contraction of a section.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Bend {
-    /// κ_y, κ_z per unpressurised length \[1/m\].
-    pub kappa: [f64; 2],
-    /// Contraction ε₀ of the axis.
-    pub contraction: f64,
-}
-
-impl Bend {
-    /// |κ| \[1/m\].
-    pub fn size(&self) -> f64 {
-        self.kappa[0].hypot(self.kappa[1])
-    }
-}
-
-impl SpaceWork {
-    pub fn new(assembly: &Assembly) -> SpaceWork {
-        let count = assembly.around.len();
-        SpaceWork {
-            bends: vec![Bend::default(); count],
-            strips: assembly.around.iter().map(|strips| vec![StripState::default(); strips.len()]).collect(),
-            frames: vec![Frame::BASE; if count == 0 { 0 } else { count + 1 }],
-        }
-    }
-}
-
-/// Equilibrium of every section, at the strips' pressures in `work`.
-pub(crate) fn equilibrium(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Result<(), Unsolved> {
+/// Equilibrium of every section, at the strips' pressures in `work`; `states` get the size of each bend.
+pub(crate) fn equilibrium(
+    assembly: &Assembly,
+    p_body_pa: f64,
+    work: &mut SpaceWork,
+    states: &mut [SiteState],
+) -> Result<(), Unsolved> {
     refuse_the_rest(assembly)?;
     for i in 0..assembly.segments.len() {
-        let alike = i > 0 && same_section(assembly, &work.space, i);
+        let alike = i > 0 && same_section(assembly, work, i);
         if alike {
-            let (before, after) = work.space.strips.split_at_mut(i);
+            let (before, after) = work.strips.split_at_mut(i);
             after[0].copy_from_slice(&before[i - 1]);
-            work.space.bends[i] = work.space.bends[i - 1];
+            work.bends[i] = work.bends[i - 1];
         } else {
             let section = Section::new(assembly, i, p_body_pa);
-            work.space.bends[i] = section.solve(&mut work.space.strips[i])?;
+            work.bends[i] = section.solve(&mut work.strips[i])?;
         }
-        work.states[i].curvature = work.space.bends[i].size();
+        states[i].curvature = work.bends[i].size();
     }
     Ok(())
 }

@@ -1,10 +1,12 @@
 //! Equilibrium of one section: the minimum of a convex energy over κ, the contraction ε₀ found inside.
 
-use super::{Bend, Strip, StripState, direction};
+use super::frame::{Bend, direction};
+use super::state::StripState;
 use crate::actuators::Actuator;
-use crate::assembly::{Assembly, Segment};
+use crate::assembly::{Assembly, Segment, Strip};
 use crate::body::BODY_PRESSURE;
 use crate::error::Unsolved;
+use crate::linkage::FABRIC_STRETCH;
 use crate::root::{Start, find_root};
 use crate::site::{Site, SiteLoads, SiteState};
 use crate::term::{LedgerLine, Pose, Term, actuator_q};
@@ -28,7 +30,7 @@ const FLAT: f64 = 1e-8;
 const HALVINGS: usize = 40;
 
 /// One section of the body and what acts there.
-pub(super) struct Section<'a> {
+pub(crate) struct Section<'a> {
     sites: &'a [Site],
     strips: &'a [Strip],
     segment: Segment,
@@ -329,7 +331,7 @@ impl<'a> Section<'a> {
             }
             let stretch = 0.5 * site.linkage.compliance_per_n * state.tension * state.tension;
             if stretch != 0.0 {
-                post(crate::model::FABRIC_STRETCH, stretch / strip.cos_slant);
+                post(FABRIC_STRETCH, stretch / strip.cos_slant);
             }
         }
         let gas = self.area_m2 * bend.contraction + dot(self.moment_m3, bend.kappa);

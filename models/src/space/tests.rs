@@ -1,8 +1,10 @@
 //! Laws of robots in space.
 
+use super::frame::direction;
 use super::section::Section;
 use super::*;
 use crate::{Loads, Model, Prediction, Scenario};
+use std::f64::consts::TAU;
 
 /// The robot of one actuator without the planar mechanics, with lines for `[actuator]` and strips.
 fn robot(kind: &str, actuator: &str, strips: &str) -> Scenario {

@@ -5,15 +5,13 @@ use super::wish::Wish;
 use super::written::commented;
 use crate::SweepError;
 use crate::axis::{Axis, Changes, as_number, channel};
+use crate::pieces::beside;
 use crate::sample::{Method, Points};
 use argmin::core::{CostFunction, Executor};
 use argmin::solver::neldermead::NelderMead;
 use compare::{CompareError, ScenarioFile};
-use fem::FemError;
 use fem::session::Progress;
 use models::{CHANNELS, Loads, Model, Prediction};
-use rayon::prelude::*;
-use std::sync::Mutex;
 use toml::Value;
 
 /// Starts for every combination of the entries of lists, and in all.
@@ -245,7 +243,7 @@ impl CostFunction for Problem<'_> {
 /// Searches the design. The same wish gives the same bits, whatever the threads.
 ///
 /// # Errors
-/// No values of the free keys give a robot with an equilibrium; [`FemError::Interrupted`] if `progress` asked to end.
+/// No values of the free keys give a robot with an equilibrium; [`fem::FemError::Interrupted`] if `progress` asked to end.
 pub fn design(wish: &Wish, progress: Progress) -> Result<Design, SweepError> {
     design_near(wish, None, progress)
 }
@@ -253,25 +251,14 @@ pub fn design(wish: &Wish, progress: Progress) -> Result<Design, SweepError> {
 /// The same with one more start at the shares of a design, which it leaves no further than the wish asks for.
 pub(super) fn design_near(wish: &Wish, near: Option<&[f64]>, progress: Progress) -> Result<Design, SweepError> {
     let ranges: Vec<usize> = (0..wish.free.len()).filter(|k| wish.free[*k].entries().is_none()).collect();
-    let combinations =
-        wish.free.iter().filter_map(crate::axis::Axis::entries).try_fold(1_usize, |n, m| n.checked_mul(m));
+    let combinations = wish.free.iter().filter_map(Axis::entries).try_fold(1_usize, |n, m| n.checked_mul(m));
     let starts = combinations.unwrap_or(MOST_STARTS).saturating_mul(STARTS_PER_COMBINATION).min(MOST_STARTS);
     let points = Points::new(Method::Sobol, starts, wish.free.len(), 1)
         .map_err(|message| CompareError::refused(message, "leave keys out"))?;
     let from: Vec<&[f64]> = (0..starts).map(|k| points.of(k)).chain(near).collect();
     let starts = from.len();
-    let told = Mutex::new((0_usize, progress));
-    let one = |from: &&[f64]| {
-        let solved = Problem { wish, fixed: from.to_vec(), ranges: &ranges, near }.solved();
-        let mut told = told.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        told.0 += 1;
-        let share = told.0 as f64 / starts as f64;
-        match (told.1)("searching designs", Some(share)).is_break() {
-            true => Err(FemError::Interrupted { time_s: 0.0, step: 0, done: told.0, of: starts }),
-            false => Ok(solved),
-        }
-    };
-    let all: Vec<(f64, Vec<f64>)> = from.par_iter().map(one).collect::<Result<_, FemError>>()?;
+    let one = |k: usize| Ok(Problem { wish, fixed: from[k].to_vec(), ranges: &ranges, near }.solved());
+    let all: Vec<(f64, Vec<f64>)> = beside(starts, 0, "searching designs", progress, &one)?;
     let (best, shares) = all.iter().min_by(|a, b| a.0.total_cmp(&b.0)).cloned().unwrap_or((NONE, Vec::new()));
     if best >= NONE {
         let help = "widen the ranges, or try one design with ibr predict to see why";

@@ -143,7 +143,7 @@ fn a_wrong_wish_is_refused_with_its_line_and_what_to_write() {
         ("tip_mm = [300, 120]", "", "nothing is wished for"),
         ("tip_mm = [300, 120]", "tip_mm = [300, 120]\ntolerance = 0", "tolerance"),
         ("tip_mm = [300, 120]", "tip_m = [0.3, 0.12]", "unknown field"),
-        ("tip_mm = [300, 120]", "tip_mm = [300, 120, 0]", "3 numbers in place of two"),
+        ("tip_mm = [300, 120]", "tip_mm = [300, 120, 0]", "invalid length 3"),
         ("tip_mm = [300, 120]", "places = [{ s_mm = 900, at_mm = [0, 0] }]", "not on the body"),
         ("tip_mm = [300, 120]", "turns = [{ from_mm = 90, to_mm = 10, angle_deg = 5 }]", "stretch that is none"),
         ("width_mm", "widht_mm", "widht_mm"),

@@ -4,6 +4,7 @@ use crate::axis::{Axis, Changes, RawAxis, axes};
 use crate::form::{Form, Wrong};
 use compare::{CompareError, ScenarioFile};
 use serde::Deserialize;
+use spelling::Exactly;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 
@@ -99,29 +100,16 @@ enum Kind {
     Design,
 }
 
-/// Two numbers and no more: an array of serde takes the first two of many.
-#[derive(Clone, Copy, Deserialize)]
-#[serde(try_from = "Vec<f64>")]
-struct Pair([f64; 2]);
-
-impl TryFrom<Vec<f64>> for Pair {
-    type Error = String;
-
-    fn try_from(given: Vec<f64>) -> Result<Pair, String> {
-        given.try_into().map(Pair).map_err(|given: Vec<f64>| format!("{} numbers in place of two", given.len()))
-    }
-}
-
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawWish {
-    tip_mm: Option<Pair>,
+    tip_mm: Option<Exactly<2>>,
     tip_angle_deg: Option<f64>,
     #[serde(default)]
     places: Vec<Spanned<RawPlace>>,
     #[serde(default)]
     turns: Vec<Spanned<RawTurn>>,
-    force_n: Option<Pair>,
+    force_n: Option<Exactly<2>>,
     tolerance: Option<f64>,
 }
 
@@ -129,7 +117,7 @@ struct RawWish {
 #[serde(deny_unknown_fields)]
 struct RawPlace {
     s_mm: f64,
-    at_mm: Pair,
+    at_mm: Exactly<2>,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -197,6 +185,11 @@ impl Wish {
             return Err((None, message, "add [[free]] with key = \"pressure_kpa\", from = 5 and to = 30"));
         }
         let assumed = axes(&raw.assumed, true, &base)?;
+        let all = || free.iter().zip(&raw.free).chain(assumed.iter().zip(&raw.assumed));
+        if let Some((axis, raw)) = all().find(|(axis, _)| axis.key.starts_with("fem.")) {
+            let message = format!("`{}` moves nothing of the reduced model, which searches", axis.key);
+            return Err((Some(raw.span()), message, "leave it out; ibr sweep varies settings of finite elements"));
+        }
         if let Some(twice) = assumed.iter().position(|a| free.iter().any(|f| f.key == a.key)) {
             let message = format!("`{}` is free and assumed", assumed[twice].key);
             return Err((Some(raw.assumed[twice].span()), message, "what you choose is known: leave one out"));
@@ -251,7 +244,7 @@ fn wanted(raw: &RawWish, length_m: f64) -> Result<Wanted, Wrong> {
         return Err((None, "`tip_angle_deg` is more than two turns".into(), "write degrees"));
     }
     let places = raw.places.iter().map(|place| {
-        let RawPlace { s_mm, at_mm: Pair(at_mm) } = *place.get_ref();
+        let RawPlace { s_mm, at_mm: Exactly(at_mm) } = *place.get_ref();
         match on_body(s_mm) && near(at_mm) {
             true => Ok(Place { s_m: 1e-3 * s_mm, at_m: at_mm.map(|v| 1e-3 * v) }),
             false => {

@@ -25,7 +25,7 @@
 use super::{EngineRun, EngineState, ensemble, mean_and_deviation};
 use crate::policy;
 use models::Scenario;
-use models::actuators::{ActuatorShape, Family, pouch};
+use models::actuators::{ActuatorShape, pouch};
 use serde::Serialize;
 use std::f64::consts::{FRAC_2_PI, PI};
 
@@ -73,7 +73,7 @@ fn lens_m3(scenario: &Scenario, turn_rad: f64) -> Option<f64> {
     let count = actuator.count as f64;
     let contraction = turn_rad * arm_m / (count * actuator.shape.length_m);
     let inside = contraction > 0.0 && contraction < 1.0 - FRAC_2_PI;
-    (inside && actuator.kind.family == Family::Pouch).then(|| {
+    (inside && actuator.kind.has_pouches()).then(|| {
         let lens = ActuatorShape { volume_gain: 1.0, ..actuator.shape };
         let at = pouch::stroke(&lens, pouch::half_angle(contraction));
         count * lens.length_m * at.volume

@@ -1,24 +1,11 @@
 //! What a [`Model`] says of a robot in space.
 
-use super::{Section, Stretch, StripState};
+use super::{Model, Prediction, Tip, post};
 use crate::assembly::Segment;
 use crate::error::Unsolved;
-use crate::model::{Model, Prediction, post};
 use crate::robot::Workspace;
+use crate::space::{Bend, Section, SectionState, Stretch, StripState};
 use crate::term::{Row, RowKind};
-
-/// A section at equilibrium.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SectionState<'a> {
-    /// Where it is.
-    pub segment: Segment,
-    /// κ_y, κ_z: bend towards azimuth 0° and 90° of the frame that follows the body without twist \[1/m\].
-    pub kappa: [f64; 2],
-    /// Contraction of the axis \[-\].
-    pub contraction: f64,
-    /// Its strips, in the order of the scenario.
-    pub strips: &'a [StripState],
-}
 
 impl Model {
     /// Whether strips lie round the body: see [`crate::space`].
@@ -34,7 +21,7 @@ impl Model {
     /// Sections of a robot in space, base to tip; none of a planar one.
     pub fn sections<'a>(&'a self, at: &'a Prediction) -> impl Iterator<Item = SectionState<'a>> + 'a {
         let work = &at.work.space;
-        let section = |(segment, (bend, strips)): (&Segment, (&super::Bend, &'a Vec<StripState>))| SectionState {
+        let section = |(segment, (bend, strips)): (&Segment, (&Bend, &'a Vec<StripState>))| SectionState {
             segment: *segment,
             kappa: bend.kappa,
             contraction: bend.contraction,
@@ -62,7 +49,7 @@ impl Model {
             out.work.headings[i + 1] = turned;
         }
         let [x_m, y_m, z_m] = out.work.space.frames[self.assembly().segments.len()].at;
-        out.tip = crate::model::Tip { x_m, y_m, z_m, angle_rad: turned };
+        out.tip = Tip { x_m, y_m, z_m, angle_rad: turned };
     }
 
     /// Markers on the centre line: effects of the camera are refused in space.

@@ -1,0 +1,129 @@
+//! What an actuator states: words for people, laws as functions.
+
+use super::pattern::Pattern;
+use super::shape::ActuatorShape;
+
+/// What makes the actuator contract.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Family {
+    /// Flat pouch that becomes a lens: geometry-based contraction.
+    Pouch,
+    /// Bias-cut fabric tube that widens and shortens: material-based contraction.
+    Mckibben,
+}
+
+/// An actuator kind. Plain data: formulas as text for `ibr list`, laws as functions.
+#[derive(Debug, Clone, Copy)]
+pub struct Actuator {
+    /// Name in scenarios and data: `spam`, `cpam`, `epam`, `fpam`.
+    pub name: &'static str,
+    /// Full name.
+    pub title: &'static str,
+    /// One plain sentence.
+    pub sentence: &'static str,
+    /// Stroke law in Unicode.
+    pub formula: &'static str,
+    /// Literature, and which parts are derived here.
+    pub reference: &'static str,
+    /// When the law holds and when not to use it.
+    pub validity: &'static str,
+    /// Contraction mechanism; decides which effects apply.
+    pub family: Family,
+    /// Contraction, volume and lift at a coordinate.
+    pub stroke: fn(&ActuatorShape, f64) -> Stroke,
+    /// Coordinate interval in which equilibrium is sought.
+    pub range: (f64, f64),
+    /// Coordinate at which the actuator meets a demand, to rounding, and the slope there of the weighted imbalance over
+    /// P·area·D₀.
+    pub guess: fn(&ActuatorShape, &Demand) -> (f64, f64),
+    /// Area A so that P·A is a typical actuator force \[m²\].
+    pub area: fn(&ActuatorShape) -> f64,
+    /// Arm from the taut generator to the line of action at rest \[m\], from body radius and shape; used if the
+    /// scenario gives none.
+    pub arm: fn(f64, &ActuatorShape) -> f64,
+    /// Share of the sealed-edge loss that the edges of this actuator suffer: 1 for sealed edges, 0 for free ones.
+    pub edge_restraint: fn(&ActuatorShape) -> f64,
+    /// How it is cut, folded, welded and joined to the body.
+    pub pattern: fn(&ActuatorShape) -> Pattern,
+}
+
+impl Actuator {
+    /// Whether it is a row of pouches, flat without pressure; a muscle is one tube of yarns, round from the start.
+    pub fn has_pouches(&self) -> bool {
+        match self.family {
+            Family::Pouch => true,
+            Family::Mckibben => false,
+        }
+    }
+}
+
+/// Restoring moment over P·area·D₀, `m = m₀ + m₁ ε D₀/D`, neither negative \[-\], on an arm `D = D₀ (1 + growth·lift)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Demand {
+    /// m₀: the body's hinge.
+    pub constant: f64,
+    /// m₁: the wall's bending stiffness.
+    pub per_contraction: f64,
+    /// β/D₀ \[1/m\].
+    pub growth: f64,
+}
+
+/// Demand beyond which the arm of a start value is the one at rest.
+const WEAK: f64 = 1e3;
+
+/// What a growing arm makes of a demand: `m (1 − r)/d` with `d = D/D₀` and `r = ε d'/(ε' d)`, what virtual work takes.
+pub(super) struct Need {
+    pub value: f64,
+    /// Its derivative by the coordinate.
+    pub slope: f64,
+    /// d/(1 − r): weighted imbalance per `force − weight·need`.
+    pub lever: f64,
+}
+
+impl Demand {
+    /// From contraction and d − 1, each with its first and second derivative by the coordinate.
+    #[inline(always)]
+    pub(super) fn need(&self, [e, de, dde]: [f64; 3], [grown, dd, ddd]: [f64; 3]) -> Need {
+        let (m0, m1) = (self.constant, self.per_contraction);
+        // A weak actuator hardly swells, and the quotients below lose all digits at rest.
+        if self.growth == 0.0 || m0 + m1 > WEAK {
+            return Need { value: m0 + m1 * e, slope: m1 * de, lever: 1.0 };
+        }
+        let d = 1.0 + grown;
+        let per = 1.0 / (de * d);
+        let (per_d, d_ratio) = (de * per, dd * de * per);
+        let r = e * dd * per;
+        let slope_r = (de * dd + e * ddd) * per - r * (dde * d * per + d_ratio);
+        let m = m0 + m1 * e * per_d;
+        let slope_m = m1 * (de - e * d_ratio) * per_d;
+        let value = m * (1.0 - r) * per_d;
+        let slope = (slope_m * (1.0 - r) - m * slope_r) * per_d - value * d_ratio;
+        Need { value, slope, lever: d / (1.0 - r) }
+    }
+}
+
+/// Whether Newton's next step would be rounding: steps shrink as `next = step²·(step/last²)`, or near enough the square.
+#[inline(always)]
+pub(super) fn converged(step: f64, last: f64) -> bool {
+    let square = step * step;
+    square < 1e-16 || square * step.abs() < 1e-16 * last * last
+}
+
+/// Stroke law at one coordinate `a`, with derivatives by `a`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stroke {
+    /// Contraction ε \[-\].
+    pub contraction: f64,
+    /// dε/da.
+    pub d_contraction: f64,
+    /// Volume per unit flat length \[m²\].
+    pub volume: f64,
+    /// d(volume)/da.
+    pub d_volume: f64,
+    /// How far the line of action moves away from the body \[m\].
+    pub lift: f64,
+    /// d(lift)/da.
+    pub d_lift: f64,
+    /// Positive factor that makes the moment balance nearly linear in `a` (θ for a pouch, whose force goes as 1/θ).
+    pub weight: f64,
+}

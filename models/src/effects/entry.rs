@@ -1,0 +1,283 @@
+//! An effect as plain data: its words, its parameters, and the function that adds it. Each effect sees this through `use super::entry::*`.
+
+pub(super) use crate::actuators::{ActuatorShape, Family};
+pub(super) use crate::assembly::Assembly;
+pub(super) use crate::section::Section;
+pub(super) use crate::site::{Besides, Site};
+pub(super) use crate::term::{Account, LedgerLine, Memory, Pose, Remembering, Term, actuator_q};
+
+/// Where in a prediction an effect acts; stages always run in this order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stage {
+    /// Set pressure → pressure in the actuator.
+    Supply,
+    /// Pressure → curvature.
+    Balance,
+    /// Centre line → what the camera sees.
+    Camera,
+}
+
+impl Stage {
+    /// Lower-case word for tables and JSON.
+    pub fn word(self) -> &'static str {
+        match self {
+            Stage::Supply => "supply",
+            Stage::Balance => "balance",
+            Stage::Camera => "camera",
+        }
+    }
+}
+
+/// What an effect belongs to: where to look for it on the robot. Supply and measurement are to be ruled out before physics.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Group {
+    /// The actuator and its fabric.
+    Actuator,
+    /// The body's wall.
+    Body,
+    /// What pulls on the robot from outside.
+    Load,
+    /// The air on its way to the actuator.
+    Supply,
+    /// Camera, markers and mount: to be ruled out before any physics.
+    Measurement,
+}
+
+impl Group {
+    /// Whether it is checked on the bench before physics is blamed.
+    pub fn is_nuisance(self) -> bool {
+        matches!(self, Group::Supply | Group::Measurement)
+    }
+
+    /// Lower-case word for tables and JSON.
+    pub fn word(self) -> &'static str {
+        match self {
+            Group::Actuator => "actuator",
+            Group::Body => "body",
+            Group::Load => "load",
+            Group::Supply => "supply",
+            Group::Measurement => "measurement",
+        }
+    }
+}
+
+/// One parameter of an effect. Values are in `unit` in scenarios and tables, in SI (`value × si`) inside.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parameter<'a> {
+    /// Key in the scenario, with the unit as suffix.
+    pub key: &'a str,
+    /// Letter in the formula.
+    pub symbol: &'a str,
+    /// Unit of the scenario value.
+    pub unit: &'a str,
+    /// Factor to SI.
+    pub si: f64,
+    /// Value at which the effect vanishes.
+    pub neutral: f64,
+    /// Typical size where the effect matters.
+    pub typical: f64,
+    /// Least value that a fit tries, and that is accepted without a known source.
+    pub lower: f64,
+    /// Largest value of that kind.
+    pub upper: f64,
+    /// Physically possible values: a separate test may find that much.
+    pub possible: [f64; 2],
+    /// Where a fit starts if one start is not enough: thresholds and time scales; empty: at the typical size.
+    pub starts: &'a [f64],
+    /// Typical size for single actuators, where it depends on their curvature and stiffness.
+    pub by_actuator: &'a [(&'a str, f64)],
+    /// When a fit may change it; otherwise it stays neutral.
+    pub fitted: Fitted,
+    /// It belongs to the room: a robot rolled by 180° sees it with the other sign.
+    pub in_room: bool,
+    /// What it is.
+    pub meaning: &'a str,
+}
+
+/// What most effects are; entries say how they differ.
+pub(super) const BALANCE: Effect<'static> = Effect {
+    name: "",
+    group: Group::Actuator,
+    stage: Stage::Balance,
+    history: false,
+    formula: "",
+    sentence: "",
+    differs: "",
+    remedy: "",
+    validity: "",
+    reference: "",
+    parameters: &[],
+    needs: Needs::Body,
+    add: |_, _| {},
+};
+
+/// What most parameters are; entries say how they differ.
+pub(super) const PLAIN: Parameter<'static> = Parameter {
+    key: "",
+    symbol: "",
+    unit: "-",
+    si: 1.0,
+    neutral: 0.0,
+    typical: 1.0,
+    lower: 0.0,
+    upper: 1.0,
+    possible: POSITIVE,
+    starts: &[],
+    by_actuator: &[],
+    fitted: Fitted::Always,
+    in_room: false,
+    meaning: "",
+};
+/// Whether a mechanism is there, from 0 to 1, by design.
+pub(super) const SHARE: Parameter<'static> =
+    Parameter { key: "share", symbol: "σ", possible: [0.0, 1.0], fitted: Fitted::FromDesign, ..PLAIN };
+
+/// Possible values of a stiffness, a weight, a friction.
+pub(super) const POSITIVE: [f64; 2] = [0.0, f64::INFINITY];
+/// Of a time, or of a stiffness that is never nothing.
+pub(super) const ABOVE_ZERO: [f64; 2] = [f64::MIN_POSITIVE, f64::INFINITY];
+/// Of what has a direction.
+pub(super) const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+/// A number that shapes a law, neutral where the law has its usual form.
+pub(super) const SHAPE: Parameter<'static> = Parameter { typical: 0.0, fitted: Fitted::Shape, ..PLAIN };
+
+/// Which data hold a parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fitted {
+    /// All.
+    Always,
+    /// All, about its neutral value: it shapes a law whose exact form is not known, and has no effect alone.
+    Shape,
+    /// Only data of a robot whose bending stiffness is not fitted: both together cannot be separated.
+    WithKeptBending,
+    /// Only data at several body pressures, or a separate test: at one pressure it has the curve of another effect.
+    WithBodyPressures,
+    /// None: it follows from how the robot is cut and joined, or from a test of its fabric.
+    FromDesign,
+}
+
+/// What an effect acts in: without it there is nothing to change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Needs {
+    /// Any body, a passive beam too.
+    Body,
+    /// Any actuator, or its supply.
+    Actuator,
+    /// An actuator of this contraction mechanism.
+    Family(Family),
+}
+
+/// A physical effect as an entry of the catalogue, or of a scenario's own ([`crate::Catalogue`]).
+#[derive(Debug, Clone, Copy)]
+pub struct Effect<'a> {
+    /// Name in scenarios.
+    pub name: &'a str,
+    /// What it belongs to.
+    pub group: Group,
+    /// Stage in which it acts.
+    pub stage: Stage,
+    /// Whether a state depends on those before it or on the time in a hold: needs data with an unloading branch or with
+    /// several samples in a hold.
+    pub history: bool,
+    /// Formula in Unicode.
+    pub formula: &'a str,
+    /// One plain sentence for a user.
+    pub sentence: &'a str,
+    /// What measurements show where it acts and the model lacks it.
+    pub differs: &'a str,
+    /// What to measure or change on the robot.
+    pub remedy: &'a str,
+    /// When it holds.
+    pub validity: &'a str,
+    /// Source.
+    pub reference: &'a str,
+    /// Parameters in the order `add` takes them.
+    pub parameters: &'a [Parameter<'a>],
+    /// What it acts in.
+    pub needs: Needs,
+    /// Adds it to a model under construction; values in SI. A formula adds itself.
+    pub(crate) add: fn(&[f64], &mut Assembly),
+}
+
+impl Parameter<'_> {
+    /// Whether a value is where a fit looks.
+    pub fn is_usual(&self, value: f64) -> bool {
+        (self.lower..=self.upper).contains(&value)
+    }
+
+    /// Whether there can be such a value.
+    pub fn is_possible(&self, value: f64) -> bool {
+        value.is_finite() && (self.possible[0]..=self.possible[1]).contains(&value)
+    }
+
+    /// `0 to 8 N/m`: where a fit looks.
+    pub fn usual_words(&self) -> String {
+        self.words(self.lower, self.upper)
+    }
+
+    /// `0 to 1`, `0 N/m and above`: the possible values.
+    pub fn possible_words(&self) -> String {
+        let [low, high] = self.possible;
+        match (low.is_finite(), high.is_finite()) {
+            (true, true) => self.words(low, high),
+            (true, false) if low == f64::MIN_POSITIVE => format!("above 0{}", self.after()),
+            (true, false) => format!("{low}{} and above", self.after()),
+            _ => "any number".into(),
+        }
+    }
+
+    fn words(&self, low: f64, high: f64) -> String {
+        format!("{low} to {high}{}", self.after())
+    }
+
+    /// The unit after a number.
+    fn after(&self) -> String {
+        if self.unit == "-" { String::new() } else { format!(" {}", self.unit) }
+    }
+
+    /// Typical size on an actuator, in `unit`.
+    pub fn typical_for(&self, actuator: &str) -> f64 {
+        self.by_actuator.iter().find(|(name, _)| *name == actuator).map_or(self.typical, |(_, typical)| *typical)
+    }
+}
+
+impl Effect<'static> {
+    /// Line of its term in the energy ledger.
+    pub(super) const fn line(&self, account: Account) -> LedgerLine {
+        LedgerLine { name: self.name, account }
+    }
+}
+
+impl Effect<'_> {
+    /// Neutral values of all parameters, SI.
+    pub fn neutral(&self) -> Vec<f64> {
+        self.parameters.iter().map(|p| p.neutral * p.si).collect()
+    }
+
+    /// Typical values of all parameters, SI.
+    pub fn typical(&self) -> Vec<f64> {
+        self.parameters.iter().map(|p| p.typical * p.si).collect()
+    }
+
+    /// Typical values of all parameters on an actuator, SI.
+    pub fn typical_for(&self, actuator: &str) -> Vec<f64> {
+        self.parameters.iter().map(|p| p.typical_for(actuator) * p.si).collect()
+    }
+
+    /// Whether a fit may change one of its parameters.
+    pub fn is_fitted(&self) -> bool {
+        self.parameters.iter().any(|p| p.fitted != Fitted::FromDesign)
+    }
+
+    /// Whether it acts in an actuator or on its supply: a passive beam has neither.
+    pub fn needs_actuator(&self) -> bool {
+        self.needs != Needs::Body
+    }
+
+    /// Whether the effect exists for an actuator of this family.
+    pub fn applies_to(&self, family: Family) -> bool {
+        !matches!(self.needs, Needs::Family(needed) if needed != family)
+    }
+}

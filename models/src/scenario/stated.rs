@@ -1,0 +1,176 @@
+//! A scenario in SI units, and its variants.
+
+use super::choice::ActuatorChoice;
+use crate::catalogue::Catalogue;
+use crate::effects::{EFFECTS, Effect, Fitted, IN_SPACE};
+use crate::formula::Formula;
+use crate::line::Line;
+use std::sync::Arc;
+
+/// A scenario in SI units, checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scenario {
+    /// Free name.
+    pub name: String,
+    /// Body radius R \[m\].
+    pub radius_m: f64,
+    /// Body length L \[m\].
+    pub length_m: f64,
+    /// Body gauge pressure \[Pa\].
+    pub p_body_pa: f64,
+    /// Effective bending stiffness B \[N·m²\]; 0 in a bare model.
+    pub bending_stiffness: f64,
+    /// Hinge curvature k₀ of the base law \[1/m\].
+    pub hinge_curvature: f64,
+    /// Restoring moment of the base law as a share of πp_bR³ \[-\].
+    pub hinge_share: f64,
+    /// The fabric of the body, where it is known.
+    pub wall: Wall,
+    /// Distance of the centre line from the taut generator \[m\]; `None`: the radius, 0: it does not shorten.
+    pub centre_line_m: Option<f64>,
+    /// Unit vector of gravity in the x–y plane.
+    pub gravity_direction: [f64; 2],
+    /// The actuator.
+    pub actuator: ActuatorChoice,
+    /// Further strips of it round the body.
+    pub more_strips: Vec<ActuatorChoice>,
+    /// Stretches that differ.
+    pub zones: Vec<Zone>,
+    /// Marker stations along the undeformed body \[m\].
+    pub markers_m: Vec<f64>,
+    /// Actuator pressures to predict at when none are asked for \[Pa\].
+    pub pressures_pa: Vec<f64>,
+    /// Segments of a model with transverse loads.
+    pub segments: usize,
+    /// Largest actuator pressure an inverse may ask for \[Pa\].
+    pub p_max_pa: f64,
+    /// How fast a set pressure arrives, for what happens in time; `None`: at once.
+    pub line: Option<Line>,
+    /// Effects, in catalogue order.
+    pub effects: Vec<EffectChoice>,
+    /// The scenario's own effects, in the order of the text: they follow the catalogue's.
+    pub formulas: Vec<Arc<Formula>>,
+}
+
+/// Known properties of the body's fabric.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Wall {
+    /// Membrane stiffness E t along the body \[N/m\]: the body is then a [`crate::body::BodyWall`].
+    pub stiffness_n_per_m: Option<f64>,
+    /// In-plane shear stiffness G t \[N/m\]: transverse loads then shear the body by V/(πR²p_b + πR G t).
+    pub shear_n_per_m: Option<f64>,
+    /// How they are known: a word of `basis`; empty without either.
+    pub basis: String,
+}
+
+/// A stretch of the body where something differs from the rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Zone {
+    /// Start \[m\].
+    pub from_m: f64,
+    /// End \[m\].
+    pub to_m: f64,
+    /// Body radius \[m\].
+    pub radius_m: Option<f64>,
+    /// Effective bending stiffness \[N·m²\].
+    pub bending_stiffness: Option<f64>,
+    /// Without actuator.
+    pub passive: Option<bool>,
+    /// Unit length \[m\].
+    pub unit_length_m: Option<f64>,
+    /// Unit width \[m\].
+    pub width_m: Option<f64>,
+    /// Fold depth \[m\].
+    pub fold_m: Option<f64>,
+    /// Arm \[m\].
+    pub arm_m: Option<f64>,
+    /// Supply channel.
+    pub channel: Option<usize>,
+}
+
+/// An effect switched on, with its values.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EffectChoice {
+    /// Name in the catalogue.
+    pub name: String,
+    /// Parameter values in catalogue order, SI.
+    pub values: Vec<f64>,
+    /// How the values are known: a word of [`BASES`], or empty.
+    pub basis: String,
+}
+
+/// The words of `basis`, which say how a value is known.
+pub const BASES: &[&str] = &["assumed", "calibrated", "measured", "predicted", "published"];
+
+impl Scenario {
+    /// The same robot without any effect and with B = 0.
+    pub fn bare(&self) -> Scenario {
+        Scenario { bending_stiffness: 0.0, effects: Vec::new(), ..self.clone() }
+    }
+
+    /// The same with an effect set (added, or its values replaced); values in SI, catalogue order is kept. What shapes its
+    /// law comes last and may be left out: the law then has its usual form.
+    ///
+    /// # Panics
+    /// The catalogue has no effect of that name, or it has another number of parameters: a slip in the calling code, which
+    /// must not pass as a model without the effect. Look names typed by a user up in [`Scenario::catalogue`] first.
+    pub fn with_effect(&self, name: &str, values: &[f64]) -> Scenario {
+        let catalogue = self.catalogue();
+        let given = values.len();
+        let takes =
+            |e: &Effect| given <= e.parameters.len() && e.parameters[given..].iter().all(|p| p.fitted == Fitted::Shape);
+        let effect = catalogue.by_name(name).filter(takes);
+        let neutral = effect.map(|e| e.neutral());
+        assert!(neutral.is_some(), "no effect `{name}` with {given} parameters");
+        let usual = neutral.into_iter().flatten().skip(given);
+        let values = values.iter().copied().chain(usual).collect();
+        let mut changed = self.clone();
+        changed.effects.retain(|e| e.name != name);
+        let choice = EffectChoice { name: name.to_string(), values, basis: String::new() };
+        changed.effects.push(choice);
+        changed.effects.sort_by_key(|e| order(&e.name, &self.formulas));
+        changed
+    }
+
+    /// Every effect this scenario may use: the common ones, and its own formulas.
+    pub fn catalogue(&self) -> Catalogue<'_> {
+        Catalogue::new(&self.formulas)
+    }
+
+    /// Names of its effects after which a state depends on those before it.
+    pub fn remembering(&self) -> Vec<&str> {
+        let remembers = |name: &str| crate::effects::by_name(name).is_some_and(|effect| effect.history);
+        self.effects.iter().map(|effect| effect.name.as_str()).filter(|name| remembers(name)).collect()
+    }
+
+    /// The same with another effective bending stiffness \[N·m²\].
+    pub fn with_bending(&self, stiffness: f64) -> Scenario {
+        Scenario { bending_stiffness: stiffness, ..self.clone() }
+    }
+
+    /// The same with other marker stations \[m\].
+    pub fn with_markers(&self, stations_m: &[f64]) -> Scenario {
+        Scenario { markers_m: stations_m.to_vec(), ..self.clone() }
+    }
+
+    /// The actuator and its further strips.
+    pub fn strips(&self) -> impl Iterator<Item = &ActuatorChoice> {
+        std::iter::once(&self.actuator).chain(&self.more_strips)
+    }
+
+    /// Whether strips lie elsewhere than along azimuth 0: the robot then leaves the x–y plane, and [`crate::space`] has its balance.
+    pub fn is_spatial(&self) -> bool {
+        !self.more_strips.is_empty() || self.actuator.azimuth_rad != 0.0 || self.actuator.turns != 0.0
+    }
+
+    /// Whether an effect can act on this robot: as [`ActuatorChoice::takes`]; with strips round the body only effects in [`IN_SPACE`].
+    pub fn takes(&self, effect: &Effect) -> bool {
+        self.actuator.takes(effect) && (!self.is_spatial() || IN_SPACE.contains(&effect.name))
+    }
+}
+
+/// Place of an effect in the catalogue.
+pub(super) fn order(name: &str, formulas: &[Arc<Formula>]) -> usize {
+    let listed = EFFECTS.iter().position(|e| e.name == name);
+    listed.unwrap_or_else(|| EFFECTS.len() + formulas.iter().take_while(|formula| formula.name != name).count())
+}

@@ -1,0 +1,50 @@
+//! What a robot in space is at equilibrium: its sections and strips.
+
+use super::frame::{Bend, Frame};
+use crate::assembly::{Assembly, Segment};
+
+/// A section at equilibrium.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SectionState<'a> {
+    /// Where it is.
+    pub segment: Segment,
+    /// κ_y, κ_z: bend towards azimuth 0° and 90° of the frame that follows the body without twist \[1/m\].
+    pub kappa: [f64; 2],
+    /// Contraction of the axis \[-\].
+    pub contraction: f64,
+    /// Its strips, in the order of the scenario.
+    pub strips: &'a [StripState],
+}
+
+/// A strip at equilibrium.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StripState {
+    /// Pressure after the supply stage \[Pa\].
+    pub p_act_pa: f64,
+    /// Its actuators' coordinate; 0 where they are flat.
+    pub coordinate: f64,
+    /// Tension along the strip \[N\].
+    pub tension: f64,
+}
+
+/// Buffers of a robot in space; empty for a planar one.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct SpaceWork {
+    /// Per segment.
+    pub bends: Vec<Bend>,
+    /// Per segment and strip.
+    pub strips: Vec<Vec<StripState>>,
+    /// Place and frame at each node.
+    pub frames: Vec<Frame>,
+}
+
+impl SpaceWork {
+    pub fn new(assembly: &Assembly) -> SpaceWork {
+        let count = assembly.around.len();
+        SpaceWork {
+            bends: vec![Bend::default(); count],
+            strips: assembly.around.iter().map(|strips| vec![StripState::default(); strips.len()]).collect(),
+            frames: vec![Frame::BASE; if count == 0 { 0 } else { count + 1 }],
+        }
+    }
+}
