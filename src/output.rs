@@ -42,12 +42,13 @@ fn check_own<'n>(folder: &Path, names: impl Iterator<Item = &'n str>) -> Result<
     }
 }
 
-/// Writes single texts, each whole or not at all. A file that is there is replaced only if it begins with [`MADE_HERE`].
+/// Writes single texts, each whole or not at all. A file that is there is replaced only if its beginning has [`MADE_HERE`].
 pub fn write_texts(files: &[(PathBuf, String)], context: &mut Context) -> Result<(), Failure> {
     let is_own = |path: &Path| {
         let mut start = Vec::new();
         let read = std::fs::File::open(path).and_then(|file| file.take(BEGINNING).read_to_end(&mut start));
-        read.is_ok() && String::from_utf8_lossy(&start).to_lowercase().contains(MADE_HERE)
+        let start = String::from_utf8_lossy(&start);
+        read.is_ok() && MADE_HERE.iter().any(|words| start.contains(words))
     };
     if let Some((path, _)) = files.iter().find(|(path, _)| path.exists() && !is_own(path)) {
         let message = format!("{} exists, and ibr did not write it", path.display());
@@ -59,8 +60,8 @@ pub fn write_texts(files: &[(PathBuf, String)], context: &mut Context) -> Result
     Ok(())
 }
 
-/// What texts of this program say within this many bytes from their beginning: `made by ibr`, `Made by: ibr`.
-const MADE_HERE: &str = "made by";
+/// Words of this program's texts within so many bytes from their beginning.
+const MADE_HERE: [&str; 2] = ["made by ibr", "Made by: ibr"];
 const BEGINNING: u64 = 512;
 
 /// What lists the files of a folder.

@@ -96,11 +96,11 @@ pub fn parse_markers(file: &str, reader: &mut dyn Read, options: ReadOptions, pr
     recorder.placeholders.take_out_shared(&mut recorder.streams);
     let told = told(&reader, &recorder)?;
     check_units(&reader, &recorder.extremes)?;
-    check_kept(file, &recorder)?;
+    check_kept(&recorder)?;
     check_about_runs(file, &recorder, options.about)?;
     let stations_m = stations(file, &recorder, options.about)?;
     let stem = Path::new(file).file_stem().map_or(file.to_string(), |stem| stem.to_string_lossy().into_owned());
-    let mut dataset = align(file, stem, kind.chosen(), &recorder, &stations_m)?;
+    let mut dataset = align(stem, kind.chosen(), &recorder, &stations_m)?;
     dataset.lost.frames = recorder.lost_frames;
     dataset.told = told;
     check_kind(file, &dataset.actuator, options.about)?;

@@ -11,7 +11,7 @@ mod segments;
 
 use std::collections::HashMap;
 
-use crate::error::{DataError, Result};
+use crate::error::{DataError, Fault, Result};
 use crate::header::{Header, MARKER, RUN, STATION, TIME};
 use crate::lines::{KeptLine, Line};
 use crate::policy;
@@ -25,6 +25,8 @@ pub(crate) use segments::{Sample, Segment, Stream};
 /// Everything kept of a file while it is read.
 #[derive(Debug, Default)]
 pub(crate) struct Recorder {
+    /// Its name in errors.
+    pub file: String,
     pub runs: Labels,
     pub markers: Labels,
     pub streams: Vec<Stream>,
@@ -46,7 +48,22 @@ pub(crate) struct Recorder {
 impl Recorder {
     /// Nothing yet, of a table with this header.
     pub fn of(header: &Header) -> Recorder {
-        Recorder { more_channels: header.more_channels(), has_z: header.has_z(), ..Recorder::default() }
+        Recorder {
+            file: header.line.file.clone(),
+            more_channels: header.more_channels(),
+            has_z: header.has_z(),
+            ..Recorder::default()
+        }
+    }
+
+    /// Runs, holds or markers that do not fit together, first seen in a line.
+    pub fn fault(&self, message: String, help: &str, line: u64) -> DataError {
+        DataError::Runs(Box::new(Fault::of_file(&self.file, message, help).at_line(line)))
+    }
+
+    /// A stream in a message.
+    pub fn words(&self, stream: &Stream) -> String {
+        format!("run {}, marker {}", self.runs.names[stream.run], self.markers.names[stream.marker])
     }
 
     /// Takes in one observation.
