@@ -337,7 +337,7 @@ pub struct SimulateArgs {
     /// Write no ParaView frames
     #[arg(long)]
     pub no_frames: bool,
-    /// Run nothing: write mesh, sections, loads and step for another solver (.inp), or the mesh alone (.vtu, .ibrmesh)
+    /// Run nothing: write mesh, sections, loads and step for another solver (.inp), or the mesh alone (.vtu)
     #[arg(long, value_name = "FILE")]
     pub export: Option<PathBuf>,
     /// Who reads the .inp of --export; default: abaqus

@@ -1,6 +1,7 @@
 //! Text tables.
 
 use comfy_table::{CellAlignment, Table, presets};
+use compare::study::columns::TextTable;
 pub use ibr::pages::number;
 
 /// A table of text; columns after the first `left` ones are flush right.
@@ -15,6 +16,12 @@ pub fn table<S: AsRef<str>>(head: &[S], left: usize, rows: Vec<Vec<String>>) -> 
         column.set_cell_alignment(if i < left { CellAlignment::Left } else { CellAlignment::Right });
     }
     format!("{table}\n")
+}
+
+/// The same under its caption.
+pub fn printed(TextTable { caption, heads, left, rows }: &TextTable) -> String {
+    let caption = if caption.is_empty() { String::new() } else { format!("{caption}\n") };
+    caption + &table(heads, *left, rows.clone())
 }
 
 /// Columns of text to read.

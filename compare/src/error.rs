@@ -26,89 +26,9 @@ pub enum CompareError {
     /// A scenario with a fault.
     #[error("{0}")]
     Scenario(Box<Fault>),
-    /// The dataset has no run, hold, marker or sample.
-    #[error("the dataset `{name}` is empty: it needs at least one run, one hold, one marker and one sample")]
-    Empty {
-        /// Name of the dataset.
-        name: String,
-    },
-    /// A table of bench tests cannot be held against what was given.
-    #[error("{file}: {problem}: {help}")]
-    Bench {
-        /// The table.
-        file: String,
-        /// What is wrong.
-        problem: String,
-        /// What to do.
-        help: String,
-    },
-    /// An array does not have the shape of one run.
-    #[error(
-        "{what} has {found} values, one run of the data has {expected} ({holds} holds x {samples} samples x {markers} \
-         markers x 2): predict at the holds, sample times and markers of the dataset"
-    )]
-    WrongLength {
-        /// Which array.
-        what: &'static str,
-        /// Its length.
-        found: usize,
-        /// The length of one run.
-        expected: usize,
-        /// Holds per run.
-        holds: usize,
-        /// Samples per hold.
-        samples: usize,
-        /// Markers.
-        markers: usize,
-    },
-    /// An array holds NaN, infinity or more than a kilometre.
-    #[error(
-        "{what} is not a usable number at hold {hold}, marker {marker} (counted from 1): check the model or the file \
-         there (finite, below 1 km)"
-    )]
-    NotFinite {
-        /// Which array.
-        what: &'static str,
-        /// Hold, counted from 1.
-        hold: usize,
-        /// Marker, counted from 1.
-        marker: usize,
-    },
-    /// The list of sessions does not fit the runs.
-    #[error("{found} session labels for {runs} runs: give one label per run, or none if all runs are one session")]
-    WrongSessions {
-        /// Labels given.
-        found: usize,
-        /// Runs in the data.
-        runs: usize,
-    },
-    /// Every session has a single run, so nothing repeats.
-    #[error(
-        "every session has one run only, so run-to-run scatter cannot be told from session differences: repeat at \
-         least one session, or leave the session labels out"
-    )]
-    SessionsWithoutRepeats,
-    /// Data beside others say too little of their own noise.
-    #[error(
-        "{name} has {runs} run(s); data that are diagnosed beside others need {needed} of their own to know their noise: \
-         measure more, or diagnose them alone"
-    )]
-    TooFewRunsBeside {
-        /// Dataset.
-        name: String,
-        /// Runs it has.
-        runs: usize,
-        /// Runs it needs.
-        needed: usize,
-    },
-    /// `about.toml` measures what cannot be of this robot.
-    #[error("{place}: [measured] {problem}")]
-    WrongMeasured {
-        /// File and line.
-        place: String,
-        /// What is wrong, and what to write.
-        problem: String,
-    },
+    /// A table, a description or arrays that cannot be used together, with place and remedy.
+    #[error("{0}")]
+    Unfit(String),
     /// A setting is outside its range.
     #[error("{name} = {value} is not possible: {expected}")]
     BadOption {
@@ -227,6 +147,11 @@ impl CompareError {
     /// A wish that cannot be met, and what to type instead.
     pub fn refused(message: impl Into<String>, help: impl Into<String>) -> CompareError {
         CompareError::Refused { message: message.into(), help: help.into() }
+    }
+
+    /// What does not fit, and what to do.
+    pub(crate) fn told(message: impl Into<String>) -> CompareError {
+        CompareError::Unfit(message.into())
     }
 
     /// What to do, where the message does not say it.

@@ -1,64 +1,44 @@
 //! Residuals, metrics and reports: the only crate that knows both model and measurement.
 //!
-//! The statistics of a comparison, from the data up: [`layout`] (shape of one run) → [`noise`] (run as the unit) →
-//! [`beside_mean`] (prediction beside the mean) → [`metrics`], [`residuals`], [`where_it_fails`], [`scaling`] →
+//! The statistics of a comparison, from the data up: `layout` (shape of one run) → [`noise`] (run as the unit) →
+//! `beside_mean` (prediction beside the mean) → [`metrics`], [`residuals`], [`where_it_fails`], `scaling` →
 //! [`evaluate`](mod@evaluate), which bundles them. Predictions arrive as plain slices in run layout.
 //!
 //! What a user does: [`ScenarioFile`] and [`Evidence`] → [`compare`] → [`diagnose`] → [`extend`] → [`validate`] on other data;
 //! [`ladder`](fn@ladder) repeats the middle.
 
-pub mod accuracy;
-pub mod bench;
-pub mod beside_mean;
 pub mod characterize;
-mod data_slope;
 pub mod demo;
 pub mod diagnosis;
-pub mod directions;
 pub mod error;
-pub mod evaluate;
-pub mod evidence;
 pub mod extension;
-pub mod gauge;
-mod interval;
-pub mod ladder;
-pub mod layout;
-pub mod metrics;
+mod fit;
+mod judge;
 pub mod moment;
-pub mod noise;
-pub mod noise_summary;
 pub mod policy;
-mod prepare;
 pub mod progress;
-pub mod residuals;
-mod run_scatter;
-pub mod scaling;
-pub mod scenario_file;
+mod readings;
 pub mod slips;
-pub mod stats;
 pub mod study;
-pub mod typed_effect;
-pub mod validation;
-pub mod where_it_fails;
-pub mod whiten;
 pub mod witness;
-pub mod wording;
 
 #[cfg(test)]
-mod monte_carlo_tests;
-#[cfg(test)]
-mod scenarios_tests;
-#[cfg(test)]
-mod synthetic;
+mod tests;
 
 pub use diagnosis::{Diagnosis, diagnose};
 pub use error::CompareError;
 pub use evaluate::{EvaluateOptions, Evaluation, evaluate};
 pub use evidence::Evidence;
 pub use extension::{Extension, extend};
+pub use extension::{ladder, scenario_file, typed_effect, validation};
+pub use judge::{evaluate, metrics, residuals, stats, where_it_fails, wording};
 pub use ladder::ladder;
 pub use progress::Progress;
+pub use readings::{bench, evidence, noise};
 pub use scenario_file::ScenarioFile;
 pub use study::comparison::{Comparison, compare};
 pub use study::in_space::{InSpace, compare_in_space};
 pub use validation::{Validation, validate};
+
+use judge::{accuracy, beside_mean, scaling};
+use readings::{data_slope, directions, gauge, layout, noise_summary, prepare, run_scatter};

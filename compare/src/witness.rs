@@ -16,7 +16,7 @@ use crate::diagnosis::{Answer, Diagnosis, ParameterValue, Ranked, Standing, with
 use crate::error::CompareError;
 use crate::moment::{CurvePoint, at_turn, degrees};
 use crate::policy;
-use crate::study::engines::{Energies, EngineRun, Ensemble, TERMS, between, ensemble, mean_and_deviation};
+use crate::study::engines::{Energies, EngineRun, Ensemble, TERMS, between, ensemble, over_seeds};
 use crate::study::predict::{fit_scenario, predict_dataset};
 use crate::wording::{list, short};
 use data::{About, Dataset, Phase};
@@ -249,9 +249,9 @@ fn moments(scenario: &Scenario, ensemble: &Ensemble) -> Vec<FeMoment> {
             at_turn(scenario, &Loads::uniform(1e3 * run.body_kpa, 1e3 * kpa), state.turn_rad).filter(|_| bent)
         };
         let found: Vec<CurvePoint> = ensemble.runs.iter().filter_map(of).collect();
-        let [bend, moment] = [0, 1].map(|k| mean_and_deviation(&found.iter().map(|p| p[k]).collect::<Vec<_>>()));
-        let per = degrees(scenario.length_m);
-        (!found.is_empty()).then(|| FeMoment {
+        let [bend, moment] = [0, 1].map(|k| over_seeds(found.iter().map(|p| p[k])));
+        let (per, bend, moment) = (degrees(scenario.length_m), bend?, moment?);
+        Some(FeMoment {
             actuator_kpa: kpa,
             bend_deg: per * bend.0,
             bend_sd_deg: per * bend.1.unwrap_or(0.0),

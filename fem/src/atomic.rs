@@ -7,5 +7,5 @@ use crate::FemError;
 
 /// Writes `path` whole or not at all.
 pub(crate) fn replace(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> Result<(), Error>) -> Result<(), FemError> {
-    spelling::files::replace(path, write).map_err(|source| FemError::Io { path: path.to_path_buf(), source })
+    spelling::files::replace(path, write).map_err(FemError::io(path))
 }

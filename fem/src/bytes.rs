@@ -3,7 +3,6 @@
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-/// The bytes of a state.
 pub(crate) fn pack<T: Serialize + ?Sized>(state: &T) -> Vec<u8> {
     // Only a list of unknown length can fail, which no state has.
     postcard::to_allocvec(state).unwrap_or_default()

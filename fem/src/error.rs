@@ -1,9 +1,10 @@
 //! Everything that can go wrong in a finite element run.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Why a run was refused, or stopped.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "fields that are not described are what their names say")]
 pub enum FemError {
     /// The mesh cannot be simulated; the message names the part, element or node (counted from 1 as in mesh files).
     #[error("mesh: {0}")]
@@ -11,7 +12,6 @@ pub enum FemError {
     /// A mesh file was refused.
     #[error("{}:{line}: {message}", path.display())]
     MeshFile {
-        /// The file.
         path: PathBuf,
         /// Line, counted from 1.
         line: usize,
@@ -23,7 +23,6 @@ pub enum FemError {
     Case {
         /// What is wrong and, in further lines, what to write.
         message: String,
-        /// Where.
         span: Option<std::ops::Range<usize>>,
     },
     /// What was to be simulated was refused.
@@ -34,30 +33,18 @@ pub enum FemError {
     Problem(String),
     /// Settings of a run that cannot be had together.
     #[error("{message}")]
-    Setting {
-        /// What is wrong.
-        message: String,
-        /// What to do.
-        help: String,
-    },
+    Setting { message: String, help: String },
     /// The run was stopped because its result could not be trusted.
     #[error("stopped at step {step}, t = {time_s:.6} s: {reason}")]
     Stopped {
-        /// Steps done.
         step: u64,
-        /// Simulated time \[s\].
         time_s: f64,
         /// What was seen, where, and what to change.
         reason: String,
     },
     /// The same, of a run in a folder.
     #[error("{error}")]
-    StoppedIn {
-        /// Why.
-        error: Box<FemError>,
-        /// What to do.
-        help: String,
-    },
+    StoppedIn { error: Box<FemError>, help: String },
     /// Whoever was told the progress asked to end.
     #[error("interrupted{}", so_far(*time_s, *step, *done, *of))]
     Interrupted {
@@ -65,15 +52,12 @@ pub enum FemError {
         time_s: f64,
         /// Its steps.
         step: u64,
-        /// Runs that are complete.
         done: usize,
-        /// Runs in all.
         of: usize,
     },
     /// A checkpoint cannot be used.
     #[error("checkpoint {}: {reason}", path.display())]
     Checkpoint {
-        /// The file.
         path: PathBuf,
         /// What is wrong and what to do.
         reason: String,
@@ -83,18 +67,15 @@ pub enum FemError {
     Folder {
         /// The folder, or the file in it.
         path: PathBuf,
-        /// Why.
         cause: String,
-        /// What to do.
         help: String,
     },
     /// A record of a run cannot be read.
     #[error("{}", .0.place())]
-    Record(Box<crate::record::Damage>),
+    Record(Box<Damage>),
     /// A file could not be read or written.
     #[error("{}: {source}", path.display())]
     Io {
-        /// The file.
         path: PathBuf,
         /// What the system said.
         source: std::io::Error,
@@ -137,6 +118,37 @@ impl Refusal {
     }
 }
 
+/// What is wrong with a record, and where.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Damage {
+    /// The file.
+    pub file: String,
+    /// Line, counted from 1; `None` if the whole file is of another kind.
+    pub line: Option<u64>,
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub help: String,
+}
+
+impl Damage {
+    pub(crate) fn error(file: &str, line: Option<u64>, message: String, help: &str) -> FemError {
+        FemError::Record(Box::new(Damage { file: file.into(), line, message, help: help.into() }))
+    }
+
+    /// A file whose bytes are not those that its manifest lists.
+    pub(crate) fn changed(file: &str, help: &str) -> FemError {
+        let message = "is not the file that was written: its SHA-256 differs from that in manifest.json";
+        Damage::error(file, None, message.into(), help)
+    }
+
+    /// File, line and what is wrong.
+    fn place(&self) -> String {
+        let Damage { file, line, message, .. } = self;
+        line.map_or_else(|| format!("{file}: {message}"), |line| format!("{file}:{line}: {message}"))
+    }
+}
+
 impl FemError {
     /// File and line of what was refused, where it is known.
     pub fn place(&self) -> Option<String> {
@@ -167,6 +179,12 @@ impl FemError {
     /// Whether a guard stopped the run: the problem was sound, its result is not.
     pub fn is_stop(&self) -> bool {
         matches!(self, FemError::Stopped { .. } | FemError::StoppedIn { .. })
+    }
+
+    /// A file that could not be read or written.
+    pub(crate) fn io(path: &Path) -> impl FnOnce(std::io::Error) -> FemError {
+        let path = path.to_path_buf();
+        |source| FemError::Io { path, source }
     }
 
     /// A setting that is not possible, and what to do.

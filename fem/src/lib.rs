@@ -7,7 +7,7 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`mesh`] | nodes, parts, sets; generators; the plain mesh file; quality and closedness checks |
+//! | [`mesh`] | nodes, parts, sets; generators; mesh files; quality and closedness checks |
 //! | [`problem`] | what a run needs besides the mesh |
 //! | [`sheet`] | shells: membrane, hourglass control, viscosity, bending, follower pressure; the fast kernels |
 //! | [`terms`] | nodal force, gravity, obstacles, rest curvature, tension-only yarns: the other entries of the list |
@@ -19,6 +19,8 @@
 //! | [`case`] | the TOML file that describes a run |
 //!
 //! `fem` never sees a measurement.
+
+#![warn(unreachable_pub)]
 
 mod amplitude;
 mod atomic;
@@ -43,6 +45,7 @@ pub mod terms;
 mod transient;
 pub mod vec3;
 
+pub use case::Key;
 pub use error::FemError;
 pub use mesh::{Mesh, Part};
 pub use problem::Problem;

@@ -2,170 +2,170 @@
 //! `tests/policy.sh` moves every one of them and names the tests that fail then.
 
 /// Energy residual over external work that stops a run.
-pub const RESIDUAL: f64 = 0.02;
+pub(crate) const RESIDUAL: f64 = 0.02;
 /// Share of the energy that the loads of a run can turn over, which the residual is judged against at least: elements that start
 /// strained lose a part of that energy in the first steps, while pressures are still near zero.
-pub const TURNED_OVER: f64 = 5e-3;
+pub(crate) const TURNED_OVER: f64 = 5e-3;
 /// Uniform strain of all fabric whose energy it is judged against at least: far above rounding, far below any load.
-pub const STRAIN_FLOOR: f64 = 1e-5;
+pub(crate) const STRAIN_FLOOR: f64 = 1e-5;
 /// Share of the nodes in contact that may change side of a layer.
-pub const SIDES: f64 = 0.05;
+pub(crate) const SIDES: f64 = 0.05;
 /// Share of the stored energy that hourglass control may hold at the end.
-pub const HOURGLASS: f64 = 0.15;
+pub(crate) const HOURGLASS: f64 = 0.15;
 /// Share of it that is warned of.
-pub const HOURGLASS_WARNED: f64 = 0.05;
+pub(crate) const HOURGLASS_WARNED: f64 = 0.05;
 /// Share of the stored energy in contact at the end that is warned of: layers that lie on each other hold next to none.
-pub const CAUGHT: f64 = 0.05;
+pub(crate) const CAUGHT: f64 = 0.05;
 /// Negative volume over (wall area)^(3/2) from which the walls of a chamber have passed through each other: a hundredth of a pillow's.
-pub const INSIDE_OUT: f64 = 1e-3;
+pub(crate) const INSIDE_OUT: f64 = 1e-3;
 /// Volume of gas over (wall area)^(3/2) below which a sealed chamber is empty: 0.2 cm³ in a pillow of 200 mm.
-pub const NO_GAS: f64 = 1e-5;
+pub(crate) const NO_GAS: f64 = 1e-5;
 /// Share of its reference area below which an element counts as collapsed.
-pub const COLLAPSED: f64 = 1e-4;
+pub(crate) const COLLAPSED: f64 = 1e-4;
 /// A mesh longer than this was hardly meant in metres \[m\].
-pub const HUGE_M: f64 = 20.0;
+pub(crate) const HUGE_M: f64 = 20.0;
 /// Elements of a mesh in metres are smaller \[m\].
-pub const LONGEST_SIDE_M: f64 = 0.5;
+pub(crate) const LONGEST_SIDE_M: f64 = 0.5;
 /// Share of the stored energy in contact from which contact is the likely cause of a stop.
-pub const PRESSED: f64 = 0.2;
+pub(crate) const PRESSED: f64 = 0.2;
 /// Added mass over true mass from which it is, and that is warned of.
-pub const HEAVY: f64 = 1.0;
+pub(crate) const HEAVY: f64 = 1.0;
 /// Kinetic over internal energy above which the paper's source calls a run invalid.
-pub const KINETIC_OF_INTERNAL: f64 = 0.10;
+pub(crate) const KINETIC_OF_INTERNAL: f64 = 0.10;
 /// Kinetic over total energy that the paper kept its runs below.
-pub const KINETIC_OF_TOTAL: f64 = 0.01;
+pub(crate) const KINETIC_OF_TOTAL: f64 = 0.01;
 /// Movement of the tip that a hold does not wait for, as a share of its displacement from the start.
-pub const CREEP: f64 = 0.005;
+pub(crate) const CREEP: f64 = 0.005;
 /// Displacement of the tip from which on that is judged, as a share of the length.
-pub const BENT: f64 = 0.1;
+pub(crate) const BENT: f64 = 0.1;
 /// Displacement of a planar robot's tip across its plane over its whole displacement from which it is warned of.
-pub const OUT_OF_PLANE: f64 = 0.02;
+pub(crate) const OUT_OF_PLANE: f64 = 0.02;
 /// Pull on a weld over its strength beyond which it opens.
-pub const TORN: f64 = 1.0;
+pub(crate) const TORN: f64 = 1.0;
 /// A peak of the walls' kinetic energy stands out if the valleys beside it are below this share of it.
-pub const VALLEY: f64 = 0.5;
+pub(crate) const VALLEY: f64 = 0.5;
 /// Smallest drop of a snap, as a share of the largest stored energy of the run.
-pub const SMALLEST_DROP: f64 = 0.005;
+pub(crate) const SMALLEST_DROP: f64 = 0.005;
 /// Fewest rows of elements between two welds.
-pub const FEWEST_ROWS: usize = 4;
+pub(crate) const FEWEST_ROWS: usize = 4;
 /// Fewest steps of a run whose masses are all raised: guards look every 64 steps, so a shorter one is never judged.
-pub const FEWEST_STEPS: f64 = 64.0;
+pub(crate) const FEWEST_STEPS: f64 = 64.0;
 /// More outputs than this fill a disk before they help.
-pub const MOST_OUTPUTS: f64 = 100_000.0;
+pub(crate) const MOST_OUTPUTS: f64 = 100_000.0;
 /// Largest number of nodes a generator makes: a slip in a count is a message, not a full memory.
-pub const MOST_NODES: usize = 20_000_000;
+pub(crate) const MOST_NODES: usize = 20_000_000;
 /// Memory that a run takes at least for every element; robots of many layers take up to 2.5 times as much \[bytes\].
-pub const LEAST_BYTES: u64 = 1500;
+pub(crate) const LEAST_BYTES: u64 = 1500;
 /// Nodes this deep in an obstacle at the start only touch \[m\].
-pub const TOUCHING_M: f64 = 1e-5;
+pub(crate) const TOUCHING_M: f64 = 1e-5;
 /// Smallest area over the square of the longest side that counts as an area; far below any useful element.
-pub const NO_AREA: f64 = 1e-9;
+pub(crate) const NO_AREA: f64 = 1e-9;
 /// Sine of the smallest angle between warp and normal: 1 degree, below which its projection is arbitrary.
-pub const ACROSS: f64 = 0.0175;
+pub(crate) const ACROSS: f64 = 0.0175;
 
 /// Whether an element has lost its area, of its share of that at rest.
-pub fn is_collapsed(share: f64) -> bool {
+pub(crate) fn is_collapsed(share: f64) -> bool {
     share.is_nan() || share < COLLAPSED
 }
 
 /// Whether a chamber is inside out, of its volume over (wall area)^(3/2).
-pub fn is_inside_out(share: f64) -> bool {
+pub(crate) fn is_inside_out(share: f64) -> bool {
     share < -INSIDE_OUT
 }
 
 /// Whether a sealed chamber has something in it, of its volume over (wall area)^(3/2).
-pub fn holds_gas(share: f64) -> bool {
+pub(crate) fn holds_gas(share: f64) -> bool {
     share >= NO_GAS
 }
 
 /// Whether a mesh is as long as no robot \[m\].
-pub fn is_huge(extent_m: f64) -> bool {
+pub(crate) fn is_huge(extent_m: f64) -> bool {
     extent_m > HUGE_M
 }
 
 /// Whether half of the elements are longer than those of a mesh in metres, of the median side \[m\].
-pub fn is_coarse(median_side_m: f64) -> bool {
+pub(crate) fn is_coarse(median_side_m: f64) -> bool {
     median_side_m > LONGEST_SIDE_M
 }
 
 /// Whether contact is a likely cause of a stop, of its share of the stored energy.
-pub fn is_pressed(share: f64) -> bool {
+pub(crate) fn is_pressed(share: f64) -> bool {
     share > PRESSED
 }
 
 /// Whether layers are caught in each other at the end, of the share of the stored energy that contact holds.
-pub fn is_caught(share: f64) -> bool {
+pub(crate) fn is_caught(share: f64) -> bool {
     share > CAUGHT
 }
 
 /// Whether more mass was added than there is.
-pub fn is_heavy(added_mass: f64) -> bool {
+pub(crate) fn is_heavy(added_mass: f64) -> bool {
     added_mass > HEAVY
 }
 
 /// Whether hourglass control is no longer small, of its share of the stored energy.
-pub fn is_warped(share: f64) -> bool {
+pub(crate) fn is_warped(share: f64) -> bool {
     share > HOURGLASS_WARNED
 }
 
 /// Whether a planar robot has left its plane, of its tip's displacement across it over the whole.
-pub fn leaves_plane(share: f64) -> bool {
+pub(crate) fn leaves_plane(share: f64) -> bool {
     share > OUT_OF_PLANE
 }
 
 /// Whether a weld opens, of the pull on it over its strength.
-pub fn is_torn(share: f64) -> bool {
+pub(crate) fn is_torn(share: f64) -> bool {
     share > TORN
 }
 
 /// Whether a run is at rest, of its kinetic over its total energy.
-pub fn is_at_rest(kinetic_share: f64) -> bool {
+pub(crate) fn is_at_rest(kinetic_share: f64) -> bool {
     kinetic_share < KINETIC_OF_TOTAL
 }
 
 /// Whether a run keeps the rule of the paper's source, of its kinetic over its total energy.
-pub fn is_valid(kinetic_share: f64) -> bool {
+pub(crate) fn is_valid(kinetic_share: f64) -> bool {
     // K < r·U is the same as K/(K + U) < r/(1 + r).
     kinetic_share < KINETIC_OF_INTERNAL / (1.0 + KINETIC_OF_INTERNAL)
 }
 
 /// Movement of a tip that counts as none \[m\], of the share allowed ([`CREEP`]), its displacement and the robot's length \[m\].
-pub fn moves_no_more_m(creep: f64, tip_m: f64, length_m: f64) -> f64 {
+pub(crate) fn moves_no_more_m(creep: f64, tip_m: f64, length_m: f64) -> f64 {
     creep * tip_m.max(BENT * length_m)
 }
 
 /// Whether a valley parts two peaks, of the walls' kinetic energies.
-pub fn is_valley(low_j: f64, high_j: f64) -> bool {
+pub(crate) fn is_valley(low_j: f64, high_j: f64) -> bool {
     low_j < VALLEY * high_j
 }
 
 /// Whether a drop of stored energy is a snap, of the most that was stored.
-pub fn is_a_drop(released_j: f64, most_j: f64) -> bool {
+pub(crate) fn is_a_drop(released_j: f64, most_j: f64) -> bool {
     released_j > SMALLEST_DROP * most_j
 }
 
 /// Whether a pouch has enough elements between its welds.
-pub fn is_fine(rows: usize) -> bool {
+pub(crate) fn is_fine(rows: usize) -> bool {
     rows >= FEWEST_ROWS
 }
 
 /// Whether a run has too few steps to follow any motion.
-pub fn is_too_short(steps: f64) -> bool {
+pub(crate) fn is_too_short(steps: f64) -> bool {
     steps < FEWEST_STEPS
 }
 
 /// Whether a node starts inside an obstacle \[m\].
-pub fn is_inside(depth_m: f64) -> bool {
+pub(crate) fn is_inside(depth_m: f64) -> bool {
     depth_m > TOUCHING_M
 }
 
 /// Whether three or four corners span an area, of it and the square of the longest side.
-pub fn is_area(area: f64, longest_squared: f64) -> bool {
+pub(crate) fn is_area(area: f64, longest_squared: f64) -> bool {
     area > NO_AREA * longest_squared && area.is_finite()
 }
 
 /// Whether a warp lies in its sheet, of the sine of its angle with the normal.
-pub fn is_in_sheet(sine: f64) -> bool {
+pub(crate) fn is_in_sheet(sine: f64) -> bool {
     sine >= ACROSS
 }
 

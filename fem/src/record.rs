@@ -4,6 +4,7 @@
 //! key it lacks; then the rest, where a fault is told with its line and its path, `runs[3].states[0].tip_mm`.
 
 use crate::FemError;
+use crate::error::Damage;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::error::Category;
@@ -16,37 +17,6 @@ pub struct RecordShape {
     pub schema: &'static str,
     /// Goes up whenever a record of before can no longer be read as it was meant.
     pub version: u64,
-}
-
-/// What is wrong with a record, and where.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Damage {
-    /// The file.
-    pub file: String,
-    /// Line, counted from 1; `None` if the whole file is of another kind.
-    pub line: Option<u64>,
-    /// What is wrong.
-    pub message: String,
-    /// What to do.
-    pub help: String,
-}
-
-impl Damage {
-    fn error(file: &str, line: Option<u64>, message: String, help: &str) -> FemError {
-        FemError::Record(Box::new(Damage { file: file.into(), line, message, help: help.into() }))
-    }
-
-    /// A file whose bytes are not those that its manifest lists.
-    pub(crate) fn changed(file: &str, help: &str) -> FemError {
-        let message = "is not the file that was written: its SHA-256 differs from that in manifest.json";
-        Damage::error(file, None, message.into(), help)
-    }
-
-    /// File, line and what is wrong.
-    pub(crate) fn place(&self) -> String {
-        let Damage { file, line, message, .. } = self;
-        line.map_or_else(|| format!("{file}: {message}"), |line| format!("{file}:{line}: {message}"))
-    }
 }
 
 #[derive(Serialize)]

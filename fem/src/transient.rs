@@ -1,6 +1,6 @@
 //! What a term of the finite element engine is beside its energy: it steps through time and keeps its own memory.
 
-use models::{Pose, Row, Term};
+use models::{Account, Pose, Row, RowKind, Term};
 
 /// Where the time integration stands when a term is advanced.
 #[derive(Debug, Clone, Copy)]
@@ -11,6 +11,11 @@ pub struct Tick {
     pub time_s: f64,
     /// Length of the step \[s\].
     pub dt_s: f64,
+}
+
+/// A line of the ledger.
+pub(crate) fn row(name: &'static str, account: Account, kind: RowKind, energy_j: f64) -> Row {
+    Row { name, account, kind, energy_j }
 }
 
 /// A term over the nodes of a mesh, stepped in time.

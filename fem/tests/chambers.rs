@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use fem::case::Case;
 use fem::mesh::file::{MeshFile, read};
-use fem::{Mesh, Simulation};
+use fem::{Mesh, Part, Simulation};
 use models::RowKind;
 
 const FABRIC: &str = "[fabric.film]\nlaw = \"isotropic\"\ne_MPa = 200\nnu = 0.3\nthickness_mm = 0.3\n\
@@ -14,63 +14,53 @@ const FABRIC: &str = "[fabric.film]\nlaw = \"isotropic\"\ne_MPa = 200\nnu = 0.3\
 const SETTINGS: &str = "[settings]\nend_s = 0.01\nmass_damping_1_s = 60\ndt_s = 1.5e-5\n";
 
 /// A lens of 16 by 16 quadrilaterals and two sheets, z = ± 30 (1 − x²)(1 − y²) mm over a square of 200 mm whose middle is moved by
-/// `shift` mm, or the part of it with x, y or z from 0 on where that is cut.
-fn lens(cuts: [bool; 3], shift: f64) -> (String, usize) {
+/// `shift` mm, or the part of it with x, y or z from 0 on where that is cut. In mm.
+fn lens(cuts: [bool; 3], shift: f64) -> Mesh {
     let span = |cut: bool| if cut { 8..=16 } else { 0..=16 };
-    let (mut text, mut number) = (String::new(), std::collections::BTreeMap::new());
-    let mut sets = [const { Vec::new() }; 4];
-    for side in if cuts[2] { vec![1] } else { vec![1, -1] } {
+    let (mut mesh, mut number) = (Mesh::default(), std::collections::BTreeMap::new());
+    let is_rim = |i: i32, j: i32| [i, j].iter().any(|k| *k == 0 || *k == 16);
+    let key = |i, j, side| (i, j, if is_rim(i, j) { 1 } else { side });
+    let sides = if cuts[2] { vec![1] } else { vec![1, -1] };
+    for side in &sides {
         for j in span(cuts[1]) {
             for i in span(cuts[0]) {
-                let is_rim = [i, j].iter().any(|k| *k == 0 || *k == 16);
-                let key = (i, j, if is_rim { 1 } else { side });
-                if number.contains_key(&key) {
+                if number.contains_key(&key(i, j, *side)) {
                     continue;
                 }
-                number.insert(key, number.len() + 1);
+                let node = number.len() as u32;
+                number.insert(key(i, j, *side), node);
                 let [x, y] = [i, j].map(|k| f64::from(k) / 8.0 - 1.0);
-                let z = f64::from(side) * 30.0 * (1.0 - x * x) * (1.0 - y * y);
-                writeln!(text, "v {} {} {}", 100.0 * x + shift, 100.0 * y + shift, z + shift).unwrap();
-                let of = [i == 8, j == 8, is_rim, i == 8 && j == 8 && side == 1];
-                (0..4).filter(|k| of[*k]).for_each(|k| sets[k].push(number.len()));
+                let z = f64::from(*side) * 30.0 * (1.0 - x * x) * (1.0 - y * y);
+                mesh.points.push([100.0 * x + shift, 100.0 * y + shift, z + shift]);
+                let of = [i == 8, j == 8, is_rim(i, j), i == 8 && j == 8 && *side == 1];
+                for (name, _) in ["plane_x", "plane_y", "rim", "centre"].into_iter().zip(of).filter(|(_, is_in)| *is_in)
+                {
+                    mesh.sets.entry(name.into()).or_default().push(node);
+                }
             }
         }
     }
-    for side in if cuts[2] { vec![1] } else { vec![1, -1] } {
-        writeln!(text, "g {}", if side == 1 { "top" } else { "bottom" }).unwrap();
-        let spans = [span(cuts[0]), span(cuts[1])].map(|s| *s.start()..*s.end());
-        for j in spans[1].clone() {
-            for i in spans[0].clone() {
+    for side in sides {
+        let mut quads = Vec::new();
+        for j in *span(cuts[1]).start()..16 {
+            for i in *span(cuts[0]).start()..16 {
                 let mut corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
                 if side == -1 {
                     corners.reverse();
                 }
-                let node = |(i, j): (i32, i32)| {
-                    let is_rim = [i, j].iter().any(|k| *k == 0 || *k == 16);
-                    number[&(i, j, if is_rim { 1 } else { side })]
-                };
-                let [a, b, c, d] = corners.map(node);
-                writeln!(text, "f {a} {b} {c} {d}").unwrap();
+                quads.push(corners.map(|(i, j)| number[&key(i, j, side)]));
             }
         }
+        let name = if side == 1 { "top" } else { "bottom" };
+        mesh.parts.push(Part { name: name.into(), quads, ..Part::default() });
     }
-    for (name, nodes) in ["plane_x", "plane_y", "rim", "centre"].iter().zip(&sets) {
-        let list: Vec<String> = nodes.iter().map(ToString::to_string).collect();
-        writeln!(text, "g {name}\np {}", list.join(" ")).unwrap();
-    }
-    (text, number.len())
+    mesh
 }
 
-fn file(text: &str) -> MeshFile {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("mesh.obj");
-    std::fs::write(&path, text).unwrap();
-    read(&path).unwrap()
-}
-
-fn case(mesh: &str, rest: &str) -> Result<Case, fem::FemError> {
-    let text = format!("kind = \"fem\"\n[mesh]\nfile = \"mesh.obj\"\nunit = \"mm\"\n{rest}");
-    Case::parse(&text, &mut |_| Ok(file(mesh)))
+/// The case of a mesh in mm.
+fn case(mesh: &Mesh, rest: &str) -> Result<Case, fem::FemError> {
+    let text = format!("kind = \"fem\"\n[mesh]\nfile = \"mesh.msh\"\nunit = \"mm\"\n{rest}");
+    Case::parse(&text, &mut |_| Ok(MeshFile { mesh: mesh.clone(), format: "test", ..MeshFile::default() }))
 }
 
 /// Supports and the opening of a cut lens: the rim rests along z, as it does in the whole by symmetry.
@@ -84,7 +74,7 @@ fn cut_lens(cuts: [bool; 3], gas: &str) -> String {
 
 /// Volume over that of the whole at the start and the end \[m³\], height of the centre \[m\] and work of the gas \[J\].
 fn swollen(cuts: [bool; 3], shift: f64, gas: &str) -> [f64; 3] {
-    let case = case(&lens(cuts, shift).0, &cut_lens(cuts, gas)).unwrap();
+    let case = case(&lens(cuts, shift), &cut_lens(cuts, gas)).unwrap();
     let centre = case.problem.mesh.sets["centre"][0] as usize;
     let mut run = Simulation::new(&case.problem).unwrap();
     run.advance_until(0.01, &mut |_| true).unwrap();
@@ -132,7 +122,7 @@ fn a_quarter_takes_a_quarter_of_the_hose_of_the_leak_and_of_the_flow() {
 #[test]
 fn planes_that_are_not_named_or_not_held_are_refused_with_what_to_type() {
     let quarter = [true, true, false];
-    let (mesh, good) = (lens(quarter, 0.0).0, cut_lens(quarter, "pressure_kPa = 1\n"));
+    let (mesh, good) = (lens(quarter, 0.0), cut_lens(quarter, "pressure_kPa = 1\n"));
     let refused = |from: &str, to: &str| {
         assert!(good.contains(from), "{from}");
         match case(&mesh, &good.replace(from, to)) {
@@ -213,21 +203,17 @@ fn a_flat_pouch_with_a_hose_is_blown_up_by_a_flow() {
     assert!(refused.contains("holds no gas") && refused.contains("dead_volume_cm3"), "{refused}");
 }
 
-/// A strip of 100 by 50 mm in the plane of the axes `along` and `across`.
-fn strip(along: [f64; 3], across: [f64; 3]) -> String {
-    let mut text = String::new();
-    for i in 0..=10 {
-        for j in 0..=5 {
-            let p = [0, 1, 2].map(|k| 10.0 * (f64::from(i) * along[k] + f64::from(j) * across[k]));
-            writeln!(text, "v {} {} {}", p[0], p[1], p[2]).unwrap();
-        }
+/// A strip of 100 by 50 mm in the plane of the axes `along` and `across`. In mm.
+fn strip(along: [f64; 3], across: [f64; 3]) -> Mesh {
+    let place = |i: u32, j: u32| [0, 1, 2].map(|k| 10.0 * (f64::from(i) * along[k] + f64::from(j) * across[k]));
+    let quad = |i: u32, j: u32| [0, 6, 7, 1].map(|k| 6 * i + j + k);
+    let quads = (0..10).flat_map(|i| (0..5).map(move |j| quad(i, j))).collect();
+    Mesh {
+        points: (0..=10).flat_map(|i| (0..=5).map(move |j| place(i, j))).collect(),
+        parts: vec![Part { name: "cloth".into(), quads, ..Part::default() }],
+        sets: [("near", 0), ("far", 60)].map(|(name, first)| (name.into(), (first..first + 6).collect())).into(),
+        ..Mesh::default()
     }
-    text += "g cloth\n";
-    for (i, j) in (0..10).flat_map(|i| (0..5).map(move |j| (i, j))) {
-        let n = 6 * i + j + 1;
-        writeln!(text, "f {n} {} {} {}", n + 6, n + 7, n + 1).unwrap();
-    }
-    text + "g near\np 1 2 3 4 5 6\ng far\np 61 62 63 64 65 66\n"
 }
 
 const WEAVE: &str =
@@ -240,9 +226,7 @@ fn pull(mesh: &Mesh, along: [f64; 3], warp: &str) -> f64 {
         "{WEAVE}[part.all]\nfabric = \"weave\"\ndensity_kg_m3 = 1000\n{warp}[[support]]\nset = \"near\"\n[[support]]\nset = \"far\"\n\
          smooth_s_mm = [[0, 0, 0, 0], [0.02, {x}, {y}, {z}]]\n[settings]\nend_s = 0.04\nmass_damping_1_s = 1000\n"
     );
-    let text = format!("kind = \"fem\"\n[mesh]\nfile = \"mesh.obj\"\nunit = \"mm\"\n{rest}");
-    let case = Case::parse(&text, &mut |_| Ok(MeshFile { mesh: mesh.clone(), format: "test", ..MeshFile::default() }));
-    let mut run = Simulation::new(&case.unwrap().problem).unwrap();
+    let mut run = Simulation::new(&case(mesh, &rest).unwrap().problem).unwrap();
     run.advance_until(0.04, &mut |_| true).unwrap();
     let force = run.reaction_n("far").unwrap();
     (0..3).map(|k| force[k] * along[k]).sum()
@@ -262,13 +246,13 @@ fn the_warp_of_a_part_lies_as_its_key_says_on_any_plane() {
         ([root, root, 0.0], z, "warp = \"y\"\n", 40.0),
         ([root, root, 0.0], z, "warp = \"z\"\n", 10.0),
     ] {
-        close(pull(&file(&strip(along, across)).mesh, along, warp), wanted);
+        close(pull(&strip(along, across), along, warp), wanted);
     }
 }
 
 #[test]
 fn a_warp_along_the_normal_is_refused_with_the_axes_that_lie_in_the_sheet() {
-    let refused = |mesh: &str, warp: &str| {
+    let refused = |mesh: &Mesh, warp: &str| {
         let part = format!("{WEAVE}[part.all]\nfabric = \"weave\"\ndensity_kg_m3 = 1000\n{warp}");
         case(mesh, &part).map(|case| case.problem.check()).unwrap_err().to_string()
     };

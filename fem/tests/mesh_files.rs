@@ -1,6 +1,6 @@
 //! Mesh files of other programs: closed forms of a cube and a cushion in every format, and what is refused.
 //!
-//! `cushion.*` is one square of 0.3 m in seven formats, flat, both sheets with the same diagonals; `disc*` one open sheet. The cubes
+//! `cushion.*` is one square of 0.3 m, flat, both sheets with the same diagonals; `disc*` one open sheet. The cubes
 //! have sides of 20 mm, groups, and faces that are turned over.
 
 #![allow(clippy::unwrap_used)] // a test that cannot be set up must fail
@@ -68,8 +68,6 @@ fn a_cube_of_20_mm_holds_8000_mm3_in_every_format() {
     for (file, unit, expected) in [
         ("cube_gmsh41.msh", "mm", vec![("wall", 5, 0), ("the lid", 1, 0)]),
         ("cube_gmsh22.msh", "mm", vec![("wall", 4, 2), ("surface_6", 1, 0)]),
-        ("cube_medit.mesh", "cm", vec![("surface_1", 4, 2), ("surface_2", 1, 0)]),
-        ("cube.obj", "mm", vec![("wall", 4, 2), ("lid", 1, 0)]),
     ] {
         let (problem, notices) = loaded(&format!("file = \"{file}\"\nunit = \"{unit}\""), AIR);
         assert_eq!((parts(&problem.mesh), problem.mesh.points.len()), (expected, 8), "{file}");
@@ -94,11 +92,6 @@ fn groups_become_node_sets_and_faces_that_look_inwards_are_noticed() {
     }
     let (problem, _) = loaded("file = \"cube_gmsh22.msh\"\nunit = \"mm\"", AIR);
     assert_eq!((set(&problem.mesh, "point_7"), set(&problem.mesh, "line_3").len()), (vec![&tip], 2));
-    let (problem, _) = loaded("file = \"cube_medit.mesh\"\nunit = \"cm\"", AIR);
-    assert_eq!((set(&problem.mesh, "vertices_4"), set(&problem.mesh, "edges_5").len()), (vec![&tip], 2));
-    let (problem, notices) = loaded("file = \"cube.obj\"\nunit = \"mm\"", AIR);
-    assert_eq!(set(&problem.mesh, "lid"), [&tip]);
-    assert!(notices.join("\n").contains("usemtl (line"), "{notices:?}");
 }
 
 #[test]
@@ -179,11 +172,7 @@ fn solids_of_stl_are_parts_and_binary_equals_text() {
 
 #[test]
 fn the_open_disc_is_read_and_is_no_chamber() {
-    for (file, part, weld) in [
-        ("disc_gmsh41.msh", "sheet", Some("weld")),
-        ("disc_gmsh22.msh", "sheet", Some("weld")),
-        ("disc_medit.mesh", "surface_1", Some("edges_1")),
-    ] {
+    for (file, part, weld) in [("disc_gmsh41.msh", "sheet", Some("weld")), ("disc_gmsh22.msh", "sheet", Some("weld"))] {
         let (problem, _) = loaded(&format!("file = \"{file}\"\nunit = \"m\""), "");
         assert_eq!(parts(&problem.mesh), [(part, 0, 113)], "{file}");
         // The weld is a ring of 23 nodes at 50 mm from the centre.
@@ -206,13 +195,11 @@ fn inflated(mesh: &str, end_s: f64, settings: &str) -> f64 {
 #[test]
 fn the_cushion_of_triangles_inflates_to_its_least_energy_in_every_format() {
     // Another program found the least energy of these 144 triangles as membranes, minus pressure times volume, at 4191.675 cm³.
-    let own = inflated("file = \"cushion.mesh\"", 0.3, "");
+    let own = inflated("file = \"cushion.msh\"\nunit = \"m\"", 0.3, "");
     assert!((own / 4191.675 - 1.0).abs() < 1e-4, "{own}");
-    let own = inflated("file = \"cushion.mesh\"", 0.08, "");
-    for file in ["cushion.obj", "cushion.stl"] {
-        let volume = inflated(&format!("file = \"{file}\"\nunit = \"m\""), 0.08, "");
-        assert!((volume / own - 1.0).abs() < 1e-6, "{file}: {volume}, {own}");
-    }
+    let own = inflated("file = \"cushion.msh\"\nunit = \"m\"", 0.08, "");
+    let stl = inflated("file = \"cushion.stl\"\nunit = \"m\"", 0.08, "");
+    assert!((stl / own - 1.0).abs() < 1e-6, "{stl}, {own}");
 }
 
 #[test]
@@ -265,16 +252,12 @@ fn what_is_not_understood_is_refused_with_its_line_and_what_to_do() {
             "3 corners, this one 1",
         ),
         ("a.stl", "solid a\nendsolid a\n".into(), 2, "ends before the first facet"),
-        ("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n".into(), 4, "there is no node 9"),
-        ("a.obj", "v 0 0 0\ncurv 0 1 1 2\n".into(), 2, "`curv` is not understood"),
-        ("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 1 2\n".into(), 4, "a face of 5 corners"),
-        ("a.mesh", "MeshVersionFormatted 2\nDimension 3\nTetrahedra 2\n".into(), 3, "`Tetrahedra` are solids"),
-        ("a.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 1\n0 0 0\n".into(), 4, "ends before a vertex"),
-        ("a.mesh", "MeshVersionFormatted 2\nFolds 3\n".into(), 2, "unknown keyword `Folds`"),
+        ("a.mesh", "MeshVersionFormatted 2\nDimension 3\n".into(), 1, "this is Medit, which is not read; convert it"),
+        ("a.obj", "v 0 0 0\n".into(), 1, "this is OBJ"),
         ("a.ply", "ply\nformat ascii 1.0\n".into(), 1, "this is PLY, which is not read; convert it"),
         ("a.vtu", "<VTKFile type=\"UnstructuredGrid\">\n".into(), 1, "this is VTK"),
         ("a.txt", "hello\n".into(), 1, "begins with `hello`. Gmsh (.msh)"),
-        ("a.obj", "v 0 0 0\n".into(), 1, "no triangle and no quadrilateral"),
+        ("a.inp", nodes.into(), 4, "no triangle and no quadrilateral"),
     ] {
         let message = refused_text(name, &text);
         assert!(message.starts_with(&format!("{name}:{line}: ")) && message.contains(words), "{text}\n{message}");
@@ -290,7 +273,6 @@ fn units_and_chambers_that_nobody_named_are_asked_for() {
         (format!("{msh}\nunit = \"m\""), AIR, ["looks like millimetres", "write unit = \"mm\""]),
         (format!("{stl}\nunit = \"mm\""), AIR, ["0.3000 mm long: it looks like metres", "write unit = \"m\""]),
         (format!("{stl}\nunit = \"feet\""), AIR, ["feet", "mm"]),
-        ("file = \"cushion.mesh\"\nunit = \"mm\"".into(), AIR, ["are in metres", "remove unit"]),
         (cubes.into(), "[chamber.a]\npressure_kPa = 1\n", ["2 surfaces of the file: Left.Inner, Right.Inner", "parts"]),
         (
             cubes.into(),
@@ -303,8 +285,8 @@ fn units_and_chambers_that_nobody_named_are_asked_for() {
             ["unknown part `Left.Wals`", "did you mean `Left.Walls`?"],
         ),
         (
-            "file = \"cushion.mesh\"".into(),
-            "[chamber.air]\npressure_kPa = 1\nparts = [\"all\"]\n",
+            "generator = \"sphere\"\ndiameter_mm = 100\nelements = 4".into(),
+            "[chamber.air]\npressure_kPa = 1\nparts = [\"sphere\"]\n",
             ["says itself", "remove parts"],
         ),
     ] {
@@ -316,8 +298,9 @@ fn units_and_chambers_that_nobody_named_are_asked_for() {
 #[test]
 fn a_corner_that_cannot_be_turned_is_told() {
     // One square of four nodes: both triangles of both sheets have all nodes on the rim.
-    let square = "v 0 0 0\nv 20 0 0\nv 20 20 0\nv 0 20 0\nf 1 2 3\nf 1 3 4\nf 1 3 2\nf 1 4 3\n";
-    let message = refused_text("a.obj", square);
+    let square = "*NODE\n1, 0, 0, 0\n2, 20, 0, 0\n3, 20, 20, 0\n4, 0, 20, 0\n*ELEMENT, TYPE=S3, ELSET=sheet\n\
+                  1, 1, 2, 3\n2, 1, 3, 4\n3, 1, 3, 2\n4, 1, 4, 3\n";
+    let message = refused_text("a.inp", square);
     assert!(message.contains("at the corner (") && message.contains("turn the diagonal there"), "{message}");
 }
 
@@ -326,7 +309,7 @@ fn files_cut_anywhere_or_with_other_words_never_panic() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes");
     let scratch = tempfile::tempdir().unwrap();
     let mut tried = 0;
-    for name in ["cube_gmsh41.msh", "cube_gmsh22.msh", "cube_medit.mesh", "cube.obj", "cubes.inp"] {
+    for name in ["cube_gmsh41.msh", "cube_gmsh22.msh", "cubes.inp"] {
         let text = std::fs::read_to_string(folder.join(name)).unwrap();
         let words: Vec<&str> = text.split_inclusive([' ', ',', '\n']).collect();
         for at in (0..words.len()).step_by(5) {
@@ -338,5 +321,5 @@ fn files_cut_anywhere_or_with_other_words_never_panic() {
             }
         }
     }
-    assert!(tried > 600, "{tried}");
+    assert!(tried > 400, "{tried}");
 }

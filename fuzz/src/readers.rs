@@ -81,12 +81,9 @@ pub const READERS: &[Reader] = &[
     made("parquet", parquets, parquet),
     made("case", cases, case),
     made("robot", robots, robot),
-    of("mesh-own", &["fem/tests/meshes/cushion.mesh"], mesh),
     of("mesh-gmsh", &["fem/tests/meshes/cube_gmsh41.msh", "fem/tests/meshes/cube_gmsh22.msh"], mesh),
-    of("mesh-medit", &["fem/tests/meshes/cube_medit.mesh"], mesh),
     of("mesh-abaqus", &["fem/tests/meshes/cubes.inp", "fem/tests/meshes/cushion_cae.inp"], mesh),
     of("mesh-stl", &["fem/tests/meshes/cubes.stl", "fem/tests/meshes/cushion.stl"], mesh),
-    of("mesh-obj", &["fem/tests/meshes/cube.obj", "fem/tests/meshes/cushion.obj"], mesh),
     of("deeplabcut", &["data/tests/cases/c01-deeplabcut/run1.csv", "data/tests/made/deeplabcut_multi.csv"], pixels),
     of("sleap", &["data/tests/made/sleap.csv"], pixels),
     of("motive", &["data/tests/cases/c02-motive/vine_1.csv", "data/tests/made/motive_mm.csv"], lengths),
@@ -263,9 +260,8 @@ fn cases() -> Vec<Vec<u8>> {
 }
 
 fn case(bytes: &[u8]) -> bool {
-    let mut read_mesh = |_: &Path| -> Result<MeshFile, FemError> {
-        fem::mesh::file::read(&repository("fem/tests/meshes/cushion.mesh"))
-    };
+    let mut read_mesh =
+        |_: &Path| -> Result<MeshFile, FemError> { fem::mesh::file::read(&repository("fem/tests/meshes/cushion.msh")) };
     std::str::from_utf8(bytes).is_ok_and(|text| Case::parse(text, &mut read_mesh).is_ok())
 }
 

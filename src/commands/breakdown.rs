@@ -7,7 +7,8 @@ use crate::cli::BreakdownArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
 use crate::shown::breakdown::text;
-use compare::study::breakdown::{PartingCell, Ranges, csv, jobs, partings};
+use compare::study::breakdown::{PARTINGS_CSV, Ranges, jobs, partings};
+use compare::study::columns::csv;
 use compare::study::engines::{EngineRun, engines, runs_json, runs_of, stored};
 use ibr::pages::{Files, parting_plot};
 use models::Scenario;
@@ -26,11 +27,10 @@ pub fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome, Failu
     for (k, map) in engines(&scenarios, &runs)?.maps.iter().enumerate() {
         files.plot(&format!("breakdown_{}_{k}", map.actuator), parting_plot(map)?);
     }
-    files.text("breakdown.csv", csv(&rows));
+    files.text("breakdown.csv", csv(&PARTINGS_CSV, &rows));
     files.text("runs.json", runs_json(&runs));
     write_files(&args.out, &files, &[], context)?;
-    let cells: Vec<PartingCell> = rows.iter().map(PartingCell::of).collect();
-    let mut outcome = Outcome::new(text(&rows), json!({"schema": "ibr.breakdown", "version": 1, "cells": cells}));
+    let mut outcome = Outcome::new(text(&rows), json!({"schema": "ibr.breakdown", "version": 1, "cells": rows}));
     outcome.notes.extend(stopped.iter().map(|error| format!("left out of the map: {}", error.render().trim())));
     outcome.notes.push(format!("maps and tables: {}", args.out.display()));
     Ok(outcome)

@@ -21,7 +21,7 @@ pub fn characterized_files(found: &Characterized, fabric: Option<&str>, program:
         }
     }
     for yarn in &found.yarns {
-        files.csv(&format!("mean_{}", yarn.direction.word()), &yarn_table(&yarn.rows, &yarn.sd_pa))?;
+        files.csv(&format!("mean_{}", yarn.direction.word()), &yarn_table(yarn))?;
     }
     if let Some(shear) = &found.shear {
         files.csv("mean_shear", &shear_table(shear, found.thickness_m))?;

@@ -2,9 +2,8 @@
 
 use super::engine_figures::{bars, curve, displaced, ledger, parting_plot};
 use super::{Files, Imprint, PAPER, PageError, marker_intervals, what_to_measure};
-use ::compare::study::engines::{
-    EngineRobot, Engines, HEADS, SUMMARY, VOLUMES, VOLUMES_CAPTION, cells, csv, lines, summary, volume_cells,
-};
+use ::compare::study::columns::{TextTable, csv};
+use ::compare::study::engines::{EngineRobot, Engines, LINES_CSV, line_table, lines, summary, volume_table};
 use ::compare::study::uncertain::Uncertain;
 use serde_json::{Value, json};
 
@@ -35,15 +34,16 @@ pub fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files, PageE
         files.plot(&name, parting_plot(map)?);
         maps.push(json!({"name": name, "mesh_mm": map.mesh_mm}));
     }
+    let volumes = volume_table(&engines.robots);
     for (key, value) in [
         ("title", json!("Two engines against the published displacements")),
         ("lead", json!(lead(engines))),
         ("cubes", json!(cubes)),
         ("kinds", json!(kinds)),
         ("maps", json!(maps)),
-        ("volumes", json!(volume_cells(&engines.robots))),
-        ("volume_heads", heads(&VOLUMES, &[])),
-        ("volume_caption", json!(VOLUMES_CAPTION)),
+        ("volumes", json!(volumes.rows)),
+        ("volume_heads", heads(&volumes, &[])),
+        ("volume_caption", json!(volumes.caption)),
         ("provenance", json!(provenance(engines, imprint))),
     ] {
         values[key] = value;
@@ -54,36 +54,34 @@ pub fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files, PageE
 
 /// One row a robot, with the bars of their displacements, and all lines as a table beside.
 pub(super) fn overview(engines: &Engines, files: &mut Files) -> Result<Value, PageError> {
-    let (mut all, mut rows) = (Vec::new(), Vec::new());
+    let mut all = Vec::new();
     for robot in &engines.robots {
         all.extend(lines(robot)?);
-        rows.extend(summary(robot)?);
     }
-    files.text("engines.csv", csv(&all));
+    let (summary, lines) = (summary(&engines.robots)?, line_table(&all));
+    files.text("engines.csv", csv(&LINES_CSV, &all));
     if let Some(bars) = bars(engines)? {
         files.plot("engines", bars);
     }
     Ok(json!({
-        "summary": rows, "summary_heads": heads(&SUMMARY, &[1, 6]),
-        "lines": all.iter().map(cells).collect::<Vec<_>>(), "line_heads": heads(&HEADS, &[2, 3]),
+        "summary": summary.rows, "summary_heads": heads(&summary, &[1, 6]),
+        "lines": lines.rows, "line_heads": heads(&lines, &[2, 3]),
     }))
 }
 
 /// Heads of a table, those of words marked.
-fn heads(names: &[&str], words: &[usize]) -> Value {
+fn heads(table: &TextTable, words: &[usize]) -> Value {
     let mark = |k: usize| if words.contains(&k) { "l" } else { "" };
-    json!(names.iter().enumerate().map(|(k, name)| [name, "", mark(k)]).collect::<Vec<_>>())
+    json!(table.heads.iter().enumerate().map(|(k, name)| [name, "", mark(k)]).collect::<Vec<_>>())
 }
 
 /// Heights of all markers with their intervals, and what to measure first.
 fn draw_cube(robot: &EngineRobot, cube: &Uncertain, files: &mut Files) -> Result<Value, PageError> {
-    let last = cube.stations_mm.last().copied().unwrap_or(f64::NAN);
-    let own = robot.published.iter().map(|p| (p.d_max_pressure_pa * 1e-3, [last, p.d_max_m * 1e3]));
+    let own = if robot.published.is_some() { cube.measured() } else { Vec::new() };
     let words: String = cube.variant.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
     let name = [cube.actuator.as_str(), &words].iter().filter(|w| !w.is_empty()).copied().collect::<Vec<_>>().join("-");
-    files.plot(&format!("{name}_uncertain"), marker_intervals(cube, &own.collect::<Vec<_>>())?);
-    let top = cube.pressures_kpa().into_iter().fold(0.0, f64::max);
-    files.plot(&format!("{name}_tornado"), what_to_measure(cube, top)?);
+    files.plot(&format!("{name}_uncertain"), marker_intervals(cube, &own)?);
+    files.plot(&format!("{name}_tornado"), what_to_measure(cube, cube.top_kpa())?);
     Ok(json!({"name": name, "robots": cube.members.len(), "variant": cube.variant}))
 }
 

@@ -35,7 +35,7 @@ pub fn measured(dataset: &Dataset, hold: usize, marker: usize) -> ([f64; 2], [f6
             sum.map(|v| v / samples as f64)
         })
         .collect();
-    let over_runs = [0, 1].map(|k| Scatter::of(&run_means.iter().map(|m| m[k]).collect::<Vec<_>>()));
+    let over_runs = [0, 1].map(|k| Scatter::of(run_means.iter().map(|m| m[k])));
     let mean = over_runs.map(|s| s.map_or(f64::NAN, |s| s.mean));
     let spread = over_runs.map(|s| s.and_then(|s| s.sd).unwrap_or(0.0));
     (mean, spread)

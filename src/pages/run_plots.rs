@@ -83,7 +83,8 @@ pub fn mesh_plot(name: &str, table: &RunTable) -> Option<Lines> {
             line.entry(size.to_bits()).or_default().push(heights.marker_mm);
         }
     }
-    let scatter = |all: &Vec<f64>| Scatter::of(all).map_or([f64::NAN, 0.0], |s| [s.mean, s.sd.unwrap_or(0.0)]);
+    let scatter =
+        |all: &Vec<f64>| Scatter::of(all.iter().copied()).map_or([f64::NAN, 0.0], |s| [s.mean, s.sd.unwrap_or(0.0)]);
     let series = |(kpa, sizes): (&u64, &BTreeMap<u64, Vec<f64>>)| LineSeries {
         name: format!("{} kPa", f64::from_bits(*kpa)),
         points: sizes.iter().map(|(size, all)| [f64::from_bits(*size), scatter(all)[0]]).collect(),

@@ -1,67 +1,47 @@
 //! Where the engines part, in words.
 
-use crate::tables::table;
+use crate::tables::{printed, table};
 use compare::study::breakdown::Parting;
-use compare::study::engines::{EnginePair, SHAPE};
+use compare::study::columns::{TextColumn, TextTable};
+use compare::study::engines::SHAPE;
 
-fn percent(pair: &EnginePair) -> String {
-    pair.difference().map_or("–".into(), |d| format!("{:+.0}", 100.0 * d))
+const COLUMNS: [TextColumn<Parting>; 11] = [
+    ("robot", |row| row.robot.clone()),
+    ("mesh mm", |row| row.mesh_mm.to_string()),
+    ("body kPa", |row| row.body_kpa.to_string()),
+    ("pouch mm", |row| row.pouch_mm.to_string()),
+    ("actuator kPa", |row| format!("{:.0}", row.actuator_kpa)),
+    ("FE tip mm", |row| format!("{:.1}", row.fe_tip_mm)),
+    ("bare tip mm", |row| format!("{:.1}", row.bare_tip_mm)),
+    ("difference %", |row| percent(row.bare_difference)),
+    ("reduced tip mm", |row| format!("{:.1}", row.reduced_tip_mm)),
+    ("difference %", |row| percent(row.difference)),
+    ("carried by", |row| {
+        let words = row.carried_by.map(|c| format!("{} ({:+.0} % without)", c.term, 100.0 * c.difference_without));
+        words.unwrap_or("–".into())
+    }),
+];
+
+fn percent(share: Option<f64>) -> String {
+    share.map_or("–".into(), |d| format!("{:+.0}", 100.0 * d))
 }
 
-/// Every run at every pressure.
+/// Every run at every pressure; then arm, width, height and volumes of both engines, where a run kept them.
 pub fn text(rows: &[Parting]) -> String {
-    let head = [
-        "robot",
-        "mesh mm",
-        "body kPa",
-        "pouch mm",
-        "actuator kPa",
-        "FE tip mm",
-        "bare tip mm",
-        "difference %",
-        "reduced tip mm",
-        "difference %",
-        "carried by",
-    ];
-    let row = |Parting { run, bare, own: p }: &Parting| {
-        vec![
-            run.actuator.clone(),
-            run.mesh_mm[1].to_string(),
-            run.body_kpa.to_string(),
-            run.pouch_mm.to_string(),
-            format!("{:.0}", p.actuator_kpa),
-            format!("{:.1}", p.fe_mm[1]),
-            format!("{:.1}", bare.reduced_mm[1]),
-            percent(bare),
-            format!("{:.1}", p.reduced_mm[1]),
-            percent(p),
-            p.carrier.map_or("–".into(), |c| format!("{} ({:+.0} % without)", c.term, 100.0 * c.difference_without)),
-        ]
+    let all = TextTable::of("", 1, &COLUMNS, rows);
+    let shape = |row: &Parting| {
+        let shape = row.shape.as_ref()?;
+        let both = shape.reduced.iter().zip(shape.fe);
+        let both = both.map(|(own, fe)| format!("{own:.1} / {fe:.1} ({:+.1})", 100.0 * (own / fe - 1.0)));
+        let place = [0, 2, 3, 4].map(|column| COLUMNS[column].1(row));
+        Some(place.into_iter().chain(both).collect())
     };
-    let shapes = shapes(rows);
-    table(&head, 1, rows.iter().map(row).collect()) + &shapes
-}
-
-/// Arm, width, height and volumes of both, where a run kept them.
-fn shapes(rows: &[Parting]) -> String {
-    let row = |cell: &Parting| {
-        let [own, fe] = cell.own.shape?;
-        let Parting { run, own: p, .. } = cell;
-        let place =
-            [&run.actuator, &run.body_kpa.to_string(), &run.pouch_mm.to_string(), &format!("{:.0}", p.actuator_kpa)];
-        let both = own.iter().zip(fe).map(|(own, fe)| format!("{own:.1} / {fe:.1} ({:+.1})", 100.0 * (own / fe - 1.0)));
-        Some(place.into_iter().cloned().chain(both).collect::<Vec<_>>())
-    };
-    let found: Vec<_> = rows.iter().filter_map(row).collect();
-    if found.is_empty() {
-        return String::new();
+    let shapes: Vec<Vec<String>> = rows.iter().filter_map(shape).collect();
+    if shapes.is_empty() {
+        return printed(&all);
     }
-    let of = |name: &str, unit: &str| format!("{name} {unit}");
-    let names = SHAPE.iter().enumerate().map(|(k, name)| of(name, if k < 3 { "mm" } else { "cm³" }));
-    let head: Vec<String> =
-        ["robot", "body kPa", "pouch mm", "actuator kPa"].map(String::from).into_iter().chain(names).collect();
-    format!(
-        "\nInflated pouches and body: reduced model / finite elements (difference in %)\n{}",
-        table(&head, 1, found)
-    )
+    let names = SHAPE.iter().enumerate().map(|(k, name)| format!("{name} {}", if k < 3 { "mm" } else { "cm³" }));
+    let heads: Vec<String> = [0, 2, 3, 4].map(|column| COLUMNS[column].0.into()).into_iter().chain(names).collect();
+    let caption = "Inflated pouches and body: reduced model / finite elements (difference in %)";
+    format!("{}\n{caption}\n{}", printed(&all), table(&heads, 1, shapes))
 }

@@ -56,7 +56,7 @@ frames = false
 fn summary(case: String, mesh: Option<String>) -> Value {
     let folder = Folder::new();
     folder.write("my.toml", case);
-    mesh.into_iter().for_each(|mesh| folder.write("tube.mesh", mesh));
+    mesh.into_iter().for_each(|mesh| folder.write("tube.msh", mesh));
     let ran = folder.run(&["simulate", "my.toml", "--out", "run", "--quiet"]);
     assert_eq!(ran.code, 0, "{}", ran.stderr);
     serde_json::from_slice(&std::fs::read(folder.path("run/summary.json")).unwrap()).unwrap()
@@ -91,25 +91,28 @@ fn tube(ends: [&str; 2]) -> String {
     let place = |ring: usize, i: usize| {
         let angle = std::f64::consts::TAU * i as f64 / 24.0;
         let radius = 0.05 + 3e-4 * (6.0 * angle).cos();
-        format!("{} {} {}\n", 0.01 * ring as f64, radius * angle.cos(), radius * angle.sin())
+        format!("{} {} {}", 0.01 * ring as f64, radius * angle.cos(), radius * angle.sin())
     };
+    let node = |ring: usize, i: usize| 24 * ring + i % 24 + 1;
+    let line =
+        |group: usize, ring: usize, i: usize| format!("1 2 {group} {group} {} {}", node(ring, i), node(ring, i + 1));
     let quad = |ring: usize, i: usize| {
-        let [near, far, next] = [24 * ring + 1, 24 * (ring + 1) + 1, (i + 1) % 24];
-        format!("{} {} {} {}\n", near + i, near + next, far + next, far + i)
+        let corners = [node(ring, i), node(ring, i + 1), node(ring + 1, i + 1), node(ring + 1, i)];
+        format!("3 2 1 1 {}", corners.map(|n| n.to_string()).join(" "))
     };
-    let all = |rings: usize, line: &dyn Fn(usize, usize) -> String| -> String {
-        (0..rings).flat_map(|ring| (0..24).map(move |i| (ring, i))).map(|(ring, i)| line(ring, i)).collect()
-    };
-    let set = |name: &str, ring: usize| {
-        let nodes: Vec<String> = (1..=24).map(|i| (24 * ring + i).to_string()).collect();
-        format!("set {name} 24\n{}\n", nodes.join(" "))
+    let nodes = (0..264).map(|n| place(n / 24, n % 24)).collect();
+    let quads = (0..240).map(|n| quad(n / 24, n % 24));
+    let lines = (0..48).map(|n| line(1 + n / 24, 10 * (n / 24), n % 24));
+    let numbered = |rows: Vec<String>| -> String {
+        rows.iter().enumerate().map(|(k, row)| format!("{} {row}\n", k + 1)).collect()
     };
     format!(
-        "mesh 1\nnodes 264\n{}part wall\nback air\nlayer 0\nquads 240\n{}{}{}end 264 240\n",
-        all(11, &place),
-        all(10, &quad),
-        set(ends[0], 0),
-        set(ends[1], 10)
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n2 1 \"wall\"\n1 1 \"{}\"\n1 2 \"{}\"\n$EndPhysicalNames\n\
+         $Nodes\n264\n{}$EndNodes\n$Elements\n288\n{}$EndElements\n",
+        ends[0],
+        ends[1],
+        numbered(nodes),
+        numbered(quads.chain(lines).collect())
     )
 }
 
@@ -122,7 +125,8 @@ fn an_open_tube_of_ones_own_mesh_grows_as_the_hoop_says_whatever_its_sets_are_ca
 kind = "fem"
 name = "Endless tube, slightly wavy"
 [mesh]
-file = "tube.mesh"
+file = "tube.msh"
+unit = "m"
 [fabric.film]
 law = "isotropic"
 e_MPa = 588

@@ -6,12 +6,12 @@ use super::oracle::{at_best, two_at_best};
 use super::{Diagnoser, Lot, PlannedSet};
 use crate::score::{Claim, ClaimScore, score};
 use crate::truth::{ROBOTS, standard_protocol};
-use crate::{Draw, HIDDEN, Hiding, OUTSIDE, Truth, truth};
+use crate::{Draw, HIDDEN, HiddenEffect, Hiding, OUTSIDE, Truth, truth};
 use compare::Evidence;
 use compare::diagnosis::{Confidence, Diagnosis, Distances, Experiment, Options};
 use compare::error::CompareError;
 use compare::study::generate;
-use data::{About, Direct, Provenance};
+use data::{About, Dataset, Direct, Provenance};
 use serde::{Deserialize, Serialize};
 
 /// What became of a set.
@@ -88,45 +88,57 @@ pub(super) fn draw(part: Lot, seed: u64, stream: u64, index: usize) -> Result<Tr
     let actuator = ROBOTS[index % ROBOTS.len()].0;
     let turn = index / ROBOTS.len();
     let mut truth = Truth::draw(actuator, &mut draw)?;
+    let mut hide_one = |list: Vec<HiddenEffect>, truth: &mut Truth| {
+        truth.add(list[turn * STRIDE % list.len()].name, draw.between(0.8, 1.5));
+    };
     match part {
-        Lot::Hidden(Hiding::One) | Lot::Measured(Hiding::One) => {
-            let list = truth::applicable(actuator, HIDDEN)?;
-            truth.add(list[turn * STRIDE % list.len()].name, draw.between(0.8, 1.5));
+        Lot::Hidden(Hiding::One) | Lot::Measured(Hiding::One) | Lot::LostMarkers(Hiding::One) => {
+            hide_one(truth::applicable(actuator, HIDDEN)?, &mut truth);
+        }
+        Lot::Interval => {
+            let mut list = truth::applicable(actuator, HIDDEN)?;
+            list.retain(|effect| models::effects::by_name(effect.name).is_some());
+            hide_one(list, &mut truth);
         }
         Lot::Hidden(Hiding::Outside) => truth.add(OUTSIDE[turn * STRIDE % OUTSIDE.len()].name, 1.0),
         Lot::Hidden(kind) | Lot::Measured(kind) => truth.hide(kind, &mut draw)?,
         Lot::HeavyTails => truth.heavy_tails = true,
-        Lot::LostMarkers(Hiding::One) => {
-            let list = truth::applicable(actuator, HIDDEN)?;
-            truth.add(list[turn * STRIDE % list.len()].name, draw.between(0.8, 1.5));
-            truth.lost_markers = true;
-        }
-        Lot::LostMarkers(_) => truth.lost_markers = true,
+        Lot::LostMarkers(_) => {}
         Lot::Clamp => {
             let [softest, stiffest] = CLAMPS.map(f64::ln);
             truth.add(["base_clamp", "tip_clamp"][turn % 2], draw.between(softest, stiffest).exp());
         }
         Lot::Softening => truth.add("softening", draw.between(0.8, 1.5)),
-        Lot::Interval => {
-            let list = truth::applicable(actuator, HIDDEN)?;
-            let known = |name: &str| models::effects::by_name(name).is_some();
-            let list: Vec<_> = list.iter().filter(|effect| known(effect.name)).collect();
-            truth.add(list[turn * STRIDE % list.len()].name, draw.between(0.8, 1.5));
-        }
     }
+    truth.lost_markers = matches!(part, Lot::LostMarkers(_));
     Ok(truth)
 }
 
 /// Makes and diagnoses a set; `Err` says why it failed.
 pub(super) fn named(case: &PlannedSet, diagnose: Diagnoser) -> Result<Named, String> {
+    let truth = &case.truth;
     let found = match case.part {
-        Lot::Hidden(kind) => hidden(&case.truth, kind, diagnose),
-        Lot::Measured(_) => measured(&case.truth, diagnose),
-        Lot::Interval => interval(&case.truth, diagnose),
-        Lot::HeavyTails => hidden(&case.truth, Hiding::Nothing, diagnose),
-        Lot::LostMarkers(_) | Lot::Clamp | Lot::Softening => alone(&case.truth, diagnose),
+        Lot::Hidden(kind) => hidden(truth, kind, diagnose),
+        Lot::HeavyTails => hidden(truth, Hiding::Nothing, diagnose),
+        Lot::Measured(_) => tested(truth).and_then(|about| alone(truth, about, diagnose)),
+        Lot::Interval => interval(truth, diagnose),
+        Lot::LostMarkers(_) | Lot::Clamp | Lot::Softening => {
+            about(truth).and_then(|about| alone(truth, about, diagnose))
+        }
     };
-    found.map_err(|error| format!("{} {:?}: {error}", case.truth.actuator, names(&case.truth)))
+    found.map_err(|error| format!("{} {:?}: {error}", truth.actuator, names(truth)))
+}
+
+/// Diagnoses data of a robot.
+fn diagnosed(
+    truth: &Truth,
+    data: Vec<(Dataset, About)>,
+    next_experiment: bool,
+    diagnose: Diagnoser,
+) -> Result<Diagnosis, CompareError> {
+    let options = Options { next_experiment, missing_moment: false, ..Options::default() };
+    let evidence: Vec<Evidence> = data.into_iter().map(|(data, about)| Evidence::of(data, Some(about))).collect();
+    diagnose(&truth.told()?, &evidence, &options, &mut |_, _| ())
 }
 
 pub(super) fn names(truth: &Truth) -> Vec<&str> {
@@ -135,57 +147,37 @@ pub(super) fn names(truth: &Truth) -> Vec<&str> {
 
 fn hidden(truth: &Truth, kind: Hiding, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let data = truth.dataset("hidden", &standard_protocol())?;
-    let next_experiment = kind == Hiding::One;
-    let options = Options { next_experiment, missing_moment: false, ..Options::default() };
-    let about = about(truth)?;
-    let found = diagnose(&truth.told()?, &[Evidence::of(data.clone(), Some(about))], &options, &mut |_, _| ())?;
+    let found = diagnosed(truth, vec![(data.clone(), about(truth)?)], kind == Hiding::One, diagnose)?;
     let mut named = scored(truth, &found);
     if matches!(kind, Hiding::One | Hiding::Outside) {
         named.distances = Some(distances_of(truth, &data, kind == Hiding::Outside)?);
     }
-    if kind == Hiding::One && named.score.alarm {
-        named.at_best = Some(at_best(truth, &data)?);
-    }
-    if kind == Hiding::Two {
-        named.at_best = Some(two_at_best(truth, &data)?);
-    }
-    if next_experiment && named.answer.verdict.as_deref() == Some("effect") && named.answer.set.len() > 1 {
-        let next = found.next_experiment.as_ref().and_then(|next| next.recommended.as_ref());
-        if let Some(experiment) = next {
-            let after = after(truth, experiment, diagnose)?;
-            if after.score.rank != Some(1) {
-                named.after_in_silence = Some(self::after(&silent(truth), experiment, diagnose)?.score);
-            }
-            named.after = Some(after);
+    named.at_best = match kind {
+        Hiding::One if named.score.alarm => Some(at_best(truth, &data)?),
+        Hiding::Two => Some(two_at_best(truth, &data)?),
+        _ => None,
+    };
+    let is_ambiguous = named.answer.verdict.as_deref() == Some("effect") && named.answer.set.len() > 1;
+    let next = found.next_experiment.as_ref().and_then(|next| next.recommended.as_ref());
+    if let Some(experiment) = next.filter(|_| kind == Hiding::One && is_ambiguous) {
+        let after = after(truth, experiment, diagnose)?;
+        if after.score.rank != Some(1) {
+            named.after_in_silence = Some(self::after(&silent(truth), experiment, diagnose)?.score);
         }
+        named.after = Some(after);
     }
     Ok(named)
 }
 
 /// A set without a next experiment.
-fn alone(truth: &Truth, diagnose: Diagnoser) -> Result<Named, CompareError> {
+fn alone(truth: &Truth, about: About, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let data = truth.dataset("hidden", &standard_protocol())?;
-    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
-    let about = about(truth)?;
-    Ok(scored(truth, &diagnose(&truth.told()?, &[Evidence::of(data.clone(), Some(about))], &options, &mut |_, _| ())?))
+    Ok(scored(truth, &diagnosed(truth, vec![(data, about)], false, diagnose)?))
 }
 
-/// A set with the robot's bending stiffness measured by itself.
-fn measured(truth: &Truth, diagnose: Diagnoser) -> Result<Named, CompareError> {
-    let data = truth.dataset("hidden", &standard_protocol())?;
-    let about = tested(truth)?;
-    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
-    let found = diagnose(&truth.told()?, &[Evidence::of(data.clone(), Some(about))], &options, &mut |_, _| ())?;
-    Ok(scored(truth, &found))
-}
-
-/// What comes out after an experiment.
+/// The answer after an experiment.
 fn after(truth: &Truth, experiment: &Experiment, diagnose: Diagnoser) -> Result<After, CompareError> {
-    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
-    let parts = follow_up(truth, experiment)?;
-    let parts: Vec<Evidence> = parts.into_iter().map(|(data, about)| Evidence::of(data, Some(about))).collect();
-    let found = diagnose(&truth.told()?, &parts, &options, &mut |_, _| ())?;
-    let answer = Claim::of(&found);
+    let answer = Claim::of(&diagnosed(truth, follow_up(truth, experiment)?, false, diagnose)?);
     Ok(After { experiment: experiment.name.clone(), score: score(truth, &answer), answer })
 }
 
@@ -211,8 +203,7 @@ fn interval(truth: &Truth, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let values: Vec<f64> = effect.typical().into_iter().zip(effect.neutral()).map(value).collect();
     let robot = told.with_bending(truth.bending_nm2).with_effect(name, &values);
     let data = generate(&robot, "own law", &truth.measurement(&standard_protocol()).generator)?;
-    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
-    let found = diagnose(&told, &[Evidence::of(data, Some(about(truth)?))], &options, &mut |_, _| ())?;
+    let found = diagnosed(truth, vec![(data, about(truth)?)], false, diagnose)?;
     let mut named = scored(truth, &found);
     let only = found.added.len() == 1 && found.added[0].effect == *name;
     if let Some(first) = found.added.first().and_then(|added| added.parameters.first()).filter(|_| only) {

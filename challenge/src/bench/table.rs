@@ -6,142 +6,121 @@ use super::{Confusion, Lot, Slice};
 use crate::Hiding;
 use Goal::{AtLeast, AtMost, Between};
 
+/// A share of sets: what is counted, the goal, and whether a set counts.
+type Counted = (&'static str, Goal, fn(&Named) -> bool);
+
+const ALARM: Counted = ("alarm", AtLeast(0.95), |n| n.score.alarm);
+const FALSE_ALARM: Counted = ("false alarms", AtMost(0.05), |n| n.score.alarm);
+const STIFFNESS: Counted = ("told another stiffness", AtMost(0.05), |n| n.bending_alarm);
+const IN_SET: Counted = ("large enough to name: truth in the stated set", AtLeast(0.93), |n| n.score.in_set);
+const ALONE_IN_SET: Counted = (IN_SET.0, AtLeast(0.90), IN_SET.2);
+const OUTSIDE: Counted =
+    ("large enough to name: called outside the catalogue", AtMost(0.05), |n| n.score.out_of_catalog);
+const NOTHING: Lot = Lot::Hidden(Hiding::Nothing);
+const ONE: Lot = Lot::Hidden(Hiding::One);
+
+/// Diagnosed sets of which a row is made.
+type Sets<'o> = Vec<(&'o SetOutcome, &'o Named)>;
+
 /// The rows, in the order of the table.
 pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
-    let one = |part| one(outcomes, part);
-    let parts = [
-        nothing(outcomes),
-        one(Lot::Hidden(Hiding::One)),
-        one(Lot::Measured(Hiding::One)),
-        lossy(outcomes),
-        alone(outcomes, Lot::Clamp, "a clamp of any stiffness"),
-        alone(outcomes, Lot::Softening, "a softening wall"),
-        below(outcomes),
-        after(outcomes),
-        two(outcomes),
-        outside(outcomes),
-        quality(outcomes),
-        slips(outcomes),
+    let mut rows = nothing(outcomes);
+    rows.extend(one(outcomes, ONE, "one hidden effect"));
+    rows.extend(one(outcomes, Lot::Measured(Hiding::One), "one hidden effect, B measured to 10 %"));
+    let lossy = found(outcomes, Lot::LostMarkers(Hiding::One));
+    rows.extend(named(&lossy, "one hidden effect, markers lost", &[ALARM], &[IN_SET, OUTSIDE]));
+    for (part, case) in [(Lot::Clamp, "a clamp of any stiffness"), (Lot::Softening, "a softening wall")] {
+        rows.extend(named(&found(outcomes, part), case, &[ALARM], &[ALONE_IN_SET]));
+    }
+    let all: Sets = outcomes.iter().filter_map(|o| Some((o, o.named.as_ref()?))).collect();
+    // Names that cannot pay: of errors that began within the tolerance.
+    rows.push(share(&all, "all sets", ("an effect named within the tolerance", AtMost(0.0), pays_nothing)));
+    rows.extend(after(outcomes));
+    let two: [Counted; 5] = [
+        ("at least one named", AtLeast(0.90), |n| n.score.named >= 1),
+        ("both named", AtLeast(0.40), |n| n.score.named == 2),
+        ("at least one in the stated set", AtLeast(0.90), |n| n.score.in_set),
+        ("both, as one entry of the stated set", AtLeast(0.40), |n| n.score.all_in_set),
+        ("a wrong name asserted", AtMost(0.15), |n| n.score.wrong),
     ];
-    parts.concat()
+    rows.extend(named(&found(outcomes, Lot::Hidden(Hiding::Two)), "two hidden effects", &two, &[]));
+    let outside = found(outcomes, Lot::Hidden(Hiding::Outside));
+    let flagged: Counted = ("flagged as such", AtLeast(0.90), |n| n.score.out_of_catalog);
+    rows.push(share(&outside, "outside the catalogue", flagged));
+    rows.extend(quality(outcomes));
+    // Exchanged labels are the slip among what is hidden.
+    let is_slip = |outcome: &SetOutcome| outcome.truth.effects.iter().any(|choice| choice.name == "swapped_markers");
+    let (slipped, right): (Sets, Sets) = all.iter().copied().partition(|(outcome, _)| is_slip(outcome));
+    rows.push(share(&slipped, "labels exchanged", ("told as a slip", AtLeast(0.90), |n| n.slip)));
+    rows.push(share(&right, "all other sets", ("told a slip that is none", AtMost(0.01), |n| n.slip)));
+    let pressures: Counted = ("told a slip of pressures", AtMost(0.01), |n| n.pressure_slip);
+    rows.push(share(&all, "sets with right pressures", pressures));
+    rows
+}
+
+fn pays_nothing(n: &Named) -> bool {
+    !n.answer.added.is_empty() && n.systematic_mm[0] <= n.tolerance_mm
 }
 
 /// Sets of a part that were diagnosed.
-pub(super) fn found(outcomes: &[SetOutcome], part: Lot) -> Vec<(&SetOutcome, &Named)> {
+pub(super) fn found(outcomes: &[SetOutcome], part: Lot) -> Sets<'_> {
     outcomes.iter().filter(|o| o.part == part).filter_map(|o| Some((o, o.named.as_ref()?))).collect()
 }
 
-fn shares(sets: &[(&SetOutcome, &Named)], hit: impl Fn(&Named) -> bool) -> Vec<bool> {
-    sets.iter().map(|(_, named)| hit(named)).collect()
+fn share(sets: &[(&SetOutcome, &Named)], case: &'static str, (figure, goal, hit): Counted) -> Rate {
+    Rate::share(case, figure, goal, &sets.iter().map(|(_, named)| hit(named)).collect::<Vec<_>>())
+}
+
+/// Shares of all sets, then of those of which a name was asked: something is missing, and not too small to name.
+fn named(sets: &Sets, case: &'static str, of_all: &[Counted], of_asked: &[Counted]) -> Vec<Rate> {
+    let asked = asked(sets);
+    let of_all = of_all.iter().map(|counted| share(sets, case, *counted));
+    of_all.chain(of_asked.iter().map(|counted| share(&asked, case, *counted))).collect()
+}
+
+fn asked<'o>(sets: &Sets<'o>) -> Sets<'o> {
+    sets.iter().filter(|(_, named)| named.score.alarm && !named.score.too_small).copied().collect()
 }
 
 fn nothing(outcomes: &[SetOutcome]) -> Vec<Rate> {
-    let all = found(outcomes, Lot::Hidden(Hiding::Nothing));
-    let told = shares(&all, |named| named.bending_alarm);
-    let (few, many): (Vec<_>, Vec<_>) = all.into_iter().partition(|(outcome, _)| outcome.truth.runs < 5);
-    let case = "no hidden effect";
-    let alarm = |named: &Named| named.score.alarm;
-    let heavy = found(outcomes, Lot::HeavyTails);
-    let (tested_case, tested) =
-        ("no hidden effect, B measured to 10 %", found(outcomes, Lot::Measured(Hiding::Nothing)));
+    let (case, tested_case) = ("no hidden effect", "no hidden effect, B measured to 10 %");
+    let (all, tested) = (found(outcomes, NOTHING), found(outcomes, Lot::Measured(Hiding::Nothing)));
+    let (few, many): (Sets, Sets) = all.iter().copied().partition(|(outcome, _)| outcome.truth.runs < 5);
     let lossy = found(outcomes, Lot::LostMarkers(Hiding::Nothing));
     vec![
-        Rate::share("no hidden effect, markers lost", "false alarms", AtMost(0.05), &shares(&lossy, alarm)),
-        Rate::share("no hidden effect, heavy tails", "false alarms", AtMost(0.05), &shares(&heavy, alarm)),
-        Rate::share(case, "false alarms, 5 and 10 runs", AtMost(0.03), &shares(&many, alarm)),
-        Rate::share(case, "false alarms, 3 runs", AtMost(0.05), &shares(&few, alarm)),
-        Rate::share(tested_case, "false alarms", AtMost(0.05), &shares(&tested, alarm)),
-        Rate::share(case, "told another stiffness", AtMost(0.05), &told),
-        Rate::share(tested_case, "told another stiffness", AtMost(0.05), &shares(&tested, |named| named.bending_alarm)),
+        share(&lossy, "no hidden effect, markers lost", FALSE_ALARM),
+        share(&found(outcomes, Lot::HeavyTails), "no hidden effect, heavy tails", FALSE_ALARM),
+        share(&many, case, ("false alarms, 5 and 10 runs", AtMost(0.03), FALSE_ALARM.2)),
+        share(&few, case, ("false alarms, 3 runs", AtMost(0.05), FALSE_ALARM.2)),
+        share(&tested, tested_case, FALSE_ALARM),
+        share(&all, case, STIFFNESS),
+        share(&tested, tested_case, STIFFNESS),
     ]
 }
 
-fn one(outcomes: &[SetOutcome], part: Lot) -> Vec<Rate> {
+fn one(outcomes: &[SetOutcome], part: Lot, case: &'static str) -> Vec<Rate> {
     let all = found(outcomes, part);
-    let alarmed = alarmed(&all);
-    let case = match part {
-        Lot::Measured(_) => "one hidden effect, B measured to 10 %",
-        _ => "one hidden effect",
-    };
-    let top = |most: usize| move |named: &Named| named.score.rank.is_some_and(|rank| rank <= most);
-    let sized: Vec<f64> = alarmed.iter().map(|(_, n)| n.score.set_size as f64).filter(|n| *n > 0.0).collect();
+    let of_all: [Counted; 2] = [ALARM, ("alarm, and too small to name", AtMost(0.10), |n| n.score.too_small)];
+    let of_asked: [Counted; 3] = [
+        ("large enough to name: truth on top", AtLeast(0.80), |n| n.score.rank.is_some_and(|r| r <= 1)),
+        ("large enough to name: truth in the first three", AtLeast(0.92), |n| n.score.rank.is_some_and(|r| r <= 3)),
+        IN_SET,
+    ];
+    let asked = asked(&all);
+    let sized: Vec<f64> = asked.iter().map(|(_, n)| n.score.set_size as f64).filter(|n| *n > 0.0).collect();
     let mean = (!sized.is_empty()).then(|| sized.iter().sum::<f64>() / sized.len() as f64);
-    vec![
-        Rate::share(case, "alarm", AtLeast(0.95), &shares(&all, |named| named.score.alarm)),
-        Rate::share(case, "alarm, and too small to name", AtMost(0.10), &shares(&all, |n| n.score.too_small)),
-        Rate::share(case, "large enough to name: truth on top", AtLeast(0.80), &shares(&alarmed, top(1))),
-        Rate::share(case, "large enough to name: truth in the first three", AtLeast(0.92), &shares(&alarmed, top(3))),
-        Rate::share(
-            case,
-            "large enough to name: truth in the stated set",
-            AtLeast(0.93),
-            &shares(&alarmed, |n| n.score.in_set),
-        ),
-        Rate::number(case, "mean size of the stated set", AtMost(2.5), mean, sized.len()),
-        Rate::share(
-            case,
-            "large enough to name: called outside the catalogue",
-            AtMost(0.05),
-            &shares(&alarmed, |n| n.score.out_of_catalog),
-        ),
-    ]
+    let mut rows = named(&all, case, &of_all, &of_asked);
+    rows.push(Rate::number(case, "mean size of the stated set", AtMost(2.5), mean, sized.len()));
+    rows.push(share(&asked, case, OUTSIDE));
+    rows
 }
 
-fn lossy(outcomes: &[SetOutcome]) -> Vec<Rate> {
-    let all = found(outcomes, Lot::LostMarkers(Hiding::One));
-    let alarmed = alarmed(&all);
-    let case = "one hidden effect, markers lost";
-    vec![
-        Rate::share(case, "alarm", AtLeast(0.95), &shares(&all, |named| named.score.alarm)),
-        Rate::share(
-            case,
-            "large enough to name: truth in the stated set",
-            AtLeast(0.93),
-            &shares(&alarmed, |n| n.score.in_set),
-        ),
-        Rate::share(
-            case,
-            "large enough to name: called outside the catalogue",
-            AtMost(0.05),
-            &shares(&alarmed, |n| n.score.out_of_catalog),
-        ),
-    ]
-}
-
-/// Sets of one effect by itself.
-fn alone(outcomes: &[SetOutcome], part: Lot, case: &'static str) -> Vec<Rate> {
-    let all = found(outcomes, part);
-    let named = alarmed(&all);
-    vec![
-        Rate::share(case, "alarm", AtLeast(0.95), &shares(&all, |named| named.score.alarm)),
-        Rate::share(
-            case,
-            "large enough to name: truth in the stated set",
-            AtLeast(0.90),
-            &shares(&named, |n| n.score.in_set),
-        ),
-    ]
-}
-
-/// Names that cannot pay: of errors that began within the tolerance.
-fn below(outcomes: &[SetOutcome]) -> Vec<Rate> {
-    let all: Vec<_> = outcomes.iter().filter_map(|o| Some((o, o.named.as_ref()?))).collect();
-    let pays_nothing = |n: &Named| !n.answer.added.is_empty() && n.systematic_mm[0] <= n.tolerance_mm;
-    vec![Rate::share("all sets", "an effect named within the tolerance", AtMost(0.0), &shares(&all, pays_nothing))]
-}
-
-/// Those of which a name was asked: something is missing, and not too small to name.
-fn alarmed<'o>(all: &[(&'o SetOutcome, &'o Named)]) -> Vec<(&'o SetOutcome, &'o Named)> {
-    all.iter().filter(|(_, named)| named.score.alarm && !named.score.too_small).copied().collect()
-}
-
-fn after(outcomes: &[SetOutcome]) -> Vec<Rate> {
-    let all = found(outcomes, Lot::Hidden(Hiding::One));
+fn after(outcomes: &[SetOutcome]) -> [Rate; 2] {
+    let all = found(outcomes, ONE);
     let scores: Vec<_> = all.iter().filter_map(|(_, named)| named.after.as_ref()).map(|after| &after.score).collect();
-    let top: Vec<bool> = scores.iter().map(|score| score.rank == Some(1)).collect();
-    let in_set: Vec<bool> = scores.iter().map(|score| score.in_set).collect();
+    let (top, in_set): (Vec<bool>, Vec<bool>) = scores.iter().map(|s| (s.rank == Some(1), s.in_set)).unzip();
     let case = "ambiguous, after the next experiment";
-    vec![
+    [
         Rate::share(case, "truth on top", AtLeast(0.90), &top),
         Rate::share(case, "truth in the stated set", AtLeast(0.93), &in_set),
     ]
@@ -149,63 +128,24 @@ fn after(outcomes: &[SetOutcome]) -> Vec<Rate> {
 
 /// Of every set missed after the next experiment, whether it is missed with next to no noise too.
 pub(super) fn missed_in_silence(outcomes: &[SetOutcome]) -> Vec<bool> {
-    let all = found(outcomes, Lot::Hidden(Hiding::One));
+    let all = found(outcomes, ONE);
     all.iter().filter_map(|(_, named)| named.after_in_silence.as_ref()).map(|score| score.rank != Some(1)).collect()
 }
 
-fn two(outcomes: &[SetOutcome]) -> Vec<Rate> {
-    let all = found(outcomes, Lot::Hidden(Hiding::Two));
-    let case = "two hidden effects";
-    vec![
-        Rate::share(case, "at least one named", AtLeast(0.90), &shares(&all, |named| named.score.named >= 1)),
-        Rate::share(case, "both named", AtLeast(0.40), &shares(&all, |named| named.score.named == 2)),
-        Rate::share(case, "at least one in the stated set", AtLeast(0.90), &shares(&all, |named| named.score.in_set)),
-        Rate::share(case, "both, as one entry of the stated set", AtLeast(0.40), &shares(&all, |n| n.score.all_in_set)),
-        Rate::share(case, "a wrong name asserted", AtMost(0.15), &shares(&all, |named| named.score.wrong)),
-    ]
-}
-
-fn outside(outcomes: &[SetOutcome]) -> Vec<Rate> {
-    let all = found(outcomes, Lot::Hidden(Hiding::Outside));
-    let flagged = shares(&all, |named| named.score.out_of_catalog);
-    vec![Rate::share("outside the catalogue", "flagged as such", AtLeast(0.90), &flagged)]
-}
-
-fn quality(outcomes: &[SetOutcome]) -> Vec<Rate> {
+fn quality(outcomes: &[SetOutcome]) -> [Rate; 3] {
     let own = found(outcomes, Lot::Interval);
     let covered: Vec<bool> = own.iter().filter_map(|(_, named)| named.covered).collect();
-    let all = found(outcomes, Lot::Hidden(Hiding::One));
+    let all = found(outcomes, ONE);
     let alarmed = || all.iter().map(|(_, named)| *named).filter(|named| !named.answer.added.is_empty());
     let ratio = |[before, after]: [f64; 2]| (before > 0.0).then(|| after / before);
     let fitted: Vec<f64> = alarmed().filter_map(|named| ratio(named.systematic_mm)).collect();
     let held: Vec<f64> = alarmed().filter_map(|named| named.heldout_mm.and_then(ratio)).collect();
     let case = "error beyond noise, one hidden effect";
-    vec![
-        Rate::share(
-            "one effect by the catalogue's own law",
-            "95 % interval holds the true value",
-            Between(0.93, 0.97),
-            &covered,
-        ),
+    let (by_law, interval) = ("one effect by the catalogue's own law", "95 % interval holds the true value");
+    [
+        Rate::share(by_law, interval, Between(0.93, 0.97), &covered),
         Rate::number(case, "median of after / before", AtMost(0.10), median(&fitted), fitted.len()),
         Rate::number(case, "the same on held-out runs", AtMost(0.10), median(&held), held.len()),
-    ]
-}
-
-/// Exchanged labels are the slip among what is hidden.
-fn slips(outcomes: &[SetOutcome]) -> Vec<Rate> {
-    let all: Vec<_> = outcomes.iter().filter_map(|o| Some((o, o.named.as_ref()?))).collect();
-    let (slipped, right): (Vec<_>, Vec<_>) =
-        all.iter().copied().partition(|(o, _)| o.truth.effects.iter().any(|choice| choice.name == "swapped_markers"));
-    vec![
-        Rate::share("labels exchanged", "told as a slip", AtLeast(0.90), &shares(&slipped, |named| named.slip)),
-        Rate::share("all other sets", "told a slip that is none", AtMost(0.01), &shares(&right, |named| named.slip)),
-        Rate::share(
-            "sets with right pressures",
-            "told a slip of pressures",
-            AtMost(0.01),
-            &shares(&all, |n| n.pressure_slip),
-        ),
     ]
 }
 
@@ -230,7 +170,7 @@ struct Count {
 /// Truth against the name on top, single effects, by truth and then by frequency.
 pub(super) fn confusion(outcomes: &[SetOutcome]) -> Vec<Confusion> {
     let mut cells: Vec<Count> = Vec::new();
-    for (outcome, found) in found(outcomes, Lot::Hidden(Hiding::One)) {
+    for (outcome, found) in found(outcomes, ONE) {
         let truth = names(&outcome.truth).join(" + ");
         let named = match found.answer.verdict.as_deref().unwrap_or_default() {
             "effect" => found.answer.ranked.first().cloned().unwrap_or_default(),
@@ -260,7 +200,7 @@ pub(super) fn confusion(outcomes: &[SetOutcome]) -> Vec<Confusion> {
 
 /// Figures of single effects by actuator, camera noise and runs.
 pub(super) fn breakdown(outcomes: &[SetOutcome]) -> Vec<Slice> {
-    let all = found(outcomes, Lot::Hidden(Hiding::One));
+    let all = found(outcomes, ONE);
     let keys = |outcome: &SetOutcome| {
         let truth = &outcome.truth;
         [truth.actuator.clone(), format!("{} mm", truth.camera_sd_m * 1e3), format!("{} runs", truth.runs)]

@@ -33,7 +33,8 @@ pub struct FabricNumber {
 
 impl Scatter {
     /// Of one value per specimen; none without any.
-    pub fn of(values: &[f64]) -> Option<Scatter> {
+    pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Scatter> {
+        let values: Vec<f64> = values.into_iter().collect();
         let n = values.len();
         if n == 0 {
             return None;
@@ -73,9 +74,8 @@ impl Scatter {
 /// in one of twenty sets.
 pub fn deviating(values: &[f64]) -> Vec<(usize, f64)> {
     let n = values.len();
-    let others = |i: usize| values.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, v)| *v).collect::<Vec<f64>>();
     let deviation = |i: usize| {
-        let rest = Scatter::of(&others(i))?;
+        let rest = Scatter::of(values[..i].iter().chain(&values[i + 1..]).copied())?;
         let off = values[i] - rest.mean;
         let spread = rest.sd.unwrap_or(0.0) * (1.0 + 1.0 / rest.n as f64).sqrt();
         let rare = n > 3 && two_sided_p(off / spread.max(f64::MIN_POSITIVE), n - 2) * (n as f64) < 0.05;
@@ -98,21 +98,21 @@ mod tests {
 
     #[test]
     fn mean_and_interval_are_those_of_the_table() {
-        let s = Scatter::of(&[96.0, 98.0, 94.0, 97.0, 95.0]).unwrap();
+        let s = Scatter::of([96.0, 98.0, 94.0, 97.0, 95.0]).unwrap();
         assert!((s.mean - 96.0).abs() < 1e-12 && (s.sd.unwrap() - 2.5_f64.sqrt()).abs() < 1e-12);
         // t_{4,.975} = 2.776445.
         assert!((s.half.unwrap() - 2.776445 * (0.5_f64).sqrt()).abs() < 1e-5);
-        assert_eq!(Scatter::of(&[3.0]).unwrap().interval(), None);
-        assert_eq!(Scatter::of(&[]), None);
+        assert_eq!(Scatter::of([3.0]).unwrap().interval(), None);
+        assert_eq!(Scatter::of([]), None);
     }
 
     #[test]
     fn carried_errors_are_those_of_a_sum_of_independent_means() {
-        let s = Scatter::of(&[1.0, 2.0, 3.0]).unwrap();
+        let s = Scatter::of([1.0, 2.0, 3.0]).unwrap();
         let sum = Scatter::carried(4.0, &[(s, 1.0), (s, 1.0)]);
         // Both s²/n = 1/3, dof 4.
         assert!((sum.half.unwrap() - 2.776445 * (2.0_f64 / 3.0).sqrt()).abs() < 1e-5 && sum.n == 6);
-        assert_eq!(Scatter::carried(1.0, &[(Scatter::of(&[1.0]).unwrap(), 1.0)]).half, None);
+        assert_eq!(Scatter::carried(1.0, &[(Scatter::of([1.0]).unwrap(), 1.0)]).half, None);
     }
 
     #[test]

@@ -59,9 +59,9 @@ pub(super) fn reduce(coupon: &Coupon, settings: &Reduction, warnings: &mut Vec<S
     let along = coupon.direction.along_yarn();
     let whole = stresses(coupon)?;
     let mut used = up_to_peak(whole.as_deref().unwrap_or(coupon.pulled.rows()));
-    if used.len() < policy::FEWEST_ROWS {
-        let message = format!("{} is largest in row {} of the specimen", coupon.columns[1], used.len());
-        let (least, column) = (policy::FEWEST_ROWS, &coupon.columns[1]);
+    let (least, column) = (policy::FEWEST_ROWS, &coupon.columns[1]);
+    if used.len() < least {
+        let message = format!("{column} is largest in row {} of the specimen", used.len());
         let help = format!("give at least {least} rows of loading, tension as a positive {column}");
         return Err(fault(coupon, message, help));
     }
@@ -70,18 +70,18 @@ pub(super) fn reduce(coupon: &Coupon, settings: &Reduction, warnings: &mut Vec<S
     let poisson = poisson(coupon, whole.as_deref().unwrap_or_default(), up_to);
     used = fit::thinned(&used, MOST_ROWS);
     let stress = if whole.is_some() { used } else { Vec::new() };
-    let (modulus_pa, modulus_strain) = modulus(&stress, up_to);
-    if let Some(modulus_pa) = modulus_pa
-        && !settings.any_modulus
-    {
+    let start = small(&stress, up_to);
+    // Further than asked for if there are too few rows.
+    let (modulus_pa, modulus_strain) = (fit::slope(start), start.last().map_or(up_to, |row| row[0]));
+    if let Some(modulus_pa) = modulus_pa.filter(|_| !settings.any_modulus) {
         units::plausible(coupon, modulus_pa)?;
     }
-    let both = |rows: &[[f64; 2]]| Some([fit::c10_pa(rows)?, fit::c10_by_share_pa(rows)?]);
+    let c10_pa = |rows: &[[f64; 2]]| Some([fit::c10_pa(rows)?, fit::c10_by_share_pa(rows)?]);
     Ok(Specimen {
         name: coupon.specimen.clone(),
         file: coupon.file.clone(),
         direction: coupon.direction,
-        c10_pa: if along { both(&stress) } else { None },
+        c10_pa: along.then(|| c10_pa(&stress)).flatten(),
         slack: 0.0,
         poisson,
         strip: None,
@@ -110,12 +110,17 @@ pub(super) fn taut(coupon: &Coupon, settings: &Reduction) -> (Coupon, f64) {
     (coupon, slack.at / scale)
 }
 
+/// Rows up to some x, and as many more as a slope needs.
+fn small(rows: &[[f64; 2]], up_to: f64) -> &[[f64; 2]] {
+    let within = rows.partition_point(|row| row[0] <= up_to);
+    &rows[..within.max(policy::FEWEST_ROWS.min(rows.len()))]
+}
+
 /// −slope of the strain across over the strain along.
 fn poisson(coupon: &Coupon, stress: &[[f64; 2]], up_to: f64) -> Option<f64> {
     let first = *coupon.loaded_width_m.first()?;
-    let rows: Vec<[f64; 2]> = stress.iter().zip(&coupon.loaded_width_m).map(|(r, w)| [r[0], w / first - 1.0]).collect();
-    let within = rows.partition_point(|row| row[0] <= up_to).max(policy::FEWEST_ROWS.min(rows.len()));
-    fit::slope(&rows[..within]).map(|slope| -slope)
+    let rows = stress.iter().zip(&coupon.loaded_width_m).map(|(r, w)| [r[0], w / first - 1.0]);
+    Some(-fit::slope(small(&rows.collect::<Vec<_>>(), up_to))?)
 }
 
 /// A fault of a specimen.
@@ -136,10 +141,9 @@ fn stresses(coupon: &Coupon) -> Result<Option<Vec<[f64; 2]>>, DataError> {
         return Err(fault(coupon, format!("force and displacement need the {what}, which is missing"), help));
     }
     let [length, width, thickness] = sizes.map(|s| s.1);
-    if let Some(length) = length
-        && rows[rows.len() - 1][0] > 3.0 * length
-    {
-        let (far, free) = (1e3 * rows[rows.len() - 1][0], 1e3 * length);
+    let farthest = rows.last().map_or(0.0, |row| row[0]);
+    if let Some(length) = length.filter(|length| farthest > 3.0 * length) {
+        let (far, free) = (1e3 * farthest, 1e3 * length);
         let message = format!("a displacement of {far:.3} mm on a free length of {free:.3} mm");
         return Err(fault(coupon, message, format!("check the unit of {} and of the length", coupon.columns[0])));
     }
@@ -151,12 +155,6 @@ fn stresses(coupon: &Coupon) -> Result<Option<Vec<[f64; 2]>>, DataError> {
 fn up_to_peak(rows: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let peak = (0..rows.len()).max_by(|a, b| rows[*a][1].total_cmp(&rows[*b][1])).unwrap_or(0);
     rows[..=peak].to_vec()
-}
-
-/// Slope at small strain, and up to which strain: further than asked for if there are too few rows.
-fn modulus(stress: &[[f64; 2]], up_to: f64) -> (Option<f64>, f64) {
-    let within = stress.partition_point(|row| row[0] <= up_to).max(policy::FEWEST_ROWS.min(stress.len()));
-    (fit::slope(&stress[..within]), stress[..within].last().map_or(up_to, |row| row[0]))
 }
 
 /// The bias extension of a coupon pulled at 45° whose sizes are known; the stretch of `yarns` is taken out.
@@ -174,10 +172,9 @@ pub(super) fn strip(
     }
     let (Some(length_m), Some(width_m)) = (coupon.length_m, coupon.width_m) else { return Ok(None) };
     if length_m < 2.0 * width_m {
+        let (h, w) = (1e3 * length_m, 1e3 * width_m);
         let message = format!(
-            "bias extension needs a free length of at least twice the width, H ≥ 2W; here H = {:.3} mm and W = {:.3} mm",
-            1e3 * length_m,
-            1e3 * width_m
+            "bias extension needs a free length of at least twice the width, H ≥ 2W; here H = {h:.3} mm and W = {w:.3} mm"
         );
         let help = format!("cut the next one {:.0} mm long or narrower; check length_mm and width_mm", 2e3 * width_m);
         return Err(fault(coupon, message, help));
@@ -192,9 +189,8 @@ pub(super) fn strip(
     let refused = |message| fault(coupon, message, "check length_mm and width_mm");
     let shear = size.shear_force(&pulled, yarns).map_err(refused)?;
     // Every row of the reduction rests on those before it alone.
-    let small = pulled.partition_point(|row| row[0] <= 2.0 * settings.modulus_strain * length_m);
-    let start =
-        size.shear_force(&pulled[..small.max(policy::FEWEST_ROWS.min(pulled.len()))], yarns).map_err(refused)?;
+    let start = small(&pulled, 2.0 * settings.modulus_strain * length_m);
+    let start = size.shear_force(start, yarns).map_err(refused)?;
     let slope_n_per_m = fit::slope(&start);
     let locking = fit::locking(&shear);
     Ok(Some(BiasStrip { size, pulled, shear, slope_n_per_m, locking }))
@@ -210,13 +206,11 @@ fn sheared(
     let last_m = size.displacement_m(policy::SURELY_SLIP_RAD);
     let kept = rows.partition_point(|row| row[0] <= last_m);
     if kept < rows.len() {
+        let (who, degrees, more) = (&coupon.specimen, coupon.direction.degrees(), rows.len() - kept);
+        let (last_mm, most) = (1e3 * last_m, policy::SURELY_SLIP_RAD.to_degrees());
         warnings.push(format!(
-            "specimen {} ({}°): {} rows beyond {:.1} mm left out: the shear angle would be above {:.0}°, where yarns slip",
-            coupon.specimen,
-            coupon.direction.degrees(),
-            rows.len() - kept,
-            1e3 * last_m,
-            policy::SURELY_SLIP_RAD.to_degrees()
+            "specimen {who} ({degrees}°): {more} rows beyond {last_mm:.1} mm left out: the shear angle would be above \
+             {most:.0}°, where yarns slip"
         ));
         rows.truncate(kept);
     }

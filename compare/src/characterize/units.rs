@@ -19,20 +19,13 @@ pub(super) fn plausible(coupon: &Coupon, modulus_pa: f64) -> Result<(), DataErro
     if fits(modulus_pa) {
         return Ok(());
     }
-    let message = format!(
-        "its modulus would be {} MPa; fabrics pulled in this direction have {} to {} MPa",
-        short(modulus_pa * 1e-6),
-        range[0] * 1e-6,
-        range[1] * 1e-6
-    );
+    let (mpa, [low, high]) = (short(modulus_pa * 1e-6), range.map(|pa| pa * 1e-6));
+    let message = format!("its modulus would be {mpa} MPa; fabrics pulled in this direction have {low} to {high} MPa");
+    let [x, y] = &coupon.columns;
+    let thickness = coupon.thickness_m.map_or("–".into(), |t| short(1e3 * t));
     let advice = match coupon.pulled {
         Pulled::Stress(_) => stress_advice(coupon, modulus_pa, fits),
-        Pulled::Force(_) => format!(
-            "check the units of {}, {}, and width, length and thickness ({} mm)",
-            coupon.columns[1],
-            coupon.columns[0],
-            coupon.thickness_m.map_or("–".into(), |t| short(1e3 * t))
-        ),
+        Pulled::Force(_) => format!("check the units of {y}, {x}, and width, length and thickness ({thickness} mm)"),
     };
     Err(fault(coupon, message, format!("{advice}; if the number is right, add --any-modulus")))
 }
@@ -41,19 +34,13 @@ fn stress_advice(coupon: &Coupon, modulus_pa: f64, fits: impl Fn(f64) -> bool) -
     let [strain, stress] = &coupon.columns;
     let written = stress.to_lowercase();
     let own = STRESSES.iter().find(|(unit, _)| written.ends_with(&format!("_{}", unit.to_lowercase())));
-    let mut found: Vec<String> = STRESSES
-        .iter()
-        .filter_map(|(unit, size)| {
-            let (name, pa) = (own?.0, modulus_pa * size / own?.1);
-            (name != *unit && fits(pa)).then(|| {
-                format!(
-                    "if {stress} holds {unit}, name it stress_{} (modulus {} MPa)",
-                    unit.to_lowercase(),
-                    short(pa * 1e-6)
-                )
-            })
-        })
-        .collect();
+    let renamed = |(unit, size): &(&str, f64)| {
+        let (name, pa) = (own?.0, modulus_pa * size / own?.1);
+        let (suffix, mpa) = (unit.to_lowercase(), short(pa * 1e-6));
+        let words = format!("if {stress} holds {unit}, name it stress_{suffix} (modulus {mpa} MPa)");
+        (name != *unit && fits(pa)).then_some(words)
+    };
+    let mut found: Vec<String> = STRESSES.iter().filter_map(renamed).collect();
     let other = if strain.to_lowercase().ends_with("ratio") { ("pct", 100.0) } else { ("ratio", 0.01) };
     if fits(modulus_pa * other.1) {
         let pa = short(modulus_pa * other.1 * 1e-6);

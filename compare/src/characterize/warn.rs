@@ -3,7 +3,8 @@
 use data::{Coupon, Direction, Pulled};
 use models::fabrics::specimen::{self as fit, Slip};
 
-use super::scatter::deviating;
+use super::Replay;
+use super::scatter::{Scatter, deviating};
 use super::specimen::Specimen;
 use crate::policy;
 
@@ -20,74 +21,62 @@ pub(super) fn slips(coupon: &Coupon, rows: &[[f64; 2]], warnings: &mut Vec<Strin
     // A bias test without thickness comes as displacement.
     let displaced = matches!(coupon.pulled, Pulled::Force(_)) && coupon.thickness_m.is_none();
     let length_m = if displaced { coupon.length_m.unwrap_or(1.0) } else { 1.0 };
-    let pct = |x: f64| 100.0 * x / length_m;
     let even = fit::thinned(rows, 2000);
-    let slip = fit::drop(&even);
-    let found = slip.or_else(|| coupon.direction.along_yarn().then(|| fit::plateau(&even)).flatten());
-    if let Some(Slip { at, until, lost }) = found {
-        let how = if lost > 0.0 {
-            format!("the force drops by {:.0} %", 100.0 * lost)
-        } else {
-            "the force stands still".into()
-        };
+    let plateau = || coupon.direction.along_yarn().then(|| fit::plateau(&even)).flatten();
+    if let Some(Slip { at, until, lost }) = fit::drop(&even).or_else(plateau) {
+        let drops = format!("the force drops by {:.0} %", 100.0 * lost);
+        let how = if lost > 0.0 { &drops } else { "the force stands still" };
+        let [at, until] = [at, until].map(|x| 100.0 * x / length_m);
         warnings.push(format!(
-            "{who}: {how} from {:.2} % strain on and is back at {:.2} %: it probably slipped in its grips; its modulus may be \
-             right, its curve beyond is not: leave its rows out or repeat it",
-            pct(at),
-            pct(until)
+            "{who}: {how} from {at:.2} % strain on and is back at {until:.2} %: it probably slipped in its grips; its modulus \
+             may be right, its curve beyond is not: leave its rows out or repeat it"
         ));
     }
 }
 
 /// Slack that was taken off.
 pub(super) fn slack(specimens: &[Specimen]) -> Option<String> {
-    let told: Vec<String> = specimens
-        .iter()
-        .filter(|s| s.slack > 0.0)
-        .map(|s| format!("{} ({}°) {:.3} %", s.name, s.direction.degrees(), 100.0 * s.slack))
-        .collect();
-    let text = told.join(", ");
-    (!told.is_empty()).then(|| format!("slack taken off, a soft start before the specimen is taut: {text}"))
+    let one = |s: &Specimen| format!("{} ({}°) {:.3} %", s.name, s.direction.degrees(), 100.0 * s.slack);
+    let all: Vec<String> = specimens.iter().filter(|s| s.slack > 0.0).map(one).collect();
+    let text = format!("slack taken off, a soft start before the specimen is taut: {}", all.join(", "));
+    (!all.is_empty()).then_some(text)
 }
 
 /// Specimens that deviate from the others of their direction; directions that look confused.
 pub(super) fn deviations(specimens: &[Specimen], warnings: &mut Vec<String>) {
     for direction in directions(specimens) {
-        let same: Vec<&Specimen> = specimens.iter().filter(|s| s.direction == direction).collect();
-        let with: Vec<(&Specimen, f64)> = same.iter().filter_map(|s| Some((*s, s.modulus_pa?))).collect();
-        let values: Vec<f64> = with.iter().map(|(_, v)| *v).collect();
+        let (degrees, same) = (direction.degrees(), with_modulus(specimens, direction));
+        let values: Vec<f64> = same.iter().map(|(_, modulus)| *modulus).collect();
         for (i, off) in deviating(&values) {
-            let (name, modulus) = (&with[i].0.name, values[i] * 1e-6);
-            let other = nearest_direction(specimens, direction, values[i]);
-            let hint = other
-                .map_or(String::new(), |d| format!("; it is like those at {}°: is its direction right?", d.degrees()));
+            let (name, modulus) = (&same[i].0.name, values[i] * 1e-6);
+            let other = nearest_direction(specimens, direction, values[i]).map(Direction::degrees);
+            let hint = other.map_or(String::new(), |d| format!("; it is like those at {d}°: is its direction right?"));
             warnings.push(format!(
-                "specimen {name} ({}°): its modulus {modulus:.4} MPa is {:+.0} % off the mean of the others{hint}",
-                direction.degrees(),
+                "specimen {name} ({degrees}°): its modulus {modulus:.4} MPa is {:+.0} % off the mean of the others{hint}",
                 100.0 * off
             ));
         }
-        let coarse = same.iter().filter(|s| s.modulus_pa.is_some() && s.modulus_strain > 0.03);
-        for s in coarse {
+        for (Specimen { name, modulus_strain, .. }, _) in same.iter().filter(|(s, _)| s.modulus_strain > 0.03) {
+            let percent = 100.0 * modulus_strain;
             warnings.push(format!(
-                "specimen {} ({}°): few rows at small strain: its modulus is the slope up to {:.1} %",
-                s.name,
-                direction.degrees(),
-                100.0 * s.modulus_strain
+                "specimen {name} ({degrees}°): few rows at small strain: its modulus is the slope up to {percent:.1} %"
             ));
         }
     }
 }
 
+fn with_modulus(specimens: &[Specimen], direction: Direction) -> Vec<(&Specimen, f64)> {
+    let same = specimens.iter().filter(|s| s.direction == direction);
+    same.filter_map(|s| Some((s, s.modulus_pa?))).collect()
+}
+
 /// Another direction whose mean is within a fifth of a value that is off in its own.
 fn nearest_direction(specimens: &[Specimen], own: Direction, value: f64) -> Option<Direction> {
-    let mean = |direction: Direction| {
-        let values: Vec<f64> =
-            specimens.iter().filter(|s| s.direction == direction).filter_map(|s| s.modulus_pa).collect();
-        (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+    let near = |d: &Direction| {
+        let mean = Scatter::of(with_modulus(specimens, *d).into_iter().map(|(_, modulus)| modulus));
+        *d != own && mean.is_some_and(|s| policy::is_like_another(value, s.mean))
     };
-    let near = |d: &Direction| mean(*d).is_some_and(|m| policy::is_like_another(value, m));
-    directions(specimens).into_iter().filter(|d| *d != own).find(near)
+    directions(specimens).into_iter().find(near)
 }
 
 /// Directions that were pulled, by angle.
@@ -98,15 +87,15 @@ pub(super) fn directions(specimens: &[Specimen]) -> Vec<Direction> {
     all
 }
 
-/// Tests at other angles than the law was made from, each by how much the law is off at the end.
-pub(super) fn checks(off: impl Iterator<Item = f64>, warnings: &mut Vec<String>) {
+/// Tests at other angles than a law was made from.
+pub(super) fn checks(replays: &[Replay], law: &str, warnings: &mut Vec<String>) {
+    let off = replays.iter().filter(|r| r.law == law && !r.used).map(|r| r.at_end);
     let [low, high] = off.fold([0.0_f64, 0.0_f64], |[a, b], o| [a.min(o), b.max(o)]);
     if !policy::meets(low) || !policy::meets(high) {
+        let [low, high] = [low, high].map(|off| 100.0 * off);
         warnings.push(format!(
-            "tests at other angles than the law was made from: it is off by {:+.0} to {:+.0} % at their ends; not asked yet: a \
-             Poisson's ratio that was not measured, yarns cut at the edges of a strip as narrow as the weave is coarse",
-            100.0 * low,
-            100.0 * high
+            "tests at other angles than the law was made from: it is off by {low:+.0} to {high:+.0} % at their ends; not asked \
+             yet: a Poisson's ratio that was not measured, yarns cut at the edges of a strip as narrow as the weave is coarse"
         ));
     }
 }

@@ -2,7 +2,7 @@
 
 use data::{Column, Direction, Table};
 
-use super::reduce::{Characterized, ShearCurve};
+use super::reduce::{Characterized, MeanCurve, ShearCurve};
 use super::{PAPER_LIMIT_RAD, Reduction};
 
 /// `[fabric.NAME]` tables for a finite element case, one for every law that these tests determine; none without thickness.
@@ -10,23 +10,18 @@ use super::{PAPER_LIMIT_RAD, Reduction};
 /// Woven needs warp, fill and bias; orthotropic the same; neo-Hookean warp or fill.
 pub fn fabric_toml(found: &Characterized, settings: &Reduction, program: &str) -> Option<String> {
     let thickness_mm = 1e3 * found.thickness_m?;
-    let laws = [woven(found), linear(found), film(found)];
-    let count = laws.iter().flatten().count();
-    if count == 0 {
-        return None;
-    }
-    let mut text = format!(
-        "# Made by {program} characterize from {} specimens ({}). Keep the tables that you need.\n",
-        found.specimens.len(),
-        found.provenance.word()
-    );
-    text.push_str(&bending(found).unwrap_or_default());
-    for (suffix, law) in ["", "-linear", "-film"].iter().zip(laws) {
+    let mut laws = String::new();
+    for (suffix, law) in [("", woven(found)), ("-linear", linear(found)), ("-film", film(found))] {
         let Some(lines) = law else { continue };
         let name = quoted(&format!("{}{suffix}", settings.name));
-        text.push_str(&format!("\n[fabric.{name}]\n{lines}thickness_mm = {thickness_mm:.6}\n"));
+        laws.push_str(&format!("\n[fabric.{name}]\n{lines}thickness_mm = {thickness_mm:.6}\n"));
     }
-    Some(text)
+    let (count, word) = (found.specimens.len(), found.provenance.word());
+    let head = format!(
+        "# Made by {program} characterize from {count} specimens ({word}). Keep the tables that you need.\n{}",
+        bending(found).unwrap_or_default()
+    );
+    (!laws.is_empty()).then(|| head + &laws)
 }
 
 /// What would have to be there for [`fabric_toml`].
@@ -47,8 +42,10 @@ pub fn measured_toml(found: &Characterized, program: &str) -> Option<String> {
         // A dataset accepts nothing better than a thousandth.
         (scatter.mean > 0.0).then(|| [scatter.mean, sd.max(2e-3 * scatter.mean)])
     };
-    let line =
-        |key: &str, [mean, sd]: [f64; 2], note: &str| format!("{key} = [{}, {}]{note}\n", digits(mean), digits(sd));
+    let line = |key: &str, [mean, sd]: [f64; 2], note: &str| {
+        let (mean, sd) = (digits(mean), digits(sd));
+        format!("{key} = [{mean}, {sd}]{note}\n")
+    };
     let compliance = |key: &str, along: &str| {
         let (thickness, [e, sd]) = (found.thickness_m?, one_more(key)?);
         let c = 1.0 / (1e6 * e * thickness);
@@ -60,16 +57,14 @@ pub fn measured_toml(found: &Characterized, program: &str) -> Option<String> {
         ("shear_stiffness", one_more("gt").map(|pair| line("shear_n_per_m", pair, ""))),
         ("shear_lock", angle.map(|pair| line("lock_rad", pair, "   # where two straight lines meet"))),
     ];
-    let tables: Vec<String> =
-        tables.into_iter().filter_map(|(name, text)| Some(format!("\n[measured.{name}]\n{}", text?))).collect();
-    (!tables.is_empty()).then(|| {
-        format!(
-            "# Made by {program} characterize ({}), for the about.toml of a robot whose actuator is of this fabric: value and\n\
-             # standard deviation of one more piece. Keep what its actuator knows (ibr list effects).\n{}",
-            found.provenance.word(),
-            tables.concat()
-        )
-    })
+    let table = |(name, text): (&str, Option<String>)| Some(format!("\n[measured.{name}]\n{}", text?));
+    let tables: String = tables.into_iter().filter_map(table).collect();
+    let word = found.provenance.word();
+    let head = format!(
+        "# Made by {program} characterize ({word}), for the about.toml of a robot whose actuator is of this fabric: value and\n\
+         # standard deviation of one more piece. Keep what its actuator knows (ibr list effects).\n"
+    );
+    (!tables.is_empty()).then(|| head + &tables)
 }
 
 /// A bare key, or one in quotation marks.
@@ -83,31 +78,29 @@ fn value(found: &Characterized, key: &str) -> Option<f64> {
 }
 
 fn woven(found: &Characterized) -> Option<String> {
-    let yarn = |direction| found.yarns.iter().find(|y| y.direction == direction);
+    let word = found.provenance.word();
+    let yarn = |direction| {
+        let curve = found.yarns.iter().find(|y| y.direction == direction)?;
+        Some(rows_of(&curve.rows, [1.0, 1e-6]))
+    };
     let (warp, fill) = (yarn(Direction::Warp)?, yarn(Direction::Fill)?);
     let shear = match found.shear.as_ref().and_then(|s| s.moment_pa.as_ref()) {
         Some(rows) => {
             let limit = PAPER_LIMIT_RAD.to_degrees();
+            let rows = rows_of(rows, [180.0 / std::f64::consts::PI, 1e-6]);
             format!(
                 "# degrees, MPa: moment per volume; calibrated on bias extension; beyond {limit:.0}° the reduction is doubtful\n\
-                 shear = {}\n",
-                rows_of(rows, [180.0 / std::f64::consts::PI, 1e-6])
+                 shear = {rows}\n"
             )
         }
         None => {
             value(found, "g12_link")?;
-            format!("e45_MPa = {:.6}                # {}\n", value(found, "e45")?, found.provenance.word())
+            format!("e45_MPa = {:.6}                # {word}\n", value(found, "e45")?)
         }
     };
-    let word = found.provenance.word();
     Some(format!(
-        "law = \"woven\"\n\
-         {}\
-         # nominal strain, MPa: mean of the specimens, {word}\n\
-         warp = {}\nfill = {}\n{shear}",
-        poisson(found),
-        rows_of(&warp.rows, [1.0, 1e-6]),
-        rows_of(&fill.rows, [1.0, 1e-6])
+        "law = \"woven\"\n{}# nominal strain, MPa: mean of the specimens, {word}\nwarp = {warp}\nfill = {fill}\n{shear}",
+        poisson(found)
     ))
 }
 
@@ -119,12 +112,10 @@ fn linear(found: &Characterized) -> Option<String> {
         (_, Some(e45)) if value(found, "g12_link").is_some() => format!("e45_MPa = {e45:.6}                # {word}\n"),
         _ => return None,
     };
+    let nu12 = poisson(found);
     Some(format!(
-        "law = \"orthotropic\"\n\
-         e0_MPa = {e0:.6}                # {word}\n\
-         e90_MPa = {e90:.6}                # {word}\n\
-         {}{shear}",
-        poisson(found)
+        "law = \"orthotropic\"\ne0_MPa = {e0:.6}                # {word}\n\
+         e90_MPa = {e90:.6}                # {word}\n{nu12}{shear}"
     ))
 }
 
@@ -140,15 +131,12 @@ fn bending(found: &Characterized) -> Option<String> {
     let (d, t) = (1e-6 * value(found, "bending_stiffness")?, found.thickness_m?);
     let moduli: Vec<f64> = ["e0", "e90"].iter().filter_map(|key| value(found, key)).collect();
     let plate = 1e6 * moduli.iter().sum::<f64>() / moduli.len() as f64 * t.powi(3) / 12.0;
-    plate.is_finite().then(|| {
-        format!(
-            "# Bending stiffness of the cantilever test, D = {} N·m: its part has bending_factor = {:.3},\n\
-             # a robot in finite elements the same in [fem], and the effect fold_energy bending_nm = {}.\n",
-            digits(d),
-            d / plate,
-            digits(d)
-        )
-    })
+    let (factor, d) = (d / plate, digits(d));
+    let text = format!(
+        "# Bending stiffness of the cantilever test, D = {d} N·m: its part has bending_factor = {factor:.3},\n\
+         # a robot in finite elements the same in [fem], and the effect fold_energy bending_nm = {d}.\n"
+    );
+    plate.is_finite().then_some(text)
 }
 
 fn film(found: &Characterized) -> Option<String> {
@@ -170,35 +158,25 @@ fn digits(x: f64) -> String {
 }
 
 /// Table of a mean curve along a yarn: strain in per cent, stress and its scatter in MPa.
-pub fn yarn_table(rows: &[[f64; 2]], sd_pa: &[Option<f64>]) -> Table {
-    let column = |values: Vec<f64>| Column::F64(values);
-    Table {
-        columns: vec![
-            ("strain_pct".into(), column(rows.iter().map(|r| 100.0 * r[0]).collect())),
-            ("stress_mpa".into(), column(rows.iter().map(|r| 1e-6 * r[1]).collect())),
-            (
-                "sd_between_specimens_mpa".into(),
-                column(sd_pa.iter().map(|s| s.map_or(f64::NAN, |s| 1e-6 * s)).collect()),
-            ),
-        ],
-    }
+pub fn yarn_table(MeanCurve { rows, sd_pa, .. }: &MeanCurve) -> Table {
+    let [strain, stress] = [(0, 100.0), (1, 1e-6)].map(|(k, unit)| rows.iter().map(|r| unit * r[k]).collect());
+    let sd = sd_pa.iter().map(|s| s.map_or(f64::NAN, |s| 1e-6 * s)).collect();
+    let columns = [("strain_pct", strain), ("stress_mpa", stress), ("sd_between_specimens_mpa", sd)];
+    Table { columns: columns.map(|(name, values)| (name.into(), Column::F64(values))).into() }
 }
 
 /// Table of the shear curve: angle, force per length and its scatter, moment per volume, whether within the limit.
 pub fn shear_table(shear: &ShearCurve, thickness_m: Option<f64>) -> Table {
-    let moment = |row: &[f64; 2]| thickness_m.map_or(f64::NAN, |t| 1e-6 * row[1] * row[0].cos() / t);
+    let moment = |[angle, force]: &[f64; 2]| thickness_m.map_or(f64::NAN, |t| 1e-6 * force * angle.cos() / t);
     let within = |row: &[f64; 2]| if row[0] <= PAPER_LIMIT_RAD { "yes" } else { "no" }.to_string();
-    let rows = &shear.rows;
-    Table {
-        columns: vec![
-            ("shear_angle_deg".into(), Column::F64(rows.iter().map(|r| r[0].to_degrees()).collect())),
-            ("shear_force_n_per_m".into(), Column::F64(rows.iter().map(|r| r[1]).collect())),
-            (
-                "sd_between_specimens_n_per_m".into(),
-                Column::F64(shear.sd_n_per_m.iter().map(|s| s.unwrap_or(f64::NAN)).collect()),
-            ),
-            ("moment_per_volume_mpa".into(), Column::F64(rows.iter().map(moment).collect())),
-            ("within_validity_limit".into(), Column::Str(rows.iter().map(within).collect())),
-        ],
-    }
+    let rows = shear.rows.iter();
+    let columns = [
+        ("shear_angle_deg", rows.clone().map(|r| r[0].to_degrees()).collect()),
+        ("shear_force_n_per_m", rows.clone().map(|r| r[1]).collect()),
+        ("sd_between_specimens_n_per_m", shear.sd_n_per_m.iter().map(|s| s.unwrap_or(f64::NAN)).collect()),
+        ("moment_per_volume_mpa", rows.clone().map(moment).collect()),
+    ];
+    let mut columns: Vec<_> = columns.map(|(name, values)| (name.into(), Column::F64(values))).into();
+    columns.push(("within_validity_limit".into(), Column::Str(rows.map(within).collect())));
+    Table { columns }
 }

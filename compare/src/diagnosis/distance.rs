@@ -58,20 +58,11 @@ pub fn distances(
 ) -> Result<Distances, CompareError> {
     let (fitted, _) = fit_scenario(scenario, ideal, about)?;
     let options = Options::default();
-    let direct = about.map(|a| a.direct).unwrap_or_default();
-    let source = Source {
-        scenario: &fitted,
-        dataset: ideal,
-        direct,
-        gauge: None,
-        rolled: false,
-        bending_nm2: about.and_then(|a| a.bending_nm2),
-        measured: about.map_or(&[], |a| &a.measured),
-    };
-    let (candidates, own) = catalogue(&[source], &options);
-    let known = |_: usize, slope: &[f64]| NoiseModel::known(ideal, slope, noise.runs, noise.sigma_m, noise.run_sd);
+    let sources = [Source::of(fitted, ideal.clone(), about)];
+    let (candidates, own) = catalogue(&sources, &options);
+    let known = |_: &Source, slope: &[f64]| NoiseModel::known(ideal, slope, noise.runs, noise.sigma_m, noise.run_sd);
     let mut wider = Vec::new();
-    let mut case = Case::with_noise(&[source], &known, (&candidates, own), &options)?;
+    let mut case = Case::with_noise(&sources, &known, (&candidates, own), &options)?;
     let (singles, _) = fit_all(&mut case, &mut wider, &mut |_, _| ());
     let base = case.base.cost();
     let allowed = singles.iter().filter(|fit| !case.is_rejected(fit));

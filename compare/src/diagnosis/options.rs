@@ -1,6 +1,7 @@
 //! Settings of a diagnosis.
 
 use crate::error::CompareError;
+use crate::evaluate::check_level;
 use models::Scenario;
 
 /// Settings of [`crate::diagnosis::diagnose`]; `Default` is what the command line uses.
@@ -42,15 +43,7 @@ impl Options {
     /// # Errors
     /// A number outside its range, an excluded effect that does not exist or that the scenario has.
     pub fn check(&self, scenario: &Scenario) -> Result<(), CompareError> {
-        let alpha = self.alpha;
-        if !(alpha > 0.0 && alpha < 1.0) {
-            let expected = "the significance level lies between 0 and 1";
-            return Err(CompareError::BadOption { name: "alpha", value: alpha, expected });
-        }
-        if let Some(value) = self.tolerance_m.filter(|value| !(*value >= 0.0 && value.is_finite())) {
-            let expected = "a length in metres, not negative";
-            return Err(CompareError::BadOption { name: "tolerance_m", value, expected });
-        }
+        check_level(self.alpha, self.tolerance_m)?;
         let catalogue = scenario.catalogue();
         let names: Vec<&str> = catalogue.effects().map(|effect| effect.name).chain([PRESSURES_ARE_RIGHT]).collect();
         if let Some(name) = self.not.iter().find(|name| !names.contains(&name.as_str())) {

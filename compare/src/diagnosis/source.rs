@@ -1,17 +1,21 @@
-//! A dataset as a diagnosis uses it.
+//! One dataset on its way through a diagnosis, with the base as it was measured there.
 
 use crate::error::CompareError;
+use crate::evidence::Evidence;
 use crate::gauge::Gauge;
+use crate::layout::Layout;
 use crate::noise::NoiseModel;
 use crate::policy;
-use crate::study::predict::is_open;
-use data::{Dataset, Direct, MeasuredValue};
+use crate::prepare::{Outliers, prepare};
+use crate::slips::slips;
+use crate::study::fit_scenario;
+use crate::study::predict::{is_open, without_settled};
+use data::{About, Dataset, Direct, Hold, MeasuredValue};
 use models::Scenario;
 use models::effects::Stage;
 
-/// Whether one robot lies rolled by 180° against the other: gravity pulls it the other way across.
-pub fn is_rolled(one: &Scenario, other: &Scenario) -> bool {
-    let ([ax, ay], [bx, by]) = (one.gravity_direction, other.gravity_direction);
+/// Whether one direction of gravity is the other one rolled by 180° about the robot's axis: it pulls the other way across.
+pub fn is_rolled([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> bool {
     ay.abs() > policy::SAME_DIRECTION
         && (ax - bx).abs() < policy::SAME_DIRECTION
         && (ay + by).abs() < policy::SAME_DIRECTION
@@ -28,40 +32,153 @@ pub fn seen_rolled(scenario: &Scenario) -> Scenario {
     seen
 }
 
-/// A dataset and the base as it was measured there.
-#[derive(Clone, Copy)]
-pub struct Source<'a> {
+/// Distinct body pressures in order of appearance \[Pa\].
+pub fn body_pressures<'d>(datasets: impl IntoIterator<Item = &'d Dataset>) -> Vec<f64> {
+    levels(datasets.into_iter().flat_map(|dataset| &dataset.holds).map(|hold| hold.p_body_pa))
+}
+
+/// Distinct actuator pressures above zero in order of appearance \[Pa\].
+pub fn pressure_levels(holds: &[Hold]) -> Vec<f64> {
+    levels(holds.iter().map(|h| h.p_act_pa).filter(|p| *p > policy::ZERO_PRESSURE_PA))
+}
+
+fn levels(pressures_pa: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut levels: Vec<f64> = Vec::new();
+    for p in pressures_pa {
+        if !levels.iter().any(|l| policy::is_same_pressure(*l, p)) {
+            levels.push(p);
+        }
+    }
+    levels
+}
+
+/// Index of the nearest level; 0 without levels.
+pub fn nearest(levels: &[f64], p: f64) -> usize {
+    (0..levels.len()).min_by(|a, b| (levels[*a] - p).abs().total_cmp(&(levels[*b] - p).abs())).unwrap_or(0)
+}
+
+/// A dataset, the base as it was measured there, and what is known beside the markers.
+#[derive(Clone)]
+pub struct Source {
     /// The base with the dataset's markers and loads, without effects of what was measured directly.
-    pub scenario: &'a Scenario,
-    /// The data; with a gauge at its readings.
-    pub dataset: &'a Dataset,
-    /// What was measured directly.
+    pub scenario: Scenario,
+    /// The data without copies and strays; with a gauge at its readings.
+    pub dataset: Dataset,
+    /// Session of every run; empty if there is one.
+    pub sessions: Vec<usize>,
     pub direct: Direct,
     /// Readings of the actuator's pressure, which the supply's laws must meet.
-    pub gauge: Option<&'a Gauge>,
+    pub gauge: Option<Gauge>,
     /// Rolled by 180° against the first data: what is fixed to the room acts the other way.
     pub rolled: bool,
     /// Bending stiffness at the first body pressure, measured by itself, and its standard deviation \[N·m²\].
     pub bending_nm2: Option<[f64; 2]>,
     /// Parameters of effects measured by themselves.
-    pub measured: &'a [MeasuredValue],
+    pub measured: Vec<MeasuredValue>,
+    pub outliers: Outliers,
+    /// Slips in the table as it was read, in words.
+    pub slips: Vec<String>,
 }
 
-impl<'a> Source<'a> {
+impl Source {
+    /// Of data as they are, with a scenario that is fitted to them.
+    pub fn of(scenario: Scenario, dataset: Dataset, about: Option<&About>) -> Source {
+        Source {
+            scenario,
+            dataset,
+            sessions: Vec::new(),
+            direct: about.map(|a| a.direct).unwrap_or_default(),
+            gauge: None,
+            rolled: false,
+            bending_nm2: about.and_then(|a| a.bending_nm2),
+            measured: about.map(|a| a.measured.clone()).unwrap_or_default(),
+            outliers: Outliers::default(),
+            slips: Vec::new(),
+        }
+    }
+
+    /// Of evidence made ready, with cautions.
+    pub fn prepared(scenario: &Scenario, evidence: &Evidence) -> Result<(Source, Vec<String>), CompareError> {
+        let (dataset, about) = (&evidence.dataset, evidence.about.as_ref());
+        Layout::of(dataset)?;
+        let (scenario, mut warnings) = fit_scenario(scenario, dataset, about)?;
+        let slips = slips(dataset, &scenario.markers_m, scenario.radius_m);
+        let mut prepared = prepare(dataset, about);
+        warnings.append(&mut prepared.warnings);
+        let mut source = Source::of(scenario, prepared.dataset, about);
+        if source.direct.pressure && dataset.gauge_pa.is_some() {
+            warnings.push(
+                "about.toml says [direct] pressure, so p_act is the actuator's own and the column p_gauge was not used"
+                    .into(),
+            );
+        }
+        let gauge = Gauge::of(&source.dataset, &source.scenario).filter(|_| !source.direct.pressure);
+        if let Some(gauge) = &gauge {
+            source.dataset = gauge.positions(&source.dataset);
+            source.direct.pressure = true;
+            source.scenario = without_settled(&source.scenario, source.direct);
+        }
+        let (sessions, outliers) = (prepared.sessions, prepared.outliers);
+        Ok((Source { sessions, gauge, outliers, slips, ..source }, warnings))
+    }
+
+    /// Every evidence made ready, without copies, and cautions.
+    pub fn all(scenario: &Scenario, evidence: &[Evidence]) -> Result<(Vec<Source>, Vec<String>), CompareError> {
+        let (mut sources, mut warnings) = (Vec::<Source>::new(), Vec::new());
+        for (i, measured) in evidence.iter().enumerate() {
+            let name = &measured.dataset.name;
+            if evidence[..i].iter().any(|seen| seen.dataset.xy_m == measured.dataset.xy_m) {
+                warnings.push(format!(
+                    "{name} is a copy of data that are there already and was left out: copies are not repeats"
+                ));
+                continue;
+            }
+            let own = measured.about.as_ref().and_then(|a| a.gravity_direction).unwrap_or(scenario.gravity_direction);
+            let rolled = sources.first().is_some_and(|first| is_rolled(own, first.scenario.gravity_direction));
+            let base = if rolled { seen_rolled(scenario) } else { scenario.clone() };
+            let (source, told) = Source::prepared(&base, measured)?;
+            let bending = source.contradicts_bending(&sources).then(|| "bending".to_string());
+            let effect = sources.iter().find_map(|known| known.contradicts(&source));
+            for what in bending.into_iter().chain(effect.map(|effect| format!("measured.{effect}"))) {
+                warnings.push(format!(
+                    "{name} says something else of [{what}] in about.toml than data before it, which stands"
+                ));
+            }
+            let of = if i > 0 { format!("{name}: ") } else { String::new() };
+            warnings.extend(source.slips.iter().cloned());
+            warnings.extend(told.into_iter().map(|warning| format!("{of}{warning}")));
+            sources.push(Source { rolled, ..source });
+        }
+        Ok((sources, warnings))
+    }
+
+    /// An effect of which the other description measures the same parameter, and not the same.
+    fn contradicts<'m>(&self, other: &'m Source) -> Option<&'m str> {
+        let same = |a: &MeasuredValue, b: &MeasuredValue| (&a.effect, &a.key) == (&b.effect, &b.key);
+        let differs = |m: &&MeasuredValue| self.measured.iter().any(|k| same(k, m) && k != *m);
+        other.measured.iter().find(differs).map(|m| m.effect.as_str())
+    }
+
+    /// Whether the first bending test before it found something else.
+    fn contradicts_bending(&self, before: &[Source]) -> bool {
+        let tested = before.iter().find_map(|known| known.bending_nm2).zip(self.bending_nm2);
+        tested.is_some_and(|(known, own)| known != own)
+    }
+
     /// Whether anything is left to be seen of effects of a stage.
     pub fn shows(&self, stage: Stage) -> bool {
         is_open(stage, self.direct) || stage == Stage::Supply && self.gauge.is_some()
     }
 
     /// The base with all its effects.
-    pub fn as_given(&self) -> &'a Scenario {
-        self.gauge.map_or(self.scenario, |gauge| &gauge.scenario)
+    pub fn as_given(&self) -> &Scenario {
+        self.gauge.as_ref().map_or(&self.scenario, |gauge| &gauge.scenario)
     }
 
     /// Noise at the readings of the gauge, if there is one, given ∂f/∂ln p.
     pub fn at_readings(&self, noise: NoiseModel, slope: &[f64]) -> Result<NoiseModel, CompareError> {
-        match self.gauge {
-            Some(gauge) => noise.at_readings(gauge.errors_m(self.dataset, slope)),
+        match &self.gauge {
+            Some(gauge) => noise.at_readings(gauge.errors_m(&self.dataset, slope)),
             None => Ok(noise),
         }
     }
@@ -70,16 +187,13 @@ impl<'a> Source<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::published::textbook_scenario;
 
     #[test]
     fn a_robot_is_rolled_if_gravity_pulls_it_the_other_way_across_to_a_twentieth() {
-        let of = |gravity_direction| Scenario { gravity_direction, ..textbook_scenario("epam").unwrap() };
-        let rolled = |a, b| is_rolled(&of(a), &of(b));
-        assert!(rolled([0.0, -1.0], [0.0, 1.0]) && !rolled([0.0, -1.0], [0.0, -1.0]));
+        assert!(is_rolled([0.0, -1.0], [0.0, 1.0]) && !is_rolled([0.0, -1.0], [0.0, -1.0]));
         // Hung along x nothing is across.
-        assert!(rolled([0.99, 0.051], [0.99, -0.051]) && !rolled([1.0, 0.049], [1.0, -0.049]));
-        assert!(rolled([0.0, -1.0], [0.049, 1.0]) && !rolled([0.0, -1.0], [0.051, 1.0]));
-        assert!(rolled([0.0, -1.0], [0.0, 0.951]) && !rolled([0.0, -1.0], [0.0, 0.949]));
+        assert!(is_rolled([0.99, 0.051], [0.99, -0.051]) && !is_rolled([1.0, 0.049], [1.0, -0.049]));
+        assert!(is_rolled([0.0, -1.0], [0.049, 1.0]) && !is_rolled([0.0, -1.0], [0.051, 1.0]));
+        assert!(is_rolled([0.0, -1.0], [0.0, 0.951]) && !is_rolled([0.0, -1.0], [0.0, 0.949]));
     }
 }

@@ -1,13 +1,12 @@
 //! The scenario with a learned law: a `[[formula]]` of its own, and where the line of the markers lies.
 
-use super::steps::{ErrorStep, Ground};
-use super::text::{Addition, BodyValue, extended, with_formula};
-use super::{Extension, FittedEffect, today};
+use super::steps::Ground;
+use super::text::{Addition, BodyValue, today, with_formula};
+use super::written::{Extension, FittedEffect};
 use crate::diagnosis::{Diagnosis, LearnedLaw};
 use crate::error::CompareError;
 use crate::policy;
 use crate::scenario_file::ScenarioFile;
-use models::Known;
 
 /// Key of the line's distance from the taut generator in `[body]`.
 const CENTRE_LINE: &str = "centre_line_mm";
@@ -31,33 +30,16 @@ pub(super) fn learned(file: &ScenarioFile, found: &Diagnosis) -> Result<Extensio
     let with = with_formula(file, &law.toml, &origin(found, law), line.as_ref())?;
     let remarks = vec![format!("{} (learned); its formula stands below", law.words)];
     let addition = Addition { remarks, ..ground.calibrated(&law.name, &law.parameters) };
-    let bending = (!law.bending_nm2.is_empty()).then(|| ground.bending(&law.bending_nm2));
-    let step = ErrorStep {
-        model: format!("+ {}", law.name),
-        how_known: Known::Calibrated.word(),
-        training_mm: law.after_mm,
-        heldout_pressure_mm: law.heldout_after_mm,
-        heldout_run_mm: law.heldout_run_after_mm,
-        bending_nm2: bending.unwrap_or(found.base.bending_nominal_nm2),
-    };
-    let bending = bending.and_then(|b| ground.new_bending(b));
-    let mut warnings = ground.warnings();
+    let bending = (!law.bending_nm2.is_empty()).then(|| ground.new_bending(ground.bending(&law.bending_nm2))).flatten();
+    let fitted = vec![FittedEffect { effect: law.name.clone(), parameters: law.parameters.clone() }];
+    let written = Extension::written(&with, bending, vec![addition], law.sentences())?;
+    let mut extension = Extension { fitted, ..written.climbed(&ground, ground.learned_step(law)) };
     if !law.heldout_after_mm.zip(law.heldout_before_mm).is_some_and(|(after, before)| policy::falls(after, before)) {
-        warnings.push(
+        extension.warnings.push(
             "the error at pressures left out hardly falls: this law describes these data and predicts little".into(),
         );
     }
-    let additions = vec![addition];
-    Ok(Extension {
-        file: extended(&with, bending.as_ref(), &additions)?,
-        additions,
-        fitted: vec![FittedEffect { effect: law.name.clone(), parameters: law.parameters.clone() }],
-        bending,
-        steps: ground.first_steps().into_iter().chain([step]).collect(),
-        noise_floor_mm: found.base.noise_floor_mm,
-        told: law.sentences(),
-        warnings,
-    })
+    Ok(extension)
 }
 
 /// Where the formula comes from, for its comment.

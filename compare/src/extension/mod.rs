@@ -1,15 +1,22 @@
 //! A scenario with one more effect: fitted on data, chosen by the diagnosis, or given.
 
+pub mod ladder;
 mod learned;
+pub mod scenario_file;
 mod steps;
 mod text;
+pub mod typed_effect;
+pub mod validation;
+mod written;
 
 pub(crate) use steps::Ground;
 pub use steps::{ErrorStep, error_steps};
-pub use text::{Addition, NewBending, Origin, extended, origins};
+pub use text::{Addition, NewBending, today};
+pub(crate) use text::{Origin, extended, origins};
+pub use written::{Extension, FittedEffect};
 
 use crate::diagnosis::words::{listed, named, three};
-use crate::diagnosis::{Added, Diagnosis, Options, ParameterValue, Ranked, diagnose};
+use crate::diagnosis::{Added, Diagnosis, Options, Ranked, diagnose};
 use crate::error::CompareError;
 use crate::evidence::Evidence;
 use crate::policy;
@@ -18,40 +25,9 @@ use crate::scenario_file::ScenarioFile;
 use crate::typed_effect::{Values, typed, values_of};
 use models::Known;
 use models::Scenario;
-use serde::Serialize;
 
 /// What asks for a learned law; the name of the first one too.
 const LEARNED: &str = "learned";
-
-/// A new scenario, and what it brings.
-#[derive(Debug, Clone)]
-pub struct Extension {
-    /// The scenario with the effects; text and comments of the old one stay.
-    pub file: ScenarioFile,
-    /// Effects that were added.
-    pub additions: Vec<Addition>,
-    /// Their fitted values; none for those that were given.
-    pub fitted: Vec<FittedEffect>,
-    /// The new bending stiffness, if it was fitted.
-    pub bending: Option<NewBending>,
-    /// Errors on the way, the scenario as given first; none without data.
-    pub steps: Vec<ErrorStep>,
-    /// Noise of the mean \[mm\].
-    pub noise_floor_mm: Option<f64>,
-    /// What was done, in sentences.
-    pub told: Vec<String>,
-    /// Cautions.
-    pub warnings: Vec<String>,
-}
-
-/// An effect and its fitted values.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct FittedEffect {
-    /// Name in scenarios.
-    pub effect: String,
-    /// Its values.
-    pub parameters: Vec<ParameterValue>,
-}
 
 /// The effect to add, as a user types it.
 #[derive(Debug, Clone, PartialEq)]
@@ -156,17 +132,7 @@ fn assumed(file: &ScenarioFile, name: &str, values: &Values) -> Result<Extension
         remarks: sentence.into_iter().collect(),
     };
     let told = vec![format!("Assumed: {}. Nothing was fitted; name data to fit it.", with_values_told(&addition))];
-    let additions = vec![addition];
-    Ok(Extension {
-        file: extended(file, None, &additions)?,
-        additions,
-        fitted: Vec::new(),
-        bending: None,
-        steps: Vec::new(),
-        noise_floor_mm: None,
-        told,
-        warnings: Vec::new(),
-    })
+    Extension::written(file, None, vec![addition], told)
 }
 
 fn fitted(file: &ScenarioFile, ground: &Ground, name: &str) -> Result<Extension, CompareError> {
@@ -220,16 +186,7 @@ fn climbed(
     told: Vec<String>,
 ) -> Result<Extension, CompareError> {
     let bending = ground.new_bending(step.bending_nm2);
-    Ok(Extension {
-        file: extended(file, bending.as_ref(), &additions)?,
-        additions,
-        fitted: Vec::new(),
-        bending,
-        steps: ground.first_steps().into_iter().chain([step]).collect(),
-        noise_floor_mm: ground.d.base.noise_floor_mm,
-        told,
-        warnings: ground.warnings(),
-    })
+    Ok(Extension::written(file, bending, additions, told)?.climbed(ground, step))
 }
 
 fn with_values(scenario: &Scenario, name: &str, values: &Values) -> Scenario {
@@ -259,7 +216,7 @@ fn too_few_runs(evidence: &Evidence) -> Option<String> {
 
 /// The effect as the diagnosis ranks it, or why it cannot be added.
 fn ranked<'a>(d: &'a Diagnosis, name: &str) -> Result<&'a Ranked, CompareError> {
-    let Some(r) = d.ranked.iter().find(|r| r.effect == name) else {
+    let Some(r) = d.ranked(name) else {
         let message = format!("{name} is not a candidate on these data");
         return Err(CompareError::refused(message, "`ibr diagnose` prints the candidates"));
     };
@@ -278,9 +235,4 @@ fn ranked<'a>(d: &'a Diagnosis, name: &str) -> Result<&'a Ranked, CompareError> 
         return Err(CompareError::refused(message, by_hand));
     }
     Ok(r)
-}
-
-/// Today's date, UTC.
-pub fn today() -> String {
-    time::OffsetDateTime::now_utc().date().to_string()
 }

@@ -1,9 +1,8 @@
 //! From a diagnosis to what is written into a scenario, and the error before and after.
 
-use super::text::{Addition, NewBending};
-use super::today;
+use super::text::{Addition, NewBending, today};
 use crate::diagnosis::words::three;
-use crate::diagnosis::{Diagnosis, ParameterValue, Ranked};
+use crate::diagnosis::{Diagnosis, LearnedLaw, ParameterValue, Ranked};
 use models::Known;
 use models::Scenario;
 use serde::Serialize;
@@ -72,7 +71,7 @@ impl<'a> Ground<'a> {
 
     /// An effect to be written.
     pub fn addition(&self, name: &str, values: Vec<(String, f64)>, known: Known) -> Addition {
-        let ranked = self.d.ranked.iter().find(|r| r.effect == name);
+        let ranked = self.d.ranked(name);
         Addition {
             name: name.into(),
             values,
@@ -107,57 +106,42 @@ impl<'a> Ground<'a> {
     /// The scenario as given and with B calibrated.
     pub fn first_steps(&self) -> Vec<ErrorStep> {
         let base = &self.d.base;
-        let given = ErrorStep {
-            model: "scenario as given".into(),
-            how_known: Known::Assumed.word(),
-            training_mm: base.systematic_nominal_mm,
-            heldout_pressure_mm: None,
-            heldout_run_mm: None,
-            bending_nm2: base.bending_nominal_nm2,
-        };
-        let calibrated = self.base_step("B calibrated", Known::Calibrated);
-        match self.fits_bending() {
-            true => vec![given, calibrated],
-            false => vec![ErrorStep { model: given.model, how_known: given.how_known, ..calibrated }],
+        let (model, known) = ("scenario as given", Known::Assumed);
+        if !self.fits_bending() {
+            return vec![self.base_step(model, known)];
         }
+        let training_mm = base.systematic_nominal_mm;
+        let given = step(model, known.word(), training_mm, [None; 2], base.bending_nominal_nm2);
+        vec![given, self.base_step("B calibrated", Known::Calibrated)]
     }
 
     /// The base of the diagnosis.
     pub fn base_step(&self, model: &str, known: Known) -> ErrorStep {
-        ErrorStep {
-            model: model.into(),
-            how_known: known.word(),
-            training_mm: self.d.base.systematic_mm,
-            heldout_pressure_mm: self.d.base.heldout_mm,
-            heldout_run_mm: self.d.base.heldout_run_mm,
-            bending_nm2: self.base_bending(),
-        }
+        let base = &self.d.base;
+        let held_out = [base.heldout_mm, base.heldout_run_mm];
+        step(model, known.word(), base.systematic_mm, held_out, self.base_bending())
     }
 
     /// The base with one effect fitted.
     pub fn ranked_step(&self, r: &Ranked) -> ErrorStep {
-        ErrorStep {
-            model: format!("+ {}", r.effect),
-            how_known: Known::Calibrated.word(),
-            training_mm: r.systematic_after_mm,
-            heldout_pressure_mm: r.heldout_mm,
-            heldout_run_mm: r.heldout_run_mm,
-            bending_nm2: self.bending(&r.bending_nm2),
-        }
+        let (model, bending_nm2) = (format!("+ {}", r.effect), self.bending(&r.bending_nm2));
+        let held_out = [r.heldout_mm, r.heldout_run_mm];
+        step(&model, Known::Calibrated.word(), r.systematic_after_mm, held_out, bending_nm2)
+    }
+
+    /// The base with a learned law.
+    pub fn learned_step(&self, law: &LearnedLaw) -> ErrorStep {
+        let (model, bending_nm2) = (format!("+ {}", law.name), self.bending(&law.bending_nm2));
+        let held_out = [law.heldout_after_mm, law.heldout_run_after_mm];
+        step(&model, Known::Calibrated.word(), law.after_mm, held_out, bending_nm2)
     }
 
     /// The final model of the diagnosis, or the one that it attempted.
     pub fn verdict_step(&self) -> ErrorStep {
         let base = &self.d.base;
         let (model, how_known) = self.d.final_model().unwrap_or_default();
-        ErrorStep {
-            model,
-            how_known,
-            training_mm: base.systematic_with_added_mm,
-            heldout_pressure_mm: base.heldout_with_added_mm,
-            heldout_run_mm: base.heldout_run_with_added_mm,
-            bending_nm2: self.bending(&base.bending_with_added_nm2),
-        }
+        let held_out = [base.heldout_with_added_mm, base.heldout_run_with_added_mm];
+        step(&model, how_known, base.systematic_with_added_mm, held_out, self.bending(&base.bending_with_added_nm2))
     }
 
     /// What a reader of the new scenario should know.
@@ -173,4 +157,15 @@ impl<'a> Ground<'a> {
         }
         warnings
     }
+}
+
+/// Errors at pressures and for runs left out come as a pair.
+fn step(
+    model: &str,
+    how_known: &'static str,
+    training_mm: f64,
+    [heldout_pressure_mm, heldout_run_mm]: [Option<f64>; 2],
+    bending_nm2: f64,
+) -> ErrorStep {
+    ErrorStep { model: model.into(), how_known, training_mm, heldout_pressure_mm, heldout_run_mm, bending_nm2 }
 }

@@ -39,7 +39,6 @@ pub struct NewBending {
 /// A value of `[body]` to be written.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct BodyValue {
-    /// Key.
     pub key: &'static str,
     /// In the unit of the key.
     pub value: f64,
@@ -134,7 +133,6 @@ fn hashes(text: &str) -> Vec<String> {
     text.split(HASH).skip(1).map(hash).collect()
 }
 
-/// Rounded to what is written.
 pub fn rounded(v: f64) -> f64 {
     if v == 0.0 || !v.is_finite() {
         return v;
@@ -228,6 +226,11 @@ fn set_body(document: &mut DocumentMut, new: &BodyValue) -> Option<()> {
         None => _ = body.insert(new.key, written),
     }
     Some(())
+}
+
+/// Today's date, UTC.
+pub fn today() -> String {
+    time::OffsetDateTime::now_utc().date().to_string()
 }
 
 #[cfg(test)]

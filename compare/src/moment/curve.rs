@@ -23,9 +23,6 @@ pub struct Path {
 pub type CurvePoint = [f64; 2];
 
 /// What the base misses at the bends of another robot, at every pressure of a path.
-///
-/// # Errors
-/// A pressure that is refused. A pressure without equilibrium leaves a gap.
 pub fn curve(base: &Scenario, other: &Scenario, path: &Path) -> Result<Vec<CurvePoint>, CompareError> {
     let cuts: Vec<f64> = (1..STRETCHES).map(|i| base.length_m * i as f64 / STRETCHES as f64).collect();
     let [base, other] = [base, other].map(|scenario| Model::in_pieces(scenario, &cuts));

@@ -7,19 +7,18 @@
 //! Pure functions over plain structs; nothing here decides a verdict.
 
 mod curve;
-pub mod learned;
+pub(crate) mod learned;
 mod points;
+mod result;
 mod shape;
 #[cfg(test)]
 mod tests;
 mod told;
 mod view;
 
-pub use curve::{CurvePoint, Path, at_turn, band, curve};
-pub use points::{Moments, Point, Robot, missing, moments};
-pub use shape::{Shape, Shared, shape};
-pub use told::{
-    MeasuredShape, MissingMoment, MomentCurve, MomentPoint, SharedNumber, degrees, is_told, sentences, shape_sentences,
-    told,
-};
-pub use view::{Division, Place, View};
+pub(crate) use curve::{CurvePoint, Path, at_turn, band, curve};
+pub(crate) use points::{Moments, Robot, missing, moments};
+pub use result::{MeasuredShape, MissingMoment, MomentCurve, MomentPoint, SharedNumber};
+pub(crate) use shape::{Shape, shape};
+pub(crate) use told::{degrees, sentences, shape_sentences, told};
+pub(crate) use view::View;

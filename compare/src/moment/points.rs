@@ -22,10 +22,8 @@ pub struct Robot<'a> {
     pub of_hold: &'a [usize],
 }
 
-/// A missing moment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
-    /// Hold.
     pub hold: usize,
     /// Place, base first; `None`: mean over the places.
     pub place: Option<usize>,
@@ -35,17 +33,14 @@ pub struct Point {
     pub p_act_pa: f64,
     /// Body pressure \[Pa\].
     pub p_body_pa: f64,
-    /// How the hold was reached.
     pub phase: Phase,
     /// Mean time \[s\].
     pub t_s: f64,
     /// Bend \[1/m\].
     pub kappa: f64,
-    /// Its standard deviation.
     pub kappa_sd: f64,
     /// Missing moment \[N·m\].
     pub moment: f64,
-    /// Its standard deviation.
     pub moment_sd: f64,
 }
 
@@ -58,8 +53,6 @@ pub struct Moments {
     pub covariance: DMatrix<f64>,
     /// Mean over the places of every hold.
     pub of_holds: Vec<Point>,
-    /// Holds that have none, and why.
-    pub without: Vec<(usize, &'static str)>,
 }
 
 /// Step of the slope by bend \[1/m\].
@@ -73,22 +66,16 @@ const COMPLETE: f64 = 3.0;
 type Sum = Vec<(f64, usize, usize)>;
 
 /// What a robot misses at a shape.
-///
-/// # Errors
-/// Pressures or times that are refused.
 pub fn moments(view: &View, shape: &Shape, robot: &Robot) -> Result<Moments, CompareError> {
     let field = Field::of(view, shape, robot)?;
     let layout = Layout::of(&shape.division);
-    let (mut sums, mut labels, mut without, mut wholes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (mut sums, mut labels, mut wholes) = (Vec::new(), Vec::new(), Vec::new());
     let groups = shape.division.groups;
     for hold in 0..view.dataset.holds.len() {
-        let places = match field.usable(view, shape, &layout, hold) {
-            Ok(places) => places,
-            Err(why) => {
-                without.push((hold, why));
-                continue;
-            }
-        };
+        let places = field.usable(view, shape, &layout, hold);
+        if places.is_empty() {
+            continue;
+        }
         let own =
             |place: usize| -> Sum { (0..groups).map(|g| (1.0 / groups as f64, hold * groups + g, place)).collect() };
         let length: f64 = places.iter().map(|p| shape.division.places[*p].length_m()).sum();
@@ -135,7 +122,6 @@ pub fn moments(view: &View, shape: &Shape, robot: &Robot) -> Result<Moments, Com
         points: sums.iter().zip(&labels).map(told).collect(),
         covariance: &gain * &shape.covariance * gain.transpose(),
         of_holds: wholes.iter().map(|(sum, label)| told((sum, label))).collect(),
-        without,
     })
 }
 
@@ -160,27 +146,26 @@ impl Field {
         Ok(Field { slope: slope.collect(), kappa, missing })
     }
 
-    /// Places with a moment in a hold, or why there is none.
-    fn usable(&self, view: &View, shape: &Shape, layout: &Layout, hold: usize) -> Result<Vec<usize>, &'static str> {
+    /// Places with a moment in a hold.
+    fn usable(&self, view: &View, shape: &Shape, layout: &Layout, hold: usize) -> Vec<usize> {
         let groups = shape.division.groups;
-        let active = (0..shape.division.places.len()).filter(|p| shape.division.places[*p].is_active);
-        let active: Vec<usize> = active.collect();
-        let bend = |place: usize| shape.numbers[layout.bend(hold, place)];
+        let mut active: Vec<usize> = (0..shape.division.places.len()).collect();
+        active.retain(|p| shape.division.places[*p].is_active);
+        let bend = |place: usize| shape.numbers[layout.bend(hold, place)].abs();
         let sd = |place: usize| shape.covariance[(layout.bend(hold, place), layout.bend(hold, place))].sqrt();
-        if view.dataset.holds[hold].p_act_pa <= 0.0 {
-            // A slack actuator on a straight body: the hinge of the folded wall has not set in, and says nothing.
-            let complete = COMPLETE * view.scenario.hinge_curvature;
-            if active.iter().any(|p| bend(*p).abs() < complete + COMPLETE * sd(*p)) {
-                return Err("no pressure and hardly a bend");
-            }
+        // A slack actuator on a straight body: the hinge of the folded wall has not set in, and says nothing.
+        let complete = COMPLETE * view.scenario.hinge_curvature;
+        let is_slack = |p: &usize| bend(*p) < complete + COMPLETE * sd(*p);
+        if view.dataset.holds[hold].p_act_pa <= 0.0 && active.iter().any(is_slack) {
+            return Vec::new();
         }
-        let finite = |place: &usize| {
-            let moments = hold * groups..(hold + 1) * groups;
-            moments.clone().all(|m| self.missing[m][*place].is_finite() && self.slope[m][*place].is_finite())
+        let finite = |place: usize| {
+            let mut moments = hold * groups..(hold + 1) * groups;
+            moments.all(|m| self.missing[m][place].is_finite() && self.slope[m][place].is_finite())
         };
         // The pull of a nearly straight actuator has no bound: a bend that may be none has no moment.
-        let usable: Vec<usize> = active.into_iter().filter(|p| finite(p) && bend(*p).abs() > CLEAR * sd(*p)).collect();
-        if usable.is_empty() { Err("a bend that may be none, or that the actuator cannot have") } else { Ok(usable) }
+        active.retain(|p| finite(*p) && bend(*p) > CLEAR * sd(*p));
+        active
     }
 
     fn value(&self, sum: &Sum) -> [f64; 2] {
@@ -210,9 +195,6 @@ impl Field {
 }
 
 /// Missing moment of every place at given bends, moment after moment \[N·m\].
-///
-/// # Errors
-/// Pressures or times that are refused.
 pub fn missing(view: &View, shape: &Shape, robot: &Robot, bends: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, CompareError> {
     let steps = shape.division.steps(view.dataset);
     let places = shape.division.places.len();

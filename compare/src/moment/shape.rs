@@ -9,41 +9,22 @@
 //! elsewhere, a camera that moved. The numbers that are shared are where the tracked line lies, by which it shortens as it
 //! bends (a marker's height is the same number), and the camera's scale and roll. Each is held near nothing by a wide prior.
 
+use super::result::SharedNumber;
 use super::view::{Division, Pieces, View};
 use crate::error::CompareError;
+use crate::fit::least_squares::{Range, minimise_by, products, square};
 use models::{Prediction, Scenario, Step};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
-/// A number that all holds share.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Shared {
-    /// What it is, in words.
-    pub words: &'static str,
-    /// Value, SI; zero: as the scenario says.
-    pub value: f64,
-    /// Its standard deviation.
-    pub sd: f64,
-    /// Unit it is printed in.
-    pub unit: &'static str,
-    /// Units per SI.
-    pub per_si: f64,
-}
-
-/// The shape that was measured.
+/// The bends that were measured.
 #[derive(Debug, Clone)]
 pub struct Shape {
     /// What has a bend of its own.
     pub division: Division,
     /// Bends, drifts and shared numbers, in that order: see `Layout`.
     pub numbers: Vec<f64>,
-    /// Their covariance.
     pub covariance: DMatrix<f64>,
-    /// What all holds share.
-    pub shared: Vec<Shared>,
-    /// Predicted minus measured \[m\], in run layout.
-    pub residual_m: Vec<f64>,
-    /// Whitened sum of squares that is left, and its degrees of freedom.
-    pub left: (f64, usize),
+    pub shared: Vec<SharedNumber>,
     /// What no law of bending can mend, beyond noise \[mm\].
     pub floor_mm: f64,
 }
@@ -95,18 +76,20 @@ impl Layout {
     }
 }
 
+/// Words, unit and units per SI of the shared numbers; of the first per body radius.
+const SHARED: [(&str, &str, f64); 3] = [
+    ("tracked line further from the taut side", "mm", 1e3),
+    ("camera scale", "%", 100.0),
+    ("camera roll", "°", 180.0 / std::f64::consts::PI),
+];
 /// Wide priors of the shared numbers: the tracked line by a body radius, the camera by a tenth.
 const PRIOR: [f64; 3] = [1.0, 0.1, 0.1];
 /// Step of the differences: of a bend \[1/m\], of the line's distance over the radius.
 const STEP: f64 = 1e-5;
-/// Rounds of the fit, and halvings of a step.
-const ROUNDS: usize = 30;
-const HALVINGS: usize = 12;
 /// A round that lowers the sum of squares by less is the last.
 const ENOUGH: f64 = 1e-7;
 /// Turns of the whole robot among which the start is looked for \[rad\].
 const TURNS: [f64; 2] = [-1.5, 5.0];
-/// Turns that are tried.
 const TRIED: usize = 66;
 
 /// Fits a shape.
@@ -123,7 +106,7 @@ pub fn shape(view: &View) -> Result<Shape, CompareError> {
     for (hold, bend) in start.iter().enumerate() {
         (0..division.places.len()).for_each(|place| numbers[layout.bend(hold, place)] = *bend);
     }
-    Fit { view, layout, steps: division.steps(view.dataset), division: &division }.from(numbers)
+    Fit { view, layout, steps: division.steps(view.dataset), division: &division }.from(&numbers)
 }
 
 /// The camera's numbers are settled where its frame was measured.
@@ -161,80 +144,34 @@ struct Fit<'a> {
 }
 
 impl Fit<'_> {
-    fn from(&self, mut numbers: Vec<f64>) -> Result<Shape, CompareError> {
-        let mut residual = self.residual_m(&numbers);
-        let mut cost = self.cost(&numbers, &residual);
-        if !cost.is_finite() {
-            return Err(no_shape("its positions are not finite"));
-        }
-        let mut jacobian = self.jacobian(&numbers);
-        for _ in 0..ROUNDS {
-            let Some((next, its_residual, its_cost)) = self.improve(&numbers, &residual, cost, &jacobian) else {
-                break;
-            };
-            let fallen = cost - its_cost;
-            (numbers, residual, cost) = (next, its_residual, its_cost);
-            jacobian = self.jacobian(&numbers);
-            if fallen < ENOUGH * (1.0 + cost) {
-                break;
-            }
-        }
-        self.shape(numbers, residual, jacobian)
-    }
-
-    fn shape(&self, numbers: Vec<f64>, residual_m: Vec<f64>, jacobian: Vec<Vec<f64>>) -> Result<Shape, CompareError> {
-        let inverse = self.normal(&jacobian).cholesky().ok_or_else(|| no_shape("its markers do not tell one"))?;
-        let white = self.view.whitener.whiten(&residual_m);
-        let cost: f64 = white.iter().map(|r| r * r).sum();
+    fn from(&self, start: &[f64]) -> Result<Shape, CompareError> {
+        let ranges: Vec<Range> = (0..start.len()).map(|k| Range::endless(self.prior(k))).collect();
+        let mut residuals = |numbers: &[f64]| Some(self.residuals(numbers)).filter(|r| r.iter().all(|v| v.is_finite()));
+        let found = minimise_by(start, &ranges, ENOUGH, &mut residuals, &mut |at, _| self.jacobian(&at.at))
+            .ok_or_else(|| no_shape("its positions are not finite"))?;
+        let numbers = found.at;
+        let all: Vec<usize> = (0..numbers.len()).collect();
+        let inverse =
+            products(&found.jacobian, &all).cholesky().ok_or_else(|| no_shape("its markers do not tell one"))?;
+        let white = &found.residual[..found.residual.len() - numbers.len()];
         let unseen = self.view.dataset.unseen_values().count();
         let dof = (white.len() - unseen).saturating_sub(numbers.len()).max(1);
         // A misfit of the shape itself makes every number of it less certain.
-        let wider = (cost / dof as f64).max(1.0);
+        let wider = (square(white) / dof as f64).max(1.0);
         let covariance = inverse.inverse() * wider;
-        let from = self.layout.shared();
-        let value = |k: usize| (numbers[from + k], covariance[(from + k, from + k)].sqrt());
-        let shared = shared_words().into_iter().take(numbers.len() - from).enumerate();
-        let shared = shared.map(|(k, (words, unit, per_si))| {
-            let (value, sd) = value(k);
-            let by = if k == 0 { self.view.scenario.radius_m } else { 1.0 };
-            Shared { words, value: by * value, sd: by * sd, unit, per_si }
+        let shared = SHARED.iter().zip(self.layout.shared()..numbers.len()).enumerate();
+        let shared = shared.map(|(which, ((name, unit, factor), k))| {
+            let factor = factor * if which == 0 { self.view.scenario.radius_m } else { 1.0 };
+            let (name, unit) = (name.to_string(), unit.to_string());
+            SharedNumber { name, unit, value: factor * numbers[k], sd: factor * covariance[(k, k)].sqrt() }
         });
         Ok(Shape {
             division: self.division.clone(),
             shared: shared.collect(),
             floor_mm: 1e3 * self.view.whitener.unit_m() * (wider - 1.0).sqrt(),
-            left: (cost, dof),
             covariance,
             numbers,
-            residual_m,
         })
-    }
-
-    /// One Gauss–Newton step, halved until the sum of squares falls.
-    fn improve(
-        &self,
-        numbers: &[f64],
-        residual_m: &[f64],
-        cost: f64,
-        jacobian: &[Vec<f64>],
-    ) -> Option<(Vec<f64>, Vec<f64>, f64)> {
-        let white = self.view.whitener.whiten(residual_m);
-        let right = jacobian.iter().enumerate().map(|(k, column)| {
-            let along: f64 = column.iter().zip(&white).map(|(j, r)| j * r).sum();
-            -along - numbers[k] / self.prior(k).powi(2)
-        });
-        let step = self.normal(jacobian).cholesky()?.solve(&DVector::from_vec(right.collect()));
-        let mut share = 1.0;
-        for _ in 0..HALVINGS {
-            let next: Vec<f64> = numbers.iter().zip(step.iter()).map(|(x, d)| x + share * d).collect();
-            let residual = self.residual_m(&next);
-            let its_cost = self.cost(&next, &residual);
-            if its_cost < cost {
-                return Some((next, residual, its_cost));
-            }
-            share *= 0.5;
-        }
-        None
     }
 
     /// Standard deviation of what is known of a number beforehand: a bend is of the size 1/R, also where no marker shows it.
@@ -242,26 +179,14 @@ impl Fit<'_> {
         number.checked_sub(self.layout.shared()).map_or(1.0 / self.view.scenario.radius_m, |k| PRIOR[k])
     }
 
-    fn cost(&self, numbers: &[f64], residual_m: &[f64]) -> f64 {
-        let prior = (0..numbers.len()).map(|k| (numbers[k] / self.prior(k)).powi(2));
-        self.view.whitener.whiten(residual_m).iter().map(|r| r * r).chain(prior).sum()
-    }
-
-    fn normal(&self, jacobian: &[Vec<f64>]) -> DMatrix<f64> {
-        let (rows, count) = (jacobian[0].len(), jacobian.len());
-        let j = DMatrix::from_fn(rows, count, |i, k| jacobian[k][i]);
-        let mut normal = j.tr_mul(&j);
-        for k in 0..count {
-            normal[(k, k)] += self.prior(k).powi(-2) + 1e-12 * normal[(k, k)];
-        }
-        normal
-    }
-
-    fn residual_m(&self, numbers: &[f64]) -> Vec<f64> {
+    /// Whitened differences of the markers, then of every number to what is known of it beforehand.
+    fn residuals(&self, numbers: &[f64]) -> Vec<f64> {
         let predicted = self.predicted(numbers, None);
         let mut residual: Vec<f64> = predicted.iter().zip(self.view.target_m).map(|(f, y)| f - y).collect();
         self.view.dataset.unseen_values().for_each(|i| residual[i] = 0.0);
-        residual
+        let mut white = self.view.whitener.whiten(&residual);
+        white.extend(numbers.iter().enumerate().map(|(k, x)| x / self.prior(k)));
+        white
     }
 
     /// Positions \[m\], with the bends of one place moved by a step in every hold and group.
@@ -278,7 +203,7 @@ impl Fit<'_> {
                 .iter()
                 .zip(steps)
                 .map(|(moment, step)| {
-                    let mut bends = self.bends(numbers, moment.hold, moment.group);
+                    let mut bends = bends(&self.layout, numbers, moment.hold, moment.group);
                     if let Some(place) = moved {
                         bends[place] += STEP;
                     }
@@ -289,10 +214,6 @@ impl Fit<'_> {
             out.extend((0..samples).flat_map(|t| rows[self.division.group(t, samples)].iter().copied()));
         }
         out
-    }
-
-    fn bends(&self, numbers: &[f64], hold: usize, group: usize) -> Vec<f64> {
-        bends(&self.layout, numbers, hold, group)
     }
 
     /// Whitened derivatives, one column per number. A bend moves its own hold alone, so one step of a place serves all holds.
@@ -307,7 +228,7 @@ impl Fit<'_> {
         let places = self.division.places.len();
         let of_places: Vec<Vec<f64>> = (0..places).map(|p| column(&self.predicted(numbers, Some(p)), STEP)).collect();
         let mut all = vec![vec![0.0; here.len()]; numbers.len()];
-        let Layout { holds, groups, .. } = self.layout;
+        let holds = self.layout.holds;
         let samples = self.view.dataset.samples_per_hold;
         let (width, block) = (here.len() / holds, here.len() / holds / samples);
         for hold in 0..holds {
@@ -322,13 +243,16 @@ impl Fit<'_> {
                 }
             }
         }
-        debug_assert!(groups > 0);
         for k in self.layout.shared()..numbers.len() {
             let mut there = numbers.to_vec();
             there[k] += STEP;
             all[k] = column(&self.predicted(&there, None), STEP);
         }
-        all.iter().map(|column| self.view.whitener.whiten(column)).collect()
+        let of_prior = |own: usize| (0..all.len()).map(move |k| if k == own { 1.0 / self.prior(k) } else { 0.0 });
+        let white = |(k, column): (usize, &Vec<f64>)| {
+            self.view.whitener.whiten(column).into_iter().chain(of_prior(k)).collect()
+        };
+        all.iter().enumerate().map(white).collect()
     }
 }
 
@@ -351,15 +275,6 @@ fn seen(state: &Prediction, camera: &[f64]) -> Vec<f64> {
     let (sin, cos) = roll.sin_cos();
     let turned = |[x, y]: &[f64; 2]| [(1.0 + scale) * (cos * x - sin * y), (1.0 + scale) * (sin * x + cos * y)];
     state.markers.iter().flat_map(turned).collect()
-}
-
-/// Words, unit and units per SI of the shared numbers.
-fn shared_words() -> [(&'static str, &'static str, f64); 3] {
-    [
-        ("tracked line further from the taut side", "mm", 1e3),
-        ("camera scale", "%", 100.0),
-        ("camera roll", "°", 180.0 / std::f64::consts::PI),
-    ]
 }
 
 fn no_shape(problem: &str) -> CompareError {

@@ -58,7 +58,7 @@ fn a_constant_and_a_spring_come_back_exactly() {
             let data = generate(&real, "made", &exact()).unwrap();
             let (shape, told) = seen(&plain, &data, &exact());
             assert!(shape.floor_mm < 1e-3, "{kind} {name}: {} mm left", shape.floor_mm);
-            assert_eq!(told.of_holds.len(), 4, "{kind} {name}: {:?}", told.without);
+            assert_eq!(told.of_holds.len(), 4, "{kind} {name}");
             for point in &told.of_holds {
                 let truth = law(point.kappa);
                 assert!((point.moment - truth).abs() < 2e-4, "{kind} {name}: {} and not {truth}", point.moment);
@@ -78,8 +78,9 @@ fn a_line_that_lies_elsewhere_a_scale_and_a_roll_are_found_and_no_moment_is() {
     let data = generate(&other, "made", &exact()).unwrap();
     let (shape, told) = seen(&plain, &data, &exact());
     let found: Vec<f64> = shape.shared.iter().map(|s| s.value).collect();
-    assert!((found[0] + 0.3 * plain.radius_m).abs() < 1e-5, "{found:?}");
-    assert!((found[1] - 0.02).abs() < 1e-5 && (found[2].abs() - 0.01).abs() < 1e-5, "{found:?}");
+    // Printed: mm, per cent, degrees.
+    assert!((found[0] + 300.0 * plain.radius_m).abs() < 1e-2, "{found:?}");
+    assert!((found[1] - 2.0).abs() < 1e-3 && (found[2].abs() - 0.01_f64.to_degrees()).abs() < 1e-3, "{found:?}");
     assert!(told.of_holds.iter().all(|p| p.moment.abs() < 2e-4), "{:?}", told.of_holds);
 }
 

@@ -1,6 +1,6 @@
 //! One dataset as the missing moment sees it, and the pieces of the body that may bend each in its own way.
 
-use crate::whiten::Whitener;
+use crate::fit::whiten::Whitener;
 use data::{Dataset, Direct};
 use models::{Loads, Model, Scenario, Step};
 
@@ -9,9 +9,7 @@ use models::{Loads, Model, Scenario, Step};
 pub struct View<'a> {
     /// The robot with the data's markers and loads.
     pub scenario: &'a Scenario,
-    /// Protocol and markers.
     pub dataset: &'a Dataset,
-    /// What was measured directly.
     pub direct: Direct,
     /// Mean over runs \[m\], in run layout.
     pub target_m: &'a [f64],
@@ -40,7 +38,6 @@ impl Place {
 /// Samples of one hold that are taken together.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moment {
-    /// Hold.
     pub hold: usize,
     /// Which of the hold's groups, in time.
     pub group: usize,
@@ -51,7 +48,6 @@ pub struct Moment {
 /// What of the data has a bend of its own.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Division {
-    /// Base to tip.
     pub places: Vec<Place>,
     /// Groups of samples in each hold.
     pub groups: usize,
@@ -85,7 +81,6 @@ impl Division {
         Division::new(view, &cuts, groups)
     }
 
-    /// The whole robot bends alike.
     pub fn uniform(view: &View) -> Division {
         Division::new(view, &[], 1)
     }
@@ -150,7 +145,6 @@ fn cuts(view: &View, least_m: f64) -> Vec<f64> {
 
 /// A model with the pieces of a division, and which place each of them belongs to.
 pub struct Pieces {
-    /// The model.
     pub model: Model,
     place_of: Vec<Option<usize>>,
 }

@@ -45,8 +45,7 @@ pub struct Laid {
 impl MarkedBody<'_> {
     /// The bend that leaves least, starting at the base or, `loose`, anywhere but heading along x.
     pub fn lay(&self, points: &[[f64; 2]], loose: bool) -> Laid {
-        let longest = self.stations_m.iter().fold(1e-9, |l: f64, s| l.max(*s));
-        let most = (MOST_SHORTENED / self.radius_m).min(1.5 * std::f64::consts::PI / longest);
+        let most = (MOST_SHORTENED / self.radius_m).min(1.5 * std::f64::consts::PI / self.longest_m().max(1e-9));
         let left = |curvature: f64| self.squares(points, curvature, loose);
         let step = 2.0 * most / STEPS as f64;
         let at = |i: usize| i as f64 * step - most;
@@ -60,30 +59,38 @@ impl MarkedBody<'_> {
         Laid { curvature, squares: left(curvature) }
     }
 
-    /// Where a marker that was lost would be, beside those that were seen.
+    /// Station of the outermost marker.
+    pub fn longest_m(&self) -> f64 {
+        self.stations_m.iter().fold(0.0, |longest: f64, s| longest.max(*s))
+    }
+
+    /// Where a marker that was lost would be, next to those that were seen.
     pub fn beside(&self, dataset: &Dataset, hold: usize, points: &[[f64; 2]], lost: usize) -> [f64; 2] {
         let seen: Vec<usize> = (0..points.len()).filter(|marker| dataset.is_seen(hold, *marker)).collect();
         let stations_m: Vec<f64> = seen.iter().map(|marker| self.stations_m[*marker]).collect();
         let of_seen: Vec<[f64; 2]> = seen.iter().map(|marker| points[*marker]).collect();
-        let curvature = MarkedBody { stations_m: &stations_m, ..*self }.lay(&of_seen, true).curvature;
+        let body = MarkedBody { stations_m: &stations_m, ..*self };
+        let curvature = body.lay(&of_seen, true).curvature;
+        let (_, [x, y]) = body.apart(&of_seen, curvature);
         let own = self.place(self.stations_m[lost], curvature);
-        let off = |axis: usize| {
-            let off = of_seen.iter().zip(&stations_m).map(|(point, s)| point[axis] - self.place(*s, curvature)[axis]);
-            off.sum::<f64>() / seen.len().max(1) as f64
-        };
-        [own[0] + off(0), own[1] + off(1)]
+        [own[0] + x, own[1] + y]
     }
 
     /// How far every marker is from its place on the body laid through all of them, wherever that starts \[m\].
     pub fn off(&self, points: &[[f64; 2]]) -> Vec<f64> {
-        let curvature = self.lay(points, true).curvature;
+        let (apart, [x, y]) = self.apart(points, self.lay(points, true).curvature);
+        apart.iter().map(|d| (d[0] - x).hypot(d[1] - y)).collect()
+    }
+
+    /// Markers less their places on a bent body that starts at the origin, and the mean of that.
+    fn apart(&self, points: &[[f64; 2]], curvature: f64) -> (Vec<[f64; 2]>, [f64; 2]) {
         let each = |(point, s): (&[f64; 2], &f64)| {
             let place = self.place(*s, curvature);
             [point[0] - place[0], point[1] - place[1]]
         };
-        let off: Vec<[f64; 2]> = points.iter().zip(self.stations_m).map(each).collect();
-        let mean = [0, 1].map(|axis| off.iter().map(|d| d[axis]).sum::<f64>() / points.len().max(1) as f64);
-        off.iter().map(|d| (d[0] - mean[0]).hypot(d[1] - mean[1])).collect()
+        let apart: Vec<[f64; 2]> = points.iter().zip(self.stations_m).map(each).collect();
+        let mean = [0, 1].map(|axis| apart.iter().map(|d| d[axis]).sum::<f64>() / points.len().max(1) as f64);
+        (apart, mean)
     }
 
     fn squares(&self, points: &[[f64; 2]], curvature: f64, loose: bool) -> f64 {

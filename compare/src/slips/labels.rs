@@ -1,7 +1,8 @@
 //! Labels of two markers exchanged, in every hold or where a tracker lost them.
 
-use super::{SlipSeen, become_mm};
+use super::{ANY_BASE, SlipSeen, told};
 use crate::policy;
+use crate::stats::quantile;
 use crate::wording::list;
 
 /// With more markers only near ones are tried: trackers confuse what is close.
@@ -23,11 +24,10 @@ pub(super) fn labels(seen: &mut SlipSeen) -> Vec<String> {
             let (pairs, squares) = exchanged(seen, &seen.points[run][hold]);
             for pair in pairs {
                 seen.points[run][hold].swap(pair[0], pair[1]);
-                let known = found.iter().position(|exchange| exchange.pair == pair);
-                let at = known.unwrap_or(found.len());
-                if known.is_none() {
+                let at = found.iter().position(|exchange| exchange.pair == pair).unwrap_or_else(|| {
                     found.push(Exchange { pair, cells: Vec::new(), squares: [0.0; 2] });
-                }
+                    found.len() - 1
+                });
                 found[at].cells.push((run, hold));
                 (0..2).for_each(|i| found[at].squares[i] += squares[i]);
             }
@@ -80,47 +80,38 @@ fn best(seen: &SlipSeen, points: &[[f64; 2]], left: f64) -> Option<([usize; 2], 
 fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
-    sorted[sorted.len() / 2]
+    quantile(&sorted, 0.5).unwrap_or(0.0)
 }
 
-fn words(seen: &SlipSeen, exchange: &Exchange) -> String {
-    let [a, b] = exchange.pair.map(|marker| seen.dataset.markers[marker].name.clone());
+fn words(seen: &SlipSeen, Exchange { pair, cells, squares }: &Exchange) -> String {
+    let [a, b] = pair.map(|marker| &seen.dataset.markers[marker].name);
     let holds = seen.dataset.holds.len();
-    let mut runs: Vec<usize> = exchange.cells.iter().map(|(run, _)| *run).collect();
+    let mut runs: Vec<usize> = cells.iter().map(|(run, _)| *run).collect();
     runs.dedup();
-    let of = |run: usize| exchange.cells.iter().filter(|(r, _)| *r == run).map(|(_, hold)| *hold).collect::<Vec<_>>();
-    let everywhere = exchange.cells.len() == seen.points.len() * holds;
-    let place = if runs.iter().all(|run| of(*run) == of(runs[0])) {
-        let which = of(runs[0]);
-        let at = if which.len() == holds { String::new() } else { format!(", {}", ranges(&which)) };
-        format!("{}{at}", seen.in_runs(&runs))
-    } else {
+    let of = |run: usize| cells.iter().filter(|(r, _)| *r == run).map(|(_, hold)| *hold).collect::<Vec<_>>();
+    let which = of(runs[0]);
+    let place = if runs.iter().any(|run| of(*run) != which) {
         let each = runs.iter().map(|run| format!("{} ({})", seen.in_runs(&[*run]), ranges(&of(*run))));
         list(&each.collect::<Vec<_>>())
+    } else {
+        let at = if which.len() == holds { String::new() } else { format!(", {}", ranges(&which)) };
+        format!("{}{at}", seen.in_runs(&runs))
     };
-    let rms = exchange.squares.map(|squares| seen.rms(squares, exchange.cells.len()));
+    let everywhere = cells.len() == seen.points.len() * holds;
     let stations = if everywhere { ", or their stations s_mm," } else { " of these rows" };
-    format!(
-        "markers {a} and {b} look exchanged {place}: {} (rms from a uniformly bent robot with these stations, wherever its \
-         base is) with the labels set right. Look at the pictures; if so, exchange the two in the column \
-         marker{stations} before believing a diagnosis",
-        become_mm(rms)
-    )
+    let next = format!(
+        "Look at the pictures; if so, exchange the two in the column marker{stations} before believing a diagnosis"
+    );
+    let rms_m = squares.map(|squares| seen.rms(squares, cells.len()));
+    told(format!("markers {a} and {b} look exchanged {place}"), rms_m, ANY_BASE, "the labels set right", &next)
 }
 
 /// `hold 3`, `holds 1 to 4 and 7`, counted from 1.
 fn ranges(holds: &[usize]) -> String {
-    let mut words: Vec<[usize; 2]> = Vec::new();
-    for &hold in holds {
-        match words.last_mut() {
-            Some([_, to]) if *to + 1 == hold => *to = hold,
-            _ => words.push([hold, hold]),
-        }
-    }
-    let word = |[from, to]: &[usize; 2]| match to - from {
-        0 => format!("{}", from + 1),
-        _ => format!("{} to {}", from + 1, to + 1),
+    let word = |range: &[usize]| match *range {
+        [only] => format!("{}", only + 1),
+        _ => format!("{} to {}", range[0] + 1, range[range.len() - 1] + 1),
     };
-    let words: Vec<String> = words.iter().map(word).collect();
+    let words: Vec<String> = holds.chunk_by(|a, b| a + 1 == *b).map(word).collect();
     format!("{} {}", if holds.len() == 1 { "hold" } else { "holds" }, list(&words))
 }

@@ -13,15 +13,14 @@ pub mod pressure;
 #[cfg(test)]
 mod tests;
 mod turned;
-mod upside;
 
 use crate::wording::short;
 use arc::MarkedBody;
 use data::Dataset;
 use pressure::pressure_words;
 
-/// What is looked for, in this order: each sees the data with the slips before it undone.
-const SLIPS: [fn(&mut SlipSeen) -> Vec<String>; 4] = [turned::turned, upside::upside, labels::labels, origin::origin];
+/// Searches in their order: each sees the data with the slips before it undone.
+const SLIPS: [fn(&mut SlipSeen) -> Vec<String>; 4] = [turned::turned, turned::upside, labels::labels, origin::origin];
 
 /// The data as these tests see them.
 struct SlipSeen<'a> {
@@ -38,16 +37,25 @@ pub fn slips(dataset: &Dataset, stations_m: &[f64], radius_m: f64) -> Vec<String
     for [hold, marker] in &dataset.lost.unseen {
         seen.points.iter_mut().for_each(|run| run[*hold][*marker] = body.beside(dataset, *hold, &run[*hold], *marker));
     }
-    let geometric = SLIPS.iter().flat_map(|slip| slip(&mut seen)).map(|words| format!("{}: {words}", dataset.name));
+    // Without a marker off the base there is no body to compare with.
+    let searches = if stations_m.iter().any(|s| *s > 0.0) { &SLIPS[..] } else { &[] };
+    let geometric =
+        searches.iter().flat_map(|search| search(&mut seen)).map(|words| format!("{}: {words}", dataset.name));
     geometric.chain(pressure_words(dataset)).collect()
+}
+
+/// Base that a distance is free of.
+const ANY_BASE: &str = "a uniformly bent robot with these stations, wherever its base is";
+
+/// A slip with its evidence: distances from `of` before and after it is undone \[m\], and by which change.
+fn told(looks: String, rms_m: [f64; 2], of: &str, with: &str, next: &str) -> String {
+    format!("{looks}: {} (rms from {of}) with {with}. {next}", become_mm(rms_m))
 }
 
 fn points(dataset: &Dataset) -> Vec<Vec<Vec<[f64; 2]>>> {
     let samples = dataset.samples_per_hold;
     let mean = |run: usize, hold: usize, marker: usize| {
-        let sum =
-            (0..samples).map(|s| dataset.xy(run, hold, s, marker)).fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
-        sum.map(|v| v / samples as f64)
+        [0, 1].map(|k| (0..samples).map(|s| dataset.xy(run, hold, s, marker)[k]).sum::<f64>() / samples as f64)
     };
     let hold = |run, hold| (0..dataset.markers.len()).map(|marker| mean(run, hold, marker)).collect();
     (0..dataset.runs.len()).map(|run| (0..dataset.holds.len()).map(|h| hold(run, h)).collect()).collect()
@@ -64,7 +72,7 @@ impl SlipSeen<'_> {
         let mut sorted = self.body.stations_m.to_vec();
         sorted.sort_by(f64::total_cmp);
         let apart = sorted.windows(2).map(|pair| pair[1] - pair[0]).filter(|d| *d > 0.0);
-        0.5 * apart.fold(self.body.stations_m.iter().fold(0.0, |l: f64, s| l.max(*s)), f64::min)
+        0.5 * apart.fold(self.body.longest_m(), f64::min)
     }
 
     /// Whether a run bends towards positive y as its actuator is inflated: Σ (P − mean P) κ > 0.

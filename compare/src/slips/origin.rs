@@ -24,20 +24,18 @@ pub(super) fn origin(seen: &mut SlipSeen) -> Vec<String> {
     if after >= before {
         return Vec::new();
     }
-    let all = seen.points.len() * seen.dataset.holds.len();
-    let columns = ["x", "y"].iter().zip(shift).filter(|(_, value)| value.abs() > tolerance(seen));
-    let columns: Vec<String> =
-        columns.map(|(name, value)| format!("{:.1} mm from column {name}", 1e3 * value)).collect();
+    let (runs, tolerance) = (seen.points.len(), tolerance(seen));
+    let large = ["x", "y"].into_iter().zip(shift).filter(|(_, value)| value.abs() > tolerance);
+    let columns: Vec<String> = large.map(|(name, m)| format!("{:.1} mm from column {name}", 1e3 * m)).collect();
+    let (columns, [x, y]) = (list(&columns), shift.map(|m| 1e3 * m));
     let at = short(1e-3 * seen.dataset.holds[holds[0]].p_act_pa);
+    let in_runs = seen.in_runs(&(0..runs).collect::<Vec<_>>());
+    let become_mm = become_mm([before, after].map(|squares| seen.rms(squares, runs * seen.dataset.holds.len())));
     vec![format!(
-        "the origin of coordinates looks shifted: at {at} kPa already every marker is off by x {:+.1} mm, y {:+.1} mm {}, and no \
-         scale, angle or bend does that; with it taken off all holds, {} (rms from a uniformly bent robot that starts at the \
-         origin). The origin is the middle of the robot at its base: find it in the pictures; if it is there, subtract {}",
-        1e3 * shift[0],
-        1e3 * shift[1],
-        seen.in_runs(&(0..seen.points.len()).collect::<Vec<_>>()),
-        become_mm([before, after].map(|squares| seen.rms(squares, all))),
-        list(&columns)
+        "the origin of coordinates looks shifted: at {at} kPa already every marker is off by x {x:+.1} mm, y {y:+.1} mm \
+         {in_runs}, and no scale, angle or bend does that; with it taken off all holds, {become_mm} (rms from a uniformly bent \
+         robot that starts at the origin). The origin is the middle of the robot at its base: find it in the pictures; if it is \
+         there, subtract {columns}"
     )]
 }
 
@@ -45,13 +43,10 @@ pub(super) fn origin(seen: &mut SlipSeen) -> Vec<String> {
 fn lowest(seen: &SlipSeen) -> Vec<usize> {
     let pressure = |hold: &usize| seen.dataset.holds[*hold].p_act_pa;
     let all = 0..seen.dataset.holds.len();
-    let (low, high) =
-        all.clone().fold((f64::INFINITY, 0.0), |(l, h): (f64, f64), i| (l.min(pressure(&i)), h.max(pressure(&i))));
-    let longest = seen.body.stations_m.iter().fold(0.0, |l: f64, s| l.max(*s));
-    let straight = |hold: &usize| {
-        let heading = |run: &Vec<Vec<[f64; 2]>>| longest * seen.body.lay(&run[*hold], true).curvature.abs();
-        seen.points.iter().all(|run| policy::is_nearly_straight(heading(run)))
-    };
+    let low = all.clone().map(|hold| pressure(&hold)).fold(f64::INFINITY, f64::min);
+    let high = all.clone().map(|hold| pressure(&hold)).fold(0.0, f64::max);
+    let heading = |points: &[[f64; 2]]| seen.body.longest_m() * seen.body.lay(points, true).curvature.abs();
+    let straight = |hold: &usize| seen.points.iter().all(|run| policy::is_nearly_straight(heading(&run[*hold])));
     all.filter(|hold| policy::is_lowest(pressure(hold), [low, high])).filter(straight).collect()
 }
 
@@ -90,9 +85,9 @@ fn shift(seen: &SlipSeen, holds: &[usize]) -> Option<[f64; 2]> {
 
 /// The nearly straight robot as a linear law.
 struct Straight {
-    /// What grows from the base: scale, angle, a bend in every hold.
+    /// Columns that grow from the base: scale, angle, a bend in every hold.
     grown: DMatrix<f64>,
-    /// The same and x₀, y₀.
+    /// The same, x₀ and y₀.
     shifted: DMatrix<f64>,
     /// Distances from the bent bodies, per run \[m\].
     runs: Vec<DVector<f64>>,
@@ -124,15 +119,9 @@ fn straight(seen: &SlipSeen, holds: &[usize]) -> Straight {
 
 /// What is too small to matter: as in comparisons, of the farthest way of a marker.
 fn tolerance(seen: &SlipSeen) -> f64 {
-    let mut most: f64 = 0.0;
-    for run in &seen.points {
-        for points in run {
-            for (point, first) in points.iter().zip(&run[0]) {
-                most = most.max((point[0] - first[0]).hypot(point[1] - first[1]));
-            }
-        }
-    }
-    policy::tolerance_m(most)
+    let pairs = seen.points.iter().flat_map(|run| run.iter().flat_map(|points| points.iter().zip(&run[0])));
+    let moved = pairs.map(|(point, first)| (point[0] - first[0]).hypot(point[1] - first[1]));
+    policy::tolerance_m(moved.fold(0.0, f64::max))
 }
 
 fn solve(columns: &DMatrix<f64>, values: &DVector<f64>) -> Option<DVector<f64>> {

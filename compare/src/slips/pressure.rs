@@ -58,18 +58,16 @@ const COLUMNS: [PressureColumn; 2] = [PressureColumn::Actuator, PressureColumn::
 const ROOM_PA: f64 = 101_325.0;
 
 impl PressureColumn {
-    fn word(self) -> &'static str {
+    /// In words, and in names of columns.
+    fn words(self) -> [&'static str; 2] {
         match self {
-            PressureColumn::Actuator => "actuator",
-            PressureColumn::Body => "body",
+            PressureColumn::Actuator => ["actuator", "p_act"],
+            PressureColumn::Body => ["body", "p_body"],
         }
     }
 
     fn name(self) -> &'static str {
-        match self {
-            PressureColumn::Actuator => "p_act",
-            PressureColumn::Body => "p_body",
-        }
+        self.words()[1]
     }
 
     fn of(self, hold: &Hold) -> f64 {
@@ -79,11 +77,12 @@ impl PressureColumn {
         }
     }
 
-    fn of_mut(self, hold: &mut Hold) -> &mut f64 {
-        match self {
+    fn change(self, hold: &mut Hold, by: impl Fn(f64) -> f64) {
+        let own = match self {
             PressureColumn::Actuator => &mut hold.p_act_pa,
             PressureColumn::Body => &mut hold.p_body_pa,
-        }
+        };
+        *own = by(*own);
     }
 }
 
@@ -114,9 +113,9 @@ impl PressureSlip {
         let mut mended = dataset.clone();
         for hold in &mut mended.holds {
             match self {
-                PressureSlip::Unit(column, unit) => *column.of_mut(hold) *= unit.factor,
+                PressureSlip::Unit(column, unit) => column.change(hold, |pa| pa * unit.factor),
                 PressureSlip::Exchanged => std::mem::swap(&mut hold.p_act_pa, &mut hold.p_body_pa),
-                PressureSlip::Absolute(column, room_pa) => *column.of_mut(hold) -= room_pa,
+                PressureSlip::Absolute(column, room_pa) => column.change(hold, |pa| pa - room_pa),
             }
         }
         mended
@@ -131,11 +130,11 @@ impl PressureSlip {
     pub fn looks(&self) -> String {
         match self {
             PressureSlip::Unit(column, unit) => {
-                let [[right, _], [wrong, _]] = unit.units;
-                format!("the {} pressures look as if they were {right} under a name of {wrong}", column.word())
+                let ([word, _], [[right, _], [wrong, _]]) = (column.words(), unit.units);
+                format!("the {word} pressures look as if they were {right} under a name of {wrong}")
             }
             PressureSlip::Exchanged => "the pressures of body and actuator look exchanged".into(),
-            PressureSlip::Absolute(column, _) => format!("the {} pressures look absolute", column.word()),
+            PressureSlip::Absolute(column, _) => format!("the {} pressures look absolute", column.words()[0]),
         }
     }
 

@@ -188,3 +188,17 @@ fn labels_are_told_as_far_as_noise_lets_them() {
     assert_only(&told(50), &["markers 21 and 22 look exchanged", "in all 3 runs"]);
     assert!(told(1000).is_empty());
 }
+
+/// A station column of zeros says nothing of a body, and two markers at one station cannot be told from each other.
+#[test]
+fn stations_at_the_base_or_at_one_place_are_looked_at_without_a_slip() {
+    let dataset = embedded("synthetic-epam");
+    let mut stations_m: Vec<f64> = dataset.markers.iter().map(|marker| marker.station_m.unwrap()).collect();
+    assert!(slips(&dataset, &vec![0.0; stations_m.len()], 0.04).is_empty());
+    stations_m[1] = stations_m[0];
+    let told = slips(&dataset, &stations_m, 0.04);
+    assert!(told.iter().all(|words| !words.contains("markers 1 and 2")), "{told:#?}");
+    assert!(
+        slips(&dataset, &vec![0.3; stations_m.len()], 0.04).iter().all(|words| words.starts_with("synthetic-epam"))
+    );
+}

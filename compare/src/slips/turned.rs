@@ -1,12 +1,13 @@
-//! Axes turned over or exchanged, numbers from the tip, another unit of length: what befalls a run as a whole.
+//! Slips of a whole run: axes turned over or exchanged, numbers from the tip, another unit of length.
 //!
 //! Looked for without the origin, so that a picture's corner may be it: markers about their mean, against bodies that head
-//! along x. Two ways that are alike for a straight robot (x turned over, numbers from the tip) part when it bends, or by the base.
+//! along x. Two ways that are alike for a straight robot (x turned over, numbers from the tip) differ when it bends, or by the base.
+//! y turned over in all runs is refused where the table is read; in some runs it is seen by the others.
 
-use super::{SlipSeen, become_mm};
+use super::{ANY_BASE, SlipSeen, told};
 use crate::policy;
 
-/// What the numbers have to be multiplied by, if they are what the words say.
+/// Factor on the numbers, if they are as the words say.
 const UNITS: [(f64, &str); 7] = [
     (10.0, "cm under a header of mm"),
     (1000.0, "metres under a header of mm"),
@@ -26,7 +27,6 @@ struct TurnWay {
     signs: [f64; 2],
     /// The first number is the tip's.
     from_tip: bool,
-    /// Factor on all positions.
     factor: f64,
 }
 
@@ -58,16 +58,15 @@ struct TurnFound {
 }
 
 pub(super) fn turned(seen: &mut SlipSeen) -> Vec<String> {
-    let found: Vec<TurnFound> = (0..seen.points.len()).filter_map(|run| in_run(seen, run)).collect();
-    let mut told = Vec::new();
-    for (i, first) in found.iter().enumerate() {
-        seen.points[first.run] = first.way.undo_run(&seen.points[first.run]);
-        if found[..i].iter().all(|before| !before.way.is_like(&first.way)) {
-            let alike: Vec<&TurnFound> = found.iter().filter(|other| other.way.is_like(&first.way)).collect();
-            told.push(words(seen, &alike));
+    let mut groups: Vec<Vec<TurnFound>> = Vec::new();
+    for found in (0..seen.points.len()).filter_map(|run| in_run(seen, run)).collect::<Vec<_>>() {
+        seen.points[found.run] = found.way.undo_run(&seen.points[found.run]);
+        match groups.iter_mut().find(|group| group[0].way.is_like(&found.way)) {
+            Some(group) => group.push(found),
+            None => groups.push(vec![found]),
         }
     }
-    told
+    groups.iter().map(|alike| words(seen, alike)).collect()
 }
 
 fn in_run(seen: &SlipSeen, run: usize) -> Option<TurnFound> {
@@ -98,13 +97,14 @@ fn in_run(seen: &SlipSeen, run: usize) -> Option<TurnFound> {
 fn ways(seen: &SlipSeen, run: &[Vec<[f64; 2]>]) -> Vec<TurnWay> {
     let factor = factor(seen, run);
     let known = UNITS.iter().map(|(unit, _)| *unit).find(|unit| policy::is_near_unit(factor / unit));
-    let off = (factor.is_finite() && policy::is_no_scale(factor)).then_some(known.unwrap_or(factor));
+    let is_off = factor > 0.0 && factor.is_finite() && policy::is_no_scale(factor);
+    let mut factors = vec![1.0];
+    factors.extend(is_off.then_some(known.unwrap_or(factor)));
     let mut all = Vec::new();
-    for factor in [Some(1.0), off].into_iter().flatten() {
-        for (exchanged, sign) in [(false, 1.0), (false, -1.0), (true, 1.0), (true, -1.0)] {
-            for from_tip in [false, true] {
-                all.push(TurnWay { exchanged, signs: [sign, 1.0], from_tip, factor });
-            }
+    for factor in factors {
+        for k in 0..8 {
+            let [exchanged, turned, from_tip] = [4, 2, 1].map(|bit| k & bit != 0);
+            all.push(TurnWay { exchanged, signs: [if turned { -1.0 } else { 1.0 }, 1.0], from_tip, factor });
         }
     }
     all.retain(|way| *way != AS_IT_IS && (!way.from_tip || seen.body.stations_m.len() > 1));
@@ -121,38 +121,67 @@ fn factor(seen: &SlipSeen, run: &[Vec<[f64; 2]>]) -> f64 {
     size(&straight) / run.iter().map(|points| size(points)).fold(0.0, f64::max)
 }
 
-fn words(seen: &SlipSeen, alike: &[&TurnFound]) -> String {
+fn words(seen: &SlipSeen, alike: &[TurnFound]) -> String {
     let way = alike[0].way;
     let runs: Vec<usize> = alike.iter().map(|found| found.run).collect();
-    let whole = runs.len() == seen.points.len();
     let mean = |i: usize| (alike.iter().map(|f| f.rms_m[i].powi(2)).sum::<f64>() / alike.len() as f64).sqrt();
-    let (mut looks, mut with, mut help) = (Vec::new(), Vec::new(), Vec::new());
+    // How it looks, what undoes it, what to do.
+    let mut all: Vec<[String; 3]> = Vec::new();
     if way.exchanged || way.signs != [1.0; 2] {
-        let name = |axis: usize| ["x", "y"][if way.exchanged { 1 - axis } else { axis }];
-        let signed = |axis: usize| format!("{}{}", if way.signs[axis] < 0.0 { "-" } else { "" }, name(axis));
-        looks.push(if way.exchanged { "x and y look exchanged" } else { "x looks turned over" }.to_string());
-        with.push(format!("({}, {}) in place of (x, y)", signed(0), signed(1)));
-        help.push("x runs from the base along the straight robot, y towards the actuator".to_string());
+        let looks = if way.exchanged { "x and y look exchanged" } else { "x looks turned over" };
+        let names = if way.exchanged { ["y", "x"] } else { ["x", "y"] };
+        let [x, y] = [0, 1].map(|axis| format!("{}{}", if way.signs[axis] < 0.0 { "-" } else { "" }, names[axis]));
+        let help = "x runs from the base along the straight robot, y towards the actuator";
+        all.push([looks.into(), format!("({x}, {y}) in place of (x, y)"), help.into()]);
     }
     if way.from_tip {
-        looks.push("the markers look numbered from the tip".into());
-        with.push("the numbering reversed".into());
-        let stations = if whole { ", or give the stations s_mm in the other order" } else { "" };
-        help.push(format!("number them from the base to the tip in the column marker{stations}"));
+        let in_all = runs.len() == seen.points.len();
+        let stations = if in_all { ", or give the stations s_mm in the other order" } else { "" };
+        let help = format!("number them from the base to the tip in the column marker{stations}");
+        all.push(["the markers look numbered from the tip".into(), "the numbering reversed".into(), help]);
     }
     if way.factor != 1.0 {
         let unit = UNITS.iter().find(|(unit, _)| *unit == way.factor).map(|(_, words)| *words);
-        let of = unit.unwrap_or("pixels, or a scale that was not set");
-        looks.push(format!("positions look like {of}"));
-        with.push(format!("{} times the numbers", (1e4 * way.factor).round() / 1e4));
-        help.push("name the columns x and y by their unit, or convert them".into());
+        let looks = format!("positions look like {}", unit.unwrap_or("pixels, or a scale that was not set"));
+        let with = format!("{} times the numbers", (1e4 * way.factor).round() / 1e4);
+        all.push([looks, with, "name the columns x and y by their unit, or convert them".into()]);
     }
-    format!(
-        "{} {}: {} (rms from a uniformly bent robot with these stations, wherever its base is) with {}. Look at it first: {}",
-        looks.join(", and "),
-        seen.in_runs(&runs),
-        become_mm([mean(0), mean(1)]),
-        with.join(" and "),
-        help.join("; ")
-    )
+    let joined = |k: usize, by: &str| all.iter().map(|words| words[k].as_str()).collect::<Vec<_>>().join(by);
+    let next = format!("Look at it first: {}", joined(2, "; "));
+    let looks = format!("{} {}", joined(0, ", and "), seen.in_runs(&runs));
+    told(looks, [mean(0), mean(1)], ANY_BASE, &joined(1, " and "), &next)
+}
+
+/// y turned over in some runs.
+pub(super) fn upside(seen: &mut SlipSeen) -> Vec<String> {
+    let count = seen.points.len();
+    let (up, down): (Vec<usize>, Vec<usize>) = (0..count).partition(|run| seen.bends_up(&seen.points[*run]));
+    if count < policy::FEWEST_RUNS || 2 * down.len() >= count {
+        return Vec::new();
+    }
+    let mut all = Vec::new();
+    for run in down {
+        let [before, after] = [1.0, -1.0].map(|sign| from_others(seen, run, &up, sign));
+        if policy::is_far_less(before, seen.half_apart()) || !policy::is_far_less(after, before) {
+            continue;
+        }
+        seen.points[run].iter_mut().flatten().for_each(|point| point[1] = -point[1]);
+        let looks = format!("y looks turned over {}", seen.in_runs(&[run]));
+        let next = "Look at it first: y is positive towards the actuator";
+        all.push(told(looks, [before, after], "the mean of the other runs", "-y in place of y", next));
+    }
+    all
+}
+
+/// Distance of a run from the mean of others, with a sign on its y \[m\].
+fn from_others(seen: &SlipSeen, run: usize, others: &[usize], sign: f64) -> f64 {
+    let mut squares = 0.0;
+    for (hold, points) in seen.points[run].iter().enumerate() {
+        for (marker, [x, y]) in points.iter().enumerate() {
+            let of_others = |axis: usize| others.iter().map(move |other| seen.points[*other][hold][marker][axis]);
+            let mean = [0, 1].map(|axis| of_others(axis).sum::<f64>() / others.len() as f64);
+            squares += (x - mean[0]).powi(2) + (sign * y - mean[1]).powi(2);
+        }
+    }
+    seen.rms(squares, seen.points[run].len())
 }

@@ -2,11 +2,11 @@
 
 use crate::error::CompareError;
 use crate::evaluate::EvaluateOptions;
-use crate::interval::{FittedData, half_width, interval};
+use crate::fit::interval::{FittedData, half_width, interval};
+use crate::fit::whiten::MISFIT_ROUNDS;
 use crate::noise::NoiseModel;
 use crate::policy;
 use crate::study::predict::{first_slope, predict_dataset};
-use crate::whiten::MISFIT_ROUNDS;
 use argmin::core::{CostFunction, Executor, State};
 use argmin::solver::brent::BrentOpt;
 use data::Dataset;

@@ -1,30 +1,28 @@
 //! Where model and measurement meet: predictions at the points of a dataset, calibration, generated data, the published
 //! numbers, run time against accuracy, and the pages made of them.
 
-pub mod breakdown;
 pub mod calibrate;
+pub mod columns;
 pub mod comparison;
 pub mod engines;
 pub mod generate;
 pub mod in_space;
 pub mod measured;
-mod mechanics;
-pub mod one_number;
 pub mod paper;
 pub mod predict;
 pub mod published;
 pub mod seen;
-pub mod tradeoff;
 pub mod uncertain;
 
 pub use calibrate::{Calibration, Knob, calibrate};
 pub use comparison::{Comparison, Contender, Variant, compare, compare_all};
+pub use engines::breakdown;
 pub use generate::{Generator, generate, parse_protocol};
 pub use in_space::{InSpace, compare_in_space};
 pub(crate) use predict::first_slope;
 pub use predict::{Predicted, fit_scenario, predict_dataset};
-pub use published::{Rung, published_ladders};
-pub use tradeoff::{Timing, time_prediction};
+pub use published::tradeoff::{Timing, time_prediction};
+pub use published::{Rung, one_number, published_ladders, tradeoff};
 
 #[cfg(test)]
 mod space_tests;

@@ -1,8 +1,8 @@
-//! Which parts of a foreign mesh enclose which chamber. Our own files and the generators say it themselves.
+//! Which parts of a foreign mesh enclose which chamber. The generators say it themselves.
 
 use super::load::{open_axis, part_names};
-use super::range::{Checked, refuse};
-use super::raw::{Raw, RawChamber, Text};
+use super::range::{Checked, Text, refuse};
+use super::raw::{Raw, RawChamber};
 use crate::FemError;
 use crate::mesh::enclose;
 use crate::mesh::file::{MeshFile, Surface};
@@ -15,8 +15,8 @@ pub(super) fn chambers(raw: &Raw, file: &mut MeshFile) -> Checked<()> {
         if !file.format.is_empty() {
             walls(name, table, tables.len() == 1, file)?;
         } else if let Some(parts) = &table.get_ref().parts {
-            let help = "remove parts: they are for meshes of other programs, which name no chambers";
-            return refuse("this mesh says itself which parts face the chamber", help, parts.span());
+            let help = "remove parts: they are for mesh files, which name no chambers";
+            return refuse("the generator says itself which parts face the chamber", help, parts.span());
         }
     }
     Ok(())

@@ -1,7 +1,10 @@
 //! Fabrics: the numbers and tables of one law, read by the catalogue of `models::fabrics`.
 
-use super::range::{ANGLE, Checked, Range, THICKNESS, number, optional, plain, refuse, unknown_name};
-use super::raw::{Free, RawPly, Text};
+use super::range::{
+    ANGLE, Checked, Free, Range, THICKNESS, Text, find, number, optional, plain, plain_number, refuse, text,
+    unknown_name,
+};
+use super::raw::RawPly;
 use crate::FemError;
 use models::Fabric;
 use models::fabrics::{self, FABRICS, Law, MATERIALS, Parameter, Recipe};
@@ -58,7 +61,7 @@ struct Sheet {
 
 /// The plies of a fabric that is made of others.
 fn plies(table: &Spanned<Free>) -> Checked<Vec<RawPly>> {
-    let Some(value) = find(table, "plies") else { return Ok(Vec::new()) };
+    let Some(value) = find(table.get_ref(), "plies") else { return Ok(Vec::new()) };
     let read: Result<Vec<Sheet>, toml::de::Error> = value.get_ref().clone().try_into();
     let sheets = read.or_else(|error| {
         let message = format!("plies: {}", error.message().lines().next().unwrap_or_default());
@@ -71,11 +74,6 @@ fn plies(table: &Spanned<Free>) -> Checked<Vec<RawPly>> {
     Ok(sheets.into_iter().map(placed).collect())
 }
 
-fn find<'a>(table: &'a Spanned<Free>, wanted: &str) -> Option<&'a Spanned<Value>> {
-    table.get_ref().iter().find(|(key, _)| key.get_ref() == wanted).map(|(_, value)| value)
-}
-
-/// Makes one fabric.
 fn fabric(table: &Spanned<Free>, plies: &[RawPly], made: &Fabrics) -> Checked<Arc<dyn Fabric>> {
     let (law, mut recipe) = law(table)?;
     for ply in plies {
@@ -101,7 +99,7 @@ fn fabric(table: &Spanned<Free>, plies: &[RawPly], made: &Fabrics) -> Checked<Ar
 fn law(table: &Spanned<Free>) -> Checked<(&'static Law, Recipe)> {
     let laws: Vec<&str> = FABRICS.iter().map(|l| l.name).collect();
     let materials: Vec<&str> = MATERIALS.iter().map(|m| m.name).collect();
-    match (find(table, "law"), find(table, "material")) {
+    match (find(table.get_ref(), "law"), find(table.get_ref(), "material")) {
         (Some(law), None) => {
             let name = text("law", law)?;
             let found = fabrics::by_name(name.get_ref()).map(|law| (law, Recipe::default()));
@@ -116,15 +114,6 @@ fn law(table: &Spanned<Free>) -> Checked<(&'static Law, Recipe)> {
         (None, None) => {
             let help = format!("add law = one of {}; or material = one of {}", laws.join(", "), materials.join(", "));
             refuse("a fabric without law", help, table.span())
-        }
-    }
-}
-
-fn text(key: &str, value: &Spanned<Value>) -> Checked<Text> {
-    match value.get_ref() {
-        Value::String(text) => Ok(Spanned::new(value.span(), text.clone())),
-        other => {
-            refuse(format!("{key} must be a text, not {}", kind(other)), "write it in quotation marks", value.span())
         }
     }
 }
@@ -152,30 +141,6 @@ fn slip(p: &Parameter) -> &'static str {
             "an incompressible sheet is law = \"neo-hookean\"; films have 0.3 to 0.45, woven fabrics 0 to 0.4"
         }
         _ => p.meaning,
-    }
-}
-
-/// A number, not a text or a table.
-pub(crate) fn plain_number(key: &str, value: &Spanned<Value>) -> Checked<f64> {
-    match value.get_ref() {
-        Value::Float(v) => Ok(*v),
-        Value::Integer(v) => Ok(*v as f64),
-        other => {
-            let message = format!("{key} must be a number, not {}", kind(other));
-            let help = "write a plain number without quotation marks; the unit is in the name of the key";
-            refuse(message, help, value.span())
-        }
-    }
-}
-
-fn kind(value: &Value) -> &'static str {
-    match value {
-        Value::String(_) => "a text",
-        Value::Array(_) => "a list",
-        Value::Boolean(_) => "true or false",
-        Value::Table(_) => "a table",
-        Value::Datetime(_) => "a date",
-        Value::Float(_) | Value::Integer(_) => "a number",
     }
 }
 

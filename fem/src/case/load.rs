@@ -1,10 +1,10 @@
 //! Chambers, supports, rigid bodies, forces, gravity, obstacles and contact of a case.
 
 use super::range::{
-    ATMOSPHERE, Checked, GAP, GAUGE, LENGTH, POSITION, Range, TIME, amplitude, choice, direction, number, optional,
-    plain, refuse, rising, si, unknown_name, vector,
+    ATMOSPHERE, Checked, GAP, GAUGE, LENGTH, POSITION, Range, TIME, Text, amplitude, choice, direction, number,
+    optional, plain, refuse, rising, si, unknown_name, vector,
 };
-use super::raw::{Raw, RawChamber, RawObstacle, RawSupport, Text};
+use super::raw::{Raw, RawChamber, RawForce, RawObstacle, RawSupport};
 use crate::mesh::Mesh;
 use crate::problem::{
     Amplitude, Chamber, Contact, Gas, Gravity, NodalForce, Obstacle, ObstacleShape, Pressure, Rigid, Support,
@@ -205,12 +205,8 @@ pub(crate) fn encastre(mesh: &mut Mesh, set: &str) -> String {
 fn with_next_row(mesh: &Mesh, nodes: &[u32]) -> Vec<u32> {
     let seed: BTreeSet<u32> = nodes.iter().copied().collect();
     let mut wider = seed.clone();
-    for part in &mesh.parts {
-        for element in (0..part.len()).map(|i| part.nodes(i)) {
-            if element.iter().any(|n| seed.contains(n)) {
-                wider.extend(element);
-            }
-        }
+    for element in mesh.faces().filter(|nodes| nodes.iter().any(|n| seed.contains(n))) {
+        wider.extend(element);
     }
     wider.into_iter().collect()
 }
@@ -249,7 +245,6 @@ pub(super) fn set_name(name: &Text, mesh: &Mesh) -> Checked<String> {
     }
 }
 
-/// Parts of the mesh, by name.
 pub(super) fn part_names(names: &[Text], mesh: &Mesh) -> Checked<Vec<String>> {
     let known: Vec<&str> = mesh.parts.iter().map(|p| p.name.as_str()).collect();
     match names.iter().find(|name| !known.contains(&name.get_ref().as_str())) {
@@ -263,7 +258,7 @@ pub(super) fn rigid(raw: &Raw, mesh: &Mesh) -> Checked<Vec<Rigid>> {
 }
 
 pub(super) fn forces(raw: &Raw, mesh: &Mesh) -> Checked<Vec<NodalForce>> {
-    let force = |f: &super::raw::RawForce| {
+    let force = |f: &RawForce| {
         Ok(NodalForce {
             set: set_name(&f.set, mesh)?,
             total_n: vector("total_n", &f.total_n, &FORCE)?,

@@ -1,9 +1,8 @@
 //! `[mesh]`: a generator with its parameters, or a mesh file.
 
-use super::ReadMesh;
-use super::law::plain_number;
-use super::range::{Checked, LENGTH, Range, choice, number, plain, refuse, unknown_name};
-use super::raw::{Free, Text};
+use super::range::{
+    Checked, Free, LENGTH, Range, Text, choice, find, number, plain, plain_number, refuse, unknown_name,
+};
 use crate::mesh::Part;
 use crate::mesh::check::{check_open, near, rim};
 use crate::mesh::file::MeshFile;
@@ -13,6 +12,9 @@ use crate::problem::Chamber;
 use crate::{FemError, Mesh};
 use std::path::Path;
 use toml::{Spanned, Value};
+
+/// Reads the mesh file that a case names in `[mesh] file`; the path is as written there.
+pub(crate) type ReadMesh<'a> = &'a mut dyn FnMut(&Path) -> Result<MeshFile, FemError>;
 
 /// A generator of meshes as cases name it.
 #[derive(Debug, Clone, Copy)]
@@ -79,101 +81,72 @@ const WARP: GeneratorKey = GeneratorKey {
 };
 
 /// All generators.
+#[rustfmt::skip]
 pub const GENERATORS: &[MeshGenerator] = &[
     MeshGenerator {
-        name: "pillow",
-        sentence: "Two squares welded along their four edges.",
+        name: "pillow", sentence: "Two squares welded along their four edges.",
         keys: &[length("side_mm", "side of the flat square"), count("elements", "elements along a side, even"), GAP],
         make: |v| generate::pillow(v[0], v[1] as usize, v[2]),
     },
     MeshGenerator {
-        name: "disc_balloon",
-        sentence: "Two discs welded along their rim.",
-        keys: &[
-            length("diameter_mm", "diameter of the flat disc"),
-            count("elements", "elements across the core, even"),
-        ],
+        name: "disc_balloon", sentence: "Two discs welded along their rim.",
+        keys: &[length("diameter_mm", "diameter of the flat disc"), count("elements", "elements across the core, even")],
         make: |v| generate::disc_balloon(0.5 * v[0], v[1] as usize),
     },
     MeshGenerator {
-        name: "long_pouch",
-        sentence: "A strip of an endlessly wide pouch: two strips welded at their ends, open at the sides.",
+        name: "long_pouch", sentence: "A strip of an endlessly wide pouch: two strips welded at their ends, open at the sides.",
         keys: &[
-            length("length_mm", "flat length between the welds"),
-            length("width_mm", "width of the strip"),
+            length("length_mm", "flat length between the welds"), length("width_mm", "width of the strip"),
             count("elements_along", "elements between the welds, even"),
-            count("elements_across", "elements across the strip, even"),
-            GAP,
+            count("elements_across", "elements across the strip, even"), GAP,
         ],
         make: |v| generate::long_pouch(v[0], v[1], v[2] as usize, v[3] as usize, v[4]),
     },
     MeshGenerator {
-        name: "flat_tube",
-        sentence: "A fabric muscle: a flat tube with welded ends and its warp at an angle.",
+        name: "flat_tube", sentence: "A fabric muscle: a flat tube with welded ends and its warp at an angle.",
         keys: &[
-            length("width_mm", "flat width"),
-            length("length_mm", "length between the welds"),
+            length("width_mm", "flat width"), length("length_mm", "length between the welds"),
             count("elements_across", "elements across the flat width, even"),
-            count("elements_along", "elements along the tube, a multiple of 4"),
-            WARP,
-            GAP,
+            count("elements_along", "elements along the tube, a multiple of 4"), WARP, GAP,
         ],
         make: |v| generate::flat_tube(v[0], v[1], v[2] as usize, v[3] as usize, v[4], v[5]),
     },
     MeshGenerator {
-        name: "tube",
-        sentence: "An inflated cylinder along x with caps.",
+        name: "tube", sentence: "An inflated cylinder along x with caps.",
         keys: &[
-            length("diameter_mm", "diameter"),
-            length("length_mm", "length"),
-            count("elements_around", "elements around the circumference"),
-            count("elements_along", "elements along the axis"),
-            cap("base_cap", "how the end at x = 0 is closed"),
-            cap("tip_cap", "how the other end is closed"),
-            WARP,
+            length("diameter_mm", "diameter"), length("length_mm", "length"),
+            count("elements_around", "elements around the circumference"), count("elements_along", "elements along the axis"),
+            cap("base_cap", "how the end at x = 0 is closed"), cap("tip_cap", "how the other end is closed"), WARP,
         ],
         make: |v| {
-            generate::tube(&Tube {
-                radius_m: 0.5 * v[0],
-                length_m: v[1],
-                around: Around::Even(v[2] as usize),
-                along: v[3] as usize,
-                caps: [CAPS[v[4] as usize], CAPS[v[5] as usize]],
-                warp_rad: v[6],
-            })
+            let caps = [CAPS[v[4] as usize], CAPS[v[5] as usize]];
+            let (around, along) = (Around::Even(v[2] as usize), v[3] as usize);
+            generate::tube(&Tube { radius_m: 0.5 * v[0], length_m: v[1], around, along, caps, warp_rad: v[6] })
         },
     },
     MeshGenerator {
-        name: "sphere",
-        sentence: "A sphere of quads.",
+        name: "sphere", sentence: "A sphere of quads.",
         keys: &[length("diameter_mm", "diameter"), count("elements", "elements along a sixth of a great circle")],
         make: |v| generate::sphere(0.5 * v[0], v[1] as usize),
     },
     MeshGenerator {
-        name: "plate",
-        sentence: "A flat rectangle.",
+        name: "plate", sentence: "A flat rectangle.",
         keys: &[
-            length("length_mm", "side along x"),
-            length("width_mm", "side along y"),
-            count("elements_along", "elements along x"),
-            count("elements_across", "elements along y"),
+            length("length_mm", "side along x"), length("width_mm", "side along y"),
+            count("elements_along", "elements along x"), count("elements_across", "elements along y"),
         ],
         make: |v| generate::plate(v[0], v[1], v[2] as usize, v[3] as usize, None),
     },
     MeshGenerator {
-        name: "crossed_sheets",
-        sentence: "Two strips, one across the other.",
+        name: "crossed_sheets", sentence: "Two strips, one across the other.",
         keys: &[
-            length("length_mm", "length of a strip"),
-            length("width_mm", "width of a strip"),
-            count("elements", "elements across a strip"),
-            GeneratorKey { default: None, ..GAP },
+            length("length_mm", "length of a strip"), length("width_mm", "width of a strip"),
+            count("elements", "elements across a strip"), GeneratorKey { default: None, ..GAP },
         ],
         make: |v| generate::crossed_sheets(v[0], v[1], v[2] as usize, v[3]),
     },
 ];
 
-/// The mesh that the table describes.
 pub(super) fn mesh(table: &Spanned<Free>, read_mesh: ReadMesh) -> Checked<MeshFile> {
     match (entry(table, "generator")?, entry(table, "file")?) {
         (Some(_), Some(file)) => refuse("a generator and a file at once", "keep one of the two", file.span()),
@@ -235,7 +208,7 @@ fn open_axis<'a>(mesh: &Mesh, chambers: &[&'a str]) -> Option<(&'a str, &'static
 
 /// A text of the table, if it is there.
 fn entry(table: &Spanned<Free>, wanted: &str) -> Checked<Option<Text>> {
-    let Some((_, value)) = table.get_ref().iter().find(|(key, _)| key.get_ref() == wanted) else { return Ok(None) };
+    let Some(value) = find(table.get_ref(), wanted) else { return Ok(None) };
     match value.get_ref() {
         Value::String(text) => Ok(Some(Spanned::new(value.span(), text.clone()))),
         _ => refuse(format!("{wanted} must be a text"), format!("for example {wanted} = \"pillow\""), value.span()),
@@ -265,39 +238,28 @@ const SMALLEST_M: f64 = 1e-3;
 
 /// The mesh in metres, and what was understood.
 fn in_metres(mut file: MeshFile, named: &Text, unit: Option<Text>) -> Checked<MeshFile> {
-    let is_own = file.format.is_empty();
-    let per_m = match &unit {
-        Some(unit) if is_own => {
-            return refuse("our own mesh files are in metres", "remove unit", unit.span());
-        }
-        Some(unit) => choice("unit", unit, &UNITS)?,
-        None if is_own => 1.0,
-        None => {
-            let [x, y, z] = extent(&file.mesh);
-            let message = format!("{} ({}) does not say its unit", named.get_ref(), file.format);
-            let help = format!("its size is {x:.4} × {y:.4} × {z:.4}: write unit = \"mm\" (or m, cm, in) below file");
-            return refuse(message, help, named.span());
-        }
+    let Some(unit) = unit else {
+        let [x, y, z] = extent(&file.mesh);
+        let message = format!("{} ({}) does not say its unit", named.get_ref(), file.format);
+        let help = format!("its size is {x:.4} × {y:.4} × {z:.4}: write unit = \"mm\" (or m, cm, in) below file");
+        return refuse(message, help, named.span());
     };
+    let per_m = choice("unit", &unit, &UNITS)?;
     file.mesh.points.iter_mut().flatten().for_each(|x| *x /= per_m);
     let (side, largest) = (median_side_m(&file.mesh), extent(&file.mesh).into_iter().fold(0.0, f64::max));
     if policy::is_coarse(side) {
-        let help = if is_own { "the file is in metres: divide its coordinates by 1000" } else { "write unit = \"mm\"" };
         let message =
             format!("half of the elements of this mesh have sides over {side:.2} m: it looks like millimetres");
-        return refuse(message, help, unit.unwrap_or(named.clone()).span());
+        return refuse(message, "write unit = \"mm\"", unit.span());
     }
-    if let Some(unit) = unit {
-        if largest < SMALLEST_M {
-            let message = format!("the whole mesh is {:.4} mm long: it looks like metres", largest * 1e3);
-            return refuse(message, "write unit = \"m\"", unit.span());
-        }
-        file.told.insert(0, understood(&file, named.get_ref(), unit.get_ref()));
+    if largest < SMALLEST_M {
+        let message = format!("the whole mesh is {:.4} mm long: it looks like metres", largest * 1e3);
+        return refuse(message, "write unit = \"m\"", unit.span());
     }
+    file.told.insert(0, understood(&file, named.get_ref(), unit.get_ref()));
     Ok(file)
 }
 
-/// One line about a foreign file.
 fn understood(file: &MeshFile, name: &str, unit: &str) -> String {
     let mesh = &file.mesh;
     let count = |count: usize, kind: &str| (count > 0).then(|| format!("{count} {kind}"));
@@ -317,7 +279,6 @@ fn understood(file: &MeshFile, name: &str, unit: &str) -> String {
     )
 }
 
-/// Size along x, y and z.
 fn extent(mesh: &Mesh) -> [f64; 3] {
     [0, 1, 2].map(|k| {
         let along = || mesh.points.iter().map(|p| p[k]);
@@ -326,13 +287,11 @@ fn extent(mesh: &Mesh) -> [f64; 3] {
 }
 
 fn median_side_m(mesh: &Mesh) -> f64 {
-    let mut sides: Vec<f64> = Vec::new();
-    for part in &mesh.parts {
-        for nodes in (0..part.len()).map(|i| part.nodes(i)) {
-            let [a, b] = [nodes[0], nodes[1]].map(|n| mesh.points[n as usize]);
-            sides.push((0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt());
-        }
-    }
+    let side = |nodes: &[u32]| {
+        let [a, b] = [nodes[0], nodes[1]].map(|n| mesh.points[n as usize]);
+        (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+    };
+    let mut sides: Vec<f64> = mesh.faces().map(side).collect();
     sides.sort_by(f64::total_cmp);
     sides.get(sides.len() / 2).copied().unwrap_or(0.0)
 }
@@ -355,8 +314,7 @@ fn generated(table: &Spanned<Free>, name: &Text) -> Checked<Mesh> {
 }
 
 fn value(table: &Spanned<Free>, key: &GeneratorKey) -> Checked<f64> {
-    let found = table.get_ref().iter().find(|(name, _)| name.get_ref() == key.key).map(|(_, value)| value);
-    let (v, span) = match (found, key.default) {
+    let (v, span) = match (find(table.get_ref(), key.key), key.default) {
         (Some(value), _) => (typed(key, value)?, value.span()),
         (None, Some(default)) => (default, table.span()),
         (None, None) => {

@@ -26,22 +26,24 @@
 //! what to type. All keys: `docs/case.md`.
 
 mod enclosed;
+pub(crate) mod key;
 mod law;
 mod load;
 mod mesh;
 pub(crate) mod range;
-pub(crate) mod raw;
+mod raw;
 mod section;
 mod settings;
 
-pub(crate) use law::plain_number;
+pub use key::Key;
 pub(crate) use load::encastre;
+pub(crate) use mesh::ReadMesh;
 pub use mesh::{GENERATORS, GeneratorKey, MeshGenerator};
+pub use settings::Outputs;
 
 use crate::mesh::file::MeshFile;
 pub use crate::output::picture::Viewpoint;
 use crate::{FemError, Problem};
-use std::path::Path;
 
 /// A run as the user describes it, in SI, checked.
 #[derive(Debug, Clone)]
@@ -53,28 +55,6 @@ pub struct Case {
     /// What was understood of a mesh file, and changed in it.
     pub notices: Vec<String>,
 }
-
-/// What a run writes besides the energy ledger.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Outputs {
-    /// Node sets whose mean displacement is recorded.
-    pub probes: Vec<String>,
-    /// Stations of the centre line \[m\], along the axis through the reference shape; empty: no centre line.
-    pub stations_m: Vec<f64>,
-    /// Parts whose sections make the centre line; empty: all.
-    pub station_parts: Vec<String>,
-    /// Direction of the stations.
-    pub station_axis: [f64; 3],
-    /// Write the deformed mesh at every output.
-    pub frames: bool,
-    /// Draw the end state.
-    pub pictures: bool,
-    /// Where it is seen from.
-    pub view: Viewpoint,
-}
-
-/// Reads the mesh file that a case names in `[mesh] file`; the path is as written there.
-pub type ReadMesh<'a> = &'a mut dyn FnMut(&Path) -> Result<MeshFile, FemError>;
 
 /// The cases that come with the library, by name.
 pub fn shipped_case(name: &str) -> Option<&'static str> {

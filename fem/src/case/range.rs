@@ -1,18 +1,22 @@
-//! Numbers as typed → SI, refused where they cannot be meant; the words for it.
+//! Values as typed: numbers → SI, texts, switches; refused where they cannot be meant, with the words for it.
 
-use super::raw::{Num, Points, unknown};
 use crate::FemError;
 use crate::problem::Amplitude;
 use spelling::Exactly;
 pub(crate) use spelling::units::Range;
+use std::collections::BTreeMap;
 use std::ops::Range as Span;
-use toml::Spanned;
+use toml::{Spanned, Value};
 
 pub(crate) type Checked<T> = Result<T, FemError>;
+pub(crate) type Num = Spanned<f64>;
+pub(crate) type Text = Spanned<String>;
+/// Rows of (time \[s\], value).
+pub(crate) type Points = Spanned<Vec<Exactly<2>>>;
+/// A table whose keys depend on one of its values: a mesh generator, a fabric law.
+pub(crate) type Free = BTreeMap<Text, Spanned<Value>>;
 
-/// Edge lengths, diameters.
 pub(crate) const LENGTH: Range = Range::LENGTH;
-/// Thicknesses of fabric.
 pub(crate) const THICKNESS: Range = Range {
     low: 0.002,
     high: 20.0,
@@ -20,17 +24,13 @@ pub(crate) const THICKNESS: Range = Range {
     too_large: "this looks like micrometres: write millimetres, for example 0.2 for 200 µm",
     ..LENGTH
 };
-/// Gaps between layers.
 pub(crate) const GAP: Range = Range { low: 1e-5, high: 10.0, ..THICKNESS };
-/// Coordinates.
 pub(crate) const POSITION: Range =
     Range { low: -1e5, too_small: "any number of this size is accepted with its sign", ..LENGTH };
-/// Gauge pressures.
 pub(crate) const PRESSURE: Range = Range::PRESSURE;
 /// Gauge pressures of a chamber, below the room's too.
 pub(crate) const GAUGE: Range =
     Range { low: -1000.0, too_small: "this looks like pascals: write kilopascals, -101.325 is a vacuum", ..PRESSURE };
-/// Pressure of the surroundings.
 pub(crate) const ATMOSPHERE: Range = Range {
     low: 1.0,
     high: 1000.0,
@@ -38,22 +38,18 @@ pub(crate) const ATMOSPHERE: Range = Range {
     too_large: "this looks like pascals: write kilopascals, for example 101.325",
     ..PRESSURE
 };
-/// Times.
 pub(crate) const TIME: Range = Range {
     unit: "s",
     too_small: "time starts at 0",
     ..plain(0.0, 1000.0, "this looks like milliseconds: write seconds")
 };
-/// Mass per volume.
 pub(crate) const DENSITY: Range = Range {
     unit: "kg/m³",
     too_small: "this looks like g/cm³ or kg/m²: write kg/m³, for example 1140 for nylon; kg/m² over the thickness in m",
     ..plain(50.0, 20_000.0, "write kg/m³, for example 1140 for nylon")
 };
-/// Angles.
 pub(crate) const ANGLE: Range = Range { si: std::f64::consts::PI / 180.0, ..plain(-360.0, 360.0, "write degrees") };
 
-/// A pure number.
 pub(crate) const fn plain(low: f64, high: f64, usual: &'static str) -> Range {
     Range::plain(low, high, usual)
 }
@@ -63,7 +59,6 @@ pub(crate) fn refuse<T>(message: impl AsRef<str>, help: impl AsRef<str>, span: S
     Err(FemError::Case { message: format!("{}\n{}", message.as_ref(), help.as_ref()), span: Some(span) })
 }
 
-/// A number in SI.
 pub(crate) fn si(key: &str, value: &Num, range: &Range) -> Checked<f64> {
     number(key, *value.get_ref(), value.span(), range)
 }
@@ -78,7 +73,6 @@ pub(crate) fn optional(key: &str, value: &Option<Num>, range: &Range) -> Checked
     value.as_ref().map(|v| si(key, v, range)).transpose()
 }
 
-/// Three coordinates in SI.
 pub(crate) fn vector(key: &str, value: &Spanned<Exactly<3>>, range: &Range) -> Checked<[f64; 3]> {
     let Exactly([x, y, z]) = *value.get_ref();
     let one = |v: f64| number(key, v, value.span(), range);
@@ -133,7 +127,6 @@ pub(crate) fn rising(times: &[f64], span: Span<usize>) -> Checked<()> {
     }
 }
 
-/// One of some words.
 pub(crate) fn choice<T: Copy>(what: &str, text: &Spanned<String>, known: &[(&str, T)]) -> Checked<T> {
     match known.iter().find(|(name, _)| name == text.get_ref()) {
         Some((_, value)) => Ok(*value),
@@ -152,6 +145,60 @@ pub(crate) fn nearest<'a>(wrong: &str, known: &[&'a str]) -> Option<&'a str> {
     let stem = wrong.rsplit_once('_').map_or(wrong, |(stem, _)| stem);
     let begun = || known.iter().filter(|known| stem.len() >= 3 && known.starts_with(stem)).copied();
     spelling::nearest(wrong, known.iter().copied()).or_else(|| begun().next().filter(|_| begun().count() == 1))
+}
+
+pub(crate) fn text(key: &str, value: &Spanned<Value>) -> Checked<Text> {
+    match value.get_ref() {
+        Value::String(text) => Ok(Spanned::new(value.span(), text.clone())),
+        other => {
+            refuse(format!("{key} must be a text, not {}", kind(other)), "write it in quotation marks", value.span())
+        }
+    }
+}
+
+/// A number, not a text or a table.
+pub(crate) fn plain_number(key: &str, value: &Spanned<Value>) -> Checked<f64> {
+    match value.get_ref() {
+        Value::Float(v) => Ok(*v),
+        Value::Integer(v) => Ok(*v as f64),
+        other => {
+            let message = format!("{key} must be a number, not {}", kind(other));
+            let help = "write a plain number without quotation marks; the unit is in the name of the key";
+            refuse(message, help, value.span())
+        }
+    }
+}
+
+fn kind(value: &Value) -> &'static str {
+    match value {
+        Value::String(_) => "a text",
+        Value::Array(_) => "a list",
+        Value::Boolean(_) => "true or false",
+        Value::Table(_) => "a table",
+        Value::Datetime(_) => "a date",
+        Value::Float(_) | Value::Integer(_) => "a number",
+    }
+}
+
+/// Value of a key that is no number, if it is there.
+pub(crate) fn find<'a>(table: &'a Free, wanted: &str) -> Option<&'a Spanned<Value>> {
+    table.iter().find(|(key, _)| key.get_ref() == wanted).map(|(_, value)| value)
+}
+
+/// A switch; `without` says what happens without it.
+pub(crate) fn switch(name: &str, value: &Spanned<Value>, without: &str) -> Checked<bool> {
+    let refused = || refuse(format!("{name} must be true or false"), format!("leave it out: {without}"), value.span());
+    value.get_ref().as_bool().map_or_else(refused, Ok)
+}
+
+/// Says that a name is not known, which are, and which was probably meant.
+pub(crate) fn unknown(what: &str, wrong: &str, known: &[&str]) -> String {
+    let list = known.join(", ");
+    match nearest(wrong, known) {
+        Some(meant) => format!("unknown {what} `{wrong}`; known here: {list}\ndid you mean `{meant}`?"),
+        None if known.is_empty() => format!("unknown {what} `{wrong}`\nremove it: nothing is expected here"),
+        None => format!("unknown {what} `{wrong}`\nknown here: {list}"),
+    }
 }
 
 #[cfg(test)]

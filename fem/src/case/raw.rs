@@ -1,18 +1,11 @@
 //! The TOML text as it stands: keys with units, every value with its place.
 
-use super::range::{Checked, nearest};
+use super::range::{Checked, Free, Num, Points, Text, unknown};
 use crate::FemError;
 use serde::Deserialize;
 use spelling::Exactly;
 use std::collections::BTreeMap;
 use toml::Spanned;
-
-pub(crate) type Num = Spanned<f64>;
-pub(crate) type Text = Spanned<String>;
-/// Rows of (time \[s\], value).
-pub(super) type Points = Spanned<Vec<Exactly<2>>>;
-/// A table whose keys depend on one of its values: a mesh generator, a fabric law.
-pub(crate) type Free = BTreeMap<Text, Spanned<toml::Value>>;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -41,7 +34,7 @@ pub(super) struct Raw {
     pub obstacle: Vec<Spanned<RawObstacle>>,
     pub contact: Option<RawContact>,
     #[serde(default)]
-    pub settings: RawSettings,
+    pub settings: Free,
     #[serde(default)]
     pub output: RawOutput,
 }
@@ -73,19 +66,19 @@ pub(super) struct RawChamber {
     pub pressure_kpa: Option<Num>,
     pub preset: Option<Text>,
     #[serde(rename = "smooth_s_kPa", alias = "smooth_s_kpa")]
-    pub smooth_s_kpa: Option<Points>,
+    pub(crate) smooth_s_kpa: Option<Points>,
     #[serde(rename = "linear_s_kPa", alias = "linear_s_kpa")]
-    pub linear_s_kpa: Option<Points>,
+    pub(crate) linear_s_kpa: Option<Points>,
     pub sealed_at_s: Option<Num>,
     #[serde(rename = "atmosphere_kPa", alias = "atmosphere_kpa")]
-    pub atmosphere_kpa: Option<Num>,
+    pub(crate) atmosphere_kpa: Option<Num>,
     pub dead_volume_cm3: Option<Num>,
-    pub polytropic_exponent: Option<Num>,
+    pub(crate) polytropic_exponent: Option<Num>,
     #[serde(rename = "leak_l_min_kPa", alias = "leak_l_min_kpa")]
-    pub leak_l_min_kpa: Option<Num>,
+    pub(crate) leak_l_min_kpa: Option<Num>,
     pub inflow_l_min: Option<Num>,
-    pub inflow_smooth_s_l_min: Option<Points>,
-    pub inflow_linear_s_l_min: Option<Points>,
+    pub(crate) inflow_smooth_s_l_min: Option<Points>,
+    pub(crate) inflow_linear_s_l_min: Option<Points>,
     pub open_axis: Option<Text>,
     pub parts: Option<Spanned<Vec<Text>>>,
 }
@@ -97,7 +90,7 @@ pub(super) struct RawSupport {
     pub axes: Option<Text>,
     pub encastre: Option<bool>,
     pub smooth_s_mm: Option<Spanned<Vec<Exactly<4>>>>,
-    pub linear_s_mm: Option<Spanned<Vec<Exactly<4>>>>,
+    pub(crate) linear_s_mm: Option<Spanned<Vec<Exactly<4>>>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -111,29 +104,29 @@ pub(super) struct RawRigid {
 pub(super) struct RawForce {
     pub set: Text,
     pub total_n: Spanned<Exactly<3>>,
-    pub smooth_s: Option<Points>,
-    pub linear_s: Option<Points>,
+    pub(crate) smooth_s: Option<Points>,
+    pub(crate) linear_s: Option<Points>,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawGravity {
     pub g_m_s2: Spanned<Exactly<3>>,
-    pub smooth_s: Option<Points>,
-    pub linear_s: Option<Points>,
+    pub(crate) smooth_s: Option<Points>,
+    pub(crate) linear_s: Option<Points>,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawObstacle {
     pub shape: Text,
-    pub point_mm: Spanned<Exactly<3>>,
+    pub(crate) point_mm: Spanned<Exactly<3>>,
     pub normal: Option<Spanned<Exactly<3>>>,
     pub axis: Option<Spanned<Exactly<3>>>,
     pub radius_mm: Option<Num>,
     pub friction: Option<Num>,
     pub smooth_s_mm: Option<Spanned<Vec<Exactly<4>>>>,
-    pub linear_s_mm: Option<Spanned<Vec<Exactly<4>>>>,
+    pub(crate) linear_s_mm: Option<Spanned<Vec<Exactly<4>>>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -141,34 +134,10 @@ pub(super) struct RawObstacle {
 pub(super) struct RawContact {
     pub friction: Option<Num>,
     pub edges: Option<bool>,
-    pub gap_mm: Option<Num>,
+    pub(crate) gap_mm: Option<Num>,
     pub thickness_mm: Option<Num>,
     #[serde(default)]
     pub parts: Vec<Text>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawSettings {
-    pub preset: Option<Text>,
-    pub end_s: Option<Num>,
-    pub cfl: Option<Num>,
-    pub dt_s: Option<Num>,
-    pub mass_scaling: Option<Spanned<toml::Value>>,
-    pub target_step_s: Option<Num>,
-    pub selective_mass: Option<bool>,
-    pub mass_passes: Option<Spanned<i64>>,
-    pub mass_damping_1_s: Option<Num>,
-    pub viscosity: Option<Num>,
-    pub hourglass: Option<Num>,
-    pub output_every_s: Option<Num>,
-    pub imperfection: Option<Num>,
-    pub seed: Option<Spanned<i64>>,
-    pub guard_residual: Option<Num>,
-    pub guard_speed_m_s: Option<Num>,
-    pub guard_inverted: Option<bool>,
-    pub guard_sides: Option<Num>,
-    pub guard_hourglass: Option<Num>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -179,8 +148,8 @@ pub(super) struct RawOutput {
     #[serde(default)]
     pub stations_mm: Vec<Num>,
     #[serde(default)]
-    pub station_parts: Vec<Text>,
-    pub station_axis: Option<Spanned<Exactly<3>>>,
+    pub(crate) station_parts: Vec<Text>,
+    pub(crate) station_axis: Option<Spanned<Exactly<3>>>,
     pub frames: Option<bool>,
     pub pictures: Option<bool>,
     pub view: Option<Text>,
@@ -215,14 +184,4 @@ fn explain(message: &str) -> String {
         "`ibr new pillow` prints a complete case to compare with"
     };
     format!("{message}\n{help}")
-}
-
-/// Says that a name is not known, which are, and which was probably meant.
-pub(crate) fn unknown(what: &str, wrong: &str, known: &[&str]) -> String {
-    let list = known.join(", ");
-    match nearest(wrong, known) {
-        Some(meant) => format!("unknown {what} `{wrong}`; known here: {list}\ndid you mean `{meant}`?"),
-        None if known.is_empty() => format!("unknown {what} `{wrong}`\nremove it: nothing is expected here"),
-        None => format!("unknown {what} `{wrong}`\nknown here: {list}"),
-    }
 }

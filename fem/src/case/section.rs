@@ -1,8 +1,8 @@
 //! Parts and their plies.
 
 use super::law::{self, Fabrics};
-use super::range::{ANGLE, Checked, DENSITY, Range, direction, optional, plain, refuse, si, unknown_name};
-use super::raw::{Num, Raw, RawPart, Text};
+use super::range::{ANGLE, Checked, DENSITY, Num, Range, Text, direction, optional, plain, refuse, si, unknown_name};
+use super::raw::{Raw, RawPart};
 use crate::mesh::{Mesh, Part};
 use crate::problem::start::{has_directions, warp_fault};
 use crate::problem::{Ply, Section};
@@ -44,8 +44,8 @@ pub(super) fn sections(raw: &Raw, mesh: &mut Mesh, unread: &[(String, String)]) 
         if let Some((name, what)) = foreign.filter(|_| has_directions(&section)) {
             let message = format!("part `{name}` of the mesh file has {what}, which is not read");
             let help = format!(
-                "write warp = \"x\" (or \"y\", \"z\", [x, y, z]) into [part.{name}]: it is laid onto every element; a warp that turns \
-                 within a part needs our own mesh format"
+                "write warp = \"x\" (or \"y\", \"z\", [x, y, z]) into [part.{name}]: it is laid onto every element; where the warp turns, \
+                 make several parts"
             );
             return refuse(message, help, table.span());
         }

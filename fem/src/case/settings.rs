@@ -1,34 +1,50 @@
 //! Numerical settings and outputs of a case.
 
-use super::Outputs;
+use super::key::{Key, key, named};
 use super::load::{part_names, set_name};
-use super::range::{Checked, POSITION, Range, TIME, choice, direction, optional, plain, refuse, si};
-use super::raw::{RawOutput, RawSettings};
+use super::range::{
+    Checked, Free, POSITION, Range, choice, direction, find, number, plain, refuse, si, switch, text, unknown_name,
+};
+use super::raw::RawOutput;
 use crate::mesh::Mesh;
 use crate::output::picture::Viewpoint;
 use crate::policy;
-use crate::problem::{Guards, MassScaling, Settings};
-use toml::Value;
+use crate::problem::{MassScaling, Settings};
+use toml::{Spanned, Value};
 
-const END: Range = Range { low: 1e-6, too_small: "a run needs some time; 1.1 is the paper's", ..TIME };
-const STEP: Range = Range {
-    low: 1e-10,
-    high: 0.01,
-    too_small: "leave it out: the stable step is found by itself",
-    too_large: "leave it out: the stable step is found by itself, usually some microseconds",
-    ..TIME
-};
-const EVERY: Range = Range { low: 1e-7, too_small: "this is below a time step", ..TIME };
-const CFL: Range = plain(0.01, 1.0, "0.9 is usual, 0.7 where fabric strains exceed 10 %");
+/// The numbers of `[settings]`.
+#[rustfmt::skip]
+pub(super) const NUMBERS: &[Key<Settings>] = &[
+    key("end_s", 1.0, [1e-6, 1000.0], "a run needs some time, in seconds; 1.1 is the paper's", |s| Some(s.end_s), |s, v| s.end_s = v),
+    key("cfl", 1.0, [0.01, 1.0], "0.9 is usual, 0.7 where fabric strains exceed 10 %", |s| Some(s.cfl), |s, v| s.cfl = v),
+    key("dt_s", 1.0, [1e-10, 0.01], "leave it out: the stable step is found by itself, usually some microseconds",
+        |s| s.dt_s, |s, v| s.dt_s = Some(v)),
+    key("target_step_s", 1.0, [1e-10, 0.01], "the step for which masses are raised, usually some microseconds",
+        |s| match s.mass_scaling { MassScaling::TargetStep(dt) => Some(dt), _ => None },
+        |s, v| s.mass_scaling = MassScaling::TargetStep(v)),
+    key("mass_passes", 1.0, [2.0, 6.0], "passes of the selective masses: 2, 4 or 6",
+        |s| Some(s.mass_passes as f64), |s, v| s.mass_passes = v as usize),
+    key("mass_damping_1_s", 1.0, [0.0, 1e5], "1/s; 5 for a robot, 100 for an airbag that shall come to rest quickly",
+        |s| Some(s.mass_damping_1_s), |s, v| s.mass_damping_1_s = v),
+    key("viscosity", 1.0, [0.0, 1.0], "a share of critical damping; 0.06 is usual", |s| Some(s.viscosity), |s, v| s.viscosity = v),
+    key("hourglass", 1.0, [0.0, 1.0], "0.01 is usual; 0.05 and more lock", |s| Some(s.hourglass), |s, v| s.hourglass = v),
+    key("output_every_s", 1.0, [1e-7, 1000.0], "time between two outputs in seconds, of many steps",
+        |s| Some(s.output_every_s), |s, v| s.output_every_s = v),
+    key("imperfection", 1.0, [0.0, 0.2], "a share of the element size; 0.001 is usual, 0 is a perfect start",
+        |s| Some(s.imperfection), |s, v| s.imperfection = v),
+    key("seed", 1.0, [0.0, 4e15], "a whole number from 0 on", |s| Some(s.seed as f64), |s, v| s.seed = v as u64),
+    key("guard_residual", 1.0, [1e-6, 1.0], "energy missing from the balance over the work done; 0.02 is usual",
+        |s| Some(s.guards.residual), |s, v| s.guards.residual = v),
+    key("guard_speed_m_s", 1.0, [0.0, 1e5], "m/s; 0 is the speed of sound in the stiffest fabric",
+        |s| Some(s.guards.speed_m_s), |s, v| s.guards.speed_m_s = v),
+    key("guard_sides", 1.0, [0.0, 1.0], "share of the nodes in contact that may change side of a layer; 0.05 is usual",
+        |s| Some(s.guards.sides), |s, v| s.guards.sides = v),
+    key("guard_hourglass", 1.0, [0.0, 1.0], "share of the stored energy that hourglass control may hold; 0.15 is usual",
+        |s| Some(s.guards.hourglass), |s, v| s.guards.hourglass = v),
+];
+/// Keys that are no single number.
+pub(super) const OTHERS: [&str; 4] = ["preset", "mass_scaling", "selective_mass", "guard_inverted"];
 const FACTOR: Range = plain(1.0, 1e6, "1 is the true mass; 10 makes the step 3.2 times longer");
-const DAMPING: Range = plain(0.0, 1e5, "1/s; 5 for a robot, 100 for an airbag that shall come to rest quickly");
-const VISCOSITY: Range = plain(0.0, 1.0, "a share of critical damping; 0.06 is usual");
-const HOURGLASS: Range = plain(0.0, 1.0, "0.01 is usual; 0.05 and more lock");
-const IMPERFECTION: Range = plain(0.0, 0.2, "a share of the element size; 0.001 is usual, 0 is a perfect start");
-const CONTROL: Range = plain(0.0, 1.0, "share of the stored energy that hourglass control may hold; 0.15 is usual");
-const SIDES: Range = plain(0.0, 1.0, "share of the nodes in contact that may change side of a layer; 0.05 is usual");
-const RESIDUAL: Range = plain(1e-6, 1.0, "energy missing from the balance over the work done; 0.02 is usual");
-const SPEED: Range = plain(0.0, 1e5, "m/s; 0 is the speed of sound in the stiffest fabric");
 
 /// The paper's run: true masses, 1.1 s; its damping is not printed, 5 1/s is assumed.
 fn paper() -> Settings {
@@ -41,39 +57,45 @@ fn quasi_static() -> Settings {
 }
 
 /// Settings of a run; what is not given comes from the preset, or from [`Settings::default`].
-pub(super) fn settings(raw: &RawSettings) -> Checked<Settings> {
+pub(super) fn settings(table: &Free) -> Checked<Settings> {
     type Preset = fn() -> Settings;
     let presets: [(&str, Preset); 2] = [("paper", paper), ("quasi-static", quasi_static)];
-    let mut settings = match &raw.preset {
-        Some(name) => choice("preset", name, &presets)?(),
+    let mut settings = match find(table, "preset") {
+        Some(name) => choice("preset", &text("preset", name)?, &presets)?(),
         None => Settings::default(),
     };
-    let set = |place: &mut f64, value: Option<f64>| *place = value.unwrap_or(*place);
-    set(&mut settings.end_s, optional("end_s", &raw.end_s, &END)?);
-    set(&mut settings.cfl, optional("cfl", &raw.cfl, &CFL)?);
-    set(&mut settings.mass_damping_1_s, optional("mass_damping_1_s", &raw.mass_damping_1_s, &DAMPING)?);
-    set(&mut settings.viscosity, optional("viscosity", &raw.viscosity, &VISCOSITY)?);
-    set(&mut settings.hourglass, optional("hourglass", &raw.hourglass, &HOURGLASS)?);
-    set(&mut settings.output_every_s, optional("output_every_s", &raw.output_every_s, &EVERY)?);
-    set(&mut settings.imperfection, optional("imperfection", &raw.imperfection, &IMPERFECTION)?);
-    settings.dt_s = optional("dt_s", &raw.dt_s, &STEP)?;
-    settings.mass_scaling = mass_scaling(raw)?.unwrap_or(settings.mass_scaling);
-    settings.selective_mass = raw.selective_mass.unwrap_or(settings.selective_mass);
-    settings.mass_passes = passes(raw)?.unwrap_or(settings.mass_passes);
-    settings.seed = seed(raw)?.unwrap_or(settings.seed);
-    settings.guards = guards(raw)?;
-    not_too_many(raw, &settings)?;
-    Ok(settings)
+    for (key, value) in table {
+        match key.get_ref().as_str() {
+            "preset" => {}
+            "mass_scaling" if find(table, "target_step_s").is_some() => {
+                return refuse("mass_scaling and target_step_s at once", "keep one of the two", value.span());
+            }
+            "mass_scaling" => settings.mass_scaling = mass_scaling(value)?,
+            name @ "selective_mass" => settings.selective_mass = switch(name, value, "all waves keep their mass")?,
+            name @ "guard_inverted" => settings.guards.inverted = switch(name, value, "such an element stops a run")?,
+            name => match named(NUMBERS, name) {
+                Some(number) => number.read(&mut settings, value)?,
+                None => {
+                    let known: Vec<&str> = OTHERS.into_iter().chain(NUMBERS.iter().map(|k| k.name)).collect();
+                    return Err(unknown_name("key", key, &known));
+                }
+            },
+        }
+    }
+    let outputs = settings.end_s / settings.output_every_s;
+    match find(table, "output_every_s") {
+        Some(every) if outputs > policy::MOST_OUTPUTS => {
+            let message = format!("output_every_s = {} means {outputs:.0} outputs", every.get_ref());
+            let help = format!("write at least {:e}", settings.end_s / policy::MOST_OUTPUTS);
+            refuse(message, help, every.span())
+        }
+        _ => Ok(settings),
+    }
 }
 
-fn mass_scaling(raw: &RawSettings) -> Checked<Option<MassScaling>> {
-    let step = optional("target_step_s", &raw.target_step_s, &STEP)?;
-    let Some(value) = &raw.mass_scaling else { return Ok(step.map(MassScaling::TargetStep)) };
-    if step.is_some() {
-        return refuse("mass_scaling and target_step_s at once", "keep one of the two", value.span());
-    }
+fn mass_scaling(value: &Spanned<Value>) -> Checked<MassScaling> {
     let factor = match value.get_ref() {
-        Value::String(word) if word == "none" => return Ok(Some(MassScaling::None)),
+        Value::String(word) if word == "none" => return Ok(MassScaling::None),
         Value::Integer(factor) => *factor as f64,
         Value::Float(factor) => *factor,
         other => {
@@ -82,49 +104,28 @@ fn mass_scaling(raw: &RawSettings) -> Checked<Option<MassScaling>> {
             return refuse(message, help, value.span());
         }
     };
-    super::range::number("mass_scaling", factor, value.span(), &FACTOR).map(|f| Some(MassScaling::Fixed(f)))
-}
-
-fn seed(raw: &RawSettings) -> Checked<Option<u64>> {
-    let Some(seed) = &raw.seed else { return Ok(None) };
-    match u64::try_from(*seed.get_ref()) {
-        Ok(value) => Ok(Some(value)),
-        Err(_) => refuse("seed is below zero", "write a whole number from 0 on", seed.span()),
-    }
-}
-
-fn passes(raw: &RawSettings) -> Checked<Option<usize>> {
-    let Some(passes) = &raw.mass_passes else { return Ok(None) };
-    match passes.get_ref() {
-        2 | 4 | 6 => Ok(Some(*passes.get_ref() as usize)),
-        other => refuse(format!("mass_passes cannot be {other}"), "write 2, 4 or 6", passes.span()),
-    }
-}
-
-fn guards(raw: &RawSettings) -> Checked<Guards> {
-    let usual = Guards::default();
-    Ok(Guards {
-        residual: optional("guard_residual", &raw.guard_residual, &RESIDUAL)?.unwrap_or(usual.residual),
-        speed_m_s: optional("guard_speed_m_s", &raw.guard_speed_m_s, &SPEED)?.unwrap_or(usual.speed_m_s),
-        inverted: raw.guard_inverted.unwrap_or(usual.inverted),
-        sides: optional("guard_sides", &raw.guard_sides, &SIDES)?.unwrap_or(usual.sides),
-        hourglass: optional("guard_hourglass", &raw.guard_hourglass, &CONTROL)?.unwrap_or(usual.hourglass),
-    })
-}
-
-fn not_too_many(raw: &RawSettings, settings: &Settings) -> Checked<()> {
-    let outputs = settings.end_s / settings.output_every_s;
-    match &raw.output_every_s {
-        Some(every) if outputs > policy::MOST_OUTPUTS => {
-            let message = format!("output_every_s = {} means {outputs:.0} outputs", every.get_ref());
-            let help = format!("write at least {:e}", settings.end_s / policy::MOST_OUTPUTS);
-            refuse(message, help, every.span())
-        }
-        _ => Ok(()),
-    }
+    number("mass_scaling", factor, value.span(), &FACTOR).map(MassScaling::Fixed)
 }
 
 /// What a run writes besides the energy ledger.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outputs {
+    /// Node sets whose mean displacement is recorded.
+    pub probes: Vec<String>,
+    /// Stations of the centre line \[m\], along the axis through the reference shape; empty: no centre line.
+    pub stations_m: Vec<f64>,
+    /// Parts whose sections make the centre line; empty: all.
+    pub station_parts: Vec<String>,
+    /// Direction of the stations.
+    pub station_axis: [f64; 3],
+    /// Write the deformed mesh at every output.
+    pub frames: bool,
+    /// Draw the end state.
+    pub pictures: bool,
+    /// Where it is seen from.
+    pub view: Viewpoint,
+}
+
 pub(super) fn outputs(raw: &RawOutput, mesh: &Mesh) -> Checked<Outputs> {
     let axis = raw.station_axis.as_ref().map(|axis| direction("station_axis", axis)).transpose()?;
     Ok(Outputs {

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used)] // a test that cannot be set up must fail
 
+use std::path::Path;
+
 use super::tests::{parse, refused};
 use super::*;
 use crate::Mesh;
@@ -55,7 +57,7 @@ fn edges_of_an_open_chamber_are_held_along_its_axis_whatever_their_sets_are_call
     let mesh = Mesh { sets: mesh.sets.iter().map(|(name, nodes)| (renamed(name), nodes.clone())).collect(), ..mesh };
     let (from, to) = (STRIP.find("generator").unwrap(), STRIP.find("[fabric").unwrap());
     let text = format!(
-        "{}file = \"own.mesh\"\n{}",
+        "{}file = \"own.msh\"\nunit = \"m\"\n{}",
         &STRIP[..from],
         STRIP[to..].replace("open_0", "end_0").replace("open_1", "end_1")
     );
@@ -63,7 +65,7 @@ fn edges_of_an_open_chamber_are_held_along_its_axis_whatever_their_sets_are_call
     assert!(own.problem.check().is_ok());
     let large = Mesh { points: mesh.points.iter().map(|p| p.map(|c| 1e3 * c)).collect(), ..mesh };
     let millimetres = Case::parse(&text, &mut |_: &Path| Ok(large.clone().into())).unwrap_err().to_string();
-    assert!(millimetres.contains("looks like millimetres") && millimetres.contains("divide"), "{millimetres}");
+    assert!(millimetres.contains("looks like millimetres"), "{millimetres}");
 }
 
 #[test]

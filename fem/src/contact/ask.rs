@@ -26,7 +26,7 @@ pub(super) struct Questions<'a> {
     pub surface: &'a Surface,
     pub x: &'a [[f64; 4]],
     pub asked: &'a [Question],
-    pub square_m2: &'a mut Vec<Lane>,
+    pub(crate) square_m2: &'a mut Vec<Lane>,
 }
 
 impl pulp::WithSimd for Questions<'_> {

@@ -10,14 +10,13 @@ use super::surface::Surface;
 /// Candidates that close a chunk, so that chunks stay small on very fine meshes.
 const CANDIDATES: usize = 4096;
 
-/// Penalty of every pair.
 #[derive(Debug, Clone)]
 pub(super) struct Penalty {
     pub mass_kg: Vec<f64>,
     /// Least mass of the corners of each element, infinite if all are held.
-    pub light_kg: Vec<f64>,
+    pub(crate) light_kg: Vec<f64>,
     /// k = share · m.
-    pub stiffness_1_s2: f64,
+    pub(crate) stiffness_1_s2: f64,
     /// c = share · m.
     pub damping_1_s: f64,
 }
@@ -91,7 +90,7 @@ pub(super) struct Memory {
 
 impl Memory {
     /// Records of chunks whose way was closed, for so many nodes.
-    pub fn new(chunks: Vec<Chunk>, nodes: usize, clear_m: f64) -> Memory {
+    pub(super) fn new(chunks: Vec<Chunk>, nodes: usize, clear_m: f64) -> Memory {
         let mut place = vec![[0; 3]; nodes];
         for (c, chunk) in chunks.iter().enumerate() {
             for (i, record) in chunk.records.iter().enumerate() {

@@ -6,23 +6,21 @@ use super::ask::{Question, Questions};
 use super::closest::{Closest, Feature, describe, nearest};
 use super::pack::{Pack, Touches};
 use super::press::{Push, Sums, press_lane, press_round, push};
-use super::record::{Reach, Record};
+use super::record::{Record, Step, Touch};
 use super::surface::Surface;
 use crate::sheet::group::{LANES, Lane};
 use crate::vec3::{V3, along, cross, dot, node, norm, scale, sub};
 
-/// Records per chunk.
 pub(super) const RECORDS: usize = 64;
 
 /// Records are looked at early by this share of the slack, so that few looks serve many.
 const EARLY: f64 = 0.3;
 
-/// An element near a record's node.
 #[derive(Debug, Clone, Copy, Default, serde::Serialize, serde::Deserialize)]
 pub(super) struct Candidate {
     pub element: u32,
     /// Distance when it was measured, plus the way of the chunk then: it is no closer than this less the way now.
-    pub clear_m: f64,
+    pub(crate) clear_m: f64,
 }
 
 /// Records in order of their nodes; a checkpoint leaves out what they and the positions give again.
@@ -40,19 +38,18 @@ pub(super) struct Chunk {
     pub near: Vec<u32>,
     /// Those on faces, ready to be stepped.
     #[serde(skip)]
-    pub packs: Vec<Pack>,
+    pub(crate) packs: Vec<Pack>,
     /// Their number.
     #[serde(skip)]
     pub faces: u32,
     /// Positions at the last look.
-    pub seen_m: Vec<[f64; 4]>,
+    pub(crate) seen_m: Vec<[f64; 4]>,
     /// Way: sum over the looks of the most that two nodes can have moved against each other in between.
     pub way_m: f64,
     /// Way at which a record is due.
-    pub next_m: f64,
+    pub(crate) next_m: f64,
     /// Path of the fastest node at which the motion must be measured again.
-    pub due_m: f64,
-    /// Forces of the step.
+    pub(crate) due_m: f64,
     #[serde(skip)]
     pub pushes: Vec<Push>,
     #[serde(skip)]
@@ -64,36 +61,12 @@ pub(super) struct Chunk {
     #[serde(skip)]
     pub asked: Vec<Question>,
     #[serde(skip)]
-    pub square_m2: Vec<Lane>,
-}
-
-/// What a step needs to know.
-#[derive(Clone, Copy)]
-pub(super) struct Step<'a> {
-    pub arch: pulp::Arch,
-    pub surface: &'a Surface,
-    pub x: &'a [[f64; 4]],
-    pub before: &'a [[f64; 4]],
-    pub reach: Reach,
-    pub dt_s: f64,
-    pub friction: f64,
-    /// Way of the fastest node since the start, summed over steps.
-    pub path_m: f64,
-}
-
-/// A pair at one moment.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Touch {
-    /// Rest gap minus distance.
-    pub depth_m: f64,
-    /// Way in which the distance grows.
-    pub normal: V3,
-    pub weights: [f64; 3],
+    pub(crate) square_m2: Vec<Lane>,
 }
 
 impl Chunk {
     /// Starts the way at zero again, at positions `x`.
-    pub fn close(&mut self, arch: pulp::Arch, x: &[[f64; 4]]) {
+    pub(super) fn close(&mut self, arch: pulp::Arch, x: &[[f64; 4]]) {
         let way_m = if self.seen_m.is_empty() { f64::INFINITY } else { self.way_m + self.parted_m(arch, x) };
         for record in &mut self.records {
             record.due_m -= way_m;
@@ -103,7 +76,7 @@ impl Chunk {
     }
 
     /// Lists the nodes, each once; `mark` holds a number for every node, and no two chunks leave the same there.
-    pub fn list(&mut self, surface: &Surface, chunk: u32, mark: &mut [u32]) {
+    pub(super) fn list(&mut self, surface: &Surface, chunk: u32, mark: &mut [u32]) {
         self.nodes.clear();
         let corners = self.candidates.iter().flat_map(|c| surface.corners(c.element as usize));
         for n in self.records.iter().map(|r| &r.node).chain(corners) {
@@ -121,7 +94,7 @@ impl Chunk {
     }
 
     /// One step: looks again if nodes moved too far, then adds up the forces of the near records.
-    pub fn step(&mut self, step: &Step) {
+    pub(super) fn step(&mut self, step: &Step) {
         self.sums = Sums::default();
         self.pushes.clear();
         if step.path_m >= self.due_m {
@@ -141,7 +114,7 @@ impl Chunk {
     }
 
     /// Adds the forces of the step to those on the nodes from `first` on.
-    pub fn hand_over(&self, first: u32, force: &mut [[f64; 4]]) {
+    pub(crate) fn hand_over(&self, first: u32, force: &mut [[f64; 4]]) {
         let last = first + force.len() as u32;
         if self.span.end <= first || last <= self.span.start {
             return;
@@ -157,14 +130,14 @@ impl Chunk {
     }
 
     /// Brings what the packs hold back to the records.
-    pub fn unload(&mut self) {
+    pub(super) fn unload(&mut self) {
         for pack in &self.packs {
             pack.unload(&mut self.records);
         }
     }
 
     /// Packs the near records that touch faces.
-    pub fn load(&mut self) {
+    pub(super) fn load(&mut self) {
         let faces = &self.near[..self.faces as usize];
         self.packs.clear();
         self.packs.extend(faces.chunks(LANES).map(|members| Pack::new(&self.records, members)));
@@ -189,7 +162,7 @@ impl Chunk {
     }
 
     /// Finds the closest feature of the records that are due, or nearly, and the records that may touch soon.
-    pub fn look(&mut self, step: &Step) {
+    pub(super) fn look(&mut self, step: &Step) {
         self.unload();
         self.ask(step, self.way_m + EARLY * step.reach.slack_m);
         let mut first = 0;
@@ -246,7 +219,7 @@ impl Chunk {
     }
 
     /// The closest feature of every record at the positions of a step: its position in the chunk, and the feature.
-    pub fn all(&mut self, step: &Step) -> Vec<(usize, Closest)> {
+    pub(super) fn all(&mut self, step: &Step) -> Vec<(usize, Closest)> {
         self.ask(step, f64::INFINITY);
         let mut found = Vec::with_capacity(self.records.len());
         let mut first = 0;

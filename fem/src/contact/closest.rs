@@ -24,7 +24,7 @@ pub(super) struct Closest {
     /// Corners within the element, in the order the feature uses them.
     pub corners: [u8; 3],
     /// Squared distance \[m²\].
-    pub square_m2: f64,
+    pub(crate) square_m2: f64,
     /// Distance, positive on the front \[m\].
     pub height_m: f64,
     /// Cosine between the way to the node and the normal; ±1 for faces.
@@ -77,7 +77,7 @@ pub(super) fn on_triangle(p: V3, a: V3, b: V3, c: V3) -> [f64; 3] {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Nearest {
     /// Squared distance \[m²\].
-    pub square_m2: f64,
+    pub(crate) square_m2: f64,
     pub half: usize,
     pub weights: [f64; 3],
 }

@@ -35,6 +35,7 @@
 //! Source: penalty contact as in Hallquist et al., Comput. Methods Appl. Mech. Eng. 51 (1985); side memory: this project.
 
 mod ask;
+mod body;
 mod build;
 mod chunk;
 mod closest;
@@ -54,16 +55,18 @@ use rayon::prelude::*;
 
 use crate::problem;
 use crate::terms::slide;
+use crate::transient::row;
 use crate::vec3::{dot, norm, scale};
 use crate::{FemError, Mesh};
 use crate::{Tick, Transient};
-use build::{Memory, Penalty};
-use chunk::{Chunk, Step, touch};
-use follow::{farthest_m, follow};
+pub use body::Contact;
+use build::Penalty;
+use chunk::{Chunk, touch};
+use follow::follow;
 pub(crate) use passed::Passage;
 use passed::Passed;
 use press::{Sums, motion, push};
-use record::{Reach, Record};
+use record::Reach;
 use surface::Surface;
 
 /// (ω dt)² of one pair. A node between two layers holds up to eight such shares: 0.4 of the 4 that central differences
@@ -75,28 +78,6 @@ const DAMPING: f64 = 0.1;
 /// Fewest nodes whose forces are handed over at once, and most pieces: every piece looks at all chunks near it.
 const PIECE: usize = 4096;
 const PIECES: usize = 8;
-
-/// Contact between the layers of a mesh.
-#[derive(Debug, Clone)]
-pub struct Contact {
-    surface: Surface,
-    penalty: Penalty,
-    reach: Reach,
-    friction: f64,
-    arch: pulp::Arch,
-    chunks: Vec<Chunk>,
-    /// Positions at the last search.
-    placed_m: Vec<[f64; 4]>,
-    /// Positions one step before; empty before the first step.
-    before_m: Vec<[f64; 4]>,
-    /// Positions now, during a step.
-    now_m: Vec<[f64; 4]>,
-    path_m: f64,
-    search_due_m: f64,
-    searches: u64,
-    sums: Sums,
-    passed: Passed,
-}
 
 impl Contact {
     /// Contact for a mesh in the solver's node order, with the nodes' masses and the time step.
@@ -157,63 +138,6 @@ impl Contact {
     pub(crate) fn passed(&self) -> (usize, usize, Option<(Passage, u32)>) {
         let part = |first: Passage| (first, self.surface.origin[first.element as usize].0);
         (self.passed.nodes.len(), self.surface.nodes, self.passed.first.map(part))
-    }
-
-    fn near(&self) -> impl Iterator<Item = &Record> {
-        self.chunks.iter().flat_map(|chunk| chunk.near.iter().map(|at| &chunk.records[*at as usize]))
-    }
-
-    fn step_of<'a>(&'a self, x: &'a [[f64; 4]], dt_s: f64) -> Step<'a> {
-        let before = if self.before_m.is_empty() { x } else { &self.before_m };
-        Step {
-            arch: self.arch,
-            surface: &self.surface,
-            x,
-            before,
-            reach: self.reach,
-            dt_s,
-            friction: self.friction,
-            path_m: self.path_m,
-        }
-    }
-
-    /// Searches again when some node may have moved more than half the skin.
-    fn search_if_due(&mut self, x: &[[f64; 4]]) {
-        if self.path_m < self.search_due_m {
-            return;
-        }
-        let left = 0.5 * self.reach.skin_m - farthest_m(x, &self.placed_m);
-        self.search_due_m = self.path_m + left;
-        if left <= 0.05 * self.reach.skin_m {
-            self.search(x);
-        }
-    }
-
-    fn search(&mut self, x: &[[f64; 4]]) {
-        let pairs = search::pairs(&self.surface, x, self.reach.side_m + self.reach.skin_m);
-        let arch = self.arch;
-        self.chunks.par_iter_mut().for_each(|chunk| {
-            chunk.unload();
-            chunk.close(arch, x);
-        });
-        let clear_m = if self.searches == 0 { f64::NEG_INFINITY } else { self.reach.side_m };
-        let old = Memory::new(std::mem::take(&mut self.chunks), x.len(), clear_m);
-        let (chunks, lost) = build::chunks(&self.surface, &pairs, &old, &self.penalty);
-        self.sums.friction += lost;
-        self.chunks = chunks;
-        self.placed_m.clear();
-        self.placed_m.extend_from_slice(x);
-        self.search_due_m = self.path_m + 0.5 * self.reach.skin_m;
-        self.searches += 1;
-        self.arrange();
-    }
-
-    /// Lists the chunks' nodes.
-    fn arrange(&mut self) {
-        let (surface, nodes) = (&self.surface, self.placed_m.len());
-        let mark = || vec![surface::NONE; nodes];
-        let chunks = self.chunks.par_iter_mut().enumerate();
-        chunks.for_each_init(mark, |mark, (i, chunk)| chunk.list(surface, i as u32, mark));
     }
 }
 
@@ -285,7 +209,6 @@ impl Transient for Contact {
     fn ledger(&self, at: &Pose) -> Vec<Row> {
         let first = self.before_m.is_empty();
         let stored = if first { self.add(at, &mut vec![0.0; at.q.len()]) } else { self.sums.stored };
-        let row = |name, account, kind, energy_j| Row { name, account, kind, energy_j };
         vec![
             row("contact", Account::Contact, RowKind::Stored, stored),
             row("friction", Account::Contact, RowKind::Dissipated, self.sums.friction),

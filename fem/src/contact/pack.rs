@@ -6,8 +6,7 @@
 
 use pulp::Simd;
 
-use super::chunk::Touch;
-use super::record::Record;
+use super::record::{Record, Touch};
 use crate::sheet::group::{LANES, Lane};
 use crate::sheet::lanes::{V, axes, inner, product};
 
@@ -18,12 +17,12 @@ pub(super) struct Pack {
     /// Node and the corners of the face.
     pub node: [[u32; LANES]; 4],
     pub sign: Lane,
-    pub rest_m: Lane,
-    pub stiffness_n_m: Lane,
-    pub damping_n_s_m: Lane,
+    pub(crate) rest_m: Lane,
+    pub(crate) stiffness_n_m: Lane,
+    pub(crate) damping_n_s_m: Lane,
     /// Depth and damping force of the step before.
     pub last_m: Lane,
-    pub damped_n: Lane,
+    pub(crate) damped_n: Lane,
     /// Position of the record in the chunk.
     pub record: [u32; LANES],
 }
@@ -32,17 +31,17 @@ pub(super) struct Pack {
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
 pub(super) struct Touches {
-    pub depth_m: Lane,
+    pub(crate) depth_m: Lane,
     pub normal: [Lane; 3],
     pub w1: Lane,
-    pub w2: Lane,
+    pub(crate) w2: Lane,
 }
 
 impl Touches {
-    pub const NONE: Touches = Touches { depth_m: [0.0; 8], normal: [[0.0; 8]; 3], w1: [0.0; 8], w2: [0.0; 8] };
+    pub(super) const NONE: Touches = Touches { depth_m: [0.0; 8], normal: [[0.0; 8]; 3], w1: [0.0; 8], w2: [0.0; 8] };
 
     #[inline(always)]
-    pub fn of(&self, lane: usize) -> Touch {
+    pub(super) fn of(&self, lane: usize) -> Touch {
         let (w1, w2) = (self.w1[lane], self.w2[lane]);
         let normal = [self.normal[0][lane], self.normal[1][lane], self.normal[2][lane]];
         Touch { depth_m: self.depth_m[lane], normal, weights: [1.0 - w1 - w2, w1, w2] }
@@ -51,7 +50,7 @@ impl Touches {
 
 impl Pack {
     /// Pairs of these records; unused lanes repeat the first pair with a gap that never closes.
-    pub fn new(records: &[Record], members: &[u32]) -> Pack {
+    pub(super) fn new(records: &[Record], members: &[u32]) -> Pack {
         let first = members.first().map_or(0, |at| *at);
         let of = |lane: usize| &records[members.get(lane).copied().unwrap_or(first) as usize];
         let lanes = |value: fn(&Record) -> f64| std::array::from_fn(|lane| value(of(lane)));
@@ -74,7 +73,7 @@ impl Pack {
     }
 
     /// Gives the records back what the step before left.
-    pub fn unload(&self, records: &mut [Record]) {
+    pub(super) fn unload(&self, records: &mut [Record]) {
         for lane in 0..LANES {
             if let Some(record) = records.get_mut(self.record[lane] as usize) {
                 (record.last_m, record.damped_n) = (self.last_m[lane], self.damped_n[lane]);
@@ -86,7 +85,7 @@ impl Pack {
 
     /// Depth, normal and weights of all lanes; false if none of them touches or did in the step before.
     #[inline(always)]
-    pub fn measure<S: Simd>(&self, simd: S, x: &[[f64; 4]], touches: &mut Touches) -> bool {
+    pub(super) fn measure<S: Simd>(&self, simd: S, x: &[[f64; 4]], touches: &mut Touches) -> bool {
         let mut any = false;
         for part in 0..LANES / S::F64_LANES {
             let (p, a) = (rows(simd, x, &self.node[0], part), rows(simd, x, &self.node[1], part));

@@ -39,7 +39,7 @@ impl Record {
 
 impl Passed {
     /// Takes over what the looks of a step found.
-    pub fn take(&mut self, chunks: &mut [Chunk], time_s: f64, x: &[[f64; 4]]) {
+    pub(super) fn take(&mut self, chunks: &mut [Chunk], time_s: f64, x: &[[f64; 4]]) {
         for (node, element) in chunks.iter_mut().flat_map(|chunk| chunk.passed.drain(..)) {
             let place_m = crate::vec3::node(x, node as usize);
             self.first.get_or_insert(Passage { node, element, time_s, place_m });
@@ -48,7 +48,7 @@ impl Passed {
     }
 
     /// Whether all of it is of a surface of so many nodes and elements.
-    pub fn fits(&self, nodes: u32, elements: u32) -> bool {
+    pub(super) fn fits(&self, nodes: u32, elements: u32) -> bool {
         let first = self.first.as_ref();
         self.nodes.iter().chain(first.map(|f| &f.node)).all(|n| *n < nodes)
             && first.is_none_or(|f| f.element < elements)

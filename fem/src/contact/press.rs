@@ -1,8 +1,7 @@
 //! Forces of pairs: spring, damping and friction, and the energies that go with them.
 
-use super::chunk::{Step, Touch};
 use super::pack::{Pack, Touches};
-use super::record::Record;
+use super::record::{Record, Step, Touch};
 use crate::terms::slide;
 use crate::vec3::{V3, add, along, node, scale, sub};
 
@@ -12,7 +11,6 @@ const GROWTH: f64 = 0.02;
 /// Force of a pair on its node; the corners of the triangle take their shares of its opposite.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Push {
-    /// Node, corners.
     pub nodes: [u32; 4],
     pub weights: [f64; 3],
     pub force_n: V3,
@@ -86,7 +84,6 @@ fn grow(k: f64, rest_m: f64, touch: &mut Touch, last_m: f64, step: &Step, sums: 
     by_m
 }
 
-/// The normal part of a pair.
 struct Spring {
     k: f64,
     /// Damping coefficient over the step.
@@ -119,7 +116,6 @@ fn positive(value: f64) -> f64 {
     if value > 0.0 { value } else { 0.0 }
 }
 
-/// Friction force of a pair.
 #[inline]
 fn rub(record: &mut Record, touch: &Touch, normal_n: f64, step: &Step, sums: &mut Sums) -> V3 {
     let k = record.stiffness_n_m;

@@ -10,17 +10,17 @@ pub(super) struct Reach {
     /// A side is decided, and remembered, within this distance.
     pub side_m: f64,
     /// Candidates are complete up to `side_m` while nodes move less than half of this.
-    pub skin_m: f64,
+    pub(crate) skin_m: f64,
     /// Nodes may move this much against each other between two looks at a pair that is nearly touching.
-    pub slack_m: f64,
+    pub(crate) slack_m: f64,
     /// Within this of a triangle its plane is used: there the surface is nearly flat.
     pub flat_m: f64,
     /// Rest gap of pairs that meet during the run.
     pub thickness_m: f64,
     /// Largest rest gap between elements of one layer, whose own mesh must not push itself.
-    pub own_layer_m: f64,
+    pub(crate) own_layer_m: f64,
     /// The rest gap of a pair that is pressed closer than this grows, lest the two meet.
-    pub floor_m: f64,
+    pub(crate) floor_m: f64,
     /// Nothing passes through anything, so the present side of a face is the right one.
     pub solid: bool,
 }
@@ -44,28 +44,28 @@ pub(super) struct Record {
     /// Sign that turns the measured distance into one that grows away from the layer on the remembered side.
     pub sign: f64,
     /// Distance that is kept now, and the one that is wanted \[m\].
-    pub rest_m: f64,
+    pub(crate) rest_m: f64,
     pub wanted_m: f64,
-    pub stiffness_n_m: f64,
-    pub damping_n_s_m: f64,
+    pub(crate) stiffness_n_m: f64,
+    pub(crate) damping_n_s_m: f64,
     /// Distance at the last look \[m\].
     pub distance_m: f64,
     /// Distance of the closest point at the last look, less the way of the chunk then: it is no farther off than this and
     /// the way now.
-    pub within_m: f64,
+    pub(crate) within_m: f64,
     /// Way of the chunk at which to look again.
-    pub due_m: f64,
+    pub(crate) due_m: f64,
     /// Elastic slide.
-    pub spring_m: V3,
+    pub(crate) spring_m: V3,
     /// Depth in the step before \[m\].
     pub last_m: f64,
     /// Damping force of the step before \[N\].
-    pub damped_n: f64,
+    pub(crate) damped_n: f64,
 }
 
 impl Record {
     /// Due at once.
-    pub const NEW: Record = Record {
+    pub(super) const NEW: Record = Record {
         node: 0,
         corners: [0; 3],
         element: 0,
@@ -89,31 +89,31 @@ impl Record {
     };
 
     /// True if the step before left something to account for.
-    pub fn holds(&self) -> bool {
+    pub(super) fn holds(&self) -> bool {
         self.damped_n != 0.0 || self.spring_m != [0.0; 3]
     }
 
     /// Way to go until it touches, as far as the last look told; the distance of an undecided pair.
-    pub fn gap_m(&self) -> f64 {
+    pub(super) fn gap_m(&self) -> f64 {
         if self.side == 0 { self.distance_m } else { self.distance_m - self.rest_m }
     }
 
     /// Motion of the node against the layer until the next look. Half of the way left, so that a far pair is looked at
     /// again well before it touches; an undecided pair may come near before its side is asked for.
-    pub fn free_m(&self, reach: &Reach) -> f64 {
+    pub(super) fn free_m(&self, reach: &Reach) -> f64 {
         let free_m = (0.5 * self.gap_m()).clamp(reach.slack_m, 0.25 * reach.side_m + reach.slack_m);
         if self.side == 0 { free_m.max(self.distance_m - reach.side_m) } else { free_m }
     }
 
     /// Energy of the elastic slide \[J\].
-    pub fn slide_j(&self) -> f64 {
+    pub(crate) fn slide_j(&self) -> f64 {
         let [x, y, z] = self.spring_m;
         0.5 * self.stiffness_n_m * (x * x + y * y + z * z)
     }
 
     /// After a change of feature: keeps the depth, lest the change push. A pair that is apart gets its gap back, as far
     /// as it is apart. Returns the energy that a reduced depth loses \[J\].
-    pub fn ease(&mut self, before_m: f64, now_m: f64) -> f64 {
+    pub(crate) fn ease(&mut self, before_m: f64, now_m: f64) -> f64 {
         let kept = before_m.max(0.0);
         let distance_m = self.rest_m - now_m;
         self.rest_m = self.wanted_m.min(distance_m + kept);
@@ -122,7 +122,7 @@ impl Record {
     }
 
     /// Takes the closest feature over; the side may be decided, released or reset.
-    pub fn settle(&mut self, surface: &Surface, found: &Closest, reach: &Reach) {
+    pub(super) fn settle(&mut self, surface: &Surface, found: &Closest, reach: &Reach) {
         self.element = found.element;
         self.feature = found.feature;
         let nodes = &surface.elements[found.element as usize];
@@ -160,4 +160,26 @@ fn signed(record: &Record, found: &Closest, distance: f64) -> f64 {
         Feature::Face => record.sign * found.height_m,
         _ => record.sign * distance,
     }
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct Step<'a> {
+    pub(crate) arch: pulp::Arch,
+    pub surface: &'a Surface,
+    pub x: &'a [[f64; 4]],
+    pub before: &'a [[f64; 4]],
+    pub reach: Reach,
+    pub dt_s: f64,
+    pub friction: f64,
+    /// Way of the fastest node since the start, summed over steps.
+    pub(crate) path_m: f64,
+}
+
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Touch {
+    /// Rest gap minus distance.
+    pub(crate) depth_m: f64,
+    /// Way in which the distance grows.
+    pub normal: V3,
+    pub weights: [f64; 3],
 }

@@ -1,6 +1,6 @@
 //! Contact as bytes and back.
 
-use super::Contact;
+use super::body::Contact;
 use super::chunk::Chunk;
 use super::closest::Feature;
 use super::passed::Passed;

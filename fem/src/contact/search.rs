@@ -6,7 +6,6 @@ use rayon::prelude::*;
 use super::surface::{NONE, Surface};
 use crate::vec3::{V3, dot, node, sub};
 
-/// Elements per parallel piece.
 const PIECE: usize = 1024;
 
 /// All (node, element) with the node within `radius_m` of the element (and some beyond), sorted by rank of the node, then
@@ -86,7 +85,6 @@ fn ask(
     }
 }
 
-/// Columns per point at most.
 const COLUMNS: f64 = 4.0;
 
 /// Points sorted into columns along the direction in which they are spread least.
@@ -109,7 +107,7 @@ pub(super) struct Placed {
 
 impl Grid {
     /// Columns of `size_m`, or wider ones where the points are spread so thin that there would be too many.
-    pub fn new(places: Vec<Placed>, size_m: f64) -> Grid {
+    pub(super) fn new(places: Vec<Placed>, size_m: f64) -> Grid {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for Placed { place: p, .. } in &places {
             (0..3).for_each(|k| (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k])));
@@ -149,7 +147,7 @@ impl Grid {
 
     /// Points of all columns that a box from `low` to `high` meets, row by row: columns hold few points and those of a row
     /// lie together, so that looking at all of them is faster than looking for the first and the last.
-    pub fn rows(&self, low: V3, high: V3) -> impl Iterator<Item = &[Placed]> {
+    pub(super) fn rows(&self, low: V3, high: V3) -> impl Iterator<Item = &[Placed]> {
         let (from, to) = (self.column_of(low), self.column_of(high));
         (from[0]..=to[0]).map(move |i| {
             let (first, last) = (self.number([i, from[1]]), self.number([i, to[1]]));

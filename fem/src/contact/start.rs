@@ -7,7 +7,7 @@
 //! number lies in front of the one with the lower number; a layer that coincides with itself has its back inside.
 //! The rest gap is the initial distance or `gap_m`, whichever is smaller, so that nothing pushes at the start.
 
-use super::Contact;
+use super::body::Contact;
 use super::chunk::touch;
 use super::closest::{Closest, element_normal};
 use super::surface::Lists;

@@ -28,11 +28,9 @@ pub(super) struct Surface {
     pub rank: Vec<u32>,
     /// Reference area of each node \[m²\].
     pub area_m2: Vec<f64>,
-    /// Mean edge length \[m\].
     pub size_m: f64,
 }
 
-/// Short lists one after the other.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Lists {
     start: Vec<u32>,
@@ -41,7 +39,7 @@ pub(super) struct Lists {
 
 impl Lists {
     /// Sorts `pairs` (list, item) into lists, keeping the order within each.
-    pub fn new(lists: usize, pairs: &[(u32, u32)]) -> Lists {
+    pub(super) fn new(lists: usize, pairs: &[(u32, u32)]) -> Lists {
         let mut start = vec![0; lists + 1];
         pairs.iter().for_each(|p| start[p.0 as usize + 1] += 1);
         (0..lists).for_each(|i| start[i + 1] += start[i]);
@@ -55,7 +53,7 @@ impl Lists {
         Lists { start, items }
     }
     #[inline]
-    pub fn of(&self, i: usize) -> &[u32] {
+    pub(super) fn of(&self, i: usize) -> &[u32] {
         &self.items[self.start[i] as usize..self.start[i + 1] as usize]
     }
 }
@@ -64,7 +62,7 @@ impl Lists {
 type Edge = (u32, u32, u32);
 
 impl Surface {
-    pub fn new(mesh: &Mesh, parts: &[String]) -> Result<Surface, FemError> {
+    pub(super) fn new(mesh: &Mesh, parts: &[String]) -> Result<Surface, FemError> {
         let mut surface = Surface::default();
         if let Some(name) = parts.iter().find(|name| mesh.parts.iter().all(|part| part.name != **name)) {
             let known: Vec<_> = mesh.parts.iter().map(|part| part.name.as_str()).collect();
@@ -90,23 +88,23 @@ impl Surface {
 
     /// Corners of an element: 3 or 4.
     #[inline]
-    pub fn corners(&self, element: usize) -> &[u32] {
+    pub(super) fn corners(&self, element: usize) -> &[u32] {
         let nodes = &self.elements[element];
         if nodes[3] == NONE { &nodes[..3] } else { nodes }
     }
     /// How messages call an element.
-    pub fn name(&self, mesh: &Mesh, element: usize) -> String {
+    pub(super) fn name(&self, mesh: &Mesh, element: usize) -> String {
         let (part, i) = self.origin[element];
         format!("element {} of part {:?}", i + 1, mesh.parts[part as usize].name)
     }
     /// Least mass of each element's corners that are free to move (infinite without one).
-    pub fn lightest(&self, mass_kg: &[f64]) -> Vec<f64> {
+    pub(super) fn lightest(&self, mass_kg: &[f64]) -> Vec<f64> {
         let free = |n: &u32| Some(mass_kg[*n as usize]).filter(|m| *m > 0.0);
         let of = |e: usize| self.corners(e).iter().filter_map(free).fold(f64::INFINITY, f64::min);
         (0..self.elements.len()).map(of).collect()
     }
     /// True if `node` is a corner of an element of `layer`.
-    pub fn is_in(&self, node: usize, layer: u32) -> bool {
+    pub(super) fn is_in(&self, node: usize, layer: u32) -> bool {
         self.around.of(node).iter().any(|e| self.layer[*e as usize] == layer)
     }
 

@@ -2,6 +2,6 @@
 
 mod hand_over;
 mod laws;
-pub mod rig;
+pub(crate) mod rig;
 mod runs;
 mod start;

@@ -137,7 +137,6 @@ fn ends(mesh: &Mesh, edges: &Edges, open: [bool; 3]) -> [Vec<f64>; 3] {
     all.map(|places| uncounted(places, open.next() == Some(true)))
 }
 
-/// Turns an element over.
 fn turn(part: &mut Part, i: usize) {
     let quads = part.quads.len();
     match part.quads.get_mut(i) {

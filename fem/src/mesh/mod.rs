@@ -18,6 +18,8 @@ pub use enclose::enclose;
 
 use std::collections::BTreeMap;
 
+use crate::FemError;
+
 /// Nodes and elements in their stress-free shape. Node numbers count from 0 here and from 1 in files and messages.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mesh {
@@ -82,8 +84,12 @@ impl Part {
             None => &self.triangles[i - self.quads.len()],
         }
     }
+    /// Nodes of every element, quads first.
+    pub(crate) fn faces(&self) -> impl Iterator<Item = &[u32]> {
+        self.quads.iter().map(|quad| &quad[..]).chain(self.triangles.iter().map(|triangle| &triangle[..]))
+    }
     /// Warp direction given for element `i`, if any.
-    pub fn warp_of(&self, i: usize) -> Option<[f64; 3]> {
+    pub(crate) fn warp_of(&self, i: usize) -> Option<[f64; 3]> {
         match self.warp.len() {
             0 => None,
             1 => Some(self.warp[0]),
@@ -97,8 +103,40 @@ impl Mesh {
     pub fn elements(&self) -> usize {
         self.parts.iter().map(Part::len).sum()
     }
+    /// Nodes of every element, part after part.
+    pub(crate) fn faces(&self) -> impl Iterator<Item = &[u32]> {
+        self.parts.iter().flat_map(Part::faces)
+    }
+    /// Nodes of a set that `what` asks for.
+    ///
+    /// # Errors
+    /// Unknown or empty set, with the names there are.
+    pub(crate) fn set(&self, name: &str, what: &str) -> Result<&[u32], FemError> {
+        match self.sets.get(name) {
+            Some(nodes) if !nodes.is_empty() => Ok(nodes),
+            Some(_) => Err(FemError::Problem(format!("{what}: node set `{name}` is empty"))),
+            None => {
+                let known = self.sets.keys().map(String::as_str).collect::<Vec<_>>().join(", ");
+                let message = format!("{what}: there is no node set `{name}`; the mesh has {known}");
+                Err(FemError::Problem(message))
+            }
+        }
+    }
+    /// Mean displacement of nodes from where they start \[m\], for node positions in mesh order.
+    pub(crate) fn mean_moved(&self, nodes: &[u32], positions: &[[f64; 3]]) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for node in nodes {
+            let (now, start) = (positions[*node as usize], self.start_of(*node as usize));
+            (0..3).for_each(|k| sum[k] += (now[k] - start[k]) / nodes.len() as f64);
+        }
+        sum
+    }
+    /// Where all nodes start.
+    pub(crate) fn starts(&self) -> Vec<[f64; 3]> {
+        (0..self.points.len()).map(|node| self.start_of(node)).collect()
+    }
     /// Where the membrane at node `i` is free of stress.
-    pub fn free_of(&self, i: usize) -> [f64; 3] {
+    pub(crate) fn free_of(&self, i: usize) -> [f64; 3] {
         if self.membrane.is_empty() { self.points[i] } else { self.membrane[i] }
     }
     /// Where node `i` starts.

@@ -119,18 +119,18 @@ pub(crate) struct CentreLineFile {
 
 impl CentreLineFile {
     /// Refuses a file that [`CentreLineFile::open`] refuses, and touches nothing.
-    pub fn check(path: &Path, line: &CentreLine, times_s: &[f64]) -> Result<(), FemError> {
+    pub(crate) fn check(path: &Path, line: &CentreLine, times_s: &[f64]) -> Result<(), FemError> {
         Table::check(path, times_s, line.stations_m.len())
     }
 
     /// The file after the rows of `times_s` \[s\], which a checkpoint knows of; later ones are dropped.
-    pub fn open(path: &Path, line: CentreLine, times_s: &[f64]) -> Result<CentreLineFile, FemError> {
+    pub(crate) fn open(path: &Path, line: CentreLine, times_s: &[f64]) -> Result<CentreLineFile, FemError> {
         let table = Table::open(path, times_s, line.stations_m.len())?;
         Ok(CentreLineFile { line, table })
     }
 
     /// Adds one row per station; a step that is in the file already is not written again.
-    pub fn append(&mut self, step: u64, time_s: f64, positions: &[[f64; 3]]) -> Result<(), FemError> {
+    pub(crate) fn append(&mut self, step: u64, time_s: f64, positions: &[[f64; 3]]) -> Result<(), FemError> {
         let mut rows = String::new();
         for (point, station) in self.line.at(positions)?.iter().zip(&self.line.stations_m) {
             if !point.iter().all(|x| x.is_finite()) {
@@ -144,7 +144,7 @@ impl CentreLineFile {
     }
 
     /// Waits until the disk has all rows; to be called before a checkpoint is written.
-    pub fn sync(&self) -> Result<(), FemError> {
+    pub(crate) fn sync(&self) -> Result<(), FemError> {
         self.table.sync()
     }
 }
@@ -192,7 +192,7 @@ impl<'a> Sections<'a> {
     }
 
     fn elements(&self) -> impl Iterator<Item = &[u32]> {
-        self.chosen.iter().flat_map(|part| (0..part.len()).map(|i| part.nodes(i)))
+        self.chosen.iter().flat_map(|part| part.faces())
     }
 
     fn range(&self) -> (f64, f64) {

@@ -27,33 +27,29 @@ const END: &str = "checkpoint.end";
 
 /// Everything a checkpoint holds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Checkpoint {
+pub(crate) struct Checkpoint {
     /// Number that stands for the problem; a run of another problem must not go on from here.
     pub fingerprint: u64,
-    /// Steps done.
     pub step: u64,
-    /// Time \[s\].
     pub time_s: f64,
     /// What [`crate::Simulation::save`] gave.
     pub payload: Vec<u8>,
 }
 
-/// A checkpoint that was read.
 #[derive(Debug, Clone, PartialEq)]
-pub struct LoadedCheckpoint {
-    /// It.
+pub(crate) struct LoadedCheckpoint {
     pub checkpoint: Checkpoint,
     /// Set if the newest one was not good and the one before it is used instead: what to tell the user.
-    pub notice: Option<String>,
+    pub(crate) notice: Option<String>,
 }
 
 /// Writes `checkpoint` to `folder`, which is created; the one before it is kept.
-pub fn write_checkpoint(folder: &Path, checkpoint: &Checkpoint) -> Result<PathBuf, FemError> {
+pub(crate) fn write_checkpoint(folder: &Path, checkpoint: &Checkpoint) -> Result<PathBuf, FemError> {
     write_through(folder, checkpoint, &mut |out, bytes| out.write_all(bytes))
 }
 
 /// Reads the newest good checkpoint of the problem with this `fingerprint`; `None` if the folder has none.
-pub fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<LoadedCheckpoint>, FemError> {
+pub(crate) fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<LoadedCheckpoint>, FemError> {
     let (newest, previous) = names(folder);
     let fault = match read_file(&newest, fingerprint)? {
         Found::Good(checkpoint) => return Ok(Some(LoadedCheckpoint { checkpoint, notice: None })),
@@ -79,16 +75,16 @@ pub fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<LoadedC
 }
 
 /// Writes the end of a complete run to `folder`; its `fingerprint` is that of the structure.
-pub fn write_end(folder: &Path, end: &Checkpoint) -> Result<(), FemError> {
+pub(crate) fn write_end(folder: &Path, end: &Checkpoint) -> Result<(), FemError> {
     replace(&folder.join(END), &mut |out| out.write_all(&encode(end)))
 }
 
 /// Reads the end of the complete run in a folder, with the bytes of the file; `None` if it keeps none.
-pub fn read_end(folder: &Path) -> Result<Option<(Checkpoint, Vec<u8>)>, FemError> {
+pub(crate) fn read_end(folder: &Path) -> Result<Option<(Checkpoint, Vec<u8>)>, FemError> {
     let path = folder.join(END);
     let bytes = match std::fs::read(&path) {
         Err(source) if source.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-        read => read.map_err(|source| FemError::Io { path: path.clone(), source })?,
+        read => read.map_err(FemError::io(&path))?,
     };
     match decode(&bytes, None) {
         Found::Good(end) => Ok(Some((end, bytes))),
@@ -123,14 +119,12 @@ fn write_through(folder: &Path, checkpoint: &Checkpoint, put: Put) -> Result<Pat
         std::fs::rename(&partial, &newest)?;
         sync_folder(folder)
     });
-    match replaced {
-        Ok(()) => Ok(newest),
-        Err(source) => {
-            // The first failure is the one to report.
-            let _ = std::fs::remove_file(&partial);
-            Err(FemError::Io { path: newest, source })
-        }
-    }
+    replaced.map_err(|source| {
+        // The first failure is the one to report.
+        let _ = std::fs::remove_file(&partial);
+        FemError::io(&newest)(source)
+    })?;
+    Ok(newest)
 }
 
 fn encode(checkpoint: &Checkpoint) -> Vec<u8> {
@@ -150,7 +144,7 @@ fn read_file(path: &Path, fingerprint: u64) -> Result<Found, FemError> {
     match std::fs::read(path) {
         Ok(bytes) => Ok(decode(&bytes, Some(fingerprint))),
         Err(source) if source.kind() == std::io::ErrorKind::NotFound => Ok(Found::Nothing),
-        Err(source) => Err(FemError::Io { path: path.to_path_buf(), source }),
+        Err(source) => Err(FemError::io(path)(source)),
     }
 }
 

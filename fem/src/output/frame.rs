@@ -5,28 +5,21 @@ use crate::{FemError, Mesh, Simulation};
 
 /// The state of all nodes and elements at one moment, in mesh order.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Frame {
-    /// Steps done.
+pub(crate) struct Frame {
     pub step: u64,
-    /// Time \[s\].
     pub time_s: f64,
-    /// Positions \[m\].
     pub positions: Vec<[f64; 3]>,
-    /// Velocities \[m/s\].
     pub velocities: Vec<[f64; 3]>,
-    /// Element results.
     pub fields: ElementFields,
     /// Contact pressure at every node \[Pa\]; empty without contact.
     pub contact_pressure_pa: Vec<f64>,
-    /// Chambers.
     pub chambers: Vec<ChamberState>,
     /// Pressure of the hold that the moment leads to or lies in \[Pa\], of a robot that is read at holds.
     pub hold_pa: Option<f64>,
 }
 
 impl Frame {
-    /// The present state of a run.
-    pub fn of(run: &Simulation) -> Frame {
+    pub(crate) fn of(run: &Simulation) -> Frame {
         Frame {
             step: run.step(),
             time_s: run.time_s(),
@@ -40,7 +33,7 @@ impl Frame {
     }
 
     /// Checks that the frame fits the mesh and that every number is finite.
-    pub fn check(&self, mesh: &Mesh) -> Result<(), FemError> {
+    pub(crate) fn check(&self, mesh: &Mesh) -> Result<(), FemError> {
         let (nodes, elements) = (mesh.points.len(), mesh.elements());
         let Frame { fields, .. } = self;
         self.finite("time", "run", 1, [self.time_s].iter().map(std::slice::from_ref))?;

@@ -4,7 +4,7 @@ use super::*;
 use crate::Part;
 
 /// Two parts: a quad and a triangle sharing an edge, then one more triangle.
-pub fn mesh() -> Mesh {
+pub(crate) fn mesh() -> Mesh {
     let points = vec![[0., 0., 0.], [0.1, 0., 0.], [0.1, 0.1, 0.], [0., 0.1, 0.], [0.2, 0.05, 0.], [0., 0.2, 0.03]];
     let body = Part { name: "body".into(), quads: vec![[0, 1, 2, 3]], triangles: vec![[1, 4, 2]], ..Part::default() };
     let cap = Part { name: "cap".into(), triangles: vec![[3, 2, 5]], ..Part::default() };
@@ -12,7 +12,7 @@ pub fn mesh() -> Mesh {
 }
 
 /// Numbers without pattern or round values.
-pub fn frame(time_s: f64) -> Frame {
+pub(crate) fn frame(time_s: f64) -> Frame {
     let mesh = mesh();
     let noise = |i: usize, k: usize| ((i * 7 + k * 13 + 1) as f64 * 0.7 + time_s).sin();
     let triple = |i: usize| [noise(i, 0), noise(i, 1), noise(i, 2)];
@@ -40,7 +40,7 @@ pub fn frame(time_s: f64) -> Frame {
 }
 
 /// Every way in which one number of a frame is not finite, or one value too many.
-pub fn spoilt() -> Vec<(&'static str, Frame)> {
+pub(crate) fn spoilt() -> Vec<(&'static str, Frame)> {
     let mut all: Vec<(&'static str, Frame)> = Vec::new();
     let mut add = |name: &'static str, change: &dyn Fn(&mut Frame)| {
         let mut bad = frame(0.5);

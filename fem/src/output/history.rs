@@ -24,18 +24,12 @@ use crate::{FemError, Mesh, Simulation};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// What one row is made of.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Record {
-    /// Steps done.
+pub(crate) struct Record {
     pub step: u64,
-    /// Time \[s\].
     pub time_s: f64,
-    /// Step length \[s\].
     pub dt_s: f64,
-    /// Energy balance.
     pub ledger: Ledger,
-    /// Chambers.
     pub chambers: Vec<ChamberState>,
     /// What supports do to the structure.
     pub reactions: Vec<Reaction>,
@@ -44,8 +38,7 @@ pub struct Record {
 }
 
 impl Record {
-    /// The present state of a run.
-    pub fn of(run: &Simulation) -> Record {
+    pub(crate) fn of(run: &Simulation) -> Record {
         Record {
             step: run.step(),
             time_s: run.time_s(),
@@ -58,9 +51,8 @@ impl Record {
     }
 }
 
-/// The growing file.
 #[derive(Debug)]
-pub struct History {
+pub(crate) struct History {
     table: Table,
     probes: Vec<Probe>,
 }
@@ -75,18 +67,18 @@ struct Probe {
 impl History {
     /// The history after the rows of `times_s` \[s\], which a checkpoint knows of, with the node sets of `mesh` named in `probes`;
     /// later rows are dropped.
-    pub fn open(path: &Path, mesh: &Mesh, probes: &[String], times_s: &[f64]) -> Result<History, FemError> {
+    pub(crate) fn open(path: &Path, mesh: &Mesh, probes: &[String], times_s: &[f64]) -> Result<History, FemError> {
         let probes = find_probes(mesh, probes)?;
         Ok(History { table: Table::open(path, times_s, 1)?, probes })
     }
 
     /// Refuses a file that [`History::open`] refuses, and touches nothing.
-    pub fn check(path: &Path, times_s: &[f64]) -> Result<(), FemError> {
+    pub(crate) fn check(path: &Path, times_s: &[f64]) -> Result<(), FemError> {
         Table::check(path, times_s, 1)
     }
 
     /// Adds a row; a step that has a row already is not written again.
-    pub fn append(&mut self, record: &Record) -> Result<(), FemError> {
+    pub(crate) fn append(&mut self, record: &Record) -> Result<(), FemError> {
         let cells = self.cells(record)?;
         if let Some((name, value)) = cells.iter().find(|(_, value)| !value.is_finite()) {
             let reason = format!("{name} is {value}: try a smaller cfl or slower loading");
@@ -100,7 +92,7 @@ impl History {
     }
 
     /// Waits until the disk has all rows; to be called before a checkpoint is written.
-    pub fn sync(&self) -> Result<(), FemError> {
+    pub(crate) fn sync(&self) -> Result<(), FemError> {
         self.table.sync()
     }
 

@@ -13,14 +13,14 @@
 //! full disk or a kill never meets half a file. Tables grow line by line and are cut back to the checkpoint on resume:
 //! an interrupted and resumed run leaves the same bytes as an uninterrupted one.
 
-pub mod centre_line;
-pub mod checkpoint;
-pub mod deck;
+pub(crate) mod centre_line;
+pub(crate) mod checkpoint;
+pub(crate) mod deck;
 mod frame;
-pub mod history;
-pub mod picture;
-pub mod pvd;
+pub(crate) mod history;
+pub(crate) mod picture;
+pub(crate) mod pvd;
 mod table;
-pub mod vtu;
+pub(crate) mod vtu;
 
-pub use frame::Frame;
+pub(crate) use frame::Frame;

@@ -9,7 +9,7 @@ use crate::{FemError, Mesh};
 
 /// A growing series of frames in one folder.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Series {
+pub(crate) struct Series {
     folder: PathBuf,
     times_s: Vec<f64>,
 }
@@ -17,7 +17,7 @@ pub struct Series {
 impl Series {
     /// The series in `folder`, which is created, after the frames of `times_s` \[s\]: the list is written anew, and later frames as the
     /// run reaches them.
-    pub fn open(folder: &Path, times_s: &[f64]) -> Result<Series, FemError> {
+    pub(crate) fn open(folder: &Path, times_s: &[f64]) -> Result<Series, FemError> {
         let missing = (0..times_s.len()).map(|index| folder.join(file_name(index))).find(|path| !path.is_file());
         if let Some(path) = missing {
             return Err(FemError::Problem(format!(
@@ -33,7 +33,7 @@ impl Series {
     }
 
     /// Adds a frame: its file first, then the list that names it. A frame of the time of the last one replaces it.
-    pub fn push(&mut self, mesh: &Mesh, frame: &Frame) -> Result<PathBuf, FemError> {
+    pub(crate) fn push(&mut self, mesh: &Mesh, frame: &Frame) -> Result<PathBuf, FemError> {
         let last = self.times_s.last().copied();
         if last.is_some_and(|last| frame.time_s < last) {
             let reason = format!("a frame of {} s is in the list already", last.unwrap_or_default());

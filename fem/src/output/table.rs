@@ -1,7 +1,7 @@
 //! A CSV file that grows as the run does and is cut back to the checkpoint on resume.
 
 use std::fs::{File, OpenOptions};
-use std::io::{Error, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::FemError;
@@ -19,7 +19,7 @@ pub(super) struct Table {
 impl Table {
     /// The table after the outputs at `times_s` \[s\], of so many rows each, which must be there: later rows, and a last line that a
     /// kill cut short, are dropped. Without any output it is empty, whatever was there.
-    pub fn open(path: &Path, times_s: &[f64], rows_each: usize) -> Result<Table, FemError> {
+    pub(super) fn open(path: &Path, times_s: &[f64], rows_each: usize) -> Result<Table, FemError> {
         let text = content(path)?;
         let (header, last_step, kept) = kept(path, &text, times_s, rows_each)?;
         if kept.len() < text.len() || !path.exists() {
@@ -29,17 +29,17 @@ impl Table {
     }
 
     /// Refuses what [`Table::open`] refuses, and touches nothing.
-    pub fn check(path: &Path, times_s: &[f64], rows_each: usize) -> Result<(), FemError> {
+    pub(super) fn check(path: &Path, times_s: &[f64], rows_each: usize) -> Result<(), FemError> {
         kept(path, &content(path)?, times_s, rows_each).map(|_| ())
     }
 
     fn append_to(path: &Path, header: String, last_step: Option<u64>) -> Result<Table, FemError> {
-        let file = OpenOptions::new().append(true).open(path).map_err(|source| io(path, source))?;
+        let file = OpenOptions::new().append(true).open(path).map_err(FemError::io(path))?;
         Ok(Table { path: path.to_path_buf(), file, header, last_step })
     }
 
     /// Adds the rows (each ending in a newline) of one step. A step that is in the table already is not written again.
-    pub fn append(&mut self, step: u64, header: &str, rows: &str) -> Result<(), FemError> {
+    pub(super) fn append(&mut self, step: u64, header: &str, rows: &str) -> Result<(), FemError> {
         if self.last_step == Some(step) || rows.is_empty() {
             return Ok(());
         }
@@ -58,15 +58,15 @@ impl Table {
             )));
         }
         let text = if first { format!("{header}\n{rows}") } else { rows.to_string() };
-        self.file.write_all(text.as_bytes()).map_err(|source| io(&self.path, source))?;
+        self.file.write_all(text.as_bytes()).map_err(FemError::io(&self.path))?;
         self.header = header.to_string();
         self.last_step = Some(step);
         Ok(())
     }
 
     /// Waits until the disk has all rows; to be called before a checkpoint is written.
-    pub fn sync(&self) -> Result<(), FemError> {
-        self.file.sync_all().map_err(|source| io(&self.path, source))
+    pub(super) fn sync(&self) -> Result<(), FemError> {
+        self.file.sync_all().map_err(FemError::io(&self.path))
     }
 }
 
@@ -115,12 +115,8 @@ pub(super) fn check_label(label: &str, what: &str) -> Result<(), FemError> {
     Ok(())
 }
 
-fn io(path: &Path, source: Error) -> FemError {
-    FemError::Io { path: path.to_path_buf(), source }
-}
-
 fn content(path: &Path) -> Result<String, FemError> {
-    if path.exists() { std::fs::read_to_string(path).map_err(|source| io(path, source)) } else { Ok(String::new()) }
+    if path.exists() { std::fs::read_to_string(path).map_err(FemError::io(path)) } else { Ok(String::new()) }
 }
 
 /// Header, last step and rows that an interrupted run goes on after.

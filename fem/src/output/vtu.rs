@@ -45,7 +45,7 @@ const PLACE_BITS: i32 = 17;
 const DIRECTION: f64 = 127.0;
 
 /// Writes one frame to `path`, whole or not at all.
-pub fn write_vtu(path: &Path, mesh: &Mesh, frame: &Frame) -> Result<(), FemError> {
+pub(crate) fn write_vtu(path: &Path, mesh: &Mesh, frame: &Frame) -> Result<(), FemError> {
     frame.check(mesh)?;
     let bytes = Grid::of(mesh, frame);
     replace(path, &mut |out| bytes.write(out))
@@ -200,7 +200,6 @@ fn step_mm(mesh: &Mesh) -> f64 {
     if largest > 0.0 { 2_f64.powi(largest.log2().floor() as i32 - PLACE_BITS) } else { 2_f64.powi(-PLACE_BITS) }
 }
 
-/// The nearest whole number of steps.
 fn on_steps(value: f64, step: f64) -> f32 {
     ((value / step).round() * step) as f32
 }

@@ -32,7 +32,7 @@ impl Problem {
     }
 
     /// The same, whatever the time at which the run ends.
-    pub fn fingerprint_of_any_length(&self) -> u64 {
+    pub(crate) fn fingerprint_of_any_length(&self) -> u64 {
         let mut plain = self.clone();
         plain.settings.end_s = 0.0;
         plain.fingerprint()
@@ -40,7 +40,7 @@ impl Problem {
 
     /// A number that two problems share if a run of one can go on from the end of the other: mesh, sections, what is held, contact and
     /// numerics agree. Pressures, forces, gravity, obstacles, amplitudes of supports, guards, patience, end time and outputs may differ.
-    pub fn fingerprint_of_structure(&self) -> u64 {
+    pub(crate) fn fingerprint_of_structure(&self) -> u64 {
         let mut plain = self.clone();
         plain.name.clear();
         (plain.forces, plain.gravity, plain.obstacles) = (Vec::new(), None, Vec::new());
@@ -67,7 +67,7 @@ impl Problem {
     }
 
     /// All loads at a time \[s\] that the problem sets; a sealed chamber's pressure follows its volume and is none of them.
-    pub fn loads_at(&self, time_s: f64) -> Loads {
+    pub(crate) fn loads_at(&self, time_s: f64) -> Loads {
         let mut loads = Loads::new();
         for chamber in &self.chambers {
             let set = match &chamber.pressure {

@@ -17,13 +17,13 @@ pub(crate) struct Solid {
 
 /// Where a node is with respect to a solid.
 pub(crate) struct Touch {
-    pub depth_m: f64,
+    pub(crate) depth_m: f64,
     pub normal: V3,
 }
 
 impl Solid {
     /// The solid of obstacle `index` (from 0).
-    pub fn new(index: usize, obstacle: &Obstacle) -> Result<Solid, FemError> {
+    pub(crate) fn new(index: usize, obstacle: &Obstacle) -> Result<Solid, FemError> {
         let bad = |what: &str| FemError::Problem(format!("obstacle {}: {what}", index + 1));
         if !(obstacle.friction >= 0.0 && obstacle.friction.is_finite()) {
             return Err(bad("friction must be 0 or more"));
@@ -41,8 +41,7 @@ impl Solid {
         let axis = unit(axis).ok_or_else(|| bad("its normal or axis has no length; write for example [0, 0, 1]"))?;
         Ok(Solid { point, axis, radius_m, friction: obstacle.friction })
     }
-    /// Depth and normal of a node.
-    pub fn touch(&self, x: &[f64; 4]) -> Touch {
+    pub(crate) fn touch(&self, x: &[f64; 4]) -> Touch {
         let r = sub([x[0], x[1], x[2]], self.point);
         let height = dot(r, self.axis);
         let Some(radius) = self.radius_m else { return Touch { depth_m: -height, normal: self.axis } };

@@ -5,20 +5,19 @@
 //! each, in an order that is drawn for every number anew; within its part a number is drawn, too. So n robots say about each number what n
 //! values say, whatever the others do. Reference: McKay, Beckman, Conover 1979.
 
-use super::RobotSettings;
 use crate::random::Draws;
 
 /// A number that nobody printed, and the interval it may lie in.
 #[derive(Debug, Clone, Copy)]
 pub struct Assumed {
+    /// Its key in [`super::KEYS`].
+    pub key: &'static str,
     /// Smallest and largest plausible value, SI.
     pub interval: [f64; 2],
     /// How values are spread over it.
     pub spread: Spread,
     /// Where the interval comes from.
     pub reason: &'static str,
-    /// Writes a value.
-    pub set: fn(&mut RobotSettings, f64),
 }
 
 /// How values are spread over an interval.
@@ -41,88 +40,31 @@ impl Assumed {
     }
 }
 
-/// What the four robots leave open, besides pouch count and marker stations, which are in the scenario.
+const fn assumed(key: &'static str, interval: [f64; 2], spread: Spread, reason: &'static str) -> Assumed {
+    Assumed { key, interval, spread, reason }
+}
+
+/// What the four robots leave open, besides pouch count and marker stations, which are in the scenario. Then numerical settings that move
+/// a tip by more than 1 % when they are a third or three times as large (`ibr simulate epam --numerics`).
+#[rustfmt::skip]
 pub const ASSUMED: &[Assumed] = &[
-    Assumed {
-        interval: [0.0, 0.008],
-        spread: Spread::Even,
-        reason: "a line to a wide impulse seal; ultrasonic wheels are a few millimetres wide",
-        set: |s, v| s.weld_m = v,
-    },
-    Assumed {
-        interval: [0.1, 0.5],
-        spread: Spread::Factor,
-        reason: "droop of a heat-bondable coated nylon, measured by Farrell et al.",
-        set: |s, v| s.bending_factor = v,
-    },
-    Assumed {
-        interval: [0.5, 1.0],
-        spread: Spread::Even,
-        reason: "wrinkles from the strip's edge to the taut line, or half as far; their load follows from it, bending and hoop tension",
-        set: |s, v| s.wrinkle_length = Some(v),
-    },
-    Assumed {
-        interval: [0.0, 1.0],
-        spread: Spread::Even,
-        reason: "plies that slide to plies without slip; shear lag through 0.05 mm of adhesive is about 2 mm",
-        set: |s, v| s.bond = v,
-    },
-    Assumed {
-        interval: [2e-5, 2.5e-4],
-        spread: Spread::Factor,
-        reason: "adhesive transfer tapes are sold from 0.02 to 0.25 mm",
-        set: |s, v| s.tape_m = v,
-    },
-    Assumed {
-        interval: [0.0, 0.015],
-        spread: Spread::Even,
-        reason: "a sheet cut at its welds to one that is easy to tape",
-        set: |s, v| s.tape_margin_m = v,
-    },
-    Assumed {
-        interval: [0.0, 2e-4],
-        spread: Spread::Even,
-        reason: "a perfect pattern to a thickness of the fabric",
-        set: |s, v| s.waviness_m = v,
-    },
-    Assumed {
-        interval: [5e-5, 5e-4],
-        spread: Spread::Factor,
-        reason: "a film spread by hand",
-        set: |s, v| s.glue_m = v,
-    },
-    Assumed { interval: [3e5, 3e6], spread: Spread::Factor, reason: "silicone adhesives", set: |s, v| s.glue_e_pa = v },
-    Assumed {
-        interval: [0.0, 0.4],
-        spread: Spread::Even,
-        reason: "woven fabrics pulled in one direction; 0 is yarns that do not cross",
-        set: |s, v| s.nu12 = Some(v),
-    },
-    Assumed {
-        interval: [700.0, 1300.0],
-        spread: Spread::Even,
-        reason: "nylon 1140, coats 900 to 1200, air between yarns",
-        set: |s, v| s.density_kg_m3 = v,
-    },
-    // Numerical settings that move a tip by more than 1 % when they are a third or three times as large (`ibr simulate epam --numerics`).
-    Assumed {
-        interval: [7e-4 / 3.0, 3.0 * 7e-4],
-        spread: Spread::Factor,
-        reason: "numerical: a third to three times the default",
-        set: |s, v| s.hourglass = v,
-    },
-    Assumed {
-        interval: [1e-5 / 3.0, 3e-5],
-        spread: Spread::Factor,
-        reason: "numerical: a third to three times the published distance of layers",
-        set: |s, v| s.layer_gap_m = v,
-    },
-    Assumed {
-        interval: [25.0, 230.0],
-        spread: Spread::Factor,
-        reason: "numerical: a third to three times the default of the ePAM",
-        set: |s, v| s.mass_damping_1_s = Some(v),
-    },
+    assumed("weld_mm", [0.0, 0.008], Spread::Even, "a line to a wide impulse seal; ultrasonic wheels are a few millimetres wide"),
+    assumed("bending_factor", [0.1, 0.5], Spread::Factor, "droop of a heat-bondable coated nylon, measured by Farrell et al."),
+    assumed("wrinkle_length", [0.5, 1.0], Spread::Even,
+        "wrinkles from the strip's edge to the taut line, or half as far; their load follows from it, bending and hoop tension"),
+    assumed("bond", [0.0, 1.0], Spread::Even,
+        "plies that slide to plies without slip; shear lag through 0.05 mm of adhesive is about 2 mm"),
+    assumed("tape_mm", [2e-5, 2.5e-4], Spread::Factor, "adhesive transfer tapes are sold from 0.02 to 0.25 mm"),
+    assumed("tape_margin_mm", [0.0, 0.015], Spread::Even, "a sheet cut at its welds to one that is easy to tape"),
+    assumed("waviness_mm", [0.0, 2e-4], Spread::Even, "a perfect pattern to a thickness of the fabric"),
+    assumed("glue_mm", [5e-5, 5e-4], Spread::Factor, "a film spread by hand"),
+    assumed("glue_e_mpa", [3e5, 3e6], Spread::Factor, "silicone adhesives"),
+    assumed("nu12", [0.0, 0.4], Spread::Even, "woven fabrics pulled in one direction; 0 is yarns that do not cross"),
+    assumed("density_kg_m3", [700.0, 1300.0], Spread::Even, "nylon 1140, coats 900 to 1200, air between yarns"),
+    assumed("hourglass", [7e-4 / 3.0, 3.0 * 7e-4], Spread::Factor, "numerical: a third to three times the default"),
+    assumed("layer_gap_mm", [1e-5 / 3.0, 3e-5], Spread::Factor,
+        "numerical: a third to three times the published distance of layers"),
+    assumed("mass_damping_1_s", [25.0, 230.0], Spread::Factor, "numerical: a third to three times the default of the ePAM"),
 ];
 
 /// Shares 0 to 1 of the interval of each of `numbers` numbers for `robots` robots; the same seed gives the same hypercube everywhere.

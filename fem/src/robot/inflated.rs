@@ -27,7 +27,6 @@ pub struct InflatedPouch {
     pub height_m: f64,
 }
 
-/// Nodes to measure between.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tape {
     welds: Vec<u32>,
@@ -38,13 +37,13 @@ pub(super) struct Tape {
 
 impl Tape {
     /// `None` for an actuator of one unit.
-    pub fn of(scenario: &Scenario, mesh: &Mesh) -> Option<Tape> {
+    pub(super) fn of(scenario: &Scenario, mesh: &Mesh) -> Option<Tape> {
         let (actuator, radius_m) = (&scenario.actuator, scenario.radius_m);
         let far = mesh.sets.get("far_generator").filter(|_| actuator.count > 1)?.clone();
         let own = body_parts(mesh);
         let [wall, sheet] = [true, false].map(|of_body| {
             let parts = mesh.parts.iter().filter(|p| p.name != "tip_cap" && own.contains(&p.name) == of_body);
-            let mut nodes: Vec<u32> = parts.flat_map(|p| (0..p.len()).flat_map(|e| p.nodes(e).to_vec())).collect();
+            let mut nodes: Vec<u32> = parts.flat_map(|p| p.faces().flatten().copied()).collect();
             nodes.sort_unstable();
             nodes.dedup();
             nodes
@@ -64,8 +63,7 @@ impl Tape {
         Some(Tape { welds, far, sides, sheets })
     }
 
-    /// For node positions in mesh order.
-    pub fn read(&self, positions: &[[f64; 3]]) -> InflatedPouch {
+    pub(super) fn read(&self, positions: &[[f64; 3]]) -> InflatedPouch {
         let place = |node: &u32| positions[*node as usize];
         let apart = |pair: &[u32; 2]| distance(place(&pair[0]), place(&pair[1]));
         let line: Vec<[f64; 3]> = self.far.iter().map(place).collect();

@@ -27,7 +27,6 @@ const LEAST_STRIP: f64 = 0.5;
 /// Lines closer than this share of the element size become one.
 const MERGE: f64 = 0.4;
 
-/// The grid.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Lines {
     /// Places of the rings where they cross the middle of a strip \[m\].
@@ -36,17 +35,14 @@ pub(super) struct Lines {
     pub strips: Vec<StripLines>,
     /// Angles of all generators \[rad\], ascending from the edge of the first strip; where they turn, those at the base.
     pub angles: Vec<f64>,
-    /// Ring of every marker.
     pub markers: Vec<usize>,
     turn: Option<Turn>,
 }
 
-/// Grid lines of one strip.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct StripLines {
     /// Rows of elements that are welded flat: (first ring, last ring); equal for a weld without width.
     pub welds: Vec<[usize; 2]>,
-    /// Its first generator.
     pub first: usize,
     /// Places across the strip \[m\], from edge to edge of the sheet, its side welds included.
     pub s_m: Vec<f64>,
@@ -67,7 +63,7 @@ struct Turn {
 impl Lines {
     /// # Errors
     /// [`FemError::Problem`] for strips of several slants, or so close that elements between them are slivers.
-    pub fn of(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Result<Lines, FemError> {
+    pub(super) fn of(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Result<Lines, FemError> {
         let radius_m = scenario.radius_m;
         let [cos, sin] = [scenario.actuator.cos_slant(radius_m), scenario.actuator.sin_slant(radius_m)];
         if scenario.strips().any(|strip| (strip.sin_slant(radius_m) - sin).abs() > 1e-9) {
@@ -104,7 +100,7 @@ impl Lines {
     }
 
     /// Place of the node of a ring and a generator at a radius \[m\].
-    pub fn place(&self, ring: usize, column: usize, radius_m: f64) -> [f64; 3] {
+    pub(super) fn place(&self, ring: usize, column: usize, radius_m: f64) -> [f64; 3] {
         let (mut x, mut angle) = (self.x_m[ring], self.angles[column]);
         if let Some(turn) = &self.turn {
             angle += turn.angle(x);
@@ -114,14 +110,14 @@ impl Lines {
     }
 
     /// How far generators turn from base to tip \[rad\].
-    pub fn turned_rad(&self) -> f64 {
+    pub(crate) fn turned_rad(&self) -> f64 {
         self.turn.as_ref().map_or(0.0, |turn| turn.angle(turn.length_m))
     }
 }
 
 impl StripLines {
     /// Generator at a place across the strip.
-    pub fn column(&self, s_m: f64) -> usize {
+    pub(super) fn column(&self, s_m: f64) -> usize {
         self.first + nearest(&self.s_m, s_m)
     }
 }
@@ -216,7 +212,6 @@ fn rows(pattern: &Pattern, settings: &RobotSettings) -> [f64; 2] {
     [row, settings.seam_row_m.or(folded).unwrap_or(row).min(row)]
 }
 
-/// Rings.
 fn along(
     scenario: &Scenario,
     cos: f64,

@@ -6,8 +6,8 @@
 
 use models::{CHANNELS, Scenario};
 
-use super::loads::{Load, RobotStart};
-use super::{Preset, RobotSettings, problem, sew, table};
+use super::load::{Load, RobotStart};
+use super::{Preset, RobotSettings, problem, sew};
 use crate::problem::{Amplitude, Obstacle, Pressure};
 use crate::{FemError, Problem};
 
@@ -64,14 +64,6 @@ pub(super) fn highest_pa(channels: &[f64; CHANNELS]) -> f64 {
 }
 
 impl RobotRun {
-    /// From the text of a scenario and what it says.
-    ///
-    /// # Errors
-    /// [`FemError::Case`] with the place of what is wrong in `[fem]`.
-    pub fn parse(text: &str, scenario: &Scenario) -> Result<RobotRun, FemError> {
-        table::parse(text, scenario)
-    }
-
     /// When the robot is read: full body, or the end of the run before, first, then every pressure.
     pub fn holds(&self) -> Vec<HoldEnd> {
         let begun = self.start.as_ref().map(|start| (start.time_s, start.pressures_pa));

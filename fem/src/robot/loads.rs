@@ -4,65 +4,26 @@
 //! `pressures_kpa = [30, 30]` with `tip_force_n = [[0, 0, 0], [0, -0.5, 0]]`, loads the robot at pressure. All steps are of fifth
 //! order ([`Amplitude::Smooth`]).
 
-use models::{CHANNELS, Scenario};
 use toml::{Spanned, Value};
 
+use super::load::Load;
 use super::loading::RobotRun;
-use super::{sew, table::triple};
-use crate::case::range::{Checked, POSITION, Range, plain, refuse};
-use crate::case::raw::Free;
-use crate::problem::{Amplitude, GRAVITY, Gravity, Loads, NodalForce, force_on, motion_of, pressure_of};
+use crate::case::range::{Checked, Free, POSITION, Range, find, number, plain, plain_number, refuse};
+use crate::problem::{Amplitude, Gravity, NodalForce};
 use crate::{FemError, Problem};
 
-/// A load of a robot's run.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Load {
-    /// It grows while the body is filled, and stays; in a run that goes on from another one it grows with the first pressure.
-    Always([f64; 3]),
-    /// One for every pressure.
-    AtPressures(Vec<[f64; 3]>),
+pub(super) fn numbers(name: &str, value: &Spanned<Value>, range: &Range) -> Checked<Vec<f64>> {
+    let Some(list) = value.get_ref().as_array() else {
+        return refuse(format!("{name} must be a list"), "write numbers in brackets: [10, 20, 30]", value.span());
+    };
+    let one =
+        |v: &Value| number(name, plain_number(name, &Spanned::new(value.span(), v.clone()))?, value.span(), range);
+    list.iter().map(one).collect()
 }
 
-impl Default for Load {
-    fn default() -> Load {
-        Load::Always([0.0; 3])
-    }
-}
-
-/// Pressures and loads at the end of a run that another one goes on from.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct RobotStart {
-    /// When \[s\].
-    pub time_s: f64,
-    /// Pressure of the body \[Pa\].
-    pub body_pa: f64,
-    /// Pressures of the channels \[Pa\].
-    pub pressures_pa: [f64; CHANNELS],
-    /// Force on the tip \[N\].
-    pub tip_force_n: [f64; 3],
-    /// Gravity \[m/s²\].
-    pub gravity_m_s2: [f64; 3],
-    /// How far the obstacle has moved \[m\].
-    pub obstacle_m: [f64; 3],
-}
-
-impl RobotStart {
-    /// Of loads at a time \[s\].
-    pub fn of(scenario: &Scenario, time_s: f64, loads: &Loads) -> RobotStart {
-        let of = |name: String| loads.get(&name).copied().unwrap_or_default();
-        let mut pressures_pa = [0.0; CHANNELS];
-        for (i, strip) in scenario.strips().enumerate() {
-            pressures_pa[strip.channel] = of(pressure_of(&sew::of_strip(sew::ACTUATOR, i)))[0];
-        }
-        RobotStart {
-            time_s,
-            body_pa: of(pressure_of(sew::BODY))[0],
-            pressures_pa,
-            tip_force_n: of(force_on("tip")),
-            gravity_m_s2: of(GRAVITY.into()),
-            obstacle_m: of(motion_of(0)),
-        }
-    }
+pub(super) fn triple(name: &str, value: &Spanned<Value>, range: &Range) -> Checked<[f64; 3]> {
+    let found = numbers(name, value, range)?;
+    found.try_into().or_else(|_| refuse(format!("{name} needs three numbers"), range.too_large, value.span()))
 }
 
 /// Keys of lists with an entry for every pressure.
@@ -71,7 +32,6 @@ const FORCE: Range = plain(-1e4, 1e4, "write newtons: [x, y, z], or [[x, y, z], 
 const ACCELERATION: Range =
     plain(-1e3, 1e3, "write m/s²: [0, -9.81, 0], or [[0, 0, 0], …] with one for every pressure");
 
-/// Reads a key of [`LISTS`].
 pub(super) fn read(run: &mut RobotRun, name: &str, value: &Spanned<Value>) -> Checked<()> {
     let each = |range: &Range| -> Checked<Vec<[f64; 3]>> {
         let list = value.get_ref().as_array().map_or(&[][..], Vec::as_slice);
@@ -96,7 +56,7 @@ pub(super) fn read(run: &mut RobotRun, name: &str, value: &Spanned<Value>) -> Ch
 
 /// Refuses lists of another length than that of the pressures, and a step in which nothing changes.
 pub(super) fn check(run: &RobotRun, table: &Free) -> Checked<()> {
-    let span = |name: &str| table.iter().find(|(key, _)| key.get_ref() == name).map_or(0..0, |(_, value)| value.span());
+    let span = |name: &str| find(table, name).map_or(0..0, Spanned::span);
     let of = |load: &Load| if let Load::AtPressures(list) = load { list.clone() } else { Vec::new() };
     let lists = [of(&run.tip_force_n), of(&run.gravity_m_s2), run.obstacle_moves_m.clone()];
     for (name, list) in LISTS.iter().zip(&lists).filter(|(_, list)| !list.is_empty()) {
@@ -133,7 +93,6 @@ pub(super) fn check(run: &RobotRun, table: &Free) -> Checked<()> {
 }
 
 impl RobotRun {
-    /// Puts the loads into a problem.
     pub(super) fn load(&self, made: &mut Problem) -> Result<(), FemError> {
         let start = self.start.clone().unwrap_or_default();
         let force = self.steps(&self.tip_force_n, start.tip_force_n);

@@ -23,7 +23,9 @@
 
 mod assumed;
 mod inflated;
+mod keys;
 mod lines;
+mod load;
 mod loading;
 mod loads;
 mod model;
@@ -39,15 +41,19 @@ mod waviness;
 
 pub use assumed::{ASSUMED, Assumed, Spread, hypercube, latin};
 pub use inflated::InflatedPouch;
+pub use keys::{KEYS, NUMERICAL, OTHERS};
+pub use load::{Load, RobotStart};
 pub use loading::{HoldEnd, RobotRun};
-pub use loads::{Load, RobotStart};
 pub use model::Preset;
-pub use reading::{Reading, RobotGauge};
-pub use rest::{Patience, Rest, Settling};
+pub use reading::Reading;
+pub(crate) use reading::RobotGauge;
+pub use rest::Rest;
+pub(crate) use rest::Settling;
 pub use seams::{SeamForce, Seams};
 pub use settings::RobotSettings;
-pub use snaps::{Sample, Snap, Watch, snaps};
-pub use table::{KEYS, NUMERICAL, OTHERS, RunKey, with_fem};
+pub(crate) use snaps::Watch;
+pub use snaps::{Sample, Snap, snaps};
+pub use table::with_fem;
 
 use models::Scenario;
 use models::actuators::pattern::Pattern;
@@ -58,7 +64,7 @@ use crate::mesh::check::check_open;
 pub use crate::output::centre_line::CentreLine;
 use crate::output::picture::Viewpoint;
 use crate::policy;
-use crate::problem::{Amplitude, Chamber, Contact, Guards, MassScaling, Pressure, Settings, Support};
+use crate::problem::{Amplitude, Chamber, Contact, Guards, MassScaling, Patience, Pressure, Settings, Support};
 use crate::run;
 use crate::sheet::reference::mean_stiffness;
 use crate::vec3::{area, norm};
@@ -148,7 +154,7 @@ pub fn sections(mesh: &Mesh, stations_m: &[f64]) -> Result<CentreLine, FemError>
 ///
 /// # Errors
 /// [`FemError::Problem`] for a station off the robot.
-pub fn marker_points(mesh: &Mesh, stations_m: &[f64]) -> Result<CentreLine, FemError> {
+pub(crate) fn marker_points(mesh: &Mesh, stations_m: &[f64]) -> Result<CentreLine, FemError> {
     CentreLine::seen(mesh, &body_parts(mesh), [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], stations_m)
 }
 

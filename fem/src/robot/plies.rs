@@ -39,7 +39,6 @@ use crate::FemError;
 use crate::problem::Section;
 use crate::sheet::reference::{bending_stiffness, mean_stiffness};
 
-/// Fabrics of one robot.
 pub(super) struct Plies<'a> {
     pattern: &'a Pattern,
     settings: &'a RobotSettings,
@@ -62,7 +61,7 @@ pub(super) struct Wrinkles {
 
 impl Wrinkles {
     /// Of a robot; `None` if its sheets carry all of compression.
-    pub fn of(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Option<Wrinkles> {
+    pub(super) fn of(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Option<Wrinkles> {
         let longer = settings.wrinkle_length?;
         let free_m = 2.0 * PI * scenario.radius_m - patterns.iter().map(|p| p.width_m).sum::<f64>();
         Some(Wrinkles {
@@ -75,7 +74,7 @@ impl Wrinkles {
 
 impl Plies<'_> {
     /// For strips of one kind and slant, as azimuths turn from base to tip \[rad\].
-    pub fn of<'a>(
+    pub(super) fn of<'a>(
         pattern: &'a Pattern,
         slant_rad: f64,
         settings: &'a RobotSettings,
@@ -93,7 +92,7 @@ impl Plies<'_> {
     }
 
     /// Section of the part of that name.
-    pub fn section(&self, part: &str) -> Section {
+    pub(super) fn section(&self, part: &str) -> Section {
         let wall = ply(&self.body, 0.0);
         let [wall_m, sheet_m] = self.wrinkles.as_ref().map_or([0.0; 2], |w| [w.wall_m, w.sheet_m]);
         let free = |length_m: f64| ply(&self.wrinkling(&self.body, length_m), 0.0);

@@ -20,7 +20,7 @@ impl Reading {
     }
 
     /// The displacement of the tip along z over its whole displacement; 0 where it did not move.
-    pub fn out_of_plane_share(&self) -> f64 {
+    pub(crate) fn out_of_plane_share(&self) -> f64 {
         let [x, y, z] = self.moved_m.last().copied().unwrap_or_default();
         let way = x.hypot(y).hypot(z);
         if way > 0.0 { z.abs() / way } else { 0.0 }
@@ -29,7 +29,7 @@ impl Reading {
 
 /// Reads a robot while it runs.
 #[derive(Debug, Clone)]
-pub struct RobotGauge {
+pub(crate) struct RobotGauge {
     line: CentreLine,
     start_m: Vec<[f64; 3]>,
     seen: CentreLine,
@@ -120,7 +120,7 @@ impl RobotGauge {
     ///
     /// # Errors
     /// [`FemError::Problem`] for a marker off the robot.
-    pub fn new(scenario: &Scenario, problem: &Problem) -> Result<RobotGauge, FemError> {
+    pub(crate) fn new(scenario: &Scenario, problem: &Problem) -> Result<RobotGauge, FemError> {
         let mesh = problem.mesh.clone();
         let mut stations_m = scenario.markers_m.clone();
         let mut rings: Vec<Vec<u32>> = (1..=stations_m.len()).map(|k| ring(&mesh, &format!("marker_{k}"))).collect();
@@ -129,7 +129,7 @@ impl RobotGauge {
         stations_m.push(scenario.length_m);
         rings.push(tip.clone());
         let line = sections(&mesh, &stations_m)?;
-        let start: Vec<[f64; 3]> = (0..mesh.points.len()).map(|node| mesh.start_of(node)).collect();
+        let start = mesh.starts();
         let start_m = line.at(&start)?;
         let seen = match scenario.is_spatial() {
             true => sections(&mesh, &scenario.markers_m)?,
@@ -158,7 +158,7 @@ impl RobotGauge {
     ///
     /// # Errors
     /// [`FemError::Problem`] if the run is of another mesh.
-    pub fn read(&self, run: &Simulation, rest: Rest) -> Result<Reading, FemError> {
+    pub(crate) fn read(&self, run: &Simulation, rest: Rest) -> Result<Reading, FemError> {
         let (positions, fields) = (run.positions(), run.element_fields());
         let (waited_s, ahead_m, is_at_rest) = match rest {
             Rest::Over { waited_s, ahead_m, is_at_rest } => {
@@ -191,7 +191,7 @@ impl RobotGauge {
             stations_m: self.line.stations_m().to_vec(),
             moved_m: moved(&self.line, &self.start_m)?,
             seen_moved_m: moved(&self.seen, &self.seen_start_m)?,
-            ring_moved_m: self.rings.iter().map(|ring| self.moved(ring, &positions)).collect(),
+            ring_moved_m: self.rings.iter().map(|ring| self.mesh.mean_moved(ring, &positions)).collect(),
             tip_angle_rad: self.turn_rad(&positions),
             body_m3: body.first().map_or(0.0, |c| c.volume_m3),
             actuator_m3: strips.iter().map(|c| c.volume_m3).sum(),
@@ -216,12 +216,12 @@ impl RobotGauge {
     }
 
     /// Displacement of the mean of the tip's ring \[m\].
-    pub fn tip_moved_m(&self, run: &Simulation) -> [f64; 3] {
-        self.moved(&self.tip, &run.positions())
+    pub(crate) fn tip_moved_m(&self, run: &Simulation) -> [f64; 3] {
+        self.mesh.mean_moved(&self.tip, &run.positions())
     }
 
     /// Part and place along the straight robot of an element.
-    pub fn place(&self, element: usize) -> (String, f64) {
+    pub(crate) fn place(&self, element: usize) -> (String, f64) {
         let mut first = 0;
         for part in &self.mesh.parts {
             if element < first + part.len() {
@@ -244,15 +244,6 @@ impl RobotGauge {
             true => format!("seam {:.0}{of}", pouches.round().max(0.0) + 1.0),
             false => format!("side of pouch {:.0}{of}", pouches.floor().max(0.0) + 1.0),
         }
-    }
-
-    fn moved(&self, ring: &[u32], positions: &[[f64; 3]]) -> [f64; 3] {
-        let mut sum = [0.0; 3];
-        for node in ring {
-            let (now, start) = (positions[*node as usize], self.mesh.start_of(*node as usize));
-            (0..3).for_each(|k| sum[k] += (now[k] - start[k]) / ring.len() as f64);
-        }
-        sum
     }
 
     /// Turn of the tip's ring for node positions in mesh order \[rad\]: its height vector Σ (y₀ − ȳ₀) x turns with the tip.

@@ -19,18 +19,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::problem::Patience;
 use crate::vec3::{dot, norm, sub};
-
-/// How a hold waits for rest ([`Settling`]).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Patience {
-    /// Movement of the tip that counts as none, over its displacement.
-    pub creep: f64,
-    /// Longest time of a hold that loads stand still \[s\].
-    pub longest_s: f64,
-    /// Time between two looks at the tip \[s\].
-    pub window_s: f64,
-}
 
 /// Length of a window times ω.
 pub(super) const WINDOW: f64 = 0.64;
@@ -39,7 +29,7 @@ const STILL: usize = 4;
 
 /// The tip during a hold.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct Settling {
+pub(crate) struct Settling {
     /// Waited time of the run at its beginning \[s\].
     from_s: f64,
     /// Length of a window \[s\].
@@ -66,12 +56,12 @@ pub enum Rest {
 
 impl Settling {
     /// Waited time of the run at the end of the present window \[s\]; `None` between holds.
-    pub fn next_s(&self) -> Option<f64> {
+    pub(crate) fn next_s(&self) -> Option<f64> {
         (!self.tip_m.is_empty()).then_some(self.from_s + self.tip_m.len() as f64 * self.window_s)
     }
 
     /// Judges the tip's displacement \[m\], of which so much may be ahead \[m\], after so much waiting of the run \[s\].
-    pub fn look(&mut self, tip_m: [f64; 3], allowed_m: f64, waited_s: f64, patience: Patience) -> Rest {
+    pub(crate) fn look(&mut self, tip_m: [f64; 3], allowed_m: f64, waited_s: f64, patience: Patience) -> Rest {
         if self.tip_m.is_empty() {
             (self.from_s, self.window_s) = (waited_s, patience.window_s);
         }

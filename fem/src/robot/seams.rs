@@ -37,7 +37,7 @@ impl Seams {
     /// Of a mesh.
     pub fn of(mesh: &Mesh) -> Seams {
         let mut beside: HashMap<(u32, u32), Vec<usize>> = HashMap::new();
-        for (index, nodes) in mesh.parts.iter().flat_map(|part| (0..part.len()).map(|i| part.nodes(i))).enumerate() {
+        for (index, nodes) in mesh.faces().enumerate() {
             for (k, a) in nodes.iter().enumerate() {
                 let b = nodes[(k + 1) % nodes.len()];
                 beside.entry((*a.min(&b), *a.max(&b))).or_default().push(index);

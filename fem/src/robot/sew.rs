@@ -100,7 +100,6 @@ fn body(scenario: &Scenario, lines: &Lines) -> Result<Mesh, FemError> {
     Ok(mesh)
 }
 
-/// The wall's elements in parts.
 fn sorted(sewers: &[Sewer], lines: &Lines, quads: &[[u32; 4]]) -> Vec<Part> {
     let n = lines.angles.len();
     let back = || Some(BODY.into());
@@ -136,7 +135,6 @@ fn along_strip(scenario: &Scenario, points: &[[f64; 3]], part: &Part) -> Vec<[f6
     part.quads.iter().map(warp).collect()
 }
 
-/// What sews one strip.
 struct Sewer<'a> {
     strip: usize,
     pattern: &'a Pattern,
@@ -180,7 +178,6 @@ impl Sewer<'_> {
         parts
     }
 
-    /// One unit between two welds.
     fn unit(&self, points: &mut Vec<[f64; 3]>, parts: &mut [Part], [first, last]: [usize; 2]) {
         let path = self.path();
         let mut rows: Vec<Vec<u32>> = Vec::with_capacity(last - first + 1);

@@ -50,7 +50,7 @@ pub struct Snap {
 
 /// Samples a run.
 #[derive(Debug, Clone)]
-pub struct Watch {
+pub(crate) struct Watch {
     /// Stretch of every node.
     stretch: Vec<u32>,
     x_m: Vec<f64>,
@@ -59,7 +59,7 @@ pub struct Watch {
 
 impl Watch {
     /// For a mesh along x.
-    pub fn new(mesh: &Mesh) -> Watch {
+    pub(crate) fn new(mesh: &Mesh) -> Watch {
         let x_m: Vec<f64> = (0..mesh.points.len()).map(|node| mesh.start_of(node)[0]).collect();
         let low = x_m.iter().copied().fold(f64::INFINITY, f64::min);
         let stretch = x_m.iter().map(|x| ((x - low) / STRETCH_M) as u32).collect();
@@ -67,7 +67,7 @@ impl Watch {
     }
 
     /// Takes a sample; to be called in step with the run.
-    pub fn sample(&mut self, run: &Simulation) {
+    pub(crate) fn sample(&mut self, run: &Simulation) {
         let ledger = run.ledger();
         let stored_j =
             ledger.rows.iter().filter(|r| r.kind == models::RowKind::Stored).map(|r| r.energy_j).sum::<f64>();
@@ -81,11 +81,10 @@ impl Watch {
     }
 
     /// All samples so far.
-    pub fn samples(&self) -> &[Sample] {
+    pub(crate) fn samples(&self) -> &[Sample] {
         &self.samples
     }
 
-    /// From a checkpoint.
     pub(crate) fn restore(&mut self, samples: Vec<Sample>) {
         self.samples = samples;
     }
@@ -172,7 +171,6 @@ fn peaks(samples: &[Sample]) -> Vec<[usize; 3]> {
 mod tests {
     use super::*;
 
-    /// Samples a millisecond apart.
     fn run(of: impl Fn(f64) -> (f64, f64)) -> Vec<Sample> {
         let sample = |i: usize| {
             let time_s = i as f64 * 1e-3;

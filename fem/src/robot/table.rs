@@ -15,134 +15,17 @@ use models::{CHANNELS, Scenario};
 use serde::Deserialize;
 use toml::{Spanned, Value};
 
+use super::keys::{KEYS, OTHERS};
+use super::load::Load;
 use super::loading::highest_pa;
-use super::loads::{self, Load};
+use super::loads::{self, numbers, triple};
 use super::{Preset, RobotRun, RobotSettings};
 use crate::FemError;
-use crate::case::plain_number;
-use crate::case::range::{Checked, LENGTH, POSITION, PRESSURE, Range, number, plain, refuse};
-use crate::case::raw::{Free, unknown};
+use crate::case::key::named;
+use crate::case::range::{
+    Checked, Free, LENGTH, POSITION, PRESSURE, Range, find, number, plain, plain_number, refuse, switch, unknown_name,
+};
 use crate::problem::{Obstacle, ObstacleShape};
-
-/// One number of the table.
-#[derive(Debug, Clone, Copy)]
-pub struct RunKey {
-    /// Name with unit, as in the file.
-    pub name: &'static str,
-    /// Factor from the file to SI.
-    pub si: f64,
-    /// Accepted numbers, as in the file.
-    pub bounds: [f64; 2],
-    /// What it is.
-    pub meaning: &'static str,
-    /// Reads it \[SI\], if it is set.
-    pub get: fn(&RobotSettings) -> Option<f64>,
-    /// Writes it \[SI\].
-    pub set: fn(&mut RobotSettings, f64),
-}
-
-const fn key(
-    name: &'static str,
-    si: f64,
-    bounds: [f64; 2],
-    meaning: &'static str,
-    get: fn(&RobotSettings) -> Option<f64>,
-    set: fn(&mut RobotSettings, f64),
-) -> RunKey {
-    RunKey { name, si, bounds, meaning, get, set }
-}
-
-/// All numbers of the table.
-#[rustfmt::skip]
-pub const KEYS: &[RunKey] = &[
-    key("mesh_mm", 1e-3, [0.5, 50.0], "element size of body and actuator",
-        |s| Some(s.body_size_m), |s, v| { s.body_size_m = v; s.actuator_size_m = v; }),
-    key("body_mesh_mm", 1e-3, [0.5, 50.0], "element size of the body", |s| Some(s.body_size_m), |s, v| s.body_size_m = v),
-    key("actuator_mesh_mm", 1e-3, [0.5, 50.0], "element size of the actuator and the strip under it",
-        |s| Some(s.actuator_size_m), |s, v| s.actuator_size_m = v),
-    key("ring_spacing", 1.0, [0.1, 10.0], "distance of the rings at the actuator over its element size",
-        |s| s.ring_spacing, |s, v| s.ring_spacing = Some(v)),
-    key("seam_row_mm", 1e-3, [0.1, 100.0], "length of the rows beside welds, from which rows grow to the distance of the rings",
-        |s| s.seam_row_m, |s, v| s.seam_row_m = Some(v)),
-    key("layer_gap_mm", 1e-3, [1e-4, 1.0], "distance between layers at the start",
-        |s| Some(s.layer_gap_m), |s, v| s.layer_gap_m = v),
-    key("weld_mm", 1e-3, [0.0, 100.0], "width of the welds across the robot; 0: a line", |s| Some(s.weld_m), |s, v| s.weld_m = v),
-    key("bending_factor", 1.0, [0.0, 10.0], "bending stiffness of one sheet over that of a solid plate",
-        |s| Some(s.bending_factor), |s, v| s.bending_factor = v),
-    key("bending_share", 1.0, [1e-3, 1.0], "share of all bending stiffness that is kept, for a study of what carries a difference",
-        |s| Some(s.bending_share), |s, v| s.bending_share = v),
-    key("wrinkle_length", 1.0, [1e-3, 1e3], "length of wrinkles over that of the geometry; their load is inverse to it",
-        |s| s.wrinkle_length, |s, v| s.wrinkle_length = Some(v)),
-    key("bond", 1.0, [0.0, 1.0], "how far taped and glued plies bend as one", |s| Some(s.bond), |s, v| s.bond = v),
-    key("tape_mm", 1e-3, [1e-3, 5.0], "thickness of the transfer tape", |s| Some(s.tape_m), |s, v| s.tape_m = v),
-    key("tape_e_mpa", 1e6, [1e-3, 1e4], "Young's modulus of its adhesive", |s| Some(s.tape_e_pa), |s, v| s.tape_e_pa = v),
-    key("tape_margin_mm", 1e-3, [0.0, 100.0], "width of the taped sheet beyond the welds along its sides",
-        |s| Some(s.tape_margin_m), |s, v| s.tape_margin_m = v),
-    key("glue_mm", 1e-3, [1e-3, 5.0], "thickness of the glue film", |s| Some(s.glue_m), |s, v| s.glue_m = v),
-    key("glue_e_mpa", 1e6, [1e-3, 1e4], "Young's modulus of the glue", |s| Some(s.glue_e_pa), |s, v| s.glue_e_pa = v),
-    key("nu12", 1.0, [0.0, 0.9], "contraction along fill per stretch along warp of an anisotropic fabric",
-        |s| s.nu12, |s, v| s.nu12 = Some(v)),
-    key("sheet_mm", 1e-3, [1e-3, 5.0], "thickness of the actuator's sheet", |s| s.sheet_m, |s, v| s.sheet_m = Some(v)),
-    key("sheet_e_mpa", 1e6, [0.1, 1e5], "Young's modulus of the actuator's sheet", |s| s.sheet_e_pa, |s, v| s.sheet_e_pa = Some(v)),
-    key("body_sheet_mm", 1e-3, [1e-3, 5.0], "thickness of the body's sheet", |s| s.body_sheet_m, |s, v| s.body_sheet_m = Some(v)),
-    key("body_sheet_e_mpa", 1e6, [0.1, 1e5], "Young's modulus of the body's sheet",
-        |s| s.body_sheet_e_pa, |s, v| s.body_sheet_e_pa = Some(v)),
-    key("weld_strength_n_per_m", 1.0, [1.0, 1e6], "force per length that a weld carries",
-        |s| s.weld_strength_n_per_m, |s, v| s.weld_strength_n_per_m = Some(v)),
-    key("density_kg_m3", 1.0, [50.0, 2e4], "mass per volume of fabrics, tape and glue",
-        |s| Some(s.density_kg_m3), |s, v| s.density_kg_m3 = v),
-    key("body_ramp_s", 1.0, [1e-4, 1e3], "duration of the body's ramp", |s| Some(s.body_ramp_s), |s, v| s.body_ramp_s = v),
-    key("actuator_ramp_s", 1.0, [1e-4, 1e3], "duration of the actuator's ramp to its highest pressure, holds left out",
-        |s| Some(s.actuator_ramp_s), |s, v| s.actuator_ramp_s = v),
-    key("ramp_floor_kpa", 1e3, [1e-3, 1e6], "pressure from which the actuator's grows by equal shares in equal times",
-        |s| s.ramp_floor_pa, |s, v| s.ramp_floor_pa = Some(v)),
-    key("hold_s", 1.0, [0.0, 1e3], "time at each pressure before the robot is watched", |s| Some(s.hold_s), |s, v| s.hold_s = v),
-    key("rest_s", 1.0, [0.0, 1e3], "longest time that a hold then waits until the tip is at rest; six times the ramp unless written",
-        |s| s.rest_s, |s, v| s.rest_s = Some(v)),
-    key("mass_factor", 1.0, [1.0, 1e4], "square of the step over the time of sound through the smallest element",
-        |s| s.mass_factor, |s, v| s.mass_factor = Some(v)),
-    key("mass_passes", 1.0, [2.0, 6.0], "passes of the selective masses, 2, 4 or 6: more allow longer steps and make longer waves heavy",
-        |s| s.mass_passes.map(|n| n as f64), |s, v| s.mass_passes = Some(v as usize)),
-    key("creep", 1.0, [1e-6, 1.0], "movement of the tip that a hold does not wait for, over its displacement",
-        |s| Some(s.creep), |s, v| s.creep = v),
-    key("cfl", 1.0, [1e-3, 1.0], "share of the stable step that is used", |s| Some(s.cfl), |s, v| s.cfl = v),
-    key("viscosity", 1.0, [0.0, 10.0], "in-plane viscosity as a share of critical damping of the highest mode",
-        |s| Some(s.viscosity), |s, v| s.viscosity = v),
-    key("mass_damping_1_s", 1.0, [0.0, 1e5], "mass damping; 1.4 times the tip's lowest frequency unless written",
-        |s| s.mass_damping_1_s, |s, v| s.mass_damping_1_s = Some(v)),
-    key("hourglass", 1.0, [0.0, 1.0], "hourglass coefficient", |s| Some(s.hourglass), |s, v| s.hourglass = v),
-    key("guard_hourglass", 1.0, [0.0, 1.0], "share of the stored energy that hourglass control may hold at the end",
-        |s| Some(s.guard_hourglass), |s, v| s.guard_hourglass = v),
-    key("imperfection", 1.0, [0.0, 0.2], "random offset of the nodes over the element size",
-        |s| Some(s.imperfection), |s, v| s.imperfection = v),
-    key("waviness_mm", 1e-3, [0.0, 1.0], "departure of the sewn shape from the pattern, root mean square along each axis",
-        |s| Some(s.waviness_m), |s, v| s.waviness_m = v),
-    key("seed", 1.0, [0.0, 4e15], "seed of imperfection and waviness_mm", |s| Some(s.seed as f64), |s, v| s.seed = v as u64),
-];
-
-/// Keys that a study of the numerics varies: settings of the computation, on which no tip should depend, and the length of wrinkles.
-#[rustfmt::skip]
-pub const NUMERICAL: [&str; 16] = [
-    "ring_spacing", "seam_row_mm", "layer_gap_mm", "wrinkle_length", "body_ramp_s", "actuator_ramp_s", "ramp_floor_kpa", "hold_s",
-    "rest_s", "creep", "mass_factor", "cfl", "viscosity", "mass_damping_1_s", "hourglass", "imperfection",
-];
-
-/// Keys that are no single number.
-pub const OTHERS: [&str; 13] = [
-    "model",
-    "taped",
-    "pressures_kpa",
-    "separate",
-    "meshes_mm",
-    "base",
-    "contact",
-    "selective_mass",
-    "tip_force_n",
-    "gravity_m_s2",
-    "obstacle_mm",
-    "obstacle_friction",
-    "obstacle_moves_mm",
-];
 
 /// How `meshes_mm` is written.
 const MESHES: &str = "write the element sizes of body and actuator of every run: [[8, 4], [8, 3]]";
@@ -156,40 +39,42 @@ struct File {
     fem: Option<Spanned<Free>>,
 }
 
-/// What a scenario says about its finite element run.
-///
-/// # Errors
-/// [`FemError::Case`] with its place: an unknown key, a number out of bounds, a pressure below the body's.
-pub(super) fn parse(text: &str, scenario: &Scenario) -> Result<RobotRun, FemError> {
-    let file: File = toml::from_str(text)
-        .map_err(|error| FemError::Case { message: format!("{}\n", error.message()), span: error.span() })?;
-    let empty = Free::new();
-    let table = file.fem.as_ref().map_or(&empty, |table| table.get_ref());
-    let model = model(table)?;
-    let mut run = RobotRun {
-        model,
-        set: table.keys().map(|key| key.get_ref().clone()).filter(|key| key != "model").collect(),
-        settings: model.settings(),
-        separate: model.separate(),
-        pressures_pa: usual_pressures(scenario),
-        tip_force_n: Load::default(),
-        gravity_m_s2: Load::default(),
-        obstacle: None,
-        obstacle_moves_m: Vec::new(),
-        start: None,
-        meshes_m: Vec::new(),
-    };
-    // What others override or need comes first, whatever their order.
-    let first = |name: &str| name == "mesh_mm" || name == "obstacle_mm";
-    let (before, after): (Vec<_>, Vec<_>) = table.iter().partition(|(key, _)| first(key.get_ref()));
-    before.into_iter().chain(after).try_for_each(|(key, value)| read(&mut run, key, value))?;
-    if run.settings.hold_s > 0.0 && run.set.iter().all(|key| key != "hold_s") {
-        run.settings.hold_s = run.settings.hold_s.max(HOLD * run.settings.actuator_ramp_s);
+impl RobotRun {
+    /// From the text of a scenario and what it says.
+    ///
+    /// # Errors
+    /// [`FemError::Case`] with its place in `[fem]`: an unknown key, a number out of bounds, a pressure below the body's.
+    pub fn parse(text: &str, scenario: &Scenario) -> Result<RobotRun, FemError> {
+        let file: File = toml::from_str(text)
+            .map_err(|error| FemError::Case { message: format!("{}\n", error.message()), span: error.span() })?;
+        let empty = Free::new();
+        let table = file.fem.as_ref().map_or(&empty, |table| table.get_ref());
+        let model = model(table)?;
+        let mut run = RobotRun {
+            model,
+            set: table.keys().map(|key| key.get_ref().clone()).filter(|key| key != "model").collect(),
+            settings: model.settings(),
+            separate: model.separate(),
+            pressures_pa: usual_pressures(scenario),
+            tip_force_n: Load::default(),
+            gravity_m_s2: Load::default(),
+            obstacle: None,
+            obstacle_moves_m: Vec::new(),
+            start: None,
+            meshes_m: Vec::new(),
+        };
+        // What others override or need comes first, whatever their order.
+        let first = |name: &str| name == "mesh_mm" || name == "obstacle_mm";
+        let (before, after): (Vec<_>, Vec<_>) = table.iter().partition(|(key, _)| first(key.get_ref()));
+        before.into_iter().chain(after).try_for_each(|(key, value)| read(&mut run, key, value))?;
+        if run.settings.hold_s > 0.0 && run.set.iter().all(|key| key != "hold_s") {
+            run.settings.hold_s = run.settings.hold_s.max(HOLD * run.settings.actuator_ramp_s);
+        }
+        run.settings.actuator_pa = run.pressures_pa.iter().map(highest_pa).fold(0.0, f64::max);
+        above_body(&run, scenario, table)?;
+        loads::check(&run, table)?;
+        Ok(run)
     }
-    run.settings.actuator_pa = run.pressures_pa.iter().map(highest_pa).fold(0.0, f64::max);
-    above_body(&run, scenario, table)?;
-    loads::check(&run, table)?;
-    Ok(run)
 }
 
 fn usual_pressures(scenario: &Scenario) -> Vec<[f64; CHANNELS]> {
@@ -199,9 +84,7 @@ fn usual_pressures(scenario: &Scenario) -> Vec<[f64; CHANNELS]> {
 }
 
 fn model(table: &Free) -> Checked<Preset> {
-    let Some((_, value)) = table.iter().find(|(key, _)| key.get_ref() == "model") else {
-        return Ok(Preset::default());
-    };
+    let Some(value) = find(table, "model") else { return Ok(Preset::default()) };
     let known = || format!("known: {}", Preset::ALL.map(Preset::name).join(", "));
     let unknown = || refuse(format!("unknown model {}", value.get_ref()), known(), value.span());
     value.get_ref().as_str().and_then(Preset::named).map_or_else(unknown, Ok)
@@ -209,28 +92,18 @@ fn model(table: &Free) -> Checked<Preset> {
 
 fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Checked<()> {
     let name = key.get_ref().as_str();
-    if let Some(known) = KEYS.iter().find(|k| k.name == name) {
-        let (low, high) = (known.bounds[0], known.bounds[1]);
-        let range = Range { si: known.si, ..plain(low, high, known.meaning) };
-        let si = number(name, plain_number(name, value)?, value.span(), &range)?;
-        if name == "seed" && si.fract() != 0.0 {
-            return refuse(format!("seed must be a whole number, not {si}"), "write for example 1", value.span());
-        }
-        if name == "mass_passes" && ![2.0, 4.0, 6.0].contains(&si) {
-            return refuse(format!("mass_passes cannot be {si}"), "write 2, 4 or 6", value.span());
-        }
-        (known.set)(&mut run.settings, si);
-        return Ok(());
+    if let Some(known) = named(KEYS, name) {
+        return known.read(&mut run.settings, value);
     }
     match name {
         "model" => {}
-        "separate" => run.separate = yes_or_no(name, value, "as the model has it")?,
+        "separate" => run.separate = switch(name, value, "as the model has it")?,
         "base" => run.settings.encastre = encastre(value)?,
         "pressures_kpa" => run.pressures_pa = pressures(value)?,
         "meshes_mm" => run.meshes_m = meshes(value)?,
-        "contact" => run.settings.contact = Some(yes_or_no(name, value, "where the pattern folds")?),
+        "contact" => run.settings.contact = Some(switch(name, value, "where the pattern folds")?),
         "taped" => run.settings.taped_at_seams = at_seams(value)?,
-        "selective_mass" => run.settings.selective_mass = yes_or_no(name, value, "short waves are heavy then")?,
+        "selective_mass" => run.settings.selective_mass = switch(name, value, "short waves are heavy then")?,
         "tip_force_n" | "gravity_m_s2" => loads::read(run, name, value)?,
         "obstacle_mm" => {
             let [x, y, radius] = triple(name, value, &POSITION)?;
@@ -253,7 +126,7 @@ fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Ch
         }
         _ => {
             let known: Vec<&str> = OTHERS.into_iter().chain(KEYS.iter().map(|k| k.name)).collect();
-            return Err(FemError::Case { message: unknown("key", name, &known), span: Some(key.span()) });
+            return Err(unknown_name("key", key, &known));
         }
     }
     Ok(())
@@ -267,31 +140,12 @@ fn encastre(value: &Spanned<Value>) -> Checked<bool> {
     }
 }
 
-fn yes_or_no(name: &str, value: &Spanned<Value>, without: &str) -> Checked<bool> {
-    let told = || refuse(format!("{name} must be true or false"), format!("leave it out: {without}"), value.span());
-    value.get_ref().as_bool().map_or_else(told, Ok)
-}
-
 fn at_seams(value: &Spanned<Value>) -> Checked<bool> {
     match value.get_ref().as_str() {
         Some("seams") => Ok(true),
         Some("face") => Ok(false),
         _ => refuse(format!("unknown place of the tape {}", value.get_ref()), "known: face, seams", value.span()),
     }
-}
-
-fn numbers(name: &str, value: &Spanned<Value>, range: &Range) -> Checked<Vec<f64>> {
-    let Some(list) = value.get_ref().as_array() else {
-        return refuse(format!("{name} must be a list"), "write numbers in brackets: [10, 20, 30]", value.span());
-    };
-    let one =
-        |v: &Value| number(name, plain_number(name, &Spanned::new(value.span(), v.clone()))?, value.span(), range);
-    list.iter().map(one).collect()
-}
-
-pub(super) fn triple(name: &str, value: &Spanned<Value>, range: &Range) -> Checked<[f64; 3]> {
-    let found = numbers(name, value, range)?;
-    found.try_into().or_else(|_| refuse(format!("{name} needs three numbers"), range.too_large, value.span()))
 }
 
 /// Each a number for all channels, or a list with one for each.
@@ -341,7 +195,7 @@ fn above_body(run: &RobotRun, scenario: &Scenario, table: &Free) -> Checked<()> 
     };
     let Some(low) = run.pressures_pa.iter().find_map(low) else { return Ok(()) };
     let [low, body] = [low, body_pa].map(|p| p * 1e-3);
-    let span = table.iter().find(|(key, _)| key.get_ref() == "pressures_kpa").map(|(_, value)| value.span());
+    let span = find(table, "pressures_kpa").map(Spanned::span);
     let message = format!("an actuator at {low} kPa in a body at {body} kPa stays flat\nraise the actuator pressure");
     Err(FemError::Case { message, span })
 }

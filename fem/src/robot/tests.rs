@@ -247,7 +247,8 @@ fn every_assumed_number_may_take_both_ends_of_its_interval() {
         let mut changed = 0;
         for value in unknown.interval {
             let mut settings = coarse();
-            (unknown.set)(&mut settings, value);
+            let key = KEYS.iter().find(|key| key.name == unknown.key).unwrap();
+            (key.set)(&mut settings, value);
             settings.check().unwrap_or_else(|e| panic!("{}: {e}", unknown.reason));
             changed += usize::from(settings != coarse());
         }

@@ -10,7 +10,6 @@ use crate::random::gaussian;
 
 /// Shortest and longest wave \[m\]: from half a pouch to two.
 const WAVES_M: [f64; 2] = [0.03, 0.12];
-/// Number of waves.
 const COUNT: usize = 64;
 
 /// The points moved by u = rms √(1/n) Σₖ (aₖ cos kₖ·x + bₖ sin kₖ·x) with standard normal aₖ, bₖ, kₖ in all directions and lengths

@@ -5,27 +5,24 @@ use serde::{Deserialize, Serialize};
 /// Where a run stands in time \[s\].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Clock {
-    /// Steps done.
     pub step: u64,
     /// Time of loads and supports; it stops while the run waits.
     pub time_s: f64,
     /// Time that the run has waited.
     pub waited_s: f64,
-    /// Whether it waits now.
     pub waits: bool,
-    /// Length of a step.
     pub dt_s: f64,
     /// Length of the step before; 0 at the start.
-    pub before_s: f64,
+    pub(crate) before_s: f64,
     /// Longest step that the start allowed.
-    pub longest_s: f64,
+    pub(crate) longest_s: f64,
     /// γ: the stable step of the whole mesh over that of the nodes' bounds.
     pub gain: f64,
 }
 
 impl Clock {
     /// The clock that runs.
-    pub fn runs_s(&self) -> f64 {
+    pub(crate) fn runs_s(&self) -> f64 {
         if self.waits { self.waited_s } else { self.time_s }
     }
 }
@@ -51,7 +48,7 @@ pub(super) struct Halves {
 }
 
 impl Halves {
-    pub fn add(&mut self, whole: f64) {
+    pub(super) fn add(&mut self, whole: f64) {
         self.sum += 0.5 * (self.last + whole);
         self.last = whole;
     }

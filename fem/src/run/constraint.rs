@@ -2,59 +2,47 @@
 
 use crate::problem::{Amplitude, Problem};
 use crate::{FemError, Mesh};
+use serde::{Deserialize, Serialize};
 
 /// Nodes whose motion is prescribed along some axes.
 #[derive(Debug, Clone)]
-pub struct Driven {
-    /// Nodes.
+pub(super) struct Driven {
     pub nodes: Vec<u32>,
-    /// Prescribed axes.
     pub axes: [bool; 3],
     /// Displacement from the start \[m\].
     pub motion: [Amplitude; 3],
-    /// Where the nodes started \[m\].
     pub start: Vec<[f64; 3]>,
 }
 
 /// A rigid body: nodes that keep their distances.
 #[derive(Debug, Clone)]
-pub struct Body {
-    /// Nodes.
+pub(super) struct Body {
     pub nodes: Vec<u32>,
     /// Mass of each node \[kg\].
     mass: Vec<f64>,
     /// Positions relative to the centre of mass at the start \[m\].
     arm: Vec<[f64; 3]>,
-    /// Centre of mass \[m\].
-    pub centre: [f64; 3],
-    /// Its velocity half a step back \[m/s\].
-    pub velocity: [f64; 3],
-    /// Angular momentum half a step back \[kg m²/s\].
-    pub spin: [f64; 3],
-    /// Orientation as a unit quaternion (w, x, y, z).
-    pub turn: [f64; 4],
+    pub now: BodyNow,
 }
 
-/// Nodes of a named set.
-///
-/// # Errors
-/// Unknown or empty set, with the names there are.
-pub fn set<'a>(mesh: &'a Mesh, name: &str, what: &str) -> Result<&'a [u32], FemError> {
-    match mesh.sets.get(name) {
-        Some(nodes) if !nodes.is_empty() => Ok(nodes),
-        Some(_) => Err(FemError::Problem(format!("{what}: node set `{name}` is empty"))),
-        None => {
-            let known: Vec<&str> = mesh.sets.keys().map(String::as_str).collect();
-            Err(FemError::Problem(format!("{what}: there is no node set `{name}`; the mesh has {}", known.join(", "))))
-        }
-    }
+/// Where a body is, and how it moves.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub(super) struct BodyNow {
+    /// Centre of mass \[m\].
+    centre: [f64; 3],
+    /// Its velocity half a step back \[m/s\].
+    velocity: [f64; 3],
+    /// Angular momentum half a step back \[kg m²/s\].
+    spin: [f64; 3],
+    /// Orientation as a unit quaternion (w, x, y, z).
+    turn: [f64; 4],
 }
 
 /// Prescribed nodes of a problem; axes that hold still are only masked.
-pub fn driven(problem: &Problem, mesh: &Mesh, fixed: &mut [[bool; 3]]) -> Result<Vec<Driven>, FemError> {
+pub(super) fn driven(problem: &Problem, mesh: &Mesh, fixed: &mut [[bool; 3]]) -> Result<Vec<Driven>, FemError> {
     let mut all = Vec::new();
     for support in &problem.supports {
-        let nodes = set(mesh, &support.set, "support")?;
+        let nodes = mesh.set(&support.set, "support")?;
         for node in nodes {
             (0..3).for_each(|k| fixed[*node as usize][k] |= support.axes[k]);
         }
@@ -69,7 +57,15 @@ pub fn driven(problem: &Problem, mesh: &Mesh, fixed: &mut [[bool; 3]]) -> Result
 impl Driven {
     /// Gives the nodes the velocity that brings them to where they must be at `t`, and returns the work done on the
     /// structure over the step: (m Δv/Δt − f)·v̄ Δt.
-    pub fn step(&self, t: f64, dt: f64, mass: &[f64], force: &[[f64; 4]], x: &[[f64; 4]], v: &mut [[f64; 4]]) -> f64 {
+    pub(super) fn step(
+        &self,
+        t: f64,
+        dt: f64,
+        mass: &[f64],
+        force: &[[f64; 4]],
+        x: &[[f64; 4]],
+        v: &mut [[f64; 4]],
+    ) -> f64 {
         let mut work = 0.0;
         let shift = [0, 1, 2].map(|k| self.motion[k].at(t));
         for (node, start) in self.nodes.iter().zip(&self.start) {
@@ -86,10 +82,9 @@ impl Driven {
     }
 }
 
-/// Rigid bodies of a problem.
-pub fn bodies(problem: &Problem, mesh: &Mesh, mass: &[f64]) -> Result<Vec<Body>, FemError> {
+pub(super) fn bodies(problem: &Problem, mesh: &Mesh, mass: &[f64]) -> Result<Vec<Body>, FemError> {
     let make = |rigid: &crate::problem::Rigid| {
-        let nodes = set(mesh, &rigid.set, "rigid")?;
+        let nodes = mesh.set(&rigid.set, "rigid")?;
         if nodes.len() < 3 {
             return Err(FemError::Problem(format!("rigid: node set `{}` has fewer than 3 nodes", rigid.set)));
         }
@@ -108,26 +103,27 @@ impl Body {
             (0..3).for_each(|k| centre[k] += m / total * x[k]);
         }
         let arm = nodes.iter().map(|n| at(*n as usize)).map(|x| [0, 1, 2].map(|k| x[k] - centre[k])).collect();
-        Body {
-            nodes: nodes.to_vec(),
-            mass: own,
-            arm,
-            centre,
-            velocity: [0.0; 3],
-            spin: [0.0; 3],
-            turn: [1.0, 0.0, 0.0, 0.0],
-        }
+        let now = BodyNow { centre, velocity: [0.0; 3], spin: [0.0; 3], turn: [1.0, 0.0, 0.0, 0.0] };
+        Body { nodes: nodes.to_vec(), mass: own, arm, now }
     }
 
     /// One step of the body under the forces on its nodes; sets the velocities that bring them to their places.
     /// Leapfrog in momentum and angular momentum; the orientation turns by the mid-step angular velocity.
-    pub fn step(&mut self, dv: f64, dt: f64, damping: f64, force: &[[f64; 4]], x: &[[f64; 4]], v: &mut [[f64; 4]]) {
+    pub(super) fn step(
+        &mut self,
+        dv: f64,
+        dt: f64,
+        damping: f64,
+        force: &[[f64; 4]],
+        x: &[[f64; 4]],
+        v: &mut [[f64; 4]],
+    ) {
         let mut push = [0.0; 3];
         let mut moment = [0.0; 3];
         for node in &self.nodes {
             let i = *node as usize;
             let f = [force[i][0], force[i][1], force[i][2]];
-            let arm = [0, 1, 2].map(|k| x[i][k] - self.centre[k]);
+            let arm = [0, 1, 2].map(|k| x[i][k] - self.now.centre[k]);
             let m = crate::vec3::cross(arm, f);
             (0..3).for_each(|k| push[k] += f[k]);
             (0..3).for_each(|k| moment[k] += m[k]);
@@ -135,35 +131,35 @@ impl Body {
         let total: f64 = self.mass.iter().sum();
         let (keep, gain) = ((1.0 - 0.5 * damping * dv) / (1.0 + 0.5 * damping * dv), 1.0 / (1.0 + 0.5 * damping * dv));
         for k in 0..3 {
-            self.velocity[k] = self.velocity[k] * keep + gain * dv * push[k] / total;
-            self.spin[k] = self.spin[k] * keep + gain * dv * moment[k];
+            self.now.velocity[k] = self.now.velocity[k] * keep + gain * dv * push[k] / total;
+            self.now.spin[k] = self.now.spin[k] * keep + gain * dv * moment[k];
         }
-        let half = rotate_by(self.turn, self.omega(self.turn), 0.5 * dt);
+        let half = rotate_by(self.now.turn, self.omega(self.now.turn), 0.5 * dt);
         let omega = self.omega(half);
-        self.turn = rotate_by(self.turn, omega, dt);
-        let after = matrix(self.turn);
+        self.now.turn = rotate_by(self.now.turn, omega, dt);
+        let after = matrix(self.now.turn);
         for k in 0..3 {
-            self.centre[k] += dt * self.velocity[k];
+            self.now.centre[k] += dt * self.now.velocity[k];
         }
         for (node, arm) in self.nodes.iter().zip(&self.arm) {
             let i = *node as usize;
             for k in 0..3 {
-                let target = self.centre[k] + after[k][0] * arm[0] + after[k][1] * arm[1] + after[k][2] * arm[2];
+                let target = self.now.centre[k] + after[k][0] * arm[0] + after[k][1] * arm[1] + after[k][2] * arm[2];
                 v[i][k] = (target - x[i][k]) / dt;
             }
         }
     }
 
     /// Takes momentum and angular momentum from the velocities of the nodes.
-    pub fn take_velocities(&mut self, x: &[[f64; 4]], v: &[[f64; 4]]) {
-        (self.velocity, self.spin) = ([0.0; 3], [0.0; 3]);
+    pub(crate) fn take_velocities(&mut self, x: &[[f64; 4]], v: &[[f64; 4]]) {
+        (self.now.velocity, self.now.spin) = ([0.0; 3], [0.0; 3]);
         let total: f64 = self.mass.iter().sum();
         for (node, m) in self.nodes.iter().zip(&self.mass) {
             let (x, v) = (x[*node as usize], v[*node as usize]);
-            let arm = [0, 1, 2].map(|k| x[k] - self.centre[k]);
+            let arm = [0, 1, 2].map(|k| x[k] - self.now.centre[k]);
             let spin = crate::vec3::cross(arm, [v[0], v[1], v[2]]);
-            (0..3).for_each(|k| self.velocity[k] += m / total * v[k]);
-            (0..3).for_each(|k| self.spin[k] += m * spin[k]);
+            (0..3).for_each(|k| self.now.velocity[k] += m / total * v[k]);
+            (0..3).for_each(|k| self.now.spin[k] += m * spin[k]);
         }
     }
 
@@ -180,22 +176,7 @@ impl Body {
                 }
             }
         }
-        solve(inertia, self.spin)
-    }
-
-    /// For a checkpoint.
-    pub fn save(&self) -> [f64; 13] {
-        let ([x, y, z], [u, v, w], [p, q, r]) = (self.centre, self.velocity, self.spin);
-        let [a, b, c, d] = self.turn;
-        [x, y, z, u, v, w, p, q, r, a, b, c, d]
-    }
-
-    /// From a checkpoint.
-    pub fn restore(&mut self, from: &[f64; 13]) {
-        self.centre.copy_from_slice(&from[0..3]);
-        self.velocity.copy_from_slice(&from[3..6]);
-        self.spin.copy_from_slice(&from[6..9]);
-        self.turn.copy_from_slice(&from[9..13]);
+        solve(inertia, self.now.spin)
     }
 }
 
@@ -239,7 +220,7 @@ fn solve(a: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 /// Hands the forces on tied nodes to the nodes they follow.
-pub fn hand_over(ties: &[crate::mesh::Tie], force: &mut [[f64; 4]]) {
+pub(crate) fn hand_over(ties: &[crate::mesh::Tie], force: &mut [[f64; 4]]) {
     for tie in ties {
         let own = std::mem::take(&mut force[tie.node as usize]);
         for (node, weight) in &tie.to {
@@ -249,7 +230,7 @@ pub fn hand_over(ties: &[crate::mesh::Tie], force: &mut [[f64; 4]]) {
 }
 
 /// Puts tied nodes where the nodes they follow have gone; `offset` is their distance from there at the start.
-pub fn follow(ties: &[crate::mesh::Tie], offset: &[[f64; 3]], x: &mut [[f64; 4]], v: &mut [[f64; 4]]) {
+pub(super) fn follow(ties: &[crate::mesh::Tie], offset: &[[f64; 3]], x: &mut [[f64; 4]], v: &mut [[f64; 4]]) {
     for (tie, offset) in ties.iter().zip(offset) {
         let mut place = *offset;
         let mut speed = [0.0; 3];

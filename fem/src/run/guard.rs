@@ -3,7 +3,8 @@
 use models::fabrics::Kind;
 use models::{Account, Pose};
 
-use super::{Ledger, Simulation, highest, setup};
+use super::stable::{give_tied_bounds, stable_step};
+use super::{Ledger, Simulation, highest};
 use crate::policy;
 use crate::problem::Guards;
 use crate::sheet::Sheet;
@@ -26,7 +27,6 @@ struct Evidence {
     extent_m: f64,
     forced_dt_s: Option<f64>,
     added_mass: f64,
-    /// Contact's share of the stored energy.
     contact_share: f64,
 }
 
@@ -61,7 +61,6 @@ impl Evidence {
 }
 
 impl Simulation {
-    /// Judges the last step.
     pub(super) fn guard(&mut self) -> Result<(), FemError> {
         let books = self.books;
         if !(books.kinetic.is_finite() && books.stored.is_finite()) {
@@ -152,8 +151,8 @@ impl Simulation {
         self.sheet.add_gas_bound(until_s, self.x.as_flattened(), &mut others);
         let mut bound = others.clone();
         self.sheet.stiffness_bound(&pose, &mut bound);
-        setup::give_tied_bounds(&self.mesh, &mut bound);
-        let nodes = setup::stable_step(&bound, &self.mass, self.limits.viscosity);
+        give_tied_bounds(&self.mesh, &mut bound);
+        let nodes = stable_step(&bound, &self.mass, self.limits.viscosity);
         if self.clock.step.is_multiple_of(WHOLE) {
             self.clock.gain = highest::gain(
                 &self.sheet,

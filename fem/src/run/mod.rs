@@ -18,15 +18,17 @@ mod reaction;
 mod selective;
 mod setup;
 mod sides;
+mod stable;
 mod step;
 mod team;
+mod update;
 
 pub use crate::sheet::fields::ElementFields;
 pub use ledger::Ledger;
 pub use reaction::Reaction;
 pub use sides::ChangedSides;
 
-use models::{Account, LedgerLine, Pose, Row, RowKind};
+use models::{Account, Pose, RowKind};
 use serde::{Deserialize, Serialize};
 
 use crate::bytes::{pack, unpack};
@@ -35,9 +37,10 @@ use crate::contact::edges::Edges;
 use crate::problem::Guards;
 use crate::sheet::Sheet;
 use crate::sheet::order::Order;
+use crate::transient::row;
 use crate::{FemError, Mesh, Problem, Transient};
 use clock::{Books, Clock};
-use constraint::{Body, Driven};
+use constraint::{Body, BodyNow, Driven};
 pub(crate) use guard::LESS_HOURGLASS;
 use reaction::Reactions;
 use selective::Selective;
@@ -101,7 +104,7 @@ struct State {
     selective: Option<Vec<f64>>,
     sheet: Vec<u8>,
     terms: Vec<SavedTerm>,
-    bodies: Vec<[f64; 13]>,
+    bodies: Vec<BodyNow>,
     reactions: Vec<f64>,
     /// Masses, what scaling added over the true mass, and the first step, which other loads would choose otherwise.
     masses: (Vec<f64>, f64, f64),
@@ -187,7 +190,7 @@ impl Simulation {
             selective: self.selective.as_ref().map(Selective::save),
             sheet: self.sheet.save(),
             terms: self.others().map(|term| SavedTerm::of(term, &pose)).collect(),
-            bodies: self.bodies.iter().map(Body::save).collect(),
+            bodies: self.bodies.iter().map(|body| body.now).collect(),
             reactions: self.reactions.save(),
             masses: (self.mass.clone(), self.limits.added_mass, self.clock.longest_s),
         })
@@ -219,7 +222,7 @@ impl Simulation {
             (None, None) => {}
             _ => return None,
         }
-        self.bodies.iter_mut().zip(&state.bodies).for_each(|(body, saved)| body.restore(saved));
+        self.bodies.iter_mut().zip(&state.bodies).for_each(|(body, saved)| body.now = *saved);
         self.reactions.restore(&state.reactions)?;
         (self.clock, self.books, self.x, self.v) = (state.clock, state.books, state.x, state.v);
         Some(begin)
@@ -292,7 +295,6 @@ impl Simulation {
         let pose = Pose::nodes(self.x.as_flattened());
         let mut rows = self.sheet.ledger(&pose);
         rows.extend(self.others().flat_map(|term| term.ledger(&pose)));
-        let row = |name, account, kind, energy_j| Row { name, account, kind, energy_j };
         rows.push(row("mass damping", Account::Numerical, RowKind::Dissipated, self.books.damping.sum));
         let [supplied, dissipated] = self.books.earlier;
         if self.books.earlier != [0.0; 2] {
@@ -309,14 +311,13 @@ impl Simulation {
     }
 
     /// The same with the energy of compressed sheets apart from that of the membranes; dearer, for what is read now and then.
-    pub fn ledger_in_detail(&self) -> Ledger {
+    pub(crate) fn ledger_in_detail(&self) -> Ledger {
         let mut ledger = self.ledger();
         let compressed_j = self.sheet.compressed_j(self.x.as_flattened());
         if let Some(membrane) = ledger.rows.iter_mut().find(|row| row.name == "membrane") {
             membrane.energy_j -= compressed_j;
-            let line = LedgerLine { name: "compressed sheets", account: Account::Compression };
-            let compressed = line.row(membrane.kind, compressed_j);
-            ledger.rows.push(compressed);
+            let kind = membrane.kind;
+            ledger.rows.push(row("compressed sheets", Account::Compression, kind, compressed_j));
         }
         ledger
     }

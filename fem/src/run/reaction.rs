@@ -7,7 +7,6 @@
 //! structure**, and R·v of a driven set is the power that goes in. A node and axis that several supports name counts for the first of
 //! them, so that sums over all supports are right. Nodes that a rigid body or a tie carries along are not held by a support.
 
-use super::constraint::set;
 use crate::problem::Problem;
 use crate::{FemError, Mesh};
 
@@ -26,7 +25,7 @@ pub struct Reaction {
 
 /// The reactions of a run, as they were in the last step that somebody looks at.
 #[derive(Debug, Clone, Default)]
-pub struct Reactions {
+pub(super) struct Reactions {
     all: Vec<Reaction>,
     /// Nodes of each, with the axes that are its own.
     nodes: Vec<Vec<(u32, [bool; 3])>>,
@@ -34,10 +33,10 @@ pub struct Reactions {
 
 impl Reactions {
     /// One for every node set that supports name, in their order.
-    pub fn new(problem: &Problem, mesh: &Mesh) -> Result<Reactions, FemError> {
+    pub(super) fn new(problem: &Problem, mesh: &Mesh) -> Result<Reactions, FemError> {
         let mut free = vec![[true; 3]; mesh.points.len()];
         for rigid in &problem.rigid {
-            set(mesh, &rigid.set, "rigid")?.iter().for_each(|node| free[*node as usize] = [false; 3]);
+            mesh.set(&rigid.set, "rigid")?.iter().for_each(|node| free[*node as usize] = [false; 3]);
         }
         mesh.ties.iter().for_each(|tie| free[tie.node as usize] = [false; 3]);
         let mut reactions = Reactions::default();
@@ -45,7 +44,7 @@ impl Reactions {
             let place = reactions.place_of(&support.set);
             let Reaction { axes, .. } = &mut reactions.all[place];
             (0..3).for_each(|k| axes[k] |= support.axes[k]);
-            for node in set(mesh, &support.set, "support")? {
+            for node in mesh.set(&support.set, "support")? {
                 let free = &mut free[*node as usize];
                 let own = [0, 1, 2].map(|k| support.axes[k] && free[k]);
                 (0..3).for_each(|k| free[k] &= !support.axes[k]);
@@ -64,18 +63,17 @@ impl Reactions {
         })
     }
 
-    /// All of them.
-    pub fn all(&self) -> &[Reaction] {
+    pub(super) fn all(&self) -> &[Reaction] {
         &self.all
     }
 
     /// Forgets the step before.
-    pub fn clear(&mut self) {
+    pub(super) fn clear(&mut self) {
         self.all.iter_mut().for_each(|r| (r.force_n, r.moment_nm) = ([0.0; 3], [0.0; 3]));
     }
 
     /// Adds a share of the nodes' forces \[N\], their places being `x` \[m\].
-    pub fn add(&mut self, x: &[[f64; 4]], share: impl Fn(usize) -> [f64; 3]) {
+    pub(super) fn add(&mut self, x: &[[f64; 4]], share: impl Fn(usize) -> [f64; 3]) {
         for (reaction, nodes) in self.all.iter_mut().zip(&self.nodes) {
             let count = nodes.len() as f64;
             let mut mean = [0.0; 3];
@@ -90,13 +88,11 @@ impl Reactions {
         }
     }
 
-    /// For a checkpoint.
-    pub fn save(&self) -> Vec<f64> {
+    pub(super) fn save(&self) -> Vec<f64> {
         self.all.iter().flat_map(|r| [r.force_n, r.moment_nm]).flatten().collect()
     }
 
-    /// From a checkpoint.
-    pub fn restore(&mut self, from: &[f64]) -> Option<()> {
+    pub(super) fn restore(&mut self, from: &[f64]) -> Option<()> {
         let (rows, rest) = from.as_chunks::<6>();
         (rest.is_empty() && rows.len() == self.all.len()).then_some(())?;
         for (reaction, [fx, fy, fz, mx, my, mz]) in self.all.iter_mut().zip(rows) {

@@ -23,7 +23,7 @@
 
 use std::f64::consts::PI;
 
-use super::step::{PIECE, Update};
+use super::update::{PIECE, Update};
 use crate::mesh::Mesh;
 
 /// s: waves of two elements along one side of a grid have D⁻¹L = 0.9.
@@ -36,7 +36,7 @@ const LEAST: f64 = 0.01;
 
 /// M⁻¹ of a mesh, and the momenta.
 #[derive(Debug, Clone)]
-pub struct Selective {
+pub(super) struct Selective {
     /// Where the links of a node begin.
     first: Vec<u32>,
     /// Nodes at the other ends.
@@ -48,7 +48,6 @@ pub struct Selective {
     passes: Vec<f64>,
     /// Prescribed axes, which stand still or are set by others.
     fixed: Vec<(u32, [bool; 3])>,
-    /// u \[m/s\].
     pub u: Vec<[f64; 4]>,
     /// u after some passes, and room for the next.
     half: Vec<[f64; 4]>,
@@ -56,10 +55,9 @@ pub struct Selective {
     /// Places of the fixed nodes during a step \[m\].
     held: Vec<[f64; 4]>,
     /// Σ m u·v \[J\].
-    pub twice_j: f64,
+    pub(crate) twice_j: f64,
 }
 
-/// A node's own numbers.
 #[derive(Debug, Clone, Copy)]
 struct Row {
     mass: f64,
@@ -79,14 +77,20 @@ fn factors(passes: usize) -> Vec<f64> {
 }
 
 /// How much larger than with two passes the square of the step may be.
-pub fn gain(passes: usize) -> f64 {
+pub(crate) fn gain(passes: usize) -> f64 {
     let peak = |half: usize| LARGEST[half - 1] / (2.0 * half as f64 + 1.0).powi(2) + 0.5 * SHARE * LEAST;
     peak(1) / peak(passes / 2)
 }
 
 impl Selective {
     /// For lumped masses and two, four or six passes; `carried` nodes are left out.
-    pub fn new(mesh: &Mesh, mass: &[f64], passes: usize, fixed: &[(u32, [bool; 3])], carried: &[bool]) -> Selective {
+    pub(super) fn new(
+        mesh: &Mesh,
+        mass: &[f64],
+        passes: usize,
+        fixed: &[(u32, [bool; 3])],
+        carried: &[bool],
+    ) -> Selective {
         let shared = shared(mesh, |node| mass[node as usize] > 0.0 && !carried[node as usize]);
         let count: Vec<f64> = shared.iter().map(|row| row.iter().map(|(_, c)| c).sum()).collect();
         let light = |i: usize| mass[i] / count[i];
@@ -116,7 +120,7 @@ impl Selective {
     }
 
     /// D M⁻¹ u, with prescribed axes at rest.
-    pub fn smoothed(&self, u: &[[f64; 4]]) -> Vec<[f64; 4]> {
+    pub(crate) fn smoothed(&self, u: &[[f64; 4]]) -> Vec<[f64; 4]> {
         let mut first = u.to_vec();
         self.rest(&mut first);
         let (mut from, mut to) = (first.clone(), first.clone());
@@ -132,14 +136,14 @@ impl Selective {
     }
 
     /// Begins with velocities, which become smooth.
-    pub fn begin(&mut self, v: &mut [[f64; 4]]) {
+    pub(super) fn begin(&mut self, v: &mut [[f64; 4]]) {
         self.u.copy_from_slice(v);
         v.copy_from_slice(&self.smoothed(&self.u));
         self.twice_j = self.rows.iter().zip(&self.u).zip(&*v).map(|((row, u), v)| row.mass * dot(u, v)).sum();
     }
 
     /// Takes over velocities that others have set.
-    pub fn carry(&mut self, moved: &[(u32, [bool; 3])], v: &[[f64; 4]]) {
+    pub(super) fn carry(&mut self, moved: &[(u32, [bool; 3])], v: &[[f64; 4]]) {
         for (node, axes) in moved {
             let i = *node as usize;
             (0..3).filter(|k| axes[*k]).for_each(|k| self.u[i][k] = v[i][k]);
@@ -147,7 +151,13 @@ impl Selective {
     }
 
     /// Updates velocities and positions and leaves the forces at zero; returns kinetic energy and Σ m ū·v̄.
-    pub fn step(&mut self, update: Update, force: &mut [[f64; 4]], v: &mut [[f64; 4]], x: &mut [[f64; 4]]) -> [f64; 2] {
+    pub(super) fn step(
+        &mut self,
+        update: Update,
+        force: &mut [[f64; 4]],
+        v: &mut [[f64; 4]],
+        x: &mut [[f64; 4]],
+    ) -> [f64; 2] {
         let (mut u, mut half) = (std::mem::take(&mut self.u), std::mem::take(&mut self.half));
         let across = push(Push { update, rows: &self.rows, force, u: &mut u, v });
         let mut next = std::mem::take(&mut self.next);
@@ -173,13 +183,11 @@ impl Selective {
         [0.5 * across, damped]
     }
 
-    /// For a checkpoint.
-    pub fn save(&self) -> Vec<f64> {
+    pub(super) fn save(&self) -> Vec<f64> {
         [self.u.as_flattened(), &[self.twice_j]].concat()
     }
 
-    /// From a checkpoint.
-    pub fn restore(&mut self, from: &[f64]) -> Option<()> {
+    pub(super) fn restore(&mut self, from: &[f64]) -> Option<()> {
         let (twice_j, u) = from.split_last()?;
         (u.len() == 4 * self.u.len()).then(|| self.u.as_flattened_mut().copy_from_slice(u))?;
         self.twice_j = *twice_j;
@@ -221,15 +229,12 @@ fn mixed(smooth: f64, u: f64) -> f64 {
 /// Nodes at the other ends of the sides at each node, and how many elements have the side.
 fn shared(mesh: &Mesh, takes_part: impl Fn(u32) -> bool) -> Vec<Vec<(u32, f64)>> {
     let mut shared: Vec<Vec<(u32, f64)>> = vec![Vec::new(); mesh.points.len()];
-    for part in &mesh.parts {
-        for i in 0..part.len() {
-            let corners = part.nodes(i);
-            for (k, a) in corners.iter().enumerate() {
-                let b = &corners[(k + 1) % corners.len()];
-                if takes_part(*a) && takes_part(*b) {
-                    link(&mut shared[*a as usize], *b);
-                    link(&mut shared[*b as usize], *a);
-                }
+    for corners in mesh.faces() {
+        for (k, a) in corners.iter().enumerate() {
+            let b = &corners[(k + 1) % corners.len()];
+            if takes_part(*a) && takes_part(*b) {
+                link(&mut shared[*a as usize], *b);
+                link(&mut shared[*b as usize], *a);
             }
         }
     }
@@ -302,7 +307,6 @@ struct Smooth<'a> {
     all: &'a Selective,
     alpha: f64,
     from: &'a [[f64; 4]],
-    /// First of the nodes.
     begin: usize,
     to: &'a mut [[f64; 4]],
 }
@@ -336,7 +340,6 @@ struct Place<'a> {
     all: &'a Selective,
     half: &'a [[f64; 4]],
     u: &'a [[f64; 4]],
-    /// First of the nodes.
     begin: usize,
     v: &'a mut [[f64; 4]],
     x: &'a mut [[f64; 4]],

@@ -2,9 +2,10 @@
 
 use models::Pose;
 
-use super::constraint::{Body, Driven, bodies, driven, set};
+use super::constraint::{Body, Driven, bodies, driven};
 use super::reaction::Reactions;
 use super::selective::Selective;
+use super::stable::{damped, give_tied_bounds, give_tied_masses, stable_step};
 use super::team::Team;
 use super::{Books, Clock, Limits, Simulation, guard, highest};
 use crate::contact::Contact;
@@ -183,7 +184,7 @@ impl Still {
 fn carried(problem: &Problem, mesh: &Mesh, driven: &[Driven]) -> Result<Vec<bool>, FemError> {
     let mut carried = vec![false; mesh.points.len()];
     for rigid in &problem.rigid {
-        set(mesh, &rigid.set, "rigid")?.iter().for_each(|node| carried[*node as usize] = true);
+        mesh.set(&rigid.set, "rigid")?.iter().for_each(|node| carried[*node as usize] = true);
     }
     let others = driven.iter().flat_map(|d| &d.nodes).chain(mesh.ties.iter().map(|t| &t.node));
     others.for_each(|node| carried[*node as usize] = true);
@@ -269,17 +270,6 @@ fn bent(problem: &Problem, mesh: &Mesh, sheet: &Sheet) -> Vec<Box<dyn Transient>
     terms
 }
 
-/// Largest stable step \[s\] from the nodes' stiffness bounds \[N/m\] and masses \[kg\].
-pub(super) fn stable_step(bound: &[f64], mass: &[f64], viscosity: f64) -> f64 {
-    let square = bound.iter().zip(mass).filter(|(_, m)| **m > 0.0).map(|(k, m)| k / m).fold(0.0, f64::max);
-    2.0 / square.sqrt() * damped(viscosity)
-}
-
-/// What viscosity leaves of the stable step.
-fn damped(viscosity: f64) -> f64 {
-    (1.0 + viscosity * viscosity).sqrt() - viscosity
-}
-
 fn choose_step(stable_s: f64, settings: &Settings) -> Result<f64, FemError> {
     let dt = settings.dt_s.unwrap_or(settings.cfl * stable_s);
     if dt > stable_s {
@@ -315,23 +305,6 @@ fn scale_masses(settings: &Settings, bound: &[f64], gain: f64, mass: &mut [f64])
     }
 }
 
-/// Tied nodes hand their mass to the nodes they follow.
-fn give_tied_masses(mesh: &Mesh, mass: &mut [f64]) {
-    for tie in &mesh.ties {
-        let own = std::mem::take(&mut mass[tie.node as usize]);
-        tie.to.iter().for_each(|(node, weight)| mass[*node as usize] += weight * own);
-    }
-}
-
-/// Tied nodes hand their stiffness to the nodes they follow: |Σ w u|² ≤ Σ|w| Σ |w| u².
-pub(super) fn give_tied_bounds(mesh: &Mesh, bound: &mut [f64]) {
-    for tie in &mesh.ties {
-        let own = std::mem::take(&mut bound[tie.node as usize]);
-        let sum: f64 = tie.to.iter().map(|(_, weight)| weight.abs()).sum();
-        tie.to.iter().for_each(|(node, weight)| bound[*node as usize] += sum * weight.abs() * own);
-    }
-}
-
 fn tie_offsets(mesh: &Mesh, x: &[[f64; 4]]) -> Vec<[f64; 3]> {
     let offset = |tie: &crate::mesh::Tie| {
         let own = x[tie.node as usize];
@@ -360,13 +333,11 @@ fn imperfect(x: &mut [[f64; 4]], mesh: &Mesh, order: &Order, fixed: &[[bool; 3]]
         return;
     }
     let mut normal = vec![[0.0; 3]; x.len()];
-    for part in &mesh.parts {
-        for i in 0..part.len() {
-            let corner: Vec<[f64; 3]> = part.nodes(i).iter().map(|n| mesh.start_of(*n as usize)).collect();
-            let area = area(&corner);
-            for node in part.nodes(i) {
-                (0..3).for_each(|k| normal[*node as usize][k] += area[k] / corner.len() as f64);
-            }
+    for nodes in mesh.faces() {
+        let corner: Vec<[f64; 3]> = nodes.iter().map(|n| mesh.start_of(*n as usize)).collect();
+        let area = area(&corner);
+        for node in nodes {
+            (0..3).for_each(|k| normal[*node as usize][k] += area[k] / corner.len() as f64);
         }
     }
     for (place, (x, n)) in x.iter_mut().zip(&normal).enumerate().filter(|(place, _)| fixed[*place] == [false; 3]) {

@@ -18,8 +18,7 @@ const TRY_AGAIN: u64 = 24;
 /// Weight of the newest time in the running mean.
 const NEWEST: f64 = 0.3;
 
-/// One thread, or all.
-pub struct Team {
+pub(super) struct Team {
     one: rayon::ThreadPool,
     all: Option<rayon::ThreadPool>,
     ways: Ways,
@@ -45,7 +44,6 @@ impl Ways {
         untried.unwrap_or(if self.since >= self.patience { 1 - self.better() } else { self.better() })
     }
 
-    /// The faster way.
     fn better(&self) -> usize {
         usize::from(self.seconds[1] <= self.seconds[0])
     }
@@ -70,7 +68,7 @@ impl Team {
     ///
     /// # Errors
     /// [`FemError::Problem`] when the system gives no threads.
-    pub fn new(threads: usize) -> Result<Team, FemError> {
+    pub(super) fn new(threads: usize) -> Result<Team, FemError> {
         let threads = if threads == 0 { std::thread::available_parallelism().map_or(1, usize::from) } else { threads };
         let pool = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
@@ -81,12 +79,12 @@ impl Team {
     }
 
     /// Processor seconds of all threads since this was last asked.
-    pub fn take_cpu_s(&mut self) -> f64 {
+    pub(crate) fn take_cpu_s(&mut self) -> f64 {
         std::mem::take(&mut self.cpu_s)
     }
 
     /// Runs a stretch of `work`, which returns the number of steps it did and what else there is to say.
-    pub fn run<T: Send>(&mut self, work: impl FnOnce() -> (u64, T) + Send) -> T {
+    pub(super) fn run<T: Send>(&mut self, work: impl FnOnce() -> (u64, T) + Send) -> T {
         let Some(all) = &self.all else {
             return self.alone(work).1;
         };

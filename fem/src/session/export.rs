@@ -3,7 +3,7 @@
 use super::Source;
 pub use crate::output::deck::Solver;
 use crate::output::{Frame, deck, vtu};
-use crate::{FemError, Simulation, mesh};
+use crate::{FemError, Simulation};
 use std::path::Path;
 
 /// What was written.
@@ -20,7 +20,7 @@ pub struct Export {
 }
 
 /// Writes the problem that a text describes: `.inp` for a solver with materials, loads and a step, `.vtu` for
-/// ParaView, `.ibrmesh` as our own mesh. An earlier file stays until the new one is complete.
+/// ParaView. An earlier file stays until the new one is complete.
 ///
 /// # Errors
 /// [`FemError::Setting`] for another ending, and for a solver that does not read the format; as [`super::simulate`] for the text; [`FemError::Io`].
@@ -44,13 +44,9 @@ pub fn export(source: &Source, path: &Path, solver: Solver) -> Result<Export, Fe
             let start = Simulation::new(problem).map_err(|error| source.refused(error))?;
             vtu::write_vtu(path, &problem.mesh, &Frame::of(&start))?;
         }
-        Some("ibrmesh") => mesh::file::write(path, &problem.mesh)?,
         _ => {
             let message = format!("{} has no ending that says what to write", path.display());
-            return Err(FemError::setting(
-                message,
-                "end it with .inp (Abaqus, CalculiX), .vtu (ParaView) or .ibrmesh (our own)",
-            ));
+            return Err(FemError::setting(message, "end it with .inp (Abaqus, CalculiX) or .vtu (ParaView)"));
         }
     }
     let (nodes, elements) = (problem.mesh.points.len(), problem.mesh.elements());

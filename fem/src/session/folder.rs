@@ -43,7 +43,7 @@ const OWN: &[&str] = &[
 
 /// Separates one run from another, in addition to the case itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct RunIdentity {
+pub(super) struct RunIdentity {
     /// SHA-256 of the case's text.
     pub case_sha256: String,
     /// Simulated time \[s\].
@@ -57,7 +57,7 @@ pub struct RunIdentity {
 
 /// A request to open a folder.
 #[derive(Debug, Clone, Copy)]
-pub struct RunWish<'a> {
+pub(super) struct RunWish<'a> {
     /// Folder.
     pub folder: &'a Path,
     /// Text of the case.
@@ -70,7 +70,7 @@ pub struct RunWish<'a> {
 
 /// A folder that may be written to.
 #[derive(Debug)]
-pub struct Workplace {
+pub(super) struct Workplace {
     /// Where files go while the run is not complete.
     pub folder: PathBuf,
     /// The interrupted run to go on with.
@@ -82,7 +82,7 @@ pub struct Workplace {
 
 /// What came of the wish.
 #[derive(Debug)]
-pub enum Opened {
+pub(super) enum Opened {
     /// A run can start or go on.
     Work(Workplace),
     /// `--resume` of a run that is complete.
@@ -104,7 +104,7 @@ pub fn is_finished(folder: &Path) -> bool {
 }
 
 /// Whether the run in the folder, complete or not, is of this case; `None` if there is none.
-pub fn is_of(folder: &Path, text: &str) -> Result<Option<bool>, FemError> {
+pub(super) fn is_of(folder: &Path, text: &str) -> Result<Option<bool>, FemError> {
     Ok(match look(folder)? {
         Found::Unfinished(marker) => Some(marker.case_sha256 == sha256(text.as_bytes())),
         Found::Finished => Some(case_sha256(folder).is_some_and(|of| of == sha256(text.as_bytes()))),
@@ -116,7 +116,7 @@ pub fn is_of(folder: &Path, text: &str) -> Result<Option<bool>, FemError> {
 ///
 /// # Errors
 /// The folder holds another run, or files that are none of ours, or another process writes to it.
-pub fn open(wish: &RunWish) -> Result<Opened, FemError> {
+pub(super) fn open(wish: &RunWish) -> Result<Opened, FemError> {
     let refuse = |cause: &str, help: &str| Err(refused(wish.folder, cause, help));
     if matches!(look(&aside(wish.folder))?, Found::Finished) {
         mend(wish.folder, &aside(wish.folder)).map_err(|cause| unwritable(wish.folder, &cause))?;
@@ -150,7 +150,7 @@ pub fn open(wish: &RunWish) -> Result<Opened, FemError> {
 }
 
 /// Makes a complete run an unfinished one again, with the checkpoint that `keep` writes. Killed at any point it is one of the two.
-pub fn reopen(
+pub(crate) fn reopen(
     folder: &Path,
     marker: RunIdentity,
     keep: &dyn Fn() -> Result<(), FemError>,
@@ -277,18 +277,17 @@ fn locked(folder: &Path, target: &Path, interrupted: Option<RunIdentity>) -> Res
     Ok(Workplace { folder: folder.to_path_buf(), interrupted, target, _lock: lock })
 }
 
-/// One change to a folder.
 type Step<'a> = &'a dyn Fn() -> Result<(), FemError>;
 
 impl Workplace {
     /// Where the complete run goes in the end.
-    pub fn target(&self) -> &Path {
+    pub(super) fn target(&self) -> &Path {
         &self.target
     }
 
     /// Clears away an earlier run and marks the folder as a run in progress. Killed at any point, the folder is known as
     /// an unfinished run: of the earlier case until its files are gone, then of this one.
-    pub fn start(&self, marker: &RunIdentity, text: &str) -> Result<(), FemError> {
+    pub(super) fn start(&self, marker: &RunIdentity, text: &str) -> Result<(), FemError> {
         self.begin(marker, text, &mut |step| step())
     }
 
@@ -315,12 +314,12 @@ impl Workplace {
     }
 
     /// Writes the case, which a kill right after the mark leaves out.
-    pub fn keep_case(&self, text: &str) -> Result<(), FemError> {
+    pub(crate) fn keep_case(&self, text: &str) -> Result<(), FemError> {
         write(&self.folder.join(CASE), text.as_bytes())
     }
 
     /// The files of the run, for its manifest.
-    pub fn files(&self) -> Result<Vec<(String, Vec<u8>)>, FemError> {
+    pub(super) fn files(&self) -> Result<Vec<(String, Vec<u8>)>, FemError> {
         let mut found = Vec::new();
         for name in OWN.iter().filter(|name| !name.starts_with("checkpoint")) {
             let path = self.folder.join(name);
@@ -338,7 +337,7 @@ impl Workplace {
     }
 
     /// Writes the manifest, and lets the complete run take its place; returns a notice on an older one that was there.
-    pub fn complete(self, manifest: &Manifest) -> Result<Option<String>, FemError> {
+    pub(super) fn complete(self, manifest: &Manifest) -> Result<Option<String>, FemError> {
         write(&self.folder.join(LAST), manifest.text().as_bytes())?;
         for name in [MARKER, "checkpoint", "checkpoint.previous", LOCK] {
             remove(&self.folder.join(name))?;

@@ -18,26 +18,23 @@ const JUMP: f64 = 1e-3;
 
 /// What the payload of `checkpoint.end` is.
 #[derive(Serialize, Deserialize)]
-struct End {
+pub(super) struct End {
     /// Of the problem, whatever its length.
     fingerprint: u64,
-    loads: Loads,
+    pub loads: Loads,
     session: Vec<u8>,
 }
 
 /// The end of a complete run.
-pub struct Earlier {
+pub(super) struct Earlier {
     folder: PathBuf,
     /// When \[s\].
     pub time_s: f64,
-    /// Its loads then.
-    pub loads: Loads,
     /// SHA-256 of the file.
     pub sha256: String,
     structure: u64,
-    fingerprint: u64,
     step: u64,
-    session: Vec<u8>,
+    pub end: End,
 }
 
 /// Keeps the end of a run in its folder.
@@ -58,7 +55,7 @@ impl Earlier {
     ///
     /// # Errors
     /// [`FemError::Setting`] for a folder without the end of a run, [`FemError::Checkpoint`] for a damaged one.
-    pub fn read(folder: &Path) -> Result<Earlier, FemError> {
+    pub(super) fn read(folder: &Path) -> Result<Earlier, FemError> {
         let refused = |cause: &str, help: &str| {
             FemError::setting(format!("cannot go on from {}: {cause}", folder.display()), help)
         };
@@ -76,17 +73,7 @@ impl Earlier {
         let Checkpoint { fingerprint: structure, step, time_s, payload } = checkpoint;
         let end: End = unpack(&payload)
             .ok_or_else(|| refused("its checkpoint.end holds something else", "make the run again with --force"))?;
-        let End { fingerprint, loads, session } = end;
-        Ok(Earlier {
-            folder: folder.into(),
-            time_s,
-            loads,
-            sha256: sha256(&bytes),
-            structure,
-            fingerprint,
-            step,
-            session,
-        })
+        Ok(Earlier { folder: folder.into(), time_s, sha256: sha256(&bytes), structure, step, end })
     }
 
     /// The run of another problem from here on, and what to know about it.
@@ -103,7 +90,7 @@ impl Earlier {
         }
         let foreign =
             || FemError::setting(format!("the end of the run in {from} does not fit"), "make it again with --force");
-        let saved = stepping::run_of(&self.session).ok_or_else(foreign)?;
+        let saved = stepping::run_of(&self.end.session).ok_or_else(foreign)?;
         let run = Simulation::go_on(problem, &saved).map_err(|error| loaded.source.refused(error))?;
         // Steps are not shortened to meet a moment.
         if problem.settings.end_s <= self.time_s + run.dt_s() {
@@ -124,7 +111,7 @@ impl Earlier {
             // A sealed chamber keeps its gas.
             let value =
                 |loads: &Loads| loads.get(what).copied().or((!what.starts_with("pressure")).then_some([0.0; 3]));
-            let (before, after) = (value(&self.loads)?, value(now)?);
+            let (before, after) = (value(&self.end.loads)?, value(now)?);
             let jumps = |k: &usize| (before[*k] - after[*k]).abs() > JUMP * before[*k].abs().max(after[*k].abs());
             let k = (0..3).find(jumps)?;
             let at_s = self.time_s;
@@ -133,7 +120,7 @@ impl Earlier {
                 before[k], after[k]
             ))
         };
-        let gone = self.loads.keys().filter(|what| !now.contains_key(*what));
+        let gone = self.end.loads.keys().filter(|what| !now.contains_key(*what));
         now.keys().chain(gone).filter_map(jump).collect()
     }
 }
@@ -154,7 +141,7 @@ pub(super) fn reopened(folder: &Path, loaded: &Loaded, settings: &Settings) -> R
     }
     let earlier = Earlier::read(folder)?;
     let problem = &loaded.case.problem;
-    if problem.fingerprint_of_any_length() != earlier.fingerprint {
+    if problem.fingerprint_of_any_length() != earlier.end.fingerprint {
         let message = format!("cannot go on with the run in {}: it is of another problem", folder.display());
         let help = "give the options that it was started with, --from too; for other loads, go on from it with --from";
         return Err(FemError::setting(message, help));
@@ -165,7 +152,7 @@ pub(super) fn reopened(folder: &Path, loaded: &Loaded, settings: &Settings) -> R
         frames: folder.join("run.pvd").exists(),
         from: settings.from.as_deref().map(Earlier::read).transpose()?.map(|from| from.sha256),
     };
-    let Earlier { time_s, step, session, .. } = earlier;
+    let Earlier { time_s, step, end: End { session, .. }, .. } = earlier;
     let payload = stepping::extended(&session, time_s, problem.settings.output_every_s).unwrap_or(session);
     let checkpoint = Checkpoint { fingerprint: problem.fingerprint(), step, time_s, payload };
     folder::reopen(folder, marker, &|| write_checkpoint(folder, &checkpoint).map(|_| ())).map(Some)

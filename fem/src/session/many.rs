@@ -38,17 +38,7 @@ pub fn simulate_all(jobs: &[Job], settings: &Settings, progress: Progress) -> Re
         let help = "choose another folder with --out; several runs get a folder each inside it".into();
         return Err(FemError::Folder { path: root, cause: "it holds a single run".into(), help });
     }
-    let mut tasks: Vec<Task> = Vec::new();
-    let mut of = Vec::new();
-    for (at, job) in jobs.iter().enumerate() {
-        let loaded = job.source.load()?;
-        let fingerprint = loaded.case.problem.fingerprint();
-        let known = tasks.iter().position(|task| task.fingerprint == fingerprint);
-        of.push(known.unwrap_or(tasks.len()));
-        if known.is_none() {
-            tasks.push(Task::of(at, job, &loaded, &root));
-        }
-    }
+    let (tasks, of) = tasks(jobs, &root)?;
     if !settings.force {
         tasks.iter().filter(|task| jobs[task.at].folder.is_some()).try_for_each(|task| task.check(jobs))?;
     }
@@ -99,21 +89,26 @@ impl Shard {
 /// # Errors
 /// [`FemError::Refused`] for a job that cannot be run.
 pub fn problems<'a>(jobs: &'a [Job], root: &Path) -> Result<Vec<(&'a Job, PathBuf)>, FemError> {
-    let (mut prints, mut found) = (Vec::new(), Vec::new());
+    Ok(tasks(jobs, root)?.0.into_iter().map(|task| (&jobs[task.at], task.folder)).collect())
+}
+
+/// Each problem once, and which of them each job has.
+fn tasks(jobs: &[Job], root: &Path) -> Result<(Vec<Task>, Vec<usize>), FemError> {
+    let (mut tasks, mut of) = (Vec::<Task>::new(), Vec::new());
     for (at, job) in jobs.iter().enumerate() {
-        let Task { fingerprint, folder, .. } = Task::of(at, job, &job.source.load()?, root);
-        if !prints.contains(&fingerprint) {
-            prints.push(fingerprint);
-            found.push((job, folder));
+        let task = Task::of(at, job, &job.source.load()?, root);
+        let known = tasks.iter().position(|known| known.fingerprint == task.fingerprint);
+        of.push(known.unwrap_or(tasks.len()));
+        if known.is_none() {
+            tasks.push(task);
         }
     }
-    Ok(found)
+    Ok((tasks, of))
 }
 
 /// What a step with contact costs, in steps without.
 const CONTACT: f64 = 2.5;
 
-/// A problem to be run.
 struct Task {
     /// Its first job.
     at: usize,

@@ -2,8 +2,7 @@
 //!
 //! ```no_run
 //! use fem::session::{Settings, Source, simulate};
-//! use std::ops::ControlFlow;
-//!
+//! //!
 //! let robot = Source::new("epam", models::shipped("epam").unwrap());
 //! let settings = Settings { folder: Some("epam-run".into()), resume: true, ..Settings::default() };
 //! let run = simulate(&robot, &settings, &mut |what, _share| {
@@ -23,6 +22,7 @@
 //! | `stepping` | rows, frames and checkpoints as a run goes |
 //! | `watch`, `robot_files` | what is read of a robot, its tables and pictures |
 //! | `goes_on` | the end of a complete run, and runs that go on from it |
+//! | `run` | how a run is made, and a complete one |
 //! | `folder` | who may write to a run's folder, and how a new run takes the place of an older one |
 //! | `memory` | whether a mesh fits into this machine |
 //! | `summary` | the records `summary.json` and the cost of a run |
@@ -31,6 +31,7 @@
 //! A run in a folder is marked as unfinished until its last file is written; killed at any moment it can go on with
 //! [`Settings::resume`], and ends with the same bits.
 
+mod common;
 mod export;
 mod folder;
 mod goes_on;
@@ -39,6 +40,7 @@ mod many;
 mod memory;
 mod plan;
 mod robot_files;
+mod run;
 mod source;
 mod stepping;
 mod summary;
@@ -46,12 +48,14 @@ mod table;
 mod together;
 mod watch;
 
+pub use common::{Progress, rounded};
 pub use export::{Export, Solver, export};
 pub use folder::is_finished;
 pub use manifest::{FileHash, MANIFEST, Maker, Manifest, sha256};
 pub use many::{Job, Many, Shard, finished_below, problems, simulate_all};
 pub use memory::least_bytes;
 pub use plan::{AS_IT_IS, Changes, Cube, Felt, Variation, cube, felt, mesh_keys, numerics, pressures_in_toml, product};
+pub use run::{FeRun, Further, Settings};
 pub use source::{Loaded, Source};
 pub use summary::{
     ChamberEnd, Cost, EnergyLine, FirstThrough, KineticShares, MeshQuality, ProbeEnd, ReactionEnd, Rule, SUMMARY,
@@ -60,131 +64,12 @@ pub use summary::{
 pub use table::{Heights, RunRow, RunTable, SeedGroup};
 pub use watch::{RobotSummary, WatchedRobot};
 
-use crate::record::Damage;
-use crate::robot::{Reading, Sample};
+use crate::robot::Reading;
 use crate::{FemError, Simulation};
 use folder::{Opened, RunIdentity, RunWish, Workplace};
 use goes_on::Earlier;
-use serde::Deserialize;
-use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use stepping::Running;
-
-/// Told what is being done and, if known, which share of the whole is done, some times a second; says whether to go on.
-pub type Progress<'a> = &'a mut (dyn FnMut(&str, Option<f64>) -> ControlFlow<()> + Send);
-
-/// Further files of a complete run, by name, made before it is marked as complete: plots.
-pub type Further = fn(&Loaded, &FeRun) -> Result<Vec<(String, Vec<u8>)>, String>;
-
-/// How a run is made.
-#[derive(Debug, Clone)]
-pub struct Settings {
-    /// Folder of the run. `None`: nothing is written, files of the end are in [`FeRun::files`], and energies are judged at the
-    /// start, at the holds and at the end.
-    pub folder: Option<PathBuf>,
-    /// Go on with an interrupted run, or with a complete one to a later end.
-    pub resume: bool,
-    /// Folder of a complete run of the same mesh, fabrics and numerics; this one goes on from its end, with its own loads.
-    pub from: Option<PathBuf>,
-    /// Keep the end, so that another run can go on from it.
-    pub keep_end: bool,
-    /// Replace a run.
-    pub force: bool,
-    /// Write frames, if the case wants them.
-    pub frames: bool,
-    /// Simulated time, if not the case's \[s\].
-    pub end_s: Option<f64>,
-    /// Threads; 0: one per core. Results do not depend on it.
-    pub threads: usize,
-    /// Real time between checkpoints; more where they would take over a fiftieth of it.
-    pub checkpoint_every: Duration,
-    /// Makes further files.
-    pub further: Option<Further>,
-    /// For the manifest.
-    pub maker: Maker,
-}
-
-impl Default for Settings {
-    fn default() -> Settings {
-        Settings {
-            folder: None,
-            resume: false,
-            from: None,
-            keep_end: false,
-            force: false,
-            frames: true,
-            end_s: None,
-            threads: 0,
-            checkpoint_every: Duration::from_secs(30),
-            further: None,
-            maker: Maker { program: concat!("ibr-fem ", env!("CARGO_PKG_VERSION")).into(), ..Maker::default() },
-        }
-    }
-}
-
-/// A complete run.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FeRun {
-    /// The physics, `summary.json`.
-    pub summary: Summary,
-    /// What it took.
-    pub cost: Cost,
-    /// Its folder.
-    pub folder: Option<PathBuf>,
-    /// False if it was complete before, and nothing was done.
-    pub fresh: bool,
-    /// What to know about how it was made.
-    pub notices: Vec<String>,
-    /// Energies of a robot every few dozen steps; empty for a run that was complete before.
-    pub energies: Vec<Sample>,
-    /// Files of the end by name, where there is no folder.
-    pub files: Vec<(String, Vec<u8>)>,
-}
-
-impl FeRun {
-    /// The complete run in a folder.
-    ///
-    /// # Errors
-    /// [`FemError::Folder`] if it cannot be read, [`FemError::Record`] with the place if it is damaged.
-    pub fn read(folder: &Path) -> Result<FeRun, FemError> {
-        #[derive(Deserialize)]
-        struct Made {
-            cost: Cost,
-            outputs: Vec<FileHash>,
-        }
-        let text = |name: &str| {
-            let path = folder.join(name);
-            let text = std::fs::read_to_string(&path).map_err(|cause| folder::unwritable(&path, &cause))?;
-            Ok::<_, FemError>((path.display().to_string(), text))
-        };
-        let help =
-            format!("delete {} and give the command again: that run is made anew, others are kept", folder.display());
-        let (file, summary_text) = text("summary.json")?;
-        let summary = SUMMARY.read(&file, &summary_text, &help)?;
-        let (listed, manifest) = text("manifest.json")?;
-        let Made { cost, outputs } = MANIFEST.read(&listed, &manifest, &help)?;
-        let own = FileHash::of("summary.json", summary_text.as_bytes());
-        if outputs.iter().any(|output| output.name == own.name && output.sha256 != own.sha256) {
-            return Err(Damage::changed(&file, &help));
-        }
-        let (notices, energies, files) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(FeRun { summary, cost, folder: Some(folder.into()), fresh: false, notices, energies, files })
-    }
-
-    /// A robot with its markers at every hold, by time; empty for other cases.
-    pub fn readings(&self) -> &[Reading] {
-        self.summary.robot.as_ref().map_or(&[], |robot| &robot.readings)
-    }
-
-    /// The deformed meshes of the outputs in its folder, by time; `run.pvd` there says when each is.
-    pub fn frames(&self) -> Vec<PathBuf> {
-        let entries = self.folder.iter().filter_map(|folder| std::fs::read_dir(folder.join("frames")).ok()).flatten();
-        let mut found: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
-        found.sort();
-        found
-    }
-}
 
 /// Runs it, from its start or its last checkpoint to its summary.
 ///
@@ -195,7 +80,7 @@ impl FeRun {
 pub fn simulate(source: &Source, settings: &Settings, progress: Progress) -> Result<FeRun, FemError> {
     let started = Instant::now();
     let earlier = settings.from.as_deref().map(Earlier::read).transpose()?;
-    let mut loaded = source.load_after(earlier.as_ref())?;
+    let mut loaded = source.load_after(earlier.as_ref().map(|earlier| (earlier.time_s, &earlier.end.loads)))?;
     let numerics = &mut loaded.case.problem.settings;
     numerics.end_s = settings.end_s.unwrap_or(numerics.end_s);
     numerics.threads = settings.threads;
@@ -347,11 +232,6 @@ fn complete(
     run.folder = Some(place.target().to_path_buf());
     run.notices.extend(place.complete(&manifest)?);
     Ok(())
-}
-
-/// Without the digits that a change of unit leaves behind.
-pub fn rounded(value: f64) -> f64 {
-    format!("{value:.9e}").parse().unwrap_or(value)
 }
 
 /// Height of the outermost marker and of the tip of a reading \[mm\].

@@ -2,7 +2,8 @@
 
 use super::{Source, rounded};
 use crate::FemError;
-use crate::robot::{ASSUMED, Assumed, KEYS, NUMERICAL, RobotRun, RobotSettings, RunKey, hypercube};
+use crate::case::key::{Key, named};
+use crate::robot::{ASSUMED, Assumed, KEYS, NUMERICAL, RobotRun, RobotSettings, hypercube};
 use models::{CHANNELS, Scenario};
 
 /// Label of a robot of which nothing is varied.
@@ -31,6 +32,15 @@ pub fn mesh_keys([body_mm, actuator_mm]: &[f64; 2]) -> [(String, String); 2] {
 pub fn pressures_in_toml(channels_pa: &[f64; CHANNELS]) -> String {
     let kpa = channels_pa.map(|pa| rounded(pa * 1e-3));
     if kpa.iter().all(|p| *p == kpa[0]) { kpa[0].to_string() } else { format!("{kpa:?}") }
+}
+
+impl Source {
+    /// A robot of one mesh, so that a run's own `case.toml` is that run and no study of several.
+    pub(super) fn of_one_mesh(self) -> Result<Source, FemError> {
+        let (_, run) = self.robot_run()?;
+        let sizes_mm = [run.settings.body_size_m, run.settings.actuator_size_m].map(|m| rounded(m * 1e3));
+        if run.meshes_m.is_empty() { Ok(self) } else { self.with(&mesh_keys(&sizes_mm)) }
+    }
 }
 
 /// Every mesh \[mm\] with every seed at every pressure of `run`, if these are `separate` runs.
@@ -69,7 +79,7 @@ pub fn numerics(scenario: &Scenario, run: &RobotRun) -> Result<Vec<Variation>, F
     let mut add = |label: String, changes: Changes| all.push(Variation { label, changes, ..Variation::default() });
     let problem = run.problem(scenario)?;
     let (settings, chosen, touches) = (&run.settings, &problem.settings, problem.contact.is_some());
-    let number = |si: f64, key: &RunKey| format!("{:.4e}", si / key.si);
+    let number = |si: f64, key: &Key<RobotSettings>| format!("{:.4e}", si / key.si);
     for key in KEYS.iter().filter(|key| NUMERICAL.contains(&key.name)) {
         let own = (key.get)(settings).or(match key.name {
             "mass_factor" => Some(settings.mass_factor_for(touches)),
@@ -108,7 +118,7 @@ fn extended(cases: &[Variation], ways: &[Way]) -> Vec<Variation> {
 const CUBE: u64 = 1;
 
 /// A number that nobody measured and that a robot feels, and the key that writes it.
-pub type Felt = (&'static Assumed, &'static RunKey);
+pub type Felt = (&'static Assumed, &'static Key<RobotSettings>);
 
 /// Robots that fill the intervals of assumed numbers as a Latin hypercube.
 #[derive(Debug, Clone)]
@@ -142,7 +152,7 @@ pub fn cube(base: Source, known: &[&str], robots: usize) -> Result<Cube, FemErro
 pub fn felt(base: &Source, known: &[&str]) -> Result<Vec<Felt>, FemError> {
     let mut numbers = Vec::new();
     for unknown in ASSUMED {
-        let Some(key) = key_of(unknown).filter(|key| !known.contains(&key.name)) else { continue };
+        let Some(key) = named(KEYS, unknown.key).filter(|key| !known.contains(&key.name)) else { continue };
         let print = |si: f64| {
             let changed = base.with(&[(key.name.to_string(), rounded(si / key.si).to_string())])?;
             Ok::<u64, FemError>(changed.load()?.case.problem.fingerprint())
@@ -162,25 +172,13 @@ fn robot(number: usize, numbers: &[Felt], shares: &[f64]) -> Variation {
     Variation { label: format!("robot-{number}"), changes, group: String::new() }
 }
 
-/// The key that writes what an assumed number writes.
-fn key_of(unknown: &Assumed) -> Option<&'static RunKey> {
-    let after = |set: fn(&mut RobotSettings, f64), value: f64| {
-        let mut changed = RobotSettings::default();
-        set(&mut changed, value);
-        changed
-    };
-    // One end may be the default of several keys.
-    let fits = |key: &&RunKey| unknown.interval.iter().all(|v| after(key.set, *v) == after(unknown.set, *v));
-    KEYS.iter().find(fits)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn every_assumed_number_has_a_key_of_its_own() {
-        let keys: Vec<&str> = ASSUMED.iter().filter_map(|unknown| Some(key_of(unknown)?.name)).collect();
+        let keys: Vec<&str> = ASSUMED.iter().filter_map(|unknown| Some(named(KEYS, unknown.key)?.name)).collect();
         assert_eq!(keys.len(), ASSUMED.len(), "{keys:?}");
         assert!(keys.iter().enumerate().all(|(i, key)| !keys[..i].contains(key)), "{keys:?}");
     }

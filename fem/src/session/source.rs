@@ -1,11 +1,10 @@
 //! What is simulated: the text of a case or of a robot's scenario, and what it describes.
 
-use super::goes_on::Earlier;
-use super::rounded;
 use super::watch::WatchedRobot;
 use crate::FemError;
 use crate::case::{Case, Outputs, is_case};
 use crate::error::Refusal;
+use crate::problem::Loads;
 use crate::robot::{RobotRun, RobotStart, outputs, with_fem};
 use models::{Scenario, ScenarioError};
 use std::path::{Path, PathBuf};
@@ -85,13 +84,6 @@ impl Source {
         Ok(Source { text: all.to_string(), ..self.clone() })
     }
 
-    /// A robot of one mesh, so that a run's own `case.toml` is that run and no study of several.
-    pub(super) fn of_one_mesh(self) -> Result<Source, FemError> {
-        let (_, run) = self.robot_run()?;
-        let sizes_mm = [run.settings.body_size_m, run.settings.actuator_size_m].map(|m| rounded(m * 1e3));
-        if run.meshes_m.is_empty() { Ok(self) } else { self.with(&super::mesh_keys(&sizes_mm)) }
-    }
-
     /// The case that it describes.
     ///
     /// # Errors
@@ -100,8 +92,8 @@ impl Source {
         self.load_after(None)
     }
 
-    /// The same; a robot's loads go on from those at the end of an earlier run.
-    pub(super) fn load_after(&self, earlier: Option<&Earlier>) -> Result<Loaded, FemError> {
+    /// The same; a robot's loads go on from those at a time \[s\] of an earlier run.
+    pub(super) fn load_after(&self, earlier: Option<(f64, &Loads)>) -> Result<Loaded, FemError> {
         let mut read_mesh = |path: &Path| crate::mesh::file::read(&self.folder.join(path));
         let made = match self.is_robot() {
             true => self.robot(earlier).map(|(case, robot)| (case, Some(robot))),
@@ -112,10 +104,10 @@ impl Source {
     }
 
     /// The robot of a scenario.
-    fn robot(&self, earlier: Option<&Earlier>) -> Result<(Case, WatchedRobot), FemError> {
+    fn robot(&self, earlier: Option<(f64, &Loads)>) -> Result<(Case, WatchedRobot), FemError> {
         let scenario = self.scenario()?;
         let mut run = RobotRun::parse(&self.text, &scenario)?;
-        run.start = earlier.map(|earlier| RobotStart::of(&scenario, earlier.time_s, &earlier.loads));
+        run.start = earlier.map(|(time_s, loads)| RobotStart::of(&scenario, time_s, loads));
         let problem = run.problem(&scenario)?;
         let robot = WatchedRobot::new(&scenario, &run, &problem)?;
         // The pictures of a robot are its own.

@@ -24,7 +24,6 @@ const TELL_EVERY: Duration = Duration::from_millis(50);
 /// Energies at one output, for the judgement at the end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Balance {
-    /// Time \[s\].
     pub time_s: f64,
     /// Kinetic energy over kinetic and stored energy.
     pub kinetic_share: f64,
@@ -32,14 +31,12 @@ pub(super) struct Balance {
     pub residual_share: f64,
 }
 
-/// A run and its files.
 pub(super) struct Running<'a> {
-    /// The run.
     pub run: Simulation,
     /// Energies at all outputs so far.
     pub balances: Vec<Balance>,
     /// Processor seconds of earlier sessions.
-    pub cpu_before_s: f64,
+    pub(crate) cpu_before_s: f64,
     /// What to tell the user in the end.
     pub notices: Vec<String>,
     /// Where this session began: steps, and processor seconds.
@@ -62,7 +59,7 @@ struct Files {
 
 impl<'a> Running<'a> {
     /// A run from its start, or from the end of another one, in a folder.
-    pub fn start(
+    pub(super) fn start(
         case: &'a Case,
         run: Simulation,
         folder: Option<&Path>,
@@ -76,7 +73,7 @@ impl<'a> Running<'a> {
     }
 
     /// Goes on from the last checkpoint of a folder; from the beginning if there is none yet.
-    pub fn resume(
+    pub(super) fn resume(
         case: &'a Case,
         fresh: Simulation,
         folder: &Path,
@@ -116,19 +113,19 @@ impl<'a> Running<'a> {
     }
 
     /// Steps to the end of the case, or until `progress` asks to end, which is [`FemError::Interrupted`].
-    pub fn step_on(&mut self, checkpoint_every: Duration, progress: Progress) -> Result<(), FemError> {
+    pub(crate) fn step_on(&mut self, checkpoint_every: Duration, progress: Progress) -> Result<(), FemError> {
         let settings = &self.case.problem.settings;
         let (end_s, every_s) = (settings.end_s, settings.output_every_s);
         // The last output is the end itself; a whole number of intervals shall not get a second one just before it.
         let last = (end_s / every_s - 1e-6).ceil().max(1.0) as u64;
-        let mut teller = Teller::new(&self.run, end_s);
-        let mut keeper = Keeper { every: checkpoint_every, saved_at: Instant::now(), saving: Duration::ZERO };
+        let keeper = Keeper { every: checkpoint_every, saved_at: Instant::now(), saving: Duration::ZERO };
+        let mut pace = Pace { teller: Teller::new(&self.run, end_s), keeper, progress };
         while self.next <= last {
             let output_s = if self.next == last { end_s } else { self.next as f64 * every_s };
             let hold_s = self.robot.as_ref().and_then(Watched::next_s).filter(|hold_s| *hold_s <= output_s);
-            self.advance(Goal::Time(hold_s.unwrap_or(output_s)), &mut teller, &mut keeper, progress)?;
+            self.advance(Goal::Time(hold_s.unwrap_or(output_s)), &mut pace)?;
             match hold_s {
-                Some(hold_s) => self.rest(hold_s, &mut teller, &mut keeper, progress)?,
+                Some(hold_s) => self.rest(hold_s, &mut pace)?,
                 None => self.output()?,
             }
         }
@@ -136,16 +133,10 @@ impl<'a> Running<'a> {
     }
 
     /// Waits at the end of a hold until the robot is at rest, then reads it.
-    fn rest(
-        &mut self,
-        hold_s: f64,
-        teller: &mut Teller,
-        keeper: &mut Keeper,
-        progress: Progress,
-    ) -> Result<(), FemError> {
+    fn rest(&mut self, hold_s: f64, pace: &mut Pace) -> Result<(), FemError> {
         while let Some(robot) = &mut self.robot {
             match robot.rest(&self.run) {
-                Rest::Until(waited_s) => self.advance(Goal::Waited(waited_s, hold_s), teller, keeper, progress)?,
+                Rest::Until(waited_s) => self.advance(Goal::Waited(waited_s, hold_s), pace)?,
                 rest => return robot.read(&self.run, rest),
             }
         }
@@ -153,13 +144,7 @@ impl<'a> Running<'a> {
     }
 
     /// Steps to a moment, with checkpoints on the way; [`FemError::Interrupted`] once `progress` asks to end.
-    fn advance(
-        &mut self,
-        goal: Goal,
-        teller: &mut Teller,
-        keeper: &mut Keeper,
-        progress: Progress,
-    ) -> Result<(), FemError> {
+    fn advance(&mut self, goal: Goal, Pace { teller, keeper, progress }: &mut Pace) -> Result<(), FemError> {
         let (next, balances, files, robot) = (self.next, &self.balances, &self.files, &mut self.robot);
         let outside_s = self.cpu_before_s + thread_seconds() - self.began.1;
         let mut fault = None;
@@ -189,7 +174,6 @@ impl<'a> Running<'a> {
         files.try_for_each(|files| files.save(&self.run, self.next, &self.balances, self.robot.as_ref(), cpu_s))
     }
 
-    /// Writes one output.
     fn output(&mut self) -> Result<(), FemError> {
         let record = Record::of(&self.run);
         self.balances.push(Balance {
@@ -211,12 +195,12 @@ impl<'a> Running<'a> {
     }
 
     /// The end of the run, the same to the bit however often it was interrupted.
-    pub fn end(&self) -> Vec<u8> {
+    pub(super) fn end(&self) -> Vec<u8> {
         Saved::pack(&self.run, self.next, &self.balances, self.robot.as_ref(), 0.0)
     }
 
     /// Processor seconds of this session: of the steps, and of this thread, which writes.
-    pub fn cpu_s(&self) -> f64 {
+    pub(super) fn cpu_s(&self) -> f64 {
         self.run.cpu_s() + thread_seconds() - self.began.1
     }
 }
@@ -301,7 +285,13 @@ enum Goal {
     Waited(f64, f64),
 }
 
-/// When to write a checkpoint.
+/// Who is told on the way, and when checkpoints are written.
+struct Pace<'a> {
+    teller: Teller,
+    keeper: Keeper,
+    progress: Progress<'a>,
+}
+
 struct Keeper {
     every: Duration,
     saved_at: Instant,
@@ -324,7 +314,6 @@ impl Keeper {
     }
 }
 
-/// Tells how far a run is.
 struct Teller {
     began: Instant,
     from_s: f64,

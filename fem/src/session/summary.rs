@@ -227,7 +227,7 @@ impl Summary {
         };
         let positions = run.positions();
         let probe = |set: &String| {
-            let moved = mean_displacement(mesh, mesh.sets.get(set)?, &positions);
+            let moved = mesh.mean_moved(mesh.sets.get(set)?, &positions);
             Some(ProbeEnd { set: set.clone(), displacement_mm: moved.map(|d| d * 1e3) })
         };
         Summary {
@@ -316,16 +316,6 @@ fn quality(case: &Case) -> Option<MeshQuality> {
     })
 }
 
-/// Mean displacement of a node set from where it started \[m\].
-fn mean_displacement(mesh: &crate::Mesh, nodes: &[u32], positions: &[[f64; 3]]) -> [f64; 3] {
-    let mut sum = [0.0; 3];
-    for node in nodes {
-        let (now, start) = (positions[*node as usize], mesh.start_of(*node as usize));
-        (0..3).for_each(|k| sum[k] += (now[k] - start[k]) / nodes.len() as f64);
-    }
-    sum
-}
-
 fn kinetic(balances: &[Balance]) -> KineticShares {
     let later: Vec<&Balance> = balances.iter().filter(|b| b.time_s > 0.0).collect();
     let mut shares: Vec<f64> = later.iter().map(|b| b.kinetic_share).collect();
@@ -347,7 +337,6 @@ fn kinetic(balances: &[Balance]) -> KineticShares {
 }
 
 impl Cost {
-    /// Of this session and those before.
     pub(super) fn of(case: &Case, running: &Running, wall: Duration) -> Cost {
         let (run, cpu_s) = (&running.run, running.cpu_s());
         let element_steps = (run.step() - running.began.0) as f64 * run.elements() as f64;

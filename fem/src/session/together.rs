@@ -5,14 +5,27 @@ use crate::FemError;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::{Sender, channel};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What a worker says.
-enum News<T> {
-    /// A job stands here.
-    Stands(usize, String, Option<f64>),
-    /// A job ended.
-    Ended(usize, Result<T, FemError>),
+/// Where the jobs are, and who wants to know.
+struct Standing<'a> {
+    progress: Progress<'a>,
+    /// Of the jobs that run: text and share.
+    running: BTreeMap<usize, (String, Option<f64>)>,
+    complete: usize,
+}
+
+impl Standing<'_> {
+    fn report(&mut self, index: usize, text: &str, share: Option<f64>, count: usize) -> ControlFlow<()> {
+        self.running.insert(index, (text.to_owned(), share));
+        let shares: f64 = self.running.values().filter_map(|job| job.1).sum();
+        let texts: Vec<&str> = self.running.values().map(|job| job.0.as_str()).collect();
+        (self.progress)(&texts.join(" | "), Some((self.complete as f64 + shares) / count as f64))
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Does jobs `0..count` in this order, `workers` at a time, and returns what they gave by number. After an error, or once
@@ -28,70 +41,39 @@ pub(super) fn together<T: Send>(
     job: &(impl Fn(usize, Progress) -> Result<T, FemError> + Sync),
 ) -> Result<Vec<T>, FemError> {
     let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
-    let mut done: Vec<Option<T>> = (0..count).map(|_| None).collect();
-    let mut faults = BTreeMap::new();
-    std::thread::scope(|scope| {
-        let (tell, hear) = channel();
-        for _ in 0..workers.clamp(1, count.max(1)) {
-            let (tell, next, stop) = (tell.clone(), &next, &stop);
-            scope.spawn(move || {
-                loop {
-                    let index = next.fetch_add(1, Ordering::SeqCst);
-                    if index >= count || stop.load(Ordering::SeqCst) {
-                        return;
-                    }
-                    let found = job(index, &mut report(&tell, index, stop));
-                    if found.is_err() {
-                        next.store(count, Ordering::SeqCst);
-                    }
-                    let _ = tell.send(News::Ended(index, found));
-                }
-            });
-        }
-        drop(tell);
-        let mut standing: BTreeMap<usize, (String, Option<f64>)> = BTreeMap::new();
-        for news in hear {
-            match news {
-                News::Stands(index, text, share) => {
-                    standing.insert(index, (text, share));
-                    let ended = done.iter().flatten().count() as f64;
-                    let shares: f64 = standing.values().filter_map(|s| s.1).sum();
-                    let texts: Vec<&str> = standing.values().map(|s| s.0.as_str()).collect();
-                    if progress(&texts.join(" | "), Some((ended + shares) / count as f64)).is_break() {
-                        stop.store(true, Ordering::SeqCst);
-                    }
-                }
-                News::Ended(index, found) => {
-                    standing.remove(&index);
-                    match found {
-                        Ok(found) => done[index] = Some(found),
-                        Err(error) => _ = faults.insert(index, error),
-                    }
-                }
+    let standing = Mutex::new(Standing { progress, running: BTreeMap::new(), complete: 0 });
+    let found = Mutex::new(BTreeMap::new());
+    let work = || {
+        loop {
+            let index = next.fetch_add(1, Ordering::SeqCst);
+            if index >= count || stop.load(Ordering::SeqCst) {
+                return;
             }
+            let ended = job(index, &mut |text, share| {
+                stop.fetch_or(lock(&standing).report(index, text, share, count).is_break(), Ordering::SeqCst);
+                if stop.load(Ordering::SeqCst) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
+            if ended.is_err() {
+                next.store(count, Ordering::SeqCst);
+            }
+            let mut standing = lock(&standing);
+            standing.running.remove(&index);
+            standing.complete += usize::from(ended.is_ok());
+            lock(&found).insert(index, ended);
         }
-    });
-    // An interrupt is no fault of the job that it met first.
-    let fault = faults.into_values().find(|fault| !matches!(fault, FemError::Interrupted { .. }));
-    let ended = done.iter().flatten().count();
-    let all: Option<Vec<T>> = done.into_iter().collect();
-    match (fault, all) {
-        (Some(fault), _) => Err(fault),
-        (None, None) => Err(FemError::Interrupted { time_s: 0.0, step: 0, done: ended, of: count }),
-        (None, Some(all)) => Ok(all),
+    };
+    std::thread::scope(|scope| (0..workers.clamp(1, count.max(1))).for_each(|_| drop(scope.spawn(&work))));
+    let mut all = Vec::with_capacity(count);
+    for ended in found.into_inner().unwrap_or_else(PoisonError::into_inner).into_values() {
+        match ended {
+            Ok(found) => all.push(found),
+            // An interrupt is no fault of the job that it met first.
+            Err(FemError::Interrupted { .. }) => {}
+            Err(fault) => return Err(fault),
+        }
     }
-}
-
-fn report<T>(
-    tell: &Sender<News<T>>,
-    index: usize,
-    stop: &AtomicBool,
-) -> impl FnMut(&str, Option<f64>) -> ControlFlow<()> {
-    let tell = tell.clone();
-    move |text, share| {
-        let _ = tell.send(News::Stands(index, text.to_owned(), share));
-        if stop.load(Ordering::SeqCst) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    }
+    let done = all.len();
+    if done == count { Ok(all) } else { Err(FemError::Interrupted { time_s: 0.0, step: 0, done, of: count }) }
 }
 
 /// Jobs at a time, and threads of each, for so many threads (0: one per core). Two runs on a core each are done sooner

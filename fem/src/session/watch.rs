@@ -1,8 +1,10 @@
 //! What is read of a robot while it runs.
 
 use super::rounded;
+use crate::case::Key;
+use crate::problem::Patience;
 use crate::robot::{
-    HoldEnd, KEYS, Patience, Reading, Rest, RobotGauge, RobotRun, RunKey, Sample, Settling, Snap, Watch, snaps,
+    HoldEnd, KEYS, Reading, Rest, RobotGauge, RobotRun, RobotSettings, Sample, Settling, Snap, Watch, snaps,
 };
 use crate::vec3::norm;
 use crate::{FemError, Problem, Simulation, policy};
@@ -25,7 +27,6 @@ pub struct WatchedRobot {
 }
 
 impl WatchedRobot {
-    /// For its problem.
     pub(super) fn new(scenario: &Scenario, run: &RobotRun, problem: &Problem) -> Result<WatchedRobot, FemError> {
         Ok(WatchedRobot { scenario: scenario.clone(), run: run.clone(), gauge: RobotGauge::new(scenario, problem)? })
     }
@@ -39,7 +40,6 @@ impl WatchedRobot {
         (!names.is_empty()).then_some(text)
     }
 
-    /// Starts to watch a run.
     pub(super) fn watch(&self, problem: &Problem) -> Watched {
         let holds = self.run.holds().into_iter().filter(|hold| hold.time_s <= problem.settings.end_s + NOW_S);
         Watched {
@@ -58,7 +58,6 @@ impl WatchedRobot {
 
 /// Readings of a run so far.
 pub(super) struct Watched {
-    /// Energies between outputs.
     pub watch: Watch,
     filled_s: f64,
     weld_strength_n_per_m: Option<f64>,
@@ -67,11 +66,9 @@ pub(super) struct Watched {
     length_m: f64,
     patience: Option<Patience>,
     settling: Settling,
-    /// Readings so far.
     pub readings: Vec<Reading>,
 }
 
-/// What a checkpoint holds of them.
 #[derive(Serialize, Deserialize)]
 pub(super) struct WatchedState {
     samples: Vec<Sample>,
@@ -81,18 +78,18 @@ pub(super) struct WatchedState {
 
 impl Watched {
     /// When the robot is to be read next \[s\].
-    pub fn next_s(&self) -> Option<f64> {
+    pub(crate) fn next_s(&self) -> Option<f64> {
         self.holds.get(self.readings.len()).map(|hold| hold.time_s)
     }
 
     /// Pressure of the hold that a moment leads to or lies in \[Pa\].
-    pub fn hold_pa(&self, time_s: f64) -> Option<f64> {
+    pub(super) fn hold_pa(&self, time_s: f64) -> Option<f64> {
         let ahead = self.holds.iter().find(|hold| time_s <= hold.time_s + NOW_S);
         ahead.or(self.holds.last()).map(HoldEnd::highest_pa)
     }
 
     /// Whether the robot is at rest; to be called at the end of a hold, and of every window that it asks for.
-    pub fn rest(&mut self, run: &Simulation) -> Rest {
+    pub(super) fn rest(&mut self, run: &Simulation) -> Rest {
         // A run that goes on from a checkpoint may be within a window.
         if let Some(next_s) = self.settling.next_s().filter(|next_s| run.waited_s() + 0.5 * run.dt_s() < *next_s) {
             return Rest::Until(next_s);
@@ -105,8 +102,7 @@ impl Watched {
         self.settling.look(tip_m, allowed_m, run.waited_s(), patience)
     }
 
-    /// Reads the robot.
-    pub fn read(&mut self, run: &Simulation, rest: Rest) -> Result<(), FemError> {
+    pub(super) fn read(&mut self, run: &Simulation, rest: Rest) -> Result<(), FemError> {
         let mut reading = self.gauge.read(run, rest)?;
         reading.seam_share = self.weld_strength_n_per_m.map(|strength| reading.seam_n_per_m / strength);
         self.readings.push(reading);
@@ -114,26 +110,24 @@ impl Watched {
     }
 
     /// Buckling while the actuator is filled.
-    pub fn snaps(&self) -> Vec<Snap> {
+    pub(super) fn snaps(&self) -> Vec<Snap> {
         snaps(self.watch.samples(), self.filled_s)
     }
 
-    /// For a checkpoint.
-    pub fn save(&self) -> WatchedState {
+    pub(super) fn save(&self) -> WatchedState {
         let (samples, settling) = (self.watch.samples().to_vec(), self.settling.clone());
         WatchedState { samples, settling, readings: self.readings.clone() }
     }
 
-    /// From a checkpoint.
-    pub fn restore(&mut self, state: WatchedState) {
+    pub(super) fn restore(&mut self, state: WatchedState) {
         self.watch.restore(state.samples);
         (self.settling, self.readings) = (state.settling, state.readings);
     }
 
-    /// For the summary.
-    pub fn summary(&self, WatchedRobot { scenario, run, .. }: &WatchedRobot) -> RobotSummary {
-        let setting =
-            |key: &RunKey| (key.name.to_string(), (key.get)(&run.settings).map(|value| rounded(value / key.si)));
+    pub(super) fn summary(&self, WatchedRobot { scenario, run, .. }: &WatchedRobot) -> RobotSummary {
+        let setting = |key: &Key<RobotSettings>| {
+            (key.name.to_string(), (key.get)(&run.settings).map(|value| rounded(value / key.si)))
+        };
         RobotSummary {
             actuator: scenario.actuator.kind.name.into(),
             length_m: scenario.length_m,

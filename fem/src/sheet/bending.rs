@@ -41,12 +41,12 @@ pub struct CurvatureRow {
     /// (node, weight), weights summing to 0.
     pub weights: Vec<(u32, f64)>,
     /// Area vectors of its shares of the elements, for the normal of the sheet.
-    pub facets: Vec<Facet>,
+    pub(crate) facets: Vec<Facet>,
 }
 
 /// Share of an element that belongs to a corner: `share` (x_b − x_a) × (x_d − x_c) is its area vector \[m²\].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Facet {
+pub(crate) struct Facet {
     /// Nodes a, b, c, d.
     pub nodes: [u32; 4],
     /// ⅛ of a quadrilateral's diagonals, ⅙ of a triangle's sides.
@@ -126,7 +126,7 @@ impl Fan {
 
 impl Facet {
     /// Area vector with the nodes at these places \[m²\].
-    pub fn area_vector(&self, at: impl Fn(u32) -> [f64; 3]) -> [f64; 3] {
+    pub(crate) fn area_vector(&self, at: impl Fn(u32) -> [f64; 3]) -> [f64; 3] {
         let [a, b, c, d] = self.nodes.map(at);
         cross(sub(b, a), sub(d, c)).map(|v| self.share * v)
     }

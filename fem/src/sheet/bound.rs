@@ -102,7 +102,7 @@ impl Sheet {
     }
 
     /// Adds each node's part of the bound that is bending's \[N/m\].
-    pub fn add_bending_bound(&self, bound: &mut [f64]) {
+    pub(crate) fn add_bending_bound(&self, bound: &mut [f64]) {
         bound.iter_mut().zip(&self.bending_bound).for_each(|(bound, bending)| *bound += bending);
     }
 
@@ -135,20 +135,5 @@ impl Sheet {
             item.nodes().iter().for_each(|n| bound[*n as usize] += k);
         }
         bound.iter_mut().zip(&self.bending_bound).for_each(|(bound, bending)| *bound += bending);
-    }
-}
-
-impl Element {
-    /// Columns F₁, F₂ of the deformation gradient at the element's centre.
-    pub fn deformation(&self, q: &[[f64; 4]]) -> [[f64; 3]; 2] {
-        let mut f = [[0.0; 3]; 2];
-        for (n, node) in self.nodes().iter().enumerate() {
-            let b = self.reference.gradient(self.corners, n);
-            let x = q[*node as usize];
-            for a in 0..2 {
-                (0..3).for_each(|k| f[a][k] += b[a] * x[k]);
-            }
-        }
-        f
     }
 }

@@ -41,7 +41,7 @@ pub struct AirNow {
     /// Pressure when the volume was taken last \[Pa\].
     booked_pa: f64,
     /// Work done on the fabric so far \[J\].
-    pub work_j: f64,
+    pub(crate) work_j: f64,
     /// P (V + V_d)ⁿ since sealing, and its time \[s\].
     content: Option<(f64, f64)>,
 }
@@ -88,7 +88,7 @@ impl Air {
     }
 
     /// True if its walls have passed through each other and the pressure does not part them again: below the room's, or of enclosed gas.
-    pub fn is_inside_out(&self) -> bool {
+    pub(crate) fn is_inside_out(&self) -> bool {
         let closes = self.now.pressure_pa < 0.0 || self.follows();
         closes && policy::is_inside_out(self.now.volume_m3.unwrap_or(0.0) / self.area_m2.powf(1.5))
     }
@@ -99,7 +99,7 @@ impl Air {
     }
 
     /// True if the pressure has changed by more than a hundredth since the work ∫p dV was booked.
-    pub fn wants_volume(&self) -> bool {
+    pub(crate) fn wants_volume(&self) -> bool {
         !self.follows() && (self.now.pressure_pa - self.now.booked_pa).abs() > 0.01 * self.now.pressure_pa.abs()
     }
 
@@ -126,7 +126,7 @@ impl Air {
     }
 
     /// Takes the volume of this step and books the work ½(p + p′)ΔV since the last time.
-    pub fn take_volume(&mut self, volume_m3: f64) {
+    pub(crate) fn take_volume(&mut self, volume_m3: f64) {
         if let Some(before) = self.now.volume_m3 {
             self.now.work_j += 0.5 * (self.now.pressure_pa + self.now.booked_pa) * (volume_m3 - before);
         }
@@ -136,7 +136,7 @@ impl Air {
 
     /// Volume from the fluxes ∫ x n_x, ∫ y n_y, ∫ z n_z of the wall: their mean over the axes along which it is not open. Where it is
     /// along all, ∫ (x − c) n_x from the one plane at c, with ∫ n dA = ½ ∮ x × dx.
-    pub fn volume_of(&self, flux: [f64; 3], q: &[[f64; 4]]) -> f64 {
+    pub(crate) fn volume_of(&self, flux: [f64; 3], q: &[[f64; 4]]) -> f64 {
         if let Some(Cut { axis, at_m, rim }) = &self.cut {
             let area = |[a, b]: &[u32; 2]| 0.5 * cross(node(q, *a as usize), node(q, *b as usize))[*axis];
             return flux[*axis] - at_m * rim.iter().map(area).sum::<f64>();
@@ -173,7 +173,7 @@ impl Air {
 
     /// Adds to the nodes the stiffness of the gas at positions `q`, |∂V/∂xᵢ| Σ|∂V/∂xⱼ| n P/(V + V_d), where it decides the pressure
     /// before `until_s` \[N/m\]. Row sums of the matrix: no mode is stiffer.
-    pub fn add_bound(&self, until_s: f64, elements: &[Element], q: &[[f64; 4]], bound: &mut [f64]) {
+    pub(crate) fn add_bound(&self, until_s: f64, elements: &[Element], q: &[[f64; 4]], bound: &mut [f64]) {
         let Pressure::Sealed { sealed_at_s, gas, .. } = &self.chamber.pressure else { return };
         let all = self.volume_at(elements, q) + gas.dead_m3;
         if until_s < *sealed_at_s || all <= 0.0 {

@@ -40,7 +40,7 @@ impl Sheet {
 
     /// Energy that compression of films stores at positions `q` (stride 4) \[J\]: flat ones up to the load of their wrinkles, and wrinkled
     /// ones. It is part of the membrane energy.
-    pub fn compressed_j(&self, q: &[f64]) -> f64 {
+    pub(crate) fn compressed_j(&self, q: &[f64]) -> f64 {
         let of = |element: &Element| {
             let film = match self.fabrics[element.part].kind() {
                 Kind::WrinklingFilm(film) => *film,

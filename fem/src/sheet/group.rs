@@ -3,17 +3,17 @@
 use super::reference::Reference;
 
 /// Elements per group: one AVX-512 register of f64, two of AVX2.
-pub const LANES: usize = 8;
+pub(crate) const LANES: usize = 8;
 /// One number for each element of a group.
-pub type Lane = [f64; LANES];
+pub(crate) type Lane = [f64; LANES];
 
 /// Eight elements of one kind, section and pair of chambers.
 #[derive(Debug, Clone)]
-pub struct ElementGroup {
+pub(crate) struct ElementGroup {
     /// Places of its shape and its stock in their tables.
     pub shape: u32,
     /// See [`Stock`].
-    pub stock: u32,
+    pub(crate) stock: u32,
     /// Corner nodes by lane, numbered within the patch; a triangle repeats its third.
     pub node: [[u32; 4]; LANES],
 }
@@ -22,7 +22,7 @@ pub struct ElementGroup {
 /// stays in the first cache; where every element has its own, as in a wavy robot, this is what each step must fetch.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
-pub struct RestShape {
+pub(crate) struct RestShape {
     /// Shape gradients, see [`Reference::b`] \[1/m\].
     pub b: [[Lane; 2]; 2],
     /// A quarter of the hourglass offsets s_a \[m\].
@@ -38,7 +38,7 @@ pub struct RestShape {
 /// What eight elements are made of and who counts them.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
-pub struct Stock {
+pub(crate) struct Stock {
     /// What the law's answer is per: 2 t C₁₀ \[N/m\] for films, 1 for others.
     pub per: Lane,
     /// Root of the energy of compression, per `per`, at which a film wrinkles.
@@ -51,20 +51,15 @@ pub struct Stock {
 
 /// One element before packing.
 #[derive(Debug, Clone)]
-pub struct Item {
-    /// Corner nodes, 3 or 4.
+pub(crate) struct Item {
     pub node: Vec<u32>,
-    /// Reference data.
     pub reference: Reference,
     /// The lanes `per` and `flat` of [`Stock`].
     pub law: [f64; 2],
-    /// Hourglass stiffness \[N/m\].
     pub hourglass: f64,
-    /// Viscosity \[N s/m\].
     pub viscosity: f64,
     /// Whether this patch counts its energy.
     pub own: bool,
-    /// Part number.
     pub part: u32,
     /// Number of the element in mesh order.
     pub element: u32,
@@ -72,7 +67,7 @@ pub struct Item {
 
 impl ElementGroup {
     /// Corner nodes of up to eight elements; an empty lane repeats the last.
-    pub fn pack(items: &[Item], shape: u32, stock: u32) -> ElementGroup {
+    pub(crate) fn pack(items: &[Item], shape: u32, stock: u32) -> ElementGroup {
         let item = |lane: usize| &items[lane.min(items.len() - 1)].node;
         let corner = |lane: usize| std::array::from_fn(|c| item(lane)[c.min(item(lane).len() - 1)]);
         ElementGroup { shape, stock, node: std::array::from_fn(corner) }
@@ -85,7 +80,7 @@ const ALIKE: f64 = 1e-12;
 impl RestShape {
     /// Packs up to eight elements. An empty lane repeats the last one without area and stiffness, so that its arithmetic stays
     /// finite and its forces vanish.
-    pub fn pack(items: &[Item]) -> RestShape {
+    pub(crate) fn pack(items: &[Item]) -> RestShape {
         let zero = [0.0; LANES];
         let mut shape = RestShape { b: [[zero; 2]; 2], s: [zero; 2], area: zero, hourglass: zero, viscosity: zero };
         for lane in 0..LANES {
@@ -105,7 +100,7 @@ impl RestShape {
     }
 
     /// The same for shapes that are equal but for rounding, save where they lie just beside a step of it.
-    pub fn key(&self) -> Vec<i64> {
+    pub(crate) fn key(&self) -> Vec<i64> {
         let steps = |value: f64| (value / ALIKE).round() as i64;
         let mut key = Vec::new();
         for lane in 0..LANES {
@@ -121,7 +116,7 @@ impl RestShape {
 
 impl Stock {
     /// Packs up to eight elements, of which the first `counted_before` are counted by an earlier group.
-    pub fn pack(items: &[Item], counted_before: usize) -> Stock {
+    pub(crate) fn pack(items: &[Item], counted_before: usize) -> Stock {
         let zero = [0.0; LANES];
         let mut stock = Stock { per: zero, flat: zero, own: zero, real: zero };
         for (lane, item) in items.iter().enumerate() {
@@ -134,13 +129,13 @@ impl Stock {
     }
 
     /// As [`RestShape::key`].
-    pub fn key(&self) -> Vec<i64> {
+    pub(crate) fn key(&self) -> Vec<i64> {
         let all = [self.per, self.flat, self.own, self.real];
         all.as_flattened().iter().map(|value| leading_bits(*value)).collect()
     }
 }
 
 /// Sign, exponent and the 40 leading bits of the fraction, rounded.
-pub fn leading_bits(value: f64) -> i64 {
+pub(crate) fn leading_bits(value: f64) -> i64 {
     (value.to_bits() as i64 + (1 << 11)) >> 12
 }

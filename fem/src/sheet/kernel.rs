@@ -20,31 +20,29 @@ use super::lanes::{V, axes, inner, product};
 use super::law::{ShellLaw, Who};
 
 /// One vector for each element of a group.
-pub type Lane3 = [Lane; 3];
+pub(super) type Lane3 = [Lane; 3];
 /// Forces on the corners of a group: `[corner][axis][lane]`.
-pub type CornerForces = [Lane3; 4];
+pub(super) type CornerForces = [Lane3; 4];
 
 /// What a pass adds up lane by lane, in SI units.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[repr(C, align(64))]
-pub struct Tally {
-    /// Membrane energy \[J\].
+pub(super) struct Tally {
     pub membrane: Lane,
-    /// Hourglass energy \[J\].
     pub hourglass: Lane,
     /// Energy turned to heat by viscosity in this step \[J\].
     pub viscous: Lane,
     /// ∫ x n_x, ∫ y n_y, ∫ z n_z over the elements \[m³\].
-    pub flux: Lane3,
+    pub(crate) flux: Lane3,
 }
 
 /// Strains of the elements of a group at the step before.
 #[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[repr(C, align(64))]
-pub struct Strain(pub Lane3);
+pub(super) struct Strain(pub Lane3);
 
 /// Where quadrilaterals put their corner forces.
-pub enum Corners<'a> {
+pub(super) enum Corners<'a> {
     /// Groups in regular rows: by corner, axis and node.
     Rows([[&'a mut [f64]; 3]; 4]),
     /// Other groups: one entry each.
@@ -53,26 +51,24 @@ pub enum Corners<'a> {
 
 /// What a batch of groups has in common.
 #[derive(Clone, Copy)]
-pub struct BatchInputs<'a> {
-    /// Node positions by axis.
+pub(super) struct BatchInputs<'a> {
     pub x: [&'a [f64]; 3],
     /// Pressure behind minus pressure in front \[Pa\].
     pub pressure: f64,
     /// 1/Δt, or 0 without viscosity \[1/s\].
     pub rate: f64,
-    /// Elements of the batch.
     pub groups: &'a [ElementGroup],
     /// Shapes of all groups of the patch.
     pub shapes: &'a [RestShape],
     /// Stocks of all groups of the patch.
-    pub stocks: &'a [Stock],
+    pub(crate) stocks: &'a [Stock],
     /// Memory of the fabric, or empty.
     pub past: &'a [[Past; LANES]],
 }
 
 /// Forces of quadrilaterals, with `BOOKS` also energies and fluxes; `ROWS` says that all groups are in regular rows.
 #[inline(always)]
-pub fn quads<S: Simd, L: ShellLaw, const ROWS: bool, const BOOKS: bool>(
+pub(super) fn quads<S: Simd, L: ShellLaw, const ROWS: bool, const BOOKS: bool>(
     simd: S,
     batch: BatchInputs,
     law: L,
@@ -201,7 +197,7 @@ fn quad<S: Simd, L: ShellLaw, const ROWS: bool, const BOOKS: bool>(
 
 /// Forces, energies and fluxes of triangles; the fourth corner gets nothing.
 #[inline(always)]
-pub fn triangles<S: Simd, L: ShellLaw>(
+pub(super) fn triangles<S: Simd, L: ShellLaw>(
     simd: S,
     batch: BatchInputs,
     law: L,

@@ -11,9 +11,8 @@ use super::lanes::{V, axes, inner};
 
 /// Eight elements, and which of them are in the registers.
 #[derive(Clone, Copy)]
-pub struct Who<'a> {
-    /// What they are made of.
-    pub stock: &'a Stock,
+pub(super) struct Who<'a> {
+    pub(crate) stock: &'a Stock,
     /// Their memory, if the fabric has one.
     pub past: Option<&'a [Past; LANES]>,
     /// Part of the eight.
@@ -21,14 +20,14 @@ pub struct Who<'a> {
 }
 
 /// Tension and energy of several elements at once, per [`Stock::per`] and area.
-pub trait ShellLaw: Copy {
+pub(super) trait ShellLaw: Copy {
     /// At strain (E₁₁, E₂₂, 2E₁₂).
     fn at<S: Simd>(self, simd: S, e: [V<S>; 3], who: Who) -> ([V<S>; 3], V<S>);
 }
 
 /// Number of the fabric whose loop each fabric goes through. Films of any stiffness go through one, since rows of elements
 /// across a seam are then whole: their moduli and loads in compression are with the elements.
-pub fn loops(fabrics: &[Arc<dyn Fabric>]) -> Vec<usize> {
+pub(super) fn loops(fabrics: &[Arc<dyn Fabric>]) -> Vec<usize> {
     let kind = |wrinkles: bool| {
         fabrics.iter().position(|f| match f.kind() {
             Kind::WrinklingFilm(_) => wrinkles,
@@ -46,7 +45,7 @@ pub fn loops(fabrics: &[Arc<dyn Fabric>]) -> Vec<usize> {
 
 /// Unit of the tension that a fabric's loop computes \[N/m\], 1 for all but films, and the root of the energy of compression in
 /// that unit at which a film wrinkles.
-pub fn own(fabric: &dyn Fabric) -> [f64; 2] {
+pub(super) fn own(fabric: &dyn Fabric) -> [f64; 2] {
     match fabric.kind() {
         Kind::NeoHookean(film) => [modulus(film), NEVER],
         Kind::WrinklingFilm(film) => {
@@ -67,7 +66,7 @@ fn modulus(film: &NeoHookean) -> f64 {
 
 /// Neo-Hookean film of the given 2 t C₁₀.
 #[derive(Clone, Copy)]
-pub struct Rubber(pub f64);
+pub(super) struct Rubber(pub f64);
 
 impl ShellLaw for Rubber {
     #[inline(always)]
@@ -85,7 +84,7 @@ impl ShellLaw for Rubber {
 
 /// Wrinkling film with 2 t C₁₀ = 1.
 #[derive(Clone, Copy)]
-pub struct WrinklingFilm;
+pub(super) struct WrinklingFilm;
 
 impl ShellLaw for WrinklingFilm {
     #[inline(always)]
@@ -140,7 +139,7 @@ impl ShellLaw for &Mixed {
 
 /// Any other fabric, called element by element.
 #[derive(Clone, Copy)]
-pub struct Called<'a>(pub &'a dyn Fabric);
+pub(super) struct Called<'a>(pub &'a dyn Fabric);
 
 impl ShellLaw for Called<'_> {
     #[inline(always)]

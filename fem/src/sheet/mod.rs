@@ -7,6 +7,7 @@ pub mod bending;
 pub mod bound;
 pub mod chamber;
 pub mod edge;
+mod element;
 pub mod fields;
 pub mod group;
 mod kernel;
@@ -26,34 +27,15 @@ use models::{Account, Fabric, LedgerLine, Pose, Row, RowKind, Term};
 use crate::bytes::{pack, unpack};
 use crate::mesh::Mesh;
 use crate::problem::{Chamber, Section, Settings};
+use crate::transient::row;
 use crate::{FemError, NODE, Tick, Transient};
+pub use element::Element;
+
 use bending::BendingMatrix;
 use chamber::{Air, AirNow};
 use group::Item;
 use patch::{LoopKey, PassShared, Patch};
 use reference::{Reference, mean_stiffness};
-
-/// One element, for everything that is not the hot loop.
-#[derive(Debug, Clone)]
-pub struct Element {
-    /// Corner nodes; a triangle repeats its third.
-    pub node: [u32; 4],
-    /// 3 or 4.
-    pub corners: usize,
-    /// Part number.
-    pub part: usize,
-    /// Reference data.
-    pub reference: Reference,
-    /// Hourglass stiffness k \[N/m\].
-    pub hourglass: f64,
-}
-
-impl Element {
-    /// Corner nodes without repetition.
-    pub fn nodes(&self) -> &[u32] {
-        &self.node[..self.corners]
-    }
-}
 
 /// All shells of a run, with the air in their chambers.
 #[derive(Debug, Clone)]
@@ -63,7 +45,7 @@ pub struct Sheet {
     /// Fabric of each part.
     pub fabrics: Vec<Arc<dyn Fabric>>,
     /// Mass per area of each part \[kg/m²\].
-    pub areal_density: Vec<f64>,
+    pub(crate) areal_density: Vec<f64>,
     /// Chambers in the order of the problem.
     pub air: Vec<Air>,
     /// Row sums of |K| in bending, for the stable step \[N/m\]; of K itself the patches keep what they need.
@@ -238,7 +220,6 @@ impl Transient for Sheet {
 
     fn ledger(&self, _at: &Pose) -> Vec<Row> {
         let [membrane, bending, hourglass] = self.stored();
-        let row = |name, account, kind, energy_j| Row { name, account, kind, energy_j };
         let mut rows = vec![
             row("membrane", Account::Stretch, RowKind::Stored, membrane),
             row("bending", Account::Wall, RowKind::Stored, bending),

@@ -99,7 +99,7 @@ fn triangle(x: &[[f64; 2]], axes: [[f64; 3]; 3]) -> Reference {
 }
 
 /// Mean in-plane stiffness ½(A₁₁ + A₂₂) of an unstrained fabric \[N/m\]; scales hourglass and bending stiffness.
-pub fn mean_stiffness(fabric: &dyn Fabric) -> f64 {
+pub(crate) fn mean_stiffness(fabric: &dyn Fabric) -> f64 {
     let a = fabric.tangent([0.0; 3], &[0.0; 2]);
     0.5 * (a[0][0] + a[1][1])
 }

@@ -39,6 +39,7 @@ use models::{Account, Fabric, LedgerLine, Pose, Row, RowKind, Term};
 use crate::Mesh;
 use crate::bytes::{pack, unpack};
 use crate::sheet::{Element, Sheet};
+use crate::transient::row;
 use crate::vec3::{V3, add, along, dot, node, norm, scale, sub};
 use crate::{Tick, Transient};
 
@@ -63,7 +64,6 @@ pub struct Folds {
     stored_j: Option<f64>,
 }
 
-/// Edge between two elements.
 #[derive(Debug, Clone)]
 struct Edge {
     /// Both ends of the edge, then the nodes opposite.
@@ -75,7 +75,6 @@ struct Edge {
     stiffness_n: f64,
 }
 
-/// Element beside an edge.
 #[derive(Debug, Clone)]
 struct Side {
     element: Element,
@@ -156,7 +155,6 @@ impl Folds {
     }
 }
 
-/// Row of one side.
 struct SideRow {
     ends: [f64; 2],
     opposite: f64,
@@ -267,7 +265,7 @@ impl Transient for Folds {
         let energy_j = self.stored_j.unwrap_or_else(|| self.edges.iter().map(|e| e.energy_j(x)).sum());
         vec![
             self.line().row(RowKind::Stored, energy_j),
-            LedgerLine { name: "tension of folds", account: Account::Wall }.row(RowKind::Supplied, self.tension_work_j),
+            row("tension of folds", Account::Wall, RowKind::Supplied, self.tension_work_j),
         ]
     }
 

@@ -20,6 +20,6 @@ const SHARE: f64 = 0.1;
 
 /// Penalty stiffness of obstacles for every node, k = `SHARE` · m/Δt² \[N/m\], of its mass as it is stepped. The depth reached under a
 /// pressure p on a fabric of areal mass m_A is p Δt²/(`SHARE` · m_A).
-pub fn penalty_stiffness_n_m(mass_kg: &[f64], dt_s: f64) -> Vec<f64> {
+pub(crate) fn penalty_stiffness_n_m(mass_kg: &[f64], dt_s: f64) -> Vec<f64> {
     mass_kg.iter().map(|mass| SHARE * mass / (dt_s * dt_s)).collect()
 }

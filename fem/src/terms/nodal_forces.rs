@@ -16,6 +16,7 @@ use models::{Account, LedgerLine, Pose, Row, RowKind, Term};
 
 use crate::bytes::{pack, unpack};
 use crate::problem::{Amplitude, NodalForce};
+use crate::vec3::{add, dot, node};
 use crate::{FemError, Mesh};
 use crate::{Tick, Transient};
 
@@ -93,30 +94,18 @@ impl Transient for NodalForces {
 
 impl Load {
     fn new(mesh: &Mesh, force: &NodalForce) -> Result<Load, FemError> {
-        let known = || mesh.sets.keys().map(String::as_str).collect::<Vec<_>>().join(", ");
-        let nodes = mesh.sets.get(&force.set).ok_or_else(|| {
-            FemError::Problem(format!(
-                "force on node set {:?}, which the mesh does not have; it has: {}",
-                force.set,
-                known()
-            ))
-        })?;
-        if nodes.is_empty() {
-            return Err(FemError::Problem(format!("force on node set {:?}, which is empty", force.set)));
-        }
+        let nodes = mesh.set(&force.set, "force")?;
         if force.total_n.iter().any(|f| !f.is_finite()) {
             return Err(FemError::Problem(format!("force on node set {:?} is not a finite number", force.set)));
         }
         let share = 1.0 / nodes.len() as f64;
         let force_n = force.total_n.map(|f| f * share);
-        Ok(Load { nodes: nodes.clone(), force_n, amplitude: force.amplitude.clone(), last: None })
+        Ok(Load { nodes: nodes.to_vec(), force_n, amplitude: force.amplitude.clone(), last: None })
     }
     /// Σ F₀·x \[J\]
     fn along(&self, q: &[f64]) -> f64 {
         let points = q.as_chunks::<4>().0;
-        let sum =
-            self.nodes.iter().fold([0.0; 3], |sum, &i| crate::vec3::add(sum, crate::vec3::node(points, i as usize)));
-        crate::vec3::dot(self.force_n, sum)
+        dot(self.force_n, self.nodes.iter().fold([0.0; 3], |sum, &i| add(sum, node(points, i as usize))))
     }
     fn add(&self, amplitude: f64, q: &[f64], force: &mut [f64]) -> f64 {
         let force = force.as_chunks_mut::<4>().0;

@@ -25,11 +25,11 @@ use super::coulomb::slide;
 use crate::bytes::{pack, unpack};
 use crate::problem::Obstacle;
 use crate::problem::solid::Solid;
+use crate::transient::row;
 use crate::vec3::{V3, add, dot, sub};
 use crate::{FemError, Mesh};
 use crate::{Tick, Transient};
 
-/// Nodes per parallel chunk.
 const CHUNK: usize = 1024;
 /// c/(k Δt) = 2 ζ/√(k Δt²/m) with ζ = 0.4 and k Δt²/m = [`SHARE`](super::SHARE). Central differences bear 2 c Δt/m = 0.5 beside k
 /// and a mesh at 0.9 of its own limit.
@@ -173,16 +173,14 @@ impl Transient for Obstacles {
     fn ledger(&self, at: &Pose) -> Vec<Row> {
         let first = self.before_m.is_empty();
         let stored = if first { self.add(at, &mut vec![0.0; at.q.len()]) } else { self.stored_j };
-        let lost = |name, lost_j| LedgerLine { name, account: Account::Load }.row(RowKind::Dissipated, lost_j);
-        let [friction_j, damping_j] = self.lost_j;
-        let moves = self.paths.iter().any(|path| path.obstacle.motion.is_some());
-        let motion = LedgerLine { name: "obstacle motion", account: Account::Load };
+        let of = |name, kind, energy_j| row(name, Account::Load, kind, energy_j);
         let mut rows = vec![
-            self.line().row(RowKind::Stored, stored),
-            lost("obstacle friction", friction_j),
-            lost("obstacle damping", damping_j),
+            of("obstacles", RowKind::Stored, stored),
+            of("obstacle friction", RowKind::Dissipated, self.lost_j[0]),
+            of("obstacle damping", RowKind::Dissipated, self.lost_j[1]),
         ];
-        rows.extend(moves.then(|| motion.row(RowKind::Supplied, self.work_j)));
+        let moves = self.paths.iter().any(|path| path.obstacle.motion.is_some());
+        rows.extend(moves.then(|| of("obstacle motion", RowKind::Supplied, self.work_j)));
         rows
     }
     fn stiffness_bound(&self, at: &Pose, bound: &mut [f64]) {

@@ -1,18 +1,10 @@
 //! What may be missing on a bench: effects of the catalogue, and numbers of the scenario that are usually not known.
 
-use crate::diagnosis::candidates::{Candidate, Free, Held, candidate, hold, hold_shapes};
-use crate::diagnosis::detect::lead;
-use crate::diagnosis::result::Group;
+use crate::bench::Trial;
+use crate::diagnosis::candidates::{Candidate, Free, candidate, hold, hold_shapes};
 use data::Bench;
 use models::Scenario;
-use models::effects::{Effect, Fitted, Stage};
-
-/// A scenario with something tried, and a yarn angle that goes before the table's.
-#[derive(Clone)]
-pub struct Trial {
-    pub scenario: Scenario,
-    pub bias_rad: Option<f64>,
-}
+use models::effects::{Effect, Fitted, Group, Stage};
 
 /// An effect, or a number of the scenario.
 pub struct Law {
@@ -123,7 +115,7 @@ impl Law {
     /// Where fits start: as of markers, and at the bounds: where a beam has folded no slope leads back.
     pub fn starts(&self) -> Vec<Vec<f64>> {
         let mut starts = self.candidate.starts();
-        let k = lead(&self.candidate);
+        let k = self.candidate.lead();
         for bound in [self.candidate.parameters[k].lower, self.candidate.parameters[k].upper] {
             let mut start = self.candidate.at(1.0);
             start[k] = bound;
@@ -163,7 +155,7 @@ pub fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Law>, Vec<u
     effects.iter_mut().flat_map(|c| &mut c.parameters).filter(|p| p.fitted == Fitted::FromDesign).for_each(|p| {
         p.fitted = Fitted::Always;
     });
-    hold(&mut effects, &Held { kept_bending: true, body_pressures, measured: &[] });
+    hold(&mut effects, true, body_pressures, &[]);
     // Laws have their usual forms in a table of one quantity.
     hold_shapes(&mut effects);
     for chosen in &scenario.effects {

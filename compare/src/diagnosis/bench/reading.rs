@@ -1,16 +1,13 @@
 //! One row of a table: what was measured, how well, of which specimen, at what load.
 
 use super::scatter::steadied;
-use crate::bench::{is_free, measured, place, specimen};
+use crate::bench::{Trial, is_free, measured, place};
 use data::bench::BenchRow;
-use models::Scenario;
 
-/// One row.
 pub struct Reading<'a> {
     pub row: &'a BenchRow,
     /// As measured, SI.
     pub measured: f64,
-    /// e.
     pub small: f64,
     /// Standard error of the mean and its degrees of freedom; of d where these are infinite.
     pub error: Option<[f64; 2]>,
@@ -20,7 +17,6 @@ pub struct Reading<'a> {
     pub specimen: String,
     /// Load over collapse load, or contraction.
     pub drive: f64,
-    /// In words.
     pub at: String,
 }
 
@@ -30,16 +26,15 @@ impl<'a> Reading<'a> {
         (model / self.small).asinh() - (self.measured / self.small).asinh()
     }
 
-    /// Standard error as a ratio.
     pub fn noise(&self) -> Option<f64> {
         let [error, dof] = self.error?;
         Some(if dof.is_finite() { error / self.measured.hypot(self.small) } else { error })
     }
 
     /// A row of a scenario's table.
-    pub fn new(row: &'a BenchRow, scenario: &Scenario, small: f64, sigma: Option<f64>) -> Reading<'a> {
+    pub fn new(row: &'a BenchRow, trial: &Trial, small: f64, sigma: Option<f64>) -> Reading<'a> {
         let beam = row.get("load").is_some();
-        let sized = specimen(row, scenario, None).unwrap_or_else(|_| scenario.clone());
+        let sized = trial.specimen(row).unwrap_or_else(|_| trial.scenario.clone());
         let sd = row.get(if beam { "deflection_sd" } else { "force_sd" }).filter(|_| !is_free(row));
         let told = sd.zip(row.get("n")).map(|(sd, n)| [sd / n.sqrt(), n - 1.0]);
         let collapse_n = std::f64::consts::PI * sized.p_body_pa * sized.radius_m.powi(3) / sized.length_m;

@@ -1,12 +1,11 @@
 //! The diagnosis of a table in sentences, and where a model fails.
 
 use super::reading::{Reading, groups};
+use super::result::{BenchDiagnosis, BenchRanked, LeftOut};
 use super::table::Table;
-use super::{BenchDiagnosis, BenchRanked, LeftOut};
 use crate::bench::is_free;
 use crate::diagnosis::result::Verdict;
-use crate::diagnosis::story::with_interval;
-use crate::diagnosis::words::quantity;
+use crate::diagnosis::result::words::{quantity, with_interval};
 use crate::policy;
 use crate::wording::{list, p_value, short};
 

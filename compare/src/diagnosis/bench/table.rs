@@ -8,15 +8,15 @@
 //! where both are well above e, and a share of e below: half and double are as far off. Without standard deviations σ is what
 //! the best explanation leaves: differences are then ordered, and no p-value is formed.
 
-use super::laws::{Law, Trial, laws};
+use super::laws::{Law, laws};
 use super::reading::{Reading, groups, steady};
 use crate::CompareError;
-use crate::bench::{ANY_WIDTH_M, is_free, measured, modelled, own_or_braid, refuse, specimen};
-use crate::diagnosis::basis::Basis;
-use crate::diagnosis::least_squares::{Minimum, Range, minimise, square};
+use crate::bench::{ANY_WIDTH_M, Trial, is_beam, is_free, measured, modelled, own_or_braid, refuse};
+use crate::diagnosis::candidates::Free;
 use crate::diagnosis::problem::is_binding;
 use crate::diagnosis::result::ParameterValue;
-use crate::interval::{Half, interval, misfit};
+use crate::fit::interval::{Half, misfit, of_parameter, weights};
+use crate::fit::least_squares::{Minimum, Range, minimise, square};
 use crate::policy;
 use crate::stats::{normal_score, t_975};
 use data::Bench;
@@ -37,7 +37,6 @@ const STARTS: usize = 3;
 pub struct Table<'a> {
     pub readings: Vec<Reading<'a>>,
     pub laws: Vec<Law>,
-    /// Fitted along with every law.
     pub always: Vec<usize>,
     trial: Trial,
     /// Laws that act by a size which nobody told.
@@ -64,9 +63,7 @@ impl<'a> Table<'a> {
         sigma: Option<f64>,
         refit: bool,
     ) -> Result<Table<'a>, CompareError> {
-        if bench.kind.columns.iter().all(|c| c.base != "load" && c.base != "contraction") {
-            return refuse(bench, "no model is held against it", "ibr characterize reads it");
-        }
+        is_beam(bench)?;
         let scenario = own_or_braid(bench, scenario)?;
         let scenario = Scenario { segments: scenario.segments.min(SEGMENTS), ..scenario };
         let (laws, always) = laws(bench, &scenario, refit);
@@ -81,7 +78,7 @@ impl<'a> Table<'a> {
         };
         let mut readings = Vec::new();
         for row in &bench.rows {
-            readings.push(Reading::new(row, &trial.scenario, LEAST_SHARE * largest(is_free(row)), sigma));
+            readings.push(Reading::new(row, &trial, LEAST_SHARE * largest(is_free(row)), sigma));
         }
         for free in [false, true] {
             steady(readings.iter_mut().filter(|r| is_free(r.row) == free));
@@ -110,7 +107,7 @@ impl<'a> Table<'a> {
         let theta: Vec<f64> = self.always.iter().flat_map(|i| self.laws[*i].candidate.at(1.0)).collect();
         let trial = self.tried(None, &theta);
         for r in &self.readings {
-            if let Err([problem, help]) = specimen(r.row, &trial.scenario, trial.bias_rad) {
+            if let Err([problem, help]) = trial.specimen(r.row) {
                 let help = help.replace(", or add --calibrate", "");
                 return refuse(bench, &format!("line {}: {problem}", r.row.line), &help);
             }
@@ -174,7 +171,7 @@ impl<'a> Table<'a> {
 
     fn predicted_by(&self, trial: &Trial) -> Option<Vec<f64>> {
         let of = |r: &Reading| {
-            let specimen = specimen(r.row, &trial.scenario, trial.bias_rad).ok()?;
+            let specimen = trial.specimen(r.row).ok()?;
             // A beam that has folded hangs from its clamp.
             modelled(r.row, &specimen).or(r.row.get("load").map(|_| specimen.length_m)).filter(|v| v.is_finite())
         };
@@ -200,11 +197,7 @@ impl<'a> Table<'a> {
     }
 
     fn ranges(&self, law: Option<usize>) -> Vec<Range> {
-        let range = |p: &crate::diagnosis::candidates::Free| match p.is_free() {
-            true => Range { lower: p.lower, upper: p.upper, scale: p.scale() },
-            false => Range { lower: p.neutral, upper: p.neutral, scale: p.scale() },
-        };
-        self.of(law).flat_map(|l| l.candidate.parameters.iter().map(range)).collect()
+        self.of(law).flat_map(|l| l.candidate.parameters.iter().map(Free::range)).collect()
     }
 
     fn starts(&self) -> Vec<Vec<f64>> {
@@ -233,7 +226,7 @@ impl<'a> Table<'a> {
     fn finished(&self, law: Option<usize>, minimum: Minimum) -> Fit {
         let ranges = self.ranges(law);
         let neutral: Vec<f64> = self.of(law).flat_map(|l| l.candidate.parameters.iter().map(|p| p.neutral)).collect();
-        let binding = |k: usize| ranges[k].lower < ranges[k].upper && is_binding(&minimum, k, &ranges[k], neutral[k]);
+        let binding = |k: usize| ranges[k].is_free() && is_binding(&minimum, k, &ranges[k], neutral[k]);
         Fit { law, binding: (0..ranges.len()).map(binding).collect(), minimum }
     }
 
@@ -264,18 +257,9 @@ impl<'a> Table<'a> {
     /// Parameters of a fit, the base's first, with 95 % intervals.
     pub fn values(&self, fit: &Fit) -> Vec<ParameterValue> {
         let free = self.of(fit.law).flat_map(|l| &l.candidate.parameters);
-        let of = |(k, p): (usize, &crate::diagnosis::candidates::Free)| {
+        let of = |(k, p): (usize, &Free)| {
             let interval = if p.is_free() { self.interval(fit, k) } else { None };
-            ParameterValue {
-                key: p.key.clone(),
-                symbol: p.symbol.clone(),
-                unit: p.unit.clone(),
-                value: fit.minimum.at[k] / p.si,
-                held: !p.is_free(),
-                lo: interval.map(|i| i[0] / p.si),
-                hi: interval.map(|i| i[1] / p.si),
-                at_bound: fit.binding[k],
-            }
+            p.found(fit.minimum.at[k], interval, fit.binding[k])
         };
         free.enumerate().map(of).collect()
     }
@@ -283,15 +267,9 @@ impl<'a> Table<'a> {
     /// Noise and, where the law misses by more or the noise is not known, what it misses by, with curves as the unit.
     fn interval(&self, fit: &Fit, k: usize) -> Option<[f64; 2]> {
         let Minimum { at, residual, cost, jacobian } = &fit.minimum;
-        let others: Vec<Vec<f64>> = (0..at.len()).filter(|j| *j != k).map(|j| jacobian[j].clone()).collect();
-        let own = Basis::of(&others).rest(&jacobian[k]);
-        let squares = square(&own);
-        if squares <= 1e-9 * square(&jacobian[k]) || squares == 0.0 {
-            return None;
-        }
+        let (weights, squares) = weights(jacobian, k)?;
         let missed = cost / residual.len() as f64;
         let misses = !self.known || policy::misses(missed);
-        let weights: Vec<f64> = own.iter().map(|v| v / squares).collect();
         let curves: Vec<[f64; 2]> = self
             .curves()
             .iter()
@@ -308,15 +286,9 @@ impl<'a> Table<'a> {
         let of_noise = if self.known { 0.0 } else { noise * noise / spare };
         let dof = total * total / (more * more / dof + of_noise);
         let half = Half { width: t_975(if dof < 1e4 { dof.max(1.0) as usize } else { 0 }) * total.sqrt(), misses };
-        let ranges = self.ranges(fit.law);
         let all: Vec<usize> = (0..self.readings.len()).collect();
-        let (mut theta, mut held) = (at.clone(), self.ranges(fit.law));
-        let mut rise = |x: f64| {
-            (held[k].lower, held[k].upper, theta[k]) = (x, x, x);
-            let mut residuals = |at: &[f64]| self.residuals(fit.law, at, &all);
-            minimise(&theta, &held, 1e-2, &mut residuals).map_or(f64::INFINITY, |found| found.cost - cost)
-        };
-        Some(interval((at[k], half, squares), [ranges[k].lower, ranges[k].upper], Some(&mut rise)))
+        let mut residuals = |at: &[f64]| self.residuals(fit.law, at, &all);
+        of_parameter(k, at, &self.ranges(fit.law), (half, squares), Some(&mut residuals))
     }
 
     /// How much more a fit scatters than its slopes say, because it leans on rows that showed a small deviation by chance:

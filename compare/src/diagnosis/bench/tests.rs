@@ -30,7 +30,8 @@ fn made(head: &str, rows: &[String], truth: &Scenario, (share, n, seed): (f64, u
     for row in rows {
         let bare = parse_bench("a.csv", &format!("{},{}\n{row},1\n", head, column.split(',').next().unwrap()));
         let bench = bare.unwrap().unwrap();
-        let specimen = crate::bench::specimen(&bench.rows[0], truth, None).unwrap();
+        let trial = crate::bench::Trial { scenario: truth.clone(), bias_rad: None };
+        let specimen = trial.specimen(&bench.rows[0]).unwrap();
         let exact = modelled(&bench.rows[0], &specimen).unwrap() * if beam { 1e3 } else { 1.0 };
         let tests: Vec<f64> = (0..n).map(|_| exact * (1.0 + share * chance.normal())).collect();
         let mean = tests.iter().sum::<f64>() / n as f64;

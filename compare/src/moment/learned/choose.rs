@@ -13,7 +13,6 @@ pub struct Material {
     pub places: Vec<[f64; 8]>,
     /// Missing moment of each \[N·m\].
     pub moments: DVector<f64>,
-    /// Their covariance.
     pub covariance: DMatrix<f64>,
     /// The bending stiffness is fitted along; it may fall by so much \[N·m²\]. `None`: it is kept.
     pub stiffness: Option<f64>,
@@ -24,8 +23,6 @@ pub struct Material {
 pub struct Tried {
     /// The law; `None`: nothing is missing.
     pub form: Option<&'static Form>,
-    /// Numbers that are fitted, the bending stiffness included.
-    pub numbers: usize,
     /// Of every level, the misfit there without it over the number of points.
     pub of_levels: Vec<f64>,
     /// Values fitted to all points, SI.
@@ -53,7 +50,7 @@ pub fn rank(material: &Material, robot: &Scenario) -> Vec<Tried> {
         let law = Law::of(form, material, robot)?;
         let of_levels = (0..count).map(|level| law.missed(material, &levels, level)).collect::<Option<Vec<_>>>()?;
         let all: Vec<usize> = (0..levels.len()).collect();
-        Some(Tried { form, numbers: law.numbers(), of_levels, values: law.fit(material, &all)?.values })
+        Some(Tried { form, of_levels, values: law.fit(material, &all)?.values })
     };
     let mut tried: Vec<Tried> = std::iter::once(None).chain(open.map(Some)).filter_map(tried).collect();
     tried.retain(|t| t.score().is_finite());
@@ -136,11 +133,6 @@ impl Law {
             grid: sets.into_iter().map(columns).collect(),
             bounds,
         })
-    }
-
-    fn numbers(&self) -> usize {
-        let free = self.form.map_or(0, |f| f.numbers.iter().filter(|n| !n.is_linear()).count());
-        self.bounds.len() + free
     }
 
     /// The best over all that is tried.

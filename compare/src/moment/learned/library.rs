@@ -29,24 +29,19 @@ pub enum Unit {
 pub struct Number {
     /// Key in the formula.
     pub key: &'static str,
-    /// Its unit.
     pub unit: Unit,
-    /// Bounds in that unit.
     pub bounds: [f64; 2],
     /// Values that are tried, in that unit, where the law is not linear in it.
     pub tried: &'static [f64],
-    /// What it is.
     pub meaning: &'static str,
 }
 
 /// A law of the library.
 #[derive(Debug)]
 pub struct Form {
-    /// What it is, in words.
     pub words: &'static str,
     /// The moment; `TIP` stands for half of the length over the radius.
     pub moment: &'static str,
-    /// Its numbers.
     pub numbers: &'static [Number],
     /// What such a law usually is, and what tells.
     pub usual: Usual,
@@ -55,9 +50,7 @@ pub struct Form {
 /// What laws of a shape usually are.
 #[derive(Debug, Clone, Copy)]
 pub struct Usual {
-    /// In words.
     pub words: &'static str,
-    /// What tells.
     pub check: &'static str,
 }
 
@@ -200,7 +193,6 @@ impl Number {
         }
     }
 
-    /// How it is written.
     pub fn unit_text(&self) -> &'static str {
         match self.unit {
             Unit::Moment => "N m",
@@ -268,7 +260,6 @@ impl Form {
     }
 }
 
-/// Three digits.
 fn tidy(v: f64) -> f64 {
     format!("{v:.2e}").parse().unwrap_or(v)
 }

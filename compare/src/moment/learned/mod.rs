@@ -14,4 +14,6 @@ mod library;
 mod tests;
 
 pub use choose::{Material, Tried, rank, taken};
-pub use library::{Form, LIBRARY, Number, PULL, Usual};
+pub use library::{Form, PULL};
+#[cfg(test)]
+pub use library::{LIBRARY, Number};

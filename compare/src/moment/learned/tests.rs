@@ -56,7 +56,7 @@ fn material(form: Option<&Form>, sd: [f64; 2], seed: u64) -> Material {
 
 fn chosen(material: &Material) -> (Option<&'static Form>, Vec<f64>) {
     let mut ranked = rank(material, &robot());
-    let laws: Vec<(usize, f64)> = ranked.iter().map(|t| (t.numbers, t.score())).collect();
+    let laws: Vec<(usize, f64)> = ranked.iter().map(|t| (t.form.map_or(0, |f| f.numbers.len()), t.score())).collect();
     let law = ranked.swap_remove(taken(&laws).unwrap());
     (law.form, law.values)
 }

@@ -10,6 +10,7 @@
 //! Energies at one bend do not decide the equilibrium, their slopes do. Which term carries a difference of the tips is
 //! therefore tried: [`carrier`] cuts the term in both engines and looks whether the difference goes.
 
+pub mod breakdown;
 mod carrier;
 mod lines;
 mod of_run;
@@ -21,9 +22,10 @@ pub use lines::*;
 pub use of_run::{all_runs, as_run, known_runs, of_the_program, runs_of, seed_jobs};
 pub(in crate::study) use of_run::{and_back, is_paper};
 pub use robots::{EngineRobot, Engines, PartingMap, engines, varied};
-pub use volumes::{BodyVolumes, MeanOverSeeds, MeanVolumes, Volumes, body_volumes, volumes};
+pub use volumes::{BodyVolumes, MeanVolumes, Volumes, body_volumes, volumes};
 
 use crate::accuracy::paper_accuracy;
+use crate::characterize::Scatter;
 use crate::error::CompareError;
 use crate::policy;
 use fem::FemError;
@@ -222,7 +224,7 @@ fn reduced_at(
 pub fn between(scenario: &Scenario, run: &EngineRun, actuator_kpa: f64) -> Option<[Energies; 2]> {
     let model = Model::new(&Scenario { p_max_pa: HIGHEST_PA, ..scenario.clone() });
     let mut at = model.prediction();
-    let high = run.states.iter().find(|s| policy::is_same_reading(s.actuator_kpa, actuator_kpa))?;
+    let high = state_at(&run.states, actuator_kpa)?;
     let bent = |s: &&EngineState| s.actuator_kpa > 0.0 && policy::is_bent(s.turn_rad, high.turn_rad);
     let low = run.states.iter().find(bent).filter(|s| s.actuator_kpa < high.actuator_kpa)?;
     let from = reduced_at(&model, run, low, actuator_kpa, &mut at)?;
@@ -233,16 +235,17 @@ pub fn between(scenario: &Scenario, run: &EngineRun, actuator_kpa: f64) -> Optio
 fn reduced_ledger(model: &Model, loads: &Loads, at: &models::Prediction, gas: f64) -> Energies {
     let mut out = [0.0; TERMS.len()];
     for line in model.ledger(loads, at) {
-        let (term, factor) = match line.account {
-            Account::ActuatorGas => (0, gas),
-            Account::BodyGas => (1, 1.0),
-            // The runs have no loads beside their gas.
-            Account::Wall | Account::Load => (2, 1.0),
-            Account::Stretch => (3, 1.0),
-            Account::Compression => (4, 1.0),
-            Account::Contact => (5, 1.0),
-            Account::Numerical => (6, 1.0),
+        let term = match line.account {
+            Account::ActuatorGas => 0,
+            Account::BodyGas => 1,
+            // The runs have no loads other than their gas.
+            Account::Wall | Account::Load => 2,
+            Account::Stretch => 3,
+            Account::Compression => 4,
+            Account::Contact => 5,
+            Account::Numerical => 6,
         };
+        let factor = if term == 0 { gas } else { 1.0 };
         out[term] += factor * line.energy_j * 1e3;
     }
     out
@@ -270,9 +273,10 @@ pub fn accuracy(model_mm: f64, measured_mm: f64) -> Option<f64> {
 /// Files of finite element runs.
 const RUNS: RecordShape = RecordShape { schema: "ibr.fem_runs", version: 2 };
 
+/// A record of runs.
 #[derive(Deserialize)]
-struct EngineRuns {
-    runs: Vec<EngineRun>,
+pub(in crate::study) struct Listed<R> {
+    pub runs: Vec<R>,
 }
 
 /// Finite element runs that come with the program, made by its own commands (`ibr breakdown`, `ibr simulate`).
@@ -289,7 +293,7 @@ pub fn stored() -> Result<Vec<EngineRun>, FemError> {
 /// [`FemError::Record`] with the line and the field.
 pub fn read_runs(file: &str, text: &str) -> Result<Vec<EngineRun>, FemError> {
     let help = "make the file again: `ibr compare --engines --runs FOLDER` writes runs.json beside its report";
-    Ok(RUNS.read::<EngineRuns>(file, text, help)?.runs)
+    Ok(RUNS.read::<Listed<EngineRun>>(file, text, help)?.runs)
 }
 
 /// Runs as they are stored: one a line.
@@ -307,23 +311,27 @@ pub struct Ensemble {
 impl Ensemble {
     /// Mean and standard deviation of the outermost marker and of the tip at a pressure \[mm\]; the deviation is `None` for
     /// a single run, everything where no run was read there.
-    pub fn at(&self, actuator_kpa: f64) -> Option<[(f64, Option<f64>); 2]> {
-        let here = |run: &EngineRun| {
-            run.states
-                .iter()
-                .find(|s| policy::is_same_reading(s.actuator_kpa, actuator_kpa))
-                .map(|s| [s.marker_mm, s.tip_mm])
-        };
-        let found: Vec<[f64; 2]> = self.runs.iter().filter_map(here).collect();
-        let of = |k: usize| mean_and_deviation(&found.iter().map(|mm| mm[k]).collect::<Vec<_>>());
-        (!found.is_empty()).then(|| [of(0), of(1)])
+    pub fn at(&self, actuator_kpa: f64) -> Option<[MeanOverSeeds; 2]> {
+        let of = |number: fn(&EngineState) -> f64| self.over(|run| Some(number(state_at(&run.states, actuator_kpa)?)));
+        Some([of(|s| s.marker_mm)?, of(|s| s.tip_mm)?])
     }
 
     /// Mean and standard deviation of the tip on the way back at a pressure \[mm\]; `None` where no run came back to it.
-    pub fn back_at(&self, actuator_kpa: f64) -> Option<(f64, Option<f64>)> {
-        let at = |state: &&EngineState| policy::is_same_reading(state.actuator_kpa, actuator_kpa);
-        let found: Vec<f64> = self.runs.iter().filter_map(|run| Some(run.down.iter().find(at)?.tip_mm)).collect();
-        (!found.is_empty()).then(|| mean_and_deviation(&found))
+    pub fn back_at(&self, actuator_kpa: f64) -> Option<MeanOverSeeds> {
+        self.over(|run| Some(state_at(&run.down, actuator_kpa)?.tip_mm))
+    }
+
+    /// Mean and standard deviation of the height of the marker, on the wall, at a station \[mm\]; `None` where no run has it at that pressure.
+    pub fn marker_at(&self, station_m: f64, actuator_kpa: f64) -> Option<MeanOverSeeds> {
+        self.over(|run| {
+            let k = run.stations_mm.iter().position(|s| policy::is_same_station(*s, station_m * 1e3))?;
+            Some(state_at(&run.states, actuator_kpa)?.seen_mm.get(k)?[1])
+        })
+    }
+
+    /// Over the runs that have a number; `None` if none has.
+    fn over(&self, number: impl Fn(&EngineRun) -> Option<f64>) -> Option<MeanOverSeeds> {
+        over_seeds(self.runs.iter().filter_map(number))
     }
 
     /// Whether the tips of all runs were at rest at a pressure, on both ways.
@@ -333,29 +341,22 @@ impl Ensemble {
         all.all(|state| state.is_at_rest != Some(false))
     }
 
-    /// Mean and standard deviation of the height of the marker, on the wall, at a station \[mm\]; `None` where no run has it at that pressure.
-    pub fn marker_at(&self, station_m: f64, actuator_kpa: f64) -> Option<(f64, Option<f64>)> {
-        let here = |run: &EngineRun| {
-            let k = run.stations_mm.iter().position(|s| policy::is_same_station(*s, station_m * 1e3))?;
-            let state = run.states.iter().find(|s| policy::is_same_reading(s.actuator_kpa, actuator_kpa))?;
-            Some(state.seen_mm.get(k)?[1])
-        };
-        let found: Vec<f64> = self.runs.iter().filter_map(here).collect();
-        (!found.is_empty()).then(|| mean_and_deviation(&found))
-    }
-
     /// Mean processor time of a run \[s\].
     pub fn cpu_s(&self) -> f64 {
         self.runs.iter().map(|run| run.cpu_s).sum::<f64>() / self.runs.len() as f64
     }
 }
 
-/// Mean and standard deviation, which one value has not.
-pub fn mean_and_deviation(values: &[f64]) -> (f64, Option<f64>) {
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    let square = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0);
-    (mean, (values.len() > 1).then_some(square.sqrt()))
+/// Mean and standard deviation over seeds, which a single one has not.
+pub type MeanOverSeeds = (f64, Option<f64>);
+
+/// Of a value from every seed; `None` without any.
+pub(crate) fn over_seeds(values: impl IntoIterator<Item = f64>) -> Option<MeanOverSeeds> {
+    Scatter::of(values).map(|scatter| (scatter.mean, scatter.sd))
+}
+
+fn state_at(states: &[EngineState], actuator_kpa: f64) -> Option<&EngineState> {
+    states.iter().find(|s| policy::is_same_reading(s.actuator_kpa, actuator_kpa))
 }
 
 /// The runs of a shipped robot as it is to 30 kPa, on the finest mesh there is.

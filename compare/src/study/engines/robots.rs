@@ -55,9 +55,9 @@ pub struct Engines {
 /// # Errors
 /// A damaged embedded set or a model without equilibrium.
 pub fn engines(scenarios: &[Scenario], runs: &[EngineRun]) -> Result<Engines, CompareError> {
-    let robots = scenarios.iter().map(|s| robot(s, runs)).collect::<Result<_, _>>()?;
-    let mut maps = Vec::new();
+    let (mut robots, mut maps) = (Vec::new(), Vec::new());
     for scenario in scenarios {
+        robots.push(robot(scenario, runs)?);
         maps.extend(parting_maps(scenario, runs)?);
     }
     Ok(Engines { robots, maps })
@@ -73,19 +73,16 @@ fn robot(scenario: &Scenario, runs: &[EngineRun]) -> Result<EngineRobot, Compare
     }
     let ensemble = ensemble(runs, scenario);
     let uncertain = if shipped { uncertain::stored()? } else { Vec::new() };
-    let uncertain = uncertain.into_iter().filter(|u| u.scenario == scenario.name).collect();
     let run = ensemble.runs.first().cloned();
-    let pairs = run.as_ref().map_or(Ok(Vec::new()), |run| pairs(scenario, run, runs))?;
-    let bodies = body_volumes(scenario, runs);
     Ok(EngineRobot {
-        scenario: scenario.clone(),
         published: printed,
         with_effects,
+        uncertain: uncertain.into_iter().filter(|u| u.scenario == scenario.name).collect(),
+        pairs: run.as_ref().map_or(Ok(Vec::new()), |run| pairs(scenario, run, runs))?,
+        bodies: body_volumes(scenario, runs),
+        scenario: scenario.clone(),
         ensemble,
-        uncertain,
         run,
-        pairs,
-        bodies,
     })
 }
 

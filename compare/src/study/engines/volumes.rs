@@ -22,29 +22,32 @@
 //! may be more or less. c holds whatever parts a pouch from a lens of arm D: sealed edges, welds of some width, a shorter
 //! arm. Small turns have neither, being quotients of small differences. Uniform robots only: zones are not looked at.
 
-use super::{EngineRun, EngineState, ensemble, mean_and_deviation};
+use super::{EngineRun, EngineState, MeanOverSeeds, ensemble, over_seeds};
 use crate::policy;
 use models::Scenario;
 use models::actuators::{ActuatorShape, pouch};
 use serde::Serialize;
 use std::f64::consts::{FRAC_2_PI, PI};
 
-/// Volumes of one state of a finite element run.
+/// Volumes of one state of a finite element run, or their means over seeds.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Volumes {
+pub struct Volumes<V = f64> {
     /// Actuator gauge pressure \[kPa\].
     pub actuator_kpa: f64,
-    /// What the body has lost since it was full \[cm³\].
-    pub body_lost_cm3: f64,
-    /// What a reduced body loses at this turn, πR³θ \[cm³\].
-    pub by_bend_cm3: f64,
-    /// What the actuator has gained since the body was full \[cm³\].
-    pub actuator_cm3: f64,
+    /// Loss of the body since it was full \[cm³\].
+    pub body_lost_cm3: V,
+    /// Loss of a reduced body at this turn, πR³θ \[cm³\].
+    pub by_bend_cm3: V,
+    /// Gain of the actuator since the body was full \[cm³\].
+    pub actuator_cm3: V,
     /// χ \[-\]; `None` at small turns.
-    pub displaced: Option<f64>,
+    pub displaced: Option<V>,
     /// c \[-\]; `None` at small turns, for muscles, and beyond the contraction of a round lens.
-    pub lens_share: Option<f64>,
+    pub lens_share: Option<V>,
 }
+
+/// [`Volumes`] over the seeds of an ensemble; the quotients over those that have one.
+pub type MeanVolumes = Volumes<MeanOverSeeds>;
 
 /// Volumes of every state after the filled one.
 pub fn volumes(scenario: &Scenario, run: &EngineRun) -> Vec<Volumes> {
@@ -58,8 +61,8 @@ fn volumes_of(scenario: &Scenario, filled: &EngineState, state: &EngineState, la
     let by_bend_cm3 = PI * scenario.radius_m.powi(3) * state.turn_rad * 1e6;
     let actuator_cm3 = state.actuator_cm3 - filled.actuator_cm3;
     let full_cm3 = last.actuator_cm3 - filled.actuator_cm3;
-    let bent =
-        policy::is_bent(state.turn_rad, last.turn_rad.max(0.0)) && policy::is_filled(actuator_cm3, full_cm3.max(0.0));
+    let filled = policy::is_filled(actuator_cm3, full_cm3.max(0.0));
+    let bent = policy::is_bent(state.turn_rad, last.turn_rad.max(0.0)) && filled;
     let displaced = bent.then(|| (body_lost_cm3 - by_bend_cm3) / actuator_cm3);
     let lens_cm3 = lens_m3(scenario, state.turn_rad).filter(|_| bent).map(|m3| m3 * 1e6);
     let lens_share = lens_cm3.map(|cm3| actuator_cm3 / cm3);
@@ -78,26 +81,6 @@ fn lens_m3(scenario: &Scenario, turn_rad: f64) -> Option<f64> {
         let at = pouch::stroke(&lens, pouch::half_angle(contraction));
         count * lens.length_m * at.volume
     })
-}
-
-/// Mean and standard deviation over seeds, which a single one has not.
-pub type MeanOverSeeds = (f64, Option<f64>);
-
-/// [`Volumes`] over the seeds of an ensemble; the quotients over those that have one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct MeanVolumes {
-    /// Actuator gauge pressure \[kPa\].
-    pub actuator_kpa: f64,
-    /// What the body has lost since it was full \[cm³\].
-    pub body_lost_cm3: MeanOverSeeds,
-    /// πR³θ \[cm³\].
-    pub by_bend_cm3: MeanOverSeeds,
-    /// What the actuator has gained since the body was full \[cm³\].
-    pub actuator_cm3: MeanOverSeeds,
-    /// χ \[-\].
-    pub displaced: Option<MeanOverSeeds>,
-    /// c \[-\].
-    pub lens_share: Option<MeanOverSeeds>,
 }
 
 /// A robot at one body pressure.
@@ -145,25 +128,19 @@ pub fn body_volumes(scenario: &Scenario, runs: &[EngineRun]) -> Vec<BodyVolumes>
 
 fn mean_volumes(scenario: &Scenario, runs: &[EngineRun]) -> Vec<MeanVolumes> {
     let all: Vec<Vec<Volumes>> = runs.iter().map(|run| volumes(scenario, run)).collect();
-    let Some(first) = all.first() else { return Vec::new() };
     let at = |kpa: f64| {
-        let here: Vec<&Volumes> =
-            all.iter().flatten().filter(|v| policy::is_same_reading(v.actuator_kpa, kpa)).collect();
-        let of = |value: fn(&Volumes) -> f64| mean_and_deviation(&here.iter().map(|v| value(v)).collect::<Vec<_>>());
-        let known = |value: fn(&Volumes) -> Option<f64>| {
-            let found: Vec<f64> = here.iter().filter_map(|v| value(v)).collect();
-            (!found.is_empty()).then(|| mean_and_deviation(&found))
-        };
-        MeanVolumes {
+        let here = || all.iter().flatten().filter(move |v| policy::is_same_reading(v.actuator_kpa, kpa));
+        let known = |value: fn(&Volumes) -> Option<f64>| over_seeds(here().filter_map(value));
+        Some(MeanVolumes {
             actuator_kpa: kpa,
-            body_lost_cm3: of(|v| v.body_lost_cm3),
-            by_bend_cm3: of(|v| v.by_bend_cm3),
-            actuator_cm3: of(|v| v.actuator_cm3),
+            body_lost_cm3: over_seeds(here().map(|v| v.body_lost_cm3))?,
+            by_bend_cm3: over_seeds(here().map(|v| v.by_bend_cm3))?,
+            actuator_cm3: over_seeds(here().map(|v| v.actuator_cm3))?,
             displaced: known(|v| v.displaced),
             lens_share: known(|v| v.lens_share),
-        }
+        })
     };
-    first.iter().map(|v| at(v.actuator_kpa)).collect()
+    all.iter().take(1).flatten().filter_map(|v| at(v.actuator_kpa)).collect()
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Every sentence of the paper that can be checked, beside what the engine or the paper itself says.
+//! Every sentence of the paper that can be checked, next to what the engine or the paper itself says.
 
 use super::in_print::IN_PRINT;
 use super::in_runs::IN_RUNS;
@@ -30,11 +30,6 @@ impl FactVerdict {
             FactVerdict::CannotBeChecked(why) => format!("cannot be checked: {why}"),
         }
     }
-
-    /// Holds, or misses by what is said.
-    pub(super) fn holds_if(holds: bool, else_by: impl Into<String>) -> FactVerdict {
-        if holds { FactVerdict::Holds } else { FactVerdict::Misses(else_by.into()) }
-    }
 }
 
 /// A sentence and its verdict.
@@ -52,18 +47,34 @@ pub struct FactRow {
     pub verdict: FactVerdict,
 }
 
-/// What a check found, in words, and what follows.
-pub(super) type FactFound = (String, FactVerdict);
+/// What a check found, in words, and what follows; `None` without the numbers or runs that it needs.
+pub(super) type FactFound = Option<(String, FactVerdict)>;
 
-/// A fact with everything it may be held against.
+/// Name of a fact, the reason if its check finds nothing, and the check.
+pub(super) type FactCheck = (&'static str, &'static str, fn(&FactCase) -> FactFound);
+
+pub(super) fn holds_if(holds: bool, found: String, else_by: impl Into<String>) -> FactFound {
+    Some((found, if holds { FactVerdict::Holds } else { FactVerdict::Misses(else_by.into()) }))
+}
+
+pub(super) fn contradicts_itself(found: impl Into<String>, how: impl Into<String>) -> FactFound {
+    Some((found.into(), FactVerdict::ContradictsItself(how.into())))
+}
+
+pub(super) fn cannot_be_checked(found: impl Into<String>, why: &str) -> FactFound {
+    Some((found.into(), FactVerdict::CannotBeChecked(why.into())))
+}
+
+pub(super) fn joined(words: impl Iterator<Item = String>) -> String {
+    words.collect::<Vec<_>>().join(", ")
+}
+
+/// A fact with everything that it may be compared with.
 pub(super) struct FactCase<'a> {
     pub paper: &'a Published,
     pub runs: &'a [PaperRun],
     pub numbers: &'a [f64],
 }
-
-/// Name of a fact and its check.
-pub(super) type FactCheck = (&'static str, fn(&FactCase) -> FactFound);
 
 impl<'a> FactCase<'a> {
     /// A number of the fact; NaN if the file has fewer, which a test refuses.
@@ -71,32 +82,28 @@ impl<'a> FactCase<'a> {
         self.numbers.get(k).copied().unwrap_or(f64::NAN)
     }
 
+    /// Largest measured displacement \[mm\].
+    pub fn d_max_mm(&self, kind: &str) -> Option<f64> {
+        Some(self.paper.actuator(kind)?.d_max_m * 1e3)
+    }
+
     /// Runs of the robots at the pressures on the finest mesh that has all of them.
     pub fn all(&self, wanted: &[(&str, f64)]) -> Option<([f64; 2], Vec<&'a PaperRun>)> {
         MESHES_MM.iter().rev().find_map(|mesh| {
-            let found: Option<Vec<&PaperRun>> =
-                wanted.iter().map(|(kind, kpa)| find(self.runs, kind, *mesh, *kpa)).collect();
-            Some((*mesh, found?))
+            let found = wanted.iter().map(|(kind, kpa)| find(self.runs, kind, *mesh, *kpa));
+            Some((*mesh, found.collect::<Option<_>>()?))
         })
     }
 }
 
-/// For a check without its runs.
-pub(super) fn no_runs(of: &str) -> FactFound {
-    ("–".into(), FactVerdict::CannotBeChecked(format!("no run of {of}")))
-}
-
 /// All facts of the paper, in the order of its file.
 pub fn facts(paper: &Published, runs: &[PaperRun]) -> Vec<FactRow> {
-    paper.facts.iter().map(|fact| row(paper, runs, fact)).collect()
-}
-
-fn row(paper: &Published, runs: &[PaperRun], fact: &PublishedFact) -> FactRow {
-    let check = IN_PRINT.iter().chain(IN_RUNS).find(|(id, _)| *id == fact.id);
-    let case = FactCase { paper, runs, numbers: &fact.numbers };
-    let (found, verdict) = check.map_or_else(
-        || ("–".into(), FactVerdict::CannotBeChecked("there is no check of it".into())),
-        |(_, check)| check(&case),
-    );
-    FactRow { id: fact.id.clone(), place: fact.place.clone(), says: fact.says.clone(), found, verdict }
+    let row = |fact: &PublishedFact| {
+        let case = FactCase { paper, runs, numbers: &fact.numbers };
+        let known = IN_PRINT.iter().chain(IN_RUNS).find(|(id, ..)| *id == fact.id);
+        let (missing, found) = known.map_or(("there is no check of it", None), |(_, of, check)| (*of, check(&case)));
+        let (found, verdict) = found.unwrap_or_else(|| ("–".into(), FactVerdict::CannotBeChecked(missing.into())));
+        FactRow { id: fact.id.clone(), place: fact.place.clone(), says: fact.says.clone(), found, verdict }
+    };
+    paper.facts.iter().map(row).collect()
 }

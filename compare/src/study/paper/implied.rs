@@ -79,33 +79,30 @@ impl HeightRow {
 
 /// Every robot of the paper at every pressure on every mesh of the list for which there is a run.
 pub fn heights(paper: &Published, runs: &[PaperRun], meshes_mm: &[[f64; 2]]) -> Vec<HeightRow> {
-    let mut out = Vec::new();
-    for actuator in &paper.actuators {
-        for (pa, _) in &actuator.accuracy {
-            for mesh in meshes_mm {
-                let run = find(runs, &actuator.kind, *mesh, pa * 1e-3);
-                out.extend(run.and_then(|run| against(actuator, run)));
-            }
-        }
-    }
-    out
+    let places = |actuator: &PublishedActuator| {
+        let at = |(pa, _): &(f64, f64)| meshes_mm.iter().map(move |mesh| (*mesh, pa * 1e-3)).collect::<Vec<_>>();
+        actuator.accuracy.iter().flat_map(at).collect::<Vec<_>>()
+    };
+    let of = |actuator| {
+        places(actuator)
+            .into_iter()
+            .filter_map(move |(mesh, kpa)| against(actuator, find(runs, &actuator.kind, mesh, kpa)?))
+    };
+    paper.actuators.iter().flat_map(of).collect()
 }
 
-/// One run beside what the paper implies.
+/// One run next to what the paper implies.
 pub fn against(actuator: &PublishedActuator, run: &PaperRun) -> Option<HeightRow> {
     let state = run.end()?;
     let implied = Implied::of(actuator, state.actuator_kpa * 1e3)?;
-    let markers_mm: Vec<f64> = state.moved_mm.iter().map(|xy| xy[1]).collect();
-    let verdict = verdict(&implied, state.marker_mm);
-    let (robot, mesh_mm) = (actuator.kind.clone(), run.run.mesh_mm);
     Some(HeightRow {
-        robot,
+        robot: actuator.kind.clone(),
         actuator_kpa: state.actuator_kpa,
-        mesh_mm,
-        implied,
-        markers_mm,
+        mesh_mm: run.run.mesh_mm,
+        markers_mm: state.moved_mm.iter().map(|xy| xy[1]).collect(),
         tip_mm: state.tip_mm,
-        verdict,
+        verdict: verdict(&implied, state.marker_mm),
+        implied,
     })
 }
 

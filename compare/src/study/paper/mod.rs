@@ -1,26 +1,25 @@
 //! The finite elements of du Pasquier et al. 2023 against this engine with their modelling choices, `[fem] model = "paper"`:
-//! displacements beside what the paper's accuracies imply, and every sentence of the paper that can be checked.
+//! displacements next to those that the paper's accuracies imply, and every sentence of the paper that can be checked.
 
 mod facts;
 mod implied;
 mod in_print;
 mod in_runs;
 mod jobs;
-mod of_run;
 
 pub use facts::{FactRow, FactVerdict, facts};
 pub use implied::{HeightRow, Implied, against, heights};
-pub use jobs::jobs;
-pub use of_run::runs_below;
+pub use jobs::{jobs, runs_below};
 
 use crate::policy;
-use crate::study::engines::{EngineRun, EngineState};
+use crate::study::engines::{EngineRun, EngineState, Listed};
 use fem::FemError;
 use fem::record::RecordShape;
 use serde::{Deserialize, Serialize};
 
 /// Meshes of the paper: the coarsest of its study on body and actuator, and the final one \[mm\].
 pub const MESHES_MM: [[f64; 2]; 2] = [[4.0, 4.0], [4.0, 1.0]];
+const ROBOTS: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
 
 /// A finished run of the preset: one robot, one mesh, one pressure.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -64,11 +63,6 @@ pub struct Peak {
 /// Files of such runs.
 const RUNS: RecordShape = RecordShape { schema: "ibr.paper_runs", version: 2 };
 
-#[derive(Deserialize)]
-struct PaperRuns {
-    runs: Vec<PaperRun>,
-}
-
 /// Runs of the preset that come with the program, made by `ibr compare --paper --runs FOLDER`.
 ///
 /// # Errors
@@ -83,7 +77,7 @@ pub fn stored() -> Result<Vec<PaperRun>, FemError> {
 /// [`FemError::Record`] with the line and the field.
 pub fn read_runs(file: &str, text: &str) -> Result<Vec<PaperRun>, FemError> {
     let help = "make the file again: `ibr compare --paper --runs FOLDER --out PAGE` writes PAGE/paper-runs.json";
-    Ok(RUNS.read::<PaperRuns>(file, text, help)?.runs)
+    Ok(RUNS.read::<Listed<PaperRun>>(file, text, help)?.runs)
 }
 
 /// Runs as they are stored: one a line.

@@ -3,7 +3,6 @@
 use super::pair::{Pair, Touch};
 use crate::vec3::{V3, add, dot, node, scale, sub};
 
-/// Pairs per chunk.
 pub(super) const PAIRS: usize = 64;
 /// A meeting is a distance below this share of the present one.
 const STOP: f64 = 0.2;
@@ -20,18 +19,16 @@ pub(super) type Push = ([u32; 4], [f64; 4], V3);
 pub(super) struct Hit {
     pub nodes: [u32; 4],
     /// How far it may close \[m\].
-    pub most_m: f64,
+    pub(crate) most_m: f64,
     /// When it meets.
     pub touch: Touch,
 }
 
-/// A step about to be taken.
 pub(super) struct Look<'a> {
     pub x: &'a [[f64; 4]],
-    /// Motion of every node.
     pub by: &'a [V3],
     /// How far the fastest node will have come.
-    pub path_m: f64,
+    pub(crate) path_m: f64,
     /// What is closer than this is one.
     pub one_m: f64,
     /// Distance that meetings leave.
@@ -43,18 +40,17 @@ pub(super) struct Look<'a> {
 pub(super) struct Chunk {
     pub pairs: Vec<Pair>,
     /// Way at which the spring of each pair may push, and at which the two may meet.
-    pub press_at_m: Vec<f64>,
-    pub cross_at_m: Vec<f64>,
-    /// Nodes of the pairs, ascending.
+    pub(crate) press_at_m: Vec<f64>,
+    pub(crate) cross_at_m: Vec<f64>,
     #[serde(skip)]
     pub nodes: Vec<u32>,
     /// Positions when the way was summed up last.
-    pub seen_m: Vec<[f64; 4]>,
+    pub(crate) seen_m: Vec<[f64; 4]>,
     /// Way: sum of the most that two nodes can have moved against each other.
     pub way_m: f64,
     /// Path of the fastest node at which springs, and meetings, must be looked at again.
-    pub press_due_m: f64,
-    pub cross_due_m: f64,
+    pub(crate) press_due_m: f64,
+    pub(crate) cross_due_m: f64,
     /// Forces of the last step.
     #[serde(skip)]
     pub pushes: Vec<Push>,
@@ -66,7 +62,7 @@ pub(super) struct Chunk {
 }
 
 impl Chunk {
-    pub fn new(pairs: Vec<Pair>) -> Chunk {
+    pub(super) fn new(pairs: Vec<Pair>) -> Chunk {
         let mut nodes: Vec<u32> = pairs.iter().flat_map(|p| p.nodes).collect();
         nodes.sort_unstable();
         nodes.dedup();
@@ -77,8 +73,7 @@ impl Chunk {
         Chunk { pairs, press_at_m, cross_at_m, nodes, press_due_m: due, cross_due_m: due, ..Chunk::default() }
     }
 
-    /// Forces of the springs.
-    pub fn press(&mut self, x: &[[f64; 4]], path_m: f64, dt_s: f64, floor_m: f64) {
+    pub(super) fn press(&mut self, x: &[[f64; 4]], path_m: f64, dt_s: f64, floor_m: f64) {
         self.sums = [0.0; 2];
         self.pushes.clear();
         if path_m < self.press_due_m {
@@ -107,7 +102,7 @@ impl Chunk {
     }
 
     /// Finds pairs that would meet within the motion of a step.
-    pub fn meet(&mut self, step: &Look) {
+    pub(super) fn meet(&mut self, step: &Look) {
         self.hits.clear();
         if step.path_m < self.cross_due_m {
             return;

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
 
-use super::Edges;
+use super::body::Edges;
 use super::chunk::{Chunk, Hit, Look};
 use crate::contact::push;
 use crate::vec3::{V3, along, dot, node, sub};
@@ -17,24 +17,12 @@ const MOST_ROUNDS: usize = 200;
 /// Two closer than this share of the gap are one.
 const ONE: f64 = 1e-4;
 
-/// Forces that changed the last step.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Held {
-    pub forces: Vec<(u32, V3)>,
-    /// Positions one step before.
-    pub before_m: Vec<[f64; 4]>,
-    /// Energy lost so far \[J\].
-    pub lost_j: f64,
-}
-
-/// A step about to be taken.
 pub(crate) struct Step<'a> {
     pub x: &'a [[f64; 4]],
     pub v: &'a [[f64; 4]],
     /// Time between the middles of the last step and this one \[s\].
-    pub dv_s: f64,
+    pub(crate) dv_s: f64,
     pub dt_s: f64,
-    /// Mass damping \[1/s\].
     pub damping_1_s: f64,
 }
 

@@ -20,22 +20,21 @@ pub(super) struct Pair {
     #[serde(skip)]
     pub nodes: [u32; 4],
     /// Distance that the spring keeps now, and the one that is wanted \[m\]; 0 if there is no spring.
-    pub rest_m: f64,
+    pub(crate) rest_m: f64,
     pub wanted_m: f64,
     #[serde(skip)]
-    pub stiffness_n_m: f64,
+    pub(crate) stiffness_n_m: f64,
     #[serde(skip)]
-    pub damping_n_s_m: f64,
+    pub(crate) damping_n_s_m: f64,
     /// True while closest points are within both sides.
     pub on: bool,
     /// Rest gap minus distance in the step before \[m\], and the part of it that pushed.
     pub last_m: f64,
-    pub deep_m: f64,
+    pub(crate) deep_m: f64,
     /// Damping force of the step before \[N\].
-    pub damped_n: f64,
+    pub(crate) damped_n: f64,
 }
 
-/// A pair at one moment.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Touch {
     pub distance_m: f64,
@@ -86,19 +85,19 @@ fn segments([p, q]: [V3; 2], [r, s]: [V3; 2]) -> ([f64; 4], V3, bool) {
 
 impl Pair {
     #[inline]
-    pub fn corners(&self, x: &[[f64; 4]]) -> [V3; 4] {
+    pub(super) fn corners(&self, x: &[[f64; 4]]) -> [V3; 4] {
         self.nodes.map(|n| node(x, n as usize))
     }
 
     #[inline]
-    pub fn touch(&self, x: &[[f64; 4]]) -> Touch {
+    pub(super) fn touch(&self, x: &[[f64; 4]]) -> Touch {
         touch(self.face, self.corners(x))
     }
 
     /// Force of a step; eases the rest gap. The loss is the work of the step less what the spring stores.
     ///
     /// Nothing pushes at once: a pair that comes near keeps what it has, and gets its gap back as far as it parts.
-    pub fn press(&mut self, touch: &Touch, dt_s: f64, floor_m: f64, sums: &mut [f64; 2]) -> f64 {
+    pub(super) fn press(&mut self, touch: &Touch, dt_s: f64, floor_m: f64, sums: &mut [f64; 2]) -> f64 {
         let idle = self.deep_m == 0.0;
         if !touch.inside || (idle && touch.distance_m >= self.rest_m) {
             self.on = false;
@@ -139,13 +138,13 @@ impl Pair {
     }
 
     /// Motion of the two against each other until the spring must be looked at again.
-    pub fn idle_m(&self, touch: &Touch) -> f64 {
+    pub(crate) fn idle_m(&self, touch: &Touch) -> f64 {
         let gap_m = if touch.inside { self.rest_m } else { self.wanted_m };
         if self.on { 0.0 } else { (touch.distance_m - gap_m).max(SLACK * self.wanted_m) }
     }
 
     /// Lets go of what the spring holds; returns the energy lost.
-    pub fn release(&mut self) -> f64 {
+    pub(super) fn release(&mut self) -> f64 {
         let lost = 0.5 * self.stiffness_n_m * self.deep_m * self.deep_m;
         (self.deep_m, self.damped_n) = (0.0, 0.0);
         lost
@@ -153,7 +152,7 @@ impl Pair {
 
     /// Touch when the distance falls to `stop` within the motion `by` (additive continuous collision
     /// detection: Li et al., ACM Trans. Graph. 40 (2021), algorithm 1).
-    pub fn meets(&self, now: &Touch, x: &[[f64; 4]], by: &[V3], stop: f64) -> Option<Touch> {
+    pub(super) fn meets(&self, now: &Touch, x: &[[f64; 4]], by: &[V3], stop: f64) -> Option<Touch> {
         let mut motion = self.nodes.map(|n| by[n as usize]);
         let mean = scale(motion.iter().fold([0.0; 3], |sum, m| add(sum, *m)), 0.25);
         motion.iter_mut().for_each(|m| *m = sub(*m, mean));

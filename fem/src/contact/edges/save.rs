@@ -1,6 +1,6 @@
 //! Contact of edges as bytes and back.
 
-use super::Edges;
+use super::body::Edges;
 use super::chunk::Chunk;
 use super::pair::Pair;
 use crate::bytes::{pack, unpack};

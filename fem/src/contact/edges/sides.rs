@@ -8,7 +8,6 @@ use super::super::surface::{NONE, Surface};
 use super::pair::touch;
 use crate::vec3::{V3, add, node, scale};
 
-/// Items per parallel piece.
 const PIECE: usize = 256;
 
 /// What can meet: the ends of sides, the corners of triangles.
@@ -20,7 +19,7 @@ pub(super) struct Sides {
 }
 
 impl Sides {
-    pub fn new(surface: &Surface) -> Sides {
+    pub(super) fn new(surface: &Surface) -> Sides {
         let mut sides = Sides::default();
         for e in 0..surface.elements.len() {
             let nodes = surface.elements[e];
@@ -40,7 +39,7 @@ impl Sides {
     }
 
     /// Pairs of sides (lower, higher number) within `radius_m`, and of nodes and triangles, both sorted.
-    pub fn pairs(&self, x: &[[f64; 4]], radius_m: f64) -> [Vec<[u32; 2]>; 2] {
+    pub(super) fn pairs(&self, x: &[[f64; 4]], radius_m: f64) -> [Vec<[u32; 2]>; 2] {
         let place = |n: u32| node(x, n as usize);
         let sides = Boxes::new(self.list.iter().map(|s| s.as_slice()), x, radius_m);
         let side = |i: u32, near: &mut Vec<u32>| {

@@ -7,7 +7,7 @@ use crate::problem;
 use crate::vec3::{add, cross, node};
 use crate::{Tick, Transient};
 
-pub fn settings(friction: f64) -> problem::Contact {
+pub(crate) fn settings(friction: f64) -> problem::Contact {
     problem::Contact { friction, ..problem::Contact::default() }
 }
 

@@ -9,11 +9,11 @@ use crate::{FemError, problem};
 use crate::{Tick, Transient};
 
 /// Areal mass \[kg/m²\] and stretching stiffness \[N/m\] of the fabric: 0.2 mm at 1000 kg/m³ and 50 MPa.
-pub const AREAL: f64 = 0.2;
-pub const STIFF: f64 = 1e4;
+pub(crate) const AREAL: f64 = 0.2;
+pub(crate) const STIFF: f64 = 1e4;
 
 /// Adds a part of n × m quads; `place` maps the unit square to space, fronts up for a right-handed map.
-pub fn sheet(mesh: &mut Mesh, layer: u32, n: usize, m: usize, place: impl Fn(f64, f64) -> V3) {
+pub(crate) fn sheet(mesh: &mut Mesh, layer: u32, n: usize, m: usize, place: impl Fn(f64, f64) -> V3) {
     let base = mesh.points.len() as u32;
     for j in 0..=m {
         for i in 0..=n {
@@ -27,7 +27,7 @@ pub fn sheet(mesh: &mut Mesh, layer: u32, n: usize, m: usize, place: impl Fn(f64
 }
 
 /// A flat square sheet of side `side_m` around a centre, turned about z.
-pub fn flat(mesh: &mut Mesh, layer: u32, n: usize, side_m: f64, centre: V3, turn_rad: f64) {
+pub(crate) fn flat(mesh: &mut Mesh, layer: u32, n: usize, side_m: f64, centre: V3, turn_rad: f64) {
     let (s, c) = turn_rad.sin_cos();
     sheet(mesh, layer, n, n, |u, v| {
         let (x, y) = ((u - 0.5) * side_m, (v - 0.5) * side_m);
@@ -35,7 +35,7 @@ pub fn flat(mesh: &mut Mesh, layer: u32, n: usize, side_m: f64, centre: V3, turn
     });
 }
 
-pub fn masses(mesh: &Mesh) -> Vec<f64> {
+pub(crate) fn masses(mesh: &Mesh) -> Vec<f64> {
     let mut mass = vec![0.0; mesh.points.len()];
     for quad in mesh.parts.iter().flat_map(|p| &p.quads) {
         let x = quad.map(|n| mesh.points[n as usize]);
@@ -45,7 +45,7 @@ pub fn masses(mesh: &Mesh) -> Vec<f64> {
     mass
 }
 
-pub struct Rig {
+pub(crate) struct Rig {
     pub mesh: Mesh,
     pub mass: Vec<f64>,
     springs: Vec<(u32, u32, f64)>,
@@ -68,7 +68,7 @@ pub struct Rig {
 }
 
 impl Rig {
-    pub fn new(mesh: Mesh, settings: &problem::Contact) -> Result<Rig, FemError> {
+    pub(crate) fn new(mesh: Mesh, settings: &problem::Contact) -> Result<Rig, FemError> {
         let mass = masses(&mesh);
         let mut edges = Vec::new();
         for [a, b, c, d] in mesh.parts.iter().flat_map(|p| p.quads.iter().copied()) {
@@ -105,7 +105,7 @@ impl Rig {
         })
     }
 
-    pub fn p(&self, i: usize) -> V3 {
+    pub(crate) fn p(&self, i: usize) -> V3 {
         crate::vec3::node(&self.x, i)
     }
 
@@ -138,7 +138,7 @@ impl Rig {
     }
 
     /// One step; energies are those at the positions before it.
-    pub fn step(&mut self, before: &[[f64; 4]]) -> Vec<[f64; 4]> {
+    pub(crate) fn step(&mut self, before: &[[f64; 4]]) -> Vec<[f64; 4]> {
         let load = self.loads();
         let mut force = load.clone();
         self.stored = self.stretch(&mut force);
@@ -165,11 +165,11 @@ impl Rig {
         at
     }
 
-    pub fn run(&mut self, steps: usize) {
+    pub(crate) fn run(&mut self, steps: usize) {
         self.run_with(steps, |_| ());
     }
 
-    pub fn run_with(&mut self, steps: usize, mut look: impl FnMut(&Rig)) {
+    pub(crate) fn run_with(&mut self, steps: usize, mut look: impl FnMut(&Rig)) {
         // The first step has no step before it; afterwards the way of a step is dt v.
         for _ in 0..steps {
             let before: Vec<[f64; 4]> = if self.step == 0 {
@@ -183,38 +183,38 @@ impl Rig {
     }
 
     /// Contact, friction, damping \[J\].
-    pub fn rows(&self) -> [f64; 3] {
+    pub(crate) fn rows(&self) -> [f64; 3] {
         let rows = self.contact.ledger(&Pose::nodes(self.x.as_flattened()));
         assert_eq!(rows[0].kind, RowKind::Stored);
         [rows[0].energy_j, rows[1].energy_j, rows[2].energy_j]
     }
 
     /// What the balance misses \[J\], with `start` the energy at the start.
-    pub fn residual(&self, start: f64) -> f64 {
+    pub(crate) fn residual(&self, start: f64) -> f64 {
         self.kinetic + self.stored + self.damped + self.rows().iter().sum::<f64>() - self.work - start
     }
 
     /// Moves everything of a part by a velocity.
-    pub fn throw(&mut self, nodes: std::ops::Range<usize>, velocity: V3) {
+    pub(crate) fn throw(&mut self, nodes: std::ops::Range<usize>, velocity: V3) {
         for v in &mut self.v[nodes] {
             *v = [velocity[0], velocity[1], velocity[2], 0.0];
         }
     }
 
-    pub fn kinetic_of(&self, v: V3, nodes: std::ops::Range<usize>) -> f64 {
+    pub(crate) fn kinetic_of(&self, v: V3, nodes: std::ops::Range<usize>) -> f64 {
         0.5 * self.mass[nodes].iter().sum::<f64>() * dot(v, v)
     }
 }
 
 /// Pseudo-random numbers in −1..1.
-pub struct Noise(pub u64);
+pub(crate) struct Noise(pub u64);
 
 impl Noise {
-    pub fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((self.0 >> 11) as f64 / (1_u64 << 52) as f64) - 1.0
     }
-    pub fn point(&mut self, size: f64) -> V3 {
+    pub(crate) fn point(&mut self, size: f64) -> V3 {
         along([0.0; 3], size, [self.next(), self.next(), self.next()])
     }
 }

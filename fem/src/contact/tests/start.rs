@@ -6,7 +6,7 @@ use crate::mesh::Mesh;
 use crate::{Tick, Transient};
 
 /// Two coincident square sheets welded along the rim, air between them, fronts outward.
-pub fn pillow(n: usize, side: f64, chamber: bool, layers: [u32; 2]) -> Mesh {
+pub(crate) fn pillow(n: usize, side: f64, chamber: bool, layers: [u32; 2]) -> Mesh {
     let mut mesh = Mesh::default();
     flat(&mut mesh, layers[0], n, side, [0.0; 3], 0.0);
     let row = n as u32 + 1;

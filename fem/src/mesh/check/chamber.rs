@@ -1,6 +1,6 @@
 //! Chambers: closed, bounded by one consistently oriented surface, with the gas inside.
 
-use super::{describe, fault, millimetres};
+use super::words::{describe, fault, millimetres};
 use crate::FemError;
 use crate::mesh::names::meant;
 use crate::mesh::{Mesh, Part};
@@ -29,7 +29,6 @@ struct Use {
     ascending: bool,
 }
 
-/// Checks all chambers.
 pub(super) fn check(mesh: &Mesh, chambers: &[&str], open: &[&str]) -> Result<Closed, FemError> {
     let openings = openings(mesh, open)?;
     let tied = tied(mesh);

@@ -1,6 +1,6 @@
 //! Elements one by one: different nodes, an area, no corner turned inside out, a warp direction in the plane.
 
-use super::{describe, fault, millimetres};
+use super::words::{describe, fault, millimetres};
 use crate::FemError;
 use crate::mesh::{Mesh, Part};
 use crate::policy;

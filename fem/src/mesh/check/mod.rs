@@ -14,14 +14,17 @@
 mod chamber;
 mod elements;
 mod quality;
+mod words;
 
 pub(super) use chamber::{counted, signed_volume};
 pub use chamber::{near, planes, rim};
 pub use quality::{LowMidHigh, Quality};
+pub(crate) use words::describe;
 
 use crate::FemError;
+use crate::mesh::Mesh;
 use crate::mesh::names::meant;
-use crate::mesh::{Mesh, Part};
+use words::{fault, millimetres};
 
 /// Checks a mesh whose chambers are all closed. `chambers` are the names that parts may use.
 ///
@@ -48,23 +51,6 @@ pub fn check_open(mesh: &Mesh, chambers: &[&str], open: &[&str]) -> Result<Quali
     ties(mesh)?;
     let closed = chamber::check(mesh, chambers, open)?;
     Ok(quality::measure(mesh, closed))
-}
-
-/// Element `i` of a part, as messages name it.
-pub(crate) fn describe(part: &Part, i: usize) -> String {
-    let nodes: Vec<String> = part.nodes(i).iter().map(|n| (u64::from(*n) + 1).to_string()).collect();
-    format!("element {} of part `{}` (nodes {})", i + 1, part.name, nodes.join(", "))
-}
-
-/// A place, as messages give it.
-fn millimetres(x: [f64; 3]) -> String {
-    // Adding 0 turns −0 into 0.
-    let [x, y, z] = x.map(|v| (v * 1e4).round() / 10.0 + 0.0);
-    format!("({x:.1}, {y:.1}, {z:.1}) mm")
-}
-
-fn fault<T>(message: String) -> Result<T, FemError> {
-    Err(FemError::Mesh(message))
 }
 
 /// Lengths of lists, node numbers in range, coordinates that are numbers.
@@ -130,10 +116,7 @@ fn names(mesh: &Mesh, chambers: &[&str]) -> Result<(), FemError> {
 /// A node without elements would have no mass.
 fn every_node_used(mesh: &Mesh) -> Result<(), FemError> {
     let mut used = vec![false; mesh.points.len()];
-    for part in &mesh.parts {
-        let corners = part.quads.iter().flatten().chain(part.triangles.iter().flatten());
-        corners.for_each(|n| used[*n as usize] = true);
-    }
+    mesh.faces().flatten().for_each(|n| used[*n as usize] = true);
     let unused = used.iter().filter(|used| !**used).count();
     match used.iter().position(|used| !used) {
         None => Ok(()),

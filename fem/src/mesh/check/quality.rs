@@ -24,26 +24,20 @@ pub struct Quality {
 
 /// Smallest, median and largest of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[allow(missing_docs, reason = "the names say it")]
 pub struct LowMidHigh {
-    /// Smallest.
     pub min: f64,
-    /// Median.
     pub median: f64,
-    /// Largest.
     pub max: f64,
 }
 
-/// Measures all elements.
 pub(super) fn measure(mesh: &Mesh, closed: Closed) -> Quality {
     let [mut aspect, mut jacobian_ratio, mut warpage] = [1.0_f64, 1.0, 0.0];
     let mut sides = Vec::with_capacity(4 * mesh.elements());
-    for part in &mesh.parts {
-        for i in 0..part.len() {
-            let mut corners = [[0.0; 3]; 4];
-            let found = measures(stress_free(mesh, part.nodes(i), &mut corners), &mut sides);
-            (aspect, jacobian_ratio, warpage) =
-                (aspect.max(found[0]), jacobian_ratio.min(found[1]), warpage.max(found[2]));
-        }
+    for nodes in mesh.faces() {
+        let mut corners = [[0.0; 3]; 4];
+        let found = measures(stress_free(mesh, nodes, &mut corners), &mut sides);
+        (aspect, jacobian_ratio, warpage) = (aspect.max(found[0]), jacobian_ratio.min(found[1]), warpage.max(found[2]));
     }
     let Closed { volumes_m3, seams } = closed;
     Quality { side_m: spread(sides), aspect, jacobian_ratio, warpage, volumes_m3, seams }

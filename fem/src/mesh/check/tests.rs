@@ -1,4 +1,5 @@
 use super::*;
+use crate::mesh::Part;
 use crate::mesh::Tie;
 use crate::mesh::generate::{Around, Cap, Tube, pillow, plate, sphere, tube};
 

@@ -65,7 +65,6 @@ impl Builder {
         Ok(true)
     }
 
-    /// The part of that name.
     pub(super) fn part(&mut self, name: &str) -> &mut Part {
         let parts = &mut self.mesh.parts;
         let at = *self.parts.entry(name.into()).or_insert_with(|| {
@@ -85,7 +84,6 @@ impl Builder {
         }
     }
 
-    /// Adds nodes to a set.
     pub(super) fn set(&mut self, name: &str, nodes: impl IntoIterator<Item = u32>) {
         self.mesh.sets.entry(name.into()).or_default().extend(nodes);
     }
@@ -118,9 +116,7 @@ impl Builder {
 /// Removes nodes without elements, also from sets, each of which keeps a node once.
 fn drop_unused(mesh: &mut Mesh) -> usize {
     let mut used = vec![false; mesh.points.len()];
-    let corners = |part: &Part| part.quads.iter().flatten().chain(part.triangles.iter().flatten()).copied().collect();
-    let all: Vec<u32> = mesh.parts.iter().flat_map(|part| -> Vec<u32> { corners(part) }).collect();
-    all.iter().for_each(|node| used[*node as usize] = true);
+    mesh.faces().flatten().for_each(|node| used[*node as usize] = true);
     let mut next = 0;
     let number: Vec<Option<u32>> = used
         .iter()

@@ -34,7 +34,6 @@ struct Gmsh {
     groups: HashMap<(u64, u64), Vec<u64>>,
 }
 
-/// Reads it.
 pub(super) fn read(scan: &mut Scan) -> Result<MeshFile, String> {
     let mut gmsh = Gmsh::default();
     while let Some(section) = scan.line() {

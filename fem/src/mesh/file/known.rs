@@ -1,51 +1,41 @@
 //! Which format a file has, by its content.
 
 use super::scan::Scan;
-use super::{MeshFile, abaqus, gmsh, medit, obj, stl};
+use super::{MeshFile, abaqus, gmsh, stl};
 
-/// A format of mesh files.
 pub(super) struct Format {
-    /// Name for messages.
     pub(super) name: &'static str,
     is: fn(&Head) -> bool,
     pub(super) read: Read,
 }
 
-/// How a format is read.
 #[derive(Clone, Copy)]
 pub(super) enum Read {
-    /// Our own.
-    Own,
     /// Line by line.
     Text(fn(&mut Scan) -> Result<MeshFile, String>),
     /// From all bytes.
     Bytes(fn(&[u8]) -> Result<MeshFile, String>),
 }
 
-/// What a file begins with.
 struct Head<'a> {
     bytes: &'a [u8],
     /// The first line that says something.
     line: &'a str,
-    /// Its first word.
     word: &'a str,
 }
 
 /// All formats; the first that fits is taken.
-static FORMATS: [Format; 7] = [
-    Format { name: "", is: |head| head.word == "mesh", read: Read::Own },
+static FORMATS: [Format; 4] = [
     Format { name: "STL (binary)", is: |head| stl::is_binary(head.bytes), read: Read::Bytes(stl::read_binary) },
     Format { name: "STL", is: |head| head.word == "solid", read: Read::Text(stl::read) },
     Format { name: "Gmsh", is: |head| head.word.starts_with('$'), read: Read::Text(gmsh::read) },
-    Format { name: "Medit", is: |head| head.word == "MeshVersionFormatted", read: Read::Text(medit::read) },
     Format { name: "Abaqus", is: |head| head.line.starts_with('*'), read: Read::Text(abaqus::read) },
-    Format { name: "OBJ", is: |head| OBJ_WORDS.contains(&head.word), read: Read::Text(obj::read) },
 ];
 
-const OBJ_WORDS: [&str; 8] = ["v", "vn", "vt", "o", "g", "f", "mtllib", "usemtl"];
-
 /// Formats that are known and not read, by what they begin with.
-const OTHERS: [(&str, &str); 12] = [
+const OTHERS: [(&str, &str); 14] = [
+    ("MeshVersionFormatted", "Medit"),
+    ("v ", "OBJ"),
     ("# vtk", "VTK"),
     ("<VTKFile", "VTK"),
     ("<?xml", "XML, perhaps VTK or XDMF"),
@@ -60,7 +50,6 @@ const OTHERS: [(&str, &str); 12] = [
     ("-1", "Universal (UNV)"),
 ];
 
-/// The format of a file.
 pub(super) fn format(bytes: &[u8]) -> Result<&'static Format, String> {
     let text = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
     let text = text.trim_start_matches('\u{feff}');
@@ -71,8 +60,7 @@ pub(super) fn format(bytes: &[u8]) -> Result<&'static Format, String> {
         return Ok(format);
     }
     let begin = lines().next().unwrap_or("");
-    let readable =
-        "Gmsh (.msh), Abaqus (.inp), STL, OBJ and Medit (.mesh) are read, and our own (.ibrmesh: docs/case.md)";
+    let readable = "Gmsh (.msh), Abaqus (.inp) and STL are read";
     Err(match OTHERS.iter().find(|(magic, _)| begin.starts_with(magic)) {
         Some((_, name)) => {
             format!(
@@ -81,7 +69,33 @@ pub(super) fn format(bytes: &[u8]) -> Result<&'static Format, String> {
         }
         None => {
             let shown: String = begin.chars().filter(|c| !c.is_control()).take(40).collect();
-            format!("this is no mesh that is known: it begins with `{shown}`. {readable}; our own begins with `mesh 1`")
+            format!("this is not a known mesh format: the file begins with `{shown}`. {readable}")
         }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::FORMATS;
+    use std::path::Path;
+
+    #[test]
+    fn every_format_has_a_fixture_bad_input_a_fuzz_reader_and_a_line_in_the_document() {
+        let at = |path: &str| Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
+        let names = |folder: &str| -> Vec<String> {
+            let files = std::fs::read_dir(at(folder)).unwrap();
+            files.map(|file| file.unwrap().file_name().to_string_lossy().into_owned()).collect()
+        };
+        let text = |path: &str| std::fs::read_to_string(at(path)).unwrap();
+        let read = |name: &String| super::super::read(&at("fem/tests/meshes").join(name)).unwrap().format;
+        let fixtures: Vec<&str> = names("fem/tests/meshes").iter().map(read).collect();
+        for format in &FORMATS {
+            let name = format.name.split(' ').next().unwrap_or_default();
+            let kind = format!("mesh-{}", name.to_lowercase());
+            assert!(fixtures.contains(&name), "fem/tests/meshes has no {name} file");
+            assert!(names("tests/zoo").iter().any(|file| file.starts_with(&kind)), "tests/zoo has no {kind}*.toml");
+            assert!(text("fuzz/src/readers.rs").contains(&format!("\"{kind}\"")), "fuzz/src/readers.rs has no {kind}");
+            assert!(text("docs/case.md").contains(&format!("\n| {name}")), "docs/case.md has no row for {name}");
+        }
+    }
 }

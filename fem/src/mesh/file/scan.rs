@@ -10,7 +10,6 @@ pub(super) struct Scan<'a> {
 }
 
 impl<'a> Scan<'a> {
-    /// From the first line.
     pub(super) fn new(text: &'a str) -> Scan<'a> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         Scan { lines: text.lines(), size: text.len(), number: 0 }
@@ -25,17 +24,6 @@ impl<'a> Scan<'a> {
             }
         }
         None
-    }
-
-    /// Words of the next line that has any before `comment`; empty at the end.
-    pub(super) fn words(&mut self, comment: char) -> Vec<&'a str> {
-        while let Some(line) = self.line() {
-            let words: Vec<&str> = line.split(comment).next().unwrap_or("").split_whitespace().collect();
-            if !words.is_empty() {
-                return words;
-            }
-        }
-        Vec::new()
     }
 
     /// Words of a line that must be there.
@@ -69,7 +57,6 @@ pub(super) fn number(word: &str) -> Result<f64, String> {
     }
 }
 
-/// Finite numbers.
 pub(super) fn numbers(words: &[&str]) -> Result<Vec<f64>, String> {
     words.iter().map(|word| number(word)).collect()
 }

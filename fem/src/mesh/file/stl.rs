@@ -31,7 +31,6 @@ fn facets_of(bytes: &[u8]) -> Option<usize> {
     Some(u32::from_le_bytes([count[0], count[1], count[2], count[3]]) as usize)
 }
 
-/// Reads binary STL.
 pub(super) fn read_binary(bytes: &[u8]) -> Result<MeshFile, String> {
     let mut facets = Vec::new();
     for (i, facet) in bytes.get(HEADER..).unwrap_or(&[]).chunks_exact(FACET).enumerate() {
@@ -46,7 +45,6 @@ pub(super) fn read_binary(bytes: &[u8]) -> Result<MeshFile, String> {
     joined(&facets, &["sheet".to_string()])
 }
 
-/// Reads STL as text.
 pub(super) fn read(scan: &mut Scan) -> Result<MeshFile, String> {
     let (mut facets, mut solids, mut corners) = (Vec::new(), Vec::new(), Vec::new());
     loop {
@@ -80,7 +78,6 @@ pub(super) fn read(scan: &mut Scan) -> Result<MeshFile, String> {
     }
 }
 
-/// One side of a facet.
 #[derive(Clone, Copy)]
 struct Side {
     facet: usize,
@@ -131,7 +128,7 @@ fn joined(facets: &[Facet], solids: &[String]) -> Result<MeshFile, String> {
     if passing > 0 {
         file.told.push(format!(
             "sheets lie on each other along {passing} sides; they are joined where one ends only: STL cannot tell a seam between \
-             pouches, Gmsh, Abaqus and OBJ can"
+             pouches, Gmsh and Abaqus can"
         ));
     }
     Ok(file)

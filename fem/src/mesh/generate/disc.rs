@@ -42,7 +42,6 @@ pub fn disc_balloon(radius_m: f64, n: usize) -> Result<Mesh, FemError> {
     Ok(mesh)
 }
 
-/// The unit disc.
 pub(super) struct Disc {
     /// Places of the nodes, the rim last: counter-clockwise from −45°.
     pub(super) points: Vec<[f64; 2]>,

@@ -94,7 +94,6 @@ enum Joint {
     Inside(usize, i8),
     /// Crease between this level and the next.
     Crease(usize, i8),
-    /// Weld of all layers.
     Weld,
 }
 

@@ -50,7 +50,6 @@ impl Grid {
         union([self.row(0), self.row(self.nv), self.column(0), self.column(self.nu)])
     }
 
-    /// The corners, counter-clockwise.
     pub(super) fn corners(&self) -> Vec<u32> {
         vec![self.at(0, 0), self.at(self.nu, 0), self.at(self.nu, self.nv), self.at(0, self.nv)]
     }

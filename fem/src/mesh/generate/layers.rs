@@ -132,7 +132,6 @@ fn two_layers(size: [f64; 2], n: [usize; 2], shared: impl Fn(usize, usize) -> bo
     (mesh, top, bottom)
 }
 
-/// Sets `centre_top` and `centre_bottom`.
 fn name_centres(mesh: &mut Mesh, top: &Grid, bottom: &Grid) {
     mesh.sets.insert("centre_top".into(), top.middle());
     mesh.sets.insert("centre_bottom".into(), bottom.middle());

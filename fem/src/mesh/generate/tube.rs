@@ -125,7 +125,6 @@ fn warp(angle: f64, turn: f64) -> [f64; 3] {
     [turn.cos(), turn.sin() * angle.sin(), -turn.sin() * angle.cos()]
 }
 
-/// Closes one end.
 fn add_cap(mesh: &mut Mesh, tube: &Tube, angles: &[f64], end: usize, cap: Cap) -> Result<(), FemError> {
     let n = angles.len();
     let (name, x) = [("base", 0.0), ("tip", tube.length_m)][end];

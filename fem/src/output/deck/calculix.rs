@@ -18,8 +18,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{
-    Plate, Solver, follow, heading, left_out, loads, node_set, number, numbers, place, places, plate, put, row,
+use super::shared::{
+    Plate, Solver, follow, heading, left_out, loads, node_set, number, numbers, own, place, places, plate, put, row,
     surfaces,
 };
 use crate::Problem;
@@ -66,11 +66,6 @@ pub(super) fn text(problem: &Problem) -> (String, Vec<String>) {
     }
     put(&mut out, format_args!("*NODE FILE, OUTPUT=2D, {SELDOM}\nU\n*EL FILE, {SELDOM}\nS, E\n*END STEP"));
     (out, left_out(problem, Solver::CalculiX))
-}
-
-/// A name that no set of the problem has.
-pub(super) fn own(name: &str) -> String {
-    format!("ibr_{name}")
 }
 
 /// The problem with names of letters, digits, `_` and `-` that differ in more than the case of letters: CalculiX reads no quotes.

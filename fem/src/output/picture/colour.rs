@@ -8,7 +8,7 @@ const VIRIDIS: [u32; 11] = [
 
 /// Colour of a share between 0 (dark violet) and 1 (yellow): red, green, blue from 0 to 1. Even in perceived lightness,
 /// also for colour-blind eyes and in grey print.
-pub fn viridis(share: f64) -> [f64; 3] {
+pub(crate) fn viridis(share: f64) -> [f64; 3] {
     let place = share.clamp(0.0, 1.0) * (VIRIDIS.len() - 1) as f64;
     let index = (place as usize).min(VIRIDIS.len() - 2);
     let (a, b) = (parts(VIRIDIS[index]), parts(VIRIDIS[index + 1]));

@@ -11,17 +11,15 @@ use crate::{FemError, Mesh};
 /// Width of a line \[pixels\].
 const LINE: f64 = 3.0;
 
-/// A plane through the reference shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cut {
-    /// Its normal, a unit vector.
+pub(crate) struct Cut {
     pub normal: [f64; 3],
     /// Its distance from the origin along it \[m\].
     pub at_m: f64,
 }
 
 /// Draws a cut. Across the view (its normal along the view's depth at the start) the section is turned to face the viewer.
-pub fn section(
+pub(crate) fn section(
     mesh: &Mesh,
     positions: &[[f64; 3]],
     values: &[f64],
@@ -77,8 +75,7 @@ fn pieces(mesh: &Mesh, positions: &[[f64; 3]], cut: &Cut) -> Vec<Piece> {
     // A node in the plane counts as behind it: a ring of nodes is then drawn once, by the elements on one side.
     let before = |node: u32| height[node as usize] > 1e-9;
     let mut pieces = Vec::new();
-    let elements = mesh.parts.iter().flat_map(|part| (0..part.len()).map(|i| part.nodes(i)));
-    for (element, nodes) in elements.enumerate() {
+    for (element, nodes) in mesh.faces().enumerate() {
         let sides = (0..nodes.len()).map(|k| (nodes[k], nodes[(k + 1) % nodes.len()]));
         let ends: Vec<[f64; 3]> = sides
             .filter(|(a, b)| before(*a) != before(*b))

@@ -2,7 +2,7 @@
 
 use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
 
-use super::Image;
+use super::raster::Image;
 
 /// DejaVu Sans, as in the plots: Latin, Greek, signs of mathematics.
 const FONT: &[u8] = include_bytes!("../../../../assets/DejaVuSans-subset.ttf");
@@ -29,7 +29,6 @@ pub(super) fn write(image: &mut Image, [left, base]: [f64; 2], size: f64, text: 
     }
 }
 
-/// Width of a text \[pixels\].
 pub(super) fn width(size: f64, text: &str) -> f64 {
     lay_out(size, text).map_or(0.0, |(_, _, advance)| advance)
 }

@@ -6,19 +6,22 @@
 mod colour;
 mod cut;
 mod ink;
+mod look;
 mod notes;
 mod raster;
 
-pub use colour::viridis;
-pub use cut::{Cut, section};
-pub use notes::round_above;
+pub(crate) use colour::viridis;
+pub(crate) use cut::{Cut, section};
+pub(crate) use look::PictureLook;
+pub use look::Viewpoint;
+pub(crate) use notes::round_above;
+pub(crate) use raster::Image;
 
 use crate::vec3::{cross, dot, norm, sub};
 use crate::{FemError, Mesh};
+use look::{FINE, Placing};
 use raster::{Canvas, Corner};
 
-/// Pixels are drawn this many times finer in both directions, then averaged: smooth outlines.
-const FINE: usize = 2;
 /// Largest width and height: what a report can show, and 0.8 GB while drawing.
 const MOST_PIXELS: usize = 4096;
 /// Smallest width and height: room for the colour bar.
@@ -28,88 +31,13 @@ const SHORTEST_EDGE: f64 = 5.0;
 /// Colour of elements without values.
 const PLAIN: [f64; 3] = [0.62, 0.68, 0.76];
 
-/// Where the viewer stands, far away.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Viewpoint {
-    /// At +z: x to the right, y up.
-    Side,
-    /// At +y: x to the right, z down.
-    Top,
-    /// At +x: z to the left, y up.
-    End,
-    /// At equal x, y and z: y up.
-    Isometric,
-    /// At equal x, −y and z: z up, for sheets that lie in x–y.
-    IsometricZUp,
-}
-
-impl Viewpoint {
-    /// Unit vectors to the right, up, and towards the viewer.
-    pub fn axes(self) -> [[f64; 3]; 3] {
-        let (a, b, c) = (0.5_f64.sqrt(), (1.0_f64 / 6.0).sqrt(), (1.0_f64 / 3.0).sqrt());
-        match self {
-            Viewpoint::Side => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-            Viewpoint::Top => [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
-            Viewpoint::End => [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
-            Viewpoint::Isometric => [[a, 0.0, -a], [-b, 2.0 * b, -b], [c, c, c]],
-            Viewpoint::IsometricZUp => [[a, a, 0.0], [-b, b, 2.0 * b], [c, -c, c]],
-        }
-    }
-}
-
-/// How a picture is made.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PictureLook {
-    /// Where from.
-    pub view: Viewpoint,
-    /// Width in pixels, 128 to 4096.
-    pub width: usize,
-    /// Height in pixels, 128 to 4096.
-    pub height: usize,
-    /// Values of the two ends of the colour map; `None`: smallest and largest value.
-    pub limits: Option<(f64, f64)>,
-    /// Lowest and highest corner of what is shown \[m\], to keep the frames of a film in place; `None`: the mesh.
-    pub bounds: Option<([f64; 3], [f64; 3])>,
-    /// Draw the outlines of elements where they are large enough.
-    pub edges: bool,
-    /// Draw the colour map with numbers at the right; a value beyond the limits is told by ≥.
-    pub bar: bool,
-    /// Draw the axes and a length at the bottom left.
-    pub scale: bool,
-    /// Line at the top: what is shown, and in which unit the colours are.
-    pub title: String,
-}
-
-impl Default for PictureLook {
-    fn default() -> PictureLook {
-        let (width, height) = (960, 600);
-        PictureLook {
-            view: Viewpoint::Isometric,
-            width,
-            height,
-            limits: None,
-            bounds: None,
-            edges: true,
-            bar: true,
-            scale: true,
-            title: String::new(),
-        }
-    }
-}
-
-/// Pixels, row by row from the top left, red green blue.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Image {
-    /// Pixels per row.
-    pub width: usize,
-    /// Rows.
-    pub height: usize,
-    /// 3 bytes per pixel.
-    pub rgb: Vec<u8>,
-}
-
 /// Draws the mesh with its nodes at `positions` \[m\], elements coloured by `values` (mesh order, any unit; empty: grey).
-pub fn render(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &PictureLook) -> Result<Image, FemError> {
+pub(crate) fn render(
+    mesh: &Mesh,
+    positions: &[[f64; 3]],
+    values: &[f64],
+    look: &PictureLook,
+) -> Result<Image, FemError> {
     check(mesh, positions, values, look)?;
     let limits = look.limits.unwrap_or_else(|| range(values));
     let axes = look.view.axes();
@@ -117,8 +45,7 @@ pub fn render(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &Pictur
     let with_bar = look.bar && !values.is_empty();
     let place = Placing::of(&seen, look, with_bar);
     let mut canvas = Canvas::new(look.width * FINE, look.height * FINE);
-    let elements = mesh.parts.iter().flat_map(|part| (0..part.len()).map(|i| part.nodes(i)));
-    for (index, nodes) in elements.enumerate() {
+    for (index, nodes) in mesh.faces().enumerate() {
         let corners: Vec<[f64; 3]> = nodes.iter().map(|&node| seen[node as usize]).collect();
         let base = values.get(index).map_or(PLAIN, |&value| viridis(share(value, limits)));
         let light = shade(&corners);
@@ -132,7 +59,7 @@ pub fn render(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &Pictur
 }
 
 /// The bytes of an image as PNG; empty if it cannot be encoded, which only an image of another size than it says can.
-pub fn png_bytes(image: &Image) -> Vec<u8> {
+pub(crate) fn png_bytes(image: &Image) -> Vec<u8> {
     let mut bytes = Vec::new();
     if encode(image, &mut bytes).is_err() {
         bytes.clear();
@@ -167,8 +94,7 @@ fn check(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &PictureLook
     if let Some(element) = values.iter().position(|value| !value.is_finite()) {
         return refuse(format!("the value of element {} is {}", element + 1, values[element]));
     }
-    let mut corners = mesh.parts.iter().flat_map(|part| (0..part.len()).flat_map(|i| part.nodes(i)));
-    if let Some(node) = corners.find(|&&node| node as usize >= nodes) {
+    if let Some(node) = mesh.faces().flatten().find(|&&node| node as usize >= nodes) {
         return refuse(format!("an element has node {}, the mesh has {nodes}", node + 1));
     }
     match (look.limits, look.bounds) {
@@ -210,49 +136,6 @@ fn shade(corners: &[[f64; 3]]) -> f64 {
     }
     let towards = normal[2].signum();
     0.7 + 0.3 * towards * dot(normal, LIGHT) / length
-}
-
-/// From metres to fine pixels.
-struct Placing {
-    scale: f64,
-    middle: [f64; 2],
-    centre: [f64; 2],
-}
-
-impl Placing {
-    fn of(seen: &[[f64; 3]], look: &PictureLook, with_bar: bool) -> Placing {
-        let corners = look.bounds.map(|(low, high)| {
-            let pick = |i: usize| [0, 1, 2].map(|k| if i >> k & 1 == 0 { low[k] } else { high[k] });
-            (0..8).map(|i| look.view.axes().map(|axis| dot(axis, pick(i)))).collect::<Vec<_>>()
-        });
-        let shown = corners.as_deref().unwrap_or(seen);
-        let [x, y] = [0, 1].map(|k| {
-            shown.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p[k]), high.max(p[k])))
-        });
-        let margin = 0.04 * look.width.min(look.height) as f64;
-        let [top, right, bottom] = notes::room(look, with_bar);
-        let (width, height) = (look.width as f64 - right, look.height as f64 - top - bottom);
-        let room = [width - 2.0 * margin, height - 2.0 * margin];
-        let scale = (room[0] / (x.1 - x.0)).min(room[1] / (y.1 - y.0));
-        // A mesh without extent, or without nodes, is drawn at any scale.
-        let scale = if scale.is_finite() && scale > 0.0 { scale } else { 1.0 };
-        let fine = FINE as f64;
-        let middle = [0.5 * (x.0 + x.1), 0.5 * (y.0 + y.1)];
-        Placing { scale: scale * fine, middle, centre: [0.5 * width * fine, (top + 0.5 * height) * fine] }
-    }
-
-    /// Of the finished image.
-    fn pixels_per_m(&self) -> f64 {
-        self.scale / FINE as f64
-    }
-
-    fn on_canvas(&self, p: [f64; 3]) -> Corner {
-        Corner {
-            x: self.centre[0] + (p[0] - self.middle[0]) * self.scale,
-            y: self.centre[1] - (p[1] - self.middle[1]) * self.scale,
-            depth: p[2],
-        }
-    }
 }
 
 #[cfg(test)]

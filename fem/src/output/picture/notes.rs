@@ -2,21 +2,11 @@
 
 use super::colour::viridis;
 use super::ink::{letter_size, line, stroke, width, write};
-use super::raster::bytes;
-use super::{Image, PictureLook, Placing};
+use super::look::{LONGEST, PictureLook, Placing};
+use super::raster::{Image, bytes};
 
-/// Letters in the longest number beside the bar, with its sign of more: ≥ -1.2e-300.
-const LONGEST: f64 = 8.0;
 /// Colours of the axes x, y, z.
 const AXES: [(&str, [f64; 3]); 3] = [("x", [0.78, 0.16, 0.16]), ("y", [0.13, 0.53, 0.2]), ("z", [0.15, 0.35, 0.75])];
-
-/// Room that the notes take \[pixels\]: at the top, at the right, at the bottom.
-pub(super) fn room(look: &PictureLook, with_bar: bool) -> [f64; 3] {
-    let size = letter_size(look.height);
-    let top = if look.title.is_empty() { 0.0 } else { 2.0 * size };
-    let right = if with_bar { (1.8 + 0.62 * LONGEST) * size } else { 0.0 };
-    [top, right, if look.scale { 5.0 * size } else { 0.0 }]
-}
 
 /// Draws all notes; the bar if there is a range of colours, with a sign of more if values go beyond it.
 pub(super) fn draw(
@@ -100,7 +90,7 @@ fn round_below(value: f64) -> f64 {
 }
 
 /// A round number, with round quarters, from `value` to a third above: where a colour scale may end.
-pub fn round_above(value: f64) -> f64 {
+pub(crate) fn round_above(value: f64) -> f64 {
     let ten = power_of_ten(value);
     let steps = [1.0, 1.2, 1.6, 2.0, 2.4, 3.0, 4.0, 5.0, 6.0, 8.0].into_iter();
     steps.map(|step| step * ten).find(|round| *round >= value * (1.0 - 1e-9)).unwrap_or(10.0 * ten)

@@ -1,6 +1,12 @@
 //! Triangles into pixels: the nearest one wins.
 
-use super::Image;
+/// Pixels, row by row from the top left, red green blue.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Image {
+    pub width: usize,
+    pub height: usize,
+    pub rgb: Vec<u8>,
+}
 
 /// A corner on the canvas: pixels to the right and down, metres towards the viewer.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,14 +28,14 @@ pub(super) struct Canvas {
 const OUTLINE: f64 = 0.62;
 
 impl Canvas {
-    pub fn new(width: usize, height: usize) -> Canvas {
+    pub(super) fn new(width: usize, height: usize) -> Canvas {
         let count = width * height;
         Canvas { width, height, depth: vec![f64::NEG_INFINITY; count], rgb: vec![[255; 3]; count] }
     }
 
     /// Fills an element as a fan of triangles round its centre, one per side, with an outline `edge` pixels wide unless a
     /// side is shorter than `shortest` pixels.
-    pub fn element(&mut self, corners: &[Corner], rgb: [f64; 3], edge: f64, shortest: f64) {
+    pub(super) fn element(&mut self, corners: &[Corner], rgb: [f64; 3], edge: f64, shortest: f64) {
         let count = corners.len();
         let mean = |of: fn(&Corner) -> f64| corners.iter().map(of).sum::<f64>() / count as f64;
         let centre = Corner { x: mean(|c| c.x), y: mean(|c| c.y), depth: mean(|c| c.depth) };
@@ -70,7 +76,7 @@ impl Canvas {
     }
 
     /// The image, each pixel the mean of `fine` × `fine`.
-    pub fn averaged(&self, fine: usize) -> Image {
+    pub(super) fn averaged(&self, fine: usize) -> Image {
         let (width, height) = (self.width / fine, self.height / fine);
         let count = (fine * fine) as u32;
         let mut rgb = Vec::with_capacity(3 * width * height);

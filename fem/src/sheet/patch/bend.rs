@@ -34,7 +34,7 @@ struct Stencil {
 
 /// Rows of the bending matrix of one patch, numbered within the patch.
 #[derive(Debug, Clone, Default)]
-pub struct Bend {
+pub(super) struct Bend {
     stencils: Vec<Stencil>,
     shifts: Vec<i32>,
     common: Vec<f64>,
@@ -48,7 +48,7 @@ pub struct Bend {
 
 impl Bend {
     /// From the rows of the nodes `own` (numbers within the patch) among `places`; `local` turns a place into a number.
-    pub fn new(matrix: &BendingMatrix, places: &[u32], own: &[u32], local: impl Fn(u32) -> u32) -> Bend {
+    pub(super) fn new(matrix: &BendingMatrix, places: &[u32], own: &[u32], local: impl Fn(u32) -> u32) -> Bend {
         let mut rows: Vec<Row> = vec![Vec::new(); places.len()];
         for i in own {
             let shift = |(j, value): (u32, f64)| (local(j) as i32 - *i as i32, value);
@@ -109,13 +109,12 @@ impl Bend {
         self.start.push(self.column.len() as u32);
     }
 
-    /// True without any bending stiffness.
-    pub fn is_empty(&self) -> bool {
+    pub(super) fn is_empty(&self) -> bool {
         self.stencils.is_empty() && self.single.is_empty()
     }
 
     /// Places of `0..count` where [`Bend::apply`] writes nothing; none without bending, for then nobody reads them.
-    pub fn gaps(&self, count: usize) -> Gaps {
+    pub(super) fn gaps(&self, count: usize) -> Gaps {
         if self.is_empty() {
             return Gaps::default();
         }
@@ -128,7 +127,7 @@ impl Bend {
     /// Writes K x of the own nodes into `kx`; nodes without bending keep what is there. `x` are the positions of the patch,
     /// `q` those of all places.
     #[inline(always)]
-    pub fn apply<S: Simd>(&self, simd: S, x: [&[f64]; 3], q: &[[f64; 4]], kx: [&mut [f64]; 3]) {
+    pub(super) fn apply<S: Simd>(&self, simd: S, x: [&[f64]; 3], q: &[[f64; 4]], kx: [&mut [f64]; 3]) {
         // All of one length, so that a place is checked once and not for every axis.
         let [kx0, kx1, kx2] = kx;
         let nodes = x[0].len();

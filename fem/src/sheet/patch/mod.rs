@@ -16,20 +16,16 @@ use super::bending::BendingMatrix;
 use super::group::{ElementGroup, Item, LANES, RestShape, Stock};
 use super::kernel::Strain;
 use bend::Bend;
-use pass::Pass;
-use room::{Gaps, Room, RoomNeeds};
+use room::{Gaps, RoomNeeds};
 use runs::Stretch;
 
 /// What one pass over a patch adds up, in SI units.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Sums {
-    /// Membrane energy \[J\].
+pub(super) struct Sums {
     pub membrane: f64,
-    /// Hourglass energy \[J\].
     pub hourglass: f64,
     /// Energy turned to heat by viscosity in this step \[J\].
     pub viscous: f64,
-    /// Bending energy \[J\].
     pub bending: f64,
     /// Energy lost in fabrics with memory \[J\].
     pub hysteresis: f64,
@@ -37,14 +33,11 @@ pub struct Sums {
 
 /// Elements that run through the same loop: same kind, fabric and chambers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct LoopKey {
+pub(super) struct LoopKey {
     /// Corners, 3 or 4.
     pub corners: usize,
-    /// Fabric number.
     pub fabric: usize,
-    /// Chamber in front, if any.
     pub front: Option<usize>,
-    /// Chamber behind, if any.
     pub back: Option<usize>,
 }
 
@@ -61,8 +54,7 @@ struct Run {
 /// Consecutive nodes and what their forces need. Within the patch, its own nodes and those of neighbours that its elements
 /// and bending rows need are numbered in mesh order, so that rows of a structured mesh stay whole.
 #[derive(Debug, Clone)]
-pub struct Patch {
-    /// The nodes this patch owns.
+pub(super) struct Patch {
     pub nodes: Range<usize>,
     /// Nodes of the patch, its own and those of neighbours.
     count: usize,
@@ -87,15 +79,13 @@ pub struct Patch {
     /// What the last pass added up.
     pub sums: Sums,
     /// Flux into each chamber, see [`super::chamber::Air::volume_of`].
-    pub flux: Vec<[f64; 3]>,
+    pub(crate) flux: Vec<[f64; 3]>,
 }
 
 /// What all patches share during a pass.
 #[derive(Clone, Copy)]
-pub struct PassShared<'a> {
-    /// Node positions.
+pub(super) struct PassShared<'a> {
     pub q: &'a [[f64; 4]],
-    /// Fabrics by number.
     pub fabrics: &'a [Arc<dyn Fabric>],
     /// Gauge pressure of each chamber \[Pa\].
     pub pressure_pa: &'a [f64],
@@ -104,12 +94,12 @@ pub struct PassShared<'a> {
     /// Whether energies and fluxes are wanted; without, only the heat of viscosity is summed up.
     pub books: bool,
     /// Vector instructions of this machine.
-    pub arch: pulp::Arch,
+    pub(crate) arch: pulp::Arch,
 }
 
 impl Patch {
     /// Packs the elements by key; `items` carry places of nodes, `mesh_number` turns a place into a number of the mesh.
-    pub fn new(
+    pub(super) fn new(
         nodes: Range<usize>,
         items: BTreeMap<LoopKey, Vec<Item>>,
         bending: &BendingMatrix,
@@ -166,47 +156,6 @@ impl Patch {
             sums: Sums::default(),
             flux: Vec::new(),
         }
-    }
-
-    /// Adds the shell forces of the own nodes to `force` (their slice) and keeps the sums. With `keep`, strains and
-    /// fabric memory move on by this step.
-    pub fn pass(&mut self, shared: PassShared, force: &mut [[f64; 4]], keep: bool) {
-        let strains = if keep { Vec::new() } else { self.strains.clone() };
-        self.dispatch(shared, force);
-        if !keep {
-            self.strains = strains;
-        } else if !self.past.is_empty() {
-            self.remember(shared.fabrics);
-        }
-    }
-
-    fn remember(&mut self, fabrics: &[Arc<dyn Fabric>]) {
-        self.sums.hysteresis = 0.0;
-        for run in self.runs.iter().filter(|run| fabrics[run.key.fabric].has_memory()) {
-            let fabric = &fabrics[run.key.fabric];
-            for g in run.regular.clone().chain(run.other.clone()) {
-                let [e1, e2, e3] = &self.strains[g].0;
-                let group = &self.groups[g];
-                let (shape, stock) = (&self.shapes[group.shape as usize], &self.stocks[group.stock as usize]);
-                for (l, past) in self.past[g].iter_mut().enumerate() {
-                    fabric.remember([e1[l], e2[l], e3[l]], past);
-                    let weight = stock.own[l] * shape.area[l];
-                    self.sums.hysteresis += weight * fabric.dissipated(past);
-                }
-            }
-        }
-    }
-
-    /// Sets the strains that viscosity compares with to those at `q`.
-    pub fn start_strains(&mut self, shared: PassShared) {
-        let mut unused = vec![[0.0; 4]; self.nodes.len()];
-        self.dispatch(shared, &mut unused);
-    }
-
-    fn dispatch(&mut self, shared: PassShared, force: &mut [[f64; 4]]) {
-        let needs = std::mem::take(&mut self.needs);
-        Room::with(&needs, |room| shared.arch.dispatch(Pass { patch: self, room, shared, force }));
-        self.needs = needs;
     }
 }
 

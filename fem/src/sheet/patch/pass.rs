@@ -1,5 +1,8 @@
 //! One pass over a patch, compiled for every set of vector instructions.
 
+use std::sync::Arc;
+
+use models::Fabric;
 use models::fabrics::Kind;
 use pulp::Simd;
 
@@ -10,8 +13,51 @@ use super::super::law::{Called, Rubber, ShellLaw, WrinklingFilm};
 use super::room::Room;
 use super::{PassShared, Patch, Run, Sums};
 
+impl Patch {
+    /// Adds the shell forces of the own nodes to `force` (their slice) and keeps the sums. With `keep`, strains and
+    /// fabric memory move on by this step.
+    pub(in crate::sheet) fn pass(&mut self, shared: PassShared, force: &mut [[f64; 4]], keep: bool) {
+        let strains = if keep { Vec::new() } else { self.strains.clone() };
+        self.dispatch(shared, force);
+        if !keep {
+            self.strains = strains;
+        } else if !self.past.is_empty() {
+            self.remember(shared.fabrics);
+        }
+    }
+
+    fn remember(&mut self, fabrics: &[Arc<dyn Fabric>]) {
+        self.sums.hysteresis = 0.0;
+        for run in self.runs.iter().filter(|run| fabrics[run.key.fabric].has_memory()) {
+            let fabric = &fabrics[run.key.fabric];
+            for g in run.regular.clone().chain(run.other.clone()) {
+                let [e1, e2, e3] = &self.strains[g].0;
+                let group = &self.groups[g];
+                let (shape, stock) = (&self.shapes[group.shape as usize], &self.stocks[group.stock as usize]);
+                for (l, past) in self.past[g].iter_mut().enumerate() {
+                    fabric.remember([e1[l], e2[l], e3[l]], past);
+                    let weight = stock.own[l] * shape.area[l];
+                    self.sums.hysteresis += weight * fabric.dissipated(past);
+                }
+            }
+        }
+    }
+
+    /// Sets the strains that viscosity compares with to those at `q`.
+    pub(crate) fn start_strains(&mut self, shared: PassShared) {
+        let mut unused = vec![[0.0; 4]; self.nodes.len()];
+        self.dispatch(shared, &mut unused);
+    }
+
+    fn dispatch(&mut self, shared: PassShared, force: &mut [[f64; 4]]) {
+        let needs = std::mem::take(&mut self.needs);
+        Room::with(&needs, |room| shared.arch.dispatch(Pass { patch: self, room, shared, force }));
+        self.needs = needs;
+    }
+}
+
 /// The pass as a value, so that it can be handed to the dispatcher.
-pub struct Pass<'a, 'b> {
+pub(super) struct Pass<'a, 'b> {
     pub patch: &'a mut Patch,
     pub room: Room<'a>,
     pub shared: PassShared<'b>,

@@ -29,11 +29,10 @@ struct Store {
 
 /// Arrays over the nodes of a patch.
 #[derive(Debug)]
-pub struct Room<'a> {
-    /// Positions by axis.
+pub(crate) struct Room<'a> {
     pub x: [&'a mut [f64]; 3],
     /// K x by axis.
-    pub kx: [&'a mut [f64]; 3],
+    pub(crate) kx: [&'a mut [f64]; 3],
     /// Forces of regular rows by corner and axis. No node is the same corner of two elements in regular rows.
     pub corner: [[&'a mut [f64]; 3]; 4],
     /// Corner forces of the other groups.
@@ -42,20 +41,20 @@ pub struct Room<'a> {
 
 /// What a patch needs of a room.
 #[derive(Debug, Clone, Default)]
-pub struct RoomNeeds {
+pub(crate) struct RoomNeeds {
     /// Nodes, with one more group of lanes than they fill.
     pub nodes: usize,
     /// Groups outside regular rows.
     pub others: usize,
     /// Where no regular row writes the forces of corner c on a node of the patch.
-    pub no_corner: [Gaps; 4],
+    pub(crate) no_corner: [Gaps; 4],
     /// Where nothing writes K x, if anything does.
-    pub no_bending: Gaps,
+    pub(crate) no_bending: Gaps,
 }
 
 impl Room<'_> {
     /// Hands this thread's room to `job`, large enough and with zeros where the patch will write nothing.
-    pub fn with<R>(needs: &RoomNeeds, job: impl FnOnce(Room) -> R) -> R {
+    pub(crate) fn with<R>(needs: &RoomNeeds, job: impl FnOnce(Room) -> R) -> R {
         STORE.with_borrow_mut(|store| {
             let mut room = store.room(needs);
             let corners = room.corner.iter_mut().zip(&needs.no_corner);
@@ -68,7 +67,7 @@ impl Room<'_> {
 
     /// Fills this thread's room with what no result may depend on.
     #[cfg(test)]
-    pub fn spoil() {
+    pub(crate) fn spoil() {
         STORE.with_borrow_mut(|store| {
             store.numbers.fill(f64::NAN);
             store.scratch.as_flattened_mut().as_flattened_mut().as_flattened_mut().fill(f64::NAN);
@@ -96,14 +95,14 @@ impl Store {
 
 /// Places that nothing writes: most are single ones at the ends of rows, for which a call to fill would be slow.
 #[derive(Debug, Clone, Default)]
-pub struct Gaps {
+pub(crate) struct Gaps {
     single: Vec<u32>,
     long: Vec<Range<usize>>,
 }
 
 impl Gaps {
     /// All of `0..count` where `written` is false.
-    pub fn new(count: usize, written: impl Fn(usize) -> bool) -> Gaps {
+    pub(crate) fn new(count: usize, written: impl Fn(usize) -> bool) -> Gaps {
         let mut gaps = Gaps::default();
         let mut first = 0;
         while let Some(start) = (first..count).find(|i| !written(*i)) {

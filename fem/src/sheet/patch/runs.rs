@@ -12,8 +12,7 @@ use super::super::group::{Item, LANES};
 
 /// A group of eight as a range of `items`, and how many of its first lanes the group before it counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Eight {
-    /// First item.
+pub(super) struct Eight {
     pub first: usize,
     /// Lanes counted by the group before.
     pub counted: usize,
@@ -21,7 +20,7 @@ pub struct Eight {
 
 /// Splits items into groups of regular stretches and a list of items left over. `follows(a, b)` tells whether item b is
 /// the next of the stretch that item a is in.
-pub fn split(count: usize, follows: impl Fn(usize, usize) -> bool) -> (Vec<Eight>, Vec<usize>) {
+pub(super) fn split(count: usize, follows: impl Fn(usize, usize) -> bool) -> (Vec<Eight>, Vec<usize>) {
     let (mut eights, mut rest) = (Vec::new(), Vec::new());
     let mut first = 0;
     while first < count {
@@ -45,7 +44,7 @@ pub fn split(count: usize, follows: impl Fn(usize, usize) -> bool) -> (Vec<Eight
 }
 
 /// An order of items, sorted by first corner, in which the next of a row comes next, whatever lies between them.
-pub fn rows(items: &[Item]) -> Vec<usize> {
+pub(super) fn rows(items: &[Item]) -> Vec<usize> {
     let mut left: BTreeMap<&[u32], VecDeque<usize>> = BTreeMap::new();
     for (i, item) in items.iter().enumerate() {
         left.entry(&item.node).or_default().push_back(i);
@@ -66,13 +65,13 @@ pub fn rows(items: &[Item]) -> Vec<usize> {
 }
 
 /// True if every corner of `b` is the node after that of `a`.
-pub fn next_in_row(a: &Item, b: &Item) -> bool {
+pub(crate) fn next_in_row(a: &Item, b: &Item) -> bool {
     a.node.len() == 4 && b.node.len() == 4 && a.node.iter().zip(&b.node).all(|(a, b)| *b == a + 1)
 }
 
 /// Nodes that follow each other in two numberings.
 #[derive(Debug, Clone)]
-pub struct Stretch {
+pub(super) struct Stretch {
     /// In the numbering of the patch.
     pub local: Range<usize>,
     /// In the other.
@@ -80,7 +79,7 @@ pub struct Stretch {
 }
 
 /// Stretches of pairs of numbers.
-pub fn stretches(pairs: &[(usize, usize)]) -> Vec<Stretch> {
+pub(super) fn stretches(pairs: &[(usize, usize)]) -> Vec<Stretch> {
     let follow = |a: &(usize, usize), b: &(usize, usize)| b.0 == a.0 + 1 && b.1 == a.1 + 1;
     let stretch = |chunk: &[(usize, usize)]| {
         let (local, outer) = chunk[0];

@@ -3,8 +3,9 @@
 use std::collections::{HashMap, HashSet};
 
 use super::super::build::Builder;
+use super::super::scan::Scan;
 use super::super::{MeshFile, Surface};
-use super::{Group, Instance, Member, Model, Orientation, Scan, Section, Sides};
+use super::model::{Group, Instance, Member, Model, Orientation, Section, Sides};
 use crate::vec3::{add, cross, dot, norm, scale, sub};
 
 /// What is wrong, and its line.
@@ -93,7 +94,6 @@ impl Assembly {
         Ok(())
     }
 
-    /// Members of a group.
     fn members(&self, model: &Model, scope: usize, group: &Group) -> Result<Vec<Item>, String> {
         let scope = group.instance.as_deref().map_or(Ok(scope), |name| instance(model, name))?;
         let (mut found, mut seen) = (Vec::new(), HashSet::new());

@@ -95,7 +95,6 @@ pub(super) const IGNORED: [&str; 55] = [
     "FILTER",
 ];
 
-/// A keyword line.
 pub(super) struct Keyword {
     /// In capitals without spaces.
     pub(super) name: String,
@@ -129,7 +128,6 @@ impl Keyword {
         self.get(name).ok_or_else(|| format!("*{} needs {name}=…", self.written))
     }
 
-    /// Refuses a parameter.
     pub(super) fn without(&self, name: &str, instead: &str) -> Result<(), String> {
         match self.has(name) {
             true => Err(format!("*{}, {name}=… is not read: {instead}", self.written)),

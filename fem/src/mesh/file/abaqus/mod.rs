@@ -6,91 +6,13 @@
 
 mod assemble;
 mod keywords;
+mod model;
 
 use super::MeshFile;
 use super::scan::{Scan, number, numbers, whole};
 use keywords::{IGNORED, Keyword, REFUSED, SHAPES};
+use model::{Body, Element, Group, Instance, Member, Model, Orientation, Section, Sides};
 
-/// What a file says, in the order of the file.
-struct Model {
-    /// The first one is the text outside of parts.
-    bodies: Vec<Body>,
-    /// The first one is the first body where it is.
-    instances: Vec<Instance>,
-    /// Surfaces that a pressure acts on.
-    pressed: Vec<String>,
-    ignored: Vec<(String, usize)>,
-}
-
-/// Nodes and elements with numbers of their own.
-#[derive(Default)]
-struct Body {
-    name: String,
-    nodes: Vec<(u64, [f64; 3], usize)>,
-    elements: Vec<Element>,
-    groups: Vec<Group>,
-    surfaces: Vec<Sides>,
-    sections: Vec<Section>,
-    orientations: Vec<Orientation>,
-}
-
-/// Elements of one section.
-struct Section {
-    set: String,
-    orientation: Option<String>,
-    line: usize,
-}
-
-/// Local axes of a material.
-struct Orientation {
-    name: String,
-    /// Points a, b and c; the axis of the last turn and its angle.
-    rows: Vec<Vec<f64>>,
-    /// The kind that is not read.
-    other: Option<String>,
-    line: usize,
-}
-
-struct Element {
-    number: u64,
-    nodes: Vec<u64>,
-    set: Option<String>,
-    line: usize,
-}
-
-/// A node set or an element set.
-struct Group {
-    name: String,
-    of_elements: bool,
-    /// Made by a program for itself.
-    internal: bool,
-    instance: Option<String>,
-    members: Vec<Member>,
-    line: usize,
-}
-
-enum Member {
-    Range(u64, u64, u64),
-    Named(String),
-    /// Nodes of the elements of a set.
-    NodesOf(String),
-}
-
-struct Sides {
-    name: String,
-    rows: Vec<(String, String)>,
-    line: usize,
-}
-
-/// Where a part stands: moved, then turned about an axis through two points.
-struct Instance {
-    name: String,
-    body: usize,
-    moved: [f64; 3],
-    turned: Option<([f64; 3], [f64; 3], f64)>,
-}
-
-/// What data lines mean.
 enum Reading {
     Nothing,
     Nodes { grouped: bool },
@@ -111,7 +33,6 @@ struct Reader {
     in_step: bool,
 }
 
-/// Reads it.
 pub(super) fn read(scan: &mut Scan) -> Result<MeshFile, String> {
     let whole_text = Instance { name: String::new(), body: 0, moved: [0.0; 3], turned: None };
     let (bodies, instances) = (vec![Body::default()], vec![whole_text]);

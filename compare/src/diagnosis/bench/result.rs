@@ -1,0 +1,96 @@
+//! What a diagnosis of a table says.
+
+use crate::diagnosis::result::{Group, ParameterValue, Verdict};
+use serde::Serialize;
+
+/// Errors of a model at what its fit had not seen.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LeftOut {
+    /// `pressure`, `specimen` or `load`.
+    pub what: &'static str,
+    /// Typical factor by which it is off, less one, all parts together.
+    pub off: f64,
+    /// Parts in which no other law of the table was better in the fit.
+    pub first_in: usize,
+    /// Parts.
+    pub parts: usize,
+}
+
+/// One law fitted alone.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BenchRanked {
+    /// Name of the effect, or of the number of the scenario.
+    pub effect: String,
+    /// What it belongs to.
+    pub group: Group,
+    /// One plain sentence.
+    pub sentence: String,
+    /// What measurements show where it is missing.
+    pub differs: String,
+    /// What to measure.
+    pub remedy: String,
+    /// Its parameters.
+    pub parameters: Vec<ParameterValue>,
+    /// A value sits on its physical bound and the data push beyond: rejected.
+    pub at_bound: bool,
+    /// Typical factor by which the model is off with it, less one.
+    pub off: f64,
+    /// Fall of the whitened sum of squares against the base.
+    pub gain: f64,
+    /// p of the gain, corrected for all laws tried; `None` without standard deviations.
+    pub p_corrected: Option<f64>,
+    /// At what was left out of the fit.
+    pub left_out: Vec<LeftOut>,
+    /// Cannot be told from the best.
+    pub in_set: bool,
+}
+
+/// Everything a diagnosis of a table found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BenchDiagnosis {
+    /// Table.
+    pub table: String,
+    /// Its kind.
+    pub kind: &'static str,
+    /// Model that it was held against.
+    pub scenario: String,
+    /// Rows.
+    pub rows: usize,
+    /// Whether all rows have a standard deviation.
+    pub noise_known: bool,
+    /// Verdict; `None` without standard deviations.
+    pub verdict: Option<Verdict>,
+    /// One p of "nothing is missing", corrected for everything that was tried.
+    pub p_value: Option<f64>,
+    /// Level at which it is judged.
+    pub alpha: f64,
+    /// Typical factor by which the base is off, less one: the rms of logarithms.
+    pub off: f64,
+    /// Rms standard deviation of the means, as a share.
+    pub noise: Option<f64>,
+    /// Mean square of the base's residuals in standard errors.
+    pub reduced_chi2: Option<f64>,
+    /// What was fitted to make the base.
+    pub base: Vec<ParameterValue>,
+    /// The base at what was left out.
+    pub left_out: Vec<LeftOut>,
+    /// Laws, best first.
+    pub ranked: Vec<BenchRanked>,
+    /// Whether the best of them leaves noise, or less than a fifth of the error.
+    pub explains: bool,
+    /// Effects that would act, by a size that neither table nor scenario tells.
+    pub unsized_laws: Vec<String>,
+    /// The answer in sentences.
+    pub summary: Vec<String>,
+    /// Where the model as it is fails.
+    pub where_it_fails: Vec<String>,
+    /// Where it fails with the best law.
+    pub leftover: Vec<String>,
+}
+
+impl BenchDiagnosis {
+    /// Laws that cannot be told from the best, best first.
+    pub fn set(&self) -> impl Iterator<Item = &BenchRanked> {
+        self.ranked.iter().filter(|r| r.in_set)
+    }
+}

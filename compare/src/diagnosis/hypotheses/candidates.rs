@@ -1,0 +1,279 @@
+//! The effects that may be missing: the one place where the diagnosis meets the catalogue.
+
+use crate::diagnosis::result::explained::ParameterValue;
+use crate::fit::least_squares::Range;
+use crate::policy;
+use data::MeasuredValue;
+use models::Scenario;
+use models::effects::{Effect, Fitted, Group, Stage};
+
+/// An effect that can be switched on, with what a fit and a reader need.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Candidate {
+    pub name: String,
+    pub group: Group,
+    /// Where in a prediction it acts.
+    pub stage: Stage,
+    pub sentence: String,
+    /// What measurements show where it acts and the model lacks it.
+    pub differs: String,
+    pub remedy: String,
+    /// Its parameters, SI inside.
+    pub parameters: Vec<Free>,
+}
+
+/// A parameter to fit; values in SI, `si` leads back to `unit`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Free {
+    pub key: String,
+    pub symbol: String,
+    /// Unit of the scenario value.
+    pub unit: String,
+    /// Factor to SI.
+    pub si: f64,
+    /// Value at which the effect vanishes.
+    pub neutral: f64,
+    pub typical: f64,
+    /// Lower bound of a fit.
+    pub lower: f64,
+    /// Upper bound of a fit.
+    pub upper: f64,
+    pub possible: [f64; 2],
+    /// Where a fit starts beside neutral and typical: thresholds and time scales.
+    pub starts: Vec<f64>,
+    /// When a fit may change it.
+    pub fitted: Fitted,
+    /// A robot rolled by 180° sees it with the other sign.
+    pub in_room: bool,
+    /// It stays neutral: the data at hand say nothing of it.
+    pub is_held: bool,
+}
+
+impl Free {
+    /// Whether it is fitted: a parameter that is typically zero (a force along the robot) stays there.
+    pub fn is_free(&self) -> bool {
+        !self.is_held && (self.typical != 0.0 || self.neutral != 0.0 || self.is_shape())
+    }
+
+    /// Whether it shapes the law about its usual form.
+    pub fn is_shape(&self) -> bool {
+        self.fitted == Fitted::Shape
+    }
+
+    /// Value where it is not fitted: neutral, or as the design has it.
+    pub fn held_at(&self) -> f64 {
+        if self.fitted == Fitted::FromDesign { self.typical } else { self.neutral }
+    }
+
+    /// Range of a fit; a single value where it is not fitted.
+    pub fn range(&self) -> Range {
+        match self.is_free() {
+            true => Range { lower: self.lower, upper: self.upper, scale: self.scale() },
+            false => Range::fixed(self.held_at(), self.scale()),
+        }
+    }
+
+    /// As a fit found it, in SI.
+    pub fn found(&self, value: f64, interval: Option<[f64; 2]>, at_bound: bool) -> ParameterValue {
+        ParameterValue {
+            key: self.key.clone(),
+            symbol: self.symbol.clone(),
+            unit: self.unit.clone(),
+            value: value / self.si,
+            held: !self.is_free(),
+            lo: interval.map(|i| i[0] / self.si),
+            hi: interval.map(|i| i[1] / self.si),
+            at_bound,
+        }
+    }
+
+    /// Length of one step of the fit.
+    pub fn scale(&self) -> f64 {
+        let typical = (self.typical - self.neutral).abs();
+        if typical > 0.0 { typical } else { 0.1 * (self.upper - self.lower) }
+    }
+
+    /// Whether physics, too, ends on the side of its range at which a value lies; a share of 0.8 is nearly all there is.
+    pub fn is_forbidden_beyond(&self, value: f64) -> bool {
+        let side = usize::from(self.upper - value < value - self.lower);
+        self.possible[side].is_finite()
+    }
+
+    /// Searched ten times as far from neutral on the side at which a value lies.
+    pub fn widen(&mut self, value: f64) {
+        let further = |bound: f64| self.neutral + policy::WIDER * (bound - self.neutral);
+        match self.upper - value < value - self.lower {
+            true => self.upper = further(self.upper),
+            false => self.lower = further(self.lower),
+        }
+    }
+
+    /// Whether it shapes the law and lies at an end of its range.
+    pub fn is_shape_at_end(&self, value: f64) -> bool {
+        let at_end = [self.lower, self.upper].iter().any(|end| (value - end).abs() < NEAR * self.scale());
+        self.is_free() && !self.is_shape() && self.typical == self.neutral && at_end
+    }
+}
+
+/// Distance from a bound, over the scale of the parameter, that is none.
+pub const NEAR: f64 = 1e-6;
+
+impl Candidate {
+    /// The scenario with this effect at these values (SI). Known forces on the tip add up.
+    pub fn apply(&self, scenario: &Scenario, values: &[f64]) -> Scenario {
+        let known = scenario.effects.iter().find(|e| e.name == self.name && self.name == "tip_load");
+        match known {
+            Some(known) => {
+                let sum: Vec<f64> = values.iter().zip(&known.values).map(|(a, b)| a + b).collect();
+                scenario.with_effect(&self.name, &sum)
+            }
+            None => scenario.with_effect(&self.name, values),
+        }
+    }
+
+    /// What is held stays at these values, those of the scenario that has the effect; of what is fitted they lie within the bounds.
+    pub fn as_given(&mut self, values: &[f64]) {
+        for (p, value) in self.parameters.iter_mut().zip(values) {
+            if p.is_held {
+                (p.neutral, p.typical) = (*value, *value);
+            }
+            (p.lower, p.upper) = (p.lower.min(*value), p.upper.max(*value));
+        }
+    }
+
+    /// Values `share` of the way from neutral to typical.
+    pub fn at(&self, share: f64) -> Vec<f64> {
+        self.parameters.iter().map(|p| p.neutral + share * (p.typical - p.neutral)).collect()
+    }
+
+    /// Whether it is there or not by design, with nothing to fit.
+    pub fn is_by_design(&self) -> bool {
+        self.parameters.iter().all(|p| p.fitted == Fitted::FromDesign)
+    }
+
+    /// First parameter whose typical value is not its neutral one.
+    pub fn lead(&self) -> usize {
+        self.parameters.iter().position(|p| p.typical != p.neutral).unwrap_or(0)
+    }
+
+    /// Values that a scenario has; neutral ones where it lacks the effect.
+    pub fn own_values(&self, scenario: &Scenario) -> Vec<f64> {
+        let own = scenario.effects.iter().find(|e| e.name == self.name);
+        own.map_or_else(|| self.at(0.0), |e| e.values.clone())
+    }
+
+    /// Number of parameters that are fitted.
+    pub fn count(&self) -> usize {
+        self.parameters.iter().filter(|p| p.is_free()).count()
+    }
+
+    /// Number of those that do not shape its law.
+    pub fn sizes(&self) -> usize {
+        self.parameters.iter().filter(|p| p.is_free() && !p.is_shape()).count()
+    }
+
+    /// Values from which a fit is started: neutral, typical, three times as much, and the other sign where bounds allow
+    /// it, and what the catalogue names.
+    pub fn starts(&self) -> Vec<Vec<f64>> {
+        let clamped = |share: f64| -> Vec<f64> {
+            self.parameters.iter().zip(self.at(share)).map(|(p, v)| v.clamp(p.lower, p.upper)).collect()
+        };
+        let mut starts = vec![clamped(0.0), clamped(1.0), clamped(3.0)];
+        if clamped(-1.0) != clamped(0.0) {
+            starts.push(clamped(-1.0));
+        }
+        for (k, p) in self.parameters.iter().enumerate().filter(|(_, p)| !p.is_held) {
+            starts.extend(p.starts.iter().map(|value| {
+                let mut start = clamped(1.0);
+                start[k] = *value;
+                start
+            }));
+        }
+        starts.dedup();
+        starts
+    }
+}
+
+/// Holds parameters at their neutral values that the data do not hold: a bending stiffness that is kept, several body pressures and
+/// tests of their own hold more.
+pub fn hold(candidates: &mut [Candidate], kept_bending: bool, body_pressures: bool, measured: &[&MeasuredValue]) {
+    for Candidate { name, parameters, .. } in candidates {
+        for p in parameters {
+            let is_measured = measured.iter().any(|m| m.effect == *name && m.key == p.key);
+            p.is_held = match p.fitted {
+                Fitted::Always | Fitted::Shape => false,
+                Fitted::WithKeptBending => !kept_bending,
+                Fitted::WithBodyPressures => !body_pressures && !is_measured,
+                Fitted::FromDesign => true,
+            };
+        }
+    }
+}
+
+/// Gives all laws their usual forms.
+pub fn hold_shapes(candidates: &mut [Candidate]) {
+    let all = candidates.iter_mut().flat_map(|c| &mut c.parameters);
+    all.filter(|p| p.is_shape()).for_each(|p| p.is_held = true);
+}
+
+/// Effects of the catalogue and formulas of the scenario that exist for this actuator and are not in the scenario yet. What follows
+/// from how the robot is cut and joined is there or not, with nothing to fit: it may be missing where a scenario describes that.
+pub fn candidates(scenario: &Scenario) -> Vec<Candidate> {
+    let absent = |effect: &Effect| !scenario.effects.iter().any(|e| e.name == effect.name);
+    let (catalogue, actuator) = (scenario.catalogue(), scenario.actuator.kind.name);
+    let is_described = scenario.effects.iter().any(|e| catalogue.by_name(&e.name).is_some_and(|e| !e.is_fitted()));
+    let fits = |e: &Effect| scenario.actuator.takes(e) && (e.is_fitted() || is_described);
+    catalogue.effects().filter(fits).filter(absent).map(|e| candidate(&e, actuator)).collect()
+}
+
+/// The scenario's own effects, to be fitted along with the base; known forces stay known.
+pub fn present(scenario: &Scenario) -> Vec<Candidate> {
+    let own = |effect: &Effect| effect.name != "tip_load" && scenario.effects.iter().any(|e| e.name == effect.name);
+    let (catalogue, actuator) = (scenario.catalogue(), scenario.actuator.kind.name);
+    catalogue.effects().filter(own).map(|e| candidate(&e, actuator)).collect()
+}
+
+pub fn candidate(effect: &Effect, actuator: &str) -> Candidate {
+    let free = |p: &models::effects::Parameter| Free {
+        key: p.key.to_string(),
+        symbol: p.symbol.to_string(),
+        unit: p.unit.to_string(),
+        si: p.si,
+        neutral: p.neutral * p.si,
+        typical: p.typical_for(actuator) * p.si,
+        lower: p.lower * p.si,
+        upper: p.upper * p.si,
+        possible: p.possible.map(|v| v * p.si),
+        starts: p.starts.iter().map(|v| v * p.si).collect(),
+        fitted: p.fitted,
+        in_room: p.in_room,
+        is_held: false,
+    };
+    Candidate {
+        name: effect.name.to_string(),
+        group: effect.group,
+        stage: effect.stage,
+        sentence: effect.sentence.to_string(),
+        differs: effect.differs.to_string(),
+        remedy: effect.remedy.to_string(),
+        parameters: effect.parameters.iter().map(free).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_may_end_where_physics_does_not() {
+        let entry = |name: &str| candidate(models::effects::by_name(name).unwrap(), "epam").parameters;
+        let [mut share, reach, _] = <[Free; 3]>::try_from(entry("base_clamp")).unwrap();
+        assert!(!share.is_forbidden_beyond(share.upper) && share.is_forbidden_beyond(0.0));
+        assert!(reach.is_forbidden_beyond(reach.upper) && reach.is_shape_at_end(reach.upper));
+        share.widen(share.upper);
+        assert_eq!((share.lower, share.upper), (0.0, 80.0));
+        assert!(!reach.is_shape_at_end(1.5) && !share.is_shape_at_end(share.upper));
+        let [loss, tail] = ["pressure_loss", "tail_tension"].map(|name| entry(name).remove(0));
+        assert!(loss.is_forbidden_beyond(loss.upper) && !tail.is_forbidden_beyond(tail.lower));
+    }
+}

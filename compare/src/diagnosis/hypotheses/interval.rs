@@ -1,0 +1,35 @@
+//! Intervals of the parameters of a fit ([`crate::fit::interval`]).
+
+use crate::diagnosis::case::Case;
+use crate::diagnosis::problem::Fit;
+use crate::diagnosis::source::Source;
+use crate::fit::interval::{FittedData, half_width, of_parameter, weights};
+use crate::fit::least_squares::Residuals;
+
+/// Intervals of all parameters of a fit, SI; `None` if the noise is unknown or the data do not hold the parameter.
+pub fn intervals<'c>(case: &'c Case<'c>, fit: &Fit, profiled: bool) -> Vec<Option<[f64; 2]>> {
+    let part = |(i, source): (usize, &'c Source)| -> FittedData<'c> {
+        let block = &case.problem.blocks[i];
+        let residual_m = case.prediction_of(block, fit).iter().zip(&block.target_m).map(|(f, y)| f - y).collect();
+        let readings = source.gauge.as_ref().map_or(0, |gauge| gauge.readings.len());
+        FittedData { dataset: &source.dataset, noise: &case.noises[i], residual_m, misfit: fit.misfit[i], readings }
+    };
+    let data: Vec<FittedData> = case.sources.iter().enumerate().map(part).collect();
+    let Some(jacobian) = case.problem.jacobian_allowing(fit) else { return vec![None; fit.theta().len()] };
+    (0..fit.theta().len()).map(|k| one(case, fit, (&data, &jacobian), k, profiled)).collect()
+}
+
+fn one(
+    case: &Case,
+    fit: &Fit,
+    (data, jacobian): (&[FittedData], &[Vec<f64>]),
+    k: usize,
+    profiled: bool,
+) -> Option<[f64; 2]> {
+    let ranges = case.problem.ranges(&fit.effects);
+    let (weights, squares) = weights(jacobian, k)?;
+    let half = half_width(data, &weights, ranges.iter().filter(|range| range.is_free()).count())?;
+    let mut residuals = |at: &[f64]| case.problem.residuals_allowing(&fit.misfit, &fit.effects, at);
+    let residuals: Option<&mut Residuals> = if profiled { Some(&mut residuals) } else { None };
+    of_parameter(k, fit.theta(), &ranges, (half, squares), residuals)
+}

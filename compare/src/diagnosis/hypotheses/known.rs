@@ -1,0 +1,203 @@
+//! Quantities that were measured by themselves: parameters of effects, from a test of their own.
+//!
+//! A parameter p that a test found to be m ± s is one more value that every hypothesis has to meet: `(p − m)/s` where it has the
+//! effect. One without it lacks what is known to be there: it pays `(p₀ − m)/s` with the value p₀ at which the effect vanishes, but no
+//! more than |W Δf|, what the effect of that size changes at the markers. A weave that locks beyond the muscle's stroke changes nothing.
+
+use crate::diagnosis::candidates::Candidate;
+use crate::error::CompareError;
+use crate::policy;
+use data::MeasuredValue;
+use models::Scenario;
+
+/// A parameter measured by itself, or the usual form of a law, in SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Known {
+    /// Effect, as an index into the catalogue.
+    pub effect: usize,
+    pub parameter: usize,
+    /// What was found.
+    pub value: f64,
+    pub sd: f64,
+    /// What a hypothesis without the effect differs from it by, in standard deviations.
+    pub lacking: f64,
+    /// Not measured: the usual form of a law, from which real ones differ by [`policy::SHAPE`].
+    pub usual: bool,
+}
+
+/// A test beside the markers, and what it measures.
+#[derive(Debug, PartialEq)]
+pub struct BenchTest {
+    /// Short name.
+    pub name: &'static str,
+    /// What is looked at.
+    pub sentence: &'static str,
+    /// Effects and parameters.
+    pub parameters: &'static [(&'static str, &'static str)],
+}
+
+/// Tests that may be proposed.
+pub const BENCH_TESTS: [BenchTest; 3] = [
+    BenchTest {
+        name: "fabric test",
+        sentence: "strips of the actuator's fabric, pulled along the body and at 45° to the yarns",
+        parameters: &[
+            ("fabric_stretch", "compliance_m_per_n"),
+            ("shear_stiffness", "shear_n_per_m"),
+            ("shear_lock", "lock_rad"),
+        ],
+    },
+    BenchTest {
+        name: "scale",
+        sentence: "the robot's weight on a scale",
+        parameters: &[("gravity", "weight_n_per_m")],
+    },
+    BenchTest {
+        name: "caliper",
+        sentence: "the body's height at its middle by caliper, straight and fully bent",
+        parameters: &[("ovalization", "flattening_m2")],
+    },
+];
+
+/// Standard deviation that is expected of such a test, as a share of the value and of no less than its typical size. Assumed.
+pub const BENCH_TEST: f64 = 0.1;
+
+impl Known {
+    /// A test whose result is not known yet.
+    pub fn planned(effect: usize, parameter: usize) -> Known {
+        Known { effect, parameter, value: 0.0, sd: 0.0, lacking: 0.0, usual: false }
+    }
+
+    /// Difference of a hypothesis to it, in standard deviations; `values` are those of its effects, one after the other.
+    pub fn residual(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> f64 {
+        self.of(candidates, effects, values).map_or(self.lacking, |value| (value - self.value) / self.sd)
+    }
+
+    /// The parameter as a hypothesis has it; `None` without the effect.
+    pub fn of(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Option<f64> {
+        let mut from = 0;
+        for effect in effects {
+            if *effect == self.effect {
+                return Some(values[from + self.parameter]);
+            }
+            from += candidates[*effect].parameters.len();
+        }
+        None
+    }
+
+    /// The same with another value.
+    pub fn at(self, candidates: &[Candidate], value: f64, sd: f64) -> Known {
+        let neutral = candidates[self.effect].parameters[self.parameter].neutral;
+        Known { value, sd, lacking: (neutral - value) / sd, ..self }
+    }
+}
+
+/// Adds the usual forms of all laws to what was measured.
+pub fn add_shapes(known: &mut Vec<Known>, candidates: &[Candidate]) {
+    for (effect, candidate) in candidates.iter().enumerate() {
+        for (parameter, p) in candidate.parameters.iter().enumerate().filter(|(_, p)| p.is_shape() && p.is_free()) {
+            if known.iter().all(|k| (k.effect, k.parameter) != (effect, parameter)) {
+                let sd = policy::shape_sd(p.lower, p.upper);
+                known.push(Known { effect, parameter, value: p.neutral, sd, lacking: 0.0, usual: true });
+            }
+        }
+    }
+}
+
+/// What a bench test would measure of the catalogue: effect and parameter; nothing of effects that are not candidates.
+pub fn parameters_of(test: &BenchTest, candidates: &[Candidate]) -> Vec<(usize, usize)> {
+    test.parameters.iter().filter_map(|(effect, key)| place(candidates, effect, key)).collect()
+}
+
+/// The values measured of effects that may be missing or are refitted.
+///
+/// # Errors
+/// A name that neither the catalogue nor the scenario has, a value beyond its bounds. An effect that the actuator cannot have is no
+/// fault: a test of the fabric tells of all.
+pub fn known<'m>(
+    measured: impl IntoIterator<Item = &'m MeasuredValue>,
+    candidates: &[Candidate],
+    scenario: &Scenario,
+) -> Result<Vec<Known>, CompareError> {
+    let mut all: Vec<Known> = Vec::new();
+    for m in measured {
+        check(scenario, m)?;
+        let Some((effect, parameter)) = place(candidates, &m.effect, &m.key) else { continue };
+        // Of two tests of one quantity the first stands.
+        if all.iter().all(|k| (k.effect, k.parameter) != (effect, parameter)) {
+            let si = candidates[effect].parameters[parameter].si;
+            all.push(Known::planned(effect, parameter).at(candidates, m.value * si, m.sd * si));
+        }
+    }
+    Ok(all)
+}
+
+fn place(candidates: &[Candidate], effect: &str, key: &str) -> Option<(usize, usize)> {
+    let index = candidates.iter().position(|candidate| candidate.name == effect)?;
+    Some((index, candidates[index].parameters.iter().position(|p| p.key == key)?))
+}
+
+/// Whether what was measured exists, and can have that value.
+fn check(scenario: &Scenario, m: &MeasuredValue) -> Result<(), CompareError> {
+    let MeasuredValue { effect: name, key, value, sd, .. } = m;
+    let wrong = |problem: String| {
+        let place = if m.place.is_empty() { "about.toml".to_string() } else { m.place.clone() };
+        Err(CompareError::told(format!("{place}: [measured] {problem}")))
+    };
+    let catalogue = scenario.catalogue();
+    let Some(effect) = catalogue.by_name(name) else {
+        let names: Vec<&str> = catalogue.effects().map(|effect| effect.name).collect();
+        return wrong(format!("names an unknown effect `{name}`; {}", spelling::known(name, &names)));
+    };
+    let Some(p) = effect.parameters.iter().find(|p| p.key == key) else {
+        let keys: Vec<&str> = effect.parameters.iter().map(|p| p.key).collect();
+        return wrong(format!("names an unknown parameter `{key}` of {name}; {}", spelling::known(key, &keys)));
+    };
+    if value.is_finite() && policy::is_within(p.possible, *value, *sd) {
+        return Ok(());
+    }
+    wrong(format!(
+        "{name}: {key} = {value} is outside its physical bounds {} by more than {} of its standard deviations \
+         ({sd}): correct the value or its unit",
+        p.possible_words(),
+        policy::BEYOND_BOUNDS
+    ))
+}
+
+/// What was measured to be more than fits look for: possible, and perhaps another unit.
+pub fn unusual(measured: &[MeasuredValue], scenario: &Scenario) -> Vec<String> {
+    let catalogue = scenario.catalogue();
+    let told = measured.iter().filter_map(|m| {
+        let effect = catalogue.by_name(&m.effect)?;
+        let p = effect.parameters.iter().find(|p| p.key == m.key)?;
+        (!policy::is_within([p.lower, p.upper], m.value, m.sd)).then(|| {
+            format!(
+                "about.toml says that {} has {} = {}, and robots like these have {}: taken as it is, check its unit",
+                m.effect,
+                m.key,
+                m.value,
+                p.usual_words()
+            )
+        })
+    });
+    told.collect()
+}
+
+/// Room for what was measured beyond the bounds of a fit, as far as that is possible.
+pub fn make_room(candidates: &mut [Candidate], measured: &[&MeasuredValue], scenario: &Scenario) {
+    let catalogue = scenario.catalogue();
+    for m in measured {
+        let Some((effect, parameter)) = place(candidates, &m.effect, &m.key) else { continue };
+        let Some(entry) = catalogue.by_name(&m.effect) else { continue };
+        let ([lower, upper], free) =
+            (entry.parameters[parameter].possible, &mut candidates[effect].parameters[parameter]);
+        let [low, high] =
+            [-1.0, 1.0].map(|side| (m.value + side * policy::BEYOND_BOUNDS * m.sd).clamp(lower, upper) * free.si);
+        if m.value * free.si < free.lower {
+            free.lower = free.lower.min(low);
+        }
+        if m.value * free.si > free.upper {
+            free.upper = free.upper.max(high);
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! A learned law: chosen by the missing moments of pressures left out, then fitted to the markers by the full model.
+
+use crate::diagnosis::candidates::{Candidate, candidate, hold_shapes};
+use crate::diagnosis::case::Case;
+use crate::diagnosis::decide::Decision;
+use crate::diagnosis::heldout::HeldOut;
+use crate::diagnosis::missing::{Seen, curves_of, missing_moment, seen};
+use crate::diagnosis::options::Options;
+use crate::diagnosis::problem::{Block, Fit};
+use crate::diagnosis::result::words::with_interval;
+use crate::diagnosis::result::{Diagnosis, LearnedLaw, LearnedLine, LearnedTried, ParameterValue, Verdict};
+use crate::diagnosis::singles::parameter_values;
+use crate::diagnosis::source::Source;
+use crate::error::CompareError;
+use crate::moment::learned::{Form, Material, PULL, Tried, rank, taken};
+use crate::moment::{MissingMoment, MomentCurve, MomentPoint};
+use models::Scenario;
+use nalgebra::{DMatrix, DVector};
+
+/// Its name as an effect.
+const NAME: &str = "learned";
+const CURVE: &str = "learned law";
+/// The effect that moves the line of the markers.
+const LINE: &str = "marker_height";
+/// Share of the pull by which it is found.
+const SHARE: f64 = 0.5;
+
+/// The missing moment of a diagnosis, and the law that is learned from it where the catalogue has none.
+///
+/// # Errors
+/// Data of which no shape comes near.
+pub fn moments(
+    case: &Case,
+    decision: &Decision,
+    options: &Options,
+    found: &Diagnosis,
+) -> Result<(Option<MissingMoment>, Option<LearnedLaw>), CompareError> {
+    let seen = seen(case)?;
+    let mut shown = missing_moment(case, &seen, decision, found)?;
+    let mut learned = None;
+    if (options.learn || found.verdict == Some(Verdict::OutOfCatalog))
+        && let Some((law, curves)) = learn(case, &seen, options, found, &shown.points)?
+    {
+        shown.curves.extend(curves);
+        learned = Some(law);
+    }
+    Ok((Some(shown).filter(|_| options.missing_moment), learned))
+}
+
+type Told = (LearnedLaw, Vec<MomentCurve>);
+
+/// Laws that are fitted to the markers: those that predict moments best.
+const SHORT_LIST: usize = 7;
+
+fn learn(
+    case: &Case,
+    seen: &[Seen],
+    options: &Options,
+    found: &Diagnosis,
+    points: &[MomentPoint],
+) -> Result<Option<Told>, CompareError> {
+    let Some(nothing_mm) = found.base.heldout_mm else { return Ok(None) };
+    let ranked = rank(&material(case, seen)?, seen[0].robot());
+    let name = free_name(&case.first().scenario);
+    let noise_mm = found.base.noise_floor_mm.unwrap_or(0.0).max(found.tolerance_mm);
+    let ground = Ground { sources: case.sources, options, line: line(case, seen), name: &name };
+    let (mut laws, mut tried) = (vec![(case.problem.bendings, nothing_mm / noise_mm)], Vec::new());
+    let mut kept = Vec::new();
+    for law in ranked.iter().filter(|t| t.form.is_some()).take(SHORT_LIST) {
+        let Some((form, heldout_mm, numbers)) = ground.with(law, &mut |case, fit, form| {
+            Ok(HeldOut::new(case)?.pressure_mm(fit).map(|mm| (form, mm, case.problem.bendings + form.numbers.len())))
+        })?
+        else {
+            continue;
+        };
+        laws.push((numbers, heldout_mm / noise_mm));
+        tried.push(LearnedTried { words: form.words.into(), numbers, missed: law.score(), heldout_mm });
+        kept.push(law);
+    }
+    let Some(which) = taken(&laws).and_then(|i| i.checked_sub(1)) else { return Ok(None) };
+    tried.sort_by(|a, b| a.heldout_mm.total_cmp(&b.heldout_mm));
+    ground.with(kept[which], &mut |case, fit, form| {
+        let law = LearnedLaw { tried: tried.clone(), ..told(case, fit, form, &name, found)? };
+        Ok(Some((law, curves_of(case, fit, (CURVE, true), points)?)))
+    })
+}
+
+/// What all laws are fitted on.
+struct Ground<'a> {
+    sources: &'a [Source],
+    options: &'a Options,
+    line: Option<f64>,
+    name: &'a str,
+}
+
+/// What is made of a law that was fitted to the markers.
+type Use<'u, T> = dyn FnMut(&Case, &Fit, &'static Form) -> Result<Option<T>, CompareError> + 'u;
+
+impl Ground<'_> {
+    /// Fits a law to the markers; `None` without equilibrium.
+    fn with<T>(&self, law: &Tried, each: &mut Use<T>) -> Result<Option<T>, CompareError> {
+        let Some(form) = law.form else { return Ok(None) };
+        let extended = |source: &Source| Source {
+            scenario: extended(&source.scenario, form, self.name, self.line),
+            ..source.clone()
+        };
+        let sources: Vec<Source> = self.sources.iter().map(extended).collect();
+        let candidates = candidates(&sources[0].scenario, self.name, self.line);
+        let options = Options { keep_bending: self.options.keep_bending || form.has_spring(), ..self.options.clone() };
+        let own = (&candidates[..], candidates.len() - 1);
+        let case = Case::new(&sources, own, &options)?;
+        let Some(fit) = fitted(&case, &law.values) else { return Ok(None) };
+        each(&case, &fit, form)
+    }
+}
+
+/// Points of all data as the library wants them.
+fn material(case: &Case, seen: &[Seen]) -> Result<Material, CompareError> {
+    let (mut places, mut moments, mut parts) = (Vec::new(), Vec::new(), Vec::new());
+    for (block, seen) in case.problem.blocks.iter().zip(seen) {
+        let pulls = pulls(block, seen)?;
+        let groups = seen.shape.division.groups;
+        let robot = seen.robot();
+        let own = seen.moments.points.iter().enumerate().filter(|(_, p)| p.since_first.is_none());
+        let rows: Vec<usize> = own.clone().map(|(i, _)| i).collect();
+        for (_, p) in own {
+            let place = p.place.unwrap_or(0);
+            let pull = (0..groups).map(|g| pulls[p.hold * groups + g][place]).sum::<f64>() / groups as f64;
+            let at = seen.shape.division.places[place];
+            let theta = p.kappa * robot.actuator.shape.length_m;
+            let s = 0.5 * (at.from_m + at.to_m);
+            places.push([p.kappa, theta, p.p_act_pa, p.p_body_pa, s, robot.radius_m, robot.bending_stiffness, pull]);
+            moments.push(p.moment);
+        }
+        parts.push(DMatrix::from_fn(rows.len(), rows.len(), |i, j| seen.moments.covariance[(rows[i], rows[j])]));
+    }
+    let mut covariance = DMatrix::zeros(moments.len(), moments.len());
+    let mut from = 0;
+    for part in parts {
+        covariance.view_mut((from, from), part.shape()).copy_from(&part);
+        from += part.nrows();
+    }
+    let stiffness = (case.problem.bendings > 0).then(|| seen[0].robot().bending_stiffness);
+    Ok(Material { places, moments: DVector::from_vec(moments), covariance, stiffness })
+}
+
+/// The actuator's pull at the bends that were measured: what is missing where a share of it is taken away, over that share.
+fn pulls(block: &Block, seen: &Seen) -> Result<Vec<Vec<f64>>, CompareError> {
+    let taken = |scenario: &Scenario| {
+        let formula = PULL.formula("pull_share", scenario);
+        let mut other = scenario.clone();
+        other.formulas.extend(formula);
+        other.with_effect("pull_share", &[SHARE])
+    };
+    let (with, without) = (seen.missing(block, &taken)?, seen.missing(block, &Scenario::clone)?);
+    let each = |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| (a - b) / SHARE).collect();
+    Ok(with.iter().zip(&without).map(each).collect())
+}
+
+/// Where the line of the markers lies, if the shapes say elsewhere than the scenario \[m\].
+fn line(case: &Case, seen: &[Seen]) -> Option<f64> {
+    let is_there = case.first().scenario.effects.iter().any(|e| e.name == LINE);
+    let shared = seen[0].shape.shared.first()?;
+    (!is_there && !case.first().direct.frame && shared.is_told()).then_some(1e-3 * shared.value)
+}
+
+fn free_name(scenario: &Scenario) -> String {
+    let is_free = |name: &String| scenario.formulas.iter().all(|f| f.name != *name);
+    std::iter::once(NAME.to_string()).chain((2..).map(|i| format!("{NAME}_{i}"))).find(is_free).unwrap_or_default()
+}
+
+fn extended(scenario: &Scenario, form: &Form, name: &str, line: Option<f64>) -> Scenario {
+    let mut other = scenario.clone();
+    other.formulas.extend(form.formula(name, scenario));
+    line.map_or(other.clone(), |line| other.with_effect(LINE, &[line]))
+}
+
+/// The line, if it is fitted along, and the law.
+fn candidates(scenario: &Scenario, name: &str, line: Option<f64>) -> Vec<Candidate> {
+    let catalogue = scenario.catalogue();
+    let names = line.map(|_| LINE).into_iter().chain([name]);
+    let entries = names.filter_map(|name| Some(candidate(&catalogue.by_name(name)?, scenario.actuator.kind.name)));
+    let mut candidates: Vec<Candidate> = entries.collect();
+    hold_shapes(&mut candidates);
+    candidates
+}
+
+/// Shares of what the moments say from which a law is fitted to the markers: the whole may leave no equilibrium.
+const STARTS: [f64; 3] = [1.0, 0.5, 0.1];
+
+/// The law fitted to the markers.
+fn fitted(case: &Case, values: &[f64]) -> Option<Fit> {
+    let effects: Vec<usize> = (0..case.problem.candidates.len()).collect();
+    let own = &case.problem.candidates[effects.len() - 1].parameters;
+    let start = |share: f64| {
+        let value = |(v, p): (&f64, &crate::diagnosis::candidates::Free)| if p.neutral == 0.0 { share * v } else { *v };
+        let law = values.iter().zip(own).map(|pair| value(pair).clamp(pair.1.lower, pair.1.upper));
+        case.base.theta_with(&law.collect::<Vec<f64>>())
+    };
+    case.problem.fit(&effects, &STARTS.map(start))
+}
+
+fn told(case: &Case, fit: &Fit, form: &Form, name: &str, found: &Diagnosis) -> Result<LearnedLaw, CompareError> {
+    let held_out = HeldOut::new(case)?;
+    let mut values = parameter_values(case, fit, false);
+    let own = values.split_off(values.len() - form.numbers.len());
+    let line = values.first().map(|line| LearnedLine {
+        value_mm: line.value,
+        interval_mm: line.lo.zip(line.hi).map(|(lo, hi)| [lo, hi]),
+        training_mm: case.error_mm(&case.prediction(&case.base)),
+        heldout_mm: held_out.pressure_mm(&case.base),
+    });
+    Ok(LearnedLaw {
+        name: name.into(),
+        words: form.words.into(),
+        formula: printed(&form.moment_of(&case.first().scenario), &own),
+        parameters: own,
+        line,
+        before_mm: found.base.systematic_mm,
+        heldout_before_mm: found.base.heldout_mm,
+        after_mm: case.error_mm(&case.prediction(fit)),
+        heldout_after_mm: held_out.pressure_mm(fit),
+        heldout_run_after_mm: held_out.run_mm(fit),
+        bending_nm2: case.bendings(fit),
+        usual: form.usual.words.into(),
+        check: form.usual.check.into(),
+        tried: Vec::new(),
+        toml: form.toml(name, &case.first().scenario),
+    })
+}
+
+/// A formula with numbers for its letters.
+fn printed(moment: &str, values: &[ParameterValue]) -> String {
+    let numbers: Vec<String> = values.iter().map(with_interval).collect();
+    format!("M = {moment}; {}", numbers.join(", "))
+}

@@ -1,0 +1,269 @@
+//! Explanations as a diagnosis says them: effects, pairs, a learned law, their values, and experiments that tell them apart.
+
+use data::Direct;
+use models::effects::Group;
+use serde::Serialize;
+
+/// One parameter of a fit, in the unit of the scenario.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ParameterValue {
+    /// Key in the scenario, with the unit as suffix.
+    pub key: String,
+    /// Letter in the formula.
+    pub symbol: String,
+    /// Unit.
+    pub unit: String,
+    /// Best value; **calibrated** on these data unless it was held.
+    pub value: f64,
+    /// It was not fitted, because these data do not hold it: it stays neutral, or as the scenario has it.
+    pub held: bool,
+    /// Lower end of the 95 % interval; `None` if the noise is unknown, or if it was held.
+    pub lo: Option<f64>,
+    /// Upper end of the 95 % interval.
+    pub hi: Option<f64>,
+    /// The best value sits on a physical bound and the data push against it.
+    pub at_bound: bool,
+}
+
+impl ParameterValue {
+    /// What follows a value that was not fitted; empty for others.
+    pub fn held_mark(&self) -> &'static str {
+        if self.held { " (held)" } else { "" }
+    }
+}
+
+/// One effect of the catalogue, refitted together with the base.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Ranked {
+    /// Name in scenarios.
+    pub effect: String,
+    /// Group.
+    pub group: Group,
+    /// One plain sentence.
+    pub sentence: String,
+    /// What measurements show where it acts and the model lacks it.
+    pub differs: String,
+    /// What to measure or change on the robot.
+    pub remedy: String,
+    /// Value of its first parameter.
+    pub value: f64,
+    /// Unit of that parameter.
+    pub unit: String,
+    /// Lower end of its 95 % interval.
+    pub lo: Option<f64>,
+    /// Upper end of its 95 % interval.
+    pub hi: Option<f64>,
+    /// A value sits on a physical bound and the data push against it: the effect is rejected.
+    pub at_bound: bool,
+    /// All parameters.
+    pub parameters: Vec<ParameterValue>,
+    /// Fall of the whitened sum of squares against the calibrated base.
+    pub gain: f64,
+    /// BIC minus that of the best effect, with an allowance for the form of the law and a weak prior of the size.
+    pub bic_difference: f64,
+    /// p of the gain, corrected for all effects tried; `None` with fewer than three runs.
+    pub p_corrected: Option<f64>,
+    /// Error beyond noise of the calibrated base \[mm\]; root-mean-square error if the noise is unknown.
+    pub systematic_before_mm: f64,
+    /// The same with the effect \[mm\].
+    pub systematic_after_mm: f64,
+    /// Error beyond noise at actuator pressures left out of the fit, rms over the pressures \[mm\]; `None` with one
+    /// pressure.
+    pub heldout_mm: Option<f64>,
+    /// Error beyond noise of runs left out of the fit, rms over the runs \[mm\]; `None` with one run.
+    pub heldout_run_mm: Option<f64>,
+    /// Effective bending stiffness with the effect, one per body pressure \[N·m²\].
+    pub bending_nm2: Vec<f64>,
+    /// Cosine between this effect's and the best one's trace in the data, base fitted out; ±1: cannot be told apart.
+    pub cosine_with_best: f64,
+    /// Member of the indistinguishable set.
+    pub in_set: bool,
+    /// Different starts of the fit ended in different minima; the best one is given.
+    pub several_minima: bool,
+    /// Cautions about this effect.
+    pub notes: Vec<String>,
+}
+
+/// Several effects together.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Combination {
+    /// Names.
+    pub effects: Vec<String>,
+    /// Values of all parameters, effect by effect.
+    pub parameters: Vec<ParameterValue>,
+    /// Fall of the whitened sum of squares against the calibrated base.
+    pub gain: f64,
+    /// BIC minus that of the best combination, with the same allowance and prior.
+    pub bic_difference: f64,
+    /// p of the gain over the best single effect, corrected for all combinations tried.
+    pub p_corrected: Option<f64>,
+    /// Error beyond noise \[mm\].
+    pub systematic_after_mm: f64,
+    /// Effective bending stiffness with them, one per body pressure \[N·m²\].
+    pub bending_nm2: Vec<f64>,
+    /// Cannot be told from the best combination with these data.
+    pub in_set: bool,
+    /// The two terms cancel each other: opposite contributions, nearly the same trace.
+    pub cancels: bool,
+}
+
+/// An attempt, or something that leaves the same distance.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct AsClose {
+    /// Names.
+    pub effects: Vec<String>,
+    /// Error beyond noise with it \[mm\], over all data.
+    pub systematic_after_mm: f64,
+}
+
+/// Names of effects that are added.
+pub(crate) fn names_of(added: &[Added]) -> Vec<String> {
+    added.iter().map(|a| a.effect.clone()).collect()
+}
+
+/// An effect that the verdict adds to the model.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Added {
+    /// Name in scenarios.
+    pub effect: String,
+    /// Group.
+    pub group: Group,
+    /// Values in the final model.
+    pub parameters: Vec<ParameterValue>,
+}
+
+/// How large an effect would have to be.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Undetectable {
+    /// Name in scenarios.
+    pub effect: String,
+    /// Group.
+    pub group: Group,
+    /// Smallest value of its first parameter found with 90 % probability; `None`: none within its bounds.
+    pub smallest_detectable: Option<f64>,
+    /// Unit.
+    pub unit: String,
+    /// The same as a multiple of the effect's typical size.
+    pub times_typical: Option<f64>,
+}
+
+/// A law that was learned.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LearnedLaw {
+    /// Name as an effect.
+    pub name: String,
+    /// What it is, in words.
+    pub words: String,
+    /// The moment as a formula, with its numbers and units.
+    pub formula: String,
+    /// Its numbers.
+    pub parameters: Vec<ParameterValue>,
+    /// Where the line of the markers lies, where that was fitted along.
+    pub line: Option<LearnedLine>,
+    /// Error beyond noise without either, B fitted unless it is kept \[mm\].
+    pub before_mm: f64,
+    /// The same at pressures left out of the fit.
+    pub heldout_before_mm: Option<f64>,
+    /// Error with the law and the line \[mm\].
+    pub after_mm: f64,
+    /// The same at pressures left out of the fit of both.
+    pub heldout_after_mm: Option<f64>,
+    /// The same for runs left out.
+    pub heldout_run_after_mm: Option<f64>,
+    /// B with it, one per body pressure; empty where it was kept, or where the law takes its place \[N·m²\].
+    pub bending_nm2: Vec<f64>,
+    /// What such a law usually is.
+    pub usual: String,
+    /// What tells.
+    pub check: String,
+    /// What was fitted to the markers: nothing, and the laws that fit the missing moments best.
+    pub tried: Vec<LearnedTried>,
+    /// The entry of a scenario.
+    #[serde(skip)]
+    pub toml: String,
+}
+
+/// The line of the markers, further from the taut side than the scenario says.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LearnedLine {
+    /// By so much \[mm\].
+    pub value_mm: f64,
+    /// Ends of its 95 % interval \[mm\].
+    pub interval_mm: Option<[f64; 2]>,
+    /// Error beyond noise with it alone \[mm\].
+    pub training_mm: f64,
+    /// The same at pressures left out.
+    pub heldout_mm: Option<f64>,
+}
+
+/// A law of the library that was fitted to the markers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LearnedTried {
+    /// In words.
+    pub words: String,
+    /// Its numbers, and those of the stiffness.
+    pub numbers: usize,
+    /// Square of what it misses at pressures left out, over that of noise, in moments.
+    pub missed: f64,
+    /// Error beyond noise at pressures left out \[mm\].
+    pub heldout_mm: f64,
+}
+
+/// A proposed experiment.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Experiment {
+    /// Short name.
+    pub name: String,
+    /// What to do.
+    pub sentence: String,
+    /// Protocol in the form of `ibr data generate --protocol`; empty of a test by itself.
+    pub protocol: String,
+    /// What is to be measured directly.
+    pub direct: Direct,
+    /// Tests of their own beside it, whose results go into `[measured]` of `about.toml`.
+    pub tests: Vec<String>,
+    /// Expected separation λ of the best explanation from each rival, same number of runs.
+    pub separations: Vec<Separation>,
+    /// λ that tells two explanations apart in about nine of ten cases: 16, and more the more a law's form is granted, a
+    /// twentieth of the best gain.
+    pub needed: f64,
+    /// Rivals with as much.
+    pub separated: usize,
+    /// Smallest λ of the rivals it can tell apart (λ ≥ 3 after up to four times the runs), else the largest of all.
+    pub lambda: f64,
+    /// Runs needed for what suffices there; `None` if no number of runs does, or for a test by itself.
+    pub runs_needed: Option<usize>,
+}
+
+impl Experiment {
+    /// The protocol for a table: a dash of a test by itself.
+    pub fn shown_protocol(&self) -> &str {
+        if self.protocol.is_empty() { "–" } else { &self.protocol }
+    }
+}
+
+/// Expected separation of two explanations after an experiment.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Separation {
+    /// Rival explanation.
+    pub rival: String,
+    /// λ: expected difference of the whitened sums of squares.
+    pub lambda: f64,
+}
+
+/// What to measure next.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct NextExperiment {
+    /// The explanation the rivals are to be told from; empty where there are none.
+    pub best: String,
+    /// The recommended one; `None` if no listed experiment separates anything, and where no effect of the catalogue is the answer.
+    pub recommended: Option<Experiment>,
+    /// λ with what is there already.
+    pub now: Vec<Separation>,
+    /// λ that would suffice there.
+    pub needed_now: f64,
+    /// All that were tried, best first; none for an answer outside the catalogue.
+    pub tried: Vec<Experiment>,
+    /// In words.
+    pub sentence: String,
+}

@@ -1,0 +1,48 @@
+//! What would show a fault that no effect of the catalogue explains: where to look, and what to take again.
+//!
+//! Separations λ are expected of laws, and the law of a fault is not known. So none is computed here; what is proposed goes
+//! by the pattern that the fault left, and tells robot, set-up and camera apart by what moves along when one of them is changed.
+
+use crate::diagnosis::experiments::TIP_FORCE_N;
+use crate::diagnosis::result::{Diagnosis, Verdict};
+use crate::residuals::ResidualCell;
+use crate::wording::{list, short};
+
+/// What to do next where nothing in the catalogue explains the misfit; `None` with another verdict.
+pub fn next(d: &Diagnosis) -> Option<String> {
+    if d.verdict != Some(Verdict::OutOfCatalog) {
+        return None;
+    }
+    let mut told = Vec::new();
+    if let Some(kept) = &d.kept_bending {
+        told.push(format!("do a bending test, for the answer with B = {:.2} N·m²", kept.value_nm2));
+    }
+    if !d.outliers.runs.is_empty() {
+        let runs: Vec<String> = d.outliers.runs.iter().map(|r| r.run.clone()).collect();
+        let word = if runs.len() == 1 { "run" } else { "runs" };
+        told.push(format!("take {word} {} again or leave it out, it is not like the others", list(&runs)));
+    }
+    told.extend(d.pattern.as_ref().map(|pattern| pattern.check.clone()).or_else(|| where_most(d)));
+    let rest = match d.pattern.as_ref().filter(|pattern| pattern.simpler) {
+        Some(_) => "If nothing is found there, the effects named above remain.",
+        None => "",
+    };
+    let none = "No experiment of the list is computed for a law that is not in the catalogue.";
+    Some(format!("Next: {}. {none} {rest}", told.join("; ")).trim_end().to_string())
+}
+
+/// The marker and the hold where the final model fails most.
+fn where_most(d: &Diagnosis) -> Option<String> {
+    let map = &d.residuals_after;
+    let size = |cell: &ResidualCell| cell.norm_in_noise.unwrap_or(cell.norm_mm);
+    let cells = map.cells.iter().enumerate().flat_map(|(m, row)| row.iter().enumerate().map(move |(h, c)| (m, h, c)));
+    let (marker, hold, _) = cells.max_by(|a, b| size(a.2).total_cmp(&size(b.2)))?;
+    let at = &map.holds[hold];
+    Some(format!(
+        "look at marker {} at {} kPa ({}), where the model fails most, and take that hold again, also with ±{TIP_FORCE_N} N on \
+         the tip",
+        map.markers[marker],
+        short(at.p_act_kpa),
+        at.phase
+    ))
+}

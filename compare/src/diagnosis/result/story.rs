@@ -1,0 +1,313 @@
+//! The diagnosis told in sentences.
+
+use crate::policy;
+use data::Direct;
+
+use crate::diagnosis::result::words::{quantity, with_interval};
+use crate::diagnosis::result::{
+    AsClose, Confidence, Diagnosis, FittedBeside, GaugeFit, Group, KeptBending, LearnedLaw, LeftPattern, Ranked,
+    Verdict, names_of,
+};
+use crate::wording::{list, p_value};
+
+/// What comes as close as an attempt is named up to that many; `diagnosis.json` has all.
+const MOST_AS_CLOSE: usize = 3;
+/// Places where the model still fails that are named; the report has all.
+const MOST_PLACES: usize = 2;
+
+/// In place of a verdict on data with a slip of a pressure.
+const WITHHELD: &str = "No verdict on these pressures: any effect that was named would only make up for the slip. Mend the column and \
+                        run the same again; if the pressures are right, add --not pressure_slip.";
+
+impl Diagnosis {
+    /// The answer that hangs on B, if there is one, in words.
+    pub fn told_of_kept_bending(&self) -> Option<String> {
+        self.kept_bending.as_ref().map(|kept| with_kept_bending(self, kept))
+    }
+}
+
+impl LearnedLaw {
+    /// What was learned, in sentences.
+    pub fn sentences(&self) -> Vec<String> {
+        let mm = |v: Option<f64>| v.map_or("unknown".into(), |mm| format!("{mm:.2}"));
+        let (before, after) = (mm(self.heldout_before_mm), mm(self.heldout_after_mm));
+        let line = self.line.as_ref().map_or(String::new(), |line| {
+            let side = if line.value_mm < 0.0 { "nearer to" } else { "further from" };
+            let alone = mm(line.heldout_mm);
+            format!("; of that the line of the markers, {:.1} mm {side} the taut side than the scenario says, brings it to {alone} mm", line.value_mm.abs())
+        });
+        vec![
+            format!("A law learned from the missing moment, {}: {}.", self.words, self.formula),
+            format!(
+                "With it the error at pressures left out of the fit goes from {before} to {after} mm{line}. It was chosen by that \
+                 figure: try it on other data."
+            ),
+            format!(
+                "A law of this shape is usually {}. To tell: {}. `ibr add SCENARIO learned DATA` writes it as a formula.",
+                self.usual, self.check
+            ),
+        ]
+    }
+}
+
+/// The story, one sentence or two per entry.
+pub fn story(d: &Diagnosis) -> Vec<String> {
+    let mut told = vec![opening(d)];
+    told.extend(d.beside.iter().map(beside));
+    told.extend(d.gauges.iter().filter_map(gauge));
+    told.extend(d.by_design.iter().map(|entry| by_design(d, entry)));
+    told.extend(match d.verdict {
+        None if d.pressure_slip.is_some() => vec![WITHHELD.into()],
+        None => ranking_only(d),
+        Some(Verdict::None) => nothing(d),
+        Some(Verdict::TooSmall) => vec![too_small(d)],
+        Some(Verdict::Effect) => effect(d),
+        Some(Verdict::OutOfCatalog) => outside(d),
+    });
+    if !d.rule_out_first.is_empty() {
+        told.push(format!(
+            "Rule out before physics: {}, because supply and measurement would look the same here.",
+            list(&d.rule_out_first)
+        ));
+    }
+    told.extend(d.learned.iter().flat_map(|law| law.sentences()));
+    told.extend(d.bending_alarm.as_ref().map(|alarm| alarm.words.clone()));
+    if !d.excluded.is_empty() {
+        told.push(format!("Left out, because you said that it cannot be here: {}.", list(&d.excluded)));
+    }
+    told.extend(d.next_experiment.as_ref().map(|next| next.sentence.clone()));
+    told
+}
+
+/// p of "nothing is missing".
+fn p_of(d: &Diagnosis) -> String {
+    d.p_value.map(p_value).unwrap_or_default()
+}
+
+fn opening(d: &Diagnosis) -> String {
+    let noise = d.base.noise_floor_mm.map_or("noise unknown".into(), |n| format!("noise of the mean {n:.2} mm"));
+    let calibrated = if d.base.bending.is_empty() { "with the scenario's B" } else { "after fitting B" };
+    format!("Misfit beyond noise: {:.2} mm {calibrated} ({noise}).", d.base.systematic_mm)
+}
+
+fn beside(part: &FittedBeside) -> String {
+    let direct = match part.direct {
+        Direct { pressure: false, frame: false } => "",
+        Direct { pressure: true, frame: false } => ", pressure measured at the actuator",
+        Direct { pressure: false, frame: true } => ", positions measured from the base",
+        Direct { pressure: true, frame: true } => ", pressure measured at the actuator and positions from the base",
+    };
+    let FittedBeside { dataset, runs, systematic_mm: before, systematic_with_added_mm: after, .. } = part;
+    format!(
+        "Fitted along: {dataset} ({runs} runs{direct}), {before:.2} mm beyond noise with the base, {after:.2} mm with this answer."
+    )
+}
+
+fn gauge(fit: &GaugeFit) -> Option<String> {
+    let (read, set) = (fit.read_kpa.iter().zip(&fit.set_kpa)).max_by(|a, b| a.1.total_cmp(b.1))?;
+    let GaugeFit { dataset, before_kpa, after_kpa, .. } = fit;
+    Some(format!(
+        "The gauge in {dataset} read {read:.1} kPa at the actuator where {set:.1} were set. The supply's laws are off by \
+         {before_kpa:.2} kPa (rms) as the scenario has them, by {after_kpa:.2} kPa with this answer; positions are predicted at \
+         the readings."
+    ))
+}
+
+fn by_design(d: &Diagnosis, entry: &AsClose) -> String {
+    let name = list(&entry.effects);
+    let sentence = d.ranked.iter().find(|r| entry.effects.contains(&r.effect)).map_or("", |r| &r.sentence);
+    format!(
+        "First look at how the robot is made. {sentence} The scenario has no {name}: switched on as the design has it, with \
+         nothing of it fitted, it brings the misfit over all data to {:.2} mm.",
+        entry.systematic_after_mm
+    )
+}
+
+fn ranking_only(d: &Diagnosis) -> Vec<String> {
+    let helps = d.ranked.iter().filter(|r| policy::helps(r.gain) && !r.at_bound);
+    let names: Vec<String> = helps.take(5).map(|r| r.effect.clone()).collect();
+    let why = format!("{} usable runs: at least three are needed for p-values", d.runs);
+    let order = if names.is_empty() {
+        "No effect lowers the misfit.".to_string()
+    } else {
+        format!("In order of how much they lower the misfit, uncalibrated: {}.", list(&names))
+    };
+    vec![format!("No verdict ({why})."), order]
+}
+
+fn nothing(d: &Diagnosis) -> Vec<String> {
+    let mut told =
+        vec![format!("No missing effect detectable ({} after correcting for {} effects).", p_of(d), d.ranked.len())];
+    let mut seen: Vec<_> =
+        d.undetectable.iter().filter_map(|u| Some((u, u.smallest_detectable?, u.times_typical?))).collect();
+    seen.sort_by(|a, b| b.2.total_cmp(&a.2));
+    let parts: Vec<String> =
+        seen.iter().take(4).map(|(u, size, _)| format!("{} {}", u.effect, quantity(*size, &u.unit))).collect();
+    if !parts.is_empty() {
+        told.push(format!("To be seen, the effects that hide best would have to exceed: {}.", list(&parts)));
+    }
+    told
+}
+
+fn too_small(d: &Diagnosis) -> String {
+    let p = p_of(d);
+    match policy::is_good_enough(d.base.systematic_mm, d.tolerance_mm) {
+        true => {
+            format!("More than noise ({p}), and within the tolerance of {:.2} mm: too small to name.", d.tolerance_mm)
+        }
+        false => {
+            format!("More than noise ({p}), but no effect of the catalogue takes a fifth of it: too small to name.")
+        }
+    }
+}
+
+fn effect(d: &Diagnosis) -> Vec<String> {
+    let names = names_of(&d.added);
+    let supply = d.gauges.first().filter(|_| d.added.iter().all(|a| a.group == Group::Supply));
+    let brings = match supply {
+        Some(gauge) => format!("the supply within {:.2} kPa of the gauge", gauge.after_kpa),
+        None => format!("it to {:.2} mm", d.base.systematic_with_added_mm),
+    };
+    let mut told = vec![format!(
+        "Adding {} brings {brings} ({} after correcting for {} effects).",
+        list(&names),
+        p_of(d),
+        d.ranked.len()
+    )];
+    for added in &d.added {
+        let values: Vec<String> = added.parameters.iter().map(with_interval).collect();
+        let sentence = d.ranked(&added.effect).map_or("", |r| &r.sentence);
+        told.push(format!("{}: {}. {sentence}", added.effect, values.join(", ")));
+    }
+    if let Some(r) = d.ranked.iter().find(|r| names.len() == 1 && r.effect == names[0] && supply.is_none()) {
+        told.extend(held_out(d, r));
+    }
+    told.extend(covered(d));
+    if let Some(left) = d.lack_of_fit_after.filter(|left| left.p_value < d.alpha) {
+        told.push(format!(
+            "What is left, {:.2} mm, is small but more than noise ({}): the real law is not quite the catalogue's, or a second, \
+             smaller effect is there.",
+            d.base.systematic_with_added_mm,
+            p_value(left.p_value)
+        ));
+    }
+    told.push(match d.confidence {
+        Some(Confidence::Hint) => {
+            "A hint only: evidence this weak often points to a neighbour of the true effect.".into()
+        }
+        Some(Confidence::IdentifiedInCatalog) => {
+            "Best explanation in this catalogue, without a rival in it. Another effect that is not listed may look the \
+             same."
+                .into()
+        }
+        _ => "Best explanation in this catalogue. Another effect that is not listed may look the same.".to_string(),
+    });
+    told
+}
+
+/// How often a stated set held the truth where that was known; two effects at once are another question.
+fn covered(d: &Diagnosis) -> Option<String> {
+    let [most, least] = [d.covered?, policy::COVERED_BY_OTHERS].map(|share| 100.0 * share);
+    Some(format!(
+        "Of made-up robots with other laws than the catalogue's, such an answer holds the truth in {least:.0} to {most:.0} of 100."
+    ))
+}
+
+fn held_out(d: &Diagnosis, r: &Ranked) -> Option<String> {
+    let (before, after) = (d.base.heldout_mm?, r.heldout_mm?);
+    let verdict = match () {
+        () if before.max(after) <= d.tolerance_mm => "both within the tolerance, no argument for or against it",
+        () if policy::falls(after, before) => "it predicts what it has not seen",
+        () => "caution: it does not predict the pressures it has not seen",
+    };
+    Some(format!("At pressures left out of the fit the error goes from {before:.2} to {after:.2} mm: {verdict}."))
+}
+
+fn outside(d: &Diagnosis) -> Vec<String> {
+    let p = p_of(d);
+    let tried = list(&names_of(&d.attempt));
+    let (before, after) = (d.base.systematic_mm, d.base.systematic_with_added_mm);
+    let simpler = d.pattern.as_ref().filter(|pattern| pattern.simpler);
+    let mut told = vec![if simpler.is_some_and(|pattern| pattern.either) {
+        format!(
+            "Either {tried}, which would bring it to {after:.2} mm ({p}), or one fault that is not in the catalogue: they explain \
+             these data about as well, and the fault needs a single number."
+        )
+    } else if simpler.is_some() {
+        format!(
+            "{tried} would bring it to {after:.2} mm ({p}), but one fault that is not in the catalogue explains more, with a \
+             single number."
+        )
+    } else if d.attempt.is_empty() {
+        format!(
+            "Nothing in the catalogue explains this ({p}): {before:.2} mm remain, and no effect of it takes a fifth off them."
+        )
+    } else if policy::is_mostly_gone(after, before) {
+        format!(
+            "Adding {tried} takes away most of it, {before:.2} to {after:.2} mm, but nothing in the catalogue explains the rest \
+             ({p}): a law that is not quite the catalogue's, or something that is not listed."
+        )
+    } else {
+        format!(
+            "Nothing in the catalogue explains this ({p}): {after:.2} mm remain with the best of it, {tried}, of {before:.2} mm \
+             before."
+        )
+    }];
+    told.extend(as_close(d));
+    told.extend(at_its_bound(d));
+    told.extend(d.told_of_kept_bending());
+    told.extend(d.pattern.as_ref().map(looks_like));
+    let places = if d.pattern.is_some() { 1 } else { MOST_PLACES };
+    told.extend(d.leftover.iter().take(places).map(|s| s.sentence.clone()));
+    told.push("Check markers, set-up and protocol there before looking for new physics.".into());
+    told
+}
+
+fn as_close(d: &Diagnosis) -> Option<String> {
+    let (attempt, others) = d.attempt_alike.split_first().filter(|(_, others)| !others.is_empty())?;
+    let (first, rest) = others.split_at(others.len().min(MOST_AS_CLOSE));
+    let mut names: Vec<String> =
+        first.iter().map(|a| format!("{} ({:.2} mm)", a.effects.join(" + "), a.systematic_after_mm)).collect();
+    if !rest.is_empty() {
+        names.push(format!("{} more", rest.len()));
+    }
+    let as_close = match d.beside.is_empty() {
+        true => "As close".into(),
+        false => format!("Over all data it leaves {:.2} mm; as close", attempt.systematic_after_mm),
+    };
+    Some(format!("{as_close}, to a fifth: {}. These data do not choose between them.", list(&names)))
+}
+
+/// What comes closer than the attempt, but only at the end of its range.
+fn at_its_bound(d: &Diagnosis) -> Option<String> {
+    let left = |r: &&Ranked| r.systematic_after_mm;
+    let nearest = d.ranked.iter().filter(|r| r.at_bound).min_by(|a, b| left(a).total_cmp(&left(b)))?;
+    policy::is_closer(nearest.systematic_after_mm, d.base.systematic_with_added_mm).then(|| {
+        format!(
+            "{} would leave {:.2} mm, but at the end of its range, {}, and the data push beyond it: more of it than was thought \
+             possible, or something that looks like it.",
+            nearest.effect,
+            nearest.systematic_after_mm,
+            nearest.parameters.iter().filter(|p| !p.held).map(|p| format!("{} = {}", p.symbol, quantity(p.value, &p.unit))).collect::<Vec<_>>().join(", ")
+        )
+    })
+}
+
+fn with_kept_bending(d: &Diagnosis, kept: &KeptBending) -> String {
+    let fitted: Vec<String> = d.base.bending.iter().map(|b| format!("{:.2}", b.value_nm2)).collect();
+    let alike = if kept.indistinguishable.len() > 1 { ", which these data do not tell apart" } else { "" };
+    format!(
+        "With B kept at the scenario's {:.2} N·m² ({} fitted to the base) there is an answer: {}{alike}, down to {:.2} mm. It \
+         holds if a bending test finds that B: then write it into the scenario and add --keep-bending.",
+        kept.value_nm2,
+        list(&fitted),
+        list(&kept.indistinguishable),
+        kept.systematic_after_mm
+    )
+}
+
+fn looks_like(pattern: &LeftPattern) -> String {
+    let LeftPattern { words, share, p_value: p, instead, .. } = pattern;
+    let (what, percent, p) = (if *instead { "It looks" } else { "What is left looks" }, 100.0 * share, p_value(*p));
+    format!("{what} as if {words}: that alone makes up {percent:.0} % of it ({p} among all such patterns).")
+}

@@ -1,0 +1,213 @@
+//! A slip of a pressure column, asked of the robot's own model before any verdict.
+//!
+//! ```text
+//! C = S + q ln n + Σ [(ln u / ln 3)²] + Σ [(ln B/B₀)² / s²]
+//! ```
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | S | whitened sum of squares of the base refitted to the data with the slip undone, or of an effect in the data as they are |
+//! | q, n, u | parameters added, values fitted, size over the typical one, as in `order`; a slip is exact and has none |
+//! | B, B₀, s | fitted and told stiffness; a factor of two is one standard deviation |
+//!
+//! A slip is told where its C is clearly below that of the base and of every effect and pair, and where it leaves less than half of
+//! their error, or nothing that matters. What the numbers alone look like needs to be as good only; a base that fits with its own
+//! stiffness is asked about nothing else.
+
+use crate::diagnosis::case::{Case, catalogue};
+use crate::diagnosis::decide::decide;
+use crate::diagnosis::options::{Options, PRESSURES_ARE_RIGHT};
+use crate::diagnosis::order;
+use crate::diagnosis::problem::Fit;
+use crate::diagnosis::singles::fit_all;
+use crate::diagnosis::source::Source;
+use crate::error::CompareError;
+use crate::evidence::Evidence;
+use crate::policy;
+use crate::slips::pressure::{BestEffect, PressureSlip, PressureSlipFound};
+use data::Dataset;
+use models::Scenario;
+
+/// What a hypothesis leaves, and what it costs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Weighed {
+    criterion: f64,
+    left_mm: f64,
+    /// Every fitted stiffness may be the one that was told.
+    has_its_stiffness: bool,
+}
+
+/// All data of a diagnosis.
+pub struct Pressures<'p> {
+    pub sources: &'p [Source],
+    pub options: &'p Options,
+}
+
+/// A slip undone, and the base then.
+struct Undone {
+    /// Index of the source.
+    of: usize,
+    slip: PressureSlip,
+    weighed: Weighed,
+    /// The numbers alone look like it.
+    in_numbers: bool,
+}
+
+impl Pressures<'_> {
+    /// The slip that beats the base and all `rivals`, if there is one.
+    pub fn found(
+        &self,
+        case: &Case,
+        rivals: impl FnOnce() -> Result<Vec<Fit>, CompareError>,
+    ) -> Result<Option<PressureSlipFound>, CompareError> {
+        if self.options.excludes(PRESSURES_ARE_RIGHT) {
+            return Ok(None);
+        }
+        let own = weighed(case, &case.base);
+        let tolerance_mm = 1e3 * case.tolerance_m;
+        let fits = own.left_mm <= tolerance_mm && own.has_its_stiffness;
+        let all = self.undone_slips(fits);
+        let Some(best) = all.first().filter(|best| best.beats(&own, tolerance_mm)) else { return Ok(None) };
+        let rivals: Vec<(Weighed, Fit)> = rivals()?.into_iter().map(|fit| (weighed(case, &fit), fit)).collect();
+        if !rivals.iter().all(|(rival, _)| best.beats(rival, tolerance_mm)) {
+            return Ok(None);
+        }
+        let nearest = rivals.iter().min_by(|a, b| a.0.left_mm.total_cmp(&b.0.left_mm));
+        let best_effect = nearest.map(|(rival, fit)| BestEffect { effects: case.names(fit), left_mm: rival.left_mm });
+        Ok(Some(self.told(&all, Some(own.left_mm), best_effect)))
+    }
+
+    /// What to say of data with which the base has no equilibrium: the slip without which it has one, else the error.
+    pub fn refusal(&self, error: CompareError) -> CompareError {
+        match (&error, self.instead()) {
+            (CompareError::Fit { .. } | CompareError::Unsolved(_), Some(found)) => {
+                CompareError::refused(found.words, "mend the column and run the same again")
+            }
+            _ => error,
+        }
+    }
+
+    fn instead(&self) -> Option<PressureSlipFound> {
+        let all = self.undone_slips(false);
+        let best = all.first()?;
+        let moved_mm = 1e3 * moved_m(&self.sources[best.of].dataset);
+        policy::is_mostly_gone(best.weighed.left_mm, moved_mm).then(|| self.told(&all, None, None))
+    }
+
+    /// All slips, the best first; `in_numbers`: those that the numbers alone look like.
+    fn undone_slips(&self, in_numbers: bool) -> Vec<Undone> {
+        let all = self.sources.iter().enumerate().flat_map(|(of, Source { scenario, dataset, .. })| {
+            PressureSlip::all(dataset, scenario.p_body_pa).into_iter().map(move |slip| (of, slip))
+        });
+        let undone = |(of, slip): (usize, PressureSlip)| {
+            let Source { scenario, dataset, gauge, .. } = &self.sources[of];
+            let seen = slip.is_in_numbers(dataset, scenario.p_body_pa);
+            // A body's slip shows in numbers; readings of a gauge are the actuator's own.
+            let possible = if slip.is_of_body() { seen } else { gauge.is_none() && (seen || !in_numbers) };
+            let weighed = possible.then(|| self.undone(of, &slip))??;
+            Some(Undone { of, slip, weighed, in_numbers: seen })
+        };
+        let mut undone: Vec<Undone> = all.filter_map(undone).collect();
+        undone.sort_by(|a, b| a.weighed.criterion.total_cmp(&b.weighed.criterion));
+        undone
+    }
+
+    /// The base refitted with a slip of one of the data undone; `None` without equilibrium.
+    fn undone(&self, of: usize, slip: &PressureSlip) -> Option<Weighed> {
+        let mut sources = self.sources.to_vec();
+        sources[of].dataset = slip.undone(&sources[of].dataset);
+        let (candidates, own) = catalogue(&sources, self.options);
+        let case = Case::new(&sources, (&candidates[..own], own), self.options).ok()?;
+        Some(weighed(&case, &case.base))
+    }
+
+    fn told(&self, all: &[Undone], before_mm: Option<f64>, best_effect: Option<BestEffect>) -> PressureSlipFound {
+        let Undone { of, slip, weighed, .. } = &all[0];
+        let (name, after_mm) = (self.sources[*of].dataset.name.clone(), weighed.left_mm);
+        let brings = match before_mm {
+            Some(before_mm) => format!("the error beyond noise goes from {before_mm:.1} to {after_mm:.2} mm"),
+            None => format!("{after_mm:.2} mm are left, and as they are written the robot has no equilibrium"),
+        };
+        let effect = best_effect.as_ref().map_or(String::new(), |BestEffect { effects, left_mm }| {
+            format!(" (the best of the catalogue, {}, leaves {left_mm:.2} mm)", effects.join(" + "))
+        });
+        let is_alike = |other: &&Undone| policy::is_as_good(other.weighed.criterion, weighed.criterion);
+        let alike = all[1..].iter().filter(is_alike);
+        let alike =
+            alike.map(|other| format!(". As good with these data: {}; {}", other.slip.looks(), other.slip.help()));
+        let words = format!(
+            "{name}: {}: with {} {brings}{effect}. Look at it first: {}{}",
+            slip.looks(),
+            slip.with(),
+            slip.help(),
+            alike.collect::<String>()
+        );
+        PressureSlipFound { dataset: name, words, before_mm, after_mm, best_effect }
+    }
+}
+
+/// The slip of a pressure column with which the robot's own model explains data clearly better than without it, or than any
+/// effect of the catalogue does.
+///
+/// # Errors
+/// Scenario and data that do not fit together; pressures at which the robot has no equilibrium, with the slip that would explain it.
+pub fn pressure_slip(
+    scenario: &Scenario,
+    evidence: &Evidence,
+    options: &Options,
+) -> Result<Option<PressureSlipFound>, CompareError> {
+    let sources = [Source::prepared(scenario, evidence)?.0];
+    let (candidates, own) = catalogue(&sources, options);
+    let pressures = Pressures { sources: &sources, options };
+    let case = Case::new(&sources, (&candidates, own), options).map_err(|error| pressures.refusal(error))?;
+    let rivals = || {
+        let mut wider = Vec::new();
+        let mut case = Case::new(&sources, (&candidates, own), options)?;
+        let singles = fit_all(&mut case, &mut wider, &mut |_, _| ());
+        Ok(decide(&case, singles, options, &mut |_, _| ())?.rivals())
+    };
+    pressures.found(&case, rivals)
+}
+
+impl Undone {
+    /// Whether it is clearly better than something else. It must pay: in mm, or by a stiffness that is the told one again. What
+    /// the numbers alone look like needs no more than to be as good.
+    fn beats(&self, rival: &Weighed, tolerance_mm: f64) -> bool {
+        let Weighed { criterion, left_mm, has_its_stiffness } = self.weighed;
+        let is_as_near = left_mm <= rival.left_mm.max(tolerance_mm);
+        let pays = policy::is_far_less(left_mm, rival.left_mm)
+            || is_as_near && (left_mm <= tolerance_mm || has_its_stiffness && !rival.has_its_stiffness);
+        match self.in_numbers {
+            true => is_as_near && policy::is_as_good(criterion, rival.criterion),
+            false => pays && policy::is_clearly_better(criterion, rival.criterion),
+        }
+    }
+}
+
+fn weighed(case: &Case, fit: &Fit) -> Weighed {
+    let bendings = case.bendings(fit);
+    let told = case.first().scenario.bending_stiffness;
+    Weighed {
+        criterion: order::criterion(case, fit, 1.0) + bendings.iter().map(|b| oddness(case, *b)).sum::<f64>(),
+        left_mm: case.error_in_all_mm(fit),
+        has_its_stiffness: bendings.iter().all(|b| policy::is_same_stiffness(*b, told)),
+    }
+}
+
+/// How odd a stiffness is before any data; a bending test is among the squares already.
+fn oddness(case: &Case, bending: f64) -> f64 {
+    let told = case.first().scenario.bending_stiffness;
+    if told == 0.0 || case.problem.known_bending.is_some() {
+        return 0.0;
+    }
+    let size = (bending / told).clamp(1.0 / policy::ODDEST, policy::ODDEST);
+    (size.ln() / policy::SAME_STIFFNESS.ln()).powi(2)
+}
+
+/// Root mean square of how far the markers moved \[m\].
+fn moved_m(dataset: &Dataset) -> f64 {
+    let mean = dataset.mean_over_runs();
+    let hold = mean.len() / dataset.holds.len();
+    let squares: f64 = mean.iter().enumerate().map(|(i, v)| (v - mean[i % hold]).powi(2)).sum();
+    (squares / mean.len() as f64).sqrt()
+}

@@ -1,0 +1,184 @@
+//! Diagnose and extend until what is left is noise.
+
+use crate::diagnosis::words::listed;
+use crate::diagnosis::{Added, Confidence, Diagnosis, Group, KeptBending, Options, Verdict, diagnose, names_of};
+use crate::error::CompareError;
+use crate::evidence::Evidence;
+use crate::extension::{ErrorStep, Extension, FittedEffect, Ground, extend, extended};
+use crate::progress::{Progress, part};
+use crate::scenario_file::ScenarioFile;
+use serde::Serialize;
+
+/// Effects that a climb adds at most: beyond them a name says little.
+pub const MOST_EFFECTS: usize = 3;
+
+/// One step up.
+#[derive(Debug, Clone, Serialize)]
+pub struct ClimbStep {
+    /// Effects and their fitted values.
+    pub added: Vec<FittedEffect>,
+    /// Names that these data cannot tell apart.
+    pub indistinguishable: Vec<String>,
+    /// Corrected p of "nothing is missing" before it.
+    pub p_value: Option<f64>,
+    /// How sure the name is.
+    pub confidence: Option<Confidence>,
+    /// File of the scenario with it.
+    pub file: String,
+}
+
+/// Everything that was found on the way up.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Climb {
+    /// Errors, the scenario as given first.
+    pub rungs: Vec<ErrorStep>,
+    /// What each step added.
+    pub steps: Vec<ClimbStep>,
+    /// The story in sentences.
+    #[serde(skip)]
+    pub told: Vec<String>,
+    /// Name of the file and text of the scenario of every step.
+    #[serde(skip)]
+    pub files: Vec<(String, String)>,
+    /// Noise of the mean \[mm\].
+    pub noise_floor_mm: Option<f64>,
+    /// Why it ended, for programs.
+    pub stopped: &'static str,
+    /// The same for readers.
+    pub ending: String,
+    /// The answer with the B of the last scenario, where with a fitted one there is none.
+    pub kept_bending: Option<KeptBending>,
+    /// Cautions.
+    pub warnings: Vec<String>,
+}
+
+/// Adds what the diagnosis adds, at most `most` effects, until nothing more is found.
+///
+/// # Errors
+/// As [`diagnose`] and [`extend`].
+pub fn ladder(
+    file: &ScenarioFile,
+    evidence: &[Evidence],
+    options: &Options,
+    most: usize,
+    progress: &mut Progress,
+) -> Result<Climb, CompareError> {
+    let mut file = file.clone();
+    let mut climb = Climb::default();
+    let (mut count, whole) = (0, most as f64 + 1.0);
+    loop {
+        let [step, next] = [climb.steps.len() as f64 / whole, (climb.steps.len() + 1) as f64 / whole];
+        let mut tell = part(progress, [step, next]);
+        let number = climb.steps.len() + 1;
+        let d = diagnose(&file, evidence, options, &mut |what, share| tell(&format!("step {number}: {what}"), share))?;
+        if climb.rungs.is_empty() {
+            climb.start(&file, &d)?;
+        }
+        let left_mm = climb.rungs.last().map_or(d.base.systematic_mm, |r| r.training_mm);
+        if let Some((stopped, ending)) = end(&d, left_mm, (count, most)) {
+            climb.told.push(ending.clone());
+            return Ok(Climb { stopped, ending, kept_bending: d.kept_bending, ..climb });
+        }
+        count += d.added.len();
+        file = climb.step(&file, &d)?;
+    }
+}
+
+impl Climb {
+    fn start(&mut self, file: &ScenarioFile, d: &Diagnosis) -> Result<(), CompareError> {
+        let ground = Ground::new(d, file);
+        self.rungs = ground.first_steps();
+        self.noise_floor_mm = d.base.noise_floor_mm;
+        self.warnings = ground.warnings();
+        if let Some(bending) = ground.new_bending(ground.base_bending()) {
+            self.files.push(("step-0-calibrated.toml".into(), extended(file, Some(&bending), &[])?.text));
+        }
+        Ok(())
+    }
+
+    /// Adds what the diagnosis adds; the new scenario.
+    fn step(&mut self, file: &ScenarioFile, d: &Diagnosis) -> Result<ScenarioFile, CompareError> {
+        let Extension { file, steps, fitted, .. } = extend(file, d)?;
+        let number = self.steps.len() + 1;
+        let written = format!("step-{number}-{}.toml", names_of(&d.added).join("-"));
+        self.told.push(told(number, d));
+        self.rungs.extend(steps.into_iter().last());
+        self.files.push((written.clone(), file.text.clone()));
+        self.steps.push(ClimbStep {
+            added: fitted,
+            indistinguishable: d.indistinguishable.clone(),
+            p_value: d.p_value,
+            confidence: d.confidence,
+            file: written,
+        });
+        Ok(file)
+    }
+}
+
+/// Why not another step, for programs and for readers.
+fn end(d: &Diagnosis, left: f64, (count, most): (usize, usize)) -> Option<(&'static str, String)> {
+    let sentence = match d.verdict {
+        None if d.pressure_slip.is_some() => ("pressure_slip", d.slips.join(" ")),
+        None => {
+            let why = format!("{} usable runs: at least three are needed for p-values, so no effect is added", d.runs);
+            return Some(("no_p_values", why + "; `ibr diagnose` prints the uncalibrated ranking."));
+        }
+        Some(Verdict::None) => {
+            ("noise", format!("What is left, {left:.2} mm beyond noise, is not significant: noise."))
+        }
+        Some(_) if left <= d.tolerance_mm && !is_of_supply(d) => {
+            let limit = d.tolerance_mm;
+            (
+                "tolerance",
+                format!("What is left, {left:.2} mm, is more than noise but within the tolerance of {limit:.2} mm."),
+            )
+        }
+        Some(Verdict::TooSmall) => {
+            ("too_small", format!("What is left, {left:.2} mm, is more than noise, and no effect takes a fifth of it."))
+        }
+        Some(Verdict::OutOfCatalog) => {
+            let places: Vec<&str> = d.leftover.iter().map(|s| s.sentence.as_str()).collect();
+            let places = places.join(" ");
+            let of = if count > 0 { " Of the last step's scenario:" } else { "" };
+            let kept = d.told_of_kept_bending().map_or(String::new(), |told| format!("{of} {told}"));
+            ("out_of_catalog", format!("Nothing in the catalogue explains what is left, {left:.2} mm. {places}{kept}"))
+        }
+        Some(Verdict::Effect) if count + d.added.len() > most => {
+            let next = names_of(&d.added).join(" and ");
+            (
+                "most_effects",
+                format!(
+                    "{left:.2} mm are left and {next} would come next, but {most} effects are the most that is added."
+                ),
+            )
+        }
+        Some(Verdict::Effect) => return None,
+    };
+    Some(sentence)
+}
+
+/// Whether it adds to the supply what a gauge has shown, which the positions, predicted at its readings, do not see.
+fn is_of_supply(d: &Diagnosis) -> bool {
+    !d.gauges.is_empty() && !d.added.is_empty() && d.added.iter().all(|a| a.group == Group::Supply)
+}
+
+fn told(number: usize, d: &Diagnosis) -> String {
+    let values = |a: &Added| format!("{}, {}", a.effect, listed(&a.parameters));
+    let names: Vec<String> = d.added.iter().map(values).collect();
+    let mut told = format!(
+        "Step {number}: {}. {:.2} → {:.2} mm.",
+        names.join("; "),
+        d.base.systematic_mm,
+        d.base.systematic_with_added_mm
+    );
+    if d.indistinguishable.len() > 1 {
+        told.push_str(&format!(
+            " The name is one of several that these data cannot tell apart: {}.",
+            d.indistinguishable.join(", ")
+        ));
+    }
+    if d.confidence == Some(Confidence::Hint) {
+        told.push_str(" A hint only: the evidence is weak.");
+    }
+    told
+}

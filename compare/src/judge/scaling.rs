@@ -1,0 +1,240 @@
+//! Does the shape depend on the two pressures only through their ratio P/p?
+//!
+//! In the ideal model (no elastic or frictional resistance) the balance cos θ/θ = p π R³/(P L₀ W (R + d)) contains
+//! actuator and body pressure only as P/p, so holds with the same ratio have the same shape. A difference that survives
+//! at the same ratio is an effect with its own stiffness or pressure scale (fabric stretch, bending stiffness,
+//! friction, tail tension, a regulator offset); collapse speaks for geometry alone.
+
+use crate::error::CompareError;
+use crate::fit::whiten::Whitener;
+use crate::layout::{Layout, Weights, apply};
+use crate::noise::NoiseModel;
+use crate::policy;
+use crate::stats::{f_tail, holm, reported_p};
+use crate::wording::{list, short};
+use data::{Dataset, Hold, Phase};
+use serde::Serialize;
+
+/// The outcome of the check.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ScalingVerdict {
+    /// Shapes at the same ratio agree to within noise.
+    Collapses,
+    /// Shapes at the same ratio differ.
+    DoesNotCollapse,
+    /// Matching holds exist but the noise is unknown or rests on fewer than 3 runs.
+    Undecided,
+    /// No two holds have the same ratio at different body pressures.
+    CannotBeChecked,
+}
+
+/// Two holds at the same ratio and different body pressures.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ScalingPair {
+    /// Index of the hold with the lower body pressure.
+    pub low_hold: usize,
+    /// Index of the hold with the higher body pressure.
+    pub high_hold: usize,
+    /// Ratio P/p, mean of the two.
+    pub ratio: f64,
+    /// Body pressures, low and high \[kPa\].
+    pub p_body_kpa: [f64; 2],
+    /// Largest difference of a marker position, high minus low body pressure, length \[mm\].
+    pub largest_mm: f64,
+    /// Root-mean-square difference of one coordinate \[mm\].
+    pub rms_mm: f64,
+    /// Outermost marker that both saw: y at the high body pressure minus y at the low one \[mm\].
+    pub tip_mm: f64,
+    /// χ²/dof of the difference; `None` if the noise is unknown.
+    pub reduced_chi2: Option<f64>,
+    /// p of the difference, Holm-corrected over pairs, never below 1e-6; 3 runs or more.
+    pub p_corrected: Option<f64>,
+}
+
+/// The result of the scaling-law check.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ScalingCheck {
+    pub verdict: ScalingVerdict,
+    /// In words, with what to measure if it cannot be checked.
+    pub sentence: String,
+    pub pairs: Vec<ScalingPair>,
+}
+
+/// Check measurements; `alpha` is the family-wise level, 0.01 if in doubt.
+///
+/// A ratio mismatch inside the tolerance and the run-to-run pressure scatter both count as noise along ∂f/∂ln p.
+///
+/// # Errors
+/// Empty data, or a covariance that cannot be decomposed.
+pub fn scaling_of_data(dataset: &Dataset, noise: &NoiseModel, alpha: f64) -> Result<ScalingCheck, CompareError> {
+    let layout = Layout::of(dataset)?;
+    let mean = dataset.mean_over_runs();
+    let mut pairs = matching_pairs(dataset, &layout, &mean);
+    if pairs.is_empty() {
+        return Ok(cannot_be_checked(&dataset.holds));
+    }
+    let mut raw = Vec::new();
+    for pair in &mut pairs {
+        let chi2 = chi_square(dataset, &layout, noise, &mean, pair)?;
+        let dof = 2 * seen_in_both(dataset, [pair.low_hold, pair.high_hold]).count();
+        pair.reduced_chi2 = noise.is_known().then_some(chi2 / dof as f64);
+        raw.push(f_tail(chi2 / dof as f64, dof, noise.pure_error_dof));
+    }
+    if noise.gives_p_values() {
+        pairs.iter_mut().zip(holm(&raw)).for_each(|(pair, p)| pair.p_corrected = Some(reported_p(p)));
+    }
+    let differing = pairs.iter().filter(|p| p.p_corrected.is_some_and(|p| p < alpha)).count();
+    let verdict = match (noise.gives_p_values(), differing) {
+        (false, _) => ScalingVerdict::Undecided,
+        (true, 0) => ScalingVerdict::Collapses,
+        (true, _) => ScalingVerdict::DoesNotCollapse,
+    };
+    let sentence = data_sentence(verdict, &pairs, differing);
+    Ok(ScalingCheck { verdict, sentence, pairs })
+}
+
+/// Pairs of holds that show one marker at least.
+fn matching_pairs(dataset: &Dataset, layout: &Layout, mean: &[f64]) -> Vec<ScalingPair> {
+    let holds = &dataset.holds;
+    let usable = |h: &Hold| h.p_act_pa > policy::ZERO_PRESSURE_PA && h.p_body_pa > policy::ZERO_PRESSURE_PA;
+    let unloading = |h: &Hold| h.phase == Phase::Unload;
+    let means = layout.hold_means(mean);
+    let mut pairs = Vec::new();
+    for (i, a) in holds.iter().enumerate() {
+        for (j, b) in holds.iter().enumerate().skip(i + 1) {
+            let comparable = usable(a) && usable(b) && unloading(a) == unloading(b);
+            let apart = comparable && policy::bodies_differ(a.p_body_pa, b.p_body_pa);
+            if apart && policy::is_same_ratio(ratio(a), ratio(b)) {
+                let ends = if a.p_body_pa < b.p_body_pa { [i, j] } else { [j, i] };
+                pairs.extend(pair(dataset, layout, &means, ends));
+            }
+        }
+    }
+    pairs
+}
+
+fn pair(dataset: &Dataset, layout: &Layout, means: &[f64], ends: [usize; 2]) -> Option<ScalingPair> {
+    let [low_hold, high_hold] = ends;
+    let [low, high] = ends.map(|hold| &dataset.holds[hold]);
+    let width = 2 * layout.markers;
+    let of = |marker: usize| {
+        [0, 1].map(|k| means[high_hold * width + 2 * marker + k] - means[low_hold * width + 2 * marker + k])
+    };
+    let differences: Vec<[f64; 2]> = seen_in_both(dataset, ends).map(of).collect();
+    let squares: f64 = differences.iter().flatten().map(|d| d * d).sum();
+    Some(ScalingPair {
+        low_hold,
+        high_hold,
+        ratio: 0.5 * (ratio(low) + ratio(high)),
+        p_body_kpa: [1e-3 * low.p_body_pa, 1e-3 * high.p_body_pa],
+        largest_mm: 1e3 * differences.iter().fold(0.0, |l: f64, [x, y]| l.max(x.hypot(*y))),
+        rms_mm: 1e3 * (squares / (2 * differences.len()) as f64).sqrt(),
+        tip_mm: 1e3 * differences.last()?[1],
+        reduced_chi2: None,
+        p_corrected: None,
+    })
+}
+
+/// Markers that were seen in both holds.
+fn seen_in_both(dataset: &Dataset, holds: [usize; 2]) -> impl Iterator<Item = usize> + '_ {
+    (0..dataset.markers.len()).filter(move |marker| holds.iter().all(|hold| dataset.is_seen(*hold, *marker)))
+}
+
+/// χ² of the shape difference: covariance (2σ²/samples I + ΔU diag(v) ΔUᵀ) of the mean, plus the ratio mismatch as a
+/// variance along ∂f/∂ln p of the low hold.
+fn chi_square(
+    dataset: &Dataset,
+    layout: &Layout,
+    noise: &NoiseModel,
+    mean: &[f64],
+    pair: &ScalingPair,
+) -> Result<f64, CompareError> {
+    let mut difference = Vec::new();
+    let mut rows = Vec::new();
+    for marker in seen_in_both(dataset, [pair.low_hold, pair.high_hold]) {
+        for axis in 0..2 {
+            let mut weights: Weights = layout.mean_weights(pair.high_hold, marker, axis);
+            let low = layout.mean_weights(pair.low_hold, marker, axis);
+            let slope: f64 = low.iter().map(|&(i, w)| w * noise.directions[i][0]).sum();
+            weights.extend(low.iter().map(|&(i, w)| (i, -w)));
+            let along = |k: usize| weights.iter().map(|&(i, w)| w * noise.directions[i][k]).sum::<f64>();
+            difference.push(apply(&weights, mean));
+            // Alignment cancels in a difference of holds; its column carries the ratio mismatch instead.
+            rows.push([along(0), slope, 0.0, along(3)]);
+        }
+    }
+    let [pressure, _, _, rotation] = noise.test_variance;
+    // Two holds are two settings of the regulator: each adds its own error, whatever the run-to-run scatter.
+    let regulator = 2.0 * policy::SENSOR_SD[0].powi(2) / noise.runs as f64;
+    let variances = [pressure, mismatch(&dataset.holds, pair).powi(2) + regulator, 0.0, rotation];
+    let unit_m = (2.0 / layout.samples as f64).sqrt() * noise.unit_m();
+    let white = Whitener::new(&rows, unit_m, &variances)?.whiten(&difference);
+    Ok(white.iter().map(|w| w * w).sum())
+}
+
+fn data_sentence(verdict: ScalingVerdict, pairs: &[ScalingPair], differing: usize) -> String {
+    let worst = largest(pairs);
+    let ratios: Vec<String> = pairs.iter().map(|p| short(p.ratio)).collect();
+    let at = format!("P/p = {}", list(&ratios));
+    match verdict {
+        ScalingVerdict::Collapses => format!(
+            "Shapes at the same P/p collapse to within noise ({at}; largest difference {worst:.1} mm): these data \
+             need no effect with a pressure or stiffness scale of its own."
+        ),
+        ScalingVerdict::DoesNotCollapse => format!(
+            "Shapes at the same P/p do not collapse: {differing} of {} pairs differ by more than noise ({at}; up to \
+             {worst:.1} mm). Something has a pressure or stiffness scale of its own.",
+            pairs.len()
+        ),
+        _ => format!(
+            "Shapes at the same P/p differ by up to {worst:.1} mm ({at}); with fewer than 3 separate runs it cannot be \
+             said whether that is noise."
+        ),
+    }
+}
+
+/// What to measure: the same ratios at twice the body pressure, or at half of it.
+fn cannot_be_checked(holds: &[Hold]) -> ScalingCheck {
+    let start = "The P/p scaling law cannot be checked with these data: no two holds have the same P/p at different \
+    body pressures";
+    let pressurised =
+        holds.iter().filter(|h| h.p_act_pa > policy::ZERO_PRESSURE_PA && h.p_body_pa > policy::ZERO_PRESSURE_PA);
+    let reference = pressurised.clone().map(|h| h.p_body_pa).next();
+    let sentence = match reference {
+        None => format!("{start}; record holds with both pressures above zero."),
+        Some(body) => {
+            let same_body =
+                pressurised.filter(|h| h.phase != Phase::Unload && !policy::bodies_differ(h.p_body_pa, body));
+            let mut actuator: Vec<f64> = same_body.map(|h| 1e-3 * h.p_act_pa).collect();
+            actuator.sort_by(f64::total_cmp);
+            let scaled = |by: f64| {
+                let mut words: Vec<String> = actuator.iter().map(|p| short(by * p)).collect();
+                words.dedup();
+                list(&words)
+            };
+            let kpa = 1e-3 * body;
+            format!(
+                "{start}; add holds at {} kPa body pressure with {} kPa, or at {} kPa with {} kPa.",
+                short(2.0 * kpa),
+                scaled(2.0),
+                short(0.5 * kpa),
+                scaled(0.5)
+            )
+        }
+    };
+    ScalingCheck { verdict: ScalingVerdict::CannotBeChecked, sentence, pairs: Vec::new() }
+}
+
+fn ratio(hold: &Hold) -> f64 {
+    hold.p_act_pa / hold.p_body_pa
+}
+
+/// ln of the two ratios' quotient.
+fn mismatch(holds: &[Hold], pair: &ScalingPair) -> f64 {
+    (ratio(&holds[pair.high_hold]) / ratio(&holds[pair.low_hold])).ln()
+}
+
+fn largest(pairs: &[ScalingPair]) -> f64 {
+    pairs.iter().fold(0.0, |l: f64, p| l.max(p.largest_mm))
+}

@@ -1,0 +1,316 @@
+//! Where the model fails, in plain language, each sentence with its evidence.
+//!
+//! A cell of the residual map counts as a failure if it is significant after correction for all contrasts **and**
+//! larger than the tolerance; noise is then called a failure in about a fraction α of all datasets. The sentences say
+//! which pressures, which markers, loading or unloading, x or y, or drift during holds; they do not name physics.
+
+use crate::beside_mean::BesideMean;
+use crate::residuals::{Deviation, ResidualCell, ResidualMap};
+use crate::wording::{evidence, list, markers, p_value, pressures, times_the_noise};
+use data::Phase;
+use serde::Serialize;
+
+/// What a statement is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Finding {
+    /// One run: the noise is unknown, what follows is description only.
+    NoiseUnknown,
+    /// No difference beyond noise.
+    Agrees,
+    /// Differences beyond noise, all below the tolerance.
+    WithinTolerance,
+    /// Bending (y) wrong in holds reached by loading.
+    Loading,
+    /// Bending (y) wrong in holds reached by unloading.
+    Unloading,
+    /// The gap between loading and unloading at one pressure is wrong.
+    Loop,
+    /// Positions along the body (x) wrong.
+    Lengthwise,
+    /// Movement during holds wrong.
+    Drift,
+    /// More than noise as a whole, but nowhere in particular.
+    Diffuse,
+}
+
+/// One sentence and its evidence.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Statement {
+    /// What it is about.
+    pub finding: Finding,
+    /// Plain language.
+    pub sentence: String,
+    /// Indices of the holds concerned.
+    pub holds: Vec<usize>,
+    /// Indices of the markers concerned.
+    pub markers: Vec<usize>,
+    /// The strongest piece of evidence.
+    pub largest: Option<Deviation>,
+}
+
+impl Statement {
+    /// Without evidence.
+    fn of(finding: Finding, sentence: String) -> Statement {
+        Statement { finding, sentence, holds: Vec::new(), markers: Vec::new(), largest: None }
+    }
+}
+
+/// Settings of [`where_it_fails`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FailureOptions {
+    /// Family-wise significance level.
+    pub alpha: f64,
+    /// Differences up to this are not called failures \[m\].
+    pub tolerance_m: f64,
+}
+
+/// Describe where a model fails; never empty. `chi2_p` is the p-value of the overall χ².
+pub fn where_it_fails(
+    c: &BesideMean,
+    map: &ResidualMap,
+    chi2_p: Option<f64>,
+    options: &FailureOptions,
+) -> Vec<Statement> {
+    let judge = Judge::new(c, map, options);
+    let mut found = Vec::new();
+    for sign in [1.0, -1.0] {
+        found.extend(judge.bending(Finding::Loading, sign));
+    }
+    for sign in [1.0, -1.0] {
+        found.extend(judge.bending(Finding::Unloading, sign));
+    }
+    let told: Vec<usize> = found.iter().flat_map(|s: &Statement| s.holds.clone()).collect();
+    found.extend(judge.loops(&told));
+    found.extend(judge.lengthwise(1.0));
+    found.extend(judge.lengthwise(-1.0));
+    found.extend(judge.drifts());
+    if found.is_empty() {
+        found.push(judge.nothing_stands_out(chi2_p, options));
+    }
+    if !c.noise.is_known() {
+        found.insert(0, unknown_noise());
+    }
+    found
+}
+
+struct Judge<'a> {
+    c: &'a BesideMean<'a>,
+    map: &'a ResidualMap,
+    alpha: f64,
+    least_mm: f64,
+    bend: f64,
+}
+
+impl<'a> Judge<'a> {
+    fn new(c: &'a BesideMean<'a>, map: &'a ResidualMap, options: &FailureOptions) -> Judge<'a> {
+        let largest = map.cells.iter().flatten().fold(0.0, |l: f64, cell| l.max(cell.norm_mm));
+        // Without noise only the coarse pattern is described: what reaches a quarter of the largest difference.
+        let pattern_mm = if c.noise.is_known() { 0.0 } else { 0.25 * largest };
+        let least_mm = (1e3 * options.tolerance_m).max(pattern_mm);
+        Judge { c, map, alpha: options.alpha, least_mm, bend: c.bend_sign() }
+    }
+
+    fn fails(&self, d: &Deviation) -> bool {
+        d.mm.abs() > self.least_mm && d.stands_out(self.alpha).unwrap_or(true)
+    }
+
+    fn cell(&self, (hold, marker): (usize, usize)) -> &ResidualCell {
+        &self.map.cells[marker][hold]
+    }
+
+    fn is_unloading(&self, hold: usize) -> bool {
+        self.c.dataset.holds[hold].phase == Phase::Unload
+    }
+
+    /// Cells of loading or unloading holds whose deviation fails with the given sign.
+    fn failing(
+        &self,
+        unloading: Option<bool>,
+        signed: impl Fn(&ResidualCell) -> Deviation,
+        sign: f64,
+    ) -> Vec<(usize, usize)> {
+        let holds = (0..self.c.layout.holds).filter(|&h| unloading.is_none_or(|u| u == self.is_unloading(h)));
+        let cells = holds.flat_map(|h| (0..self.c.layout.markers).map(move |m| (h, m)));
+        cells.filter(|&at| Some(signed(self.cell(at))).is_some_and(|d| self.fails(&d) && d.mm * sign > 0.0)).collect()
+    }
+
+    /// Too far (`sign` = +1) or too little bending in one phase.
+    fn bending(&self, finding: Finding, sign: f64) -> Option<Statement> {
+        let unloading = finding == Finding::Unloading;
+        let cells = self.failing(Some(unloading), |c| c.y, sign * self.bend);
+        let worst = self.worst(&cells, |c| c.y)?;
+        let group = CellGroup::of(&cells);
+        let way = if sign > 0.0 { "too far" } else { "too little" };
+        let at = pressures(self.map, &group.holds);
+        let start = match unloading {
+            true => format!("After unloading, at {at}, the model is bent {way}"),
+            false => format!("The model bends {way} at {at}"),
+        };
+        let largest = self.cell(worst).y;
+        let sentence = format!(
+            "{start} ({}){}{}{}.",
+            evidence(self.map, worst, &group.holds, &largest),
+            markers(self.map, &group.markers),
+            self.growth(worst.0, &group.markers),
+            self.contrast(&group.holds, unloading),
+        );
+        Some(Statement { finding, sentence, holds: group.holds, markers: group.markers, largest: Some(largest) })
+    }
+
+    /// The tip at its worst hold if it fails at all, else the worst cell.
+    fn worst(&self, cells: &[(usize, usize)], of: impl Fn(&ResidualCell) -> Deviation) -> Option<(usize, usize)> {
+        let size = |at: &(usize, usize)| of(self.cell(*at)).mm.abs();
+        let largest =
+            |cells: &mut dyn Iterator<Item = (usize, usize)>| cells.max_by(|a, b| size(a).total_cmp(&size(b)));
+        let tip = self.c.tip;
+        largest(&mut cells.iter().copied().filter(|at| at.1 == tip)).or_else(|| largest(&mut cells.iter().copied()))
+    }
+
+    /// How the error runs along the body at one hold.
+    fn growth(&self, hold: usize, markers: &[usize]) -> &'static str {
+        let sizes: Vec<f64> = markers.iter().map(|&m| self.cell((hold, m)).y.mm.abs()).collect();
+        let steps = || sizes.windows(2).map(|w| w[1] - w[0]);
+        match sizes.len() {
+            0..=2 => "",
+            _ if steps().all(|d| d > 0.0) => " and growing towards the tip",
+            _ if steps().all(|d| d < 0.0) => " and shrinking towards the tip",
+            _ => "",
+        }
+    }
+
+    /// What is right, to bound the failure: other loading pressures and the other phase.
+    fn contrast(&self, holds: &[usize], unloading: bool) -> String {
+        let right = |h: &usize| !holds.contains(h) && self.bending_is_right(*h);
+        let (back, there): (Vec<usize>, Vec<usize>) = (0..self.c.layout.holds).partition(|&h| self.is_unloading(h));
+        let loading: Vec<usize> = there.into_iter().filter(right).collect();
+        let mut places = Vec::new();
+        if !loading.is_empty() {
+            places.push(format!(
+                "at {}{}",
+                pressures(self.map, &loading),
+                if unloading { " while loading" } else { "" }
+            ));
+        }
+        if !unloading && !back.is_empty() && back.iter().all(right) {
+            places.push("after unloading".to_string());
+        }
+        let degree = if self.c.noise.is_known() { "right to within noise" } else { "nearer" };
+        if places.is_empty() { String::new() } else { format!("; {} it is {degree}", list(&places)) }
+    }
+
+    /// No y of this hold stands out (with unknown noise: none reaches the pattern level).
+    fn bending_is_right(&self, hold: usize) -> bool {
+        (0..self.c.layout.markers).all(|m| {
+            let y = self.cell((hold, m)).y;
+            !y.stands_out(self.alpha).unwrap_or(y.mm.abs() > self.least_mm)
+        })
+    }
+
+    fn loops(&self, told: &[usize]) -> Option<Statement> {
+        let news = |l: &&crate::residuals::LoopGap| !told.contains(&l.unload_hold) || told.contains(&l.load_hold);
+        let gaps: Vec<_> = self.map.loops.iter().filter(|l| self.fails(&l.deviation)).filter(news).collect();
+        let worst = gaps.iter().max_by(|a, b| a.deviation.mm.abs().total_cmp(&b.deviation.mm.abs()))?;
+        let d = worst.deviation;
+        let more = if d.mm < 0.0 { "more" } else { "less" };
+        let sentence = format!(
+            "At {} the robot is bent {:.1} mm {more} after unloading than while loading, compared with the model \
+             (weighted over the markers{}).",
+            pressures(self.map, &[worst.unload_hold]),
+            d.mm.abs(),
+            times_the_noise(&d),
+        );
+        let holds = gaps.iter().flat_map(|l| [l.load_hold, l.unload_hold]).collect();
+        Some(Statement { holds, largest: Some(d), ..Statement::of(Finding::Loop, sentence) })
+    }
+
+    fn lengthwise(&self, sign: f64) -> Option<Statement> {
+        let cells = self.failing(None, |c| c.x, sign);
+        let worst = self.worst(&cells, |c| c.x)?;
+        let group = CellGroup::of(&cells);
+        let largest = self.cell(worst).x;
+        let way = if sign > 0.0 { "too large" } else { "too small" };
+        let with_y = if self.cell(worst).y.mm.abs() > largest.mm.abs() && self.fails(&self.cell(worst).y) {
+            "; the error in y is larger there"
+        } else if !(0..self.c.layout.holds).any(|h| !self.bending_is_right(h)) {
+            "; y is right to within noise"
+        } else {
+            ""
+        };
+        let sentence = format!(
+            "Along the body, x of the model is {way} at {} ({}){}{with_y}.",
+            pressures(self.map, &group.holds),
+            evidence(self.map, worst, &group.holds, &largest),
+            markers(self.map, &group.markers),
+        );
+        let CellGroup { holds, markers } = group;
+        Some(Statement { finding: Finding::Lengthwise, sentence, holds, markers, largest: Some(largest) })
+    }
+
+    fn drifts(&self) -> Option<Statement> {
+        let drifts: Vec<_> = self.map.drifts.iter().filter(|d| self.fails(&d.deviation)).collect();
+        let worst = drifts.iter().max_by(|a, b| a.deviation.mm.abs().total_cmp(&b.deviation.mm.abs()))?;
+        let holds: Vec<usize> = drifts.iter().map(|d| d.hold).collect();
+        let way = if worst.deviation.mm < 0.0 { "in" } else { "against" };
+        let sentence = format!(
+            "During the hold at {} the robot moves {:.1} mm further {way} the bending direction than the model (late \
+             minus early samples, weighted over the markers{}).",
+            pressures(self.map, &[worst.hold]),
+            worst.deviation.mm.abs(),
+            times_the_noise(&worst.deviation),
+        );
+        Some(Statement { holds, largest: Some(worst.deviation), ..Statement::of(Finding::Drift, sentence) })
+    }
+
+    fn nothing_stands_out(&self, chi2_p: Option<f64>, options: &FailureOptions) -> Statement {
+        let entries = || self.map.cells.iter().flatten().flat_map(|c| [c.x, c.y]);
+        let by = |of: fn(&Deviation) -> f64| entries().max_by(|a, b| of(a).total_cmp(&of(b)));
+        let largest = by(|d| d.in_noise.unwrap_or(d.mm).abs());
+        let size = largest.map_or(String::new(), |d| format!("{:.2} mm{}", d.mm.abs(), times_the_noise(&d)));
+        let (finding, sentence) = if !self.c.noise.is_known() {
+            let least = self.least_mm;
+            (Finding::WithinTolerance, format!("No difference above {least:.2} mm was found (largest {size})."))
+        } else if entries().any(|d| d.stands_out(self.alpha) == Some(true)) {
+            let tolerance = 1e3 * options.tolerance_m;
+            let below = format!("Every difference is below the tolerance of {tolerance:.2} mm");
+            (Finding::WithinTolerance, format!("{below}, though not all are noise (most significant {size})."))
+        } else if let Some(p) = chi2_p.filter(|p| *p < self.alpha) {
+            let more =
+                format!("As a whole the misfit is more than noise ({}), but no single marker and pressure", p_value(p));
+            (Finding::Diffuse, format!("{more} stands out (most significant difference {size})."))
+        } else if self.c.noise.gives_p_values() {
+            let agrees = "The model agrees with the measurements to within noise at every pressure and marker";
+            (Finding::Agrees, format!("{agrees} (most significant difference {size})."))
+        } else {
+            let nothing = format!("Nothing stands out from the noise (largest {size}); no significance can be given.");
+            (Finding::Agrees, nothing)
+        };
+        Statement { largest, ..Statement::of(finding, sentence) }
+    }
+}
+
+/// The holds and markers of a set of cells.
+struct CellGroup {
+    holds: Vec<usize>,
+    markers: Vec<usize>,
+}
+
+impl CellGroup {
+    fn of(cells: &[(usize, usize)]) -> CellGroup {
+        let unique = |mut v: Vec<usize>| {
+            v.sort_unstable();
+            v.dedup();
+            v
+        };
+        CellGroup {
+            holds: unique(cells.iter().map(|c| c.0).collect()),
+            markers: unique(cells.iter().map(|c| c.1).collect()),
+        }
+    }
+}
+
+fn unknown_noise() -> Statement {
+    let sentence = "The noise is unknown (one run only), so no significance can be given: what follows describes \
+                    differences, some of which may be noise. Repeat the protocol at least 3 times.";
+    Statement::of(Finding::NoiseUnknown, sentence.into())
+}

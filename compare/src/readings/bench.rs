@@ -1,0 +1,343 @@
+//! Bench tests held against a model: a beam under a load, a muscle in a testing machine.
+//!
+//! The model of a beam is that of a scenario: `[body]`, loaded at its tip. The model of a muscle is the scenario's actuator alone
+//! between two grips ([`models::Machine`]), in the size that the table tells; without a scenario the ideal braid (Chou and Hannaford
+//! 1996). A mean with its standard deviation and n gets a verdict: is the model within the 95 % interval of the mean?
+
+use data::Bench;
+use data::bench::BenchRow;
+use models::actuators::ActuatorShape;
+use models::scenario::ActuatorChoice;
+use models::{Loads, Machine, Model, Scenario};
+use std::f64::consts::FRAC_PI_2;
+
+use crate::CompareError;
+use crate::stats::t_975;
+use models::Known;
+
+/// A table beside its model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Held {
+    /// What was held against what.
+    pub title: String,
+    /// Name of the measured quantity, with its unit.
+    pub quantity: String,
+    /// How the model's numbers are known.
+    pub known: Known,
+    /// Rows in the table's order.
+    pub rows: Vec<HeldRow>,
+    /// What else to know.
+    pub notes: Vec<String>,
+}
+
+/// One measured number beside the model's.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeldRow {
+    /// At which pressure, size and load.
+    pub at: String,
+    /// As measured, in the unit of the title.
+    pub measured: f64,
+    /// By the model; none where it finds no equilibrium.
+    pub model: Option<f64>,
+    /// Half-width of the 95 % interval of the mean, t s/√n, where scatter and number are known.
+    pub half: Option<f64>,
+    /// Whether the model was fitted to this row.
+    pub fitted: bool,
+}
+
+impl HeldRow {
+    /// Model over measurement, less one.
+    pub fn off(&self) -> Option<f64> {
+        self.model.filter(|_| self.measured != 0.0).map(|m| m / self.measured - 1.0)
+    }
+
+    /// In words; empty where the table has no scatter.
+    pub fn verdict(&self) -> String {
+        match (self.model, self.half) {
+            _ if self.fitted => "fitted".into(),
+            (None, _) => "collapsed".into(),
+            (Some(_), None) => String::new(),
+            (Some(m), Some(half)) if (m - self.measured).abs() <= half => "agrees".into(),
+            (Some(m), Some(half)) => format!("off by {:.1} intervals", (m - self.measured).abs() / half),
+        }
+    }
+}
+
+impl Held {
+    /// Root mean square of the shares by which the model is off, of rows it was not fitted to.
+    pub fn rms(&self) -> Option<f64> {
+        let all: Vec<f64> = self.rows.iter().filter(|r| !r.fitted).filter_map(HeldRow::off).collect();
+        (!all.is_empty()).then(|| (all.iter().map(|o| o * o).sum::<f64>() / all.len() as f64).sqrt())
+    }
+}
+
+/// Holds a table against a model; `calibrate` fits the one number that is usually not known (E t of a beam, the braid angle of
+/// a muscle) to one row, which is then marked.
+///
+/// # Errors
+/// A kind without a model, or a scenario that is missing.
+pub fn held(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Result<Held, CompareError> {
+    let beam = is_beam(bench)?;
+    let scenario = own_or_braid(bench, scenario)?;
+    let of_one_specimen: &[&str] = if beam { &["p_body", "radius"] } else { &["muscle"] };
+    let (mut rows, mut notes) = (Vec::new(), Vec::new());
+    for group in bench.rows.chunk_by(|a, b| of_one_specimen.iter().all(|key| a.get(key) == b.get(key))) {
+        let mut trial = Trial { scenario: scenario.clone(), bias_rad: None };
+        let fitted = calibrated_on(group).filter(|_| calibrate);
+        if let Some(row) = fitted {
+            let specimen = trial.specimen_of(bench, &group[0]);
+            notes.push(if beam { trial.calibrate_wall(row, &specimen?) } else { trial.calibrate_angle(row) });
+        }
+        for row in group {
+            let (specimen, sd) = (trial.specimen_of(bench, row)?, if beam { "deflection_sd" } else { "force_sd" });
+            let unit = match (beam, is_free(row)) {
+                (true, _) => 1e3,
+                (false, true) => 100.0,
+                (false, false) => 1.0,
+            };
+            rows.push(HeldRow {
+                at: place(row, &specimen),
+                measured: unit * measured(row),
+                model: modelled(row, &specimen).map(|v| unit * v),
+                half: if is_free(row) { None } else { half(row, sd, unit) },
+                fitted: fitted.is_some_and(|f| f.line == row.line),
+            });
+        }
+    }
+    let (what, quantity) = if beam { ("Inflated beam", "deflection mm") } else { ("Muscle", "value") };
+    let known = match (beam, notes.is_empty()) {
+        (true, _) if !calibrate => Known::Predicted,
+        (false, true) => Known::Assumed,
+        _ => Known::Calibrated,
+    };
+    let title = format!("{what}, {} against {}", scenario.name, bench.file);
+    Ok(Held { title, quantity: quantity.into(), known, rows, notes })
+}
+
+/// Whether the table is one of beams; else it is one of muscles.
+///
+/// # Errors
+/// A kind without a model.
+pub(crate) fn is_beam(bench: &Bench) -> Result<bool, CompareError> {
+    match bench.kind.name {
+        "load_deflection" => Ok(true),
+        "force_contraction" => Ok(false),
+        _ => refuse(bench, "no model is held against it", "ibr characterize reads it"),
+    }
+}
+
+pub(crate) fn refuse<T>(bench: &Bench, problem: &str, help: &str) -> Result<T, CompareError> {
+    Err(CompareError::told(format!("{}: {problem}: {help}", bench.file)))
+}
+
+fn half(row: &BenchRow, sd: &str, unit: f64) -> Option<f64> {
+    let (sd, n) = (row.get(sd)?, row.get("n")?);
+    Some(unit * t_975(n as usize - 1) * sd / n.sqrt())
+}
+
+/// What a row measured: a deflection \[m\], a force \[N\] or, without a force, a contraction \[-\].
+pub(crate) fn measured(row: &BenchRow) -> f64 {
+    let force = |row: &BenchRow| if is_free(row) { row.value("contraction") } else { row.value("force") };
+    row.get("deflection").unwrap_or_else(|| force(row))
+}
+
+/// Whether a muscle is free: its contraction was measured, not its force.
+pub(crate) fn is_free(row: &BenchRow) -> bool {
+    row.get("force") == Some(0.0)
+}
+
+/// What the model of a row's specimen says of it; none where it finds no equilibrium.
+pub(crate) fn modelled(row: &BenchRow, specimen: &Scenario) -> Option<f64> {
+    match row.get("load") {
+        Some(load) => deflection_m(specimen, load),
+        None => {
+            let machine = Machine::new(specimen)?;
+            let p = row.value("p_act");
+            if is_free(row) { Some(machine.free_contraction(p)) } else { machine.pull_n(p, row.value("contraction")) }
+        }
+    }
+}
+
+/// A scenario in which something is tried, and a yarn angle that goes before the table's.
+#[derive(Clone)]
+pub(crate) struct Trial {
+    pub scenario: Scenario,
+    pub bias_rad: Option<f64>,
+}
+
+impl Trial {
+    /// The scenario in the size and at the pressure of a row, or what is missing and what to add.
+    pub fn specimen(&self, row: &BenchRow) -> Result<Scenario, [&'static str; 2]> {
+        let Trial { scenario, bias_rad } = self;
+        if row.get("load").is_some() {
+            let radius_m = row.get("radius").unwrap_or(scenario.radius_m);
+            return Ok(Scenario { p_body_pa: row.value("p_body"), radius_m, ..scenario.clone() });
+        }
+        let ActuatorChoice { kind, shape, .. } = scenario.actuator;
+        let (diameter, bias) = (row.get("diameter"), bias_rad.or(row.get("bias").map(f64::to_radians)));
+        if !scenario.actuator.exists() {
+            return Err(["the scenario has no actuator", "name one with [actuator], or none"]);
+        }
+        if kind.has_pouches() && diameter.or(bias).is_some() {
+            let help = "name a scenario with kind = \"fpam\", or none";
+            return Err(["the table tells of a tube of yarns, and the scenario's actuator is a pouch", help]);
+        }
+        let (bias_rad, width_m) = (bias.unwrap_or(shape.bias_rad), diameter.map_or(shape.width_m, |d| FRAC_PI_2 * d));
+        // What pulls nothing may have any size.
+        let width_m = if width_m.is_nan() && is_free(row) { ANY_WIDTH_M } else { width_m };
+        if bias_rad.is_nan() || width_m.is_nan() {
+            let help = "add bias_deg and diameter_mm, name a scenario before the table, or add --calibrate";
+            return Err(["a muscle needs its size and its yarns' angle", help]);
+        }
+        let told = row.get("length").unwrap_or(shape.length_m);
+        let length_m = if told.is_nan() { LONG * width_m } else { told };
+        let shape = ActuatorShape { length_m, width_m, bias_rad, ..shape };
+        let actuator = ActuatorChoice { shape, count: 1, start_m: 0.0, ..scenario.actuator };
+        Ok(Scenario { length_m, actuator, zones: Vec::new(), ..scenario.clone() })
+    }
+
+    fn specimen_of(&self, bench: &Bench, row: &BenchRow) -> Result<Scenario, CompareError> {
+        self.specimen(row).or_else(|[problem, help]| refuse(bench, problem, help))
+    }
+
+    /// E t that gives a beam the deflection of a row; it falls with E t. In words.
+    fn calibrate_wall(&mut self, row: &BenchRow, beam: &Scenario) -> String {
+        let off = |e: f64| {
+            let mut beam = beam.clone();
+            beam.wall.stiffness_n_per_m = Some(e);
+            deflection_m(&beam, row.value("load")).map_or(f64::INFINITY, |v| v - row.value("deflection"))
+        };
+        let at = format!("{:.0} kPa, {:.0} mm", 1e-3 * beam.p_body_pa, 1e3 * beam.radius_m);
+        let (mut soft, mut stiff) = (1e3_f64, 1e8_f64);
+        if !(off(soft) > 0.0 && off(stiff) < 0.0) {
+            self.scenario.wall.stiffness_n_per_m = None;
+            return format!("{at}: no E t between 1 kN/m and 100 MN/m gives the first load's deflection");
+        }
+        for _ in 0..50 {
+            let middle = (soft * stiff).sqrt();
+            *(if off(middle) > 0.0 { &mut soft } else { &mut stiff }) = middle;
+        }
+        let wall = (soft * stiff).sqrt();
+        self.scenario.wall.stiffness_n_per_m = Some(wall);
+        format!("{at}: E t = {:.0} kN/m, calibrated on the first load", 1e-3 * wall)
+    }
+
+    /// Angle at rest of the yarns of an ideal braid that shortens so far without load; not a number above 1 − 1/√3. In words.
+    fn calibrate_angle(&mut self, row: &BenchRow) -> String {
+        let bias_rad = (1.0 / (3.0_f64.sqrt() * (1.0 - row.value("contraction")))).acos();
+        self.bias_rad = Some(bias_rad);
+        format!("yarns at {:.1}°, calibrated on the largest contraction", bias_rad.to_degrees())
+    }
+}
+
+/// The row on which the number of a specimen is calibrated: the least load of a beam, the largest contraction of a free muscle.
+fn calibrated_on(group: &[BenchRow]) -> Option<&BenchRow> {
+    let loaded = group.iter().filter(|r| r.get("load").is_some_and(|load| load > 0.0) && r.value("deflection") > 0.0);
+    let contraction = |r: &&BenchRow| r.value("contraction");
+    match group[0].get("load") {
+        Some(_) => loaded.min_by(|a, b| a.value("load").total_cmp(&b.value("load"))),
+        None => group
+            .iter()
+            .max_by(|a, b| contraction(a).total_cmp(&contraction(b)))
+            .filter(|row| is_free(row) && row.get("bias").is_none()),
+    }
+}
+
+/// Flat width of a free muscle of unknown size \[m\].
+pub(crate) const ANY_WIDTH_M: f64 = 0.02;
+/// Length over width of a muscle whose ends nobody tells of.
+const LONG: f64 = 1e4;
+
+/// The scenario that a table without one is held against: for a muscle the ideal braid, whose size and angle the table must tell.
+///
+/// # Errors
+/// A beam without a scenario.
+pub(crate) fn own_or_braid(bench: &Bench, scenario: Option<&Scenario>) -> Result<Scenario, CompareError> {
+    if let Some(scenario) = scenario {
+        return Ok(scenario.clone());
+    }
+    let braid = models::shipped("fpam-textbook").and_then(|text| Scenario::parse(text).ok());
+    let Some(mut braid) = braid.filter(|_| bench.kind.name == "force_contraction") else {
+        return refuse(bench, "a beam needs a scenario", "put scenario.toml beside the table, or name one before it");
+    };
+    let shape = &mut braid.actuator.shape;
+    (shape.width_m, shape.length_m, shape.bias_rad) = (f64::NAN, f64::NAN, f64::NAN);
+    Ok(Scenario { name: "ideal braid".into(), ..braid.bare() })
+}
+
+/// A row in words: size, pressure, load.
+pub(crate) fn place(row: &BenchRow, specimen: &Scenario) -> String {
+    if let Some(load) = row.get("load") {
+        return format!("{:.0} mm, {:.0} kPa, {load:.2} N", 1e3 * specimen.radius_m, 1e-3 * specimen.p_body_pa);
+    }
+    let told = |key, word| row.get(key).map_or(String::new(), |v| format!("{:.0} mm {word}, ", 1e3 * v));
+    let muscle = row.get("muscle").map_or(String::new(), |n| format!("muscle {n}, "));
+    let at = match is_free(row) {
+        true => "free: contraction %".into(),
+        false => format!("{:.1} %: force N", 100.0 * row.value("contraction")),
+    };
+    format!("{muscle}{}{}{:.0} kPa, {at}", told("diameter", "thick"), told("length", "long"), 1e-3 * row.value("p_act"))
+}
+
+/// Tip deflection from where the tip is without the force, under a force across it; none beyond collapse.
+fn deflection_m(beam: &Scenario, force_n: f64) -> Option<f64> {
+    let known = beam.effects.iter().find(|e| e.name == "tip_load").map_or([0.0; 2], |e| [e.values[0], e.values[1]]);
+    let tip = |force_n: f64| {
+        let model = Model::new(&beam.with_effect("tip_load", &[known[0], known[1] - force_n]));
+        let mut out = model.prediction();
+        model.predict(&Loads::uniform(beam.p_body_pa, 0.0), &mut out).ok()?;
+        (out.tip.x_m > 0.0).then_some(out.tip.y_m)
+    };
+    let at_rest = if beam.effects.is_empty() { 0.0 } else { tip(0.0)? };
+    Some(at_rest - tip(force_n)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn set(name: &str) -> (Bench, Option<Scenario>) {
+        let bench = data::bench::bench(name).unwrap().unwrap();
+        let scenario = bench.scenario.as_deref().map(|text| Scenario::parse(text).unwrap());
+        (bench, scenario)
+    }
+
+    #[test]
+    fn a_beam_fitted_to_its_first_load_meets_it_and_no_other_row_is_fitted() {
+        let (bench, scenario) = set("breukels-2011-beams");
+        let held = held(&bench, scenario.as_ref(), true).unwrap();
+        let fitted: Vec<_> = held.rows.iter().filter(|r| r.fitted).collect();
+        assert_eq!((fitted.len(), held.rows.len()), (6, 36));
+        assert!(fitted.iter().all(|r| r.off().unwrap().abs() < 1e-6), "{fitted:?}");
+        held.rows.iter().for_each(|r| println!("{} {:.2} {:?} {:?}", r.at, r.measured, r.model, r.off()));
+        println!("{:?} {:?}", held.rms(), held.notes);
+    }
+
+    /// Written from the ideal braid, a table gets nothing but agreement; a hundredth of the force beyond its scatter does not.
+    #[test]
+    fn a_mean_with_its_scatter_gets_a_verdict() {
+        let force = |p: f64, e: f64| {
+            let (sin, tan) = (25_f64.to_radians().sin(), 25_f64.to_radians().tan());
+            std::f64::consts::PI * 5e-3_f64.powi(2) * p * (3.0 / tan.powi(2) * (1.0 - e).powi(2) - 1.0 / sin.powi(2))
+        };
+        let row = |factor: f64| format!("620,5,{},0.5,5\n", factor * force(620e3, 0.05));
+        let head = "# bias_deg: 25\n# diameter_mm: 10\np_act_kpa,contraction_pct,force_n,force_sd_n,n\n";
+        let text = format!("{head}{}{}", row(1.0), row(1.01));
+        let held = held(&data::parse_bench("a.csv", &text).unwrap().unwrap(), None, false).unwrap();
+        assert_eq!(held.rows[0].verdict(), "agrees");
+        assert!(held.rows[1].verdict().starts_with("off by"), "{:?}", held.rows[1]);
+        // t of 4 is 2.776, s/√n = 0.2236 N.
+        assert!((held.rows[0].half.unwrap() - 0.6208).abs() < 1e-3);
+    }
+
+    #[test]
+    fn a_muscle_without_size_or_angle_is_refused_with_what_to_add() {
+        let (bench, _) = set("mckibben-free");
+        let error = held(&bench, None, false).unwrap_err().to_string();
+        assert!(error.contains("--calibrate") && error.contains("bias_deg"), "{error}");
+        assert_eq!(held(&bench, None, true).unwrap().rows.iter().filter(|r| r.fitted).count(), 3);
+        let fpam = Scenario::parse(models::shipped("fpam-textbook").unwrap()).unwrap();
+        let free = held(&bench, Some(&fpam), false).unwrap().rows[0].model.unwrap();
+        assert!((free - 100.0 * (1.0 - (2.0_f64 / 3.0).sqrt())).abs() < 1e-6, "{free}");
+    }
+}

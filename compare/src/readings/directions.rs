@@ -1,0 +1,139 @@
+//! The nuisance directions of a run and the fit of a run's deviation to them.
+
+use crate::fit::least_squares::dot;
+use data::Dataset;
+
+/// Part of a unit direction that must be new for it to be told apart from those before it; below this its coefficient
+/// would be a thousand times noisier than the others.
+const SMALLEST_NEW_PART: f64 = 1e-3;
+
+/// Order in which directions claim their part; the pressure comes last because the others exist without a model.
+const PRIORITY: [usize; 4] = [1, 2, 3, 0];
+
+/// U of a dataset, with zeros where too few runs saw a marker: with the residual zero there too, such values are as if they were not.
+pub fn directions_of(dataset: &Dataset, dprediction_dlnp: &[f64]) -> Vec<[f64; 4]> {
+    let mut rows = nuisance_directions(&dataset.mean_over_runs(), dprediction_dlnp);
+    dataset.unseen_values().for_each(|i| rows[i] = [0.0; 4]);
+    rows
+}
+
+/// U: one row \[∂f/∂ln p, δx, δy, rotation about the base\] per value in run layout, from the mean over runs \[m\].
+pub fn nuisance_directions(mean_m: &[f64], dprediction_dlnp: &[f64]) -> Vec<[f64; 4]> {
+    let mut rows = Vec::with_capacity(mean_m.len());
+    for (xy, dp) in mean_m.chunks_exact(2).zip(dprediction_dlnp.chunks_exact(2)) {
+        rows.push([dp[0], 1.0, 0.0, -xy[1]]);
+        rows.push([dp[1], 0.0, 1.0, xy[0]]);
+    }
+    rows
+}
+
+/// Least squares on those directions that can be told apart: U = Q T with orthonormal Q.
+pub struct DirectionFit {
+    columns: Vec<usize>,
+    basis: Vec<Vec<f64>>,
+    inverse: Vec<[f64; 4]>,
+}
+
+impl DirectionFit {
+    /// Orthogonalise (Gram–Schmidt, twice); drop directions that vanish or repeat others, and all of them if there
+    /// are not more values than directions.
+    pub fn new(directions: &[[f64; 4]]) -> DirectionFit {
+        let mut fit = DirectionFit { columns: Vec::new(), basis: Vec::new(), inverse: Vec::new() };
+        for j in PRIORITY {
+            fit.add(j, directions.iter().map(|row| row[j]).collect());
+        }
+        if directions.len() <= fit.columns.len() {
+            fit = DirectionFit { columns: Vec::new(), basis: Vec::new(), inverse: Vec::new() };
+        }
+        fit
+    }
+
+    /// Number of directions kept.
+    pub fn count(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// Whether direction `j` was kept.
+    pub fn kept(&self, j: usize) -> bool {
+        self.columns.contains(&j)
+    }
+
+    /// Coefficients of the four directions (0 for dropped ones) and what remains.
+    pub fn solve(&self, deviation: &[f64]) -> ([f64; 4], Vec<f64>) {
+        let mut rest = deviation.to_vec();
+        let mut coefficients = [0.0; 4];
+        for (q, inverse) in self.basis.iter().zip(&self.inverse) {
+            let along = dot(q, &rest);
+            rest.iter_mut().zip(q).for_each(|(r, q)| *r -= along * q);
+            coefficients.iter_mut().zip(inverse).for_each(|(c, t)| *c += along * t);
+        }
+        (coefficients, rest)
+    }
+
+    /// Observed coefficient variances minus the part the camera noise explains, σ² (UᵀU)⁻¹_jj, not below zero.
+    pub fn noise_free(&self, observed: [f64; 4], sigma2: f64) -> [f64; 4] {
+        std::array::from_fn(|j| {
+            let camera: f64 = self.inverse.iter().map(|t| t[j] * t[j]).sum();
+            (observed[j] - sigma2 * camera).max(0.0)
+        })
+    }
+
+    /// Append direction `j`: q = (u − Σ t_i q_i)/‖·‖, and the column of T⁻¹ that belongs to q.
+    fn add(&mut self, j: usize, mut column: Vec<f64>) {
+        let length = dot(&column, &column).sqrt();
+        if length == 0.0 {
+            return;
+        }
+        let mut inverse = [0.0; 4];
+        inverse[j] = 1.0;
+        for _ in 0..2 {
+            for (q, known) in self.basis.iter().zip(&self.inverse) {
+                let along = dot(q, &column);
+                column.iter_mut().zip(q).for_each(|(u, q)| *u -= along * q);
+                inverse.iter_mut().zip(known).for_each(|(t, k)| *t -= along * k);
+            }
+        }
+        let new_part = dot(&column, &column).sqrt();
+        if new_part <= SMALLEST_NEW_PART * length {
+            return;
+        }
+        self.basis.push(column.iter().map(|u| u / new_part).collect());
+        self.inverse.push(inverse.map(|t| t / new_part));
+        self.columns.push(j);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn arc(values: usize) -> (Vec<f64>, Vec<f64>) {
+        let xy: Vec<f64> = (0..values / 2).flat_map(|i| [0.03 * i as f64, 0.5 * (0.03 * i as f64).powi(2)]).collect();
+        let dp = xy.chunks(2).flat_map(|p| [-0.02 * p[1], 0.3 * p[1] * (1.0 + p[0])]).collect();
+        (xy, dp)
+    }
+
+    #[test]
+    fn coefficients_of_a_known_combination_come_back() {
+        let (xy, dp) = arc(24);
+        let rows = nuisance_directions(&xy, &dp);
+        let truth = [0.02, 5e-4, -3e-4, 1e-3];
+        let deviation: Vec<f64> = rows.iter().map(|u| u.iter().zip(truth).map(|(u, c)| u * c).sum()).collect();
+        let (found, rest) = DirectionFit::new(&rows).solve(&deviation);
+        for (f, t) in found.iter().zip(truth) {
+            assert!((f - t).abs() < 1e-9 * t.abs(), "{f} {t}");
+        }
+        assert!(rest.iter().all(|r| r.abs() < 1e-15));
+    }
+
+    #[test]
+    fn a_zero_pressure_direction_and_a_single_point_are_dropped() {
+        let (xy, _) = arc(24);
+        let fit = DirectionFit::new(&nuisance_directions(&xy, &[0.0; 24]));
+        assert!(!fit.kept(0) && fit.count() == 3);
+        let repeated: Vec<f64> = [0.3, 0.1].repeat(5);
+        let fit = DirectionFit::new(&nuisance_directions(&repeated, &[0.0; 10]));
+        assert_eq!(fit.count(), 2, "one point seen five times shows two directions only");
+        assert_eq!(DirectionFit::new(&nuisance_directions(&[0.3, 0.1], &[0.0; 2])).count(), 0);
+    }
+}

@@ -1,0 +1,157 @@
+//! The reduced models against the displacements that du Pasquier et al. 2023 print: one number per actuator.
+//!
+//! Four displacements cannot decide which effect is missing. The ladders show what each effect, with a value that comes
+//! from geometry, from a fabric test or from a formula (never from the measured displacement, unless the rung says
+//! *calibrated*), does to the prediction.
+
+mod mechanics;
+pub mod one_number;
+pub mod tradeoff;
+
+use crate::error::CompareError;
+use data::{Published, PublishedActuator, published};
+use mechanics::{additions, with};
+use models::Known;
+use models::{Loads, Model, Scenario, shipped};
+
+/// One rung: a model and what it predicts for the outermost marker.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rung {
+    /// What was added, in words.
+    pub label: String,
+    /// The model.
+    pub scenario: Scenario,
+    /// Height of the outermost marker \[m\].
+    pub y_m: f64,
+    /// Range of that height over the stated range of the added value \[m\].
+    pub range_m: Option<[f64; 2]>,
+    /// How the value added is known.
+    pub known: Known,
+    /// Where the value comes from.
+    pub why: String,
+}
+
+/// The rungs of one actuator and the published displacement.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PublishedLadder {
+    /// The paper's numbers.
+    pub published: PublishedActuator,
+    /// Bare model first.
+    pub rungs: Vec<Rung>,
+    /// B that makes the last uncalibrated rung meet the displacement \[N·m²\]; `None` if no B ≥ 0 does.
+    pub calibrated_bending: Option<f64>,
+}
+
+/// Ladders of all published actuators.
+///
+/// # Errors
+/// A damaged embedded set, or a model without equilibrium.
+pub fn published_ladders() -> Result<Vec<PublishedLadder>, CompareError> {
+    let paper = published()?;
+    paper.actuators.iter().map(|a| ladder(&paper, a)).collect()
+}
+
+/// The models of a ladder without the calibrated one: bare, then one effect after the other. An actuator of which nothing is
+/// published has the bare model alone.
+///
+/// # Errors
+/// A damaged embedded set, or an actuator without a shipped scenario.
+pub fn model_ladder(kind: &str) -> Result<Vec<Rung>, CompareError> {
+    let paper = published()?;
+    let Some(actuator) = paper.actuator(kind) else {
+        let top = paper.actuator_pressures_pa.iter().fold(0.0, |top: f64, p| top.max(*p));
+        return Ok(vec![start(&shipped_scenario(kind)?, &Loads::uniform(paper.body_pressure_pa, top))?]);
+    };
+    let mut rungs = ladder(&paper, actuator)?.rungs;
+    rungs.retain(|rung| rung.known != Known::Calibrated);
+    Ok(rungs)
+}
+
+fn ladder(paper: &Published, actuator: &PublishedActuator) -> Result<PublishedLadder, CompareError> {
+    let scenario = shipped_scenario(&actuator.kind)?;
+    let loads = Loads::uniform(paper.body_pressure_pa, actuator.d_max_pressure_pa);
+    let mut rungs = vec![start(&scenario, &loads)?];
+    for addition in additions(paper, &scenario.actuator) {
+        let before = &rungs[rungs.len() - 1].scenario;
+        let next = with(before, addition.effect, addition.value);
+        let range_m = match addition.range {
+            Some(ends) => {
+                let y = |v: f64| height(&with(before, addition.effect, v), &loads);
+                let all = [y(ends[0])?, y(ends[1])?, y(addition.value)?];
+                Some([all.into_iter().fold(f64::INFINITY, f64::min), all.into_iter().fold(0.0, f64::max)])
+            }
+            None => None,
+        };
+        let y_m = height(&next, &loads)?;
+        let last = rungs.len() - 1;
+        if y_m == rungs[last].y_m && range_m.is_none_or(|[low, high]| low == high) {
+            // What does nothing in this actuator, as sealed sides do where gussets free them, is no rung.
+            rungs[last].scenario = next;
+            continue;
+        }
+        let label = format!("+ {}", addition.effect);
+        rungs.push(Rung { label, scenario: next, y_m, range_m, known: addition.known, why: addition.why.into() });
+    }
+    let calibrated_bending = calibrate(&mut rungs, &loads, actuator.d_max_m)?;
+    Ok(PublishedLadder { published: actuator.clone(), rungs, calibrated_bending })
+}
+
+/// The scenario that comes with the library for an actuator kind.
+///
+/// # Errors
+/// An unknown kind.
+pub fn shipped_scenario(kind: &str) -> Result<Scenario, CompareError> {
+    let missing = |problem: String| CompareError::NoScenario { kind: kind.to_string(), problem };
+    let text = shipped(kind).ok_or_else(|| missing("there is none".into()))?;
+    Scenario::parse(text).map_err(|e| missing(e.to_string()))
+}
+
+/// The same without the mechanics that textbook models lack.
+///
+/// # Errors
+/// An unknown kind.
+pub fn textbook_scenario(kind: &str) -> Result<Scenario, CompareError> {
+    shipped_scenario(&format!("{kind}-textbook"))
+}
+
+/// The bare law: constant arm, nothing added.
+fn start(scenario: &Scenario, loads: &Loads) -> Result<Rung, CompareError> {
+    let bare = scenario.bare();
+    let y_m = height(&bare, loads)?;
+    let why = "stroke law, constant arm, body pressure; nothing fitted".to_string();
+    Ok(Rung { label: "bare model".into(), scenario: bare, y_m, range_m: None, known: Known::Predicted, why })
+}
+
+/// Heights of the outermost marker, else of the tip, and of the tip \[m\].
+pub(crate) fn heights_m(scenario: &Scenario, loads: &Loads) -> Result<[f64; 2], CompareError> {
+    let model = Model::new(scenario);
+    let mut state = model.prediction();
+    model.predict(loads, &mut state)?;
+    Ok([state.markers.last().map_or(state.tip.y_m, |xy| xy[1]), state.tip.y_m])
+}
+
+pub(crate) fn height(scenario: &Scenario, loads: &Loads) -> Result<f64, CompareError> {
+    Ok(heights_m(scenario, loads)?[0])
+}
+
+/// Adds the rung with the B ≥ 0 that meets the displacement: one number fitted to one number, shown as such.
+fn calibrate(rungs: &mut Vec<Rung>, loads: &Loads, wanted_m: f64) -> Result<Option<f64>, CompareError> {
+    let last = rungs[rungs.len() - 1].clone();
+    if last.y_m <= wanted_m {
+        return Ok(None);
+    }
+    let (mut low, mut high) = (0.0, 1.0);
+    while height(&last.scenario.with_bending(high), loads)? > wanted_m && high < 1e3 {
+        high *= 2.0;
+    }
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if height(&last.scenario.with_bending(middle), loads)? > wanted_m { low = middle } else { high = middle }
+    }
+    let scenario = last.scenario.with_bending(high);
+    let y_m = height(&scenario, loads)?;
+    let label = format!("+ bending B = {high:.2} N m²");
+    let why = "fitted to the measured displacement itself, so it meets it: proves nothing".to_string();
+    rungs.push(Rung { label, scenario, y_m, range_m: None, known: Known::Calibrated, why });
+    Ok(Some(high))
+}

@@ -1,0 +1,160 @@
+//! Pairs that can meet, and the search for them.
+
+use super::super::follow::farthest_m;
+use super::super::surface::Surface;
+use super::chunk::{Chunk, PAIRS};
+use super::pair::Pair;
+use super::sides::Sides;
+use crate::vec3::V3;
+use crate::{FemError, Mesh, problem};
+
+/// (ω dt)² of one pair on its lightest node.
+const SHARE: f64 = 0.05;
+
+/// Share of critical damping of a pair.
+const DAMPING: f64 = 0.1;
+
+/// Forces that changed the last step.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Held {
+    pub forces: Vec<(u32, V3)>,
+    /// Positions one step before.
+    pub before_m: Vec<[f64; 4]>,
+    pub lost_j: f64,
+}
+
+/// Contact between sides of elements, and what keeps everything from passing through each other.
+#[derive(Debug, Clone)]
+pub struct Edges {
+    pub(super) sides: Sides,
+    pub(super) mass_kg: Vec<f64>,
+    /// One over the mass along each axis; 0 where supports, bodies or ties decide.
+    pub(super) mobility_1_kg: Vec<[f64; 3]>,
+    pub(super) stiffness_1_s2: f64,
+    pub(super) damping_1_s: f64,
+    pub(super) gap_m: f64,
+    pub(super) thickness_m: f64,
+    pub(super) reach_m: f64,
+    pub(super) skin_m: f64,
+    pub(super) chunks: Vec<Chunk>,
+    /// Positions at the last search.
+    pub(super) placed_m: Vec<[f64; 4]>,
+    pub(super) path_m: f64,
+    pub(super) search_due_m: f64,
+    pub(super) searches: u64,
+    pub(super) stored_j: f64,
+    pub(super) lost_j: f64,
+    pub(super) held: Held,
+}
+
+impl Edges {
+    /// Contact of edges of a mesh in the solver's node order, with the nodes' masses, the time step, and the axes that
+    /// something else drives.
+    ///
+    /// # Errors
+    /// [`FemError::Problem`] for unknown parts.
+    pub fn new(
+        mesh: &Mesh,
+        settings: &problem::Contact,
+        mass_kg: &[f64],
+        dt_s: f64,
+        driven: &[[bool; 3]],
+    ) -> Result<Edges, FemError> {
+        let surface = Surface::new(mesh, &settings.parts)?;
+        let stiffness_1_s2 = SHARE / (dt_s * dt_s);
+        let x: Vec<[f64; 4]> =
+            (0..mesh.points.len()).map(|i| mesh.start_of(i)).map(|[x, y, z]| [x, y, z, 0.0]).collect();
+        let mobility = |(m, axes): (&f64, &[bool; 3])| axes.map(|a| if a || *m <= 0.0 { 0.0 } else { 1.0 / m });
+        let mut edges = Edges {
+            sides: Sides::new(&surface),
+            mass_kg: mass_kg.to_vec(),
+            mobility_1_kg: mass_kg.iter().zip(driven).map(mobility).collect(),
+            stiffness_1_s2,
+            damping_1_s: 2.0 * DAMPING * stiffness_1_s2.sqrt(),
+            gap_m: settings.gap_m,
+            // The own mesh of a layer must not push itself.
+            thickness_m: settings.thickness_m.min(0.25 * surface.size_m),
+            reach_m: settings.thickness_m.max(4.0 * settings.gap_m),
+            skin_m: 0.25 * surface.size_m,
+            chunks: Vec::new(),
+            placed_m: Vec::new(),
+            path_m: 0.0,
+            search_due_m: 0.0,
+            searches: 0,
+            stored_j: 0.0,
+            lost_j: 0.0,
+            held: Held::default(),
+        };
+        edges.search(&x);
+        edges.start_gaps(&x);
+        Ok(edges)
+    }
+
+    /// Pairs that start close keep the distance they have.
+    fn start_gaps(&mut self, x: &[[f64; 4]]) {
+        for pair in self.chunks.iter_mut().flat_map(|c| &mut c.pairs).filter(|p| !p.face) {
+            let distance_m = pair.touch(x).distance_m;
+            if distance_m < self.thickness_m {
+                pair.rest_m = distance_m.min(self.gap_m).min(self.thickness_m);
+            }
+        }
+    }
+
+    pub(super) fn active(&self) -> impl Iterator<Item = &Pair> {
+        self.chunks.iter().flat_map(|chunk| &chunk.pairs).filter(|pair| pair.on)
+    }
+
+    /// Searches again when some node may have moved more than half the skin.
+    pub(super) fn search_if_due(&mut self, x: &[[f64; 4]]) {
+        if self.path_m < self.search_due_m {
+            return;
+        }
+        let left = 0.5 * self.skin_m - farthest_m(x, &self.placed_m);
+        self.search_due_m = self.path_m + left;
+        if left <= 0.05 * self.skin_m {
+            self.search(x);
+        }
+    }
+
+    fn search(&mut self, x: &[[f64; 4]]) {
+        let mut old: Vec<Pair> = self.chunks.iter().flat_map(|c| &c.pairs).filter(|p| !p.face).copied().collect();
+        old.sort_unstable_by_key(|p| p.key);
+        let [sides, faces] = self.sides.pairs(x, self.reach_m + self.skin_m);
+        let kept = |key: &[u32; 2]| old.binary_search_by(|p| p.key.cmp(key)).map(|at| old[at]);
+        let fresh = |key: &[u32; 2]| kept(key).unwrap_or_else(|_| self.fresh(*key, false));
+        let mut pairs: Vec<Pair> = sides.iter().map(fresh).collect();
+        let dropped = old.iter().filter(|p| p.deep_m > 0.0 && sides.binary_search(&p.key).is_err());
+        self.lost_j += dropped.map(|p| 0.5 * p.stiffness_n_m * p.deep_m * p.deep_m).sum::<f64>();
+        let sides = pairs.chunks(PAIRS).map(|pairs| Chunk::new(pairs.to_vec()));
+        let mut chunks: Vec<Chunk> = sides.collect();
+        pairs.clear();
+        pairs.extend(faces.iter().map(|key| self.fresh(*key, true)));
+        chunks.extend(pairs.chunks(PAIRS).map(|pairs| Chunk::new(pairs.to_vec())));
+        self.chunks = chunks;
+        self.placed_m.clear();
+        self.placed_m.extend_from_slice(x);
+        self.search_due_m = self.path_m + 0.5 * self.skin_m;
+        self.searches += 1;
+    }
+
+    pub(super) fn fresh(&self, key: [u32; 2], face: bool) -> Pair {
+        if face {
+            let [a, b, c] = self.sides.triangles[key[1] as usize];
+            return Pair { face, key, nodes: [key[0], a, b, c], ..Pair::default() };
+        }
+        let [[a, b], [c, d]] = key.map(|s| self.sides.list[s as usize]);
+        let nodes = [a, b, c, d];
+        let masses = nodes.iter().map(|n| self.mass_kg[*n as usize]).filter(|m| *m > 0.0);
+        let mass = masses.fold(f64::INFINITY, f64::min);
+        let mass = if mass.is_finite() { mass } else { 0.0 };
+        Pair {
+            key,
+            nodes,
+            rest_m: self.thickness_m,
+            wanted_m: self.thickness_m,
+            stiffness_n_m: self.stiffness_1_s2 * mass,
+            damping_n_s_m: self.damping_1_s * mass,
+            ..Pair::default()
+        }
+    }
+}

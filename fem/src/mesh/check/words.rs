@@ -1,0 +1,21 @@
+//! How messages about meshes name things.
+
+use crate::FemError;
+use crate::mesh::Part;
+
+/// Element `i` of a part, as messages name it.
+pub(crate) fn describe(part: &Part, i: usize) -> String {
+    let nodes: Vec<String> = part.nodes(i).iter().map(|n| (u64::from(*n) + 1).to_string()).collect();
+    format!("element {} of part `{}` (nodes {})", i + 1, part.name, nodes.join(", "))
+}
+
+/// A place, as messages give it.
+pub(super) fn millimetres(x: [f64; 3]) -> String {
+    // Adding 0 turns −0 into 0.
+    let [x, y, z] = x.map(|v| (v * 1e4).round() / 10.0 + 0.0);
+    format!("({x:.1}, {y:.1}, {z:.1}) mm")
+}
+
+pub(super) fn fault<T>(message: String) -> Result<T, FemError> {
+    Err(FemError::Mesh(message))
+}

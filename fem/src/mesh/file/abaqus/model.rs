@@ -1,0 +1,78 @@
+//! What an Abaqus file says, in the order of the file.
+
+/// What a file says, in the order of the file.
+pub(super) struct Model {
+    /// The first one is the text outside of parts.
+    pub(super) bodies: Vec<Body>,
+    /// The first one is the first body where it is.
+    pub(super) instances: Vec<Instance>,
+    /// Surfaces that a pressure acts on.
+    pub(super) pressed: Vec<String>,
+    pub(super) ignored: Vec<(String, usize)>,
+}
+
+/// Nodes and elements with numbers of their own.
+#[derive(Default)]
+pub(super) struct Body {
+    pub(super) name: String,
+    pub(super) nodes: Vec<(u64, [f64; 3], usize)>,
+    pub(super) elements: Vec<Element>,
+    pub(super) groups: Vec<Group>,
+    pub(super) surfaces: Vec<Sides>,
+    pub(super) sections: Vec<Section>,
+    pub(super) orientations: Vec<Orientation>,
+}
+
+pub(super) struct Section {
+    pub(super) set: String,
+    pub(super) orientation: Option<String>,
+    pub(super) line: usize,
+}
+
+pub(super) struct Orientation {
+    pub(super) name: String,
+    /// Points a, b and c; the axis of the last turn and its angle.
+    pub(super) rows: Vec<Vec<f64>>,
+    /// The kind that is not read.
+    pub(super) other: Option<String>,
+    pub(super) line: usize,
+}
+
+pub(super) struct Element {
+    pub(super) number: u64,
+    pub(super) nodes: Vec<u64>,
+    pub(super) set: Option<String>,
+    pub(super) line: usize,
+}
+
+/// A node set or an element set.
+pub(super) struct Group {
+    pub(super) name: String,
+    pub(super) of_elements: bool,
+    /// Made by a program for itself.
+    pub(super) internal: bool,
+    pub(super) instance: Option<String>,
+    pub(super) members: Vec<Member>,
+    pub(super) line: usize,
+}
+
+pub(super) enum Member {
+    Range(u64, u64, u64),
+    Named(String),
+    /// Nodes of the elements of a set.
+    NodesOf(String),
+}
+
+pub(super) struct Sides {
+    pub(super) name: String,
+    pub(super) rows: Vec<(String, String)>,
+    pub(super) line: usize,
+}
+
+/// Where a part stands: moved, then turned about an axis through two points.
+pub(super) struct Instance {
+    pub(super) name: String,
+    pub(super) body: usize,
+    pub(super) moved: [f64; 3],
+    pub(super) turned: Option<([f64; 3], [f64; 3], f64)>,
+}

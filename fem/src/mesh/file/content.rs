@@ -1,0 +1,38 @@
+//! What a mesh file says.
+
+use crate::mesh::Mesh;
+
+/// What a mesh file says.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct MeshFile {
+    /// Its mesh, in the unit of the file.
+    pub mesh: Mesh,
+    /// Name of the format; empty for a generated mesh, which is in metres and names its chambers.
+    pub format: &'static str,
+    /// Surfaces that may be chambers.
+    pub surfaces: Vec<Surface>,
+    /// Parts, and what the file says of their warp that is not read.
+    pub unread: Vec<(String, String)>,
+    /// What was left out or changed.
+    pub told: Vec<String>,
+}
+
+/// A named surface of parts seen from one side each.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Surface {
+    /// Its name.
+    pub name: String,
+    /// Parts, and whether their back is meant.
+    pub faces: Vec<(String, bool)>,
+    /// A pressure of the file acts on it.
+    pub is_pressed: bool,
+    /// Why it is no chamber.
+    pub fault: Option<String>,
+}
+
+impl From<Mesh> for MeshFile {
+    /// A generated mesh.
+    fn from(mesh: Mesh) -> MeshFile {
+        MeshFile { mesh, ..MeshFile::default() }
+    }
+}

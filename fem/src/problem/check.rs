@@ -1,0 +1,97 @@
+//! What of a problem cannot be simulated.
+
+use super::{Problem, Settings, solid};
+use crate::FemError;
+
+impl Problem {
+    /// Refuses what cannot be simulated.
+    ///
+    /// # Errors
+    /// [`FemError::Problem`] saying which value is wrong and what to write.
+    pub fn check(&self) -> Result<(), FemError> {
+        self.check_but_obstacles()?;
+        solid::check(&self.mesh.starts(), &self.obstacles, 0.0)
+    }
+
+    /// The same where the run goes on from a later shape.
+    pub(crate) fn check_but_obstacles(&self) -> Result<(), FemError> {
+        let refuse = |message: String| Err(FemError::Problem(message));
+        if self.sections.len() != self.mesh.parts.len() {
+            return refuse(format!("{} parts but {} sections", self.mesh.parts.len(), self.sections.len()));
+        }
+        for (section, part) in self.sections.iter().zip(&self.mesh.parts) {
+            if section.plies.is_empty() {
+                return refuse(format!("part `{}` has no ply", part.name));
+            }
+            if !(section.density_kg_m3 > 0.0 && section.density_kg_m3.is_finite()) {
+                return refuse(format!(
+                    "part `{}`: density must be positive, not {}",
+                    part.name, section.density_kg_m3
+                ));
+            }
+            if !(section.bending_factor >= 0.0 && section.bending_factor.is_finite()) {
+                return refuse(format!("part `{}`: bending_factor must be 0 or more", part.name));
+            }
+            if let Some(ply) =
+                section.plies.iter().find(|p| p.fabric.thickness_m() <= 0.0 || !p.fabric.thickness_m().is_finite())
+            {
+                return refuse(format!(
+                    "part `{}`: thickness must be positive, not {}",
+                    part.name,
+                    ply.fabric.thickness_m()
+                ));
+            }
+            if section.plies.iter().any(|ply| !stiff(&*ply.fabric)) {
+                return refuse(format!("part `{}`: some stiffness of its fabric is not positive", part.name));
+            }
+        }
+        let chambers: Vec<&str> = self.chambers.iter().map(|c| c.name.as_str()).collect();
+        let open: Vec<&str> = self.open.iter().map(String::as_str).collect();
+        let quality = crate::mesh::check::check_open(&self.mesh, &chambers, &open)?;
+        self.check_gas(&quality.volumes_m3)?;
+        self.check_rims()?;
+        self.check_warps()?;
+        self.check_supports()?;
+        if self.settings.selective_mass && self.contact.as_ref().is_some_and(|c| c.edges) {
+            let message = "contact: edges need each node's own mass; leave out edges, or selective_mass";
+            return refuse(message.into());
+        }
+        self.settings.check()
+    }
+}
+
+/// True if every small strain costs energy.
+fn stiff(fabric: &dyn models::Fabric) -> bool {
+    let a = fabric.tangent([0.0; 3], &[0.0; 2]);
+    let finite = a.as_flattened().iter().all(|x| x.is_finite());
+    finite && a[0][0] > 0.0 && a[2][2] > 0.0 && a[0][0] * a[1][1] > a[0][1] * a[1][0]
+}
+
+impl Settings {
+    fn check(&self) -> Result<(), FemError> {
+        let positive = [("end_s", self.end_s), ("cfl", self.cfl), ("output_every_s", self.output_every_s)];
+        if let Some((name, value)) = positive.iter().find(|(_, v)| !(*v > 0.0 && v.is_finite())) {
+            return Err(FemError::Problem(format!("settings: {name} must be positive, not {value}")));
+        }
+        if let Some(dt) = self.dt_s.filter(|dt| !(*dt > 0.0 && dt.is_finite())) {
+            return Err(FemError::Problem(format!("settings: the time step must be positive, not {dt}; leave it out")));
+        }
+        let not_negative = [
+            ("mass_damping_1_s", self.mass_damping_1_s),
+            ("viscosity", self.viscosity),
+            ("hourglass", self.hourglass),
+            ("imperfection", self.imperfection),
+        ];
+        if let Some((name, value)) = not_negative.iter().find(|(_, v)| !(*v >= 0.0 && v.is_finite())) {
+            return Err(FemError::Problem(format!("settings: {name} must be 0 or more, not {value}")));
+        }
+        let passes = self.mass_passes;
+        if ![2, 4, 6].contains(&passes) {
+            return Err(FemError::Problem(format!("settings: mass_passes must be 2, 4 or 6, not {passes}")));
+        }
+        if self.cfl > 1.0 {
+            return Err(FemError::Problem(format!("settings: cfl {} is over 1, the limit of stability", self.cfl)));
+        }
+        Ok(())
+    }
+}
