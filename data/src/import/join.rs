@@ -46,6 +46,14 @@ pub(crate) struct Joined {
 /// # Errors
 /// A file that is not understood, of another program, or without frame rate or pressures; a named column that is nowhere.
 pub(crate) fn recordings(files: &[PathBuf], options: &ImportOptions, progress: Progress) -> Result<Joined> {
+    for (k, (quantity, column)) in options.columns.iter().enumerate() {
+        let earlier = options.columns[..k].iter().find(|(_, other)| other.eq_ignore_ascii_case(column));
+        if let Some((other, _)) = earlier.filter(|(other, _)| other != quantity) {
+            let message = format!("--map gives column {column} to {other} and to {quantity}");
+            let file = files.first().map_or(String::new(), |file| file.display().to_string());
+            return Err(DataError::runs(&file, message, "name another column for one of them"));
+        }
+    }
     let mut absent: Vec<&(String, String)> = options.columns.iter().collect();
     let mut joined = Joined { program: "", runs: Vec::new(), told: Vec::new() };
     let logs = logs(files.len(), options, &mut joined.told, &mut absent)?;

@@ -51,6 +51,9 @@ fn long(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> {
         let column = roles.coordinates.iter().find(|(_, known, ..)| *known == axis);
         column.map_or(Ok(()), |(column, ..)| layout.add(sheet, first, "", axis, *column))?;
     }
+    if ![0, 1].iter().all(|axis| roles.coordinates.iter().any(|(_, known, ..)| known == axis)) {
+        return Err(sheet.fault(first, "no columns of x and y", "say which: --map x=PosX,y=PosY"));
+    }
     layout.y_down = roles.coordinates.iter().any(|(_, axis, name, _)| *axis == 1 && name == "down");
     layout.twice = Some("say which column tells the runs apart: --map run=Trial");
     layout.read(sheet, first, 2, sheet.lines().skip(1))
