@@ -36,9 +36,9 @@ impl ScenarioError {
 #[expect(missing_docs, reason = "fields have the words and units of their message")]
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Unsolved {
-    /// A pressure that means nothing.
-    #[error("{what} is {value_kpa} kPa; expected a gauge pressure from 0 to {limit_kpa} kPa")]
-    BadPressure { what: &'static str, value_kpa: f64, limit_kpa: f64 },
+    /// A pressure out of its bounds.
+    #[error("{message}; {help}")]
+    BadPressure { message: String, help: &'static str },
     /// A wanted place or limits that mean nothing.
     #[error("{what}")]
     BadAim { what: &'static str },
@@ -47,9 +47,9 @@ pub enum Unsolved {
         "{what} is built for planar robots; this one has strips round the body, for which ibr predict gives the shape at pressures"
     )]
     InSpace { what: &'static str },
-    /// A time that is not a number of seconds.
-    #[error("the time {t_s} s of a step of the protocol is not finite")]
-    BadTime { t_s: f64 },
+    /// A time out of its bounds.
+    #[error("{message}; {help}")]
+    BadTime { message: String, help: &'static str },
     /// The moment balance of a stretch has no root.
     #[error(
         "no equilibrium at s = {s_mm:.1} mm for P = {p_act_kpa:.3} kPa, p_b = {p_body_kpa:.3} kPa: \

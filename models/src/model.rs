@@ -11,6 +11,7 @@ use crate::shape::Stretch;
 use crate::site::{Site, SiteState};
 use crate::space::around;
 use crate::term::{Account, LedgerLine, Loads, Pose, Row, RowKind, Term};
+use spelling::units::Range;
 
 /// A robot with its list of terms. Made once from a scenario; predicting does not change it.
 pub struct Model {
@@ -19,9 +20,6 @@ pub struct Model {
     markers: Vec<(usize, f64)>,
     p_max_pa: f64,
 }
-
-/// Largest gauge pressure accepted \[Pa\]; fabric robots burst far below.
-const P_LIMIT_PA: f64 = 1e6;
 
 /// Pose of the robot's end.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -311,17 +309,29 @@ impl Model {
     }
 }
 
+/// The solver's own bounds of a body pressure: the limit without pressure has closed forms.
+const ANY_BODY_PRESSURE: Range = Range { low: 0.0, high: 1000.0, ..Range::BODY_PRESSURE };
+
+#[inline]
+fn bounded(loads: &Loads, body: &Range) -> Result<(), Unsolved> {
+    let refused = |(message, help)| Unsolved::BadPressure { message, help };
+    body.check(loads.body_pa).map_err(refused)?;
+    loads.actuator_pa.iter().try_for_each(|p| Range::ACTUATOR_PRESSURE.check(*p).map(drop)).map_err(refused)
+}
+
+impl Loads {
+    /// The same pressures, if a robot can have them: what every file, option, stream and call passes.
+    ///
+    /// # Errors
+    /// A pressure out of its bounds.
+    pub fn checked(self) -> Result<Loads, Unsolved> {
+        bounded(&self, &Range::BODY_PRESSURE).map(|()| self)
+    }
+}
+
 #[inline]
 pub(crate) fn check(loads: &Loads) -> Result<(), Unsolved> {
-    let bad = |p: &f64| !(0.0..=P_LIMIT_PA).contains(p);
-    let refused = |what, p: f64| Unsolved::BadPressure { what, value_kpa: p / 1e3, limit_kpa: P_LIMIT_PA / 1e3 };
-    if bad(&loads.body_pa) {
-        return Err(refused("body pressure", loads.body_pa));
-    }
-    match loads.actuator_pa.iter().find(|p| bad(p)) {
-        Some(p) => Err(refused("actuator pressure", *p)),
-        None => Ok(()),
-    }
+    bounded(loads, &ANY_BODY_PRESSURE)
 }
 
 /// Ledger line of the shear, which has no term: its energy follows from the equilibrium.

@@ -17,7 +17,7 @@ use syn::visit::Visit;
 const CIRCLES: [(&str, usize); 13] = [
     ("models", 0),
     ("fem", 0),
-    ("data", 5),
+    ("data", 1),
     ("compare", 5),
     ("report", 1),
     ("sweep", 0),

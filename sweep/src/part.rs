@@ -10,7 +10,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Goes up when a number of the reduced model, or the file, changes its meaning.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// Cases of one engine that are computed together.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -109,12 +109,19 @@ impl Rows {
         let mut bytes = serde_json::to_vec(&head).unwrap_or_default();
         bytes.push(b'\n');
         bytes.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
-        pieces::keep(path, &bytes)
+        pieces::keep(path, bytes)
     }
 
-    /// Reads them; `None` where there is no whole file of so many numbers.
-    pub(crate) fn read(path: &Path, count: usize) -> Option<Rows> {
-        let bytes = std::fs::read(path).ok()?;
+    /// Reads them; `None` where there is no file.
+    ///
+    /// # Errors
+    /// A file that is damaged, or has another number of rows than `count` numbers make.
+    pub(crate) fn read(path: &Path, count: usize) -> Result<Option<Rows>, SweepError> {
+        let Some(bytes) = pieces::kept(path)? else { return Ok(None) };
+        Rows::decode(&bytes, count).map(Some).ok_or_else(|| SweepError::damaged(path))
+    }
+
+    fn decode(bytes: &[u8], count: usize) -> Option<Rows> {
         let end = bytes.iter().position(|b| *b == b'\n')?;
         let head: Head = serde_json::from_slice(&bytes[..end]).ok()?;
         let (values, rest) = bytes[end + 1..].as_chunks::<8>();

@@ -98,9 +98,7 @@ const WALL: &str = "write N/m, for example 40000 for 200 MPa x 0.2 mm";
 pub const KEYS: &[Key] = &[
     number(BODY_OR_ZONE, "radius_mm", Range { name: "radius", high: 1000.0, ..LENGTH }, "radius R of the inflated body", |s| s.radius_m),
     number(BODY, "length_mm", LENGTH, "length L from clamp to tip", |s| s.length_m),
-    number(BODY, "pressure_kpa", range("pressure", "kPa", 1e3, [0.5, 100.0], [
-        "this looks like psi: write kilopascals, for example 2 for 0.29 psi (1 psi is 6.895 kPa)", Range::PRESSURE.too_large,
-    ]), "body pressure p_b", |s| s.p_body_pa),
+    number(BODY, "pressure_kpa", Range::BODY_PRESSURE, "body pressure p_b", |s| s.p_body_pa),
     number(BODY_OR_ZONE, "bending_stiffness_nm2", range("bending stiffness", "N m²", 1.0, [0.0, 1e3], [
         "a stiffness is not negative", "write N·m²; 1 N·m² is 1e6 N·mm²",
     ]), "effective bending stiffness B", |s| s.bending_stiffness),
@@ -142,8 +140,8 @@ pub const KEYS: &[Key] = &[
     other(ZONE, "from_mm", Some(POSITION), "start of the stretch"),
     other(ZONE, "to_mm", Some(POSITION), "end of the stretch"),
     other(ZONE, "passive", None, "whether the stretch has no actuator"),
-    other(&["markers"], "s_mm", Some(POSITION), "stations of the markers"),
-    other(&["predict"], "pressures_kpa", Some(Range::PRESSURE), "actuator pressures of a prediction"),
+    other(&["markers"], "s_mm", Some(Range::STATION), "stations of the markers"),
+    other(&["predict"], "pressures_kpa", Some(Range::ACTUATOR_PRESSURE), "actuator pressures of a prediction"),
     number(&["predict"], "segments", SEGMENTS, "division of the body where something varies along it", |s| s.segments as f64),
     other(SUPPLY, "valve_time_s", Some(range("valve time", "s", 1.0, [0.0, 60.0], [
         "0 is a valve without lag", "write seconds: 0.05 for 50 ms",
