@@ -97,7 +97,11 @@ pub(crate) fn compare(
         let contenders = contenders(file, &effects).map_err(raised)?;
         let found = py.detach(|| ibr::compare_in_space(&contenders, evidence, sigma_m)).map_err(raised)?;
         let warnings = found.warnings.iter().cloned().chain(unused_sigma(sigma_m, evidence)).collect();
-        let told = Answer::of(in_space::text(&found), &as_json("ibr.compare.space", &in_space::SpaceAnswer::of(&file.name, &found)), warnings);
+        let told = Answer::of(
+            in_space::text(&found),
+            &as_json("ibr.compare.space", &in_space::SpaceAnswer::of(&file.name, &found)),
+            warnings,
+        );
         let table = space_markers(&found);
         return Ok(Answer { table, page: Some(Box::new(move || space_page(&found, &imprint()))), ..told });
     }
