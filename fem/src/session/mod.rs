@@ -3,7 +3,8 @@
 //! ```no_run
 //! use fem::session::{Settings, Source, simulate};
 //! //!
-//! let robot = Source::new("epam", models::shipped("epam").unwrap());
+//! use std::ops::ControlFlow;
+//!
 //! let settings = Settings { folder: Some("epam-run".into()), resume: true, ..Settings::default() };
 //! let run = simulate(&robot, &settings, &mut |what, _share| {
 //!     println!("{what}");
