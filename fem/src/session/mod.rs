@@ -2,9 +2,9 @@
 //!
 //! ```no_run
 //! use fem::session::{Settings, Source, simulate};
-//! //!
 //! use std::ops::ControlFlow;
 //!
+//! let robot = Source::new("epam", models::shipped("epam").unwrap());
 //! let settings = Settings { folder: Some("epam-run".into()), resume: true, ..Settings::default() };
 //! let run = simulate(&robot, &settings, &mut |what, _share| {
 //!     println!("{what}");
