@@ -65,15 +65,14 @@ impl From<data::DataError> for Failure {
 
 impl From<sweep::SweepError> for Failure {
     fn from(error: sweep::SweepError) -> Failure {
-        use sweep::SweepError::{Cluster, Run, Study, Write};
+        use sweep::SweepError::{Damaged, Run, Study, Write};
+        let help = error.help();
         match error {
             Study(error) => error.into(),
             Run(error) => error.into(),
-            Write { path, cause } => {
-                let help = "choose another folder with --out".into();
-                Failure::Write { path: path.display().to_string(), cause, help }
-            }
-            Cluster { message, help } => Failure::usage(message, help),
+            Write { path, cause } => Failure::Write { path: path.display().to_string(), cause, help },
+            Damaged { path, cause } => CompareError::Unread { path: path.display().to_string(), cause, help }.into(),
+            other => Failure::usage(other.to_string(), help),
         }
     }
 }

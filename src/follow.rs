@@ -2,7 +2,7 @@
 
 use compare::CompareError;
 use models::{CHANNELS, InLine, Loads, Model, Prediction, Scenario, Step};
-use spelling::units::{Dimension, Unit, units_of};
+use spelling::units::{Dimension, Range, Unit, units_of};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
@@ -35,7 +35,10 @@ impl Follower {
     /// A time before the last one, a pressure that means nothing, or no equilibrium.
     pub fn next(&mut self, t_s: f64, set: &Loads) -> Result<&Prediction, CompareError> {
         let since = self.before.map_or(0.0, |last| last.t_s);
-        if t_s < since || t_s.is_nan() {
+        if let Err((message, help)) = Range::TIME.check(t_s) {
+            return Err(CompareError::refused(message, help));
+        }
+        if t_s < since {
             let message = format!("the time {t_s} s is before {since} s");
             return Err(CompareError::refused(message, "times count from the start and do not go back"));
         }
@@ -235,7 +238,7 @@ fn read(line: &str, columns: &[(Column, Unit)], body_pa: f64) -> Result<(f64, Lo
             Column::Channel(channel) => loads.actuator_pa[*channel] = si,
         }
     }
-    Ok((t_s, loads))
+    Ok((t_s, loads.checked().map_err(|error| error.to_string())?))
 }
 
 #[cfg(test)]
@@ -313,8 +316,9 @@ mod tests {
             ("2,x", "line 4: `x` is no number"),
             ("2", "line 4: 1 cells, the header has 2"),
             ("0.5,10", "line 4: the time 0.5 s is before 1 s"),
-            ("nan,10", "line 4: the time NaN s"),
-            ("2,-3", "line 4: actuator pressure is -3 kPa"),
+            ("nan,10", "line 4: time must be from 0 to 10000000000 s, not NaN"),
+            ("inf,10", "line 4: time must be from 0 to 10000000000 s, not inf"),
+            ("2,-3", "line 4: actuator pressure must be from 0 to 1000 kPa, not -3"),
         ] {
             let (rows, told) = answer(&robot(""), &format!("t_s,p_kpa\n0,5\n1,10\n{bad}\n3,10\n"));
             assert!(rows.len() == 2 && told.as_ref().unwrap().contains(words), "{bad}: {told:?}");

@@ -41,7 +41,11 @@ impl Predictor {
             }
         }
         check_fed(&self.model, &actuator_pa)?;
-        Ok(Loads { body_pa: body_pa.unwrap_or(self.scenario.p_body_pa), actuator_pa })
+        Ok(Loads { body_pa: body_pa.unwrap_or(self.scenario.p_body_pa), actuator_pa }.checked()?)
+    }
+
+    fn body_pa(&self, given_pa: Option<f64>) -> Result<f64, CompareError> {
+        Ok(Loads::uniform(given_pa.unwrap_or(self.scenario.p_body_pa), 0.0).checked()?.body_pa)
     }
 
     /// A state by itself, as [`Model::predict_held`], with the slopes of the tip.
@@ -67,7 +71,7 @@ impl Predictor {
     /// # Errors
     /// A place that the tip does not reach.
     pub fn inverse(&self, target: Target, body_pa: Option<f64>) -> Result<(Loads, Prediction), CompareError> {
-        let body_pa = body_pa.unwrap_or(self.scenario.p_body_pa);
+        let body_pa = self.body_pa(body_pa)?;
         let mut at = self.model.prediction();
         let pressure_pa = self.model.pressure_for(target, body_pa, &mut at)?;
         Ok((Loads::uniform(body_pa, pressure_pa), at))
@@ -85,7 +89,7 @@ impl Predictor {
         limits: Option<Limits>,
     ) -> Result<(Steered, Prediction), CompareError> {
         let mut work = self.model.steering();
-        let body_pa = body_pa.unwrap_or(self.scenario.p_body_pa);
+        let body_pa = self.body_pa(body_pa)?;
         let limits = limits.unwrap_or(Limits::up_to(self.scenario.p_max_pa));
         let found = self.model.steer(aim, body_pa, &limits, &mut work)?;
         Ok((found, work.state().clone()))

@@ -3,6 +3,7 @@
 //! A robot is put together once by [`ibr_open`]. Every other call allocates nothing and returns [`IBR_OK`] or why not; the words
 //! are then in [`ibr_error`]. No panic crosses the border. One handle belongs to one thread at a time.
 
+#![warn(unreachable_pub)]
 #![allow(non_camel_case_types, reason = "names as C has them")]
 
 mod text;
@@ -177,7 +178,7 @@ pub unsafe extern "C" fn ibr_predict(
     let (given, tip) = unsafe { (pressures(actuator_pa), tip.as_mut()) };
     let work = |robot: &mut ibr_robot| {
         let (Some(actuator_pa), Some(tip)) = (given, tip) else { return Err(NULL) };
-        robot.model.predict(&Loads { body_pa, actuator_pa }, &mut robot.state)?;
+        robot.model.predict(&Loads { body_pa, actuator_pa }.checked()?, &mut robot.state)?;
         *tip = tip_of(&robot.state);
         if !markers_xy_m.is_null() {
             let seen = &robot.state.markers;
@@ -227,6 +228,7 @@ unsafe fn inverse(robot: *mut ibr_robot, body_pa: f64, target: Target, pressure_
     let pressure_pa = unsafe { pressure_pa.as_mut() };
     let work = |robot: &mut ibr_robot| {
         let Some(found) = pressure_pa else { return Err(NULL) };
+        let Loads { body_pa, .. } = Loads::uniform(body_pa, 0.0).checked()?;
         *found = robot.model.pressure_for(target, body_pa, &mut robot.state)?;
         Ok(())
     };
@@ -249,7 +251,7 @@ pub unsafe extern "C" fn ibr_jacobian(
     let (given, slopes) = unsafe { (pressures(actuator_pa), slopes.cast::<[ibr_slope; IBR_CHANNELS]>().as_mut()) };
     let work = |robot: &mut ibr_robot| {
         let (Some(actuator_pa), Some(slopes)) = (given, slopes) else { return Err(NULL) };
-        let found = robot.model.jacobian(&Loads { body_pa, actuator_pa }, &mut robot.state)?;
+        let found = robot.model.jacobian(&Loads { body_pa, actuator_pa }.checked()?, &mut robot.state)?;
         *slopes = found.map(|models::TipSlope { x_per_pa, y_per_pa, angle_per_pa }| ibr_slope {
             x_per_pa,
             y_per_pa,
@@ -280,6 +282,7 @@ pub unsafe extern "C" fn ibr_steer(
     let (now, steered) = unsafe { (pressures(now_pa), steered.as_mut()) };
     let work = |robot: &mut ibr_robot| {
         let Some(steered) = steered else { return Err(NULL) };
+        let Loads { body_pa, .. } = Loads::uniform(body_pa, 0.0).checked()?;
         let all = Limits::up_to(robot.model.p_max_pa());
         let limits = now.map_or(all, |now| all.near(&now, change_pa));
         let found = robot.model.steer(Aim::Tip([x_m, y_m]), body_pa, &limits, &mut robot.steering)?;

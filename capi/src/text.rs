@@ -19,18 +19,18 @@ impl Default for Text {
 }
 
 impl Text {
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         (self.bytes[0], self.length) = (0, 0);
     }
 
     /// Says this and nothing else.
-    pub fn say(&mut self, words: fmt::Arguments) {
+    pub(crate) fn say(&mut self, words: fmt::Arguments) {
         self.clear();
         // What does not fit is cut.
         let _ = self.write_fmt(words);
     }
 
-    pub fn as_ptr(&self) -> *const c_char {
+    pub(crate) fn as_ptr(&self) -> *const c_char {
         self.bytes.as_ptr().cast()
     }
 }

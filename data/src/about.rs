@@ -16,14 +16,14 @@
 //! s_mm = [60, 120]
 //! [gravity]                          # absent: gravity does not act in the bending plane
 //! direction = [0, -1]                # unit vector in the x–y plane
-//! [direct]                           # optional: what an instrument of its own measured, so that no model of it is needed
-//! pressure = true                    # p_act is that of a gauge at the actuator, not the regulator's
+//! [direct]                           # optional: measured directly, so that no model of it is needed
+//! pressure = true                    # p_act was read by a gauge at the actuator, not at the regulator
 //! frame = true                       # positions in the base's frame: fiducials on the clamp, a checkerboard in the
 //!                                    # markers' plane, their distance from the axis by caliper
-//! [bending]                          # optional: bending stiffness of this robot, measured by itself, at the first body pressure
+//! [bending]                          # optional: bending stiffness of this robot, measured separately, at the first body pressure
 //! stiffness_nm2 = 1.35
 //! sd_nm2 = 0.15                      # its standard deviation
-//! [measured.gravity]                 # optional: parameters of effects, each measured by a test of its own (here a scale)
+//! [measured.gravity]                 # optional: parameters of effects, each measured by a separate test (here a scale)
 //! weight_n_per_m = [1.5, 0.1]        # as the scenario has them: value and standard deviation
 //! [[run]]                            # optional; runs not named have no tip force
 //! id = "1"
@@ -32,17 +32,12 @@
 //! ```
 
 mod checks;
-
-use std::collections::BTreeMap;
-use std::path::Path;
+mod read;
 
 use serde::{Deserialize, Serialize};
-use spelling::Exactly;
-use spelling::files::{MOST_TEXT, read_whole};
-use toml::Spanned;
 
-use crate::error::{DataError, Fault};
-use checks::Check;
+pub(crate) use read::parse_toml;
+pub use read::{parse_about, read_about};
 
 /// How numbers came to be; the layers of truth are never mixed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -68,6 +63,12 @@ impl Provenance {
             Provenance::Published => "published",
         }
     }
+
+    /// The one of this word, in upper or lower case.
+    pub fn of(word: &str) -> Option<Provenance> {
+        let all = [Provenance::Measured, Provenance::Digitised, Provenance::Synthetic, Provenance::Published];
+        all.into_iter().find(|provenance| provenance.word().eq_ignore_ascii_case(word))
+    }
 }
 
 /// Description of a dataset, in SI units.
@@ -91,7 +92,7 @@ pub struct About {
     pub gravity_direction: Option<[f64; 2]>,
     /// What was measured directly.
     pub direct: Direct,
-    /// Bending stiffness of this robot at the first body pressure, measured by itself, and its standard deviation \[N·m²\].
+    /// Bending stiffness of this robot at the first body pressure, measured separately, and its standard deviation \[N·m²\].
     pub bending_nm2: Option<[f64; 2]>,
     /// Parameters of effects that were measured by themselves.
     pub measured: Vec<MeasuredValue>,
@@ -101,18 +102,18 @@ pub struct About {
     pub notes: Option<String>,
 }
 
-/// What an instrument of its own measured: nothing between set and true value is left to be explained in these data.
+/// Direct measurements: nothing between set and true value is left to be explained in these data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Direct {
-    /// The actuator's pressure is that of a gauge at the actuator: whatever the supply does is in it.
+    /// The actuator's pressure was read by a gauge at the actuator, so the supply is in it.
     pub pressure: bool,
     /// Positions are in the frame of the base: fiducials on the clamp, a checkerboard in the plane of the markers, their
     /// distance from the axis by caliper.
     pub frame: bool,
 }
 
-/// A parameter of an effect that a test of its own measured: a strip of fabric, a scale.
+/// A parameter of an effect that a separate test measured: a strip of fabric, a scale.
 #[derive(Debug, Clone)]
 pub struct MeasuredValue {
     /// Effect, as in scenarios.
@@ -178,114 +179,4 @@ impl About {
     pub fn tip_force_n(&self, run: &str) -> [f64; 2] {
         self.runs.iter().find(|about| about.id == run).map_or([0.0; 2], |about| about.tip_force_n)
     }
-}
-
-/// Reads an `about.toml`.
-///
-/// # Errors
-/// File not readable; unknown key, wrong type, missing key; a length not positive; a direction that is no unit vector.
-pub fn read_about(path: &Path) -> Result<About, DataError> {
-    let shown = path.display().to_string();
-    let read = read_whole(path, MOST_TEXT).and_then(|bytes| String::from_utf8(bytes).map_err(std::io::Error::other));
-    let text = read.map_err(|cause| {
-        let help = "check the path; the file must be UTF-8 text";
-        DataError::File(Box::new(Fault::of_file(&shown, format!("cannot read the file: {cause}"), help)))
-    })?;
-    parse_about(&shown, &text)
-}
-
-/// Reads the text of an `about.toml`; `file` names it in errors.
-///
-/// # Errors
-/// As [`read_about`].
-pub fn parse_about(file: &str, text: &str) -> Result<About, DataError> {
-    let raw: RawAbout = parse_toml(file, text)?;
-    let check = Check { file, text };
-    let geometry = raw.geometry.map(|geometry| check.geometry(geometry)).transpose()?;
-    Ok(About {
-        markers: raw.markers.map_or(Ok(Vec::new()), |markers| check.markers(markers))?,
-        gravity_direction: raw.gravity.map(|gravity| check.direction(&gravity.direction)).transpose()?,
-        direct: raw.direct,
-        bending_nm2: raw.bending.map(|bending| check.bending(&bending)).transpose()?,
-        measured: check.measured(raw.measured)?,
-        runs: check.runs(raw.run)?,
-        title: check.filled("title", &raw.title)?,
-        source: check.filled("source", &raw.source)?,
-        licence: check.filled("licence", &raw.licence)?,
-        provenance: raw.provenance,
-        actuator: raw.actuator.map(|kind| kind.trim().to_lowercase()),
-        geometry,
-        notes: raw.notes,
-    })
-}
-
-/// Parses TOML into a struct with the place of every fault.
-pub(crate) fn parse_toml<T: serde::de::DeserializeOwned>(file: &str, text: &str) -> Result<T, DataError> {
-    toml::from_str(text).map_err(|cause| {
-        let span = cause.span().map(|span| (span.start, span.end));
-        let message = cause.message().trim().replace('\n', "; ");
-        let help = "the keys and an example are in docs/scenario.md, under about.toml".to_string();
-        DataError::About(Box::new(Fault::of_text(file, text, span, message, help)))
-    })
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawAbout {
-    title: Spanned<String>,
-    provenance: Provenance,
-    source: Spanned<String>,
-    licence: Spanned<String>,
-    actuator: Option<String>,
-    notes: Option<String>,
-    geometry: Option<RawGeometry>,
-    markers: Option<RawMarkers>,
-    gravity: Option<RawGravity>,
-    #[serde(default)]
-    direct: Direct,
-    bending: Option<RawBending>,
-    #[serde(default)]
-    measured: BTreeMap<String, BTreeMap<String, Spanned<Exactly<2>>>>,
-    #[serde(default)]
-    run: Vec<RawRun>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawGeometry {
-    body_radius_mm: Spanned<f64>,
-    body_length_mm: Spanned<f64>,
-    pouch_length_mm: Option<Spanned<f64>>,
-    pouch_width_mm: Option<Spanned<f64>>,
-    pouches: Option<Spanned<usize>>,
-    fold_mm: Option<Spanned<f64>>,
-    arm_mm: Option<Spanned<f64>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawMarkers {
-    names: Spanned<Vec<String>>,
-    s_mm: Spanned<Vec<f64>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawGravity {
-    direction: Spanned<Exactly<2>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawBending {
-    stiffness_nm2: Spanned<f64>,
-    sd_nm2: Spanned<f64>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawRun {
-    id: Spanned<String>,
-    tip_force_n: Option<Spanned<Exactly<2>>>,
-    session: Option<String>,
 }

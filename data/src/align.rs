@@ -1,7 +1,7 @@
 //! From streams of holds to the dense tensor: the same holds in every run, the same markers, the same sample count.
 
 use crate::dataset::{Dataset, Hold, Lost, Marker};
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
 use crate::lost::fill;
 use crate::policy;
 use crate::streams::pressures::{PRESSURES, are_near};
@@ -16,13 +16,12 @@ const MOST_SAMPLES_PER_HOLD: usize = 5;
 /// # Errors
 /// A marker or a hold that one run has and another has not, a marker that hardly any run saw.
 pub(crate) fn align(
-    file: &str,
     name: String,
     actuator: String,
     recorder: &Recorder,
     stations_m: &[Option<f64>],
-) -> Result<Dataset, DataError> {
-    let grid = Grid::new(file, recorder)?;
+) -> Result<Dataset> {
+    let grid = Grid::new(recorder)?;
     let order = marker_order(stations_m);
     let samples = grid.common_samples();
     let holds = grid.holds(samples, recorder.more_channels);
@@ -62,14 +61,14 @@ pub(crate) fn align(
     };
     if !lost.is_empty() {
         fill(&mut dataset, &lost);
-        check_seen(file, &dataset)?;
+        check_seen(&recorder.file, &dataset)?;
     }
     Ok(dataset)
 }
 
 /// # Errors
 /// A marker that too few runs saw in every hold, a hold in which too few runs saw any marker.
-fn check_seen(file: &str, dataset: &Dataset) -> Result<(), DataError> {
+fn check_seen(file: &str, dataset: &Dataset) -> Result<()> {
     let (holds, markers) = (0..dataset.holds.len(), 0..dataset.markers.len());
     let blind = markers.clone().find(|m| holds.clone().all(|h| !dataset.is_seen(h, *m)));
     let dark = holds.clone().find(|h| markers.clone().all(|m| !dataset.is_seen(*h, m)));
@@ -87,7 +86,7 @@ fn check_seen(file: &str, dataset: &Dataset) -> Result<(), DataError> {
         ),
         _ => return Ok(()),
     };
-    Err(DataError::Runs(Box::new(Fault::of_file(file, message, help))))
+    Err(DataError::runs(file, message, help))
 }
 
 /// By station where all are known, else by first appearance.
@@ -105,13 +104,13 @@ struct Grid<'a> {
     streams: Vec<Vec<&'a Stream>>,
     /// `[run][marker][hold]` → segment; `None` where the marker was lost
     segments: Vec<Vec<Vec<Option<usize>>>>,
-    /// The stream with the most holds, which are those of the protocol.
+    /// The stream with the most holds: the holds of the protocol.
     reference: &'a [Segment],
 }
 
 impl<'a> Grid<'a> {
-    fn new(file: &str, recorder: &'a Recorder) -> Result<Grid<'a>, DataError> {
-        let streams = by_run_and_marker(file, recorder)?;
+    fn new(recorder: &'a Recorder) -> Result<Grid<'a>> {
+        let streams = by_run_and_marker(recorder)?;
         let more = |best: &'a Stream, of: &&'a Stream| if of.segments.len() > best.segments.len() { of } else { best };
         let fullest: &Stream = streams.iter().flatten().fold(streams[0][0], |best, of| more(best, of));
         let reference: &[Segment] = &fullest.segments;
@@ -120,13 +119,13 @@ impl<'a> Grid<'a> {
             let mut matched = Vec::with_capacity(run.len());
             for stream in run {
                 let found = match_holds(reference, &stream.segments);
-                matched.push(found.map_err(|surplus| unlike(file, recorder, fullest, stream, surplus))?);
+                matched.push(found.map_err(|surplus| unlike(recorder, fullest, stream, surplus))?);
             }
             let seen_by_none = |hold: &usize| matched.iter().all(|of: &Vec<Option<usize>>| of[*hold].is_none());
             if let Some(hold) = (0..reference.len()).find(seen_by_none) {
-                return Err(no_such_hold(file, recorder, fullest, run[0], &reference[hold]));
+                return Err(no_such_hold(recorder, fullest, run[0], &reference[hold]));
             }
-            check_not_run_together(file, recorder, run, &matched)?;
+            check_not_run_together(recorder, run, &matched)?;
             segments.push(matched);
         }
         let mut grid = Grid { streams, segments, reference };
@@ -200,28 +199,28 @@ impl<'a> Grid<'a> {
     }
 }
 
-fn by_run_and_marker<'a>(file: &str, recorder: &'a Recorder) -> Result<Vec<Vec<&'a Stream>>, DataError> {
+fn by_run_and_marker(recorder: &Recorder) -> Result<Vec<Vec<&Stream>>> {
     let (runs, markers) = (&recorder.runs.names, &recorder.markers.names);
     let mut table: Vec<Vec<Option<&Stream>>> = vec![vec![None; markers.len()]; runs.len()];
     recorder.streams.iter().for_each(|stream| table[stream.run][stream.marker] = Some(stream));
     let mut full = Vec::with_capacity(runs.len());
     for (run, row) in table.into_iter().enumerate() {
         if let Some(marker) = row.iter().position(Option::is_none) {
-            return Err(absent_marker(file, recorder, run, marker));
+            return Err(absent_marker(recorder, run, marker));
         }
         full.push(row.into_iter().flatten().collect());
     }
     Ok(full)
 }
 
-fn absent_marker(file: &str, recorder: &Recorder, run: usize, marker: usize) -> DataError {
+fn absent_marker(recorder: &Recorder, run: usize, marker: usize) -> DataError {
     let (runs, name) = (&recorder.runs.names, &recorder.markers.names[marker]);
     let seen = recorder.streams.iter().find(|stream| stream.marker == marker);
     let (other, line) = seen.map_or(("", 0), |stream| (runs[stream.run].as_str(), stream.first_line));
     let message = format!("marker {name} appears in run {other} but not in run {}", runs[run]);
     let help = "every run needs the same markers: correct the label if it is misspelt, add the marker to that run, \
                 or delete it from all runs";
-    let mut fault = Fault::of_file(file, message, help).at_line(line);
+    let mut fault = Fault::of_file(&recorder.file, message, help).at_line(line);
     fault.location.column_name = Some("marker".to_string());
     fault.location.cell = Some(name.clone());
     DataError::Runs(Box::new(fault))
@@ -263,37 +262,27 @@ fn describe(segment: &Segment) -> String {
     format!("{} at {act} kPa actuator, {body:.1} kPa body (line {})", segment.phase.word(), segment.first_line)
 }
 
-fn series(recorder: &Recorder, stream: &Stream) -> String {
-    format!("run {}, marker {}", recorder.runs.names[stream.run], recorder.markers.names[stream.marker])
-}
-
-/// What every run needs.
 const SAME_HOLDS: &str = "every run needs the same holds (pressures, phase, number of repetitions): keep only rows recorded while \
                           the pressures are steady, and put other protocols into files of their own";
 
-fn unlike(file: &str, recorder: &Recorder, fullest: &Stream, stream: &Stream, surplus: usize) -> DataError {
+fn unlike(recorder: &Recorder, fullest: &Stream, stream: &Stream, surplus: usize) -> DataError {
     let segment = &stream.segments[surplus];
-    let [own, other] = [stream, fullest].map(|stream| series(recorder, stream));
+    let [own, other] = [stream, fullest].map(|stream| recorder.words(stream));
     let message = format!("{own} has a hold that {other} has not: {}", describe(segment));
-    DataError::Runs(Box::new(Fault::of_file(file, message, SAME_HOLDS).at_line(segment.first_line)))
+    recorder.fault(message, SAME_HOLDS, segment.first_line)
 }
 
-fn no_such_hold(file: &str, recorder: &Recorder, fullest: &Stream, first: &Stream, hold: &Segment) -> DataError {
-    let [own, other] = [first, fullest].map(|stream| series(recorder, stream));
+fn no_such_hold(recorder: &Recorder, fullest: &Stream, first: &Stream, hold: &Segment) -> DataError {
+    let [own, other] = [first, fullest].map(|stream| recorder.words(stream));
     let message = format!("{own} has no hold like that of {other}: {}", describe(hold));
-    DataError::Runs(Box::new(Fault::of_file(file, message, SAME_HOLDS).at_line(first.first_line)))
+    recorder.fault(message, SAME_HOLDS, first.first_line)
 }
 
 /// A marker that was lost in a hold between two equal ones has one long hold in place of both.
 ///
 /// # Errors
 /// Such a hold.
-fn check_not_run_together(
-    file: &str,
-    recorder: &Recorder,
-    run: &[&Stream],
-    matched: &[Vec<Option<usize>>],
-) -> Result<(), DataError> {
+fn check_not_run_together(recorder: &Recorder, run: &[&Stream], matched: &[Vec<Option<usize>>]) -> Result<()> {
     if matched.iter().flatten().all(Option::is_some) {
         return Ok(());
     }
@@ -307,12 +296,11 @@ fn check_not_run_together(
             let Some(segment) = index.map(|index| &stream.segments[index]) else { continue };
             let next = begins_s.iter().copied().filter(|t| *t > begins_s[hold]).fold(f64::INFINITY, f64::min);
             if segment.last_t_s() > next {
-                let message =
-                    format!("{} was lost between two equal holds: {}", series(recorder, stream), describe(segment));
+                let (own, hold) = (recorder.words(stream), describe(segment));
+                let message = format!("{own} was lost between two equal holds: {hold}");
                 let help =
                     "rows before and after cannot be told apart there: delete those of this marker in one of the two";
-                let fault = Fault::of_file(file, message, help).at_line(segment.first_line);
-                return Err(DataError::Runs(Box::new(fault)));
+                return Err(recorder.fault(message, help, segment.first_line));
             }
         }
     }

@@ -1,13 +1,13 @@
 //! What people and programs write into a cell: numbers with a point or a comma, words for nothing, durations, labels.
 
-use crate::error::DataError;
+use crate::error::{DataError, Result};
 use crate::lines::{KeptLine, Line};
 
 /// What spreadsheets, pandas, R and C libraries write where there is no number.
 const NOTHING: [&str; 13] =
     ["", "na", "n/a", "#n/a", "nan", "null", "none", "-", "nan(ind)", "nan(snan)", "1.#qnan", "1.#ind", "missing"];
 
-/// Whether a cell says that there is no number.
+/// Whether a cell means that there is no number.
 pub(crate) fn is_nothing(text: &str) -> bool {
     let plain = text.strip_prefix(['-', '+']).filter(|rest| !rest.is_empty()).unwrap_or(text);
     NOTHING.iter().any(|word| plain.eq_ignore_ascii_case(word))
@@ -51,11 +51,11 @@ pub(crate) struct Decimals {
 }
 
 impl Decimals {
-    /// The number of a cell; `allowed` says whether a comma may stand in it (it does not separate cells).
+    /// The number of a cell; `allowed`: a comma may be in it (it does not separate cells).
     ///
     /// # Errors
     /// A file that writes decimals both with a point and with a comma.
-    pub fn number(&mut self, text: &str, allowed: bool, line: &Line) -> Result<Option<f64>, DataError> {
+    pub fn number(&mut self, text: &str, allowed: bool, line: &Line) -> Result<Option<f64>> {
         if !(allowed && text.contains(',')) {
             let value = text.parse().ok();
             self.point |= allowed && text.contains('.') && value.is_some();
@@ -77,7 +77,7 @@ impl Decimals {
     ///
     /// # Errors
     /// Every comma may be one of thousands; a point elsewhere.
-    pub fn finish(&self) -> Result<bool, DataError> {
+    pub fn finish(&self) -> Result<bool> {
         match &self.doubtful {
             Some((line, text)) if self.point => Err(both(&line.line(), text)),
             Some((line, text)) if !self.comma => Err(thousands(&line.line(), text)),
@@ -115,6 +115,15 @@ fn both(line: &Line, text: &str) -> DataError {
         text.replace([',', '.'], "")
     );
     DataError::Layout(line.fault(message, "write all decimals alike, and no commas of thousands"))
+}
+
+/// A label as a CSV cell.
+pub(crate) fn quoted(label: &str) -> String {
+    if label.contains([',', '"', ';', '\t', '\n', '\r']) {
+        format!("\"{}\"", label.replace('"', "\"\""))
+    } else {
+        label.to_string()
+    }
 }
 
 #[cfg(test)]

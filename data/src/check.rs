@@ -1,4 +1,4 @@
-//! `ibr data check`: what is in a dataset, how well its runs agree, and what it cannot be used for.
+//! `ibr data check`: the contents of a dataset, how well its runs agree, and what it cannot be used for.
 
 use serde::Serialize;
 
@@ -32,7 +32,7 @@ pub struct CheckReport {
     pub actuator_pressures_kpa: Vec<f64>,
     /// Distinct body pressures \[kPa\], rising.
     pub body_pressures_kpa: Vec<f64>,
-    /// How far z of a marker is at most from that of the first hold \[mm\], where the table has z.
+    /// How far z of a marker is at most from its z in the first hold \[mm\], where the table has z.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub z_travel_mm: Option<f64>,
     /// Whether there is an unloading branch.
@@ -201,7 +201,7 @@ fn levels(mut values_pa: Vec<f64>, tolerance_pa: fn(f64) -> f64) -> Vec<f64> {
 /// Samples whose distance d from the median over runs exceeds 6 robust standard deviations, both of their hold and
 /// marker (all runs and samples) and of their marker (all holds): with few runs either scale alone is small by chance
 /// and would list good samples. Robust standard deviation: 1.4826 · median |d| · √(R/(R−1)) over the values with d ≠ 0;
-/// the median run itself has d = 0 and says nothing about the scatter. Needs three runs.
+/// the median run itself has d = 0 and carries no information on the scatter. Needs three runs.
 fn outliers(dataset: &Dataset) -> Vec<Outlier> {
     let runs = dataset.runs.len();
     if runs < 3 {
@@ -276,10 +276,9 @@ fn identical_runs(dataset: &Dataset) -> Vec<[String; 2]> {
     same.map(|pair| [dataset.runs[pair[0]].clone(), dataset.runs[pair[1]].clone()]).collect()
 }
 
-/// Holds named in one warning.
 const MOST_NAMED: usize = 3;
 
-/// What the table says of its holds that cannot be: phases against pressures, times against any protocol. The first hold, and
+/// Contradictions in the holds of a table: phases against pressures, times against any protocol. The first hold, and
 /// one that begins before the last (another session), have no pressure before them.
 pub fn contradictions(dataset: &Dataset) -> Vec<String> {
     let mut found = Vec::new();

@@ -4,14 +4,14 @@
 //! for a few seconds); in every hold each **marker** is seen `samples_per_hold` times. All lengths are metres, all
 //! pressures pascals, all times seconds; units are converted where the file is read and nowhere else.
 
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Result};
 
 /// Whether a hold was reached by raising the actuator pressure, by lowering it, or without changing it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Phase {
     /// The actuator pressure was raised to reach this hold (the first hold of a run counts as `Load`).
     Load,
-    /// The actuator pressure is that of the hold before.
+    /// The actuator pressure is the same as in the hold before.
     Hold,
     /// The actuator pressure was lowered to reach this hold.
     Unload,
@@ -33,7 +33,7 @@ impl Phase {
 pub struct Hold {
     /// Body gauge pressure p_b \[Pa\], mean over runs of the recorded value.
     pub p_body_pa: f64,
-    /// Actuator gauge pressure P \[Pa\], mean over runs of the recorded value; that of supply channel 0 where there are more.
+    /// Actuator gauge pressure P \[Pa\], mean over runs of the recorded value; of supply channel 0 where there are more.
     pub p_act_pa: f64,
     /// The same of the supply channels 1, 2, … \[Pa\]; empty where the table has one actuator pressure.
     pub more_act_pa: Vec<f64>,
@@ -62,7 +62,7 @@ impl Hold {
 pub struct Marker {
     /// Label, exactly as written in the `marker` column.
     pub name: String,
-    /// Station along the undeformed body from the base \[m\]; `None` if neither the file nor `about.toml` says.
+    /// Station along the undeformed body from the base \[m\]; `None` if neither the file nor `about.toml` gives it.
     pub station_m: Option<f64>,
 }
 
@@ -175,7 +175,7 @@ impl Dataset {
     ///
     /// # Errors
     /// No run, hold, marker or sample; a wrong number of values or times; a value that is not finite.
-    pub fn checked(self) -> Result<Dataset, DataError> {
+    pub fn checked(self) -> Result<Dataset> {
         let empty = self.runs.is_empty() || self.values_per_run() == 0;
         let timed = self.holds.iter().all(|hold| hold.t_s.len() == self.samples_per_hold);
         let gauge = self.gauge_pa.as_deref().unwrap_or_default();
@@ -186,7 +186,7 @@ impl Dataset {
         let readings = self.runs.len() * self.holds.len() * self.samples_per_hold;
         let wrong = |message: String| {
             let help = "lay xy_m out as [run][hold][sample][marker][x, y], with samples_per_hold times in every hold";
-            Err(DataError::Runs(Box::new(Fault::of_file(&self.name, message, help))))
+            Err(DataError::runs(&self.name, message, help))
         };
         match (empty, timed, finite) {
             (true, ..) => wrong("the dataset has no values".to_string()),

@@ -1,6 +1,6 @@
 //! What can be wrong with a user's file, said once, with the place and with what to type instead.
 //!
-//! Every error carries the same [`Fault`]; the variant only says of which kind it is. The binary shows the offending
+//! Every error carries the same [`Fault`]; the variant is only its kind. The binary shows the offending
 //! line with a caret from [`DataError::source_line`] and [`DataError::caret`], without opening the file again.
 
 use std::fmt;
@@ -14,16 +14,16 @@ pub struct Location {
     pub line: u64,
     /// Name of the column or key.
     pub column_name: Option<String>,
-    /// Text of the cell as it stands in the file.
+    /// Text of the cell as in the file.
     pub cell: Option<String>,
 }
 
-/// One fault in one file: where, what is wrong, what to type, and the line itself where it was at hand.
+/// One fault in one file: where, the mistake, what to type, and the line itself where it was at hand.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Fault {
     /// Where.
     pub location: Location,
-    /// What is wrong, one sentence without a full stop.
+    /// The mistake, one sentence without a full stop.
     pub message: String,
     /// What to do or type.
     pub help: String,
@@ -85,7 +85,7 @@ impl Fault {
         Some((inside(start), inside(end)))
     }
 
-    /// The same fault, placed in line `line` of its file (where the text of the line is no longer at hand).
+    /// The same fault, placed in line `line` of its file (where the text of the line is gone).
     pub fn at_line(mut self, line: u64) -> Fault {
         self.location.line = line;
         self
@@ -99,6 +99,9 @@ fn floor_boundary(text: &str, at: usize) -> usize {
     }
     at
 }
+
+/// What reading or writing gives, or why not.
+pub type Result<T, E = DataError> = std::result::Result<T, E>;
 
 /// Why a dataset, a description or a table could not be read or written.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -130,6 +133,26 @@ pub enum DataError {
 }
 
 impl DataError {
+    /// A file that cannot be opened or written.
+    pub fn file(file: &str, message: impl Into<String>, help: impl Into<String>) -> DataError {
+        DataError::File(Box::new(Fault::of_file(file, message, help)))
+    }
+
+    /// A file that is not a table as a whole.
+    pub fn layout(file: &str, message: impl Into<String>, help: impl Into<String>) -> DataError {
+        DataError::Layout(Box::new(Fault::of_file(file, message, help)))
+    }
+
+    /// Runs, holds or markers of a file that do not fit together.
+    pub fn runs(file: &str, message: impl Into<String>, help: impl Into<String>) -> DataError {
+        DataError::Runs(Box::new(Fault::of_file(file, message, help)))
+    }
+
+    /// A description that is wrong as a whole.
+    pub fn about(file: &str, message: impl Into<String>, help: impl Into<String>) -> DataError {
+        DataError::About(Box::new(Fault::of_file(file, message, help)))
+    }
+
     /// The fault inside.
     pub fn fault(&self) -> &Fault {
         use DataError::{About, Cell, Column, Feature, File, Layout, Runs, Unit};
@@ -138,7 +161,7 @@ impl DataError {
         }
     }
 
-    /// What is wrong, without the place.
+    /// The mistake, without the place.
     pub fn message(&self) -> &str {
         &self.fault().message
     }

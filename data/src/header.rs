@@ -1,31 +1,9 @@
 //! The header line: which column holds which quantity, in which unit.
 
-use crate::error::{DataError, Fault};
+use crate::columns::{self, Column, Field, Meaning, field, plain};
+use crate::error::{DataError, Fault, Result};
 use crate::lines::{KeptLine, Line, Lines};
 use crate::units::Measured;
-use spelling::units::Unit;
-
-/// A quantity of the tidy marker table.
-pub(crate) struct Quantity {
-    /// Column name without unit.
-    pub base: &'static str,
-    /// Column name as documented.
-    pub expected: &'static str,
-    dimension: Option<Measured>,
-    required: bool,
-}
-
-const fn text(name: &'static str) -> Quantity {
-    Quantity { base: name, expected: name, dimension: None, required: true }
-}
-
-const fn number(base: &'static str, expected: &'static str, dimension: Measured) -> Quantity {
-    Quantity { base, expected, dimension: Some(dimension), required: true }
-}
-
-const fn optional(base: &'static str, expected: &'static str, dimension: Measured) -> Quantity {
-    Quantity { base, expected, dimension: Some(dimension), required: false }
-}
 
 /// Positions in [`QUANTITIES`].
 pub(crate) const RUN: usize = 0;
@@ -44,41 +22,31 @@ pub(crate) const Z: usize = 11;
 pub(crate) const P_MORE: [usize; 3] = [12, 13, 14];
 
 /// All quantities; those from `s_mm` on are optional.
-pub(crate) const QUANTITIES: [Quantity; 15] = [
-    text("run"),
-    text("actuator"),
-    number("t", "t_s", Measured::Time),
-    number("p_body", "p_body_kpa", Measured::Pressure),
-    number("p_act", "p_act_kpa", Measured::Pressure),
-    text("phase"),
-    text("marker"),
-    number("x", "x_mm", Measured::Length),
-    number("y", "y_mm", Measured::Length),
-    optional("s", "s_mm", Measured::Length),
-    optional("p_gauge", "p_gauge_kpa", Measured::Pressure),
-    optional("z", "z_mm", Measured::Length),
-    optional("p_act_1", "p_act_1_kpa", Measured::Pressure),
-    optional("p_act_2", "p_act_2_kpa", Measured::Pressure),
-    optional("p_act_3", "p_act_3_kpa", Measured::Pressure),
+pub(crate) const QUANTITIES: [Field; 15] = [
+    plain("run", true),
+    plain("actuator", true),
+    field("t", "t_s", Measured::Time, true),
+    field("p_body", "p_body_kpa", Measured::Pressure, true),
+    field("p_act", "p_act_kpa", Measured::Pressure, true),
+    plain("phase", true),
+    plain("marker", true),
+    field("x", "x_mm", Measured::Length, true),
+    field("y", "y_mm", Measured::Length, true),
+    field("s", "s_mm", Measured::Length, false),
+    field("p_gauge", "p_gauge_kpa", Measured::Pressure, false),
+    field("z", "z_mm", Measured::Length, false),
+    field("p_act_1", "p_act_1_kpa", Measured::Pressure, false),
+    field("p_act_2", "p_act_2_kpa", Measured::Pressure, false),
+    field("p_act_3", "p_act_3_kpa", Measured::Pressure, false),
 ];
 
-/// A column that holds a quantity.
-#[derive(Debug, Clone)]
-pub(crate) struct Column {
-    pub index: usize,
-    pub unit: Option<Unit>,
-}
-
-/// The header line, understood.
 #[derive(Debug, Clone)]
 pub(crate) struct Header {
-    /// Column names as written.
     pub names: Vec<String>,
     /// The column of each quantity; optional ones may be absent.
-    pub columns: [Option<Column>; QUANTITIES.len()],
+    pub columns: Vec<Option<Column>>,
     /// The y column was called `y_down_…`: its sign is turned on reading.
     pub y_down: bool,
-    /// Cell separator.
     pub delimiter: u8,
     /// A line `sep=;` named it.
     pub named: bool,
@@ -92,6 +60,20 @@ impl Header {
         P_MORE.iter().filter(|quantity| self.columns[**quantity].is_some()).count()
     }
 
+    /// The fault of a whole column, shown at its name.
+    pub fn fault(&self, quantity: usize, message: String, help: String) -> Box<Fault> {
+        let line = self.line.line();
+        match &self.columns[quantity] {
+            Some(column) => columns::fault(&line, &self.names, column.index, message, help),
+            None => line.fault(message, help),
+        }
+    }
+
+    /// Symbol of the unit of a column; empty without one.
+    pub fn unit(&self, quantity: usize) -> &'static str {
+        self.columns[quantity].as_ref().and_then(|column| column.unit).map_or("", |unit| unit.symbol)
+    }
+
     /// Whether there is a column of z.
     pub fn has_z(&self) -> bool {
         self.columns[Z].is_some()
@@ -102,7 +84,7 @@ impl Header {
 ///
 /// # Errors
 /// Empty file; a column missing, there twice, misspelt or without unit.
-pub(crate) fn read_header(lines: &mut Lines) -> Result<Header, DataError> {
+pub(crate) fn read_header(lines: &mut Lines) -> Result<Header> {
     let mut said = None;
     loop {
         let file = lines.file().to_string();
@@ -123,26 +105,17 @@ fn empty_file(file: &str) -> DataError {
 }
 
 fn wanted() -> String {
-    let names: Vec<_> = QUANTITIES.iter().filter(|q| q.required).map(|q| q.expected).collect();
+    let names: Vec<_> = QUANTITIES.iter().filter(|q| q.needed).map(|q| q.expected).collect();
     names.join(",")
 }
 
-fn parse_header(line: &Line, said: Option<u8>) -> Result<Header, DataError> {
-    let delimiter = said.unwrap_or_else(|| detect_delimiter(line.text));
-    let names: Vec<String> = line.text.split(delimiter as char).map(clean).collect();
-    let mut columns: [Option<Column>; QUANTITIES.len()] = Default::default();
-    let mut y_down = false;
-    for (index, name) in names.iter().enumerate() {
-        let Meaning::Known { quantity, unit, down } = meaning(name) else { continue };
-        if let Some(first) = &columns[quantity] {
-            return Err(twice(line, &names, [first.index, index], quantity));
-        }
-        y_down |= down;
-        columns[quantity] = Some(Column { index, unit });
-    }
-    if let Some(missing) = (0..QUANTITIES.len()).find(|&q| QUANTITIES[q].required && columns[q].is_none()) {
-        // Where only two things are missing or more, it is another program's table rather than a slip in this one.
-        let all = (0..QUANTITIES.len()).filter(|&q| QUANTITIES[q].required && columns[q].is_none()).count();
+fn parse_header(line: &Line, said: Option<u8>) -> Result<Header> {
+    let (names, delimiter) = columns::split(line.text, said);
+    let columns = columns::find(line, &names, &QUANTITIES, &meaning)?;
+    let lacks = |quantity: &usize| QUANTITIES[*quantity].needed && columns[*quantity].is_none();
+    if let Some(missing) = (0..QUANTITIES.len()).find(lacks) {
+        // Where more than a few are missing, it is another program's table rather than a slip in this one.
+        let all = (0..QUANTITIES.len()).filter(lacks).count();
         return Err(if all > FEW_MISSING {
             foreign(line, &names, delimiter, [missing, all])
         } else {
@@ -150,7 +123,7 @@ fn parse_header(line: &Line, said: Option<u8>) -> Result<Header, DataError> {
         });
     }
     for quantity in [GAUGE, Z].into_iter().chain(P_MORE).filter(|q| columns[*q].is_none()) {
-        // Another program's z_score or z_px is no place.
+        // Another program's z_score or z_px is not a coordinate.
         if let Some(fault) = without_unit(line, &names, quantity, quantity != Z) {
             return Err(fault);
         }
@@ -160,9 +133,24 @@ fn parse_header(line: &Line, said: Option<u8>) -> Result<Header, DataError> {
         let (missing, found) = (QUANTITIES[P_MORE[gap - 1]].expected, &names[index]);
         let message = format!("column {found} is there and {missing} is not");
         let help = format!("add {missing}, 0 in every row where nothing is connected to supply channel {gap}");
-        return Err(column_fault(line, &names, index, message, help));
+        return Err(DataError::Column(columns::fault(line, &names, index, message, help)));
     }
+    let y = columns[Y].as_ref().map_or(String::new(), |column| names[column.index].to_lowercase());
+    let y_down = y.starts_with(Y_DOWN);
     Ok(Header { names, columns, y_down, delimiter, named: said.is_some(), line: line.keep() })
+}
+
+/// Beginning of the name of a y that points down.
+const Y_DOWN: &str = "y_down";
+
+fn meaning(name: &str) -> Meaning {
+    let name = name.to_lowercase();
+    let down = name.strip_prefix(Y_DOWN).filter(|rest| rest.is_empty() || rest.starts_with('_'));
+    Meaning::of(&down.map_or(name.clone(), |unit| format!("y{unit}")), &QUANTITIES)
+}
+
+fn without_unit(line: &Line, names: &[String], missing: usize, is_strict: bool) -> Option<DataError> {
+    columns::without_unit(line, names, &QUANTITIES, &meaning, &|quantity| (quantity == missing).then_some(is_strict))
 }
 
 /// Columns that a table of this kind may lack by a slip.
@@ -179,86 +167,6 @@ fn foreign(line: &Line, names: &[String], delimiter: u8, [missing, all]: [usize;
     DataError::Column(line.fault(message, help))
 }
 
-fn clean(name: &str) -> String {
-    name.trim().trim_matches('"').trim().to_string()
-}
-
-/// The separator that occurs most often in the header: comma, semicolon or tab.
-fn detect_delimiter(text: &str) -> u8 {
-    let count = |delimiter: u8| text.bytes().filter(|&byte| byte == delimiter).count();
-    [b'\t', b';', b','].into_iter().max_by_key(|&delimiter| count(delimiter)).unwrap_or(b',')
-}
-
-enum Meaning {
-    Known { quantity: usize, unit: Option<Unit>, down: bool },
-    NoUnit { quantity: usize },
-    OtherUnit { quantity: usize },
-    Extra,
-}
-
-fn meaning(name: &str) -> Meaning {
-    let name = name.to_lowercase();
-    if let Some(quantity) = by_base(&name) {
-        let plain = QUANTITIES[quantity].dimension.is_none();
-        return if plain { Meaning::Known { quantity, unit: None, down: false } } else { Meaning::NoUnit { quantity } };
-    }
-    if name == "y_down" {
-        return Meaning::NoUnit { quantity: Y };
-    }
-    let Some((base, suffix)) = name.rsplit_once('_') else { return Meaning::Extra };
-    let down = base == "y_down";
-    let Some(quantity) = by_base(if down { "y" } else { base }) else { return Meaning::Extra };
-    match QUANTITIES[quantity].dimension.and_then(|dimension| dimension.unit(suffix)) {
-        Some(unit) => Meaning::Known { quantity, unit: Some(unit), down },
-        None if QUANTITIES[quantity].dimension.is_some() => Meaning::OtherUnit { quantity },
-        None => Meaning::Extra,
-    }
-}
-
-fn by_base(base: &str) -> Option<usize> {
-    QUANTITIES.iter().position(|quantity| quantity.base == base)
-}
-
-fn twice(line: &Line, names: &[String], indices: [usize; 2], quantity: usize) -> DataError {
-    let [first, second] = indices.map(|index| names[index].as_str());
-    let message = if first.eq_ignore_ascii_case(second) {
-        format!("column {first} is there twice")
-    } else {
-        format!("columns {first} and {second} hold the same quantity")
-    };
-    let expected = QUANTITIES[quantity].expected;
-    column_fault(line, names, indices[1], message, format!("keep one of them, for example {expected}"))
-}
-
-fn column_fault(line: &Line, names: &[String], index: usize, message: String, help: String) -> DataError {
-    let mut fault = line.fault(message, help);
-    fault.location.column_name = Some(names[index].clone());
-    let mut from = 0;
-    for name in &names[..=index] {
-        let at = line.text[from..].find(name.as_str()).map_or(from, |at| from + at);
-        fault.span = Some((line.start + at, line.start + at + name.len()));
-        from = at + name.len();
-    }
-    DataError::Column(fault)
-}
-
-/// The fault of a column that names a quantity without a unit, or, where that is asked for, with one that is not known.
-fn without_unit(line: &Line, names: &[String], missing: usize, known: bool) -> Option<DataError> {
-    let Quantity { expected, dimension, .. } = &QUANTITIES[missing];
-    let units = dimension.map(Measured::sentence).unwrap_or_default();
-    names.iter().enumerate().find_map(|(index, name)| match meaning(name) {
-        Meaning::NoUnit { quantity } if quantity == missing => {
-            let help = format!("name it {expected}; {units}");
-            Some(column_fault(line, names, index, format!("column {name} has no unit in its name"), help))
-        }
-        Meaning::OtherUnit { quantity } if quantity == missing && known => {
-            let help = format!("convert it and name it {expected}; {units}");
-            Some(column_fault(line, names, index, format!("column {name} has an unknown unit"), help))
-        }
-        _ => None,
-    })
-}
-
 fn absent(line: &Line, names: &[String], delimiter: u8, missing: usize) -> DataError {
     if let Some(fault) = without_unit(line, names, missing, true) {
         return fault;
@@ -269,13 +177,13 @@ fn absent(line: &Line, names: &[String], delimiter: u8, missing: usize) -> DataE
     if let Some(near) = spelling::nearest(expected, unknown).filter(|near| !near.is_empty()) {
         let index = names.iter().position(|name| name == near).unwrap_or_default();
         let message = format!("column {expected} is missing; found {found}");
-        return column_fault(line, names, index, message, format!("did you mean {expected} where it says {near}?"));
+        let help = format!("did you mean {expected} where it says {near}?");
+        return DataError::Column(columns::fault(line, names, index, message, help));
     }
     let message = format!("column {expected} is missing; found {found}");
     DataError::Column(line.fault(message, format!("add it; the columns are {}", wanted())))
 }
 
-/// Column names in a message.
 const MOST_LISTED: usize = 30;
 
 /// The column names, of very many the first.
@@ -313,7 +221,7 @@ mod tests {
 
     #[test]
     fn every_required_column_is_missed_by_name() {
-        for quantity in QUANTITIES.iter().filter(|quantity| quantity.required) {
+        for quantity in QUANTITIES.iter().filter(|quantity| quantity.needed) {
             let left: Vec<_> = GOOD.split(',').filter(|name| *name != quantity.expected).collect();
             let error = header(&left.join(",")).unwrap_err();
             assert!(error.message().starts_with(&format!("column {} is missing", quantity.expected)), "{error}");

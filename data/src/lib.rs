@@ -5,9 +5,11 @@
 
 pub mod about;
 mod align;
+mod atomic;
 pub mod bench;
 mod cells;
 pub mod check;
+mod columns;
 pub mod coupons;
 pub mod dataset;
 pub mod error;
@@ -33,11 +35,13 @@ pub mod write;
 mod tests;
 
 pub use about::{About, AboutRun, Direct, Geometry, MarkerStation, MeasuredValue, Provenance, parse_about, read_about};
+pub use atomic::write_atomically;
 pub use bench::{Bench, bench, parse_bench};
 pub use check::{CheckReport, check};
 pub use coupons::{Coupon, CouponDefaults, Direction, Pulled, parse_coupons, read_coupons};
 pub use dataset::{Dataset, Hold, Lost, Marker, Phase};
-pub use error::{DataError, Fault, Location};
+pub use error::{DataError, Fault, Location, Result};
+pub use lines::Progress;
 pub use load::load;
 pub use lost::losses;
 pub use policy::is_a_room;
@@ -45,4 +49,4 @@ pub use published::{Published, PublishedActuator, PublishedFabric, PublishedFact
 pub use read::{ReadOptions, markers_of_table, parse_markers, read_markers};
 pub use sets::{SetInfo, set_about, set_file, sets};
 pub use table::{Column, Table, read_parquet};
-pub use write::{about_toml, set_files, write_atomically, write_markers_csv};
+pub use write::{about_toml, set_files, write_markers_csv};

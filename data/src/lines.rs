@@ -5,18 +5,20 @@
 
 use std::io::{BufRead, BufReader, Read};
 
-use crate::error::{DataError, Fault, Location};
+use crate::error::{DataError, Fault, Location, Result};
 
 /// Longest line accepted: far above any row of markers; without a bound a binary file would be read whole.
 const LONGEST_LINE: u64 = 1 << 20;
 /// Bytes between two calls of the progress function.
 const PROGRESS_STEP: u64 = 1 << 20;
 
+/// Called about every MiB and at the end with the bytes that are done and the bytes in all.
+pub type Progress<'a> = &'a mut dyn FnMut(u64, u64);
+
 /// One line of a file, without its line end.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Line<'a> {
     pub file: &'a str,
-    /// Counted from 1.
     pub number: u64,
     /// Byte offset of the first character in the file.
     pub start: usize,
@@ -62,10 +64,9 @@ impl KeptLine {
     }
 }
 
-/// Reads lines and reports progress.
 pub(crate) struct Lines<'a> {
     reader: BufReader<&'a mut dyn Read>,
-    progress: &'a mut dyn FnMut(u64, u64),
+    progress: Progress<'a>,
     file: String,
     buffer: Vec<u8>,
     number: u64,
@@ -76,12 +77,7 @@ pub(crate) struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     /// Lines of `reader`; `bytes_total` (0 if unknown) is handed on to `progress` with the bytes read so far.
-    pub fn new(
-        file: &str,
-        reader: &'a mut dyn Read,
-        bytes_total: u64,
-        progress: &'a mut dyn FnMut(u64, u64),
-    ) -> Lines<'a> {
+    pub fn new(file: &str, reader: &'a mut dyn Read, bytes_total: u64, progress: Progress<'a>) -> Lines<'a> {
         Lines {
             reader: BufReader::with_capacity(1 << 16, reader),
             progress,
@@ -103,7 +99,7 @@ impl<'a> Lines<'a> {
     ///
     /// # Errors
     /// The file cannot be read, a line is not UTF-8 or is longer than 1 MiB.
-    pub fn next_filled(&mut self) -> Result<Option<Line<'_>>, DataError> {
+    pub fn next_filled(&mut self) -> Result<Option<Line<'_>>> {
         loop {
             let read = self.read_raw()?;
             if read == 0 {
@@ -118,7 +114,7 @@ impl<'a> Lines<'a> {
         self.current().map(Some)
     }
 
-    fn read_raw(&mut self) -> Result<usize, DataError> {
+    fn read_raw(&mut self) -> Result<usize> {
         self.buffer.clear();
         let read = self.reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut self.buffer);
         let read = read.map_err(|cause| self.unreadable(&cause.to_string()))?;
@@ -134,7 +130,7 @@ impl<'a> Lines<'a> {
         Ok(read)
     }
 
-    fn current(&self) -> Result<Line<'_>, DataError> {
+    fn current(&self) -> Result<Line<'_>> {
         let start = (self.next_byte - self.buffer.len() as u64) as usize;
         let ended = self.buffer.last() == Some(&b'\n');
         let mut bytes = self.buffer.strip_suffix(b"\n").unwrap_or(&self.buffer);
@@ -156,7 +152,7 @@ impl<'a> Lines<'a> {
     fn cr_only(&self) -> DataError {
         let help = "save the table again as CSV (UTF-8), or convert the line ends: tr '\\r' '\\n' < old.csv > new.csv";
         let message = "the line ends are CR only, as old Macintosh programs write them: the whole file is one line";
-        DataError::Layout(Box::new(Fault::of_file(&self.file, message, help)))
+        DataError::layout(&self.file, message, help)
     }
 
     fn too_long(&self) -> DataError {

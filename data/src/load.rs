@@ -4,17 +4,18 @@ use std::path::Path;
 
 use crate::about::{About, read_about};
 use crate::dataset::Dataset;
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
+use crate::lines::Progress;
 use crate::read::{ReadOptions, parse_markers, read_markers_of};
 use crate::sets::{names, set_about, set_file, shown};
 use crate::table::{TableReader, read_parquet};
 
 /// Loads the dataset that `spec` names: an embedded set, a folder with `markers.csv` (or `.parquet`) and `about.toml`,
-/// a `.csv` or a `.parquet` file (an `about.toml` beside it is used). `#kind` at the end chooses one actuator.
+/// a `.csv` or a `.parquet` file (an `about.toml` next to it is used). `#kind` at the end chooses one actuator.
 ///
 /// # Errors
 /// Nothing of that name, or any fault of its files.
-pub fn load(spec: &str, progress: &mut dyn FnMut(u64, u64)) -> Result<(Dataset, Option<About>), DataError> {
+pub fn load(spec: &str, progress: Progress) -> Result<(Dataset, Option<About>)> {
     let (place, actuator) = split_kind(spec);
     if names().contains(&place) {
         return load_set(place, actuator, progress);
@@ -37,16 +38,12 @@ fn split_kind(spec: &str) -> (&str, Option<&str>) {
     }
 }
 
-fn load_set(
-    name: &str,
-    actuator: Option<&str>,
-    progress: &mut dyn FnMut(u64, u64),
-) -> Result<(Dataset, Option<About>), DataError> {
+fn load_set(name: &str, actuator: Option<&str>, progress: Progress) -> Result<(Dataset, Option<About>)> {
     let about = set_about(name)?;
     let file = shown(name, "markers.csv");
     let text = set_file(name, "markers.csv").map_err(|_| {
         let help = "it holds published tables only; `ibr data list` shows the sets with marker positions";
-        DataError::File(Box::new(Fault::of_file(&file, format!("the set {name} has no marker positions"), help)))
+        DataError::file(&file, format!("the set {name} has no marker positions"), help)
     })?;
     let options = ReadOptions { about: Some(&about), actuator, bytes_total: text.len() as u64 };
     let mut dataset = parse_markers(&file, &mut text.as_bytes(), options, progress)?;
@@ -54,11 +51,7 @@ fn load_set(
     Ok((dataset, Some(about)))
 }
 
-fn load_folder(
-    folder: &Path,
-    actuator: Option<&str>,
-    progress: &mut dyn FnMut(u64, u64),
-) -> Result<(Dataset, Option<About>), DataError> {
+fn load_folder(folder: &Path, actuator: Option<&str>, progress: Progress) -> Result<(Dataset, Option<About>)> {
     let candidates = ["markers.csv", "markers.parquet"].map(|file| folder.join(file));
     let Some(file) = candidates.iter().find(|file| file.is_file()) else {
         let help = "put the table there as markers.csv, with an about.toml beside it";
@@ -73,11 +66,7 @@ fn load_folder(
     Ok((dataset, about))
 }
 
-fn load_file(
-    file: &Path,
-    actuator: Option<&str>,
-    progress: &mut dyn FnMut(u64, u64),
-) -> Result<(Dataset, Option<About>), DataError> {
+fn load_file(file: &Path, actuator: Option<&str>, progress: Progress) -> Result<(Dataset, Option<About>)> {
     let beside = file.with_file_name("about.toml");
     // A link that leads nowhere was meant to be read.
     let about = beside.symlink_metadata().is_ok().then(|| read_about(&beside)).transpose()?;
@@ -96,5 +85,5 @@ fn nothing(place: &str) -> DataError {
     let meant = spelling::meant(place, known.iter().copied());
     let help =
         format!("{meant}give a .csv or .parquet file, a folder with markers.csv, or one of {}", known.join(", "));
-    DataError::File(Box::new(Fault::of_file(place, "no such file, folder or embedded set", help)))
+    DataError::file(place, "no such file, folder or embedded set", help)
 }

@@ -21,7 +21,7 @@
 
 use crate::dataset::{Dataset, Lost};
 
-/// Part of a column that must be new for it to be told apart from those before it.
+/// Part of a column that must be new to separate it from the columns before it.
 const SMALLEST_NEW_PART: f64 = 1e-3;
 
 /// Fewest runs that must see a cell.
@@ -46,7 +46,7 @@ impl Dataset {
     }
 }
 
-/// Fills the cells (run, hold, marker), in order, that were lost and says which are filled and which left out.
+/// Fills the cells (run, hold, marker), in order, that were lost, and lists which are filled and which left out.
 pub(crate) fn fill(dataset: &mut Dataset, cells: &[[usize; 3]]) {
     let runs = dataset.runs.len();
     let is_lost = |cell: [usize; 3]| cells.binary_search(&cell).is_ok();
@@ -70,7 +70,7 @@ pub(crate) fn fill(dataset: &mut Dataset, cells: &[[usize; 3]]) {
 struct Coordinates<'a> {
     /// Of one marker in one sample.
     width: usize,
-    /// Laid out as those of [`Dataset`] \[m\].
+    /// Laid out as in [`Dataset`] \[m\].
     all: &'a [f64],
 }
 
@@ -105,7 +105,7 @@ fn filled(dataset: &Dataset, of: &Coordinates, cells: &[[usize; 3]]) -> Vec<f64>
     all
 }
 
-/// Mean over the runs that saw each value; where none did, that of the marker in the nearest hold by pressure that one saw, or zero.
+/// Mean over the runs that saw each value; where none did, the marker's mean in the nearest hold by pressure that one saw, or zero.
 fn mean_of_seen(dataset: &Dataset, of: &Coordinates, cells: &[[usize; 3]]) -> Vec<f64> {
     let mut mean = vec![0.0; of.run(0, dataset).len()];
     let holds = 0..dataset.holds.len();
@@ -170,7 +170,7 @@ fn columns(dataset: &Dataset, of: &Coordinates, mean: &[f64]) -> Vec<Vec<f64>> {
     vec![bend, axis(0), axis(1), turn]
 }
 
-/// Coefficients of the columns that can be told apart, zero of the others (Gram–Schmidt, shifts first).
+/// Coefficients of the columns that can be separated, zero of the others (Gram–Schmidt, shifts first).
 fn least_squares(columns: &[Vec<f64>], mut rest: Vec<f64>) -> Vec<f64> {
     let mut basis: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
     let mut found = vec![0.0; columns.len()];
@@ -204,7 +204,6 @@ fn add(to: &mut [f64], what: &[f64], times: f64) {
     to.iter_mut().zip(what).for_each(|(to, w)| *to += times * w);
 }
 
-/// Cells named in one sentence.
 const MOST_NAMED: usize = 4;
 
 /// What reading assumed and what was lost, in words; nothing if nothing was.

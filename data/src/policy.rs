@@ -1,4 +1,4 @@
-//! The numbers by which a table is refused, cut into holds or doubted. Each says what it is and in which unit; `tests/policy.sh` moves
+//! The numbers by which a table is refused, cut into holds or doubted. Each is described with its unit; `tests/policy.sh` moves
 //! every one of them and names the tests that fail then.
 
 /// An inflated robot whose farthest marker is nearer than this to its base does not exist \[m\].
@@ -9,9 +9,9 @@ pub const LONGEST_ROBOT_M: f64 = 20.0;
 pub const FARTHEST_M: f64 = 1e3;
 /// Downward motion of the last marker at the highest pressure that cannot be noise \[m\].
 pub const SURELY_DOWN_M: f64 = 0.005;
-/// Below this the mean of a hold is not the noise of a sensor at zero \[Pa\] (the step by which holds are told apart).
+/// Below this the mean of a hold is not the noise of a sensor at zero \[Pa\] (the step that separates holds).
 pub const LOWEST_GAUGE_PA: f64 = -500.0;
-/// No inflated fabric stands this gauge pressure \[Pa\]; a higher one is a unit mistake.
+/// No inflated fabric withstands this gauge pressure \[Pa\]; a higher one is a unit mistake.
 pub const HIGHEST_GAUGE_PA: f64 = 1e6;
 /// Largest body and actuator pressure, as numbers in the kPa columns, that look like psi.
 pub const LIKE_PSI: [f64; 2] = [0.6, 7.0];
@@ -36,7 +36,7 @@ pub const LATEST_START_S: f64 = 3600.0;
 pub const PATIENT_S: f64 = 1000.0;
 /// A marker seen in less than this share of a hold's usual number of frames was lost there.
 pub const SEEN_ENOUGH: f64 = 0.5;
-/// A place that is farther from all others of a marker is none of its own \[m\].
+/// A place that is farther from all others of a marker is not its own \[m\].
 pub const ELSEWHERE_M: f64 = 0.01;
 /// Robust z above which a sample is listed.
 pub const OUTLIER_Z: f64 = 6.0;
@@ -59,7 +59,7 @@ pub const JITTER: f64 = 2e-3;
 /// Strain above which a coated fabric has broken; more is a unit mistake.
 pub const LARGEST_STRAIN: f64 = 3.0;
 
-/// A fabric thicker than this is no fabric \[m\].
+/// A fabric is thinner than this \[m\].
 pub const THICKEST_FABRIC_M: f64 = 0.02;
 /// No specimen is longer or wider \[m\].
 pub const LARGEST_SPECIMEN_M: f64 = 10.0;
@@ -70,6 +70,15 @@ pub const LARGEST_TIP_FORCE_N: f64 = 1e3;
 pub fn largest_m(size: &str) -> f64 {
     if size == "thickness" { THICKEST_FABRIC_M } else { LARGEST_SPECIMEN_M }
 }
+
+/// The message for stations \[m\] that are all the same.
+pub(crate) fn one_station(stations_m: &[f64]) -> Option<String> {
+    let first = *stations_m.first()?;
+    let same = stations_m.len() > 1 && stations_m.iter().all(|s| (s - first).abs() <= SAME_STATION_M);
+    same.then(|| format!("all {} markers have the station {} mm", stations_m.len(), first * 1e3))
+}
+
+pub(crate) const SAME_STATION: &str = "write for each marker its own distance from the base along the undeformed body";
 
 /// Tolerance of the actuator pressure inside one hold \[Pa\]: max(0.5 kPa, 5 %).
 pub fn tolerance_act_pa(mean_pa: f64) -> f64 {
@@ -94,7 +103,7 @@ pub fn is_full(holds: usize, in_all: usize) -> bool {
 /// What a sensor of absolute pressure reads in the air of a room, from the mountains to the sea \[Pa\].
 pub const ROOM_PA: [f64; 2] = [80e3, 110e3];
 
-/// Whether a pressure is that of the air of a room \[Pa\].
+/// Whether a pressure is the air pressure of a room \[Pa\].
 pub fn is_a_room(pressure_pa: f64) -> bool {
     (ROOM_PA[0]..=ROOM_PA[1]).contains(&pressure_pa)
 }

@@ -4,10 +4,10 @@
 //! Robots*, IEEE RA-L 2023, doi 10.1109/LRA.2023.3320010. The file `data/sets/du-pasquier-2023/published.toml` names the
 //! table or section of every number; marker coordinates, pouch count, weld width, tape and densities are **not printed**.
 
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 
 use crate::about::parse_toml;
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Result};
 use crate::sets::{set_file, shown};
 
 /// Name of the embedded set.
@@ -64,7 +64,7 @@ pub fn printed(kind: &str) -> &str {
 }
 
 /// One column of Table II and one row of Table III.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct PublishedActuator {
     /// `spam`, `cpam`, `epam` or `fpam`.
     pub kind: String,
@@ -73,50 +73,65 @@ pub struct PublishedActuator {
     /// Name of the fabric of the actuator, as in [`Published::fabrics`].
     pub fabric: String,
     /// L_IBR \[m\] (Table II).
+    #[serde(rename = "body_length_mm", deserialize_with = "mm")]
     pub body_length_m: f64,
     /// D_IBR \[m\] (Table II).
+    #[serde(rename = "body_diameter_mm", deserialize_with = "mm")]
     pub body_diameter_m: f64,
     /// L_actuator \[m\] (Table II): one pouch, or the whole muscle of the fPAM.
+    #[serde(rename = "actuator_length_mm", deserialize_with = "mm")]
     pub actuator_length_m: f64,
     /// W \[m\] (Table II).
+    #[serde(rename = "width_mm", deserialize_with = "mm")]
     pub width_m: f64,
     /// f \[m\] (Table II), printed for the cPAM only.
+    #[serde(rename = "fold_mm", deserialize_with = "mm_if_printed", default)]
     pub fold_m: Option<f64>,
     /// (actuator pressure \[Pa\], accuracy a of the authors' finite element model \[1\]) (Table III).
+    #[serde(rename = "accuracy_pct", deserialize_with = "accuracies")]
     pub accuracy: Vec<(f64, f64)>,
     /// d_max \[m\] (Table III): largest measured vertical displacement, at [`PublishedActuator::d_max_pressure_pa`].
+    #[serde(rename = "d_max_mm", deserialize_with = "mm")]
     pub d_max_m: f64,
     /// 30 kPa (Section IV-A: "maximum displacements (at 30 kPa)") \[Pa\].
+    #[serde(skip)]
     pub d_max_pressure_pa: f64,
 }
 
 /// One row of Table I.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct PublishedFabric {
     /// Name.
     pub name: String,
     /// Supplier.
     pub supplier: String,
     /// Elastic modulus along the warp \[Pa\].
+    #[serde(rename = "e0_mpa", deserialize_with = "mpa")]
     pub e0_pa: f64,
     /// Elastic modulus at 45° \[Pa\], printed for the silicone-coated fabric only.
+    #[serde(rename = "e45_mpa", deserialize_with = "mpa_if_printed", default)]
     pub e45_pa: Option<f64>,
     /// Elastic modulus along the fill \[Pa\].
+    #[serde(rename = "e90_mpa", deserialize_with = "mpa")]
     pub e90_pa: f64,
     /// Thickness of the shell model \[m\] (Section III-A).
+    #[serde(rename = "thickness_mm", deserialize_with = "mm")]
     pub thickness_m: f64,
     /// Neo-Hookean C10 as printed (Section III-B), **without a unit**; MPa if the authors worked in mm and N.
     pub c10_printed: Option<f64>,
 }
 
 /// Settings of the paper's own simulation (Section III-A).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct PublishedSimulation {
     /// Mesh size of the body \[m\].
+    #[serde(rename = "body_mesh_mm", deserialize_with = "mm")]
     pub body_mesh_m: f64,
     /// Mesh size of the actuator \[m\].
+    #[serde(rename = "actuator_mesh_mm", deserialize_with = "mm")]
     pub actuator_mesh_m: f64,
     /// Gap between layers at the start \[m\].
+    #[serde(rename = "layer_gap_mm", deserialize_with = "mm")]
     pub layer_gap_m: f64,
     /// Length of the time step of the analysis \[s\].
     pub step_s: f64,
@@ -135,133 +150,84 @@ impl Published {
 ///
 /// # Errors
 /// The embedded file is wrong (a test of this crate sees to it that it is not).
-pub fn published() -> Result<Published, DataError> {
+pub fn published() -> Result<Published> {
     parse_published(&shown(PAPER, "published.toml"), set_file(PAPER, "published.toml")?)
 }
 
-fn parse_published(file: &str, text: &str) -> Result<Published, DataError> {
-    let raw: RawPublished = parse_toml(file, text)?;
-    let pressures_pa: Vec<f64> = raw.protocol.actuator_pressures_kpa.iter().map(|p| p * 1e3).collect();
-    let highest_pa = pressures_pa.iter().copied().fold(0.0, f64::max);
-    if let Some(odd) = raw.actuator.iter().find(|actuator| actuator.accuracy_pct.len() != pressures_pa.len()) {
-        let message = format!("{} has not one accuracy per pressure", odd.kind);
-        return Err(DataError::About(Box::new(Fault::of_file(file, message, "give one accuracy_pct per pressure"))));
+fn parse_published(file: &str, text: &str) -> Result<Published> {
+    let Raw { title, doi, protocol, simulation, fabric, mut actuator, fact } = parse_toml(file, text)?;
+    let highest_pa = protocol.actuator_pressures_pa.iter().copied().fold(0.0, f64::max);
+    for own in &mut actuator {
+        if own.accuracy.len() != protocol.actuator_pressures_pa.len() {
+            let message = format!("{} has not one accuracy per pressure", own.kind);
+            return Err(DataError::about(file, message, "give one accuracy_pct per pressure"));
+        }
+        let pairs = own.accuracy.iter_mut().zip(&protocol.actuator_pressures_pa);
+        pairs.for_each(|(pair, pressure_pa)| pair.0 = *pressure_pa);
+        own.d_max_pressure_pa = highest_pa;
     }
-    let simulation = PublishedSimulation {
-        body_mesh_m: raw.simulation.body_mesh_mm / 1e3,
-        actuator_mesh_m: raw.simulation.actuator_mesh_mm / 1e3,
-        layer_gap_m: raw.simulation.layer_gap_mm / 1e3,
-        step_s: raw.simulation.step_s,
-        body_ramp_s: raw.simulation.body_ramp_s,
-    };
     Ok(Published {
-        title: raw.title,
-        doi: raw.doi,
-        body_pressure_pa: raw.protocol.body_pressure_kpa * 1e3,
-        hold_s: raw.protocol.hold_s,
-        markers: raw.protocol.markers,
-        actuators: raw.actuator.into_iter().map(|actuator| actuator.in_si(&pressures_pa, highest_pa)).collect(),
-        fabrics: raw.fabric.into_iter().map(RawFabric::in_si).collect(),
-        actuator_pressures_pa: pressures_pa,
+        title,
+        doi,
+        body_pressure_pa: protocol.body_pressure_pa,
+        actuator_pressures_pa: protocol.actuator_pressures_pa,
+        hold_s: protocol.hold_s,
+        markers: protocol.markers,
+        actuators: actuator,
+        fabrics: fabric,
         simulation,
-        facts: raw.fact,
+        facts: fact,
     })
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawPublished {
+struct Raw {
     title: String,
     doi: String,
     protocol: RawProtocol,
-    simulation: RawSimulation,
-    fabric: Vec<RawFabric>,
-    actuator: Vec<PrintedActuator>,
+    simulation: PublishedSimulation,
+    fabric: Vec<PublishedFabric>,
+    actuator: Vec<PublishedActuator>,
     fact: Vec<PublishedFact>,
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 struct RawProtocol {
-    #[serde(rename = "source")]
-    _source: String,
-    body_pressure_kpa: f64,
-    actuator_pressures_kpa: Vec<f64>,
+    #[serde(rename = "body_pressure_kpa", deserialize_with = "kpa")]
+    body_pressure_pa: f64,
+    #[serde(rename = "actuator_pressures_kpa", deserialize_with = "kpa_list")]
+    actuator_pressures_pa: Vec<f64>,
     hold_s: f64,
     markers: usize,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawSimulation {
-    #[serde(rename = "source")]
-    _source: String,
-    body_mesh_mm: f64,
-    actuator_mesh_mm: f64,
-    layer_gap_mm: f64,
-    step_s: f64,
-    body_ramp_s: f64,
+fn mm<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    f64::deserialize(from).map(|value| value / 1e3)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawFabric {
-    name: String,
-    supplier: String,
-    #[serde(rename = "source")]
-    _source: String,
-    e0_mpa: f64,
-    e45_mpa: Option<f64>,
-    e90_mpa: f64,
-    thickness_mm: f64,
-    c10_printed: Option<f64>,
+fn mm_if_printed<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
+    mm(from).map(Some)
 }
 
-impl RawFabric {
-    fn in_si(self) -> PublishedFabric {
-        PublishedFabric {
-            name: self.name,
-            supplier: self.supplier,
-            e0_pa: self.e0_mpa * 1e6,
-            e45_pa: self.e45_mpa.map(|modulus| modulus * 1e6),
-            e90_pa: self.e90_mpa * 1e6,
-            thickness_m: self.thickness_mm / 1e3,
-            c10_printed: self.c10_printed,
-        }
-    }
+fn kpa<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    f64::deserialize(from).map(|value| value * 1e3)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct PrintedActuator {
-    kind: String,
-    printed_name: String,
-    fabric: String,
-    body_length_mm: f64,
-    body_diameter_mm: f64,
-    actuator_length_mm: f64,
-    width_mm: f64,
-    fold_mm: Option<f64>,
-    accuracy_pct: Vec<f64>,
-    d_max_mm: f64,
+fn kpa_list<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
+    Vec::<f64>::deserialize(from).map(|all| all.into_iter().map(|value| value * 1e3).collect())
 }
 
-impl PrintedActuator {
-    fn in_si(self, pressures_pa: &[f64], highest_pa: f64) -> PublishedActuator {
-        PublishedActuator {
-            kind: self.kind,
-            printed_name: self.printed_name,
-            fabric: self.fabric,
-            body_length_m: self.body_length_mm / 1e3,
-            body_diameter_m: self.body_diameter_mm / 1e3,
-            actuator_length_m: self.actuator_length_mm / 1e3,
-            width_m: self.width_mm / 1e3,
-            fold_m: self.fold_mm.map(|fold| fold / 1e3),
-            accuracy: pressures_pa.iter().copied().zip(self.accuracy_pct.iter().map(|pct| pct / 100.0)).collect(),
-            d_max_m: self.d_max_mm / 1e3,
-            d_max_pressure_pa: highest_pa,
-        }
-    }
+fn mpa<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    f64::deserialize(from).map(|value| value * 1e6)
+}
+
+fn mpa_if_printed<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
+    mpa(from).map(Some)
+}
+
+/// Accuracies, each still without its pressure.
+fn accuracies<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<(f64, f64)>, D::Error> {
+    Vec::<f64>::deserialize(from).map(|all| all.into_iter().map(|pct| (f64::NAN, pct / 100.0)).collect())
 }
 
 #[cfg(test)]

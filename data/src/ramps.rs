@@ -1,7 +1,8 @@
 //! Whether pressures were kept at all: a hold has a least duration, and a ramp has none.
 
-use crate::error::{DataError, Fault};
-use crate::policy;
+use crate::error::{DataError, Result};
+use crate::rows::lowest_mean_pa;
+use crate::streams::pressures::PRESSURES;
 use crate::streams::{Recorder, Segment, Stream};
 use crate::units::kpa;
 
@@ -14,21 +15,17 @@ const RAMP: f64 = 0.3;
 /// A piece of a ramp has less than this part of the rows of the usual hold.
 const FEW_ROWS: f64 = 0.2;
 
-/// Refuses recordings without holds, or with ramps between them, and holds whose mean pressure is below zero.
+/// Refuses recordings without holds, or with ramps between them, and holds whose mean pressure is below its bounds.
 ///
 /// # Errors
 /// Such a recording.
-pub(crate) fn check_kept(file: &str, recorder: &Recorder) -> Result<(), DataError> {
+pub(crate) fn check_kept(recorder: &Recorder) -> Result<()> {
     let segments = || recorder.streams.iter().flat_map(|stream| &stream.segments);
-    let below = |segment: &Segment| {
-        segment
-            .below_zero
-            .iter()
-            .zip(segment.means_pa())
-            .find(|(_, mean)| *mean < policy::LOWEST_GAUGE_PA)
-            .and_then(|(fault, _)| fault.clone())
+    let too_low = |segment: &Segment| {
+        let mut means = segment.too_low.iter().zip(segment.means_pa()).zip(PRESSURES);
+        means.find(|((_, mean), quantity)| *mean < lowest_mean_pa(*quantity)).and_then(|((fault, _), _)| fault.clone())
     };
-    if let Some(fault) = segments().find_map(below) {
+    if let Some(fault) = segments().find_map(too_low) {
         return Err(DataError::Cell(fault));
     }
     let fullest = recorder.streams.iter().max_by_key(|stream| stream.segments.len());
@@ -38,9 +35,9 @@ pub(crate) fn check_kept(file: &str, recorder: &Recorder) -> Result<(), DataErro
             recorder.runs.names[stream.run],
             stream.segments.len()
         );
-        return Err(remedy(file, message, stream.first_line));
+        return Err(remedy(recorder, message, stream.first_line));
     }
-    (0..recorder.runs.names.len()).try_for_each(|run| no_pieces(file, recorder, run))
+    (0..recorder.runs.names.len()).try_for_each(|run| no_pieces(recorder, run))
 }
 
 fn is_ramp(segments: &[Segment]) -> bool {
@@ -50,7 +47,7 @@ fn is_ramp(segments: &[Segment]) -> bool {
 }
 
 /// Pieces of a ramp between holds are in the rows of every marker of a run; a glimpse of one marker is not.
-fn no_pieces(file: &str, recorder: &Recorder, run: usize) -> Result<(), DataError> {
+fn no_pieces(recorder: &Recorder, run: usize) -> Result<()> {
     let streams = || recorder.streams.iter().filter(move |stream| stream.run == run);
     let Some(first) = streams().min_by_key(|stream| pieces(stream).count()) else { return Ok(()) };
     let Some(piece) = pieces(first).next() else { return Ok(()) };
@@ -61,10 +58,10 @@ fn no_pieces(file: &str, recorder: &Recorder, run: usize) -> Result<(), DataErro
         piece.rows,
         piece.last_t_s() - piece.first_t_s()
     );
-    Err(remedy(file, message, piece.first_line))
+    Err(remedy(recorder, message, piece.first_line))
 }
 
-/// Segments too short to be holds beside the one in which the middle row lies.
+/// Segments too short to be holds, compared with the one that contains the middle row.
 fn pieces(stream: &Stream) -> impl Iterator<Item = &Segment> {
     let mut rows: Vec<u64> = stream.segments.iter().map(|segment| segment.rows).collect();
     rows.sort_unstable();
@@ -81,9 +78,10 @@ fn pieces(stream: &Stream) -> impl Iterator<Item = &Segment> {
     stream.segments.iter().filter(short)
 }
 
-fn remedy(file: &str, message: String, line: u64) -> DataError {
+fn remedy(recorder: &Recorder, message: String, line: u64) -> DataError {
+    let file = &recorder.file;
     let help = format!(
         "`ibr data import {file} --out FOLDER` keeps the holds of a recording and leaves the ramps between them out; with --bin 2kPa it bins a ramp"
     );
-    DataError::Runs(Box::new(Fault::of_file(file, message, help).at_line(line)))
+    recorder.fault(message, &help, line)
 }

@@ -9,7 +9,7 @@
 //! | `x_mm`, `y_mm` | position, x along the undeformed body from its base, y towards the actuator; both empty or NaN where the marker was not seen |
 //! | `z_mm` (optional) | third coordinate, right-handed: of robots with strips round the body |
 //! | `s_mm` (optional) | station of the marker on the undeformed body |
-//! | `p_act_1_kpa`, … `p_act_3_kpa` (optional) | pressures of supply channels 1 to 3; `p_act_kpa` is then that of channel 0 |
+//! | `p_act_1_kpa`, … `p_act_3_kpa` (optional) | pressures of supply channels 1 to 3; `p_act_kpa` is then the pressure of channel 0 |
 //! | `p_gauge_kpa` (optional) | reading of a gauge at the actuator, where `p_act_kpa` is what was set |
 //!
 //! Other units by suffix: mm, cm, m; kPa, Pa, MPa, psi, bar, mbar, inH2O; s, ms, min. `y_down_mm` means −y. Extra columns are ignored.
@@ -24,12 +24,12 @@ use std::path::Path;
 use crate::about::About;
 use crate::align::align;
 use crate::dataset::Dataset;
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
 use crate::header::{ACTUATOR, read_header};
-use crate::lines::Lines;
+use crate::lines::{Lines, Progress};
 use crate::policy;
 use crate::ramps::check_kept;
-use crate::rows::RowReader;
+use crate::rows::{Cells, RowReader};
 use crate::streams::Recorder;
 use crate::streams::plausible::{check_units, check_y_up};
 use crate::table::{Table, TableReader};
@@ -37,7 +37,7 @@ use crate::table::{Table, TableReader};
 /// Actuator kinds remembered for the error message that lists them.
 const MOST_KINDS: usize = 20;
 
-/// What is known about a marker table besides the table.
+/// Context of a marker table, in addition to the table.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ReadOptions<'a> {
     /// Its description: stations and labels are taken from it and checked against the table.
@@ -52,23 +52,15 @@ pub struct ReadOptions<'a> {
 ///
 /// # Errors
 /// Every fault of the file as one [`DataError`] with line, column and cell.
-pub fn read_markers(
-    path: &Path,
-    about: Option<&About>,
-    progress: &mut dyn FnMut(u64, u64),
-) -> Result<Dataset, DataError> {
+pub fn read_markers(path: &Path, about: Option<&About>, progress: Progress) -> Result<Dataset> {
     read_markers_of(path, ReadOptions { about, ..ReadOptions::default() }, progress)
 }
 
-pub(crate) fn read_markers_of(
-    path: &Path,
-    options: ReadOptions,
-    progress: &mut dyn FnMut(u64, u64),
-) -> Result<Dataset, DataError> {
+pub(crate) fn read_markers_of(path: &Path, options: ReadOptions, progress: Progress) -> Result<Dataset> {
     let shown = path.display().to_string();
     let mut file = File::open(path).map_err(|cause| {
         let help = "check the path; `ibr data list` shows the embedded sets";
-        DataError::File(Box::new(Fault::of_file(&shown, format!("cannot open the file: {cause}"), help)))
+        DataError::file(&shown, format!("cannot open the file: {cause}"), help)
     })?;
     let bytes_total = file.metadata().map_or(0, |metadata| metadata.len());
     parse_markers(&shown, &mut file, ReadOptions { bytes_total, ..options }, progress)
@@ -78,27 +70,23 @@ pub(crate) fn read_markers_of(
 ///
 /// # Errors
 /// As [`read_markers`].
-pub fn parse_markers(
-    file: &str,
-    reader: &mut dyn Read,
-    options: ReadOptions,
-    progress: &mut dyn FnMut(u64, u64),
-) -> Result<Dataset, DataError> {
+pub fn parse_markers(file: &str, reader: &mut dyn Read, options: ReadOptions, progress: Progress) -> Result<Dataset> {
     let mut lines = Lines::new(file, reader, options.bytes_total, progress);
-    let mut cells = RowReader::new(read_header(&mut lines)?);
+    let mut reader = RowReader::new(read_header(&mut lines)?);
     let mut kind = Kind { wanted: options.actuator.map(str::to_lowercase), ..Kind::default() };
-    let mut recorder = Recorder::of(&cells.header);
+    let mut recorder = Recorder::of(&reader.header);
     while let Some(line) = lines.next_filled()? {
-        cells.split(&line)?;
-        match kind.accept(cells.actuator(&line)?) {
+        reader.split(&line)?;
+        let cells = Cells { reader: &reader, line: &line };
+        match kind.accept(cells.actuator()?) {
             Verdict::Take if cells.is_lost() => recorder.lost_frames += 1,
-            Verdict::Take => match cells.placeholder().filter(|_| !sits_at_base(&cells, options.about)) {
+            Verdict::Take => match cells.placeholder().filter(|_| !sits_at_base(cells, options.about)) {
                 Some(words) => recorder.placeholders.note(words, 1, line.number),
-                None => recorder.add(&cells, &line)?,
+                None => recorder.add(cells)?,
             },
             Verdict::Skip => {}
             Verdict::Mixed(message, help) => {
-                return Err(DataError::Runs(cells.cell_fault(&line, ACTUATOR, message, help)));
+                return Err(DataError::Runs(cells.fault(ACTUATOR, message, help)));
             }
         }
     }
@@ -106,18 +94,18 @@ pub fn parse_markers(
         return Err(no_rows(file, &kind, recorder.lost_frames + recorder.placeholders.rows()));
     }
     recorder.placeholders.take_out_shared(&mut recorder.streams);
-    let told = told(&cells, &recorder)?;
-    check_kept(file, &recorder)?;
-    check_units(&cells, &recorder)?;
+    let told = told(&reader, &recorder)?;
+    check_units(&reader, &recorder.extremes)?;
+    check_kept(&recorder)?;
     check_about_runs(file, &recorder, options.about)?;
     let stations_m = stations(file, &recorder, options.about)?;
     let stem = Path::new(file).file_stem().map_or(file.to_string(), |stem| stem.to_string_lossy().into_owned());
-    let mut dataset = align(file, stem, kind.chosen(), &recorder, &stations_m)?;
+    let mut dataset = align(stem, kind.chosen(), &recorder, &stations_m)?;
     dataset.lost.frames = recorder.lost_frames;
     dataset.told = told;
     check_kind(file, &dataset.actuator, options.about)?;
     if !dataset.is_spatial() {
-        check_y_up(&cells.header, &dataset)?;
+        check_y_up(&reader.header, &dataset)?;
     }
     Ok(dataset)
 }
@@ -126,7 +114,7 @@ pub fn parse_markers(
 ///
 /// # Errors
 /// As [`read_markers`]; columns of different length.
-pub fn markers_of_table(name: &str, table: &Table, about: Option<&About>) -> Result<Dataset, DataError> {
+pub fn markers_of_table(name: &str, table: &Table, about: Option<&About>) -> Result<Dataset> {
     let rows = table.columns.iter().map(|(_, column)| column.len()).max().unwrap_or(0);
     if let Some((label, column)) = table.columns.iter().find(|(_, column)| column.len() != rows) {
         let message = format!("column {label} has {} of {rows} rows", column.len());
@@ -142,13 +130,13 @@ pub fn markers_of_table(name: &str, table: &Table, about: Option<&About>) -> Res
 const AT_BASE_M: f64 = 5e-3;
 
 /// Whether the row's marker has its station at the base.
-fn sits_at_base(cells: &RowReader, about: Option<&About>) -> bool {
+fn sits_at_base(cells: Cells, about: Option<&About>) -> bool {
     let described = about.into_iter().flat_map(|about| &about.markers).find(|marker| marker.name == cells.marker());
     described.map(|marker| marker.station_m).or(cells.station_m()).is_some_and(|s| s < AT_BASE_M)
 }
 
 /// What was assumed on reading, in words.
-fn told(cells: &RowReader, recorder: &Recorder) -> Result<Vec<String>, DataError> {
+fn told(cells: &RowReader, recorder: &Recorder) -> Result<Vec<String>> {
     let mut told = cells.told()?;
     told.extend(recorder.placeholders.told());
     Ok(told)
@@ -202,18 +190,18 @@ fn no_rows(file: &str, kind: &Kind, lost_frames: u64) -> DataError {
     if lost_frames > 0 {
         let help = "fill in x and y where the marker was seen";
         let message = format!("none of the {lost_frames} rows has a position");
-        return DataError::Layout(Box::new(Fault::of_file(file, message, help)));
+        return DataError::layout(file, message, help);
     }
     let Some(wanted) = &kind.wanted else {
         let help = "add one row per run, time and marker below the header";
-        return DataError::Layout(Box::new(Fault::of_file(file, "the file has a header and no rows", help)));
+        return DataError::layout(file, "the file has a header and no rows", help);
     };
     let seen: Vec<_> = kind.seen.iter().map(String::as_str).collect();
     let message = format!("no rows of actuator {wanted}; found {}", seen.join(", "));
-    DataError::Runs(Box::new(Fault::of_file(file, message, "choose one of the kinds found")))
+    DataError::runs(file, message, "choose one of the kinds found")
 }
 
-fn check_kind(file: &str, kind: &str, about: Option<&About>) -> Result<(), DataError> {
+fn check_kind(file: &str, kind: &str, about: Option<&About>) -> Result<()> {
     let Some(said) = about.and_then(|about| about.actuator.as_deref()) else { return Ok(()) };
     if said == kind {
         return Ok(());
@@ -223,7 +211,7 @@ fn check_kind(file: &str, kind: &str, about: Option<&About>) -> Result<(), DataE
     Err(DataError::Runs(Box::new(fault)))
 }
 
-fn check_about_runs(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<(), DataError> {
+fn check_about_runs(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<()> {
     let names = &recorder.runs.names;
     let described = about.into_iter().flat_map(|about| &about.runs);
     let Some(unknown) = described.map(|run| &run.id).find(|&id| !names.contains(id)) else { return Ok(()) };
@@ -231,12 +219,18 @@ fn check_about_runs(file: &str, recorder: &Recorder, about: Option<&About>) -> R
     let help =
         format!("{meant}correct `id = \"{unknown}\"` in about.toml; a [[run]] without rows would lose its tip force");
     let message = format!("about.toml describes run {unknown}, which has no rows");
-    Err(DataError::Runs(Box::new(Fault::of_file(file, message, help))))
+    Err(DataError::runs(file, message, help))
 }
 
 /// Stations in order of `recorder.markers`, from the `s_mm` column or from `about.toml`.
-fn stations(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<Vec<Option<f64>>, DataError> {
-    let Some(about) = about.filter(|about| !about.markers.is_empty()) else { return Ok(recorder.stations_m.clone()) };
+fn stations(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<Vec<Option<f64>>> {
+    let Some(about) = about.filter(|about| !about.markers.is_empty()) else {
+        let all: Option<Vec<f64>> = recorder.stations_m.iter().copied().collect();
+        return match all.and_then(|all| policy::one_station(&all)) {
+            Some(message) => Err(DataError::runs(file, message, policy::SAME_STATION)),
+            None => Ok(recorder.stations_m.clone()),
+        };
+    };
     let mut stations = Vec::with_capacity(recorder.stations_m.len());
     for (name, column_m) in recorder.markers.names.iter().zip(&recorder.stations_m) {
         let Some(marker) = about.markers.iter().find(|marker| marker.name == *name) else {

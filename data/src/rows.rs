@@ -2,12 +2,14 @@
 
 use crate::cells::{Decimals, is_nothing, label, with_comma};
 use crate::dataset::Phase;
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
 use crate::header::{
     ACTUATOR, GAUGE, Header, MARKER, P_ACT, P_BODY, P_MORE, PHASE, QUANTITIES, RUN, STATION, TIME, X, Y, Z,
 };
 use crate::lines::Line;
 use crate::policy;
+use spelling::units::Range;
+use std::ops::Deref;
 
 /// One observation; texts borrow from the reader.
 #[derive(Debug)]
@@ -58,6 +60,15 @@ const PLACEHOLDERS: [(f64, &str); 9] = [
 /// Words for seconds behind a time.
 const SECONDS: [&str; 4] = ["seconds", "secs", "sec", "s"];
 
+pub(crate) fn pressure_bounds(quantity: usize) -> &'static Range {
+    if quantity == P_BODY { &Range::BODY_PRESSURE } else { &Range::ACTUATOR_PRESSURE }
+}
+
+/// Means of holds below this are no noise of a sensor \[Pa\].
+pub(crate) fn lowest_mean_pa(quantity: usize) -> f64 {
+    if quantity == P_BODY { Range::BODY_PRESSURE.low * Range::BODY_PRESSURE.si } else { policy::LOWEST_GAUGE_PA }
+}
+
 impl RowReader {
     pub fn new(header: Header) -> RowReader {
         // The line end is already gone; a lone carriage return is then an ordinary character.
@@ -69,11 +80,11 @@ impl RowReader {
         RowReader { header, splitter, cells, ends, decimals, shift: 0, rows: 0, label: None, duration: None }
     }
 
-    /// Splits one line into cells, to be read by [`RowReader::actuator`] and [`RowReader::row`].
+    /// Splits one line into cells, to be read as [`Cells`].
     ///
     /// # Errors
     /// Wrong number of cells.
-    pub fn split(&mut self, line: &Line) -> Result<(), DataError> {
+    pub fn split(&mut self, line: &Line) -> Result<()> {
         self.cells.resize(self.cells.len().max(line.text.len() + 1), 0);
         self.splitter.reset();
         let (_, _, written, mut count) =
@@ -104,7 +115,7 @@ impl RowReader {
     /// Whether the first row begins with its number or a quoted name, before cells that fit the header.
     fn has_row_name(&mut self, line: &Line) -> bool {
         self.shift = 1;
-        self.counts_on(line) && self.phase(line).is_ok()
+        self.counts_on(line) && Cells { reader: self, line }.phase().is_ok()
     }
 
     /// Whether the first cell is quoted or the number of its row.
@@ -114,7 +125,7 @@ impl RowReader {
     }
 
     /// Notes how numbers and labels of a line are written.
-    fn listen(&mut self, line: &Line) -> Result<(), DataError> {
+    fn listen(&mut self, line: &Line) -> Result<()> {
         if self.header.delimiter != b',' && line.text.contains([',', '.']) {
             let mut decimals = std::mem::take(&mut self.decimals);
             for quantity in
@@ -137,103 +148,27 @@ impl RowReader {
     ///
     /// # Errors
     /// Numbers with a comma that may be decimal or of thousands.
-    pub fn told(&self) -> Result<Vec<String>, DataError> {
+    pub fn told(&self) -> Result<Vec<String>> {
         let comma = self.decimals.finish()?;
-        let told = [
-            self.header.named.then(|| format!("a first line names the separator: {}", self.header.delimiter as char)),
-            comma.then(|| "decimals are written with a comma".to_string()),
-            (self.shift > 0)
-                .then(|| "every row begins with a name that the header has not, as R writes it: left out".to_string()),
-            self.label.as_ref().map(|text| format!("labels such as {text} are read as {}", label(text))),
-            self.duration.as_ref().map(|text| format!("times such as \"{text}\" are read as seconds")),
-        ];
-        Ok(told.into_iter().flatten().collect())
-    }
-
-    /// The cell of the `actuator` column.
-    pub fn actuator(&self, line: &Line) -> Result<&str, DataError> {
-        self.word(line, ACTUATOR)
-    }
-
-    /// Whether the line split last says that its marker was not seen: no coordinate, or NaN for each.
-    pub fn is_lost(&self) -> bool {
-        [X, Y].iter().all(|axis| is_nothing(self.text(*axis))) && (!self.has(Z) || is_nothing(self.text(Z)))
+        let mut told = Vec::new();
+        if self.header.named {
+            told.push(format!("a first line names the separator: {}", self.header.delimiter as char));
+        }
+        if comma {
+            told.push("decimals are written with a comma".into());
+        }
+        if self.shift > 0 {
+            told.push("every row begins with a name that the header has not, as R writes it: left out".into());
+        }
+        let as_label = |text: &String| format!("labels such as {text} are read as {}", label(text));
+        told.extend(self.label.as_ref().map(as_label));
+        told.extend(self.duration.as_ref().map(|text| format!("times such as \"{text}\" are read as seconds")));
+        Ok(told)
     }
 
     /// Whether the table has a column.
     fn has(&self, quantity: usize) -> bool {
         self.header.columns[quantity].is_some()
-    }
-
-    /// What stands in the place of a position that was not seen, as some programs write it: 0, 0 or -1, -1 or 9999, 9999.
-    pub fn placeholder(&self) -> Option<&'static str> {
-        let (x, y) = (self.text(X), self.text(Y));
-        // Most positions begin with another digit.
-        if !x.starts_with(['0', '-', '.', '9', '6']) {
-            return None;
-        }
-        let (x, y) = (x.parse::<f64>().ok()?, y.parse::<f64>().ok()?);
-        // A third coordinate of its own is a place.
-        if self.has(Z) && self.text(Z).parse().is_ok_and(|z: f64| z != x) {
-            return None;
-        }
-        PLACEHOLDERS.iter().find(|(value, _)| x == *value && y == *value).map(|(_, words)| *words)
-    }
-
-    /// The cell of the `marker` column.
-    pub fn marker(&self) -> &str {
-        label(self.text(MARKER))
-    }
-
-    /// The cell of the station, if it is a number \[m\].
-    pub fn station_m(&self) -> Option<f64> {
-        let unit = self.header.columns[STATION].as_ref()?.unit?;
-        self.text(STATION).parse().ok().map(|value| unit.to_si(value))
-    }
-
-    /// The observation of the line split last.
-    ///
-    /// # Errors
-    /// An empty cell, text in a number cell, NaN or infinity, an unknown phase, an impossible pressure or length.
-    pub fn row(&self, line: &Line) -> Result<Row<'_>, DataError> {
-        let y_m = self.length(line, Y)?;
-        let mut more_act_pa = [0.0; P_MORE.len()];
-        for (pressure_pa, quantity) in more_act_pa.iter_mut().zip(P_MORE).filter(|(_, q)| self.has(*q)) {
-            *pressure_pa = self.pressure(line, quantity)?;
-        }
-        Ok(Row {
-            run: label(self.word(line, RUN)?),
-            marker: label(self.word(line, MARKER)?),
-            phase: self.phase(line)?,
-            t_s: self.time(line)?,
-            p_body_pa: self.pressure(line, P_BODY)?,
-            p_act_pa: self.pressure(line, P_ACT)?,
-            more_act_pa,
-            x_m: self.length(line, X)?,
-            y_m: if self.header.y_down { -y_m } else { y_m },
-            z_m: if self.has(Z) { Some(self.length(line, Z)?) } else { None },
-            station_m: if self.has(STATION) { Some(self.station(line)?) } else { None },
-            gauge_pa: if self.has(GAUGE) { Some(self.pressure(line, GAUGE)?) } else { None },
-        })
-    }
-
-    /// The fault of one cell, with its column, text and span.
-    pub fn cell_fault(&self, line: &Line, quantity: usize, message: String, help: String) -> Box<Fault> {
-        let mut fault = line.fault(message, help);
-        let Some(column) = &self.header.columns[quantity] else { return fault };
-        fault.location.column_name = self.header.names.get(column.index).cloned();
-        fault.location.cell = Some(self.text(quantity).to_string());
-        if !line.text.contains('"') {
-            let before: usize = line
-                .text
-                .split(self.header.delimiter as char)
-                .take(column.index + self.shift)
-                .map(|c| c.len() + 1)
-                .sum();
-            let cell = line.text[before.min(line.text.len())..].split(self.header.delimiter as char).next();
-            fault.span = Some((line.start + before, line.start + before + cell.unwrap_or_default().len()));
-        }
-        fault
     }
 
     fn text(&self, quantity: usize) -> &str {
@@ -242,116 +177,6 @@ impl RowReader {
         let start = if index == 0 { 0 } else { self.ends[index - 1] };
         let bytes = self.cells.get(start..self.ends[index]).unwrap_or_default();
         std::str::from_utf8(bytes).unwrap_or_default().trim()
-    }
-
-    fn word(&self, line: &Line, quantity: usize) -> Result<&str, DataError> {
-        let text = self.text(quantity);
-        if text.is_empty() {
-            let help = format!("write the {} in every row", QUANTITIES[quantity].base);
-            return Err(DataError::Cell(self.cell_fault(line, quantity, "the cell is empty".to_string(), help)));
-        }
-        Ok(text)
-    }
-
-    fn phase(&self, line: &Line) -> Result<Phase, DataError> {
-        let text = self.word(line, PHASE)?;
-        let is = |phase: &Phase| text.eq_ignore_ascii_case(phase.word());
-        [Phase::Load, Phase::Hold, Phase::Unload].into_iter().find(is).ok_or_else(|| {
-            let message = format!("unknown phase \"{text}\"");
-            let help = "write load (actuator pressure raised), hold (unchanged) or unload (lowered)".to_string();
-            DataError::Cell(self.cell_fault(line, PHASE, message, help))
-        })
-    }
-
-    fn number(&self, line: &Line, quantity: usize) -> Result<f64, DataError> {
-        let text = self.text(quantity);
-        let unit = self.header.columns[quantity].as_ref().and_then(|column| column.unit);
-        let seconds = quantity == TIME && unit.is_some_and(|unit| unit.symbol == "s");
-        let suffix = SECONDS.iter().filter(|_| seconds).find_map(|word| text.strip_suffix(word));
-        let plain = suffix.unwrap_or(text).trim_end();
-        let comma = || (self.header.delimiter != b',').then(|| with_comma(plain)).flatten();
-        match (plain.parse::<f64>().ok().or_else(comma), unit) {
-            (Some(value), Some(unit)) if value.is_finite() && unit.to_si(value).is_finite() => Ok(unit.to_si(value)),
-            _ => Err(DataError::Cell(self.not_a_number(line, quantity, text))),
-        }
-    }
-
-    fn not_a_number(&self, line: &Line, quantity: usize, text: &str) -> Box<Fault> {
-        let message = match text.parse::<f64>() {
-            _ if text.is_empty() => "expected a number, the cell is empty".to_string(),
-            Ok(_) => format!("expected a finite number, found \"{text}\""),
-            Err(_) => format!("expected a number, found \"{text}\""),
-        };
-        let name = QUANTITIES[quantity].expected;
-        let lost = match quantity {
-            X | Y | Z if self.has(Z) => "; of a marker that was not seen leave x, y and z empty",
-            X | Y => "; of a marker that was not seen leave x and y empty",
-            _ => "",
-        };
-        let help = if text.replace(',', ".").parse::<f64>().is_ok_and(f64::is_finite) {
-            format!("write decimals with a point: {}", text.replace(',', "."))
-        } else {
-            format!(
-                "type a plain number such as 12.5 (the unit belongs to the column name, as in {name}), or delete the row{lost}"
-            )
-        };
-        self.cell_fault(line, quantity, message, help)
-    }
-
-    fn length(&self, line: &Line, quantity: usize) -> Result<f64, DataError> {
-        let value = self.number(line, quantity)?;
-        if value.abs() > policy::FARTHEST_M {
-            let name = QUANTITIES[quantity].expected;
-            let message = format!("\"{}\" is farther than any robot reaches", self.text(quantity));
-            let help = format!("correct or delete the row; {name} is the name of a column in millimetres");
-            return Err(DataError::Unit(self.cell_fault(line, quantity, message, help)));
-        }
-        Ok(value)
-    }
-
-    fn station(&self, line: &Line) -> Result<f64, DataError> {
-        let value = self.length(line, STATION)?;
-        if value < 0.0 {
-            let message = format!("the station of a marker is below zero: {}", self.text(STATION));
-            let help = "stations count from the robot's base along the undeformed body".to_string();
-            return Err(DataError::Cell(self.cell_fault(line, STATION, message, help)));
-        }
-        Ok(value)
-    }
-
-    fn time(&self, line: &Line) -> Result<f64, DataError> {
-        let value = self.number(line, TIME)?;
-        if value < 0.0 {
-            let message = format!("the time is below zero: {}", self.text(TIME));
-            let help = "times count from the start of the run, when the first pressure was set: add the same number to \
-                        all times of the run";
-            return Err(DataError::Cell(self.cell_fault(line, TIME, message, help.to_string())));
-        }
-        Ok(value)
-    }
-
-    fn pressure(&self, line: &Line, quantity: usize) -> Result<f64, DataError> {
-        let value = self.number(line, quantity)?;
-        let base = QUANTITIES[quantity].base;
-        if value > policy::HIGHEST_GAUGE_PA {
-            let unit = self.header.columns[quantity].as_ref().and_then(|column| column.unit).map_or("", |u| u.symbol);
-            let better = if unit == "kPa" { ("Pa", "pa") } else { ("kPa", "kpa") };
-            let message = format!("{} {unit} is above 1 MPa; it looks like {}", self.text(quantity), better.0);
-            let help = format!("name the column {base}_{}", better.1);
-            return Err(DataError::Unit(self.cell_fault(line, quantity, message, help)));
-        }
-        if quantity == GAUGE && value < policy::LOWEST_GAUGE_PA {
-            return Err(DataError::Cell(self.below_zero(line, quantity)));
-        }
-        Ok(value)
-    }
-
-    /// The fault of a pressure below zero.
-    pub fn below_zero(&self, line: &Line, quantity: usize) -> Box<Fault> {
-        let what = if quantity == P_BODY { "body" } else { "actuator" };
-        let message = format!("{what} pressure below zero: {}", self.text(quantity));
-        let help = "give gauge pressure (0 is the air of the room); subtract the sensor's zero".to_string();
-        self.cell_fault(line, quantity, message, help)
     }
 
     fn wrong_count(&self, line: &Line, count: usize) -> DataError {
@@ -370,5 +195,200 @@ impl RowReader {
             _ => "complete the row or delete it; if the copy was cut short, copy the file again".to_string(),
         };
         DataError::Layout(line.fault(message, help))
+    }
+}
+
+/// The cells of the line that was split last, with its place for faults.
+#[derive(Clone, Copy)]
+pub(crate) struct Cells<'a> {
+    pub reader: &'a RowReader,
+    pub line: &'a Line<'a>,
+}
+
+impl Deref for Cells<'_> {
+    type Target = RowReader;
+    fn deref(&self) -> &RowReader {
+        self.reader
+    }
+}
+
+impl<'a> Cells<'a> {
+    /// The cell of the `actuator` column.
+    pub fn actuator(&self) -> Result<&'a str> {
+        self.word(ACTUATOR)
+    }
+
+    /// Whether the marker of the line was not seen: no coordinate, or NaN for each.
+    pub fn is_lost(&self) -> bool {
+        [X, Y].iter().all(|axis| is_nothing(self.text(*axis))) && (!self.has(Z) || is_nothing(self.text(Z)))
+    }
+
+    /// The placeholder of a position that was not seen, as some programs write it: 0, 0 or -1, -1 or 9999, 9999.
+    pub fn placeholder(&self) -> Option<&'static str> {
+        let (x, y) = (self.text(X), self.text(Y));
+        // Most positions begin with another digit.
+        if !x.starts_with(['0', '-', '.', '9', '6']) {
+            return None;
+        }
+        let (x, y) = (x.parse::<f64>().ok()?, y.parse::<f64>().ok()?);
+        // Another third coordinate is a place.
+        if self.has(Z) && self.text(Z).parse().is_ok_and(|z: f64| z != x) {
+            return None;
+        }
+        PLACEHOLDERS.iter().find(|(value, _)| x == *value && y == *value).map(|(_, words)| *words)
+    }
+
+    /// The cell of the `marker` column.
+    pub fn marker(&self) -> &'a str {
+        label(self.reader.text(MARKER))
+    }
+
+    /// The cell of the station, if it is a number \[m\].
+    pub fn station_m(&self) -> Option<f64> {
+        let unit = self.header.columns[STATION].as_ref()?.unit?;
+        self.text(STATION).parse().ok().map(|value| unit.to_si(value))
+    }
+
+    /// The observation of the line split last.
+    ///
+    /// # Errors
+    /// An empty cell, text in a number cell, NaN or infinity, an unknown phase, an impossible pressure or length.
+    pub fn row(&self) -> Result<Row<'a>> {
+        let y_m = self.length(Y)?;
+        let mut more_act_pa = [0.0; P_MORE.len()];
+        for (pressure_pa, quantity) in more_act_pa.iter_mut().zip(P_MORE).filter(|(_, q)| self.has(*q)) {
+            *pressure_pa = self.pressure(quantity)?;
+        }
+        Ok(Row {
+            run: label(self.word(RUN)?),
+            marker: label(self.word(MARKER)?),
+            phase: self.phase()?,
+            t_s: self.bounded(TIME, &Range::TIME)?,
+            p_body_pa: self.pressure(P_BODY)?,
+            p_act_pa: self.pressure(P_ACT)?,
+            more_act_pa,
+            x_m: self.length(X)?,
+            y_m: if self.header.y_down { -y_m } else { y_m },
+            z_m: self.has(Z).then(|| self.length(Z)).transpose()?,
+            station_m: self.has(STATION).then(|| self.bounded(STATION, &Range::STATION)).transpose()?,
+            gauge_pa: self.has(GAUGE).then(|| self.pressure(GAUGE)).transpose()?,
+        })
+    }
+
+    /// The fault of one cell, with its column, text and span.
+    pub fn fault(&self, quantity: usize, message: String, help: String) -> Box<Fault> {
+        let Cells { line, reader } = self;
+        let mut fault = line.fault(message, help);
+        let Some(column) = &self.header.columns[quantity] else { return fault };
+        fault.location.column_name = self.header.names.get(column.index).cloned();
+        fault.location.cell = Some(self.text(quantity).to_string());
+        if !line.text.contains('"') {
+            let before: usize = line
+                .text
+                .split(self.header.delimiter as char)
+                .take(column.index + reader.shift)
+                .map(|c| c.len() + 1)
+                .sum();
+            let cell = line.text[before.min(line.text.len())..].split(self.header.delimiter as char).next();
+            fault.span = Some((line.start + before, line.start + before + cell.unwrap_or_default().len()));
+        }
+        fault
+    }
+
+    fn word(&self, quantity: usize) -> Result<&'a str> {
+        let text = self.reader.text(quantity);
+        if text.is_empty() {
+            let help = format!("write the {} in every row", QUANTITIES[quantity].base);
+            return Err(DataError::Cell(self.fault(quantity, "the cell is empty".to_string(), help)));
+        }
+        Ok(text)
+    }
+
+    fn phase(&self) -> Result<Phase> {
+        let text = self.word(PHASE)?;
+        let is = |phase: &Phase| text.eq_ignore_ascii_case(phase.word());
+        [Phase::Load, Phase::Hold, Phase::Unload].into_iter().find(is).ok_or_else(|| {
+            let message = format!("unknown phase \"{text}\"");
+            let help = "write load (actuator pressure raised), hold (unchanged) or unload (lowered)".to_string();
+            DataError::Cell(self.fault(PHASE, message, help))
+        })
+    }
+
+    fn number(&self, quantity: usize) -> Result<f64> {
+        let text = self.text(quantity);
+        let unit = self.header.columns[quantity].as_ref().and_then(|column| column.unit);
+        let seconds = quantity == TIME && self.header.unit(TIME) == "s";
+        let suffix = SECONDS.iter().filter(|_| seconds).find_map(|word| text.strip_suffix(word));
+        let plain = suffix.unwrap_or(text).trim_end();
+        let comma = || (self.header.delimiter != b',').then(|| with_comma(plain)).flatten();
+        match (plain.parse::<f64>().ok().or_else(comma), unit) {
+            (Some(value), Some(unit)) if value.is_finite() && unit.to_si(value).is_finite() => Ok(unit.to_si(value)),
+            _ => Err(DataError::Cell(self.not_a_number(quantity, text))),
+        }
+    }
+
+    fn not_a_number(&self, quantity: usize, text: &str) -> Box<Fault> {
+        let message = match text.parse::<f64>() {
+            _ if text.is_empty() => "expected a number, the cell is empty".to_string(),
+            Ok(_) => format!("expected a finite number, found \"{text}\""),
+            Err(_) => format!("expected a number, found \"{text}\""),
+        };
+        let name = QUANTITIES[quantity].expected;
+        let lost = match quantity {
+            X | Y | Z if self.has(Z) => "; of a marker that was not seen leave x, y and z empty",
+            X | Y => "; of a marker that was not seen leave x and y empty",
+            _ => "",
+        };
+        let help = if text.replace(',', ".").parse::<f64>().is_ok_and(f64::is_finite) {
+            format!("write decimals with a point: {}", text.replace(',', "."))
+        } else {
+            format!(
+                "type a plain number such as 12.5 (the unit belongs to the column name, as in {name}), or delete the row{lost}"
+            )
+        };
+        self.fault(quantity, message, help)
+    }
+
+    fn length(&self, quantity: usize) -> Result<f64> {
+        let value = self.number(quantity)?;
+        if value.abs() > policy::FARTHEST_M {
+            let name = QUANTITIES[quantity].expected;
+            let message = format!("\"{}\" is farther than any robot reaches", self.text(quantity));
+            let help = format!("correct or delete the row; {name} is the name of a column in millimetres");
+            return Err(DataError::Unit(self.fault(quantity, message, help)));
+        }
+        Ok(value)
+    }
+
+    /// A number of a quantity within its bounds.
+    fn bounded(&self, quantity: usize, bounds: &Range) -> Result<f64> {
+        let value = self.number(quantity)?;
+        bounds.check(value).map_err(|(message, help)| DataError::Cell(self.fault(quantity, message, help.into())))
+    }
+
+    /// Readings below zero are judged by the mean of their hold, but for a gauge, which belongs to no hold.
+    fn pressure(&self, quantity: usize) -> Result<f64> {
+        let value = self.number(quantity)?;
+        let bounds = pressure_bounds(quantity);
+        if value > bounds.high * bounds.si {
+            let better = if self.header.unit(quantity) == "kPa" { "pa" } else { "kpa" };
+            let help = format!("name the column {}_{better}", QUANTITIES[quantity].base);
+            return Err(DataError::Unit(self.out_of_bounds(quantity, value, help)));
+        }
+        if quantity == GAUGE && value < policy::LOWEST_GAUGE_PA {
+            return Err(DataError::Cell(self.too_low(quantity, value)));
+        }
+        Ok(value)
+    }
+
+    fn out_of_bounds(&self, quantity: usize, value_pa: f64, help: String) -> Box<Fault> {
+        let told = pressure_bounds(quantity).check(value_pa).err();
+        self.fault(quantity, told.map_or(String::new(), |(message, _)| message), help)
+    }
+
+    /// The fault of a pressure below its bounds.
+    pub fn too_low(&self, quantity: usize, value_pa: f64) -> Box<Fault> {
+        let help = "give gauge pressure (0 is the air of the room); subtract the sensor's zero".to_string();
+        self.out_of_bounds(quantity, value_pa, help)
     }
 }

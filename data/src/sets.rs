@@ -1,9 +1,9 @@
-//! The embedded datasets: every folder of `data/sets/` is in the binary, there is no list to edit.
+//! The embedded datasets: every folder of `data/sets/` is in the binary, without a list to edit.
 
 use include_dir::{Dir, include_dir};
 
 use crate::about::{About, Provenance, parse_about};
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Result};
 
 static SETS: Dir = include_dir!("$CARGO_MANIFEST_DIR/sets");
 
@@ -43,27 +43,24 @@ pub fn sets() -> Vec<SetInfo> {
 ///
 /// # Errors
 /// No such set or file, or it is not UTF-8.
-pub fn set_file(set: &str, file: &str) -> Result<&'static str, DataError> {
+pub fn set_file(set: &str, file: &str) -> Result<&'static str> {
     let shown = shown(set, file);
     let missing = || {
         let help = format!("embedded sets: {}", names().join(", "));
-        DataError::File(Box::new(Fault::of_file(&shown, "no such file among the embedded sets", help)))
+        DataError::file(&shown, "no such file among the embedded sets", help)
     };
     let found = SETS.get_file(format!("{set}/{file}")).ok_or_else(missing)?;
-    found.contents_utf8().ok_or_else(|| {
-        DataError::Layout(Box::new(Fault::of_file(&shown, "the text is not UTF-8", "save the file as UTF-8")))
-    })
+    found.contents_utf8().ok_or_else(|| DataError::layout(&shown, "the text is not UTF-8", "save the file as UTF-8"))
 }
 
 /// The description of an embedded set.
 ///
 /// # Errors
 /// No such set, or its `about.toml` is wrong.
-pub fn set_about(set: &str) -> Result<About, DataError> {
+pub fn set_about(set: &str) -> Result<About> {
     parse_about(&shown(set, "about.toml"), set_file(set, "about.toml")?)
 }
 
-/// Names of all folders, sorted.
 pub(crate) fn names() -> Vec<&'static str> {
     let mut names: Vec<&str> = SETS.dirs().filter_map(|dir| dir.path().file_name()?.to_str()).collect();
     names.sort_unstable();
@@ -75,7 +72,7 @@ pub(crate) fn shown(set: &str, file: &str) -> String {
     format!("set:{set}/{file}")
 }
 
-fn info(name: &str) -> Result<SetInfo, DataError> {
+fn info(name: &str) -> Result<SetInfo> {
     let About { title, provenance, source, licence, .. } = set_about(name)?;
     let files = SETS.get_dir(name).into_iter().flat_map(Dir::files);
     let mut files: Vec<String> =

@@ -1,7 +1,7 @@
 //! A third coordinate and pressures of several supply channels: what a planar robot leaves aside, and when it must not.
 
 use crate::dataset::Dataset;
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Result};
 use crate::policy::{self, tolerance_act_pa};
 use crate::streams::plausible::check_y_up_later;
 use crate::units::mm;
@@ -10,7 +10,7 @@ use crate::units::mm;
 const TOLD_MM: f64 = 0.05;
 
 impl Dataset {
-    /// Whether the table says more than one plane and one actuator pressure.
+    /// Whether the table has more than one plane and one actuator pressure.
     pub fn is_spatial(&self) -> bool {
         self.z_m.is_some() || self.more_channels() > 0
     }
@@ -32,7 +32,7 @@ impl Dataset {
     }
 
     /// How far a marker was at most from its place in the first hold that saw it, along an axis \[m\]: means over the samples of a
-    /// hold, each run by itself. 0 of a table without that axis.
+    /// hold, each run alone. 0 of a table without that axis.
     pub fn travel_m(&self, axis: usize) -> f64 {
         let at = |run: usize, hold: usize, marker: usize| {
             let values =
@@ -55,9 +55,8 @@ impl Dataset {
     /// # Errors
     /// Markers that move towards z more than towards y; channels at different pressures; y that points down, which is not asked
     /// before of a table with z.
-    pub fn left_aside(&self) -> Result<Option<String>, DataError> {
-        let refused =
-            |message: String, help: &str| Err(DataError::Runs(Box::new(Fault::of_file(&self.name, message, help))));
+    pub fn left_aside(&self) -> Result<Option<String>> {
+        let refused = |message: String, help: &str| Err(DataError::runs(&self.name, message, help));
         if self.channels_differ() {
             let message = format!(
                 "the table has pressures of {} supply channels, and this is built for one",

@@ -7,188 +7,26 @@ mod labels;
 mod placeholders;
 pub(crate) mod plausible;
 pub(crate) mod pressures;
+mod segments;
 
 use std::collections::HashMap;
 
-use crate::dataset::Phase;
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
 use crate::header::{Header, MARKER, RUN, STATION, TIME};
 use crate::lines::{KeptLine, Line};
 use crate::policy;
-use crate::rows::{Row, RowReader};
+use crate::rows::{Cells, Row, lowest_mean_pa};
 pub(crate) use labels::Labels;
 use placeholders::Placeholders;
 use plausible::Extremes;
-use pressures::{PRESSURES, are_near, pressures_pa};
-
-/// Samples kept per (run, hold, marker) before neighbours are merged; above the few that `Dataset` holds, far below a
-/// camera's frames.
-const MOST_SAMPLES: usize = 64;
-
-/// Sum of `count` neighbouring observations.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Sample {
-    pub count: u64,
-    pub t_s: f64,
-    pub x_m: f64,
-    pub y_m: f64,
-    /// 0 of a table without z.
-    pub z_m: f64,
-    pub gauge_pa: f64,
-}
-
-impl Sample {
-    /// Mean position \[m\].
-    pub fn place(&self) -> [f64; 3] {
-        [self.x_m, self.y_m, self.z_m].map(|sum| sum / self.count.max(1) as f64)
-    }
-
-    pub fn add(&mut self, other: Sample) {
-        self.count += other.count;
-        self.t_s += other.t_s;
-        self.x_m += other.x_m;
-        self.y_m += other.y_m;
-        self.z_m += other.z_m;
-        self.gauge_pa += other.gauge_pa;
-    }
-}
-
-/// One hold as one marker saw it.
-#[derive(Debug, Clone)]
-pub(crate) struct Segment {
-    pub phase: Phase,
-    pub first_line: u64,
-    pub samples: Vec<Sample>,
-    /// Observations.
-    pub rows: u64,
-    /// The first actuator pressure and the last \[Pa\].
-    pub ends_pa: [f64; 2],
-    /// The first reading that is below zero, in the order of [`PRESSURES`], to be judged by the mean.
-    pub below_zero: [Option<Box<Fault>>; PRESSURES.len()],
-    /// Observations per sample; doubles whenever neighbours are merged.
-    stride: u64,
-    /// Sums of the pressures.
-    sums_pa: [f64; PRESSURES.len()],
-}
-
-impl Segment {
-    fn new(row: &Row, line: u64) -> Segment {
-        Segment {
-            phase: row.phase,
-            first_line: line,
-            samples: Vec::new(),
-            rows: 0,
-            ends_pa: [row.p_act_pa; 2],
-            below_zero: Default::default(),
-            stride: 1,
-            sums_pa: [0.0; PRESSURES.len()],
-        }
-    }
-
-    /// Mean actuator pressure \[Pa\].
-    pub fn p_act_pa(&self) -> f64 {
-        self.means_pa()[1]
-    }
-
-    /// Mean of every pressure \[Pa\], in the order of [`PRESSURES`].
-    pub fn means_pa(&self) -> [f64; PRESSURES.len()] {
-        self.sums_pa.map(|sum| sum / self.rows.max(1) as f64)
-    }
-
-    /// Time of the first sample \[s\].
-    pub fn first_t_s(&self) -> f64 {
-        self.samples.first().map_or(f64::INFINITY, |sample| sample.t_s / sample.count.max(1) as f64)
-    }
-
-    /// Time of the last sample \[s\].
-    pub fn last_t_s(&self) -> f64 {
-        self.samples.last().map_or(f64::NEG_INFINITY, |sample| sample.t_s / sample.count.max(1) as f64)
-    }
-
-    fn continues_with(&self, row: &Row) -> bool {
-        row.phase == self.phase && are_near(self.means_pa(), pressures_pa(row), 1.0)
-    }
-
-    /// Takes in a later segment of one row: a single reading that departed and came back is noise.
-    fn absorb(&mut self, one: Segment) {
-        self.rows += one.rows;
-        self.sums_pa.iter_mut().zip(one.sums_pa).for_each(|(sum, other)| *sum += other);
-        one.samples.into_iter().for_each(|sample| self.push(sample));
-        let below = self.below_zero.iter_mut().zip(one.below_zero);
-        below.for_each(|(own, other)| *own = own.take().or(other));
-    }
-
-    /// Takes samples out, and says how many rows they were.
-    pub fn take_out(&mut self, is_out: impl Fn(&Sample) -> bool) -> u64 {
-        let gone: u64 = self.samples.iter().filter(|sample| is_out(sample)).map(|sample| sample.count).sum();
-        if gone > 0 {
-            // Pressures stay what they are on average.
-            let left = (self.rows - gone) as f64 / self.rows as f64;
-            self.sums_pa = self.sums_pa.map(|sum| left * sum);
-            self.rows -= gone;
-            self.samples.retain(|sample| !is_out(sample));
-        }
-        gone
-    }
-
-    fn add(&mut self, row: &Row) {
-        self.rows += 1;
-        self.sums_pa.iter_mut().zip(pressures_pa(row)).for_each(|(sum, pressure_pa)| *sum += pressure_pa);
-        self.ends_pa[1] = row.p_act_pa;
-        let gauge_pa = row.gauge_pa.unwrap_or(0.0);
-        let z_m = row.z_m.unwrap_or(0.0);
-        self.push(Sample { count: 1, t_s: row.t_s, x_m: row.x_m, y_m: row.y_m, z_m, gauge_pa });
-    }
-
-    fn push(&mut self, one: Sample) {
-        match self.samples.last_mut() {
-            Some(last) if last.count < self.stride => last.add(one),
-            _ => self.samples.push(one),
-        }
-        if self.samples.len() > MOST_SAMPLES {
-            self.merge_neighbours();
-        }
-    }
-
-    fn merge_neighbours(&mut self) {
-        self.stride *= 2;
-        for pair in 0..self.samples.len().div_ceil(2) {
-            let mut merged = self.samples[2 * pair];
-            if let Some(&second) = self.samples.get(2 * pair + 1) {
-                merged.add(second);
-            }
-            self.samples[pair] = merged;
-        }
-        self.samples.truncate(self.samples.len().div_ceil(2));
-    }
-}
-
-/// The observations of one marker in one run.
-#[derive(Debug)]
-pub(crate) struct Stream {
-    pub run: usize,
-    pub marker: usize,
-    pub first_line: u64,
-    pub first_t_s: f64,
-    pub segments: Vec<Segment>,
-    last_t_s: f64,
-}
-
-impl Stream {
-    /// Puts a last segment of one row back into the one before, if this row goes on there: the reading was noise.
-    fn take_back(&mut self, row: &Row) {
-        let [.., before, last] = self.segments.as_slice() else { return };
-        let noise = last.rows == 1 && last.phase == before.phase && are_near(before.means_pa(), last.means_pa(), 2.0);
-        if noise && before.continues_with(row) && !last.continues_with(row) {
-            let one = self.segments.pop();
-            self.segments.last_mut().zip(one).into_iter().for_each(|(before, one)| before.absorb(one));
-        }
-    }
-}
+use pressures::{PRESSURES, pressures_pa};
+pub(crate) use segments::{Sample, Segment, Stream};
 
 /// Everything kept of a file while it is read.
 #[derive(Debug, Default)]
 pub(crate) struct Recorder {
+    /// Its name in errors.
+    pub file: String,
     pub runs: Labels,
     pub markers: Labels,
     pub streams: Vec<Stream>,
@@ -200,9 +38,8 @@ pub(crate) struct Recorder {
     /// The table has a third coordinate.
     pub has_z: bool,
     pub first_row: Option<KeptLine>,
-    /// Rows without a position.
     pub lost_frames: u64,
-    /// Rows with a marker at a place that stands for none.
+    /// Rows with a placeholder for a position.
     pub placeholders: Placeholders,
     by_pair: HashMap<(usize, usize), usize>,
     series: usize,
@@ -211,19 +48,34 @@ pub(crate) struct Recorder {
 impl Recorder {
     /// Nothing yet, of a table with this header.
     pub fn of(header: &Header) -> Recorder {
-        Recorder { more_channels: header.more_channels(), has_z: header.has_z(), ..Recorder::default() }
+        Recorder {
+            file: header.line.file.clone(),
+            more_channels: header.more_channels(),
+            has_z: header.has_z(),
+            ..Recorder::default()
+        }
+    }
+
+    /// Runs, holds or markers that do not fit together, first seen in a line.
+    pub fn fault(&self, message: String, help: &str, line: u64) -> DataError {
+        DataError::Runs(Box::new(Fault::of_file(&self.file, message, help).at_line(line)))
+    }
+
+    /// A stream in a message.
+    pub fn words(&self, stream: &Stream) -> String {
+        format!("run {}, marker {}", self.runs.names[stream.run], self.markers.names[stream.marker])
     }
 
     /// Takes in one observation.
     ///
     /// # Errors
     /// Time not increasing in its stream, a station that changes, too many runs, markers or holds.
-    pub fn add(&mut self, cells: &RowReader, line: &Line) -> Result<(), DataError> {
-        let row = cells.row(line)?;
+    pub fn add(&mut self, cells: Cells) -> Result<()> {
+        let row = cells.row()?;
         let (run, marker) = (self.runs.number(row.run), self.markers.number(row.marker));
         let limit = |quantity, what: &str, most| {
             let help = format!("split the file: at most {most} {what}s are read at once; is the {what} column right?");
-            DataError::Layout(cells.cell_fault(line, quantity, format!("more than {most} {what}s"), help))
+            DataError::Layout(cells.fault(quantity, format!("more than {most} {what}s"), help))
         };
         if run >= policy::MOST_RUNS {
             return Err(limit(RUN, "run", policy::MOST_RUNS));
@@ -231,46 +83,39 @@ impl Recorder {
         if marker >= policy::MOST_MARKERS {
             return Err(limit(MARKER, "marker", policy::MOST_MARKERS));
         }
-        self.first_row.get_or_insert_with(|| line.keep());
+        self.first_row.get_or_insert_with(|| cells.line.keep());
         self.extremes.widen(&row);
-        self.set_station(marker, &row, cells, line)?;
-        self.add_to_stream(run, marker, &row, cells, line)
+        self.set_station(marker, &row, cells)?;
+        self.add_to_stream([run, marker], &row, cells)
     }
 
-    fn add_to_stream(
-        &mut self,
-        run: usize,
-        marker: usize,
-        row: &Row,
-        cells: &RowReader,
-        line: &Line,
-    ) -> Result<(), DataError> {
+    fn add_to_stream(&mut self, [run, marker]: [usize; 2], row: &Row, cells: Cells) -> Result<()> {
         let index = *self.by_pair.entry((run, marker)).or_insert(self.streams.len());
         if index == self.streams.len() {
             self.streams.push(Stream {
                 run,
                 marker,
-                first_line: line.number,
+                first_line: cells.line.number,
                 first_t_s: row.t_s,
                 segments: Vec::new(),
                 last_t_s: f64::NEG_INFINITY,
             });
         }
         let stream = &mut self.streams[index];
-        check_time(stream, row, cells, line)?;
+        check_time(stream, row, cells)?;
         stream.last_t_s = row.t_s;
         stream.take_back(row);
         if !stream.segments.last().is_some_and(|segment| segment.continues_with(row)) {
             if policy::is_full(stream.segments.len(), self.series) {
-                return Err(too_many_holds(line));
+                return Err(too_many_holds(cells.line));
             }
             self.series += 1;
-            stream.segments.push(Segment::new(row, line.number));
+            stream.segments.push(Segment::new(row, cells.line.number));
         }
         if let Some(segment) = stream.segments.last_mut() {
             for (which, (pressure_pa, quantity)) in pressures_pa(row).into_iter().zip(PRESSURES).enumerate() {
-                if pressure_pa < policy::LOWEST_GAUGE_PA && segment.below_zero[which].is_none() {
-                    segment.below_zero[which] = Some(cells.below_zero(line, quantity));
+                if pressure_pa < lowest_mean_pa(quantity) && segment.too_low[which].is_none() {
+                    segment.too_low[which] = Some(cells.too_low(quantity, pressure_pa));
                 }
             }
             segment.add(row);
@@ -278,7 +123,7 @@ impl Recorder {
         Ok(())
     }
 
-    fn set_station(&mut self, marker: usize, row: &Row, cells: &RowReader, line: &Line) -> Result<(), DataError> {
+    fn set_station(&mut self, marker: usize, row: &Row, cells: Cells) -> Result<()> {
         if self.stations_m.len() <= marker {
             self.stations_m.resize(marker + 1, None);
         }
@@ -291,11 +136,11 @@ impl Recorder {
         }
         let message = format!("marker {} has two stations: {} mm and {} mm", row.marker, old * 1e3, new * 1e3);
         let help = "the station is the place on the undeformed robot: write the same number in every row".to_string();
-        Err(DataError::Cell(cells.cell_fault(line, STATION, message, help)))
+        Err(DataError::Cell(cells.fault(STATION, message, help)))
     }
 }
 
-fn check_time(stream: &Stream, row: &Row, cells: &RowReader, line: &Line) -> Result<(), DataError> {
+fn check_time(stream: &Stream, row: &Row, cells: Cells) -> Result<()> {
     if row.t_s > stream.last_t_s {
         return Ok(());
     }
@@ -307,7 +152,7 @@ fn check_time(stream: &Stream, row: &Row, cells: &RowReader, line: &Line) -> Res
                     sort the rows, give repeated tests their own run label, and look for rows copied twice";
         (format!("time goes backwards in {of}: {} s after {} s", row.t_s, stream.last_t_s), help.to_string())
     };
-    Err(DataError::Cell(cells.cell_fault(line, TIME, message, help)))
+    Err(DataError::Cell(cells.fault(TIME, message, help)))
 }
 
 fn too_many_holds(line: &Line) -> DataError {
@@ -315,69 +160,4 @@ fn too_many_holds(line: &Line) -> DataError {
     let help = "keep only rows recorded while the pressures are steady; a new hold begins when the phase changes or a \
                 pressure moves by more than 5 %";
     DataError::Layout(line.fault(message, help))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn row(t_s: f64, p_act_pa: f64) -> Row<'static> {
-        let (run, marker, phase) = ("1", "1", Phase::Load);
-        let (x_m, y_m, gauge_pa) = (2.0 * t_s, -t_s, Some(3.0 * t_s));
-        let (z_m, more_act_pa) = (Some(4.0 * t_s), [0.0; 3]);
-        Row {
-            run,
-            marker,
-            phase,
-            t_s,
-            p_body_pa: 2000.0,
-            p_act_pa,
-            more_act_pa,
-            x_m,
-            y_m,
-            z_m,
-            station_m: None,
-            gauge_pa,
-        }
-    }
-
-    #[test]
-    fn a_hold_ends_when_a_pressure_leaves_its_tolerance() {
-        let mut segment = Segment::new(&row(0.0, 20_000.0), 1);
-        segment.add(&row(0.0, 20_000.0));
-        assert!(segment.continues_with(&row(1.0, 20_999.0)) && !segment.continues_with(&row(1.0, 21_001.0)));
-        segment = Segment::new(&row(0.0, 0.0), 1);
-        segment.add(&row(0.0, 0.0));
-        assert!(segment.continues_with(&row(1.0, 499.0)) && !segment.continues_with(&row(1.0, 501.0)));
-        let body = |p_body_pa: f64| Row { p_body_pa, ..row(1.0, 0.0) };
-        assert!(segment.continues_with(&body(2199.0)) && !segment.continues_with(&body(2201.0)));
-        let other_phase = Row { phase: Phase::Unload, ..row(1.0, 20_000.0) };
-        let other_body = Row { p_body_pa: 2201.0, ..row(1.0, 20_000.0) };
-        assert!(!segment.continues_with(&other_phase) && !segment.continues_with(&other_body));
-        for channel in 0..3 {
-            let mut other = row(1.0, 0.0);
-            other.more_act_pa[channel] = 501.0;
-            assert!(!segment.continues_with(&other), "{channel}");
-        }
-    }
-
-    #[test]
-    fn at_most_64_samples_are_kept_and_none_is_lost() {
-        for rows in [1_u64, 64, 65, 1000, 12_345] {
-            let mut segment = Segment::new(&row(0.0, 0.0), 1);
-            (0..rows).for_each(|i| segment.add(&row(i as f64, 0.0)));
-            let total = segment.samples.iter().fold(Sample::default(), |mut total, &sample| {
-                total.add(sample);
-                total
-            });
-            let sum = (rows * (rows - 1) / 2) as f64;
-            assert!(segment.samples.len() <= MOST_SAMPLES && segment.samples.len() as u64 >= rows.min(32));
-            assert_eq!(
-                total,
-                Sample { count: rows, t_s: sum, x_m: 2.0 * sum, y_m: -sum, z_m: 4.0 * sum, gauge_pa: 3.0 * sum }
-            );
-            let full = &segment.samples[..segment.samples.len() - 1];
-            assert!(full.iter().all(|sample| sample.count == segment.stride), "equal counts but for the last");
-        }
-    }
 }

@@ -6,13 +6,14 @@ use std::fmt::Write as _;
 use std::io::{Read, Write};
 use std::path::Path;
 
-use crate::error::{DataError, Fault};
-use crate::write::{cannot_write, quoted};
+use crate::atomic::cannot_write;
+use crate::cells::quoted;
+use crate::error::{DataError, Result};
 
 /// One column.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Column {
-    /// Floating point numbers; NaN stands for an empty cell.
+    /// Floating point numbers; NaN for an empty cell.
     F64(Vec<f64>),
     /// Texts.
     Str(Vec<String>),
@@ -30,12 +31,13 @@ impl Column {
         }
     }
 
-    /// Whether there is no row.
+    /// Whether it has no row.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    fn cell(&self, row: usize) -> String {
+    /// The text of a cell in a CSV file.
+    pub(crate) fn cell(&self, row: usize) -> String {
         match self {
             Column::F64(values) if values[row].is_nan() => String::new(),
             Column::F64(values) => values[row].to_string(),
@@ -62,7 +64,7 @@ impl Table {
     ///
     /// # Errors
     /// The writer fails.
-    pub fn to_csv(&self, out: &mut dyn Write) -> Result<(), DataError> {
+    pub fn to_csv(&self, out: &mut dyn Write) -> Result<()> {
         std::io::copy(&mut TableReader::new(self), out).map_err(|cause| cannot_write("table.csv", &cause))?;
         Ok(())
     }
@@ -71,7 +73,7 @@ impl Table {
     ///
     /// # Errors
     /// Columns of different length; the folder is not writable; the crate was built without the feature `parquet`.
-    pub fn to_parquet(&self, path: &Path) -> Result<(), DataError> {
+    pub fn to_parquet(&self, path: &Path) -> Result<()> {
         parquet::write(self, path)
     }
 }
@@ -84,7 +86,7 @@ pub const PARQUET_READER: &str = "parquet";
 ///
 /// # Errors
 /// Not a Parquet file; a column that is neither number nor text; the crate was built without the feature `parquet`.
-pub fn read_parquet(path: &Path) -> Result<Table, DataError> {
+pub fn read_parquet(path: &Path) -> Result<Table> {
     parquet::read(path)
 }
 
@@ -143,14 +145,14 @@ mod parquet {
     use polars_parquet::parquet::page::CompressedPage;
     use polars_parquet::parquet::read::get_page_iterator;
 
-    use super::{Column, DataError, Fault, PARQUET_READER, Path, Table};
-    use crate::write::write_atomically;
+    use super::{Column, DataError, PARQUET_READER, Path, Result, Table};
+    use crate::atomic::write_atomically;
 
     /// Largest number of rows; a table of that many is larger than the memory.
     const MOST_ROWS: usize = 1 << 30;
 
     /// Snappy: every Parquet reader has it.
-    pub fn write(table: &Table, path: &Path) -> Result<(), DataError> {
+    pub fn write(table: &Table, path: &Path) -> Result<()> {
         let mut bytes = Cursor::new(Vec::new());
         let written = frame(table).and_then(|mut frame| {
             ParquetWriter::new(&mut bytes).with_compression(ParquetCompression::Snappy).finish(&mut frame)
@@ -160,7 +162,7 @@ mod parquet {
         write_atomically(path, bytes.get_ref())
     }
 
-    pub fn read(path: &Path) -> Result<Table, DataError> {
+    pub fn read(path: &Path) -> Result<Table> {
         let bytes = std::fs::read(path)
             .map_err(|cause| file_error(path, format!("cannot open the file: {cause}"), "check the path"))?;
         let reading = std::thread::Builder::new().name(PARQUET_READER.into()).spawn(move || table(bytes));
@@ -206,7 +208,7 @@ mod parquet {
     }
 
     fn file_error(path: &Path, message: String, help: &str) -> DataError {
-        DataError::File(Box::new(Fault::of_file(&path.display().to_string(), message, help)))
+        DataError::file(&path.display().to_string(), message, help)
     }
 
     fn frame(table: &Table) -> PolarsResult<DataFrame> {
@@ -234,13 +236,14 @@ mod parquet {
 
 #[cfg(not(feature = "parquet"))]
 mod parquet {
-    use super::{DataError, Fault, Path, Table};
+    use super::{DataError, Path, Result, Table};
+    use crate::error::Fault;
 
-    pub fn write(_table: &Table, path: &Path) -> Result<(), DataError> {
+    pub fn write(_table: &Table, path: &Path) -> Result<()> {
         Err(absent(path))
     }
 
-    pub fn read(path: &Path) -> Result<Table, DataError> {
+    pub fn read(path: &Path) -> Result<Table> {
         Err(absent(path))
     }
 

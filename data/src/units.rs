@@ -2,7 +2,6 @@
 
 use spelling::units::{Dimension, Unit, units_of};
 
-/// What a column measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Measured {
     Length,
@@ -50,12 +49,10 @@ impl Measured {
     }
 }
 
-/// Metres as millimetres.
 pub(crate) fn mm(length_m: f64) -> f64 {
     length_m * 1e3
 }
 
-/// Pascals as kilopascals.
 pub(crate) fn kpa(pressure_pa: f64) -> f64 {
     pressure_pa / 1e3
 }

@@ -1,82 +1,52 @@
-//! Writing: marker tables, descriptions, and files that are either whole or not there.
+//! Marker tables and descriptions as text.
 
-use std::fmt::Write as _;
-use std::fs::File;
 use std::io::Write;
-use std::path::{Path, PathBuf};
 
 use crate::about::{About, Direct, MeasuredValue};
+use crate::atomic::cannot_write;
 use crate::dataset::Dataset;
-use crate::error::{DataError, Fault};
-use crate::units::{kpa, mm};
+use crate::error::Result;
+use crate::table::{Column, Table};
+use crate::units::mm;
 
 /// Writes the tidy marker table of a dataset: mm and kPa with four decimals, so that the same data give the same bytes.
-/// `z_mm` and pressures of more channels are there if the dataset has them. A column `s_mm` follows if every marker has a station, and `p_gauge_kpa` if there are readings of a gauge. The pressures set
-/// are those of the holds (means over runs). What a run lost has no rows.
+/// The columns are as in [`Dataset::to_table`]. Pressures are means over the runs of a hold. What a run lost has no rows.
 ///
 /// # Errors
 /// The writer fails.
-pub fn write_markers_csv(dataset: &Dataset, out: &mut dyn Write) -> Result<(), DataError> {
-    let stations = dataset.markers.iter().all(|marker| marker.station_m.is_some());
-    let mut text = String::from("run,actuator,t_s,p_body_kpa,p_act_kpa");
-    (1..=dataset.more_channels()).for_each(|channel| text.push_str(&format!(",p_act_{channel}_kpa")));
-    text.push_str(",phase,marker,x_mm,y_mm");
-    text.push_str(if dataset.z_m.is_some() { ",z_mm" } else { "" });
-    text.push_str(if stations { ",s_mm" } else { "" });
-    text.push_str(if dataset.gauge_pa.is_some() { ",p_gauge_kpa\n" } else { "\n" });
-    for (run, label) in dataset.runs.iter().enumerate() {
-        for hold in 0..dataset.holds.len() {
-            add_rows(&mut text, dataset, run, label, hold, stations);
-        }
-        out.write_all(text.as_bytes()).map_err(|cause| cannot_write(&dataset.name, &cause))?;
-        text.clear();
+pub fn write_markers_csv(dataset: &Dataset, out: &mut dyn Write) -> Result<()> {
+    let Table { mut columns } = dataset.to_table();
+    // Phase and marker come before the place.
+    let labels: Vec<_> = columns.drain(2..4).collect();
+    let place = columns.iter().position(|(name, _)| name == "x_mm").unwrap_or(columns.len());
+    columns.splice(place..place, labels);
+    let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
+    let mut text = names.join(",") + "\n";
+    let rows = columns.first().map_or(0, |(_, column)| column.len());
+    for row in 0..rows {
+        let cell = |(_, column): &(String, Column)| match column {
+            Column::F64(values) => fixed(values[row]),
+            other => other.cell(row),
+        };
+        text.push_str(&(columns.iter().map(cell).collect::<Vec<_>>().join(",") + "\n"));
     }
-    Ok(())
+    out.write_all(text.as_bytes()).map_err(|cause| cannot_write(&dataset.name, &cause))
 }
 
 /// A set as the files of its folder by name: `about.toml` and `markers.csv`.
 ///
 /// # Errors
 /// As [`write_markers_csv`].
-pub fn set_files(dataset: &Dataset, about: &About) -> Result<[(String, Vec<u8>); 2], DataError> {
+pub fn set_files(dataset: &Dataset, about: &About) -> Result<[(String, Vec<u8>); 2]> {
     let mut csv = Vec::new();
     write_markers_csv(dataset, &mut csv)?;
     Ok([("about.toml".into(), about_toml(about).into_bytes()), ("markers.csv".into(), csv)])
-}
-
-fn add_rows(text: &mut String, dataset: &Dataset, run: usize, label: &str, hold: usize, stations: bool) {
-    let Dataset { actuator, holds, markers, samples_per_hold, .. } = dataset;
-    for sample in 0..*samples_per_hold {
-        let pressures = std::iter::once(holds[hold].p_body_pa).chain(holds[hold].channels_pa()).map(kpa);
-        let state: Vec<String> = std::iter::once(holds[hold].t_s[sample]).chain(pressures).map(fixed).collect();
-        let state = state.join(",");
-        let gauge = dataset.gauge(run).map(|all| format!(",{}", fixed(kpa(all[hold * samples_per_hold + sample]))));
-        let gauge = gauge.unwrap_or_default();
-        for (index, marker) in markers.iter().enumerate().filter(|(m, _)| !dataset.is_lost(run, hold, *m)) {
-            let place = dataset.place(run, hold, sample, index).into_iter().flatten();
-            let place = place.map(|value| fixed(mm(value))).collect::<Vec<_>>().join(",");
-            let (phase, name) = (holds[hold].phase.word(), quoted(&marker.name));
-            let station = marker.station_m.filter(|_| stations).map_or(String::new(), |s| format!(",{}", fixed(mm(s))));
-            // Writing into a String cannot fail.
-            let _ =
-                writeln!(text, "{},{},{state},{phase},{name},{place}{station}{gauge}", quoted(label), quoted(actuator));
-        }
-    }
 }
 
 /// Four decimals, without a minus sign before zero.
 fn fixed(value: f64) -> String {
     let text = format!("{value:.4}");
     if text == "-0.0000" { "0.0000".to_string() } else { text }
-}
-
-/// A label as a CSV cell.
-pub(crate) fn quoted(label: &str) -> String {
-    if label.contains([',', '"', ';', '\t', '\n', '\r']) {
-        format!("\"{}\"", label.replace('"', "\"\""))
-    } else {
-        label.to_string()
-    }
 }
 
 /// The text of an `about.toml` that reads back as `about`.
@@ -139,41 +109,4 @@ pub fn about_toml(about: &About) -> String {
 /// Millimetres rounded to a nanometre, so that 0.36 m is `360.0` and not `360.00000000000006`.
 fn tidy_mm(length_m: f64) -> String {
     format!("{:?}", (mm(length_m) * 1e6).round() / 1e6)
-}
-
-/// Writes `bytes` to `path` so that a reader, a full disk or an interruption never leaves half a file: into a temporary
-/// file of the same folder, flushed to the disk, then renamed. The folder must exist.
-///
-/// # Errors
-/// The folder does not exist or is not writable, or the disk is full; an earlier file at `path` is then untouched.
-pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), DataError> {
-    let shown = path.display().to_string();
-    let temporary = temporary_name(path);
-    let written = write_and_sync(&temporary, bytes).and_then(|()| std::fs::rename(&temporary, path));
-    written.map_err(|cause| {
-        // The temporary file may not exist; the first failure is the one to report.
-        let _ = std::fs::remove_file(&temporary);
-        cannot_write(&shown, &cause)
-    })
-}
-
-fn temporary_name(path: &Path) -> PathBuf {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!(".{name}.{}.tmp", std::process::id()))
-}
-
-fn write_and_sync(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut file = File::create(path)?;
-    file.write_all(bytes)?;
-    file.sync_all()
-}
-
-pub(crate) fn cannot_write(shown: &str, cause: &std::io::Error) -> DataError {
-    let help = match cause.kind() {
-        std::io::ErrorKind::NotFound => "the folder does not exist: create it, or give another with --out",
-        std::io::ErrorKind::PermissionDenied => "the folder is not writable: give another, or change its permissions",
-        std::io::ErrorKind::StorageFull => "free some disk space, or give a folder on another disk",
-        _ => "give another path",
-    };
-    DataError::File(Box::new(Fault::of_file(shown, format!("cannot write: {cause}"), help)))
 }

@@ -136,6 +136,12 @@ impl Damage {
         FemError::Record(Box::new(Damage { file: file.into(), line, message, help: help.into() }))
     }
 
+    /// A file whose bytes are not those that its manifest lists.
+    pub(crate) fn changed(file: &str, help: &str) -> FemError {
+        let message = "is not the file that was written: its SHA-256 differs from that in manifest.json";
+        Damage::error(file, None, message.into(), help)
+    }
+
     /// File, line and what is wrong.
     fn place(&self) -> String {
         let Damage { file, line, message, .. } = self;

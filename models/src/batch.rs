@@ -77,13 +77,15 @@ impl Model {
 
     /// Equal parts, one per thread; of several failures the first counts.
     fn predict_parts(&self, whole: Part, states: &mut [Prediction]) -> Result<(), (usize, Unsolved)> {
-        let size = whole.loads.len().div_ceil(states.len());
+        let size = whole.loads.len().div_ceil(states.len()).max(1);
+        let mut markers = whole.markers.chunks_mut((size * self.marker_count()).max(1));
+        let mut z_m = whole.z_m.chunks_mut((size * self.heights_each()).max(1));
+        let each = whole.loads.chunks(size).zip(whole.tips.chunks_mut(size)).zip(states).enumerate();
         std::thread::scope(|scope| {
-            let mut rest = whole;
-            let mut running = Vec::with_capacity(states.len());
-            for state in states {
-                let (part, others) = rest.split(size, [self.marker_count(), self.heights_each()]);
-                rest = others;
+            let mut running = Vec::with_capacity(each.len());
+            for (k, ((loads, tips), state)) in each {
+                let (markers, z_m) = (markers.next().unwrap_or_default(), z_m.next().unwrap_or_default());
+                let part = Part { first: k * size, loads, markers, z_m, tips };
                 running.push(scope.spawn(move || self.predict_part(part, state)));
             }
             // A panic of a part is passed on.
@@ -108,24 +110,5 @@ impl Model {
             *tip = state.tip;
         }
         Ok(())
-    }
-}
-
-impl<'a> Part<'a> {
-    /// The first `size` states (or what there is) and the others.
-    fn split(self, size: usize, [markers_each, heights_each]: [usize; 2]) -> (Part<'a>, Part<'a>) {
-        let size = size.min(self.loads.len());
-        let (loads, other_loads) = self.loads.split_at(size);
-        let (markers, other_markers) = self.markers.split_at_mut(size * markers_each);
-        let (z_m, other_z_m) = self.z_m.split_at_mut(size * heights_each);
-        let (tips, other_tips) = self.tips.split_at_mut(size);
-        let others = Part {
-            first: self.first + size,
-            loads: other_loads,
-            markers: other_markers,
-            z_m: other_z_m,
-            tips: other_tips,
-        };
-        (Part { first: self.first, loads, markers, z_m, tips }, others)
     }
 }

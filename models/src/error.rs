@@ -33,123 +33,60 @@ impl ScenarioError {
 }
 
 /// Why no prediction came out.
+#[expect(missing_docs, reason = "fields have the words and units of their message")]
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Unsolved {
-    /// A pressure that means nothing.
-    #[error("{what} is {value_kpa} kPa; expected a gauge pressure from 0 to {limit_kpa} kPa")]
-    BadPressure {
-        /// Which pressure.
-        what: &'static str,
-        /// Its value \[kPa\].
-        value_kpa: f64,
-        /// Largest accepted \[kPa\].
-        limit_kpa: f64,
-    },
+    /// A pressure out of its bounds.
+    #[error("{message}; {help}")]
+    BadPressure { message: String, help: &'static str },
     /// A wanted place or limits that mean nothing.
     #[error("{what}")]
-    BadAim {
-        /// What is wrong.
-        what: &'static str,
-    },
+    BadAim { what: &'static str },
     /// Built for planar robots alone.
     #[error(
         "{what} is built for planar robots; this one has strips round the body, for which ibr predict gives the shape at pressures"
     )]
-    InSpace {
-        /// What was asked for.
-        what: &'static str,
-    },
-    /// A time that is not a number of seconds.
-    #[error("the time {t_s} s of a step of the protocol is not finite")]
-    BadTime {
-        /// Its value \[s\].
-        t_s: f64,
-    },
+    InSpace { what: &'static str },
+    /// A time out of its bounds.
+    #[error("{message}; {help}")]
+    BadTime { message: String, help: &'static str },
     /// The moment balance of a stretch has no root.
     #[error(
         "no equilibrium at s = {s_mm:.1} mm for P = {p_act_kpa:.3} kPa, p_b = {p_body_kpa:.3} kPa: \
          the imbalance goes from {low:.3e} to {high:.3e} N·m; the outer loads exceed what wall and actuator can carry"
     )]
-    NoEquilibrium {
-        /// Place \[mm\].
-        s_mm: f64,
-        /// Actuator pressure there \[kPa\].
-        p_act_kpa: f64,
-        /// Body pressure \[kPa\].
-        p_body_kpa: f64,
-        /// Imbalance at the lower end of the search interval.
-        low: f64,
-        /// Imbalance at its upper end.
-        high: f64,
-    },
+    NoEquilibrium { s_mm: f64, p_act_kpa: f64, p_body_kpa: f64, low: f64, high: f64 },
     /// The same, because of a formula of the scenario.
     #[error(
         "no equilibrium at s = {s_mm:.1} mm for P = {p_act_kpa:.3} kPa, p_b = {p_body_kpa:.3} kPa: the formula {} gives {} at \
          kappa = {:.2} 1/m (theta = {:.3}); it must stay finite, and within what wall and actuator can carry, at all pressures and bends",
         extreme.formula, moment(extreme.moment), extreme.kappa, extreme.theta
     )]
-    Formula {
-        /// Where the formula is largest.
-        extreme: Extreme,
-        /// Place \[mm\].
-        s_mm: f64,
-        /// Actuator pressure there \[kPa\].
-        p_act_kpa: f64,
-        /// Body pressure \[kPa\].
-        p_body_kpa: f64,
-    },
+    Formula { extreme: Extreme, s_mm: f64, p_act_kpa: f64, p_body_kpa: f64 },
     /// Moments and shape did not settle.
     #[error(
         "moments and shape did not agree after {iterations} iterations at P = {p_act_kpa:.3} kPa: \
          residual {residual:.3e} N·m; the robot is close to collapse under its load"
     )]
-    NotConverged {
-        /// Iterations made.
-        iterations: usize,
-        /// Actuator pressure of channel 0 \[kPa\].
-        p_act_kpa: f64,
-        /// Largest remaining imbalance \[N·m\].
-        residual: f64,
-    },
+    NotConverged { iterations: usize, p_act_kpa: f64, residual: f64 },
     /// The wanted tip cannot be had.
     #[error(
         "{what} {wanted:.4} {unit} is out of reach: pressures from 0 to {p_max_kpa} kPa give {lowest:.4} to {highest:.4} {unit}"
     )]
-    OutOfReach {
-        /// Which quantity.
-        what: &'static str,
-        /// Wanted value.
-        wanted: f64,
-        /// Lowest value found.
-        lowest: f64,
-        /// Highest value found.
-        highest: f64,
-        /// Unit of the three.
-        unit: &'static str,
-        /// Largest pressure searched \[kPa\].
-        p_max_kpa: f64,
-    },
+    OutOfReach { what: &'static str, wanted: f64, lowest: f64, highest: f64, unit: &'static str, p_max_kpa: f64 },
     /// The wanted tip lies where the robot jumps, or between stretches without equilibrium.
     #[error(
         "{what} {wanted:.4} {unit} is passed over: it is {below:.4} {unit} at {low_kpa:.6} kPa and {above:.4} {unit} at {high_kpa:.6} kPa, \
          with {between} between"
     )]
     Jump {
-        /// Which quantity.
         what: &'static str,
-        /// Wanted value.
         wanted: f64,
-        /// Unit of the values.
         unit: &'static str,
-        /// Pressure before \[kPa\].
         low_kpa: f64,
-        /// Value there.
         below: f64,
-        /// Pressure beyond \[kPa\].
         high_kpa: f64,
-        /// Value there.
         above: f64,
-        /// What is between the two.
         between: &'static str,
     },
 }

@@ -3,6 +3,7 @@
 use crate::error::Unsolved;
 use crate::model::{Model, Prediction, check};
 use crate::term::Loads;
+use spelling::units::Range;
 
 /// A state of a protocol: the pressures that were set after the step before, and the time at which the robot is looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -104,9 +105,7 @@ impl Model {
         out: &mut Prediction,
     ) -> Result<(), Unsolved> {
         check(&step.loads)?;
-        if !step.t_s.is_finite() {
-            return Err(Unsolved::BadTime { t_s: step.t_s });
-        }
+        Range::TIME.check(step.t_s).map_err(|(message, help)| Unsolved::BadTime { message, help })?;
         if last.is_none() {
             out.work.history.start();
         }

@@ -49,7 +49,7 @@ struct Side {
 }
 
 impl Lens {
-    pub fn new(length_m: f64, theta: f64) -> Lens {
+    pub(crate) fn new(length_m: f64, theta: f64) -> Lens {
         Lens { theta, length_m, half: sin_cos(0.5 * theta) }
     }
 
@@ -94,7 +94,7 @@ impl Lens {
     }
 
     /// The integrals, in two parts which meet where the fold begins to be held.
-    pub fn sums(&self, fold_m: f64) -> Sums {
+    pub(crate) fn sums(&self, fold_m: f64) -> Sums {
         let open = self.open_to(fold_m);
         let cut = if open > 0.0 { open } else { 0.5 };
         let mut sums = [[0.0; 2]; 3];

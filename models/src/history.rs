@@ -24,7 +24,7 @@ pub(crate) struct History {
 }
 
 impl History {
-    pub fn new(assembly: &Assembly) -> History {
+    pub(crate) fn new(assembly: &Assembly) -> History {
         let (mut offsets, mut terms) = (vec![0], 0);
         for segment in &assembly.segments {
             let kept = assembly
@@ -42,7 +42,7 @@ impl History {
     }
 
     /// At rest at time zero, from here on with memory.
-    pub fn start(&mut self) {
+    pub(crate) fn start(&mut self) {
         (self.awake, self.dt_s, self.held_s) = (true, 0.0, 0.0);
         self.values.fill(0.0);
         self.lost_j.fill(0.0);
@@ -50,22 +50,22 @@ impl History {
     }
 
     /// From rest, at once.
-    pub fn sleep(&mut self) {
+    pub(crate) fn sleep(&mut self) {
         (self.awake, self.dt_s, self.held_s, self.stamp) = (false, 0.0, 0.0, 0);
     }
 
     /// Whether any term remembers anything.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.values.is_empty()
     }
 
     /// What the terms of a segment remember.
-    pub fn of_segment(&self, index: usize) -> &[f64] {
+    pub(crate) fn of_segment(&self, index: usize) -> &[f64] {
         if self.awake { &self.values[self.offsets[index]..self.offsets[index + 1]] } else { &[] }
     }
 
     /// Takes the equilibrium in `states` as reached.
-    pub fn remember(&mut self, assembly: &Assembly, p_body_pa: f64, states: &[SiteState], p_act_pa: &[f64]) {
+    pub(crate) fn remember(&mut self, assembly: &Assembly, p_body_pa: f64, states: &[SiteState], p_act_pa: &[f64]) {
         if self.is_empty() {
             return;
         }
@@ -91,7 +91,7 @@ impl History {
     }
 
     /// Energy lost since the start by every term with history, segment by segment \[J\].
-    pub fn lost(&self) -> impl Iterator<Item = f64> + '_ {
+    pub(crate) fn lost(&self) -> impl Iterator<Item = f64> + '_ {
         self.lost_j.iter().copied()
     }
 }

@@ -40,7 +40,7 @@ pub struct InLine {
 }
 
 /// Reference pressure of a sonic conductance \[Pa\].
-pub const REFERENCE_PA: f64 = 1e5;
+pub(crate) const REFERENCE_PA: f64 = 1e5;
 /// Pressure of the room \[Pa\].
 const ROOM_PA: f64 = 101_325.0;
 /// Ratio of pressures from which the flow is laminar.

@@ -5,13 +5,13 @@ mod in_space;
 use crate::assemble::{add_effects, assemble, divide, locate};
 use crate::assembly::{Assembly, Segment, Sighting};
 use crate::error::Unsolved;
-use crate::linkage::FABRIC_STRETCH;
 use crate::robot::{Workspace, equilibrium, place};
 use crate::scenario::{ActuatorChoice, Scenario, Span};
 use crate::shape::Stretch;
 use crate::site::{Site, SiteState};
 use crate::space::around;
-use crate::term::{Account, LedgerLine, Loads, Pose, Row, RowKind, Term, actuator_q};
+use crate::term::{Account, LedgerLine, Loads, Pose, Row, RowKind, Term};
+use spelling::units::Range;
 
 /// A robot with its list of terms. Made once from a scenario; predicting does not change it.
 pub struct Model {
@@ -20,9 +20,6 @@ pub struct Model {
     markers: Vec<(usize, f64)>,
     p_max_pa: f64,
 }
-
-/// Largest gauge pressure accepted \[Pa\]; fabric robots burst far below.
-const P_LIMIT_PA: f64 = 1e6;
 
 /// Pose of the robot's end.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -264,31 +261,22 @@ impl Model {
         lines: &mut Vec<Row>,
     ) {
         let (state, h) = (&work.states[index], segment.length_m);
-        let mut unused = [0.0; actuator_q::LEN];
+        let mut post = |line, energy: f64| post(lines, line, RowKind::Stored, energy * h);
+        let at = Pose { s_m: segment.middle_m(), ..Pose::new(&[], p_body_pa, p_act_pa) };
         if let Some(actuator) = site.actuator.filter(|_| p_act_pa > 0.0) {
             let stroke = (actuator.stroke)(&site.shape, state.coordinate);
-            let rest = (actuator.stroke)(&site.shape, 0.0_f64.max(actuator.range.0));
-            let q = [state.coordinate, stroke.contraction, stroke.volume - rest.volume, site.geometric(&stroke)];
-            for term in &site.actuator_terms {
-                let pose = Pose { s_m: segment.middle_m(), ..Pose::new(&q, p_body_pa, p_act_pa) };
-                let energy = term.add(&pose, &mut unused) * site.linkage.active_fraction;
-                post(lines, term.line(), RowKind::Stored, energy * h);
-            }
-            let stretch = 0.5 * site.linkage.compliance_per_n * state.tension * state.tension;
-            if stretch != 0.0 {
-                post(lines, FABRIC_STRETCH, RowKind::Stored, stretch * h);
-            }
+            site.actuator_energies(&stroke, [state.coordinate, state.tension], &at, &mut post);
         }
         let q = [state.curvature];
-        let mut pose = Pose { s_m: segment.middle_m(), ..Pose::new(&q, p_body_pa, p_act_pa) };
+        let (mut pose, mut unused) = (Pose { q: &q, ..at }, [0.0]);
         let mut rest = work.history.of_segment(index);
         for term in [&*site.body_pressure, &site.bending as &dyn Term] {
-            post(lines, term.line(), RowKind::Stored, term.add(&pose, &mut unused) * h);
+            post(term.line(), term.add(&pose, &mut unused));
         }
         for term in &site.body_terms {
             // At the memory of this very state and without time: what is stored.
             (pose.memory, rest) = rest.split_at(term.memory().values.min(rest.len()));
-            post(lines, term.line(), RowKind::Stored, term.add(&pose, &mut unused) * h);
+            post(term.line(), term.add(&pose, &mut unused));
         }
     }
 
@@ -321,17 +309,29 @@ impl Model {
     }
 }
 
+/// The solver's own bounds of a body pressure: the limit without pressure has closed forms.
+const ANY_BODY_PRESSURE: Range = Range { low: 0.0, high: 1000.0, ..Range::BODY_PRESSURE };
+
+#[inline]
+fn bounded(loads: &Loads, body: &Range) -> Result<(), Unsolved> {
+    let refused = |(message, help)| Unsolved::BadPressure { message, help };
+    body.check(loads.body_pa).map_err(refused)?;
+    loads.actuator_pa.iter().try_for_each(|p| Range::ACTUATOR_PRESSURE.check(*p).map(drop)).map_err(refused)
+}
+
+impl Loads {
+    /// The same pressures, if a robot can have them: what every file, option, stream and call passes.
+    ///
+    /// # Errors
+    /// A pressure out of its bounds.
+    pub fn checked(self) -> Result<Loads, Unsolved> {
+        bounded(&self, &Range::BODY_PRESSURE).map(|()| self)
+    }
+}
+
 #[inline]
 pub(crate) fn check(loads: &Loads) -> Result<(), Unsolved> {
-    let bad = |p: &f64| !(0.0..=P_LIMIT_PA).contains(p);
-    let refused = |what, p: f64| Unsolved::BadPressure { what, value_kpa: p / 1e3, limit_kpa: P_LIMIT_PA / 1e3 };
-    if bad(&loads.body_pa) {
-        return Err(refused("body pressure", loads.body_pa));
-    }
-    match loads.actuator_pa.iter().find(|p| bad(p)) {
-        Some(p) => Err(refused("actuator pressure", *p)),
-        None => Ok(()),
-    }
+    bounded(loads, &ANY_BODY_PRESSURE)
 }
 
 /// Ledger line of the shear, which has no term: its energy follows from the equilibrium.

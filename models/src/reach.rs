@@ -1,7 +1,7 @@
 //! Where a response over one pressure is what is wanted, or why it is nowhere: for what a quick search does not find.
 
 /// A target missed by no more than this is met \[m or rad\]: far below any camera, far above rounding.
-pub const MET: f64 = 1e-9;
+pub(crate) const MET: f64 = 1e-9;
 /// Pressures sampled, the first at zero and the last at the end, dense at low pressure, where the response is steepest; and
 /// with transverse loads, under which a robot may rest in several shapes.
 pub(crate) const SAMPLES: [usize; 2] = [64, 1024];

@@ -29,7 +29,7 @@ pub(crate) struct Section {
 
 impl Section {
     /// `None` if the chord is negative or not shorter than the arc.
-    pub fn new(arc_m: f64, chord_m: f64) -> Option<Section> {
+    pub(crate) fn new(arc_m: f64, chord_m: f64) -> Option<Section> {
         if !(arc_m > 0.0 && chord_m >= 0.0 && chord_m < arc_m) {
             return None;
         }
@@ -47,12 +47,12 @@ impl Section {
     }
 
     /// Of a body of radius R around a strip of flat width W, drawn in to a chord w.
-    pub fn drawn_in(radius_m: f64, width_m: f64, chord_m: f64) -> Option<Section> {
+    pub(crate) fn drawn_in(radius_m: f64, width_m: f64, chord_m: f64) -> Option<Section> {
         Section::new(2.0 * PI * radius_m - width_m, chord_m)
     }
 
     /// Moment of the gas that the section takes over that of the round body, Aȳ/(πR³).
-    pub fn moment_share(&self, radius_m: f64) -> f64 {
+    pub(crate) fn moment_share(&self, radius_m: f64) -> f64 {
         self.area_m2 * self.centroid_m / (PI * radius_m.powi(3))
     }
 }

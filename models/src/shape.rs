@@ -94,20 +94,20 @@ pub(crate) struct Stretch {
 impl Stretch {
     /// From its start (position, direction, heading), its curvature and the body radius.
     #[inline(always)]
-    pub fn new(from: [f64; 2], direction: [f64; 2], heading: f64, kappa: f64, radius: f64) -> Stretch {
+    pub(crate) fn new(from: [f64; 2], direction: [f64; 2], heading: f64, kappa: f64, radius: f64) -> Stretch {
         let line = 1.0 - kappa * radius;
         Stretch { from, direction, heading, kappa, line, line_radius: line / kappa, shear: 0.0 }
     }
 
     /// The same, sheared.
     #[inline(always)]
-    pub fn sheared(self, shear: f64) -> Stretch {
+    pub(crate) fn sheared(self, shear: f64) -> Stretch {
         Stretch { shear, ..self }
     }
 
     /// Position and heading at a taut length from its start.
     #[inline(always)]
-    pub fn at(&self, offset: f64) -> ([f64; 2], f64) {
+    pub(crate) fn at(&self, offset: f64) -> ([f64; 2], f64) {
         let u = self.kappa * offset;
         let (along, across) = if u.abs() < SERIES_BELOW {
             let (length, z) = (self.line * offset, u * u);

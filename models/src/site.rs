@@ -12,6 +12,7 @@
 //! the actuator's line of action. One unknown, the actuator's coordinate `a`, decides everything, because every law is
 //! explicit in it; the balance is one scalar equation per place.
 
+mod energies;
 mod gas;
 mod held;
 mod starts;

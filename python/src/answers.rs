@@ -78,7 +78,7 @@ fn metres(mm: Option<f64>) -> Option<f64> {
 /// `ibr compare`.
 #[pyfunction]
 #[pyo3(signature = (scenario, data, effects, sigma_mm, calibrate))]
-pub fn compare(
+pub(crate) fn compare(
     py: Python<'_>,
     scenario: &Scenario,
     data: &Data,
@@ -97,7 +97,11 @@ pub fn compare(
         let contenders = contenders(file, &effects).map_err(raised)?;
         let found = py.detach(|| ibr::compare_in_space(&contenders, evidence, sigma_m)).map_err(raised)?;
         let warnings = found.warnings.iter().cloned().chain(unused_sigma(sigma_m, evidence)).collect();
-        let told = Answer::of(in_space::text(&found), &as_json("ibr.compare.space", &in_space::SpaceAnswer::of(&file.name, &found)), warnings);
+        let told = Answer::of(
+            in_space::text(&found),
+            &as_json("ibr.compare.space", &in_space::SpaceAnswer::of(&file.name, &found)),
+            warnings,
+        );
         let table = space_markers(&found);
         return Ok(Answer { table, page: Some(Box::new(move || space_page(&found, &imprint()))), ..told });
     }
@@ -136,7 +140,7 @@ impl Whole {
 /// What a diagnosis is asked.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-pub struct Asked {
+pub(crate) struct Asked {
     sigma_mm: Option<f64>,
     tolerance_mm: Option<f64>,
     refit: bool,
@@ -164,7 +168,7 @@ fn all_evidence(data: &[PyRef<'_, Data>]) -> Vec<Evidence> {
 /// `ibr diagnose`.
 #[pyfunction]
 #[pyo3(signature = (scenario, data, asked, progress = None))]
-pub fn diagnose(
+pub(crate) fn diagnose(
     py: Python<'_>,
     scenario: &Scenario,
     data: Vec<PyRef<'_, Data>>,
@@ -203,7 +207,7 @@ fn extended(file: &ScenarioFile, evidence: &[Evidence], found: Extension) -> PyR
 
 /// The scenario with what a diagnosis adds.
 #[pyfunction]
-pub fn extend(py: Python<'_>, scenario: &Scenario, diagnosed: &Answer) -> PyResult<Answer> {
+pub(crate) fn extend(py: Python<'_>, scenario: &Scenario, diagnosed: &Answer) -> PyResult<Answer> {
     let found = diagnosed.diagnosis.as_ref();
     let found = found.ok_or_else(|| crate::errors::refused("this is no diagnosis", "give the result of diagnose()"))?;
     let extension = py.detach(|| ibr::extend(&scenario.file, found)).map_err(raised)?;
@@ -213,7 +217,7 @@ pub fn extend(py: Python<'_>, scenario: &Scenario, diagnosed: &Answer) -> PyResu
 /// `ibr add`.
 #[pyfunction]
 #[pyo3(signature = (scenario, effect, data, asked, progress = None))]
-pub fn add(
+pub(crate) fn add(
     py: Python<'_>,
     scenario: &Scenario,
     effect: &str,
@@ -234,7 +238,7 @@ pub fn add(
 /// `ibr validate`.
 #[pyfunction]
 #[pyo3(signature = (scenario, data, without, sigma_mm))]
-pub fn validate(
+pub(crate) fn validate(
     py: Python<'_>,
     scenario: &Scenario,
     data: Vec<PyRef<'_, Data>>,

@@ -7,10 +7,10 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 /// An array of numbers, or what numpy makes one of: lists, whole numbers.
-pub type Numbers<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;
+pub(crate) type Numbers<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;
 
 /// Points in metres as rows of millimetres, without a copy.
-pub fn rows_mm<const AXES: usize>(py: Python<'_>, points_m: Vec<[f64; AXES]>) -> Bound<'_, PyArray2<f64>> {
+pub(crate) fn rows_mm<const AXES: usize>(py: Python<'_>, points_m: Vec<[f64; AXES]>) -> Bound<'_, PyArray2<f64>> {
     let count = points_m.len();
     let mut flat = points_m.into_flattened();
     flat.iter_mut().for_each(|v| *v *= 1e3);
@@ -18,28 +18,28 @@ pub fn rows_mm<const AXES: usize>(py: Python<'_>, points_m: Vec<[f64; AXES]>) ->
 }
 
 /// x, y and z of points whose z stands apart.
-pub fn with_z(xy: &[[f64; 2]], z: &[f64]) -> Vec<[f64; 3]> {
+pub(crate) fn with_z(xy: &[[f64; 2]], z: &[f64]) -> Vec<[f64; 3]> {
     xy.iter().zip(z).map(|([x, y], z)| [*x, *y, *z]).collect()
 }
 
 /// A matrix of so many rows and columns; empty if the numbers are fewer.
-pub fn matrix(py: Python<'_>, rows: usize, columns: usize, flat: Vec<f64>) -> Bound<'_, PyArray2<f64>> {
+pub(crate) fn matrix(py: Python<'_>, rows: usize, columns: usize, flat: Vec<f64>) -> Bound<'_, PyArray2<f64>> {
     Array2::from_shape_vec((rows, columns), flat).unwrap_or_default().into_pyarray(py)
 }
 
 /// A list as an array.
-pub fn vector(py: Python<'_>, values: Vec<f64>) -> Bound<'_, PyArray1<f64>> {
+pub(crate) fn vector(py: Python<'_>, values: Vec<f64>) -> Bound<'_, PyArray1<f64>> {
     values.into_pyarray(py)
 }
 
 /// The numbers of an array of any shape, and its shape.
-pub fn numbers(array: &Numbers<'_>) -> (Vec<f64>, Vec<usize>) {
+pub(crate) fn numbers(array: &Numbers<'_>) -> (Vec<f64>, Vec<usize>) {
     let view = array.as_array();
     (view.iter().copied().collect(), view.shape().to_vec())
 }
 
 /// A table as a dictionary of arrays, texts as lists.
-pub fn columns<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn columns<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict>> {
     let all = PyDict::new(py);
     for (name, column) in &table.columns {
         match column {
@@ -52,7 +52,7 @@ pub fn columns<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDic
 }
 
 /// A table of named columns, numbers as arrays and texts as lists.
-pub fn table(columns: Vec<(String, Bound<'_, PyAny>)>) -> PyResult<Table> {
+pub(crate) fn table(columns: Vec<(String, Bound<'_, PyAny>)>) -> PyResult<Table> {
     let column = |(name, values): (String, Bound<'_, PyAny>)| {
         let column = if let Ok(numbers) = values.extract::<PyReadonlyArray1<'_, f64>>() {
             Column::F64(numbers.as_array().to_vec())

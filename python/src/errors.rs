@@ -15,7 +15,7 @@ create_exception!(
 
 /// What an error says.
 #[derive(Debug, Default)]
-pub struct Told {
+pub(crate) struct Told {
     message: String,
     /// File and line.
     place: Option<String>,
@@ -57,12 +57,12 @@ impl From<PageError> for Told {
 }
 
 /// A wish that makes no sense, and what to write.
-pub fn refused(message: impl Into<String>, help: impl Into<String>) -> PyErr {
+pub(crate) fn refused(message: impl Into<String>, help: impl Into<String>) -> PyErr {
     raised(ibr::Error::refused(message, help))
 }
 
 /// The exception of an error.
-pub fn raised(error: impl Into<Told>) -> PyErr {
+pub(crate) fn raised(error: impl Into<Told>) -> PyErr {
     let Told { message, place, line, help } = error.into();
     let mut text = message;
     line.iter().for_each(|line| text += &format!("\n    {}", line.trim()));

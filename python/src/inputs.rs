@@ -11,14 +11,14 @@ use pyo3::types::{PyBool, PyDict, PyString};
 use std::path::Path;
 
 /// One actuator pressure, or one for every supply channel \[Pa\].
-pub struct Pressures {
+pub(crate) struct Pressures {
     pa: [f64; CHANNELS],
     /// How many were given; more than there are channels is refused later, by the library.
     count: usize,
 }
 
 impl Pressures {
-    pub fn pa(&self) -> &[f64] {
+    pub(crate) fn pa(&self) -> &[f64] {
         &self.pa[..self.count]
     }
 }
@@ -46,7 +46,7 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Pressures {
 }
 
 /// A Python value as it is written in TOML.
-pub fn toml_text(value: &Bound<'_, PyAny>) -> PyResult<String> {
+pub(crate) fn toml_text(value: &Bound<'_, PyAny>) -> PyResult<String> {
     if let Ok(yes) = value.cast::<PyBool>() {
         return Ok(yes.is_true().to_string());
     }
@@ -65,7 +65,7 @@ pub fn toml_text(value: &Bound<'_, PyAny>) -> PyResult<String> {
 
 /// The places in a scenario's text of values that are given by table: `body={"radius_mm": 40}` and `body_radius_mm=40` are both
 /// `body.radius_mm`.
-pub fn places(table: &str, given: &Bound<'_, PyDict>, found: &mut Vec<(String, String)>) -> PyResult<()> {
+pub(crate) fn places(table: &str, given: &Bound<'_, PyDict>, found: &mut Vec<(String, String)>) -> PyResult<()> {
     for (key, value) in given.iter() {
         let key: String = key.extract()?;
         let place = match table {
@@ -165,7 +165,7 @@ impl Data {
 
 /// Files of a tracking program with the options of `ibr data import`.
 #[pyfunction]
-pub fn import_tracks(py: Python<'_>, typed: Vec<String>) -> PyResult<Data> {
+pub(crate) fn import_tracks(py: Python<'_>, typed: Vec<String>) -> PyResult<Data> {
     let mut made = py.detach(|| ibr::import_typed(&typed)).map_err(raised)?;
     made.dataset.name = "imported tracks".into();
     let evidence = Evidence::of(made.dataset, Some(made.about));

@@ -14,11 +14,11 @@ const ASK_EVERY: Duration = Duration::from_millis(50);
 type News = (String, Option<f64>);
 
 /// Told how far work is; says whether to go on.
-pub type Tell<'a> = &'a mut (dyn FnMut(&str, Option<f64>) -> ControlFlow<()> + Send);
+pub(crate) type Tell<'a> = &'a mut (dyn FnMut(&str, Option<f64>) -> ControlFlow<()> + Send);
 
 /// Does work on a thread of its own, because engines tell their progress from threads on which Python hears no signal. This one
 /// waits, tells `told` the latest, and looks for Ctrl-C; what Python raises asks the work to end and is returned when it has.
-pub fn beside<T: Send>(
+pub(crate) fn beside<T: Send>(
     py: Python<'_>,
     told: Option<&Py<PyAny>>,
     work: impl FnOnce(Tell) -> T + Send,

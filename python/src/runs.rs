@@ -15,7 +15,7 @@ use std::path::PathBuf;
 
 /// A scenario, or the name or path of a robot or a case.
 #[derive(FromPyObject)]
-pub enum Source<'py> {
+pub(crate) enum Source<'py> {
     Robot(PyRef<'py, Scenario>),
     Named(PathBuf),
 }
@@ -33,7 +33,7 @@ impl Source<'_> {
 #[pyfunction]
 #[pyo3(signature = (source, folder, changes, resume, force, end_s, threads, progress = None))]
 #[expect(clippy::too_many_arguments, reason = "what Python passes by name")]
-pub fn simulate(
+pub(crate) fn simulate(
     py: Python<'_>,
     source: Source<'_>,
     folder: PathBuf,
@@ -58,7 +58,7 @@ pub fn simulate(
 
 /// The complete run in a folder.
 #[pyfunction]
-pub fn read_run(py: Python<'_>, folder: PathBuf) -> PyResult<Answer> {
+pub(crate) fn read_run(py: Python<'_>, folder: PathBuf) -> PyResult<Answer> {
     answer(&py.detach(|| FeRun::read(&folder)).map_err(raised)?)
 }
 

@@ -1,7 +1,7 @@
 //! Many cases of one robot.
 
 use crate::arrays::columns;
-use crate::errors::{Told, raised, refused};
+use crate::errors::{Told, raised};
 use crate::progress::beside;
 use ibr::studies::scenario_in_space;
 use ibr::sweep::{Settings, Shard, Study, SweepError, collect, run};
@@ -12,13 +12,11 @@ use std::path::{Path, PathBuf};
 
 impl From<SweepError> for Told {
     fn from(error: SweepError) -> Told {
+        let help = error.help();
         match error {
             SweepError::Study(error) => error.into(),
             SweepError::Run(error) => error.into(),
-            SweepError::Cluster { message, help } => Error::refused(message, help).into(),
-            SweepError::Write { .. } => {
-                Error::refused(error.to_string(), "name a folder that can be written to").into()
-            }
+            other => Error::refused(other.to_string(), help).into(),
         }
     }
 }
@@ -26,7 +24,7 @@ impl From<SweepError> for Told {
 /// `ibr sweep`: the table as a dictionary of arrays. A study with a line break is its text, else its file.
 #[pyfunction]
 #[pyo3(signature = (study, folder, threads, progress = None))]
-pub fn sweep<'py>(
+pub(crate) fn sweep<'py>(
     py: Python<'py>,
     study: String,
     folder: PathBuf,
@@ -43,6 +41,5 @@ pub fn sweep<'py>(
     let (made, raised_meanwhile) = beside(py, progress.as_ref(), |tell| run(&study, &settings, tell));
     raised_meanwhile.map_or(Ok(()), Err)?;
     made.map_err(raised)?;
-    let missing = |parts| refused(format!("{parts} parts of the sweep are gone"), "call it again: the rest is kept");
-    columns(py, &py.detach(|| collect(&study, &settings.folder)).map_err(missing)?)
+    columns(py, &py.detach(|| collect(&study, &settings.folder)).map_err(raised)?)
 }

@@ -1,6 +1,10 @@
-//! What people type: the nearest known name for a misspelling, rows of exactly so many numbers, units; and their files, read whole.
+//! What people type: the nearest known name for a misspelling, rows of exactly so many numbers, units. And files and folders: read
+//! whole, and written whole or not at all.
+
+#![warn(unreachable_pub)]
 
 pub mod files;
+pub mod folders;
 pub mod quantity;
 pub mod si;
 pub mod units;
@@ -9,7 +13,7 @@ use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 use std::fmt;
 use std::ops::Deref;
 
-/// So many numbers, neither more nor fewer: an array of a TOML file would drop what is too much without a word.
+/// So many numbers, neither more nor fewer: an array of a TOML file would silently drop the rest.
 #[derive(Debug, Clone, Copy)]
 pub struct Exactly<const N: usize>(pub [f64; N]);
 
@@ -52,7 +56,7 @@ pub fn nearest<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> Opt
     (edits <= 1 + letters / 4 && edits < letters).then_some(found)
 }
 
-/// "did you mean friction? ", to stand before what is known; empty if nothing is near.
+/// "did you mean friction? ", to put before the known names; empty if nothing is near.
 pub fn meant<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     nearest(wrong, known).map_or(String::new(), |name| format!("did you mean {name}? "))
 }

@@ -29,7 +29,7 @@ impl Quantity {
 /// Reads one quantity into SI.
 ///
 /// # Errors
-/// A message that says what is wrong and what to type.
+/// A message with the mistake and what to type.
 ///
 /// ```
 /// use spelling::quantity::{Quantity, parse};
@@ -49,7 +49,12 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, String> {
     }
     let known = units.iter().find(|u| u.symbol.eq_ignore_ascii_case(unit.trim()));
     let factor = known.map(|u| u.factor()).ok_or_else(|| format!("`{text}` has an unknown unit: {example}"))?;
-    if value.is_finite() { Ok(value * factor) } else { Err(format!("`{text}` is not finite: {example}")) }
+    let si = value * factor;
+    match () {
+        () if !si.is_finite() => Err(format!("`{text}` is not finite: {example}")),
+        () if value != 0.0 && !si.is_normal() => Err(format!("`{text}` rounds to 0: {example}")),
+        () => Ok(si),
+    }
 }
 
 #[cfg(test)]
@@ -61,7 +66,7 @@ mod tests {
         assert_eq!(parse("2.5e1kPa", Quantity::Pressure), Ok(25e3));
         assert_eq!(parse("-40 mm", Quantity::Length), Ok(-0.04));
         assert!((parse("180deg", Quantity::Angle).unwrap() - std::f64::consts::PI).abs() < 1e-15);
-        for wrong in ["", "kPa", "30", "30mm", "nankPa", "infkPa", "3O kPa", "30 kPa kPa"] {
+        for wrong in ["", "kPa", "30", "30mm", "nankPa", "infkPa", "3O kPa", "30 kPa kPa", "1e-320kPa", "1e308kPa"] {
             assert!(parse(wrong, Quantity::Pressure).is_err(), "{wrong}");
         }
     }

@@ -126,7 +126,7 @@ pub fn units_of(dimension: Dimension) -> impl Iterator<Item = Unit> + Clone {
 /// Accepted interval of a quantity as typed, its factor to SI, and the slip to suspect outside.
 #[derive(Debug, Clone, Copy)]
 pub struct Range {
-    /// What it is, where no key says so.
+    /// Its name, where it has no key.
     pub name: &'static str,
     /// Unit after the number; empty for a pure one.
     pub unit: &'static str,
@@ -151,6 +151,31 @@ impl Range {
         too_small: "this looks like metres: write millimetres, for example 60 for 0.06 m",
         ..Range::plain(1.0, 1e5, "write millimetres")
     };
+    /// Places of markers along the undeformed body.
+    pub const STATION: Range = Range {
+        name: "station",
+        low: 1e-3,
+        too_small: "stations count from the base along the undeformed body; write 1 for a marker at the base",
+        ..Range::LENGTH
+    };
+    /// Times since the start of a run.
+    pub const TIME: Range =
+        Range { name: "time", unit: "s", ..Range::plain(0.0, 1e10, "write seconds since the start of the run") };
+    /// Frames of a camera in a second.
+    pub const FRAME_RATE: Range = Range {
+        name: "frames per second",
+        ..Range::plain(1e-3, 1e6, "write how many frames the camera takes in a second, for example 30")
+    };
+    /// Gauge pressures of a body, which has no shape without pressure.
+    pub const BODY_PRESSURE: Range = Range {
+        name: "body pressure",
+        low: 0.5,
+        high: 100.0,
+        too_small: "this looks like psi: write kilopascals, for example 2 for 0.29 psi (1 psi is 6.895 kPa)",
+        ..Range::PRESSURE
+    };
+    /// Gauge pressures of an actuator.
+    pub const ACTUATOR_PRESSURE: Range = Range { name: "actuator pressure", high: 1000.0, ..Range::PRESSURE };
     /// Gauge pressures.
     pub const PRESSURE: Range = Range {
         name: "pressure",
@@ -165,10 +190,19 @@ impl Range {
         Range { name: "", unit: "", si: 1.0, low, high, too_small: usual, too_large: usual }
     }
 
+    /// A number that is in SI already.
+    ///
+    /// # Errors
+    /// As [`Range::si`].
+    #[inline]
+    pub fn check(&self, value_si: f64) -> Result<f64, (String, &'static str)> {
+        self.si(self.name, value_si / self.si).map(|_| value_si)
+    }
+
     /// A number in SI.
     ///
     /// # Errors
-    /// What is wrong with the number called `name`, and what to type.
+    /// The mistake in the number called `name`, and what to type.
     pub fn si(&self, name: &str, value: f64) -> Result<f64, (String, &'static str)> {
         let Range { unit, low, high, .. } = self;
         if (*low..=*high).contains(&value) {
@@ -181,8 +215,14 @@ impl Range {
             _ => self.too_large,
         };
         let space = if unit.is_empty() { "" } else { " " };
-        Err((format!("{name} must be from {low} to {high}{space}{unit}, not {value}"), help))
+        Err((format!("{name} must be from {low} to {high}{space}{unit}, not {}", shortest(value)), help))
     }
+}
+
+/// A number without a row of zeros.
+fn shortest(value: f64) -> String {
+    let plain = value == 0.0 || !value.is_finite() || (1e-6..1e12).contains(&value.abs());
+    if plain { value.to_string() } else { format!("{value:e}") }
 }
 
 /// Factor to SI and dimension of a unit like `N m/rad^3`, `1/m`, `kPa` or `-`; a slash divides by the next factor alone.
@@ -244,6 +284,24 @@ mod tests {
         }
         for text in ["", "furlong", "N m/x", "m^", "m^x"] {
             assert!(parse(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_bound_holds_on_both_sides_and_says_what_to_type() {
+        assert_eq!(Range::BODY_PRESSURE.check(500.0), Ok(500.0));
+        assert_eq!(Range::ACTUATOR_PRESSURE.check(1e6), Ok(1e6));
+        for (range, value_si, words) in [
+            (Range::BODY_PRESSURE, 0.0, "body pressure must be from 0.5 to 100 kPa, not 0"),
+            (Range::BODY_PRESSURE, 5e-324, "body pressure must be from 0.5 to 100 kPa, not "),
+            (Range::ACTUATOR_PRESSURE, -3e3, "actuator pressure must be from 0 to 1000 kPa, not -3"),
+            (Range::ACTUATOR_PRESSURE, f64::NAN, "actuator pressure must be from 0 to 1000 kPa, not NaN"),
+            (Range::TIME, f64::INFINITY, "time must be from 0 to 10000000000 s, not inf"),
+            (Range::STATION, 0.0, "station must be from 0.001 to 100000 mm, not 0"),
+            (Range::FRAME_RATE, 0.0, "frames per second must be from 0.001 to 1000000, not 0"),
+        ] {
+            let (message, help) = range.check(value_si).unwrap_err();
+            assert!(message.starts_with(words) && message.len() < 90 && !help.is_empty(), "{message}");
         }
     }
 

@@ -16,8 +16,8 @@ use syn::visit::Visit;
 /// Circles of files in each crate. The numbers only fall: lower one when a circle is broken.
 const CIRCLES: [(&str, usize); 13] = [
     ("models", 0),
-    ("fem", 17),
-    ("data", 5),
+    ("fem", 0),
+    ("data", 1),
     ("compare", 5),
     ("report", 1),
     ("sweep", 0),

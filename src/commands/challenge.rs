@@ -4,7 +4,7 @@ use super::inputs::scatter;
 use super::{Context, Outcome, inputs};
 use crate::cli::{ChallengeCommand, ChallengeNewArgs};
 use crate::failure::Failure;
-use crate::output::{check_set_folder, set_name, write_files};
+use crate::output::{check_set_folder, replace_files, set_name};
 use crate::tables::Table;
 use challenge::{ALSO, Claim, ClaimScore, HIDDEN, HiddenEffect, Laws, OUTSIDE, Riddle, Truth, score};
 use ibr::pages::Files;
@@ -25,7 +25,7 @@ fn make(args: &ChallengeNewArgs, context: &mut Context) -> Result<Outcome, Failu
     let camera_sd_m = sigma.map(|text| scatter("--sigma", &text)).transpose()?;
     let riddle = Riddle { seed, effects: effect, actuator, runs: runs.map(|n| n as usize), camera_sd_m, protocol };
     let made = riddle.make(&set_name(&args.out, "challenge"))?;
-    write_files(&args.out, &Files { files: made.files, ..Files::default() }, &[], context)?;
+    replace_files(&args.out, &Files { files: made.files, ..Files::default() }, &[], context)?;
     let folder = args.out.display();
     let text = format!(
         "A sealed challenge is in {folder}: {} runs of a robot with actuator {}.\nSeal (SHA-256): {}\n\

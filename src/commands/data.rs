@@ -4,7 +4,7 @@ use super::inputs::{self, scattered};
 use super::{Context, Outcome, list};
 use crate::cli::{DataCommand, GenerateArgs};
 use crate::failure::Failure;
-use crate::output::{Input, check_set_folder, set_name, write_files};
+use crate::output::{Input, check_set_folder, replace_files, set_name};
 use crate::shown::check::{BenchCheck, Check, Checked, check_text};
 use crate::shown::imported::Generated;
 use compare::diagnosis::{Options, pressure_slip};
@@ -110,5 +110,5 @@ pub fn write(
 ) -> Result<(), Failure> {
     let mut files = Files { files: data::set_files(dataset, about)?.into(), ..Files::default() };
     files.text("truth.toml", truth);
-    write_files(folder, &files, inputs, context)
+    replace_files(folder, &files, inputs, context)
 }

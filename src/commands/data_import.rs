@@ -4,7 +4,7 @@ use super::import_options::options;
 use super::{Context, Outcome};
 use crate::cli::Import;
 use crate::failure::Failure;
-use crate::output::{Input, check_folder, check_set_folder, spares_inputs, write_files};
+use crate::output::{Input, check_folder, check_set_folder, replace_files, spares_inputs, write_files};
 use crate::shown::imported::{ImportAnswer, ImportExample, told};
 use data::import::{Imported, import};
 use ibr::pages::{Files, tracks_plot};
@@ -34,7 +34,7 @@ pub fn run(args: &Import, context: &mut Context) -> Result<Outcome, Failure> {
         Some(folder) => {
             let (files, inputs) = (files(&made)?, inputs(args));
             spares_inputs(folder, &files, &inputs.iter().map(|input| input.name.clone()).collect::<Vec<_>>())?;
-            write_files(folder, &files, &inputs, context)?;
+            replace_files(folder, &files, &inputs, context)?;
             text.push_str(&format!(
                 "\nmarkers.csv, about.toml and tracks in {}; answer the questions in about.toml, then\n  ibr data check {0}\n",
                 folder.display()

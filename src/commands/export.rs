@@ -5,13 +5,12 @@ use super::predict::wanted;
 use super::{Context, Outcome};
 use crate::cli::{ExportArgs, ExportCommand, LinearArgs};
 use crate::failure::Failure;
+use crate::output::write_texts;
 use crate::shown::linear::{LinearAnswer, text as linear_text};
 use models::export::{Bound, Linear, Origin, Table, Untabulated};
 use models::scenario::quantity::Quantity;
 use models::{Model, Scenario};
 use serde::Serialize;
-use std::path::{Path, PathBuf};
-use std::sync::PoisonError;
 
 pub fn run(command: &ExportCommand, context: &mut Context) -> Result<Outcome, Failure> {
     match command {
@@ -63,18 +62,8 @@ fn c(args: &ExportArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let origin = Origin { prefix: &stem, robot: &scenario.name, command: &command, history: &history };
     let [header, source] = table.c_files(&origin);
     let files = [(args.out.with_extension("h"), header), (args.out.clone(), source)];
-    write(&files, context)?;
+    write_texts(&files, context)?;
     Ok(told(args, &table, &files.map(|(path, _)| path.display().to_string())))
-}
-
-/// All files at once, each complete or not at all.
-fn write(files: &[(PathBuf, String)], context: &mut Context) -> Result<(), Failure> {
-    let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
-    files
-        .iter()
-        .try_for_each(|(path, text): &(PathBuf, String)| data::write_atomically(Path::new(path), text.as_bytes()))?;
-    *written = true;
-    Ok(())
 }
 
 /// Pressures from:to; a number without unit has that of the other.

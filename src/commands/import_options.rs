@@ -1,11 +1,12 @@
 //! What is typed for `ibr data import`, as the library takes it.
 
-use super::inputs::{positive, quantity};
+use super::inputs::{bounded, positive, quantity};
 use crate::cli::Import;
 use crate::failure::Failure;
 use data::import::typed::{axes, column, known_distance, station};
 use data::import::{ImportOptions, Scale, read_board};
 use spelling::quantity::Quantity;
+use spelling::units::Range;
 
 /// All of them.
 pub fn options(args: &Import) -> Result<ImportOptions, Failure> {
@@ -20,10 +21,12 @@ pub fn options(args: &Import) -> Result<ImportOptions, Failure> {
         base: optional(&args.base, |text| understood("--base", text.parse()))?,
         axes: optional(&args.axes, |text| understood("--axes", axes(text)))?,
         turn_rad: quantity("--turn", &args.turn, Quantity::Angle)?,
-        likelihood: args.likelihood.map(|limit| within("--likelihood", limit, [0.0, 1.0])).transpose()?,
-        frames_per_s: args.fps.map(|fps| within("--fps", fps, [1e-3, 1e6])).transpose()?,
+        likelihood: args.likelihood.map(likelihood).transpose()?,
+        frames_per_s: args.fps.map(frames_per_s).transpose()?,
         offset: optional(&args.clock_offset, |text| understood("--clock-offset", text.parse()))?.unwrap_or_default(),
-        body_pa: optional(&args.body_pressure, |text| quantity("--body-pressure", text, Quantity::Pressure))?,
+        body_pa: optional(&args.body_pressure, |text| {
+            bounded("--body-pressure", text, Quantity::Pressure, &Range::BODY_PRESSURE)
+        })?,
         room_pa: optional(&args.room, |text| quantity("--room", text, Quantity::Pressure))?,
         pressure_unit_pa: optional(&args.pressure_unit, unit)?,
         bin_pa,
@@ -59,10 +62,11 @@ fn understood<T, E: std::fmt::Display>(option: &str, typed: Result<T, E>) -> Res
     typed.map_err(|message| Failure::usage(format!("{option}: {message}"), "see ibr data import --help"))
 }
 
-fn within(option: &str, value: f64, [low, high]: [f64; 2]) -> Result<f64, Failure> {
-    if (low..=high).contains(&value) {
-        return Ok(value);
-    }
-    let help = format!("see ibr data import --help for {option}");
-    Err(Failure::usage(format!("{option} {value} is not from {low} to {high}"), help))
+fn frames_per_s(fps: f64) -> Result<f64, Failure> {
+    Range::FRAME_RATE.check(fps).map_err(|(message, help)| Failure::usage(format!("--fps: {message}"), help))
+}
+
+fn likelihood(limit: f64) -> Result<f64, Failure> {
+    let refused = || Failure::usage(format!("--likelihood {limit} is not from 0 to 1"), "see ibr data import --help");
+    Some(limit).filter(|limit| (0.0..=1.0).contains(limit)).ok_or_else(refused)
 }

@@ -12,6 +12,7 @@ use compare::typed_effect::with_effect;
 use compare::{CompareError, Evidence, ScenarioFile};
 use models::Scenario;
 use models::scenario::quantity::{Quantity, parse};
+use spelling::units::Range;
 
 /// A scenario as typed.
 pub fn scenario(spec: &str) -> Result<ScenarioFile, Failure> {
@@ -80,7 +81,7 @@ fn changed(mut file: ScenarioFile, set: Set, args: &RobotArgs) -> Result<(Scenar
         changed = with_effect(&changed, text)?.0;
     }
     if let Some(text) = &args.body_pressure {
-        changed.p_body_pa = quantity("--body-pressure", text, Quantity::Pressure)?;
+        changed.p_body_pa = bounded("--body-pressure", text, Quantity::Pressure, &Range::BODY_PRESSURE)?;
     }
     Ok((file, changed))
 }
@@ -104,6 +105,12 @@ pub fn named<'e>(file: &ScenarioFile, evidence: impl IntoIterator<Item = &'e Evi
 /// A quantity of an option.
 pub fn quantity(option: &str, text: &str, kind: Quantity) -> Result<f64, Failure> {
     parse(text, kind).map_err(|message| Failure::usage(format!("{option}: {message}"), "see ibr --help"))
+}
+
+/// A quantity of an option within its bounds.
+pub fn bounded(option: &str, text: &str, kind: Quantity, bounds: &Range) -> Result<f64, Failure> {
+    let refused = |(message, help)| Failure::usage(format!("{option} {text}: {message}"), help);
+    bounds.check(quantity(option, text, kind)?).map_err(refused)
 }
 
 /// A length of an option that must be above zero \[m\], if it was given.

@@ -4,6 +4,7 @@ use super::inputs::{self, quantity};
 use super::{Context, Outcome};
 use crate::cli::PatternArgs;
 use crate::failure::Failure;
+use crate::output::write_texts;
 use crate::shown::pattern::PatternAnswer;
 use ibr::pages::pattern_sheet;
 use models::Scenario;
@@ -11,7 +12,6 @@ use models::cutting::{CuttingPlan, Making};
 use models::scenario::quantity::Quantity;
 use report::sheet::{Paper, PatternSheet, dxf, pages, svg};
 use std::path::PathBuf;
-use std::sync::PoisonError;
 
 /// Width of welds where neither the scenario nor the user says one, as in [`fem::robot::RobotSettings`] \[m\].
 const WELD_M: f64 = 0.003;
@@ -37,9 +37,7 @@ pub fn run(args: &PatternArgs, context: &mut Context) -> Result<Outcome, Failure
     told.extend(plan.notes.iter().cloned());
     let sheet = pattern_sheet(&file.scenario.name, &plan, &told);
     let files = files(args, &sheet)?;
-    let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
-    files.iter().try_for_each(|(path, text)| data::write_atomically(path, text.as_bytes()))?;
-    *written = true;
+    write_texts(&files, context)?;
     let names: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
     let answer = PatternAnswer::of(&args.scenario, &plan, &making, &told, &names);
     Ok(Outcome::answer(answer.text(), "ibr.pattern", &answer))

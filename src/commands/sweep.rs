@@ -9,7 +9,7 @@ use crate::shown::swept::{SweepAnswer, swept_text};
 use data::Table;
 use ibr::pages::{sweep_picture_names, sweep_pictures};
 use std::path::{Path, PathBuf};
-use sweep::{Found, Settings, Study, collect, parts_missing, run as compute};
+use sweep::{Found, Settings, Study, SweepError, collect, parts_missing, run as compute};
 
 pub fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let study = Study::read(&args.study, ibr::studies::scenario_in_space)?;
@@ -34,13 +34,14 @@ pub fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome, Failure> 
     let found = context.fem(|progress| compute(&study, &settings, progress))?;
     match collect(&study, &folder) {
         Ok(table) => whole(args, &study, &folder, &found, table, context),
-        Err(missing) => {
+        Err(SweepError::Missing(missing)) => {
             let text = format!(
                 "{} parts of shard {}/{} are there; {missing} of other shards are not yet. The last shard writes the table\n",
                 found.parts, shard.which, shard.of
             );
             Ok(Outcome::answer(text, "ibr.sweep", &SweepAnswer::of(&args.study, &study, &found, None)))
         }
+        Err(damaged) => Err(damaged.into()),
     }
 }
 

@@ -79,8 +79,12 @@ fn draw_cube(robot: &EngineRobot, cube: &Uncertain, files: &mut Files) -> Result
     let words: String = cube.variant.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
     let name = [cube.actuator.as_str(), &words].iter().filter(|w| !w.is_empty()).copied().collect::<Vec<_>>().join("-");
     files.plot(&format!("{name}_uncertain"), marker_intervals(cube, &own)?);
-    files.plot(&format!("{name}_tornado"), what_to_measure(cube, cube.top_kpa())?);
-    Ok(Values::new().with("name", name).with("robots", cube.members.len()).with("variant", &cube.variant))
+    let tornado = cube.weights(cube.top_kpa()).is_some();
+    if tornado {
+        files.plot(&format!("{name}_tornado"), what_to_measure(cube, cube.top_kpa())?);
+    }
+    let values = Values::new().with("name", name).with("tornado", tornado);
+    Ok(values.with("robots", cube.members.len()).with("variant", &cube.variant))
 }
 
 fn lead(engines: &Engines) -> String {

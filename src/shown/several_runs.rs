@@ -62,7 +62,7 @@ pub fn uncertain_text(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> String {
         out += &format!("\nWhat to measure first: outermost marker at {top} kPa\n");
         out += &Table::of(&weights)
             .words("assumed", |w| &number(w).name)
-            .words("interval", |w| number(w).interval.map(|end| end.to_string()).join(" to "))
+            .words("interval", |w| number(w).interval.map(three_digits).join(" to "))
             .signed("10 % to 90 % of it: mm", 1, |w| w.swing_mm)
             .number("of the variance %", 0, |w| 100.0 * w.share)
             .right("why this interval", |w| &number(w).reason)
@@ -71,6 +71,11 @@ pub fn uncertain_text(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> String {
         out += &format!("{:.0} % of the variance is not of a straight law\n", 100.0 * rest);
     }
     out + &lines("stopped: ", stopped.iter().map(|member| member.stopped.as_deref().unwrap_or_default()))
+}
+
+/// A number with three digits.
+fn three_digits(value: f64) -> String {
+    format!("{value:.2e}").parse::<f64>().unwrap_or(value).to_string()
 }
 
 /// What one number would have to be for the measured displacement, all others in the middle of their intervals.

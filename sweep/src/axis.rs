@@ -163,7 +163,7 @@ pub(crate) struct Changes {
 
 impl Changes {
     /// Of keys with their values. A channel without a pressure beside others has none.
-    pub fn of<'a>(all: impl Iterator<Item = (&'a Axis, Value)>) -> Changes {
+    pub(crate) fn of<'a>(all: impl Iterator<Item = (&'a Axis, Value)>) -> Changes {
         let mut changes = Changes { values: Vec::with_capacity(all.size_hint().0), pressures_kpa: None };
         for (axis, value) in all {
             match (channel(&axis.key), as_number(&value)) {
@@ -252,7 +252,7 @@ fn axis(raw: &RawAxis, sampled: bool) -> Result<Axis, (String, &'static str)> {
 }
 
 /// A value as a number, if it is one.
-pub fn as_number(value: &Value) -> Option<f64> {
+pub(crate) fn as_number(value: &Value) -> Option<f64> {
     match value {
         Value::Integer(whole) => Some(*whole as f64),
         Value::Float(number) => Some(*number),

@@ -4,7 +4,7 @@ use crate::study::{Output, Study};
 use models::Account;
 
 /// Accounts of the ledger, in the order of their columns.
-pub const ACCOUNTS: [(&str, Account); 8] = [
+pub(crate) const ACCOUNTS: [(&str, Account); 8] = [
     ("actuator_gas", Account::ActuatorGas),
     ("body_gas", Account::BodyGas),
     ("wall", Account::Wall),
@@ -16,10 +16,10 @@ pub const ACCOUNTS: [(&str, Account); 8] = [
 ];
 
 /// Column of processor time \[s\].
-pub const CPU_S: &str = "cpu_s";
+pub(crate) const CPU_S: &str = "cpu_s";
 
 /// Columns of numbers that a study asks for.
-pub fn columns(study: &Study) -> Vec<String> {
+pub(crate) fn columns(study: &Study) -> Vec<String> {
     let of = |output: &Output| -> Vec<String> {
         match output {
             Output::Tip => {
@@ -38,10 +38,10 @@ pub fn columns(study: &Study) -> Vec<String> {
 }
 
 /// Cases that failed, and why.
-pub type Failed = Vec<(usize, String)>;
+pub(crate) type Failed = Vec<(usize, String)>;
 
 /// A row without numbers, and why.
-pub fn fail(width: usize, why: String, numbers: &mut Vec<f64>, failed: &mut Failed) {
+pub(crate) fn fail(width: usize, why: String, numbers: &mut Vec<f64>, failed: &mut Failed) {
     failed.push((numbers.len() / width, why));
     numbers.extend(std::iter::repeat_n(f64::NAN, width));
 }

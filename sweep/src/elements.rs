@@ -11,13 +11,13 @@ use fem::session::{FeRun, Job, Many, Progress, Settings, Source, simulate_all};
 use models::CHANNELS;
 
 /// What came of a part.
-pub type Made = (Part, Rows);
+pub(crate) type Made = (Part, Rows);
 
 /// Runs what the parts need, in folders named by problem and engine, and reads their rows.
 ///
 /// # Errors
 /// An interrupt, a folder that cannot be written to. A run that is refused or stopped is a failed row.
-pub fn compute(
+pub(crate) fn compute(
     study: &Study,
     parts: &[Part],
     settings: &Settings,

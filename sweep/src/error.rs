@@ -5,6 +5,7 @@ use fem::FemError;
 use std::path::{Path, PathBuf};
 
 /// Why a sweep ended.
+#[expect(missing_docs, reason = "fields have the words and units of their message")]
 #[derive(Debug, thiserror::Error)]
 pub enum SweepError {
     /// A study or a robot with a fault.
@@ -15,25 +16,41 @@ pub enum SweepError {
     Run(#[from] FemError),
     /// A folder that cannot be written to.
     #[error("cannot write to {}: {cause}", path.display())]
-    Write {
-        /// Where.
-        path: PathBuf,
-        /// Why.
-        cause: String,
-    },
+    Write { path: PathBuf, cause: String },
+    /// Parts that are not there yet.
+    #[error("{0} parts of the study are missing")]
+    Missing(usize),
+    /// A file of a part that is not the one that was written.
+    #[error("{}: {cause}", path.display())]
+    Damaged { path: PathBuf, cause: String },
     /// A scheduler that did not do what it was asked.
     #[error("{message}")]
-    Cluster {
-        /// What it said.
-        message: String,
-        /// What to do.
-        help: String,
-    },
+    Cluster { message: String, help: String },
 }
 
 impl SweepError {
     /// A file that cannot be written.
     pub(crate) fn unwritable(path: &Path, cause: &std::io::Error) -> SweepError {
         SweepError::Write { path: path.to_path_buf(), cause: cause.to_string() }
+    }
+
+    /// What to do about it.
+    pub fn help(&self) -> String {
+        match self {
+            SweepError::Study(error) => error.help().unwrap_or_default().into(),
+            SweepError::Run(_) => String::new(),
+            SweepError::Write { .. } => "choose another folder with --out".into(),
+            SweepError::Missing(_) => "run the other shards, or the command without a shard".into(),
+            SweepError::Damaged { .. } => {
+                "delete the file and give the command again: that part is computed anew".into()
+            }
+            SweepError::Cluster { help, .. } => help.clone(),
+        }
+    }
+
+    /// A file whose checksum, or whose contents, cannot be.
+    pub(crate) fn damaged(path: &Path) -> SweepError {
+        let cause = "the file is damaged: its checksum differs";
+        SweepError::Damaged { path: path.to_path_buf(), cause: cause.into() }
     }
 }

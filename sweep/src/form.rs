@@ -24,7 +24,7 @@ pub(crate) struct Form<Raw, T> {
 
 impl<Raw: DeserializeOwned, T> Form<Raw, T> {
     /// Reads a file; `scenario` reads the robot, first as a file beside it.
-    pub fn read(
+    pub(crate) fn read(
         &self,
         path: &Path,
         scenario: impl Fn(&str) -> Result<ScenarioFile, CompareError>,
@@ -40,7 +40,7 @@ impl<Raw: DeserializeOwned, T> Form<Raw, T> {
     }
 
     /// Of a text; `name` is for messages.
-    pub fn parse(
+    pub(crate) fn parse(
         &self,
         name: &str,
         text: &str,

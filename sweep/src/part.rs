@@ -10,11 +10,11 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Goes up when a number of the reduced model, or the file, changes its meaning.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// Cases of one engine that are computed together.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Part {
+pub(crate) struct Part {
     /// What computes them.
     pub engine: Engine,
     /// Which of the study's.
@@ -23,7 +23,7 @@ pub struct Part {
 
 /// Rows of a part.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Rows {
+pub(crate) struct Rows {
     /// A row of numbers per case; NaN where there is none.
     pub numbers: Vec<f64>,
     /// Cases that failed, counted within the part, and why.
@@ -43,7 +43,7 @@ struct Head {
 
 impl Part {
     /// Its file in the folder of a sweep: the hash of all that its numbers depend on, code by its version.
-    pub fn path(&self, study: &Study, folder: &Path) -> PathBuf {
+    pub(crate) fn path(&self, study: &Study, folder: &Path) -> PathBuf {
         let engine = match self.engine {
             Engine::Reduced => format!("reduced {}", env!("CARGO_PKG_VERSION")),
             Engine::Elements => format!("finite elements {}", fem::ENGINE),
@@ -64,19 +64,19 @@ impl Part {
     }
 
     /// Robots that have cases in it.
-    pub fn robots(&self, per_robot: usize) -> Range<usize> {
+    pub(crate) fn robots(&self, per_robot: usize) -> Range<usize> {
         self.cases.start / per_robot..self.cases.end.div_ceil(per_robot)
     }
 
     /// Which of a robot's pressures belong to it.
-    pub fn pressures(&self, robot: usize, per_robot: usize) -> Range<usize> {
+    pub(crate) fn pressures(&self, robot: usize, per_robot: usize) -> Range<usize> {
         let first = robot * per_robot;
         self.cases.start.max(first) - first..self.cases.end.min(first + per_robot) - first
     }
 }
 
 /// All parts of a study in order: equal pieces for the reduced model, one robot each for finite elements.
-pub fn parts(study: &Study) -> Vec<Part> {
+pub(crate) fn parts(study: &Study) -> Vec<Part> {
     let of = |engine: &Engine| {
         let size = match engine {
             Engine::Reduced => PART,
@@ -103,18 +103,25 @@ impl Rows {
     ///
     /// # Errors
     /// The folder cannot be written to.
-    pub fn write(&self, path: &Path) -> Result<(), SweepError> {
+    pub(crate) fn write(&self, path: &Path) -> Result<(), SweepError> {
         let Rows { numbers, failed, cpu_s } = self;
         let head = Head { ibr_sweep_part: FORMAT, numbers: numbers.len(), failed: failed.clone(), cpu_s: *cpu_s };
         let mut bytes = serde_json::to_vec(&head).unwrap_or_default();
         bytes.push(b'\n');
         bytes.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
-        pieces::keep(path, &bytes)
+        pieces::keep(path, bytes)
     }
 
-    /// Reads them; `None` where there is no whole file of so many numbers.
-    pub fn read(path: &Path, count: usize) -> Option<Rows> {
-        let bytes = std::fs::read(path).ok()?;
+    /// Reads them; `None` where there is no file.
+    ///
+    /// # Errors
+    /// A file that is damaged, or has another number of rows than `count` numbers make.
+    pub(crate) fn read(path: &Path, count: usize) -> Result<Option<Rows>, SweepError> {
+        let Some(bytes) = pieces::kept(path)? else { return Ok(None) };
+        Rows::decode(&bytes, count).map(Some).ok_or_else(|| SweepError::damaged(path))
+    }
+
+    fn decode(bytes: &[u8], count: usize) -> Option<Rows> {
         let end = bytes.iter().position(|b| *b == b'\n')?;
         let head: Head = serde_json::from_slice(&bytes[..end]).ok()?;
         let (values, rest) = bytes[end + 1..].as_chunks::<8>();

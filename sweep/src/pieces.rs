@@ -1,22 +1,20 @@
-//! Pieces of work that do not depend on each other, each with a file of its own.
+//! Independent pieces of work, each with its own file.
 
 use crate::SweepError;
 use fem::FemError;
 use fem::session::Progress;
 use rayon::prelude::*;
+use spelling::files::{clear, replace, sealed, unsealed};
+use std::io::ErrorKind;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Files that this process has begun.
-static UNDER_WAY: AtomicUsize = AtomicUsize::new(0);
-
-/// Makes pieces beside each other on threads (0: one per core); the answers are in order. `progress` is told what is made and how far
-/// it is, and says whether to go on.
+/// Makes pieces in parallel on threads (0: one per core); the answers are in order. `progress` gets the name of the work and the
+/// share that is done, and returns whether to go on.
 ///
 /// # Errors
-/// What `make` says; [`FemError::Interrupted`] if `progress` asked to end.
+/// The error of `make`; [`FemError::Interrupted`] if `progress` asked to end.
 pub fn beside<T: Send>(
     pieces: usize,
     threads: usize,
@@ -44,24 +42,32 @@ pub fn beside<T: Send>(
     }
 }
 
-/// Writes the file of a piece, whole or not at all. Two workers may make the same piece: either file is right.
+/// Writes the file of a piece, whole or not at all, with a checksum. Two workers may make the same piece: either file is right.
 ///
 /// # Errors
 /// The folder cannot be written to.
-pub fn keep(path: &Path, bytes: &[u8]) -> Result<(), SweepError> {
-    let number = UNDER_WAY.fetch_add(1, Ordering::Relaxed);
-    let partial = path.with_extension(format!("{}-{number}.partial", std::process::id()));
-    let written = std::fs::write(&partial, bytes).and_then(|()| std::fs::rename(&partial, path));
-    written.map_err(|cause| {
-        let _ = std::fs::remove_file(&partial);
-        SweepError::unwritable(path, &cause)
-    })
+pub fn keep(path: &Path, bytes: Vec<u8>) -> Result<(), SweepError> {
+    let bytes = sealed(bytes);
+    replace(path, &mut |out| out.write_all(&bytes)).map_err(|cause| SweepError::unwritable(path, &cause))
 }
 
-/// A folder for pieces.
+/// What [`keep`] wrote; `None` where there is no file.
+///
+/// # Errors
+/// A file that cannot be read, or whose bytes are not those that were written.
+pub fn kept(path: &Path) -> Result<Option<Vec<u8>>, SweepError> {
+    match std::fs::read(path) {
+        Ok(bytes) => unsealed(&bytes).map(|whole| Some(whole.to_vec())).ok_or_else(|| SweepError::damaged(path)),
+        Err(cause) if cause.kind() == ErrorKind::NotFound => Ok(None),
+        Err(cause) => Err(SweepError::Damaged { path: path.to_path_buf(), cause: cause.to_string() }),
+    }
+}
+
+/// A folder for pieces, without what killed workers of this machine left of theirs.
 ///
 /// # Errors
 /// It cannot be made.
 pub fn folder(path: &Path) -> Result<(), SweepError> {
+    clear(path, &|_| true);
     std::fs::create_dir_all(path).map_err(|cause| SweepError::unwritable(path, &cause))
 }

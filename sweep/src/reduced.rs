@@ -7,7 +7,7 @@ use compare::ScenarioFile;
 use models::{CHANNELS, Loads, Model, Prediction};
 
 /// Computes the cases of a part.
-pub fn compute(study: &Study, part: &Part) -> Rows {
+pub(crate) fn compute(study: &Study, part: &Part) -> Rows {
     let started = std::time::Instant::now();
     let width = columns(study).len();
     let (mut numbers, mut failed) = (Vec::with_capacity(part.cases.len() * width), Vec::new());

@@ -42,14 +42,14 @@ pub fn parts_missing(study: &Study, folder: &std::path::Path) -> usize {
 /// Computes what is missing of a shard. `progress` is told how far it is and says whether to go on.
 ///
 /// # Errors
-/// A folder that cannot be written to; [`fem::FemError::Interrupted`] if `progress` asked to end: what is complete stays.
+/// A folder that cannot be written to; a part whose file is damaged; [`fem::FemError::Interrupted`] if `progress` asked to end: what is complete stays.
 pub fn run(study: &Study, settings: &Settings, progress: Progress) -> Result<Found, SweepError> {
     let width = columns(study).len();
     pieces::folder(&settings.folder.join("parts"))?;
     let all = parts(study);
     let own: Vec<&Part> = settings.shard.own(&all).collect();
     let there = |part: &Part| Rows::read(&part.path(study, &settings.folder), part.cases.len() * width);
-    let before: Vec<Option<Rows>> = own.iter().map(|part| there(part)).collect();
+    let before: Vec<Option<Rows>> = own.iter().map(|part| there(part)).collect::<Result<_, _>>()?;
     let kept = before.iter().flatten().count();
     let mut cpu_s: f64 = before.iter().flatten().map(|rows| rows.cpu_s).sum();
     let wanted = own.into_iter().zip(&before).filter(|(_, rows)| rows.is_none()).map(|(part, _)| part.clone());

@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 /// How cases are spread.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-pub enum Method {
+pub(crate) enum Method {
     /// Every n-th of each range is met once (McKay, Beckman and Conover 1979).
     #[serde(rename = "latin hypercube")]
     LatinHypercube,
@@ -18,14 +18,14 @@ pub enum Method {
 
 /// Points of the unit cube, one row a case.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Points {
+pub(crate) struct Points {
     axes: usize,
     all: Vec<f64>,
 }
 
 impl Points {
     /// `cases` points over so many axes; `Err` says why not.
-    pub fn new(method: Method, cases: usize, axes: usize, seed: u32) -> Result<Points, String> {
+    pub(crate) fn new(method: Method, cases: usize, axes: usize, seed: u32) -> Result<Points, String> {
         match method {
             Method::LatinHypercube => Ok(latin(cases, axes, seed)),
             Method::Sobol if cases > MOST_SOBOL => {
@@ -40,7 +40,7 @@ impl Points {
     }
 
     /// The point of a case, each coordinate from 0 to below 1.
-    pub fn of(&self, case: usize) -> &[f64] {
+    pub(crate) fn of(&self, case: usize) -> &[f64] {
         &self.all[case * self.axes..(case + 1) * self.axes]
     }
 }

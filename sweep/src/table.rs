@@ -1,5 +1,6 @@
 //! The table of a sweep: a row per case and engine.
 
+use crate::SweepError;
 use crate::axis::as_number;
 use crate::columns::{CPU_S, columns};
 use crate::part::{Part, Rows, parts};
@@ -15,18 +16,18 @@ pub fn names(study: &Study) -> Vec<String> {
     first.chain(study.keys()).chain(columns(study)).chain(last).collect()
 }
 
-/// The table of the parts in a folder; those that are missing otherwise.
+/// The table of the parts in a folder.
 ///
 /// # Errors
-/// How many parts are not there.
-pub fn collect(study: &Study, folder: &Path) -> Result<Table, usize> {
+/// [`SweepError::Missing`]; a part whose file is damaged.
+pub fn collect(study: &Study, folder: &Path) -> Result<Table, SweepError> {
     let width = columns(study).len();
     let all = parts(study);
     let read = |part: &Part| Rows::read(&part.path(study, folder), part.cases.len() * width);
-    let rows: Vec<Option<Rows>> = all.iter().map(read).collect();
+    let rows: Vec<Option<Rows>> = all.iter().map(read).collect::<Result<_, _>>()?;
     let missing = rows.iter().filter(|rows| rows.is_none()).count();
     if missing > 0 {
-        return Err(missing);
+        return Err(SweepError::Missing(missing));
     }
     let mut building = Building::new(study);
     all.iter().zip(rows.iter().flatten()).for_each(|(part, rows)| building.add(study, part, rows));

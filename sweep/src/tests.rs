@@ -90,7 +90,7 @@ fn one_two_and_seven_shards_give_the_same_table_to_the_bit() {
 }
 
 #[test]
-fn what_is_there_is_kept_and_what_was_cut_is_made_again() {
+fn what_is_there_is_kept_and_what_is_missing_is_made() {
     let (study, folder) = (study(&GRID.replace("steps = 31", "steps = 9001")).unwrap(), tempfile::tempdir().unwrap());
     let mut calls = 0;
     let stopped = run(&study, &settings(folder.path(), Shard::WHOLE), &mut |_, _| {
@@ -102,11 +102,39 @@ fn what_is_there_is_kept_and_what_was_cut_is_made_again() {
     assert!((2..=4).contains(&kept), "{kept} of 5 parts");
     let wanted = csv(&study, folder.path());
     let part = std::fs::read_dir(folder.path().join("parts")).unwrap().next().unwrap().unwrap().path();
-    let bytes = std::fs::read(&part).unwrap();
-    std::fs::write(&part, &bytes[..bytes.len() - 3]).unwrap();
-    assert!(collect(&study, folder.path()).is_err());
+    std::fs::remove_file(&part).unwrap();
+    assert!(matches!(collect(&study, folder.path()), Err(SweepError::Missing(1))));
     let found = made(&study, folder.path(), Shard::WHOLE);
     assert_eq!((found.parts, found.kept, found.missing), (5, 4, 0));
+    assert!(csv(&study, folder.path()) == wanted);
+}
+
+/// Wherever a bit flips and wherever the file is cut: never another table.
+#[test]
+fn a_part_that_was_changed_is_an_error_with_its_file_and_what_to_do() {
+    let (study, folder) = (study(GRID).unwrap(), tempfile::tempdir().unwrap());
+    made(&study, folder.path(), Shard::WHOLE);
+    let wanted = csv(&study, folder.path());
+    let part = std::fs::read_dir(folder.path().join("parts")).unwrap().next().unwrap().unwrap().path();
+    let bytes = std::fs::read(&part).unwrap();
+    let flipped = (0..29).map(|k| (k * bytes.len() / 29, k % 8)).map(|(at, bit)| {
+        let mut other = bytes.clone();
+        other[at] ^= 1 << bit;
+        other
+    });
+    for other in flipped.chain([bytes[..bytes.len() - 3].to_vec(), Vec::new()]) {
+        std::fs::write(&part, other).unwrap();
+        for told in [
+            collect(&study, folder.path()).unwrap_err(),
+            run(&study, &settings(folder.path(), Shard::WHOLE), &mut |_, _| ControlFlow::Continue(())).unwrap_err(),
+        ] {
+            let name = part.file_name().unwrap().to_string_lossy().into_owned();
+            assert!(told.to_string().contains(&name) && told.help().contains("delete the file"), "{told}");
+        }
+    }
+    std::fs::remove_file(&part).unwrap();
+    std::fs::write(folder.path().join("parts/.x.part.another-1-0.partial"), "half").unwrap();
+    made(&study, folder.path(), Shard::WHOLE);
     assert!(csv(&study, folder.path()) == wanted);
 }
 

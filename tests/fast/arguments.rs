@@ -16,10 +16,10 @@ fn pressures_need_a_number_and_a_known_unit() {
     predict("", &["`` is not a quantity"]);
     predict("１０kPa", &["`１０kPa` is not a quantity"]);
     predict("nankPa", &["not a quantity"]);
-    predict("-5kPa", &["`-5kPa`", "below zero", "gauge"]);
-    predict("1e9kPa", &["expected a gauge pressure from 0 to 1000 kPa"]);
+    predict("-5kPa", &["`-5kPa`", "actuator pressure must be from 0 to 1000 kPa, not -5"]);
+    predict("1e9kPa", &["actuator pressure must be from 0 to 1000 kPa, not 1000000000"]);
     predict("1kPa/1kPa/1kPa/1kPa/1kPa", &["names 5 channels; there are 4"]);
-    wrong(&["predict", "epam", "--body-pressure", "-1kPa"], &["body pressure is -1 kPa", "from 0 to 1000 kPa"]);
+    wrong(&["predict", "epam", "--body-pressure", "-1kPa"], &["body pressure must be from 0.5 to 100 kPa, not -1"]);
 }
 
 #[test]

@@ -82,8 +82,14 @@ fn a_cell_that_is_not_a_number_is_shown() {
     refused(with_cell(17, 5, "laod"), &["bad.csv:17, column phase", "unknown phase \"laod\"", "write load"]);
     refused(with_cell(17, 0, ""), &["bad.csv:17, column run", "the cell is empty"]);
     refused(with_cell(17, 7, "1e300"), &["bad.csv:17, column x_mm", "\"1e300\" is farther than any robot reaches"]);
-    refused(with_cell(17, 9, "-30"), &["bad.csv:17, column s_mm", "below zero: -30", "count from the robot's base"]);
-    refused(with_cell(17, 4, "-30"), &["bad.csv:17, column p_act_kpa", "below zero", "gauge pressure"]);
+    refused(
+        with_cell(17, 9, "-30"),
+        &["bad.csv:17, column s_mm", "station must be from 0.001 to 100000 mm, not -30", "help:"],
+    );
+    refused(
+        with_cell(17, 4, "-30"),
+        &["bad.csv:17, column p_act_kpa", "actuator pressure must be from 0 to 1000 kPa, not -30", "gauge pressure"],
+    );
 }
 
 #[test]

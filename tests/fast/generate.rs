@@ -100,7 +100,7 @@ fn what_cannot_be_generated_is_refused_with_an_example() {
     refused(&["epam", "--protocol", "0,10"], &["a body pressure is missing (after `@`)", "\"0,10,20,30,0@2"]);
     refused(&["epam", "--protocol", "0,x@2"], &["`x` is not a number"]);
     refused(&["epam", "--protocol", ""], &["it has no hold"]);
-    refused(&["epam", "--protocol", "0,900@2"], &["from 0 to 500 kPa"]);
+    refused(&["epam", "--protocol", "0,1900@2"], &["actuator pressure must be from 0 to 1000 kPa, not 1900"]);
     refused(&["epam", "--sigma", "5"], &["--sigma", "`5` has no unit"]);
     refused(&["epam", "--sigma", "-1mm"], &["--sigma", "not from 0 to 100 mm"]);
     refused(&["epam", "--pressure-scatter", "nan"], &["not from 0 to 50 per cent"]);

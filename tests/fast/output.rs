@@ -86,3 +86,25 @@ fn a_folder_whose_name_is_no_utf_8_is_as_good_as_any() {
         assert!(folder.path("").join(out).join(file).exists(), "{args:?}");
     }
 }
+
+#[test]
+fn files_of_others_are_not_replaced_and_leavings_of_killed_processes_are_removed() {
+    let folder = Folder::new();
+    folder.write("mine/shapes.svg", "a picture of my own");
+    folder.write("mine.svg", "a pattern of my own");
+    for (args, words) in [
+        (["predict", "fpam", "--out", "mine"], "mine/shapes.svg exists, and ibr did not write it"),
+        (["pattern", "epam", "--out", "mine.svg"], "mine.svg exists, and ibr did not write it"),
+    ] {
+        refuse(&folder, &args, 2, &[words, "with --out"]);
+    }
+    folder.write(".made.incomplete-4194999/half.png", "half");
+    folder.write("made/.incomplete-4194999/half.png", "half");
+    folder.write(".made.svg.tmp", "not ours");
+    for _ in 0..2 {
+        assert_eq!(folder.run(&["predict", "fpam", "--out", "made"]).code, 0);
+        assert_eq!(folder.run(&["pattern", "epam", "--out", "made.svg"]).code, 0);
+    }
+    let is_left = |path: &std::path::PathBuf| path.to_string_lossy().contains("incomplete");
+    assert!(!folder.contents().keys().any(is_left) && folder.path(".made.svg.tmp").exists());
+}

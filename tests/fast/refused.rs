@@ -2,11 +2,15 @@
 
 use crate::support::Folder;
 
+/// The manifest of a folder with a report.
+pub const MANIFEST: &str =
+    r#"{"schema": "ibr.manifest", "version": 1, "outputs": [{"name": "report.html", "sha256": ""}]}"#;
+
 /// A folder with an earlier report, which no refused command may touch.
 pub fn with_report() -> Folder {
     let folder = Folder::new();
     folder.write("report/report.html", "<p>an earlier report");
-    folder.write("report/manifest.json", "{}");
+    folder.write("report/manifest.json", MANIFEST);
     folder
 }
 

@@ -7,10 +7,14 @@ use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+/// Of a folder with a report.
+const MANIFEST: &str =
+    r#"{"schema": "ibr.manifest", "version": 1, "outputs": [{"name": "report.html", "sha256": ""}]}"#;
+
 fn with_report() -> Folder {
     let folder = Folder::new();
     folder.write("report/report.html", "<p>an earlier report");
-    folder.write("report/manifest.json", "{}");
+    folder.write("report/manifest.json", MANIFEST);
     folder
 }
 

@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+/// That of a folder with a report.
+const MANIFEST: &str =
+    r#"{"schema": "ibr.manifest", "version": 1, "outputs": [{"name": "report.html", "sha256": ""}]}"#;
 /// No refusal takes longer, on a busy machine and unoptimised.
 const LONGEST: Duration = Duration::from_secs(60);
 
@@ -73,7 +76,7 @@ impl Case {
             fs::write(path, bytes).unwrap();
         };
         write("report/report.html", b"<p>an earlier report");
-        write("report/manifest.json", b"{}");
+        write("report/manifest.json", MANIFEST.as_bytes());
         self.beside.iter().for_each(|(name, bytes)| write(name, bytes));
         for command in &self.prepare {
             let made = Case { command: command.clone(), ..self.clone() }.ran(at)?;

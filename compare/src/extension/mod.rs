@@ -48,13 +48,14 @@ impl Wish {
     /// # Errors
     /// An effect that is not possible or is there already; `best` without data.
     pub fn read(scenario: &Scenario, text: &str, has_data: bool) -> Result<Wish, CompareError> {
+        let needs = |what: &str| {
+            CompareError::refused(format!("`{text}` needs data to {what}"), format!("ibr add SCENARIO {text} DATA"))
+        };
         if text == "best" {
-            let needs = || CompareError::refused("`best` needs data to say what is best", "ibr add SCENARIO best DATA");
-            return has_data.then_some(Wish::Best).ok_or_else(needs);
+            return has_data.then_some(Wish::Best).ok_or_else(|| needs("say what is best"));
         }
         if text == LEARNED && !scenario.formulas.iter().any(|f| f.name == LEARNED) {
-            let needs = || CompareError::refused("`learned` needs data to learn from", "ibr add SCENARIO learned DATA");
-            return has_data.then_some(Wish::Learned).ok_or_else(needs);
+            return has_data.then_some(Wish::Learned).ok_or_else(|| needs("learn from"));
         }
         Ok(match typed(scenario, text)? {
             (name, Some(values)) => Wish::Given(name, values),

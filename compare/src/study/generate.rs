@@ -8,6 +8,7 @@ use data::{About, Dataset, Direct, Geometry, Hold, Marker, MarkerStation, Phase,
 use models::{CHANNELS, Loads, Model, Prediction, Scenario, Step, Supply};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
+use spelling::units::Range;
 
 /// What a synthetic test is like; `Default` is the protocol of du Pasquier et al. 2023 with plausible scatter.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,7 +58,7 @@ impl Default for Generator {
 /// Reads a protocol like `0,10,20,30,0@2; 0,20,40,60,0@4`: actuator pressures in kPa at a body pressure in kPa.
 ///
 /// # Errors
-/// Texts that are not of that form, or pressures that are negative or above 500 kPa.
+/// Texts that are not of that form, or pressures out of their bounds.
 pub fn parse_protocol(text: &str) -> Result<Vec<[f64; 2]>, CompareError> {
     let holds = parse_channels(text)?;
     if holds.iter().any(|(_, channels)| channels.len() > 1) {
@@ -106,17 +107,17 @@ pub(super) fn in_channels(body_pa: f64, channels_pa: impl Iterator<Item = f64>) 
 /// Body pressure and those of the channels, hold by hold \[Pa\].
 fn parse_channels(text: &str) -> Result<Vec<(f64, Vec<f64>)>, CompareError> {
     let bad = |problem: &str| CompareError::BadProtocol { text: text.to_string(), problem: problem.to_string() };
-    let number = |word: &str| match word.trim().parse::<f64>() {
-        Ok(p) if (0.0..=500.0).contains(&p) => Ok(p * 1e3),
-        Ok(_) => Err(bad("pressures are from 0 to 500 kPa")),
+    let number = |word: &str, bounds: &Range| match word.trim().parse::<f64>() {
+        Ok(kpa) => bounds.si(bounds.name, kpa).map_err(|(message, help)| bad(&format!("{message}; {help}"))),
         Err(_) => Err(bad(&format!("`{}` is not a number", word.trim()))),
     };
     let mut holds = Vec::new();
     for part in text.split(';').filter(|part| !part.trim().is_empty()) {
         let (pressures, body) = part.split_once('@').ok_or_else(|| bad("a body pressure is missing (after `@`)"))?;
-        let body = number(body)?;
+        let body = number(body, &Range::BODY_PRESSURE)?;
         for p in pressures.split(',') {
-            let channels: Vec<f64> = p.split('/').map(&number).collect::<Result<_, _>>()?;
+            let channels: Vec<f64> =
+                p.split('/').map(|p| number(p, &Range::ACTUATOR_PRESSURE)).collect::<Result<_, _>>()?;
             if channels.len() > CHANNELS {
                 return Err(bad(&format!("there are {CHANNELS} supply channels")));
             }

@@ -2,13 +2,15 @@
 
 use std::collections::BTreeMap;
 
+use serde::Deserialize;
 use spelling::Exactly;
 use toml::Spanned;
 
-use super::{AboutRun, Geometry, MarkerStation, MeasuredValue, RawBending, RawGeometry, RawMarkers, RawRun};
+use super::{AboutRun, Direct, Geometry, MarkerStation, MeasuredValue, Provenance};
 use crate::cells::label;
-use crate::error::{DataError, Fault, Location};
-use crate::policy::LARGEST_TIP_FORCE_N;
+use crate::error::{DataError, Fault, Location, Result};
+use crate::policy::{LARGEST_TIP_FORCE_N, SAME_STATION, one_station};
+use spelling::units::Range;
 
 /// As many as a scenario takes.
 const MOST_POUCHES: usize = 10_000;
@@ -29,7 +31,7 @@ impl Check<'_> {
         DataError::About(Box::new(fault))
     }
 
-    pub fn filled(&self, key: &str, value: &Spanned<String>) -> Result<String, DataError> {
+    pub fn filled(&self, key: &str, value: &Spanned<String>) -> Result<String> {
         let text = value.get_ref().trim();
         if text.is_empty() {
             return Err(self.fault(key, value, "is empty", "write one line; every dataset says where it comes from"));
@@ -38,7 +40,7 @@ impl Check<'_> {
     }
 
     /// A length in mm, positive and not so small that it must be metres, in metres.
-    fn length_m(&self, key: &str, value: &Spanned<f64>) -> Result<f64, DataError> {
+    fn length_m(&self, key: &str, value: &Spanned<f64>) -> Result<f64> {
         let length_mm = *value.get_ref();
         if !(length_mm.is_finite() && length_mm > 0.0) {
             return Err(self.fault(key, value, "must be a positive length", "give it in millimetres, for example 60"));
@@ -49,7 +51,7 @@ impl Check<'_> {
         Ok(length_mm / 1e3)
     }
 
-    pub fn geometry(&self, raw: RawGeometry) -> Result<Geometry, DataError> {
+    pub fn geometry(&self, raw: RawGeometry) -> Result<Geometry> {
         let optional = |key: &str, value: Option<Spanned<f64>>| value.map(|v| self.length_m(key, &v)).transpose();
         Ok(Geometry {
             body_radius_m: self.length_m("body_radius_mm", &raw.body_radius_mm)?,
@@ -62,7 +64,7 @@ impl Check<'_> {
         })
     }
 
-    fn pouches(&self, count: &Spanned<usize>) -> Result<usize, DataError> {
+    fn pouches(&self, count: &Spanned<usize>) -> Result<usize> {
         match *count.get_ref() {
             found @ 1..=MOST_POUCHES => Ok(found),
             found => {
@@ -72,7 +74,7 @@ impl Check<'_> {
         }
     }
 
-    pub fn markers(&self, raw: RawMarkers) -> Result<Vec<MarkerStation>, DataError> {
+    pub fn markers(&self, raw: RawMarkers) -> Result<Vec<MarkerStation>> {
         let (names, s_mm) = (raw.names.get_ref(), raw.s_mm.get_ref());
         if names.len() != s_mm.len() {
             let message = format!("has {} values, names has {}", s_mm.len(), names.len());
@@ -82,23 +84,21 @@ impl Check<'_> {
             let message = format!("marker {} is there twice", names[twice]);
             return Err(self.fault("names", &raw.names, &message, "name every marker once"));
         }
-        if s_mm.iter().any(|s| !s.is_finite() || *s < 0.0) {
-            return Err(self.fault(
-                "s_mm",
-                &raw.s_mm,
-                "holds a value below zero",
-                "stations count from the base in mm",
-            ));
-        }
         let farthest = s_mm.iter().copied().fold(0.0, f64::max);
         if farthest > 0.0 && farthest < 2.0 {
             return Err(self.fault("s_mm", &raw.s_mm, "looks like metres", "give millimetres: multiply by 1000"));
+        }
+        let bounds = Range::STATION;
+        let stations_m = s_mm.iter().map(|s| bounds.si(bounds.name, *s)).collect::<Result<Vec<f64>, _>>();
+        let stations_m = stations_m.map_err(|(message, help)| self.fault("s_mm", &raw.s_mm, &message, help))?;
+        if let Some(message) = one_station(&stations_m) {
+            return Err(self.fault("s_mm", &raw.s_mm, &message, SAME_STATION));
         }
         let pair = |(name, s): (&String, &f64)| MarkerStation { name: label(name).to_string(), station_m: s / 1e3 };
         Ok(names.iter().zip(s_mm).map(pair).collect())
     }
 
-    pub fn direction(&self, value: &Spanned<Exactly<2>>) -> Result<[f64; 2], DataError> {
+    pub fn direction(&self, value: &Spanned<Exactly<2>>) -> Result<[f64; 2]> {
         let direction = **value.get_ref();
         // Written so that NaN is refused as well.
         if (direction[0].hypot(direction[1]) - 1.0).abs() <= 1e-3 {
@@ -108,7 +108,7 @@ impl Check<'_> {
         Err(self.fault("direction", value, "must be a unit vector", help))
     }
 
-    pub fn bending(&self, raw: &RawBending) -> Result<[f64; 2], DataError> {
+    pub fn bending(&self, raw: &RawBending) -> Result<[f64; 2]> {
         let (stiffness, sd) = (*raw.stiffness_nm2.get_ref(), *raw.sd_nm2.get_ref());
         if !(stiffness >= 0.0 && stiffness.is_finite()) {
             let help = "give it in N·m², for example 1.35";
@@ -122,10 +122,7 @@ impl Check<'_> {
         Ok([stiffness, sd])
     }
 
-    pub fn measured(
-        &self,
-        raw: BTreeMap<String, BTreeMap<String, Spanned<Exactly<2>>>>,
-    ) -> Result<Vec<MeasuredValue>, DataError> {
+    pub fn measured(&self, raw: BTreeMap<String, BTreeMap<String, Spanned<Exactly<2>>>>) -> Result<Vec<MeasuredValue>> {
         let mut all = Vec::new();
         for (effect, parameters) in raw {
             for (key, pair) in parameters {
@@ -144,7 +141,7 @@ impl Check<'_> {
         Ok(all)
     }
 
-    pub fn runs(&self, raw: Vec<RawRun>) -> Result<Vec<AboutRun>, DataError> {
+    pub fn runs(&self, raw: Vec<RawRun>) -> Result<Vec<AboutRun>> {
         let mut runs: Vec<AboutRun> = Vec::with_capacity(raw.len());
         for run in raw {
             if runs.iter().any(|known| known.id == *run.id.get_ref()) {
@@ -166,4 +163,65 @@ impl Check<'_> {
         }
         Ok(runs)
     }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawAbout {
+    pub title: Spanned<String>,
+    pub provenance: Provenance,
+    pub source: Spanned<String>,
+    pub licence: Spanned<String>,
+    pub actuator: Option<String>,
+    pub notes: Option<String>,
+    pub geometry: Option<RawGeometry>,
+    pub markers: Option<RawMarkers>,
+    pub gravity: Option<RawGravity>,
+    #[serde(default)]
+    pub direct: Direct,
+    pub bending: Option<RawBending>,
+    #[serde(default)]
+    pub measured: BTreeMap<String, BTreeMap<String, Spanned<Exactly<2>>>>,
+    #[serde(default)]
+    pub run: Vec<RawRun>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawGeometry {
+    pub body_radius_mm: Spanned<f64>,
+    pub body_length_mm: Spanned<f64>,
+    pub pouch_length_mm: Option<Spanned<f64>>,
+    pub pouch_width_mm: Option<Spanned<f64>>,
+    pub pouches: Option<Spanned<usize>>,
+    pub fold_mm: Option<Spanned<f64>>,
+    pub arm_mm: Option<Spanned<f64>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawMarkers {
+    pub names: Spanned<Vec<String>>,
+    pub s_mm: Spanned<Vec<f64>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawGravity {
+    pub direction: Spanned<Exactly<2>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawBending {
+    pub stiffness_nm2: Spanned<f64>,
+    pub sd_nm2: Spanned<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawRun {
+    pub id: Spanned<String>,
+    pub tip_force_n: Option<Spanned<Exactly<2>>>,
+    pub session: Option<String>,
 }

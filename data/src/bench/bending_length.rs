@@ -7,7 +7,8 @@
 //! l overhang, θ angle below the horizontal of the line from edge to tip, c bending length \[m\], w weight per area \[N/m²\], D
 //! bending stiffness per width \[N·m\]. At 41.5° the formula has 0.509, so the convention makes D 5 % smaller.
 
-use super::{Bench, BenchKind, BenchRow, Field, field, plain};
+use super::kind::{Bench, BenchKind, BenchRow};
+use crate::columns::{Field, field, plain};
 use crate::units::Measured::{Angle, Length};
 
 pub(super) const ENTRY: BenchKind = BenchKind {

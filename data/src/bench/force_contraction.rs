@@ -1,7 +1,9 @@
 //! A muscle: force over contraction at an actuator pressure, in a testing machine. Force 0 is free contraction.
 
-use super::{BenchKind, BenchRow, Field, field, plain, scatter};
+use super::kind::{BenchKind, BenchRow, scatter};
+use crate::columns::{Field, field, plain};
 use crate::units::Measured::{Angle, Force, Length, Pressure, Ratio};
+use spelling::units::Range;
 
 pub(super) const ENTRY: BenchKind = BenchKind {
     name: "force_contraction",
@@ -24,9 +26,7 @@ const COLUMNS: &[Field] = &[
 
 fn check(row: &BenchRow) -> Result<(), [String; 2]> {
     let (p, e, f) = (row.value("p_act"), row.value("contraction"), row.value("force"));
-    if p < 0.0 {
-        return Err([format!("the actuator pressure is {} kPa", 1e-3 * p), "write a gauge pressure".into()]);
-    }
+    Range::ACTUATOR_PRESSURE.check(p).map_err(|(message, help)| [message, help.into()])?;
     if !(-0.3..0.8).contains(&e) {
         let help = "write shortening over the length at rest as positive; name the column contraction_pct if it is in per cent";
         return Err([format!("the contraction is {} %", 100.0 * e), help.into()]);

@@ -1,8 +1,10 @@
 //! A beam: tip deflection under a transverse load, at a body pressure. One end is clamped.
 
-use super::{BenchKind, BenchRow, Field, field, plain, scatter};
+use super::kind::{BenchKind, BenchRow, scatter};
+use crate::columns::{Field, field, plain};
 use crate::policy;
 use crate::units::Measured::{Force, Length, Pressure};
+use spelling::units::Range;
 
 pub(super) const ENTRY: BenchKind = BenchKind {
     name: "load_deflection",
@@ -22,10 +24,7 @@ const COLUMNS: &[Field] = &[
 
 fn check(row: &BenchRow) -> Result<(), [String; 2]> {
     let (p, f, v) = (row.value("p_body"), row.value("load"), row.value("deflection"));
-    if p <= 0.0 {
-        let message = format!("the body pressure is {} kPa", 1e-3 * p);
-        return Err([message, "write a gauge pressure above 0: a beam without pressure carries nothing".into()]);
-    }
+    Range::BODY_PRESSURE.check(p).map_err(|(message, help)| [message, help.into()])?;
     if f < 0.0 || v < 0.0 {
         let message = format!("a load of {f} N and a deflection of {} mm", 1e3 * v);
         return Err([message, "write both as positive numbers along the load".into()]);

@@ -1,114 +1,46 @@
-//! Bench tests beside marker tables: a load and a deflection, a force and a contraction, a bending length.
+//! Bench tests, in addition to marker tables: a load and a deflection, a force and a contraction, a bending length.
 //!
-//! To add a kind: one file here with its columns and its check, and one line in [`KINDS`]. What is the same in all rows may
-//! stand in a comment above the header, `# radius_mm: 80`; `# provenance: measured` says how the numbers came to be
-//! (measured, published, digitised, synthetic; measured if nothing is said).
+//! To add a kind: one file here with its columns and its check, and one line in [`KINDS`]. A value that is the same in all rows may
+//! be in a comment above the header, `# radius_mm: 80`; `# provenance: measured` is how the numbers came to be
+//! (measured, published, digitised, synthetic; measured by default).
 
 mod bending_length;
 mod force_contraction;
+mod kind;
 mod load_deflection;
 mod read;
 
 use std::io::Read;
 use std::path::Path;
 
-use crate::about::Provenance;
-use crate::error::{DataError, Fault};
+pub use crate::columns::Field;
+use crate::error::{DataError, Fault, Result};
 use crate::sets;
-use crate::units::Measured;
 use spelling::files::{MOST_DATA, read_whole};
 
 pub use bending_length::bending_lengths_m;
+pub use kind::{Bench, BenchKind, BenchRow};
 
 /// The list.
 pub const KINDS: &[BenchKind] = &[load_deflection::ENTRY, force_contraction::ENTRY, bending_length::ENTRY];
-
-/// A kind of table.
-#[derive(Debug, Clone, Copy)]
-pub struct BenchKind {
-    /// Name, also of the file in a folder of data: `load_deflection` is `load_deflection.csv`.
-    pub name: &'static str,
-    /// One plain sentence.
-    pub sentence: &'static str,
-    /// Its columns.
-    pub columns: &'static [Field],
-    /// What a row must fulfil beyond its columns: message and what to write.
-    check: fn(&BenchRow) -> Result<(), [String; 2]>,
-}
-
-/// A column.
-#[derive(Debug, Clone, Copy)]
-pub struct Field {
-    /// Name without unit; the whole name of a number without one.
-    pub base: &'static str,
-    /// Name as usually written.
-    pub expected: &'static str,
-    dimension: Option<Measured>,
-    /// Whether a table of this kind has it always.
-    pub needed: bool,
-}
-
-const fn field(base: &'static str, expected: &'static str, dimension: Measured, needed: bool) -> Field {
-    Field { base, expected, dimension: Some(dimension), needed }
-}
-
-const fn plain(name: &'static str, needed: bool) -> Field {
-    Field { base: name, expected: name, dimension: None, needed }
-}
-
-/// One row in SI units (ratios as 1, angles in degrees), by the columns of its kind.
-#[derive(Debug, Clone)]
-pub struct BenchRow {
-    kind: &'static BenchKind,
-    values: Vec<Option<f64>>,
-    /// Line in the file, from 1.
-    pub line: u64,
-}
-
-impl BenchRow {
-    /// The value of a column; none where the table has none.
-    pub fn get(&self, base: &str) -> Option<f64> {
-        self.kind.columns.iter().position(|f| f.base == base).and_then(|i| self.values[i])
-    }
-
-    /// The value of a column that the kind needs.
-    pub fn value(&self, base: &str) -> f64 {
-        self.get(base).unwrap_or(f64::NAN)
-    }
-}
-
-/// A table of bench tests.
-#[derive(Debug, Clone)]
-pub struct Bench {
-    /// Its kind.
-    pub kind: &'static BenchKind,
-    /// File it was read from.
-    pub file: String,
-    /// How its numbers came to be.
-    pub provenance: Provenance,
-    /// Its rows, in the order of the file.
-    pub rows: Vec<BenchRow>,
-    /// The robot of the folder or set it came from, as a scenario's text.
-    pub scenario: Option<String>,
-}
 
 /// Reads a table of bench tests: a CSV file, a folder or an embedded set with one. `None` if it is something else (markers).
 ///
 /// # Errors
 /// A fault of the table, with line, column and what to write.
-pub fn bench(spec: &str) -> Result<Option<Bench>, DataError> {
+pub fn bench(spec: &str) -> Result<Option<Bench>> {
     let path = Path::new(spec);
     if path.is_file() {
         let first = |most: u64| {
             let mut bytes = Vec::new();
             std::fs::File::open(path).ok()?.take(most).read_to_end(&mut bytes).ok().map(|_| bytes)
         };
-        // A table of markers may be of gigabytes: its beginning says that it is none of these.
+        // A table of markers may be of gigabytes: its beginning shows that it is not a bench table.
         let start = first(HEADER).unwrap_or_default();
         if start.len() as u64 == HEADER {
             let lines = String::from_utf8_lossy(&start);
             let end = lines.rfind('\n').map_or(lines.len(), |end| end + 1);
-            if matches!(read::parse(spec, &lines[..end]), Ok(None)) {
+            if matches!(read::parse(KINDS, spec, &lines[..end]), Ok(None)) {
                 return Ok(None);
             }
         }
@@ -116,7 +48,7 @@ pub fn bench(spec: &str) -> Result<Option<Bench>, DataError> {
             return Ok(None);
         };
         let beside = path.parent().and_then(|folder| std::fs::read_to_string(folder.join("scenario.toml")).ok());
-        return read::parse(spec, &text).map(|found| found.map(|bench| Bench { scenario: beside, ..bench }));
+        return read::parse(KINDS, spec, &text).map(|found| found.map(|bench| Bench { scenario: beside, ..bench }));
     }
     for kind in KINDS {
         let name = format!("{}.csv", kind.name);
@@ -132,7 +64,7 @@ pub fn bench(spec: &str) -> Result<Option<Bench>, DataError> {
             (sets::shown(spec, &name), of_set(&name), of_set("scenario.toml"))
         };
         let Some(text) = text else { continue };
-        let found = read::parse(&shown, &text)?.filter(|bench| bench.kind.name == kind.name);
+        let found = read::parse(KINDS, &shown, &text)?.filter(|bench| bench.kind.name == kind.name);
         let wrong = || {
             let message = format!("the columns are not those of a {} table", kind.name);
             DataError::Column(Box::new(Fault::of_file(&shown, message, format!("write {}", read::wanted(kind)))))
@@ -149,24 +81,14 @@ const HEADER: u64 = 1 << 16;
 ///
 /// # Errors
 /// As [`bench()`].
-pub fn parse_bench(file: &str, text: &str) -> Result<Option<Bench>, DataError> {
-    read::parse(file, text)
-}
-
-/// A mean with its scatter makes sense with both numbers only.
-fn scatter(row: &BenchRow, sd: &str) -> Result<(), [String; 2]> {
-    let wrong = |message: String| Err([message, format!("write {sd} above 0 and n of 2 or more, or leave both out")]);
-    match (row.get(sd), row.get("n")) {
-        (Some(sd), Some(n)) if sd > 0.0 && n >= 2.0 && n.fract() == 0.0 => Ok(()),
-        (None, None) => Ok(()),
-        (None, Some(_)) | (Some(_), None) => wrong("a standard deviation and a number of tests belong together".into()),
-        (Some(value), Some(n)) => wrong(format!("a standard deviation of {value} of {n} tests")),
-    }
+pub fn parse_bench(file: &str, text: &str) -> Result<Option<Bench>> {
+    read::parse(KINDS, file, text)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::about::Provenance;
 
     fn refused(text: &str, words: &[&str]) {
         let error = parse_bench("a.csv", text).unwrap_err();
@@ -199,7 +121,7 @@ mod tests {
         refused(&format!("{head}\n20,1,x\n"), &["a.csv:2, column deflection_mm", "found \"x\""]);
         refused(&format!("{head}\n20,1\n"), &["a.csv:2", "2 cells, the header 3"]);
         refused(&format!("{head}\n"), &["no rows"]);
-        refused(&format!("{head}\n-2,1,1\n"), &["a.csv:2", "body pressure is -2 kPa"]);
+        refused(&format!("{head}\n-2,1,1\n"), &["a.csv:2", "body pressure must be from 0.5 to 100 kPa, not -2"]);
         refused(&format!("{head},deflection_sd_mm\n20,1,1,0.1\n"), &["belong together", "n of 2 or more"]);
         refused(&format!("{head},deflection_sd_mm,n\n20,1,1,0.1,1\n"), &["of 1 tests"]);
         refused("p_body,load_n,deflection_mm\n20,1,1\n", &["p_body has no unit", "p_body_kpa"]);

@@ -1,170 +1,151 @@
 //! Text to rows, for every kind.
 
-use super::{Bench, BenchKind, BenchRow, Field, KINDS};
+use super::kind::{Bench, BenchKind, BenchRow};
 use crate::about::Provenance;
-use crate::error::{DataError, Fault};
+use crate::columns::{self, Column, Meaning};
+use crate::error::{DataError, Fault, Result};
 use crate::lines::{Line, Lines};
 
-/// A number of a comment above the header.
+/// A comment above the header, `# key: value`.
 struct Note {
     key: String,
     text: String,
     fault: Box<Fault>,
 }
 
+impl Note {
+    fn of(comment: &str, line: &Line) -> Option<Note> {
+        let (key, value) = comment.split_once(':')?;
+        Some(Note { key: key.trim().to_lowercase(), text: value.trim().to_string(), fault: line.fault("", "") })
+    }
+
+    fn wrong(&self, message: String, help: String) -> DataError {
+        DataError::Cell(Box::new(Fault { message, help, ..(*self.fault).clone() }))
+    }
+}
+
 /// Reads a table; `None` if its header is of no kind.
-pub(super) fn parse(file: &str, text: &str) -> Result<Option<Bench>, DataError> {
+pub(super) fn parse(kinds: &'static [BenchKind], file: &str, text: &str) -> Result<Option<Bench>> {
     let mut progress = |_, _| ();
     let mut bytes = text.as_bytes();
     let mut lines = Lines::new(file, &mut bytes, text.len() as u64, &mut progress);
     let mut notes: Vec<Note> = Vec::new();
-    let (kind, header) = loop {
+    let (table, shared) = loop {
         let Some(line) = lines.next_filled()? else { return Ok(None) };
-        let Some(comment) = line.text.trim_start().strip_prefix('#') else {
-            let header = BenchHeader::new(&line);
-            let Some(kind) = KINDS.iter().find(|kind| header.is_of(kind, &notes)) else { return Ok(None) };
-            header.units(kind, &line)?;
-            break (kind, header);
-        };
-        if let Some((key, value)) = comment.split_once(':') {
-            let (key, text) = (key.trim().to_lowercase(), value.trim().to_string());
-            notes.push(Note { key, text, fault: line.fault("", "") });
+        match line.text.trim_start().strip_prefix('#') {
+            Some(comment) => notes.extend(Note::of(comment, &line)),
+            None => {
+                let (names, delimiter) = columns::split(line.text, None);
+                let Some(kind) = kinds.iter().find(|kind| is_of(kind, &names, &notes)) else { return Ok(None) };
+                let meaning = |name: &str| Meaning::of(name, kind.columns);
+                if let Some(fault) = columns::without_unit(&line, &names, kind.columns, &meaning, &|_| Some(true)) {
+                    return Err(fault);
+                }
+                let columns = columns::find(&line, &names, kind.columns, &meaning)?;
+                break (BenchTable { kind, names, delimiter, columns }, shared(kind, &notes)?);
+            }
         }
     };
-    let shared = shared(kind, &notes)?;
     let mut rows = Vec::new();
     while let Some(line) = lines.next_filled()? {
         if !line.text.trim_start().starts_with('#') {
-            rows.push(row(kind, &header, &shared, &line)?);
+            rows.push(table.row(&shared, &line)?);
         }
     }
+    let kind = table.kind;
     if rows.is_empty() {
-        return Err(DataError::Layout(Box::new(Fault::of_file(file, "the table has no rows", wanted(kind)))));
+        return Err(DataError::layout(file, "the table has no rows", wanted(kind)));
     }
-    let provenance = provenance(&notes)?;
-    Ok(Some(Bench { kind, file: file.to_string(), provenance, rows, scenario: None }))
+    Ok(Some(Bench { kind, file: file.to_string(), provenance: provenance(&notes)?, rows, scenario: None }))
 }
 
 /// The columns of a kind, as a sentence of an error.
 pub(super) fn wanted(kind: &BenchKind) -> String {
     let names = |needed: bool| kind.columns.iter().filter(move |f| f.needed == needed).map(|f| f.expected);
-    format!(
-        "{}; if you like {}",
-        names(true).collect::<Vec<_>>().join(","),
-        names(false).collect::<Vec<_>>().join(", ")
-    )
+    let [needed, others] = [true, false].map(|needed| names(needed).collect::<Vec<_>>());
+    format!("{}; if you like {}", needed.join(","), others.join(", "))
 }
 
-struct BenchHeader {
+/// Every column of the table means something in this kind, and the table or its comments have what the kind is about.
+fn is_of(kind: &BenchKind, names: &[String], notes: &[Note]) -> bool {
+    let fields = |name: &str| Meaning::of(name, kind.columns).field();
+    let is_there = |at: usize| names.iter().chain(notes.iter().map(|note| &note.key)).any(|n| fields(n) == Some(at));
+    // A fabric's weight may be forgotten; what makes the kind may not.
+    let makes_it = |at: &usize| kind.columns[*at].needed && kind.columns[*at].has_unit();
+    names.iter().all(|name| fields(name).is_some()) && (0..kind.columns.len()).filter(makes_it).all(is_there)
+}
+
+/// What the comments say for all rows, by field.
+fn shared(kind: &BenchKind, notes: &[Note]) -> Result<Vec<Option<f64>>> {
+    let mut values = vec![None; kind.columns.len()];
+    for note in notes {
+        let meaning = Meaning::of(&note.key, kind.columns);
+        let Some(at) = meaning.field() else { continue };
+        let number = note.text.parse::<f64>().ok().filter(|v| v.is_finite());
+        let value = match (meaning, number) {
+            (Meaning::Known(_, unit), Some(value)) => unit.map_or(value, |unit| value * unit.to_si(1.0)),
+            _ => {
+                let message =
+                    format!("{} must be a number with its unit in the name, found \"{}\"", note.key, note.text);
+                return Err(note.wrong(message, format!("write # {}: and a number", kind.columns[at].expected)));
+            }
+        };
+        if values[at].replace(value).is_some() {
+            return Err(note.wrong(format!("{} is there twice", note.key), "keep one of the comments".into()));
+        }
+    }
+    Ok(values)
+}
+
+/// A table whose header was read.
+struct BenchTable {
+    kind: &'static BenchKind,
     names: Vec<String>,
-    delimiter: char,
+    delimiter: u8,
+    columns: Vec<Option<Column>>,
 }
 
-impl BenchHeader {
-    fn new(line: &Line) -> BenchHeader {
-        let most = |&d: &char| line.text.chars().filter(|c| *c == d).count();
-        let delimiter = ['\t', ';', ','].into_iter().max_by_key(most).unwrap_or(',');
-        let names = line.text.split(delimiter).map(|name| name.trim().trim_matches('"').to_lowercase()).collect();
-        BenchHeader { names, delimiter }
-    }
-
-    /// Every column of the table means something in this kind, and what it lacks is said by no other kind.
-    fn is_of(&self, kind: &BenchKind, notes: &[Note]) -> bool {
-        let all = self.names.iter().all(|name| kind.columns.iter().any(|f| f.base == base(name, f)));
-        let noted = |f: &Field| notes.iter().any(|note| base(&note.key, f) == f.base);
-        let there = |f: &Field| self.names.iter().any(|name| base(name, f) == f.base) || noted(f);
-        // A fabric's weight may be forgotten; what makes the kind may not.
-        all && kind.columns.iter().filter(|f| f.needed && f.dimension.is_some()).all(there)
-    }
-
-    /// Names with a unit that is missing or unknown.
-    fn units(&self, kind: &BenchKind, line: &Line) -> Result<(), DataError> {
-        for name in &self.names {
-            let Some(field) = kind.columns.iter().find(|f| f.base == base(name, f)) else { continue };
-            if let Some(dimension) = field.dimension
-                && factor(name, field).is_none()
-            {
-                let trouble = if *name == field.base { "has no unit in its name" } else { "has an unknown unit" };
-                let help = format!("name it {}; {}", field.expected, dimension.sentence());
-                return Err(DataError::Column(line.fault(format!("column {name} {trouble}"), help)));
+impl BenchTable {
+    fn row(&self, shared: &[Option<f64>], line: &Line) -> Result<BenchRow> {
+        let BenchTable { kind, names, delimiter, columns } = self;
+        let cells: Vec<&str> = line.text.split(*delimiter as char).map(str::trim).collect();
+        if cells.len() != names.len() {
+            let message = format!("the row has {} cells, the header {}", cells.len(), names.len());
+            return Err(DataError::Layout(line.fault(message, "complete or delete the row; decimals have a point")));
+        }
+        let mut values = shared.to_vec();
+        for (at, field) in kind.columns.iter().enumerate() {
+            if let Some(Column { index, unit }) = &columns[at] {
+                let cell = cells[*index];
+                if cell.is_empty() && !field.needed {
+                    continue;
+                }
+                let Some(value) = cell.parse::<f64>().ok().filter(|v| v.is_finite()) else {
+                    let message = format!("expected a finite number, found \"{cell}\"");
+                    let mut fault = line.fault(message, "type a plain number with a point");
+                    fault.location.column_name = Some(names[*index].clone());
+                    fault.location.cell = Some(cell.to_string());
+                    return Err(DataError::Cell(fault));
+                };
+                values[at] = Some(unit.map_or(value, |unit| value * unit.to_si(1.0)));
+            }
+            if field.needed && values[at].is_none() {
+                let help = format!("add the column, or # {}: 155 above the header", field.expected);
+                return Err(DataError::Column(line.fault(format!("{} is missing", field.expected), help)));
             }
         }
-        Ok(())
+        let row = BenchRow { kind, values, line: line.number };
+        (kind.check)(&row).map_err(|[message, help]| DataError::Cell(line.fault(message, help)))?;
+        Ok(row)
     }
 }
 
-/// A name without its unit, as far as this field has one.
-fn base<'a>(name: &'a str, field: &Field) -> &'a str {
-    match name.rsplit_once('_') {
-        Some((base, _)) if field.dimension.is_some() && name != field.base => base,
-        _ => name,
+fn provenance(notes: &[Note]) -> Result<Provenance> {
+    let mut all = notes.iter().filter(|note| note.key == "provenance");
+    let Some(note) = all.next() else { return Ok(Provenance::Measured) };
+    if let Some(again) = all.next() {
+        return Err(again.wrong("provenance is there twice".into(), "keep one of the comments".into()));
     }
-}
-
-/// To SI; none for an unknown unit.
-fn factor(name: &str, field: &Field) -> Option<f64> {
-    let Some(dimension) = field.dimension else { return Some(1.0) };
-    Some(dimension.unit(name.rsplit_once('_')?.1)?.to_si(1.0))
-}
-
-/// What the comments say for all rows.
-fn shared(kind: &BenchKind, notes: &[Note]) -> Result<Vec<Option<f64>>, DataError> {
-    let of = |field: &Field| {
-        let Some(note) = notes.iter().rfind(|note| base(&note.key, field) == field.base) else { return Ok(None) };
-        let value = note.text.parse::<f64>().ok().filter(|v| v.is_finite()).zip(factor(&note.key, field));
-        let wrong = || {
-            let message = format!("{} must be a number with its unit in the name, found \"{}\"", note.key, note.text);
-            let help = format!("write # {}: and a number", field.expected);
-            DataError::Cell(Box::new(Fault { message, help, ..(*note.fault).clone() }))
-        };
-        value.map(|(v, factor)| Some(v * factor)).ok_or_else(wrong)
-    };
-    kind.columns.iter().map(of).collect()
-}
-
-fn row(
-    kind: &'static BenchKind,
-    header: &BenchHeader,
-    shared: &[Option<f64>],
-    line: &Line,
-) -> Result<BenchRow, DataError> {
-    let cells: Vec<&str> = line.text.split(header.delimiter).map(str::trim).collect();
-    if cells.len() != header.names.len() {
-        let message = format!("the row has {} cells, the header {}", cells.len(), header.names.len());
-        return Err(DataError::Layout(line.fault(message, "complete or delete the row; decimals have a point")));
-    }
-    let mut values = shared.to_vec();
-    for (name, cell) in header.names.iter().zip(&cells) {
-        let Some(i) = kind.columns.iter().position(|f| f.base == base(name, f)) else { continue };
-        if cell.is_empty() && !kind.columns[i].needed {
-            continue;
-        }
-        let Some(value) = cell.parse::<f64>().ok().filter(|v| v.is_finite()) else {
-            let mut fault =
-                line.fault(format!("expected a finite number, found \"{cell}\""), "type a plain number with a point");
-            fault.location.column_name = Some(name.clone());
-            fault.location.cell = Some((*cell).to_string());
-            return Err(DataError::Cell(fault));
-        };
-        values[i] = factor(name, &kind.columns[i]).map(|factor| value * factor);
-    }
-    if let Some(i) = (0..values.len()).find(|&i| kind.columns[i].needed && values[i].is_none()) {
-        let name = kind.columns[i].expected;
-        let help = format!("add the column, or # {name}: 155 above the header");
-        return Err(DataError::Column(line.fault(format!("{name} is missing"), help)));
-    }
-    let row = BenchRow { kind, values, line: line.number };
-    (kind.check)(&row).map_err(|[message, help]| DataError::Cell(line.fault(message, help)))?;
-    Ok(row)
-}
-
-fn provenance(notes: &[Note]) -> Result<Provenance, DataError> {
-    let Some(note) = notes.iter().rfind(|note| note.key == "provenance") else { return Ok(Provenance::Measured) };
-    let all = [Provenance::Measured, Provenance::Digitised, Provenance::Synthetic, Provenance::Published];
-    let wrong = || {
-        let message = format!("unknown provenance \"{}\"", note.text);
-        let help = "write measured, digitised, synthetic or published".into();
-        DataError::Cell(Box::new(Fault { message, help, ..(*note.fault).clone() }))
-    };
-    all.into_iter().find(|p| p.word() == note.text.to_lowercase()).ok_or_else(wrong)
+    let help = "write measured, digitised, synthetic or published".to_string();
+    Provenance::of(&note.text).ok_or_else(|| note.wrong(format!("unknown provenance \"{}\"", note.text), help))
 }

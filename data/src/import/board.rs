@@ -5,13 +5,13 @@ use std::path::Path;
 use super::homography::Homography;
 use super::join::text_of;
 use super::sheet::CellText;
-use crate::error::DataError;
+use crate::error::Result;
 
 /// Reads corners: rows of column and row on the board, and x and y in the picture; a line of names may stand above them.
 ///
 /// # Errors
 /// Not readable; a row without four numbers; corners that make no plane.
-pub fn read_board(path: &Path) -> Result<Vec<[f64; 4]>, DataError> {
+pub fn read_board(path: &Path) -> Result<Vec<[f64; 4]>> {
     let (shown, text) = (path.display().to_string(), text_of(path)?);
     let sheet = CellText::new(&shown, &text)?;
     let mut corners = Vec::new();

@@ -3,15 +3,13 @@
 use std::ops::Range;
 
 use super::options::ImportOptions;
-use super::recording::{Lengths, Pivot};
+use super::recording::Lengths;
 use super::sheet::CellText;
-use crate::error::DataError;
+use crate::error::Result;
 use crate::units::Measured;
 
-/// A name taken apart.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ColumnName {
-    /// The text without the unit.
     base: String,
     /// Words in lower case, digits apart from letters, and their places in it.
     words: Vec<(String, Range<usize>)>,
@@ -53,7 +51,6 @@ pub(crate) fn is_pixel(unit: &str) -> bool {
     matches!(unit, "px" | "pixel" | "pixels")
 }
 
-/// Whether a unit counts frames.
 pub(crate) fn is_frame(unit: &str) -> bool {
     matches!(unit, "frame" | "frames")
 }
@@ -142,9 +139,7 @@ pub(crate) struct Roles {
     pub marker: Option<usize>,
     /// Body's and actuator's pressure, with their pascals.
     pub pressures: [Option<(usize, f64)>; 2],
-    /// Coordinates: column, axis, marker, unit.
     pub coordinates: Vec<(usize, usize, String, Option<String>)>,
-    /// What was assumed.
     pub told: Vec<String>,
 }
 
@@ -156,7 +151,7 @@ impl Roles {
     ///
     /// # Errors
     /// A column that the caller named and that is not there, two of one kind, a pressure without unit.
-    pub fn of(sheet: &CellText, line: u64, header: &[&str], options: &ImportOptions) -> Result<Roles, DataError> {
+    pub fn of(sheet: &CellText, line: u64, header: &[&str], options: &ImportOptions) -> Result<Roles> {
         let mut roles = Roles::default();
         // A quantity that was given a column of this table has no other.
         let is_named = |quantity: &&str| {
@@ -192,7 +187,7 @@ impl Roles {
         index: usize,
         name: &ColumnName,
         options: &ImportOptions,
-    ) -> Result<(), DataError> {
+    ) -> Result<()> {
         let unit = name.unit.as_deref();
         let taken = match quantity {
             "t" | "frame" => {
@@ -237,7 +232,7 @@ impl Roles {
     ///
     /// # Errors
     /// Different units.
-    pub fn lengths(&self, sheet: &CellText, line: u64) -> Result<Lengths, DataError> {
+    pub fn lengths(&self, sheet: &CellText, line: u64) -> Result<Lengths> {
         let units: Vec<_> = self.coordinates.iter().map(|(.., unit)| unit.as_deref()).collect();
         let Some(first) = units.first().copied().flatten() else { return Ok(Lengths::Unsaid) };
         if let Some(other) = units.iter().find(|unit| **unit != Some(first)) {
@@ -247,26 +242,6 @@ impl Roles {
         lengths(first).ok_or_else(|| {
             sheet.fault(line, format!("{first} is no unit of length that is known"), "say it: --scale mm")
         })
-    }
-
-    /// Gives the pressures of a row to the recording of its run.
-    ///
-    /// # Errors
-    /// A cell that is no number.
-    pub fn read_pressures(
-        &self,
-        sheet: &CellText,
-        line: u64,
-        cells: &[&str],
-        run: &mut Pivot,
-        frame: usize,
-    ) -> Result<(), DataError> {
-        for (which, column) in self.pressures.iter().enumerate() {
-            let Some((index, pa)) = column else { continue };
-            let cell = cells.get(*index).copied().unwrap_or_default();
-            run.read(frame, which, pa * sheet.expect(cell, line, "pressure")?);
-        }
-        Ok(())
     }
 }
 

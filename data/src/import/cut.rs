@@ -1,10 +1,9 @@
-//! Runs cut into holds or bins, cleaned, and held against each other.
+//! Runs cut into holds or bins, cleaned, and compared with each other.
 
-use super::counted;
 use super::holds::{Kept, PressedRun, bins, clean, plateaus};
 use super::options::ImportOptions;
-use super::recording::Recording;
-use crate::error::{DataError, Fault};
+use super::recording::{Recording, counted};
+use crate::error::{DataError, Result};
 use crate::policy::tolerance_act_pa;
 use crate::units::kpa;
 
@@ -14,14 +13,14 @@ pub(crate) type Cut = Vec<(PressedRun, Vec<Kept>)>;
 /// Cuts runs, whose places in the robot's frame are `xy_m`.
 ///
 /// # Errors
-/// Fewer than two holds; bins that cannot be told apart.
+/// Fewer than two holds; bins that cannot be separated.
 pub(crate) fn cut(
     file: &str,
     recordings: Vec<Recording>,
     xy_m: Vec<Vec<Vec<[f64; 2]>>>,
     options: &ImportOptions,
     told: &mut Vec<String>,
-) -> Result<Cut, DataError> {
+) -> Result<Cut> {
     let run = |(recording, xy_m): (Recording, _)| PressedRun {
         label: recording.run.unwrap_or_default(),
         times_s: recording.times,
@@ -35,8 +34,7 @@ pub(crate) fn cut(
     }
 }
 
-/// Runs by their plateaus.
-fn held(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut Vec<String>) -> Result<Cut, DataError> {
+fn held(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut Vec<String>) -> Result<Cut> {
     let (mut cut, mut used, mut taken) = (Vec::new(), 0, [0, 0]);
     let frames: usize = runs.iter().map(|run| run.times_s.len()).sum();
     for mut run in runs {
@@ -50,7 +48,7 @@ fn held(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut V
                 options.least_frames
             );
             let help = "for a ramp add --bin 2kPa; for short holds --hold 0.2s or --frames 1";
-            return Err(DataError::Runs(Box::new(Fault::of_file(file, message, help))));
+            return Err(DataError::runs(file, message, help));
         }
         let length_m = length_m(&run);
         for hold in &mut holds {
@@ -90,7 +88,7 @@ fn length_m(run: &PressedRun) -> f64 {
 }
 
 /// Without bins at the ends of a branch that the pressure only touches, so that their mean is too near to the next bin's to be
-/// told apart.
+/// separated.
 fn apart(bins: Vec<(usize, i64, Kept)>) -> Vec<(usize, i64, Kept)> {
     let of =
         |branch: usize, k: i64| bins.iter().find(|(b, j, _)| (*b, *j) == (branch, k)).map(|(.., kept)| kept.act_pa);
@@ -105,7 +103,7 @@ fn apart(bins: Vec<(usize, i64, Kept)>) -> Vec<(usize, i64, Kept)> {
 }
 
 /// Runs by bins of pressure, those bins that all of them have.
-fn binned(file: &str, runs: Vec<PressedRun>, bin_pa: f64, told: &mut Vec<String>) -> Result<Cut, DataError> {
+fn binned(file: &str, runs: Vec<PressedRun>, bin_pa: f64, told: &mut Vec<String>) -> Result<Cut> {
     let found: Vec<_> = runs.iter().map(|run| apart(bins(run, bin_pa))).collect();
     let highest_pa = found.iter().flatten().map(|(.., kept)| kept.act_pa).fold(0.0, f64::max);
     let least_pa = 1.1 * tolerance_act_pa(highest_pa);
@@ -116,7 +114,7 @@ fn binned(file: &str, runs: Vec<PressedRun>, bin_pa: f64, told: &mut Vec<String>
             kpa(highest_pa)
         );
         let help = format!("give --bin {}kPa", kpa(least_pa).ceil());
-        return Err(DataError::Runs(Box::new(Fault::of_file(file, message, help))));
+        return Err(DataError::runs(file, message, help));
     }
     let all_have = |bin: &(usize, i64, Kept)| {
         found.iter().all(|run| run.iter().any(|(branch, k, _)| (*branch, *k) == (bin.0, bin.1)))
@@ -126,11 +124,7 @@ fn binned(file: &str, runs: Vec<PressedRun>, bin_pa: f64, told: &mut Vec<String>
     let left_out = found.iter().map(Vec::len).sum::<usize>() - common.iter().map(Vec::len).sum::<usize>();
     if common[0].len() < 2 {
         let help = "give larger bins, or import the runs one by one";
-        return Err(DataError::Runs(Box::new(Fault::of_file(
-            file,
-            "the runs have fewer than two bins in common",
-            help,
-        ))));
+        return Err(DataError::runs(file, "the runs have fewer than two bins in common", help));
     }
     told.push(format!(
         "binned by actuator pressure in steps of {} kPa, rising and falling apart: {} bins with the mean of their frames; {left_out} are left out, which not every run has or which only touch a bin",

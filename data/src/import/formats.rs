@@ -1,25 +1,10 @@
 //! The programs whose files are understood, the most particular first.
 
+use super::format::Format;
 use super::options::ImportOptions;
-use super::recording::Recording;
 use super::sheet::CellText;
-use super::{deeplabcut, kinovea, long, motive, sleap, tracker, trackmate, wide};
-use crate::error::DataError;
-
-/// A kind of tracking file.
-#[derive(Debug)]
-pub struct Format {
-    /// What wrote it.
-    pub name: &'static str,
-    /// How it is known.
-    pub known_by: &'static str,
-    /// Likelihood below which positions are lost, unless the caller says another; `None` if there is none.
-    pub likelihood: Option<f64>,
-    /// Whether a text, of which these are the first lines as cells, is of this kind.
-    pub(crate) recognise: fn(&CellText, &[Vec<&str>], &ImportOptions) -> bool,
-    /// Its runs.
-    pub(crate) read: fn(&CellText, &ImportOptions) -> Result<Vec<Recording>, DataError>,
-}
+use super::{deeplabcut, kinovea, motive, sleap, tables, tracker, trackmate};
+use crate::error::Result;
 
 /// All kinds.
 pub const FORMATS: [&Format; 10] = [
@@ -28,12 +13,15 @@ pub const FORMATS: [&Format; 10] = [
     &motive::FORMAT,
     &tracker::FORMAT,
     &kinovea::TRAJECTORIES,
-    &kinovea::KINEMATICS,
+    &tables::KINEMATICS,
     &trackmate::XML,
     &trackmate::SPOTS,
-    &long::FORMAT,
-    &wide::FORMAT,
+    &tables::LONG,
+    &tables::WIDE,
 ];
+
+/// A pressure log below `data/tests`.
+pub const LOG_FIXTURE: &str = "cases/c01-deeplabcut/pressure.csv";
 
 /// Lines that a kind is known by.
 const LOOKED_AT: usize = 8;
@@ -42,7 +30,7 @@ const LOOKED_AT: usize = 8;
 ///
 /// # Errors
 /// None of them.
-pub(crate) fn recognised(sheet: &CellText, options: &ImportOptions) -> Result<&'static Format, DataError> {
+pub(crate) fn recognised(sheet: &CellText, options: &ImportOptions) -> Result<&'static Format> {
     let head = sheet.head(LOOKED_AT);
     let found = FORMATS.into_iter().find(|format| (format.recognise)(sheet, &head, options));
     found.ok_or_else(|| {

@@ -7,7 +7,6 @@ use crate::policy::{tolerance_act_pa, tolerance_body_pa};
 
 /// One run with its pressures, in the robot's frame.
 pub(crate) struct PressedRun {
-    /// Label.
     pub label: String,
     /// Time of every frame \[s\].
     pub times_s: Vec<f64>,
@@ -20,7 +19,6 @@ pub(crate) struct PressedRun {
 /// Frames of one hold, and the direction from which its pressure was reached.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Kept {
-    /// Frames.
     pub frames: Vec<usize>,
     /// Mean actuator pressure \[Pa\].
     pub act_pa: f64,

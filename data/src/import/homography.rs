@@ -4,7 +4,6 @@
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Homography([f64; 8]);
 
-/// Unknowns of a homography.
 const N: usize = 8;
 
 impl Homography {

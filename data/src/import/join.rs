@@ -2,44 +2,42 @@
 
 use std::path::{Path, PathBuf};
 
-use super::counted;
 use super::formats;
 use super::options::ImportOptions;
 use super::pressure::Log;
-use super::recording::{FrameClock, Recording};
+use super::recording::{FrameClock, Recording, counted};
 use super::sheet::CellText;
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
+use crate::lines::Progress;
 use crate::policy::is_a_room;
 use crate::units::kpa;
 use spelling::files::{MOST_DATA, read_whole};
+use spelling::units::Range;
 
 /// A file's text.
 ///
 /// # Errors
-/// It cannot be read, or is no text.
-pub(crate) fn text_of(path: &Path) -> Result<String, DataError> {
+/// It cannot be read, or is not a text.
+pub(crate) fn text_of(path: &Path) -> Result<String> {
     let shown = path.display().to_string();
-    let bytes = read_whole(path, MOST_DATA).map_err(|cause| {
-        DataError::File(Box::new(Fault::of_file(&shown, format!("cannot open the file: {cause}"), "check the path")))
-    })?;
+    let bytes = read_whole(path, MOST_DATA)
+        .map_err(|cause| DataError::file(&shown, format!("cannot open the file: {cause}"), "check the path"))?;
     if let [0xff, 0xfe, rest @ ..] = &bytes[..] {
         let units: Vec<u16> = rest.chunks_exact(2).map(|pair| u16::from_le_bytes([pair[0], pair[1]])).collect();
         return Ok(String::from_utf16_lossy(&units));
     }
     String::from_utf8(bytes).or_else(|error| {
-        // Names with accents in an old encoding; what is no text at all has zero bytes, and is refused for them.
+        // Names with accents in an old encoding; a file that is not a text has zero bytes, and is refused for them.
         let bytes = error.into_bytes();
         Ok(bytes.iter().map(|byte| char::from(*byte)).collect())
     })
 }
 
-/// Recordings of all files.
 pub(crate) struct Joined {
     /// The program that wrote the files.
     pub program: &'static str,
     /// Every run with its file, times in seconds and pressures in place.
     pub runs: Vec<(String, Recording)>,
-    /// What was understood and assumed.
     pub told: Vec<String>,
 }
 
@@ -47,11 +45,15 @@ pub(crate) struct Joined {
 ///
 /// # Errors
 /// A file that is not understood, of another program, or without frame rate or pressures; a named column that is nowhere.
-pub(crate) fn recordings(
-    files: &[PathBuf],
-    options: &ImportOptions,
-    progress: &mut dyn FnMut(u64, u64),
-) -> Result<Joined, DataError> {
+pub(crate) fn recordings(files: &[PathBuf], options: &ImportOptions, progress: Progress) -> Result<Joined> {
+    for (k, (quantity, column)) in options.columns.iter().enumerate() {
+        let earlier = options.columns[..k].iter().find(|(_, other)| other.eq_ignore_ascii_case(column));
+        if let Some((other, _)) = earlier.filter(|(other, _)| other != quantity) {
+            let message = format!("--map gives column {column} to {other} and to {quantity}");
+            let file = files.first().map_or(String::new(), |file| file.display().to_string());
+            return Err(DataError::runs(&file, message, "name another column for one of them"));
+        }
+    }
     let mut absent: Vec<&(String, String)> = options.columns.iter().collect();
     let mut joined = Joined { program: "", runs: Vec::new(), told: Vec::new() };
     let logs = logs(files.len(), options, &mut joined.told, &mut absent)?;
@@ -80,8 +82,7 @@ pub(crate) fn recordings(
 }
 
 impl Joined {
-    /// The runs of a file.
-    fn add(&mut self, sheet: &CellText, log: Option<&Log>, options: &ImportOptions) -> Result<(), DataError> {
+    fn add(&mut self, sheet: &CellText, log: Option<&Log>, options: &ImportOptions) -> Result<()> {
         let format = formats::recognised(sheet, options)?;
         if !self.program.is_empty() && self.program != format.name {
             let message = format!("this file is of {}, the others are of {}", format.name, self.program);
@@ -106,7 +107,6 @@ impl Joined {
         Ok(())
     }
 
-    /// Tells it once.
     fn tell(&mut self, word: String) {
         if !self.told.contains(&word) {
             self.told.push(word);
@@ -114,22 +114,15 @@ impl Joined {
     }
 }
 
-/// No clock counts as far, in seconds or frames.
-const LATEST_TIME: f64 = 1e15;
-
 /// # Errors
 /// Hardly anything in the run, or a marker at two places at once.
-fn check_run(sheet: &CellText, run: &Recording) -> Result<(), DataError> {
+fn check_run(sheet: &CellText, run: &Recording) -> Result<()> {
     if let Some((marker, time)) = &run.twice {
         let message = format!("marker {marker} has two places at {time} of one run");
         return Err(sheet.fault(0, message, "give every run a file of its own, or a column run"));
     }
-    if let Some(time) = run.times.iter().find(|time| time.abs() > LATEST_TIME) {
-        return Err(sheet.fault(
-            0,
-            format!("no recording has a time or frame of {time}"),
-            "correct it, or export again",
-        ));
+    if let Some((message, help)) = run.times.iter().find_map(|time| Range::TIME.check(time.abs()).err()) {
+        return Err(sheet.fault(0, message, help));
     }
     if run.times.len() < 2 || run.places.iter().flatten().all(|place| place[0].is_nan()) {
         let help = "check the export, or lower --likelihood";
@@ -149,7 +142,7 @@ fn logs(
     options: &ImportOptions,
     told: &mut Vec<String>,
     absent: &mut Vec<&(String, String)>,
-) -> Result<Vec<Log>, DataError> {
+) -> Result<Vec<Log>> {
     let count = options.pressure_logs.len();
     if count > 1 && count != files {
         let (file, message) = (
@@ -157,7 +150,7 @@ fn logs(
             format!("{count} pressure logs for {files} tracking files"),
         );
         let help = "give one log for all runs, or one for every file in the same order";
-        return Err(DataError::Runs(Box::new(Fault::of_file(&file, message, help))));
+        return Err(DataError::runs(&file, message, help));
     }
     let mut logs = Vec::new();
     for path in &options.pressure_logs {
@@ -171,17 +164,19 @@ fn logs(
     Ok(logs)
 }
 
-/// Frames become seconds; says how.
+/// Frames become seconds; returns how.
 ///
 /// # Errors
 /// Frames without a rate.
-fn seconds(sheet: &CellText, run: &mut Recording, options: &ImportOptions) -> Result<String, DataError> {
+fn seconds(sheet: &CellText, run: &mut Recording, options: &ImportOptions) -> Result<String> {
     match (run.clock, options.frames_per_s) {
         (FrameClock::Frames, None) => {
             let help = "add --fps with the camera's frames per second, for example --fps 30";
             Err(sheet.fault(0, "the file counts frames and does not say how many there are in a second", help))
         }
         (FrameClock::Frames, Some(fps)) => {
+            let checked = Range::FRAME_RATE.check(fps);
+            checked.map_err(|(message, help)| sheet.fault(0, format!("--fps: {message}"), help))?;
             run.times.iter_mut().for_each(|t| *t /= fps);
             Ok(format!("frame 0 is at 0 s, {fps} frames are a second, as given"))
         }
@@ -191,12 +186,7 @@ fn seconds(sheet: &CellText, run: &mut Recording, options: &ImportOptions) -> Re
 }
 
 /// Puts every pressure in place: of the file, of the log, or as given.
-fn pressures(
-    sheet: &CellText,
-    run: &mut Recording,
-    log: Option<&Log>,
-    options: &ImportOptions,
-) -> Result<Vec<String>, DataError> {
+fn pressures(sheet: &CellText, run: &mut Recording, log: Option<&Log>, options: &ImportOptions) -> Result<Vec<String>> {
     let mut told = Vec::new();
     if let Some(log) = log {
         if run.pressures.iter().any(Option::is_some) {
@@ -209,6 +199,8 @@ fn pressures(
         return Err(sheet.fault(0, "the actuator's pressure is not known", help));
     }
     if let Some(body_pa) = options.body_pa {
+        let checked = Range::BODY_PRESSURE.check(body_pa);
+        checked.map_err(|(message, help)| sheet.fault(0, format!("--body-pressure: {message}"), help))?;
         if run.pressures[0].is_some() {
             return Err(sheet.fault(
                 0,

@@ -1,34 +1,22 @@
-//! Kinovea: trajectories as a text (blocks parted by blank lines, clock times) and kinematics as a table.
+//! Kinovea: trajectories as a text, blocks separated by blank lines, with clock times. Its kinematics are a wide table.
 
-use super::columns::ColumnName;
-use super::formats::Format;
+use super::format::Format;
 use super::options::ImportOptions;
 use super::recording::{FrameClock, Lengths, Pivot, Recording};
 use super::sheet::CellText;
-use super::wide;
 use crate::cells::clock_s;
-use crate::error::DataError;
+use crate::error::Result;
 
 pub(super) const TRAJECTORIES: Format = Format {
     name: "Kinovea, trajectories",
     known_by: "first line #Kinovea Trajectory",
+    fixture: "made/kinovea_trajectory.txt",
     likelihood: None,
     recognise: |sheet, _, _| sheet.text.trim_start().starts_with("#Kinovea"),
     read: trajectories,
 };
 
-pub(super) const KINEMATICS: Format = Format {
-    name: "Kinovea, kinematics",
-    known_by: "columns Time (ms) and NAME - X (cm)",
-    likelihood: None,
-    recognise: |_, head, _| {
-        let is_x = |name: &str| name.contains(" - X") || name.contains("/X");
-        head.first().is_some_and(|row| ColumnName::of(row[0]).is("time") && row.iter().any(|name| is_x(name)))
-    },
-    read: wide::read,
-};
-
-fn trajectories(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
+fn trajectories(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     // Pixels, or the units of a calibration: the file does not say.
     let mut pivot = Pivot::new(Lengths::Unsaid, FrameClock::Seconds);
     let (mut block, mut open) = (0_usize, false);
@@ -47,11 +35,8 @@ fn trajectories(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Record
                 pivot.put(frame, marker, [value(x)?, value(y)?, 0.0], true);
             }
             _ => {
-                return Err(sheet.fault(
-                    number,
-                    format!("expected T X Y, found {} cells", cells.len()),
-                    "export the trajectories again",
-                ));
+                let message = format!("expected T X Y, found {} cells", cells.len());
+                return Err(sheet.fault(number, message, "export the trajectories again"));
             }
         }
     }

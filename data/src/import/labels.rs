@@ -5,7 +5,7 @@ use std::path::Path;
 use super::frame::{RestAndTop, where_is};
 use super::options::ImportOptions;
 use super::recording::Recording;
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Result};
 
 /// Labels of runs that have none: what the names of their files do not have in common.
 pub(crate) fn number_runs(runs: &mut [(String, Recording)]) {
@@ -53,7 +53,7 @@ fn distinct(names: &[String]) -> Vec<String> {
 ///
 /// # Errors
 /// A marker that one run has and another has not.
-pub(crate) fn same_markers(file: &str, runs: &mut [(String, Recording)]) -> Result<(), DataError> {
+pub(crate) fn same_markers(file: &str, runs: &mut [(String, Recording)]) -> Result<()> {
     let Some(((_, first), rest)) = runs.split_first_mut() else { return Ok(()) };
     let markers = &first.markers;
     for (_, run) in rest {
@@ -65,7 +65,7 @@ pub(crate) fn same_markers(file: &str, runs: &mut [(String, Recording)]) -> Resu
                 markers.join(", ")
             );
             let help = "export the same markers of every run, under the same names";
-            return Err(DataError::Runs(Box::new(Fault::of_file(file, message, help))));
+            return Err(DataError::runs(file, message, help));
         }
         if run.named {
             let place = |name: &String| run.markers.iter().position(|own| own == name).unwrap_or_default();
@@ -77,7 +77,7 @@ pub(crate) fn same_markers(file: &str, runs: &mut [(String, Recording)]) -> Resu
     Ok(())
 }
 
-/// Markers without names are numbered from the base outwards; names that the caller gives replace those of the files.
+/// Markers without names are numbered from the base outwards; names that the caller gives replace the files' names.
 ///
 /// # Errors
 /// Another number of names than of markers.
@@ -87,10 +87,11 @@ pub(crate) fn rename(
     ends: &[RestAndTop],
     options: &ImportOptions,
     told: &mut Vec<String>,
-) -> Result<(), DataError> {
+) -> Result<()> {
     for (run, ends) in runs.iter_mut().zip(ends).filter(|(run, _)| !run.named) {
+        let found = options.base.as_ref().map(|base| where_is(run, ends, base)).transpose();
         let base =
-            options.base.as_ref().map_or(Ok([0.0; 3]), |base| where_is(file, run, ends, base).map(|(at, _)| at))?;
+            found.map_err(|[message, help]| DataError::runs(file, message, help))?.map_or([0.0; 3], |(at, _)| at);
         let rest = |marker: usize| run.mean_place(marker, ends.rest.iter().copied());
         let away = |marker: usize| {
             rest(marker).map_or(f64::INFINITY, |at| (0..3).map(|axis| (at[axis] - base[axis]).powi(2)).sum())
@@ -109,7 +110,7 @@ pub(crate) fn rename(
     }
     if given.len() != known.len() {
         let message = format!("--markers names {}, the file has {}: {}", given.len(), known.len(), known.join(", "));
-        return Err(DataError::Runs(Box::new(Fault::of_file(file, message, "name every marker, in this order"))));
+        return Err(DataError::runs(file, message, "name every marker, in this order"));
     }
     told.push(format!("markers {} are called {}", known.join(", "), given.join(", ")));
     runs.iter_mut().for_each(|run| run.markers.clone_from(given));

@@ -4,13 +4,14 @@
 //! tracking files ─► recordings ─► + pressures by time ─► robot's frame ─► holds or bins ─► markers.csv, about.toml
 //! ```
 //!
-//! Every kind of file is one entry of [`FORMATS`], known by its content. What is not in the files comes from the caller
-//! ([`ImportOptions`]); what was assumed is told ([`Imported::told`]); what can be read in two ways is refused.
+//! Every kind of file is one entry of [`FORMATS`], known by its content. Anything else comes from the caller
+//! ([`ImportOptions`]); assumptions are listed ([`Imported::told`]); files that can be read in two ways are refused.
 
 mod board;
 mod columns;
 mod cut;
 mod deeplabcut;
+mod format;
 mod formats;
 mod frame;
 mod holds;
@@ -18,7 +19,7 @@ mod homography;
 mod join;
 mod kinovea;
 mod labels;
-mod long;
+mod layout;
 mod motive;
 mod options;
 mod pressure;
@@ -26,27 +27,29 @@ mod recording;
 pub(crate) mod sheet;
 mod sleap;
 mod table;
+mod tables;
 mod tracker;
 mod trackmate;
 pub mod typed;
-mod wide;
 
 use std::path::{Path, PathBuf};
 
 use crate::about::{About, parse_about};
 use crate::dataset::Dataset;
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Result};
+use crate::lines::Progress;
 use crate::policy::tolerance_act_pa;
 use crate::read::{ReadOptions, parse_markers};
 use crate::units::kpa;
 pub use board::read_board;
 pub use columns::QUANTITIES;
 use cut::{Cut, cut};
-pub use formats::{FORMATS, Format};
-use frame::{PlacedRuns, RestAndTop, place};
+pub use format::Format;
+pub use formats::{FORMATS, LOG_FIXTURE};
+use frame::{PlacedRuns, RestAndTop, Scene};
 use join::Joined;
 pub use options::{FileAxis, FilePlace, ImportOptions, Offset, Scale};
-use recording::{Dropped, Recording};
+use recording::{Dropped, Recording, counted};
 
 /// What an import made.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,19 +90,11 @@ const MOST_POINTS: usize = 1_500;
 ///
 /// # Errors
 /// A file that is not understood; scale, base, axes, frame rate or pressures that are not known; clocks that disagree; no holds;
-/// runs that do not fit together. Every message says what to add.
-pub fn import(
-    files: &[PathBuf],
-    options: &ImportOptions,
-    progress: &mut dyn FnMut(u64, u64),
-) -> Result<Imported, DataError> {
+/// runs that do not fit together. Every message names the option to add.
+pub fn import(files: &[PathBuf], options: &ImportOptions, progress: Progress) -> Result<Imported> {
     let shown: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
     let Some(first) = shown.first() else {
-        return Err(DataError::File(Box::new(Fault::of_file(
-            "import",
-            "no file was given",
-            "name the tracking files",
-        ))));
+        return Err(DataError::file("import", "no file was given", "name the tracking files"));
     };
     let Joined { program, mut runs, mut told } = join::recordings(files, options, progress)?;
     labels::number_runs(&mut runs);
@@ -109,8 +104,7 @@ pub fn import(
     let ends: Vec<RestAndTop> = runs.iter().map(|run| ends(first, run)).collect::<Result<_, _>>()?;
     labels::rename(first, &mut runs, &ends, options, &mut told)?;
     let actuator = actuator(first, &runs, options)?;
-    let PlacedRuns { xy_m, markers, told: words } = place(first, &runs, &ends, options)?;
-    told.extend(words);
+    let PlacedRuns { xy_m, markers } = Scene { file: first, runs: &runs, ends: &ends, options }.place(&mut told)?;
     let cut = cut(first, runs, xy_m, options, &mut told)?;
     let made = MadeTable { program, files: &shown, cut: &cut, markers: &markers, actuator: &actuator, options };
     made.finish(told)
@@ -128,15 +122,11 @@ struct MadeTable<'a> {
 
 impl MadeTable<'_> {
     /// Writes both and reads them back.
-    fn finish(&self, mut told: Vec<String>) -> Result<Imported, DataError> {
+    fn finish(&self, mut told: Vec<String>) -> Result<Imported> {
         let MadeTable { program, files, cut, markers, actuator, options } = *self;
         if let Some((unknown, _)) = options.stations_m.iter().find(|(name, _)| !markers.contains(name)) {
             let help = format!("the markers are {}", markers.join(", "));
-            return Err(DataError::Runs(Box::new(Fault::of_file(
-                &files[0],
-                format!("--stations names {unknown}, which is no marker"),
-                help,
-            ))));
+            return Err(DataError::runs(&files[0], format!("--stations names {unknown}, which is no marker"), help));
         }
         let stations = table::stations(cut, markers, options);
         if stations.iter().any(|(.., given)| !given) {
@@ -171,11 +161,10 @@ impl MadeTable<'_> {
             self.cut.iter().map(|(run, kept)| format!("run {}: {}", run.label, holds(kept))).collect();
         let message = format!("{}; holds found [kPa]: {}", error.message(), runs.join("; "));
         let help = format!("{}; --hold, --frames, --settle and --bin change what is a hold", error.help());
-        DataError::Runs(Box::new(Fault::of_file(&self.files[0], message, help)))
+        DataError::runs(&self.files[0], message, help)
     }
 }
 
-/// A run for a picture.
 fn track(run: &holds::PressedRun, kept: &[holds::Kept], markers: &[String]) -> RunTrack {
     let step = run.times_s.len().div_ceil(MOST_POINTS).max(1);
     let points =
@@ -200,30 +189,21 @@ fn losses(runs: &[Recording]) -> Vec<String> {
     kinds.iter().filter(|(count, _)| *count > 0).map(lost).collect()
 }
 
-/// `1 run`, `3 runs`.
-pub(crate) fn counted(count: u64, word: &str) -> String {
-    format!("{count} {word}{}", if count == 1 { "" } else { "s" })
-}
-
 /// Frames at the lowest and at the highest pressure.
-fn ends(file: &str, run: &Recording) -> Result<RestAndTop, DataError> {
+fn ends(file: &str, run: &Recording) -> Result<RestAndTop> {
     let act = run.pressures[1].as_deref().unwrap_or_default();
     let known = || act.iter().copied().filter(|p| p.is_finite());
     let (low, high) = (known().fold(f64::INFINITY, f64::min), known().fold(f64::NEG_INFINITY, f64::max));
     if high - low <= 2.0 * tolerance_act_pa(low) {
         let message =
             format!("the actuator's pressure stays between {:.1} and {:.1} kPa in a run", kpa(low), kpa(high));
-        return Err(DataError::Runs(Box::new(Fault::of_file(
-            file,
-            message,
-            "check the column, its unit and the clock of the pressure log",
-        ))));
+        return Err(DataError::runs(file, message, "check the column, its unit and the clock of the pressure log"));
     }
     let near = |level: f64| (0..act.len()).filter(|k| (act[*k] - level).abs() <= tolerance_act_pa(level)).collect();
     Ok(RestAndTop { rest: near(low), top: near(high) })
 }
 
-fn actuator(file: &str, runs: &[Recording], options: &ImportOptions) -> Result<String, DataError> {
+fn actuator(file: &str, runs: &[Recording], options: &ImportOptions) -> Result<String> {
     let known = options
         .actuator
         .clone()
@@ -231,6 +211,6 @@ fn actuator(file: &str, runs: &[Recording], options: &ImportOptions) -> Result<S
         .or_else(|| runs.iter().find_map(|run| run.actuator.clone()));
     known.ok_or_else(|| {
         let help = "add --actuator epam, or the kind that your scenario has";
-        DataError::Runs(Box::new(Fault::of_file(file, "the kind of the actuator is not known", help)))
+        DataError::runs(file, "the kind of the actuator is not known", help)
     })
 }

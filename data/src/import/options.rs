@@ -3,7 +3,7 @@
 /// How lengths of the file become metres.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub enum Scale {
-    /// The file says.
+    /// As in the file.
     #[default]
     OfFile,
     /// Pixels per metre.
@@ -25,7 +25,7 @@ pub enum FilePlace {
     Marker(String),
 }
 
-/// How the clock of the pressure log and that of the camera agree.
+/// How the clocks of pressure log and camera agree.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub enum Offset {
     /// They are one; refused if movement and pressure say otherwise.

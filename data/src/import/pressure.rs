@@ -1,22 +1,19 @@
 //! Pressure logs: read, and joined to frames by time (as-of: the last reading counts until the next).
 
 use super::columns::Roles;
-use super::counted;
 use super::options::{ImportOptions, Offset};
-use super::recording::Recording;
+use super::recording::{Recording, counted};
 use super::sheet::CellText;
-use crate::error::DataError;
+use crate::error::{DataError, Result};
 use crate::policy::{HIGHEST_GAUGE_PA, ROOM_PA};
-use crate::units::kpa;
+use spelling::units::Range;
 
-/// Readings over time.
 #[derive(Debug, Clone)]
 pub(crate) struct Log {
     file: String,
     times_s: Vec<f64>,
     /// Body's and actuator's pressure \[Pa\].
     values_pa: [Option<Vec<f64>>; 2],
-    /// What was assumed.
     pub told: Vec<String>,
 }
 
@@ -24,11 +21,10 @@ pub(crate) struct Log {
 const SAME_TIME_S: f64 = 1e-6;
 /// Frames and readings used to find the offset of the clocks.
 const USED: [usize; 2] = [1_500, 20_000];
-/// Offsets tried at first.
 const TRIED: usize = 3_000;
 /// Share of the frames that must lie within the log.
 const OVERLAP: f64 = 0.6;
-/// Fewest frames from which clocks that disagree can be told.
+/// Fewest frames from which clocks that disagree can be found.
 const FEWEST_FRAMES: usize = 100;
 /// Clocks disagree if another offset fits so much better, and is so far away \[s\].
 const DISAGREE: (f64, f64) = (0.05, 0.3);
@@ -37,8 +33,8 @@ impl Log {
     /// Reads a log.
     ///
     /// # Errors
-    /// No column of time or pressure; a cell that is no number; times that go back.
-    pub fn read(sheet: &CellText, options: &ImportOptions) -> Result<Log, DataError> {
+    /// No column of time or pressure; a cell without a number; times that go back.
+    pub fn read(sheet: &CellText, options: &ImportOptions) -> Result<Log> {
         let mut lines = sheet.lines().filter(|(_, line)| !line.starts_with('#'));
         let Some((first, header)) = lines.next() else {
             return Err(sheet.fault(0, "the pressure log is empty", "export it again"));
@@ -63,9 +59,10 @@ impl Log {
             for (column, values) in roles.pressures.iter().zip(&mut log.values_pa) {
                 if let (Some((index, pa)), Some(values)) = (column, values) {
                     let pressure_pa = pa * sheet.expect(cell(*index), number, "pressure")?;
+                    // Absolute pressures include the room's.
                     if pressure_pa.abs() > HIGHEST_GAUGE_PA + ROOM_PA[1] {
-                        let message =
-                            format!("a pressure of {:.4e} kPa is more than any fabric stands", kpa(pressure_pa));
+                        let told = Range::ACTUATOR_PRESSURE.check(pressure_pa.abs()).err();
+                        let message = told.map_or(String::new(), |(message, _)| message);
                         return Err(sheet.fault(number, message, "check the reading and the unit of the column"));
                     }
                     values.push(pressure_pa);
@@ -85,8 +82,8 @@ impl Log {
     /// Puts the log's pressures into the frames of a recording (times in seconds); on a ramp readings are joined by lines.
     ///
     /// # Errors
-    /// The clocks disagree; hardly any frame lies within the log.
-    pub fn join(&self, recording: &mut Recording, options: &ImportOptions) -> Result<Vec<String>, DataError> {
+    /// The clocks disagree; hardly any frame is within the log.
+    pub fn join(&self, recording: &mut Recording, options: &ImportOptions) -> Result<Vec<String>> {
         let (offset_s, mut told) = self.offset(recording, options.offset)?;
         let places = self.readings_at(&recording.times, offset_s);
         let outside = places.iter().filter(|place| place.is_none()).count();
@@ -118,7 +115,7 @@ impl Log {
     ///
     /// # Errors
     /// None, or frames in its place; no pressure.
-    fn columns(sheet: &CellText, line: u64, roles: &Roles) -> Result<(usize, f64), DataError> {
+    fn columns(sheet: &CellText, line: u64, roles: &Roles) -> Result<(usize, f64)> {
         let (message, help) = match roles.time {
             Some((time, Some(second))) if roles.pressures.iter().any(Option::is_some) => return Ok((time, second)),
             Some((_, Some(_))) => ("a pressure", "say which: --map p_act=NAME, and p_body=NAME if there is one"),
@@ -154,7 +151,7 @@ impl Log {
     }
 
     /// The log's time minus the camera's.
-    fn offset(&self, recording: &Recording, wanted: Offset) -> Result<(f64, Vec<String>), DataError> {
+    fn offset(&self, recording: &Recording, wanted: Offset) -> Result<(f64, Vec<String>)> {
         if let Offset::Given(offset_s) = wanted {
             return Ok((
                 offset_s,

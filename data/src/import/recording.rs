@@ -9,16 +9,13 @@ pub(crate) enum Lengths {
     Pixels,
     /// A length of so many metres.
     Metres(f64),
-    /// The file does not say.
     Unsaid,
 }
 
 /// What the numbers of times are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FrameClock {
-    /// Seconds.
     Seconds,
-    /// Numbers of frames.
     Frames,
 }
 
@@ -27,9 +24,7 @@ pub(crate) enum FrameClock {
 pub(crate) struct Dropped {
     /// Empty, or a word for none.
     pub blank: u64,
-    /// Less likely than the limit.
     pub unlikely: u64,
-    /// Written as 0, 0.
     pub zero: u64,
 }
 
@@ -40,32 +35,26 @@ pub(crate) struct Recording {
     pub run: Option<String>,
     /// Actuator kind, if the file has one.
     pub actuator: Option<String>,
-    /// Unit of the positions.
     pub lengths: Lengths,
-    /// Unit of the times.
     pub clock: FrameClock,
     /// Whether the labels are the user's; otherwise markers are numbered from the base outwards.
     pub named: bool,
-    /// Rising times.
     pub times: Vec<f64>,
-    /// Labels.
     pub markers: Vec<String>,
     /// `[marker][frame]`, NaN where a marker was not seen.
     pub places: Vec<Vec<[f64; 3]>>,
     /// Body and actuator pressure of every frame \[Pa\], if the file has them.
     pub pressures: [Option<Vec<f64>>; 2],
-    /// What was dropped.
     pub dropped: Dropped,
     /// A marker that has two places at one time, and that time.
     pub twice: Option<(String, f64)>,
-    /// What was assumed, in words.
     pub told: Vec<String>,
 }
 
 /// A marker that was not seen.
 pub(crate) const LOST: [f64; 3] = [f64::NAN; 3];
 
-/// Collects observations in any order and makes frames of those of one time: the pivot from long to wide.
+/// Collects observations in any order and makes frames of the observations at one time: the pivot from long to wide.
 #[derive(Debug)]
 pub(crate) struct Pivot {
     pub recording: Recording,
@@ -128,7 +117,7 @@ impl Pivot {
         self.last.1
     }
 
-    /// Puts a marker; false if it has a place in this frame already. What stands for nothing is counted.
+    /// Puts a marker; false if it has a place in this frame already. Placeholders are counted.
     pub fn put(&mut self, frame: usize, marker: usize, place: [f64; 3], likely: bool) -> bool {
         let Recording { places, dropped, twice, markers, times, .. } = &mut self.recording;
         if !(place[0].is_finite() && place[1].is_finite()) {
@@ -203,4 +192,8 @@ impl Recording {
         }
         (count > 0.0).then(|| sum.map(|total| total / count))
     }
+}
+
+pub(crate) fn counted(count: u64, word: &str) -> String {
+    format!("{count} {word}{}", if count == 1 { "" } else { "s" })
 }

@@ -1,7 +1,7 @@
 //! A text of cells whatever its dialect: separator, decimal sign and line ends are found, not asked for.
 
 use crate::cells::{Decimals, clock_s, is_nothing, with_comma};
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
 use crate::lines::Line;
 
 /// Lines looked at to find separator and decimal sign.
@@ -9,18 +9,14 @@ const LOOKED_AT: usize = 400;
 /// Share of the lines in which a separator must stand.
 const MOST_LINES: f64 = 0.7;
 
-/// A file as cells.
 #[derive(Debug)]
 pub(crate) struct CellText<'a> {
-    /// Its name in errors.
     pub file: &'a str,
     /// Everything in it, without byte order mark and `sep=` line.
     pub text: &'a str,
-    /// What parts cells.
     pub delimiter: char,
     /// Decimals are written with a comma.
     pub comma: bool,
-    /// Lines before `text`.
     before: u64,
 }
 
@@ -29,10 +25,10 @@ impl<'a> CellText<'a> {
     ///
     /// # Errors
     /// No text; numbers with a comma that may be decimal or of thousands.
-    pub fn new(file: &'a str, text: &'a str) -> Result<CellText<'a>, DataError> {
+    pub fn new(file: &'a str, text: &'a str) -> Result<CellText<'a>> {
         if text.contains('\0') {
             let (message, help) = ("the file is no text", "export it as text: CSV, TXT or XML");
-            return Err(DataError::Layout(Box::new(Fault::of_file(file, message, help))));
+            return Err(DataError::layout(file, message, help));
         }
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let said = text.lines().next().and_then(|line| line.trim().strip_prefix("sep="));
@@ -81,7 +77,7 @@ impl<'a> CellText<'a> {
         cells.extend(parts.map(|cell| cell.trim().trim_matches('"').trim()));
     }
 
-    /// The number of a cell; NaN for a word that says that there is none.
+    /// The number of a cell; NaN for a word for none.
     pub fn number(&self, text: &str) -> Option<f64> {
         match text.parse() {
             Ok(value) => Some(value),
@@ -94,15 +90,23 @@ impl<'a> CellText<'a> {
     ///
     /// # Errors
     /// Anything else than a finite number or a word for none.
-    pub fn expect(&self, text: &str, number: u64, column: &str) -> Result<f64, DataError> {
-        self.number(text)
-            .filter(|value| !value.is_infinite())
-            .ok_or_else(|| self.bad_cell(text, number, column, "type a number, or leave the cell empty"))
+    pub fn expect(&self, text: &str, number: u64, column: &str) -> Result<f64> {
+        self.finite(text).ok_or_else(|| self.no_number(text, number, column))
+    }
+
+    /// The number of a cell but for infinity.
+    pub fn finite(&self, text: &str) -> Option<f64> {
+        self.number(text).filter(|value| !value.is_infinite())
+    }
+
+    /// The fault of a cell without a number.
+    pub fn no_number(&self, text: &str, number: u64, column: &str) -> DataError {
+        self.bad_cell(text, number, column, "type a number, or leave the cell empty")
     }
 
     /// # Errors
-    /// A row that was cut, or has cells that no name stands above.
-    pub fn whole_row(&self, cells: &[&str], names: usize, number: u64) -> Result<(), DataError> {
+    /// A row that was cut, or has cells without a name above.
+    pub fn whole_row(&self, cells: &[&str], names: usize, number: u64) -> Result<()> {
         if cells.len() == names {
             return Ok(());
         }
@@ -114,7 +118,7 @@ impl<'a> CellText<'a> {
     ///
     /// # Errors
     /// Anything else.
-    pub fn time(&self, text: &str, number: u64, column: &str) -> Result<f64, DataError> {
+    pub fn time(&self, text: &str, number: u64, column: &str) -> Result<f64> {
         let plain = ["seconds", "secs", "sec", "s"].iter().find_map(|unit| text.strip_suffix(unit)).unwrap_or(text);
         let found = self.number(plain.trim()).filter(|t| t.is_finite()).or_else(|| clock_s(text));
         found.ok_or_else(|| self.bad_cell(text, number, column, "a time is a number, or hours:minutes:seconds"))
@@ -134,7 +138,7 @@ impl<'a> CellText<'a> {
 
     /// # Errors
     /// All commas may be of thousands, or points and commas are both used.
-    fn has_decimal_comma(&self) -> Result<bool, DataError> {
+    fn has_decimal_comma(&self) -> Result<bool> {
         let mut decimals = Decimals::default();
         for (number, text) in self.lines().take(LOOKED_AT) {
             let line = Line { file: self.file, number, start: 0, text, ended: true };
@@ -146,7 +150,7 @@ impl<'a> CellText<'a> {
     }
 }
 
-/// The rarest sign that stands in most lines: a tab or a semicolon parts cells where there is one, else a comma.
+/// The rarest sign that is in most lines: a tab or a semicolon separates cells where there is one, else a comma.
 fn delimiter(text: &str) -> char {
     let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).take(LOOKED_AT).collect();
     let has = |sign: char| lines.iter().filter(|line| line.contains(sign)).count() as f64;

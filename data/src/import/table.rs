@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 
 use super::holds::{Kept, PressedRun};
 use super::options::ImportOptions;
+use crate::cells::quoted;
 use crate::dataset::Phase;
 use crate::policy::tolerance_act_pa;
 use crate::units::{kpa, mm};
-use crate::write::quoted;
 
 /// Rows of a hold and marker; consecutive frames are averaged where there are more.
 const MOST_ROWS: usize = 20;
@@ -53,7 +53,7 @@ fn add_rows(text: &mut String, run: &PressedRun, frames: &[usize], phase: Phase,
     }
 }
 
-/// How every hold was reached, by its pressure and that of the hold before.
+/// How every hold was reached, by its pressure and the pressure of the hold before.
 pub(crate) fn phases(holds: &[Kept]) -> Vec<Phase> {
     let mut before = f64::NEG_INFINITY;
     let phase = |hold: &Kept| {
@@ -76,7 +76,7 @@ pub(crate) fn phases(holds: &[Kept]) -> Vec<Phase> {
     holds.iter().map(phase).collect()
 }
 
-/// A description with what is known, and questions where it is not.
+/// A description of all that is known, with questions for the rest.
 pub(crate) fn about_toml(
     program: &str,
     files: &[String],
@@ -117,6 +117,9 @@ pub(crate) fn about_toml(
     text
 }
 
+/// A marker at the base \[m\].
+const LEAST_STATION_M: f64 = 1e-3;
+
 /// Stations given, or the places at rest along the robot.
 pub(crate) fn stations(
     runs: &[(PressedRun, Vec<Kept>)],
@@ -131,7 +134,7 @@ pub(crate) fn stations(
             (!seen.is_empty()).then(|| seen.iter().sum::<f64>() / seen.len() as f64)
         };
         let found: Vec<f64> = runs.iter().filter_map(of_run).collect();
-        (found.iter().sum::<f64>() / found.len().max(1) as f64).max(0.0)
+        (found.iter().sum::<f64>() / found.len().max(1) as f64).max(LEAST_STATION_M)
     };
     let given = |name: &String| options.stations_m.iter().find(|(known, _)| known == name).map(|(_, s)| *s);
     let station = |(marker, name): (usize, &String)| {

@@ -3,18 +3,18 @@
 use std::collections::HashMap;
 
 use super::columns::{ColumnName, is_frame, lengths, si};
-use super::counted;
-use super::formats::Format;
+use super::format::Format;
+use super::layout::Layout;
 use super::options::ImportOptions;
-use super::recording::{FrameClock, Lengths, Pivot, Recording};
+use super::recording::{FrameClock, Lengths, Pivot, Recording, counted};
 use super::sheet::CellText;
-use crate::cells::is_nothing;
-use crate::error::DataError;
+use crate::error::{DataError, Result};
 use crate::units::Measured;
 
 pub(super) const SPOTS: Format = Format {
     name: "TrackMate, spots",
     known_by: "columns TRACK_ID and POSITION_X",
+    fixture: "made/trackmate_spots.csv",
     likelihood: None,
     recognise: |_, head, _| head.first().is_some_and(|row| row.contains(&"TRACK_ID") && row.contains(&"POSITION_X")),
     read: spots,
@@ -23,44 +23,39 @@ pub(super) const SPOTS: Format = Format {
 pub(super) const XML: Format = Format {
     name: "TrackMate, XML",
     known_by: "a <TrackMate> or <Tracks> element",
+    fixture: "made/trackmate_tracks.xml",
     likelihood: None,
     recognise: |sheet, _, _| tags(sheet.text).take(4).any(|tag| matches!(tag.name, "TrackMate" | "Tracks")),
     read: xml,
 };
 
-fn spots(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
-    let mut lines = sheet.lines();
-    let header = lines.next().map_or(Vec::new(), |(_, line)| sheet.split(line));
+fn spots(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
+    let header = sheet.head(1).pop().unwrap_or_default();
     let column = |name: &str| header.iter().position(|known| *known == name);
     let [track, x, y, z, t, frame] =
         ["TRACK_ID", "POSITION_X", "POSITION_Y", "POSITION_Z", "POSITION_T", "FRAME"].map(column);
-    let mut pivot = Pivot::new(Lengths::Pixels, FrameClock::Frames);
-    let (mut cells, mut single, mut second) = (Vec::new(), 0, None);
-    for (number, line) in lines {
-        sheet.split_into(line, &mut cells);
-        let cell = |index: Option<usize>| index.and_then(|index| cells.get(index).copied()).unwrap_or_default();
-        // Up to three more rows of names and units.
-        if sheet.number(cell(x)).is_none() {
-            let unit = |index| ColumnName::of(&format!("x {}", cell(index))).unit;
-            pivot.recording.lengths = unit(x).and_then(|unit| lengths(&unit)).unwrap_or(pivot.recording.lengths);
-            second = unit(t).filter(|unit| !is_frame(unit)).and_then(|unit| si(&unit, Measured::Time)).or(second);
-            continue;
-        }
-        if is_nothing(cell(track)) {
-            single += 1;
-            continue;
-        }
-        let time = match second {
-            Some(second) => second * sheet.time(cell(t), number, "POSITION_T")?,
-            None => sheet.time(cell(frame.or(t)), number, "FRAME")?,
-        };
-        let value = |index: Option<usize>, name| index.map_or(Ok(0.0), |_| sheet.expect(cell(index), number, name));
-        let place = [value(x, "POSITION_X")?, value(y, "POSITION_Y")?, value(z, "POSITION_Z")?];
-        let (at, marker) = (pivot.frame(time), pivot.marker(cell(track)));
-        pivot.put(at, marker, place, true);
+    // Up to three more rows of names and units.
+    let cell = |cells: &[&str], index: Option<usize>| -> String {
+        index.and_then(|index| cells.get(index)).map_or(String::new(), ToString::to_string)
+    };
+    let is_head = |line: &str| sheet.number(&cell(&sheet.split(line), x)).is_none();
+    let heads: Vec<Vec<&str>> = sheet
+        .lines()
+        .skip(1)
+        .map(|(_, line)| line)
+        .take_while(|line| is_head(line))
+        .map(|line| sheet.split(line))
+        .collect();
+    let unit = |index| heads.iter().rev().find_map(|cells| ColumnName::of(&format!("x {}", cell(cells, index))).unit);
+    let second = unit(t).filter(|unit| !is_frame(unit)).and_then(|unit| si(&unit, Measured::Time));
+    let time = if second.is_some() { t } else { frame.or(t) };
+    let lengths = unit(x).and_then(|unit| lengths(&unit)).unwrap_or(Lengths::Pixels);
+    let mut layout = Layout::new(time.unwrap_or_default(), second, lengths);
+    (layout.marker, layout.named, layout.row_of) = (track, false, ["spot", "track"]);
+    for (part, index) in [x, y, z].into_iter().enumerate() {
+        index.map_or(Ok(()), |index| layout.add(sheet, 1, "", part, index))?;
     }
-    pivot.recording.clock = if second.is_some() { FrameClock::Seconds } else { FrameClock::Frames };
-    Ok(vec![told(pivot, single)])
+    layout.read(sheet, 1, 2, sheet.lines().skip(1 + heads.len()))
 }
 
 fn told(mut pivot: Pivot, single: usize) -> Recording {
@@ -97,7 +92,6 @@ impl<'a> Tag<'a> {
     }
 }
 
-/// Opening tags in their order.
 fn tags(text: &str) -> impl Iterator<Item = Tag<'_>> {
     text.split('<').skip(1).filter_map(|part| {
         let inside = part.split_once('>').map_or(part, |(inside, _)| inside).trim_end_matches('/');
@@ -106,7 +100,7 @@ fn tags(text: &str) -> impl Iterator<Item = Tag<'_>> {
     })
 }
 
-fn xml(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
+fn xml(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     let said = |key: &str| tags(sheet.text).take(8).find_map(|tag| tag.get(key));
     let unit = said("spaceUnits").or_else(|| said("spatialunits")).and_then(|unit| lengths(&unit.to_lowercase()));
     let time = said("timeUnits").or_else(|| said("timeunits")).map(str::to_lowercase).unwrap_or_default();
@@ -121,7 +115,7 @@ fn xml(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>, Dat
 }
 
 /// `<particle>` with `<detection t x y z>`; t counts frames of `frameInterval`.
-fn detections(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<usize, DataError> {
+fn detections(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<usize> {
     let interval = tags(sheet.text).find_map(|tag| tag.number("frameInterval")).unwrap_or(1.0);
     let step = second.map_or(1.0, |second| second * interval);
     let mut track = 0;
@@ -146,7 +140,7 @@ fn detections(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Resul
 }
 
 /// `<Spot>` elements, joined to tracks by the `<Edge>` elements of every `<Track>`; returns how many have none.
-fn model(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<usize, DataError> {
+fn model(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<usize> {
     let mut track_of: HashMap<&str, String> = HashMap::new();
     let (mut track, mut count) = (String::new(), 0);
     for tag in tags(sheet.text) {

@@ -1,9 +1,9 @@
-//! What the caller knows of a tracking file, as people type it. Errors say what is wrong and what to type.
+//! What the caller knows of a tracking file, as people type it. Errors name the mistake and what to type.
 
 use super::columns::QUANTITIES;
 use super::options::{FileAxis, FilePlace, Offset, Scale};
 use spelling::quantity::{Quantity, parse};
-use spelling::units::{Dimension, units_of};
+use spelling::units::{Dimension, Range, units_of};
 use std::str::FromStr;
 
 /// `X,Y`, `X,Y,Z` or the name of a marker.
@@ -59,13 +59,18 @@ impl FromStr for Scale {
             number.zip(unit).map(|(number, unit)| number * unit.factor())
         };
         let pixels = |word: &str| above_zero(word.trim().strip_suffix("px")?);
+        let is_whole = |scale: &Scale| match scale {
+            Scale::PixelsPerMetre(value) | Scale::Unit(value) => value.is_normal(),
+            _ => true,
+        };
         let found = match text.split_once('/') {
             None => text.starts_with(char::is_alphabetic).then(|| metres(text).map(Scale::Unit)).flatten(),
             Some((left, "px")) => metres(left).map(|metres| Scale::PixelsPerMetre(1.0 / metres)),
             Some((left, right)) => pixels(left).zip(metres(right)).map(|(px, m)| Scale::PixelsPerMetre(px / m)),
         };
         let example = "write 3.1px/mm, 0.32mm/px, or the unit of the file's numbers: mm, cm, m";
-        found.ok_or_else(|| format!("`{text}` is not understood: {example}"))
+        let scale = found.ok_or_else(|| format!("`{text}` is not understood: {example}"))?;
+        Some(scale).filter(is_whole).ok_or_else(|| format!("`{text}` rounds to 0: {example}"))
     }
 }
 
@@ -110,13 +115,14 @@ pub fn column(text: &str) -> Result<(String, String), String> {
 /// A marker and its station \[m\]: `a=90mm`.
 ///
 /// # Errors
-/// No equals sign, or no length from zero.
+/// No equals sign, or a length out of the bounds of a station.
 pub fn station(text: &str) -> Result<(String, f64), String> {
     let example = "write MARKER=LENGTH for every marker, for example a=90mm,b=210mm";
     let wrong = || format!("`{text}` is not understood: {example}");
     let (name, length) = text.rsplit_once('=').ok_or_else(wrong)?;
     let length_m = parse(length, Quantity::Length)?;
-    if length_m >= 0.0 { Ok((name.trim().to_string(), length_m)) } else { Err(wrong()) }
+    Range::STATION.check(length_m).map_err(|(message, help)| format!("`{text}`: {message}; {help}"))?;
+    Ok((name.trim().to_string(), length_m))
 }
 
 fn above_zero(number: &str) -> Option<f64> {
@@ -133,7 +139,20 @@ mod tests {
         assert_eq!("0.25mm/px".parse(), Ok(Scale::PixelsPerMetre(1.0 / 0.25e-3)));
         assert_eq!("4px/2cm".parse(), Ok(Scale::PixelsPerMetre(4.0 / 0.02)));
         assert_eq!("cm".parse(), Ok(Scale::Unit(0.01)));
-        for wrong in ["", "4", "4mm", "px/mm", "0px/mm", "-1px/mm", "nanpx/mm", "4px/kPa", "mm/4px", "4px"] {
+        for wrong in [
+            "",
+            "4",
+            "4mm",
+            "px/mm",
+            "0px/mm",
+            "-1px/mm",
+            "nanpx/mm",
+            "4px/kPa",
+            "mm/4px",
+            "4px",
+            "1e-320mm/px",
+            "1e-310mm/px",
+        ] {
             assert!(wrong.parse::<Scale>().is_err_and(|message| message.contains("3.1px/mm")), "{wrong}");
         }
         let known = known_distance("10,20:tip=90mm");
@@ -153,6 +172,6 @@ mod tests {
         assert_eq!(column("t=Time (s)"), Ok(("t".into(), "Time (s)".into())));
         assert!(["t", "q=Time"].iter().all(|wrong| column(wrong).is_err()));
         assert_eq!(station("a=90mm"), Ok(("a".into(), 0.09)));
-        assert!(["a", "a=-1mm", "a=9"].iter().all(|wrong| station(wrong).is_err()));
+        assert!(["a", "a=-1mm", "a=0mm", "a=9"].iter().all(|wrong| station(wrong).is_err()));
     }
 }

@@ -3,7 +3,7 @@
 //! Some are known by their numbers (`rows::PLACEHOLDERS`). Any other is known by two markers that were seen there to the last digit,
 //! far from where both were else: no camera sees two markers at one place.
 
-use super::{Segment, Stream};
+use super::segments::{Segment, Stream};
 use crate::policy;
 use crate::units::mm;
 

@@ -2,9 +2,8 @@
 //!
 //! These checks look at the whole file and say which column to rename; they never convert anything themselves.
 
-use super::Recorder;
 use crate::dataset::Dataset;
-use crate::error::{DataError, Fault};
+use crate::error::{DataError, Fault, Result};
 use crate::header::{Header, P_ACT, P_BODY, QUANTITIES, STATION, X, Y, Z};
 use crate::policy;
 use crate::rows::{Row, RowReader};
@@ -40,10 +39,9 @@ impl Extremes {
 ///
 /// # Errors
 /// Metres in a millimetre column or millimetres in a metre column; psi, bar or MPa in the kPa columns.
-pub(crate) fn check_units(cells: &RowReader, recorder: &Recorder) -> Result<(), DataError> {
-    let extremes = &recorder.extremes;
-    let unit = |quantity: usize| cells.header.columns[quantity].as_ref().and_then(|c| c.unit).map_or("", |u| u.symbol);
-    let known_robot = extremes.p_act_pa > 0.0 || recorder.stations_m.iter().any(Option::is_some);
+pub(crate) fn check_units(cells: &RowReader, extremes: &Extremes) -> Result<()> {
+    let unit = |quantity: usize| cells.header.unit(quantity);
+    let known_robot = extremes.p_act_pa > 0.0 || extremes.station_m > 0.0;
     let looks = |quantity, value, word: &str| Err(unit_error(&cells.header, quantity, value, word));
     if unit(X) == "mm"
         && known_robot
@@ -70,10 +68,10 @@ pub(crate) fn check_units(cells: &RowReader, recorder: &Recorder) -> Result<(), 
 fn unit_error(header: &Header, quantity: usize, largest: f64, word: &str) -> DataError {
     let (base, suffix) = (QUANTITIES[quantity].base, if word == "metres" { "m" } else { "mm" });
     let message = format!("the largest value of this column is {largest:.4}: it looks like {word}");
-    DataError::Unit(column_fault(header, quantity, message, format!("name the column {base}_{suffix}")))
+    DataError::Unit(header.fault(quantity, message, format!("name the column {base}_{suffix}")))
 }
 
-fn check_small_pressures(cells: &RowReader, p_body: f64, p_act: f64) -> Result<(), DataError> {
+fn check_small_pressures(cells: &RowReader, p_body: f64, p_act: f64) -> Result<()> {
     let fits = |([body, act], _): &([f64; 2], &str)| p_body > 0.0 && p_act > 0.0 && p_body < *body && p_act < *act;
     // Smallest unit last.
     let units = [(policy::LIKE_PSI, "psi"), (policy::LIKE_BAR, "bar"), (policy::LIKE_MPA, "MPa")];
@@ -84,20 +82,18 @@ fn check_small_pressures(cells: &RowReader, p_body: f64, p_act: f64) -> Result<(
         "name the columns p_act_{suffix}, p_body_{suffix}; if they really are that small, give them in Pa as p_act_pa, \
          p_body_pa"
     );
-    Err(DataError::Unit(column_fault(&cells.header, P_ACT, message, help)))
+    Err(DataError::Unit(cells.header.fault(P_ACT, message, help)))
 }
 
 /// How y is not what it should be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum WrongY {
-    /// x and y are exchanged.
     Exchanged,
-    /// y points down.
     Down,
 }
 
 impl WrongY {
-    /// What to do, where y stands in a column of this unit.
+    /// What to do, where y is in a column of this unit.
     fn help(self, unit: &str, down: bool) -> String {
         match (self, down) {
             (WrongY::Exchanged, _) => {
@@ -115,23 +111,22 @@ impl WrongY {
 ///
 /// # Errors
 /// As [`wrong_y`].
-pub(crate) fn check_y_up(header: &Header, dataset: &Dataset) -> Result<(), DataError> {
+pub(crate) fn check_y_up(header: &Header, dataset: &Dataset) -> Result<()> {
     let Some((wrong, message)) = wrong_y(dataset) else { return Ok(()) };
-    let unit = header.columns[Y].as_ref().and_then(|column| column.unit).map_or("mm", |unit| unit.symbol);
-    Err(DataError::Unit(column_fault(header, Y, message, wrong.help(unit, header.y_down))))
+    Err(DataError::Unit(header.fault(Y, message, wrong.help(header.unit(Y), header.y_down))))
 }
 
 /// The same of a table that was read before and is now of a planar robot.
 ///
 /// # Errors
 /// As [`wrong_y`].
-pub(crate) fn check_y_up_later(dataset: &Dataset) -> Result<(), DataError> {
+pub(crate) fn check_y_up_later(dataset: &Dataset) -> Result<()> {
     let Some((wrong, message)) = wrong_y(dataset) else { return Ok(()) };
     Err(DataError::Unit(Box::new(Fault::of_file(&dataset.name, message, wrong.help("mm", false)))))
 }
 
 /// Whether the last marker is, at the highest actuator pressure, more than 5 mm below its place in the first hold (mean over runs).
-/// Markers that lie along y rather than x in that hold are told apart from a y that points down.
+/// Markers along y rather than x in that hold are not reported as a y that points down.
 fn wrong_y(dataset: &Dataset) -> Option<(WrongY, String)> {
     let holds = &dataset.holds;
     let by_pressure = |&a: &usize, &b: &usize| holds[a].p_act_pa.total_cmp(&holds[b].p_act_pa);
@@ -169,17 +164,4 @@ fn wrong_y(dataset: &Dataset) -> Option<(WrongY, String)> {
         mm(moved_m)
     );
     Some((WrongY::Down, message))
-}
-
-/// A fault of a whole column, shown at its name in the header.
-fn column_fault(header: &Header, quantity: usize, message: String, help: String) -> Box<Fault> {
-    let line = header.line.line();
-    let mut fault = line.fault(message, help);
-    let Some(column) = &header.columns[quantity] else { return fault };
-    let name = &header.names[column.index];
-    let before = line.text.split(header.delimiter as char).take(column.index).map(|cell| cell.len() + 1).sum::<usize>();
-    let at = line.text[before.min(line.text.len())..].find(name.as_str()).map_or(before, |at| before + at);
-    fault.location.column_name = Some(name.clone());
-    fault.span = Some((line.start + at, line.start + at + name.len()));
-    fault
 }

@@ -7,7 +7,7 @@ use crate::rows::Row;
 /// Pressures of a row: body, actuator, and the supply channels from 1 on.
 pub(crate) const PRESSURES: [usize; 2 + P_MORE.len()] = [P_BODY, P_ACT, P_MORE[0], P_MORE[1], P_MORE[2]];
 
-/// Those of a row \[Pa\].
+/// The pressures of a row \[Pa\].
 pub(crate) fn pressures_pa(row: &Row) -> [f64; PRESSURES.len()] {
     let [one, two, three] = row.more_act_pa;
     [row.p_body_pa, row.p_act_pa, one, two, three]

@@ -85,7 +85,7 @@ fn each_wrong_value_is_shown_at_its_place() {
         ("fold_mm = 24", "fold_mm = nan", "fold_mm: must be a positive length"),
         ("s_mm = [60, 360]", "s_mm = [60]", "s_mm: has 1 values, names has 2"),
         ("s_mm = [60, 360]", "s_mm = [0.06, 0.36]", "s_mm: looks like metres"),
-        ("s_mm = [60, 360]", "s_mm = [-60, 360]", "s_mm: holds a value below zero"),
+        ("s_mm = [60, 360]", "s_mm = [-60, 360]", "s_mm: station must be from 0.001 to 100000 mm, not -60"),
         ("[\"1\", \"2\"]", "[\"1\", \"1\"]", "names: marker 1 is there twice"),
         ("[0, -1]", "[0, -9.81]", "direction: must be a unit vector"),
         ("[0, -1]", "[0, nan]", "direction: must be a unit vector"),

@@ -54,13 +54,13 @@ fn pressures_are_told_by_what_robots_have() {
         assert!(of(low(body), low(act)).contains(&like), "{}", of(low(body), low(act)));
         assert!(!of(high(body), low(act)).contains(&like) && !of(low(body), high(act)).contains(&like), "{unit}");
     }
-    assert!(of(2.0, 990.0).is_empty() && of(2.0, 1010.0).contains("above 1 MPa"));
+    assert!(of(2.0, 990.0).is_empty() && of(2.0, 1010.0).contains("must be from 0 to 1000 kPa, not 1010"));
     let vented = |act: f64| {
         said(two_holds("p_body_kpa,p_act_kpa,x_mm,y_mm", |hold| {
             format!("2,{},60,{hold}", if hold == 0 { act } else { 20.0 })
         }))
     };
-    assert!(vented(-0.495).is_empty() && vented(-0.505).contains("pressure below zero"));
+    assert!(vented(-0.495).is_empty() && vented(-0.505).contains("pressure must be from 0 to 1000 kPa"));
 }
 
 #[test]

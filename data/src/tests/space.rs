@@ -77,7 +77,7 @@ fn bad_columns_of_space_are_named() {
     let gone = told(&SPACE.replacen(row, &row.replace(z, ""), 1));
     assert!(gone.contains("the cell is empty"), "{gone}");
     let low = told(&SPACE.replace(",20.0000,10.0000,", ",20.0000,-10.0000,"));
-    assert!(low.contains("p_act_1_kpa") && low.contains("below zero"), "{low}");
+    assert!(low.contains("p_act_1_kpa") && low.contains("must be from 0 to 1000 kPa"), "{low}");
 }
 
 #[test]

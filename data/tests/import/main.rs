@@ -1,11 +1,12 @@
 //! Files of tracking programs against the marker table that they were made from: `cases` as people have them, `kinds` a second
-//! file of each kind after its public description, `broken` files with damage, `clocks` pressure logs that do not run with the camera.
+//! file of each kind after its public description, `formats` the list of kinds, `broken` files with damage, `clocks` pressure logs that do not run with the camera.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests: a panic is the failure to report")]
 
 mod broken;
 mod cases;
 mod clocks;
+mod formats;
 mod kinds;
 
 use std::collections::BTreeMap;

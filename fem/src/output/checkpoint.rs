@@ -12,14 +12,16 @@ use std::io::{Error, Write};
 use std::path::{Path, PathBuf};
 
 use crate::FemError;
-use crate::atomic::{make_folder, partial_name, replace, sync_folder, write_whole};
+use crate::atomic::replace;
 use crate::bytes::{pack, unpack};
 use serde::{Deserialize, Serialize};
+use spelling::files::{sealed, sync_folder, unsealed, write_new};
 
 const MAGIC: &[u8; 8] = b"ibr-fem\n";
 /// Raised whenever the meaning of the bytes changes.
 const VERSION: u64 = 7;
-const CHECK: usize = 4;
+/// Where a checkpoint is written before it takes its place: a kill leaves it, and the next one overwrites it.
+const PARTIAL: &str = "checkpoint.partial";
 /// The end of a complete run, from which another one may go on.
 const END: &str = "checkpoint.end";
 
@@ -108,9 +110,8 @@ type Put<'a> = &'a mut dyn FnMut(&mut dyn Write, &[u8]) -> Result<(), Error>;
 
 fn write_through(folder: &Path, checkpoint: &Checkpoint, put: Put) -> Result<PathBuf, FemError> {
     let (newest, previous) = names(folder);
-    make_folder(folder)?;
-    let (partial, bytes) = (partial_name(&newest), encode(checkpoint));
-    let written = write_whole(&partial, &mut |out| put(out, &bytes));
+    let (partial, bytes) = (folder.join(PARTIAL), encode(checkpoint));
+    let written = std::fs::create_dir_all(folder).and_then(|()| write_new(&partial, &mut |out| put(out, &bytes)));
     let replaced = written.and_then(|()| {
         if newest.exists() {
             std::fs::rename(&newest, &previous)?;
@@ -127,10 +128,7 @@ fn write_through(folder: &Path, checkpoint: &Checkpoint, put: Put) -> Result<Pat
 }
 
 fn encode(checkpoint: &Checkpoint) -> Vec<u8> {
-    let mut bytes = [&MAGIC[..], &VERSION.to_le_bytes(), &pack(checkpoint)].concat();
-    let check = crc32fast::hash(&bytes);
-    bytes.extend(check.to_le_bytes());
-    bytes
+    sealed([&MAGIC[..], &VERSION.to_le_bytes(), &pack(checkpoint)].concat())
 }
 
 enum Found {
@@ -151,15 +149,15 @@ fn read_file(path: &Path, fingerprint: u64) -> Result<Found, FemError> {
 }
 
 fn decode(bytes: &[u8], fingerprint: Option<u64>) -> Found {
-    let Some((body, check)) = bytes.split_last_chunk::<CHECK>() else {
+    if bytes.len() < MAGIC.len() {
         return Found::Damaged(format!("is cut off after {} bytes", bytes.len()));
-    };
-    if !body.starts_with(MAGIC) {
+    }
+    if !bytes.starts_with(MAGIC) {
         return Found::Damaged("is not a checkpoint of this program".into());
     }
-    if crc32fast::hash(body) != u32::from_le_bytes(*check) {
+    let Some(body) = unsealed(bytes).filter(|body| body.starts_with(MAGIC)) else {
         return Found::Damaged(format!("is cut off or damaged (checksum of {} bytes differs)", bytes.len()));
-    }
+    };
     let Some((version, state)) = body[MAGIC.len()..].split_first_chunk().map(|(v, s)| (u64::from_le_bytes(*v), s))
     else {
         return Found::Damaged("is cut off before its version".into());

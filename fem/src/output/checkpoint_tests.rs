@@ -1,5 +1,24 @@
 use super::*;
-use crate::atomic::tests::FullAfter;
+
+/// Lets `room` bytes through, then fails as a full disk does.
+struct FullAfter<'a> {
+    room: usize,
+    inner: &'a mut dyn Write,
+}
+
+impl Write for FullAfter<'_> {
+    fn write(&mut self, bytes: &[u8]) -> Result<usize, Error> {
+        if self.room == 0 {
+            return Err(Error::from(std::io::ErrorKind::StorageFull));
+        }
+        let count = self.inner.write(&bytes[..bytes.len().min(self.room)])?;
+        self.room -= count;
+        Ok(count)
+    }
+    fn flush(&mut self) -> Result<(), Error> {
+        self.inner.flush()
+    }
+}
 
 const PROBLEM: u64 = 0xfeed_beef;
 
@@ -132,12 +151,9 @@ fn another_problem_or_version_is_refused_even_if_an_older_one_would_fit() {
     write_checkpoint(folder.path(), &Checkpoint { fingerprint: 5, ..state(2) }).unwrap();
     let text = reason(folder.path());
     assert!(text.contains("another problem (0000000000000005, this one is 00000000feedbeef)"), "{text}");
-    let mut later = encode(&state(3));
-    let length = later.len() - CHECK;
+    let mut later = unsealed(&encode(&state(3))).unwrap().to_vec();
     later[8] = VERSION as u8 + 1;
-    let check = crc32fast::hash(&later[..length]).to_le_bytes();
-    later[length..].copy_from_slice(&check);
-    std::fs::write(folder.path().join("checkpoint"), later).unwrap();
+    std::fs::write(folder.path().join("checkpoint"), sealed(later)).unwrap();
     let wanted = format!("format version is {}, this program reads {VERSION}", VERSION + 1);
     assert!(reason(folder.path()).contains(&wanted));
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::frame::Frame;
 use super::vtu::write_vtu;
-use crate::atomic::{make_folder, replace};
+use crate::atomic::replace;
 use crate::{FemError, Mesh};
 
 /// A growing series of frames in one folder.
@@ -26,7 +26,8 @@ impl Series {
             )));
         }
         let series = Series { folder: folder.to_path_buf(), times_s: times_s.to_vec() };
-        make_folder(&folder.join("frames"))?;
+        let frames = folder.join("frames");
+        std::fs::create_dir_all(&frames).map_err(|source| FemError::Io { path: frames.clone(), source })?;
         series.write_list()?;
         Ok(series)
     }

@@ -1,22 +1,23 @@
 //! The folder of a run: what it holds, who may write to it, and how a complete run takes the place of an older one.
 
-use super::exchange::{exchange, mend};
 use super::manifest::{Manifest, sha256};
 use crate::FemError;
 use crate::atomic::replace;
 use crate::record::RecordShape;
 use serde::{Deserialize, Serialize};
+use spelling::files::is_partial;
+use spelling::folders::{self, exchange, mend};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-/// There while a run is not complete; says what it is a run of.
+/// There while a run is not complete, with the identity of the run.
 const MARKER: &str = "unfinished.json";
 const UNFINISHED: RecordShape = RecordShape { schema: "ibr.unfinished", version: 1 };
 /// The last file of a complete run.
 const LAST: &str = "manifest.json";
 /// Held by the process that writes to the folder.
 const LOCK: &str = ".lock";
-/// The case of the run; the mark of an unfinished one is believed only beside it, or alone.
+/// The case of the run; the mark of an unfinished one is believed only with it, or alone.
 const CASE: &str = "case.toml";
 /// Everything that a run leaves behind, folders too.
 const OWN: &[&str] = &[
@@ -40,7 +41,7 @@ const OWN: &[&str] = &[
     "checkpoint.end",
 ];
 
-/// What tells one run from another, besides the case itself.
+/// Separates one run from another, in addition to the case itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct RunIdentity {
     /// SHA-256 of the case's text.
@@ -54,6 +55,7 @@ pub(super) struct RunIdentity {
     pub from: Option<String>,
 }
 
+/// A request to open a folder.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RunWish<'a> {
     /// Folder.
@@ -160,7 +162,7 @@ pub(crate) fn reopen(
     Ok(place)
 }
 
-/// The new run is made beside the finished one, which stays until then.
+/// The new run is made next to the finished one, which stays until then.
 fn open_beside(wish: &RunWish) -> Result<Opened, FemError> {
     let beside = named_like(wish.folder, ".new");
     match look(&beside)? {
@@ -181,7 +183,7 @@ fn named_like(folder: &Path, more: &str) -> PathBuf {
     folder.with_file_name(name)
 }
 
-/// Where an older run lies for a moment while a new one takes its place, where folders cannot be exchanged.
+/// Where an older run is for a moment while a new one takes its place, where folders cannot be exchanged.
 fn aside(folder: &Path) -> PathBuf {
     named_like(folder, ".new-replaces")
 }
@@ -214,7 +216,7 @@ fn look(folder: &Path) -> Result<Found, FemError> {
         return Ok(Found::Nothing);
     }
     // What a kill between two files can leave behind is of no use to anyone.
-    let names: Vec<String> = sorted(folder)?.into_iter().filter(|n| n != LOCK && !is_leftover(n)).collect();
+    let names: Vec<String> = sorted(folder)?.into_iter().filter(|n| n != LOCK && !is_partial(n)).collect();
     let has = |name: &str| names.iter().any(|n| n == name);
     if let Some(name) = foreign(folder, &names)? {
         return Ok(Found::Foreign(name));
@@ -238,7 +240,7 @@ fn foreign(folder: &Path, names: &[String]) -> Result<Option<String>, FemError> 
     }
     let frames = folder.join("frames");
     let frames = if frames.is_dir() { sorted(&frames)? } else { Vec::new() };
-    let is_frame = |n: &String| n.starts_with("run_") && n.ends_with(".vtu") || is_leftover(n);
+    let is_frame = |n: &String| n.starts_with("run_") && n.ends_with(".vtu") || is_partial(n);
     Ok(frames.iter().find(|n| !is_frame(n)).map(|n| format!("frames/{n}")))
 }
 
@@ -283,8 +285,8 @@ impl Workplace {
         &self.target
     }
 
-    /// Clears away an earlier run and marks the folder as that of a run in progress. Killed at any point, the folder is known as
-    /// that of an unfinished run: of the earlier case until its files are gone, then of this one.
+    /// Clears away an earlier run and marks the folder as a run in progress. Killed at any point, the folder is known as
+    /// an unfinished run: of the earlier case until its files are gone, then of this one.
     pub(super) fn start(&self, marker: &RunIdentity, text: &str) -> Result<(), FemError> {
         self.begin(marker, text, &mut |step| step())
     }
@@ -334,7 +336,7 @@ impl Workplace {
         Ok(found)
     }
 
-    /// Writes the manifest, and lets the complete run take its place; what to tell of an older one that was there.
+    /// Writes the manifest, and lets the complete run take its place; returns a notice on an older one that was there.
     pub(super) fn complete(self, manifest: &Manifest) -> Result<Option<String>, FemError> {
         write(&self.folder.join(LAST), manifest.text().as_bytes())?;
         for name in [MARKER, "checkpoint", "checkpoint.previous", LOCK] {
@@ -352,34 +354,19 @@ impl Workplace {
     }
 }
 
-/// A file that was being written when a run was killed.
-fn is_leftover(name: &str) -> bool {
-    name.ends_with(".partial") || (name.starts_with('.') && name.ends_with(".tmp"))
-}
-
-/// Removes what a kill left behind.
+/// Removes what a kill left behind; whoever holds the lock is alone.
 fn sweep(folder: &Path) -> Result<(), FemError> {
-    let Ok(entries) = std::fs::read_dir(folder) else { return Ok(()) };
-    let leftovers = entries.filter_map(|e| Some(e.ok()?.path()));
-    leftovers.filter(|p| is_leftover(&p.file_name().unwrap_or_default().to_string_lossy())).try_for_each(|p| remove(&p))
+    let leftovers = folders::names(folder).unwrap_or_default().into_iter().filter(|name| is_partial(name));
+    leftovers.map(|name| folder.join(name)).try_for_each(|path| remove(&path))
 }
 
 fn sorted(folder: &Path) -> Result<Vec<String>, FemError> {
-    let entries = std::fs::read_dir(folder).map_err(|cause| unwritable(folder, &cause))?;
-    let mut names: Vec<String> =
-        entries.filter_map(|e| Some(e.ok()?.file_name().to_string_lossy().into_owned())).collect();
-    names.sort();
-    Ok(names)
+    folders::names(folder).map_err(|cause| unwritable(folder, &cause))
 }
 
 /// Removes a file or a folder that a run made, if it is there.
 fn remove(path: &Path) -> Result<(), FemError> {
-    let removed = match path.symlink_metadata() {
-        Err(_) => return Ok(()),
-        Ok(about) if about.is_dir() => std::fs::remove_dir_all(path),
-        Ok(_) => std::fs::remove_file(path),
-    };
-    removed.map_err(|cause| unwritable(path, &cause))
+    folders::remove(path).map_err(|cause| unwritable(path, &cause))
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 //!
 //! ```no_run
 //! use fem::session::{Settings, Source, simulate};
-//! //!
+//! use std::ops::ControlFlow;
+//!
 //! let robot = Source::new("epam", models::shipped("epam").unwrap());
 //! let settings = Settings { folder: Some("epam-run".into()), resume: true, ..Settings::default() };
 //! let run = simulate(&robot, &settings, &mut |what, _share| {
@@ -23,7 +24,7 @@
 //! | `watch`, `robot_files` | what is read of a robot, its tables and pictures |
 //! | `goes_on` | the end of a complete run, and runs that go on from it |
 //! | `run` | how a run is made, and a complete one |
-//! | `folder`, `exchange` | who may write to a run's folder, and how a new run takes the place of an older one |
+//! | `folder` | who may write to a run's folder, and how a new run takes the place of an older one |
 //! | `memory` | whether a mesh fits into this machine |
 //! | `summary` | the records `summary.json` and the cost of a run |
 //! | `plan`, `many`, `table` | runs that differ in seed, pressure, mesh or assumed numbers; several beside each other; the cache by hash; what they gave |
@@ -32,7 +33,6 @@
 //! [`Settings::resume`], and ends with the same bits.
 
 mod common;
-mod exchange;
 mod export;
 mod folder;
 mod goes_on;
@@ -50,7 +50,6 @@ mod together;
 mod watch;
 
 pub use common::{Progress, rounded};
-pub use exchange::in_one_step as exchange_folders;
 pub use export::{Export, Solver, export};
 pub use folder::is_finished;
 pub use manifest::{FileHash, MANIFEST, Maker, Manifest, sha256};

@@ -1,10 +1,11 @@
 //! How a run is made, and a complete one.
 
 use super::folder;
-use super::manifest::{MANIFEST, Maker};
+use super::manifest::{FileHash, MANIFEST, Maker};
 use super::source::Loaded;
 use super::summary::{Cost, SUMMARY, Summary};
 use crate::FemError;
+use crate::error::Damage;
 use crate::robot::{Reading, Sample};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -87,6 +88,7 @@ impl FeRun {
         #[derive(Deserialize)]
         struct Made {
             cost: Cost,
+            outputs: Vec<FileHash>,
         }
         let text = |name: &str| {
             let path = folder.join(name);
@@ -95,10 +97,14 @@ impl FeRun {
         };
         let help =
             format!("delete {} and give the command again: that run is made anew, others are kept", folder.display());
-        let (file, summary) = text("summary.json")?;
-        let summary = SUMMARY.read(&file, &summary, &help)?;
-        let (file, manifest) = text("manifest.json")?;
-        let cost = MANIFEST.read::<Made>(&file, &manifest, &help)?.cost;
+        let (file, summary_text) = text("summary.json")?;
+        let summary = SUMMARY.read(&file, &summary_text, &help)?;
+        let (listed, manifest) = text("manifest.json")?;
+        let Made { cost, outputs } = MANIFEST.read(&listed, &manifest, &help)?;
+        let own = FileHash::of("summary.json", summary_text.as_bytes());
+        if outputs.iter().any(|output| output.name == own.name && output.sha256 != own.sha256) {
+            return Err(Damage::changed(&file, &help));
+        }
         let (notices, energies, files) = (Vec::new(), Vec::new(), Vec::new());
         Ok(FeRun { summary, cost, folder: Some(folder.into()), fresh: false, notices, energies, files })
     }

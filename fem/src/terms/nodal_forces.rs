@@ -178,6 +178,6 @@ mod tests {
     fn an_unknown_set_is_named_with_those_that_exist() {
         let force = NodalForce { set: "top".into(), total_n: [0.0; 3], amplitude: Amplitude::Constant(1.0) };
         let message = NodalForces::new(&two_nodes(), &[force]).unwrap_err().to_string();
-        assert!(message.contains("\"top\"") && message.contains("tip"), "{message}");
+        assert!(message.contains("`top`") && message.contains("tip"), "{message}");
     }
 }

@@ -119,7 +119,7 @@ pub(super) const BALANCE: Effect<'static> = Effect {
 };
 
 /// What most parameters are; entries say how they differ.
-pub(super) const PLAIN: Parameter<'static> = Parameter {
+pub(crate) const PLAIN: Parameter<'static> = Parameter {
     key: "",
     symbol: "",
     unit: "-",

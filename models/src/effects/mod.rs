@@ -44,6 +44,7 @@ mod weld_width;
 mod wrinkling;
 mod yarn_stretch;
 
+pub(crate) use entry::PLAIN;
 pub use entry::{Effect, Fitted, Group, Needs, Parameter, Stage};
 
 /// The list, in the order in which effects are added to a model.

@@ -71,7 +71,7 @@ fn add(values: &[f64], assembly: &mut Assembly) {
 }
 
 impl SealedSides {
-    pub fn new(share: f64, site: &Site) -> SealedSides {
+    pub(super) fn new(share: f64, site: &Site) -> SealedSides {
         let (length_m, width_m) = (site.shape.length_m, site.shape.width_m);
         let at = |chord_m: f64| Section::drawn_in(site.radius_m, width_m, chord_m);
         let step = 1e-3 * width_m;
@@ -96,12 +96,12 @@ impl SealedSides {
     }
 
     /// At a → 0 the gas of the body resists with −½ΔA/(W a) of its pressure.
-    pub fn closes(&self, share: f64, width_m: f64) -> f64 {
+    pub(super) fn closes(&self, share: f64, width_m: f64) -> f64 {
         (-0.5 * share * self.area[0] / width_m).max(0.0)
     }
 
     /// Length along the far side over that of the chord, 1/(1 − κD) without its pole, and its slope over κ.
-    pub fn stretch(&self, kappa: f64) -> [f64; 2] {
+    pub(super) fn stretch(&self, kappa: f64) -> [f64; 2] {
         let turn = kappa * self.arm_m;
         [1.0 + turn * (1.0 + turn), self.arm_m * (1.0 + 2.0 * turn)]
     }

@@ -21,12 +21,12 @@ pub(super) struct Sampler<'a> {
 }
 
 impl Sampler<'_> {
-    pub fn loads(&self, p: f64) -> Loads {
+    pub(super) fn loads(&self, p: f64) -> Loads {
         Loads::uniform(self.body_pa, p)
     }
 
     /// Tip and markers at a pressure.
-    pub fn at(&mut self, p: f64, row: &mut Vec<f64>) -> Result<(), Unsolved> {
+    pub(super) fn at(&mut self, p: f64, row: &mut Vec<f64>) -> Result<(), Unsolved> {
         self.model.predict(&self.loads(p), &mut self.state)?;
         let tip = self.state.tip;
         row.clear();
@@ -36,18 +36,18 @@ impl Sampler<'_> {
         Ok(())
     }
 
-    pub fn pressure(&self, u: f64) -> f64 {
+    pub(super) fn pressure(&self, u: f64) -> f64 {
         self.open_pa + u * u * (self.high_pa - self.open_pa)
     }
 
     /// How many places have an open actuator.
-    pub fn open(&mut self, p: f64) -> Result<usize, Unsolved> {
+    pub(super) fn open(&mut self, p: f64) -> Result<usize, Unsolved> {
         self.model.predict(&self.loads(p), &mut self.state)?;
         Ok(self.model.states(&self.state).iter().filter(|state| state.coordinate != 0.0).count())
     }
 
     /// Pressures at which actuators open, rising.
-    pub fn openings(&mut self, range_pa: [f64; 2]) -> Result<Vec<f64>, Unsolved> {
+    pub(super) fn openings(&mut self, range_pa: [f64; 2]) -> Result<Vec<f64>, Unsolved> {
         let (mut found, mut before) = (Vec::new(), (range_pa[0], self.open(range_pa[0])?));
         for i in 1..=OPENING_SAMPLES {
             let p = range_pa[0] + (range_pa[1] - range_pa[0]) * (i as f64 / OPENING_SAMPLES as f64).powi(3);
@@ -83,7 +83,7 @@ pub(super) struct Fitter<'a, 'm> {
 
 impl Fitter<'_, '_> {
     /// Adds the pieces from the last edge to `high`.
-    pub fn cover(&mut self, high: f32) -> Result<(), Untabulated> {
+    pub(super) fn cover(&mut self, high: f32) -> Result<(), Untabulated> {
         let low = self.edges[self.edges.len() - 1];
         let piece = self.piece([low, high])?;
         if self.misses([low, high], &piece)? {

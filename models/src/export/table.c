@@ -1,4 +1,4 @@
-/* @ROBOT@: see NAME.h for what it is and how exact. */
+/* @ROBOT@, made by ibr: see NAME.h for what it is and how exact. */
 #include "NAME.h"
 #include <math.h>
 

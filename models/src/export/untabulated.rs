@@ -8,6 +8,7 @@ pub const MOST_BYTES: usize = 4096;
 /// Its largest miss, as a share of the robot's length or in rad.
 pub const MOST_MISS: f64 = 1e-3;
 /// Why there is no table.
+#[expect(missing_docs, reason = "fields have the words and units of their message")]
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Untabulated {
     /// The model has no prediction somewhere in the range.
@@ -15,36 +16,18 @@ pub enum Untabulated {
     Unsolved(#[from] Unsolved),
     /// Pressures that do not rise.
     #[error("pressures from {low_kpa} to {high_kpa} kPa are no range: they rise, from 0 or more")]
-    Order {
-        /// Least \[kPa\].
-        low_kpa: f64,
-        /// Largest \[kPa\].
-        high_kpa: f64,
-    },
+    Order { low_kpa: f64, high_kpa: f64 },
     /// A range in which the actuator stays flat.
     #[error(
         "pressures from {low_kpa} to {high_kpa} kPa are no range that opens the actuator (it is flat up to {open_kpa:.3} kPa)"
     )]
-    Range {
-        /// Least \[kPa\].
-        low_kpa: f64,
-        /// Largest \[kPa\].
-        high_kpa: f64,
-        /// Up to which it is flat \[kPa\].
-        open_kpa: f64,
-    },
+    Range { low_kpa: f64, high_kpa: f64, open_kpa: f64 },
     /// One pressure does not say where the robot is.
     #[error("{channels} supply channels move this robot, and a table knows one pressure")]
-    Channels {
-        /// How many.
-        channels: usize,
-    },
+    Channels { channels: usize },
     /// Too rough a response.
     #[error(
         "no table of {MOST_BYTES} bytes follows this robot to {MOST_MISS} of its length: it has a jump or a corner at {at_kpa:.3} kPa"
     )]
-    TooRough {
-        /// The roughest place \[kPa\].
-        at_kpa: f64,
-    },
+    TooRough { at_kpa: f64 },
 }

@@ -24,7 +24,7 @@ mod pull;
 mod variables;
 
 use crate::assembly::Assembly;
-use crate::effects::{Effect, Fitted, Group, Needs, Parameter, Stage};
+use crate::effects::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::root::POLE;
 use crate::site::Besides;
 use crate::term::{Account, Extreme, LedgerLine, Pose, Remembering, Term};
@@ -92,11 +92,8 @@ impl FormulaParameter {
             lower: self.lower,
             upper: self.upper,
             possible: [self.lower, self.upper],
-            starts: &[],
-            by_actuator: &[],
-            fitted: Fitted::Always,
-            in_room: false,
             meaning: &self.meaning,
+            ..PLAIN
         }
     }
 }

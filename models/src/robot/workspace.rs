@@ -55,7 +55,7 @@ pub(super) struct Coupled {
 }
 
 impl Workspace {
-    pub fn new(assembly: &Assembly) -> Workspace {
+    pub(crate) fn new(assembly: &Assembly) -> Workspace {
         let (segments, coupled) = (assembly.segments.len(), !assembly.node_terms.is_empty());
         let n = if coupled { segments } else { 0 };
         let shears = assembly.sites.iter().any(|site| site.wall_shear_n_per_m.is_some());
@@ -83,12 +83,12 @@ impl Workspace {
 
     /// Shear angle of a segment.
     #[inline]
-    pub fn shear(&self, index: usize) -> f64 {
+    pub(crate) fn shear(&self, index: usize) -> f64 {
         self.coupled.shear.get(index).copied().unwrap_or(0.0)
     }
 
     /// Whether transverse loads shear the body.
-    pub fn is_sheared(&self) -> bool {
+    pub(crate) fn is_sheared(&self) -> bool {
         !self.coupled.shear.is_empty()
     }
 }

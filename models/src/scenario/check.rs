@@ -3,7 +3,7 @@
 use super::choice::ActuatorChoice;
 use super::formulas::formulas;
 use super::given::{Checked, Given, refuse, si, unit};
-use super::keys::{POSITION, REMARKS, SEGMENTS};
+use super::keys::{REMARKS, SEGMENTS};
 use super::raw::{Entries, Raw};
 use super::stated::{BASES, EffectChoice, Scenario, Wall, Zone, order};
 use super::strips::{actuator, check_space, more_strips};
@@ -40,7 +40,12 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
         more_strips,
         zones,
         markers_m: stations(&raw.markers.s_mm, length_m)?,
-        pressures_pa: raw.predict.pressures_kpa.iter().map(|p| si(p, &Range::PRESSURE)).collect::<Checked<_>>()?,
+        pressures_pa: raw
+            .predict
+            .pressures_kpa
+            .iter()
+            .map(|p| si(p, &Range::ACTUATOR_PRESSURE))
+            .collect::<Checked<_>>()?,
         segments: segments(raw)?,
         p_max_pa: first.as_ref().map_or(Ok(None), |a| a.number("max_pressure_kpa"))?.unwrap_or(100e3),
         line: raw.supply.as_ref().map(line).transpose()?,
@@ -117,7 +122,7 @@ fn zone(table: &Spanned<Entries>, length_m: f64, actuator: &ActuatorChoice) -> C
 fn stations(raw: &[Spanned<f64>], length_m: f64) -> Checked<Vec<f64>> {
     let mut stations: Vec<f64> = Vec::with_capacity(raw.len());
     for value in raw {
-        let s = si(value, &POSITION)?;
+        let s = si(value, &Range::STATION)?;
         if s > length_m * (1.0 + 1e-9) {
             let message = format!("marker at {} mm is off the body of {} mm", value.get_ref(), length_m * 1e3);
             return refuse(message, "stations are measured along the undeformed body from its base", value.span());

@@ -32,7 +32,7 @@ pub(super) struct Given<'a> {
 
 impl<'a> Given<'a> {
     /// Refuses keys that such a table does not have.
-    pub fn new(table: &str, raw: &'a Spanned<Entries>) -> Checked<Given<'a>> {
+    pub(super) fn new(table: &str, raw: &'a Spanned<Entries>) -> Checked<Given<'a>> {
         let known = |(name, value): (&Spanned<String>, &'a Spanned<Value>)| match key(table, name.get_ref()) {
             Some(key) => Ok((key, value)),
             None => {
@@ -48,7 +48,7 @@ impl<'a> Given<'a> {
     }
 
     /// The same, keys that are left out taken from another table.
-    pub fn or(mut self, other: &Given<'a>) -> Given<'a> {
+    pub(super) fn or(mut self, other: &Given<'a>) -> Given<'a> {
         let missing = other.entries.iter().filter(|(key, _)| self.at(key.name).is_none());
         let missing: Vec<_> = missing.copied().collect();
         self.entries.extend(missing);
@@ -60,22 +60,22 @@ impl<'a> Given<'a> {
     }
 
     /// Whether one of these keys is there.
-    pub fn has_any(&self, names: &[&str]) -> bool {
+    pub(super) fn has_any(&self, names: &[&str]) -> bool {
         names.iter().any(|name| self.at(name).is_some())
     }
 
     /// Where the value of a key is; the table where it is left out.
-    pub fn span_of(&self, name: &str) -> Range<usize> {
+    pub(super) fn span_of(&self, name: &str) -> Range<usize> {
         self.at(name).map_or(self.span.clone(), |(_, value)| value.span())
     }
 
     /// A value as written.
-    pub fn raw(&self, name: &str) -> Option<&'a Spanned<Value>> {
+    pub(super) fn raw(&self, name: &str) -> Option<&'a Spanned<Value>> {
         self.at(name).map(|(_, value)| *value)
     }
 
     /// A value of a type.
-    pub fn read<T: DeserializeOwned>(&self, name: &str) -> Checked<Option<T>> {
+    pub(super) fn read<T: DeserializeOwned>(&self, name: &str) -> Checked<Option<T>> {
         let Some(value) = self.raw(name) else { return Ok(None) };
         let wrong = |error| {
             let span = value.span();
@@ -85,24 +85,24 @@ impl<'a> Given<'a> {
     }
 
     /// The same; the key must be there.
-    pub fn needed<T>(&self, name: &str, value: Option<T>) -> Checked<T> {
+    pub(super) fn needed<T>(&self, name: &str, value: Option<T>) -> Checked<T> {
         let message = format!("missing field `{name}`");
         value.ok_or(ScenarioError { message, help: None, span: Some((self.span.start, self.span.end)) })
     }
 
     /// A number in SI, within the range of its key.
-    pub fn number(&self, name: &str) -> Checked<Option<f64>> {
+    pub(super) fn number(&self, name: &str) -> Checked<Option<f64>> {
         let (Some((key, at)), Some(value)) = (self.at(name), self.read(name)?) else { return Ok(None) };
         key.range.map(|range| si(&Spanned::new(at.span(), value), &range)).transpose()
     }
 
     /// The same; the key must be there.
-    pub fn need(&self, name: &str) -> Checked<f64> {
+    pub(super) fn need(&self, name: &str) -> Checked<f64> {
         self.needed(name, self.number(name)?)
     }
 
     /// A whole number within the range of its key.
-    pub fn whole(&self, name: &str) -> Checked<Option<usize>> {
+    pub(super) fn whole(&self, name: &str) -> Checked<Option<usize>> {
         let Some(whole) = self.read::<i64>(name)? else { return Ok(None) };
         self.number(name)?;
         Ok(usize::try_from(whole).ok())

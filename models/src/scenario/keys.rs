@@ -74,124 +74,85 @@ const fn other(
     Key { tables, name, range, meaning, get: None }
 }
 
+/// Accepted numbers with their factor to SI, and the advice below and above them.
+const fn range(name: &'static str, unit: &'static str, si: f64, ends: [f64; 2], advice: [&'static str; 2]) -> Range {
+    Range { name, unit, si, low: ends[0], high: ends[1], too_small: advice[0], too_large: advice[1] }
+}
+
 const BODY: &[&str] = &["body"];
 const BODY_OR_ZONE: &[&str] = &["body", "zone"];
 const ACTUATOR: &[&str] = &["actuator"];
 const STRIP: &[&str] = &["actuator", "strip"];
 const UNIT: &[&str] = &["actuator", "strip", "zone"];
+const ZONE: &[&str] = &["zone"];
+const SUPPLY: &[&str] = &["supply"];
+const LENGTH: Range = Range::LENGTH;
+pub(super) const POSITION: Range =
+    Range { name: "position", low: 0.0, too_small: "positions count from the base", ..LENGTH };
+pub(super) const SEGMENTS: Range = Range { name: "segments", ..Range::plain(1.0, 2000.0, "12 is the usual value") };
+const DEGREE: f64 = PI / 180.0;
+const WALL: &str = "write N/m, for example 40000 for 200 MPa x 0.2 mm";
 
 /// All keys of the tables, in the order of the document.
 #[rustfmt::skip]
 pub const KEYS: &[Key] = &[
-    number(BODY_OR_ZONE, "radius_mm", RADIUS, "radius R of the inflated body", |s| s.radius_m),
-    number(BODY, "length_mm", Range::LENGTH, "length L from clamp to tip", |s| s.length_m),
-    number(BODY, "pressure_kpa", BODY_PRESSURE, "body pressure p_b", |s| s.p_body_pa),
-    number(BODY_OR_ZONE, "bending_stiffness_nm2", STIFFNESS, "effective bending stiffness B", |s| s.bending_stiffness),
-    number(BODY, "hinge_curvature_per_m", HINGE, "curvature over which the restoring moment sets in", |s| s.hinge_curvature),
-    number(BODY, "hinge_moment_share", SHARE, "restoring moment of the base law over πp_bR³", |s| s.hinge_share),
-    other(BODY, "wall_stiffness_n_per_m", Some(WALL), "membrane stiffness E t of the wall"),
-    other(BODY, "wall_shear_n_per_m", Some(SHEAR), "shear stiffness G t of the wall"),
+    number(BODY_OR_ZONE, "radius_mm", Range { name: "radius", high: 1000.0, ..LENGTH }, "radius R of the inflated body", |s| s.radius_m),
+    number(BODY, "length_mm", LENGTH, "length L from clamp to tip", |s| s.length_m),
+    number(BODY, "pressure_kpa", Range::BODY_PRESSURE, "body pressure p_b", |s| s.p_body_pa),
+    number(BODY_OR_ZONE, "bending_stiffness_nm2", range("bending stiffness", "N m²", 1.0, [0.0, 1e3], [
+        "a stiffness is not negative", "write N·m²; 1 N·m² is 1e6 N·mm²",
+    ]), "effective bending stiffness B", |s| s.bending_stiffness),
+    number(BODY, "hinge_curvature_per_m", range("hinge curvature", "1/m", 1.0, [1e-6, 10.0], [
+        "it must be positive; 0.05 is the usual value", "write 1/m; 0.05 is the usual value",
+    ]), "curvature over which the restoring moment sets in", |s| s.hinge_curvature),
+    number(BODY, "hinge_moment_share", Range {
+        name: "hinge moment share", ..Range::plain(0.0, 2.0, "1 is the collapse moment πp_bR³, 0.5 the first wrinkle")
+    }, "restoring moment of the base law over πp_bR³", |s| s.hinge_share),
+    other(BODY, "wall_stiffness_n_per_m", Some(range("wall stiffness", "N/m", 1.0, [100.0, 1e8], [
+        "this looks like N/mm: write N/m, for example 40000 for 200 MPa x 0.2 mm", WALL,
+    ])), "membrane stiffness E t of the wall"),
+    other(BODY, "wall_shear_n_per_m", Some(range("wall shear stiffness", "N/m", 1.0, [0.0, 1e8], ["a stiffness is not negative", WALL])),
+        "shear stiffness G t of the wall"),
     other(BODY, "wall_basis", None, "how the two are known"),
     other(BODY, "centre_line_mm", Some(POSITION), "distance of the centre line from the taut generator"),
     other(BODY, "gravity", None, "direction of gravity in the x–y plane"),
     other(ACTUATOR, "kind", None, "kind of the actuator"),
-    number(UNIT, "length_mm", Range::LENGTH, "flat length of one unit", |s| s.actuator.shape.length_m),
-    number(UNIT, "width_mm", Range::LENGTH, "flat width of one unit", |s| s.actuator.shape.width_m),
-    number(STRIP, "count", COUNT, "units in series", |s| s.actuator.count as f64),
+    number(UNIT, "length_mm", LENGTH, "flat length of one unit", |s| s.actuator.shape.length_m),
+    number(UNIT, "width_mm", LENGTH, "flat width of one unit", |s| s.actuator.shape.width_m),
+    number(STRIP, "count", Range { name: "count", ..Range::plain(1.0, 10_000.0, "units in series") }, "units in series",
+        |s| s.actuator.count as f64),
     number(STRIP, "start_mm", POSITION, "station of the first unit", |s| s.actuator.start_m),
-    other(UNIT, "arm_mm", Some(Range::LENGTH), "arm from the taut generator to the line of action"),
+    other(UNIT, "arm_mm", Some(LENGTH), "arm from the taut generator to the line of action"),
     number(UNIT, "fold_mm", POSITION, "depth of a lateral gusset fold", |s| s.actuator.shape.fold_m),
-    number(STRIP, "volume_gain", GAIN, "factor on the enclosed volume", |s| s.actuator.shape.volume_gain),
-    number(ACTUATOR, "bias_deg", BIAS_ANGLE, "angle of a muscle's yarns to its axis", |s| s.actuator.shape.bias_rad),
-    number(UNIT, "channel", CHANNEL, "supply line that feeds it", |s| s.actuator.channel as f64),
-    number(ACTUATOR, "max_pressure_kpa", MOST_PRESSURE, "largest pressure an inverse may ask for", |s| s.p_max_pa),
-    number(STRIP, "azimuth_deg", AZIMUTH, "azimuth of the strip's start", |s| s.actuator.azimuth_rad),
-    number(STRIP, "turns", TURNS, "turns round the body from start to end", |s| s.actuator.turns),
+    number(STRIP, "volume_gain", Range { name: "volume gain", ..Range::plain(0.05, 20.0, "1 is the plain pouch") },
+        "factor on the enclosed volume", |s| s.actuator.shape.volume_gain),
+    number(ACTUATOR, "bias_deg", range("bias angle", "deg", DEGREE, [15.0, 75.0], [
+        "write degrees from the axis; a bias cut has 45", "write degrees from the axis; a muscle with yarns beyond 54.7 lengthens",
+    ]), "angle of a muscle's yarns to its axis", |s| s.actuator.shape.bias_rad),
+    number(UNIT, "channel", Range { name: "channel", ..Range::plain(0.0, (CHANNELS - 1) as f64, "number of the supply line") },
+        "supply line that feeds it", |s| s.actuator.channel as f64),
+    number(ACTUATOR, "max_pressure_kpa", Range { low: 0.001, too_small: "the inverse looks up to it", ..Range::PRESSURE },
+        "largest pressure an inverse may ask for", |s| s.p_max_pa),
+    number(STRIP, "azimuth_deg", range("azimuth", "deg", DEGREE, [-360.0, 360.0], ["write degrees from y towards z: 90 is z"; 2]),
+        "azimuth of the strip's start", |s| s.actuator.azimuth_rad),
+    number(STRIP, "turns", Range { name: "turns", ..Range::plain(-20.0, 20.0, "write turns round the body from start to end") },
+        "turns round the body from start to end", |s| s.actuator.turns),
     other(ZONE, "from_mm", Some(POSITION), "start of the stretch"),
     other(ZONE, "to_mm", Some(POSITION), "end of the stretch"),
     other(ZONE, "passive", None, "whether the stretch has no actuator"),
-    other(&["markers"], "s_mm", Some(POSITION), "stations of the markers"),
-    other(&["predict"], "pressures_kpa", Some(Range::PRESSURE), "actuator pressures of a prediction"),
+    other(&["markers"], "s_mm", Some(Range::STATION), "stations of the markers"),
+    other(&["predict"], "pressures_kpa", Some(Range::ACTUATOR_PRESSURE), "actuator pressures of a prediction"),
     number(&["predict"], "segments", SEGMENTS, "division of the body where something varies along it", |s| s.segments as f64),
-    other(SUPPLY, "valve_time_s", Some(VALVE_TIME), "time constant of valve or regulator"),
-    other(SUPPLY, "conductance_l_per_s_bar", Some(CONDUCTANCE), "sonic conductance of valve and tube"),
-    other(SUPPLY, "volume_ml", Some(VOLUME), "volume that is filled"),
-    other(SUPPLY, "critical_ratio", Some(RATIO), "ratio of pressures below which the flow is choked"),
-];
-
-const ZONE: &[&str] = &["zone"];
-const SUPPLY: &[&str] = &["supply"];
-
-const RADIUS: Range = Range { name: "radius", high: 1000.0, ..Range::LENGTH };
-pub(super) const POSITION: Range =
-    Range { name: "position", low: 0.0, too_small: "positions count from the base", ..Range::LENGTH };
-const MOST_PRESSURE: Range = Range { low: 0.001, too_small: "the inverse looks up to it", ..Range::PRESSURE };
-const BODY_PRESSURE: Range = Range {
-    low: 0.5,
-    high: 100.0,
-    too_small: "this looks like psi: write kilopascals, for example 2 for 0.29 psi (1 psi is 6.895 kPa)",
-    ..Range::PRESSURE
-};
-const STIFFNESS: Range = Range {
-    name: "bending stiffness",
-    unit: "N m²",
-    too_small: "a stiffness is not negative",
-    ..Range::plain(0.0, 1e3, "write N·m²; 1 N·m² is 1e6 N·mm²")
-};
-const HINGE: Range = Range {
-    name: "hinge curvature",
-    unit: "1/m",
-    too_small: "it must be positive; 0.05 is the usual value",
-    ..Range::plain(1e-6, 10.0, "write 1/m; 0.05 is the usual value")
-};
-const SHARE: Range = Range {
-    name: "hinge moment share",
-    ..Range::plain(0.0, 2.0, "1 is the collapse moment πp_bR³, 0.5 the first wrinkle")
-};
-const WALL: Range = Range {
-    name: "wall stiffness",
-    unit: "N/m",
-    too_small: "this looks like N/mm: write N/m, for example 40000 for 200 MPa x 0.2 mm",
-    ..Range::plain(100.0, 1e8, "write N/m, for example 40000 for 200 MPa x 0.2 mm")
-};
-const SHEAR: Range = Range { name: "wall shear stiffness", low: 0.0, too_small: "a stiffness is not negative", ..WALL };
-const COUNT: Range = Range { name: "count", ..Range::plain(1.0, 10_000.0, "units in series") };
-const CHANNEL: Range =
-    Range { name: "channel", ..Range::plain(0.0, (CHANNELS - 1) as f64, "number of the supply line") };
-pub(super) const SEGMENTS: Range = Range { name: "segments", ..Range::plain(1.0, 2000.0, "12 is the usual value") };
-const GAIN: Range = Range { name: "volume gain", ..Range::plain(0.05, 20.0, "1 is the plain pouch") };
-const BIAS_ANGLE: Range = Range {
-    name: "bias angle",
-    unit: "deg",
-    si: PI / 180.0,
-    too_small: "write degrees from the axis; a bias cut has 45",
-    ..Range::plain(15.0, 75.0, "write degrees from the axis; a muscle with yarns beyond 54.7 lengthens")
-};
-const AZIMUTH: Range = Range {
-    name: "azimuth",
-    unit: "deg",
-    si: PI / 180.0,
-    ..Range::plain(-360.0, 360.0, "write degrees from y towards z: 90 is z")
-};
-const TURNS: Range =
-    Range { name: "turns", ..Range::plain(-20.0, 20.0, "write turns round the body from start to end") };
-const VALVE_TIME: Range = Range {
-    name: "valve time",
-    unit: "s",
-    too_large: "write seconds: 0.05 for 50 ms",
-    ..Range::plain(0.0, 60.0, "0 is a valve without lag")
-};
-const CONDUCTANCE: Range = Range {
-    name: "conductance",
-    unit: "l/(s bar)",
+    other(SUPPLY, "valve_time_s", Some(range("valve time", "s", 1.0, [0.0, 60.0], [
+        "0 is a valve without lag", "write seconds: 0.05 for 50 ms",
+    ])), "time constant of valve or regulator"),
     // dm³/(s·bar) in m³/(s·Pa).
-    si: 1e-8,
-    ..Range::plain(1e-4, 1e3, "write litres per second and bar (ISO 6358), for example 0.1")
-};
-const RATIO: Range = Range { name: "critical ratio", ..Range::plain(0.0, 0.8, "0.2 to 0.5 are usual") };
-const VOLUME: Range = Range {
-    name: "volume",
-    unit: "ml",
-    si: 1e-6,
-    ..Range::plain(0.01, 1e6, "write millilitres of actuator and tube, for example 400")
-};
+    other(SUPPLY, "conductance_l_per_s_bar", Some(range("conductance", "l/(s bar)", 1e-8, [1e-4, 1e3], [
+        "write litres per second and bar (ISO 6358), for example 0.1"; 2
+    ])), "sonic conductance of valve and tube"),
+    other(SUPPLY, "volume_ml", Some(range("volume", "ml", 1e-6, [0.01, 1e6], [
+        "write millilitres of actuator and tube, for example 400"; 2
+    ])), "volume that is filled"),
+    other(SUPPLY, "critical_ratio", Some(Range { name: "critical ratio", ..Range::plain(0.0, 0.8, "0.2 to 0.5 are usual") }),
+        "ratio of pressures below which the flow is choked"),
+];

@@ -1,5 +1,7 @@
 //! Pressures typed with their unit, as on a command line.
 
+use spelling::units::Range;
+
 pub use spelling::quantity::{Quantity, parse};
 
 /// Most pressures of one list.
@@ -47,9 +49,8 @@ fn range(text: &str, most: usize) -> Result<Vec<f64>, String> {
 
 fn channels(text: &str) -> Result<[f64; crate::CHANNELS], String> {
     let given = text.split('/').map(|p| parse(p, Quantity::Pressure)).collect::<Result<Vec<f64>, String>>()?;
-    if let Some(p) = given.iter().find(|p| **p < 0.0) {
-        return Err(format!("`{text}`: {} kPa is below zero; pressures are gauge pressures", p / 1e3));
-    }
+    let bounded = |p: &f64| Range::ACTUATOR_PRESSURE.check(*p).map(drop);
+    given.iter().try_for_each(bounded).map_err(|(message, help)| format!("`{text}`: {message}; {help}"))?;
     match given.as_slice() {
         [one] => Ok([*one; crate::CHANNELS]),
         many if many.len() <= crate::CHANNELS => {

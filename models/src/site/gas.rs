@@ -1,4 +1,4 @@
-//! What the gas of an actuator does.
+//! The work of the gas of an actuator.
 
 use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 

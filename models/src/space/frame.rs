@@ -48,7 +48,7 @@ pub(crate) struct Bend {
 
 impl Bend {
     /// |κ| \[1/m\].
-    pub fn size(&self) -> f64 {
+    pub(crate) fn size(&self) -> f64 {
         self.kappa[0].hypot(self.kappa[1])
     }
 }
@@ -69,7 +69,7 @@ pub(crate) fn mix(a: f64, x: [f64; 3], b: f64, y: [f64; 3]) -> [f64; 3] {
 
 impl Stretch {
     /// Place and frame at a distance from its start \[m\].
-    pub fn at(&self, offset_m: f64) -> Frame {
+    pub(crate) fn at(&self, offset_m: f64) -> Frame {
         let Frame { at, tangent, sides } = self.from;
         let (size, [ky, kz]) = (self.bend.size(), self.bend.kappa);
         let [along, across, _, _, _, _, sin, cos] = sinc_pair(size * offset_m);

@@ -6,10 +6,9 @@ use crate::actuators::Actuator;
 use crate::assembly::{Assembly, Segment, Strip};
 use crate::body::BODY_PRESSURE;
 use crate::error::Unsolved;
-use crate::linkage::FABRIC_STRETCH;
 use crate::root::{Start, find_root};
 use crate::site::{Site, SiteLoads, SiteState};
-use crate::term::{LedgerLine, Pose, Term, actuator_q};
+use crate::term::{LedgerLine, Pose, Term};
 use std::f64::consts::PI;
 
 /// Newton steps; a dozen are usual.
@@ -81,7 +80,7 @@ fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 impl<'a> Section<'a> {
-    pub fn new(assembly: &'a Assembly, index: usize, p_body_pa: f64) -> Section<'a> {
+    pub(crate) fn new(assembly: &'a Assembly, index: usize, p_body_pa: f64) -> Section<'a> {
         let (segment, strips) = (assembly.segments[index], assembly.around[index].as_slice());
         let body = &assembly.sites[segment.site];
         let round_m2 = PI * body.radius_m.powi(2);
@@ -219,7 +218,7 @@ impl<'a> Section<'a> {
     }
 
     /// The equilibrium; `strips` has the pressures, and gets the rest.
-    pub fn solve(&self, strips: &mut [StripState]) -> Result<Bend, Unsolved> {
+    pub(crate) fn solve(&self, strips: &mut [StripState]) -> Result<Bend, Unsolved> {
         for state in &mut *strips {
             (state.coordinate, state.tension) = (0.0, 0.0);
         }
@@ -317,22 +316,15 @@ impl<'a> Section<'a> {
     }
 
     /// Energies per metre of body \[J/m\] by line of the ledger.
-    pub fn energies(&self, bend: &Bend, strips: &[StripState], post: &mut dyn FnMut(LedgerLine, f64)) {
-        let mut unused = [0.0; actuator_q::LEN];
+    pub(crate) fn energies(&self, bend: &Bend, strips: &[StripState], post: &mut dyn FnMut(LedgerLine, f64)) {
         for (strip, state) in self.strips.iter().zip(strips) {
             let site = &self.sites[strip.site];
             let Some(actuator) = site.actuator.filter(|_| state.p_act_pa > 0.0) else { continue };
             let stroke = (actuator.stroke)(&site.shape, state.coordinate.max(actuator.range.0));
-            let rest = (actuator.stroke)(&site.shape, 0.0_f64.max(actuator.range.0));
-            let q = [state.coordinate, stroke.contraction, stroke.volume - rest.volume, site.geometric(&stroke)];
-            let pose = Pose { s_m: self.segment.middle_m(), ..Pose::new(&q, self.p_body_pa, state.p_act_pa) };
-            for term in &site.actuator_terms {
-                post(term.line(), term.add(&pose, &mut unused) * site.linkage.active_fraction / strip.cos_slant);
-            }
-            let stretch = 0.5 * site.linkage.compliance_per_n * state.tension * state.tension;
-            if stretch != 0.0 {
-                post(FABRIC_STRETCH, stretch / strip.cos_slant);
-            }
+            let at = Pose { s_m: self.segment.middle_m(), ..Pose::new(&[], self.p_body_pa, state.p_act_pa) };
+            site.actuator_energies(&stroke, [state.coordinate, state.tension], &at, &mut |line, energy| {
+                post(line, energy / strip.cos_slant);
+            });
         }
         let gas = self.area_m2 * bend.contraction + dot(self.moment_m3, bend.kappa);
         post(BODY_PRESSURE, self.p_body_pa * gas);
@@ -341,7 +333,7 @@ impl<'a> Section<'a> {
 
     /// Energy per metre at any bend and contraction, strips settled \[J/m\]; for tests.
     #[cfg(test)]
-    pub fn energy(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> f64 {
+    pub(crate) fn energy(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> f64 {
         self.pulls(strips, kappa, contraction);
         let mut sum = 0.0;
         self.energies(&Bend { kappa, contraction }, strips, &mut |_, energy| sum += energy);
@@ -350,7 +342,7 @@ impl<'a> Section<'a> {
 
     /// Forces on κ and ε₀ there, of everything but the constraint; for tests.
     #[cfg(test)]
-    pub fn forces(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> [f64; 3] {
+    pub(crate) fn forces(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> [f64; 3] {
         let pulls = self.pulls(strips, kappa, contraction);
         let by = |i: usize| pulls.moment[i] - self.p_body_pa * self.moment_m3[i] - self.bending * kappa[i];
         [by(0), by(1), pulls.force - self.p_body_pa * self.area_m2]

@@ -39,7 +39,7 @@ pub(crate) struct SpaceWork {
 }
 
 impl SpaceWork {
-    pub fn new(assembly: &Assembly) -> SpaceWork {
+    pub(crate) fn new(assembly: &Assembly) -> SpaceWork {
         let count = assembly.around.len();
         SpaceWork {
             bends: vec![Bend::default(); count],

@@ -5,6 +5,7 @@ use super::{PatternSheet, PenLine, SheetText};
 /// The drawing as a DXF file: one layer a pen, and `TEXT` for words. Characters beyond ASCII become `?`, which R12 has not.
 pub fn dxf(sheet: &PatternSheet) -> String {
     let mut out = Pairs::default();
+    out.text(999, "made by ibr");
     out.section("HEADER");
     out.text(9, "$ACADVER").text(1, "AC1009");
     out.text(9, "$INSUNITS").text(70, "4");

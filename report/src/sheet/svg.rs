@@ -62,6 +62,7 @@ fn document(sheet: &PatternSheet, paper: [f64; 2], corner: [f64; 2], window: [f6
     let _ = writeln!(
         out,
         r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}mm" height="{height}mm" viewBox="0 0 {width} {height}">
+<!-- made by ibr -->
 <title>{}</title>
 <svg x="{}" y="{}" width="{w}" height="{h}" viewBox="{x} {y} {w} {h}" overflow="hidden">"#,
         escape(&sheet.title),

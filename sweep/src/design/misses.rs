@@ -41,7 +41,7 @@ impl Miss {
 }
 
 /// The largest miss \[m\]; 0 without any.
-pub fn worst_m<'a>(misses: impl IntoIterator<Item = &'a Miss>) -> f64 {
+pub(super) fn worst_m<'a>(misses: impl IntoIterator<Item = &'a Miss>) -> f64 {
     misses.into_iter().map(|miss| miss.miss_m).fold(0.0, f64::max)
 }
 

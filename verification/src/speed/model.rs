@@ -3,8 +3,8 @@
 use crate::{Error, Findings, Printed};
 use compare::Progress;
 use compare::study::published::shipped_scenario;
-use models::{Loads, Model, Scenario, Target, Unsolved};
 use fem::record::RecordShape;
+use models::{Loads, Model, Scenario, Target, Unsolved};
 use serde::Serialize;
 use std::time::Instant;
 

@@ -72,60 +72,47 @@ pub fn diagnose_bench(
     let Some(base) = fits.pop() else { return refuse(bench, "nothing was fitted", "add rows") };
     let allowance = sort(&table, &base, &mut fits);
     let set = set(&table, &base, &fits, allowance);
-    let judged = judge(&table, &base, set.first().map(|i| &fits[*i]), options.alpha);
-    let left_out = left_out(&table, &base, &fits);
-    let ranked: Vec<BenchRanked> = fits
-        .iter()
-        .enumerate()
-        .map(|(i, fit)| BenchRanked {
-            left_out: left_out.iter().map(|parts| parts[i + 1].clone()).collect(),
-            in_set: set.contains(&i),
-            ..ranked(&table, &base, fit)
-        })
-        .collect();
     let best = set.first().map(|i| &fits[*i]);
+    let (verdict, p_value, explains) = judge(&table, &base, best, options.alpha);
+    let left_out = left_out(&table, &base, &fits);
+    // The base comes first there.
+    let left_out = |i: usize| left_out.iter().map(|parts| parts[i].clone()).collect::<Vec<_>>();
+    let ranked = |(i, fit): (usize, &Fit)| ranked(&table, &base, fit, (left_out(i + 1), set.contains(&i)));
     let places = |fit: &Fit| off(&table, fit).map(|off| story::places(&table, &off)).unwrap_or_default();
     let shares: Vec<f64> = table.readings.iter().filter_map(|r| r.noise()).collect();
     let spare = table.readings.len().saturating_sub(table.count(None)).max(1) as f64;
-    let mut found = BenchDiagnosis {
+    let found = BenchDiagnosis {
         table: bench.file.clone(),
         kind: bench.kind.name,
         scenario: table.name().to_string(),
         rows: table.readings.len(),
         noise_known: table.known,
-        verdict: judged.verdict,
-        p_value: judged.p_value,
+        verdict,
+        p_value,
         alpha: options.alpha,
         off: rms_off(&table, &base),
         noise: table.known.then(|| rms(&shares).exp_m1()),
         reduced_chi2: table.known.then(|| base.minimum.cost / spare),
         base: table.values(&base),
-        left_out: left_out.iter().map(|parts| parts[0].clone()).collect(),
-        ranked,
-        explains: judged.explains,
+        left_out: left_out(0),
+        ranked: fits.iter().enumerate().map(ranked).collect(),
+        explains,
         unsized_laws: table.unsized_laws.clone(),
         summary: Vec::new(),
         where_it_fails: places(&base),
         leftover: best.map(places).unwrap_or_default(),
     };
-    found.summary = story::story(&found);
-    Ok(found)
+    Ok(BenchDiagnosis { summary: story::story(&found), ..found })
 }
 
-/// Verdict and what it rests on.
-struct Judged {
-    verdict: Option<Verdict>,
-    p_value: Option<f64>,
-    explains: bool,
-}
-
-fn judge(table: &Table, base: &Fit, best: Option<&Fit>, alpha: f64) -> Judged {
+/// Verdict, its p, and whether the best law explains the table.
+fn judge(table: &Table, base: &Fit, best: Option<&Fit>, alpha: f64) -> (Option<Verdict>, Option<f64>, bool) {
     let lack = |fit: &Fit| chi2_tail(fit.minimum.cost, table.readings.len().saturating_sub(table.count(fit.law)));
     let left =
         best.map_or(1.0, |fit| rms_off(table, fit).ln_1p() / rms_off(table, base).ln_1p().max(f64::MIN_POSITIVE));
     let little = left <= policy::LEFT_BY_ONE;
     if !table.known {
-        return Judged { verdict: None, p_value: None, explains: little };
+        return (None, None, little);
     }
     let p_effect = best.map_or(1.0, |fit| p_of(table, base, fit));
     let p = combined(p_effect, lack(base));
@@ -135,19 +122,19 @@ fn judge(table: &Table, base: &Fit, best: Option<&Fit>, alpha: f64) -> Judged {
         () if explains && p_effect < policy::SHARE_OF_EFFECTS * alpha => Verdict::Effect,
         () => Verdict::OutOfCatalog,
     };
-    Judged { verdict: Some(verdict), p_value: Some(reported_p(p)), explains: explains && verdict == Verdict::Effect }
+    (Some(verdict), Some(reported_p(p)), explains && verdict == Verdict::Effect)
 }
 
 /// p of a gain, corrected for all laws tried.
 fn p_of(table: &Table, base: &Fit, fit: &Fit) -> f64 {
     let added = table.count(fit.law) - table.count(None);
     let tests = table.tried_laws().count() as f64;
-    (tests * chi2_tail(base.minimum.cost - fit.minimum.cost, added)).min(1.0)
+    (tests * chi2_tail(fit.gain_over(base), added)).min(1.0)
 }
 
 /// Sorts fits, and returns the allowance for the form of laws.
 fn sort(table: &Table, base: &Fit, fits: &mut [Fit]) -> f64 {
-    let gains = fits.iter().filter(|f| !f.binding.contains(&true)).map(|f| base.minimum.cost - f.minimum.cost);
+    let gains = fits.iter().filter(|f| !f.is_rejected()).map(|f| f.gain_over(base));
     let allowance = order::allowance(gains.fold(0.0, f64::max));
     fits.sort_by(|a, b| criterion(table, a, allowance).total_cmp(&criterion(table, b, allowance)));
     allowance
@@ -161,14 +148,13 @@ fn criterion(table: &Table, fit: &Fit, allowance: f64) -> f64 {
 
 /// Fits that cannot be told from the best one that no bound rejects; none where none of them gains.
 fn set(table: &Table, base: &Fit, fits: &[Fit], allowance: f64) -> Vec<usize> {
-    let acceptable =
-        |i: &usize| !fits[*i].binding.contains(&true) && policy::helps(base.minimum.cost - fits[*i].minimum.cost);
+    let acceptable = |i: &usize| !fits[*i].is_rejected() && policy::helps(fits[*i].gain_over(base));
     let c = |i: usize| criterion(table, &fits[i], allowance);
     let Some(best) = (0..fits.len()).find(acceptable) else { return Vec::new() };
     (0..fits.len()).filter(acceptable).filter(|i| policy::is_alike(c(*i), c(best))).collect()
 }
 
-fn ranked(table: &Table, base: &Fit, fit: &Fit) -> BenchRanked {
+fn ranked(table: &Table, base: &Fit, fit: &Fit, (left_out, in_set): (Vec<LeftOut>, bool)) -> BenchRanked {
     let candidate = &table.laws[fit.law.unwrap_or_default()].candidate;
     let values = table.values(fit);
     let parameters = values[values.len() - candidate.parameters.len()..].to_vec();
@@ -178,13 +164,13 @@ fn ranked(table: &Table, base: &Fit, fit: &Fit) -> BenchRanked {
         sentence: candidate.sentence.clone(),
         differs: candidate.differs.clone(),
         remedy: candidate.remedy.clone(),
-        at_bound: fit.binding.contains(&true),
+        at_bound: fit.is_rejected(),
         parameters,
         off: rms_off(table, fit),
-        gain: base.minimum.cost - fit.minimum.cost,
+        gain: fit.gain_over(base),
         p_corrected: table.known.then(|| reported_p(p_of(table, base, fit))),
-        left_out: Vec::new(),
-        in_set: false,
+        left_out,
+        in_set,
     }
 }
 
@@ -228,7 +214,7 @@ fn left_out_by(table: &Table, base: &Fit, fits: &[Fit], what: &'static str, part
             let refitted = table.refit(fit.law, &fit.minimum.at, &kept);
             let off = refitted.as_ref().and_then(|m| table.off(fit.law, &m.at));
             squares[i] += off.map_or(f64::INFINITY, |off| part.iter().map(|k| off[*k].powi(2)).sum());
-            costs[i] = refitted.filter(|_| !fit.binding.contains(&true)).map_or(f64::INFINITY, |m| m.cost);
+            costs[i] = refitted.filter(|_| !fit.is_rejected()).map_or(f64::INFINITY, |m| m.cost);
         }
         let best = (0..all.len()).min_by(|a, b| costs[*a].total_cmp(&costs[*b])).unwrap_or_default();
         first_in[best] += 1;

@@ -55,6 +55,18 @@ pub struct Fit {
     pub binding: Vec<bool>,
 }
 
+impl Fit {
+    /// Whether the data push against a bound.
+    pub fn is_rejected(&self) -> bool {
+        self.binding.contains(&true)
+    }
+
+    /// Fall of the whitened sum of squares.
+    pub fn gain_over(&self, base: &Fit) -> f64 {
+        base.minimum.cost - self.minimum.cost
+    }
+}
+
 impl<'a> Table<'a> {
     /// Reads a table; `sigma` is the relative standard deviation of rows that state none.
     pub fn new(
@@ -238,7 +250,7 @@ impl<'a> Table<'a> {
     /// Without standard deviations what the best fit leaves is taken for noise.
     pub fn take_for_noise(&mut self, fits: &mut [Fit]) {
         let spare = |f: &Fit| self.readings.len().saturating_sub(self.count(f.law)).max(1) as f64;
-        let variances = fits.iter().filter(|f| !f.binding.contains(&true)).map(|f| f.minimum.cost / spare(f));
+        let variances = fits.iter().filter(|f| !f.is_rejected()).map(|f| f.minimum.cost / spare(f));
         let Some(least) = variances.reduce(f64::min).filter(|_| !self.known) else { return };
         let factor = least.sqrt().max(LEAST_SIGMA / self.sigma);
         self.sigma *= factor;

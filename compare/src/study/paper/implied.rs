@@ -79,16 +79,14 @@ impl HeightRow {
 
 /// Every robot of the paper at every pressure on every mesh of the list for which there is a run.
 pub fn heights(paper: &Published, runs: &[PaperRun], meshes_mm: &[[f64; 2]]) -> Vec<HeightRow> {
-    let places = |actuator: &PublishedActuator| {
-        let at = |(pa, _): &(f64, f64)| meshes_mm.iter().map(move |mesh| (*mesh, pa * 1e-3)).collect::<Vec<_>>();
-        actuator.accuracy.iter().flat_map(at).collect::<Vec<_>>()
-    };
-    let of = |actuator| {
-        places(actuator)
-            .into_iter()
-            .filter_map(move |(mesh, kpa)| against(actuator, find(runs, &actuator.kind, mesh, kpa)?))
-    };
-    paper.actuators.iter().flat_map(of).collect()
+    let mut out = Vec::new();
+    for actuator in &paper.actuators {
+        for (pa, _) in &actuator.accuracy {
+            let found = meshes_mm.iter().filter_map(|mesh| find(runs, &actuator.kind, *mesh, pa * 1e-3));
+            out.extend(found.filter_map(|run| against(actuator, run)));
+        }
+    }
+    out
 }
 
 /// One run next to what the paper implies.

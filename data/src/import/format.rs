@@ -1,0 +1,23 @@
+//! A kind of tracking file.
+
+use super::options::ImportOptions;
+use super::recording::Recording;
+use super::sheet::CellText;
+use crate::error::Result;
+
+/// A kind of tracking file.
+#[derive(Debug)]
+pub struct Format {
+    /// What wrote it.
+    pub name: &'static str,
+    /// How it is known.
+    pub known_by: &'static str,
+    /// A small file of this kind below `data/tests`.
+    pub fixture: &'static str,
+    /// Likelihood below which positions are lost, unless the caller gives another; `None` without likelihoods.
+    pub likelihood: Option<f64>,
+    /// Whether a text, of which these are the first lines as cells, is of this kind.
+    pub(crate) recognise: fn(&CellText, &[Vec<&str>], &ImportOptions) -> bool,
+    /// Its runs.
+    pub(crate) read: fn(&CellText, &ImportOptions) -> Result<Vec<Recording>>,
+}

@@ -1,0 +1,221 @@
+//! What the columns of a tracking table hold. Every kind of file declares it; one loop reads the rows.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+use super::recording::{FrameClock, Lengths, Pivot, Recording, counted};
+use super::sheet::CellText;
+use crate::cells::{is_nothing, label};
+use crate::error::Result;
+
+/// What a column of a marker holds.
+pub(super) const PARTS: [&str; 4] = ["x", "y", "z", "likelihood"];
+
+/// The columns of one marker, in the order of [`PARTS`].
+struct Track {
+    /// Empty where a column names the marker of every row.
+    name: String,
+    columns: [Option<usize>; PARTS.len()],
+}
+
+/// The columns of a table with a row for every frame, or for every frame and marker.
+pub(super) struct Layout {
+    pub time: usize,
+    /// Seconds of its unit; `None` for numbers of frames.
+    pub second: Option<f64>,
+    pub lengths: Lengths,
+    /// Columns that name the run, the actuator and the marker of a row.
+    pub run: Option<usize>,
+    pub actuator: Option<usize>,
+    pub marker: Option<usize>,
+    /// Columns of the body's and the actuator's pressure, with their pascals.
+    pub pressures: [Option<(usize, f64)>; 2],
+    /// Least likelihood of a position, and the largest that there is.
+    pub likely: [f64; 2],
+    pub y_down: bool,
+    /// Cells of every row; `None` if rows may be shorter.
+    pub width: Option<usize>,
+    /// The time rises from row to row of a run.
+    pub rises: bool,
+    pub named: bool,
+    /// What a row is, and what names its marker.
+    pub row_of: [&'static str; 2],
+    /// What to do about a marker that has two places at one time; `None` if every run has its own file.
+    pub twice: Option<&'static str>,
+    pub told: Vec<String>,
+    tracks: Vec<Track>,
+}
+
+impl Layout {
+    /// No marker yet; times of this unit in this column.
+    pub fn new(time: usize, second: Option<f64>, lengths: Lengths) -> Layout {
+        Layout {
+            time,
+            second,
+            lengths,
+            run: None,
+            actuator: None,
+            marker: None,
+            pressures: [None, None],
+            likely: [f64::NEG_INFINITY, f64::INFINITY],
+            y_down: false,
+            width: None,
+            rises: false,
+            named: true,
+            row_of: ["row", "marker"],
+            twice: None,
+            told: Vec::new(),
+            tracks: Vec::new(),
+        }
+    }
+
+    /// A column of a marker, new or known.
+    ///
+    /// # Errors
+    /// Two columns of one part.
+    pub fn add(&mut self, sheet: &CellText, line: u64, name: &str, part: usize, column: usize) -> Result<()> {
+        let at = self.tracks.iter().position(|track| track.name == name).unwrap_or_else(|| {
+            self.tracks.push(Track { name: name.to_string(), columns: [None; PARTS.len()] });
+            self.tracks.len() - 1
+        });
+        if self.tracks[at].columns[part].replace(column).is_none() {
+            return Ok(());
+        }
+        let message = format!("two columns are {} of {}", PARTS[part], of(name));
+        Err(sheet.fault(line, message, "give every marker a name of its own: x_a, y_a, x_b, y_b"))
+    }
+
+    /// Reads the rows that are left.
+    ///
+    /// # Errors
+    /// No marker, or one without x, y or another of `parts` coordinates; a cell or a row that cannot be read; a time that goes back.
+    pub fn read<'s>(
+        self,
+        sheet: &CellText<'s>,
+        header: u64,
+        parts: usize,
+        rows: impl Iterator<Item = (u64, &'s str)>,
+    ) -> Result<Vec<Recording>> {
+        for track in &self.tracks {
+            if let Some(part) = (0..parts).find(|part| track.columns[*part].is_none()) {
+                let message = format!("{} has no column of {}", of(&track.name), PARTS[part]);
+                return Err(sheet.fault(header, message, "every marker needs its coordinates: export it again"));
+            }
+        }
+        if self.tracks.is_empty() {
+            return Err(sheet.fault(header, "no column is the position of a marker", "export the places of markers"));
+        }
+        let mut runs = Runs::new(&self);
+        let (mut cells, mut nameless) = (Vec::new(), 0);
+        for (number, line) in rows {
+            sheet.split_into(line, &mut cells);
+            self.width.map_or(Ok(()), |width| sheet.whole_row(&cells, width, number))?;
+            let marker = self.marker.map(|column| label(cell(&cells, column)));
+            if marker.is_some_and(is_nothing) && self.tracks[0].name.is_empty() {
+                nameless += 1;
+                continue;
+            }
+            let pivot = runs.of([self.run, self.actuator].map(|column| column.map(|column| cell(&cells, column))));
+            self.read_row(sheet, number, &cells, marker, pivot)?;
+        }
+        let [row, what] = self.row_of;
+        let left_out = (nameless > 0).then(|| format!("left out: {} of no {what}", counted(nameless, row)));
+        Ok(runs.finish(self.named, left_out.into_iter().chain(self.told).collect()))
+    }
+
+    fn read_row(
+        &self,
+        sheet: &CellText,
+        number: u64,
+        cells: &[&str],
+        marker: Option<&str>,
+        pivot: &mut Pivot,
+    ) -> Result<()> {
+        let time = cell(cells, self.time);
+        let t = self.second.unwrap_or(1.0) * sheet.time(time, number, "time")?;
+        if self.rises && pivot.recording.times.last().is_some_and(|last| t <= *last) {
+            let help = "give every run a file of its own, or say which column tells the runs apart: --map run=Trial";
+            return Err(sheet.fault(number, format!("the time goes back here, to {time}"), help));
+        }
+        let frame = pivot.frame(t);
+        for Track { name, columns } in &self.tracks {
+            let value = |part: usize, absent: f64| match columns[part] {
+                Some(column) => sheet.finite(cell(cells, column)).ok_or_else(|| {
+                    sheet.no_number(cell(cells, column), number, &format!("{} of {}", PARTS[part], of(name)))
+                }),
+                None => Ok(absent),
+            };
+            let likelihood = value(3, f64::NAN)?;
+            let [least, most] = self.likely;
+            if most.is_finite() && !likelihood.is_nan() && !(0.0..=most).contains(&likelihood) {
+                let message = format!("a likelihood of {likelihood} is not from 0 to {most}");
+                return Err(sheet.fault(number, message, "export the analysed video again as CSV"));
+            }
+            let [x, y, z] = [value(0, f64::NAN)?, value(1, f64::NAN)?, value(2, 0.0)?];
+            let name: Cow<str> = match marker {
+                Some(marker) if name.is_empty() => marker.into(),
+                Some(marker) => format!("{marker}_{name}").into(),
+                None => name.into(),
+            };
+            let place = [x, if self.y_down { -y } else { y }, z];
+            let marker = pivot.marker(&name);
+            if !pivot.put(frame, marker, place, likelihood.is_nan() || likelihood >= least)
+                && let Some(help) = self.twice
+            {
+                return Err(sheet.fault(number, format!("marker {name} is there twice at {time} of one run"), help));
+            }
+        }
+        for (which, (column, pa)) in self.pressures.iter().enumerate().filter_map(|(k, p)| p.map(|p| (k, p))) {
+            pivot.read(frame, which, pa * sheet.expect(cell(cells, column), number, "pressure")?);
+        }
+        Ok(())
+    }
+}
+
+fn cell<'c>(cells: &[&'c str], column: usize) -> &'c str {
+    cells.get(column).copied().unwrap_or_default()
+}
+
+fn of(name: &str) -> String {
+    if name.is_empty() { "every marker".into() } else { format!("marker {name}") }
+}
+
+/// Recordings by their label, in order of first appearance.
+struct Runs {
+    pivots: Vec<Pivot>,
+    numbers: HashMap<String, usize>,
+    lengths: Lengths,
+    clock: FrameClock,
+    last: usize,
+}
+
+impl Runs {
+    fn new(layout: &Layout) -> Runs {
+        let clock = if layout.second.is_some() { FrameClock::Seconds } else { FrameClock::Frames };
+        Runs { pivots: Vec::new(), numbers: HashMap::new(), lengths: layout.lengths, clock, last: 0 }
+    }
+
+    /// The recording of a run, by its label and the kind of its actuator.
+    fn of(&mut self, [run, actuator]: [Option<&str>; 2]) -> &mut Pivot {
+        let run = run.map(label).unwrap_or_default();
+        let is_last = |pivot: &Pivot| pivot.recording.run.as_deref().unwrap_or_default() == run;
+        if !self.pivots.get(self.last).is_some_and(is_last) {
+            self.last = self.numbers.get(run).copied().unwrap_or(self.pivots.len());
+            if self.last == self.pivots.len() {
+                let mut pivot = Pivot::new(self.lengths, self.clock);
+                pivot.recording.run = Some(run.to_string()).filter(|run| !run.is_empty());
+                pivot.recording.actuator = actuator.map(str::to_lowercase).filter(|kind| !kind.is_empty());
+                self.numbers.insert(run.to_string(), self.last);
+                self.pivots.push(pivot);
+            }
+        }
+        &mut self.pivots[self.last]
+    }
+
+    fn finish(self, named: bool, told: Vec<String>) -> Vec<Recording> {
+        let mut runs: Vec<Recording> = self.pivots.into_iter().map(Pivot::finish).collect();
+        runs.iter_mut().for_each(|run| run.named = named);
+        runs.iter_mut().take(1).for_each(|run| run.told.extend_from_slice(&told));
+        runs
+    }
+}

@@ -1,0 +1,233 @@
+//! Streams of (run, marker), cut into holds.
+
+use crate::dataset::Phase;
+use crate::error::Fault;
+use crate::rows::Row;
+use crate::streams::pressures::{PRESSURES, are_near, pressures_pa};
+
+/// Samples kept per (run, hold, marker) before neighbours are merged; above the few that `Dataset` holds, far below a
+/// camera's frames.
+const MOST_SAMPLES: usize = 64;
+
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Sample {
+    pub count: u64,
+    pub t_s: f64,
+    pub x_m: f64,
+    pub y_m: f64,
+    /// 0 of a table without z.
+    pub z_m: f64,
+    pub gauge_pa: f64,
+}
+
+impl Sample {
+    /// Mean position \[m\].
+    pub fn place(&self) -> [f64; 3] {
+        [self.x_m, self.y_m, self.z_m].map(|sum| sum / self.count.max(1) as f64)
+    }
+
+    pub fn add(&mut self, other: Sample) {
+        self.count += other.count;
+        self.t_s += other.t_s;
+        self.x_m += other.x_m;
+        self.y_m += other.y_m;
+        self.z_m += other.z_m;
+        self.gauge_pa += other.gauge_pa;
+    }
+}
+
+/// One hold as one marker saw it.
+#[derive(Debug, Clone)]
+pub(crate) struct Segment {
+    pub phase: Phase,
+    pub first_line: u64,
+    pub samples: Vec<Sample>,
+    pub rows: u64,
+    /// The first actuator pressure and the last \[Pa\].
+    pub ends_pa: [f64; 2],
+    /// The first reading below its bounds, in the order of [`PRESSURES`], to be judged by the mean.
+    pub too_low: [Option<Box<Fault>>; PRESSURES.len()],
+    /// Observations per sample; doubles whenever neighbours are merged.
+    pub(super) stride: u64,
+    sums_pa: [f64; PRESSURES.len()],
+}
+
+impl Segment {
+    pub(super) fn new(row: &Row, line: u64) -> Segment {
+        Segment {
+            phase: row.phase,
+            first_line: line,
+            samples: Vec::new(),
+            rows: 0,
+            ends_pa: [row.p_act_pa; 2],
+            too_low: Default::default(),
+            stride: 1,
+            sums_pa: [0.0; PRESSURES.len()],
+        }
+    }
+
+    /// Mean actuator pressure \[Pa\].
+    pub fn p_act_pa(&self) -> f64 {
+        self.means_pa()[1]
+    }
+
+    /// Mean of every pressure \[Pa\], in the order of [`PRESSURES`].
+    pub fn means_pa(&self) -> [f64; PRESSURES.len()] {
+        self.sums_pa.map(|sum| sum / self.rows.max(1) as f64)
+    }
+
+    /// Time of the first sample \[s\].
+    pub fn first_t_s(&self) -> f64 {
+        self.samples.first().map_or(f64::INFINITY, |sample| sample.t_s / sample.count.max(1) as f64)
+    }
+
+    /// Time of the last sample \[s\].
+    pub fn last_t_s(&self) -> f64 {
+        self.samples.last().map_or(f64::NEG_INFINITY, |sample| sample.t_s / sample.count.max(1) as f64)
+    }
+
+    pub(super) fn continues_with(&self, row: &Row) -> bool {
+        row.phase == self.phase && are_near(self.means_pa(), pressures_pa(row), 1.0)
+    }
+
+    /// Takes in a later segment of one row: a single reading that departed and came back is noise.
+    fn absorb(&mut self, one: Segment) {
+        self.rows += one.rows;
+        self.sums_pa.iter_mut().zip(one.sums_pa).for_each(|(sum, other)| *sum += other);
+        one.samples.into_iter().for_each(|sample| self.push(sample));
+        let low = self.too_low.iter_mut().zip(one.too_low);
+        low.for_each(|(own, other)| *own = own.take().or(other));
+    }
+
+    /// Takes samples out, and returns how many rows they were.
+    pub fn take_out(&mut self, is_out: impl Fn(&Sample) -> bool) -> u64 {
+        let gone: u64 = self.samples.iter().filter(|sample| is_out(sample)).map(|sample| sample.count).sum();
+        if gone > 0 {
+            // Pressures stay what they are on average.
+            let left = (self.rows - gone) as f64 / self.rows as f64;
+            self.sums_pa = self.sums_pa.map(|sum| left * sum);
+            self.rows -= gone;
+            self.samples.retain(|sample| !is_out(sample));
+        }
+        gone
+    }
+
+    pub(super) fn add(&mut self, row: &Row) {
+        self.rows += 1;
+        self.sums_pa.iter_mut().zip(pressures_pa(row)).for_each(|(sum, pressure_pa)| *sum += pressure_pa);
+        self.ends_pa[1] = row.p_act_pa;
+        let gauge_pa = row.gauge_pa.unwrap_or(0.0);
+        let z_m = row.z_m.unwrap_or(0.0);
+        self.push(Sample { count: 1, t_s: row.t_s, x_m: row.x_m, y_m: row.y_m, z_m, gauge_pa });
+    }
+
+    fn push(&mut self, one: Sample) {
+        match self.samples.last_mut() {
+            Some(last) if last.count < self.stride => last.add(one),
+            _ => self.samples.push(one),
+        }
+        if self.samples.len() > MOST_SAMPLES {
+            self.merge_neighbours();
+        }
+    }
+
+    fn merge_neighbours(&mut self) {
+        self.stride *= 2;
+        for pair in 0..self.samples.len().div_ceil(2) {
+            let mut merged = self.samples[2 * pair];
+            if let Some(&second) = self.samples.get(2 * pair + 1) {
+                merged.add(second);
+            }
+            self.samples[pair] = merged;
+        }
+        self.samples.truncate(self.samples.len().div_ceil(2));
+    }
+}
+
+/// The observations of one marker in one run.
+#[derive(Debug)]
+pub(crate) struct Stream {
+    pub run: usize,
+    pub marker: usize,
+    pub first_line: u64,
+    pub first_t_s: f64,
+    pub segments: Vec<Segment>,
+    pub(super) last_t_s: f64,
+}
+
+impl Stream {
+    /// Puts a last segment of one row back into the one before, if this row goes on there: the reading was noise.
+    pub(super) fn take_back(&mut self, row: &Row) {
+        let [.., before, last] = self.segments.as_slice() else { return };
+        let noise = last.rows == 1 && last.phase == before.phase && are_near(before.means_pa(), last.means_pa(), 2.0);
+        if noise && before.continues_with(row) && !last.continues_with(row) {
+            let one = self.segments.pop();
+            self.segments.last_mut().zip(one).into_iter().for_each(|(before, one)| before.absorb(one));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(t_s: f64, p_act_pa: f64) -> Row<'static> {
+        let (run, marker, phase) = ("1", "1", Phase::Load);
+        let (x_m, y_m, gauge_pa) = (2.0 * t_s, -t_s, Some(3.0 * t_s));
+        let (z_m, more_act_pa) = (Some(4.0 * t_s), [0.0; 3]);
+        Row {
+            run,
+            marker,
+            phase,
+            t_s,
+            p_body_pa: 2000.0,
+            p_act_pa,
+            more_act_pa,
+            x_m,
+            y_m,
+            z_m,
+            station_m: None,
+            gauge_pa,
+        }
+    }
+
+    #[test]
+    fn a_hold_ends_when_a_pressure_leaves_its_tolerance() {
+        let mut segment = Segment::new(&row(0.0, 20_000.0), 1);
+        segment.add(&row(0.0, 20_000.0));
+        assert!(segment.continues_with(&row(1.0, 20_999.0)) && !segment.continues_with(&row(1.0, 21_001.0)));
+        segment = Segment::new(&row(0.0, 0.0), 1);
+        segment.add(&row(0.0, 0.0));
+        assert!(segment.continues_with(&row(1.0, 499.0)) && !segment.continues_with(&row(1.0, 501.0)));
+        let body = |p_body_pa: f64| Row { p_body_pa, ..row(1.0, 0.0) };
+        assert!(segment.continues_with(&body(2199.0)) && !segment.continues_with(&body(2201.0)));
+        let other_phase = Row { phase: Phase::Unload, ..row(1.0, 20_000.0) };
+        let other_body = Row { p_body_pa: 2201.0, ..row(1.0, 20_000.0) };
+        assert!(!segment.continues_with(&other_phase) && !segment.continues_with(&other_body));
+        for channel in 0..3 {
+            let mut other = row(1.0, 0.0);
+            other.more_act_pa[channel] = 501.0;
+            assert!(!segment.continues_with(&other), "{channel}");
+        }
+    }
+
+    #[test]
+    fn at_most_64_samples_are_kept_and_none_is_lost() {
+        for rows in [1_u64, 64, 65, 1000, 12_345] {
+            let mut segment = Segment::new(&row(0.0, 0.0), 1);
+            (0..rows).for_each(|i| segment.add(&row(i as f64, 0.0)));
+            let total = segment.samples.iter().fold(Sample::default(), |mut total, &sample| {
+                total.add(sample);
+                total
+            });
+            let sum = (rows * (rows - 1) / 2) as f64;
+            assert!(segment.samples.len() <= MOST_SAMPLES && segment.samples.len() as u64 >= rows.min(32));
+            assert_eq!(
+                total,
+                Sample { count: rows, t_s: sum, x_m: 2.0 * sum, y_m: -sum, z_m: 4.0 * sum, gauge_pa: 3.0 * sum }
+            );
+            let full = &segment.samples[..segment.samples.len() - 1];
+            assert!(full.iter().all(|sample| sample.count == segment.stride), "equal counts but for the last");
+        }
+    }
+}
