@@ -2,6 +2,7 @@
 
 use crate::root::POLE;
 use crate::term::Extreme;
+use spelling::units::Range;
 use thiserror::Error;
 
 /// Why a scenario was refused; `span` is the byte range in the text it was read from.
@@ -37,8 +38,8 @@ impl ScenarioError {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Unsolved {
     /// A pressure out of its bounds.
-    #[error("{message}; {help}")]
-    BadPressure { message: String, help: &'static str },
+    #[error("{}", bounds.refusal(*value_pa))]
+    BadPressure { bounds: Range, value_pa: f64 },
     /// A wanted place or limits that mean nothing.
     #[error("{what}")]
     BadAim { what: &'static str },
@@ -48,8 +49,8 @@ pub enum Unsolved {
     )]
     InSpace { what: &'static str },
     /// A time out of its bounds.
-    #[error("{message}; {help}")]
-    BadTime { message: String, help: &'static str },
+    #[error("{}", Range::TIME.refusal(*t_s))]
+    BadTime { t_s: f64 },
     /// The moment balance of a stretch has no root.
     #[error(
         "no equilibrium at s = {s_mm:.1} mm for P = {p_act_kpa:.3} kPa, p_b = {p_body_kpa:.3} kPa: \

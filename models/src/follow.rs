@@ -105,7 +105,9 @@ impl Model {
         out: &mut Prediction,
     ) -> Result<(), Unsolved> {
         check(&step.loads)?;
-        Range::TIME.check(step.t_s).map_err(|(message, help)| Unsolved::BadTime { message, help })?;
+        if !Range::TIME.contains(step.t_s) {
+            return Err(Unsolved::BadTime { t_s: step.t_s });
+        }
         if last.is_none() {
             out.work.history.start();
         }

@@ -314,9 +314,11 @@ const ANY_BODY_PRESSURE: Range = Range { low: 0.0, high: 1000.0, ..Range::BODY_P
 
 #[inline]
 fn bounded(loads: &Loads, body: &Range) -> Result<(), Unsolved> {
-    let refused = |(message, help)| Unsolved::BadPressure { message, help };
-    body.check(loads.body_pa).map_err(refused)?;
-    loads.actuator_pa.iter().try_for_each(|p| Range::ACTUATOR_PRESSURE.check(*p).map(drop)).map_err(refused)
+    let pressures = loads.actuator_pa.iter().map(|p| (*p, &Range::ACTUATOR_PRESSURE));
+    match std::iter::once((loads.body_pa, body)).chain(pressures).find(|(p, bounds)| !bounds.contains(*p)) {
+        Some((value_pa, bounds)) => Err(Unsolved::BadPressure { bounds: *bounds, value_pa }),
+        None => Ok(()),
+    }
 }
 
 impl Loads {

@@ -124,7 +124,7 @@ pub fn units_of(dimension: Dimension) -> impl Iterator<Item = Unit> + Clone {
 }
 
 /// Accepted interval of a quantity as typed, its factor to SI, and the slip to suspect outside.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
     /// Its name, where it has no key.
     pub name: &'static str,
@@ -197,6 +197,17 @@ impl Range {
     #[inline]
     pub fn check(&self, value_si: f64) -> Result<f64, (String, &'static str)> {
         self.si(self.name, value_si / self.si).map(|_| value_si)
+    }
+
+    /// Whether a number in SI is within the bounds.
+    #[inline]
+    pub fn contains(&self, value_si: f64) -> bool {
+        (self.low..=self.high).contains(&(value_si / self.si))
+    }
+
+    /// The mistake in a number in SI that is out of the bounds, and what to type.
+    pub fn refusal(&self, value_si: f64) -> String {
+        self.check(value_si).map_or_else(|(message, help)| format!("{message}; {help}"), |_| String::new())
     }
 
     /// A number in SI.

@@ -5,7 +5,7 @@ use super::{Context, Outcome, list};
 use crate::cli::{DataCommand, GenerateArgs};
 use crate::failure::Failure;
 use crate::output::{Input, check_set_folder, replace_files, set_name};
-use crate::shown::check::{BenchCheck, Check, Checked, check_text};
+use crate::shown::check::{BenchCheck, Check, CheckedTable, check_text};
 use crate::shown::imported::Generated;
 use compare::diagnosis::{Options, pressure_slip};
 use compare::slips::pressure::pressure_words;
@@ -32,7 +32,7 @@ fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Ou
     if let Some(bench) = data::bench::bench(spec)? {
         let check = BenchCheck { kind: bench.kind.name, rows: bench.rows.len(), provenance: bench.provenance };
         let words = format!("{spec}: {}, {} rows ({})\n", bench.kind.sentence, check.rows, check.provenance.word());
-        return Ok(Outcome::answer(words, "ibr.data.check", &Checked { check: Check::Bench(check) }));
+        return Ok(Outcome::answer(words, "ibr.data.check", &CheckedTable { check: Check::Bench(check) }));
     }
     let evidence = inputs::evidence(spec, context)?;
     let Evidence { dataset, about, .. } = &evidence;
@@ -56,7 +56,7 @@ fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Ou
         report.warnings.push(found.words);
     }
     let words = check_text(&report);
-    Ok(Outcome::answer(words, "ibr.data.check", &Checked { check: Check::Markers(Box::new(report)) }))
+    Ok(Outcome::answer(words, "ibr.data.check", &CheckedTable { check: Check::Markers(Box::new(report)) }))
 }
 
 /// What is said of a table with z or several channels.

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 /// `ibr.data.check`: `ibr data check DATA`
 #[derive(Serialize)]
-pub struct Checked {
+pub struct CheckedTable {
     /// What was found
     pub check: Check,
 }

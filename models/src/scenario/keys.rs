@@ -131,7 +131,7 @@ pub const KEYS: &[Key] = &[
     ]), "angle of a muscle's yarns to its axis", |s| s.actuator.shape.bias_rad),
     number(UNIT, "channel", Range { name: "channel", ..Range::plain(0.0, (CHANNELS - 1) as f64, "number of the supply line") },
         "supply line that feeds it", |s| s.actuator.channel as f64),
-    number(ACTUATOR, "max_pressure_kpa", Range { low: 0.001, too_small: "the inverse looks up to it", ..Range::PRESSURE },
+    number(ACTUATOR, "max_pressure_kpa", Range { low: 0.001, too_small: "the inverse looks up to it", ..Range::ACTUATOR_PRESSURE },
         "largest pressure an inverse may ask for", |s| s.p_max_pa),
     number(STRIP, "azimuth_deg", range("azimuth", "deg", DEGREE, [-360.0, 360.0], ["write degrees from y towards z: 90 is z"; 2]),
         "azimuth of the strip's start", |s| s.actuator.azimuth_rad),
