@@ -1,6 +1,7 @@
 //! One table of units for column names, formulas and typed quantities; accepted intervals of numbers in files.
 
 use std::f64::consts::PI;
+use std::fmt::{Display, Formatter};
 
 /// Powers of kilogram, metre and second; an angle has none.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -206,8 +207,8 @@ impl Range {
     }
 
     /// The mistake in a number in SI that is out of the bounds, and what to type.
-    pub fn refusal(&self, value_si: f64) -> String {
-        self.check(value_si).map_or_else(|(message, help)| format!("{message}; {help}"), |_| String::new())
+    pub fn refusal(&self, value_si: f64) -> Refusal<'_> {
+        Refusal { bounds: self, name: self.name, value: value_si / self.si }
     }
 
     /// A number in SI.
@@ -215,25 +216,48 @@ impl Range {
     /// # Errors
     /// The mistake in the number called `name`, and what to type.
     pub fn si(&self, name: &str, value: f64) -> Result<f64, (String, &'static str)> {
-        let Range { unit, low, high, .. } = self;
-        if (*low..=*high).contains(&value) {
+        if (self.low..=self.high).contains(&value) {
             return Ok(value * self.si);
         }
-        let help = match value {
-            _ if value.is_nan() => "write a number",
-            _ if value < 0.0 && *low >= 0.0 => "a negative value means nothing here",
-            _ if value < *low => self.too_small,
-            _ => self.too_large,
-        };
-        let space = if unit.is_empty() { "" } else { " " };
-        Err((format!("{name} must be from {low} to {high}{space}{unit}, not {}", shortest(value)), help))
+        let refusal = Refusal { bounds: self, name, value };
+        Err((refusal.mistake().to_string(), refusal.help()))
     }
 }
 
-/// A number without a row of zeros.
-fn shortest(value: f64) -> String {
-    let plain = value == 0.0 || !value.is_finite() || (1e-6..1e12).contains(&value.abs());
-    if plain { value.to_string() } else { format!("{value:e}") }
+/// A number out of its bounds, in words that need no heap.
+#[derive(Debug, Clone, Copy)]
+pub struct Refusal<'r> {
+    bounds: &'r Range,
+    name: &'r str,
+    value: f64,
+}
+
+impl Refusal<'_> {
+    fn help(&self) -> &'static str {
+        match self.value {
+            value if value.is_nan() => "write a number",
+            value if value < 0.0 && self.bounds.low >= 0.0 => "a negative value means nothing here",
+            value if value < self.bounds.low => self.bounds.too_small,
+            _ => self.bounds.too_large,
+        }
+    }
+
+    fn mistake(&self) -> impl Display {
+        let Refusal { bounds: Range { unit, low, high, .. }, name, value } = *self;
+        let space = if unit.is_empty() { "" } else { " " };
+        // A number without a row of zeros.
+        let plain = value == 0.0 || !value.is_finite() || (1e-6..1e12).contains(&value.abs());
+        std::fmt::from_fn(move |f| {
+            write!(f, "{name} must be from {low} to {high}{space}{unit}, not ")?;
+            if plain { write!(f, "{value}") } else { write!(f, "{value:e}") }
+        })
+    }
+}
+
+impl Display for Refusal<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}; {}", self.mistake(), self.help())
+    }
 }
 
 /// Factor to SI and dimension of a unit like `N m/rad^3`, `1/m`, `kPa` or `-`; a slash divides by the next factor alone.

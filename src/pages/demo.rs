@@ -70,7 +70,7 @@ fn ladder(l: &PublishedLadder) -> Values {
         let range_mm = r.range_m.map(|range| range.map(|v| v * 1e3));
         Values::new()
             .with("label", &r.label)
-            .with("known", &r.known)
+            .with("known", r.known)
             .with("y_mm", r.y_m * 1e3)
             .with("range_mm", range_mm)
     };
@@ -80,7 +80,7 @@ fn ladder(l: &PublishedLadder) -> Values {
         .with("measured_mm", measured_mm)
         .with("last_mm", last_mm)
         .with("left_mm", last_mm - measured_mm)
-        .with("absorbing_nm2", &l.calibrated_bending)
+        .with("absorbing_nm2", l.calibrated_bending)
         .with("rungs", l.rungs.iter().map(rung).collect::<Vec<_>>())
 }
 
@@ -92,7 +92,7 @@ fn draw_study(study: &Comparison, files: &mut Files) -> Result<Values, PageError
     Ok(Values::new()
         .with("data", name)
         .with("label", &last.label)
-        .with("known", &last.known)
+        .with("known", last.known)
         .with("first", &first.evaluation.metrics.overall)
         .with("last", &last.evaluation.metrics.overall)
         .with("where_it_fails", first.evaluation.where_it_fails.iter().map(|s| &s.sentence).collect::<Vec<_>>()))

@@ -144,7 +144,7 @@ pub(super) fn verdict(found: &Diagnosed) -> Values {
     let summary = d.summary.iter().map(|s| in_words(s)).collect::<Vec<_>>();
     let d_in_words = Values::new().with("summary", summary).with("next_experiment", &next).and(Values::of(d));
     let told = told(d).iter().map(|a| answer(d, a)).collect::<Vec<_>>();
-    Values::new().with("verdict", verdict).with("told", told).with("d", d_in_words).with("typed", &found.typed)
+    Values::new().with("verdict", verdict).with("told", told).with("d", d_in_words).with("typed", found.typed)
 }
 
 fn values(found: &Diagnosed) -> Values {
@@ -194,7 +194,7 @@ fn answer(d: &Diagnosis, answer: &Answer) -> Values {
         .with("name", answer.name())
         .with("mark", mark)
         .with("values", values)
-        .with("after_mm", &answer.after_mm)
+        .with("after_mm", answer.after_mm)
         .with("cancels", cancels)
 }
 
@@ -255,7 +255,7 @@ fn ranked(d: &Diagnosis, r: &Ranked) -> Values {
     };
     Values::new()
         .with("of", r)
-        .with("group", &r.group)
+        .with("group", r.group)
         .with("values", listed(&r.parameters))
         .with("p", bare_p(r.p_corrected))
         .with("note", note)

@@ -31,7 +31,7 @@ pub fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files, PageE
     for (k, map) in engines.maps.iter().enumerate() {
         let name = format!("breakdown_{}_{k}", map.actuator);
         files.plot(&name, parting_plot(map)?);
-        maps.push(Values::new().with("name", name).with("mesh_mm", &map.mesh_mm));
+        maps.push(Values::new().with("name", name).with("mesh_mm", map.mesh_mm));
     }
     let volumes = volume_table(&engines.robots);
     let values = Values::new()

@@ -286,7 +286,7 @@ impl Types {
             let (meaning, unit) = meaning(&field.docs, &name);
             let nullable = meaning.contains("null") && !kind.ends_with('?');
             let kind = match kind.strip_suffix("[]").filter(|_| nullable) {
-                Some(inside) if inside == "number" => "number?[]".to_string(),
+                Some("number") => "number?[]".to_string(),
                 _ if nullable => format!("{kind}?"),
                 _ => kind,
             };
@@ -380,13 +380,29 @@ fn variants<'l>(lines: &mut impl Iterator<Item = &'l str>, attributes: &str) -> 
         }
         let own = std::mem::take(&mut before);
         match line.trim_end_matches(',').split_once('(') {
-            Some((_, inside)) => types.push(inside.trim_end_matches(')').to_string()),
+            Some((variant, inside)) => {
+                types.push(inside.trim_end_matches(')').to_string());
+                words.push(renamed(variant, attributes));
+            }
             None => {
                 let variant = line.trim_end_matches(',');
                 let name = between(&own.attributes, "rename = \"", '"').map(String::from);
                 words.push(name.unwrap_or_else(|| renamed(variant, attributes)));
             }
         }
+    }
+    if let Some((tag, content)) = between(attributes, "tag = \"", '"').zip(between(attributes, "content = \"", '"')) {
+        let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+        let field = |name: &str, kind: &str, docs: String, serde: &str| Field {
+            name: name.into(),
+            kind: kind.into(),
+            docs,
+            serde: serde.into(),
+        };
+        return Shape::Record(vec![
+            field(tag, "String", format!("One of {}", words.join(", ")), ""),
+            field(content, "String", "Its reason".into(), "skip_serializing_if"),
+        ]);
     }
     if attributes.contains("untagged") { Shape::Either(types) } else { Shape::Words(words) }
 }

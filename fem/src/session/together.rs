@@ -62,7 +62,7 @@ pub(super) fn together<T: Send>(
             lock(&found).insert(index, ended);
         }
     };
-    std::thread::scope(|scope| (0..workers.clamp(1, count.max(1))).for_each(|_| drop(scope.spawn(&work))));
+    std::thread::scope(|scope| (0..workers.clamp(1, count.max(1))).for_each(|_| drop(scope.spawn(work))));
     let mut all = Vec::with_capacity(count);
     for ended in found.into_inner().unwrap_or_else(PoisonError::into_inner).into_values() {
         match ended {
