@@ -18,7 +18,7 @@ const CIRCLES: [(&str, usize); 13] = [
     ("models", 0),
     ("fem", 0),
     ("data", 1),
-    ("compare", 5),
+    ("compare", 3),
     ("report", 1),
     ("sweep", 0),
     ("spelling", 0),
