@@ -60,6 +60,9 @@ const PLACEHOLDERS: [(f64, &str); 9] = [
 /// Words for seconds behind a time.
 const SECONDS: [&str; 4] = ["seconds", "secs", "sec", "s"];
 
+/// The highest pressure of a room \[Pa\].
+const ROOM_PA: f64 = 1.15e5;
+
 pub(crate) fn pressure_bounds(quantity: usize) -> &'static Range {
     if quantity == P_BODY { &Range::BODY_PRESSURE } else { &Range::ACTUATOR_PRESSURE }
 }
@@ -370,7 +373,9 @@ impl<'a> Cells<'a> {
     fn pressure(&self, quantity: usize) -> Result<f64> {
         let value = self.number(quantity)?;
         // An absolute pressure of a body is read, so that the slips can say what to subtract.
-        if value > Range::ACTUATOR_PRESSURE.high * Range::ACTUATOR_PRESSURE.si {
+        let bounds = pressure_bounds(quantity);
+        let room_pa = if quantity == P_BODY { ROOM_PA } else { 0.0 };
+        if value > bounds.high * bounds.si + room_pa {
             let better = if self.header.unit(quantity) == "kPa" { "pa" } else { "kpa" };
             let help = format!("name the column {}_{better}", QUANTITIES[quantity].base);
             return Err(DataError::Unit(self.out_of_bounds(quantity, value, help)));

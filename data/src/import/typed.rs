@@ -52,7 +52,7 @@ impl FromStr for Scale {
     fn from_str(text: &str) -> Result<Scale, String> {
         let text = text.trim();
         let metres = |word: &str| {
-            let at = word.find(char::is_alphabetic).unwrap_or(word.len());
+            let at = word.rfind(|c: char| c.is_ascii_digit() || c == '.').map_or(0, |last| last + 1);
             let (number, unit) = (word[..at].trim(), word[at..].trim());
             let number = if number.is_empty() { Some(1.0) } else { above_zero(number) };
             let unit = units_of(Dimension::LENGTH).find(|known| known.symbol == unit);
