@@ -25,7 +25,7 @@ fn the_bench_gives_the_same_numbers_for_any_number_of_threads_and_no_set_fails()
     assert!(rows.iter().all(|row| row["figure"].is_string() && row["target"].is_object()), "{rows:?}");
 }
 
-/// Shards in any order, one with a file of half an answer, and a bench of fewer sets before: the table is that of one call.
+/// Shards in any order, one with a file of half an answer, which is an error until it is deleted, and a bench of fewer sets before: the table is that of one call.
 #[test]
 fn a_bench_in_shards_has_the_numbers_of_one_call() {
     let folder = Folder::new();
@@ -47,9 +47,17 @@ fn a_bench_in_shards_has_the_numbers_of_one_call() {
     let torn = answers().next().expect("a file");
     let half = std::fs::read(&torn).expect("a file");
     std::fs::write(&torn, &half[..half.len() / 2]).expect("a file");
+    let ran = folder.ibr(&["bench", "discovery", "--sets", "4", "--out", "b"]).output().expect("ibr starts");
+    let words = String::from_utf8_lossy(&ran.stderr).into_owned();
+    assert!(ran.status.code() == Some(3) && words.contains("checksum") && words.contains("delete the file"), "{words}");
+    std::fs::remove_file(&torn).expect("a file");
     assert_eq!(bench("4", &["--out", "b", "--shard", "3/3"]), whole, "the last shard has the table");
     assert_eq!(bench("4", &["--out", "b", "--threads", "1"]), whole);
-    assert_eq!((answers().count(), std::fs::read(&torn).expect("a file")), (32, half), "what is damaged is made again");
+    assert_eq!(
+        (answers().count(), std::fs::read(&torn).expect("a file")),
+        (32, half),
+        "what was deleted is recomputed"
+    );
     bench("2", &["--out", "b"]);
     assert_eq!(answers().count(), 32, "the sets of a smaller bench are among those of a larger one");
 }
