@@ -11,7 +11,7 @@ use clap::{Args, Parser, Subcommand};
 use compare::study::Knob;
 pub use data::{CharacterizeArgs, DataCommand, DataFemArgs, GenerateArgs, ScatterArgs};
 pub use discover::{
-    AddArgs, BreakdownArgs, ChallengeCommand, ChallengeNewArgs, DiagnoseArgs, LadderArgs, ValidateArgs,
+    AddArgs, BreakdownArgs, ChallengeCommand, ChallengeNewArgs, DiagnoseArgs, LadderArgs, TradeoffArgs, ValidateArgs,
 };
 pub use export::{ExportArgs, ExportCommand, LinearArgs};
 pub use groups::{command, parsed};
@@ -171,17 +171,6 @@ pub struct OutDirArgs {
     /// Folder for the report, plots and tables
     #[arg(long, default_value = "ibr-report/demo")]
     pub out: PathBuf,
-}
-
-/// `ibr tradeoff`
-#[derive(Debug, Args)]
-pub struct TradeoffArgs {
-    /// Folder for plots and tables
-    #[arg(long)]
-    pub out: Option<PathBuf>,
-    /// Folder of finished finite element runs; default: those that come with the program
-    #[arg(long)]
-    pub runs: Option<PathBuf>,
 }
 
 /// A robot as it is typed: a scenario, and what is changed in it.

@@ -162,3 +162,14 @@ pub struct ChallengeNewArgs {
     #[arg(long)]
     pub protocol: Option<String>,
 }
+
+/// `ibr tradeoff`
+#[derive(Debug, Args)]
+pub struct TradeoffArgs {
+    /// Folder for plots and tables
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+    /// Folder of finished finite element runs; default: those that come with the program
+    #[arg(long)]
+    pub runs: Option<PathBuf>,
+}

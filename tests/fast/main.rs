@@ -24,6 +24,7 @@ mod import;
 mod in_space;
 mod json;
 mod json_schema;
+mod json_source;
 mod json_types;
 mod output;
 mod pattern;
