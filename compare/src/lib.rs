@@ -1,7 +1,7 @@
 //! Residuals, metrics and reports: the only crate that knows both model and measurement.
 //!
 //! The statistics of a comparison, from the data up: `layout` (shape of one run) → [`noise`] (run as the unit) →
-//! `beside_mean` (prediction beside the mean) → [`metrics`], [`residuals`], [`where_it_fails`], `scaling` →
+//! `beside_mean` (prediction compared with the mean) → [`metrics`], [`residuals`], [`where_it_fails`], `scaling` →
 //! [`evaluate`](mod@evaluate), which bundles them. Predictions arrive as plain slices in run layout.
 //!
 //! What a user does: [`ScenarioFile`] and [`Evidence`] → [`compare`] → [`diagnose`] → [`extend`] → [`validate`] on other data;

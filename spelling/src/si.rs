@@ -34,7 +34,7 @@ impl<const N: usize> Numbers for [f64; N] {
 /// Metres as millimetres.
 ///
 /// # Errors
-/// Those of the serializer.
+/// Errors of the serializer.
 pub fn mm<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
     value.converted(|m| 1e3 * m).serialize(to)
 }
@@ -42,7 +42,7 @@ pub fn mm<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error>
 /// Pascals as kilopascals.
 ///
 /// # Errors
-/// Those of the serializer.
+/// Errors of the serializer.
 pub fn kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
     value.converted(|pa| pa / 1e3).serialize(to)
 }
@@ -50,7 +50,7 @@ pub fn kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error
 /// What is per pascal, per kilopascal.
 ///
 /// # Errors
-/// Those of the serializer.
+/// Errors of the serializer.
 pub fn per_kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
     value.converted(|per_pa| 1e3 * per_pa).serialize(to)
 }
@@ -58,7 +58,7 @@ pub fn per_kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::E
 /// Metres per pascal as millimetres per kilopascal.
 ///
 /// # Errors
-/// Those of the serializer.
+/// Errors of the serializer.
 pub fn mm_per_kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
     value.converted(|m_per_pa| 1e6 * m_per_pa).serialize(to)
 }
@@ -66,7 +66,7 @@ pub fn mm_per_kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S
 /// Radians per pascal as degrees per kilopascal.
 ///
 /// # Errors
-/// Those of the serializer.
+/// Errors of the serializer.
 pub fn deg_per_kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
     value.converted(|rad_per_pa| 1e3 * rad_per_pa.to_degrees()).serialize(to)
 }
@@ -74,7 +74,7 @@ pub fn deg_per_kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, 
 /// Radians as degrees.
 ///
 /// # Errors
-/// Those of the serializer.
+/// Errors of the serializer.
 pub fn deg<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
     value.converted(f64::to_degrees).serialize(to)
 }

@@ -78,7 +78,7 @@ pub fn by_scheduler(args: &ShardArgs, work: &Work, context: &mut Context) -> Res
 struct ShardAnswer {
     /// Runs or sets of this shard that were made now
     made: usize,
-    /// Those of all shards that are not there
+    /// Missing parts of all shards
     missing: usize,
     /// Those in all
     runs: usize,

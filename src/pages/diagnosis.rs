@@ -198,7 +198,7 @@ fn answer(d: &Diagnosis, answer: &Answer) -> Values {
         .with("cancels", cancels)
 }
 
-/// Every effect of the stated answers once. Notes of its own fit are no notes of a pair's.
+/// Every effect of the stated answers once. Notes of a single fit do not apply to a pair.
 fn explained(d: &Diagnosis) -> Vec<Values> {
     let mut seen: Vec<&str> = Vec::new();
     let mut out = Vec::new();

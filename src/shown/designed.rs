@@ -191,12 +191,12 @@ pub struct DesignAnswer<'a> {
     pub starts_that_agree: usize,
     /// Result of one run of the design
     pub finite_elements: Option<&'a Checked>,
-    /// Why there is no finite element run
+    /// Reason why finite elements did not run
     pub unchecked: Option<&'a str>,
     /// With `--correct`: all that were checked, in their order
     #[serde(skip_serializing_if = "Option::is_none")]
     pub designs: Option<Vec<CheckedDesign<'a>>>,
-    /// With `--correct`, why there is no further one
+    /// With `--correct`, reason why no further round ran
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ended: Option<Option<End>>,
 }
@@ -223,7 +223,7 @@ pub struct CheckedDesign<'a> {
     pub corrected_by_finite_elements: Option<&'a [Miss]>,
     /// Result of one run of the design
     pub finite_elements: Option<&'a Checked>,
-    /// Why there is no finite element run
+    /// Reason why finite elements did not run
     pub unchecked: Option<&'a str>,
     /// Whether this is the one that is written
     pub written: bool,

@@ -24,7 +24,7 @@ pub fn between<'t>(text: &'t str, start: &str, end: char) -> Option<&'t str> {
     rest.split_once(end).map(|(inside, _)| inside)
 }
 
-/// What stands before an item: documentation and attributes.
+/// Documentation and attributes before an item.
 #[derive(Default)]
 pub struct Before {
     pub docs: Vec<String>,

@@ -12,7 +12,7 @@ use std::path::Path;
 /// Where the types are.
 const CRATES: [&str; 8] = ["src", "models", "data", "fem", "compare", "sweep", "challenge", "verification"];
 
-/// What stands before the types.
+/// Text before the types.
 const HEAD: &str = "\
 # JSON
 

@@ -71,7 +71,7 @@ fn share(sets: &[(&SetOutcome, &Named)], case: &'static str, (figure, goal, hit)
     Rate::share(case, figure, goal, &sets.iter().map(|(_, named)| hit(named)).collect::<Vec<_>>())
 }
 
-/// Shares of all sets, then of those of which a name was asked: something is missing, and not too small to name.
+/// Shares of all sets, then of the sets that ask for a name: something is missing, and not too small to name.
 fn named(sets: &Sets, case: &'static str, of_all: &[Counted], of_asked: &[Counted]) -> Vec<Rate> {
     let asked = asked(sets);
     let of_all = of_all.iter().map(|counted| share(sets, case, *counted));

@@ -28,7 +28,7 @@ type NoiseOf<'n> = dyn Fn(&Source, &[f64]) -> Result<NoiseModel, CompareError> +
 
 /// What every hypothesis is held against.
 pub struct Case<'a> {
-    /// All data; errors in millimetres, places and held-out parts are those of the first.
+    /// All data; errors in millimetres, places and held-out parts refer to the first.
     pub sources: &'a [Source],
     /// Noise of their means.
     pub noises: Vec<NoiseModel>,
@@ -139,7 +139,7 @@ impl<'a> Case<'a> {
         })
     }
 
-    /// The data whose errors in millimetres, places and held-out parts are told.
+    /// The data to which errors in millimetres, places and held-out parts refer.
     pub fn first(&self) -> &'a Source {
         &self.sources[0]
     }

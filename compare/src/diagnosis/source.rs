@@ -57,7 +57,7 @@ pub fn nearest(levels: &[f64], p: f64) -> usize {
     (0..levels.len()).min_by(|a, b| (levels[*a] - p).abs().total_cmp(&(levels[*b] - p).abs())).unwrap_or(0)
 }
 
-/// A dataset, the base as it was measured there, and what is known beside the markers.
+/// A dataset, its base as measured there, and what is known in addition to the markers.
 #[derive(Clone)]
 pub struct Source {
     /// The base with the dataset's markers and loads, without effects of what was measured directly.

@@ -1,4 +1,4 @@
-//! The missing moment as it is told: printed units, no NaN.
+//! The missing moment as printed: units of the report, no NaN.
 
 use serde::Serialize;
 
@@ -19,7 +19,7 @@ pub struct MissingMoment {
     pub bending_nm2: f64,
 }
 
-/// Shape of the holds of a dataset, each with bends of its own and no law.
+/// Shape of the holds of a dataset, each with separate bends and no law.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeasuredShape {
     /// Dataset.
@@ -89,7 +89,7 @@ pub struct MomentCurve {
     pub points: Vec<[f64; 4]>,
 }
 
-/// Standard deviations from which a shared number is told, and least value in its unit.
+/// Standard deviations from which a shared number is reported, and its least value in its unit.
 const TOLD: (f64, f64) = (4.0, 1.0);
 
 impl SharedNumber {

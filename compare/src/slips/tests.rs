@@ -189,7 +189,7 @@ fn labels_are_told_as_far_as_noise_lets_them() {
     assert!(told(1000).is_empty());
 }
 
-/// A station column of zeros says nothing of a body, and two markers at one station cannot be told from each other.
+/// A station column of zeros describes no body, and geometry does not separate two markers at one station.
 #[test]
 fn stations_at_the_base_or_at_one_place_are_looked_at_without_a_slip() {
     let dataset = embedded("synthetic-epam");

@@ -53,7 +53,7 @@ pub(crate) struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    /// Puts the runs into the robot's frame; `told` gets the assumptions.
+    /// Puts the runs into the robot's frame; `told` receives the assumptions.
     ///
     /// # Errors
     /// Scale, base or axes are not known and cannot be found from the data.

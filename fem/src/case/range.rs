@@ -180,7 +180,7 @@ fn kind(value: &Value) -> &'static str {
     }
 }
 
-/// Value of a key that is no number, if it is there.
+/// Value of a key that has a word or a list, if it is there.
 pub(crate) fn find<'a>(table: &'a Free, wanted: &str) -> Option<&'a Spanned<Value>> {
     table.iter().find(|(key, _)| key.get_ref() == wanted).map(|(_, value)| value)
 }

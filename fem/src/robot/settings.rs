@@ -18,7 +18,7 @@ const MASS_FACTOR: [f64; 2] = [2.4, 3.6];
 /// Thickness of a tape that only ties two sheets \[m\].
 const TIE_M: f64 = 1e-6;
 
-/// Mesh, fabrication and loading of a robot: the numbers of [`super::KEYS`] in SI, and what is no number.
+/// Mesh, fabrication and loading of a robot: the numbers of [`super::KEYS`] in SI, and the words and lists.
 #[allow(missing_docs, reason = "the list KEYS says what each number is")]
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobotSettings {
@@ -69,7 +69,7 @@ pub struct RobotSettings {
     pub mass_factor: Option<f64>,
     /// Whether waves of a few elements are heavy in place of everything ([`crate::problem::Settings::selective_mass`]).
     pub selective_mass: bool,
-    /// They allow a longer step beside `mass_factor`. `None`: 2, and 6 for elements below 1.5 mm.
+    /// They allow a longer step in addition to `mass_factor`. `None`: 2, and 6 for elements below 1.5 mm.
     pub mass_passes: Option<usize>,
     pub creep: f64,
     pub cfl: f64,

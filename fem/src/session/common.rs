@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-/// Told what is being done and, if known, which share of the whole is done, some times a second; says whether to go on.
+/// Receives the current step and, if known, the finished share of the whole, some times a second; returns whether to continue.
 pub type Progress<'a> = &'a mut (dyn FnMut(&str, Option<f64>) -> ControlFlow<()> + Send);
 
 /// Without the digits that a change of unit leaves behind.

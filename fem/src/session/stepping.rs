@@ -285,7 +285,7 @@ enum Goal {
     Waited(f64, f64),
 }
 
-/// Who is told on the way, and when checkpoints are written.
+/// Receiver of progress, and when checkpoints are written.
 struct Pace<'a> {
     teller: Teller,
     keeper: Keeper,

@@ -67,7 +67,7 @@ pub(super) fn together<T: Send>(
     for ended in found.into_inner().unwrap_or_else(PoisonError::into_inner).into_values() {
         match ended {
             Ok(found) => all.push(found),
-            // An interrupt is no fault of the job that it met first.
+            // An interrupt is not a fault of the job that it met first.
             Err(FemError::Interrupted { .. }) => {}
             Err(fault) => return Err(fault),
         }

@@ -9,7 +9,7 @@ use spelling::si;
 pub struct Miss {
     /// What: `tip`, `tip angle`, `station 150 mm`, `turn 0 to 100 mm`.
     pub what: String,
-    /// Wanted: x, y \[m\], or one angle \[rad\]; written in mm or degrees.
+    /// Target: x, y \[m\], or one angle \[rad\]; written in mm or degrees.
     #[serde(serialize_with = "written")]
     pub wanted: Vec<f64>,
     /// What the robot has.

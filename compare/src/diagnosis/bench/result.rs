@@ -41,7 +41,7 @@ pub struct BenchRanked {
     pub p_corrected: Option<f64>,
     /// At what was left out of the fit.
     pub left_out: Vec<LeftOut>,
-    /// Cannot be told from the best.
+    /// Fits these data as well as the best.
     pub in_set: bool,
 }
 
@@ -89,7 +89,7 @@ pub struct BenchDiagnosis {
 }
 
 impl BenchDiagnosis {
-    /// Laws that cannot be told from the best, best first.
+    /// Laws that fit as well as the best, best first.
     pub fn set(&self) -> impl Iterator<Item = &BenchRanked> {
         self.ranked.iter().filter(|r| r.in_set)
     }

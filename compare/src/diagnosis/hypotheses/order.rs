@@ -30,14 +30,14 @@ pub struct Ordered {
     pub fits: Vec<Fit>,
     /// For the form of their laws.
     pub allowance: f64,
-    /// Those that cannot be told apart.
+    /// Candidates that these data do not separate.
     pub set: Vec<usize>,
     /// How many there are in all.
     pub tried: usize,
 }
 
 impl Ordered {
-    /// Those that cannot be told apart.
+    /// Candidates that these data do not separate.
     pub fn stated(&self) -> impl Iterator<Item = &Fit> {
         self.set.iter().map(|i| &self.fits[*i])
     }

@@ -121,7 +121,7 @@ impl Fit {
         &self.minimum.at
     }
 
-    /// Parameters with those of one more effect.
+    /// Parameters of the hypothesis with one more effect.
     pub fn theta_with(&self, values: &[f64]) -> Vec<f64> {
         [self.theta(), values].concat()
     }

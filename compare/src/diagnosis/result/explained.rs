@@ -74,7 +74,7 @@ pub struct Ranked {
     pub heldout_run_mm: Option<f64>,
     /// Effective bending stiffness with the effect, one per body pressure \[N·m²\].
     pub bending_nm2: Vec<f64>,
-    /// Cosine between this effect's and the best one's trace in the data, base fitted out; ±1: cannot be told apart.
+    /// Cosine between this effect's and the best one's trace in the data, base fitted out; ±1: these data do not separate them.
     pub cosine_with_best: f64,
     /// Member of the indistinguishable set.
     pub in_set: bool,
@@ -101,7 +101,7 @@ pub struct Combination {
     pub systematic_after_mm: f64,
     /// Effective bending stiffness with them, one per body pressure \[N·m²\].
     pub bending_nm2: Vec<f64>,
-    /// Cannot be told from the best combination with these data.
+    /// Fits these data as well as the best combination.
     pub in_set: bool,
     /// The two terms cancel each other: opposite contributions, nearly the same trace.
     pub cancels: bool,
@@ -201,7 +201,7 @@ pub struct LearnedLine {
 pub struct LearnedTried {
     /// In words.
     pub words: String,
-    /// Its numbers, and those of the stiffness.
+    /// Its numbers, and the stiffness.
     pub numbers: usize,
     /// Square of what it misses at pressures left out, over that of noise, in moments.
     pub missed: f64,
@@ -220,7 +220,7 @@ pub struct Experiment {
     pub protocol: String,
     /// What is to be measured directly.
     pub direct: Direct,
-    /// Tests of their own beside it, whose results go into `[measured]` of `about.toml`.
+    /// Separate tests, whose results go into `[measured]` of `about.toml`.
     pub tests: Vec<String>,
     /// Expected separation λ of the best explanation from each rival, same number of runs.
     pub separations: Vec<Separation>,
@@ -254,7 +254,7 @@ pub struct Separation {
 /// What to measure next.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct NextExperiment {
-    /// The explanation the rivals are to be told from; empty where there are none.
+    /// The explanation to separate from its rivals; empty without rivals.
     pub best: String,
     /// The recommended one; `None` if no listed experiment separates anything, and where no effect of the catalogue is the answer.
     pub recommended: Option<Experiment>,

@@ -136,7 +136,7 @@ pub struct LeftPattern {
     pub either: bool,
 }
 
-/// A fitted stiffness that is not the one that was told.
+/// A fitted stiffness that differs from the given one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BendingAlarm {
     /// What the scenario or the bending test says \[N·m²\].
@@ -166,7 +166,7 @@ pub struct FittedBeside {
     pub systematic_with_added_mm: f64,
 }
 
-/// What a gauge at the actuator read, beside what was set.
+/// Readings of a gauge at the actuator, compared with the set pressures.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GaugeFit {
     /// Dataset.

@@ -25,7 +25,7 @@ use crate::slips::pressure::PressureSlipFound;
 use crate::study::predict_dataset;
 use crate::where_it_fails::{FailureOptions, Statement, where_it_fails};
 
-/// What a diagnosis says beside what was decided.
+/// The parts of a diagnosis in addition to the decision.
 pub struct Beside<'e> {
     pub evidence: &'e [Evidence],
     pub excluded: Vec<String>,
@@ -108,7 +108,7 @@ pub fn assemble(case: &Case, decision: &Decision, beside: Beside) -> Result<Diag
     })
 }
 
-/// Data beside the first.
+/// Data after the first.
 fn fitted_beside(case: &Case, last: &Fit) -> Vec<FittedBeside> {
     let errors = case.errors_mm(&case.base).into_iter().zip(case.errors_mm(last));
     let all = case.sources.iter().zip(errors).map(|(source, (systematic_mm, systematic_with_added_mm))| FittedBeside {
@@ -183,7 +183,7 @@ fn confidence(case: &Case, decision: &Decision) -> Option<Confidence> {
     Some(confidence_of(case.gain(last), stated.set.len()))
 }
 
-/// By the gain of an answer and the number of those that cannot be told from it, itself among them.
+/// By the gain of an answer and the number of answers that fit as well, itself included.
 pub fn confidence_of(gain: f64, rivals: usize) -> Confidence {
     match gain {
         gain if policy::is_a_hint(gain) => Confidence::Hint,
@@ -205,7 +205,7 @@ fn added(case: &Case, decision: &Decision) -> Vec<Added> {
     case.added(last).iter().map(entry).collect()
 }
 
-/// Names in the set of the verdict, best first; without verdict those of the ranking.
+/// Names in the set of the verdict, best first; without verdict, names of the ranking.
 fn names(case: &Case, decision: &Decision, pairs: &[Combination]) -> Vec<String> {
     if decision.verdict.is_some_and(|v| v != Verdict::Effect) {
         return Vec::new();

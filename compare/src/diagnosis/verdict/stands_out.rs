@@ -24,7 +24,7 @@ const TOGETHER: usize = 8;
 const QUANTILE: f64 = 0.99;
 /// Seed of the simulation.
 const SEED: u64 = 20_261_121;
-/// A pattern of which fits leave less than this share cannot be told from them.
+/// Fits that leave less than this share of a pattern can imitate it.
 const LEFT: f64 = 0.02;
 /// Share of a pattern's variance below which the patterns before it contain it.
 const NEW: f64 = 1e-6;

@@ -26,7 +26,7 @@ pub struct Surface {
     pub faces: Vec<(String, bool)>,
     /// A pressure of the file acts on it.
     pub is_pressed: bool,
-    /// Why it is no chamber.
+    /// Why it cannot be a chamber.
     pub fault: Option<String>,
 }
 

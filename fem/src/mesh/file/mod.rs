@@ -1,4 +1,4 @@
-//! Mesh files of other programs, each format in a file of its own and in the list of `known.rs`. The content tells the format.
+//! Mesh files of other programs, each format in a separate file and in the list of `known.rs`. The content determines the format.
 
 mod abaqus;
 mod build;

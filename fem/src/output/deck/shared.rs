@@ -68,7 +68,7 @@ pub(super) fn place(problem: &Problem, node: u32) -> [f64; 3] {
     problem.mesh.start_of(node as usize)
 }
 
-/// Start places; what is nothing beside the size of the mesh is 0.
+/// Start places; coordinates that are negligible compared with the size of the mesh are 0.
 pub(super) fn places(out: &mut String, problem: &Problem) {
     let points = &problem.mesh.points;
     let size = points.as_flattened().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -79,7 +79,7 @@ pub(super) fn places(out: &mut String, problem: &Problem) {
     }
 }
 
-/// A node's translations as weighted sums of those of others.
+/// A node's translations as weighted sums of other nodes' translations.
 pub(super) fn follow(out: &mut String, node: u32, to: &[(u32, f64)]) {
     for axis in 1..=3 {
         let followed = to.iter().map(|(node, weight)| format!("{}, {axis}, {}", u64::from(*node) + 1, number(*weight)));
@@ -114,7 +114,7 @@ fn in_plane(section: &Section) -> [f64; 6] {
     for ply in &section.plies {
         let a = ply.fabric.tangent([0.0; 3], &[0.0; 2]);
         let (s, c) = ply.angle_rad.sin_cos();
-        // Strains (E₁₁, E₂₂, 2E₁₂) of the ply's axes from those of the part's.
+        // Strains (E₁₁, E₂₂, 2E₁₂) in the axes of the ply from strains in the axes of the part.
         let turn = [[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2.0 * c * s, 2.0 * c * s, c * c - s * s]];
         for (i, row) in sum.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
@@ -125,7 +125,7 @@ fn in_plane(section: &Section) -> [f64; 6] {
     [sum[0][0], sum[1][1], sum[0][1], sum[2][2], sum[0][2], sum[1][2]]
 }
 
-/// The plate that stands for a section.
+/// The plate that replaces a section.
 pub(super) struct Plate {
     pub(super) thickness_m: f64,
     /// Moduli along warp and fill, and in shear \[Pa\].

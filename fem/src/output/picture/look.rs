@@ -7,10 +7,10 @@ use crate::vec3::dot;
 /// Pixels are drawn this many times finer in both directions, then averaged: smooth outlines.
 pub(super) const FINE: usize = 2;
 
-/// Letters in the longest number beside the bar, with its sign of more: ≥ -1.2e-300.
+/// Letters in the longest number next to the bar, with its sign of more: ≥ -1.2e-300.
 pub(super) const LONGEST: f64 = 8.0;
 
-/// Where the viewer stands, far away.
+/// Place of the viewer, far away.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Viewpoint {
     /// At +z: x to the right, y up.
@@ -52,7 +52,7 @@ pub(crate) struct PictureLook {
     pub bounds: Option<([f64; 3], [f64; 3])>,
     /// Draw the outlines of elements where they are large enough.
     pub edges: bool,
-    /// Draw the colour map with numbers at the right; a value beyond the limits is told by ≥.
+    /// Draw the colour map with numbers at the right; ≥ marks a value beyond the limits.
     pub bar: bool,
     /// Draw the axes and a length at the bottom left.
     pub scale: bool,

@@ -69,7 +69,7 @@ pub(super) struct Sides {
     pub(super) line: usize,
 }
 
-/// Where a part stands: moved, then turned about an axis through two points.
+/// Placement of a part: moved, then turned about an axis through two points.
 pub(super) struct Instance {
     pub(super) name: String,
     pub(super) body: usize,
