@@ -19,73 +19,102 @@ const MASS_FACTOR: [f64; 2] = [2.4, 3.6];
 const TIE_M: f64 = 1e-6;
 
 /// Mesh, fabrication and loading of a robot: the numbers of [`super::KEYS`] in SI, and the words and lists.
-#[allow(missing_docs, reason = "the list KEYS says what each number is")]
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobotSettings {
+    /// Element size of the body \[m\].
     pub body_size_m: f64,
+    /// Element size of the strip under the actuator and of the actuator \[m\].
     pub actuator_size_m: f64,
-    /// `None`: 1, and 0.8 under a taped sheet.
+    /// Distance of the rings at the actuator over `actuator_size_m`; `None`: 1, and 0.8 under a taped sheet.
     pub ring_spacing: Option<f64>,
-    /// Rows grow by a quarter each. `None`: as long as the others, and two thirds of a weld under a folded sheet.
+    /// Length of the rows next to welds \[m\], from which rows grow by a quarter each to the distance of the rings; `None`: no shorter
+    /// than those, and two thirds of a weld under a folded sheet.
     pub seam_row_m: Option<f64>,
-    /// Published: 0.01 mm.
+    /// Distance between layers at the start \[m\]. Published: 0.01 mm.
     pub layer_gap_m: f64,
-    /// Assumed. Along a line (0) taped plies fold without end as the mesh gets finer.
+    /// Width of the welds across the robot and along the actuator's sides \[m\]; 0 is a line, along which taped plies fold
+    /// without end as the mesh gets finer. Assumed.
     pub weld_m: f64,
-    /// Assumed.
+    /// Share of the bending stiffness of a solid plate that one sheet of coated fabric has. Assumed.
     pub bending_factor: f64,
-    /// Wrinkles keep their load.
+    /// Share of the bending stiffness of sheets, welds and glued plies that is kept; wrinkles keep their load. 1 but for a study of
+    /// what carries a difference.
     pub bending_share: f64,
-    /// Assumed ([`models::fabrics::WrinklingFilm`]). `None`: sheets carry all of compression.
+    /// Length of the wrinkles of single sheets over the length that the geometry gives (`plies`), to which their load is inverse
+    /// ([`models::fabrics::WrinklingFilm`]). `None`: sheets carry all of compression. Assumed.
     pub wrinkle_length: Option<f64>,
-    /// Assumed: 1 without slip, 0 as loose sheets.
+    /// How far taped and glued plies bend as one: 1 without slip, 0 as loose sheets. Assumed.
     pub bond: f64,
+    /// Thickness of the transfer tape \[m\]. Assumed.
     pub tape_m: f64,
+    /// Young's modulus of the tape's adhesive \[Pa\]. Assumed.
     pub tape_e_pa: f64,
+    /// Width of the taped sheet beyond the welds along its sides \[m\]. Assumed.
     pub tape_margin_m: f64,
     /// Whether tape holds separate pouches at their seams only, and not over their whole face. The paper prints neither.
     pub taped_at_seams: bool,
+    /// Thickness of the glue film \[m\]. Assumed.
     pub glue_m: f64,
+    /// Young's modulus of the glue (silicone) \[Pa\]. Assumed.
     pub glue_e_pa: f64,
-    /// Assumed. `None`: the material's own.
+    /// Contraction along fill per stretch along warp of an anisotropic fabric; `None` keeps the material's own.
+    /// Assumed.
     pub nu12: Option<f64>,
-    /// `None` in these four: that of the fabric. Moduli are for isotropic fabrics only.
+    /// Thickness of the actuator's sheet \[m\]; `None`: that of its fabric.
     pub sheet_m: Option<f64>,
+    /// Young's modulus of the actuator's sheet \[Pa\]; `None`: that of its fabric. Isotropic fabrics only.
     pub sheet_e_pa: Option<f64>,
+    /// Thickness of the body's sheet \[m\]; `None`: that of its fabric.
     pub body_sheet_m: Option<f64>,
+    /// Young's modulus of the body's sheet \[Pa\]; `None`: that of its fabric. Isotropic fabrics only.
     pub body_sheet_e_pa: Option<f64>,
-    /// From a peel or tensile test of a seam. Changes no run.
+    /// Force per length that a weld carries \[N/m\], from a peel or tensile test of a seam; `None`: not known. Changes no run.
     pub weld_strength_n_per_m: Option<f64>,
+    /// Mass per volume of all fabrics, tape and glue \[kg/m³\]. Assumed.
     pub density_kg_m3: f64,
     /// Actuator gauge pressure at the end \[Pa\].
     pub actuator_pa: f64,
+    /// Duration of the body's ramp, which comes first \[s\].
     pub body_ramp_s: f64,
+    /// Duration of the actuator's ramp \[s\].
     pub actuator_ramp_s: f64,
-    /// A robot bends most, and its folds open, at about the body's pressure. `None`: a fifth-order step of the pressure.
+    /// The actuator's pressure grows by equal shares of itself plus this in equal times \[Pa\]: a robot bends most, and its
+    /// folds open, while this is about the body's pressure. `None`: a fifth-order step of the pressure itself.
     pub ramp_floor_pa: Option<f64>,
+    /// Time at full pressure before the robot is watched \[s\].
     pub hold_s: f64,
+    /// Longest time that a hold then waits until the tip is at rest \[s\]; `None`: six times the actuator's ramp.
     pub rest_s: Option<f64>,
-    /// Masses are raised as the highest mode of the mesh needs. `None`: 3.6, and 2.4 where layers of elements of 1.5 mm and more touch.
+    /// Square of the step over the time that sound takes through the smallest element; masses are raised as the highest mode of the
+    /// mesh needs (`mass_scaling`). `None`: 3.6, and 2.4 where layers of elements of 1.5 mm and more touch.
     pub mass_factor: Option<f64>,
     /// Whether waves of a few elements are heavy in place of everything ([`crate::problem::Settings::selective_mass`]).
     pub selective_mass: bool,
-    /// They allow a longer step in addition to `mass_factor`. `None`: 2, and 6 for elements below 1.5 mm.
+    /// Passes of the selective masses, 2, 4 or 6 ([`crate::problem::Settings::mass_passes`]), and the longer step that they allow
+    /// in addition to `mass_factor`; `None`: 2, and 6 for elements below 1.5 mm.
     pub mass_passes: Option<usize>,
+    /// Movement of the tip that a hold does not wait for, as a share of its displacement ([`super::Settling`]).
     pub creep: f64,
+    /// Share of the stable step that is used.
     pub cfl: f64,
+    /// In-plane viscosity ([`crate::problem::Settings::viscosity`]).
     pub viscosity: f64,
-    /// `None`: 1.4 ω of [`super::Settling`].
+    /// Mass damping \[1/s\]; `None`: 1.4 ω, the estimate of the tip's lowest frequency ([`super::Settling`]).
     pub mass_damping_1_s: Option<f64>,
+    /// Hourglass coefficient.
     pub hourglass: f64,
+    /// Share of the stored energy that hourglass control may hold at the end ([`crate::problem::Guards::hourglass`]).
     pub guard_hourglass: f64,
     /// Whether layers touch; `None`: where the pattern folds.
     pub contact: Option<bool>,
     /// Whether the base ring cannot turn either: the row beside it is held too. Published: no difference, so pinned.
     pub encastre: bool,
-    /// A push that breaks the symmetry.
+    /// Random offset of the nodes at the start, as a share of the element size: a push that breaks the symmetry.
     pub imperfection: f64,
-    /// Assumed: random waves of 30 to 120 mm. A seed is the same robot on every mesh.
+    /// How far the sewn shape, free of membrane stress, departs from the pattern \[m\]: root mean square along each axis, in random
+    /// waves of 30 to 120 mm. A seed is the same robot on every mesh. Assumed.
     pub waviness_m: f64,
+    /// Seed of both.
     pub seed: u64,
 }
 
