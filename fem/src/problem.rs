@@ -227,7 +227,7 @@ pub struct Settings {
     pub guards: Guards,
 }
 
-/// How a hold waits for rest ([`crate::robot::Settling`]).
+/// How a hold waits for rest (`fem/src/robot/rest.rs`).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patience {
     /// Movement of the tip that counts as none, over its displacement.

@@ -111,7 +111,7 @@ pub struct Reading {
     pub waited_s: f64,
     /// How far the tip still goes by its last movements \[m\]; `None` without waiting.
     pub ahead_m: Option<f64>,
-    /// Whether the tip is at rest, by [`super::Settling`].
+    /// Whether the tip is at rest, by `fem/src/robot/rest.rs`.
     pub is_at_rest: bool,
 }
 

@@ -93,13 +93,13 @@ pub struct RobotSettings {
     /// Passes of the selective masses, 2, 4 or 6 ([`crate::problem::Settings::mass_passes`]), and the longer step that they allow
     /// in addition to `mass_factor`; `None`: 2, and 6 for elements below 1.5 mm.
     pub mass_passes: Option<usize>,
-    /// Movement of the tip that a hold does not wait for, as a share of its displacement ([`super::Settling`]).
+    /// Movement of the tip that a hold does not wait for, as a share of its displacement (`fem/src/robot/rest.rs`).
     pub creep: f64,
     /// Share of the stable step that is used.
     pub cfl: f64,
     /// In-plane viscosity ([`crate::problem::Settings::viscosity`]).
     pub viscosity: f64,
-    /// Mass damping \[1/s\]; `None`: 1.4 ω, the estimate of the tip's lowest frequency ([`super::Settling`]).
+    /// Mass damping \[1/s\]; `None`: 1.4 ω, the estimate of the tip's lowest frequency (`fem/src/robot/rest.rs`).
     pub mass_damping_1_s: Option<f64>,
     /// Hourglass coefficient.
     pub hourglass: f64,

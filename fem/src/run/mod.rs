@@ -161,7 +161,7 @@ impl Simulation {
         Ok(run)
     }
 
-    /// Goes on from the end of a run of another problem of the same structure ([`Problem::fingerprint_of_structure`]): loads that
+    /// Goes on from the end of a run of another problem of the same structure (mesh, sections, supports, contact, numerics): loads that
     /// both have in the same way go on, others begin, and the books keep what those did that are gone.
     ///
     /// # Errors
