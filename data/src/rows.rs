@@ -376,9 +376,16 @@ impl<'a> Cells<'a> {
         let bounds = pressure_bounds(quantity);
         let room_pa = if quantity == P_BODY { ROOM_PA } else { 0.0 };
         if value > bounds.high * bounds.si + room_pa {
-            let better = if self.header.unit(quantity) == "kPa" { "pa" } else { "kpa" };
-            let help = format!("name the column {}_{better}", QUANTITIES[quantity].base);
-            return Err(DataError::Unit(self.out_of_bounds(quantity, value, help)));
+            let [better, ending] = if self.header.unit(quantity) == "kPa" { ["Pa", "pa"] } else { ["kPa", "kpa"] };
+            let told = bounds.check(value).err().map_or(String::new(), |(message, _)| message);
+            let [message, help] = match bounds.contains(value * 1e-3) {
+                true => [
+                    format!("{told}; it looks like {better}"),
+                    format!("name the column {}_{ending}", QUANTITIES[quantity].base),
+                ],
+                false => [told, "correct the number, or the unit in the name of the column".into()],
+            };
+            return Err(DataError::Unit(self.fault(quantity, message, help)));
         }
         if quantity == GAUGE && value < policy::LOWEST_GAUGE_PA {
             return Err(DataError::Cell(self.too_low(quantity, value)));

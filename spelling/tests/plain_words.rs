@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// How many there are. Lower it after a change that removed some.
-const AT_MOST: usize = 1948;
+const AT_MOST: usize = 1881;
 
 /// Words that stand for another one: what to write instead is in CONTRIBUTING.md.
 const IDIOMS: [&str; 21] = [

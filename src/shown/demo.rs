@@ -5,9 +5,12 @@ use crate::tables::{Table, lines};
 use compare::Diagnosis;
 use compare::bench::Held;
 use compare::demo::{Demo, Told};
+use compare::metrics::OverallMetrics;
 use compare::study::published::PublishedLadder;
 use compare::study::{Comparison, Timing};
+use compare::where_it_fails::Statement;
 use fem::robot::Reading;
+use models::Known;
 use serde::Serialize;
 
 /// Published displacement against every rung.
@@ -66,12 +69,68 @@ fn sets_text(found: &[Comparison]) -> String {
 pub struct DemoAnswer<'a> {
     /// Bench tests with their models
     pub measured: Vec<HeldTable<'a>>,
-    /// The missing effect in one of them
+    /// Published displacements, and models with more and more effects
+    pub published: Vec<PublishedRungs<'a>>,
+    /// Synthetic marker data with the same models
+    pub marker_sets: Vec<MarkerSet<'a>>,
+    /// The missing effect in one of the sets
     pub diagnosis: &'a Diagnosis,
     /// Run time against error
     pub timings: &'a [Timing],
     /// A finite element run made just now
     pub small_run: SmallRun<'a>,
+}
+
+/// A published displacement, and models with more and more effects.
+#[derive(Serialize)]
+pub struct PublishedRungs<'a> {
+    /// Name of the actuator
+    pub actuator: &'a str,
+    /// Published displacement
+    pub measured_mm: f64,
+    /// How it is known
+    pub measured_is: Known,
+    /// Models, each with one more effect
+    pub rungs: Vec<PublishedRung<'a>>,
+    /// Stiffness that the bare model would need, if there is one
+    pub calibrated_bending_nm2: Option<f64>,
+}
+
+/// A model of a published robot.
+#[derive(Serialize)]
+pub struct PublishedRung<'a> {
+    /// What was added
+    pub model: &'a str,
+    /// How its value is known
+    pub how_known: Known,
+    /// Height of the outermost marker
+    pub y_mm: f64,
+    /// Its range over the range of the added value
+    pub range_mm: Option<[f64; 2]>,
+    /// Source of the value
+    pub why: &'a str,
+}
+
+/// Marker data and the models compared with them.
+#[derive(Serialize)]
+pub struct MarkerSet<'a> {
+    /// Name of the data
+    pub data: &'a str,
+    /// Models, each with one more effect
+    pub models: Vec<MarkerModel<'a>>,
+    /// Where the bare model fails
+    pub where_it_fails: &'a [Statement],
+}
+
+/// A model compared with marker data.
+#[derive(Serialize)]
+pub struct MarkerModel<'a> {
+    /// What was added
+    pub model: &'a str,
+    /// How its value is known
+    pub how_known: Known,
+    /// Errors over all holds
+    pub overall: &'a OverallMetrics,
 }
 
 /// A finite element run made just now.
@@ -94,9 +153,45 @@ impl<'a> DemoAnswer<'a> {
     pub fn of(demo: &'a Demo, small_run: SmallRun<'a>) -> DemoAnswer<'a> {
         DemoAnswer {
             measured: demo.measured.iter().map(HeldTable::of).collect(),
+            published: demo.ladders.iter().map(PublishedRungs::of).collect(),
+            marker_sets: demo.studies.iter().map(MarkerSet::of).collect(),
             diagnosis: &demo.diagnosed.diagnosis,
             timings: &demo.timings,
             small_run,
+        }
+    }
+}
+
+impl<'a> PublishedRungs<'a> {
+    fn of(ladder: &'a PublishedLadder) -> PublishedRungs<'a> {
+        let rungs = ladder.rungs.iter().map(|rung| PublishedRung {
+            model: &rung.label,
+            how_known: rung.known,
+            y_mm: rung.y_m * 1e3,
+            range_mm: rung.range_m.map(|range| range.map(|m| m * 1e3)),
+            why: &rung.why,
+        });
+        PublishedRungs {
+            actuator: &ladder.published.kind,
+            measured_mm: ladder.published.d_max_m * 1e3,
+            measured_is: Known::Published,
+            rungs: rungs.collect(),
+            calibrated_bending_nm2: ladder.calibrated_bending,
+        }
+    }
+}
+
+impl<'a> MarkerSet<'a> {
+    fn of(found: &'a Comparison) -> MarkerSet<'a> {
+        let models = found.variants.iter().map(|v| MarkerModel {
+            model: &v.label,
+            how_known: v.known,
+            overall: &v.evaluation.metrics.overall,
+        });
+        MarkerSet {
+            data: &found.dataset.name,
+            models: models.collect(),
+            where_it_fails: &found.variants[0].evaluation.where_it_fails,
         }
     }
 }

@@ -114,8 +114,11 @@ fn y_pointing_down_is_noticed() {
 fn metres_pascals_and_psi_are_recognised() {
     refused(scaled(&[7, 8], 1e-3), &["column x_mm", "it looks like metres", "name the column x_m"]);
     refused(scaled(&[7, 8, 9], 1e-3), &["column x_mm", "it looks like metres", "name the column x_m"]);
-    refused(scaled(&[4], 1e3), &["column p_act_kpa", "must be from 0 to 1000 kPa", "name the column p_act_pa"]);
-    refused(scaled(&[3, 4], 1e3), &["_kpa", "must be from", "_pa"]);
+    refused(
+        scaled(&[4], 1e3),
+        &["column p_act_kpa", "must be from 0 to 1000 kPa", "it looks like Pa", "name the column p_act_pa"],
+    );
+    refused(scaled(&[3, 4], 1e3), &["_kpa", "looks like Pa", "_pa"]);
     refused(scaled(&[3, 4], 1.0 / 6.894757), &["column p_act_kpa", "look like psi", "p_act_psi"]);
 }
 

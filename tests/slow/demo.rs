@@ -35,6 +35,8 @@ fn demo_tells_the_story_in_text_json_and_a_report_in_less_than_two_minutes() {
     let start = Instant::now();
     let answer = folder.run(&["demo", "--out", "report", "--json"]).json("ibr.demo");
     let json_s = start.elapsed().as_secs_f64();
+    assert_eq!(answer["published"].as_array().unwrap().len(), 4, "four actuators");
+    assert_eq!(answer["marker_sets"].as_array().unwrap().len(), 5);
     let diagnosis = &answer["diagnosis"];
     assert_eq!(diagnosis["added"][0]["effect"], "end_constraint", "{}", diagnosis["summary"]);
     assert!(ran.stdout.contains("What is missing in ePAM") && page.contains("id=\"diagnosis-missing\""));

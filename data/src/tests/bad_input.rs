@@ -148,7 +148,7 @@ fn pascal_psi_bar_and_megapascal_in_kilopascal_columns_are_noticed() {
     let error = read(&row(2.0, 10_000.0)).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "markers.csv:2, column p_act_kpa: actuator pressure must be from 0 to 1000 kPa, not 10000"
+        "markers.csv:2, column p_act_kpa: actuator pressure must be from 0 to 1000 kPa, not 10000; it looks like Pa"
     );
     assert_eq!(error.help(), "name the column p_act_pa");
     assert_eq!(read(&row(2000.0, 10.0)).unwrap_err().help(), "name the column p_body_pa");
