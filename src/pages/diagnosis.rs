@@ -88,7 +88,7 @@ const PICTURES: [(&str, Picture); 9] = [
         seen.then(|| waterfall("Before and after", &rungs, f.diagnosis.base.noise_floor_mm)).transpose()
     }),
     ("before_after_supply", |f, _| supply(f.diagnosis)),
-    ("candidates", |f, scenario| match f.diagnosis.is_quiet() || f.diagnosis.pressure_slip.is_some() {
+    ("candidates", |f, scenario| match f.diagnosis.is_quiet() || f.diagnosis.pressure_slip.is_some() || scenario.is_spatial() {
         true => Ok(None),
         false => candidate_curves(f.diagnosis, scenario, f.dataset),
     }),
@@ -166,7 +166,7 @@ fn values(found: &Diagnosed) -> Values {
         .with("ranked", d.ranked.iter().map(|r| ranked(d, r)).collect::<Vec<_>>())
         .with("pairs", d.pairs.iter().map(|p| pair(d, p)).collect::<Vec<_>>())
         .with("explained", explained(d))
-        .with("map_colours", residual_figure::MAP_COLOURS)
+        .with("map_colours", residual_figure::colours(found.dataset))
         .with("cautions", d.warnings.iter().filter(|w| !d.slips.contains(w)).collect::<Vec<_>>())
         .with("provenance", provenance(found))
         .and(verdict(found))

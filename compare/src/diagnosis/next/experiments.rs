@@ -173,12 +173,11 @@ fn protocol(dataset: &Dataset, pressures: &[f64], body: f64, hold_s: f64) -> Dat
     let mut planned = Dataset {
         runs: vec!["1".into()],
         holds,
-        xy_m: Vec::new(),
-        z_m: None,
+        coordinates_m: Vec::new(),
         gauge_pa: None,
         lost: Lost::default(),
         ..dataset.clone()
     };
-    planned.xy_m = vec![0.0; planned.values_per_run()];
+    planned.coordinates_m = vec![0.0; planned.values_per_run()];
     planned
 }

@@ -157,7 +157,7 @@ fn base(case: &Case, last: &Fit, held_out: &HeldOut, noise: &NoiseSummary) -> Re
         hi: intervals[k].map(|i| i[1]),
         at_bound: case.base.binding[k],
     };
-    let nominal = predict_dataset(&case.first().scenario, &case.first().dataset)?.xy_m;
+    let nominal = predict_dataset(&case.first().scenario, &case.first().dataset)?.coordinates_m;
     Ok(BaseFit {
         bending_nominal_nm2: case.first().scenario.bending_stiffness,
         bending: case.bendings(&case.base).into_iter().enumerate().map(bending).collect(),
