@@ -131,7 +131,7 @@ impl Witness {
 }
 
 /// Holds finite element runs of the scenario's robot against a diagnosis; `None` where there is none, or none at a pressure
-/// of the data, and of a robot in space.
+/// of the data, and of a robot in space or with several supply channels.
 ///
 /// # Errors
 /// A model without equilibrium.
@@ -142,7 +142,7 @@ pub fn witness(
     about: Option<&About>,
     runs: &[EngineRun],
 ) -> Result<Option<Witness>, CompareError> {
-    if scenario.is_spatial() {
+    if scenario.is_spatial() || dataset.channels_differ() {
         return Ok(None);
     }
     let (scenario, _) = fit_scenario(scenario, dataset, about)?;

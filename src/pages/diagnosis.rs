@@ -88,8 +88,9 @@ const PICTURES: [(&str, Picture); 9] = [
         seen.then(|| waterfall("Before and after", &rungs, f.diagnosis.base.noise_floor_mm)).transpose()
     }),
     ("before_after_supply", |f, _| supply(f.diagnosis)),
-    ("candidates", |f, scenario| match f.diagnosis.is_quiet() || f.diagnosis.pressure_slip.is_some() || scenario.is_spatial() {
+    ("candidates", |f, scenario| match f.diagnosis.is_quiet() || f.diagnosis.pressure_slip.is_some() {
         true => Ok(None),
+        _ if scenario.is_spatial() || f.dataset.channels_differ() => Ok(None),
         false => candidate_curves(f.diagnosis, scenario, f.dataset),
     }),
     ("ledger", |f, scenario| {

@@ -113,7 +113,11 @@ impl Source {
                     .into(),
             );
         }
-        let gauge = Gauge::of(&source.dataset, &source.scenario).filter(|_| !source.direct.pressure);
+        let several = source.dataset.channels_differ();
+        if several && dataset.gauge_pa.is_some() {
+            warnings.push("the column p_gauge is of one supply channel and was not used: the table has several".into());
+        }
+        let gauge = Gauge::of(&source.dataset, &source.scenario).filter(|_| !source.direct.pressure && !several);
         if let Some(gauge) = &gauge {
             source.dataset = gauge.positions(&source.dataset);
             source.direct.pressure = true;

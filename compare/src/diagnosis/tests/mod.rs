@@ -5,6 +5,7 @@ mod gauge;
 mod lost;
 pub mod pattern;
 mod pressures;
+mod space;
 mod together;
 
 use crate::diagnosis::candidates::candidates;

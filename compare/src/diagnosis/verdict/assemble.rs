@@ -8,7 +8,7 @@ use crate::diagnosis::decide::Decision;
 use crate::diagnosis::detect::undetectable;
 use crate::diagnosis::heldout::HeldOut;
 use crate::diagnosis::interval::intervals;
-use crate::diagnosis::limits::limits;
+use crate::diagnosis::limits::{limits, not_in_space};
 use crate::diagnosis::pairs::describe;
 use crate::diagnosis::problem::{Block, Fit};
 use crate::diagnosis::result::*;
@@ -79,7 +79,7 @@ pub fn assemble(case: &Case, decision: &Decision, beside: Beside) -> Result<Diag
         base: base(case, last, &held_out, &noise)?,
         noise,
         rule_out_first: rule_out_first(case, &ranked, decision),
-        limits: limits(&datasets, &undetectable),
+        limits: [limits(&datasets, &undetectable), not_in_space(&case.first().scenario)].concat(),
         by_design: by_design(case, decision.verdict, &decision.singles.fits).map(as_close).collect(),
         ranked,
         covered: (added.len() == 1).then_some(policy::COVERED),

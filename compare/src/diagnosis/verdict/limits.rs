@@ -9,6 +9,7 @@ use crate::fit::least_squares::square;
 use crate::policy;
 use crate::wording::list;
 use data::{Dataset, Hold, Phase};
+use models::Scenario;
 
 pub fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Vec<String> {
     let mut limits = Vec::new();
@@ -44,6 +45,16 @@ pub fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Vec<Strin
         limits.push(format!("no size within its bounds would be seen: {}", list(&unseen)));
     }
     limits
+}
+
+/// Effects that act on the actuator of a robot in space and are not built for strips round the body, in one sentence; none of a planar
+/// robot.
+pub fn not_in_space(scenario: &Scenario) -> Vec<String> {
+    let catalogue = scenario.catalogue();
+    let left_out = catalogue.effects().filter(|e| scenario.actuator.takes(e) && !scenario.takes(e));
+    let names: Vec<String> = left_out.map(|e| e.name.to_string()).collect();
+    let words = "not built for strips round the body and left out, as is the missing moment";
+    if names.is_empty() { Vec::new() } else { vec![format!("{words}: {}", list(&names))] }
 }
 
 /// Says so if the markers, fitted without it, ask for another bending stiffness than the bending test found.
