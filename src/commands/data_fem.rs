@@ -49,7 +49,7 @@ pub fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome, Failure
     write(&args.out, &dataset, &about, robot.text, &inputs::named(&truth, [])?, context)?;
     let text = format!(
         "{} values of {} finite element runs in {}\n",
-        dataset.xy_m.len(),
+        dataset.coordinates_m.len(),
         dataset.runs.len(),
         args.out.display()
     );

@@ -19,6 +19,11 @@ pub fn scenario(spec: &str) -> Result<ScenarioFile, Failure> {
     Ok(ibr::studies::scenario(spec)?)
 }
 
+/// The same for what is built for strips round the body too.
+pub fn scenario_in_space(spec: &str) -> Result<ScenarioFile, Failure> {
+    Ok(ibr::studies::scenario_in_space(spec)?)
+}
+
 /// A robot as typed: its file, and the scenario with what was changed.
 pub fn robot(args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
     changed(scenario(&args.scenario)?, ScenarioFile::with, args)
@@ -26,7 +31,7 @@ pub fn robot(args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
 
 /// The same for what is built for strips round the body too.
 pub fn robot_in_space(args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
-    changed(ibr::studies::scenario_in_space(&args.scenario)?, ScenarioFile::with_in_space, args)
+    changed(scenario_in_space(&args.scenario)?, ScenarioFile::with_in_space, args)
 }
 
 /// `key=value` of an option `--set`.

@@ -90,6 +90,7 @@ const PICTURES: [(&str, Picture); 9] = [
     ("before_after_supply", |f, _| supply(f.diagnosis)),
     ("candidates", |f, scenario| match f.diagnosis.is_quiet() || f.diagnosis.pressure_slip.is_some() {
         true => Ok(None),
+        _ if scenario.is_spatial() || f.dataset.channels_differ() => Ok(None),
         false => candidate_curves(f.diagnosis, scenario, f.dataset),
     }),
     ("ledger", |f, scenario| {
@@ -166,7 +167,7 @@ fn values(found: &Diagnosed) -> Values {
         .with("ranked", d.ranked.iter().map(|r| ranked(d, r)).collect::<Vec<_>>())
         .with("pairs", d.pairs.iter().map(|p| pair(d, p)).collect::<Vec<_>>())
         .with("explained", explained(d))
-        .with("map_colours", residual_figure::MAP_COLOURS)
+        .with("map_colours", residual_figure::colours(found.dataset))
         .with("cautions", d.warnings.iter().filter(|w| !d.slips.contains(w)).collect::<Vec<_>>())
         .with("provenance", provenance(found))
         .and(verdict(found))

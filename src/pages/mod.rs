@@ -11,7 +11,6 @@ mod diagnosis_tests;
 mod engine_figures;
 mod engines;
 mod figures;
-mod in_space;
 mod ladder;
 mod moment_figure;
 mod one_number;
@@ -32,7 +31,6 @@ pub use diagnosis::{Diagnosed, diagnosis_page, diagnosis_pictures, diagnosis_plo
 pub use engine_figures::parting_plot;
 pub use engines::engines_page;
 pub use figures::{measured, tradeoff as tradeoff_plot};
-pub use in_space::{markers as space_markers, space_page};
 pub use ladder::{Climbed, ladder_page};
 pub use one_number::one_number_files;
 pub use pattern::pattern_sheet;

@@ -13,7 +13,6 @@ pub mod engines;
 pub mod extension;
 pub mod held;
 pub mod imported;
-pub mod in_space;
 pub mod linear;
 pub mod lists;
 pub mod nearest;
