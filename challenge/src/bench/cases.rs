@@ -92,7 +92,10 @@ pub(super) fn draw(part: Lot, seed: u64, stream: u64, index: usize) -> Result<Tr
         truth.add(list[turn * STRIDE % list.len()].name, draw.between(0.8, 1.5));
     };
     match part {
-        Lot::Hidden(Hiding::One) | Lot::Measured(Hiding::One) | Lot::LostMarkers(Hiding::One) => {
+        Lot::Hidden(Hiding::One)
+        | Lot::Measured(Hiding::One)
+        | Lot::LostMarkers(Hiding::One)
+        | Lot::HoldsScatter(Hiding::One) => {
             hide_one(truth::applicable(actuator, HIDDEN)?, &mut truth);
         }
         Lot::Interval => {
@@ -103,13 +106,14 @@ pub(super) fn draw(part: Lot, seed: u64, stream: u64, index: usize) -> Result<Tr
         Lot::Hidden(Hiding::Outside) => truth.add(OUTSIDE[turn * STRIDE % OUTSIDE.len()].name, 1.0),
         Lot::Hidden(kind) | Lot::Measured(kind) => truth.hide(kind, &mut draw)?,
         Lot::HeavyTails => truth.heavy_tails = true,
-        Lot::LostMarkers(_) => {}
+        Lot::LostMarkers(_) | Lot::HoldsScatter(_) => {}
         Lot::Clamp => {
             let [softest, stiffest] = CLAMPS.map(f64::ln);
             truth.add(["base_clamp", "tip_clamp"][turn % 2], draw.between(softest, stiffest).exp());
         }
         Lot::Softening => truth.add("softening", draw.between(0.8, 1.5)),
     }
+    truth.holds_scatter = matches!(part, Lot::HoldsScatter(_));
     truth.lost_markers = matches!(part, Lot::LostMarkers(_));
     Ok(truth)
 }
@@ -122,7 +126,7 @@ pub(super) fn named(case: &PlannedSet, diagnose: Diagnoser) -> Result<Named, Str
         Lot::HeavyTails => hidden(truth, Hiding::Nothing, diagnose),
         Lot::Measured(_) => tested(truth).and_then(|about| alone(truth, about, diagnose)),
         Lot::Interval => interval(truth, diagnose),
-        Lot::LostMarkers(_) | Lot::Clamp | Lot::Softening => {
+        Lot::LostMarkers(_) | Lot::HoldsScatter(_) | Lot::Clamp | Lot::Softening => {
             about(truth).and_then(|about| alone(truth, about, diagnose))
         }
     };

@@ -257,6 +257,8 @@ pub enum Lot {
     HeavyTails,
     /// Nothing, or the same effects, seen by a camera that loses markers.
     LostMarkers(Hiding),
+    /// Nothing, or the same effects, with scatter of single holds.
+    HoldsScatter(Hiding),
     /// A clamp at base or tip, from half of its typical stiffness to thirty times that.
     Clamp,
     /// A wall that softens as it bends.
@@ -278,10 +280,12 @@ fn plan(options: &DiscoveryOptions) -> Result<Vec<PlannedSet>, CompareError> {
         (Lot::LostMarkers(Hiding::One), half),
         (Lot::Clamp, half),
         (Lot::Softening, half),
+        (Lot::HoldsScatter(Hiding::Nothing), half),
+        (Lot::HoldsScatter(Hiding::One), half),
     ];
     let mut plan = Vec::new();
     for (number, (part, sets)) in parts.into_iter().enumerate() {
-        let same = |other: &(Lot, usize)| matches!(part, Lot::Measured(kind) | Lot::LostMarkers(kind) if other.0 == Lot::Hidden(kind));
+        let same = |other: &(Lot, usize)| matches!(part, Lot::Measured(kind) | Lot::LostMarkers(kind) | Lot::HoldsScatter(kind) if other.0 == Lot::Hidden(kind));
         let number = parts.iter().position(same).unwrap_or(number);
         for index in 0..sets {
             let stream = ((number as u64) << 32) + index as u64;

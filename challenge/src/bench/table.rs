@@ -29,6 +29,8 @@ pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
     rows.extend(one(outcomes, Lot::Measured(Hiding::One), "one hidden effect, B measured to 10 %"));
     let lossy = found(outcomes, Lot::LostMarkers(Hiding::One));
     rows.extend(named(&lossy, "one hidden effect, markers lost", &[ALARM], &[IN_SET, OUTSIDE]));
+    let scattered = found(outcomes, Lot::HoldsScatter(Hiding::One));
+    rows.extend(named(&scattered, "one hidden effect, holds scatter", &[ALARM], &[IN_SET, OUTSIDE]));
     for (part, case) in [(Lot::Clamp, "a clamp of any stiffness"), (Lot::Softening, "a softening wall")] {
         rows.extend(named(&found(outcomes, part), case, &[ALARM], &[ALONE_IN_SET]));
     }
@@ -87,7 +89,9 @@ fn nothing(outcomes: &[SetOutcome]) -> Vec<Rate> {
     let (all, tested) = (found(outcomes, NOTHING), found(outcomes, Lot::Measured(Hiding::Nothing)));
     let (few, many): (Sets, Sets) = all.iter().copied().partition(|(outcome, _)| outcome.truth.runs < 5);
     let lossy = found(outcomes, Lot::LostMarkers(Hiding::Nothing));
+    let scattered = found(outcomes, Lot::HoldsScatter(Hiding::Nothing));
     vec![
+        share(&scattered, "no hidden effect, holds scatter", FALSE_ALARM),
         share(&lossy, "no hidden effect, markers lost", FALSE_ALARM),
         share(&found(outcomes, Lot::HeavyTails), "no hidden effect, heavy tails", FALSE_ALARM),
         share(&many, case, ("false alarms, 5 and 10 runs", AtMost(0.03), FALSE_ALARM.2)),

@@ -170,7 +170,8 @@ fn chi_square(
     let [pressure, _, _, rotation, _, about_x, about_y] = noise.test_variance;
     // Two holds are two settings of the regulator: each adds its own error, whatever the run-to-run scatter.
     let regulator = 2.0 * policy::SENSOR_SD[0].powi(2) / noise.runs as f64;
-    let variances = [pressure, mismatch(&dataset.holds, pair).powi(2) + regulator, 0.0, rotation, 0.0, about_x, about_y];
+    let variances =
+        [pressure, mismatch(&dataset.holds, pair).powi(2) + regulator, 0.0, rotation, 0.0, about_x, about_y];
     let unit_m = (2.0 / layout.samples as f64).sqrt() * noise.unit_m();
     let white = Whitener::new(&rows, unit_m, &variances)?.whiten(&difference);
     Ok(white.iter().map(|w| w * w).sum())
