@@ -62,11 +62,15 @@ fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Ou
 
 /// A note on a table with z or several channels, whose frame no geometry alone can check.
 fn in_space_words(dataset: &Dataset) -> String {
-    let z = dataset.has_z().then(|| format!("z varies by up to {:.1} mm from the first hold", 1e3 * dataset.travel_m(2)));
+    let z =
+        dataset.has_z().then(|| format!("z varies by up to {:.1} mm from the first hold", 1e3 * dataset.travel_m(2)));
     let more = dataset.more_channels();
     let channels = (more > 0).then(|| format!("pressures of {} supply channels", more + 1));
     let words: Vec<String> = z.into_iter().chain(channels).collect();
-    format!("{}: the robot's model finds exchanged columns of them: give its scenario with --scenario", words.join(", "))
+    format!(
+        "{}: the robot's model finds exchanged columns of them: give its scenario with --scenario",
+        words.join(", ")
+    )
 }
 
 fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome, Failure> {

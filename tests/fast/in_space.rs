@@ -26,7 +26,9 @@ fn a_robot_with_strips_is_held_against_data_in_space() {
     );
     let ran = folder.run(&["compare", ROBOT, "made", "--effect", "pressure_loss:fraction=0.2", "--out", "report"]);
     assert_eq!(ran.code, 0, "{}", ran.stderr);
-    for word in ["camera noise", "20/10 kPa load", "tip error x mm", "tip distance mm", "+ pressure_loss", "P/p scaling"] {
+    for word in
+        ["camera noise", "20/10 kPa load", "tip error x mm", "tip distance mm", "+ pressure_loss", "P/p scaling"]
+    {
         assert!(ran.stdout.contains(word), "{word}: {}", ran.stdout);
     }
     for file in ["report.html", "shapes.svg", "shapes_z.svg", "residual_map.svg", "holds.csv"] {

@@ -299,11 +299,7 @@ impl NoiseModel {
         })
     }
 
-    fn measured(
-        dataset: &Dataset,
-        groups: &[Vec<usize>],
-        directions: Vec<Row>,
-    ) -> Result<NoiseModel, CompareError> {
+    fn measured(dataset: &Dataset, groups: &[Vec<usize>], directions: Vec<Row>) -> Result<NoiseModel, CompareError> {
         let fit = DirectionFit::new(&directions);
         let within = within_sessions(dataset, groups, &fit);
         let sigma2 = within.sigma2.max(SMALLEST_SIGMA_M.powi(2));

@@ -133,7 +133,10 @@ mod tests {
         let data = seen(&[run(2.0)], "d", &Generator { pressure_sd: 0.02, ..quiet() }).unwrap();
         let gain = data.coordinates_m[7] / 0.060;
         assert!(gain != 1.0 && (gain - 1.0).abs() < 0.1);
-        assert!((data.coordinates_m[3] / 0.010 - gain).abs() < 1e-12 && (data.coordinates_m[5] / 0.040 - gain).abs() < 1e-12);
+        assert!(
+            (data.coordinates_m[3] / 0.010 - gain).abs() < 1e-12
+                && (data.coordinates_m[5] / 0.040 - gain).abs() < 1e-12
+        );
     }
 
     #[test]
