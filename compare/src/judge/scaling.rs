@@ -210,10 +210,12 @@ fn cannot_be_checked(holds: &[Hold]) -> ScalingCheck {
         Some(body) => {
             let same_body =
                 pressurised.filter(|h| h.phase != Phase::Unload && !policy::bodies_differ(h.p_body_pa, body));
-            let mut actuator: Vec<f64> = same_body.map(|h| 1e-3 * h.sum_act_pa()).collect();
-            actuator.sort_by(f64::total_cmp);
+            let mut actuator: Vec<&Hold> = same_body.collect();
+            actuator.sort_by(|a, b| a.sum_act_pa().total_cmp(&b.sum_act_pa()));
             let scaled = |by: f64| {
-                let mut words: Vec<String> = actuator.iter().map(|p| short(by * p)).collect();
+                let word =
+                    |hold: &&Hold| hold.channels_pa().map(|p| short(by * (1e-3 * p))).collect::<Vec<_>>().join("/");
+                let mut words: Vec<String> = actuator.iter().map(word).collect();
                 words.dedup();
                 list(&words)
             };
