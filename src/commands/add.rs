@@ -1,15 +1,13 @@
 //! `ibr add`
 
 use super::inputs;
-use super::{Context, Outcome};
 use crate::cli::AddArgs;
-use crate::failure::Failure;
+use crate::prelude::*;
 use crate::shown::extension::{AddAnswer, steps_text};
 use compare::diagnosis::Options;
 use compare::extension::{Extension, Wish, add};
 use compare::progress::part;
 use compare::progress::shares::READ;
-use std::path::{Path, PathBuf};
 use std::sync::PoisonError;
 
 pub fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome, Failure> {

@@ -2,15 +2,12 @@
 
 use super::shards::{Work, in_shards};
 use super::verify::show;
-use super::{Context, Outcome};
 use crate::cli::BenchArgs;
-use crate::failure::Failure;
-use crate::output::{check_folder, machine, sha256};
+use crate::prelude::*;
 use challenge::Laws;
 use challenge::bench::DiscoveryOptions;
 use fem::session::Shard;
 use std::ops::ControlFlow;
-use std::path::Path;
 use verification::speed::{discovery, engine, model};
 
 pub fn run(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure> {

@@ -2,17 +2,13 @@
 
 use super::fem_inputs::{kept, list, robots, sizes};
 use super::shards::shared;
-use super::{Context, Outcome};
 use crate::cli::BreakdownArgs;
-use crate::failure::Failure;
-use crate::output::{check_folder, write_files};
+use crate::prelude::*;
 use crate::shown::breakdown::{Breakdown, text};
 use compare::study::breakdown::{PARTINGS_CSV, Ranges, jobs, partings};
 use compare::study::columns::csv;
 use compare::study::engines::{EngineRun, engines, runs_json, runs_of, stored};
-use ibr::pages::{Files, parting_plot};
-use models::Scenario;
-use models::scenario::quantity::Quantity;
+use ibr::pages::parting_plot;
 
 pub fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome, Failure> {
     check_folder(&args.out)?;

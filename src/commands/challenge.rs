@@ -1,15 +1,10 @@
 //! `ibr challenge new | reveal | list`: data with a hidden effect whose truth is sealed until someone asks for it.
 
+use super::inputs;
 use super::inputs::scatter;
-use super::{Context, Outcome, inputs};
 use crate::cli::{ChallengeCommand, ChallengeNewArgs};
-use crate::failure::Failure;
-use crate::output::{check_set_folder, replace_files, set_name};
-use crate::tables::Table;
+use crate::prelude::*;
 use challenge::{ALSO, Claim, ClaimScore, HIDDEN, HiddenEffect, Laws, OUTSIDE, Riddle, Truth, score};
-use ibr::pages::Files;
-use serde::Serialize;
-use std::path::Path;
 
 pub fn run(command: &ChallengeCommand, context: &mut Context) -> Result<Outcome, Failure> {
     match command {

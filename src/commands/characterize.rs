@@ -1,18 +1,14 @@
 //! `ibr characterize`
 
 use super::inputs::quantity;
-use super::{Context, Outcome};
 use crate::cli::CharacterizeArgs;
-use crate::failure::Failure;
-use crate::output::{check_folder, program, spares_inputs, write_files};
+use crate::prelude::*;
 use crate::shown::characterized::{FabricAnswer, text};
 use crate::shown::imported::CharacterizeExample;
 use compare::characterize::write::{fabric_toml, missing};
 use compare::characterize::{FabricTests, Reduction, example};
 use data::CouponDefaults;
-use ibr::pages::{Files, characterized_files};
-use models::scenario::quantity::Quantity;
-use std::path::Path;
+use ibr::pages::characterized_files;
 
 /// Seed of the example: the documents show its numbers.
 const EXAMPLE_SEED: u64 = 1;

@@ -1,22 +1,17 @@
 //! `ibr data check | list | import | generate | fem`
 
 use super::inputs::{self, scattered};
-use super::{Context, Outcome, list};
+use super::list;
 use crate::cli::{DataCommand, GenerateArgs};
-use crate::failure::Failure;
-use crate::output::{Input, check_set_folder, replace_files, set_name};
+use crate::prelude::*;
 use crate::shown::check::{BenchCheck, Check, CheckedTable, check_text};
 use crate::shown::imported::Generated;
 use compare::diagnosis::{Options, pressure_slip};
 use compare::slips::pressure::pressure_words;
 use compare::slips::slips;
 use compare::study::generate::{Generator, about, generate};
-use compare::{Evidence, ScenarioFile};
-use data::{About, Dataset};
+use data::About;
 use ibr::check_fed;
-use ibr::pages::Files;
-use models::Model;
-use std::path::Path;
 
 pub fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome, Failure> {
     match command {

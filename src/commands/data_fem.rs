@@ -4,18 +4,14 @@ use super::data::write;
 use super::fem_inputs::{kept, list, pressures};
 use super::inputs;
 use super::inputs::scattered;
-use super::{Context, Outcome};
 use crate::cli::DataFemArgs;
-use crate::failure::Failure;
-use crate::output::{check_set_folder, set_name};
+use crate::prelude::*;
 use crate::shown::imported::SeenByFem;
 use compare::study::Generator;
 use compare::study::engines::{EngineRun, of_the_program, runs_of, seed_jobs};
 use compare::study::generate::about;
 use compare::study::seen::seen;
 use fem::session::Source;
-use models::Scenario;
-use models::scenario::quantity::Quantity;
 
 pub fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome, Failure> {
     check_set_folder(&args.out, context.force)?;

@@ -1,14 +1,11 @@
 //! `ibr data import`
 
 use super::import_options::options;
-use super::{Context, Outcome};
 use crate::cli::Import;
-use crate::failure::Failure;
-use crate::output::{Input, check_folder, check_set_folder, replace_files, spares_inputs, write_files};
+use crate::prelude::*;
 use crate::shown::imported::{ImportAnswer, ImportExample, told};
 use data::import::{Imported, import};
-use ibr::pages::{Files, tracks_plot};
-use std::path::Path;
+use ibr::pages::tracks_plot;
 
 /// Three runs of an ePAM with sealed edges as DeepLabCut writes them, and the log of their pressures.
 const EXAMPLE: [(&str, &str); 4] = [

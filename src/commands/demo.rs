@@ -1,8 +1,6 @@
 //! `ibr demo`
 
-use super::{Context, Outcome};
-use crate::failure::Failure;
-use crate::output::{check_folder, imprint, write_files};
+use crate::prelude::*;
 use crate::shown::demo::{DemoAnswer, SmallRun, text};
 use compare::demo::demo;
 use compare::progress::part;
@@ -11,7 +9,6 @@ use fem::session::{FeRun, Settings, Source, heights_mm, simulate};
 use ibr::pages::demo_page;
 use ibr::studies::SMALL_RUN;
 use std::ops::ControlFlow;
-use std::path::Path;
 
 pub fn run(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
     check_folder(folder)?;

@@ -1,15 +1,12 @@
 //! `ibr design`
 
 use super::pattern::usual_pattern;
-use super::{Context, Outcome};
 use crate::cli::DesignArgs;
-use crate::failure::Failure;
-use crate::output::{Input, check_folder, maker, sha256, write_files};
+use crate::prelude::*;
 use crate::shown::designed::{DesignAnswer, design_text};
 use fem::FemError;
 use fem::session::{FeRun, Job, Progress, Settings, Source, simulate, simulate_all};
 use ibr::pages::design_files;
-use std::path::{Path, PathBuf};
 use sweep::design::{Checked, Design, Round, Rounds, Wish, misses_of_reading};
 
 /// Pictures of a finite element run that go with its design.

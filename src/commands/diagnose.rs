@@ -1,10 +1,8 @@
 //! `ibr diagnose`
 
 use super::inputs;
-use super::{Context, Outcome};
 use crate::cli::DiagnoseArgs;
-use crate::failure::Failure;
-use crate::output::{Input, check_folder, imprint, write_files};
+use crate::prelude::*;
 use crate::shown::diagnosis::{DiagnosisAnswer, text};
 use compare::diagnose;
 use compare::diagnosis::Options;
@@ -14,7 +12,6 @@ use compare::study::engines::known_runs;
 use compare::witness::witness;
 use ibr::compared::unused_sigma;
 use ibr::pages::{Diagnosed, diagnosis_page, diagnosis_pictures};
-use std::path::Path;
 
 pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failure> {
     if args.published {

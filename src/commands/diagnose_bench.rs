@@ -1,8 +1,8 @@
 //! `ibr diagnose` of a table of bench tests: a beam, a muscle.
 
-use super::{Context, Outcome, held, inputs};
+use super::{held, inputs};
 use crate::cli::DiagnoseArgs;
-use crate::failure::Failure;
+use crate::prelude::*;
 use crate::shown::bench_diagnosis::{BenchDiagnosisAnswer, text};
 use compare::diagnosis::{BenchOptions, diagnose_bench};
 use compare::progress::shares::READ;

@@ -1,16 +1,12 @@
 //! `ibr compare --engines`: both engines and the published numbers.
 
 use super::fem_inputs::{kept, pressures, robots};
-use super::{Context, Outcome};
 use crate::cli::CompareArgs;
-use crate::failure::Failure;
-use crate::output::{check_folder, imprint, write_files};
+use crate::prelude::*;
 use crate::shown::engines::{EnginesAnswer, text};
 use compare::study::engines::{EngineLine, EngineRun, all_runs, engines, lines, runs_json, runs_of, seed_jobs, stored};
 use fem::session::Source;
 use ibr::pages::engines_page;
-use models::Scenario;
-use std::path::PathBuf;
 
 pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let folder = args.out.clone().unwrap_or_else(|| PathBuf::from("ibr-report/compare-engines"));

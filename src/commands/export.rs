@@ -2,15 +2,10 @@
 
 use super::inputs::{self, quantity};
 use super::predict::wanted;
-use super::{Context, Outcome};
 use crate::cli::{ExportArgs, ExportCommand, LinearArgs};
-use crate::failure::Failure;
-use crate::output::write_texts;
+use crate::prelude::*;
 use crate::shown::linear::{LinearAnswer, text as linear_text};
 use models::export::{Bound, Linear, Origin, Table, Untabulated};
-use models::scenario::quantity::Quantity;
-use models::{Model, Scenario};
-use serde::Serialize;
 
 pub fn run(command: &ExportCommand, context: &mut Context) -> Result<Outcome, Failure> {
     match command {

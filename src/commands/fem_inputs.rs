@@ -1,14 +1,9 @@
 //! What finite element commands are given: cases and robots by name, pressures, sizes, times.
 
-use super::Context;
 use super::inputs::quantity;
-use crate::failure::Failure;
-use crate::output::{Input, maker};
+use crate::prelude::*;
 use fem::session::{Settings, Source, rounded};
 use ibr::fe_source;
-use models::Scenario;
-use models::scenario::quantity::Quantity;
-use std::path::Path;
 
 /// The robots of the paper.
 const PUBLISHED: [&str; 4] = ["spam", "cpam", "epam", "fpam"];

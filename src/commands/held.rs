@@ -1,15 +1,12 @@
 //! Bench tests in `ibr compare`: a beam, a muscle.
 
 use super::inputs;
-use super::{Context, Outcome};
 use crate::cli::CompareArgs;
-use crate::failure::Failure;
+use crate::prelude::*;
 use crate::shown::held::{BenchAnswer, HeldTable, text};
-use compare::ScenarioFile;
 use compare::bench::held;
 use compare::study::Knob;
 use compare::typed_effect::with_effect;
-use models::Scenario;
 
 /// The comparison, if the data are a table of bench tests.
 pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Option<Outcome>, Failure> {

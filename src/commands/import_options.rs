@@ -2,7 +2,7 @@
 
 use super::inputs::{bounded, positive, quantity};
 use crate::cli::Import;
-use crate::failure::Failure;
+use crate::prelude::*;
 use data::import::typed::{axes, column, known_distance, station};
 use data::import::{ImportOptions, Scale, read_board};
 use spelling::quantity::Quantity;

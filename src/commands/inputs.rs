@@ -1,17 +1,14 @@
 //! Scenarios, data and quantities as typed on the command line.
 
-use super::Context;
 use crate::cli::{FitArgs, RobotArgs, ScatterArgs};
-use crate::failure::Failure;
-use crate::output::Input;
+use crate::prelude::*;
+use compare::CompareError;
 use compare::diagnosis::Options;
 use compare::progress::part;
 use compare::progress::shares::READ;
 use compare::study::Generator;
 use compare::typed_effect::with_effect;
-use compare::{CompareError, Evidence, ScenarioFile};
-use models::Scenario;
-use models::scenario::quantity::{Quantity, parse};
+use models::scenario::quantity::parse;
 use spelling::units::Range;
 
 /// A scenario as typed.

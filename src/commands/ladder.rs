@@ -1,18 +1,14 @@
 //! `ibr ladder`
 
 use super::inputs::{self, plain};
-use super::{Context, Outcome};
 use crate::cli::LadderArgs;
-use crate::failure::Failure;
-use crate::output::{Input, check_folder, imprint, write_files};
+use crate::prelude::*;
 use crate::shown::extension::climb_text;
 use compare::diagnosis::Options;
 use compare::ladder::{Climb, MOST_EFFECTS, ladder};
 use compare::progress::part;
 use compare::progress::shares::{CLIMBED, READ};
 use ibr::pages::{Climbed, ladder_page};
-use serde::Serialize;
-use std::path::{Path, PathBuf};
 
 /// `ibr.ladder`: `ibr ladder SCENARIO DATA`
 #[derive(Serialize)]

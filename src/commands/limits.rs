@@ -1,11 +1,7 @@
 //! `ibr predict --limits`: from which length on loads fold the robot.
 
-use super::Outcome;
-use crate::failure::Failure;
-use crate::tables::Table;
-use crate::words::pressure_words;
-use models::{Loads, Scenario, collapse_length_m};
-use serde::Serialize;
+use crate::prelude::*;
+use models::collapse_length_m;
 
 /// Straight, then at each pressure.
 pub fn run(typed: &str, scenario: &Scenario, wanted: &[Loads]) -> Result<Outcome, Failure> {

@@ -1,12 +1,10 @@
 //! `ibr list` and `ibr new`
 
-use super::Outcome;
-use crate::failure::Failure;
+use crate::prelude::*;
 use crate::shown::lists::Lists;
 use fem::case::{SHIPPED_CASES, shipped_case};
 use ibr::studies::{STUDIES, study};
 use models::scenario::SHIPPED;
-use serde::Serialize;
 
 pub fn run(what: Option<&str>) -> Result<Outcome, Failure> {
     let lists = Lists::of(what);

@@ -37,7 +37,6 @@ mod verify;
 use crate::cli::Command;
 pub use crate::context::{Context, Outcome};
 use crate::failure::Failure;
-use crate::tables;
 
 /// Runs a command.
 pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure> {

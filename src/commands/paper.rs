@@ -1,14 +1,11 @@
 //! `ibr compare --paper`: the paper's finite elements, reproduced.
 
 use super::fem_inputs::{kept, pressures, robots, sizes};
-use super::{Context, Outcome};
 use crate::cli::CompareArgs;
-use crate::failure::Failure;
-use crate::output::{check_folder, write_files};
+use crate::prelude::*;
 use crate::shown::paper::{PaperAnswer, text};
 use compare::study::engines::runs_of;
 use compare::study::paper::{MESHES_MM, PaperRun, facts, heights, jobs, ordered, runs_below, runs_json, stored};
-use ibr::pages::Files;
 
 pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;

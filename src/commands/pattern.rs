@@ -1,17 +1,12 @@
 //! `ibr pattern`
 
 use super::inputs::{self, quantity};
-use super::{Context, Outcome};
 use crate::cli::PatternArgs;
-use crate::failure::Failure;
-use crate::output::write_texts;
+use crate::prelude::*;
 use crate::shown::pattern::PatternAnswer;
 use ibr::pages::pattern_sheet;
-use models::Scenario;
 use models::cutting::{CuttingPlan, Making};
-use models::scenario::quantity::Quantity;
 use report::sheet::{Paper, PatternSheet, dxf, pages, svg};
-use std::path::PathBuf;
 
 /// Width of welds where neither the scenario nor the user says one, as in [`fem::robot::RobotSettings`] \[m\].
 const WELD_M: f64 = 0.003;

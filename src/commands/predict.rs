@@ -1,16 +1,15 @@
 //! `ibr predict`
 
 use super::inputs::{self, quantity};
-use super::{Context, Outcome, limits};
+use super::limits;
 use crate::cli::PredictArgs;
-use crate::failure::Failure;
-use crate::output::{check_folder, write_files};
+use crate::prelude::*;
 use crate::shown::nearest::{NearestPlace, nearest_words};
 use crate::shown::predicted::{PredictAnswer, PredictedState, above_limit, beyond_words, columns, text};
 use ibr::pages::predicted_files;
 use ibr::{check_fed, predict, predict_for, predict_near};
-use models::scenario::quantity::{MOST, Quantity, parse_pressures};
-use models::{CHANNELS, Loads, Model, Scenario, Target};
+use models::scenario::quantity::{MOST, parse_pressures};
+use models::{CHANNELS, Target};
 
 pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;

@@ -1,13 +1,10 @@
 //! `ibr diagnose SCENARIO --published`: what the one displacement that the paper prints can tell.
 
-use super::{Context, Outcome};
-use crate::failure::Failure;
-use crate::output::{check_folder, write_files};
+use crate::prelude::*;
 use crate::shown::one_number::{OneNumberAnswer, text};
 use compare::study::one_number::one_number;
 use ibr::pages::one_number_files;
 use models::scenario::SHIPPED;
-use std::path::Path;
 
 pub fn run(kind: &str, out: Option<&Path>, context: &mut Context) -> Result<Outcome, Failure> {
     out.map_or(Ok(()), check_folder)?;

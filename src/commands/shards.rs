@@ -1,12 +1,9 @@
 //! Work shared between machines that see one folder: `--shard K/N`, or a scheduler that runs all shards.
 
-use super::{Context, Outcome};
 use crate::cli::ShardArgs;
-use crate::failure::Failure;
+use crate::prelude::*;
 use fem::FemError;
 use fem::session::{Job, Settings, Shard, is_finished, problems, simulate_all};
-use serde::Serialize;
-use std::path::{Path, PathBuf};
 use sweep::schedule::{self, Cluster};
 
 /// The scheduler that was asked for.

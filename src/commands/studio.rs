@@ -1,10 +1,8 @@
 //! `ibr studio`
 
-use super::{Context, Outcome};
 use crate::cli::StudioArgs;
-use crate::failure::Failure;
-use ibr::studio::Studio;
-use std::path::PathBuf;
+use crate::prelude::*;
+use crate::studio::Studio;
 
 /// Where the page is looked for, in the working folder.
 const BUILT: &str = "web/dist/ibr.html";

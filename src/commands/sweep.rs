@@ -1,14 +1,11 @@
 //! `ibr sweep`
 
 use super::shards::{Work, by_scheduler, shard};
-use super::{Context, Outcome};
 use crate::cli::SweepArgs;
-use crate::failure::Failure;
-use crate::output::{Input, check_folder, maker, sha256, write_files};
+use crate::prelude::*;
 use crate::shown::swept::{SweepAnswer, swept_text};
 use data::Table;
 use ibr::pages::{sweep_picture_names, sweep_pictures};
-use std::path::{Path, PathBuf};
 use sweep::{Found, Settings, Study, SweepError, collect, parts_missing, run as compute};
 
 pub fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome, Failure> {

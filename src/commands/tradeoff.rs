@@ -1,15 +1,11 @@
 //! `ibr tradeoff`
 
-use super::{Context, Outcome};
 use crate::cli::TradeoffArgs;
-use crate::failure::Failure;
-use crate::output::{check_folder, machine, write_files};
-use crate::tables::Table;
+use crate::prelude::*;
 use compare::study::engines::known_runs;
 use compare::study::published::published_ladders;
 use compare::study::tradeoff::{Timing, of_runs, tradeoff};
-use ibr::pages::{Files, tradeoff_plot};
-use serde::Serialize;
+use ibr::pages::tradeoff_plot;
 
 pub fn run(args: &TradeoffArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let out = args.out.as_deref();

@@ -1,9 +1,8 @@
 //! `ibr validate`
 
 use super::inputs::{self, positive};
-use super::{Context, Outcome};
 use crate::cli::ValidateArgs;
-use crate::failure::Failure;
+use crate::prelude::*;
 use crate::shown::validation::{ValidateAnswer, text};
 use compare::validation::BeforeAfter;
 

@@ -1,11 +1,7 @@
 //! `ibr verify`: the closed forms against their known numbers, then the engine against the closed forms.
 
-use super::tables::table;
-use super::{Context, Outcome};
 use crate::cli::VerifyArgs;
-use crate::failure::{Failure, MISSED};
-use ibr::pages::Files;
-use report::{LineSeries, LineStyle, Lines};
+use crate::prelude::*;
 use verification::checks::{Choice, Figure, verify};
 use verification::{Error, Findings, Printed};
 

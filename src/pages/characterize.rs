@@ -1,10 +1,11 @@
 //! Plots: all specimens, their mean, the fit, and where the reduction stops being valid.
 
-use super::{Files, PageError};
+use super::PageError;
+use crate::prelude::*;
 use compare::characterize::write::{measured_toml, shear_table, yarn_table};
 use compare::characterize::{BiasStrip, Characterized, OPTICAL_LIMIT_RAD, PAPER_LIMIT_RAD};
 use models::fabrics::{Fabric, specimen as fit};
-use report::{LineSeries, LineStyle, Lines, lines};
+use report::lines;
 
 /// Colour of all limits.
 const LIMIT: usize = 5;

@@ -1,9 +1,10 @@
 //! The page of a scenario compared with a dataset.
 
-use super::{Files, Imprint, PageError, Values, effect, figures, number, residual_figure, tables};
+use super::{Imprint, PageError, Values, figures, residual_figure, tables};
+use crate::prelude::*;
 use crate::shown::comparison::CompareAnswer;
 use ::compare::study::Comparison;
-use data::{About, Dataset};
+use data::About;
 
 /// The page of a comparison and its files.
 ///

@@ -2,7 +2,8 @@
 
 use super::diagnosis::{Diagnosed, draw, verdict};
 use super::engines::overview;
-use super::{Files, Imprint, PAPER, PageError, Values, figures, residual_figure};
+use super::{Imprint, PAPER, PageError, Values, figures, residual_figure};
+use crate::prelude::*;
 use crate::shown::held::HeldTable;
 use ::compare::demo::{Demo, HIDDEN_IN, Story};
 use ::compare::progress::shares::PICTURES as SHARES;

@@ -1,12 +1,9 @@
 //! A design and its wish.
 
+use super::PageError;
 use super::figures::{LINE_POINTS, mm};
-use super::{Files, PageError};
-use crate::words::pressure_words;
+use crate::prelude::*;
 use ::sweep::design::{Design, Wish};
-use models::Model;
-use report::chart::{Chart, Key, KeyLook, Mark, Point, Space};
-use report::{Ink, Symbol};
 
 /// The shape of a design, with the places that are wished for and, where there are, those of finite elements (tip last) \[m\].
 ///

@@ -4,7 +4,8 @@ use super::diagnosis_figures::{
     candidate_curves, ledger_cases, left_out, ranking, shown, supply, waterfall, witness_ledger,
 };
 use super::engines::heads;
-use super::{Files, Imprint, PageError, Values, figures, in_words, moment_figure, residual_figure};
+use super::{Imprint, PageError, Values, figures, moment_figure, residual_figure};
+use crate::prelude::*;
 use ::compare::diagnosis::{Answer, Combination, Diagnosis, ParameterValue, Ranked, Separation, Standing, Verdict};
 use ::compare::extension::error_steps;
 use ::compare::progress::Progress;
@@ -13,9 +14,7 @@ use ::compare::study::engines::TERMS;
 use ::compare::study::predict::fit_scenario;
 use ::compare::witness::{HEIGHTS, Witness};
 use ::compare::wording::{p_value, short};
-use data::{About, Dataset};
-use models::{Loads, Scenario};
-use report::Drawn;
+use data::About;
 
 /// Errors below this are no bar \[mm\].
 const SMALLEST_BAR_MM: f64 = 0.005;

@@ -2,15 +2,15 @@
 
 use super::PageError;
 use super::figures::measured;
+use crate::prelude::*;
 use compare::diagnosis::{Answer, Diagnosis, Group, Standing};
 use compare::extension::ErrorStep;
 use compare::study::engines::{Energies, TERMS};
 use compare::study::predict::predict_dataset;
 use compare::witness::{Witness, WitnessRow};
-use data::{Dataset, Phase};
-use models::{Loads, Model, Scenario, Step};
-use report::chart::{Bar, ChartRow, Key, KeyLook, Mark};
-use report::{self as plots, Drawn, Ink, LineSeries, LineStyle};
+use data::Phase;
+use models::Step;
+use report as plots;
 
 const MM: f64 = 1e3;
 /// Points of a curve over pressure.

@@ -1,12 +1,12 @@
 //! Plots of both engines.
 
 use super::PageError;
+use crate::prelude::*;
 use compare::study::engines::{EnginePair, TERMS};
 use compare::study::engines::{EngineRobot, Engines, PartingMap};
 use data::published::printed;
 use models::actuators::Family;
-use report::chart::{Chart, ChartColumn, ChartRow, Mark, Space};
-use report::{self as plots, Drawn, LineSeries, LineStyle, Lines, number};
+use report::{self as plots, number};
 
 /// Share at which the colour of a map saturates.
 const STRONGEST: f64 = 1.5;

@@ -1,7 +1,8 @@
 //! Both engines and the published numbers on one page: displacement, accuracy, ledgers, and where the models part.
 
 use super::engine_figures::{bars, curve, displaced, ledger, parting_plot};
-use super::{Files, Imprint, PAPER, PageError, Values, marker_intervals, what_to_measure};
+use super::{Imprint, PAPER, PageError, Values, marker_intervals, what_to_measure};
+use crate::prelude::*;
 use ::compare::study::columns::csv;
 use ::compare::study::engines::{EngineRobot, Engines, LINES_CSV, line_table, lines, summary, volume_table};
 use ::compare::study::uncertain::Uncertain;

@@ -1,16 +1,14 @@
 //! Results → plots.
 
 use super::PageError;
+use crate::prelude::*;
 use compare::characterize::Scatter;
 use compare::study::Timing;
 use compare::study::published::PublishedLadder;
 use compare::study::{Comparison, Variant};
+use data::Phase;
 use data::published::printed;
-use data::{Dataset, Phase};
-use models::Known;
-use models::{Loads, Model, Scenario};
-use report::chart::{Chart, Key, KeyLook, Mark, Point, Space};
-use report::{self as plots, Drawn, Ink, LineSeries, LineStyle, Lines, Symbol};
+use report as plots;
 
 const MM: f64 = 1e3;
 /// Points of a drawn centre line.

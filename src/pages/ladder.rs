@@ -1,7 +1,8 @@
 //! The page of a climb: one effect after the other until what is left is noise.
 
 use super::diagnosis_figures::waterfall;
-use super::{Files, Imprint, PageError, Values};
+use super::{Imprint, PageError, Values};
+use crate::prelude::*;
 use ::compare::ladder::Climb;
 
 /// A climb from bare to extended, and what it was made of.

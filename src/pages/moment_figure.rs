@@ -1,11 +1,10 @@
 //! The missing moment → its picture: points with error bars, and the explanations as curves through them.
 
 use super::PageError;
+use crate::prelude::*;
 use compare::moment::{MissingMoment, MomentCurve, MomentPoint};
 use compare::witness::FeMoment;
 use compare::wording::short;
-use report::chart::{Chart, Key, KeyLook, Mark, Point, Space};
-use report::{Drawn, Ink, Symbol};
 
 /// Pressures that differ by less have one colour [kPa].
 const SAME_KPA: f64 = 0.5;

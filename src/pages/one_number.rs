@@ -1,9 +1,10 @@
 //! All that meets one published displacement, as curves.
 
-use super::{Files, PageError, effect};
+use super::PageError;
+use crate::prelude::*;
 use compare::study::one_number::{Explanation, OneNumber};
 use data::published::printed;
-use report::{LineSeries, LineStyle, Lines, lines};
+use report::lines;
 
 /// Explanations drawn as curves: with the bare model and the published number as many as a plot holds.
 const MOST_CURVES: usize = 22;

@@ -1,10 +1,9 @@
 //! Predicted shapes.
 
+use super::PageError;
 use super::figures::{LINE_POINTS, MOST_POSES, mm};
-use super::{Files, PageError};
 use crate::AtPressure;
-use crate::words::pressure_words;
-use models::{Model, Scenario};
+use crate::prelude::*;
 use report::{ShapePose, Shapes, shapes};
 
 /// The first few predicted shapes in one plot.

@@ -2,11 +2,10 @@
 
 use super::PageError;
 use super::figures::several_bodies;
+use crate::prelude::*;
 use compare::residuals::{Deviation, ResidualCell, ResidualMap};
 use compare::wording::short;
-use data::Dataset;
-use report::chart::{Chart, ChartColumn, ChartRow, Mark, RowPlace, Space};
-use report::{Drawn, number};
+use report::number;
 
 /// Panels of the map, and what their cells show.
 const DIRECTIONS: [(&str, Shown); 2] =

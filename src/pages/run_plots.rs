@@ -1,8 +1,9 @@
 //! Plots of finite element runs of robots.
 
+use crate::prelude::*;
 use compare::characterize::Scatter;
 use fem::session::{FeRun, Loaded, RunTable};
-use report::{LineSeries, LineStyle, Lines, lines};
+use report::lines;
 use std::collections::BTreeMap;
 
 /// `history.png` and `displacement.png` of a complete run of a robot.

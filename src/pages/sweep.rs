@@ -1,11 +1,11 @@
 //! A sweep as pictures: how far each key moves the tip, and a map over the two that move it most.
 
-use super::{Files, PageError};
+use super::PageError;
+use crate::prelude::*;
 use ::sweep::influence::{Influence, SweepMap, influences, map};
 use ::sweep::{Engine, Study};
 use data::Table;
-use report::chart::{Bar, Chart, ChartColumn, ChartRow, Mark, Space};
-use report::{Drawn, Ink, number};
+use report::number;
 
 /// Pictures of a table, two for every engine and coordinate of the tip.
 ///

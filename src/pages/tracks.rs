@@ -1,9 +1,8 @@
 //! Tracks over time with the holds that were found in them.
 
 use super::PageError;
+use crate::prelude::*;
 use data::import::RunTrack;
-use report::chart::{Chart, Key, KeyLook, Mark};
-use report::{Drawn, Ink};
 
 /// y of every marker over time; behind it the holds, each with its pressure.
 ///

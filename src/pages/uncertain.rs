@@ -1,8 +1,8 @@
 //! What finite elements say about a robot of which not everything was measured, drawn.
 
+use crate::prelude::*;
 use compare::study::uncertain::{Uncertain, is_same_reading};
-use report::chart::{Bar, ChartRow, Mark};
-use report::{Drawn, Ink, LineSeries, LineStyle, Lines, ReportError, lines};
+use report::{ReportError, lines};
 
 /// Heights of all markers at all pressures, median and 80 % interval, beside measured ones.
 ///

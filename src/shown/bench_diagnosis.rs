@@ -1,12 +1,10 @@
 //! A diagnosis of bench tests.
 
 use super::diagnosis_tables::p_text;
-use crate::tables::{Table, lines};
-use crate::words::number;
+use crate::prelude::*;
 use compare::diagnosis::words::listed;
 use compare::diagnosis::{BenchDiagnosis, BenchRanked, Verdict};
-use data::{Bench, Provenance};
-use serde::Serialize;
+use data::Bench;
 
 /// `ibr.diagnose.bench`: `ibr diagnose TABLE`, a table of bench tests
 #[derive(Serialize)]

@@ -1,10 +1,9 @@
 //! Where the engines part, in words.
 
-use crate::tables::{printed, table};
+use crate::prelude::*;
 use compare::study::breakdown::Parting;
 use compare::study::columns::{TextColumn, TextTable};
 use compare::study::engines::SHAPE;
-use serde::Serialize;
 
 /// `ibr.breakdown`: `ibr breakdown`
 #[derive(Serialize)]

@@ -1,11 +1,9 @@
 //! What tests of a fabric say.
 
-use crate::output::program;
-use crate::tables::{Table, lines};
+use crate::prelude::*;
 use compare::characterize::write::measured_toml;
 use compare::characterize::{Characterized, Specimen};
-use data::{Direction, Provenance};
-use serde::Serialize;
+use data::Direction;
 
 /// For readers.
 pub fn text(found: &Characterized) -> String {

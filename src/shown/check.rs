@@ -1,8 +1,7 @@
 //! What a table of markers holds.
 
-use crate::tables::{Table, lines};
-use data::{CheckReport, Provenance};
-use serde::Serialize;
+use crate::prelude::*;
+use data::CheckReport;
 
 /// `ibr.data.check`: `ibr data check DATA`
 #[derive(Serialize)]

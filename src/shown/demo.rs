@@ -1,7 +1,7 @@
 //! The demonstration.
 
 use super::held::{self, HeldTable};
-use crate::tables::{Table, lines};
+use crate::prelude::*;
 use compare::Diagnosis;
 use compare::bench::Held;
 use compare::demo::{Demo, Told};
@@ -10,8 +10,6 @@ use compare::study::published::PublishedLadder;
 use compare::study::{Comparison, Timing};
 use compare::where_it_fails::Statement;
 use fem::robot::Reading;
-use models::Known;
-use serde::Serialize;
 
 /// Published displacement against every rung.
 fn published_text(ladders: &[PublishedLadder]) -> String {

@@ -1,9 +1,7 @@
 //! A design as text and JSON.
 
-use crate::tables::{Table, table};
-use crate::words::pressure_words;
+use crate::prelude::*;
 use ::sweep::design::{Checked, End, Held, Miss, Round, Rounds, Spread, Wish};
-use serde::Serialize;
 
 fn shown(values: &[f64]) -> String {
     match values {

@@ -1,7 +1,7 @@
 //! Every table of a diagnosis.
 
 use super::diagnosis::is_told;
-use crate::tables::{Table, lines, table};
+use crate::prelude::*;
 use compare::diagnosis::words::{listed, three, with_unit};
 use compare::diagnosis::{Diagnosis, Group, Ranked};
 use compare::study::engines::TERMS;

@@ -1,11 +1,9 @@
 //! Both engines in words.
 
-use crate::failure::Failure;
-use crate::tables::printed;
+use crate::prelude::*;
 use compare::study::engines::{
     BodyVolumes, EngineLine, EnginePair, Engines, branches, ledgers, line_table, summary, volume_table,
 };
-use serde::Serialize;
 
 /// `ibr.engines`: `ibr compare --engines`
 #[derive(Serialize)]

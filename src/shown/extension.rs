@@ -1,12 +1,11 @@
 //! Errors on the way to an extended scenario.
 
-use crate::tables::{Table, lines};
+use crate::prelude::*;
+use compare::CompareError;
 use compare::diagnosis::ParameterValue;
 use compare::diagnosis::words::three;
 use compare::extension::{Addition, ErrorStep, Extension, today};
 use compare::ladder::Climb;
-use compare::{CompareError, Evidence, ScenarioFile};
-use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// Errors on the way as a text table.

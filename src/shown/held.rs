@@ -1,10 +1,7 @@
 //! Bench tests compared with a model, in words and for JSON.
 
-use crate::tables::{Table, lines};
+use crate::prelude::*;
 use compare::bench::{Held, HeldRow};
-use data::Provenance;
-use models::Known;
-use serde::Serialize;
 
 /// `ibr.compare.bench`: `ibr compare TABLE`, a table of bench tests
 #[derive(Serialize)]

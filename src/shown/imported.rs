@@ -1,9 +1,7 @@
 //! What an import understood.
 
-use crate::tables::lines;
+use crate::prelude::*;
 use data::import::Imported;
-use serde::Serialize;
-use std::path::Path;
 
 /// What was understood, a line each.
 pub fn told(made: &Imported) -> String {

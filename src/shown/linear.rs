@@ -1,10 +1,7 @@
 //! The linear form of a robot.
 
-use crate::tables::Table;
-use crate::words::pressure_words;
-use models::Scenario;
+use crate::prelude::*;
 use models::export::{Joint, Linear};
-use serde::Serialize;
 
 /// For readers.
 pub fn text(scenario: &Scenario, chain: &Linear) -> String {

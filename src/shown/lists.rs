@@ -1,12 +1,12 @@
 //! Actuators, effects, datasets and cases.
 
+use crate::prelude::*;
 use compare::diagnosis::words::with_unit;
 use data::SetInfo;
 use fem::case::{GENERATORS, MeshGenerator, SHIPPED_CASES};
 use ibr::studies::STUDIES;
 use models::actuators::{ACTUATORS, Actuator};
 use models::effects::{EFFECTS, Effect};
-use serde::Serialize;
 
 /// `ibr.list`: `ibr list`, `ibr data list`
 #[derive(Serialize, Default)]

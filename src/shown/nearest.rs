@@ -1,7 +1,7 @@
 //! What became of a target place of the tip.
 
+use crate::prelude::*;
 use models::{End, Steered};
-use serde::Serialize;
 
 /// A tip that is nearer than this is on target \[m\].
 const MET_M: f64 = 1e-6;

@@ -1,10 +1,9 @@
 //! What one displacement can show.
 
-use crate::tables::Table;
+use crate::prelude::*;
 use compare::diagnosis::words::{three, with_unit};
 use compare::study::one_number::OneNumber;
 use data::published::printed;
-use serde::Serialize;
 
 /// `ibr.one_number`: `ibr diagnose SCENARIO --published`
 #[derive(Serialize)]

@@ -1,8 +1,7 @@
 //! The paper's finite elements in words.
 
-use crate::tables::Table;
+use crate::prelude::*;
 use compare::study::paper::{FactRow, HeightRow, PaperRun, mesh_name};
-use serde::Serialize;
 
 /// `ibr.paper`: `ibr compare --paper`
 #[derive(Serialize)]

@@ -1,8 +1,7 @@
 //! Cutting plans.
 
-use crate::tables::{Table, lines};
+use crate::prelude::*;
 use models::cutting::{CuttingPlan, Making, PatternPiece};
-use serde::Serialize;
 
 /// `ibr.pattern`: `ibr pattern SCENARIO`
 #[derive(Serialize)]

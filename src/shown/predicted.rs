@@ -1,14 +1,12 @@
 //! Predicted states.
 
 use super::nearest::NearestPlace;
-use crate::tables::Table;
-use crate::words::pressure_words;
+use crate::prelude::*;
 use ::sweep::PRESSURE;
 use data::Column;
 use ibr::AtPressure;
 use models::space::SectionState;
-use models::{Beyond, CHANNELS, Limit, Model, Row, RowKind, Scenario, TipSlope};
-use serde::Serialize;
+use models::{Beyond, CHANNELS, Limit, Row, RowKind, TipSlope};
 
 /// For readers.
 pub fn text(scenario: &Scenario, states: &[AtPressure]) -> String {

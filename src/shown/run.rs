@@ -1,7 +1,7 @@
 //! A run's summary in words, and what a user should know before believing it.
 
 use super::run_robot;
-use crate::tables::{Table, lines};
+use crate::prelude::*;
 use fem::session::{Cost, MeshQuality, ProbeEnd, Rule, Summary};
 
 /// The physics of a run as text.

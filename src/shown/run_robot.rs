@@ -1,6 +1,6 @@
 //! A robot's run in words.
 
-use crate::tables::Table;
+use crate::prelude::*;
 use fem::robot::{Reading, Snap};
 use fem::session::RobotSummary;
 

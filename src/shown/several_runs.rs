@@ -1,9 +1,8 @@
 //! Several runs in words.
 
-use crate::tables::{Table, lines};
+use crate::prelude::*;
 use compare::study::uncertain::{Intervals, Member, Uncertain, Varied, Weight};
 use fem::session::{AS_IT_IS, Heights, RunRow, RunTable, SeedGroup};
-use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// Every run, then mean and spread of those that differ in the seed only.

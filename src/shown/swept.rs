@@ -1,11 +1,10 @@
 //! A sweep as text and JSON.
 
-use crate::tables::{Table as Rows, lines};
+use crate::prelude::*;
+use crate::tables::Table as Rows;
 use ::sweep::influence::{influences, pairs};
 use ::sweep::{Found, Study};
 use data::table::{Column, Table};
-use serde::Serialize;
-use std::path::Path;
 
 /// Failed cases by their reason, the most frequent first.
 fn failures(table: &Table) -> Vec<(String, usize)> {

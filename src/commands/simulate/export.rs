@@ -2,10 +2,8 @@
 
 use super::plan::RunPlan;
 use crate::cli::SimulateArgs;
-use crate::commands::Outcome;
-use crate::failure::Failure;
+use crate::prelude::*;
 use fem::session::{Export, Solver, export};
-use std::path::Path;
 
 /// Writes the problem for another program.
 pub fn written(args: &SimulateArgs, plan: &RunPlan, file: &Path, force: bool) -> Result<Outcome, Failure> {

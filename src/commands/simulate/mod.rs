@@ -5,18 +5,14 @@ mod plan;
 mod several;
 
 use super::fem_inputs::seconds;
-use super::{Context, Outcome};
 use crate::cli::SimulateArgs;
-use crate::failure::Failure;
-use crate::output::{check_folder, maker};
+use crate::prelude::*;
 use crate::shown::run::{cost_text, text};
 use fem::FemError;
 use fem::session::{Cost, FeRun, Further, SUMMARY, Settings, Source, Summary, simulate};
 use ibr::fe_source;
 use ibr::pages::run_plots;
 use plan::RunPlan;
-use serde::Serialize;
-use std::path::Path;
 use std::time::Duration;
 
 pub fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome, Failure> {

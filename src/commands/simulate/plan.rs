@@ -3,12 +3,10 @@
 use crate::cli::SimulateArgs;
 use crate::commands::fem_inputs::sizes;
 use crate::commands::inputs::{self, plain};
-use crate::failure::Failure;
-use compare::ScenarioFile;
+use crate::prelude::*;
 use fem::robot::{KEYS, OTHERS};
 use fem::session::{Cube, Source, Variation, cube, mesh_keys, numerics, pressures_in_toml, product, rounded};
 use models::scenario::quantity::parse_pressures;
-use std::path::{Path, PathBuf};
 
 const PRESSURES: &str = "write for example --pressure 10kPa,20kPa, or with supply channels 20kPa/10kPa";
 

@@ -2,14 +2,12 @@
 
 use crate::cli::{ShardArgs, SimulateArgs};
 use crate::commands::shards::shared;
-use crate::commands::{Context, Outcome};
-use crate::failure::Failure;
+use crate::prelude::*;
 use crate::shown::several_runs::{SimulationsAnswer, UncertainAnswer, table_text, uncertain_text};
 use compare::study::uncertain::Uncertain;
 use fem::session::{Cube, Job, RunTable, Settings, Source, Variation, simulate_all};
 use ibr::pages::{marker_intervals, mesh_plot, what_to_measure};
 use report::lines;
-use std::path::Path;
 
 fn jobs(base: &Source, variations: &[Variation]) -> Result<Vec<Job>, Failure> {
     let job = |v: &Variation| {
