@@ -2,8 +2,8 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
-pub use compare::extension::today;
-pub use fem::session::{FileHash as Input, sha256};
+pub(crate) use compare::extension::today;
+pub(crate) use fem::session::{FileHash as Input, sha256};
 use fem::session::{MANIFEST, Maker, Manifest};
 use ibr::pages::{Files, Imprint};
 use serde::Deserialize;
@@ -14,14 +14,24 @@ use std::sync::PoisonError;
 
 /// Writes all files into a folder, the report last; each replaces its older one only when complete. Files that this program did not
 /// write are not replaced.
-pub fn write_files(folder: &Path, files: &Files, inputs: &[Input], context: &mut Context) -> Result<(), Failure> {
+pub(crate) fn write_files(
+    folder: &Path,
+    files: &Files,
+    inputs: &[Input],
+    context: &mut Context,
+) -> Result<(), Failure> {
     let names = files.files.iter().map(|(name, _)| name).chain(files.parquet.iter().map(|(name, _)| name));
     check_own(folder, names.map(String::as_str))?;
     replace_files(folder, files, inputs, context)
 }
 
 /// The same after the command has asked itself: whatever has these names is replaced.
-pub fn replace_files(folder: &Path, files: &Files, inputs: &[Input], context: &mut Context) -> Result<(), Failure> {
+pub(crate) fn replace_files(
+    folder: &Path,
+    files: &Files,
+    inputs: &[Input],
+    context: &mut Context,
+) -> Result<(), Failure> {
     let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
     write_all(folder, files, inputs)?;
     *written = true;
@@ -43,7 +53,7 @@ fn check_own<'n>(folder: &Path, names: impl Iterator<Item = &'n str>) -> Result<
 }
 
 /// Writes single texts, each whole or not at all. A file that is there is replaced only if its beginning has [`MADE_HERE`].
-pub fn write_texts(files: &[(PathBuf, String)], context: &mut Context) -> Result<(), Failure> {
+pub(crate) fn write_texts(files: &[(PathBuf, String)], context: &mut Context) -> Result<(), Failure> {
     let is_own = |path: &Path| {
         let mut start = Vec::new();
         let read = std::fs::File::open(path).and_then(|file| file.take(BEGINNING).read_to_end(&mut start));
@@ -84,7 +94,7 @@ fn unchanged(folder: &Path) -> Vec<Input> {
 }
 
 /// Refuses a folder that cannot be made, before time is spent on its contents.
-pub fn check_folder(folder: &Path) -> Result<(), Failure> {
+pub(crate) fn check_folder(folder: &Path) -> Result<(), Failure> {
     check_own(folder, ["report.html", "table.csv"].into_iter())?;
     can_be_made(folder)
 }
@@ -98,7 +108,7 @@ fn can_be_made(folder: &Path) -> Result<(), Failure> {
 }
 
 /// The same for a set of data, which is replaced only with `--force`.
-pub fn check_set_folder(folder: &Path, force: bool) -> Result<(), Failure> {
+pub(crate) fn check_set_folder(folder: &Path, force: bool) -> Result<(), Failure> {
     let there = [
         ("seal.toml", "a challenge"),
         ("markers.csv", "a dataset"),
@@ -116,7 +126,7 @@ pub fn check_set_folder(folder: &Path, force: bool) -> Result<(), Failure> {
 }
 
 /// Refuses to write over a file that was read.
-pub fn spares_inputs(folder: &Path, files: &Files, inputs: &[String]) -> Result<(), Failure> {
+pub(crate) fn spares_inputs(folder: &Path, files: &Files, inputs: &[String]) -> Result<(), Failure> {
     let read: Vec<_> = inputs.iter().filter_map(|file| std::fs::canonicalize(file).ok()).collect();
     let same = |name: &&String| std::fs::canonicalize(folder.join(name)).is_ok_and(|path| read.contains(&path));
     match files.files.iter().map(|(name, _)| name).find(same) {
@@ -129,7 +139,7 @@ pub fn spares_inputs(folder: &Path, files: &Files, inputs: &[String]) -> Result<
 }
 
 /// What a set in a folder is called.
-pub fn set_name(folder: &Path, default: &str) -> String {
+pub(crate) fn set_name(folder: &Path, default: &str) -> String {
     folder.file_name().map_or(default.into(), |name| name.to_string_lossy().into_owned())
 }
 
@@ -177,24 +187,23 @@ fn stage(staging: &Path, files: &Files, inputs: &[Input], kept: Vec<Input>) -> R
     Ok(names)
 }
 
-/// Who makes files.
+/// Program, date, machine and command of what is written.
 pub fn maker() -> Maker {
     let command = std::env::args_os().map(|a| a.to_string_lossy().into_owned()).collect::<Vec<_>>().join(" ");
     Maker { program: program(), date: today(), machine: machine(), command }
 }
 
-/// Program and version.
-pub fn program() -> String {
+pub(crate) fn program() -> String {
     format!("ibr {}", env!("CARGO_PKG_VERSION"))
 }
 
-/// The origin of a report.
+/// Program, date and machine, for a page.
 pub fn imprint() -> Imprint {
     Imprint { program: program(), date: today(), machine: machine() }
 }
 
 /// Processor and number of cores, for timings.
-pub fn machine() -> String {
+pub(crate) fn machine() -> String {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let cpu = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
         let line = text.lines().find(|l| l.starts_with("model name"))?;

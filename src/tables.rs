@@ -4,7 +4,7 @@ use crate::words::number;
 use compare::study::columns::TextTable;
 
 /// Rows, and columns that each have a head and what they say of a row.
-pub struct Table<R> {
+pub(crate) struct Table<R> {
     rows: Vec<R>,
     columns: Vec<TextColumn>,
 }
@@ -17,7 +17,7 @@ struct TextColumn {
 
 impl<R> Table<R> {
     /// A table of these rows that has no column yet.
-    pub fn of(rows: impl IntoIterator<Item = R>) -> Table<R> {
+    pub(crate) fn of(rows: impl IntoIterator<Item = R>) -> Table<R> {
         Table { rows: rows.into_iter().collect(), columns: Vec::new() }
     }
 
@@ -28,37 +28,44 @@ impl<R> Table<R> {
     }
 
     /// A column of words, flush left.
-    pub fn words<S: Into<String>>(self, head: impl Into<String>, cell: impl Fn(&R) -> S) -> Self {
+    pub(crate) fn words<S: Into<String>>(self, head: impl Into<String>, cell: impl Fn(&R) -> S) -> Self {
         self.column(head, false, cell)
     }
 
     /// A column of text, flush right.
-    pub fn right<S: Into<String>>(self, head: impl Into<String>, cell: impl Fn(&R) -> S) -> Self {
+    pub(crate) fn right<S: Into<String>>(self, head: impl Into<String>, cell: impl Fn(&R) -> S) -> Self {
         self.column(head, true, cell)
     }
 
     /// A column of numbers with so many decimals; a dash where there is none.
-    pub fn number<V: Into<Option<f64>>>(self, head: impl Into<String>, digits: usize, cell: impl Fn(&R) -> V) -> Self {
+    pub(crate) fn number<V: Into<Option<f64>>>(
+        self,
+        head: impl Into<String>,
+        digits: usize,
+        cell: impl Fn(&R) -> V,
+    ) -> Self {
         self.column(head, true, |row| number(cell(row).into(), digits))
     }
 
-    /// The same with a sign.
-    pub fn signed<V: Into<Option<f64>>>(self, head: impl Into<String>, digits: usize, cell: impl Fn(&R) -> V) -> Self {
+    pub(crate) fn signed<V: Into<Option<f64>>>(
+        self,
+        head: impl Into<String>,
+        digits: usize,
+        cell: impl Fn(&R) -> V,
+    ) -> Self {
         self.column(head, true, |row| cell(row).into().map_or("–".into(), |v| format!("{v:+.digits$}")))
     }
 
     /// The table with further columns on a condition.
-    pub fn when(self, wanted: bool, more: impl FnOnce(Self) -> Self) -> Self {
+    pub(crate) fn when(self, wanted: bool, more: impl FnOnce(Self) -> Self) -> Self {
         if wanted { more(self) } else { self }
     }
 
-    /// Whether it has no rows.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
-    /// As text.
-    pub fn text(self) -> String {
+    pub(crate) fn text(self) -> String {
         let (mut heads, mut cells, mut flush_right) = (Vec::new(), Vec::new(), Vec::new());
         for column in self.columns {
             heads.push(column.head);
@@ -70,13 +77,13 @@ impl<R> Table<R> {
     }
 
     /// As text below a title; empty without rows.
-    pub fn under(self, title: &str) -> String {
+    pub(crate) fn under(self, title: &str) -> String {
         if self.rows.is_empty() { String::new() } else { format!("\n{title}\n{}", self.text()) }
     }
 }
 
 /// A table of finished cells; columns after the first `left` ones are flush right.
-pub fn table<S: AsRef<str>>(head: &[S], left: usize, rows: Vec<Vec<String>>) -> String {
+pub(crate) fn table<S: AsRef<str>>(head: &[S], left: usize, rows: Vec<Vec<String>>) -> String {
     let flush_right: Vec<bool> = (0..head.len()).map(|k| k >= left).collect();
     drawn(head.iter().map(|name| name.as_ref().to_string()).collect(), &flush_right, rows)
 }
@@ -102,21 +109,20 @@ fn drawn(head: Vec<String>, flush_right: &[bool], rows: Vec<Vec<String>>) -> Str
 }
 
 /// A line for each text, after a prefix.
-pub fn lines<S: AsRef<str>>(prefix: &str, texts: impl IntoIterator<Item = S>) -> String {
+pub(crate) fn lines<S: AsRef<str>>(prefix: &str, texts: impl IntoIterator<Item = S>) -> String {
     texts.into_iter().map(|text| format!("{prefix}{}\n", text.as_ref())).collect()
 }
 
-/// The same under its caption.
-pub fn printed(TextTable { caption, heads, left, rows }: &TextTable) -> String {
+pub(crate) fn printed(TextTable { caption, heads, left, rows }: &TextTable) -> String {
     let caption = if caption.is_empty() { String::new() } else { format!("{caption}\n") };
     caption + &table(heads, *left, rows.clone())
 }
 
 /// Columns of text to read.
-pub const COLUMNS: usize = 116;
+pub(crate) const COLUMNS: usize = 116;
 
 /// Text in lines of at most [`COLUMNS`], broken between words; further lines are indented.
-pub fn wrapped(text: &str, indent: usize) -> String {
+pub(crate) fn wrapped(text: &str, indent: usize) -> String {
     let mut out = String::new();
     let mut column = 0;
     for (i, word) in text.split(' ').enumerate() {

@@ -10,7 +10,7 @@ use compare::progress::part;
 use compare::progress::shares::READ;
 use std::sync::PoisonError;
 
-pub fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let file = inputs::scenario(&args.scenario)?;
     let wish = Wish::read(&file, &args.effect, args.data.is_some())?;
     let evidence = match &args.data {

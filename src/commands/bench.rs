@@ -10,7 +10,7 @@ use fem::session::Shard;
 use std::ops::ControlFlow;
 use verification::speed::{discovery, engine, model};
 
-pub fn run(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure> {
     if args.what == "discovery" {
         return discovery(args, context);
     }

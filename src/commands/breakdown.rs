@@ -10,7 +10,7 @@ use compare::study::columns::csv;
 use compare::study::engines::{EngineRun, engines, runs_json, runs_of, stored};
 use ibr::pages::parting_plot;
 
-pub fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome, Failure> {
     check_folder(&args.out)?;
     let (runs, stopped) = match runs(args, context)? {
         Ok(made) => made,
@@ -31,7 +31,6 @@ pub fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome, Failu
     Ok(outcome)
 }
 
-/// Runs, and what stopped.
 type Made = (Vec<EngineRun>, Vec<Failure>);
 
 /// Runs that come with the program or those of the folder, which gets what is missing; or what is said of a shard of them.

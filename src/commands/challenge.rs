@@ -6,7 +6,7 @@ use crate::cli::{ChallengeCommand, ChallengeNewArgs};
 use crate::prelude::*;
 use challenge::{ALSO, Claim, ClaimScore, HIDDEN, HiddenEffect, Laws, OUTSIDE, Riddle, Truth, score};
 
-pub fn run(command: &ChallengeCommand, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(command: &ChallengeCommand, context: &mut Context) -> Result<Outcome, Failure> {
     match command {
         ChallengeCommand::New(args) => make(args, context),
         ChallengeCommand::Reveal { folder, diagnosis } => reveal(folder, diagnosis.as_deref(), context),
@@ -50,7 +50,6 @@ fn reveal(folder: &Path, diagnosis: Option<&Path>, context: &mut Context) -> Res
     Ok(Outcome::answer(text, "ibr.challenge.reveal", &Revealed { sha256, truth, diagnosis: diagnosis_scored }))
 }
 
-/// Everything that can be hidden.
 fn list() -> Outcome {
     let mut text = String::from(
         "What `ibr challenge new --effect NAME` can hide; the catalogue knows the first group by another law\n",

@@ -13,7 +13,7 @@ use ibr::pages::characterized_files;
 /// Seed of the example: the documents show its numbers.
 const EXAMPLE_SEED: u64 = 1;
 
-pub fn run(args: &CharacterizeArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &CharacterizeArgs, context: &mut Context) -> Result<Outcome, Failure> {
     if let Some(folder) = &args.example {
         return make_example(folder, context);
     }

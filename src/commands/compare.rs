@@ -15,7 +15,7 @@ use ibr::compared::{Compared, contenders, unused_sigma};
 use ibr::pages::{Files, compare_page, space_page};
 use std::path::PathBuf;
 
-pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
     if args.runs.stored || args.runs.runs.is_some() || args.pressure.is_some() {
         let message = "--runs, --stored and --pressure are about finite element runs";
         return Err(Failure::usage(message, "add --engines or --paper, or leave them out"));

@@ -13,7 +13,7 @@ use compare::study::generate::{Generator, about, generate};
 use data::About;
 use ibr::check_fed;
 
-pub fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome, Failure> {
     match command {
         DataCommand::Check { data, scenario } => check(data, scenario.as_deref(), context),
         DataCommand::List => list::run(Some("datasets")),
@@ -95,7 +95,7 @@ fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome, Failure> 
 }
 
 /// Writes a made set with its truth.
-pub fn write(
+pub(super) fn write(
     folder: &Path,
     dataset: &Dataset,
     about: &About,

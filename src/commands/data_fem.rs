@@ -13,7 +13,7 @@ use compare::study::generate::about;
 use compare::study::seen::seen;
 use fem::session::Source;
 
-pub fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome, Failure> {
     check_set_folder(&args.out, context.force)?;
     let truth = inputs::scenario(&args.scenario)?;
     let (robot, scenario) = robot(args)?;

@@ -15,7 +15,7 @@ const EXAMPLE: [(&str, &str); 4] = [
     ("pressure.csv", include_str!("../../data/tests/cases/c01-deeplabcut/pressure.csv")),
 ];
 
-pub fn run(args: &Import, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &Import, context: &mut Context) -> Result<Outcome, Failure> {
     if let Some(folder) = &args.example {
         return make_example(folder, context);
     }

@@ -10,7 +10,7 @@ use ibr::pages::demo_page;
 use ibr::studies::SMALL_RUN;
 use std::ops::ControlFlow;
 
-pub fn run(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
     check_folder(folder)?;
     let say = &mut *context.say;
     let computed = demo(&mut part(context.progress, [0.0, SHOWN[0]]), &mut |told| say(&text(told)))?;

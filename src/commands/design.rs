@@ -12,7 +12,7 @@ use sweep::design::{Checked, Design, Round, Rounds, Wish, misses_of_reading};
 /// Pictures of a finite element run that go with its design.
 const PICTURES: [&str; 3] = ["side.png", "section.png", "cut.png"];
 
-pub fn run(args: &DesignArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &DesignArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let wish = Wish::read(&args.wish, ibr::studies::scenario)?;
     let stem = args.wish.file_stem().unwrap_or_default().to_string_lossy();
     let folder = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("ibr-report/design-{stem}")));

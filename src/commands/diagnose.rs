@@ -13,7 +13,7 @@ use compare::witness::witness;
 use ibr::compared::unused_sigma;
 use ibr::pages::{Diagnosed, diagnosis_page, diagnosis_pictures};
 
-pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failure> {
     if args.published {
         return super::published::run(&args.scenario, args.out.as_deref(), context);
     }

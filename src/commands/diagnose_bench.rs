@@ -8,7 +8,7 @@ use compare::diagnosis::{BenchOptions, diagnose_bench};
 use compare::progress::shares::READ;
 
 /// The diagnosis, if what was typed last is a table of bench tests.
-pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Option<Outcome>, Failure> {
+pub(super) fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Option<Outcome>, Failure> {
     let spec = args.data.as_deref().unwrap_or(&args.scenario);
     let Some(bench) = data::bench::bench(spec)? else {
         return args.fit.also.iter().try_for_each(|also| held::needs_markers(also)).map(|()| None);

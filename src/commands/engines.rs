@@ -8,7 +8,7 @@ use compare::study::engines::{EngineLine, EngineRun, all_runs, engines, lines, r
 use fem::session::Source;
 use ibr::pages::engines_page;
 
-pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let folder = args.out.clone().unwrap_or_else(|| PathBuf::from("ibr-report/compare-engines"));
     check_folder(&folder)?;
     let (named, inputs) = robots(&args.inputs)?;

@@ -7,7 +7,7 @@ use crate::prelude::*;
 use crate::shown::linear::{LinearAnswer, text as linear_text};
 use models::export::{Bound, Linear, Origin, Table, Untabulated};
 
-pub fn run(command: &ExportCommand, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(command: &ExportCommand, context: &mut Context) -> Result<Outcome, Failure> {
     match command {
         ExportCommand::C(args) => c(args, context),
         ExportCommand::Linear(args) => linear(args),

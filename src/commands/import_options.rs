@@ -8,8 +8,7 @@ use data::import::{ImportOptions, Scale, read_board};
 use spelling::quantity::Quantity;
 use spelling::units::Range;
 
-/// All of them.
-pub fn options(args: &Import) -> Result<ImportOptions, Failure> {
+pub(crate) fn options(args: &Import) -> Result<ImportOptions, Failure> {
     let bin_pa = optional(&args.bin, |text| quantity("--bin", text, Quantity::Pressure))?;
     if let Some(text) = args.bin.as_ref().filter(|_| bin_pa.is_some_and(|bin| bin <= 0.0)) {
         return Err(Failure::usage(format!("--bin {text} is not above zero"), "write for example --bin 2kPa"));

@@ -24,7 +24,7 @@ struct LadderAnswer<'a> {
     also: &'a [String],
 }
 
-pub fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome, Failure> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let file = inputs::scenario(&args.scenario)?;
     let evidence = inputs::all_evidence(&args.data, &args.fit.also, context)?;

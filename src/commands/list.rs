@@ -6,7 +6,7 @@ use fem::case::{SHIPPED_CASES, shipped_case};
 use ibr::studies::{STUDIES, study};
 use models::scenario::SHIPPED;
 
-pub fn run(what: Option<&str>) -> Result<Outcome, Failure> {
+pub(super) fn run(what: Option<&str>) -> Result<Outcome, Failure> {
     let lists = Lists::of(what);
     Ok(Outcome::answer(lists.text(), "ibr.list", &lists))
 }
@@ -22,7 +22,7 @@ struct NewAnswer {
     scenario_toml: Option<&'static str>,
 }
 
-pub fn new(kind: &str) -> Result<Outcome, Failure> {
+pub(super) fn new(kind: &str) -> Result<Outcome, Failure> {
     let scenario_toml = models::shipped(kind).or(study(kind));
     let case_toml = shipped_case(kind).filter(|_| scenario_toml.is_none());
     let Some(text) = scenario_toml.or(case_toml) else {

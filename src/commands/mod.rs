@@ -35,11 +35,10 @@ mod validate;
 mod verify;
 
 use crate::cli::Command;
-pub use crate::context::{Context, Outcome};
+pub(crate) use crate::context::{Context, Outcome};
 use crate::failure::Failure;
 
-/// Runs a command.
-pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure> {
+pub(crate) fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure> {
     match command {
         Command::Demo(out) => demo::run(&out.out, context),
         Command::Predict(args) => predict::run(args, context),

@@ -7,7 +7,7 @@ use crate::shown::paper::{PaperAnswer, text};
 use compare::study::engines::runs_of;
 use compare::study::paper::{MESHES_MM, PaperRun, facts, heights, jobs, ordered, runs_below, runs_json, stored};
 
-pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let runs = runs(args, context)?;
     let paper = data::published()?;

@@ -17,7 +17,7 @@ const ALLOWANCE_M: f64 = 0.01;
 /// More fabric than that around a piece is a slip of the unit \[m\].
 const MOST_ALLOWANCE_M: f64 = 0.5;
 
-pub fn run(args: &PatternArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &PatternArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let file = inputs::scenario(&args.scenario)?;
     let (weld_m, how) = weld(args, &file.scenario)?;
     let allowance_m = quantity("--allowance", &args.allowance, Quantity::Length)?;

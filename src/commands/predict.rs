@@ -11,7 +11,7 @@ use ibr::{check_fed, predict, predict_for, predict_near};
 use models::scenario::quantity::{MOST, parse_pressures};
 use models::{CHANNELS, Target};
 
-pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     // A stream and a length at collapse are built in the plane.
     let planar = args.follow || args.limits;
@@ -61,7 +61,6 @@ pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure
     Ok(outcome)
 }
 
-/// Lines in, lines out.
 fn follow(scenario: &Scenario, context: &Context) -> Result<Outcome, Failure> {
     if context.json {
         return Err(Failure::usage("--follow writes lines of numbers", "leave out --json"));
@@ -97,7 +96,7 @@ fn asked(scenario: &Scenario, args: &PredictArgs) -> Result<Vec<Loads>, Failure>
 }
 
 /// The pressures of the command line, else of the scenario; a beam has none to be asked for.
-pub fn wanted(scenario: &Scenario, pressures: Option<&str>) -> Result<Vec<Loads>, Failure> {
+pub(super) fn wanted(scenario: &Scenario, pressures: Option<&str>) -> Result<Vec<Loads>, Failure> {
     let mut pressures = match pressures {
         Some(text) => {
             parse_pressures(text).map_err(|m| Failure::usage(format!("--pressure: {m}"), "see ibr predict --help"))?

@@ -12,7 +12,7 @@ fn cluster(args: &ShardArgs) -> Option<Cluster> {
 }
 
 /// The shard that was asked for.
-pub fn shard(args: &ShardArgs) -> Result<Shard, Failure> {
+pub(super) fn shard(args: &ShardArgs) -> Result<Shard, Failure> {
     let shard = args.shard.as_deref().map_or(Ok(Shard::WHOLE), Shard::parse);
     shard.map_err(|message| Failure::usage(message, "see --help"))
 }
@@ -42,7 +42,7 @@ fn without(typed: &[String]) -> Vec<String> {
 }
 
 /// Work that is done in shards.
-pub struct Work<'w> {
+pub(super) struct Work<'w> {
     /// Folder of the job and its logs, seen by all machines.
     pub folder: &'w Path,
     /// What it consists of, for example runs.
@@ -56,7 +56,7 @@ pub struct Work<'w> {
 }
 
 /// Has a scheduler run all shards, if one was asked for. `None`: the command goes on; else what it has to say.
-pub fn by_scheduler(args: &ShardArgs, work: &Work, context: &mut Context) -> Result<Option<Outcome>, Failure> {
+pub(super) fn by_scheduler(args: &ShardArgs, work: &Work, context: &mut Context) -> Result<Option<Outcome>, Failure> {
     let Some(cluster) = cluster(args) else { return Ok(None) };
     let job = job(args, work.folder, context)?;
     if args.script {
@@ -83,7 +83,7 @@ struct ShardAnswer {
 
 /// Makes one shard, or has a scheduler run all of them. `None`: the command goes on with all of the work, and makes what is not there;
 /// else what it has to say. `make` says how many parts it made, and why others stopped.
-pub fn in_shards(
+pub(super) fn in_shards(
     args: &ShardArgs,
     work: &Work,
     context: &mut Context,
@@ -108,7 +108,7 @@ pub fn in_shards(
 }
 
 /// The same for finite element runs.
-pub fn shared(
+pub(super) fn shared(
     args: &ShardArgs,
     jobs: &[Job],
     settings: &Settings,

@@ -7,7 +7,7 @@ use compare::study::published::published_ladders;
 use compare::study::tradeoff::{Timing, of_runs, tradeoff};
 use ibr::pages::tradeoff_plot;
 
-pub fn run(args: &TradeoffArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &TradeoffArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let out = args.out.as_deref();
     out.map_or(Ok(()), check_folder)?;
     (context.progress)("timing", None);
@@ -45,7 +45,6 @@ struct TradeoffAnswer {
     models: Vec<Timing>,
 }
 
-/// Microseconds to minutes.
 fn time(us: f64) -> String {
     match us {
         us if us < 1e3 => format!("{us:.2} µs"),

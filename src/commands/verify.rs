@@ -5,7 +5,7 @@ use crate::prelude::*;
 use verification::checks::{Choice, Figure, verify};
 use verification::{Error, Findings, Printed};
 
-pub fn run(args: &VerifyArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &VerifyArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let choice = Choice { slow: args.slow, only: &args.only };
     let (answer, figures) = verify(&choice, &mut |what, share| (context.progress)(what, share))?;
     let mut outcome = show(answer);
@@ -19,7 +19,7 @@ pub fn run(args: &VerifyArgs, context: &mut Context) -> Result<Outcome, Failure>
 }
 
 /// An answer as a command says it.
-pub fn show(answer: Findings) -> Outcome {
+pub(super) fn show(answer: Findings) -> Outcome {
     let part = |part: Printed| match part {
         Printed::Text(text) => text,
         Printed::Table { head, left, rows } => table(head, left, rows),

@@ -11,10 +11,11 @@ use report::lines;
 const LIMIT: usize = 5;
 
 /// Every plot that the specimens allow, their mean curves, and what scenarios and cases take of them.
-///
-/// # Errors
-/// A drawing that fails.
-pub fn characterized_files(found: &Characterized, fabric: Option<&str>, program: &str) -> Result<Files, PageError> {
+pub(crate) fn characterized_files(
+    found: &Characterized,
+    fabric: Option<&str>,
+    program: &str,
+) -> Result<Files, PageError> {
     let mut files = Files::default();
     for (name, plot) in [("tension", tension(found)), ("bias", bias(found)), ("shear", shear(found))] {
         if let Some(plot) = plot {

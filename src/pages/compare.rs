@@ -46,7 +46,6 @@ pub fn compare_files(study: &Comparison) -> Result<Files, PageError> {
     Ok(files)
 }
 
-/// The answer in a paragraph.
 fn lead(study: &Comparison) -> String {
     let first = &study.variants[0];
     let all = &first.evaluation.metrics.overall;

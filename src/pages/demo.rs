@@ -16,10 +16,7 @@ use data::published::printed;
 const PICTURES: [&str; 5] = ["missing_moment", "residuals_before", "ranking", "before_after", "candidates"];
 
 /// The page of the demonstration and its plots.
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn demo_page(demo: &Demo, imprint: &Imprint, progress: &mut Progress) -> Result<Files, PageError> {
+pub(crate) fn demo_page(demo: &Demo, imprint: &Imprint, progress: &mut Progress) -> Result<Files, PageError> {
     let mut files = Files::default();
     progress("plots of the published displacements", Some(0.0));
     files.plot("published", figures::published_bars(&demo.ladders)?);

@@ -104,7 +104,7 @@ const PICTURES: [(&str, Picture); 9] = [
 ];
 
 /// Names of the pictures that a report may have.
-pub fn diagnosis_pictures() -> [&'static str; 9] {
+pub(crate) fn diagnosis_pictures() -> [&'static str; 9] {
     PICTURES.map(|(name, _)| name)
 }
 
@@ -329,7 +329,6 @@ fn with_interval(p: &ParameterValue) -> String {
     }
 }
 
-/// Three significant digits.
 fn three(v: f64) -> String {
     match v.abs() {
         0.0 => "0".into(),

@@ -99,7 +99,6 @@ pub(super) fn ranking_rows(d: &Diagnosis) -> Option<Vec<(String, Rank, f64)>> {
     (best > 0.0).then_some(rows)
 }
 
-/// The same as bars.
 pub(super) fn ranking(d: &Diagnosis) -> Result<Option<Drawn>, PageError> {
     let Some(rows) = ranking_rows(d) else { return Ok(None) };
     let title = if d.pairs.is_empty() { "What one effect explains" } else { "What one effect or two explain" };
@@ -236,7 +235,6 @@ pub(super) fn witness_cases(w: &Witness, d: &Diagnosis) -> Vec<plots::LedgerCase
     cases
 }
 
-/// Their drawing.
 pub(super) fn witness_ledger(w: &Witness, d: &Diagnosis) -> Result<Drawn, PageError> {
     let mut cases = witness_cases(w, d);
     cases.iter_mut().for_each(|case| case.label = super::effect(&case.label));

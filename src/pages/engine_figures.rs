@@ -11,11 +11,7 @@ use report::{self as plots, number};
 /// Share at which the colour of a map saturates.
 const STRONGEST: f64 = 1.5;
 
-/// Draws a map.
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn parting_plot(map: &PartingMap) -> Result<Drawn, PageError> {
+pub(crate) fn parting_plot(map: &PartingMap) -> Result<Drawn, PageError> {
     let mut columns: Vec<f64> = map.rows.iter().flat_map(|r| r.1.iter().map(|p| p.actuator_kpa)).collect();
     columns.sort_by(f64::total_cmp);
     columns.dedup_by(|a, b| (*a - *b).abs() < 0.05);
@@ -155,7 +151,6 @@ fn ahead_cm3(robot: &EngineRobot) -> f64 {
     first.map_or(0.0, |p| (p.reduced_mj[0] - p.fe_mj[0]) / p.actuator_kpa)
 }
 
-/// Their drawing.
 pub(super) fn ledger(robot: &EngineRobot) -> Result<Drawn, PageError> {
     let first = robot.pairs.first().map_or(0.0, |p| p.actuator_kpa);
     let title = format!("{}: where the energy is", robot.scenario.actuator.kind.name);

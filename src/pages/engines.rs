@@ -8,10 +8,7 @@ use ::compare::study::engines::{EngineRobot, Engines, LINES_CSV, line_table, lin
 use ::compare::study::uncertain::Uncertain;
 
 /// The page with its plots and tables.
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files, PageError> {
+pub(crate) fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files, PageError> {
     let mut files = Files::default();
     let overview = overview(engines, &mut files)?;
     let (mut cubes, mut kinds, mut maps) = (Vec::new(), Vec::new(), Vec::new());

@@ -298,7 +298,7 @@ pub(super) fn last(ladder: &PublishedLadder) -> Option<&compare::study::Rung> {
 ///
 /// # Errors
 /// What cannot be drawn.
-pub fn tradeoff(timings: &[Timing]) -> Result<Drawn, PageError> {
+pub(crate) fn tradeoff(timings: &[Timing]) -> Result<Drawn, PageError> {
     let is_reduced = |t: &&Timing| t.engine == "reduced";
     let shown: Vec<&Timing> =
         timings.iter().filter(|t| !is_reduced(t) || t.known != Known::Calibrated.word()).collect();

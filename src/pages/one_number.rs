@@ -10,10 +10,7 @@ use report::lines;
 const MOST_CURVES: usize = 22;
 
 /// Displacement over pressure of every explanation.
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn one_number_files(one: &OneNumber) -> Result<Files, PageError> {
+pub(crate) fn one_number_files(one: &OneNumber) -> Result<Files, PageError> {
     let mut files = Files::default();
     files.plot(&format!("one_number_{}", one.actuator), lines(&curves(one))?);
     Ok(files)

@@ -8,10 +8,7 @@ use data::Table;
 use report::number;
 
 /// Pictures of a table, two for every engine and coordinate of the tip.
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn sweep_pictures(study: &Study, table: &Table) -> Result<Files, PageError> {
+pub(crate) fn sweep_pictures(study: &Study, table: &Table) -> Result<Files, PageError> {
     let mut files = Files::default();
     for engine in &study.engines {
         let by = if *engine == Engine::Elements { "_fe" } else { "" };
@@ -32,7 +29,7 @@ pub fn sweep_pictures(study: &Study, table: &Table) -> Result<Files, PageError> 
 }
 
 /// Names of all pictures that a sweep may have.
-pub fn sweep_picture_names() -> [&'static str; 8] {
+pub(crate) fn sweep_picture_names() -> [&'static str; 8] {
     ["influence", "influence_fe", "map", "map_fe", "influence_z", "influence_z_fe", "map_z", "map_z_fe"]
 }
 

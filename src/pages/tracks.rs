@@ -5,10 +5,7 @@ use crate::prelude::*;
 use data::import::RunTrack;
 
 /// y of every marker over time; behind it the holds, each with its pressure.
-///
-/// # Errors
-/// Nothing to draw.
-pub fn tracks_plot(track: &RunTrack) -> Result<Drawn, PageError> {
+pub(crate) fn tracks_plot(track: &RunTrack) -> Result<Drawn, PageError> {
     let line = |(k, (_, points)): (usize, &(String, Vec<[f64; 2]>))| Mark::Line {
         points: points.iter().map(|[t, y]| [*t, y * 1e3]).collect(),
         ink: Ink::Series(k),

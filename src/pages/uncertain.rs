@@ -5,10 +5,7 @@ use compare::study::uncertain::{Uncertain, is_same_reading};
 use report::{ReportError, lines};
 
 /// Heights of all markers at all pressures, median and 80 % interval, beside measured ones.
-///
-/// # Errors
-/// [`ReportError`] if nothing was read.
-pub fn marker_intervals(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> Result<Drawn, ReportError> {
+pub(crate) fn marker_intervals(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> Result<Drawn, ReportError> {
     let mut series = Vec::new();
     for (colour, kpa) in all.pressures_kpa().into_iter().filter(|kpa| *kpa > 0.0).enumerate() {
         let found: Vec<(f64, [f64; 3])> =
@@ -32,10 +29,7 @@ pub fn marker_intervals(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> Result
 }
 
 /// What every number does to the outermost marker at a pressure.
-///
-/// # Errors
-/// [`ReportError`] with too few robots.
-pub fn what_to_measure(all: &Uncertain, actuator_kpa: f64) -> Result<Drawn, ReportError> {
+pub(crate) fn what_to_measure(all: &Uncertain, actuator_kpa: f64) -> Result<Drawn, ReportError> {
     let base = all.tip_mm(actuator_kpa).map_or(f64::NAN, |q| q[1]);
     let (weights, rest) = all.weights(actuator_kpa).unwrap_or_default();
     let (mut marks, mut rows) = (Vec::new(), Vec::new());

@@ -8,7 +8,7 @@ use data::Bench;
 
 /// `ibr.diagnose.bench`: `ibr diagnose TABLE`, a table of bench tests
 #[derive(Serialize)]
-pub struct BenchDiagnosisAnswer<'a> {
+pub(crate) struct BenchDiagnosisAnswer<'a> {
     /// What was found
     #[serde(flatten)]
     pub found: &'a BenchDiagnosis,
@@ -16,8 +16,7 @@ pub struct BenchDiagnosisAnswer<'a> {
     pub provenance: Provenance,
 }
 
-/// For readers.
-pub fn text(d: &BenchDiagnosis, bench: &Bench) -> String {
+pub(crate) fn text(d: &BenchDiagnosis, bench: &Bench) -> String {
     let verdict = match d.verdict {
         Some(Verdict::None) => "no missing effect detectable",
         Some(Verdict::TooSmall) => "more than noise, too small to name",

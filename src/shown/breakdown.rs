@@ -7,7 +7,7 @@ use compare::study::engines::SHAPE;
 
 /// `ibr.breakdown`: `ibr breakdown`
 #[derive(Serialize)]
-pub struct Breakdown<'a> {
+pub(crate) struct Breakdown<'a> {
     /// One robot at one pressure
     pub cells: &'a [Parting],
 }
@@ -34,7 +34,7 @@ fn percent(share: Option<f64>) -> String {
 }
 
 /// Every run at every pressure; then arm, width, height and volumes of both engines, where a run kept them.
-pub fn text(rows: &[Parting]) -> String {
+pub(crate) fn text(rows: &[Parting]) -> String {
     let all = TextTable::of("", 1, &COLUMNS, rows);
     let shape = |row: &Parting| {
         let shape = row.shape.as_ref()?;

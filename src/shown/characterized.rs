@@ -5,8 +5,7 @@ use compare::characterize::write::measured_toml;
 use compare::characterize::{Characterized, Specimen};
 use data::Direction;
 
-/// For readers.
-pub fn text(found: &Characterized) -> String {
+pub(crate) fn text(found: &Characterized) -> String {
     let count = |d: Direction| format!("{} at {}°", found.of(d).count(), d.degrees());
     let directions = found.directions().into_iter().map(count).collect::<Vec<_>>().join(", ");
     let mut text = format!("Specimens: {directions} ({})\n", found.provenance.word());
@@ -54,7 +53,6 @@ fn largest_strain(s: &Specimen) -> Option<f64> {
     s.stress.last().map(|row| row[0]).or_else(stretched)
 }
 
-/// Four digits, or a dash.
 fn digits(x: Option<f64>) -> String {
     let decimals = |x: f64| (3 - x.abs().max(1e-3).log10().floor() as i32).clamp(0, 6) as usize;
     x.map_or("–".into(), |x| format!("{x:.0$}", decimals(x)))
@@ -62,7 +60,7 @@ fn digits(x: Option<f64>) -> String {
 
 /// `ibr.characterize`: `ibr characterize FILES`
 #[derive(Serialize)]
-pub struct FabricAnswer<'a> {
+pub(crate) struct FabricAnswer<'a> {
     /// How the tests came to be
     pub provenance: Provenance,
     /// Means over specimens
@@ -93,7 +91,7 @@ pub struct FabricAnswer<'a> {
 
 /// A mean over specimens.
 #[derive(Serialize)]
-pub struct FabricQuantity<'a> {
+pub(crate) struct FabricQuantity<'a> {
     /// Short name
     pub key: &'a str,
     /// Name
@@ -114,7 +112,7 @@ pub struct FabricQuantity<'a> {
 
 /// What was read of a specimen.
 #[derive(Serialize)]
-pub struct SpecimenRead<'a> {
+pub(crate) struct SpecimenRead<'a> {
     /// Specimen
     pub specimen: &'a str,
     /// File
@@ -139,7 +137,7 @@ pub struct SpecimenRead<'a> {
 
 /// A test computed with the law.
 #[derive(Serialize)]
-pub struct LawOnTest<'a> {
+pub(crate) struct LawOnTest<'a> {
     /// Which law
     pub law: &'a str,
     /// Specimen
@@ -156,7 +154,7 @@ pub struct LawOnTest<'a> {
 
 impl<'a> FabricAnswer<'a> {
     /// Of what was found, with the text of `fabric.toml` if there is one.
-    pub fn of(found: &'a Characterized, fabric_toml: Option<&'a str>) -> FabricAnswer<'a> {
+    pub(crate) fn of(found: &'a Characterized, fabric_toml: Option<&'a str>) -> FabricAnswer<'a> {
         let yarn = |direction| found.yarns.iter().find(|y| y.direction == direction).map(|y| &y.rows[..]);
         let quantities = found.quantities.iter().map(|q| FabricQuantity {
             key: &q.key,

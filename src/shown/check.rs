@@ -5,7 +5,7 @@ use data::CheckReport;
 
 /// `ibr.data.check`: `ibr data check DATA`
 #[derive(Serialize)]
-pub struct CheckedTable {
+pub(crate) struct CheckedTable {
     /// What was found
     pub check: Check,
 }
@@ -13,7 +13,7 @@ pub struct CheckedTable {
 /// What was found in data.
 #[derive(Serialize)]
 #[serde(untagged)]
-pub enum Check {
+pub(crate) enum Check {
     /// In a table of markers
     Markers(Box<CheckReport>),
     /// In a table of bench tests
@@ -22,7 +22,7 @@ pub enum Check {
 
 /// A table of bench tests.
 #[derive(Serialize)]
-pub struct BenchCheck {
+pub(crate) struct BenchCheck {
     /// Kind of the table of bench tests
     pub kind: &'static str,
     /// Rows of that table
@@ -31,8 +31,7 @@ pub struct BenchCheck {
     pub provenance: Provenance,
 }
 
-/// For readers.
-pub fn check_text(report: &CheckReport) -> String {
+pub(crate) fn check_text(report: &CheckReport) -> String {
     let CheckReport { name, runs, actuator, holds, markers, samples_per_hold, .. } = report;
     let provenance = report.provenance.as_ref().map_or(String::new(), |p| format!(" ({p})"));
     let mut out = format!(

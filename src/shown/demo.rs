@@ -11,7 +11,6 @@ use compare::study::{Comparison, Timing};
 use compare::where_it_fails::Statement;
 use fem::robot::Reading;
 
-/// Published displacement against every rung.
 fn published_text(ladders: &[PublishedLadder]) -> String {
     let rungs = ladders.iter().flat_map(|ladder| ladder.rungs.iter().map(move |rung| (&ladder.published, rung)));
     Table::of(rungs)
@@ -28,7 +27,7 @@ fn published_text(ladders: &[PublishedLadder]) -> String {
 }
 
 /// What has just been computed, for readers.
-pub fn text(told: Told) -> String {
+pub(crate) fn text(told: Told) -> String {
     match told {
         Told::Measured(all) => {
             let short =
@@ -64,7 +63,7 @@ fn sets_text(found: &[Comparison]) -> String {
 
 /// `ibr.demo`: `ibr demo`
 #[derive(Serialize)]
-pub struct DemoAnswer<'a> {
+pub(crate) struct DemoAnswer<'a> {
     /// Bench tests with their models
     pub measured: Vec<HeldTable<'a>>,
     /// Published displacements, and models with more and more effects
@@ -81,7 +80,7 @@ pub struct DemoAnswer<'a> {
 
 /// A published displacement, and models with more and more effects.
 #[derive(Serialize)]
-pub struct PublishedRungs<'a> {
+pub(crate) struct PublishedRungs<'a> {
     /// Name of the actuator
     pub actuator: &'a str,
     /// Published displacement
@@ -96,7 +95,7 @@ pub struct PublishedRungs<'a> {
 
 /// A model of a published robot.
 #[derive(Serialize)]
-pub struct PublishedRung<'a> {
+pub(crate) struct PublishedRung<'a> {
     /// What was added
     pub model: &'a str,
     /// How its value is known
@@ -111,7 +110,7 @@ pub struct PublishedRung<'a> {
 
 /// Marker data and the models compared with them.
 #[derive(Serialize)]
-pub struct MarkerSet<'a> {
+pub(crate) struct MarkerSet<'a> {
     /// Name of the data
     pub data: &'a str,
     /// Models, each with one more effect
@@ -122,7 +121,7 @@ pub struct MarkerSet<'a> {
 
 /// A model compared with marker data.
 #[derive(Serialize)]
-pub struct MarkerModel<'a> {
+pub(crate) struct MarkerModel<'a> {
     /// What was added
     pub model: &'a str,
     /// How its value is known
@@ -133,7 +132,7 @@ pub struct MarkerModel<'a> {
 
 /// A finite element run made just now.
 #[derive(Serialize)]
-pub struct SmallRun<'a> {
+pub(crate) struct SmallRun<'a> {
     /// Elements
     pub elements: usize,
     /// Processor time
@@ -148,7 +147,7 @@ pub struct SmallRun<'a> {
 
 impl<'a> DemoAnswer<'a> {
     /// Of the demonstration and the run that was made with it.
-    pub fn of(demo: &'a Demo, small_run: SmallRun<'a>) -> DemoAnswer<'a> {
+    pub(crate) fn of(demo: &'a Demo, small_run: SmallRun<'a>) -> DemoAnswer<'a> {
         DemoAnswer {
             measured: demo.measured.iter().map(HeldTable::of).collect(),
             published: demo.ladders.iter().map(PublishedRungs::of).collect(),

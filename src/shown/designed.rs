@@ -11,8 +11,7 @@ fn shown(values: &[f64]) -> String {
     }
 }
 
-/// What came of a wish.
-pub fn design_text(wish: &Wish, rounds: &Rounds) -> String {
+pub(crate) fn design_text(wish: &Wish, rounds: &Rounds) -> String {
     let best = &rounds.all[rounds.best()];
     let Round { design: found, checked, .. } = best;
     let tolerance_mm = 1e3 * wish.tolerance * found.file.length_m;
@@ -162,7 +161,7 @@ fn rounds_text(wish: &Wish, rounds: &Rounds) -> String {
 
 /// `ibr.design`: `ibr design WISH`
 #[derive(Serialize)]
-pub struct DesignAnswer<'a> {
+pub(crate) struct DesignAnswer<'a> {
     /// The wish as typed
     pub wish: String,
     /// The robot that it began with
@@ -201,7 +200,7 @@ pub struct DesignAnswer<'a> {
 
 /// A value of a design.
 #[derive(Serialize)]
-pub struct ChosenValue<'a> {
+pub(crate) struct ChosenValue<'a> {
     /// Key of the scenario
     pub key: &'a str,
     /// Value as written there
@@ -210,7 +209,7 @@ pub struct ChosenValue<'a> {
 
 /// A design that was checked.
 #[derive(Serialize)]
-pub struct CheckedDesign<'a> {
+pub(crate) struct CheckedDesign<'a> {
     /// Values of the free keys
     pub chosen: Vec<ChosenValue<'a>>,
     /// The wish by the model as it is
@@ -229,7 +228,7 @@ pub struct CheckedDesign<'a> {
 
 impl<'a> DesignAnswer<'a> {
     /// What came of a wish, as typed.
-    pub fn of(typed: String, wish: &'a Wish, rounds: &'a Rounds) -> DesignAnswer<'a> {
+    pub(crate) fn of(typed: String, wish: &'a Wish, rounds: &'a Rounds) -> DesignAnswer<'a> {
         let best = rounds.best();
         let Round { design: found, checked, .. } = &rounds.all[best];
         let chosen =

@@ -7,8 +7,7 @@ use compare::diagnosis::{Diagnosis, Group, Ranked};
 use compare::study::engines::TERMS;
 use compare::witness::{HEIGHTS, Witness};
 
-/// All of them.
-pub fn tables(d: &Diagnosis, witness: Option<&Witness>) -> String {
+pub(super) fn tables(d: &Diagnosis, witness: Option<&Witness>) -> String {
     let finite_elements = witness.map(finite_elements).unwrap_or_default();
     [ranking(d), pairs(d), details(d), finite_elements, unseen(d), experiments(d)].concat()
 }
@@ -48,8 +47,7 @@ fn p_cell(p: Option<f64>) -> String {
     p.map_or("–".into(), p_text)
 }
 
-/// A p-value.
-pub fn p_text(p: f64) -> String {
+pub(super) fn p_text(p: f64) -> String {
     match p {
         p if p <= 1e-6 => "< 1e-6".into(),
         p if p < 1e-3 => format!("{p:.0e}"),

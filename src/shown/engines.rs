@@ -7,7 +7,7 @@ use compare::study::engines::{
 
 /// `ibr.engines`: `ibr compare --engines`
 #[derive(Serialize)]
-pub struct EnginesAnswer<'a> {
+pub(crate) struct EnginesAnswer<'a> {
     /// Every source at every pressure
     pub lines: &'a [EngineLine],
     /// Ledgers of both engines
@@ -18,7 +18,7 @@ pub struct EnginesAnswer<'a> {
 
 /// Ledgers of a robot.
 #[derive(Serialize)]
-pub struct RobotLedgers<'a> {
+pub(crate) struct RobotLedgers<'a> {
     /// Name of the robot
     pub robot: &'a str,
     /// Ledgers of both engines, by pressure
@@ -26,8 +26,7 @@ pub struct RobotLedgers<'a> {
 }
 
 impl<'a> EnginesAnswer<'a> {
-    /// Of all lines and robots.
-    pub fn of(lines: &'a [EngineLine], engines: &'a Engines) -> EnginesAnswer<'a> {
+    pub(crate) fn of(lines: &'a [EngineLine], engines: &'a Engines) -> EnginesAnswer<'a> {
         let ledgers = engines.robots.iter().map(|r| RobotLedgers { robot: &r.scenario.name, pairs: &r.pairs });
         let volumes = engines.robots.iter().flat_map(|r| &r.bodies).collect();
         EnginesAnswer { lines, ledgers: ledgers.collect(), volumes }
@@ -35,7 +34,7 @@ impl<'a> EnginesAnswer<'a> {
 }
 
 /// Tables of a comparison of both engines.
-pub fn text(lines: &[EngineLine], Engines { robots, .. }: &Engines) -> Result<String, Failure> {
+pub(crate) fn text(lines: &[EngineLine], Engines { robots, .. }: &Engines) -> Result<String, Failure> {
     let tables = [summary(robots)?, line_table(lines), branches(robots), ledgers(robots), volume_table(robots)];
     Ok(tables.iter().filter(|table| !table.rows.is_empty()).map(printed).collect::<Vec<_>>().join("\n"))
 }

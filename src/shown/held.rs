@@ -5,7 +5,7 @@ use compare::bench::{Held, HeldRow};
 
 /// `ibr.compare.bench`: `ibr compare TABLE`, a table of bench tests
 #[derive(Serialize)]
-pub struct BenchAnswer<'a> {
+pub(crate) struct BenchAnswer<'a> {
     /// Data as typed
     pub data: &'a str,
     /// Kind of table
@@ -18,7 +18,7 @@ pub struct BenchAnswer<'a> {
 
 /// Bench tests with their model.
 #[derive(Serialize)]
-pub struct HeldTable<'a> {
+pub(crate) struct HeldTable<'a> {
     /// One line
     pub title: &'a str,
     /// Quantity compared, with unit
@@ -35,7 +35,7 @@ pub struct HeldTable<'a> {
 
 /// A row of bench tests with its model.
 #[derive(Serialize)]
-pub struct HeldTest<'a> {
+pub(crate) struct HeldTest<'a> {
     /// Where on the bench
     pub at: &'a str,
     /// As measured
@@ -53,8 +53,7 @@ pub struct HeldTest<'a> {
 }
 
 impl<'a> HeldTable<'a> {
-    /// Of what was held.
-    pub fn of(held: &'a Held) -> HeldTable<'a> {
+    pub(crate) fn of(held: &'a Held) -> HeldTable<'a> {
         let rows = held.rows.iter().map(|r| HeldTest {
             at: &r.at,
             measured: r.measured,
@@ -70,7 +69,7 @@ impl<'a> HeldTable<'a> {
 }
 
 /// A table, and how far the model is off where it was not fitted.
-pub fn text(held: &Held) -> String {
+pub(crate) fn text(held: &Held) -> String {
     let table = Table::of(&held.rows)
         .words(&held.quantity, |r| &r.at)
         .number("measured", 2, |r| r.measured)
@@ -80,8 +79,7 @@ pub fn text(held: &Held) -> String {
     format!("{} ({})\n{}{}", held.title, held.known.word(), table.text(), closing(held))
 }
 
-/// Rms and notes.
-pub fn closing(held: &Held) -> String {
+pub(crate) fn closing(held: &Held) -> String {
     let mut out = String::new();
     if let Some(rms) = held.rms() {
         let fitted = held.rows.iter().filter(|r| r.fitted).count();

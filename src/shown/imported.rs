@@ -4,7 +4,7 @@ use crate::prelude::*;
 use data::import::Imported;
 
 /// What was understood, a line each.
-pub fn told(made: &Imported) -> String {
+pub(crate) fn told(made: &Imported) -> String {
     let set = &made.dataset;
     let count = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
     let sizes = [(set.runs.len(), "run"), (set.holds.len(), "hold"), (set.markers.len(), "marker")];
@@ -13,7 +13,7 @@ pub fn told(made: &Imported) -> String {
 
 /// `ibr.data.import`: `ibr data import FILES`
 #[derive(Serialize)]
-pub struct ImportAnswer<'a> {
+pub(crate) struct ImportAnswer<'a> {
     /// The program that wrote the files
     pub program: &'a str,
     /// Labels of runs
@@ -30,7 +30,7 @@ pub struct ImportAnswer<'a> {
 
 impl<'a> ImportAnswer<'a> {
     /// Of an import into a folder.
-    pub fn of(made: &'a Imported, folder: Option<&Path>) -> ImportAnswer<'a> {
+    pub(crate) fn of(made: &'a Imported, folder: Option<&Path>) -> ImportAnswer<'a> {
         let Imported { dataset: set, program, told, .. } = made;
         let markers = set.markers.iter().map(|marker| marker.name.as_str()).collect();
         let folder = folder.map(|out| out.display().to_string());
@@ -40,21 +40,21 @@ impl<'a> ImportAnswer<'a> {
 
 /// `ibr.data.import.example`: `ibr data import --example FOLDER`
 #[derive(Serialize)]
-pub struct ImportExample {
+pub(crate) struct ImportExample {
     /// Files that were written
     pub files: Vec<String>,
 }
 
 /// `ibr.characterize.example`: `ibr characterize --example FOLDER`
 #[derive(Serialize)]
-pub struct CharacterizeExample {
+pub(crate) struct CharacterizeExample {
     /// Files that were written
     pub files: Vec<String>,
 }
 
 /// `ibr.data.generate`: `ibr data generate SCENARIO`
 #[derive(Serialize)]
-pub struct Generated {
+pub(crate) struct Generated {
     /// Folder that was written
     pub folder: String,
     /// Runs
@@ -63,7 +63,7 @@ pub struct Generated {
 
 /// `ibr.data.fem`: `ibr data fem SCENARIO`
 #[derive(Serialize)]
-pub struct SeenByFem {
+pub(crate) struct SeenByFem {
     /// Folder that was written
     pub folder: String,
     /// Runs

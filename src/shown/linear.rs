@@ -3,8 +3,7 @@
 use crate::prelude::*;
 use models::export::{Joint, Linear};
 
-/// For readers.
-pub fn text(scenario: &Scenario, chain: &Linear) -> String {
+pub(crate) fn text(scenario: &Scenario, chain: &Linear) -> String {
     let mut joints = Table::of(chain.joints.iter().enumerate())
         .right("joint", |(i, _)| (i + 1).to_string())
         .number("start [mm]", 1, |(_, joint)| joint.start_m * 1e3)
@@ -38,7 +37,7 @@ fn channels(chain: &Linear) -> Vec<usize> {
 
 /// `ibr.export.linear`: `ibr export linear SCENARIO`
 #[derive(Serialize)]
-pub struct LinearAnswer<'a> {
+pub(crate) struct LinearAnswer<'a> {
     /// Scenario as typed
     pub scenario: &'a str,
     /// Name in the scenario
@@ -53,7 +52,7 @@ pub struct LinearAnswer<'a> {
 
 impl<'a> LinearAnswer<'a> {
     /// Of a scenario, as typed, and its chain.
-    pub fn of(typed: &'a str, scenario: &'a Scenario, chain: &'a Linear) -> LinearAnswer<'a> {
+    pub(crate) fn of(typed: &'a str, scenario: &'a Scenario, chain: &'a Linear) -> LinearAnswer<'a> {
         let Linear { loads, joints } = chain;
         let p_act_channels_kpa = loads.actuator_pa.iter().map(|p| p / 1e3).collect();
         LinearAnswer {

@@ -10,7 +10,7 @@ use models::effects::{EFFECTS, Effect};
 
 /// `ibr.list`: `ibr list`, `ibr data list`
 #[derive(Serialize, Default)]
-pub struct Lists {
+pub(crate) struct Lists {
     /// Actuators
     #[serde(skip_serializing_if = "Option::is_none")]
     pub actuators: Option<&'static [Actuator]>,
@@ -27,7 +27,7 @@ pub struct Lists {
 
 /// Finite element cases.
 #[derive(Serialize)]
-pub struct Cases {
+pub(crate) struct Cases {
     /// Cases that come with the program
     pub shipped: Vec<NamedText>,
     /// Robots that come with it in addition to the four
@@ -38,7 +38,7 @@ pub struct Cases {
 
 /// A name and what it is.
 #[derive(Serialize)]
-pub struct NamedText {
+pub(crate) struct NamedText {
     /// Name
     pub name: &'static str,
     /// One line
@@ -47,7 +47,7 @@ pub struct NamedText {
 
 impl Lists {
     /// The list of this name, or all of them.
-    pub fn of(what: Option<&str>) -> Lists {
+    pub(crate) fn of(what: Option<&str>) -> Lists {
         let wanted = |name: &str| what.is_none_or(|w| w == name);
         let title = |toml: &'static str| toml.lines().find_map(|line| line.strip_prefix("name = ")).unwrap_or_default();
         let shipped = SHIPPED_CASES.iter().map(|(name, toml)| NamedText { name, title: title(toml).trim_matches('"') });
@@ -61,8 +61,7 @@ impl Lists {
         }
     }
 
-    /// For readers.
-    pub fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         let mut out = String::new();
         if let Some(all) = self.actuators {
             out += "ACTUATORS\n";
@@ -110,7 +109,6 @@ fn effect_text(effect: &Effect) -> String {
     out + &format!("    valid: {validity}; to check: {remedy}; source: {reference}\n")
 }
 
-/// What a set holds.
 fn kind(set: &SetInfo) -> &'static str {
     let table = data::bench::KINDS.iter().find(|k| set.files.contains(&format!("{}.csv", k.name))).map(|k| k.name);
     let coupons = set.files.iter().any(|f| f.starts_with("coupon_")).then_some("tensile tests");

@@ -51,7 +51,7 @@ impl NearestPlace {
 }
 
 /// A warning where it is not reached.
-pub fn nearest_words(place_m: [f64; 2], found: &Steered) -> Option<String> {
+pub(crate) fn nearest_words(place_m: [f64; 2], found: &Steered) -> Option<String> {
     let words: Vec<String> = held(found)
         .map(|(channel, limit, kpa)| format!("channel {channel} is at its {limit} pressure, {kpa} kPa"))
         .collect();

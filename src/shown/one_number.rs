@@ -7,13 +7,12 @@ use data::published::printed;
 
 /// `ibr.one_number`: `ibr diagnose SCENARIO --published`
 #[derive(Serialize)]
-pub struct OneNumberAnswer<'a> {
+pub(crate) struct OneNumberAnswer<'a> {
     /// What was found
     pub result: &'a OneNumber,
 }
 
-/// For readers.
-pub fn text(one: &OneNumber) -> String {
+pub(crate) fn text(one: &OneNumber) -> String {
     let top = one.p_act_kpa.len() - 1;
     let mut out = format!(
         "{}: the model without stiffness says {:.1} mm at {:.0} kPa, the paper {:.1} mm (published). One number, met by one effect alone at:\n",

@@ -5,7 +5,7 @@ use compare::study::paper::{FactRow, HeightRow, PaperRun, mesh_name};
 
 /// `ibr.paper`: `ibr compare --paper`
 #[derive(Serialize)]
-pub struct PaperAnswer<'a> {
+pub(crate) struct PaperAnswer<'a> {
     /// Runs
     pub runs: usize,
     /// Heights of markers against its figures
@@ -14,8 +14,7 @@ pub struct PaperAnswer<'a> {
     pub facts: &'a [FactRow],
 }
 
-/// Heights, facts and numerics.
-pub fn text(against: &[HeightRow], rows: &[FactRow], runs: &[PaperRun]) -> String {
+pub(crate) fn text(against: &[HeightRow], rows: &[FactRow], runs: &[PaperRun]) -> String {
     let mut out = format!(
         "The paper's finite elements, reproduced: {} runs of [fem] model = \"paper\", nothing calibrated.\n\n{READING}",
         runs.len()
@@ -57,7 +56,6 @@ unknown; then y_FEA = y_EXP/(1 + e), the low branch, or y_EXP/(1 − e), the hig
 only; it is nowhere more than there. A height within a tenth of a branch holds.
 ";
 
-/// Robot, pressure and mesh.
 fn place(against: &[HeightRow]) -> Table<&HeightRow> {
     Table::of(against)
         .words("robot", |a| &a.robot)

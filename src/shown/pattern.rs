@@ -5,7 +5,7 @@ use models::cutting::{CuttingPlan, Making, PatternPiece};
 
 /// `ibr.pattern`: `ibr pattern SCENARIO`
 #[derive(Serialize)]
-pub struct PatternAnswer<'a> {
+pub(crate) struct PatternAnswer<'a> {
     /// Scenario as typed
     pub scenario: &'a str,
     /// Width of the welds
@@ -22,7 +22,7 @@ pub struct PatternAnswer<'a> {
 
 impl<'a> PatternAnswer<'a> {
     /// Of a plan, its notes and the files that were written.
-    pub fn of(
+    pub(crate) fn of(
         scenario: &'a str,
         plan: &'a CuttingPlan,
         making: &Making,
@@ -33,8 +33,7 @@ impl<'a> PatternAnswer<'a> {
         PatternAnswer { scenario, weld_mm, allowance_mm, pieces: &plan.pieces, notes, written }
     }
 
-    /// For readers.
-    pub fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         let size = |[a, b]: [f64; 2]| 1e3 * (b - a);
         let pieces = Table::of(self.pieces)
             .words("piece", |p| &p.name)

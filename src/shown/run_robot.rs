@@ -7,7 +7,7 @@ use fem::session::RobotSummary;
 const MM: f64 = 1e3;
 
 /// What a robot's run came to, as text.
-pub fn text(robot: &RobotSummary) -> String {
+pub(super) fn text(robot: &RobotSummary) -> String {
     let readings = &robot.readings;
     let Some(last) = readings.last() else { return String::new() };
     let title = match robot.is_spatial {

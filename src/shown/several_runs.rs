@@ -6,7 +6,7 @@ use fem::session::{AS_IT_IS, Heights, RunRow, RunTable, SeedGroup};
 use std::collections::BTreeMap;
 
 /// Every run, then mean and spread of those that differ in the seed only.
-pub fn table_text(all: &RunTable) -> String {
+pub(crate) fn table_text(all: &RunTable) -> String {
     // A robot as it is comes first, then what was changed about it.
     let first = all.rows.first().filter(|run| run.variation.label == AS_IT_IS).map_or(&[][..], |run| &run.heights);
     let change = |k: usize, h: &Heights| {
@@ -34,7 +34,7 @@ pub fn table_text(all: &RunTable) -> String {
 }
 
 /// Robots that differ in unmeasured numbers.
-pub fn uncertain_text(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> String {
+pub(crate) fn uncertain_text(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> String {
     let stopped: Vec<&Member> = all.members.iter().filter(|m| m.stopped.is_some()).collect();
     let mut out = format!(
         "{}: {} robots whose assumed numbers fill their intervals{}\n\nHeight of the markers [mm]: median (10 % to 90 %)\n",
@@ -72,7 +72,6 @@ pub fn uncertain_text(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> String {
     out + &lines("stopped: ", stopped.iter().map(|member| member.stopped.as_deref().unwrap_or_default()))
 }
 
-/// A number with three digits.
 fn three_digits(value: f64) -> String {
     format!("{value:.2e}").parse::<f64>().unwrap_or(value).to_string()
 }
@@ -93,7 +92,7 @@ fn calibrated(all: &Uncertain, measured: &[(f64, [f64; 2])], weights: &[Weight])
 
 /// `ibr.simulations`: `ibr simulate ROBOT`, several runs
 #[derive(Serialize)]
-pub struct SimulationsAnswer<'a> {
+pub(crate) struct SimulationsAnswer<'a> {
     /// Run by run
     pub runs: Vec<RunRecord<'a>>,
     /// Those that differ in the seed only
@@ -102,7 +101,7 @@ pub struct SimulationsAnswer<'a> {
 
 /// One of several runs.
 #[derive(Serialize)]
-pub struct RunRecord<'a> {
+pub(crate) struct RunRecord<'a> {
     /// What differs, in words
     pub run: &'a str,
     /// Keys and values that differ
@@ -116,8 +115,7 @@ pub struct RunRecord<'a> {
 }
 
 impl<'a> SimulationsAnswer<'a> {
-    /// Of all runs.
-    pub fn of(table: &'a RunTable) -> SimulationsAnswer<'a> {
+    pub(crate) fn of(table: &'a RunTable) -> SimulationsAnswer<'a> {
         let record = |row: &'a RunRow| RunRecord {
             run: &row.variation.label,
             changes: row.variation.changes.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect(),
@@ -131,7 +129,7 @@ impl<'a> SimulationsAnswer<'a> {
 
 /// `ibr.uncertain`: `ibr simulate ROBOT --uncertain`
 #[derive(Serialize)]
-pub struct UncertainAnswer<'a> {
+pub(crate) struct UncertainAnswer<'a> {
     /// Robots
     pub robots: usize,
     /// What was varied

@@ -38,8 +38,7 @@ fn agreement(table: &Table, (output, what): (&str, &str)) -> String {
 /// Reasons that are printed.
 const MOST_REASONS: usize = 3;
 
-/// What came of a sweep.
-pub fn swept_text(study: &Study, found: &Found, table: &Table) -> String {
+pub(crate) fn swept_text(study: &Study, found: &Found, table: &Table) -> String {
     let engines: Vec<String> =
         study.engines.iter().map(|engine| format!("{} cases by {}", study.cases(*engine), engine.word())).collect();
     let name = &study.base.scenario.name;
@@ -70,7 +69,7 @@ pub fn swept_text(study: &Study, found: &Found, table: &Table) -> String {
 
 /// `ibr.sweep`: `ibr sweep STUDY`
 #[derive(Serialize)]
-pub struct SweepAnswer<'a> {
+pub(crate) struct SweepAnswer<'a> {
     /// The study as typed
     pub study: String,
     /// The robot
@@ -90,7 +89,7 @@ pub struct SweepAnswer<'a> {
 
 /// Rows without numbers for one reason.
 #[derive(Serialize)]
-pub struct FailedRows {
+pub(crate) struct FailedRows {
     /// Why
     pub reason: String,
     /// How many
@@ -99,7 +98,7 @@ pub struct FailedRows {
 
 impl<'a> SweepAnswer<'a> {
     /// Of a study in a file; without a table only a shard was made.
-    pub fn of(file: &Path, study: &'a Study, found: &'a Found, table: Option<&Table>) -> SweepAnswer<'a> {
+    pub(crate) fn of(file: &Path, study: &'a Study, found: &'a Found, table: Option<&Table>) -> SweepAnswer<'a> {
         let failed = table.map_or(Vec::new(), failures).into_iter();
         SweepAnswer {
             study: file.display().to_string(),

@@ -15,7 +15,7 @@ use ibr::pages::run_plots;
 use plan::RunPlan;
 use std::time::Duration;
 
-pub fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let plan = plan::plan(args, fe_source(&args.case)?)?;
     if let Some(file) = &args.export {
         return export::written(args, &plan, file, context.force);

@@ -10,9 +10,7 @@ use models::scenario::quantity::parse_pressures;
 
 const PRESSURES: &str = "write for example --pressure 10kPa,20kPa, or with supply channels 20kPa/10kPa";
 
-/// What is to be run.
-pub enum RunPlan {
-    /// One run.
+pub(super) enum RunPlan {
     Single(Source),
     /// Runs that differ in seed, mesh or pressure from the scenario with the common options.
     Table(Source, Vec<Variation>),
@@ -22,7 +20,7 @@ pub enum RunPlan {
 
 impl RunPlan {
     /// The folder of a case if none is named.
-    pub fn folder(&self, args: &SimulateArgs) -> PathBuf {
+    pub(super) fn folder(&self, args: &SimulateArgs) -> PathBuf {
         let stem = Path::new(&args.case).file_stem().unwrap_or_default().to_string_lossy();
         let kind = match self {
             RunPlan::Uncertain(_) => "uncertain",
@@ -35,8 +33,7 @@ impl RunPlan {
     }
 }
 
-/// Reads the options.
-pub fn plan(args: &SimulateArgs, source: Source) -> Result<RunPlan, Failure> {
+pub(super) fn plan(args: &SimulateArgs, source: Source) -> Result<RunPlan, Failure> {
     if !source.is_robot() {
         return match robot_option(args) {
             None => Ok(RunPlan::Single(source)),

@@ -17,7 +17,7 @@ fn jobs(base: &Source, variations: &[Variation]) -> Result<Vec<Job>, Failure> {
     variations.iter().map(job).collect()
 }
 
-pub fn table(
+pub(super) fn table(
     base: &Source,
     variations: &[Variation],
     settings: &Settings,
@@ -37,7 +37,7 @@ pub fn table(
     Ok(outcome)
 }
 
-pub fn uncertain(
+pub(super) fn uncertain(
     cube: &Cube,
     args: &SimulateArgs,
     settings: Settings,
@@ -74,7 +74,6 @@ pub fn uncertain(
     Ok(outcome)
 }
 
-/// Writes files beside the runs.
 fn write(
     outcome: &mut Outcome,
     settings: &Settings,
