@@ -17,9 +17,9 @@ pub(crate) fn design_files(wish: &Wish, found: &Design, elements_m: Option<&[[f6
     let point = |at: [f64; 2], ink, symbol, open| Mark::Point(Point { at, ink, symbol, open, ..Point::default() });
     let mut marks = vec![
         Mark::Band(above.iter().chain(below.iter().rev()).copied().collect()),
-        Mark::Line { points: rest.to_vec(), ink: Ink::Muted, dashed: true },
-        Mark::Line { points: vec![[0.0, -1.15 * radius], [0.0, 1.15 * radius]], ink: Ink::Muted, dashed: false },
-        Mark::Line { points: line, ink: predicted, dashed: false },
+        Mark::Dashed(rest.to_vec(), Ink::Muted),
+        Mark::Line(vec![[0.0, -1.15 * radius], [0.0, 1.15 * radius]], Ink::Muted),
+        Mark::Line(line, predicted),
     ];
     let mut keys =
         vec![Key::new(KeyLook::Line, predicted, "model, predicted"), Key::new(KeyLook::Dashed, Ink::Muted, "at rest")];
@@ -34,17 +34,9 @@ pub(crate) fn design_files(wish: &Wish, found: &Design, elements_m: Option<&[[f6
         marks.extend(mm(&places).into_iter().map(|at| point(at, wished, Symbol::Diamond, true)));
         keys.push(Key::new(KeyLook::Symbol(Symbol::Diamond, true), wished, "wished for"));
     }
-    marks.push(Mark::Tip { at: end, label: format!("{} kPa", pressure_words(&found.loads)), ink: predicted });
-    let chart = Chart {
-        title: found.file.scenario.name.clone(),
-        x_label: "x along the robot at rest [mm]".into(),
-        y_label: "y sideways [mm]".into(),
-        space: Space::Equal,
-        marks,
-        keys,
-        ..Chart::default()
-    };
+    marks.push(Mark::Tip(end, format!("{} kPa", pressure_words(&found.loads)), predicted));
+    let chart = Chart::new(&found.file.scenario.name, "x along the robot at rest [mm]", "y sideways [mm]");
     let mut files = Files::default();
-    files.plot("shape", chart.draw("design")?);
+    files.plot("shape", Chart { space: Space::Equal, marks, keys, ..chart }.draw("design")?);
     Ok(files)
 }

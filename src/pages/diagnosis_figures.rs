@@ -105,7 +105,7 @@ pub(super) fn ranking(d: &Diagnosis) -> Result<Option<Drawn>, PageError> {
     let digits = plots::decimals(rows.iter().map(|row| row.2));
     let bar = |(row, (_, rank, value)): (usize, &(String, Rank, f64))| {
         let (_, _, ink) = RANKS[*rank as usize];
-        Mark::Bar(Bar { row, ink, text: plots::number(*value, digits), ..Bar::to(*value) })
+        Mark::Bar(Bar::to(row, *value, ink, plots::number(*value, digits)))
     };
     let marks = rows.iter().enumerate().map(bar).collect();
     let present = RANKS.iter().filter(|(rank, ..)| rows.iter().any(|row| row.1 == *rank));
@@ -225,7 +225,7 @@ pub(super) fn witness_cases(w: &Witness, d: &Diagnosis) -> Vec<plots::LedgerCase
         (true, false) => format!(" ({})", d.attempt_words()),
         (false, true) => format!(" ({FITS_WORSE})"),
     };
-    let case = |label: String, e: &Energies| plots::LedgerCase { label, energies_mj: e.to_vec() };
+    let case = |label: String, e: &Energies| (label, e.to_vec());
     let mut cases = vec![case(base.name.clone(), &base.energies_mj)];
     cases.extend(
         named.chain(nearest).map(|m| case(m.name.trim_start_matches("+ ").to_string() + &what(m), &m.energies_mj)),
@@ -237,7 +237,7 @@ pub(super) fn witness_cases(w: &Witness, d: &Diagnosis) -> Vec<plots::LedgerCase
 
 pub(super) fn witness_ledger(w: &Witness, d: &Diagnosis) -> Result<Drawn, PageError> {
     let mut cases = witness_cases(w, d);
-    cases.iter_mut().for_each(|case| case.label = super::effect(&case.label));
+    cases.iter_mut().for_each(|(label, _)| *label = effect(label));
     let title = format!("Where the energy goes, to {:.0} kPa", w.actuator_kpa);
     Ok(plots::ledger(&title, "energy taken up since the first bend [mJ]", &TERMS.map(String::from), &cases)?)
 }

@@ -33,19 +33,12 @@ pub(crate) fn parting_plot(map: &PartingMap) -> Result<Drawn, PageError> {
         }
     }
     let head = |kpa: &f64| ChartColumn { name: format!("{kpa:.0}"), ..ChartColumn::default() };
-    let chart = Chart {
-        title: format!("{}: where the models part", map.actuator),
-        x_label: "actuator pressure [kPa]".into(),
-        y_label: map.row_label.clone(),
-        space: Space::Grid(
-            map.rows.iter().map(|r| ChartRow::beside(&r.0)).collect(),
-            columns.iter().map(head).collect(),
-        ),
-        marks,
-        heat: Some(("reduced tip minus finite element tip [% of the latter]".into(), 100.0 * STRONGEST)),
-        ..Chart::default()
-    };
-    Ok(chart.draw("breakdown map")?)
+    let rows = map.rows.iter().map(|r| ChartRow::beside(&r.0)).collect();
+    let space = Space::Grid(rows, columns.iter().map(head).collect());
+    let heat = Some(("reduced tip minus finite element tip [% of the latter]".into(), 100.0 * STRONGEST));
+    let title = format!("{}: where the models part", map.actuator);
+    let chart = Chart::new(title, "actuator pressure [kPa]", &map.row_label);
+    Ok(Chart { space, marks, heat, ..chart }.draw("breakdown map")?)
 }
 
 /// Displacements at the highest pressure; `None` without runs.
@@ -135,8 +128,7 @@ fn ledger_cases(robot: &EngineRobot) -> Vec<plots::LedgerCase> {
         let mut fe_mj = p.fe_mj;
         fe_mj[0] += p.actuator_kpa * ahead_cm3;
         for (engine, energies) in [("reduced", p.reduced_mj), ("finite elements", fe_mj)] {
-            let label = format!("{:.0} kPa, {engine}", p.actuator_kpa);
-            cases.push(plots::LedgerCase { label, energies_mj: energies.to_vec() });
+            cases.push((format!("{:.0} kPa, {engine}", p.actuator_kpa), energies.to_vec()));
         }
     }
     cases
@@ -171,7 +163,7 @@ mod tests {
     fn the_gas_of_a_muscle_is_counted_from_the_same_zero_in_both_engines() {
         let robots = ["fpam", "epam"].map(|kind| shipped_scenario(kind).unwrap());
         let robots = engines(&robots, &stored().unwrap()).unwrap().robots;
-        let gas = |robot: &EngineRobot| ledger_cases(robot).iter().map(|c| c.energies_mj[0]).collect::<Vec<_>>();
+        let gas = |robot: &EngineRobot| ledger_cases(robot).iter().map(|c| c.1[0]).collect::<Vec<_>>();
         let [muscle, pouches] = [gas(&robots[0]), gas(&robots[1])];
         assert!((muscle[0] - muscle[1]).abs() < 1e-9 && muscle[0] < 0.0, "{muscle:?}");
         assert!(muscle[muscle.len() - 1] < muscle[muscle.len() - 2], "filled more beyond: {muscle:?}");

@@ -266,7 +266,7 @@ pub(super) fn ledgers(title: &str, cases: &[(String, Scenario)], loads: &Loads) 
     let case = |(label, rows): (&String, Vec<models::Row>)| {
         let energy = |name: &&str| rows.iter().find(|row| row.name == *name).map_or(0.0, |row| row.energy_j * 1e3);
         let others = (!small.is_empty()).then(|| small.iter().map(energy).sum());
-        plots::LedgerCase { label: super::effect(label), energies_mj: large.iter().map(energy).chain(others).collect() }
+        (effect(label), large.iter().map(energy).chain(others).collect())
     };
     let others = (!small.is_empty()).then(|| "others".to_string());
     let terms: Vec<String> = large.iter().map(|name| super::effect(name)).chain(others).collect();
@@ -321,16 +321,9 @@ pub(crate) fn tradeoff(timings: &[Timing]) -> Result<Drawn, PageError> {
     let mut marks = vec![front(shown.iter().map(|t| at(t)).collect())];
     marks.extend(shown.iter().enumerate().map(point));
     let key = |(i, name): (usize, &&str)| Key::new(KeyLook::Symbol(Symbol::of(i), false), Ink::Series(i), name);
-    let chart = Chart {
-        title: "Run time against error".into(),
-        x_label: "run time of one prediction".into(),
-        y_label: "error of the published displacement [%]".into(),
-        space: Space::Log,
-        marks,
-        keys: groups.iter().enumerate().map(key).collect(),
-        ..Chart::default()
-    };
-    Ok(chart.draw("trade-off")?)
+    let (x, y) = ("run time of one prediction", "error of the published displacement [%]");
+    let keys = groups.iter().enumerate().map(key).collect();
+    Ok(Chart { space: Space::Log, marks, keys, ..Chart::new("Run time against error", x, y) }.draw("trade-off")?)
 }
 
 /// Staircase through the points that are the most accurate at their run time or less.
@@ -346,5 +339,5 @@ fn front(mut points: Vec<[f64; 2]>) -> Mark {
         }
     }
     path.extend(path.last().zip(points.last()).map(|(last, end)| [end[0], last[1]]));
-    Mark::Line { points: path, ink: Ink::Axis, dashed: true }
+    Mark::Dashed(path, Ink::Axis)
 }

@@ -26,22 +26,15 @@ pub(super) fn missing_moment(found: &MissingMoment, beside: &[FeMoment]) -> Resu
     let mut marks: Vec<Mark> = found.curves.iter().filter(|c| c.is_told).map(|c| band(c, found)).collect();
     let furthest = beside.iter().map(|p| p.bend_deg + p.bend_sd_deg).fold(furthest(found), f64::max);
     let (ends, inks) = ([0.0, furthest], Inks::of(&found.curves));
-    marks.push(Mark::Line { points: ends.map(|x| [x, 0.0]).to_vec(), ink: Ink::Axis, dashed: false });
+    marks.push(Mark::Line(ends.map(|x| [x, 0.0]).to_vec(), Ink::Axis));
     marks.extend(found.curves.iter().map(|c| line(c, inks.of_curve(c))));
     marks.extend(finite_elements(beside));
     marks.extend(points.iter().map(|p| point(p, &levels, &bodies)));
-    marks.push(Mark::Tip { at: [ends[1], 0.0], label: "nothing missing".into(), ink: Ink::Muted });
+    marks.push(Mark::Tip([ends[1], 0.0], "nothing missing".into(), Ink::Muted));
     marks.extend(tips(&found.curves, &inks));
-    let chart = Chart {
-        title: "What the model misses".into(),
-        x_label: "bend over the whole body [°]".into(),
-        y_label: "missing moment [N m]; below 0 something holds it back".into(),
-        space: Space::Plane,
-        marks,
-        keys: [keys(found, &levels, &bodies), finite_elements_key(beside)].concat(),
-        ..Chart::default()
-    };
-    Ok(Some(chart.draw("missing moment")?))
+    let (x, y) = ("bend over the whole body [°]", "missing moment [N m]; below 0 something holds it back");
+    let keys = [keys(found, &levels, &bodies), finite_elements_key(beside)].concat();
+    Ok(Some(Chart { marks, keys, ..Chart::new("What the model misses", x, y) }.draw("missing moment")?))
 }
 
 /// Distinct levels, rising; of many a few, evenly.
@@ -77,7 +70,7 @@ fn point(p: &MomentPoint, levels: &[f64], bodies: &[f64]) -> Mark {
 /// Their moments on a thin line, so that no pressure of the data is taken for one of theirs.
 fn finite_elements(beside: &[FeMoment]) -> Vec<Mark> {
     let points = beside.iter().map(|p| [p.bend_deg, p.moment_nm]).collect();
-    let line = Mark::Line { points, ink: Ink::Axis, dashed: false };
+    let line = Mark::Line(points, Ink::Axis);
     let point = |p: &FeMoment| {
         let (at, error) = ([p.bend_deg, p.moment_nm], [p.bend_sd_deg, p.moment_sd_nm]);
         Mark::Point(Point { at, error, ink: Ink::Muted, symbol: FINITE_ELEMENTS, open: true, ..Point::default() })
@@ -91,7 +84,8 @@ fn finite_elements_key(beside: &[FeMoment]) -> Vec<Key> {
 }
 
 fn line(curve: &MomentCurve, ink: Ink) -> Mark {
-    Mark::Line { points: curve.points.iter().map(|p| [p[1], p[2]]).collect(), ink, dashed: !curve.is_told }
+    let kind = if curve.is_told { Mark::Line } else { Mark::Dashed };
+    kind(curve.points.iter().map(|p| [p[1], p[2]]).collect(), ink)
 }
 
 /// Colours of the curves: what is told first is black, further ones have what no pressure has.
@@ -135,7 +129,7 @@ fn tips(curves: &[MomentCurve], inks: &Inks) -> Vec<Mark> {
         if let Some(end) = own.max_by(|a, b| a[1].total_cmp(&b[1])) {
             named.push(&curve.answer);
             let label = super::effect(&curve.answer).replace(" + ", " +\n");
-            let line = |line: &str| Mark::Tip { at: [end[1], end[2]], label: line.into(), ink: inks.of_curve(curve) };
+            let line = |line: &str| Mark::Tip([end[1], end[2]], line.into(), inks.of_curve(curve));
             marks.extend(label.lines().map(line));
         }
     }

@@ -60,16 +60,11 @@ pub(super) fn map(title: &str, map: &ResidualMap, dataset: &Dataset) -> Result<D
         }
     }
     let unit = if in_noise { "[times the noise]" } else { "[mm]" };
-    let chart = Chart {
-        title: format!("{title}{}", chosen(each_row, each_column)),
-        x_label: "actuator pressure [kPa]".into(),
-        y_label: "marker station [mm]".into(),
-        space: Space::Grid(places, columns.iter().map(column).collect()),
-        marks,
-        heat: Some((format!("model − measured {unit}"), MAP_LIMIT)),
-        ..Chart::default()
-    };
-    Ok(chart.draw("residual map")?)
+    let space = Space::Grid(places, columns.iter().map(column).collect());
+    let heat = Some((format!("model − measured {unit}"), MAP_LIMIT));
+    let title = format!("{title}{}", chosen(each_row, each_column));
+    let chart = Chart::new(title, "actuator pressure [kPa]", "marker station [mm]");
+    Ok(Chart { space, marks, heat, ..chart }.draw("residual map")?)
 }
 
 /// Of every few neighbours, as many as leave no more than `most`, the one that is farthest off; and how many they are.

@@ -38,10 +38,9 @@ pub(crate) fn what_to_measure(all: &Uncertain, actuator_kpa: f64) -> Result<Draw
         let values = [base - half, base + half].map(|v| report::number(v, 1));
         let [low, high] = number.tenths;
         let words = format!("{}: {low} → {}, {high} → {}", number.name, values[0], values[1]);
-        rows.push(ChartRow { name: words, lanes: 1, ..ChartRow::default() });
+        rows.push(ChartRow::above(&words, 1));
         for (sign, ink) in [(-1.0, Ink::HeatNegative), (1.0, Ink::HeatPositive)] {
-            let span = [base, base + sign * half];
-            marks.push(Mark::Bar(Bar { row, span, ink, alpha: 0.75, ..Bar::default() }));
+            marks.push(Mark::Bar(Bar { ink, alpha: 0.75, ..Bar::over(row, [base, base + sign * half]) }));
         }
     }
     marks.push(Mark::Rule(base));
