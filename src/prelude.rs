@@ -7,7 +7,7 @@ pub(crate) use crate::output::{
 };
 pub(crate) use crate::output::{set_name, sha256, spares_inputs, write_files, write_texts};
 pub(crate) use crate::pages::Files;
-pub(crate) use crate::tables::{Table, lines, printed, table, wrapped};
+pub(crate) use crate::tables::{Table, lines, printed, wrapped};
 pub(crate) use crate::words::{effect, in_words, number, pressure_words};
 pub(crate) use compare::{Evidence, ScenarioFile};
 pub(crate) use data::{Dataset, Provenance};

@@ -1,7 +1,8 @@
-//! Text tables: a list of columns over rows.
+//! Tables: a list of columns over rows, for the terminal and for pages.
 
 use crate::words::number;
 use compare::study::columns::TextTable;
+use serde::Serialize;
 
 /// Rows, and columns that each have a head and what they say of a row.
 pub(crate) struct Table<R> {
@@ -65,15 +66,33 @@ impl<R> Table<R> {
         self.rows.is_empty()
     }
 
+    /// As Markdown draws it, with columns of one width.
     pub(crate) fn text(self) -> String {
-        let (mut heads, mut cells, mut flush_right) = (Vec::new(), Vec::new(), Vec::new());
-        for column in self.columns {
-            heads.push(column.head);
-            cells.push(column.cells.into_iter());
-            flush_right.push(column.flush_right);
-        }
-        let rows = (0..self.rows.len()).map(|_| cells.iter_mut().filter_map(Iterator::next).collect()).collect();
-        drawn(heads, &flush_right, rows)
+        let width =
+            |c: &TextColumn| c.cells.iter().chain([&c.head]).map(|cell| cell.chars().count()).max().unwrap_or(0);
+        let widths: Vec<usize> = self.columns.iter().map(width).collect();
+        let line = |cell: &dyn Fn(&TextColumn) -> String| {
+            let padded = |(column, width): (&TextColumn, &usize)| match column.flush_right {
+                true => format!("| {:>width$} ", cell(column)),
+                false => format!("| {:<width$} ", cell(column)),
+            };
+            self.columns.iter().zip(&widths).map(padded).collect::<String>() + "|\n"
+        };
+        let rule: String = widths.iter().map(|width| format!("|{}", "-".repeat(width + 2))).collect();
+        let rows: String = (0..self.rows.len()).map(|r| line(&|column| column.cells[r].clone())).collect();
+        line(&|column| column.head.clone()) + &rule + "|\n" + &rows
+    }
+
+    /// For the macro `shown` of a page: a column is of words if a cell begins with a letter.
+    pub(crate) fn page(self, caption: &str) -> PageTable {
+        let is_words =
+            |c: &TextColumn| !c.flush_right || c.cells.iter().any(|cell| cell.starts_with(char::is_alphabetic));
+        let heads =
+            self.columns.iter().map(|c| [c.head.clone(), String::new(), if is_words(c) { "l" } else { "" }.into()]);
+        let minus =
+            |c: &TextColumn, r: usize| if is_words(c) { c.cells[r].clone() } else { c.cells[r].replace('-', "−") };
+        let rows = (0..self.rows.len()).map(|r| self.columns.iter().map(|c| minus(c, r)).collect());
+        PageTable { caption: caption.into(), heads: heads.collect(), rows: rows.collect() }
     }
 
     /// As text below a title; empty without rows.
@@ -82,30 +101,21 @@ impl<R> Table<R> {
     }
 }
 
-/// A table of finished cells; columns after the first `left` ones are flush right.
-pub(crate) fn table<S: AsRef<str>>(head: &[S], left: usize, rows: Vec<Vec<String>>) -> String {
-    let flush_right: Vec<bool> = (0..head.len()).map(|k| k >= left).collect();
-    drawn(head.iter().map(|name| name.as_ref().to_string()).collect(), &flush_right, rows)
+/// A table of a page.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct PageTable {
+    caption: String,
+    heads: Vec<[String; 3]>,
+    rows: Vec<Vec<String>>,
 }
 
-/// As Markdown draws it, with columns of one width.
-fn drawn(head: Vec<String>, flush_right: &[bool], rows: Vec<Vec<String>>) -> String {
-    let all = || std::iter::once(&head).chain(&rows);
-    let width = |k: usize| all().filter_map(|row| row.get(k)).map(|cell| cell.chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..head.len()).map(width).collect();
-    let mut out = String::new();
-    for (r, row) in all().enumerate() {
-        for (k, width) in widths.iter().enumerate() {
-            let cell = row.get(k).map_or("", String::as_str);
-            out += &if flush_right[k] { format!("| {cell:>width$} ") } else { format!("| {cell:<width$} ") };
-        }
-        out += "|\n";
-        if r == 0 {
-            widths.iter().for_each(|width| out += &format!("|{}", "-".repeat(width + 2)));
-            out += "|\n";
-        }
+impl Table<Vec<String>> {
+    /// Finished cells; columns after the first `left` ones are flush right.
+    pub(crate) fn finished<S: AsRef<str>>(heads: &[S], left: usize, rows: Vec<Vec<String>>) -> Self {
+        heads.iter().enumerate().fold(Table::of(rows), |table, (k, head)| {
+            table.column(head.as_ref(), k >= left, |row| row.get(k).cloned().unwrap_or_default())
+        })
     }
-    out
 }
 
 /// A line for each text, after a prefix.
@@ -115,7 +125,7 @@ pub(crate) fn lines<S: AsRef<str>>(prefix: &str, texts: impl IntoIterator<Item =
 
 pub(crate) fn printed(TextTable { caption, heads, left, rows }: &TextTable) -> String {
     let caption = if caption.is_empty() { String::new() } else { format!("{caption}\n") };
-    caption + &table(heads, *left, rows.clone())
+    caption + &Table::finished(heads, *left, rows.clone()).text()
 }
 
 /// Columns of text to read.

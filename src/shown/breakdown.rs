@@ -50,5 +50,5 @@ pub(crate) fn text(rows: &[Parting]) -> String {
     let names = SHAPE.iter().enumerate().map(|(k, name)| format!("{name} {}", if k < 3 { "mm" } else { "cm³" }));
     let heads: Vec<String> = [0, 2, 3, 4].map(|column| COLUMNS[column].0.into()).into_iter().chain(names).collect();
     let caption = "Inflated pouches and body: reduced model / finite elements (difference in %)";
-    format!("{}\n{caption}\n{}", printed(&all), table(&heads, 1, shapes))
+    format!("{}\n{caption}\n{}", printed(&all), Table::finished(&heads, 1, shapes).text())
 }

@@ -113,7 +113,7 @@ fn rounds_text(wish: &Wish, rounds: &Rounds) -> String {
     let head: Vec<&str> =
         std::iter::once("design").chain(keys).chain(["model", "corrected", "finite elements"]).collect();
     let mut text = "\nDesigns and their largest miss [mm]: by the model, by the model corrected by finite elements, and by finite elements.\n".to_string();
-    text += &table(&head, 0, rounds.all.iter().enumerate().map(row).collect());
+    text += &Table::finished(&head, 0, rounds.all.iter().enumerate().map(row).collect()).text();
     let parts =
         rounds.all.iter().enumerate().flat_map(|(k, round)| {
             round.design.misses.iter().enumerate().map(move |(at, miss)| (k + 1, round, at, miss))

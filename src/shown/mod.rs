@@ -8,7 +8,7 @@ pub mod comparison;
 pub(crate) mod demo;
 pub(crate) mod designed;
 pub mod diagnosis;
-mod diagnosis_tables;
+pub(crate) mod diagnosis_tables;
 pub(crate) mod engines;
 pub mod extension;
 pub(crate) mod held;
