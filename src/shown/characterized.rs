@@ -2,7 +2,7 @@
 
 use crate::prelude::*;
 use compare::characterize::write::measured_toml;
-use compare::characterize::{Characterized, Specimen};
+use compare::characterize::{Characterized, FabricNumber, Specimen};
 use data::Direction;
 
 pub(crate) fn text(found: &Characterized) -> String {
@@ -92,22 +92,11 @@ pub(crate) struct FabricAnswer<'a> {
 /// A mean over specimens.
 #[derive(Serialize)]
 pub(crate) struct FabricQuantity<'a> {
-    /// Short name
-    pub key: &'a str,
-    /// Name
-    pub name: &'a str,
-    /// Unit
-    pub unit: &'a str,
-    /// Mean over specimens
-    pub mean: f64,
-    /// Standard deviation over specimens
-    pub sd: Option<f64>,
+    /// The number
+    #[serde(flatten)]
+    pub number: &'a FabricNumber,
     /// 95 % interval of the mean
     pub interval: Option<[f64; 2]>,
-    /// Specimens
-    pub specimens: usize,
-    /// How it is known, and from what
-    pub how_known: &'a str,
 }
 
 /// What was read of a specimen.
@@ -156,16 +145,7 @@ impl<'a> FabricAnswer<'a> {
     /// Of what was found, with the text of `fabric.toml` if there is one.
     pub(crate) fn of(found: &'a Characterized, fabric_toml: Option<&'a str>) -> FabricAnswer<'a> {
         let yarn = |direction| found.yarns.iter().find(|y| y.direction == direction).map(|y| &y.rows[..]);
-        let quantities = found.quantities.iter().map(|q| FabricQuantity {
-            key: &q.key,
-            name: &q.name,
-            unit: q.unit,
-            mean: q.scatter.mean,
-            sd: q.scatter.sd,
-            interval: q.scatter.interval(),
-            specimens: q.scatter.n,
-            how_known: &q.known,
-        });
+        let quantity = |number: &'a FabricNumber| FabricQuantity { number, interval: number.scatter.interval() };
         let specimens = found.specimens.iter().map(|s| SpecimenRead {
             specimen: &s.name,
             file: &s.file,
@@ -188,7 +168,7 @@ impl<'a> FabricAnswer<'a> {
         });
         FabricAnswer {
             provenance: found.provenance,
-            quantities: quantities.collect(),
+            quantities: found.quantities.iter().map(quantity).collect(),
             specimens: specimens.collect(),
             warp_strain_pa: yarn(Direction::Warp),
             fill_strain_pa: yarn(Direction::Fill),

@@ -36,33 +36,18 @@ pub(crate) struct HeldTable<'a> {
 /// A row of bench tests with its model.
 #[derive(Serialize)]
 pub(crate) struct HeldTest<'a> {
-    /// Where on the bench
-    pub at: &'a str,
-    /// As measured
-    pub measured: f64,
-    /// By the model
-    pub model: Option<f64>,
+    /// The row
+    #[serde(flatten)]
+    pub row: &'a HeldRow,
     /// Model over measurement, less one
     pub off: Option<f64>,
-    /// Half of the 95 % interval
-    pub interval_half: Option<f64>,
-    /// It was used for a fit
-    pub fitted: bool,
     /// What follows
     pub verdict: String,
 }
 
 impl<'a> HeldTable<'a> {
     pub(crate) fn of(held: &'a Held) -> HeldTable<'a> {
-        let rows = held.rows.iter().map(|r| HeldTest {
-            at: &r.at,
-            measured: r.measured,
-            model: r.model,
-            off: r.off(),
-            interval_half: r.half,
-            fitted: r.fitted,
-            verdict: r.verdict(),
-        });
+        let rows = held.rows.iter().map(|row| HeldTest { row, off: row.off(), verdict: row.verdict() });
         let Held { title, quantity, known, notes, .. } = held;
         HeldTable { title, quantity, how_known: *known, rms_off: held.rms(), rows: rows.collect(), notes }
     }

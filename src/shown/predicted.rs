@@ -5,8 +5,9 @@ use crate::prelude::*;
 use ::sweep::PRESSURE;
 use data::Column;
 use ibr::AtPressure;
+use models::assembly::Segment;
 use models::space::SectionState;
-use models::{Beyond, CHANNELS, Limit, Row, RowKind, TipSlope};
+use models::{Beyond, CHANNELS, Limit, Row, TipSlope};
 
 /// For readers.
 pub fn text(scenario: &Scenario, states: &[AtPressure]) -> String {
@@ -118,11 +119,11 @@ pub struct PredictedState {
     /// Curvature of every segment
     pub curvature_per_m: Vec<f64>,
     /// Segments
-    pub segments: Vec<SegmentAt>,
+    pub segments: Vec<Segment>,
     /// Change of the tip with the pressure of each channel
     pub jacobian: Vec<TipSlope>,
     /// Energies at equilibrium
-    pub ledger: Vec<PredictedEnergy>,
+    pub ledger: Vec<Row>,
     /// Stretches that the robot would not hold
     pub beyond: Vec<Beyond>,
     /// Bend and contraction of every segment, with strips round the body
@@ -158,32 +159,12 @@ pub struct PredictedTip {
     pub angle_deg: f64,
 }
 
-/// Where a segment is.
-#[derive(Serialize)]
-pub struct SegmentAt {
-    /// Where it begins
-    pub s_mm: f64,
-    /// Length
-    pub length_mm: f64,
-}
-
-/// A line of the ledger.
-#[derive(Serialize)]
-pub struct PredictedEnergy {
-    /// Effect
-    pub term: String,
-    /// `stored`, `lost` or `supplied`
-    pub kind: &'static str,
-    /// Energy
-    pub energy_mj: f64,
-}
-
 /// A section of a robot with strips round the body.
 #[derive(Serialize)]
 pub struct SpaceSection {
     /// Where it is
     #[serde(flatten)]
-    pub segment: SegmentAt,
+    pub segment: Segment,
     /// Bend towards azimuth 0° and 90° of a frame that follows the body without twist
     pub curvature_yz_per_m: [f64; 2],
     /// Contraction of the axis
@@ -202,22 +183,18 @@ impl PredictedState {
     /// Of a model and its scenario.
     pub fn of(model: &Model, scenario: &Scenario, s: &AtPressure) -> PredictedState {
         let (at, is_spatial) = (&s.prediction, model.is_spatial());
-        let segment = |start_m: f64, length_m: f64| SegmentAt { s_mm: start_m * 1e3, length_mm: length_m * 1e3 };
         let z_mm = |z_m: f64| is_spatial.then_some(z_m * 1e3);
         let marker = |(i, s_m): (usize, &f64)| {
             let [x_mm, y_mm] = at.markers[i].map(|m| m * 1e3);
             PredictedMarker { s_mm: s_m * 1e3, x_mm, y_mm, z_mm: at.markers_z_m.get(i).copied().and_then(z_mm) }
         };
-        let energy =
-            |l: &Row| PredictedEnergy { term: l.name.to_string(), kind: kind(l.kind), energy_mj: l.energy_j * 1e3 };
         let section = |section: SectionState| SpaceSection {
-            segment: segment(section.segment.start_m, section.segment.length_m),
+            segment: section.segment,
             curvature_yz_per_m: section.kappa,
             contraction: section.contraction,
             tension_n: section.strips.iter().map(|strip| strip.tension).collect(),
         };
-        let (segments, curvature_per_m) =
-            model.curvatures(at).map(|(s, kappa)| (segment(s.start_m, s.length_m), kappa)).unzip();
+        let (segments, curvature_per_m) = model.curvatures(at).unzip();
         PredictedState {
             p_act_kpa: s.loads.actuator_pa[0] / 1e3,
             p_act_channels_kpa: s.loads.actuator_pa.iter().map(|p| p / 1e3).collect(),
@@ -232,18 +209,10 @@ impl PredictedState {
             curvature_per_m,
             segments,
             jacobian: s.slopes.to_vec(),
-            ledger: model.ledger(&s.loads, at).iter().map(energy).collect(),
+            ledger: model.ledger(&s.loads, at),
             beyond: model.beyond(&s.loads, at),
             sections: is_spatial.then(|| model.sections(at).map(section).collect()),
         }
-    }
-}
-
-fn kind(kind: RowKind) -> &'static str {
-    match kind {
-        RowKind::Stored => "stored",
-        RowKind::Dissipated => "lost",
-        RowKind::Supplied => "supplied",
     }
 }
 
