@@ -125,6 +125,29 @@ pub(crate) fn check_set_folder(folder: &Path, force: bool) -> Result<(), Failure
     }
 }
 
+/// Writes made-up files that are not there yet; returns their paths.
+pub(crate) fn write_example(
+    folder: &Path,
+    made: Vec<(String, String)>,
+    context: &mut Context,
+) -> Result<Vec<String>, Failure> {
+    check_folder(folder)?;
+    if let Some((name, _)) = made.iter().find(|(name, _)| folder.join(name).exists()) {
+        let message = format!("{} exists", folder.join(name).display());
+        return Err(Failure::usage(message, "give another folder to --example"));
+    }
+    let paths = made.iter().map(|(name, _)| folder.join(name).display().to_string()).collect();
+    let mut files = Files::default();
+    made.into_iter().for_each(|(name, text)| files.text(&name, text));
+    write_files(folder, &files, &[], context)?;
+    Ok(paths)
+}
+
+/// A file that was read, for the manifest.
+pub(crate) fn read_input(path: &Path) -> Input {
+    Input::of(&path.display().to_string(), &std::fs::read(path).unwrap_or_default())
+}
+
 /// Refuses to write over a file that was read.
 pub(crate) fn spares_inputs(folder: &Path, files: &Files, inputs: &[String]) -> Result<(), Failure> {
     let read: Vec<_> = inputs.iter().filter_map(|file| std::fs::canonicalize(file).ok()).collect();

@@ -5,7 +5,7 @@ pub(crate) use crate::failure::{Failure, MISSED};
 pub(crate) use crate::output::{
     Input, check_folder, check_set_folder, imprint, machine, maker, program, replace_files,
 };
-pub(crate) use crate::output::{set_name, sha256, spares_inputs, write_files, write_texts};
+pub(crate) use crate::output::{read_input, set_name, sha256, spares_inputs, write_example, write_files, write_texts};
 pub(crate) use crate::pages::Files;
 pub(crate) use crate::tables::{Table, lines, printed, wrapped};
 pub(crate) use crate::words::{effect, in_words, number, pressure_words};

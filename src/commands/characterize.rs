@@ -4,7 +4,6 @@ use super::inputs::quantity;
 use crate::cli::CharacterizeArgs;
 use crate::prelude::*;
 use crate::shown::characterized::{FabricAnswer, text};
-use crate::shown::imported::CharacterizeExample;
 use compare::characterize::write::{fabric_toml, missing};
 use compare::characterize::{FabricTests, Reduction, example};
 use data::CouponDefaults;
@@ -64,18 +63,17 @@ fn defaults(args: &CharacterizeArgs) -> Result<CouponDefaults, Failure> {
 }
 
 fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
-    check_folder(folder)?;
-    let made = example::example(EXAMPLE_SEED);
-    if let Some((name, _)) = made.iter().find(|(name, _)| folder.join(name).exists()) {
-        let message = format!("{} exists", folder.join(name).display());
-        return Err(Failure::usage(message, "give another folder to --example"));
-    }
-    let names: Vec<String> = made.iter().map(|(name, _)| folder.join(name).display().to_string()).collect();
-    let files = made.into_iter().map(|(name, text)| (name, text.into_bytes())).collect();
-    write_files(folder, &Files { files, ..Files::default() }, &[], context)?;
+    let files = write_example(folder, example::example(EXAMPLE_SEED), context)?;
     let text = format!(
         "Made-up tests of a fabric with E0 = 96.5, E90 = 120, G12 = 1.03 MPa and locking at 45°\nibr characterize {}\n",
-        names.join(" ")
+        files.join(" ")
     );
-    Ok(Outcome::answer(text, "ibr.characterize.example", &CharacterizeExample { files: names }))
+    Ok(Outcome::answer(text, "ibr.characterize.example", &CharacterizeExample { files }))
+}
+
+/// `ibr.characterize.example`: `ibr characterize --example FOLDER`
+#[derive(Serialize)]
+struct CharacterizeExample {
+    /// Files that were written
+    files: Vec<String>,
 }

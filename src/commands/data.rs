@@ -5,7 +5,6 @@ use super::list;
 use crate::cli::{DataCommand, GenerateArgs};
 use crate::prelude::*;
 use crate::shown::check::{BenchCheck, Check, CheckedTable, check_text};
-use crate::shown::imported::Generated;
 use compare::diagnosis::{Options, pressure_slip};
 use compare::slips::pressure::pressure_words;
 use compare::slips::slips;
@@ -106,4 +105,13 @@ pub(super) fn write(
     let mut files = Files { files: data::set_files(dataset, about)?.into(), ..Files::default() };
     files.text("truth.toml", truth);
     replace_files(folder, &files, inputs, context)
+}
+
+/// `ibr.data.generate`: `ibr data generate SCENARIO`
+#[derive(Serialize)]
+struct Generated {
+    /// Folder that was written
+    folder: String,
+    /// Runs
+    runs: usize,
 }

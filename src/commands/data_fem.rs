@@ -6,7 +6,6 @@ use super::inputs;
 use super::inputs::scattered;
 use crate::cli::DataFemArgs;
 use crate::prelude::*;
-use crate::shown::imported::SeenByFem;
 use compare::study::Generator;
 use compare::study::engines::{EngineRun, of_the_program, runs_of, seed_jobs};
 use compare::study::generate::about;
@@ -80,4 +79,13 @@ fn made(
     let settings = kept(&args.fem.folder(), context);
     let found = context.fem(|progress| runs_of(&jobs, &settings, progress))?;
     Ok(found.into_iter().collect::<Result<Vec<EngineRun>, _>>()?)
+}
+
+/// `ibr.data.fem`: `ibr data fem SCENARIO`
+#[derive(Serialize)]
+struct SeenByFem {
+    /// Folder that was written
+    folder: String,
+    /// Runs
+    runs: usize,
 }

@@ -34,9 +34,8 @@ pub(super) fn run(args: &DesignArgs, context: &mut Context) -> Result<Outcome, F
         files.files.extend(pictures.iter().cloned());
     }
     files.retired = PICTURES.iter().chain(&["pattern.svg"]).map(|name| name.to_string()).collect();
-    let input = |name: String, text: &[u8]| Input { name, sha256: sha256(text) };
-    let own = input(args.wish.display().to_string(), &std::fs::read(&args.wish).unwrap_or_default());
-    write_files(&folder, &files, &[own, input(wish.base.name.clone(), wish.base.text.as_bytes())], context)?;
+    let inputs = [read_input(&args.wish), Input::of(&wish.base.name, wish.base.text.as_bytes())];
+    write_files(&folder, &files, &inputs, context)?;
     let answer = DesignAnswer::of(args.wish.display().to_string(), &wish, &rounds);
     let mut outcome = Outcome::answer(design_text(&wish, &rounds), "ibr.design", &answer);
     outcome.notes.extend(pattern.err().map(|why| format!("no pattern: {why}")));

@@ -78,7 +78,6 @@ fn report(
 ) -> Result<(), Failure> {
     let mut files = diagnosis_page(found, &imprint(), &mut part(context.progress, [DIAGNOSED, 1.0]))?;
     files.files.insert(0, ("diagnosis.json".into(), json));
-    let both = |name: &str| ["svg", "png"].map(|kind| format!("{name}.{kind}"));
-    files.retired = diagnosis_pictures().into_iter().flat_map(both).collect();
+    files.retire(&diagnosis_pictures());
     write_files(folder, &files, inputs, context)
 }

@@ -4,8 +4,9 @@ use super::inputs::{self, quantity};
 use super::limits;
 use crate::cli::PredictArgs;
 use crate::prelude::*;
-use crate::shown::nearest::{NearestPlace, nearest_words};
-use crate::shown::predicted::{PredictAnswer, PredictedState, above_limit, beyond_words, columns, text};
+use crate::shown::predicted::{
+    NearestPlace, PredictAnswer, PredictedState, above_limit, beyond_words, columns, nearest_words, text,
+};
 use ibr::pages::predicted_files;
 use ibr::{check_fed, predict, predict_for, predict_near};
 use models::scenario::quantity::{MOST, parse_pressures};

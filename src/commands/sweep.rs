@@ -53,8 +53,7 @@ fn whole(
 ) -> Result<Outcome, Failure> {
     (context.progress)("writing the table", None);
     let mut files = sweep_pictures(study, &table)?;
-    let both = |name: &str| ["svg", "png"].map(|kind| format!("{name}.{kind}"));
-    files.retired = sweep_picture_names().into_iter().flat_map(both).collect();
+    files.retire(&sweep_picture_names());
     let answer = SweepAnswer::of(&args.study, study, found, Some(&table));
     let mut outcome = Outcome::answer(swept_text(study, found, &table), "ibr.sweep", &answer);
     let name = if args.parquet { "table.parquet" } else { "table.csv" };
@@ -66,10 +65,8 @@ fn whole(
             files.files.push((name.into(), csv));
         }
     }
-    let input = |name: &Path, text: &[u8]| Input { name: name.display().to_string(), sha256: sha256(text) };
-    let own = input(&args.study, &std::fs::read(&args.study).unwrap_or_default());
-    let robot = input(Path::new(&study.base.name), study.base.text.as_bytes());
-    write_files(folder, &files, &[own, robot], context)?;
+    let inputs = [read_input(&args.study), Input::of(&study.base.name, study.base.text.as_bytes())];
+    write_files(folder, &files, &inputs, context)?;
     outcome.notes.push(format!("table: {}", folder.join(name).display()));
     Ok(outcome)
 }

@@ -69,6 +69,11 @@ impl Files {
         self.files.push((format!("{name}.png"), drawn.png));
     }
 
+    /// Names pictures that go with an earlier result.
+    pub(crate) fn retire(&mut self, pictures: &[&str]) {
+        self.retired = pictures.iter().flat_map(|name| ["svg", "png"].map(|kind| format!("{name}.{kind}"))).collect();
+    }
+
     /// Adds a text.
     pub fn text(&mut self, name: &str, text: String) {
         self.files.push((name.to_string(), text.into_bytes()));

@@ -170,14 +170,13 @@ pub(crate) struct DesignAnswer<'a> {
     pub reached: bool,
     /// Share of the length by which a wish may be missed
     pub tolerance_mm: f64,
-    /// Values of the free keys
-    pub chosen: Vec<ChosenValue<'a>>,
+    /// What is written
+    #[serde(flatten)]
+    pub best: TriedDesign<'a>,
     /// Actuator pressure of every channel
     pub p_act_channels_kpa: Vec<f64>,
     /// Body pressure
     pub p_body_kpa: f64,
-    /// The wish, part by part
-    pub misses: &'a [Miss],
     /// Over the assumed numbers, where some are named
     pub interval: Option<Spread>,
     /// Ends of ranges that hold the design back, the most first
@@ -186,10 +185,6 @@ pub(crate) struct DesignAnswer<'a> {
     pub starts: usize,
     /// Starts that ended at this design or an equal one
     pub starts_that_agree: usize,
-    /// Result of one run of the design
-    pub finite_elements: Option<&'a Checked>,
-    /// Reason why finite elements did not run
-    pub unchecked: Option<&'a str>,
     /// With `--correct`: all that were checked, in their order
     #[serde(skip_serializing_if = "Option::is_none")]
     pub designs: Option<Vec<CheckedDesign<'a>>>,
@@ -207,21 +202,37 @@ pub(crate) struct ChosenValue<'a> {
     pub value: &'a str,
 }
 
-/// A design that was checked.
+/// A design with its wish and its check.
 #[derive(Serialize)]
-pub(crate) struct CheckedDesign<'a> {
+pub(crate) struct TriedDesign<'a> {
     /// Values of the free keys
     pub chosen: Vec<ChosenValue<'a>>,
-    /// The wish by the model as it is
+    /// The wish by the model as it is, part by part
     pub misses: &'a [Miss],
-    /// Largest miss by finite elements, and by the model of parts that they do not read
-    pub worst_mm: f64,
-    /// The wish by the model with what finite elements differed at the design before; null for the first
-    pub corrected_by_finite_elements: Option<&'a [Miss]>,
     /// Result of one run of the design
     pub finite_elements: Option<&'a Checked>,
     /// Reason why finite elements did not run
     pub unchecked: Option<&'a str>,
+}
+
+impl<'a> TriedDesign<'a> {
+    fn of(Round { design, checked, .. }: &'a Round) -> TriedDesign<'a> {
+        let chosen = design.chosen.iter().map(|(key, value)| ChosenValue { key, value }).collect();
+        let (finite_elements, unchecked) = (checked.as_ref().ok(), checked.as_ref().err().map(String::as_str));
+        TriedDesign { chosen, misses: &design.misses, finite_elements, unchecked }
+    }
+}
+
+/// A design that was checked.
+#[derive(Serialize)]
+pub(crate) struct CheckedDesign<'a> {
+    /// The design
+    #[serde(flatten)]
+    pub design: TriedDesign<'a>,
+    /// Largest miss by finite elements, and by the model of parts that they do not read
+    pub worst_mm: f64,
+    /// The wish by the model with what finite elements differed at the design before; null for the first
+    pub corrected_by_finite_elements: Option<&'a [Miss]>,
     /// Whether this is the one that is written
     pub written: bool,
 }
@@ -230,16 +241,11 @@ impl<'a> DesignAnswer<'a> {
     /// What came of a wish, as typed.
     pub(crate) fn of(typed: String, wish: &'a Wish, rounds: &'a Rounds) -> DesignAnswer<'a> {
         let best = rounds.best();
-        let Round { design: found, checked, .. } = &rounds.all[best];
-        let chosen =
-            |round: &'a Round| round.design.chosen.iter().map(|(key, value)| ChosenValue { key, value }).collect();
+        let found = &rounds.all[best].design;
         let one = |(k, round): (usize, &'a Round)| CheckedDesign {
-            chosen: chosen(round),
-            misses: &round.design.misses,
+            design: TriedDesign::of(round),
             worst_mm: 1e3 * round.worst_m(),
             corrected_by_finite_elements: round.corrected.as_deref(),
-            finite_elements: round.checked.as_ref().ok(),
-            unchecked: round.checked.as_ref().err().map(String::as_str),
             written: k == best,
         };
         let corrected = rounds.corrections > 0;
@@ -248,16 +254,13 @@ impl<'a> DesignAnswer<'a> {
             scenario: &wish.base.name,
             reached: rounds.reached(wish),
             tolerance_mm: 1e3 * wish.tolerance * found.file.length_m,
-            chosen: chosen(&rounds.all[best]),
+            best: TriedDesign::of(&rounds.all[best]),
             p_act_channels_kpa: found.loads.actuator_pa.iter().map(|pa| 1e-3 * pa).collect(),
             p_body_kpa: 1e-3 * found.loads.body_pa,
-            misses: &found.misses,
             interval: found.spread,
             held: &found.held,
             starts: found.starts[0],
             starts_that_agree: found.starts[1],
-            finite_elements: checked.as_ref().ok(),
-            unchecked: checked.as_ref().err().map(String::as_str),
             designs: corrected.then(|| rounds.all.iter().enumerate().map(one).collect()),
             ended: corrected.then(|| rounds.end(wish)),
         }
