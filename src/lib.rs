@@ -69,7 +69,6 @@ pub use ::compare::ladder::{Climb, ladder};
 pub use ::compare::study::comparison::{Contender, Variant, compare_all};
 pub use ::compare::validation::{BeforeAfter, Validation, validate};
 pub use ::compare::{CompareError as Error, Comparison, Evidence, Extension, Progress, ScenarioFile, compare, extend};
-pub use ::compare::{InSpace, compare_in_space};
 pub use fem::session::{FeRun, Settings as FeSettings, Source as FeSource, simulate, simulate_all};
 pub use follow::{Follower, follow, pressures_of};
 pub use import_typed::import_typed;

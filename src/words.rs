@@ -1,6 +1,6 @@
 //! Numbers, pressures and names in words, the same in texts and on pages.
 
-use compare::study::in_space::{SpaceHold, SpaceVariant};
+use compare::metrics::HoldMetrics;
 use models::Loads;
 
 /// A number with `digits` decimals, or a dash where there is none.
@@ -28,33 +28,16 @@ pub(crate) fn in_words(sentence: &str) -> String {
     names.fold(sentence.to_string(), |text, name| text.replace(name, &effect(name)))
 }
 
-/// Values along the axes with their signs: `+0.1, -2.3, +0.0`.
-pub(crate) fn along(values: &[f64]) -> String {
-    values.iter().map(|v| format!("{v:+.2}")).collect::<Vec<_>>().join(", ")
-}
-
 /// `20/10 kPa load (body 2)`.
-pub(crate) fn hold_name(hold: &SpaceHold) -> String {
-    let channels: Vec<String> = hold.p_act_channels_kpa.iter().map(|p| format!("{p:.0}")).collect();
-    let again = if hold.occurrence > 0 { format!(" ({})", hold.occurrence + 1) } else { String::new() };
-    format!("{} kPa {}{again} (body {:.0})", channels.join("/"), hold.phase, hold.p_body_kpa)
+pub(crate) fn hold_name(hold: &HoldMetrics) -> String {
+    let [act, body] = [kpa(hold.p_act_kpa, &hold.p_act_channels_kpa), format!("{:.0}", hold.p_body_kpa)];
+    format!("{act} kPa {} (body {body})", hold.phase)
 }
 
-/// Where a model misses most in space, in sentences.
-pub(crate) fn misses(variant: &SpaceVariant) -> Vec<String> {
-    let (all, names) = (&variant.overall, ["x", "y", "z"]);
-    let within = all.systematic_mm.zip(all.noise_floor_mm).filter(|(beyond, noise)| beyond < noise);
-    let within =
-        within.map(|(beyond, noise)| format!("Over all holds {beyond:.2} mm are beyond a noise of {noise:.2} mm."));
-    let tip = variant.worst().map(|hold| {
-        let (name, off, axes) = (hold_name(hold), hold.tip_distance_mm, along(&hold.tip_error_mm));
-        format!(
-            "The outermost marker is off most at {name}: {off:.2} mm, model minus measurement along the axes {axes} mm."
-        )
-    });
-    let total: f64 = all.rmse_axes_mm.iter().map(|v| v * v).sum();
-    let share = |(name, v): (&&str, &f64)| format!("{name} {:.0} %", 100.0 * v * v / total);
-    let shares: Vec<String> = names.iter().zip(&all.rmse_axes_mm).map(share).collect();
-    let shares = (total > 0.0).then(|| format!("Of the mean square error: {}.", shares.join(", ")));
-    within.into_iter().chain(tip).chain(shares).collect()
+/// `20`, or `20/10` where supply channels have pressures of their own.
+pub(crate) fn kpa(first: f64, channels: &[f64]) -> String {
+    match channels {
+        [] => format!("{first:.0}"),
+        all => all.iter().map(|p| format!("{p:.0}")).collect::<Vec<_>>().join("/"),
+    }
 }

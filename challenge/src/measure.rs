@@ -63,15 +63,15 @@ pub fn measure_holds(
     let g = &measurement.generator;
     let mut scatter = Scatter::new(g.seed);
     let mut manometer = g.gauge.then(|| Manometer::new(g.seed));
-    let (mut xy_m, mut readings) = (Vec::new(), Vec::new());
+    let (mut coordinates_m, mut readings) = (Vec::new(), Vec::new());
     for _ in 0..g.runs {
         let gain = 1.0 + g.pressure_sd * scatter.normal();
         let shift = [scatter.normal(), scatter.normal()].map(|n| n * g.alignment_sd_m);
         let roll = g.rotation_sd * scatter.normal();
         for xy in march::run(robot, &holds, gain)?.chunks_exact(2) {
             let noise = [0, 1].map(|_| g.camera_sd_m * camera_noise(&mut scatter, measurement.heavy_tails));
-            xy_m.push(xy[0] - roll * xy[1] + shift[0] + noise[0]);
-            xy_m.push(xy[1] + roll * xy[0] + shift[1] + noise[1]);
+            coordinates_m.push(xy[0] - roll * xy[1] + shift[0] + noise[0]);
+            coordinates_m.push(xy[1] + roll * xy[0] + shift[1] + noise[1]);
         }
         if let Some(manometer) = &mut manometer {
             read(manometer, robot, &holds, gain, &mut readings);
@@ -84,8 +84,8 @@ pub fn measure_holds(
         holds,
         markers: markers(scenario),
         samples_per_hold: g.samples,
-        xy_m,
-        z_m: None,
+        axes: 2,
+        coordinates_m,
         gauge_pa: g.gauge.then_some(readings),
         lost: data::Lost::default(),
         told: Vec::new(),

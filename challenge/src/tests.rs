@@ -20,7 +20,7 @@ fn model(scenario: &Scenario) -> Vec<f64> {
         rotation_sd: 0.0,
         ..Default::default()
     };
-    generate(scenario, "quiet", &quiet).unwrap().xy_m
+    generate(scenario, "quiet", &quiet).unwrap().coordinates_m
 }
 
 fn largest(a: &[f64], b: &[f64]) -> f64 {
@@ -113,8 +113,8 @@ fn heavy_tails_have_the_same_spread_and_more_far_points() {
     let quiet = Truth { runs: 100, camera_sd_m: 1e-3, pressure_sd: 0.0, alignment_sd_m: 0.0, ..plain("epam") };
     let residuals = |heavy_tails: bool| {
         let truth = Truth { heavy_tails, ..quiet.clone() };
-        let exact = Truth { camera_sd_m: 0.0, ..truth.clone() }.dataset("d", &protocol).unwrap().xy_m;
-        let seen = truth.dataset("d", &protocol).unwrap().xy_m;
+        let exact = Truth { camera_sd_m: 0.0, ..truth.clone() }.dataset("d", &protocol).unwrap().coordinates_m;
+        let seen = truth.dataset("d", &protocol).unwrap().coordinates_m;
         // The roll of the camera is common to both.
         seen.iter().zip(exact).map(|(a, b)| a - b).collect::<Vec<f64>>()
     };
@@ -158,7 +158,7 @@ fn a_camera_that_loses_markers_leaves_the_others_as_they_were() {
     let filled = lossy.lost.filled.len();
     assert!((5..=25).contains(&filled), "{filled} of about 300 times 0.05");
     let n = all.values_per_run();
-    for (i, (a, b)) in all.xy_m.iter().zip(&lossy.xy_m).enumerate() {
+    for (i, (a, b)) in all.coordinates_m.iter().zip(&lossy.coordinates_m).enumerate() {
         let (run, hold, marker) = (i / n, i % n / (n / 5), i / 2 % 6);
         assert!(a == b || lossy.is_lost(run, hold, marker), "{run} {hold} {marker}");
     }

@@ -39,7 +39,6 @@ pub use readings::noise_summary::NoiseSummary;
 pub use readings::{bench, evidence, noise};
 pub use scenario_file::ScenarioFile;
 pub use study::comparison::{Comparison, compare};
-pub use study::in_space::{InSpace, compare_in_space};
 pub use validation::{Validation, validate};
 
 use judge::{accuracy, beside_mean, scaling};

@@ -3,6 +3,9 @@
 //!
 //! What only steers a search (steps, rounds, starts) stays where it is used: it moves no verdict.
 
+use crate::directions::Row;
+use data::Hold;
+
 mod slips;
 mod study;
 #[cfg(test)]
@@ -196,7 +199,7 @@ pub const FEWEST_RUNS: usize = 3;
 pub const RUNS_DOWN: f64 = 4.0;
 /// Specification of the sensors, the least scatter ever assumed in a test: pressure 0.3 % of the reading, a gauge's gain too, alignment
 /// 0.1 mm in x and y, rotation 0.5 mrad.
-pub const SENSOR_SD: [f64; 4] = [0.003, 1e-4, 1e-4, 5e-4];
+pub const SENSOR_SD: Row = [0.003, 1e-4, 1e-4, 5e-4, 1e-4, 5e-4, 5e-4];
 /// Standard deviation of a gauge's zero \[Pa\]. Assumed: 0.25 % of a span of 40 kPa.
 pub const ZERO_SD_PA: f64 = 100.0;
 /// Standard deviation of one reading \[Pa\], where there are no repeats to take it from. Assumed.
@@ -292,6 +295,16 @@ pub fn bodies_differ(one_pa: f64, other_pa: f64) -> bool {
 /// Whether two pressures are one level \[Pa\].
 pub fn is_same_pressure(one_pa: f64, other_pa: f64) -> bool {
     (one_pa - other_pa).abs() <= (SAME_PRESSURE * one_pa.abs().max(other_pa.abs())).max(ZERO_PRESSURE_PA)
+}
+
+/// Whether two holds have the same pressures in the body and in every supply channel.
+pub fn same_pressures(one: &Hold, other: &Hold) -> bool {
+    is_same_pressure(one.p_body_pa, other.p_body_pa) && same_channels(one, other)
+}
+
+/// Whether two holds have the same pressure in every supply channel.
+pub fn same_channels(one: &Hold, other: &Hold) -> bool {
+    one.channels_pa().zip(other.channels_pa()).all(|(a, b)| is_same_pressure(a, b))
 }
 
 /// No robot is this long \[m\]; a larger number is a unit mistake.

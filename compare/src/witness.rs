@@ -131,7 +131,7 @@ impl Witness {
 }
 
 /// Holds finite element runs of the scenario's robot against a diagnosis; `None` where there is none, or none at a pressure
-/// of the data.
+/// of the data, and of a robot in space or with several supply channels.
 ///
 /// # Errors
 /// A model without equilibrium.
@@ -142,6 +142,9 @@ pub fn witness(
     about: Option<&About>,
     runs: &[EngineRun],
 ) -> Result<Option<Witness>, CompareError> {
+    if scenario.is_spatial() || dataset.channels_differ() {
+        return Ok(None);
+    }
     let (scenario, _) = fit_scenario(scenario, dataset, about)?;
     let ensemble = ensemble(runs, &scenario);
     let cases = cases(d, &scenario);
@@ -229,7 +232,7 @@ fn heights(models: [&Scenario; 2], dataset: &Dataset, ensemble: &Ensemble) -> Re
         let of = |xy: &[f64]| (0..samples).map(|s| y_mm(xy, s)).sum::<f64>() / samples as f64;
         let runs = dataset.runs.len();
         let measured_mm = (0..runs).map(|r| of(dataset.run(r))).sum::<f64>() / runs as f64;
-        let [base_mm, best_mm] = [of(&base.xy_m), of(&best.xy_m)];
+        let [base_mm, best_mm] = [of(&base.coordinates_m), of(&best.coordinates_m)];
         let meets =
             policy::meets(fe_mm / measured_mm - 1.0) || (fe_mm - measured_mm).abs() <= 2.0 * fe_sd_mm.unwrap_or(0.0);
         found.push(Height { actuator_kpa: shared, measured_mm, base_mm, best_mm, fe_mm, fe_sd_mm, meets });

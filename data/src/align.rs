@@ -25,17 +25,18 @@ pub(crate) fn align(
     let order = marker_order(stations_m);
     let samples = grid.common_samples();
     let holds = grid.holds(samples, recorder.more_channels);
-    let mut xy_m = Vec::with_capacity(recorder.runs.names.len() * holds.len() * samples * order.len() * 2);
-    let (mut z_m, mut gauge_pa, mut lost) = (Vec::new(), Vec::new(), Vec::new());
+    let axes = if recorder.has_z { 3 } else { 2 };
+    let mut coordinates_m = Vec::with_capacity(recorder.runs.names.len() * holds.len() * samples * order.len() * axes);
+    let (mut gauge_pa, mut lost) = (Vec::new(), Vec::new());
     for run in 0..recorder.runs.names.len() {
         for hold in 0..holds.len() {
             let seen = |m: &usize| grid.segment(run, *m, hold).map(|segment| bins(&segment.samples, samples));
             let bins: Vec<_> = order.iter().map(seen).collect();
             lost.extend((0..order.len()).filter(|m| bins[*m].is_none()).map(|marker| [run, hold, marker]));
             for sample in 0..samples {
-                let place = |bin: Sample| [mean(bin, |b| b.x_m), mean(bin, |b| b.y_m)];
-                xy_m.extend(bins.iter().flat_map(|bins| bins.as_ref().map_or([0.0; 2], |bins| place(bins[sample]))));
-                z_m.extend(bins.iter().map(|bins| bins.as_ref().map_or(0.0, |bins| mean(bins[sample], |b| b.z_m))));
+                let place = |bins: &Vec<Sample>| bins[sample].place();
+                let places = bins.iter().map(|bins| bins.as_ref().map_or([0.0; 3], place));
+                coordinates_m.extend(places.flat_map(|place| place.into_iter().take(axes)));
                 let readings = bins.iter().flatten().map(|bins| mean(bins[sample], |b| b.gauge_pa));
                 gauge_pa.push(readings.sum::<f64>() / bins.iter().flatten().count().max(1) as f64);
             }
@@ -53,8 +54,8 @@ pub(crate) fn align(
         holds,
         markers,
         samples_per_hold: samples,
-        xy_m,
-        z_m: recorder.has_z.then_some(z_m),
+        axes,
+        coordinates_m,
         gauge_pa,
         lost: none,
         told: Vec::new(),

@@ -120,7 +120,7 @@ pub fn check(dataset: &Dataset, about: Option<&About>) -> CheckReport {
         markers: (0..markers).map(|m| marker_check(dataset, m, rms(&|_, marker| marker == m))).collect(),
         actuator_pressures_kpa: levels(dataset.holds.iter().flat_map(Hold::channels_pa).collect(), tolerance_act_pa),
         body_pressures_kpa: levels(dataset.holds.iter().map(|hold| hold.p_body_pa).collect(), tolerance_body_pa),
-        z_travel_mm: dataset.z_m.as_ref().map(|_| mm(dataset.travel_m(2))),
+        z_travel_mm: dataset.has_z().then(|| mm(dataset.travel_m(2))),
         unloading: dataset.holds.iter().any(|hold| hold.phase == Phase::Unload),
         outliers: outliers(dataset),
         identical_runs: identical_runs(dataset),
@@ -167,7 +167,7 @@ fn variance_of_hold_means_mm2(dataset: &Dataset) -> Option<Vec<f64>> {
     }
     let samples = dataset.samples_per_hold;
     let mean_mm = |run: usize, hold: usize, marker: usize, axis: usize| {
-        let values = (0..samples).filter_map(|sample| dataset.place(run, hold, sample, marker)[axis]);
+        let values = (0..samples).map(|sample| dataset.place(run, hold, sample, marker)[axis]);
         values.map(mm).sum::<f64>() / samples as f64
     };
     let variance = |hold: usize, marker: usize, axis: usize| {
@@ -176,14 +176,9 @@ fn variance_of_hold_means_mm2(dataset: &Dataset) -> Option<Vec<f64>> {
         means.iter().map(|mean| (mean - centre).powi(2)).sum::<f64>() / (runs - 1) as f64
     };
     let cells = (0..dataset.holds.len()).flat_map(|hold| (0..dataset.markers.len()).map(move |marker| (hold, marker)));
-    let share = 1.0 / axes(dataset) as f64;
-    let over_axes = |hold, marker| (0..axes(dataset)).map(|axis| variance(hold, marker, axis)).sum::<f64>();
+    let share = 1.0 / dataset.axes as f64;
+    let over_axes = |hold, marker| (0..dataset.axes).map(|axis| variance(hold, marker, axis)).sum::<f64>();
     Some(cells.map(|(hold, marker)| share * over_axes(hold, marker)).collect())
-}
-
-/// 2 of a planar table, 3 of one with z.
-fn axes(dataset: &Dataset) -> usize {
-    2 + usize::from(dataset.z_m.is_some())
 }
 
 /// Distinct values \[kPa\], rising; values within the tolerance of a hold are one.
@@ -207,7 +202,7 @@ fn outliers(dataset: &Dataset) -> Vec<Outlier> {
     if runs < 3 {
         return Vec::new();
     }
-    let deviations: Vec<_> = (0..axes(dataset)).map(|axis| deviations_from_median_m(dataset, axis)).collect();
+    let deviations: Vec<_> = (0..dataset.axes).map(|axis| deviations_from_median_m(dataset, axis)).collect();
     let few_runs = (runs as f64 / (runs - 1) as f64).sqrt();
     let mut found = Vec::new();
     for (marker, described) in dataset.markers.iter().enumerate() {
@@ -219,7 +214,7 @@ fn outliers(dataset: &Dataset) -> Vec<Outlier> {
             (few_runs * SD_PER_MAD * median(sizes)).max(policy::SURELY_FINE_M / policy::OUTLIER_Z)
         };
         let every_hold: Vec<usize> = (0..dataset.holds.len()).collect();
-        let of_marker: Vec<f64> = (0..axes(dataset)).map(|axis| scale(&every_hold, axis)).collect();
+        let of_marker: Vec<f64> = (0..dataset.axes).map(|axis| scale(&every_hold, axis)).collect();
         for hold in every_hold {
             let sd = of_marker.iter().enumerate().map(|(axis, sd)| scale(&[hold], axis).max(*sd)).collect::<Vec<_>>();
             for (sample, at) in samples_of(dataset, hold, marker).enumerate() {
@@ -239,18 +234,15 @@ fn outliers(dataset: &Dataset) -> Vec<Outlier> {
 }
 
 fn samples_of(dataset: &Dataset, hold: usize, marker: usize) -> impl Iterator<Item = usize> + '_ {
-    (0..dataset.samples_per_hold).map(move |sample| dataset.offset(hold, sample, marker) / 2)
+    (0..dataset.samples_per_hold).map(move |sample| dataset.offset(hold, sample, marker) / dataset.axes)
 }
 
 /// `[run][hold, sample, marker]`: distance of a coordinate from the median over runs \[m\].
 fn deviations_from_median_m(dataset: &Dataset, axis: usize) -> Vec<Vec<f64>> {
-    let of_run = |run: usize| -> Vec<f64> {
-        let in_plane = || dataset.run(run).iter().skip(axis).step_by(2).copied().collect();
-        if axis < 2 { in_plane() } else { dataset.z_of_run(run).unwrap_or_default().to_vec() }
-    };
+    let of_run = |run: usize| -> Vec<f64> { dataset.run(run).iter().skip(axis).step_by(dataset.axes).copied().collect() };
     let runs: Vec<Vec<f64>> = (0..dataset.runs.len()).map(of_run).collect();
     let over_runs = |i: usize| median(runs.iter().map(|run| run[i]).collect());
-    let centre: Vec<f64> = (0..dataset.values_per_run() / 2).map(over_runs).collect();
+    let centre: Vec<f64> = (0..dataset.values_per_run() / dataset.axes).map(over_runs).collect();
     runs.iter().map(|run| run.iter().zip(&centre).map(|(value, centre)| value - centre).collect()).collect()
 }
 
@@ -267,8 +259,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 fn identical_runs(dataset: &Dataset) -> Vec<[String; 2]> {
     let mut order: Vec<usize> = (0..dataset.runs.len()).collect();
     let compare = |a: &usize, b: &usize| {
-        let values = |run: usize| dataset.run(run).iter().chain(dataset.z_of_run(run).unwrap_or_default());
-        let pairs = values(*a).zip(values(*b));
+        let pairs = dataset.run(*a).iter().zip(dataset.run(*b));
         pairs.map(|(x, y)| x.total_cmp(y)).find(|order| order.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
     };
     order.sort_by(compare);

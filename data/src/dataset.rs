@@ -81,10 +81,10 @@ pub struct Dataset {
     pub markers: Vec<Marker>,
     /// Samples kept per (run, hold, marker).
     pub samples_per_hold: usize,
-    /// Positions \[m\], laid out `[run][hold][sample][marker][x, y]`; no NaN.
-    pub xy_m: Vec<f64>,
-    /// Third coordinate \[m\], laid out `[run][hold][sample][marker]`; `None` of a table without it.
-    pub z_m: Option<Vec<f64>>,
+    /// Coordinates of a marker: 2 (x, y) or, of a table with z, 3 (x, y, z).
+    pub axes: usize,
+    /// Positions \[m\], laid out `[run][hold][sample][marker][axis]`; no NaN.
+    pub coordinates_m: Vec<f64>,
     /// What a gauge at the actuator read \[Pa\], laid out `[run][hold][sample]`; `None` without one.
     pub gauge_pa: Option<Vec<f64>>,
     /// Cells that a camera lost for a whole hold.
@@ -94,40 +94,44 @@ pub struct Dataset {
 }
 
 impl Dataset {
-    /// Number of values of one run: holds × samples × markers × 2.
+    /// Number of values of one run: holds × samples × markers × axes.
     pub fn values_per_run(&self) -> usize {
-        self.holds.len() * self.samples_per_hold * self.markers.len() * 2
+        self.holds.len() * self.samples_per_hold * self.markers.len() * self.axes
     }
 
-    /// All values of one run, laid out `[hold][sample][marker][x, y]` \[m\].
+    /// All values of one run, laid out `[hold][sample][marker][axis]` \[m\].
     pub fn run(&self, run: usize) -> &[f64] {
         let n = self.values_per_run();
-        &self.xy_m[run * n..(run + 1) * n]
+        &self.coordinates_m[run * n..(run + 1) * n]
     }
 
-    /// Offset of (hold, sample, marker) inside one run; `+0` is x, `+1` is y.
+    /// Offset of (hold, sample, marker) inside one run; `+0` is x, `+1` is y, `+2` is z of a table with z.
     pub fn offset(&self, hold: usize, sample: usize, marker: usize) -> usize {
-        ((hold * self.samples_per_hold + sample) * self.markers.len() + marker) * 2
+        ((hold * self.samples_per_hold + sample) * self.markers.len() + marker) * self.axes
     }
 
-    /// Position of one marker in one sample \[m\].
+    /// x and y of one marker in one sample \[m\].
     pub fn xy(&self, run: usize, hold: usize, sample: usize, marker: usize) -> [f64; 2] {
         let i = self.offset(hold, sample, marker);
         let values = self.run(run);
         [values[i], values[i + 1]]
     }
 
-    /// z of one run \[m\], laid out `[hold][sample][marker]`; `None` of a table without it.
-    pub fn z_of_run(&self, run: usize) -> Option<&[f64]> {
-        let n = self.values_per_run() / 2;
-        self.z_m.as_ref().map(|all| &all[run * n..(run + 1) * n])
+    /// Coordinates of one marker in one sample: x, y and, where the table has it, z \[m\].
+    pub fn place(&self, run: usize, hold: usize, sample: usize, marker: usize) -> &[f64] {
+        let i = self.offset(hold, sample, marker);
+        &self.run(run)[i..i + self.axes]
     }
 
-    /// Coordinates of one marker in one sample: x, y and, where the table has it, z \[m\].
-    pub fn place(&self, run: usize, hold: usize, sample: usize, marker: usize) -> [Option<f64>; 3] {
-        let [x, y] = self.xy(run, hold, sample, marker);
-        let z = self.z_of_run(run).map(|z| z[self.offset(hold, sample, marker) / 2]);
-        [Some(x), Some(y), z]
+    /// Whether the table has z.
+    pub fn has_z(&self) -> bool {
+        self.axes == 3
+    }
+
+    /// The same without z.
+    pub fn in_plane(&self) -> Dataset {
+        let coordinates_m = self.coordinates_m.chunks_exact(self.axes).flat_map(|place| &place[..2]).copied().collect();
+        Dataset { axes: 2, coordinates_m, ..self.clone() }
     }
 
     /// Whether enough runs saw a marker in a hold; positions where they did not stand for nothing.
@@ -140,13 +144,13 @@ impl Dataset {
         !self.is_seen(hold, marker) || self.lost.filled.binary_search(&[run, hold, marker]).is_ok()
     }
 
-    /// Indices in run layout of the values that stand for nothing, x and y of all samples.
+    /// Indices in run layout of the values that stand for nothing, all coordinates of all samples.
     pub fn unseen_values(&self) -> impl Iterator<Item = usize> + '_ {
         let samples = move |cell: &[usize; 2]| {
             let [hold, marker] = *cell;
             (0..self.samples_per_hold).map(move |sample| self.offset(hold, sample, marker))
         };
-        self.lost.unseen.iter().flat_map(samples).flat_map(|x| [x, x + 1])
+        self.lost.unseen.iter().flat_map(samples).flat_map(|x| x..x + self.axes)
     }
 
     /// Readings of one run of the gauge at the actuator, laid out `[hold][sample]` \[Pa\].
@@ -179,23 +183,19 @@ impl Dataset {
         let empty = self.runs.is_empty() || self.values_per_run() == 0;
         let timed = self.holds.iter().all(|hold| hold.t_s.len() == self.samples_per_hold);
         let gauge = self.gauge_pa.as_deref().unwrap_or_default();
-        let z_m = self.z_m.as_deref().unwrap_or_default();
         let times = self.holds.iter().flat_map(|hold| &hold.t_s);
-        let finite = self.xy_m.iter().chain(times).chain(gauge).chain(z_m).all(|value| value.is_finite());
+        let finite = self.coordinates_m.iter().chain(times).chain(gauge).all(|value| value.is_finite());
         let expected = self.runs.len() * self.values_per_run();
         let readings = self.runs.len() * self.holds.len() * self.samples_per_hold;
         let wrong = |message: String| {
-            let help = "lay xy_m out as [run][hold][sample][marker][x, y], with samples_per_hold times in every hold";
+            let help = "lay coordinates_m out as [run][hold][sample][marker][axis] with 2 or 3 axes, and samples_per_hold times in every hold";
             Err(DataError::runs(&self.name, message, help))
         };
         match (empty, timed, finite) {
             (true, ..) => wrong("the dataset has no values".to_string()),
             (_, false, _) => wrong(format!("a hold has not {} sample times", self.samples_per_hold)),
             (.., false) => wrong("a value is not finite".to_string()),
-            _ if self.xy_m.len() != expected => wrong(format!("expected {expected} values, found {}", self.xy_m.len())),
-            _ if self.z_m.is_some() && z_m.len() != expected / 2 => {
-                wrong(format!("expected {} values of z, found {}", expected / 2, z_m.len()))
-            }
+            _ if self.coordinates_m.len() != expected => wrong(format!("expected {expected} values, found {}", self.coordinates_m.len())),
             _ if self.gauge_pa.is_some() && gauge.len() != readings => {
                 wrong(format!("expected {readings} readings of the gauge, found {}", gauge.len()))
             }

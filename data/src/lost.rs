@@ -62,43 +62,27 @@ pub(crate) fn fill(dataset: &mut Dataset, cells: &[[usize; 3]]) {
     let is_left_out = |[_, hold, marker]: &[usize; 3]| lost.unseen.contains(&[*hold, *marker]);
     lost.filled = cells.iter().filter(|cell| !is_left_out(cell)).copied().collect();
     dataset.lost = lost;
-    dataset.xy_m = filled(dataset, &Coordinates { width: 2, all: &dataset.xy_m }, cells);
-    dataset.z_m = dataset.z_m.as_ref().map(|all| filled(dataset, &Coordinates { width: 1, all }, cells));
+    dataset.coordinates_m = filled(dataset, cells);
 }
 
-/// x and y of all markers, or z.
-struct Coordinates<'a> {
-    /// Of one marker in one sample.
-    width: usize,
-    /// Laid out as in [`Dataset`] \[m\].
-    all: &'a [f64],
-}
-
-impl Coordinates<'_> {
-    fn run(&self, run: usize, dataset: &Dataset) -> &[f64] {
-        let n = dataset.values_per_run() / 2 * self.width;
-        &self.all[run * n..(run + 1) * n]
-    }
-
-    /// Indices of a cell in run layout, all samples.
-    fn of_cell(&self, dataset: &Dataset, hold: usize, marker: usize) -> Vec<usize> {
-        let first = |sample: usize| dataset.offset(hold, sample, marker) / 2 * self.width;
-        (0..dataset.samples_per_hold).flat_map(|sample| first(sample)..first(sample) + self.width).collect()
-    }
+/// Indices of a cell in run layout, all samples.
+fn of_cell(dataset: &Dataset, hold: usize, marker: usize) -> Vec<usize> {
+    let first = |sample: usize| dataset.offset(hold, sample, marker);
+    (0..dataset.samples_per_hold).flat_map(|sample| first(sample)..first(sample) + dataset.axes).collect()
 }
 
 /// The coordinates with cells that were lost filled in.
-fn filled(dataset: &Dataset, of: &Coordinates, cells: &[[usize; 3]]) -> Vec<f64> {
-    let mean = mean_of_seen(dataset, of, cells);
-    let made = made(dataset, of, &mean, cells);
-    let (n, mut all) = (mean.len(), of.all.to_vec());
+fn filled(dataset: &Dataset, cells: &[[usize; 3]]) -> Vec<f64> {
+    let mean = mean_of_seen(dataset, cells);
+    let made = made(dataset, &mean, cells);
+    let (n, mut all) = (mean.len(), dataset.coordinates_m.clone());
     for (run, values) in made.iter().enumerate() {
         for [r, hold, marker] in dataset.lost.filled.iter().filter(|cell| cell[0] == run) {
-            of.of_cell(dataset, *hold, *marker).into_iter().for_each(|i| all[r * n + i] = values[i]);
+            of_cell(dataset, *hold, *marker).into_iter().for_each(|i| all[r * n + i] = values[i]);
         }
     }
     for [hold, marker] in &dataset.lost.unseen {
-        for i in of.of_cell(dataset, *hold, *marker) {
+        for i in of_cell(dataset, *hold, *marker) {
             (0..dataset.runs.len()).for_each(|run| all[run * n + i] = mean[i]);
         }
     }
@@ -106,8 +90,8 @@ fn filled(dataset: &Dataset, of: &Coordinates, cells: &[[usize; 3]]) -> Vec<f64>
 }
 
 /// Mean over the runs that saw each value; where none did, the marker's mean in the nearest hold by pressure that one saw, or zero.
-fn mean_of_seen(dataset: &Dataset, of: &Coordinates, cells: &[[usize; 3]]) -> Vec<f64> {
-    let mut mean = vec![0.0; of.run(0, dataset).len()];
+fn mean_of_seen(dataset: &Dataset, cells: &[[usize; 3]]) -> Vec<f64> {
+    let mut mean = vec![0.0; dataset.values_per_run()];
     let holds = 0..dataset.holds.len();
     let seen = |hold: usize, marker: usize| -> Vec<usize> {
         (0..dataset.runs.len()).filter(|run| cells.binary_search(&[*run, hold, marker]).is_err()).collect()
@@ -120,8 +104,8 @@ fn mean_of_seen(dataset: &Dataset, of: &Coordinates, cells: &[[usize; 3]]) -> Ve
             let from = if is_seen(&hold) { Some(hold) } else { nearest };
             let Some(from) = from else { continue };
             let runs = seen(from, marker);
-            for (to, at) in of.of_cell(dataset, hold, marker).into_iter().zip(of.of_cell(dataset, from, marker)) {
-                mean[to] = runs.iter().map(|run| of.run(*run, dataset)[at]).sum::<f64>() / runs.len() as f64;
+            for (to, at) in of_cell(dataset, hold, marker).into_iter().zip(of_cell(dataset, from, marker)) {
+                mean[to] = runs.iter().map(|run| dataset.run(*run)[at]).sum::<f64>() / runs.len() as f64;
             }
         }
     }
@@ -129,15 +113,15 @@ fn mean_of_seen(dataset: &Dataset, of: &Coordinates, cells: &[[usize; 3]]) -> Ve
 }
 
 /// What each run would have seen, in run layout; empty for a run without losses.
-fn made(dataset: &Dataset, of: &Coordinates, mean: &[f64], cells: &[[usize; 3]]) -> Vec<Vec<f64>> {
-    let columns = columns(dataset, of, mean);
+fn made(dataset: &Dataset, mean: &[f64], cells: &[[usize; 3]]) -> Vec<Vec<f64>> {
+    let columns = columns(dataset, mean);
     let runs = dataset.runs.len();
     let share = runs as f64 / (runs as f64 - 1.0);
     let of_run = |run: usize| {
         let is_lost = |i: &usize| {
             let (hold, marker) = (
-                i / (of.width * dataset.markers.len() * dataset.samples_per_hold),
-                i / of.width % dataset.markers.len(),
+                i / (dataset.axes * dataset.markers.len() * dataset.samples_per_hold),
+                i / dataset.axes % dataset.markers.len(),
             );
             cells.binary_search(&[run, hold, marker]).is_ok() || !dataset.is_seen(hold, marker)
         };
@@ -145,7 +129,7 @@ fn made(dataset: &Dataset, of: &Coordinates, mean: &[f64], cells: &[[usize; 3]])
             return Vec::new();
         }
         let used: Vec<usize> = (0..mean.len()).filter(|i| !is_lost(i)).collect();
-        let deviation: Vec<f64> = used.iter().map(|i| of.run(run, dataset)[*i] - mean[*i]).collect();
+        let deviation: Vec<f64> = used.iter().map(|i| dataset.run(run)[*i] - mean[*i]).collect();
         let here: Vec<Vec<f64>> = columns.iter().map(|c| used.iter().map(|i| c[*i]).collect()).collect();
         let found = least_squares(&here, deviation);
         let moved = |i: usize| columns.iter().zip(&found).map(|(c, f)| f * c[i]).sum::<f64>();
@@ -154,20 +138,24 @@ fn made(dataset: &Dataset, of: &Coordinates, mean: &[f64], cells: &[[usize; 3]])
     (0..runs).map(of_run).collect()
 }
 
-/// What a run may differ by: more or less bend, shifts, and in the plane rotation about the base.
-fn columns(dataset: &Dataset, of: &Coordinates, mean: &[f64]) -> Vec<Vec<f64>> {
-    let width = of.width * dataset.markers.len();
+/// What a run may differ by: more or less bend, shifts, and rotations about the base.
+fn columns(dataset: &Dataset, mean: &[f64]) -> Vec<Vec<f64>> {
+    let (axes, markers) = (dataset.axes, dataset.markers.len());
     let first = |marker: usize| {
         let hold = (0..dataset.holds.len()).find(|hold| dataset.is_seen(*hold, marker)).unwrap_or(0);
-        dataset.offset(hold, 0, marker) / 2 * of.width
+        dataset.offset(hold, 0, marker)
     };
-    let bend = (0..mean.len()).map(|i| mean[i] - mean[first(i % width / of.width) + i % of.width]).collect();
-    if of.width == 1 {
-        return vec![bend, vec![1.0; mean.len()]];
-    }
-    let axis = |axis: usize| (0..mean.len()).map(|i| f64::from(u8::from(i % 2 == axis))).collect();
-    let turn = (0..mean.len()).map(|i| if i % 2 == 0 { -mean[i + 1] } else { mean[i - 1] }).collect();
-    vec![bend, axis(0), axis(1), turn]
+    let column = |value: &dyn Fn(usize, usize) -> f64| (0..mean.len()).map(|i| value(i, i % axes)).collect();
+    let mut columns: Vec<Vec<f64>> = vec![column(&|i, axis| mean[i] - mean[first(i / axes % markers) + axis])];
+    columns.extend((0..axes).map(|own| column(&|_, axis| f64::from(u8::from(axis == own)))));
+    columns.extend([[0, 1], [0, 2], [1, 2]].into_iter().filter(|plane| plane[1] < axes).map(|[from, to]| {
+        column(&|i, axis| match axis {
+            axis if axis == from => -mean[i - from + to],
+            axis if axis == to => mean[i - to + from],
+            _ => 0.0,
+        })
+    }));
+    columns
 }
 
 /// Coefficients of the columns that can be separated, zero of the others (Gram–Schmidt, shifts first).

@@ -105,7 +105,7 @@ mod tests {
             let about = about.unwrap();
             assert_eq!((dataset.name.as_str(), about.provenance), (set.name.as_str(), set.provenance));
             assert!(dataset.markers.iter().all(|marker| marker.station_m.is_some()), "{}: stations", set.name);
-            assert!(dataset.xy_m.iter().all(|value| value.is_finite()));
+            assert!(dataset.coordinates_m.iter().all(|value| value.is_finite()));
         }
     }
 

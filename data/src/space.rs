@@ -12,7 +12,7 @@ const TOLD_MM: f64 = 0.05;
 impl Dataset {
     /// Whether the table has more than one plane and one actuator pressure.
     pub fn is_spatial(&self) -> bool {
-        self.z_m.is_some() || self.more_channels() > 0
+        self.has_z() || self.more_channels() > 0
     }
 
     /// Supply channels beyond the first that the table has pressures of.
@@ -36,7 +36,7 @@ impl Dataset {
     pub fn travel_m(&self, axis: usize) -> f64 {
         let at = |run: usize, hold: usize, marker: usize| {
             let values =
-                (0..self.samples_per_hold).map(|sample| self.place(run, hold, sample, marker)[axis].unwrap_or(0.0));
+                (0..self.samples_per_hold).map(|sample| self.place(run, hold, sample, marker).get(axis).copied().unwrap_or(0.0));
             values.sum::<f64>() / self.samples_per_hold as f64
         };
         let mut most: f64 = 0.0;
@@ -53,21 +53,10 @@ impl Dataset {
     /// What a planar robot leaves aside of this table, in words; nothing of a planar table.
     ///
     /// # Errors
-    /// Markers that move towards z more than towards y; channels at different pressures; y that points down, which is not asked
-    /// before of a table with z.
+    /// Markers that move towards z more than towards y; y that points down, which is not asked before of a table with z.
     pub fn left_aside(&self) -> Result<Option<String>> {
         let refused = |message: String, help: &str| Err(DataError::runs(&self.name, message, help));
-        if self.channels_differ() {
-            let message = format!(
-                "the table has pressures of {} supply channels, and this is built for one",
-                self.more_channels() + 1
-            );
-            return refused(
-                message,
-                "`ibr compare` takes it; for the rest keep the holds of one channel and delete the others' columns",
-            );
-        }
-        if !self.is_spatial() {
+        if !self.has_z() {
             return Ok(None);
         }
         let [y_mm, z_mm] = [1, 2].map(|axis| mm(self.travel_m(axis)));
@@ -76,7 +65,7 @@ impl Dataset {
                 "the markers move by up to {z_mm:.1} mm towards z and {y_mm:.1} mm towards y, and the robot is planar"
             );
             let help = "y is towards the actuator: exchange the names of the columns of y and z, or describe the robot with azimuth_deg or \
-                        [[strip]] and use `ibr compare`";
+                        [[strip]]";
             return refused(message, help);
         }
         check_y_up_later(self)?;

@@ -24,7 +24,7 @@ impl Dataset {
         let number = |of: &dyn Fn(&Row) -> f64| Column::F64(rows.iter().map(of).collect());
         let place = |axis: usize| {
             number(&|[run, hold, sample, marker]| {
-                mm(self.place(*run, *hold, *sample, *marker)[axis].unwrap_or(f64::NAN))
+                mm(self.place(*run, *hold, *sample, *marker)[axis])
             })
         };
         let mut columns = vec![
@@ -38,7 +38,7 @@ impl Dataset {
         ];
         let more = |channel: usize| number(&|row| kpa(self.holds[row[1]].more_act_pa[channel]));
         columns.extend((0..self.more_channels()).map(|channel| (format!("p_act_{}_kpa", channel + 1), more(channel))));
-        let axes = ["x_mm", "y_mm", "z_mm"].into_iter().enumerate().take(if self.z_m.is_some() { 3 } else { 2 });
+        let axes = ["x_mm", "y_mm", "z_mm"].into_iter().enumerate().take(self.axes);
         columns.extend(axes.map(|(axis, name)| (name.to_string(), place(axis))));
         if self.markers.iter().all(|marker| marker.station_m.is_some()) {
             let station = number(&|row| mm(self.markers[row[3]].station_m.unwrap_or(f64::NAN)));

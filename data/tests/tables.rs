@@ -20,7 +20,7 @@ fn text(text: &str) -> Result<Dataset, DataError> {
 /// The same numbers as the reference; returns what was told.
 fn is_reference(found: &Dataset) -> String {
     let right = read("reference_markers.csv");
-    assert_eq!(found.xy_m, right.xy_m);
+    assert_eq!(found.coordinates_m, right.coordinates_m);
     assert_eq!(found.holds, right.holds);
     assert_eq!(found.runs, right.runs);
     found.told.join("\n")
@@ -95,7 +95,7 @@ fn a_recording_with_ramps_between_its_holds_is_sent_to_the_import() {
 fn noise_about_zero_is_judged_by_the_mean_of_its_hold() {
     let noisy = read("c11-zero-noise");
     let right = read("reference_markers.csv");
-    assert_eq!(noisy.xy_m, right.xy_m);
+    assert_eq!(noisy.coordinates_m, right.coordinates_m);
     assert!(noisy.holds[0].p_act_pa.abs() < 100.0, "{}", noisy.holds[0].p_act_pa);
     let below =
         std::fs::read_to_string(case("reference_markers.csv")).unwrap().replace(",0.0000,load", ",-0.8000,load");
@@ -114,7 +114,7 @@ fn a_comma_that_may_be_of_thousands_is_refused_with_both_readings() {
     let error = text(&format!("{head}1;epam;0;2;0;load;a;300;1,234\n1;epam;1;2;10;load;a;290;5,678\n")).unwrap_err();
     assert!(error.message().contains("1.234 (decimal comma)") && error.message().contains("1234"), "{error}");
     let sure = text(&format!("{head}1;epam;0;2;0;load;a;300;1,234\n1;epam;1;2;10;load;a;290;5,6\n")).unwrap();
-    assert_eq!(sure.xy_m[1], 1.234e-3);
+    assert_eq!(sure.coordinates_m[1], 1.234e-3);
     let mixed = text(&format!("{head}1;epam;0;2;0;load;a;300.5;1,2\n1;epam;1;2;10;load;a;290;5,6\n")).unwrap_err();
     assert!(mixed.message().contains("points and commas"), "{mixed}");
 }

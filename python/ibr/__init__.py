@@ -15,7 +15,6 @@ from ._calls import (
     Comparison,
     Diagnosis,
     Extension,
-    SpaceComparison,
     Validation,
     add,
     compare,
@@ -28,7 +27,7 @@ from ._calls import (
 from ._runs import Frame, Run, simulate, sweep
 
 __all__ = [
-    "Comparison", "Data", "Diagnosis", "Error", "Extension", "Frame", "Run", "Scenario", "SpaceComparison", "State",
+    "Comparison", "Data", "Diagnosis", "Error", "Extension", "Frame", "Run", "Scenario", "State",
     "States", "Validation", "add", "compare", "data", "diagnose", "extend", "import_tracks", "simulate", "sweep",
     "validate",
 ]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Union
 
@@ -75,10 +74,10 @@ class Comparison(Result):
 
     `error_mm`: error beyond noise, root mean square over markers and holds (mm); of all, the noise being unknown, with one run.
     `noise_mm`: noise of the mean of the runs (mm), None if unknown. `where_it_fails`: in plain language.
-    `table`: a row per model, hold and marker, measured and predicted.
+    `table`: a row per model, hold and marker, measured and predicted, with z where the data have it.
     """
 
-    _shown = ("shapes", "residual_map", "pressure", "ladder")
+    _shown = ("shapes", "shapes_z", "residual_map", "pressure", "ladder")
 
     @property
     def names(self) -> List[str]:
@@ -102,33 +101,13 @@ class Comparison(Result):
         return self.where_it_fails[0]["sentence"]
 
     def plot(self, axes=None):
-        """Measured and predicted markers on axes of matplotlib."""
+        """Measured and predicted markers on axes of matplotlib; of data with z from two sides, on two axes."""
         from . import _plot
 
         return _plot.comparison(self, axes)
 
     def _headline(self) -> str:
         return f"{self.scenario} held against {self.data}: {self.error_mm:.2f} mm beyond noise\n{self.verdict}"
-
-
-class SpaceComparison(Comparison):
-    """The same in x, y and z, of a robot with strips round the body, or of data with a pressure for every supply channel.
-
-    Errors are of one coordinate; `models` has them hold by hold, with bias and tip error along every axis.
-    """
-
-    _shown = ("shapes", "shapes_z")
-
-    @property
-    def verdict(self) -> str:
-        """Where the model fails first, in a sentence."""
-        return self.where_it_fails[0]
-
-    def plot(self, axes=None):
-        """Measured and predicted markers from two sides, on two axes of matplotlib."""
-        from . import _plot
-
-        return _plot.space_comparison(self, axes)
 
 
 class Diagnosis(Result):
@@ -234,12 +213,9 @@ def compare(
     """Holds a scenario against measurements: how far off, and where.
 
     `effects`: further models, each with one more effect, as `"name"` or `"name:key=value"`. `sigma_mm`: camera noise of one
-    coordinate, for a single run. `calibrate`: also fit "bending" or "body-pressure". A robot with strips round the body gives a
-    `SpaceComparison`.
+    coordinate, for a single run. `calibrate`: also fit "bending" or "body-pressure".
     """
-    answer = _ibr.compare(_robot(scenario), data(measured), list(effects), sigma_mm, calibrate)
-    in_space = json.loads(answer.json)["schema"] == "ibr.compare.space"
-    return SpaceComparison(answer) if in_space else Comparison(answer)
+    return Comparison(_ibr.compare(_robot(scenario), data(measured), list(effects), sigma_mm, calibrate))
 
 
 def diagnose(

@@ -65,40 +65,29 @@ def _state_in_space(state, axes):
     return _sides(axes, draw, "Predicted shape")
 
 
-def space_comparison(found, axes=None):
-    """Measured and predicted markers of every hold from two sides."""
+def comparison(found, axes=None):
+    """Measured and predicted markers of every hold; with z from two sides, on two axes."""
     table = found.table
     first = table["model"] == found.names[0]
-    names = [name for name in table if name == "p_body_kpa" or name.startswith("p_act_")]
-    pressures = np.stack([table[name] for name in names], axis=1)
+    channels = [name for name in table if name.startswith("p_act_")]
+    pressures = np.stack([table[name] for name in ["p_body_kpa", *channels]], axis=1)
     holds = np.unique(pressures[first], axis=0)
+    several = len(np.unique(holds[:, 0])) > 1
 
     def draw(one, side):
         axis = "xyz"[side]
-        if f"{axis}_mm" not in table:
-            return
         for k, hold in enumerate(holds):
             at = first & (pressures == hold).all(axis=1)
-            channels = [kpa for name, kpa in zip(names, hold) if name != "p_body_kpa"]
-            name = "/".join(f"{kpa:.0f}" for kpa in channels) + " kPa"
+            name = "/".join(f"{kpa:.0f}" for kpa in hold[1:]) + " kPa" + (f", body {hold[0]:.0f}" if several else "")
             one.plot(table["predicted_x_mm"][at], table[f"predicted_{axis}_mm"][at], "_", ms=12, color=f"C{k % 10}")
             one.plot(table["x_mm"][at], table[f"{axis}_mm"][at], "o", ms=5, color=f"C{k % 10}", label=name)
 
-    return _sides(_two(axes), draw, f"Measured (dots) and predicted (bars): {found.data}")
-
-
-def comparison(found, axes=None):
-    """Measured and predicted markers of every hold."""
-    axes, table = _axes(axes), found.table
-    first = table["model"] == found.names[0]
-    holds = np.unique(np.stack([table["p_body_kpa"], table["p_act_kpa"]])[:, first], axis=1).T
-    several = len(np.unique(holds[:, 0])) > 1
-    for k, (body, pressure) in enumerate(holds):
-        at = first & (table["p_body_kpa"] == body) & (table["p_act_kpa"] == pressure)
-        name = f"{pressure:.0f} kPa" + (f", body {body:.0f}" if several else "")
-        axes.plot(table["predicted_x_mm"][at], table["predicted_y_mm"][at], "_", ms=12, color=f"C{k % 10}")
-        axes.plot(table["x_mm"][at], table["y_mm"][at], "o", ms=5, color=f"C{k % 10}", label=name)
-    return _plane(axes, f"Measured (dots) and predicted (bars): {found.data}")
+    title = f"Measured (dots) and predicted (bars): {found.data}"
+    if "z_mm" in table:
+        return _sides(_two(axes), draw, title)
+    axes = _axes(axes)
+    draw(axes, 1)
+    return _plane(axes, title)
 
 
 def diagnosis(found, axes=None):

@@ -5,13 +5,13 @@ use crate::errors::raised;
 use crate::inputs::Data;
 use crate::progress::beside;
 use crate::scenario::Scenario;
-use ibr::compared::{Compared, contenders, unused_sigma};
+use ibr::compared::{Compared, unused_sigma};
 use ibr::data::Table;
-use ibr::pages::{Diagnosed, Files, PageError, compare_page, diagnosis_page, residuals, space_markers, space_page};
+use ibr::pages::{Diagnosed, Files, PageError, compare_page, diagnosis_page, residuals};
 use ibr::program::imprint;
 use ibr::shown::as_json;
 use ibr::shown::comparison::{CompareAnswer, text};
-use ibr::shown::{diagnosis, extension, in_space, validation};
+use ibr::shown::{diagnosis, extension, validation};
 use ibr::study::study::Knob;
 use ibr::study::study::engines::known_runs;
 use ibr::study::validation::BeforeAfter;
@@ -89,22 +89,6 @@ pub(crate) fn compare(
     let knob = calibrate.map(str::parse::<Knob>).transpose();
     let knob = knob.map_err(|known| crate::errors::refused(format!("calibrate={calibrate:?} is not known"), known))?;
     let (file, evidence, sigma_m) = (&scenario.file, &data.evidence, metres(sigma_mm));
-    if file.is_spatial() || evidence.dataset.channels_differ() {
-        if calibrate.is_some() {
-            let message = "calibrate is built for planar robots with one actuator pressure";
-            return Err(crate::errors::refused(message, "leave it out"));
-        }
-        let contenders = contenders(file, &effects).map_err(raised)?;
-        let found = py.detach(|| ibr::compare_in_space(&contenders, evidence, sigma_m)).map_err(raised)?;
-        let warnings = found.warnings.iter().cloned().chain(unused_sigma(sigma_m, evidence)).collect();
-        let told = Answer::of(
-            in_space::text(&found),
-            &as_json("ibr.compare.space", &in_space::SpaceAnswer::of(&file.name, &found)),
-            warnings,
-        );
-        let table = space_markers(&found);
-        return Ok(Answer { table, page: Some(Box::new(move || space_page(&found, &imprint()))), ..told });
-    }
     let Compared { found, added } =
         py.detach(|| Compared::of(file, evidence, &effects, sigma_m, knob)).map_err(raised)?;
     let answer = CompareAnswer::of(&file.name, &found, added.as_ref());

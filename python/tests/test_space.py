@@ -46,17 +46,18 @@ def test_measurements_in_space_are_compared(tmp_path, told):
     measured = ibr.data(str(out))
     assert {"z_mm", "p_act_1_kpa"} <= set(measured.table)
     found = ibr.compare(ROBOT, measured)
-    assert isinstance(found, ibr.SpaceComparison) and found.axes == 3
+    assert "z" in found.residual_map["cells"][0][0]
     assert found.error_mm < 0.5 and found.noise_mm > 0.2 and "mm" in found.verdict
     assert found.overall == told("compare", ROBOT, str(out))["overall"]
-    assert {"shapes", "shapes_z"} <= set(found.pictures()) and "Errors" in found.to_html()
+    assert {"shapes", "shapes_z"} <= set(found.pictures()) and "Accuracy" in found.to_html()
     again = ibr.compare(ROBOT, measured.table)
     assert np.isclose(again.error_mm, found.error_mm, atol=1e-9)
     assert len(found.table["z_mm"]) == 4 * 6
-    with pytest.raises(ibr.Error, match="2 supply channels"):
-        ibr.diagnose("epam", measured)
+    fitted = ibr.compare(ROBOT, measured, calibrate="bending")
+    assert fitted.models[1]["bending_nm2"] < 0.1
     with pytest.raises(ibr.Error, match="planar"):
-        ibr.diagnose(ROBOT, measured)
+        ibr.diagnose("epam", measured)
+    assert ibr.diagnose(ROBOT, measured).verdict == "none"
 
 
 def test_it_is_drawn_from_two_sides():

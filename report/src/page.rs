@@ -11,11 +11,10 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// Name and text of every template.
-const TEMPLATES: [(&str, &str); 8] = [
+const TEMPLATES: [(&str, &str); 7] = [
     ("base.html", include_str!("../templates/base.html")),
     ("parts.html", include_str!("../templates/parts.html")),
     ("compare.html", include_str!("../templates/compare.html")),
-    ("in_space.html", include_str!("../templates/in_space.html")),
     ("demo.html", include_str!("../templates/demo.html")),
     ("diagnosis.html", include_str!("../templates/diagnosis.html")),
     ("engines.html", include_str!("../templates/engines.html")),

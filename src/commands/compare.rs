@@ -6,13 +6,11 @@ use crate::cli::CompareArgs;
 use crate::failure::{Failure, MISSED};
 use crate::output::{check_folder, imprint, write_files};
 use crate::shown::comparison::{CompareAnswer, text};
-use crate::shown::in_space::{self, SpaceAnswer};
 use compare::progress::shares::{COMPARED, READ};
 use compare::study::comparison::Variant;
-use compare::study::in_space::{SpaceVariant, compare_in_space};
-use compare::{Evidence, ScenarioFile};
+use compare::{Comparison, Evidence, ScenarioFile};
 use ibr::compared::{Compared, contenders, unused_sigma};
-use ibr::pages::{Files, compare_page, space_page};
+use ibr::pages::compare_page;
 use std::path::PathBuf;
 
 pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
@@ -29,28 +27,14 @@ pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, 
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     // What is asked for is refused before data are read.
     inputs::each_once("--effect", inputs::effect_names(&args.effect))?;
-    let models = contenders(&file, &args.effect)?;
+    contenders(&file, &args.effect)?;
     let evidence = inputs::evidence(data_spec, context)?;
     (context.progress)("comparing", Some(READ));
     let scenario = if args.inputs.len() == 1 { "its own" } else { &file.name };
-    if file.is_spatial() || evidence.dataset.channels_differ() {
-        if args.calibrate.is_some() {
-            let message = "--calibrate is built for planar robots with one actuator pressure";
-            return Err(Failure::usage(message, "leave it out: the comparison in x, y and z has no fitted number"));
-        }
-        let found = compare_in_space(&models, &evidence, sigma_m)?;
-        let mut outcome =
-            Outcome::answer(in_space::text(&found), "ibr.compare.space", &SpaceAnswer::of(scenario, &found));
-        report(args, &file, &evidence, &mut outcome, context, || Ok(space_page(&found, &imprint())?))?;
-        outcome.warn(&found.warnings);
-        outcome.notes.extend(unused_sigma(sigma_m, &evidence));
-        check_error(&mut outcome, found.variants.last().map_or(0.0, SpaceVariant::error_mm), limit_m);
-        return Ok(outcome);
-    }
     let Compared { found, added } = Compared::of(&file, &evidence, &args.effect, sigma_m, args.calibrate)?;
     let answer = CompareAnswer::of(scenario, &found, added.as_ref());
     let mut outcome = Outcome::answer(text(&answer), "ibr.compare", &answer);
-    report(args, &file, &evidence, &mut outcome, context, || Ok(compare_page(&found, &imprint())?))?;
+    report(args, (&file, &evidence, &found), &mut outcome, context)?;
     outcome.warn(&found.warnings);
     outcome.notes.extend(unused_sigma(sigma_m, &evidence));
     check_error(&mut outcome, found.variants.last().map_or(0.0, Variant::error_mm), limit_m);
@@ -60,18 +44,16 @@ pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, 
 /// Writes the report where one is wanted.
 fn report(
     args: &CompareArgs,
-    file: &ScenarioFile,
-    evidence: &Evidence,
+    (file, evidence, found): (&ScenarioFile, &Evidence, &Comparison),
     outcome: &mut Outcome,
     context: &mut Context,
-    page: impl FnOnce() -> Result<Files, Failure>,
 ) -> Result<(), Failure> {
     let folder = format!("ibr-report/compare-{}", plain(&evidence.dataset.name));
     let Some(folder) = args.out.clone().or_else(|| (!context.json).then(|| PathBuf::from(folder))) else {
         return Ok(());
     };
     (context.progress)("drawing the report", Some(COMPARED));
-    write_files(&folder, &page()?, &inputs::named(file, [evidence])?, context)?;
+    write_files(&folder, &compare_page(found, &imprint())?, &inputs::named(file, [evidence])?, context)?;
     outcome.report(&folder);
     Ok(())
 }

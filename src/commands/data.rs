@@ -34,14 +34,15 @@ fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Ou
     let stations_m: Option<Vec<f64>> = dataset.markers.iter().map(|marker| marker.station_m).collect();
     let radius_m = about.as_ref().and_then(|about| about.geometry.as_ref()).map(|geometry| geometry.body_radius_m);
     match stations_m.zip(radius_m) {
-        _ if dataset.leaves_the_plane() => report.warnings.push(in_space_words(dataset)),
+        _ if dataset.leaves_the_plane() => report.warnings.extend(pressure_words(dataset)),
         Some((stations_m, radius_m)) => report.warnings.extend(slips(dataset, &stations_m, radius_m)),
         None => report.warnings.extend(pressure_words(dataset)),
     }
     let model = match scenario {
-        Some(scenario) => Some(inputs::scenario(scenario)?),
-        None => ScenarioFile::beside_in_space(spec)?.filter(|file| !file.is_spatial() && !dataset.channels_differ()),
+        Some(scenario) => Some(inputs::scenario_in_space(scenario)?),
+        None => ScenarioFile::beside_in_space(spec)?,
     };
+    report.warnings.extend((model.is_none() && dataset.leaves_the_plane()).then(|| in_space_words(dataset)));
     if let Some(model) = model
         && let Some(found) = pressure_slip(&model, &evidence, &Options::default())?
     {
@@ -53,17 +54,15 @@ fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Ou
     Ok(Outcome::answer(words, "ibr.data.check", &CheckedTable { check: Check::Markers(Box::new(report)) }))
 }
 
-/// What is said of a table with z or several channels.
+/// A note on a table with z or several channels, whose frame no geometry alone can check.
 fn in_space_words(dataset: &Dataset) -> String {
-    let z = dataset
-        .z_m
-        .as_ref()
-        .map(|_| format!("z varies by up to {:.1} mm from the first hold", 1e3 * dataset.travel_m(2)));
+    let z =
+        dataset.has_z().then(|| format!("z varies by up to {:.1} mm from the first hold", 1e3 * dataset.travel_m(2)));
     let more = dataset.more_channels();
     let channels = (more > 0).then(|| format!("pressures of {} supply channels", more + 1));
     let words: Vec<String> = z.into_iter().chain(channels).collect();
     format!(
-        "{}: `ibr compare` takes them; slips of frame and pressures are looked for in planar tables only",
+        "{}: the robot's model finds exchanged columns of them: give its scenario with --scenario",
         words.join(", ")
     )
 }
@@ -87,7 +86,7 @@ fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome, Failure> 
     let about = about(&named.scenario, &dataset, &generator);
     let inputs = inputs::named(&named, [])?;
     write(&args.out, &dataset, &about, named.text, &inputs, context)?;
-    let values = dataset.xy_m.len() + dataset.z_m.as_ref().map_or(0, Vec::len);
+    let values = dataset.coordinates_m.len();
     let text = format!("{values} values of {} runs in {}\n", dataset.runs.len(), args.out.display());
     let answer = Generated { folder: args.out.display().to_string(), runs: dataset.runs.len() };
     Ok(Outcome::answer(text, "ibr.data.generate", &answer))

@@ -44,7 +44,7 @@ pub(super) fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome, 
     write(&args.out, &dataset, &about, robot.text, &inputs::named(&truth, [])?, context)?;
     let text = format!(
         "{} values of {} finite element runs in {}\n",
-        dataset.xy_m.len(),
+        dataset.coordinates_m.len(),
         dataset.runs.len(),
         args.out.display()
     );

@@ -27,7 +27,7 @@ pub(super) fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome,
     };
     let fit = &args.fit;
     let options = Options { refit_present: args.refit, ..inputs::fit_options(fit)? };
-    let file = inputs::scenario(&args.scenario)?;
+    let file = inputs::scenario_in_space(&args.scenario)?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let evidence = inputs::all_evidence(data, &fit.also, context)?;
     let end = args.out.as_ref().map_or(1.0, |_| DIAGNOSED);

@@ -15,6 +15,11 @@ pub(super) fn scenario(spec: &str) -> Result<ScenarioFile, Failure> {
     Ok(ibr::studies::scenario(spec)?)
 }
 
+/// The same for what is built for strips round the body too.
+pub(super) fn scenario_in_space(spec: &str) -> Result<ScenarioFile, Failure> {
+    Ok(ibr::studies::scenario_in_space(spec)?)
+}
+
 /// A robot as typed: its file, and the scenario with what was changed.
 pub(super) fn robot(args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
     changed(scenario(&args.scenario)?, ScenarioFile::with, args)
@@ -22,7 +27,7 @@ pub(super) fn robot(args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failur
 
 /// The same for what is built for strips round the body too.
 pub(super) fn robot_in_space(args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
-    changed(ibr::studies::scenario_in_space(&args.scenario)?, ScenarioFile::with_in_space, args)
+    changed(scenario_in_space(&args.scenario)?, ScenarioFile::with_in_space, args)
 }
 
 /// `key=value` of an option `--set`.

@@ -26,7 +26,7 @@ struct LadderAnswer<'a> {
 
 pub(super) fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome, Failure> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
-    let file = inputs::scenario(&args.scenario)?;
+    let file = inputs::scenario_in_space(&args.scenario)?;
     let evidence = inputs::all_evidence(&args.data, &args.fit.also, context)?;
     let options = Options { next_experiment: false, missing_moment: false, ..inputs::fit_options(&args.fit)? };
     let climb = ladder(&file, &evidence, &options, MOST_EFFECTS, &mut part(context.progress, [READ, CLIMBED]))?;

@@ -19,7 +19,8 @@ pub fn compare_page(study: &Comparison, imprint: &Imprint) -> Result<Files, Page
         .with("found", CompareAnswer::of(&first.scenario.name, study, None))
         .with("provenance", provenance(study))
         .with("several_bodies", figures::several_bodies(dataset))
-        .with("map_colours", residual_figure::MAP_COLOURS);
+        .with("has_z", dataset.has_z())
+        .with("map_colours", residual_figure::colours(dataset));
     files.page("compare.html", values, imprint)?;
     Ok(files)
 }
@@ -31,10 +32,16 @@ pub fn compare_page(study: &Comparison, imprint: &Imprint) -> Result<Files, Page
 pub fn compare_files(study: &Comparison) -> Result<Files, PageError> {
     let mut files = Files::default();
     let (first, dataset) = (&study.variants[0], &study.dataset);
-    files.plot("shapes", figures::shapes("Predicted and measured shape", &first.scenario, dataset)?);
+    let shapes = |axis| figures::shapes("Predicted and measured shape", &first.scenario, dataset, axis);
+    files.plot("shapes", shapes(1)?);
+    if dataset.has_z() {
+        files.plot("shapes_z", shapes(2)?);
+    }
     let map = residual_figure::map("Where the model misses", &first.evaluation.residual_map, dataset)?;
     files.plot("residual_map", map);
-    files.plot("pressure", figures::pressure_curve("Pressure and height", study)?);
+    if !first.scenario.is_spatial() && !dataset.channels_differ() {
+        files.plot("pressure", figures::pressure_curve("Pressure and height", study)?);
+    }
     files.table("holds", tables::holds(&study.variants))?;
     if study.variants.len() > 1 {
         files.plot("ladder", figures::error_ladder("Error beyond noise", &study.variants)?);

@@ -89,6 +89,7 @@ const PICTURES: [(&str, Picture); 9] = [
     ("before_after_supply", |f, _| supply(f.diagnosis)),
     ("candidates", |f, scenario| match f.diagnosis.is_quiet() || f.diagnosis.pressure_slip.is_some() {
         true => Ok(None),
+        _ if scenario.is_spatial() || f.dataset.channels_differ() => Ok(None),
         false => candidate_curves(f.diagnosis, scenario, f.dataset),
     }),
     ("ledger", |f, scenario| {
@@ -168,7 +169,7 @@ fn values(found: &Diagnosed) -> Values {
         .with("unseen", tables::unseen(d).page(tables::UNSEEN))
         .with("experiments", tables::experiments(d).map(|(title, rows)| rows.page(&title)))
         .with("explained", explained(d))
-        .with("map_colours", residual_figure::MAP_COLOURS)
+        .with("map_colours", residual_figure::colours(found.dataset))
         .with("cautions", d.warnings.iter().filter(|w| !d.slips.contains(w)).collect::<Vec<_>>())
         .with("provenance", provenance(found))
         .and(verdict(found))

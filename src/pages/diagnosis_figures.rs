@@ -244,7 +244,7 @@ pub(super) fn witness_ledger(w: &Witness, d: &Diagnosis) -> Result<Drawn, PageEr
 
 /// Measured minus calibrated base at the loading holds of the first body pressure.
 fn deviations(base: &Scenario, dataset: &Dataset) -> Result<LineSeries, PageError> {
-    let predicted = predict_dataset(base, dataset)?.xy_m;
+    let predicted = predict_dataset(base, dataset)?.coordinates_m;
     let tip = dataset.markers.len() - 1;
     let body = dataset.holds[0].p_body_pa;
     let (mut points, mut half_width) = (Vec::new(), Vec::new());

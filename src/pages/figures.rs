@@ -4,6 +4,7 @@ use super::PageError;
 use crate::prelude::*;
 use compare::characterize::Scatter;
 use compare::study::Timing;
+use compare::study::predict::loads;
 use compare::study::published::PublishedLadder;
 use compare::study::{Comparison, Variant};
 use data::Phase;
@@ -22,18 +23,15 @@ pub(super) const MOST_POSES: usize = 6;
 /// Body pressures are the same within this fraction.
 const SAME_BODY: f64 = 0.05;
 
-/// Hold mean over samples and runs of one marker \[m\], and its standard deviation over runs.
-pub fn measured(dataset: &Dataset, hold: usize, marker: usize) -> ([f64; 2], [f64; 2]) {
-    let run_means: Vec<[f64; 2]> = (0..dataset.runs.len())
-        .map(|run| {
-            let samples = dataset.samples_per_hold;
-            let sum = (0..samples)
-                .map(|s| dataset.xy(run, hold, s, marker))
-                .fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
-            sum.map(|v| v / samples as f64)
-        })
-        .collect();
-    let over_runs = [0, 1].map(|k| Scatter::of(run_means.iter().map(|m| m[k])));
+/// Hold mean over samples and runs of one marker \[m\], and its standard deviation over runs; NaN along an axis that the table lacks.
+pub fn measured(dataset: &Dataset, hold: usize, marker: usize) -> ([f64; 3], [f64; 3]) {
+    let samples = dataset.samples_per_hold;
+    let along = |axis: usize| {
+        let at = |run, s| dataset.place(run, hold, s, marker).get(axis).copied().unwrap_or(f64::NAN);
+        let mean = |run| (0..samples).map(|s| at(run, s)).sum::<f64>() / samples as f64;
+        Scatter::of((0..dataset.runs.len()).map(mean))
+    };
+    let over_runs = [0, 1, 2].map(along);
     let mean = over_runs.map(|s| s.map_or(f64::NAN, |s| s.mean));
     let spread = over_runs.map(|s| s.and_then(|s| s.sd).unwrap_or(0.0));
     (mean, spread)
@@ -64,6 +62,12 @@ pub(super) fn body(p_body_pa: f64) -> String {
     format!(", body {} kPa", compare::wording::short(p_body_pa * 1e-3))
 }
 
+/// `20`, or `20/10` where supply channels have pressures of their own.
+fn act_kpa(hold: &data::Hold) -> String {
+    let label = compare::residuals::label(hold);
+    crate::words::kpa(label.p_act_kpa, &label.p_act_channels_kpa)
+}
+
 /// Pressurised holds reached by loading, without repeats; of more than six the highest pressures of every body pressure.
 fn shown_holds(dataset: &Dataset) -> Vec<usize> {
     let bodies = bodies(dataset);
@@ -71,14 +75,14 @@ fn shown_holds(dataset: &Dataset) -> Vec<usize> {
     for p_body in &bodies {
         let mut own: Vec<usize> = Vec::new();
         for (h, hold) in dataset.holds.iter().enumerate().filter(|(_, hold)| same_body(hold.p_body_pa, *p_body)) {
-            let new = own.iter().all(|s| dataset.holds[*s].p_act_pa != hold.p_act_pa);
-            if hold.phase != Phase::Unload && hold.p_act_pa > 0.0 && new {
+            let new = own.iter().all(|s| dataset.holds[*s].channels_pa().ne(hold.channels_pa()));
+            if hold.phase != Phase::Unload && hold.sum_act_pa() > 0.0 && new {
                 own.push(h);
             }
         }
         let most = if bodies.len() == 1 { MOST_POSES } else { (MOST_POSES / bodies.len()).max(1) };
         if bodies.len() > 1 {
-            own.sort_by(|a, b| dataset.holds[*b].p_act_pa.total_cmp(&dataset.holds[*a].p_act_pa));
+            own.sort_by(|a, b| dataset.holds[*b].sum_act_pa().total_cmp(&dataset.holds[*a].sum_act_pa()));
         }
         own.truncate(most);
         own.sort_unstable();
@@ -88,36 +92,43 @@ fn shown_holds(dataset: &Dataset) -> Vec<usize> {
     shown
 }
 
-/// Centre lines and markers, predicted and measured.
-pub(super) fn shapes(title: &str, scenario: &Scenario, dataset: &Dataset) -> Result<Drawn, PageError> {
+/// Centre lines and markers, predicted and measured, with an axis upwards: 1 is y, 2 is z.
+pub(super) fn shapes(title: &str, scenario: &Scenario, dataset: &Dataset, axis: usize) -> Result<Drawn, PageError> {
     let model = Model::new(scenario);
     let mut state = model.prediction();
     let mut poses = Vec::new();
     let several = several_bodies(dataset);
     for h in shown_holds(dataset) {
         let hold = &dataset.holds[h];
-        model.predict(&Loads::uniform(hold.p_body_pa, hold.p_act_pa), &mut state)?;
+        model.predict(&loads(hold, 1.0), &mut state)?;
+        let side = |place: [f64; 3]| [place[0], place[axis]];
         let drawn = (0..dataset.markers.len()).rev().step_by(dataset.markers.len().div_ceil(MOST_DRAWN).max(1));
-        let predicted: Vec<[f64; 2]> = drawn.clone().map(|m| state.markers[m]).collect();
+        let predicted: Vec<[f64; 2]> = {
+            let place = |m: usize| [state.markers[m][0], state.markers[m][1], state.markers_z_m[m]];
+            drawn.clone().map(|m| side(place(m))).collect()
+        };
         let seen = drawn.filter(|m| dataset.is_seen(h, *m));
         let measured = seen.map(|m| {
-            let (mean, spread) = measured(dataset, h, m);
+            let [mean, spread] = <[[f64; 3]; 2]>::from(measured(dataset, h, m)).map(side);
             plots::MeasuredPoint { at_mm: mean.map(|v| v * MM), half_width_mm: spread.map(|v| v * MM) }
         });
         poses.push(plots::ShapePose {
             label: if several {
-                format!("{:.0} kPa, body {}", hold.p_act_pa / 1e3, compare::wording::short(hold.p_body_pa / 1e3))
+                format!("{} kPa, body {}", act_kpa(hold), compare::wording::short(hold.p_body_pa / 1e3))
             } else {
-                format!("{:.0} kPa", hold.p_act_pa / 1e3)
+                format!("{} kPa", act_kpa(hold))
             },
-            curve_mm: mm(&model.centre_line(&state, LINE_POINTS)),
+            curve_mm: mm(&model.centre_line_in_space(&state, LINE_POINTS).into_iter().map(side).collect::<Vec<_>>()),
             predicted_mm: mm(&predicted),
             measured: measured.collect(),
         });
     }
     let rest_mm = mm(&[[0.0, 0.0], [scenario.length_m, 0.0]]);
     let body_radius_mm = scenario.radius_m * MM;
-    let shapes = plots::Shapes { title: title.into(), rest_mm, body_radius_mm, poses, ..plots::Shapes::default() };
+    let mut shapes = plots::Shapes { title: title.into(), rest_mm, body_radius_mm, poses, ..plots::Shapes::default() };
+    if dataset.has_z() {
+        shapes.across = ["y, towards azimuth 0\u{b0} [mm]", "z, towards azimuth 90\u{b0} [mm]"][axis - 1].into();
+    }
     Ok(plots::shapes(&shapes)?)
 }
 
@@ -232,11 +243,12 @@ pub(super) fn error_ladder(title: &str, variants: &[Variant]) -> Result<Drawn, P
 
 /// Highest actuator pressure of the data, and the title of a ledger there; `None` if the actuator is never filled.
 pub(super) fn at_highest(dataset: &Dataset) -> Option<(String, Loads)> {
-    let top = dataset.holds.iter().max_by(|a, b| a.p_act_pa.total_cmp(&b.p_act_pa)).filter(|h| h.p_act_pa > 0.0)?;
+    let top = dataset.holds.iter().max_by(|a, b| a.sum_act_pa().total_cmp(&b.sum_act_pa()));
+    let top = top.filter(|h| h.sum_act_pa() > 0.0)?;
     let body = if several_bodies(dataset) { body(top.p_body_pa) } else { String::new() };
-    let at = compare::wording::short(top.p_act_pa * 1e-3);
+    let at = compare::wording::channels_word(&compare::residuals::label(top));
     let title = format!("Energy ledger at the highest pressure, {at} kPa{body}");
-    Some((title, Loads::uniform(top.p_body_pa, top.p_act_pa)))
+    Some((title, loads(top, 1.0)))
 }
 
 /// Where the actuator's work goes at the highest loading hold, per model; of more terms than colours the smallest go together.

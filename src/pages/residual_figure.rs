@@ -3,14 +3,16 @@
 use super::PageError;
 use super::figures::several_bodies;
 use crate::prelude::*;
+use crate::words::kpa;
 use compare::residuals::{Deviation, ResidualCell, ResidualMap};
 use compare::wording::short;
 use report::number;
 
-/// Panels of the map, and what their cells show.
-const DIRECTIONS: [(&str, Shown); 2] =
-    [("y, across the robot", |cell| cell.y), ("x, along the straight robot", |cell| cell.x)];
-type Shown = fn(&ResidualCell) -> Deviation;
+/// Panels of the map in the plane, and the axes that their cells show.
+const PANELS: [(&str, usize); 2] = [("y, across the robot", 1), ("x, along the straight robot", 0)];
+/// The same with z.
+const PANELS_IN_SPACE: [(&str, usize); 3] =
+    [("z, towards azimuth 90°", 2), ("y, towards azimuth 0°", 1), ("x, along the straight robot", 0)];
 const MM: f64 = 1e3;
 /// Rows that a page can show one under the other.
 const MOST_MARKERS: usize = 24;
@@ -22,10 +24,19 @@ const MAP_LIMIT: f64 = 10.0;
 pub(super) const MAP_COLOURS: &str = "Across (y), blue: the robot bends more than the model; orange: less. Along (x), blue: the \
     robot's marker lies farther out than the model's; orange: nearer to the base.";
 
+/// The same where markers have z.
+const MAP_COLOURS_IN_SPACE: &str =
+    "Blue: the robot's marker lies farther out along the axis than the model's; orange: less far.";
+
+/// What the colours of the map of these data mean.
+pub(super) fn colours(dataset: &Dataset) -> &'static str {
+    if dataset.has_z() { MAP_COLOURS_IN_SPACE } else { MAP_COLOURS }
+}
+
 /// Signed residuals marker × hold, across the robot and along it, in units of noise (in mm when the noise is unknown). Of more
 /// markers or holds than fit, the one of every few neighbours that is farthest off.
 pub(super) fn map(title: &str, map: &ResidualMap, dataset: &Dataset) -> Result<Drawn, PageError> {
-    let in_noise = map.cells.iter().flatten().all(|c| c.x.in_noise.is_some() && c.y.in_noise.is_some());
+    let in_noise = map.cells.iter().flatten().all(|c| c.axes().iter().all(|d| d.in_noise.is_some()));
     let value = |seen: bool, d: Deviation| match d.in_noise {
         _ if !seen => f64::NAN,
         Some(z) if in_noise => z,
@@ -42,16 +53,17 @@ pub(super) fn map(title: &str, map: &ResidualMap, dataset: &Dataset) -> Result<D
     let column = |h: &usize| {
         let hold = &map.holds[*h];
         let body = if several { format!("body {} kPa", short(hold.p_body_kpa)) } else { String::new() };
-        ChartColumn { name: number(hold.p_act_kpa, 0), groups: [hold.phase.to_string(), body] }
+        ChartColumn { name: kpa(hold.p_act_kpa, &hold.p_act_channels_kpa), groups: [hold.phase.to_string(), body] }
     };
     let (mut places, mut marks) = (Vec::new(), Vec::new());
-    for (label, of) in DIRECTIONS {
-        places.push(ChartRow { name: label.into(), place: RowPlace::Heading, ..ChartRow::default() });
+    let panels = if dataset.has_z() { &PANELS_IN_SPACE[..] } else { &PANELS };
+    for (label, axis) in panels {
+        places.push(ChartRow { name: (*label).into(), place: RowPlace::Heading, ..ChartRow::default() });
         // The tip is the top row.
         for m in rows.iter().rev() {
             for (k, h) in columns.iter().enumerate() {
                 let cell = &map.cells[*m][*h];
-                let off = value(cell.seen, of(cell));
+                let off = value(cell.seen, cell.axes()[*axis]);
                 let words = number(off, usize::from(off.abs() < 99.95 && columns.len() < 15));
                 marks.push(Mark::Cell([places.len(), k], off / MAP_LIMIT, words, String::new()));
             }

@@ -2,7 +2,6 @@
 
 use super::figures::measured;
 use ::compare::metrics::HoldMetrics;
-use ::compare::residuals::ResidualCell;
 use ::compare::study::{Comparison, Variant};
 use data::{Column, Table};
 
@@ -35,29 +34,42 @@ pub(super) fn holds(variants: &[Variant]) -> data::Table {
     }
 }
 
-/// Every marker at every hold of every model, one row each: where it was measured (mean of runs and samples) and predicted. Cells
-/// that too few runs saw are left out; NaN where a number does not exist.
+/// Every marker at every hold of every model, one row each: where it was measured (mean of runs and samples) and predicted, along z where
+/// the table has it, and the pressure of every supply channel. Cells that too few runs saw are left out; NaN where a number does not exist.
 pub fn residuals(study: &Comparison) -> Table {
-    let dataset = &study.dataset;
-    let mut texts = vec![Vec::new(); 3];
-    let mut numbers = vec![Vec::new(); 9];
-    for variant in &study.variants {
-        let map = &variant.evaluation.residual_map;
-        for (h, hold) in map.holds.iter().enumerate() {
-            for (m, marker) in dataset.markers.iter().enumerate().filter(|(m, _)| map.cells[*m][h].seen) {
-                let ResidualCell { x, y, norm_mm, norm_in_noise, .. } = map.cells[m][h];
-                let [mx, my] = measured(dataset, h, m).0.map(|v| v * 1e3);
-                let station = marker.station_m.map_or(f64::NAN, |s| s * 1e3);
-                let in_noise = norm_in_noise.unwrap_or(f64::NAN);
-                let row = [hold.p_act_kpa, hold.p_body_kpa, station, mx, my, mx + x.mm, my + y.mm, norm_mm, in_noise];
-                let words = [&variant.label, hold.phase, &marker.name];
-                texts.iter_mut().zip(words).for_each(|(column, word)| column.push(word.to_string()));
-                numbers.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
-            }
-        }
+    let Comparison { dataset, variants, .. } = study;
+    let cells = (0..dataset.holds.len()).flat_map(|h| (0..dataset.markers.len()).map(move |m| (h, m)));
+    let cells = cells.filter(|(h, m)| dataset.is_seen(*h, *m));
+    let places: Vec<(usize, usize, [f64; 3])> =
+        cells.map(|(h, m)| (h, m, measured(dataset, h, m).0.map(|v| v * 1e3))).collect();
+    let rows: Vec<(&Variant, &(usize, usize, [f64; 3]))> =
+        variants.iter().flat_map(|v| places.iter().map(move |place| (v, place))).collect();
+    let cell = |v: &'_ Variant, h: usize, m: usize| v.evaluation.residual_map.cells[m][h].clone();
+    let (mut columns, holds) = (Vec::new(), &dataset.holds);
+    let texts = |of: &dyn Fn(&Variant, usize, usize) -> String| {
+        Column::Str(rows.iter().map(|(v, (h, m, _))| of(v, *h, *m)).collect())
+    };
+    columns.push(("model".to_string(), texts(&|v, _, _| v.label.clone())));
+    columns.push(("phase".to_string(), texts(&|_, h, _| holds[h].phase.word().into())));
+    columns.push(("marker".to_string(), texts(&|_, _, m| dataset.markers[m].name.clone())));
+    let mut numbers = |name: String, of: &dyn Fn(&Variant, usize, usize, &[f64; 3]) -> f64| {
+        columns.push((name, Column::F64(rows.iter().map(|(v, (h, m, at))| of(v, *h, *m, at)).collect())));
+    };
+    let kpa = |pa: f64| 1e-3 * pa;
+    numbers("p_act_kpa".into(), &|_, h, _, _| kpa(holds[h].p_act_pa));
+    for channel in 0..dataset.more_channels() {
+        numbers(format!("p_act_{}_kpa", channel + 1), &|_, h, _, _| kpa(holds[h].more_act_pa[channel]));
     }
-    let names = ["model", "phase", "marker"].into_iter().zip(texts.into_iter().map(Column::Str));
-    let more = ["p_act_kpa", "p_body_kpa", "s_mm", "x_mm", "y_mm", "predicted_x_mm", "predicted_y_mm"];
-    let more = more.into_iter().chain(["error_mm", "error_in_noise"]).zip(numbers.into_iter().map(Column::F64));
-    Table { columns: names.chain(more).map(|(name, column)| (name.to_string(), column)).collect() }
+    numbers("p_body_kpa".into(), &|_, h, _, _| kpa(holds[h].p_body_pa));
+    numbers("s_mm".into(), &|_, _, m, _| dataset.markers[m].station_m.map_or(f64::NAN, |s| s * 1e3));
+    let axes = ["x", "y", "z"].iter().enumerate().take(dataset.axes);
+    for (axis, name) in axes.clone() {
+        numbers(format!("{name}_mm"), &|_, _, _, at| at[axis]);
+    }
+    for (axis, name) in axes {
+        numbers(format!("predicted_{name}_mm"), &|v, h, m, at| at[axis] + cell(v, h, m).axes()[axis].mm);
+    }
+    numbers("error_mm".into(), &|v, h, m, _| cell(v, h, m).norm_mm);
+    numbers("error_in_noise".into(), &|v, h, m, _| cell(v, h, m).norm_in_noise.unwrap_or(f64::NAN));
+    Table { columns }
 }

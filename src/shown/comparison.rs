@@ -1,6 +1,7 @@
 //! A comparison.
 
 use crate::prelude::*;
+use crate::words::hold_name;
 use compare::metrics::{HoldMetrics, OverallMetrics};
 use compare::{Evaluation, NoiseSummary, ScalingCheck};
 
@@ -148,15 +149,27 @@ pub fn text(answer: &CompareAnswer) -> String {
 
 fn holds(variant: &Variant) -> String {
     let percent = |share: Option<f64>| share.map(|a| 100.0 * a);
-    Table::of(&variant.evaluation.metrics.holds)
-        .words("hold", |h| format!("{:.0} kPa {} (body {:.0})", h.p_act_kpa, h.phase, h.p_body_kpa))
-        .number("paper accuracy %", 1, |h| percent(h.paper_accuracy))
-        .number("noise ceiling %", 1, |h| percent(h.noise_ceiling))
-        .number("rms rel. %", 1, |h| h.rms_relative_pct)
+    let holds = &variant.evaluation.metrics.holds;
+    let has_z = holds.iter().any(|h| h.tip_error_z_mm.is_some());
+    Table::of(holds)
+        .words("hold", |h| hold_name(h))
+        .when(!has_z, |table| {
+            table
+                .number("paper accuracy %", 1, |h| percent(h.paper_accuracy))
+                .number("noise ceiling %", 1, |h| percent(h.noise_ceiling))
+                .number("rms rel. %", 1, |h| h.rms_relative_pct)
+        })
         .number("RMSE mm", 2, |h| h.rmse_mm)
         .number("noise floor mm", 2, |h| h.noise_floor_mm)
         .number("beyond noise mm", 2, |h| h.systematic_mm)
-        .signed("tip error mm", 2, |h| h.tip_error_mm)
+        .when(!has_z, |table| table.signed("tip error mm", 2, |h| h.tip_error_mm))
+        .when(has_z, |table| {
+            table
+                .signed("tip error x mm", 2, |h| h.tip_error_x_mm)
+                .signed("y mm", 2, |h| h.tip_error_mm)
+                .signed("z mm", 2, |h| h.tip_error_z_mm)
+                .number("tip distance mm", 2, |h| h.tip_distance_mm)
+        })
         .number("χ²/dof", 1, |h| h.reduced_chi2)
         .text()
 }

@@ -12,7 +12,6 @@ pub(crate) mod diagnosis_tables;
 pub(crate) mod engines;
 pub mod extension;
 pub(crate) mod held;
-pub mod in_space;
 pub(crate) mod one_number;
 pub(crate) mod paper;
 pub mod predicted;

@@ -45,7 +45,7 @@ const COMMANDS: [(&str, &str); 48] = [
     ("data generate epam --out made", "ibr.data.generate"),
     ("data generate epam-two-strips --protocol 0/0,20/10@2 --out space", "ibr.data.generate"),
     ("data check space", "ibr.data.check"),
-    ("compare epam-two-strips space", "ibr.compare.space"),
+    ("compare epam-two-strips space", "ibr.compare"),
     ("data import --example camera", "ibr.data.import.example"),
     ("data import made/markers.csv --out imported", "ibr.data.import"),
     ("data fem epam --stored --seeds 1 --out seen", "ibr.data.fem"),

@@ -60,7 +60,7 @@ pub struct Attainable {
 /// A hold at which nothing balances.
 pub(super) fn distances_of(truth: &Truth, data: &Dataset, pairs: bool) -> Result<Distances, CompareError> {
     let g = truth.measurement(&standard_protocol()).generator;
-    let mean = Dataset { runs: vec!["1".into()], xy_m: ideal(&truth.robot()?, &g)?, ..data.clone() };
+    let mean = Dataset { runs: vec!["1".into()], coordinates_m: ideal(&truth.robot()?, &g)?, ..data.clone() };
     let run_sd = [g.pressure_sd, g.alignment_sd_m, g.alignment_sd_m, g.rotation_sd];
     let noise = KnownNoise { runs: g.runs, sigma_m: g.camera_sd_m, run_sd };
     distances(&truth.told()?, &mean, Some(&super::cases::about(truth)?), noise, pairs)

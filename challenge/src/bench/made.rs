@@ -154,7 +154,7 @@ impl Question<'_> {
 /// How far two models are apart at the holds of data \[mm\], rms.
 fn apart_mm(one: &Scenario, other: &Scenario, evidence: &Evidence) -> Result<f64, CompareError> {
     let [a, b] = [one, other].map(|scenario| predict_dataset(scenario, &evidence.dataset));
-    let (a, b) = (a?.xy_m, b?.xy_m);
+    let (a, b) = (a?.coordinates_m, b?.coordinates_m);
     let squares: f64 = a.iter().zip(&b).map(|(a, b)| (a - b).powi(2)).sum();
     Ok(1e3 * (squares / a.len() as f64).sqrt())
 }

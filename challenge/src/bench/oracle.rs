@@ -134,7 +134,7 @@ impl Eyes {
         let apart = |positions: &[f64]| -> Vec<f64> { positions.iter().zip(&mean).map(|(a, b)| a - b).collect() };
         let slope = apart(&march::run(&robot, &holds(&g), 1.0 + STEP)?).iter().map(|d| d / STEP).collect::<Vec<_>>();
         let run_sd = [g.pressure_sd, g.alignment_sd_m, g.alignment_sd_m, g.rotation_sd];
-        let known = Dataset { runs: vec!["1".into()], xy_m: mean.clone(), ..data.clone() };
+        let known = Dataset { runs: vec!["1".into()], coordinates_m: mean.clone(), ..data.clone() };
         let noise = NoiseModel::known(&known, &slope, g.runs, g.camera_sd_m, run_sd)?;
         let stiffer = Truth { bending_nm2: (1.0 + STEP) * truth.bending_nm2, ..truth.clone() };
         let bending = noise.whiten(&apart(&ideal(&stiffer.robot()?, &g)?));

@@ -114,7 +114,8 @@ pub fn diagnose(
         next_experiment = next::next_experiment(&case, &decision, look::next(&found))?;
     }
     let (mut shown, mut warnings) = (Default::default(), found.warnings.clone());
-    if options.missing_moment || options.learn {
+    let one_way = !scenario.is_spatial() && sources.iter().all(|source| !source.dataset.channels_differ());
+    if (options.missing_moment || options.learn) && one_way {
         // It shows a verdict and decides none: where it cannot be had, the verdict stands without it.
         match learned::moments(&case, &decision, options, &found) {
             Ok(moments) => shown = moments,

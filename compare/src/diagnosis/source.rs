@@ -7,9 +7,9 @@ use crate::layout::Layout;
 use crate::noise::NoiseModel;
 use crate::policy;
 use crate::prepare::{Outliers, prepare};
-use crate::slips::slips;
+use crate::slips::slips_of;
 use crate::study::fit_scenario;
-use crate::study::predict::{is_open, without_settled};
+use crate::study::predict::{is_open, seen_by, without_settled};
 use data::{About, Dataset, Direct, Hold, MeasuredValue};
 use models::Scenario;
 use models::effects::Stage;
@@ -37,9 +37,9 @@ pub fn body_pressures<'d>(datasets: impl IntoIterator<Item = &'d Dataset>) -> Ve
     levels(datasets.into_iter().flat_map(|dataset| &dataset.holds).map(|hold| hold.p_body_pa))
 }
 
-/// Distinct actuator pressures above zero in order of appearance \[Pa\].
+/// Distinct actuator pressures above zero in order of appearance, sums over supply channels \[Pa\].
 pub fn pressure_levels(holds: &[Hold]) -> Vec<f64> {
-    levels(holds.iter().map(|h| h.p_act_pa).filter(|p| *p > policy::ZERO_PRESSURE_PA))
+    levels(holds.iter().map(Hold::sum_act_pa).filter(|p| *p > policy::ZERO_PRESSURE_PA))
 }
 
 fn levels(pressures_pa: impl Iterator<Item = f64>) -> Vec<f64> {
@@ -102,17 +102,22 @@ impl Source {
         let (dataset, about) = (&evidence.dataset, evidence.about.as_ref());
         Layout::of(dataset)?;
         let (scenario, mut warnings) = fit_scenario(scenario, dataset, about)?;
-        let slips = slips(dataset, &scenario.markers_m, scenario.radius_m);
+        let slips = slips_of(dataset, &scenario);
         let mut prepared = prepare(dataset, about);
         warnings.append(&mut prepared.warnings);
-        let mut source = Source::of(scenario, prepared.dataset, about);
+        let dataset_seen = seen_by(&scenario, prepared.dataset);
+        let mut source = Source::of(scenario, dataset_seen, about);
         if source.direct.pressure && dataset.gauge_pa.is_some() {
             warnings.push(
                 "about.toml says [direct] pressure, so p_act is the actuator's own and the column p_gauge was not used"
                     .into(),
             );
         }
-        let gauge = Gauge::of(&source.dataset, &source.scenario).filter(|_| !source.direct.pressure);
+        let several = source.dataset.channels_differ();
+        if several && dataset.gauge_pa.is_some() {
+            warnings.push("the column p_gauge is of one supply channel and was not used: the table has several".into());
+        }
+        let gauge = Gauge::of(&source.dataset, &source.scenario).filter(|_| !source.direct.pressure && !several);
         if let Some(gauge) = &gauge {
             source.dataset = gauge.positions(&source.dataset);
             source.direct.pressure = true;
@@ -127,7 +132,7 @@ impl Source {
         let (mut sources, mut warnings) = (Vec::<Source>::new(), Vec::new());
         for (i, measured) in evidence.iter().enumerate() {
             let name = &measured.dataset.name;
-            if evidence[..i].iter().any(|seen| seen.dataset.xy_m == measured.dataset.xy_m) {
+            if evidence[..i].iter().any(|seen| seen.dataset.coordinates_m == measured.dataset.coordinates_m) {
                 warnings.push(format!(
                     "{name} is a copy of data that are there already and was left out: copies are not repeats"
                 ));

@@ -81,7 +81,7 @@ pub fn half_width(data: &[FittedData], white: &[f64], parameters: usize) -> Opti
         };
         let runs = noise.runs as f64;
         let camera = sigma * sigma / runs * square(&weights);
-        let run_to_run: f64 = (0..4)
+        let run_to_run: f64 = (0..noise.mean_variance.len())
             .map(|j| {
                 let along: f64 = weights.iter().zip(&noise.directions).map(|(w, u)| w * u[j]).sum();
                 along * along * noise.mean_variance[j].max(policy::SENSOR_SD[j].powi(2) / runs)
@@ -117,10 +117,7 @@ impl FittedData<'_> {
     /// Of every hold the first one at its pressures.
     fn first(&self) -> Vec<usize> {
         let holds = &self.dataset.holds;
-        let same = policy::is_same_pressure;
-        let alike = |a: usize, b: usize| {
-            same(holds[a].p_act_pa, holds[b].p_act_pa) && same(holds[a].p_body_pa, holds[b].p_body_pa)
-        };
+        let alike = |a: usize, b: usize| policy::same_pressures(&holds[a], &holds[b]);
         (0..holds.len()).map(|h| (0..h).find(|other| alike(*other, h)).unwrap_or(h)).collect()
     }
 
@@ -139,7 +136,7 @@ impl FittedData<'_> {
     /// Of every coordinate of every marker at every pressure Σ w.
     fn by_cell(&self, weights: &[f64]) -> Vec<f64> {
         let first = self.first();
-        let (cells, width) = (2 * self.dataset.markers.len(), weights.len() / first.len());
+        let (cells, width) = (self.dataset.axes * self.dataset.markers.len(), weights.len() / first.len());
         let mut sums = vec![0.0; cells * first.len()];
         weights.iter().enumerate().for_each(|(i, w)| sums[cells * first[i / width] + i % cells] += w);
         sums

@@ -2,6 +2,7 @@
 //!
 //! With U diag(√v) = Q T and T Tᵀ = E diag(w) Eᵀ, r_w = (r + B((1 + w/s²)^−½ − 1)Bᵀ r)/s, B = Q E, has covariance I.
 
+use crate::directions::Row;
 use crate::error::CompareError;
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -22,18 +23,20 @@ pub struct Whitener {
 
 impl Whitener {
     /// `directions` are the rows of U, `unit_m` is s \[m\] (positive), `variances` is v.
-    pub fn new(directions: &[[f64; 4]], unit_m: f64, variances: &[f64; 4]) -> Result<Whitener, CompareError> {
+    pub fn new(directions: &[Row], unit_m: f64, variances: &Row) -> Result<Whitener, CompareError> {
         Self::with_columns(directions, unit_m, variances, &[])
     }
 
     /// The same with further columns of U, each times the square root of its variance.
     pub fn with_columns(
-        directions: &[[f64; 4]],
+        directions: &[Row],
         unit_m: f64,
-        variances: &[f64; 4],
+        variances: &Row,
         columns: &[Vec<f64>],
     ) -> Result<Whitener, CompareError> {
-        let scaled = DMatrix::from_fn(directions.len(), 4 + columns.len(), |i, j| match j.checked_sub(4) {
+        // In the plane the others are zero.
+        let shared = if directions.iter().all(|row| row[4..] == [0.0; 3]) { 4 } else { 7 };
+        let scaled = DMatrix::from_fn(directions.len(), shared + columns.len(), |i, j| match j.checked_sub(shared) {
             None => directions[i][j] * variances[j].sqrt(),
             Some(further) => columns[further][i],
         });
@@ -77,26 +80,28 @@ mod tests {
     use super::*;
 
     /// W Σ Wᵀ = I, column by column, for W taken from the whitener.
-    fn largest_departure_from_identity(rows: &[[f64; 4]], s: f64, v: &[f64; 4]) -> f64 {
+    fn largest_departure_from_identity(rows: &[Row], s: f64, v: &Row) -> f64 {
         let n = rows.len();
         let whitener = Whitener::new(rows, s, v).unwrap();
         let unit = |i: usize| (0..n).map(|k| f64::from(u8::from(k == i))).collect::<Vec<f64>>();
         let w = DMatrix::from_columns(&(0..n).map(|i| whitener.whiten(&unit(i)).into()).collect::<Vec<_>>());
-        let u = DMatrix::from_fn(n, 4, |i, j| rows[i][j]);
+        let u = DMatrix::from_fn(n, 7, |i, j| rows[i][j]);
         let sigma = DMatrix::identity(n, n) * (s * s) + &u * DMatrix::from_diagonal(&v.to_vec().into()) * u.transpose();
         (&w * sigma * w.transpose() - DMatrix::identity(n, n)).amax()
     }
 
     #[test]
     fn the_whitened_covariance_is_the_identity() {
-        let rows: Vec<[f64; 4]> = (0..12)
+        let rows: Vec<Row> = (0..12)
             .map(|i| {
                 let x = 0.03 * f64::from(i);
-                [x * x, f64::from(u8::from(i % 2 == 0)), f64::from(u8::from(i % 2 == 1)), x]
+                [x * x, f64::from(u8::from(i % 2 == 0)), f64::from(u8::from(i % 2 == 1)), x, 0.0, 0.0, 0.0]
             })
             .collect();
-        assert!(largest_departure_from_identity(&rows, 1e-3, &[4e-4, 2.5e-7, 2.5e-7, 1e-6]) < 1e-10);
-        assert!(largest_departure_from_identity(&rows, 1e-3, &[0.0; 4]) < 1e-12);
-        assert!(largest_departure_from_identity(&rows[..3], 1e-3, &[4e-4, 2.5e-7, 2.5e-7, 1e-6]) < 1e-10);
+        assert!(largest_departure_from_identity(&rows, 1e-3, &[4e-4, 2.5e-7, 2.5e-7, 1e-6, 2.5e-7, 1e-6, 1e-6]) < 1e-10);
+        let in_space: Vec<Row> = rows.iter().map(|[p, x, y, ..]| [*p, *x, *y, 0.3, p - y, 0.1 * x, p + 0.2]).collect();
+        assert!(largest_departure_from_identity(&in_space, 1e-3, &[4e-4, 2.5e-7, 2.5e-7, 1e-6, 2.5e-7, 1e-6, 1e-6]) < 1e-10);
+        assert!(largest_departure_from_identity(&rows, 1e-3, &Row::default()) < 1e-12);
+        assert!(largest_departure_from_identity(&rows[..3], 1e-3, &[4e-4, 2.5e-7, 2.5e-7, 1e-6, 2.5e-7, 1e-6, 1e-6]) < 1e-10);
     }
 }

@@ -60,8 +60,8 @@ pub fn accuracy_band(c: &BesideMean, samples: usize, seed: u64) -> Band {
 }
 
 fn accuracy_of(c: &BesideMean, hold: usize, means_m: &[f64]) -> Option<f64> {
-    let width = 2 * c.layout.markers;
-    let measured: Vec<f64> = c.seen(hold).map(|marker| means_m[hold * width + 2 * marker + 1]).collect();
+    let at = |marker: usize| (hold * c.layout.markers + marker) * c.layout.axes + 1;
+    let measured: Vec<f64> = c.seen(hold).map(|marker| means_m[at(marker)]).collect();
     paper_accuracy(&c.deflections(hold).0, &measured)
 }
 

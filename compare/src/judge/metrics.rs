@@ -9,6 +9,7 @@ use crate::accuracy::{Band, accuracy_band, paper_accuracy, relative_pct};
 use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
 use crate::policy;
+use crate::residuals::{HoldLabel, label};
 use crate::stats::{f_tail, reported_p};
 use serde::Serialize;
 
@@ -19,15 +20,19 @@ pub const PAIRING: &str = "same marker label, y from the base line (not from the
 /// Metrics of one hold. Printed units; `None` where a number does not exist or the noise is unknown.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HoldMetrics {
-    /// Actuator pressure \[kPa\].
+    /// Actuator pressure, of supply channel 0 where there are several \[kPa\].
     pub p_act_kpa: f64,
+    /// Pressures of all supply channels, where there are several \[kPa\].
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub p_act_channels_kpa: Vec<f64>,
     /// Body pressure \[kPa\].
     pub p_body_kpa: f64,
     /// `load`, `hold` or `unload`.
     pub phase: &'static str,
     /// 0 for the first hold with these pressures and this phase, 1 for the second, …
     pub occurrence: usize,
-    /// The paper's accuracy a; `None` if the model's |y| is below 1e-9 m at a marker.
+    /// The paper's accuracy a; `None` if the model's |y| is below 1e-9 m at a marker, and of
+    /// markers with z.
     pub paper_accuracy: Option<f64>,
     /// Expected a of a perfect model at this noise, 1 − mean(var(ȳ_j)/y_j²).
     pub noise_ceiling: Option<f64>,
@@ -51,7 +56,10 @@ pub struct HoldMetrics {
     pub tip_error_mm: f64,
     /// The same for x \[mm\].
     pub tip_error_x_mm: f64,
-    /// Length of the error vector of the outermost marker, with the sign of its y component \[mm\].
+    /// The same for z, where the markers have it \[mm\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tip_error_z_mm: Option<f64>,
+    /// Length of the error vector of the outermost marker, in the plane with the sign of its y component \[mm\].
     pub tip_distance_mm: f64,
     /// χ²/dof of the whitened residuals of this hold.
     pub reduced_chi2: Option<f64>,
@@ -78,11 +86,11 @@ pub struct OverallMetrics {
     pub noise_floor_mm: Option<f64>,
     /// Error beyond noise \[mm\].
     pub systematic_mm: Option<f64>,
-    /// Largest measured deflection d_max \[mm\].
+    /// Largest measured distance of a marker from the straight body, d_max \[mm\].
     pub d_max_mm: f64,
     /// RMSE/d_max \[%\].
     pub nrmse_pct: Option<f64>,
-    /// The tip error (y) that is largest in size, with its sign \[mm\].
+    /// The tip error (y) that is largest in size, with its sign; in space the largest distance \[mm\].
     pub largest_tip_error_mm: f64,
     /// χ²/dof of all whitened residuals.
     pub reduced_chi2: Option<f64>,
@@ -133,15 +141,16 @@ fn hold_metrics(c: &BesideMean, hold: usize, band: &Band) -> Result<HoldMetrics,
     let (far_model, far_measured) = far_markers(c, &model, &measured);
     let range = c.layout.hold_range(hold);
     let size = Size::of(c, range.clone());
-    let [tip_x, tip_y] = c.error(hold, c.tips[hold]);
+    let [tip_x, tip_y, tip_z] = c.error(hold, c.tips[hold]);
     let values = c.noise.seen(range.clone());
     let fit = Goodness::of(c, &c.noise.whiten_range(&c.residual_m, range)?, values, 0);
-    let protocol = &c.dataset.holds[hold];
+    let HoldLabel { p_act_kpa, p_act_channels_kpa, p_body_kpa, phase, occurrence } = label(&c.dataset.holds[hold]);
     Ok(HoldMetrics {
-        p_act_kpa: 1e-3 * protocol.p_act_pa,
-        p_body_kpa: 1e-3 * protocol.p_body_pa,
-        phase: protocol.phase.word(),
-        occurrence: protocol.occurrence,
+        p_act_kpa,
+        p_act_channels_kpa,
+        p_body_kpa,
+        phase,
+        occurrence,
         paper_accuracy: accuracy,
         noise_ceiling: noise_ceiling(c, hold, &model),
         accuracy_interval: band.holds[hold],
@@ -154,7 +163,11 @@ fn hold_metrics(c: &BesideMean, hold: usize, band: &Band) -> Result<HoldMetrics,
         nrmse_pct: size.nrmse_pct,
         tip_error_mm: 1e3 * tip_y,
         tip_error_x_mm: 1e3 * tip_x,
-        tip_distance_mm: 1e3 * tip_x.hypot(tip_y).copysign(tip_y),
+        tip_error_z_mm: c.is_spatial().then_some(1e3 * tip_z),
+        tip_distance_mm: match c.is_spatial() {
+            true => 1e3 * tip_x.hypot(tip_y).hypot(tip_z),
+            false => 1e3 * tip_x.hypot(tip_y).copysign(tip_y),
+        },
         reduced_chi2: fit.reduced_chi2,
         p_value: fit.p_value,
     })
@@ -168,7 +181,7 @@ fn overall_metrics(c: &BesideMean, holds: &[HoldMetrics], band: &Band, fitted: u
     let size = Size::of(c, 0..c.residual_m.len());
     let values = c.noise.seen(0..c.residual_m.len());
     let fit = Goodness::of(c, &c.noise.whiten(&c.residual_m), values, fitted);
-    let tips = holds.iter().map(|h| h.tip_error_mm);
+    let tips = holds.iter().map(|h| if c.is_spatial() { h.tip_distance_mm } else { h.tip_error_mm });
     OverallMetrics {
         paper_accuracy: accuracy,
         holds_in_accuracy: accuracies.len(),

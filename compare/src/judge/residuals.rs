@@ -6,7 +6,7 @@
 //! model one is called significant at level α in about a fraction α of all datasets.
 
 use crate::beside_mean::BesideMean;
-use crate::layout::{Weights, apply};
+use crate::layout::{Layout, Weights, apply};
 use crate::policy;
 use crate::stats::{holm, reported_p, two_sided_p};
 use serde::Serialize;
@@ -40,19 +40,32 @@ pub struct ResidualCell {
     pub x: Deviation,
     /// Across it, the direction of bending.
     pub y: Deviation,
+    /// Along z, where the markers have it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z: Option<Deviation>,
     /// Length of the error vector \[mm\].
     pub norm_mm: f64,
-    /// Length of the vector of the two standardised errors.
+    /// Length of the vector of the standardised errors.
     pub norm_in_noise: Option<f64>,
     /// Enough runs saw the marker in this hold; where not, all else is zero.
     pub seen: bool,
 }
 
+impl ResidualCell {
+    /// The deviations along x, y and, where the markers have it, z.
+    pub fn axes(&self) -> Vec<Deviation> {
+        [self.x, self.y].into_iter().chain(self.z).collect()
+    }
+}
+
 /// A hold as labelled in tables and plots.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HoldLabel {
-    /// Actuator pressure \[kPa\].
+    /// Actuator pressure, of supply channel 0 where there are several \[kPa\].
     pub p_act_kpa: f64,
+    /// Pressures of all supply channels, where there are several \[kPa\].
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub p_act_channels_kpa: Vec<f64>,
     /// Body pressure \[kPa\].
     pub p_body_kpa: f64,
     /// `load`, `hold` or `unload`.
@@ -103,16 +116,15 @@ pub struct ResidualMap {
 
 /// Compute the residual map of a comparison.
 pub fn residual_map(c: &BesideMean) -> ResidualMap {
-    let (holds, markers) = (c.layout.holds, c.layout.markers);
+    let Layout { holds, markers, axes, .. } = c.layout;
     let cells =
-        (0..markers).flat_map(|m| (0..holds).flat_map(move |h| [0, 1].map(|axis| c.layout.mean_weights(h, m, axis))));
+        (0..markers).flat_map(|m| (0..holds).flat_map(move |h| (0..axes).map(move |axis| c.layout.mean_weights(h, m, axis))));
     let pairs = loop_pairs(c);
-    let shape = bending_weights(c);
     let mut contrasts: Vec<Weights> = cells.collect();
     let drift_start = contrasts.len();
     let drifting = if c.layout.samples > 1 { holds } else { 0 };
-    contrasts.extend((0..drifting).map(|h| drift_weights(c, h, &shape)));
-    contrasts.extend(pairs.iter().map(|&(load, unload)| gap_weights(c, load, unload, &shape)));
+    contrasts.extend((0..drifting).map(|h| drift_weights(c, h, &bending_weights(c, h))));
+    contrasts.extend(pairs.iter().map(|&(load, unload)| gap_weights(c, load, unload, &bending_weights(c, load))));
     let deviations = deviations(c, &contrasts);
     let drift = |hold: usize| Drift { hold, deviation: deviations[drift_start + hold] };
     let gap = |(i, &(load_hold, unload_hold)): (usize, &(usize, usize))| LoopGap {
@@ -125,9 +137,9 @@ pub fn residual_map(c: &BesideMean) -> ResidualMap {
         markers: c.dataset.markers.iter().map(|m| m.name.clone()).collect(),
         tip: c.tip,
         cells: deviations[..drift_start]
-            .chunks(2 * holds)
+            .chunks(axes * holds)
             .enumerate()
-            .map(|(m, row)| row.chunks(2).enumerate().map(|(h, xy)| cell(xy, c.dataset.is_seen(h, m))).collect())
+            .map(|(m, row)| row.chunks(axes).enumerate().map(|(h, axes)| cell(axes, c.dataset.is_seen(h, m))).collect())
             .collect(),
         drifts: (0..drifting).map(drift).collect(),
         loops: pairs.iter().enumerate().map(gap).collect(),
@@ -139,6 +151,7 @@ pub fn residual_map(c: &BesideMean) -> ResidualMap {
 pub fn label(hold: &data::Hold) -> HoldLabel {
     HoldLabel {
         p_act_kpa: 1e-3 * hold.p_act_pa,
+        p_act_channels_kpa: hold.channels_pa().filter(|_| !hold.more_act_pa.is_empty()).map(|p| 1e-3 * p).collect(),
         p_body_kpa: 1e-3 * hold.p_body_pa,
         phase: hold.phase.word(),
         occurrence: hold.occurrence,
@@ -159,43 +172,59 @@ fn deviations(c: &BesideMean, contrasts: &[Weights]) -> Vec<Deviation> {
     (0..values.len()).map(|i| Deviation { mm: 1e3 * values[i], in_noise: in_noise[i], p_corrected: p(i) }).collect()
 }
 
-fn cell(xy: &[Deviation], seen: bool) -> ResidualCell {
-    let (x, y) = (xy[0], xy[1]);
-    let norm_in_noise = x.in_noise.zip(y.in_noise).map(|(x, y)| x.hypot(y));
-    ResidualCell { x, y, norm_mm: x.mm.hypot(y.mm), norm_in_noise, seen }
+fn cell(axes: &[Deviation], seen: bool) -> ResidualCell {
+    let (x, y, z) = (axes[0], axes[1], axes.get(2).copied());
+    let length = |of: &dyn Fn(&Deviation) -> Option<f64>| axes.iter().map(of).try_fold(0.0_f64, |sum, v| Some(sum.hypot(v?)));
+    let norm_mm = length(&|d| Some(d.mm)).unwrap_or(0.0);
+    ResidualCell { x, y, z, norm_mm, norm_in_noise: length(&|d| d.in_noise), seen }
 }
 
-/// Weight of each marker's y: the measured shape of the most bent hold, absolute values summing to one. Bending,
-/// creep and hysteresis all have about this shape, so it gathers them with the least noise.
-fn bending_weights(c: &BesideMean) -> Vec<f64> {
-    let shapes = (0..c.layout.holds).map(|h| (0..c.layout.markers).map(|m| c.pair(h, m).1[1]).collect::<Vec<f64>>());
-    let size = |y: &Vec<f64>| y.iter().map(|y| y.abs()).sum::<f64>();
+/// Weight of each marker's y and z: the measured shape of the most bent hold, distances from the straight body summing to one. Bending,
+/// creep and hysteresis all have about this shape, so it gathers them with the least noise. In space every hold bends its own way, and
+/// has its own shape.
+fn bending_weights(c: &BesideMean, hold: usize) -> Vec<[f64; 2]> {
+    let holds = if c.is_spatial() { hold..hold + 1 } else { 0..c.layout.holds };
+    let across = |h, m| {
+        let [_, y, z] = c.pair(h, m).1;
+        [y, z]
+    };
+    let shapes = holds.map(|h| (0..c.layout.markers).map(|m| across(h, m)).collect::<Vec<[f64; 2]>>());
+    let size = |shape: &Vec<[f64; 2]>| shape.iter().map(|[y, z]| y.hypot(*z)).sum::<f64>();
     let shape = shapes.max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or_default();
     match size(&shape) {
-        total if total > 1e-9 => shape.iter().map(|y| y / total).collect(),
-        _ => vec![1.0 / shape.len().max(1) as f64; shape.len()],
+        total if total > 1e-9 => shape.iter().map(|across| across.map(|v| v / total)).collect(),
+        _ => vec![[1.0 / shape.len().max(1) as f64, 0.0]; shape.len()],
     }
 }
 
-fn drift_weights(c: &BesideMean, hold: usize, shape: &[f64]) -> Weights {
+/// Coordinates across the body: index of the axis, and the weight of a marker there.
+fn across<'w>(c: &BesideMean, weight: &'w [f64; 2]) -> impl Iterator<Item = (usize, f64)> + 'w {
+    (1..c.layout.axes).zip(weight.iter().copied())
+}
+
+fn drift_weights(c: &BesideMean, hold: usize, shape: &[[f64; 2]]) -> Weights {
     let samples = c.layout.samples;
     let third = (samples / 3).max(1);
-    let mut weights = Vec::with_capacity(2 * third * shape.len());
-    for (marker, w) in shape.iter().enumerate().filter(|(marker, _)| c.dataset.is_seen(hold, *marker)) {
-        for k in 0..third {
-            weights.push((c.layout.index(hold, samples - 1 - k, marker) + 1, w / third as f64));
-            weights.push((c.layout.index(hold, k, marker) + 1, -w / third as f64));
+    let mut weights = Vec::new();
+    for (marker, weight) in shape.iter().enumerate().filter(|(marker, _)| c.dataset.is_seen(hold, *marker)) {
+        for (axis, w) in across(c, weight) {
+            for k in 0..third {
+                weights.push((c.layout.index(hold, samples - 1 - k, marker) + axis, w / third as f64));
+                weights.push((c.layout.index(hold, k, marker) + axis, -w / third as f64));
+            }
         }
     }
     weights
 }
 
-fn gap_weights(c: &BesideMean, load: usize, unload: usize, shape: &[f64]) -> Weights {
+fn gap_weights(c: &BesideMean, load: usize, unload: usize, shape: &[[f64; 2]]) -> Weights {
     let signed = |hold: usize, sign: f64| {
-        let seen = move |(m, _): &(usize, &f64)| [load, unload].iter().all(|h| c.dataset.is_seen(*h, *m));
+        let seen = move |(m, _): &(usize, &[f64; 2])| [load, unload].iter().all(|h| c.dataset.is_seen(*h, *m));
         let markers = shape.iter().enumerate().filter(seen);
-        let weights = markers
-            .flat_map(move |(m, w)| c.layout.mean_weights(hold, m, 1).into_iter().map(move |(i, v)| (i, sign * w * v)));
+        let each = markers.flat_map(move |(m, weight)| across(c, weight).map(move |(axis, w)| (m, axis, w)));
+        let weights = each.flat_map(move |(m, axis, w)| {
+            c.layout.mean_weights(hold, m, axis).into_iter().map(move |(i, v)| (i, sign * w * v))
+        });
         weights.collect::<Weights>()
     };
     let mut weights = signed(unload, 1.0);
@@ -203,15 +232,11 @@ fn gap_weights(c: &BesideMean, load: usize, unload: usize, shape: &[f64]) -> Wei
     weights
 }
 
-/// Each unloading hold with the latest earlier loading hold at the same two pressures.
+/// Each unloading hold with the latest earlier loading hold at the same pressures.
 fn loop_pairs(c: &BesideMean) -> Vec<(usize, usize)> {
     let holds = &c.dataset.holds;
-    let same = policy::is_same_pressure;
-    let matches = |l: usize, u: usize| {
-        holds[l].phase != data::Phase::Unload
-            && same(holds[l].p_act_pa, holds[u].p_act_pa)
-            && same(holds[l].p_body_pa, holds[u].p_body_pa)
-    };
+    let matches =
+        |l: usize, u: usize| holds[l].phase != data::Phase::Unload && policy::same_pressures(&holds[l], &holds[u]);
     let unloading = (0..holds.len()).filter(|&u| holds[u].phase == data::Phase::Unload);
     unloading.filter_map(|u| (0..u).rev().find(|&l| matches(l, u)).map(|l| (l, u))).collect()
 }

@@ -79,7 +79,7 @@ pub fn scaling_of_data(dataset: &Dataset, noise: &NoiseModel, alpha: f64) -> Res
     let mut raw = Vec::new();
     for pair in &mut pairs {
         let chi2 = chi_square(dataset, &layout, noise, &mean, pair)?;
-        let dof = 2 * seen_in_both(dataset, [pair.low_hold, pair.high_hold]).count();
+        let dof = layout.axes * seen_in_both(dataset, [pair.low_hold, pair.high_hold]).count();
         pair.reduced_chi2 = noise.is_known().then_some(chi2 / dof as f64);
         raw.push(f_tail(chi2 / dof as f64, dof, noise.pure_error_dof));
     }
@@ -99,7 +99,7 @@ pub fn scaling_of_data(dataset: &Dataset, noise: &NoiseModel, alpha: f64) -> Res
 /// Pairs of holds that show one marker at least.
 fn matching_pairs(dataset: &Dataset, layout: &Layout, mean: &[f64]) -> Vec<ScalingPair> {
     let holds = &dataset.holds;
-    let usable = |h: &Hold| h.p_act_pa > policy::ZERO_PRESSURE_PA && h.p_body_pa > policy::ZERO_PRESSURE_PA;
+    let usable = |h: &Hold| h.sum_act_pa() > policy::ZERO_PRESSURE_PA && h.p_body_pa > policy::ZERO_PRESSURE_PA;
     let unloading = |h: &Hold| h.phase == Phase::Unload;
     let means = layout.hold_means(mean);
     let mut pairs = Vec::new();
@@ -107,7 +107,7 @@ fn matching_pairs(dataset: &Dataset, layout: &Layout, mean: &[f64]) -> Vec<Scali
         for (j, b) in holds.iter().enumerate().skip(i + 1) {
             let comparable = usable(a) && usable(b) && unloading(a) == unloading(b);
             let apart = comparable && policy::bodies_differ(a.p_body_pa, b.p_body_pa);
-            if apart && policy::is_same_ratio(ratio(a), ratio(b)) {
+            if apart && policy::is_same_ratio(ratio(a), ratio(b)) && same_shares(a, b) {
                 let ends = if a.p_body_pa < b.p_body_pa { [i, j] } else { [j, i] };
                 pairs.extend(pair(dataset, layout, &means, ends));
             }
@@ -119,19 +119,20 @@ fn matching_pairs(dataset: &Dataset, layout: &Layout, mean: &[f64]) -> Vec<Scali
 fn pair(dataset: &Dataset, layout: &Layout, means: &[f64], ends: [usize; 2]) -> Option<ScalingPair> {
     let [low_hold, high_hold] = ends;
     let [low, high] = ends.map(|hold| &dataset.holds[hold]);
-    let width = 2 * layout.markers;
-    let of = |marker: usize| {
-        [0, 1].map(|k| means[high_hold * width + 2 * marker + k] - means[low_hold * width + 2 * marker + k])
+    let at = |hold: usize, marker: usize| (hold * layout.markers + marker) * layout.axes;
+    let of = |marker: usize| -> [f64; 3] {
+        let [high, low] = [high_hold, low_hold].map(|hold| at(hold, marker));
+        std::array::from_fn(|k| if k < layout.axes { means[high + k] - means[low + k] } else { 0.0 })
     };
-    let differences: Vec<[f64; 2]> = seen_in_both(dataset, ends).map(of).collect();
+    let differences: Vec<[f64; 3]> = seen_in_both(dataset, ends).map(of).collect();
     let squares: f64 = differences.iter().flatten().map(|d| d * d).sum();
     Some(ScalingPair {
         low_hold,
         high_hold,
         ratio: 0.5 * (ratio(low) + ratio(high)),
         p_body_kpa: [1e-3 * low.p_body_pa, 1e-3 * high.p_body_pa],
-        largest_mm: 1e3 * differences.iter().fold(0.0, |l: f64, [x, y]| l.max(x.hypot(*y))),
-        rms_mm: 1e3 * (squares / (2 * differences.len()) as f64).sqrt(),
+        largest_mm: 1e3 * differences.iter().fold(0.0, |l: f64, [x, y, z]| l.max(x.hypot(*y).hypot(*z))),
+        rms_mm: 1e3 * (squares / (layout.axes * differences.len()) as f64).sqrt(),
         tip_mm: 1e3 * differences.last()?[1],
         reduced_chi2: None,
         p_corrected: None,
@@ -155,7 +156,7 @@ fn chi_square(
     let mut difference = Vec::new();
     let mut rows = Vec::new();
     for marker in seen_in_both(dataset, [pair.low_hold, pair.high_hold]) {
-        for axis in 0..2 {
+        for axis in 0..layout.axes {
             let mut weights: Weights = layout.mean_weights(pair.high_hold, marker, axis);
             let low = layout.mean_weights(pair.low_hold, marker, axis);
             let slope: f64 = low.iter().map(|&(i, w)| w * noise.directions[i][0]).sum();
@@ -163,13 +164,13 @@ fn chi_square(
             let along = |k: usize| weights.iter().map(|&(i, w)| w * noise.directions[i][k]).sum::<f64>();
             difference.push(apply(&weights, mean));
             // Alignment cancels in a difference of holds; its column carries the ratio mismatch instead.
-            rows.push([along(0), slope, 0.0, along(3)]);
+            rows.push([along(0), slope, 0.0, along(3), 0.0, along(5), along(6)]);
         }
     }
-    let [pressure, _, _, rotation] = noise.test_variance;
+    let [pressure, _, _, rotation, _, about_x, about_y] = noise.test_variance;
     // Two holds are two settings of the regulator: each adds its own error, whatever the run-to-run scatter.
     let regulator = 2.0 * policy::SENSOR_SD[0].powi(2) / noise.runs as f64;
-    let variances = [pressure, mismatch(&dataset.holds, pair).powi(2) + regulator, 0.0, rotation];
+    let variances = [pressure, mismatch(&dataset.holds, pair).powi(2) + regulator, 0.0, rotation, 0.0, about_x, about_y];
     let unit_m = (2.0 / layout.samples as f64).sqrt() * noise.unit_m();
     let white = Whitener::new(&rows, unit_m, &variances)?.whiten(&difference);
     Ok(white.iter().map(|w| w * w).sum())
@@ -201,14 +202,14 @@ fn cannot_be_checked(holds: &[Hold]) -> ScalingCheck {
     let start = "The P/p scaling law cannot be checked with these data: no two holds have the same P/p at different \
     body pressures";
     let pressurised =
-        holds.iter().filter(|h| h.p_act_pa > policy::ZERO_PRESSURE_PA && h.p_body_pa > policy::ZERO_PRESSURE_PA);
+        holds.iter().filter(|h| h.sum_act_pa() > policy::ZERO_PRESSURE_PA && h.p_body_pa > policy::ZERO_PRESSURE_PA);
     let reference = pressurised.clone().map(|h| h.p_body_pa).next();
     let sentence = match reference {
         None => format!("{start}; record holds with both pressures above zero."),
         Some(body) => {
             let same_body =
                 pressurised.filter(|h| h.phase != Phase::Unload && !policy::bodies_differ(h.p_body_pa, body));
-            let mut actuator: Vec<f64> = same_body.map(|h| 1e-3 * h.p_act_pa).collect();
+            let mut actuator: Vec<f64> = same_body.map(|h| 1e-3 * h.sum_act_pa()).collect();
             actuator.sort_by(f64::total_cmp);
             let scaled = |by: f64| {
                 let mut words: Vec<String> = actuator.iter().map(|p| short(by * p)).collect();
@@ -228,8 +229,15 @@ fn cannot_be_checked(holds: &[Hold]) -> ScalingCheck {
     ScalingCheck { verdict: ScalingVerdict::CannotBeChecked, sentence, pairs: Vec::new() }
 }
 
+/// Sum of the channels over the body's pressure.
 fn ratio(hold: &Hold) -> f64 {
-    hold.p_act_pa / hold.p_body_pa
+    hold.sum_act_pa() / hold.p_body_pa
+}
+
+/// Whether every channel has the same share of the sum.
+fn same_shares(a: &Hold, b: &Hold) -> bool {
+    let share = |hold: &Hold, p: f64| p / hold.sum_act_pa();
+    a.channels_pa().zip(b.channels_pa()).all(|(p, q)| policy::is_same_ratio(1.0 + share(a, p), 1.0 + share(b, q)))
 }
 
 /// ln of the two ratios' quotient.

@@ -28,6 +28,8 @@ pub enum Finding {
     Loop,
     /// Positions along the body (x) wrong.
     Lengthwise,
+    /// Positions across the body (y or z) wrong, of markers with z.
+    Across,
     /// Movement during holds wrong.
     Drift,
     /// More than noise as a whole, but nowhere in particular.
@@ -74,16 +76,17 @@ pub fn where_it_fails(
 ) -> Vec<Statement> {
     let judge = Judge::new(c, map, options);
     let mut found = Vec::new();
-    for sign in [1.0, -1.0] {
-        found.extend(judge.bending(Finding::Loading, sign));
-    }
-    for sign in [1.0, -1.0] {
-        found.extend(judge.bending(Finding::Unloading, sign));
+    let signs = [1.0, -1.0];
+    match c.is_spatial() {
+        true => found.extend([1, 2].iter().flat_map(|axis| signs.map(|sign| judge.along(*axis, sign))).flatten()),
+        false => {
+            let phases = [Finding::Loading, Finding::Unloading];
+            found.extend(phases.iter().flat_map(|phase| signs.map(|sign| judge.bending(*phase, sign))).flatten());
+        }
     }
     let told: Vec<usize> = found.iter().flat_map(|s: &Statement| s.holds.clone()).collect();
     found.extend(judge.loops(&told));
-    found.extend(judge.lengthwise(1.0));
-    found.extend(judge.lengthwise(-1.0));
+    found.extend(signs.iter().filter_map(|sign| judge.along(0, *sign)));
     found.extend(judge.drifts());
     if found.is_empty() {
         found.push(judge.nothing_stands_out(chi2_p, options));
@@ -224,27 +227,36 @@ impl<'a> Judge<'a> {
         Some(Statement { holds, largest: Some(d), ..Statement::of(Finding::Loop, sentence) })
     }
 
-    fn lengthwise(&self, sign: f64) -> Option<Statement> {
-        let cells = self.failing(None, |c| c.x, sign);
-        let worst = self.worst(&cells, |c| c.x)?;
+    /// One coordinate too large (`sign` = +1) or too small: x in the plane, all of them in space.
+    fn along(&self, axis: usize, sign: f64) -> Option<Statement> {
+        let of = |cell: &ResidualCell| cell.axes()[axis];
+        let cells = self.failing(None, of, sign);
+        let worst = self.worst(&cells, of)?;
         let group = CellGroup::of(&cells);
-        let largest = self.cell(worst).x;
+        let largest = of(self.cell(worst));
         let way = if sign > 0.0 { "too large" } else { "too small" };
-        let with_y = if self.cell(worst).y.mm.abs() > largest.mm.abs() && self.fails(&self.cell(worst).y) {
+        let with_y = if self.c.is_spatial() {
+            ""
+        } else if self.cell(worst).y.mm.abs() > largest.mm.abs() && self.fails(&self.cell(worst).y) {
             "; the error in y is larger there"
         } else if !(0..self.c.layout.holds).any(|h| !self.bending_is_right(h)) {
             "; y is right to within noise"
         } else {
             ""
         };
+        let (finding, place) = match axis {
+            0 => (Finding::Lengthwise, "Along the body, x"),
+            1 => (Finding::Across, "Across the body, y"),
+            _ => (Finding::Across, "Across the body, z"),
+        };
         let sentence = format!(
-            "Along the body, x of the model is {way} at {} ({}){}{with_y}.",
+            "{place} of the model is {way} at {} ({}){}{with_y}.",
             pressures(self.map, &group.holds),
             evidence(self.map, worst, &group.holds, &largest),
             markers(self.map, &group.markers),
         );
         let CellGroup { holds, markers } = group;
-        Some(Statement { finding: Finding::Lengthwise, sentence, holds, markers, largest: Some(largest) })
+        Some(Statement { finding, sentence, holds, markers, largest: Some(largest) })
     }
 
     fn drifts(&self) -> Option<Statement> {
@@ -263,7 +275,7 @@ impl<'a> Judge<'a> {
     }
 
     fn nothing_stands_out(&self, chi2_p: Option<f64>, options: &FailureOptions) -> Statement {
-        let entries = || self.map.cells.iter().flatten().flat_map(|c| [c.x, c.y]);
+        let entries = || self.map.cells.iter().flatten().flat_map(ResidualCell::axes);
         let by = |of: fn(&Deviation) -> f64| entries().max_by(|a, b| of(a).total_cmp(&of(b)));
         let largest = by(|d| d.in_noise.unwrap_or(d.mm).abs());
         let size = largest.map_or(String::new(), |d| format!("{:.2} mm{}", d.mm.abs(), times_the_noise(&d)));

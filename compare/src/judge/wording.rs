@@ -108,9 +108,17 @@ pub fn markers(map: &ResidualMap, chosen: &[usize]) -> String {
     }
 }
 
+/// Pressures of the supply channels in kPa: `20`, or `20/10`.
+pub fn channels_word(hold: &HoldLabel) -> String {
+    match hold.p_act_channels_kpa.as_slice() {
+        [] => short(hold.p_act_kpa),
+        channels => channels.iter().map(|kpa| short(*kpa)).collect::<Vec<_>>().join("/"),
+    }
+}
+
 fn hold_word(hold: &HoldLabel) -> String {
     let again = if hold.occurrence > 0 { format!(" (time {})", hold.occurrence + 1) } else { String::new() };
-    format!("{}{again}", short(hold.p_act_kpa))
+    format!("{}{again}", channels_word(hold))
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@
 //! | P | actuator pressure | Pa |
 //! | p₀ | body pressure, no less than a hundredth of the highest P | Pa |
 //!
-//! Validity: two pressures on a branch at least, and crude with three. A model that fits knows better, one that does not fit knows
+//! Validity: one actuator pressure; two pressures on a branch at least, and crude with three. A model that fits knows better, one that does not fit knows
 //! less.
 
 use crate::layout::Layout;
@@ -25,12 +25,12 @@ const LEAST_SHIFT: f64 = 0.01;
 const SAME: f64 = 1e-6;
 
 /// ∂y/∂ln P of the mean over runs in run layout \[m\], zero in holds without actuator pressure; `None` where no branch has two
-/// pressures.
+/// pressures, or supply channels have different ones.
 pub fn data_slope(dataset: &Dataset) -> Option<Vec<f64>> {
-    let layout = Layout::of(dataset).ok()?;
+    let layout = Layout::of(dataset).ok().filter(|_| !dataset.channels_differ())?;
     let mean = dataset.mean_over_runs();
     let means = layout.hold_means(&mean);
-    let width = 2 * layout.markers;
+    let width = layout.axes * layout.markers;
     let top = dataset.holds.iter().fold(0.0, |most: f64, hold| most.max(hold.p_act_pa));
     let shift = |h: usize| dataset.holds[h].p_body_pa.max(LEAST_SHIFT * top);
     let u: Vec<f64> = (0..layout.holds).map(|h| (dataset.holds[h].p_act_pa + shift(h)).ln()).collect();
@@ -38,7 +38,7 @@ pub fn data_slope(dataset: &Dataset) -> Option<Vec<f64>> {
     let mut known = vec![false; layout.holds];
     for branch in branches(dataset, &u).into_iter().filter(|branch| branch.len() > 1) {
         for k in 0..width {
-            let seen = |same: &Vec<usize>| same.iter().copied().filter(|h| dataset.is_seen(*h, k / 2)).collect();
+            let seen = |same: &Vec<usize>| same.iter().copied().filter(|h| dataset.is_seen(*h, k / layout.axes)).collect();
             let nodes: Vec<Vec<usize>> = branch.iter().map(seen).filter(|same: &Vec<usize>| !same.is_empty()).collect();
             if nodes.len() < 2 {
                 continue;
@@ -138,7 +138,7 @@ mod tests {
         // Another height on every branch: no secant may cross from one to another.
         for (h, (body, actuator)) in protocol.iter().enumerate() {
             let height = if h < 6 { 0.0 } else { 1.0 };
-            dataset.xy_m[h * width..(h + 1) * width].fill(height + 0.1 * (actuator + body).ln());
+            dataset.coordinates_m[h * width..(h + 1) * width].fill(height + 0.1 * (actuator + body).ln());
         }
         let slope = data_slope(&dataset).unwrap();
         for (h, (body, actuator)) in protocol.iter().enumerate() {
@@ -146,7 +146,7 @@ mod tests {
             assert!(slope[h * width..(h + 1) * width].iter().all(|d| (d - exact).abs() < 1e-9), "hold {h}");
         }
         dataset.holds.truncate(1);
-        dataset.xy_m.truncate(width);
+        dataset.coordinates_m.truncate(width);
         assert!(data_slope(&dataset).is_none());
     }
 

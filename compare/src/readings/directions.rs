@@ -7,22 +7,32 @@ use data::Dataset;
 /// would be a thousand times noisier than the others.
 const SMALLEST_NEW_PART: f64 = 1e-3;
 
+/// What one value of U is moved by: pressure, shifts along x and y, rotation about z; in space also the shift along z and the
+/// rotations about x and y, which are 0 in the plane.
+pub type Row = [f64; 7];
+
+/// The rows of [`Row`] that are shifts, and those that are rotations.
+pub const SHIFTS: [usize; 3] = [1, 2, 4];
+pub const ROTATIONS: [usize; 3] = [3, 5, 6];
+
 /// Order in which directions claim their part; the pressure comes last because the others exist without a model.
-const PRIORITY: [usize; 4] = [1, 2, 3, 0];
+const PRIORITY: [usize; 7] = [1, 2, 4, 3, 5, 6, 0];
 
 /// U of a dataset, with zeros where too few runs saw a marker: with the residual zero there too, such values are as if they were not.
-pub fn directions_of(dataset: &Dataset, dprediction_dlnp: &[f64]) -> Vec<[f64; 4]> {
-    let mut rows = nuisance_directions(&dataset.mean_over_runs(), dprediction_dlnp);
-    dataset.unseen_values().for_each(|i| rows[i] = [0.0; 4]);
+pub fn directions_of(dataset: &Dataset, dprediction_dlnp: &[f64]) -> Vec<Row> {
+    let mut rows = nuisance_directions(&dataset.mean_over_runs(), dprediction_dlnp, dataset.axes);
+    dataset.unseen_values().for_each(|i| rows[i] = Row::default());
     rows
 }
 
-/// U: one row \[∂f/∂ln p, δx, δy, rotation about the base\] per value in run layout, from the mean over runs \[m\].
-pub fn nuisance_directions(mean_m: &[f64], dprediction_dlnp: &[f64]) -> Vec<[f64; 4]> {
+/// U: one row \[∂f/∂ln p, shifts, rotations about the base\] per value in run layout, from the mean over runs \[m\].
+pub fn nuisance_directions(mean_m: &[f64], dprediction_dlnp: &[f64], axes: usize) -> Vec<Row> {
     let mut rows = Vec::with_capacity(mean_m.len());
-    for (xy, dp) in mean_m.chunks_exact(2).zip(dprediction_dlnp.chunks_exact(2)) {
-        rows.push([dp[0], 1.0, 0.0, -xy[1]]);
-        rows.push([dp[1], 0.0, 1.0, xy[0]]);
+    for (place, dp) in mean_m.chunks_exact(axes).zip(dprediction_dlnp.chunks_exact(axes)) {
+        let [x, y, z] = std::array::from_fn(|axis| place.get(axis).copied().unwrap_or(0.0));
+        rows.push([dp[0], 1.0, 0.0, -y, 0.0, 0.0, z]);
+        rows.push([dp[1], 0.0, 1.0, x, 0.0, -z, 0.0]);
+        rows.extend(dp.get(2).map(|dp| [*dp, 0.0, 0.0, 0.0, 1.0, y, -x]));
     }
     rows
 }
@@ -31,13 +41,13 @@ pub fn nuisance_directions(mean_m: &[f64], dprediction_dlnp: &[f64]) -> Vec<[f64
 pub struct DirectionFit {
     columns: Vec<usize>,
     basis: Vec<Vec<f64>>,
-    inverse: Vec<[f64; 4]>,
+    inverse: Vec<Row>,
 }
 
 impl DirectionFit {
     /// Orthogonalise (Gram–Schmidt, twice); drop directions that vanish or repeat others, and all of them if there
     /// are not more values than directions.
-    pub fn new(directions: &[[f64; 4]]) -> DirectionFit {
+    pub fn new(directions: &[Row]) -> DirectionFit {
         let mut fit = DirectionFit { columns: Vec::new(), basis: Vec::new(), inverse: Vec::new() };
         for j in PRIORITY {
             fit.add(j, directions.iter().map(|row| row[j]).collect());
@@ -58,10 +68,10 @@ impl DirectionFit {
         self.columns.contains(&j)
     }
 
-    /// Coefficients of the four directions (0 for dropped ones) and what remains.
-    pub fn solve(&self, deviation: &[f64]) -> ([f64; 4], Vec<f64>) {
+    /// Coefficients of the directions (0 for dropped ones) and what remains.
+    pub fn solve(&self, deviation: &[f64]) -> (Row, Vec<f64>) {
         let mut rest = deviation.to_vec();
-        let mut coefficients = [0.0; 4];
+        let mut coefficients = Row::default();
         for (q, inverse) in self.basis.iter().zip(&self.inverse) {
             let along = dot(q, &rest);
             rest.iter_mut().zip(q).for_each(|(r, q)| *r -= along * q);
@@ -71,7 +81,7 @@ impl DirectionFit {
     }
 
     /// Observed coefficient variances minus the part the camera noise explains, σ² (UᵀU)⁻¹_jj, not below zero.
-    pub fn noise_free(&self, observed: [f64; 4], sigma2: f64) -> [f64; 4] {
+    pub fn noise_free(&self, observed: Row, sigma2: f64) -> Row {
         std::array::from_fn(|j| {
             let camera: f64 = self.inverse.iter().map(|t| t[j] * t[j]).sum();
             (observed[j] - sigma2 * camera).max(0.0)
@@ -84,7 +94,7 @@ impl DirectionFit {
         if length == 0.0 {
             return;
         }
-        let mut inverse = [0.0; 4];
+        let mut inverse = Row::default();
         inverse[j] = 1.0;
         for _ in 0..2 {
             for (q, known) in self.basis.iter().zip(&self.inverse) {
@@ -116,12 +126,12 @@ mod tests {
     #[test]
     fn coefficients_of_a_known_combination_come_back() {
         let (xy, dp) = arc(24);
-        let rows = nuisance_directions(&xy, &dp);
-        let truth = [0.02, 5e-4, -3e-4, 1e-3];
+        let rows = nuisance_directions(&xy, &dp, 2);
+        let truth = [0.02, 5e-4, -3e-4, 1e-3, 0.0, 0.0, 0.0];
         let deviation: Vec<f64> = rows.iter().map(|u| u.iter().zip(truth).map(|(u, c)| u * c).sum()).collect();
         let (found, rest) = DirectionFit::new(&rows).solve(&deviation);
         for (f, t) in found.iter().zip(truth) {
-            assert!((f - t).abs() < 1e-9 * t.abs(), "{f} {t}");
+            assert!((f - t).abs() <= 1e-9 * t.abs(), "{f} {t}");
         }
         assert!(rest.iter().all(|r| r.abs() < 1e-15));
     }
@@ -129,11 +139,11 @@ mod tests {
     #[test]
     fn a_zero_pressure_direction_and_a_single_point_are_dropped() {
         let (xy, _) = arc(24);
-        let fit = DirectionFit::new(&nuisance_directions(&xy, &[0.0; 24]));
+        let fit = DirectionFit::new(&nuisance_directions(&xy, &[0.0; 24], 2));
         assert!(!fit.kept(0) && fit.count() == 3);
         let repeated: Vec<f64> = [0.3, 0.1].repeat(5);
-        let fit = DirectionFit::new(&nuisance_directions(&repeated, &[0.0; 10]));
+        let fit = DirectionFit::new(&nuisance_directions(&repeated, &[0.0; 10], 2));
         assert_eq!(fit.count(), 2, "one point seen five times shows two directions only");
-        assert_eq!(DirectionFit::new(&nuisance_directions(&[0.3, 0.1], &[0.0; 2])).count(), 0);
+        assert_eq!(DirectionFit::new(&nuisance_directions(&[0.3, 0.1], &[0.0; 2], 2)).count(), 0);
     }
 }

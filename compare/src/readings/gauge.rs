@@ -21,6 +21,7 @@
 //! Validity: r is the pressure in the actuator while the markers are seen. Vented (p_set = 0) the pressure is known and the
 //! reading, the zero of the gauge, is not used. Where the pressure runs down during a hold, every sample has its own reading.
 
+use crate::directions::Row;
 use crate::error::CompareError;
 use crate::fit::whiten::Whitener;
 use crate::policy;
@@ -194,7 +195,7 @@ impl Gauge {
             column(&|r| policy::SENSOR_SD[0] * r.read_pa),
             column(&|_| policy::ZERO_SD_PA),
         ];
-        Whitener::with_columns(&vec![[0.0; 4]; self.readings.len()], self.scatter_pa, &[0.0; 4], &columns)
+        Whitener::with_columns(&vec![Row::default(); self.readings.len()], self.scatter_pa, &Row::default(), &columns)
     }
 
     /// Pressure by the laws of a scenario minus what was read \[Pa\], one for each reading.
@@ -257,7 +258,7 @@ mod tests {
         let quiet = Dataset {
             runs: vec!["1".into(), "2".into()],
             gauge_pa: one.gauge_pa.as_ref().map(|g| [g.clone(), g.clone()].concat()),
-            xy_m: [one.xy_m.clone(), one.xy_m.clone()].concat(),
+            coordinates_m: [one.coordinates_m.clone(), one.coordinates_m.clone()].concat(),
             ..one
         };
         assert!((Gauge::of(&quiet, &robot).unwrap().scatter_pa - 20.0 / 2_f64.sqrt()).abs() < 1e-9);
@@ -286,7 +287,7 @@ mod tests {
         let mut off = at.clone();
         off.holds.iter_mut().filter(|hold| hold.p_act_pa > 0.0).for_each(|hold| hold.p_act_pa += policy::ZERO_SD_PA);
         let moved = predict_dataset(&robot, &off).unwrap();
-        for ((a, b), column) in moved.xy_m.iter().zip(&predicted.xy_m).zip(&errors[0]) {
+        for ((a, b), column) in moved.coordinates_m.iter().zip(&predicted.coordinates_m).zip(&errors[0]) {
             assert!((a - b - column).abs() < 0.02 * column.abs() + 1e-6, "{} {column}", a - b);
         }
         let vented = at.values_per_run() / at.holds.len();

@@ -5,10 +5,12 @@
 //!
 //! y_r = μ + U c_r + e_r,  e ~ N(0, σ² I),  c_r ~ N(0, diag v),  U = \[∂f/∂ln p, δx, δy, δφ·(−y, x)\]
 //!
+//! and, where markers have z, δz and the rotations about x and y too.
+//!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | σ | camera noise of one coordinate | m |
-//! | U | the four nuisance directions, one row per value | m per unit of c |
+//! | U | the nuisance directions: four in the plane, seven in space, one row per value | m per unit of c |
 //! | v | run-to-run variances of pressure (relative), alignment x, y and rotation | 1, m², m², rad² |
 //! | R, S, n | runs, sessions, values per run | |
 //!
@@ -16,8 +18,8 @@
 //! wrong where the model is, and a wrong one makes scatter of one kind look like another,
 //!
 //! so that the mean has the covariance Σ_mean = σ²/R · I + U diag(v/R) Uᵀ. With the four coefficients fitted to the
-//! deviations from the session mean, σ² is the remaining scatter with (R − S)(n − 4) degrees of freedom and
-//! v̂_j = mean over sessions of Σ_r c_rj²/(R_s − 1) − σ² (UᵀU)⁻¹_jj, never below zero, x and y pooled. In tests v̂ is
+//! deviations from the session mean, σ² is the remaining scatter with (R − S)(n − 4) degrees of freedom (n − 7 in space) and
+//! v̂_j = mean over sessions of Σ_r c_rj²/(R_s − 1) − σ² (UᵀU)⁻¹_jj, never below zero, shifts pooled, and rotations too. In tests v̂ is
 //! widened by (t_.9975/z_.9975)² because few runs estimate it badly, and is never below the sensor specification.
 //! A full 4×4 sample covariance is rank deficient for 3 to 5 runs and raises false alarms; hence the diagonal.
 //!
@@ -25,15 +27,15 @@
 //! b Σ_s (R_s/R)² where that is larger.
 //!
 //! Validity: normal errors, σ the same at every pressure ([`NoiseModel::uneven_holds`] tells when it is not), scatter
-//! small enough to be linear in U. One run gives no noise at all: the status says so and no p-value is ever formed.
+//! small enough to be linear in U; the regulators of several supply channels err together. One run gives no noise at all: the status says so and no p-value is ever formed.
 
 use crate::data_slope::data_slope;
-use crate::directions::{DirectionFit, directions_of};
+use crate::directions::{DirectionFit, ROTATIONS, Row, SHIFTS, directions_of};
 use crate::error::CompareError;
 use crate::fit::whiten::Whitener;
 use crate::layout::{Layout, Weights};
 use crate::policy;
-use crate::run_scatter::{between_sessions, pooled, session_groups, within_sessions};
+use crate::run_scatter::{between_sessions, pooled, rotations, session_groups, within_sessions};
 use crate::stats::{f_tail, t_inflation};
 use data::Dataset;
 use serde::Serialize;
@@ -71,13 +73,14 @@ pub struct NoiseModel {
     pub sigma_m: Option<f64>,
     /// Degrees of freedom of σ²: (R − S)(n − directions); 0 if σ was not measured.
     pub pure_error_dof: usize,
-    /// Run-to-run standard deviations of \[relative pressure, x \[m\], y \[m\], rotation \[rad\]\] as estimated; `None`
+    /// Run-to-run standard deviations of \[relative pressure, x \[m\], y \[m\], rotation about z \[rad\], z \[m\], rotations about x and
+    /// y \[rad\]\] as estimated; `None`
     /// where the data cannot show it (one run, or a direction that vanishes or repeats another).
-    pub run_sd: [Option<f64>; 4],
-    /// Variances of the four coefficients of the mean, best estimate: for noise floors and ceilings.
-    pub mean_variance: [f64; 4],
+    pub run_sd: [Option<f64>; 7],
+    /// Variances of the coefficients of the mean, best estimate: for noise floors and ceilings.
+    pub mean_variance: Row,
     /// The same, widened for few runs and floored at the sensor specification: for tests.
-    pub test_variance: [f64; 4],
+    pub test_variance: Row,
     /// Camera noise of each hold on its own \[m\]; empty if not measured. Widely different values mean that σ is not
     /// one number: near a buckling pressure the robot itself scatters.
     pub hold_sigma_m: Vec<f64>,
@@ -85,7 +88,7 @@ pub struct NoiseModel {
     pub runs_identical: bool,
     /// U, one row per value in run layout.
     #[serde(skip)]
-    pub directions: Vec<[f64; 4]>,
+    pub directions: Vec<Row>,
     /// What one standard deviation of each error of the gauge does to the mean \[m\], in run layout; empty unless the
     /// actuator's pressure was read there ([`NoiseModel::at_readings`]).
     #[serde(skip)]
@@ -131,7 +134,7 @@ impl NoiseModel {
     }
 
     /// The noise of a mean over `runs` runs if nothing of it had to be estimated: σ \[m\] and the run-to-run standard
-    /// deviations of [`NoiseModel::run_sd`]. It gives no p-values; it tells how far apart two explanations are.
+    /// deviations of pressure, x, y and rotation, those along and about other axes being the same. It gives no p-values; it tells how far apart two explanations are.
     ///
     /// # Errors
     /// As [`NoiseModel::estimate`].
@@ -144,6 +147,8 @@ impl NoiseModel {
     ) -> Result<NoiseModel, CompareError> {
         Layout::of(dataset)?.check("the derivative with respect to ln p", dprediction_dlnp)?;
         let directions = directions_of(dataset, dprediction_dlnp);
+        let [pressure, x, y, turn] = run_sd;
+        let run_sd = [pressure, x, y, turn, y, turn, turn];
         let variance = run_sd.map(|sd| sd * sd / runs.max(1) as f64);
         let whitener = Whitener::new(&directions, sigma_m / (runs.max(1) as f64).sqrt(), &variance)?;
         let plain = Self::without_scatter(NoiseStatus::Supplied, Some(sigma_m), directions)?;
@@ -174,12 +179,12 @@ impl NoiseModel {
     /// # Errors
     /// If the eigenproblem does not converge.
     pub fn whitener_of(&self, sums: &[Weights]) -> Result<Whitener, CompareError> {
-        let direction = |w: &Weights| -> [f64; 4] {
+        let direction = |w: &Weights| -> Row {
             std::array::from_fn(|j| w.iter().map(|(i, share)| share * self.directions[*i][j]).sum())
         };
         let along =
             |column: &Vec<f64>| sums.iter().map(|w| w.iter().map(|(i, share)| share * column[*i]).sum()).collect();
-        let rows: Vec<[f64; 4]> = sums.iter().map(direction).collect();
+        let rows: Vec<Row> = sums.iter().map(direction).collect();
         let columns: Vec<Vec<f64>> = self.gauge_errors.iter().map(along).collect();
         let squares = sums.first().map_or(1.0, |w| w.iter().map(|(_, share)| share * share).sum::<f64>());
         Whitener::with_columns(&rows, self.unit_m() * squares.sqrt(), &self.test_variance, &columns)
@@ -204,7 +209,7 @@ impl NoiseModel {
     /// Whitened residuals of some of the values, with their own covariance; `range` indexes the run layout.
     ///
     /// # Errors
-    /// If the 4×4 eigenproblem does not converge.
+    /// If the eigenproblem does not converge.
     pub fn whiten_range(&self, residual_m: &[f64], range: std::ops::Range<usize>) -> Result<Vec<f64>, CompareError> {
         let each: Vec<Weights> = range.clone().map(|i| vec![(i, 1.0)]).collect();
         Ok(self.whitener_of(&each)?.whiten(&residual_m[range]))
@@ -230,7 +235,7 @@ impl NoiseModel {
 
     /// Values that enough runs saw: an alignment error moves each of them, so that its row of U is not zero.
     pub fn seen(&self, range: std::ops::Range<usize>) -> usize {
-        self.directions[range].iter().filter(|u| **u != [0.0; 4]).count()
+        self.directions[range].iter().filter(|u| **u != Row::default()).count()
     }
 
     /// Values of a whole run that enough runs saw.
@@ -256,8 +261,8 @@ impl NoiseModel {
         self.sigma_m.unwrap_or(NOMINAL_SIGMA_M) / (self.runs as f64).sqrt()
     }
 
-    fn functional_variance(&self, weights: &[(usize, f64)], variances: &[f64; 4]) -> Option<f64> {
-        let mut projected = [0.0; 4];
+    fn functional_variance(&self, weights: &[(usize, f64)], variances: &Row) -> Option<f64> {
+        let mut projected = Row::default();
         for &(i, w) in weights {
             for (p, u) in projected.iter_mut().zip(&self.directions[i]) {
                 *p += w * u;
@@ -272,7 +277,7 @@ impl NoiseModel {
     fn without_scatter(
         status: NoiseStatus,
         sigma_m: Option<f64>,
-        directions: Vec<[f64; 4]>,
+        directions: Vec<Row>,
     ) -> Result<NoiseModel, CompareError> {
         let specification = policy::SENSOR_SD.map(|sd| sd * sd);
         let sigma_m = sigma_m.map(|s| s.max(SMALLEST_SIGMA_M));
@@ -283,7 +288,7 @@ impl NoiseModel {
             sessions: 1,
             sigma_m,
             pure_error_dof: 0,
-            run_sd: [None; 4],
+            run_sd: [None; 7],
             mean_variance: specification,
             test_variance: specification,
             hold_sigma_m: Vec::new(),
@@ -297,19 +302,23 @@ impl NoiseModel {
     fn measured(
         dataset: &Dataset,
         groups: &[Vec<usize>],
-        directions: Vec<[f64; 4]>,
+        directions: Vec<Row>,
     ) -> Result<NoiseModel, CompareError> {
         let fit = DirectionFit::new(&directions);
         let within = within_sessions(dataset, groups, &fit);
         let sigma2 = within.sigma2.max(SMALLEST_SIGMA_M.powi(2));
-        let runs = dataset.runs.len();
-        let run_variance = pooled(fit.noise_free(within.coefficient_variance, sigma2));
-        let between = pooled(between_sessions(dataset, groups, &fit, sigma2));
+        let (runs, axes) = (dataset.runs.len(), dataset.axes);
+        let run_variance = pooled(fit.noise_free(within.coefficient_variance, sigma2), axes);
+        let between = pooled(between_sessions(dataset, groups, &fit, sigma2), axes);
         let dof = runs - groups.len();
-        let mut mean_variance = [0.0; 4];
-        let mut test_variance = [0.0; 4];
-        for j in 0..4 {
-            let estimates = if j == 1 || j == 2 { 2 * dof } else { dof };
+        let mut mean_variance = Row::default();
+        let mut test_variance = Row::default();
+        for j in 0..mean_variance.len() {
+            let estimates = match j {
+                j if SHIFTS.contains(&j) => axes * dof,
+                j if ROTATIONS.contains(&j) => rotations(axes).len() * dof,
+                _ => dof,
+            };
             let widened = (run_variance[j] * t_inflation(estimates)).max(policy::SENSOR_SD[j].powi(2));
             mean_variance[j] = (run_variance[j] / runs as f64).max(between[j]);
             test_variance[j] = (widened / runs as f64).max(between[j]);
@@ -334,7 +343,7 @@ impl NoiseModel {
     }
 }
 
-fn quadratic(vector: &[f64; 4], variances: &[f64; 4]) -> f64 {
+fn quadratic(vector: &Row, variances: &Row) -> f64 {
     vector.iter().zip(variances).map(|(u, v)| u * u * v).sum()
 }
 
@@ -348,7 +357,7 @@ mod tests {
     fn one_run_scatters_as_its_sensors_are_specified() {
         let robot = SyntheticRobot::paper();
         let noise = NoiseModel::estimate(&robot.measured(1, CAMERA, 1), &robot.slope(), &[], Some(1e-3)).unwrap();
-        for (variance, sd) in noise.test_variance.iter().zip([0.003, 1e-4, 1e-4, 5e-4]) {
+        for (variance, sd) in noise.test_variance.iter().zip([0.003, 1e-4, 1e-4, 5e-4, 1e-4, 5e-4, 5e-4]) {
             assert!((variance.sqrt() / sd - 1.0).abs() < 1e-12, "{:?}", noise.test_variance);
         }
     }

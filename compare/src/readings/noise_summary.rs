@@ -2,7 +2,8 @@
 
 use crate::noise::{NoiseModel, NoiseStatus};
 use crate::policy;
-use crate::wording::short;
+use crate::residuals::label;
+use crate::wording::channels_word;
 use data::Hold;
 use serde::Serialize;
 
@@ -37,7 +38,7 @@ impl NoiseSummary {
     /// Convert a noise model for printing; `holds` are those of the dataset.
     pub fn of(noise: &NoiseModel, holds: &[Hold]) -> NoiseSummary {
         let mm = |m: f64| 1e3 * m;
-        let [pressure, alignment, _, rotation] = noise.run_sd;
+        let [pressure, alignment, _, rotation, ..] = noise.run_sd;
         let mut summary = NoiseSummary {
             status: noise.status,
             runs: noise.runs,
@@ -51,7 +52,7 @@ impl NoiseSummary {
             sentence: String::new(),
             warning: noise.uneven_holds().map(|(loud, quiet)| {
                 let part = |h: usize| {
-                    format!("{:.1} mm at {} kPa", mm(noise.hold_sigma_m[h]), short(1e-3 * holds[h].p_act_pa))
+                    format!("{:.1} mm at {} kPa", mm(noise.hold_sigma_m[h]), channels_word(&label(&holds[h])))
                 };
                 let (loud, quiet) = (part(loud), part(quiet));
                 format!(

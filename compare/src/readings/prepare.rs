@@ -27,7 +27,7 @@ pub fn prepare(dataset: &Dataset, about: Option<&About>) -> Prepared {
         warnings.push(format!("run {second} is a copy of run {first} and was left out: copies are not repeats"));
     }
     let samples = report.outliers;
-    let share = samples.len() as f64 / (dataset.xy_m.len() as f64 / 2.0);
+    let share = samples.len() as f64 / (dataset.coordinates_m.len() as f64 / dataset.axes as f64);
     if samples.is_empty() {
     } else if policy::are_strays(share, clean.runs.len()) {
         replace(&mut clean, &samples);
@@ -75,11 +75,7 @@ fn without_copies(dataset: &Dataset, copies: &[[String; 2]]) -> Dataset {
     let kept: Vec<usize> = (0..dataset.runs.len()).filter(|r| !is_copy(&dataset.runs[*r])).collect();
     Dataset {
         runs: kept.iter().map(|r| dataset.runs[*r].clone()).collect(),
-        xy_m: kept.iter().flat_map(|r| dataset.run(*r)).copied().collect(),
-        z_m: dataset
-            .z_m
-            .as_ref()
-            .map(|_| kept.iter().filter_map(|r| dataset.z_of_run(*r)).flatten().copied().collect()),
+        coordinates_m: kept.iter().flat_map(|r| dataset.run(*r)).copied().collect(),
         ..dataset.clone()
     }
 }
@@ -98,13 +94,9 @@ fn replace(dataset: &mut Dataset, strays: &[data::check::Outlier]) {
         if others.is_empty() {
             continue;
         }
-        for axis in 0..2 {
-            let sum: f64 = others.iter().map(|r| dataset.xy_m[r * n + at + axis]).sum();
-            dataset.xy_m[run * n + at + axis] = sum / others.len() as f64;
-        }
-        if let Some(z_m) = &mut dataset.z_m {
-            let sum: f64 = others.iter().map(|r| z_m[(r * n + at) / 2]).sum();
-            z_m[(run * n + at) / 2] = sum / others.len() as f64;
+        for axis in 0..dataset.axes {
+            let sum: f64 = others.iter().map(|r| dataset.coordinates_m[r * n + at + axis]).sum();
+            dataset.coordinates_m[run * n + at + axis] = sum / others.len() as f64;
         }
     }
 }

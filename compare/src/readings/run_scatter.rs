@@ -1,6 +1,6 @@
 //! What repeated runs say about camera noise and run-to-run scatter: the estimates behind [`crate::noise`].
 
-use crate::directions::DirectionFit;
+use crate::directions::{DirectionFit, ROTATIONS, Row, SHIFTS};
 use crate::error::CompareError;
 use data::Dataset;
 
@@ -13,14 +13,14 @@ pub struct Within {
     /// Degrees of freedom of the first.
     pub dof: usize,
     /// Mean square of the runs' coefficients about their session's mean.
-    pub coefficient_variance: [f64; 4],
+    pub coefficient_variance: Row,
 }
 
 /// Scatter of the runs about the mean of their session.
 pub fn within_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit) -> Within {
     let holds = dataset.holds.len();
-    let mut within = Within { sigma2: 0.0, hold_sigma2: vec![0.0; holds], dof: 0, coefficient_variance: [0.0; 4] };
-    let per_marker = 2 * dataset.samples_per_hold;
+    let mut within = Within { sigma2: 0.0, hold_sigma2: vec![0.0; holds], dof: 0, coefficient_variance: Row::default() };
+    let per_marker = dataset.axes * dataset.samples_per_hold;
     let seen_in = |hold: usize| (0..dataset.markers.len()).filter(|m| dataset.is_seen(hold, *m)).count() * per_marker;
     let seen: Vec<usize> = (0..holds).map(seen_in).collect();
     let filled = &dataset.lost.filled;
@@ -51,13 +51,13 @@ pub fn within_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &Direction
 }
 
 /// Variance of the coefficients of the overall mean as the session means show it; zeros for one session.
-pub fn between_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit, sigma2: f64) -> [f64; 4] {
+pub fn between_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit, sigma2: f64) -> Row {
     if groups.len() < 2 {
-        return [0.0; 4];
+        return Row::default();
     }
     let runs = dataset.runs.len() as f64;
     let overall = dataset.mean_over_runs();
-    let mut variance = [0.0; 4];
+    let mut variance = Row::default();
     for group in groups {
         let deviation: Vec<f64> = mean_of(dataset, group).iter().zip(&overall).map(|(y, m)| y - m).collect();
         for (v, c) in variance.iter_mut().zip(fit.solve(&deviation).0) {
@@ -69,12 +69,18 @@ pub fn between_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &Directio
     fit.noise_free(variance, sigma2 * repeats).map(|v| v * share)
 }
 
-/// x and y alignment are the same kind of error: one variance for both.
-pub fn pooled(mut variance: [f64; 4]) -> [f64; 4] {
-    let alignment = 0.5 * (variance[1] + variance[2]);
-    variance[1] = alignment;
-    variance[2] = alignment;
+/// Shifts along all axes are the same kind of error, and so are rotations: one variance for each kind.
+pub fn pooled(mut variance: Row, axes: usize) -> Row {
+    for kind in [&SHIFTS[..axes], rotations(axes)] {
+        let mean = kind.iter().map(|j| variance[*j]).sum::<f64>() / kind.len() as f64;
+        kind.iter().for_each(|j| variance[*j] = mean);
+    }
     variance
+}
+
+/// Rotations of a robot whose markers are seen along so many axes.
+pub fn rotations(axes: usize) -> &'static [usize] {
+    if axes == 2 { &ROTATIONS[..1] } else { &ROTATIONS }
 }
 
 fn mean_of(dataset: &Dataset, runs: &[usize]) -> Vec<f64> {

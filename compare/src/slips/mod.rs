@@ -17,6 +17,7 @@ mod turned;
 use crate::wording::short;
 use arc::MarkedBody;
 use data::Dataset;
+use models::Scenario;
 use pressure::pressure_words;
 
 /// Searches in their order: each sees the data with the slips before it undone.
@@ -42,6 +43,15 @@ pub fn slips(dataset: &Dataset, stations_m: &[f64], radius_m: f64) -> Vec<String
     let geometric =
         searches.iter().flat_map(|search| search(&mut seen)).map(|words| format!("{}: {words}", dataset.name));
     geometric.chain(pressure_words(dataset)).collect()
+}
+
+/// The same for the robot of a scenario. A robot in space bends in any plane: of its table only the pressures are searched here, and its
+/// model finds exchanged and turned axes (`crate::diagnosis::pressure_slip`).
+pub fn slips_of(dataset: &Dataset, scenario: &Scenario) -> Vec<String> {
+    match scenario.is_spatial() {
+        true => pressure_words(dataset),
+        false => slips(dataset, &scenario.markers_m, scenario.radius_m),
+    }
 }
 
 /// Base that a distance is free of.

@@ -1,4 +1,5 @@
-//! Slips of a pressure column: another unit than its name says, body and actuator exchanged, absolute for gauge.
+//! Slips of a column: pressures in another unit than its name says, body and actuator exchanged, absolute for gauge; of a robot in space
+//! also supply channels and axes that are exchanged, and an axis that is turned over.
 //!
 //! Each is exact: a factor from a table of units, an exchange, the pressure of a room. It has no free number, which an effect that
 //! imitates it has. What numbers alone tell is here ([`by_numbers`]); whether a model fits once a slip is undone is asked by
@@ -19,7 +20,7 @@ pub enum PressureColumn {
     Body,
 }
 
-/// What may have happened to the pressures of a table.
+/// What may have happened to the columns of a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PressureSlip {
     /// A column is in another unit than its name says.
@@ -28,6 +29,12 @@ pub enum PressureSlip {
     Exchanged,
     /// A sensor of absolute pressure, in a room of this pressure \[Pa\].
     Absolute(PressureColumn, f64),
+    /// Two supply channels are exchanged.
+    Channels([usize; 2]),
+    /// Two axes are exchanged, in space.
+    Axes([usize; 2]),
+    /// An axis is turned over, in space.
+    Turned(usize),
 }
 
 /// A unit taken for another.
@@ -54,6 +61,17 @@ fn wrong_units() -> impl Iterator<Item = WrongUnit> {
 
 const COLUMNS: [PressureColumn; 2] = [PressureColumn::Actuator, PressureColumn::Body];
 
+/// Names of axes.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Where they point.
+const FRAME: &str = "x runs from the base along the straight robot, y towards azimuth 0\u{b0}, z towards azimuth 90\u{b0}";
+
+/// Pairs of so many.
+fn pairs(count: usize) -> impl Iterator<Item = [usize; 2]> {
+    (0..count).flat_map(move |one| (one + 1..count).map(move |other| [one, other]))
+}
+
 /// Air of a room at sea level \[Pa\].
 const ROOM_PA: f64 = 101_325.0;
 
@@ -70,19 +88,28 @@ impl PressureColumn {
         self.words()[1]
     }
 
+    /// The lowest of its pressures.
     fn of(self, hold: &Hold) -> f64 {
         match self {
-            PressureColumn::Actuator => hold.p_act_pa,
+            PressureColumn::Actuator => hold.channels_pa().fold(f64::INFINITY, f64::min),
+            PressureColumn::Body => hold.p_body_pa,
+        }
+    }
+
+    fn highest(self, hold: &Hold) -> f64 {
+        match self {
+            PressureColumn::Actuator => hold.channels_pa().fold(0.0, f64::max),
             PressureColumn::Body => hold.p_body_pa,
         }
     }
 
     fn change(self, hold: &mut Hold, by: impl Fn(f64) -> f64) {
-        let own = match self {
-            PressureColumn::Actuator => &mut hold.p_act_pa,
-            PressureColumn::Body => &mut hold.p_body_pa,
-        };
-        *own = by(*own);
+        match self {
+            PressureColumn::Actuator => {
+                std::iter::once(&mut hold.p_act_pa).chain(&mut hold.more_act_pa).for_each(|pa| *pa = by(*pa));
+            }
+            PressureColumn::Body => hold.p_body_pa = by(hold.p_body_pa),
+        }
     }
 }
 
@@ -96,7 +123,11 @@ impl PressureSlip {
             let room_pa = if *column == PressureColumn::Body { lowest - body_pa } else { lowest };
             is_a_room(room_pa).then_some(PressureSlip::Absolute(*column, room_pa))
         });
-        units.chain([PressureSlip::Exchanged]).chain(absolute).collect()
+        let exchanged = (dataset.more_channels() == 0).then_some(PressureSlip::Exchanged);
+        let channels = pairs(dataset.more_channels() + 1).map(PressureSlip::Channels);
+        let axes = if dataset.has_z() { dataset.axes } else { 0 };
+        let moved = pairs(axes).map(PressureSlip::Axes).chain((0..axes).map(PressureSlip::Turned));
+        units.chain(exchanged).chain(absolute).chain(channels).chain(moved).collect()
     }
 
     /// Whether the numbers alone look like it: of the body's column, those are the told pressure in the wrong unit \[Pa\].
@@ -111,12 +142,24 @@ impl PressureSlip {
     /// The data with the slip undone.
     pub fn undone(&self, dataset: &Dataset) -> Dataset {
         let mut mended = dataset.clone();
-        for hold in &mut mended.holds {
-            match self {
-                PressureSlip::Unit(column, unit) => column.change(hold, |pa| pa * unit.factor),
-                PressureSlip::Exchanged => std::mem::swap(&mut hold.p_act_pa, &mut hold.p_body_pa),
-                PressureSlip::Absolute(column, room_pa) => column.change(hold, |pa| pa - room_pa),
+        let Dataset { holds, coordinates_m, axes, .. } = &mut mended;
+        let places = coordinates_m.chunks_exact_mut(*axes);
+        match self {
+            PressureSlip::Unit(column, unit) => holds.iter_mut().for_each(|hold| column.change(hold, |pa| pa * unit.factor)),
+            PressureSlip::Exchanged => {
+                holds.iter_mut().for_each(|hold| std::mem::swap(&mut hold.p_act_pa, &mut hold.p_body_pa));
             }
+            PressureSlip::Absolute(column, room_pa) => {
+                holds.iter_mut().for_each(|hold| column.change(hold, |pa| pa - room_pa));
+            }
+            PressureSlip::Channels([0, other]) => {
+                holds.iter_mut().for_each(|hold| std::mem::swap(&mut hold.p_act_pa, &mut hold.more_act_pa[other - 1]));
+            }
+            PressureSlip::Channels([one, other]) => {
+                holds.iter_mut().for_each(|hold| hold.more_act_pa.swap(one - 1, other - 1));
+            }
+            PressureSlip::Axes([one, other]) => places.for_each(|place| place.swap(*one, *other)),
+            PressureSlip::Turned(axis) => places.for_each(|place| place[*axis] = -place[*axis]),
         }
         mended
     }
@@ -135,6 +178,14 @@ impl PressureSlip {
             }
             PressureSlip::Exchanged => "the pressures of body and actuator look exchanged".into(),
             PressureSlip::Absolute(column, _) => format!("the {} pressures look absolute", column.words()[0]),
+            PressureSlip::Channels([one, other]) => {
+                format!("the pressures of the supply channels {one} and {other} look exchanged")
+            }
+            PressureSlip::Axes(pair) => {
+                let [one, other] = pair.map(|axis| AXES[axis]);
+                format!("{one} and {other} look exchanged")
+            }
+            PressureSlip::Turned(axis) => format!("{} looks turned over", AXES[*axis]),
         }
     }
 
@@ -142,7 +193,10 @@ impl PressureSlip {
     pub fn with(&self) -> String {
         match self {
             PressureSlip::Unit(_, unit) => format!("{} times the numbers", (1e4 * unit.factor).round() / 1e4),
-            PressureSlip::Exchanged => "the two columns exchanged".into(),
+            PressureSlip::Exchanged | PressureSlip::Channels(_) | PressureSlip::Axes(_) => {
+                "the two columns exchanged".into()
+            }
+            PressureSlip::Turned(axis) => format!("-{name} in place of {name}", name = AXES[*axis]),
             PressureSlip::Absolute(_, room_pa) => format!("{} kPa taken off", short(1e-3 * room_pa)),
         }
     }
@@ -158,6 +212,15 @@ impl PressureSlip {
             PressureSlip::Absolute(column, room_pa) => {
                 format!("if they are, subtract {} kPa from the column {}", short(1e-3 * room_pa), column.name())
             }
+            PressureSlip::Channels(pair) => {
+                let [one, other] = pair.map(|channel| if channel == 0 { "p_act".into() } else { format!("p_act_{channel}") });
+                format!("if they are, exchange the names of the columns {one} and {other}")
+            }
+            PressureSlip::Axes(pair) => {
+                let [one, other] = pair.map(|axis| AXES[axis]);
+                format!("{FRAME}; if they are, exchange the names of the columns {one} and {other}")
+            }
+            PressureSlip::Turned(axis) => format!("{FRAME}; if it is, change the sign of the column {}", AXES[*axis]),
         }
     }
 }
@@ -172,10 +235,10 @@ pub fn by_numbers(dataset: &Dataset) -> Vec<PressureSlip> {
         let room_pa = if *column == PressureColumn::Body { begins.min(ROOM_PA) } else { begins };
         (is_a_room(begins) && above).then_some(PressureSlip::Absolute(*column, room_pa))
     };
-    let highest = |column: PressureColumn| dataset.holds.iter().map(|hold| column.of(hold)).fold(0.0, f64::max);
+    let highest = |column: PressureColumn| dataset.holds.iter().map(|hold| column.highest(hold)).fold(0.0, f64::max);
     let [act, body] = COLUMNS.map(highest);
     let found: Vec<PressureSlip> = COLUMNS.iter().filter_map(absolute).collect();
-    match found.is_empty() && policy::is_never_above(act, body) {
+    match found.is_empty() && dataset.more_channels() == 0 && policy::is_never_above(act, body) {
         true => vec![PressureSlip::Exchanged],
         false => found,
     }
@@ -269,7 +332,7 @@ mod tests {
         for slip in PressureSlip::all(&right, 2e3) {
             let PressureSlip::Unit(column, unit) = slip else { continue };
             let mended = slip.undone(&right);
-            assert_eq!(mended.xy_m, right.xy_m);
+            assert_eq!(mended.coordinates_m, right.coordinates_m);
             for (hold, before) in mended.holds.iter().zip(&right.holds) {
                 assert_eq!(column.of(hold), unit.factor * column.of(before));
             }

@@ -13,17 +13,17 @@ fn embedded(name: &str) -> Dataset {
 fn told(name: &str, edit: impl Fn(usize, usize, &mut [Point])) -> Vec<String> {
     let mut dataset = embedded(name);
     let (holds, samples, markers) = (dataset.holds.len(), dataset.samples_per_hold, dataset.markers.len());
-    let mut xy_m = Vec::new();
+    let mut coordinates_m = Vec::new();
     for run in 0..dataset.runs.len() {
         for hold in 0..holds {
             for sample in 0..samples {
                 let mut points: Vec<Point> = (0..markers).map(|m| dataset.xy(run, hold, sample, m)).collect();
                 edit(run, hold, &mut points);
-                xy_m.extend(points.into_iter().flatten());
+                coordinates_m.extend(points.into_iter().flatten());
             }
         }
     }
-    dataset.xy_m = xy_m;
+    dataset.coordinates_m = coordinates_m;
     let stations_m: Vec<f64> = dataset.markers.iter().map(|marker| marker.station_m.unwrap()).collect();
     slips(&dataset, &stations_m, 0.04)
 }
@@ -165,7 +165,7 @@ fn a_marker_that_was_lost_is_no_slip_and_hides_none() {
         let mut lossy = whole.losing(&most);
         assert_eq!(lossy.lost.unseen.len(), 3);
         assert!(slips(&lossy, &stations_m, 0.04).is_empty(), "{name}: {:?}", slips(&lossy, &stations_m, 0.04));
-        lossy.xy_m.iter_mut().step_by(2).for_each(|x| *x += 0.03);
+        lossy.coordinates_m.iter_mut().step_by(2).for_each(|x| *x += 0.03);
         assert_only(&slips(&lossy, &stations_m, 0.04), &["origin", "x +30"]);
     }
 }
@@ -179,9 +179,9 @@ fn labels_are_told_as_far_as_noise_lets_them() {
             crate::study::published::textbook_scenario("epam").unwrap().with_bending(1.35).with_markers(&stations_m);
         let usual = crate::study::Generator { runs: 3, ..Default::default() };
         let mut data = crate::study::generate(&robot, "made", &usual).unwrap();
-        let (width, last) = (2 * markers, data.xy_m.len());
+        let (width, last) = (2 * markers, data.coordinates_m.len());
         for at in (0..last).step_by(width) {
-            (0..2).for_each(|axis| data.xy_m.swap(at + 40 + axis, at + 42 + axis));
+            (0..2).for_each(|axis| data.coordinates_m.swap(at + 40 + axis, at + 42 + axis));
         }
         slips(&data, &stations_m, robot.radius_m)
     };

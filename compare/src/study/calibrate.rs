@@ -95,7 +95,7 @@ impl Misfit<'_> {
     /// Prediction minus mean \[m\].
     fn residual_m(&self, value: f64) -> Result<Vec<f64>, CompareError> {
         let predicted = predict_dataset(&self.knob.set(self.scenario, value), self.dataset)?;
-        Ok(predicted.xy_m.iter().zip(&self.mean_m).map(|(f, y)| f - y).collect())
+        Ok(predicted.coordinates_m.iter().zip(&self.mean_m).map(|(f, y)| f - y).collect())
     }
 }
 

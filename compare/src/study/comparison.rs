@@ -6,9 +6,9 @@ use crate::evidence::Evidence;
 use crate::prepare::{OutlyingRun, Prepared, outlying_runs, prepare};
 use crate::slips::pressure::PressureSlipFound;
 use crate::slips::pressure::pressure_words;
-use crate::slips::slips;
+use crate::slips::slips_of;
 use crate::study::calibrate::{Knob, calibrate};
-use crate::study::predict::{fit_scenario, predict_dataset};
+use crate::study::predict::{fit_scenario, predict_dataset, seen_by};
 use crate::typed_effect::with_effect;
 use data::check::Outlier;
 use data::{About, Dataset};
@@ -130,12 +130,14 @@ pub fn compare_all(
     let Evidence { dataset: read, about, .. } = evidence;
     let Prepared { dataset, outliers, warnings: told_of_data, .. } = prepare(read, about.as_ref());
     let sessions = sessions(&dataset, about.as_ref(), options);
-    let (dataset, options) = (&dataset, &EvaluateOptions { sessions, ..options.clone() });
+    let options = &EvaluateOptions { sessions, ..options.clone() };
     let (mut variants, mut warnings) = (Vec::<Variant>::new(), Vec::new());
-    for model in models {
-        let (scenario, told) = fit_scenario(&model.scenario, dataset, about.as_ref())?;
+    let fits = models.iter().map(|model| fit_scenario(&model.scenario, &dataset, about.as_ref()));
+    let fits = fits.collect::<Result<Vec<_>, _>>()?;
+    let dataset = &seen_by(&models.first().ok_or(CompareError::NoModel)?.scenario, dataset);
+    for (model, (scenario, told)) in models.iter().zip(fits) {
         if variants.is_empty() {
-            warnings.extend(slips(read, &scenario.markers_m, scenario.radius_m));
+            warnings.extend(slips_of(read, &scenario));
             warnings.extend(told);
         }
         let evaluation = held(&scenario, dataset, options)?;
@@ -176,7 +178,7 @@ fn sessions(dataset: &Dataset, about: Option<&About>, options: &EvaluateOptions)
 
 fn held(scenario: &Scenario, dataset: &Dataset, options: &EvaluateOptions) -> Result<Evaluation, CompareError> {
     let predicted = predict_dataset(scenario, dataset)?;
-    evaluate(dataset, &predicted.xy_m, &predicted.d_ln_pressure_m, options)
+    evaluate(dataset, &predicted.coordinates_m, &predicted.d_ln_pressure_m, options)
 }
 
 fn calibrated(

@@ -139,7 +139,7 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
     let mut state = model.prediction();
     let mut eye = Seen::new(generator);
     let (supply, mut manometer) = (Supply::of(scenario), Manometer::new(generator.seed));
-    let (mut xy_m, mut z_m, mut gauge_pa) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut coordinates_m, mut gauge_pa) = (Vec::new(), Vec::new());
     for _ in 0..generator.runs {
         let gain = eye.next_run();
         if model.is_spatial() {
@@ -149,17 +149,14 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
             gauge_pa.push(manometer.read(supply.pressure(gain * set_pa, held_s)));
         }
         if model.has_history() {
-            let mut each = |_: usize, at: &Prediction| eye.look(&at.markers, &mut xy_m);
+            let mut each = |_: usize, at: &Prediction| eye.look_at(at, model.is_spatial(), &mut coordinates_m);
             model.follow(&steps(generator, gain), &mut state, &mut each)?;
             continue;
         }
         for hold in 0..generator.protocol.len() {
             model.predict(&generator.loads(hold, gain), &mut state)?;
             for _ in 0..generator.samples {
-                match model.is_spatial() {
-                    true => eye.look_in_space(&state, &mut xy_m, &mut z_m),
-                    false => eye.look(&state.markers, &mut xy_m),
-                }
+                eye.look_at(&state, model.is_spatial(), &mut coordinates_m);
             }
         }
     }
@@ -170,8 +167,8 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
         holds: holds(generator),
         markers: markers(scenario),
         samples_per_hold: generator.samples,
-        xy_m,
-        z_m: model.is_spatial().then_some(z_m),
+        axes: if model.is_spatial() { 3 } else { 2 },
+        coordinates_m,
         gauge_pa: generator.gauge.then_some(gauge_pa),
         lost: data::Lost::default(),
         told: Vec::new(),
@@ -246,26 +243,28 @@ impl<'a> Seen<'a> {
         self.tilt = [g.alignment_sd_m, g.rotation_sd, g.rotation_sd].map(|sd| sd * self.scatter.normal());
     }
 
-    /// One sample of all markers in x, y and z.
-    fn look_in_space(&mut self, at: &Prediction, xy_m: &mut Vec<f64>, z_m: &mut Vec<f64>) {
+    /// One sample of all markers, in space with z.
+    fn look_at(&mut self, at: &Prediction, is_spatial: bool, coordinates_m: &mut Vec<f64>) {
+        if !is_spatial {
+            return self.look(&at.markers, coordinates_m);
+        }
         let [shift_z, about_x, about_y] = self.tilt;
-        let from = xy_m.len();
-        self.look(&at.markers, xy_m);
-        for (seen, ([x, y], z)) in xy_m[from..].chunks_exact_mut(2).zip(at.markers.iter().zip(&at.markers_z_m)) {
-            seen[0] += about_y * z;
-            seen[1] -= about_x * z;
+        let mut xy_m = Vec::with_capacity(2 * at.markers.len());
+        self.look(&at.markers, &mut xy_m);
+        for (seen, ([x, y], z)) in xy_m.chunks_exact(2).zip(at.markers.iter().zip(&at.markers_z_m)) {
             let noise = self.generator.camera_sd_m * self.scatter.normal();
-            z_m.push(z + about_x * y - about_y * x + shift_z + noise);
+            let z_m = z + about_x * y - about_y * x + shift_z + noise;
+            coordinates_m.extend([seen[0] + about_y * z, seen[1] - about_x * z, z_m]);
         }
     }
 
     /// One sample of all markers.
-    pub(super) fn look(&mut self, markers: &[[f64; 2]], xy_m: &mut Vec<f64>) {
+    pub(super) fn look(&mut self, markers: &[[f64; 2]], coordinates_m: &mut Vec<f64>) {
         let (shift, roll) = (self.shift, self.roll);
         for [x, y] in markers {
             let noise = [self.scatter.normal(), self.scatter.normal()].map(|n| n * self.generator.camera_sd_m);
-            xy_m.push(x - roll * y + shift[0] + noise[0]);
-            xy_m.push(y + roll * x + shift[1] + noise[1]);
+            coordinates_m.push(x - roll * y + shift[0] + noise[0]);
+            coordinates_m.push(y + roll * x + shift[1] + noise[1]);
         }
     }
 }

@@ -57,14 +57,14 @@ fn arm() -> Result<Option<Held>, CompareError> {
     let model = Model::new(&scenario);
     let mut out = model.prediction();
     let (markers, samples) =
-        (dataset.markers.len(), dataset.xy_m.len() / (2 * dataset.markers.len() * dataset.holds.len()));
+        (dataset.markers.len(), dataset.coordinates_m.len() / (dataset.axes * dataset.markers.len() * dataset.holds.len()));
     let mut rows = Vec::new();
     for (i, hold) in dataset.holds.iter().enumerate().filter(|(_, hold)| hold.p_act_pa > 0.0) {
         model.predict(&Loads::uniform(hold.p_body_pa, hold.p_act_pa), &mut out)?;
         let last = 2 * ((i + 1) * samples * markers) - 1;
         rows.push(HeldRow {
             at: format!("{:.1} kPa, body {:.1} kPa", 1e-3 * hold.p_act_pa, 1e-3 * hold.p_body_pa),
-            measured: 1e3 * dataset.xy_m[last],
+            measured: 1e3 * dataset.coordinates_m[last],
             model: out.markers.last().map(|m| 1e3 * m[1]),
             half: None,
             fitted: false,

@@ -3,15 +3,16 @@
 use crate::data_slope::data_slope;
 use crate::error::CompareError;
 use crate::policy;
-use data::{About, Dataset, Direct};
+use super::generate::in_channels;
+use data::{About, Dataset, Direct, Hold};
 use models::effects::Stage;
 use models::{Loads, Model, Prediction, Scenario, Step};
 
-/// Prediction in the layout of [`Dataset::run`], `[hold][sample][marker][x, y]`.
+/// Prediction in the layout of [`Dataset::run`], `[hold][sample][marker][axis]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Predicted {
     /// Positions f \[m\].
-    pub xy_m: Vec<f64>,
+    pub coordinates_m: Vec<f64>,
     /// ∂f/∂ln P \[m\]: what a relative error of the actuator pressure does.
     pub d_ln_pressure_m: Vec<f64>,
 }
@@ -23,32 +24,14 @@ const PRESSURE_STEP: f64 = 1e-4;
 /// measured directly; and what does not match, in words.
 ///
 /// # Errors
-/// Another actuator, unknown stations, markers off the body, runs with different tip forces; a robot with strips round the body, and
-/// what a planar one cannot leave aside of the data ([`Dataset::left_aside`]).
+/// Another actuator, unknown stations, markers off the body, runs with different tip forces; supply channels that the table or the robot
+/// has not; what a planar robot cannot leave aside of the data ([`Dataset::left_aside`]).
 pub fn fit_scenario(
     scenario: &Scenario,
     dataset: &Dataset,
     about: Option<&About>,
 ) -> Result<(Scenario, Vec<String>), CompareError> {
-    if scenario.is_spatial() {
-        let message = "this robot has strips round the body, and what was asked is built for planar robots";
-        return Err(CompareError::refused(message, "`ibr compare` takes it"));
-    }
-    let aside = dataset.left_aside()?;
-    let (fitted, mut warnings) = fit_in_space(scenario, dataset, about)?;
-    warnings.extend(aside);
-    Ok((fitted, warnings))
-}
-
-/// The same for what sees all coordinates and channels of the data.
-///
-/// # Errors
-/// As [`fit_scenario`], without what a planar robot refuses.
-pub(super) fn fit_in_space(
-    scenario: &Scenario,
-    dataset: &Dataset,
-    about: Option<&About>,
-) -> Result<(Scenario, Vec<String>), CompareError> {
+    let aside = if scenario.is_spatial() { None } else { dataset.left_aside()? };
     let kind = scenario.actuator.kind.name;
     if dataset.actuator != kind {
         let (data, scenario) = (dataset.actuator.clone(), kind.to_string());
@@ -63,14 +46,55 @@ pub(super) fn fit_in_space(
         }
         fitted = with_tip_force(fitted, dataset, about)?;
         fitted = without_settled(&fitted, about.direct);
-        warnings.extend(geometry_warnings(scenario, about, dataset.more_channels() == 0));
+        warnings.extend(geometry_warnings(scenario, about));
         if about.gravity_direction.is_none() && scenario.effects.iter().any(|e| e.name == "gravity") {
             warnings.push(
                 "the scenario has gravity, the data's about.toml no [gravity] direction: the scenario's is used".into(),
             );
         }
     }
+    warnings.extend(channels(&fitted, dataset)?);
+    warnings.extend(aside);
     Ok((fitted, warnings))
+}
+
+/// The data as a scenario predicts them: without z for a planar robot.
+pub fn seen_by(scenario: &Scenario, dataset: Dataset) -> Dataset {
+    if scenario.is_spatial() || !dataset.has_z() { dataset } else { dataset.in_plane() }
+}
+
+/// A caution about the supply channels.
+///
+/// # Errors
+/// A channel of the robot without pressure in the table, or a pressure of its own of a channel that supplies nothing.
+fn channels(scenario: &Scenario, dataset: &Dataset) -> Result<Option<String>, CompareError> {
+    let fed: Vec<usize> = Model::new(scenario).channels().collect();
+    let last = dataset.more_channels();
+    if last == 0 {
+        return Ok((fed.len() > 1).then(|| {
+            let names: Vec<String> = fed.iter().map(usize::to_string).collect();
+            let given = "the table has one actuator pressure, used for all: give each its column, such as p_act_1_kpa";
+            format!("{}: the robot has supply channels {}; {given}", dataset.name, names.join(" and "))
+        }));
+    }
+    if let Some(channel) = fed.iter().find(|channel| **channel > last) {
+        let message = format!("the robot has supply channel {channel}, and {} has no pressure of it", dataset.name);
+        return Err(CompareError::refused(message, format!("add the column p_act_{channel}_kpa")));
+    }
+    let pressed = |channel: &usize| dataset.holds.iter().any(|hold| hold.more_act_pa[channel - 1] > 0.0);
+    let idle = (1..=last).find(|channel| !fed.contains(channel) && pressed(channel));
+    match idle.filter(|_| dataset.channels_differ()) {
+        Some(channel) => {
+            let message = format!(
+                "nothing is supplied by channel {channel} in this scenario, and {} has pressures of it",
+                dataset.name
+            );
+            let help =
+                format!("write channel = {channel} into its [[strip]] or [[zone]], or delete p_act_{channel}_kpa");
+            Err(CompareError::refused(message, help))
+        }
+        None => Ok(None),
+    }
 }
 
 /// Whether a stage of a prediction can leave anything to explain in data of which that much was measured directly.
@@ -126,8 +150,8 @@ fn with_tip_force(scenario: Scenario, dataset: &Dataset, about: &About) -> Resul
     Ok(scenario.with_effect("tip_load", &[own[0] + known[0], own[1] + known[1]]))
 }
 
-/// Differences beyond 2 % between the scenario and the data's own description, and channels that the data do not tell apart.
-fn geometry_warnings(scenario: &Scenario, about: &About, one_pressure: bool) -> Vec<String> {
+/// Differences beyond 2 % between the scenario and the data's own description.
+fn geometry_warnings(scenario: &Scenario, about: &About) -> Vec<String> {
     let Some(g) = &about.geometry else { return Vec::new() };
     let shape = &scenario.actuator.shape;
     let pairs = [
@@ -146,10 +170,6 @@ fn geometry_warnings(scenario: &Scenario, about: &About, one_pressure: bool) -> 
     if let Some(count) = g.pouches.filter(|count| *count != scenario.actuator.count) {
         warnings.push(format!("pouches: the scenario says {}, the data's about.toml {count}", scenario.actuator.count));
     }
-    let first = scenario.actuator.channel;
-    if one_pressure && scenario.zones.iter().any(|z| z.channel.is_some_and(|c| c != first)) {
-        warnings.push("the scenario has several supply channels; data have one actuator pressure, used for all".into());
-    }
     warnings
 }
 
@@ -164,14 +184,14 @@ fn geometry_warnings(scenario: &Scenario, about: &About, one_pressure: bool) -> 
 /// What the model returns when a hold has no equilibrium.
 pub fn predict_dataset(scenario: &Scenario, dataset: &Dataset) -> Result<Predicted, CompareError> {
     let mut predicted = predict_everywhere(scenario, dataset)?;
-    as_in_data(dataset, &mut predicted.xy_m);
+    as_in_data(dataset, &mut predicted.coordinates_m);
     dataset.unseen_values().for_each(|i| predicted.d_ln_pressure_m[i] = 0.0);
     Ok(predicted)
 }
 
 /// Puts what stands in the data where too few runs saw a marker: the residual is zero there.
 pub(crate) fn as_in_data(dataset: &Dataset, predicted_m: &mut [f64]) {
-    dataset.unseen_values().for_each(|i| predicted_m[i] = dataset.xy_m[i]);
+    dataset.unseen_values().for_each(|i| predicted_m[i] = dataset.coordinates_m[i]);
 }
 
 fn predict_everywhere(scenario: &Scenario, dataset: &Dataset) -> Result<Predicted, CompareError> {
@@ -181,11 +201,11 @@ fn predict_everywhere(scenario: &Scenario, dataset: &Dataset) -> Result<Predicte
     }
     let mut state = model.prediction();
     let n = dataset.values_per_run();
-    let mut out = Predicted { xy_m: vec![0.0; n], d_ln_pressure_m: vec![0.0; n] };
+    let mut out = Predicted { coordinates_m: vec![0.0; n], d_ln_pressure_m: vec![0.0; n] };
     for (h, hold) in dataset.holds.iter().enumerate() {
-        let mut at = |factor: f64| -> Result<Vec<[f64; 2]>, CompareError> {
-            model.predict(&Loads::uniform(hold.p_body_pa, hold.p_act_pa * factor), &mut state)?;
-            Ok(state.markers.clone())
+        let mut at = |factor: f64| -> Result<Vec<f64>, CompareError> {
+            model.predict(&loads(hold, factor), &mut state)?;
+            Ok(coordinates(&state, dataset.axes).collect())
         };
         // First the hold itself: an error shall name its own pressures.
         let middle = at(1.0)?;
@@ -199,12 +219,10 @@ fn predict_everywhere(scenario: &Scenario, dataset: &Dataset) -> Result<Predicte
             (Err(error), Err(_)) => return Err(error),
         };
         for sample in 0..dataset.samples_per_hold {
-            for (m, xy) in middle.iter().enumerate() {
-                let i = dataset.offset(h, sample, m);
-                for axis in 0..2 {
-                    out.xy_m[i + axis] = xy[axis];
-                    out.d_ln_pressure_m[i + axis] = (high[m][axis] - low[m][axis]) / (sides * PRESSURE_STEP);
-                }
+            let from = dataset.offset(h, sample, 0);
+            for (i, middle) in middle.iter().enumerate() {
+                out.coordinates_m[from + i] = *middle;
+                out.d_ln_pressure_m[from + i] = (high[i] - low[i]) / (sides * PRESSURE_STEP);
             }
         }
     }
@@ -223,10 +241,21 @@ pub(crate) fn first_slope(scenario: &Scenario, dataset: &Dataset) -> Result<Vec<
     }
 }
 
+/// Pressures of a hold, those of the actuators times `factor`; one actuator pressure is for all channels.
+pub fn loads(hold: &Hold, factor: f64) -> Loads {
+    in_channels(hold.p_body_pa, hold.channels_pa().map(|p| p * factor))
+}
+
+/// The predicted markers' coordinates, marker by marker \[m\].
+pub(crate) fn coordinates(at: &Prediction, axes: usize) -> impl Iterator<Item = f64> + '_ {
+    let place = |([x, y], z): (&[f64; 2], &f64)| [*x, *y, *z];
+    at.markers.iter().zip(&at.markers_z_m).flat_map(move |marker| place(marker).into_iter().take(axes))
+}
+
 /// The steps of a dataset's protocol, one per sample, with the actuator pressures times `factor`.
 pub(crate) fn protocol(dataset: &Dataset, factor: f64) -> Vec<Step> {
     let of_hold = |hold: &data::Hold| {
-        let loads = Loads::uniform(hold.p_body_pa, hold.p_act_pa * factor);
+        let loads = loads(hold, factor);
         hold.t_s.iter().map(|t_s| Step { t_s: *t_s, loads }).collect::<Vec<_>>()
     };
     dataset.holds.iter().flat_map(of_hold).collect()
@@ -235,13 +264,13 @@ pub(crate) fn protocol(dataset: &Dataset, factor: f64) -> Vec<Step> {
 fn predict_in_time(model: &Model, dataset: &Dataset) -> Result<Predicted, CompareError> {
     let mut state = model.prediction();
     let mut positions = |factor: f64| -> Result<Vec<f64>, CompareError> {
-        let mut xy_m = Vec::with_capacity(dataset.values_per_run());
-        let mut take = |_: usize, at: &Prediction| xy_m.extend(at.markers.iter().flatten());
+        let mut coordinates_m = Vec::with_capacity(dataset.values_per_run());
+        let mut take = |_: usize, at: &Prediction| coordinates_m.extend(coordinates(at, dataset.axes));
         model.follow(&protocol(dataset, factor), &mut state, &mut take)?;
-        Ok(xy_m)
+        Ok(coordinates_m)
     };
-    let xy_m = positions(1.0)?;
+    let coordinates_m = positions(1.0)?;
     let (low, high) = (positions(1.0 - PRESSURE_STEP)?, positions(1.0 + PRESSURE_STEP)?);
     let slope = |(high, low): (&f64, &f64)| (high - low) / (2.0 * PRESSURE_STEP);
-    Ok(Predicted { xy_m, d_ln_pressure_m: high.iter().zip(&low).map(slope).collect() })
+    Ok(Predicted { coordinates_m, d_ln_pressure_m: high.iter().zip(&low).map(slope).collect() })
 }

@@ -40,7 +40,7 @@ pub fn seen(runs: &[EngineRun], name: &str, generator: &Generator) -> Result<Dat
         return Err(refuse("the finite element runs are of different robots".into()));
     }
     let mut eye = Seen::new(generator);
-    let mut xy_m = Vec::new();
+    let mut coordinates_m = Vec::new();
     for run in runs {
         let gain = eye.next_run();
         for [body_pa, actuator_pa] in &generator.protocol {
@@ -49,7 +49,7 @@ pub fn seen(runs: &[EngineRun], name: &str, generator: &Generator) -> Result<Dat
                 return Err(refuse(format!("a body at {wanted} kPa; the runs are at {there} kPa")));
             }
             let markers = at(run, actuator_pa * 1e-3 * gain)?;
-            (0..generator.samples).for_each(|_| eye.look(&markers, &mut xy_m));
+            (0..generator.samples).for_each(|_| eye.look(&markers, &mut coordinates_m));
         }
     }
     let marker = |(i, s): (usize, &f64)| Marker { name: (i + 1).to_string(), station_m: Some(s * 1e-3) };
@@ -60,8 +60,8 @@ pub fn seen(runs: &[EngineRun], name: &str, generator: &Generator) -> Result<Dat
         holds: holds(generator),
         markers: first.stations_mm.iter().enumerate().map(marker).collect(),
         samples_per_hold: generator.samples,
-        xy_m,
-        z_m: None,
+        axes: 2,
+        coordinates_m,
         gauge_pa: None,
         lost: data::Lost::default(),
         told: Vec::new(),
@@ -123,7 +123,7 @@ mod tests {
     #[test]
     fn without_scatter_the_camera_sees_the_markers_of_the_runs() {
         let data = seen(&[run(2.0), run(3.0)], "d", &quiet()).unwrap();
-        let mm: Vec<f64> = data.xy_m.iter().map(|v| (v * 1e6).round() * 1e-3).collect();
+        let mm: Vec<f64> = data.coordinates_m.iter().map(|v| (v * 1e6).round() * 1e-3).collect();
         assert_eq!(mm[..8], [330.0, 0.0, 325.0, 10.0, 310.0, 40.0, 300.0, 60.0]);
         assert_eq!(mm[8 + 6..], [300.0, 90.0]);
     }
@@ -131,9 +131,9 @@ mod tests {
     #[test]
     fn an_error_of_the_pressure_moves_the_markers_of_a_run_together() {
         let data = seen(&[run(2.0)], "d", &Generator { pressure_sd: 0.02, ..quiet() }).unwrap();
-        let gain = data.xy_m[7] / 0.060;
+        let gain = data.coordinates_m[7] / 0.060;
         assert!(gain != 1.0 && (gain - 1.0).abs() < 0.1);
-        assert!((data.xy_m[3] / 0.010 - gain).abs() < 1e-12 && (data.xy_m[5] / 0.040 - gain).abs() < 1e-12);
+        assert!((data.coordinates_m[3] / 0.010 - gain).abs() < 1e-12 && (data.coordinates_m[5] / 0.040 - gain).abs() < 1e-12);
     }
 
     #[test]

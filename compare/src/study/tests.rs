@@ -43,7 +43,7 @@ fn a_model_meets_the_data_it_made() {
         let dataset = generate(&scenario, "made", &quiet(3)).unwrap();
         let predicted = predict_dataset(&scenario, &dataset).unwrap();
         let worst =
-            dataset.mean_over_runs().iter().zip(&predicted.xy_m).fold(0.0, |w: f64, (y, f)| w.max((y - f).abs()));
+            dataset.mean_over_runs().iter().zip(&predicted.coordinates_m).fold(0.0, |w: f64, (y, f)| w.max((y - f).abs()));
         assert!(worst < 1e-8, "{kind}: {worst}");
     }
 }
@@ -61,7 +61,7 @@ fn a_model_with_history_meets_the_data_it_made_sample_by_sample() {
             let apart = |scenario| -> f64 {
                 let predicted = predict_dataset(scenario, &dataset).unwrap();
                 let mean = dataset.mean_over_runs();
-                mean.iter().zip(&predicted.xy_m).map(|(y, f)| (y - f).abs()).fold(0.0, f64::max)
+                mean.iter().zip(&predicted.coordinates_m).map(|(y, f)| (y - f).abs()).fold(0.0, f64::max)
             };
             assert!(apart(&scenario) < 1e-8, "{kind} {effect}: {:e}", apart(&scenario));
             assert!(apart(&base) > 1e-4, "{kind} {effect} leaves its mark: {:e}", apart(&base));
@@ -74,7 +74,7 @@ fn the_same_seed_gives_the_same_data_and_another_seed_does_not() {
     let scenario = textbook_scenario("epam").unwrap();
     let made = |seed| generate(&scenario, "made", &Generator { seed, ..Generator::default() }).unwrap();
     assert_eq!(made(3), made(3));
-    assert_ne!(made(3).xy_m, made(4).xy_m);
+    assert_ne!(made(3).coordinates_m, made(4).coordinates_m);
 }
 
 #[test]
@@ -248,10 +248,10 @@ fn the_interval_of_a_stiffness_that_misses_holds_what_each_pressure_asks_for() {
             |h: &usize| whole.holds[*h].p_act_pa == 0.0 || (whole.holds[*h].p_act_pa - pressure_pa).abs() < 1.0;
         let kept: Vec<usize> = (0..whole.holds.len()).filter(is_kept).collect();
         let rows = |run: usize| kept.iter().flat_map(move |h| h * width..(h + 1) * width).map(move |i| (run, i));
-        let xy_m = (0..whole.runs.len()).flat_map(|run| rows(run).collect::<Vec<_>>());
-        let xy_m = xy_m.map(|(run, i)| whole.run(run)[i]).collect();
+        let coordinates_m = (0..whole.runs.len()).flat_map(|run| rows(run).collect::<Vec<_>>());
+        let coordinates_m = coordinates_m.map(|(run, i)| whole.run(run)[i]).collect();
         let holds = kept.iter().map(|h| whole.holds[*h].clone()).collect();
-        fit(&Dataset { holds, xy_m, ..whole.clone() }).value
+        fit(&Dataset { holds, coordinates_m, ..whole.clone() }).value
     };
     let alone = [10e3, 20e3, 30e3].map(at);
     let of_all = fit(&whole);

@@ -59,7 +59,7 @@ fn the_noise_ceiling_is_that_of_the_handbook() {
             let data = robot.measured(runs, CAMERA, 1);
             let mut noise = NoiseModel::estimate(&data, &[0.0; 12], &[], Some(1e-3)).unwrap();
             noise.sigma_m = Some(1e-3);
-            noise.mean_variance = [0.0; 4];
+            noise.mean_variance = Default::default();
             let c = BesideMean::new(&data, &noise, &robot.shape(1.0)).unwrap();
             let ceiling = metrics(&c, &NO_BOOTSTRAP).unwrap().holds[0].noise_ceiling.unwrap();
             println!("tip {tip_mm} mm, {runs} runs: ceiling {ceiling:.4}, handbook {expected}");
@@ -151,7 +151,7 @@ fn null_dataset(data: &Dataset, truth: &[f64], slope: &[f64]) -> NullDataset {
     let failure_named = where_it_fails(&c, &residual_map(&c), None, &strict)[0].finding != Finding::Agrees;
     let (n, runs) = (truth.len(), data.runs.len());
     let mean = data.mean_over_runs();
-    let scatter: f64 = data.xy_m.iter().enumerate().map(|(i, y)| (y - mean[i % n]).powi(2)).sum();
+    let scatter: f64 = data.coordinates_m.iter().enumerate().map(|(i, y)| (y - mean[i % n]).powi(2)).sum();
     let unit = (scatter / ((runs - 1) * n * runs) as f64).sqrt();
     let scaled: Vec<f64> = c.residual_m.iter().map(|r| r / unit).collect();
     NullDataset { run_as_unit, independent: NullTest::of(&scaled, &directions, (runs - 1) * n), failure_named }

@@ -178,8 +178,8 @@ fn a_hold_that_scatters_more_than_the_others_is_pointed_out() {
     let mut data = quiet.clone();
     let loud = robot.measured(5, SyntheticNoise { sigma_m: 2e-3, ..CAREFUL }, 21);
     let n = data.values_per_run();
-    for (i, y) in data.xy_m.iter_mut().enumerate().filter(|(i, _)| i % n / (n / 5) == 1) {
-        *y = loud.xy_m[i];
+    for (i, y) in data.coordinates_m.iter_mut().enumerate().filter(|(i, _)| i % n / (n / 5) == 1) {
+        *y = loud.coordinates_m[i];
     }
     let e = of(&data, &robot);
     // 240 degrees of freedom: 4 standard errors of a standard deviation are 18 %.
@@ -197,7 +197,7 @@ fn two_runs_or_copies_of_one_run_give_no_p_values() {
     assert!(e.noise.sentence.contains("no significance"), "{}", e.noise.sentence);
     let mut copies = robot.measured(1, TYPICAL, 12);
     copies.runs = ["1", "2", "3"].map(str::to_string).to_vec();
-    copies.xy_m = copies.xy_m.repeat(3);
+    copies.coordinates_m = copies.coordinates_m.repeat(3);
     let e = of(&copies, &robot);
     assert!(e.metrics.overall.p_value.is_none() && e.noise.sentence.contains("identical"), "{}", e.noise.sentence);
     assert_finite(&e);
@@ -230,7 +230,7 @@ fn sessions_that_differ_widen_the_noise_of_the_mean() {
     let mut data = robot.measured(6, CAREFUL, 15);
     let n = data.values_per_run();
     // The second session of three runs was mounted 4 mm higher.
-    data.xy_m[3 * n..].iter_mut().skip(1).step_by(2).for_each(|y| *y += 4e-3);
+    data.coordinates_m[3 * n..].iter_mut().skip(1).step_by(2).for_each(|y| *y += 4e-3);
     let with = |sessions: &[usize]| {
         let options = EvaluateOptions { sessions: sessions.to_vec(), ..Default::default() };
         evaluate(&data, &robot.shape(1.0), &robot.slope(), &options)

@@ -65,11 +65,11 @@ impl SyntheticRobot {
     /// Runs of this robot seen with noise.
     pub fn measured(&self, runs: usize, noise: SyntheticNoise, seed: u64) -> Dataset {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let mut xy_m = Vec::new();
+        let mut coordinates_m = Vec::new();
         for _ in 0..runs {
             let shape = self.shape((noise.pressure * normal(&mut rng)).exp());
             let offset = [noise.alignment_m * normal(&mut rng), noise.alignment_m * normal(&mut rng)];
-            xy_m.extend(shape.iter().enumerate().map(|(i, v)| v + offset[i % 2] + noise.sigma_m * normal(&mut rng)));
+            coordinates_m.extend(shape.iter().enumerate().map(|(i, v)| v + offset[i % 2] + noise.sigma_m * normal(&mut rng)));
         }
         Dataset {
             name: "synthetic".to_string(),
@@ -78,8 +78,8 @@ impl SyntheticRobot {
             holds: self.holds(),
             markers: (0..self.markers).map(marker).collect(),
             samples_per_hold: self.samples,
-            xy_m,
-            z_m: None,
+            coordinates_m,
+            axes: 2,
             gauge_pa: None,
             lost: data::Lost::default(),
             told: Vec::new(),
@@ -107,8 +107,8 @@ pub fn displace(dataset: &mut Dataset, by: impl Fn(usize, usize, usize) -> [f64;
                 for marker in 0..dataset.markers.len() {
                     let at = run * n + dataset.offset(hold, sample, marker);
                     let d = by(hold, sample, marker);
-                    dataset.xy_m[at] += d[0];
-                    dataset.xy_m[at + 1] += d[1];
+                    dataset.coordinates_m[at] += d[0];
+                    dataset.coordinates_m[at + 1] += d[1];
                 }
             }
         }

@@ -83,13 +83,13 @@ pub fn scattered(truth: &Scenario, name: &str, holds: &[Hold], runs: usize, seed
 fn measured(name: &str, holds: &[Hold], (truth_m, slope_m): (&[f64], &[f64]), runs: usize, seed: u64) -> Dataset {
     let (camera_m, shift_m, pressure) = (1.2e-3, 0.3e-3, 0.01);
     let mut normal = Normal(seed);
-    let mut xy_m = Vec::new();
+    let mut coordinates_m = Vec::new();
     for _ in 0..runs {
         let of_run = [shift_m * normal.next(), shift_m * normal.next(), pressure * normal.next()];
         let values = truth_m.iter().zip(slope_m).enumerate();
-        xy_m.extend(values.map(|(i, (f, d))| f + of_run[i % 2] + of_run[2] * d + camera_m * normal.next()));
+        coordinates_m.extend(values.map(|(i, (f, d))| f + of_run[i % 2] + of_run[2] * d + camera_m * normal.next()));
     }
-    Dataset { xy_m, runs: (1..=runs).map(|run| run.to_string()).collect(), ..exact(name, holds, truth_m) }
+    Dataset { coordinates_m, runs: (1..=runs).map(|run| run.to_string()).collect(), ..exact(name, holds, truth_m) }
 }
 
 /// One run without scatter.
@@ -102,8 +102,8 @@ pub fn exact(name: &str, holds: &[Hold], truth_m: &[f64]) -> Dataset {
         holds: holds.to_vec(),
         markers: scenario().markers_m.iter().enumerate().map(marker).collect(),
         samples_per_hold: holds[0].t_s.len(),
-        xy_m: truth_m.to_vec(),
-        z_m: None,
+        coordinates_m: truth_m.to_vec(),
+        axes: 2,
         gauge_pa: None,
         lost: Lost::default(),
         told: Vec::new(),

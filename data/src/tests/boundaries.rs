@@ -126,10 +126,10 @@ fn six_robust_deviations_make_a_stray_and_ten_micrometres_none() {
         let (values, first) = (data.values_per_run(), data.run(0).to_vec());
         // Two runs above the median one, two below it: a robust deviation of 1.4826 √(5/4) times their distance.
         for (run, side) in [-1.0, 1.0, 0.0, -1.0, 1.0].into_iter().enumerate() {
-            (0..values).for_each(|i| data.xy_m[run * values + i] = first[i] + 1e-3 * scatter_mm * side);
+            (0..values).for_each(|i| data.coordinates_m[run * values + i] = first[i] + 1e-3 * scatter_mm * side);
         }
         let at = data.offset(2, 3, 1) + 1;
-        data.xy_m[values + at] = first[at] + 1e-3 * off_mm;
+        data.coordinates_m[values + at] = first[at] + 1e-3 * off_mm;
         check(&data, None).outliers.len()
     };
     let limit_mm = 6.0 * 1.482_602_2 * 1.25_f64.sqrt();

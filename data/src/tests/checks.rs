@@ -21,7 +21,7 @@ fn noisy(runs: usize, mut seed: u64) -> Dataset {
     for run in 0..runs {
         let (gain, offset) = (1.0 + 0.02 * normal(&mut seed), [0.5e-3 * normal(&mut seed), 0.5e-3 * normal(&mut seed)]);
         for i in 0..values {
-            let value = &mut data.xy_m[run * values + i];
+            let value = &mut data.coordinates_m[run * values + i];
             *value = if i % 2 == 1 { *value * gain } else { *value } + offset[i % 2] + 1e-3 * normal(&mut seed);
         }
     }
@@ -63,7 +63,7 @@ fn a_copied_run_is_noticed() {
     assert!(check(&data, None).identical_runs.is_empty());
     let copy = data.run(1).to_vec();
     let values = data.values_per_run();
-    data.xy_m[3 * values..].copy_from_slice(&copy);
+    data.coordinates_m[3 * values..].copy_from_slice(&copy);
     assert_eq!(check(&data, None).identical_runs, [["2".to_string(), "4".to_string()]]);
 }
 
@@ -74,7 +74,7 @@ fn a_marker_taken_for_another_in_one_frame_is_listed() {
         let mut data = noisy(runs, seed);
         let values = data.values_per_run();
         let one = data.offset(2, 3, 1) + 1;
-        data.xy_m[values + one] += 0.150;
+        data.coordinates_m[values + one] += 0.150;
         let report = check(&data, None);
         let place =
             |o: &&crate::check::Outlier| (o.run.as_str(), o.hold, o.sample, o.marker.as_str()) == ("2", 2, 3, "2");

@@ -9,7 +9,7 @@ fn a_table_becomes_the_tensor_in_si_units() {
     assert_eq!((data.name.as_str(), data.actuator.as_str()), ("markers", "epam"));
     assert_eq!(data.runs, ["1", "2", "3"]);
     assert_eq!(data.holds.len(), 5);
-    assert_eq!((data.samples_per_hold, data.xy_m.len()), (5, 3 * 5 * 5 * 2 * 2));
+    assert_eq!((data.samples_per_hold, data.coordinates_m.len()), (5, 3 * 5 * 5 * 2 * 2));
     let pressures: Vec<_> = data.holds.iter().map(|hold| (hold.p_act_pa, hold.phase, hold.occurrence)).collect();
     let load = |p| (p, Phase::Load, 0);
     assert_eq!(pressures, [load(0.0), load(1e4), load(2e4), load(3e4), (0.0, Phase::Unload, 0)]);
@@ -153,7 +153,7 @@ fn one_of_several_actuators_is_chosen_by_name() {
     std::fs::write(&path, epam.clone() + &spam).unwrap();
     let spec = |kind: &str| format!("{}{kind}", path.display());
     assert_eq!(load(&spec("#spam"), &mut |_, _| ()).unwrap().0.actuator, "spam");
-    assert_eq!(load(&spec("#EPAM"), &mut |_, _| ()).unwrap().0.xy_m, read(&epam).unwrap().xy_m);
+    assert_eq!(load(&spec("#EPAM"), &mut |_, _| ()).unwrap().0.coordinates_m, read(&epam).unwrap().coordinates_m);
     let error = load(&spec(""), &mut |_, _| ()).unwrap_err();
     assert_eq!(error.message(), "several actuators in one file: epam and spam");
     assert!(error.help().contains("#epam"), "{}", error.help());

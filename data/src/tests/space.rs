@@ -23,16 +23,15 @@ fn z_and_channels_are_read_and_come_back() {
     let channels: Vec<Vec<f64>> = dataset.holds.iter().map(|hold| hold.channels_pa().collect()).collect();
     assert_eq!(channels, [[0.0, 0.0], [20e3, 10e3], [10e3, 25e3], [0.0, 0.0]]);
     assert_eq!(dataset.holds.iter().map(|hold| hold.phase).collect::<Vec<_>>()[2..], [Phase::Load, Phase::Unload]);
-    let z = dataset.z_of_run(1).unwrap();
-    assert_eq!(z.len(), 4 * dataset.samples_per_hold * 2);
-    assert_eq!(dataset.place(1, 2, 0, 1)[2], Some(z[dataset.offset(2, 0, 1) / 2]));
+    assert_eq!((dataset.axes, dataset.run(1).len()), (3, 4 * dataset.samples_per_hold * 2 * 3));
+    assert_eq!(dataset.place(1, 2, 0, 1)[2], dataset.run(1)[dataset.offset(2, 0, 1) + 2]);
     assert!(dataset.travel_m(2) > 0.05 && dataset.clone().checked().is_ok());
     let mut csv = Vec::new();
     write_markers_csv(&dataset, &mut csv).unwrap();
     assert_eq!(String::from_utf8(csv.clone()).unwrap(), SPACE);
     let again = markers_of_table("markers.csv", &dataset.to_table(), None).unwrap();
     let close = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
-    assert!(close(&again.xy_m, &dataset.xy_m) && close(again.z_of_run(2).unwrap(), dataset.z_of_run(2).unwrap()));
+    assert!(close(&again.coordinates_m, &dataset.coordinates_m));
     assert!(again.holds.iter().zip(&dataset.holds).all(|(a, b)| close(&a.more_act_pa, &b.more_act_pa)));
 }
 
@@ -40,12 +39,12 @@ fn z_and_channels_are_read_and_come_back() {
 fn z_that_stands_still_changes_nothing_of_a_planar_table() {
     let plain = read(&table(3, 6)).unwrap();
     let flat = read(&with_z(&table(3, 6), |_, _| "7.5".into())).unwrap();
-    assert_eq!(Dataset { z_m: None, ..flat.clone() }, plain);
+    assert_eq!(flat.in_plane(), plain);
     assert_eq!((flat.left_aside().unwrap(), plain.left_aside().unwrap()), (None, None));
     let wobbly = read(&with_z(&table(3, 6), |i, _| format!("{}", i % 7))).unwrap();
     let told = wobbly.left_aside().unwrap().unwrap();
     assert!(told.contains("z varies by up to") && told.contains("left aside"), "{told}");
-    assert_eq!(wobbly.xy_m, plain.xy_m);
+    assert_eq!(wobbly.in_plane().coordinates_m, plain.coordinates_m);
 }
 
 #[test]
@@ -67,7 +66,7 @@ fn bad_columns_of_space_are_named() {
     let told = |text: &str| read(text).unwrap_err().to_string();
     assert!(told(&SPACE.replace("z_mm", "z")).contains("column z has no unit"));
     assert!(told(&SPACE.replace("z_mm", "z_m")).contains("it looks like millimetres"));
-    assert!(read(&SPACE.replace("z_mm", "z_px")).unwrap().z_m.is_none(), "another program's column");
+    assert!(read(&SPACE.replace("z_mm", "z_px")).unwrap().axes == 2, "another program's column");
     assert!(told(&SPACE.replace("p_act_1_kpa", "p_act_1")).contains("column p_act_1 has no unit"));
     assert!(told(&SPACE.replace("p_act_1_kpa", "p_act_2_kpa")).contains("p_act_1_kpa is not"));
     let row = SPACE.lines().nth(5).unwrap();
@@ -93,7 +92,7 @@ fn a_marker_that_was_not_seen_has_no_coordinate() {
     let (lost, whole) = (read(&text).unwrap(), read(SPACE).unwrap());
     assert_eq!(lost.lost.filled, [[1, 2, 1]]);
     assert!(losses(&lost).iter().any(|told| told.contains("lost in single runs")));
-    let [filled, seen] = [&lost, &whole].map(|set| set.place(1, 2, 0, 1)[2].unwrap());
+    let [filled, seen] = [&lost, &whole].map(|set| set.place(1, 2, 0, 1)[2]);
     assert!((filled - seen).abs() < 4e-3 && filled != seen, "{filled} {seen}");
     // 0, 0 is a place where z is another; with z 0 it is none.
     let row = SPACE.lines().nth(5).unwrap();

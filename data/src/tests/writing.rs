@@ -16,7 +16,7 @@ fn a_table_written_reads_back_to_the_last_decimal_and_to_the_same_bytes() {
     let again = read(&text).unwrap();
     assert_eq!((&again.runs, &again.markers), (&data.runs, &data.markers));
     assert_eq!(csv(&again), text);
-    assert!(again.xy_m.iter().zip(&data.xy_m).all(|(a, b)| (a - b).abs() <= 0.5001e-7));
+    assert!(again.coordinates_m.iter().zip(&data.coordinates_m).all(|(a, b)| (a - b).abs() <= 0.5001e-7));
     assert_eq!(text.lines().nth(1), Some("1,epam,0.0000,2.0000,0.0000,load,1,60.0000,0.1000"));
 }
 
@@ -34,7 +34,7 @@ fn stations_are_written_where_all_are_known_and_labels_are_quoted() {
 #[test]
 fn zero_is_written_without_a_sign() {
     let mut data = read(&table(1, 1)).unwrap();
-    data.xy_m[1] = -1e-9;
+    data.coordinates_m[1] = -1e-9;
     assert!(csv(&data).lines().nth(1).unwrap().ends_with(",0.0000"));
 }
 
@@ -46,7 +46,7 @@ fn a_dataset_as_a_table_goes_through_csv_unchanged() {
     let mut bytes = Vec::new();
     table.to_csv(&mut bytes).unwrap();
     let again = read(std::str::from_utf8(&bytes).unwrap()).unwrap();
-    assert!(again.xy_m.iter().zip(&data.xy_m).all(|(a, b)| (a - b).abs() <= 1e-16));
+    assert!(again.coordinates_m.iter().zip(&data.coordinates_m).all(|(a, b)| (a - b).abs() <= 1e-16));
 }
 
 #[test]
@@ -95,12 +95,12 @@ fn a_folder_that_does_not_exist_is_a_clear_error_and_an_earlier_file_survives() 
 fn a_dataset_whose_parts_do_not_fit_is_refused() {
     let good = read(&table(2, 5)).unwrap();
     assert_eq!(good.clone().checked().unwrap(), good);
-    let short = Dataset { xy_m: good.xy_m[1..].to_vec(), ..good.clone() };
+    let short = Dataset { coordinates_m: good.coordinates_m[1..].to_vec(), ..good.clone() };
     let mut nan = good.clone();
-    nan.xy_m[3] = f64::NAN;
+    nan.coordinates_m[3] = f64::NAN;
     let mut times = good.clone();
     times.holds[1].t_s.pop();
-    let empty = Dataset { runs: Vec::new(), xy_m: Vec::new(), ..good };
+    let empty = Dataset { runs: Vec::new(), coordinates_m: Vec::new(), ..good };
     for bad in [short, nan, times, empty] {
         assert!(matches!(bad.checked(), Err(DataError::Runs(_))));
     }
@@ -117,7 +117,7 @@ fn a_parquet_file_gives_the_same_dataset_and_the_same_errors_as_csv() {
     assert_eq!(read_parquet(&path).unwrap(), table);
     let (again, _) = load(&path.display().to_string(), &mut |_, _| ()).unwrap();
     assert_eq!((&again.runs, &again.holds), (&data.runs, &data.holds));
-    assert!(again.xy_m.iter().zip(&data.xy_m).all(|(a, b)| (a - b).abs() <= 1e-16));
+    assert!(again.coordinates_m.iter().zip(&data.coordinates_m).all(|(a, b)| (a - b).abs() <= 1e-16));
     table.columns.retain(|(name, _)| name != "p_act_kpa");
     table.to_parquet(&path).unwrap();
     let error = load(&path.display().to_string(), &mut |_, _| ()).unwrap_err();

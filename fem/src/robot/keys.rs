@@ -18,6 +18,8 @@ pub const KEYS: &[Key<RobotSettings>] = &[
         |s| s.seam_row_m, |s, v| s.seam_row_m = Some(v)),
     key("layer_gap_mm", 1e-3, [1e-4, 1.0], "distance between layers at the start",
         |s| Some(s.layer_gap_m), |s, v| s.layer_gap_m = v),
+    key("layer_friction", 1.0, [0.0, 2.0], "Coulomb friction between layers that touch",
+        |s| Some(s.layer_friction), |s, v| s.layer_friction = v),
     key("weld_mm", 1e-3, [0.0, 100.0], "width of the welds across the robot; 0: a line", |s| Some(s.weld_m), |s, v| s.weld_m = v),
     key("bending_factor", 1.0, [0.0, 10.0], "bending stiffness of one sheet over that of a solid plate",
         |s| Some(s.bending_factor), |s, v| s.bending_factor = v),

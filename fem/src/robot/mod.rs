@@ -230,7 +230,12 @@ fn chambers(scenario: &Scenario, settings: &RobotSettings) -> Vec<Chamber> {
 fn contact(mesh: &Mesh, pattern: &Pattern, settings: &RobotSettings) -> Option<Contact> {
     let wanted = settings.contact.unwrap_or(pattern.folds());
     let parts = mesh.parts.iter().map(|p| p.name.clone()).filter(|name| name != "tip_cap").collect();
-    wanted.then(|| Contact { gap_m: 0.5 * settings.layer_gap_m, parts, ..Contact::default() })
+    wanted.then(|| Contact {
+        friction: settings.layer_friction,
+        gap_m: 0.5 * settings.layer_gap_m,
+        parts,
+        ..Contact::default()
+    })
 }
 
 /// ω of [`Settling`] \[1/s\].

@@ -32,6 +32,8 @@ pub struct RobotSettings {
     pub seam_row_m: Option<f64>,
     /// Distance between layers at the start \[m\]. Published: 0.01 mm.
     pub layer_gap_m: f64,
+    /// Coefficient of Coulomb friction between layers that touch, where the robot has contact at all. Assumed.
+    pub layer_friction: f64,
     /// Width of the welds across the robot and along the actuator's sides \[m\]; 0 is a line, along which taped plies fold
     /// without end as the mesh gets finer. Assumed.
     pub weld_m: f64,
@@ -146,6 +148,7 @@ impl RobotSettings {
             ring_spacing: None,
             seam_row_m: None,
             layer_gap_m: 1e-5,
+            layer_friction: 0.0,
             weld_m: 3e-3,
             bending_factor: 0.2,
             bending_share: 1.0,

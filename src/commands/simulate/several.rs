@@ -6,7 +6,7 @@ use crate::prelude::*;
 use crate::shown::several_runs::{SimulationsAnswer, UncertainAnswer, table_text, uncertain_text};
 use compare::study::uncertain::Uncertain;
 use fem::session::{Cube, Job, RunTable, Settings, Source, Variation, simulate_all};
-use ibr::pages::{marker_intervals, mesh_plot, what_to_measure};
+use ibr::pages::{Files, marker_intervals, mesh_plot, what_to_measure};
 use report::lines;
 
 fn jobs(base: &Source, variations: &[Variation]) -> Result<Vec<Job>, Failure> {
@@ -33,7 +33,12 @@ pub(super) fn table(
     let mut outcome = Outcome::answer(table_text(&table), "ibr.simulations", &SimulationsAnswer::of(&table));
     let png = mesh_plot(&base.name, &table).and_then(|plot| lines(&plot).ok()).map(|drawn| drawn.png);
     let files = [("plot", "mesh.png", png), ("table", "table.csv", Some(table.csv().into_bytes()))];
-    write(&mut outcome, settings, files.into_iter().filter_map(|(what, name, bytes)| Some((what, name, bytes?))))?;
+    write(
+        &mut outcome,
+        settings,
+        files.into_iter().filter_map(|(what, name, bytes)| Some((what, name, bytes?))),
+        context,
+    )?;
     Ok(outcome)
 }
 
@@ -70,20 +75,22 @@ pub(super) fn uncertain(
         ));
     }
     let record = ("written", "uncertain.json", all.record().into_bytes());
-    write(&mut outcome, &settings, std::iter::once(record).chain(markers).chain(tornado))?;
+    write(&mut outcome, &settings, std::iter::once(record).chain(markers).chain(tornado), context)?;
     Ok(outcome)
 }
 
+/// Writes files and their manifest beside the runs.
 fn write(
     outcome: &mut Outcome,
     settings: &Settings,
     files: impl Iterator<Item = (&'static str, &'static str, Vec<u8>)>,
+    context: &mut Context,
 ) -> Result<(), Failure> {
     let folder = settings.folder.as_deref().unwrap_or(Path::new(""));
+    let mut written = Files::default();
     for (what, name, bytes) in files {
-        let path = folder.join(name);
-        data::write_atomically(&path, &bytes)?;
-        outcome.notes.push(format!("{what}: {}", path.display()));
+        outcome.notes.push(format!("{what}: {}", folder.join(name).display()));
+        written.files.push((name.into(), bytes));
     }
-    Ok(())
+    write_files(folder, &written, &[], context)
 }

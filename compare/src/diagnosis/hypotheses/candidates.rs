@@ -222,7 +222,7 @@ pub fn candidates(scenario: &Scenario) -> Vec<Candidate> {
     let absent = |effect: &Effect| !scenario.effects.iter().any(|e| e.name == effect.name);
     let (catalogue, actuator) = (scenario.catalogue(), scenario.actuator.kind.name);
     let is_described = scenario.effects.iter().any(|e| catalogue.by_name(&e.name).is_some_and(|e| !e.is_fitted()));
-    let fits = |e: &Effect| scenario.actuator.takes(e) && (e.is_fitted() || is_described);
+    let fits = |e: &Effect| scenario.takes(e) && (e.is_fitted() || is_described);
     catalogue.effects().filter(fits).filter(absent).map(|e| candidate(&e, actuator)).collect()
 }
 

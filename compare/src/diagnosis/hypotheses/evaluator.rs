@@ -4,9 +4,9 @@
 //! pressures share one equilibrium, unless the model has history: then the whole protocol is walked.
 
 use crate::error::CompareError;
-use crate::study::predict::{as_in_data, protocol};
+use crate::study::predict::{as_in_data, coordinates, loads, protocol};
 use data::Dataset;
-use models::{Loads, Model, Prediction, Scenario};
+use models::{Model, Prediction, Scenario};
 
 /// Fills `out`, in run layout, at the given holds \[m\]; other values stay as they are. Where too few runs saw a marker stands what
 /// stands in the data.
@@ -24,14 +24,13 @@ fn everywhere(scenario: &Scenario, dataset: &Dataset, holds: &[usize], out: &mut
     }
     let mut state = model.prediction();
     for (i, &hold) in holds.iter().enumerate() {
-        let [p_body, p_act] = pressures(dataset, hold);
-        match holds[..i].iter().find(|&&before| pressures(dataset, before) == [p_body, p_act]) {
+        let at = loads(&dataset.holds[hold], 1.0);
+        match holds[..i].iter().find(|&&before| loads(&dataset.holds[before], 1.0) == at) {
             Some(&twin) => out.copy_within(twin * width..(twin + 1) * width, hold * width),
             None => {
-                model.predict(&Loads::uniform(p_body, p_act), &mut state)?;
-                let row = &mut out[hold * width..(hold + 1) * width];
-                for (at, xy) in row.chunks_exact_mut(2).zip(state.markers.iter().cycle()) {
-                    at.copy_from_slice(xy);
+                model.predict(&at, &mut state)?;
+                for sample in out[hold * width..(hold + 1) * width].chunks_exact_mut(width / dataset.samples_per_hold) {
+                    sample.iter_mut().zip(coordinates(&state, dataset.axes)).for_each(|(to, value)| *to = value);
                 }
             }
         }
@@ -42,20 +41,16 @@ fn everywhere(scenario: &Scenario, dataset: &Dataset, holds: &[usize], out: &mut
 /// Walks the protocol of the dataset and keeps the holds wanted.
 fn walked(model: &Model, dataset: &Dataset, holds: &[usize], out: &mut [f64]) -> Result<(), CompareError> {
     let samples = dataset.samples_per_hold;
-    let width = 2 * dataset.markers.len();
+    let width = dataset.axes * dataset.markers.len();
     let mut keep = |step: usize, at: &Prediction| {
         if holds.contains(&(step / samples)) {
             let row = &mut out[step * width..(step + 1) * width];
-            row.chunks_exact_mut(2).zip(&at.markers).for_each(|(to, xy)| to.copy_from_slice(xy));
+            row.iter_mut().zip(coordinates(at, dataset.axes)).for_each(|(to, value)| *to = value);
         }
     };
     let steps = protocol(dataset, 1.0);
     model.follow(&steps, &mut model.prediction(), &mut keep)?;
     Ok(())
-}
-
-fn pressures(dataset: &Dataset, hold: usize) -> [f64; 2] {
-    [dataset.holds[hold].p_body_pa, dataset.holds[hold].p_act_pa]
 }
 
 #[cfg(test)]
@@ -71,7 +66,7 @@ mod tests {
             for effect in models::effects::EFFECTS.iter().filter(|e| e.applies_to(plain.actuator.kind.family)) {
                 let scenario = plain.with_effect(effect.name, &effect.typical());
                 let dataset = generate(&scenario, "made", &Generator { runs: 1, ..Generator::default() }).unwrap();
-                let whole = predict_dataset(&scenario, &dataset).unwrap().xy_m;
+                let whole = predict_dataset(&scenario, &dataset).unwrap().coordinates_m;
                 let mut fast = vec![0.0; whole.len()];
                 positions(&scenario, &dataset, &[1, 2], &mut fast).unwrap();
                 positions(&scenario, &dataset, &[0, 3, 4], &mut fast).unwrap();

@@ -9,10 +9,10 @@
 
 use crate::diagnosis::case::Case;
 use crate::diagnosis::problem::{Fit, Problem};
-use crate::diagnosis::source::pressure_levels;
 use crate::error::CompareError;
 use crate::fit::least_squares::{dot, products, square};
 use crate::policy;
+use data::Hold;
 
 /// Parts into which many runs are divided.
 const MOST_FOLDS: usize = 5;
@@ -102,14 +102,20 @@ fn taken_over_m2(fold: &Fold, fit: &Fit, predicted_m: &[f64], rows: &[usize]) ->
 
 fn pressure_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
     let dataset = &case.first().dataset;
-    let levels = pressure_levels(&dataset.holds);
+    let pressed = (0..dataset.holds.len()).filter(|h| dataset.holds[*h].sum_act_pa() > policy::ZERO_PRESSURE_PA);
+    let mut levels: Vec<&Hold> = Vec::new();
+    for hold in pressed.map(|h| &dataset.holds[h]) {
+        if !levels.iter().any(|level| policy::same_channels(level, hold)) {
+            levels.push(hold);
+        }
+    }
     if levels.len() < 2 {
         return Ok(Vec::new());
     }
     let (mean, noise) = (dataset.mean_over_runs(), case.noise());
     let width = mean.len() / dataset.holds.len();
-    let fold = |level: &f64| {
-        let is_out = |h: &usize| policy::is_same_pressure(*level, dataset.holds[*h].p_act_pa);
+    let fold = |level: &&Hold| {
+        let is_out = |h: &usize| policy::same_channels(level, &dataset.holds[*h]);
         let (out, kept): (Vec<usize>, Vec<usize>) = (0..dataset.holds.len()).partition(is_out);
         let count = |h: &usize| noise.seen(h * width..(h + 1) * width) as f64;
         let of_hold = |h: &usize| noise.mean_square(h * width..(h + 1) * width).unwrap_or(0.0) * count(h);

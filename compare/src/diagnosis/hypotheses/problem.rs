@@ -281,7 +281,7 @@ impl Problem<'_> {
             let own = &residual[from..from + width];
             let unseen = dataset.lost.unseen.iter().filter(|[hold, _]| block.holds.contains(hold)).count();
             from += width + gauge.as_ref().map_or(0, |gauge| gauge.readings.len());
-            (square(own) / (width - unseen * 2 * dataset.samples_per_hold) as f64).max(1.0)
+            (square(own) / (width - unseen * dataset.axes * dataset.samples_per_hold) as f64).max(1.0)
         };
         self.blocks.iter().map(&mut factor).collect()
     }

@@ -109,7 +109,7 @@ fn protocols(scenario: &Scenario, dataset: &Dataset, direct: Direct) -> Vec<Plan
     let tipped = [TIP_FORCE_N, -TIP_FORCE_N].map(|force| part(&tipped(scenario, force), &standard, body, usual)).into();
     let other_body = second_body(dataset, body);
     let plan = |name: &str, sentence: String, parts| Plan { name: name.into(), sentence, parts, tests: Vec::new() };
-    vec![
+    let mut plans = vec![
         plan("finer pressures", format!("repeat in steps of {:.1} kPa", top / 6e3), one(&fine, body, usual)),
         plan(
             "second body pressure",
@@ -126,7 +126,13 @@ fn protocols(scenario: &Scenario, dataset: &Dataset, direct: Direct) -> Vec<Plan
         ),
         plan("long hold", format!("hold every pressure for {LONG_HOLD_S:.0} s"), one(&standard, body, LONG_HOLD_S)),
         plan("repeat", "repeat the same protocol as often again".into(), one(&standard, body, usual)),
-    ]
+    ];
+    if scenario.is_spatial() {
+        // No load from outside acts on strips round the body.
+        plans.retain(|plan| !["tip force", "turned over"].contains(&plan.name.as_str()));
+        plans.iter_mut().for_each(|plan| plan.sentence += ", with the same pressure in all supply channels");
+    }
+    plans
 }
 
 /// `0,10,20,30,0@2`, as `ibr data generate --protocol` takes it; empty of a bending test.
@@ -173,12 +179,11 @@ fn protocol(dataset: &Dataset, pressures: &[f64], body: f64, hold_s: f64) -> Dat
     let mut planned = Dataset {
         runs: vec!["1".into()],
         holds,
-        xy_m: Vec::new(),
-        z_m: None,
+        coordinates_m: Vec::new(),
         gauge_pa: None,
         lost: Lost::default(),
         ..dataset.clone()
     };
-    planned.xy_m = vec![0.0; planned.values_per_run()];
+    planned.coordinates_m = vec![0.0; planned.values_per_run()];
     planned
 }

@@ -262,14 +262,14 @@ fn planned<'a>(
     };
     let scenarios = problem.scenarios(&block, &truth.effects, theta);
     let predicted = predict_dataset(&scenarios[block.bending_of[0]], &block.source.dataset)?;
-    let directions = nuisance_directions(&predicted.xy_m, &predicted.d_ln_pressure_m);
+    let directions = nuisance_directions(&predicted.coordinates_m, &predicted.d_ln_pressure_m, part.dataset.axes);
     let errors = block.source.gauge.as_ref().map(|g| g.errors_m(&block.source.dataset, &predicted.d_ln_pressure_m));
     let mut variance = noise.test_variance;
     if errors.is_some() {
         variance[0] = 0.0;
     }
     block.whitener = Whitener::with_columns(&directions, noise.unit_m(), &variance, &errors.unwrap_or_default())?;
-    block.target_m = predicted.xy_m;
+    block.target_m = predicted.coordinates_m;
     Ok(block)
 }
 

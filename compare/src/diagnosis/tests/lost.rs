@@ -15,9 +15,9 @@ fn without(marker: usize) -> Dataset {
     let whole = set();
     let width = whole.markers.len();
     let kept = |(i, _): &(usize, &[f64])| i % width != marker;
-    let xy_m = whole.xy_m.chunks(2).enumerate().filter(kept).flat_map(|(_, xy)| xy.to_vec()).collect();
+    let coordinates_m = whole.coordinates_m.chunks(2).enumerate().filter(kept).flat_map(|(_, xy)| xy.to_vec()).collect();
     let markers = whole.markers.iter().enumerate().filter(|(m, _)| *m != marker).map(|(_, m)| m.clone()).collect();
-    Dataset { markers, xy_m, ..whole }
+    Dataset { markers, coordinates_m, ..whole }
 }
 
 /// The set with a marker that was lost in every hold; what stands there is far off.
@@ -26,7 +26,7 @@ fn blind(marker: usize) -> Dataset {
     data.lost.unseen = (0..data.holds.len()).map(|hold| [hold, marker]).collect();
     let (runs, n) = (data.runs.len(), data.values_per_run());
     for i in data.unseen_values().collect::<Vec<_>>() {
-        (0..runs).for_each(|run| data.xy_m[run * n + i] = 0.7 + i as f64);
+        (0..runs).for_each(|run| data.coordinates_m[run * n + i] = 0.7 + i as f64);
     }
     data
 }
@@ -74,7 +74,7 @@ fn evaluated(dataset: &Dataset) -> Evaluation {
     let scenario = textbook_scenario("epam").unwrap().with_bending(1.0);
     let (scenario, _) = crate::study::fit_scenario(&scenario, dataset, None).unwrap();
     let predicted = crate::study::predict_dataset(&scenario, dataset).unwrap();
-    evaluate(dataset, &predicted.xy_m, &predicted.d_ln_pressure_m, &EvaluateOptions::default()).unwrap()
+    evaluate(dataset, &predicted.coordinates_m, &predicted.d_ln_pressure_m, &EvaluateOptions::default()).unwrap()
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod gauge;
 mod lost;
 pub mod pattern;
 mod pressures;
+mod space;
 mod together;
 
 use crate::diagnosis::candidates::candidates;
@@ -155,7 +156,7 @@ fn copies_are_not_repeats() {
     let plain = robot("spam");
     let mut data = measured(&plain, 3, 61);
     let first = data.run(0).to_vec();
-    data.xy_m.extend(first);
+    data.coordinates_m.extend(first);
     data.runs.push("copy".into());
     let d = run(&plain, &data);
     assert_eq!(d.runs, 3);
@@ -178,7 +179,7 @@ fn a_stray_sample_is_listed_and_does_not_decide() {
     let plain = robot("epam");
     let mut data = measured(&plain, 5, 81);
     let at = 2 * data.values_per_run() + data.offset(3, 1, 4);
-    data.xy_m[at] += 0.08;
+    data.coordinates_m[at] += 0.08;
     let d = run(&plain, &data);
     assert_eq!(d.outliers.samples.len(), 1);
     assert_eq!((d.outliers.samples[0].run.as_str(), d.outliers.samples[0].marker.as_str()), ("3", "5"));
@@ -272,7 +273,7 @@ fn what_a_protocol_hides_is_said() {
 fn a_base_that_does_not_fit_at_all_is_a_warning() {
     let plain = robot("epam");
     let mut data = measured(&plain, 5, 111);
-    data.xy_m.iter_mut().skip(1).step_by(2).for_each(|y| *y = -*y);
+    data.coordinates_m.iter_mut().skip(1).step_by(2).for_each(|y| *y = -*y);
     let d = run(&plain, &data);
     assert!(d.warnings.iter().any(|w| w.contains("does not fit at all")), "{:?}", d.warnings);
 }
@@ -353,8 +354,8 @@ fn the_fitted_base_hangs_neither_on_the_scenarios_stiffness_nor_on_the_scatter_o
         let width = data.values_per_run() / data.holds.len();
         let keep = |h: usize| data.holds[h].p_act_pa == p_act_pa;
         one.holds.retain(|hold| hold.p_act_pa == p_act_pa);
-        one.xy_m = data
-            .xy_m
+        one.coordinates_m = data
+            .coordinates_m
             .chunks(width)
             .enumerate()
             .filter(|(i, _)| keep(i % data.holds.len()))

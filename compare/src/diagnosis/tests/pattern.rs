@@ -62,7 +62,7 @@ fn one_of_sixty_markers_that_stands_alone_is_named() {
     let plain = robot("spam", 6.0);
     let told = plain.with_markers(&(0..60).map(|i| plain.length_m * (f64::from(i) + 0.5) / 60.0).collect::<Vec<_>>());
     let mut data = measured(&told, 3, 72);
-    data.xy_m.iter_mut().skip(2 * 40 + 1).step_by(2 * 60).for_each(|y| *y += 2e-3);
+    data.coordinates_m.iter_mut().skip(2 * 40 + 1).step_by(2 * 60).for_each(|y| *y += 2e-3);
     let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
     let d = of_one(&told, &data, None, &options).unwrap();
     assert_eq!(d.verdict, Some(Verdict::OutOfCatalog), "{:?}", d.summary);
@@ -159,8 +159,8 @@ fn what_hardly_moves_the_model_is_no_attempt() {
     let plain = robot("spam", 6.0);
     let mut data = generate(&plain, "made", &Generator { seed: 71, ..Generator::default() }).unwrap();
     // Labels of markers 3 and 4 exchanged: no law of the catalogue does that.
-    for at in (0..data.xy_m.len()).step_by(12) {
-        (4..6).for_each(|k| data.xy_m.swap(at + k, at + k + 2));
+    for at in (0..data.coordinates_m.len()).step_by(12) {
+        (4..6).for_each(|k| data.coordinates_m.swap(at + k, at + k + 2));
     }
     let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
     let d = of_one(&plain, &data, None, &options).unwrap();

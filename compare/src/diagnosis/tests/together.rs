@@ -223,7 +223,7 @@ fn two_halves_together_say_what_the_whole_says() {
     let whole = measured(&plain.with_effect("end_constraint", &[0.446, 1.0]), 10, 311);
     let half = |first: usize| Dataset {
         runs: whole.runs[first..first + 5].to_vec(),
-        xy_m: (first..first + 5).flat_map(|r| whole.run(r).to_vec()).collect(),
+        coordinates_m: (first..first + 5).flat_map(|r| whole.run(r).to_vec()).collect(),
         ..whole.clone()
     };
     let (one, other) = (half(0), half(5));

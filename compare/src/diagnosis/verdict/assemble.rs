@@ -8,7 +8,7 @@ use crate::diagnosis::decide::Decision;
 use crate::diagnosis::detect::undetectable;
 use crate::diagnosis::heldout::HeldOut;
 use crate::diagnosis::interval::intervals;
-use crate::diagnosis::limits::limits;
+use crate::diagnosis::limits::{limits, not_in_space};
 use crate::diagnosis::pairs::describe;
 use crate::diagnosis::problem::{Block, Fit};
 use crate::diagnosis::result::*;
@@ -79,7 +79,7 @@ pub fn assemble(case: &Case, decision: &Decision, beside: Beside) -> Result<Diag
         base: base(case, last, &held_out, &noise)?,
         noise,
         rule_out_first: rule_out_first(case, &ranked, decision),
-        limits: limits(&datasets, &undetectable),
+        limits: [limits(&datasets, &undetectable), not_in_space(&case.first().scenario)].concat(),
         by_design: by_design(case, decision.verdict, &decision.singles.fits).map(as_close).collect(),
         ranked,
         covered: (added.len() == 1).then_some(policy::COVERED),
@@ -157,7 +157,7 @@ fn base(case: &Case, last: &Fit, held_out: &HeldOut, noise: &NoiseSummary) -> Re
         hi: intervals[k].map(|i| i[1]),
         at_bound: case.base.binding[k],
     };
-    let nominal = predict_dataset(&case.first().scenario, &case.first().dataset)?.xy_m;
+    let nominal = predict_dataset(&case.first().scenario, &case.first().dataset)?.coordinates_m;
     Ok(BaseFit {
         bending_nominal_nm2: case.first().scenario.bending_stiffness,
         bending: case.bendings(&case.base).into_iter().enumerate().map(bending).collect(),

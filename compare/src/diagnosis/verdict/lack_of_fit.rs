@@ -40,7 +40,7 @@ pub fn lack_of_fit(
     let all = p_of(&noise.whiten(&c.residual_m), values.saturating_sub(fitted), noise);
     let means = values / c.layout.samples;
     let hold_means = p_of(&whitened(&c, &hold_means(&c.layout))?, means.saturating_sub(fitted), noise);
-    let marker_means = p_of(&whitened(&c, &marker_means(&c))?, 2 * c.layout.markers, noise);
+    let marker_means = p_of(&whitened(&c, &marker_means(&c))?, c.layout.axes * c.layout.markers, noise);
     let drift = drift(&c, noise);
     let least = [all, hold_means, drift, marker_means].into_iter().fold(1.0, f64::min);
     let p_value = reported_p(4.0 * least);
@@ -62,7 +62,7 @@ fn p_of(white: &[f64], dof: usize, noise: &NoiseModel) -> f64 {
 
 fn hold_means(layout: &Layout) -> Vec<Weights> {
     let cells = (0..layout.holds).flat_map(|h| (0..layout.markers).map(move |m| (h, m)));
-    cells.flat_map(|(h, m)| [0, 1].map(|axis| layout.mean_weights(h, m, axis))).collect()
+    cells.flat_map(|(h, m)| (0..layout.axes).map(move |axis| layout.mean_weights(h, m, axis))).collect()
 }
 
 /// Of the holds in which a marker was seen; their squares have the same total for every marker.
@@ -74,7 +74,7 @@ fn marker_means(c: &BesideMean) -> Vec<Weights> {
         let holds = seen.into_iter().flat_map(|h| layout.mean_weights(h, m, axis));
         holds.map(|(i, w)| (i, share * w)).collect()
     };
-    (0..layout.markers).flat_map(|m| [0, 1].map(|axis| mean(m, axis))).collect()
+    (0..layout.markers).flat_map(|m| (0..layout.axes).map(move |axis| mean(m, axis))).collect()
 }
 
 /// Whitened values of means of equally many values each, no value in two of them.

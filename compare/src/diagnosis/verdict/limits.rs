@@ -8,12 +8,13 @@ use crate::fit::basis::Basis;
 use crate::fit::least_squares::square;
 use crate::policy;
 use crate::wording::list;
-use data::{Dataset, Phase};
+use data::{Dataset, Hold, Phase};
+use models::Scenario;
 
 pub fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Vec<String> {
     let mut limits = Vec::new();
     let holds = || datasets.iter().flat_map(|dataset| &dataset.holds);
-    let mut levels: Vec<f64> = holds().map(|h| h.p_act_pa).filter(|p| *p > policy::ZERO_PRESSURE_PA).collect();
+    let mut levels: Vec<f64> = holds().map(Hold::sum_act_pa).filter(|p| *p > policy::ZERO_PRESSURE_PA).collect();
     levels.sort_by(f64::total_cmp);
     levels.dedup_by(|a, b| policy::is_same_pressure(*a, *b));
     if levels.len() < 2 {
@@ -44,6 +45,16 @@ pub fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Vec<Strin
         limits.push(format!("no size within its bounds would be seen: {}", list(&unseen)));
     }
     limits
+}
+
+/// Effects that act on the actuator of a robot in space and are not built for strips round the body, in one sentence; none of a planar
+/// robot.
+pub fn not_in_space(scenario: &Scenario) -> Vec<String> {
+    let catalogue = scenario.catalogue();
+    let left_out = catalogue.effects().filter(|e| scenario.actuator.takes(e) && !scenario.takes(e));
+    let names: Vec<String> = left_out.map(|e| e.name.to_string()).collect();
+    let words = "not built for strips round the body and left out, as is the missing moment";
+    if names.is_empty() { Vec::new() } else { vec![format!("{words}: {}", list(&names))] }
 }
 
 /// Says so if the markers, fitted without it, ask for another bending stiffness than the bending test found.
@@ -83,8 +94,9 @@ fn tests_of_their_own(case: &Case) -> Vec<String> {
 pub fn warnings(case: &Case) -> Vec<String> {
     let mut warnings: Vec<String> = bending_test(case).into_iter().chain(tests_of_their_own(case)).collect();
     let target = &case.problem.blocks[0].target_m;
+    let axes = case.first().dataset.axes;
     let moved = |values: &[f64]| -> f64 {
-        let y = values.iter().skip(1).step_by(2).map(|y| y * y).sum::<f64>();
+        let y = values.chunks_exact(axes).flat_map(|place| &place[1..]).map(|y| y * y).sum::<f64>();
         1e3 * (y / values.len() as f64).sqrt()
     };
     let left = case.error_mm(&case.prediction(&case.base));

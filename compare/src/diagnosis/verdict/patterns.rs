@@ -79,9 +79,9 @@ struct Outline {
     place: Vec<usize>,
 }
 
-/// All patterns for a prediction in run layout \[m\]; none for data of another shape.
+/// All patterns for a prediction in run layout \[m\]; none for data of another shape, and none in space.
 pub fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
-    let Ok(layout) = Layout::of(&case.first().dataset) else { return Vec::new() };
+    let Some(layout) = planar(case) else { return Vec::new() };
     let (markers, outlines) = (&case.first().dataset.markers, outlines(case, &layout, prediction_m));
     let bent = bending(&layout, prediction_m);
     let stations = order(&case.first().scenario.markers_m);
@@ -166,7 +166,7 @@ const AXES: [(&str, [f64; 2]); 2] = [("x", [1.0, 0.0]), ("y", [0.0, 1.0])];
 /// Uniform bending of every hold by itself, what any law of a uniform robot may do: of the outline, and as the model bends with
 /// pressure, which knows stretches without actuator.
 pub fn uniform_bending(case: &Case, prediction_m: &[f64]) -> Vec<Vec<f64>> {
-    let Ok(layout) = Layout::of(&case.first().dataset) else { return Vec::new() };
+    let Some(layout) = planar(case) else { return Vec::new() };
     let outlines = outlines(case, &layout, prediction_m);
     let bent = Place::Bends(stretches(case).iter().map(|[_, ds]| *ds).collect());
     let by_model = |h: usize| {
@@ -176,6 +176,11 @@ pub fn uniform_bending(case: &Case, prediction_m: &[f64]) -> Vec<Vec<f64>> {
     };
     let by_outline = |h: usize| direction(case, &layout, &outlines, &bent, &alone(layout.holds, h));
     (0..layout.holds).flat_map(|h| [by_outline(h), by_model(h)]).collect()
+}
+
+/// The layout of data in one plane, in which a place can be rotated one way only.
+fn planar(case: &Case) -> Option<Layout> {
+    Layout::of(&case.first().dataset).ok().filter(|layout| layout.axes == 2 && !case.first().scenario.is_spatial())
 }
 
 /// Stretches between neighbouring markers, the first from the base: middle and length over the last station.
