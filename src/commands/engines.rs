@@ -3,7 +3,7 @@
 use super::fem_inputs::{kept, pressures, robots};
 use crate::cli::CompareArgs;
 use crate::prelude::*;
-use crate::shown::engines::{EnginesAnswer, text};
+use compare::study::engines::{BodyVolumes, EnginePair, Engines, branches, ledgers, line_table, summary, volume_table};
 use compare::study::engines::{EngineLine, EngineRun, all_runs, engines, lines, runs_json, runs_of, seed_jobs, stored};
 use fem::session::Source;
 use ibr::pages::engines_page;
@@ -40,4 +40,38 @@ fn made(args: &CompareArgs, robots: &[(Source, Scenario)], context: &mut Context
     let others = all_runs(&folder)?.into_iter().filter(|r| !own.contains(r)).collect::<Vec<_>>();
     own.extend(others);
     Ok(own)
+}
+
+/// `ibr.engines`: `ibr compare --engines`
+#[derive(Serialize)]
+struct EnginesAnswer<'a> {
+    /// Every source at every pressure
+    lines: &'a [EngineLine],
+    /// Ledgers of both engines
+    ledgers: Vec<RobotLedgers<'a>>,
+    /// Volumes of body and actuator
+    volumes: Vec<&'a BodyVolumes>,
+}
+
+/// Ledgers of a robot.
+#[derive(Serialize)]
+struct RobotLedgers<'a> {
+    /// Name of the robot
+    robot: &'a str,
+    /// Ledgers of both engines, by pressure
+    pairs: &'a [EnginePair],
+}
+
+impl<'a> EnginesAnswer<'a> {
+    fn of(lines: &'a [EngineLine], engines: &'a Engines) -> EnginesAnswer<'a> {
+        let ledgers = engines.robots.iter().map(|r| RobotLedgers { robot: &r.scenario.name, pairs: &r.pairs });
+        let volumes = engines.robots.iter().flat_map(|r| &r.bodies).collect();
+        EnginesAnswer { lines, ledgers: ledgers.collect(), volumes }
+    }
+}
+
+/// Tables of a comparison of both engines.
+fn text(lines: &[EngineLine], Engines { robots, .. }: &Engines) -> Result<String, Failure> {
+    let tables = [summary(robots)?, line_table(lines), branches(robots), ledgers(robots), volume_table(robots)];
+    Ok(tables.iter().filter(|table| !table.rows.is_empty()).map(printed).collect::<Vec<_>>().join("\n"))
 }

@@ -3,8 +3,10 @@
 use super::shards::{Work, by_scheduler, shard};
 use crate::cli::SweepArgs;
 use crate::prelude::*;
-use crate::shown::swept::{SweepAnswer, swept_text};
+use crate::tables::Table as Rows;
+use ::sweep::influence::{influences, pairs};
 use data::Table;
+use data::table::Column;
 use ibr::pages::{sweep_picture_names, sweep_pictures};
 use sweep::{Found, Settings, Study, SweepError, collect, parts_missing, run as compute};
 
@@ -69,4 +71,110 @@ fn whole(
     write_files(folder, &files, &inputs, context)?;
     outcome.notes.push(format!("table: {}", folder.join(name).display()));
     Ok(outcome)
+}
+
+/// Failed cases by their reason, the most frequent first.
+fn failures(table: &Table) -> Vec<(String, usize)> {
+    let texts = |name: &str| match table.columns.iter().find(|column| column.0 == name) {
+        Some((_, Column::Str(all))) => &all[..],
+        _ => &[],
+    };
+    let mut counted: std::collections::BTreeMap<&str, usize> = std::collections::BTreeMap::new();
+    for (status, reason) in texts("status").iter().zip(texts("reason")) {
+        if status == "failed" {
+            *counted.entry(reason).or_default() += 1;
+        }
+    }
+    let mut found: Vec<(String, usize)> = counted.into_iter().map(|(why, n)| (why.to_string(), n)).collect();
+    found.sort_by_key(|(_, n)| std::cmp::Reverse(*n));
+    found
+}
+
+/// How far the engines are from each other where both have a case.
+fn agreement(table: &Table, (output, what): (&str, &str)) -> String {
+    let mut off: Vec<f64> = pairs(table, output).iter().map(|[model, fe]| model - fe).collect();
+    off.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let (Some(middle), Some(worst)) = (off.get(off.len() / 2), off.last()) else { return String::new() };
+    format!(
+        "\n{} cases by both: the model's {what} is {:.1} mm off in the median, {worst:+.1} mm at worst\n",
+        off.len(),
+        middle.abs()
+    )
+}
+
+/// Reasons that are printed.
+const MOST_REASONS: usize = 3;
+
+fn swept_text(study: &Study, found: &Found, table: &Table) -> String {
+    let engines: Vec<String> =
+        study.engines.iter().map(|engine| format!("{} cases by {}", study.cases(*engine), engine.word())).collect();
+    let name = &study.base.scenario.name;
+    let mut text = format!(
+        "{}: {}; {} of {} parts were there before\n",
+        if name.is_empty() { &study.base.name } else { name },
+        engines.join(", "),
+        found.kept,
+        found.parts
+    );
+    for engine in &study.engines {
+        for (output, what) in study.heights() {
+            text += &Rows::of(influences(study, table, *engine, output))
+                .words("key", |i| i.key.clone())
+                .number("lowest mm", 1, |i| i.range()[0])
+                .number("highest mm", 1, |i| i.range()[1])
+                .under(&format!("Mean {what} over the values of each key, {}:", engine.word()));
+        }
+    }
+    study.heights().iter().for_each(|height| text += &agreement(table, *height));
+    let failed = failures(table);
+    let count: usize = failed.iter().map(|f| f.1).sum();
+    if count > 0 {
+        text += &format!("\n{count} rows failed:\n");
+    }
+    text + &lines("  - ", failed.iter().take(MOST_REASONS).map(|(why, n)| format!("{n}: {why}")))
+}
+
+/// `ibr.sweep`: `ibr sweep STUDY`
+#[derive(Serialize)]
+struct SweepAnswer<'a> {
+    /// The study as typed
+    study: String,
+    /// The robot
+    scenario: &'a str,
+    /// Cases of the study
+    cases: usize,
+    /// What computes the cases
+    engines: Vec<&'static str>,
+    /// What was done
+    #[serde(flatten)]
+    found: &'a Found,
+    /// Rows without numbers, by their reason
+    failed: Vec<FailedRows>,
+    /// Columns of the table
+    columns: Vec<String>,
+}
+
+/// Rows without numbers for one reason.
+#[derive(Serialize)]
+struct FailedRows {
+    /// Why
+    reason: String,
+    /// How many
+    rows: usize,
+}
+
+impl<'a> SweepAnswer<'a> {
+    /// Of a study in a file; without a table only a shard was made.
+    fn of(file: &Path, study: &'a Study, found: &'a Found, table: Option<&Table>) -> SweepAnswer<'a> {
+        let failed = table.map_or(Vec::new(), failures).into_iter();
+        SweepAnswer {
+            study: file.display().to_string(),
+            scenario: &study.base.name,
+            cases: study.cases(sweep::Engine::Reduced),
+            engines: study.engines.iter().map(|engine| engine.word()).collect(),
+            found,
+            failed: failed.map(|(reason, rows)| FailedRows { reason, rows }).collect(),
+            columns: sweep::names(study),
+        }
+    }
 }

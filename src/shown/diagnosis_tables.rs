@@ -55,7 +55,7 @@ fn p_cell(p: Option<f64>) -> String {
     p.map_or("–".into(), p_text)
 }
 
-pub(super) fn p_text(p: f64) -> String {
+pub(crate) fn p_text(p: f64) -> String {
     match p {
         p if p <= 1e-6 => "< 1e-6".into(),
         p if p < 1e-3 => format!("{p:.0e}"),

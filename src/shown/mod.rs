@@ -1,23 +1,13 @@
 //! Results as tables and sentences, and as JSON.
 
-pub(crate) mod bench_diagnosis;
-pub(crate) mod breakdown;
-pub(crate) mod characterized;
-pub(crate) mod check;
 pub mod comparison;
 pub(crate) mod demo;
-pub(crate) mod designed;
 pub mod diagnosis;
 pub(crate) mod diagnosis_tables;
-pub(crate) mod engines;
 pub mod extension;
 pub(crate) mod held;
-pub(crate) mod one_number;
-pub(crate) mod paper;
 pub mod predicted;
 pub mod run;
-pub(crate) mod several_runs;
-pub(crate) mod swept;
 pub mod validation;
 
 use fem::record::RecordShape;
