@@ -35,7 +35,7 @@ pub(super) fn run(args: &CharacterizeArgs, context: &mut Context) -> Result<Outc
         let also = fabric.as_ref().map_or("", |_| ", fabric.toml");
         text.push_str(&format!("Plots, tables{also} in {}\n", folder.display()));
     }
-    Ok(Outcome::answer(text, "ibr.characterize", &FabricAnswer::of(&found, fabric.as_deref())))
+    Ok(Outcome::answer(text, "ibr.characterize", &fabric_answer(&found, fabric.as_deref())))
 }
 
 fn settings(args: &CharacterizeArgs) -> Result<Reduction, Failure> {
@@ -216,45 +216,43 @@ struct LawOnTest<'a> {
     rms: f64,
 }
 
-impl<'a> FabricAnswer<'a> {
-    /// Of what was found, with the text of `fabric.toml` if there is one.
-    fn of(found: &'a Characterized, fabric_toml: Option<&'a str>) -> FabricAnswer<'a> {
-        let yarn = |direction| found.yarns.iter().find(|y| y.direction == direction).map(|y| &y.rows[..]);
-        let quantity = |number: &'a FabricNumber| FabricQuantity { number, interval: number.scatter.interval() };
-        let specimens = found.specimens.iter().map(|s| SpecimenRead {
-            specimen: &s.name,
-            file: &s.file,
-            direction_deg: s.direction.degrees(),
-            modulus_pa: s.modulus_pa,
-            modulus_to_strain: s.modulus_strain,
-            slack_strain: s.slack,
-            poisson: s.poisson,
-            c10_pa: s.c10_pa.map(|c| c[0]),
-            locking_rad: locking_rad(s),
-            shear_rad_n_per_m: s.strip.as_ref().map(|s| &s.shear[..]),
-        });
-        let replays = found.replays.iter().map(|r| LawOnTest {
-            law: &r.law,
-            specimen: &found.specimens[r.specimen].name,
-            used_for_the_law: r.used,
-            direction_deg: found.specimens[r.specimen].direction.degrees(),
-            at_end: r.at_end,
-            rms: r.rms,
-        });
-        FabricAnswer {
-            provenance: found.provenance,
-            quantities: found.quantities.iter().map(quantity).collect(),
-            specimens: specimens.collect(),
-            warp_strain_pa: yarn(Direction::Warp),
-            fill_strain_pa: yarn(Direction::Fill),
-            shear_rad_n_per_m: found.shear.as_ref().map(|s| &s.rows[..]),
-            shear_rad_pa: found.shear.as_ref().and_then(|s| s.moment_pa.as_deref()),
-            thickness_m: found.thickness_m,
-            replays: replays.collect(),
-            warnings: &found.warnings,
-            notes: &found.notes,
-            fabric_toml,
-            measured_toml: measured_toml(found, &program()),
-        }
+/// Of what was found, with the text of `fabric.toml` if there is one.
+fn fabric_answer<'a>(found: &'a Characterized, fabric_toml: Option<&'a str>) -> FabricAnswer<'a> {
+    let yarn = |direction| found.yarns.iter().find(|y| y.direction == direction).map(|y| &y.rows[..]);
+    let quantity = |number: &'a FabricNumber| FabricQuantity { number, interval: number.scatter.interval() };
+    let specimens = found.specimens.iter().map(|s| SpecimenRead {
+        specimen: &s.name,
+        file: &s.file,
+        direction_deg: s.direction.degrees(),
+        modulus_pa: s.modulus_pa,
+        modulus_to_strain: s.modulus_strain,
+        slack_strain: s.slack,
+        poisson: s.poisson,
+        c10_pa: s.c10_pa.map(|c| c[0]),
+        locking_rad: locking_rad(s),
+        shear_rad_n_per_m: s.strip.as_ref().map(|s| &s.shear[..]),
+    });
+    let replays = found.replays.iter().map(|r| LawOnTest {
+        law: &r.law,
+        specimen: &found.specimens[r.specimen].name,
+        used_for_the_law: r.used,
+        direction_deg: found.specimens[r.specimen].direction.degrees(),
+        at_end: r.at_end,
+        rms: r.rms,
+    });
+    FabricAnswer {
+        provenance: found.provenance,
+        quantities: found.quantities.iter().map(quantity).collect(),
+        specimens: specimens.collect(),
+        warp_strain_pa: yarn(Direction::Warp),
+        fill_strain_pa: yarn(Direction::Fill),
+        shear_rad_n_per_m: found.shear.as_ref().map(|s| &s.rows[..]),
+        shear_rad_pa: found.shear.as_ref().and_then(|s| s.moment_pa.as_deref()),
+        thickness_m: found.thickness_m,
+        replays: replays.collect(),
+        warnings: &found.warnings,
+        notes: &found.notes,
+        fabric_toml,
+        measured_toml: measured_toml(found, &program()),
     }
 }

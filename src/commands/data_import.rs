@@ -38,7 +38,7 @@ pub(super) fn run(args: &Import, context: &mut Context) -> Result<Outcome, Failu
         }
         None => text.push_str("\nNothing was written: add --out FOLDER\n"),
     }
-    Ok(Outcome::answer(text, "ibr.data.import", &ImportAnswer::of(&made, args.out.as_deref())))
+    Ok(Outcome::answer(text, "ibr.data.import", &import_answer(&made, args.out.as_deref())))
 }
 
 fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
@@ -95,14 +95,12 @@ struct ImportAnswer<'a> {
     folder: Option<String>,
 }
 
-impl<'a> ImportAnswer<'a> {
-    /// Of an import into a folder.
-    fn of(made: &'a Imported, folder: Option<&Path>) -> ImportAnswer<'a> {
-        let Imported { dataset: set, program, told, .. } = made;
-        let markers = set.markers.iter().map(|marker| marker.name.as_str()).collect();
-        let folder = folder.map(|out| out.display().to_string());
-        ImportAnswer { program, runs: &set.runs, markers, holds: set.holds.len(), told, folder }
-    }
+/// Of an import into a folder.
+fn import_answer<'a>(made: &'a Imported, folder: Option<&Path>) -> ImportAnswer<'a> {
+    let Imported { dataset: set, program, told, .. } = made;
+    let markers = set.markers.iter().map(|marker| marker.name.as_str()).collect();
+    let folder = folder.map(|out| out.display().to_string());
+    ImportAnswer { program, runs: &set.runs, markers, holds: set.holds.len(), told, folder }
 }
 
 /// `ibr.data.import.example`: `ibr data import --example FOLDER`

@@ -36,7 +36,7 @@ pub(super) fn run(args: &DesignArgs, context: &mut Context) -> Result<Outcome, F
     files.retired = PICTURES.iter().chain(&["pattern.svg"]).map(|name| name.to_string()).collect();
     let inputs = [read_input(&args.wish), Input::of(&wish.base.name, wish.base.text.as_bytes())];
     write_files(&folder, &files, &inputs, context)?;
-    let answer = DesignAnswer::of(args.wish.display().to_string(), &wish, &rounds);
+    let answer = design_answer(args.wish.display().to_string(), &wish, &rounds);
     let mut outcome = Outcome::answer(design_text(&wish, &rounds), "ibr.design", &answer);
     outcome.notes.extend(pattern.err().map(|why| format!("no pattern: {why}")));
     outcome.notes.push(format!("robot: {}", folder.join("design.toml").display()));
@@ -336,32 +336,30 @@ struct CheckedDesign<'a> {
     written: bool,
 }
 
-impl<'a> DesignAnswer<'a> {
-    /// What came of a wish, as typed.
-    fn of(typed: String, wish: &'a Wish, rounds: &'a Rounds) -> DesignAnswer<'a> {
-        let best = rounds.best();
-        let found = &rounds.all[best].design;
-        let one = |(k, round): (usize, &'a Round)| CheckedDesign {
-            design: TriedDesign::of(round),
-            worst_mm: 1e3 * round.worst_m(),
-            corrected_by_finite_elements: round.corrected.as_deref(),
-            written: k == best,
-        };
-        let corrected = rounds.corrections > 0;
-        DesignAnswer {
-            wish: typed,
-            scenario: &wish.base.name,
-            reached: rounds.reached(wish),
-            tolerance_mm: 1e3 * wish.tolerance * found.file.length_m,
-            best: TriedDesign::of(&rounds.all[best]),
-            p_act_channels_kpa: found.loads.actuator_pa.iter().map(|pa| 1e-3 * pa).collect(),
-            p_body_kpa: 1e-3 * found.loads.body_pa,
-            interval: found.spread,
-            held: &found.held,
-            starts: found.starts[0],
-            starts_that_agree: found.starts[1],
-            designs: corrected.then(|| rounds.all.iter().enumerate().map(one).collect()),
-            ended: corrected.then(|| rounds.end(wish)),
-        }
+/// What came of a wish, as typed.
+fn design_answer<'a>(typed: String, wish: &'a Wish, rounds: &'a Rounds) -> DesignAnswer<'a> {
+    let best = rounds.best();
+    let found = &rounds.all[best].design;
+    let one = |(k, round): (usize, &'a Round)| CheckedDesign {
+        design: TriedDesign::of(round),
+        worst_mm: 1e3 * round.worst_m(),
+        corrected_by_finite_elements: round.corrected.as_deref(),
+        written: k == best,
+    };
+    let corrected = rounds.corrections > 0;
+    DesignAnswer {
+        wish: typed,
+        scenario: &wish.base.name,
+        reached: rounds.reached(wish),
+        tolerance_mm: 1e3 * wish.tolerance * found.file.length_m,
+        best: TriedDesign::of(&rounds.all[best]),
+        p_act_channels_kpa: found.loads.actuator_pa.iter().map(|pa| 1e-3 * pa).collect(),
+        p_body_kpa: 1e-3 * found.loads.body_pa,
+        interval: found.spread,
+        held: &found.held,
+        starts: found.starts[0],
+        starts_that_agree: found.starts[1],
+        designs: corrected.then(|| rounds.all.iter().enumerate().map(one).collect()),
+        ended: corrected.then(|| rounds.end(wish)),
     }
 }

@@ -19,7 +19,7 @@ pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, 
     for robot in &found.robots {
         all.extend(lines(robot)?);
     }
-    let mut outcome = Outcome::answer(text(&all, &found)?, "ibr.engines", &EnginesAnswer::of(&all, &found));
+    let mut outcome = Outcome::answer(text(&all, &found)?, "ibr.engines", &engines_answer(&all, &found));
     (context.progress)("drawing the report", None);
     let imprint = imprint();
     let mut files = engines_page(&found, &imprint)?;
@@ -62,12 +62,10 @@ struct RobotLedgers<'a> {
     pairs: &'a [EnginePair],
 }
 
-impl<'a> EnginesAnswer<'a> {
-    fn of(lines: &'a [EngineLine], engines: &'a Engines) -> EnginesAnswer<'a> {
-        let ledgers = engines.robots.iter().map(|r| RobotLedgers { robot: &r.scenario.name, pairs: &r.pairs });
-        let volumes = engines.robots.iter().flat_map(|r| &r.bodies).collect();
-        EnginesAnswer { lines, ledgers: ledgers.collect(), volumes }
-    }
+fn engines_answer<'a>(lines: &'a [EngineLine], engines: &'a Engines) -> EnginesAnswer<'a> {
+    let ledgers = engines.robots.iter().map(|r| RobotLedgers { robot: &r.scenario.name, pairs: &r.pairs });
+    let volumes = engines.robots.iter().flat_map(|r| &r.bodies).collect();
+    EnginesAnswer { lines, ledgers: ledgers.collect(), volumes }
 }
 
 /// Tables of a comparison of both engines.

@@ -38,7 +38,7 @@ pub(super) fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome, Fa
                 "{} parts of shard {}/{} are there; {missing} of other shards are not yet. The last shard writes the table\n",
                 found.parts, shard.which, shard.of
             );
-            Ok(Outcome::answer(text, "ibr.sweep", &SweepAnswer::of(&args.study, &study, &found, None)))
+            Ok(Outcome::answer(text, "ibr.sweep", &sweep_answer(&args.study, &study, &found, None)))
         }
         Err(damaged) => Err(damaged.into()),
     }
@@ -56,7 +56,7 @@ fn whole(
     (context.progress)("writing the table", None);
     let mut files = sweep_pictures(study, &table)?;
     files.retire(&sweep_picture_names());
-    let answer = SweepAnswer::of(&args.study, study, found, Some(&table));
+    let answer = sweep_answer(&args.study, study, found, Some(&table));
     let mut outcome = Outcome::answer(swept_text(study, found, &table), "ibr.sweep", &answer);
     let name = if args.parquet { "table.parquet" } else { "table.csv" };
     match args.parquet {
@@ -163,18 +163,16 @@ struct FailedRows {
     rows: usize,
 }
 
-impl<'a> SweepAnswer<'a> {
-    /// Of a study in a file; without a table only a shard was made.
-    fn of(file: &Path, study: &'a Study, found: &'a Found, table: Option<&Table>) -> SweepAnswer<'a> {
-        let failed = table.map_or(Vec::new(), failures).into_iter();
-        SweepAnswer {
-            study: file.display().to_string(),
-            scenario: &study.base.name,
-            cases: study.cases(sweep::Engine::Reduced),
-            engines: study.engines.iter().map(|engine| engine.word()).collect(),
-            found,
-            failed: failed.map(|(reason, rows)| FailedRows { reason, rows }).collect(),
-            columns: sweep::names(study),
-        }
+/// Of a study in a file; without a table only a shard was made.
+fn sweep_answer<'a>(file: &Path, study: &'a Study, found: &'a Found, table: Option<&Table>) -> SweepAnswer<'a> {
+    let failed = table.map_or(Vec::new(), failures).into_iter();
+    SweepAnswer {
+        study: file.display().to_string(),
+        scenario: &study.base.name,
+        cases: study.cases(sweep::Engine::Reduced),
+        engines: study.engines.iter().map(|engine| engine.word()).collect(),
+        found,
+        failed: failed.map(|(reason, rows)| FailedRows { reason, rows }).collect(),
+        columns: sweep::names(study),
     }
 }

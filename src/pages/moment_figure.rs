@@ -25,15 +25,19 @@ pub(super) fn missing_moment(found: &MissingMoment, beside: &[FeMoment]) -> Resu
     let bodies = self::levels(points.iter().map(|p| p.p_body_kpa));
     let mut marks: Vec<Mark> = found.curves.iter().filter(|c| c.is_told).map(|c| band(c, found)).collect();
     let furthest = beside.iter().map(|p| p.bend_deg + p.bend_sd_deg).fold(furthest(found), f64::max);
-    let (ends, inks) = ([0.0, furthest], Inks::of(&found.curves));
-    marks.push(Mark::Line(ends.map(|x| [x, 0.0]).to_vec(), Ink::Axis));
-    marks.extend(found.curves.iter().map(|c| line(c, inks.of_curve(c))));
+    let mut told: Vec<&str> = found.curves.iter().filter(|c| c.is_told).map(|c| c.answer.as_str()).collect();
+    told.dedup();
+    marks.push(Mark::Line(vec![[0.0, 0.0], [furthest, 0.0]], Ink::Axis));
+    marks.extend(found.curves.iter().map(|c| line(c, ink(&told, c))));
     marks.extend(finite_elements(beside));
     marks.extend(points.iter().map(|p| point(p, &levels, &bodies)));
-    marks.push(Mark::Tip([ends[1], 0.0], "nothing missing".into(), Ink::Muted));
-    marks.extend(tips(&found.curves, &inks));
+    marks.push(Mark::Tip([furthest, 0.0], "nothing missing".into(), Ink::Muted));
+    marks.extend(tips(&found.curves, &told));
     let (x, y) = ("bend over the whole body [°]", "missing moment [N m]; below 0 something holds it back");
-    let keys = [keys(found, &levels, &bodies), finite_elements_key(beside)].concat();
+    let mut keys = keys(found, &levels, &bodies);
+    if !beside.is_empty() {
+        keys.push(Key::new(KeyLook::SymbolLine(FINITE_ELEMENTS, true), Ink::Muted, "finite elements"));
+    }
     Ok(Some(Chart { marks, keys, ..Chart::new("What the model misses", x, y) }.draw("missing moment")?))
 }
 
@@ -78,34 +82,17 @@ fn finite_elements(beside: &[FeMoment]) -> Vec<Mark> {
     std::iter::once(line).filter(|_| beside.len() > 1).chain(beside.iter().map(point)).collect()
 }
 
-fn finite_elements_key(beside: &[FeMoment]) -> Vec<Key> {
-    let key = Key::new(KeyLook::SymbolLine(FINITE_ELEMENTS, true), Ink::Muted, "finite elements");
-    std::iter::once(key).filter(|_| !beside.is_empty()).collect()
-}
-
 fn line(curve: &MomentCurve, ink: Ink) -> Mark {
     let kind = if curve.is_told { Mark::Line } else { Mark::Dashed };
     kind(curve.points.iter().map(|p| [p[1], p[2]]).collect(), ink)
 }
 
-/// Colours of the curves: what is told first is black, further ones have what no pressure has.
-struct Inks<'a> {
-    told: Vec<&'a str>,
-}
-
-impl<'a> Inks<'a> {
-    fn of(curves: &'a [MomentCurve]) -> Inks<'a> {
-        let mut told: Vec<&str> = curves.iter().filter(|c| c.is_told).map(|c| c.answer.as_str()).collect();
-        told.dedup();
-        Inks { told }
-    }
-
-    fn of_curve(&self, curve: &MomentCurve) -> Ink {
-        match self.told.iter().position(|name| *name == curve.answer) {
-            Some(0) => Ink::Ink,
-            Some(i) => Ink::Series(FREE_SERIES - i % 2),
-            None => Ink::Muted,
-        }
+/// Colour of a curve: the answer that is told first is black, further ones have colours that no pressure has.
+fn ink(told: &[&str], curve: &MomentCurve) -> Ink {
+    match told.iter().position(|name| *name == curve.answer) {
+        Some(0) => Ink::Ink,
+        Some(i) => Ink::Series(FREE_SERIES - i % 2),
+        None => Ink::Muted,
     }
 }
 
@@ -118,7 +105,7 @@ fn band(curve: &MomentCurve, found: &MissingMoment) -> Mark {
 }
 
 /// Names at the ends of the curves, each once: where it ends furthest.
-fn tips(curves: &[MomentCurve], inks: &Inks) -> Vec<Mark> {
+fn tips(curves: &[MomentCurve], told: &[&str]) -> Vec<Mark> {
     let mut named: Vec<&str> = Vec::new();
     let mut marks = Vec::new();
     for curve in curves {
@@ -129,7 +116,7 @@ fn tips(curves: &[MomentCurve], inks: &Inks) -> Vec<Mark> {
         if let Some(end) = own.max_by(|a, b| a[1].total_cmp(&b[1])) {
             named.push(&curve.answer);
             let label = super::effect(&curve.answer).replace(" + ", " +\n");
-            let line = |line: &str| Mark::Tip([end[1], end[2]], line.into(), inks.of_curve(curve));
+            let line = |line: &str| Mark::Tip([end[1], end[2]], line.into(), ink(told, curve));
             marks.extend(label.lines().map(line));
         }
     }
@@ -138,11 +125,8 @@ fn tips(curves: &[MomentCurve], inks: &Inks) -> Vec<Mark> {
 
 fn keys(found: &MissingMoment, levels: &[f64], bodies: &[f64]) -> Vec<Key> {
     let looks = |open: bool| KeyLook::Symbol(Symbol::Circle, open);
-    let mut keys: Vec<Key> = levels
-        .iter()
-        .enumerate()
-        .map(|(i, p)| Key::new(looks(false), Ink::Series(i), &format!("{} kPa", short(*p))))
-        .collect();
+    let level = |(i, p): (usize, &f64)| Key::new(looks(false), Ink::Series(i), &format!("{} kPa", short(*p)));
+    let mut keys: Vec<Key> = levels.iter().enumerate().map(level).collect();
     if found.of_holds().any(|p| p.phase == "unload") {
         keys.push(Key::new(looks(true), Ink::Ink, "on the way down"));
     }

@@ -31,7 +31,7 @@ pub(super) fn table(
     }
     let many = context.fem(|progress| simulate_all(&jobs, settings, progress))?;
     let table = RunTable::of(variations, many)?;
-    let mut outcome = Outcome::answer(table_text(&table), "ibr.simulations", &SimulationsAnswer::of(&table));
+    let mut outcome = Outcome::answer(table_text(&table), "ibr.simulations", &simulations_answer(&table));
     let png = mesh_plot(&base.name, &table).and_then(|plot| report::lines(&plot).ok()).map(|drawn| drawn.png);
     let files = [("plot", "mesh.png", png), ("table", "table.csv", Some(table.csv().into_bytes()))];
     write(
@@ -205,17 +205,15 @@ struct RunRecord<'a> {
     cpu_s: f64,
 }
 
-impl<'a> SimulationsAnswer<'a> {
-    fn of(table: &'a RunTable) -> SimulationsAnswer<'a> {
-        let record = |row: &'a RunRow| RunRecord {
-            run: &row.variation.label,
-            changes: row.variation.changes.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect(),
-            folder: &row.folder,
-            heights: &row.heights,
-            cpu_s: row.cpu_s,
-        };
-        SimulationsAnswer { runs: table.rows.iter().map(record).collect(), groups: table.groups() }
-    }
+fn simulations_answer<'a>(table: &'a RunTable) -> SimulationsAnswer<'a> {
+    let record = |row: &'a RunRow| RunRecord {
+        run: &row.variation.label,
+        changes: row.variation.changes.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect(),
+        folder: &row.folder,
+        heights: &row.heights,
+        cpu_s: row.cpu_s,
+    };
+    SimulationsAnswer { runs: table.rows.iter().map(record).collect(), groups: table.groups() }
 }
 
 /// `ibr.uncertain`: `ibr simulate ROBOT --uncertain`
