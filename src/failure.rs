@@ -12,6 +12,9 @@ use miette::{
 };
 use models::Unsolved;
 
+/// What a command returns.
+pub(crate) type Result<T, E = Failure> = std::result::Result<T, E>;
+
 /// Exit code: a comparison missed its threshold.
 pub(crate) const MISSED: u8 = 1;
 /// Exit code: wrong usage.

@@ -1,7 +1,7 @@
 //! Results to disk: everything is ready in memory before the first byte is written.
 
 use crate::context::Context;
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 pub(crate) use compare::extension::today;
 pub(crate) use fem::session::{FileHash as Input, sha256};
 use fem::session::{MANIFEST, Maker, Manifest};
@@ -14,24 +14,14 @@ use std::sync::PoisonError;
 
 /// Writes all files into a folder, the report last; each replaces its older one only when complete. Files that this program did not
 /// write are not replaced.
-pub(crate) fn write_files(
-    folder: &Path,
-    files: &Files,
-    inputs: &[Input],
-    context: &mut Context,
-) -> Result<(), Failure> {
+pub(crate) fn write_files(folder: &Path, files: &Files, inputs: &[Input], context: &mut Context) -> Result<()> {
     let names = files.files.iter().map(|(name, _)| name).chain(files.parquet.iter().map(|(name, _)| name));
     check_own(folder, names.map(String::as_str))?;
     replace_files(folder, files, inputs, context)
 }
 
 /// The same after the command has asked itself: whatever has these names is replaced.
-pub(crate) fn replace_files(
-    folder: &Path,
-    files: &Files,
-    inputs: &[Input],
-    context: &mut Context,
-) -> Result<(), Failure> {
+pub(crate) fn replace_files(folder: &Path, files: &Files, inputs: &[Input], context: &mut Context) -> Result<()> {
     let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
     write_all(folder, files, inputs)?;
     *written = true;
@@ -39,7 +29,7 @@ pub(crate) fn replace_files(
 }
 
 /// Refuses to replace files of these names that no manifest in the folder lists.
-fn check_own<'n>(folder: &Path, names: impl Iterator<Item = &'n str>) -> Result<(), Failure> {
+fn check_own<'n>(folder: &Path, names: impl Iterator<Item = &'n str>) -> Result<()> {
     let listed = listed(folder);
     let is_own = |name: &str| name == MANIFEST_FILE || listed.iter().any(|ours| ours.name == name);
     let is_foreign = |name: &&str| folder.join(name).is_file() && (listed.is_empty() || !is_own(name));
@@ -53,7 +43,7 @@ fn check_own<'n>(folder: &Path, names: impl Iterator<Item = &'n str>) -> Result<
 }
 
 /// Writes single texts, each whole or not at all. A file that is there is replaced only if its beginning has [`MADE_HERE`].
-pub(crate) fn write_texts(files: &[(PathBuf, String)], context: &mut Context) -> Result<(), Failure> {
+pub(crate) fn write_texts(files: &[(PathBuf, String)], context: &mut Context) -> Result<()> {
     let is_own = |path: &Path| {
         let mut start = Vec::new();
         let read = std::fs::File::open(path).and_then(|file| file.take(BEGINNING).read_to_end(&mut start));
@@ -94,12 +84,12 @@ fn unchanged(folder: &Path) -> Vec<Input> {
 }
 
 /// Refuses a folder that cannot be made, before time is spent on its contents.
-pub(crate) fn check_folder(folder: &Path) -> Result<(), Failure> {
+pub(crate) fn check_folder(folder: &Path) -> Result<()> {
     check_own(folder, ["report.html", "table.csv"].into_iter())?;
     can_be_made(folder)
 }
 
-fn can_be_made(folder: &Path) -> Result<(), Failure> {
+fn can_be_made(folder: &Path) -> Result<()> {
     // An empty ancestor is the current folder.
     match folder.ancestors().find(|a| !a.as_os_str().is_empty() && a.exists()) {
         Some(there) if !there.is_dir() => Err(unwritable(folder, &format!("{} is a file", there.display()))),
@@ -108,7 +98,7 @@ fn can_be_made(folder: &Path) -> Result<(), Failure> {
 }
 
 /// The same for a set of data, which is replaced only with `--force`.
-pub(crate) fn check_set_folder(folder: &Path, force: bool) -> Result<(), Failure> {
+pub(crate) fn check_set_folder(folder: &Path, force: bool) -> Result<()> {
     let there = [
         ("seal.toml", "a challenge"),
         ("markers.csv", "a dataset"),
@@ -126,11 +116,7 @@ pub(crate) fn check_set_folder(folder: &Path, force: bool) -> Result<(), Failure
 }
 
 /// Writes made-up files that are not there yet; returns their paths.
-pub(crate) fn write_example(
-    folder: &Path,
-    made: Vec<(String, String)>,
-    context: &mut Context,
-) -> Result<Vec<String>, Failure> {
+pub(crate) fn write_example(folder: &Path, made: Vec<(String, String)>, context: &mut Context) -> Result<Vec<String>> {
     check_folder(folder)?;
     if let Some((name, _)) = made.iter().find(|(name, _)| folder.join(name).exists()) {
         let message = format!("{} exists", folder.join(name).display());
@@ -149,7 +135,7 @@ pub(crate) fn read_input(path: &Path) -> Input {
 }
 
 /// Refuses to write over a file that was read.
-pub(crate) fn spares_inputs(folder: &Path, files: &Files, inputs: &[String]) -> Result<(), Failure> {
+pub(crate) fn spares_inputs(folder: &Path, files: &Files, inputs: &[String]) -> Result<()> {
     let read: Vec<_> = inputs.iter().filter_map(|file| std::fs::canonicalize(file).ok()).collect();
     let same = |name: &&String| std::fs::canonicalize(folder.join(name)).is_ok_and(|path| read.contains(&path));
     match files.files.iter().map(|(name, _)| name).find(same) {
@@ -175,7 +161,7 @@ fn unwritable(folder: &Path, cause: &str) -> Failure {
 }
 
 /// Everything goes into a hidden folder first, so that a full disk or a failing table leaves earlier results alone.
-fn write_all(folder: &Path, files: &Files, inputs: &[Input]) -> Result<(), Failure> {
+fn write_all(folder: &Path, files: &Files, inputs: &[Input]) -> Result<()> {
     let is_made = |name: &String| files.files.iter().any(|(made, _)| made == name);
     let (retired, kept) = unchanged(folder)
         .into_iter()
@@ -189,7 +175,7 @@ fn write_all(folder: &Path, files: &Files, inputs: &[Input]) -> Result<(), Failu
 }
 
 /// Writes all files into the staging folder; returns their names, the report last. The manifest lists the files that are `kept` too.
-fn stage(staging: &Path, files: &Files, inputs: &[Input], kept: Vec<Input>) -> Result<Vec<String>, Failure> {
+fn stage(staging: &Path, files: &Files, inputs: &[Input], kept: Vec<Input>) -> Result<Vec<String>> {
     let (mut names, mut outputs) = (Vec::new(), Vec::new());
     for (name, table) in &files.parquet {
         let path = staging.join(name);

@@ -1,7 +1,7 @@
 //! Names that most commands, tables and pages use.
 
 pub(crate) use crate::context::{Context, Outcome};
-pub(crate) use crate::failure::{Failure, MISSED};
+pub(crate) use crate::failure::{Failure, MISSED, Result};
 pub(crate) use crate::output::{
     Input, check_folder, check_set_folder, imprint, machine, maker, program, replace_files,
 };

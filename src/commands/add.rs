@@ -10,7 +10,7 @@ use compare::progress::part;
 use compare::progress::shares::READ;
 use std::sync::PoisonError;
 
-pub(super) fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome> {
     let file = inputs::scenario_in_space(&args.scenario)?;
     let wish = Wish::read(&file, &args.effect, args.data.is_some())?;
     let evidence = match &args.data {
@@ -33,7 +33,7 @@ pub(super) fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome, Fail
 }
 
 /// Where the new scenario goes: never onto the old one, and onto another file only if told.
-fn target(args: &AddArgs, names: &str, force: bool) -> Result<PathBuf, Failure> {
+fn target(args: &AddArgs, names: &str, force: bool) -> Result<PathBuf> {
     let old = Path::new(&args.scenario);
     let stem = old.file_stem().map_or("scenario".into(), |s| s.to_string_lossy().into_owned());
     let file = format!("{stem}-{names}.toml");

@@ -12,7 +12,7 @@ use compare::study::engines::SHAPE;
 use compare::study::engines::{EngineRun, engines, runs_json, runs_of, stored};
 use ibr::pages::parting_plot;
 
-pub(super) fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome> {
     check_folder(&args.out)?;
     let (runs, stopped) = match runs(args, context)? {
         Ok(made) => made,
@@ -36,7 +36,7 @@ pub(super) fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome
 type Made = (Vec<EngineRun>, Vec<Failure>);
 
 /// Runs that come with the program or those of the folder, which gets what is missing; or what is said of a shard of them.
-fn runs(args: &BreakdownArgs, context: &mut Context) -> Result<Result<Made, Outcome>, Failure> {
+fn runs(args: &BreakdownArgs, context: &mut Context) -> Result<Result<Made, Outcome>> {
     if args.runs.stored {
         return Ok(Ok((stored()?.into_iter().filter(|run| run.seed == 1).collect(), Vec::new())));
     }

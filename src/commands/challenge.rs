@@ -6,7 +6,7 @@ use crate::cli::{ChallengeCommand, ChallengeNewArgs};
 use crate::prelude::*;
 use challenge::{ALSO, Claim, ClaimScore, HIDDEN, HiddenEffect, Laws, OUTSIDE, Riddle, Truth, score};
 
-pub(super) fn run(command: &ChallengeCommand, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(command: &ChallengeCommand, context: &mut Context) -> Result<Outcome> {
     match command {
         ChallengeCommand::New(args) => make(args, context),
         ChallengeCommand::Reveal { folder, diagnosis } => reveal(folder, diagnosis.as_deref(), context),
@@ -14,7 +14,7 @@ pub(super) fn run(command: &ChallengeCommand, context: &mut Context) -> Result<O
     }
 }
 
-fn make(args: &ChallengeNewArgs, context: &mut Context) -> Result<Outcome, Failure> {
+fn make(args: &ChallengeNewArgs, context: &mut Context) -> Result<Outcome> {
     check_set_folder(&args.out, context.force)?;
     let ChallengeNewArgs { seed, effect, actuator, runs, sigma, protocol, .. } = args.clone();
     let camera_sd_m = sigma.map(|text| scatter("--sigma", &text)).transpose()?;
@@ -34,7 +34,7 @@ fn make(args: &ChallengeNewArgs, context: &mut Context) -> Result<Outcome, Failu
     Ok(Outcome::answer(text, "ibr.challenge.new", &answer))
 }
 
-fn reveal(folder: &Path, diagnosis: Option<&Path>, context: &mut Context) -> Result<Outcome, Failure> {
+fn reveal(folder: &Path, diagnosis: Option<&Path>, context: &mut Context) -> Result<Outcome> {
     let (truth, sha256) = challenge::reveal(folder)?;
     let mut text = format!("The seal {sha256} is intact.\n{}", truth.words());
     let mut diagnosis_scored = None;

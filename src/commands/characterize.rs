@@ -14,7 +14,7 @@ use ibr::pages::characterized_files;
 /// Seed of the example: the documents show its numbers.
 const EXAMPLE_SEED: u64 = 1;
 
-pub(super) fn run(args: &CharacterizeArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &CharacterizeArgs, context: &mut Context) -> Result<Outcome> {
     if let Some(folder) = &args.example {
         return make_example(folder, context);
     }
@@ -38,7 +38,7 @@ pub(super) fn run(args: &CharacterizeArgs, context: &mut Context) -> Result<Outc
     Ok(Outcome::answer(text, "ibr.characterize", &fabric_answer(&found, fabric.as_deref())))
 }
 
-fn settings(args: &CharacterizeArgs) -> Result<Reduction, Failure> {
+fn settings(args: &CharacterizeArgs) -> Result<Reduction> {
     if !(args.modulus_to > 0.0 && args.modulus_to <= 50.0) {
         let message = format!("--modulus-to is {} per cent strain", args.modulus_to);
         return Err(Failure::usage(message, "write a number above 0 and up to 50, for example 1"));
@@ -51,7 +51,7 @@ fn settings(args: &CharacterizeArgs) -> Result<Reduction, Failure> {
 }
 
 /// What holds where a file says nothing.
-fn defaults(args: &CharacterizeArgs) -> Result<CouponDefaults, Failure> {
+fn defaults(args: &CharacterizeArgs) -> Result<CouponDefaults> {
     let length = |option: &str, text: &Option<String>| {
         text.as_ref().map(|text| quantity(option, text, Quantity::Length)).transpose()
     };
@@ -64,7 +64,7 @@ fn defaults(args: &CharacterizeArgs) -> Result<CouponDefaults, Failure> {
     })
 }
 
-fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
+fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome> {
     let files = write_example(folder, example::example(EXAMPLE_SEED), context)?;
     let text = format!(
         "Made-up tests of a fabric with E0 = 96.5, E90 = 120, G12 = 1.03 MPa and locking at 45°\nibr characterize {}\n",

@@ -12,7 +12,7 @@ use data::About;
 use data::CheckReport;
 use ibr::check_fed;
 
-pub(super) fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome> {
     match command {
         DataCommand::Check { data, scenario } => check(data, scenario.as_deref(), context),
         DataCommand::List => list::run(Some("datasets")),
@@ -22,7 +22,7 @@ pub(super) fn run(command: &DataCommand, context: &mut Context) -> Result<Outcom
     }
 }
 
-fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Outcome, Failure> {
+fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Outcome> {
     if let Some(bench) = data::bench::bench(spec)? {
         let check = BenchCheck { kind: bench.kind.name, rows: bench.rows.len(), provenance: bench.provenance };
         let words = format!("{spec}: {}, {} rows ({})\n", bench.kind.sentence, check.rows, check.provenance.word());
@@ -67,7 +67,7 @@ fn in_space_words(dataset: &Dataset) -> String {
     )
 }
 
-fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome, Failure> {
+fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome> {
     let generator =
         Generator { seed: args.seed, runs: args.runs as usize, gauge: args.gauge, ..scattered(&args.scatter)? };
     let generator = generator.with_protocol(&args.protocol)?;
@@ -100,7 +100,7 @@ pub(super) fn write(
     truth: String,
     inputs: &[Input],
     context: &mut Context,
-) -> Result<(), Failure> {
+) -> Result<()> {
     let mut files = Files { files: data::set_files(dataset, about)?.into(), ..Files::default() };
     files.text("truth.toml", truth);
     replace_files(folder, &files, inputs, context)

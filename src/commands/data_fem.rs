@@ -12,7 +12,7 @@ use compare::study::generate::about;
 use compare::study::seen::seen;
 use fem::session::Source;
 
-pub(super) fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome> {
     check_set_folder(&args.out, context.force)?;
     let truth = inputs::scenario(&args.scenario)?;
     let (robot, scenario) = robot(args)?;
@@ -53,7 +53,7 @@ pub(super) fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome, 
 }
 
 /// The robot, at another body pressure if one is named.
-fn robot(args: &DataFemArgs) -> Result<(Source, Scenario), Failure> {
+fn robot(args: &DataFemArgs) -> Result<(Source, Scenario)> {
     let mut robot = ibr::fe_source(&args.scenario)?;
     if let Some(text) = &args.body_pressure {
         let [body_kpa] = list("--body-pressure", text, Quantity::Pressure, 1e-3)?[..] else {
@@ -74,7 +74,7 @@ fn made(
     scenario: &Scenario,
     kpa: &[f64],
     context: &mut Context,
-) -> Result<Vec<EngineRun>, Failure> {
+) -> Result<Vec<EngineRun>> {
     let jobs = seed_jobs(&[(robot.clone(), scenario.clone())], args.seeds, Some(kpa))?;
     let settings = kept(&args.fem.folder(), context);
     let found = context.fem(|progress| runs_of(&jobs, &settings, progress))?;

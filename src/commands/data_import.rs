@@ -14,7 +14,7 @@ const EXAMPLE: [(&str, &str); 4] = [
     ("pressure.csv", include_str!("../../data/tests/cases/c01-deeplabcut/pressure.csv")),
 ];
 
-pub(super) fn run(args: &Import, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &Import, context: &mut Context) -> Result<Outcome> {
     if let Some(folder) = &args.example {
         return make_example(folder, context);
     }
@@ -41,7 +41,7 @@ pub(super) fn run(args: &Import, context: &mut Context) -> Result<Outcome, Failu
     Ok(Outcome::answer(text, "ibr.data.import", &import_answer(&made, args.out.as_deref())))
 }
 
-fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
+fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome> {
     let files = write_example(folder, EXAMPLE.map(|(name, text)| (name.into(), text.into())).into(), context)?;
     let shown = folder.display();
     let text = format!(
@@ -54,7 +54,7 @@ fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome, Failure
 /// Runs with a picture.
 const MOST_PICTURES: usize = 10;
 
-fn files(made: &Imported) -> Result<Files, Failure> {
+fn files(made: &Imported) -> Result<Files> {
     let mut files = Files::default();
     for (k, track) in made.tracks.iter().take(MOST_PICTURES).enumerate() {
         let name = if k == 0 { "tracks".to_string() } else { format!("tracks-{}", k + 1) };

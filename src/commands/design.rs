@@ -12,7 +12,7 @@ use sweep::design::{End, Held, Miss, Spread};
 /// Pictures of a finite element run that go with its design.
 const PICTURES: [&str; 3] = ["side.png", "section.png", "cut.png"];
 
-pub(super) fn run(args: &DesignArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &DesignArgs, context: &mut Context) -> Result<Outcome> {
     let wish = Wish::read(&args.wish, ibr::studies::scenario)?;
     let stem = args.wish.file_stem().unwrap_or_default().to_string_lossy();
     let folder = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("ibr-report/design-{stem}")));
@@ -45,7 +45,7 @@ pub(super) fn run(args: &DesignArgs, context: &mut Context) -> Result<Outcome, F
 }
 
 /// The next search, if there is one; Ctrl-C ends it, and nothing is written.
-fn searched(rounds: &mut Rounds, wish: &Wish, context: &mut Context) -> Result<bool, Failure> {
+fn searched(rounds: &mut Rounds, wish: &Wish, context: &mut Context) -> Result<bool> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(context.threads).build();
     let mut search = |progress: Progress| rounds.search(wish, progress).map(|found| found.is_some());
     Ok(context.fem(|progress| match pool {
@@ -55,12 +55,7 @@ fn searched(rounds: &mut Rounds, wish: &Wish, context: &mut Context) -> Result<b
 }
 
 /// One finite element run of the last design; or why there is none. With corrections it is kept in a folder below that of the design.
-fn checked(
-    wish: &Wish,
-    rounds: &Rounds,
-    folder: &Path,
-    context: &mut Context,
-) -> Result<Result<Checked, String>, Failure> {
+fn checked(wish: &Wish, rounds: &Rounds, folder: &Path, context: &mut Context) -> Result<Result<Checked, String>> {
     let number = rounds.all.len();
     let Some(Round { design: found, .. }) = rounds.all.last() else { return Ok(Err("there is no design".into())) };
     let all = found.loads.actuator_pa;

@@ -13,7 +13,7 @@ use compare::witness::witness;
 use ibr::compared::unused_sigma;
 use ibr::pages::{Diagnosed, diagnosis_page, diagnosis_pictures};
 
-pub(super) fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome> {
     if args.published {
         return super::published::run(&args.scenario, args.out.as_deref(), context);
     }
@@ -69,13 +69,7 @@ pub(super) fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome,
 }
 
 /// Writes the report and takes away pictures of an earlier one that this one has not.
-fn report(
-    folder: &Path,
-    found: &Diagnosed,
-    json: Vec<u8>,
-    inputs: &[Input],
-    context: &mut Context,
-) -> Result<(), Failure> {
+fn report(folder: &Path, found: &Diagnosed, json: Vec<u8>, inputs: &[Input], context: &mut Context) -> Result<()> {
     let mut files = diagnosis_page(found, &imprint(), &mut part(context.progress, [DIAGNOSED, 1.0]))?;
     files.files.insert(0, ("diagnosis.json".into(), json));
     files.retire(&diagnosis_pictures());

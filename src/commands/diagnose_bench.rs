@@ -11,7 +11,7 @@ use compare::progress::shares::READ;
 use data::Bench;
 
 /// The diagnosis, if what was typed last is a table of bench tests.
-pub(super) fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Option<Outcome>, Failure> {
+pub(super) fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Option<Outcome>> {
     let spec = args.data.as_deref().unwrap_or(&args.scenario);
     let Some(bench) = data::bench::bench(spec)? else {
         return args.fit.also.iter().try_for_each(|also| held::needs_markers(also)).map(|()| None);
@@ -31,7 +31,7 @@ pub(super) fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Option<O
 }
 
 /// What is about markers, and what to do instead.
-fn refuse_options(args: &DiagnoseArgs, spec: &str) -> Result<(), Failure> {
+fn refuse_options(args: &DiagnoseArgs, spec: &str) -> Result<()> {
     let given = [
         ("--also", !args.fit.also.is_empty(), "put the rows of all tests of one kind into one table"),
         ("--keep-bending", args.fit.keep_bending, "a table has nothing fitted that was not asked for"),
@@ -50,7 +50,7 @@ fn refuse_options(args: &DiagnoseArgs, spec: &str) -> Result<(), Failure> {
 }
 
 /// `3%` → 0.03.
-fn share(text: &str) -> Result<f64, Failure> {
+fn share(text: &str) -> Result<f64> {
     let value = text.trim().strip_suffix('%').and_then(|number| number.trim().parse::<f64>().ok());
     value.filter(|v| *v > 0.0 && *v <= 100.0).map(|v| 0.01 * v).ok_or_else(|| {
         let message = format!("--sigma {text} is no share of what a row measured");

@@ -8,7 +8,7 @@ use compare::study::engines::{EngineLine, EngineRun, all_runs, engines, lines, r
 use fem::session::Source;
 use ibr::pages::engines_page;
 
-pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome> {
     let folder = args.out.clone().unwrap_or_else(|| PathBuf::from("ibr-report/compare-engines"));
     check_folder(&folder)?;
     let (named, inputs) = robots(&args.inputs)?;
@@ -30,7 +30,7 @@ pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, 
 }
 
 /// Runs of the folder, which gets what is missing.
-fn made(args: &CompareArgs, robots: &[(Source, Scenario)], context: &mut Context) -> Result<Vec<EngineRun>, Failure> {
+fn made(args: &CompareArgs, robots: &[(Source, Scenario)], context: &mut Context) -> Result<Vec<EngineRun>> {
     let kpa = args.pressure.as_deref().map(pressures).transpose()?;
     let (jobs, folder) = (seed_jobs(robots, args.seeds, kpa.as_deref())?, args.runs.folder());
     let settings = kept(&folder, context);
@@ -69,7 +69,7 @@ fn engines_answer<'a>(lines: &'a [EngineLine], engines: &'a Engines) -> EnginesA
 }
 
 /// Tables of a comparison of both engines.
-fn text(lines: &[EngineLine], Engines { robots, .. }: &Engines) -> Result<String, Failure> {
+fn text(lines: &[EngineLine], Engines { robots, .. }: &Engines) -> Result<String> {
     let tables = [summary(robots)?, line_table(lines), branches(robots), ledgers(robots), volume_table(robots)];
     Ok(tables.iter().filter(|table| !table.rows.is_empty()).map(printed).collect::<Vec<_>>().join("\n"))
 }

@@ -8,7 +8,7 @@ use crate::tables::Table as Columns;
 use models::CHANNELS;
 use models::export::{Bound, Joint, Linear, Origin, Table, Untabulated};
 
-pub(super) fn run(command: &ExportCommand, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(command: &ExportCommand, context: &mut Context) -> Result<Outcome> {
     match command {
         ExportCommand::C(args) => c(args, context),
         ExportCommand::Linear(args) => linear(args),
@@ -18,7 +18,7 @@ pub(super) fn run(command: &ExportCommand, context: &mut Context) -> Result<Outc
 /// Joints of a muscle, which has one unit.
 const JOINTS: usize = 5;
 
-fn linear(args: &LinearArgs) -> Result<Outcome, Failure> {
+fn linear(args: &LinearArgs) -> Result<Outcome> {
     let scenario = inputs::robot(&args.robot)?.1;
     let all = wanted(&scenario, args.pressure.as_deref())?;
     let loads = match (&args.pressure, all.as_slice()) {
@@ -91,7 +91,7 @@ struct LinearAnswer<'a> {
     joints: &'a [Joint],
 }
 
-fn c(args: &ExportArgs, context: &mut Context) -> Result<Outcome, Failure> {
+fn c(args: &ExportArgs, context: &mut Context) -> Result<Outcome> {
     let scenario = inputs::robot(&args.robot)?.1;
     let (model, range_pa) = (Model::new(&scenario), range(&scenario, args.pressure.as_deref())?);
     let history = if model.has_history() { scenario.remembering() } else { Vec::new() };
@@ -116,7 +116,7 @@ fn c(args: &ExportArgs, context: &mut Context) -> Result<Outcome, Failure> {
 }
 
 /// Pressures from:to; a number without unit has that of the other.
-fn range(scenario: &Scenario, typed: Option<&str>) -> Result<[f64; 2], Failure> {
+fn range(scenario: &Scenario, typed: Option<&str>) -> Result<[f64; 2]> {
     let Some(typed) = typed else { return Ok([0.0, scenario.p_max_pa]) };
     let Some((from, to)) = typed.split_once(':') else {
         let help = "write from:to, for example --pressure 0:40kPa";

@@ -12,7 +12,7 @@ const PUBLISHED: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
 type Robots = (Vec<(Source, Scenario)>, Vec<Input>);
 
 /// Robots by name, or those of the paper.
-pub(super) fn robots(specs: &[String]) -> Result<Robots, Failure> {
+pub(super) fn robots(specs: &[String]) -> Result<Robots> {
     let own: Vec<String> = PUBLISHED.map(String::from).to_vec();
     let specs = if specs.is_empty() { &own } else { specs };
     let (mut found, mut inputs) = (Vec::new(), Vec::new());
@@ -37,19 +37,19 @@ pub(super) fn kept(folder: &Path, context: &Context) -> Settings {
 }
 
 /// Pressures as typed \[kPa\].
-pub(super) fn pressures(text: &str) -> Result<Vec<f64>, Failure> {
+pub(super) fn pressures(text: &str) -> Result<Vec<f64>> {
     let one = |p: &str| Ok(rounded(quantity("--pressure", p, Quantity::Pressure)? / 1e3));
     text.split(',').map(one).collect()
 }
 
 /// A list of quantities with units, in `1/factor` SI.
-pub(super) fn list(option: &str, text: &str, kind: Quantity, factor: f64) -> Result<Vec<f64>, Failure> {
+pub(super) fn list(option: &str, text: &str, kind: Quantity, factor: f64) -> Result<Vec<f64>> {
     let one = |t: &str| Ok(rounded(quantity(option, t, kind)? * factor));
     text.split(',').filter(|t| !t.trim().is_empty()).map(one).collect()
 }
 
 /// Element sizes of body and actuator \[mm\], from `3mm` for both or `8mm/3mm`; several with commas between.
-pub(super) fn sizes(text: &str) -> Result<Vec<[f64; 2]>, Failure> {
+pub(super) fn sizes(text: &str) -> Result<Vec<[f64; 2]>> {
     let one = |size: &str| match rounded(quantity("--mesh", size, Quantity::Length)? * 1e3) {
         mm if (0.5..=50.0).contains(&mm) => Ok(mm),
         mm => Err(Failure::usage(format!("--mesh {mm}mm is out of range"), "write 0.5mm to 50mm, for example 8mm/3mm")),
@@ -62,7 +62,7 @@ pub(super) fn sizes(text: &str) -> Result<Vec<[f64; 2]>, Failure> {
 }
 
 /// A time of an option, above zero \[s\].
-pub(super) fn seconds(option: &str, text: &str) -> Result<f64, Failure> {
+pub(super) fn seconds(option: &str, text: &str) -> Result<f64> {
     // A year is more than any run or checkpoint needs, and less than a duration can hold.
     match quantity(option, text, Quantity::Time)? {
         s if s > 0.0 && s < 3.2e7 => Ok(s),

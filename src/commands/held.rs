@@ -9,7 +9,7 @@ use compare::study::Knob;
 use compare::typed_effect::with_effect;
 
 /// The comparison, if the data are a table of bench tests.
-pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Option<Outcome>, Failure> {
+pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Option<Outcome>> {
     let Some((data_spec, scenario_spec)) = args.inputs.split_last().filter(|(_, before)| before.len() < 2) else {
         return Ok(None);
     };
@@ -38,7 +38,7 @@ pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Option<Ou
 }
 
 /// The scenario that lies beside the data.
-pub(super) fn own(data_spec: &str, text: &str) -> Result<Scenario, Failure> {
+pub(super) fn own(data_spec: &str, text: &str) -> Result<Scenario> {
     Ok(ScenarioFile::parse(&format!("{data_spec}/scenario.toml"), text)?.scenario)
 }
 
@@ -53,7 +53,7 @@ fn marker_option(args: &CompareArgs) -> Option<&'static str> {
 }
 
 /// Refuses a table of bench tests where markers are needed.
-pub(super) fn needs_markers(data_spec: &str) -> Result<(), Failure> {
+pub(super) fn needs_markers(data_spec: &str) -> Result<()> {
     match data::bench::bench(data_spec)? {
         None => Ok(()),
         Some(bench) => {

@@ -11,33 +11,33 @@ use compare::typed_effect::with_effect;
 use models::scenario::quantity::parse;
 use spelling::units::Range;
 
-pub(super) fn scenario(spec: &str) -> Result<ScenarioFile, Failure> {
+pub(super) fn scenario(spec: &str) -> Result<ScenarioFile> {
     Ok(ibr::studies::scenario(spec)?)
 }
 
 /// The same for what is built for strips round the body too.
-pub(super) fn scenario_in_space(spec: &str) -> Result<ScenarioFile, Failure> {
+pub(super) fn scenario_in_space(spec: &str) -> Result<ScenarioFile> {
     Ok(ibr::studies::scenario_in_space(spec)?)
 }
 
 /// A robot as typed: its file, and the scenario with what was changed.
-pub(super) fn robot(args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
+pub(super) fn robot(args: &RobotArgs) -> Result<(ScenarioFile, Scenario)> {
     changed(scenario(&args.scenario)?, ScenarioFile::with, args)
 }
 
 /// The same for what is built for strips round the body too.
-pub(super) fn robot_in_space(args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
+pub(super) fn robot_in_space(args: &RobotArgs) -> Result<(ScenarioFile, Scenario)> {
     changed(scenario_in_space(&args.scenario)?, ScenarioFile::with_in_space, args)
 }
 
 /// `key=value` of an option `--set`.
-pub(super) fn setting<'t>(text: &'t str, help: &str) -> Result<(&'t str, &'t str), Failure> {
+pub(super) fn setting<'t>(text: &'t str, help: &str) -> Result<(&'t str, &'t str)> {
     let both = text.split_once('=').map(|(key, value)| (key.trim(), value.trim()));
     both.ok_or_else(|| Failure::usage(format!("--set {text}: there is no ="), help))
 }
 
 /// Names that were typed for an option, each once.
-pub(super) fn each_once<'t>(option: &str, names: impl IntoIterator<Item = &'t str>) -> Result<(), Failure> {
+pub(super) fn each_once<'t>(option: &str, names: impl IntoIterator<Item = &'t str>) -> Result<()> {
     let mut seen = Vec::new();
     for name in names {
         if seen.contains(&name) {
@@ -55,7 +55,7 @@ pub(super) fn effect_names(typed: &[String]) -> impl Iterator<Item = &str> {
 }
 
 /// How effects are fitted, as typed.
-pub(super) fn fit_options(args: &FitArgs) -> Result<Options, Failure> {
+pub(super) fn fit_options(args: &FitArgs) -> Result<Options> {
     Ok(Options {
         sigma_m: positive("--sigma", args.noise.sigma.as_ref())?,
         tolerance_m: positive("--tolerance", args.tolerance.as_ref())?,
@@ -68,7 +68,7 @@ pub(super) fn fit_options(args: &FitArgs) -> Result<Options, Failure> {
 /// Sets values of keys in a scenario.
 type Set = fn(&ScenarioFile, &[(String, String)]) -> Result<ScenarioFile, CompareError>;
 
-fn changed(mut file: ScenarioFile, set: Set, args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
+fn changed(mut file: ScenarioFile, set: Set, args: &RobotArgs) -> Result<(ScenarioFile, Scenario)> {
     let help = "write for example --set body.radius_mm=45";
     let changes = args.set.iter().map(|text| setting(text, help)).collect::<Result<Vec<_>, _>>()?;
     each_once("--set", changes.iter().map(|(key, _)| *key))?;
@@ -87,36 +87,33 @@ fn changed(mut file: ScenarioFile, set: Set, args: &RobotArgs) -> Result<(Scenar
     Ok((file, changed))
 }
 
-pub(super) fn evidence(spec: &str, context: &mut Context) -> Result<Evidence, Failure> {
+pub(super) fn evidence(spec: &str, context: &mut Context) -> Result<Evidence> {
     Ok(Evidence::read_with(spec, &mut part(context.progress, [0.0, READ]))?)
 }
 
 /// Loads the data of a diagnosis and those to be fitted along.
-pub(super) fn all_evidence(first: &str, also: &[String], context: &mut Context) -> Result<Vec<Evidence>, Failure> {
+pub(super) fn all_evidence(first: &str, also: &[String], context: &mut Context) -> Result<Vec<Evidence>> {
     std::iter::once(first).chain(also.iter().map(String::as_str)).map(|spec| evidence(spec, context)).collect()
 }
 
 /// What a manifest names: the scenario, then the data.
-pub(super) fn named<'e>(
-    file: &ScenarioFile,
-    evidence: impl IntoIterator<Item = &'e Evidence>,
-) -> Result<Vec<Input>, Failure> {
+pub(super) fn named<'e>(file: &ScenarioFile, evidence: impl IntoIterator<Item = &'e Evidence>) -> Result<Vec<Input>> {
     let data = evidence.into_iter().map(|e| Ok(Input { name: format!("{} (as read)", e.name), sha256: e.sha256()? }));
     std::iter::once(Ok(Input { name: file.name.clone(), sha256: file.sha256() })).chain(data).collect()
 }
 
-pub(super) fn quantity(option: &str, text: &str, kind: Quantity) -> Result<f64, Failure> {
+pub(super) fn quantity(option: &str, text: &str, kind: Quantity) -> Result<f64> {
     parse(text, kind).map_err(|message| Failure::usage(format!("{option}: {message}"), "see ibr --help"))
 }
 
 /// A quantity of an option within its bounds.
-pub(super) fn bounded(option: &str, text: &str, kind: Quantity, bounds: &Range) -> Result<f64, Failure> {
+pub(super) fn bounded(option: &str, text: &str, kind: Quantity, bounds: &Range) -> Result<f64> {
     let refused = |(message, help)| Failure::usage(format!("{option} {text}: {message}"), help);
     bounds.check(quantity(option, text, kind)?).map_err(refused)
 }
 
 /// A length of an option that must be above zero \[m\], if it was given.
-pub(super) fn positive(option: &str, text: Option<&String>) -> Result<Option<f64>, Failure> {
+pub(super) fn positive(option: &str, text: Option<&String>) -> Result<Option<f64>> {
     let Some(text) = text else { return Ok(None) };
     match quantity(option, text, Quantity::Length)? {
         v if v > 0.0 => Ok(Some(v)),
@@ -126,7 +123,7 @@ pub(super) fn positive(option: &str, text: Option<&String>) -> Result<Option<f64
     }
 }
 
-pub(super) fn scattered(args: &ScatterArgs) -> Result<Generator, Failure> {
+pub(super) fn scattered(args: &ScatterArgs) -> Result<Generator> {
     let percent = args.pressure_scatter;
     let camera_sd_m = scatter("--sigma", &args.sigma)?;
     if !(0.0..=50.0).contains(&percent) {
@@ -138,7 +135,7 @@ pub(super) fn scattered(args: &ScatterArgs) -> Result<Generator, Failure> {
 }
 
 /// A scatter of lengths as typed \[m\].
-pub(super) fn scatter(option: &str, text: &str) -> Result<f64, Failure> {
+pub(super) fn scatter(option: &str, text: &str) -> Result<f64> {
     match quantity(option, text, Quantity::Length)? {
         v if (0.0..=0.1).contains(&v) => Ok(v),
         v => Err(Failure::usage(format!("{option} {v} m is not from 0 to 100 mm"), "1mm is usual")),

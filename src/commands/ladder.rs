@@ -24,7 +24,7 @@ struct LadderAnswer<'a> {
     also: &'a [String],
 }
 
-pub(super) fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let file = inputs::scenario_in_space(&args.scenario)?;
     let evidence = inputs::all_evidence(&args.data, &args.fit.also, context)?;
@@ -47,13 +47,7 @@ pub(super) fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome, F
 }
 
 /// Writes report and scenarios, and says where they are.
-fn report(
-    folder: &Path,
-    page: &Climbed,
-    inputs: &[Input],
-    context: &mut Context,
-    outcome: &mut Outcome,
-) -> Result<(), Failure> {
+fn report(folder: &Path, page: &Climbed, inputs: &[Input], context: &mut Context, outcome: &mut Outcome) -> Result<()> {
     write_files(folder, &ladder_page(page, &imprint())?, inputs, context)?;
     let names: Vec<&str> = page.climb.files.iter().map(|(name, _)| name.as_str()).collect();
     outcome.notes.push(format!("scenarios in {}: {}", folder.display(), names.join(", ")));

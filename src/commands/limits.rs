@@ -3,7 +3,7 @@
 use crate::prelude::*;
 use models::collapse_length_m;
 
-pub(super) fn run(typed: &str, scenario: &Scenario, wanted: &[Loads]) -> Result<Outcome, Failure> {
+pub(super) fn run(typed: &str, scenario: &Scenario, wanted: &[Loads]) -> Result<Outcome> {
     if !scenario.effects.iter().any(|e| ["gravity", "tip_load"].contains(&e.name.as_str())) {
         let help = "add what bends it, for example --effect gravity:weight_n_per_m=1.5";
         return Err(Failure::usage("a robot without load collapses at no length", help));

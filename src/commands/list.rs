@@ -9,7 +9,7 @@ use models::actuators::{ACTUATORS, Actuator};
 use models::effects::{EFFECTS, Effect};
 use models::scenario::SHIPPED;
 
-pub(super) fn run(what: Option<&str>) -> Result<Outcome, Failure> {
+pub(super) fn run(what: Option<&str>) -> Result<Outcome> {
     let lists = Lists::of(what);
     Ok(Outcome::answer(lists.text(), "ibr.list", &lists))
 }
@@ -25,7 +25,7 @@ struct NewAnswer {
     scenario_toml: Option<&'static str>,
 }
 
-pub(super) fn new(kind: &str) -> Result<Outcome, Failure> {
+pub(super) fn new(kind: &str) -> Result<Outcome> {
     let scenario_toml = models::shipped(kind).or(study(kind));
     let case_toml = shipped_case(kind).filter(|_| scenario_toml.is_none());
     let Some(text) = scenario_toml.or(case_toml) else {

@@ -36,9 +36,9 @@ mod verify;
 
 use crate::cli::Command;
 pub(crate) use crate::context::{Context, Outcome};
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 
-pub(crate) fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure> {
+pub(crate) fn run(command: &Command, context: &mut Context) -> Result<Outcome> {
     match command {
         Command::Demo(out) => demo::run(&out.out, context),
         Command::Predict(args) => predict::run(args, context),
@@ -75,7 +75,7 @@ fn completions(shell: clap_complete::Shell) -> Outcome {
     Outcome { text: String::from_utf8_lossy(&bytes).into_owned(), ..Outcome::default() }
 }
 
-fn man(out: Option<&std::path::Path>, context: &mut Context) -> Result<Outcome, Failure> {
+fn man(out: Option<&std::path::Path>, context: &mut Context) -> Result<Outcome> {
     let page = |command: clap::Command| {
         let mut bytes = Vec::new();
         clap_mangen::Man::new(command).render(&mut bytes).map(|()| bytes)

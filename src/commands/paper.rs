@@ -7,7 +7,7 @@ use compare::study::engines::runs_of;
 use compare::study::paper::{FactRow, HeightRow, mesh_name};
 use compare::study::paper::{MESHES_MM, PaperRun, facts, heights, jobs, ordered, runs_below, runs_json, stored};
 
-pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let runs = runs(args, context)?;
     let paper = data::published()?;
@@ -26,7 +26,7 @@ pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, 
 }
 
 /// Stored runs, or all in the folder, which gets what is missing.
-fn runs(args: &CompareArgs, context: &mut Context) -> Result<Vec<PaperRun>, Failure> {
+fn runs(args: &CompareArgs, context: &mut Context) -> Result<Vec<PaperRun>> {
     let Some(folder) = &args.runs.runs else {
         if !args.inputs.is_empty() || args.pressure.is_some() {
             let help = "add --runs FOLDER to make runs; without it all that come with the program are printed";

@@ -16,7 +16,7 @@ const ALLOWANCE_M: f64 = 0.01;
 /// More fabric than that around a piece is a slip of the unit \[m\].
 const MOST_ALLOWANCE_M: f64 = 0.5;
 
-pub(super) fn run(args: &PatternArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &PatternArgs, context: &mut Context) -> Result<Outcome> {
     let file = inputs::scenario(&args.scenario)?;
     let weld = match &args.weld {
         Some(text) => (quantity("--weld", text, Quantity::Length)?, "as told".into()),
@@ -94,7 +94,7 @@ pub(super) fn usual_pattern(scenario: &Scenario) -> Result<String, String> {
 }
 
 /// Files to write: the drawing, and its pages beside it.
-fn files(args: &PatternArgs, sheet: &PatternSheet) -> Result<Vec<(PathBuf, String)>, Failure> {
+fn files(args: &PatternArgs, sheet: &PatternSheet) -> Result<Vec<(PathBuf, String)>> {
     let is = |ending: &str| args.out.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
     match &args.page {
         _ if !is("svg") && !is("dxf") => {

@@ -12,7 +12,7 @@ use ibr::{check_fed, predict, predict_for, predict_near};
 use models::scenario::quantity::{MOST, parse_pressures};
 use models::{CHANNELS, Target};
 
-pub(super) fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     // A stream and a length at collapse are built in the plane.
     let planar = args.follow || args.limits;
@@ -62,7 +62,7 @@ pub(super) fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, 
     Ok(outcome)
 }
 
-fn follow(scenario: &Scenario, context: &Context) -> Result<Outcome, Failure> {
+fn follow(scenario: &Scenario, context: &Context) -> Result<Outcome> {
     if context.json {
         return Err(Failure::usage("--follow writes lines of numbers", "leave out --json"));
     }
@@ -71,12 +71,12 @@ fn follow(scenario: &Scenario, context: &Context) -> Result<Outcome, Failure> {
 }
 
 /// The place of `--inverse X,Y`.
-fn place((x, y): (&str, &str)) -> Result<[f64; 2], Failure> {
+fn place((x, y): (&str, &str)) -> Result<[f64; 2]> {
     Ok([quantity("--inverse", x, Quantity::Length)?, quantity("--inverse", y, Quantity::Length)?])
 }
 
 /// What `--inverse` asks for.
-fn target(wanted: &str) -> Result<Target, Failure> {
+fn target(wanted: &str) -> Result<Target> {
     match wanted.split_once('=') {
         Some(("tip", value)) => Ok(Target::TipHeight(quantity("--inverse", value, Quantity::Length)?)),
         Some(("angle", value)) => Ok(Target::Angle(quantity("--inverse", value, Quantity::Angle)?)),
@@ -88,7 +88,7 @@ fn target(wanted: &str) -> Result<Target, Failure> {
 }
 
 /// The pressures of a file, else those of [`wanted`].
-fn asked(scenario: &Scenario, args: &PredictArgs) -> Result<Vec<Loads>, Failure> {
+fn asked(scenario: &Scenario, args: &PredictArgs) -> Result<Vec<Loads>> {
     let Some(file) = &args.pressures else { return wanted(scenario, args.pressure.as_deref()) };
     if !scenario.actuator.exists() {
         return Err(Failure::usage("--pressures for a beam, which has no actuator", "leave it out"));
@@ -97,7 +97,7 @@ fn asked(scenario: &Scenario, args: &PredictArgs) -> Result<Vec<Loads>, Failure>
 }
 
 /// The pressures of the command line, else of the scenario; a beam has none to be asked for.
-pub(super) fn wanted(scenario: &Scenario, pressures: Option<&str>) -> Result<Vec<Loads>, Failure> {
+pub(super) fn wanted(scenario: &Scenario, pressures: Option<&str>) -> Result<Vec<Loads>> {
     let mut pressures = match pressures {
         Some(text) => {
             parse_pressures(text).map_err(|m| Failure::usage(format!("--pressure: {m}"), "see ibr predict --help"))?

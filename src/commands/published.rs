@@ -8,7 +8,7 @@ use data::published::printed;
 use ibr::pages::one_number_files;
 use models::scenario::SHIPPED;
 
-pub(super) fn run(kind: &str, out: Option<&Path>, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(kind: &str, out: Option<&Path>, context: &mut Context) -> Result<Outcome> {
     out.map_or(Ok(()), check_folder)?;
     if models::shipped(kind).is_none() {
         let message = format!("the paper printed no displacement of `{kind}`");

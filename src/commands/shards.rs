@@ -12,13 +12,13 @@ fn cluster(args: &ShardArgs) -> Option<Cluster> {
 }
 
 /// The shard that was asked for.
-pub(super) fn shard(args: &ShardArgs) -> Result<Shard, Failure> {
+pub(super) fn shard(args: &ShardArgs) -> Result<Shard> {
     let shard = args.shard.as_deref().map_or(Ok(Shard::WHOLE), Shard::parse);
     shard.map_err(|message| Failure::usage(message, "see --help"))
 }
 
 /// What is submitted: the command as it was typed, with a shard. Its files go below `folder`.
-fn job(args: &ShardArgs, folder: &Path, context: &Context) -> Result<schedule::Job, Failure> {
+fn job(args: &ShardArgs, folder: &Path, context: &Context) -> Result<schedule::Job> {
     let program = std::env::current_exe()
         .map_err(|cause| Failure::usage(format!("this program cannot be found: {cause}"), "run the shards by hand"))?;
     let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_path_buf());
@@ -56,7 +56,7 @@ pub(super) struct Work<'w> {
 }
 
 /// Has a scheduler run all shards, if one was asked for. `None`: the command goes on; else what it has to say.
-pub(super) fn by_scheduler(args: &ShardArgs, work: &Work, context: &mut Context) -> Result<Option<Outcome>, Failure> {
+pub(super) fn by_scheduler(args: &ShardArgs, work: &Work, context: &mut Context) -> Result<Option<Outcome>> {
     let Some(cluster) = cluster(args) else { return Ok(None) };
     let job = job(args, work.folder, context)?;
     if args.script {
@@ -87,8 +87,8 @@ pub(super) fn in_shards(
     args: &ShardArgs,
     work: &Work,
     context: &mut Context,
-    make: impl FnOnce(Shard, &mut Context) -> Result<(usize, Vec<String>), Failure>,
-) -> Result<Option<Outcome>, Failure> {
+    make: impl FnOnce(Shard, &mut Context) -> Result<(usize, Vec<String>)>,
+) -> Result<Option<Outcome>> {
     if args.shard.is_none() {
         return by_scheduler(args, work, context);
     }
@@ -113,7 +113,7 @@ pub(super) fn shared(
     jobs: &[Job],
     settings: &Settings,
     context: &mut Context,
-) -> Result<Option<Outcome>, Failure> {
+) -> Result<Option<Outcome>> {
     if !args.asked() {
         return Ok(None);
     }

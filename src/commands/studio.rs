@@ -7,7 +7,7 @@ use crate::studio::Studio;
 /// Where the page is looked for, in the working folder.
 const BUILT: &str = "web/dist/ibr.html";
 
-pub(super) fn run(args: &StudioArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &StudioArgs, context: &mut Context) -> Result<Outcome> {
     if context.json {
         return Err(Failure::usage("ibr studio serves a page and has no answer", "leave --json out"));
     }

@@ -10,7 +10,7 @@ use data::table::Column;
 use ibr::pages::{sweep_picture_names, sweep_pictures};
 use sweep::{Found, Settings, Study, SweepError, collect, parts_missing, run as compute};
 
-pub(super) fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome> {
     let study = Study::read(&args.study, ibr::studies::scenario_in_space)?;
     let stem = args.study.file_stem().unwrap_or_default().to_string_lossy();
     let folder = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("ibr-report/sweep-{stem}")));
@@ -52,7 +52,7 @@ fn whole(
     found: &Found,
     table: Table,
     context: &mut Context,
-) -> Result<Outcome, Failure> {
+) -> Result<Outcome> {
     (context.progress)("writing the table", None);
     let mut files = sweep_pictures(study, &table)?;
     files.retire(&sweep_picture_names());

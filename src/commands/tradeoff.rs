@@ -7,7 +7,7 @@ use compare::study::published::published_ladders;
 use compare::study::tradeoff::{Timing, of_runs, tradeoff};
 use ibr::pages::tradeoff_plot;
 
-pub(super) fn run(args: &TradeoffArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &TradeoffArgs, context: &mut Context) -> Result<Outcome> {
     let out = args.out.as_deref();
     out.map_or(Ok(()), check_folder)?;
     (context.progress)("timing", None);

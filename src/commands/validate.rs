@@ -6,7 +6,7 @@ use crate::prelude::*;
 use crate::shown::validation::{ValidateAnswer, text};
 use compare::validation::BeforeAfter;
 
-pub(super) fn run(args: &ValidateArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &ValidateArgs, context: &mut Context) -> Result<Outcome> {
     let sigma_m = positive("--sigma", args.noise.sigma.as_ref())?;
     let file = inputs::scenario_in_space(&args.scenario)?;
     let both = BeforeAfter::of(&file, &args.without)?;

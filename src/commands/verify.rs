@@ -5,13 +5,13 @@ use crate::prelude::*;
 use verification::checks::{Choice, Figure, verify};
 use verification::{Error, Findings, Printed};
 
-pub(super) fn run(args: &VerifyArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &VerifyArgs, context: &mut Context) -> Result<Outcome> {
     let choice = Choice { slow: args.slow, only: &args.only };
     let (answer, figures) = verify(&choice, &mut |what, share| (context.progress)(what, share))?;
     let mut outcome = show(answer);
     if let Some(folder) = &args.plots {
         let drawn = figures.iter().map(|(name, figure)| Ok((format!("{name}.png"), draw(figure)?)));
-        let files = Files { files: drawn.collect::<Result<_, Failure>>()?, ..Files::default() };
+        let files = Files { files: drawn.collect::<Result<_>>()?, ..Files::default() };
         crate::output::write_files(folder, &files, &[], context)?;
         outcome.text.push_str(&format!("{} figures in {}\n", files.files.len(), folder.display()));
     }
@@ -42,7 +42,7 @@ impl From<Error> for Failure {
     }
 }
 
-fn draw(figure: &Figure) -> Result<Vec<u8>, Failure> {
+fn draw(figure: &Figure) -> Result<Vec<u8>> {
     let known = figure.curves.iter().filter(|c| c.exact).count();
     let paired = 2 * known == figure.curves.len();
     let mut seen = [0, 0];

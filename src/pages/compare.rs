@@ -1,6 +1,6 @@
 //! The page of a scenario compared with a dataset.
 
-use super::{Imprint, PageError, Values, figures, residual_figure, tables};
+use super::{Imprint, Result, Values, figures, residual_figure, tables};
 use crate::prelude::*;
 use crate::shown::comparison::CompareAnswer;
 use ::compare::study::Comparison;
@@ -10,7 +10,7 @@ use data::About;
 ///
 /// # Errors
 /// What cannot be drawn.
-pub fn compare_page(study: &Comparison, imprint: &Imprint) -> Result<Files, PageError> {
+pub fn compare_page(study: &Comparison, imprint: &Imprint) -> Result<Files> {
     let mut files = compare_files(study)?;
     let (first, dataset) = (&study.variants[0], &study.dataset);
     let values = Values::new()
@@ -29,7 +29,7 @@ pub fn compare_page(study: &Comparison, imprint: &Imprint) -> Result<Files, Page
 ///
 /// # Errors
 /// What cannot be drawn.
-pub fn compare_files(study: &Comparison) -> Result<Files, PageError> {
+pub fn compare_files(study: &Comparison) -> Result<Files> {
     let mut files = Files::default();
     let (first, dataset) = (&study.variants[0], &study.dataset);
     let shapes = |axis| figures::shapes("Predicted and measured shape", &first.scenario, dataset, axis);

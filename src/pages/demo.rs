@@ -2,7 +2,7 @@
 
 use super::diagnosis::{Diagnosed, draw, verdict};
 use super::engines::overview;
-use super::{Imprint, PAPER, PageError, Values, figures, residual_figure};
+use super::{Imprint, PAPER, Result, Values, figures, residual_figure};
 use crate::prelude::*;
 use crate::shown::demo as shown;
 use crate::shown::held::HeldTable;
@@ -17,7 +17,7 @@ use data::published::printed;
 const PICTURES: [&str; 5] = ["missing_moment", "residuals_before", "ranking", "before_after", "candidates"];
 
 /// The page of the demonstration and its plots.
-pub(crate) fn demo_page(demo: &Demo, imprint: &Imprint, progress: &mut Progress) -> Result<Files, PageError> {
+pub(crate) fn demo_page(demo: &Demo, imprint: &Imprint, progress: &mut Progress) -> Result<Files> {
     let mut files = Files::default();
     progress("plots of the published displacements", Some(0.0));
     files.plot("published", figures::published_bars(&demo.ladders)?);
@@ -81,7 +81,7 @@ fn ladder(l: &PublishedLadder) -> Values {
         .with("bare_mm", l.rungs[0].y_m * 1e3)
 }
 
-fn draw_study(study: &Comparison, files: &mut Files) -> Result<Values, PageError> {
+fn draw_study(study: &Comparison, files: &mut Files) -> Result<Values> {
     let (first, name) = (&study.variants[0], &study.dataset.name);
     let map = residual_figure::map("Bare model: where it misses", &first.evaluation.residual_map, &study.dataset)?;
     files.plot(&format!("{name}_map"), map);

@@ -1,12 +1,12 @@
 //! A design and its wish.
 
-use super::PageError;
+use super::Result;
 use super::figures::{LINE_POINTS, mm};
 use crate::prelude::*;
 use ::sweep::design::{Design, Wish};
 
 /// The shape of a design, with the places that are wished for and, where there are, those of finite elements (tip last) \[m\].
-pub(crate) fn design_files(wish: &Wish, found: &Design, elements_m: Option<&[[f64; 2]]>) -> Result<Files, PageError> {
+pub(crate) fn design_files(wish: &Wish, found: &Design, elements_m: Option<&[[f64; 2]]>) -> Result<Files> {
     let model = Model::new(&found.file.scenario);
     let radius = 1e3 * found.file.radius_m;
     let rest = [[0.0, 0.0], [1e3 * found.file.length_m, 0.0]];

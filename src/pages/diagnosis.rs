@@ -3,7 +3,7 @@
 use super::diagnosis_figures::{
     candidate_curves, ledger_cases, left_out, ranking, shown, supply, waterfall, witness_ledger,
 };
-use super::{Imprint, PageError, Values, figures, moment_figure, residual_figure};
+use super::{Imprint, Result, Values, figures, moment_figure, residual_figure};
 use crate::prelude::*;
 use crate::shown::diagnosis_tables as tables;
 use ::compare::diagnosis::words::listed;
@@ -43,7 +43,7 @@ pub struct Diagnosed<'a> {
 ///
 /// # Errors
 /// What cannot be drawn.
-pub fn diagnosis_page(found: &Diagnosed, imprint: &Imprint, progress: &mut Progress) -> Result<Files, PageError> {
+pub fn diagnosis_page(found: &Diagnosed, imprint: &Imprint, progress: &mut Progress) -> Result<Files> {
     let mut files = diagnosis_plots(found, progress)?;
     if let Some(missing) = &found.diagnosis.missing_moment {
         files.text("missing_moment.csv", missing.csv());
@@ -56,14 +56,14 @@ pub fn diagnosis_page(found: &Diagnosed, imprint: &Imprint, progress: &mut Progr
 ///
 /// # Errors
 /// What cannot be drawn.
-pub fn diagnosis_plots(found: &Diagnosed, progress: &mut Progress) -> Result<Files, PageError> {
+pub fn diagnosis_plots(found: &Diagnosed, progress: &mut Progress) -> Result<Files> {
     let mut files = Files::default();
     draw(found, "", &diagnosis_pictures(), &mut files, progress)?;
     Ok(files)
 }
 
 /// A picture of a diagnosis with the scenario fitted to the stations and loads of the data; `None` where there is nothing to show.
-type Picture = fn(&Diagnosed, &Scenario) -> Result<Option<Drawn>, PageError>;
+type Picture = fn(&Diagnosed, &Scenario) -> Result<Option<Drawn>>;
 
 /// Every picture that a report of a diagnosis may have, and its name without prefix and ending.
 const PICTURES: [(&str, Picture); 9] = [
@@ -116,7 +116,7 @@ pub(super) fn draw(
     wanted: &[&str],
     files: &mut Files,
     progress: &mut Progress,
-) -> Result<(), PageError> {
+) -> Result<()> {
     let (scenario, _) = fit_scenario(found.scenario, found.dataset, found.about)?;
     for (i, (name, picture)) in PICTURES.iter().filter(|(name, _)| wanted.contains(name)).enumerate() {
         progress("plots of the diagnosis", Some(i as f64 / wanted.len() as f64));

@@ -1,6 +1,6 @@
 //! Plots of both engines.
 
-use super::PageError;
+use super::Result;
 use crate::prelude::*;
 use compare::study::engines::{EnginePair, TERMS};
 use compare::study::engines::{EngineRobot, Engines, PartingMap};
@@ -11,7 +11,7 @@ use report::{self as plots, number};
 /// Share at which the colour of a map saturates.
 const STRONGEST: f64 = 1.5;
 
-pub(crate) fn parting_plot(map: &PartingMap) -> Result<Drawn, PageError> {
+pub(crate) fn parting_plot(map: &PartingMap) -> Result<Drawn> {
     let mut columns: Vec<f64> = map.rows.iter().flat_map(|r| r.1.iter().map(|p| p.actuator_kpa)).collect();
     columns.sort_by(f64::total_cmp);
     columns.dedup_by(|a, b| (*a - *b).abs() < 0.05);
@@ -42,7 +42,7 @@ pub(crate) fn parting_plot(map: &PartingMap) -> Result<Drawn, PageError> {
 }
 
 /// Displacements at the highest pressure; `None` without runs.
-pub(super) fn bars(engines: &Engines) -> Result<Option<Drawn>, PageError> {
+pub(super) fn bars(engines: &Engines) -> Result<Option<Drawn>> {
     let shown: Vec<&EngineRobot> =
         engines.robots.iter().filter(|r| r.published.is_some() && !r.pairs.is_empty()).collect();
     if shown.is_empty() {
@@ -68,7 +68,7 @@ const MOST_SERIES: usize = 24;
 
 /// χ over actuator pressure, a colour per robot: symbols with the scatter of seeds at its own body pressure, dashed below it
 /// and solid above; `None` where nothing is known of it.
-pub(super) fn displaced(robots: &[EngineRobot]) -> Result<Option<Drawn>, PageError> {
+pub(super) fn displaced(robots: &[EngineRobot]) -> Result<Option<Drawn>> {
     let mut series = Vec::new();
     for (colour, robot) in robots.iter().enumerate() {
         for body in &robot.bodies {
@@ -96,7 +96,7 @@ pub(super) fn displaced(robots: &[EngineRobot]) -> Result<Option<Drawn>, PageErr
 }
 
 /// Outermost marker over pressure: both engines, every seed of the finite elements.
-pub(super) fn curve(robot: &EngineRobot) -> Result<Drawn, PageError> {
+pub(super) fn curve(robot: &EngineRobot) -> Result<Drawn> {
     let reduced = robot.pairs.iter().map(|p| [p.actuator_kpa, p.reduced_mm[0]]);
     let reduced = std::iter::once([0.0, 0.0]).chain(reduced).collect();
     let mut all = vec![LineSeries::new("reduced, as shipped", LineStyle::LinePoints, reduced)];
@@ -143,7 +143,7 @@ fn ahead_cm3(robot: &EngineRobot) -> f64 {
     first.map_or(0.0, |p| (p.reduced_mj[0] - p.fe_mj[0]) / p.actuator_kpa)
 }
 
-pub(super) fn ledger(robot: &EngineRobot) -> Result<Drawn, PageError> {
+pub(super) fn ledger(robot: &EngineRobot) -> Result<Drawn> {
     let first = robot.pairs.first().map_or(0.0, |p| p.actuator_kpa);
     let title = format!("{}: where the energy is", robot.scenario.actuator.kind.name);
     let label = match robot.scenario.actuator.kind.family {

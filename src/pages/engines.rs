@@ -1,7 +1,7 @@
 //! Both engines and the published numbers on one page: displacement, accuracy, ledgers, and where the models part.
 
 use super::engine_figures::{bars, curve, displaced, ledger, parting_plot};
-use super::{Imprint, PAPER, PageError, Values, marker_intervals, what_to_measure};
+use super::{Imprint, PAPER, Result, Values, marker_intervals, what_to_measure};
 use crate::prelude::*;
 use crate::tables::PageTable;
 use ::compare::study::columns::{TextTable, csv};
@@ -9,7 +9,7 @@ use ::compare::study::engines::{EngineRobot, Engines, LINES_CSV, line_table, lin
 use ::compare::study::uncertain::Uncertain;
 
 /// The page with its plots and tables.
-pub(crate) fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files, PageError> {
+pub(crate) fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files> {
     let mut files = Files::default();
     let overview = overview(engines, &mut files)?;
     let (mut cubes, mut kinds, mut maps) = (Vec::new(), Vec::new(), Vec::new());
@@ -51,7 +51,7 @@ fn shown(table: TextTable) -> PageTable {
 }
 
 /// One row a robot, with the bars of their displacements, and all lines as a table.
-pub(super) fn overview(engines: &Engines, files: &mut Files) -> Result<Values, PageError> {
+pub(super) fn overview(engines: &Engines, files: &mut Files) -> Result<Values> {
     let mut all = Vec::new();
     for robot in &engines.robots {
         all.extend(lines(robot)?);
@@ -65,7 +65,7 @@ pub(super) fn overview(engines: &Engines, files: &mut Files) -> Result<Values, P
 }
 
 /// Heights of all markers with their intervals, and what to measure first.
-fn draw_cube(robot: &EngineRobot, cube: &Uncertain, files: &mut Files) -> Result<Values, PageError> {
+fn draw_cube(robot: &EngineRobot, cube: &Uncertain, files: &mut Files) -> Result<Values> {
     let own = if robot.published.is_some() { cube.measured() } else { Vec::new() };
     let words: String = cube.variant.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
     let name = [cube.actuator.as_str(), &words].iter().filter(|w| !w.is_empty()).copied().collect::<Vec<_>>().join("-");

@@ -78,7 +78,7 @@ impl Files {
     }
 
     /// Adds a table as `<name>.csv`.
-    fn csv(&mut self, name: &str, table: &data::Table) -> Result<(), PageError> {
+    fn csv(&mut self, name: &str, table: &data::Table) -> Result<()> {
         let mut csv = Vec::new();
         table.to_csv(&mut csv)?;
         self.files.push((format!("{name}.csv"), csv));
@@ -86,14 +86,14 @@ impl Files {
     }
 
     /// Adds a table as `<name>.csv` and `<name>.parquet`.
-    fn table(&mut self, name: &str, table: data::Table) -> Result<(), PageError> {
+    fn table(&mut self, name: &str, table: data::Table) -> Result<()> {
         self.csv(name, &table)?;
         self.parquet.push((format!("{name}.parquet"), table));
         Ok(())
     }
 
     /// Adds the page of a template, with the plots that were added before.
-    fn page(&mut self, template: &str, values: Values, imprint: &Imprint) -> Result<(), PageError> {
+    fn page(&mut self, template: &str, values: Values, imprint: &Imprint) -> Result<()> {
         let Imprint { program, date, machine } = imprint;
         let values = Values::new().with("program", program).with("date", date).with("machine", machine).and(values);
         let svg = |(name, bytes): &(String, Vec<u8>)| {
@@ -136,6 +136,9 @@ impl Values {
         self
     }
 }
+
+/// What makes a page or a picture.
+type Result<T, E = PageError> = std::result::Result<T, E>;
 
 /// What can go wrong when a page is made.
 #[derive(Debug, thiserror::Error)]

@@ -1,6 +1,6 @@
 //! The missing moment → its picture: points with error bars, and the explanations as curves through them.
 
-use super::PageError;
+use super::Result;
 use crate::prelude::*;
 use compare::moment::{MissingMoment, MomentCurve, MomentPoint};
 use compare::witness::FeMoment;
@@ -16,7 +16,7 @@ const FINITE_ELEMENTS: Symbol = Symbol::Triangle;
 const FREE_SERIES: usize = 7;
 
 /// The picture, with what finite elements of the robot would ask for; `None` where no hold has a missing moment.
-pub(super) fn missing_moment(found: &MissingMoment, beside: &[FeMoment]) -> Result<Option<Drawn>, PageError> {
+pub(super) fn missing_moment(found: &MissingMoment, beside: &[FeMoment]) -> Result<Option<Drawn>> {
     let points: Vec<&MomentPoint> = found.of_holds().collect();
     if points.is_empty() {
         return Ok(None);

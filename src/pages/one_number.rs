@@ -1,6 +1,6 @@
 //! All that meets one published displacement, as curves.
 
-use super::PageError;
+use super::Result;
 use crate::prelude::*;
 use compare::study::one_number::{Explanation, OneNumber};
 use data::published::printed;
@@ -10,7 +10,7 @@ use report::lines;
 const MOST_CURVES: usize = 22;
 
 /// Displacement over pressure of every explanation.
-pub(crate) fn one_number_files(one: &OneNumber) -> Result<Files, PageError> {
+pub(crate) fn one_number_files(one: &OneNumber) -> Result<Files> {
     let mut files = Files::default();
     files.plot(&format!("one_number_{}", one.actuator), lines(&curves(one))?);
     Ok(files)

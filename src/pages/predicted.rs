@@ -1,6 +1,6 @@
 //! Predicted shapes.
 
-use super::PageError;
+use super::Result;
 use super::figures::{LINE_POINTS, MOST_POSES, mm};
 use crate::AtPressure;
 use crate::prelude::*;
@@ -10,7 +10,7 @@ use report::{ShapePose, Shapes, shapes};
 ///
 /// # Errors
 /// What cannot be drawn.
-pub fn predicted_files(scenario: &Scenario, states: &[AtPressure]) -> Result<Files, PageError> {
+pub fn predicted_files(scenario: &Scenario, states: &[AtPressure]) -> Result<Files> {
     let model = Model::new(scenario);
     let mut files = Files::default();
     files.plot("shapes", shapes(&seen(scenario, &model, states, 1))?);

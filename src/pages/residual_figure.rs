@@ -1,6 +1,6 @@
 //! The residual map of a page.
 
-use super::PageError;
+use super::Result;
 use super::figures::several_bodies;
 use crate::prelude::*;
 use crate::words::kpa;
@@ -35,7 +35,7 @@ pub(super) fn colours(dataset: &Dataset) -> &'static str {
 
 /// Signed residuals marker × hold, across the robot and along it, in units of noise (in mm when the noise is unknown). Of more
 /// markers or holds than fit, the one of every few neighbours that is farthest off.
-pub(super) fn map(title: &str, map: &ResidualMap, dataset: &Dataset) -> Result<Drawn, PageError> {
+pub(super) fn map(title: &str, map: &ResidualMap, dataset: &Dataset) -> Result<Drawn> {
     let in_noise = map.cells.iter().flatten().all(|c| c.axes().iter().all(|d| d.in_noise.is_some()));
     let value = |seen: bool, d: Deviation| match d.in_noise {
         _ if !seen => f64::NAN,

@@ -1,6 +1,6 @@
 //! A sweep as pictures: how far each key moves the tip, and a map over the two that move it most.
 
-use super::PageError;
+use super::Result;
 use crate::prelude::*;
 use ::sweep::influence::{Influence, SweepMap, influences, map};
 use ::sweep::{Engine, Study};
@@ -8,7 +8,7 @@ use data::Table;
 use report::number;
 
 /// Pictures of a table, two for every engine and coordinate of the tip.
-pub(crate) fn sweep_pictures(study: &Study, table: &Table) -> Result<Files, PageError> {
+pub(crate) fn sweep_pictures(study: &Study, table: &Table) -> Result<Files> {
     let mut files = Files::default();
     for engine in &study.engines {
         let by = if *engine == Engine::Elements { "_fe" } else { "" };
@@ -33,7 +33,7 @@ pub(crate) fn sweep_picture_names() -> [&'static str; 8] {
     ["influence", "influence_fe", "map", "map_fe", "influence_z", "influence_z_fe", "map_z", "map_z_fe"]
 }
 
-fn tornado(found: &[Influence], engine: Engine, what: &str) -> Result<Drawn, PageError> {
+fn tornado(found: &[Influence], engine: Engine, what: &str) -> Result<Drawn> {
     let bar = |(row, i): (usize, &Influence)| {
         let span = i.range();
         let (low, high) = (number(span[0], 0), number(span[1], 0));
@@ -46,7 +46,7 @@ fn tornado(found: &[Influence], engine: Engine, what: &str) -> Result<Drawn, Pag
     Ok(report::rows(&title, &label, rows, marks, Vec::new()).draw("influence of each key")?)
 }
 
-fn map_of(map: &SweepMap, engine: Engine, what: &str) -> Result<Drawn, PageError> {
+fn map_of(map: &SweepMap, engine: Engine, what: &str) -> Result<Drawn> {
     let finite = || map.means.iter().flatten().copied().filter(|m| m.is_finite());
     let most = finite().fold(0.0, |most: f64, m| most.max(m.abs()));
     let cells = |(r, row): (usize, &Vec<f64>)| {

@@ -1,11 +1,11 @@
 //! Tracks over time with the holds that were found in them.
 
-use super::PageError;
+use super::Result;
 use crate::prelude::*;
 use data::import::RunTrack;
 
 /// y of every marker over time; behind it the holds, each with its pressure.
-pub(crate) fn tracks_plot(track: &RunTrack) -> Result<Drawn, PageError> {
+pub(crate) fn tracks_plot(track: &RunTrack) -> Result<Drawn> {
     let line = |(k, (_, points)): (usize, &(String, Vec<[f64; 2]>))| {
         Mark::Line(points.iter().map(|[t, y]| [*t, y * 1e3]).collect(), Ink::Series(k))
     };

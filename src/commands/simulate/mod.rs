@@ -15,7 +15,7 @@ use ibr::pages::run_plots;
 use plan::RunPlan;
 use std::time::Duration;
 
-pub(super) fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome> {
     let plan = plan::plan(args, fe_source(&args.case)?)?;
     if let Some(file) = &args.export {
         return export::written(args, &plan, file, context.force);
@@ -51,7 +51,7 @@ pub(super) fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome,
     }
 }
 
-fn one(args: &SimulateArgs, source: &Source, settings: &Settings, context: &mut Context) -> Result<Outcome, Failure> {
+fn one(args: &SimulateArgs, source: &Source, settings: &Settings, context: &mut Context) -> Result<Outcome> {
     let folder = settings.folder.as_deref().unwrap_or(Path::new(""));
     let run = match context.fem(|progress| simulate(source, settings, progress)) {
         Err(FemError::Interrupted { time_s, step, .. }) => {

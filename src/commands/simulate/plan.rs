@@ -33,7 +33,7 @@ impl RunPlan {
     }
 }
 
-pub(super) fn plan(args: &SimulateArgs, source: Source) -> Result<RunPlan, Failure> {
+pub(super) fn plan(args: &SimulateArgs, source: Source) -> Result<RunPlan> {
     if !source.is_robot() {
         return match robot_option(args) {
             None => Ok(RunPlan::Single(source)),
@@ -90,12 +90,12 @@ fn robot_option(args: &SimulateArgs) -> Option<&'static str> {
 }
 
 /// A robot with other values in its scenario.
-fn changed(source: Source, changes: &[(String, String)]) -> Result<Source, Failure> {
+fn changed(source: Source, changes: &[(String, String)]) -> Result<Source> {
     let file = ScenarioFile::parse_in_space(&source.name, &source.text)?.with_in_space(changes)?;
     Ok(Source { text: file.text, ..source })
 }
 
-fn setting(text: &str) -> Result<(String, String), Failure> {
+fn setting(text: &str) -> Result<(String, String)> {
     let names = || OTHERS.into_iter().chain(KEYS.iter().map(|k| k.name)).collect::<Vec<_>>().join(", ");
     let help = || format!("for example --set hourglass=0.02 or body.radius_mm=45; keys of [fem]: {}", names());
     let (key, value) = inputs::setting(text, &help())?;

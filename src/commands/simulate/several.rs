@@ -10,7 +10,7 @@ use fem::session::{Cube, Job, RunTable, Settings, Source, Variation, simulate_al
 use ibr::pages::{Files, marker_intervals, mesh_plot, what_to_measure};
 use std::collections::BTreeMap;
 
-fn jobs(base: &Source, variations: &[Variation]) -> Result<Vec<Job>, Failure> {
+fn jobs(base: &Source, variations: &[Variation]) -> Result<Vec<Job>> {
     let job = |v: &Variation| {
         let (what, folder) = (v.label.clone(), Some(v.label.clone()));
         Ok(Job { source: base.with(&v.changes)?, what, folder })
@@ -24,7 +24,7 @@ pub(super) fn table(
     settings: &Settings,
     shards: &ShardArgs,
     context: &mut Context,
-) -> Result<Outcome, Failure> {
+) -> Result<Outcome> {
     let jobs = jobs(base, variations)?;
     if let Some(told) = shared(shards, &jobs, settings, context)? {
         return Ok(told);
@@ -48,7 +48,7 @@ pub(super) fn uncertain(
     args: &SimulateArgs,
     settings: Settings,
     context: &mut Context,
-) -> Result<Outcome, Failure> {
+) -> Result<Outcome> {
     let settings = Settings { frames: false, ..settings };
     let jobs = jobs(&cube.base, &cube.robots)?;
     if let Some(told) = shared(&args.shards, &jobs, &settings, context)? {
@@ -86,7 +86,7 @@ fn write(
     settings: &Settings,
     files: impl Iterator<Item = (&'static str, &'static str, Vec<u8>)>,
     context: &mut Context,
-) -> Result<(), Failure> {
+) -> Result<()> {
     let folder = settings.folder.as_deref().unwrap_or(Path::new(""));
     let mut written = Files::default();
     for (what, name, bytes) in files {
