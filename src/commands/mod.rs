@@ -2,6 +2,7 @@
 
 mod add;
 mod bench;
+mod bench_tests;
 mod breakdown;
 mod challenge;
 mod characterize;
@@ -12,11 +13,9 @@ mod data_import;
 mod demo;
 mod design;
 mod diagnose;
-mod diagnose_bench;
 mod engines;
 mod export;
 mod fem_inputs;
-mod held;
 pub(crate) mod import_options;
 mod inputs;
 mod ladder;
