@@ -15,7 +15,7 @@ pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome> 
         let message = "--runs, --stored and --pressure are about finite element runs";
         return Err(Failure::usage(message, "add --engines or --paper, or leave them out"));
     }
-    if let Some(outcome) = super::bench_tests::compared(args, context)? {
+    if let Some(outcome) = super::bench_tables::compared(args, context)? {
         return Ok(outcome);
     }
     let (file, data_spec) = both(args)?;

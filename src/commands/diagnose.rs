@@ -17,7 +17,7 @@ pub(super) fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome>
     if args.published {
         return super::published::run(&args.scenario, args.out.as_deref(), context);
     }
-    if let Some(outcome) = super::bench_tests::diagnosed(args, context)? {
+    if let Some(outcome) = super::bench_tables::diagnosed(args, context)? {
         return Ok(outcome);
     }
     let Some(data) = args.data.as_deref() else {

@@ -2,7 +2,7 @@
 
 mod add;
 mod bench;
-mod bench_tests;
+mod bench_tables;
 mod breakdown;
 mod challenge;
 mod characterize;

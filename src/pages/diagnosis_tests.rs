@@ -18,7 +18,7 @@ use models::Scenario;
 fn every_body_pressure_has_its_shapes_points_and_curves() {
     let (dataset, _) = data::load("synthetic-epam-two-bodies", &mut |_, _| {}).unwrap();
     let scenario = textbook_scenario("epam").unwrap();
-    let drawn = figures::shapes("both", &scenario, &dataset).unwrap();
+    let drawn = figures::shapes("both", &scenario, &dataset, 1).unwrap();
     for label in ["30 kPa, body 2", "20 kPa, body 2", "20 kPa, body 4", "60 kPa, body 4"] {
         assert!(drawn.svg.contains(label), "{label}");
     }
