@@ -6,6 +6,7 @@ use compare::diagnosis::ParameterValue;
 use compare::diagnosis::words::three;
 use compare::extension::{Addition, ErrorStep, Extension, today};
 use compare::ladder::Climb;
+use fem::session::FileHash;
 use std::collections::BTreeMap;
 
 /// Errors on the way as a text table.
@@ -58,9 +59,9 @@ pub struct AddAnswer<'a> {
     /// Noise of the mean
     pub noise_floor_mm: Option<f64>,
     /// Data of the fit; null without
-    pub data: Option<Input>,
+    pub data: Option<FileHash>,
     /// Data that were fitted along
-    pub also: Vec<Input>,
+    pub also: Vec<FileHash>,
     /// Date
     pub date: String,
     /// Cautions
@@ -97,7 +98,7 @@ impl<'a> AddAnswer<'a> {
             values: a.values.iter().map(|(key, value)| (key.as_str(), *value)).collect(),
             parameters: found.fitted.iter().find(|f| f.effect == a.name).map(|f| &f.parameters[..]),
         };
-        let data = evidence.iter().map(|e| Ok(Input { name: e.name.clone(), sha256: e.sha256()? }));
+        let data = evidence.iter().map(|e| Ok(FileHash { name: e.name.clone(), sha256: e.sha256()? }));
         let mut data = data.collect::<Result<Vec<_>, CompareError>>()?.into_iter();
         Ok(AddAnswer {
             scenario_file: &file.name,
