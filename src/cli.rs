@@ -9,15 +9,15 @@ mod sweep;
 
 use clap::{Args, Parser, Subcommand};
 use compare::study::Knob;
-pub use data::{CharacterizeArgs, DataCommand, DataFemArgs, GenerateArgs, ScatterArgs};
-pub use discover::{
+pub(crate) use data::{CharacterizeArgs, DataCommand, DataFemArgs, GenerateArgs, ScatterArgs};
+pub(crate) use discover::{
     AddArgs, BreakdownArgs, ChallengeCommand, ChallengeNewArgs, DiagnoseArgs, LadderArgs, TradeoffArgs, ValidateArgs,
 };
-pub use export::{ExportArgs, ExportCommand, LinearArgs};
-pub use groups::{command, parsed};
-pub use import::Import;
+pub(crate) use export::{ExportArgs, ExportCommand, LinearArgs};
+pub(crate) use groups::{command, parsed};
+pub(crate) use import::Import;
 use std::path::PathBuf;
-pub use sweep::{DesignArgs, ShardArgs, SweepArgs};
+pub(crate) use sweep::{DesignArgs, ShardArgs, SweepArgs};
 
 /// Models of pneumatic bending actuators on inflated-beam robots, compared with measurements.
 #[derive(Debug, Parser)]
@@ -26,7 +26,7 @@ pub use sweep::{DesignArgs, ShardArgs, SweepArgs};
     A CASE is a TOML file with kind = \"fem\" or a shipped case: pillow, tube; robots run too (ibr list cases).\n\
     A DATA is a CSV or Parquet file, a folder with markers.csv and about.toml, or an embedded set (ibr list datasets).\n\
     Exit codes: 0 done, 1 a threshold was missed, 2 wrong usage, 3 bad input or output file, 4 no solution, 130 interrupted.")]
-pub struct Cli {
+pub(crate) struct Cli {
     /// Print one JSON object instead of text
     #[arg(long, global = true)]
     pub json: bool,
@@ -39,14 +39,12 @@ pub struct Cli {
     /// Replace existing files; a finished run stays until the new one is complete
     #[arg(long, global = true)]
     pub force: bool,
-    /// What to do
     #[command(subcommand)]
     pub command: Command,
 }
 
-/// Subcommands.
 #[derive(Debug, Subcommand)]
-pub enum Command {
+pub(crate) enum Command {
     /// The whole story on embedded data, with a report
     Demo(OutDirArgs),
     /// Shape and markers at given pressures, or the pressure for a target tip
@@ -114,9 +112,8 @@ pub enum Command {
     },
 }
 
-/// The page and its port.
 #[derive(Debug, Args)]
-pub struct StudioArgs {
+pub(crate) struct StudioArgs {
     /// Port on 127.0.0.1; 0 for a free one
     #[arg(long, default_value_t = 0)]
     pub port: u16,
@@ -125,9 +122,8 @@ pub struct StudioArgs {
     pub page: Option<PathBuf>,
 }
 
-/// Choice of checks.
 #[derive(Debug, Args)]
-pub struct VerifyArgs {
+pub(crate) struct VerifyArgs {
     /// Also the finite element checks that take long, some minutes in all
     #[arg(long)]
     pub slow: bool,
@@ -139,9 +135,8 @@ pub struct VerifyArgs {
     pub plots: Option<PathBuf>,
 }
 
-/// Choice of measurements.
 #[derive(Debug, Args)]
-pub struct BenchArgs {
+pub(crate) struct BenchArgs {
     /// model, fem or discovery: how often a diagnosis is right on data with hidden effects
     #[arg(value_parser = ["model", "fem", "discovery"], default_value = "model")]
     pub what: String,
@@ -157,7 +152,6 @@ pub struct BenchArgs {
     /// With discovery: folder where every answer is kept, so that an interrupted bench goes on and shards share it
     #[arg(long, value_name = "FOLDER")]
     pub out: Option<PathBuf>,
-    /// With discovery: work on several machines
     #[command(flatten)]
     pub shards: ShardArgs,
     /// With fem: also whole runs, pillows of the nodes of up to 80 000 triangles and the four robots, about two minutes
@@ -165,17 +159,15 @@ pub struct BenchArgs {
     pub all: bool,
 }
 
-/// Where results go.
 #[derive(Debug, Args)]
-pub struct OutDirArgs {
+pub(crate) struct OutDirArgs {
     /// Folder for the report, plots and tables
     #[arg(long, default_value = "ibr-report/demo")]
     pub out: PathBuf,
 }
 
-/// A robot as it is typed: a scenario, and what is changed in it.
 #[derive(Debug, Args)]
-pub struct RobotArgs {
+pub(crate) struct RobotArgs {
     /// Scenario file or shipped robot
     pub scenario: String,
     /// Body pressure with unit, for example 2kPa; default: the scenario's
@@ -192,10 +184,8 @@ pub struct RobotArgs {
     pub effect: Vec<String>,
 }
 
-/// `ibr predict`
 #[derive(Debug, Args)]
-pub struct PredictArgs {
-    /// The robot
+pub(crate) struct PredictArgs {
     #[command(flatten)]
     pub robot: RobotArgs,
     /// Actuator pressures with unit, for example 10kPa,20kPa, or from 0 to 30 in steps: 0:30:0.01kPa; `/` separates supply
@@ -225,9 +215,8 @@ pub struct PredictArgs {
     pub out: Option<PathBuf>,
 }
 
-/// `ibr pattern`
 #[derive(Debug, Args)]
-pub struct PatternArgs {
+pub(crate) struct PatternArgs {
     /// Scenario file or shipped robot
     pub scenario: String,
     /// File to write: .svg, or .dxf for a cutter
@@ -244,9 +233,8 @@ pub struct PatternArgs {
     pub allowance: String,
 }
 
-/// `ibr compare`
 #[derive(Debug, Args)]
-pub struct CompareArgs {
+pub(crate) struct CompareArgs {
     /// Scenario file or shipped robot, then marker data; with --engines or --paper any number of scenarios, the paper's if none
     #[arg(value_name = "SCENARIO DATA")]
     pub inputs: Vec<String>,
@@ -256,7 +244,6 @@ pub struct CompareArgs {
     /// The paper's finite elements, reproduced: runs with its own modelling choices, compared with what it prints, fact by fact
     #[arg(long, conflicts_with_all = ["engines", "calibrate", "effect", "sigma", "max_error"])]
     pub paper: bool,
-    /// With --engines or --paper
     #[command(flatten)]
     pub runs: RunsArgs,
     /// With --paper and --runs: meshes of the runs, body and actuator; the paper's final one is 4mm/1mm and takes hours
@@ -274,7 +261,6 @@ pub struct CompareArgs {
     /// Also hold the model with this effect against the data: name or name:key=value[,key=value]; repeatable, cumulative
     #[arg(long, short)]
     pub effect: Vec<String>,
-    /// Noise
     #[command(flatten)]
     pub noise: NoiseArgs,
     /// Exit with code 1 if the error beyond noise of the last model exceeds this, for example 5mm
@@ -285,9 +271,8 @@ pub struct CompareArgs {
     pub out: Option<PathBuf>,
 }
 
-/// Finite element runs.
 #[derive(Debug, Args)]
-pub struct RunsArgs {
+pub(crate) struct RunsArgs {
     /// Folder of finished runs; missing ones are made there. Default: ibr-report/runs; with --paper the runs that come
     /// with the program
     #[arg(long)]
@@ -298,24 +283,21 @@ pub struct RunsArgs {
 }
 
 impl RunsArgs {
-    /// Where runs are kept.
-    pub fn folder(&self) -> PathBuf {
+    pub(crate) fn folder(&self) -> PathBuf {
         self.runs.clone().unwrap_or_else(|| PathBuf::from("ibr-report/runs"))
     }
 }
 
-/// Noise of measurements.
 #[derive(Debug, Args)]
-pub struct NoiseArgs {
+pub(crate) struct NoiseArgs {
     /// Camera noise of one coordinate, for data of a single run, for example 1mm; for a table of bench tests the scatter of a row
     /// without a standard deviation, for example 3%
     #[arg(long, allow_hyphen_values = true)]
     pub sigma: Option<String>,
 }
 
-/// How effects are fitted to measurements.
 #[derive(Debug, Args)]
-pub struct FitArgs {
+pub(crate) struct FitArgs {
     /// Further data of the same robot, each with its own protocol, loads and direct measurements (about.toml), fitted along; repeatable
     #[arg(long, value_name = "DATA")]
     pub also: Vec<String>,
@@ -325,7 +307,6 @@ pub struct FitArgs {
     /// An effect that cannot be here, and is left out; or pressure_slip: the pressures are right although they look wrong; repeatable
     #[arg(long, value_name = "EFFECT")]
     pub not: Vec<String>,
-    /// Noise
     #[command(flatten)]
     pub noise: NoiseArgs,
     /// Differences up to this are good enough; default: the larger of 0.15 mm and 0.5 % of the largest deflection
@@ -333,9 +314,8 @@ pub struct FitArgs {
     pub tolerance: Option<String>,
 }
 
-/// `ibr simulate`
 #[derive(Debug, Args)]
-pub struct SimulateArgs {
+pub(crate) struct SimulateArgs {
     /// Case file or robot's scenario, or a shipped one: pillow, tube, spam, cpam, epam, fpam
     pub case: String,
     /// Folder of the run; default: ibr-report/simulate-<case>
@@ -375,7 +355,6 @@ pub struct SimulateArgs {
     /// Robots: another value of a key of [fem] or of the scenario, for example bond=0.5 or body.radius_mm=45; repeatable
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Work on several machines
     #[command(flatten)]
     pub shards: ShardArgs,
     /// Robots: so many robots (30) whose assumed numbers fill their intervals as a Latin hypercube: median and 80 % interval of every

@@ -11,14 +11,11 @@ use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 /// What a command may use of the outside.
-pub struct Context<'a> {
+pub(crate) struct Context<'a> {
     /// What was typed after the name of the program.
     pub typed: Vec<String>,
-    /// JSON is asked for.
     pub json: bool,
-    /// Threads; 0: one per core.
     pub threads: usize,
-    /// Existing files may be replaced.
     pub force: bool,
     /// Takes what is being done, and which share of the whole is done if known.
     pub progress: &'a mut (dyn FnMut(&str, Option<f64>) + Send),
@@ -32,7 +29,7 @@ pub struct Context<'a> {
 
 impl Context<'_> {
     /// Makes finite element runs. Ctrl-C asks them to end from here on, which they do with a checkpoint.
-    pub fn fem<T, E>(&mut self, make: impl FnOnce(Progress) -> Result<T, E>) -> Result<T, E> {
+    pub(crate) fn fem<T, E>(&mut self, make: impl FnOnce(Progress) -> Result<T, E>) -> Result<T, E> {
         let Context { progress, interrupt, .. } = self;
         interrupt.await_one();
         let made = make(&mut |text, share| {
@@ -49,82 +46,71 @@ const ONE_REQUEST: Duration = Duration::from_secs(1);
 
 /// How Ctrl-C reaches a command that saves where it stands before it ends.
 #[derive(Debug)]
-pub struct Interrupt {
-    /// Runs that will end themselves.
+pub(crate) struct Interrupt {
     awaited: AtomicUsize,
-    /// When it was asked first.
     asked: OnceLock<Instant>,
 }
 
 impl Interrupt {
-    /// Nobody waits for it yet.
-    pub const fn new() -> Interrupt {
+    pub(crate) const fn new() -> Interrupt {
         Interrupt { awaited: AtomicUsize::new(0), asked: OnceLock::new() }
     }
 
     /// One more run will end itself when asked, from now on.
-    pub fn await_one(&self) {
+    pub(crate) fn await_one(&self) {
         self.awaited.fetch_add(1, Ordering::SeqCst);
     }
 
-    /// One less.
-    pub fn let_one_go(&self) {
+    pub(crate) fn let_one_go(&self) {
         self.awaited.fetch_sub(1, Ordering::SeqCst);
     }
 
     /// Asks the command to end; false if it will not, or was asked before. Who asks again at once asks once: `timeout` and job
     /// schedulers signal a program and its group, and a checkpoint shall still be written.
-    pub fn ask(&self) -> bool {
+    pub(crate) fn ask(&self) -> bool {
         self.awaited.load(Ordering::SeqCst) > 0 && self.asked.get_or_init(Instant::now).elapsed() < ONE_REQUEST
     }
 
-    /// Whether the command shall end.
-    pub fn asked(&self) -> bool {
+    pub(crate) fn asked(&self) -> bool {
         self.asked.get().is_some()
     }
 }
 
 /// What a command has to say.
 #[derive(Debug, Default)]
-pub struct Outcome {
-    /// Text for standard output.
+pub(crate) struct Outcome {
     pub text: String,
-    /// The same as JSON.
     pub json: Option<serde_json::Value>,
-    /// Lines for standard error.
     pub notes: Vec<String>,
-    /// Exit code.
     pub code: u8,
 }
 
 impl Outcome {
     /// A text, and the same as JSON of a shape in its first version.
-    pub fn answer(text: String, schema: &'static str, body: &impl Serialize) -> Outcome {
+    pub(crate) fn answer(text: String, schema: &'static str, body: &impl Serialize) -> Outcome {
         Outcome::new(text, as_json(schema, body))
     }
 
     /// A text, and the same as JSON.
-    pub fn new(text: String, json: serde_json::Value) -> Outcome {
+    pub(crate) fn new(text: String, json: serde_json::Value) -> Outcome {
         Outcome { text, json: Some(json), notes: Vec::new(), code: 0 }
     }
 
     /// Nothing to show, and how to go on.
-    pub fn interrupted(note: String) -> Outcome {
+    pub(crate) fn interrupted(note: String) -> Outcome {
         Outcome { notes: vec![note], code: INTERRUPTED, ..Outcome::default() }
     }
 
-    /// Adds cautions.
-    pub fn warn<'w>(&mut self, warnings: impl IntoIterator<Item = &'w String>) {
+    pub(crate) fn warn<'w>(&mut self, warnings: impl IntoIterator<Item = &'w String>) {
         self.notes.extend(warnings.into_iter().map(|w| format!("warning: {w}")));
     }
 
-    /// States where the report is.
-    pub fn report(&mut self, folder: &Path) {
+    pub(crate) fn report(&mut self, folder: &Path) {
         self.notes.push(format!("report: {}", folder.join("report.html").display()));
     }
 
     /// The result stands, and what failed after it is said below it.
-    pub fn fail(&mut self, failure: &Failure) {
+    pub(crate) fn fail(&mut self, failure: &Failure) {
         self.notes.push(failure.render().trim_end().to_string());
         self.code = failure.code();
     }

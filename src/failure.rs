@@ -12,31 +12,26 @@ use miette::{
 };
 use models::Unsolved;
 
+/// What a command returns.
+pub(crate) type Result<T, E = Failure> = std::result::Result<T, E>;
+
 /// Exit code: a comparison missed its threshold.
-pub const MISSED: u8 = 1;
+pub(crate) const MISSED: u8 = 1;
 /// Exit code: wrong usage.
-pub const USAGE: u8 = 2;
+pub(crate) const USAGE: u8 = 2;
 /// Exit code: an input cannot be read or an output not written.
-pub const BAD_INPUT: u8 = 3;
+pub(crate) const BAD_INPUT: u8 = 3;
 /// Exit code: no solution.
-pub const UNSOLVED: u8 = 4;
+pub(crate) const UNSOLVED: u8 = 4;
 
 /// Exit code after an interrupt, as shells have it: 128 + SIGINT.
-pub const INTERRUPTED: u8 = 130;
+pub(crate) const INTERRUPTED: u8 = 130;
 
-/// An error of the command.
 #[derive(Debug, thiserror::Error)]
-pub enum Failure {
+pub(crate) enum Failure {
     /// A folder that cannot be written to.
     #[error("cannot write to {path}: {cause}")]
-    Write {
-        /// Folder.
-        path: String,
-        /// Why.
-        cause: String,
-        /// What to do.
-        help: String,
-    },
+    Write { path: String, cause: String, help: String },
     /// A finite element run that cannot be made or was stopped.
     #[error(transparent)]
     Fem(#[from] FemError),
@@ -85,12 +80,11 @@ impl From<Unsolved> for Failure {
 
 impl Failure {
     /// A wrong argument and what to type instead.
-    pub fn usage(message: impl Into<String>, help: impl Into<String>) -> Failure {
+    pub(crate) fn usage(message: impl Into<String>, help: impl Into<String>) -> Failure {
         Failure::Compare(CompareError::refused(message, help))
     }
 
-    /// Exit code.
-    pub fn code(&self) -> u8 {
+    pub(crate) fn code(&self) -> u8 {
         use CompareError::{BadProtocol, Refused, Unsolved as NoSolution};
         match self {
             Failure::Compare(BadProtocol { .. } | Refused { .. }) => USAGE,
@@ -104,7 +98,7 @@ impl Failure {
     }
 
     /// The error with its place in the file and what to type.
-    pub fn render(&self) -> String {
+    pub(crate) fn render(&self) -> String {
         if let Failure::Fem(error @ FemError::Interrupted { .. }) = self {
             return format!("{error}; {}\n", error.help().unwrap_or_default());
         }
@@ -184,7 +178,6 @@ fn short(message: &str) -> String {
     message.split(' ').map(word).collect::<Vec<_>>().join(" ")
 }
 
-/// The line around a byte.
 fn line_at(text: &str, at: usize) -> &str {
     let at = text.floor_char_boundary(at);
     let from = text[..at].rfind('\n').map_or(0, |end| end + 1);

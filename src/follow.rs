@@ -142,7 +142,6 @@ struct Lines<R> {
 }
 
 impl<R: BufRead> Lines<R> {
-    /// With the header.
     fn begin<T>(
         input: R,
         from: &str,

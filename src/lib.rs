@@ -29,6 +29,8 @@
 //! | [`program`] | the command line as one call |
 //! | [`studies`] | robots in finite elements that come with the library by name |
 
+#![warn(unreachable_pub)]
+
 // The commands say `ibr::` as any program would.
 extern crate self as ibr;
 
@@ -44,11 +46,12 @@ mod output;
 pub mod pages;
 mod predict;
 mod predictor;
+mod prelude;
 mod printable;
 pub mod program;
 pub mod shown;
 pub mod studies;
-pub mod studio;
+mod studio;
 mod tables;
 pub mod words;
 

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// A line with a bar and the time left; it appears on terminals only, after the first quarter of a second.
-pub struct Meter {
+pub(crate) struct Meter {
     bar: ProgressBar,
     start: Instant,
     /// Highest share so far, in thousandths: a bar never falls back.
@@ -18,7 +18,7 @@ const KNOWN_AFTER_S: f64 = 1.5;
 
 impl Meter {
     /// A bar, or one that shows nothing.
-    pub fn new(is_wanted: bool) -> Meter {
+    pub(crate) fn new(is_wanted: bool) -> Meter {
         let bar = if is_wanted { ProgressBar::new(1000) } else { ProgressBar::hidden() };
         if let Ok(style) = ProgressStyle::with_template("{spinner} {elapsed} {bar:24} {msg}") {
             bar.set_style(style);
@@ -30,7 +30,7 @@ impl Meter {
     }
 
     /// What is being done, and which share of the whole is done.
-    pub fn tell(&self, what: &str, share: Option<f64>) {
+    pub(crate) fn tell(&self, what: &str, share: Option<f64>) {
         let now = (1000.0 * share.unwrap_or(0.0)) as u64;
         let highest = self.highest.fetch_max(now, Ordering::Relaxed).max(now);
         let left = left_s(self.start.elapsed().as_secs_f64(), 1e-3 * highest as f64);
@@ -40,12 +40,11 @@ impl Meter {
     }
 
     /// Does something else with the terminal.
-    pub fn apart<R>(&self, work: impl FnOnce() -> R) -> R {
+    pub(crate) fn apart<R>(&self, work: impl FnOnce() -> R) -> R {
         self.bar.suspend(work)
     }
 
-    /// Takes it away.
-    pub fn clear(&self) {
+    pub(crate) fn clear(&self) {
         self.bar.finish_and_clear();
     }
 }

@@ -1,9 +1,9 @@
 //! Results to disk: everything is ready in memory before the first byte is written.
 
 use crate::context::Context;
-use crate::failure::Failure;
-pub use compare::extension::today;
-pub use fem::session::{FileHash as Input, sha256};
+use crate::failure::{Failure, Result};
+pub(crate) use compare::extension::today;
+pub(crate) use fem::session::{FileHash as Input, sha256};
 use fem::session::{MANIFEST, Maker, Manifest};
 use ibr::pages::{Files, Imprint};
 use serde::Deserialize;
@@ -14,14 +14,14 @@ use std::sync::PoisonError;
 
 /// Writes all files into a folder, the report last; each replaces its older one only when complete. Files that this program did not
 /// write are not replaced.
-pub fn write_files(folder: &Path, files: &Files, inputs: &[Input], context: &mut Context) -> Result<(), Failure> {
+pub(crate) fn write_files(folder: &Path, files: &Files, inputs: &[Input], context: &mut Context) -> Result<()> {
     let names = files.files.iter().map(|(name, _)| name).chain(files.parquet.iter().map(|(name, _)| name));
     check_own(folder, names.map(String::as_str))?;
     replace_files(folder, files, inputs, context)
 }
 
 /// The same after the command has asked itself: whatever has these names is replaced.
-pub fn replace_files(folder: &Path, files: &Files, inputs: &[Input], context: &mut Context) -> Result<(), Failure> {
+pub(crate) fn replace_files(folder: &Path, files: &Files, inputs: &[Input], context: &mut Context) -> Result<()> {
     let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
     write_all(folder, files, inputs)?;
     *written = true;
@@ -29,7 +29,7 @@ pub fn replace_files(folder: &Path, files: &Files, inputs: &[Input], context: &m
 }
 
 /// Refuses to replace files of these names that no manifest in the folder lists.
-fn check_own<'n>(folder: &Path, names: impl Iterator<Item = &'n str>) -> Result<(), Failure> {
+fn check_own<'n>(folder: &Path, names: impl Iterator<Item = &'n str>) -> Result<()> {
     let listed = listed(folder);
     let is_own = |name: &str| name == MANIFEST_FILE || listed.iter().any(|ours| ours.name == name);
     let is_foreign = |name: &&str| folder.join(name).is_file() && (listed.is_empty() || !is_own(name));
@@ -43,7 +43,7 @@ fn check_own<'n>(folder: &Path, names: impl Iterator<Item = &'n str>) -> Result<
 }
 
 /// Writes single texts, each whole or not at all. A file that is there is replaced only if its beginning has [`MADE_HERE`].
-pub fn write_texts(files: &[(PathBuf, String)], context: &mut Context) -> Result<(), Failure> {
+pub(crate) fn write_texts(files: &[(PathBuf, String)], context: &mut Context) -> Result<()> {
     let is_own = |path: &Path| {
         let mut start = Vec::new();
         let read = std::fs::File::open(path).and_then(|file| file.take(BEGINNING).read_to_end(&mut start));
@@ -84,12 +84,12 @@ fn unchanged(folder: &Path) -> Vec<Input> {
 }
 
 /// Refuses a folder that cannot be made, before time is spent on its contents.
-pub fn check_folder(folder: &Path) -> Result<(), Failure> {
+pub(crate) fn check_folder(folder: &Path) -> Result<()> {
     check_own(folder, ["report.html", "table.csv"].into_iter())?;
     can_be_made(folder)
 }
 
-fn can_be_made(folder: &Path) -> Result<(), Failure> {
+fn can_be_made(folder: &Path) -> Result<()> {
     // An empty ancestor is the current folder.
     match folder.ancestors().find(|a| !a.as_os_str().is_empty() && a.exists()) {
         Some(there) if !there.is_dir() => Err(unwritable(folder, &format!("{} is a file", there.display()))),
@@ -98,7 +98,7 @@ fn can_be_made(folder: &Path) -> Result<(), Failure> {
 }
 
 /// The same for a set of data, which is replaced only with `--force`.
-pub fn check_set_folder(folder: &Path, force: bool) -> Result<(), Failure> {
+pub(crate) fn check_set_folder(folder: &Path, force: bool) -> Result<()> {
     let there = [
         ("seal.toml", "a challenge"),
         ("markers.csv", "a dataset"),
@@ -115,8 +115,27 @@ pub fn check_set_folder(folder: &Path, force: bool) -> Result<(), Failure> {
     }
 }
 
+/// Writes made-up files that are not there yet; returns their paths.
+pub(crate) fn write_example(folder: &Path, made: Vec<(String, String)>, context: &mut Context) -> Result<Vec<String>> {
+    check_folder(folder)?;
+    if let Some((name, _)) = made.iter().find(|(name, _)| folder.join(name).exists()) {
+        let message = format!("{} exists", folder.join(name).display());
+        return Err(Failure::usage(message, "give another folder to --example"));
+    }
+    let paths = made.iter().map(|(name, _)| folder.join(name).display().to_string()).collect();
+    let mut files = Files::default();
+    made.into_iter().for_each(|(name, text)| files.text(&name, text));
+    write_files(folder, &files, &[], context)?;
+    Ok(paths)
+}
+
+/// A file that was read, for the manifest.
+pub(crate) fn read_input(path: &Path) -> Input {
+    Input::of(&path.display().to_string(), &std::fs::read(path).unwrap_or_default())
+}
+
 /// Refuses to write over a file that was read.
-pub fn spares_inputs(folder: &Path, files: &Files, inputs: &[String]) -> Result<(), Failure> {
+pub(crate) fn spares_inputs(folder: &Path, files: &Files, inputs: &[String]) -> Result<()> {
     let read: Vec<_> = inputs.iter().filter_map(|file| std::fs::canonicalize(file).ok()).collect();
     let same = |name: &&String| std::fs::canonicalize(folder.join(name)).is_ok_and(|path| read.contains(&path));
     match files.files.iter().map(|(name, _)| name).find(same) {
@@ -129,7 +148,7 @@ pub fn spares_inputs(folder: &Path, files: &Files, inputs: &[String]) -> Result<
 }
 
 /// What a set in a folder is called.
-pub fn set_name(folder: &Path, default: &str) -> String {
+pub(crate) fn set_name(folder: &Path, default: &str) -> String {
     folder.file_name().map_or(default.into(), |name| name.to_string_lossy().into_owned())
 }
 
@@ -142,7 +161,7 @@ fn unwritable(folder: &Path, cause: &str) -> Failure {
 }
 
 /// Everything goes into a hidden folder first, so that a full disk or a failing table leaves earlier results alone.
-fn write_all(folder: &Path, files: &Files, inputs: &[Input]) -> Result<(), Failure> {
+fn write_all(folder: &Path, files: &Files, inputs: &[Input]) -> Result<()> {
     let is_made = |name: &String| files.files.iter().any(|(made, _)| made == name);
     let (retired, kept) = unchanged(folder)
         .into_iter()
@@ -156,7 +175,7 @@ fn write_all(folder: &Path, files: &Files, inputs: &[Input]) -> Result<(), Failu
 }
 
 /// Writes all files into the staging folder; returns their names, the report last. The manifest lists the files that are `kept` too.
-fn stage(staging: &Path, files: &Files, inputs: &[Input], kept: Vec<Input>) -> Result<Vec<String>, Failure> {
+fn stage(staging: &Path, files: &Files, inputs: &[Input], kept: Vec<Input>) -> Result<Vec<String>> {
     let (mut names, mut outputs) = (Vec::new(), Vec::new());
     for (name, table) in &files.parquet {
         let path = staging.join(name);
@@ -177,24 +196,23 @@ fn stage(staging: &Path, files: &Files, inputs: &[Input], kept: Vec<Input>) -> R
     Ok(names)
 }
 
-/// Who makes files.
+/// Program, date, machine and command of what is written.
 pub fn maker() -> Maker {
     let command = std::env::args_os().map(|a| a.to_string_lossy().into_owned()).collect::<Vec<_>>().join(" ");
     Maker { program: program(), date: today(), machine: machine(), command }
 }
 
-/// Program and version.
-pub fn program() -> String {
+pub(crate) fn program() -> String {
     format!("ibr {}", env!("CARGO_PKG_VERSION"))
 }
 
-/// The origin of a report.
+/// Program, date and machine, for a page.
 pub fn imprint() -> Imprint {
     Imprint { program: program(), date: today(), machine: machine() }
 }
 
 /// Processor and number of cores, for timings.
-pub fn machine() -> String {
+pub(crate) fn machine() -> String {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let cpu = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
         let line = text.lines().find(|l| l.starts_with("model name"))?;

@@ -1,7 +1,7 @@
 //! Printable text: names from files and arguments may hold what a terminal obeys.
 
 /// The text with every control character but line ends and tabs as `?`, one for each of its bytes, so that places in it stay.
-pub fn printable(text: &str) -> String {
+pub(crate) fn printable(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let mut rest = text.chars().peekable();
     while let Some(c) = rest.next() {

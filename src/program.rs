@@ -52,13 +52,11 @@ pub fn run(typed: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-/// Has it called on Ctrl-C.
 #[cfg(not(target_family = "wasm"))]
 fn on_interrupt(call: fn()) -> Result<(), ctrlc::Error> {
     ctrlc::set_handler(call)
 }
 
-/// A browser has no Ctrl-C.
 #[cfg(target_family = "wasm")]
 fn on_interrupt(_: fn()) -> Result<(), std::convert::Infallible> {
     Ok(())

@@ -1,10 +1,11 @@
-//! Text tables: a list of columns over rows.
+//! Tables: a list of columns over rows, for the terminal and for pages.
 
 use crate::words::number;
 use compare::study::columns::TextTable;
+use serde::Serialize;
 
 /// Rows, and columns that each have a head and what they say of a row.
-pub struct Table<R> {
+pub(crate) struct Table<R> {
     rows: Vec<R>,
     columns: Vec<TextColumn>,
 }
@@ -17,7 +18,7 @@ struct TextColumn {
 
 impl<R> Table<R> {
     /// A table of these rows that has no column yet.
-    pub fn of(rows: impl IntoIterator<Item = R>) -> Table<R> {
+    pub(crate) fn of(rows: impl IntoIterator<Item = R>) -> Table<R> {
         Table { rows: rows.into_iter().collect(), columns: Vec::new() }
     }
 
@@ -28,95 +29,110 @@ impl<R> Table<R> {
     }
 
     /// A column of words, flush left.
-    pub fn words<S: Into<String>>(self, head: impl Into<String>, cell: impl Fn(&R) -> S) -> Self {
+    pub(crate) fn words<S: Into<String>>(self, head: impl Into<String>, cell: impl Fn(&R) -> S) -> Self {
         self.column(head, false, cell)
     }
 
     /// A column of text, flush right.
-    pub fn right<S: Into<String>>(self, head: impl Into<String>, cell: impl Fn(&R) -> S) -> Self {
+    pub(crate) fn right<S: Into<String>>(self, head: impl Into<String>, cell: impl Fn(&R) -> S) -> Self {
         self.column(head, true, cell)
     }
 
     /// A column of numbers with so many decimals; a dash where there is none.
-    pub fn number<V: Into<Option<f64>>>(self, head: impl Into<String>, digits: usize, cell: impl Fn(&R) -> V) -> Self {
+    pub(crate) fn number<V: Into<Option<f64>>>(
+        self,
+        head: impl Into<String>,
+        digits: usize,
+        cell: impl Fn(&R) -> V,
+    ) -> Self {
         self.column(head, true, |row| number(cell(row).into(), digits))
     }
 
-    /// The same with a sign.
-    pub fn signed<V: Into<Option<f64>>>(self, head: impl Into<String>, digits: usize, cell: impl Fn(&R) -> V) -> Self {
+    pub(crate) fn signed<V: Into<Option<f64>>>(
+        self,
+        head: impl Into<String>,
+        digits: usize,
+        cell: impl Fn(&R) -> V,
+    ) -> Self {
         self.column(head, true, |row| cell(row).into().map_or("–".into(), |v| format!("{v:+.digits$}")))
     }
 
     /// The table with further columns on a condition.
-    pub fn when(self, wanted: bool, more: impl FnOnce(Self) -> Self) -> Self {
+    pub(crate) fn when(self, wanted: bool, more: impl FnOnce(Self) -> Self) -> Self {
         if wanted { more(self) } else { self }
     }
 
-    /// Whether it has no rows.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
-    /// As text.
-    pub fn text(self) -> String {
-        let (mut heads, mut cells, mut flush_right) = (Vec::new(), Vec::new(), Vec::new());
-        for column in self.columns {
-            heads.push(column.head);
-            cells.push(column.cells.into_iter());
-            flush_right.push(column.flush_right);
-        }
-        let rows = (0..self.rows.len()).map(|_| cells.iter_mut().filter_map(Iterator::next).collect()).collect();
-        drawn(heads, &flush_right, rows)
+    /// As Markdown draws it, with columns of one width.
+    pub(crate) fn text(self) -> String {
+        let width =
+            |c: &TextColumn| c.cells.iter().chain([&c.head]).map(|cell| cell.chars().count()).max().unwrap_or(0);
+        let widths: Vec<usize> = self.columns.iter().map(width).collect();
+        let line = |cell: &dyn Fn(&TextColumn) -> String| {
+            let padded = |(column, width): (&TextColumn, &usize)| match column.flush_right {
+                true => format!("| {:>width$} ", cell(column)),
+                false => format!("| {:<width$} ", cell(column)),
+            };
+            self.columns.iter().zip(&widths).map(padded).collect::<String>() + "|\n"
+        };
+        let rule: String = widths.iter().map(|width| format!("|{}", "-".repeat(width + 2))).collect();
+        let rows: String = (0..self.rows.len()).map(|r| line(&|column| column.cells[r].clone())).collect();
+        line(&|column| column.head.clone()) + &rule + "|\n" + &rows
+    }
+
+    /// For the macro `shown` of a page: a column is of words if a cell begins with a letter.
+    pub(crate) fn page(self, caption: &str) -> PageTable {
+        let is_words =
+            |c: &TextColumn| !c.flush_right || c.cells.iter().any(|cell| cell.starts_with(char::is_alphabetic));
+        let heads =
+            self.columns.iter().map(|c| [c.head.clone(), String::new(), if is_words(c) { "l" } else { "" }.into()]);
+        let minus =
+            |c: &TextColumn, r: usize| if is_words(c) { c.cells[r].clone() } else { c.cells[r].replace('-', "−") };
+        let rows = (0..self.rows.len()).map(|r| self.columns.iter().map(|c| minus(c, r)).collect());
+        PageTable { caption: caption.into(), heads: heads.collect(), rows: rows.collect() }
     }
 
     /// As text below a title; empty without rows.
-    pub fn under(self, title: &str) -> String {
+    pub(crate) fn under(self, title: &str) -> String {
         if self.rows.is_empty() { String::new() } else { format!("\n{title}\n{}", self.text()) }
     }
 }
 
-/// A table of finished cells; columns after the first `left` ones are flush right.
-pub fn table<S: AsRef<str>>(head: &[S], left: usize, rows: Vec<Vec<String>>) -> String {
-    let flush_right: Vec<bool> = (0..head.len()).map(|k| k >= left).collect();
-    drawn(head.iter().map(|name| name.as_ref().to_string()).collect(), &flush_right, rows)
+/// A table of a page.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct PageTable {
+    caption: String,
+    heads: Vec<[String; 3]>,
+    rows: Vec<Vec<String>>,
 }
 
-/// As Markdown draws it, with columns of one width.
-fn drawn(head: Vec<String>, flush_right: &[bool], rows: Vec<Vec<String>>) -> String {
-    let all = || std::iter::once(&head).chain(&rows);
-    let width = |k: usize| all().filter_map(|row| row.get(k)).map(|cell| cell.chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..head.len()).map(width).collect();
-    let mut out = String::new();
-    for (r, row) in all().enumerate() {
-        for (k, width) in widths.iter().enumerate() {
-            let cell = row.get(k).map_or("", String::as_str);
-            out += &if flush_right[k] { format!("| {cell:>width$} ") } else { format!("| {cell:<width$} ") };
-        }
-        out += "|\n";
-        if r == 0 {
-            widths.iter().for_each(|width| out += &format!("|{}", "-".repeat(width + 2)));
-            out += "|\n";
-        }
+impl Table<Vec<String>> {
+    /// Finished cells; columns after the first `left` ones are flush right.
+    pub(crate) fn finished<S: AsRef<str>>(heads: &[S], left: usize, rows: Vec<Vec<String>>) -> Self {
+        heads.iter().enumerate().fold(Table::of(rows), |table, (k, head)| {
+            table.column(head.as_ref(), k >= left, |row| row.get(k).cloned().unwrap_or_default())
+        })
     }
-    out
 }
 
 /// A line for each text, after a prefix.
-pub fn lines<S: AsRef<str>>(prefix: &str, texts: impl IntoIterator<Item = S>) -> String {
+pub(crate) fn lines<S: AsRef<str>>(prefix: &str, texts: impl IntoIterator<Item = S>) -> String {
     texts.into_iter().map(|text| format!("{prefix}{}\n", text.as_ref())).collect()
 }
 
-/// The same under its caption.
-pub fn printed(TextTable { caption, heads, left, rows }: &TextTable) -> String {
+pub(crate) fn printed(TextTable { caption, heads, left, rows }: &TextTable) -> String {
     let caption = if caption.is_empty() { String::new() } else { format!("{caption}\n") };
-    caption + &table(heads, *left, rows.clone())
+    caption + &Table::finished(heads, *left, rows.clone()).text()
 }
 
 /// Columns of text to read.
-pub const COLUMNS: usize = 116;
+pub(crate) const COLUMNS: usize = 116;
 
 /// Text in lines of at most [`COLUMNS`], broken between words; further lines are indented.
-pub fn wrapped(text: &str, indent: usize) -> String {
+pub(crate) fn wrapped(text: &str, indent: usize) -> String {
     let mut out = String::new();
     let mut column = 0;
     for (i, word) in text.split(' ').enumerate() {

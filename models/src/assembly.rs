@@ -3,6 +3,8 @@
 use crate::actuators::Family;
 use crate::site::Site;
 use crate::term::Term;
+use serde::Serialize;
+use spelling::si;
 
 /// Set pressure \[Pa\], and for how long it has been held \[s\] → pressure in the actuator \[Pa\].
 pub type SupplyLaw = Box<dyn Fn(f64, f64) -> f64 + Send + Sync>;
@@ -21,13 +23,16 @@ pub struct Sighting {
 }
 
 /// A stretch of the robot in which the curvature is constant.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Segment {
     /// Index of its site.
+    #[serde(skip)]
     pub site: usize,
     /// Start along the taut generator \[m\].
+    #[serde(rename = "s_mm", serialize_with = "si::mm")]
     pub start_m: f64,
     /// Length of its taut generator \[m\].
+    #[serde(rename = "length_mm", serialize_with = "si::mm")]
     pub length_m: f64,
 }
 

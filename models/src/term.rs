@@ -15,6 +15,9 @@
 //! in a [`crate::Prediction`], and walks a protocol with [`crate::Model::follow`]: [`Remembering`]. The finite element
 //! engine steps through time and its terms keep their own memory: `fem::Transient`.
 
+use serde::Serialize;
+use spelling::si;
+
 /// Gauge pressures acting on the robot \[Pa\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loads {
@@ -179,11 +182,13 @@ impl LedgerLine {
 }
 
 /// What a ledger row does to the balance `kinetic + Σ stored + Σ dissipated = Σ supplied`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum RowKind {
     /// Recoverable energy held now.
     Stored,
     /// Energy lost since the start; never falls.
+    #[serde(rename = "lost")]
     Dissipated,
     /// Work done on the structure from outside since the start.
     Supplied,
@@ -201,19 +206,20 @@ impl RowKind {
 }
 
 /// One row of the energy ledger.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Row {
     /// Where the energy is or went.
+    #[serde(rename = "term")]
     pub name: &'static str,
     /// What energy it is.
+    #[serde(skip)]
     pub account: Account,
     /// Which side of the balance it is on.
     pub kind: RowKind,
     /// Energy \[J\]; in the reduced model the gas of the actuator has −PΔV, the negative of its work.
+    #[serde(rename = "energy_mj", serialize_with = "si::mm")]
     pub energy_j: f64,
 }
-
-impl Row {}
 
 /// Layout of the coordinates of an actuator-side term. Only the first is independent; the others follow from it, so a
 /// term may be written in whichever is natural and the chain rule is applied once, in the balance.

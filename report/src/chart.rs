@@ -69,6 +69,18 @@ pub enum RowPlace {
     Heading,
 }
 
+impl ChartRow {
+    /// A row of so many bars, with its name above them.
+    pub fn above(name: &str, lanes: usize) -> ChartRow {
+        ChartRow { name: name.into(), lanes, ..ChartRow::default() }
+    }
+
+    /// A row with its name on the left.
+    pub fn beside(name: &str) -> ChartRow {
+        ChartRow { place: RowPlace::Beside, ..ChartRow::above(name, 1) }
+    }
+}
+
 /// A column of cells.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ChartColumn {
@@ -81,28 +93,16 @@ pub struct ChartColumn {
 /// One mark of a [`Chart`]; numbers in the units of the axes. What is not finite is left out, and lifts the pen of a line.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Mark {
-    /// A line.
-    Line {
-        /// Its points.
-        points: Vec<[f64; 2]>,
-        /// Colour.
-        ink: Ink,
-        /// Whether it has gaps.
-        dashed: bool,
-    },
+    /// A line through points.
+    Line(Vec<[f64; 2]>, Ink),
+    /// A line with gaps.
+    Dashed(Vec<[f64; 2]>, Ink),
     /// A filled outline.
     Band(Vec<[f64; 2]>),
     /// A symbol with error bars and a label beside it.
     Point(Point),
     /// A label at the right edge, joined to its point.
-    Tip {
-        /// The point.
-        at: [f64; 2],
-        /// What it says.
-        label: String,
-        /// Colour.
-        ink: Ink,
-    },
+    Tip([f64; 2], String, Ink),
     /// A bar of a row.
     Bar(Bar),
     /// A cell: row, column, strength of its colour from −1 to 1 (not finite: nothing is known), what it says, and small words below.
@@ -149,6 +149,18 @@ pub struct Bar {
     pub inside: bool,
 }
 
+impl Bar {
+    /// A solid bar from zero in its row.
+    pub fn to(row: usize, value: f64, ink: Ink, text: String) -> Bar {
+        Bar { row, ink, text, ..Bar::over(row, [0.0, value]) }
+    }
+
+    /// A solid bar over a span.
+    pub fn over(row: usize, span: [f64; 2]) -> Bar {
+        Bar { row, span, alpha: 1.0, ..Bar::default() }
+    }
+}
+
 /// An entry of the legend.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Key {
@@ -185,6 +197,11 @@ impl Key {
 }
 
 impl Chart {
+    /// An empty chart with a title and the labels of its axes.
+    pub fn new(title: impl Into<String>, x_label: impl Into<String>, y_label: impl Into<String>) -> Chart {
+        Chart { title: title.into(), x_label: x_label.into(), y_label: y_label.into(), ..Chart::default() }
+    }
+
     /// Draws it; `name` is what errors call it.
     ///
     /// # Errors
@@ -209,20 +226,17 @@ impl Mark {
     /// Numbers without which there is nothing to draw.
     fn own(&self) -> Vec<f64> {
         match self {
-            Mark::Line { points, .. } | Mark::Band(points) => {
-                points.iter().filter(|p| finite(p)).flatten().copied().collect()
-            }
-            Mark::Point(Point { at, .. }) if finite(at) => at.to_vec(),
             Mark::Bar(bar) => vec![bar.span[1]],
             Mark::Cell(_, strength, ..) => vec![*strength],
-            Mark::Point(_) | Mark::Tip { .. } | Mark::Rule(_) => Vec::new(),
+            Mark::Rule(_) => Vec::new(),
+            other => [0, 1].map(|k| other.reach(k)).concat(),
         }
     }
 
     /// What an axis has to hold.
     fn reach(&self, k: usize) -> Vec<f64> {
         match self {
-            Mark::Line { points, .. } | Mark::Band(points) => {
+            Mark::Line(points, _) | Mark::Dashed(points, _) | Mark::Band(points) => {
                 points.iter().filter(|p| finite(p)).map(|p| p[k]).collect()
             }
             Mark::Point(Point { at, error, .. }) if finite(at) => {
@@ -231,7 +245,7 @@ impl Mark {
             }
             Mark::Bar(bar) => bar.span.into_iter().chain(bar.range.into_iter().flatten()).collect(),
             Mark::Rule(value) => vec![*value],
-            Mark::Point(_) | Mark::Tip { .. } | Mark::Cell(..) => Vec::new(),
+            Mark::Point(_) | Mark::Tip(..) | Mark::Cell(..) => Vec::new(),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Figures that several pages have, as charts.
 
 use crate::axis::{common_decimals, number, short_number};
-use crate::chart::{Bar, Chart, ChartRow, Key, KeyLook, Mark, Point, RowPlace, Space, finite};
+use crate::chart::{Bar, Chart, ChartRow, Key, KeyLook, Mark, Point, Space, finite};
 use crate::palette::{Ink, SERIES};
 use crate::scene::Symbol;
 use crate::{Drawn, ReportError, at_most, same_length};
@@ -96,21 +96,17 @@ pub fn lines(data: &Lines) -> Result<Drawn, ReportError> {
         let colour = series.colour.unwrap_or(i);
         let (ink, symbol) = (Ink::Series(colour), Symbol::of(colour + colour / SERIES));
         let half = |k: usize| series.half_width.get(k).copied().filter(|h| h.is_finite()).map_or(0.0, f64::abs);
-        if !matches!(series.style, LineStyle::Points | LineStyle::OpenPoints) {
-            let dashed = series.style == LineStyle::Dashed;
-            marks.push(Mark::Line { points: series.points.clone(), ink, dashed });
+        match series.style {
+            LineStyle::Points | LineStyle::OpenPoints => {}
+            LineStyle::Dashed => marks.push(Mark::Dashed(series.points.clone(), ink)),
+            LineStyle::Line | LineStyle::LinePoints => marks.push(Mark::Line(series.points.clone(), ink)),
         }
         if !matches!(series.style, LineStyle::Line | LineStyle::Dashed) {
             let open = series.style == LineStyle::OpenPoints;
-            let point = |(k, at): (usize, &[f64; 2])| Point {
-                at: *at,
-                error: [0.0, half(k)],
-                ink,
-                symbol,
-                open,
-                ..Point::default()
-            };
-            points.extend(series.points.iter().enumerate().map(point).map(Mark::Point));
+            for (k, at) in series.points.iter().enumerate() {
+                let (at, error) = (*at, [0.0, half(k)]);
+                points.push(Mark::Point(Point { at, error, ink, symbol, open, ..Point::default() }));
+            }
         }
         let look = match series.style {
             LineStyle::Line => KeyLook::Line,
@@ -124,8 +120,7 @@ pub fn lines(data: &Lines) -> Result<Drawn, ReportError> {
     }
     keys.retain(|key| !key.name.is_empty());
     marks.extend(points);
-    let [title, x_label, y_label] = [&data.title, &data.x_label, &data.y_label].map(String::clone);
-    Chart { title, x_label, y_label, marks, keys, ..Chart::default() }.draw("lines")
+    Chart { marks, keys, ..Chart::new(&data.title, &data.x_label, &data.y_label) }.draw("lines")
 }
 
 /// Shapes of one robot in the x–y plane, x along the robot at rest. All lengths in mm.
@@ -173,13 +168,12 @@ pub fn shapes(data: &Shapes) -> Result<Drawn, ReportError> {
     at_most("shapes", "poses", MOST_POSES, data.poses.len())?;
     let mut marks = rest(data);
     let inked = || data.poses.iter().zip(WARMER.map(Ink::Series));
-    let lines = inked().map(|(pose, ink)| Mark::Line { points: pose.curve_mm.clone(), ink, dashed: false });
-    marks.extend(lines);
+    marks.extend(inked().map(|(pose, ink)| Mark::Line(pose.curve_mm.clone(), ink)));
     for (pose, ink) in inked() {
         let point = |at, error, open| Mark::Point(Point { at, error, ink, open, ..Point::default() });
         marks.extend(pose.predicted_mm.iter().map(|at| point(*at, [0.0; 2], true)));
         marks.extend(pose.measured.iter().map(|m| point(m.at_mm, m.half_width_mm.map(f64::abs), false)));
-        marks.extend(tip(pose).map(|at| Mark::Tip { at, label: pose.label.clone(), ink }));
+        marks.extend(tip(pose).map(|at| Mark::Tip(at, pose.label.clone(), ink)));
     }
     let some = |of: fn(&ShapePose) -> bool| data.poses.iter().any(of);
     let predicted = match (some(|p| !p.predicted_mm.is_empty()), some(|p| !p.curve_mm.is_empty())) {
@@ -191,16 +185,10 @@ pub fn shapes(data: &Shapes) -> Result<Drawn, ReportError> {
     let measured = some(|p| !p.measured.is_empty()).then_some((KeyLook::Measured(Symbol::Circle), "measured"));
     let at_rest = (!data.rest_mm.is_empty()).then_some((KeyLook::Dashed, "at rest"));
     let keys = [measured, predicted, at_rest].into_iter().flatten();
-    Chart {
-        title: data.title.clone(),
-        x_label: "x along the robot at rest [mm]".into(),
-        y_label: if data.across.is_empty() { "y sideways [mm]".into() } else { data.across.clone() },
-        space: Space::Equal,
-        marks,
-        keys: keys.map(|(look, name)| Key::new(look, Ink::Muted, name)).collect(),
-        ..Chart::default()
-    }
-    .draw("shapes")
+    let keys = keys.map(|(look, name)| Key::new(look, Ink::Muted, name)).collect();
+    let across = if data.across.is_empty() { "y sideways [mm]" } else { &data.across };
+    let chart = Chart::new(&data.title, "x along the robot at rest [mm]", across);
+    Chart { space: Space::Equal, marks, keys, ..chart }.draw("shapes")
 }
 
 /// The body at rest and the clamp at its base.
@@ -209,10 +197,10 @@ fn rest(data: &Shapes) -> Vec<Mark> {
     let line: Vec<[f64; 2]> = data.rest_mm.iter().copied().filter(finite).collect();
     let side = |sign: f64| line.iter().map(move |p| [p[0], p[1] + sign * radius]);
     let mut marks = vec![Mark::Band(side(1.0).chain(side(-1.0).rev()).collect())];
-    marks.push(Mark::Line { points: line.clone(), ink: Ink::Muted, dashed: true });
+    marks.push(Mark::Dashed(line.clone(), Ink::Muted));
     if let [[x, y], _, ..] = line[..] {
         let half = 1.15 * radius.max(1.0);
-        marks.push(Mark::Line { points: vec![[x, y - half], [x, y + half]], ink: Ink::Muted, dashed: false });
+        marks.push(Mark::Line(vec![[x, y - half], [x, y + half]], Ink::Muted));
     }
     marks
 }
@@ -243,13 +231,12 @@ pub fn bars(
         let ink = if *grey { Ink::Muted } else { Ink::Series(colour) };
         colour += usize::from(!grey);
         keys.push(Key::new(KeyLook::Patch, ink, name));
-        let bar = |(row, value): (usize, &f64)| {
-            Mark::Bar(Bar { row, lane, ink, text: number(*value, digits), ..Bar::to(*value) })
-        };
-        marks.extend(values.iter().enumerate().map(bar));
+        for (row, value) in values.iter().enumerate() {
+            marks.push(Mark::Bar(Bar { lane, ..Bar::to(row, *value, ink, number(*value, digits)) }));
+        }
     }
     rule(target, &mut marks, &mut keys);
-    let row = |name: &String| ChartRow { name: name.clone(), lanes: series.len(), ..ChartRow::default() };
+    let row = |name: &String| ChartRow::above(name, series.len());
     rows(title, value_label, groups.iter().map(row).collect(), marks, keys).draw("bars")
 }
 
@@ -286,25 +273,20 @@ pub fn ladder(
         let sign = |change: f64| if change > 0.0 { "+" } else { "" };
         let change = change.map_or(String::new(), |c| format!("\u{a0}\u{a0}({}{})", sign(c), number(c, digits)));
         let text = format!("{}{change}", number(step.value, digits));
-        marks.push(Mark::Bar(Bar { row, ink, range: step.range, text, ..Bar::to(step.value) }));
+        marks.push(Mark::Bar(Bar { range: step.range, ..Bar::to(row, step.value, ink, text) }));
         if let (Some(from), true) = (before, step.value.is_finite()) {
-            marks.push(Mark::Bar(Bar { row, ink, span: [step.value, from], alpha: 0.22, ..Bar::default() }));
+            marks.push(Mark::Bar(Bar { ink, alpha: 0.22, ..Bar::over(row, [step.value, from]) }));
         }
-        rungs.push(ChartRow { name: step.label.clone(), lanes: 1, aside: word.into(), ink, ..ChartRow::default() });
+        rungs.push(ChartRow { aside: word.into(), ink, ..ChartRow::above(&step.label, 1) });
         before = Some(step.value).filter(|v| v.is_finite()).or(before);
     }
     rule(target, &mut marks, &mut keys);
     rows(title, value_label, rungs, marks, keys).draw("ladder")
 }
 
-/// One bar of a [`ledger`].
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct LedgerCase {
-    /// Label above the bar, e.g. `30 kPa`.
-    pub label: String,
-    /// Energy of each term, in mJ; positive values stack to the right, negative ones to the left.
-    pub energies_mj: Vec<f64>,
-}
+/// One bar of a [`ledger`]: the label above it, e.g. `30 kPa`, and the energy of each term \[mJ\]. Positive energies stack to the right,
+/// negative ones to the left.
+pub type LedgerCase = (String, Vec<f64>);
 
 /// Draws the energy ledger: stacked bars of signed energies of up to eight terms, one bar per case, e.g. per pressure or per engine, with
 /// the sum of each case at the right, which is zero when the balance closes.
@@ -315,22 +297,21 @@ pub fn ledger(title: &str, value_label: &str, terms: &[String], bars: &[LedgerCa
     at_most("ledger", "terms", SERIES, terms.len())?;
     at_most("ledger", "cases", MOST_SERIES, bars.len())?;
     let (mut marks, mut cases) = (Vec::new(), Vec::new());
-    for (row, case) in bars.iter().enumerate() {
-        same_length("ledger", "energies in a case", terms.len(), case.energies_mj.len())?;
+    for (row, (name, energies_mj)) in bars.iter().enumerate() {
+        same_length("ledger", "energies in a case", terms.len(), energies_mj.len())?;
         let mut reached = [0.0, 0.0];
-        let own = case.energies_mj.iter().copied().enumerate().filter(|(_, energy)| energy.is_finite());
+        let own = energies_mj.iter().copied().enumerate().filter(|(_, energy)| energy.is_finite());
         let (mut sum, mut largest) = (0.0, 0.0_f64);
         for (term, energy) in own {
             let from = &mut reached[usize::from(energy > 0.0)];
             let (span, ink) = ([*from, *from + energy], Ink::Series(term));
             *from += energy;
             (sum, largest) = (sum + energy, largest.max(energy.abs()));
-            let (text, alpha) = (short_number(energy), 1.0);
-            marks.push(Mark::Bar(Bar { row, span, ink, alpha, text, inside: true, ..Bar::default() }));
+            let text = short_number(energy);
+            marks.push(Mark::Bar(Bar { ink, text, inside: true, ..Bar::over(row, span) }));
         }
         let shown = if sum.abs() < 1e-4 * largest { number(0.0, 0) } else { short_number(sum) };
-        let (name, aside) = (case.label.clone(), format!("sum {shown}"));
-        cases.push(ChartRow { name, lanes: 1, aside, ink: Ink::Muted, ..ChartRow::default() });
+        cases.push(ChartRow { aside: format!("sum {shown}"), ink: Ink::Muted, ..ChartRow::above(name, 1) });
     }
     let key = |(i, name): (usize, &String)| Key::new(KeyLook::Patch, Ink::Series(i), name);
     let keys = terms.iter().enumerate().map(key).collect();
@@ -339,8 +320,7 @@ pub fn ledger(title: &str, value_label: &str, terms: &[String], bars: &[LedgerCa
 
 /// A chart of rows.
 pub fn rows(title: &str, value_label: &str, rows: Vec<ChartRow>, marks: Vec<Mark>, keys: Vec<Key>) -> Chart {
-    let (title, x_label) = (title.into(), value_label.into());
-    Chart { title, x_label, space: Space::Rows(rows), marks, keys, ..Chart::default() }
+    Chart { space: Space::Rows(rows), marks, keys, ..Chart::new(title, value_label, "") }
 }
 
 /// Decimals that suit the largest of some values, the same for all.
@@ -353,19 +333,5 @@ fn rule(target: Option<(String, f64)>, marks: &mut Vec<Mark>, keys: &mut Vec<Key
     if let Some((name, value)) = target.filter(|(_, value)| value.is_finite()) {
         marks.push(Mark::Rule(value));
         keys.push(Key::new(KeyLook::Dashed, Ink::Ink, &name));
-    }
-}
-
-impl Bar {
-    /// A solid bar from zero.
-    pub fn to(value: f64) -> Bar {
-        Bar { span: [0.0, value], alpha: 1.0, ..Bar::default() }
-    }
-}
-
-impl ChartRow {
-    /// A row with its name on the left.
-    pub fn beside(name: &str) -> ChartRow {
-        ChartRow { name: name.into(), place: RowPlace::Beside, lanes: 1, ..ChartRow::default() }
     }
 }

@@ -17,7 +17,7 @@ const BOUNDS: [f64; 2] = [110.0, 520.0];
 /// Draws axes and marks from `top` down, and sets the height of the scene.
 pub(crate) fn draw(scene: &mut Scene, chart: &Chart, [x, y]: [Axis; 2], top: f64) {
     let tips = chart.marks.iter().filter_map(|mark| match mark {
-        Mark::Tip { label, .. } => Some(text::width(&text::fit(label, TEXT, TIP), TEXT)),
+        Mark::Tip(_, label, _) => Some(text::width(&text::fit(label, TEXT, TIP), TEXT)),
         _ => None,
     });
     let right = RIM + tips.map(|width| width + 14.0).fold(8.0, f64::max);
@@ -78,13 +78,12 @@ impl Plane {
 
     fn mark(&self, scene: &mut Scene, mark: &Mark) {
         match mark {
-            Mark::Line { points, ink, dashed } => {
+            Mark::Line(points, ink) | Mark::Dashed(points, ink) => {
                 for part in points.split(|point| self.at(point).is_none()) {
-                    let path = self.path(part);
-                    match (&path[..], dashed) {
+                    match (&self.path(part)[..], mark) {
                         ([only], _) => scene.symbol(Symbol::Circle, *only, 2.2, *ink, false),
-                        (path, true) => scene.dashed(path, *ink, 2.2, [7.0, 4.5]),
-                        (path, false) => scene.line(path, *ink, 2.2),
+                        (path, Mark::Dashed(..)) => scene.dashed(path, *ink, 2.2, [7.0, 4.5]),
+                        (path, _) => scene.line(path, *ink, 2.2),
                     }
                 }
             }
@@ -99,7 +98,7 @@ impl Plane {
                 }
                 scene.symbol(*symbol, at, if *open { 5.0 } else { 4.2 }, *ink, *open);
             }
-            Mark::Tip { .. } | Mark::Bar(_) | Mark::Cell(..) | Mark::Rule(_) => {}
+            Mark::Tip(..) | Mark::Bar(_) | Mark::Cell(..) | Mark::Rule(_) => {}
         }
     }
 
@@ -108,7 +107,7 @@ impl Plane {
         let tips: Vec<(Point, String, Ink)> = marks
             .iter()
             .filter_map(|mark| match mark {
-                Mark::Tip { at, label, ink } => Some((self.at(at)?, text::fit(label, TEXT, TIP), *ink)),
+                Mark::Tip(at, label, ink) => Some((self.at(at)?, text::fit(label, TEXT, TIP), *ink)),
                 _ => None,
             })
             .collect();

@@ -44,7 +44,7 @@ fn planes(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, ReportError
         let (at, ink, symbol, label) = ([v(i), v(i + 1)], Ink::Series(i), Symbol::of(i), label(name));
         Mark::Point(Point { at, ink, symbol, label, ..Point::default() })
     };
-    let front = Mark::Line { points: points.clone(), ink: Ink::Axis, dashed: true };
+    let front = Mark::Dashed(points.clone(), Ink::Axis);
     let marks = vec![front, point(0), point(1)];
     let cost = Chart { title: label(name), y_label: label(name), space: Space::Log, marks, ..Chart::default() };
     let line = |style: LineStyle| LineSeries {
@@ -72,8 +72,8 @@ fn stacks(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, ReportError
     let steps = [step(0), step(1)];
     let bar = |i: usize| (label(name), vec![v(i), v(i + 1)], i == 0);
     let series = [bar(0), bar(1)];
-    let case = LedgerCase { label: label(name), energies_mj: vec![v(0), v(1), v(2)] };
-    let bar = |row: usize| Mark::Bar(Bar { row, text: number(v(row), 1), ..Bar::to(v(row)) });
+    let case = (label(name), vec![v(0), v(1), v(2)]);
+    let bar = |row: usize| Mark::Bar(Bar::to(row, v(row), Ink::Ink, number(v(row), 1)));
     let keys = vec![Key::new(KeyLook::Patch, Ink::Grid, name)];
     let order = rows(name, name, vec![ChartRow::beside(name), ChartRow::beside(name)], vec![bar(0), bar(1)], keys);
     let (groups, terms) = ([label(name), label(name)], [label(name), label(name), label(name)]);

@@ -17,10 +17,10 @@ impl Numbers for f64 {
     }
 }
 
-impl Numbers for Option<f64> {
-    type Written = Option<f64>;
-    fn converted(&self, to: fn(f64) -> f64) -> Option<f64> {
-        self.map(to)
+impl<N: Numbers> Numbers for Option<N> {
+    type Written = Option<N::Written>;
+    fn converted(&self, to: fn(f64) -> f64) -> Self::Written {
+        self.as_ref().map(|numbers| numbers.converted(to))
     }
 }
 
@@ -31,7 +31,7 @@ impl<const N: usize> Numbers for [f64; N] {
     }
 }
 
-/// Metres as millimetres.
+/// Metres as millimetres, joules as millijoules.
 ///
 /// # Errors
 /// Errors of the serializer.

@@ -4,9 +4,8 @@ use super::RunsArgs;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
-/// `ibr characterize`
 #[derive(Debug, Args)]
-pub struct CharacterizeArgs {
+pub(crate) struct CharacterizeArgs {
     /// CSV files of tensile tests: strain_pct,stress_mpa or displacement_mm,force_n, several specimens each
     #[arg(required_unless_present = "example")]
     pub files: Vec<String>,
@@ -42,9 +41,8 @@ pub struct CharacterizeArgs {
     pub example: Option<PathBuf>,
 }
 
-/// `ibr data`
 #[derive(Debug, Subcommand)]
-pub enum DataCommand {
+pub(crate) enum DataCommand {
     /// Read data and describe them
     Check {
         /// Marker data
@@ -63,15 +61,13 @@ pub enum DataCommand {
     Fem(DataFemArgs),
 }
 
-/// `ibr data fem`
 #[derive(Debug, Args)]
-pub struct DataFemArgs {
+pub(crate) struct DataFemArgs {
     /// Robot's scenario file or shipped robot: the truth of the data
     pub scenario: String,
     /// Folder for markers.csv, about.toml and truth.toml
     #[arg(long)]
     pub out: PathBuf,
-    /// The finite element runs
     #[command(flatten)]
     pub fem: RunsArgs,
     /// Runs, each with other random imperfections
@@ -86,14 +82,12 @@ pub struct DataFemArgs {
     /// Seed of camera, pressure and alignment
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Noise
     #[command(flatten)]
     pub scatter: ScatterArgs,
 }
 
-/// Noise of made data.
 #[derive(Debug, Args)]
-pub struct ScatterArgs {
+pub(crate) struct ScatterArgs {
     /// Camera noise of one coordinate
     #[arg(long, default_value = "1mm", allow_hyphen_values = true)]
     pub sigma: String,
@@ -114,9 +108,8 @@ pub struct ScatterArgs {
     pub lasting: String,
 }
 
-/// `ibr data generate`
 #[derive(Debug, Args)]
-pub struct GenerateArgs {
+pub(crate) struct GenerateArgs {
     /// Scenario file or shipped robot: the truth of the data
     pub scenario: String,
     /// Folder for markers.csv, about.toml and truth.toml
@@ -134,7 +127,6 @@ pub struct GenerateArgs {
     /// A gauge at the actuator is read along: column p_gauge_kpa
     #[arg(long)]
     pub gauge: bool,
-    /// Noise
     #[command(flatten)]
     pub scatter: ScatterArgs,
 }

@@ -4,9 +4,8 @@ use super::{FitArgs, NoiseArgs, RunsArgs, ShardArgs};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
-/// `ibr diagnose`
 #[derive(Debug, Args)]
-pub struct DiagnoseArgs {
+pub(crate) struct DiagnoseArgs {
     /// Scenario file or shipped robot; a table of bench tests that has its own may stand alone
     #[arg(value_name = "SCENARIO")]
     pub scenario: String,
@@ -18,7 +17,6 @@ pub struct DiagnoseArgs {
     /// Also fit the values of the effects that the scenario already has
     #[arg(long)]
     pub refit: bool,
-    /// How effects are fitted
     #[command(flatten)]
     pub fit: FitArgs,
     /// Folder of finite element runs of the robot, as `compare --engines` makes them; default: those that come with the
@@ -33,14 +31,12 @@ pub struct DiagnoseArgs {
     pub out: Option<PathBuf>,
 }
 
-/// `ibr ladder`
 #[derive(Debug, Args)]
-pub struct LadderArgs {
+pub(crate) struct LadderArgs {
     /// Scenario file or shipped robot; it is not changed
     pub scenario: String,
     /// Marker data
     pub data: String,
-    /// How effects are fitted
     #[command(flatten)]
     pub fit: FitArgs,
     /// Folder for the waterfall and the scenario of every step; default: ibr-report/ladder-<data>, with --json: none
@@ -48,9 +44,8 @@ pub struct LadderArgs {
     pub out: Option<PathBuf>,
 }
 
-/// `ibr add`
 #[derive(Debug, Args)]
-pub struct AddArgs {
+pub(crate) struct AddArgs {
     /// Scenario file or shipped robot; it is not changed
     pub scenario: String,
     /// NAME is fitted on the data; NAME=VALUE or NAME:key=value[,key=value] is taken as given; `best` is what the diagnosis adds,
@@ -61,14 +56,12 @@ pub struct AddArgs {
     /// New scenario; default: <scenario>-<effect>.toml
     #[arg(long)]
     pub out: Option<PathBuf>,
-    /// How the effect is fitted
     #[command(flatten)]
     pub fit: FitArgs,
 }
 
-/// `ibr validate`
 #[derive(Debug, Args)]
-pub struct ValidateArgs {
+pub(crate) struct ValidateArgs {
     /// Scenario file with the added effect
     pub scenario: String,
     /// Other data: another pressure, another size of actuator, another body pressure
@@ -77,21 +70,18 @@ pub struct ValidateArgs {
     /// Effect to judge; default: those written by ibr add; repeatable
     #[arg(long, value_name = "EFFECT")]
     pub without: Vec<String>,
-    /// Noise
     #[command(flatten)]
     pub noise: NoiseArgs,
 }
 
-/// `ibr breakdown`
 #[derive(Debug, Args)]
-pub struct BreakdownArgs {
+pub(crate) struct BreakdownArgs {
     /// Scenario files or shipped robots; default: the four of the paper
     #[arg(value_name = "SCENARIO")]
     pub scenarios: Vec<String>,
     /// Folder for maps and tables
     #[arg(long, default_value = "ibr-report/breakdown")]
     pub out: PathBuf,
-    /// Runs; of those that come with the program one seed each
     #[command(flatten)]
     pub runs: RunsArgs,
     /// Actuator pressures
@@ -115,14 +105,12 @@ pub struct BreakdownArgs {
     /// Run every robot with a tenth of its bending stiffness and of the load of compressed sheets too: which of them carries a departure
     #[arg(long, conflicts_with = "stored")]
     pub carriers: bool,
-    /// Work on several machines
     #[command(flatten)]
     pub shards: ShardArgs,
 }
 
-/// `ibr challenge`
 #[derive(Debug, Subcommand)]
-pub enum ChallengeCommand {
+pub(crate) enum ChallengeCommand {
     /// Make data of a robot with something hidden, and seal what it is
     New(ChallengeNewArgs),
     /// Open the seal, check that nothing was changed, and score a diagnosis
@@ -137,9 +125,8 @@ pub enum ChallengeCommand {
     List,
 }
 
-/// `ibr challenge new`
 #[derive(Debug, Clone, Args)]
-pub struct ChallengeNewArgs {
+pub(crate) struct ChallengeNewArgs {
     /// Folder for scenario.toml, markers.csv, about.toml and seal.toml
     #[arg(long)]
     pub out: PathBuf,
@@ -163,9 +150,8 @@ pub struct ChallengeNewArgs {
     pub protocol: Option<String>,
 }
 
-/// `ibr tradeoff`
 #[derive(Debug, Args)]
-pub struct TradeoffArgs {
+pub(crate) struct TradeoffArgs {
     /// Folder for plots and tables
     #[arg(long)]
     pub out: Option<PathBuf>,

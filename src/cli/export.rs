@@ -4,19 +4,16 @@ use super::RobotArgs;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
-/// What a robot is written as.
 #[derive(Debug, Subcommand)]
-pub enum ExportCommand {
+pub(crate) enum ExportCommand {
     /// Tip, markers, slope and inverse over the actuator pressure as C99 for a microcontroller, with their error bounds
     C(ExportArgs),
     /// Stiffness, damping and drive of a chain of joints about a working point, for simulators and linear control
     Linear(LinearArgs),
 }
 
-/// `ibr export c`
 #[derive(Debug, Args)]
-pub struct ExportArgs {
-    /// The robot
+pub(crate) struct ExportArgs {
     #[command(flatten)]
     pub robot: RobotArgs,
     /// C file to write, with its header next to it; names in it begin with the file's
@@ -30,10 +27,8 @@ pub struct ExportArgs {
     pub loading: bool,
 }
 
-/// `ibr export linear`
 #[derive(Debug, Args)]
-pub struct LinearArgs {
-    /// The robot
+pub(crate) struct LinearArgs {
     #[command(flatten)]
     pub robot: RobotArgs,
     /// Actuator pressure of the working point, `/` separates supply channels; default: the scenario's middle one

@@ -16,7 +16,7 @@ const GROUPS: &[(&str, &[&str])] = &[
 ];
 
 /// The command line, with its help by groups.
-pub fn command() -> clap::Command {
+pub(crate) fn command() -> clap::Command {
     let mut command = Cli::command();
     command.build();
     let line = |name: &&str| {
@@ -31,7 +31,7 @@ pub fn command() -> clap::Command {
 }
 
 /// What was typed, the name of the program first; ends the program with help or an error.
-pub fn parsed(typed: impl IntoIterator<Item = OsString>) -> Cli {
+pub(crate) fn parsed(typed: impl IntoIterator<Item = OsString>) -> Cli {
     Cli::from_arg_matches(&command().get_matches_from(typed)).unwrap_or_else(|error| error.exit())
 }
 

@@ -3,9 +3,8 @@
 use clap::Args;
 use std::path::PathBuf;
 
-/// `ibr data import`
 #[derive(Debug, Args)]
-pub struct Import {
+pub(crate) struct Import {
     /// Files of a tracking program, one per run: DeepLabCut, SLEAP, Motive, Tracker, Kinovea, TrackMate, wide or long tables
     #[arg(required_unless_present = "example")]
     pub files: Vec<PathBuf>,

@@ -3,9 +3,8 @@
 use clap::Args;
 use std::path::PathBuf;
 
-/// Shares of many runs
 #[derive(Debug, Args)]
-pub struct ShardArgs {
+pub(crate) struct ShardArgs {
     /// Compute only every N-th part, from the K-th on; shards may run anywhere that sees the folder
     #[arg(long, value_name = "K/N", conflicts_with_all = ["engine", "script"])]
     pub shard: Option<String>,
@@ -21,22 +20,19 @@ pub struct ShardArgs {
 }
 
 impl ShardArgs {
-    /// Whether the work is shared.
-    pub fn asked(&self) -> bool {
+    pub(crate) fn asked(&self) -> bool {
         self.shard.is_some() || self.engine.is_some()
     }
 }
 
-/// `ibr sweep`
 #[derive(Debug, Args)]
-pub struct SweepArgs {
+pub(crate) struct SweepArgs {
     /// Study: a TOML file of what varies (docs/sweep.md)
     pub study: PathBuf,
     /// Folder of the table, the pictures and of what is computed; what is there already is kept.
     /// Default: ibr-report/sweep-<study>
     #[arg(long)]
     pub out: Option<PathBuf>,
-    /// Work on several machines
     #[command(flatten)]
     pub shards: ShardArgs,
     /// Write table.parquet in place of table.csv
@@ -44,9 +40,8 @@ pub struct SweepArgs {
     pub parquet: bool,
 }
 
-/// `ibr design`
 #[derive(Debug, Args)]
-pub struct DesignArgs {
+pub(crate) struct DesignArgs {
     /// Wish: a TOML file of the target and of what may be chosen (docs/design.md)
     pub wish: PathBuf,
     /// Folder of the robot, its picture and its pattern. Default: ibr-report/design-<wish>

@@ -1,18 +1,16 @@
 //! `ibr add`
 
 use super::inputs;
-use super::{Context, Outcome};
 use crate::cli::AddArgs;
-use crate::failure::Failure;
+use crate::prelude::*;
 use crate::shown::extension::{AddAnswer, steps_text};
 use compare::diagnosis::Options;
 use compare::extension::{Extension, Wish, add};
 use compare::progress::part;
 use compare::progress::shares::READ;
-use std::path::{Path, PathBuf};
 use std::sync::PoisonError;
 
-pub fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome> {
     let file = inputs::scenario_in_space(&args.scenario)?;
     let wish = Wish::read(&file, &args.effect, args.data.is_some())?;
     let evidence = match &args.data {
@@ -35,7 +33,7 @@ pub fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome, Failure> {
 }
 
 /// Where the new scenario goes: never onto the old one, and onto another file only if told.
-fn target(args: &AddArgs, names: &str, force: bool) -> Result<PathBuf, Failure> {
+fn target(args: &AddArgs, names: &str, force: bool) -> Result<PathBuf> {
     let old = Path::new(&args.scenario);
     let stem = old.file_stem().map_or("scenario".into(), |s| s.to_string_lossy().into_owned());
     let file = format!("{stem}-{names}.toml");

@@ -2,18 +2,15 @@
 
 use super::shards::{Work, in_shards};
 use super::verify::show;
-use super::{Context, Outcome};
 use crate::cli::BenchArgs;
-use crate::failure::Failure;
-use crate::output::{check_folder, machine, sha256};
+use crate::prelude::*;
 use challenge::Laws;
 use challenge::bench::DiscoveryOptions;
 use fem::session::Shard;
 use std::ops::ControlFlow;
-use std::path::Path;
 use verification::speed::{discovery, engine, model};
 
-pub fn run(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &BenchArgs, context: &mut Context) -> Result<Outcome> {
     if args.what == "discovery" {
         return discovery(args, context);
     }
@@ -31,7 +28,7 @@ pub fn run(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure> 
     Ok(show(answer?))
 }
 
-fn discovery(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure> {
+fn discovery(args: &BenchArgs, context: &mut Context) -> Result<Outcome> {
     let laws = if args.laws == "second" { Laws::Second } else { Laws::First };
     let options = DiscoveryOptions { seed: args.seed, sets: args.sets as usize, laws };
     let threads = context.threads;
@@ -64,7 +61,7 @@ fn discovery(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure
 }
 
 /// Fingerprint of this program: whoever changes a diagnosis must not be shown the answers of the one before.
-fn this_program() -> Result<String, Failure> {
+fn this_program() -> Result<String> {
     let unread = |cause: std::io::Error| {
         Failure::usage(format!("this program cannot be read: {cause}"), "leave --out out, or copy the program")
     };

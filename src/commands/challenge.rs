@@ -1,17 +1,12 @@
 //! `ibr challenge new | reveal | list`: data with a hidden effect whose truth is sealed until someone asks for it.
 
+use super::inputs;
 use super::inputs::scatter;
-use super::{Context, Outcome, inputs};
 use crate::cli::{ChallengeCommand, ChallengeNewArgs};
-use crate::failure::Failure;
-use crate::output::{check_set_folder, replace_files, set_name};
-use crate::tables::Table;
+use crate::prelude::*;
 use challenge::{ALSO, Claim, ClaimScore, HIDDEN, HiddenEffect, Laws, OUTSIDE, Riddle, Truth, score};
-use ibr::pages::Files;
-use serde::Serialize;
-use std::path::Path;
 
-pub fn run(command: &ChallengeCommand, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(command: &ChallengeCommand, context: &mut Context) -> Result<Outcome> {
     match command {
         ChallengeCommand::New(args) => make(args, context),
         ChallengeCommand::Reveal { folder, diagnosis } => reveal(folder, diagnosis.as_deref(), context),
@@ -19,7 +14,7 @@ pub fn run(command: &ChallengeCommand, context: &mut Context) -> Result<Outcome,
     }
 }
 
-fn make(args: &ChallengeNewArgs, context: &mut Context) -> Result<Outcome, Failure> {
+fn make(args: &ChallengeNewArgs, context: &mut Context) -> Result<Outcome> {
     check_set_folder(&args.out, context.force)?;
     let ChallengeNewArgs { seed, effect, actuator, runs, sigma, protocol, .. } = args.clone();
     let camera_sd_m = sigma.map(|text| scatter("--sigma", &text)).transpose()?;
@@ -39,7 +34,7 @@ fn make(args: &ChallengeNewArgs, context: &mut Context) -> Result<Outcome, Failu
     Ok(Outcome::answer(text, "ibr.challenge.new", &answer))
 }
 
-fn reveal(folder: &Path, diagnosis: Option<&Path>, context: &mut Context) -> Result<Outcome, Failure> {
+fn reveal(folder: &Path, diagnosis: Option<&Path>, context: &mut Context) -> Result<Outcome> {
     let (truth, sha256) = challenge::reveal(folder)?;
     let mut text = format!("The seal {sha256} is intact.\n{}", truth.words());
     let mut diagnosis_scored = None;
@@ -55,7 +50,6 @@ fn reveal(folder: &Path, diagnosis: Option<&Path>, context: &mut Context) -> Res
     Ok(Outcome::answer(text, "ibr.challenge.reveal", &Revealed { sha256, truth, diagnosis: diagnosis_scored }))
 }
 
-/// Everything that can be hidden.
 fn list() -> Outcome {
     let mut text = String::from(
         "What `ibr challenge new --effect NAME` can hide; the catalogue knows the first group by another law\n",

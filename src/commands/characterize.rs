@@ -1,23 +1,20 @@
 //! `ibr characterize`
 
 use super::inputs::quantity;
-use super::{Context, Outcome};
 use crate::cli::CharacterizeArgs;
-use crate::failure::Failure;
-use crate::output::{check_folder, program, spares_inputs, write_files};
-use crate::shown::characterized::{FabricAnswer, text};
-use crate::shown::imported::CharacterizeExample;
+use crate::prelude::*;
+use compare::characterize::write::measured_toml;
 use compare::characterize::write::{fabric_toml, missing};
+use compare::characterize::{Characterized, FabricNumber, Specimen};
 use compare::characterize::{FabricTests, Reduction, example};
 use data::CouponDefaults;
-use ibr::pages::{Files, characterized_files};
-use models::scenario::quantity::Quantity;
-use std::path::Path;
+use data::Direction;
+use ibr::pages::characterized_files;
 
 /// Seed of the example: the documents show its numbers.
 const EXAMPLE_SEED: u64 = 1;
 
-pub fn run(args: &CharacterizeArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &CharacterizeArgs, context: &mut Context) -> Result<Outcome> {
     if let Some(folder) = &args.example {
         return make_example(folder, context);
     }
@@ -27,7 +24,7 @@ pub fn run(args: &CharacterizeArgs, context: &mut Context) -> Result<Outcome, Fa
     (context.progress)("reducing", None);
     let found = tests.reduce(&settings)?;
     let fabric = fabric_toml(&found, &settings, &program());
-    let mut text = text(&found);
+    let mut text = shown(&found);
     if fabric.is_none() {
         text.push_str(&format!("No fabric.toml: {}\n", missing(&found)));
     }
@@ -38,10 +35,10 @@ pub fn run(args: &CharacterizeArgs, context: &mut Context) -> Result<Outcome, Fa
         let also = fabric.as_ref().map_or("", |_| ", fabric.toml");
         text.push_str(&format!("Plots, tables{also} in {}\n", folder.display()));
     }
-    Ok(Outcome::answer(text, "ibr.characterize", &FabricAnswer::of(&found, fabric.as_deref())))
+    Ok(Outcome::answer(text, "ibr.characterize", &fabric_answer(&found, fabric.as_deref())))
 }
 
-fn settings(args: &CharacterizeArgs) -> Result<Reduction, Failure> {
+fn settings(args: &CharacterizeArgs) -> Result<Reduction> {
     if !(args.modulus_to > 0.0 && args.modulus_to <= 50.0) {
         let message = format!("--modulus-to is {} per cent strain", args.modulus_to);
         return Err(Failure::usage(message, "write a number above 0 and up to 50, for example 1"));
@@ -54,7 +51,7 @@ fn settings(args: &CharacterizeArgs) -> Result<Reduction, Failure> {
 }
 
 /// What holds where a file says nothing.
-fn defaults(args: &CharacterizeArgs) -> Result<CouponDefaults, Failure> {
+fn defaults(args: &CharacterizeArgs) -> Result<CouponDefaults> {
     let length = |option: &str, text: &Option<String>| {
         text.as_ref().map(|text| quantity(option, text, Quantity::Length)).transpose()
     };
@@ -67,19 +64,195 @@ fn defaults(args: &CharacterizeArgs) -> Result<CouponDefaults, Failure> {
     })
 }
 
-fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
-    check_folder(folder)?;
-    let made = example::example(EXAMPLE_SEED);
-    if let Some((name, _)) = made.iter().find(|(name, _)| folder.join(name).exists()) {
-        let message = format!("{} exists", folder.join(name).display());
-        return Err(Failure::usage(message, "give another folder to --example"));
-    }
-    let names: Vec<String> = made.iter().map(|(name, _)| folder.join(name).display().to_string()).collect();
-    let files = made.into_iter().map(|(name, text)| (name, text.into_bytes())).collect();
-    write_files(folder, &Files { files, ..Files::default() }, &[], context)?;
+fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome> {
+    let files = write_example(folder, example::example(EXAMPLE_SEED), context)?;
     let text = format!(
         "Made-up tests of a fabric with E0 = 96.5, E90 = 120, G12 = 1.03 MPa and locking at 45°\nibr characterize {}\n",
-        names.join(" ")
+        files.join(" ")
     );
-    Ok(Outcome::answer(text, "ibr.characterize.example", &CharacterizeExample { files: names }))
+    Ok(Outcome::answer(text, "ibr.characterize.example", &CharacterizeExample { files }))
+}
+
+/// `ibr.characterize.example`: `ibr characterize --example FOLDER`
+#[derive(Serialize)]
+struct CharacterizeExample {
+    /// Files that were written
+    files: Vec<String>,
+}
+
+fn shown(found: &Characterized) -> String {
+    let count = |d: Direction| format!("{} at {}°", found.of(d).count(), d.degrees());
+    let directions = found.directions().into_iter().map(count).collect::<Vec<_>>().join(", ");
+    let mut text = format!("Specimens: {directions} ({})\n", found.provenance.word());
+    text += &Table::of(&found.quantities)
+        .words("quantity", |q| &q.name)
+        .words("how known", |q| &q.known)
+        .right("mean", |q| digits(Some(q.scatter.mean)))
+        .right("unit", |q| q.unit)
+        .right("95 % interval of the mean", |q| {
+            q.scatter.interval().map_or("–".into(), |ends| ends.map(|end| digits(Some(end))).join(" – "))
+        })
+        .right("sd", |q| digits(q.scatter.sd))
+        .right("n", |q| q.scatter.n.to_string())
+        .text();
+    text += &Table::of(&found.specimens)
+        .words("specimen", |s| &s.name)
+        .right("direction", |s| format!("{}°", s.direction.degrees()))
+        .number("slack [%]", 3, |s| Some(100.0 * s.slack).filter(|slack| *slack > 0.0))
+        .right("modulus [MPa]", |s| digits(s.modulus_pa.map(|e| 1e-6 * e)))
+        .right("C10 [MPa]", |s| digits(s.c10_pa.map(|c| 1e-6 * c[0])))
+        .number("largest strain [%]", 1, |s| largest_strain(s).map(|e| 100.0 * e))
+        .number("locking [°]", 1, |s| locking_rad(s).map(f64::to_degrees))
+        .text();
+    if !found.replays.is_empty() {
+        text +=
+            "Every test by the law that was made of them: law over test, at the end and rms of the largest stress\n";
+        text += &Table::of(&found.replays)
+            .words("law", |r| &r.law)
+            .words("specimen", |r| &found.specimens[r.specimen].name)
+            .words("direction", |r| format!("{}°", found.specimens[r.specimen].direction.degrees()))
+            .words("used", |r| if r.used { "for the law" } else { "check" })
+            .right("at the end", |r| format!("{:+.1} %", 100.0 * r.at_end))
+            .right("rms", |r| format!("{:.1} %", 100.0 * r.rms))
+            .text();
+    }
+    text + &lines("look at: ", &found.warnings) + &lines("note: ", &found.notes)
+}
+
+fn locking_rad(s: &Specimen) -> Option<f64> {
+    Some(s.strip.as_ref()?.locking?.angle)
+}
+
+fn largest_strain(s: &Specimen) -> Option<f64> {
+    let stretched = || s.strip.as_ref().and_then(|strip| Some(strip.pulled.last()?[0] / strip.size.length_m));
+    s.stress.last().map(|row| row[0]).or_else(stretched)
+}
+
+fn digits(x: Option<f64>) -> String {
+    let decimals = |x: f64| (3 - x.abs().max(1e-3).log10().floor() as i32).clamp(0, 6) as usize;
+    x.map_or("–".into(), |x| format!("{x:.0$}", decimals(x)))
+}
+
+/// `ibr.characterize`: `ibr characterize FILES`
+#[derive(Serialize)]
+struct FabricAnswer<'a> {
+    /// How the tests came to be
+    provenance: Provenance,
+    /// Means over specimens
+    quantities: Vec<FabricQuantity<'a>>,
+    /// What was read of each
+    specimens: Vec<SpecimenRead<'a>>,
+    /// Curve along the warp: strain, stress
+    warp_strain_pa: Option<&'a [[f64; 2]]>,
+    /// Curve along the fill: strain, stress
+    fill_strain_pa: Option<&'a [[f64; 2]]>,
+    /// Shear curve: angle, tension
+    shear_rad_n_per_m: Option<&'a [[f64; 2]]>,
+    /// Shear curve: angle, stress
+    shear_rad_pa: Option<&'a [[f64; 2]]>,
+    /// Thickness
+    thickness_m: Option<f64>,
+    /// Tests computed with the law
+    replays: Vec<LawOnTest<'a>>,
+    /// Cautions
+    warnings: &'a [String],
+    /// Remarks
+    notes: &'a [String],
+    /// A table for cases
+    fabric_toml: Option<&'a str>,
+    /// Lines for about.toml
+    measured_toml: Option<String>,
+}
+
+/// A mean over specimens.
+#[derive(Serialize)]
+struct FabricQuantity<'a> {
+    /// The number
+    #[serde(flatten)]
+    number: &'a FabricNumber,
+    /// 95 % interval of the mean
+    interval: Option<[f64; 2]>,
+}
+
+/// What was read of a specimen.
+#[derive(Serialize)]
+struct SpecimenRead<'a> {
+    /// Specimen
+    specimen: &'a str,
+    /// File
+    file: &'a str,
+    /// Direction of the pull to the warp
+    direction_deg: f64,
+    /// Modulus
+    modulus_pa: Option<f64>,
+    /// Strain up to which it was taken
+    modulus_to_strain: f64,
+    /// Strain taken off as slack
+    slack_strain: f64,
+    /// Ratio of Poisson
+    poisson: Option<f64>,
+    /// Neo-Hookean C10
+    c10_pa: Option<f64>,
+    /// Shear at which it locks
+    locking_rad: Option<f64>,
+    /// Shear and tension
+    shear_rad_n_per_m: Option<&'a [[f64; 2]]>,
+}
+
+/// A test computed with the law.
+#[derive(Serialize)]
+struct LawOnTest<'a> {
+    /// Which law
+    law: &'a str,
+    /// Specimen
+    specimen: &'a str,
+    /// The law was made of it
+    used_for_the_law: bool,
+    /// Direction of the pull to the warp
+    direction_deg: f64,
+    /// Law over test at the end, less one
+    at_end: f64,
+    /// Rms of law over test, less one
+    rms: f64,
+}
+
+/// Of what was found, with the text of `fabric.toml` if there is one.
+fn fabric_answer<'a>(found: &'a Characterized, fabric_toml: Option<&'a str>) -> FabricAnswer<'a> {
+    let yarn = |direction| found.yarns.iter().find(|y| y.direction == direction).map(|y| &y.rows[..]);
+    let quantity = |number: &'a FabricNumber| FabricQuantity { number, interval: number.scatter.interval() };
+    let specimens = found.specimens.iter().map(|s| SpecimenRead {
+        specimen: &s.name,
+        file: &s.file,
+        direction_deg: s.direction.degrees(),
+        modulus_pa: s.modulus_pa,
+        modulus_to_strain: s.modulus_strain,
+        slack_strain: s.slack,
+        poisson: s.poisson,
+        c10_pa: s.c10_pa.map(|c| c[0]),
+        locking_rad: locking_rad(s),
+        shear_rad_n_per_m: s.strip.as_ref().map(|s| &s.shear[..]),
+    });
+    let replays = found.replays.iter().map(|r| LawOnTest {
+        law: &r.law,
+        specimen: &found.specimens[r.specimen].name,
+        used_for_the_law: r.used,
+        direction_deg: found.specimens[r.specimen].direction.degrees(),
+        at_end: r.at_end,
+        rms: r.rms,
+    });
+    FabricAnswer {
+        provenance: found.provenance,
+        quantities: found.quantities.iter().map(quantity).collect(),
+        specimens: specimens.collect(),
+        warp_strain_pa: yarn(Direction::Warp),
+        fill_strain_pa: yarn(Direction::Fill),
+        shear_rad_n_per_m: found.shear.as_ref().map(|s| &s.rows[..]),
+        shear_rad_pa: found.shear.as_ref().and_then(|s| s.moment_pa.as_deref()),
+        thickness_m: found.thickness_m,
+        replays: replays.collect(),
+        warnings: &found.warnings,
+        notes: &found.notes,
+        fabric_toml,
+        measured_toml: measured_toml(found, &program()),
+    }
 }

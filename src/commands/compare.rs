@@ -1,24 +1,21 @@
 //! `ibr compare`
 
 use super::inputs::{self, plain, positive};
-use super::{Context, Outcome};
 use crate::cli::CompareArgs;
-use crate::failure::{Failure, MISSED};
-use crate::output::{check_folder, imprint, write_files};
+use crate::prelude::*;
 use crate::shown::comparison::{CompareAnswer, text};
+use compare::Comparison;
 use compare::progress::shares::{COMPARED, READ};
 use compare::study::comparison::Variant;
-use compare::{Comparison, Evidence, ScenarioFile};
 use ibr::compared::{Compared, contenders, unused_sigma};
 use ibr::pages::compare_page;
-use std::path::PathBuf;
 
-pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome> {
     if args.runs.stored || args.runs.runs.is_some() || args.pressure.is_some() {
         let message = "--runs, --stored and --pressure are about finite element runs";
         return Err(Failure::usage(message, "add --engines or --paper, or leave them out"));
     }
-    if let Some(outcome) = super::held::run(args, context)? {
+    if let Some(outcome) = super::bench_tables::compared(args, context)? {
         return Ok(outcome);
     }
     let (file, data_spec) = both(args)?;
@@ -47,7 +44,7 @@ fn report(
     (file, evidence, found): (&ScenarioFile, &Evidence, &Comparison),
     outcome: &mut Outcome,
     context: &mut Context,
-) -> Result<(), Failure> {
+) -> Result<()> {
     let folder = format!("ibr-report/compare-{}", plain(&evidence.dataset.name));
     let Some(folder) = args.out.clone().or_else(|| (!context.json).then(|| PathBuf::from(folder))) else {
         return Ok(());
@@ -67,7 +64,7 @@ fn check_error(outcome: &mut Outcome, last_mm: f64, limit_m: Option<f64>) {
 }
 
 /// Scenario and data; data with a scenario of their own may stand alone.
-fn both(args: &CompareArgs) -> Result<(ScenarioFile, &str), Failure> {
+fn both(args: &CompareArgs) -> Result<(ScenarioFile, &str)> {
     let own = |data: &String| ScenarioFile::beside_in_space(data);
     match &args.inputs[..] {
         [data] => own(data)?.map(|file| (file, data.as_str())),

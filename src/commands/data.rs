@@ -1,24 +1,18 @@
 //! `ibr data check | list | import | generate | fem`
 
 use super::inputs::{self, scattered};
-use super::{Context, Outcome, list};
+use super::list;
 use crate::cli::{DataCommand, GenerateArgs};
-use crate::failure::Failure;
-use crate::output::{Input, check_set_folder, replace_files, set_name};
-use crate::shown::check::{BenchCheck, Check, CheckedTable, check_text};
-use crate::shown::imported::Generated;
+use crate::prelude::*;
 use compare::diagnosis::{Options, pressure_slip};
 use compare::slips::pressure::pressure_words;
 use compare::slips::slips;
 use compare::study::generate::{Generator, about, generate};
-use compare::{Evidence, ScenarioFile};
-use data::{About, Dataset};
+use data::About;
+use data::CheckReport;
 use ibr::check_fed;
-use ibr::pages::Files;
-use models::Model;
-use std::path::Path;
 
-pub fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome> {
     match command {
         DataCommand::Check { data, scenario } => check(data, scenario.as_deref(), context),
         DataCommand::List => list::run(Some("datasets")),
@@ -28,7 +22,7 @@ pub fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome, Fail
     }
 }
 
-fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Outcome, Failure> {
+fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Outcome> {
     if let Some(bench) = data::bench::bench(spec)? {
         let check = BenchCheck { kind: bench.kind.name, rows: bench.rows.len(), provenance: bench.provenance };
         let words = format!("{spec}: {}, {} rows ({})\n", bench.kind.sentence, check.rows, check.provenance.word());
@@ -73,7 +67,7 @@ fn in_space_words(dataset: &Dataset) -> String {
     )
 }
 
-fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome, Failure> {
+fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome> {
     let generator =
         Generator { seed: args.seed, runs: args.runs as usize, gauge: args.gauge, ..scattered(&args.scatter)? };
     let generator = generator.with_protocol(&args.protocol)?;
@@ -99,15 +93,87 @@ fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome, Failure> 
 }
 
 /// Writes a made set with its truth.
-pub fn write(
+pub(super) fn write(
     folder: &Path,
     dataset: &Dataset,
     about: &About,
     truth: String,
     inputs: &[Input],
     context: &mut Context,
-) -> Result<(), Failure> {
+) -> Result<()> {
     let mut files = Files { files: data::set_files(dataset, about)?.into(), ..Files::default() };
     files.text("truth.toml", truth);
     replace_files(folder, &files, inputs, context)
+}
+
+/// `ibr.data.generate`: `ibr data generate SCENARIO`
+#[derive(Serialize)]
+struct Generated {
+    /// Folder that was written
+    folder: String,
+    /// Runs
+    runs: usize,
+}
+
+/// `ibr.data.check`: `ibr data check DATA`
+#[derive(Serialize)]
+struct CheckedTable {
+    /// What was found
+    check: Check,
+}
+
+/// What was found in data.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Check {
+    /// In a table of markers
+    Markers(Box<CheckReport>),
+    /// In a table of bench tests
+    Bench(BenchCheck),
+}
+
+/// A table of bench tests.
+#[derive(Serialize)]
+struct BenchCheck {
+    /// Kind of the table of bench tests
+    kind: &'static str,
+    /// Rows of that table
+    rows: usize,
+    /// How its numbers came to be
+    provenance: Provenance,
+}
+
+fn check_text(report: &CheckReport) -> String {
+    let CheckReport { name, runs, actuator, holds, markers, samples_per_hold, .. } = report;
+    let provenance = report.provenance.as_ref().map_or(String::new(), |p| format!(" ({p})"));
+    let mut out = format!(
+        "{name}: {} runs of actuator {actuator}, {} holds, {} markers, {samples_per_hold} samples per hold{provenance}\n",
+        runs.len(),
+        holds.len(),
+        markers.len(),
+    );
+    out += &Table::of(holds)
+        .right("P [kPa]", |h| {
+            let more = h.p_act_channels_kpa.iter().skip(1).map(|p| format!("/{p:.2}"));
+            format!("{:.2}{}", h.p_act_kpa, more.collect::<String>())
+        })
+        .number("body [kPa]", 2, |h| h.p_body_kpa)
+        .right("phase", |h| h.phase)
+        .number("duration [s]", 1, |h| h.duration_s)
+        .number("scatter of runs [mm]", 2, |h| h.scatter_mm)
+        .when(holds.iter().all(|h| h.gauge_kpa.is_some()), |t| t.number("gauge [kPa]", 2, |h| h.gauge_kpa))
+        .text();
+    out += &Table::of(markers)
+        .words("marker", |m| &m.name)
+        .number("station [mm]", 1, |m| m.s_mm)
+        .number("scatter of runs [mm]", 2, |m| m.scatter_mm)
+        .text();
+    for o in &report.outliers {
+        let (run, hold, sample, marker) = (&o.run, o.hold + 1, o.sample + 1, &o.marker);
+        let dz = o.dz_mm.map_or(String::new(), |dz| format!(", {dz:+.1}"));
+        let off = format!("{:+.1}, {:+.1}{dz} mm off", o.dx_mm, o.dy_mm);
+        out += &format!("outlier: run {run}, hold {hold}, sample {sample}, marker {marker}: {off}\n");
+    }
+    out += &lines("", report.identical_runs.iter().map(|[a, b]| format!("runs {a} and {b} are identical copies")));
+    out + &lines("note: ", &report.warnings)
 }

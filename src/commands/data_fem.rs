@@ -4,20 +4,15 @@ use super::data::write;
 use super::fem_inputs::{kept, list, pressures};
 use super::inputs;
 use super::inputs::scattered;
-use super::{Context, Outcome};
 use crate::cli::DataFemArgs;
-use crate::failure::Failure;
-use crate::output::{check_set_folder, set_name};
-use crate::shown::imported::SeenByFem;
+use crate::prelude::*;
 use compare::study::Generator;
 use compare::study::engines::{EngineRun, of_the_program, runs_of, seed_jobs};
 use compare::study::generate::about;
 use compare::study::seen::seen;
 use fem::session::Source;
-use models::Scenario;
-use models::scenario::quantity::Quantity;
 
-pub fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome> {
     check_set_folder(&args.out, context.force)?;
     let truth = inputs::scenario(&args.scenario)?;
     let (robot, scenario) = robot(args)?;
@@ -58,7 +53,7 @@ pub fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome, Failure
 }
 
 /// The robot, at another body pressure if one is named.
-fn robot(args: &DataFemArgs) -> Result<(Source, Scenario), Failure> {
+fn robot(args: &DataFemArgs) -> Result<(Source, Scenario)> {
     let mut robot = ibr::fe_source(&args.scenario)?;
     if let Some(text) = &args.body_pressure {
         let [body_kpa] = list("--body-pressure", text, Quantity::Pressure, 1e-3)?[..] else {
@@ -79,9 +74,18 @@ fn made(
     scenario: &Scenario,
     kpa: &[f64],
     context: &mut Context,
-) -> Result<Vec<EngineRun>, Failure> {
+) -> Result<Vec<EngineRun>> {
     let jobs = seed_jobs(&[(robot.clone(), scenario.clone())], args.seeds, Some(kpa))?;
     let settings = kept(&args.fem.folder(), context);
     let found = context.fem(|progress| runs_of(&jobs, &settings, progress))?;
     Ok(found.into_iter().collect::<Result<Vec<EngineRun>, _>>()?)
+}
+
+/// `ibr.data.fem`: `ibr data fem SCENARIO`
+#[derive(Serialize)]
+struct SeenByFem {
+    /// Folder that was written
+    folder: String,
+    /// Runs
+    runs: usize,
 }

@@ -1,14 +1,10 @@
 //! `ibr data import`
 
 use super::import_options::options;
-use super::{Context, Outcome};
 use crate::cli::Import;
-use crate::failure::Failure;
-use crate::output::{Input, check_folder, check_set_folder, replace_files, spares_inputs, write_files};
-use crate::shown::imported::{ImportAnswer, ImportExample, told};
+use crate::prelude::*;
 use data::import::{Imported, import};
-use ibr::pages::{Files, tracks_plot};
-use std::path::Path;
+use ibr::pages::tracks_plot;
 
 /// Three runs of an ePAM with sealed edges as DeepLabCut writes them, and the log of their pressures.
 const EXAMPLE: [(&str, &str); 4] = [
@@ -18,7 +14,7 @@ const EXAMPLE: [(&str, &str); 4] = [
     ("pressure.csv", include_str!("../../data/tests/cases/c01-deeplabcut/pressure.csv")),
 ];
 
-pub fn run(args: &Import, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &Import, context: &mut Context) -> Result<Outcome> {
     if let Some(folder) = &args.example {
         return make_example(folder, context);
     }
@@ -42,31 +38,23 @@ pub fn run(args: &Import, context: &mut Context) -> Result<Outcome, Failure> {
         }
         None => text.push_str("\nNothing was written: add --out FOLDER\n"),
     }
-    Ok(Outcome::answer(text, "ibr.data.import", &ImportAnswer::of(&made, args.out.as_deref())))
+    Ok(Outcome::answer(text, "ibr.data.import", &import_answer(&made, args.out.as_deref())))
 }
 
-fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
-    check_folder(folder)?;
-    if let Some((name, _)) = EXAMPLE.iter().find(|(name, _)| folder.join(name).exists()) {
-        let message = format!("{} exists", folder.join(name).display());
-        return Err(Failure::usage(message, "give another folder to --example"));
-    }
-    let mut files = Files::default();
-    EXAMPLE.iter().for_each(|(name, text)| files.text(name, (*text).to_string()));
-    write_files(folder, &files, &[], context)?;
+fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome> {
+    let files = write_example(folder, EXAMPLE.map(|(name, text)| (name.into(), text.into())).into(), context)?;
     let shown = folder.display();
     let text = format!(
         "Three runs of DeepLabCut at 30 frames per second and 3.1 px to a millimetre, the base at pixel 212, 540\n\
          ibr data import {shown}/run*.csv --pressure {shown}/pressure.csv --fps 30 --scale 3.1px/mm --base 212,540 --actuator epam\n"
     );
-    let names: Vec<String> = EXAMPLE.iter().map(|(name, _)| folder.join(name).display().to_string()).collect();
-    Ok(Outcome::answer(text, "ibr.data.import.example", &ImportExample { files: names }))
+    Ok(Outcome::answer(text, "ibr.data.import.example", &ImportExample { files }))
 }
 
 /// Runs with a picture.
 const MOST_PICTURES: usize = 10;
 
-fn files(made: &Imported) -> Result<Files, Failure> {
+fn files(made: &Imported) -> Result<Files> {
     let mut files = Files::default();
     for (k, track) in made.tracks.iter().take(MOST_PICTURES).enumerate() {
         let name = if k == 0 { "tracks".to_string() } else { format!("tracks-{}", k + 1) };
@@ -79,5 +67,45 @@ fn files(made: &Imported) -> Result<Files, Failure> {
 
 fn inputs(args: &Import) -> Vec<Input> {
     let read = args.files.iter().chain(&args.pressure).chain(&args.board);
-    read.map(|path| Input::of(&path.display().to_string(), &std::fs::read(path).unwrap_or_default())).collect()
+    read.map(|path| read_input(path)).collect()
+}
+
+/// What was understood, a line each.
+fn told(made: &Imported) -> String {
+    let set = &made.dataset;
+    let count = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
+    let sizes = [(set.runs.len(), "run"), (set.holds.len(), "hold"), (set.markers.len(), "marker")];
+    format!("{}\n{}", sizes.map(|(n, word)| count(n, word)).join(", "), lines("- ", &made.told))
+}
+
+/// `ibr.data.import`: `ibr data import FILES`
+#[derive(Serialize)]
+struct ImportAnswer<'a> {
+    /// The program that wrote the files
+    program: &'a str,
+    /// Labels of runs
+    runs: &'a [String],
+    /// Labels of markers
+    markers: Vec<&'a str>,
+    /// Holds
+    holds: usize,
+    /// What was understood and assumed
+    told: &'a [String],
+    /// Folder that was written; null without `--out`
+    folder: Option<String>,
+}
+
+/// Of an import into a folder.
+fn import_answer<'a>(made: &'a Imported, folder: Option<&Path>) -> ImportAnswer<'a> {
+    let Imported { dataset: set, program, told, .. } = made;
+    let markers = set.markers.iter().map(|marker| marker.name.as_str()).collect();
+    let folder = folder.map(|out| out.display().to_string());
+    ImportAnswer { program, runs: &set.runs, markers, holds: set.holds.len(), told, folder }
+}
+
+/// `ibr.data.import.example`: `ibr data import --example FOLDER`
+#[derive(Serialize)]
+struct ImportExample {
+    /// Files that were written
+    files: Vec<String>,
 }

@@ -1,8 +1,6 @@
 //! `ibr demo`
 
-use super::{Context, Outcome};
-use crate::failure::Failure;
-use crate::output::{check_folder, imprint, write_files};
+use crate::prelude::*;
 use crate::shown::demo::{DemoAnswer, SmallRun, text};
 use compare::demo::demo;
 use compare::progress::part;
@@ -11,9 +9,8 @@ use fem::session::{FeRun, Settings, Source, heights_mm, simulate};
 use ibr::pages::demo_page;
 use ibr::studies::SMALL_RUN;
 use std::ops::ControlFlow;
-use std::path::Path;
 
-pub fn run(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(folder: &Path, context: &mut Context) -> Result<Outcome> {
     check_folder(folder)?;
     let say = &mut *context.say;
     let computed = demo(&mut part(context.progress, [0.0, SHOWN[0]]), &mut |told| say(&text(told)))?;
@@ -31,7 +28,7 @@ pub fn run(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
 /// Pressures of the run that is made here and now.
 const PRESSURES: (&str, &str) = ("pressures_kpa", "[10, 20, 30]");
 
-fn small_run(context: &mut Context) -> Result<FeRun, Failure> {
+fn small_run(context: &mut Context) -> Result<FeRun> {
     let mut tell = part(context.progress, SHOWN);
     let keys = SMALL_RUN.iter().chain([&PRESSURES]);
     let changes: Vec<_> = keys.map(|(key, value)| (key.to_string(), value.to_string())).collect();

@@ -1,10 +1,8 @@
 //! `ibr diagnose`
 
 use super::inputs;
-use super::{Context, Outcome};
 use crate::cli::DiagnoseArgs;
-use crate::failure::Failure;
-use crate::output::{Input, check_folder, imprint, write_files};
+use crate::prelude::*;
 use crate::shown::diagnosis::{DiagnosisAnswer, text};
 use compare::diagnose;
 use compare::diagnosis::Options;
@@ -14,13 +12,12 @@ use compare::study::engines::known_runs;
 use compare::witness::witness;
 use ibr::compared::unused_sigma;
 use ibr::pages::{Diagnosed, diagnosis_page, diagnosis_pictures};
-use std::path::Path;
 
-pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome> {
     if args.published {
         return super::published::run(&args.scenario, args.out.as_deref(), context);
     }
-    if let Some(outcome) = super::diagnose_bench::run(args, context)? {
+    if let Some(outcome) = super::bench_tables::diagnosed(args, context)? {
         return Ok(outcome);
     }
     let Some(data) = args.data.as_deref() else {
@@ -72,16 +69,9 @@ pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failur
 }
 
 /// Writes the report and takes away pictures of an earlier one that this one has not.
-fn report(
-    folder: &Path,
-    found: &Diagnosed,
-    json: Vec<u8>,
-    inputs: &[Input],
-    context: &mut Context,
-) -> Result<(), Failure> {
+fn report(folder: &Path, found: &Diagnosed, json: Vec<u8>, inputs: &[Input], context: &mut Context) -> Result<()> {
     let mut files = diagnosis_page(found, &imprint(), &mut part(context.progress, [DIAGNOSED, 1.0]))?;
     files.files.insert(0, ("diagnosis.json".into(), json));
-    let both = |name: &str| ["svg", "png"].map(|kind| format!("{name}.{kind}"));
-    files.retired = diagnosis_pictures().into_iter().flat_map(both).collect();
+    files.retire(&diagnosis_pictures());
     write_files(folder, &files, inputs, context)
 }

@@ -1,18 +1,14 @@
 //! `ibr compare --engines`: both engines and the published numbers.
 
 use super::fem_inputs::{kept, pressures, robots};
-use super::{Context, Outcome};
 use crate::cli::CompareArgs;
-use crate::failure::Failure;
-use crate::output::{check_folder, imprint, write_files};
-use crate::shown::engines::{EnginesAnswer, text};
+use crate::prelude::*;
+use compare::study::engines::{BodyVolumes, EnginePair, Engines, branches, ledgers, line_table, summary, volume_table};
 use compare::study::engines::{EngineLine, EngineRun, all_runs, engines, lines, runs_json, runs_of, seed_jobs, stored};
 use fem::session::Source;
 use ibr::pages::engines_page;
-use models::Scenario;
-use std::path::PathBuf;
 
-pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome> {
     let folder = args.out.clone().unwrap_or_else(|| PathBuf::from("ibr-report/compare-engines"));
     check_folder(&folder)?;
     let (named, inputs) = robots(&args.inputs)?;
@@ -23,7 +19,7 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
     for robot in &found.robots {
         all.extend(lines(robot)?);
     }
-    let mut outcome = Outcome::answer(text(&all, &found)?, "ibr.engines", &EnginesAnswer::of(&all, &found));
+    let mut outcome = Outcome::answer(text(&all, &found)?, "ibr.engines", &engines_answer(&all, &found));
     (context.progress)("drawing the report", None);
     let imprint = imprint();
     let mut files = engines_page(&found, &imprint)?;
@@ -34,7 +30,7 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
 }
 
 /// Runs of the folder, which gets what is missing.
-fn made(args: &CompareArgs, robots: &[(Source, Scenario)], context: &mut Context) -> Result<Vec<EngineRun>, Failure> {
+fn made(args: &CompareArgs, robots: &[(Source, Scenario)], context: &mut Context) -> Result<Vec<EngineRun>> {
     let kpa = args.pressure.as_deref().map(pressures).transpose()?;
     let (jobs, folder) = (seed_jobs(robots, args.seeds, kpa.as_deref())?, args.runs.folder());
     let settings = kept(&folder, context);
@@ -44,4 +40,36 @@ fn made(args: &CompareArgs, robots: &[(Source, Scenario)], context: &mut Context
     let others = all_runs(&folder)?.into_iter().filter(|r| !own.contains(r)).collect::<Vec<_>>();
     own.extend(others);
     Ok(own)
+}
+
+/// `ibr.engines`: `ibr compare --engines`
+#[derive(Serialize)]
+struct EnginesAnswer<'a> {
+    /// Every source at every pressure
+    lines: &'a [EngineLine],
+    /// Ledgers of both engines
+    ledgers: Vec<RobotLedgers<'a>>,
+    /// Volumes of body and actuator
+    volumes: Vec<&'a BodyVolumes>,
+}
+
+/// Ledgers of a robot.
+#[derive(Serialize)]
+struct RobotLedgers<'a> {
+    /// Name of the robot
+    robot: &'a str,
+    /// Ledgers of both engines, by pressure
+    pairs: &'a [EnginePair],
+}
+
+fn engines_answer<'a>(lines: &'a [EngineLine], engines: &'a Engines) -> EnginesAnswer<'a> {
+    let ledgers = engines.robots.iter().map(|r| RobotLedgers { robot: &r.scenario.name, pairs: &r.pairs });
+    let volumes = engines.robots.iter().flat_map(|r| &r.bodies).collect();
+    EnginesAnswer { lines, ledgers: ledgers.collect(), volumes }
+}
+
+/// Tables of a comparison of both engines.
+fn text(lines: &[EngineLine], Engines { robots, .. }: &Engines) -> Result<String> {
+    let tables = [summary(robots)?, line_table(lines), branches(robots), ledgers(robots), volume_table(robots)];
+    Ok(tables.iter().filter(|table| !table.rows.is_empty()).map(printed).collect::<Vec<_>>().join("\n"))
 }

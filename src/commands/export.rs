@@ -2,17 +2,13 @@
 
 use super::inputs::{self, quantity};
 use super::predict::wanted;
-use super::{Context, Outcome};
 use crate::cli::{ExportArgs, ExportCommand, LinearArgs};
-use crate::failure::Failure;
-use crate::output::write_texts;
-use crate::shown::linear::{LinearAnswer, text as linear_text};
-use models::export::{Bound, Linear, Origin, Table, Untabulated};
-use models::scenario::quantity::Quantity;
-use models::{Model, Scenario};
-use serde::Serialize;
+use crate::prelude::*;
+use crate::tables::Table as Columns;
+use models::CHANNELS;
+use models::export::{Bound, Joint, Linear, Origin, Table, Untabulated};
 
-pub fn run(command: &ExportCommand, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(command: &ExportCommand, context: &mut Context) -> Result<Outcome> {
     match command {
         ExportCommand::C(args) => c(args, context),
         ExportCommand::Linear(args) => linear(args),
@@ -22,7 +18,7 @@ pub fn run(command: &ExportCommand, context: &mut Context) -> Result<Outcome, Fa
 /// Joints of a muscle, which has one unit.
 const JOINTS: usize = 5;
 
-fn linear(args: &LinearArgs) -> Result<Outcome, Failure> {
+fn linear(args: &LinearArgs) -> Result<Outcome> {
     let scenario = inputs::robot(&args.robot)?.1;
     let all = wanted(&scenario, args.pressure.as_deref())?;
     let loads = match (&args.pressure, all.as_slice()) {
@@ -34,15 +30,68 @@ fn linear(args: &LinearArgs) -> Result<Outcome, Failure> {
     };
     let units = if scenario.actuator.count > 1 { scenario.actuator.count } else { JOINTS };
     let chain = Linear::new(&scenario, args.joints.map_or(units, |joints| joints as usize), &loads)?;
-    let answer = LinearAnswer::of(&args.robot.scenario, &scenario, &chain);
-    let mut outcome = Outcome::answer(linear_text(&scenario, &chain), "ibr.export.linear", &answer);
+    let answer = LinearAnswer {
+        scenario: &args.robot.scenario,
+        name: &scenario.name,
+        p_body_kpa: loads.body_pa / 1e3,
+        p_act_channels_kpa: loads.actuator_pa.map(|pa| pa / 1e3),
+        joints: &chain.joints,
+    };
+    let mut outcome = Outcome::answer(chain_text(&scenario, &chain), "ibr.export.linear", &answer);
     if chain.joints.iter().any(|joint| joint.stiffness_nm.is_nan() || joint.offset_nm.is_nan()) {
         outcome.notes.push("note: an actuator is flat or at the end of its stroke there, and has no slope".into());
     }
     Ok(outcome)
 }
 
-fn c(args: &ExportArgs, context: &mut Context) -> Result<Outcome, Failure> {
+fn chain_text(scenario: &Scenario, chain: &Linear) -> String {
+    let mut joints = Columns::of(chain.joints.iter().enumerate())
+        .right("joint", |(i, _)| (i + 1).to_string())
+        .number("start [mm]", 1, |(_, joint)| joint.start_m * 1e3)
+        .number("length [mm]", 1, |(_, joint)| joint.length_m * 1e3)
+        .number("q [deg]", 2, |(_, joint)| joint.angle_rad.to_degrees())
+        .right("K [N m/rad]", |(_, joint)| or_dash(joint.stiffness_nm))
+        .right("C [N m s/rad]", |(_, joint)| joint.damping_nms.map_or("-".into(), or_dash))
+        .right("b [N m]", |(_, joint)| or_dash(joint.offset_nm));
+    for channel in channels(chain) {
+        joints = joints.right(format!("B{channel} [N m/kPa]"), |(_, joint)| or_dash(joint.per_pa[channel] * 1e3));
+    }
+    format!(
+        "{} at {} kPa, body pressure {} kPa\n{}Moment that bends a joint: b + B P - K q - C q\u{27}. Predicted.\n",
+        scenario.name,
+        pressure_words(&chain.loads),
+        chain.loads.body_pa / 1e3,
+        joints.text()
+    )
+}
+
+/// A number; none where an actuator is flat.
+fn or_dash(value: f64) -> String {
+    if value.is_nan() { "-".into() } else { format!("{value:.5}") }
+}
+
+/// Channels that drive a joint; at least the first.
+fn channels(chain: &Linear) -> Vec<usize> {
+    let drives = |channel: &usize| *channel == 0 || chain.joints.iter().any(|joint| joint.per_pa[*channel] != 0.0);
+    (0..CHANNELS).filter(drives).collect()
+}
+
+/// `ibr.export.linear`: `ibr export linear SCENARIO`
+#[derive(Serialize)]
+struct LinearAnswer<'a> {
+    /// Scenario as typed
+    scenario: &'a str,
+    /// Name in the scenario
+    name: &'a str,
+    /// Body pressure
+    p_body_kpa: f64,
+    /// Actuator pressure of every channel at the working point
+    p_act_channels_kpa: [f64; CHANNELS],
+    /// Base to tip
+    joints: &'a [Joint],
+}
+
+fn c(args: &ExportArgs, context: &mut Context) -> Result<Outcome> {
     let scenario = inputs::robot(&args.robot)?.1;
     let (model, range_pa) = (Model::new(&scenario), range(&scenario, args.pressure.as_deref())?);
     let history = if model.has_history() { scenario.remembering() } else { Vec::new() };
@@ -67,7 +116,7 @@ fn c(args: &ExportArgs, context: &mut Context) -> Result<Outcome, Failure> {
 }
 
 /// Pressures from:to; a number without unit has that of the other.
-fn range(scenario: &Scenario, typed: Option<&str>) -> Result<[f64; 2], Failure> {
+fn range(scenario: &Scenario, typed: Option<&str>) -> Result<[f64; 2]> {
     let Some(typed) = typed else { return Ok([0.0, scenario.p_max_pa]) };
     let Some((from, to)) = typed.split_once(':') else {
         let help = "write from:to, for example --pressure 0:40kPa";

@@ -1,14 +1,9 @@
 //! What finite element commands are given: cases and robots by name, pressures, sizes, times.
 
-use super::Context;
 use super::inputs::quantity;
-use crate::failure::Failure;
-use crate::output::{Input, maker};
+use crate::prelude::*;
 use fem::session::{Settings, Source, rounded};
 use ibr::fe_source;
-use models::Scenario;
-use models::scenario::quantity::Quantity;
-use std::path::Path;
 
 /// The robots of the paper.
 const PUBLISHED: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
@@ -17,7 +12,7 @@ const PUBLISHED: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
 type Robots = (Vec<(Source, Scenario)>, Vec<Input>);
 
 /// Robots by name, or those of the paper.
-pub fn robots(specs: &[String]) -> Result<Robots, Failure> {
+pub(super) fn robots(specs: &[String]) -> Result<Robots> {
     let own: Vec<String> = PUBLISHED.map(String::from).to_vec();
     let specs = if specs.is_empty() { &own } else { specs };
     let (mut found, mut inputs) = (Vec::new(), Vec::new());
@@ -35,26 +30,26 @@ pub fn robots(specs: &[String]) -> Result<Robots, Failure> {
 }
 
 /// How runs are made that are kept in a folder by their hash.
-pub fn kept(folder: &Path, context: &Context) -> Settings {
+pub(super) fn kept(folder: &Path, context: &Context) -> Settings {
     let further = Some(ibr::pages::run_plots as fem::session::Further);
     let (folder, threads) = (Some(folder.to_path_buf()), context.threads);
     Settings { folder, threads, frames: false, further, maker: maker(), ..Settings::default() }
 }
 
 /// Pressures as typed \[kPa\].
-pub fn pressures(text: &str) -> Result<Vec<f64>, Failure> {
+pub(super) fn pressures(text: &str) -> Result<Vec<f64>> {
     let one = |p: &str| Ok(rounded(quantity("--pressure", p, Quantity::Pressure)? / 1e3));
     text.split(',').map(one).collect()
 }
 
 /// A list of quantities with units, in `1/factor` SI.
-pub fn list(option: &str, text: &str, kind: Quantity, factor: f64) -> Result<Vec<f64>, Failure> {
+pub(super) fn list(option: &str, text: &str, kind: Quantity, factor: f64) -> Result<Vec<f64>> {
     let one = |t: &str| Ok(rounded(quantity(option, t, kind)? * factor));
     text.split(',').filter(|t| !t.trim().is_empty()).map(one).collect()
 }
 
 /// Element sizes of body and actuator \[mm\], from `3mm` for both or `8mm/3mm`; several with commas between.
-pub fn sizes(text: &str) -> Result<Vec<[f64; 2]>, Failure> {
+pub(super) fn sizes(text: &str) -> Result<Vec<[f64; 2]>> {
     let one = |size: &str| match rounded(quantity("--mesh", size, Quantity::Length)? * 1e3) {
         mm if (0.5..=50.0).contains(&mm) => Ok(mm),
         mm => Err(Failure::usage(format!("--mesh {mm}mm is out of range"), "write 0.5mm to 50mm, for example 8mm/3mm")),
@@ -67,7 +62,7 @@ pub fn sizes(text: &str) -> Result<Vec<[f64; 2]>, Failure> {
 }
 
 /// A time of an option, above zero \[s\].
-pub fn seconds(option: &str, text: &str) -> Result<f64, Failure> {
+pub(super) fn seconds(option: &str, text: &str) -> Result<f64> {
     // A year is more than any run or checkpoint needs, and less than a duration can hold.
     match quantity(option, text, Quantity::Time)? {
         s if s > 0.0 && s < 3.2e7 => Ok(s),

@@ -2,14 +2,13 @@
 
 use super::inputs::{bounded, positive, quantity};
 use crate::cli::Import;
-use crate::failure::Failure;
+use crate::prelude::*;
 use data::import::typed::{axes, column, known_distance, station};
 use data::import::{ImportOptions, Scale, read_board};
 use spelling::quantity::Quantity;
 use spelling::units::Range;
 
-/// All of them.
-pub fn options(args: &Import) -> Result<ImportOptions, Failure> {
+pub(crate) fn options(args: &Import) -> Result<ImportOptions> {
     let bin_pa = optional(&args.bin, |text| quantity("--bin", text, Quantity::Pressure))?;
     if let Some(text) = args.bin.as_ref().filter(|_| bin_pa.is_some_and(|bin| bin <= 0.0)) {
         return Err(Failure::usage(format!("--bin {text} is not above zero"), "write for example --bin 2kPa"));
@@ -44,7 +43,7 @@ pub fn options(args: &Import) -> Result<ImportOptions, Failure> {
     })
 }
 
-fn scale(args: &Import) -> Result<Scale, Failure> {
+fn scale(args: &Import) -> Result<Scale> {
     if let (Some(board), Some(square)) = (&args.board, &args.square) {
         let square_m = positive("--square", Some(square))?.unwrap_or_default();
         return Ok(Scale::Board(read_board(board)?, square_m));
@@ -54,19 +53,19 @@ fn scale(args: &Import) -> Result<Scale, Failure> {
     Ok(known.or(typed).unwrap_or_default())
 }
 
-fn optional<T>(text: &Option<String>, read: impl Fn(&str) -> Result<T, Failure>) -> Result<Option<T>, Failure> {
+fn optional<T>(text: &Option<String>, read: impl Fn(&str) -> Result<T>) -> Result<Option<T>> {
     text.as_deref().map(read).transpose()
 }
 
-fn understood<T, E: std::fmt::Display>(option: &str, typed: Result<T, E>) -> Result<T, Failure> {
+fn understood<T, E: std::fmt::Display>(option: &str, typed: Result<T, E>) -> Result<T> {
     typed.map_err(|message| Failure::usage(format!("{option}: {message}"), "see ibr data import --help"))
 }
 
-fn frames_per_s(fps: f64) -> Result<f64, Failure> {
+fn frames_per_s(fps: f64) -> Result<f64> {
     Range::FRAME_RATE.check(fps).map_err(|(message, help)| Failure::usage(format!("--fps: {message}"), help))
 }
 
-fn likelihood(limit: f64) -> Result<f64, Failure> {
+fn likelihood(limit: f64) -> Result<f64> {
     let refused = || Failure::usage(format!("--likelihood {limit} is not from 0 to 1"), "see ibr data import --help");
     Some(limit).filter(|limit| (0.0..=1.0).contains(limit)).ok_or_else(refused)
 }

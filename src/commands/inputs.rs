@@ -1,47 +1,43 @@
 //! Scenarios, data and quantities as typed on the command line.
 
-use super::Context;
 use crate::cli::{FitArgs, RobotArgs, ScatterArgs};
-use crate::failure::Failure;
-use crate::output::Input;
+use crate::prelude::*;
+use compare::CompareError;
 use compare::diagnosis::Options;
 use compare::progress::part;
 use compare::progress::shares::READ;
 use compare::study::{Generator, HoldScatter};
 use compare::typed_effect::with_effect;
-use compare::{CompareError, Evidence, ScenarioFile};
-use models::Scenario;
-use models::scenario::quantity::{Quantity, parse};
+use models::scenario::quantity::parse;
 use spelling::units::Range;
 
-/// A scenario as typed.
-pub fn scenario(spec: &str) -> Result<ScenarioFile, Failure> {
+pub(super) fn scenario(spec: &str) -> Result<ScenarioFile> {
     Ok(ibr::studies::scenario(spec)?)
 }
 
 /// The same for what is built for strips round the body too.
-pub fn scenario_in_space(spec: &str) -> Result<ScenarioFile, Failure> {
+pub(super) fn scenario_in_space(spec: &str) -> Result<ScenarioFile> {
     Ok(ibr::studies::scenario_in_space(spec)?)
 }
 
 /// A robot as typed: its file, and the scenario with what was changed.
-pub fn robot(args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
+pub(super) fn robot(args: &RobotArgs) -> Result<(ScenarioFile, Scenario)> {
     changed(scenario(&args.scenario)?, ScenarioFile::with, args)
 }
 
 /// The same for what is built for strips round the body too.
-pub fn robot_in_space(args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
+pub(super) fn robot_in_space(args: &RobotArgs) -> Result<(ScenarioFile, Scenario)> {
     changed(scenario_in_space(&args.scenario)?, ScenarioFile::with_in_space, args)
 }
 
 /// `key=value` of an option `--set`.
-pub fn setting<'t>(text: &'t str, help: &str) -> Result<(&'t str, &'t str), Failure> {
+pub(super) fn setting<'t>(text: &'t str, help: &str) -> Result<(&'t str, &'t str)> {
     let both = text.split_once('=').map(|(key, value)| (key.trim(), value.trim()));
     both.ok_or_else(|| Failure::usage(format!("--set {text}: there is no ="), help))
 }
 
 /// Names that were typed for an option, each once.
-pub fn each_once<'t>(option: &str, names: impl IntoIterator<Item = &'t str>) -> Result<(), Failure> {
+pub(super) fn each_once<'t>(option: &str, names: impl IntoIterator<Item = &'t str>) -> Result<()> {
     let mut seen = Vec::new();
     for name in names {
         if seen.contains(&name) {
@@ -54,12 +50,12 @@ pub fn each_once<'t>(option: &str, names: impl IntoIterator<Item = &'t str>) -> 
 }
 
 /// Names of effects that were typed as `name` or `name:key=value`.
-pub fn effect_names(typed: &[String]) -> impl Iterator<Item = &str> {
+pub(super) fn effect_names(typed: &[String]) -> impl Iterator<Item = &str> {
     typed.iter().map(|text| text.split([':', '=']).next().unwrap_or_default())
 }
 
 /// How effects are fitted, as typed.
-pub fn fit_options(args: &FitArgs) -> Result<Options, Failure> {
+pub(super) fn fit_options(args: &FitArgs) -> Result<Options> {
     Ok(Options {
         sigma_m: positive("--sigma", args.noise.sigma.as_ref())?,
         tolerance_m: positive("--tolerance", args.tolerance.as_ref())?,
@@ -72,7 +68,7 @@ pub fn fit_options(args: &FitArgs) -> Result<Options, Failure> {
 /// Sets values of keys in a scenario.
 type Set = fn(&ScenarioFile, &[(String, String)]) -> Result<ScenarioFile, CompareError>;
 
-fn changed(mut file: ScenarioFile, set: Set, args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
+fn changed(mut file: ScenarioFile, set: Set, args: &RobotArgs) -> Result<(ScenarioFile, Scenario)> {
     let help = "write for example --set body.radius_mm=45";
     let changes = args.set.iter().map(|text| setting(text, help)).collect::<Result<Vec<_>, _>>()?;
     each_once("--set", changes.iter().map(|(key, _)| *key))?;
@@ -91,35 +87,33 @@ fn changed(mut file: ScenarioFile, set: Set, args: &RobotArgs) -> Result<(Scenar
     Ok((file, changed))
 }
 
-/// Loads marker data with progress.
-pub fn evidence(spec: &str, context: &mut Context) -> Result<Evidence, Failure> {
+pub(super) fn evidence(spec: &str, context: &mut Context) -> Result<Evidence> {
     Ok(Evidence::read_with(spec, &mut part(context.progress, [0.0, READ]))?)
 }
 
 /// Loads the data of a diagnosis and those to be fitted along.
-pub fn all_evidence(first: &str, also: &[String], context: &mut Context) -> Result<Vec<Evidence>, Failure> {
+pub(super) fn all_evidence(first: &str, also: &[String], context: &mut Context) -> Result<Vec<Evidence>> {
     std::iter::once(first).chain(also.iter().map(String::as_str)).map(|spec| evidence(spec, context)).collect()
 }
 
 /// What a manifest names: the scenario, then the data.
-pub fn named<'e>(file: &ScenarioFile, evidence: impl IntoIterator<Item = &'e Evidence>) -> Result<Vec<Input>, Failure> {
+pub(super) fn named<'e>(file: &ScenarioFile, evidence: impl IntoIterator<Item = &'e Evidence>) -> Result<Vec<Input>> {
     let data = evidence.into_iter().map(|e| Ok(Input { name: format!("{} (as read)", e.name), sha256: e.sha256()? }));
     std::iter::once(Ok(Input { name: file.name.clone(), sha256: file.sha256() })).chain(data).collect()
 }
 
-/// A quantity of an option.
-pub fn quantity(option: &str, text: &str, kind: Quantity) -> Result<f64, Failure> {
+pub(super) fn quantity(option: &str, text: &str, kind: Quantity) -> Result<f64> {
     parse(text, kind).map_err(|message| Failure::usage(format!("{option}: {message}"), "see ibr --help"))
 }
 
 /// A quantity of an option within its bounds.
-pub fn bounded(option: &str, text: &str, kind: Quantity, bounds: &Range) -> Result<f64, Failure> {
+pub(super) fn bounded(option: &str, text: &str, kind: Quantity, bounds: &Range) -> Result<f64> {
     let refused = |(message, help)| Failure::usage(format!("{option} {text}: {message}"), help);
     bounds.check(quantity(option, text, kind)?).map_err(refused)
 }
 
 /// A length of an option that must be above zero \[m\], if it was given.
-pub fn positive(option: &str, text: Option<&String>) -> Result<Option<f64>, Failure> {
+pub(super) fn positive(option: &str, text: Option<&String>) -> Result<Option<f64>> {
     let Some(text) = text else { return Ok(None) };
     match quantity(option, text, Quantity::Length)? {
         v if v > 0.0 => Ok(Some(v)),
@@ -130,7 +124,7 @@ pub fn positive(option: &str, text: Option<&String>) -> Result<Option<f64>, Fail
 }
 
 /// The scatter as typed.
-pub fn scattered(args: &ScatterArgs) -> Result<Generator, Failure> {
+pub(super) fn scattered(args: &ScatterArgs) -> Result<Generator> {
     let share = |option: &str, percent: f64| match percent {
         percent if (0.0..=50.0).contains(&percent) => Ok(percent / 100.0),
         _ => {
@@ -154,7 +148,7 @@ pub fn scattered(args: &ScatterArgs) -> Result<Generator, Failure> {
 }
 
 /// A scatter of lengths as typed \[m\].
-pub fn scatter(option: &str, text: &str) -> Result<f64, Failure> {
+pub(super) fn scatter(option: &str, text: &str) -> Result<f64> {
     match quantity(option, text, Quantity::Length)? {
         v if (0.0..=0.1).contains(&v) => Ok(v),
         v => Err(Failure::usage(format!("{option} {v} m is not from 0 to 100 mm"), "1mm is usual")),
@@ -162,12 +156,12 @@ pub fn scatter(option: &str, text: &str) -> Result<f64, Failure> {
 }
 
 /// A name of data as part of a folder's.
-pub fn plain(name: &str) -> String {
+pub(super) fn plain(name: &str) -> String {
     name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect()
 }
 
 /// A note on an effect whose share stands for mechanics that another has.
-pub fn superseded(scenario: &Scenario) -> Option<String> {
+pub(super) fn superseded(scenario: &Scenario) -> Option<String> {
     let has = |name: &str| scenario.effects.iter().any(|e| e.name == name && e.values[0] > 0.0);
     let also = if has("sealed_sides") { ", and both together count it twice" } else { "" };
     let pouches = scenario.actuator.kind.has_pouches();

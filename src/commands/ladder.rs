@@ -1,18 +1,14 @@
 //! `ibr ladder`
 
 use super::inputs::{self, plain};
-use super::{Context, Outcome};
 use crate::cli::LadderArgs;
-use crate::failure::Failure;
-use crate::output::{Input, check_folder, imprint, write_files};
+use crate::prelude::*;
 use crate::shown::extension::climb_text;
 use compare::diagnosis::Options;
 use compare::ladder::{Climb, MOST_EFFECTS, ladder};
 use compare::progress::part;
 use compare::progress::shares::{CLIMBED, READ};
 use ibr::pages::{Climbed, ladder_page};
-use serde::Serialize;
-use std::path::{Path, PathBuf};
 
 /// `ibr.ladder`: `ibr ladder SCENARIO DATA`
 #[derive(Serialize)]
@@ -28,7 +24,7 @@ struct LadderAnswer<'a> {
     also: &'a [String],
 }
 
-pub fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let file = inputs::scenario_in_space(&args.scenario)?;
     let evidence = inputs::all_evidence(&args.data, &args.fit.also, context)?;
@@ -51,13 +47,7 @@ pub fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome, Failure>
 }
 
 /// Writes report and scenarios, and says where they are.
-fn report(
-    folder: &Path,
-    page: &Climbed,
-    inputs: &[Input],
-    context: &mut Context,
-    outcome: &mut Outcome,
-) -> Result<(), Failure> {
+fn report(folder: &Path, page: &Climbed, inputs: &[Input], context: &mut Context, outcome: &mut Outcome) -> Result<()> {
     write_files(folder, &ladder_page(page, &imprint())?, inputs, context)?;
     let names: Vec<&str> = page.climb.files.iter().map(|(name, _)| name.as_str()).collect();
     outcome.notes.push(format!("scenarios in {}: {}", folder.display(), names.join(", ")));

@@ -1,14 +1,9 @@
 //! `ibr predict --limits`: from which length on loads fold the robot.
 
-use super::Outcome;
-use crate::failure::Failure;
-use crate::tables::Table;
-use crate::words::pressure_words;
-use models::{Loads, Scenario, collapse_length_m};
-use serde::Serialize;
+use crate::prelude::*;
+use models::collapse_length_m;
 
-/// Straight, then at each pressure.
-pub fn run(typed: &str, scenario: &Scenario, wanted: &[Loads]) -> Result<Outcome, Failure> {
+pub(super) fn run(typed: &str, scenario: &Scenario, wanted: &[Loads]) -> Result<Outcome> {
     if !scenario.effects.iter().any(|e| ["gravity", "tip_load"].contains(&e.name.as_str())) {
         let help = "add what bends it, for example --effect gravity:weight_n_per_m=1.5";
         return Err(Failure::usage("a robot without load collapses at no length", help));

@@ -2,6 +2,7 @@
 
 mod add;
 mod bench;
+mod bench_tables;
 mod breakdown;
 mod challenge;
 mod characterize;
@@ -12,11 +13,9 @@ mod data_import;
 mod demo;
 mod design;
 mod diagnose;
-mod diagnose_bench;
 mod engines;
 mod export;
 mod fem_inputs;
-mod held;
 pub(crate) mod import_options;
 mod inputs;
 mod ladder;
@@ -35,12 +34,10 @@ mod validate;
 mod verify;
 
 use crate::cli::Command;
-pub use crate::context::{Context, Outcome};
-use crate::failure::Failure;
-use crate::tables;
+pub(crate) use crate::context::{Context, Outcome};
+use crate::failure::{Failure, Result};
 
-/// Runs a command.
-pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure> {
+pub(crate) fn run(command: &Command, context: &mut Context) -> Result<Outcome> {
     match command {
         Command::Demo(out) => demo::run(&out.out, context),
         Command::Predict(args) => predict::run(args, context),
@@ -77,7 +74,7 @@ fn completions(shell: clap_complete::Shell) -> Outcome {
     Outcome { text: String::from_utf8_lossy(&bytes).into_owned(), ..Outcome::default() }
 }
 
-fn man(out: Option<&std::path::Path>, context: &mut Context) -> Result<Outcome, Failure> {
+fn man(out: Option<&std::path::Path>, context: &mut Context) -> Result<Outcome> {
     let page = |command: clap::Command| {
         let mut bytes = Vec::new();
         clap_mangen::Man::new(command).render(&mut bytes).map(|()| bytes)

@@ -1,21 +1,18 @@
 //! `ibr compare --paper`: the paper's finite elements, reproduced.
 
 use super::fem_inputs::{kept, pressures, robots, sizes};
-use super::{Context, Outcome};
 use crate::cli::CompareArgs;
-use crate::failure::Failure;
-use crate::output::{check_folder, write_files};
-use crate::shown::paper::{PaperAnswer, text};
+use crate::prelude::*;
 use compare::study::engines::runs_of;
+use compare::study::paper::{FactRow, HeightRow, mesh_name};
 use compare::study::paper::{MESHES_MM, PaperRun, facts, heights, jobs, ordered, runs_below, runs_json, stored};
-use ibr::pages::Files;
 
-pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let runs = runs(args, context)?;
     let paper = data::published()?;
     let (against, rows) = (heights(&paper, &runs, &MESHES_MM), facts(&paper, &runs));
-    let text = text(&against, &rows, &runs);
+    let text = shown(&against, &rows, &runs);
     let answer = PaperAnswer { runs: runs.len(), heights: &against, facts: &rows };
     let mut outcome = Outcome::answer(text.clone(), "ibr.paper", &answer);
     if let Some(folder) = &args.out {
@@ -29,7 +26,7 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
 }
 
 /// Stored runs, or all in the folder, which gets what is missing.
-fn runs(args: &CompareArgs, context: &mut Context) -> Result<Vec<PaperRun>, Failure> {
+fn runs(args: &CompareArgs, context: &mut Context) -> Result<Vec<PaperRun>> {
     let Some(folder) = &args.runs.runs else {
         if !args.inputs.is_empty() || args.pressure.is_some() {
             let help = "add --runs FOLDER to make runs; without it all that come with the program are printed";
@@ -43,4 +40,84 @@ fn runs(args: &CompareArgs, context: &mut Context) -> Result<Vec<PaperRun>, Fail
     let made = context.fem(|progress| runs_of(&jobs, &settings, progress))?;
     made.into_iter().collect::<Result<Vec<_>, _>>()?;
     Ok(ordered(runs_below(folder)?))
+}
+
+/// `ibr.paper`: `ibr compare --paper`
+#[derive(Serialize)]
+struct PaperAnswer<'a> {
+    /// Runs
+    runs: usize,
+    /// Heights of markers against its figures
+    heights: &'a [HeightRow],
+    /// What the paper prints, fact by fact
+    facts: &'a [FactRow],
+}
+
+fn shown(against: &[HeightRow], rows: &[FactRow], runs: &[PaperRun]) -> String {
+    let mut out = format!(
+        "The paper's finite elements, reproduced: {} runs of [fem] model = \"paper\", nothing calibrated.\n\n{READING}",
+        runs.len()
+    );
+    let branch = |a: &HeightRow, k: usize| a.implied.branches_mm.map(|b| b[k]);
+    let most = against.iter().map(|a| a.verdict.chars().count()).max().unwrap_or(0);
+    out += &place(against)
+        .number("e %", 0, |a| 100.0 * a.implied.error)
+        .number("low", 0, |a| branch(a, 0))
+        .number("high", 0, |a| branch(a, 1))
+        .number("at most", 0, |a| a.implied.at_most_mm)
+        .number("engine", 1, |a| a.outermost_mm())
+        .number("tip", 1, |a| a.tip_mm)
+        // Words of one width are flush left below a head that is flush right.
+        .right("verdict", |a| format!("{:<most$}", a.verdict))
+        .text();
+    out += "\nHeights of the six markers [mm], base first; the paper draws them and prints none\n";
+    let mut markers = place(against);
+    for k in 0..against.iter().map(|a| a.markers_mm.len()).max().unwrap_or(0) {
+        markers = markers
+            .right(format!("marker {}", k + 1), |a| a.markers_mm.get(k).map_or(String::new(), |mm| format!("{mm:.1}")));
+    }
+    out += &markers.text();
+    out += "\nEvery sentence of the paper with something to check\n";
+    out += &Table::of(rows)
+        .words("the paper says", |r| &r.says)
+        .words("in", |r| &r.place)
+        .words("engine, or the paper elsewhere", |r| &r.found)
+        .words("verdict", |r| r.verdict.words())
+        .text();
+    out + &counted(rows) + &numerics(runs)
+}
+
+/// How the paper's accuracy is read.
+const READING: &str = "\
+Height of the outermost marker [mm] beside what the paper's accuracy a implies: e = √(1 − a) is the rms of
+(y_FEA − y_EXP)/y_FEA over six markers. Assumed in reading it: the error is alike along the robot, its sign is
+unknown; then y_FEA = y_EXP/(1 + e), the low branch, or y_EXP/(1 − e), the high one. y_EXP is printed at 30 kPa
+only; it is nowhere more than there. A height within a tenth of a branch holds.
+";
+
+fn place(against: &[HeightRow]) -> Table<&HeightRow> {
+    Table::of(against)
+        .words("robot", |a| &a.robot)
+        .words("kPa", |a| format!("{:.0}", a.actuator_kpa))
+        .words("mesh", |a| mesh_name(a.mesh_mm))
+}
+
+/// How many facts hold, miss, contradict each other or cannot be checked.
+fn counted(rows: &[FactRow]) -> String {
+    let kinds = ["holds", "misses", "contradicts itself", "cannot be checked"];
+    let count = |kind: &str| rows.iter().filter(|row| row.verdict.words().starts_with(kind)).count();
+    let words = kinds.map(|kind| format!("{kind} {}", count(kind))).join(", ");
+    format!("\n{} facts: {words}.\n", rows.len())
+}
+
+/// What of the runs is ours and not the paper's.
+fn numerics(runs: &[PaperRun]) -> String {
+    let mass = runs.iter().map(|r| r.added_mass_share).fold(0.0, f64::max);
+    let cpu_s: f64 = runs.iter().map(|r| r.run.cpu_s).sum();
+    format!(
+        "Numerics are ours: selective masses, {:.0} % added at most; {:.0} CPU s in all. \
+         Assumed, not printed: six pouches, marker stations, glue, density.\n",
+        100.0 * mass,
+        cpu_s
+    )
 }

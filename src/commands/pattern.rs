@@ -1,17 +1,11 @@
 //! `ibr pattern`
 
 use super::inputs::{self, quantity};
-use super::{Context, Outcome};
 use crate::cli::PatternArgs;
-use crate::failure::Failure;
-use crate::output::write_texts;
-use crate::shown::pattern::PatternAnswer;
+use crate::prelude::*;
 use ibr::pages::pattern_sheet;
-use models::Scenario;
-use models::cutting::{CuttingPlan, Making};
-use models::scenario::quantity::Quantity;
+use models::cutting::{CuttingPlan, Making, PatternPiece};
 use report::sheet::{Paper, PatternSheet, dxf, pages, svg};
-use std::path::PathBuf;
 
 /// Width of welds where neither the scenario nor the user says one, as in [`fem::robot::RobotSettings`] \[m\].
 const WELD_M: f64 = 0.003;
@@ -22,52 +16,85 @@ const ALLOWANCE_M: f64 = 0.01;
 /// More fabric than that around a piece is a slip of the unit \[m\].
 const MOST_ALLOWANCE_M: f64 = 0.5;
 
-pub fn run(args: &PatternArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &PatternArgs, context: &mut Context) -> Result<Outcome> {
     let file = inputs::scenario(&args.scenario)?;
-    let (weld_m, how) = weld(args, &file.scenario)?;
+    let weld = match &args.weld {
+        Some(text) => (quantity("--weld", text, Quantity::Length)?, "as told".into()),
+        None => usual_weld(&file.scenario),
+    };
     let allowance_m = quantity("--allowance", &args.allowance, Quantity::Length)?;
     if !(0.0..=MOST_ALLOWANCE_M).contains(&allowance_m) {
         let message = format!("--allowance {} is not from 0 to {} mm", args.allowance, 1e3 * MOST_ALLOWANCE_M);
         return Err(Failure::usage(message, "write for example --allowance 10mm"));
     }
-    let making = Making { weld_m, allowance_m };
-    let plan = CuttingPlan::new(&file.scenario, &making)
+    let weld_mm = 1e3 * weld.0;
+    let (plan, notes, sheet) = laid_out(&file.scenario, weld, allowance_m)
         .map_err(|fault| Failure::usage(format!("{}: {fault}", args.scenario), "see docs/scenario.md"))?;
-    let mut told = vec![format!("Welds {:.1} mm wide ({how}), allowance {} beyond.", 1e3 * weld_m, args.allowance)];
-    told.extend(plan.notes.iter().cloned());
-    let sheet = pattern_sheet(&file.scenario.name, &plan, &told);
     let files = files(args, &sheet)?;
     write_texts(&files, context)?;
-    let names: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
-    let answer = PatternAnswer::of(&args.scenario, &plan, &making, &told, &names);
-    Ok(Outcome::answer(answer.text(), "ibr.pattern", &answer))
+    let written: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
+    let text = format!("{}{}\n1:1, written: {}\n", pieces(&plan), lines("", &notes), written.join(", "));
+    let (scenario, pieces) = (&args.scenario, &plan.pieces);
+    let answer = PatternAnswer { scenario, weld_mm, allowance_mm: 1e3 * allowance_m, pieces, notes, written };
+    Ok(Outcome::answer(text, "ibr.pattern", &answer))
 }
 
-/// The width of the welds and how it is known.
-fn weld(args: &PatternArgs, scenario: &Scenario) -> Result<(f64, String), Failure> {
-    match &args.weld {
-        Some(text) => Ok((quantity("--weld", text, Quantity::Length)?, "as told".into())),
-        None => Ok(usual_weld(scenario)),
-    }
+/// `ibr.pattern`: `ibr pattern SCENARIO`
+#[derive(Serialize)]
+struct PatternAnswer<'a> {
+    /// Scenario as typed
+    scenario: &'a str,
+    /// Width of the welds
+    weld_mm: f64,
+    /// Fabric beyond welds and ends
+    allowance_mm: f64,
+    /// Pieces to cut
+    pieces: &'a [PatternPiece],
+    /// What the plan leaves to its reader
+    notes: Vec<String>,
+    /// Files
+    written: Vec<String>,
 }
 
+fn pieces(plan: &CuttingPlan) -> String {
+    let size = |[a, b]: [f64; 2]| 1e3 * (b - a);
+    Table::of(&plan.pieces)
+        .words("piece", |p| &p.name)
+        .right("copies", |p| p.copies.to_string())
+        .right("fabric", |p| p.fabric)
+        .number("warp [deg]", 0, |p| p.warp_rad.to_degrees())
+        .number("along [mm]", 1, |p| size(p.x_m))
+        .number("across [mm]", 1, |p| size(p.y_m))
+        .text()
+}
+
+/// The width of the welds of a scenario \[m\], and how it is known.
 fn usual_weld(scenario: &Scenario) -> (f64, String) {
     let effect = scenario.effects.iter().find(|e| e.name == "weld_width");
     effect.map_or((WELD_M, "assumed".into()), |e| (e.values[0], format!("the scenario's weld_width, {}", e.basis)))
 }
 
-/// The pattern of a robot as SVG with what `ibr pattern` takes by itself; `Err` says why there is none.
+/// Pieces, notes and drawing of a robot; `Err` says why there are none.
+fn laid_out(
+    scenario: &Scenario,
+    (weld_m, how): (f64, String),
+    allowance_m: f64,
+) -> Result<(CuttingPlan, Vec<String>, PatternSheet), String> {
+    let plan = CuttingPlan::new(scenario, &Making { weld_m, allowance_m })?;
+    let allowance = compare::wording::short(1e3 * allowance_m);
+    let welds = format!("Welds {:.1} mm wide ({how}), allowance {allowance} mm beyond.", 1e3 * weld_m);
+    let notes = std::iter::once(welds).chain(plan.notes.iter().cloned()).collect::<Vec<_>>();
+    let sheet = pattern_sheet(&scenario.name, &plan, &notes);
+    Ok((plan, notes, sheet))
+}
+
+/// The pattern of a robot as SVG with the usual welds and allowance; `Err` says why there is none.
 pub(super) fn usual_pattern(scenario: &Scenario) -> Result<String, String> {
-    let (weld_m, how) = usual_weld(scenario);
-    let plan = CuttingPlan::new(scenario, &Making { weld_m, allowance_m: ALLOWANCE_M })?;
-    let mut told =
-        vec![format!("Welds {:.1} mm wide ({how}), allowance {:.0} mm beyond.", 1e3 * weld_m, 1e3 * ALLOWANCE_M)];
-    told.extend(plan.notes.iter().cloned());
-    Ok(svg(&pattern_sheet(&scenario.name, &plan, &told)))
+    Ok(svg(&laid_out(scenario, usual_weld(scenario), ALLOWANCE_M)?.2))
 }
 
 /// Files to write: the drawing, and its pages beside it.
-fn files(args: &PatternArgs, sheet: &PatternSheet) -> Result<Vec<(PathBuf, String)>, Failure> {
+fn files(args: &PatternArgs, sheet: &PatternSheet) -> Result<Vec<(PathBuf, String)>> {
     let is = |ending: &str| args.out.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
     match &args.page {
         _ if !is("svg") && !is("dxf") => {

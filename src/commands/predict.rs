@@ -1,18 +1,18 @@
 //! `ibr predict`
 
 use super::inputs::{self, quantity};
-use super::{Context, Outcome, limits};
+use super::limits;
 use crate::cli::PredictArgs;
-use crate::failure::Failure;
-use crate::output::{check_folder, write_files};
-use crate::shown::nearest::{NearestPlace, nearest_words};
-use crate::shown::predicted::{PredictAnswer, PredictedState, above_limit, beyond_words, columns, text};
+use crate::prelude::*;
+use crate::shown::predicted::{
+    NearestPlace, PredictAnswer, PredictedState, above_limit, beyond_words, columns, nearest_words, text,
+};
 use ibr::pages::predicted_files;
 use ibr::{check_fed, predict, predict_for, predict_near};
-use models::scenario::quantity::{MOST, Quantity, parse_pressures};
-use models::{CHANNELS, Loads, Model, Scenario, Target};
+use models::scenario::quantity::{MOST, parse_pressures};
+use models::{CHANNELS, Target};
 
-pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     // A stream and a length at collapse are built in the plane.
     let planar = args.follow || args.limits;
@@ -62,8 +62,7 @@ pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure
     Ok(outcome)
 }
 
-/// Lines in, lines out.
-fn follow(scenario: &Scenario, context: &Context) -> Result<Outcome, Failure> {
+fn follow(scenario: &Scenario, context: &Context) -> Result<Outcome> {
     if context.json {
         return Err(Failure::usage("--follow writes lines of numbers", "leave out --json"));
     }
@@ -72,12 +71,12 @@ fn follow(scenario: &Scenario, context: &Context) -> Result<Outcome, Failure> {
 }
 
 /// The place of `--inverse X,Y`.
-fn place((x, y): (&str, &str)) -> Result<[f64; 2], Failure> {
+fn place((x, y): (&str, &str)) -> Result<[f64; 2]> {
     Ok([quantity("--inverse", x, Quantity::Length)?, quantity("--inverse", y, Quantity::Length)?])
 }
 
 /// What `--inverse` asks for.
-fn target(wanted: &str) -> Result<Target, Failure> {
+fn target(wanted: &str) -> Result<Target> {
     match wanted.split_once('=') {
         Some(("tip", value)) => Ok(Target::TipHeight(quantity("--inverse", value, Quantity::Length)?)),
         Some(("angle", value)) => Ok(Target::Angle(quantity("--inverse", value, Quantity::Angle)?)),
@@ -89,7 +88,7 @@ fn target(wanted: &str) -> Result<Target, Failure> {
 }
 
 /// The pressures of a file, else those of [`wanted`].
-fn asked(scenario: &Scenario, args: &PredictArgs) -> Result<Vec<Loads>, Failure> {
+fn asked(scenario: &Scenario, args: &PredictArgs) -> Result<Vec<Loads>> {
     let Some(file) = &args.pressures else { return wanted(scenario, args.pressure.as_deref()) };
     if !scenario.actuator.exists() {
         return Err(Failure::usage("--pressures for a beam, which has no actuator", "leave it out"));
@@ -98,7 +97,7 @@ fn asked(scenario: &Scenario, args: &PredictArgs) -> Result<Vec<Loads>, Failure>
 }
 
 /// The pressures of the command line, else of the scenario; a beam has none to be asked for.
-pub fn wanted(scenario: &Scenario, pressures: Option<&str>) -> Result<Vec<Loads>, Failure> {
+pub(super) fn wanted(scenario: &Scenario, pressures: Option<&str>) -> Result<Vec<Loads>> {
     let mut pressures = match pressures {
         Some(text) => {
             parse_pressures(text).map_err(|m| Failure::usage(format!("--pressure: {m}"), "see ibr predict --help"))?

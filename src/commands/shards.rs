@@ -1,12 +1,9 @@
 //! Work shared between machines that see one folder: `--shard K/N`, or a scheduler that runs all shards.
 
-use super::{Context, Outcome};
 use crate::cli::ShardArgs;
-use crate::failure::Failure;
+use crate::prelude::*;
 use fem::FemError;
 use fem::session::{Job, Settings, Shard, is_finished, problems, simulate_all};
-use serde::Serialize;
-use std::path::{Path, PathBuf};
 use sweep::schedule::{self, Cluster};
 
 /// The scheduler that was asked for.
@@ -15,13 +12,13 @@ fn cluster(args: &ShardArgs) -> Option<Cluster> {
 }
 
 /// The shard that was asked for.
-pub fn shard(args: &ShardArgs) -> Result<Shard, Failure> {
+pub(super) fn shard(args: &ShardArgs) -> Result<Shard> {
     let shard = args.shard.as_deref().map_or(Ok(Shard::WHOLE), Shard::parse);
     shard.map_err(|message| Failure::usage(message, "see --help"))
 }
 
 /// What is submitted: the command as it was typed, with a shard. Its files go below `folder`.
-fn job(args: &ShardArgs, folder: &Path, context: &Context) -> Result<schedule::Job, Failure> {
+fn job(args: &ShardArgs, folder: &Path, context: &Context) -> Result<schedule::Job> {
     let program = std::env::current_exe()
         .map_err(|cause| Failure::usage(format!("this program cannot be found: {cause}"), "run the shards by hand"))?;
     let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_path_buf());
@@ -45,7 +42,7 @@ fn without(typed: &[String]) -> Vec<String> {
 }
 
 /// Work that is done in shards.
-pub struct Work<'w> {
+pub(super) struct Work<'w> {
     /// Folder of the job and its logs, seen by all machines.
     pub folder: &'w Path,
     /// What it consists of, for example runs.
@@ -59,7 +56,7 @@ pub struct Work<'w> {
 }
 
 /// Has a scheduler run all shards, if one was asked for. `None`: the command goes on; else what it has to say.
-pub fn by_scheduler(args: &ShardArgs, work: &Work, context: &mut Context) -> Result<Option<Outcome>, Failure> {
+pub(super) fn by_scheduler(args: &ShardArgs, work: &Work, context: &mut Context) -> Result<Option<Outcome>> {
     let Some(cluster) = cluster(args) else { return Ok(None) };
     let job = job(args, work.folder, context)?;
     if args.script {
@@ -86,12 +83,12 @@ struct ShardAnswer {
 
 /// Makes one shard, or has a scheduler run all of them. `None`: the command goes on with all of the work, and makes what is not there;
 /// else what it has to say. `make` says how many parts it made, and why others stopped.
-pub fn in_shards(
+pub(super) fn in_shards(
     args: &ShardArgs,
     work: &Work,
     context: &mut Context,
-    make: impl FnOnce(Shard, &mut Context) -> Result<(usize, Vec<String>), Failure>,
-) -> Result<Option<Outcome>, Failure> {
+    make: impl FnOnce(Shard, &mut Context) -> Result<(usize, Vec<String>)>,
+) -> Result<Option<Outcome>> {
     if args.shard.is_none() {
         return by_scheduler(args, work, context);
     }
@@ -111,12 +108,12 @@ pub fn in_shards(
 }
 
 /// The same for finite element runs.
-pub fn shared(
+pub(super) fn shared(
     args: &ShardArgs,
     jobs: &[Job],
     settings: &Settings,
     context: &mut Context,
-) -> Result<Option<Outcome>, Failure> {
+) -> Result<Option<Outcome>> {
     if !args.asked() {
         return Ok(None);
     }

@@ -1,15 +1,13 @@
 //! `ibr studio`
 
-use super::{Context, Outcome};
 use crate::cli::StudioArgs;
-use crate::failure::Failure;
-use ibr::studio::Studio;
-use std::path::PathBuf;
+use crate::prelude::*;
+use crate::studio::Studio;
 
 /// Where the page is looked for, in the working folder.
 const BUILT: &str = "web/dist/ibr.html";
 
-pub fn run(args: &StudioArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &StudioArgs, context: &mut Context) -> Result<Outcome> {
     if context.json {
         return Err(Failure::usage("ibr studio serves a page and has no answer", "leave --json out"));
     }

@@ -1,17 +1,16 @@
 //! `ibr sweep`
 
 use super::shards::{Work, by_scheduler, shard};
-use super::{Context, Outcome};
 use crate::cli::SweepArgs;
-use crate::failure::Failure;
-use crate::output::{Input, check_folder, maker, sha256, write_files};
-use crate::shown::swept::{SweepAnswer, swept_text};
+use crate::prelude::*;
+use crate::tables::Table as Rows;
+use ::sweep::influence::{influences, pairs};
 use data::Table;
+use data::table::Column;
 use ibr::pages::{sweep_picture_names, sweep_pictures};
-use std::path::{Path, PathBuf};
 use sweep::{Found, Settings, Study, SweepError, collect, parts_missing, run as compute};
 
-pub fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome> {
     let study = Study::read(&args.study, ibr::studies::scenario_in_space)?;
     let stem = args.study.file_stem().unwrap_or_default().to_string_lossy();
     let folder = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("ibr-report/sweep-{stem}")));
@@ -39,7 +38,7 @@ pub fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome, Failure> 
                 "{} parts of shard {}/{} are there; {missing} of other shards are not yet. The last shard writes the table\n",
                 found.parts, shard.which, shard.of
             );
-            Ok(Outcome::answer(text, "ibr.sweep", &SweepAnswer::of(&args.study, &study, &found, None)))
+            Ok(Outcome::answer(text, "ibr.sweep", &sweep_answer(&args.study, &study, &found, None)))
         }
         Err(damaged) => Err(damaged.into()),
     }
@@ -53,12 +52,11 @@ fn whole(
     found: &Found,
     table: Table,
     context: &mut Context,
-) -> Result<Outcome, Failure> {
+) -> Result<Outcome> {
     (context.progress)("writing the table", None);
     let mut files = sweep_pictures(study, &table)?;
-    let both = |name: &str| ["svg", "png"].map(|kind| format!("{name}.{kind}"));
-    files.retired = sweep_picture_names().into_iter().flat_map(both).collect();
-    let answer = SweepAnswer::of(&args.study, study, found, Some(&table));
+    files.retire(&sweep_picture_names());
+    let answer = sweep_answer(&args.study, study, found, Some(&table));
     let mut outcome = Outcome::answer(swept_text(study, found, &table), "ibr.sweep", &answer);
     let name = if args.parquet { "table.parquet" } else { "table.csv" };
     match args.parquet {
@@ -69,10 +67,112 @@ fn whole(
             files.files.push((name.into(), csv));
         }
     }
-    let input = |name: &Path, text: &[u8]| Input { name: name.display().to_string(), sha256: sha256(text) };
-    let own = input(&args.study, &std::fs::read(&args.study).unwrap_or_default());
-    let robot = input(Path::new(&study.base.name), study.base.text.as_bytes());
-    write_files(folder, &files, &[own, robot], context)?;
+    let inputs = [read_input(&args.study), Input::of(&study.base.name, study.base.text.as_bytes())];
+    write_files(folder, &files, &inputs, context)?;
     outcome.notes.push(format!("table: {}", folder.join(name).display()));
     Ok(outcome)
+}
+
+/// Failed cases by their reason, the most frequent first.
+fn failures(table: &Table) -> Vec<(String, usize)> {
+    let texts = |name: &str| match table.columns.iter().find(|column| column.0 == name) {
+        Some((_, Column::Str(all))) => &all[..],
+        _ => &[],
+    };
+    let mut counted: std::collections::BTreeMap<&str, usize> = std::collections::BTreeMap::new();
+    for (status, reason) in texts("status").iter().zip(texts("reason")) {
+        if status == "failed" {
+            *counted.entry(reason).or_default() += 1;
+        }
+    }
+    let mut found: Vec<(String, usize)> = counted.into_iter().map(|(why, n)| (why.to_string(), n)).collect();
+    found.sort_by_key(|(_, n)| std::cmp::Reverse(*n));
+    found
+}
+
+/// How far the engines are from each other where both have a case.
+fn agreement(table: &Table, (output, what): (&str, &str)) -> String {
+    let mut off: Vec<f64> = pairs(table, output).iter().map(|[model, fe]| model - fe).collect();
+    off.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let (Some(middle), Some(worst)) = (off.get(off.len() / 2), off.last()) else { return String::new() };
+    format!(
+        "\n{} cases by both: the model's {what} is {:.1} mm off in the median, {worst:+.1} mm at worst\n",
+        off.len(),
+        middle.abs()
+    )
+}
+
+/// Reasons that are printed.
+const MOST_REASONS: usize = 3;
+
+fn swept_text(study: &Study, found: &Found, table: &Table) -> String {
+    let engines: Vec<String> =
+        study.engines.iter().map(|engine| format!("{} cases by {}", study.cases(*engine), engine.word())).collect();
+    let name = &study.base.scenario.name;
+    let mut text = format!(
+        "{}: {}; {} of {} parts were there before\n",
+        if name.is_empty() { &study.base.name } else { name },
+        engines.join(", "),
+        found.kept,
+        found.parts
+    );
+    for engine in &study.engines {
+        for (output, what) in study.heights() {
+            text += &Rows::of(influences(study, table, *engine, output))
+                .words("key", |i| i.key.clone())
+                .number("lowest mm", 1, |i| i.range()[0])
+                .number("highest mm", 1, |i| i.range()[1])
+                .under(&format!("Mean {what} over the values of each key, {}:", engine.word()));
+        }
+    }
+    study.heights().iter().for_each(|height| text += &agreement(table, *height));
+    let failed = failures(table);
+    let count: usize = failed.iter().map(|f| f.1).sum();
+    if count > 0 {
+        text += &format!("\n{count} rows failed:\n");
+    }
+    text + &lines("  - ", failed.iter().take(MOST_REASONS).map(|(why, n)| format!("{n}: {why}")))
+}
+
+/// `ibr.sweep`: `ibr sweep STUDY`
+#[derive(Serialize)]
+struct SweepAnswer<'a> {
+    /// The study as typed
+    study: String,
+    /// The robot
+    scenario: &'a str,
+    /// Cases of the study
+    cases: usize,
+    /// What computes the cases
+    engines: Vec<&'static str>,
+    /// What was done
+    #[serde(flatten)]
+    found: &'a Found,
+    /// Rows without numbers, by their reason
+    failed: Vec<FailedRows>,
+    /// Columns of the table
+    columns: Vec<String>,
+}
+
+/// Rows without numbers for one reason.
+#[derive(Serialize)]
+struct FailedRows {
+    /// Why
+    reason: String,
+    /// How many
+    rows: usize,
+}
+
+/// Of a study in a file; without a table only a shard was made.
+fn sweep_answer<'a>(file: &Path, study: &'a Study, found: &'a Found, table: Option<&Table>) -> SweepAnswer<'a> {
+    let failed = table.map_or(Vec::new(), failures).into_iter();
+    SweepAnswer {
+        study: file.display().to_string(),
+        scenario: &study.base.name,
+        cases: study.cases(sweep::Engine::Reduced),
+        engines: study.engines.iter().map(|engine| engine.word()).collect(),
+        found,
+        failed: failed.map(|(reason, rows)| FailedRows { reason, rows }).collect(),
+        columns: sweep::names(study),
+    }
 }

@@ -1,17 +1,13 @@
 //! `ibr tradeoff`
 
-use super::{Context, Outcome};
 use crate::cli::TradeoffArgs;
-use crate::failure::Failure;
-use crate::output::{check_folder, machine, write_files};
-use crate::tables::Table;
+use crate::prelude::*;
 use compare::study::engines::known_runs;
 use compare::study::published::published_ladders;
 use compare::study::tradeoff::{Timing, of_runs, tradeoff};
-use ibr::pages::{Files, tradeoff_plot};
-use serde::Serialize;
+use ibr::pages::tradeoff_plot;
 
-pub fn run(args: &TradeoffArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &TradeoffArgs, context: &mut Context) -> Result<Outcome> {
     let out = args.out.as_deref();
     out.map_or(Ok(()), check_folder)?;
     (context.progress)("timing", None);
@@ -49,7 +45,6 @@ struct TradeoffAnswer {
     models: Vec<Timing>,
 }
 
-/// Microseconds to minutes.
 fn time(us: f64) -> String {
     match us {
         us if us < 1e3 => format!("{us:.2} µs"),

@@ -1,13 +1,12 @@
 //! `ibr validate`
 
 use super::inputs::{self, positive};
-use super::{Context, Outcome};
 use crate::cli::ValidateArgs;
-use crate::failure::Failure;
+use crate::prelude::*;
 use crate::shown::validation::{ValidateAnswer, text};
 use compare::validation::BeforeAfter;
 
-pub fn run(args: &ValidateArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &ValidateArgs, context: &mut Context) -> Result<Outcome> {
     let sigma_m = positive("--sigma", args.noise.sigma.as_ref())?;
     let file = inputs::scenario_in_space(&args.scenario)?;
     let both = BeforeAfter::of(&file, &args.without)?;

@@ -1,21 +1,17 @@
 //! `ibr verify`: the closed forms against their known numbers, then the engine against the closed forms.
 
-use super::tables::table;
-use super::{Context, Outcome};
 use crate::cli::VerifyArgs;
-use crate::failure::{Failure, MISSED};
-use ibr::pages::Files;
-use report::{LineSeries, LineStyle, Lines};
+use crate::prelude::*;
 use verification::checks::{Choice, Figure, verify};
 use verification::{Error, Findings, Printed};
 
-pub fn run(args: &VerifyArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &VerifyArgs, context: &mut Context) -> Result<Outcome> {
     let choice = Choice { slow: args.slow, only: &args.only };
     let (answer, figures) = verify(&choice, &mut |what, share| (context.progress)(what, share))?;
     let mut outcome = show(answer);
     if let Some(folder) = &args.plots {
         let drawn = figures.iter().map(|(name, figure)| Ok((format!("{name}.png"), draw(figure)?)));
-        let files = Files { files: drawn.collect::<Result<_, Failure>>()?, ..Files::default() };
+        let files = Files { files: drawn.collect::<Result<_>>()?, ..Files::default() };
         crate::output::write_files(folder, &files, &[], context)?;
         outcome.text.push_str(&format!("{} figures in {}\n", files.files.len(), folder.display()));
     }
@@ -23,10 +19,10 @@ pub fn run(args: &VerifyArgs, context: &mut Context) -> Result<Outcome, Failure>
 }
 
 /// An answer as a command says it.
-pub fn show(answer: Findings) -> Outcome {
+pub(super) fn show(answer: Findings) -> Outcome {
     let part = |part: Printed| match part {
         Printed::Text(text) => text,
-        Printed::Table { head, left, rows } => table(head, left, rows),
+        Printed::Table { head, left, rows } => Table::finished(&head, left, rows).text(),
     };
     let text = answer.parts.into_iter().map(part).collect();
     Outcome { code: if answer.missed { MISSED } else { 0 }, ..Outcome::new(text, answer.json) }
@@ -46,7 +42,7 @@ impl From<Error> for Failure {
     }
 }
 
-fn draw(figure: &Figure) -> Result<Vec<u8>, Failure> {
+fn draw(figure: &Figure) -> Result<Vec<u8>> {
     let known = figure.curves.iter().filter(|c| c.exact).count();
     let paired = 2 * known == figure.curves.len();
     let mut seen = [0, 0];

@@ -1,19 +1,17 @@
 //! Plots: all specimens, their mean, the fit, and where the reduction stops being valid.
 
-use super::{Files, PageError};
+use super::Result;
+use crate::prelude::*;
 use compare::characterize::write::{measured_toml, shear_table, yarn_table};
 use compare::characterize::{BiasStrip, Characterized, OPTICAL_LIMIT_RAD, PAPER_LIMIT_RAD};
 use models::fabrics::{Fabric, specimen as fit};
-use report::{LineSeries, LineStyle, Lines, lines};
+use report::lines;
 
 /// Colour of all limits.
 const LIMIT: usize = 5;
 
 /// Every plot that the specimens allow, their mean curves, and what scenarios and cases take of them.
-///
-/// # Errors
-/// A drawing that fails.
-pub fn characterized_files(found: &Characterized, fabric: Option<&str>, program: &str) -> Result<Files, PageError> {
+pub(crate) fn characterized_files(found: &Characterized, fabric: Option<&str>, program: &str) -> Result<Files> {
     let mut files = Files::default();
     for (name, plot) in [("tension", tension(found)), ("bias", bias(found)), ("shear", shear(found))] {
         if let Some(plot) = plot {

@@ -1,15 +1,16 @@
 //! The page of a scenario compared with a dataset.
 
-use super::{Files, Imprint, PageError, Values, effect, figures, number, residual_figure, tables};
+use super::{Imprint, Result, Values, figures, residual_figure, tables};
+use crate::prelude::*;
 use crate::shown::comparison::CompareAnswer;
 use ::compare::study::Comparison;
-use data::{About, Dataset};
+use data::About;
 
 /// The page of a comparison and its files.
 ///
 /// # Errors
 /// What cannot be drawn.
-pub fn compare_page(study: &Comparison, imprint: &Imprint) -> Result<Files, PageError> {
+pub fn compare_page(study: &Comparison, imprint: &Imprint) -> Result<Files> {
     let mut files = compare_files(study)?;
     let (first, dataset) = (&study.variants[0], &study.dataset);
     let values = Values::new()
@@ -28,7 +29,7 @@ pub fn compare_page(study: &Comparison, imprint: &Imprint) -> Result<Files, Page
 ///
 /// # Errors
 /// What cannot be drawn.
-pub fn compare_files(study: &Comparison) -> Result<Files, PageError> {
+pub fn compare_files(study: &Comparison) -> Result<Files> {
     let mut files = Files::default();
     let (first, dataset) = (&study.variants[0], &study.dataset);
     let shapes = |axis| figures::shapes("Predicted and measured shape", &first.scenario, dataset, axis);
@@ -52,7 +53,6 @@ pub fn compare_files(study: &Comparison) -> Result<Files, PageError> {
     Ok(files)
 }
 
-/// The answer in a paragraph.
 fn lead(study: &Comparison) -> String {
     let first = &study.variants[0];
     let all = &first.evaluation.metrics.overall;

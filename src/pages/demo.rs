@@ -2,7 +2,9 @@
 
 use super::diagnosis::{Diagnosed, draw, verdict};
 use super::engines::overview;
-use super::{Files, Imprint, PAPER, PageError, Values, figures, residual_figure};
+use super::{Imprint, PAPER, Result, Values, figures, residual_figure};
+use crate::prelude::*;
+use crate::shown::demo as shown;
 use crate::shown::held::HeldTable;
 use ::compare::demo::{Demo, HIDDEN_IN, Story};
 use ::compare::progress::shares::PICTURES as SHARES;
@@ -15,10 +17,7 @@ use data::published::printed;
 const PICTURES: [&str; 5] = ["missing_moment", "residuals_before", "ranking", "before_after", "candidates"];
 
 /// The page of the demonstration and its plots.
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn demo_page(demo: &Demo, imprint: &Imprint, progress: &mut Progress) -> Result<Files, PageError> {
+pub(crate) fn demo_page(demo: &Demo, imprint: &Imprint, progress: &mut Progress) -> Result<Files> {
     let mut files = Files::default();
     progress("plots of the published displacements", Some(0.0));
     files.plot("published", figures::published_bars(&demo.ladders)?);
@@ -36,6 +35,12 @@ pub fn demo_page(demo: &Demo, imprint: &Imprint, progress: &mut Progress) -> Res
         .with("title", "Four pneumatic bending actuators: models held against measurements")
         .with("ladders", demo.ladders.iter().map(ladder).collect::<Vec<_>>())
         .with("measured", demo.measured.iter().map(HeldTable::of).collect::<Vec<_>>())
+        .with(
+            "published",
+            shown::published(&demo.ladders)
+                .page("Displacement at 30 kPa actuator and 2 kPa body pressure; measured: du Pasquier et al. 2023"),
+        )
+        .with("sets", shown::sets(&demo.studies).page(shown::SETS))
         .with("studies", studies)
         .with("diagnosis", verdict(&found))
         .with("map_colours", residual_figure::MAP_COLOURS)
@@ -66,14 +71,6 @@ fn found(story: &Story) -> Diagnosed<'_> {
 
 fn ladder(l: &PublishedLadder) -> Values {
     let (last_mm, measured_mm) = (figures::last(l).map_or(f64::NAN, |rung| rung.y_m * 1e3), l.published.d_max_m * 1e3);
-    let rung = |r: &::compare::study::Rung| {
-        let range_mm = r.range_m.map(|range| range.map(|v| v * 1e3));
-        Values::new()
-            .with("label", &r.label)
-            .with("known", r.known)
-            .with("y_mm", r.y_m * 1e3)
-            .with("range_mm", range_mm)
-    };
     Values::new()
         .with("name", printed(&l.published.kind))
         .with("kind", &l.published.kind)
@@ -81,19 +78,14 @@ fn ladder(l: &PublishedLadder) -> Values {
         .with("last_mm", last_mm)
         .with("left_mm", last_mm - measured_mm)
         .with("absorbing_nm2", l.calibrated_bending)
-        .with("rungs", l.rungs.iter().map(rung).collect::<Vec<_>>())
+        .with("bare_mm", l.rungs[0].y_m * 1e3)
 }
 
-fn draw_study(study: &Comparison, files: &mut Files) -> Result<Values, PageError> {
+fn draw_study(study: &Comparison, files: &mut Files) -> Result<Values> {
     let (first, name) = (&study.variants[0], &study.dataset.name);
-    let last = study.variants.last().unwrap_or(first);
     let map = residual_figure::map("Bare model: where it misses", &first.evaluation.residual_map, &study.dataset)?;
     files.plot(&format!("{name}_map"), map);
     Ok(Values::new()
         .with("data", name)
-        .with("label", &last.label)
-        .with("known", last.known)
-        .with("first", &first.evaluation.metrics.overall)
-        .with("last", &last.evaluation.metrics.overall)
         .with("where_it_fails", first.evaluation.where_it_fails.iter().map(|s| &s.sentence).collect::<Vec<_>>()))
 }

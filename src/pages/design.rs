@@ -1,18 +1,12 @@
 //! A design and its wish.
 
+use super::Result;
 use super::figures::{LINE_POINTS, mm};
-use super::{Files, PageError};
-use crate::words::pressure_words;
+use crate::prelude::*;
 use ::sweep::design::{Design, Wish};
-use models::Model;
-use report::chart::{Chart, Key, KeyLook, Mark, Point, Space};
-use report::{Ink, Symbol};
 
 /// The shape of a design, with the places that are wished for and, where there are, those of finite elements (tip last) \[m\].
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn design_files(wish: &Wish, found: &Design, elements_m: Option<&[[f64; 2]]>) -> Result<Files, PageError> {
+pub(crate) fn design_files(wish: &Wish, found: &Design, elements_m: Option<&[[f64; 2]]>) -> Result<Files> {
     let model = Model::new(&found.file.scenario);
     let radius = 1e3 * found.file.radius_m;
     let rest = [[0.0, 0.0], [1e3 * found.file.length_m, 0.0]];
@@ -23,9 +17,9 @@ pub fn design_files(wish: &Wish, found: &Design, elements_m: Option<&[[f64; 2]]>
     let point = |at: [f64; 2], ink, symbol, open| Mark::Point(Point { at, ink, symbol, open, ..Point::default() });
     let mut marks = vec![
         Mark::Band(above.iter().chain(below.iter().rev()).copied().collect()),
-        Mark::Line { points: rest.to_vec(), ink: Ink::Muted, dashed: true },
-        Mark::Line { points: vec![[0.0, -1.15 * radius], [0.0, 1.15 * radius]], ink: Ink::Muted, dashed: false },
-        Mark::Line { points: line, ink: predicted, dashed: false },
+        Mark::Dashed(rest.to_vec(), Ink::Muted),
+        Mark::Line(vec![[0.0, -1.15 * radius], [0.0, 1.15 * radius]], Ink::Muted),
+        Mark::Line(line, predicted),
     ];
     let mut keys =
         vec![Key::new(KeyLook::Line, predicted, "model, predicted"), Key::new(KeyLook::Dashed, Ink::Muted, "at rest")];
@@ -40,17 +34,9 @@ pub fn design_files(wish: &Wish, found: &Design, elements_m: Option<&[[f64; 2]]>
         marks.extend(mm(&places).into_iter().map(|at| point(at, wished, Symbol::Diamond, true)));
         keys.push(Key::new(KeyLook::Symbol(Symbol::Diamond, true), wished, "wished for"));
     }
-    marks.push(Mark::Tip { at: end, label: format!("{} kPa", pressure_words(&found.loads)), ink: predicted });
-    let chart = Chart {
-        title: found.file.scenario.name.clone(),
-        x_label: "x along the robot at rest [mm]".into(),
-        y_label: "y sideways [mm]".into(),
-        space: Space::Equal,
-        marks,
-        keys,
-        ..Chart::default()
-    };
+    marks.push(Mark::Tip(end, format!("{} kPa", pressure_words(&found.loads)), predicted));
+    let chart = Chart::new(&found.file.scenario.name, "x along the robot at rest [mm]", "y sideways [mm]");
     let mut files = Files::default();
-    files.plot("shape", chart.draw("design")?);
+    files.plot("shape", Chart { space: Space::Equal, marks, keys, ..chart }.draw("design")?);
     Ok(files)
 }

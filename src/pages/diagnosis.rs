@@ -3,19 +3,18 @@
 use super::diagnosis_figures::{
     candidate_curves, ledger_cases, left_out, ranking, shown, supply, waterfall, witness_ledger,
 };
-use super::engines::heads;
-use super::{Files, Imprint, PageError, Values, figures, in_words, moment_figure, residual_figure};
-use ::compare::diagnosis::{Answer, Combination, Diagnosis, ParameterValue, Ranked, Separation, Standing, Verdict};
+use super::{Imprint, Result, Values, figures, moment_figure, residual_figure};
+use crate::prelude::*;
+use crate::shown::diagnosis_tables as tables;
+use ::compare::diagnosis::words::listed;
+use ::compare::diagnosis::{Answer, Diagnosis, Standing, Verdict};
 use ::compare::extension::error_steps;
 use ::compare::progress::Progress;
 use ::compare::residuals::{Deviation, ResidualCell, ResidualMap};
-use ::compare::study::engines::TERMS;
 use ::compare::study::predict::fit_scenario;
-use ::compare::witness::{HEIGHTS, Witness};
-use ::compare::wording::{p_value, short};
-use data::{About, Dataset};
-use models::{Loads, Scenario};
-use report::Drawn;
+use ::compare::witness::Witness;
+use ::compare::wording::p_value;
+use data::About;
 
 /// Errors below this are no bar \[mm\].
 const SMALLEST_BAR_MM: f64 = 0.005;
@@ -44,7 +43,7 @@ pub struct Diagnosed<'a> {
 ///
 /// # Errors
 /// What cannot be drawn.
-pub fn diagnosis_page(found: &Diagnosed, imprint: &Imprint, progress: &mut Progress) -> Result<Files, PageError> {
+pub fn diagnosis_page(found: &Diagnosed, imprint: &Imprint, progress: &mut Progress) -> Result<Files> {
     let mut files = diagnosis_plots(found, progress)?;
     if let Some(missing) = &found.diagnosis.missing_moment {
         files.text("missing_moment.csv", missing.csv());
@@ -57,14 +56,14 @@ pub fn diagnosis_page(found: &Diagnosed, imprint: &Imprint, progress: &mut Progr
 ///
 /// # Errors
 /// What cannot be drawn.
-pub fn diagnosis_plots(found: &Diagnosed, progress: &mut Progress) -> Result<Files, PageError> {
+pub fn diagnosis_plots(found: &Diagnosed, progress: &mut Progress) -> Result<Files> {
     let mut files = Files::default();
     draw(found, "", &diagnosis_pictures(), &mut files, progress)?;
     Ok(files)
 }
 
 /// A picture of a diagnosis with the scenario fitted to the stations and loads of the data; `None` where there is nothing to show.
-type Picture = fn(&Diagnosed, &Scenario) -> Result<Option<Drawn>, PageError>;
+type Picture = fn(&Diagnosed, &Scenario) -> Result<Option<Drawn>>;
 
 /// Every picture that a report of a diagnosis may have, and its name without prefix and ending.
 const PICTURES: [(&str, Picture); 9] = [
@@ -106,7 +105,7 @@ const PICTURES: [(&str, Picture); 9] = [
 ];
 
 /// Names of the pictures that a report may have.
-pub fn diagnosis_pictures() -> [&'static str; 9] {
+pub(crate) fn diagnosis_pictures() -> [&'static str; 9] {
     PICTURES.map(|(name, _)| name)
 }
 
@@ -117,7 +116,7 @@ pub(super) fn draw(
     wanted: &[&str],
     files: &mut Files,
     progress: &mut Progress,
-) -> Result<(), PageError> {
+) -> Result<()> {
     let (scenario, _) = fit_scenario(found.scenario, found.dataset, found.about)?;
     for (i, (name, picture)) in PICTURES.iter().filter(|(name, _)| wanted.contains(name)).enumerate() {
         progress("plots of the diagnosis", Some(i as f64 / wanted.len() as f64));
@@ -164,14 +163,16 @@ fn values(found: &Diagnosed) -> Values {
         .with("more", &found.more)
         .with("left_out", left_out(d, &shown(d)).map_or(String::new(), |words| words + " "))
         .with("leftover", d.leftover.iter().map(|s| &s.sentence).collect::<Vec<_>>())
-        .with("ranked", d.ranked.iter().map(|r| ranked(d, r)).collect::<Vec<_>>())
-        .with("pairs", d.pairs.iter().map(|p| pair(d, p)).collect::<Vec<_>>())
+        .with("effects", tables::ranking(d).map(|(title, rows)| rows.page(title)))
+        .with("pairs", (!d.pairs.is_empty()).then(|| tables::pairs(d).page("Pairs, refitted with B")))
+        .with("marks", tables::MARKS)
+        .with("unseen", tables::unseen(d).page(tables::UNSEEN))
+        .with("experiments", tables::experiments(d).map(|(title, rows)| rows.page(&title)))
         .with("explained", explained(d))
         .with("map_colours", residual_figure::colours(found.dataset))
         .with("cautions", d.warnings.iter().filter(|w| !d.slips.contains(w)).collect::<Vec<_>>())
         .with("provenance", provenance(found))
         .and(verdict(found))
-        .and(experiments(d))
         .and(witness(found.witness))
 }
 
@@ -245,62 +246,15 @@ fn largest(map: &ResidualMap, of: fn(&ResidualCell) -> Deviation) -> Option<Stri
     Some(format!("{:+.1} mm{noise} {place}", d.mm))
 }
 
-fn ranked(d: &Diagnosis, r: &Ranked) -> Values {
-    let stated = |name: &String| name.split(" + ").any(|part| part == r.effect);
-    let note = match () {
-        () if d.indistinguishable.contains(&r.effect) => "cannot be told apart",
-        () if d.indistinguishable.iter().any(stated) => "in a pair that cannot be told apart",
-        () if d.attempt.iter().any(|a| a.effect == r.effect) => d.attempt_words(),
-        () if r.at_bound => "on a bound: rejected",
-        () => "",
-    };
-    Values::new()
-        .with("of", r)
-        .with("group", r.group)
-        .with("values", listed(&r.parameters))
-        .with("p", bare_p(r.p_corrected))
-        .with("note", note)
-}
-
-fn pair(d: &Diagnosis, p: &Combination) -> Values {
-    let stated = p.in_set && d.verdict == Some(Verdict::Effect);
-    let (name, values) = (p.effects.join(" + "), listed(&p.parameters));
-    Values::new()
-        .with("of", p)
-        .with("name", name)
-        .with("values", values)
-        .with("p", bare_p(p.p_corrected))
-        .with("stated", stated)
-}
-
-fn bare_p(p: Option<f64>) -> String {
-    p.map_or("–".into(), |p| p_value(p).trim_start_matches("p = ").replace("p < ", "< "))
-}
-
-fn experiments(d: &Diagnosis) -> Values {
-    let Some(next) = &d.next_experiment else { return Values::new() };
-    let rivals: Vec<String> = next.now.iter().map(|s| super::effect(&s.rival)).collect();
-    let mut heads = vec![["experiment", "", ""], ["protocol [kPa]", "", "l"], ["suffices", "", ""]];
-    heads.extend(rivals.iter().map(|rival| [rival, "", ""]));
-    let row = |name: &str, protocol: &str, needed: f64, found: &[Separation]| {
-        let lambdas: Vec<f64> = found.iter().map(|s| s.lambda).collect();
-        Values::new().with("name", name).with("protocol", protocol).with("needed", needed).with("lambdas", lambdas)
-    };
-    let mut rows = vec![row("data at hand", "–", next.needed_now, &next.now)];
-    rows.extend(next.tried.iter().map(|e| row(&e.name, e.shown_protocol(), e.needed, &e.separations)));
-    Values::new().with("experiments", rows).with("experiments_heads", heads)
-}
-
 fn witness(witness: Option<&Witness>) -> Values {
     let Some(w) = witness else { return Values::new().with("witness", ()) };
     let sentences = w.sentences.iter().map(|s| in_words(s)).collect::<Vec<_>>();
-    let terms = [&["model"], &TERMS[..], &["apart"]].concat();
-    Values::new()
-        .with("witness", Values::new().with("sentences", sentences))
-        .with("heights", w.height_rows())
-        .with("height_heads", heads(&HEIGHTS, &[]))
-        .with("ledgers", w.ledger_rows())
-        .with("ledger_heads", heads(&terms, &[]))
+    let captions = [
+        "Outermost marker on first loading [mm]. Finite elements: the point of the wall where the marker sticks, on the side that a camera sees",
+        "Ledgers from the first bend to the highest shared pressure [mJ]; apart: without hourglass control",
+    ];
+    let shown = tables::finite_elements(w).into_iter().zip(captions).map(|(table, caption)| table.page(caption));
+    Values::new().with("witness", Values::new().with("sentences", sentences).with("tables", shown.collect::<Vec<_>>()))
 }
 
 fn provenance(found: &Diagnosed) -> Vec<[String; 2]> {
@@ -316,26 +270,4 @@ fn provenance(found: &Diagnosed) -> Vec<[String; 2]> {
         lines.push(line("source", &about.source));
     }
     lines
-}
-
-fn listed(values: &[ParameterValue]) -> String {
-    values.iter().map(with_interval).collect::<Vec<_>>().join(", ")
-}
-
-fn with_interval(p: &ParameterValue) -> String {
-    let digits = |v: f64| if v.abs() >= 100.0 { short(v) } else { three(v) };
-    let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
-    match (p.lo, p.hi) {
-        (Some(lo), Some(hi)) => format!("{} = {} ({} to {}){unit}", p.symbol, digits(p.value), digits(lo), digits(hi)),
-        _ => format!("{} = {}{unit}{}", p.symbol, digits(p.value), p.held_mark()),
-    }
-}
-
-/// Three significant digits.
-fn three(v: f64) -> String {
-    match v.abs() {
-        0.0 => "0".into(),
-        s if s < 1e-3 => format!("{v:.1e}"),
-        s => format!("{v:.*}", (2 - s.log10().floor() as i32).max(0) as usize),
-    }
 }

@@ -1,16 +1,16 @@
 //! A diagnosis → plots.
 
-use super::PageError;
+use super::Result;
 use super::figures::measured;
+use crate::prelude::*;
 use compare::diagnosis::{Answer, Diagnosis, Group, Standing};
 use compare::extension::ErrorStep;
 use compare::study::engines::{Energies, TERMS};
 use compare::study::predict::predict_dataset;
 use compare::witness::{Witness, WitnessRow};
-use data::{Dataset, Phase};
-use models::{Loads, Model, Scenario, Step};
-use report::chart::{Bar, ChartRow, Key, KeyLook, Mark};
-use report::{self as plots, Drawn, Ink, LineSeries, LineStyle};
+use data::Phase;
+use models::Step;
+use report as plots;
 
 const MM: f64 = 1e3;
 /// Points of a curve over pressure.
@@ -32,7 +32,7 @@ const OTHER_CURVES: usize = 2;
 const FITS_WORSE: &str = "fits worse";
 
 /// Supply against the readings of every gauge, before and after; `None` without a gauge.
-pub(super) fn supply(d: &Diagnosis) -> Result<Option<Drawn>, PageError> {
+pub(super) fn supply(d: &Diagnosis) -> Result<Option<Drawn>> {
     if d.gauges.is_empty() {
         return Ok(None);
     }
@@ -50,7 +50,7 @@ pub(super) fn supply(d: &Diagnosis) -> Result<Option<Drawn>, PageError> {
 }
 
 /// Error of every model, training and left-out data, with the noise of the mean.
-pub(super) fn waterfall(title: &str, rungs: &[ErrorStep], floor_mm: Option<f64>) -> Result<Drawn, PageError> {
+pub(super) fn waterfall(title: &str, rungs: &[ErrorStep], floor_mm: Option<f64>) -> Result<Drawn> {
     let series = |name: &str, of: fn(&ErrorStep) -> f64| (name.to_string(), rungs.iter().map(of).collect(), false);
     let groups: Vec<String> = rungs.iter().map(|r| super::effect(&r.label())).collect();
     let series = [
@@ -99,14 +99,13 @@ pub(super) fn ranking_rows(d: &Diagnosis) -> Option<Vec<(String, Rank, f64)>> {
     (best > 0.0).then_some(rows)
 }
 
-/// The same as bars.
-pub(super) fn ranking(d: &Diagnosis) -> Result<Option<Drawn>, PageError> {
+pub(super) fn ranking(d: &Diagnosis) -> Result<Option<Drawn>> {
     let Some(rows) = ranking_rows(d) else { return Ok(None) };
     let title = if d.pairs.is_empty() { "What one effect explains" } else { "What one effect or two explain" };
     let digits = plots::decimals(rows.iter().map(|row| row.2));
     let bar = |(row, (_, rank, value)): (usize, &(String, Rank, f64))| {
         let (_, _, ink) = RANKS[*rank as usize];
-        Mark::Bar(Bar { row, ink, text: plots::number(*value, digits), ..Bar::to(*value) })
+        Mark::Bar(Bar::to(row, *value, ink, plots::number(*value, digits)))
     };
     let marks = rows.iter().enumerate().map(bar).collect();
     let present = RANKS.iter().filter(|(rank, ..)| rows.iter().any(|row| row.1 == *rank));
@@ -138,11 +137,7 @@ pub(super) fn left_out(d: &Diagnosis, drawn: &[Answer]) -> Option<String> {
 
 /// What the answers predict over pressure, as the difference from the calibrated base: height of the outermost marker on first
 /// loading at the first body pressure, after the time that the samples have waited in their holds.
-pub(super) fn candidate_curves(
-    d: &Diagnosis,
-    scenario: &Scenario,
-    dataset: &Dataset,
-) -> Result<Option<Drawn>, PageError> {
+pub(super) fn candidate_curves(d: &Diagnosis, scenario: &Scenario, dataset: &Dataset) -> Result<Option<Drawn>> {
     let level = first_level(d, dataset);
     let Some(first) = dataset.holds.first() else { return Ok(None) };
     let top_pa = BEYOND * dataset.holds.iter().map(|h| h.p_act_pa).fold(0.0, f64::max);
@@ -226,7 +221,7 @@ pub(super) fn witness_cases(w: &Witness, d: &Diagnosis) -> Vec<plots::LedgerCase
         (true, false) => format!(" ({})", d.attempt_words()),
         (false, true) => format!(" ({FITS_WORSE})"),
     };
-    let case = |label: String, e: &Energies| plots::LedgerCase { label, energies_mj: e.to_vec() };
+    let case = |label: String, e: &Energies| (label, e.to_vec());
     let mut cases = vec![case(base.name.clone(), &base.energies_mj)];
     cases.extend(
         named.chain(nearest).map(|m| case(m.name.trim_start_matches("+ ").to_string() + &what(m), &m.energies_mj)),
@@ -236,16 +231,15 @@ pub(super) fn witness_cases(w: &Witness, d: &Diagnosis) -> Vec<plots::LedgerCase
     cases
 }
 
-/// Their drawing.
-pub(super) fn witness_ledger(w: &Witness, d: &Diagnosis) -> Result<Drawn, PageError> {
+pub(super) fn witness_ledger(w: &Witness, d: &Diagnosis) -> Result<Drawn> {
     let mut cases = witness_cases(w, d);
-    cases.iter_mut().for_each(|case| case.label = super::effect(&case.label));
+    cases.iter_mut().for_each(|(label, _)| *label = effect(label));
     let title = format!("Where the energy goes, to {:.0} kPa", w.actuator_kpa);
     Ok(plots::ledger(&title, "energy taken up since the first bend [mJ]", &TERMS.map(String::from), &cases)?)
 }
 
 /// Measured minus calibrated base at the loading holds of the first body pressure.
-fn deviations(base: &Scenario, dataset: &Dataset) -> Result<LineSeries, PageError> {
+fn deviations(base: &Scenario, dataset: &Dataset) -> Result<LineSeries> {
     let predicted = predict_dataset(base, dataset)?.coordinates_m;
     let tip = dataset.markers.len() - 1;
     let body = dataset.holds[0].p_body_pa;

@@ -134,7 +134,7 @@ fn the_ledgers_beside_finite_elements_begin_with_the_whole_stated_set() {
     let d = diagnose(&scenario, &evidence, &options, &mut |_, _| ()).unwrap();
     assert_eq!(d.indistinguishable, ["end_constraint", "self_contact", "pressure_loss"]);
     let w = witness(&d, &scenario, &dataset, about.as_ref(), &stored().unwrap()).unwrap().unwrap();
-    let labels: Vec<String> = witness_cases(&w, &d).into_iter().map(|case| case.label).collect();
+    let labels: Vec<String> = witness_cases(&w, &d).into_iter().map(|case| case.0).collect();
     assert_eq!(labels[..3], ["base", "end_constraint", "self_contact"]);
     assert!(labels[3..labels.len() - 1].iter().all(|l| l.ends_with("(fits worse)")), "{labels:?}");
     assert_eq!(labels.last().unwrap(), "finite elements");

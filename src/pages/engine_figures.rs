@@ -1,21 +1,17 @@
 //! Plots of both engines.
 
-use super::PageError;
+use super::Result;
+use crate::prelude::*;
 use compare::study::engines::{EnginePair, TERMS};
 use compare::study::engines::{EngineRobot, Engines, PartingMap};
 use data::published::printed;
 use models::actuators::Family;
-use report::chart::{Chart, ChartColumn, ChartRow, Mark, Space};
-use report::{self as plots, Drawn, LineSeries, LineStyle, Lines, number};
+use report::{self as plots, number};
 
 /// Share at which the colour of a map saturates.
 const STRONGEST: f64 = 1.5;
 
-/// Draws a map.
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn parting_plot(map: &PartingMap) -> Result<Drawn, PageError> {
+pub(crate) fn parting_plot(map: &PartingMap) -> Result<Drawn> {
     let mut columns: Vec<f64> = map.rows.iter().flat_map(|r| r.1.iter().map(|p| p.actuator_kpa)).collect();
     columns.sort_by(f64::total_cmp);
     columns.dedup_by(|a, b| (*a - *b).abs() < 0.05);
@@ -37,23 +33,16 @@ pub fn parting_plot(map: &PartingMap) -> Result<Drawn, PageError> {
         }
     }
     let head = |kpa: &f64| ChartColumn { name: format!("{kpa:.0}"), ..ChartColumn::default() };
-    let chart = Chart {
-        title: format!("{}: where the models part", map.actuator),
-        x_label: "actuator pressure [kPa]".into(),
-        y_label: map.row_label.clone(),
-        space: Space::Grid(
-            map.rows.iter().map(|r| ChartRow::beside(&r.0)).collect(),
-            columns.iter().map(head).collect(),
-        ),
-        marks,
-        heat: Some(("reduced tip minus finite element tip [% of the latter]".into(), 100.0 * STRONGEST)),
-        ..Chart::default()
-    };
-    Ok(chart.draw("breakdown map")?)
+    let rows = map.rows.iter().map(|r| ChartRow::beside(&r.0)).collect();
+    let space = Space::Grid(rows, columns.iter().map(head).collect());
+    let heat = Some(("reduced tip minus finite element tip [% of the latter]".into(), 100.0 * STRONGEST));
+    let title = format!("{}: where the models part", map.actuator);
+    let chart = Chart::new(title, "actuator pressure [kPa]", &map.row_label);
+    Ok(Chart { space, marks, heat, ..chart }.draw("breakdown map")?)
 }
 
 /// Displacements at the highest pressure; `None` without runs.
-pub(super) fn bars(engines: &Engines) -> Result<Option<Drawn>, PageError> {
+pub(super) fn bars(engines: &Engines) -> Result<Option<Drawn>> {
     let shown: Vec<&EngineRobot> =
         engines.robots.iter().filter(|r| r.published.is_some() && !r.pairs.is_empty()).collect();
     if shown.is_empty() {
@@ -79,7 +68,7 @@ const MOST_SERIES: usize = 24;
 
 /// χ over actuator pressure, a colour per robot: symbols with the scatter of seeds at its own body pressure, dashed below it
 /// and solid above; `None` where nothing is known of it.
-pub(super) fn displaced(robots: &[EngineRobot]) -> Result<Option<Drawn>, PageError> {
+pub(super) fn displaced(robots: &[EngineRobot]) -> Result<Option<Drawn>> {
     let mut series = Vec::new();
     for (colour, robot) in robots.iter().enumerate() {
         for body in &robot.bodies {
@@ -107,7 +96,7 @@ pub(super) fn displaced(robots: &[EngineRobot]) -> Result<Option<Drawn>, PageErr
 }
 
 /// Outermost marker over pressure: both engines, every seed of the finite elements.
-pub(super) fn curve(robot: &EngineRobot) -> Result<Drawn, PageError> {
+pub(super) fn curve(robot: &EngineRobot) -> Result<Drawn> {
     let reduced = robot.pairs.iter().map(|p| [p.actuator_kpa, p.reduced_mm[0]]);
     let reduced = std::iter::once([0.0, 0.0]).chain(reduced).collect();
     let mut all = vec![LineSeries::new("reduced, as shipped", LineStyle::LinePoints, reduced)];
@@ -139,8 +128,7 @@ fn ledger_cases(robot: &EngineRobot) -> Vec<plots::LedgerCase> {
         let mut fe_mj = p.fe_mj;
         fe_mj[0] += p.actuator_kpa * ahead_cm3;
         for (engine, energies) in [("reduced", p.reduced_mj), ("finite elements", fe_mj)] {
-            let label = format!("{:.0} kPa, {engine}", p.actuator_kpa);
-            cases.push(plots::LedgerCase { label, energies_mj: energies.to_vec() });
+            cases.push((format!("{:.0} kPa, {engine}", p.actuator_kpa), energies.to_vec()));
         }
     }
     cases
@@ -155,8 +143,7 @@ fn ahead_cm3(robot: &EngineRobot) -> f64 {
     first.map_or(0.0, |p| (p.reduced_mj[0] - p.fe_mj[0]) / p.actuator_kpa)
 }
 
-/// Their drawing.
-pub(super) fn ledger(robot: &EngineRobot) -> Result<Drawn, PageError> {
+pub(super) fn ledger(robot: &EngineRobot) -> Result<Drawn> {
     let first = robot.pairs.first().map_or(0.0, |p| p.actuator_kpa);
     let title = format!("{}: where the energy is", robot.scenario.actuator.kind.name);
     let label = match robot.scenario.actuator.kind.family {
@@ -176,7 +163,7 @@ mod tests {
     fn the_gas_of_a_muscle_is_counted_from_the_same_zero_in_both_engines() {
         let robots = ["fpam", "epam"].map(|kind| shipped_scenario(kind).unwrap());
         let robots = engines(&robots, &stored().unwrap()).unwrap().robots;
-        let gas = |robot: &EngineRobot| ledger_cases(robot).iter().map(|c| c.energies_mj[0]).collect::<Vec<_>>();
+        let gas = |robot: &EngineRobot| ledger_cases(robot).iter().map(|c| c.1[0]).collect::<Vec<_>>();
         let [muscle, pouches] = [gas(&robots[0]), gas(&robots[1])];
         assert!((muscle[0] - muscle[1]).abs() < 1e-9 && muscle[0] < 0.0, "{muscle:?}");
         assert!(muscle[muscle.len() - 1] < muscle[muscle.len() - 2], "filled more beyond: {muscle:?}");

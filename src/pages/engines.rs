@@ -1,16 +1,15 @@
 //! Both engines and the published numbers on one page: displacement, accuracy, ledgers, and where the models part.
 
 use super::engine_figures::{bars, curve, displaced, ledger, parting_plot};
-use super::{Files, Imprint, PAPER, PageError, Values, marker_intervals, what_to_measure};
-use ::compare::study::columns::csv;
+use super::{Imprint, PAPER, Result, Values, marker_intervals, what_to_measure};
+use crate::prelude::*;
+use crate::tables::PageTable;
+use ::compare::study::columns::{TextTable, csv};
 use ::compare::study::engines::{EngineRobot, Engines, LINES_CSV, line_table, lines, summary, volume_table};
 use ::compare::study::uncertain::Uncertain;
 
 /// The page with its plots and tables.
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files, PageError> {
+pub(crate) fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files> {
     let mut files = Files::default();
     let overview = overview(engines, &mut files)?;
     let (mut cubes, mut kinds, mut maps) = (Vec::new(), Vec::new(), Vec::new());
@@ -40,17 +39,19 @@ pub fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files, PageE
         .with("cubes", cubes)
         .with("kinds", kinds)
         .with("maps", maps)
-        .with("volume_heads", heads(&volumes.heads, &[]))
-        .with("volumes", volumes.rows)
-        .with("volume_caption", volumes.caption)
+        .with("volumes", (!volumes.rows.is_empty()).then(|| shown(volumes)))
         .with("provenance", provenance(engines, imprint))
         .and(overview);
     files.page("engines.html", values, imprint)?;
     Ok(files)
 }
 
+fn shown(table: TextTable) -> PageTable {
+    Table::finished(&table.heads, table.left, table.rows).page(table.caption)
+}
+
 /// One row a robot, with the bars of their displacements, and all lines as a table.
-pub(super) fn overview(engines: &Engines, files: &mut Files) -> Result<Values, PageError> {
+pub(super) fn overview(engines: &Engines, files: &mut Files) -> Result<Values> {
     let mut all = Vec::new();
     for robot in &engines.robots {
         all.extend(lines(robot)?);
@@ -60,21 +61,11 @@ pub(super) fn overview(engines: &Engines, files: &mut Files) -> Result<Values, P
     if let Some(bars) = bars(engines)? {
         files.plot("engines", bars);
     }
-    Ok(Values::new()
-        .with("summary_heads", heads(&summary.heads, &[1, 6]))
-        .with("summary", summary.rows)
-        .with("line_heads", heads(&lines.heads, &[2, 3]))
-        .with("lines", lines.rows))
-}
-
-/// Heads of a table; columns of words are marked.
-pub(super) fn heads<'n>(names: &[&'n str], words: &[usize]) -> Vec<[&'n str; 3]> {
-    let mark = |k: usize| if words.contains(&k) { "l" } else { "" };
-    names.iter().enumerate().map(|(k, name)| [*name, "", mark(k)]).collect()
+    Ok(Values::new().with("summary", (!summary.rows.is_empty()).then(|| shown(summary))).with("lines", shown(lines)))
 }
 
 /// Heights of all markers with their intervals, and what to measure first.
-fn draw_cube(robot: &EngineRobot, cube: &Uncertain, files: &mut Files) -> Result<Values, PageError> {
+fn draw_cube(robot: &EngineRobot, cube: &Uncertain, files: &mut Files) -> Result<Values> {
     let own = if robot.published.is_some() { cube.measured() } else { Vec::new() };
     let words: String = cube.variant.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
     let name = [cube.actuator.as_str(), &words].iter().filter(|w| !w.is_empty()).copied().collect::<Vec<_>>().join("-");

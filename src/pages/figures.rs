@@ -1,17 +1,15 @@
 //! Results → plots.
 
-use super::PageError;
+use super::Result;
+use crate::prelude::*;
 use compare::characterize::Scatter;
 use compare::study::Timing;
 use compare::study::predict::loads;
 use compare::study::published::PublishedLadder;
 use compare::study::{Comparison, Variant};
+use data::Phase;
 use data::published::printed;
-use data::{Dataset, Phase};
-use models::Known;
-use models::{Loads, Model, Scenario};
-use report::chart::{Chart, Key, KeyLook, Mark, Point, Space};
-use report::{self as plots, Drawn, Ink, LineSeries, LineStyle, Lines, Symbol};
+use report as plots;
 
 const MM: f64 = 1e3;
 /// Points of a drawn centre line.
@@ -95,7 +93,7 @@ fn shown_holds(dataset: &Dataset) -> Vec<usize> {
 }
 
 /// Centre lines and markers, predicted and measured, with an axis upwards: 1 is y, 2 is z.
-pub(super) fn shapes(title: &str, scenario: &Scenario, dataset: &Dataset, axis: usize) -> Result<Drawn, PageError> {
+pub(super) fn shapes(title: &str, scenario: &Scenario, dataset: &Dataset, axis: usize) -> Result<Drawn> {
     let model = Model::new(scenario);
     let mut state = model.prediction();
     let mut poses = Vec::new();
@@ -140,7 +138,7 @@ pub(super) fn mm(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 
 /// Height of the outermost marker against actuator pressure: every model, and the measurement with both branches, at every
 /// body pressure.
-pub(super) fn pressure_curve(title: &str, study: &Comparison) -> Result<Drawn, PageError> {
+pub(super) fn pressure_curve(title: &str, study: &Comparison) -> Result<Drawn> {
     let dataset = &study.dataset;
     let bodies = bodies(dataset);
     let several = bodies.len() > 1;
@@ -190,7 +188,7 @@ fn branch(dataset: &Dataset, p_body_pa: f64, unload: bool) -> (Vec<[f64; 2]>, Ve
 }
 
 /// Height of the outermost marker up to the highest pressure of the data at a body pressure \[kPa, mm\].
-fn model_curve(scenario: &Scenario, dataset: &Dataset, p_body_pa: f64) -> Result<Vec<[f64; 2]>, PageError> {
+fn model_curve(scenario: &Scenario, dataset: &Dataset, p_body_pa: f64) -> Result<Vec<[f64; 2]>> {
     let model = Model::new(scenario);
     let mut state = model.prediction();
     let own = dataset.holds.iter().filter(|h| same_body(h.p_body_pa, p_body_pa));
@@ -217,7 +215,7 @@ pub(super) fn known(known: Known) -> (&'static str, Ink) {
 }
 
 /// Predicted against published displacement, rung by rung.
-pub(super) fn published_ladder(ladder: &PublishedLadder) -> Result<Drawn, PageError> {
+pub(super) fn published_ladder(ladder: &PublishedLadder) -> Result<Drawn> {
     let step = |rung: &compare::study::Rung| plots::LadderStep {
         label: super::effect(&rung.label),
         value: rung.y_m * MM,
@@ -231,7 +229,7 @@ pub(super) fn published_ladder(ladder: &PublishedLadder) -> Result<Drawn, PageEr
 }
 
 /// Error beyond noise, rung by rung, with the noise floor.
-pub(super) fn error_ladder(title: &str, variants: &[Variant]) -> Result<Drawn, PageError> {
+pub(super) fn error_ladder(title: &str, variants: &[Variant]) -> Result<Drawn> {
     let step = |v: &Variant| {
         let all = &v.evaluation.metrics.overall;
         let value = all.systematic_mm.unwrap_or(all.rmse_mm);
@@ -254,7 +252,7 @@ pub(super) fn at_highest(dataset: &Dataset) -> Option<(String, Loads)> {
 }
 
 /// Where the actuator's work goes at the highest loading hold, per model; of more terms than colours the smallest go together.
-pub(super) fn ledgers(title: &str, cases: &[(String, Scenario)], loads: &Loads) -> Result<Drawn, PageError> {
+pub(super) fn ledgers(title: &str, cases: &[(String, Scenario)], loads: &Loads) -> Result<Drawn> {
     let mut columns = Vec::new();
     let mut largest: Vec<(&str, f64)> = Vec::new();
     for (label, scenario) in cases {
@@ -280,7 +278,7 @@ pub(super) fn ledgers(title: &str, cases: &[(String, Scenario)], loads: &Loads) 
     let case = |(label, rows): (&String, Vec<models::Row>)| {
         let energy = |name: &&str| rows.iter().find(|row| row.name == *name).map_or(0.0, |row| row.energy_j * 1e3);
         let others = (!small.is_empty()).then(|| small.iter().map(energy).sum());
-        plots::LedgerCase { label: super::effect(label), energies_mj: large.iter().map(energy).chain(others).collect() }
+        (effect(label), large.iter().map(energy).chain(others).collect())
     };
     let others = (!small.is_empty()).then(|| "others".to_string());
     let terms: Vec<String> = large.iter().map(|name| super::effect(name)).chain(others).collect();
@@ -289,7 +287,7 @@ pub(super) fn ledgers(title: &str, cases: &[(String, Scenario)], loads: &Loads) 
 }
 
 /// Bare, last uncalibrated and published displacement of the four actuators.
-pub(super) fn published_bars(ladders: &[PublishedLadder]) -> Result<Drawn, PageError> {
+pub(super) fn published_bars(ladders: &[PublishedLadder]) -> Result<Drawn> {
     let series = |name: &str, of: fn(&PublishedLadder) -> f64, grey| {
         (name.to_string(), ladders.iter().map(|l| of(l) * MM).collect(), grey)
     };
@@ -312,7 +310,7 @@ pub(super) fn last(ladder: &PublishedLadder) -> Option<&compare::study::Rung> {
 ///
 /// # Errors
 /// What cannot be drawn.
-pub fn tradeoff(timings: &[Timing]) -> Result<Drawn, PageError> {
+pub(crate) fn tradeoff(timings: &[Timing]) -> Result<Drawn> {
     let is_reduced = |t: &&Timing| t.engine == "reduced";
     let shown: Vec<&Timing> =
         timings.iter().filter(|t| !is_reduced(t) || t.known != Known::Calibrated.word()).collect();
@@ -335,16 +333,9 @@ pub fn tradeoff(timings: &[Timing]) -> Result<Drawn, PageError> {
     let mut marks = vec![front(shown.iter().map(|t| at(t)).collect())];
     marks.extend(shown.iter().enumerate().map(point));
     let key = |(i, name): (usize, &&str)| Key::new(KeyLook::Symbol(Symbol::of(i), false), Ink::Series(i), name);
-    let chart = Chart {
-        title: "Run time against error".into(),
-        x_label: "run time of one prediction".into(),
-        y_label: "error of the published displacement [%]".into(),
-        space: Space::Log,
-        marks,
-        keys: groups.iter().enumerate().map(key).collect(),
-        ..Chart::default()
-    };
-    Ok(chart.draw("trade-off")?)
+    let (x, y) = ("run time of one prediction", "error of the published displacement [%]");
+    let keys = groups.iter().enumerate().map(key).collect();
+    Ok(Chart { space: Space::Log, marks, keys, ..Chart::new("Run time against error", x, y) }.draw("trade-off")?)
 }
 
 /// Staircase through the points that are the most accurate at their run time or less.
@@ -360,5 +351,5 @@ fn front(mut points: Vec<[f64; 2]>) -> Mark {
         }
     }
     path.extend(path.last().zip(points.last()).map(|(last, end)| [end[0], last[1]]));
-    Mark::Line { points: path, ink: Ink::Axis, dashed: true }
+    Mark::Dashed(path, Ink::Axis)
 }

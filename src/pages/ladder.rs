@@ -1,26 +1,21 @@
 //! The page of a climb: one effect after the other until what is left is noise.
 
 use super::diagnosis_figures::waterfall;
-use super::{Files, Imprint, PageError, Values};
+use super::{Imprint, Result, Values};
+use crate::prelude::*;
 use ::compare::ladder::Climb;
 
 /// A climb from bare to extended, and what it was made of.
-pub struct Climbed<'a> {
-    /// What was found.
+pub(crate) struct Climbed<'a> {
     pub climb: &'a Climb,
-    /// Names of robot and dataset.
     pub names: [&'a str; 2],
-    /// Scenario and data as typed.
     pub typed: [&'a str; 2],
     /// Data that were fitted along, as typed.
     pub also: &'a [String],
 }
 
 /// The page of a ladder with its waterfall, and the scenario of every step.
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn ladder_page(page: &Climbed, imprint: &Imprint) -> Result<Files, PageError> {
+pub(crate) fn ladder_page(page: &Climbed, imprint: &Imprint) -> Result<Files> {
     let Climbed { climb, names: [robot, data], typed, also } = page;
     let mut files = Files::default();
     climb.files.iter().for_each(|(name, text)| files.text(name, text.clone()));

@@ -23,25 +23,28 @@ mod tables;
 mod tracks;
 mod uncertain;
 
-pub use characterize::characterized_files;
+pub(crate) use characterize::characterized_files;
 pub use compare::{compare_files, compare_page};
-pub use demo::demo_page;
-pub use design::design_files;
-pub use diagnosis::{Diagnosed, diagnosis_page, diagnosis_pictures, diagnosis_plots};
-pub use engine_figures::parting_plot;
-pub use engines::engines_page;
-pub use figures::{measured, tradeoff as tradeoff_plot};
-pub use ladder::{Climbed, ladder_page};
-pub use one_number::one_number_files;
-pub use pattern::pattern_sheet;
+pub(crate) use demo::demo_page;
+pub(crate) use design::design_files;
+pub(crate) use diagnosis::diagnosis_pictures;
+pub use diagnosis::{Diagnosed, diagnosis_page, diagnosis_plots};
+pub(crate) use engine_figures::parting_plot;
+pub(crate) use engines::engines_page;
+pub use figures::measured;
+pub(crate) use figures::tradeoff as tradeoff_plot;
+pub(crate) use ladder::{Climbed, ladder_page};
+pub(crate) use one_number::one_number_files;
+pub(crate) use pattern::pattern_sheet;
 pub use predicted::predicted_files;
-pub use run_plots::{mesh_plot, run_plots};
-pub use sweep::{sweep_picture_names, sweep_pictures};
+pub(crate) use run_plots::mesh_plot;
+pub use run_plots::run_plots;
+pub(crate) use sweep::{sweep_picture_names, sweep_pictures};
 pub use tables::residuals;
-pub use tracks::tracks_plot;
-pub use uncertain::{marker_intervals, what_to_measure};
+pub(crate) use tracks::tracks_plot;
+pub(crate) use uncertain::{marker_intervals, what_to_measure};
 
-use crate::words::{effect, in_words, number};
+use crate::words::effect;
 use report::Drawn;
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -64,13 +67,18 @@ impl Files {
         self.files.push((format!("{name}.png"), drawn.png));
     }
 
+    /// Names pictures that go with an earlier result.
+    pub(crate) fn retire(&mut self, pictures: &[&str]) {
+        self.retired = pictures.iter().flat_map(|name| ["svg", "png"].map(|kind| format!("{name}.{kind}"))).collect();
+    }
+
     /// Adds a text.
     pub fn text(&mut self, name: &str, text: String) {
         self.files.push((name.to_string(), text.into_bytes()));
     }
 
     /// Adds a table as `<name>.csv`.
-    fn csv(&mut self, name: &str, table: &data::Table) -> Result<(), PageError> {
+    fn csv(&mut self, name: &str, table: &data::Table) -> Result<()> {
         let mut csv = Vec::new();
         table.to_csv(&mut csv)?;
         self.files.push((format!("{name}.csv"), csv));
@@ -78,14 +86,14 @@ impl Files {
     }
 
     /// Adds a table as `<name>.csv` and `<name>.parquet`.
-    fn table(&mut self, name: &str, table: data::Table) -> Result<(), PageError> {
+    fn table(&mut self, name: &str, table: data::Table) -> Result<()> {
         self.csv(name, &table)?;
         self.parquet.push((format!("{name}.parquet"), table));
         Ok(())
     }
 
     /// Adds the page of a template, with the plots that were added before.
-    fn page(&mut self, template: &str, values: Values, imprint: &Imprint) -> Result<(), PageError> {
+    fn page(&mut self, template: &str, values: Values, imprint: &Imprint) -> Result<()> {
         let Imprint { program, date, machine } = imprint;
         let values = Values::new().with("program", program).with("date", date).with("machine", machine).and(values);
         let svg = |(name, bytes): &(String, Vec<u8>)| {
@@ -128,6 +136,9 @@ impl Values {
         self
     }
 }
+
+/// What makes a page or a picture.
+type Result<T, E = PageError> = std::result::Result<T, E>;
 
 /// What can go wrong when a page is made.
 #[derive(Debug, thiserror::Error)]

@@ -1,11 +1,10 @@
 //! The missing moment → its picture: points with error bars, and the explanations as curves through them.
 
-use super::PageError;
+use super::Result;
+use crate::prelude::*;
 use compare::moment::{MissingMoment, MomentCurve, MomentPoint};
 use compare::witness::FeMoment;
 use compare::wording::short;
-use report::chart::{Chart, Key, KeyLook, Mark, Point, Space};
-use report::{Drawn, Ink, Symbol};
 
 /// Pressures that differ by less have one colour [kPa].
 const SAME_KPA: f64 = 0.5;
@@ -17,7 +16,7 @@ const FINITE_ELEMENTS: Symbol = Symbol::Triangle;
 const FREE_SERIES: usize = 7;
 
 /// The picture, with what finite elements of the robot would ask for; `None` where no hold has a missing moment.
-pub(super) fn missing_moment(found: &MissingMoment, beside: &[FeMoment]) -> Result<Option<Drawn>, PageError> {
+pub(super) fn missing_moment(found: &MissingMoment, beside: &[FeMoment]) -> Result<Option<Drawn>> {
     let points: Vec<&MomentPoint> = found.of_holds().collect();
     if points.is_empty() {
         return Ok(None);
@@ -26,23 +25,20 @@ pub(super) fn missing_moment(found: &MissingMoment, beside: &[FeMoment]) -> Resu
     let bodies = self::levels(points.iter().map(|p| p.p_body_kpa));
     let mut marks: Vec<Mark> = found.curves.iter().filter(|c| c.is_told).map(|c| band(c, found)).collect();
     let furthest = beside.iter().map(|p| p.bend_deg + p.bend_sd_deg).fold(furthest(found), f64::max);
-    let (ends, inks) = ([0.0, furthest], Inks::of(&found.curves));
-    marks.push(Mark::Line { points: ends.map(|x| [x, 0.0]).to_vec(), ink: Ink::Axis, dashed: false });
-    marks.extend(found.curves.iter().map(|c| line(c, inks.of_curve(c))));
+    let mut told: Vec<&str> = found.curves.iter().filter(|c| c.is_told).map(|c| c.answer.as_str()).collect();
+    told.dedup();
+    marks.push(Mark::Line(vec![[0.0, 0.0], [furthest, 0.0]], Ink::Axis));
+    marks.extend(found.curves.iter().map(|c| line(c, ink(&told, c))));
     marks.extend(finite_elements(beside));
     marks.extend(points.iter().map(|p| point(p, &levels, &bodies)));
-    marks.push(Mark::Tip { at: [ends[1], 0.0], label: "nothing missing".into(), ink: Ink::Muted });
-    marks.extend(tips(&found.curves, &inks));
-    let chart = Chart {
-        title: "What the model misses".into(),
-        x_label: "bend over the whole body [°]".into(),
-        y_label: "missing moment [N m]; below 0 something holds it back".into(),
-        space: Space::Plane,
-        marks,
-        keys: [keys(found, &levels, &bodies), finite_elements_key(beside)].concat(),
-        ..Chart::default()
-    };
-    Ok(Some(chart.draw("missing moment")?))
+    marks.push(Mark::Tip([furthest, 0.0], "nothing missing".into(), Ink::Muted));
+    marks.extend(tips(&found.curves, &told));
+    let (x, y) = ("bend over the whole body [°]", "missing moment [N m]; below 0 something holds it back");
+    let mut keys = keys(found, &levels, &bodies);
+    if !beside.is_empty() {
+        keys.push(Key::new(KeyLook::SymbolLine(FINITE_ELEMENTS, true), Ink::Muted, "finite elements"));
+    }
+    Ok(Some(Chart { marks, keys, ..Chart::new("What the model misses", x, y) }.draw("missing moment")?))
 }
 
 /// Distinct levels, rising; of many a few, evenly.
@@ -78,7 +74,7 @@ fn point(p: &MomentPoint, levels: &[f64], bodies: &[f64]) -> Mark {
 /// Their moments on a thin line, so that no pressure of the data is taken for one of theirs.
 fn finite_elements(beside: &[FeMoment]) -> Vec<Mark> {
     let points = beside.iter().map(|p| [p.bend_deg, p.moment_nm]).collect();
-    let line = Mark::Line { points, ink: Ink::Axis, dashed: false };
+    let line = Mark::Line(points, Ink::Axis);
     let point = |p: &FeMoment| {
         let (at, error) = ([p.bend_deg, p.moment_nm], [p.bend_sd_deg, p.moment_sd_nm]);
         Mark::Point(Point { at, error, ink: Ink::Muted, symbol: FINITE_ELEMENTS, open: true, ..Point::default() })
@@ -86,33 +82,17 @@ fn finite_elements(beside: &[FeMoment]) -> Vec<Mark> {
     std::iter::once(line).filter(|_| beside.len() > 1).chain(beside.iter().map(point)).collect()
 }
 
-fn finite_elements_key(beside: &[FeMoment]) -> Vec<Key> {
-    let key = Key::new(KeyLook::SymbolLine(FINITE_ELEMENTS, true), Ink::Muted, "finite elements");
-    std::iter::once(key).filter(|_| !beside.is_empty()).collect()
-}
-
 fn line(curve: &MomentCurve, ink: Ink) -> Mark {
-    Mark::Line { points: curve.points.iter().map(|p| [p[1], p[2]]).collect(), ink, dashed: !curve.is_told }
+    let kind = if curve.is_told { Mark::Line } else { Mark::Dashed };
+    kind(curve.points.iter().map(|p| [p[1], p[2]]).collect(), ink)
 }
 
-/// Colours of the curves: what is told first is black, further ones have what no pressure has.
-struct Inks<'a> {
-    told: Vec<&'a str>,
-}
-
-impl<'a> Inks<'a> {
-    fn of(curves: &'a [MomentCurve]) -> Inks<'a> {
-        let mut told: Vec<&str> = curves.iter().filter(|c| c.is_told).map(|c| c.answer.as_str()).collect();
-        told.dedup();
-        Inks { told }
-    }
-
-    fn of_curve(&self, curve: &MomentCurve) -> Ink {
-        match self.told.iter().position(|name| *name == curve.answer) {
-            Some(0) => Ink::Ink,
-            Some(i) => Ink::Series(FREE_SERIES - i % 2),
-            None => Ink::Muted,
-        }
+/// Colour of a curve: the answer that is told first is black, further ones have colours that no pressure has.
+fn ink(told: &[&str], curve: &MomentCurve) -> Ink {
+    match told.iter().position(|name| *name == curve.answer) {
+        Some(0) => Ink::Ink,
+        Some(i) => Ink::Series(FREE_SERIES - i % 2),
+        None => Ink::Muted,
     }
 }
 
@@ -125,7 +105,7 @@ fn band(curve: &MomentCurve, found: &MissingMoment) -> Mark {
 }
 
 /// Names at the ends of the curves, each once: where it ends furthest.
-fn tips(curves: &[MomentCurve], inks: &Inks) -> Vec<Mark> {
+fn tips(curves: &[MomentCurve], told: &[&str]) -> Vec<Mark> {
     let mut named: Vec<&str> = Vec::new();
     let mut marks = Vec::new();
     for curve in curves {
@@ -136,7 +116,7 @@ fn tips(curves: &[MomentCurve], inks: &Inks) -> Vec<Mark> {
         if let Some(end) = own.max_by(|a, b| a[1].total_cmp(&b[1])) {
             named.push(&curve.answer);
             let label = super::effect(&curve.answer).replace(" + ", " +\n");
-            let line = |line: &str| Mark::Tip { at: [end[1], end[2]], label: line.into(), ink: inks.of_curve(curve) };
+            let line = |line: &str| Mark::Tip([end[1], end[2]], line.into(), ink(told, curve));
             marks.extend(label.lines().map(line));
         }
     }
@@ -145,11 +125,8 @@ fn tips(curves: &[MomentCurve], inks: &Inks) -> Vec<Mark> {
 
 fn keys(found: &MissingMoment, levels: &[f64], bodies: &[f64]) -> Vec<Key> {
     let looks = |open: bool| KeyLook::Symbol(Symbol::Circle, open);
-    let mut keys: Vec<Key> = levels
-        .iter()
-        .enumerate()
-        .map(|(i, p)| Key::new(looks(false), Ink::Series(i), &format!("{} kPa", short(*p))))
-        .collect();
+    let level = |(i, p): (usize, &f64)| Key::new(looks(false), Ink::Series(i), &format!("{} kPa", short(*p)));
+    let mut keys: Vec<Key> = levels.iter().enumerate().map(level).collect();
     if found.of_holds().any(|p| p.phase == "unload") {
         keys.push(Key::new(looks(true), Ink::Ink, "on the way down"));
     }

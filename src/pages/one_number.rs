@@ -1,18 +1,16 @@
 //! All that meets one published displacement, as curves.
 
-use super::{Files, PageError, effect};
+use super::Result;
+use crate::prelude::*;
 use compare::study::one_number::{Explanation, OneNumber};
 use data::published::printed;
-use report::{LineSeries, LineStyle, Lines, lines};
+use report::lines;
 
 /// Explanations drawn as curves: with the bare model and the published number as many as a plot holds.
 const MOST_CURVES: usize = 22;
 
 /// Displacement over pressure of every explanation.
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn one_number_files(one: &OneNumber) -> Result<Files, PageError> {
+pub(crate) fn one_number_files(one: &OneNumber) -> Result<Files> {
     let mut files = Files::default();
     files.plot(&format!("one_number_{}", one.actuator), lines(&curves(one))?);
     Ok(files)

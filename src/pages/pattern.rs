@@ -51,7 +51,7 @@ fn pen(kind: MarkKind) -> Pen {
 }
 
 /// The plan as a drawing: pieces below each other, the legend and a known length under them.
-pub fn pattern_sheet(title: &str, plan: &CuttingPlan, told: &[String]) -> PatternSheet {
+pub(crate) fn pattern_sheet(title: &str, plan: &CuttingPlan, told: &[String]) -> PatternSheet {
     let layer = |name, meaning| Pen { name, meaning, colour: "#000000", aci: 7, dashes: &[], tinted: false };
     let mut layers = vec![layer("CUT", "cut"), layer("WARP", "direction of the warp")];
     layers.extend(KINDS.map(pen));

@@ -1,17 +1,16 @@
 //! Predicted shapes.
 
+use super::Result;
 use super::figures::{LINE_POINTS, MOST_POSES, mm};
-use super::{Files, PageError};
 use crate::AtPressure;
-use crate::words::pressure_words;
-use models::{Model, Scenario};
+use crate::prelude::*;
 use report::{ShapePose, Shapes, shapes};
 
 /// The first few predicted shapes in one plot.
 ///
 /// # Errors
 /// What cannot be drawn.
-pub fn predicted_files(scenario: &Scenario, states: &[AtPressure]) -> Result<Files, PageError> {
+pub fn predicted_files(scenario: &Scenario, states: &[AtPressure]) -> Result<Files> {
     let model = Model::new(scenario);
     let mut files = Files::default();
     files.plot("shapes", shapes(&seen(scenario, &model, states, 1))?);

@@ -1,13 +1,12 @@
 //! The residual map of a page.
 
-use super::PageError;
+use super::Result;
 use super::figures::several_bodies;
+use crate::prelude::*;
 use crate::words::kpa;
 use compare::residuals::{Deviation, ResidualCell, ResidualMap};
 use compare::wording::short;
-use data::Dataset;
-use report::chart::{Chart, ChartColumn, ChartRow, Mark, RowPlace, Space};
-use report::{Drawn, number};
+use report::number;
 
 /// Panels of the map in the plane, and the axes that their cells show.
 const PANELS: [(&str, usize); 2] = [("y, across the robot", 1), ("x, along the straight robot", 0)];
@@ -36,7 +35,7 @@ pub(super) fn colours(dataset: &Dataset) -> &'static str {
 
 /// Signed residuals marker × hold, across the robot and along it, in units of noise (in mm when the noise is unknown). Of more
 /// markers or holds than fit, the one of every few neighbours that is farthest off.
-pub(super) fn map(title: &str, map: &ResidualMap, dataset: &Dataset) -> Result<Drawn, PageError> {
+pub(super) fn map(title: &str, map: &ResidualMap, dataset: &Dataset) -> Result<Drawn> {
     let in_noise = map.cells.iter().flatten().all(|c| c.axes().iter().all(|d| d.in_noise.is_some()));
     let value = |seen: bool, d: Deviation| match d.in_noise {
         _ if !seen => f64::NAN,
@@ -73,16 +72,11 @@ pub(super) fn map(title: &str, map: &ResidualMap, dataset: &Dataset) -> Result<D
         }
     }
     let unit = if in_noise { "[times the noise]" } else { "[mm]" };
-    let chart = Chart {
-        title: format!("{title}{}", chosen(each_row, each_column)),
-        x_label: "actuator pressure [kPa]".into(),
-        y_label: "marker station [mm]".into(),
-        space: Space::Grid(places, columns.iter().map(column).collect()),
-        marks,
-        heat: Some((format!("model − measured {unit}"), MAP_LIMIT)),
-        ..Chart::default()
-    };
-    Ok(chart.draw("residual map")?)
+    let space = Space::Grid(places, columns.iter().map(column).collect());
+    let heat = Some((format!("model − measured {unit}"), MAP_LIMIT));
+    let title = format!("{title}{}", chosen(each_row, each_column));
+    let chart = Chart::new(title, "actuator pressure [kPa]", "marker station [mm]");
+    Ok(Chart { space, marks, heat, ..chart }.draw("residual map")?)
 }
 
 /// Of every few neighbours, as many as leave no more than `most`, the one that is farthest off; and how many they are.

@@ -1,8 +1,9 @@
 //! Plots of finite element runs of robots.
 
+use crate::prelude::*;
 use compare::characterize::Scatter;
 use fem::session::{FeRun, Loaded, RunTable};
-use report::{LineSeries, LineStyle, Lines, lines};
+use report::lines;
 use std::collections::BTreeMap;
 
 /// `history.png` and `displacement.png` of a complete run of a robot.
@@ -56,7 +57,7 @@ fn history(name: &str, run: &FeRun) -> Option<Lines> {
 }
 
 /// Outermost marker over the actuator's element size, a line for every pressure; `None` unless there are several sizes.
-pub fn mesh_plot(name: &str, table: &RunTable) -> Option<Lines> {
+pub(crate) fn mesh_plot(name: &str, table: &RunTable) -> Option<Lines> {
     let mut lines_of: BTreeMap<u64, BTreeMap<u64, Vec<f64>>> = BTreeMap::new();
     for row in &table.rows {
         let size = row.variation.changes.iter().find(|(key, _)| key == "actuator_mesh_mm")?;

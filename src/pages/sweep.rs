@@ -1,17 +1,14 @@
 //! A sweep as pictures: how far each key moves the tip, and a map over the two that move it most.
 
-use super::{Files, PageError};
+use super::Result;
+use crate::prelude::*;
 use ::sweep::influence::{Influence, SweepMap, influences, map};
 use ::sweep::{Engine, Study};
 use data::Table;
-use report::chart::{Bar, Chart, ChartColumn, ChartRow, Mark, Space};
-use report::{Drawn, Ink, number};
+use report::number;
 
 /// Pictures of a table, two for every engine and coordinate of the tip.
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn sweep_pictures(study: &Study, table: &Table) -> Result<Files, PageError> {
+pub(crate) fn sweep_pictures(study: &Study, table: &Table) -> Result<Files> {
     let mut files = Files::default();
     for engine in &study.engines {
         let by = if *engine == Engine::Elements { "_fe" } else { "" };
@@ -32,56 +29,38 @@ pub fn sweep_pictures(study: &Study, table: &Table) -> Result<Files, PageError> 
 }
 
 /// Names of all pictures that a sweep may have.
-pub fn sweep_picture_names() -> [&'static str; 8] {
+pub(crate) fn sweep_picture_names() -> [&'static str; 8] {
     ["influence", "influence_fe", "map", "map_fe", "influence_z", "influence_z_fe", "map_z", "map_z_fe"]
 }
 
-fn tornado(found: &[Influence], engine: Engine, what: &str) -> Result<Drawn, PageError> {
+fn tornado(found: &[Influence], engine: Engine, what: &str) -> Result<Drawn> {
     let bar = |(row, i): (usize, &Influence)| {
         let span = i.range();
         let (low, high) = (number(span[0], 0), number(span[1], 0));
-        Mark::Bar(Bar {
-            row,
-            span,
-            ink: Ink::Series(0),
-            alpha: 1.0,
-            text: format!("{low} to {high}"),
-            ..Bar::default()
-        })
+        Mark::Bar(Bar { ink: Ink::Series(0), text: format!("{low} to {high}"), ..Bar::over(row, span) })
     };
     let rows = found.iter().map(|i| ChartRow::beside(&i.key)).collect();
-    let chart = Chart {
-        title: format!("How far each key moves the tip, {}", engine.word()),
-        x_label: format!("mean {what} [mm] over the values of the key"),
-        space: Space::Rows(rows),
-        marks: found.iter().enumerate().map(bar).collect(),
-        ..Chart::default()
-    };
-    Ok(chart.draw("influence of each key")?)
+    let title = format!("How far each key moves the tip, {}", engine.word());
+    let label = format!("mean {what} [mm] over the values of the key");
+    let marks = found.iter().enumerate().map(bar).collect();
+    Ok(report::rows(&title, &label, rows, marks, Vec::new()).draw("influence of each key")?)
 }
 
-fn map_of(map: &SweepMap, engine: Engine, what: &str) -> Result<Drawn, PageError> {
+fn map_of(map: &SweepMap, engine: Engine, what: &str) -> Result<Drawn> {
     let finite = || map.means.iter().flatten().copied().filter(|m| m.is_finite());
     let most = finite().fold(0.0, |most: f64, m| most.max(m.abs()));
-    let cell = |r: usize, c: usize| {
-        let mean = map.means[r][c];
-        Mark::Cell([r, c], mean / most, number(mean, 0), String::new())
+    let cells = |(r, row): (usize, &Vec<f64>)| {
+        let cell = |(c, mean): (usize, &f64)| Mark::Cell([r, c], mean / most, number(*mean, 0), String::new());
+        row.iter().enumerate().map(cell).collect::<Vec<_>>()
     };
     // Ranges are too wide to stand beside each other: each column begins where it says.
     let start = |name: &String| name.split(" to ").next().unwrap_or_default().to_string();
     let columns = map.names[1].iter().map(|name| ChartColumn { name: start(name), ..ChartColumn::default() });
     let is_ranges = map.names[1].iter().any(|name| name.contains(" to "));
-    let chart = Chart {
-        title: format!("{}{}, {}", what[..1].to_uppercase(), &what[1..], engine.word()),
-        x_label: format!("{}{}", map.keys[1], if is_ranges { ", from" } else { "" }),
-        y_label: map.keys[0].clone(),
-        space: Space::Grid(map.names[0].iter().map(|name| ChartRow::beside(name)).collect(), columns.collect()),
-        marks: (0..map.means.len())
-            .flat_map(|r| (0..map.means[r].len()).map(move |c| (r, c)))
-            .map(|(r, c)| cell(r, c))
-            .collect(),
-        heat: Some((format!("mean {what} [mm]"), most)),
-        ..Chart::default()
-    };
-    Ok(chart.draw("map of the sweep")?)
+    let title = format!("{}{}, {}", what[..1].to_uppercase(), &what[1..], engine.word());
+    let x_label = format!("{}{}", map.keys[1], if is_ranges { ", from" } else { "" });
+    let space = Space::Grid(map.names[0].iter().map(|name| ChartRow::beside(name)).collect(), columns.collect());
+    let marks = map.means.iter().enumerate().flat_map(cells).collect();
+    let heat = Some((format!("mean {what} [mm]"), most));
+    Ok(Chart { space, marks, heat, ..Chart::new(title, x_label, &map.keys[0]) }.draw("map of the sweep")?)
 }

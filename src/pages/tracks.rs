@@ -1,41 +1,27 @@
 //! Tracks over time with the holds that were found in them.
 
-use super::PageError;
+use super::Result;
+use crate::prelude::*;
 use data::import::RunTrack;
-use report::chart::{Chart, Key, KeyLook, Mark};
-use report::{Drawn, Ink};
 
 /// y of every marker over time; behind it the holds, each with its pressure.
-///
-/// # Errors
-/// Nothing to draw.
-pub fn tracks_plot(track: &RunTrack) -> Result<Drawn, PageError> {
-    let line = |(k, (_, points)): (usize, &(String, Vec<[f64; 2]>))| Mark::Line {
-        points: points.iter().map(|[t, y]| [*t, y * 1e3]).collect(),
-        ink: Ink::Series(k),
-        dashed: false,
+pub(crate) fn tracks_plot(track: &RunTrack) -> Result<Drawn> {
+    let line = |(k, (_, points)): (usize, &(String, Vec<[f64; 2]>))| {
+        Mark::Line(points.iter().map(|[t, y]| [*t, y * 1e3]).collect(), Ink::Series(k))
     };
-    let lines: Vec<Mark> = track.lines.iter().enumerate().map(line).collect();
     let heights =
         track.lines.iter().flat_map(|(_, points)| points).map(|point| point[1] * 1e3).filter(|y| y.is_finite());
     let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), y| (low.min(y), high.max(y)));
     let top = high + 0.12 * (high - low);
     let band = |[begin, end, _]: &[f64; 3]| Mark::Band(vec![[*begin, low], [*end, low], [*end, top], [*begin, top]]);
     let mut marks: Vec<Mark> = track.holds.iter().map(band).collect();
-    marks.extend(lines);
+    marks.extend(track.lines.iter().enumerate().map(line));
     let few = track.lines.len() <= MOST_KEYS;
     let mut keys = vec![Key::new(KeyLook::Patch, Ink::Soft, &holds(track))];
     let names = track.lines.iter().enumerate().filter(|_| few);
     keys.extend(names.map(|(k, (name, _))| Key::new(KeyLook::Line, Ink::Series(k), name)));
-    let chart = Chart {
-        title: format!("Run {}: markers towards the actuator, and the holds found", track.run),
-        x_label: "time [s]".into(),
-        y_label: "y [mm]".into(),
-        marks,
-        keys,
-        ..Chart::default()
-    };
-    Ok(chart.draw("tracks")?)
+    let title = format!("Run {}: markers towards the actuator, and the holds found", track.run);
+    Ok(Chart { marks, keys, ..Chart::new(title, "time [s]", "y [mm]") }.draw("tracks")?)
 }
 
 /// Names that a legend can hold.

@@ -1,14 +1,11 @@
 //! What finite elements say about a robot of which not everything was measured, drawn.
 
+use crate::prelude::*;
 use compare::study::uncertain::{Uncertain, is_same_reading};
-use report::chart::{Bar, ChartRow, Mark};
-use report::{Drawn, Ink, LineSeries, LineStyle, Lines, ReportError, lines};
+use report::{ReportError, lines};
 
 /// Heights of all markers at all pressures, median and 80 % interval, beside measured ones.
-///
-/// # Errors
-/// [`ReportError`] if nothing was read.
-pub fn marker_intervals(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> Result<Drawn, ReportError> {
+pub(crate) fn marker_intervals(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> Result<Drawn, ReportError> {
     let mut series = Vec::new();
     for (colour, kpa) in all.pressures_kpa().into_iter().filter(|kpa| *kpa > 0.0).enumerate() {
         let found: Vec<(f64, [f64; 3])> =
@@ -32,10 +29,7 @@ pub fn marker_intervals(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> Result
 }
 
 /// What every number does to the outermost marker at a pressure.
-///
-/// # Errors
-/// [`ReportError`] with too few robots.
-pub fn what_to_measure(all: &Uncertain, actuator_kpa: f64) -> Result<Drawn, ReportError> {
+pub(crate) fn what_to_measure(all: &Uncertain, actuator_kpa: f64) -> Result<Drawn, ReportError> {
     let base = all.tip_mm(actuator_kpa).map_or(f64::NAN, |q| q[1]);
     let (weights, rest) = all.weights(actuator_kpa).unwrap_or_default();
     let (mut marks, mut rows) = (Vec::new(), Vec::new());
@@ -44,10 +38,9 @@ pub fn what_to_measure(all: &Uncertain, actuator_kpa: f64) -> Result<Drawn, Repo
         let values = [base - half, base + half].map(|v| report::number(v, 1));
         let [low, high] = number.tenths;
         let words = format!("{}: {low} → {}, {high} → {}", number.name, values[0], values[1]);
-        rows.push(ChartRow { name: words, lanes: 1, ..ChartRow::default() });
+        rows.push(ChartRow::above(&words, 1));
         for (sign, ink) in [(-1.0, Ink::HeatNegative), (1.0, Ink::HeatPositive)] {
-            let span = [base, base + sign * half];
-            marks.push(Mark::Bar(Bar { row, span, ink, alpha: 0.75, ..Bar::default() }));
+            marks.push(Mark::Bar(Bar { ink, alpha: 0.75, ..Bar::over(row, [base, base + sign * half]) }));
         }
     }
     marks.push(Mark::Rule(base));

@@ -1,6 +1,6 @@
 //! A comparison.
 
-use crate::tables::{Table, lines};
+use crate::prelude::*;
 use crate::words::hold_name;
 use compare::metrics::{HoldMetrics, OverallMetrics};
 use compare::{Evaluation, NoiseSummary, ScalingCheck};
@@ -10,9 +10,6 @@ use compare::residuals::ResidualMap;
 use compare::study::comparison::{Comparison, Variant};
 use compare::validation::{HowFar, Validation};
 use compare::where_it_fails::Statement;
-use data::Provenance;
-use models::Known;
-use serde::Serialize;
 
 /// `ibr.compare`: `ibr compare SCENARIO DATA`
 #[derive(Serialize)]

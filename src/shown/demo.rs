@@ -1,20 +1,19 @@
 //! The demonstration.
 
 use super::held::{self, HeldTable};
-use crate::tables::{Table, lines};
+use crate::prelude::*;
 use compare::Diagnosis;
 use compare::bench::Held;
 use compare::demo::{Demo, Told};
 use compare::metrics::OverallMetrics;
 use compare::study::published::PublishedLadder;
-use compare::study::{Comparison, Timing};
+use compare::study::{Comparison, Rung, Timing, Variant};
 use compare::where_it_fails::Statement;
+use data::published::PublishedActuator;
 use fem::robot::Reading;
-use models::Known;
-use serde::Serialize;
 
-/// Published displacement against every rung.
-fn published_text(ladders: &[PublishedLadder]) -> String {
+/// Every rung of every ladder.
+pub(crate) fn published(ladders: &[PublishedLadder]) -> Table<(&PublishedActuator, &Rung)> {
     let rungs = ladders.iter().flat_map(|ladder| ladder.rungs.iter().map(move |rung| (&ladder.published, rung)));
     Table::of(rungs)
         .words("actuator", |(p, _)| &p.printed_name)
@@ -26,11 +25,10 @@ fn published_text(ladders: &[PublishedLadder]) -> String {
         })
         .number("measured mm", 1, |(p, _)| p.d_max_m * 1e3)
         .signed("difference mm", 1, |(p, rung)| (rung.y_m - p.d_max_m) * 1e3)
-        .text()
 }
 
 /// What has just been computed, for readers.
-pub fn text(told: Told) -> String {
+pub(crate) fn text(told: Told) -> String {
     match told {
         Told::Measured(all) => {
             let short =
@@ -39,7 +37,7 @@ pub fn text(told: Told) -> String {
         }
         Told::Published(ladders) => {
             let title = "Displacement at 30 kPa against the published measurement (du Pasquier et al. 2023)";
-            format!("\n{title}\n{}", published_text(ladders))
+            format!("\n{title}\n{}", published(ladders).text())
         }
         Told::Sets(found) => sets_text(found),
         Told::Missing(d) => {
@@ -48,9 +46,13 @@ pub fn text(told: Told) -> String {
     }
 }
 
-fn sets_text(found: &[Comparison]) -> String {
+/// Title of [`sets`].
+pub(crate) const SETS: &str = "Synthetic marker sets: error beyond noise as effects are added";
+
+/// Every model of every set of markers.
+pub(crate) fn sets(found: &[Comparison]) -> Table<(&Comparison, &Variant, &OverallMetrics)> {
     let models = found.iter().flat_map(|c| c.variants.iter().map(move |v| (c, v, &v.evaluation.metrics.overall)));
-    let table = Table::of(models)
+    Table::of(models)
         .words("data", |(c, ..)| &c.dataset.name)
         .words("model", |(_, v, _)| &v.label)
         .words("how known", |(_, v, _)| v.known.word())
@@ -58,15 +60,17 @@ fn sets_text(found: &[Comparison]) -> String {
         .number("beyond noise mm", 2, |(.., all)| all.systematic_mm)
         .number("χ²/dof", 1, |(.., all)| all.reduced_chi2)
         .signed("largest tip error mm", 1, |(.., all)| all.largest_tip_error_mm)
-        .under("Synthetic marker sets: error beyond noise as effects are added");
+}
+
+fn sets_text(found: &[Comparison]) -> String {
     let fails = found.iter().filter_map(|c| Some((c, c.variants[0].evaluation.where_it_fails.first()?)));
     let fails = lines("  - ", fails.map(|(c, s)| format!("{}: {}", c.dataset.name, s.sentence)));
-    format!("{table}\nWhere the bare models fail:\n{fails}")
+    format!("{}\nWhere the bare models fail:\n{fails}", sets(found).under(SETS))
 }
 
 /// `ibr.demo`: `ibr demo`
 #[derive(Serialize)]
-pub struct DemoAnswer<'a> {
+pub(crate) struct DemoAnswer<'a> {
     /// Bench tests with their models
     pub measured: Vec<HeldTable<'a>>,
     /// Published displacements, and models with more and more effects
@@ -83,7 +87,7 @@ pub struct DemoAnswer<'a> {
 
 /// A published displacement, and models with more and more effects.
 #[derive(Serialize)]
-pub struct PublishedRungs<'a> {
+pub(crate) struct PublishedRungs<'a> {
     /// Name of the actuator
     pub actuator: &'a str,
     /// Published displacement
@@ -91,29 +95,14 @@ pub struct PublishedRungs<'a> {
     /// How it is known
     pub measured_is: Known,
     /// Models, each with one more effect
-    pub rungs: Vec<PublishedRung<'a>>,
+    pub rungs: &'a [Rung],
     /// Stiffness that the bare model would need, if there is one
     pub calibrated_bending_nm2: Option<f64>,
 }
 
-/// A model of a published robot.
-#[derive(Serialize)]
-pub struct PublishedRung<'a> {
-    /// What was added
-    pub model: &'a str,
-    /// How its value is known
-    pub how_known: Known,
-    /// Height of the outermost marker
-    pub y_mm: f64,
-    /// Its range over the range of the added value
-    pub range_mm: Option<[f64; 2]>,
-    /// Source of the value
-    pub why: &'a str,
-}
-
 /// Marker data and the models compared with them.
 #[derive(Serialize)]
-pub struct MarkerSet<'a> {
+pub(crate) struct MarkerSet<'a> {
     /// Name of the data
     pub data: &'a str,
     /// Models, each with one more effect
@@ -124,7 +113,7 @@ pub struct MarkerSet<'a> {
 
 /// A model compared with marker data.
 #[derive(Serialize)]
-pub struct MarkerModel<'a> {
+pub(crate) struct MarkerModel<'a> {
     /// What was added
     pub model: &'a str,
     /// How its value is known
@@ -135,7 +124,7 @@ pub struct MarkerModel<'a> {
 
 /// A finite element run made just now.
 #[derive(Serialize)]
-pub struct SmallRun<'a> {
+pub(crate) struct SmallRun<'a> {
     /// Elements
     pub elements: usize,
     /// Processor time
@@ -150,7 +139,7 @@ pub struct SmallRun<'a> {
 
 impl<'a> DemoAnswer<'a> {
     /// Of the demonstration and the run that was made with it.
-    pub fn of(demo: &'a Demo, small_run: SmallRun<'a>) -> DemoAnswer<'a> {
+    pub(crate) fn of(demo: &'a Demo, small_run: SmallRun<'a>) -> DemoAnswer<'a> {
         DemoAnswer {
             measured: demo.measured.iter().map(HeldTable::of).collect(),
             published: demo.ladders.iter().map(PublishedRungs::of).collect(),
@@ -164,18 +153,11 @@ impl<'a> DemoAnswer<'a> {
 
 impl<'a> PublishedRungs<'a> {
     fn of(ladder: &'a PublishedLadder) -> PublishedRungs<'a> {
-        let rungs = ladder.rungs.iter().map(|rung| PublishedRung {
-            model: &rung.label,
-            how_known: rung.known,
-            y_mm: rung.y_m * 1e3,
-            range_mm: rung.range_m.map(|range| range.map(|m| m * 1e3)),
-            why: &rung.why,
-        });
         PublishedRungs {
             actuator: &ladder.published.kind,
             measured_mm: ladder.published.d_max_m * 1e3,
             measured_is: Known::Published,
-            rungs: rungs.collect(),
+            rungs: &ladder.rungs,
             calibrated_bending_nm2: ladder.calibrated_bending,
         }
     }

@@ -1,12 +1,10 @@
 //! A diagnosis, as a page to read; its tables are in [`super::diagnosis_tables`].
 
 use super::diagnosis_tables::tables;
-use crate::tables::{Table, wrapped};
-use crate::words::effect;
+use crate::prelude::*;
 use compare::diagnosis::words::{listed, three, with_unit};
 use compare::diagnosis::{Diagnosis, Ranked, Verdict};
 use compare::witness::Witness;
-use serde::Serialize;
 
 /// `ibr.diagnose`: `ibr diagnose SCENARIO DATA`, and `diagnosis.json`
 #[derive(Serialize)]

@@ -1,25 +1,34 @@
 //! Every table of a diagnosis.
 
 use super::diagnosis::is_told;
-use crate::tables::{Table, lines, table};
+use crate::prelude::*;
 use compare::diagnosis::words::{listed, three, with_unit};
-use compare::diagnosis::{Diagnosis, Group, Ranked};
+use compare::diagnosis::{Combination, Diagnosis, Group, Ranked, Separation, Undetectable};
 use compare::study::engines::TERMS;
 use compare::witness::{HEIGHTS, Witness};
 
-/// All of them.
-pub fn tables(d: &Diagnosis, witness: Option<&Witness>) -> String {
-    let finite_elements = witness.map(finite_elements).unwrap_or_default();
-    [ranking(d), pairs(d), details(d), finite_elements, unseen(d), experiments(d)].concat()
+pub(crate) fn tables(d: &Diagnosis, witness: Option<&Witness>) -> String {
+    let base = format!("(base: {:.2} mm beyond noise):", d.base.systematic_mm);
+    let ranking: String = ranking(d).into_iter().map(|(title, rows)| rows.under(&format!("{title} {base}"))).collect();
+    let finite_elements = witness.map_or(String::new(), |w| {
+        let tables: String = finite_elements(w).into_iter().map(Table::text).collect();
+        format!("\nThe same robot in finite elements:\n{}{tables}", lines("  - ", &w.sentences))
+    });
+    let unseen = format!("\n{UNSEEN}:\n{}{}", unseen(d).text(), lines("note: ", &d.limits));
+    let experiments = experiments(d).map_or(String::new(), |(title, rows)| format!("\n{title}:\n{}", rows.text()));
+    [ranking, MARKS.into(), pairs(d).under("Pairs:"), details(d), finite_elements, unseen, experiments].concat()
 }
 
-fn ranking(d: &Diagnosis) -> String {
-    let blocks = [("Supply and measurement, to be ruled out first", true), ("Physics and loads", false)];
-    let mut out = String::new();
-    for (title, nuisance) in blocks {
-        let chosen = d.ranked.iter().filter(|r| r.group.is_nuisance() == nuisance);
-        let base = format!("{title} (base: {:.2} mm beyond noise):", d.base.systematic_mm);
-        out += &Table::of(chosen)
+/// What the first column of effects and pairs means.
+pub(crate) const MARKS: &str = "= cannot be told from the best · ! on a physical bound, rejected\n";
+
+/// What [`unseen`] shows.
+pub(crate) const UNSEEN: &str = "Effects not found; smallest size that would have been seen (90 %)";
+
+/// Every effect alone, in two blocks with their titles.
+pub(crate) fn ranking(d: &Diagnosis) -> [(&'static str, Table<&Ranked>); 2] {
+    [("Supply and measurement, to be ruled out first", true), ("Physics and loads", false)].map(|(title, nuisance)| {
+        let rows = Table::of(d.ranked.iter().filter(|r| r.group.is_nuisance() == nuisance))
             .words("", |r| mark(d, r))
             .words("effect", |r| &r.effect)
             .words("value, 95 %", |r| listed(&r.parameters))
@@ -27,11 +36,9 @@ fn ranking(d: &Diagnosis) -> String {
             .number("held-out pressure mm", 2, |r| r.heldout_mm)
             .number("held-out run mm", 2, |r| r.heldout_run_mm)
             .number("gain", 0, |r| r.gain)
-            .right("p corrected", |r| p_cell(r.p_corrected))
-            .under(&base);
-    }
-    out.push_str("= cannot be told from the best · ! on a physical bound, rejected\n");
-    out
+            .right("p corrected", |r| p_cell(r.p_corrected));
+        (title, rows)
+    })
 }
 
 fn mark(d: &Diagnosis, r: &Ranked) -> &'static str {
@@ -48,8 +55,7 @@ fn p_cell(p: Option<f64>) -> String {
     p.map_or("–".into(), p_text)
 }
 
-/// A p-value.
-pub fn p_text(p: f64) -> String {
+pub(crate) fn p_text(p: f64) -> String {
     match p {
         p if p <= 1e-6 => "< 1e-6".into(),
         p if p < 1e-3 => format!("{p:.0e}"),
@@ -57,7 +63,7 @@ pub fn p_text(p: f64) -> String {
     }
 }
 
-fn pairs(d: &Diagnosis) -> String {
+pub(crate) fn pairs(d: &Diagnosis) -> Table<&Combination> {
     Table::of(&d.pairs)
         .words("", |p| if p.in_set { "=" } else { "" })
         .words("pair", |p| p.effects.join(" + "))
@@ -66,7 +72,6 @@ fn pairs(d: &Diagnosis) -> String {
         .number("gain", 0, |p| p.gain)
         .right("p over one", |p| p_cell(p.p_corrected))
         .right("", |p| if p.cancels { "the two cancel" } else { "" })
-        .under("Pairs:")
 }
 
 /// Sentences, remedies and cautions of the set, and where the final model still fails.
@@ -91,34 +96,34 @@ fn details(d: &Diagnosis) -> String {
     out + &format!("\nWhere the final model still fails:\n{fails}")
 }
 
-fn finite_elements(w: &Witness) -> String {
-    let sentences = lines("  - ", &w.sentences);
-    let mut out = format!("\nThe same robot in finite elements:\n{sentences}{}", table(&HEIGHTS, 1, w.height_rows()));
-    if w.fe_mj.is_some() {
-        out += &table(&[&["energies mJ"], &TERMS[..], &["apart"]].concat(), 1, w.ledger_rows());
-    }
-    out
+/// Heights, then ledgers where there are some.
+pub(crate) fn finite_elements(w: &Witness) -> Vec<Table<Vec<String>>> {
+    let ledgers = || Table::finished(&[&["energies mJ"], &TERMS[..], &["apart"]].concat(), 1, w.ledger_rows());
+    let heights = Table::finished(&HEIGHTS, 1, w.height_rows());
+    std::iter::once(heights).chain(w.fe_mj.map(|_| ledgers())).collect()
 }
 
-fn unseen(d: &Diagnosis) -> String {
+pub(crate) fn unseen(d: &Diagnosis) -> Table<&Undetectable> {
     let unknown = if d.noise.camera_mm.is_some() { "not within its bounds" } else { "not known" };
-    let sizes = Table::of(&d.undetectable)
+    Table::of(&d.undetectable)
         .words("effect", |u| &u.effect)
         .right("size", |u| u.smallest_detectable.map_or(unknown.into(), |s| with_unit(&three(s), &u.unit)))
-        .number("times typical", 2, |u| u.times_typical);
-    let title = "Effects not found; smallest size that would have been seen (90 %):";
-    format!("\n{title}\n{}{}", sizes.text(), lines("note: ", &d.limits))
+        .number("times typical", 2, |u| u.times_typical)
 }
 
-fn experiments(d: &Diagnosis) -> String {
-    let Some(next) = d.next_experiment.as_ref().filter(|next| !next.tried.is_empty()) else { return String::new() };
-    let tried = next.tried.iter().map(|e| (e.name.as_str(), e.shown_protocol(), e.needed, &e.separations));
-    let mut rows = Table::of(std::iter::once(("data at hand", "–", next.needed_now, &next.now)).chain(tried))
+/// Experiments that were thought through, with a title; none without them.
+pub(crate) fn experiments(d: &Diagnosis) -> Option<(String, Table<Tried<'_>>)> {
+    let next = d.next_experiment.as_ref().filter(|next| !next.tried.is_empty())?;
+    let tried = next.tried.iter().map(|e| (e.name.as_str(), e.shown_protocol(), e.needed, &e.separations[..]));
+    let mut rows = Table::of(std::iter::once(("data at hand", "–", next.needed_now, &next.now[..])).chain(tried))
         .words("experiment", |(name, ..)| *name)
         .words("protocol [kPa]", |(_, protocol, ..)| *protocol)
         .number("suffices", 0, |(_, _, needed, _)| *needed);
     for (k, rival) in next.now.iter().enumerate() {
         rows = rows.number(&rival.rival, 1, |(.., found)| found.get(k).map(|s| s.lambda));
     }
-    format!("\nExpected separation λ of {} from:\n{}", next.best, rows.text())
+    Some((format!("Expected separation λ of {} from", next.best), rows))
 }
+
+/// Name, protocol, runs that suffice, separations from the rivals.
+pub(crate) type Tried<'a> = (&'a str, &'a str, f64, &'a [Separation]);

@@ -1,12 +1,12 @@
 //! Errors on the way to an extended scenario.
 
-use crate::tables::{Table, lines};
+use crate::prelude::*;
+use compare::CompareError;
 use compare::diagnosis::ParameterValue;
 use compare::diagnosis::words::three;
 use compare::extension::{Addition, ErrorStep, Extension, today};
 use compare::ladder::Climb;
-use compare::{CompareError, Evidence, ScenarioFile};
-use serde::Serialize;
+use fem::session::FileHash;
 use std::collections::BTreeMap;
 
 /// Errors on the way as a text table.
@@ -59,9 +59,9 @@ pub struct AddAnswer<'a> {
     /// Noise of the mean
     pub noise_floor_mm: Option<f64>,
     /// Data of the fit; null without
-    pub data: Option<InputFile<'a>>,
+    pub data: Option<FileHash>,
     /// Data that were fitted along
-    pub also: Vec<InputFile<'a>>,
+    pub also: Vec<FileHash>,
     /// Date
     pub date: String,
     /// Cautions
@@ -81,15 +81,6 @@ pub struct AddedEffect<'a> {
     pub parameters: Option<&'a [ParameterValue]>,
 }
 
-/// A table of data.
-#[derive(Serialize)]
-pub struct InputFile<'a> {
-    /// As typed
-    pub name: &'a str,
-    /// SHA-256 of the table as read
-    pub sha256: String,
-}
-
 impl<'a> AddAnswer<'a> {
     /// Of an extension of a scenario, written to a file.
     ///
@@ -107,7 +98,7 @@ impl<'a> AddAnswer<'a> {
             values: a.values.iter().map(|(key, value)| (key.as_str(), *value)).collect(),
             parameters: found.fitted.iter().find(|f| f.effect == a.name).map(|f| &f.parameters[..]),
         };
-        let data = evidence.iter().map(|e| Ok(InputFile { name: &e.name, sha256: e.sha256()? }));
+        let data = evidence.iter().map(|e| Ok(FileHash { name: e.name.clone(), sha256: e.sha256()? }));
         let mut data = data.collect::<Result<Vec<_>, CompareError>>()?.into_iter();
         Ok(AddAnswer {
             scenario_file: &file.name,

@@ -1,14 +1,11 @@
 //! Bench tests compared with a model, in words and for JSON.
 
-use crate::tables::{Table, lines};
+use crate::prelude::*;
 use compare::bench::{Held, HeldRow};
-use data::Provenance;
-use models::Known;
-use serde::Serialize;
 
 /// `ibr.compare.bench`: `ibr compare TABLE`, a table of bench tests
 #[derive(Serialize)]
-pub struct BenchAnswer<'a> {
+pub(crate) struct BenchAnswer<'a> {
     /// Data as typed
     pub data: &'a str,
     /// Kind of table
@@ -21,7 +18,7 @@ pub struct BenchAnswer<'a> {
 
 /// Bench tests with their model.
 #[derive(Serialize)]
-pub struct HeldTable<'a> {
+pub(crate) struct HeldTable<'a> {
     /// One line
     pub title: &'a str,
     /// Quantity compared, with unit
@@ -38,42 +35,26 @@ pub struct HeldTable<'a> {
 
 /// A row of bench tests with its model.
 #[derive(Serialize)]
-pub struct HeldTest<'a> {
-    /// Where on the bench
-    pub at: &'a str,
-    /// As measured
-    pub measured: f64,
-    /// By the model
-    pub model: Option<f64>,
+pub(crate) struct HeldTest<'a> {
+    /// The row
+    #[serde(flatten)]
+    pub row: &'a HeldRow,
     /// Model over measurement, less one
     pub off: Option<f64>,
-    /// Half of the 95 % interval
-    pub interval_half: Option<f64>,
-    /// It was used for a fit
-    pub fitted: bool,
     /// What follows
     pub verdict: String,
 }
 
 impl<'a> HeldTable<'a> {
-    /// Of what was held.
-    pub fn of(held: &'a Held) -> HeldTable<'a> {
-        let rows = held.rows.iter().map(|r| HeldTest {
-            at: &r.at,
-            measured: r.measured,
-            model: r.model,
-            off: r.off(),
-            interval_half: r.half,
-            fitted: r.fitted,
-            verdict: r.verdict(),
-        });
+    pub(crate) fn of(held: &'a Held) -> HeldTable<'a> {
+        let rows = held.rows.iter().map(|row| HeldTest { row, off: row.off(), verdict: row.verdict() });
         let Held { title, quantity, known, notes, .. } = held;
         HeldTable { title, quantity, how_known: *known, rms_off: held.rms(), rows: rows.collect(), notes }
     }
 }
 
 /// A table, and how far the model is off where it was not fitted.
-pub fn text(held: &Held) -> String {
+pub(crate) fn text(held: &Held) -> String {
     let table = Table::of(&held.rows)
         .words(&held.quantity, |r| &r.at)
         .number("measured", 2, |r| r.measured)
@@ -83,8 +64,7 @@ pub fn text(held: &Held) -> String {
     format!("{} ({})\n{}{}", held.title, held.known.word(), table.text(), closing(held))
 }
 
-/// Rms and notes.
-pub fn closing(held: &Held) -> String {
+pub(crate) fn closing(held: &Held) -> String {
     let mut out = String::new();
     if let Some(rms) = held.rms() {
         let fitted = held.rows.iter().filter(|r| r.fitted).count();

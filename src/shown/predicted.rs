@@ -1,14 +1,12 @@
 //! Predicted states.
 
-use super::nearest::NearestPlace;
-use crate::tables::Table;
-use crate::words::pressure_words;
+use crate::prelude::*;
 use ::sweep::PRESSURE;
 use data::Column;
 use ibr::AtPressure;
+use models::assembly::Segment;
 use models::space::SectionState;
-use models::{Beyond, CHANNELS, Limit, Model, Row, RowKind, Scenario, TipSlope};
-use serde::Serialize;
+use models::{Beyond, CHANNELS, End, Limit, Row, Steered, TipSlope};
 
 /// For readers.
 pub fn text(scenario: &Scenario, states: &[AtPressure]) -> String {
@@ -120,11 +118,11 @@ pub struct PredictedState {
     /// Curvature of every segment
     pub curvature_per_m: Vec<f64>,
     /// Segments
-    pub segments: Vec<SegmentAt>,
+    pub segments: Vec<Segment>,
     /// Change of the tip with the pressure of each channel
     pub jacobian: Vec<TipSlope>,
     /// Energies at equilibrium
-    pub ledger: Vec<PredictedEnergy>,
+    pub ledger: Vec<Row>,
     /// Stretches that the robot would not hold
     pub beyond: Vec<Beyond>,
     /// Bend and contraction of every segment, with strips round the body
@@ -160,32 +158,12 @@ pub struct PredictedTip {
     pub angle_deg: f64,
 }
 
-/// Where a segment is.
-#[derive(Serialize)]
-pub struct SegmentAt {
-    /// Where it begins
-    pub s_mm: f64,
-    /// Length
-    pub length_mm: f64,
-}
-
-/// A line of the ledger.
-#[derive(Serialize)]
-pub struct PredictedEnergy {
-    /// Effect
-    pub term: String,
-    /// `stored`, `lost` or `supplied`
-    pub kind: &'static str,
-    /// Energy
-    pub energy_mj: f64,
-}
-
 /// A section of a robot with strips round the body.
 #[derive(Serialize)]
 pub struct SpaceSection {
     /// Where it is
     #[serde(flatten)]
-    pub segment: SegmentAt,
+    pub segment: Segment,
     /// Bend towards azimuth 0° and 90° of a frame that follows the body without twist
     pub curvature_yz_per_m: [f64; 2],
     /// Contraction of the axis
@@ -204,22 +182,18 @@ impl PredictedState {
     /// Of a model and its scenario.
     pub fn of(model: &Model, scenario: &Scenario, s: &AtPressure) -> PredictedState {
         let (at, is_spatial) = (&s.prediction, model.is_spatial());
-        let segment = |start_m: f64, length_m: f64| SegmentAt { s_mm: start_m * 1e3, length_mm: length_m * 1e3 };
         let z_mm = |z_m: f64| is_spatial.then_some(z_m * 1e3);
         let marker = |(i, s_m): (usize, &f64)| {
             let [x_mm, y_mm] = at.markers[i].map(|m| m * 1e3);
             PredictedMarker { s_mm: s_m * 1e3, x_mm, y_mm, z_mm: at.markers_z_m.get(i).copied().and_then(z_mm) }
         };
-        let energy =
-            |l: &Row| PredictedEnergy { term: l.name.to_string(), kind: kind(l.kind), energy_mj: l.energy_j * 1e3 };
         let section = |section: SectionState| SpaceSection {
-            segment: segment(section.segment.start_m, section.segment.length_m),
+            segment: section.segment,
             curvature_yz_per_m: section.kappa,
             contraction: section.contraction,
             tension_n: section.strips.iter().map(|strip| strip.tension).collect(),
         };
-        let (segments, curvature_per_m) =
-            model.curvatures(at).map(|(s, kappa)| (segment(s.start_m, s.length_m), kappa)).unzip();
+        let (segments, curvature_per_m) = model.curvatures(at).unzip();
         PredictedState {
             p_act_kpa: s.loads.actuator_pa[0] / 1e3,
             p_act_channels_kpa: s.loads.actuator_pa.iter().map(|p| p / 1e3).collect(),
@@ -234,18 +208,10 @@ impl PredictedState {
             curvature_per_m,
             segments,
             jacobian: s.slopes.to_vec(),
-            ledger: model.ledger(&s.loads, at).iter().map(energy).collect(),
+            ledger: model.ledger(&s.loads, at),
             beyond: model.beyond(&s.loads, at),
             sections: is_spatial.then(|| model.sections(at).map(section).collect()),
         }
-    }
-}
-
-fn kind(kind: RowKind) -> &'static str {
-    match kind {
-        RowKind::Stored => "stored",
-        RowKind::Dissipated => "lost",
-        RowKind::Supplied => "supplied",
     }
 }
 
@@ -272,4 +238,63 @@ pub fn above_limit(scenario: &Scenario, states: &[AtPressure]) -> Option<String>
     let limit = scenario.p_max_pa;
     (highest > limit)
         .then(|| format!("warning: {} kPa is above max_pressure_kpa = {} of the scenario", highest / 1e3, limit / 1e3))
+}
+
+/// A tip that is nearer than this is on target \[m\].
+const MET_M: f64 = 1e-6;
+
+/// What keeps the tip away, channel by channel.
+fn held(found: &Steered) -> impl Iterator<Item = (usize, &'static str, f64)> + '_ {
+    found.held.iter().enumerate().filter_map(|(channel, end)| {
+        let word = match (*end)? {
+            End::Least => "least",
+            End::Most => "largest",
+        };
+        Some((channel, word, found.loads.actuator_pa[channel] / 1e3))
+    })
+}
+
+/// What became of the target place of the tip.
+#[derive(Serialize)]
+pub struct NearestPlace {
+    /// Target
+    pub x_mm: f64,
+    /// Target
+    pub y_mm: f64,
+    /// Distance of the tip from the place
+    pub miss_mm: f64,
+    /// Channels whose limit keeps the tip away
+    pub held_back: Vec<ChannelLimit>,
+}
+
+/// A channel at a limit.
+#[derive(Serialize)]
+pub struct ChannelLimit {
+    /// Supply channel
+    pub channel: usize,
+    /// `least` or `largest`
+    pub limit: &'static str,
+    /// Its pressure
+    pub p_kpa: f64,
+}
+
+impl NearestPlace {
+    /// Of a place \[m\].
+    pub fn of(place_m: [f64; 2], found: &Steered) -> NearestPlace {
+        let [x_mm, y_mm] = place_m.map(|m| m * 1e3);
+        let held_back = held(found).map(|(channel, limit, p_kpa)| ChannelLimit { channel, limit, p_kpa }).collect();
+        NearestPlace { x_mm, y_mm, miss_mm: found.miss_m * 1e3, held_back }
+    }
+}
+
+/// A warning where it is not reached.
+pub(crate) fn nearest_words(place_m: [f64; 2], found: &Steered) -> Option<String> {
+    let words: Vec<String> = held(found)
+        .map(|(channel, limit, kpa)| format!("channel {channel} is at its {limit} pressure, {kpa} kPa"))
+        .collect();
+    let why = if words.is_empty() { "no pressures bring it nearer".to_string() } else { words.join("; ") };
+    let [x, y] = place_m.map(|m| m * 1e3);
+    (found.miss_m > MET_M).then(|| {
+        format!("warning: the tip stays {:.2} mm from the wanted place {x}, {y} mm: {why}", found.miss_m * 1e3)
+    })
 }

@@ -1,8 +1,7 @@
 //! A scenario with and without effects on other data.
 
-use crate::tables::Table;
+use crate::prelude::*;
 use compare::validation::{BeforeAfter, Validation};
-use serde::Serialize;
 
 /// `ibr.validate`: `ibr validate SCENARIO DATA`
 #[derive(Serialize)]

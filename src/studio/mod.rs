@@ -27,7 +27,7 @@ const PATIENCE: Duration = Duration::from_secs(10);
 const MARK: &str = "<!--studio-->";
 
 /// A page that waits for its browser.
-pub struct Studio {
+pub(crate) struct Studio {
     listener: TcpListener,
     port: u16,
     token: String,
@@ -37,23 +37,19 @@ pub struct Studio {
 
 impl Studio {
     /// Of a page, on a port of this machine; 0 for a free one.
-    ///
-    /// # Errors
-    /// A port that is taken or not allowed.
-    pub fn open(page: &str, port: u16) -> io::Result<Studio> {
+    pub(crate) fn open(page: &str, port: u16) -> io::Result<Studio> {
         let listener = TcpListener::bind(("127.0.0.1", port))?;
         let port = listener.local_addr()?.port();
         let page = page.replacen(MARK, "<meta name=\"ibr-studio\" content=\"finite elements\">", 1);
         Ok(Studio { listener, port, token: token(), page, bench: Bench::default() })
     }
 
-    /// What to open.
-    pub fn address(&self) -> String {
+    pub(crate) fn address(&self) -> String {
         format!("http://127.0.0.1:{}/{}/", self.port, self.token)
     }
 
     /// Answers for ever, every visitor on a thread of its own.
-    pub fn serve(&self) {
+    pub(crate) fn serve(&self) {
         std::thread::scope(|scope| {
             for stream in self.listener.incoming().flatten() {
                 scope.spawn(move || self.visit(&stream));

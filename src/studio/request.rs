@@ -8,8 +8,7 @@ use std::net::TcpStream;
 const MOST_HEAD: u64 = 16 << 10;
 const MOST_BODY: u64 = 1 << 20;
 
-/// A request.
-pub struct Request {
+pub(super) struct Request {
     pub method: String,
     pub path: String,
     headers: Vec<(String, String)>,
@@ -18,7 +17,7 @@ pub struct Request {
 
 impl Request {
     /// Reads it, or says why not.
-    pub fn read(stream: &TcpStream) -> Result<Request, Response> {
+    pub(super) fn read(stream: &TcpStream) -> Result<Request, Response> {
         let broken = |_: io::Error| Response::words(400, "the request broke off");
         let mut reader = BufReader::new(stream);
         let mut head = String::new();
@@ -52,38 +51,33 @@ impl Request {
     }
 
     /// A header by its name in small letters; nothing where it comes twice, which may mean two things.
-    pub fn header(&self, name: &str) -> Option<&str> {
+    pub(super) fn header(&self, name: &str) -> Option<&str> {
         let mut found = self.headers.iter().filter(|(own, _)| own == name);
         let first = found.next()?;
         found.next().is_none().then_some(first.1.as_str())
     }
 }
 
-/// An answer.
-pub struct Response {
+pub(super) struct Response {
     code: u16,
     kind: &'static str,
     body: Vec<u8>,
 }
 
 impl Response {
-    /// Plain words.
-    pub fn words(code: u16, words: &str) -> Response {
+    pub(super) fn words(code: u16, words: &str) -> Response {
         Response { code, kind: "text/plain; charset=utf-8", body: format!("{words}\n").into_bytes() }
     }
 
-    /// A page.
-    pub fn page(page: &str) -> Response {
+    pub(super) fn page(page: &str) -> Response {
         Response { code: 200, kind: "text/html; charset=utf-8", body: page.as_bytes().to_vec() }
     }
 
-    /// A value.
-    pub fn json(value: &Value) -> Response {
+    pub(super) fn json(value: &Value) -> Response {
         Response { code: 200, kind: "application/json", body: value.to_string().into_bytes() }
     }
 
-    /// Sends it.
-    pub fn write(&self, mut stream: &TcpStream) -> io::Result<()> {
+    pub(super) fn write(&self, mut stream: &TcpStream) -> io::Result<()> {
         let Response { code, kind, body } = self;
         let head = format!(
             "HTTP/1.1 {code} {}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nCache-Control: no-store\r\n\

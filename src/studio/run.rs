@@ -24,20 +24,16 @@ struct Wish {
     actuator_kpa: f64,
 }
 
-/// How far a run is.
 #[derive(Debug, Default)]
 struct Stand {
-    /// What is told.
     told: Option<Value>,
-    /// It is under way.
     runs: bool,
-    /// It shall end.
     stop: bool,
 }
 
 /// The place where runs are made.
 #[derive(Default)]
-pub struct Bench {
+pub(super) struct Bench {
     stand: Arc<Mutex<Stand>>,
 }
 
@@ -47,13 +43,12 @@ fn of(stand: &Mutex<Stand>) -> std::sync::MutexGuard<'_, Stand> {
 }
 
 impl Bench {
-    /// What there is to tell.
-    pub fn told(&self) -> Value {
+    pub(super) fn told(&self) -> Value {
         of(&self.stand).told.clone().unwrap_or_else(|| json!({"state": "none"}))
     }
 
     /// Starts a run, unless one is under way.
-    pub fn start(&self, body: &[u8]) -> Value {
+    pub(super) fn start(&self, body: &[u8]) -> Value {
         let wish: Wish = match serde_json::from_slice(body) {
             Ok(wish) => wish,
             Err(error) => return failed(&format!("this is no robot: {error}"), "send name, text and actuator_kpa"),
@@ -85,8 +80,7 @@ impl Bench {
         stand.told.clone().unwrap_or(told)
     }
 
-    /// Asks the run to end.
-    pub fn stop(&self) -> Value {
+    pub(super) fn stop(&self) -> Value {
         of(&self.stand).stop = true;
         self.told()
     }

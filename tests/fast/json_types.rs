@@ -84,8 +84,9 @@ impl Types {
     }
 
     fn file(&mut self, part: &str, file: &str, text: &str) {
+        let uses = text.replace("\npub(crate) use ", "\nuse ");
         let uses =
-            text.split("\nuse ").skip(1).filter_map(|rest| rest.split_once(';')).map(|(used, _)| used.to_string());
+            uses.split("\nuse ").skip(1).filter_map(|rest| rest.split_once(';')).map(|(used, _)| used.to_string());
         self.uses.insert(file.into(), uses.collect());
         let mut lines = text.lines();
         let mut before = Before::default();
@@ -138,12 +139,16 @@ impl Types {
             .unwrap_or_else(|| panic!("{name} in {}: the name of several types that are written", from.file))
     }
 
-    /// Whether a file takes the name from the crate of that type.
+    /// Whether a file takes the name from the crate of that type, or from the prelude.
     fn is_used(&self, file: &str, found: &Type, name: &str) -> bool {
         let words = |used: &str| -> Vec<String> {
             used.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|w| !w.is_empty()).map(String::from).collect()
         };
-        let mut uses = self.uses[file].iter().map(|used| words(used));
+        let is_prelude = |file: &str| file.ends_with("src/prelude.rs");
+        let from =
+            |other: &str| other == file || is_prelude(other) && self.uses[file].contains(&"crate::prelude::*".into());
+        let mut uses =
+            self.uses.iter().filter(|(other, _)| from(other)).flat_map(|(_, used)| used).map(|used| words(used));
         uses.any(|words| words.first() == Some(&found.part) && words.iter().any(|word| word == name))
     }
 

@@ -2,22 +2,25 @@
 
 use crate::policy;
 use crate::stats::{t_975, two_sided_p};
+use serde::Serialize;
 
 /// A number of every specimen, summed up.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Scatter {
     /// Specimens.
+    #[serde(rename = "specimens")]
     pub n: usize,
     /// Mean.
     pub mean: f64,
     /// Standard deviation between specimens, of two or more.
     pub sd: Option<f64>,
     /// Half-width of the 95 % interval of the mean, t s/√n.
+    #[serde(skip)]
     pub half: Option<f64>,
 }
 
 /// A number of the fabric in display units.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FabricNumber {
     /// Short name, as in JSON.
     pub key: String,
@@ -26,8 +29,10 @@ pub struct FabricNumber {
     /// Unit.
     pub unit: &'static str,
     /// Over specimens, in `unit`.
+    #[serde(flatten)]
     pub scatter: Scatter,
     /// How it is known, and from what.
+    #[serde(rename = "how_known")]
     pub known: String,
 }
 

@@ -9,6 +9,7 @@ use data::bench::BenchRow;
 use models::actuators::ActuatorShape;
 use models::scenario::ActuatorChoice;
 use models::{Loads, Machine, Model, Scenario};
+use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 
 use crate::CompareError;
@@ -31,7 +32,7 @@ pub struct Held {
 }
 
 /// One measured number beside the model's.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HeldRow {
     /// At which pressure, size and load.
     pub at: String,
@@ -40,6 +41,7 @@ pub struct HeldRow {
     /// By the model; none where it finds no equilibrium.
     pub model: Option<f64>,
     /// Half-width of the 95 % interval of the mean, t s/√n, where scatter and number are known.
+    #[serde(rename = "interval_half")]
     pub half: Option<f64>,
     /// Whether the model was fitted to this row.
     pub fitted: bool,

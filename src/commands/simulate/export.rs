@@ -2,13 +2,11 @@
 
 use super::plan::RunPlan;
 use crate::cli::SimulateArgs;
-use crate::commands::Outcome;
-use crate::failure::Failure;
+use crate::prelude::*;
 use fem::session::{Export, Solver, export};
-use std::path::Path;
 
 /// Writes the problem for another program.
-pub fn written(args: &SimulateArgs, plan: &RunPlan, file: &Path, force: bool) -> Result<Outcome, Failure> {
+pub(super) fn written(args: &SimulateArgs, plan: &RunPlan, file: &Path, force: bool) -> Result<Outcome> {
     let RunPlan::Single(source) = plan else {
         return Err(Failure::usage(
             "--export writes one run, and this is several",

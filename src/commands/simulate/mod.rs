@@ -5,21 +5,17 @@ mod plan;
 mod several;
 
 use super::fem_inputs::seconds;
-use super::{Context, Outcome};
 use crate::cli::SimulateArgs;
-use crate::failure::Failure;
-use crate::output::{check_folder, maker};
+use crate::prelude::*;
 use crate::shown::run::{cost_text, text};
 use fem::FemError;
 use fem::session::{Cost, FeRun, Further, SUMMARY, Settings, Source, Summary, simulate};
 use ibr::fe_source;
 use ibr::pages::run_plots;
 use plan::RunPlan;
-use serde::Serialize;
-use std::path::Path;
 use std::time::Duration;
 
-pub fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome, Failure> {
+pub(super) fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome> {
     let plan = plan::plan(args, fe_source(&args.case)?)?;
     if let Some(file) = &args.export {
         return export::written(args, &plan, file, context.force);
@@ -55,7 +51,7 @@ pub fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome, Failur
     }
 }
 
-fn one(args: &SimulateArgs, source: &Source, settings: &Settings, context: &mut Context) -> Result<Outcome, Failure> {
+fn one(args: &SimulateArgs, source: &Source, settings: &Settings, context: &mut Context) -> Result<Outcome> {
     let folder = settings.folder.as_deref().unwrap_or(Path::new(""));
     let run = match context.fem(|progress| simulate(source, settings, progress)) {
         Err(FemError::Interrupted { time_s, step, .. }) => {

@@ -3,18 +3,14 @@
 use crate::cli::SimulateArgs;
 use crate::commands::fem_inputs::sizes;
 use crate::commands::inputs::{self, plain};
-use crate::failure::Failure;
-use compare::ScenarioFile;
+use crate::prelude::*;
 use fem::robot::{KEYS, OTHERS};
 use fem::session::{Cube, Source, Variation, cube, mesh_keys, numerics, pressures_in_toml, product, rounded};
 use models::scenario::quantity::parse_pressures;
-use std::path::{Path, PathBuf};
 
 const PRESSURES: &str = "write for example --pressure 10kPa,20kPa, or with supply channels 20kPa/10kPa";
 
-/// What is to be run.
-pub enum RunPlan {
-    /// One run.
+pub(super) enum RunPlan {
     Single(Source),
     /// Runs that differ in seed, mesh or pressure from the scenario with the common options.
     Table(Source, Vec<Variation>),
@@ -24,7 +20,7 @@ pub enum RunPlan {
 
 impl RunPlan {
     /// The folder of a case if none is named.
-    pub fn folder(&self, args: &SimulateArgs) -> PathBuf {
+    pub(super) fn folder(&self, args: &SimulateArgs) -> PathBuf {
         let stem = Path::new(&args.case).file_stem().unwrap_or_default().to_string_lossy();
         let kind = match self {
             RunPlan::Uncertain(_) => "uncertain",
@@ -37,8 +33,7 @@ impl RunPlan {
     }
 }
 
-/// Reads the options.
-pub fn plan(args: &SimulateArgs, source: Source) -> Result<RunPlan, Failure> {
+pub(super) fn plan(args: &SimulateArgs, source: Source) -> Result<RunPlan> {
     if !source.is_robot() {
         return match robot_option(args) {
             None => Ok(RunPlan::Single(source)),
@@ -95,12 +90,12 @@ fn robot_option(args: &SimulateArgs) -> Option<&'static str> {
 }
 
 /// A robot with other values in its scenario.
-fn changed(source: Source, changes: &[(String, String)]) -> Result<Source, Failure> {
+fn changed(source: Source, changes: &[(String, String)]) -> Result<Source> {
     let file = ScenarioFile::parse_in_space(&source.name, &source.text)?.with_in_space(changes)?;
     Ok(Source { text: file.text, ..source })
 }
 
-fn setting(text: &str) -> Result<(String, String), Failure> {
+fn setting(text: &str) -> Result<(String, String)> {
     let names = || OTHERS.into_iter().chain(KEYS.iter().map(|k| k.name)).collect::<Vec<_>>().join(", ");
     let help = || format!("for example --set hourglass=0.02 or body.radius_mm=45; keys of [fem]: {}", names());
     let (key, value) = inputs::setting(text, &help())?;

@@ -2,17 +2,15 @@
 
 use crate::cli::{ShardArgs, SimulateArgs};
 use crate::commands::shards::shared;
-use crate::commands::{Context, Outcome};
-use crate::failure::Failure;
-use crate::output::write_files;
-use crate::shown::several_runs::{SimulationsAnswer, UncertainAnswer, table_text, uncertain_text};
+use crate::prelude::*;
 use compare::study::uncertain::Uncertain;
+use compare::study::uncertain::{Intervals, Member, Varied, Weight};
+use fem::session::{AS_IT_IS, Heights, RunRow, SeedGroup};
 use fem::session::{Cube, Job, RunTable, Settings, Source, Variation, simulate_all};
 use ibr::pages::{Files, marker_intervals, mesh_plot, what_to_measure};
-use report::lines;
-use std::path::Path;
+use std::collections::BTreeMap;
 
-fn jobs(base: &Source, variations: &[Variation]) -> Result<Vec<Job>, Failure> {
+fn jobs(base: &Source, variations: &[Variation]) -> Result<Vec<Job>> {
     let job = |v: &Variation| {
         let (what, folder) = (v.label.clone(), Some(v.label.clone()));
         Ok(Job { source: base.with(&v.changes)?, what, folder })
@@ -20,21 +18,21 @@ fn jobs(base: &Source, variations: &[Variation]) -> Result<Vec<Job>, Failure> {
     variations.iter().map(job).collect()
 }
 
-pub fn table(
+pub(super) fn table(
     base: &Source,
     variations: &[Variation],
     settings: &Settings,
     shards: &ShardArgs,
     context: &mut Context,
-) -> Result<Outcome, Failure> {
+) -> Result<Outcome> {
     let jobs = jobs(base, variations)?;
     if let Some(told) = shared(shards, &jobs, settings, context)? {
         return Ok(told);
     }
     let many = context.fem(|progress| simulate_all(&jobs, settings, progress))?;
     let table = RunTable::of(variations, many)?;
-    let mut outcome = Outcome::answer(table_text(&table), "ibr.simulations", &SimulationsAnswer::of(&table));
-    let png = mesh_plot(&base.name, &table).and_then(|plot| lines(&plot).ok()).map(|drawn| drawn.png);
+    let mut outcome = Outcome::answer(table_text(&table), "ibr.simulations", &simulations_answer(&table));
+    let png = mesh_plot(&base.name, &table).and_then(|plot| report::lines(&plot).ok()).map(|drawn| drawn.png);
     let files = [("plot", "mesh.png", png), ("table", "table.csv", Some(table.csv().into_bytes()))];
     write(
         &mut outcome,
@@ -45,12 +43,12 @@ pub fn table(
     Ok(outcome)
 }
 
-pub fn uncertain(
+pub(super) fn uncertain(
     cube: &Cube,
     args: &SimulateArgs,
     settings: Settings,
     context: &mut Context,
-) -> Result<Outcome, Failure> {
+) -> Result<Outcome> {
     let settings = Settings { frames: false, ..settings };
     let jobs = jobs(&cube.base, &cube.robots)?;
     if let Some(told) = shared(&args.shards, &jobs, &settings, context)? {
@@ -88,7 +86,7 @@ fn write(
     settings: &Settings,
     files: impl Iterator<Item = (&'static str, &'static str, Vec<u8>)>,
     context: &mut Context,
-) -> Result<(), Failure> {
+) -> Result<()> {
     let folder = settings.folder.as_deref().unwrap_or(Path::new(""));
     let mut written = Files::default();
     for (what, name, bytes) in files {
@@ -96,4 +94,139 @@ fn write(
         written.files.push((name.into(), bytes));
     }
     write_files(folder, &written, &[], context)
+}
+
+/// Every run, then mean and spread of those that differ in the seed only.
+fn table_text(all: &RunTable) -> String {
+    // A robot as it is comes first, then what was changed about it.
+    let first = all.rows.first().filter(|run| run.variation.label == AS_IT_IS).map_or(&[][..], |run| &run.heights);
+    let change = |k: usize, h: &Heights| {
+        let own = first.get(k).filter(|own| own.actuator_kpa == h.actuator_kpa && own.tip_mm.abs() > 0.0);
+        own.map(|own| 100.0 * (h.tip_mm / own.tip_mm - 1.0))
+    };
+    let rows = all.rows.iter().flat_map(|run| run.heights.iter().enumerate().map(move |(k, h)| (run, k, h)));
+    let text = Table::of(rows)
+        .words("run", |(run, ..)| &run.variation.label)
+        .right("actuator kPa", |(.., h)| h.actuator_kpa.to_string())
+        .number("outermost marker mm", 1, |(.., h)| h.marker_mm)
+        .number("tip mm", 1, |(.., h)| h.tip_mm)
+        .signed("change %", 1, |(_, k, h)| change(*k, h))
+        .right("at rest", |(.., h)| if h.is_at_rest { "yes" } else { "no" })
+        .number("run CPU s", 1, |(run, ..)| run.cpu_s)
+        .text();
+    let groups = all.groups();
+    let several = Table::of(groups.iter().filter(|g| g.runs > 1))
+        .words("group", |g| if g.group.is_empty() { "all" } else { &g.group })
+        .right("actuator kPa", |g| g.actuator_kpa.to_string())
+        .right("runs", |g| g.runs.to_string())
+        .number("mean mm", 1, |g| g.tip_mean_mm)
+        .number("sd mm", 1, |g| g.tip_sd_mm);
+    text + &several.under("Tip, mean and standard deviation over the seeds")
+}
+
+/// Robots that differ in unmeasured numbers.
+fn uncertain_text(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> String {
+    let stopped: Vec<&Member> = all.members.iter().filter(|m| m.stopped.is_some()).collect();
+    let mut out = format!(
+        "{}: {} robots whose assumed numbers fill their intervals{}\n\nHeight of the markers [mm]: median (10 % to 90 %)\n",
+        all.scenario,
+        all.members.len(),
+        if stopped.is_empty() { String::new() } else { format!(", {} of which stopped", stopped.len()) }
+    );
+    let mut heights = Table::of(all.pressures_kpa()).right("actuator kPa", |kpa| kpa.to_string());
+    for (m, s) in all.stations_mm.iter().enumerate() {
+        heights = heights.right(format!("s = {s}"), |kpa| {
+            let quantiles = all.quantiles_mm(*kpa, m, 1);
+            quantiles.map_or("–".into(), |[low, middle, high]| format!("{middle:.1} ({low:.1} to {high:.1})"))
+        });
+    }
+    let seen = |kpa: &f64| {
+        let (_, [_, y]) = measured.iter().find(|(at, _)| (at - kpa).abs() < 0.05)?;
+        let inside = all.tip_mm(*kpa).is_some_and(|[low, _, high]| (low..=high).contains(y));
+        Some(format!("{y:.1}, {}", if inside { "inside" } else { "outside" }))
+    };
+    out += &heights.right("measured", |kpa| seen(kpa).unwrap_or("–".into())).text();
+    let top = all.top_kpa();
+    if let Some((weights, rest)) = all.weights(top) {
+        let number = |w: &Weight| &all.numbers[w.number];
+        out += &format!("\nWhat to measure first: outermost marker at {top} kPa\n");
+        out += &Table::of(&weights)
+            .words("assumed", |w| &number(w).name)
+            .words("interval", |w| number(w).interval.map(three_digits).join(" to "))
+            .signed("10 % to 90 % of it: mm", 1, |w| w.swing_mm)
+            .number("of the variance %", 0, |w| 100.0 * w.share)
+            .right("why this interval", |w| &number(w).reason)
+            .text();
+        out += &calibrated(all, measured, &weights);
+        out += &format!("{:.0} % of the variance is not of a straight law\n", 100.0 * rest);
+    }
+    out + &lines("stopped: ", stopped.iter().map(|member| member.stopped.as_deref().unwrap_or_default()))
+}
+
+fn three_digits(value: f64) -> String {
+    format!("{value:.2e}").parse::<f64>().unwrap_or(value).to_string()
+}
+
+/// What one number would have to be for the measured displacement, all others in the middle of their intervals.
+fn calibrated(all: &Uncertain, measured: &[(f64, [f64; 2])], weights: &[Weight]) -> String {
+    let Some((kpa, [_, y])) = measured.last() else { return String::new() };
+    let place = |w: &&Weight| {
+        let share = all.share_for(*kpa, w.number, *y).filter(|share| (0.0..=1.0).contains(share));
+        share.map_or("none in its interval".into(), |share| format!("{:.0} % of its interval", 100.0 * share))
+    };
+    let title = format!(
+        "Calibration, no prediction: what one number would have to be for the measured {y:.1} mm at {kpa} kPa, by a straight law"
+    );
+    let table = Table::of(weights).words("assumed", |w| &all.numbers[w.number].name).words("target", place);
+    format!("\n{title}\n{}", table.text())
+}
+
+/// `ibr.simulations`: `ibr simulate ROBOT`, several runs
+#[derive(Serialize)]
+struct SimulationsAnswer<'a> {
+    /// Run by run
+    runs: Vec<RunRecord<'a>>,
+    /// Those that differ in the seed only
+    groups: Vec<SeedGroup>,
+}
+
+/// One of several runs.
+#[derive(Serialize)]
+struct RunRecord<'a> {
+    /// What differs, in words
+    run: &'a str,
+    /// Keys and values that differ
+    changes: BTreeMap<&'a str, &'a str>,
+    /// Folder of the run
+    folder: &'a str,
+    /// Heights at every pressure
+    heights: &'a [Heights],
+    /// Processor time
+    cpu_s: f64,
+}
+
+fn simulations_answer<'a>(table: &'a RunTable) -> SimulationsAnswer<'a> {
+    let record = |row: &'a RunRow| RunRecord {
+        run: &row.variation.label,
+        changes: row.variation.changes.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect(),
+        folder: &row.folder,
+        heights: &row.heights,
+        cpu_s: row.cpu_s,
+    };
+    SimulationsAnswer { runs: table.rows.iter().map(record).collect(), groups: table.groups() }
+}
+
+/// `ibr.uncertain`: `ibr simulate ROBOT --uncertain`
+#[derive(Serialize)]
+struct UncertainAnswer<'a> {
+    /// Robots
+    robots: usize,
+    /// What was varied
+    numbers: &'a [Varied],
+    /// Heights of every marker at every pressure
+    pressures: Vec<Intervals>,
+    /// What each number does to the outermost marker; null with too few robots
+    weights: Option<&'a [Weight]>,
+    /// Share of the variance that is not of a straight law
+    rest: Option<f64>,
 }

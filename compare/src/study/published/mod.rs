@@ -13,19 +13,26 @@ use data::{Published, PublishedActuator, published};
 use mechanics::{additions, with};
 use models::Known;
 use models::{Loads, Model, Scenario, shipped};
+use serde::Serialize;
+use spelling::si;
 
 /// One rung: a model and what it predicts for the outermost marker.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Rung {
     /// What was added, in words.
+    #[serde(rename = "model")]
     pub label: String,
     /// The model.
+    #[serde(skip)]
     pub scenario: Scenario,
     /// Height of the outermost marker \[m\].
+    #[serde(rename = "y_mm", serialize_with = "si::mm")]
     pub y_m: f64,
     /// Range of that height over the stated range of the added value \[m\].
+    #[serde(rename = "range_mm", serialize_with = "si::mm")]
     pub range_m: Option<[f64; 2]>,
     /// How the value added is known.
+    #[serde(rename = "how_known")]
     pub known: Known,
     /// Where the value comes from.
     pub why: String,

@@ -1,0 +1,169 @@
+//! Tables of bench tests in `ibr compare` and `ibr diagnose`: a beam, a muscle.
+
+use super::inputs;
+use crate::cli::{CompareArgs, DiagnoseArgs};
+use crate::prelude::*;
+use crate::shown::diagnosis_tables::p_text;
+use crate::shown::held::{BenchAnswer, HeldTable, text};
+use compare::bench::held;
+use compare::diagnosis::words::listed;
+use compare::diagnosis::{BenchDiagnosis, BenchOptions, BenchRanked, Verdict, diagnose_bench};
+use compare::progress::shares::READ;
+use compare::study::Knob;
+use compare::typed_effect::with_effect;
+use data::Bench;
+use data::bench::bench;
+
+/// The comparison, if the data are a table of bench tests.
+pub(super) fn compared(args: &CompareArgs, context: &mut Context) -> Result<Option<Outcome>> {
+    let Some((spec, typed)) = args.inputs.split_last().filter(|(_, before)| before.len() < 2) else {
+        return Ok(None);
+    };
+    let Some(bench) = bench(spec)? else { return Ok(None) };
+    refuse_options(
+        spec,
+        &[
+            ("--sigma", args.noise.sigma.is_some(), "the table has the scatter of a row"),
+            ("--max-error", args.max_error.is_some(), "a table has no error beyond noise"),
+            ("--out", args.out.is_some(), "a table has no report; --json gives everything that was found"),
+            (
+                "--calibrate=body-pressure",
+                args.calibrate == Some(Knob::BodyPressure),
+                "--calibrate fits the number of a table",
+            ),
+        ],
+    )?;
+    (context.progress)("comparing", None);
+    let mut scenario = scenario(typed.first(), spec, &bench)?;
+    inputs::each_once("--effect", inputs::effect_names(&args.effect))?;
+    for text in &args.effect {
+        let Some(before) = &scenario else {
+            return Err(Failure::usage("--effect without a scenario", "name a scenario before the table"));
+        };
+        scenario = Some(with_effect(before, text)?.0);
+    }
+    let held = held(&bench, scenario.as_ref(), args.calibrate.is_some())?;
+    let (kind, provenance) = (bench.kind.name, bench.provenance);
+    let answer = BenchAnswer { data: spec, kind, provenance, held: HeldTable::of(&held) };
+    Ok(Some(Outcome::answer(text(&held), "ibr.compare.bench", &answer)))
+}
+
+/// The diagnosis, if what was typed last is a table of bench tests.
+pub(super) fn diagnosed(args: &DiagnoseArgs, context: &mut Context) -> Result<Option<Outcome>> {
+    let spec = args.data.as_deref().unwrap_or(&args.scenario);
+    let Some(table) = bench(spec)? else {
+        return args.fit.also.iter().try_for_each(|also| needs_markers(also)).map(|()| None);
+    };
+    refuse_options(
+        spec,
+        &[
+            ("--also", !args.fit.also.is_empty(), "put the rows of all tests of one kind into one table"),
+            ("--keep-bending", args.fit.keep_bending, "a table has nothing fitted that was not asked for"),
+            ("--not", !args.fit.not.is_empty(), "a table's ranking shows every effect by itself"),
+            ("--tolerance", args.fit.tolerance.is_some(), "say what a row scatters by instead, --sigma 3%"),
+            ("--runs", args.runs.is_some(), "finite elements are held against robots"),
+            ("--out", args.out.is_some(), "a table has no report; --json gives everything that was found"),
+        ],
+    )?;
+    let sigma = args.fit.noise.sigma.as_deref().map(share).transpose()?;
+    let scenario = scenario(args.data.as_ref().map(|_| &args.scenario), spec, &table)?;
+    (context.progress)("fitting every effect", Some(READ));
+    let options = BenchOptions { sigma, refit: args.refit, ..BenchOptions::default() };
+    let found = diagnose_bench(&table, scenario.as_ref(), &options)?;
+    let answer = BenchDiagnosisAnswer { found: &found, provenance: table.provenance };
+    Ok(Some(Outcome::answer(diagnosis_text(&found, &table), "ibr.diagnose.bench", &answer)))
+}
+
+/// The scenario that was typed, or that of the table.
+fn scenario(typed: Option<&String>, spec: &str, bench: &Bench) -> Result<Option<Scenario>> {
+    Ok(match (typed, &bench.scenario) {
+        (Some(typed), _) => Some(inputs::scenario(typed)?.scenario),
+        (None, Some(text)) => Some(ScenarioFile::parse(&format!("{spec}/scenario.toml"), text)?.scenario),
+        (None, None) => None,
+    })
+}
+
+/// Refuses options that are about markers: each with whether it is given, and what to do instead.
+fn refuse_options(spec: &str, options: &[(&str, bool, &str)]) -> Result<()> {
+    match options.iter().find(|(_, given, _)| *given) {
+        None => Ok(()),
+        Some((option, _, help)) => {
+            let message = format!("{option} is about marker data, {spec} is a table of bench tests");
+            Err(Failure::usage(message, format!("leave {option} out: {help}")))
+        }
+    }
+}
+
+/// Refuses a table of bench tests where markers are needed.
+fn needs_markers(spec: &str) -> Result<()> {
+    match bench(spec)? {
+        None => Ok(()),
+        Some(bench) => {
+            let message = format!("{spec} is a {} table, not markers of a robot", bench.kind.name);
+            Err(Failure::usage(message, format!("`ibr compare {spec}` holds it against its model")))
+        }
+    }
+}
+
+/// `3%` → 0.03.
+fn share(text: &str) -> Result<f64> {
+    let value = text.trim().strip_suffix('%').and_then(|number| number.trim().parse::<f64>().ok());
+    value.filter(|v| *v > 0.0 && *v <= 100.0).map(|v| 0.01 * v).ok_or_else(|| {
+        let message = format!("--sigma {text} is no share of what a row measured");
+        Failure::usage(message, "write what a row of the table scatters by in per cent, for example --sigma 3%")
+    })
+}
+
+/// `ibr.diagnose.bench`: `ibr diagnose TABLE`, a table of bench tests
+#[derive(Serialize)]
+struct BenchDiagnosisAnswer<'a> {
+    /// What was found
+    #[serde(flatten)]
+    found: &'a BenchDiagnosis,
+    /// How its numbers came to be
+    provenance: Provenance,
+}
+
+fn diagnosis_text(d: &BenchDiagnosis, bench: &Bench) -> String {
+    let verdict = match d.verdict {
+        Some(Verdict::None) => "no missing effect detectable",
+        Some(Verdict::TooSmall) => "more than noise, too small to name",
+        Some(Verdict::Effect) => "an effect is missing",
+        Some(Verdict::OutOfCatalog) => "something is missing that no single effect of the catalogue explains",
+        None => "none: ranking only",
+    };
+    let head = format!("{} held against {}, {} rows ({})", d.scenario, d.table, d.rows, bench.provenance.word());
+    let mut out = format!("{head}\n\nVerdict: {verdict}\n{}{}", lines("  - ", &d.summary), ranking(d));
+    for r in d.set().filter(|_| d.verdict != Some(Verdict::None)) {
+        let BenchRanked { effect, sentence, differs, remedy, .. } = r;
+        let group = r.group.word();
+        out += &format!("\n{effect} ({group}): {sentence}\n  shows: {differs}\n  check: {remedy}\n");
+    }
+    out += &format!("\nWhere the model as it is fails:\n{}", lines("  - ", &d.where_it_fails));
+    if let Some(best) = d.set().next() {
+        out += &format!("\nWhere it fails with {}:\n{}", best.effect, lines("  - ", &d.leftover));
+    }
+    out
+}
+
+fn ranking(d: &BenchDiagnosis) -> String {
+    let mark = |r: &&BenchRanked| match (r.in_set && d.verdict != Some(Verdict::None), r.at_bound) {
+        (true, _) => "=",
+        (false, true) => "!",
+        (false, false) => "",
+    };
+    let mut rows = Table::of(&d.ranked)
+        .words("", mark)
+        .words("effect", |r| &r.effect)
+        .words("value, 95 %", |r| listed(&r.parameters))
+        .number("off %", 1, |r| 100.0 * r.off);
+    for (k, left) in d.left_out.iter().enumerate() {
+        rows = rows.number(format!("left-out {} %", left.what), 1, |r| r.left_out.get(k).map(|l| 100.0 * l.off));
+    }
+    let rows =
+        rows.number("gain", 1, |r| r.gain).right("p corrected", |r| r.p_corrected.map_or("–".into(), p_text)).text();
+    let percent = |share: f64| number(Some(100.0 * share), 1);
+    let base: String = d.left_out.iter().map(|l| format!(", {} at left-out {}s", percent(l.off), l.what)).collect();
+    let legend = "= cannot be told from the best · ! on a physical bound, rejected";
+    format!("\nEach effect alone (model as it is: {} % off{base}):\n{rows}{legend}\n", percent(d.off))
+}

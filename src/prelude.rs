@@ -1,0 +1,19 @@
+//! Names that most commands, tables and pages use.
+
+pub(crate) use crate::context::{Context, Outcome};
+pub(crate) use crate::failure::{Failure, MISSED, Result};
+pub(crate) use crate::output::{
+    Input, check_folder, check_set_folder, imprint, machine, maker, program, replace_files,
+};
+pub(crate) use crate::output::{read_input, set_name, sha256, spares_inputs, write_example, write_files, write_texts};
+pub(crate) use crate::pages::Files;
+pub(crate) use crate::tables::{Table, lines, printed, wrapped};
+pub(crate) use crate::words::{effect, in_words, number, pressure_words};
+pub(crate) use compare::{Evidence, ScenarioFile};
+pub(crate) use data::{Dataset, Provenance};
+pub(crate) use models::scenario::quantity::Quantity;
+pub(crate) use models::{Known, Loads, Model, Scenario};
+pub(crate) use report::chart::{Bar, Chart, ChartColumn, ChartRow, Key, KeyLook, Mark, Point, RowPlace, Space};
+pub(crate) use report::{Drawn, Ink, LineSeries, LineStyle, Lines, Symbol};
+pub(crate) use serde::Serialize;
+pub(crate) use std::path::{Path, PathBuf};
