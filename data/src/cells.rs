@@ -97,6 +97,23 @@ pub(crate) fn is_certain(text: &str) -> bool {
     after.len() != 3 || before.starts_with('0') || before.is_empty() || before.len() > 3
 }
 
+/// Message and help for a cell that is no finite number; `expected` is the name of its column, `more` ends the help.
+pub(crate) fn no_number(text: &str, expected: &str, more: &str) -> [String; 2] {
+    let message = match text.parse::<f64>() {
+        _ if text.is_empty() => "expected a number, the cell is empty".to_string(),
+        Ok(_) => format!("expected a finite number, found \"{text}\""),
+        Err(_) => format!("expected a number, found \"{text}\""),
+    };
+    let with_point = text.replace(',', ".");
+    let help = match with_point.parse::<f64>().is_ok_and(f64::is_finite) {
+        true => format!("write decimals with a point: {with_point}"),
+        false => format!(
+            "type a plain number such as 12.5 (the unit belongs to the column name, as in {expected}), or delete the row{more}"
+        ),
+    };
+    [message, help]
+}
+
 fn thousands(line: &Line, text: &str) -> DataError {
     let message = format!(
         "\"{text}\" can be read as {} (decimal comma) or as {} (comma of thousands), and so can every number with a comma here",

@@ -150,7 +150,8 @@ fn meaning(name: &str) -> Meaning {
 }
 
 fn without_unit(line: &Line, names: &[String], missing: usize, is_strict: bool) -> Option<DataError> {
-    columns::without_unit(line, names, &QUANTITIES, &meaning, &|quantity| (quantity == missing).then_some(is_strict))
+    let is_asked = |quantity| (quantity == missing).then_some(is_strict);
+    columns::without_unit(line, names, &QUANTITIES, &meaning, &is_asked).map(DataError::Column)
 }
 
 /// Columns that a table of this kind may lack by a slip.

@@ -1,6 +1,6 @@
 //! One line of the table as one checked observation in SI units.
 
-use crate::cells::{Decimals, is_nothing, label, with_comma};
+use crate::cells::{Decimals, is_nothing, label, no_number, with_comma};
 use crate::dataset::Phase;
 use crate::error::{DataError, Fault, Result};
 use crate::header::{
@@ -331,24 +331,12 @@ impl<'a> Cells<'a> {
     }
 
     fn not_a_number(&self, quantity: usize, text: &str) -> Box<Fault> {
-        let message = match text.parse::<f64>() {
-            _ if text.is_empty() => "expected a number, the cell is empty".to_string(),
-            Ok(_) => format!("expected a finite number, found \"{text}\""),
-            Err(_) => format!("expected a number, found \"{text}\""),
-        };
-        let name = QUANTITIES[quantity].expected;
         let lost = match quantity {
             X | Y | Z if self.has(Z) => "; of a marker that was not seen leave x, y and z empty",
             X | Y => "; of a marker that was not seen leave x and y empty",
             _ => "",
         };
-        let help = if text.replace(',', ".").parse::<f64>().is_ok_and(f64::is_finite) {
-            format!("write decimals with a point: {}", text.replace(',', "."))
-        } else {
-            format!(
-                "type a plain number such as 12.5 (the unit belongs to the column name, as in {name}), or delete the row{lost}"
-            )
-        };
+        let [message, help] = no_number(text, QUANTITIES[quantity].expected, lost);
         self.fault(quantity, message, help)
     }
 
