@@ -1,6 +1,7 @@
 //! The bench itself: what it draws, and that it reports what fails.
 
 use super::*;
+use compare::diagnosis::Options;
 use crate::HIDDEN;
 
 #[test]
