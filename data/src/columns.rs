@@ -279,12 +279,17 @@ impl TableRow<'_> {
     /// # Errors
     /// Anything else than a finite number.
     pub fn number(&self, field: usize) -> Result<Option<f64>> {
+        self.read(field, Unit::to_si)
+    }
+
+    /// The same, with units converted by `si`.
+    pub fn read(&self, field: usize, si: impl Fn(Unit, f64) -> f64) -> Result<Option<f64>> {
         let Some(column) = &self.columns.at[field] else { return Ok(None) };
         let text = self.text(field);
         let comma = || self.columns.comma.then(|| with_comma(text)).flatten();
         let value = text.parse::<f64>().ok().or_else(comma);
-        let si = value.map(|value| column.unit.map_or(value, |unit| unit.to_si(value)));
-        si.filter(|value| value.is_finite()).map(Some).ok_or_else(|| {
+        let in_si = value.map(|value| column.unit.map_or(value, |unit| si(unit, value)));
+        in_si.filter(|value| value.is_finite()).map(Some).ok_or_else(|| {
             let [message, help] = no_number(text, self.columns.fields[field].expected, "");
             DataError::Cell(self.fault(field, message, help))
         })

@@ -45,7 +45,9 @@ pub use lines::Progress;
 pub use load::load;
 pub use lost::losses;
 pub use policy::is_a_room;
-pub use published::{Published, PublishedActuator, PublishedFabric, PublishedFact, published};
+pub use published::{
+    Published, PublishedActuator, PublishedFabric, PublishedFact, PublishedProtocol, PublishedSimulation, published,
+};
 pub use read::{ReadOptions, markers_of_table, parse_markers, read_markers};
 pub use sets::{SetInfo, set_about, set_file, sets};
 pub use table::{Column, Table, read_parquet};

@@ -56,7 +56,8 @@ fn row(kind: &'static BenchKind, shared: &[Option<f64>], row: &TableRow) -> Resu
     let mut values = shared.to_vec();
     for (at, field) in kind.columns.iter().enumerate() {
         if field.needed || !row.text(at).is_empty() {
-            values[at] = row.number(at)?.or(values[at]);
+            // Stored results rest on these bits: a product of the factor, not a quotient.
+            values[at] = row.read(at, |unit, value| value * unit.factor())?.or(values[at]);
         }
         if field.needed && values[at].is_none() {
             let help = format!("add the column, or # {}: 155 above the header", field.expected);
