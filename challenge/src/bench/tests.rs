@@ -1,8 +1,8 @@
 //! The bench itself: what it draws, and that it reports what fails.
 
 use super::*;
-use compare::diagnosis::Options;
 use crate::HIDDEN;
+use compare::diagnosis::Options;
 
 #[test]
 fn all_robots_and_all_effects_take_part_equally() {
