@@ -21,4 +21,4 @@ impl Laws {
 }
 
 /// Amounts of one mechanism by law, first and second; both off at 0.
-pub type ByLaw = [f64; 2];
+pub(crate) type ByLaw = [f64; 2];

@@ -11,7 +11,7 @@ pub(super) struct CellPoses {
 }
 
 impl CellPoses {
-    pub fn new(cells: &[Cell], curvatures: &[f64]) -> CellPoses {
+    pub(crate) fn new(cells: &[Cell], curvatures: &[f64]) -> CellPoses {
         let (mut xy, mut heading) = ([0.0; 2], 0.0);
         let mut shape = CellPoses { nodes: vec![xy], headings: vec![heading] };
         for (cell, kappa) in cells.iter().zip(curvatures) {
@@ -24,7 +24,7 @@ impl CellPoses {
     }
 
     /// The point of the centre line at a station.
-    pub fn point(&self, cells: &[Cell], curvatures: &[f64], station_m: f64) -> SeenPoint {
+    pub(crate) fn point(&self, cells: &[Cell], curvatures: &[f64], station_m: f64) -> SeenPoint {
         let i = cells.iter().rposition(|cell| cell.start_m <= station_m).unwrap_or(0);
         let (cell, offset) = (&cells[i], station_m - cells[i].start_m);
         let xy = along(self.nodes[i], self.headings[i], curvatures[i], offset, cell.centre_line_m);
@@ -33,7 +33,7 @@ impl CellPoses {
 
     /// Generalised force of the loads on every curvature \[N·m\]: the turn of what lies beyond the cell's middle, and the
     /// shortening of the centre line there.
-    pub fn moments(&self, cells: &[Cell], loads: &DeadLoads) -> Vec<f64> {
+    pub(crate) fn moments(&self, cells: &[Cell], loads: &DeadLoads) -> Vec<f64> {
         let tip = self.nodes[cells.len()];
         let mut beyond = FarForces { force: [0.0; 2], turn: 0.0 };
         beyond.add(tip, loads.on_tip(tip));

@@ -55,7 +55,7 @@ impl Decimals {
     ///
     /// # Errors
     /// A file that writes decimals both with a point and with a comma.
-    pub fn number(&mut self, text: &str, allowed: bool, line: &Line) -> Result<Option<f64>> {
+    pub(crate) fn number(&mut self, text: &str, allowed: bool, line: &Line) -> Result<Option<f64>> {
         if !(allowed && text.contains(',')) {
             let value = text.parse().ok();
             self.point |= allowed && text.contains('.') && value.is_some();
@@ -77,7 +77,7 @@ impl Decimals {
     ///
     /// # Errors
     /// Every comma may be one of thousands; a point elsewhere.
-    pub fn finish(&self) -> Result<bool> {
+    pub(crate) fn finish(&self) -> Result<bool> {
         match &self.doubtful {
             Some((line, text)) if self.point => Err(both(&line.line(), text)),
             Some((line, text)) if !self.comma => Err(thousands(&line.line(), text)),

@@ -60,7 +60,7 @@ pub(crate) enum Meaning {
 
 impl Meaning {
     /// What a name means; upper and lower case are one.
-    pub fn of(name: &str, fields: &[Field]) -> Meaning {
+    pub(crate) fn of(name: &str, fields: &[Field]) -> Meaning {
         let name = name.to_lowercase();
         let by_base = |base: &str| fields.iter().position(|field| field.base == base);
         if let Some(at) = by_base(&name) {
@@ -75,7 +75,7 @@ impl Meaning {
     }
 
     /// The field, whatever its unit.
-    pub fn field(&self) -> Option<usize> {
+    pub(crate) fn field(&self) -> Option<usize> {
         match self {
             Meaning::Known(at, _) | Meaning::NoUnit(at) | Meaning::OtherUnit(at) => Some(*at),
             Meaning::Extra => None,
@@ -167,7 +167,7 @@ pub(crate) struct Note {
 }
 
 impl Note {
-    pub fn wrong(&self, message: String, help: String) -> DataError {
+    pub(crate) fn wrong(&self, message: String, help: String) -> DataError {
         DataError::Cell(self.line.line().fault(message, help))
     }
 }
@@ -238,7 +238,7 @@ pub(crate) struct Columns {
 
 impl Columns {
     /// The column of a field as the file names it.
-    pub fn name(&self, field: usize) -> &str {
+    pub(crate) fn name(&self, field: usize) -> &str {
         self.at[field].as_ref().map_or(self.fields[field].expected, |column| &self.names[column.index])
     }
 
@@ -246,7 +246,7 @@ impl Columns {
     ///
     /// # Errors
     /// More or fewer cells than names.
-    pub fn row<'a>(&'a self, line: Line<'a>) -> Result<TableRow<'a>> {
+    pub(crate) fn row<'a>(&'a self, line: Line<'a>) -> Result<TableRow<'a>> {
         let cells: Vec<&str> =
             line.text.split(self.delimiter).map(|cell| cell.trim().trim_matches('"').trim()).collect();
         let (found, names) = (cells.len(), self.names.len());
@@ -270,7 +270,7 @@ pub(crate) struct TableRow<'a> {
 
 impl TableRow<'_> {
     /// The text of a field; empty if it has no column.
-    pub fn text(&self, field: usize) -> &str {
+    pub(crate) fn text(&self, field: usize) -> &str {
         self.columns.at[field].as_ref().map_or("", |column| self.cells[column.index])
     }
 
@@ -278,12 +278,12 @@ impl TableRow<'_> {
     ///
     /// # Errors
     /// Anything else than a finite number.
-    pub fn number(&self, field: usize) -> Result<Option<f64>> {
+    pub(crate) fn number(&self, field: usize) -> Result<Option<f64>> {
         self.read(field, Unit::to_si)
     }
 
     /// The same, with units converted by `si`.
-    pub fn read(&self, field: usize, si: impl Fn(Unit, f64) -> f64) -> Result<Option<f64>> {
+    pub(crate) fn read(&self, field: usize, si: impl Fn(Unit, f64) -> f64) -> Result<Option<f64>> {
         let Some(column) = &self.columns.at[field] else { return Ok(None) };
         let text = self.text(field);
         let comma = || self.columns.comma.then(|| with_comma(text)).flatten();
@@ -296,7 +296,7 @@ impl TableRow<'_> {
     }
 
     /// A fault of one cell.
-    pub fn fault(&self, field: usize, message: String, help: String) -> Box<Fault> {
+    pub(crate) fn fault(&self, field: usize, message: String, help: String) -> Box<Fault> {
         let mut fault = self.line.fault(message, help);
         let Some(Column { index, .. }) = self.columns.at[field] else { return fault };
         let cell = self.cells[index];

@@ -29,12 +29,12 @@ struct Raw {
 }
 
 impl<'a> Specimens<'a> {
-    pub fn new(file: &str, header: &'a Columns, facts: Facts) -> Specimens<'a> {
+    pub(super) fn new(file: &str, header: &'a Columns, facts: Facts) -> Specimens<'a> {
         Specimens { file: file.to_string(), header, facts, found: Vec::new() }
     }
 
     /// Adds a row to its specimen.
-    pub fn add(&mut self, cells: &TableRow) -> Result<(), DataError> {
+    pub(super) fn add(&mut self, cells: &TableRow) -> Result<(), DataError> {
         let [x, y] = curve(self.header);
         let row = [cells.number(x)?.unwrap_or_default(), cells.number(y)?.unwrap_or_default()];
         let name = cells.text(SPECIMEN);
@@ -69,7 +69,7 @@ impl<'a> Specimens<'a> {
     }
 
     /// The specimens, complete and checked; the first has what was assumed about the file.
-    pub fn finish(self, defaults: &CouponDefaults, told: &[String]) -> Result<Vec<Coupon>, DataError> {
+    pub(super) fn finish(self, defaults: &CouponDefaults, told: &[String]) -> Result<Vec<Coupon>, DataError> {
         if self.found.is_empty() {
             let fault = Fault::of_file(&self.file, "the file has a header and no rows", "add the rows of a specimen");
             return Err(DataError::Layout(Box::new(fault)));

@@ -3,7 +3,7 @@
 //! The expected ones stand in `known.txt` as text, so that the last printed digit sets the tolerance: nobody can widen it.
 
 /// Sections of `known.txt` with what this code gives for their lines, in order.
-pub type Known = Vec<(&'static str, Vec<f64>)>;
+pub(super) type Known = Vec<(&'static str, Vec<f64>)>;
 
 const PRINTED: &str = include_str!("known.txt");
 
