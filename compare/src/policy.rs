@@ -201,8 +201,9 @@ pub const FEWEST_HOLDS: usize = 3;
 pub const READINGS_LAST: f64 = 0.05;
 /// Share of a kind of scatter of holds that errors of whole runs leave, from which on it is looked for.
 pub const NEW_IN_HOLDS: f64 = 0.05;
-/// A kind of scatter of holds is there from so many standard errors of its variance on, and tests take the variance for so many of them
-/// larger.
+/// A kind of scatter of holds is there from so many standard errors of its variance on.
+pub const HOLD_SCATTER_SEEN: f64 = 1.2;
+/// Tests take that variance for so many standard errors larger.
 pub const HOLD_VARIANCE_ERRORS: f64 = 1.5;
 /// Standard errors by which a pressure falls that runs down during a hold.
 pub const RUNS_DOWN: f64 = 4.0;
@@ -246,7 +247,7 @@ pub fn are_strays(share: f64, runs: usize) -> bool {
 
 /// Whether holds have scatter of a kind, of its variance and the standard error of that.
 pub fn holds_scatter(variance: f64, error: f64) -> bool {
-    variance > HOLD_VARIANCE_ERRORS * error
+    variance > HOLD_SCATTER_SEEN * error
 }
 
 /// Whether the scatter of two holds is not one, of the chance of that for any pair and of their quotient.
