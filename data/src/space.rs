@@ -53,10 +53,11 @@ impl Dataset {
     /// What a planar robot leaves aside of this table, in words; nothing of a planar table.
     ///
     /// # Errors
-    /// Markers that move towards z more than towards y; y that points down, which is not asked before of a table with z.
+    /// Markers that move towards z more than towards y; y that points down, which is not asked before of
+    /// a table with z or several channels.
     pub fn left_aside(&self) -> Result<Option<String>> {
         let refused = |message: String, help: &str| Err(DataError::runs(&self.name, message, help));
-        if !self.has_z() {
+        if !self.is_spatial() {
             return Ok(None);
         }
         let [y_mm, z_mm] = [1, 2].map(|axis| mm(self.travel_m(axis)));
