@@ -31,7 +31,7 @@ impl CellPoses {
         SeenPoint { xy, heading: self.headings[i] + curvatures[i] * offset, station_m }
     }
 
-    /// Generalised force of the loads on every curvature \[N·m\]: the turn of what lies beyond the cell's middle, and the
+    /// Generalised force of the loads on every curvature \[N·m\]: the turn of everything beyond the cell's middle, and the
     /// shortening of the centre line there.
     pub(crate) fn moments(&self, cells: &[Cell], loads: &DeadLoads) -> Vec<f64> {
         let tip = self.nodes[cells.len()];

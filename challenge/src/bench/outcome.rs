@@ -26,7 +26,7 @@ pub struct PlannedSet {
 pub enum Lot {
     /// Hidden by the generator.
     Hidden(Hiding),
-    /// The same sets, of robots whose bending stiffness was measured by itself, to 10 %.
+    /// The same sets, of robots whose bending stiffness was measured, to 10 %.
     Measured(Hiding),
     /// One effect by the catalogue's own law, for which a true value of its parameter exists.
     Interval,
@@ -62,11 +62,11 @@ pub struct Named {
     pub score: ClaimScore,
     /// A single name is called identified.
     pub identified: bool,
-    /// Something in the data was told to look like a slip.
+    /// Something in the data was reported as a likely slip.
     pub slip: bool,
     /// A column of pressures was, and the verdict withheld.
     pub pressure_slip: bool,
-    /// The stiffness of the answer was told to be another one than the scenario or a bending test says.
+    /// The stiffness of the answer was reported to differ from that of the scenario or of a bending test.
     pub bending_alarm: bool,
     /// Error beyond noise of the calibrated base and of the final model \[mm\].
     pub systematic_mm: [f64; 2],

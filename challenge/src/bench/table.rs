@@ -6,7 +6,7 @@ use crate::Hiding;
 use Goal::{AtLeast, AtMost, Between};
 use serde::Serialize;
 
-/// One named effect beside the hidden one.
+/// One named effect with the hidden one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Confusion {
     /// Hidden.

@@ -50,7 +50,7 @@ pub struct ShearCurve {
     pub moment_pa: Option<Vec<[f64; 2]>>,
 }
 
-/// What one specimen says.
+/// The numbers of one specimen.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Specimen {
     /// Label.
@@ -65,7 +65,7 @@ pub struct Specimen {
     pub modulus_pa: Option<f64>,
     /// Strain up to which the modulus was taken.
     pub modulus_strain: f64,
-    /// Strain before the specimen was taut, taken off.
+    /// Strain before the specimen was taut, subtracted.
     pub slack: f64,
     /// Contraction across per stretch along, where the width under load is known.
     pub poisson: Option<f64>,

@@ -55,7 +55,7 @@ pub struct Coupon {
     pub told: Vec<String>,
 }
 
-/// What holds where a file says nothing; a file that says something else is refused.
+/// What holds where a file has no line; a file with another value is refused.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct CouponDefaults {
     /// Direction \[deg\].
