@@ -16,7 +16,7 @@
 //! drift      y + d u²                                                           the camera's stand moves with the robot's reaction
 //! ```
 
-use super::effects::ByLaw;
+use super::laws::ByLaw;
 
 /// Lean of pins \[rad\].
 const LEAN_RAD: f64 = 0.349;

@@ -20,7 +20,7 @@
 //! lock            τ += τ_L ((1 − γ/0.36)⁻³ − 1)                   van Wyk: fibres that are pressed together
 //! ```
 
-use super::effects::ByLaw;
+use super::laws::ByLaw;
 use models::actuators::Family;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 

@@ -9,13 +9,17 @@
 //! catalogue's entry of the same name, as real robots do. There are two such laws of each, chosen by [`Laws`]. Quasi-static: at every instant each cell balances, with what it
 //! remembers of friction, creep and set.
 
+#![warn(unreachable_pub)]
+
 pub mod bench;
 pub mod camera;
 pub mod drive;
 pub mod effects;
+mod laws;
 pub mod loads;
 pub mod march;
 pub mod measure;
+mod poses;
 mod reveal;
 pub mod riddle;
 pub mod robot;

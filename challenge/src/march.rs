@@ -1,6 +1,6 @@
 //! A run: the protocol in time, cell by cell, with what the cells remember.
 
-use super::loads::CellPoses;
+use super::poses::CellPoses;
 use super::robot::{Acting, TrueRobot};
 use super::wall::{CellMemory, CellWall};
 use compare::error::CompareError;

@@ -3,7 +3,7 @@
 use super::march;
 use super::robot::TrueRobot;
 use compare::error::CompareError;
-use compare::study::generate::{Generator, Manometer, Scatter, holds, markers};
+use compare::study::generate::{Generator, Manometer, Scatter, Seen, holds, markers};
 use data::{Dataset, Hold};
 use models::Scenario;
 
@@ -23,9 +23,6 @@ pub struct Measurement {
 const LOST: f64 = 0.05;
 /// Sets the losses apart from the scatter, which is the same without them.
 const LOSSES: u64 = 0x1057;
-
-/// Degrees of freedom of heavy-tailed noise: the least with a variance.
-const HEAVY_DOF: usize = 3;
 
 /// Positions without any scatter, in run layout \[m\].
 ///
@@ -61,20 +58,21 @@ pub fn measure_holds(
     holds: Vec<Hold>,
 ) -> Result<Dataset, CompareError> {
     let g = &measurement.generator;
-    let mut scatter = Scatter::new(g.seed);
+    let mut eye = Seen::new(g, holds.len());
+    eye.heavy_tails = measurement.heavy_tails;
     let mut manometer = g.gauge.then(|| Manometer::new(g.seed));
     let (mut coordinates_m, mut readings) = (Vec::new(), Vec::new());
     for _ in 0..g.runs {
-        let gain = 1.0 + g.pressure_sd * scatter.normal();
-        let shift = [scatter.normal(), scatter.normal()].map(|n| n * g.alignment_sd_m);
-        let roll = g.rotation_sd * scatter.normal();
-        for xy in march::run(robot, &holds, gain)?.chunks_exact(2) {
-            let noise = [0, 1].map(|_| g.camera_sd_m * camera_noise(&mut scatter, measurement.heavy_tails));
-            coordinates_m.push(xy[0] - roll * xy[1] + shift[0] + noise[0]);
-            coordinates_m.push(xy[1] + roll * xy[0] + shift[1] + noise[1]);
+        let gains = eye.next_run();
+        let pressed = |(hold, gain): (&Hold, &f64)| Hold { p_act_pa: gain * hold.p_act_pa, ..hold.clone() };
+        let pressed: Vec<Hold> = holds.iter().zip(&gains).map(pressed).collect();
+        let positions_m = march::run(robot, &pressed, 1.0)?;
+        let markers: Vec<[f64; 2]> = positions_m.as_chunks().0.to_vec();
+        for sample in markers.chunks(scenario.markers_m.len()) {
+            eye.look(sample, &mut coordinates_m);
         }
         if let Some(manometer) = &mut manometer {
-            read(manometer, robot, &holds, gain, &mut readings);
+            read(manometer, robot, &holds, &gains, &mut readings);
         }
     }
     let made = Dataset {
@@ -109,25 +107,14 @@ fn lost(dataset: &Dataset, seed: u64) -> Vec<[usize; 3]> {
     cells.filter(|cell| is_lost(cell)).collect()
 }
 
-/// Readings of one run, `[hold][sample]` \[Pa\]; `gain` is the run's factor on the pressure.
-fn read(manometer: &mut Manometer, robot: &TrueRobot, holds: &[Hold], gain: f64, readings: &mut Vec<f64>) {
+/// Readings of one run, `[hold][sample]` \[Pa\]; `gains` are its factors on the pressures of the holds.
+fn read(manometer: &mut Manometer, robot: &TrueRobot, holds: &[Hold], gains: &[f64], readings: &mut Vec<f64>) {
     let mut begin_s = 0.0;
-    for hold in holds {
+    for (hold, gain) in holds.iter().zip(gains) {
         for t_s in &hold.t_s {
-            let p_pa = robot.supply.pressure(hold.p_act_pa, gain, march::held_s(*t_s, begin_s));
+            let p_pa = robot.supply.pressure(hold.p_act_pa, *gain, march::held_s(*t_s, begin_s));
             readings.push(manometer.read(p_pa));
         }
         begin_s = hold.t_s.last().copied().unwrap_or(begin_s);
     }
-}
-
-/// One number of variance 1.
-fn camera_noise(scatter: &mut Scatter, heavy_tails: bool) -> f64 {
-    let normal = scatter.normal();
-    if !heavy_tails {
-        return normal;
-    }
-    let chi2: f64 = (0..HEAVY_DOF).map(|_| scatter.normal().powi(2)).sum();
-    // t = n/√(χ²/3) has the variance 3.
-    normal / chi2.sqrt()
 }

@@ -55,13 +55,14 @@ impl Truth {
     /// The truth in words.
     pub fn words(&self) -> String {
         let mut text = format!(
-            "Robot: actuator {}, bending stiffness {:.3} N m², {} runs, camera noise {:.2} mm{}{}.\n",
+            "Robot: actuator {}, bending stiffness {:.3} N m², {} runs, camera noise {:.2} mm{}{}{}.\n",
             self.actuator,
             self.bending_nm2,
             self.runs,
             self.camera_sd_m * 1e3,
             if self.heavy_tails { " with heavy tails" } else { "" },
-            if self.lost_markers { ", markers lost" } else { "" }
+            if self.lost_markers { ", markers lost" } else { "" },
+            if self.holds_scatter { ", holds scatter" } else { "" }
         );
         if self.effects.is_empty() {
             text.push_str("Hidden: nothing.\n");

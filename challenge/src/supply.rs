@@ -13,7 +13,7 @@
 //! stuck       p (1 − s) if the set pressure is `stuck_at_pa`   one set point is not reached, in every run
 //! ```
 
-use super::effects::ByLaw;
+use super::laws::ByLaw;
 
 /// Supply laws; all off at 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

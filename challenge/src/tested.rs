@@ -22,7 +22,7 @@ const STEP_RAD: f64 = 1e-3;
 ///
 /// # Errors
 /// Not an actuator of the bench.
-pub fn bench_tests(truth: &Truth, names: &[String]) -> Result<Vec<MeasuredValue>, CompareError> {
+pub(crate) fn bench_tests(truth: &Truth, names: &[String]) -> Result<Vec<MeasuredValue>, CompareError> {
     let robot = truth.robot()?;
     let mut scatter = Scatter::new(truth.seed ^ 0xFAB);
     let mut all = Vec::new();

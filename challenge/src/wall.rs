@@ -24,7 +24,7 @@
 //! set             − B κ_p, κ_max = κ_e + κ_p, κ_p = s κ_e²/κ_c                 Ramberg–Osgood, for good
 //! ```
 
-use super::effects::ByLaw;
+use super::laws::ByLaw;
 
 /// Shares and relaxation times of creep by law \[-, s\]. The second ones are the spectrum (τ₀/τ)^α e^(−τ₀/τ) ln 4/Γ(α) of
 /// (1 + t/τ₀)^(−α), τ₀ = 0.1 s, α = 0.2; what relaxes later than in half an hour is part of B.

@@ -42,4 +42,4 @@ pub use study::comparison::{Comparison, compare};
 pub use validation::{Validation, validate};
 
 use judge::{accuracy, beside_mean, scaling};
-use readings::{data_slope, directions, gauge, layout, noise_summary, prepare, run_scatter};
+use readings::{data_slope, directions, gauge, hold_scatter, layout, noise_summary, prepare, run_scatter};

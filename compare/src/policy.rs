@@ -195,6 +195,16 @@ pub const HOLD_STANDS_OUT: f64 = 0.01;
 pub const RUN_SCATTERS: f64 = 1.5;
 /// Runs of which one can be told as the odd one, and for which p-values are given.
 pub const FEWEST_RUNS: usize = 3;
+/// Fewest holds that show how single holds scatter.
+pub const FEWEST_HOLDS: usize = 3;
+/// Errors last through a hold where the chance of so much scatter of its readings by that of its samples is less.
+pub const READINGS_LAST: f64 = 0.05;
+/// Share of a kind of scatter of holds that errors of whole runs leave, from which on it is looked for.
+pub const NEW_IN_HOLDS: f64 = 0.05;
+/// A kind of scatter of holds is there from so many standard errors of its variance on.
+pub const HOLD_SCATTER_SEEN: f64 = 1.2;
+/// Tests take that variance for so many standard errors larger.
+pub const HOLD_VARIANCE_ERRORS: f64 = 1.5;
 /// Standard errors by which a pressure falls that runs down during a hold.
 pub const RUNS_DOWN: f64 = 4.0;
 /// Specification of the sensors, the least scatter ever assumed in a test: pressure 0.3 % of the reading, a gauge's gain too, alignment
@@ -233,6 +243,11 @@ pub fn is_a_misfit(mean_square: f64) -> bool {
 /// Whether stray samples are so few that the other runs may stand in for them.
 pub fn are_strays(share: f64, runs: usize) -> bool {
     share <= MOST_REPLACED && runs >= FEWEST_RUNS
+}
+
+/// Whether holds have scatter of a kind, of its variance and the standard error of that.
+pub fn holds_scatter(variance: f64, error: f64) -> bool {
+    variance > HOLD_SCATTER_SEEN * error
 }
 
 /// Whether the scatter of two holds is not one, of the chance of that for any pair and of their quotient.

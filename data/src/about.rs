@@ -40,10 +40,11 @@ pub(crate) use read::parse_toml;
 pub use read::{parse_about, read_about};
 
 /// How numbers came to be; the layers of truth are never mixed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Provenance {
     /// Measured on a robot.
+    #[default]
     Measured,
     /// Read off a printed figure.
     Digitised,

@@ -55,7 +55,7 @@ impl Decimals {
     ///
     /// # Errors
     /// A file that writes decimals both with a point and with a comma.
-    pub fn number(&mut self, text: &str, allowed: bool, line: &Line) -> Result<Option<f64>> {
+    pub(crate) fn number(&mut self, text: &str, allowed: bool, line: &Line) -> Result<Option<f64>> {
         if !(allowed && text.contains(',')) {
             let value = text.parse().ok();
             self.point |= allowed && text.contains('.') && value.is_some();
@@ -77,7 +77,7 @@ impl Decimals {
     ///
     /// # Errors
     /// Every comma may be one of thousands; a point elsewhere.
-    pub fn finish(&self) -> Result<bool> {
+    pub(crate) fn finish(&self) -> Result<bool> {
         match &self.doubtful {
             Some((line, text)) if self.point => Err(both(&line.line(), text)),
             Some((line, text)) if !self.comma => Err(thousands(&line.line(), text)),
@@ -95,6 +95,23 @@ pub(crate) fn with_comma(text: &str) -> Option<f64> {
 pub(crate) fn is_certain(text: &str) -> bool {
     let Some((before, after)) = text.trim_start_matches(['-', '+']).split_once(',') else { return false };
     after.len() != 3 || before.starts_with('0') || before.is_empty() || before.len() > 3
+}
+
+/// Message and help for a cell that is no finite number; `expected` is the name of its column, `more` ends the help.
+pub(crate) fn no_number(text: &str, expected: &str, more: &str) -> [String; 2] {
+    let message = match text.parse::<f64>() {
+        _ if text.is_empty() => "expected a number, the cell is empty".to_string(),
+        Ok(_) => format!("expected a finite number, found \"{text}\""),
+        Err(_) => format!("expected a number, found \"{text}\""),
+    };
+    let with_point = text.replace(',', ".");
+    let help = match with_point.parse::<f64>().is_ok_and(f64::is_finite) {
+        true => format!("write decimals with a point: {with_point}"),
+        false => format!(
+            "type a plain number such as 12.5 (the unit belongs to the column name, as in {expected}), or delete the row{more}"
+        ),
+    };
+    [message, help]
 }
 
 fn thousands(line: &Line, text: &str) -> DataError {

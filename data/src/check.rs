@@ -239,7 +239,8 @@ fn samples_of(dataset: &Dataset, hold: usize, marker: usize) -> impl Iterator<It
 
 /// `[run][hold, sample, marker]`: distance of a coordinate from the median over runs \[m\].
 fn deviations_from_median_m(dataset: &Dataset, axis: usize) -> Vec<Vec<f64>> {
-    let of_run = |run: usize| -> Vec<f64> { dataset.run(run).iter().skip(axis).step_by(dataset.axes).copied().collect() };
+    let of_run =
+        |run: usize| -> Vec<f64> { dataset.run(run).iter().skip(axis).step_by(dataset.axes).copied().collect() };
     let runs: Vec<Vec<f64>> = (0..dataset.runs.len()).map(of_run).collect();
     let over_runs = |i: usize| median(runs.iter().map(|run| run[i]).collect());
     let centre: Vec<f64> = (0..dataset.values_per_run() / dataset.axes).map(over_runs).collect();

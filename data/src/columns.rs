@@ -1,7 +1,9 @@
-//! Names in the header of a table: what a kind of table may hold, and which column holds it in which unit.
+//! The grammar of a table: comments `# key: value`, a header whose names end with units, rows of cells.
 
+use crate::about::Provenance;
+use crate::cells::{no_number, with_comma};
 use crate::error::{DataError, Fault, Result};
-use crate::lines::Line;
+use crate::lines::{KeptLine, Line, Lines};
 use crate::units::Measured;
 use spelling::units::Unit;
 
@@ -33,6 +35,11 @@ impl Field {
         self.dimension.is_some()
     }
 
+    /// The unit that a name ends with, in lower case.
+    pub(crate) fn unit(&self, suffix: &str) -> Option<Unit> {
+        self.dimension?.unit(suffix)
+    }
+
     /// How to name it and in which units, for a message.
     pub(crate) fn naming(&self) -> String {
         let units = self.dimension.map(|dimension| format!("; {}", dimension.sentence())).unwrap_or_default();
@@ -53,24 +60,22 @@ pub(crate) enum Meaning {
 
 impl Meaning {
     /// What a name means; upper and lower case are one.
-    pub fn of(name: &str, fields: &[Field]) -> Meaning {
+    pub(crate) fn of(name: &str, fields: &[Field]) -> Meaning {
         let name = name.to_lowercase();
         let by_base = |base: &str| fields.iter().position(|field| field.base == base);
         if let Some(at) = by_base(&name) {
             return if fields[at].has_unit() { Meaning::NoUnit(at) } else { Meaning::Known(at, None) };
         }
         let Some((base, suffix)) = name.rsplit_once('_') else { return Meaning::Extra };
-        match by_base(base).and_then(|at| Some((at, fields[at].dimension?))) {
-            Some((at, dimension)) => match dimension.unit(suffix) {
-                Some(unit) => Meaning::Known(at, Some(unit)),
-                None => Meaning::OtherUnit(at),
-            },
+        match by_base(base).filter(|at| fields[*at].has_unit()).map(|at| (at, fields[at].unit(suffix))) {
+            Some((at, Some(unit))) => Meaning::Known(at, Some(unit)),
+            Some((at, None)) => Meaning::OtherUnit(at),
             None => Meaning::Extra,
         }
     }
 
     /// The field, whatever its unit.
-    pub fn field(&self) -> Option<usize> {
+    pub(crate) fn field(&self) -> Option<usize> {
         match self {
             Meaning::Known(at, _) | Meaning::NoUnit(at) | Meaning::OtherUnit(at) => Some(*at),
             Meaning::Extra => None,
@@ -141,7 +146,7 @@ pub(crate) fn without_unit(
     fields: &[Field],
     meaning: &dyn Fn(&str) -> Meaning,
     is_asked: &dyn Fn(usize) -> Option<bool>,
-) -> Option<DataError> {
+) -> Option<Box<Fault>> {
     names.iter().enumerate().find_map(|(index, name)| {
         let (at, trouble, convert) = match meaning(name) {
             Meaning::NoUnit(at) => (at, "has no unit in its name", ""),
@@ -150,6 +155,155 @@ pub(crate) fn without_unit(
         };
         is_asked(at)?;
         let (message, help) = (format!("column {name} {trouble}"), format!("{convert}{}", fields[at].naming()));
-        Some(DataError::Column(fault(line, names, index, message, help)))
+        Some(fault(line, names, index, message, help))
     })
+}
+
+/// A comment above the header, `# key: value` or `# key = value`.
+pub(crate) struct Note {
+    pub key: String,
+    pub text: String,
+    line: KeptLine,
+}
+
+impl Note {
+    pub(crate) fn wrong(&self, message: String, help: String) -> DataError {
+        DataError::Cell(self.line.line().fault(message, help))
+    }
+}
+
+/// The comments above the header line, and that line; `None` at the end of the file.
+pub(crate) fn notes(lines: &mut Lines) -> Result<(Vec<Note>, Option<KeptLine>)> {
+    let mut notes = Vec::new();
+    while let Some(line) = lines.next_filled()? {
+        let Some(comment) = line.text.trim_start().strip_prefix('#') else { return Ok((notes, Some(line.keep()))) };
+        let Some((key, value)) = comment.split_once([':', '=']) else { continue };
+        notes.push(Note { key: key.trim().to_lowercase(), text: value.trim().to_string(), line: line.keep() });
+    }
+    Ok((notes, None))
+}
+
+/// What the comments give for all rows in SI units, field by field.
+///
+/// # Errors
+/// A key without a unit, no number, two values of one field.
+pub(crate) fn shared(fields: &[Field], notes: &[Note]) -> Result<Vec<Option<f64>>> {
+    let mut values = vec![None; fields.len()];
+    for note in notes {
+        let (meaning, Note { key, text, .. }) = (Meaning::of(&note.key, fields), note);
+        let Some(at) = meaning.field() else { continue };
+        let value = match (meaning, text.parse::<f64>().ok().filter(|value| value.is_finite())) {
+            (Meaning::Known(_, unit), Some(value)) => unit.map_or(value, |unit| unit.to_si(value)),
+            (Meaning::NoUnit(_), _) => {
+                let help = format!("write # {}: {text}", fields[at].expected);
+                return Err(note.wrong(format!("{key} has no unit in its name"), help));
+            }
+            _ => {
+                let help = format!("write # {}: and a number", fields[at].expected);
+                return Err(note.wrong(format!("{key} must be a number with a known unit, found \"{text}\""), help));
+            }
+        };
+        if values[at].replace(value).is_some_and(|before| before != value) {
+            return Err(note.wrong(format!("{key} is there twice, here as {text}"), "keep one of the comments".into()));
+        }
+    }
+    Ok(values)
+}
+
+/// How the numbers came to be, by `# provenance: digitised`; measured without that comment.
+///
+/// # Errors
+/// An unknown word, two comments.
+pub(crate) fn provenance(notes: &[Note]) -> Result<Provenance> {
+    let mut all = notes.iter().filter(|note| note.key == "provenance");
+    let Some(note) = all.next() else { return Ok(Provenance::Measured) };
+    if let Some(again) = all.next() {
+        return Err(again.wrong("provenance is there twice".into(), "keep one of the comments".into()));
+    }
+    let help = "write measured, digitised, synthetic or published".to_string();
+    Provenance::of(&note.text).ok_or_else(|| note.wrong(format!("unknown provenance \"{}\"", note.text), help))
+}
+
+/// The header line of a table, understood.
+#[derive(Debug, Clone)]
+pub(crate) struct Columns {
+    pub fields: &'static [Field],
+    pub names: Vec<String>,
+    pub delimiter: char,
+    /// Decimals are written with a comma.
+    pub comma: bool,
+    /// The column of every field; `None` for those that are not there.
+    pub at: Vec<Option<Column>>,
+}
+
+impl Columns {
+    /// The column of a field as the file names it.
+    pub(crate) fn name(&self, field: usize) -> &str {
+        self.at[field].as_ref().map_or(self.fields[field].expected, |column| &self.names[column.index])
+    }
+
+    /// The cells of a row.
+    ///
+    /// # Errors
+    /// More or fewer cells than names.
+    pub(crate) fn row<'a>(&'a self, line: Line<'a>) -> Result<TableRow<'a>> {
+        let cells: Vec<&str> =
+            line.text.split(self.delimiter).map(|cell| cell.trim().trim_matches('"').trim()).collect();
+        let (found, names) = (cells.len(), self.names.len());
+        if found == names {
+            return Ok(TableRow { columns: self, line, cells });
+        }
+        let help = match self.delimiter == ',' && found > names {
+            true => "write decimals with a point, or separate the columns with semicolons",
+            false => "complete or delete the row",
+        };
+        Err(DataError::Layout(line.fault(format!("the row has {found} cells, the header {names}"), help)))
+    }
+}
+
+/// A row of a table.
+pub(crate) struct TableRow<'a> {
+    columns: &'a Columns,
+    pub line: Line<'a>,
+    cells: Vec<&'a str>,
+}
+
+impl TableRow<'_> {
+    /// The text of a field; empty if it has no column.
+    pub(crate) fn text(&self, field: usize) -> &str {
+        self.columns.at[field].as_ref().map_or("", |column| self.cells[column.index])
+    }
+
+    /// The number of a field in SI units; `None` if it has no column.
+    ///
+    /// # Errors
+    /// Anything else than a finite number.
+    pub(crate) fn number(&self, field: usize) -> Result<Option<f64>> {
+        self.read(field, Unit::to_si)
+    }
+
+    /// The same, with units converted by `si`.
+    pub(crate) fn read(&self, field: usize, si: impl Fn(Unit, f64) -> f64) -> Result<Option<f64>> {
+        let Some(column) = &self.columns.at[field] else { return Ok(None) };
+        let text = self.text(field);
+        let comma = || self.columns.comma.then(|| with_comma(text)).flatten();
+        let value = text.parse::<f64>().ok().or_else(comma);
+        let in_si = value.map(|value| column.unit.map_or(value, |unit| si(unit, value)));
+        in_si.filter(|value| value.is_finite()).map(Some).ok_or_else(|| {
+            let [message, help] = no_number(text, self.columns.fields[field].expected, "");
+            DataError::Cell(self.fault(field, message, help))
+        })
+    }
+
+    /// A fault of one cell.
+    pub(crate) fn fault(&self, field: usize, message: String, help: String) -> Box<Fault> {
+        let mut fault = self.line.fault(message, help);
+        let Some(Column { index, .. }) = self.columns.at[field] else { return fault };
+        let cell = self.cells[index];
+        fault.location.column_name = Some(self.columns.names[index].clone());
+        fault.location.cell = Some(cell.to_string());
+        let start = self.line.start + (cell.as_ptr() as usize - self.line.text.as_ptr() as usize);
+        fault.span = Some((start, start + cell.len()));
+        fault
+    }
 }

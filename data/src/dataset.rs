@@ -195,7 +195,9 @@ impl Dataset {
             (true, ..) => wrong("the dataset has no values".to_string()),
             (_, false, _) => wrong(format!("a hold has not {} sample times", self.samples_per_hold)),
             (.., false) => wrong("a value is not finite".to_string()),
-            _ if self.coordinates_m.len() != expected => wrong(format!("expected {expected} values, found {}", self.coordinates_m.len())),
+            _ if self.coordinates_m.len() != expected => {
+                wrong(format!("expected {expected} values, found {}", self.coordinates_m.len()))
+            }
             _ if self.gauge_pa.is_some() && gauge.len() != readings => {
                 wrong(format!("expected {readings} readings of the gauge, found {}", gauge.len()))
             }

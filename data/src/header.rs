@@ -56,12 +56,12 @@ pub(crate) struct Header {
 
 impl Header {
     /// Supply channels beyond the first that have a column.
-    pub fn more_channels(&self) -> usize {
+    pub(crate) fn more_channels(&self) -> usize {
         P_MORE.iter().filter(|quantity| self.columns[**quantity].is_some()).count()
     }
 
     /// The fault of a whole column, shown at its name.
-    pub fn fault(&self, quantity: usize, message: String, help: String) -> Box<Fault> {
+    pub(crate) fn fault(&self, quantity: usize, message: String, help: String) -> Box<Fault> {
         let line = self.line.line();
         match &self.columns[quantity] {
             Some(column) => columns::fault(&line, &self.names, column.index, message, help),
@@ -70,12 +70,12 @@ impl Header {
     }
 
     /// Symbol of the unit of a column; empty without one.
-    pub fn unit(&self, quantity: usize) -> &'static str {
+    pub(crate) fn unit(&self, quantity: usize) -> &'static str {
         self.columns[quantity].as_ref().and_then(|column| column.unit).map_or("", |unit| unit.symbol)
     }
 
     /// Whether there is a column of z.
-    pub fn has_z(&self) -> bool {
+    pub(crate) fn has_z(&self) -> bool {
         self.columns[Z].is_some()
     }
 }
@@ -150,7 +150,8 @@ fn meaning(name: &str) -> Meaning {
 }
 
 fn without_unit(line: &Line, names: &[String], missing: usize, is_strict: bool) -> Option<DataError> {
-    columns::without_unit(line, names, &QUANTITIES, &meaning, &|quantity| (quantity == missing).then_some(is_strict))
+    let is_asked = |quantity| (quantity == missing).then_some(is_strict);
+    columns::without_unit(line, names, &QUANTITIES, &meaning, &is_asked).map(DataError::Column)
 }
 
 /// Columns that a table of this kind may lack by a slip.

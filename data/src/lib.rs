@@ -3,6 +3,8 @@
 //! `data` reads marker tables ([`read_markers`], [`load()`]), their descriptions ([`About`]) and the numbers of the
 //! reference paper ([`published()`]); it converts units on reading and never sees a model.
 
+#![warn(unreachable_pub)]
+
 pub mod about;
 mod align;
 mod atomic;
@@ -45,7 +47,9 @@ pub use lines::Progress;
 pub use load::load;
 pub use lost::losses;
 pub use policy::is_a_room;
-pub use published::{Published, PublishedActuator, PublishedFabric, PublishedFact, published};
+pub use published::{
+    Published, PublishedActuator, PublishedFabric, PublishedFact, PublishedProtocol, PublishedSimulation, published,
+};
 pub use read::{ReadOptions, markers_of_table, parse_markers, read_markers};
 pub use sets::{SetInfo, set_about, set_file, sets};
 pub use table::{Column, Table, read_parquet};

@@ -29,7 +29,7 @@ pub(crate) struct Line<'a> {
 
 impl Line<'_> {
     /// A fault of the whole line.
-    pub fn fault(&self, message: impl Into<String>, help: impl Into<String>) -> Box<Fault> {
+    pub(crate) fn fault(&self, message: impl Into<String>, help: impl Into<String>) -> Box<Fault> {
         let location = Location { file: self.file.to_string(), line: self.number, column_name: None, cell: None };
         Box::new(Fault {
             location,
@@ -43,7 +43,7 @@ impl Line<'_> {
     }
 
     /// An owned copy of place and text, for faults found only when the whole file has been read.
-    pub fn keep(&self) -> KeptLine {
+    pub(crate) fn keep(&self) -> KeptLine {
         KeptLine { file: self.file.to_string(), number: self.number, start: self.start, text: self.text.to_string() }
     }
 }
@@ -59,7 +59,7 @@ pub(crate) struct KeptLine {
 
 impl KeptLine {
     /// The line again.
-    pub fn line(&self) -> Line<'_> {
+    pub(crate) fn line(&self) -> Line<'_> {
         Line { file: &self.file, number: self.number, start: self.start, text: &self.text, ended: true }
     }
 }
@@ -77,7 +77,7 @@ pub(crate) struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     /// Lines of `reader`; `bytes_total` (0 if unknown) is handed on to `progress` with the bytes read so far.
-    pub fn new(file: &str, reader: &'a mut dyn Read, bytes_total: u64, progress: Progress<'a>) -> Lines<'a> {
+    pub(crate) fn new(file: &str, reader: &'a mut dyn Read, bytes_total: u64, progress: Progress<'a>) -> Lines<'a> {
         Lines {
             reader: BufReader::with_capacity(1 << 16, reader),
             progress,
@@ -91,7 +91,7 @@ impl<'a> Lines<'a> {
     }
 
     /// The name of the file in errors.
-    pub fn file(&self) -> &str {
+    pub(crate) fn file(&self) -> &str {
         &self.file
     }
 
@@ -99,7 +99,7 @@ impl<'a> Lines<'a> {
     ///
     /// # Errors
     /// The file cannot be read, a line is not UTF-8 or is longer than 1 MiB.
-    pub fn next_filled(&mut self) -> Result<Option<Line<'_>>> {
+    pub(crate) fn next_filled(&mut self) -> Result<Option<Line<'_>>> {
         loop {
             let read = self.read_raw()?;
             if read == 0 {

@@ -2,72 +2,72 @@
 //! every one of them and names the tests that fail then.
 
 /// An inflated robot whose farthest marker is nearer than this to its base does not exist \[m\].
-pub const SHORTEST_ROBOT_M: f64 = 0.002;
+pub(crate) const SHORTEST_ROBOT_M: f64 = 0.002;
 /// Longest robot in one camera picture \[m\].
-pub const LONGEST_ROBOT_M: f64 = 20.0;
+pub(crate) const LONGEST_ROBOT_M: f64 = 20.0;
 /// No robot is this long \[m\]; a larger coordinate is a unit mistake.
-pub const FARTHEST_M: f64 = 1e3;
+pub(crate) const FARTHEST_M: f64 = 1e3;
 /// Downward motion of the last marker at the highest pressure that cannot be noise \[m\].
-pub const SURELY_DOWN_M: f64 = 0.005;
+pub(crate) const SURELY_DOWN_M: f64 = 0.005;
 /// Below this the mean of a hold is not the noise of a sensor at zero \[Pa\] (the step that separates holds).
-pub const LOWEST_GAUGE_PA: f64 = -500.0;
+pub(crate) const LOWEST_GAUGE_PA: f64 = -500.0;
 /// No inflated fabric withstands this gauge pressure \[Pa\]; a higher one is a unit mistake.
-pub const HIGHEST_GAUGE_PA: f64 = 1e6;
+pub(crate) const HIGHEST_GAUGE_PA: f64 = 1e6;
 /// Largest body and actuator pressure, as numbers in the kPa columns, that look like psi.
-pub const LIKE_PSI: [f64; 2] = [0.6, 7.0];
+pub(crate) const LIKE_PSI: [f64; 2] = [0.6, 7.0];
 /// The same of bar.
-pub const LIKE_BAR: [f64; 2] = [0.06, 1.0];
+pub(crate) const LIKE_BAR: [f64; 2] = [0.06, 1.0];
 /// The same of MPa.
-pub const LIKE_MPA: [f64; 2] = [0.006, 0.1];
+pub(crate) const LIKE_MPA: [f64; 2] = [0.006, 0.1];
 
 /// A pressure stays inside one hold within this share of it.
-pub const SAME_PRESSURE: f64 = 0.05;
+pub(crate) const SAME_PRESSURE: f64 = 0.05;
 /// And the actuator's within this \[Pa\].
-pub const SAME_ACTUATOR_PA: f64 = 500.0;
+pub(crate) const SAME_ACTUATOR_PA: f64 = 500.0;
 /// And the body's within this \[Pa\].
-pub const SAME_BODY_PA: f64 = 200.0;
+pub(crate) const SAME_BODY_PA: f64 = 200.0;
 /// Two stations of one marker closer than this are one \[m\].
-pub const SAME_STATION_M: f64 = 1e-6;
+pub(crate) const SAME_STATION_M: f64 = 1e-6;
 /// Stations from the file and from `about.toml` may differ by rounding only \[m\].
-pub const ROUNDED_STATION_M: f64 = 5e-4;
+pub(crate) const ROUNDED_STATION_M: f64 = 5e-4;
 /// Times that begin later than this are a clock and not a time since the start of a run \[s\].
-pub const LATEST_START_S: f64 = 3600.0;
+pub(crate) const LATEST_START_S: f64 = 3600.0;
 /// Holds this far apart are of a clock in milliseconds, or of a very patient experiment \[s\].
-pub const PATIENT_S: f64 = 1000.0;
+pub(crate) const PATIENT_S: f64 = 1000.0;
 /// A marker seen in less than this share of a hold's usual number of frames was lost there.
-pub const SEEN_ENOUGH: f64 = 0.5;
+pub(crate) const SEEN_ENOUGH: f64 = 0.5;
 /// A place that is farther from all others of a marker is not its own \[m\].
-pub const ELSEWHERE_M: f64 = 0.01;
+pub(crate) const ELSEWHERE_M: f64 = 0.01;
 /// Robust z above which a sample is listed.
-pub const OUTLIER_Z: f64 = 6.0;
+pub(crate) const OUTLIER_Z: f64 = 6.0;
 /// Deviations below this are never outliers: far below any camera \[m\].
-pub const SURELY_FINE_M: f64 = 1e-5;
+pub(crate) const SURELY_FINE_M: f64 = 1e-5;
 
 /// Runs that are read at once.
-pub const MOST_RUNS: usize = 10_000;
+pub(crate) const MOST_RUNS: usize = 10_000;
 /// Markers that are read at once.
-pub const MOST_MARKERS: usize = 1_000;
+pub(crate) const MOST_MARKERS: usize = 1_000;
 /// Holds of one (run, marker) stream; a protocol has tens, a flickering phase column millions.
-pub const MOST_HOLDS: usize = 1_000;
+pub(crate) const MOST_HOLDS: usize = 1_000;
 /// Holds of all streams together: bounds memory at about 2 GB whatever the file.
-pub const MOST_SERIES: usize = 1_000_000;
+pub(crate) const MOST_SERIES: usize = 1_000_000;
 
 /// Fewest rows of a specimen: three for a slope and as many for its shape.
-pub const FEWEST_ROWS: usize = 6;
+pub(crate) const FEWEST_ROWS: usize = 6;
 /// Steps back below this share of the range are the noise of the displacement sensor.
-pub const JITTER: f64 = 2e-3;
+pub(crate) const JITTER: f64 = 2e-3;
 /// Strain above which a coated fabric has broken; more is a unit mistake.
-pub const LARGEST_STRAIN: f64 = 3.0;
+pub(crate) const LARGEST_STRAIN: f64 = 3.0;
 
 /// A fabric is thinner than this \[m\].
-pub const THICKEST_FABRIC_M: f64 = 0.02;
+pub(crate) const THICKEST_FABRIC_M: f64 = 0.02;
 /// No specimen is longer or wider \[m\].
-pub const LARGEST_SPECIMEN_M: f64 = 10.0;
+pub(crate) const LARGEST_SPECIMEN_M: f64 = 10.0;
 /// A known force on a tip above this is a unit mistake \[N\].
-pub const LARGEST_TIP_FORCE_N: f64 = 1e3;
+pub(crate) const LARGEST_TIP_FORCE_N: f64 = 1e3;
 
 /// Largest size of a specimen: its `thickness`, or another \[m\].
-pub fn largest_m(size: &str) -> f64 {
+pub(crate) fn largest_m(size: &str) -> f64 {
     if size == "thickness" { THICKEST_FABRIC_M } else { LARGEST_SPECIMEN_M }
 }
 
@@ -81,27 +81,27 @@ pub(crate) fn one_station(stations_m: &[f64]) -> Option<String> {
 pub(crate) const SAME_STATION: &str = "write for each marker its own distance from the base along the undeformed body";
 
 /// Tolerance of the actuator pressure inside one hold \[Pa\]: max(0.5 kPa, 5 %).
-pub fn tolerance_act_pa(mean_pa: f64) -> f64 {
+pub(crate) fn tolerance_act_pa(mean_pa: f64) -> f64 {
     (SAME_PRESSURE * mean_pa).max(SAME_ACTUATOR_PA)
 }
 
 /// Tolerance of the body pressure inside one hold \[Pa\]: max(0.2 kPa, 5 %).
-pub fn tolerance_body_pa(mean_pa: f64) -> f64 {
+pub(crate) fn tolerance_body_pa(mean_pa: f64) -> f64 {
     (SAME_PRESSURE * mean_pa).max(SAME_BODY_PA)
 }
 
 /// Whether a place so far from another of the same marker is elsewhere \[m\].
-pub fn is_elsewhere(distance_m: f64) -> bool {
+pub(crate) fn is_elsewhere(distance_m: f64) -> bool {
     distance_m > ELSEWHERE_M
 }
 
 /// Whether a stream with so many holds, in a file with so many in all, may not have one more.
-pub fn is_full(holds: usize, in_all: usize) -> bool {
+pub(crate) fn is_full(holds: usize, in_all: usize) -> bool {
     holds >= MOST_HOLDS || in_all >= MOST_SERIES
 }
 
 /// What a sensor of absolute pressure reads in the air of a room, from the mountains to the sea \[Pa\].
-pub const ROOM_PA: [f64; 2] = [80e3, 110e3];
+pub(crate) const ROOM_PA: [f64; 2] = [80e3, 110e3];
 
 /// Whether a pressure is the air pressure of a room \[Pa\].
 pub fn is_a_room(pressure_pa: f64) -> bool {

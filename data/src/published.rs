@@ -14,28 +14,34 @@ use crate::sets::{set_file, shown};
 pub const PAPER: &str = "du-pasquier-2023";
 
 /// The paper's numbers in SI units; provenance: *published*.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Published {
-    /// Title of the paper.
-    pub title: String,
-    /// Digital object identifier.
-    pub doi: String,
-    /// Body gauge pressure of all tests \[Pa\] (Section III-D).
-    pub body_pressure_pa: f64,
-    /// Actuator gauge pressures, one after the other \[Pa\] (Section III-D).
-    pub actuator_pressures_pa: Vec<f64>,
-    /// Time each pressure is held \[s\] (Section III-D).
-    pub hold_s: f64,
-    /// Number of markers (Section III-D); their places are not printed.
-    pub markers: usize,
+    /// What was tested.
+    pub protocol: PublishedProtocol,
     /// The four actuators (Tables II and III).
+    #[serde(rename = "actuator")]
     pub actuators: Vec<PublishedActuator>,
     /// The two fabrics (Table I).
+    #[serde(rename = "fabric")]
     pub fabrics: Vec<PublishedFabric>,
     /// Settings of the paper's own simulation (Section III-A).
     pub simulation: PublishedSimulation,
     /// Sentences of the text and the captions with something to check.
+    #[serde(rename = "fact")]
     pub facts: Vec<PublishedFact>,
+}
+
+/// The tests of the paper (Section III-D).
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct PublishedProtocol {
+    /// Body gauge pressure of all tests \[Pa\].
+    #[serde(rename = "body_pressure_kpa", deserialize_with = "kpa")]
+    pub body_pa: f64,
+    /// Actuator gauge pressures, one after the other \[Pa\].
+    #[serde(rename = "actuator_pressures_kpa", deserialize_with = "kpa_list")]
+    pub actuator_pa: Vec<f64>,
+    /// Number of markers; their places are not printed.
+    pub markers: usize,
 }
 
 /// A sentence with something to check.
@@ -75,9 +81,6 @@ pub struct PublishedActuator {
     /// L_IBR \[m\] (Table II).
     #[serde(rename = "body_length_mm", deserialize_with = "mm")]
     pub body_length_m: f64,
-    /// D_IBR \[m\] (Table II).
-    #[serde(rename = "body_diameter_mm", deserialize_with = "mm")]
-    pub body_diameter_m: f64,
     /// L_actuator \[m\] (Table II): one pouch, or the whole muscle of the fPAM.
     #[serde(rename = "actuator_length_mm", deserialize_with = "mm")]
     pub actuator_length_m: f64,
@@ -103,8 +106,6 @@ pub struct PublishedActuator {
 pub struct PublishedFabric {
     /// Name.
     pub name: String,
-    /// Supplier.
-    pub supplier: String,
     /// Elastic modulus along the warp \[Pa\].
     #[serde(rename = "e0_mpa", deserialize_with = "mpa")]
     pub e0_pa: f64,
@@ -155,50 +156,18 @@ pub fn published() -> Result<Published> {
 }
 
 fn parse_published(file: &str, text: &str) -> Result<Published> {
-    let Raw { title, doi, protocol, simulation, fabric, mut actuator, fact } = parse_toml(file, text)?;
-    let highest_pa = protocol.actuator_pressures_pa.iter().copied().fold(0.0, f64::max);
-    for own in &mut actuator {
-        if own.accuracy.len() != protocol.actuator_pressures_pa.len() {
+    let mut paper: Published = parse_toml(file, text)?;
+    let pressures_pa = &paper.protocol.actuator_pa;
+    let highest_pa = pressures_pa.iter().copied().fold(0.0, f64::max);
+    for own in &mut paper.actuators {
+        if own.accuracy.len() != pressures_pa.len() {
             let message = format!("{} has not one accuracy per pressure", own.kind);
             return Err(DataError::about(file, message, "give one accuracy_pct per pressure"));
         }
-        let pairs = own.accuracy.iter_mut().zip(&protocol.actuator_pressures_pa);
-        pairs.for_each(|(pair, pressure_pa)| pair.0 = *pressure_pa);
+        own.accuracy.iter_mut().zip(pressures_pa).for_each(|(pair, pressure_pa)| pair.0 = *pressure_pa);
         own.d_max_pressure_pa = highest_pa;
     }
-    Ok(Published {
-        title,
-        doi,
-        body_pressure_pa: protocol.body_pressure_pa,
-        actuator_pressures_pa: protocol.actuator_pressures_pa,
-        hold_s: protocol.hold_s,
-        markers: protocol.markers,
-        actuators: actuator,
-        fabrics: fabric,
-        simulation,
-        facts: fact,
-    })
-}
-
-#[derive(Deserialize)]
-struct Raw {
-    title: String,
-    doi: String,
-    protocol: RawProtocol,
-    simulation: PublishedSimulation,
-    fabric: Vec<PublishedFabric>,
-    actuator: Vec<PublishedActuator>,
-    fact: Vec<PublishedFact>,
-}
-
-#[derive(Deserialize)]
-struct RawProtocol {
-    #[serde(rename = "body_pressure_kpa", deserialize_with = "kpa")]
-    body_pressure_pa: f64,
-    #[serde(rename = "actuator_pressures_kpa", deserialize_with = "kpa_list")]
-    actuator_pressures_pa: Vec<f64>,
-    hold_s: f64,
-    markers: usize,
+    Ok(paper)
 }
 
 fn mm<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
@@ -243,7 +212,7 @@ mod tests {
         assert_eq!(paper.actuators.iter().map(|a| a.accuracy.len()).sum::<usize>(), 12);
         assert_eq!(paper.actuator("cPAM").unwrap().accuracy[0], (10_000.0, 0.871));
         assert!((paper.actuator("epam").unwrap().accuracy[1].1 - 0.921).abs() < 1e-15);
-        assert_eq!((paper.body_pressure_pa, paper.hold_s, paper.markers), (2_000.0, 5.0, 6));
+        assert_eq!((paper.protocol.body_pa, paper.protocol.markers), (2_000.0, 6));
         assert_eq!(paper.fabrics[0].c10_printed, Some(50.3));
         assert_eq!((paper.fabrics[0].thickness_m, paper.fabrics[1].thickness_m), (0.0002, 0.00005));
         assert_eq!(paper.fabrics[1].e45_pa, Some(4.05e6));

@@ -1,6 +1,6 @@
 //! One line of the table as one checked observation in SI units.
 
-use crate::cells::{Decimals, is_nothing, label, with_comma};
+use crate::cells::{Decimals, is_nothing, label, no_number, with_comma};
 use crate::dataset::Phase;
 use crate::error::{DataError, Fault, Result};
 use crate::header::{
@@ -73,7 +73,7 @@ pub(crate) fn lowest_mean_pa(quantity: usize) -> f64 {
 }
 
 impl RowReader {
-    pub fn new(header: Header) -> RowReader {
+    pub(crate) fn new(header: Header) -> RowReader {
         // The line end is already gone; a lone carriage return is then an ordinary character.
         let end = csv_core::Terminator::Any(b'\n');
         let splitter = csv_core::ReaderBuilder::new().delimiter(header.delimiter).terminator(end).build();
@@ -87,7 +87,7 @@ impl RowReader {
     ///
     /// # Errors
     /// Wrong number of cells.
-    pub fn split(&mut self, line: &Line) -> Result<()> {
+    pub(crate) fn split(&mut self, line: &Line) -> Result<()> {
         self.cells.resize(self.cells.len().max(line.text.len() + 1), 0);
         self.splitter.reset();
         let (_, _, written, mut count) =
@@ -151,7 +151,7 @@ impl RowReader {
     ///
     /// # Errors
     /// Numbers with a comma that may be decimal or of thousands.
-    pub fn told(&self) -> Result<Vec<String>> {
+    pub(crate) fn told(&self) -> Result<Vec<String>> {
         let comma = self.decimals.finish()?;
         let mut told = Vec::new();
         if self.header.named {
@@ -217,17 +217,17 @@ impl Deref for Cells<'_> {
 
 impl<'a> Cells<'a> {
     /// The cell of the `actuator` column.
-    pub fn actuator(&self) -> Result<&'a str> {
+    pub(crate) fn actuator(&self) -> Result<&'a str> {
         self.word(ACTUATOR)
     }
 
     /// Whether the marker of the line was not seen: no coordinate, or NaN for each.
-    pub fn is_lost(&self) -> bool {
+    pub(crate) fn is_lost(&self) -> bool {
         [X, Y].iter().all(|axis| is_nothing(self.text(*axis))) && (!self.has(Z) || is_nothing(self.text(Z)))
     }
 
     /// The placeholder of a position that was not seen, as some programs write it: 0, 0 or -1, -1 or 9999, 9999.
-    pub fn placeholder(&self) -> Option<&'static str> {
+    pub(crate) fn placeholder(&self) -> Option<&'static str> {
         let (x, y) = (self.text(X), self.text(Y));
         // Most positions begin with another digit.
         if !x.starts_with(['0', '-', '.', '9', '6']) {
@@ -242,12 +242,12 @@ impl<'a> Cells<'a> {
     }
 
     /// The cell of the `marker` column.
-    pub fn marker(&self) -> &'a str {
+    pub(crate) fn marker(&self) -> &'a str {
         label(self.reader.text(MARKER))
     }
 
     /// The cell of the station, if it is a number \[m\].
-    pub fn station_m(&self) -> Option<f64> {
+    pub(crate) fn station_m(&self) -> Option<f64> {
         let unit = self.header.columns[STATION].as_ref()?.unit?;
         self.text(STATION).parse().ok().map(|value| unit.to_si(value))
     }
@@ -256,7 +256,7 @@ impl<'a> Cells<'a> {
     ///
     /// # Errors
     /// An empty cell, text in a number cell, NaN or infinity, an unknown phase, an impossible pressure or length.
-    pub fn row(&self) -> Result<Row<'a>> {
+    pub(crate) fn row(&self) -> Result<Row<'a>> {
         let y_m = self.length(Y)?;
         let mut more_act_pa = [0.0; P_MORE.len()];
         for (pressure_pa, quantity) in more_act_pa.iter_mut().zip(P_MORE).filter(|(_, q)| self.has(*q)) {
@@ -279,7 +279,7 @@ impl<'a> Cells<'a> {
     }
 
     /// The fault of one cell, with its column, text and span.
-    pub fn fault(&self, quantity: usize, message: String, help: String) -> Box<Fault> {
+    pub(crate) fn fault(&self, quantity: usize, message: String, help: String) -> Box<Fault> {
         let Cells { line, reader } = self;
         let mut fault = line.fault(message, help);
         let Some(column) = &self.header.columns[quantity] else { return fault };
@@ -331,24 +331,12 @@ impl<'a> Cells<'a> {
     }
 
     fn not_a_number(&self, quantity: usize, text: &str) -> Box<Fault> {
-        let message = match text.parse::<f64>() {
-            _ if text.is_empty() => "expected a number, the cell is empty".to_string(),
-            Ok(_) => format!("expected a finite number, found \"{text}\""),
-            Err(_) => format!("expected a number, found \"{text}\""),
-        };
-        let name = QUANTITIES[quantity].expected;
         let lost = match quantity {
             X | Y | Z if self.has(Z) => "; of a marker that was not seen leave x, y and z empty",
             X | Y => "; of a marker that was not seen leave x and y empty",
             _ => "",
         };
-        let help = if text.replace(',', ".").parse::<f64>().is_ok_and(f64::is_finite) {
-            format!("write decimals with a point: {}", text.replace(',', "."))
-        } else {
-            format!(
-                "type a plain number such as 12.5 (the unit belongs to the column name, as in {name}), or delete the row{lost}"
-            )
-        };
+        let [message, help] = no_number(text, QUANTITIES[quantity].expected, lost);
         self.fault(quantity, message, help)
     }
 
@@ -399,7 +387,7 @@ impl<'a> Cells<'a> {
     }
 
     /// The fault of a pressure below its bounds.
-    pub fn too_low(&self, quantity: usize, value_pa: f64) -> Box<Fault> {
+    pub(crate) fn too_low(&self, quantity: usize, value_pa: f64) -> Box<Fault> {
         let help = "give gauge pressure (0 is the air of the room); subtract the sensor's zero".to_string();
         self.out_of_bounds(quantity, value_pa, help)
     }

@@ -35,8 +35,8 @@ impl Dataset {
     /// hold, each run alone. 0 of a table without that axis.
     pub fn travel_m(&self, axis: usize) -> f64 {
         let at = |run: usize, hold: usize, marker: usize| {
-            let values =
-                (0..self.samples_per_hold).map(|sample| self.place(run, hold, sample, marker).get(axis).copied().unwrap_or(0.0));
+            let values = (0..self.samples_per_hold)
+                .map(|sample| self.place(run, hold, sample, marker).get(axis).copied().unwrap_or(0.0));
             values.sum::<f64>() / self.samples_per_hold as f64
         };
         let mut most: f64 = 0.0;

@@ -47,7 +47,7 @@ pub(crate) struct Recorder {
 
 impl Recorder {
     /// Nothing yet, of a table with this header.
-    pub fn of(header: &Header) -> Recorder {
+    pub(crate) fn of(header: &Header) -> Recorder {
         Recorder {
             file: header.line.file.clone(),
             more_channels: header.more_channels(),
@@ -57,12 +57,12 @@ impl Recorder {
     }
 
     /// Runs, holds or markers that do not fit together, first seen in a line.
-    pub fn fault(&self, message: String, help: &str, line: u64) -> DataError {
+    pub(crate) fn fault(&self, message: String, help: &str, line: u64) -> DataError {
         DataError::Runs(Box::new(Fault::of_file(&self.file, message, help).at_line(line)))
     }
 
     /// A stream in a message.
-    pub fn words(&self, stream: &Stream) -> String {
+    pub(crate) fn words(&self, stream: &Stream) -> String {
         format!("run {}, marker {}", self.runs.names[stream.run], self.markers.names[stream.marker])
     }
 
@@ -70,7 +70,7 @@ impl Recorder {
     ///
     /// # Errors
     /// Time not increasing in its stream, a station that changes, too many runs, markers or holds.
-    pub fn add(&mut self, cells: Cells) -> Result<()> {
+    pub(crate) fn add(&mut self, cells: Cells) -> Result<()> {
         let row = cells.row()?;
         let (run, marker) = (self.runs.number(row.run), self.markers.number(row.marker));
         let limit = |quantity, what: &str, most| {

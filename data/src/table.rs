@@ -99,7 +99,7 @@ pub(crate) struct TableReader<'a> {
 }
 
 impl<'a> TableReader<'a> {
-    pub fn new(table: &'a Table) -> TableReader<'a> {
+    pub(crate) fn new(table: &'a Table) -> TableReader<'a> {
         TableReader { table, next_row: None, text: String::new(), taken: 0 }
     }
 
@@ -152,7 +152,7 @@ mod parquet {
     const MOST_ROWS: usize = 1 << 30;
 
     /// Snappy: every Parquet reader has it.
-    pub fn write(table: &Table, path: &Path) -> Result<()> {
+    pub(super) fn write(table: &Table, path: &Path) -> Result<()> {
         let mut bytes = Cursor::new(Vec::new());
         let written = frame(table).and_then(|mut frame| {
             ParquetWriter::new(&mut bytes).with_compression(ParquetCompression::Snappy).finish(&mut frame)
@@ -162,7 +162,7 @@ mod parquet {
         write_atomically(path, bytes.get_ref())
     }
 
-    pub fn read(path: &Path) -> Result<Table> {
+    pub(super) fn read(path: &Path) -> Result<Table> {
         let bytes = std::fs::read(path)
             .map_err(|cause| file_error(path, format!("cannot open the file: {cause}"), "check the path"))?;
         let reading = std::thread::Builder::new().name(PARQUET_READER.into()).spawn(move || table(bytes));

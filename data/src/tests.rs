@@ -13,7 +13,7 @@ mod writing;
 use crate::{DataError, Dataset, ReadOptions, parse_markers};
 
 /// A small table in the paper's protocol: runs × (0, 10, 20, 30, 0 kPa) × `frames` × markers `1` (60 mm), `2` (360 mm).
-pub fn table(runs: usize, frames: usize) -> String {
+pub(crate) fn table(runs: usize, frames: usize) -> String {
     let mut text = String::from("run,actuator,t_s,p_body_kpa,p_act_kpa,phase,marker,x_mm,y_mm\n");
     for run in 1..=runs {
         for (hold, (p, phase)) in
@@ -32,11 +32,11 @@ pub fn table(runs: usize, frames: usize) -> String {
 }
 
 /// Reads a table called `markers.csv`.
-pub fn read(text: &str) -> Result<Dataset, DataError> {
+pub(crate) fn read(text: &str) -> Result<Dataset, DataError> {
     read_bytes(text.as_bytes(), ReadOptions::default())
 }
 
 /// Reads bytes with options.
-pub fn read_bytes(mut bytes: &[u8], options: ReadOptions) -> Result<Dataset, DataError> {
+pub(crate) fn read_bytes(mut bytes: &[u8], options: ReadOptions) -> Result<Dataset, DataError> {
     parse_markers("markers.csv", &mut bytes, options, &mut |_, _| ())
 }

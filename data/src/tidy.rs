@@ -22,11 +22,8 @@ impl Dataset {
         type Row = [usize; 4];
         let text = |of: &dyn Fn(&Row) -> String| Column::Str(rows.iter().map(of).collect());
         let number = |of: &dyn Fn(&Row) -> f64| Column::F64(rows.iter().map(of).collect());
-        let place = |axis: usize| {
-            number(&|[run, hold, sample, marker]| {
-                mm(self.place(*run, *hold, *sample, *marker)[axis])
-            })
-        };
+        let place =
+            |axis: usize| number(&|[run, hold, sample, marker]| mm(self.place(*run, *hold, *sample, *marker)[axis]));
         let mut columns = vec![
             ("run".to_string(), text(&|row| self.runs[row[0]].clone())),
             ("actuator".into(), text(&|_| self.actuator.clone())),

@@ -30,12 +30,12 @@ impl Measured {
     }
 
     /// The unit written `name` (lower case), if it is one of this dimension.
-    pub fn unit(self, name: &str) -> Option<Unit> {
+    pub(crate) fn unit(self, name: &str) -> Option<Unit> {
         self.units().into_iter().find(|unit| unit.symbol.to_lowercase() == name)
     }
 
     /// `lengths are in mm, cm, m`, for error texts.
-    pub fn sentence(self) -> String {
+    pub(crate) fn sentence(self) -> String {
         let symbols: Vec<_> = self.units().iter().map(|unit| unit.symbol).collect();
         let word = match self {
             Measured::Length => "lengths",

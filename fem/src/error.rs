@@ -187,6 +187,21 @@ impl FemError {
         |source| FemError::Io { path, source }
     }
 
+    /// A fault of a case at a place in its text; further lines of the message say what to write.
+    pub(crate) fn case(message: String, span: std::ops::Range<usize>) -> FemError {
+        FemError::Case { message, span: Some(span) }
+    }
+
+    /// An interrupt of several runs or parts.
+    pub fn interrupted(done: usize, of: usize) -> FemError {
+        FemError::Interrupted { time_s: 0.0, step: 0, done, of }
+    }
+
+    /// A folder that cannot be used as it is.
+    pub(crate) fn folder(path: &Path, cause: impl Into<String>, help: impl Into<String>) -> FemError {
+        FemError::Folder { path: path.into(), cause: cause.into(), help: help.into() }
+    }
+
     /// A setting that is not possible, and what to do.
     pub(crate) fn setting(message: impl Into<String>, help: impl Into<String>) -> FemError {
         FemError::Setting { message: message.into(), help: help.into() }

@@ -10,8 +10,10 @@ pub use crate::amplitude::Amplitude;
 use crate::mesh::Mesh;
 use crate::policy;
 pub use gas::Gas;
+use models::Fabric;
 pub use models::fabrics::Ply;
 pub use print::{GRAVITY, Loads, force_on, motion_of, pressure_of};
+use std::sync::Arc;
 
 /// Everything that defines a run.
 #[derive(Debug, Clone)]
@@ -59,6 +61,14 @@ pub struct Section {
     pub rest_curvature: bool,
 }
 
+impl Section {
+    /// One ply along the warp of its part, 1000 kg/m³.
+    pub fn of(fabric: Arc<dyn Fabric>, bending_factor: f64) -> Section {
+        let plies = vec![Ply { fabric, angle_rad: 0.0 }];
+        Section { plies, bonded: true, density_kg_m3: 1000.0, bending_factor, rest_curvature: false }
+    }
+}
+
 /// A volume of air with one pressure.
 #[derive(Debug, Clone)]
 pub struct Chamber {
@@ -69,6 +79,13 @@ pub struct Chamber {
     /// Axes (x, y, z) along which the chamber is open: it ends at planes perpendicular to them that hold the fabric's edge
     /// (planes of symmetry, plane strain between two). Its volume is that of the part in the model. `None`: the chamber is closed.
     pub open_axis: Option<[bool; 3]>,
+}
+
+impl Chamber {
+    /// A closed chamber whose gauge pressure is set \[Pa\].
+    pub fn of(name: &str, pressure_pa: Amplitude) -> Chamber {
+        Chamber { name: name.into(), pressure: Pressure::Set(pressure_pa), open_axis: None }
+    }
 }
 
 /// How the gauge pressure of a chamber comes about.
@@ -85,6 +102,14 @@ pub enum Pressure {
         /// The gas and its ways in and out.
         gas: Gas,
     },
+}
+
+impl Pressure {
+    /// What is set, until sealing if the chamber is sealed \[Pa\].
+    pub fn filling(&self) -> &Amplitude {
+        let (Pressure::Set(filling) | Pressure::Sealed { filling, .. }) = self;
+        filling
+    }
 }
 
 /// Nodes whose motion is prescribed.

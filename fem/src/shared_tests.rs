@@ -46,7 +46,7 @@ pub(crate) fn pouch(element_m: f64, peak_pa: f64, contact: bool) -> Result<Probl
         along: (0.06 / element_m).round() as usize,
         in_fold: (0.024 / element_m).round() as usize,
     })?;
-    let fabric = Arc::new(NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 });
+    let fabric = Arc::new(NeoHookean::new(50.3e6, 2e-4));
     let sections = mesh
         .parts
         .iter()

@@ -14,7 +14,7 @@ const END_S: f64 = 4e-3;
 /// A pillow large enough for several patches, whose layers touch each other and a floor.
 fn pillow(threads: usize, selective_mass: bool) -> Problem {
     let mesh = generate::pillow(0.2, 50, 1e-4).unwrap();
-    let fabric = Arc::new(NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 });
+    let fabric = Arc::new(NeoHookean::new(50.3e6, 2e-4));
     let section = Section {
         plies: vec![Ply { fabric, angle_rad: 0.0 }],
         bonded: true,

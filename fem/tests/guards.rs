@@ -7,19 +7,18 @@ use std::sync::Arc;
 use fem::case::Case;
 use fem::mesh::generate;
 use fem::problem::{
-    Amplitude, Chamber, Contact, MassScaling, NodalForce, Obstacle, ObstacleShape, Ply, Pressure, Section, Support,
+    Amplitude, Chamber, Contact, MassScaling, NodalForce, Obstacle, ObstacleShape, Pressure, Section, Support,
 };
 use fem::{FemError, Mesh, Problem, Simulation};
 use models::Fabric;
 use models::fabrics::{Curve, NeoHookean, Orthotropic, Woven, Yarn};
 
 fn section(fabric: Arc<dyn Fabric>) -> Section {
-    let plies = vec![Ply { fabric, angle_rad: 0.0 }];
-    Section { plies, bonded: true, density_kg_m3: 1000.0, bending_factor: 0.1, rest_curvature: false }
+    Section::of(fabric, 0.1)
 }
 
 fn nylon() -> Section {
-    section(Arc::new(NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 }))
+    section(Arc::new(NeoHookean::new(50.3e6, 2e-4)))
 }
 
 fn problem(mesh: Mesh, pa: Amplitude) -> Problem {
@@ -254,7 +253,7 @@ fn sections_and_settings_out_of_range_are_refused() {
     says(&refused(&problem), &["part `plate`", "density"]);
     for thickness_m in [0.0, -1e-4, f64::NAN] {
         let mut problem = plate();
-        problem.sections = vec![section(Arc::new(NeoHookean { c10_pa: 1e6, thickness_m }))];
+        problem.sections = vec![section(Arc::new(NeoHookean::new(1e6, thickness_m)))];
         says(&refused(&problem), &["part `plate`", "thickness"]);
     }
     for modulus in [-1e8, 0.0, f64::NAN] {

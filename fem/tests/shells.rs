@@ -26,7 +26,7 @@ fn chamber(name: &str, pa: f64) -> Chamber {
 }
 
 fn neo_film() -> NeoHookean {
-    NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 }
+    NeoHookean::new(50.3e6, 2e-4)
 }
 
 /// A tube with quad and triangle caps, a balloon and a glued tube: regular rows, irregular quads, triangles, two chambers,

@@ -70,7 +70,7 @@ pub struct BodyWall {
 }
 
 /// The ledger's line of every law of the body pressure.
-pub(crate) const BODY_PRESSURE: LedgerLine = LedgerLine { name: "body_pressure", account: Account::BodyGas };
+pub(crate) const BODY_PRESSURE: LedgerLine = LedgerLine::new("body_pressure", Account::BodyGas);
 
 /// Law of the body pressure: its own, or what an effect puts in its place.
 pub enum BodyLaw {
@@ -230,7 +230,7 @@ pub struct Bending {
 
 impl Term for Bending {
     fn line(&self) -> LedgerLine {
-        LedgerLine { name: "bending", account: Account::Wall }
+        LedgerLine::new("bending", Account::Wall)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

@@ -43,4 +43,4 @@ pub(crate) fn line_tension(y: f64, x: f64, q: f64) -> f64 {
 }
 
 /// Ledger line of the fabric along the line of action, which has no term: its energy follows from the equilibrium.
-pub(crate) const FABRIC_STRETCH: LedgerLine = LedgerLine { name: "fabric_stretch", account: Account::Stretch };
+pub(crate) const FABRIC_STRETCH: LedgerLine = LedgerLine::new("fabric_stretch", Account::Stretch);

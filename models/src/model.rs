@@ -337,7 +337,7 @@ pub(crate) fn check(loads: &Loads) -> Result<(), Unsolved> {
 }
 
 /// Ledger line of the shear, which has no term: its energy follows from the equilibrium.
-const WALL_SHEAR: LedgerLine = LedgerLine { name: "wall_shear", account: Account::Wall };
+const WALL_SHEAR: LedgerLine = LedgerLine::new("wall_shear", Account::Wall);
 
 /// Adds to the row of that name and kind, or opens it.
 pub(crate) fn post(rows: &mut Vec<Row>, line: LedgerLine, kind: RowKind, energy_j: f64) {

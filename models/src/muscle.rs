@@ -233,7 +233,7 @@ impl Muscle {
 
 impl Term for Muscle {
     fn line(&self) -> LedgerLine {
-        LedgerLine { name: "muscle", account: Account::Wall }
+        LedgerLine::new("muscle", Account::Wall)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

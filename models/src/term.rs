@@ -175,6 +175,11 @@ pub struct LedgerLine {
 }
 
 impl LedgerLine {
+    /// A name, and the account on which both engines compare it.
+    pub const fn new(name: &'static str, account: Account) -> LedgerLine {
+        LedgerLine { name, account }
+    }
+
     /// Its row with an energy \[J\].
     pub fn row(self, kind: RowKind, energy_j: f64) -> Row {
         Row { name: self.name, account: self.account, kind, energy_j }

@@ -17,16 +17,16 @@ use syn::visit::Visit;
 const CIRCLES: [(&str, usize); 13] = [
     ("models", 0),
     ("fem", 0),
-    ("data", 1),
-    ("compare", 3),
+    ("data", 0),
+    ("compare", 1),
     ("report", 1),
     ("sweep", 0),
     ("spelling", 0),
     ("python", 0),
     ("capi", 0),
     ("web", 0),
-    ("challenge", 2),
-    ("verification", 1),
+    ("challenge", 0),
+    ("verification", 0),
     (".", 3),
 ];
 

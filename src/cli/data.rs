@@ -97,6 +97,15 @@ pub(crate) struct ScatterArgs {
     /// Run-to-run shift of the camera
     #[arg(long, default_value = "0.5mm", allow_hyphen_values = true)]
     pub alignment: String,
+    /// Scatter of the pressure from hold to hold of a run in per cent
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+    pub hold_scatter: f64,
+    /// Shift of the camera from hold to hold of a run
+    #[arg(long, default_value = "0mm", allow_hyphen_values = true)]
+    pub hold_alignment: String,
+    /// Error of a marker that lasts through a hold, as of a tracker
+    #[arg(long, default_value = "0mm", allow_hyphen_values = true)]
+    pub lasting: String,
 }
 
 #[derive(Debug, Args)]

@@ -6,7 +6,7 @@ use compare::CompareError;
 use compare::diagnosis::Options;
 use compare::progress::part;
 use compare::progress::shares::READ;
-use compare::study::Generator;
+use compare::study::{Generator, HoldScatter};
 use compare::typed_effect::with_effect;
 use models::scenario::quantity::parse;
 use spelling::units::Range;
@@ -123,15 +123,28 @@ pub(super) fn positive(option: &str, text: Option<&String>) -> Result<Option<f64
     }
 }
 
+/// The scatter as typed.
 pub(super) fn scattered(args: &ScatterArgs) -> Result<Generator> {
-    let percent = args.pressure_scatter;
-    let camera_sd_m = scatter("--sigma", &args.sigma)?;
-    if !(0.0..=50.0).contains(&percent) {
-        let message = format!("--pressure-scatter {percent} is not from 0 to 50 per cent");
-        return Err(Failure::usage(message, "2 is usual"));
-    }
-    let alignment_sd_m = scatter("--alignment", &args.alignment)?;
-    Ok(Generator { camera_sd_m, alignment_sd_m, pressure_sd: percent / 100.0, ..Generator::default() })
+    let share = |option: &str, percent: f64| match percent {
+        percent if (0.0..=50.0).contains(&percent) => Ok(percent / 100.0),
+        _ => {
+            let message = format!("{option} {percent} is not from 0 to 50 per cent");
+            Err(Failure::usage(message, "2 is usual"))
+        }
+    };
+    let per_hold = HoldScatter {
+        pressure_sd: share("--hold-scatter", args.hold_scatter)?,
+        alignment_sd_m: scatter("--hold-alignment", &args.hold_alignment)?,
+        rotation_sd: 0.0,
+        lasting_sd_m: scatter("--lasting", &args.lasting)?,
+    };
+    Ok(Generator {
+        camera_sd_m: scatter("--sigma", &args.sigma)?,
+        alignment_sd_m: scatter("--alignment", &args.alignment)?,
+        pressure_sd: share("--pressure-scatter", args.pressure_scatter)?,
+        per_hold,
+        ..Generator::default()
+    })
 }
 
 /// A scatter of lengths as typed \[m\].

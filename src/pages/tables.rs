@@ -2,8 +2,9 @@
 
 use super::figures::measured;
 use ::compare::metrics::HoldMetrics;
+use ::compare::residuals::ResidualCell;
 use ::compare::study::{Comparison, Variant};
-use data::{Column, Table};
+use data::{Column, Hold, Marker, Table};
 
 /// Metrics of every hold of every model, one row each; empty cells where a number does not exist.
 pub(super) fn holds(variants: &[Variant]) -> data::Table {
@@ -34,42 +35,52 @@ pub(super) fn holds(variants: &[Variant]) -> data::Table {
     }
 }
 
+/// A marker at a hold of a model.
+struct ResidualRow<'a> {
+    variant: &'a Variant,
+    hold: &'a Hold,
+    marker: &'a Marker,
+    cell: ResidualCell,
+    /// Mean of runs and samples \[mm\].
+    measured_mm: [f64; 3],
+}
+
 /// Every marker at every hold of every model, one row each: where it was measured (mean of runs and samples) and predicted, along z where
 /// the table has it, and the pressure of every supply channel. Cells that too few runs saw are left out; NaN where a number does not exist.
 pub fn residuals(study: &Comparison) -> Table {
-    let Comparison { dataset, variants, .. } = study;
-    let cells = (0..dataset.holds.len()).flat_map(|h| (0..dataset.markers.len()).map(move |m| (h, m)));
-    let cells = cells.filter(|(h, m)| dataset.is_seen(*h, *m));
-    let places: Vec<(usize, usize, [f64; 3])> =
-        cells.map(|(h, m)| (h, m, measured(dataset, h, m).0.map(|v| v * 1e3))).collect();
-    let rows: Vec<(&Variant, &(usize, usize, [f64; 3]))> =
-        variants.iter().flat_map(|v| places.iter().map(move |place| (v, place))).collect();
-    let cell = |v: &'_ Variant, h: usize, m: usize| v.evaluation.residual_map.cells[m][h].clone();
-    let (mut columns, holds) = (Vec::new(), &dataset.holds);
-    let texts = |of: &dyn Fn(&Variant, usize, usize) -> String| {
-        Column::Str(rows.iter().map(|(v, (h, m, _))| of(v, *h, *m)).collect())
+    let dataset = &study.dataset;
+    let mut rows = Vec::new();
+    for variant in &study.variants {
+        for (h, hold) in dataset.holds.iter().enumerate() {
+            for (m, marker) in dataset.markers.iter().enumerate().filter(|(m, _)| dataset.is_seen(h, *m)) {
+                let cell = variant.evaluation.residual_map.cells[m][h];
+                let measured_mm = measured(dataset, h, m).0.map(|v| v * 1e3);
+                rows.push(ResidualRow { variant, hold, marker, cell, measured_mm });
+            }
+        }
+    }
+    let text = |name: &str, of: &dyn Fn(&ResidualRow) -> String| {
+        (name.to_string(), Column::Str(rows.iter().map(of).collect()))
     };
-    columns.push(("model".to_string(), texts(&|v, _, _| v.label.clone())));
-    columns.push(("phase".to_string(), texts(&|_, h, _| holds[h].phase.word().into())));
-    columns.push(("marker".to_string(), texts(&|_, _, m| dataset.markers[m].name.clone())));
-    let mut numbers = |name: String, of: &dyn Fn(&Variant, usize, usize, &[f64; 3]) -> f64| {
-        columns.push((name, Column::F64(rows.iter().map(|(v, (h, m, at))| of(v, *h, *m, at)).collect())));
-    };
-    let kpa = |pa: f64| 1e-3 * pa;
-    numbers("p_act_kpa".into(), &|_, h, _, _| kpa(holds[h].p_act_pa));
-    for channel in 0..dataset.more_channels() {
-        numbers(format!("p_act_{}_kpa", channel + 1), &|_, h, _, _| kpa(holds[h].more_act_pa[channel]));
-    }
-    numbers("p_body_kpa".into(), &|_, h, _, _| kpa(holds[h].p_body_pa));
-    numbers("s_mm".into(), &|_, _, m, _| dataset.markers[m].station_m.map_or(f64::NAN, |s| s * 1e3));
-    let axes = ["x", "y", "z"].iter().enumerate().take(dataset.axes);
-    for (axis, name) in axes.clone() {
-        numbers(format!("{name}_mm"), &|_, _, _, at| at[axis]);
-    }
-    for (axis, name) in axes {
-        numbers(format!("predicted_{name}_mm"), &|v, h, m, at| at[axis] + cell(v, h, m).axes()[axis].mm);
-    }
-    numbers("error_mm".into(), &|v, h, m, _| cell(v, h, m).norm_mm);
-    numbers("error_in_noise".into(), &|v, h, m, _| cell(v, h, m).norm_in_noise.unwrap_or(f64::NAN));
+    let numbers =
+        |name: &str, of: &dyn Fn(&ResidualRow) -> f64| (name.to_string(), Column::F64(rows.iter().map(of).collect()));
+    let mut columns = vec![
+        text("model", &|row| row.variant.label.clone()),
+        text("phase", &|row| row.hold.phase.word().into()),
+        text("marker", &|row| row.marker.name.clone()),
+        numbers("p_act_kpa", &|row| 1e-3 * row.hold.p_act_pa),
+    ];
+    columns
+        .extend((0..dataset.more_channels()).map(|channel| {
+            numbers(&format!("p_act_{}_kpa", channel + 1), &|row| 1e-3 * row.hold.more_act_pa[channel])
+        }));
+    columns.push(numbers("p_body_kpa", &|row| 1e-3 * row.hold.p_body_pa));
+    columns.push(numbers("s_mm", &|row| row.marker.station_m.map_or(f64::NAN, |s| s * 1e3)));
+    let axes = ["x", "y", "z"].into_iter().enumerate().take(dataset.axes);
+    columns.extend(axes.clone().map(|(axis, name)| numbers(&format!("{name}_mm"), &|row| row.measured_mm[axis])));
+    let predicted = |row: &ResidualRow, axis: usize| row.measured_mm[axis] + row.cell.axes()[axis].mm;
+    columns.extend(axes.map(|(axis, name)| numbers(&format!("predicted_{name}_mm"), &|row| predicted(row, axis))));
+    columns.push(numbers("error_mm", &|row| row.cell.norm_mm));
+    columns.push(numbers("error_in_noise", &|row| row.cell.norm_in_noise.unwrap_or(f64::NAN)));
     Table { columns }
 }

@@ -29,9 +29,7 @@ pub fn beside<T: Send>(
         told.0 += 1;
         let done = told.0;
         match (told.1)(what, Some(done as f64 / pieces as f64)) {
-            ControlFlow::Break(()) if done < pieces => {
-                Err(FemError::Interrupted { time_s: 0.0, step: 0, done, of: pieces }.into())
-            }
+            ControlFlow::Break(()) if done < pieces => Err(FemError::interrupted(done, pieces).into()),
             _ => Ok(made),
         }
     };

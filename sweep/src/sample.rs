@@ -1,8 +1,7 @@
 //! Where in its range each key is, case by case.
 
 use crate::policy::MOST_SOBOL;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
+use compare::study::generate::Scatter;
 use serde::Deserialize;
 
 /// How cases are spread.
@@ -46,7 +45,6 @@ impl Points {
 }
 
 fn latin(cases: usize, axes: usize, seed: u32) -> Points {
-    let mut random = ChaCha8Rng::seed_from_u64(u64::from(seed));
-    let uniform = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-    Points { axes, all: fem::robot::latin(cases, axes, uniform) }
+    let mut random = Scatter::new(u64::from(seed));
+    Points { axes, all: fem::robot::latin(cases, axes, || random.uniform()) }
 }

@@ -117,8 +117,7 @@ impl Job {
             before = left;
             while cluster.is_alive(&id) {
                 if told(missing()).is_break() {
-                    let (time_s, step, of) = (0.0, 0, self.shards);
-                    return Err(fem::FemError::Interrupted { time_s, step, done: 0, of }.into());
+                    return Err(fem::FemError::interrupted(0, self.shards).into());
                 }
                 std::thread::sleep(LOOK);
             }

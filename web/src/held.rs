@@ -56,7 +56,8 @@ pub fn diagnosed(robot: &Robot, data: &Measured) -> Result<Value, CompareError> 
 
 /// Mean place of every marker in every hold \[m\].
 fn means(dataset: &Dataset) -> Value {
-    let of = |hold: usize| (0..dataset.markers.len()).map(|m| measured(dataset, hold, m).0).collect::<Vec<_>>();
+    let of_marker = |hold: usize, m: usize| measured(dataset, hold, m).0[..dataset.axes].to_vec();
+    let of = |hold: usize| (0..dataset.markers.len()).map(|m| of_marker(hold, m)).collect::<Vec<_>>();
     json!((0..dataset.holds.len()).map(of).collect::<Vec<_>>())
 }
 

@@ -5,8 +5,7 @@
 //! catalogue's formulas here: how far the catalogue's own effects are from their formulas is given beside it, because a
 //! diagnosis must not call that "outside the catalogue".
 
-use super::Lot;
-use super::cases::{Named, SetOutcome, names};
+use super::outcome::{Lot, Named, SetOutcome, about, names};
 use crate::measure::ideal;
 use crate::truth::standard_protocol;
 use crate::{Hiding, Truth};
@@ -63,7 +62,7 @@ pub(super) fn distances_of(truth: &Truth, data: &Dataset, pairs: bool) -> Result
     let mean = Dataset { runs: vec!["1".into()], coordinates_m: ideal(&truth.robot()?, &g)?, ..data.clone() };
     let run_sd = [g.pressure_sd, g.alignment_sd_m, g.alignment_sd_m, g.rotation_sd];
     let noise = KnownNoise { runs: g.runs, sigma_m: g.camera_sd_m, run_sd };
-    distances(&truth.told()?, &mean, Some(&super::cases::about(truth)?), noise, pairs)
+    distances(&truth.told()?, &mean, Some(&about(truth)?), noise, pairs)
 }
 
 /// Of all outcomes.

@@ -3,78 +3,15 @@
 use super::attainable::distances_of;
 use super::follow::{follow_up, tested};
 use super::oracle::{at_best, two_at_best};
-use super::{Diagnoser, Lot, PlannedSet};
-use crate::score::{Claim, ClaimScore, score};
+use super::outcome::{After, Diagnoser, Lot, Named, PlannedSet, about, names};
+use crate::score::{Claim, score};
 use crate::truth::{ROBOTS, standard_protocol};
 use crate::{Draw, HIDDEN, HiddenEffect, Hiding, OUTSIDE, Truth, truth};
 use compare::Evidence;
-use compare::diagnosis::{Confidence, Diagnosis, Distances, Experiment, Options};
+use compare::diagnosis::{Confidence, Diagnosis, Experiment, Options};
 use compare::error::CompareError;
 use compare::study::generate;
-use data::{About, Dataset, Direct, Provenance};
-use serde::{Deserialize, Serialize};
-
-/// What became of a set.
-#[derive(Debug, Clone)]
-pub struct SetOutcome {
-    /// Part of the table.
-    pub part: Lot,
-    /// What was hidden.
-    pub truth: Truth,
-    /// What was found; `None` if it failed.
-    pub named: Option<Named>,
-}
-
-/// What was found.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Named {
-    /// The answer.
-    pub answer: Claim,
-    /// Its score.
-    pub score: ClaimScore,
-    /// A single name is called identified.
-    pub identified: bool,
-    /// Something in the data was told to look like a slip.
-    pub slip: bool,
-    /// A column of pressures was, and the verdict withheld.
-    pub pressure_slip: bool,
-    /// The stiffness of the answer was told to be another one than the scenario or a bending test says.
-    pub bending_alarm: bool,
-    /// Error beyond noise of the calibrated base and of the final model \[mm\].
-    pub systematic_mm: [f64; 2],
-    /// Error that is good enough \[mm\].
-    pub tolerance_mm: f64,
-    /// The same on runs left out, where the diagnosis gives both.
-    pub heldout_mm: Option<[f64; 2]>,
-    /// The true value is inside the 95 % interval; `None` if another effect was chosen or there is no interval.
-    pub covered: Option<bool>,
-    /// λ between the best explanation and its rivals, by name.
-    pub separations: Vec<(String, f64)>,
-    /// BIC of the (first) true effect beyond the best one.
-    pub bic_behind: Option<f64>,
-    /// Smallest detectable size of the (first) true effect, in typical sizes.
-    pub smallest_detectable: Option<f64>,
-    /// Score after the recommended next experiment, of ambiguous sets.
-    pub after: Option<After>,
-    /// How far the truth is from what the catalogue can say, of one hidden effect and of one outside the catalogue.
-    pub distances: Option<Distances>,
-    /// Shares of all noise in which the truth could be named first, and among three, of one hidden effect that gave alarm; of two,
-    /// in which the nearest pair of laws holds one of them, and both.
-    pub at_best: Option<[f64; 2]>,
-    /// The same experiment with next to no noise, where the truth did not come out on top.
-    pub after_in_silence: Option<ClaimScore>,
-}
-
-/// What the recommended experiment brought.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct After {
-    /// The experiment.
-    pub experiment: String,
-    /// The answer to all data.
-    pub answer: Claim,
-    /// Its score.
-    pub score: ClaimScore,
-}
+use data::{About, Dataset};
 
 /// Step through a list of effects, prime to their numbers, so that a short bench sees different groups.
 const STRIDE: usize = 13;
@@ -92,7 +29,10 @@ pub(super) fn draw(part: Lot, seed: u64, stream: u64, index: usize) -> Result<Tr
         truth.add(list[turn * STRIDE % list.len()].name, draw.between(0.8, 1.5));
     };
     match part {
-        Lot::Hidden(Hiding::One) | Lot::Measured(Hiding::One) | Lot::LostMarkers(Hiding::One) => {
+        Lot::Hidden(Hiding::One)
+        | Lot::Measured(Hiding::One)
+        | Lot::LostMarkers(Hiding::One)
+        | Lot::HoldsScatter(Hiding::One) => {
             hide_one(truth::applicable(actuator, HIDDEN)?, &mut truth);
         }
         Lot::Interval => {
@@ -103,13 +43,14 @@ pub(super) fn draw(part: Lot, seed: u64, stream: u64, index: usize) -> Result<Tr
         Lot::Hidden(Hiding::Outside) => truth.add(OUTSIDE[turn * STRIDE % OUTSIDE.len()].name, 1.0),
         Lot::Hidden(kind) | Lot::Measured(kind) => truth.hide(kind, &mut draw)?,
         Lot::HeavyTails => truth.heavy_tails = true,
-        Lot::LostMarkers(_) => {}
+        Lot::LostMarkers(_) | Lot::HoldsScatter(_) => {}
         Lot::Clamp => {
             let [softest, stiffest] = CLAMPS.map(f64::ln);
             truth.add(["base_clamp", "tip_clamp"][turn % 2], draw.between(softest, stiffest).exp());
         }
         Lot::Softening => truth.add("softening", draw.between(0.8, 1.5)),
     }
+    truth.holds_scatter = matches!(part, Lot::HoldsScatter(_));
     truth.lost_markers = matches!(part, Lot::LostMarkers(_));
     Ok(truth)
 }
@@ -122,7 +63,7 @@ pub(super) fn named(case: &PlannedSet, diagnose: Diagnoser) -> Result<Named, Str
         Lot::HeavyTails => hidden(truth, Hiding::Nothing, diagnose),
         Lot::Measured(_) => tested(truth).and_then(|about| alone(truth, about, diagnose)),
         Lot::Interval => interval(truth, diagnose),
-        Lot::LostMarkers(_) | Lot::Clamp | Lot::Softening => {
+        Lot::LostMarkers(_) | Lot::HoldsScatter(_) | Lot::Clamp | Lot::Softening => {
             about(truth).and_then(|about| alone(truth, about, diagnose))
         }
     };
@@ -139,10 +80,6 @@ fn diagnosed(
     let options = Options { next_experiment, missing_moment: false, ..Options::default() };
     let evidence: Vec<Evidence> = data.into_iter().map(|(data, about)| Evidence::of(data, Some(about))).collect();
     diagnose(&truth.told()?, &evidence, &options, &mut |_, _| ())
-}
-
-pub(super) fn names(truth: &Truth) -> Vec<&str> {
-    truth.effects.iter().map(|choice| choice.name.as_str()).collect()
 }
 
 fn hidden(truth: &Truth, kind: Hiding, diagnose: Diagnoser) -> Result<Named, CompareError> {
@@ -241,23 +178,4 @@ fn scored(truth: &Truth, found: &Diagnosis) -> Named {
         after_in_silence: None,
         answer,
     }
-}
-
-/// The description of a set: gravity is known to act.
-pub(super) fn about(truth: &Truth) -> Result<About, CompareError> {
-    Ok(About {
-        title: "Bench".into(),
-        provenance: Provenance::Synthetic,
-        source: "ibr bench discovery".into(),
-        licence: "CC0-1.0".into(),
-        actuator: Some(truth.actuator.clone()),
-        geometry: None,
-        markers: Vec::new(),
-        gravity_direction: Some(truth.told()?.gravity_direction),
-        direct: Direct::default(),
-        bending_nm2: None,
-        measured: Vec::new(),
-        runs: Vec::new(),
-        notes: None,
-    })
 }

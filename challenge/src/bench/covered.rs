@@ -4,9 +4,9 @@
 //! the best and still be stated is taken so wide that it covers [`WANTED`] of the sets of all other laws; what does it cover of
 //! the law that was left out?
 
-use super::cases::{Named, SetOutcome, names};
+use super::outcome::{Lot, Named, SetOutcome, names};
 use super::row::{Goal, Rate};
-use super::{Lot, table};
+use super::table;
 use crate::Hiding;
 use compare::policy;
 use compare::stats::quantile;

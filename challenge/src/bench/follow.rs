@@ -7,7 +7,7 @@
 //! what is set, and positions from the base need a description of their own: these data are new runs, diagnosed together with
 //! the first.
 
-use super::cases::about as description;
+use super::outcome::about as description;
 use crate::Truth;
 use crate::camera::Camera;
 use crate::measure::measure_holds;

@@ -4,7 +4,7 @@
 //! have them all, so that one is what is missing. But the model beside it is not the finite elements either: what it misses with
 //! every mechanism switched on stays in the data, and may be called by any name.
 
-use super::Diagnoser;
+use super::outcome::Diagnoser;
 use super::row::{Goal, Rate};
 use compare::Evidence;
 use compare::diagnosis::{Diagnosis, Options, Verdict};

@@ -10,6 +10,7 @@ mod covered;
 mod follow;
 mod made;
 mod oracle;
+mod outcome;
 mod row;
 mod slipped;
 mod table;
@@ -17,22 +18,18 @@ mod table;
 mod tests;
 
 pub use attainable::Attainable;
-pub use cases::{After, Named, SetOutcome};
 pub use made::OneOff;
+pub use outcome::{After, Diagnoser, Lot, Named, PlannedSet, SetOutcome};
 pub use row::{Goal, Rate};
 pub use slipped::SlippedSet;
+pub use table::{Confusion, Slice};
 
 use super::effects::Laws;
 use super::score::{Claim, ClaimScore};
 use super::truth::{Hiding, Truth};
-use compare::diagnosis::{Diagnosis, Distances, Options};
+use compare::diagnosis::Distances;
 use compare::error::CompareError;
-use compare::{Evidence, Progress};
-use models::Scenario;
 use serde::{Deserialize, Serialize};
-
-/// What diagnoses; the bench is given it.
-pub type Diagnoser = fn(&Scenario, &[Evidence], &Options, &mut Progress) -> Result<Diagnosis, CompareError>;
 
 /// How large the bench is.
 #[derive(Debug, Clone, Copy)]
@@ -43,39 +40,6 @@ pub struct DiscoveryOptions {
     pub sets: usize,
     /// By which laws the hidden effects act.
     pub laws: Laws,
-}
-
-/// One named effect beside the hidden one.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Confusion {
-    /// Hidden.
-    pub truth: String,
-    /// On top of the ranking; `none` without alarm, `out_of_catalog` for that verdict.
-    pub named: String,
-    /// How often.
-    pub count: usize,
-    /// Median λ between the two where the diagnosis gave it: below 16 the data do not hold the answer.
-    pub lambda: Option<f64>,
-    /// Median BIC by which the truth is behind the name: large without λ means that the catalogue's formula is not the
-    /// robot's law.
-    pub bic_behind: Option<f64>,
-    /// Where nothing was found: smallest size of the truth that would have been, in typical sizes (median).
-    pub smallest_detectable: Option<f64>,
-}
-
-/// Figures of single effects for a part of the sets.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Slice {
-    /// Which part: an actuator, a camera noise, a number of runs.
-    pub of: String,
-    /// Sets.
-    pub sets: usize,
-    /// Share with alarm.
-    pub alarm: f64,
-    /// Given alarm: share with the truth on top.
-    pub on_top: f64,
-    /// Given alarm: share with the truth in the stated set.
-    pub in_set: f64,
 }
 
 /// One set as it was made and answered.
@@ -235,34 +199,6 @@ fn seen(outcome: &SetOutcome) -> SetSeen {
     }
 }
 
-/// One set of the bench.
-#[derive(Debug, Clone)]
-pub struct PlannedSet {
-    /// Part of the table.
-    pub part: Lot,
-    /// What is hidden.
-    pub truth: Truth,
-}
-
-/// Parts of the table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Lot {
-    /// Hidden by the generator.
-    Hidden(Hiding),
-    /// The same sets, of robots whose bending stiffness was measured by itself, to 10 %.
-    Measured(Hiding),
-    /// One effect by the catalogue's own law, for which a true value of its parameter exists.
-    Interval,
-    /// Nothing, seen by a camera with heavy-tailed noise.
-    HeavyTails,
-    /// Nothing, or the same effects, seen by a camera that loses markers.
-    LostMarkers(Hiding),
-    /// A clamp at base or tip, from half of its typical stiffness to thirty times that.
-    Clamp,
-    /// A wall that softens as it bends.
-    Softening,
-}
-
 fn plan(options: &DiscoveryOptions) -> Result<Vec<PlannedSet>, CompareError> {
     let half = options.sets.div_ceil(2);
     let parts = [
@@ -278,10 +214,12 @@ fn plan(options: &DiscoveryOptions) -> Result<Vec<PlannedSet>, CompareError> {
         (Lot::LostMarkers(Hiding::One), half),
         (Lot::Clamp, half),
         (Lot::Softening, half),
+        (Lot::HoldsScatter(Hiding::Nothing), half),
+        (Lot::HoldsScatter(Hiding::One), half),
     ];
     let mut plan = Vec::new();
     for (number, (part, sets)) in parts.into_iter().enumerate() {
-        let same = |other: &(Lot, usize)| matches!(part, Lot::Measured(kind) | Lot::LostMarkers(kind) if other.0 == Lot::Hidden(kind));
+        let same = |other: &(Lot, usize)| matches!(part, Lot::Measured(kind) | Lot::LostMarkers(kind) | Lot::HoldsScatter(kind) if other.0 == Lot::Hidden(kind));
         let number = parts.iter().position(same).unwrap_or(number);
         for index in 0..sets {
             let stream = ((number as u64) << 32) + index as u64;

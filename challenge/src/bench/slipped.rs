@@ -1,8 +1,7 @@
 //! Columns of pressures that were written wrongly, ten kinds on each robot, and placeholders where markers were lost; without any
 //! hidden effect.
 
-use super::Diagnoser;
-use super::cases::about;
+use super::outcome::{Diagnoser, about};
 use super::row::{Goal, Rate};
 use crate::truth::{ROBOTS, standard_protocol};
 use crate::{Draw, Truth};

@@ -1,10 +1,43 @@
 //! From outcomes to the rows of the table.
 
-use super::cases::{Named, SetOutcome, names};
+use super::outcome::{Lot, Named, SetOutcome, names};
 use super::row::{Goal, Rate};
-use super::{Confusion, Lot, Slice};
 use crate::Hiding;
 use Goal::{AtLeast, AtMost, Between};
+use serde::Serialize;
+
+/// One named effect beside the hidden one.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Confusion {
+    /// Hidden.
+    pub truth: String,
+    /// On top of the ranking; `none` without alarm, `out_of_catalog` for that verdict.
+    pub named: String,
+    /// How often.
+    pub count: usize,
+    /// Median λ between the two where the diagnosis gave it: below 16 the data do not hold the answer.
+    pub lambda: Option<f64>,
+    /// Median BIC by which the truth is behind the name: large without λ means that the catalogue's formula is not the
+    /// robot's law.
+    pub bic_behind: Option<f64>,
+    /// Where nothing was found: smallest size of the truth that would have been, in typical sizes (median).
+    pub smallest_detectable: Option<f64>,
+}
+
+/// Figures of single effects for a part of the sets.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Slice {
+    /// Which part: an actuator, a camera noise, a number of runs.
+    pub of: String,
+    /// Sets.
+    pub sets: usize,
+    /// Share with alarm.
+    pub alarm: f64,
+    /// Given alarm: share with the truth on top.
+    pub on_top: f64,
+    /// Given alarm: share with the truth in the stated set.
+    pub in_set: f64,
+}
 
 /// A share of sets: what is counted, the goal, and whether a set counts.
 type Counted = (&'static str, Goal, fn(&Named) -> bool);
@@ -29,6 +62,8 @@ pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
     rows.extend(one(outcomes, Lot::Measured(Hiding::One), "one hidden effect, B measured to 10 %"));
     let lossy = found(outcomes, Lot::LostMarkers(Hiding::One));
     rows.extend(named(&lossy, "one hidden effect, markers lost", &[ALARM], &[IN_SET, OUTSIDE]));
+    let scattered = found(outcomes, Lot::HoldsScatter(Hiding::One));
+    rows.extend(named(&scattered, "one hidden effect, holds scatter", &[ALARM], &[IN_SET, OUTSIDE]));
     for (part, case) in [(Lot::Clamp, "a clamp of any stiffness"), (Lot::Softening, "a softening wall")] {
         rows.extend(named(&found(outcomes, part), case, &[ALARM], &[ALONE_IN_SET]));
     }
@@ -87,7 +122,9 @@ fn nothing(outcomes: &[SetOutcome]) -> Vec<Rate> {
     let (all, tested) = (found(outcomes, NOTHING), found(outcomes, Lot::Measured(Hiding::Nothing)));
     let (few, many): (Sets, Sets) = all.iter().copied().partition(|(outcome, _)| outcome.truth.runs < 5);
     let lossy = found(outcomes, Lot::LostMarkers(Hiding::Nothing));
+    let scattered = found(outcomes, Lot::HoldsScatter(Hiding::Nothing));
     vec![
+        share(&scattered, "no hidden effect, holds scatter", FALSE_ALARM),
         share(&lossy, "no hidden effect, markers lost", FALSE_ALARM),
         share(&found(outcomes, Lot::HeavyTails), "no hidden effect, heavy tails", FALSE_ALARM),
         share(&many, case, ("false alarms, 5 and 10 runs", AtMost(0.03), FALSE_ALARM.2)),

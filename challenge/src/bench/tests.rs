@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::HIDDEN;
+use compare::diagnosis::Options;
 
 #[test]
 fn all_robots_and_all_effects_take_part_equally() {

@@ -1,6 +1,6 @@
 //! Effects of the actuator.
 
-use super::{HiddenEffect, Law};
+use super::kind::{HiddenEffect, Law};
 use crate::drive::Drive;
 use crate::robot::TrueRobot;
 use models::actuators::Family;

@@ -1,6 +1,6 @@
 //! Effects of the body.
 
-use super::{HiddenEffect, Law};
+use super::kind::{HiddenEffect, Law};
 use crate::robot::TrueRobot;
 use std::f64::consts::TAU;
 

@@ -1,6 +1,6 @@
 //! Effects that no entry of the catalogue describes: local, or of the measurement.
 
-use super::{HiddenEffect, Law};
+use super::kind::{HiddenEffect, Law};
 use crate::robot::TrueRobot;
 
 /// Factor on the actuator's pressure between two shares of the body length.

@@ -1,6 +1,6 @@
 //! Effects of loads, supply and camera.
 
-use super::{HiddenEffect, Law};
+use super::kind::{HiddenEffect, Law};
 
 pub(super) const GRAVITY: HiddenEffect = HiddenEffect {
     name: "gravity",

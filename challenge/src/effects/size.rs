@@ -1,6 +1,7 @@
 //! Typical sizes: of a first law as its entry says, of a second law such that it moves the markers as far.
 
-use super::{HiddenEffect, Laws};
+use super::kind::HiddenEffect;
+use crate::laws::Laws;
 use crate::measure::ideal;
 use crate::robot::TrueRobot;
 use crate::truth;

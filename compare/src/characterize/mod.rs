@@ -9,19 +9,18 @@ pub mod example;
 mod input;
 pub mod reduce;
 pub mod replay;
+mod result;
 pub mod scatter;
 pub mod specimen;
 #[cfg(test)]
 mod tests;
-mod units;
 mod warn;
 pub mod write;
 
 pub use input::FabricTests;
-pub use reduce::{Characterized, MeanCurve, ShearCurve, characterize};
-pub use replay::Replay;
+pub use reduce::characterize;
+pub use result::{BiasStrip, Characterized, MeanCurve, Replay, ShearCurve, Specimen};
 pub use scatter::{FabricNumber, Scatter};
-pub use specimen::{BiasStrip, Specimen};
 
 /// Shear angle of the paper's validity limit \[rad\]: 24 % strain of its strip of 250 mm by 20 mm.
 pub const PAPER_LIMIT_RAD: f64 = 0.630_801_3;

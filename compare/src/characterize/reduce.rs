@@ -1,61 +1,16 @@
 //! Over specimens: the numbers with their scatter, the mean curves, the shear curve.
 
 use data::{Coupon, DataError, Direction, Fault, Provenance};
-use models::fabrics::{Curve, Fabric, Woven, Yarn, shear_modulus, specimen as fit};
+use models::fabrics::{Fabric, shear_modulus, specimen as fit};
 
-use super::scatter::{FabricNumber, Scatter};
-use super::specimen::{self, BiasStrip, Specimen};
-use super::{PAPER_LIMIT_RAD, Reduction, Replay, replay, warn};
+use super::result::{Characterized, MeanCurve, ShearCurve, Specimen};
+use super::scatter::Scatter;
+use super::{PAPER_LIMIT_RAD, Reduction, replay, specimen, warn};
 use crate::CompareError;
 
 const YARNS: [Direction; 2] = [Direction::Warp, Direction::Fill];
 /// Rows of a mean curve: a law's table, fine enough for any bend of a fabric.
 const STEPS: usize = 24;
-
-/// All that the specimens of one fabric say.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Characterized {
-    /// One by one, in the order given.
-    pub specimens: Vec<Specimen>,
-    /// Numbers of the fabric.
-    pub quantities: Vec<FabricNumber>,
-    /// Mean curves along warp and fill.
-    pub yarns: Vec<MeanCurve>,
-    /// Shear curve, from bias extension.
-    pub shear: Option<ShearCurve>,
-    /// Mean thickness \[m\], if any specimen has one.
-    pub thickness_m: Option<f64>,
-    /// Every test by every law that these tests make.
-    pub replays: Vec<Replay>,
-    /// How the curves came to be.
-    pub provenance: Provenance,
-    /// What to look at before the numbers are believed.
-    pub warnings: Vec<String>,
-    /// What the numbers rest on, for the curious.
-    pub notes: Vec<String>,
-}
-
-/// Mean stress over strain of one direction.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MeanCurve {
-    /// Warp or fill.
-    pub direction: Direction,
-    /// Rows nominal strain, mean nominal stress \[Pa\]; strictly rising from `[0, 0]`.
-    pub rows: Vec<[f64; 2]>,
-    /// Standard deviation between specimens at every row \[Pa\], of two or more.
-    pub sd_pa: Vec<Option<f64>>,
-}
-
-/// Mean shear force over shear angle.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ShearCurve {
-    /// Rows shear angle \[rad\], mean shear force per length \[N/m\].
-    pub rows: Vec<[f64; 2]>,
-    /// Standard deviation between specimens at every row \[N/m\], of two or more.
-    pub sd_n_per_m: Vec<Option<f64>>,
-    /// Rows shear angle \[rad\], moment per volume T₁₂ = F_sh cos γ/t \[Pa\], strictly rising: the woven law's input.
-    pub moment_pa: Option<Vec<[f64; 2]>>,
-}
 
 /// Reduces all specimens of one fabric.
 ///
@@ -111,71 +66,6 @@ fn strips(found: &mut Characterized, taut: &[Coupon], settings: &Reduction) -> R
     }
     found.shear = shear_curve(&found.specimens, found.thickness_m);
     Ok(())
-}
-
-impl Characterized {
-    /// Adds bending lengths c \[m\] of specimens with weights per area w \[N/m²\]: c, and D = w c³.
-    pub fn bend(&mut self, lengths: &[[f64; 2]], word: &str) {
-        let c = Scatter::of(lengths.iter().map(|[c, _]| 1e3 * c));
-        let d = Scatter::of(lengths.iter().map(|[c, w]| 1e6 * w * c.powi(3)));
-        let stiffness = ["bending_stiffness", "bending stiffness D, per width"];
-        self.add(["bending_length", "bending length c"], "mm", c, format!("{word}: cantilever test, Peirce"));
-        self.add(stiffness, "µN·m", d, format!("{word}: D = w c³"));
-    }
-
-    /// Specimens of a direction.
-    pub fn of(&self, direction: Direction) -> impl Iterator<Item = &Specimen> {
-        self.specimens.iter().filter(move |s| s.direction == direction)
-    }
-
-    /// Bias-extension tests.
-    pub fn strips(&self) -> impl Iterator<Item = (&Specimen, &BiasStrip)> {
-        self.specimens.iter().filter_map(|s| Some((s, s.strip.as_ref()?)))
-    }
-
-    /// A number by its key.
-    pub fn quantity(&self, key: &str) -> Option<&FabricNumber> {
-        self.quantities.iter().find(|q| q.key == key)
-    }
-
-    /// Directions that were pulled, by angle.
-    pub fn directions(&self) -> Vec<Direction> {
-        warn::directions(&self.specimens)
-    }
-
-    /// ν₁₂: measured, else 0.
-    pub fn nu12(&self) -> f64 {
-        self.quantity("nu12").map_or(0.0, |q| q.scatter.mean.max(0.0))
-    }
-
-    /// The yarns as a fabric, with a shear that does not matter; none unless both were pulled.
-    pub fn yarns_alone(&self) -> Option<Woven> {
-        let yarn = |direction| {
-            let rows = &self.yarns.iter().find(|y| y.direction == direction)?.rows;
-            Yarn::new(Curve::table(rows).ok()?, None).ok()
-        };
-        let yarns = [yarn(Direction::Warp)?, yarn(Direction::Fill)?];
-        Woven::new(yarns, Curve::linear(1e6), self.nu12(), self.thickness_m?).ok()
-    }
-
-    fn add(&mut self, [key, name]: [&str; 2], unit: &'static str, scatter: Option<Scatter>, known: impl Into<String>) {
-        let Some(scatter) = scatter else { return };
-        let (key, name, known) = (key.into(), name.into(), known.into());
-        self.quantities.push(FabricNumber { key, name, unit, scatter, known });
-    }
-
-    /// A number over the specimens of a direction that have it.
-    fn over(&self, direction: Direction, number: impl Fn(&Specimen) -> Option<f64>) -> Option<Scatter> {
-        Scatter::of(self.of(direction).filter_map(number))
-    }
-
-    fn modulus(&self, direction: Direction) -> Option<Scatter> {
-        self.over(direction, |s| s.modulus_pa)
-    }
-
-    fn over_strips(&self, number: impl Fn(&BiasStrip) -> Option<f64>) -> Option<Scatter> {
-        Scatter::of(self.strips().filter_map(|(_, strip)| number(strip)))
-    }
 }
 
 fn different(coupons: &[Coupon]) -> Result<(), DataError> {

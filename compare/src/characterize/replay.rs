@@ -7,30 +7,12 @@ use std::sync::Arc;
 
 use models::fabrics::{self, BiasExtension, Fabric, Pull, Recipe, specimen as fit};
 
-use super::reduce::Characterized;
-use super::specimen::{BiasStrip, Specimen};
+use super::result::{BiasStrip, Characterized, Replay, Specimen};
 use super::write::fabric_toml;
 use super::{PAPER_LIMIT_RAD, Reduction};
 
 /// Places of a replay: a mean curve has fewer rows.
 const PLACES: usize = 48;
-
-/// One test by one law.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Replay {
-    /// Place of the specimen.
-    pub specimen: usize,
-    /// Name of the law in the fragment.
-    pub law: String,
-    /// Whether the law was made from tests of this direction; else it is a check.
-    pub used: bool,
-    /// Law over test at the end, less one: up to 36° of shear in a bias extension.
-    pub at_end: f64,
-    /// Root mean square of the difference over the test's largest stress.
-    pub rms: f64,
-    /// Rows nominal strain, nominal stress by the law \[Pa\].
-    pub rows: Vec<[f64; 2]>,
-}
 
 /// Every specimen with a stress, by every law.
 pub(super) fn replays(found: &Characterized, settings: &Reduction) -> Vec<Replay> {

@@ -3,9 +3,8 @@
 use data::{Coupon, Direction, Pulled};
 use models::fabrics::specimen::{self as fit, Slip};
 
-use super::Replay;
+use super::result::{Replay, Specimen, directions};
 use super::scatter::{Scatter, deviating};
-use super::specimen::Specimen;
 use crate::policy;
 
 /// A specimen that slipped in its grips, and rows that were left out. Rows: strain or displacement, and stress or force.
@@ -77,14 +76,6 @@ fn nearest_direction(specimens: &[Specimen], own: Direction, value: f64) -> Opti
         *d != own && mean.is_some_and(|s| policy::is_like_another(value, s.mean))
     };
     directions(specimens).into_iter().find(near)
-}
-
-/// Directions that were pulled, by angle.
-pub(super) fn directions(specimens: &[Specimen]) -> Vec<Direction> {
-    let mut all: Vec<Direction> = specimens.iter().map(|s| s.direction).collect();
-    all.sort_by(|a, b| a.degrees().total_cmp(&b.degrees()));
-    all.dedup();
-    all
 }
 
 /// Tests at other angles than a law was made from.

@@ -2,7 +2,7 @@
 
 use data::{Column, Direction, Table};
 
-use super::reduce::{Characterized, MeanCurve, ShearCurve};
+use super::result::{Characterized, MeanCurve, ShearCurve};
 use super::{PAPER_LIMIT_RAD, Reduction};
 
 /// `[fabric.NAME]` tables for a finite element case, one for every law that these tests determine; none without thickness.

@@ -76,7 +76,8 @@ impl ScenarioFile {
         let error = ScenarioError {
             message: "this robot has strips round the body, and what was asked is built for planar robots".into(),
             help: Some(
-                "ibr predict and ibr compare take it; for the rest remove [[strip]], azimuth_deg and turns".into(),
+                "ibr predict, compare and diagnose take it; for the rest remove [[strip]], azimuth_deg and turns"
+                    .into(),
             ),
             span: start.map(|start| (start, start + 1)),
         };

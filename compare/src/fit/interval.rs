@@ -87,12 +87,14 @@ pub fn half_width(data: &[FittedData], white: &[f64], parameters: usize) -> Opti
                 along * along * noise.mean_variance[j].max(policy::SENSOR_SD[j].powi(2) / runs)
             })
             .sum();
+        let pairs: Vec<(usize, f64)> = weights.iter().copied().enumerate().collect();
+        let held = noise.per_hold.variance_of_mean(&pairs, &noise.per_hold.test_variance, noise.runs);
         let dot = |column: &Vec<f64>| weights.iter().zip(column).map(|(w, c)| w * c).sum::<f64>();
         let gauge: f64 = noise.gauge_errors.iter().map(|c| dot(c).powi(2)).sum();
         // Errors of the gauge are specified, or widened already: unit variance of what is whitened.
         total += gauge + square(&white[to..to + part.readings]);
         let run_dof = noise.runs.saturating_sub(noise.sessions).max(1) as f64;
-        total += camera + run_to_run;
+        total += camera + run_to_run + held;
         squares_over_dof += camera * camera / noise.pure_error_dof.max(1) as f64 + run_to_run * run_to_run / run_dof;
         let missed = square(&noise.whiten(&part.residual_m)) / noise.seen(0..weights.len()) as f64;
         if policy::misses(missed) {

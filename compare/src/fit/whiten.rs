@@ -98,10 +98,17 @@ mod tests {
                 [x * x, f64::from(u8::from(i % 2 == 0)), f64::from(u8::from(i % 2 == 1)), x, 0.0, 0.0, 0.0]
             })
             .collect();
-        assert!(largest_departure_from_identity(&rows, 1e-3, &[4e-4, 2.5e-7, 2.5e-7, 1e-6, 2.5e-7, 1e-6, 1e-6]) < 1e-10);
+        assert!(
+            largest_departure_from_identity(&rows, 1e-3, &[4e-4, 2.5e-7, 2.5e-7, 1e-6, 2.5e-7, 1e-6, 1e-6]) < 1e-10
+        );
         let in_space: Vec<Row> = rows.iter().map(|[p, x, y, ..]| [*p, *x, *y, 0.3, p - y, 0.1 * x, p + 0.2]).collect();
-        assert!(largest_departure_from_identity(&in_space, 1e-3, &[4e-4, 2.5e-7, 2.5e-7, 1e-6, 2.5e-7, 1e-6, 1e-6]) < 1e-10);
+        assert!(
+            largest_departure_from_identity(&in_space, 1e-3, &[4e-4, 2.5e-7, 2.5e-7, 1e-6, 2.5e-7, 1e-6, 1e-6]) < 1e-10
+        );
         assert!(largest_departure_from_identity(&rows, 1e-3, &Row::default()) < 1e-12);
-        assert!(largest_departure_from_identity(&rows[..3], 1e-3, &[4e-4, 2.5e-7, 2.5e-7, 1e-6, 2.5e-7, 1e-6, 1e-6]) < 1e-10);
+        assert!(
+            largest_departure_from_identity(&rows[..3], 1e-3, &[4e-4, 2.5e-7, 2.5e-7, 1e-6, 2.5e-7, 1e-6, 1e-6])
+                < 1e-10
+        );
     }
 }

@@ -117,8 +117,8 @@ pub struct ResidualMap {
 /// Compute the residual map of a comparison.
 pub fn residual_map(c: &BesideMean) -> ResidualMap {
     let Layout { holds, markers, axes, .. } = c.layout;
-    let cells =
-        (0..markers).flat_map(|m| (0..holds).flat_map(move |h| (0..axes).map(move |axis| c.layout.mean_weights(h, m, axis))));
+    let cells = (0..markers)
+        .flat_map(|m| (0..holds).flat_map(move |h| (0..axes).map(move |axis| c.layout.mean_weights(h, m, axis))));
     let pairs = loop_pairs(c);
     let mut contrasts: Vec<Weights> = cells.collect();
     let drift_start = contrasts.len();
@@ -174,7 +174,8 @@ fn deviations(c: &BesideMean, contrasts: &[Weights]) -> Vec<Deviation> {
 
 fn cell(axes: &[Deviation], seen: bool) -> ResidualCell {
     let (x, y, z) = (axes[0], axes[1], axes.get(2).copied());
-    let length = |of: &dyn Fn(&Deviation) -> Option<f64>| axes.iter().map(of).try_fold(0.0_f64, |sum, v| Some(sum.hypot(v?)));
+    let length =
+        |of: &dyn Fn(&Deviation) -> Option<f64>| axes.iter().map(of).try_fold(0.0_f64, |sum, v| Some(sum.hypot(v?)));
     let norm_mm = length(&|d| Some(d.mm)).unwrap_or(0.0);
     ResidualCell { x, y, z, norm_mm, norm_in_noise: length(&|d| d.in_noise), seen }
 }

@@ -170,7 +170,8 @@ fn chi_square(
     let [pressure, _, _, rotation, _, about_x, about_y] = noise.test_variance;
     // Two holds are two settings of the regulator: each adds its own error, whatever the run-to-run scatter.
     let regulator = 2.0 * policy::SENSOR_SD[0].powi(2) / noise.runs as f64;
-    let variances = [pressure, mismatch(&dataset.holds, pair).powi(2) + regulator, 0.0, rotation, 0.0, about_x, about_y];
+    let variances =
+        [pressure, mismatch(&dataset.holds, pair).powi(2) + regulator, 0.0, rotation, 0.0, about_x, about_y];
     let unit_m = (2.0 / layout.samples as f64).sqrt() * noise.unit_m();
     let white = Whitener::new(&rows, unit_m, &variances)?.whiten(&difference);
     Ok(white.iter().map(|w| w * w).sum())
@@ -209,10 +210,12 @@ fn cannot_be_checked(holds: &[Hold]) -> ScalingCheck {
         Some(body) => {
             let same_body =
                 pressurised.filter(|h| h.phase != Phase::Unload && !policy::bodies_differ(h.p_body_pa, body));
-            let mut actuator: Vec<f64> = same_body.map(|h| 1e-3 * h.sum_act_pa()).collect();
-            actuator.sort_by(f64::total_cmp);
+            let mut actuator: Vec<&Hold> = same_body.collect();
+            actuator.sort_by(|a, b| a.sum_act_pa().total_cmp(&b.sum_act_pa()));
             let scaled = |by: f64| {
-                let mut words: Vec<String> = actuator.iter().map(|p| short(by * p)).collect();
+                let word =
+                    |hold: &&Hold| hold.channels_pa().map(|p| short(by * (1e-3 * p))).collect::<Vec<_>>().join("/");
+                let mut words: Vec<String> = actuator.iter().map(word).collect();
                 words.dedup();
                 list(&words)
             };

@@ -38,7 +38,8 @@ pub fn data_slope(dataset: &Dataset) -> Option<Vec<f64>> {
     let mut known = vec![false; layout.holds];
     for branch in branches(dataset, &u).into_iter().filter(|branch| branch.len() > 1) {
         for k in 0..width {
-            let seen = |same: &Vec<usize>| same.iter().copied().filter(|h| dataset.is_seen(*h, k / layout.axes)).collect();
+            let seen =
+                |same: &Vec<usize>| same.iter().copied().filter(|h| dataset.is_seen(*h, k / layout.axes)).collect();
             let nodes: Vec<Vec<usize>> = branch.iter().map(seen).filter(|same: &Vec<usize>| !same.is_empty()).collect();
             if nodes.len() < 2 {
                 continue;

@@ -5,6 +5,7 @@ pub mod data_slope;
 pub mod directions;
 pub mod evidence;
 pub mod gauge;
+pub mod hold_scatter;
 pub mod layout;
 pub mod noise;
 pub mod noise_summary;

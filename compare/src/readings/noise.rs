@@ -23,6 +23,9 @@
 //! widened by (t_.9975/z_.9975)² because few runs estimate it badly, and is never below the sensor specification.
 //! A full 4×4 sample covariance is rank deficient for 3 to 5 runs and raises false alarms; hence the diagonal.
 //!
+//! Single holds scatter, too ([`crate::hold_scatter`]): with n holds, Σ_mean has Σ_k v_k/R Z_k Z_kᵀ more, and σ² is larger where the
+//! samples of a hold do not scatter as its repeats do.
+//!
 //! With several sessions the mean cannot be better than the scatter between the session means b: v/R is replaced by
 //! b Σ_s (R_s/R)² where that is larger.
 //!
@@ -33,6 +36,7 @@ use crate::data_slope::data_slope;
 use crate::directions::{DirectionFit, ROTATIONS, Row, SHIFTS, directions_of};
 use crate::error::CompareError;
 use crate::fit::whiten::Whitener;
+use crate::hold_scatter::{HoldScatter, hold_scatter};
 use crate::layout::{Layout, Weights};
 use crate::policy;
 use crate::run_scatter::{between_sessions, pooled, rotations, session_groups, within_sessions};
@@ -89,6 +93,9 @@ pub struct NoiseModel {
     /// U, one row per value in run layout.
     #[serde(skip)]
     pub directions: Vec<Row>,
+    /// Scatter of single holds of one run.
+    #[serde(skip)]
+    pub per_hold: HoldScatter,
     /// What one standard deviation of each error of the gauge does to the mean \[m\], in run layout; empty unless the
     /// actuator's pressure was read there ([`NoiseModel::at_readings`]).
     #[serde(skip)]
@@ -163,6 +170,7 @@ impl NoiseModel {
     /// If the eigenproblem does not converge.
     pub fn at_readings(mut self, gauge_errors: Vec<Vec<f64>>) -> Result<NoiseModel, CompareError> {
         self.gauge_errors = gauge_errors;
+        self.per_hold.drop_pressure();
         (self.mean_variance[0], self.test_variance[0]) = (0.0, 0.0);
         let each: Vec<Weights> = (0..self.directions.len()).map(|i| vec![(i, 1.0)]).collect();
         self.whitener = self.whitener_of(&each)?;
@@ -185,7 +193,10 @@ impl NoiseModel {
         let along =
             |column: &Vec<f64>| sums.iter().map(|w| w.iter().map(|(i, share)| share * column[*i]).sum()).collect();
         let rows: Vec<Row> = sums.iter().map(direction).collect();
-        let columns: Vec<Vec<f64>> = self.gauge_errors.iter().map(along).collect();
+        let mut columns: Vec<Vec<f64>> = self.gauge_errors.iter().map(along).collect();
+        for (column, sd) in self.per_hold.of_mean(self.runs) {
+            columns.push(sums.iter().map(|w| sd * column.along(w.iter().copied())).collect());
+        }
         let squares = sums.first().map_or(1.0, |w| w.iter().map(|(_, share)| share * share).sum::<f64>());
         Whitener::with_columns(&rows, self.unit_m() * squares.sqrt(), &self.test_variance, &columns)
     }
@@ -217,12 +228,14 @@ impl NoiseModel {
 
     /// Standard deviation \[unit of the functional\] of wᵀȳ for tests; `None` if unknown.
     pub fn test_sd(&self, weights: &[(usize, f64)]) -> Option<f64> {
-        self.functional_variance(weights, &self.test_variance).map(f64::sqrt)
+        let held = self.per_hold.variance_of_mean(weights, &self.per_hold.test_variance, self.runs);
+        self.functional_variance(weights, &self.test_variance).map(|v| (v + held).sqrt())
     }
 
     /// Best estimate of the variance of wᵀȳ; `None` if unknown.
     pub fn variance(&self, weights: &[(usize, f64)]) -> Option<f64> {
-        self.functional_variance(weights, &self.mean_variance)
+        let held = self.per_hold.variance_of_mean(weights, &self.per_hold.variance(), self.runs);
+        self.functional_variance(weights, &self.mean_variance).map(|v| v + held)
     }
 
     /// Mean of the diagonal of Σ_mean \[m²\] over some values in run layout, best estimate; `None` if unknown.
@@ -230,7 +243,8 @@ impl NoiseModel {
         let rows = &self.directions[range.clone()];
         let shared: f64 = rows.iter().map(|u| quadratic(u, &self.mean_variance)).sum();
         let read: f64 = self.gauge_errors.iter().flat_map(|c| &c[range.clone()]).map(|e| e * e).sum();
-        Some(self.sigma_m?.powi(2) / self.runs as f64 + (shared + read) / self.seen(range).max(1) as f64)
+        let held = self.per_hold.square_of_mean(&range, self.runs);
+        Some(self.sigma_m?.powi(2) / self.runs as f64 + (shared + read + held) / self.seen(range).max(1) as f64)
     }
 
     /// Values that enough runs saw: an alignment error moves each of them, so that its row of U is not zero.
@@ -294,19 +308,18 @@ impl NoiseModel {
             hold_sigma_m: Vec::new(),
             runs_identical: false,
             directions,
+            per_hold: HoldScatter::default(),
             gauge_errors: Vec::new(),
             whitener,
         })
     }
 
-    fn measured(
-        dataset: &Dataset,
-        groups: &[Vec<usize>],
-        directions: Vec<Row>,
-    ) -> Result<NoiseModel, CompareError> {
+    fn measured(dataset: &Dataset, groups: &[Vec<usize>], directions: Vec<Row>) -> Result<NoiseModel, CompareError> {
         let fit = DirectionFit::new(&directions);
         let within = within_sessions(dataset, groups, &fit);
         let sigma2 = within.sigma2.max(SMALLEST_SIGMA_M.powi(2));
+        let per_hold = hold_scatter(dataset, groups, &directions, sigma2, within.dof);
+        let (sigma2, sigma_dof) = per_hold.of_samples(dataset.samples_per_hold).unwrap_or((sigma2, within.dof));
         let (runs, axes) = (dataset.runs.len(), dataset.axes);
         let run_variance = pooled(fit.noise_free(within.coefficient_variance, sigma2), axes);
         let between = pooled(between_sessions(dataset, groups, &fit, sigma2), axes);
@@ -324,19 +337,21 @@ impl NoiseModel {
             test_variance[j] = (widened / runs as f64).max(between[j]);
         }
         let unit_m = (sigma2 / runs as f64).sqrt();
-        let whitener = Whitener::new(&directions, unit_m, &test_variance)?;
+        let held = per_hold.of_mean(runs).map(|(column, sd)| column.spread(directions.len(), sd));
+        let whitener = Whitener::with_columns(&directions, unit_m, &test_variance, &held.collect::<Vec<_>>())?;
         Ok(NoiseModel {
             status: NoiseStatus::Measured,
             runs,
             sessions: groups.len(),
             sigma_m: Some(sigma2.sqrt()),
-            pure_error_dof: within.dof,
+            pure_error_dof: sigma_dof,
             run_sd: std::array::from_fn(|j| fit.kept(j).then(|| run_variance[j].sqrt())),
             mean_variance,
             test_variance,
             hold_sigma_m: within.hold_sigma2.iter().map(|s| s.sqrt()).collect(),
             runs_identical: within.sigma2 < SMALLEST_SIGMA_M.powi(2),
             directions,
+            per_hold,
             gauge_errors: Vec::new(),
             whitener,
         })

@@ -24,6 +24,16 @@ pub struct NoiseSummary {
     pub alignment_mm: Option<f64>,
     /// Run-to-run rotation scatter \[mrad\].
     pub rotation_mrad: Option<f64>,
+    /// The same of single holds of a run: pressure \[%\]; like the others `None` where none is found.
+    pub hold_pressure_pct: Option<f64>,
+    /// Bend \[% of the bend\].
+    pub hold_bend_pct: Option<f64>,
+    /// Shift of one coordinate \[mm\].
+    pub hold_alignment_mm: Option<f64>,
+    /// Rotation \[mrad\].
+    pub hold_rotation_mrad: Option<f64>,
+    /// Errors of a marker's coordinate that last through a hold \[mm\].
+    pub lasting_mm: Option<f64>,
     /// Root-mean-square noise of one coordinate of the mean over runs, run-level part included \[mm\].
     pub noise_of_mean_mm: Option<f64>,
     /// Whether p-values are given.
@@ -39,14 +49,22 @@ impl NoiseSummary {
     pub fn of(noise: &NoiseModel, holds: &[Hold]) -> NoiseSummary {
         let mm = |m: f64| 1e3 * m;
         let [pressure, alignment, _, rotation, ..] = noise.run_sd;
+        let samples = holds.first().map_or(1, |hold| hold.t_s.len());
+        let held = |kind: usize, unit: f64| Some(unit * noise.per_hold.sd[kind]).filter(|sd| *sd > 0.0);
+        let single = noise.per_hold.lasts.then(|| noise.per_hold.sample_m2.sqrt()).or(noise.sigma_m);
         let mut summary = NoiseSummary {
             status: noise.status,
             runs: noise.runs,
             sessions: noise.sessions,
-            camera_mm: noise.sigma_m.map(mm),
+            camera_mm: single.map(mm),
             pressure_pct: pressure.map(|v| 100.0 * v),
             alignment_mm: alignment.map(mm),
             rotation_mrad: rotation.map(mm),
+            hold_pressure_pct: held(0, 100.0),
+            hold_bend_pct: held(1, 100.0),
+            hold_alignment_mm: held(2, 1e3),
+            hold_rotation_mrad: held(3, 1e3),
+            lasting_mm: noise.per_hold.lasting_m(samples).map(mm),
             noise_of_mean_mm: noise.mean_square(0..noise.directions.len()).map(|v| mm(v.sqrt())),
             p_values: noise.gives_p_values(),
             sentence: String::new(),
@@ -84,11 +102,28 @@ fn sentence(noise: &NoiseModel, s: &NoiseSummary) -> String {
             s.runs
         );
     }
-    let mut text = format!("camera noise {camera:.1} mm; {}; noise of the mean {mean:.2} mm", run_to_run(s));
+    let held = hold_to_hold(s);
+    let mut text = format!("camera noise {camera:.1} mm; {}{held}; noise of the mean {mean:.2} mm", run_to_run(s));
     if noise.runs < policy::FEWEST_RUNS {
         text += "; two runs only, so no significance is given";
     }
     text
+}
+
+fn hold_to_hold(s: &NoiseSummary) -> String {
+    let part = |value: Option<f64>, name: &str, unit: &str| value.map(|v| format!("{name} {v:.1} {unit}"));
+    let parts: Vec<String> = [
+        part(s.hold_pressure_pct, "pressure", "%"),
+        part(s.hold_bend_pct, "bend", "%"),
+        part(s.hold_alignment_mm, "alignment", "mm"),
+        part(s.hold_rotation_mrad, "rotation", "mrad"),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    let held = if parts.is_empty() { String::new() } else { format!("; hold-to-hold {}", parts.join(", ")) };
+    let lasting = s.lasting_mm.map(|v| format!("; marker errors of {v:.1} mm last through a hold"));
+    held + &lasting.unwrap_or_default()
 }
 
 fn run_to_run(s: &NoiseSummary) -> String {

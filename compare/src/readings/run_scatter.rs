@@ -19,7 +19,8 @@ pub struct Within {
 /// Scatter of the runs about the mean of their session.
 pub fn within_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit) -> Within {
     let holds = dataset.holds.len();
-    let mut within = Within { sigma2: 0.0, hold_sigma2: vec![0.0; holds], dof: 0, coefficient_variance: Row::default() };
+    let mut within =
+        Within { sigma2: 0.0, hold_sigma2: vec![0.0; holds], dof: 0, coefficient_variance: Row::default() };
     let per_marker = dataset.axes * dataset.samples_per_hold;
     let seen_in = |hold: usize| (0..dataset.markers.len()).filter(|m| dataset.is_seen(hold, *m)).count() * per_marker;
     let seen: Vec<usize> = (0..holds).map(seen_in).collect();

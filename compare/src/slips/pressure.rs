@@ -65,7 +65,8 @@ const COLUMNS: [PressureColumn; 2] = [PressureColumn::Actuator, PressureColumn::
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Where they point.
-const FRAME: &str = "x runs from the base along the straight robot, y towards azimuth 0\u{b0}, z towards azimuth 90\u{b0}";
+const FRAME: &str =
+    "x runs from the base along the straight robot, y towards azimuth 0\u{b0}, z towards azimuth 90\u{b0}";
 
 /// Pairs of so many.
 fn pairs(count: usize) -> impl Iterator<Item = [usize; 2]> {
@@ -145,7 +146,9 @@ impl PressureSlip {
         let Dataset { holds, coordinates_m, axes, .. } = &mut mended;
         let places = coordinates_m.chunks_exact_mut(*axes);
         match self {
-            PressureSlip::Unit(column, unit) => holds.iter_mut().for_each(|hold| column.change(hold, |pa| pa * unit.factor)),
+            PressureSlip::Unit(column, unit) => {
+                holds.iter_mut().for_each(|hold| column.change(hold, |pa| pa * unit.factor))
+            }
             PressureSlip::Exchanged => {
                 holds.iter_mut().for_each(|hold| std::mem::swap(&mut hold.p_act_pa, &mut hold.p_body_pa));
             }
@@ -213,7 +216,8 @@ impl PressureSlip {
                 format!("if they are, subtract {} kPa from the column {}", short(1e-3 * room_pa), column.name())
             }
             PressureSlip::Channels(pair) => {
-                let [one, other] = pair.map(|channel| if channel == 0 { "p_act".into() } else { format!("p_act_{channel}") });
+                let [one, other] =
+                    pair.map(|channel| if channel == 0 { "p_act".into() } else { format!("p_act_{channel}") });
                 format!("if they are, exchange the names of the columns {one} and {other}")
             }
             PressureSlip::Axes(pair) => {

@@ -1,7 +1,8 @@
 //! Synthetic marker data: a scenario's prediction with the scatter of a real test.
 //!
-//! Per run: one relative pressure error, one shift of the camera, one roll of the camera. Per sample: camera noise. The
-//! recorded pressure is the set one, as a regulator reports it. Seeded: the same call gives the same bytes.
+//! Per run: one relative pressure error, one shift of the camera, one roll of the camera. Per hold, as [`HoldScatter`] says: the same
+//! three, and an error of every marker that lasts through the hold. Per sample: camera noise. The recorded pressure is the set one, as
+//! a regulator reports it. Seeded: the same call gives the same bytes, and scatter per hold changes no other draw.
 
 use crate::error::CompareError;
 use data::{About, Dataset, Direct, Geometry, Hold, Marker, MarkerStation, Phase, Provenance};
@@ -33,8 +34,23 @@ pub struct Generator {
     pub alignment_sd_m: f64,
     /// Run-to-run roll of the camera \[rad\].
     pub rotation_sd: f64,
+    /// Scatter of single holds.
+    pub per_hold: HoldScatter,
     /// A gauge at the actuator is read along.
     pub gauge: bool,
+}
+
+/// What differs from hold to hold of a run, as standard deviations; `Default` is none of it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct HoldScatter {
+    /// Relative error of the actuator pressure \[-\].
+    pub pressure_sd: f64,
+    /// Shift of the camera or the base along each axis \[m\].
+    pub alignment_sd_m: f64,
+    /// Roll of the camera \[rad\].
+    pub rotation_sd: f64,
+    /// Error of one coordinate of a marker that lasts through the hold, as of a tracker \[m\].
+    pub lasting_sd_m: f64,
 }
 
 impl Default for Generator {
@@ -50,6 +66,7 @@ impl Default for Generator {
             pressure_sd: 0.02,
             alignment_sd_m: 0.5e-3,
             rotation_sd: 0.5e-3,
+            per_hold: HoldScatter::default(),
             gauge: false,
         }
     }
@@ -137,23 +154,23 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
     }
     let model = Model::new(scenario);
     let mut state = model.prediction();
-    let mut eye = Seen::new(generator);
+    let mut eye = Seen::new(generator, generator.protocol.len());
     let (supply, mut manometer) = (Supply::of(scenario), Manometer::new(generator.seed));
     let (mut coordinates_m, mut gauge_pa) = (Vec::new(), Vec::new());
     for _ in 0..generator.runs {
-        let gain = eye.next_run();
+        let gains = eye.next_run();
         if model.is_spatial() {
             eye.tilt();
         }
-        for (set_pa, held_s) in held(&holds(generator)) {
-            gauge_pa.push(manometer.read(supply.pressure(gain * set_pa, held_s)));
+        for (i, (set_pa, held_s)) in held(&holds(generator)).into_iter().enumerate() {
+            gauge_pa.push(manometer.read(supply.pressure(gains[i / generator.samples] * set_pa, held_s)));
         }
         if model.has_history() {
             let mut each = |_: usize, at: &Prediction| eye.look_at(at, model.is_spatial(), &mut coordinates_m);
-            model.follow(&steps(generator, gain), &mut state, &mut each)?;
+            model.follow(&steps(generator, &gains), &mut state, &mut each)?;
             continue;
         }
-        for hold in 0..generator.protocol.len() {
+        for (hold, gain) in gains.into_iter().enumerate() {
             model.predict(&generator.loads(hold, gain), &mut state)?;
             for _ in 0..generator.samples {
                 eye.look_at(&state, model.is_spatial(), &mut coordinates_m);
@@ -214,27 +231,64 @@ impl Manometer {
 }
 
 /// A camera and the regulator's error, run by run.
-pub(super) struct Seen<'a> {
+pub struct Seen<'a> {
     generator: &'a Generator,
+    /// Camera noise from Student's t with 3 degrees of freedom, scaled to the same standard deviation: now and then a marker is seen
+    /// far off.
+    pub heavy_tails: bool,
+    /// Holds of a run.
+    holds: usize,
     scatter: Scatter,
     shift: [f64; 2],
     roll: f64,
+    /// Draws of single holds, samples seen, and what lasts through the hold: shift, roll, and errors of the markers.
+    of_holds: Scatter,
+    seen: usize,
+    held_shift: [f64; 3],
+    held_roll: f64,
+    lasting: Vec<[f64; 3]>,
     /// Shift along z \[m\] and rotations about x and y \[rad\] of a robot in space.
     tilt: [f64; 3],
 }
 
 impl<'a> Seen<'a> {
-    pub(super) fn new(generator: &'a Generator) -> Seen<'a> {
-        Seen { generator, scatter: Scatter::new(generator.seed), shift: [0.0; 2], roll: 0.0, tilt: [0.0; 3] }
+    /// A camera for runs of so many holds.
+    pub fn new(generator: &'a Generator, holds: usize) -> Seen<'a> {
+        Seen {
+            generator,
+            heavy_tails: false,
+            holds,
+            scatter: Scatter::new(generator.seed),
+            shift: [0.0; 2],
+            roll: 0.0,
+            of_holds: Scatter::new(generator.seed ^ 0x401D),
+            seen: 0,
+            held_shift: [0.0; 3],
+            held_roll: 0.0,
+            lasting: Vec::new(),
+            tilt: [0.0; 3],
+        }
     }
 
-    /// Sets the robot up again; returns true over set pressure.
-    pub(super) fn next_run(&mut self) -> f64 {
+    /// Sets the robot up again; returns true over set pressure of every hold.
+    pub fn next_run(&mut self) -> Vec<f64> {
         let (g, scatter) = (self.generator, &mut self.scatter);
         let gain = 1.0 + g.pressure_sd * scatter.normal();
         self.shift = [scatter.normal(), scatter.normal()].map(|n| n * g.alignment_sd_m);
         self.roll = g.rotation_sd * scatter.normal();
-        gain
+        (0..self.holds).map(|_| gain * (1.0 + g.per_hold.pressure_sd * self.of_holds.normal())).collect()
+    }
+
+    /// Draws what a hold has of its own, at its first sample.
+    fn hold(&mut self, markers: usize) {
+        if self.seen.is_multiple_of(self.generator.samples.max(1)) {
+            let (g, scatter) = (&self.generator.per_hold, &mut self.of_holds);
+            let mut three = |sd: f64| [0.0; 3].map(|_: f64| sd * scatter.normal());
+            self.held_shift = three(g.alignment_sd_m);
+            self.lasting = (0..markers).map(|_| three(g.lasting_sd_m)).collect();
+            self.held_roll = g.rotation_sd * scatter.normal();
+        }
+        self.seen += 1;
     }
 
     /// Sets up what a planar robot does not show.
@@ -251,28 +305,31 @@ impl<'a> Seen<'a> {
         let [shift_z, about_x, about_y] = self.tilt;
         let mut xy_m = Vec::with_capacity(2 * at.markers.len());
         self.look(&at.markers, &mut xy_m);
-        for (seen, ([x, y], z)) in xy_m.chunks_exact(2).zip(at.markers.iter().zip(&at.markers_z_m)) {
-            let noise = self.generator.camera_sd_m * self.scatter.normal();
+        let shift_z = shift_z + self.held_shift[2];
+        for (i, (seen, ([x, y], z))) in xy_m.chunks_exact(2).zip(at.markers.iter().zip(&at.markers_z_m)).enumerate() {
+            let noise = self.generator.camera_sd_m * self.scatter.normal() + self.lasting[i][2];
             let z_m = z + about_x * y - about_y * x + shift_z + noise;
             coordinates_m.extend([seen[0] + about_y * z, seen[1] - about_x * z, z_m]);
         }
     }
 
     /// One sample of all markers.
-    pub(super) fn look(&mut self, markers: &[[f64; 2]], coordinates_m: &mut Vec<f64>) {
-        let (shift, roll) = (self.shift, self.roll);
-        for [x, y] in markers {
-            let noise = [self.scatter.normal(), self.scatter.normal()].map(|n| n * self.generator.camera_sd_m);
-            coordinates_m.push(x - roll * y + shift[0] + noise[0]);
-            coordinates_m.push(y + roll * x + shift[1] + noise[1]);
+    pub fn look(&mut self, markers: &[[f64; 2]], coordinates_m: &mut Vec<f64>) {
+        self.hold(markers.len());
+        let (shift, held) = (self.shift, self.held_shift);
+        let (shift, roll) = ([shift[0] + held[0], shift[1] + held[1]], self.roll + self.held_roll);
+        for ([x, y], lasting) in markers.iter().zip(&self.lasting) {
+            let noise = [0, 1].map(|_| self.generator.camera_sd_m * self.scatter.camera(self.heavy_tails));
+            coordinates_m.push(x - roll * y + shift[0] + noise[0] + lasting[0]);
+            coordinates_m.push(y + roll * x + shift[1] + noise[1] + lasting[1]);
         }
     }
 }
 
-/// The protocol of one run whose actuator pressures are off by a factor.
-fn steps(generator: &Generator, gain: f64) -> Vec<Step> {
+/// The protocol of one run whose actuator pressures are off by a factor in every hold.
+fn steps(generator: &Generator, gains: &[f64]) -> Vec<Step> {
     let of_hold = |(index, hold): (usize, Hold)| {
-        let loads = generator.loads(index, gain);
+        let loads = generator.loads(index, gains[index]);
         hold.t_s.into_iter().map(move |t_s| Step { t_s, loads })
     };
     holds(generator).into_iter().enumerate().flat_map(of_hold).collect()
@@ -316,7 +373,21 @@ pub struct Scatter {
     spare: Option<f64>,
 }
 
+/// Degrees of freedom of heavy-tailed noise: the least with a variance.
+const HEAVY_DOF: usize = 3;
+
 impl Scatter {
+    /// One number of variance 1.
+    fn camera(&mut self, heavy_tails: bool) -> f64 {
+        let normal = self.normal();
+        if !heavy_tails {
+            return normal;
+        }
+        let chi2: f64 = (0..HEAVY_DOF).map(|_| self.normal().powi(2)).sum();
+        // t = n/√(χ²/3) has the variance 3.
+        normal / chi2.sqrt()
+    }
+
     /// From a seed.
     pub fn new(seed: u64) -> Scatter {
         Scatter { rng: ChaCha8Rng::seed_from_u64(seed), spare: None }

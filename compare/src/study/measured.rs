@@ -56,8 +56,10 @@ fn arm() -> Result<Option<Held>, CompareError> {
     let (dataset, _) = data::load(SET, &mut |_, _| {})?;
     let model = Model::new(&scenario);
     let mut out = model.prediction();
-    let (markers, samples) =
-        (dataset.markers.len(), dataset.coordinates_m.len() / (dataset.axes * dataset.markers.len() * dataset.holds.len()));
+    let (markers, samples) = (
+        dataset.markers.len(),
+        dataset.coordinates_m.len() / (dataset.axes * dataset.markers.len() * dataset.holds.len()),
+    );
     let mut rows = Vec::new();
     for (i, hold) in dataset.holds.iter().enumerate().filter(|(_, hold)| hold.p_act_pa > 0.0) {
         model.predict(&Loads::uniform(hold.p_body_pa, hold.p_act_pa), &mut out)?;

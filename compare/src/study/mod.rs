@@ -16,7 +16,7 @@ pub mod uncertain;
 pub use calibrate::{Calibration, Knob, calibrate};
 pub use comparison::{Comparison, Contender, Variant, compare, compare_all};
 pub use engines::breakdown;
-pub use generate::{Generator, generate, parse_protocol};
+pub use generate::{Generator, HoldScatter, generate, parse_protocol};
 pub(crate) use predict::first_slope;
 pub use predict::{Predicted, fit_scenario, predict_dataset};
 pub use published::tradeoff::{Timing, time_prediction};

@@ -1,9 +1,9 @@
 //! A model's prediction at the holds and markers of a dataset.
 
+use super::generate::in_channels;
 use crate::data_slope::data_slope;
 use crate::error::CompareError;
 use crate::policy;
-use super::generate::in_channels;
 use data::{About, Dataset, Direct, Hold};
 use models::effects::Stage;
 use models::{Loads, Model, Prediction, Scenario, Step};

@@ -39,11 +39,11 @@ pub fn seen(runs: &[EngineRun], name: &str, generator: &Generator) -> Result<Dat
     if runs.iter().any(|run| run.actuator != first.actuator || run.stations_mm != first.stations_mm) {
         return Err(refuse("the finite element runs are of different robots".into()));
     }
-    let mut eye = Seen::new(generator);
+    let mut eye = Seen::new(generator, generator.protocol.len());
     let mut coordinates_m = Vec::new();
     for run in runs {
-        let gain = eye.next_run();
-        for [body_pa, actuator_pa] in &generator.protocol {
+        let gains = eye.next_run();
+        for ([body_pa, actuator_pa], gain) in generator.protocol.iter().zip(gains) {
             if (body_pa * 1e-3 - run.body_kpa).abs() > 1e-6 {
                 let (wanted, there) = (body_pa * 1e-3, run.body_kpa);
                 return Err(refuse(format!("a body at {wanted} kPa; the runs are at {there} kPa")));
@@ -133,7 +133,10 @@ mod tests {
         let data = seen(&[run(2.0)], "d", &Generator { pressure_sd: 0.02, ..quiet() }).unwrap();
         let gain = data.coordinates_m[7] / 0.060;
         assert!(gain != 1.0 && (gain - 1.0).abs() < 0.1);
-        assert!((data.coordinates_m[3] / 0.010 - gain).abs() < 1e-12 && (data.coordinates_m[5] / 0.040 - gain).abs() < 1e-12);
+        assert!(
+            (data.coordinates_m[3] / 0.010 - gain).abs() < 1e-12
+                && (data.coordinates_m[5] / 0.040 - gain).abs() < 1e-12
+        );
     }
 
     #[test]

@@ -41,7 +41,11 @@ fn a_right_robot_agrees_and_a_wrong_one_does_not() {
         assert!(hold.tip_error_z_mm.is_some() && evaluation.residual_map.cells[0][0].z.is_some());
         let wrong = alone(&other, found.dataset.clone());
         let evaluation = &wrong.variants[0].evaluation;
-        assert!(wrong.error_mm() > 2.0 && evaluation.metrics.overall.p_value.unwrap() < 1e-5, "{:?}", evaluation.metrics);
+        assert!(
+            wrong.error_mm() > 2.0 && evaluation.metrics.overall.p_value.unwrap() < 1e-5,
+            "{:?}",
+            evaluation.metrics
+        );
         let told: String = evaluation.where_it_fails.iter().map(|s| s.sentence.as_str()).collect();
         assert!(told.contains("y of the model is too") && told.contains("z of the model is too"), "{told}");
     }
@@ -100,8 +104,9 @@ fn channels_that_do_not_fit_are_refused_and_one_pressure_for_all_is_told() {
     };
     let told = alone(&two, with("0,10,20@2", &two)).warnings;
     assert!(told.iter().any(|w| w.contains("supply channels 0 and 1") && w.contains("p_act_1_kpa")), "{told:?}");
-    let error =
-        |scenario: &Scenario, dataset: Dataset| compare(scenario, &Evidence::of(dataset, None)).unwrap_err().to_string();
+    let error = |scenario: &Scenario, dataset: Dataset| {
+        compare(scenario, &Evidence::of(dataset, None)).unwrap_err().to_string()
+    };
     assert!(error(&one, with("0/0,10/20@2", &two)).contains("nothing is supplied by channel 1"));
     let third = robot(&TWO.replace("channel = 1\n", "channel = 2\n"));
     assert!(error(&third, with("0/0,10/20@2", &two)).contains("the robot has supply channel 2"));

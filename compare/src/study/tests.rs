@@ -42,8 +42,11 @@ fn a_model_meets_the_data_it_made() {
         let scenario = textbook_scenario(kind).unwrap();
         let dataset = generate(&scenario, "made", &quiet(3)).unwrap();
         let predicted = predict_dataset(&scenario, &dataset).unwrap();
-        let worst =
-            dataset.mean_over_runs().iter().zip(&predicted.coordinates_m).fold(0.0, |w: f64, (y, f)| w.max((y - f).abs()));
+        let worst = dataset
+            .mean_over_runs()
+            .iter()
+            .zip(&predicted.coordinates_m)
+            .fold(0.0, |w: f64, (y, f)| w.max((y - f).abs()));
         assert!(worst < 1e-8, "{kind}: {worst}");
     }
 }

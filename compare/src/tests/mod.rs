@@ -1,5 +1,6 @@
 //! Statistics held against simulated truth.
 
+mod laboratory;
 mod monte_carlo;
 mod scenarios;
 pub mod synthetic;

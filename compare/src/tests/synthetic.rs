@@ -69,7 +69,8 @@ impl SyntheticRobot {
         for _ in 0..runs {
             let shape = self.shape((noise.pressure * normal(&mut rng)).exp());
             let offset = [noise.alignment_m * normal(&mut rng), noise.alignment_m * normal(&mut rng)];
-            coordinates_m.extend(shape.iter().enumerate().map(|(i, v)| v + offset[i % 2] + noise.sigma_m * normal(&mut rng)));
+            coordinates_m
+                .extend(shape.iter().enumerate().map(|(i, v)| v + offset[i % 2] + noise.sigma_m * normal(&mut rng)));
         }
         Dataset {
             name: "synthetic".to_string(),

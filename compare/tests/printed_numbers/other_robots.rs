@@ -70,7 +70,10 @@ fn an_extension_writes_the_fit_of_its_own_effect_and_the_stiffness_of_its_own_bo
     let width = soft.values_per_run() / holds.len();
     let is_stiff = |i: usize| i / width % 2 == 1;
     let pick = |(i, (a, b)): (usize, (&f64, &f64))| if is_stiff(i) { *b } else { *a };
-    let data = Dataset { coordinates_m: soft.coordinates_m.iter().zip(&stiff.coordinates_m).enumerate().map(pick).collect(), ..soft.clone() };
+    let data = Dataset {
+        coordinates_m: soft.coordinates_m.iter().zip(&stiff.coordinates_m).enumerate().map(pick).collect(),
+        ..soft.clone()
+    };
     let r = Reference::of(&file, &[&data], &[2e3, 4e3]);
     let (base, fit) = (r.base(), r.with(&["camera_scale"]));
     let (options, evidence) = (only(&["tail_tension", "camera_scale"]), [Evidence::of(data.clone(), None)]);

@@ -31,7 +31,7 @@ impl Check<'_> {
         DataError::About(Box::new(fault))
     }
 
-    pub fn filled(&self, key: &str, value: &Spanned<String>) -> Result<String> {
+    pub(super) fn filled(&self, key: &str, value: &Spanned<String>) -> Result<String> {
         let text = value.get_ref().trim();
         if text.is_empty() {
             return Err(self.fault(key, value, "is empty", "write one line; every dataset says where it comes from"));
@@ -51,7 +51,7 @@ impl Check<'_> {
         Ok(length_mm / 1e3)
     }
 
-    pub fn geometry(&self, raw: RawGeometry) -> Result<Geometry> {
+    pub(super) fn geometry(&self, raw: RawGeometry) -> Result<Geometry> {
         let optional = |key: &str, value: Option<Spanned<f64>>| value.map(|v| self.length_m(key, &v)).transpose();
         Ok(Geometry {
             body_radius_m: self.length_m("body_radius_mm", &raw.body_radius_mm)?,
@@ -74,7 +74,7 @@ impl Check<'_> {
         }
     }
 
-    pub fn markers(&self, raw: RawMarkers) -> Result<Vec<MarkerStation>> {
+    pub(super) fn markers(&self, raw: RawMarkers) -> Result<Vec<MarkerStation>> {
         let (names, s_mm) = (raw.names.get_ref(), raw.s_mm.get_ref());
         if names.len() != s_mm.len() {
             let message = format!("has {} values, names has {}", s_mm.len(), names.len());
@@ -98,7 +98,7 @@ impl Check<'_> {
         Ok(names.iter().zip(s_mm).map(pair).collect())
     }
 
-    pub fn direction(&self, value: &Spanned<Exactly<2>>) -> Result<[f64; 2]> {
+    pub(super) fn direction(&self, value: &Spanned<Exactly<2>>) -> Result<[f64; 2]> {
         let direction = **value.get_ref();
         // Written so that NaN is refused as well.
         if (direction[0].hypot(direction[1]) - 1.0).abs() <= 1e-3 {
@@ -108,7 +108,7 @@ impl Check<'_> {
         Err(self.fault("direction", value, "must be a unit vector", help))
     }
 
-    pub fn bending(&self, raw: &RawBending) -> Result<[f64; 2]> {
+    pub(super) fn bending(&self, raw: &RawBending) -> Result<[f64; 2]> {
         let (stiffness, sd) = (*raw.stiffness_nm2.get_ref(), *raw.sd_nm2.get_ref());
         if !(stiffness >= 0.0 && stiffness.is_finite()) {
             let help = "give it in N·m², for example 1.35";
@@ -122,7 +122,10 @@ impl Check<'_> {
         Ok([stiffness, sd])
     }
 
-    pub fn measured(&self, raw: BTreeMap<String, BTreeMap<String, Spanned<Exactly<2>>>>) -> Result<Vec<MeasuredValue>> {
+    pub(super) fn measured(
+        &self,
+        raw: BTreeMap<String, BTreeMap<String, Spanned<Exactly<2>>>>,
+    ) -> Result<Vec<MeasuredValue>> {
         let mut all = Vec::new();
         for (effect, parameters) in raw {
             for (key, pair) in parameters {
@@ -141,7 +144,7 @@ impl Check<'_> {
         Ok(all)
     }
 
-    pub fn runs(&self, raw: Vec<RawRun>) -> Result<Vec<AboutRun>> {
+    pub(super) fn runs(&self, raw: Vec<RawRun>) -> Result<Vec<AboutRun>> {
         let mut runs: Vec<AboutRun> = Vec::with_capacity(raw.len());
         for run in raw {
             if runs.iter().any(|known| known.id == *run.id.get_ref()) {

@@ -1,11 +1,8 @@
 //! Rows become the curves of specimens, each checked as a whole.
 
-use super::cells::Cells;
-use super::columns::{
-    CouponHeader, CouponQuantity, DIRECTION, LENGTH, LOADED_WIDTH, Notes, QUANTITIES, SPECIMEN, STRAIN, THICKNESS,
-    WIDTH,
-};
-use super::{Coupon, CouponDefaults, Direction, Pulled};
+use super::columns::{DIRECTION, Facts, LENGTH, LOADED_WIDTH, QUANTITIES, SPECIMEN, STRAIN, THICKNESS, WIDTH, curve};
+use super::coupon::{Coupon, CouponDefaults, Direction, Pulled};
+use crate::columns::{Columns, Field, TableRow};
 use crate::error::{DataError, Fault};
 use crate::policy;
 use std::path::Path;
@@ -13,8 +10,8 @@ use std::path::Path;
 /// All specimens of a file, as far as it has been read.
 pub(super) struct Specimens<'a> {
     file: String,
-    header: &'a CouponHeader,
-    notes: Notes,
+    header: &'a Columns,
+    facts: Facts,
     found: Vec<Raw>,
 }
 
@@ -32,16 +29,16 @@ struct Raw {
 }
 
 impl<'a> Specimens<'a> {
-    pub fn new(file: &str, header: &'a CouponHeader, notes: Notes) -> Specimens<'a> {
-        Specimens { file: file.to_string(), header, notes, found: Vec::new() }
+    pub(super) fn new(file: &str, header: &'a Columns, facts: Facts) -> Specimens<'a> {
+        Specimens { file: file.to_string(), header, facts, found: Vec::new() }
     }
 
     /// Adds a row to its specimen.
-    pub fn add(&mut self, cells: &Cells) -> Result<(), DataError> {
-        let [x, y] = self.header.curve();
+    pub(super) fn add(&mut self, cells: &TableRow) -> Result<(), DataError> {
+        let [x, y] = curve(self.header);
         let row = [cells.number(x)?.unwrap_or_default(), cells.number(y)?.unwrap_or_default()];
         let name = cells.text(SPECIMEN);
-        if name.is_empty() && self.header.columns[SPECIMEN].is_some() {
+        if name.is_empty() && self.header.at[SPECIMEN].is_some() {
             let help = "write the specimen in every row, or leave the column out".to_string();
             return Err(DataError::Cell(cells.fault(SPECIMEN, "the cell is empty".into(), help)));
         }
@@ -72,7 +69,7 @@ impl<'a> Specimens<'a> {
     }
 
     /// The specimens, complete and checked; the first has what was assumed about the file.
-    pub fn finish(self, defaults: &CouponDefaults, told: &[String]) -> Result<Vec<Coupon>, DataError> {
+    pub(super) fn finish(self, defaults: &CouponDefaults, told: &[String]) -> Result<Vec<Coupon>, DataError> {
         if self.found.is_empty() {
             let fault = Fault::of_file(&self.file, "the file has a header and no rows", "add the rows of a specimen");
             return Err(DataError::Layout(Box::new(fault)));
@@ -86,18 +83,18 @@ impl<'a> Specimens<'a> {
         let said = |quantity: usize, typed: Option<f64>| self.number(raw, &specimen, quantity, typed);
         let direction = self.direction(&specimen, said(DIRECTION, defaults.direction_deg)?, raw)?;
         let (rows, loaded_width_m, jitter) = self.rows(raw, &specimen)?;
-        let [x, y] = self.header.curve();
+        let [x, y] = curve(self.header);
         Ok(Coupon {
             file: self.file.clone(),
             line: raw.rows[0].1,
             direction,
             pulled: if x == STRAIN { Pulled::Stress(rows) } else { Pulled::Force(rows) },
-            columns: [self.header.name(x), self.header.name(y)],
+            columns: [x, y].map(|quantity| self.header.name(quantity).to_string()),
             loaded_width_m,
             width_m: said(WIDTH, defaults.width_m)?,
             length_m: said(LENGTH, defaults.length_m)?,
             thickness_m: said(THICKNESS, defaults.thickness_m)?,
-            provenance: self.notes.provenance.unwrap_or(crate::Provenance::Measured),
+            provenance: self.facts.provenance,
             specimen,
             jitter,
             told: told.to_vec(),
@@ -106,13 +103,13 @@ impl<'a> Specimens<'a> {
 
     fn specimen(&self, raw: &Raw) -> String {
         let stem = || Path::new(&self.file).file_stem().map_or(self.file.clone(), |s| s.to_string_lossy().into_owned());
-        if raw.name.is_empty() { self.notes.specimen.clone().unwrap_or_else(stem) } else { raw.name.clone() }
+        if raw.name.is_empty() { self.facts.specimen.clone().unwrap_or_else(stem) } else { raw.name.clone() }
     }
 
     /// What the rows, the comments or the caller say; they must not contradict each other.
     fn number(&self, raw: &Raw, specimen: &str, quantity: usize, typed: Option<f64>) -> Result<Option<f64>, DataError> {
-        let CouponQuantity { base, expected, .. } = &QUANTITIES[quantity];
-        let written = raw.numbers[quantity].or(self.notes.numbers[quantity]);
+        let Field { base, expected, .. } = &QUANTITIES[quantity];
+        let written = raw.numbers[quantity].or(self.facts.numbers[quantity]);
         let unit = if quantity == DIRECTION { ("deg", 1.0) } else { ("mm", 1e3) };
         if let (Some(written), Some(typed)) = (written, typed)
             && !agree(written, typed)
@@ -147,10 +144,10 @@ impl<'a> Specimens<'a> {
 
     /// Zeroed on the first row; steps back that are noise left out.
     fn rows(&self, raw: &Raw, specimen: &str) -> Result<Kept, DataError> {
-        let [x, _] = self.header.curve();
+        let [x, _] = curve(self.header);
         let (column, first) = (self.header.name(x), raw.rows[0].0);
         let range = raw.rows.iter().map(|(row, _)| (row[0] - first[0]).abs()).fold(0.0, f64::max);
-        let strain = range / if x == STRAIN { 1.0 } else { self.notes.numbers[LENGTH].unwrap_or(f64::INFINITY) };
+        let strain = range / if x == STRAIN { 1.0 } else { self.facts.numbers[LENGTH].unwrap_or(f64::INFINITY) };
         if strain > policy::LARGEST_STRAIN {
             let message = format!("specimen {specimen}: {column} reaches a strain of {:.4} %", 100.0 * strain);
             let help = if x == STRAIN {
@@ -175,7 +172,7 @@ impl<'a> Specimens<'a> {
                 let message = format!("specimen {specimen}: {column} goes back, after having been larger above");
                 let help = "keep the rows of loading only (delete what follows the turn), in the order they were taken";
                 let mut fault = Fault::of_file(&self.file, message, help).at_line(*line);
-                fault.location.column_name = Some(column);
+                fault.location.column_name = Some(column.to_string());
                 return Err(DataError::Cell(Box::new(fault)));
             }
         }

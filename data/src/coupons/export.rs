@@ -1,7 +1,7 @@
 //! What tensile machines export: rows about the test, a row of names, a row of units, several specimens side by side.
 
-use super::CouponDefaults;
-use super::columns::{DISPLACEMENT, FORCE, LENGTH, Notes, QUANTITIES, STRAIN, STRESS, THICKNESS, WIDTH};
+use super::columns::{DISPLACEMENT, FORCE, Facts, LENGTH, QUANTITIES, STRAIN, STRESS, THICKNESS, WIDTH};
+use super::coupon::CouponDefaults;
 use crate::cells::is_nothing;
 use crate::error::DataError;
 use crate::import::sheet::CellText;
@@ -11,7 +11,7 @@ use spelling::units::Unit;
 /// The rows of an export under this program's names.
 pub(super) struct Export {
     /// Sizes that the rows about the test give.
-    pub notes: Notes,
+    pub facts: Facts,
     /// The header line that it would have.
     pub header: String,
     /// Line number and text of every row, specimen after specimen.
@@ -67,7 +67,7 @@ pub(super) fn read(sheet: &CellText, defaults: &CouponDefaults) -> Result<Option
         has([DISPLACEMENT, STRAIN]) && has([FORCE, STRESS])
     };
     let Some(at) = lines.iter().take(LOOKED_AT).position(|(_, cells)| is_curve(cells)) else { return Ok(None) };
-    let mut notes = sizes(sheet, &lines[..at])?;
+    let mut facts = sizes(sheet, &lines[..at])?;
     let units = lines
         .get(at + 1)
         .filter(|(_, cells)| cells.iter().all(|cell| sheet.number(cell).is_none() || is_nothing(cell)));
@@ -77,8 +77,8 @@ pub(super) fn read(sheet: &CellText, defaults: &CouponDefaults) -> Result<Option
     }
     let blocks = blocks(sheet, &lines[at], units.map(|(_, cells)| cells))?;
     let first_row = at + 1 + usize::from(units.is_some());
-    notes.numbers[LENGTH] = notes.numbers[LENGTH].or(defaults.length_m);
-    let [x, y] = curve(sheet, lines[at].0, &blocks[0], &notes)?;
+    facts.numbers[LENGTH] = facts.numbers[LENGTH].or(defaults.length_m);
+    let [x, y] = curve(sheet, lines[at].0, &blocks[0], &facts)?;
     let labels = labels(lines[..at].last().map(|(_, cells)| cells), &blocks);
     let [x_name, y_name] =
         [if x == STRAIN && y == FORCE { DISPLACEMENT } else { x }, y].map(|q| QUANTITIES[q].expected);
@@ -92,13 +92,13 @@ pub(super) fn read(sheet: &CellText, defaults: &CouponDefaults) -> Result<Option
     let mut rows = Vec::new();
     for (block, label) in blocks.iter().zip(&labels) {
         for (number, cells) in &lines[first_row..] {
-            if let Some([a, b]) = row(sheet, *number, cells, block, [x, y], &notes)? {
+            if let Some([a, b]) = row(sheet, *number, cells, block, [x, y], &facts)? {
                 rows.push((*number, format!("{label}{a:?},{b:?}")));
             }
         }
     }
     let first = if blocks.len() > 1 { "specimen," } else { "" };
-    Ok(Some(Export { notes, header: format!("{first}{x_name},{y_name}"), rows, told }))
+    Ok(Some(Export { facts, header: format!("{first}{x_name},{y_name}"), rows, told }))
 }
 
 /// A name without its unit, and the unit: `Load (kN)`, `Dehnung %`, `"Extension"`.
@@ -127,12 +127,12 @@ fn unit(quantity: usize, word: &str) -> Option<Unit> {
         "mm/mm" | "m/m" | "-" => "ratio",
         word => word,
     };
-    QUANTITIES.get(quantity)?.dimension?.unit(&word.to_lowercase())
+    QUANTITIES.get(quantity)?.unit(&word.to_lowercase())
 }
 
 /// Sizes in rows like `Width, 25.00, mm` or `Width (mm), 25`.
-fn sizes(sheet: &CellText, rows: &[(u64, Vec<&str>)]) -> Result<Notes, DataError> {
-    let mut notes = Notes::default();
+fn sizes(sheet: &CellText, rows: &[(u64, Vec<&str>)]) -> Result<Facts, DataError> {
+    let mut facts = Facts::default();
     for (number, cells) in rows {
         let (name, own) = parts(cells[0]);
         let Some((size, _)) = SIZES.iter().find(|(_, words)| words.contains(&name.as_str())) else { continue };
@@ -140,9 +140,9 @@ fn sizes(sheet: &CellText, rows: &[(u64, Vec<&str>)]) -> Result<Notes, DataError
         let word =
             cells.get(2).map(|cell| cell.to_lowercase()).filter(|cell| !cell.is_empty()).or(own).unwrap_or_default();
         let unit = unit(*size, &word).ok_or_else(|| no_unit(sheet, *number, &name, &word))?;
-        notes.numbers[*size] = Some(unit.to_si(value));
+        facts.numbers[*size] = Some(unit.to_si(value));
     }
-    Ok(notes)
+    Ok(facts)
 }
 
 fn no_unit(sheet: &CellText, number: u64, name: &str, word: &str) -> DataError {
@@ -183,9 +183,9 @@ fn blocks(
 }
 
 /// Displacement and force where the length between the grips is known, else strain and stress, else strain over force.
-fn curve(sheet: &CellText, number: u64, block: &Found, notes: &Notes) -> Result<[usize; 2], DataError> {
+fn curve(sheet: &CellText, number: u64, block: &Found, facts: &Facts) -> Result<[usize; 2], DataError> {
     let has = |[x, y]: [usize; 2]| block[x].is_some() && block[y].is_some();
-    let sized = notes.numbers[LENGTH].is_some();
+    let sized = facts.numbers[LENGTH].is_some();
     let whole = [DISPLACEMENT, FORCE];
     match () {
         () if has(whole) && (sized || !has([STRAIN, STRESS])) => Ok(whole),
@@ -227,7 +227,7 @@ fn row(
     cells: &[&str],
     block: &Found,
     [x, y]: [usize; 2],
-    notes: &Notes,
+    facts: &Facts,
 ) -> Result<Option<[f64; 2]>, DataError> {
     let cell = |quantity: usize| block[quantity].and_then(|(index, _)| cells.get(index)).copied().unwrap_or_default();
     if [x, y].iter().all(|quantity| is_nothing(cell(*quantity))) {
@@ -238,7 +238,7 @@ fn row(
         Ok(block[quantity].and_then(|(_, unit)| unit).map_or(value, |unit| unit.to_si(value)))
     };
     let (a, b) = (si(x)?, si(y)?);
-    let length_m = notes.numbers[LENGTH].filter(|_| x == STRAIN && y == FORCE);
+    let length_m = facts.numbers[LENGTH].filter(|_| x == STRAIN && y == FORCE);
     let first = match (x, length_m) {
         (_, Some(length_m)) => a * length_m * 1e3,
         (STRAIN, None) => a * 1e2,

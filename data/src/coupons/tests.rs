@@ -1,6 +1,7 @@
 //! Tests of reading tensile tests: what is understood, and what is refused with what to type.
 
 use super::*;
+use crate::Provenance;
 
 const ROWS: &str = "0,0\n0.5,1\n1,2\n1.5,3\n2,4\n2.5,5\n";
 
@@ -73,7 +74,7 @@ fn headers_without_unit_or_curve_are_refused_with_the_name_to_type() {
     refused(&format!("strain_pct,stress_ksi\n{ROWS}"), &["stress_ksi has an unknown unit", "MPa", "stress_mpa"]);
     refused(&format!("strain_pct,strss_mpa\n{ROWS}"), &["stress_mpa is missing", "did you mean"]);
     refused("strain_pct,stress_mpa,displacement_mm,force_n\n", &["more than one curve"]);
-    refused("strain_pct,stress_mpa,stress_kpa\n", &["two columns hold the stress"]);
+    refused("strain_pct,stress_mpa,stress_kpa\n", &["stress_mpa and stress_kpa hold the same quantity"]);
     refused("", &["empty", "strain_pct,stress_mpa"]);
     refused("strain_pct,stress_mpa\n", &["no rows"]);
     refused(&format!("# widht_mm: 20\nstrain_pct,stress_mpa\n{ROWS}"), &["widht_mm", "did you mean # width_mm: 20"]);

@@ -62,7 +62,7 @@ fn is_unit(word: &str) -> bool {
 
 impl ColumnName {
     /// Takes a name apart.
-    pub fn of(text: &str) -> ColumnName {
+    pub(super) fn of(text: &str) -> ColumnName {
         let text = text.trim();
         let (base, bracket) = match text.find(['(', '[']) {
             Some(at) if text.ends_with([')', ']']) => {
@@ -83,22 +83,22 @@ impl ColumnName {
     }
 
     /// Whether all its words make this name.
-    pub fn is(&self, name: &str) -> bool {
+    pub(super) fn is(&self, name: &str) -> bool {
         self.words.iter().map(|(word, _)| word.as_str()).eq(name.split('_'))
     }
 
     /// Whether it is one of these names.
-    pub fn is_any(&self, names: &[&str]) -> bool {
+    pub(super) fn is_any(&self, names: &[&str]) -> bool {
         names.iter().any(|name| self.is(name))
     }
 
     /// Whether it has one of these words.
-    pub fn has(&self, any: &[&str]) -> bool {
+    pub(super) fn has(&self, any: &[&str]) -> bool {
         self.words.iter().any(|(word, _)| any.contains(&word.as_str()))
     }
 
     /// Axis 0, 1 or 2 and the name of the marker of a coordinate such as `x_tip`, `tip.x` or `x1`.
-    pub fn coordinate(&self) -> Option<(usize, String)> {
+    pub(super) fn coordinate(&self) -> Option<(usize, String)> {
         let axis = |word: &str| ["x", "y", "z"].iter().position(|axis| *axis == word);
         let mut found = self.words.iter().filter_map(|(word, at)| Some((axis(word)?, at)));
         let (Some((axis, at)), None) = (found.next(), found.next()) else { return None };
@@ -151,7 +151,7 @@ impl Roles {
     ///
     /// # Errors
     /// A column that the caller named and that is not there, two of one kind, a pressure without unit.
-    pub fn of(sheet: &CellText, line: u64, header: &[&str], options: &ImportOptions) -> Result<Roles> {
+    pub(super) fn of(sheet: &CellText, line: u64, header: &[&str], options: &ImportOptions) -> Result<Roles> {
         let mut roles = Roles::default();
         // A quantity that was given a column of this table has no other.
         let is_named = |quantity: &&str| {
@@ -232,7 +232,7 @@ impl Roles {
     ///
     /// # Errors
     /// Different units.
-    pub fn lengths(&self, sheet: &CellText, line: u64) -> Result<Lengths> {
+    pub(super) fn lengths(&self, sheet: &CellText, line: u64) -> Result<Lengths> {
         let units: Vec<_> = self.coordinates.iter().map(|(.., unit)| unit.as_deref()).collect();
         let Some(first) = units.first().copied().flatten() else { return Ok(Lengths::Unsaid) };
         if let Some(other) = units.iter().find(|unit| **unit != Some(first)) {

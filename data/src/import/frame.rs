@@ -57,7 +57,7 @@ impl Scene<'_> {
     ///
     /// # Errors
     /// Scale, base or axes are not known and cannot be found from the data.
-    pub fn place(&self, told: &mut Vec<String>) -> Result<PlacedRuns> {
+    pub(super) fn place(&self, told: &mut Vec<String>) -> Result<PlacedRuns> {
         let (map, words) = self.map()?;
         told.push(words);
         let (bases, skipped) = self.bases(&map, told)?;

@@ -11,7 +11,7 @@ impl Homography {
     ///
     /// # Errors
     /// Too few corners, or all on a line.
-    pub fn of_board(corners: &[[f64; 4]], square_m: f64) -> Result<(Homography, f64), String> {
+    pub(super) fn of_board(corners: &[[f64; 4]], square_m: f64) -> Result<(Homography, f64), String> {
         if corners.len() < 4 {
             return Err(format!("{} corners do not make a plane", corners.len()));
         }
@@ -54,7 +54,7 @@ impl Homography {
     }
 
     /// A pixel on the board \[m\].
-    pub fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(super) fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let h = &self.0;
         let depth = h[6] * x + h[7] * y + 1.0;
         [(h[0] * x + h[1] * y + h[2]) / depth, (h[3] * x + h[4] * y + h[5]) / depth]

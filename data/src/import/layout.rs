@@ -48,7 +48,7 @@ pub(super) struct Layout {
 
 impl Layout {
     /// No marker yet; times of this unit in this column.
-    pub fn new(time: usize, second: Option<f64>, lengths: Lengths) -> Layout {
+    pub(super) fn new(time: usize, second: Option<f64>, lengths: Lengths) -> Layout {
         Layout {
             time,
             second,
@@ -73,7 +73,7 @@ impl Layout {
     ///
     /// # Errors
     /// Two columns of one part.
-    pub fn add(&mut self, sheet: &CellText, line: u64, name: &str, part: usize, column: usize) -> Result<()> {
+    pub(super) fn add(&mut self, sheet: &CellText, line: u64, name: &str, part: usize, column: usize) -> Result<()> {
         let at = self.tracks.iter().position(|track| track.name == name).unwrap_or_else(|| {
             self.tracks.push(Track { name: name.to_string(), columns: [None; PARTS.len()] });
             self.tracks.len() - 1
@@ -89,7 +89,7 @@ impl Layout {
     ///
     /// # Errors
     /// No marker, or one without x, y or another of `parts` coordinates; a cell or a row that cannot be read; a time that goes back.
-    pub fn read<'s>(
+    pub(super) fn read<'s>(
         self,
         sheet: &CellText<'s>,
         header: u64,

@@ -34,7 +34,7 @@ impl Log {
     ///
     /// # Errors
     /// No column of time or pressure; a cell without a number; times that go back.
-    pub fn read(sheet: &CellText, options: &ImportOptions) -> Result<Log> {
+    pub(super) fn read(sheet: &CellText, options: &ImportOptions) -> Result<Log> {
         let mut lines = sheet.lines().filter(|(_, line)| !line.starts_with('#'));
         let Some((first, header)) = lines.next() else {
             return Err(sheet.fault(0, "the pressure log is empty", "export it again"));
@@ -83,7 +83,7 @@ impl Log {
     ///
     /// # Errors
     /// The clocks disagree; hardly any frame is within the log.
-    pub fn join(&self, recording: &mut Recording, options: &ImportOptions) -> Result<Vec<String>> {
+    pub(super) fn join(&self, recording: &mut Recording, options: &ImportOptions) -> Result<Vec<String>> {
         let (offset_s, mut told) = self.offset(recording, options.offset)?;
         let places = self.readings_at(&recording.times, offset_s);
         let outside = places.iter().filter(|place| place.is_none()).count();

@@ -67,7 +67,7 @@ pub(crate) struct Pivot {
 
 impl Pivot {
     /// Nothing yet.
-    pub fn new(lengths: Lengths, clock: FrameClock) -> Pivot {
+    pub(super) fn new(lengths: Lengths, clock: FrameClock) -> Pivot {
         let recording = Recording {
             run: None,
             actuator: None,
@@ -92,7 +92,7 @@ impl Pivot {
     }
 
     /// The number of a marker, new or known.
-    pub fn marker(&mut self, name: &str) -> usize {
+    pub(super) fn marker(&mut self, name: &str) -> usize {
         if let Some(&number) = self.numbers.get(name) {
             return number;
         }
@@ -104,7 +104,7 @@ impl Pivot {
     }
 
     /// The frame at a time, new or known.
-    pub fn frame(&mut self, time: f64) -> usize {
+    pub(super) fn frame(&mut self, time: f64) -> usize {
         let bits = time.to_bits();
         if self.last.0 != bits {
             let next = self.recording.times.len();
@@ -118,7 +118,7 @@ impl Pivot {
     }
 
     /// Puts a marker; false if it has a place in this frame already. Placeholders are counted.
-    pub fn put(&mut self, frame: usize, marker: usize, place: [f64; 3], likely: bool) -> bool {
+    pub(super) fn put(&mut self, frame: usize, marker: usize, place: [f64; 3], likely: bool) -> bool {
         let Recording { places, dropped, twice, markers, times, .. } = &mut self.recording;
         if !(place[0].is_finite() && place[1].is_finite()) {
             dropped.blank += 1;
@@ -145,7 +145,7 @@ impl Pivot {
     }
 
     /// Takes a reading of the body's (0) or the actuator's (1) pressure \[Pa\].
-    pub fn read(&mut self, frame: usize, which: usize, pressure_pa: f64) {
+    pub(super) fn read(&mut self, frame: usize, which: usize, pressure_pa: f64) {
         let readings = &mut self.readings[which];
         if pressure_pa.is_finite() {
             if readings.len() <= frame {
@@ -157,7 +157,7 @@ impl Pivot {
     }
 
     /// Frames by rising time; markers never seen are left out.
-    pub fn finish(self) -> Recording {
+    pub(super) fn finish(self) -> Recording {
         let Pivot { mut recording, readings, .. } = self;
         let count = recording.times.len();
         recording.places.iter_mut().for_each(|column| column.resize(count, LOST));
@@ -184,7 +184,7 @@ impl Recording {
     }
 
     /// Where a marker was in the mean over some frames in which it was seen.
-    pub fn mean_place(&self, marker: usize, frames: impl Iterator<Item = usize>) -> Option<[f64; 3]> {
+    pub(crate) fn mean_place(&self, marker: usize, frames: impl Iterator<Item = usize>) -> Option<[f64; 3]> {
         let (mut sum, mut count) = ([0.0; 3], 0.0);
         for place in frames.map(|frame| self.places[marker][frame]).filter(|place| place[0].is_finite()) {
             (0..3).for_each(|axis| sum[axis] += place[axis]);

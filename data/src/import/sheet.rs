@@ -25,7 +25,7 @@ impl<'a> CellText<'a> {
     ///
     /// # Errors
     /// No text; numbers with a comma that may be decimal or of thousands.
-    pub fn new(file: &'a str, text: &'a str) -> Result<CellText<'a>> {
+    pub(crate) fn new(file: &'a str, text: &'a str) -> Result<CellText<'a>> {
         if text.contains('\0') {
             let (message, help) = ("the file is no text", "export it as text: CSV, TXT or XML");
             return Err(DataError::layout(file, message, help));
@@ -41,7 +41,7 @@ impl<'a> CellText<'a> {
     }
 
     /// Lines that are not blank, each with its number from 1.
-    pub fn lines(&self) -> impl Iterator<Item = (u64, &'a str)> + '_ {
+    pub(crate) fn lines(&self) -> impl Iterator<Item = (u64, &'a str)> + '_ {
         let numbered = self.text.split('\n').zip(self.before + 1..);
         numbered.map(|(text, number)| (number, text.trim_end_matches('\r'))).filter(|(_, text)| !self.is_blank(text))
     }
@@ -51,19 +51,19 @@ impl<'a> CellText<'a> {
     }
 
     /// The first lines as cells.
-    pub fn head(&self, count: usize) -> Vec<Vec<&'a str>> {
+    pub(crate) fn head(&self, count: usize) -> Vec<Vec<&'a str>> {
         self.lines().take(count).map(|(_, line)| self.split(line)).collect()
     }
 
     /// The cells of a line, without the quotes around them.
-    pub fn split(&self, line: &'a str) -> Vec<&'a str> {
+    pub(crate) fn split(&self, line: &'a str) -> Vec<&'a str> {
         let mut cells = Vec::new();
         self.split_into(line, &mut cells);
         cells
     }
 
     /// The same into a vector that is used again.
-    pub fn split_into(&self, line: &'a str, cells: &mut Vec<&'a str>) {
+    pub(crate) fn split_into(&self, line: &'a str, cells: &mut Vec<&'a str>) {
         cells.clear();
         if !line.contains('"') {
             cells.extend(line.split(self.delimiter).map(str::trim));
@@ -78,7 +78,7 @@ impl<'a> CellText<'a> {
     }
 
     /// The number of a cell; NaN for a word for none.
-    pub fn number(&self, text: &str) -> Option<f64> {
+    pub(crate) fn number(&self, text: &str) -> Option<f64> {
         match text.parse() {
             Ok(value) => Some(value),
             Err(_) if self.comma && text.contains(',') => with_comma(text),
@@ -90,23 +90,23 @@ impl<'a> CellText<'a> {
     ///
     /// # Errors
     /// Anything else than a finite number or a word for none.
-    pub fn expect(&self, text: &str, number: u64, column: &str) -> Result<f64> {
+    pub(crate) fn expect(&self, text: &str, number: u64, column: &str) -> Result<f64> {
         self.finite(text).ok_or_else(|| self.no_number(text, number, column))
     }
 
     /// The number of a cell but for infinity.
-    pub fn finite(&self, text: &str) -> Option<f64> {
+    pub(crate) fn finite(&self, text: &str) -> Option<f64> {
         self.number(text).filter(|value| !value.is_infinite())
     }
 
     /// The fault of a cell without a number.
-    pub fn no_number(&self, text: &str, number: u64, column: &str) -> DataError {
+    pub(crate) fn no_number(&self, text: &str, number: u64, column: &str) -> DataError {
         self.bad_cell(text, number, column, "type a number, or leave the cell empty")
     }
 
     /// # Errors
     /// A row that was cut, or has cells without a name above.
-    pub fn whole_row(&self, cells: &[&str], names: usize, number: u64) -> Result<()> {
+    pub(crate) fn whole_row(&self, cells: &[&str], names: usize, number: u64) -> Result<()> {
         if cells.len() == names {
             return Ok(());
         }
@@ -118,7 +118,7 @@ impl<'a> CellText<'a> {
     ///
     /// # Errors
     /// Anything else.
-    pub fn time(&self, text: &str, number: u64, column: &str) -> Result<f64> {
+    pub(crate) fn time(&self, text: &str, number: u64, column: &str) -> Result<f64> {
         let plain = ["seconds", "secs", "sec", "s"].iter().find_map(|unit| text.strip_suffix(unit)).unwrap_or(text);
         let found = self.number(plain.trim()).filter(|t| t.is_finite()).or_else(|| clock_s(text));
         found.ok_or_else(|| self.bad_cell(text, number, column, "a time is a number, or hours:minutes:seconds"))
@@ -132,7 +132,7 @@ impl<'a> CellText<'a> {
     }
 
     /// A fault of a line, or of the whole file for line 0.
-    pub fn fault(&self, number: u64, message: impl Into<String>, help: impl Into<String>) -> DataError {
+    pub(crate) fn fault(&self, number: u64, message: impl Into<String>, help: impl Into<String>) -> DataError {
         DataError::Layout(Box::new(Fault::of_file(self.file, message, help).at_line(number)))
     }
 

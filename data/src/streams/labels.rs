@@ -12,7 +12,7 @@ pub(crate) struct Labels {
 
 impl Labels {
     /// The number of a label, new or known.
-    pub fn number(&mut self, name: &str) -> usize {
+    pub(crate) fn number(&mut self, name: &str) -> usize {
         if self.names.get(self.last).is_none_or(|last| last != name) {
             self.last = match self.numbers.get(name) {
                 Some(&number) => number,

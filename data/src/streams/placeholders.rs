@@ -23,7 +23,7 @@ struct Placeholder {
 
 impl Placeholders {
     /// Counts rows that have the position in words.
-    pub fn note(&mut self, words: &str, rows: u64, line: u64) {
+    pub(crate) fn note(&mut self, words: &str, rows: u64, line: u64) {
         match self.0.iter_mut().find(|known| known.words == words) {
             Some(known) => {
                 known.rows += rows;
@@ -34,12 +34,12 @@ impl Placeholders {
     }
 
     /// Rows of all of them.
-    pub fn rows(&self) -> u64 {
+    pub(crate) fn rows(&self) -> u64 {
         self.0.iter().map(|known| known.rows).sum()
     }
 
     /// What was assumed, in words.
-    pub fn told(&self) -> Vec<String> {
+    pub(crate) fn told(&self) -> Vec<String> {
         let told = |Placeholder { words, rows, first_line }: &Placeholder| {
             format!(
                 "{rows} rows have a marker at exactly {words}, first in line {first_line}: taken as not seen (a marker at the base \
@@ -50,7 +50,7 @@ impl Placeholders {
     }
 
     /// Takes out what two markers share to the last digit, far from where both are else.
-    pub fn take_out_shared(&mut self, streams: &mut [Stream]) {
+    pub(crate) fn take_out_shared(&mut self, streams: &mut [Stream]) {
         for place in shared(streams) {
             let [x_mm, y_mm, z_mm] = place.map(|bits| mm(f64::from_bits(bits)));
             let words = if z_mm == 0.0 { format!("{x_mm}, {y_mm} mm") } else { format!("{x_mm}, {y_mm}, {z_mm} mm") };

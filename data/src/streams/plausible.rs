@@ -23,7 +23,7 @@ pub(crate) struct Extremes {
 }
 
 impl Extremes {
-    pub fn widen(&mut self, row: &Row) {
+    pub(crate) fn widen(&mut self, row: &Row) {
         let widen = |most: &mut f64, value: f64| *most = most.max(value.abs());
         widen(&mut self.x_m, row.x_m);
         widen(&mut self.y_m, row.y_m);

@@ -22,11 +22,11 @@ pub(crate) struct Sample {
 
 impl Sample {
     /// Mean position \[m\].
-    pub fn place(&self) -> [f64; 3] {
+    pub(crate) fn place(&self) -> [f64; 3] {
         [self.x_m, self.y_m, self.z_m].map(|sum| sum / self.count.max(1) as f64)
     }
 
-    pub fn add(&mut self, other: Sample) {
+    pub(crate) fn add(&mut self, other: Sample) {
         self.count += other.count;
         self.t_s += other.t_s;
         self.x_m += other.x_m;
@@ -67,22 +67,22 @@ impl Segment {
     }
 
     /// Mean actuator pressure \[Pa\].
-    pub fn p_act_pa(&self) -> f64 {
+    pub(crate) fn p_act_pa(&self) -> f64 {
         self.means_pa()[1]
     }
 
     /// Mean of every pressure \[Pa\], in the order of [`PRESSURES`].
-    pub fn means_pa(&self) -> [f64; PRESSURES.len()] {
+    pub(crate) fn means_pa(&self) -> [f64; PRESSURES.len()] {
         self.sums_pa.map(|sum| sum / self.rows.max(1) as f64)
     }
 
     /// Time of the first sample \[s\].
-    pub fn first_t_s(&self) -> f64 {
+    pub(crate) fn first_t_s(&self) -> f64 {
         self.samples.first().map_or(f64::INFINITY, |sample| sample.t_s / sample.count.max(1) as f64)
     }
 
     /// Time of the last sample \[s\].
-    pub fn last_t_s(&self) -> f64 {
+    pub(crate) fn last_t_s(&self) -> f64 {
         self.samples.last().map_or(f64::NEG_INFINITY, |sample| sample.t_s / sample.count.max(1) as f64)
     }
 
@@ -100,7 +100,7 @@ impl Segment {
     }
 
     /// Takes samples out, and returns how many rows they were.
-    pub fn take_out(&mut self, is_out: impl Fn(&Sample) -> bool) -> u64 {
+    pub(crate) fn take_out(&mut self, is_out: impl Fn(&Sample) -> bool) -> u64 {
         let gone: u64 = self.samples.iter().filter(|sample| is_out(sample)).map(|sample| sample.count).sum();
         if gone > 0 {
             // Pressures stay what they are on average.

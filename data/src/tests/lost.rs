@@ -42,7 +42,10 @@ fn what_one_run_lost_is_put_where_that_run_would_have_seen_it() {
         let missed = (others - whole.coordinates_m[i + 1]).abs();
         assert!(missed > 8e-4, "the others' mean alone is {missed} m off");
         for axis in 0..2 {
-            assert!((lossy.coordinates_m[i + axis] - whole.coordinates_m[i + axis]).abs() < 0.05 * missed, "{run} {axis}");
+            assert!(
+                (lossy.coordinates_m[i + axis] - whole.coordinates_m[i + axis]).abs() < 0.05 * missed,
+                "{run} {axis}"
+            );
         }
     }
     let [a, b] = [&whole, &lossy].map(Dataset::mean_over_runs);
@@ -134,7 +137,8 @@ fn written_and_read_again_the_losses_are_the_same() {
     assert_eq!(again.lost, data.lost);
     let unseen: Vec<usize> = data.unseen_values().collect();
     let n = data.values_per_run();
-    let pairs = again.coordinates_m.iter().zip(&data.coordinates_m).enumerate().filter(|(i, _)| !unseen.contains(&(i % n)));
+    let pairs =
+        again.coordinates_m.iter().zip(&data.coordinates_m).enumerate().filter(|(i, _)| !unseen.contains(&(i % n)));
     assert!(pairs.map(|(_, (a, b))| (a - b).abs()).all(|d| d < 1e-6));
     assert_eq!(data.to_table().rows(), bytes.iter().filter(|b| **b == b'\n').count() - 1);
 }

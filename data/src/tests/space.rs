@@ -1,7 +1,7 @@
 //! A third coordinate, and pressures of several supply channels.
 
 use super::{read, table};
-use crate::{Dataset, Phase, losses, markers_of_table, write_markers_csv};
+use crate::{Phase, losses, markers_of_table, write_markers_csv};
 
 const SPACE: &str = include_str!("../../tests/cases/space_markers.csv");
 

@@ -41,7 +41,7 @@ fn walls(name: &Text, table: &Spanned<RawChamber>, is_single: bool, file: &mut M
     let numbers: Vec<usize> = (0..all.len()).filter(|i| parts.contains(&all[*i])).collect();
     let turned =
         match enclose(&mut file.mesh, name.get_ref(), &numbers, open_axis(table.get_ref())?.unwrap_or_default()) {
-            Err(FemError::Mesh(message)) => return Err(FemError::Case { message, span: Some(name.span()) }),
+            Err(FemError::Mesh(message)) => return Err(FemError::case(message, name.span())),
             other => other?,
         };
     let over =

@@ -92,7 +92,7 @@ fn fabric(table: &Spanned<Free>, plies: &[RawPly], made: &Fabrics) -> Checked<Ar
             return Err(unknown_name(&format!("key of law \"{}\"", law.name), key, &keys(law)));
         }
     }
-    (law.make)(&recipe).map_err(|message| FemError::Case { message, span: Some(table.span()) })
+    (law.make)(&recipe).map_err(|message| FemError::case(message, table.span()))
 }
 
 /// The law, and the recipe to start from: empty, or that of a known material.

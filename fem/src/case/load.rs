@@ -150,10 +150,7 @@ fn filling(table: &Spanned<RawChamber>) -> Checked<Amplitude> {
 
 /// What happens in a vacuum without contact.
 pub(super) fn vacuum(raw: &Raw, chambers: &[Chamber]) -> Option<String> {
-    let below = |chamber: &&Chamber| {
-        let (Pressure::Set(filling) | Pressure::Sealed { filling, .. }) = &chamber.pressure;
-        lowest(filling) < Some(0.0)
-    };
+    let below = |chamber: &&Chamber| lowest(chamber.pressure.filling()) < Some(0.0);
     let chamber = chambers.iter().find(below).filter(|_| raw.contact.is_none())?;
     Some(format!(
         "chamber `{}` goes below the pressure of the room, and without [contact] its walls pass through each other where they meet",

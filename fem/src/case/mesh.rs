@@ -175,7 +175,7 @@ pub(super) fn check(table: &Spanned<Free>, mesh: &Mesh, chambers: &[Chamber]) ->
             let help = open.map_or(CORRECT.to_string(), |(chamber, axes)| {
                 format!("\nit is open between planes: write open_axis = \"{axes}\" in [chamber.{chamber}]")
             });
-            Err(FemError::Case { message: message + &help, span: Some(table.span()) })
+            Err(FemError::case(message + &help, table.span()))
         }
         other => other.map(|_| ()),
     }
@@ -227,7 +227,7 @@ fn from_file(table: &Spanned<Free>, file: &Text, read_mesh: ReadMesh) -> Checked
             let message = format!("the mesh file {} cannot be read: {source}", path.display());
             refuse(message, "the path counts from the folder of the case file", file.span())
         }
-        Err(FemError::Mesh(message)) => Err(FemError::Case { message, span: Some(file.span()) }),
+        Err(FemError::Mesh(message)) => Err(FemError::case(message, file.span())),
         Ok(read) => in_metres(read, file, entry(table, "unit")?),
         Err(other) => Err(other),
     }
@@ -310,7 +310,7 @@ fn generated(table: &Spanned<Free>, name: &Text) -> Checked<Mesh> {
     }
     let values = generator.keys.iter().map(|key| value(table, key)).collect::<Checked<Vec<f64>>>()?;
     (generator.make)(&values).map_err(|error| match error {
-        FemError::Mesh(message) => FemError::Case { message: message + CORRECT, span: Some(table.span()) },
+        FemError::Mesh(message) => FemError::case(message + CORRECT, table.span()),
         other => other,
     })
 }

@@ -56,7 +56,7 @@ pub(crate) const fn plain(low: f64, high: f64, usual: &'static str) -> Range {
 
 /// A refusal: what is wrong, what to type, where.
 pub(crate) fn refuse<T>(message: impl AsRef<str>, help: impl AsRef<str>, span: Span<usize>) -> Checked<T> {
-    Err(FemError::Case { message: format!("{}\n{}", message.as_ref(), help.as_ref()), span: Some(span) })
+    Err(FemError::case(format!("{}\n{}", message.as_ref(), help.as_ref()), span))
 }
 
 pub(crate) fn si(key: &str, value: &Num, range: &Range) -> Checked<f64> {
@@ -136,7 +136,7 @@ pub(crate) fn choice<T: Copy>(what: &str, text: &Spanned<String>, known: &[(&str
 
 /// A name that is not among the known ones.
 pub(crate) fn unknown_name(what: &str, text: &Spanned<String>, known: &[&str]) -> FemError {
-    FemError::Case { message: unknown(what, text.get_ref(), known), span: Some(text.span()) }
+    FemError::case(unknown(what, text.get_ref(), known), text.span())
 }
 
 /// The known word that was probably meant: a slip away, or the beginning of just one.

@@ -143,7 +143,7 @@ impl Contact {
 
 impl Term for Contact {
     fn line(&self) -> LedgerLine {
-        LedgerLine { name: "contact", account: Account::Contact }
+        LedgerLine::new("contact", Account::Contact)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

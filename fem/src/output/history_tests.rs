@@ -12,7 +12,7 @@ fn reaction(set: &str, axes: [bool; 3], t: f64) -> Reaction {
 
 fn record(step: u64) -> Record {
     let t = step as f64 * 0.1;
-    let row = |name, kind, share: f64| LedgerLine { name, account: Account::Stretch }.row(kind, share * t.exp());
+    let row = |name, kind, share: f64| LedgerLine::new(name, Account::Stretch).row(kind, share * t.exp());
     let rows = vec![
         row("membrane", RowKind::Stored, 1.0),
         row("contact", RowKind::Stored, 0.1),

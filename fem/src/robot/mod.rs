@@ -64,7 +64,7 @@ use crate::mesh::check::check_open;
 pub use crate::output::centre_line::CentreLine;
 use crate::output::picture::Viewpoint;
 use crate::policy;
-use crate::problem::{Amplitude, Chamber, Contact, Guards, MassScaling, Patience, Pressure, Settings, Support};
+use crate::problem::{Amplitude, Chamber, Contact, Guards, MassScaling, Patience, Settings, Support};
 use crate::run;
 use crate::sheet::reference::mean_stiffness;
 use crate::vec3::{area, norm};
@@ -221,9 +221,8 @@ fn chambers(scenario: &Scenario, settings: &RobotSettings) -> Vec<Chamber> {
     let full = filled + settings.actuator_ramp_s;
     let body = Amplitude::Smooth(vec![(0.0, 0.0), (filled, scenario.p_body_pa)]);
     let actuator = settings.rise(vec![(filled, 0.0), (full, settings.actuator_pa)]);
-    let chamber = |name: String, set| Chamber { name, pressure: Pressure::Set(set), open_axis: None };
-    let strips = (0..scenario.strips().count()).map(|i| chamber(sew::of_strip(sew::ACTUATOR, i), actuator.clone()));
-    std::iter::once(chamber(sew::BODY.into(), body)).chain(strips).collect()
+    let strip = |i: usize| Chamber::of(&sew::of_strip(sew::ACTUATOR, i), actuator.clone());
+    std::iter::once(Chamber::of(sew::BODY, body)).chain((0..scenario.strips().count()).map(strip)).collect()
 }
 
 /// Contact of everything but the cap, where the pattern folds.

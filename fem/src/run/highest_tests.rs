@@ -10,7 +10,7 @@ use crate::mesh::generate;
 use crate::problem::{Ply, Problem, Section, Settings};
 use crate::{Mesh, Simulation};
 
-const FILM: NeoHookean = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
+const FILM: NeoHookean = NeoHookean::new(50.3e6, 2e-4);
 
 fn problem(mut mesh: Mesh, fabric: Arc<dyn Fabric>) -> Problem {
     mesh.parts.iter_mut().for_each(|part| (part.front, part.back) = (None, None));

@@ -7,14 +7,13 @@ use models::fabrics::NeoHookean;
 use super::*;
 use crate::mesh::generate;
 use crate::mesh::generate::{Around, Cap, Tube};
-use crate::problem::{Amplitude, Chamber, Gravity, NodalForce, Ply, Pressure, Rigid, Section, Support};
+use crate::problem::{Amplitude, Chamber, Gravity, NodalForce, Pressure, Rigid, Section, Support};
 use crate::vec3::cross;
 use crate::{Problem, Simulation};
 
 fn problem(mesh: Mesh, chambers: Vec<Chamber>) -> Problem {
-    let film = NeoHookean { c10_pa: 20e6, thickness_m: 2e-4 };
-    let plies = vec![Ply { fabric: Arc::new(film), angle_rad: 0.0 }];
-    let section = Section { plies, bonded: true, density_kg_m3: 1000.0, bending_factor: 1.0, rest_curvature: false };
+    let film = NeoHookean::new(20e6, 2e-4);
+    let section = Section::of(Arc::new(film), 1.0);
     let sections = mesh.parts.iter().map(|_| section.clone()).collect();
     Problem::new("reactions", mesh, sections, chambers)
 }

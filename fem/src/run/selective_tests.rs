@@ -7,16 +7,15 @@ use models::fabrics::{NeoHookean, Orthotropic};
 
 use super::LEAST;
 use crate::mesh::{Part, generate};
-use crate::problem::{Amplitude, Contact, MassScaling, NodalForce, Ply, Problem, Rigid, Section, Settings, Support};
+use crate::problem::{Amplitude, Contact, MassScaling, NodalForce, Problem, Rigid, Section, Settings, Support};
 use crate::random::gaussian;
 use crate::{Mesh, Simulation};
 
-const FILM: NeoHookean = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
+const FILM: NeoHookean = NeoHookean::new(50.3e6, 2e-4);
 
 fn problem(mut mesh: Mesh) -> Problem {
     mesh.parts.iter_mut().for_each(|part| (part.front, part.back) = (None, None));
-    let plies = vec![Ply { fabric: Arc::new(FILM), angle_rad: 0.0 }];
-    let section = Section { plies, bonded: true, density_kg_m3: 1000.0, bending_factor: 1.0, rest_curvature: false };
+    let section = Section::of(Arc::new(FILM), 1.0);
     let mut problem = Problem::new("piece", mesh, vec![section], vec![]);
     problem.settings = Settings { viscosity: 0.0, selective_mass: true, ..Settings::default() };
     problem

@@ -117,7 +117,7 @@ pub(super) fn is_of(folder: &Path, text: &str) -> Result<Option<bool>, FemError>
 /// # Errors
 /// The folder holds another run, or files that are none of ours, or another process writes to it.
 pub(super) fn open(wish: &RunWish) -> Result<Opened, FemError> {
-    let refuse = |cause: &str, help: &str| Err(refused(wish.folder, cause, help));
+    let refuse = |cause: &str, help: &str| Err(FemError::folder(wish.folder, cause, help));
     if matches!(look(&aside(wish.folder))?, Found::Finished) {
         mend(wish.folder, &aside(wish.folder)).map_err(|cause| unwritable(wish.folder, &cause))?;
     }
@@ -171,7 +171,7 @@ fn open_beside(wish: &RunWish) -> Result<Opened, FemError> {
             take(&beside, wish.folder, Some(marker))
         }
         Found::Foreign(name) => {
-            Err(refused(&beside, &format!("it holds other files ({name})"), "move that folder away"))
+            Err(FemError::folder(&beside, format!("it holds other files ({name})"), "move that folder away"))
         }
         _ => take(&beside, wish.folder, None),
     }
@@ -195,11 +195,7 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), FemError> {
 
 /// A file of the run that cannot be written, or read back.
 pub(super) fn unwritable(path: &Path, cause: &std::io::Error) -> FemError {
-    refused(path, &cause.to_string(), "choose another folder with --out")
-}
-
-fn refused(folder: &Path, cause: &str, help: &str) -> FemError {
-    FemError::Folder { path: folder.into(), cause: cause.into(), help: help.into() }
+    FemError::folder(path, cause.to_string(), "choose another folder with --out")
 }
 
 fn same_case(wish: &RunWish, case_sha256: &str) -> Result<(), FemError> {
@@ -208,7 +204,7 @@ fn same_case(wish: &RunWish, case_sha256: &str) -> Result<(), FemError> {
     }
     let own = wish.folder.join("case.toml");
     let help = format!("give the case it was started with: {}; or start again with --force", own.display());
-    Err(refused(wish.folder, "the run in it is of another case, or the case has changed", &help))
+    Err(FemError::folder(wish.folder, "the run in it is of another case, or the case has changed", help))
 }
 
 fn look(folder: &Path) -> Result<Found, FemError> {
@@ -265,7 +261,7 @@ fn locked(folder: &Path, target: &Path, interrupted: Option<RunIdentity>) -> Res
     std::fs::create_dir_all(folder).map_err(|cause| unwritable(folder, &cause))?;
     let lock = File::create(folder.join(LOCK)).map_err(|cause| unwritable(folder, &cause))?;
     if let Err(std::fs::TryLockError::WouldBlock) = lock.try_lock() {
-        return Err(refused(
+        return Err(FemError::folder(
             folder,
             "another run is writing to it",
             "wait for it, or choose another folder with --out",

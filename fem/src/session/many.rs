@@ -35,8 +35,8 @@ pub struct Many {
 pub fn simulate_all(jobs: &[Job], settings: &Settings, progress: Progress) -> Result<Many, FemError> {
     let root = settings.folder.clone().unwrap_or_default();
     if jobs.iter().any(|job| job.folder.is_some()) && root.join("case.toml").exists() {
-        let help = "choose another folder with --out; several runs get a folder each inside it".into();
-        return Err(FemError::Folder { path: root, cause: "it holds a single run".into(), help });
+        let help = "choose another folder with --out; several runs get a folder each inside it";
+        return Err(FemError::folder(&root, "it holds a single run", help));
     }
     let (tasks, of) = tasks(jobs, &root)?;
     if !settings.force {
@@ -136,9 +136,8 @@ impl Task {
         if folder::is_of(&self.folder, &jobs[self.at].source.text)? != Some(false) {
             return Ok(());
         }
-        let cause = "it holds a run of another case, or the case has changed".into();
-        let help = "choose another folder with --out, or add --force to run it again".into();
-        Err(FemError::Folder { path: self.folder.clone(), cause, help })
+        let cause = "it holds a run of another case, or the case has changed";
+        Err(FemError::folder(&self.folder, cause, "choose another folder with --out, or add --force to run it again"))
     }
 
     fn run(&self, jobs: &[Job], settings: &Settings, tell: Progress) -> Result<FeRun, FemError> {

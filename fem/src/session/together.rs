@@ -73,7 +73,7 @@ pub(super) fn together<T: Send>(
         }
     }
     let done = all.len();
-    if done == count { Ok(all) } else { Err(FemError::Interrupted { time_s: 0.0, step: 0, done, of: count }) }
+    if done == count { Ok(all) } else { Err(FemError::interrupted(done, count)) }
 }
 
 /// Jobs at a time, and threads of each, for so many threads (0: one per core). Two runs on a core each are done sooner
@@ -91,7 +91,7 @@ mod tests {
     type Found = Result<Vec<usize>, FemError>;
 
     fn interrupted() -> FemError {
-        FemError::Interrupted { time_s: 0.0, step: 0, done: 0, of: 1 }
+        FemError::interrupted(0, 1)
     }
 
     /// What came back, and the shares that were told.

@@ -77,14 +77,12 @@ impl Air {
 
     /// Pressure that the supply sets \[Pa\].
     fn supply(&self, t: f64) -> f64 {
-        let (Pressure::Set(amplitude) | Pressure::Sealed { filling: amplitude, .. }) = &self.chamber.pressure;
-        amplitude.at(t)
+        self.chamber.pressure.filling().at(t)
     }
 
     /// Largest pressure that the supply ever sets, and the gas had so far \[Pa\].
     pub fn peak_pa(&self) -> f64 {
-        let (Pressure::Set(amplitude) | Pressure::Sealed { filling: amplitude, .. }) = &self.chamber.pressure;
-        amplitude.peak().max(self.now.pressure_pa.abs())
+        self.chamber.pressure.filling().peak().max(self.now.pressure_pa.abs())
     }
 
     /// True if its walls have passed through each other and the pressure does not part them again: below the room's, or of enclosed gas.

@@ -191,7 +191,7 @@ const BOOKS_EVERY: u64 = 8;
 
 impl Term for Sheet {
     fn line(&self) -> LedgerLine {
-        LedgerLine { name: "shells", account: Account::Stretch }
+        LedgerLine::new("shells", Account::Stretch)
     }
 
     /// Membrane, hourglass and bending energy minus Σ pV at the pressures of the last step, without viscosity.

@@ -228,7 +228,7 @@ impl Edge {
 
 impl Term for Folds {
     fn line(&self) -> LedgerLine {
-        LedgerLine { name: "folds", account: Account::Wall }
+        LedgerLine::new("folds", Account::Wall)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

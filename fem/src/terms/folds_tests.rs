@@ -6,7 +6,7 @@ use models::{Pose, Term};
 use super::Folds;
 use crate::mesh::generate::plate;
 use crate::mesh::{Mesh, Part};
-use crate::problem::{Ply, Problem, Section};
+use crate::problem::{Problem, Section};
 use crate::sheet::Sheet;
 use crate::sheet::order::{Order, renumber};
 use crate::sheet::reference::bending_stiffness;
@@ -17,8 +17,7 @@ const HARD: f64 = 60.0;
 const SIDE_M: f64 = 0.01;
 
 fn section(factor: f64) -> Section {
-    let plies = vec![Ply { fabric: Arc::new(Orthotropic::isotropic(2e8, 0.3, 2e-4)), angle_rad: 0.0 }];
-    Section { plies, bonded: true, density_kg_m3: 1000.0, bending_factor: factor, rest_curvature: false }
+    Section::of(Arc::new(Orthotropic::isotropic(2e8, 0.3, 2e-4)), factor)
 }
 
 /// A plate 4 by 3 elements of 10 mm, its right half 60 times as stiff, and its folds.

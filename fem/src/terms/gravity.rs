@@ -66,7 +66,7 @@ impl Gravity {
 
 impl Term for Gravity {
     fn line(&self) -> LedgerLine {
-        LedgerLine { name: "gravity", account: Account::Load }
+        LedgerLine::new("gravity", Account::Load)
     }
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
         let amplitude = self.amplitude.at(self.time_s);

@@ -52,7 +52,7 @@ impl NodalForces {
 
 impl Term for NodalForces {
     fn line(&self) -> LedgerLine {
-        LedgerLine { name: "nodal forces", account: Account::Load }
+        LedgerLine::new("nodal forces", Account::Load)
     }
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
         self.loads.iter().map(|load| load.add(load.amplitude.at(self.time_s), at.q, force)).sum()

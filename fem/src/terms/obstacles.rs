@@ -128,7 +128,7 @@ fn from(x: &[f64; 4], by: V3) -> [f64; 4] {
 
 impl Term for Obstacles {
     fn line(&self) -> LedgerLine {
-        LedgerLine { name: "obstacles", account: Account::Load }
+        LedgerLine::new("obstacles", Account::Load)
     }
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
         let (x, force) = (at.q.as_chunks::<4>().0, force.as_chunks_mut::<4>().0);

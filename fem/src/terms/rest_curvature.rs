@@ -155,7 +155,7 @@ impl Rest {
 
 impl Term for RestCurvature {
     fn line(&self) -> LedgerLine {
-        LedgerLine { name: "rest curvature", account: Account::Wall }
+        LedgerLine::new("rest curvature", Account::Wall)
     }
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
         let (x, force) = (at.q.as_chunks::<4>().0, force.as_chunks_mut::<4>().0);

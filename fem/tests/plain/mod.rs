@@ -102,7 +102,7 @@ impl<'a> PlainSheet<'a> {
 
 impl Term for PlainSheet<'_> {
     fn line(&self) -> LedgerLine {
-        LedgerLine { name: "plain shells", account: Account::Stretch }
+        LedgerLine::new("plain shells", Account::Stretch)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

@@ -91,7 +91,7 @@ pub(super) fn clamp(name: &'static str, [share, reach, end]: [f64; 3], at_m: f64
 
 impl Term for Clamp {
     fn line(&self) -> LedgerLine {
-        LedgerLine { name: self.name, account: Account::Wall }
+        LedgerLine::new(self.name, Account::Wall)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

@@ -254,7 +254,7 @@ impl Parameter<'_> {
 impl Effect<'static> {
     /// Line of its term in the energy ledger.
     pub(super) const fn line(&self, account: Account) -> LedgerLine {
-        LedgerLine { name: self.name, account }
+        LedgerLine::new(self.name, account)
     }
 }
 

@@ -78,6 +78,13 @@ pub struct NeoHookean {
     pub thickness_m: f64,
 }
 
+impl NeoHookean {
+    /// C₁₀ \[Pa\] and thickness \[m\], both positive.
+    pub const fn new(c10_pa: f64, thickness_m: f64) -> NeoHookean {
+        NeoHookean { c10_pa, thickness_m }
+    }
+}
+
 /// Linear orthotropic sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Orthotropic {

@@ -103,7 +103,7 @@ impl Laminate {
 
 /// Wrinkling films that wrinkle at one strain are one film; `None` if a ply is something else.
 fn film_of(plies: &[(Arc<dyn Fabric>, Turn)]) -> Option<WrinklingFilm> {
-    let mut sum = Mixed { rubber: NeoHookean { c10_pa: 0.0, thickness_m: 0.0 }, linear: [[0.0; 3]; 3] };
+    let mut sum = Mixed { rubber: NeoHookean::new(0.0, 0.0), linear: [[0.0; 3]; 3] };
     let (mut strain, mut load_n_per_m) = (None, 0.0);
     for (fabric, _) in plies {
         let Kind::WrinklingFilm(ply) = fabric.kind() else { return None };
@@ -120,7 +120,7 @@ fn film_of(plies: &[(Arc<dyn Fabric>, Turn)]) -> Option<WrinklingFilm> {
 impl Mixed {
     /// `None` if a ply follows another law.
     fn of(plies: &[(Arc<dyn Fabric>, Turn)]) -> Option<Mixed> {
-        let mut sum = Mixed { rubber: NeoHookean { c10_pa: 0.0, thickness_m: 0.0 }, linear: [[0.0; 3]; 3] };
+        let mut sum = Mixed { rubber: NeoHookean::new(0.0, 0.0), linear: [[0.0; 3]; 3] };
         for (fabric, turn) in plies {
             let linear = match fabric.kind() {
                 Kind::NeoHookean(rubber) => {

@@ -27,7 +27,7 @@ pub(super) const ENTRY: Law = Law {
     example: || Recipe::of(&[("c10_MPa", 50.3), ("thickness_mm", 0.2)]),
     make: |recipe| {
         let v = ENTRY.read(recipe)?;
-        Ok(Arc::new(NeoHookean { c10_pa: v.get("c10_MPa")?, thickness_m: v.get("thickness_mm")? }))
+        Ok(Arc::new(NeoHookean::new(v.get("c10_MPa")?, v.get("thickness_mm")?)))
     },
 };
 

@@ -9,7 +9,7 @@ fn rows(n: usize, end: f64, y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
 
 #[test]
 fn the_fit_recovers_the_constant_of_the_sheet_law_pulled_with_free_edges() {
-    let sheet = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
+    let sheet = NeoHookean::new(50.3e6, 2e-4);
     let pulled = |strain: f64| {
         // Incompressible and free to contract: C₂₂ = 1/λ.
         let stretch: f64 = 1.0 + strain;

@@ -60,7 +60,7 @@ pub(super) const ENTRY: Law = Law {
     example: || Recipe::of(&[("c10_MPa", 50.3), ("wrinkling_load_n_per_m", 5.0), ("thickness_mm", 0.2)]),
     make: |recipe| {
         let v = ENTRY.read(recipe)?;
-        let film = NeoHookean { c10_pa: v.get("c10_MPa")?, thickness_m: v.get("thickness_mm")? };
+        let film = NeoHookean::new(v.get("c10_MPa")?, v.get("thickness_mm")?);
         Ok(Arc::new(WrinklingFilm { film, load_n_per_m: v.get("wrinkling_load_n_per_m")? }))
     },
 };

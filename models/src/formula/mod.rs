@@ -261,7 +261,7 @@ impl FormulaTerm {
 
 impl Term for FormulaTerm {
     fn line(&self) -> LedgerLine {
-        LedgerLine { name: "formula", account: Account::Wall }
+        LedgerLine::new("formula", Account::Wall)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

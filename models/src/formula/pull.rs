@@ -51,7 +51,7 @@ impl PullTerm {
 
 impl Term for PullTerm {
     fn line(&self) -> LedgerLine {
-        LedgerLine { name: "formula", account: Account::Wall }
+        LedgerLine::new("formula", Account::Wall)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

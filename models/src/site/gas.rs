@@ -7,7 +7,7 @@ pub(super) struct ActuatorPressure;
 
 impl Term for ActuatorPressure {
     fn line(&self) -> LedgerLine {
-        LedgerLine { name: "actuator_pressure", account: Account::ActuatorGas }
+        LedgerLine::new("actuator_pressure", Account::ActuatorGas)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

@@ -27,13 +27,13 @@ fn same(a: &dyn Fabric, b: &dyn Fabric, tolerance: f64) {
 #[test]
 fn two_equal_plies_are_one_of_double_thickness() {
     same(&Laminate::new(vec![ply(cloth(5e-5), 0.0), ply(cloth(5e-5), 0.0)]).unwrap(), &cloth(1e-4), 1e-12);
-    let film = |thickness_m| NeoHookean { c10_pa: 50.3e6, thickness_m };
+    let film = |thickness_m| NeoHookean::new(50.3e6, thickness_m);
     same(&Laminate::new(vec![ply(film(1e-4), 0.0), ply(film(1e-4), 0.0)]).unwrap(), &film(2e-4), 1e-12);
 }
 
 #[test]
 fn rubber_and_linear_plies_add_up_to_one_formula_and_other_laws_do_not() {
-    let film = NeoHookean { c10_pa: 50.3e6, thickness_m: 1e-4 };
+    let film = NeoHookean::new(50.3e6, 1e-4);
     let inner = Laminate::new(vec![ply(cloth(5e-5), 20.0), ply(film, 0.0)]).unwrap();
     let outer = Laminate::new(vec![ply(inner, 30.0), ply(film, 45.0), ply(cloth(2e-5), -70.0)]).unwrap();
     let Kind::Mixed(mixed) = outer.kind() else { panic!("{:?}", outer.kind()) };
@@ -57,7 +57,7 @@ fn rubber_and_linear_plies_add_up_to_one_formula_and_other_laws_do_not() {
 fn a_quarter_turn_swaps_warp_and_fill_and_an_isotropic_film_does_not_notice_any() {
     let swapped = Orthotropic::checked(120e6, 96.5e6, 0.3 * 120.0 / 96.5, cloth(5e-5).a66 / 5e-5, 5e-5).unwrap();
     same(&Laminate::new(vec![ply(cloth(5e-5), 90.0)]).unwrap(), &swapped, 1e-10);
-    let film = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
+    let film = NeoHookean::new(50.3e6, 2e-4);
     same(&Laminate::new(vec![ply(film, 33.0)]).unwrap(), &film, 1e-10);
 }
 

@@ -40,7 +40,7 @@ fn a_film_is_equally_stiff_in_every_direction() {
 
 #[test]
 fn small_strain_modulus_of_the_neo_hookean_film_is_six_times_its_constant() {
-    let film = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
+    let film = NeoHookean::new(50.3e6, 2e-4);
     for angle in [0.0, 30.0, 45.0, 90.0] {
         let found = modulus(&film, angle, 1e-8 * 6.0 * 50.3e6 * 2e-4);
         assert!((found / (6.0 * 50.3e6) - 1.0).abs() < 1e-6, "{angle}: {found}");
@@ -49,7 +49,7 @@ fn small_strain_modulus_of_the_neo_hookean_film_is_six_times_its_constant() {
 
 #[test]
 fn pulled_rubber_follows_its_closed_form_at_any_stretch() {
-    let film = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
+    let film = NeoHookean::new(50.3e6, 2e-4);
     for stretch in [0.7, 0.95, 1.0, 1.1, 1.5, 2.0, 3.0_f64] {
         let e = [0.5 * (stretch * stretch - 1.0), 0.5 * (1.0 / stretch - 1.0), 0.0];
         let s = film.tension(e, &FRESH);

@@ -5,7 +5,7 @@ use models::Fabric;
 use models::fabrics::{Kind, Laminate, NeoHookean, Ply, WrinklingFilm, wrinkling_load_n_per_m};
 use std::sync::Arc;
 
-const FILM: NeoHookean = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
+const FILM: NeoHookean = NeoHookean::new(50.3e6, 2e-4);
 
 fn with(load_n_per_m: f64) -> WrinklingFilm {
     WrinklingFilm { film: FILM, load_n_per_m }

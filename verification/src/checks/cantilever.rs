@@ -170,7 +170,7 @@ fn mesh(setup: &Setup) -> Result<Mesh, FemError> {
 
 fn problem(mesh: Mesh, hourglass: f64, deflections_m: &[f64]) -> Problem {
     let of = |thickness_m: f64, density_kg_m3: f64| {
-        let fabric = Arc::new(NeoHookean { c10_pa: C10_PA, thickness_m });
+        let fabric = Arc::new(NeoHookean::new(C10_PA, thickness_m));
         Section { density_kg_m3, ..section(fabric, 0.0) }
     };
     // Caps are heavier so that their triangles do not limit the step; at rest that does not matter.

@@ -62,7 +62,7 @@ fn linear() -> Found {
 }
 
 fn rubber() -> Found {
-    let fabric = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
+    let fabric = NeoHookean::new(50.3e6, 2e-4);
     let step_s = 8e-3;
     let strip = Strip {
         size_m: [0.08, 0.01],

@@ -32,7 +32,7 @@ const BALL_M: f64 = 0.05;
 const SPEED: f64 = 2.0;
 
 fn fabric() -> Section {
-    section(Arc::new(NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 }), 0.1)
+    section(Arc::new(NeoHookean::new(50.3e6, 2e-4)), 0.1)
 }
 
 /// 5 kPa within 4 ms.

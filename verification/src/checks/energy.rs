@@ -15,7 +15,7 @@ const STEPS: u64 = 100_000;
 const PRESSURE_PA: f64 = 2e3;
 
 fn run() -> Found {
-    let fabric = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
+    let fabric = NeoHookean::new(50.3e6, 2e-4);
     let flat = |pressure: Amplitude| -> Result<Problem, FemError> {
         let mesh = pillow(0.1, 10, 2e-3)?;
         Ok(problem("pillow", mesh, section(Arc::new(fabric), 1.0), vec![chamber("air", pressure)]))

@@ -143,7 +143,7 @@ fn blown(pouch: &Pouch) -> Result<[f64; 2], FemError> {
     const ALONG: usize = 24;
     let across = 2 * (0.5 * ALONG as f64 * pouch.width_m / pouch.length_m).round() as usize;
     let mesh = flat_tube(pouch.width_m, pouch.length_m, across, ALONG, 0.0, 2e-5)?;
-    let film = WrinklingFilm { film: NeoHookean { c10_pa: 1e8, thickness_m: 1e-4 }, load_n_per_m: 1.0 };
+    let film = WrinklingFilm { film: NeoHookean::new(1e8, 1e-4), load_n_per_m: 1.0 };
     let air = chamber("air", rise(0.05, 1e3));
     let mut problem = problem("sealed pouch", mesh, section(Arc::new(film), 0.0), vec![air]);
     problem.supports = vec![hold("end_0", [true; 3])];

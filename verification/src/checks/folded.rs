@@ -13,9 +13,8 @@
 
 use super::apart::{nodes, triangles};
 use super::setup::*;
-use fem::mesh::generate::{FoldedPouch, folded_pouch};
+use crate::speed::workloads::folded_cpam;
 use fem::vec3::{V3, cross, dot, norm, scale, sub, unit};
-use models::fabrics::NeoHookean;
 
 pub(super) const CHECK: Check = Check::slow(
     "folded-pouch",
@@ -41,19 +40,9 @@ const STACK: [(&str, &str); 6] = [
 /// # Errors
 /// [`FemError::Mesh`] for an element size that is not positive or far too small.
 fn pouch(element_m: f64, peak_pa: f64, contact: bool) -> Result<Problem, FemError> {
-    let mesh = folded_pouch(&FoldedPouch {
-        length_m: 0.06,
-        width_m: 0.06,
-        fold_m: 0.024,
-        gap_m: 1e-5,
-        along: (0.06 / element_m).round() as usize,
-        in_fold: (0.024 / element_m).round() as usize,
-    })?;
-    let fabric = Arc::new(NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 });
-    let air = chamber("air", rise(0.03, peak_pa));
-    let mut problem = problem("folded pouch", mesh, section(fabric, 0.1), vec![air]);
+    let mut problem = folded_cpam(element_m, false)?;
+    problem.chambers = vec![chamber("air", rise(0.03, peak_pa))];
     problem.contact = contact.then(|| Contact { edges: true, ..Contact::default() });
-    problem.settings.mass_damping_1_s = 100.0;
     problem.settings.end_s = 0.04;
     Ok(problem)
 }

@@ -29,8 +29,7 @@ fn run() -> Found {
         caps: [Cap::Triangles, Cap::Quads],
         warp_rad: 0.3,
     })?;
-    let wall =
-        Section { rest_curvature: true, ..section(Arc::new(NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 }), 1.0) };
+    let wall = Section { rest_curvature: true, ..section(Arc::new(NeoHookean::new(50.3e6, 2e-4)), 1.0) };
     let woven = Arc::new(Orthotropic::new(96.5e6, 120e6, 0.3, 1.03e6, 5e-5));
     let cap = Section { plies: vec![Ply { fabric: woven, angle_rad: 0.4 }], ..wall.clone() };
     let sections = vec![wall.clone(), cap, wall];

@@ -45,7 +45,7 @@ fn run() -> Found {
 /// The pouch under pressure, its right end supported in one way or another.
 fn blown(right: Support) -> Result<(Mesh, Simulation), FemError> {
     let mesh = generate::long_pouch(POUCH.length_m, POUCH.width_m, 40, 2, 1e-4)?;
-    let film = Arc::new(NeoHookean { c10_pa: C10_PA, thickness_m: THICKNESS_M });
+    let film = Arc::new(NeoHookean::new(C10_PA, THICKNESS_M));
     let air = Chamber { open_axis: Some([false, true, false]), ..chamber("air", rise(0.02, PRESSURE_PA)) };
     let mut problem = problem("long pouch", mesh, section(film, 0.0), vec![air]);
     problem.open = vec!["open_0".into(), "open_1".into()];

@@ -56,7 +56,7 @@ fn distorted(triangles: bool) -> Result<Mesh, FemError> {
 }
 
 fn uniform() -> Found {
-    let fabric = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
+    let fabric = NeoHookean::new(50.3e6, 2e-4);
     let mut lines = Vec::new();
     for (kind, triangles) in [("quads", false), ("triangles", true)] {
         let problem = Problem::new("patch", distorted(triangles)?, vec![section(Arc::new(fabric), 1.0)], vec![]);

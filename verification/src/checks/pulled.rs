@@ -29,7 +29,7 @@ pub(super) struct Reading {
 
 impl Strip {
     /// The run, both clamps holding all three axes.
-    pub fn start(&self) -> Result<Simulation, FemError> {
+    pub(super) fn start(&self) -> Result<Simulation, FemError> {
         let [length, width] = self.size_m;
         let mesh = generate::plate(length, width, self.elements[0], self.elements[1], None)?;
         let mut sheet = section(self.fabric.clone(), 0.0);
@@ -42,7 +42,7 @@ impl Strip {
     }
 
     /// Steps to a time and reads strain and stress.
-    pub fn read(&self, run: &mut Simulation, time_s: f64) -> Result<Reading, FemError> {
+    pub(super) fn read(&self, run: &mut Simulation, time_s: f64) -> Result<Reading, FemError> {
         advance(run, time_s)?;
         let marks = [0.4, 0.6].map(|share| (share * self.elements[0] as f64).round());
         let apart = (marks[1] - marks[0]) * self.size_m[0] / self.elements[0] as f64;

@@ -18,8 +18,7 @@ use models::{Fabric, Pose, Term};
 
 /// One ply along the part's warp, 1000 kg/m³.
 pub(super) fn section(fabric: Arc<dyn Fabric>, bending_factor: f64) -> Section {
-    let plies = vec![Ply { fabric, angle_rad: 0.0 }];
-    Section { plies, bonded: true, density_kg_m3: 1000.0, bending_factor, rest_curvature: false }
+    Section::of(fabric, bending_factor)
 }
 
 /// The same section for every part of a mesh.
@@ -35,7 +34,7 @@ pub(super) fn rise(time_s: f64, value: f64) -> Amplitude {
 
 /// A closed chamber whose pressure is set \[Pa\].
 pub(super) fn chamber(name: &str, pressure: Amplitude) -> Chamber {
-    Chamber { name: name.into(), pressure: Pressure::Set(pressure), open_axis: None }
+    Chamber::of(name, pressure)
 }
 
 /// Holds the nodes of a set still.

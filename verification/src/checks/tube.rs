@@ -13,7 +13,7 @@ pub(super) const CHECK: Check = Check::quick(
     run,
 );
 
-const FABRIC: NeoHookean = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
+const FABRIC: NeoHookean = NeoHookean::new(50.3e6, 2e-4);
 const RADIUS_M: f64 = 0.04;
 const LENGTH_M: f64 = 0.24;
 

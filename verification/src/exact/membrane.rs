@@ -50,7 +50,7 @@ mod tests {
     #[test]
     fn tensions_are_those_of_the_fabric_law() {
         let (c10_pa, thickness_m) = (35e6, 2e-4);
-        let law = NeoHookean { c10_pa, thickness_m };
+        let law = NeoHookean::new(c10_pa, thickness_m);
         let green = |stretch: f64| 0.5 * (stretch * stretch - 1.0);
         for stretch in [0.9, 1.05, 1.4_f64] {
             for (sides, across) in [(Sides::Free, stretch.powf(-0.5)), (Sides::Kept, 1.0), (Sides::Pulled, stretch)] {

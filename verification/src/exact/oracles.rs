@@ -2,10 +2,8 @@
 //!
 //! The expected ones stand in `known.txt` as text, so that the last printed digit sets the tolerance: nobody can widen it.
 
-use super::FORMS;
-
 /// Sections of `known.txt` with what this code gives for their lines, in order.
-pub type Known = Vec<(&'static str, Vec<f64>)>;
+pub(super) type Known = Vec<(&'static str, Vec<f64>)>;
 
 const PRINTED: &str = include_str!("known.txt");
 
@@ -33,9 +31,9 @@ impl OracleRow {
     }
 }
 
-/// Every oracle, in the order of `FORMS`.
-pub fn oracle_table() -> Vec<OracleRow> {
-    let all = FORMS.iter().flat_map(|known| known());
+/// Every oracle of some closed forms.
+pub(super) fn table(forms: &[fn() -> Known]) -> Vec<OracleRow> {
+    let all = forms.iter().flat_map(|known| known());
     all.flat_map(|(name, computed)| section(PRINTED, name, &computed)).collect()
 }
 
@@ -69,6 +67,7 @@ fn half_unit(printed: &str) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::oracle_table;
 
     #[test]
     fn half_unit_follows_the_last_printed_digit() {

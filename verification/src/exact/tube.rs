@@ -224,7 +224,7 @@ pub(super) fn known() -> Known {
     ];
     let linear = Orthotropic::isotropic(208e6, 0.3, 2e-4);
     let isotropic = [2e3, 2e4].map(|p| state(&linear, 0.0, 0.04, p, Ends::Free(0.0)));
-    let rubber = NeoHookean { c10_pa: 208e6 / 6.0, thickness_m: 2e-4 };
+    let rubber = NeoHookean::new(208e6 / 6.0, 2e-4);
     let neo = |pressure_pa, pull_n| state(&rubber, 0.0, 0.04, pressure_pa, Ends::Free(pull_n));
     let both = |at: Inflated| [at.axial_stretch, at.hoop_stretch];
     let blown = [both(neo(1e5, 0.0)), both(neo(2e5, 0.0)), both(neo(1e5, -200.0))];
@@ -252,7 +252,7 @@ mod tests {
     #[test]
     fn hoop_tension_is_pr_axial_half_of_it_and_shear_vanishes_in_the_deformed_wall() {
         let fabric = bias(0.3);
-        let neo = NeoHookean { c10_pa: 35e6, thickness_m: 2e-4 };
+        let neo = NeoHookean::new(35e6, 2e-4);
         for (wall, angle, p) in [(&fabric as &dyn Fabric, 0.6, 30e3), (&neo, 0.0, 150e3), (&fabric, PI / 4.0, 3e3)] {
             let tube = ClosedTube { radius_m: 0.03, warp_angle: angle, fabric: wall };
             let at = inflate(&tube, p, Ends::Free(0.0)).unwrap();
@@ -307,7 +307,7 @@ mod tests {
 
     #[test]
     fn a_tube_beyond_its_burst_pressure_or_without_numbers_has_no_state() {
-        let neo = NeoHookean { c10_pa: 208e6 / 6.0, thickness_m: 2e-4 };
+        let neo = NeoHookean::new(208e6 / 6.0, 2e-4);
         let tube = ClosedTube { radius_m: 0.04, warp_angle: 0.0, fabric: &neo };
         assert_eq!(inflate(&tube, 5e5, Ends::Free(0.0)), None);
         assert_eq!(inflate(&tube, f64::NAN, Ends::Free(0.0)), None);

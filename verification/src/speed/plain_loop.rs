@@ -8,7 +8,7 @@
 //! loop scatters forces, one moves nodes. Nothing is sorted, packed or vectorised by hand.
 
 use fem::Problem;
-use fem::problem::{Chamber, Pressure};
+use fem::problem::Chamber;
 
 /// A membrane of triangles.
 pub struct Membrane {
@@ -73,10 +73,7 @@ impl Membrane {
     /// So many steps.
     pub fn advance_by(&mut self, steps: u64) {
         for _ in 0..steps {
-            let pressure_pa = match &self.air.pressure {
-                Pressure::Set(amplitude) | Pressure::Sealed { filling: amplitude, .. } => amplitude.at(self.time_s),
-            };
-            self.forces(pressure_pa);
+            self.forces(self.air.pressure.filling().at(self.time_s));
             self.move_nodes();
             self.time_s += self.dt_s;
         }

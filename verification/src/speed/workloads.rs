@@ -5,7 +5,7 @@ use std::sync::Arc;
 use models::fabrics::{NeoHookean, Orthotropic};
 
 use fem::mesh::generate;
-use fem::problem::{Amplitude, Chamber, Contact, Ply, Pressure, Problem, Section};
+use fem::problem::{Amplitude, Chamber, Contact, Problem, Section};
 use fem::{FemError, Simulation};
 
 /// The square airbag of the wrinkling literature (`fem/cases/pillow.toml`) with `n` × `n` quadrilaterals per layer.
@@ -14,18 +14,11 @@ use fem::{FemError, Simulation};
 /// As the generator.
 pub fn pillow(n: usize, bending: bool) -> Result<Problem, FemError> {
     let fabric = Arc::new(Orthotropic::isotropic(588e6, 0.4, 0.6e-3));
-    let section = Section {
-        plies: vec![Ply { fabric, angle_rad: 0.0 }],
-        bonded: true,
-        density_kg_m3: 1000.0,
-        bending_factor: if bending { 0.01 } else { 0.0 },
-        rest_curvature: false,
-    };
     let ramp = Amplitude::Smooth(vec![(0.0, 0.0), (0.05, 5e3)]);
     let mesh = generate::pillow(0.8485, n, 0.0)?;
     let name = mesh.parts[0].back.clone().unwrap_or_default();
-    let air = Chamber { name, pressure: Pressure::Set(ramp), open_axis: None };
-    let sections = vec![section; mesh.parts.len()];
+    let air = Chamber::of(&name, ramp);
+    let sections = vec![Section::of(fabric, if bending { 0.01 } else { 0.0 }); mesh.parts.len()];
     let mut problem = Problem::new("pillow", mesh, sections, vec![air]);
     problem.settings.end_s = 0.15;
     problem.settings.mass_damping_1_s = 100.0;
@@ -38,14 +31,7 @@ pub fn pillow(n: usize, bending: bool) -> Result<Problem, FemError> {
 /// # Errors
 /// As the generator.
 pub fn folded_cpam(element_m: f64, contact: bool) -> Result<Problem, FemError> {
-    let fabric = Arc::new(NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 });
-    let section = Section {
-        plies: vec![Ply { fabric, angle_rad: 0.0 }],
-        bonded: true,
-        density_kg_m3: 1000.0,
-        bending_factor: 0.1,
-        rest_curvature: false,
-    };
+    let fabric = Arc::new(NeoHookean::new(50.3e6, 2e-4));
     let mesh = generate::folded_pouch(&generate::FoldedPouch {
         length_m: 0.06,
         width_m: 0.06,
@@ -54,9 +40,8 @@ pub fn folded_cpam(element_m: f64, contact: bool) -> Result<Problem, FemError> {
         along: (0.06 / element_m).round() as usize,
         in_fold: (0.024 / element_m).round() as usize,
     })?;
-    let ramp = Amplitude::Smooth(vec![(0.0, 0.0), (0.05, 30e3)]);
-    let air = Chamber { name: "air".into(), pressure: Pressure::Set(ramp), open_axis: None };
-    let sections = vec![section; mesh.parts.len()];
+    let air = Chamber::of("air", Amplitude::Smooth(vec![(0.0, 0.0), (0.05, 30e3)]));
+    let sections = vec![Section::of(fabric, 0.1); mesh.parts.len()];
     let mut problem = Problem::new("folded cPAM", mesh, sections, vec![air]);
     problem.contact = contact.then(Contact::default);
     problem.settings.end_s = 0.1;

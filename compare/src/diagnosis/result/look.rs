@@ -6,7 +6,7 @@
 use crate::diagnosis::experiments::TIP_FORCE_N;
 use crate::diagnosis::result::{Diagnosis, Verdict};
 use crate::residuals::ResidualCell;
-use crate::wording::{list, short};
+use crate::wording::{channels_word, list};
 
 /// What to do next where nothing in the catalogue explains the misfit; `None` with another verdict.
 pub fn next(d: &Diagnosis) -> Option<String> {
@@ -42,7 +42,7 @@ fn where_most(d: &Diagnosis) -> Option<String> {
         "look at marker {} at {} kPa ({}), where the model fails most, and take that hold again, also with ±{TIP_FORCE_N} N on \
          the tip",
         map.markers[marker],
-        short(at.p_act_kpa),
+        channels_word(at),
         at.phase
     ))
 }

@@ -15,7 +15,8 @@ fn without(marker: usize) -> Dataset {
     let whole = set();
     let width = whole.markers.len();
     let kept = |(i, _): &(usize, &[f64])| i % width != marker;
-    let coordinates_m = whole.coordinates_m.chunks(2).enumerate().filter(kept).flat_map(|(_, xy)| xy.to_vec()).collect();
+    let coordinates_m =
+        whole.coordinates_m.chunks(2).enumerate().filter(kept).flat_map(|(_, xy)| xy.to_vec()).collect();
     let markers = whole.markers.iter().enumerate().filter(|(m, _)| *m != marker).map(|(_, m)| m.clone()).collect();
     Dataset { markers, coordinates_m, ..whole }
 }

@@ -43,7 +43,8 @@ fn what_a_robot_with_two_strips_lacks_is_named_first() {
 
 #[test]
 fn a_complete_robot_with_two_strips_raises_no_alarm() {
-    let alarms: Vec<u64> =
-        (11..17).filter(|seed| run(&complete(), &measured(&complete(), *seed)).verdict != Some(Verdict::None)).collect();
+    let alarms: Vec<u64> = (11..17)
+        .filter(|seed| run(&complete(), &measured(&complete(), *seed)).verdict != Some(Verdict::None))
+        .collect();
     assert!(alarms.len() <= 1, "{alarms:?}");
 }

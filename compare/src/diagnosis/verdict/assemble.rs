@@ -82,7 +82,8 @@ pub fn assemble(case: &Case, decision: &Decision, beside: Beside) -> Result<Diag
         limits: [limits(&datasets, &undetectable), not_in_space(&case.first().scenario)].concat(),
         by_design: by_design(case, decision.verdict, &decision.singles.fits).map(as_close).collect(),
         ranked,
-        covered: (added.len() == 1).then_some(policy::COVERED),
+        // The made-up robots were planar.
+        covered: (added.len() == 1 && !case.first().scenario.is_spatial()).then_some(policy::COVERED),
         indistinguishable,
         pairs,
         added,

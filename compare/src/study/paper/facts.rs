@@ -1,9 +1,7 @@
 //! Every sentence of the paper that can be checked, next to what the engine or the paper itself says.
 
-use super::in_print::IN_PRINT;
-use super::in_runs::IN_RUNS;
 use super::{MESHES_MM, PaperRun, find};
-use data::{Published, PublishedFact};
+use data::Published;
 use serde::Serialize;
 
 /// What a check came to.
@@ -94,16 +92,4 @@ impl<'a> FactCase<'a> {
             Some((*mesh, found.collect::<Option<_>>()?))
         })
     }
-}
-
-/// All facts of the paper, in the order of its file.
-pub fn facts(paper: &Published, runs: &[PaperRun]) -> Vec<FactRow> {
-    let row = |fact: &PublishedFact| {
-        let case = FactCase { paper, runs, numbers: &fact.numbers };
-        let known = IN_PRINT.iter().chain(IN_RUNS).find(|(id, ..)| *id == fact.id);
-        let (missing, found) = known.map_or(("there is no check of it", None), |(_, of, check)| (*of, check(&case)));
-        let (found, verdict) = found.unwrap_or_else(|| ("–".into(), FactVerdict::CannotBeChecked(missing.into())));
-        FactRow { id: fact.id.clone(), place: fact.place.clone(), says: fact.says.clone(), found, verdict }
-    };
-    paper.facts.iter().map(row).collect()
 }

@@ -157,7 +157,7 @@ fn moduli(case: &FactCase) -> FactFound {
 
 fn footprint(case: &FactCase) -> FactFound {
     let [pouch_m, muscle_m] = ["epam", "fpam"].map(|kind| case.paper.actuator(kind).map(|a| a.actuator_length_m));
-    let (count, muscle_mm) = (case.paper.markers, muscle_m? * 1e3);
+    let (count, muscle_mm) = (case.paper.protocol.markers, muscle_m? * 1e3);
     let row_mm = count as f64 * pouch_m? * 1e3;
     let found = format!("{count} pouches of 60 mm are {row_mm:.0} mm long, the fPAM {muscle_mm:.0} mm");
     let apart = 100.0 * (row_mm / muscle_mm - 1.0);
@@ -178,7 +178,7 @@ fn gravity(case: &FactCase) -> FactFound {
     let (length_m, radius_m) = (scenario.length_m, scenario.radius_m);
     let area_m2 = length_m * (2.0 * PI * radius_m + pattern.sheet_width_m());
     let moment_nm = DENSITY_KG_M3 * thickness_m * area_m2 * GRAVITY_M_S2 * 0.5 * length_m;
-    let share = 100.0 * moment_nm / (PI * case.paper.body_pressure_pa * radius_m.powi(3));
+    let share = 100.0 * moment_nm / (PI * case.paper.protocol.body_pa * radius_m.powi(3));
     let found = format!(
         "the cPAM's own weight (1000 kg/m³, assumed) has {share:.0} % of the moment π p R³ that folds its body, if it lies level"
     );

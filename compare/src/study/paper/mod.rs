@@ -1,13 +1,15 @@
 //! The finite elements of du Pasquier et al. 2023 against this engine with their modelling choices, `[fem] model = "paper"`:
 //! displacements next to those that the paper's accuracies imply, and every sentence of the paper that can be checked.
 
+mod checked;
 mod facts;
 mod implied;
 mod in_print;
 mod in_runs;
 mod jobs;
 
-pub use facts::{FactRow, FactVerdict, facts};
+pub use checked::facts;
+pub use facts::{FactRow, FactVerdict};
 pub use implied::{HeightRow, Implied, against, heights};
 pub use jobs::{jobs, runs_below};
 

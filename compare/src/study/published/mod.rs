@@ -66,8 +66,8 @@ pub fn published_ladders() -> Result<Vec<PublishedLadder>, CompareError> {
 pub fn model_ladder(kind: &str) -> Result<Vec<Rung>, CompareError> {
     let paper = published()?;
     let Some(actuator) = paper.actuator(kind) else {
-        let top = paper.actuator_pressures_pa.iter().fold(0.0, |top: f64, p| top.max(*p));
-        return Ok(vec![start(&shipped_scenario(kind)?, &Loads::uniform(paper.body_pressure_pa, top))?]);
+        let top = paper.protocol.actuator_pa.iter().fold(0.0, |top: f64, p| top.max(*p));
+        return Ok(vec![start(&shipped_scenario(kind)?, &Loads::uniform(paper.protocol.body_pa, top))?]);
     };
     let mut rungs = ladder(&paper, actuator)?.rungs;
     rungs.retain(|rung| rung.known != Known::Calibrated);
@@ -76,7 +76,7 @@ pub fn model_ladder(kind: &str) -> Result<Vec<Rung>, CompareError> {
 
 fn ladder(paper: &Published, actuator: &PublishedActuator) -> Result<PublishedLadder, CompareError> {
     let scenario = shipped_scenario(&actuator.kind)?;
-    let loads = Loads::uniform(paper.body_pressure_pa, actuator.d_max_pressure_pa);
+    let loads = Loads::uniform(paper.protocol.body_pa, actuator.d_max_pressure_pa);
     let mut rungs = vec![start(&scenario, &loads)?];
     for addition in additions(paper, &scenario.actuator) {
         let before = &rungs[rungs.len() - 1].scenario;

@@ -75,9 +75,9 @@ pub fn one_number(kind: &str) -> Result<OneNumber, CompareError> {
     let (shipped, top_pa) = (textbook_scenario(kind)?, actuator.d_max_pressure_pa);
     let bare = shipped.with_bending(0.0);
     let mut pressures: Vec<f64> =
-        paper.actuator_pressures_pa.iter().copied().filter(|p| *p > 0.0 && *p < top_pa).collect();
+        paper.protocol.actuator_pa.iter().copied().filter(|p| *p > 0.0 && *p < top_pa).collect();
     pressures.push(top_pa);
-    let loads: Vec<Loads> = pressures.iter().map(|p| Loads::uniform(paper.body_pressure_pa, *p)).collect();
+    let loads: Vec<Loads> = pressures.iter().map(|p| Loads::uniform(paper.protocol.body_pa, *p)).collect();
     let curve =
         |s: &Scenario| loads.iter().map(|l| Ok(1e3 * height(s, l)?)).collect::<Result<Vec<f64>, CompareError>>();
     let aim = Aim { loads: loads[loads.len() - 1], wanted_m: actuator.d_max_m };

@@ -54,7 +54,7 @@ pub use body::Edges;
 
 impl Term for Edges {
     fn line(&self) -> LedgerLine {
-        LedgerLine { name: "edge contact", account: Account::Contact }
+        LedgerLine::new("edge contact", Account::Contact)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

@@ -124,7 +124,7 @@ fn force_is_the_slope_of_the_energy_without_resultant_and_moment() {
 
 /// The strips in coated nylon, the upper one on its way down.
 fn dropped() -> (Problem, Vec<[f64; 3]>) {
-    let fabric = Arc::new(NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 });
+    let fabric = Arc::new(NeoHookean::new(50.3e6, 2e-4));
     let section = || Section {
         plies: vec![Ply { fabric: fabric.clone(), angle_rad: 0.0 }],
         bonded: false,

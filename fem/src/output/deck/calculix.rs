@@ -24,7 +24,7 @@ use super::shared::{
 };
 use crate::Problem;
 use crate::mesh::Part;
-use crate::problem::{Pressure, Section};
+use crate::problem::Section;
 use crate::sheet::reference::{Reference, bending_stiffness};
 
 /// Numerical damping of the Hilber-Hughes-Taylor method, the most it has: what is wanted is the state at rest.
@@ -294,9 +294,7 @@ fn directions(problem: &Problem, index: usize, part: &Part) -> BTreeMap<String, 
 /// First increment, time, smallest and largest increment \[s\].
 fn increments(problem: &Problem) -> String {
     let end_s = problem.settings.end_s;
-    let pressures = problem.chambers.iter().map(|chamber| match &chamber.pressure {
-        Pressure::Set(filling) | Pressure::Sealed { filling, .. } => filling,
-    });
+    let pressures = problem.chambers.iter().map(|chamber| chamber.pressure.filling());
     let motions = problem.supports.iter().flat_map(|support| support.motion.iter().flatten());
     let others =
         problem.forces.iter().map(|force| &force.amplitude).chain(problem.gravity.iter().map(|g| &g.amplitude));

@@ -191,9 +191,8 @@ pub(super) fn loads(out: &mut String, step: &mut String, problem: &Problem, solv
         }
     }
     for (index, chamber) in problem.chambers.iter().enumerate() {
-        let (Pressure::Set(filling) | Pressure::Sealed { filling, .. }) = &chamber.pressure;
         let name = format!("pressure_{}", index + 1);
-        curve(out, &name, filling, problem, solver);
+        curve(out, &name, chamber.pressure.filling(), problem, solver);
         put(step, format_args!("*DSLOAD, AMPLITUDE={name}\n{}, P, 1.", label(&chamber.name)));
     }
     for (index, force) in problem.forces.iter().enumerate() {

@@ -95,7 +95,7 @@ impl Reader {
                 if let Some((_, why)) = REFUSED.iter().find(|(known, _)| *known == name) {
                     return Err(format!("*{} is not read: {why}", keyword.written));
                 }
-                if !IGNORED.contains(&name) {
+                if !IGNORED.split(' ').any(|known| known == name) {
                     return Err(format!(
                         "unknown keyword *{}; remove it if the mesh is whole without it",
                         keyword.written

@@ -1,0 +1,128 @@
+//! Sets of the bench: what is planned, hidden, and found.
+
+use crate::score::{Claim, ClaimScore};
+use crate::truth::{Hiding, Truth};
+use compare::diagnosis::{Diagnosis, Distances, Options};
+use compare::error::CompareError;
+use compare::{Evidence, Progress};
+use data::{About, Direct, Provenance};
+use models::Scenario;
+use serde::{Deserialize, Serialize};
+
+/// What diagnoses; the bench is given it.
+pub type Diagnoser = fn(&Scenario, &[Evidence], &Options, &mut Progress) -> Result<Diagnosis, CompareError>;
+
+/// One set of the bench.
+#[derive(Debug, Clone)]
+pub struct PlannedSet {
+    /// Part of the table.
+    pub part: Lot,
+    /// What is hidden.
+    pub truth: Truth,
+}
+
+/// Parts of the table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Lot {
+    /// Hidden by the generator.
+    Hidden(Hiding),
+    /// The same sets, of robots whose bending stiffness was measured by itself, to 10 %.
+    Measured(Hiding),
+    /// One effect by the catalogue's own law, for which a true value of its parameter exists.
+    Interval,
+    /// Nothing, seen by a camera with heavy-tailed noise.
+    HeavyTails,
+    /// Nothing, or the same effects, seen by a camera that loses markers.
+    LostMarkers(Hiding),
+    /// Nothing, or the same effects, with scatter of single holds.
+    HoldsScatter(Hiding),
+    /// A clamp at base or tip, from half of its typical stiffness to thirty times that.
+    Clamp,
+    /// A wall that softens as it bends.
+    Softening,
+}
+
+/// What became of a set.
+#[derive(Debug, Clone)]
+pub struct SetOutcome {
+    /// Part of the table.
+    pub part: Lot,
+    /// What was hidden.
+    pub truth: Truth,
+    /// What was found; `None` if it failed.
+    pub named: Option<Named>,
+}
+
+/// What was found.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Named {
+    /// The answer.
+    pub answer: Claim,
+    /// Its score.
+    pub score: ClaimScore,
+    /// A single name is called identified.
+    pub identified: bool,
+    /// Something in the data was told to look like a slip.
+    pub slip: bool,
+    /// A column of pressures was, and the verdict withheld.
+    pub pressure_slip: bool,
+    /// The stiffness of the answer was told to be another one than the scenario or a bending test says.
+    pub bending_alarm: bool,
+    /// Error beyond noise of the calibrated base and of the final model \[mm\].
+    pub systematic_mm: [f64; 2],
+    /// Error that is good enough \[mm\].
+    pub tolerance_mm: f64,
+    /// The same on runs left out, where the diagnosis gives both.
+    pub heldout_mm: Option<[f64; 2]>,
+    /// The true value is inside the 95 % interval; `None` if another effect was chosen or there is no interval.
+    pub covered: Option<bool>,
+    /// λ between the best explanation and its rivals, by name.
+    pub separations: Vec<(String, f64)>,
+    /// BIC of the (first) true effect beyond the best one.
+    pub bic_behind: Option<f64>,
+    /// Smallest detectable size of the (first) true effect, in typical sizes.
+    pub smallest_detectable: Option<f64>,
+    /// Score after the recommended next experiment, of ambiguous sets.
+    pub after: Option<After>,
+    /// How far the truth is from what the catalogue can say, of one hidden effect and of one outside the catalogue.
+    pub distances: Option<Distances>,
+    /// Shares of all noise in which the truth could be named first, and among three, of one hidden effect that gave alarm; of two,
+    /// in which the nearest pair of laws holds one of them, and both.
+    pub at_best: Option<[f64; 2]>,
+    /// The same experiment with next to no noise, where the truth did not come out on top.
+    pub after_in_silence: Option<ClaimScore>,
+}
+
+/// What the recommended experiment brought.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct After {
+    /// The experiment.
+    pub experiment: String,
+    /// The answer to all data.
+    pub answer: Claim,
+    /// Its score.
+    pub score: ClaimScore,
+}
+
+pub(super) fn names(truth: &Truth) -> Vec<&str> {
+    truth.effects.iter().map(|choice| choice.name.as_str()).collect()
+}
+
+/// The description of a set: gravity is known to act.
+pub(super) fn about(truth: &Truth) -> Result<About, CompareError> {
+    Ok(About {
+        title: "Bench".into(),
+        provenance: Provenance::Synthetic,
+        source: "ibr bench discovery".into(),
+        licence: "CC0-1.0".into(),
+        actuator: Some(truth.actuator.clone()),
+        geometry: None,
+        markers: Vec::new(),
+        gravity_direction: Some(truth.told()?.gravity_direction),
+        direct: Direct::default(),
+        bending_nm2: None,
+        measured: Vec::new(),
+        runs: Vec::new(),
+        notes: None,
+    })
+}

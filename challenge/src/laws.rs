@@ -1,0 +1,24 @@
+//! Which law of every mechanism a robot has.
+
+use serde::{Deserialize, Serialize};
+
+/// Laws of a robot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Laws {
+    /// Written beside the catalogue, each another one than its entry.
+    #[default]
+    First,
+    /// Taken from the literature or derived, without the diagnosis in view.
+    Second,
+}
+
+impl Laws {
+    /// Whether these are the first ones, which need no mention.
+    pub fn are_first(&self) -> bool {
+        *self == Laws::First
+    }
+}
+
+/// Amounts of one mechanism by law, first and second; both off at 0.
+pub(crate) type ByLaw = [f64; 2];
