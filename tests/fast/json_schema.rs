@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// once, a fault, a slip, a law that the catalogue lacks, a robot's run, lost nodes.
 const RARE: &str = "ibr.demo ibr.simulations ibr.uncertain AsClose BendingAlarm BestEffect Beyond Diagnosis FirstThrough GaugeFit Heights \
     Held InflatedPouch Intervals KeptBending LearnedLaw LearnedLine LearnedTried LeftPattern MarkerModel MarkerSet Outlier OutlyingRun \
-    PressureSlipFound PublishedRung PublishedRungs Reading RobotSummary RunRecord SeedGroup SmallRun Snap Through Varied Weight";
+    PressureSlipFound PublishedRungs Reading RobotSummary Rung RunRecord SeedGroup SmallRun Snap Through Varied Weight";
 
 /// What runs, in this order in one folder, and the schema of its answer.
 const COMMANDS: [(&str, &str); 48] = [
