@@ -152,7 +152,7 @@ fn against_plain() -> Result<[Figure; 2], Error> {
     let wanted = Some(Against::AtMost(0.6));
     Ok([
         Figure::new(&format!("{of}, CPU per step"), &run, "times", per_step, wanted),
-        Figure::new("the same, CPU per simulated second", &run, "times", per_time, None),
+        Figure::new("the same, CPU per simulated second", &run, "times", per_time, Some(Against::AtMost(0.45))),
     ])
 }
 
