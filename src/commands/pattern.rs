@@ -11,7 +11,7 @@ use report::sheet::{Paper, PatternSheet, dxf, pages, svg};
 const WELD_M: f64 = 0.003;
 
 /// Fabric beyond welds and ends of a pattern that nobody says more about, as in the command \[m\].
-const ALLOWANCE_M: f64 = 0.01;
+const ALLOWANCE: (f64, &str) = (0.01, "10 mm");
 
 /// More fabric than that around a piece is a slip of the unit \[m\].
 const MOST_ALLOWANCE_M: f64 = 0.5;
@@ -28,7 +28,7 @@ pub(super) fn run(args: &PatternArgs, context: &mut Context) -> Result<Outcome> 
         return Err(Failure::usage(message, "write for example --allowance 10mm"));
     }
     let weld_mm = 1e3 * weld.0;
-    let (plan, notes, sheet) = laid_out(&file.scenario, weld, allowance_m)
+    let (plan, notes, sheet) = laid_out(&file.scenario, weld, (allowance_m, &args.allowance))
         .map_err(|fault| Failure::usage(format!("{}: {fault}", args.scenario), "see docs/scenario.md"))?;
     let files = files(args, &sheet)?;
     write_texts(&files, context)?;
@@ -78,11 +78,10 @@ fn usual_weld(scenario: &Scenario) -> (f64, String) {
 fn laid_out(
     scenario: &Scenario,
     (weld_m, how): (f64, String),
-    allowance_m: f64,
+    (allowance_m, allowance): (f64, &str),
 ) -> Result<(CuttingPlan, Vec<String>, PatternSheet), String> {
     let plan = CuttingPlan::new(scenario, &Making { weld_m, allowance_m })?;
-    let allowance = compare::wording::short(1e3 * allowance_m);
-    let welds = format!("Welds {:.1} mm wide ({how}), allowance {allowance} mm beyond.", 1e3 * weld_m);
+    let welds = format!("Welds {:.1} mm wide ({how}), allowance {allowance} beyond.", 1e3 * weld_m);
     let notes = std::iter::once(welds).chain(plan.notes.iter().cloned()).collect::<Vec<_>>();
     let sheet = pattern_sheet(&scenario.name, &plan, &notes);
     Ok((plan, notes, sheet))
@@ -90,7 +89,7 @@ fn laid_out(
 
 /// The pattern of a robot as SVG with the usual welds and allowance; `Err` says why there is none.
 pub(super) fn usual_pattern(scenario: &Scenario) -> Result<String, String> {
-    Ok(svg(&laid_out(scenario, usual_weld(scenario), ALLOWANCE_M)?.2))
+    Ok(svg(&laid_out(scenario, usual_weld(scenario), ALLOWANCE)?.2))
 }
 
 /// Files to write: the drawing, and its pages beside it.
