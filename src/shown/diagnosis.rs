@@ -1,4 +1,4 @@
-//! A diagnosis, as a page to read; its tables are in [`super::diagnosis_tables`].
+//! A diagnosis, as a page to read; its tables are in `diagnosis_tables.rs`.
 
 use super::diagnosis_tables::tables;
 use crate::prelude::*;

@@ -23,7 +23,7 @@
 //! widened by (t_.9975/z_.9975)² because few runs estimate it badly, and is never below the sensor specification.
 //! A full 4×4 sample covariance is rank deficient for 3 to 5 runs and raises false alarms; hence the diagonal.
 //!
-//! Single holds scatter, too ([`crate::hold_scatter`]): with n holds, Σ_mean has Σ_k v_k/R Z_k Z_kᵀ more, and σ² is larger where the
+//! Single holds scatter, too (`readings/hold_scatter.rs`): with n holds, Σ_mean has Σ_k v_k/R Z_k Z_kᵀ more, and σ² is larger where the
 //! samples of a hold do not scatter as its repeats do.
 //!
 //! With several sessions the mean cannot be better than the scatter between the session means b: v/R is replaced by
