@@ -35,18 +35,24 @@ struct Instant {
     dt_s: f64,
 }
 
-/// Marker positions of one run as an ideal camera records them, `[hold][sample][marker][x, y]` \[m\]; `gain` is the
-/// run's factor on the actuator pressure.
+/// Marker positions of one run as an ideal camera records them, `[hold][sample][marker][x, y]` \[m\]; `gains` are
+/// the run's factors on the actuator pressure of the holds.
 ///
 /// # Errors
 /// A hold at which nothing balances.
-pub fn run(robot: &TrueRobot, holds: &[Hold], gain: f64) -> Result<Vec<f64>, CompareError> {
+pub fn run(robot: &TrueRobot, holds: &[Hold], gains: &[f64]) -> Result<Vec<f64>, CompareError> {
     let n = robot.cells.len();
-    let mut march =
-        March { robot, gain, memory: vec![CellMemory::default(); n], curvatures: vec![0.0; n], moments: vec![0.0; n] };
+    let mut march = March {
+        robot,
+        gain: 1.0,
+        memory: vec![CellMemory::default(); n],
+        curvatures: vec![0.0; n],
+        moments: vec![0.0; n],
+    };
     let (mut xy_m, mut set_pa, mut time_s) = (Vec::new(), 0.0, 0.0);
-    for hold in holds {
+    for (hold, gain) in holds.iter().zip(gains) {
         let begin_s = time_s;
+        march.gain = *gain;
         if robot.remembers() {
             march.ramp(hold, set_pa)?;
             time_s += RAMP_S;

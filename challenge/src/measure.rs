@@ -3,7 +3,8 @@
 use super::march;
 use super::robot::TrueRobot;
 use compare::error::CompareError;
-use compare::study::generate::{Generator, Manometer, Scatter, Seen, holds, markers};
+use compare::study::eye::Seen;
+use compare::study::generate::{Generator, Manometer, Scatter, holds, markers};
 use data::{Dataset, Hold};
 use models::Scenario;
 
@@ -29,7 +30,7 @@ const LOSSES: u64 = 0x1057;
 /// # Errors
 /// A hold at which nothing balances.
 pub fn ideal(robot: &TrueRobot, generator: &Generator) -> Result<Vec<f64>, CompareError> {
-    march::run(robot, &holds(generator), 1.0)
+    march::run(robot, &holds(generator), &vec![1.0; generator.protocol.len()])
 }
 
 /// Measures a robot under the protocol of its measurement; `scenario` gives what the experimenter believes: actuator and
@@ -64,9 +65,7 @@ pub fn measure_holds(
     let (mut coordinates_m, mut readings) = (Vec::new(), Vec::new());
     for _ in 0..g.runs {
         let gains = eye.next_run();
-        let pressed = |(hold, gain): (&Hold, &f64)| Hold { p_act_pa: gain * hold.p_act_pa, ..hold.clone() };
-        let pressed: Vec<Hold> = holds.iter().zip(&gains).map(pressed).collect();
-        let positions_m = march::run(robot, &pressed, 1.0)?;
+        let positions_m = march::run(robot, &holds, &gains)?;
         let markers: Vec<[f64; 2]> = positions_m.as_chunks().0.to_vec();
         for sample in markers.chunks(scenario.markers_m.len()) {
             eye.look(sample, &mut coordinates_m);

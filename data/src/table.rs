@@ -239,11 +239,11 @@ mod parquet {
     use super::{DataError, Path, Result, Table};
     use crate::error::Fault;
 
-    pub fn write(_table: &Table, path: &Path) -> Result<()> {
+    pub(super) fn write(_table: &Table, path: &Path) -> Result<()> {
         Err(absent(path))
     }
 
-    pub fn read(path: &Path) -> Result<Table> {
+    pub(super) fn read(path: &Path) -> Result<Table> {
         Err(absent(path))
     }
 

@@ -132,7 +132,10 @@ impl Eyes {
         let robot = truth.robot()?;
         let mean = ideal(&robot, &g)?;
         let apart = |positions: &[f64]| -> Vec<f64> { positions.iter().zip(&mean).map(|(a, b)| a - b).collect() };
-        let slope = apart(&march::run(&robot, &holds(&g), 1.0 + STEP)?).iter().map(|d| d / STEP).collect::<Vec<_>>();
+        let slope = apart(&march::run(&robot, &holds(&g), &vec![1.0 + STEP; g.protocol.len()])?)
+            .iter()
+            .map(|d| d / STEP)
+            .collect::<Vec<_>>();
         let run_sd = [g.pressure_sd, g.alignment_sd_m, g.alignment_sd_m, g.rotation_sd];
         let known = Dataset { runs: vec!["1".into()], coordinates_m: mean.clone(), ..data.clone() };
         let noise = NoiseModel::known(&known, &slope, g.runs, g.camera_sd_m, run_sd)?;

@@ -5,6 +5,7 @@ pub mod calibrate;
 pub mod columns;
 pub mod comparison;
 pub mod engines;
+pub mod eye;
 pub mod generate;
 pub mod measured;
 pub mod paper;

@@ -12,7 +12,8 @@
 //! camera per run, camera noise per sample. Seeded: the same call gives the same bytes. **Validity**: first loading only.
 
 use super::engines::EngineRun;
-use super::generate::{Generator, Seen, holds};
+use super::eye::Seen;
+use super::generate::{Generator, holds};
 use crate::error::CompareError;
 use crate::policy;
 use data::{Dataset, Marker};

@@ -1,0 +1,100 @@
+//! The eye of a synthetic test: a camera and the errors of whole runs, single holds and single samples.
+
+use super::generate::{Generator, Scatter};
+use models::Prediction;
+
+/// A camera and the regulator's error, run by run.
+pub struct Seen<'a> {
+    generator: &'a Generator,
+    /// Camera noise from Student's t with 3 degrees of freedom, scaled to the same standard deviation: now and then a marker is seen
+    /// far off.
+    pub heavy_tails: bool,
+    /// Holds of a run.
+    holds: usize,
+    scatter: Scatter,
+    shift: [f64; 2],
+    roll: f64,
+    /// Draws of single holds, samples seen, and what lasts through the hold: shift, roll, and errors of the markers.
+    of_holds: Scatter,
+    seen: usize,
+    held_shift: [f64; 3],
+    held_roll: f64,
+    lasting: Vec<[f64; 3]>,
+    /// Shift along z \[m\] and rotations about x and y \[rad\] of a robot in space.
+    tilt: [f64; 3],
+}
+
+impl<'a> Seen<'a> {
+    /// A camera for runs of so many holds.
+    pub fn new(generator: &'a Generator, holds: usize) -> Seen<'a> {
+        Seen {
+            generator,
+            heavy_tails: false,
+            holds,
+            scatter: Scatter::new(generator.seed),
+            shift: [0.0; 2],
+            roll: 0.0,
+            of_holds: Scatter::new(generator.seed ^ 0x401D),
+            seen: 0,
+            held_shift: [0.0; 3],
+            held_roll: 0.0,
+            lasting: Vec::new(),
+            tilt: [0.0; 3],
+        }
+    }
+
+    /// Sets the robot up again; returns true over set pressure of every hold.
+    pub fn next_run(&mut self) -> Vec<f64> {
+        let (g, scatter) = (self.generator, &mut self.scatter);
+        let gain = 1.0 + g.pressure_sd * scatter.normal();
+        self.shift = [scatter.normal(), scatter.normal()].map(|n| n * g.alignment_sd_m);
+        self.roll = g.rotation_sd * scatter.normal();
+        (0..self.holds).map(|_| gain * (1.0 + g.per_hold.pressure_sd * self.of_holds.normal())).collect()
+    }
+
+    /// Draws what a hold has of its own, at its first sample.
+    fn hold(&mut self, markers: usize) {
+        if self.seen.is_multiple_of(self.generator.samples.max(1)) {
+            let (g, scatter) = (&self.generator.per_hold, &mut self.of_holds);
+            let mut three = |sd: f64| [0.0; 3].map(|_: f64| sd * scatter.normal());
+            self.held_shift = three(g.alignment_sd_m);
+            self.lasting = (0..markers).map(|_| three(g.lasting_sd_m)).collect();
+            self.held_roll = g.rotation_sd * scatter.normal();
+        }
+        self.seen += 1;
+    }
+
+    /// Sets up what a planar robot does not show.
+    pub(super) fn tilt(&mut self) {
+        let g = self.generator;
+        self.tilt = [g.alignment_sd_m, g.rotation_sd, g.rotation_sd].map(|sd| sd * self.scatter.normal());
+    }
+
+    /// One sample of all markers, in space with z.
+    pub(super) fn look_at(&mut self, at: &Prediction, is_spatial: bool, coordinates_m: &mut Vec<f64>) {
+        if !is_spatial {
+            return self.look(&at.markers, coordinates_m);
+        }
+        let [shift_z, about_x, about_y] = self.tilt;
+        let mut xy_m = Vec::with_capacity(2 * at.markers.len());
+        self.look(&at.markers, &mut xy_m);
+        let shift_z = shift_z + self.held_shift[2];
+        for (i, (seen, ([x, y], z))) in xy_m.chunks_exact(2).zip(at.markers.iter().zip(&at.markers_z_m)).enumerate() {
+            let noise = self.generator.camera_sd_m * self.scatter.normal() + self.lasting[i][2];
+            let z_m = z + about_x * y - about_y * x + shift_z + noise;
+            coordinates_m.extend([seen[0] + about_y * z, seen[1] - about_x * z, z_m]);
+        }
+    }
+
+    /// One sample of all markers.
+    pub fn look(&mut self, markers: &[[f64; 2]], coordinates_m: &mut Vec<f64>) {
+        self.hold(markers.len());
+        let (shift, held) = (self.shift, self.held_shift);
+        let (shift, roll) = ([shift[0] + held[0], shift[1] + held[1]], self.roll + self.held_roll);
+        for ([x, y], lasting) in markers.iter().zip(&self.lasting) {
+            let noise = [0, 1].map(|_| self.generator.camera_sd_m * self.scatter.camera(self.heavy_tails));
+            coordinates_m.push(x - roll * y + shift[0] + noise[0] + lasting[0]);
+            coordinates_m.push(y + roll * x + shift[1] + noise[1] + lasting[1]);
+        }
+    }
+}
