@@ -5,73 +5,11 @@
 //! a regulator reports it. Seeded: the same call gives the same bytes, and scatter per hold changes no other draw.
 
 use super::eye::Seen;
+pub use super::eye::{Generator, HoldScatter, Scatter};
 use crate::error::CompareError;
 use data::{About, Dataset, Direct, Geometry, Hold, Marker, MarkerStation, Phase, Provenance};
 use models::{CHANNELS, Loads, Model, Prediction, Scenario, Step, Supply};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore, SeedableRng};
 use spelling::units::Range;
-
-/// What a synthetic test is like; `Default` is the protocol of du Pasquier et al. 2023 with plausible scatter.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Generator {
-    /// Seed of the scatter.
-    pub seed: u64,
-    /// Runs.
-    pub runs: usize,
-    /// Samples per hold.
-    pub samples: usize,
-    /// Length of a hold \[s\].
-    pub hold_s: f64,
-    /// Holds: body pressure, actuator pressure \[Pa\].
-    pub protocol: Vec<[f64; 2]>,
-    /// Of every hold the pressures of supply channels 1, 2, … \[Pa\]; empty: all channels have the actuator pressure.
-    pub more_act_pa: Vec<Vec<f64>>,
-    /// Camera noise of one coordinate \[m\].
-    pub camera_sd_m: f64,
-    /// Run-to-run relative error of the actuator pressure \[-\].
-    pub pressure_sd: f64,
-    /// Run-to-run shift of the camera \[m\].
-    pub alignment_sd_m: f64,
-    /// Run-to-run roll of the camera \[rad\].
-    pub rotation_sd: f64,
-    /// Scatter of single holds.
-    pub per_hold: HoldScatter,
-    /// A gauge at the actuator is read along.
-    pub gauge: bool,
-}
-
-/// What differs from hold to hold of a run, as standard deviations; `Default` is none of it.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct HoldScatter {
-    /// Relative error of the actuator pressure \[-\].
-    pub pressure_sd: f64,
-    /// Shift of the camera or the base along each axis \[m\].
-    pub alignment_sd_m: f64,
-    /// Roll of the camera \[rad\].
-    pub rotation_sd: f64,
-    /// Error of one coordinate of a marker that lasts through the hold, as of a tracker \[m\].
-    pub lasting_sd_m: f64,
-}
-
-impl Default for Generator {
-    fn default() -> Self {
-        Generator {
-            seed: 1,
-            runs: 5,
-            samples: 5,
-            hold_s: 5.0,
-            protocol: [0.0, 10e3, 20e3, 30e3, 0.0].map(|p| [2e3, p]).to_vec(),
-            more_act_pa: Vec::new(),
-            camera_sd_m: 1e-3,
-            pressure_sd: 0.02,
-            alignment_sd_m: 0.5e-3,
-            rotation_sd: 0.5e-3,
-            per_hold: HoldScatter::default(),
-            gauge: false,
-        }
-    }
-}
 
 /// Reads a protocol like `0,10,20,30,0@2; 0,20,40,60,0@4`: actuator pressures in kPa at a body pressure in kPa.
 ///
@@ -270,55 +208,6 @@ pub fn holds(generator: &Generator) -> Vec<Hold> {
         holds.push(Hold { p_body_pa: *p_body_pa, p_act_pa: *p_act_pa, more_act_pa, phase, occurrence, t_s });
     }
     holds
-}
-
-/// Standard normal numbers by the polar method, from a generator whose stream is fixed by its definition.
-pub struct Scatter {
-    rng: ChaCha8Rng,
-    spare: Option<f64>,
-}
-
-/// Degrees of freedom of heavy-tailed noise: the least with a variance.
-const HEAVY_DOF: usize = 3;
-
-impl Scatter {
-    /// One number of variance 1.
-    pub(super) fn camera(&mut self, heavy_tails: bool) -> f64 {
-        let normal = self.normal();
-        if !heavy_tails {
-            return normal;
-        }
-        let chi2: f64 = (0..HEAVY_DOF).map(|_| self.normal().powi(2)).sum();
-        // t = n/√(χ²/3) has the variance 3.
-        normal / chi2.sqrt()
-    }
-
-    /// From a seed.
-    pub fn new(seed: u64) -> Scatter {
-        Scatter { rng: ChaCha8Rng::seed_from_u64(seed), spare: None }
-    }
-
-    /// Uniform in [0, 1).
-    pub fn uniform(&mut self) -> f64 {
-        // 53 random bits: every double in [0, 1) of that spacing.
-        (self.rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Standard normal.
-    pub fn normal(&mut self) -> f64 {
-        if let Some(value) = self.spare.take() {
-            return value;
-        }
-        loop {
-            let (u, v) = (2.0 * self.uniform() - 1.0, 2.0 * self.uniform() - 1.0);
-            let s = u * u + v * v;
-            if s > 0.0 && s < 1.0 {
-                let factor = (-2.0 * s.ln() / s).sqrt();
-                self.spare = Some(v * factor);
-                return u * factor;
-            }
-        }
-    }
 }
 
 /// Description of generated data.
