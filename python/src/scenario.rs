@@ -60,7 +60,9 @@ impl Scenario {
         let mut pa = [0.0; CHANNELS];
         let one = |(i, row): (usize, &[f64])| {
             row.iter().zip(&mut pa).for_each(|(kpa, pa)| *pa = 1e3 * kpa);
-            self.predictor().loads(body(i), &pa[..columns]).map_err(raised)
+            self.predictor().loads(body(i), &pa[..columns]).map_err(|error| {
+                refused(format!("state {i} of the batch: {error}"), "leave it out, or give another pressure")
+            })
         };
         kpa.chunks_exact(columns).enumerate().map(one).collect()
     }

@@ -104,8 +104,8 @@ def test_values_are_set_by_table_and_key():
     "wish, said",
     [
         (lambda: ibr.Scenario.named("epan"), "epam"),
-        (lambda: ibr.Scenario.named("epam").predict(-1), "gauge pressure"),
-        (lambda: ibr.Scenario.named("epam").predict(float("nan")), "gauge pressure"),
+        (lambda: ibr.Scenario.named("epam").predict(-1), "actuator pressure must be from 0"),
+        (lambda: ibr.Scenario.named("epam").predict(float("nan")), "write a number"),
         (lambda: ibr.Scenario.named("epam").predict([1] * 5), "4 supply channels"),
         (lambda: ibr.Scenario.named("epam").predict([10, 20]), "channel 1"),
         (lambda: ibr.Scenario.named("epam").batch([10, 2000]), "state 1 of the batch"),
