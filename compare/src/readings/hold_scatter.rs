@@ -31,7 +31,7 @@ use crate::stats::f_tail;
 use data::Dataset;
 use nalgebra::{DMatrix, DVector};
 
-/// Kinds of errors that a hold has of its own.
+/// Kinds of errors that differ from hold to hold.
 pub const KINDS: usize = 4;
 
 /// Scatter of single holds of one run.
@@ -210,7 +210,7 @@ impl Means {
         let dof = runs.max(1) as f64;
         let zq = self.z.tr_mul(&self.q);
         let g = self.z.tr_mul(&self.z) - &zq * zq.transpose();
-        // What errors of whole runs explain already is no scatter of holds.
+        // A kind that errors of whole runs explain already is left out.
         let is_new = |own: &Vec<usize>| {
             let before: f64 = own.iter().map(|i| self.z.column(*i).norm_squared()).sum();
             own.iter().map(|i| g[(*i, *i)]).sum::<f64>() > policy::NEW_IN_HOLDS * before

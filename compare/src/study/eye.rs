@@ -33,7 +33,7 @@ pub struct Generator {
     pub gauge: bool,
 }
 
-/// What differs from hold to hold of a run, as standard deviations; `Default` is none of it.
+/// Standard deviations of the errors that differ from hold to hold of a run; all are 0 by default.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct HoldScatter {
     /// Relative error of the actuator pressure \[-\].
@@ -114,7 +114,7 @@ impl<'a> Seen<'a> {
         (0..self.holds).map(|_| gain * (1.0 + g.per_hold.pressure_sd * self.of_holds.normal())).collect()
     }
 
-    /// Draws what a hold has of its own, at its first sample.
+    /// Draws the errors of a hold, at its first sample.
     fn hold(&mut self, markers: usize) {
         if self.seen.is_multiple_of(self.generator.samples.max(1)) {
             let (g, scatter) = (&self.generator.per_hold, &mut self.of_holds);
