@@ -11,12 +11,13 @@
 //! per degree of freedom of the runs, and τ² and v solve these equations, none below zero (MINQUE with the weights of white noise; Rao,
 //! J. Multivar. Anal. 1971). Their variances are those of quadratic forms of normal values, 2 |C …|² over the runs.
 //!
-//! | k | columns Z, one per hold | unit of v |
+//! | k | columns Z, one per hold unless said | unit of v |
 //! |---|---|---|
 //! | pressure | ∂f/∂ln p | 1 |
 //! | bend | way from the straight robot, over the bend | 1 |
 //! | shift | one per axis | m² |
 //! | roll | rotation about the base | rad² |
+//! | marker | one per marker and axis, alike in all holds of a run | m² |
 //!
 //! τ² beyond σ² over the number of samples is of errors that last through a hold: a tracker's, or noise of neighbouring frames that is
 //! not independent. Frames then are no repeats, and σ² is raised to τ² times their number: right for means over a hold, and cautious
@@ -31,14 +32,16 @@ use crate::stats::f_tail;
 use data::Dataset;
 use nalgebra::{DMatrix, DVector};
 
-/// Kinds of errors that differ from hold to hold.
-pub const KINDS: usize = 4;
+/// Kinds of errors: four that differ from hold to hold, and those of a marker in a run.
+pub const KINDS: usize = 5;
 
 /// Scatter of single holds of one run.
 #[derive(Debug, Clone, Default)]
 pub struct HoldScatter {
-    /// Standard deviations of pressure \[-\], bend \[-\], shift \[m\] and roll \[rad\].
+    /// Standard deviations of pressure \[-\], bend \[-\], shift \[m\], roll \[rad\] and marker \[m\].
     pub sd: [f64; KINDS],
+    /// Whether they are more than chance makes easily: enough to be printed.
+    pub stands_out: [bool; KINDS],
     /// Their variances for tests.
     pub test_variance: [f64; KINDS],
     /// Variance of a reading beyond those \[m²\], and its degrees of freedom.
@@ -180,6 +183,12 @@ impl Means {
                 columns.push(Column { kind, from: layout.hold_range(hold).start, values });
             }
         }
+        for cell in (0..width).filter(|cell| (0..layout.holds).any(|hold| seen[hold * width + cell])) {
+            let is_here = |i: usize| f64::from(u8::from(i % width == cell && seen[i]));
+            z.push(DVector::from_fn(mean.len(), |i, _| is_here(i)));
+            let of_value = |i: usize| is_here(i / (width * layout.samples) * width + i % width);
+            columns.push(Column { kind: KINDS - 1, from: 0, values: (0..layout.values()).map(of_value).collect() });
+        }
         let all = DMatrix::from_fn(mean.len(), u.len(), |i, j| u[j][i]);
         Means { z: DMatrix::from_columns(&z), columns, q: basis(all), seen }
     }
@@ -259,8 +268,9 @@ impl Means {
             let sd = covariance[(i, i)].max(0.0).sqrt();
             if *k == 0 {
                 scatter.dof = (2.0 * (theta[0] / sd).powi(2)).round() as usize;
-            } else if policy::holds_scatter(theta[*k], sd) {
+            } else if theta[*k] > 0.0 {
                 scatter.sd[k - 1] = theta[*k].sqrt();
+                scatter.stands_out[k - 1] = policy::holds_scatter(theta[*k], sd);
                 scatter.test_variance[k - 1] = theta[*k] + policy::HOLD_VARIANCE_ERRORS * sd;
             }
         }

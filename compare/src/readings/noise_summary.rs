@@ -34,6 +34,8 @@ pub struct NoiseSummary {
     pub hold_rotation_mrad: Option<f64>,
     /// Errors of a marker's coordinate that last through a hold \[mm\].
     pub lasting_mm: Option<f64>,
+    /// Errors of a marker's coordinate that last through a run \[mm\].
+    pub marker_mm: Option<f64>,
     /// Root-mean-square noise of one coordinate of the mean over runs, run-level part included \[mm\].
     pub noise_of_mean_mm: Option<f64>,
     /// Whether p-values are given.
@@ -50,7 +52,7 @@ impl NoiseSummary {
         let mm = |m: f64| 1e3 * m;
         let [pressure, alignment, _, rotation, ..] = noise.run_sd;
         let samples = holds.first().map_or(1, |hold| hold.t_s.len());
-        let held = |kind: usize, unit: f64| Some(unit * noise.per_hold.sd[kind]).filter(|sd| *sd > 0.0);
+        let held = |kind: usize, unit: f64| noise.per_hold.stands_out[kind].then(|| unit * noise.per_hold.sd[kind]);
         let single = noise.per_hold.lasts.then(|| noise.per_hold.sample_m2.sqrt()).or(noise.sigma_m);
         let mut summary = NoiseSummary {
             status: noise.status,
@@ -65,6 +67,7 @@ impl NoiseSummary {
             hold_alignment_mm: held(2, 1e3),
             hold_rotation_mrad: held(3, 1e3),
             lasting_mm: noise.per_hold.lasting_m(samples).map(mm),
+            marker_mm: held(4, 1e3),
             noise_of_mean_mm: noise.mean_square(0..noise.directions.len()).map(|v| mm(v.sqrt())),
             p_values: noise.gives_p_values(),
             sentence: String::new(),
@@ -122,8 +125,10 @@ fn hold_to_hold(s: &NoiseSummary) -> String {
     .flatten()
     .collect();
     let held = if parts.is_empty() { String::new() } else { format!("; hold-to-hold {}", parts.join(", ")) };
-    let lasting = s.lasting_mm.map(|v| format!("; marker errors of {v:.1} mm last through a hold"));
-    held + &lasting.unwrap_or_default()
+    let last = |value: Option<f64>, what: &str| {
+        value.map_or(String::new(), |v| format!("; marker errors of {v:.1} mm last through a {what}"))
+    };
+    held + &last(s.lasting_mm, "hold") + &last(s.marker_mm, "run")
 }
 
 fn run_to_run(s: &NoiseSummary) -> String {

@@ -57,13 +57,23 @@ fn a_marker_lost_everywhere_is_as_if_it_were_not_there() {
         }
         assert_eq!(found.indistinguishable, expected.indistinguishable);
         assert_eq!((found.verdict, expected.verdict), (Some(Verdict::Effect), Some(Verdict::Effect)));
-        for (a, b) in found.ranked.iter().zip(&expected.ranked) {
-            assert_eq!(a.effect, b.effect);
-            // A fit ends where a round lowers the sum of squares by less than 1e-4.
-            let same = |a: f64, b: f64| close(a, b) || (a - b).abs() < 1e-4;
+        for (a, first) in found.ranked.iter().zip(&expected.ranked) {
+            // Effects that explain nothing are alike, and rounding orders them.
+            let b = expected.ranked.iter().find(|b| b.effect == a.effect).unwrap();
+            assert!(
+                a.effect == first.effect || (a.gain.max(b.gain).max(first.gain) < 1e-6),
+                "{} {}",
+                a.effect,
+                first.effect
+            );
+            // A fit ends where a round lowers the sum of squares by less than 1e-4, of a law that misses after three rounds: gains agree to
+            // that share.
+            let same = |a: f64, b: f64| (a - b).abs() < 1e-4 * a.abs().max(1.0);
             assert!(same(a.gain, b.gain) && same(a.value, b.value), "{}: {} {}", a.effect, a.gain, b.gain);
+            // That moves a value, and an end of its interval, by a hundredth of a standard error, a quarter of the interval.
+            let width = b.hi.zip(b.lo).map_or(0.0, |(hi, lo)| hi - lo);
             for (a, b) in [(a.lo, b.lo), (a.hi, b.hi)] {
-                assert!(a.zip(b).is_none_or(|(a, b)| (a - b).abs() < 1e-3 * b.abs().max(1e-3)), "{a:?} {b:?}");
+                assert!(a.zip(b).is_none_or(|(a, b)| (a - b).abs() <= 0.0025 * width), "{a:?} {b:?}");
                 assert_eq!(a.is_some(), b.is_some());
             }
             assert!(same(a.bic_difference, b.bic_difference), "{}", a.effect);

@@ -190,7 +190,7 @@ fn a_stray_sample_is_listed_and_does_not_decide() {
 fn a_value_on_its_bound_is_rejected_and_said_so() {
     let plain = robot("spam");
     // Edges are sealed all along: a clamp at the base comes nearer the shorter it is, and it cannot be as short as that.
-    let d = run(&plain, &measured(&plain.with_effect("end_constraint", &[0.9, 1.0]), 5, 91));
+    let d = run(&plain, &measured(&plain.with_effect("end_constraint", &[0.9, 1.0]), 10, 91));
     let rejected: Vec<&Ranked> = d.ranked.iter().filter(|r| r.at_bound).collect();
     assert!(rejected.iter().any(|r| r.effect == "base_clamp"));
     for r in rejected {
@@ -201,7 +201,7 @@ fn a_value_on_its_bound_is_rejected_and_said_so() {
 #[test]
 fn sealed_edges_near_their_bound_are_named_with_an_interval_that_holds_them() {
     let plain = robot("spam");
-    let d = run(&plain, &measured(&plain.with_effect("end_constraint", &[0.9, 1.0]), 5, 91));
+    let d = run(&plain, &measured(&plain.with_effect("end_constraint", &[0.9, 1.0]), 10, 91));
     assert_eq!(d.indistinguishable[0], "end_constraint");
     let beta = ranked(&d, "end_constraint");
     assert!(beta.lo.unwrap() < 0.9 && 0.9 < beta.hi.unwrap(), "{:?}", beta.parameters);
