@@ -249,11 +249,15 @@ impl Means {
             self.columns.len(),
             self.columns.iter().map(|c| theta[c.kind + 1]),
         ));
-        let c = &g * theta[0] + &g * v * &g;
+        let (gv, gvg) = (&g * &v, &g * &v * &g);
+        let c = &g * theta[0] + &gvg;
+        // Zᵀ C C Z and the trace of C C.
+        let twice = &c * theta[0] + &gvg * theta[0] + &gv * &gvg;
+        let whole = theta[0].powi(2) * readings + 2.0 * theta[0] * gv.trace() + (&gv * &gv).trace();
         let form = |a: usize, b: usize| -> f64 {
             match (a, b) {
-                (0, 0) => theta[0].powi(2) * readings,
-                (0, k) | (k, 0) => kinds[k - 1].iter().map(|i| theta[0] * c[(*i, *i)]).sum(),
+                (0, 0) => whole,
+                (0, k) | (k, 0) => kinds[k - 1].iter().map(|i| twice[(*i, *i)]).sum(),
                 (a, b) => kinds[a - 1]
                     .iter()
                     .flat_map(|i| kinds[b - 1].iter().map(move |j| (*i, *j)))

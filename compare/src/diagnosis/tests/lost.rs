@@ -1,6 +1,6 @@
 //! Markers that were lost: what is left out must be as if it had never been there.
 
-use super::{Diagnosis, Options, Verdict};
+use super::{Diagnosis, Options, Ranked, Verdict};
 use crate::diagnosis::tests::of_one;
 use crate::study::published::textbook_scenario;
 use crate::{EvaluateOptions, Evaluation, evaluate};
@@ -57,18 +57,15 @@ fn a_marker_lost_everywhere_is_as_if_it_were_not_there() {
         }
         assert_eq!(found.indistinguishable, expected.indistinguishable);
         assert_eq!((found.verdict, expected.verdict), (Some(Verdict::Effect), Some(Verdict::Effect)));
-        for (a, first) in found.ranked.iter().zip(&expected.ranked) {
-            // Effects that explain nothing are alike, and rounding orders them.
-            let b = expected.ranked.iter().find(|b| b.effect == a.effect).unwrap();
-            assert!(
-                a.effect == first.effect || (a.gain.max(b.gain).max(first.gain) < 1e-6),
-                "{} {}",
-                a.effect,
-                first.effect
-            );
-            // A fit ends where a round lowers the sum of squares by less than 1e-4, of a law that misses after three rounds: gains agree to
-            // that share.
-            let same = |a: f64, b: f64| (a - b).abs() < 1e-4 * a.abs().max(1.0);
+        // Fits of laws that explain a fiftieth of the best end anywhere in a flat valley: rounding moves their gain by up to a tenth.
+        let best = expected.ranked[0].gain;
+        let counts = |rows: &[Ranked]| rows.iter().filter(|row| row.gain > 0.02 * best).cloned().collect::<Vec<_>>();
+        let (found, expected) = (counts(&found.ranked), counts(&expected.ranked));
+        assert!(found.len() == expected.len() && found.len() > 10, "{}", found.len());
+        for (a, b) in found.iter().zip(&expected) {
+            assert_eq!(a.effect, b.effect);
+            // A fit ends where a round lowers the sum of squares by less than 1e-4.
+            let same = |a: f64, b: f64| close(a, b) || (a - b).abs() < 1e-4;
             assert!(same(a.gain, b.gain) && same(a.value, b.value), "{}: {} {}", a.effect, a.gain, b.gain);
             // That moves a value, and an end of its interval, by a hundredth of a standard error, a quarter of the interval.
             let width = b.hi.zip(b.lo).map_or(0.0, |(hi, lo)| hi - lo);
