@@ -66,7 +66,7 @@ function tell(d) {
   if (baseline === null || state.changes.size > before.size) baseline = d.base.systematic_nominal_mm;
   $('diagnosed').hidden = false;
   $('verdict').className =
-    `verdict ${d.verdict === 'effect' ? '' : d.verdict === 'none' || d.verdict === 'too_small' ? 'calm' : 'open'}`;
+    `verdict ${d.verdict === 'effect' ? '' : d.verdict === 'none' ? 'calm' : 'open'}`;
   $('verdict').replaceChildren(
     element('p', { className: 'answer', textContent: `Verdict: ${d.verdict_words}` }),
     ...d.summary.map((s) => element('p', { textContent: s })),

@@ -5,13 +5,10 @@ use super::truth::Truth;
 use compare::diagnosis::{Diagnosis, Verdict};
 use serde::{Deserialize, Serialize};
 
-/// The verdict that says that there is something, and that it does not matter what.
-const TOO_SMALL: &str = "too_small";
-
 /// What a diagnosis says, as far as it is scored.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Claim {
-    /// `none`, `too_small`, `effect` or `out_of_catalog`; `None` if it gives no verdict.
+    /// `none`, `effect` or `out_of_catalog`; `None` if it gives no verdict.
     pub verdict: Option<String>,
     /// Effects of the catalogue, best first, those on a bound left out.
     pub ranked: Vec<String>,
@@ -26,8 +23,6 @@ pub struct Claim {
 pub struct ClaimScore {
     /// It says that something is missing.
     pub alarm: bool,
-    /// It says that what is missing is too small to name.
-    pub too_small: bool,
     /// It says that nothing in the catalogue explains the data.
     pub out_of_catalog: bool,
     /// The verdict is the right one of the three.
@@ -51,7 +46,6 @@ impl Claim {
     pub fn of(diagnosis: &Diagnosis) -> Claim {
         let verdict = match diagnosis.verdict {
             Some(Verdict::None) => Some("none"),
-            Some(Verdict::TooSmall) => Some(TOO_SMALL),
             Some(Verdict::Effect) => Some("effect"),
             Some(Verdict::OutOfCatalog) => Some("out_of_catalog"),
             None => None,
@@ -88,9 +82,8 @@ pub fn score(truth: &Truth, answer: &Claim) -> ClaimScore {
     let asserted = verdict == Some("effect") && !answer.added.iter().all(is_true);
     ClaimScore {
         alarm: verdict.is_some_and(|verdict| verdict != "none"),
-        too_small: verdict == Some(TOO_SMALL),
         out_of_catalog: verdict == Some("out_of_catalog"),
-        verdict_right: verdict == Some(right) || verdict == Some(TOO_SMALL) && !names.is_empty(),
+        verdict_right: verdict == Some(right),
         rank: answer.ranked.iter().position(|name| true_names.contains(&name.as_str())).map(|place| place + 1),
         in_set,
         all_in_set: !true_names.is_empty() && answer.set.iter().any(all_of),

@@ -21,7 +21,7 @@ pub(super) fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome> {
     let options = Options { next_experiment: false, missing_moment: false, ..inputs::fit_options(&args.fit)? };
     let found = add(&file, &wish, &evidence, &options, &mut part(context.progress, [READ, 1.0]))?;
     let names: Vec<&str> = found.additions.iter().map(|a| a.name.as_str()).collect();
-    let target = target(args, &names.join("-"), context.force)?;
+    let target = target(args, &names.join("-").replace(' ', "-"), context.force)?;
     let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
     data::write_atomically(&target, found.file.text.as_bytes())?;
     *written = true;

@@ -127,7 +127,6 @@ struct BenchDiagnosisAnswer<'a> {
 fn diagnosis_text(d: &BenchDiagnosis, bench: &Bench) -> String {
     let verdict = match d.verdict {
         Some(Verdict::None) => "no missing effect detectable",
-        Some(Verdict::TooSmall) => "more than noise, too small to name",
         Some(Verdict::Effect) => "an effect is missing",
         Some(Verdict::OutOfCatalog) => "something is missing that no single effect of the catalogue explains",
         None => "none: ranking only",

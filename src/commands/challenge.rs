@@ -111,7 +111,7 @@ struct Scored {
 /// What a diagnosis states.
 #[derive(Serialize)]
 struct StatedAnswer {
-    /// `none`, `too_small`, `effect` or `out_of_catalog`; null if it gives no verdict
+    /// `none`, `effect` or `out_of_catalog`; null if it gives no verdict
     verdict: Option<String>,
     /// The indistinguishable set; a pair is written `a + b`
     set: Vec<String>,

@@ -132,7 +132,6 @@ pub(super) fn verdict(found: &Diagnosed) -> Values {
     let d = found.diagnosis;
     let verdict = match d.verdict {
         Some(Verdict::None) => "none",
-        Some(Verdict::TooSmall) => "too_small",
         Some(Verdict::Effect) => "effect",
         Some(Verdict::OutOfCatalog) if d.is_either() => "either",
         Some(Verdict::OutOfCatalog) => "out_of_catalog",

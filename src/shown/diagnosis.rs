@@ -3,7 +3,7 @@
 use super::diagnosis_tables::tables;
 use crate::prelude::*;
 use compare::diagnosis::words::{listed, three, with_unit};
-use compare::diagnosis::{Diagnosis, Ranked, Verdict};
+use compare::diagnosis::{Diagnosis, Ranked, Verdict, taken_away};
 use compare::witness::Witness;
 
 /// `ibr.diagnose`: `ibr diagnose SCENARIO DATA`, and `diagnosis.json`
@@ -64,11 +64,16 @@ pub fn text(d: &Diagnosis, witness: Option<&Witness>, all: bool) -> String {
 pub fn verdict(d: &Diagnosis) -> String {
     match d.verdict {
         Some(Verdict::None) => "no missing effect detectable".into(),
-        Some(Verdict::TooSmall) => "more than noise, too small to name".into(),
         Some(Verdict::Effect) => {
-            let names: Vec<String> = d.indistinguishable.iter().map(|name| effect(name)).collect();
+            let names = &d.indistinguishable;
             let tie = if names.len() > 1 { "; these data do not choose between them" } else { "" };
-            format!("an effect is missing: {}{tie}", names.join(" or "))
+            let is_surplus = |name: &String| name.split(" + ").any(|part| taken_away(part).is_some());
+            let what = match (names.iter().any(is_surplus), names.iter().all(is_surplus)) {
+                (false, _) => "an effect is missing",
+                (true, true) => "the scenario has an effect too many",
+                (true, false) => "an effect is missing, or one is too many",
+            };
+            format!("{what}: {}{tie}", names.join(" or "))
         }
         Some(Verdict::OutOfCatalog) if d.is_either() => {
             "something is missing: a fault that is not in the catalogue, or effects".into()

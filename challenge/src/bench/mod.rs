@@ -13,6 +13,7 @@ mod oracle;
 mod outcome;
 mod row;
 mod slipped;
+mod surplus;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -22,6 +23,7 @@ pub use made::OneOff;
 pub use outcome::{After, Diagnoser, Lot, Named, PlannedSet, SetOutcome};
 pub use row::{Goal, Rate};
 pub use slipped::SlippedSet;
+pub use surplus::SurplusSet;
 pub use table::{Confusion, Slice};
 
 use super::effects::Laws;
@@ -83,6 +85,8 @@ pub struct Discovery {
     pub made: Vec<OneOff>,
     /// Data with a column of pressures written wrongly.
     pub slipped: Vec<SlippedSet>,
+    /// Scenarios with an effect that the robot does not have.
+    pub surplus: Vec<SurplusSet>,
     /// Every set.
     pub seen: Vec<SetSeen>,
     /// Sets that could not be made or diagnosed, with the reason.
@@ -109,6 +113,8 @@ enum Piece {
     Made(&'static str),
     /// A set with a column of pressures written wrongly, of (seed, number).
     Slipped(u64, usize),
+    /// A scenario with an effect too many, of (seed, number).
+    Surplus(u64, usize),
 }
 
 /// What a piece gave, or why it failed.
@@ -120,6 +126,8 @@ pub enum Answer {
     Made(Result<Vec<OneOff>, String>),
     /// Of a column written wrongly.
     Slipped(Result<Box<SlippedSet>, String>),
+    /// Of an effect too many.
+    Surplus(Result<Box<SurplusSet>, String>),
 }
 
 impl Bench {
@@ -129,6 +137,7 @@ impl Bench {
     /// A shipped scenario is damaged.
     pub fn plan(options: DiscoveryOptions) -> Result<Bench, CompareError> {
         let mut pieces: Vec<Piece> = plan(&options)?.into_iter().map(Piece::Set).collect();
+        pieces.extend((0..surplus::count(options.sets)).map(|index| Piece::Surplus(options.seed, index)));
         if options.sets >= WHOLE {
             pieces.extend(made::MADE.map(Piece::Made));
             pieces.extend((0..slipped::count(options.sets)).map(|index| Piece::Slipped(options.seed, index)));
@@ -148,13 +157,18 @@ impl Bench {
             Piece::Made(robot) => {
                 Answer::Made(made::made(robot, diagnose).map_err(|error| format!("fem-{robot}: {error}")))
             }
+            Piece::Surplus(seed, index) => {
+                let found = surplus::surplus(*seed, *index, diagnose);
+                Answer::Surplus(found.map(Box::new).map_err(|error| format!("an effect too many: {error}")))
+            }
             Piece::Slipped(seed, index) => Answer::Slipped(slipped::slipped(*seed, *index, diagnose).map(Box::new)),
         }
     }
 
     /// The table, of the answers to all pieces in order.
     pub fn table(self, answers: Vec<Answer>) -> Discovery {
-        let (mut outcomes, mut made, mut slipped, mut failed) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (mut outcomes, mut made, mut failed) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut slipped, mut surplus) = (Vec::new(), Vec::new());
         for (piece, answer) in self.pieces.into_iter().zip(answers) {
             let failure = match (piece, answer) {
                 (Piece::Set(PlannedSet { part, truth }), Answer::Set(found)) => {
@@ -163,6 +177,7 @@ impl Bench {
                     failure
                 }
                 (Piece::Made(_), Answer::Made(found)) => found.map(|found| made.extend(found)).err(),
+                (Piece::Surplus(..), Answer::Surplus(found)) => found.map(|found| surplus.push(*found)).err(),
                 (Piece::Slipped(..), Answer::Slipped(found)) => found.map(|found| slipped.push(*found)).err(),
                 (piece, _) => Some(format!("{piece:?}: an answer to something else")),
             };
@@ -172,14 +187,21 @@ impl Bench {
         Discovery {
             seed: self.options.seed,
             laws: self.options.laws,
-            rows: [table::rows(&outcomes), covered::rows(&outcomes), slipped::rows(&slipped), made::rows(&made)]
-                .concat(),
+            rows: [
+                table::rows(&outcomes),
+                surplus::rows(&surplus),
+                covered::rows(&outcomes),
+                slipped::rows(&slipped),
+                made::rows(&made),
+            ]
+            .concat(),
             confusion: table::confusion(&outcomes),
             breakdown: table::breakdown(&outcomes),
             attainable: attainable::of(&outcomes),
             missed_after: silence.len(),
             missed_by_law: silence.iter().filter(|missed| **missed).count(),
             slipped,
+            surplus,
             made,
             seen: outcomes.iter().map(seen).collect(),
             failed,

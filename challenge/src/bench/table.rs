@@ -45,10 +45,9 @@ type Counted = (&'static str, Goal, fn(&Named) -> bool);
 const ALARM: Counted = ("alarm", AtLeast(0.95), |n| n.score.alarm);
 const FALSE_ALARM: Counted = ("false alarms", AtMost(0.05), |n| n.score.alarm);
 const STIFFNESS: Counted = ("told another stiffness", AtMost(0.05), |n| n.bending_alarm);
-const IN_SET: Counted = ("large enough to name: truth in the stated set", AtLeast(0.93), |n| n.score.in_set);
+const IN_SET: Counted = ("with an alarm: truth in the stated set", AtLeast(0.93), |n| n.score.in_set);
 const ALONE_IN_SET: Counted = (IN_SET.0, AtLeast(0.90), IN_SET.2);
-const OUTSIDE: Counted =
-    ("large enough to name: called outside the catalogue", AtMost(0.05), |n| n.score.out_of_catalog);
+const OUTSIDE: Counted = ("with an alarm: called outside the catalogue", AtMost(0.05), |n| n.score.out_of_catalog);
 const NOTHING: Lot = Lot::Hidden(Hiding::Nothing);
 const ONE: Lot = Lot::Hidden(Hiding::One);
 
@@ -68,8 +67,6 @@ pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
         rows.extend(named(&found(outcomes, part), case, &[ALARM], &[ALONE_IN_SET]));
     }
     let all: Sets = outcomes.iter().filter_map(|o| Some((o, o.named.as_ref()?))).collect();
-    // Names that cannot pay: of errors that began within the tolerance.
-    rows.push(share(&all, "all sets", ("an effect named within the tolerance", AtMost(0.0), pays_nothing)));
     rows.extend(after(outcomes));
     let two: [Counted; 5] = [
         ("at least one named", AtLeast(0.90), |n| n.score.named >= 1),
@@ -93,10 +90,6 @@ pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
     rows
 }
 
-fn pays_nothing(n: &Named) -> bool {
-    !n.answer.added.is_empty() && n.systematic_mm[0] <= n.tolerance_mm
-}
-
 /// Sets of a part that were diagnosed.
 pub(super) fn found(outcomes: &[SetOutcome], part: Lot) -> Sets<'_> {
     outcomes.iter().filter(|o| o.part == part).filter_map(|o| Some((o, o.named.as_ref()?))).collect()
@@ -106,7 +99,7 @@ fn share(sets: &[(&SetOutcome, &Named)], case: &'static str, (figure, goal, hit)
     Rate::share(case, figure, goal, &sets.iter().map(|(_, named)| hit(named)).collect::<Vec<_>>())
 }
 
-/// Shares of all sets, then of the sets that ask for a name: something is missing, and not too small to name.
+/// Shares of all sets, then of those with an alarm.
 fn named(sets: &Sets, case: &'static str, of_all: &[Counted], of_asked: &[Counted]) -> Vec<Rate> {
     let asked = asked(sets);
     let of_all = of_all.iter().map(|counted| share(sets, case, *counted));
@@ -114,7 +107,7 @@ fn named(sets: &Sets, case: &'static str, of_all: &[Counted], of_asked: &[Counte
 }
 
 fn asked<'o>(sets: &Sets<'o>) -> Sets<'o> {
-    sets.iter().filter(|(_, named)| named.score.alarm && !named.score.too_small).copied().collect()
+    sets.iter().filter(|(_, named)| named.score.alarm).copied().collect()
 }
 
 fn nothing(outcomes: &[SetOutcome]) -> Vec<Rate> {
@@ -137,10 +130,10 @@ fn nothing(outcomes: &[SetOutcome]) -> Vec<Rate> {
 
 fn one(outcomes: &[SetOutcome], part: Lot, case: &'static str) -> Vec<Rate> {
     let all = found(outcomes, part);
-    let of_all: [Counted; 2] = [ALARM, ("alarm, and too small to name", AtMost(0.10), |n| n.score.too_small)];
+    let of_all: [Counted; 1] = [ALARM];
     let of_asked: [Counted; 3] = [
-        ("large enough to name: truth on top", AtLeast(0.80), |n| n.score.rank.is_some_and(|r| r <= 1)),
-        ("large enough to name: truth in the first three", AtLeast(0.92), |n| n.score.rank.is_some_and(|r| r <= 3)),
+        ("with an alarm: truth on top", AtLeast(0.80), |n| n.score.rank.is_some_and(|r| r <= 1)),
+        ("with an alarm: truth in the first three", AtLeast(0.92), |n| n.score.rank.is_some_and(|r| r <= 3)),
         IN_SET,
     ];
     let asked = asked(&all);

@@ -1,6 +1,6 @@
 //! A scenario and its datasets made ready for hypotheses: noise, calibrated base, catalogue.
 
-use super::candidates::{Candidate, candidates, hold, present};
+use super::candidates::{Candidate, candidates, hold, present, surplus, taken_away};
 use super::known::{Known, add_shapes, known, make_room};
 use super::options::Options;
 use super::problem::{Block, Fit, Problem};
@@ -48,22 +48,25 @@ pub struct Case<'a> {
     pub alpha: f64,
 }
 
-/// Catalogue of a diagnosis: the scenario's own effects first if they are refitted, then those that may be missing; without
-/// those that nothing is left to be seen of in any of the data.
+/// Catalogue of a diagnosis: the scenario's own effects first if they are refitted, then those that may be missing, then those that may
+/// be one too many; without effects of which nothing is left to be seen in any of the data.
 pub fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate>, usize) {
     let scenario = sources[0].as_given();
     let open = |c: &Candidate| sources.iter().any(|source| source.shows(c.stage));
     let mut list = if options.refit_present { present(scenario) } else { Vec::new() };
     list.retain(open);
     let own = list.len();
-    list.extend(candidates(scenario).into_iter().filter(open).filter(|c| !options.excludes(&c.name)));
+    let is_measured =
+        |c: &Candidate| sources.iter().flat_map(|s| &s.measured).any(|m| taken_away(&c.name) == Some(&m.effect));
+    let tried = [candidates(scenario), surplus(scenario, &list)].concat();
+    list.extend(tried.into_iter().filter(open).filter(|c| !options.excludes(&c.name) && !is_measured(c)));
     let measured: Vec<&MeasuredValue> = sources.iter().flat_map(|source| &source.measured).collect();
     let bodies = body_pressures(sources.iter().map(|source| &source.dataset)).len();
     hold(&mut list, options.keep_bending, bodies > 1, &measured);
     make_room(&mut list, &measured, scenario);
     list[..own].iter_mut().for_each(|candidate| candidate.as_given(&candidate.own_values(scenario)));
     let missing = list.split_off(own);
-    list.extend(missing.into_iter().filter(|candidate| candidate.count() > 0 || candidate.is_by_design()));
+    list.extend(missing.into_iter().filter(Candidate::is_tried));
     (list, own)
 }
 

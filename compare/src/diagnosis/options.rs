@@ -1,5 +1,6 @@
 //! Settings of a diagnosis.
 
+use crate::diagnosis::candidates::WITHOUT;
 use crate::error::CompareError;
 use crate::evaluate::check_level;
 use models::Scenario;
@@ -21,6 +22,8 @@ pub struct Options {
     pub not: Vec<String>,
     /// Search pairs of effects when one is not enough.
     pub pairs: bool,
+    /// Try the robot with all mechanisms of the shipped one, or with none.
+    pub other_design: bool,
     /// Look for the next experiment.
     pub next_experiment: bool,
     /// Look at the missing moment.
@@ -45,13 +48,17 @@ impl Options {
     pub fn check(&self, scenario: &Scenario) -> Result<(), CompareError> {
         check_level(self.alpha, self.tolerance_m)?;
         let catalogue = scenario.catalogue();
-        let names: Vec<&str> = catalogue.effects().map(|effect| effect.name).chain([PRESSURES_ARE_RIGHT]).collect();
+        let surplus: Vec<String> = scenario.effects.iter().map(|own| format!("{WITHOUT}{}", own.name)).collect();
+        let names = catalogue.effects().map(|effect| effect.name).chain([PRESSURES_ARE_RIGHT]);
+        let names: Vec<&str> = names.chain(surplus.iter().map(String::as_str)).collect();
         if let Some(name) = self.not.iter().find(|name| !names.contains(&name.as_str())) {
             return Err(CompareError::refused(format!("--not {name}: no such effect"), spelling::known(name, &names)));
         }
         if let Some(own) = scenario.effects.iter().find(|own| self.excludes(&own.name)) {
             let message = format!("--not {}: the scenario has this effect", own.name);
-            return Err(CompareError::refused(message, "take it out of the scenario file"));
+            let help =
+                format!("take it out of the scenario file; if it is there for sure: --not \"{WITHOUT}{}\"", own.name);
+            return Err(CompareError::refused(message, help));
         }
         Ok(())
     }
@@ -67,6 +74,7 @@ impl Default for Options {
             keep_bending: false,
             not: Vec::new(),
             pairs: true,
+            other_design: true,
             next_experiment: true,
             missing_moment: true,
             learn: false,

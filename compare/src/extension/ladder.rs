@@ -1,7 +1,9 @@
 //! Diagnose and extend until what is left is noise.
 
-use crate::diagnosis::words::listed;
-use crate::diagnosis::{Added, Confidence, Diagnosis, Group, KeptBending, Options, Verdict, diagnose, names_of};
+use crate::diagnosis::words::{change, listed};
+use crate::diagnosis::{
+    Added, Confidence, Diagnosis, Group, KeptBending, Options, Verdict, diagnose, names_of, taken_away,
+};
 use crate::error::CompareError;
 use crate::evidence::Evidence;
 use crate::extension::{ErrorStep, Extension, FittedEffect, Ground, extend, extended};
@@ -100,7 +102,7 @@ impl Climb {
     fn step(&mut self, file: &ScenarioFile, d: &Diagnosis) -> Result<ScenarioFile, CompareError> {
         let Extension { file, steps, fitted, .. } = extend(file, d)?;
         let number = self.steps.len() + 1;
-        let written = format!("step-{number}-{}.toml", names_of(&d.added).join("-"));
+        let written = format!("step-{number}-{}.toml", names_of(&d.added).join("-").replace(' ', "-"));
         self.told.push(told(number, d));
         self.rungs.extend(steps.into_iter().last());
         self.files.push((written.clone(), file.text.clone()));
@@ -133,9 +135,6 @@ fn end(d: &Diagnosis, left: f64, (count, most): (usize, usize)) -> Option<(&'sta
                 format!("What is left, {left:.2} mm, is more than noise but within the tolerance of {limit:.2} mm."),
             )
         }
-        Some(Verdict::TooSmall) => {
-            ("too_small", format!("What is left, {left:.2} mm, is more than noise, and no effect takes a fifth of it."))
-        }
         Some(Verdict::OutOfCatalog) => {
             let places: Vec<&str> = d.leftover.iter().map(|s| s.sentence.as_str()).collect();
             let places = places.join(" ");
@@ -144,7 +143,7 @@ fn end(d: &Diagnosis, left: f64, (count, most): (usize, usize)) -> Option<(&'sta
             ("out_of_catalog", format!("Nothing in the catalogue explains what is left, {left:.2} mm. {places}{kept}"))
         }
         Some(Verdict::Effect) if count + d.added.len() > most => {
-            let next = names_of(&d.added).join(" and ");
+            let next = change(&names_of(&d.added));
             (
                 "most_effects",
                 format!(
@@ -163,7 +162,10 @@ fn is_of_supply(d: &Diagnosis) -> bool {
 }
 
 fn told(number: usize, d: &Diagnosis) -> String {
-    let values = |a: &Added| format!("{}, {}", a.effect, listed(&a.parameters));
+    let values = |a: &Added| match taken_away(&a.effect) {
+        Some(_) => a.effect.clone(),
+        None => format!("{}, {}", a.effect, listed(&a.parameters)),
+    };
     let names: Vec<String> = d.added.iter().map(values).collect();
     let mut told = format!(
         "Step {number}: {}. {:.2} → {:.2} mm.",

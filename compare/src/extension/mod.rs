@@ -15,8 +15,8 @@ pub use text::{Addition, NewBending, today};
 pub(crate) use text::{Origin, extended, origins};
 pub use written::{Extension, FittedEffect};
 
-use crate::diagnosis::words::{listed, named, three};
-use crate::diagnosis::{Added, Diagnosis, Options, Ranked, diagnose};
+use crate::diagnosis::words::{named, step, three};
+use crate::diagnosis::{Added, Diagnosis, Options, Ranked, diagnose, taken_away};
 use crate::error::CompareError;
 use crate::evidence::Evidence;
 use crate::policy;
@@ -36,14 +36,14 @@ pub enum Wish {
     Best,
     /// The law that is learned from the missing moment where the catalogue has none.
     Learned,
-    /// The named effect, fitted on data.
+    /// The named effect, fitted on data; or taken away, as `without NAME`.
     Fitted(String),
     /// The named effect with these values, in the units of the scenario.
     Given(String, Values),
 }
 
 impl Wish {
-    /// Reads `best`, `learned`, `NAME`, `NAME=VALUE` or `NAME:key=value,…`; without data a name alone has its typical values.
+    /// Reads `best`, `learned`, `NAME`, `without NAME`, `NAME=VALUE` or `NAME:key=value,…`; without data a name alone has its typical values.
     ///
     /// # Errors
     /// An effect that is not possible or is there already; `best` without data.
@@ -53,6 +53,19 @@ impl Wish {
         };
         if text == "best" {
             return has_data.then_some(Wish::Best).ok_or_else(|| needs("say what is best"));
+        }
+        if let Some(name) = taken_away(text) {
+            let own: Vec<&str> = scenario.effects.iter().map(|e| e.name.as_str()).collect();
+            if !own.contains(&name) {
+                return Err(CompareError::refused(format!("the scenario has no {name}"), spelling::known(name, &own)));
+            }
+            let by_hand = || {
+                CompareError::refused(
+                    format!("`{text}` without data: delete the table [effects.{name}]"),
+                    format!("to try it on data: ibr add SCENARIO \"{text}\" DATA"),
+                )
+            };
+            return has_data.then(|| Wish::Fitted(text.into())).ok_or_else(by_hand);
         }
         if text == LEARNED && !scenario.formulas.iter().any(|f| f.name == LEARNED) {
             return has_data.then_some(Wish::Learned).ok_or_else(|| needs("learn from"));
@@ -81,8 +94,7 @@ pub fn extend(file: &ScenarioFile, found: &Diagnosis) -> Result<Extension, Compa
         return Err(CompareError::refused(message, "to add an effect all the same name it instead of `best`"));
     }
     let ground = Ground::new(found, file);
-    let mut told: Vec<String> =
-        found.added.iter().map(|a| format!("Calibrated: {}, {}.", a.effect, listed(&a.parameters))).collect();
+    let mut told: Vec<String> = found.added.iter().map(|a| step(&a.effect, &a.parameters)).collect();
     told.extend(rivals(found));
     let fitted = |a: &Added| FittedEffect { effect: a.effect.clone(), parameters: a.parameters.clone() };
     let fitted = found.added.iter().map(fitted).collect();
@@ -139,7 +151,7 @@ fn assumed(file: &ScenarioFile, name: &str, values: &Values) -> Result<Extension
 fn fitted(file: &ScenarioFile, ground: &Ground, name: &str) -> Result<Extension, CompareError> {
     let d = ground.d;
     let r = ranked(d, name)?;
-    let mut told = vec![format!("Calibrated: {name}, {}. {}", listed(&r.parameters), r.sentence)];
+    let mut told = vec![format!("{} {}", step(name, &r.parameters), r.sentence)];
     match d.indistinguishable.first() {
         Some(first) if !r.in_set => told.push(format!("These data prefer {first}: look at `ibr diagnose`.")),
         _ => told.extend(rivals(d)),

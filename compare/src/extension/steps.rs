@@ -1,8 +1,9 @@
 //! From a diagnosis to what is written into a scenario, and the error before and after.
 
 use super::text::{Addition, NewBending, today};
+use crate::diagnosis::in_step;
 use crate::diagnosis::words::three;
-use crate::diagnosis::{Diagnosis, LearnedLaw, ParameterValue, Ranked};
+use crate::diagnosis::{Diagnosis, LearnedLaw, ParameterValue, Ranked, taken_away};
 use models::Known;
 use models::Scenario;
 use serde::Serialize;
@@ -90,6 +91,9 @@ impl<'a> Ground<'a> {
             true => Some(format!("{} held, not fitted", p.key)),
             false => Some(format!("{} {} to {} (95 %)", p.key, three(p.lo?), three(p.hi?))),
         };
+        if taken_away(name).is_some() {
+            return self.addition(name, Vec::new(), Known::Calibrated);
+        }
         let plain = values.iter().map(|p| (p.key.clone(), p.value)).collect();
         Addition {
             interval: values.iter().filter_map(interval).collect::<Vec<_>>().join(", "),
@@ -124,7 +128,7 @@ impl<'a> Ground<'a> {
 
     /// The base with one effect fitted.
     pub fn ranked_step(&self, r: &Ranked) -> ErrorStep {
-        let (model, bending_nm2) = (format!("+ {}", r.effect), self.bending(&r.bending_nm2));
+        let (model, bending_nm2) = (in_step(&r.effect), self.bending(&r.bending_nm2));
         let held_out = [r.heldout_mm, r.heldout_run_mm];
         step(&model, Known::Calibrated.word(), r.systematic_after_mm, held_out, bending_nm2)
     }

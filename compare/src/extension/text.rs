@@ -1,6 +1,7 @@
 //! A scenario's text with effects added: what stands there stays, comments too. The new text is parsed and held against what
 //! it should mean before anyone sees it; what was added can be read back.
 
+use crate::diagnosis::taken_away;
 use crate::error::CompareError;
 use crate::scenario_file::ScenarioFile;
 use models::Scenario;
@@ -83,7 +84,11 @@ pub fn extended(
         set_body(&mut document, &new).ok_or_else(|| refused("it has no table [body]"))?;
     }
     for addition in additions {
-        add(&mut document, addition).ok_or_else(|| refused(&format!("it has {} already", addition.name)))?;
+        let why = || match taken_away(&addition.name) {
+            Some(gone) => format!("it has no table [effects.{gone}]"),
+            None => format!("it has {} already", addition.name),
+        };
+        add(&mut document, addition).ok_or_else(|| refused(&why()))?;
     }
     let text = document.to_string();
     let scenario = Scenario::parse(&text).map_err(|e| refused(&e.to_string()))?;
@@ -144,6 +149,9 @@ pub fn rounded(v: f64) -> f64 {
 fn meant(scenario: &Scenario, bending: Option<&NewBending>, additions: &[Addition]) -> Scenario {
     let mut wanted = scenario.clone();
     for a in additions {
+        if let Some(gone) = taken_away(&a.name) {
+            wanted.effects.retain(|e| e.name != gone);
+        }
         let catalogue = scenario.catalogue();
         let Some(effect) = catalogue.by_name(&a.name) else { continue };
         let value = |p: &models::effects::Parameter| {
@@ -175,8 +183,16 @@ fn number(v: f64) -> Value {
     rounded(v).to_string().parse().unwrap_or_else(|_| Value::from(v))
 }
 
-/// `None` if the effect is there already, or effects are no tables.
+/// `None` if the effect is there already, or missing where it is to be taken away, or effects are no tables.
 fn add(document: &mut DocumentMut, a: &Addition) -> Option<()> {
+    if let Some(gone) = taken_away(&a.name) {
+        document.get_mut("effects")?.as_table_like_mut()?.remove(gone)?;
+        let data: String = a.data.iter().map(|[name, sha256]| format!(": {name}, {HASH}{sha256}")).collect();
+        let line = format!("# [effects.{gone}] was taken away by ibr on {}{}\n", a.date, one_line(&data));
+        let before = document.trailing().as_str().unwrap_or_default().to_string();
+        document.set_trailing(format!("{before}{line}"));
+        return Some(());
+    }
     let mut implicit = Table::new();
     implicit.set_implicit(true);
     let effects = document.entry("effects").or_insert(Item::Table(implicit)).as_table_mut()?;
@@ -288,6 +304,23 @@ mod tests {
         let twice = Addition { name: "arm_growth".into(), values: vec![("beta".into(), 0.5)], ..friction() };
         let refusal = extended(&file, None, &[twice]).unwrap_err().to_string();
         assert!(refusal.contains("cannot be extended"), "{refusal}");
+    }
+
+    #[test]
+    fn an_effect_is_taken_away_with_its_comment_and_the_rest_stays() {
+        let file = ScenarioFile::parse("mine", models::shipped("spam").unwrap()).unwrap();
+        let away = Addition { name: "without arm_growth".into(), values: Vec::new(), ..friction() };
+        let new = extended(&file, None, std::slice::from_ref(&away)).unwrap();
+        assert!(!new.effects.iter().any(|e| e.name == "arm_growth") && new.effects.len() + 1 == file.effects.len());
+        assert!(new.text.ends_with("SHA-256 ab12: more, SHA-256 cd34\n"), "{}", new.text);
+        assert!(
+            new.text.contains("# [effects.arm_growth] was taken away by ibr on 2026-11-21: my \"runs\""),
+            "{}",
+            new.text
+        );
+        assert!(origins(&new.text).is_empty());
+        let twice = extended(&new, None, &[away]).unwrap_err().to_string();
+        assert!(twice.contains("no table [effects.arm_growth]"), "{twice}");
     }
 
     #[test]

@@ -12,6 +12,12 @@ pub fn list(words: &[String]) -> String {
     }
 }
 
+/// The first letter in upper case.
+pub fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
 /// A number with at most one decimal: `20`, `12.5`.
 pub fn short(value: f64) -> String {
     let text = format!("{value:.1}");

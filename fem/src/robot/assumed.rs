@@ -65,6 +65,7 @@ pub const ASSUMED: &[Assumed] = &[
     assumed("layer_gap_mm", [1e-5 / 3.0, 3e-5], Spread::Factor,
         "numerical: a third to three times the published distance of layers"),
     assumed("mass_damping_1_s", [25.0, 230.0], Spread::Factor, "numerical: a third to three times the default of the ePAM"),
+    assumed("layer_friction", [0.0, 0.6], Spread::Even, "none, as in the paper's model, to dry coated nylon on itself"),
 ];
 
 /// Shares 0 to 1 of the interval of each of `numbers` numbers for `robots` robots; the same seed gives the same hypercube everywhere.

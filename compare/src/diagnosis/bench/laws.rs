@@ -196,6 +196,7 @@ impl Number {
         };
         Candidate {
             name: self.name.into(),
+            removes: None,
             group: self.group,
             stage: Stage::Balance,
             sentence: self.words[0].into(),

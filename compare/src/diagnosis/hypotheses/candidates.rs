@@ -1,4 +1,5 @@
-//! The effects that may be missing: the one place where the diagnosis meets the catalogue.
+//! The effects that may be missing, and those of the scenario that may be one too many: the one place where the diagnosis meets the
+//! catalogue.
 
 use crate::diagnosis::result::explained::ParameterValue;
 use crate::fit::least_squares::Range;
@@ -7,10 +8,21 @@ use data::MeasuredValue;
 use models::Scenario;
 use models::effects::{Effect, Fitted, Group, Stage};
 
-/// An effect that can be switched on, with what a fit and a reader need.
+/// How the name of a candidate begins that takes an effect of the scenario away.
+pub const WITHOUT: &str = "without ";
+
+/// The effect of the scenario that a candidate of this name takes away.
+pub fn taken_away(name: &str) -> Option<&str> {
+    name.strip_prefix(WITHOUT)
+}
+
+/// An effect that can be switched on, or off, with what a fit and a reader need.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {
+    /// Of the effect; with [`WITHOUT`] before it where it is taken away.
     pub name: String,
+    /// Where it takes an effect of the scenario away: the number of parameters that adding the effect would fit. The penalty is the same.
+    pub removes: Option<usize>,
     pub group: Group,
     /// Where in a prediction it acts.
     pub stage: Stage,
@@ -119,8 +131,12 @@ impl Free {
 pub const NEAR: f64 = 1e-6;
 
 impl Candidate {
-    /// The scenario with this effect at these values (SI). Known forces on the tip add up.
+    /// The scenario with this effect at these values (SI), or without it. Known forces on the tip add up.
     pub fn apply(&self, scenario: &Scenario, values: &[f64]) -> Scenario {
+        if let Some(name) = taken_away(&self.name) {
+            let is_there = scenario.effects.iter().any(|e| e.name == name);
+            return if is_there { scenario.with_effect(name, values) } else { scenario.clone() };
+        }
         let known = scenario.effects.iter().find(|e| e.name == self.name && self.name == "tip_load");
         match known {
             Some(known) => {
@@ -148,7 +164,12 @@ impl Candidate {
 
     /// Whether it is there or not by design, with nothing to fit.
     pub fn is_by_design(&self) -> bool {
-        self.parameters.iter().all(|p| p.fitted == Fitted::FromDesign)
+        self.removes.is_none() && self.parameters.iter().all(|p| p.fitted == Fitted::FromDesign)
+    }
+
+    /// Whether a fit can try it: something is fitted, or it is there or not.
+    pub fn is_tried(&self) -> bool {
+        self.count() > 0 || self.is_by_design() || self.removes.is_some()
     }
 
     /// First parameter whose typical value is not its neutral one.
@@ -167,14 +188,41 @@ impl Candidate {
         self.parameters.iter().filter(|p| p.is_free()).count()
     }
 
-    /// Number of those that do not shape its law.
+    /// Number of those that do not shape its law; of an effect that is taken away, as many as adding it would fit.
     pub fn sizes(&self) -> usize {
-        self.parameters.iter().filter(|p| p.is_free() && !p.is_shape()).count()
+        self.removes.unwrap_or_else(|| self.parameters.iter().filter(|p| p.is_free() && !p.is_shape()).count())
+    }
+
+    /// It taken away from a scenario that has it, with nothing to fit.
+    fn away(self, scenario: &Scenario) -> Candidate {
+        let (given, removes) = (self.own_values(scenario), Some(self.sizes()));
+        let gone = |(p, given): (Free, f64)| Free {
+            neutral: given,
+            typical: p.neutral,
+            lower: p.neutral.min(given),
+            upper: p.neutral.max(given),
+            starts: Vec::new(),
+            fitted: Fitted::FromDesign,
+            is_held: true,
+            ..p
+        };
+        Candidate {
+            name: format!("{WITHOUT}{}", self.name),
+            removes,
+            sentence: format!("The scenario has {}, and this robot may not: {}", self.name, self.sentence),
+            differs: format!("The reverse of this: {}", self.differs),
+            remedy: format!("Check whether the robot has {} at all. {}", self.name, self.remedy),
+            parameters: self.parameters.into_iter().zip(given).map(gone).collect(),
+            ..self
+        }
     }
 
     /// Values from which a fit is started: neutral, typical, three times as much, and the other sign where bounds allow
     /// it, and what the catalogue names.
     pub fn starts(&self) -> Vec<Vec<f64>> {
+        if self.count() == 0 {
+            return vec![self.parameters.iter().map(Free::held_at).collect()];
+        }
         let clamped = |share: f64| -> Vec<f64> {
             self.parameters.iter().zip(self.at(share)).map(|(p, v)| v.clamp(p.lower, p.upper)).collect()
         };
@@ -233,6 +281,15 @@ pub fn present(scenario: &Scenario) -> Vec<Candidate> {
     catalogue.effects().filter(own).map(|e| candidate(&e, actuator)).collect()
 }
 
+/// The scenario's own effects, each taken away; those in `refitted` can go to zero anyway. Known forces stay.
+pub fn surplus(scenario: &Scenario, refitted: &[Candidate]) -> Vec<Candidate> {
+    let is_refitted = |own: &Candidate| own.count() > 0 && refitted.iter().any(|c| c.name == own.name);
+    let mut all = present(scenario);
+    hold(&mut all, true, true, &[]);
+    let acts = |away: &Candidate| away.parameters.iter().any(|p| p.typical != p.neutral);
+    all.into_iter().filter(|own| !is_refitted(own)).map(|own| own.away(scenario)).filter(acts).collect()
+}
+
 pub fn candidate(effect: &Effect, actuator: &str) -> Candidate {
     let free = |p: &models::effects::Parameter| Free {
         key: p.key.to_string(),
@@ -251,6 +308,7 @@ pub fn candidate(effect: &Effect, actuator: &str) -> Candidate {
     };
     Candidate {
         name: effect.name.to_string(),
+        removes: None,
         group: effect.group,
         stage: effect.stage,
         sentence: effect.sentence.to_string(),

@@ -1,5 +1,6 @@
 //! How large an effect would have to be to be seen in these data.
 
+use crate::diagnosis::candidates::{Candidate, Free};
 use crate::diagnosis::case::Case;
 use crate::diagnosis::result::{Added, Undetectable};
 use crate::fit::basis::Basis;
@@ -73,7 +74,7 @@ fn trace(case: &Case, base: &Basis, effect: usize, share: f64) -> f64 {
 
 /// The multiple of the typical size at which the first parameter meets its bound.
 fn largest_share(case: &Case, effect: usize) -> f64 {
-    let share = |p: &crate::diagnosis::candidates::Free| match p.typical - p.neutral {
+    let share = |p: &Free| match p.typical - p.neutral {
         d if d > 0.0 => (p.upper - p.neutral) / d,
         d if d < 0.0 => (p.lower - p.neutral) / d,
         _ => f64::INFINITY,
@@ -81,12 +82,13 @@ fn largest_share(case: &Case, effect: usize) -> f64 {
     case.candidate(effect).parameters.iter().map(share).fold(f64::INFINITY, f64::min)
 }
 
-/// Of every effect that neither the set nor a pair in it names; a ranking without verdict finds nothing.
+/// Of every effect that the scenario lacks and that neither the set nor a pair in it names; a ranking without verdict finds nothing.
 pub fn undetectable(case: &Case, stated: &[String], added: &[Added]) -> Vec<Undetectable> {
     let found = |name: &str| {
         let in_set = !added.is_empty() && stated.iter().flat_map(|entry| entry.split(" + ")).any(|part| part == name);
         in_set || added.iter().any(|a| a.effect == name)
     };
-    let missed = case.tried.iter().filter(|e| !found(&case.candidate(**e).name));
+    let is_missed = |candidate: &Candidate| candidate.removes.is_none() && !found(&candidate.name);
+    let missed = case.tried.iter().filter(|e| is_missed(case.candidate(**e)));
     missed.map(|e| smallest_detectable(case, *e)).collect()
 }

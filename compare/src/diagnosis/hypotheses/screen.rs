@@ -49,6 +49,9 @@ pub fn score(problem: &Problem, fit: &Fit, free: &Basis, effect: usize) -> Optio
 /// Starts for the fit of an effect on top of another: the expected amount, then the catalogue's own.
 pub fn starts(problem: &Problem, fit: &Fit, effect: usize, own: bool) -> Vec<Vec<f64>> {
     let candidate = &problem.candidates[effect];
+    if candidate.count() == 0 {
+        return candidate.starts().iter().map(|values| fit.theta_with(values)).collect();
+    }
     let expected = score(problem, fit, &Basis::of(&fit.minimum.jacobian), effect)
         .filter(|s| s.amount != 0.0)
         .map(|s| candidate.at(s.amount));

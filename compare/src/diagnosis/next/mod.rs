@@ -12,6 +12,7 @@
 //! with the allowance A for the form of laws and the gain G expected of a there ([`crate::diagnosis::order`]); 16 where A = 1.
 
 pub mod experiments;
+pub mod worth;
 
 use crate::diagnosis::case::Case;
 use crate::diagnosis::decide::Decision;
@@ -87,7 +88,7 @@ pub fn next_experiment(
 /// The explanations to be told apart, best first.
 fn hypotheses(decision: &Decision) -> Vec<&Fit> {
     match decision.verdict {
-        Some(Verdict::None | Verdict::TooSmall) => Vec::new(),
+        Some(Verdict::None) => Vec::new(),
         _ if !decision.pairs.fits.is_empty() => decision.pairs.stated().collect(),
         _ => decision.singles.stated().collect(),
     }

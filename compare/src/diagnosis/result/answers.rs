@@ -1,5 +1,6 @@
 //! Answers to what is missing, as they are drawn and told: one effect or two, each at the values of its own fit.
 
+use crate::diagnosis::candidates::taken_away;
 use crate::diagnosis::result::{Combination, Diagnosis, ParameterValue, Ranked, Verdict};
 use crate::policy;
 use models::{Known, Scenario};
@@ -55,7 +56,8 @@ impl<'d> Answer<'d> {
     pub fn changes(&self, level: usize) -> Vec<(String, String)> {
         let mut changes = Vec::new();
         for (r, values) in &self.effects {
-            let of = |key: &str, value: String| (format!("effects.{}.{key}", r.effect), value);
+            let name = taken_away(&r.effect).unwrap_or(&r.effect);
+            let of = |key: &str, value: String| (format!("effects.{name}.{key}"), value);
             changes.extend(values.iter().map(|p| of(&p.key, format!("{:?}", p.value))));
             changes.push(of("basis", format!("\"{}\"", Known::Calibrated.word())));
         }
@@ -120,9 +122,9 @@ impl Diagnosis {
         answers
     }
 
-    /// Whether the verdict names nothing: nothing is missing, or too little.
+    /// Whether the verdict names nothing.
     pub fn is_quiet(&self) -> bool {
-        matches!(self.verdict, Some(Verdict::None | Verdict::TooSmall))
+        self.verdict == Some(Verdict::None)
     }
 
     /// Whether effects and a fault outside the catalogue explain the data about as well.
@@ -136,7 +138,7 @@ impl Diagnosis {
             true => (&self.attempt, self.attempt_words()),
             false => (&self.added, "calibrated"),
         };
-        let names: Vec<String> = added.iter().map(|a| format!("+ {}", a.effect)).collect();
+        let names: Vec<String> = added.iter().map(|a| in_step(&a.effect)).collect();
         (!names.is_empty()).then(|| (names.join(" "), word))
     }
 
@@ -187,11 +189,19 @@ impl Diagnosis {
     }
 }
 
+/// What a model changes from the one before it: `+ a`, or `- a` where it leaves an effect out.
+pub fn in_step(name: &str) -> String {
+    taken_away(name).map_or_else(|| format!("+ {name}"), |gone| format!("- {gone}"))
+}
+
 /// The scenario with effects at their fitted values, and a B if one is given. Names that the scenario does not know are left out.
 pub fn with_fitted(scenario: &Scenario, added: &[(&str, &[ParameterValue])], bending_nm2: Option<f64>) -> Scenario {
     let catalogue = scenario.catalogue();
     let mut with = scenario.clone();
     for (name, fitted) in added {
+        if let Some(gone) = taken_away(name) {
+            with.effects.retain(|e| e.name != gone);
+        }
         let Some(effect) = catalogue.by_name(name) else { continue };
         let value = |p: &models::effects::Parameter| {
             fitted.iter().find(|v| v.key == p.key).map_or(p.neutral, |v| v.value) * p.si

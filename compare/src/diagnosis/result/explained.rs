@@ -116,6 +116,17 @@ pub struct AsClose {
     pub systematic_after_mm: f64,
 }
 
+/// What an answer changes at the markers, root mean square over all coordinates.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Worth {
+    /// Distance from the calibrated base in these data \[mm\].
+    pub here_mm: f64,
+    /// The same in the listed protocol where it is largest \[mm\]; `None` without an equilibrium in any of them.
+    pub elsewhere_mm: Option<f64>,
+    /// That protocol in words.
+    pub elsewhere: Option<String>,
+}
+
 /// Names of effects that are added.
 pub(crate) fn names_of(added: &[Added]) -> Vec<String> {
     added.iter().map(|a| a.effect.clone()).collect()

@@ -24,8 +24,6 @@ use serde::{Deserialize, Serialize};
 pub enum Verdict {
     /// No missing effect is detectable in these data.
     None,
-    /// More than noise, and too small to name: within the tolerance, or no effect takes a fifth of it.
-    TooSmall,
     /// One or two effects of the catalogue explain the misfit.
     Effect,
     /// Something is missing that no effect of the catalogue explains.
@@ -33,7 +31,7 @@ pub enum Verdict {
 }
 
 /// How sure a name is, from the size of the evidence and the number of rivals.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Confidence {
     /// Gain below 25: often another effect.
@@ -52,6 +50,21 @@ pub struct KeptBending {
     /// Names that these data cannot tell apart with it, best first.
     pub indistinguishable: Vec<String>,
     /// Error beyond noise with the best of them \[mm\].
+    pub systematic_after_mm: f64,
+}
+
+/// An answer for a robot that is made otherwise than the scenario says.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OtherDesign {
+    /// Mechanisms of the shipped robot of this kind that were switched on, or off (`without NAME`); nothing of them was fitted.
+    pub switched: Vec<String>,
+    /// Error beyond noise then, with B fitted \[mm\].
+    pub systematic_mm: f64,
+    /// Verdict then.
+    pub verdict: Option<Verdict>,
+    /// Names that these data cannot tell apart then, best first.
+    pub indistinguishable: Vec<String>,
+    /// Error beyond noise with the best of them, or with the best attempt \[mm\].
     pub systematic_after_mm: f64,
 }
 
@@ -235,6 +248,8 @@ pub struct Diagnosis {
     pub by_design: Vec<AsClose>,
     /// What the verdict `effect` adds, else empty.
     pub added: Vec<Added>,
+    /// What the answer is worth in millimetres; `None` without the verdict `effect`.
+    pub worth: Option<Worth>,
     /// With the verdict `out_of_catalog`: the best that the catalogue can do, which is not enough.
     pub attempt: Vec<Added>,
     /// The attempt, then what comes as close, its error over all data to a fifth: no more a bare name than an answer is. Empty where
@@ -242,6 +257,8 @@ pub struct Diagnosis {
     pub attempt_alike: Vec<AsClose>,
     /// The answer with the scenario's B, where with a fitted one there is none.
     pub kept_bending: Option<KeptBending>,
+    /// The robot made otherwise, where that leaves a fifth less.
+    pub other_design: Option<OtherDesign>,
     /// The stiffness of the answer is not the one that was told.
     pub bending_alarm: Option<BendingAlarm>,
     /// What was said not to be here.

@@ -3,12 +3,13 @@
 use crate::policy;
 use data::Direct;
 
-use crate::diagnosis::result::words::{quantity, with_interval};
+use crate::diagnosis::candidates::taken_away;
+use crate::diagnosis::result::words::{change, quantity, with_interval};
 use crate::diagnosis::result::{
-    AsClose, Confidence, Diagnosis, FittedBeside, GaugeFit, Group, KeptBending, LearnedLaw, LeftPattern, Ranked,
-    Verdict, names_of,
+    AsClose, Confidence, Diagnosis, FittedBeside, GaugeFit, Group, KeptBending, LearnedLaw, LeftPattern, OtherDesign,
+    Ranked, Verdict, Worth, names_of,
 };
-use crate::wording::{list, p_value};
+use crate::wording::{capitalised, list, p_value};
 
 /// What comes as close as an attempt is named up to that many; `diagnosis.json` has all.
 const MOST_AS_CLOSE: usize = 3;
@@ -55,12 +56,14 @@ pub fn story(d: &Diagnosis) -> Vec<String> {
     let mut told = vec![opening(d)];
     told.extend(d.beside.iter().map(beside));
     told.extend(d.gauges.iter().filter_map(gauge));
-    told.extend(d.by_design.iter().map(|entry| by_design(d, entry)));
+    told.extend(d.other_design.as_ref().map(|other| other_design(d, other)));
+    // All mechanisms together take the place of each alone.
+    let alone = if d.other_design.is_some() { &[][..] } else { &d.by_design };
+    told.extend(alone.iter().map(|entry| by_design(d, entry)));
     told.extend(match d.verdict {
         None if d.pressure_slip.is_some() => vec![WITHHELD.into()],
         None => ranking_only(d),
         Some(Verdict::None) => nothing(d),
-        Some(Verdict::TooSmall) => vec![too_small(d)],
         Some(Verdict::Effect) => effect(d),
         Some(Verdict::OutOfCatalog) => outside(d),
     });
@@ -113,6 +116,19 @@ fn gauge(fit: &GaugeFit) -> Option<String> {
     ))
 }
 
+fn other_design(d: &Diagnosis, other: &OtherDesign) -> String {
+    let OtherDesign { switched, verdict, indistinguishable, systematic_after_mm: after, .. } = other;
+    let then = match verdict {
+        Some(Verdict::Effect) => format!("; what is missing then: {}", indistinguishable.join(" or ")),
+        _ => String::new(),
+    };
+    format!(
+        "First look at how the robot is made. {}, with nothing of it fitted, the best answer leaves {after:.2} mm instead of {:.2}{then}.",
+        capitalised(&change(switched).replace("adding", "with").replace("leaving out", "without")),
+        d.base.systematic_with_added_mm
+    )
+}
+
 fn by_design(d: &Diagnosis, entry: &AsClose) -> String {
     let name = list(&entry.effects);
     let sentence = d.ranked.iter().find(|r| entry.effects.contains(&r.effect)).map_or("", |r| &r.sentence);
@@ -149,18 +165,6 @@ fn nothing(d: &Diagnosis) -> Vec<String> {
     told
 }
 
-fn too_small(d: &Diagnosis) -> String {
-    let p = p_of(d);
-    match policy::is_good_enough(d.base.systematic_mm, d.tolerance_mm) {
-        true => {
-            format!("More than noise ({p}), and within the tolerance of {:.2} mm: too small to name.", d.tolerance_mm)
-        }
-        false => {
-            format!("More than noise ({p}), but no effect of the catalogue takes a fifth of it: too small to name.")
-        }
-    }
-}
-
 fn effect(d: &Diagnosis) -> Vec<String> {
     let names = names_of(&d.added);
     let supply = d.gauges.first().filter(|_| d.added.iter().all(|a| a.group == Group::Supply));
@@ -169,12 +173,13 @@ fn effect(d: &Diagnosis) -> Vec<String> {
         None => format!("it to {:.2} mm", d.base.systematic_with_added_mm),
     };
     let mut told = vec![format!(
-        "Adding {} brings {brings} ({} after correcting for {} effects).",
-        list(&names),
+        "{} brings {brings} ({} after correcting for {} effects).",
+        capitalised(&change(&names)),
         p_of(d),
         d.ranked.len()
     )];
-    for added in &d.added {
+    told.extend(worth(d));
+    for added in d.added.iter().filter(|added| taken_away(&added.effect).is_none()) {
         let values: Vec<String> = added.parameters.iter().map(with_interval).collect();
         let sentence = d.ranked(&added.effect).map_or("", |r| &r.sentence);
         told.push(format!("{}: {}. {sentence}", added.effect, values.join(", ")));
@@ -205,6 +210,17 @@ fn effect(d: &Diagnosis) -> Vec<String> {
     told
 }
 
+/// Size of the answer in millimetres, after its name.
+fn worth(d: &Diagnosis) -> Option<String> {
+    let Worth { here_mm, elsewhere_mm, elsewhere } = d.worth.as_ref()?;
+    let small = policy::is_good_enough(*here_mm, d.tolerance_mm);
+    let tolerance = if small { format!(", below the tolerance of {:.2} mm", d.tolerance_mm) } else { String::new() };
+    let most = elsewhere_mm
+        .zip(elsewhere.as_ref())
+        .map_or(String::new(), |(mm, words)| format!("; {mm:.2} mm if you {words}"));
+    Some(format!("It moves the markers by {here_mm:.2} mm (rms) in these data{tolerance}{most}."))
+}
+
 /// How often a stated set held the truth where that was known; two effects at once are another question.
 fn covered(d: &Diagnosis) -> Option<String> {
     let [most, least] = [d.covered?, policy::COVERED_BY_OTHERS].map(|share| 100.0 * share);
@@ -225,7 +241,7 @@ fn held_out(d: &Diagnosis, r: &Ranked) -> Option<String> {
 
 fn outside(d: &Diagnosis) -> Vec<String> {
     let p = p_of(d);
-    let tried = list(&names_of(&d.attempt));
+    let tried = change(&names_of(&d.attempt));
     let (before, after) = (d.base.systematic_mm, d.base.systematic_with_added_mm);
     let simpler = d.pattern.as_ref().filter(|pattern| pattern.simpler);
     let mut told = vec![if simpler.is_some_and(|pattern| pattern.either) {
@@ -235,8 +251,9 @@ fn outside(d: &Diagnosis) -> Vec<String> {
         )
     } else if simpler.is_some() {
         format!(
-            "{tried} would bring it to {after:.2} mm ({p}), but one fault that is not in the catalogue explains more, with a \
-             single number."
+            "{} would bring it to {after:.2} mm ({p}), but one fault that is not in the catalogue explains more, with a \
+             single number.",
+            capitalised(&tried)
         )
     } else if d.attempt.is_empty() {
         format!(
@@ -244,12 +261,13 @@ fn outside(d: &Diagnosis) -> Vec<String> {
         )
     } else if policy::is_mostly_gone(after, before) {
         format!(
-            "Adding {tried} takes away most of it, {before:.2} to {after:.2} mm, but nothing in the catalogue explains the rest \
-             ({p}): a law that is not quite the catalogue's, or something that is not listed."
+            "{} takes away most of it, {before:.2} to {after:.2} mm, but nothing in the catalogue explains the rest \
+             ({p}): a law that is not quite the catalogue's, or something that is not listed.",
+            capitalised(&tried)
         )
     } else {
         format!(
-            "Nothing in the catalogue explains this ({p}): {after:.2} mm remain with the best of it, {tried}, of {before:.2} mm \
+            "Nothing in the catalogue explains this ({p}): {after:.2} mm remain after the best of it, {tried}, of {before:.2} mm \
              before."
         )
     }];

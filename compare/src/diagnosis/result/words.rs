@@ -1,8 +1,27 @@
 //! Numbers and values in words.
 
+use crate::diagnosis::candidates::taken_away;
 use crate::diagnosis::result::ParameterValue;
+use crate::wording::list;
 
 pub use crate::wording::value;
+
+/// `adding a and b`, `leaving out c`, `adding a and leaving out c`.
+pub fn change(names: &[String]) -> String {
+    let (gone, new): (Vec<String>, Vec<String>) = names.iter().cloned().partition(|name| taken_away(name).is_some());
+    let gone: Vec<String> = gone.iter().filter_map(|name| taken_away(name)).map(str::to_string).collect();
+    let parts = [("adding", new), ("leaving out", gone)]
+        .map(|(verb, names)| (!names.is_empty()).then(|| format!("{verb} {}", list(&names))));
+    parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")
+}
+
+/// `Calibrated: a, k = 2 (1…3).`, or `Taken away: a.`
+pub fn step(name: &str, parameters: &[ParameterValue]) -> String {
+    match taken_away(name) {
+        Some(gone) => format!("Taken away: {gone}."),
+        None => format!("Calibrated: {name}, {}.", listed(parameters)),
+    }
+}
 
 /// `1.5 N/m`, or the number alone if it has no unit.
 pub fn quantity(v: f64, unit: &str) -> String {

@@ -14,6 +14,7 @@ use crate::diagnosis::problem::{Block, Fit};
 use crate::diagnosis::result::*;
 use crate::diagnosis::singles::{parameter_values, rank};
 use crate::diagnosis::stands_out::left_pattern;
+use crate::diagnosis::worth::worth;
 use crate::error::CompareError;
 use crate::evidence::{Evidence, Used};
 use crate::gauge::Reading;
@@ -87,6 +88,7 @@ pub fn assemble(case: &Case, decision: &Decision, beside: Beside) -> Result<Diag
         indistinguishable,
         pairs,
         added,
+        worth: decision.last.as_ref().filter(|_| decision.verdict == Some(Verdict::Effect)).map(|fit| worth(case, fit)),
         attempt,
         attempt_alike: decision.as_close.iter().map(as_close).collect(),
         lack_of_fit_before: decision.before,
@@ -98,6 +100,7 @@ pub fn assemble(case: &Case, decision: &Decision, beside: Beside) -> Result<Diag
         outliers,
         undetectable,
         kept_bending: None,
+        other_design: None,
         bending_alarm: bending_alarm(case, last).filter(|_| pressure_slip.is_none()),
         excluded,
         next_experiment: None,

@@ -41,9 +41,9 @@ pub fn as_close(case: &Case, [singles, pairs]: [&[Fit]; 2], closest: &Fit) -> Ve
     std::iter::once(closest.clone()).chain(singles).chain(pairs).collect()
 }
 
-/// What follows from the design and takes a fifth of the error, the nearest first; nothing where the verdict is that nothing matters.
+/// What follows from the design and takes a fifth of the error, the nearest first; none where the verdict is that nothing is missing.
 pub fn by_design<'d>(case: &Case, verdict: Option<Verdict>, singles: &'d [Fit]) -> impl Iterator<Item = &'d Fit> {
-    let is_open = !matches!(verdict, Some(Verdict::None | Verdict::TooSmall));
+    let is_open = verdict != Some(Verdict::None);
     let before = case.error_in_all_mm(&case.base);
     let mut pay = by_distance(case, if is_open { singles } else { &[] });
     let is_by_design = |fit: &Fit| fit.effects.last().is_some_and(|e| case.candidate(*e).is_by_design());

@@ -16,7 +16,6 @@ use crate::error::CompareError;
 use crate::policy;
 use crate::progress::Progress;
 use crate::stats::reported_p;
-use models::effects::Group;
 
 /// Everything that was fitted, and what follows.
 pub struct Decision {
@@ -79,10 +78,6 @@ pub fn decide(
     if p_value.is_none_or(|p| p >= case.alpha) {
         return Ok(decision);
     }
-    if policy::is_good_enough(case.error_in_all_mm(&case.base), 1e3 * case.tolerance_m) && !case.is_gauged() {
-        decision.verdict = Some(Verdict::TooSmall);
-        return Ok(decision);
-    }
     decision.verdict = Some(Verdict::OutOfCatalog);
     let significant = p_effect.is_some_and(|p| p < policy::SHARE_OF_EFFECTS * case.alpha);
     explain(case, options, &mut decision, significant, progress)?;
@@ -130,23 +125,11 @@ fn explain(
         return Ok(());
     }
     decision.fault = simpler(case, &last);
-    if decision.fault.is_none() && !pays(case, &last) {
-        (decision.verdict, decision.after) = (Some(Verdict::TooSmall), decision.before);
-        decision.pairs = Ordered::default();
-        return Ok(());
-    }
     if decision.fault.is_none() {
         decision.verdict = Some(Verdict::Effect);
     }
     decision.last = Some(last);
     Ok(())
-}
-
-/// Whether an answer takes a fifth of the error over all data. What a gauge shows of the supply, the positions do not see.
-fn pays(case: &Case, fit: &Fit) -> bool {
-    let mut added = case.added(fit).iter();
-    let is_of_supply = case.is_gauged() && added.all(|e| case.candidate(*e).group == Group::Supply);
-    is_of_supply || policy::is_closer(case.error_in_all_mm(fit), case.error_in_all_mm(&case.base))
 }
 
 /// Whether a fit of so many effects leaves a share of the error that the tests see as more than noise, at the level that is theirs.
