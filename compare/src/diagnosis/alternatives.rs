@@ -51,19 +51,8 @@ pub fn other_design(
     if !options.other_design || !is_open {
         return Ok(None);
     }
-    let has = |e: &EffectChoice| scenario.effects.iter().any(|own| own.name == e.name);
-    let all = shipped_scenario(scenario.actuator.kind.name)?.effects;
-    let (own, mut lacking): (Vec<_>, Vec<_>) = all.into_iter().partition(has);
-    let catalogue = scenario.catalogue();
-    lacking.retain(|e| catalogue.by_name(&e.name).is_some_and(|e| scenario.takes(&e)) && !options.excludes(&e.name));
-    let gone: Vec<String> =
-        own.into_iter().map(|e| format!("{WITHOUT}{}", e.name)).filter(|n| !options.excludes(n)).collect();
-    let with = lacking.iter().fold(scenario.clone(), |with, e| with.with_effect(&e.name, &e.values));
-    let mut without = scenario.clone();
-    without.effects.retain(|e| !gone.contains(&format!("{WITHOUT}{}", e.name)));
-    let new: Vec<String> = lacking.into_iter().map(|e| e.name).collect();
     let mut best: Option<OtherDesign> = None;
-    for (other, switched) in [(with, new), (without, gone)].into_iter().filter(|(_, switched)| switched.len() > 1) {
+    for (other, switched) in designs(scenario, options)? {
         let not = options.not.iter().filter(|not| !not.starts_with(WITHOUT)).cloned().collect();
         // A robot without equilibrium at these pressures explains nothing.
         let Ok(answer) = diagnose(&other, evidence, &Options { pairs: false, not, ..alone(options) }, &mut |_, _| ())
@@ -83,6 +72,23 @@ pub fn other_design(
         }
     }
     Ok(best)
+}
+
+/// The scenario with every mechanism of the shipped robot of this kind, and with none of them, as far as that switches several; each with
+/// what it switches, as candidates are called.
+pub fn designs(scenario: &Scenario, options: &Options) -> Result<Vec<(Scenario, Vec<String>)>, CompareError> {
+    let has = |e: &EffectChoice| scenario.effects.iter().any(|own| own.name == e.name);
+    let all = shipped_scenario(scenario.actuator.kind.name)?.effects;
+    let (own, mut lacking): (Vec<_>, Vec<_>) = all.into_iter().partition(has);
+    let catalogue = scenario.catalogue();
+    lacking.retain(|e| catalogue.by_name(&e.name).is_some_and(|e| scenario.takes(&e)) && !options.excludes(&e.name));
+    let gone: Vec<String> =
+        own.into_iter().map(|e| format!("{WITHOUT}{}", e.name)).filter(|n| !options.excludes(n)).collect();
+    let with = lacking.iter().fold(scenario.clone(), |with, e| with.with_effect(&e.name, &e.values));
+    let mut without = scenario.clone();
+    without.effects.retain(|e| !gone.contains(&format!("{WITHOUT}{}", e.name)));
+    let new: Vec<String> = lacking.into_iter().map(|e| e.name).collect();
+    Ok([(with, new), (without, gone)].into_iter().filter(|(_, switched)| switched.len() > 1).collect())
 }
 
 /// Settings of a diagnosis within another one.

@@ -39,6 +39,7 @@ pub use experiments::{BENDING_TEST, BENDING_TEST_NAME};
 pub use known::{BENCH_TEST, BENCH_TESTS, BenchTest};
 pub use options::{Options, PRESSURES_ARE_RIGHT};
 pub use pressures::pressure_slip;
+use pressures::slip_of_another_design;
 pub use result::*;
 
 use crate::error::CompareError;
@@ -90,7 +91,11 @@ pub fn diagnose(
     warnings.extend(runs.iter().map(OutlyingRun::words));
     warnings.extend(limits::warnings(&case));
     let decision = decide(&case, singles, options, &mut part(progress, of_pairs))?;
-    let pressure_slip = pressures.found(&case, || Ok(decision.rivals()))?;
+    let mut pressure_slip = pressures.found(&case, || Ok(decision.rivals()))?;
+    let is_alarm = matches!(decision.verdict, Some(Verdict::Effect | Verdict::OutOfCatalog));
+    if pressure_slip.is_none() && is_alarm && options.other_design && !options.excludes(PRESSURES_ARE_RIGHT) {
+        pressure_slip = slip_of_another_design(scenario, evidence, options)?;
+    }
     let decision = if pressure_slip.is_some() { decision.withheld() } else { decision };
     warnings.extend(singles::left_out(&case, &decision.singles.fits));
     let mut slips: Vec<String> = sources.iter().flat_map(|source| source.slips.clone()).collect();

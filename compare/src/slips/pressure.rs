@@ -8,6 +8,7 @@
 use crate::policy;
 use crate::wording::short;
 use data::{Dataset, Hold, is_a_room};
+use models::Scenario;
 use serde::Serialize;
 use spelling::units::{Dimension, units_of};
 
@@ -131,11 +132,16 @@ impl PressureSlip {
         units.chain(exchanged).chain(absolute).chain(channels).chain(moved).collect()
     }
 
-    /// Whether the numbers alone look like it: of the body's column, those are the told pressure in the wrong unit \[Pa\].
-    pub fn is_in_numbers(&self, dataset: &Dataset, body_pa: f64) -> bool {
-        let is_told = |hold: &Hold| policy::is_same_ratio(hold.p_body_pa, body_pa);
+    /// Whether the numbers alone look like it: the body's are the scenario's pressure in the wrong unit, or the actuator's are beyond its
+    /// highest pressure, and within it once the slip is undone.
+    pub fn is_in_numbers(&self, dataset: &Dataset, scenario: &Scenario) -> bool {
+        let is_told = |hold: &Hold| policy::is_same_ratio(hold.p_body_pa, scenario.p_body_pa);
         if self.is_of_body() {
             return !dataset.holds.iter().any(is_told) && self.undone(dataset).holds.iter().any(is_told);
+        }
+        if let PressureSlip::Unit(column, _) = self {
+            let top = |data: &Dataset| data.holds.iter().map(|hold| column.highest(hold)).fold(0.0, f64::max);
+            return top(dataset) > scenario.p_max_pa && top(&self.undone(dataset)) <= scenario.p_max_pa;
         }
         by_numbers(dataset).iter().any(|seen| std::mem::discriminant(seen) == std::mem::discriminant(self))
     }
@@ -272,8 +278,8 @@ pub struct PressureSlipFound {
     pub words: String,
     /// Error beyond noise of the base with the pressures as they are written \[mm\].
     pub before_mm: Option<f64>,
-    /// The same with the slip undone \[mm\].
-    pub after_mm: f64,
+    /// The same with the slip undone \[mm\]; `None` where the robot has no equilibrium then either.
+    pub after_mm: Option<f64>,
     /// The best of the catalogue with the pressures as they are written.
     pub best_effect: Option<BestEffect>,
 }

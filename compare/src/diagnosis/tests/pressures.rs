@@ -36,7 +36,7 @@ fn another_unit_is_told_with_what_to_type_and_withholds_the_verdict() {
         let d = run(&plain, &wrong);
         let found = d.pressure_slip.clone().unwrap_or_else(|| panic!("{kind}: {:?}", d.summary));
         assert!(words.iter().all(|words| found.words.contains(words)), "{}", found.words);
-        assert!(found.after_mm < 0.5 && d.slips[0] == found.words && d.warnings[0] == found.words);
+        assert!(found.after_mm.unwrap() < 0.5 && d.slips[0] == found.words && d.warnings[0] == found.words);
         assert!(d.verdict.is_none() && d.added.is_empty() && d.indistinguishable.is_empty() && d.attempt.is_empty());
         assert!(d.summary[1].contains("--not pressure_slip"), "{:?}", d.summary);
         // Who says that the pressures are right gets the verdict.
@@ -55,6 +55,35 @@ fn exchanged_columns_leave_no_equilibrium_or_a_slip() {
         Err(error) => error.to_string(),
     };
     assert!(words.contains("look exchanged") && words.contains("exchange the names"), "{words}");
+}
+
+/// Diagnosed with a model that does not fit: the shipped robot with data of one without its mechanisms, and numbers that prove a slip.
+#[test]
+fn a_slip_is_seen_with_a_scenario_that_is_made_otherwise_too() {
+    let (whole, plain) = (shipped_scenario("epam").unwrap(), robot("epam"));
+    let data = measured(&plain, 5, 504);
+    let options = Options { other_design: true, ..quick() };
+    let slips: [(Spoil, &str); 6] = [
+        (|hold| hold.p_act_pa /= 6.894_757, "psi under a name of kPa"),
+        (|hold| hold.p_act_pa *= 10.0, "mbar under a name of kPa"),
+        (|hold| hold.p_act_pa /= 0.249_089, "inches of water under a name of kPa"),
+        (|hold| hold.p_act_pa /= 100.0, "look"),
+        (|hold| hold.p_act_pa += 101_325.0, "look absolute"),
+        (|hold| hold.p_body_pa += 101_325.0, "look absolute"),
+    ];
+    for (spoil, words) in slips {
+        for scenario in [&whole, &plain] {
+            let told = match of_one(scenario, &slipped(&data, spoil), None, &options) {
+                Ok(d) => {
+                    assert!(d.verdict.is_none() && d.added.is_empty(), "{words}: {:?}", d.summary);
+                    d.pressure_slip.map(|slip| slip.words).unwrap_or_default()
+                }
+                Err(error) => error.to_string(),
+            };
+            assert!(told.contains(words), "{words}: {told}");
+        }
+    }
+    assert!(of_one(&whole, &data, None, &options).unwrap().pressure_slip.is_none());
 }
 
 /// A hose that takes half of the pressure, a muscle that drags, a robot of finite elements: no factor of a unit.

@@ -12,8 +12,10 @@
 //!
 //! A slip is told where its C is clearly below that of the base and of every effect and pair, and where it leaves less than half of
 //! their error, or nothing that matters. What the numbers alone look like needs to be as good only; a base that fits with its own
-//! stiffness is asked about nothing else.
+//! stiffness is asked about nothing else. What the numbers alone prove, of absolute or exchanged columns, no model is asked about.
+//! Where the scenario's own model sees no slip, the same is asked of the robot with all mechanisms of the shipped one and with none.
 
+use crate::diagnosis::alternatives::designs;
 use crate::diagnosis::case::{Case, catalogue};
 use crate::diagnosis::decide::decide;
 use crate::diagnosis::options::{Options, PRESSURES_ARE_RIGHT};
@@ -21,10 +23,11 @@ use crate::diagnosis::order;
 use crate::diagnosis::problem::Fit;
 use crate::diagnosis::singles::fit_all;
 use crate::diagnosis::source::Source;
+use crate::diagnosis::words::change;
 use crate::error::CompareError;
 use crate::evidence::Evidence;
 use crate::policy;
-use crate::slips::pressure::{BestEffect, PressureSlip, PressureSlipFound};
+use crate::slips::pressure::{BestEffect, PressureSlip, PressureSlipFound, by_numbers, pressure_words};
 use data::Dataset;
 use models::Scenario;
 
@@ -63,6 +66,9 @@ impl Pressures<'_> {
         if self.options.excludes(PRESSURES_ARE_RIGHT) {
             return Ok(None);
         }
+        if let Some(proved) = self.proved(case) {
+            return Ok(Some(proved));
+        }
         let own = weighed(case, &case.base);
         let tolerance_mm = 1e3 * case.tolerance_m;
         let fits = own.left_mm <= tolerance_mm && own.has_its_stiffness;
@@ -75,6 +81,36 @@ impl Pressures<'_> {
         let nearest = rivals.iter().min_by(|a, b| a.0.left_mm.total_cmp(&b.0.left_mm));
         let best_effect = nearest.map(|(rival, fit)| BestEffect { effects: case.names(fit), left_mm: rival.left_mm });
         Ok(Some(self.told(&all, Some(own.left_mm), best_effect)))
+    }
+
+    /// A slip that the numbers alone prove, whatever a model leaves.
+    fn proved(&self, case: &Case) -> Option<PressureSlipFound> {
+        let (of, slip) = self
+            .sources
+            .iter()
+            .enumerate()
+            .find_map(|(of, source)| by_numbers(&source.dataset).into_iter().next().map(|slip| (of, slip)))?;
+        let before_mm = Some(case.error_in_all_mm(&case.base));
+        // Bar under a name of kPa looks exchanged too, and the model says which.
+        let all = self.undone_slips(false);
+        let moved_mm = 1e3 * moved_m(&self.sources[of].dataset);
+        let proved = self.undone(of, &slip);
+        let is_nearer = |left_mm: f64| proved.is_none_or(|proved| policy::is_far_less(left_mm, proved.left_mm));
+        let explains =
+            |best: &&Undone| policy::is_mostly_gone(best.weighed.left_mm, moved_mm) && is_nearer(best.weighed.left_mm);
+        if all.first().filter(explains).is_some() {
+            return Some(self.told(&all, before_mm, None));
+        }
+        Some(match proved {
+            Some(weighed) => self.told(&[Undone { of, slip, weighed, in_numbers: true }], before_mm, None),
+            None => PressureSlipFound {
+                dataset: self.sources[of].dataset.name.clone(),
+                words: pressure_words(&self.sources[of].dataset).concat(),
+                before_mm,
+                after_mm: None,
+                best_effect: None,
+            },
+        })
     }
 
     /// What to say of data with which the base has no equilibrium: the slip without which it has one, else the error.
@@ -101,7 +137,7 @@ impl Pressures<'_> {
         });
         let undone = |(of, slip): (usize, PressureSlip)| {
             let Source { scenario, dataset, gauge, .. } = &self.sources[of];
-            let seen = slip.is_in_numbers(dataset, scenario.p_body_pa);
+            let seen = slip.is_in_numbers(dataset, scenario);
             // A body's slip shows in numbers; readings of a gauge are the actuator's own.
             let possible = if slip.is_of_body() { seen } else { gauge.is_none() && (seen || !in_numbers) };
             let weighed = possible.then(|| self.undone(of, &slip))??;
@@ -142,7 +178,7 @@ impl Pressures<'_> {
             slip.help(),
             alike.collect::<String>()
         );
-        PressureSlipFound { dataset: name, words, before_mm, after_mm, best_effect }
+        PressureSlipFound { dataset: name, words, before_mm, after_mm: Some(after_mm), best_effect }
     }
 }
 
@@ -156,7 +192,34 @@ pub fn pressure_slip(
     evidence: &Evidence,
     options: &Options,
 ) -> Result<Option<PressureSlipFound>, CompareError> {
-    let sources = [Source::prepared(scenario, evidence)?.0];
+    let evidence = std::slice::from_ref(evidence);
+    match slip_of(scenario, evidence, options)? {
+        None => slip_of_another_design(scenario, evidence, options),
+        found => Ok(found),
+    }
+}
+
+/// The same of the robot with all mechanisms of the shipped one of its kind, or with none.
+pub fn slip_of_another_design(
+    scenario: &Scenario,
+    evidence: &[Evidence],
+    options: &Options,
+) -> Result<Option<PressureSlipFound>, CompareError> {
+    // A design without equilibrium sees nothing.
+    let found = designs(scenario, options)?.into_iter().filter_map(|(other, switched)| {
+        let found = slip_of(&other, evidence, options).ok()??;
+        let words = format!("{} (seen by the same robot {}).", found.words.trim_end_matches('.'), change(&switched));
+        Some(PressureSlipFound { words, ..found })
+    });
+    Ok(found.min_by(|a, b| a.after_mm.unwrap_or(f64::MAX).total_cmp(&b.after_mm.unwrap_or(f64::MAX))))
+}
+
+fn slip_of(
+    scenario: &Scenario,
+    evidence: &[Evidence],
+    options: &Options,
+) -> Result<Option<PressureSlipFound>, CompareError> {
+    let (sources, _) = Source::all(scenario, evidence)?;
     let (candidates, own) = catalogue(&sources, options);
     let pressures = Pressures { sources: &sources, options };
     let case = Case::new(&sources, (&candidates, own), options).map_err(|error| pressures.refusal(error))?;
