@@ -64,6 +64,14 @@ pub const FORM: f64 = 0.05;
 pub const SIZE_FACTOR: f64 = 3.0;
 /// Least price of a parameter, where hardly any information is left.
 pub const LEAST_PRICE: f64 = 1.0;
+/// Beyond this multiple of its usual size an effect is measured before it is believed: more than half of the pressure lost, of 0.15.
+pub const UNUSUAL_SIZE: f64 = 10.0 / 3.0;
+
+/// Whether an effect of so many times its usual size is.
+pub fn is_unusual_size(times: f64) -> bool {
+    times > UNUSUAL_SIZE
+}
+
 /// Sizes beyond this factor from the typical one are equally odd.
 pub const ODDEST: f64 = 1e3;
 /// Width of the prior of a law's shape about the usual one, as a share of its range. Assumed: between the median (0.19) and the

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::about::About;
+use crate::about::{About, BENDING_TEST};
 use crate::dataset::{Dataset, Hold, Phase};
 use crate::lost::losses;
 use crate::policy::{self, tolerance_act_pa, tolerance_body_pa};
@@ -345,6 +345,7 @@ fn warnings(report: &CheckReport, about: Option<&About>) -> Vec<String> {
         report.actuator_pressures_kpa.len() < 3,
         "fewer than three actuator pressures: no trend with pressure".to_string(),
     );
+    warn(about.is_some_and(|about| about.bending_nm2.is_none()), format!("no bending test: {BENDING_TEST}"));
     warn(about.is_none(), "no about.toml: provenance, licence, geometry and gravity are unknown".to_string());
     let unseen =
         about.into_iter().flat_map(|about| &about.markers).filter(|m| report.markers.iter().all(|r| r.name != m.name));

@@ -36,7 +36,9 @@ pub mod write;
 #[cfg(test)]
 mod tests;
 
-pub use about::{About, AboutRun, Direct, Geometry, MarkerStation, MeasuredValue, Provenance, parse_about, read_about};
+pub use about::{
+    About, AboutRun, BENDING_TEST, Direct, Geometry, MarkerStation, MeasuredValue, Provenance, parse_about, read_about,
+};
 pub use atomic::write_atomically;
 pub use bench::{Bench, bench, parse_bench};
 pub use check::{CheckReport, check};

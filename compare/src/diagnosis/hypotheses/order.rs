@@ -53,6 +53,48 @@ pub fn criterion(case: &Case, fit: &Fit, allowance: f64) -> f64 {
     criterion_of(case, fit.cost(), case.extra(fit), allowance) + oddness(case, fit) + odd_forms(case, fit, allowance)
 }
 
+/// Σ (ln(B/B₀) / ln 2)² of the stated stiffness B₀, where one is stated; a bending test is among the squares already. It orders slips and
+/// no effects: of the sets of `ibr bench discovery --sets 49 --seed 11` it puts the truth on top in 86.0 in place of 83.7 %, and names
+/// fewer of two effects.
+pub fn odd_bending(case: &Case, fit: &Fit) -> f64 {
+    let stated = case.first().scenario.bending_stiffness;
+    if stated == 0.0 || case.problem.known_bending.is_some() {
+        return 0.0;
+    }
+    let odd = |b: f64| (b / stated).clamp(1.0 / policy::ODDEST, policy::ODDEST).ln() / policy::SAME_STIFFNESS.ln();
+    case.bendings(fit).into_iter().map(|b| odd(b).powi(2)).sum()
+}
+
+/// Whether an answer has another stiffness than is stated, by a factor of two, or an effect of an unusual size: a measurement
+/// comes before belief.
+pub fn is_unusual(case: &Case, fit: &Fit) -> bool {
+    let stated = case.first().scenario.bending_stiffness;
+    let is_other = |b: &f64| !policy::is_same_stiffness(*b, stated);
+    case.problem.known_bending.is_none() && case.bendings(fit).iter().any(is_other) || !unusual(case, fit).is_empty()
+}
+
+/// Effects of one parameter that a fit adds at an unusual size: effect and size over the usual one.
+pub fn unusual(case: &Case, fit: &Fit) -> Vec<(usize, f64)> {
+    let size = |(effect, p, value): (usize, &Free, f64)| (effect, (value - p.neutral).abs() / p.scale());
+    added_values(case, fit).into_iter().map(size).filter(|(_, size)| policy::is_unusual_size(*size)).collect()
+}
+
+/// Effect, first parameter and its value, of every effect that a fit adds and that has one parameter. Where a threshold or a time shapes
+/// the law too, the first parameter alone is no measure of its size.
+fn added_values<'c>(case: &'c Case, fit: &Fit) -> Vec<(usize, &'c Free, f64)> {
+    let mut from = case.problem.bendings;
+    let mut all = Vec::new();
+    for (i, effect) in fit.effects.iter().enumerate() {
+        let candidate = case.candidate(*effect);
+        let k = candidate.lead();
+        if i >= case.always.len() && candidate.sizes() == 1 {
+            all.push((*effect, &candidate.parameters[k], fit.theta()[from + k]));
+        }
+        from += candidate.parameters.len();
+    }
+    all
+}
+
 /// The same of a sum of squares and a number of parameters added.
 pub fn criterion_of(case: &Case, cost: f64, added: usize, allowance: f64) -> f64 {
     let values = case.noises.iter().map(|noise| noise.all_seen()).sum::<usize>();
@@ -77,23 +119,11 @@ pub fn sort(case: &Case, fits: &mut [Fit], over: &Fit) -> f64 {
     allowance
 }
 
-/// Σ (ln u / ln 3)² over the effects that were added. Where a threshold or a time shapes the law too, the first parameter
-/// alone is no measure of its size.
+/// Σ [(ln u / ln 3)² + 2 ln w] over the effects that were added.
 fn oddness(case: &Case, fit: &Fit) -> f64 {
-    let mut from = case.problem.bendings;
-    let mut sum = 0.0;
-    for (i, effect) in fit.effects.iter().enumerate() {
-        let candidate = case.candidate(*effect);
-        let k = candidate.lead();
-        let p = &candidate.parameters[k];
-        let size = (fit.theta()[from + k] - p.neutral).abs() / p.scale();
-        if i >= case.always.len() && candidate.sizes() == 1 {
-            sum += odd_size(size);
-            sum += wrong_sign(p, fit.theta()[from + k]);
-        }
-        from += candidate.parameters.len();
-    }
-    sum
+    let odd =
+        |(_, p, value): &(usize, &Free, f64)| odd_size((value - p.neutral).abs() / p.scale()) + wrong_sign(p, *value);
+    added_values(case, fit).iter().map(odd).sum()
 }
 
 /// Squared deviations of the laws from their usual forms, as far as S/A does not count them: no misfit of a form excuses another.

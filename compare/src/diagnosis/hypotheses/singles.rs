@@ -4,7 +4,7 @@ use crate::diagnosis::candidates::{Candidate, Free};
 use crate::diagnosis::case::Case;
 use crate::diagnosis::heldout::HeldOut;
 use crate::diagnosis::interval::intervals;
-use crate::diagnosis::order::{Ordered, criterion, sort};
+use crate::diagnosis::order::{Ordered, criterion, sort, unusual};
 use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::{ParameterValue, Ranked};
 use crate::diagnosis::screen::starts;
@@ -166,6 +166,10 @@ fn notes(case: &Case, fit: &Fit, own: &[ParameterValue]) -> Vec<String> {
             };
             notes.push(format!("with it, B moves from {without:.2} to {with:.2} N·m²{body}: the two compensate"));
         }
+    }
+    for (_, size) in unusual(case, fit).iter().filter(|_| policy::helps(case.gain(fit))) {
+        let name = &effect.name;
+        notes.push(format!("{name} at {size:.1} times its usual size: measure it before you believe it"));
     }
     if case.gain(fit) < 1e-6 {
         notes.push("leaves no trace in these data at any value that helps".into());

@@ -4,6 +4,7 @@ use crate::diagnosis::candidates::{Candidate, candidate, hold_shapes};
 use crate::diagnosis::case::Case;
 use crate::diagnosis::decide::Decision;
 use crate::diagnosis::heldout::HeldOut;
+use crate::diagnosis::interval::intervals;
 use crate::diagnosis::missing::{Seen, curves_of, missing_moment, seen};
 use crate::diagnosis::options::Options;
 use crate::diagnosis::problem::{Block, Fit};
@@ -68,7 +69,8 @@ fn learn(
     let mut kept = Vec::new();
     for law in ranked.iter().filter(|t| t.form.is_some()).take(SHORT_LIST) {
         let Some((form, heldout_mm, numbers)) = ground.with(law, &mut |case, fit, form| {
-            Ok(HeldOut::new(case)?.pressure_mm(fit).map(|mm| (form, mm, case.problem.bendings + form.numbers.len())))
+            let heldout_mm = HeldOut::new(case)?.pressure_mm(fit).filter(|_| is_held_by_data(case, fit));
+            Ok(heldout_mm.map(|mm| (form, mm, case.problem.bendings + form.numbers.len())))
         })?
         else {
             continue;
@@ -83,6 +85,13 @@ fn learn(
         let law = LearnedLaw { tried: tried.clone(), ..told(case, fit, form, &name, found)? };
         Ok(Some((law, curves_of(case, fit, (CURVE, true), points)?)))
     })
+}
+
+/// Whether the data hold every number of a law: an interval that reaches both ends of its range says nothing.
+fn is_held_by_data(case: &Case, fit: &Fit) -> bool {
+    let free = fit.effects.iter().flat_map(|e| &case.candidate(*e).parameters);
+    let found = intervals(case, fit, false).into_iter().skip(case.problem.bendings);
+    free.zip(found).all(|(p, interval)| interval.is_none_or(|[lo, hi]| lo > p.lower || hi < p.upper))
 }
 
 /// What all laws are fitted on.

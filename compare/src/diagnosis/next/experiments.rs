@@ -37,16 +37,7 @@ pub struct Instruments {
 
 /// The bending stiffness measured by itself.
 pub fn bending_test() -> Plan {
-    Plan {
-        name: BENDING_TEST_NAME.into(),
-        sentence: format!(
-            "measure the bending stiffness by itself, to {:.0} %: hang a known force on the tip of the inflated body, actuator \
-             vented, and write B into [bending] of about.toml",
-            100.0 * BENDING_TEST
-        ),
-        parts: Vec::new(),
-        tests: Vec::new(),
-    }
+    Plan { name: BENDING_TEST_NAME.into(), sentence: data::BENDING_TEST.into(), parts: Vec::new(), tests: Vec::new() }
 }
 
 /// All experiments for the robot and the protocol of the data at hand; then the same with what `instruments` measure directly,

@@ -9,6 +9,7 @@ use crate::diagnosis::detect::undetectable;
 use crate::diagnosis::heldout::HeldOut;
 use crate::diagnosis::interval::intervals;
 use crate::diagnosis::limits::{limits, not_in_space};
+use crate::diagnosis::order;
 use crate::diagnosis::pairs::describe;
 use crate::diagnosis::problem::{Block, Fit};
 use crate::diagnosis::result::*;
@@ -184,7 +185,8 @@ fn base(case: &Case, last: &Fit, held_out: &HeldOut, noise: &NoiseSummary) -> Re
 fn confidence(case: &Case, decision: &Decision) -> Option<Confidence> {
     let last = decision.last.as_ref().filter(|_| decision.verdict == Some(Verdict::Effect))?;
     let stated = if decision.pairs.fits.is_empty() { &decision.singles } else { &decision.pairs };
-    Some(confidence_of(case.gain(last), stated.set.len()))
+    let sure = confidence_of(case.gain(last), stated.set.len());
+    Some(if order::is_unusual(case, last) { sure.min(Confidence::LikelyOneOf) } else { sure })
 }
 
 /// By the gain of an answer and the number of answers that fit as well, itself included.

@@ -1,7 +1,7 @@
 //! A slip of a pressure column, asked of the robot's own model before any verdict.
 //!
 //! ```text
-//! C = S + q ln n + Σ [(ln u / ln 3)²] + Σ [(ln B/B₀)² / s²]
+//! C = S + q ln n + Σ [(ln u / ln 3)²] + Σ [(ln(B/B₀) / ln 2)²]
 //! ```
 //!
 //! | symbol | meaning |
@@ -81,6 +81,13 @@ impl Pressures<'_> {
         let nearest = rivals.iter().min_by(|a, b| a.0.left_mm.total_cmp(&b.0.left_mm));
         let best_effect = nearest.map(|(rival, fit)| BestEffect { effects: case.names(fit), left_mm: rival.left_mm });
         Ok(Some(self.told(&all, Some(own.left_mm), best_effect)))
+    }
+
+    /// Whether numbers alone look like a slip.
+    pub fn look_like_one(&self) -> bool {
+        self.sources.iter().any(|Source { scenario, dataset, .. }| {
+            PressureSlip::all(dataset, scenario.p_body_pa).iter().any(|slip| slip.is_in_numbers(dataset, scenario))
+        })
     }
 
     /// A slip that the numbers alone prove, whatever a model leaves.
@@ -251,20 +258,10 @@ fn weighed(case: &Case, fit: &Fit) -> Weighed {
     let bendings = case.bendings(fit);
     let told = case.first().scenario.bending_stiffness;
     Weighed {
-        criterion: order::criterion(case, fit, 1.0) + bendings.iter().map(|b| oddness(case, *b)).sum::<f64>(),
+        criterion: order::criterion(case, fit, 1.0) + order::odd_bending(case, fit),
         left_mm: case.error_in_all_mm(fit),
         has_its_stiffness: bendings.iter().all(|b| policy::is_same_stiffness(*b, told)),
     }
-}
-
-/// How odd a stiffness is before any data; a bending test is among the squares already.
-fn oddness(case: &Case, bending: f64) -> f64 {
-    let told = case.first().scenario.bending_stiffness;
-    if told == 0.0 || case.problem.known_bending.is_some() {
-        return 0.0;
-    }
-    let size = (bending / told).clamp(1.0 / policy::ODDEST, policy::ODDEST);
-    (size.ln() / policy::SAME_STIFFNESS.ln()).powi(2)
 }
 
 /// Root mean square of how far the markers moved \[m\].
