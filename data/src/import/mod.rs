@@ -8,6 +8,7 @@
 //! ([`ImportOptions`]); assumptions are listed ([`Imported::told`]); files that can be read in two ways are refused.
 
 mod board;
+mod clock;
 mod columns;
 mod cut;
 mod deeplabcut;
