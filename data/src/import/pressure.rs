@@ -1,10 +1,11 @@
 //! Pressure logs: read, and joined to frames by time (as-of: the last reading counts until the next).
 
-use super::clock::{Clock, Readings, agree};
+use super::clock::{Agreed, Clock, Readings, agree};
 use super::columns::Roles;
 use super::options::ImportOptions;
 use super::recording::{FrameClock, Recording, counted};
 use super::sheet::CellText;
+use crate::agreement::LogSeen;
 use crate::error::{DataError, Result};
 use crate::policy::{HIGHEST_GAUGE_PA, ROOM_PA};
 use spelling::units::Range;
@@ -67,6 +68,12 @@ impl Log {
         Ok(log)
     }
 
+    /// Its readings of the actuator.
+    pub(super) fn seen(self) -> LogSeen {
+        let [_, act] = self.values_pa;
+        LogSeen { file: self.file, act_pa: act.unwrap_or_else(|| vec![0.0; self.times_s.len()]), times_s: self.times_s }
+    }
+
     fn longest_gap_s(&self) -> f64 {
         self.times_s.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
     }
@@ -75,8 +82,9 @@ impl Log {
     ///
     /// # Errors
     /// The clocks disagree; hardly any frame is within the log.
-    pub(super) fn join(&self, recording: &mut Recording, options: &ImportOptions) -> Result<Vec<String>> {
-        let (clock, words) = self.clock(recording, options)?;
+    pub(super) fn join(&self, video: &str, recording: &mut Recording, options: &ImportOptions) -> Result<Vec<String>> {
+        let (clock, words) =
+            self.clock(recording, options).map_err(|[message, help]| DataError::runs(video, message, help))?;
         let mut told = vec![words];
         let places = self.readings_at(&recording.times, clock);
         let outside = places.iter().filter(|place| place.is_none()).count();
@@ -112,11 +120,11 @@ impl Log {
     ///
     /// # Errors
     /// As [`agree`].
-    fn clock(&self, recording: &Recording, options: &ImportOptions) -> Result<(Clock, String)> {
+    fn clock(&self, recording: &Recording, options: &ImportOptions) -> Agreed {
         let none = vec![0.0; self.times_s.len()];
         let [body, act] = [0, 1].map(|which| self.values_pa[which].as_deref().unwrap_or(&none));
         let readings = Readings { times_s: &self.times_s, values_pa: [body, act] };
-        agree(&readings, recording, options).map_err(|[message, help]| self.fault(message, &help))
+        agree(&readings, recording, options)
     }
 
     /// Column of the time and its seconds.
