@@ -24,6 +24,7 @@ mod layout;
 mod motive;
 mod options;
 mod pressure;
+mod qualisys;
 mod recording;
 pub(crate) mod sheet;
 mod sleap;
@@ -31,6 +32,7 @@ mod table;
 mod tables;
 mod tracker;
 mod trackmate;
+mod triples;
 pub mod typed;
 
 use std::path::{Path, PathBuf};
