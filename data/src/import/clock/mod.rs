@@ -13,7 +13,7 @@ mod track;
 
 use super::options::{ImportOptions, Offset};
 use super::recording::{FrameClock, Recording};
-use crate::policy::SAME_ACTUATOR_PA;
+use crate::policy::{SAME_ACTUATOR_PA, tolerance_act_pa};
 use edges::Edge;
 use follows::{Frame, follows};
 pub(crate) use pairs::Clock;
@@ -56,9 +56,13 @@ pub(crate) fn agree(readings: &Readings, recording: &Recording, options: &Import
         Offset::Same => Some(Clock { offset_s: 0.0, rate: 1.0 }),
         Offset::Find => None,
     };
-    let Some(track) = Track::of(recording) else {
-        return given.map(|clock| (clock, kept(options.offset))).ok_or_else(|| nothing(recording, "no marker moves"));
-    };
+    let act = || readings.values_pa[1].iter().copied().filter(|p| p.is_finite());
+    let (low, high) = (act().fold(f64::INFINITY, f64::min), act().fold(f64::NEG_INFINITY, f64::max));
+    let unseen = |why: &str| given.map(|clock| (clock, kept(options.offset))).ok_or_else(|| nothing(recording, why));
+    if high - low <= 2.0 * tolerance_act_pa(low) {
+        return unseen("the actuator's pressure does not change");
+    }
+    let Some(track) = Track::of(recording) else { return unseen("no marker moves") };
     let ends = |times: &[f64]| [times[0], times[times.len() - 1]];
     let log = edges::of_log(readings.times_s, readings.values_pa, options);
     let gap_s = edges::usual_gap_s(&log, ends(readings.times_s));
@@ -66,7 +70,7 @@ pub(crate) fn agree(readings: &Readings, recording: &Recording, options: &Import
     let [log, camera] = [log, camera].map(|found| if edges::too_many(&found) { Vec::new() } else { found });
     let sides =
         Sides { camera: &camera, log: &log, camera_s: ends(&track.times), log_s: ends(readings.times_s), gap_s };
-    let judge = Judge::of(&sides, &track, readings, options);
+    let judge = Judge::of(&sides, &track, readings, options, (TURN * (high - low)).max(SAME_ACTUATOR_PA));
     match given {
         Some(clock) => judge.check(clock, recording, options.offset),
         None => judge.find(recording),
@@ -100,11 +104,15 @@ struct Judge<'a> {
 }
 
 impl<'a> Judge<'a> {
-    fn of(sides: &'a Sides<'a>, track: &'a Track, readings: &'a Readings<'a>, options: &ImportOptions) -> Judge<'a> {
-        let act = readings.values_pa[1];
-        let known = || act.iter().copied().filter(|p| p.is_finite());
-        let range = known().fold(f64::NEG_INFINITY, f64::max) - known().fold(f64::INFINITY, f64::min);
-        let branches = super::holds::branches(act, (TURN * range).max(SAME_ACTUATOR_PA));
+    /// The pressure turns where it comes back by `turn_pa`.
+    fn of(
+        sides: &'a Sides<'a>,
+        track: &'a Track,
+        readings: &'a Readings<'a>,
+        options: &ImportOptions,
+        turn_pa: f64,
+    ) -> Judge<'a> {
+        let branches = super::holds::branches(readings.values_pa[1], turn_pa);
         let rising = branches.into_iter().flat_map(|(range, rising)| range.map(move |_| rising)).collect();
         Judge { sides, track, along: track.along(), readings, rising, frames_per_s: options.frames_per_s }
     }
