@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::about::{About, BENDING_TEST};
+use crate::agreement::{Doubt, Seen, doubts};
 use crate::dataset::{Dataset, Hold, Phase};
 use crate::lost::losses;
 use crate::policy::{self, tolerance_act_pa, tolerance_body_pa};
@@ -129,6 +130,8 @@ pub fn check(dataset: &Dataset, about: Option<&About>) -> CheckReport {
     report.warnings = warnings(&report, about);
     report.warnings.extend(contradictions(dataset));
     report.warnings.extend(losses(dataset));
+    let doubts = doubts(&Seen::of_dataset(dataset)).into_iter();
+    report.warnings.extend(doubts.map(|Doubt { message, help }| format!("{message}; {help}")));
     report
 }
 
@@ -320,9 +323,6 @@ fn warnings(report: &CheckReport, about: Option<&About>) -> Vec<String> {
         runs == 2,
         "two runs: the noise floor rests on one difference; at least 3 runs are needed for p-values".to_string(),
     );
-    for [a, b] in &report.identical_runs {
-        warn(true, format!("runs {a} and {b} are identical to the last digit: one is a copy and not a repetition"));
-    }
     let outliers = report.outliers.len();
     warn(
         outliers > 0,

@@ -6,6 +6,7 @@
 #![warn(unreachable_pub)]
 
 pub mod about;
+mod agreement;
 mod align;
 mod atomic;
 pub mod bench;

@@ -86,6 +86,9 @@ pub const READERS: &[Reader] = &[
     of("mesh-stl", &["fem/tests/meshes/cubes.stl", "fem/tests/meshes/cushion.stl"], mesh),
     of("deeplabcut", &["data/tests/cases/c01-deeplabcut/run1.csv", "data/tests/made/deeplabcut_multi.csv"], pixels),
     of("sleap", &["data/tests/made/sleap.csv"], pixels),
+    of("vicon", &["data/tests/cases/c21-vicon-nexus/trial1.csv"], lengths),
+    of("trc", &["data/tests/cases/c22-trc/run1.trc"], lengths),
+    of("qualisys", &["data/tests/cases/c23-qualisys-tsv/m1.tsv"], lengths),
     of("motive", &["data/tests/cases/c02-motive/vine_1.csv", "data/tests/made/motive_mm.csv"], lengths),
     of("tracker", &["data/tests/made/tracker_one.txt", "data/tests/made/tracker_multi.txt"], metres),
     of(

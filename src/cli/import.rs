@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct Import {
-    /// Files of a tracking program, one per run: DeepLabCut, SLEAP, Motive, Tracker, Kinovea, TrackMate, wide or long tables
+    /// Files of a tracking program, one per run: DeepLabCut, SLEAP, Motive, Vicon Nexus, TRC, Qualisys, Tracker, Kinovea, TrackMate, wide or long tables
     #[arg(required_unless_present = "example")]
     pub files: Vec<PathBuf>,
     /// Folder for markers.csv, about.toml and a picture of the tracks; left out: only say what was understood

@@ -33,11 +33,7 @@ pub(super) fn new(kind: &str) -> Result<Outcome> {
         let help = spelling::known(kind, &names.collect::<Vec<_>>());
         return Err(Failure::usage(format!("no shipped scenario `{kind}`"), help));
     };
-    let mut outcome = Outcome::answer(text.to_string(), "ibr.new", &NewAnswer { case_toml, scenario_toml });
-    if models::shipped(kind).is_some() {
-        outcome.notes.push(format!("first {}", data::BENDING_TEST));
-    }
-    Ok(outcome)
+    Ok(Outcome::answer(text.to_string(), "ibr.new", &NewAnswer { case_toml, scenario_toml }))
 }
 
 /// `ibr.list`: `ibr list`, `ibr data list`

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Answers of commands that take long, and records that only come with data of a kind that these commands have not: two effects at
 /// once, a fault, a slip, a law that the catalogue lacks, a robot's run, lost nodes.
 const RARE: &str = "ibr.demo ibr.simulations ibr.uncertain AsClose BendingAlarm BestEffect Beyond Diagnosis FirstThrough GaugeFit Heights \
-    Held InflatedPouch Intervals KeptBending LearnedLaw LearnedLine LearnedTried LeftPattern MarkerModel MarkerSet Outlier OutlyingRun \
+    Held InflatedPouch Intervals KeptBending LearnedLaw LearnedLine LearnedTried LeftPattern MarkerModel MarkerSet OtherDesign Outlier OutlyingRun \
     PressureSlipFound PublishedRungs Reading RobotSummary Rung RunRecord SeedGroup SmallRun Snap Through Varied Weight";
 
 /// What runs, in this order in one folder, and the schema of its answer.

@@ -10,24 +10,22 @@ use crate::units::kpa;
 /// A run and the frames of its holds.
 pub(crate) type Cut = Vec<(PressedRun, Vec<Kept>)>;
 
-/// Cuts runs, whose places in the robot's frame are `xy_m`.
-///
-/// # Errors
-/// Fewer than two holds; bins that cannot be separated.
-pub(crate) fn cut(
-    file: &str,
-    recordings: Vec<Recording>,
-    xy_m: Vec<Vec<Vec<[f64; 2]>>>,
-    options: &ImportOptions,
-    told: &mut Vec<String>,
-) -> Result<Cut> {
+/// Recordings, whose places in the robot's frame are `xy_m`, with their pressures.
+pub(crate) fn pressed(recordings: Vec<Recording>, xy_m: Vec<Vec<Vec<[f64; 2]>>>) -> Vec<PressedRun> {
     let run = |(recording, xy_m): (Recording, _)| PressedRun {
         label: recording.run.unwrap_or_default(),
         times_s: recording.times,
         pressures_pa: recording.pressures.map(Option::unwrap_or_default),
         xy_m,
     };
-    let runs: Vec<PressedRun> = recordings.into_iter().zip(xy_m).map(run).collect();
+    recordings.into_iter().zip(xy_m).map(run).collect()
+}
+
+/// Cuts runs.
+///
+/// # Errors
+/// Fewer than two holds; bins that cannot be separated.
+pub(crate) fn cut(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut Vec<String>) -> Result<Cut> {
     match options.bin_pa {
         Some(bin_pa) => binned(file, runs, bin_pa, told),
         None => held(file, runs, options, told),

@@ -3,14 +3,17 @@
 use super::format::Format;
 use super::options::ImportOptions;
 use super::sheet::CellText;
-use super::{deeplabcut, kinovea, motive, sleap, tables, tracker, trackmate};
+use super::{deeplabcut, kinovea, motive, qualisys, sleap, tables, tracker, trackmate, triples};
 use crate::error::Result;
 
 /// All kinds.
-pub const FORMATS: [&Format; 10] = [
+pub const FORMATS: [&Format; 13] = [
     &deeplabcut::FORMAT,
     &sleap::FORMAT,
     &motive::FORMAT,
+    &triples::VICON,
+    &triples::TRC,
+    &qualisys::FORMAT,
     &tracker::FORMAT,
     &kinovea::TRAJECTORIES,
     &tables::KINEMATICS,

@@ -31,7 +31,7 @@ const NOISE: f64 = 4.0;
 /// Readings nearer than this to a plateau are on it, whatever the noise \[Pa\].
 const SURELY_ON_PA: f64 = 50.0;
 /// Standard deviations per median absolute difference of neighbours, of a normal variable.
-const SD_PER_STEP: f64 = 1.482_602_218_505_602 / std::f64::consts::SQRT_2;
+pub(crate) const SD_PER_STEP: f64 = 1.482_602_218_505_602 / std::f64::consts::SQRT_2;
 
 /// The plateaus of a run: both pressures within the tolerance of a hold, no drift beyond it, long enough, enough frames.
 pub(crate) fn plateaus(run: &PressedRun, options: &ImportOptions) -> Vec<Kept> {
@@ -132,7 +132,7 @@ pub(crate) fn bins(run: &PressedRun, bin_pa: f64) -> Vec<(usize, i64, Kept)> {
 }
 
 /// Parts of a run in which the pressure rises (true) or falls: it turns where it comes back by more than `back_pa`.
-fn branches(act: &[f64], back_pa: f64) -> Vec<(Range<usize>, bool)> {
+pub(crate) fn branches(act: &[f64], back_pa: f64) -> Vec<(Range<usize>, bool)> {
     let (mut found, mut first) = (Vec::new(), 0);
     let (mut extreme, mut rising) = (0, None);
     for frame in 0..act.len() {

@@ -7,6 +7,7 @@ use super::options::ImportOptions;
 use super::pressure::Log;
 use super::recording::{FrameClock, Recording, counted};
 use super::sheet::CellText;
+use crate::agreement::{Doubt, LogSeen, stands_still};
 use crate::error::{DataError, Fault, Result};
 use crate::lines::Progress;
 use crate::policy::is_a_room;
@@ -39,6 +40,8 @@ pub(crate) struct Joined {
     /// Every run with its file, times in seconds and pressures in place.
     pub runs: Vec<(String, Recording)>,
     pub told: Vec<String>,
+    /// Readings of the pressure logs.
+    pub logs: Vec<LogSeen>,
 }
 
 /// Reads all files.
@@ -55,7 +58,7 @@ pub(crate) fn recordings(files: &[PathBuf], options: &ImportOptions, progress: P
         }
     }
     let mut absent: Vec<&(String, String)> = options.columns.iter().collect();
-    let mut joined = Joined { program: "", runs: Vec::new(), told: Vec::new() };
+    let mut joined = Joined { program: "", runs: Vec::new(), told: Vec::new(), logs: Vec::new() };
     let logs = logs(files.len(), options, &mut joined.told, &mut absent)?;
     for (k, path) in files.iter().enumerate() {
         if files[..k].contains(path) {
@@ -77,6 +80,7 @@ pub(crate) fn recordings(files: &[PathBuf], options: &ImportOptions, progress: P
     }
     let frames: usize = joined.runs.iter().map(|(_, run)| run.times.len()).sum();
     let counts = [counted(joined.runs.len() as u64, "run"), counted(frames as u64, "frame")];
+    joined.logs = logs.into_iter().map(Log::seen).collect();
     joined.told.insert(0, format!("read as {}: {}", joined.program, counts.join(", ")));
     Ok(joined)
 }
@@ -97,6 +101,10 @@ impl Joined {
             check_run(sheet, &run)?;
             let mut words = vec![seconds(sheet, &mut run, options)?];
             words.append(&mut run.told);
+            // Before the clocks: a picture that stands still looks like another clock.
+            if let Some(Doubt { message, help }) = stands_still(&run.times, &run.places) {
+                return Err(sheet.fault(0, message, help));
+            }
             if options.likelihood.is_some() && format.likelihood.is_none() {
                 words.push("the files have no likelihood: --likelihood was not used".to_string());
             }
@@ -192,7 +200,7 @@ fn pressures(sheet: &CellText, run: &mut Recording, log: Option<&Log>, options: 
         if run.pressures.iter().any(Option::is_some) {
             told.push("pressures are those of the log, not those of the tracking file".to_string());
         }
-        told.extend(log.join(run, options)?);
+        told.extend(log.join(sheet.file, run, options)?);
     }
     if run.pressures[1].is_none() {
         let help = "add --pressure log.csv, a table of time and pressure: time_s,p_act_kpa,p_body_kpa";

@@ -49,6 +49,14 @@ fn distinct(names: &[String]) -> Vec<String> {
     if cut.iter().any(String::is_empty) { names.to_vec() } else { cut }
 }
 
+/// Names without the subject or asset before a colon, where all have the same one.
+pub(crate) fn without_subject<'n>(names: &[&'n str]) -> Vec<&'n str> {
+    let parts = || names.iter().map(|name| name.split_once(':'));
+    let first = parts().next().flatten().map(|(subject, _)| subject);
+    let one = first.is_some() && parts().all(|part| part.map(|(subject, _)| subject) == first);
+    parts().zip(names).map(|(part, name)| part.filter(|_| one).map_or(*name, |(_, short)| short)).collect()
+}
+
 /// Puts the markers of all runs in the order of the first.
 ///
 /// # Errors

@@ -8,6 +8,7 @@
 //! ([`ImportOptions`]); assumptions are listed ([`Imported::told`]); files that can be read in two ways are refused.
 
 mod board;
+mod clock;
 mod columns;
 mod cut;
 mod deeplabcut;
@@ -23,6 +24,7 @@ mod layout;
 mod motive;
 mod options;
 mod pressure;
+mod qualisys;
 mod recording;
 pub(crate) mod sheet;
 mod sleap;
@@ -30,11 +32,13 @@ mod table;
 mod tables;
 mod tracker;
 mod trackmate;
+mod triples;
 pub mod typed;
 
 use std::path::{Path, PathBuf};
 
 use crate::about::{About, parse_about};
+use crate::agreement::{Doubt, Seen, doubts};
 use crate::dataset::Dataset;
 use crate::error::{DataError, Result};
 use crate::lines::Progress;
@@ -43,10 +47,11 @@ use crate::read::{ReadOptions, parse_markers};
 use crate::units::kpa;
 pub use board::read_board;
 pub use columns::QUANTITIES;
-use cut::{Cut, cut};
+use cut::{Cut, cut, pressed};
 pub use format::Format;
 pub use formats::{FORMATS, LOG_FIXTURE};
 use frame::{PlacedRuns, RestAndTop, Scene};
+pub(crate) use holds::{PressedRun, median, plateaus};
 use join::Joined;
 pub use options::{FileAxis, FilePlace, ImportOptions, Offset, Scale};
 use recording::{Dropped, Recording, counted};
@@ -90,13 +95,13 @@ const MOST_POINTS: usize = 1_500;
 ///
 /// # Errors
 /// A file that is not understood; scale, base, axes, frame rate or pressures that are not known; clocks that disagree; no holds;
-/// runs that do not fit together. Every message names the option to add.
+/// runs that do not fit together; a recording that contradicts itself. Every message names the option to add.
 pub fn import(files: &[PathBuf], options: &ImportOptions, progress: Progress) -> Result<Imported> {
     let shown: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
     let Some(first) = shown.first() else {
         return Err(DataError::file("import", "no file was given", "name the tracking files"));
     };
-    let Joined { program, mut runs, mut told } = join::recordings(files, options, progress)?;
+    let Joined { program, mut runs, mut told, logs } = join::recordings(files, options, progress)?;
     labels::number_runs(&mut runs);
     labels::same_markers(first, &mut runs)?;
     let mut runs: Vec<Recording> = runs.into_iter().map(|(_, run)| run).collect();
@@ -105,7 +110,13 @@ pub fn import(files: &[PathBuf], options: &ImportOptions, progress: Progress) ->
     labels::rename(first, &mut runs, &ends, options, &mut told)?;
     let actuator = actuator(first, &runs, options)?;
     let PlacedRuns { xy_m, markers } = Scene { file: first, runs: &runs, ends: &ends, options }.place(&mut told)?;
-    let cut = cut(first, runs, xy_m, options, &mut told)?;
+    let runs = pressed(runs, xy_m);
+    let measured = |name: &String| options.stations_m.iter().find(|(known, _)| known == name).map(|(_, s)| *s);
+    let stations = markers.iter().map(|name| (name.clone(), measured(name))).collect();
+    if let Some(Doubt { message, help }) = doubts(&Seen::of_import(&runs, stations, options, logs)).into_iter().next() {
+        return Err(DataError::runs(first, message, help));
+    }
+    let cut = cut(first, runs, options, &mut told)?;
     let made = MadeTable { program, files: &shown, cut: &cut, markers: &markers, actuator: &actuator, options };
     made.finish(told)
 }

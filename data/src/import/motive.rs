@@ -2,6 +2,7 @@
 
 use super::columns::lengths;
 use super::format::Format;
+use super::labels::without_subject;
 use super::layout::Layout;
 use super::options::ImportOptions;
 use super::recording::{Lengths, Recording, counted};
@@ -61,12 +62,9 @@ fn read(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
         let count = counted(unnamed as u64, "unlabeled marker");
         layout.told.push(format!("left out: {count}; name them in Motive to have them"));
     }
-    // The asset's name is left out where all markers are of one.
-    let asset = |name: &str| name.split_once(':').map(|(asset, _)| asset.to_string());
-    let named = || found.iter().filter(|(_, name)| is_named(name));
-    let is_one = named().all(|(_, name)| asset(name) == asset(named().next().map_or("", |(_, first)| first)));
-    for (column, name) in named() {
-        let short = name.split_once(':').filter(|_| is_one).map_or(*name, |(_, short)| short);
+    let named: Vec<(usize, &str)> = found.iter().copied().filter(|(_, name)| is_named(name)).collect();
+    let short = without_subject(&named.iter().map(|(_, name)| *name).collect::<Vec<_>>());
+    for ((column, _), short) in named.iter().zip(short) {
         let part = ["X", "Y", "Z"].iter().position(|axis| *axis == axes[*column]);
         part.map_or(Ok(()), |part| layout.add(sheet, number, short, part, *column))?;
     }

@@ -28,12 +28,12 @@ pub enum FilePlace {
 /// How the clocks of pressure log and camera agree.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub enum Offset {
-    /// They are one; refused if movement and pressure say otherwise.
+    /// They are one; refused if movement and pressure change at other times.
     #[default]
     Same,
-    /// The log shows its time this much after the camera's \[s\].
+    /// The log shows its time this much after the camera's \[s\]; refused like [`Offset::Same`].
     Given(f64),
-    /// Found where movement and pressure go together best.
+    /// Shift and rate from the times at which movement and pressure change; refused if several explain them.
     Find,
 }
 

@@ -1,9 +1,11 @@
 //! Pressure logs: read, and joined to frames by time (as-of: the last reading counts until the next).
 
+use super::clock::{Agreed, Clock, Readings, agree};
 use super::columns::Roles;
-use super::options::{ImportOptions, Offset};
-use super::recording::{Recording, counted};
+use super::options::ImportOptions;
+use super::recording::{FrameClock, Recording, counted};
 use super::sheet::CellText;
+use crate::agreement::LogSeen;
 use crate::error::{DataError, Result};
 use crate::policy::{HIGHEST_GAUGE_PA, ROOM_PA};
 use spelling::units::Range;
@@ -19,15 +21,6 @@ pub(crate) struct Log {
 
 /// Two readings of one time are one if nearer than this \[s\].
 const SAME_TIME_S: f64 = 1e-6;
-/// Frames and readings used to find the offset of the clocks.
-const USED: [usize; 2] = [1_500, 20_000];
-const TRIED: usize = 3_000;
-/// Share of the frames that must lie within the log.
-const OVERLAP: f64 = 0.6;
-/// Fewest frames from which clocks that disagree can be found.
-const FEWEST_FRAMES: usize = 100;
-/// Clocks disagree if another offset fits so much better, and is so far away \[s\].
-const DISAGREE: (f64, f64) = (0.05, 0.3);
 
 impl Log {
     /// Reads a log.
@@ -75,6 +68,12 @@ impl Log {
         Ok(log)
     }
 
+    /// Its readings of the actuator.
+    pub(super) fn seen(self) -> LogSeen {
+        let [_, act] = self.values_pa;
+        LogSeen { file: self.file, act_pa: act.unwrap_or_else(|| vec![0.0; self.times_s.len()]), times_s: self.times_s }
+    }
+
     fn longest_gap_s(&self) -> f64 {
         self.times_s.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
     }
@@ -83,15 +82,18 @@ impl Log {
     ///
     /// # Errors
     /// The clocks disagree; hardly any frame is within the log.
-    pub(super) fn join(&self, recording: &mut Recording, options: &ImportOptions) -> Result<Vec<String>> {
-        let (offset_s, mut told) = self.offset(recording, options.offset)?;
-        let places = self.readings_at(&recording.times, offset_s);
+    pub(super) fn join(&self, video: &str, recording: &mut Recording, options: &ImportOptions) -> Result<Vec<String>> {
+        let (clock, words) =
+            self.clock(recording, options).map_err(|[message, help]| DataError::runs(video, message, help))?;
+        let mut told = vec![words];
+        let places = self.readings_at(&recording.times, clock);
         let outside = places.iter().filter(|place| place.is_none()).count();
         if outside == places.len() {
             let range = |times: &[f64]| format!("{:.1} to {:.1} s", times[0], times[times.len() - 1]);
             let message = format!(
-                "no frame lies within the pressure log: frames are at {}, its clock {offset_s} s ahead, and the log is at {}",
+                "no frame lies within the pressure log: frames are at {}, its clock {} s ahead, and the log is at {}",
                 range(&recording.times),
+                clock.offset_s,
                 range(&self.times_s)
             );
             return Err(self.fault(message, "give --clock-offset: the log's time minus the camera's, or find"));
@@ -102,13 +104,27 @@ impl Log {
         for (which, values) in self.values_pa.iter().enumerate() {
             let Some(values) = values else { continue };
             let value = |(place, t): (&Option<usize>, &f64)| match place {
-                Some(k) if options.bin_pa.is_some() => self.between(values, *k, t + offset_s),
+                Some(k) if options.bin_pa.is_some() => self.between(values, *k, clock.at(*t)),
                 Some(k) => values[*k],
                 None => f64::NAN,
             };
             recording.pressures[which] = Some(places.iter().zip(&recording.times).map(value).collect());
         }
+        if recording.clock == FrameClock::Frames {
+            recording.times.iter_mut().for_each(|t| *t *= clock.rate);
+        }
         Ok(told)
+    }
+
+    /// The clock that the caller gives, or that movement and pressure show.
+    ///
+    /// # Errors
+    /// As [`agree`].
+    fn clock(&self, recording: &Recording, options: &ImportOptions) -> Agreed {
+        let none = vec![0.0; self.times_s.len()];
+        let [body, act] = [0, 1].map(|which| self.values_pa[which].as_deref().unwrap_or(&none));
+        let readings = Readings { times_s: &self.times_s, values_pa: [body, act] };
+        agree(&readings, recording, options)
     }
 
     /// Column of the time and its seconds.
@@ -126,11 +142,11 @@ impl Log {
     }
 
     /// The last reading at or before every frame; none before the first, or later after the last than readings are apart.
-    fn readings_at(&self, times: &[f64], offset_s: f64) -> Vec<Option<usize>> {
+    fn readings_at(&self, times: &[f64], clock: Clock) -> Vec<Option<usize>> {
         let end = self.times_s[self.times_s.len() - 1] + self.longest_gap_s().max(SAME_TIME_S);
         let mut next = 0;
         let reading = |t: &f64| {
-            let t_s = t + offset_s;
+            let t_s = clock.at(*t);
             while next < self.times_s.len() && self.times_s[next] <= t_s + SAME_TIME_S {
                 next += 1;
             }
@@ -149,111 +165,4 @@ impl Log {
     fn fault(&self, message: String, help: &str) -> DataError {
         DataError::Runs(Box::new(crate::error::Fault::of_file(&self.file, message, help)))
     }
-
-    /// The log's time minus the camera's.
-    fn offset(&self, recording: &Recording, wanted: Offset) -> Result<(f64, Vec<String>)> {
-        if let Offset::Given(offset_s) = wanted {
-            return Ok((
-                offset_s,
-                vec![format!("the pressure log's clock is {offset_s} s ahead of the camera's, as given")],
-            ));
-        }
-        let found = (recording.times.len() >= FEWEST_FRAMES || wanted == Offset::Find)
-            .then(|| self.search(recording))
-            .flatten();
-        match (wanted, found) {
-            (Offset::Find, None) => Err(self.fault(
-                "movement and pressure do not tell the offset of the clocks".into(),
-                "give --clock-offset 0s or what it is",
-            )),
-            (Offset::Find, Some((best_s, r, _))) => Ok((
-                best_s,
-                vec![format!(
-                    "the pressure log's clock is {best_s:.2} s ahead of the camera's: movement and pressure then correlate by {r:.2}"
-                )],
-            )),
-            (_, Some((best_s, best, now))) if best - now > DISAGREE.0 && best_s.abs() > DISAGREE.1 => {
-                let message = format!(
-                    "movement and pressure correlate by {now:.2} if the clocks are one, and by {best:.2} if the log's is {best_s:.2} s ahead"
-                );
-                Err(self.fault(
-                    message,
-                    "add --clock-offset find to take the second, or --clock-offset 0s to keep the first",
-                ))
-            }
-            _ => Ok((0.0, vec!["the pressure log and the camera were taken to have one clock".to_string()])),
-        }
-    }
-
-    /// The offset at which movement and actuator pressure correlate most, that correlation, and the one without offset.
-    fn search(&self, recording: &Recording) -> Option<(f64, f64, f64)> {
-        let pressures = self.values_pa[1].as_ref()?;
-        let thin = |count: usize, most: usize| count.div_ceil(most).max(1);
-        let movement = movement(recording, thin(recording.times.len(), USED[0]));
-        let step = thin(self.times_s.len(), USED[1]);
-        let log: Vec<[f64; 2]> = self.times_s.iter().zip(pressures).step_by(step).map(|(t, p)| [*t, *p]).collect();
-        let (first, last) = (movement.first()?[0], movement.last()?[0]);
-        let slack = OVERLAP * (last - first).min(log.last()?[0] - log[0][0]);
-        let range = [log[0][0] - last + slack, log.last()?[0] - first - slack];
-        let at = |offset_s: f64| correlation(&movement, &log, offset_s);
-        let mut width = (range[1] - range[0]) / TRIED as f64;
-        if width.is_nan() || width <= 0.0 {
-            return None;
-        }
-        let better = |a: (f64, f64), b: (f64, f64)| if b.1 > a.1 + 1e-9 { b } else { a };
-        let mut best = (0.0, at(0.0).unwrap_or(-1.0));
-        for k in 0..=TRIED {
-            let offset_s = range[0] + k as f64 * width;
-            best = better(best, (offset_s, at(offset_s).unwrap_or(-1.0)));
-        }
-        for _ in 0..3 {
-            let around = best.0;
-            for k in -10..=10 {
-                let offset_s = around + 0.1 * f64::from(k) * width;
-                best = better(best, (offset_s, at(offset_s).unwrap_or(-1.0)));
-            }
-            width *= 0.1;
-        }
-        Some((best.0, best.1, at(0.0).unwrap_or(-1.0)))
-    }
-}
-
-/// Time and mean distance of the markers from where they were first seen.
-fn movement(recording: &Recording, step: usize) -> Vec<[f64; 2]> {
-    let start: Vec<Option<[f64; 3]>> =
-        recording.places.iter().map(|column| column.iter().find(|p| p[0].is_finite()).copied()).collect();
-    let of_frame = |frame: usize| {
-        let moved = recording.places.iter().zip(&start).filter_map(|(column, start)| {
-            let (place, start) = (column[frame], (*start)?);
-            place[0].is_finite().then(|| (0..3).map(|axis| (place[axis] - start[axis]).powi(2)).sum::<f64>().sqrt())
-        });
-        let (sum, count) = moved.fold((0.0, 0.0), |(sum, count), d| (sum + d, count + 1.0));
-        (count > 0.0).then(|| [recording.times[frame], sum / count])
-    };
-    (0..recording.times.len()).step_by(step).filter_map(of_frame).collect()
-}
-
-/// Pearson's correlation of movement and the reading that holds then; `None` with too few pairs.
-fn correlation(movement: &[[f64; 2]], log: &[[f64; 2]], offset_s: f64) -> Option<f64> {
-    let (mut n, mut sums) = (0.0, [0.0; 5]);
-    let (first, last) = (log[0][0], log[log.len() - 1][0]);
-    for [t, moved] in movement {
-        let t_s = t + offset_s;
-        if t_s < first - SAME_TIME_S || t_s > last + SAME_TIME_S {
-            continue;
-        }
-        let pressure = log[log.partition_point(|row| row[0] <= t_s + SAME_TIME_S).saturating_sub(1)][1];
-        n += 1.0;
-        for (sum, value) in
-            sums.iter_mut().zip([*moved, pressure, moved * moved, pressure * pressure, moved * pressure])
-        {
-            *sum += value;
-        }
-    }
-    if n < OVERLAP * movement.len() as f64 {
-        return None;
-    }
-    let [m, p, mm, pp, mp] = sums.map(|sum| sum / n);
-    let spread = ((mm - m * m) * (pp - p * p)).sqrt();
-    (spread > 0.0).then(|| (mp - m * p) / spread)
 }

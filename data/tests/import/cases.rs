@@ -50,6 +50,23 @@ fn motive_gives_its_unit_and_its_plane_is_found() {
 }
 
 #[test]
+fn motion_capture_of_vicon_trc_and_qualisys_equals_the_reference() {
+    let [vicon, qualisys] = [("c21-vicon-nexus/trial", "csv"), ("c23-qualisys-tsv/m", "tsv")]
+        .map(|(stem, end)| [1, 2, 3].map(|run| format!("cases/{stem}{run}.{end}")));
+    let log = known("cases/c01-deeplabcut/pressure.csv");
+    let made = read(&vicon.each_ref().map(String::as_str), &log);
+    assert_eq!(equals_reference(&made, 3, 0.0).len(), 2, "{:?}", made.told);
+    told(&made, &["read as Vicon Nexus", "lengths are in mm", "towards the actuator its z", "2 positions blank"]);
+    let made = read(&["cases/c22-trc/run1.trc"], &log);
+    assert!(equals_reference(&made, 1, 0.0).is_empty());
+    told(&made, &["read as TRC (OpenSim)", "lengths are in mm"]);
+    let made = read(&qualisys.each_ref().map(String::as_str), &log);
+    let lost = equals_reference(&made, 3, 6e-4);
+    assert!(!lost.is_empty(), "{:?}", made.told);
+    told(&made, &["read as Qualisys (TSV)", "written as 0, 0"]);
+}
+
+#[test]
 fn both_kinds_of_kinovea_are_read() {
     let table = read(&["cases/c04-kinovea/run1_kinematics.csv"], &known("cases/c01-deeplabcut/pressure.csv"));
     assert!(equals_reference(&table, 1, 6e-3).is_empty());

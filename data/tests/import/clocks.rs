@@ -57,13 +57,37 @@ fn a_log_of_another_clock_is_noticed_and_its_offset_found_or_given() {
     let folder = tempfile::tempdir().unwrap();
     let [tracks, log] = files(&folder, AHEAD_S, 0.0);
     let files = [tracks];
-    refused_paths(&files, &options(&log), &["correlate by", "3.4", "--clock-offset find", "--clock-offset 0s"]);
+    refused_paths(&files, &options(&log), &["0 of 4 changes of pressure", "is 3.40 s ahead", "--clock-offset find"]);
     let found = import(&files, &ImportOptions { offset: Offset::Find, ..options(&log) }, &mut |_, _| ()).unwrap();
     is_right(&found);
-    told(&found, &["ahead of the camera's: movement and pressure then correlate"]);
+    told(&found, &["is 3.40 s ahead of the camera's (4 of 4 changes); r = 1.00"]);
     let given =
         import(&files, &ImportOptions { offset: Offset::Given(AHEAD_S), ..options(&log) }, &mut |_, _| ()).unwrap();
     is_right(&given);
+    let late = ImportOptions { offset: Offset::Given(AHEAD_S + 1.0), ..options(&log) };
+    refused_paths(&files, &late, &["4.4 s ahead, as given", "change up to 1.0 s apart", "is 3.40 s ahead"]);
+}
+
+/// 19 holds of 20 s; one phone films 30 frames per second, the other 27.75 in the mean.
+#[test]
+fn a_frame_rate_that_is_not_that_of_the_video_is_refused_and_found() {
+    let log = "cases/c39-frame-rate/pressure.csv";
+    for (video, given, right) in [("30.csv", 30.0, 30.0), ("30.csv", 25.0, 30.0), ("vfr.csv", 30.0, 27.75)] {
+        let video = format!("cases/c39-frame-rate/{video}");
+        let options = ImportOptions { frames_per_s: Some(given), ..super::pixels(log) };
+        let find = ImportOptions { offset: Offset::Find, ..options.clone() };
+        let made = super::read(&[&video], &find);
+        assert_eq!(made.dataset.holds.len(), 19, "{:?}", made.told);
+        let [_, y] = made.dataset.xy(0, 3, 2, 2);
+        assert!((y - 0.1229).abs() < 1e-3, "{y}");
+        if given == right {
+            super::read(&[&video], &options);
+        } else {
+            told(&made, &["frames per second"]);
+            super::refused(&[&video], &options, &["frames per second", "--clock-offset find"]);
+            super::read(&[&video], &ImportOptions { frames_per_s: Some(right), ..options });
+        }
+    }
 }
 
 #[test]

@@ -1,17 +1,18 @@
 //! Every kind of file has a fixture that is read as what it is, a row of the zoo, a reader of the fuzzer and a line of the guide.
 
 use super::{case, known, pixels};
-use data::import::{FORMATS, ImportOptions, LOG_FIXTURE, Scale, import};
+use data::import::{FORMATS, FilePlace, ImportOptions, LOG_FIXTURE, Scale, import};
 use std::path::Path;
 
 /// What each fixture may need.
-fn options() -> [ImportOptions; 4] {
+fn options() -> [ImportOptions; 5] {
     let map =
         "run=Trial,marker=Point,t=Elapsed (ms),x=PosX (cm),y=PosY (cm),p_act=Sensor A (mbar),p_body=Sensor B (mbar)";
     let columns = map.split(',').map(|text| data::import::typed::column(text).unwrap()).collect();
     [
         known(LOG_FIXTURE),
         pixels(LOG_FIXTURE),
+        ImportOptions { base: Some(FilePlace::At(vec![50_000.0, 400_000.0])), ..known(LOG_FIXTURE) },
         ImportOptions { scale: Scale::Unit(1.0), ..known(LOG_FIXTURE) },
         ImportOptions { columns, actuator: Some("epam".into()), ..ImportOptions::default() },
     ]

@@ -66,23 +66,45 @@ pub struct Slack {
     pub from: usize,
 }
 
-/// Toe of a curve within `up_to`: a soft start after which the curve is straight (toe compensation of ASTM D882, annex A1).
+/// Toe of a curve: a soft start after which the curve is straight over `up_to` (toe compensation of ASTM D882, annex A1).
 ///
 /// None unless the first slope is below three quarters of the steepest by more than the rows' noise, and the steep part takes a
-/// third of the range at least: a curve that goes on to stiffen is a fabric's crimp and stays.
+/// third of `up_to` at least: a curve that goes on to stiffen is a fabric's crimp and stays. A toe longer than that has to be free of
+/// force but for a twentieth of what the straight part gains over `up_to`.
+///
+/// ```
+/// use models::fabrics::specimen::slack;
+/// let rows: Vec<[f64; 2]> = (0..80).map(|k| 1e-3 * f64::from(k)).map(|x| [x, 300e6 * (x - 0.02).max(0.0)]).collect();
+/// assert!((slack(&rows, 0.01).unwrap().at - 0.02).abs() < 1e-9);
+/// ```
 pub fn slack(rows: &[[f64; 2]], up_to: f64) -> Option<Slack> {
+    const FREE: f64 = 0.05;
+    let count = |end: f64| rows.partition_point(|row| row[0] <= end);
+    let within = count(up_to);
+    let short = toe(&rows[..within], (within / 6).max(3), within.div_ceil(3));
+    let begins = onset(rows)?;
+    let taut = count(begins + up_to).saturating_sub(count(begins));
+    let long = || {
+        let found = toe(&rows[..count(begins + up_to)], (taut / 6).max(3), taut.div_ceil(3))?;
+        let gained = rows[found.from][1] * up_to / (rows[found.from][0] - found.at);
+        (at(rows, found.at) <= FREE * gained).then_some(found)
+    };
+    short.or_else(long)
+}
+
+/// Toe of all these rows, by slopes over `width` rows; the steep part has at least so many rows.
+fn toe(rows: &[[f64; 2]], width: usize, least: usize) -> Option<Slack> {
     const SOFT: f64 = 0.75;
     const STEEP: f64 = 0.9;
-    let within = rows.partition_point(|row| row[0] <= up_to);
-    let width = (within / 6).max(3);
+    let within = rows.len();
     if within < 2 * width {
         return None;
     }
-    let slopes: Vec<f64> = rows[..within].windows(width).filter_map(slope).collect();
+    let slopes: Vec<f64> = rows.windows(width).filter_map(slope).collect();
     let steepest = slopes.iter().copied().fold(0.0, f64::max);
     let from = slopes.iter().position(|s| *s >= STEEP * steepest)?;
-    let soft = slopes[0] < SOFT * steepest && steepest - slopes[0] > 5.7 * slope_error(&rows[..within], width);
-    if !(soft && 3 * (within - from) >= within && slopes[from..].iter().all(|s| *s >= SOFT * steepest)) {
+    let soft = slopes[0] < SOFT * steepest && steepest - slopes[0] > 5.7 * slope_error(rows, width);
+    if !(soft && within - from >= least && slopes[from..].iter().all(|s| *s >= SOFT * steepest)) {
         return None;
     }
     // The first steep window still has the end of the toe in it: the line is taken behind it.
@@ -93,19 +115,29 @@ pub fn slack(rows: &[[f64; 2]], up_to: f64) -> Option<Slack> {
     (at > 0.0 && at < rows[from][0]).then_some(Slack { at, from })
 }
 
-/// Standard error of a slope over `width` rows, by the second differences of rows that are evenly spaced.
-fn slope_error(rows: &[[f64; 2]], width: usize) -> f64 {
+/// Where the force rises above its noise, and above a two-hundredth of the largest force, for good.
+fn onset(rows: &[[f64; 2]]) -> Option<f64> {
+    let largest = rows.iter().map(|row| row[1]).fold(0.0, f64::max);
+    let least = (6.0 * noise(rows)).max(0.005 * largest);
+    let first = rows.iter().rposition(|row| row[1] <= least)?;
+    let peak = rows.iter().position(|row| row[1] >= largest)?;
+    let first = if first > peak { rows[..peak].iter().rposition(|row| row[1] <= least)? } else { first };
+    Some(rows[first][0])
+}
+
+/// Standard deviation of the force, by the second differences of rows that are evenly spaced.
+fn noise(rows: &[[f64; 2]]) -> f64 {
     let mut bends: Vec<f64> = rows.windows(3).map(|r| (r[2][1] - 2.0 * r[1][1] + r[0][1]).abs()).collect();
     bends.sort_by(f64::total_cmp);
-    let [Some(bend), Some(first), Some(last)] =
-        [bends.get(bends.len() / 2).copied(), rows.first().map(|r| r[0]), rows.last().map(|r| r[0])]
-    else {
-        return 0.0;
-    };
     // Median of |N(0, 6σ²)|.
-    let noise = bend / (0.6745 * 6.0_f64.sqrt());
+    bends.get(bends.len() / 2).map_or(0.0, |bend| bend / (0.6745 * 6.0_f64.sqrt()))
+}
+
+/// Standard error of a slope over `width` rows.
+fn slope_error(rows: &[[f64; 2]], width: usize) -> f64 {
+    let [Some(first), Some(last)] = [rows.first(), rows.last()].map(|row| row.map(|r| r[0])) else { return 0.0 };
     let (n, step) = (width as f64, (last - first) / (rows.len() - 1) as f64);
-    noise * (12.0 / (n * (n * n - 1.0))).sqrt() / step
+    noise(rows) * (12.0 / (n * (n * n - 1.0))).sqrt() / step
 }
 
 /// What grips add to the modulus at 45°: clamped over free specimen, for yarns much stiffer than shear.

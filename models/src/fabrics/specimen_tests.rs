@@ -105,3 +105,36 @@ fn slack_is_where_the_straight_line_behind_a_soft_toe_starts() {
         assert_eq!(slack(&rows, 0.01), None, "{rows:?}");
     }
 }
+
+/// 150 mm of a sheet of 300 MPa that is pulled by 6 % after a slack, with a corner that is sharp or rounded over 0.2 mm, and the noise of a load
+/// cell; rows every 0.02 to 0.1 mm.
+#[test]
+fn slack_of_any_length_leaves_the_modulus() {
+    for tenth_mm in 3..=30 {
+        for (step_mm, round_mm, noise) in [(0.02, 0.0, 0.0), (0.1, 0.0, 0.0), (0.05, 0.2, 0.0), (0.05, 0.1, 3e-4)] {
+            let slack_mm = 0.1 * f64::from(tenth_mm);
+            let taut = |x: f64| {
+                let past = x - slack_mm;
+                if past.abs() < round_mm { (past + round_mm).powi(2) / (4.0 * round_mm) } else { past.max(0.0) }
+            };
+            let row = |k: usize| {
+                let x = step_mm * k as f64;
+                let scatter = noise * 30e6 * (7.3 * (k * k % 101) as f64).sin();
+                [x / 150.0, neo_hookean_pa(50e6, taut(x) / 150.0) + scatter]
+            };
+            let rows: Vec<[f64; 2]> = (0..(9.0 / step_mm) as usize).map(row).collect();
+            let found = slack(&rows, 0.01).unwrap_or_else(|| panic!("{slack_mm} mm, every {step_mm} mm"));
+            let behind = rows[found.from..].iter().map(|[x, y]| [x - found.at, *y]).take_while(|row| row[0] <= 0.01);
+            let modulus = slope(&[[0.0, 0.0]].into_iter().chain(behind).collect::<Vec<_>>()).unwrap();
+            assert!((modulus / 300e6 - 1.0).abs() < 0.02, "{slack_mm} mm, every {step_mm} mm: {} MPa", modulus * 1e-6);
+        }
+    }
+}
+
+#[test]
+fn crimp_that_goes_on_to_stiffen_is_no_slack() {
+    for knee in [0.02, 0.03, 0.05] {
+        let curve = |x: f64| if x < knee { x * x / (2.0 * knee) } else { x - 0.5 * knee };
+        assert_eq!(slack(&rows(200, 0.08, |x| 300e6 * curve(x)), 0.01), None, "{knee}");
+    }
+}

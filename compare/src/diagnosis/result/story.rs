@@ -210,10 +210,13 @@ fn effect(d: &Diagnosis) -> Vec<String> {
     told
 }
 
-/// Size of the answer in millimetres, after its name.
+/// Size of the answer in millimetres, after its name, where it is small here or much larger elsewhere.
 fn worth(d: &Diagnosis) -> Option<String> {
     let Worth { here_mm, elsewhere_mm, elsewhere } = d.worth.as_ref()?;
     let small = policy::is_good_enough(*here_mm, d.tolerance_mm);
+    if !small && elsewhere_mm.is_none_or(|mm| !policy::is_far_less(*here_mm, mm)) {
+        return None;
+    }
     let tolerance = if small { format!(", below the tolerance of {:.2} mm", d.tolerance_mm) } else { String::new() };
     let most = elsewhere_mm
         .zip(elsewhere.as_ref())

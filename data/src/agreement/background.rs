@@ -1,0 +1,78 @@
+//! A marker that stays where it is while the robot moves: a place on the background that looks like a marker.
+
+use super::seen::{Doubt, Seen, SeenRun, minus, size};
+use crate::units::mm;
+
+/// A marker moves at least this part of the way of one that is nearer to the base.
+const LEAST_PART: f64 = 0.15;
+/// Ways that are judged \[m\].
+const TELLING_M: f64 = 0.01;
+/// Fewest holds over which a way is judged.
+const FEWEST: usize = 3;
+
+/// From some hold on to the end a marker hardly moves, and one that is nearer to the base at rest does. On a body that bends and is held at its
+/// base the outer marker moves more.
+pub(super) fn background(seen: &Seen) -> Option<Doubt> {
+    seen.runs.iter().find_map(|run| of_run(seen, run))
+}
+
+fn of_run(seen: &Seen, run: &SeenRun) -> Option<Doubt> {
+    let rest = run.at_rest()?;
+    let ways: Vec<Vec<f64>> = (0..rest.len()).map(|marker| ways_m(run, marker)).collect();
+    for (marker, at) in rest.iter().enumerate() {
+        for inner in (0..rest.len()).filter(|inner| size(rest[*inner]) < size(*at)) {
+            let last = run.levels.len().saturating_sub(FEWEST);
+            let still = |k: &usize| {
+                let [own, other] = [marker, inner].map(|of| ways[of][*k..].iter().sum::<f64>());
+                other > TELLING_M && own < LEAST_PART * other
+            };
+            let Some(k) = (0..=last).find(still) else { continue };
+            let [own, other] = [marker, inner].map(|of| mm(ways[of][k..].iter().sum()));
+            let since_s = run.times_s[*run.levels[k].frames.first()?];
+            let names = [marker, inner].map(|of| &seen.markers[of].0);
+            let message = format!(
+                "run {}: from {since_s:.1} s on marker {} moves by {own:.1} mm, and marker {}, nearer to the base, by {other:.1} mm: it looks \
+                 like a place on the background",
+                run.label, names[0], names[1]
+            );
+            return Some(Doubt::new(message, "track the marker again, or leave its positions blank there"));
+        }
+    }
+    None
+}
+
+/// Way from each hold to the next one \[m\]; 0 where the marker was not seen in both.
+fn ways_m(run: &SeenRun, marker: usize) -> Vec<f64> {
+    let way = |pair: &[super::seen::Level]| match [&pair[0], &pair[1]].map(|level| level.places_m[marker]) {
+        [Some(from), Some(to)] => size(minus(to, from)),
+        _ => f64::INFINITY,
+    };
+    run.levels.windows(2).map(way).map(|way| if way.is_finite() { way } else { 0.0 }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{Made, refused, right};
+    use super::background;
+
+    #[test]
+    fn a_marker_on_the_background_is_refused() {
+        let fixed = |made: &mut Made| {
+            made.each(|_, _, marker, place| {
+                if marker == 2 {
+                    *place = [0.25, 0.11]
+                }
+            })
+        };
+        refused(background, fixed, &["marker c moves by", "nearer to the base", "background"]);
+        let later = |made: &mut Made| {
+            made.each(|_, t, marker, place| {
+                if marker == 1 && t > 8.0 {
+                    *place = [0.2, 0.05]
+                }
+            })
+        };
+        refused(background, later, &["from 5.5 s", "marker b moves by 0.0 mm"]);
+        right(background);
+    }
+}

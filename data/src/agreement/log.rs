@@ -1,0 +1,65 @@
+//! The clock of the pressure log: whole seconds for readings in between, and readings that are missing.
+
+use super::seen::{Doubt, LogSeen, Seen};
+use crate::policy::tolerance_act_pa;
+use crate::units::kpa;
+
+/// Share of the readings that may have the time of the one before.
+const SAME_TIME: f64 = 0.3;
+/// A gap is this many times longer than nine in ten distances of readings, and at least so long \[s\].
+const GAP: (f64, f64) = (5.0, 1.0);
+/// Fewest readings of a log that is judged.
+const FEWEST: usize = 20;
+
+/// Several readings have one time, or none were written while the pressure changed.
+pub(super) fn log(seen: &Seen) -> Option<Doubt> {
+    seen.logs.iter().filter(|log| log.times_s.len() >= FEWEST).find_map(|log| coarse(log).or_else(|| gap(seen, log)))
+}
+
+fn coarse(log: &LogSeen) -> Option<Doubt> {
+    let same = log.times_s.windows(2).filter(|pair| pair[0] == pair[1]).count();
+    let count = log.times_s.len();
+    let first = log.times_s.windows(2).position(|pair| pair[0] == pair[1])?;
+    let message = format!(
+        "{}: {same} of {count} readings have the time of the reading before, for example {} s: the clock is too coarse",
+        log.file, log.times_s[first]
+    );
+    let help = "export the times with their decimals, or write a column of the number of the reading divided by the readings per second";
+    (same as f64 > SAME_TIME * count as f64).then(|| Doubt::new(message, help))
+}
+
+fn gap(seen: &Seen, log: &LogSeen) -> Option<Doubt> {
+    let mut steps: Vec<f64> = log.times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    steps.sort_by(f64::total_cmp);
+    let most_s = GAP.1.max(GAP.0 * steps[steps.len() * 9 / 10]);
+    let jumps = |k: &usize| {
+        let [before, after] = [log.act_pa[*k], log.act_pa[*k + 1]];
+        log.times_s[*k + 1] - log.times_s[*k] > most_s && (after - before).abs() > tolerance_act_pa(before.min(after))
+    };
+    let k = (0..log.times_s.len() - 1).find(jumps)?;
+    let [from_s, to_s] = [log.times_s[k], log.times_s[k + 1]];
+    let filmed = seen.runs.is_empty() || seen.runs.iter().any(|run| run.act_pa.iter().any(|p| p.is_finite()));
+    let message = format!(
+        "{}: no readings from {from_s:.1} to {to_s:.1} s, and the pressure goes from {:.1} to {:.1} kPa",
+        log.file,
+        kpa(log.act_pa[k]),
+        kpa(log.act_pa[k + 1])
+    );
+    let help = "export the log again with all its readings, or import the video before the gap and after it apart";
+    filmed.then(|| Doubt::new(message, help))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{Made, refused, right};
+    use super::log;
+
+    #[test]
+    fn a_log_of_whole_seconds_and_one_with_a_gap_are_refused() {
+        let whole = |made: &mut Made| made.log.iter_mut().for_each(|reading| reading[0] = reading[0].floor());
+        refused(log, whole, &["log.csv", "readings have the time of the reading before", "decimals"]);
+        let gap = |made: &mut Made| made.log.retain(|[t, _]| *t < 8.0 || *t > 16.0);
+        refused(log, gap, &["log.csv: no readings from 8.0 to 16", "kPa"]);
+        right(log);
+    }
+}

@@ -1,0 +1,44 @@
+//! Whether a recording agrees with itself, before it becomes a dataset and when a table is checked.
+//!
+//! Every check is one file and one line of [`CHECKS`], with its smallest input as a test. A check is a statement on geometry, times or pressures
+//! that holds for every robot that bends from a fixed base; none asks a model.
+
+mod background;
+mod base;
+mod body;
+mod copies;
+mod frozen;
+mod knock;
+mod log;
+mod rest;
+mod seen;
+mod stations;
+#[cfg(test)]
+mod tests;
+mod zoom;
+
+pub(crate) use frozen::stands_still;
+pub(crate) use seen::{Doubt, LogSeen, Seen};
+
+/// A check: the first contradiction that it finds.
+type Check = fn(&Seen) -> Option<Doubt>;
+
+/// All checks; earlier ones explain what later ones would find.
+const CHECKS: [Check; 10] = [
+    log::log,
+    base::base,
+    copies::copies,
+    frozen::frozen,
+    background::background,
+    zoom::zoom,
+    knock::knock,
+    rest::rest,
+    stations::stations,
+    body::body,
+];
+
+/// What contradicts itself, in the order of [`CHECKS`].
+pub(crate) fn doubts(seen: &Seen) -> Vec<Doubt> {
+    let whole = !seen.runs.is_empty() && seen.runs.iter().all(|run| !run.times_s.is_empty());
+    CHECKS.iter().filter(|_| whole).filter_map(|check| check(seen)).collect()
+}
