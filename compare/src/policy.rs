@@ -131,6 +131,14 @@ pub const FALLS: f64 = 0.7;
 /// Contributions this opposite cancel: the cosine between them.
 pub const CANCELS: f64 = -0.95;
 
+/// A robot made otherwise is diagnosed in full if its base leaves less than this multiple of the error.
+pub const MADE_OTHERWISE: f64 = 1.5;
+
+/// Whether another design may be the robot's, of the errors of both bases.
+pub fn may_be_made_so(other_mm: f64, own_mm: f64) -> bool {
+    other_mm < MADE_OTHERWISE * own_mm
+}
+
 /// Whether an error is less than another by a fifth.
 pub fn is_closer(after_mm: f64, before_mm: f64) -> bool {
     after_mm < CLOSER * before_mm

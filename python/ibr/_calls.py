@@ -113,7 +113,7 @@ class Comparison(Result):
 class Diagnosis(Result):
     """What is missing in a model.
 
-    `verdict`: "none", "too_small", "effect" or "out_of_catalog"; None where the data allow none. `names`: effects that
+    `verdict`: "none", "effect" or "out_of_catalog"; None where the data allow none. `names`: effects that
     these data cannot tell apart, best first. `summary`: the story in sentences. `table`: every effect, best first.
     """
 

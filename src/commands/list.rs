@@ -33,7 +33,11 @@ pub(super) fn new(kind: &str) -> Result<Outcome> {
         let help = spelling::known(kind, &names.collect::<Vec<_>>());
         return Err(Failure::usage(format!("no shipped scenario `{kind}`"), help));
     };
-    Ok(Outcome::answer(text.to_string(), "ibr.new", &NewAnswer { case_toml, scenario_toml }))
+    let first = match models::shipped(kind) {
+        Some(_) => format!("# First {}.\n", data::BENDING_TEST.replace("body, ", "body,\n# ")),
+        None => String::new(),
+    };
+    Ok(Outcome::answer(first + text, "ibr.new", &NewAnswer { case_toml, scenario_toml }))
 }
 
 /// `ibr.list`: `ibr list`, `ibr data list`

@@ -1,7 +1,12 @@
 //! The same data diagnosed with something else held to be true: the stiffness as the scenario has it, or another design.
 
 use super::candidates::WITHOUT;
+use super::case::{Case, catalogue};
+use super::decide::decide;
+use super::problem::Fit;
 use super::result::{Diagnosis, KeptBending, OtherDesign, Verdict};
+use super::singles::fit_all;
+use super::source::Source;
 use super::{Options, diagnose};
 use crate::error::CompareError;
 use crate::evidence::Evidence;
@@ -52,23 +57,15 @@ pub fn other_design(
         return Ok(None);
     }
     let mut best: Option<OtherDesign> = None;
+    let options = &Options { pairs: false, ..alone(options) };
     for (other, switched) in designs(scenario, options)? {
-        let not = options.not.iter().filter(|not| !not.starts_with(WITHOUT)).cloned().collect();
         // A robot without equilibrium at these pressures explains nothing.
-        let Ok(answer) = diagnose(&other, evidence, &Options { pairs: false, not, ..alone(options) }, &mut |_, _| ())
-        else {
+        let Ok(Some(answer)) = of_design(&other, switched, evidence, options, found.base.systematic_mm) else {
             continue;
         };
-        let after = answer.base.systematic_with_added_mm;
         let most = best.as_ref().map_or(found.base.systematic_with_added_mm, |best| best.systematic_after_mm);
-        if policy::is_closer(after, most) {
-            best = Some(OtherDesign {
-                switched,
-                systematic_mm: answer.base.systematic_mm,
-                verdict: answer.verdict,
-                indistinguishable: answer.indistinguishable,
-                systematic_after_mm: after,
-            });
+        if policy::is_closer(answer.systematic_after_mm, most) {
+            best = Some(answer);
         }
     }
     Ok(best)
@@ -89,6 +86,36 @@ pub fn designs(scenario: &Scenario, options: &Options) -> Result<Vec<(Scenario, 
     without.effects.retain(|e| !gone.contains(&format!("{WITHOUT}{}", e.name)));
     let new: Vec<String> = lacking.into_iter().map(|e| e.name).collect();
     Ok([(with, new), (without, gone)].into_iter().filter(|(_, switched)| switched.len() > 1).collect())
+}
+
+/// What single effects make of another design; `None` where its base is further off than the robot's own of `own_mm`.
+fn of_design(
+    scenario: &Scenario,
+    switched: Vec<String>,
+    evidence: &[Evidence],
+    options: &Options,
+    own_mm: f64,
+) -> Result<Option<OtherDesign>, CompareError> {
+    let (sources, _) = Source::all(scenario, evidence)?;
+    let (candidates, own) = catalogue(&sources, options);
+    let mut wider = Vec::new();
+    let mut case = Case::new(&sources, (&candidates, own), options)?;
+    let error_mm = |case: &Case, fit: &Fit| case.error_mm(&case.prediction(fit));
+    let systematic_mm = error_mm(&case, &case.base);
+    if !policy::may_be_made_so(systematic_mm, own_mm) {
+        return Ok(None);
+    }
+    let singles = fit_all(&mut case, &mut wider, &mut |_, _| ());
+    let decision = decide(&case, singles, options, &mut |_, _| ())?;
+    let is_effect = decision.verdict == Some(Verdict::Effect);
+    let stated = decision.singles.stated().filter(|_| is_effect);
+    Ok(Some(OtherDesign {
+        switched,
+        systematic_mm,
+        verdict: decision.verdict,
+        indistinguishable: stated.map(|fit| case.names(fit).join(" + ")).collect(),
+        systematic_after_mm: error_mm(&case, decision.last.as_ref().unwrap_or(&case.base)),
+    }))
 }
 
 /// Settings of a diagnosis within another one.

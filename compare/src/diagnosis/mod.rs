@@ -92,12 +92,8 @@ pub fn diagnose(
     warnings.extend(limits::warnings(&case));
     let decision = decide(&case, singles, options, &mut part(progress, of_pairs))?;
     let mut pressure_slip = pressures.found(&case, || Ok(decision.rivals()))?;
-    let is_asked = match decision.verdict {
-        Some(Verdict::OutOfCatalog) => true,
-        Some(Verdict::Effect) => pressures.look_like_one(),
-        _ => false,
-    };
-    if pressure_slip.is_none() && is_asked && options.other_design && !options.excludes(PRESSURES_ARE_RIGHT) {
+    if pressure_slip.is_none() && options.other_design && pressures.may_slip_in_another_design(&case, decision.verdict)
+    {
         pressure_slip = slip_of_another_design(scenario, evidence, options)?;
     }
     let decision = if pressure_slip.is_some() { decision.withheld() } else { decision };

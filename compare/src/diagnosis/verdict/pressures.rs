@@ -21,6 +21,7 @@ use crate::diagnosis::decide::decide;
 use crate::diagnosis::options::{Options, PRESSURES_ARE_RIGHT};
 use crate::diagnosis::order;
 use crate::diagnosis::problem::Fit;
+use crate::diagnosis::result::Verdict;
 use crate::diagnosis::singles::fit_all;
 use crate::diagnosis::source::Source;
 use crate::diagnosis::words::change;
@@ -83,11 +84,19 @@ impl Pressures<'_> {
         Ok(Some(self.told(&all, Some(own.left_mm), best_effect)))
     }
 
-    /// Whether numbers alone look like a slip.
-    pub fn look_like_one(&self) -> bool {
-        self.sources.iter().any(|Source { scenario, dataset, .. }| {
+    /// Whether a slip is asked of other designs too: numbers alone look like one, or no answer is enough and the base does not fit at all.
+    pub fn may_slip_in_another_design(&self, case: &Case, verdict: Option<Verdict>) -> bool {
+        let looks = |Source { scenario, dataset, .. }: &Source| {
             PressureSlip::all(dataset, scenario.p_body_pa).iter().any(|slip| slip.is_in_numbers(dataset, scenario))
-        })
+        };
+        let left_mm = case.error_in_all_mm(&case.base);
+        let is_far = || policy::does_not_fit(left_mm, 1e3 * moved_m(&self.sources[0].dataset));
+        let is_asked = match verdict {
+            Some(Verdict::OutOfCatalog) => is_far() || self.sources.iter().any(looks),
+            Some(Verdict::Effect) => self.sources.iter().any(looks),
+            _ => false,
+        };
+        is_asked && !self.options.excludes(PRESSURES_ARE_RIGHT)
     }
 
     /// A slip that the numbers alone prove, whatever a model leaves.
