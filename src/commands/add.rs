@@ -4,7 +4,7 @@ use super::inputs;
 use crate::cli::AddArgs;
 use crate::prelude::*;
 use crate::shown::extension::{AddAnswer, steps_text};
-use compare::diagnosis::Options;
+use compare::diagnosis::{Options, taken_away};
 use compare::extension::{Extension, Wish, add};
 use compare::progress::part;
 use compare::progress::shares::READ;
@@ -65,8 +65,13 @@ fn words(args: &AddArgs, found: &Extension, target: &str) -> String {
         if after.training_mm > before.training_mm {
             out.push_str("The error does not fall with it: this is not what is missing, or not by that much.\n");
         }
+        // Only what was added can be judged by its own parameters.
+        let verb = match found.additions.iter().all(|a| taken_away(&a.name).is_some()) {
+            true => "compare",
+            false => "validate",
+        };
         out.push_str("A smaller error does not prove the name; data the effect was not fitted to do more: ");
-        out.push_str(&format!("`ibr validate {target} DATA`\n"));
+        out.push_str(&format!("`ibr {verb} {target} DATA`\n"));
     }
     out.push_str(&format!("\nwritten: {target}; {} is as it was\n", args.scenario));
     args.data.iter().for_each(|data| out.push_str(&format!("see it: ibr compare {target} {data}\n")));

@@ -73,7 +73,10 @@ pub fn verdict(d: &Diagnosis) -> String {
                 (true, true) => "the scenario has an effect too many",
                 (true, false) => "an effect is missing, or one is too many",
             };
-            format!("{what}: {}{tie}", names.join(" or "))
+            let alone: Option<Vec<&str>> = names.iter().map(|name| taken_away(name)).collect();
+            let listed = alone.filter(|_| !names.iter().any(|name| name.contains(" + ")));
+            let listed = listed.map_or_else(|| names.join(" or "), |names| names.join(" or "));
+            format!("{what}: {listed}{tie}")
         }
         Some(Verdict::OutOfCatalog) if d.is_either() => {
             "something is missing: a fault that is not in the catalogue, or effects".into()

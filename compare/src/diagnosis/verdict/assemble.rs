@@ -2,6 +2,7 @@
 
 use crate::beside_mean::BesideMean;
 use crate::diagnosis::bending_alarm::bending_alarm;
+use crate::diagnosis::candidates::taken_away;
 use crate::diagnosis::case::Case;
 use crate::diagnosis::closest::by_design;
 use crate::diagnosis::decide::Decision;
@@ -228,6 +229,11 @@ fn rule_out_first(case: &Case, ranked: &[Ranked], decision: &Decision) -> Vec<St
         return Vec::new();
     }
     // A gauge has been asked already.
-    let doubtful = |r: &&Ranked| r.in_set && r.group.is_nuisance() && !(case.is_gauged() && r.group == Group::Supply);
+    let doubtful = |r: &&Ranked| {
+        r.in_set
+            && taken_away(&r.effect).is_none()
+            && r.group.is_nuisance()
+            && !(case.is_gauged() && r.group == Group::Supply)
+    };
     ranked.iter().filter(doubtful).map(|r| r.effect.clone()).collect()
 }

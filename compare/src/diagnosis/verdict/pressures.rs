@@ -15,11 +15,11 @@
 //! stiffness is asked about nothing else. What the numbers alone prove, of absolute or exchanged columns, no model is asked about.
 //! Where the scenario's own model sees no slip, the same is asked of the robot with all mechanisms of the shipped one and with none.
 
-use crate::diagnosis::alternatives::designs;
 use crate::diagnosis::case::{Case, catalogue};
 use crate::diagnosis::decide::decide;
 use crate::diagnosis::options::{Options, PRESSURES_ARE_RIGHT};
 use crate::diagnosis::order;
+use crate::diagnosis::other_design::designs;
 use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::Verdict;
 use crate::diagnosis::singles::fit_all;
@@ -84,13 +84,14 @@ impl Pressures<'_> {
         Ok(Some(self.told(&all, Some(own.left_mm), best_effect)))
     }
 
-    /// Whether a slip is asked of other designs too: numbers alone look like one, or no answer is enough and the base does not fit at all.
+    /// Whether a slip is asked of other designs too: numbers alone look like one, or no answer is enough and the base
+    /// leaves a quarter of the movement.
     pub fn may_slip_in_another_design(&self, case: &Case, verdict: Option<Verdict>) -> bool {
         let looks = |Source { scenario, dataset, .. }: &Source| {
             PressureSlip::all(dataset, scenario.p_body_pa).iter().any(|slip| slip.is_in_numbers(dataset, scenario))
         };
         let left_mm = case.error_in_all_mm(&case.base);
-        let is_far = || policy::does_not_fit(left_mm, 1e3 * moved_m(&self.sources[0].dataset));
+        let is_far = || !policy::is_mostly_gone(left_mm, 1e3 * moved_m(&self.sources[0].dataset));
         let is_asked = match verdict {
             Some(Verdict::OutOfCatalog) => is_far() || self.sources.iter().any(looks),
             Some(Verdict::Effect) => self.sources.iter().any(looks),

@@ -1,47 +1,19 @@
-//! The same data diagnosed with something else held to be true: the stiffness as the scenario has it, or another design.
+//! The same data diagnosed with another design of the robot.
 
 use super::candidates::WITHOUT;
 use super::case::{Case, catalogue};
 use super::decide::decide;
+use super::options::Options;
 use super::problem::Fit;
-use super::result::{Diagnosis, KeptBending, OtherDesign, Verdict};
+use super::result::{Diagnosis, OtherDesign, Verdict};
 use super::singles::fit_all;
 use super::source::Source;
-use super::{Options, diagnose};
 use crate::error::CompareError;
 use crate::evidence::Evidence;
 use crate::policy;
 use crate::study::published::shipped_scenario;
 use models::Scenario;
 use models::scenario::EffectChoice;
-
-/// The answer with the bending stiffness as the scenario has it, if `found` has none, nobody measured B, and it comes closer by a fifth.
-///
-/// A fitted B takes up part of every effect, and where the base misses by far it takes up the wrong part: with it goes the
-/// pressure's slope, and with that what counts as scatter between runs (7.6 % of the pressure in place of 1.8 on the ePAM of the
-/// finite elements). Such a base overrules a `[bending]` of `about.toml` as well, so B has to be kept. Whether the robot has it is
-/// for a bending test to say, not for these data.
-pub fn kept_bending(
-    found: &Diagnosis,
-    scenario: &Scenario,
-    evidence: &[Evidence],
-    options: &Options,
-) -> Result<Option<KeptBending>, CompareError> {
-    let is_measured = |e: &Evidence| e.about.as_ref().is_some_and(|about| about.bending_nm2.is_some());
-    let is_known = options.keep_bending || evidence.iter().any(is_measured);
-    if is_known || found.verdict != Some(Verdict::OutOfCatalog) {
-        return Ok(None);
-    }
-    let options = Options { keep_bending: true, ..alone(options) };
-    let kept = diagnose(scenario, evidence, &options, &mut |_, _| ())?;
-    let after = kept.base.systematic_with_added_mm;
-    let is_closer = policy::is_closer(after, found.base.systematic_with_added_mm);
-    Ok((kept.verdict == Some(Verdict::Effect) && is_closer).then_some(KeptBending {
-        value_nm2: kept.base.bending_nominal_nm2,
-        indistinguishable: kept.indistinguishable,
-        systematic_after_mm: after,
-    }))
-}
 
 /// The answer with every mechanism of the shipped robot of this kind, or with none of them, nothing of them fitted: if what `found`
 /// leaves is more than noise, and it leaves less by a fifth. One mechanism alone is a candidate like any other.
@@ -57,7 +29,7 @@ pub fn other_design(
         return Ok(None);
     }
     let mut best: Option<OtherDesign> = None;
-    let options = &Options { pairs: false, ..alone(options) };
+    let options = &Options { pairs: false, ..options.clone() };
     for (other, switched) in designs(scenario, options)? {
         // A robot without equilibrium at these pressures explains nothing.
         let Ok(Some(answer)) = of_design(&other, switched, evidence, options, found.base.systematic_mm) else {
@@ -116,10 +88,4 @@ fn of_design(
         indistinguishable: stated.map(|fit| case.names(fit).join(" + ")).collect(),
         systematic_after_mm: error_mm(&case, decision.last.as_ref().unwrap_or(&case.base)),
     }))
-}
-
-/// Settings of a diagnosis within another one.
-fn alone(options: &Options) -> Options {
-    let (next_experiment, missing_moment, other_design) = (false, false, false);
-    Options { next_experiment, missing_moment, other_design, ..options.clone() }
 }
