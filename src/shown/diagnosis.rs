@@ -65,7 +65,7 @@ pub fn verdict(d: &Diagnosis) -> String {
     match d.verdict {
         Some(Verdict::None) => "no missing effect detectable".into(),
         Some(Verdict::Effect) => {
-            let names = &d.indistinguishable;
+            let names: Vec<String> = d.indistinguishable.iter().map(|name| effect(name)).collect();
             let tie = if names.len() > 1 { "; these data do not choose between them" } else { "" };
             let is_surplus = |name: &String| name.split(" + ").any(|part| taken_away(part).is_some());
             let what = match (names.iter().any(is_surplus), names.iter().all(is_surplus)) {

@@ -16,7 +16,7 @@ use models::Scenario;
 use models::scenario::EffectChoice;
 
 /// The answer with every mechanism of the shipped robot of this kind, or with none of them, nothing of them fitted: if what `found`
-/// leaves is more than noise, and it leaves less by a fifth. One mechanism alone is a candidate like any other.
+/// leaves is more than noise and beyond the tolerance, or its stiffness is on a bound, and it leaves less by a fifth. One mechanism alone is a candidate like any other.
 pub fn other_design(
     found: &Diagnosis,
     scenario: &Scenario,
@@ -24,7 +24,9 @@ pub fn other_design(
     options: &Options,
 ) -> Result<Option<OtherDesign>, CompareError> {
     let is_more = found.lack_of_fit_after.is_some_and(|left| left.p_value < found.alpha);
-    let is_open = matches!(found.verdict, Some(Verdict::Effect | Verdict::OutOfCatalog)) && is_more;
+    let is_large = !policy::is_good_enough(found.base.systematic_with_added_mm, found.tolerance_mm);
+    let is_doubtful = is_more && (is_large || found.base.bending.iter().any(|b| b.at_bound));
+    let is_open = matches!(found.verdict, Some(Verdict::Effect | Verdict::OutOfCatalog)) && is_doubtful;
     if !options.other_design || !is_open {
         return Ok(None);
     }
