@@ -101,3 +101,27 @@ fn a_case_that_is_moved_by_a_metre_and_turned_by_any_angle_gives_the_same_run() 
         }
     }
 }
+
+/// Pressure in a closed chamber has no resultant force or moment, so a pillow that nothing holds neither moves nor turns.
+#[test]
+fn a_pillow_that_nothing_holds_stays_where_it_is() {
+    let problem = pillow();
+    let mut run = Simulation::new(&problem).unwrap();
+    let before = run.positions().to_vec();
+    run.advance_until(0.2, &mut |_| true).unwrap();
+    let centre = |points: &[V3]| [0, 1, 2].map(|k| points.iter().map(|x| x[k]).sum::<f64>() / points.len() as f64);
+    let (from, to) = (centre(&before), centre(run.positions()));
+    // Nodes have different masses: the centre of the places moves with the shape, symmetric in x and y.
+    let moved_m = (0..2).map(|k| (to[k] - from[k]).abs()).fold(0.0, f64::max);
+    let (mut turned, mut size) = ([0.0; 3], 0.0);
+    for (a, b) in before.iter().zip(run.positions()) {
+        let [a, b] = [[0, 1, 2].map(|k| a[k] - from[k]), [0, 1, 2].map(|k| b[k] - to[k])];
+        let arm = cross(a, b);
+        (0..3).for_each(|k| turned[k] += arm[k]);
+        size += dot(a, a);
+    }
+    let turned_rad = turned.iter().map(|t| (t / size).abs()).fold(0.0, f64::max);
+    let risen_m = run.positions().iter().map(|x| x[2]).fold(0.0, f64::max);
+    assert!(risen_m > 0.01, "the pillow fills: {risen_m}");
+    assert!(moved_m < 5e-5 && turned_rad < 1e-3, "moved by {moved_m} m, turned by {turned_rad}");
+}

@@ -134,6 +134,16 @@ fn a_folder_with_other_files_is_never_touched() {
     refuse(&folder, &["simulate", "my.toml", "--out", "file/x"], 3, &["file is a file"]);
 }
 
+/// Hencky's clamped disc, 0.6536 R (p R / (E t))^(1/3) for ν = 0.3, with a mesh of twelve elements along the radius.
+#[test]
+fn a_clamped_disc_rises_as_hencky_says() {
+    let case = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/foreign/disc.toml");
+    let answer = Folder::new().run(&["simulate", case, "--out", "disc", "--json"]).json("ibr.simulate");
+    let rise_mm = answer["probes"][0]["displacement_mm"][2].as_f64().unwrap();
+    let hencky_mm = 0.6536 * 100.0 * (2e3 * 0.1_f64 / (300e6 * 1e-4)).cbrt();
+    assert!((rise_mm / hencky_mm - 1.0).abs() < 0.01, "{rise_mm} and {hencky_mm} mm");
+}
+
 #[test]
 fn a_wrong_case_is_shown_with_its_place_and_what_to_type() {
     let refused = |old: &str, new: &str, words: &[&str]| {

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 const EFFECTS: [&str; 5] = ["friction", "tail_tension", "fabric_stretch", "pressure_loss", "camera_scale"];
 /// Sets of a round: every effect on every robot.
 const SETS: usize = EFFECTS.len() * ROBOTS.len();
-/// Keeps their streams apart from those of the other parts.
+/// First of their streams of random numbers; other parts have smaller ones.
 const STREAM: u64 = 101 << 32;
 
 /// What became of a set.

@@ -39,6 +39,7 @@
 
 #![allow(clippy::unwrap_used, reason = "tests: a panic is the failure to report")]
 
+mod held;
 mod one_robot;
 mod other_robots;
 mod reference;

@@ -75,7 +75,7 @@ mod tests {
     fn a_picture_that_stands_still_for_a_hold_is_refused() {
         refused(frozen, |made: &mut Made| made.freeze(0, 250..450), &["run 1", "stand still", "from 10.0 to 18.0 s"]);
         right(frozen);
-        // Without noise every hold stands still.
+        // Without noise all frames of a hold are equal.
         assert!(frozen(&Made { noise_mm: 0.0, ..Made::new(1) }.seen()).is_none());
     }
 }

@@ -36,7 +36,7 @@ pub(super) struct Level {
 }
 
 impl Level {
-    /// Whether both pressures are those of another hold.
+    /// Whether both pressures equal the pressures of another hold.
     pub(super) fn is_like(&self, other: &Level) -> bool {
         let [[body, act], [b, a]] = [self.pressures_pa, other.pressures_pa];
         (body - b).abs() <= tolerance_body_pa(body) && (act - a).abs() <= tolerance_act_pa(act)

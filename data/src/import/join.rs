@@ -101,7 +101,7 @@ impl Joined {
             check_run(sheet, &run)?;
             let mut words = vec![seconds(sheet, &mut run, options)?];
             words.append(&mut run.told);
-            // Before the clocks: a picture that stands still looks like another clock.
+            // Before the clocks: a frozen picture looks like another clock.
             if let Some(Doubt { message, help }) = stands_still(&run.times, &run.places) {
                 return Err(sheet.fault(0, message, help));
             }

@@ -1,4 +1,4 @@
-//! The effects that may be missing, and those of the scenario that may be one too many: the one place where the diagnosis meets the
+//! Effects that may be missing, and effects of the scenario that may be too many: the one place where the diagnosis meets the
 //! catalogue.
 
 use crate::diagnosis::result::explained::ParameterValue;

@@ -80,7 +80,7 @@ pub fn unusual(case: &Case, fit: &Fit) -> Vec<(usize, f64)> {
 }
 
 /// Effect, first parameter and its value, of every effect that a fit adds and that has one parameter. Where a threshold or a time shapes
-/// the law too, the first parameter alone is no measure of its size.
+/// the law too, the first parameter alone does not measure its size.
 fn added_values<'c>(case: &'c Case, fit: &Fit) -> Vec<(usize, &'c Free, f64)> {
     let mut from = case.problem.bendings;
     let mut all = Vec::new();

@@ -85,8 +85,7 @@ pub fn assemble(case: &Case, decision: &Decision, beside: Beside) -> Result<Diag
         limits: [limits(&datasets, &undetectable), not_in_space(&case.first().scenario)].concat(),
         by_design: by_design(case, decision.verdict, &decision.singles.fits).map(as_close).collect(),
         ranked,
-        // The made-up robots were planar.
-        covered: (added.len() == 1 && !case.first().scenario.is_spatial()).then_some(policy::COVERED),
+        covered: is_covered(case, &added).then_some(policy::COVERED),
         indistinguishable,
         pairs,
         added,
@@ -112,6 +111,12 @@ pub fn assemble(case: &Case, decision: &Decision, beside: Beside) -> Result<Diag
         slips,
         warnings,
     })
+}
+
+/// Whether the share of true answers is known: the made-up robots were planar, and lacked one effect.
+fn is_covered(case: &Case, added: &[Added]) -> bool {
+    let is_one = matches!(added, [one] if taken_away(&one.effect).is_none());
+    is_one && !case.first().scenario.is_spatial()
 }
 
 /// Data after the first.

@@ -22,9 +22,9 @@ use crate::diagnosis::order;
 use crate::diagnosis::other_design::designs;
 use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::Verdict;
+use crate::diagnosis::result::words::change;
 use crate::diagnosis::singles::fit_all;
 use crate::diagnosis::source::Source;
-use crate::diagnosis::words::change;
 use crate::error::CompareError;
 use crate::evidence::Evidence;
 use crate::policy;
@@ -84,20 +84,16 @@ impl Pressures<'_> {
         Ok(Some(self.told(&all, Some(own.left_mm), best_effect)))
     }
 
-    /// Whether a slip is asked of other designs too: numbers alone look like one, or no answer is enough and the base
-    /// leaves a quarter of the movement.
+    /// Whether a slip is asked of other designs too: numbers alone look like one, or the base leaves
+    /// a quarter of the movement.
     pub fn may_slip_in_another_design(&self, case: &Case, verdict: Option<Verdict>) -> bool {
         let looks = |Source { scenario, dataset, .. }: &Source| {
             PressureSlip::all(dataset, scenario.p_body_pa).iter().any(|slip| slip.is_in_numbers(dataset, scenario))
         };
         let left_mm = case.error_in_all_mm(&case.base);
         let is_far = || !policy::is_mostly_gone(left_mm, 1e3 * moved_m(&self.sources[0].dataset));
-        let is_asked = match verdict {
-            Some(Verdict::OutOfCatalog) => is_far() || self.sources.iter().any(looks),
-            Some(Verdict::Effect) => self.sources.iter().any(looks),
-            _ => false,
-        };
-        is_asked && !self.options.excludes(PRESSURES_ARE_RIGHT)
+        let is_alarm = matches!(verdict, Some(Verdict::Effect | Verdict::OutOfCatalog));
+        is_alarm && (is_far() || self.sources.iter().any(looks)) && !self.options.excludes(PRESSURES_ARE_RIGHT)
     }
 
     /// A slip that the numbers alone prove, whatever a model leaves.

@@ -27,7 +27,7 @@ const PAIRED: [f64; 2] = [0.6, 0.7];
 /// Share of all changes below which a given clock is refused, where both tracks have so many.
 const HARDLY: f64 = 0.5;
 const SEVERAL: usize = 3;
-/// A given clock may pair changes that are this much farther apart than those of a clock that is found.
+/// A given clock may pair changes that are farther apart by this much than the pairs of a clock that is found.
 const WIDE: f64 = 1.5;
 /// How far movement may be from pressure with a given clock, beyond the time between samples \[s\].
 const LATE_S: f64 = 0.6;
