@@ -31,15 +31,15 @@ fn bare(study: &Study, file: &Path) {
     let case = Column::I64((1..=CASES as i64).collect());
     let columns =
         [case, text("reduced"), Column::F64(kpa.clone()), column(0), column(1), column(2), text("ok"), text("")];
-    Table { columns: names(study).into_iter().zip(columns).collect() }.to_parquet(file).expect("a table");
+    Table { columns: names(study).into_iter().zip(columns).collect() }.to_parquet(file, &[]).expect("a table");
 }
 
 fn swept(study: &Study, folder: &Path) {
-    let runs = ibr::FeSettings::default();
-    let settings = Settings { folder: folder.to_path_buf(), shard: Shard::WHOLE, threads: 1, runs };
+    let settings =
+        Settings { folder: folder.to_path_buf(), shard: Shard::WHOLE, threads: 1, maker: ibr::program::maker() };
     run(study, &settings, &mut |_, _| ControlFlow::Continue(())).expect("a sweep");
     let table = collect(study, folder).expect("all parts");
-    table.to_parquet(&folder.join("table.parquet")).expect("a table");
+    table.to_parquet(&folder.join("table.parquet"), &[]).expect("a table");
 }
 
 fn sweep(c: &mut Criterion) {

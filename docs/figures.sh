@@ -9,7 +9,7 @@ trap 'rm -rf "$made"' EXIT
 
 "$ibr" --quiet diagnose epam-textbook synthetic-epam --out "$made/diagnosis" > "$made/text"
 "$ibr" --quiet ladder epam-textbook synthetic-epam --out "$made/ladder" > "$made/text"
-"$ibr" --quiet diagnose epam --published --out "$made/published" > "$made/text"
+"$ibr" --quiet diagnose epam-textbook --published --out "$made/published" > "$made/text"
 "$ibr" --quiet demo --out "$made/demo" > "$made/text"
 
 changed=0
@@ -25,5 +25,5 @@ for name in missing_moment residuals_before ranking before_after candidates fini
 done
 figure ladder/waterfall.png diagnosis/waterfall.png
 figure published/one_number_epam.png diagnosis/one_number_epam.png
-figure demo/published.png published.png
+figure demo/breaking.png breaking.png
 [ -z "${check:-}" ] || exit "$changed"

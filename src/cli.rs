@@ -13,7 +13,7 @@ pub(crate) use data::{CharacterizeArgs, DataCommand, DataFemArgs, GenerateArgs, 
 pub(crate) use discover::{
     AddArgs, BreakdownArgs, ChallengeCommand, ChallengeNewArgs, DiagnoseArgs, LadderArgs, TradeoffArgs, ValidateArgs,
 };
-pub(crate) use export::{ExportArgs, ExportCommand, LinearArgs};
+pub(crate) use export::{ExportArgs, ExportCommand, LinearArgs, RigidArgs};
 pub(crate) use groups::{command, parsed};
 pub(crate) use import::Import;
 use std::path::PathBuf;
@@ -22,10 +22,12 @@ pub(crate) use sweep::{DesignArgs, ShardArgs, SweepArgs};
 /// Models of pneumatic bending actuators on inflated-beam robots, compared with measurements.
 #[derive(Debug, Parser)]
 #[command(version, about, max_term_width = 100)]
-#[command(after_help = "A SCENARIO is a TOML file or a shipped robot: spam, cpam, epam, fpam.\n\
+#[command(
+    after_help = "A SCENARIO is a TOML file or a shipped robot: spam, cpam, epam, fpam, epam-textbook and more (ibr list robots).\n\
     A CASE is a TOML file with kind = \"fem\" or a shipped case: pillow, tube; robots run too (ibr list cases).\n\
     A DATA is a CSV or Parquet file, a folder with markers.csv and about.toml, or an embedded set (ibr list datasets).\n\
-    Exit codes: 0 done, 1 a threshold was missed, 2 wrong usage, 3 bad input or output file, 4 no solution, 130 interrupted.")]
+    Exit codes: 0 done, 1 a threshold was missed, 2 wrong usage, 3 bad input or output file, 4 no solution, 130 interrupted."
+)]
 pub(crate) struct Cli {
     /// Print one JSON object instead of text
     #[arg(long, global = true)]
@@ -82,13 +84,13 @@ pub(crate) enum Command {
     Challenge(ChallengeCommand),
     /// Actuators, effects, datasets and finite element cases with their formulas
     List {
-        /// actuators, effects, datasets or cases; all if left out
-        #[arg(value_parser = ["actuators", "effects", "datasets", "cases"])]
+        /// robots, actuators, effects, datasets or cases; all if left out
+        #[arg(value_parser = ["robots", "actuators", "effects", "datasets", "cases"])]
         what: Option<String>,
     },
     /// Print a shipped scenario or finite element case as a start for your own
     New {
-        /// spam, cpam, epam or fpam; pillow or tube; a study of ibr list cases
+        /// A robot of ibr list robots, or a case of ibr list cases
         kind: String,
     },
     /// Run time against accuracy of every model present
@@ -231,6 +233,9 @@ pub(crate) struct PatternArgs {
     /// Fabric beyond welds and ends, and the overlap of tubes
     #[arg(long, default_value = "10mm", allow_hyphen_values = true)]
     pub allowance: String,
+    /// Width that the cutter removes, for example 0.2mm: cut lines are half of it outside the edges
+    #[arg(long, default_value = "0mm", allow_hyphen_values = true)]
+    pub kerf: String,
 }
 
 #[derive(Debug, Args)]

@@ -31,12 +31,12 @@ impl Context<'_> {
     /// Makes finite element runs. Ctrl-C asks them to end from here on, which they do with a checkpoint.
     pub(crate) fn fem<T, E>(&mut self, make: impl FnOnce(Progress) -> Result<T, E>) -> Result<T, E> {
         let Context { progress, interrupt, .. } = self;
-        interrupt.await_one();
+        interrupt.awaited.fetch_add(1, Ordering::SeqCst);
         let made = make(&mut |text, share| {
             progress(text, share);
             if interrupt.asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        interrupt.let_one_go();
+        interrupt.awaited.fetch_sub(1, Ordering::SeqCst);
         made
     }
 }
@@ -47,6 +47,7 @@ const ONE_REQUEST: Duration = Duration::from_secs(1);
 /// How Ctrl-C reaches a command that saves where it stands before it ends.
 #[derive(Debug)]
 pub(crate) struct Interrupt {
+    /// Runs that will end themselves when asked.
     awaited: AtomicUsize,
     asked: OnceLock<Instant>,
 }
@@ -54,15 +55,6 @@ pub(crate) struct Interrupt {
 impl Interrupt {
     pub(crate) const fn new() -> Interrupt {
         Interrupt { awaited: AtomicUsize::new(0), asked: OnceLock::new() }
-    }
-
-    /// One more run will end itself when asked, from now on.
-    pub(crate) fn await_one(&self) {
-        self.awaited.fetch_add(1, Ordering::SeqCst);
-    }
-
-    pub(crate) fn let_one_go(&self) {
-        self.awaited.fetch_sub(1, Ordering::SeqCst);
     }
 
     /// Asks the command to end; false if it will not, or was asked before. Who asks again at once asks once: `timeout` and job
@@ -76,7 +68,6 @@ impl Interrupt {
     }
 }
 
-/// What a command has to say.
 #[derive(Debug, Default)]
 pub(crate) struct Outcome {
     pub text: String,
@@ -91,7 +82,10 @@ impl Outcome {
         Outcome::new(text, as_json(schema, body))
     }
 
-    /// A text, and the same as JSON.
+    pub(crate) fn of(text: String) -> Outcome {
+        Outcome { text, ..Outcome::default() }
+    }
+
     pub(crate) fn new(text: String, json: serde_json::Value) -> Outcome {
         Outcome { text, json: Some(json), notes: Vec::new(), code: 0 }
     }

@@ -12,16 +12,13 @@ use miette::{
 };
 use models::Unsolved;
 
-/// What a command returns.
 pub(crate) type Result<T, E = Failure> = std::result::Result<T, E>;
 
 /// Exit code: a comparison missed its threshold.
 pub(crate) const MISSED: u8 = 1;
-/// Exit code: wrong usage.
 pub(crate) const USAGE: u8 = 2;
 /// Exit code: an input cannot be read or an output not written.
 pub(crate) const BAD_INPUT: u8 = 3;
-/// Exit code: no solution.
 pub(crate) const UNSOLVED: u8 = 4;
 
 /// Exit code after an interrupt, as shells have it: 128 + SIGINT.
@@ -29,7 +26,6 @@ pub(crate) const INTERRUPTED: u8 = 130;
 
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
-    /// A folder that cannot be written to.
     #[error("cannot write to {path}: {cause}")]
     Write { path: String, cause: String, help: String },
     /// A finite element run that cannot be made or was stopped.
@@ -38,7 +34,6 @@ pub(crate) enum Failure {
     /// Everything that has to do with scenarios and data.
     #[error(transparent)]
     Compare(#[from] CompareError),
-    /// A picture or page could not be made.
     #[error(transparent)]
     Drawing(#[from] report::ReportError),
 }

@@ -3,7 +3,21 @@
 //! What a user does, as functions: [`ScenarioFile::read`] and [`Evidence::read`], then [`compare`](fn@compare) (how far off, and
 //! where), [`diagnose`] (which physical effect is missing), [`extend`] (a new scenario with it), [`validate`] (does it help on
 //! other data). [`ladder`] repeats the middle; [`predict`] gives shapes at pressures, [`simulate`] runs finite elements. Every [`Error`] says where, what is wrong
-//! and, by [`Error::help`], what to type. Long work tells its [`Progress`].
+//! and, by [`Error::help`], what to type. Long work reports its [`Progress`].
+//!
+//! Control ([`Predictor`]): the pressure that lifts the tip to 60 mm, and the slope that corrects it.
+//!
+//! ```
+//! use ibr::models::Target;
+//! use ibr::{Predictor, ScenarioFile};
+//!
+//! let robot = Predictor::new(&ScenarioFile::read("epam")?.scenario);
+//! let (loads, at) = robot.inverse(Target::TipHeight(0.060), None)?;
+//! assert!((at.tip.y_m - 0.060).abs() < 1e-9 && robot.jacobian(&loads)?[0].y_per_pa > 0.0);
+//! # Ok::<(), ibr::Error>(())
+//! ```
+//!
+//! A model compared with a camera:
 //!
 //! ```
 //! use ibr::{Evidence, ScenarioFile};
@@ -14,7 +28,7 @@
 //! # Ok::<(), ibr::Error>(())
 //! ```
 //!
-//! `examples/session.rs` goes the whole way. The crates below can be used alone:
+//! `examples/` has both at length, and seven more: each states its physics and what it prints. The crates below can be used alone:
 //!
 //! | module | what it is |
 //! |---|---|
@@ -50,30 +64,30 @@ mod prelude;
 mod printable;
 pub mod program;
 pub mod shown;
+mod stream;
 pub mod studies;
 mod studio;
 mod tables;
 pub mod words;
+mod zip;
 
-pub use ::compare as study;
-pub use ::sweep;
-pub use data;
-pub use data::import;
-pub use fem;
-pub use models;
-pub use report;
-
+pub use ::{compare as study, sweep};
 pub use ::compare::diagnosis::{Diagnosis, Options as DiagnosisOptions, diagnose};
 pub use ::compare::extension::{Wish, add};
 pub use ::compare::ladder::{Climb, ladder};
 pub use ::compare::study::comparison::{Contender, Variant, compare_all};
 pub use ::compare::validation::{BeforeAfter, Validation, validate};
 pub use ::compare::{CompareError as Error, Comparison, Evidence, Extension, Progress, ScenarioFile, compare, extend};
+pub use data;
+pub use data::import;
+pub use fem;
 pub use fem::session::{FeRun, Settings as FeSettings, Source as FeSource, simulate, simulate_all};
-pub use follow::{Follower, follow, pressures_of};
+pub use follow::{Followed, Follower, follow};
 pub use import_typed::import_typed;
-pub use models::HOLD_S;
-pub use models::{Loads, Scenario};
+pub use models;
+pub use models::{HOLD_S, Loads, Scenario};
 pub use predict::{AtPressure, predict, predict_for, predict_near};
 pub use predictor::{Predictor, check_fed};
+pub use report;
+pub use stream::pressures_of;
 pub use studies::fe_source;

@@ -17,7 +17,6 @@ pub(crate) struct Meter {
 const KNOWN_AFTER_S: f64 = 1.5;
 
 impl Meter {
-    /// A bar, or one that shows nothing.
     pub(crate) fn new(is_wanted: bool) -> Meter {
         let bar = if is_wanted { ProgressBar::new(1000) } else { ProgressBar::hidden() };
         if let Ok(style) = ProgressStyle::with_template("{spinner} {elapsed} {bar:24} {msg}") {

@@ -5,7 +5,7 @@ use crate::failure::{Failure, Result};
 pub(crate) use compare::extension::today;
 pub(crate) use fem::session::{FileHash as Input, sha256};
 use fem::session::{MANIFEST, Maker, Manifest};
-use ibr::pages::{Files, Imprint};
+use ibr::pages::Files;
 use serde::Deserialize;
 use spelling::folders::Staged;
 use std::io::Read;
@@ -64,7 +64,6 @@ pub(crate) fn write_texts(files: &[(PathBuf, String)], context: &mut Context) ->
 const MADE_HERE: [&str; 2] = ["made by ibr", "Made by: ibr"];
 const BEGINNING: u64 = 512;
 
-/// What lists the files of a folder.
 const MANIFEST_FILE: &str = "manifest.json";
 
 /// The files that the manifest in a folder lists; none without one.
@@ -77,7 +76,6 @@ fn listed(folder: &Path) -> Vec<Input> {
     MANIFEST.read::<Listed>(MANIFEST_FILE, &text, "").map_or(Vec::new(), |manifest| manifest.outputs)
 }
 
-/// The listed files that are unchanged.
 fn unchanged(folder: &Path) -> Vec<Input> {
     let same = |ours: &Input| std::fs::read(folder.join(&ours.name)).is_ok_and(|bytes| sha256(&bytes) == ours.sha256);
     listed(folder).into_iter().filter(same).collect()
@@ -129,7 +127,6 @@ pub(crate) fn write_example(folder: &Path, made: Vec<(String, String)>, context:
     Ok(paths)
 }
 
-/// A file that was read, for the manifest.
 pub(crate) fn read_input(path: &Path) -> Input {
     Input::of(&path.display().to_string(), &std::fs::read(path).unwrap_or_default())
 }
@@ -147,7 +144,6 @@ pub(crate) fn spares_inputs(folder: &Path, files: &Files, inputs: &[String]) -> 
     }
 }
 
-/// What a set in a folder is called.
 pub(crate) fn set_name(folder: &Path, default: &str) -> String {
     folder.file_name().map_or(default.into(), |name| name.to_string_lossy().into_owned())
 }
@@ -179,7 +175,7 @@ fn stage(staging: &Path, files: &Files, inputs: &[Input], kept: Vec<Input>) -> R
     let (mut names, mut outputs) = (Vec::new(), Vec::new());
     for (name, table) in &files.parquet {
         let path = staging.join(name);
-        table.to_parquet(&path)?;
+        table.to_parquet(&path, &notes(inputs))?;
         let bytes = std::fs::read(&path).map_err(|cause| unwritable(staging, &format!("{name}: {cause}")))?;
         outputs.push(Input::of(name, &bytes));
         names.push(name.clone());
@@ -196,6 +192,12 @@ fn stage(staging: &Path, files: &Files, inputs: &[Input], kept: Vec<Input>) -> R
     Ok(names)
 }
 
+/// Program and hashes of the inputs, for the metadata of a Parquet file.
+fn notes(inputs: &[Input]) -> Vec<(String, String)> {
+    let hashes = inputs.iter().map(|input| (format!("ibr.sha256.{}", input.name), input.sha256.clone()));
+    std::iter::once(("ibr.program".into(), program())).chain(hashes).collect()
+}
+
 /// Program, date, machine and command of what is written.
 pub fn maker() -> Maker {
     let command = std::env::args_os().map(|a| a.to_string_lossy().into_owned()).collect::<Vec<_>>().join(" ");
@@ -204,11 +206,6 @@ pub fn maker() -> Maker {
 
 pub(crate) fn program() -> String {
     format!("ibr {}", env!("CARGO_PKG_VERSION"))
-}
-
-/// Program, date and machine, for a page.
-pub fn imprint() -> Imprint {
-    Imprint { program: program(), date: today(), machine: machine() }
 }
 
 /// Processor and number of cores, for timings.

@@ -17,6 +17,15 @@ pub struct AtPressure {
 /// Predicts a scenario at pressures. With an effect that has history they are one path in this order, each held for [`HOLD_S`],
 /// from rest; the slopes are then those of the first loading.
 ///
+/// ```
+/// let robot = ibr::ScenarioFile::read("epam-textbook")?.scenario;
+/// let state = &ibr::predict(&robot, &[ibr::Loads::uniform(2e3, 30e3)])?[0];
+/// // Without transverse loads the body is one arc, whose chord has half of its turn: y/x = tan(α/2).
+/// let tip = state.prediction.tip;
+/// assert!((tip.y_m / tip.x_m - (0.5 * tip.angle_rad).tan()).abs() < 1e-9);
+/// # Ok::<(), ibr::Error>(())
+/// ```
+///
 /// # Errors
 /// A pressure that means nothing, or at which there is no equilibrium.
 pub fn predict(scenario: &Scenario, loads: &[Loads]) -> Result<Vec<AtPressure>, CompareError> {
@@ -39,6 +48,14 @@ pub(crate) fn state(model: &Model, loads: Loads, prediction: Prediction) -> Resu
 
 /// The state, at the scenario's body pressure, in which the tip is on target.
 ///
+/// ```
+/// let robot = ibr::ScenarioFile::read("epam")?.scenario;
+/// let state = ibr::predict_for(&robot, ibr::models::Target::TipHeight(0.06))?;
+/// assert!((state.prediction.tip.y_m - 0.06).abs() < 1e-9);
+/// assert!(ibr::predict_for(&robot, ibr::models::Target::TipHeight(1.0)).is_err(), "longer than the body");
+/// # Ok::<(), ibr::Error>(())
+/// ```
+///
 /// # Errors
 /// A place that the tip does not reach.
 pub fn predict_for(scenario: &Scenario, target: Target) -> Result<AtPressure, CompareError> {
@@ -49,6 +66,14 @@ pub fn predict_for(scenario: &Scenario, target: Target) -> Result<AtPressure, Co
 
 /// The state, at the scenario's body pressure and up to its largest actuator pressure, in which the tip is nearest to a place
 /// x, y \[m\]; each supply channel has a pressure of its own.
+///
+/// ```
+/// let robot = ibr::ScenarioFile::read("epam")?.scenario;
+/// let there = ibr::predict(&robot, &[ibr::Loads::uniform(robot.p_body_pa, 20e3)])?[0].prediction.tip;
+/// let (_, found) = ibr::predict_near(&robot, [there.x_m, there.y_m])?;
+/// assert!(found.miss_m < 1e-6 && (found.loads.actuator_pa[0] - 20e3).abs() < 20.0);
+/// # Ok::<(), ibr::Error>(())
+/// ```
 ///
 /// # Errors
 /// A place that is none, or no equilibrium anywhere.

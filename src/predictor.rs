@@ -6,8 +6,10 @@ use models::{Aim, Batch, CHANNELS, Limits, Loads, Model, Prediction, Scenario, S
 
 /// A robot ready to be asked. Pressures are refused where the scenario has nothing that they could act on.
 pub struct Predictor {
-    scenario: Scenario,
-    model: Model,
+    /// The scenario.
+    pub scenario: Scenario,
+    /// Its model.
+    pub model: Model,
 }
 
 impl Predictor {
@@ -16,17 +18,14 @@ impl Predictor {
         Predictor { scenario: scenario.clone(), model: Model::new(scenario) }
     }
 
-    /// The scenario.
-    pub fn scenario(&self) -> &Scenario {
-        &self.scenario
-    }
-
-    /// Its model.
-    pub fn model(&self) -> &Model {
-        &self.model
-    }
-
     /// Pressures \[Pa\]: one for all supply channels, or one for each; the body's is the scenario's unless given.
+    ///
+    /// ```
+    /// let robot = ibr::Predictor::new(&ibr::ScenarioFile::read("epam")?.scenario);
+    /// assert_eq!(robot.loads(None, &[20e3])?, ibr::Loads::uniform(2e3, 20e3));
+    /// assert!(robot.loads(None, &[-20e3]).is_err());
+    /// # Ok::<(), ibr::Error>(())
+    /// ```
     ///
     /// # Errors
     /// As [`check_fed`]; more pressures than channels, or none.
@@ -49,9 +48,7 @@ impl Predictor {
     }
 
     /// A state by itself, as [`Model::predict_held`], with the slopes of the tip.
-    ///
-    /// # Errors
-    /// As [`Model::predict`].
+    /// Errors as for [`Model::predict`].
     pub fn state(&self, loads: &Loads) -> Result<AtPressure, CompareError> {
         let mut prediction = self.model.prediction();
         self.model.predict_held(loads, &mut prediction)?;
@@ -59,9 +56,7 @@ impl Predictor {
     }
 
     /// A state that was predicted, with the slopes of the tip, which are those of the first loading.
-    ///
-    /// # Errors
-    /// As [`Model::predict`].
+    /// Errors as for [`Model::predict`].
     pub fn with_slopes(&self, loads: &Loads, at: Prediction) -> Result<AtPressure, CompareError> {
         state(&self.model, *loads, at)
     }
@@ -78,10 +73,7 @@ impl Predictor {
     }
 
     /// Pressures of all channels that bring the robot nearest to an aim, and its state there; within limits, else from nothing to
-    /// the largest pressure of the scenario.
-    ///
-    /// # Errors
-    /// As [`Model::steer`].
+    /// the largest pressure of the scenario. Errors as for [`Model::steer`].
     pub fn steer(
         &self,
         aim: Aim,
@@ -95,10 +87,15 @@ impl Predictor {
         Ok((found, work.state().clone()))
     }
 
-    /// Change of the tip with the pressure of each channel.
+    /// Change of the tip with the pressure of each channel. Errors as for [`Model::predict`].
     ///
-    /// # Errors
-    /// As [`Model::predict`].
+    /// ```
+    /// let robot = ibr::Predictor::new(&ibr::ScenarioFile::read("epam")?.scenario);
+    /// let y_m = |pa: f64| Ok::<f64, ibr::Error>(robot.state(&robot.loads(None, &[pa])?)?.prediction.tip.y_m);
+    /// let slope = robot.jacobian(&robot.loads(None, &[20e3])?)?[0].y_per_pa;
+    /// assert!(((y_m(20.1e3)? - y_m(19.9e3)?) / 200.0 / slope - 1.0).abs() < 1e-4);
+    /// # Ok::<(), ibr::Error>(())
+    /// ```
     pub fn jacobian(&self, loads: &Loads) -> Result<[TipSlope; CHANNELS], CompareError> {
         Ok(self.model.jacobian(loads, &mut self.model.prediction())?)
     }
@@ -124,9 +121,6 @@ impl Predictor {
 }
 
 /// Refuses pressures that would be lost: of a robot without actuator, or of a channel that supplies nothing.
-///
-/// # Errors
-/// Which, and what to write.
 pub fn check_fed(model: &Model, actuator_pa: &[f64; CHANNELS]) -> Result<(), CompareError> {
     let mut fed = [false; CHANNELS];
     model.channels().for_each(|channel| fed[channel] = true);
@@ -162,11 +156,11 @@ mod tests {
         for more in ["", "[effects.friction]\nmoment_nm = 0.2\n"] {
             let robot = robot(more);
             let loads = robot.loads(None, &[20e3]).unwrap();
-            let wanted = predict(robot.scenario(), &[loads]).unwrap().remove(0);
+            let wanted = predict(&robot.scenario, &[loads]).unwrap().remove(0);
             let found = robot.state(&loads).unwrap();
             assert_eq!((found.prediction.tip, found.slopes), (wanted.prediction.tip, wanted.slopes), "{more}");
-            assert_eq!(robot.model().has_history(), !more.is_empty());
-            assert_eq!(robot.batch(&[loads], 1).is_err(), robot.model().has_history());
+            assert_eq!(robot.model.has_history(), !more.is_empty());
+            assert_eq!(robot.batch(&[loads], 1).is_err(), robot.model.has_history());
         }
     }
 

@@ -3,11 +3,11 @@
 pub(crate) use crate::context::{Context, Outcome};
 pub(crate) use crate::failure::{Failure, MISSED, Result};
 pub(crate) use crate::output::{
-    Input, check_folder, check_set_folder, imprint, machine, maker, program, replace_files,
+    Input, check_folder, check_set_folder, machine, maker, program, read_input, replace_files, set_name, sha256,
+    spares_inputs, write_example, write_files, write_texts,
 };
-pub(crate) use crate::output::{read_input, set_name, sha256, spares_inputs, write_example, write_files, write_texts};
 pub(crate) use crate::pages::Files;
-pub(crate) use crate::tables::{Table, lines, printed, wrapped};
+pub(crate) use crate::tables::{Table, lines, wrapped};
 pub(crate) use crate::words::{effect, in_words, number, pressure_words};
 pub(crate) use compare::{Evidence, ScenarioFile};
 pub(crate) use data::{Dataset, Provenance};

@@ -2,7 +2,7 @@
 
 use crate::context::{Context, Interrupt, Outcome};
 use crate::meter::Meter;
-pub use crate::output::{imprint, maker};
+pub use crate::output::maker;
 use crate::printable::printable;
 use crate::{cli, commands, failure};
 use std::ffi::OsString;

@@ -3,30 +3,37 @@
 use compare::{CompareError, ScenarioFile};
 use fem::case::{SHIPPED_CASES, shipped_case};
 use fem::session::Source;
-use models::scenario::SHIPPED;
+use models::scenario::ROBOTS;
 use spelling::files::{MOST_TEXT, read_whole};
 use std::path::Path;
 
+/// A scenario of `studies/` with what it is about.
+macro_rules! study {
+    ($name:literal, $about:literal) => {
+        ($name, $about, include_str!(concat!("../studies/", $name, ".toml")))
+    };
+}
+
 /// A robot in the paper's own model.
 macro_rules! paper {
-    ($name:literal, $about:literal, $robot:literal) => {
-        ($name, $about, concat!(include_str!($robot), "\n[fem]\nmodel = \"paper\"\n"))
+    ($name:literal, $about:literal, $file:literal) => {
+        ($name, $about, concat!(include_str!($file), "\n[fem]\nmodel = \"paper\"\n"))
     };
 }
 
 /// Names, what they are about, and texts.
 pub const STUDIES: &[(&str, &str, &str)] = &[
-    ("cpam-11-12-13", "the cPAM in small steps of pressure", include_str!("../studies/cpam-11-12-13.toml")),
-    ("cpam-mesh", "the cPAM on meshes of 4 to 1 mm", include_str!("../studies/cpam-mesh.toml")),
+    study!("cpam-11-12-13", "the cPAM in small steps of pressure"),
+    study!("cpam-mesh", "the cPAM on meshes of 4 to 1 mm"),
     paper!("spam-paper", "the sPAM as the paper modelled it", "../models/scenarios/spam.toml"),
     paper!("cpam-paper", "the cPAM as the paper modelled it", "../models/scenarios/cpam.toml"),
     paper!("epam-paper", "the ePAM as the paper modelled it", "../models/scenarios/epam.toml"),
     paper!("fpam-paper", "the fPAM as the paper modelled it", "../models/scenarios/fpam.toml"),
-    ("long", "a robot of 2 m with 40 pouches", include_str!("../studies/long.toml")),
-    ("tip-load", "a load on the tip", include_str!("../studies/tip-load.toml")),
-    ("epam-two-strips", "two strips of pouches at 90 degrees", include_str!("../studies/epam-two-strips.toml")),
-    ("epam-helix", "a strip of pouches wound round the body", include_str!("../studies/epam-helix.toml")),
-    ("obstacle", "a cylinder in the way", include_str!("../studies/obstacle.toml")),
+    study!("long", "a robot of 2 m with 40 pouches"),
+    study!("tip-load", "a load on the tip"),
+    study!("epam-two-strips", "two strips of pouches at 90 degrees"),
+    study!("epam-helix", "a strip of pouches wound round the body"),
+    study!("obstacle", "a cylinder in the way"),
 ];
 
 /// Those of robots with strips round the body.
@@ -41,29 +48,31 @@ pub fn study(name: &str) -> Option<&'static str> {
     STUDIES.iter().find(|s| s.0 == name).map(|s| s.2)
 }
 
-/// Reads a scenario file, or takes a shipped robot or study by name.
-///
-/// # Errors
-/// As [`ScenarioFile::read`].
+/// Reads a scenario file, or takes a shipped robot or study by name. Errors as for [`ScenarioFile::read`].
 pub fn scenario(spec: &str) -> Result<ScenarioFile, CompareError> {
     match study(spec).filter(|_| !Path::new(spec).exists()) {
         Some(text) => ScenarioFile::parse(spec, text),
-        None => ScenarioFile::read(spec),
+        None => ScenarioFile::read(spec).map_err(|error| match error {
+            CompareError::Unread { path, cause, .. } => {
+                CompareError::Unread { path, cause, help: ScenarioFile::help(spec, &robots()) }
+            }
+            other => other,
+        }),
     }
 }
 
-/// The same for what is built for strips round the body too.
-///
-/// # Errors
-/// As [`ScenarioFile::read`].
-pub fn scenario_in_space(spec: &str) -> Result<ScenarioFile, CompareError> {
-    match study(spec).filter(|_| !Path::new(spec).exists()) {
-        Some(text) => ScenarioFile::parse_in_space(spec, text),
-        None => ScenarioFile::read_in_space(spec),
-    }
+/// Names of all robots that come with the library.
+pub fn robots() -> Vec<&'static str> {
+    ROBOTS.into_iter().chain(STUDIES.iter().map(|s| s.0)).collect()
 }
 
 /// Reads a finite element case or the scenario of a robot, or takes a shipped one by name.
+///
+/// ```
+/// assert!(ibr::fe_source("epam")?.is_robot() && !ibr::fe_source("pillow")?.is_robot());
+/// assert!(ibr::fe_source("epan").unwrap_err().help().unwrap_or_default().contains("epam"));
+/// # Ok::<(), ibr::Error>(())
+/// ```
 ///
 /// # Errors
 /// Nothing of that name, or no text.
@@ -81,8 +90,7 @@ pub fn fe_source(spec: &str) -> Result<Source, CompareError> {
             Err(_) => "it is not a text in UTF-8".to_string(),
         },
     };
-    let names: Vec<&str> =
-        SHIPPED_CASES.iter().chain(SHIPPED).map(|c| c.0).chain(STUDIES.iter().map(|s| s.0)).collect();
+    let names: Vec<&str> = SHIPPED_CASES.iter().map(|c| c.0).chain(robots()).collect();
     let help = format!(
         "{}give a finite element case or a robot's scenario, or a shipped one: {}; `ibr new pillow > my.toml` makes a start",
         spelling::meant(spec, names.iter().copied()),

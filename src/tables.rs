@@ -1,7 +1,6 @@
 //! Tables: a list of columns over rows, for the terminal and for pages.
 
 use crate::words::number;
-use compare::study::columns::TextTable;
 use serde::Serialize;
 
 /// Rows, and columns that each have a head and what they say of a row.
@@ -28,12 +27,10 @@ impl<R> Table<R> {
         self
     }
 
-    /// A column of words, flush left.
     pub(crate) fn words<S: Into<String>>(self, head: impl Into<String>, cell: impl Fn(&R) -> S) -> Self {
         self.column(head, false, cell)
     }
 
-    /// A column of text, flush right.
     pub(crate) fn right<S: Into<String>>(self, head: impl Into<String>, cell: impl Fn(&R) -> S) -> Self {
         self.column(head, true, cell)
     }
@@ -118,17 +115,10 @@ impl Table<Vec<String>> {
     }
 }
 
-/// A line for each text, after a prefix.
 pub(crate) fn lines<S: AsRef<str>>(prefix: &str, texts: impl IntoIterator<Item = S>) -> String {
     texts.into_iter().map(|text| format!("{prefix}{}\n", text.as_ref())).collect()
 }
 
-pub(crate) fn printed(TextTable { caption, heads, left, rows }: &TextTable) -> String {
-    let caption = if caption.is_empty() { String::new() } else { format!("{caption}\n") };
-    caption + &Table::finished(heads, *left, rows.clone()).text()
-}
-
-/// Columns of text to read.
 pub(crate) const COLUMNS: usize = 116;
 
 /// Text in lines of at most [`COLUMNS`], broken between words; further lines are indented.

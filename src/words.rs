@@ -4,6 +4,10 @@ use compare::metrics::HoldMetrics;
 use models::Loads;
 
 /// A number with `digits` decimals, or a dash where there is none.
+///
+/// ```
+/// assert_eq!([ibr::words::number(Some(1.26), 1), ibr::words::number(None, 1)], ["1.3", "–"]);
+/// ```
 pub fn number(value: Option<f64>, digits: usize) -> String {
     value.filter(|v| v.is_finite()).map_or_else(|| "–".into(), |v| format!("{v:.digits$}"))
 }

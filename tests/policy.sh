@@ -11,14 +11,14 @@ rm -rf "$copy" && mkdir -p "$copy"
 { git ls-files -z; git ls-files -oz --exclude-standard; } | tar -c --null -T - | tar -xC "$copy"
 cd "$copy"
 
-constant='^pub const ([A-Z_0-9]+): ([^=]+) = (.*);'
-names() { sed -nE "s/$constant/\1/p" "$@"; }
+constant='^pub(\([a-z]+\))? const ([A-Z_0-9]+): ([^=]+) = (.*);'
+names() { sed -nE "s/$constant/\2/p" "$@"; }
 levers() { # a file of constants: they become functions, here and where they are used
   local all
   all=$(names "$1" | paste -sd '|')
   grep -rlE "policy::($all)\b" --include='*.rs' "${1%%/*}" | xargs -r sed -Ei "s/\bpolicy::($all)\b/policy::lever_\1()/g"
-  sed -Ei "/^pub const/!s/\b($all)\b/lever_\1()/g
-    s/$constant/pub fn lever_\1() -> \2 { Lever::moved(\3, factor(\"\1\")) }/" "$1"
+  sed -Ei "/^pub(\([a-z]+\))? const/!s/\b($all)\b/lever_\1()/g
+    s/$constant/pub fn lever_\2() -> \3 { Lever::moved(\4, factor(\"\2\")) }/" "$1"
   cat >> "$1" <<'RUST'
 trait Lever { fn moved(self, by: f64) -> Self; }
 impl Lever for f64 { fn moved(self, by: f64) -> f64 { self * by } }

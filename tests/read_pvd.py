@@ -53,9 +53,11 @@ def arrays(frame):
 
 
 def check_parts(name, frame):
-    names, numbers = frame.GetFieldData().GetAbstractArray("part_names"), frame.GetCellData().GetArray("part_id")
-    parts = {names.GetValue(i) for i in range(names.GetNumberOfValues())}
-    assert len(parts) == 1 + numbers.GetRange()[1] and "" not in parts, f"{name}: parts {parts}"
+    field = frame.GetFieldData()
+    names = [field.GetArrayName(i) for i in range(field.GetNumberOfArrays())]
+    parts = [array for array in names if array.startswith("part_id ")]
+    numbers = frame.GetCellData().GetArray("part_id").GetRange()
+    assert len(parts) == 1 + numbers[1] and "part_id " not in parts, f"{name}: parts {parts}"
 
 
 def check_finite(name, frame):

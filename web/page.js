@@ -217,6 +217,32 @@ function robots() {
   $('robot').value = state.text ? '' : state.robot;
 }
 
+// ---- The story, from the panels of `ibr demo` ----
+
+function table({ heads, rows }) {
+  const row = (cells, kind) => element('tr', {}, ...cells.map((c) => element(kind, { textContent: c })));
+  const head = row(
+    heads.map((h) => h[0]),
+    'th',
+  );
+  return element('div', { className: 'table' }, element('table', {}, head, ...rows.map((cells) => row(cells, 'td'))));
+}
+
+/** In a worker of its own, so that no comparison waits for it. */
+async function story(module) {
+  const { panels, pictures } = ok(await worked(module)({ ask: 'demo' }));
+  const panel = (p, k) => {
+    const figure = element('figure');
+    figure.innerHTML = pictures[p.picture] ?? '';
+    figure.append(element('figcaption', { className: 'caption', textContent: p.caption }));
+    const lead = element('p', { textContent: p.lead });
+    const title = element('h2', { textContent: `${k + 1}. ${p.title}` });
+    return element('article', {}, title, lead, figure, ...(p.table ? [table(p.table)] : []));
+  };
+  $('panels').replaceChildren(...panels.map(panel));
+  window.ibr.panels = panels.length;
+}
+
 // ---- Start ----
 
 function listen() {
@@ -292,6 +318,7 @@ async function main() {
   window.ibr.ask = ask;
   listen();
   studio();
+  story(module).catch(fault);
   await restored();
 }
 

@@ -65,6 +65,16 @@ function alike(a, b, place) {
   same(slopes, jacobian, b.sections ? 1e-8 : 1e-12, place);
 }
 
+/** The first view is the story of `ibr demo`, at both widths without a bar to scroll the page sideways. */
+async function story_comes_first() {
+  for (const width of [390, 1280]) {
+    const page = await opened('', { viewport: { width, height: 900 } });
+    await page.waitForFunction(() => window.ibr.panels === 5, null, { timeout: 120_000 });
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${width} px`);
+    await page.screenshot({ path: join(folder, `panels-${width}.png`), fullPage: true });
+  }
+}
+
 async function numbers_are_the_programs() {
   const page = await opened(),
     start = await ask(page, { ask: 'start' });
@@ -379,6 +389,7 @@ try {
   const size = gzipSync(readFileSync(file), { level: 9 }).length;
   assert.ok(size <= 1100e3, `${size} bytes gzipped`);
   await numbers_are_the_programs();
+  await story_comes_first();
   await it_is_quick();
   await the_story_can_be_clicked();
   await a_hand_can_turn_everything();

@@ -37,6 +37,15 @@ pub struct ibr_robot {
     error: Text,
 }
 
+impl ibr_robot {
+    /// Checked pressures, without the channels that feed nothing.
+    fn loads(&self, body_pa: f64, given_pa: &[f64; CHANNELS]) -> Result<Loads, Unsolved> {
+        let mut actuator_pa = [0.0; CHANNELS];
+        self.model.channels().for_each(|channel| actuator_pa[channel] = given_pa[channel]);
+        Loads { body_pa, actuator_pa }.checked()
+    }
+}
+
 /// Pose of the robot's end.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -178,7 +187,7 @@ pub unsafe extern "C" fn ibr_predict(
     let (given, tip) = unsafe { (pressures(actuator_pa), tip.as_mut()) };
     let work = |robot: &mut ibr_robot| {
         let (Some(actuator_pa), Some(tip)) = (given, tip) else { return Err(NULL) };
-        robot.model.predict(&Loads { body_pa, actuator_pa }.checked()?, &mut robot.state)?;
+        robot.model.predict(&robot.loads(body_pa, &actuator_pa)?, &mut robot.state)?;
         *tip = tip_of(&robot.state);
         if !markers_xy_m.is_null() {
             let seen = &robot.state.markers;
@@ -251,7 +260,7 @@ pub unsafe extern "C" fn ibr_jacobian(
     let (given, slopes) = unsafe { (pressures(actuator_pa), slopes.cast::<[ibr_slope; IBR_CHANNELS]>().as_mut()) };
     let work = |robot: &mut ibr_robot| {
         let (Some(actuator_pa), Some(slopes)) = (given, slopes) else { return Err(NULL) };
-        let found = robot.model.jacobian(&Loads { body_pa, actuator_pa }.checked()?, &mut robot.state)?;
+        let found = robot.model.jacobian(&robot.loads(body_pa, &actuator_pa)?, &mut robot.state)?;
         *slopes = found.map(|models::TipSlope { x_per_pa, y_per_pa, angle_per_pa }| ibr_slope {
             x_per_pa,
             y_per_pa,
@@ -343,7 +352,10 @@ fn code(error: &Unsolved) -> i32 {
         | Unsolved::BadTime { .. }
         | Unsolved::InSpace { .. } => IBR_BAD_ARGUMENT,
         Unsolved::OutOfReach { .. } | Unsolved::Jump { .. } => IBR_OUT_OF_REACH,
-        Unsolved::NoEquilibrium { .. } | Unsolved::Formula { .. } | Unsolved::NotConverged { .. } => IBR_UNSOLVED,
+        Unsolved::NoEquilibrium { .. }
+        | Unsolved::Formula { .. }
+        | Unsolved::NoValue { .. }
+        | Unsolved::NotConverged { .. } => IBR_UNSOLVED,
     }
 }
 

@@ -30,7 +30,9 @@ fn the_numbers_are_those_of_the_library() {
         let (robot, mut state) = (open(name).unwrap(), model.prediction());
         let (mut tip, mut p) = (ibr_tip { x_m: 0.0, y_m: 0.0, angle_rad: 0.0 }, 0.0);
         let mut slopes = [ibr_slope { x_per_pa: 0.0, y_per_pa: 0.0, angle_per_pa: 0.0 }; IBR_CHANNELS];
-        let (all, mut markers) = ([15e3; IBR_CHANNELS], [0.0; 12]);
+        // The robots have one channel: what is in the others does not count.
+        let (mut all, mut markers) = ([f64::NAN; IBR_CHANNELS], [0.0; 12]);
+        all[0] = 15e3;
         // SAFETY: the robot is open, every pointer leads to as many numbers as told.
         let codes = unsafe {
             [

@@ -6,13 +6,14 @@
 //! mount      turned about the base by φ · 1.4 u/(1 + 0.4 u), u = P/30 kPa      a clamp that gives way less and less
 //! scale      (1 + c)(1 + 0.4 c x/L)                                            the plane of the markers is tilted: keystone
 //! rotation   turned about the base by δ (1 + 0.15 x/L)                         roll and a little bending of the image
+//! lens       about (½L, L/6) by 1 + k r²                                        barrel distortion
 //! by the second laws
+//! lens       about (½L, L/6) by 1 + k r⁴                                        a wide lens that was calibrated in its middle
 //! height     pins that lean by 20°: e sin20° along the body beside e cos20° across it
 //! mount      turned about the base by φ (u − ¼)₊/¾                              friction holds a gripped base
 //! scale      x (1 + c), y (1 + c/2)                                            pixels that are not square
 //! rotation   turned about (½L, 0) by δ                                         knocked after it was calibrated
 //! outside the catalogue
-//! lens       about (½L, L/6) by 1 + k r²                                        barrel distortion
 //! drift      y + d u²                                                           the camera's stand moves with the robot's reaction
 //! ```
 
@@ -34,8 +35,8 @@ pub struct Camera {
     pub scale: ByLaw,
     /// Roll δ \[rad\].
     pub roll_rad: ByLaw,
-    /// Lens k \[1/m²\].
-    pub lens_per_m2: f64,
+    /// Lens k of r² \[1/m²\], and of r⁴ \[1/m⁴\].
+    pub lens: ByLaw,
     /// Drift at 30 kPa d \[m\].
     pub drift_m: f64,
 }
@@ -70,7 +71,8 @@ impl Camera {
         let xy = if knocked == 0.0 { xy } else { about(xy, [0.5 * l, 0.0], knocked) };
         let centre = [0.5 * l, l / 6.0];
         let off = [xy[0] - centre[0], xy[1] - centre[1]];
-        let bulge = self.lens_per_m2 * (off[0] * off[0] + off[1] * off[1]);
+        let (square, [barrel, fisheye]) = (off[0] * off[0] + off[1] * off[1], self.lens);
+        let bulge = barrel * square + fisheye * square * square;
         [xy[0] + bulge * off[0], xy[1] + bulge * off[1] + self.drift_m * u * u]
     }
 }

@@ -26,6 +26,11 @@ pub struct DeadLoads {
     pub obstacle_y_m: f64,
 }
 
+/// x and y of a direction: a planar robot has no other.
+pub(crate) fn in_plane([x, y, _]: [f64; 3]) -> [f64; 2] {
+    [x, y]
+}
+
 impl DeadLoads {
     /// Nothing.
     pub fn none(cells: usize, down: [f64; 2]) -> DeadLoads {

@@ -1,5 +1,6 @@
 //! A challenge made: data with a hidden effect, and the seal of what it is.
 
+use super::loads::in_plane;
 use super::seal::{FILE, SALT, SEALED, Seal, hex};
 use super::truth::{ROBOTS, known, standard_protocol};
 use super::{Draw, Hiding, Truth};
@@ -28,6 +29,8 @@ pub struct Riddle {
     pub camera_sd_m: Option<f64>,
     /// Pressures as [`parse_protocol`] reads them; else [`standard_protocol`].
     pub protocol: Option<String>,
+    /// Nothing scatters from hold to hold.
+    pub white: bool,
 }
 
 /// A challenge to hand out.
@@ -63,6 +66,7 @@ impl Riddle {
         let actuator = self.actuator.as_deref().unwrap_or_else(|| draw.one_of::<&str>(&kinds));
         let mut truth = Truth::draw(actuator, draw)?;
         truth.runs = self.runs.unwrap_or(truth.runs);
+        truth.holds_scatter = !self.white;
         truth.camera_sd_m = self.camera_sd_m.unwrap_or(truth.camera_sd_m);
         match self.effects.iter().map(String::as_str).collect::<Vec<_>>()[..] {
             [] | ["random"] => truth.hide(kind(draw), draw)?,
@@ -150,7 +154,7 @@ fn about(scenario: &Scenario, dataset: &Dataset) -> About {
     About {
         title: format!("Challenge: markers of {}", scenario.name),
         source: "ibr challenge new".into(),
-        gravity_direction: Some(scenario.gravity_direction),
+        gravity_direction: Some(in_plane(scenario.gravity_direction)),
         notes: Some(notes.into()),
         ..generate::about(scenario, dataset, &Generator::default())
     }

@@ -2,7 +2,7 @@
 
 use super::camera::Camera;
 use super::drive::Drive;
-use super::loads::DeadLoads;
+use super::loads::{DeadLoads, in_plane};
 use super::root::root;
 use super::supply::TrueSupply;
 use super::wall::{CellMemory, CellWall};
@@ -74,7 +74,7 @@ impl TrueRobot {
         let scale_per_m = scale(scenario)?;
         let cells: Vec<Cell> = cells(scenario, lift_share, scale_per_m);
         Ok(TrueRobot {
-            loads: DeadLoads::none(cells.len(), scenario.gravity_direction),
+            loads: DeadLoads::none(cells.len(), in_plane(scenario.gravity_direction)),
             cells,
             length_m: scenario.length_m,
             markers_m: scenario.markers_m.clone(),

@@ -125,6 +125,6 @@ mod tests {
     #[test]
     fn nothing_and_something_outside_have_verdicts_of_their_own() {
         assert!(scored(&[], "none", &[], &[]).verdict_right && !scored(&[], "effect", &[], &[]).verdict_right);
-        assert!(scored(&["dead_pouch"], "out_of_catalog", &[], &[]).verdict_right);
+        assert!(scored(&["kink"], "out_of_catalog", &[], &[]).verdict_right);
     }
 }

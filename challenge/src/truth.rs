@@ -53,7 +53,7 @@ pub struct Truth {
     /// A camera that loses markers ([`Measurement::lost_markers`]).
     #[serde(default)]
     pub lost_markers: bool,
-    /// Single holds scatter ([`OF_HOLDS`]).
+    /// Single holds scatter ([`HoldScatter::USUAL`]).
     #[serde(default)]
     pub holds_scatter: bool,
     /// Run-to-run relative error of the pressure \[-\].
@@ -91,7 +91,7 @@ impl Draw {
 
 impl Truth {
     /// Draws a robot of that actuator with a bending stiffness within 15 % of its usual one, camera noise of 0.5–2 mm, 3,
-    /// 5 or 10 runs, 2 % pressure and 0.5 mm alignment scatter between runs, and nothing hidden.
+    /// 5 or 10 runs, 2 % pressure and 0.5 mm alignment scatter between runs, scatter of holds, and nothing hidden.
     ///
     /// # Errors
     /// Not an actuator of [`ROBOTS`].
@@ -105,7 +105,7 @@ impl Truth {
             camera_sd_m: *draw.one_of(&[0.5e-3, 1e-3, 2e-3]),
             heavy_tails: false,
             lost_markers: false,
-            holds_scatter: false,
+            holds_scatter: true,
             pressure_sd: 0.02,
             alignment_sd_m: 0.5e-3,
             laws: Laws::First,
@@ -188,7 +188,7 @@ impl Truth {
             pressure_sd: self.pressure_sd,
             alignment_sd_m: self.alignment_sd_m,
             protocol: protocol.to_vec(),
-            per_hold: if self.holds_scatter { OF_HOLDS } else { HoldScatter::default() },
+            per_hold: if self.holds_scatter { HoldScatter::USUAL } else { HoldScatter::default() },
             ..Generator::default()
         };
         Measurement { generator, heavy_tails: self.heavy_tails, lost_markers: self.lost_markers }
@@ -202,11 +202,6 @@ impl Truth {
         measure(&self.robot()?, &self.told()?, name, &self.measurement(protocol))
     }
 }
-
-/// Scatter of single holds as laboratories have it: a regulator that repeats to 2 %, a camera that moves by half a millimetre and half a
-/// milliradian, a tracker whose error of half a millimetre lasts through a hold.
-pub const OF_HOLDS: HoldScatter =
-    HoldScatter { pressure_sd: 0.02, alignment_sd_m: 5e-4, rotation_sd: 5e-4, lasting_sd_m: 5e-4 };
 
 /// The standard protocol: 0, 10, 20, 30, 0 kPa on a body of 2 kPa.
 pub fn standard_protocol() -> Vec<[f64; 2]> {

@@ -1,105 +1,165 @@
-//! The demonstration: every actuator against the published displacements and against the embedded marker sets.
+//! The demonstration in five panels: a robot, a model next to a camera, what is missing, the error falls, where the model breaks.
+//!
+//! The camera sees a robot of the finite element engine, which has every mechanism; the model is the textbook one. Mechanisms of the
+//! shipped robot are added one after the other, the one first that leaves least, and none of their numbers is fitted.
 
-use crate::bench::Held;
 use crate::diagnosis::{Diagnosis, Options, diagnose};
 use crate::error::CompareError;
-use crate::evaluate::EvaluateOptions;
 use crate::evidence::Evidence;
-use crate::progress::shares::DEMO;
 use crate::progress::{Progress, part};
-use crate::study::calibrate::Knob;
-use crate::study::comparison::{Comparison, Contender, compare_all};
-use crate::study::engines::{Engines, engines, stored};
-use crate::study::measured::measured_things;
-use crate::study::published::{PublishedLadder, model_ladder, published_ladders, shipped_scenario, textbook_scenario};
-use crate::study::tradeoff::{Timing, of_runs, tradeoff};
-use data::{About, Dataset};
+use crate::study::comparison::{Comparison, compare};
+use crate::study::engines::{EngineLine, Engines, engines, lines, of_the_program, stored};
+use crate::study::generate::about;
+use crate::study::published::{shipped_scenario, textbook_scenario};
+use crate::study::seen::seen;
+use crate::study::{Generator, predict_dataset};
 use models::Scenario;
+use serde::Serialize;
+
+/// Robot and data of the demonstration.
+pub const ROBOT: [&str; 2] = ["epam", "fem-epam"];
+/// Robots of the last panel.
+const ROBOTS: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
+/// Body pressure of the data that are left out \[Pa\].
+const LEFT_OUT_PA: f64 = 4e3;
 
 /// Everything the demonstration computes.
 #[derive(Debug, Clone)]
 pub struct Demo {
-    /// Real things beside their models.
-    pub measured: Vec<Held>,
-    /// Published displacements.
-    pub ladders: Vec<PublishedLadder>,
-    /// Embedded marker sets.
-    pub studies: Vec<Comparison>,
-    /// Run time against error.
-    pub timings: Vec<Timing>,
-    /// What is missing in the calibrated bare model of one marker set, with the data.
-    pub diagnosed: Story,
-    /// Both engines, with the finite element runs that come with the program.
-    pub engines: Engines,
-}
-
-/// A diagnosis with what it was made of.
-#[derive(Debug, Clone)]
-pub struct Story {
-    /// What was found.
+    /// The textbook model.
+    pub robot: Scenario,
+    /// What the camera saw.
+    pub data: Evidence,
+    /// The one compared with the other.
+    pub compared: Comparison,
+    /// Mechanisms of the shipped robot, each alone in the textbook model, the nearest first.
+    pub candidates: Vec<Mechanism>,
+    /// What a diagnosis reports of the textbook model, its stiffness kept.
     pub diagnosis: Diagnosis,
-    /// The model without what is hidden in the data.
-    pub scenario: Scenario,
-    /// The data.
-    pub dataset: Dataset,
-    /// Their description.
-    pub about: Option<About>,
+    /// The textbook model, and one more mechanism in every step.
+    pub steps: Vec<Mechanism>,
+    /// Both engines on four robots.
+    pub engines: Engines,
+    /// Their displacements and accuracies at every pressure that the paper prints.
+    pub lines: Vec<EngineLine>,
 }
 
-/// The marker set of the diagnosis; its generator had an effect that the shipped scenario has not.
-pub const HIDDEN_IN: [&str; 2] = ["epam", "synthetic-epam"];
-
-fn story(progress: &mut Progress) -> Result<Story, CompareError> {
-    let scenario = textbook_scenario(HIDDEN_IN[0])?;
-    let evidence = [Evidence::read(HIDDEN_IN[1])?];
-    let diagnosis = diagnose(&scenario, &evidence, &Options::default(), progress)?;
-    let [Evidence { dataset, about, .. }] = evidence;
-    Ok(Story { diagnosis, scenario, dataset, about })
+/// A model with one more mechanism, and its errors: root mean square over markers and holds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Mechanism {
+    /// What was added; empty: nothing.
+    pub effect: String,
+    /// What it is.
+    pub sentence: String,
+    /// In the data \[mm\]
+    pub error_mm: f64,
+    /// In data at twice the body pressure, which chose nothing \[mm\]
+    pub left_out_mm: f64,
 }
 
-/// What has just been computed.
-pub enum Told<'a> {
-    /// Real things beside their models.
-    Measured(&'a [Held]),
-    /// Published displacements.
-    Published(&'a [PublishedLadder]),
-    /// Embedded marker sets.
-    Sets(&'a [Comparison]),
-    /// What is missing in the model of one of them.
-    Missing(&'a Diagnosis),
-}
-
-/// Computes the demonstration, and tells its story as it goes.
+/// Computes the demonstration.
 ///
 /// # Errors
 /// Damaged embedded data or a model without equilibrium.
-pub fn demo(progress: &mut Progress, told: &mut dyn FnMut(Told)) -> Result<Demo, CompareError> {
-    progress("measured things", Some(0.0));
-    let measured = measured_things()?;
-    told(Told::Measured(&measured));
-    progress("published displacements", Some(DEMO[0]));
-    let ladders = published_ladders()?;
-    told(Told::Published(&ladders));
-    let mut studies = Vec::new();
-    // What the finite elements made is the matter of the diagnosis and its bench; measured robots have models of their own.
-    let made = |set: &&data::SetInfo| set.provenance == data::Provenance::Synthetic && !set.name.starts_with("fem-");
-    for set in data::sets().iter().filter(|set| set.has_markers()).filter(made) {
-        progress(&set.name, Some(DEMO[1]));
-        let evidence = Evidence::read(&set.name)?;
-        let rungs = model_ladder(&evidence.dataset.actuator)?.into_iter();
-        let models: Vec<Contender> =
-            rungs.map(|r| Contender { label: r.label, known: r.known, why: r.why, scenario: r.scenario }).collect();
-        studies.push(compare_all(&models, &evidence, &EvaluateOptions::default(), Some(Knob::Bending))?);
+pub fn demo(progress: &mut Progress) -> Result<Demo, CompareError> {
+    let (robot, data) = (textbook_scenario(ROBOT[0])?, Evidence::read(ROBOT[1])?);
+    progress("a model next to a camera", Some(0.0));
+    let compared = compare(&robot, &data)?;
+    let path = Path { shipped: shipped_scenario(ROBOT[0])?, data: &data, left_out: left_out(&robot)? };
+    let candidates = path.candidates(&robot)?;
+    let options = Options { keep_bending: true, next_experiment: false, ..Options::default() };
+    let diagnosis = diagnose(&robot, std::slice::from_ref(&data), &options, &mut part(progress, [0.1, 0.7]))?;
+    progress("mechanism by mechanism", Some(0.7));
+    let steps = path.steps(&robot)?;
+    progress("both engines on four robots", Some(0.8));
+    let scenarios = ROBOTS.iter().map(|kind| shipped_scenario(kind)).collect::<Result<Vec<_>, _>>()?;
+    let engines = engines(&scenarios, &stored()?)?;
+    let lines = engines.robots.iter().map(lines).collect::<Result<Vec<_>, _>>()?.concat();
+    Ok(Demo { robot, data, compared, candidates, diagnosis, steps, engines, lines })
+}
+
+/// The same robot of the finite elements at another body pressure.
+fn left_out(robot: &Scenario) -> Result<Evidence, CompareError> {
+    let scenario = Scenario { p_body_pa: LEFT_OUT_PA, ..shipped_scenario(robot.actuator.kind.name)? };
+    let runs = of_the_program(&scenario, Generator::default().runs)?;
+    let protocol = [0.0, 10e3, 20e3, 30e3].map(|p| [LEFT_OUT_PA, p]).to_vec();
+    let generator = Generator { protocol, ..Generator::default() };
+    let dataset = seen(&runs, "left out", &generator)?;
+    let about = about(&scenario, &dataset, &generator);
+    Ok(Evidence::of(dataset, Some(about)))
+}
+
+/// From the textbook model to the shipped one.
+struct Path<'d> {
+    shipped: Scenario,
+    data: &'d Evidence,
+    left_out: Evidence,
+}
+
+impl Path<'_> {
+    fn with(&self, base: &Scenario, effect: &str) -> Result<(Scenario, Mechanism), CompareError> {
+        let own = self.shipped.effects.iter().find(|e| e.name == effect);
+        let model = own.map_or(base.clone(), |e| base.with_effect(&e.name, &e.values));
+        let sentence = models::effects::by_name(effect).map_or("", |e| e.sentence);
+        let mechanism = Mechanism {
+            effect: effect.into(),
+            sentence: sentence.into(),
+            error_mm: error_mm(&model, self.data)?,
+            left_out_mm: error_mm(&model, &self.left_out)?,
+        };
+        Ok((model, mechanism))
     }
-    told(Told::Sets(&studies));
-    let diagnosed = story(&mut part(progress, [DEMO[2], DEMO[3]]))?;
-    told(Told::Missing(&diagnosed.diagnosis));
-    progress("run times", Some(DEMO[3]));
-    let mut timings = tradeoff(&ladders)?;
-    progress("finite elements", Some(DEMO[4]));
-    let runs = stored()?;
-    timings.extend(of_runs(&ladders, &runs));
-    let scenarios = ladders.iter().map(|l| shipped_scenario(&l.published.kind)).collect::<Result<Vec<_>, _>>()?;
-    let engines = engines(&scenarios, &runs)?;
-    Ok(Demo { measured, ladders, studies, timings, diagnosed, engines })
+
+    /// Every mechanism that the model lacks, added alone, the nearest first.
+    fn tried(&self, base: &Scenario) -> Result<Vec<(Scenario, Mechanism)>, CompareError> {
+        let lacking = self.shipped.effects.iter().filter(|e| base.effects.iter().all(|own| own.name != e.name));
+        let mut tried = lacking.map(|e| self.with(base, &e.name)).collect::<Result<Vec<_>, _>>()?;
+        tried.sort_by(|a, b| a.1.error_mm.total_cmp(&b.1.error_mm));
+        Ok(tried)
+    }
+
+    fn candidates(&self, base: &Scenario) -> Result<Vec<Mechanism>, CompareError> {
+        Ok(self.tried(base)?.into_iter().map(|(_, mechanism)| mechanism).collect())
+    }
+
+    /// Adds the mechanism that leaves least, as long as one lowers the error.
+    fn steps(&self, base: &Scenario) -> Result<Vec<Mechanism>, CompareError> {
+        let (mut model, first) = self.with(base, "")?;
+        let mut steps = vec![first];
+        while let Some((next, step)) = self.tried(&model)?.into_iter().next() {
+            if steps.last().is_some_and(|last| step.error_mm >= last.error_mm) {
+                break;
+            }
+            model = next;
+            steps.push(step);
+        }
+        Ok(steps)
+    }
+}
+
+/// Root mean square of prediction minus mean over runs \[mm\].
+fn error_mm(model: &Scenario, evidence: &Evidence) -> Result<f64, CompareError> {
+    let body_pa = evidence.dataset.holds.first().map_or(model.p_body_pa, |hold| hold.p_body_pa);
+    let model = Scenario { p_body_pa: body_pa, ..model.clone() };
+    let (model, _) = crate::study::fit_scenario(&model, &evidence.dataset, evidence.about.as_ref())?;
+    let predicted = predict_dataset(&model, &evidence.dataset)?.coordinates_m;
+    let mean = evidence.dataset.mean_over_runs();
+    let squares: f64 = predicted.iter().zip(&mean).map(|(a, b)| (a - b).powi(2)).sum();
+    Ok(1e3 * (squares / mean.len() as f64).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every step lowers the error in data that chose it; the whole path lowers it in data that chose nothing.
+    #[test]
+    fn the_error_falls_in_every_step_and_in_data_that_were_left_out() {
+        let demo = demo(&mut |_, _| ()).unwrap();
+        assert!(demo.steps.len() > 3 && demo.steps.windows(2).all(|pair| pair[1].error_mm < pair[0].error_mm));
+        let [first, last] = [&demo.steps[0], &demo.steps[demo.steps.len() - 1]];
+        assert!(last.error_mm < 0.25 * first.error_mm && last.left_out_mm < 0.5 * first.left_out_mm, "{demo:?}");
+        assert_eq!(demo.candidates[0].effect, demo.steps[1].effect);
+        assert_eq!(demo.engines.robots.len(), ROBOTS.len());
+    }
 }

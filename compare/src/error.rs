@@ -159,6 +159,9 @@ impl CompareError {
         use CompareError::{Fem, Refused, Unread};
         match self {
             Refused { help, .. } | Unread { help, .. } | Fem { help, .. } => Some(help),
+            CompareError::Unsolved(models::Unsolved::NotConverged { .. }) => {
+                Some("take smaller loads, or a higher body pressure")
+            }
             _ => self.fault().map(|fault| fault.help.as_str()),
         }
     }

@@ -22,12 +22,10 @@ pub mod shares {
     pub const COMPARED: f64 = 0.02;
     /// The report of a ladder begins.
     pub const CLIMBED: f64 = 0.4;
-    /// What a demonstration computes: published displacements, marker sets, the diagnosis, run times, finite elements.
-    pub const DEMO: [f64; 5] = [0.06, 0.08, 0.32, 0.59, 0.8];
-    /// In the demonstration itself: everything is computed, the small run is made.
-    pub const SHOWN: [f64; 2] = [0.05, 0.6];
-    /// Pictures of the demonstration: both engines, marker sets, diagnosis.
-    pub const PICTURES: [f64; 3] = [0.26, 0.32, 0.7];
+    /// A demonstration is computed, its page begins.
+    pub const SHOWN: f64 = 0.75;
+    /// Pictures of its page: both engines, diagnosis.
+    pub const PICTURES: [f64; 2] = [0.2, 0.5];
 }
 
 /// The progress of a part of the whole: its shares from 0 to 1 are those of the whole from `from` to `to`.

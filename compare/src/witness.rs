@@ -102,39 +102,8 @@ pub struct Witness {
     pub sentences: Vec<String>,
 }
 
-/// Headings of [`Witness::height_rows`], in kPa and mm.
-pub const HEIGHTS: [&str; 5] = ["actuator kPa", "measured", "calibrated B", "final model", "finite elements"];
-
-impl Witness {
-    /// Outermost marker at every shared pressure \[mm\].
-    pub fn height_rows(&self) -> Vec<Vec<String>> {
-        let row = |h: &Height| {
-            let sd = h.fe_sd_mm.map_or(String::new(), |sd| format!(" ± {sd:.1}"));
-            let mm = |v: f64| format!("{v:.1}");
-            let fe = format!("{:.1}{sd}", h.fe_mm);
-            vec![short(h.actuator_kpa), mm(h.measured_mm), mm(h.base_mm), mm(h.best_mm), fe]
-        };
-        self.heights.iter().map(row).collect()
-    }
-
-    /// Name, ledger in [`TERMS`] and distance from the finite elements' ledger, which is the last row \[mJ\].
-    pub fn ledger_rows(&self) -> Vec<Vec<String>> {
-        let row = |name: &str, energies: &Energies, apart: Option<f64>| {
-            let mut row = vec![name.to_string()];
-            row.extend(energies.iter().map(|e| format!("{e:.0}")));
-            row.push(apart.map_or("–".into(), |e| format!("{e:.0}")));
-            row
-        };
-        let models = self.models.iter().map(|m| row(&m.name, &m.energies_mj, Some(m.apart_mj)));
-        models.chain(self.fe_mj.map(|fe| row("finite elements", &fe, None))).collect()
-    }
-}
-
 /// Holds finite element runs of the scenario's robot against a diagnosis; `None` where there is none, or none at a pressure
 /// of the data, and of a robot in space or with several supply channels.
-///
-/// # Errors
-/// A model without equilibrium.
 pub fn witness(
     d: &Diagnosis,
     scenario: &Scenario,

@@ -66,6 +66,12 @@ impl Provenance {
     }
 
     /// The one of this word, in upper or lower case.
+    ///
+    /// ```
+    /// use data::Provenance;
+    /// assert_eq!(Provenance::of("Measured").map(Provenance::word), Some("measured"));
+    /// assert_eq!(Provenance::of("guessed"), None);
+    /// ```
     pub fn of(word: &str) -> Option<Provenance> {
         let all = [Provenance::Measured, Provenance::Digitised, Provenance::Synthetic, Provenance::Published];
         all.into_iter().find(|provenance| provenance.word().eq_ignore_ascii_case(word))

@@ -2,19 +2,16 @@
 
 use crate::dataset::{Dataset, Hold, Lost, Marker};
 use crate::error::{DataError, Fault, Result};
+use crate::header::Pressures;
 use crate::lost::fill;
 use crate::policy;
-use crate::streams::pressures::{PRESSURES, are_near};
-use crate::streams::{Recorder, Sample, Segment, Stream};
+use crate::streams::{Recorder, Sample, Segment, Stream, are_near, merged};
 use crate::units::kpa;
 
 /// Samples kept per (run, hold, marker): enough to see creep inside a hold, few enough for a dense noise model.
 const MOST_SAMPLES_PER_HOLD: usize = 5;
 
 /// Builds the dataset; `stations_m` in order of `recorder.markers`.
-///
-/// # Errors
-/// A marker or a hold that one run has and another has not, a marker that hardly any run saw.
 pub(crate) fn align(
     name: String,
     actuator: String,
@@ -37,7 +34,7 @@ pub(crate) fn align(
                 let place = |bins: &Vec<Sample>| bins[sample].place();
                 let places = bins.iter().map(|bins| bins.as_ref().map_or([0.0; 3], place));
                 coordinates_m.extend(places.flat_map(|place| place.into_iter().take(axes)));
-                let readings = bins.iter().flatten().map(|bins| mean(bins[sample], |b| b.gauge_pa));
+                let readings = bins.iter().flatten().map(|bins| bins[sample].gauge_pa());
                 gauge_pa.push(readings.sum::<f64>() / bins.iter().flatten().count().max(1) as f64);
             }
         }
@@ -45,7 +42,7 @@ pub(crate) fn align(
     let marker = |&m: &usize| Marker { name: recorder.markers.names[m].clone(), station_m: stations_m[m] };
     let markers = order.iter().map(marker).collect();
     let runs = recorder.runs.names.clone();
-    let gauge_pa = recorder.extremes.gauge.then_some(gauge_pa);
+    let gauge_pa = recorder.has_gauge.then_some(gauge_pa);
     let none = Lost::default();
     let mut dataset = Dataset {
         name,
@@ -67,8 +64,6 @@ pub(crate) fn align(
     Ok(dataset)
 }
 
-/// # Errors
-/// A marker that too few runs saw in every hold, a hold in which too few runs saw any marker.
 fn check_seen(file: &str, dataset: &Dataset) -> Result<()> {
     let (holds, markers) = (0..dataset.holds.len(), 0..dataset.markers.len());
     let blind = markers.clone().find(|m| holds.clone().all(|h| !dataset.is_seen(h, *m)));
@@ -119,12 +114,19 @@ impl<'a> Grid<'a> {
         for run in &streams {
             let mut matched = Vec::with_capacity(run.len());
             for stream in run {
-                let found = match_holds(reference, &stream.segments);
-                matched.push(found.map_err(|surplus| unlike(recorder, fullest, stream, surplus))?);
+                let unlike = |surplus: usize| {
+                    let segment = &stream.segments[surplus];
+                    let [own, other] = [stream, fullest].map(|stream| recorder.words(stream));
+                    let message = format!("{own} has a hold that {other} has not: {}", describe(segment));
+                    recorder.fault(message, SAME_HOLDS, segment.first_line)
+                };
+                matched.push(match_holds(reference, &stream.segments).map_err(unlike)?);
             }
             let seen_by_none = |hold: &usize| matched.iter().all(|of: &Vec<Option<usize>>| of[*hold].is_none());
             if let Some(hold) = (0..reference.len()).find(seen_by_none) {
-                return Err(no_such_hold(recorder, fullest, run[0], &reference[hold]));
+                let [own, other] = [run[0], fullest].map(|stream| recorder.words(stream));
+                let message = format!("{own} has no hold like that of {other}: {}", describe(&reference[hold]));
+                return Err(recorder.fault(message, SAME_HOLDS, run[0].first_line));
             }
             check_not_run_together(recorder, run, &matched)?;
             segments.push(matched);
@@ -172,11 +174,11 @@ impl<'a> Grid<'a> {
         let shifts = self.time_shifts_s();
         let mut holds: Vec<Hold> = Vec::with_capacity(self.reference.len());
         for (index, first) in self.reference.iter().enumerate() {
-            let (mut sums_pa, mut t_s) = ([0.0; PRESSURES.len()], vec![0.0; samples]);
+            let (mut sums_pa, mut t_s) = (Pressures::default(), vec![0.0; samples]);
             for (run, segment) in self.of_hold(index) {
                 sums_pa.iter_mut().zip(segment.means_pa()).for_each(|(sum, mean)| *sum += mean);
                 let times = bins(&segment.samples, samples);
-                t_s.iter_mut().zip(times).for_each(|(t, bin)| *t += mean(bin, |b| b.t_s) - shifts[run]);
+                t_s.iter_mut().zip(times).for_each(|(t, bin)| *t += bin.t_s() - shifts[run]);
             }
             let series = self.of_hold(index).count() as f64;
             t_s.iter_mut().for_each(|t| *t /= series);
@@ -249,8 +251,7 @@ fn alike(a: &Segment, b: &Segment) -> bool {
     a.phase == b.phase && are_near(a.means_pa(), b.means_pa(), 2.0)
 }
 
-/// Pressures of a hold in the order of [`PRESSURES`].
-fn hold_pa(hold: &Hold) -> [f64; PRESSURES.len()] {
+fn hold_pa(hold: &Hold) -> Pressures {
     let more = |channel: usize| hold.more_act_pa.get(channel).copied().unwrap_or(0.0);
     [hold.p_body_pa, hold.p_act_pa, more(0), more(1), more(2)]
 }
@@ -266,23 +267,7 @@ fn describe(segment: &Segment) -> String {
 const SAME_HOLDS: &str = "every run needs the same holds (pressures, phase, number of repetitions): keep only rows recorded while \
                           the pressures are steady, and put other protocols into files of their own";
 
-fn unlike(recorder: &Recorder, fullest: &Stream, stream: &Stream, surplus: usize) -> DataError {
-    let segment = &stream.segments[surplus];
-    let [own, other] = [stream, fullest].map(|stream| recorder.words(stream));
-    let message = format!("{own} has a hold that {other} has not: {}", describe(segment));
-    recorder.fault(message, SAME_HOLDS, segment.first_line)
-}
-
-fn no_such_hold(recorder: &Recorder, fullest: &Stream, first: &Stream, hold: &Segment) -> DataError {
-    let [own, other] = [first, fullest].map(|stream| recorder.words(stream));
-    let message = format!("{own} has no hold like that of {other}: {}", describe(hold));
-    recorder.fault(message, SAME_HOLDS, first.first_line)
-}
-
 /// A marker that was lost in a hold between two equal ones has one long hold in place of both.
-///
-/// # Errors
-/// Such a hold.
 fn check_not_run_together(recorder: &Recorder, run: &[&Stream], matched: &[Vec<Option<usize>>]) -> Result<()> {
     if matched.iter().flatten().all(Option::is_some) {
         return Ok(());
@@ -311,15 +296,5 @@ fn check_not_run_together(recorder: &Recorder, run: &[&Stream], matched: &[Vec<O
 /// Consecutive samples in `count` bins of (nearly) equal size.
 fn bins(samples: &[Sample], count: usize) -> Vec<Sample> {
     let cut = |bin: usize| bin * samples.len() / count;
-    let total = |range: &[Sample]| {
-        range.iter().fold(Sample::default(), |mut total, &sample| {
-            total.add(sample);
-            total
-        })
-    };
-    (0..count).map(|bin| total(&samples[cut(bin)..cut(bin + 1)])).collect()
-}
-
-fn mean(bin: Sample, value: fn(&Sample) -> f64) -> f64 {
-    value(&bin) / bin.count.max(1) as f64
+    (0..count).map(|bin| merged(&samples[cut(bin)..cut(bin + 1)])).collect()
 }

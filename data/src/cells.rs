@@ -39,6 +39,20 @@ pub(crate) fn clock_s(text: &str) -> Option<f64> {
     }
 }
 
+/// Seconds since midnight of a date and a clock time with seconds: `2026-03-02T10:11:12.5Z`, `3/2/2026 10:11:12 AM`; the day is not used.
+pub(crate) fn day_s(text: &str) -> Option<f64> {
+    let upper = text.to_ascii_uppercase();
+    let (text, half) = match (upper.strip_suffix("AM"), upper.strip_suffix("PM")) {
+        (Some(rest), _) => (rest.trim(), Some(0.0)),
+        (_, Some(rest)) => (rest.trim(), Some(43_200.0)),
+        _ => (upper.trim_end_matches('Z'), None),
+    };
+    let (date, clock) = text.rsplit_once([' ', 'T']).unwrap_or(("0", text));
+    let clock = clock.split(['+', '-']).next().filter(|clock| clock.matches(':').count() == 2)?;
+    let s = clock_s(clock).filter(|_| date.starts_with(|c: char| c.is_ascii_digit()))?;
+    Some(half.map_or(s, |half| s % 43_200.0 + half))
+}
+
 /// How a file writes decimals; found while it is read.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Decimals {
@@ -52,9 +66,6 @@ pub(crate) struct Decimals {
 
 impl Decimals {
     /// The number of a cell; `allowed`: a comma may be in it (it does not separate cells).
-    ///
-    /// # Errors
-    /// A file that writes decimals both with a point and with a comma.
     pub(crate) fn number(&mut self, text: &str, allowed: bool, line: &Line) -> Result<Option<f64>> {
         if !(allowed && text.contains(',')) {
             let value = text.parse().ok();
@@ -74,9 +85,6 @@ impl Decimals {
     }
 
     /// Whether decimals are written with a comma.
-    ///
-    /// # Errors
-    /// Every comma may be one of thousands; a point elsewhere.
     pub(crate) fn finish(&self) -> Result<bool> {
         match &self.doubtful {
             Some((line, text)) if self.point => Err(both(&line.line(), text)),
@@ -159,6 +167,15 @@ mod tests {
         );
         assert_eq!(clock_s("0:00:01:50"), Some(1.5));
         assert_eq!(clock_s("1:02:03.25"), Some(3723.25));
+        for stamp in [
+            "2026-03-02T13:02:03.25Z",
+            "02.03.2026 13:02:03.25",
+            "3/2/2026 1:02:03.25 PM",
+            "2026-03-02 13:02:03.25+01:00",
+        ] {
+            assert_eq!(day_s(stamp), Some(46_923.25), "{stamp}");
+        }
+        assert_eq!((day_s("12:00:01 AM"), day_s("2026-03-02 10:11"), day_s("at 10:11:12")), (Some(1.0), None, None));
         assert_eq!((clock_s("2:03.5"), clock_s("1.5"), clock_s("a:b")), (Some(123.5), None, None));
     }
 

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::about::{About, BENDING_TEST};
 use crate::agreement::{Doubt, Seen, doubts};
-use crate::dataset::{Dataset, Hold, Phase};
+use crate::dataset::{Dataset, Hold, Marker, Phase};
 use crate::lost::losses;
 use crate::policy::{self, tolerance_act_pa, tolerance_body_pa};
 use crate::units::{kpa, mm};
@@ -111,6 +111,11 @@ pub fn check(dataset: &Dataset, about: Option<&About>) -> CheckReport {
         let values: Vec<f64> = cells.flat_map(|(h, m)| variance_mm2.as_ref().map(|v| v[h * markers + m])).collect();
         (!values.is_empty()).then(|| (values.iter().sum::<f64>() / values.len() as f64).sqrt())
     };
+    let marker_check = |(index, marker): (usize, &Marker)| MarkerCheck {
+        name: marker.name.clone(),
+        s_mm: marker.station_m.map(mm),
+        scatter_mm: rms(&|_, marker| marker == index),
+    };
     let mut report = CheckReport {
         name: dataset.name.clone(),
         actuator: dataset.actuator.clone(),
@@ -118,7 +123,7 @@ pub fn check(dataset: &Dataset, about: Option<&About>) -> CheckReport {
         runs: dataset.runs.clone(),
         samples_per_hold: dataset.samples_per_hold,
         holds: (0..holds).map(|h| hold_check(dataset, h, rms(&|hold, _| hold == h))).collect(),
-        markers: (0..markers).map(|m| marker_check(dataset, m, rms(&|_, marker| marker == m))).collect(),
+        markers: dataset.markers.iter().enumerate().map(marker_check).collect(),
         actuator_pressures_kpa: levels(dataset.holds.iter().flat_map(Hold::channels_pa).collect(), tolerance_act_pa),
         body_pressures_kpa: levels(dataset.holds.iter().map(|hold| hold.p_body_pa).collect(), tolerance_body_pa),
         z_travel_mm: dataset.has_z().then(|| mm(dataset.travel_m(2))),
@@ -155,11 +160,6 @@ fn gauge_kpa(dataset: &Dataset, hold: usize) -> Option<f64> {
     let own = |run: usize| Some(dataset.gauge(run)?[hold * samples..(hold + 1) * samples].iter().sum::<f64>());
     let total: f64 = (0..dataset.runs.len()).map(own).sum::<Option<f64>>()?;
     Some(kpa(total / (dataset.runs.len() * samples) as f64))
-}
-
-fn marker_check(dataset: &Dataset, index: usize, scatter_mm: Option<f64>) -> MarkerCheck {
-    let marker = &dataset.markers[index];
-    MarkerCheck { name: marker.name.clone(), s_mm: marker.station_m.map(mm), scatter_mm }
 }
 
 /// `[hold][marker]`: variance over runs of the mean over samples, averaged over the axes \[mm²\]; `None` for one run.
@@ -316,39 +316,26 @@ pub fn contradictions(dataset: &Dataset) -> Vec<String> {
 
 fn warnings(report: &CheckReport, about: Option<&About>) -> Vec<String> {
     let mut warnings = Vec::new();
-    let mut warn = |condition: bool, text: String| warnings.extend(condition.then_some(text));
+    let mut warn = |condition: bool, text: &str| warnings.extend(condition.then(|| text.to_string()));
     let runs = report.runs.len();
-    warn(runs == 1, "one run: no noise floor and no p-values can be given; at least 3 runs are needed".to_string());
-    warn(
-        runs == 2,
-        "two runs: the noise floor rests on one difference; at least 3 runs are needed for p-values".to_string(),
-    );
+    warn(runs == 1, "one run: no noise floor and no p-values can be given; at least 3 runs are needed");
+    warn(runs == 2, "two runs: the noise floor rests on one difference; at least 3 runs are needed for p-values");
     let outliers = report.outliers.len();
+    let far = policy::OUTLIER_Z;
     warn(
         outliers > 0,
-        format!(
-            "{outliers} samples lie more than {} robust standard deviations from the other runs",
-            policy::OUTLIER_Z
-        ),
+        &format!("{outliers} samples lie more than {far} robust standard deviations from the other runs"),
     );
     let unknown = report.markers.iter().filter(|marker| marker.s_mm.is_none()).count();
-    warn(unknown > 0, format!("{unknown} markers without station: add [markers] names and s_mm to about.toml"));
-    warn(
-        !report.unloading,
-        "no unloading branch: friction, creep and set cannot be told from other effects".to_string(),
-    );
-    warn(
-        report.body_pressures_kpa.len() < 2,
-        "one body pressure: body stiffness and pouch effects are hard to separate".to_string(),
-    );
-    warn(
-        report.actuator_pressures_kpa.len() < 3,
-        "fewer than three actuator pressures: no trend with pressure".to_string(),
-    );
-    warn(about.is_some_and(|about| about.bending_nm2.is_none()), format!("no bending test: {BENDING_TEST}"));
-    warn(about.is_none(), "no about.toml: provenance, licence, geometry and gravity are unknown".to_string());
+    warn(unknown > 0, &format!("{unknown} markers without station: add [markers] names and s_mm to about.toml"));
+    warn(!report.unloading, "no unloading branch: friction, creep and set cannot be told from other effects");
+    let [body, act] = [&report.body_pressures_kpa, &report.actuator_pressures_kpa].map(Vec::len);
+    warn(body < 2, "one body pressure: body stiffness and pouch effects are hard to separate");
+    warn(act < 3, "fewer than three actuator pressures: no trend with pressure");
+    warn(about.is_some_and(|about| about.bending_nm2.is_none()), &format!("no bending test: {BENDING_TEST}"));
+    warn(about.is_none(), "no about.toml: provenance, licence, geometry and gravity are unknown");
     let unseen =
         about.into_iter().flat_map(|about| &about.markers).filter(|m| report.markers.iter().all(|r| r.name != m.name));
-    unseen.for_each(|marker| warn(true, format!("marker {} of about.toml has no rows", marker.name)));
+    unseen.for_each(|marker| warn(true, &format!("marker {} of about.toml has no rows", marker.name)));
     warnings
 }

@@ -99,9 +99,6 @@ pub(crate) fn split(text: &str, given: Option<u8>) -> (Vec<String>, u8) {
 }
 
 /// The column of every field; `None` for those that are not there.
-///
-/// # Errors
-/// A field that two columns hold.
 pub(crate) fn find(
     line: &Line,
     names: &[String],
@@ -184,9 +181,6 @@ pub(crate) fn notes(lines: &mut Lines) -> Result<(Vec<Note>, Option<KeptLine>)> 
 }
 
 /// What the comments give for all rows in SI units, field by field.
-///
-/// # Errors
-/// A key without a unit, no number, two values of one field.
 pub(crate) fn shared(fields: &[Field], notes: &[Note]) -> Result<Vec<Option<f64>>> {
     let mut values = vec![None; fields.len()];
     for note in notes {
@@ -211,9 +205,6 @@ pub(crate) fn shared(fields: &[Field], notes: &[Note]) -> Result<Vec<Option<f64>
 }
 
 /// How the numbers came to be, by `# provenance: digitised`; measured without that comment.
-///
-/// # Errors
-/// An unknown word, two comments.
 pub(crate) fn provenance(notes: &[Note]) -> Result<Provenance> {
     let mut all = notes.iter().filter(|note| note.key == "provenance");
     let Some(note) = all.next() else { return Ok(Provenance::Measured) };
@@ -242,10 +233,6 @@ impl Columns {
         self.at[field].as_ref().map_or(self.fields[field].expected, |column| &self.names[column.index])
     }
 
-    /// The cells of a row.
-    ///
-    /// # Errors
-    /// More or fewer cells than names.
     pub(crate) fn row<'a>(&'a self, line: Line<'a>) -> Result<TableRow<'a>> {
         let cells: Vec<&str> =
             line.text.split(self.delimiter).map(|cell| cell.trim().trim_matches('"').trim()).collect();
@@ -275,9 +262,6 @@ impl TableRow<'_> {
     }
 
     /// The number of a field in SI units; `None` if it has no column.
-    ///
-    /// # Errors
-    /// Anything else than a finite number.
     pub(crate) fn number(&self, field: usize) -> Result<Option<f64>> {
         self.read(field, Unit::to_si)
     }

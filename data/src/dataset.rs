@@ -160,6 +160,12 @@ impl Dataset {
     }
 
     /// Mean over runs, laid out like [`Dataset::run`] \[m\].
+    ///
+    /// ```
+    /// let (dataset, _) = data::load("fem-epam", &mut |_, _| ()).unwrap();
+    /// let sum: f64 = (0..dataset.runs.len()).map(|run| dataset.run(run)[0]).sum();
+    /// assert!((dataset.mean_over_runs()[0] - sum / dataset.runs.len() as f64).abs() < 1e-15);
+    /// ```
     pub fn mean_over_runs(&self) -> Vec<f64> {
         let n = self.values_per_run();
         let mut mean = vec![0.0; n];

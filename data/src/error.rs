@@ -100,11 +100,24 @@ fn floor_boundary(text: &str, at: usize) -> usize {
     at
 }
 
+/// Movement and pressure over the time of the log, as a refused clock puts them next to each other.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ClockTracks {
+    /// Time \[s\] and share of the range of the movement, thinned for a picture.
+    pub movement: Vec<[f64; 2]>,
+    /// Time \[s\] and actuator pressure as a share of its range.
+    pub pressure: Vec<[f64; 2]>,
+    /// Times at which movement and pressure change \[s\].
+    pub changes_s: [Vec<f64>; 2],
+    /// Time of the log minus time of the camera \[s\].
+    pub offset_s: f64,
+}
+
 /// What reading or writing gives, or why not.
 pub type Result<T, E = DataError> = std::result::Result<T, E>;
 
 /// Why a dataset, a description or a table could not be read or written.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DataError {
     /// No such file, folder or embedded set, or it cannot be opened or written.
     #[error("{0}")]
@@ -124,6 +137,9 @@ pub enum DataError {
     /// Runs, holds and markers do not fit together.
     #[error("{0}")]
     Runs(Box<Fault>),
+    /// The clocks of camera and pressure log do not agree.
+    #[error("{0}")]
+    Clock(Box<Fault>, Box<ClockTracks>),
     /// A TOML description is wrong.
     #[error("{0}")]
     About(Box<Fault>),
@@ -155,10 +171,22 @@ impl DataError {
 
     /// The fault inside.
     pub fn fault(&self) -> &Fault {
-        use DataError::{About, Cell, Column, Feature, File, Layout, Runs, Unit};
+        use DataError::{About, Cell, Clock, Column, Feature, File, Layout, Runs, Unit};
         match self {
-            File(f) | Layout(f) | Column(f) | Cell(f) | Unit(f) | Runs(f) | About(f) | Feature(f) => f,
+            File(f) | Layout(f) | Column(f) | Cell(f) | Unit(f) | Runs(f) | Clock(f, _) | About(f) | Feature(f) => f,
         }
+    }
+
+    /// The same with more to do or type.
+    #[must_use]
+    pub fn with_help(mut self, more: &str) -> DataError {
+        use DataError::{About, Cell, Clock, Column, Feature, File, Layout, Runs, Unit};
+        match &mut self {
+            File(f) | Layout(f) | Column(f) | Cell(f) | Unit(f) | Runs(f) | Clock(f, _) | About(f) | Feature(f) => {
+                f.help += more;
+            }
+        }
+        self
     }
 
     /// The mistake, without the place.

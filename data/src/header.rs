@@ -21,6 +21,12 @@ pub(crate) const Z: usize = 11;
 /// Of supply channels 1, 2 and 3.
 pub(crate) const P_MORE: [usize; 3] = [12, 13, 14];
 
+/// Columns of the pressures by which rows fall into holds: body, actuator, and the supply channels from 1 on.
+pub(crate) const PRESSURES: [usize; 2 + P_MORE.len()] = [P_BODY, P_ACT, P_MORE[0], P_MORE[1], P_MORE[2]];
+
+/// Pressures in the order of [`PRESSURES`] \[Pa\].
+pub(crate) type Pressures = [f64; PRESSURES.len()];
+
 /// All quantities; those from `s_mm` on are optional.
 pub(crate) const QUANTITIES: [Field; 15] = [
     plain("run", true),
@@ -81,14 +87,14 @@ impl Header {
 }
 
 /// Reads comment lines and the header line of a marker table.
-///
-/// # Errors
-/// Empty file; a column missing, there twice, misspelt or without unit.
 pub(crate) fn read_header(lines: &mut Lines) -> Result<Header> {
     let mut said = None;
     loop {
         let file = lines.file().to_string();
-        let Some(line) = lines.next_filled()? else { return Err(empty_file(&file)) };
+        let Some(line) = lines.next_filled()? else {
+            let help = format!("the first line must name the columns: {}", wanted());
+            return Err(DataError::layout(&file, "the file is empty", help));
+        };
         let text = line.text.trim_start();
         match text.strip_prefix("sep=").map(|sign| sign.trim().as_bytes()) {
             Some([sign]) => said = Some(*sign),
@@ -96,12 +102,6 @@ pub(crate) fn read_header(lines: &mut Lines) -> Result<Header> {
             _ => return parse_header(&line, said),
         }
     }
-}
-
-fn empty_file(file: &str) -> DataError {
-    let fault =
-        Fault::of_file(file, "the file is empty", format!("the first line must name the columns: {}", wanted()));
-    DataError::Layout(Box::new(fault))
 }
 
 fn wanted() -> String {

@@ -21,6 +21,7 @@ pub mod import;
 mod lines;
 pub mod load;
 mod lost;
+mod parquet;
 mod policy;
 pub mod published;
 mod ramps;
@@ -45,15 +46,16 @@ pub use bench::{Bench, bench, parse_bench};
 pub use check::{CheckReport, check};
 pub use coupons::{Coupon, CouponDefaults, Direction, Pulled, parse_coupons, read_coupons};
 pub use dataset::{Dataset, Hold, Lost, Marker, Phase};
-pub use error::{DataError, Fault, Location, Result};
+pub use error::{ClockTracks, DataError, Fault, Location, Result};
 pub use lines::Progress;
 pub use load::load;
 pub use lost::losses;
+pub use parquet::read_parquet;
 pub use policy::is_a_room;
 pub use published::{
     Published, PublishedActuator, PublishedFabric, PublishedFact, PublishedProtocol, PublishedSimulation, published,
 };
 pub use read::{ReadOptions, markers_of_table, parse_markers, read_markers};
 pub use sets::{SetInfo, set_about, set_file, sets};
-pub use table::{Column, Table, read_parquet};
+pub use table::{Column, Table};
 pub use write::{about_toml, set_files, write_markers_csv};

@@ -58,7 +58,6 @@ pub(crate) struct KeptLine {
 }
 
 impl KeptLine {
-    /// The line again.
     pub(crate) fn line(&self) -> Line<'_> {
         Line { file: &self.file, number: self.number, start: self.start, text: &self.text, ended: true }
     }
@@ -96,9 +95,6 @@ impl<'a> Lines<'a> {
     }
 
     /// The next line that is not blank (whitespace or separators only), or `None` at the end.
-    ///
-    /// # Errors
-    /// The file cannot be read, a line is not UTF-8 or is longer than 1 MiB.
     pub(crate) fn next_filled(&mut self) -> Result<Option<Line<'_>>> {
         loop {
             let read = self.read_raw()?;

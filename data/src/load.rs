@@ -4,11 +4,12 @@ use std::path::Path;
 
 use crate::about::{About, read_about};
 use crate::dataset::Dataset;
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 use crate::lines::Progress;
+use crate::parquet::read_parquet;
 use crate::read::{ReadOptions, parse_markers, read_markers_of};
 use crate::sets::{names, set_about, set_file, shown};
-use crate::table::{TableReader, read_parquet};
+use crate::table::TableReader;
 
 /// Loads the dataset that `spec` names: an embedded set, a folder with `markers.csv` (or `.parquet`) and `about.toml`,
 /// a `.csv` or a `.parquet` file (an `about.toml` next to it is used). `#kind` at the end chooses one actuator.
@@ -55,8 +56,7 @@ fn load_folder(folder: &Path, actuator: Option<&str>, progress: Progress) -> Res
     let candidates = ["markers.csv", "markers.parquet"].map(|file| folder.join(file));
     let Some(file) = candidates.iter().find(|file| file.is_file()) else {
         let help = "put the table there as markers.csv, with an about.toml beside it";
-        let fault = Fault::of_file(&folder.display().to_string(), "the folder has no markers.csv", help);
-        return Err(DataError::File(Box::new(fault)));
+        return Err(DataError::file(&folder.display().to_string(), "the folder has no markers.csv", help));
     };
     let (mut dataset, about) = load_file(file, actuator, progress)?;
     let full = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());

@@ -52,10 +52,16 @@ pub(crate) const MOST_HOLDS: usize = 1_000;
 /// Holds of all streams together: bounds memory at about 2 GB whatever the file.
 pub(crate) const MOST_SERIES: usize = 1_000_000;
 
+/// A table of a Parquet file takes at most this \[bytes\]; its file and the readings of its runs come on top.
+#[cfg(feature = "parquet")]
+pub(crate) const MOST_TABLE_BYTES: usize = 600_000_000;
+
 /// Fewest rows of a specimen: three for a slope and as many for its shape.
 pub(crate) const FEWEST_ROWS: usize = 6;
 /// Steps back below this share of the range are the noise of the displacement sensor.
 pub(crate) const JITTER: f64 = 2e-3;
+/// Longest step back of unloading, as a share of the range; a longer one is another specimen or a row at the wrong place.
+pub(crate) const LARGEST_STEP: f64 = 0.2;
 /// Strain above which a coated fabric has broken; more is a unit mistake.
 pub(crate) const LARGEST_STRAIN: f64 = 3.0;
 
@@ -104,6 +110,10 @@ pub(crate) fn is_full(holds: usize, in_all: usize) -> bool {
 pub(crate) const ROOM_PA: [f64; 2] = [80e3, 110e3];
 
 /// Whether a pressure is the air pressure of a room \[Pa\].
+///
+/// ```
+/// assert!(data::is_a_room(101_325.0) && !data::is_a_room(20e3));
+/// ```
 pub fn is_a_room(pressure_pa: f64) -> bool {
     (ROOM_PA[0]..=ROOM_PA[1]).contains(&pressure_pa)
 }

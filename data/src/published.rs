@@ -149,6 +149,12 @@ impl Published {
 
 /// The numbers printed in the paper.
 ///
+/// ```
+/// let paper = data::published().unwrap();
+/// assert_eq!(paper.protocol.actuator_pa, [10e3, 20e3, 30e3]);
+/// assert!(paper.actuator("EPAM").is_some());
+/// ```
+///
 /// # Errors
 /// The embedded file is wrong (a test of this crate sees to it that it is not).
 pub fn published() -> Result<Published> {

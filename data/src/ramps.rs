@@ -1,8 +1,8 @@
 //! Whether pressures were kept at all: a hold has a least duration, and a ramp has none.
 
 use crate::error::{DataError, Result};
+use crate::header::PRESSURES;
 use crate::rows::lowest_mean_pa;
-use crate::streams::pressures::PRESSURES;
 use crate::streams::{Recorder, Segment, Stream};
 use crate::units::kpa;
 
@@ -16,9 +16,6 @@ const RAMP: f64 = 0.3;
 const FEW_ROWS: f64 = 0.2;
 
 /// Refuses recordings without holds, or with ramps between them, and holds whose mean pressure is below its bounds.
-///
-/// # Errors
-/// Such a recording.
 pub(crate) fn check_kept(recorder: &Recorder) -> Result<()> {
     let segments = || recorder.streams.iter().flat_map(|stream| &stream.segments);
     let too_low = |segment: &Segment| {

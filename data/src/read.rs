@@ -68,8 +68,12 @@ pub(crate) fn read_markers_of(path: &Path, options: ReadOptions, progress: Progr
 
 /// Reads a marker table from `reader`; `file` names it in errors and its stem becomes the name of the dataset.
 ///
-/// # Errors
-/// As [`read_markers`].
+/// ```
+/// let csv = "run,actuator,t_s,p_body_kpa,p_act_kpa,phase,marker,x_mm,y_mm,s_mm\n\
+///            1,epam,1,2,0,load,1,330,0,330\n1,epam,2,2,20,load,1,310,90,330\n";
+/// let read = data::parse_markers("my.csv", &mut csv.as_bytes(), Default::default(), &mut |_, _| ()).unwrap();
+/// assert_eq!((read.holds[1].p_act_pa, read.xy(0, 1, 0, 0)), (20e3, [0.31, 0.09]));
+/// ```
 pub fn parse_markers(file: &str, reader: &mut dyn Read, options: ReadOptions, progress: Progress) -> Result<Dataset> {
     let mut lines = Lines::new(file, reader, options.bytes_total, progress);
     let mut reader = RowReader::new(read_header(&mut lines)?);
@@ -78,34 +82,32 @@ pub fn parse_markers(file: &str, reader: &mut dyn Read, options: ReadOptions, pr
     while let Some(line) = lines.next_filled()? {
         reader.split(&line)?;
         let cells = Cells { reader: &reader, line: &line };
-        match kind.accept(cells.actuator()?) {
-            Verdict::Take if cells.is_lost() => recorder.lost_frames += 1,
-            Verdict::Take => match cells.placeholder().filter(|_| !sits_at_base(cells, options.about)) {
-                Some(words) => recorder.placeholders.note(words, 1, line.number),
-                None => recorder.add(cells)?,
-            },
-            Verdict::Skip => {}
-            Verdict::Mixed(message, help) => {
-                return Err(DataError::Runs(cells.fault(ACTUATOR, message, help)));
-            }
+        if !kind.takes(cells)? {
+            continue;
+        }
+        match cells.placeholder().filter(|_| !sits_at_base(cells, options.about)) {
+            _ if cells.is_lost() => recorder.lost_frames += 1,
+            Some(words) => recorder.placeholders.note(words, 1, line.number),
+            None => recorder.add(cells)?,
         }
     }
     if recorder.streams.is_empty() {
         return Err(no_rows(file, &kind, recorder.lost_frames + recorder.placeholders.rows()));
     }
     recorder.placeholders.take_out_shared(&mut recorder.streams);
-    let told = told(&reader, &recorder)?;
-    check_units(&reader, &recorder.extremes)?;
+    let mut told = reader.told()?;
+    told.extend(recorder.placeholders.told());
+    check_units(&reader, &recorder.largest)?;
     check_kept(&recorder)?;
     check_about_runs(file, &recorder, options.about)?;
     let stations_m = stations(file, &recorder, options.about)?;
     let stem = Path::new(file).file_stem().map_or(file.to_string(), |stem| stem.to_string_lossy().into_owned());
-    let mut dataset = align(stem, kind.chosen(), &recorder, &stations_m)?;
+    let mut dataset = align(stem, kind.found.unwrap_or_default(), &recorder, &stations_m)?;
     dataset.lost.frames = recorder.lost_frames;
     dataset.told = told;
     check_kind(file, &dataset.actuator, options.about)?;
     if !dataset.is_spatial() {
-        check_y_up(&reader.header, &dataset)?;
+        check_y_up(Some(&reader.header), &dataset)?;
     }
     Ok(dataset)
 }
@@ -135,13 +137,6 @@ fn sits_at_base(cells: Cells, about: Option<&About>) -> bool {
     described.map(|marker| marker.station_m).or(cells.station_m()).is_some_and(|s| s < AT_BASE_M)
 }
 
-/// What was assumed on reading, in words.
-fn told(cells: &RowReader, recorder: &Recorder) -> Result<Vec<String>> {
-    let mut told = cells.told()?;
-    told.extend(recorder.placeholders.told());
-    Ok(told)
-}
-
 /// Which actuator kind is read, and which others were seen.
 #[derive(Default)]
 struct Kind {
@@ -150,39 +145,27 @@ struct Kind {
     seen: BTreeSet<String>,
 }
 
-enum Verdict {
-    Take,
-    Skip,
-    Mixed(String, String),
-}
-
 impl Kind {
-    fn accept(&mut self, cell: &str) -> Verdict {
+    /// Whether a row is of the kind that is read.
+    fn takes(&mut self, cells: Cells) -> Result<bool> {
+        let cell = cells.actuator()?;
         if self.found.as_deref().is_some_and(|found| found.eq_ignore_ascii_case(cell)) {
-            return Verdict::Take;
+            return Ok(true);
         }
         let kind = cell.to_lowercase();
         if self.wanted.as_ref().is_some_and(|wanted| *wanted != kind) {
             if self.seen.len() < MOST_KINDS {
                 self.seen.insert(kind);
             }
-            return Verdict::Skip;
+            return Ok(false);
         }
-        match &self.found {
-            None => {
-                self.found = Some(kind);
-                Verdict::Take
-            }
-            Some(found) if *found == kind => Verdict::Take,
-            Some(found) => Verdict::Mixed(
-                format!("several actuators in one file: {found} and {kind}"),
-                format!("choose one by adding #{found} or #{kind} to the file name, or split the file"),
-            ),
+        let found = self.found.get_or_insert_with(|| kind.clone());
+        if *found != kind {
+            let help = format!("choose one by adding #{found} or #{kind} to the file name, or split the file");
+            let message = format!("several actuators in one file: {found} and {kind}");
+            return Err(DataError::Runs(cells.fault(ACTUATOR, message, help)));
         }
-    }
-
-    fn chosen(&self) -> String {
-        self.found.clone().unwrap_or_default()
+        Ok(true)
     }
 }
 
@@ -207,8 +190,7 @@ fn check_kind(file: &str, kind: &str, about: Option<&About>) -> Result<()> {
         return Ok(());
     }
     let message = format!("the table is of actuator {kind}, its about.toml says {said}");
-    let fault = Fault::of_file(file, message, format!("correct the actuator column or `actuator = \"{kind}\"`"));
-    Err(DataError::Runs(Box::new(fault)))
+    Err(DataError::runs(file, message, format!("correct the actuator column or `actuator = \"{kind}\"`")))
 }
 
 fn check_about_runs(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<()> {
@@ -239,8 +221,7 @@ fn stations(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<Ve
         if column_m.is_some_and(|s| (s - marker.station_m).abs() > policy::ROUNDED_STATION_M) {
             let message =
                 format!("the station of marker {name} is not the one in about.toml ({} mm)", marker.station_m * 1e3);
-            let fault = Fault::of_file(file, message, "correct the s_mm column or [markers] s_mm in about.toml");
-            return Err(DataError::Runs(Box::new(fault)));
+            return Err(DataError::runs(file, message, "correct the s_mm column or [markers] s_mm in about.toml"));
         }
         stations.push(Some(marker.station_m));
     }

@@ -4,7 +4,7 @@ use crate::cells::{Decimals, is_nothing, label, no_number, with_comma};
 use crate::dataset::Phase;
 use crate::error::{DataError, Fault, Result};
 use crate::header::{
-    ACTUATOR, GAUGE, Header, MARKER, P_ACT, P_BODY, P_MORE, PHASE, QUANTITIES, RUN, STATION, TIME, X, Y, Z,
+    ACTUATOR, GAUGE, Header, MARKER, P_BODY, PHASE, PRESSURES, Pressures, QUANTITIES, RUN, STATION, TIME, X, Y, Z,
 };
 use crate::lines::Line;
 use crate::policy;
@@ -18,10 +18,8 @@ pub(crate) struct Row<'a> {
     pub marker: &'a str,
     pub phase: Phase,
     pub t_s: f64,
-    pub p_body_pa: f64,
-    pub p_act_pa: f64,
-    /// Of supply channels 1, 2 and 3; 0 without a column.
-    pub more_act_pa: [f64; 3],
+    /// 0 of a channel without a column.
+    pub pressures_pa: Pressures,
     pub x_m: f64,
     pub y_m: f64,
     pub z_m: Option<f64>,
@@ -84,9 +82,6 @@ impl RowReader {
     }
 
     /// Splits one line into cells, to be read as [`Cells`].
-    ///
-    /// # Errors
-    /// Wrong number of cells.
     pub(crate) fn split(&mut self, line: &Line) -> Result<()> {
         self.cells.resize(self.cells.len().max(line.text.len() + 1), 0);
         self.splitter.reset();
@@ -147,10 +142,6 @@ impl RowReader {
         Ok(())
     }
 
-    /// What was assumed, in words.
-    ///
-    /// # Errors
-    /// Numbers with a comma that may be decimal or of thousands.
     pub(crate) fn told(&self) -> Result<Vec<String>> {
         let comma = self.decimals.finish()?;
         let mut told = Vec::new();
@@ -253,29 +244,28 @@ impl<'a> Cells<'a> {
     }
 
     /// The observation of the line split last.
-    ///
-    /// # Errors
-    /// An empty cell, text in a number cell, NaN or infinity, an unknown phase, an impossible pressure or length.
     pub(crate) fn row(&self) -> Result<Row<'a>> {
         let y_m = self.length(Y)?;
-        let mut more_act_pa = [0.0; P_MORE.len()];
-        for (pressure_pa, quantity) in more_act_pa.iter_mut().zip(P_MORE).filter(|(_, q)| self.has(*q)) {
-            *pressure_pa = self.pressure(quantity)?;
-        }
         Ok(Row {
             run: label(self.word(RUN)?),
             marker: label(self.word(MARKER)?),
             phase: self.phase()?,
             t_s: self.bounded(TIME, &Range::TIME)?,
-            p_body_pa: self.pressure(P_BODY)?,
-            p_act_pa: self.pressure(P_ACT)?,
-            more_act_pa,
+            pressures_pa: self.pressures()?,
             x_m: self.length(X)?,
             y_m: if self.header.y_down { -y_m } else { y_m },
             z_m: self.has(Z).then(|| self.length(Z)).transpose()?,
             station_m: self.has(STATION).then(|| self.bounded(STATION, &Range::STATION)).transpose()?,
             gauge_pa: self.has(GAUGE).then(|| self.pressure(GAUGE)).transpose()?,
         })
+    }
+
+    fn pressures(&self) -> Result<Pressures> {
+        let mut pressures_pa = Pressures::default();
+        for (pressure_pa, quantity) in pressures_pa.iter_mut().zip(PRESSURES).filter(|(_, q)| self.has(*q)) {
+            *pressure_pa = self.pressure(quantity)?;
+        }
+        Ok(pressures_pa)
     }
 
     /// The fault of one cell, with its column, text and span.
@@ -381,14 +371,10 @@ impl<'a> Cells<'a> {
         Ok(value)
     }
 
-    fn out_of_bounds(&self, quantity: usize, value_pa: f64, help: String) -> Box<Fault> {
-        let told = pressure_bounds(quantity).check(value_pa).err();
-        self.fault(quantity, told.map_or(String::new(), |(message, _)| message), help)
-    }
-
     /// The fault of a pressure below its bounds.
     pub(crate) fn too_low(&self, quantity: usize, value_pa: f64) -> Box<Fault> {
         let help = "give gauge pressure (0 is the air of the room); subtract the sensor's zero".to_string();
-        self.out_of_bounds(quantity, value_pa, help)
+        let told = pressure_bounds(quantity).check(value_pa).err();
+        self.fault(quantity, told.map_or(String::new(), |(message, _)| message), help)
     }
 }

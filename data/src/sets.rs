@@ -55,6 +55,11 @@ pub fn set_file(set: &str, file: &str) -> Result<&'static str> {
 
 /// The description of an embedded set.
 ///
+/// ```
+/// assert_eq!(data::set_about("fem-epam").unwrap().provenance, data::Provenance::Synthetic);
+/// assert!(data::set_about("fem-epan").is_err());
+/// ```
+///
 /// # Errors
 /// No such set, or its `about.toml` is wrong.
 pub fn set_about(set: &str) -> Result<About> {

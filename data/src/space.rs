@@ -3,7 +3,7 @@
 use crate::dataset::Dataset;
 use crate::error::{DataError, Result};
 use crate::policy::{self, tolerance_act_pa};
-use crate::streams::plausible::check_y_up_later;
+use crate::streams::plausible::check_y_up;
 use crate::units::mm;
 
 /// A smaller change of z would be printed as 0.0 mm.
@@ -69,7 +69,7 @@ impl Dataset {
                         [[strip]]";
             return refused(message, help);
         }
-        check_y_up_later(self)?;
+        check_y_up(None, self)?;
         let words = "the robot is planar, so z was left aside. If it bends towards z too, describe its strips with azimuth_deg or [[strip]]";
         Ok((z_mm >= TOLD_MM)
             .then(|| format!("{}: z varies by up to {z_mm:.1} mm from the first hold; {words}", self.name)))

@@ -3,41 +3,59 @@
 //! Rows may come sorted by time or by marker: each (run, marker) pair is followed on its own. A new hold begins when
 //! the phase changes or a pressure departs from the mean of the current hold by more than its tolerance.
 
-mod labels;
 mod placeholders;
 pub(crate) mod plausible;
-pub(crate) mod pressures;
 mod segments;
 
 use std::collections::HashMap;
 
 use crate::error::{DataError, Fault, Result};
-use crate::header::{Header, MARKER, RUN, STATION, TIME};
-use crate::lines::{KeptLine, Line};
+use crate::header::{GAUGE, Header, MARKER, PRESSURES, QUANTITIES, RUN, STATION, TIME, X, Y, Z};
+use crate::lines::Line;
 use crate::policy;
 use crate::rows::{Cells, Row, lowest_mean_pa};
-pub(crate) use labels::Labels;
 use placeholders::Placeholders;
-use plausible::Extremes;
-use pressures::{PRESSURES, pressures_pa};
-pub(crate) use segments::{Sample, Segment, Stream};
+pub(crate) use segments::{Sample, Segment, Stream, are_near, merged};
+
+/// Labels numbered in order of first appearance.
+#[derive(Debug, Default)]
+pub(crate) struct Labels {
+    pub names: Vec<String>,
+    numbers: HashMap<String, usize>,
+    last: usize,
+}
+
+impl Labels {
+    /// The number of a label, new or known.
+    fn number(&mut self, name: &str) -> usize {
+        if self.names.get(self.last).is_none_or(|last| last != name) {
+            self.last = self.numbers.get(name).copied().unwrap_or(self.names.len());
+            if self.last == self.names.len() {
+                self.names.push(name.to_string());
+                self.numbers.insert(name.to_string(), self.last);
+            }
+        }
+        self.last
+    }
+}
 
 /// Everything kept of a file while it is read.
 #[derive(Debug, Default)]
 pub(crate) struct Recorder {
-    /// Its name in errors.
     pub file: String,
     pub runs: Labels,
     pub markers: Labels,
     pub streams: Vec<Stream>,
     /// Station of each marker from the `s_mm` column \[m\].
     pub stations_m: Vec<Option<f64>>,
-    pub extremes: Extremes,
+    /// Largest values by quantity, for the check of units.
+    pub largest: [f64; QUANTITIES.len()],
     /// Supply channels beyond the first that the table has.
     pub more_channels: usize,
     /// The table has a third coordinate.
     pub has_z: bool,
-    pub first_row: Option<KeptLine>,
+    /// The table has readings of a gauge.
+    pub has_gauge: bool,
     pub lost_frames: u64,
     /// Rows with a placeholder for a position.
     pub placeholders: Placeholders,
@@ -52,6 +70,7 @@ impl Recorder {
             file: header.line.file.clone(),
             more_channels: header.more_channels(),
             has_z: header.has_z(),
+            has_gauge: header.columns[GAUGE].is_some(),
             ..Recorder::default()
         }
     }
@@ -66,10 +85,6 @@ impl Recorder {
         format!("run {}, marker {}", self.runs.names[stream.run], self.markers.names[stream.marker])
     }
 
-    /// Takes in one observation.
-    ///
-    /// # Errors
-    /// Time not increasing in its stream, a station that changes, too many runs, markers or holds.
     pub(crate) fn add(&mut self, cells: Cells) -> Result<()> {
         let row = cells.row()?;
         let (run, marker) = (self.runs.number(row.run), self.markers.number(row.marker));
@@ -83,8 +98,10 @@ impl Recorder {
         if marker >= policy::MOST_MARKERS {
             return Err(limit(MARKER, "marker", policy::MOST_MARKERS));
         }
-        self.first_row.get_or_insert_with(|| cells.line.keep());
-        self.extremes.widen(&row);
+        let places = [(X, row.x_m), (Y, row.y_m), (Z, row.z_m.unwrap_or(0.0)), (STATION, row.station_m.unwrap_or(0.0))];
+        for (quantity, value) in places.into_iter().chain(PRESSURES.into_iter().zip(row.pressures_pa)) {
+            self.largest[quantity] = self.largest[quantity].max(value.abs());
+        }
         self.set_station(marker, &row, cells)?;
         self.add_to_stream([run, marker], &row, cells)
     }
@@ -113,7 +130,7 @@ impl Recorder {
             stream.segments.push(Segment::new(row, cells.line.number));
         }
         if let Some(segment) = stream.segments.last_mut() {
-            for (which, (pressure_pa, quantity)) in pressures_pa(row).into_iter().zip(PRESSURES).enumerate() {
+            for (which, (pressure_pa, quantity)) in row.pressures_pa.into_iter().zip(PRESSURES).enumerate() {
                 if pressure_pa < lowest_mean_pa(quantity) && segment.too_low[which].is_none() {
                     segment.too_low[which] = Some(cells.too_low(quantity, pressure_pa));
                 }
@@ -127,10 +144,8 @@ impl Recorder {
         if self.stations_m.len() <= marker {
             self.stations_m.resize(marker + 1, None);
         }
-        let (Some(new), Some(old)) = (row.station_m, self.stations_m[marker]) else {
-            self.stations_m[marker] = row.station_m.or(self.stations_m[marker]);
-            return Ok(());
-        };
+        let Some(new) = row.station_m else { return Ok(()) };
+        let old = *self.stations_m[marker].get_or_insert(new);
         if (new - old).abs() <= policy::SAME_STATION_M {
             return Ok(());
         }

@@ -1,14 +1,13 @@
 //! A small table of named columns: CSV always, Parquet through polars with the crate feature `parquet`.
 //!
-//! This is the only file that knows polars; [`Table`] keeps it out of every signature.
+//! [`Table`] keeps polars out of every signature.
 
 use std::fmt::Write as _;
 use std::io::{Read, Write};
-use std::path::Path;
 
 use crate::atomic::cannot_write;
 use crate::cells::quoted;
-use crate::error::{DataError, Result};
+use crate::error::Result;
 
 /// One column.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,6 +18,8 @@ pub enum Column {
     Str(Vec<String>),
     /// Whole numbers.
     I64(Vec<i64>),
+    /// True or false; `None` for an empty cell.
+    Bool(Vec<Option<bool>>),
 }
 
 impl Column {
@@ -28,6 +29,7 @@ impl Column {
             Column::F64(values) => values.len(),
             Column::Str(values) => values.len(),
             Column::I64(values) => values.len(),
+            Column::Bool(values) => values.len(),
         }
     }
 
@@ -43,6 +45,7 @@ impl Column {
             Column::F64(values) => values[row].to_string(),
             Column::Str(values) => quoted(&values[row]),
             Column::I64(values) => values[row].to_string(),
+            Column::Bool(values) => values[row].map_or_else(String::new, |value| value.to_string()),
         }
     }
 }
@@ -62,33 +65,22 @@ impl Table {
 
     /// Writes the table as CSV; numbers in the shortest form that reads back exactly.
     ///
-    /// # Errors
-    /// The writer fails.
+    /// ```
+    /// use data::table::{Column, Table};
+    /// let table = Table { columns: vec![("kpa".into(), Column::F64(vec![1.5, 2.0]))] };
+    /// let mut csv = Vec::new();
+    /// table.to_csv(&mut csv).unwrap();
+    /// assert_eq!(csv, b"kpa\n1.5\n2\n");
+    /// ```
     pub fn to_csv(&self, out: &mut dyn Write) -> Result<()> {
         std::io::copy(&mut TableReader::new(self), out).map_err(|cause| cannot_write("table.csv", &cause))?;
         Ok(())
     }
-
-    /// Writes the table as Parquet, whole or not at all.
-    ///
-    /// # Errors
-    /// Columns of different length; the folder is not writable; the crate was built without the feature `parquet`.
-    pub fn to_parquet(&self, path: &Path) -> Result<()> {
-        parquet::write(self, path)
-    }
 }
 
 /// Name of the thread that reads a Parquet file. The library for it panics on some damaged ones: a panic of this thread is the
-/// error that [`read_parquet`] returns.
+/// error that [`crate::read_parquet`] returns.
 pub const PARQUET_READER: &str = "parquet";
-
-/// Reads a Parquet file: numbers as `F64` or `I64`, everything else as text; an empty cell becomes NaN or "".
-///
-/// # Errors
-/// Not a Parquet file; a column that is neither number nor text; the crate was built without the feature `parquet`.
-pub fn read_parquet(path: &Path) -> Result<Table> {
-    parquet::read(path)
-}
 
 /// A table as the bytes of its CSV, rendered row by row: so Parquet goes through the same checks as CSV.
 pub(crate) struct TableReader<'a> {
@@ -129,127 +121,5 @@ impl Read for TableReader<'_> {
         buffer[..count].copy_from_slice(&self.text.as_bytes()[self.taken..self.taken + count]);
         self.taken += count;
         Ok(count)
-    }
-}
-
-#[cfg(feature = "parquet")]
-mod parquet {
-    use std::io::Cursor;
-
-    use polars_buffer::Buffer;
-    use polars_core::prelude::{
-        Column as PolarsColumn, DataFrame, DataType, NamedFrom, PolarsError, PolarsResult, Series,
-    };
-    use polars_io::SerReader;
-    use polars_io::prelude::{ParquetCompression, ParquetReader, ParquetWriter};
-    use polars_parquet::parquet::page::CompressedPage;
-    use polars_parquet::parquet::read::get_page_iterator;
-
-    use super::{Column, DataError, PARQUET_READER, Path, Result, Table};
-    use crate::atomic::write_atomically;
-
-    /// Largest number of rows; a table of that many is larger than the memory.
-    const MOST_ROWS: usize = 1 << 30;
-
-    /// Snappy: every Parquet reader has it.
-    pub(super) fn write(table: &Table, path: &Path) -> Result<()> {
-        let mut bytes = Cursor::new(Vec::new());
-        let written = frame(table).and_then(|mut frame| {
-            ParquetWriter::new(&mut bytes).with_compression(ParquetCompression::Snappy).finish(&mut frame)
-        });
-        written
-            .map_err(|cause| file_error(path, format!("cannot make a Parquet file: {cause}"), "report this table"))?;
-        write_atomically(path, bytes.get_ref())
-    }
-
-    pub(super) fn read(path: &Path) -> Result<Table> {
-        let bytes = std::fs::read(path)
-            .map_err(|cause| file_error(path, format!("cannot open the file: {cause}"), "check the path"))?;
-        let reading = std::thread::Builder::new().name(PARQUET_READER.into()).spawn(move || table(bytes));
-        let cause = match reading.map(std::thread::JoinHandle::join) {
-            Ok(Ok(Ok(table))) => return Ok(table),
-            Ok(Ok(Err(cause))) => cause.to_string(),
-            Ok(Err(_)) => "it is damaged".into(),
-            Err(cause) => cause.to_string(),
-        };
-        let help = "save the table again, or give it as CSV";
-        Err(file_error(path, format!("not a readable Parquet file: {cause}"), help))
-    }
-
-    /// The library makes room for as many rows as the file and its pages say before it looks for them, and for texts in the
-    /// heads of pages as long as these say. So pages are counted first, and none may be longer than the file.
-    fn table(bytes: Vec<u8>) -> PolarsResult<Table> {
-        let bytes = Buffer::from_vec(bytes);
-        let mut reader = ParquetReader::new(Cursor::new(bytes.clone()));
-        let said = reader.get_metadata()?;
-        let rows = said.row_groups.iter().map(|group| group.num_rows()).fold(said.num_rows, usize::max);
-        if rows > MOST_ROWS {
-            return Err(PolarsError::ComputeError(format!("it says that it has {rows} rows").into()));
-        }
-        for group in &said.row_groups {
-            for column in group.parquet_columns() {
-                let mut in_pages = 0_usize;
-                for page in get_page_iterator(column, Cursor::new(bytes.clone()), Vec::new(), bytes.len())? {
-                    if let CompressedPage::Data(page) = page? {
-                        in_pages = in_pages.saturating_add(page.num_values());
-                    }
-                }
-                if in_pages != group.num_rows() {
-                    let name = column.descriptor().path_in_schema.join(".");
-                    let message = format!("column {name} has {in_pages} values in {} rows", group.num_rows());
-                    return Err(PolarsError::ComputeError(message.into()));
-                }
-            }
-        }
-        let frame = reader.finish()?;
-        let column = |column: &PolarsColumn| Ok((column.name().to_string(), from_polars(column)?));
-        let columns: PolarsResult<Vec<_>> = frame.columns().iter().map(column).collect();
-        Ok(Table { columns: columns? })
-    }
-
-    fn file_error(path: &Path, message: String, help: &str) -> DataError {
-        DataError::file(&path.display().to_string(), message, help)
-    }
-
-    fn frame(table: &Table) -> PolarsResult<DataFrame> {
-        let series = |(name, column): &(String, Column)| match column {
-            Column::F64(values) => Series::new(name.as_str().into(), values.as_slice()),
-            Column::Str(values) => Series::new(name.as_str().into(), values.as_slice()),
-            Column::I64(values) => Series::new(name.as_str().into(), values.as_slice()),
-        };
-        DataFrame::new(table.rows(), table.columns.iter().map(|column| series(column).into()).collect())
-    }
-
-    fn from_polars(column: &PolarsColumn) -> PolarsResult<Column> {
-        if column.dtype().is_integer() && column.null_count() == 0 {
-            let cast = column.cast(&DataType::Int64)?;
-            return Ok(Column::I64(cast.i64()?.iter().flatten().collect()));
-        }
-        if column.dtype().is_primitive_numeric() {
-            let cast = column.cast(&DataType::Float64)?;
-            return Ok(Column::F64(cast.f64()?.iter().map(|value| value.unwrap_or(f64::NAN)).collect()));
-        }
-        let cast = column.cast(&DataType::String)?;
-        Ok(Column::Str(cast.str()?.iter().map(|value| value.unwrap_or_default().to_string()).collect()))
-    }
-}
-
-#[cfg(not(feature = "parquet"))]
-mod parquet {
-    use super::{DataError, Path, Result, Table};
-    use crate::error::Fault;
-
-    pub(super) fn write(_table: &Table, path: &Path) -> Result<()> {
-        Err(absent(path))
-    }
-
-    pub(super) fn read(path: &Path) -> Result<Table> {
-        Err(absent(path))
-    }
-
-    fn absent(path: &Path) -> DataError {
-        let help = "use CSV, or build with the crate feature: cargo build --features parquet";
-        let message = "this build has no Parquet support";
-        DataError::Feature(Box::new(Fault::of_file(&path.display().to_string(), message, help)))
     }
 }

@@ -11,9 +11,6 @@ use crate::units::mm;
 
 /// Writes the tidy marker table of a dataset: mm and kPa with four decimals, so that the same data give the same bytes.
 /// The columns are as in [`Dataset::to_table`]. Pressures are means over the runs of a hold. What a run lost has no rows.
-///
-/// # Errors
-/// The writer fails.
 pub fn write_markers_csv(dataset: &Dataset, out: &mut dyn Write) -> Result<()> {
     let Table { mut columns } = dataset.to_table();
     // Phase and marker come before the place.
@@ -34,9 +31,6 @@ pub fn write_markers_csv(dataset: &Dataset, out: &mut dyn Write) -> Result<()> {
 }
 
 /// A set as the files of its folder by name: `about.toml` and `markers.csv`.
-///
-/// # Errors
-/// As [`write_markers_csv`].
 pub fn set_files(dataset: &Dataset, about: &About) -> Result<[(String, Vec<u8>); 2]> {
     let mut csv = Vec::new();
     write_markers_csv(dataset, &mut csv)?;

@@ -84,3 +84,58 @@ fn another_machine_s_export() {
     let error = parse(&text.replace("[MPa]", "[ksi]"), &warp()).unwrap_err();
     assert!(error.message().contains("ksi") && error.location().line == 5, "{error}");
 }
+
+/// The curve 1 N per 0.1 mm, with a little curvature, to 3 mm or 5 mm.
+fn exact(file: &str) -> Vec<[f64; 2]> {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/cases/c27-tensile-machines").join(file);
+    let rows = std::fs::read_to_string(path).unwrap();
+    let numbers =
+        |line: &str| line.rsplit(',').take(2).map(|cell| cell.parse::<f64>().ok()).collect::<Option<Vec<_>>>();
+    let rows: Vec<[f64; 2]> = rows.lines().filter_map(numbers).map(|row| [row[1].abs() * 1e-3, row[0].abs()]).collect();
+    let mut first: Vec<[f64; 2]> = Vec::new();
+    rows.into_iter()
+        .for_each(|row| first.extend(Some(row).filter(|row| first.last().is_none_or(|last| row[0] > last[0]))));
+    first
+}
+
+#[test]
+fn of_cycles_the_first_loading_is_taken_and_either_sign_is_a_pull() {
+    let of = |file: &str, turn: [f64; 2], swap: bool| {
+        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/cases/c27-tensile-machines").join(file);
+        let text = std::fs::read_to_string(path).unwrap();
+        let line =
+            |line: &str| match line.rsplit_once(',').and_then(|(head, force)| Some((head, force.parse::<f64>().ok()?)))
+            {
+                Some((head, force)) => {
+                    let (cycle, x) = head.rsplit_once(',').unwrap_or(("", head));
+                    let x = turn[0] * x.parse::<f64>().unwrap();
+                    format!("{cycle}{}{x},{}\n", if cycle.is_empty() { "" } else { "," }, turn[1] * force)
+                }
+                None => format!("{line}\n"),
+            };
+        let mut lines: Vec<String> = text.lines().map(line).collect();
+        let head = lines.iter().position(|line| line.contains("force_n")).unwrap() + 1;
+        if swap {
+            lines[head..].reverse();
+        }
+        parse(&lines.concat(), &CouponDefaults::default())
+    };
+    for turn in [[1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]] {
+        for (file, words) in [("cyclic.csv", "the first loading is used"), ("tension_negative.csv", "")] {
+            let found = of(file, turn, false).unwrap();
+            let right = exact(file);
+            assert_eq!(force(&found[0]).len(), right.len(), "{file} {turn:?}: {:?}", found[0].told);
+            let off = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-9;
+            assert!(force(&found[0]).iter().zip(&right).all(off), "{file} {turn:?}");
+            let told = found[0].told.join(" ");
+            assert!(told.contains(words), "{told}");
+            let negative = if file == "cyclic.csv" { turn } else { turn.map(|sign| -sign) };
+            assert_eq!(told.matches("its sign is turned").count(), negative.iter().filter(|sign| **sign < 0.0).count());
+        }
+    }
+    let error = of("tension_negative.csv", [-1.0, -1.0], true).unwrap_err();
+    assert!(
+        error.to_string().contains("goes back") || error.to_string().contains("rise"),
+        "unloading is not a pull: {error}"
+    );
+}

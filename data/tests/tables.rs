@@ -125,3 +125,56 @@ fn one_cell_more_than_the_header_is_a_name_only_if_the_rest_fits() {
     let error = text(&format!("{head}1,epam,1,5,2,0,load,a,88,0\n1,epam,2,5,2,0,load,a,88,0\n")).unwrap_err();
     assert!(error.message().contains("one cell more"), "{error}");
 }
+
+/// Files of pyarrow (as pandas writes categories), DuckDB's decimals, and polars, all of the reference.
+#[cfg(feature = "parquet")]
+#[test]
+fn parquet_files_of_other_programs_equal_the_reference() {
+    for file in ["categories", "decimals", "decimals_bytes", "booleans", "polars_enum"] {
+        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/parquet/{file}.parquet"));
+        let made = load(&path.display().to_string(), &mut |_, _| ());
+        let (found, _) = made.unwrap_or_else(|error| panic!("{file}: {error}"));
+        let right = read("reference_markers.csv");
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-12;
+        assert!(found.coordinates_m.iter().zip(&right.coordinates_m).all(near), "{file}");
+        assert_eq!((found.holds, found.runs), (right.holds, right.runs), "{file}");
+    }
+    let stamped = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/parquet/stamped.parquet");
+    let error = data::read_parquet(&stamped).unwrap_err();
+    assert!(error.to_string().contains("column t_s has the type Timestamp"), "{error}");
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn empty_cells_are_null_and_true_and_false_come_back_with_units_in_the_file() {
+    use data::{Column, Table};
+    let columns = vec![
+        ("case".to_string(), Column::I64(vec![1, 2, 3])),
+        ("tip_x_mm".to_string(), Column::F64(vec![1.5, f64::NAN, -2.0])),
+        ("trusted".to_string(), Column::Bool(vec![Some(true), None, Some(false)])),
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("table.parquet");
+    Table { columns }.to_parquet(&path, &[("ibr.note".into(), "made".into())]).unwrap();
+    let again = data::read_parquet(&path).unwrap();
+    let Column::F64(tips) = &again.columns[1].1 else { panic!("{again:?}") };
+    assert!(tips[1].is_nan() && tips[0] == 1.5);
+    assert_eq!(again.columns[2].1, Column::Bool(vec![Some(true), None, Some(false)]));
+    let mut csv = Vec::new();
+    again.to_csv(&mut csv).unwrap();
+    assert_eq!(String::from_utf8(csv).unwrap(), "case,tip_x_mm,trusted\n1,1.5,true\n2,,\n3,-2,false\n");
+    let bytes = std::fs::read(&path).unwrap();
+    let has = |words: &[u8]| bytes.windows(words.len()).any(|part| part == words);
+    assert!(has(b"unit.tip_x_mm") && has(b"ibr.note") && !has(b"unit.trusted"));
+}
+
+/// 20 million rows of the same numbers are a file of some kilobytes, and are refused before they are read.
+#[cfg(feature = "parquet")]
+#[test]
+fn a_table_that_takes_too_much_memory_is_refused_before_it_is_read() {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/parquet/twenty_million_rows.parquet");
+    let error = data::read_parquet(&path).unwrap_err();
+    let said = format!("{error} {}", error.help());
+    let words = "20000000 rows of 4 columns take 0.64 GB (allowed 0 to 0.60 GB)";
+    assert!(said.contains(words) && said.contains("one file for every run"), "{said}");
+}

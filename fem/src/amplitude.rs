@@ -21,6 +21,11 @@ pub enum Amplitude {
 
 impl Amplitude {
     /// Value at time `t` \[s\].
+    ///
+    /// ```
+    /// let ramp = fem::problem::Amplitude::Smooth(vec![(0.0, 0.0), (2.0, 8.0)]);
+    /// assert_eq!((ramp.at(0.0), ramp.at(1.0), ramp.at(9.0)), (0.0, 4.0, 8.0));
+    /// ```
     pub fn at(&self, t: f64) -> f64 {
         if let Amplitude::Constant(value) = self {
             return *value;

@@ -9,7 +9,6 @@ pub enum FemError {
     /// The mesh cannot be simulated; the message names the part, element or node (counted from 1 as in mesh files).
     #[error("mesh: {0}")]
     Mesh(String),
-    /// A mesh file was refused.
     #[error("{}:{line}: {message}", path.display())]
     MeshFile {
         path: PathBuf,
@@ -50,12 +49,10 @@ pub enum FemError {
     Interrupted {
         /// Simulated time that the last one reached \[s\].
         time_s: f64,
-        /// Its steps.
         step: u64,
         done: usize,
         of: usize,
     },
-    /// A checkpoint cannot be used.
     #[error("checkpoint {}: {reason}", path.display())]
     Checkpoint {
         path: PathBuf,
@@ -75,14 +72,9 @@ pub enum FemError {
     Record(Box<Damage>),
     /// A file could not be read or written.
     #[error("{}: {source}", path.display())]
-    Io {
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
+    Io { path: PathBuf, source: std::io::Error },
 }
 
-/// How far it came.
 fn so_far(time_s: f64, step: u64, done: usize, of: usize) -> String {
     match of {
         1 => format!(" at t = {time_s:.6} s, step {step}"),

@@ -23,7 +23,6 @@
 #![warn(unreachable_pub)]
 
 mod amplitude;
-mod atomic;
 mod bytes;
 pub mod case;
 pub mod contact;
@@ -49,7 +48,7 @@ pub use case::Key;
 pub use error::FemError;
 pub use mesh::{Mesh, Part};
 pub use problem::Problem;
-pub use run::{ChangedSides, Simulation};
+pub use run::Simulation;
 pub use transient::{Tick, Transient};
 
 /// Raised whenever the same problem gives other numbers than before: stored results of an older engine are then not used.

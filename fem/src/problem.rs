@@ -16,7 +16,7 @@ pub use print::{GRAVITY, Loads, force_on, motion_of, pressure_of};
 use std::sync::Arc;
 
 /// Everything that defines a run.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Problem {
     /// Title for outputs.
     pub name: String,
@@ -326,19 +326,6 @@ impl Default for Settings {
 impl Problem {
     /// A problem with default settings, no loads and no supports.
     pub fn new(name: &str, mesh: Mesh, sections: Vec<Section>, chambers: Vec<Chamber>) -> Problem {
-        Problem {
-            name: name.to_owned(),
-            mesh,
-            sections,
-            chambers,
-            open: Vec::new(),
-            supports: Vec::new(),
-            rigid: Vec::new(),
-            forces: Vec::new(),
-            gravity: None,
-            obstacles: Vec::new(),
-            contact: None,
-            settings: Settings::default(),
-        }
+        Problem { name: name.to_owned(), mesh, sections, chambers, ..Problem::default() }
     }
 }

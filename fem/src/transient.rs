@@ -13,7 +13,6 @@ pub struct Tick {
     pub dt_s: f64,
 }
 
-/// A line of the ledger.
 pub(crate) fn row(name: &'static str, account: Account, kind: RowKind, energy_j: f64) -> Row {
     Row { name, account, kind, energy_j }
 }

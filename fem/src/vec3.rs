@@ -35,6 +35,12 @@ pub fn dot(a: V3, b: V3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 /// a × b
+///
+/// ```
+/// use fem::vec3::{cross, dot};
+/// let (a, b) = ([1.0, 2.0, 3.0], [-2.0, 0.5, 4.0]);
+/// assert_eq!([dot(a, cross(a, b)), dot(b, cross(a, b))], [0.0; 2]);
+/// ```
 #[inline(always)]
 pub fn cross(a: V3, b: V3) -> V3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
@@ -60,7 +66,17 @@ pub(crate) fn area(x: &[V3]) -> V3 {
     let [a, b] = if x.len() == 4 { [sub(x[2], x[0]), sub(x[3], x[1])] } else { [sub(x[1], x[0]), sub(x[2], x[0])] };
     scale(cross(a, b), 0.5)
 }
-/// Mean of the corners.
+/// The low and the high corner of the box round points.
+pub(crate) fn bounds(points: impl Iterator<Item = V3>) -> [V3; 2] {
+    points.fold([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]], |[low, high], p| {
+        [[0, 1, 2].map(|k| low[k].min(p[k])), [0, 1, 2].map(|k| high[k].max(p[k]))]
+    })
+}
+/// The sides of that box.
+pub(crate) fn extent(points: impl Iterator<Item = V3>) -> V3 {
+    let [low, high] = bounds(points);
+    sub(high, low)
+}
 pub(crate) fn centre(x: &[V3]) -> V3 {
     scale(x.iter().fold([0.0; 3], |sum, p| add(sum, *p)), 1.0 / x.len() as f64)
 }

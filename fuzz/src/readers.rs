@@ -110,11 +110,19 @@ pub const READERS: &[Reader] = &[
         ],
         pixels,
     ),
+    of("ros", &["data/tests/cases/c25-ros-echo/all_markers.csv", "data/tests/cases/c25-ros-echo/marker_b.csv"], ros),
+    of("anipose", &["data/tests/made/anipose.csv"], millimetres),
+    of("trackpy", &["data/tests/made/trackpy.csv"], pixels),
     of("wide", &["data/tests/cases/c07-table-dialects/wide.csv", "data/tests/made/wide_pixels.csv"], lengths),
     of("long", &["data/tests/made/long_foreign.tsv", "data/tests/cases/reference_markers.csv"], mapped),
     of(
         "pressure-log",
-        &["data/tests/cases/c01-deeplabcut/pressure.csv", "data/tests/cases/c02-motive/pressure.csv"],
+        &[
+            "data/tests/cases/c01-deeplabcut/pressure.csv",
+            "data/tests/cases/c26-pressure-loggers/labview.lvm",
+            "data/tests/cases/c26-pressure-loggers/arduino_serial.txt",
+            "data/tests/cases/c26-pressure-loggers/arduino_noheader.csv",
+        ],
         log,
     ),
     of("board", &["data/tests/made/board.csv"], board),
@@ -249,7 +257,7 @@ fn parquets() -> Vec<Vec<u8>> {
         ("x_mm".into(), data::Column::F64(vec![30.0, 90.5])),
     ];
     let path = as_file(b"", "made.parquet");
-    let written = data::Table { columns }.to_parquet(&path).is_ok();
+    let written = data::Table { columns }.to_parquet(&path, &[]).is_ok();
     vec![if written { std::fs::read(path).unwrap_or_default() } else { Vec::new() }]
 }
 
@@ -311,6 +319,15 @@ fn metres(bytes: &[u8]) -> bool {
     tracks(bytes, &ImportOptions { scale: Scale::Unit(1.0), ..lengths_options() })
 }
 
+fn millimetres(bytes: &[u8]) -> bool {
+    tracks(bytes, &ImportOptions { scale: Scale::Unit(1e-3), frames_per_s: Some(30.0), ..lengths_options() })
+}
+
+fn ros(bytes: &[u8]) -> bool {
+    let log = repository("data/tests/cases/c25-ros-echo/pressure.csv");
+    tracks(bytes, &ImportOptions { pressure_logs: vec![log], body_pa: Some(2e3), ..lengths_options() })
+}
+
 fn pixels(bytes: &[u8]) -> bool {
     tracks(bytes, &pixel_options())
 }
@@ -319,9 +336,19 @@ fn mapped(bytes: &[u8]) -> bool {
     tracks(bytes, &ImportOptions::default()) || tracks(bytes, &ImportOptions { bin_pa: Some(2e3), ..lengths_options() })
 }
 
+/// With the names in the file, and with typed ones.
 fn log(bytes: &[u8]) -> bool {
-    let options = ImportOptions { pressure_logs: vec![as_file(bytes, "pressure.csv")], ..pixel_options() };
-    import(&[repository("data/tests/cases/c01-deeplabcut/run1.csv")], &options, &mut |_, _| ()).is_ok()
+    let frames = [repository("data/tests/cases/c01-deeplabcut/run1.csv")];
+    let is_read = |log_columns: &[&str]| {
+        let options = ImportOptions {
+            pressure_logs: vec![as_file(bytes, "pressure.csv")],
+            pressure_unit_pa: Some(1e3),
+            log_columns: log_columns.iter().map(|name| (*name).to_string()).collect(),
+            ..pixel_options()
+        };
+        import(&frames, &options, &mut |_, _| ()).is_ok()
+    };
+    [&[][..], &["t_ms", "p_body_kpa", "p_act_kpa"]].map(is_read).contains(&true)
 }
 
 fn board(bytes: &[u8]) -> bool {

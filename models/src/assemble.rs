@@ -5,7 +5,7 @@ use crate::assembly::{Assembly, Segment};
 use crate::body::{Bending, BodyLaw, BodyPressure, BodyWall};
 use crate::effects::by_name;
 use crate::scenario::{Scenario, Span};
-use crate::site::{Linkage, Site};
+use crate::site::{CentreLine, Linkage, Site};
 use crate::term::CHANNELS;
 
 pub(crate) fn assemble(scenario: &Scenario, spans: &[Span], segments: usize) -> Assembly {
@@ -14,7 +14,8 @@ pub(crate) fn assemble(scenario: &Scenario, spans: &[Span], segments: usize) -> 
         sites.extend(spans.iter().map(|span| site(scenario, &span.of_strip(strip, scenario.radius_m))));
     }
     let segments = divide(spans, segments);
-    Assembly { sites, segments, ..Assembly::empty(scenario.gravity_direction) }
+    let axes = if scenario.is_spatial() { 3 } else { 2 };
+    Assembly { sites, segments, axes, ..Assembly::empty(scenario.gravity_direction) }
 }
 
 fn site(scenario: &Scenario, span: &Span) -> Site {
@@ -35,7 +36,7 @@ fn site(scenario: &Scenario, span: &Span) -> Site {
     let bending = Bending { stiffness: span.bending_stiffness };
     debug_assert!(span.channel < CHANNELS);
     let mut site = Site::new(span.radius_m, pressure, bending, linkage, span.actuator, shape, span.channel);
-    site.centre_line_m = span.centre_line_m;
+    site.centre_line = CentreLine::new(span.centre_line_m, scenario.hinge_curvature);
     site.wall_shear_n_per_m = scenario.wall.shear_n_per_m;
     if let Some(stiffness_n_per_m) = scenario.wall.stiffness_n_per_m {
         let wall = BodyWall { radius_m: span.radius_m, stiffness_n_per_m, share: scenario.hinge_share };
@@ -50,9 +51,9 @@ pub(crate) fn locate(segments: &[Segment], station_m: f64) -> (usize, f64) {
     (index, station_m - segments[index].start_m)
 }
 
-/// Adds the effects of a scenario to a model under construction.
+/// Adds the effects of a scenario to a model under construction, in the order of the catalogue: geometry before the terms that read it.
 pub(crate) fn add_effects(scenario: &Scenario, assembly: &mut Assembly) {
-    for chosen in &scenario.effects {
+    for chosen in scenario.effects_in_order() {
         match (by_name(&chosen.name), scenario.formulas.iter().find(|formula| formula.name == chosen.name)) {
             (Some(effect), _) => (effect.add)(&chosen.values, assembly),
             (None, Some(formula)) => formula.add(&chosen.values, assembly),

@@ -6,8 +6,23 @@ use crate::term::Term;
 use serde::Serialize;
 use spelling::si;
 
-/// Set pressure \[Pa\], and for how long it has been held \[s\] → pressure in the actuator \[Pa\].
-pub type SupplyLaw = Box<dyn Fn(f64, f64) -> f64 + Send + Sync>;
+/// When and where a supply law is asked.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Moment {
+    /// Time for which the set pressures have been held \[s\].
+    pub held_s: f64,
+    /// Time since the start of the protocol \[s\].
+    pub t_s: f64,
+    /// The last change of the set actuator pressure was downwards.
+    pub falling: bool,
+    /// Station along the body \[m\].
+    pub s_m: f64,
+}
+
+/// Set pressure \[Pa\] → pressure in the actuator \[Pa\].
+pub type SupplyLaw = Box<dyn Fn(f64, &Moment) -> f64 + Send + Sync>;
+/// Set body pressure and largest set actuator pressure \[Pa\] → body pressure \[Pa\].
+pub type BodyLaw = Box<dyn Fn(f64, f64, &Moment) -> f64 + Send + Sync>;
 /// Changes what the camera sees of one marker.
 pub type CameraLaw = Box<dyn Fn(&mut Sighting) + Send + Sync>;
 
@@ -20,6 +35,8 @@ pub struct Sighting {
     pub heading: f64,
     /// Largest pressure in any actuator \[Pa\].
     pub p_act_pa: f64,
+    /// Time since the start of the protocol \[s\].
+    pub t_s: f64,
 }
 
 /// A stretch of the robot in which the curvature is constant.
@@ -62,34 +79,43 @@ pub struct Assembly {
     pub segments: Vec<Segment>,
     /// Strips of actuators round the body, per segment; empty: one strip towards y, and the robot is planar.
     pub around: Vec<Vec<Strip>>,
+    /// Coordinates of a node: 2, or 3 with strips round the body.
+    pub axes: usize,
     /// Terms over node positions, J.
     pub node_terms: Vec<Box<dyn Term>>,
+    /// Whether a node term depends on where the nodes are: its load is not dead.
+    pub springs: bool,
     /// Supply laws in order.
     pub supply: Vec<SupplyLaw>,
-    /// Set body pressure that does not arrive \[Pa\].
-    pub body_offset_pa: f64,
+    /// Laws of the body pressure in order.
+    pub body: Vec<BodyLaw>,
     /// Camera laws in order.
     pub camera: Vec<CameraLaw>,
-    /// Whether a supply law depends on the time in a hold.
+    /// Whether a law depends on time.
     pub timed: bool,
+    /// Lag τ \[s\] and rate error ρ of the camera's clock: it shows at t what was at t − τ − ρ t.
+    pub clock: [f64; 2],
     /// Whether a term depends on the place along the body: then stretches of equal design are divided too.
     pub varies: bool,
-    /// Unit vector of gravity in the x–y plane.
-    pub gravity_direction: [f64; 2],
+    /// Unit vector of gravity; its z acts with strips round the body.
+    pub gravity_direction: [f64; 3],
 }
 
 impl Assembly {
     /// Without any part.
-    pub fn empty(gravity_direction: [f64; 2]) -> Assembly {
+    pub fn empty(gravity_direction: [f64; 3]) -> Assembly {
         Assembly {
             sites: Vec::new(),
             segments: Vec::new(),
             around: Vec::new(),
+            axes: 2,
             node_terms: Vec::new(),
+            springs: false,
             supply: Vec::new(),
-            body_offset_pa: 0.0,
+            body: Vec::new(),
             camera: Vec::new(),
             timed: false,
+            clock: [0.0; 2],
             varies: false,
             gravity_direction,
         }

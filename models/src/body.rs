@@ -104,6 +104,11 @@ impl BodyLaw {
         }
     }
 
+    /// Curvature over which it sets in \[1/m\]; of a hinge alone, which every section in space has.
+    pub(crate) fn hinge_per_m(&self) -> f64 {
+        if let BodyLaw::Hinge(law) = self { law.hinge_curvature } else { 0.0 }
+    }
+
     /// The moment of the gas is another than that of a round section by a factor; a replaced law keeps its own.
     pub(crate) fn scale(&mut self, factor: f64) {
         match self {

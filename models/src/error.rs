@@ -64,6 +64,12 @@ pub enum Unsolved {
         extreme.formula, moment(extreme.moment), extreme.kappa, extreme.theta
     )]
     Formula { extreme: Extreme, s_mm: f64, p_act_kpa: f64, p_body_kpa: f64 },
+    /// A law of a place has no value at the geometry of the scenario.
+    #[error(
+        "cannot balance the robot at s = {s_mm:.1} mm for P = {p_act_kpa:.3} kPa, p_b = {p_body_kpa:.3} kPa: {law} has no value at this \
+         geometry. Try: a larger body.radius_mm, a smaller actuator.width_mm, or the robot without {law}"
+    )]
+    NoValue { law: &'static str, s_mm: f64, p_act_kpa: f64, p_body_kpa: f64 },
     /// Moments and shape did not settle.
     #[error(
         "moments and shape did not agree after {iterations} iterations at P = {p_act_kpa:.3} kPa: \

@@ -27,9 +27,6 @@ pub const HOLD_S: f64 = 5.0;
 
 impl Model {
     /// A state by itself: with history after a hold of [`HOLD_S`] from rest, else as [`Model::predict`].
-    ///
-    /// # Errors
-    /// As [`Model::predict`].
     pub fn predict_held(&self, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
         match self.has_history() {
             false => self.predict(loads, out),
@@ -79,20 +76,21 @@ impl Model {
         each: &mut dyn FnMut(usize, &Prediction),
     ) -> Result<(), Unsolved> {
         let mut before: Option<Step> = None;
-        for (index, step) in steps.iter().enumerate() {
+        for index in 0..steps.len() {
+            let step = match self.assembly().clock {
+                [0.0, 0.0] => steps[index],
+                clock => seen_late(steps, index, clock),
+            };
             let last = before.filter(|last| last.t_s <= step.t_s);
-            self.pass(last, step, held.map(|held| held[index].as_slice()), out)?;
+            self.pass(last, &step, held.map(|held| held[index].as_slice()), out)?;
             each(index, out);
-            before = Some(*step);
+            before = Some(step);
         }
         Ok(())
     }
 
     /// The next state of a protocol after `last`; without one the robot is at rest at time 0. What `out` holds has to be the
     /// state of `last`: a stream that never ends is walked with one buffer.
-    ///
-    /// # Errors
-    /// As [`Model::follow`].
     pub fn follow_on(&self, last: Option<Step>, step: &Step, out: &mut Prediction) -> Result<(), Unsolved> {
         self.pass(last.filter(|last| last.t_s <= step.t_s), step, None, out)
     }
@@ -134,7 +132,12 @@ impl Model {
         let start = from.unwrap_or(Loads::uniform(to.body_pa, 0.0));
         let one_way = self.assembly().node_terms.is_empty() && start.leads_one_way(to);
         let count = if one_way { 1 } else { PATH_STEPS };
-        (out.work.history.held_s, out.work.history.dt_s) = (0.0, 0.0);
+        let changes = || start.actuator_pa.iter().zip(&to.actuator_pa).map(|(a, b)| b - a);
+        let history = &mut out.work.history;
+        (history.moment.held_s, history.dt_s) = (0.0, 0.0);
+        if let Some(change) = changes().find(|d| *d != 0.0) {
+            history.moment.falling = change < 0.0;
+        }
         for k in 1..=count {
             let loads = if k == count { *to } else { start.towards(to, k as f64 / count as f64) };
             self.reach(&loads, out, from.is_some() || k > 1)?;
@@ -147,11 +150,13 @@ impl Model {
         let scale = self.time_scale_s();
         let mut left = time_s;
         while left > 0.0 {
-            let held = out.work.history.held_s;
+            let held = out.work.history.moment.held_s;
             let longest = SCALE_SHARE * scale + HELD_SHARE * held;
             // Two equal parts at the end rather than a long one and a short one.
             let dt_s = if left <= longest { left } else { longest.min(0.5 * left) };
-            (out.work.history.held_s, out.work.history.dt_s) = (held + dt_s, dt_s);
+            let moment = &mut out.work.history.moment;
+            (moment.held_s, moment.t_s) = (held + dt_s, moment.t_s + dt_s);
+            out.work.history.dt_s = dt_s;
             left -= dt_s;
             if self.assembly().timed || scale.is_finite() {
                 self.reach(loads, out, true)?;
@@ -164,7 +169,8 @@ impl Model {
     fn reach(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Result<(), Unsolved> {
         self.solve(loads, out, warm)?;
         let work = &mut out.work;
-        work.history.remember(self.assembly(), self.body_pa(loads), &work.states, &work.p_act_pa);
+        let body_pa = self.body_pa(loads, work);
+        work.history.remember(self.assembly(), body_pa, &work.states, &work.p_act_pa);
         Ok(())
     }
 
@@ -178,6 +184,17 @@ impl Model {
         let terms = self.assembly().sites.iter().flat_map(|site| &site.body_terms);
         terms.fold(f64::INFINITY, |least, term| least.min(term.memory().time_s))
     }
+}
+
+/// A step as a camera sees it whose clock lags by τ and runs slow by ρ: what was at t − τ − ρ t, at the pressures of then.
+fn seen_late(steps: &[Step], i: usize, [lag_s, rate]: [f64; 2]) -> Step {
+    let t_s = (steps[i].t_s * (1.0 - rate) - lag_s).max(0.0);
+    let is_new = |pair: &[Step]| pair[1].t_s < pair[0].t_s;
+    let first = steps[..=i].windows(2).rposition(is_new).map_or(0, |at| at + 1);
+    let end = steps[i..].windows(2).position(is_new).map_or(steps.len(), |at| i + at + 1);
+    let own = &steps[first..end];
+    let at = own.partition_point(|other| other.t_s < t_s).min(own.len() - 1);
+    Step { t_s, loads: own[at].loads }
 }
 
 impl Loads {

@@ -80,6 +80,16 @@ impl Lens {
         Side { of_theta: [[a, d_a], opened], along, spare }
     }
 
+    /// Half angle θ₀ at which the fold is open to its bottom in the middle of the pouch; π where it stays held.
+    pub(crate) fn opens(length_m: f64, fold_m: f64) -> f64 {
+        let (mut held, mut open) = (0.0, PI);
+        for _ in 0..HALVINGS {
+            let theta = 0.5 * (held + open);
+            *(if Lens::new(length_m, theta).side(fold_m, 0.0).spare < 0.0 { &mut held } else { &mut open }) = theta;
+        }
+        open
+    }
+
     /// Up to which t the fold is open to its bottom.
     fn open_to(&self, fold_m: f64) -> f64 {
         if self.side(fold_m, 0.0).spare < 0.0 {
@@ -93,12 +103,14 @@ impl Lens {
         open
     }
 
-    /// The integrals, in two parts which meet where the fold begins to be held.
+    /// The integrals in parts: where the fold is held, halved, and where it is open, ever finer towards the place where it begins to
+    /// be held: there the half height of a shallow fold is no longer large compared with its depth.
     pub(crate) fn sums(&self, fold_m: f64) -> Sums {
         let open = self.open_to(fold_m);
-        let cut = if open > 0.0 { open } else { 0.5 };
-        let mut sums = [[0.0; 2]; 3];
-        for [from, width] in [[0.0, cut], [cut, 1.0 - cut]] {
+        let cuts = OPEN_CUTS.map(|share| share * open).into_iter().chain([0.5 * (1.0 + open), 1.0]);
+        let (mut sums, mut from) = ([[0.0; 2]; 3], 0.0);
+        for to in cuts {
+            let width = to - from;
             for [t, weight] in GAUSS {
                 let side = self.side(fold_m, from + t * width);
                 let dx = side.along.map(|cos| self.length_m * weight * width * cos);
@@ -107,11 +119,14 @@ impl Lens {
                     *sum = [sum[0] + value, sum[1] + slope];
                 }
             }
+            from = to;
         }
         sums
     }
 }
 
+/// Ends of the parts where the fold is open, over all of it.
+const OPEN_CUTS: [f64; 5] = [0.5, 0.75, 0.9, 0.97, 1.0];
 /// Enough for rounding.
 const HALVINGS: usize = 50;
 /// Gauss's points and weights on [0, 1].

@@ -45,7 +45,7 @@ impl Model {
     /// Markers and tip of the shape of a planar robot with these curvatures \[1/m\], one per segment; nothing has to balance.
     pub fn bend(&self, loads: &Loads, curvatures: &[f64], out: &mut Prediction) {
         self.supply(loads, &mut out.work);
-        bend(self.assembly(), self.body_pa(loads), &mut out.work, curvatures);
+        bend(self.assembly(), self.body_pa(loads, &out.work), &mut out.work, curvatures);
         self.show(out);
     }
 
@@ -94,7 +94,6 @@ impl Prediction {
 /// Stretches shorter than this are two cuts meant to be one \[m\].
 const MERGE_BELOW_M: f64 = 1e-6;
 
-/// Spans cut at stations too.
 fn pieces(spans: &[Span], stations_m: &[f64]) -> Vec<Segment> {
     let mut segments = Vec::new();
     for (site, span) in spans.iter().enumerate() {

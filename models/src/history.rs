@@ -1,6 +1,6 @@
 //! What a robot remembers on its way through a protocol.
 
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, Moment};
 use crate::site::SiteState;
 use crate::term::{Memory, Pose};
 
@@ -11,8 +11,8 @@ pub(crate) struct History {
     pub awake: bool,
     /// Time since the remembered state \[s\].
     pub dt_s: f64,
-    /// Time for which the set pressures have been held \[s\].
-    pub held_s: f64,
+    /// Time in the hold and in the protocol.
+    pub moment: Moment,
     /// Changes whenever the memory does, so that no solve reuses a balance of another memory.
     pub stamp: u32,
     values: Vec<f64>,
@@ -38,23 +38,21 @@ impl History {
         }
         let count = offsets[offsets.len() - 1];
         let (values, next, lost_j) = (vec![0.0; count], vec![0.0; count], vec![0.0; terms]);
-        History { awake: false, dt_s: 0.0, held_s: 0.0, stamp: 0, values, next, offsets, lost_j }
+        History { awake: false, dt_s: 0.0, moment: Moment::default(), stamp: 0, values, next, offsets, lost_j }
     }
 
     /// At rest at time zero, from here on with memory.
     pub(crate) fn start(&mut self) {
-        (self.awake, self.dt_s, self.held_s) = (true, 0.0, 0.0);
+        (self.awake, self.dt_s, self.moment) = (true, 0.0, Moment::default());
         self.values.fill(0.0);
         self.lost_j.fill(0.0);
         self.stamp = self.stamp.wrapping_add(1).max(1);
     }
 
-    /// From rest, at once.
     pub(crate) fn sleep(&mut self) {
-        (self.awake, self.dt_s, self.held_s, self.stamp) = (false, 0.0, 0.0, 0);
+        (self.awake, self.dt_s, self.moment, self.stamp) = (false, 0.0, Moment::default(), 0);
     }
 
-    /// Whether any term remembers anything.
     pub(crate) fn is_empty(&self) -> bool {
         self.values.is_empty()
     }

@@ -1,7 +1,7 @@
 //! Inverse and Jacobian: what a controller asks.
 
 use crate::error::Unsolved;
-use crate::model::{Model, Prediction};
+use crate::model::{MOST_ACTUATOR_PA, Model, Prediction};
 use crate::reach::{MET, Reach, SAMPLES, reach};
 use crate::root::{Start, find_root};
 use crate::term::{CHANNELS, Loads};
@@ -33,20 +33,19 @@ pub struct TipSlope {
 /// Step of the wider central difference relative to the pressure: short, because the laws have corners; rounding is
 /// below 1e-8 there.
 const JACOBIAN_STEP: f64 = 4e-4;
+/// The range of what has no equilibrium anywhere.
+const NOWHERE: (f64, f64) = (f64::NAN, f64::NAN);
 /// First pressure tried, as a share of the largest.
 const START: f64 = 0.2;
+
+/// Whether a difference about a pressure would cross the bound.
+fn is_bounded(p_pa: f64) -> bool {
+    p_pa * (1.0 + JACOBIAN_STEP) > MOST_ACTUATOR_PA
+}
 
 impl TipSlope {
     /// Of a flat actuator: it rises with an infinite slope, or not at all.
     pub const NONE: TipSlope = TipSlope { x_per_pa: f64::NAN, y_per_pa: f64::NAN, angle_per_pa: f64::NAN };
-
-    fn combine(&self, a: f64, other: &TipSlope, b: f64) -> TipSlope {
-        TipSlope {
-            x_per_pa: a * self.x_per_pa + b * other.x_per_pa,
-            y_per_pa: a * self.y_per_pa + b * other.y_per_pa,
-            angle_per_pa: a * self.angle_per_pa + b * other.angle_per_pa,
-        }
-    }
 }
 
 impl Target {
@@ -68,7 +67,6 @@ impl Target {
         (self.of(at) - self.value()).abs() <= MET
     }
 
-    /// Why it was not reached.
     fn missed(self, found: &Reach, p_max_pa: f64) -> Unsolved {
         let (what, unit, factor) = self.words();
         let wanted = self.value() * factor;
@@ -78,14 +76,10 @@ impl Target {
                 let (below, above) = (low.1 * factor, high.1 * factor);
                 Unsolved::Jump { what, wanted, unit, low_kpa, below, high_kpa, above, between }
             }
-            Reach::Beyond { least, most } => {
+            _ => {
+                let (least, most) = if let Reach::Beyond { least, most } = found { (*least, *most) } else { NOWHERE };
                 // A zero of either sign is told as zero.
                 let (lowest, highest) = (least * factor + 0.0, most * factor + 0.0);
-                Unsolved::OutOfReach { what, wanted, lowest, highest, unit, p_max_kpa: p_max_pa / 1e3 }
-            }
-            Reach::At(_) | Reach::Nowhere => {
-                let nothing = f64::NAN;
-                let (lowest, highest) = (nothing, nothing);
                 Unsolved::OutOfReach { what, wanted, lowest, highest, unit, p_max_kpa: p_max_pa / 1e3 }
             }
         }
@@ -161,11 +155,8 @@ impl Model {
         self.predict(&Loads::uniform(p_body_pa, p), out).map(|()| p)
     }
 
-    /// Slopes of the tip pose by each channel's pressure, by Richardson-extrapolated central differences; [`TipSlope::NONE`]
-    /// where an actuator of the channel is flat. `out` is overwritten.
-    ///
-    /// # Errors
-    /// What [`Model::predict`] returns.
+    /// Slopes of the tip pose by each channel's pressure, by Richardson-extrapolated differences, central but at the bound of
+    /// the pressure; [`TipSlope::NONE`] where an actuator of the channel is flat. `out` is overwritten.
     pub fn jacobian(&self, loads: &Loads, out: &mut Prediction) -> Result<[TipSlope; CHANNELS], Unsolved> {
         let mut slopes = [TipSlope { x_per_pa: 0.0, y_per_pa: 0.0, angle_per_pa: 0.0 }; CHANNELS];
         self.settle(loads, out, false)?;
@@ -178,40 +169,40 @@ impl Model {
                 continue;
             }
             let (wide, narrow) = (self.chord(loads, channel, step, out)?, self.chord(loads, channel, 0.5 * step, out)?);
-            *slope = narrow.combine(4.0 / 3.0, &wide, -1.0 / 3.0);
+            // At the bound of the pressure the chords have one side, and an error of first order.
+            let is_bounded = is_bounded(loads.actuator_pa[channel]);
+            let [of_narrow, of_wide] = if is_bounded { [2.0, -1.0] } else { [4.0 / 3.0, -1.0 / 3.0] };
+            let [x_per_pa, y_per_pa, angle_per_pa] = [0, 1, 2].map(|i| of_narrow * narrow[i] + of_wide * wide[i]);
+            *slope = TipSlope { x_per_pa, y_per_pa, angle_per_pa };
         }
         Ok(slopes)
     }
 
-    /// Mean slope between P − step (not below 0) and P + step.
-    fn chord(&self, loads: &Loads, channel: usize, step: f64, out: &mut Prediction) -> Result<TipSlope, Unsolved> {
+    /// Mean slopes of x, y and angle between P − step (not below 0) and P + step, or P where the wider step crosses the bound.
+    fn chord(&self, loads: &Loads, channel: usize, step: f64, out: &mut Prediction) -> Result<[f64; 3], Unsolved> {
         let (mut up, mut down) = (*loads, *loads);
-        up.actuator_pa[channel] += step;
+        up.actuator_pa[channel] += if is_bounded(loads.actuator_pa[channel]) { 0.0 } else { step };
         down.actuator_pa[channel] = (down.actuator_pa[channel] - step).max(0.0);
-        self.settle(&up, out, true)?;
-        let high = out.tip;
-        self.settle(&down, out, true)?;
+        let mut tip = |loads: &Loads| {
+            self.settle(loads, out, true)?;
+            Ok([out.tip.x_m, out.tip.y_m, out.tip.angle_rad])
+        };
+        let (high, low) = (tip(&up)?, tip(&down)?);
         let per = 1.0 / (up.actuator_pa[channel] - down.actuator_pa[channel]);
-        Ok(TipSlope {
-            x_per_pa: (high.x_m - out.tip.x_m) * per,
-            y_per_pa: (high.y_m - out.tip.y_m) * per,
-            angle_per_pa: (high.angle_rad - out.tip.angle_rad) * per,
-        })
+        Ok([0, 1, 2].map(|i| (high[i] - low[i]) * per))
     }
 
     /// Channels with an actuator that its pressure has not opened.
     fn flat(&self, loads: &Loads, at: &Prediction) -> [bool; CHANNELS] {
-        let (mut flat, body_pa) = ([false; CHANNELS], self.body_pa(loads));
-        for (states, strips) in at.work.space.strips.iter().zip(&self.assembly().around) {
-            for (state, strip) in states.iter().zip(strips) {
-                let site = &self.assembly().sites[strip.site];
-                flat[site.channel] |= site.actuator.is_some() && !site.is_open(body_pa, state.p_act_pa);
-            }
-        }
-        let planar = self.assembly().segments.iter().filter(|_| !self.is_spatial());
-        for (segment, p) in planar.zip(&at.work.p_act_pa) {
-            let site = &self.assembly().sites[segment.site];
-            flat[site.channel] |= site.actuator.is_some() && !site.is_open(body_pa, *p);
+        let (mut flat, body_pa) = ([false; CHANNELS], self.body_pa(loads, &at.work));
+        let around =
+            at.work.space.strips.iter().zip(&self.assembly().around).flat_map(|(states, strips)| {
+                states.iter().zip(strips).map(|(state, strip)| (strip.site, state.p_act_pa))
+            });
+        let planar = self.assembly().segments.iter().filter(|_| !self.is_spatial()).zip(&at.work.p_act_pa);
+        for (site, p_act_pa) in around.chain(planar.map(|(segment, p)| (segment.site, *p))) {
+            let site = &self.assembly().sites[site];
+            flat[site.channel] |= site.actuator.is_some() && !site.is_open(body_pa, p_act_pa);
         }
         flat
     }

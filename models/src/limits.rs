@@ -4,6 +4,7 @@
 use crate::error::Unsolved;
 use crate::model::{Model, Prediction};
 use crate::scenario::Scenario;
+use crate::statics::Statics;
 use crate::term::Loads;
 use serde::Serialize;
 use spelling::si;
@@ -13,11 +14,13 @@ use std::f64::consts::PI;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Limit {
-    /// Outer loads carry more moment than the pressure can, πp_bR³, against the bend of the actuators or where they have
-    /// none: a membrane would fold here, and only B and other effects hold the pose.
+    /// Outer loads have more moment than wall and pull can carry under the pressure: πp_bR³ with the bend or without an
+    /// actuator, p_b A (D − ȳ) against it. A membrane folds here, and only B and other effects hold the pose.
     Collapse,
     /// κR reached 1: the body is bent about its own axis, and its centre line has no length left.
     Fold,
+    /// The body runs into itself: beyond half a turn, two places of its centre line are nearer than 2R.
+    Crossing,
 }
 
 /// A stretch beyond a limit.
@@ -40,19 +43,69 @@ impl Model {
     pub fn beyond(&self, loads: &Loads, at: &Prediction) -> Vec<Beyond> {
         let collapse = self.stretches(Limit::Collapse, &|i| self.collapse_share(loads, at, i));
         let fold = self.stretches(Limit::Fold, &|i| {
-            at.work.states[i].curvature * self.assembly().sites[self.assembly().segments[i].site].radius_m
+            at.work.states[i].curvature.abs() * self.assembly().sites[self.assembly().segments[i].site].radius_m
         });
-        collapse.into_iter().chain(fold).collect()
+        collapse.into_iter().chain(fold).chain(self.crossing(at)).collect()
     }
 
-    /// Moment of the loads that the wall has to carry in a segment over πp_bR³.
+    /// The part that runs into one nearer to the base, with 2R over the distance of the two.
+    fn crossing(&self, at: &Prediction) -> Option<Beyond> {
+        let segments = &self.assembly().segments;
+        let sizes = segments.iter().zip(&at.work.states).map(|(s, state)| (s.length_m * state.curvature).abs());
+        if sizes.sum::<f64>() < PI {
+            return None;
+        }
+        let (mut places, mut turned): (Vec<Place>, f64) = (Vec::new(), 0.0);
+        for (i, segment) in segments.iter().enumerate() {
+            let (radius_m, kappa) = (self.assembly().sites[segment.site].radius_m, at.work.states[i].curvature.abs());
+            let count = (segment.length_m / (SPACING * radius_m)).ceil();
+            for k in 0..=count as usize {
+                let offset_m = segment.length_m * k as f64 / count;
+                let turned = turned + kappa * offset_m;
+                places.push(Place {
+                    s_m: segment.start_m + offset_m,
+                    at: self.point(&at.work, i, offset_m),
+                    turned,
+                    radius_m,
+                });
+            }
+            turned += kappa * segment.length_m;
+        }
+        let mut found: Option<Beyond> = None;
+        for (i, place) in places.iter().enumerate() {
+            let share = |other: &Place| (place.radius_m + other.radius_m) / distance(place.at, other.at);
+            let near = places[..i].iter().take_while(|other| place.turned - other.turned > PI).map(share);
+            let share = near.fold(0.0, f64::max);
+            if share > 1.0 {
+                let start_m = found.map_or(place.s_m, |found| found.start_m);
+                let share = found.map_or(share, |found| found.share.max(share));
+                found = Some(Beyond { limit: Limit::Crossing, start_m, length_m: place.s_m - start_m, share });
+            }
+        }
+        found
+    }
+
+    /// Moment of the loads on a segment over the one that its section can carry.
     fn collapse_share(&self, loads: &Loads, at: &Prediction, index: usize) -> f64 {
-        let site = &self.assembly().sites[self.assembly().segments[index].site];
-        let [load, wall] = site.moments(&at.work.states[index], at.work.history.of_segment(index));
-        // What helps the actuator must not exceed the wall's alone; against it the line of a taut actuator pulls too. Loads
-        // that are nothing leave the wall what the actuator makes of it.
-        let carried = if load == 0.0 { 0.0 } else { load.max(-wall) };
-        carried / (PI * self.body_pa(loads) * site.radius_m.powi(3))
+        let (assembly, work) = (self.assembly(), &at.work);
+        if assembly.node_terms.is_empty() {
+            return 0.0;
+        }
+        let segment = &assembly.segments[index];
+        let (site, state) = (&assembly.sites[segment.site], &work.states[index]);
+        let (p_body_pa, radius_m) = (self.body_pa(loads, work), site.radius_m);
+        if self.is_spatial() {
+            let [y, z, shortening] = work.space.loaded.outer(index);
+            let strips = assembly.around[index].iter().zip(&work.space.strips[index]);
+            let pulling = strips.filter(|(_, state)| state.tension > 0.0);
+            let pulls = &mut pulling.map(|(at, s)| assembly.sites[at.site].pull(at.azimuth_rad, s.coordinate));
+            return Statics { p_body_pa, radius_m, moment_nm: [y, z], tension_n: -shortening, pulls }.share();
+        }
+        let tension_n = work.tension_n(index);
+        // From the taut generator to the axis.
+        let moment = state.moment_nm() + site.centre_line.shortening(state.curvature)[1] * tension_n;
+        let pulls = &mut (state.tension > 0.0).then(|| site.pull(0.0, state.coordinate)).into_iter();
+        Statics { p_body_pa, radius_m, moment_nm: [moment, 0.0], tension_n, pulls }.share()
     }
 
     fn stretches(&self, limit: Limit, share: &dyn Fn(usize) -> f64) -> Vec<Beyond> {
@@ -70,6 +123,21 @@ impl Model {
         }
         found
     }
+}
+
+/// A place of the centre line, and ∫|κ| ds up to it.
+struct Place {
+    s_m: f64,
+    at: [f64; 3],
+    turned: f64,
+    radius_m: f64,
+}
+
+/// Distance of places that are compared, over the radius.
+const SPACING: f64 = 0.25;
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2])
 }
 
 /// Longest robot tried, over the scenario's length, and how much longer every next one is.

@@ -3,11 +3,11 @@
 mod in_space;
 
 use crate::assemble::{add_effects, assemble, divide, locate};
-use crate::assembly::{Assembly, Segment, Sighting};
+use crate::assembly::{Assembly, Moment, Segment, Sighting};
 use crate::error::Unsolved;
 use crate::robot::{Workspace, equilibrium, place};
 use crate::scenario::{ActuatorChoice, Scenario, Span};
-use crate::shape::Stretch;
+use crate::shape::{Stretch, slid};
 use crate::site::{Site, SiteState};
 use crate::space::around;
 use crate::term::{Account, LedgerLine, Loads, Pose, Row, RowKind, Term};
@@ -121,7 +121,7 @@ impl Model {
     /// The equilibrium with what `out` remembers.
     pub(crate) fn solve(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Result<(), Unsolved> {
         self.supply(loads, &mut out.work);
-        equilibrium(&self.assembly, self.body_pa(loads), &mut out.work, warm)
+        equilibrium(&self.assembly, self.body_pa(loads, &out.work), &mut out.work, warm)
     }
 
     /// Tip and markers of the equilibrium in `out`.
@@ -151,7 +151,7 @@ impl Model {
     /// [`Model::follow`] a term with history has two lines, what it stores and what it has lost since the start; in one of
     /// [`Model::predict`] its line is the sum.
     pub fn ledger(&self, loads: &Loads, at: &Prediction) -> Vec<Row> {
-        let (mut lines, body_pa) = (Vec::new(), self.body_pa(loads));
+        let (mut lines, body_pa) = (Vec::new(), self.body_pa(loads, &at.work));
         if self.is_spatial() {
             self.ledger_in_space(body_pa, at, &mut lines);
             return lines;
@@ -164,14 +164,18 @@ impl Model {
         if at.work.is_sheared() {
             post(&mut lines, WALL_SHEAR, RowKind::Stored, self.shear_energy(body_pa, &at.work));
         }
-        let pose = Pose::new(&at.work.nodes, body_pa, 0.0);
-        let rest = self.rest_nodes();
+        self.node_energies(&at.work.nodes, body_pa, &mut lines);
+        lines
+    }
+
+    /// Energies of the loads at node positions, less those of the straight robot.
+    fn node_energies(&self, nodes: &[f64], body_pa: f64, lines: &mut Vec<Row>) {
+        let (pose, rest) = (Pose::new(nodes, body_pa, 0.0), self.rest_nodes());
         for term in &self.assembly.node_terms {
             let mut unused = vec![0.0; rest.len()];
             let energy = term.add(&pose, &mut unused) - term.add(&Pose { q: &rest, ..pose }, &mut unused);
-            post(&mut lines, term.line(), RowKind::Stored, energy);
+            post(lines, term.line(), RowKind::Stored, energy);
         }
-        lines
     }
 
     /// Curvature per segment \[1/m\] and the segment's start and length \[m\].
@@ -196,8 +200,12 @@ impl Model {
 
     /// Body pressure after the supply stage \[Pa\].
     #[inline]
-    pub(crate) fn body_pa(&self, loads: &Loads) -> f64 {
-        (loads.body_pa - self.assembly.body_offset_pa).max(0.0)
+    pub(crate) fn body_pa(&self, loads: &Loads, work: &Workspace) -> f64 {
+        if self.assembly.body.is_empty() {
+            return loads.body_pa;
+        }
+        let most = self.channels().fold(0.0, |most: f64, channel| most.max(loads.actuator_pa[channel]));
+        self.assembly.body.iter().fold(loads.body_pa, |p, law| law(p, most, &work.history.moment).max(0.0))
     }
 
     pub(crate) fn marker_count(&self) -> usize {
@@ -208,26 +216,21 @@ impl Model {
         if self.is_spatial() {
             return self.supply_strips(&loads.actuator_pa, work);
         }
-        let held_s = work.history.held_s;
+        let moment = work.history.moment;
         for (p, segment) in work.p_act_pa.iter_mut().zip(&self.assembly.segments) {
             let site = &self.assembly.sites[segment.site];
             let set = if site.actuator.is_some() { loads.actuator_pa[site.channel] } else { 0.0 };
-            *p = self.assembly.supply.iter().fold(set, |p, law| law(p, held_s));
+            let moment = Moment { s_m: segment.middle_m(), ..moment };
+            *p = self.assembly.supply.iter().fold(set, |p, law| law(p, &moment));
         }
     }
 
     #[inline]
     pub(crate) fn stretch(&self, work: &Workspace, segment: usize) -> Stretch {
-        let offset_m = self.assembly.sites[self.assembly.segments[segment].site].centre_line_m;
+        let centre = self.assembly.sites[self.assembly.segments[segment].site].centre_line;
         let from = [work.nodes[2 * segment], work.nodes[2 * segment + 1]];
-        let stretch = Stretch::new(
-            from,
-            work.directions[segment],
-            work.headings[segment],
-            work.states[segment].curvature,
-            offset_m,
-        );
-        stretch.sheared(work.shear(segment))
+        let direction = slid(work.directions[segment], work.shear(segment));
+        Stretch::new(from, direction, work.headings[segment], work.states[segment].curvature, centre)
     }
 
     /// The markers as the camera sees them.
@@ -242,7 +245,7 @@ impl Model {
                 stretch = self.stretch(work, current);
             }
             let (xy, heading) = stretch.at(*offset);
-            let mut seen = Sighting { xy, heading, p_act_pa };
+            let mut seen = Sighting { xy, heading, p_act_pa, t_s: work.history.moment.t_s };
             for law in &self.assembly.camera {
                 law(&mut seen);
             }
@@ -299,11 +302,10 @@ impl Model {
     }
 
     fn rest_nodes(&self) -> Vec<f64> {
-        let mut x = 0.0;
-        let mut nodes = vec![0.0, 0.0];
-        for segment in &self.assembly.segments {
-            x += segment.length_m;
-            nodes.extend([x, 0.0]);
+        let axes = self.assembly.axes;
+        let mut nodes = vec![0.0; axes * (self.assembly.segments.len() + 1)];
+        for (i, segment) in self.assembly.segments.iter().enumerate() {
+            nodes[axes * (i + 1)] = nodes[axes * i] + segment.length_m;
         }
         nodes
     }
@@ -311,6 +313,9 @@ impl Model {
 
 /// The solver's own bounds of a body pressure: the limit without pressure has closed forms.
 const ANY_BODY_PRESSURE: Range = Range { low: 0.0, high: 1000.0, ..Range::BODY_PRESSURE };
+
+/// Largest actuator pressure \[Pa\]: differences about a state stay within it.
+pub(crate) const MOST_ACTUATOR_PA: f64 = Range::ACTUATOR_PRESSURE.high * Range::ACTUATOR_PRESSURE.si;
 
 #[inline]
 fn bounded(loads: &Loads, body: &Range) -> Result<(), Unsolved> {

@@ -37,7 +37,7 @@
 //! yarns linear in Green strain; a wall that takes no compression along the body. Derived here.
 
 use crate::actuators::ActuatorShape;
-use crate::site::{Besides, Site};
+use crate::site::{SideEffects, Site};
 use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 use crate::weave::Weave;
 use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
@@ -63,7 +63,7 @@ pub(crate) fn complete(site: &mut Site) {
     if let Some(actuator) = site.actuator.filter(|_| site.weave.is_cell()) {
         let tabulated_from = site.weave.drawn_in_m2 / (actuator.area)(&site.shape);
         let cell = Muscle::of(&site.weave, &site.shape, site.linkage.arm_m);
-        site.act(cell, Besides { unforeseen: true, tabulated_from, ..Besides::default() });
+        site.act(cell, SideEffects { shifts_balance: true, tabulated_from, ..SideEffects::default() });
     }
 }
 

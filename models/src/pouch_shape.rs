@@ -47,7 +47,7 @@ impl Model {
     pub fn pouch_shape(&self, loads: &Loads, at: &Prediction) -> Option<PouchShape> {
         self.planar("").ok()?;
         let (mut shape, mut active_m) = (PouchShape::default(), 0.0);
-        let body_pa = self.body_pa(loads);
+        let body_pa = self.body_pa(loads, &at.work);
         for (index, segment) in self.assembly().segments.iter().enumerate() {
             let site = &self.assembly().sites[segment.site];
             let [actuator_m3, lost_m3] = self.volumes(site, segment, body_pa, at, index);
@@ -60,7 +60,7 @@ impl Model {
             let of_length = segment.length_m;
             active_m += of_length;
             shape.arm_m += of_length * (site.linkage.arm_m + site.linkage.arm_growth * stroke.lift);
-            shape.width_m += of_length * (site.shape.width_m - site.besides.narrows * stroke.lift - folded);
+            shape.width_m += of_length * (site.shape.width_m - site.side_effects.narrows * stroke.lift - folded);
             shape.height_m += of_length * 2.0 * stroke.lift;
         }
         for mean in [&mut shape.arm_m, &mut shape.width_m, &mut shape.height_m] {

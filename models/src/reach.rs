@@ -17,13 +17,18 @@ type Point = (f64, f64);
 /// What a search has to say.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Reach {
-    /// Met at this pressure.
     At(f64),
     /// Passed over between two pressures next to each other.
-    Gap { low: Point, high: Point, between: &'static str },
+    Gap {
+        low: Point,
+        high: Point,
+        between: &'static str,
+    },
     /// All that can be had, ends polished.
-    Beyond { least: f64, most: f64 },
-    /// No response anywhere.
+    Beyond {
+        least: f64,
+        most: f64,
+    },
     Nowhere,
 }
 
@@ -56,7 +61,6 @@ pub(crate) fn reach(f: &mut dyn FnMut(f64) -> f64, wanted: f64, most: f64, sampl
     }
 }
 
-/// The walk over the samples.
 struct Seen {
     wanted: f64,
     gap: Option<Reach>,

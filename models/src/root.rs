@@ -1,6 +1,5 @@
 //! A bracketed secant iteration with the bend of three points: never leaves the bracket, halves it when it stalls.
 
-/// Why no root was returned.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum NoRoot {
     /// The function has the same sign at both ends: values there.
@@ -23,7 +22,6 @@ pub(crate) struct Start {
 pub(crate) struct Root {
     pub x: f64,
     pub step: f64,
-    /// Slope at the root.
     pub slope: f64,
 }
 

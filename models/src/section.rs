@@ -51,6 +51,11 @@ impl Section {
         Section::new(2.0 * PI * radius_m - width_m, chord_m)
     }
 
+    /// Its area, and the first moment of that about the axis of a body of radius R.
+    pub(crate) fn about_axis(&self, radius_m: f64) -> (f64, f64) {
+        (self.area_m2, self.area_m2 * (self.centroid_m - radius_m))
+    }
+
     /// Moment of the gas that the section takes over that of the round body, Aȳ/(πR³).
     pub(crate) fn moment_share(&self, radius_m: f64) -> f64 {
         self.area_m2 * self.centroid_m / (PI * radius_m.powi(3))

@@ -1,12 +1,16 @@
 //! Curvature → centre line: the heading integrated along the arc, exactly for piecewise constant curvature.
 //!
 //! κ is the heading change per length s of the taut generator, whose length is kept; the centre line shortens to
-//! (1 − κR) ds. A stretch of length h is an arc of turn u = κh:
+//! (1 − s) ds. A stretch of length h is an arc of turn u = κh:
 //!
 //! ```text
-//! along = (1 − κR) h sin u/u        across = (1 − κR) h (1 − cos u)/u
+//! along = (1 − s) h sin u/u        across = (1 − s) h (1 − cos u)/u
+//! s = κc for κ ≥ 0        s = κc + 2c k ln cosh(κ/k) → −κc for κ < 0, where the generator at the actuator is taut
 //! ```
+//!
+//! c is the distance of the centre line from the taut generator, k the curvature over which the taut generator changes side.
 
+use crate::body::soft_step;
 use crate::trig::sin_cos;
 
 /// Displacement over a stretch, in the frame of its start, with first and second derivatives by κ.
@@ -29,7 +33,7 @@ impl Arc {
 }
 
 /// Below this turn the closed forms lose digits, and the series are exact to rounding and cheaper.
-const SERIES_BELOW: f64 = 0.25;
+pub(crate) const SERIES_BELOW: f64 = 0.25;
 
 /// Coefficients of `sin u/u` and `(1 − cos u)/u²` in u², signs alternating.
 const SIN_SERIES: [f64; 6] = [1.0, 1.0 / 6.0, 1.0 / 120.0, 1.0 / 5040.0, 1.0 / 362_880.0, 1.0 / 39_916_800.0];
@@ -37,7 +41,7 @@ const COS_SERIES: [f64; 6] = [0.5, 1.0 / 24.0, 1.0 / 720.0, 1.0 / 40320.0, 1.0 /
 
 /// `c₀ − z (c₁ − z (c₂ − …))`
 #[inline(always)]
-fn alternating<const N: usize>(z: f64, coefficients: [f64; N]) -> f64 {
+pub(crate) fn alternating<const N: usize>(z: f64, coefficients: [f64; N]) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, c| c - z * sum)
 }
 
@@ -60,19 +64,52 @@ pub(crate) fn sinc_pair(u: f64) -> [f64; 8] {
     [a, b, da, db, (-sin - 2.0 * da) * per, (cos - 2.0 * db) * per, sin, cos]
 }
 
-/// The arc of curvature `kappa` over a taut length `h` of a body of radius `radius`.
+/// How the centre line shortens with the bend.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CentreLine {
+    /// Distance c from the taut generator \[m\].
+    pub(crate) from_taut_m: f64,
+    /// Curvature k over which the taut generator changes side \[1/m\].
+    pub(crate) turn_per_m: f64,
+}
+
+/// Largest c k: a body that changes side is longer by up to 0.26 c k, 0.05 %.
+const MOST_LONGER: f64 = 2e-3;
+
+impl CentreLine {
+    /// Of a body whose restoring moment changes sign over `hinge_curvature`.
+    pub(crate) fn new(from_taut_m: f64, hinge_curvature: f64) -> CentreLine {
+        CentreLine { from_taut_m, turn_per_m: hinge_curvature.min(MOST_LONGER / from_taut_m.abs()) }
+    }
+
+    /// Shortening s, and its first and second derivatives by κ.
+    #[inline(always)]
+    pub(crate) fn shortening(&self, kappa: f64) -> [f64; 3] {
+        let c = self.from_taut_m;
+        if kappa < 0.0 { self.away(kappa) } else { [kappa * c, c, 0.0] }
+    }
+
+    #[cold]
+    fn away(&self, kappa: f64) -> [f64; 3] {
+        let (c, k) = (self.from_taut_m, self.turn_per_m);
+        let (log, tanh) = soft_step(kappa, k);
+        [c * (kappa + 2.0 * log), c * (1.0 + 2.0 * tanh), 2.0 * c * (1.0 - tanh * tanh) / k]
+    }
+}
+
+/// The arc of curvature `kappa` over a taut length `h`.
 #[inline(always)]
-pub(crate) fn arc(kappa: f64, h: f64, radius: f64) -> Arc {
+pub(crate) fn arc(kappa: f64, h: f64, centre: CentreLine) -> Arc {
     let [a, b, da, db, dda, ddb, sin, cos] = sinc_pair(kappa * h);
-    let line = (1.0 - kappa * radius) * h;
-    let lost = radius * h;
+    let [shorter, d_shorter, dd_shorter] = centre.shortening(kappa);
+    let (line, lost, more) = ((1.0 - shorter) * h, d_shorter * h, dd_shorter * h);
     Arc {
         along: line * a,
         across: line * b,
         d_along: line * h * da - lost * a,
         d_across: line * h * db - lost * b,
-        dd_along: h * (line * h * dda - 2.0 * lost * da),
-        dd_across: h * (line * h * ddb - 2.0 * lost * db),
+        dd_along: h * (line * h * dda - 2.0 * lost * da) - more * a,
+        dd_across: h * (line * h * ddb - 2.0 * lost * db) - more * b,
         turn: [sin, cos],
     }
 }
@@ -84,25 +121,17 @@ pub(crate) struct Stretch {
     direction: [f64; 2],
     heading: f64,
     kappa: f64,
-    /// 1 − κR, and that over κ (not used where κ is small).
+    /// 1 − s, and that over κ (not used where κ is small).
     line: f64,
     line_radius: f64,
-    /// Shear angle: every point moves across by it times its distance from the start.
-    shear: f64,
 }
 
 impl Stretch {
-    /// From its start (position, direction, heading), its curvature and the body radius.
+    /// From its start (position, direction of the slid wall, heading), its curvature and its centre line.
     #[inline(always)]
-    pub(crate) fn new(from: [f64; 2], direction: [f64; 2], heading: f64, kappa: f64, radius: f64) -> Stretch {
-        let line = 1.0 - kappa * radius;
-        Stretch { from, direction, heading, kappa, line, line_radius: line / kappa, shear: 0.0 }
-    }
-
-    /// The same, sheared.
-    #[inline(always)]
-    pub(crate) fn sheared(self, shear: f64) -> Stretch {
-        Stretch { shear, ..self }
+    pub(crate) fn new(from: [f64; 2], direction: [f64; 2], heading: f64, kappa: f64, centre: CentreLine) -> Stretch {
+        let line = 1.0 - centre.shortening(kappa)[0];
+        Stretch { from, direction, heading, kappa, line, line_radius: line / kappa }
     }
 
     /// Position and heading at a taut length from its start.
@@ -116,7 +145,7 @@ impl Stretch {
             let (sin, cos) = sin_cos(u);
             (self.line_radius * sin, self.line_radius * (1.0 - cos))
         };
-        (advance(self.from, self.direction, along, across + self.shear * offset), self.heading + u)
+        (advance(self.from, self.direction, along, across), self.heading + u)
     }
 }
 
@@ -125,6 +154,12 @@ impl Stretch {
 pub(crate) fn turned(direction: [f64; 2], [sin, cos]: [f64; 2]) -> [f64; 2] {
     let [c, s] = direction;
     [c * cos - s * sin, s * cos + c * sin]
+}
+
+/// Direction in which a stretch goes whose wall slides by an angle: it keeps its length, and its sections their heading.
+#[inline]
+pub(crate) fn slid(direction: [f64; 2], shear: f64) -> [f64; 2] {
+    if shear == 0.0 { direction } else { turned(direction, shear.sin_cos().into()) }
 }
 
 /// End of an arc that starts at `from` with direction (cos ψ, sin ψ).
@@ -137,6 +172,8 @@ pub(crate) fn advance(from: [f64; 2], direction: [f64; 2], along: f64, across: f
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const LINE: CentreLine = CentreLine { from_taut_m: 0.04, turn_per_m: 0.05 };
 
     #[test]
     fn series_and_closed_form_agree_where_they_join() {
@@ -151,9 +188,9 @@ mod tests {
     fn a_point_of_a_stretch_is_the_end_of_its_arc() {
         for kappa in [-9.0, -3.0, -1e-9, 0.0, 1e-3, 0.8, 4.6, 24.9] {
             let (from, direction, heading) = ([0.1, -0.2], [0.6, 0.8], 0.927);
-            let stretch = Stretch::new(from, direction, heading, kappa, 0.04);
+            let stretch = Stretch::new(from, direction, heading, kappa, LINE);
             for h in [0.0, 0.03, 0.07, 0.31, 1.5] {
-                let (part, ([x, y], at)) = (arc(kappa, h, 0.04), stretch.at(h));
+                let (part, ([x, y], at)) = (arc(kappa, h, LINE), stretch.at(h));
                 let end = advance(from, direction, part.along, part.across);
                 assert!((x - end[0]).abs() < 1e-15 && (y - end[1]).abs() < 1e-15, "{kappa} {h}");
                 assert_eq!(at, heading + kappa * h);
@@ -163,9 +200,9 @@ mod tests {
 
     #[test]
     fn derivatives_are_slopes_of_the_arc() {
-        for kappa in [-3.0, -1e-3, 0.0, 0.2, 4.6] {
-            let (h, r, d) = (0.07, 0.04, 1e-6);
-            let (m, p, at) = (arc(kappa - d, h, r), arc(kappa + d, h, r), arc(kappa, h, r));
+        for kappa in [-3.0, -0.02, -1e-3, 0.2, 4.6] {
+            let (h, d) = (0.07, 1e-6);
+            let (m, p, at) = (arc(kappa - d, h, LINE), arc(kappa + d, h, LINE), arc(kappa, h, LINE));
             assert!(((p.along - m.along) / (2.0 * d) - at.d_along).abs() < 1e-10);
             assert!(((p.across - m.across) / (2.0 * d) - at.d_across).abs() < 1e-10);
             assert!(((p.d_along - m.d_along) / (2.0 * d) - at.dd_along).abs() < 1e-10);
@@ -176,13 +213,24 @@ mod tests {
     #[test]
     fn many_short_arcs_add_up_to_one_long_arc() {
         let (kappa, length, n) = (4.6, 0.36, 1000);
-        let one = arc(kappa, length, 0.04);
+        let one = arc(kappa, length, LINE);
         let (mut xy, mut heading) = ([0.0; 2], 0.0_f64);
         for _ in 0..n {
-            let step = arc(kappa, length / f64::from(n), 0.04);
+            let step = arc(kappa, length / f64::from(n), LINE);
             xy = advance(xy, [heading.cos(), heading.sin()], step.along, step.across);
             heading += kappa * length / f64::from(n);
         }
         assert!((xy[0] - one.along).abs() < 1e-13 && (xy[1] - one.across).abs() < 1e-13);
+    }
+
+    #[test]
+    fn a_body_that_bends_away_is_as_short_as_one_that_bends_towards_its_actuator() {
+        for kappa in [0.4, 3.0, 12.0] {
+            let [towards, away] = [kappa, -kappa].map(|kappa| LINE.shortening(kappa)[0]);
+            assert!(away <= towards && towards - away < 4.0 * 0.04 * 0.05 * std::f64::consts::LN_2, "{kappa}");
+        }
+        let wide = CentreLine::new(0.5, 0.05);
+        let longest = (1..2000).map(|i| wide.shortening(-1e-4 * f64::from(i))[0]).fold(0.0, f64::min);
+        assert!(longest > -6e-4, "{longest}");
     }
 }

@@ -17,6 +17,7 @@ mod gas;
 mod held;
 mod starts;
 mod tabulated;
+mod turn;
 mod wall;
 
 use crate::actuators::{Actuator, ActuatorShape, Demand, Stroke};
@@ -24,6 +25,7 @@ use crate::body::{Bending, BodyLaw, BodyPressure};
 use crate::linkage::line_tension;
 pub use crate::linkage::{Linkage, SectionLaw};
 use crate::root::{NoRoot, Root, Start, find_root};
+pub use crate::shape::CentreLine;
 use crate::term::{Extreme, Pose, Remembering, Term, actuator_q};
 use crate::weave::Weave;
 use gas::ActuatorPressure;
@@ -34,13 +36,14 @@ use std::f64::consts::PI;
 pub struct Site {
     /// Body radius R \[m\].
     pub radius_m: f64,
-    /// Distance of the centre line from the taut generator \[m\], by which it shortens: (1 − κ·distance) ds. R unless the
-    /// scenario says otherwise.
-    pub centre_line_m: f64,
+    /// Centre line: R from the taut generator, or as far as the scenario says.
+    pub centre_line: CentreLine,
     /// Actuator kind, `None` on a passive stretch.
     pub actuator: Option<&'static Actuator>,
     /// Dimensions of one actuator unit.
     pub shape: ActuatorShape,
+    /// Width of the strip as cut \[m\]: it is what the wall loses to the actuator, whatever welds take of the pouch.
+    pub(crate) strip_m: f64,
     /// What effects make of a muscle's tube.
     pub weave: Weave,
     /// Supply channel.
@@ -53,8 +56,10 @@ pub struct Site {
     pub gusset_share: f64,
     /// Area of the section at rest \[m²\]: a circle's, unless the actuator draws it in.
     pub area_m2: f64,
+    /// First moment of that area about the body's axis, towards the actuator \[m³\]: 0 of a circle.
+    pub(crate) first_m3: f64,
     /// What its terms do beside their energy.
-    pub(crate) besides: Besides,
+    pub(crate) side_effects: SideEffects,
     /// Starts in place of the actuator's guess.
     starts: Option<Starts>,
     /// Terms over [`actuator_q`], J per metre of body at η = 1; `act` adds one.
@@ -69,15 +74,15 @@ pub struct Site {
     pub wall_shear_n_per_m: Option<f64>,
 }
 
-/// What a term of the actuator does beside its energy; nothing unless it says so.
+/// Changes that a term of the actuator makes in addition to its energy; none by default.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Besides {
+pub(crate) struct SideEffects {
     /// The actuator stays flat below this share of the body's pressure; terms add up.
     pub closes: f64,
     /// Width of a pouch that it takes per half height of its middle; terms add up.
     pub narrows: f64,
-    /// It shifts the balance in a way that the actuator's guess does not know: starts are tabulated.
-    pub unforeseen: bool,
+    /// It shifts the balance away from the actuator's first guess, so starts are tabulated.
+    pub shifts_balance: bool,
     /// Share of the body's pressure from which they are, where it does not close; the largest counts.
     pub tabulated_from: f64,
 }
@@ -148,6 +153,11 @@ struct Balance {
 }
 
 impl SiteState {
+    /// Moment of the loads that it balances, about the taut generator \[N·m\].
+    pub(crate) fn moment_nm(&self) -> f64 {
+        self.loads.moment
+    }
+
     /// Start of the next solve from here: only the moment changed, or time has passed, or the pressures a little too.
     fn start(&self, site: &Site, loads: &SiteLoads, memory: &[f64]) -> Start {
         let same = self.loads.p_act_pa == loads.p_act_pa && self.loads.p_body_pa == loads.p_body_pa;
@@ -185,16 +195,18 @@ impl Site {
     ) -> Site {
         Site {
             radius_m,
-            centre_line_m: radius_m,
+            centre_line: CentreLine::new(radius_m, body_pressure.hinge_curvature),
             actuator,
             shape,
+            strip_m: shape.width_m,
             weave: Weave::default(),
             channel,
             linkage,
             inner_share: 0.0,
             gusset_share: 0.0,
             area_m2: PI * radius_m * radius_m,
-            besides: Besides::default(),
+            first_m3: 0.0,
+            side_effects: SideEffects::default(),
             starts: None,
             actuator_terms: vec![Box::new(ActuatorPressure)],
             body_pressure: BodyLaw::Hinge(body_pressure),
@@ -204,13 +216,13 @@ impl Site {
         }
     }
 
-    /// Adds a term over [`actuator_q`], and what it does besides.
-    pub(crate) fn act(&mut self, term: impl Term + 'static, besides: Besides) {
-        let all = &mut self.besides;
-        all.closes += besides.closes;
-        all.narrows += besides.narrows;
-        all.unforeseen |= besides.unforeseen;
-        all.tabulated_from = all.tabulated_from.max(besides.tabulated_from);
+    /// Adds a term over [`actuator_q`], and its side effects.
+    pub(crate) fn act(&mut self, term: impl Term + 'static, side_effects: SideEffects) {
+        let all = &mut self.side_effects;
+        all.closes += side_effects.closes;
+        all.narrows += side_effects.narrows;
+        all.shifts_balance |= side_effects.shifts_balance;
+        all.tabulated_from = all.tabulated_from.max(side_effects.tabulated_from);
         self.actuator_terms.push(Box::new(term));
     }
 
@@ -240,7 +252,7 @@ impl Site {
 
     /// Actuator pressure beyond what the body's takes to close it \[Pa\].
     fn opening_pa(&self, loads: &SiteLoads) -> f64 {
-        loads.p_act_pa - self.besides.closes * loads.p_body_pa
+        loads.p_act_pa - self.side_effects.closes * loads.p_body_pa
     }
 
     fn solve_active(
@@ -267,8 +279,11 @@ impl Site {
         };
         let mut root = match find_root(&mut imbalance, actuator.range, start) {
             Ok(root) => root,
-            // Even flat it is held shut: by the body's gas at its sides, or by its folds.
-            Err(_) if self.balance(actuator, actuator.range.0, loads, memory).imbalance < 0.0 => {
+            // Even flat it is held shut: by the body's gas at its sides, or by its folds. A muscle is never flat.
+            Err(_)
+                if actuator.has_pouches()
+                    && self.balance(actuator, actuator.range.0, loads, memory).imbalance < 0.0 =>
+            {
                 return self.solve_passive(loads, memory, None);
             }
             Err(none) => return Err(none),
@@ -324,13 +339,12 @@ impl Site {
     fn balance(&self, actuator: &Actuator, a: f64, loads: &SiteLoads, memory: &[f64]) -> Balance {
         let stroke = (actuator.stroke)(&self.shape, a);
         let link = &self.linkage;
-        let arm = link.arm_m + link.arm_growth * stroke.lift;
+        let (geometric, arm) = self.turn(link.stroke_fraction * stroke.contraction, self.arm(&stroke));
         let (d_arm, per_arm) = (link.arm_growth * stroke.d_lift, 1.0 / arm);
-        let geometric = link.stroke_fraction * stroke.contraction * per_arm;
         let d_geometric = (link.stroke_fraction * stroke.d_contraction - geometric * d_arm) * per_arm;
         let slope = link.active_fraction * self.actuator_slope(a, &stroke, geometric, d_geometric, loads);
         let tension = line_tension(-slope, d_geometric * arm, link.compliance_per_n * d_arm * per_arm);
-        let (curvature, gain) = link.bent(geometric - link.compliance_per_n * tension * per_arm);
+        let (curvature, gain) = link.bent(geometric - link.compliance_per_n * tension.max(0.0) * per_arm);
         let lever = arm / gain;
         let imbalance = (tension * lever + loads.moment - self.body_moment(curvature, loads, memory)) * stroke.weight;
         let (d_curvature, weight) = (d_geometric * gain, stroke.weight);
@@ -356,19 +370,13 @@ impl Site {
         -(force[0] + force[1] * stroke.d_contraction + force[2] * stroke.d_volume + force[3] * (d_geometric * gain))
     }
 
-    /// Curvature of inextensible fabric at a stroke \[1/m\].
-    pub(crate) fn geometric(&self, stroke: &Stroke) -> f64 {
-        let arm = self.linkage.arm_m + self.linkage.arm_growth * stroke.lift;
-        self.linkage.bent(self.linkage.stroke_fraction * stroke.contraction / arm).0
-    }
-
     /// Where a formula of the scenario is largest at these loads, over the curvatures that the search for an equilibrium sees.
     pub(crate) fn extreme(&self, loads: &SiteLoads) -> Option<Extreme> {
         let within = match self.actuator {
             Some(actuator) if self.opening_pa(loads) > SLACK_BELOW_PA => {
                 <[f64; 2]>::from(actuator.range).map(|a| self.geometric(&(actuator.stroke)(&self.shape, a)))
             }
-            _ => [-PASSIVE_RANGE, PASSIVE_RANGE],
+            _ => [-self.folded(), self.folded()],
         };
         let found = self.body_terms.iter().filter_map(|term| term.extreme(&loads.pose(&[0.0]), within));
         found.max_by(|a, b| a.moment.total_cmp(&b.moment))
@@ -376,7 +384,7 @@ impl Site {
 
     /// Whether an actuator here is open at these pressures: a flat one has no slope.
     pub(crate) fn is_open(&self, p_body_pa: f64, p_act_pa: f64) -> bool {
-        p_act_pa - self.besides.closes * p_body_pa > SLACK_BELOW_PA
+        p_act_pa - self.side_effects.closes * p_body_pa > SLACK_BELOW_PA
     }
 }
 
@@ -384,8 +392,6 @@ impl Site {
 const CARRIED: f64 = 1e-9;
 /// Actuator pressure up to which a pouch is slack \[Pa\]: far below any gauge, far above underflow.
 const SLACK_BELOW_PA: f64 = 1e-12;
-/// Curvature beyond which a passive stretch counts as folded \[1/m\]: a bend radius of 10 mm.
-const PASSIVE_RANGE: f64 = 100.0;
 /// Contractions at which the wall's moment is sampled for the start value: in the working range of every actuator here.
 const TYPICAL_STROKE: (f64, f64) = (0.1, 0.3);
 

@@ -8,7 +8,7 @@
 //! its limit is left there while the sum would fall beyond it. In √P the steep start of a pouch is a slope like others.
 
 use crate::error::Unsolved;
-use crate::model::{Model, Prediction};
+use crate::model::{MOST_ACTUATOR_PA, Model, Prediction};
 use crate::reach::MET;
 use crate::term::{CHANNELS, Loads};
 
@@ -142,13 +142,11 @@ impl Aim<'_> {
     }
 }
 
-/// One search under way.
 struct Search<'a> {
     model: &'a Model,
     aim: Aim<'a>,
     body_pa: f64,
     limits: &'a Limits,
-    /// Channels that feed an actuator.
     used: [bool; CHANNELS],
     work: &'a mut Steering,
     failed: Option<Unsolved>,
@@ -210,7 +208,8 @@ impl Search<'_> {
         for channel in self.channels() {
             let step = NUDGE * self.limits.ends(channel)[1].max(1.0);
             let [mut up, mut down] = [*roots; 2];
-            (up[channel], down[channel]) = (roots[channel] + step, (roots[channel] - step).max(0.0));
+            up[channel] = (roots[channel] + step).min(MOST_ACTUATOR_PA.sqrt());
+            down[channel] = (roots[channel] - step).max(0.0);
             let lost = self.cost(&up, 1 + 2 * channel) + self.cost(&down, 2 + 2 * channel);
             spans[channel] = if lost.is_finite() { up[channel] - down[channel] } else { f64::INFINITY };
         }

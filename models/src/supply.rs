@@ -1,6 +1,6 @@
 //! From the set pressure to the pressure in the actuator: the supply stage of a scenario alone.
 
-use crate::assembly::{Assembly, SupplyLaw};
+use crate::assembly::{Assembly, Moment, SupplyLaw};
 use crate::effects::{Stage, by_name};
 use crate::scenario::Scenario;
 
@@ -21,15 +21,15 @@ impl Supply {
         Supply { laws: assembly.supply }
     }
 
-    /// Pressure in the actuator \[Pa\] when `set_pa` has been set for `held_s` seconds.
+    /// Pressure in the actuator \[Pa\] when `set_pa` is set, at a moment.
     ///
     /// ```
     /// let robot = models::Scenario::parse(models::shipped("epam-textbook").unwrap()).unwrap();
     /// let lossy = models::Supply::of(&robot.with_effect("pressure_loss", &[0.1, 1.0]));
-    /// assert!((lossy.pressure(30e3, 0.0) - 27e3).abs() < 1e-9);
+    /// assert!((lossy.pressure(30e3, &Default::default()) - 27e3).abs() < 1e-9);
     /// ```
-    pub fn pressure(&self, set_pa: f64, held_s: f64) -> f64 {
-        self.laws.iter().fold(set_pa, |p, law| law(p, held_s))
+    pub fn pressure(&self, set_pa: f64, at: &Moment) -> f64 {
+        self.laws.iter().fold(set_pa, |p, law| law(p, at))
     }
 }
 
@@ -41,7 +41,9 @@ mod tests {
     #[test]
     fn a_loss_with_an_exponent_is_its_share_at_20_kpa_and_never_more_than_there_is() {
         let robot = Scenario::parse(crate::shipped("epam-textbook").unwrap()).unwrap();
-        let lost = |n: f64, pa: f64| pa - Supply::of(&robot.with_effect("pressure_loss", &[0.1, n])).pressure(pa, 0.0);
+        let lost = |n: f64, pa: f64| {
+            pa - Supply::of(&robot.with_effect("pressure_loss", &[0.1, n])).pressure(pa, &Moment::default())
+        };
         for n in [0.5, 0.75, 1.0, 2.0] {
             assert!((lost(n, 20e3) - 2e3).abs() < 1e-9, "{n}");
             assert!((lost(n, 40e3) / lost(n, 20e3) - 2f64.powf(n)).abs() < 1e-12, "{n}");

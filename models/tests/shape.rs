@@ -6,15 +6,19 @@ use models::{Loads, Model, Scenario, shipped};
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dopri5, System, Vector3};
 
-/// One segment: dψ/ds = κ, d(x, y)/ds = (1 − κR)(cos ψ, sin ψ) over its taut length.
+/// One segment: dψ/ds = κ, d(x, y)/ds = (1 − s)(cos ψ, sin ψ) over its taut length, s = κR towards the actuator. Away from it the taut
+/// generator is the one at the actuator: ds/dκ goes from R to −R as the hinge's moment does, with 1 + 2 tanh(κ/k).
 struct Segment {
     kappa: f64,
     radius_m: f64,
 }
 
+const HINGE_PER_M: f64 = 0.05;
+
 impl System<f64, Vector3<f64>> for Segment {
     fn system(&self, _s: f64, at: &Vector3<f64>, slope: &mut Vector3<f64>) {
-        let stretch = 1.0 - self.kappa * self.radius_m;
+        let away = 2.0 * HINGE_PER_M * (self.kappa.min(0.0) / HINGE_PER_M).cosh().ln();
+        let stretch = 1.0 - (self.kappa + away) * self.radius_m;
         *slope = Vector3::new(stretch * at[2].cos(), stretch * at[2].sin(), self.kappa);
     }
 }

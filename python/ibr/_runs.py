@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import base64
+import html
 import os
 import re
-import struct
 import tempfile
 import zlib
 from pathlib import Path
@@ -17,7 +18,7 @@ from ._calls import Progress, Robot
 from ._ibr import Scenario
 from ._results import Result, columns_of
 
-_TYPES = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "UInt8": "u1", "Int8": "i1", "String": "S1"}
+_TYPES = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "UInt8": "u1", "Int8": "i1"}
 
 
 class Frame:
@@ -45,8 +46,8 @@ class Frame:
     @property
     def pressures_kpa(self) -> Dict[str, float]:
         """Gauge pressure by chamber (kPa)."""
-        names = bytes(self.arrays.get("chamber_names", np.zeros(0, "S1")).tobytes()).split(b"\0")
-        return {name.decode(): float(kpa) for name, kpa in zip(names, self.arrays.get("chamber_kPa", []))}
+        start = "chamber_kPa "
+        return {name[len(start) :]: float(kpa[0]) for name, kpa in self.arrays.items() if name.startswith(start)}
 
     def __repr__(self) -> str:
         cells = len(self.triangles) + len(self.quads)
@@ -54,15 +55,12 @@ class Frame:
 
 
 def _arrays(path: Path) -> Dict[str, np.ndarray]:
-    """The arrays of a frame as the engine writes it: XML with blocks compressed by zlib at the end."""
-    head, _, blocks = path.read_bytes().partition(b'<AppendedData encoding="raw">\n_')
+    """The arrays of a frame as the engine writes it: XML with blocks in base64, compressed by zlib."""
     found = {}
-    for tag in re.findall(r"<DataArray ([^>]*)/>", head.decode()):
-        about = dict(re.findall(r'(\w+)="([^"]*)"', tag))
-        at = int(about["offset"])
-        size = struct.unpack_from("<4Q", blocks, at)[3]
-        plain = zlib.decompress(blocks[at + 32 : at + 32 + size])
-        values = np.frombuffer(plain, _TYPES[about["type"]])
+    for tag, text in re.findall(r"<DataArray ([^>]*)>([^<]*)<", path.read_text("utf-8")):
+        about = {name: html.unescape(value) for name, value in re.findall(r'(\w+)="([^"]*)"', tag)}
+        # Before the block are 32 bytes of sizes, in 44 letters.
+        values = np.frombuffer(zlib.decompress(base64.b64decode(text[44:])), _TYPES[about["type"]])
         width = int(about.get("NumberOfComponents", 1))
         found[about["Name"]] = values.reshape(-1, width) if width > 1 else values
     return found

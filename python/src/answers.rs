@@ -8,10 +8,9 @@ use crate::scenario::Scenario;
 use ibr::compared::{Compared, unused_sigma};
 use ibr::data::Table;
 use ibr::pages::{Diagnosed, Files, PageError, compare_page, diagnosis_page, residuals};
-use ibr::program::imprint;
-use ibr::shown::as_json;
+use ibr::program::maker;
 use ibr::shown::comparison::{CompareAnswer, text};
-use ibr::shown::{diagnosis, extension, validation};
+use ibr::shown::{as_json, diagnosis, extension, validation};
 use ibr::study::study::Knob;
 use ibr::study::study::engines::known_runs;
 use ibr::study::validation::BeforeAfter;
@@ -95,7 +94,7 @@ pub(crate) fn compare(
     let warnings = found.warnings.iter().cloned().chain(unused_sigma(sigma_m, evidence)).collect();
     let told = Answer::of(text(&answer), &as_json("ibr.compare", &answer), warnings);
     let table = residuals(&found);
-    Ok(Answer { table, page: Some(Box::new(move || compare_page(&found, &imprint()))), ..told })
+    Ok(Answer { table, page: Some(Box::new(move || compare_page(&found, &maker()))), ..told })
 }
 
 /// A diagnosis with all that its report is made of.
@@ -117,7 +116,7 @@ impl Whole {
             typed: [&self.file.name, &self.first.name],
             more: String::new(),
         };
-        diagnosis_page(&found, &imprint(), &mut |_, _| ())
+        diagnosis_page(&found, &maker(), &mut |_, _| ())
     }
 }
 
@@ -160,13 +159,12 @@ pub(crate) fn diagnose(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Answer> {
     let (file, evidence, options) = (scenario.file.clone(), all_evidence(&data), asked.options());
-    let (made, raised_meanwhile) = beside(py, progress.as_ref(), |tell| {
+    let made = beside(py, progress.as_ref(), |tell| {
         let diagnosis = ibr::diagnose(&file, &evidence, &options, &mut |what, share| _ = tell(what, share))?;
         let first = evidence.into_iter().next().ok_or_else(no_data)?;
         let witness = witness(&diagnosis, &file, &first.dataset, first.about.as_ref(), &known_runs(None)?)?;
         Ok(Whole { diagnosis, witness, file, first })
-    });
-    raised_meanwhile.map_or(Ok(()), Err)?;
+    })?;
     let whole = made.map_err(|error: ibr::Error| raised(error))?;
     let d = &whole.diagnosis;
     let json = as_json("ibr.diagnose", &diagnosis::DiagnosisAnswer::of(d, whole.witness.as_ref(), &whole.file.name));
@@ -211,11 +209,10 @@ pub(crate) fn add(
 ) -> PyResult<Answer> {
     let (file, evidence) = (&scenario.file, all_evidence(&data));
     let options = DiagnosisOptions { next_experiment: false, missing_moment: false, ..asked.options() };
-    let (found, raised_meanwhile) = beside(py, progress.as_ref(), |tell| {
+    let found = beside(py, progress.as_ref(), |tell| {
         let wish = Wish::read(file, effect, !evidence.is_empty())?;
         ibr::add(file, &wish, &evidence, &options, &mut |what, share| _ = tell(what, share))
-    });
-    raised_meanwhile.map_or(Ok(()), Err)?;
+    })?;
     extended(file, &evidence, found.map_err(raised)?)
 }
 

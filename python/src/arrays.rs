@@ -46,6 +46,7 @@ pub(crate) fn columns<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py
             Column::F64(values) => all.set_item(name, values.clone().into_pyarray(py))?,
             Column::I64(values) => all.set_item(name, values.clone().into_pyarray(py))?,
             Column::Str(values) => all.set_item(name, values)?,
+            Column::Bool(values) => all.set_item(name, values)?,
         }
     }
     Ok(all)

@@ -31,19 +31,14 @@ impl From<ibr::Error> for Told {
             message: error.to_string(),
             place: fault.map(|fault| fault.location.to_string()),
             line: fault.and_then(|fault| fault.source_line.clone()),
-            help: error.help().filter(|help| !help.is_empty()).map(str::to_string),
+            help: error.help().map(str::to_string),
         }
     }
 }
 
 impl From<FemError> for Told {
     fn from(error: FemError) -> Told {
-        Told {
-            message: error.to_string(),
-            place: error.place(),
-            line: None,
-            help: error.help().filter(|help| !help.is_empty()).map(str::to_string),
-        }
+        Told { message: error.to_string(), place: error.place(), line: None, help: error.help().map(str::to_string) }
     }
 }
 
@@ -63,8 +58,8 @@ pub(crate) fn refused(message: impl Into<String>, help: impl Into<String>) -> Py
 
 /// The exception of an error.
 pub(crate) fn raised(error: impl Into<Told>) -> PyErr {
-    let Told { message, place, line, help } = error.into();
-    let mut text = message;
+    let Told { message: mut text, place, line, help } = error.into();
+    let help = help.filter(|help| !help.is_empty());
     line.iter().for_each(|line| text += &format!("\n    {}", line.trim()));
     help.iter().for_each(|help| text += &format!("\nhelp: {help}"));
     let exception = Error::new_err(text);

@@ -85,6 +85,7 @@ pub(crate) fn places(table: &str, given: &Bound<'_, PyDict>, found: &mut Vec<(St
 pub struct Data {
     pub evidence: Evidence,
     /// What reading or import assumed, in words.
+    #[pyo3(get)]
     told: Vec<String>,
     /// The beginning of an about.toml, of an import.
     #[pyo3(get)]
@@ -137,12 +138,6 @@ impl Data {
     #[getter]
     fn actuator(&self) -> &str {
         &self.evidence.dataset.actuator
-    }
-
-    /// What reading assumed, in words.
-    #[getter]
-    fn told(&self) -> Vec<String> {
-        self.told.clone()
     }
 
     /// The columns of its marker table, texts as lists.

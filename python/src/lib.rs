@@ -8,7 +8,6 @@ mod arrays;
 mod errors;
 mod inputs;
 mod progress;
-mod robot;
 mod runs;
 mod scenario;
 mod states;

@@ -17,12 +17,12 @@ type News = (String, Option<f64>);
 pub(crate) type Tell<'a> = &'a mut (dyn FnMut(&str, Option<f64>) -> ControlFlow<()> + Send);
 
 /// Does work on a thread of its own, because engines tell their progress from threads on which Python hears no signal. This one
-/// waits, tells `told` the latest, and looks for Ctrl-C; what Python raises asks the work to end and is returned when it has.
+/// waits, tells `told` the latest, and looks for Ctrl-C; what Python raises asks the work to end and is the error when it has.
 pub(crate) fn beside<T: Send>(
     py: Python<'_>,
     told: Option<&Py<PyAny>>,
     work: impl FnOnce(Tell) -> T + Send,
-) -> (T, Option<PyErr>) {
+) -> PyResult<T> {
     let (sender, receiver) = channel::<News>();
     py.detach(move || {
         let stop = AtomicBool::new(false);
@@ -35,9 +35,10 @@ pub(crate) fn beside<T: Send>(
                     if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
                 })
             });
-            let raised = listen(&receiver, told).err();
+            let heard = listen(&receiver, told);
             stop.store(true, Ordering::Relaxed);
-            (worker.join().unwrap_or_else(|panic| resume_unwind(panic)), raised)
+            let made = worker.join().unwrap_or_else(|panic| resume_unwind(panic));
+            heard.map(|()| made)
         })
     })
 }

@@ -51,8 +51,7 @@ pub(crate) fn simulate(
     let (maker, further) = (ibr::program::maker(), Some(run_plots as Further));
     let settings =
         FeSettings { folder: Some(folder), resume, force, end_s, threads, maker, further, ..FeSettings::default() };
-    let (made, raised_meanwhile) = beside(py, progress.as_ref(), |tell| ibr::simulate(&source, &settings, tell));
-    raised_meanwhile.map_or(Ok(()), Err)?;
+    let made = beside(py, progress.as_ref(), |tell| ibr::simulate(&source, &settings, tell))?;
     answer(&made.map_err(raised)?)
 }
 

@@ -3,7 +3,6 @@
 use crate::arrays::{Numbers, matrix, numbers};
 use crate::errors::{raised, refused};
 use crate::inputs::{Pressures, places};
-use crate::robot::Robot;
 use crate::states::{State, States};
 use ibr::models::{Aim, CHANNELS, Limits, Loads, Target};
 use ibr::{Follower, Predictor, ScenarioFile};
@@ -17,22 +16,18 @@ use std::sync::Arc;
 #[pyclass(frozen, module = "ibr")]
 pub struct Scenario {
     pub file: ScenarioFile,
-    robot: Arc<Robot>,
+    robot: Arc<Predictor>,
 }
 
 impl Scenario {
     pub fn of(file: ScenarioFile) -> Scenario {
-        let robot = Arc::new(Robot::new(&file));
+        let robot = Arc::new(Predictor::new(&file));
         Scenario { file, robot }
-    }
-
-    fn predictor(&self) -> &Predictor {
-        &self.robot.predictor
     }
 
     fn loads(&self, pressure: &Pressures, body_kpa: Option<f64>) -> PyResult<Loads> {
         let body_pa = body_kpa.map(|kpa| kpa * 1e3);
-        self.predictor().loads(body_pa, pressure.pa()).map_err(raised)
+        self.robot.loads(body_pa, pressure.pa()).map_err(raised)
     }
 
     /// One state per row of `pressure_kpa`, at the body pressure given for all or for each.
@@ -60,7 +55,7 @@ impl Scenario {
         let mut pa = [0.0; CHANNELS];
         let one = |(i, row): (usize, &[f64])| {
             row.iter().zip(&mut pa).for_each(|(kpa, pa)| *pa = 1e3 * kpa);
-            self.predictor().loads(body(i), &pa[..columns]).map_err(|error| {
+            self.robot.loads(body(i), &pa[..columns]).map_err(|error| {
                 refused(format!("state {i} of the batch: {error}"), "leave it out, or give another pressure")
             })
         };
@@ -73,7 +68,7 @@ impl Scenario {
     /// A robot or study that comes with the package, or a TOML file.
     #[staticmethod]
     fn named(name: PathBuf) -> PyResult<Scenario> {
-        ibr::studies::scenario_in_space(&name.to_string_lossy()).map(Scenario::of).map_err(raised)
+        ibr::studies::scenario(&name.to_string_lossy()).map(Scenario::of).map_err(raised)
     }
 
     /// A TOML file, or its text.
@@ -81,7 +76,7 @@ impl Scenario {
     fn from_toml(source: PathBuf) -> PyResult<Scenario> {
         let text = source.to_string_lossy();
         if text.contains('\n') {
-            return ScenarioFile::parse_in_space("scenario", &text).map(Scenario::of).map_err(raised);
+            return ScenarioFile::parse("scenario", &text).map(Scenario::of).map_err(raised);
         }
         Scenario::named(source)
     }
@@ -139,21 +134,16 @@ impl Scenario {
     /// Whether a state depends on those before it or on time.
     #[getter]
     fn has_history(&self) -> bool {
-        self.predictor().model().has_history()
+        self.robot.model.has_history()
     }
 
     /// Shape at a pressure.
     #[pyo3(signature = (pressure_kpa, body_pressure_kpa = None))]
     fn predict(&self, pressure_kpa: Pressures, body_pressure_kpa: Option<f64>) -> PyResult<State> {
         let loads = self.loads(&pressure_kpa, body_pressure_kpa)?;
-        let mut own = None;
-        let mut kept = self.robot.scratch.try_lock();
-        let scratch = match &mut kept {
-            Ok(scratch) => &mut **scratch,
-            Err(_) => own.insert(self.predictor().model().prediction()),
-        };
-        self.predictor().model().predict_held(&loads, scratch).map_err(|error| raised(ibr::Error::from(error)))?;
-        State::new(&self.robot, loads, scratch)
+        let mut at = self.robot.model.prediction();
+        self.robot.model.predict_held(&loads, &mut at).map_err(|error| raised(ibr::Error::from(error)))?;
+        State::new(&self.robot, loads, &at)
     }
 
     /// Many states at once.
@@ -166,8 +156,8 @@ impl Scenario {
         threads: usize,
     ) -> PyResult<States> {
         let loads = self.all_loads(&pressure_kpa, body_pressure_kpa.as_ref())?;
-        let batch = py.detach(|| self.predictor().batch(&loads, threads)).map_err(raised)?;
-        let z_m = self.predictor().model().is_spatial().then_some(&batch.markers_z_m[..]);
+        let batch = py.detach(|| self.robot.batch(&loads, threads)).map_err(raised)?;
+        let z_m = self.robot.model.is_spatial().then_some(&batch.markers_z_m[..]);
         States::new(py, &batch.tips, batch.markers, z_m)
     }
 
@@ -200,7 +190,7 @@ impl Scenario {
             })
         });
         walked.map_err(|error: ibr::Error| raised(error))?;
-        let z_m = self.predictor().model().is_spatial().then_some(&z_m[..]);
+        let z_m = self.robot.model.is_spatial().then_some(&z_m[..]);
         States::new(py, &tips, markers, z_m)
     }
 
@@ -213,7 +203,7 @@ impl Scenario {
             _ => return Err(refused("one target is needed", "give tip_mm=100 (height) or angle_deg=60 (total bend)")),
         };
         let body_pa = body_pressure_kpa.map(|kpa| kpa * 1e3);
-        let (loads, at) = self.predictor().inverse(target, body_pa).map_err(raised)?;
+        let (loads, at) = self.robot.inverse(target, body_pa).map_err(raised)?;
         State::new(&self.robot, loads, &at)
     }
 
@@ -242,7 +232,7 @@ impl Scenario {
         let limits = match (&now_kpa, change_kpa) {
             (Some(now), Some(kpa)) => {
                 let now = self.loads(now, body_pressure_kpa)?.actuator_pa;
-                Some(Limits::up_to(self.predictor().scenario().p_max_pa).near(&now, kpa * 1e3))
+                Some(Limits::up_to(self.robot.scenario.p_max_pa).near(&now, kpa * 1e3))
             }
             (None, None) => None,
             _ => {
@@ -253,7 +243,7 @@ impl Scenario {
             }
         };
         let body_pa = body_pressure_kpa.map(|kpa| kpa * 1e3);
-        let (found, at) = self.predictor().steer(aim, body_pa, limits).map_err(raised)?;
+        let (found, at) = self.robot.steer(aim, body_pa, limits).map_err(raised)?;
         Ok((State::new(&self.robot, found.loads, &at)?, found.miss_m * 1e3))
     }
 
@@ -266,7 +256,7 @@ impl Scenario {
         body_pressure_kpa: Option<f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let loads = self.loads(&pressure_kpa, body_pressure_kpa)?;
-        let slopes = self.predictor().jacobian(&loads).map_err(raised)?;
+        let slopes = self.robot.jacobian(&loads).map_err(raised)?;
         let row = |s: &ibr::models::TipSlope| [s.x_per_pa * 1e6, s.y_per_pa * 1e6, s.angle_per_pa.to_degrees() * 1e3];
         Ok(matrix(py, CHANNELS, 3, slopes.iter().flat_map(row).collect()))
     }

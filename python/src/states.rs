@@ -2,11 +2,10 @@
 
 use crate::arrays::{matrix, rows_mm, vector, with_z};
 use crate::errors::raised;
-use crate::robot::Robot;
-use ibr::AtPressure;
 use ibr::models::{Loads, Prediction, Tip};
 use ibr::pages::predicted_files;
 use ibr::shown::predicted::{PredictedState, above_limit, beyond_words, text};
+use ibr::{AtPressure, Predictor};
 use numpy::ndarray::Array3;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
 use pyo3::prelude::*;
@@ -18,7 +17,7 @@ const LINE_POINTS: usize = 101;
 /// Shape of a robot at one pressure.
 #[pyclass(frozen, module = "ibr")]
 pub struct State {
-    robot: Arc<Robot>,
+    robot: Arc<Predictor>,
     loads: Loads,
     tip: Tip,
     markers_m: Vec<[f64; 2]>,
@@ -29,12 +28,12 @@ pub struct State {
 }
 
 impl State {
-    pub fn new(robot: &Arc<Robot>, loads: Loads, at: &Prediction) -> PyResult<State> {
+    pub fn new(robot: &Arc<Predictor>, loads: Loads, at: &Prediction) -> PyResult<State> {
         let (tip, markers_m) = (at.tip, at.markers.clone());
-        let markers_z_m = robot.predictor.model().is_spatial().then(|| at.markers_z_m.clone());
+        let markers_z_m = robot.model.is_spatial().then(|| at.markers_z_m.clone());
         let state = State { robot: robot.clone(), loads, tip, markers_m, markers_z_m, whole: OnceLock::new() };
-        if robot.predictor.model().has_history() {
-            state.keep(robot.predictor.with_slopes(&loads, at.clone()))?;
+        if robot.model.has_history() {
+            state.keep(robot.with_slopes(&loads, at.clone()))?;
         }
         Ok(state)
     }
@@ -43,7 +42,7 @@ impl State {
     fn whole(&self) -> PyResult<&AtPressure> {
         match self.whole.get() {
             Some(whole) => Ok(whole),
-            None => self.keep(self.robot.predictor.state(&self.loads)),
+            None => self.keep(self.robot.state(&self.loads)),
         }
     }
 
@@ -99,7 +98,7 @@ impl State {
     /// Points of the centre line from base to tip (mm), shape (101, 2); with strips round the body (101, 3).
     #[getter]
     fn curve_mm<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let (model, at) = (self.robot.predictor.model(), &self.whole()?.prediction);
+        let (model, at) = (&self.robot.model, &self.whole()?.prediction);
         Ok(match model.is_spatial() {
             true => rows_mm(py, model.centre_line_in_space(at, LINE_POINTS)),
             false => rows_mm(py, model.centre_line(at, LINE_POINTS)),
@@ -110,14 +109,14 @@ impl State {
     #[getter]
     fn warnings(&self) -> PyResult<Vec<String>> {
         let whole = self.whole()?;
-        let high = above_limit(self.robot.predictor.scenario(), std::slice::from_ref(whole));
-        Ok(high.into_iter().chain(beyond_words(self.robot.predictor.model(), whole)).collect())
+        let high = above_limit(&self.robot.scenario, &[whole.loads]);
+        Ok(high.into_iter().chain(beyond_words(&self.robot.model, &whole.loads, &whole.prediction)).collect())
     }
 
     /// One state of `ibr predict --json`.
     fn to_json(&self) -> PyResult<String> {
-        let robot = &self.robot.predictor;
-        Ok(PredictedState::of(robot.model(), robot.scenario(), self.whole()?).json().to_string())
+        let robot = &self.robot;
+        Ok(PredictedState::of(&robot.model, &robot.scenario, self.whole()?).json().to_string())
     }
 
     /// The same as a dictionary.
@@ -133,13 +132,13 @@ impl State {
 
     fn _repr_html_(&self) -> PyResult<String> {
         let whole = std::slice::from_ref(self.whole()?);
-        let files = predicted_files(self.robot.predictor.scenario(), whole).map_err(raised)?;
+        let files = predicted_files(&self.robot.scenario, whole).map_err(raised)?;
         let svg = files.files.iter().filter(|(name, _)| name.ends_with(".svg"));
         Ok(svg.map(|(_, svg)| String::from_utf8_lossy(svg)).collect())
     }
 
     fn __str__(&self) -> PyResult<String> {
-        Ok(text(self.robot.predictor.scenario(), std::slice::from_ref(self.whole()?)))
+        Ok(text(&self.robot.scenario, std::slice::from_ref(self.whole()?)))
     }
 
     fn __repr__(&self) -> String {
@@ -154,8 +153,14 @@ impl State {
 /// Many states side by side, in the order of their pressures.
 #[pyclass(frozen, module = "ibr")]
 pub struct States {
+    /// Tips of the centre line, x and y (mm), shape (N, 2); with strips round the body x, y and z, shape (N, 3).
+    #[pyo3(get)]
     tips_mm: Py<PyArray2<f64>>,
+    /// Total bending angles (degrees), shape (N,).
+    #[pyo3(get)]
     angles_deg: Py<PyArray1<f64>>,
+    /// Markers as the camera sees them (mm), shape (N, markers, 2); with strips round the body (N, markers, 3).
+    #[pyo3(get)]
     markers_mm: Py<PyArray3<f64>>,
 }
 
@@ -188,24 +193,6 @@ impl States {
 
 #[pymethods]
 impl States {
-    /// Tips of the centre line, x and y (mm), shape (N, 2); with strips round the body x, y and z, shape (N, 3).
-    #[getter]
-    fn tips_mm(&self, py: Python<'_>) -> Py<PyArray2<f64>> {
-        self.tips_mm.clone_ref(py)
-    }
-
-    /// Total bending angles (degrees), shape (N,).
-    #[getter]
-    fn angles_deg(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
-        self.angles_deg.clone_ref(py)
-    }
-
-    /// Markers as the camera sees them (mm), shape (N, markers, 2); with strips round the body (N, markers, 3).
-    #[getter]
-    fn markers_mm(&self, py: Python<'_>) -> Py<PyArray3<f64>> {
-        self.markers_mm.clone_ref(py)
-    }
-
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
         self.angles_deg.bind(py).len()
     }

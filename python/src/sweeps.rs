@@ -3,9 +3,9 @@
 use crate::arrays::columns;
 use crate::errors::{Told, raised};
 use crate::progress::beside;
-use ibr::studies::scenario_in_space;
+use ibr::Error;
+use ibr::studies::scenario;
 use ibr::sweep::{Settings, Shard, Study, SweepError, collect, run};
-use ibr::{Error, FeSettings};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::{Path, PathBuf};
@@ -32,14 +32,12 @@ pub(crate) fn sweep<'py>(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let study = match study.contains('\n') {
-        true => Study::parse("study", &study, Path::new(""), scenario_in_space),
-        false => Study::read(Path::new(&study), scenario_in_space),
+        true => Study::parse("study", &study, Path::new(""), scenario),
+        false => Study::read(Path::new(&study), scenario),
     }
     .map_err(raised)?;
-    let runs = FeSettings { frames: false, threads, maker: ibr::program::maker(), ..FeSettings::default() };
-    let settings = Settings { folder, shard: Shard::WHOLE, threads, runs };
-    let (made, raised_meanwhile) = beside(py, progress.as_ref(), |tell| run(&study, &settings, tell));
-    raised_meanwhile.map_or(Ok(()), Err)?;
+    let settings = Settings { folder, shard: Shard::WHOLE, threads, maker: ibr::program::maker() };
+    let made = beside(py, progress.as_ref(), |tell| run(&study, &settings, tell))?;
     made.map_err(raised)?;
     columns(py, &py.detach(|| collect(&study, &settings.folder)).map_err(raised)?)
 }

@@ -10,10 +10,10 @@ const LARGEST: f64 = 1e15;
 pub(crate) struct Axis {
     /// Data range, lower end first (log10 of it on a logarithmic axis).
     pub(crate) range: [f64; 2],
-    /// Pixels of the two ends.
     pub(crate) pixels: [f64; 2],
-    log: bool,
-    seconds: bool,
+    pub(crate) log: bool,
+    /// Labels such as `10 µs`, for values in seconds.
+    pub(crate) seconds: bool,
 }
 
 impl Axis {
@@ -24,11 +24,9 @@ impl Axis {
         let zero_near = |end: f64, other: f64| end * other >= 0.0 && end.abs() < 0.35 * other.abs();
         let lower = if low == 0.0 || (low > 0.0 && zero_near(low, high)) { 0.0 } else { low - 0.06 * span };
         let upper = if high == 0.0 || (high < 0.0 && zero_near(high, low)) { 0.0 } else { high + 0.06 * span };
-        let range = if lower < upper { [lower, upper] } else { [lower, lower + 1.0] };
-        Ok(Axis { range, pixels: [0.0, 1.0], log: false, seconds: false })
+        Ok(Axis::exact(if lower < upper { [lower, upper] } else { [lower, lower + 1.0] }))
     }
 
-    /// A linear axis over exactly this range.
     pub(crate) fn exact(range: [f64; 2]) -> Self {
         Axis { range, pixels: [0.0, 1.0], log: false, seconds: false }
     }
@@ -44,15 +42,9 @@ impl Axis {
     pub(crate) fn log(values: impl Iterator<Item = f64>, chart: &'static str) -> Result<Self, ReportError> {
         let [low, high] = extent(values.filter(|v| *v > 0.0).map(f64::log10), chart)?;
         let pad = (0.06 * (high - low)).max(0.5 * (1.0 - (high - low)).max(0.0)).max(0.1);
-        Ok(Axis { range: [low - pad, high + pad], pixels: [0.0, 1.0], log: true, seconds: false })
+        Ok(Axis { log: true, ..Axis::exact([low - pad, high + pad]) })
     }
 
-    /// The same axis with labels such as `10 µs`, for values in seconds.
-    pub(crate) fn in_seconds(self) -> Self {
-        Axis { seconds: true, ..self }
-    }
-
-    /// Pixel of a data value.
     pub(crate) fn at(&self, value: f64) -> f64 {
         let value = if self.log { value.log10() } else { value };
         let t = (value - self.range[0]) / (self.range[1] - self.range[0]);
@@ -91,7 +83,6 @@ impl Axis {
     }
 }
 
-/// Smallest and largest finite value.
 pub(crate) fn extent(values: impl Iterator<Item = f64>, chart: &'static str) -> Result<[f64; 2], ReportError> {
     let found = values
         .filter(|v| v.is_finite())
@@ -118,6 +109,10 @@ fn step_decimals(step: f64) -> usize {
 }
 
 /// A number with fixed decimals, a true minus sign and thin-spaced thousands from 10 000 on.
+///
+/// ```
+/// assert_eq!([report::number(-1.25, 1), report::number(f64::NAN, 1)], ["−1.2", "–"]);
+/// ```
 pub fn number(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return "–".to_owned();

@@ -1,9 +1,7 @@
 //! The one grammar of charts: marks over two axes, and a legend. A figure is data; [`Chart::draw`] is its one painter.
 
-use crate::axis::{Axis, extent};
 use crate::palette::Ink;
 use crate::scene::Symbol;
-use crate::{Drawn, ReportError, draw, paint};
 
 /// Marks over two axes.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -201,30 +199,11 @@ impl Chart {
     pub fn new(title: impl Into<String>, x_label: impl Into<String>, y_label: impl Into<String>) -> Chart {
         Chart { title: title.into(), x_label: x_label.into(), y_label: y_label.into(), ..Chart::default() }
     }
-
-    /// Draws it; `name` is what errors call it.
-    ///
-    /// # Errors
-    /// No finite value, values beyond 1e15, more marks than can be told apart.
-    pub fn draw(&self, name: &'static str) -> Result<Drawn, ReportError> {
-        const MOST: usize = 20_000;
-        crate::at_most(name, "marks", MOST, self.marks.len())?;
-        extent(self.marks.iter().flat_map(Mark::own), name)?;
-        let reach = |k: usize| self.marks.iter().flat_map(move |mark| mark.reach(k));
-        let axes = match &self.space {
-            Space::Plane => [Axis::linear(reach(0), name)?, Axis::linear(reach(1), name)?],
-            Space::Equal => [Axis::padded(reach(0), name)?, Axis::padded(reach(1), name)?],
-            Space::Log => [Axis::log(reach(0), name)?.in_seconds(), Axis::log(reach(1), name)?],
-            Space::Rows(_) => [Axis::linear(reach(0), name)?, Axis::exact([0.0, 1.0])],
-            Space::Grid(..) => [Axis::exact([0.0, 1.0]), Axis::exact([0.0, 1.0])],
-        };
-        paint::paint(&draw::scene(self, axes))
-    }
 }
 
 impl Mark {
     /// Numbers without which there is nothing to draw.
-    fn own(&self) -> Vec<f64> {
+    pub(crate) fn own(&self) -> Vec<f64> {
         match self {
             Mark::Bar(bar) => vec![bar.span[1]],
             Mark::Cell(_, strength, ..) => vec![*strength],
@@ -234,7 +213,7 @@ impl Mark {
     }
 
     /// What an axis has to hold.
-    fn reach(&self, k: usize) -> Vec<f64> {
+    pub(crate) fn reach(&self, k: usize) -> Vec<f64> {
         match self {
             Mark::Line(points, _) | Mark::Dashed(points, _) | Mark::Band(points) => {
                 points.iter().filter(|p| finite(p)).map(|p| p[k]).collect()
@@ -250,7 +229,6 @@ impl Mark {
     }
 }
 
-/// Whether both coordinates are.
 pub(crate) fn finite(point: &[f64; 2]) -> bool {
     point.iter().all(|v| v.is_finite())
 }

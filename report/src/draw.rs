@@ -1,20 +1,36 @@
 //! A chart as a drawing: what is around the marks. `plane` and `rows` draw the marks.
 
-use crate::axis::Axis;
-use crate::chart::{Chart, Key, KeyLook, Space};
+use crate::axis::{Axis, extent};
+use crate::chart::{Chart, Key, KeyLook, Mark, Space};
 use crate::palette::Ink;
+use crate::paper::{RIM, TEXT};
 use crate::scene::{Anchor, Scene};
-use crate::{WIDTH, plane, rows, text};
+use crate::{Drawn, ReportError, WIDTH, paint, plane, rows, text};
 
-/// Em size of axis and legend text [design px]: 9 px when the plot is shown 360 px wide.
-pub(crate) const TEXT: f64 = 13.0;
-/// Em size of a title.
 const TITLE: f64 = 15.0;
-/// Blank rim around a plot.
-pub(crate) const RIM: f64 = 10.0;
 
-/// The chart over axes that hold its marks.
-pub(crate) fn scene(chart: &Chart, axes: [Axis; 2]) -> Scene {
+impl Chart {
+    /// Draws it; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// No finite value, values beyond 1e15, more marks than a reader can separate.
+    pub fn draw(&self, name: &'static str) -> Result<Drawn, ReportError> {
+        const MOST: usize = 20_000;
+        crate::at_most(name, "marks", MOST, self.marks.len())?;
+        extent(self.marks.iter().flat_map(Mark::own), name)?;
+        let reach = |k: usize| self.marks.iter().flat_map(move |mark| mark.reach(k));
+        let axes = match &self.space {
+            Space::Plane => [Axis::linear(reach(0), name)?, Axis::linear(reach(1), name)?],
+            Space::Equal => [Axis::padded(reach(0), name)?, Axis::padded(reach(1), name)?],
+            Space::Log => [Axis { seconds: true, ..Axis::log(reach(0), name)? }, Axis::log(reach(1), name)?],
+            Space::Rows(_) => [Axis::linear(reach(0), name)?, Axis::exact([0.0, 1.0])],
+            Space::Grid(..) => [Axis::exact([0.0, 1.0]), Axis::exact([0.0, 1.0])],
+        };
+        paint::paint(&scene(self, axes))
+    }
+}
+
+fn scene(chart: &Chart, axes: [Axis; 2]) -> Scene {
     let mut scene = Scene::new();
     let top = title(&mut scene, &chart.title);
     let top = legend(&mut scene, top, &chart.keys);
@@ -75,36 +91,4 @@ fn swatch(scene: &mut Scene, [x, y]: [f64; 2], key: &Key) {
         }
         KeyLook::Patch => scene.rect([x + 3.0, y - 6.0], [x + 22.0, y + 6.0], ink, 1.0),
     }
-}
-
-/// A text on a patch of paper, so that no line crosses it.
-pub(crate) fn on_paper(scene: &mut Scene, at: [f64; 2], words: &str, ink: Ink, anchor: Anchor) {
-    let width = text::width(words, TEXT);
-    let left = at[0] - width * [0.0, 0.5, 1.0][anchor as usize];
-    scene.rect([left - 2.0, at[1] - TEXT], [left + width + 3.0, at[1] + 4.0], Ink::Paper, 1.0);
-    scene.text(at, words, TEXT, ink, anchor);
-}
-
-/// Draws the x axis under a plot area that spans `top` to `bottom`, and sets the height of the scene.
-pub(crate) fn x_axis(scene: &mut Scene, x: &Axis, label: &str, [top, bottom]: [f64; 2]) {
-    let [left, right] = x.pixels;
-    for (value, label) in x.ticks(((right - left) / 70.0) as usize) {
-        let at = x.at(value);
-        scene.line(&[[at, top], [at, bottom]], Ink::Grid, 1.0);
-        scene.line(&[[at, bottom], [at, bottom + 5.0]], Ink::Axis, 1.2);
-        let half = 0.5 * text::width(&label, TEXT);
-        let inside = at.clamp(left.min(RIM + half), (WIDTH - 3.0 - half).max(RIM + half));
-        scene.text([inside, bottom + 20.0], &label, TEXT, Ink::Muted, Anchor::Middle);
-    }
-    scene.line(&[[left, bottom], [right, bottom]], Ink::Axis, 1.2);
-    centred(scene, label, [0.5 * (left + right), bottom + 40.0]);
-    scene.height = bottom + if label.trim().is_empty() { 28.0 } else { 50.0 };
-}
-
-/// A label of an axis, moved inside the drawing.
-pub(crate) fn centred(scene: &mut Scene, label: &str, [middle, y]: [f64; 2]) {
-    let label = text::fit(label, TEXT, WIDTH - 2.0 * RIM);
-    let half = 0.5 * text::width(&label, TEXT);
-    let middle = middle.min(WIDTH - RIM - half).max(RIM + half);
-    scene.text([middle, y], &label, TEXT, Ink::Muted, Anchor::Middle);
 }

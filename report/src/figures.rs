@@ -120,7 +120,9 @@ pub fn lines(data: &Lines) -> Result<Drawn, ReportError> {
     }
     keys.retain(|key| !key.name.is_empty());
     marks.extend(points);
-    Chart { marks, keys, ..Chart::new(&data.title, &data.x_label, &data.y_label) }.draw("lines")
+    let mut chart = Chart::new(&data.title, &data.x_label, &data.y_label);
+    (chart.marks, chart.keys) = (marks, keys);
+    chart.draw("lines")
 }
 
 /// Shapes of one robot in the x–y plane, x along the robot at rest. All lengths in mm.
@@ -147,17 +149,8 @@ pub struct ShapePose {
     pub curve_mm: Vec<[f64; 2]>,
     /// Predicted markers; may be empty.
     pub predicted_mm: Vec<[f64; 2]>,
-    /// Measured markers; may be empty.
-    pub measured: Vec<MeasuredPoint>,
-}
-
-/// A measured marker of [`ShapePose`].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct MeasuredPoint {
-    /// Position.
-    pub at_mm: [f64; 2],
-    /// Half-widths of the error bars along x and y; 0 for none.
-    pub half_width_mm: [f64; 2],
+    /// Measured markers, each with the half-widths of its error bars along x and y, 0 for none; may be empty.
+    pub measured: Vec<[[f64; 2]; 2]>,
 }
 
 /// Draws centre lines with measured and predicted markers, both axes to the same scale.
@@ -172,7 +165,7 @@ pub fn shapes(data: &Shapes) -> Result<Drawn, ReportError> {
     for (pose, ink) in inked() {
         let point = |at, error, open| Mark::Point(Point { at, error, ink, open, ..Point::default() });
         marks.extend(pose.predicted_mm.iter().map(|at| point(*at, [0.0; 2], true)));
-        marks.extend(pose.measured.iter().map(|m| point(m.at_mm, m.half_width_mm.map(f64::abs), false)));
+        marks.extend(pose.measured.iter().map(|[at, half]| point(*at, half.map(f64::abs), false)));
         marks.extend(tip(pose).map(|at| Mark::Tip(at, pose.label.clone(), ink)));
     }
     let some = |of: fn(&ShapePose) -> bool| data.poses.iter().any(of);
@@ -187,8 +180,9 @@ pub fn shapes(data: &Shapes) -> Result<Drawn, ReportError> {
     let keys = [measured, predicted, at_rest].into_iter().flatten();
     let keys = keys.map(|(look, name)| Key::new(look, Ink::Muted, name)).collect();
     let across = if data.across.is_empty() { "y sideways [mm]" } else { &data.across };
-    let chart = Chart::new(&data.title, "x along the robot at rest [mm]", across);
-    Chart { space: Space::Equal, marks, keys, ..chart }.draw("shapes")
+    let mut chart = Chart::new(&data.title, "x along the robot at rest [mm]", across);
+    (chart.space, chart.marks, chart.keys) = (Space::Equal, marks, keys);
+    chart.draw("shapes")
 }
 
 /// The body at rest and the clamp at its base.
@@ -208,7 +202,7 @@ fn rest(data: &Shapes) -> Vec<Mark> {
 /// The tip of a pose: end of its centre line, else its last marker.
 fn tip(pose: &ShapePose) -> Option<[f64; 2]> {
     let last = |points: &[[f64; 2]]| points.iter().copied().rfind(finite);
-    last(&pose.curve_mm).or_else(|| last(&pose.predicted_mm)).or_else(|| pose.measured.last().map(|m| m.at_mm))
+    last(&pose.curve_mm).or_else(|| last(&pose.predicted_mm)).or_else(|| pose.measured.last().map(|m| m[0]))
 }
 
 /// Draws grouped horizontal bars from zero, e.g. predicted next to published displacement for each actuator. A series has a name, a value per
@@ -320,7 +314,9 @@ pub fn ledger(title: &str, value_label: &str, terms: &[String], bars: &[LedgerCa
 
 /// A chart of rows.
 pub fn rows(title: &str, value_label: &str, rows: Vec<ChartRow>, marks: Vec<Mark>, keys: Vec<Key>) -> Chart {
-    Chart { space: Space::Rows(rows), marks, keys, ..Chart::new(title, value_label, "") }
+    let mut chart = Chart::new(title, value_label, "");
+    (chart.space, chart.marks, chart.keys) = (Space::Rows(rows), marks, keys);
+    chart
 }
 
 /// Decimals that suit the largest of some values, the same for all.
@@ -328,7 +324,6 @@ pub fn decimals(values: impl Iterator<Item = f64>) -> usize {
     common_decimals(values.filter(|v| v.is_finite()).fold(0.0, |a, b| f64::max(a, b.abs())))
 }
 
-/// A dashed line at a target.
 fn rule(target: Option<(String, f64)>, marks: &mut Vec<Mark>, keys: &mut Vec<Key>) {
     if let Some((name, value)) = target.filter(|(_, value)| value.is_finite()) {
         marks.push(Mark::Rule(value));

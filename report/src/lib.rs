@@ -11,10 +11,12 @@ mod axis;
 pub mod chart;
 mod draw;
 mod figures;
+mod labelled;
 mod markup;
 pub mod page;
 mod paint;
 mod palette;
+mod paper;
 mod place;
 mod plane;
 mod rows;
@@ -26,7 +28,8 @@ mod text;
 
 pub use axis::{number, short_number};
 pub use figures::*;
-pub use palette::Ink;
+pub use labelled::labelled;
+pub use palette::{Ink, colours};
 pub use scene::Symbol;
 
 /// Width of every drawing [design px].
@@ -42,46 +45,21 @@ pub struct Drawn {
 }
 
 /// What can go wrong when drawing.
+#[expect(missing_docs, reason = "fields have the words of their message")]
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// There is no finite value.
     #[error("nothing to draw in the {chart} plot: give it at least one finite value")]
-    NothingToDraw {
-        /// Name of the chart.
-        chart: &'static str,
-    },
+    NothingToDraw { chart: &'static str },
     /// A value is too large to be meant.
     #[error("a value of {value:e} in the {chart} plot is beyond 1e15: check its unit")]
-    TooLarge {
-        /// Name of the chart.
-        chart: &'static str,
-        /// The largest magnitude found.
-        value: f64,
-    },
+    TooLarge { chart: &'static str, value: f64 },
     /// Two lists that belong together differ in length.
     #[error("the {chart} plot has {found} {what} where {expected} are needed: give one per entry")]
-    Length {
-        /// Name of the chart.
-        chart: &'static str,
-        /// What is counted.
-        what: &'static str,
-        /// Needed number.
-        expected: usize,
-        /// Given number.
-        found: usize,
-    },
+    Length { chart: &'static str, what: &'static str, expected: usize, found: usize },
     /// More entries than can be told apart in one plot.
     #[error("the {chart} plot has {found} {what}, at most {most} fit: split it into several plots")]
-    TooMany {
-        /// Name of the chart.
-        chart: &'static str,
-        /// What is counted.
-        what: &'static str,
-        /// Largest number accepted.
-        most: usize,
-        /// Given number.
-        found: usize,
-    },
+    TooMany { chart: &'static str, what: &'static str, most: usize, found: usize },
     /// The page template failed.
     #[error("the report page cannot be filled in: {0}")]
     Template(#[from] minijinja::Error),

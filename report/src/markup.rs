@@ -4,48 +4,24 @@ const TAGS: [&str; 5] = ["measured", "published", "assumed", "calibrated", "pred
 
 /// The text with `&`, `<`, `>` and quotes escaped.
 pub(crate) fn escape(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&#39;"),
-            _ => out.push(letter),
-        }
-    }
-    out
+    let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    text.replace('"', "&quot;").replace('\'', "&#39;")
 }
 
 /// The text escaped, with `` `code` `` and `**bold**` spans; a mark without its partner stays as it is.
 pub(crate) fn inline(text: &str) -> String {
-    let mut out = String::new();
-    let mut parts = text.split('`').peekable();
-    let mut code = false;
-    while let Some(part) = parts.next() {
-        let closed = parts.peek().is_some();
-        match (code, closed) {
-            (true, true) => out.push_str(&format!("<code>{}</code>", escape(part))),
-            (true, false) => out.push_str(&format!("`{}", bold(part))),
-            (false, _) => out.push_str(&bold(part)),
-        }
-        code = !code;
-    }
-    out
+    spans(text, "`", "code", |text| spans(text, "**", "strong", escape))
 }
 
-fn bold(text: &str) -> String {
-    let parts: Vec<&str> = text.split("**").collect();
-    let mut out = String::new();
-    for (i, part) in parts.iter().enumerate() {
-        match (i % 2 == 1, i + 1 < parts.len()) {
-            (true, true) => out.push_str(&format!("<strong>{}</strong>", escape(part))),
-            (true, false) => out.push_str(&format!("**{}", escape(part))),
-            (false, _) => out.push_str(&escape(part)),
-        }
-    }
-    out
+/// Every second part between marks in a tag, if its mark is closed.
+fn spans(text: &str, mark: &str, tag: &str, plain: impl Fn(&str) -> String) -> String {
+    let parts: Vec<&str> = text.split(mark).collect();
+    let span = |(i, part): (usize, &&str)| match (i % 2 == 1, i + 1 < parts.len()) {
+        (true, true) => format!("<{tag}>{}</{tag}>", escape(part)),
+        (true, false) => format!("{mark}{}", plain(part)),
+        (false, _) => plain(part),
+    };
+    parts.iter().enumerate().map(span).collect()
 }
 
 /// A cell of the column "how do we know": [`inline`], with the five words as tags.

@@ -3,14 +3,13 @@
 //! Words stand in `templates/`. Every value is escaped; the only markup in one is `` `code` `` and `**bold**`. A template that names
 //! a value which is not there is an error, not a blank.
 
-use crate::palette::{Theme, css_variables, with_css_variables};
+use crate::palette::{colours, with_css_variables};
 use crate::{ReportError, markup};
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, Error, ErrorKind, UndefinedBehavior};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Name and text of every template.
 const TEMPLATES: [(&str, &str); 7] = [
     ("base.html", include_str!("../templates/base.html")),
     ("parts.html", include_str!("../templates/parts.html")),
@@ -69,18 +68,12 @@ fn number(value: &Value, scale: f64, words: impl Fn(f64) -> String) -> String {
     }
 }
 
-/// Three significant digits.
 fn three(v: f64) -> String {
     match v.abs() {
         0.0 => "0".into(),
         size if size < 1e-3 => format!("{v:.1e}"),
         size => format!("{v:.*}", (2 - size.log10().floor() as i32).max(0) as usize),
     }
-}
-
-/// Declarations of the colours of plots and pages as CSS variables, light then dark, for a page that holds [`inline`] plots.
-pub fn colours() -> [String; 2] {
-    [Theme::Light, Theme::Dark].map(css_variables)
 }
 
 /// A plot as part of a page: its colours and its font, as wide as its column, with an accessible title.

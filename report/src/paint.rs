@@ -1,10 +1,9 @@
 //! Puts a scene on the SVG and the bitmap backend of plotters, by one generic routine.
 
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-
 use crate::scene::{Anchor, Point, Scene, Stroke};
 use crate::{Drawn, ReportError, text};
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// SVG coordinates are whole numbers: ten per design pixel keep curves smooth.
 const SVG_SCALE: f64 = 10.0;
@@ -116,7 +115,11 @@ fn marks<DB: DrawingBackend>(
                     root.draw(&Polygon::new(corners, RGBColor(r, g, b).mix(*alpha).filled())).map_err(drawing)?;
                 }
             }
-            Stroke::Disc { centre, radius, ink } => disc(root, surface, *centre, *radius, ink.rgb())?,
+            Stroke::Disc { centre, radius, ink } => {
+                let ([r, g, b], radius) = (ink.rgb(), (radius * surface.scale).round().max(1.0) as u32);
+                let filled = RGBColor(r, g, b).filled();
+                root.draw(&Circle::new(surface.whole(*centre), radius, filled)).map_err(drawing)?;
+            }
             Stroke::Text { .. } => letters(root, surface, mark)?,
         }
     }
@@ -146,17 +149,6 @@ fn stroke<DB: DrawingBackend>(
     Ok(())
 }
 
-fn disc<DB: DrawingBackend>(
-    root: &DrawingArea<DB, plotters::coord::Shift>,
-    surface: &Surface,
-    centre: Point,
-    radius: f64,
-    [r, g, b]: [u8; 3],
-) -> Result<(), ReportError> {
-    let radius = (radius * surface.scale).round().max(1.0) as u32;
-    root.draw(&Circle::new(surface.whole(centre), radius, RGBColor(r, g, b).filled())).map_err(drawing)
-}
-
 fn letters<DB: DrawingBackend>(
     root: &DrawingArea<DB, plotters::coord::Shift>,
     surface: &Surface,
@@ -178,9 +170,9 @@ fn letters<DB: DrawingBackend>(
     }
     let (glyphs, advance) = text::lay_out(text)?;
     let start = at[0] - size * advance * [0.0, 0.5, 1.0][*anchor as usize];
-    for glyph in glyphs {
-        let place = surface.whole([start + glyph.x_em * size, top]);
-        root.draw(&Text::new(glyph.letter.to_string(), place, style(HPos::Left))).map_err(drawing)?;
+    for (letter, x_em) in glyphs {
+        let place = surface.whole([start + x_em * size, top]);
+        root.draw(&Text::new(letter.to_string(), place, style(HPos::Left))).map_err(drawing)?;
     }
     Ok(())
 }

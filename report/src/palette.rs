@@ -24,13 +24,15 @@ pub enum Ink {
     Series(usize),
 }
 
-/// Number of distinct series colours.
 pub(crate) const SERIES: usize = 8;
 const FIRST_SERIES: usize = 8;
 
-/// CSS variable, light value, dark value, in the order of [`Ink`]. Series hues are dark (light theme) or light
+/// CSS variable, light value, dark value.
+type Shade = (&'static str, [u8; 3], [u8; 3]);
+
+/// In the order of [`Ink`]. Series hues are dark (light theme) or light
 /// (dark theme) enough for text, differ in lightness and hue, and avoid a red–green pair of equal lightness.
-const INKS: [(&str, [u8; 3], [u8; 3]); FIRST_SERIES + SERIES] = [
+const INKS: [Shade; FIRST_SERIES + SERIES] = [
     ("--paper", [0xFF, 0xFF, 0xFF], [0x14, 0x18, 0x1D]),
     ("--ink", [0x1B, 0x1F, 0x24], [0xE8, 0xEB, 0xEF]),
     ("--muted", [0x5B, 0x64, 0x70], [0xA3, 0xAD, 0xB8]),
@@ -50,7 +52,6 @@ const INKS: [(&str, [u8; 3], [u8; 3]); FIRST_SERIES + SERIES] = [
 ];
 
 impl Ink {
-    /// Light value, red, green, blue.
     pub(crate) fn rgb(self) -> [u8; 3] {
         INKS[self.index()].1
     }
@@ -70,19 +71,10 @@ impl Ink {
     }
 }
 
-/// Whether a theme is light or dark.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Theme {
-    /// Dark text on white.
-    Light,
-    /// Light text on near-black.
-    Dark,
-}
-
-/// CSS declarations of every plot colour, e.g. `--ink:#1B1F24;…`, for a rule of a page that inlines plots.
-pub(crate) fn css_variables(theme: Theme) -> String {
-    let pick = |light, dark| if theme == Theme::Light { light } else { dark };
-    INKS.iter().map(|(name, light, dark)| format!("{name}:{};", hex(pick(*light, *dark)))).collect()
+/// CSS declarations of every plot colour, e.g. `--ink:#1B1F24;…`, light then dark, for a rule of a page that inlines plots.
+pub fn colours() -> [String; 2] {
+    let of = |value: fn(&Shade) -> [u8; 3]| INKS.iter().map(|ink| format!("{}:{};", ink.0, hex(value(ink)))).collect();
+    [of(|ink| ink.1), of(|ink| ink.2)]
 }
 
 /// The plot with its colours replaced by `var(--ink)` and so on, so that it follows the theme of the page.
@@ -111,18 +103,18 @@ mod tests {
         a.max(b) / a.min(b)
     }
 
-    fn value(role: Ink, theme: Theme) -> [u8; 3] {
-        let (_, light, dark) = INKS[role.index()];
-        if theme == Theme::Light { light } else { dark }
+    fn value(role: Ink, dark: bool) -> [u8; 3] {
+        let (_, light, night) = INKS[role.index()];
+        if dark { night } else { light }
     }
 
     #[test]
     fn text_colours_reach_contrast_aa_on_paper_and_on_soft_fills() {
-        for theme in [Theme::Light, Theme::Dark] {
+        for theme in [false, true] {
             for role in [Ink::Ink, Ink::Muted].into_iter().chain((0..SERIES).map(Ink::Series)) {
                 for ground in [Ink::Paper, Ink::Soft] {
                     let ratio = contrast(value(role, theme), value(ground, theme));
-                    assert!(ratio >= 4.5, "{role:?} on {ground:?} in {theme:?}: {ratio:.2}");
+                    assert!(ratio >= 4.5, "{role:?} on {ground:?} (dark: {theme}): {ratio:.2}");
                 }
             }
         }
@@ -130,10 +122,10 @@ mod tests {
 
     #[test]
     fn cell_numbers_reach_contrast_aa_on_the_strongest_heat() {
-        for theme in [Theme::Light, Theme::Dark] {
+        for theme in [false, true] {
             for heat in [Ink::HeatNegative, Ink::HeatPositive] {
                 let ratio = contrast(value(Ink::Ink, theme), value(heat, theme));
-                assert!(ratio >= 4.5, "{heat:?} in {theme:?}: {ratio:.2}");
+                assert!(ratio >= 4.5, "{heat:?} (dark: {theme}): {ratio:.2}");
             }
         }
     }

@@ -33,7 +33,8 @@ pub(crate) fn around(points: &[Point], sizes: &[[f64; 2]], bounds: Rect, obstacl
             .map(|(centre, far)| {
                 let rect = rect_of(centre, *size);
                 let overlap: f64 = taken.iter().map(|other| shared(rect, *other)).sum();
-                (overlap + 10.0 * outside(rect, bounds) + 4.0 * far, centre)
+                let outside = size[0] * size[1] - shared(rect, bounds);
+                (overlap + 10.0 * outside + 4.0 * far, centre)
             })
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .map_or(*point, |best| best.1);
@@ -65,11 +66,6 @@ fn rect_of([x, y]: Point, [width, height]: [f64; 2]) -> Rect {
 fn shared(a: Rect, b: Rect) -> f64 {
     let along = |i: usize| (a[i + 2].min(b[i + 2]) - a[i].max(b[i])).max(0.0);
     along(0) * along(1)
-}
-
-fn outside(rect: Rect, bounds: Rect) -> f64 {
-    let area = (rect[2] - rect[0]) * (rect[3] - rect[1]);
-    area - shared(rect, bounds)
 }
 
 #[cfg(test)]

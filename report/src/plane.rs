@@ -2,8 +2,8 @@
 
 use crate::axis::Axis;
 use crate::chart::{Chart, Mark, Space, finite};
-use crate::draw::{RIM, TEXT, on_paper, x_axis};
 use crate::palette::Ink;
+use crate::paper::{RIM, TEXT, on_paper, x_axis};
 use crate::scene::{Anchor, Point, Scene, Symbol};
 use crate::{WIDTH, chart, place, text};
 
@@ -33,7 +33,6 @@ pub(crate) fn draw(scene: &mut Scene, chart: &Chart, [x, y]: [Axis; 2], top: f64
     plane.tips(scene, &chart.marks);
 }
 
-/// A plot area with two axes.
 struct Plane {
     x: Axis,
     y: Axis,

@@ -2,8 +2,8 @@
 
 use crate::axis::{Axis, number};
 use crate::chart::{Bar, Chart, ChartColumn, ChartRow, Mark, RowPlace};
-use crate::draw::{RIM, TEXT, centred, on_paper, x_axis};
 use crate::palette::Ink;
+use crate::paper::{RIM, TEXT, centred, on_paper, x_axis};
 use crate::scene::{Anchor, Scene};
 use crate::{WIDTH, text};
 
@@ -12,7 +12,6 @@ const LANE: f64 = 19.0;
 const HEAD: f64 = 24.0;
 const CELL: f64 = 30.0;
 const TALL: f64 = 44.0;
-/// Blank below a row.
 const BELOW: f64 = 8.0;
 /// Widest column of names, and widest cell.
 const NAMES: f64 = 240.0;
@@ -114,7 +113,6 @@ fn lane(scene: &mut Scene, x: &Axis, bars: &[&Bar], top: f64) {
     }
 }
 
-/// Where the cells are.
 struct Grid {
     left: f64,
     tops: Vec<f64>,

@@ -56,7 +56,6 @@ impl Scene {
         Scene { width: crate::WIDTH, height: 0.0, marks: Vec::new() }
     }
 
-    /// A solid line through the points.
     pub(crate) fn line(&mut self, points: &[Point], ink: Ink, width: f64) {
         self.marks.push(Stroke::Line { points: points.to_vec(), ink, width });
     }
@@ -86,12 +85,10 @@ impl Scene {
         }
     }
 
-    /// A filled rectangle between two opposite corners.
     pub(crate) fn rect(&mut self, [x0, y0]: Point, [x1, y1]: Point, ink: Ink, alpha: f64) {
         self.fill(&[[x0, y0], [x1, y0], [x1, y1], [x0, y1]], ink, alpha);
     }
 
-    /// A filled polygon.
     pub(crate) fn fill(&mut self, points: &[Point], ink: Ink, alpha: f64) {
         self.marks.push(Stroke::Fill { points: points.to_vec(), ink, alpha });
     }
@@ -134,7 +131,6 @@ impl Scene {
         }
     }
 
-    /// A text on its baseline.
     pub(crate) fn text(&mut self, at: Point, text: &str, size: f64, ink: Ink, anchor: Anchor) {
         let text = text::fit(text, size, self.width);
         self.marks.push(Stroke::Text { at, text, size, ink, anchor });

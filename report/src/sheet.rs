@@ -4,14 +4,14 @@ mod dxf;
 mod svg;
 
 pub use dxf::dxf;
-pub use svg::{Paper, pages, svg};
+pub use svg::{PAPERS, pages, svg};
 
 /// A pen: lines of one meaning.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pen {
     /// Name in a DXF file: capital letters, digits and `_`.
     pub name: &'static str,
-    /// What its lines mean; shown in the legend.
+    /// What its lines mean, shown in the legend with the colour in words.
     pub meaning: &'static str,
     /// Colour in an SVG, `#rrggbb`.
     pub colour: &'static str,
@@ -19,8 +19,6 @@ pub struct Pen {
     pub aci: u8,
     /// Lengths of strokes and gaps \[mm\]; empty for a full line.
     pub dashes: &'static [f64],
-    /// Whether closed lines are tinted.
-    pub tinted: bool,
 }
 
 /// A line through points \[mm\].
@@ -52,12 +50,24 @@ pub struct PatternSheet {
     pub title: String,
     /// Width and height \[mm\].
     pub size: [f64; 2],
-    /// Pens; lines name them by place.
+    /// Pens, the lowest first; lines name them by place.
     pub layers: Vec<Pen>,
-    /// Lines, the lowest first.
+    /// Lines.
     pub lines: Vec<PenLine>,
-    /// Words.
+    /// Words, in the last of the layers.
     pub labels: Vec<SheetText>,
+}
+
+impl PatternSheet {
+    /// Draws a line; a `closed` one goes back to its start.
+    pub fn line(&mut self, layer: usize, points: &[[f64; 2]], closed: bool) {
+        self.lines.push(PenLine { layer, points: points.to_vec(), closed });
+    }
+
+    /// Writes words of a height.
+    pub fn word(&mut self, at: [f64; 2], height: f64, text: impl Into<String>) {
+        self.labels.push(SheetText { at, height, text: text.into() });
+    }
 }
 
 #[cfg(test)]

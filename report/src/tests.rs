@@ -26,7 +26,7 @@ fn charts(name: &str, values: &[f64]) -> Vec<Result<Drawn, ReportError>> {
 /// The charts with two axes of numbers.
 fn planes(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, ReportError>> {
     let points = vec![[v(0), v(1)], [v(2), v(3)], [v(4), v(5)]];
-    let measured = MeasuredPoint { at_mm: [v(1), v(0)], half_width_mm: [v(2), v(3)] };
+    let measured = [[v(1), v(0)], [v(2), v(3)]];
     let pose = ShapePose {
         label: label(name),
         curve_mm: points.clone(),

@@ -1,9 +1,8 @@
 //! The one font, its registration and its metrics.
 
+use crate::ReportError;
 use ab_glyph::{Font, FontRef};
 use std::sync::OnceLock;
-
-use crate::ReportError;
 
 /// Family name under which the font is registered, and which SVG viewers look up first.
 pub(crate) const FAMILY: &str = "DejaVu Sans";
@@ -21,14 +20,8 @@ pub(crate) fn font() -> Result<&'static FontRef<'static>, ReportError> {
     FONT.get_or_init(load).as_ref().ok_or(ReportError::Font)
 }
 
-/// One glyph of a laid-out text: character, pen position and left bearing in em.
-pub(crate) struct Placed {
-    pub(crate) letter: char,
-    pub(crate) x_em: f64,
-}
-
-/// Glyph positions (ink start, in em from the text's start) and the total advance in em, with kerning.
-pub(crate) fn lay_out(text: &str) -> Result<(Vec<Placed>, f64), ReportError> {
+/// Characters with their positions (ink start, in em from the text's start), and the total advance in em, with kerning.
+pub(crate) fn lay_out(text: &str) -> Result<(Vec<(char, f64)>, f64), ReportError> {
     let font = font()?;
     let em = f64::from(font.units_per_em().unwrap_or(1000.0));
     let (mut pen, mut previous, mut placed) = (0.0, None, Vec::new());
@@ -37,7 +30,7 @@ pub(crate) fn lay_out(text: &str) -> Result<(Vec<Placed>, f64), ReportError> {
         if let Some(previous) = previous {
             pen += f64::from(font.kern_unscaled(previous, id)) / em;
         }
-        placed.push(Placed { letter, x_em: pen + f64::from(font.h_side_bearing_unscaled(id)) / em });
+        placed.push((letter, pen + f64::from(font.h_side_bearing_unscaled(id)) / em));
         pen += f64::from(font.h_advance_unscaled(id)) / em;
         previous = Some(id);
     }

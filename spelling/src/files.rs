@@ -30,7 +30,6 @@ pub fn read_whole(path: &Path, most: u64) -> Result<Vec<u8>, Error> {
 
 /// End of the name of a file that is being written: `.NAME.HOST-PROCESS-COUNT.partial`.
 const PARTIAL: &str = ".partial";
-/// Files that this process has begun.
 static BEGUN: AtomicUsize = AtomicUsize::new(0);
 
 /// Writes `path` through a file of another name in the same folder, which is renamed when the disk has all of it. When anything fails
@@ -49,10 +48,7 @@ pub fn replace(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> Result<(), 
     })
 }
 
-/// Writes a new file and waits until the disk has it.
-///
-/// # Errors
-/// As [`replace`].
+/// Writes a new file and waits until the disk has it. Errors as for [`replace`].
 pub fn write_new(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> Result<(), Error>) -> Result<(), Error> {
     let mut out = BufWriter::new(File::create(path)?);
     write(&mut out)?;
@@ -102,6 +98,13 @@ pub fn sealed(mut bytes: Vec<u8>) -> Vec<u8> {
 }
 
 /// The bytes that were [`sealed`]; `None` if any of them was lost or changed.
+///
+/// ```
+/// let mut bytes = spelling::files::sealed(b"abc".to_vec());
+/// assert_eq!(spelling::files::unsealed(&bytes), Some(&b"abc"[..]));
+/// bytes[0] = b'x';
+/// assert_eq!(spelling::files::unsealed(&bytes), None);
+/// ```
 pub fn unsealed(bytes: &[u8]) -> Option<&[u8]> {
     let (body, check) = bytes.split_last_chunk::<SEAL>()?;
     (crc32fast::hash(body) == u32::from_le_bytes(*check)).then_some(body)

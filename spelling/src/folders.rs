@@ -147,9 +147,6 @@ pub fn mend(folder: &Path, aside: &Path) -> Result<()> {
 }
 
 /// Names in a folder, sorted.
-///
-/// # Errors
-/// It cannot be read.
 pub fn names(folder: &Path) -> Result<Vec<String>> {
     let entries = std::fs::read_dir(folder)?;
     let mut names: Vec<String> =
@@ -159,9 +156,6 @@ pub fn names(folder: &Path) -> Result<Vec<String>> {
 }
 
 /// Removes a file or a folder with all that is in it, if it is there.
-///
-/// # Errors
-/// It cannot be removed.
 pub fn remove(path: &Path) -> Result<()> {
     match path.symlink_metadata() {
         Err(_) => Ok(()),

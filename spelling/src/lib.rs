@@ -48,6 +48,11 @@ impl<const N: usize> Deref for Exactly<N> {
 }
 
 /// The name nearest to `wrong` by edit distance, if it is near enough to be a slip.
+///
+/// ```
+/// assert_eq!(spelling::nearest("epan", ["spam", "epam"]), Some("epam"));
+/// assert_eq!(spelling::nearest("tube", ["spam", "epam"]), None);
+/// ```
 pub fn nearest<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let (wrong, letters) = (wrong.to_lowercase(), wrong.chars().count());
     let distance = |name: &str| strsim::damerau_levenshtein(&wrong, &name.to_lowercase());

@@ -32,49 +32,31 @@ impl<const N: usize> Numbers for [f64; N] {
 }
 
 /// Metres as millimetres, joules as millijoules.
-///
-/// # Errors
-/// Errors of the serializer.
 pub fn mm<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
     value.converted(|m| 1e3 * m).serialize(to)
 }
 
 /// Pascals as kilopascals.
-///
-/// # Errors
-/// Errors of the serializer.
 pub fn kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
     value.converted(|pa| pa / 1e3).serialize(to)
 }
 
 /// What is per pascal, per kilopascal.
-///
-/// # Errors
-/// Errors of the serializer.
 pub fn per_kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
     value.converted(|per_pa| 1e3 * per_pa).serialize(to)
 }
 
 /// Metres per pascal as millimetres per kilopascal.
-///
-/// # Errors
-/// Errors of the serializer.
 pub fn mm_per_kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
     value.converted(|m_per_pa| 1e6 * m_per_pa).serialize(to)
 }
 
 /// Radians per pascal as degrees per kilopascal.
-///
-/// # Errors
-/// Errors of the serializer.
 pub fn deg_per_kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
     value.converted(|rad_per_pa| 1e3 * rad_per_pa.to_degrees()).serialize(to)
 }
 
 /// Radians as degrees.
-///
-/// # Errors
-/// Errors of the serializer.
 pub fn deg<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
     value.converted(f64::to_degrees).serialize(to)
 }

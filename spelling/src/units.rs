@@ -112,7 +112,6 @@ pub const UNITS: &[Unit] = &[
 pub const ANGLES: &[Unit] =
     &[Unit::new("deg", Dimension::NONE, PI, 180.0), Unit::new("rad", Dimension::NONE, 1.0, 1.0)];
 
-/// Pure numbers.
 const PURE: &[Unit] = &[
     Unit::new("1", Dimension::NONE, 1.0, 1.0),
     Unit::new("-", Dimension::NONE, 1.0, 1.0),
@@ -191,10 +190,7 @@ impl Range {
         Range { name: "", unit: "", si: 1.0, low, high, too_small: usual, too_large: usual }
     }
 
-    /// A number that is in SI already.
-    ///
-    /// # Errors
-    /// As [`Range::si`].
+    /// A number that is in SI already. Errors as for [`Range::si`].
     #[inline]
     pub fn check(&self, value_si: f64) -> Result<f64, (String, &'static str)> {
         self.si(self.name, value_si / self.si).map(|_| value_si)
@@ -261,6 +257,11 @@ impl Display for Refusal<'_> {
 }
 
 /// Factor to SI and dimension of a unit like `N m/rad^3`, `1/m`, `kPa` or `-`; a slash divides by the next factor alone.
+///
+/// ```
+/// let (si, dimension) = spelling::units::parse("mm/kPa").unwrap();
+/// assert!((si - 1e-6).abs() < 1e-20 && dimension.is(spelling::units::parse("m/Pa").unwrap().1));
+/// ```
 ///
 /// # Errors
 /// The part that is not known.

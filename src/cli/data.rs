@@ -98,14 +98,17 @@ pub(crate) struct ScatterArgs {
     #[arg(long, default_value = "0.5mm", allow_hyphen_values = true)]
     pub alignment: String,
     /// Scatter of the pressure from hold to hold of a run in per cent
-    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 2.0, allow_negative_numbers = true)]
     pub hold_scatter: f64,
     /// Shift of the camera from hold to hold of a run
-    #[arg(long, default_value = "0mm", allow_hyphen_values = true)]
+    #[arg(long, default_value = "0.5mm", allow_hyphen_values = true)]
     pub hold_alignment: String,
     /// Error of a marker that lasts through a hold, as of a tracker
-    #[arg(long, default_value = "0mm", allow_hyphen_values = true)]
+    #[arg(long, default_value = "0.5mm", allow_hyphen_values = true)]
     pub lasting: String,
+    /// White camera noise and scatter of runs alone: nothing from hold to hold, nothing that lasts
+    #[arg(long, conflicts_with_all = ["hold_scatter", "hold_alignment", "lasting"])]
+    pub white: bool,
 }
 
 #[derive(Debug, Args)]

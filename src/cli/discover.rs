@@ -148,6 +148,9 @@ pub(crate) struct ChallengeNewArgs {
     /// Actuator pressures in kPa at a body pressure in kPa; default: 0,10,20,30,0@2
     #[arg(long)]
     pub protocol: Option<String>,
+    /// White camera noise and scatter of runs alone: nothing from hold to hold, nothing that lasts
+    #[arg(long)]
+    pub white: bool,
 }
 
 #[derive(Debug, Args)]

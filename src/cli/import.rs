@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct Import {
-    /// Files of a tracking program, one per run: DeepLabCut, SLEAP, Motive, Vicon Nexus, TRC, Qualisys, Tracker, Kinovea, TrackMate, wide or long tables
+    /// Files of a tracking program, one per run: DeepLabCut, SLEAP, Motive, Vicon Nexus, TRC, Qualisys, Tracker, Kinovea, TrackMate, ROS, Anipose, trackpy, wide or long tables
     #[arg(required_unless_present = "example")]
     pub files: Vec<PathBuf>,
     /// Folder for markers.csv, about.toml and a picture of the tracks; left out: only say what was understood
@@ -35,7 +35,7 @@ pub(crate) struct Import {
     /// Angle of the straight robot to its axis of the file
     #[arg(long, default_value = "0deg", allow_hyphen_values = true)]
     pub turn: String,
-    /// Least likelihood of a position; left out: 0.9 for DeepLabCut, 0.2 for SLEAP
+    /// Least likelihood of a position; left out: 0.9, for SLEAP 0.2
     #[arg(long)]
     pub likelihood: Option<f64>,
     /// Frames per second, where the file counts frames
@@ -53,6 +53,9 @@ pub(crate) struct Import {
     /// Unit of pressure columns that name none
     #[arg(long, value_name = "UNIT")]
     pub pressure_unit: Option<String>,
+    /// Names of the columns of a pressure log that names none: t_ms,p_body_kpa,p_act_kpa
+    #[arg(long, value_delimiter = ',', value_name = "NAMES")]
+    pub log_columns: Vec<String>,
     /// Bin a ramp by the actuator's pressure instead of finding holds, for example 2kPa
     #[arg(long)]
     pub bin: Option<String>,

@@ -11,7 +11,7 @@ use compare::progress::shares::READ;
 use std::sync::PoisonError;
 
 pub(super) fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome> {
-    let file = inputs::scenario_in_space(&args.scenario)?;
+    let file = ibr::studies::scenario(&args.scenario)?;
     let wish = Wish::read(&file, &args.effect, args.data.is_some())?;
     let evidence = match &args.data {
         Some(data) => inputs::all_evidence(data, &args.fit.also, context)?,

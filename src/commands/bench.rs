@@ -7,7 +7,6 @@ use crate::prelude::*;
 use challenge::Laws;
 use challenge::bench::DiscoveryOptions;
 use fem::session::Shard;
-use std::ops::ControlFlow;
 use verification::speed::{discovery, engine, model};
 
 pub(super) fn run(args: &BenchArgs, context: &mut Context) -> Result<Outcome> {
@@ -31,30 +30,23 @@ pub(super) fn run(args: &BenchArgs, context: &mut Context) -> Result<Outcome> {
 fn discovery(args: &BenchArgs, context: &mut Context) -> Result<Outcome> {
     let laws = if args.laws == "second" { Laws::Second } else { Laws::First };
     let options = DiscoveryOptions { seed: args.seed, sets: args.sets as usize, laws };
-    let threads = context.threads;
-    let Some(folder) = &args.out else {
-        if args.shards.asked() {
-            return Err(Failure::usage("shards need a folder that all of them see", "add --out FOLDER"));
+    if args.out.is_none() && args.shards.asked() {
+        return Err(Failure::usage("shards need a folder that all of them see", "add --out FOLDER"));
+    }
+    let (threads, program) = (context.threads, args.out.as_ref().map(|_| this_program()).transpose()?);
+    args.out.as_deref().map_or(Ok(()), check_folder)?;
+    let bench = discovery::Work::plan(options, args.out.as_deref().zip(program.as_deref()))?;
+    if let Some(folder) = &args.out {
+        let missing = || bench.missing(Shard::WHOLE);
+        let work = Work { folder, parts: "sets", all: bench.pieces(), missing: &missing, may_fail: false };
+        let told = in_shards(&args.shards, &work, context, |shard, context| {
+            let made = bench.missing(shard);
+            context.fem(|progress| bench.answers(shard, threads, progress))?;
+            Ok((made, Vec::new()))
+        })?;
+        if let Some(told) = told {
+            return Ok(told);
         }
-        let bench = discovery::Work::plan(options, None)?;
-        let progress = &mut |what: &str, share: Option<f64>| {
-            (context.progress)(what, share);
-            ControlFlow::Continue(())
-        };
-        let answers = bench.answers(Shard::WHOLE, threads, progress)?;
-        return Ok(show(bench.findings(answers, &machine())?));
-    };
-    check_folder(folder)?;
-    let bench = discovery::Work::plan(options, Some((folder, &this_program()?)))?;
-    let work =
-        Work { folder, parts: "sets", all: bench.pieces(), missing: &|| bench.missing(Shard::WHOLE), may_fail: false };
-    let told = in_shards(&args.shards, &work, context, |shard, context| {
-        let made = bench.missing(shard);
-        context.fem(|progress| bench.answers(shard, threads, progress))?;
-        Ok((made, Vec::new()))
-    })?;
-    if let Some(told) = told {
-        return Ok(told);
     }
     let answers = context.fem(|progress| bench.answers(Shard::WHOLE, threads, progress))?;
     Ok(show(bench.findings(answers, &machine())?))

@@ -77,8 +77,8 @@ pub(super) fn diagnosed(args: &DiagnoseArgs, context: &mut Context) -> Result<Op
 /// The scenario that was typed, or that of the table.
 fn scenario(typed: Option<&String>, spec: &str, bench: &Bench) -> Result<Option<Scenario>> {
     Ok(match (typed, &bench.scenario) {
-        (Some(typed), _) => Some(inputs::scenario(typed)?.scenario),
-        (None, Some(text)) => Some(ScenarioFile::parse(&format!("{spec}/scenario.toml"), text)?.scenario),
+        (Some(typed), _) => Some(ibr::studies::scenario(typed)?.planar()?.scenario),
+        (None, Some(text)) => Some(ScenarioFile::parse(&format!("{spec}/scenario.toml"), text)?.planar()?.scenario),
         (None, None) => None,
     })
 }

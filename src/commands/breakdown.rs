@@ -4,12 +4,9 @@ use super::fem_inputs::{kept, list, robots, sizes};
 use super::shards::shared;
 use crate::cli::BreakdownArgs;
 use crate::prelude::*;
-use compare::study::breakdown::Parting;
-use compare::study::breakdown::{PARTINGS_CSV, Ranges, jobs, partings};
+use compare::study::breakdown::{PARTINGS_CSV, Parting, Ranges, jobs, partings};
 use compare::study::columns::csv;
-use compare::study::columns::{TextColumn, TextTable};
-use compare::study::engines::SHAPE;
-use compare::study::engines::{EngineRun, engines, runs_json, runs_of, stored};
+use compare::study::engines::{EngineRun, SHAPE, engines, runs_json, runs_of, stored};
 use ibr::pages::parting_plot;
 
 pub(super) fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome> {
@@ -75,43 +72,36 @@ struct Breakdown<'a> {
     cells: &'a [Parting],
 }
 
-const COLUMNS: [TextColumn<Parting>; 11] = [
-    ("robot", |row| row.robot.clone()),
-    ("mesh mm", |row| row.mesh_mm.to_string()),
-    ("body kPa", |row| row.body_kpa.to_string()),
-    ("pouch mm", |row| row.pouch_mm.to_string()),
-    ("actuator kPa", |row| format!("{:.0}", row.actuator_kpa)),
-    ("FE tip mm", |row| format!("{:.1}", row.fe_tip_mm)),
-    ("bare tip mm", |row| format!("{:.1}", row.bare_tip_mm)),
-    ("difference %", |row| percent(row.bare_difference)),
-    ("reduced tip mm", |row| format!("{:.1}", row.reduced_tip_mm)),
-    ("difference %", |row| percent(row.difference)),
-    ("carried by", |row| {
-        let words = row.carried_by.map(|c| format!("{} ({:+.0} % without)", c.term, 100.0 * c.difference_without));
-        words.unwrap_or("–".into())
-    }),
-];
-
-fn percent(share: Option<f64>) -> String {
-    share.map_or("–".into(), |d| format!("{:+.0}", 100.0 * d))
+fn carried(row: &Parting) -> String {
+    let words = row.carried_by.map(|c| format!("{} ({:+.0} % without)", c.term, 100.0 * c.difference_without));
+    words.unwrap_or("–".into())
 }
 
 /// Every run at every pressure; then arm, width, height and volumes of both engines, where a run kept them.
 fn text(rows: &[Parting]) -> String {
-    let all = TextTable::of("", 1, &COLUMNS, rows);
-    let shape = |row: &Parting| {
-        let shape = row.shape.as_ref()?;
-        let both = shape.reduced.iter().zip(shape.fe);
-        let both = both.map(|(own, fe)| format!("{own:.1} / {fe:.1} ({:+.1})", 100.0 * (own / fe - 1.0)));
-        let place = [0, 2, 3, 4].map(|column| COLUMNS[column].1(row));
-        Some(place.into_iter().chain(both).collect())
-    };
-    let shapes: Vec<Vec<String>> = rows.iter().filter_map(shape).collect();
-    if shapes.is_empty() {
-        return printed(&all);
+    let percent = |share: Option<f64>| share.map(|d| 100.0 * d);
+    let all = Table::of(rows)
+        .words("robot", |row| &row.robot)
+        .right("mesh mm", |row| row.mesh_mm.to_string())
+        .right("body kPa", |row| row.body_kpa.to_string())
+        .right("pouch mm", |row| row.pouch_mm.to_string())
+        .number("actuator kPa", 0, |row| row.actuator_kpa)
+        .number("FE tip mm", 1, |row| row.fe_tip_mm)
+        .number("bare tip mm", 1, |row| row.bare_tip_mm)
+        .signed("difference %", 0, |row| percent(row.bare_difference))
+        .number("reduced tip mm", 1, |row| row.reduced_tip_mm)
+        .signed("difference %", 0, |row| percent(row.difference))
+        .right("carried by", |row| carried(row));
+    let mut shapes = Table::of(rows.iter().filter_map(|row| Some((row, row.shape.as_ref()?))))
+        .words("robot", |(row, _)| &row.robot)
+        .right("body kPa", |(row, _)| row.body_kpa.to_string())
+        .right("pouch mm", |(row, _)| row.pouch_mm.to_string())
+        .number("actuator kPa", 0, |(row, _)| row.actuator_kpa);
+    for (k, name) in SHAPE.iter().enumerate() {
+        shapes = shapes.right(format!("{name} {}", if k < 3 { "mm" } else { "cm³" }), |(_, shape)| {
+            let (own, fe) = (shape.reduced[k], shape.fe[k]);
+            format!("{own:.1} / {fe:.1} ({:+.1})", 100.0 * (own / fe - 1.0))
+        });
     }
-    let names = SHAPE.iter().enumerate().map(|(k, name)| format!("{name} {}", if k < 3 { "mm" } else { "cm³" }));
-    let heads: Vec<String> = [0, 2, 3, 4].map(|column| COLUMNS[column].0.into()).into_iter().chain(names).collect();
-    let caption = "Inflated pouches and body: reduced model / finite elements (difference in %)";
-    format!("{}\n{caption}\n{}", printed(&all), Table::finished(&heads, 1, shapes).text())
+    all.text() + &shapes.under("Inflated pouches and body: reduced model / finite elements (difference in %)")
 }

@@ -16,9 +16,10 @@ pub(super) fn run(command: &ChallengeCommand, context: &mut Context) -> Result<O
 
 fn make(args: &ChallengeNewArgs, context: &mut Context) -> Result<Outcome> {
     check_set_folder(&args.out, context.force)?;
-    let ChallengeNewArgs { seed, effect, actuator, runs, sigma, protocol, .. } = args.clone();
+    let ChallengeNewArgs { seed, effect, actuator, runs, sigma, protocol, white, .. } = args.clone();
     let camera_sd_m = sigma.map(|text| scatter("--sigma", &text)).transpose()?;
-    let riddle = Riddle { seed, effects: effect, actuator, runs: runs.map(|n| n as usize), camera_sd_m, protocol };
+    let riddle =
+        Riddle { seed, effects: effect, actuator, runs: runs.map(|n| n as usize), camera_sd_m, protocol, white };
     let made = riddle.make(&set_name(&args.out, "challenge"))?;
     replace_files(&args.out, &Files { files: made.files, ..Files::default() }, &[], context)?;
     let folder = args.out.display();
@@ -44,8 +45,7 @@ fn reveal(folder: &Path, diagnosis: Option<&Path>, context: &mut Context) -> Res
         // Without a verdict there is nothing to be right or wrong.
         let score = answer.verdict.as_ref().map(|_| score(&truth, &answer));
         text.push_str(&answer.words(&truth, score.as_ref()));
-        let Claim { verdict, set, added, .. } = answer;
-        diagnosis_scored = Some(Scored { answer: StatedAnswer { verdict, set, added }, score });
+        diagnosis_scored = Some(Scored { answer, score });
     }
     Ok(Outcome::answer(text, "ibr.challenge.reveal", &Revealed { sha256, truth, diagnosis: diagnosis_scored }))
 }
@@ -103,20 +103,9 @@ struct Revealed {
 #[derive(Serialize)]
 struct Scored {
     /// The answer to all data
-    answer: StatedAnswer,
+    answer: Claim,
     /// Its score; null without a verdict
     score: Option<ClaimScore>,
-}
-
-/// What a diagnosis states.
-#[derive(Serialize)]
-struct StatedAnswer {
-    /// `none`, `effect` or `out_of_catalog`; null if it gives no verdict
-    verdict: Option<String>,
-    /// The indistinguishable set; a pair is written `a + b`
-    set: Vec<String>,
-    /// Effects it adds to the model
-    added: Vec<String>,
 }
 
 /// `ibr.challenge.list`: `ibr challenge list`

@@ -3,12 +3,11 @@
 use super::inputs::quantity;
 use crate::cli::CharacterizeArgs;
 use crate::prelude::*;
-use compare::characterize::write::measured_toml;
-use compare::characterize::write::{fabric_toml, missing};
-use compare::characterize::{Characterized, FabricNumber, Specimen};
-use compare::characterize::{FabricTests, Reduction, example};
-use data::CouponDefaults;
-use data::Direction;
+use compare::characterize::write::{fabric_toml, measured_toml, missing};
+use compare::characterize::{
+    Characterized, FabricNumber, FabricTests, Reduction, Replay, Specimen, directions, example,
+};
+use data::{CouponDefaults, Direction};
 use ibr::pages::characterized_files;
 
 /// Seed of the example: the documents show its numbers.
@@ -50,7 +49,6 @@ fn settings(args: &CharacterizeArgs) -> Result<Reduction> {
     Ok(Reduction { name, modulus_strain, any_modulus: args.any_modulus })
 }
 
-/// What holds where a file says nothing.
 fn defaults(args: &CharacterizeArgs) -> Result<CouponDefaults> {
     let length = |option: &str, text: &Option<String>| {
         text.as_ref().map(|text| quantity(option, text, Quantity::Length)).transpose()
@@ -82,7 +80,7 @@ struct CharacterizeExample {
 
 fn shown(found: &Characterized) -> String {
     let count = |d: Direction| format!("{} at {}°", found.of(d).count(), d.degrees());
-    let directions = found.directions().into_iter().map(count).collect::<Vec<_>>().join(", ");
+    let directions = directions(&found.specimens).into_iter().map(count).collect::<Vec<_>>().join(", ");
     let mut text = format!("Specimens: {directions} ({})\n", found.provenance.word());
     text += &Table::of(&found.quantities)
         .words("quantity", |q| &q.name)
@@ -109,8 +107,8 @@ fn shown(found: &Characterized) -> String {
             "Every test by the law that was made of them: law over test, at the end and rms of the largest stress\n";
         text += &Table::of(&found.replays)
             .words("law", |r| &r.law)
-            .words("specimen", |r| &found.specimens[r.specimen].name)
-            .words("direction", |r| format!("{}°", found.specimens[r.specimen].direction.degrees()))
+            .words("specimen", |r| &r.specimen)
+            .words("direction", |r| format!("{}°", r.direction_deg))
             .words("used", |r| if r.used { "for the law" } else { "check" })
             .right("at the end", |r| format!("{:+.1} %", 100.0 * r.at_end))
             .right("rms", |r| format!("{:.1} %", 100.0 * r.rms))
@@ -153,7 +151,7 @@ struct FabricAnswer<'a> {
     /// Thickness
     thickness_m: Option<f64>,
     /// Tests computed with the law
-    replays: Vec<LawOnTest<'a>>,
+    replays: &'a [Replay],
     /// Cautions
     warnings: &'a [String],
     /// Remarks
@@ -199,23 +197,6 @@ struct SpecimenRead<'a> {
     shear_rad_n_per_m: Option<&'a [[f64; 2]]>,
 }
 
-/// A test computed with the law.
-#[derive(Serialize)]
-struct LawOnTest<'a> {
-    /// Which law
-    law: &'a str,
-    /// Specimen
-    specimen: &'a str,
-    /// The law was made of it
-    used_for_the_law: bool,
-    /// Direction of the pull to the warp
-    direction_deg: f64,
-    /// Law over test at the end, less one
-    at_end: f64,
-    /// Rms of law over test, less one
-    rms: f64,
-}
-
 /// Of what was found, with the text of `fabric.toml` if there is one.
 fn fabric_answer<'a>(found: &'a Characterized, fabric_toml: Option<&'a str>) -> FabricAnswer<'a> {
     let yarn = |direction| found.yarns.iter().find(|y| y.direction == direction).map(|y| &y.rows[..]);
@@ -232,14 +213,6 @@ fn fabric_answer<'a>(found: &'a Characterized, fabric_toml: Option<&'a str>) -> 
         locking_rad: locking_rad(s),
         shear_rad_n_per_m: s.strip.as_ref().map(|s| &s.shear[..]),
     });
-    let replays = found.replays.iter().map(|r| LawOnTest {
-        law: &r.law,
-        specimen: &found.specimens[r.specimen].name,
-        used_for_the_law: r.used,
-        direction_deg: found.specimens[r.specimen].direction.degrees(),
-        at_end: r.at_end,
-        rms: r.rms,
-    });
     FabricAnswer {
         provenance: found.provenance,
         quantities: found.quantities.iter().map(quantity).collect(),
@@ -249,7 +222,7 @@ fn fabric_answer<'a>(found: &'a Characterized, fabric_toml: Option<&'a str>) -> 
         shear_rad_n_per_m: found.shear.as_ref().map(|s| &s.rows[..]),
         shear_rad_pa: found.shear.as_ref().and_then(|s| s.moment_pa.as_deref()),
         thickness_m: found.thickness_m,
-        replays: replays.collect(),
+        replays: &found.replays,
         warnings: &found.warnings,
         notes: &found.notes,
         fabric_toml,

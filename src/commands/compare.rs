@@ -38,7 +38,6 @@ pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome> 
     Ok(outcome)
 }
 
-/// Writes the report where one is wanted.
 fn report(
     args: &CompareArgs,
     (file, evidence, found): (&ScenarioFile, &Evidence, &Comparison),
@@ -50,7 +49,7 @@ fn report(
         return Ok(());
     };
     (context.progress)("drawing the report", Some(COMPARED));
-    write_files(&folder, &compare_page(found, &imprint())?, &inputs::named(file, [evidence])?, context)?;
+    write_files(&folder, &compare_page(found, &maker())?, &inputs::named(file, [evidence])?, context)?;
     outcome.report(&folder);
     Ok(())
 }
@@ -65,10 +64,9 @@ fn check_error(outcome: &mut Outcome, last_mm: f64, limit_m: Option<f64>) {
 
 /// Scenario and data; data with a scenario of their own may stand alone.
 fn both(args: &CompareArgs) -> Result<(ScenarioFile, &str)> {
-    let own = |data: &String| ScenarioFile::beside_in_space(data);
     match &args.inputs[..] {
-        [data] => own(data)?.map(|file| (file, data.as_str())),
-        [scenario, data] => Some((ibr::studies::scenario_in_space(scenario)?, data.as_str())),
+        [data] => ScenarioFile::beside(data)?.map(|file| (file, data.as_str())),
+        [scenario, data] => Some((ibr::studies::scenario(scenario)?, data.as_str())),
         _ => None,
     }
     .ok_or_else(|| {

@@ -2,13 +2,13 @@
 
 use super::inputs::{self, scattered};
 use super::list;
+use super::written::write_dataset;
 use crate::cli::{DataCommand, GenerateArgs};
 use crate::prelude::*;
 use compare::diagnosis::{Options, pressure_slip};
 use compare::slips::pressure::pressure_words;
 use compare::slips::slips;
 use compare::study::generate::{Generator, about, generate};
-use data::About;
 use data::CheckReport;
 use ibr::check_fed;
 
@@ -39,8 +39,8 @@ fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Ou
         None => report.warnings.extend(pressure_words(dataset)),
     }
     let model = match scenario {
-        Some(scenario) => Some(inputs::scenario_in_space(scenario)?),
-        None => ScenarioFile::beside_in_space(spec)?,
+        Some(scenario) => Some(ibr::studies::scenario(scenario)?),
+        None => ScenarioFile::beside(spec)?,
     };
     report.warnings.extend((model.is_none() && dataset.leaves_the_plane()).then(|| in_space_words(dataset)));
     if let Some(model) = model
@@ -72,7 +72,7 @@ fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome> {
         Generator { seed: args.seed, runs: args.runs as usize, gauge: args.gauge, ..scattered(&args.scatter)? };
     let generator = generator.with_protocol(&args.protocol)?;
     check_set_folder(&args.out, context.force)?;
-    let named = ibr::studies::scenario_in_space(&args.scenario)?;
+    let named = ibr::studies::scenario(&args.scenario)?;
     let model = Model::new(&named.scenario);
     (0..generator.protocol.len()).try_for_each(|hold| check_fed(&model, &generator.loads(hold, 1.0).actuator_pa))?;
     if named.markers_m.is_empty() {
@@ -85,25 +85,11 @@ fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome> {
     let dataset = generate(&named.scenario, &set_name(&args.out, "synthetic"), &generator)?;
     let about = about(&named.scenario, &dataset, &generator);
     let inputs = inputs::named(&named, [])?;
-    write(&args.out, &dataset, &about, named.text, &inputs, context)?;
+    write_dataset(&args.out, &dataset, &about, named.text, &inputs, context)?;
     let values = dataset.coordinates_m.len();
     let text = format!("{values} values of {} runs in {}\n", dataset.runs.len(), args.out.display());
     let answer = Generated { folder: args.out.display().to_string(), runs: dataset.runs.len() };
     Ok(Outcome::answer(text, "ibr.data.generate", &answer))
-}
-
-/// Writes a made set with its truth.
-pub(super) fn write(
-    folder: &Path,
-    dataset: &Dataset,
-    about: &About,
-    truth: String,
-    inputs: &[Input],
-    context: &mut Context,
-) -> Result<()> {
-    let mut files = Files { files: data::set_files(dataset, about)?.into(), ..Files::default() };
-    files.text("truth.toml", truth);
-    replace_files(folder, &files, inputs, context)
 }
 
 /// `ibr.data.generate`: `ibr data generate SCENARIO`

@@ -1,9 +1,9 @@
 //! `ibr data fem`: marker data from finite element runs.
 
-use super::data::write;
 use super::fem_inputs::{kept, list, pressures};
 use super::inputs;
 use super::inputs::scattered;
+use super::written::write_dataset;
 use crate::cli::DataFemArgs;
 use crate::prelude::*;
 use compare::study::Generator;
@@ -14,7 +14,7 @@ use fem::session::Source;
 
 pub(super) fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome> {
     check_set_folder(&args.out, context.force)?;
-    let truth = inputs::scenario(&args.scenario)?;
+    let truth = ibr::studies::scenario(&args.scenario)?.planar()?;
     let (robot, scenario) = robot(args)?;
     let kpa = pressures(&args.pressure)?;
     if !kpa.is_sorted_by(|a, b| a < b) {
@@ -41,7 +41,7 @@ pub(super) fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome> 
         "synthetic: finite elements, engine {}, {} mm elements, numbers {}; ibr data fem, seed {}",
         first.engine, first.mesh_mm[1], first.known, args.seed
     );
-    write(&args.out, &dataset, &about, robot.text, &inputs::named(&truth, [])?, context)?;
+    write_dataset(&args.out, &dataset, &about, robot.text, &inputs::named(&truth, [])?, context)?;
     let text = format!(
         "{} values of {} finite element runs in {}\n",
         dataset.coordinates_m.len(),

@@ -3,8 +3,9 @@
 use super::import_options::options;
 use crate::cli::Import;
 use crate::prelude::*;
+use data::DataError;
 use data::import::{Imported, import};
-use ibr::pages::tracks_plot;
+use ibr::pages::{clock_plot, tracks_plot};
 
 /// Three runs of an ePAM with sealed edges as DeepLabCut writes them, and the log of their pressures.
 const EXAMPLE: [(&str, &str); 4] = [
@@ -24,7 +25,8 @@ pub(super) fn run(args: &Import, context: &mut Context) -> Result<Outcome> {
     }
     let mut tell =
         |done: u64, total: u64| (context.progress)("reading tracks", Some(done as f64 / total.max(1) as f64));
-    let made = import(&args.files, &options, &mut tell)?;
+    let made = import(&args.files, &options, &mut tell);
+    let made = made.map_err(|error| with_picture(error, args, context))?;
     let mut text = told(&made);
     match &args.out {
         Some(folder) => {
@@ -41,6 +43,19 @@ pub(super) fn run(args: &Import, context: &mut Context) -> Result<Outcome> {
     Ok(Outcome::answer(text, "ibr.data.import", &import_answer(&made, args.out.as_deref())))
 }
 
+/// A refused clock with its picture in the folder, unless that holds a dataset.
+fn with_picture(error: DataError, args: &Import, context: &mut Context) -> Failure {
+    let (DataError::Clock(_, tracks), Some(folder)) = (&error, &args.out) else { return error.into() };
+    let mut files = Files::default();
+    let drawn = clock_plot(tracks).map(|drawn| files.plot("clock", drawn));
+    let is_free = check_set_folder(folder, false).and_then(|()| check_folder(folder));
+    match is_free.and(drawn.map_err(Failure::from)).and_then(|()| replace_files(folder, &files, &inputs(args), context))
+    {
+        Ok(()) => error.with_help(&format!("; picture of both tracks: {}", folder.join("clock.svg").display())).into(),
+        Err(_) => error.into(),
+    }
+}
+
 fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome> {
     let files = write_example(folder, EXAMPLE.map(|(name, text)| (name.into(), text.into())).into(), context)?;
     let shown = folder.display();
@@ -51,7 +66,6 @@ fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome> {
     Ok(Outcome::answer(text, "ibr.data.import.example", &ImportExample { files }))
 }
 
-/// Runs with a picture.
 const MOST_PICTURES: usize = 10;
 
 fn files(made: &Imported) -> Result<Files> {
@@ -70,7 +84,6 @@ fn inputs(args: &Import) -> Vec<Input> {
     read.map(|path| read_input(path)).collect()
 }
 
-/// What was understood, a line each.
 fn told(made: &Imported) -> String {
     let set = &made.dataset;
     let count = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
@@ -95,7 +108,6 @@ struct ImportAnswer<'a> {
     folder: Option<String>,
 }
 
-/// Of an import into a folder.
 fn import_answer<'a>(made: &'a Imported, folder: Option<&Path>) -> ImportAnswer<'a> {
     let Imported { dataset: set, program, told, .. } = made;
     let markers = set.markers.iter().map(|marker| marker.name.as_str()).collect();

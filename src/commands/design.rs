@@ -4,16 +4,15 @@ use super::pattern::usual_pattern;
 use crate::cli::DesignArgs;
 use crate::prelude::*;
 use fem::FemError;
-use fem::session::{FeRun, Job, Progress, Settings, Source, simulate, simulate_all};
+use fem::session::{FeRun, Job, Progress, Settings, simulate, simulate_all};
 use ibr::pages::design_files;
-use sweep::design::{Checked, Design, Round, Rounds, Wish, misses_of_reading};
-use sweep::design::{End, Held, Miss, Spread};
+use sweep::design::{Checked, Design, End, Held, Miss, Round, Rounds, Spread, Wish, misses_of_reading};
 
 /// Pictures of a finite element run that go with its design.
 const PICTURES: [&str; 3] = ["side.png", "section.png", "cut.png"];
 
 pub(super) fn run(args: &DesignArgs, context: &mut Context) -> Result<Outcome> {
-    let wish = Wish::read(&args.wish, ibr::studies::scenario)?;
+    let wish = Wish::read(&args.wish, |spec| ibr::studies::scenario(spec)?.planar())?;
     let stem = args.wish.file_stem().unwrap_or_default().to_string_lossy();
     let folder = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("ibr-report/design-{stem}")));
     check_folder(&folder)?;
@@ -67,7 +66,7 @@ fn checked(wish: &Wish, rounds: &Rounds, folder: &Path, context: &mut Context) -
     }
     let set = [("fem.pressures_kpa".to_string(), format!("[{}]", fem::session::rounded(1e-3 * all[0])))];
     let file = found.file.with(&set)?;
-    let source = Source { text: file.text.clone(), name: "design.toml".into(), folder: wish.folder.clone() };
+    let source = file.source(&wish.folder);
     let mut settings = Settings { frames: false, threads: context.threads, maker: maker(), ..Settings::default() };
     let made = match rounds.corrections {
         0 => context.fem(|progress| simulate(&source, &settings, progress)),
@@ -116,15 +115,12 @@ fn design_text(wish: &Wish, rounds: &Rounds) -> String {
     };
     let within = format!("{:.1} mm (tolerance {tolerance_mm:.1} mm)", 1e3 * worst_m);
     let name = &found.file.scenario.name;
-    let mut text = match (rounds.reached(wish), rounds.corrections) {
-        (true, _) => format!("{name}: {by}a design has the wish to {within}\n\n"),
-        (false, 0) => {
-            format!("{name}: no design within these ranges has the wish; the nearest misses it by {within}\n\n")
-        }
-        (false, _) => {
-            format!("{name}: {by}no design that was tried has the wish; the nearest misses it by {within}\n\n")
-        }
+    let what = match (rounds.reached(wish), rounds.corrections) {
+        (true, _) => "a design has the wish to",
+        (false, 0) => "no design within these ranges has the wish; the nearest misses it by",
+        (false, _) => "no design that was tried has the wish; the nearest misses it by",
     };
+    let mut text = format!("{name}: {by}{what} {within}\n\n");
     text += &Table::of(&found.chosen).words("chosen", |(key, _)| key).right("value", |(_, value)| value).text();
     text += &format!(
         "Pressure {} kPa, body {} kPa.\n\n",
@@ -154,22 +150,22 @@ fn design_text(wish: &Wish, rounds: &Rounds) -> String {
         text += &format!("No finite element run: {why}.\n");
     }
     text += &rounds_text(wish, rounds);
-    if let (Some(spread), Some(_)) = (&found.spread, &best.corrected) {
-        text += &format!(
+    text += &match (&found.spread, &best.corrected) {
+        (None, _) => {
+            "No number is named as assumed, so there is no interval: add [[assumed]] with key, from and to.\n".into()
+        }
+        (Some(Spread { worst_m, .. }), Some(_)) => format!(
             "Over the assumed numbers the model, corrected by finite elements, misses the wish by up to {:.1} mm.\n",
-            1e3 * spread.worst_m
-        );
-    } else if let Some(spread) = &found.spread {
-        let of = |[low, high]: [f64; 2]| format!("{:.1} to {:.1}", 1e3 * low, 1e3 * high);
-        text += &format!(
-            "Over the assumed numbers the tip is at x = {} mm and y = {} mm, and the wish is missed by up to {:.1} mm.\n",
-            of(spread.x_m),
-            of(spread.y_m),
-            1e3 * spread.worst_m
-        );
-    } else {
-        text += "No number is named as assumed, so there is no interval: add [[assumed]] with key, from and to.\n";
-    }
+            1e3 * worst_m
+        ),
+        (Some(Spread { x_m, y_m, worst_m }), None) => {
+            let [x, y] = [x_m, y_m].map(|[low, high]| format!("{:.1} to {:.1}", 1e3 * low, 1e3 * high));
+            let up_to = 1e3 * worst_m;
+            format!(
+                "Over the assumed numbers the tip is at x = {x} mm and y = {y} mm, and the wish is missed by up to {up_to:.1} mm.\n"
+            )
+        }
+    };
     for held in &found.held {
         text += &format!(
             "Held back by {} at its end {}: one unit beyond it would take {:.2} mm off the miss.\n",
@@ -331,7 +327,6 @@ struct CheckedDesign<'a> {
     written: bool,
 }
 
-/// What came of a wish, as typed.
 fn design_answer<'a>(typed: String, wish: &'a Wish, rounds: &'a Rounds) -> DesignAnswer<'a> {
     let best = rounds.best();
     let found = &rounds.all[best].design;

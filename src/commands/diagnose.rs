@@ -27,7 +27,7 @@ pub(super) fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome>
     };
     let fit = &args.fit;
     let options = Options { refit_present: args.refit, ..inputs::fit_options(fit)? };
-    let file = inputs::scenario_in_space(&args.scenario)?;
+    let file = ibr::studies::scenario(&args.scenario)?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let evidence = inputs::all_evidence(data, &fit.also, context)?;
     let end = args.out.as_ref().map_or(1.0, |_| DIAGNOSED);
@@ -70,7 +70,7 @@ pub(super) fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome>
 
 /// Writes the report and takes away pictures of an earlier one that this one has not.
 fn report(folder: &Path, found: &Diagnosed, json: Vec<u8>, inputs: &[Input], context: &mut Context) -> Result<()> {
-    let mut files = diagnosis_page(found, &imprint(), &mut part(context.progress, [DIAGNOSED, 1.0]))?;
+    let mut files = diagnosis_page(found, &maker(), &mut part(context.progress, [DIAGNOSED, 1.0]))?;
     files.files.insert(0, ("diagnosis.json".into(), json));
     files.retire(&diagnosis_pictures());
     write_files(folder, &files, inputs, context)

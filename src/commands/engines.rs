@@ -3,8 +3,11 @@
 use super::fem_inputs::{kept, pressures, robots};
 use crate::cli::CompareArgs;
 use crate::prelude::*;
-use compare::study::engines::{BodyVolumes, EnginePair, Engines, branches, ledgers, line_table, summary, volume_table};
-use compare::study::engines::{EngineLine, EngineRun, all_runs, engines, lines, runs_json, runs_of, seed_jobs, stored};
+use crate::shown::engines as shown;
+use compare::study::engines::{
+    BodyVolumes, EngineLine, EnginePair, EngineRun, Engines, all_runs, engines, lines, runs_json, runs_of, seed_jobs,
+    stored,
+};
 use fem::session::Source;
 use ibr::pages::engines_page;
 
@@ -21,8 +24,7 @@ pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome> 
     }
     let mut outcome = Outcome::answer(text(&all, &found)?, "ibr.engines", &engines_answer(&all, &found));
     (context.progress)("drawing the report", None);
-    let imprint = imprint();
-    let mut files = engines_page(&found, &imprint)?;
+    let mut files = engines_page(&found, &maker())?;
     files.files.insert(0, ("runs.json".into(), runs_json(&runs).into_bytes()));
     write_files(&folder, &files, &inputs, context)?;
     outcome.report(&folder);
@@ -68,8 +70,13 @@ fn engines_answer<'a>(lines: &'a [EngineLine], engines: &'a Engines) -> EnginesA
     EnginesAnswer { lines, ledgers: ledgers.collect(), volumes }
 }
 
-/// Tables of a comparison of both engines.
 fn text(lines: &[EngineLine], Engines { robots, .. }: &Engines) -> Result<String> {
-    let tables = [summary(robots)?, line_table(lines), branches(robots), ledgers(robots), volume_table(robots)];
-    Ok(tables.iter().filter(|table| !table.rows.is_empty()).map(printed).collect::<Vec<_>>().join("\n"))
+    let tables = [
+        shown::summary(robots)?.under(shown::SUMMARY),
+        shown::line_table(lines).under(shown::LINES),
+        shown::branches(robots).under(shown::BRANCHES),
+        shown::ledgers(robots).under(shown::LEDGERS),
+        shown::volume_table(robots).under(shown::VOLUMES),
+    ];
+    Ok(tables.concat().trim_start().to_string())
 }

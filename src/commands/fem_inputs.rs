@@ -5,7 +5,6 @@ use crate::prelude::*;
 use fem::session::{Settings, Source, rounded};
 use ibr::fe_source;
 
-/// The robots of the paper.
 const PUBLISHED: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
 
 /// Robots as typed and as read, and what the manifest says of them.

@@ -28,6 +28,7 @@ pub(crate) fn options(args: &Import) -> Result<ImportOptions> {
         })?,
         room_pa: optional(&args.room, |text| quantity("--room", text, Quantity::Pressure))?,
         pressure_unit_pa: optional(&args.pressure_unit, unit)?,
+        log_columns: args.log_columns.iter().map(|name| name.trim().to_string()).collect(),
         bin_pa,
         least_hold_s: quantity("--hold", &args.hold, Quantity::Time)?,
         least_frames: args.frames as usize,

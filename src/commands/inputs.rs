@@ -2,33 +2,14 @@
 
 use crate::cli::{FitArgs, RobotArgs, ScatterArgs};
 use crate::prelude::*;
-use compare::CompareError;
 use compare::diagnosis::Options;
 use compare::progress::part;
 use compare::progress::shares::READ;
 use compare::study::{Generator, HoldScatter};
 use compare::typed_effect::with_effect;
+use ibr::studies::scenario;
 use models::scenario::quantity::parse;
 use spelling::units::Range;
-
-pub(super) fn scenario(spec: &str) -> Result<ScenarioFile> {
-    Ok(ibr::studies::scenario(spec)?)
-}
-
-/// The same for what is built for strips round the body too.
-pub(super) fn scenario_in_space(spec: &str) -> Result<ScenarioFile> {
-    Ok(ibr::studies::scenario_in_space(spec)?)
-}
-
-/// A robot as typed: its file, and the scenario with what was changed.
-pub(super) fn robot(args: &RobotArgs) -> Result<(ScenarioFile, Scenario)> {
-    changed(scenario(&args.scenario)?, ScenarioFile::with, args)
-}
-
-/// The same for what is built for strips round the body too.
-pub(super) fn robot_in_space(args: &RobotArgs) -> Result<(ScenarioFile, Scenario)> {
-    changed(scenario_in_space(&args.scenario)?, ScenarioFile::with_in_space, args)
-}
 
 /// `key=value` of an option `--set`.
 pub(super) fn setting<'t>(text: &'t str, help: &str) -> Result<(&'t str, &'t str)> {
@@ -54,7 +35,6 @@ pub(super) fn effect_names(typed: &[String]) -> impl Iterator<Item = &str> {
     typed.iter().map(|text| text.split([':', '=']).next().unwrap_or_default())
 }
 
-/// How effects are fitted, as typed.
 pub(super) fn fit_options(args: &FitArgs) -> Result<Options> {
     Ok(Options {
         sigma_m: positive("--sigma", args.noise.sigma.as_ref())?,
@@ -65,17 +45,19 @@ pub(super) fn fit_options(args: &FitArgs) -> Result<Options> {
     })
 }
 
-/// Sets values of keys in a scenario.
-type Set = fn(&ScenarioFile, &[(String, String)]) -> Result<ScenarioFile, CompareError>;
-
-fn changed(mut file: ScenarioFile, set: Set, args: &RobotArgs) -> Result<(ScenarioFile, Scenario)> {
+/// A robot as typed: its file, and the scenario with what was changed; strips round the body may come in where it `is_planar` no more.
+pub(super) fn robot(args: &RobotArgs, is_planar: bool) -> Result<(ScenarioFile, Scenario)> {
+    let mut file = scenario(&args.scenario)?;
+    if is_planar {
+        file = file.planar()?;
+    }
     let help = "write for example --set body.radius_mm=45";
     let changes = args.set.iter().map(|text| setting(text, help)).collect::<Result<Vec<_>, _>>()?;
     each_once("--set", changes.iter().map(|(key, _)| *key))?;
     each_once("--effect", effect_names(&args.effect))?;
     if !changes.is_empty() {
-        file =
-            set(&file, &changes.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect::<Vec<_>>())?;
+        let changes: Vec<_> = changes.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
+        file = if is_planar { file.with(&changes)? } else { file.with_in_space(&changes)? };
     }
     let mut changed = if args.bare { file.bare() } else { file.scenario.clone() };
     for text in &args.effect {
@@ -106,7 +88,6 @@ pub(super) fn quantity(option: &str, text: &str, kind: Quantity) -> Result<f64> 
     parse(text, kind).map_err(|message| Failure::usage(format!("{option}: {message}"), "see ibr --help"))
 }
 
-/// A quantity of an option within its bounds.
 pub(super) fn bounded(option: &str, text: &str, kind: Quantity, bounds: &Range) -> Result<f64> {
     let refused = |(message, help)| Failure::usage(format!("{option} {text}: {message}"), help);
     bounds.check(quantity(option, text, kind)?).map_err(refused)
@@ -123,7 +104,6 @@ pub(super) fn positive(option: &str, text: Option<&String>) -> Result<Option<f64
     }
 }
 
-/// The scatter as typed.
 pub(super) fn scattered(args: &ScatterArgs) -> Result<Generator> {
     let share = |option: &str, percent: f64| match percent {
         percent if (0.0..=50.0).contains(&percent) => Ok(percent / 100.0),
@@ -132,12 +112,13 @@ pub(super) fn scattered(args: &ScatterArgs) -> Result<Generator> {
             Err(Failure::usage(message, "2 is usual"))
         }
     };
-    let per_hold = HoldScatter {
+    let typed = HoldScatter {
         pressure_sd: share("--hold-scatter", args.hold_scatter)?,
         alignment_sd_m: scatter("--hold-alignment", &args.hold_alignment)?,
-        rotation_sd: 0.0,
+        rotation_sd: HoldScatter::USUAL.rotation_sd,
         lasting_sd_m: scatter("--lasting", &args.lasting)?,
     };
+    let per_hold = if args.white { HoldScatter::default() } else { typed };
     Ok(Generator {
         camera_sd_m: scatter("--sigma", &args.sigma)?,
         alignment_sd_m: scatter("--alignment", &args.alignment)?,

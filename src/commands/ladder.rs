@@ -26,7 +26,7 @@ struct LadderAnswer<'a> {
 
 pub(super) fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
-    let file = inputs::scenario_in_space(&args.scenario)?;
+    let file = ibr::studies::scenario(&args.scenario)?;
     let evidence = inputs::all_evidence(&args.data, &args.fit.also, context)?;
     let options = Options { next_experiment: false, missing_moment: false, ..inputs::fit_options(&args.fit)? };
     let climb = ladder(&file, &evidence, &options, MOST_EFFECTS, &mut part(context.progress, [READ, CLIMBED]))?;
@@ -48,7 +48,7 @@ pub(super) fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome> {
 
 /// Writes report and scenarios, and says where they are.
 fn report(folder: &Path, page: &Climbed, inputs: &[Input], context: &mut Context, outcome: &mut Outcome) -> Result<()> {
-    write_files(folder, &ladder_page(page, &imprint())?, inputs, context)?;
+    write_files(folder, &ladder_page(page, &maker())?, inputs, context)?;
     let names: Vec<&str> = page.climb.files.iter().map(|(name, _)| name.as_str()).collect();
     outcome.notes.push(format!("scenarios in {}: {}", folder.display(), names.join(", ")));
     let old = earlier_steps(folder, &names).join(", ");

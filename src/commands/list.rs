@@ -4,10 +4,10 @@ use crate::prelude::*;
 use compare::diagnosis::words::with_unit;
 use data::SetInfo;
 use fem::case::{GENERATORS, MeshGenerator, SHIPPED_CASES, shipped_case};
-use ibr::studies::{STUDIES, study};
+use ibr::studies::{STUDIES, robots, study};
 use models::actuators::{ACTUATORS, Actuator};
 use models::effects::{EFFECTS, Effect};
-use models::scenario::SHIPPED;
+use models::scenario::ROBOTS;
 
 pub(super) fn run(what: Option<&str>) -> Result<Outcome> {
     let lists = Lists::of(what);
@@ -29,7 +29,7 @@ pub(super) fn new(kind: &str) -> Result<Outcome> {
     let scenario_toml = models::shipped(kind).or(study(kind));
     let case_toml = shipped_case(kind).filter(|_| scenario_toml.is_none());
     let Some(text) = scenario_toml.or(case_toml) else {
-        let names = SHIPPED.iter().chain(SHIPPED_CASES).map(|s| s.0).chain(STUDIES.iter().map(|s| s.0));
+        let names = robots().into_iter().chain(SHIPPED_CASES.iter().map(|s| s.0));
         let help = spelling::known(kind, &names.collect::<Vec<_>>());
         return Err(Failure::usage(format!("no shipped scenario `{kind}`"), help));
     };
@@ -55,6 +55,9 @@ struct Lists {
     /// Effects
     #[serde(skip_serializing_if = "Option::is_none")]
     effects: Option<&'static [Effect<'static>]>,
+    /// Robots that are known by name
+    #[serde(skip_serializing_if = "Option::is_none")]
+    robots: Option<Vec<NamedText>>,
 }
 
 /// Finite element cases.
@@ -77,6 +80,9 @@ struct NamedText {
     title: &'static str,
 }
 
+/// What a textbook robot is.
+const TEXTBOOK: &str = "the same without the mechanics that textbook models lack";
+
 impl Lists {
     /// The list of this name, or all of them.
     fn of(what: Option<&str>) -> Lists {
@@ -85,7 +91,13 @@ impl Lists {
         let shipped = SHIPPED_CASES.iter().map(|(name, toml)| NamedText { name, title: title(toml).trim_matches('"') });
         let studies = STUDIES.iter().map(|(name, title, _)| NamedText { name, title });
         let cases = || Cases { shipped: shipped.collect(), studies: studies.collect(), generators: GENERATORS };
+        let named = |name: &'static str| {
+            let of = |actuator: &&Actuator| actuator.name == name;
+            NamedText { name, title: ACTUATORS.iter().find(of).map_or(TEXTBOOK, |actuator| actuator.title) }
+        };
+        let all = || STUDIES.iter().map(|(name, title, _)| NamedText { name, title });
         Lists {
+            robots: wanted("robots").then(|| ROBOTS.into_iter().map(named).chain(all()).collect()),
             actuators: wanted("actuators").then_some(ACTUATORS),
             effects: wanted("effects").then_some(EFFECTS),
             datasets: wanted("datasets").then(data::sets),
@@ -106,6 +118,10 @@ impl Lists {
         if let Some(all) = self.effects {
             out += "EFFECTS\n";
             all.iter().for_each(|effect| out += &effect_text(effect));
+        }
+        if let Some(all) = &self.robots {
+            out += "ROBOTS (a SCENARIO by name; ibr new prints them)\n";
+            all.iter().for_each(|r| out += &format!("  {:<16} {}\n", r.name, r.title));
         }
         if let Some(all) = &self.datasets {
             out += "DATASETS\n";

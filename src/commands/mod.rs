@@ -15,6 +15,7 @@ mod design;
 mod diagnose;
 mod engines;
 mod export;
+mod export_table;
 mod fem_inputs;
 pub(crate) mod import_options;
 mod inputs;
@@ -32,6 +33,7 @@ mod sweep;
 mod tradeoff;
 mod validate;
 mod verify;
+mod written;
 
 use crate::cli::Command;
 pub(crate) use crate::context::{Context, Outcome};
@@ -71,7 +73,7 @@ pub(crate) fn run(command: &Command, context: &mut Context) -> Result<Outcome> {
 fn completions(shell: clap_complete::Shell) -> Outcome {
     let mut bytes = Vec::new();
     clap_complete::generate(shell, &mut crate::cli::command(), "ibr", &mut bytes);
-    Outcome { text: String::from_utf8_lossy(&bytes).into_owned(), ..Outcome::default() }
+    Outcome::of(String::from_utf8_lossy(&bytes).into_owned())
 }
 
 fn man(out: Option<&std::path::Path>, context: &mut Context) -> Result<Outcome> {
@@ -82,7 +84,7 @@ fn man(out: Option<&std::path::Path>, context: &mut Context) -> Result<Outcome> 
     let failed = |e: std::io::Error| Failure::usage(format!("the manual cannot be made: {e}"), "report this");
     let Some(folder) = out else {
         let bytes = page(crate::cli::command()).map_err(failed)?;
-        return Ok(Outcome { text: String::from_utf8_lossy(&bytes).into_owned(), ..Outcome::default() });
+        return Ok(Outcome::of(String::from_utf8_lossy(&bytes).into_owned()));
     };
     let mut files = ibr::pages::Files::default();
     files.files.push(("ibr.1".into(), page(crate::cli::command()).map_err(failed)?));
@@ -91,5 +93,5 @@ fn man(out: Option<&std::path::Path>, context: &mut Context) -> Result<Outcome> 
         files.files.push((format!("{name}.1"), page(sub.clone().name(name)).map_err(failed)?));
     }
     crate::output::write_files(folder, &files, &[], context)?;
-    Ok(Outcome { text: format!("{} pages in {}\n", files.files.len(), folder.display()), ..Outcome::default() })
+    Ok(Outcome::of(format!("{} pages in {}\n", files.files.len(), folder.display())))
 }

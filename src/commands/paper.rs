@@ -4,8 +4,9 @@ use super::fem_inputs::{kept, pressures, robots, sizes};
 use crate::cli::CompareArgs;
 use crate::prelude::*;
 use compare::study::engines::runs_of;
-use compare::study::paper::{FactRow, HeightRow, mesh_name};
-use compare::study::paper::{MESHES_MM, PaperRun, facts, heights, jobs, ordered, runs_below, runs_json, stored};
+use compare::study::paper::{
+    FactRow, HeightRow, MESHES_MM, PaperRun, facts, heights, jobs, mesh_name, ordered, runs_below, runs_json, stored,
+};
 
 pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
@@ -87,7 +88,6 @@ fn shown(against: &[HeightRow], rows: &[FactRow], runs: &[PaperRun]) -> String {
     out + &counted(rows) + &numerics(runs)
 }
 
-/// How the paper's accuracy is read.
 const READING: &str = "\
 Height of the outermost marker [mm] beside what the paper's accuracy a implies: e = √(1 − a) is the rms of
 (y_FEA − y_EXP)/y_FEA over six markers. Assumed in reading it: the error is alike along the robot, its sign is

@@ -1,11 +1,11 @@
 //! `ibr pattern`
 
-use super::inputs::{self, quantity};
+use super::inputs::quantity;
 use crate::cli::PatternArgs;
 use crate::prelude::*;
 use ibr::pages::pattern_sheet;
 use models::cutting::{CuttingPlan, Making, PatternPiece};
-use report::sheet::{Paper, PatternSheet, dxf, pages, svg};
+use report::sheet::{PAPERS, PatternSheet, dxf, pages, svg};
 
 /// Width of welds where neither the scenario nor the user says one, as in [`fem::robot::RobotSettings`] \[m\].
 const WELD_M: f64 = 0.003;
@@ -15,9 +15,11 @@ const ALLOWANCE: (f64, &str) = (0.01, "10 mm");
 
 /// More fabric than that around a piece is a slip of the unit \[m\].
 const MOST_ALLOWANCE_M: f64 = 0.5;
+/// A cutter that removes more is a slip of the unit \[m\].
+const MOST_KERF_M: f64 = 0.005;
 
 pub(super) fn run(args: &PatternArgs, context: &mut Context) -> Result<Outcome> {
-    let file = inputs::scenario(&args.scenario)?;
+    let file = ibr::studies::scenario(&args.scenario)?.planar()?;
     let weld = match &args.weld {
         Some(text) => (quantity("--weld", text, Quantity::Length)?, "as told".into()),
         None => usual_weld(&file.scenario),
@@ -27,8 +29,13 @@ pub(super) fn run(args: &PatternArgs, context: &mut Context) -> Result<Outcome> 
         let message = format!("--allowance {} is not from 0 to {} mm", args.allowance, 1e3 * MOST_ALLOWANCE_M);
         return Err(Failure::usage(message, "write for example --allowance 10mm"));
     }
+    let kerf_m = quantity("--kerf", &args.kerf, Quantity::Length)?;
+    if !(0.0..=MOST_KERF_M).contains(&kerf_m) {
+        let message = format!("--kerf {} is not from 0 to {} mm", args.kerf, 1e3 * MOST_KERF_M);
+        return Err(Failure::usage(message, "write for example --kerf 0.2mm"));
+    }
     let weld_mm = 1e3 * weld.0;
-    let (plan, notes, sheet) = laid_out(&file.scenario, weld, (allowance_m, &args.allowance))
+    let (plan, notes, sheet) = laid_out(&file.scenario, weld, (allowance_m, &args.allowance), kerf_m)
         .map_err(|fault| Failure::usage(format!("{}: {fault}", args.scenario), "see docs/scenario.md"))?;
     let files = files(args, &sheet)?;
     write_texts(&files, context)?;
@@ -79,17 +86,21 @@ fn laid_out(
     scenario: &Scenario,
     (weld_m, how): (f64, String),
     (allowance_m, allowance): (f64, &str),
+    kerf_m: f64,
 ) -> Result<(CuttingPlan, Vec<String>, PatternSheet), String> {
     let plan = CuttingPlan::new(scenario, &Making { weld_m, allowance_m })?;
     let welds = format!("Welds {:.1} mm wide ({how}), allowance {allowance} beyond.", 1e3 * weld_m);
-    let notes = std::iter::once(welds).chain(plan.notes.iter().cloned()).collect::<Vec<_>>();
-    let sheet = pattern_sheet(&scenario.name, &plan, &notes);
+    let kerf =
+        format!("Kerf {:.2} mm: cut lines are half of it outside the edges, so the cutter adds none.", 1e3 * kerf_m);
+    let kerf = Some(kerf).filter(|_| kerf_m > 0.0);
+    let notes = std::iter::once(welds).chain(kerf).chain(plan.notes.iter().cloned()).collect::<Vec<_>>();
+    let sheet = pattern_sheet(&scenario.name, &plan, &notes, kerf_m);
     Ok((plan, notes, sheet))
 }
 
 /// The pattern of a robot as SVG with the usual welds and allowance; `Err` says why there is none.
 pub(super) fn usual_pattern(scenario: &Scenario) -> Result<String, String> {
-    Ok(svg(&laid_out(scenario, usual_weld(scenario), ALLOWANCE)?.2))
+    Ok(svg(&laid_out(scenario, usual_weld(scenario), ALLOWANCE, 0.0)?.2))
 }
 
 /// Files to write: the drawing, and its pages beside it.
@@ -106,11 +117,11 @@ fn files(args: &PatternArgs, sheet: &PatternSheet) -> Result<Vec<(PathBuf, Strin
         None if is("dxf") => Ok(vec![(args.out.clone(), dxf(sheet))]),
         None => Ok(vec![(args.out.clone(), svg(sheet))]),
         Some(name) => {
-            let paper = Paper::ALL.iter().find(|paper| paper.name == name).unwrap_or(&Paper::ALL[0]);
+            let (_, paper) = PAPERS.iter().find(|paper| paper.0 == name).unwrap_or(&PAPERS[0]);
             let stem = args.out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let page = |[row, column]: [usize; 2]| args.out.with_file_name(format!("{stem}-{row}-{column}.svg"));
             let whole = std::iter::once((args.out.clone(), svg(sheet)));
-            Ok(whole.chain(pages(sheet, paper).into_iter().map(|(at, text)| (page(at), text))).collect())
+            Ok(whole.chain(pages(sheet, *paper).into_iter().map(|(at, text)| (page(at), text))).collect())
         }
     }
 }

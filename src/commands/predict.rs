@@ -15,8 +15,7 @@ use models::{CHANNELS, Target};
 pub(super) fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     // A stream and a length at collapse are built in the plane.
-    let planar = args.follow || args.limits;
-    let (file, scenario) = if planar { inputs::robot } else { inputs::robot_in_space }(&args.robot)?;
+    let (file, scenario) = inputs::robot(&args.robot, args.follow || args.limits)?;
     let typed = &args.robot.scenario;
     if args.follow {
         return follow(&scenario, context);
@@ -57,8 +56,8 @@ pub(super) fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome> 
     }
     outcome.notes.extend(steered.and_then(|(place, found)| nearest_words(place, &found)));
     outcome.notes.extend(inputs::superseded(&scenario));
-    outcome.notes.extend(above_limit(&scenario, &states));
-    outcome.notes.extend(states.iter().flat_map(|s| beyond_words(&model, s)));
+    outcome.notes.extend(above_limit(&scenario, &states.iter().map(|s| s.loads).collect::<Vec<_>>()));
+    outcome.notes.extend(states.iter().flat_map(|s| beyond_words(&model, &s.loads, &s.prediction)));
     Ok(outcome)
 }
 
@@ -66,8 +65,8 @@ fn follow(scenario: &Scenario, context: &Context) -> Result<Outcome> {
     if context.json {
         return Err(Failure::usage("--follow writes lines of numbers", "leave out --json"));
     }
-    ibr::follow(scenario, std::io::stdin().lock(), std::io::stdout().lock())?;
-    Ok(Outcome::default())
+    let followed = ibr::follow(scenario, std::io::stdin().lock(), std::io::stdout().lock())?;
+    Ok(Outcome { notes: followed.words(), ..Outcome::default() })
 }
 
 /// The place of `--inverse X,Y`.

@@ -2,25 +2,24 @@
 
 use crate::prelude::*;
 use compare::diagnosis::words::{three, with_unit};
-use compare::study::one_number::OneNumber;
-use compare::study::one_number::one_number;
+use compare::study::one_number::{OneNumber, one_number};
 use data::published::printed;
 use ibr::pages::one_number_files;
 use models::scenario::SHIPPED;
 
-pub(super) fn run(kind: &str, out: Option<&Path>, context: &mut Context) -> Result<Outcome> {
+pub(super) fn run(name: &str, out: Option<&Path>, context: &mut Context) -> Result<Outcome> {
     out.map_or(Ok(()), check_folder)?;
-    if models::shipped(kind).is_none() {
-        let message = format!("the paper printed no displacement of `{kind}`");
+    if models::shipped(name).is_none() {
+        let message = format!("the paper printed no displacement of `{name}`");
         let kinds: Vec<&str> = SHIPPED.iter().map(|s| s.0).collect();
-        let help = format!("with --published name a robot of the paper; {}", spelling::known(kind, &kinds));
+        let help = format!("with --published name a robot of the paper; {}", spelling::known(name, &kinds));
         return Err(Failure::usage(message, help));
     }
-    let one = one_number(kind)?;
+    let one = one_number(name)?;
     let mut outcome = Outcome::answer(text(&one), "ibr.one_number", &OneNumberAnswer { result: &one });
     if let Some(folder) = out {
         write_files(folder, &one_number_files(&one)?, &[], context)?;
-        outcome.notes.push(format!("plot: {}", folder.join(format!("one_number_{kind}.png")).display()));
+        outcome.notes.push(format!("plot: {}", folder.join(format!("one_number_{}.png", one.actuator)).display()));
     }
     Ok(outcome)
 }
@@ -35,7 +34,7 @@ struct OneNumberAnswer<'a> {
 fn text(one: &OneNumber) -> String {
     let top = one.p_act_kpa.len() - 1;
     let mut out = format!(
-        "{}: the model without stiffness says {:.1} mm at {:.0} kPa, the paper {:.1} mm (published). One number, met by one effect alone at:\n",
+        "{}: the model predicts {:.1} mm at {:.0} kPa, the paper {:.1} mm (published). One number, met by one effect alone at:\n",
         printed(&one.actuator),
         one.bare_mm[top],
         one.p_act_kpa[top],

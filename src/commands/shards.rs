@@ -6,12 +6,10 @@ use fem::FemError;
 use fem::session::{Job, Settings, Shard, is_finished, problems, simulate_all};
 use sweep::schedule::{self, Cluster};
 
-/// The scheduler that was asked for.
 fn cluster(args: &ShardArgs) -> Option<Cluster> {
     args.engine.as_deref().map(|name| if name == "hq" { Cluster::HyperQueue } else { Cluster::Slurm })
 }
 
-/// The shard that was asked for.
 pub(super) fn shard(args: &ShardArgs) -> Result<Shard> {
     let shard = args.shard.as_deref().map_or(Ok(Shard::WHOLE), Shard::parse);
     shard.map_err(|message| Failure::usage(message, "see --help"))
@@ -41,7 +39,6 @@ fn without(typed: &[String]) -> Vec<String> {
     words
 }
 
-/// Work that is done in shards.
 pub(super) struct Work<'w> {
     /// Folder of the job and its logs, seen by all machines.
     pub folder: &'w Path,
@@ -60,7 +57,7 @@ pub(super) fn by_scheduler(args: &ShardArgs, work: &Work, context: &mut Context)
     let Some(cluster) = cluster(args) else { return Ok(None) };
     let job = job(args, work.folder, context)?;
     if args.script {
-        return Ok(Some(Outcome { text: job.script(cluster), ..Outcome::default() }));
+        return Ok(Some(Outcome::of(job.script(cluster))));
     }
     let (all, what) = (work.all.max(1) as f64, format!("{} by the scheduler", work.parts));
     let left = context.fem(|progress| {
@@ -107,7 +104,6 @@ pub(super) fn in_shards(
     Ok(Some(Outcome { notes: stopped, ..Outcome::answer(text, "ibr.shard", &answer) }))
 }
 
-/// The same for finite element runs.
 pub(super) fn shared(
     args: &ShardArgs,
     jobs: &[Job],

@@ -11,7 +11,7 @@ use ibr::pages::{sweep_picture_names, sweep_pictures};
 use sweep::{Found, Settings, Study, SweepError, collect, parts_missing, run as compute};
 
 pub(super) fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome> {
-    let study = Study::read(&args.study, ibr::studies::scenario_in_space)?;
+    let study = Study::read(&args.study, ibr::studies::scenario)?;
     let stem = args.study.file_stem().unwrap_or_default().to_string_lossy();
     let folder = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("ibr-report/sweep-{stem}")));
     check_folder(&folder)?;
@@ -22,13 +22,7 @@ pub(super) fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome> {
         return Ok(script);
     }
     let shard = shard(&args.shards)?;
-    let runs = fem::session::Settings {
-        frames: false,
-        threads: context.threads,
-        maker: maker(),
-        ..fem::session::Settings::default()
-    };
-    let settings = Settings { folder: folder.clone(), shard, threads: context.threads, runs };
+    let settings = Settings { folder: folder.clone(), shard, threads: context.threads, maker: maker() };
     // Ctrl-C leaves what is complete.
     let found = context.fem(|progress| compute(&study, &settings, progress))?;
     match collect(&study, &folder) {
@@ -44,7 +38,6 @@ pub(super) fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome> {
     }
 }
 
-/// Table, pictures and what is printed.
 fn whole(
     args: &SweepArgs,
     study: &Study,
@@ -102,7 +95,6 @@ fn agreement(table: &Table, (output, what): (&str, &str)) -> String {
     )
 }
 
-/// Reasons that are printed.
 const MOST_REASONS: usize = 3;
 
 fn swept_text(study: &Study, found: &Found, table: &Table) -> String {

@@ -2,9 +2,11 @@
 
 use crate::cli::TradeoffArgs;
 use crate::prelude::*;
+use compare::study::Rung;
 use compare::study::engines::known_runs;
-use compare::study::published::published_ladders;
+use compare::study::published::{PublishedLadder, published_ladders};
 use compare::study::tradeoff::{Timing, of_runs, tradeoff};
+use data::published::PublishedActuator;
 use ibr::pages::tradeoff_plot;
 
 pub(super) fn run(args: &TradeoffArgs, context: &mut Context) -> Result<Outcome> {
@@ -14,8 +16,9 @@ pub(super) fn run(args: &TradeoffArgs, context: &mut Context) -> Result<Outcome>
     let ladders = published_ladders()?;
     let mut timings = tradeoff(&ladders)?;
     timings.extend(of_runs(&ladders, &known_runs(args.runs.as_deref())?));
-    let mut text = format!(
-        "One prediction of the reduced model (equilibrium, six markers) on {}, one finite element run to 30 kPa \
+    let mut text = published(&ladders).text();
+    text += &format!(
+        "\nOne prediction of the reduced model (equilibrium, six markers) on {}, one finite element run to 30 kPa \
         (processor time); error of the published displacement: outermost marker, finite elements mean of seeds\n",
         machine()
     );
@@ -34,6 +37,21 @@ pub(super) fn run(args: &TradeoffArgs, context: &mut Context) -> Result<Outcome>
         write_files(folder, &files, &[], context)?;
     }
     Ok(Outcome::answer(text, "ibr.tradeoff", &TradeoffAnswer { machine: machine(), models: timings }))
+}
+
+/// The published displacements, and every model with one more effect.
+fn published(ladders: &[PublishedLadder]) -> Table<(&PublishedActuator, &Rung)> {
+    let rungs = ladders.iter().flat_map(|ladder| ladder.rungs.iter().map(move |rung| (&ladder.published, rung)));
+    Table::of(rungs)
+        .words("actuator", |(p, _)| &p.printed_name)
+        .words("model", |(_, rung)| &rung.label)
+        .words("how known", |(_, rung)| rung.known.word())
+        .number("model mm", 1, |(_, rung)| rung.y_m * 1e3)
+        .right("range mm", |(_, rung)| {
+            rung.range_m.map_or("–".into(), |r| format!("{:.1}–{:.1}", r[0] * 1e3, r[1] * 1e3))
+        })
+        .number("measured mm", 1, |(p, _)| p.d_max_m * 1e3)
+        .signed("difference mm", 1, |(p, rung)| (rung.y_m - p.d_max_m) * 1e3)
 }
 
 /// `ibr.tradeoff`: `ibr tradeoff`

@@ -8,7 +8,7 @@ use compare::validation::BeforeAfter;
 
 pub(super) fn run(args: &ValidateArgs, context: &mut Context) -> Result<Outcome> {
     let sigma_m = positive("--sigma", args.noise.sigma.as_ref())?;
-    let file = inputs::scenario_in_space(&args.scenario)?;
+    let file = ibr::studies::scenario(&args.scenario)?;
     let both = BeforeAfter::of(&file, &args.without)?;
     let mut found = Vec::new();
     for spec in &args.data {

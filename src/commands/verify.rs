@@ -18,7 +18,6 @@ pub(super) fn run(args: &VerifyArgs, context: &mut Context) -> Result<Outcome> {
     Ok(outcome)
 }
 
-/// An answer as a command says it.
 pub(super) fn show(answer: Findings) -> Outcome {
     let part = |part: Printed| match part {
         Printed::Text(text) => text,

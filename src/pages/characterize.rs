@@ -7,7 +7,6 @@ use compare::characterize::{BiasStrip, Characterized, OPTICAL_LIMIT_RAD, PAPER_L
 use models::fabrics::{Fabric, specimen as fit};
 use report::lines;
 
-/// Colour of all limits.
 const LIMIT: usize = 5;
 
 /// Every plot that the specimens allow, their mean curves, and what scenarios and cases take of them.
@@ -29,7 +28,6 @@ pub(crate) fn characterized_files(found: &Characterized, fabric: Option<&str>, p
     Ok(files)
 }
 
-/// Stress over strain along warp and fill.
 fn tension(found: &Characterized) -> Option<Lines> {
     let mut series = Vec::new();
     for (k, yarn) in found.yarns.iter().enumerate() {

@@ -1,16 +1,13 @@
 //! The page of a scenario compared with a dataset.
 
-use super::{Imprint, Result, Values, figures, residual_figure, tables};
+use super::{Maker, Result, Values, figures, residual_figure, tables};
 use crate::prelude::*;
 use crate::shown::comparison::CompareAnswer;
 use ::compare::study::Comparison;
 use data::About;
 
 /// The page of a comparison and its files.
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn compare_page(study: &Comparison, imprint: &Imprint) -> Result<Files> {
+pub fn compare_page(study: &Comparison, maker: &Maker) -> Result<Files> {
     let mut files = compare_files(study)?;
     let (first, dataset) = (&study.variants[0], &study.dataset);
     let values = Values::new()
@@ -21,14 +18,11 @@ pub fn compare_page(study: &Comparison, imprint: &Imprint) -> Result<Files> {
         .with("several_bodies", figures::several_bodies(dataset))
         .with("has_z", dataset.has_z())
         .with("map_colours", residual_figure::colours(dataset));
-    files.page("compare.html", values, imprint)?;
+    files.page("compare.html", values, maker)?;
     Ok(files)
 }
 
 /// Files of the page: plots and tables.
-///
-/// # Errors
-/// What cannot be drawn.
 pub fn compare_files(study: &Comparison) -> Result<Files> {
     let mut files = Files::default();
     let (first, dataset) = (&study.variants[0], &study.dataset);

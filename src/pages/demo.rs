@@ -1,91 +1,100 @@
-//! The page of the demonstration: what a reader needs first, and the commands that show the rest.
+//! The page of the demonstration: five panels, and the commands that show the rest.
 
-use super::diagnosis::{Diagnosed, draw, verdict};
+use super::diagnosis::{Diagnosed, draw};
 use super::engines::overview;
-use super::{Imprint, PAPER, Result, Values, figures, residual_figure};
+use super::{Maker, PAPER, Result, Values, residual_figure};
 use crate::prelude::*;
 use crate::shown::demo as shown;
-use crate::shown::held::HeldTable;
-use ::compare::demo::{Demo, HIDDEN_IN, Story};
+use ::compare::demo::{Demo, Mechanism, ROBOT};
 use ::compare::progress::shares::PICTURES as SHARES;
 use ::compare::progress::{Progress, part};
-use ::compare::study::Comparison;
-use ::compare::study::published::PublishedLadder;
-use data::published::printed;
+use report::{bars, lines};
 
 /// Pictures of the diagnosis that the page has.
-const PICTURES: [&str; 5] = ["missing_moment", "residuals_before", "ranking", "before_after", "candidates"];
+const PICTURES: [&str; 1] = ["missing_moment"];
+/// The robot in finite elements at 30 kPa.
+const ROBOT_PNG: &[u8] = include_bytes!("../../docs/robots/epam.png");
+/// Labels of its parts: text, where it is written, where its line ends.
+const LABELS: [(&str, [u32; 2], [u32; 2]); 4] = [
+    ("body, 2 kPa", [330, 560], [330, 440]),
+    ("pouch, 30 kPa", [250, 205], [330, 258]),
+    ("base, clamped", [30, 250], [86, 420]),
+    ("tip", [790, 180], [742, 80]),
+];
 
-/// The page of the demonstration and its plots.
-pub(crate) fn demo_page(demo: &Demo, imprint: &Imprint, progress: &mut Progress) -> Result<Files> {
+/// The pictures of the five panels.
+pub fn demo_plots(demo: &Demo, progress: &mut Progress) -> Result<Files> {
     let mut files = Files::default();
-    progress("plots of the published displacements", Some(0.0));
-    files.plot("published", figures::published_bars(&demo.ladders)?);
-    for ladder in &demo.ladders {
-        files.plot(&format!("ladder_{}", ladder.published.kind), figures::published_ladder(ladder)?);
-    }
-    progress("plots of both engines", Some(SHARES[0]));
-    let overview = overview(&demo.engines, &mut files)?;
-    progress("plots of the marker sets", Some(SHARES[1]));
-    let studies = demo.studies.iter().map(|study| draw_study(study, &mut files)).collect::<Result<Vec<_>, _>>()?;
-    let found = found(&demo.diagnosed);
-    draw(&found, "diagnosis_", &PICTURES, &mut files, &mut part(progress, [SHARES[2], 1.0]))?;
-    files.plot("tradeoff", figures::tradeoff(&demo.timings)?);
-    let values = Values::new()
-        .with("title", "Four pneumatic bending actuators: models held against measurements")
-        .with("ladders", demo.ladders.iter().map(ladder).collect::<Vec<_>>())
-        .with("measured", demo.measured.iter().map(HeldTable::of).collect::<Vec<_>>())
-        .with(
-            "published",
-            shown::published(&demo.ladders)
-                .page("Displacement at 30 kPa actuator and 2 kPa body pressure; measured: du Pasquier et al. 2023"),
-        )
-        .with("sets", shown::sets(&demo.studies).page(shown::SETS))
-        .with("studies", studies)
-        .with("diagnosis", verdict(&found))
-        .with("map_colours", residual_figure::MAP_COLOURS)
-        .with(
-            "provenance",
-            [
-                ["published numbers", PAPER],
-                ["marker sets", "synthetic, made by this program's generator; no measurement"],
-                ["machine", &imprint.machine],
-            ],
-        )
-        .and(overview);
-    files.page("demo.html", values, imprint)?;
+    files.plot("robot", Drawn { svg: report::labelled(ROBOT_PNG, [960, 600], &LABELS), png: ROBOT_PNG.to_vec() });
+    let map = &demo.compared.variants[0].evaluation.residual_map;
+    files.plot("residuals", residual_figure::map("Textbook model: where it misses", map, &demo.compared.dataset)?);
+    progress("plots of both engines", Some(0.0));
+    files.plot("breaking", lines(&breaking(demo))?);
+    draw(&found(demo), "", &PICTURES, &mut files, &mut part(progress, SHARES))?;
+    files.plot("waterfall", waterfall(demo)?);
     Ok(files)
 }
 
-fn found(story: &Story) -> Diagnosed<'_> {
+/// The page of the demonstration and its plots.
+pub(crate) fn demo_page(demo: &Demo, maker: &Maker, progress: &mut Progress) -> Result<Files> {
+    let mut files = demo_plots(demo, progress)?;
+    let overview = overview(&demo.engines, &mut files)?;
+    let values = Values::new()
+        .with("title", "Where a model of a vine robot fails, and what it lacks")
+        .with("panels", shown::panels(demo))
+        .with("typed", ROBOT)
+        .with("summary", &demo.diagnosis.summary)
+        .with("map_colours", residual_figure::MAP_COLOURS)
+        .with("provenance", [["published numbers", PAPER], ["markers", MARKERS], ["machine", &maker.machine]])
+        .and(overview);
+    files.page("demo.html", values, maker)?;
+    Ok(files)
+}
+
+/// Where the markers come from.
+const MARKERS: &str = "finite elements of this program with camera noise; no measurement";
+
+fn found(demo: &Demo) -> Diagnosed<'_> {
     Diagnosed {
-        diagnosis: &story.diagnosis,
-        scenario: &story.scenario,
-        dataset: &story.dataset,
-        about: story.about.as_ref(),
+        diagnosis: &demo.diagnosis,
+        scenario: &demo.robot,
+        dataset: &demo.data.dataset,
+        about: demo.data.about.as_ref(),
         witness: None,
-        typed: HIDDEN_IN,
+        typed: ROBOT,
         more: String::new(),
     }
 }
 
-fn ladder(l: &PublishedLadder) -> Values {
-    let (last_mm, measured_mm) = (figures::last(l).map_or(f64::NAN, |rung| rung.y_m * 1e3), l.published.d_max_m * 1e3);
-    Values::new()
-        .with("name", printed(&l.published.kind))
-        .with("kind", &l.published.kind)
-        .with("measured_mm", measured_mm)
-        .with("last_mm", last_mm)
-        .with("left_mm", last_mm - measured_mm)
-        .with("absorbing_nm2", l.calibrated_bending)
-        .with("bare_mm", l.rungs[0].y_m * 1e3)
+/// Errors of the model with one more mechanism in every group.
+fn waterfall(demo: &Demo) -> Result<Drawn> {
+    let name =
+        |m: &Mechanism| if m.effect.is_empty() { "textbook".into() } else { super::effect(&format!("+ {}", m.effect)) };
+    let series =
+        |words: &str, of: fn(&Mechanism) -> f64| (words.to_string(), demo.steps.iter().map(of).collect(), false);
+    let series = [series("data that chose", |m| m.error_mm), series("left-out data", |m| m.left_out_mm)];
+    let groups: Vec<String> = demo.steps.iter().map(name).collect();
+    Ok(bars("Mechanism by mechanism", "root mean square error [mm]", &groups, &series, None)?)
 }
 
-fn draw_study(study: &Comparison, files: &mut Files) -> Result<Values> {
-    let (first, name) = (&study.variants[0], &study.dataset.name);
-    let map = residual_figure::map("Bare model: where it misses", &first.evaluation.residual_map, &study.dataset)?;
-    files.plot(&format!("{name}_map"), map);
-    Ok(Values::new()
-        .with("data", name)
-        .with("where_it_fails", first.evaluation.where_it_fails.iter().map(|s| &s.sentence).collect::<Vec<_>>()))
+/// Outermost marker over pressure: the reduced model as a line, finite elements as points with their spread, open where the two are
+/// more than 15 % apart.
+fn breaking(demo: &Demo) -> Lines {
+    let mut series = Vec::new();
+    for (colour, robot) in shown::breaking(demo).iter().enumerate() {
+        let at: Vec<_> = [10.0, 20.0, 30.0].into_iter().filter_map(|kpa| Some((kpa, robot.marker_mm(kpa)?))).collect();
+        let reduced = at.iter().map(|(kpa, [reduced, ..])| [*kpa, *reduced]);
+        let reduced = std::iter::once([0.0, 0.0]).chain(reduced).collect();
+        series.push(LineSeries::new(robot.robot, LineStyle::Line, reduced).coloured(colour));
+        for (is_broken, style) in [(false, LineStyle::Points), (true, LineStyle::OpenPoints)] {
+            let own = || at.iter().filter(|(kpa, _)| robot.is_broken(*kpa) == is_broken);
+            let points: Vec<[f64; 2]> = own().map(|(kpa, [_, fe, _])| [*kpa, *fe]).collect();
+            if !points.is_empty() {
+                let errors = own().map(|(_, [.., sd])| *sd).collect();
+                series.push(LineSeries::new("", style, points).coloured(colour).with_errors(errors));
+            }
+        }
+    }
+    let title = "Lines: reduced model; points: finite elements";
+    Lines::new(title, "actuator pressure [kPa]", "outermost marker [mm]", series)
 }

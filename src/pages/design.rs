@@ -35,8 +35,9 @@ pub(crate) fn design_files(wish: &Wish, found: &Design, elements_m: Option<&[[f6
         keys.push(Key::new(KeyLook::Symbol(Symbol::Diamond, true), wished, "wished for"));
     }
     marks.push(Mark::Tip(end, format!("{} kPa", pressure_words(&found.loads)), predicted));
-    let chart = Chart::new(&found.file.scenario.name, "x along the robot at rest [mm]", "y sideways [mm]");
+    let mut chart = Chart::new(&found.file.scenario.name, "x along the robot at rest [mm]", "y sideways [mm]");
     let mut files = Files::default();
-    files.plot("shape", Chart { space: Space::Equal, marks, keys, ..chart }.draw("design")?);
+    (chart.space, chart.marks, chart.keys) = (Space::Equal, marks, keys);
+    files.plot("shape", chart.draw("design")?);
     Ok(files)
 }

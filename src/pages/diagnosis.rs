@@ -3,7 +3,7 @@
 use super::diagnosis_figures::{
     candidate_curves, ledger_cases, left_out, ranking, shown, supply, waterfall, witness_ledger,
 };
-use super::{Imprint, Result, Values, figures, moment_figure, residual_figure};
+use super::{Maker, Result, Values, figures, moment_figure, residual_figure};
 use crate::prelude::*;
 use crate::shown::diagnosis_tables as tables;
 use ::compare::diagnosis::words::listed;
@@ -40,22 +40,16 @@ pub struct Diagnosed<'a> {
 }
 
 /// The page of a diagnosis and its plots.
-///
-/// # Errors
-/// What cannot be drawn.
-pub fn diagnosis_page(found: &Diagnosed, imprint: &Imprint, progress: &mut Progress) -> Result<Files> {
+pub fn diagnosis_page(found: &Diagnosed, maker: &Maker, progress: &mut Progress) -> Result<Files> {
     let mut files = diagnosis_plots(found, progress)?;
     if let Some(missing) = &found.diagnosis.missing_moment {
         files.text("missing_moment.csv", missing.csv());
     }
-    files.page("diagnosis.html", values(found), imprint)?;
+    files.page("diagnosis.html", values(found), maker)?;
     Ok(files)
 }
 
 /// Its plots alone.
-///
-/// # Errors
-/// What cannot be drawn.
 pub fn diagnosis_plots(found: &Diagnosed, progress: &mut Progress) -> Result<Files> {
     let mut files = Files::default();
     draw(found, "", &diagnosis_pictures(), &mut files, progress)?;
@@ -127,7 +121,6 @@ pub(super) fn draw(
     Ok(())
 }
 
-/// What the template needs of the verdict box.
 pub(super) fn verdict(found: &Diagnosed) -> Values {
     let d = found.diagnosis;
     let verdict = match d.verdict {
@@ -252,7 +245,9 @@ fn witness(witness: Option<&Witness>) -> Values {
         "Outermost marker on first loading [mm]. Finite elements: the point of the wall where the marker sticks, on the side that a camera sees",
         "Ledgers from the first bend to the highest shared pressure [mJ]; apart: without hourglass control",
     ];
-    let shown = tables::finite_elements(w).into_iter().zip(captions).map(|(table, caption)| table.page(caption));
+    let [heights, ledgers] = captions;
+    let ledgers = tables::witness_ledgers(w).map(|table| table.page(ledgers));
+    let shown = std::iter::once(tables::witness_heights(w).page(heights)).chain(ledgers);
     Values::new().with("witness", Values::new().with("sentences", sentences).with("tables", shown.collect::<Vec<_>>()))
 }
 

@@ -13,13 +13,11 @@ use models::Step;
 use report as plots;
 
 const MM: f64 = 1e3;
-/// Points of a curve over pressure.
 const POINTS: u32 = 48;
 /// Curves go this much beyond the highest measured pressure, where candidates part.
 const BEYOND: f64 = 1.3;
 /// Candidates drawn as curves: as many as have a colour of their own beside the measurement's.
 const MOST_CURVES: usize = 7;
-/// Colour of the measurement.
 const MEASURED: usize = 5;
 /// Ledgers drawn beside that of finite elements: the base, those of the stated set, then the nearest.
 const MOST_LEDGERS: usize = 6;
@@ -72,7 +70,6 @@ pub(super) enum Rank {
     Rejected,
 }
 
-/// What each is called and its colour.
 const RANKS: [(Rank, &str, Ink); 5] = [
     (Rank::Alike, "cannot be told apart", Ink::Series(2)),
     (Rank::Attempt, "attempt", Ink::Series(1)),
@@ -115,7 +112,6 @@ pub(super) fn ranking(d: &Diagnosis) -> Result<Option<Drawn>> {
     Ok(Some(plots::rows(title, label, names, marks, keys).draw("ranking")?))
 }
 
-/// Which fitted B belongs to the first hold.
 pub(super) fn first_level(d: &Diagnosis, dataset: &Dataset) -> usize {
     d.level(dataset.holds.first().map_or(0.0, |h| h.p_body_pa * 1e-3))
 }
@@ -194,7 +190,6 @@ pub(super) fn waited_s(dataset: &Dataset) -> f64 {
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
-/// Words behind the name of an attempt.
 fn attempted(d: &Diagnosis, answer: &Answer) -> String {
     if answer.standing == Standing::Attempt { format!(" ({})", d.attempt_words()) } else { String::new() }
 }

@@ -2,7 +2,7 @@
 
 use super::diagnosis::{Diagnosed, diagnosis_page};
 use super::diagnosis_figures::{Rank, ranking_rows, shown, supply, waited_s, witness_cases};
-use super::{Imprint, figures, residual_figure};
+use super::{Maker, figures, residual_figure};
 use compare::Evidence;
 use compare::diagnosis::{Diagnosis, GaugeFit, Group, Options, Standing, Verdict, diagnose};
 use compare::evaluate::EvaluateOptions;
@@ -57,7 +57,7 @@ fn a_marker_that_slid_along_the_body_is_seen_in_the_residual_map() {
 fn page(diagnosis: &Diagnosis, scenario: &Scenario, dataset: &Dataset) -> String {
     let typed = ["S", "D"];
     let found = Diagnosed { diagnosis, scenario, dataset, about: None, witness: None, typed, more: String::new() };
-    let mut files = diagnosis_page(&found, &Imprint::default(), &mut |_, _| ()).unwrap().files;
+    let mut files = diagnosis_page(&found, &Maker::default(), &mut |_, _| ()).unwrap().files;
     String::from_utf8(files.pop().unwrap().1).unwrap()
 }
 

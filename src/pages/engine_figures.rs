@@ -2,8 +2,7 @@
 
 use super::Result;
 use crate::prelude::*;
-use compare::study::engines::{EnginePair, TERMS};
-use compare::study::engines::{EngineRobot, Engines, PartingMap};
+use compare::study::engines::{EnginePair, EngineRobot, Engines, PartingMap, TERMS};
 use data::published::printed;
 use models::actuators::Family;
 use report::{self as plots, number};
@@ -37,8 +36,9 @@ pub(crate) fn parting_plot(map: &PartingMap) -> Result<Drawn> {
     let space = Space::Grid(rows, columns.iter().map(head).collect());
     let heat = Some(("reduced tip minus finite element tip [% of the latter]".into(), 100.0 * STRONGEST));
     let title = format!("{}: where the models part", map.actuator);
-    let chart = Chart::new(title, "actuator pressure [kPa]", &map.row_label);
-    Ok(Chart { space, marks, heat, ..chart }.draw("breakdown map")?)
+    let mut chart = Chart::new(title, "actuator pressure [kPa]", &map.row_label);
+    (chart.space, chart.marks, chart.heat) = (space, marks, heat);
+    Ok(chart.draw("breakdown map")?)
 }
 
 /// Displacements at the highest pressure; `None` without runs.
@@ -63,7 +63,6 @@ pub(super) fn bars(engines: &Engines) -> Result<Option<Drawn>> {
     Ok(Some(plots::bars("Outermost marker at 30 kPa", "displacement [mm]", &groups, &series, None)?))
 }
 
-/// Series that a plot holds.
 const MOST_SERIES: usize = 24;
 
 /// χ over actuator pressure, a colour per robot: symbols with the scatter of seeds at its own body pressure, dashed below it
@@ -120,7 +119,6 @@ pub(super) fn curve(robot: &EngineRobot) -> Result<Drawn> {
     Ok(plots::lines(&Lines::new(title, x, y, all))?)
 }
 
-/// Ledgers at every pressure, both engines.
 fn ledger_cases(robot: &EngineRobot) -> Vec<plots::LedgerCase> {
     let ahead_cm3 = ahead_cm3(robot);
     let mut cases = Vec::new();

@@ -1,15 +1,14 @@
 //! Both engines and the published numbers on one page: displacement, accuracy, ledgers, and where the models part.
 
 use super::engine_figures::{bars, curve, displaced, ledger, parting_plot};
-use super::{Imprint, PAPER, Result, Values, marker_intervals, what_to_measure};
+use super::{Maker, PAPER, Result, Values, marker_intervals, what_to_measure};
 use crate::prelude::*;
-use crate::tables::PageTable;
-use ::compare::study::columns::{TextTable, csv};
-use ::compare::study::engines::{EngineRobot, Engines, LINES_CSV, line_table, lines, summary, volume_table};
+use crate::shown::engines as shown;
+use ::compare::study::columns::csv;
+use ::compare::study::engines::{EngineRobot, Engines, LINES_CSV, lines};
 use ::compare::study::uncertain::Uncertain;
 
-/// The page with its plots and tables.
-pub(crate) fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files> {
+pub(crate) fn engines_page(engines: &Engines, maker: &Maker) -> Result<Files> {
     let mut files = Files::default();
     let overview = overview(engines, &mut files)?;
     let (mut cubes, mut kinds, mut maps) = (Vec::new(), Vec::new(), Vec::new());
@@ -32,22 +31,18 @@ pub(crate) fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files
         files.plot(&name, parting_plot(map)?);
         maps.push(Values::new().with("name", name).with("mesh_mm", map.mesh_mm));
     }
-    let volumes = volume_table(&engines.robots);
+    let volumes = shown::volume_table(&engines.robots);
     let values = Values::new()
         .with("title", "Two engines against the published displacements")
         .with("lead", lead(engines))
         .with("cubes", cubes)
         .with("kinds", kinds)
         .with("maps", maps)
-        .with("volumes", (!volumes.rows.is_empty()).then(|| shown(volumes)))
-        .with("provenance", provenance(engines, imprint))
+        .with("volumes", (!volumes.is_empty()).then(|| volumes.page(shown::VOLUMES)))
+        .with("provenance", provenance(engines, maker))
         .and(overview);
-    files.page("engines.html", values, imprint)?;
+    files.page("engines.html", values, maker)?;
     Ok(files)
-}
-
-fn shown(table: TextTable) -> PageTable {
-    Table::finished(&table.heads, table.left, table.rows).page(table.caption)
 }
 
 /// One row a robot, with the bars of their displacements, and all lines as a table.
@@ -56,12 +51,12 @@ pub(super) fn overview(engines: &Engines, files: &mut Files) -> Result<Values> {
     for robot in &engines.robots {
         all.extend(lines(robot)?);
     }
-    let (summary, lines) = (summary(&engines.robots)?, line_table(&all));
+    let (summary, lines) = (shown::summary(&engines.robots)?, shown::line_table(&all).page(shown::LINES));
     files.text("engines.csv", csv(&LINES_CSV, &all));
     if let Some(bars) = bars(engines)? {
         files.plot("engines", bars);
     }
-    Ok(Values::new().with("summary", (!summary.rows.is_empty()).then(|| shown(summary))).with("lines", shown(lines)))
+    Ok(Values::new().with("summary", (!summary.is_empty()).then(|| summary.page(shown::SUMMARY))).with("lines", lines))
 }
 
 /// Heights of all markers with their intervals, and what to measure first.
@@ -95,15 +90,15 @@ fn lead(engines: &Engines) -> String {
     }
 }
 
-fn provenance(engines: &Engines, imprint: &Imprint) -> Vec<[String; 2]> {
+fn provenance(engines: &Engines, maker: &Maker) -> Vec<[String; 2]> {
     let mut lines = vec![["published numbers".into(), PAPER.into()]];
-    for run in engines.robots.iter().filter_map(|r| r.run.as_ref()) {
+    for run in engines.robots.iter().filter_map(|r| r.ensemble.runs.first()) {
         let what = format!(
             "{} mm elements, {} of them, {} steps, {:.0} CPU s, engine {}",
             run.mesh_mm[1], run.elements, run.steps, run.cpu_s, run.engine
         );
         lines.push([format!("run of {}", run.actuator), what]);
     }
-    lines.push(["machine".into(), imprint.machine.clone()]);
+    lines.push(["machine".into(), maker.machine.clone()]);
     lines
 }

@@ -3,22 +3,17 @@
 use super::Result;
 use crate::prelude::*;
 use compare::characterize::Scatter;
-use compare::study::Timing;
 use compare::study::predict::loads;
-use compare::study::published::PublishedLadder;
-use compare::study::{Comparison, Variant};
+use compare::study::{Comparison, Timing, Variant};
 use data::Phase;
-use data::published::printed;
 use report as plots;
 
 const MM: f64 = 1e3;
-/// Points of a drawn centre line.
 pub(super) const LINE_POINTS: usize = 80;
 /// Terms of a ledger that colours tell apart.
 const MOST_TERMS: usize = 8;
 /// Markers on a centre line; of more, every few from the outermost one on.
 const MOST_DRAWN: usize = 24;
-/// Centre lines in one plot.
 pub(super) const MOST_POSES: usize = 6;
 /// Body pressures are the same within this fraction.
 const SAME_BODY: f64 = 0.05;
@@ -108,10 +103,8 @@ pub(super) fn shapes(title: &str, scenario: &Scenario, dataset: &Dataset, axis: 
             drawn.clone().map(|m| side(place(m))).collect()
         };
         let seen = drawn.filter(|m| dataset.is_seen(h, *m));
-        let measured = seen.map(|m| {
-            let [mean, spread] = <[[f64; 3]; 2]>::from(measured(dataset, h, m)).map(side);
-            plots::MeasuredPoint { at_mm: mean.map(|v| v * MM), half_width_mm: spread.map(|v| v * MM) }
-        });
+        let measured =
+            seen.map(|m| <[[f64; 3]; 2]>::from(measured(dataset, h, m)).map(|place| side(place).map(|v| v * MM)));
         poses.push(plots::ShapePose {
             label: if several {
                 format!("{} kPa, body {}", act_kpa(hold), compare::wording::short(hold.p_body_pa / 1e3))
@@ -214,20 +207,6 @@ pub(super) fn known(known: Known) -> (&'static str, Ink) {
     (known.word(), ink)
 }
 
-/// Predicted against published displacement, rung by rung.
-pub(super) fn published_ladder(ladder: &PublishedLadder) -> Result<Drawn> {
-    let step = |rung: &compare::study::Rung| plots::LadderStep {
-        label: super::effect(&rung.label),
-        value: rung.y_m * MM,
-        range: rung.range_m.map(|r| r.map(|v| v * MM)),
-        known: known(rung.known),
-    };
-    let steps: Vec<_> = ladder.rungs.iter().map(step).collect();
-    let title = format!("{}: displacement at 30 kPa", printed(&ladder.published.kind));
-    let target = ("measured (published)".into(), ladder.published.d_max_m * MM);
-    Ok(plots::ladder(&title, "displacement of the outermost marker [mm]", &steps, Some(target))?)
-}
-
 /// Error beyond noise, rung by rung, with the noise floor.
 pub(super) fn error_ladder(title: &str, variants: &[Variant]) -> Result<Drawn> {
     let step = |v: &Variant| {
@@ -286,30 +265,7 @@ pub(super) fn ledgers(title: &str, cases: &[(String, Scenario)], loads: &Loads) 
     Ok(plots::ledger(title, "potential energy at equilibrium [mJ]", &terms, &cases)?)
 }
 
-/// Bare, last uncalibrated and published displacement of the four actuators.
-pub(super) fn published_bars(ladders: &[PublishedLadder]) -> Result<Drawn> {
-    let series = |name: &str, of: fn(&PublishedLadder) -> f64, grey| {
-        (name.to_string(), ladders.iter().map(|l| of(l) * MM).collect(), grey)
-    };
-    let groups: Vec<String> = ladders.iter().map(|l| printed(&l.published.kind).into()).collect();
-    let series = [
-        series("bare model", |l| l.rungs[0].y_m, false),
-        series("with effects, nothing fitted", |l| last(l).map_or(f64::NAN, |rung| rung.y_m), false),
-        series("measured (published)", |l| l.published.d_max_m, true),
-    ];
-    let title = "Displacement at 30 kPa: models and measurement";
-    Ok(plots::bars(title, "displacement of the outermost marker [mm]", &groups, &series, None)?)
-}
-
-/// The last rung of which nothing is fitted.
-pub(super) fn last(ladder: &PublishedLadder) -> Option<&compare::study::Rung> {
-    ladder.rungs.iter().rfind(|rung| rung.known != Known::Calibrated)
-}
-
 /// Run time against error, with a staircase through the points that no other beats in both. Calibrated reduced models have none.
-///
-/// # Errors
-/// What cannot be drawn.
 pub(crate) fn tradeoff(timings: &[Timing]) -> Result<Drawn> {
     let is_reduced = |t: &&Timing| t.engine == "reduced";
     let shown: Vec<&Timing> =
@@ -335,7 +291,9 @@ pub(crate) fn tradeoff(timings: &[Timing]) -> Result<Drawn> {
     let key = |(i, name): (usize, &&str)| Key::new(KeyLook::Symbol(Symbol::of(i), false), Ink::Series(i), name);
     let (x, y) = ("run time of one prediction", "error of the published displacement [%]");
     let keys = groups.iter().enumerate().map(key).collect();
-    Ok(Chart { space: Space::Log, marks, keys, ..Chart::new("Run time against error", x, y) }.draw("trade-off")?)
+    let mut chart = Chart::new("Run time against error", x, y);
+    (chart.space, chart.marks, chart.keys) = (Space::Log, marks, keys);
+    Ok(chart.draw("trade-off")?)
 }
 
 /// Staircase through the points that are the most accurate at their run time or less.

@@ -1,7 +1,7 @@
 //! The page of a climb: one effect after the other until what is left is noise.
 
 use super::diagnosis_figures::waterfall;
-use super::{Imprint, Result, Values};
+use super::{Maker, Result, Values};
 use crate::prelude::*;
 use ::compare::ladder::Climb;
 
@@ -15,7 +15,7 @@ pub(crate) struct Climbed<'a> {
 }
 
 /// The page of a ladder with its waterfall, and the scenario of every step.
-pub(crate) fn ladder_page(page: &Climbed, imprint: &Imprint) -> Result<Files> {
+pub(crate) fn ladder_page(page: &Climbed, maker: &Maker) -> Result<Files> {
     let Climbed { climb, names: [robot, data], typed, also } = page;
     let mut files = Files::default();
     climb.files.iter().for_each(|(name, text)| files.text(name, text.clone()));
@@ -32,6 +32,6 @@ pub(crate) fn ladder_page(page: &Climbed, imprint: &Imprint) -> Result<Files> {
         .with("told", &climb.told)
         .with("rungs", rungs)
         .with("provenance", provenance);
-    files.page("ladder.html", values, imprint)?;
+    files.page("ladder.html", values, maker)?;
     Ok(files)
 }

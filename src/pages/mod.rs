@@ -23,31 +23,32 @@ mod tables;
 mod tracks;
 mod uncertain;
 
+use crate::words::effect;
 pub(crate) use characterize::characterized_files;
 pub use compare::{compare_files, compare_page};
 pub(crate) use demo::demo_page;
+pub use demo::demo_plots;
 pub(crate) use design::design_files;
 pub(crate) use diagnosis::diagnosis_pictures;
 pub use diagnosis::{Diagnosed, diagnosis_page, diagnosis_plots};
 pub(crate) use engine_figures::parting_plot;
 pub(crate) use engines::engines_page;
+use fem::session::Maker;
 pub use figures::measured;
 pub(crate) use figures::tradeoff as tradeoff_plot;
 pub(crate) use ladder::{Climbed, ladder_page};
 pub(crate) use one_number::one_number_files;
 pub(crate) use pattern::pattern_sheet;
 pub use predicted::predicted_files;
+use report::Drawn;
 pub(crate) use run_plots::mesh_plot;
 pub use run_plots::run_plots;
-pub(crate) use sweep::{sweep_picture_names, sweep_pictures};
-pub use tables::residuals;
-pub(crate) use tracks::tracks_plot;
-pub(crate) use uncertain::{marker_intervals, what_to_measure};
-
-use crate::words::effect;
-use report::Drawn;
 use serde::Serialize;
 use serde_json::{Map, Value};
+pub(crate) use sweep::{sweep_picture_names, sweep_pictures};
+pub use tables::residuals;
+pub(crate) use tracks::{clock_plot, tracks_plot};
+pub(crate) use uncertain::{marker_intervals, what_to_measure};
 
 /// Files of one result, in memory until all are done; the report is last.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -93,8 +94,8 @@ impl Files {
     }
 
     /// Adds the page of a template, with the plots that were added before.
-    fn page(&mut self, template: &str, values: Values, imprint: &Imprint) -> Result<()> {
-        let Imprint { program, date, machine } = imprint;
+    fn page(&mut self, template: &str, values: Values, maker: &Maker) -> Result<()> {
+        let Maker { program, date, machine, .. } = maker;
         let values = Values::new().with("program", program).with("date", date).with("machine", machine).and(values);
         let svg = |(name, bytes): &(String, Vec<u8>)| {
             Some((name.strip_suffix(".svg")?.to_string(), String::from_utf8(bytes.clone()).ok()?))
@@ -111,12 +112,10 @@ impl Files {
 pub(crate) struct Values(Map<String, Value>);
 
 impl Values {
-    /// None yet.
     fn new() -> Values {
         Values::default()
     }
 
-    /// The fields of a result.
     fn of(result: &impl Serialize) -> Values {
         match serde_json::to_value(result) {
             Ok(Value::Object(fields)) => Values(fields),
@@ -137,7 +136,6 @@ impl Values {
     }
 }
 
-/// What makes a page or a picture.
 type Result<T, E = PageError> = std::result::Result<T, E>;
 
 /// What can go wrong when a page is made.
@@ -163,16 +161,4 @@ impl From<models::Unsolved> for PageError {
     }
 }
 
-/// Where the published numbers are from.
 const PAPER: &str = "du Pasquier, Jeong, Okamura, IEEE RA-L 2023, doi 10.1109/LRA.2023.3320010";
-
-/// Origin on every page.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Imprint {
-    /// Program and version.
-    pub program: String,
-    /// Date.
-    pub date: String,
-    /// Machine in words, for timings.
-    pub machine: String,
-}

@@ -1,4 +1,4 @@
-//! The missing moment → its picture: points with error bars, and the explanations as curves through them.
+//! The missing moment → its picture: points with error ellipses, and the explanations as curves through them.
 
 use super::Result;
 use crate::prelude::*;
@@ -30,6 +30,8 @@ pub(super) fn missing_moment(found: &MissingMoment, beside: &[FeMoment]) -> Resu
     marks.push(Mark::Line(vec![[0.0, 0.0], [furthest, 0.0]], Ink::Axis));
     marks.extend(found.curves.iter().map(|c| line(c, ink(&told, c))));
     marks.extend(finite_elements(beside));
+    let ellipse = |p: &&MomentPoint| Mark::Line(p.error_ellipse(), Ink::Series(nearest(&levels, p.p_act_kpa)));
+    marks.extend(points.iter().map(ellipse));
     marks.extend(points.iter().map(|p| point(p, &levels, &bodies)));
     marks.push(Mark::Tip([furthest, 0.0], "nothing missing".into(), Ink::Muted));
     marks.extend(tips(&found.curves, &told));
@@ -38,7 +40,9 @@ pub(super) fn missing_moment(found: &MissingMoment, beside: &[FeMoment]) -> Resu
     if !beside.is_empty() {
         keys.push(Key::new(KeyLook::SymbolLine(FINITE_ELEMENTS, true), Ink::Muted, "finite elements"));
     }
-    Ok(Some(Chart { marks, keys, ..Chart::new("What the model misses", x, y) }.draw("missing moment")?))
+    let mut chart = Chart::new("What the model misses", x, y);
+    (chart.marks, chart.keys) = (marks, keys);
+    Ok(Some(chart.draw("missing moment")?))
 }
 
 /// Distinct levels, rising; of many a few, evenly.
@@ -63,7 +67,6 @@ fn furthest(found: &MissingMoment) -> f64 {
 fn point(p: &MomentPoint, levels: &[f64], bodies: &[f64]) -> Mark {
     Mark::Point(Point {
         at: [p.bend_deg, p.moment_nm],
-        error: [p.bend_sd_deg, p.moment_sd_nm],
         ink: Ink::Series(nearest(levels, p.p_act_kpa)),
         symbol: Symbol::of(nearest(bodies, p.p_body_kpa)),
         open: p.phase == "unload",

@@ -9,7 +9,6 @@ use report::lines;
 /// Explanations drawn as curves: with the bare model and the published number as many as a plot holds.
 const MOST_CURVES: usize = 22;
 
-/// Displacement over pressure of every explanation.
 pub(crate) fn one_number_files(one: &OneNumber) -> Result<Files> {
     let mut files = Files::default();
     files.plot(&format!("one_number_{}", one.actuator), lines(&curves(one))?);
@@ -47,7 +46,7 @@ mod tests {
 
     #[test]
     fn every_explanation_is_drawn_the_ends_first_where_they_are_too_many() {
-        let mut one = one_number("cpam").unwrap();
+        let mut one = one_number("cpam-textbook").unwrap();
         let named = |one: &OneNumber| curves(one).series.iter().map(|s| s.name.clone()).collect::<Vec<_>>();
         assert_eq!(named(&one).len(), one.met_by.len() + 2);
         let inner = one.met_by.iter().find(|e| e.effect == "friction").unwrap().clone();

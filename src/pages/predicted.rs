@@ -7,9 +7,6 @@ use crate::prelude::*;
 use report::{ShapePose, Shapes, shapes};
 
 /// The first few predicted shapes in one plot.
-///
-/// # Errors
-/// What cannot be drawn.
 pub fn predicted_files(scenario: &Scenario, states: &[AtPressure]) -> Result<Files> {
     let model = Model::new(scenario);
     let mut files = Files::default();

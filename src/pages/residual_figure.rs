@@ -10,7 +10,6 @@ use report::number;
 
 /// Panels of the map in the plane, and the axes that their cells show.
 const PANELS: [(&str, usize); 2] = [("y, across the robot", 1), ("x, along the straight robot", 0)];
-/// The same with z.
 const PANELS_IN_SPACE: [(&str, usize); 3] =
     [("z, towards azimuth 90°", 2), ("y, towards azimuth 0°", 1), ("x, along the straight robot", 0)];
 const MM: f64 = 1e3;
@@ -24,7 +23,6 @@ const MAP_LIMIT: f64 = 10.0;
 pub(super) const MAP_COLOURS: &str = "Across (y), blue: the robot bends more than the model; orange: less. Along (x), blue: the \
     robot's marker lies farther out than the model's; orange: nearer to the base.";
 
-/// The same where markers have z.
 const MAP_COLOURS_IN_SPACE: &str =
     "Blue: the robot's marker lies farther out along the axis than the model's; orange: less far.";
 
@@ -75,8 +73,9 @@ pub(super) fn map(title: &str, map: &ResidualMap, dataset: &Dataset) -> Result<D
     let space = Space::Grid(places, columns.iter().map(column).collect());
     let heat = Some((format!("model − measured {unit}"), MAP_LIMIT));
     let title = format!("{title}{}", chosen(each_row, each_column));
-    let chart = Chart::new(title, "actuator pressure [kPa]", "marker station [mm]");
-    Ok(Chart { space, marks, heat, ..chart }.draw("residual map")?)
+    let mut chart = Chart::new(title, "actuator pressure [kPa]", "marker station [mm]");
+    (chart.space, chart.marks, chart.heat) = (space, marks, heat);
+    Ok(chart.draw("residual map")?)
 }
 
 /// Of every few neighbours, as many as leave no more than `most`, the one that is farthest off; and how many they are.

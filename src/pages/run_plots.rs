@@ -7,9 +7,6 @@ use report::lines;
 use std::collections::BTreeMap;
 
 /// `history.png` and `displacement.png` of a complete run of a robot.
-///
-/// # Errors
-/// Which plot cannot be drawn, and why.
 pub fn run_plots(loaded: &Loaded, run: &FeRun) -> Result<Vec<(String, Vec<u8>)>, String> {
     let Some(robot) = &loaded.robot else { return Ok(Vec::new()) };
     let name = &robot.scenario.name;

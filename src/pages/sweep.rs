@@ -62,5 +62,7 @@ fn map_of(map: &SweepMap, engine: Engine, what: &str) -> Result<Drawn> {
     let space = Space::Grid(map.names[0].iter().map(|name| ChartRow::beside(name)).collect(), columns.collect());
     let marks = map.means.iter().enumerate().flat_map(cells).collect();
     let heat = Some((format!("mean {what} [mm]"), most));
-    Ok(Chart { space, marks, heat, ..Chart::new(title, x_label, &map.keys[0]) }.draw("map of the sweep")?)
+    let mut chart = Chart::new(title, x_label, &map.keys[0]);
+    (chart.space, chart.marks, chart.heat) = (space, marks, heat);
+    Ok(chart.draw("map of the sweep")?)
 }

@@ -35,7 +35,6 @@ pub(super) fn holds(variants: &[Variant]) -> data::Table {
     }
 }
 
-/// A marker at a hold of a model.
 struct ResidualRow<'a> {
     variant: &'a Variant,
     hold: &'a Hold,

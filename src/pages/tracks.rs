@@ -2,6 +2,7 @@
 
 use super::Result;
 use crate::prelude::*;
+use data::ClockTracks;
 use data::import::RunTrack;
 
 /// y of every marker over time; behind it the holds, each with its pressure.
@@ -21,7 +22,27 @@ pub(crate) fn tracks_plot(track: &RunTrack) -> Result<Drawn> {
     let names = track.lines.iter().enumerate().filter(|_| few);
     keys.extend(names.map(|(k, (name, _))| Key::new(KeyLook::Line, Ink::Series(k), name)));
     let title = format!("Run {}: markers towards the actuator, and the holds found", track.run);
-    Ok(Chart { marks, keys, ..Chart::new(title, "time [s]", "y [mm]") }.draw("tracks")?)
+    let mut chart = Chart::new(title, "time [s]", "y [mm]");
+    (chart.marks, chart.keys) = (marks, keys);
+    Ok(chart.draw("tracks")?)
+}
+
+/// Both tracks of a clock that was refused, each over its range, with the times at which they change.
+pub(crate) fn clock_plot(tracks: &ClockTracks) -> Result<Drawn> {
+    let changes = |which: usize| {
+        let [low, high] = [[1.03, 1.13], [-0.13, -0.03]][which];
+        tracks.changes_s[which].iter().map(move |t| Mark::Line(vec![[*t, low], [*t, high]], Ink::Series(which)))
+    };
+    let lines = [&tracks.movement, &tracks.pressure];
+    let mut marks: Vec<Mark> = (0..2).map(|k| Mark::Line(lines[k].clone(), Ink::Series(k))).collect();
+    marks.extend(changes(0).chain(changes(1)));
+    let [moved, pressed] = [0, 1].map(|which| tracks.changes_s[which].len());
+    let keys = vec![
+        Key::new(KeyLook::Line, Ink::Series(0), &format!("movement, {moved} changes (above)")),
+        Key::new(KeyLook::Line, Ink::Series(1), &format!("pressure, {pressed} changes (below)")),
+    ];
+    let title = format!("Movement and pressure, the log's clock {:.2} s ahead of the camera's", tracks.offset_s);
+    Ok(Chart { marks, keys, ..Chart::new(title, "time of the log [s]", "share of the range") }.draw("clock")?)
 }
 
 /// Names that a legend can hold.

@@ -3,13 +3,11 @@
 use crate::prelude::*;
 use crate::words::hold_name;
 use compare::metrics::{HoldMetrics, OverallMetrics};
-use compare::{Evaluation, NoiseSummary, ScalingCheck};
-
 use compare::residuals::ResidualMap;
-
 use compare::study::comparison::{Comparison, Variant};
 use compare::validation::{HowFar, Validation};
 use compare::where_it_fails::Statement;
+use compare::{Evaluation, NoiseSummary, ScalingCheck};
 
 /// `ibr.compare`: `ibr compare SCENARIO DATA`
 #[derive(Serialize)]

@@ -1,179 +1,233 @@
-//! The demonstration.
+//! The demonstration: five panels of text.
 
-use super::held::{self, HeldTable};
 use crate::prelude::*;
+use crate::tables::PageTable;
 use compare::Diagnosis;
-use compare::bench::Held;
-use compare::demo::{Demo, Told};
-use compare::metrics::OverallMetrics;
-use compare::study::published::PublishedLadder;
-use compare::study::{Comparison, Rung, Timing, Variant};
+use compare::demo::{Demo, Mechanism, ROBOT};
+use compare::residuals::{HoldLabel, ResidualCell};
+use compare::study::Comparison;
+use compare::study::engines::EngineLine;
 use compare::where_it_fails::Statement;
-use data::published::PublishedActuator;
-use fem::robot::Reading;
 
-/// Every rung of every ladder.
-pub(crate) fn published(ladders: &[PublishedLadder]) -> Table<(&PublishedActuator, &Rung)> {
-    let rungs = ladders.iter().flat_map(|ladder| ladder.rungs.iter().map(move |rung| (&ladder.published, rung)));
-    Table::of(rungs)
-        .words("actuator", |(p, _)| &p.printed_name)
-        .words("model", |(_, rung)| &rung.label)
-        .words("how known", |(_, rung)| rung.known.word())
-        .number("model mm", 1, |(_, rung)| rung.y_m * 1e3)
-        .right("range mm", |(_, rung)| {
-            rung.range_m.map_or("–".into(), |r| format!("{:.1}–{:.1}", r[0] * 1e3, r[1] * 1e3))
-        })
-        .number("measured mm", 1, |(p, _)| p.d_max_m * 1e3)
-        .signed("difference mm", 1, |(p, rung)| (rung.y_m - p.d_max_m) * 1e3)
+/// Mechanisms that panel 3 lists.
+const CANDIDATES: usize = 3;
+/// Actuator pressures that panel 2 lists \[kPa\].
+const SHOWN_KPA: [f64; 4] = [5.0, 10.0, 20.0, 30.0];
+/// Share by which the models differ where the reduced one is called broken down.
+const BREAKDOWN: f64 = 0.15;
+
+/// A panel of the demonstration, for the terminal, the report and the page in a browser.
+#[derive(Serialize)]
+pub struct Panel {
+    title: &'static str,
+    lead: String,
+    /// Name of its picture, and the caption.
+    picture: &'static str,
+    caption: &'static str,
+    /// The table as text, and for a page.
+    #[serde(skip)]
+    text: String,
+    table: Option<PageTable>,
 }
 
-/// What has just been computed, for readers.
-pub(crate) fn text(told: Told) -> String {
-    match told {
-        Told::Measured(all) => {
-            let short =
-                |h: &Held| if h.rows.len() > 8 { format!("{}\n{}", h.title, held::closing(h)) } else { held::text(h) };
-            format!("Measured things first\n{}", all.iter().map(|h| format!("\n{}", short(h))).collect::<String>())
-        }
-        Told::Published(ladders) => {
-            let title = "Displacement at 30 kPa against the published measurement (du Pasquier et al. 2023)";
-            format!("\n{title}\n{}", published(ladders).text())
-        }
-        Told::Sets(found) => sets_text(found),
-        Told::Missing(d) => {
-            format!("\nWhat is missing in {} on {}:\n{}", d.scenario, d.dataset, lines("  - ", &d.summary))
-        }
+impl Panel {
+    fn new(title: &'static str, lead: String, [picture, caption]: [&'static str; 2]) -> Panel {
+        Panel { title, lead, picture, caption, text: String::new(), table: None }
+    }
+
+    fn with<R>(self, table: impl Fn() -> Table<R>) -> Panel {
+        Panel { text: table().text(), table: Some(table().page(self.title)), ..self }
     }
 }
 
-/// Title of [`sets`].
-pub(crate) const SETS: &str = "Synthetic marker sets: error beyond noise as effects are added";
-
-/// Every model of every set of markers.
-pub(crate) fn sets(found: &[Comparison]) -> Table<(&Comparison, &Variant, &OverallMetrics)> {
-    let models = found.iter().flat_map(|c| c.variants.iter().map(move |v| (c, v, &v.evaluation.metrics.overall)));
-    Table::of(models)
-        .words("data", |(c, ..)| &c.dataset.name)
-        .words("model", |(_, v, _)| &v.label)
-        .words("how known", |(_, v, _)| v.known.word())
-        .number("paper acc. %", 1, |(.., all)| all.paper_accuracy.map(|a| 100.0 * a))
-        .number("beyond noise mm", 2, |(.., all)| all.systematic_mm)
-        .number("χ²/dof", 1, |(.., all)| all.reduced_chi2)
-        .signed("largest tip error mm", 1, |(.., all)| all.largest_tip_error_mm)
+/// What a vine robot is.
+fn robot(demo: &Demo) -> String {
+    let Scenario { name, length_m, radius_m, p_body_pa, actuator, markers_m, .. } = &demo.robot;
+    format!(
+        "Air at {} kPa keeps a thin fabric tube, the body, straight. Pouches along one side shorten under up to 30 kPa and bend it. A camera \
+         follows markers on it. {name}: {:.0} mm long, {:.0} mm thick, {} pouches, {} markers.",
+        p_body_pa / 1e3,
+        1e3 * length_m,
+        2e3 * radius_m,
+        actuator.count,
+        markers_m.len()
+    )
 }
 
-fn sets_text(found: &[Comparison]) -> String {
-    let fails = found.iter().filter_map(|c| Some((c, c.variants[0].evaluation.where_it_fails.first()?)));
-    let fails = lines("  - ", fails.map(|(c, s)| format!("{}: {}", c.dataset.name, s.sentence)));
-    format!("{}\nWhere the bare models fail:\n{fails}", sets(found).under(SETS))
+/// Height of the outermost marker by hold.
+fn heights(found: &Comparison) -> Table<(&HoldLabel, &ResidualCell, f64)> {
+    let (map, data) = (&found.variants[0].evaluation.residual_map, &found.dataset);
+    let mean = data.mean_over_runs();
+    let measured = |hold: usize| {
+        let of = |sample: usize| mean[data.offset(hold, sample, map.tip) + 1];
+        1e3 * (0..data.samples_per_hold).map(of).sum::<f64>() / data.samples_per_hold as f64
+    };
+    let rows = map.holds.iter().enumerate().map(|(h, label)| (label, &map.cells[map.tip][h], measured(h)));
+    let is_shown = |label: &HoldLabel| SHOWN_KPA.contains(&label.p_act_kpa);
+    Table::of(rows.filter(|(label, ..)| is_shown(label)).collect::<Vec<_>>())
+        .number("actuator kPa", 0, |(label, ..)| label.p_act_kpa)
+        .number("model mm", 1, |(_, cell, measured)| measured + cell.y.mm)
+        .number("camera mm", 1, |(.., measured)| *measured)
+        .signed("difference mm", 1, |(_, cell, _)| cell.y.mm)
+        .number("times the noise", 0, |(_, cell, _)| cell.y.in_noise.map(f64::abs))
 }
+
+/// The nearest mechanisms.
+fn candidates(demo: &Demo) -> Table<&Mechanism> {
+    Table::of(demo.candidates.iter().take(CANDIDATES))
+        .words("effect", |m| &m.effect)
+        .number("leaves mm", 1, |m| m.error_mm)
+        .words("what it is", |m| &m.sentence)
+}
+
+/// The model with one more mechanism in every row.
+fn steps(demo: &Demo) -> Table<&Mechanism> {
+    Table::of(&demo.steps)
+        .words("model", |m| if m.effect.is_empty() { "textbook".into() } else { format!("+ {}", m.effect) })
+        .number("error mm", 1, |m| m.error_mm)
+        .number("left-out data mm", 1, |m| m.left_out_mm)
+}
+
+/// Reduced model and finite elements of a robot at the pressures of the paper.
+pub(crate) struct Breaking<'d> {
+    pub(crate) robot: &'d str,
+    lines: Vec<&'d EngineLine>,
+}
+
+impl Breaking<'_> {
+    fn of(&self, kpa: f64, source: &str) -> Option<&EngineLine> {
+        self.lines.iter().copied().find(|line| line.actuator_kpa == kpa && line.source.starts_with(source))
+    }
+
+    /// Marker of the reduced model and of the finite elements, and the latter's spread over seeds \[mm\].
+    pub(crate) fn marker_mm(&self, kpa: f64) -> Option<[f64; 3]> {
+        let (reduced, fe) = (self.of(kpa, REDUCED)?, self.of(kpa, ELEMENTS)?);
+        Some([reduced.marker_mm?, fe.marker_mm?, fe.spread_mm.unwrap_or(0.0)])
+    }
+
+    /// Whether the reduced model has broken down there.
+    pub(crate) fn is_broken(&self, kpa: f64) -> bool {
+        self.marker_mm(kpa).is_some_and(|[reduced, fe, _]| (reduced / fe - 1.0).abs() > BREAKDOWN)
+    }
+
+    fn pair(&self, kpa: f64) -> String {
+        let mark = if self.is_broken(kpa) { "*" } else { " " };
+        self.marker_mm(kpa).map_or("–".into(), |[reduced, fe, sd]| format!("{reduced:.0} / {fe:.0} ± {sd:.1}{mark}"))
+    }
+
+    fn accuracies(&self) -> String {
+        let at = |kpa: f64| self.of(kpa, PAPER).and_then(|line| line.accuracy).map(|a| 100.0 * a);
+        let own = |source| self.of(30.0, source).and_then(|line| line.accuracy).map(|a| 100.0 * a);
+        let paper = [10.0, 20.0, 30.0].map(|kpa| number(at(kpa), 0)).join(" ");
+        format!("{}, {}; {paper}", number(own(REDUCED), 0), number(own(ELEMENTS), 0))
+    }
+}
+
+/// How the sources of lines begin.
+const REDUCED: &str = "reduced, as shipped";
+const ELEMENTS: &str = "finite elements";
+const PAPER: &str = "the paper's";
+const MEASURED: &str = "measurement";
+
+/// Robots of the last panel.
+pub(crate) fn breaking(demo: &Demo) -> Vec<Breaking<'_>> {
+    let mut robots: Vec<Breaking> = Vec::new();
+    for line in &demo.lines {
+        match robots.iter_mut().find(|robot| robot.robot == line.robot) {
+            Some(robot) => robot.lines.push(line),
+            None => robots.push(Breaking { robot: &line.robot, lines: vec![line] }),
+        }
+    }
+    robots
+}
+
+/// Both engines at the pressures of the paper.
+fn breaking_table(demo: &Demo) -> Table<Breaking<'_>> {
+    Table::of(breaking(demo))
+        .words("robot", |b| b.robot)
+        .right("10 kPa", |b| b.pair(10.0))
+        .right("20 kPa", |b| b.pair(20.0))
+        .right("30 kPa", |b| b.pair(30.0))
+        .number("measured, 30 kPa", 1, |b| b.of(30.0, MEASURED).and_then(|line| line.marker_mm))
+        .right("accuracy %", Breaking::accuracies)
+}
+
+/// The five panels.
+pub fn panels(demo: &Demo) -> [Panel; 5] {
+    let [first, last] = [demo.steps.first(), demo.steps.last()].map(|step| step.map_or(f64::NAN, |s| s.error_mm));
+    let fails = &demo.compared.variants[0].evaluation.where_it_fails;
+    let fails = fails.first().map_or("", |Statement { sentence, .. }| sentence);
+    [
+        Panel::new("This is a vine robot", robot(demo), ROBOT_PICTURE),
+        Panel::new("A model predicts, a camera disagrees", CAMERA.into(), RESIDUALS).with(|| heights(&demo.compared)),
+        Panel::new("Which effect is missing?", format!("{fails} {ALONE}"), MISSING_MOMENT).with(|| candidates(demo)),
+        Panel::new("Add it, and the error falls", format!("From {first:.1} to {last:.1} mm. {ADDED}"), WATERFALL)
+            .with(|| steps(demo)),
+        Panel::new("Where the analytic model breaks", BREAKING.into(), BREAKING_PICTURE).with(|| breaking_table(demo)),
+    ]
+}
+
+/// The five panels as text.
+pub(crate) fn text(demo: &Demo) -> String {
+    let rest = format!(
+        "Everything else: `ibr list datasets`, `ibr tradeoff`, `ibr breakdown`, and `ibr diagnose {}-textbook {} --out FOLDER`.\n",
+        ROBOT[0], ROBOT[1]
+    );
+    let panel =
+        |(k, panel): (usize, Panel)| format!("{}. {}\n{}{}", k + 1, panel.title, wrapped(&panel.lead, 0), panel.text);
+    panels(demo).into_iter().enumerate().map(panel).collect::<String>() + &wrapped(&rest, 0)
+}
+
+/// Lead of panel 2.
+const CAMERA: &str = "The textbook model, and the same robot in finite elements with every mechanism, seen by a camera in 5 runs. Outermost marker:";
+/// Lead of panel 3.
+const ALONE: &str = "Mechanisms of how it is made, each added alone, none of their numbers fitted:";
+/// Lead of panel 4.
+const ADDED: &str = "Each row adds the mechanism that leaves least. Left-out data: twice the body pressure.";
+/// Lead of panel 5.
+const BREAKING: &str = "Four published robots: pouches taped onto the body (sPAM), folded (cPAM) or in its wall (ePAM), and a fabric muscle \
+     (fPAM). Outermost marker in mm: reduced model / finite elements ± spread of 5 seeds; * more than 15 % apart. Accuracy, \
+     1 − (relative error)²: reduced and finite elements at 30 kPa; the paper's own at 10, 20, 30 kPa.";
+
+/// Names of the pictures, and their captions.
+const ROBOT_PICTURE: [&str; 2] =
+    ["robot", "The ePAM at 30 kPa in finite elements; colours are von Mises stress in MPa."];
+const RESIDUALS: [&str; 2] = ["residuals", "Model minus camera, in units of the noise, for every marker and hold."];
+const MISSING_MOMENT: [&str; 2] = [
+    "missing_moment",
+    "Each point is a hold: the moment that would have to join the model's own to hold the robot in the measured bend, with the ellipse \
+     of one standard deviation. On the line at 0 nothing is missing; below it something holds the robot back.",
+];
+const WATERFALL: [&str; 2] = ["waterfall", "Root mean square error over all markers and holds."];
+const BREAKING_PICTURE: [&str; 2] = [
+    "breaking",
+    "Open symbols: more than 15 % apart, because the pouches are not yet round or the body has buckled. Error bars: spread of the seeds.",
+];
 
 /// `ibr.demo`: `ibr demo`
 #[derive(Serialize)]
 pub(crate) struct DemoAnswer<'a> {
-    /// Bench tests with their models
-    pub measured: Vec<HeldTable<'a>>,
-    /// Published displacements, and models with more and more effects
-    pub published: Vec<PublishedRungs<'a>>,
-    /// Synthetic marker data with the same models
-    pub marker_sets: Vec<MarkerSet<'a>>,
-    /// The missing effect in one of the sets
-    pub diagnosis: &'a Diagnosis,
-    /// Run time against error
-    pub timings: &'a [Timing],
-    /// A finite element run made just now
-    pub small_run: SmallRun<'a>,
-}
-
-/// A published displacement, and models with more and more effects.
-#[derive(Serialize)]
-pub(crate) struct PublishedRungs<'a> {
-    /// Name of the actuator
-    pub actuator: &'a str,
-    /// Published displacement
-    pub measured_mm: f64,
-    /// How it is known
-    pub measured_is: Known,
-    /// Models, each with one more effect
-    pub rungs: &'a [Rung],
-    /// Stiffness that the bare model would need, if there is one
-    pub calibrated_bending_nm2: Option<f64>,
-}
-
-/// Marker data and the models compared with them.
-#[derive(Serialize)]
-pub(crate) struct MarkerSet<'a> {
-    /// Name of the data
-    pub data: &'a str,
-    /// Models, each with one more effect
-    pub models: Vec<MarkerModel<'a>>,
-    /// Where the bare model fails
+    /// The textbook model beside the data
     pub where_it_fails: &'a [Statement],
-}
-
-/// A model compared with marker data.
-#[derive(Serialize)]
-pub(crate) struct MarkerModel<'a> {
-    /// What was added
-    pub model: &'a str,
-    /// How its value is known
-    pub how_known: Known,
-    /// Errors over all holds
-    pub overall: &'a OverallMetrics,
-}
-
-/// A finite element run made just now.
-#[derive(Serialize)]
-pub(crate) struct SmallRun<'a> {
-    /// Elements
-    pub elements: usize,
-    /// Processor time
-    pub cpu_s: f64,
-    /// Energy that is missing in the balance, as a share
-    pub residual_share: f64,
-    /// Buckling events
-    pub buckling_events: usize,
-    /// States, by time
-    pub readings: &'a [Reading],
+    /// Mechanisms of the shipped robot, each alone in the textbook model, the nearest first
+    pub candidates: &'a [Mechanism],
+    /// What a diagnosis reports of the textbook model, its stiffness kept
+    pub diagnosis: &'a Diagnosis,
+    /// The textbook model, and one more mechanism in every step
+    pub steps: &'a [Mechanism],
+    /// Four robots at the pressures of the paper, by every source
+    pub lines: &'a [EngineLine],
 }
 
 impl<'a> DemoAnswer<'a> {
-    /// Of the demonstration and the run that was made with it.
-    pub(crate) fn of(demo: &'a Demo, small_run: SmallRun<'a>) -> DemoAnswer<'a> {
+    /// Of the demonstration.
+    pub(crate) fn of(demo: &'a Demo) -> DemoAnswer<'a> {
         DemoAnswer {
-            measured: demo.measured.iter().map(HeldTable::of).collect(),
-            published: demo.ladders.iter().map(PublishedRungs::of).collect(),
-            marker_sets: demo.studies.iter().map(MarkerSet::of).collect(),
-            diagnosis: &demo.diagnosed.diagnosis,
-            timings: &demo.timings,
-            small_run,
-        }
-    }
-}
-
-impl<'a> PublishedRungs<'a> {
-    fn of(ladder: &'a PublishedLadder) -> PublishedRungs<'a> {
-        PublishedRungs {
-            actuator: &ladder.published.kind,
-            measured_mm: ladder.published.d_max_m * 1e3,
-            measured_is: Known::Published,
-            rungs: &ladder.rungs,
-            calibrated_bending_nm2: ladder.calibrated_bending,
-        }
-    }
-}
-
-impl<'a> MarkerSet<'a> {
-    fn of(found: &'a Comparison) -> MarkerSet<'a> {
-        let models = found.variants.iter().map(|v| MarkerModel {
-            model: &v.label,
-            how_known: v.known,
-            overall: &v.evaluation.metrics.overall,
-        });
-        MarkerSet {
-            data: &found.dataset.name,
-            models: models.collect(),
-            where_it_fails: &found.variants[0].evaluation.where_it_fails,
+            where_it_fails: &demo.compared.variants[0].evaluation.where_it_fails,
+            candidates: &demo.candidates,
+            diagnosis: &demo.diagnosis,
+            steps: &demo.steps,
+            lines: &demo.lines,
         }
     }
 }

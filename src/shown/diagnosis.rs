@@ -1,6 +1,6 @@
 //! A diagnosis, as a page to read; its tables are in `diagnosis_tables.rs`.
 
-use super::diagnosis_tables::tables;
+use super::diagnosis_tables::{is_told, tables};
 use crate::prelude::*;
 use compare::diagnosis::words::{listed, three, with_unit};
 use compare::diagnosis::{Diagnosis, Ranked, Verdict, taken_away};
@@ -134,18 +134,13 @@ fn to_check(d: &Diagnosis) -> String {
     out
 }
 
-/// It is stated in words: of the answer, or of the set where no pair is stated.
-pub fn is_told(d: &Diagnosis, r: &Ranked) -> bool {
-    d.speaks_of(&r.effect) || r.in_set && d.pairs.is_empty()
-}
-
 /// The effects that hide best, and what these data cannot show.
 fn not_seen(d: &Diagnosis) -> String {
     let mut hidden: Vec<_> =
         d.undetectable.iter().filter_map(|u| Some((u, u.smallest_detectable?, u.times_typical?))).collect();
     hidden.sort_by(|a, b| b.2.total_cmp(&a.2));
     let sizes =
-        hidden.iter().take(4).map(|(u, size, _)| format!("{} below {}", u.effect, with_unit(&three(*size), &u.unit)));
+        hidden.iter().take(3).map(|(u, size, _)| format!("{} below {}", u.effect, with_unit(&three(*size), &u.unit)));
     let sizes: Vec<String> = sizes.collect();
     let mut out =
         if sizes.is_empty() { "\n".into() } else { wrapped(&format!("\nCould not be seen: {}.", sizes.join(", ")), 2) };

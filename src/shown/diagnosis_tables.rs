@@ -1,17 +1,18 @@
 //! Every table of a diagnosis.
 
-use super::diagnosis::is_told;
+use super::engines::over_seeds;
 use crate::prelude::*;
 use compare::diagnosis::words::{listed, three, with_unit};
 use compare::diagnosis::{Combination, Diagnosis, Group, Ranked, Separation, Undetectable};
-use compare::study::engines::TERMS;
-use compare::witness::{HEIGHTS, Witness};
+use compare::study::engines::{Energies, TERMS};
+use compare::witness::{Height, Witness};
+use compare::wording::short;
 
 pub(crate) fn tables(d: &Diagnosis, witness: Option<&Witness>) -> String {
     let base = format!("(base: {:.2} mm beyond noise):", d.base.systematic_mm);
     let ranking: String = ranking(d).into_iter().map(|(title, rows)| rows.under(&format!("{title} {base}"))).collect();
     let finite_elements = witness.map_or(String::new(), |w| {
-        let tables: String = finite_elements(w).into_iter().map(Table::text).collect();
+        let tables = witness_heights(w).text() + &witness_ledgers(w).map_or(String::new(), Table::text);
         format!("\nThe same robot in finite elements:\n{}{tables}", lines("  - ", &w.sentences))
     });
     let unseen = format!("\n{UNSEEN}:\n{}{}", unseen(d).text(), lines("note: ", &d.limits));
@@ -24,6 +25,11 @@ pub(crate) const MARKS: &str = "= cannot be told from the best · ! on a physica
 
 /// What [`unseen`] shows.
 pub(crate) const UNSEEN: &str = "Effects not found; smallest size that would have been seen (90 %)";
+
+/// It is stated in words: of the answer, or of the set where no pair is stated.
+pub(crate) fn is_told(d: &Diagnosis, r: &Ranked) -> bool {
+    d.speaks_of(&r.effect) || r.in_set && d.pairs.is_empty()
+}
 
 /// Every effect alone, in two blocks with their titles.
 pub(crate) fn ranking(d: &Diagnosis) -> [(&'static str, Table<&Ranked>); 2] {
@@ -96,11 +102,24 @@ fn details(d: &Diagnosis) -> String {
     out + &format!("\nWhere the final model still fails:\n{fails}")
 }
 
-/// Heights, then ledgers where there are some.
-pub(crate) fn finite_elements(w: &Witness) -> Vec<Table<Vec<String>>> {
-    let ledgers = || Table::finished(&[&["energies mJ"], &TERMS[..], &["apart"]].concat(), 1, w.ledger_rows());
-    let heights = Table::finished(&HEIGHTS, 1, w.height_rows());
-    std::iter::once(heights).chain(w.fe_mj.map(|_| ledgers())).collect()
+pub(crate) fn witness_heights(w: &Witness) -> Table<&Height> {
+    Table::of(&w.heights)
+        .words("actuator kPa", |h| short(h.actuator_kpa))
+        .number("measured", 1, |h| h.measured_mm)
+        .number("calibrated B", 1, |h| h.base_mm)
+        .number("final model", 1, |h| h.best_mm)
+        .right("finite elements", |h| over_seeds(Some((h.fe_mm, h.fe_sd_mm)), 1))
+}
+
+/// Ledgers of the models, then that of the finite elements; none without the latter.
+pub(crate) fn witness_ledgers(w: &Witness) -> Option<Table<(&str, &Energies, Option<f64>)>> {
+    let fe = w.fe_mj.as_ref().map(|fe| ("finite elements", fe, None))?;
+    let models = w.models.iter().map(|m| (m.name.as_str(), &m.energies_mj, Some(m.apart_mj)));
+    let mut ledgers = Table::of(models.chain([fe])).words("energies mJ", |(name, ..)| *name);
+    for (k, term) in TERMS.into_iter().enumerate() {
+        ledgers = ledgers.number(term, 0, |(_, energies_mj, _)| energies_mj[k]);
+    }
+    Some(ledgers.number("apart", 0, |(.., apart_mj)| *apart_mj))
 }
 
 pub(crate) fn unseen(d: &Diagnosis) -> Table<&Undetectable> {

@@ -105,7 +105,7 @@ impl<'a> AddAnswer<'a> {
             scenario_sha256: file.sha256(),
             written,
             effects: found.additions.iter().map(effect).collect(),
-            bending_nm2: found.bending.as_ref().map(|b| b.value_nm2),
+            bending_nm2: found.bending.as_ref().map(|b| b.value),
             before: found.steps.iter().rev().nth(1),
             after: found.steps.last(),
             rungs: &found.steps,

@@ -1,9 +1,10 @@
 //! Results as tables and sentences, and as JSON.
 
 pub mod comparison;
-pub(crate) mod demo;
+pub mod demo;
 pub mod diagnosis;
 pub(crate) mod diagnosis_tables;
+pub(crate) mod engines;
 pub mod extension;
 pub(crate) mod held;
 pub mod predicted;

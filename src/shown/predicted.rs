@@ -6,7 +6,7 @@ use data::Column;
 use ibr::AtPressure;
 use models::assembly::Segment;
 use models::space::SectionState;
-use models::{Beyond, CHANNELS, End, Limit, Row, Steered, TipSlope};
+use models::{Beyond, CHANNELS, End, Limit, Prediction, Row, Steered, TipSlope};
 
 /// For readers.
 pub fn text(scenario: &Scenario, states: &[AtPressure]) -> String {
@@ -70,7 +70,6 @@ fn slope_words(mm_per_kpa: f64) -> String {
     if mm_per_kpa.is_nan() { "-".into() } else { format!("{mm_per_kpa:.3}") }
 }
 
-/// The body's fabric in the scenario.
 fn wall_words(scenario: &Scenario) -> String {
     let wall = &scenario.wall;
     let part = |name: &str, value: Option<f64>| value.map(|v| format!(", {name} {v:.0} N/m"));
@@ -216,25 +215,25 @@ impl PredictedState {
 }
 
 /// A note for every stretch of a pose that the robot would not hold.
-pub fn beyond_words(model: &Model, state: &AtPressure) -> Vec<String> {
+pub fn beyond_words(model: &Model, loads: &Loads, at: &Prediction) -> Vec<String> {
     let words = |beyond: Beyond| {
         let (from, to) = (beyond.start_m * 1e3, (beyond.start_m + beyond.length_m) * 1e3);
         let what = match beyond.limit {
-            Limit::Collapse => "the loads carry {} times the moment at which the inflated body folds, π p_b R³",
+            Limit::Collapse => {
+                "the moment of the loads is {} times what the wall and the pull can carry, and the body folds"
+            }
             Limit::Fold => "κR is {}: the body is bent about its own axis",
+            Limit::Crossing => "the body runs into itself: 2R is {} times the distance of its centre lines",
         };
         let what = what.replace("{}", &format!("{:.2}", beyond.share));
-        format!(
-            "warning: {} kPa, s = {from:.0} to {to:.0} mm: {what}; do not trust this pose",
-            pressure_words(&state.loads)
-        )
+        format!("warning: {} kPa, s = {from:.0} to {to:.0} mm: {what}; do not trust this pose", pressure_words(loads))
     };
-    model.beyond(&state.loads, &state.prediction).into_iter().map(words).collect()
+    model.beyond(loads, at).into_iter().map(words).collect()
 }
 
 /// A note if a pressure exceeds the scenario's largest.
-pub fn above_limit(scenario: &Scenario, states: &[AtPressure]) -> Option<String> {
-    let highest = states.iter().flat_map(|s| s.loads.actuator_pa).fold(0.0, f64::max);
+pub fn above_limit(scenario: &Scenario, loads: &[Loads]) -> Option<String> {
+    let highest = loads.iter().flat_map(|loads| loads.actuator_pa).fold(0.0, f64::max);
     let limit = scenario.p_max_pa;
     (highest > limit)
         .then(|| format!("warning: {} kPa is above max_pressure_kpa = {} of the scenario", highest / 1e3, limit / 1e3))
@@ -287,7 +286,6 @@ impl NearestPlace {
     }
 }
 
-/// A warning where it is not reached.
 pub(crate) fn nearest_words(place_m: [f64; 2], found: &Steered) -> Option<String> {
     let words: Vec<String> = held(found)
         .map(|(channel, limit, kpa)| format!("channel {channel} is at its {limit} pressure, {kpa} kPa"))

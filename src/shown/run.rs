@@ -115,7 +115,6 @@ pub fn cost_text(cost: &Cost) -> String {
 
 const MM: f64 = 1e3;
 
-/// What a robot's run came to, as text.
 fn robot_text(robot: &RobotSummary) -> String {
     let readings = &robot.readings;
     let Some(last) = readings.last() else { return String::new() };

@@ -26,7 +26,6 @@ const PATIENCE: Duration = Duration::from_secs(10);
 /// What a page has instead of this comment where finite elements are at hand.
 const MARK: &str = "<!--studio-->";
 
-/// A page that waits for its browser.
 pub(crate) struct Studio {
     listener: TcpListener,
     port: u16,

@@ -16,7 +16,6 @@ pub(super) struct Request {
 }
 
 impl Request {
-    /// Reads it, or says why not.
     pub(super) fn read(stream: &TcpStream) -> Result<Request, Response> {
         let broken = |_: io::Error| Response::words(400, "the request broke off");
         let mut reader = BufReader::new(stream);

@@ -31,7 +31,6 @@ struct Stand {
     stop: bool,
 }
 
-/// The place where runs are made.
 #[derive(Default)]
 pub(super) struct Bench {
     stand: Arc<Mutex<Stand>>,

@@ -5,7 +5,7 @@ use crate::policy::MOST_CASES;
 use compare::ScenarioFile;
 use fem::FemError;
 use fem::robot::Spread;
-use fem::session::{Felt, Source, felt, rounded};
+use fem::session::{Felt, felt, rounded};
 use models::{CHANNELS, Model};
 use serde::Deserialize;
 use std::path::Path;
@@ -32,7 +32,6 @@ pub(crate) enum Levels {
 }
 
 impl Axis {
-    /// Whether all of it are pressures.
     pub(crate) fn is_pressure(&self) -> bool {
         let fits = |kpa: f64| kpa.is_finite() && kpa >= 0.0;
         match &self.levels {
@@ -96,7 +95,6 @@ impl Axis {
         }
     }
 
-    /// The share of a value of a range.
     pub(crate) fn share_of(&self, value: &Value) -> Option<f64> {
         match (&self.levels, as_number(value)?) {
             (Levels::Between { from, to, log: true }, value) => Some((value / from).ln() / (to / from).ln()),
@@ -135,7 +133,6 @@ pub(crate) struct RawAxis {
 /// An axis for every number that nobody measured and that the finite elements of this robot feel, but for those that vary anyway.
 pub(crate) fn assumed(base: &ScenarioFile, folder: &Path, axes: &[Axis]) -> Result<Vec<Axis>, FemError> {
     let known: Vec<&str> = axes.iter().filter_map(|axis| axis.key.strip_prefix("fem.")).collect();
-    let source = Source { text: base.text.clone(), name: base.name.clone(), folder: folder.to_path_buf() };
     let of = |(number, key): Felt| {
         let [from, to] = number.interval.map(|si| rounded(si / key.si));
         Axis {
@@ -143,7 +140,7 @@ pub(crate) fn assumed(base: &ScenarioFile, folder: &Path, axes: &[Axis]) -> Resu
             levels: Levels::Between { from, to, log: number.spread == Spread::Factor },
         }
     };
-    Ok(felt(&source, &known)?.into_iter().map(of).collect())
+    Ok(felt(&base.source(folder), &known)?.into_iter().map(of).collect())
 }
 
 /// Whether a key is a pressure: of all channels, or of one.

@@ -15,10 +15,11 @@ pub(crate) const ACCOUNTS: [(&str, Account); 8] = [
     ("load", Account::Load),
 ];
 
+/// Column of whether a pose can be trusted.
+pub(crate) const TRUSTED: &str = "trusted";
 /// Column of processor time \[s\].
 pub(crate) const CPU_S: &str = "cpu_s";
 
-/// Columns of numbers that a study asks for.
 pub(crate) fn columns(study: &Study) -> Vec<String> {
     let of = |output: &Output| -> Vec<String> {
         match output {
@@ -30,18 +31,9 @@ pub(crate) fn columns(study: &Study) -> Vec<String> {
                 .flat_map(|m| study.axes_of_place().iter().map(move |axis| format!("marker_{m}_{axis}_mm")))
                 .collect(),
             Output::Ledger => ACCOUNTS.map(|(name, _)| format!("{name}_mj")).to_vec(),
-            Output::Limits => vec!["trusted".into()],
+            Output::Limits => vec![TRUSTED.into()],
             Output::Time => vec![CPU_S.into()],
         }
     };
     study.outputs.iter().flat_map(of).collect()
-}
-
-/// Cases that failed, and why.
-pub(crate) type Failed = Vec<(usize, String)>;
-
-/// A row without numbers, and why.
-pub(crate) fn fail(width: usize, why: String, numbers: &mut Vec<f64>, failed: &mut Failed) {
-    failed.push((numbers.len() / width, why));
-    numbers.extend(std::iter::repeat_n(f64::NAN, width));
 }

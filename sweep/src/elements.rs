@@ -1,22 +1,18 @@
 //! Parts by finite elements: one run per robot, read at all its pressures.
 
 use crate::SweepError;
-use crate::columns::{ACCOUNTS, columns, fail};
+use crate::columns::{ACCOUNTS, columns};
 use crate::part::{Part, Rows};
 use crate::study::{Output, Study};
 use compare::wording::short;
 use fem::FemError;
 use fem::robot::Reading;
-use fem::session::{FeRun, Job, Many, Progress, Settings, Source, simulate_all};
+use fem::session::{FeRun, Job, Many, Progress, Settings, simulate_all};
 use models::CHANNELS;
 
-/// What came of a part.
 pub(crate) type Made = (Part, Rows);
 
 /// Runs what the parts need, in folders named by problem and engine, and reads their rows.
-///
-/// # Errors
-/// An interrupt, a folder that cannot be written to. A run that is refused or stopped is a failed row.
 pub(crate) fn compute(
     study: &Study,
     parts: &[Part],
@@ -34,13 +30,13 @@ pub(crate) fn compute(
     }
     let Many { runs, of } = simulate_all(&jobs, settings, progress)?;
     let rows = |(part, job): (&Part, Result<(usize, Vec<f64>), String>)| {
-        let mut rows = Rows { numbers: Vec::new(), failed: Vec::new(), cpu_s: 0.0 };
+        let mut rows = Rows::default();
         match job.and_then(|(job, kpa)| Ok((runs[of[job]].as_ref().map_err(FemError::to_string)?, kpa))) {
             Ok((run, kpa)) => {
                 rows.cpu_s = run.cost.cpu_s_of_all_sessions;
                 kpa.iter().for_each(|kpa| read(study, run, *kpa, width, &mut rows));
             }
-            Err(why) => part.cases.clone().for_each(|_| fail(width, why.clone(), &mut rows.numbers, &mut rows.failed)),
+            Err(why) => part.cases.clone().for_each(|_| rows.fail(width, why.clone())),
         }
         (part.clone(), rows)
     };
@@ -65,7 +61,7 @@ fn job(study: &Study, robot: usize) -> Result<(Job, Vec<f64>), String> {
     let holds = if study.has_channels() { format!("{channels:?}") } else { format!("{rising:?}") };
     let set = [("fem.pressures_kpa".to_string(), holds)];
     let file = file.with(&set).map_err(|error| error.to_string())?;
-    let source = Source { text: file.text.clone(), name: file.name.clone(), folder: study.folder.clone() };
+    let source = file.source(&study.folder);
     source.load().map_err(|error| error.to_string())?;
     Ok((Job { source, what: format!("robot {}", robot + 1), folder: None }, kpa))
 }
@@ -78,11 +74,9 @@ fn read(study: &Study, run: &FeRun, kpa: f64, width: usize, rows: &mut Rows) {
     let same = |r: &&Reading| (r.actuator_pa - 1e3 * kpa).abs() < 1.0;
     let Some(reading) = run.readings().iter().find(same) else {
         let body_pa = run.readings().first().map_or(study.base.p_body_pa, |r| r.body_pa);
-        return fail(width, flat(kpa, body_pa), &mut rows.numbers, &mut rows.failed);
+        return rows.fail(width, flat(kpa, body_pa));
     };
-    let end = rows.numbers.len() + width;
-    study.outputs.iter().for_each(|output| put(*output, reading, run, study, &mut rows.numbers));
-    rows.numbers.resize(end, f64::NAN);
+    rows.row(width, |numbers| study.outputs.iter().for_each(|output| put(*output, reading, run, study, numbers)));
 }
 
 fn put(output: Output, r: &Reading, run: &FeRun, study: &Study, numbers: &mut Vec<f64>) {

@@ -10,6 +10,9 @@ use toml::Spanned;
 /// Bytes at fault, message and help.
 pub(crate) type Wrong = (Option<std::ops::Range<usize>>, String, &'static str);
 
+/// Reads the robot of a name.
+pub type ReadRobot = fn(&str) -> Result<ScenarioFile, CompareError>;
+
 /// What such a file is called, and how it is read.
 pub(crate) struct Form<Raw, T> {
     /// In messages.
@@ -24,11 +27,7 @@ pub(crate) struct Form<Raw, T> {
 
 impl<Raw: DeserializeOwned, T> Form<Raw, T> {
     /// Reads a file; `scenario` reads the robot, first as a file beside it.
-    pub(crate) fn read(
-        &self,
-        path: &Path,
-        scenario: impl Fn(&str) -> Result<ScenarioFile, CompareError>,
-    ) -> Result<T, CompareError> {
+    pub(crate) fn read(&self, path: &Path, scenario: ReadRobot) -> Result<T, CompareError> {
         let name = path.display().to_string();
         let unread = |cause: String| {
             let help = format!("write a {} as {} shows", self.what, self.page);
@@ -40,13 +39,7 @@ impl<Raw: DeserializeOwned, T> Form<Raw, T> {
     }
 
     /// Of a text; `name` is for messages.
-    pub(crate) fn parse(
-        &self,
-        name: &str,
-        text: &str,
-        folder: &Path,
-        scenario: impl Fn(&str) -> Result<ScenarioFile, CompareError>,
-    ) -> Result<T, CompareError> {
+    pub(crate) fn parse(&self, name: &str, text: &str, folder: &Path, scenario: ReadRobot) -> Result<T, CompareError> {
         let fault = |(span, message, help): (Option<std::ops::Range<usize>>, String, &str)| {
             let span = span.map(|span| (span.start, span.end));
             CompareError::Scenario(Box::new(Fault::of_text(name, text, span, message, help.into())))

@@ -74,7 +74,6 @@ pub fn map(table: &Table, engine: Engine, output: &str, keys: [&str; 2]) -> Opti
     Some(SweepMap { keys: keys.map(String::from), names: [down.names, across.names], means })
 }
 
-/// Cases of an engine that have a number.
 struct Solved {
     rows: Vec<usize>,
     values: Vec<f64>,
@@ -104,6 +103,7 @@ impl Solved {
         let numbers = match column(table, key)? {
             Column::F64(all) => self.rows.iter().map(|i| all[*i]).collect::<Vec<f64>>(),
             Column::I64(all) => self.rows.iter().map(|i| all[*i] as f64).collect(),
+            Column::Bool(all) => self.rows.iter().map(|i| all[*i].map_or(f64::NAN, f64::from)).collect(),
             Column::Str(all) => {
                 let mut names: Vec<String> = self.rows.iter().map(|i| all[*i].clone()).collect();
                 names.sort_unstable();

@@ -30,6 +30,7 @@ mod tests;
 
 pub use error::SweepError;
 pub use fem::session::Shard;
+pub use form::ReadRobot;
 pub use run::{Found, Settings, parts_missing, run};
 pub use study::{Axis, Engine, Output, PRESSURE, Study};
 pub use table::{collect, names};

@@ -2,7 +2,7 @@
 
 use crate::axis::Changes;
 use crate::policy::PART;
-use crate::study::{Engine, Output, Study};
+use crate::study::{Engine, Study};
 use crate::{SweepError, pieces};
 use fem::session::sha256;
 use serde::{Deserialize, Serialize};
@@ -21,8 +21,7 @@ pub(crate) struct Part {
     pub cases: Range<usize>,
 }
 
-/// Rows of a part.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Rows {
     /// A row of numbers per case; NaN where there is none.
     pub numbers: Vec<f64>,
@@ -48,7 +47,7 @@ impl Part {
             Engine::Reduced => format!("reduced {}", env!("CARGO_PKG_VERSION")),
             Engine::Elements => format!("finite elements {}", fem::ENGINE),
         };
-        let words: Vec<&str> = study.outputs.iter().map(output_word).collect();
+        let words: Vec<String> = study.outputs.iter().map(|output| format!("{output:?}").to_lowercase()).collect();
         let mut told = format!("ibr sweep {FORMAT}, {engine}, {}\n{}\n", words.join(" "), study.base.text).into_bytes();
         let per_robot = study.per_robot();
         for robot in self.robots(per_robot) {
@@ -63,12 +62,10 @@ impl Part {
         folder.join("parts").join(format!("{}.part", &sha256(&told)[..32]))
     }
 
-    /// Robots that have cases in it.
     pub(crate) fn robots(&self, per_robot: usize) -> Range<usize> {
         self.cases.start / per_robot..self.cases.end.div_ceil(per_robot)
     }
 
-    /// Which of a robot's pressures belong to it.
     pub(crate) fn pressures(&self, robot: usize, per_robot: usize) -> Range<usize> {
         let first = robot * per_robot;
         self.cases.start.max(first) - first..self.cases.end.min(first + per_robot) - first
@@ -88,21 +85,21 @@ pub(crate) fn parts(study: &Study) -> Vec<Part> {
     study.engines.iter().flat_map(of).collect()
 }
 
-fn output_word(output: &Output) -> &'static str {
-    match output {
-        Output::Tip => "tip",
-        Output::Markers => "markers",
-        Output::Ledger => "ledger",
-        Output::Limits => "limits",
-        Output::Time => "time",
-    }
-}
-
 impl Rows {
+    /// A row without numbers, and why.
+    pub(crate) fn fail(&mut self, width: usize, why: String) {
+        self.failed.push((self.numbers.len() / width, why));
+        self.row(width, |_| ());
+    }
+
+    /// A row of what is put, NaN for what is not.
+    pub(crate) fn row(&mut self, width: usize, put: impl FnOnce(&mut Vec<f64>)) {
+        let end = self.numbers.len() + width;
+        put(&mut self.numbers);
+        self.numbers.resize(end, f64::NAN);
+    }
+
     /// Writes them, whole or not at all.
-    ///
-    /// # Errors
-    /// The folder cannot be written to.
     pub(crate) fn write(&self, path: &Path) -> Result<(), SweepError> {
         let Rows { numbers, failed, cpu_s } = self;
         let head = Head { ibr_sweep_part: FORMAT, numbers: numbers.len(), failed: failed.clone(), cpu_s: *cpu_s };
@@ -113,9 +110,6 @@ impl Rows {
     }
 
     /// Reads them; `None` where there is no file.
-    ///
-    /// # Errors
-    /// A file that is damaged, or has another number of rows than `count` numbers make.
     pub(crate) fn read(path: &Path, count: usize) -> Result<Option<Rows>, SweepError> {
         let Some(bytes) = pieces::kept(path)? else { return Ok(None) };
         Rows::decode(&bytes, count).map(Some).ok_or_else(|| SweepError::damaged(path))

@@ -62,9 +62,6 @@ pub fn kept(path: &Path) -> Result<Option<Vec<u8>>, SweepError> {
 }
 
 /// A folder for pieces, without what killed workers of this machine left of theirs.
-///
-/// # Errors
-/// It cannot be made.
 pub fn folder(path: &Path) -> Result<(), SweepError> {
     clear(path, &|_| true);
     std::fs::create_dir_all(path).map_err(|cause| SweepError::unwritable(path, &cause))

@@ -1,47 +1,38 @@
 //! A part by the reduced model.
 
-use crate::columns::{ACCOUNTS, Failed, columns, fail};
+use crate::columns::{ACCOUNTS, columns};
 use crate::part::{Part, Rows};
 use crate::study::{Output, Study};
 use compare::ScenarioFile;
 use models::{CHANNELS, Loads, Model, Prediction};
 
-/// Computes the cases of a part.
 pub(crate) fn compute(study: &Study, part: &Part) -> Rows {
     let started = std::time::Instant::now();
     let width = columns(study).len();
-    let (mut numbers, mut failed) = (Vec::with_capacity(part.cases.len() * width), Vec::new());
+    let mut rows = Rows { numbers: Vec::with_capacity(part.cases.len() * width), ..Rows::default() };
     for robot in part.robots(study.per_robot()) {
         let own = part.pressures(robot, study.per_robot());
         match study.robot(robot) {
-            Ok((file, kpa)) => of_robot(study, &file, &kpa[own], width, &mut numbers, &mut failed),
-            Err(error) => own.for_each(|_| fail(width, error.to_string(), &mut numbers, &mut failed)),
+            Ok((file, kpa)) => of_robot(study, &file, &kpa[own], width, &mut rows),
+            Err(error) => own.for_each(|_| rows.fail(width, error.to_string())),
         }
     }
-    Rows { numbers, failed, cpu_s: started.elapsed().as_secs_f64() }
+    rows.cpu_s = started.elapsed().as_secs_f64();
+    rows
 }
 
-fn of_robot(
-    study: &Study,
-    file: &ScenarioFile,
-    pressures_kpa: &[[f64; CHANNELS]],
-    width: usize,
-    numbers: &mut Vec<f64>,
-    failed: &mut Failed,
-) {
+fn of_robot(study: &Study, file: &ScenarioFile, pressures_kpa: &[[f64; CHANNELS]], width: usize, rows: &mut Rows) {
     let model = Model::new(&file.scenario);
     let mut at = model.prediction();
     for channels in pressures_kpa {
         let loads = Loads { body_pa: file.p_body_pa, actuator_pa: channels.map(|kpa| 1e3 * kpa) };
         let idle = !file.actuator.exists() && channels.iter().any(|kpa| *kpa > 0.0);
         match model.predict_held(&loads, &mut at) {
-            _ if idle => fail(width, "an actuator pressure for a beam without [actuator]".into(), numbers, failed),
-            Err(error) => fail(width, error.to_string(), numbers, failed),
-            Ok(()) => {
-                let end = numbers.len() + width;
+            _ if idle => rows.fail(width, "an actuator pressure for a beam without [actuator]".into()),
+            Err(error) => rows.fail(width, error.to_string()),
+            Ok(()) => rows.row(width, |numbers| {
                 study.outputs.iter().for_each(|output| put(*output, &model, &loads, &at, study, numbers));
-                numbers.resize(end, f64::NAN);
-            }
+            }),
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::part::{Part, Rows, parts};
 use crate::pieces::{self, beside};
 use crate::study::{Engine, Study};
 use crate::{SweepError, elements, reduced};
-use fem::session::{Progress, Shard};
+use fem::session::{Maker, Progress, Shard};
 use std::path::PathBuf;
 
 /// How a sweep is made.
@@ -17,8 +17,8 @@ pub struct Settings {
     pub shard: Shard,
     /// Threads; 0: one per core. Bits do not depend on it.
     pub threads: usize,
-    /// How finite element runs are made; their folder is below that of the sweep.
-    pub runs: fem::session::Settings,
+    /// For the manifests of finite element runs, whose folder is below the sweep's.
+    pub maker: Maker,
 }
 
 /// What was done.
@@ -56,7 +56,9 @@ pub fn run(study: &Study, settings: &Settings, progress: Progress) -> Result<Fou
     let (quick, long): (Vec<Part>, Vec<Part>) = wanted.partition(|part| part.engine == Engine::Reduced);
     cpu_s += by_model(study, settings, &quick, progress)?;
     if !long.is_empty() {
-        let runs = fem::session::Settings { folder: Some(settings.folder.join("runs")), ..settings.runs.clone() };
+        let (folder, maker) = (Some(settings.folder.join("runs")), settings.maker.clone());
+        let (threads, usual) = (settings.threads, fem::session::Settings::default());
+        let runs = fem::session::Settings { folder, frames: false, threads, maker, ..usual };
         for (part, rows) in elements::compute(study, &long, &runs, progress)? {
             rows.write(&part.path(study, &settings.folder))?;
             cpu_s += rows.cpu_s;

@@ -33,7 +33,6 @@ pub struct Job {
     pub threads: usize,
 }
 
-/// Time between two looks at a job.
 const LOOK: Duration = Duration::from_millis(300);
 /// The job that was submitted, in the folder of the sweep.
 const SUBMITTED: &str = "job.json";
@@ -52,7 +51,6 @@ impl Cluster {
         }
     }
 
-    /// Whether a job still waits or runs.
     fn is_alive(self, id: &str) -> bool {
         match self {
             Cluster::Slurm => asked("squeue", &["-h", "-j", id]).is_ok_and(|told| !told.trim().is_empty()),
@@ -160,7 +158,6 @@ impl Job {
     }
 }
 
-/// What a program of the scheduler prints.
 fn asked(program: &str, words: &[&str]) -> Result<String, SweepError> {
     let help = "install it and start it, or make the shards by hand: --shard K/N; --script prints the job".to_string();
     let wrong = |message: String| SweepError::Cluster { message, help: help.clone() };

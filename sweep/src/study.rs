@@ -2,7 +2,7 @@
 
 pub use crate::axis::{Axis, PRESSURE};
 use crate::axis::{Changes, Levels, RawAxis, as_number, assumed, axes, channel};
-use crate::form::{Form, Wrong};
+use crate::form::{Form, ReadRobot, Wrong};
 use crate::policy::MOST_CASES;
 use crate::sample::{Method, Points};
 use compare::{CompareError, ScenarioFile};
@@ -126,23 +126,20 @@ impl Study {
     ///
     /// # Errors
     /// A file that cannot be read; a fault of the study or of the robot, with its line and what to write.
-    pub fn read(
-        path: &Path,
-        scenario: impl Fn(&str) -> Result<ScenarioFile, CompareError>,
-    ) -> Result<Study, CompareError> {
+    pub fn read(path: &Path, scenario: ReadRobot) -> Result<Study, CompareError> {
         FORM.read(path, scenario)?.checked()
     }
 
-    /// Of a text; `name` is for messages.
+    /// Of a text; `name` is for messages. Errors as for [`Study::read`].
     ///
-    /// # Errors
-    /// As [`Study::read`].
-    pub fn parse(
-        name: &str,
-        text: &str,
-        folder: &Path,
-        scenario: impl Fn(&str) -> Result<ScenarioFile, CompareError>,
-    ) -> Result<Study, CompareError> {
+    /// ```
+    /// use sweep::{Engine, Study};
+    /// let text = "kind = \"sweep\"\nscenario = \"epam\"\n[[vary]]\nkey = \"actuator.width_mm\"\nvalues = [40, 60]\n\
+    ///             [[vary]]\nkey = \"pressure_kpa\"\nvalues = [10, 20, 30]\n";
+    /// let study = Study::parse("study.toml", text, "".as_ref(), compare::ScenarioFile::read).unwrap();
+    /// assert_eq!((study.cases(Engine::Reduced), study.per_robot()), (2 * 3, 3));
+    /// ```
+    pub fn parse(name: &str, text: &str, folder: &Path, scenario: ReadRobot) -> Result<Study, CompareError> {
         FORM.parse(name, text, folder, scenario)?.checked()
     }
 

@@ -2,7 +2,7 @@
 
 use crate::SweepError;
 use crate::axis::as_number;
-use crate::columns::{CPU_S, columns};
+use crate::columns::{CPU_S, TRUSTED, columns};
 use crate::part::{Part, Rows, parts};
 use crate::study::{PRESSURE, Study};
 use data::table::{Column, Table};
@@ -10,6 +10,12 @@ use std::path::Path;
 use toml::Value;
 
 /// Names of all columns of the table.
+///
+/// ```
+/// let text = "kind = \"sweep\"\nscenario = \"epam\"\noutputs = [\"tip\"]\n[[vary]]\nkey = \"pressure_kpa\"\nvalues = [10, 20]\n";
+/// let study = sweep::Study::parse("study.toml", text, "".as_ref(), compare::ScenarioFile::read).unwrap();
+/// assert!(sweep::names(&study).contains(&"tip_y_mm".to_string()));
+/// ```
 pub fn names(study: &Study) -> Vec<String> {
     let first = ["case", "engine"].into_iter().map(String::from);
     let last = ["status", "reason"].into_iter().map(String::from);
@@ -21,7 +27,8 @@ pub fn names(study: &Study) -> Vec<String> {
 /// # Errors
 /// [`SweepError::Missing`]; a part whose file is damaged.
 pub fn collect(study: &Study, folder: &Path) -> Result<Table, SweepError> {
-    let width = columns(study).len();
+    let found = columns(study);
+    let width = found.len();
     let all = parts(study);
     let read = |part: &Part| Rows::read(&part.path(study, folder), part.cases.len() * width);
     let rows: Vec<Option<Rows>> = all.iter().map(read).collect::<Result<_, _>>()?;
@@ -29,73 +36,51 @@ pub fn collect(study: &Study, folder: &Path) -> Result<Table, SweepError> {
     if missing > 0 {
         return Err(SweepError::Missing(missing));
     }
-    let mut building = Building::new(study);
-    all.iter().zip(rows.iter().flatten()).for_each(|(part, rows)| building.add(study, part, rows));
-    Ok(building.table(study))
-}
-
-struct Building {
-    case: Vec<i64>,
-    engine: Vec<String>,
-    inputs: Vec<Vec<Value>>,
-    pressure: Vec<f64>,
-    numbers: Vec<Vec<f64>>,
-    /// Which of the columns of numbers is that of processor time.
-    timed: Option<usize>,
-    status: Vec<String>,
-    reason: Vec<String>,
-}
-
-impl Building {
-    fn new(study: &Study) -> Building {
-        Building {
-            case: Vec::new(),
-            engine: Vec::new(),
-            inputs: vec![Vec::new(); study.axes.len()],
-            pressure: Vec::new(),
-            numbers: vec![Vec::new(); columns(study).len()],
-            timed: columns(study).iter().position(|name| name == CPU_S),
-            status: Vec::new(),
-            reason: Vec::new(),
+    let per_robot = study.per_robot();
+    let end = all.iter().map(|part| part.cases.end).max().unwrap_or(0);
+    let values: Vec<Vec<Value>> = (0..end.div_ceil(per_robot)).map(|robot| study.values(robot)).collect();
+    // Every case: its part, the rows of that, and which of them is its own.
+    let cases: Vec<(&Part, &Rows, usize, usize)> = all
+        .iter()
+        .zip(rows.iter().flatten())
+        .flat_map(|(part, rows)| part.cases.clone().enumerate().map(move |(i, case)| (part, rows, i, case)))
+        .collect();
+    let place = |name: &str| found.iter().position(|known| known == name);
+    let (timed, judged) = (place(CPU_S), place(TRUSTED));
+    let number = |k: usize| {
+        let of = |(part, rows, i, _): &(&Part, &Rows, usize, usize)| match timed == Some(k) {
+            true => rows.cpu_s / part.cases.len() as f64,
+            false => rows.numbers[i * width + k],
+        };
+        let numbers = cases.iter().map(of);
+        match judged == Some(k) {
+            true => Column::Bool(numbers.map(|v| (!v.is_nan()).then_some(v != 0.0)).collect()),
+            false => Column::F64(numbers.collect()),
         }
-    }
-
-    fn add(&mut self, study: &Study, part: &Part, rows: &Rows) {
-        let (width, per_robot) = (self.numbers.len(), study.per_robot());
-        for robot in part.robots(per_robot) {
-            let values = study.values(robot);
-            for k in part.pressures(robot, per_robot) {
-                self.case.push((robot * per_robot + k) as i64 + 1);
-                self.engine.push(part.engine.word().into());
-                self.inputs.iter_mut().zip(&values).for_each(|(column, value)| column.push(value.clone()));
-                let own = || study.axes.iter().position(|a| a.key == PRESSURE).and_then(|i| as_number(&values[i]));
-                self.pressure.push(study.pressures_kpa.get(k).copied().or_else(own).unwrap_or(f64::NAN));
-            }
-        }
-        let each_s = rows.cpu_s / part.cases.len() as f64;
-        for row in rows.numbers.chunks(width) {
-            let timed = row.iter().enumerate().map(|(k, v)| if Some(k) == self.timed { each_s } else { *v });
-            self.numbers.iter_mut().zip(timed).for_each(|(column, value)| column.push(value));
-        }
-        let first = self.status.len();
-        self.status.resize(first + part.cases.len(), "ok".into());
-        self.reason.resize(first + part.cases.len(), String::new());
-        for (i, why) in &rows.failed {
-            self.status[first + i] = "failed".into();
-            self.reason[first + i] = why.replace('\n', " ");
-        }
-    }
-
-    fn table(self, study: &Study) -> Table {
-        let inputs = study.axes.iter().zip(self.inputs).filter(|(axis, _)| axis.key != PRESSURE).map(|pair| pair.1);
-        let columns = [Column::I64(self.case), Column::Str(self.engine)]
-            .into_iter()
-            .chain(inputs.map(column))
-            .chain((!study.has_channels()).then_some(Column::F64(self.pressure)))
-            .chain(self.numbers.into_iter().map(Column::F64))
-            .chain([Column::Str(self.status), Column::Str(self.reason)]);
-        Table { columns: names(study).into_iter().zip(columns).collect() }
-    }
+    };
+    let own = study.axes.iter().position(|axis| axis.key == PRESSURE);
+    let pressure = |case: usize| {
+        let common = study.pressures_kpa.get(case % per_robot).copied();
+        common.or_else(|| as_number(&values[case / per_robot][own?])).unwrap_or(f64::NAN)
+    };
+    let of = |axis: usize| column(cases.iter().map(|c| values[c.3 / per_robot][axis].clone()).collect());
+    let why = |(_, rows, i, _): &(&Part, &Rows, usize, usize)| {
+        let failed = rows.failed.binary_search_by_key(i, |failed| failed.0);
+        failed.ok().map(|at| rows.failed[at].1.replace('\n', " "))
+    };
+    let reasons: Vec<Option<String>> = cases.iter().map(why).collect();
+    let status = |why: &Option<String>| why.as_ref().map_or("ok", |_| "failed").to_string();
+    let columns = [
+        Column::I64(cases.iter().map(|c| c.3 as i64 + 1).collect()),
+        Column::Str(cases.iter().map(|c| c.0.engine.word().into()).collect()),
+    ]
+    .into_iter()
+    .chain((0..study.axes.len()).filter(|axis| Some(*axis) != own).map(of))
+    .chain((!study.has_channels()).then(|| Column::F64(cases.iter().map(|c| pressure(c.3)).collect())))
+    .chain((0..width).map(number))
+    .chain([Column::Str(reasons.iter().map(status).collect())])
+    .chain([Column::Str(reasons.iter().map(|why| why.clone().unwrap_or_default()).collect())]);
+    Ok(Table { columns: names(study).into_iter().zip(columns).collect() })
 }
 
 /// Numbers if all are, else texts.

@@ -28,7 +28,7 @@ fn study(text: &str) -> Result<Study, String> {
 }
 
 fn settings(folder: &Path, shard: Shard) -> Settings {
-    Settings { folder: folder.to_path_buf(), shard, threads: 2, runs: fem::session::Settings::default() }
+    Settings { folder: folder.to_path_buf(), shard, threads: 2, maker: fem::session::Maker::default() }
 }
 
 fn made(study: &Study, folder: &Path, shard: Shard) -> Found {
@@ -253,9 +253,9 @@ checked = 1
 /// Two strips a quarter round the body from each other, their pressures and the place of one of them varied.
 #[test]
 fn strips_round_the_body_have_channels_and_a_third_coordinate() {
-    let text = "[body]\nradius_mm = 40\nlength_mm = 360\npressure_kpa = 2\n[actuator]\nkind = 'epam'\nlength_mm = 60\n\
+    const TEXT: &str = "[body]\nradius_mm = 40\nlength_mm = 360\npressure_kpa = 2\n[actuator]\nkind = 'epam'\nlength_mm = 60\n\
                 width_mm = 50\ncount = 6\nazimuth_deg = 0\n[[strip]]\nazimuth_deg = 90\nchannel = 1\n[markers]\ns_mm = [180]\n";
-    let robot = |_: &str| ScenarioFile::parse_in_space("two", text);
+    let robot = |_: &str| ScenarioFile::parse("two", TEXT);
     let asked = "scenario = 'two'\noutputs = ['tip', 'markers']\n[[vary]]\nkey = 'strip.1.azimuth_deg'\nvalues = [90, 180]\n\
                  [[vary]]\nkey = 'pressure_kpa.0'\nvalues = [10, 20]\n[[vary]]\nkey = 'pressure_kpa.1'\nfrom = 0\nto = 20\nsteps = 3\n";
     let study = Study::parse("study.toml", asked, Path::new(""), robot).unwrap();

@@ -201,7 +201,8 @@ fn the_report_of_a_diagnosis_is_one_page_with_its_plots_and_the_answer_for_progr
 #[test]
 fn one_published_displacement_is_met_by_several_effects_that_part_at_other_pressures() {
     let folder = Folder::new();
-    let answer = folder.run(&["diagnose", "epam", "--published", "--out", "page", "--json"]).json("ibr.one_number");
+    let answer =
+        folder.run(&["diagnose", "epam-textbook", "--published", "--out", "page", "--json"]).json("ibr.one_number");
     let met = answer["result"]["met_by"].as_array().unwrap();
     let lowest = met.iter().map(|e| e["y_mm"][0].as_f64().unwrap());
     let (low, high) = lowest.fold((f64::MAX, f64::MIN), |(a, b), y| (a.min(y), b.max(y)));

@@ -67,8 +67,8 @@ fn unknown_commands_robots_and_lists_name_the_known_ones() {
     wrong(&["new", "epm"], &["no shipped scenario `epm`", "did you mean epam?"]);
     wrong(&["add", "epam", "end_constrain"], &["did you mean end_constraint?"]);
     refuse(&with_report(), &["predict", "epm"], 3, &["cannot read epm", "did you mean epam?"]);
-    wrong(&["new", "nosuch"], &["no shipped scenario `nosuch`", "spam, cpam, epam, fpam, pillow, tube"]);
-    wrong(&["list", "nosuch"], &["possible values: actuators, effects, datasets, cases"]);
+    wrong(&["new", "nosuch"], &["no shipped scenario `nosuch`", "spam, cpam, epam, fpam, spam-textbook"]);
+    wrong(&["list", "nosuch"], &["possible values: robots, actuators, effects, datasets, cases"]);
     wrong(&["completions", "klingon"], &["possible values: bash"]);
 }
 

@@ -127,6 +127,44 @@ fn what_a_table_cannot_hold_is_refused_with_the_way_out() {
     assert!(told.code == 0 && header.contains("FIRST LOADING FROM REST, AT ONCE: friction"), "{}", told.stderr);
 }
 
+#[test]
+fn a_chain_for_simulators_and_a_unit_are_files_that_are_replaced_only_when_asked() {
+    let folder = Folder::new();
+    for (format, file) in [("mjcf", "robot.xml"), ("urdf", "robot.urdf"), ("fmu", "robot.fmu")] {
+        let range = if format == "fmu" { "0:40kPa" } else { "20kPa" };
+        let typed = ["export", format, "epam", "--pressure", range];
+        let ran = folder.run(&typed);
+        let first = std::fs::read(folder.path(file)).unwrap();
+        assert!(ran.code == 0 && first.len() > 1000, "{}", ran.stderr);
+        let again = folder.run(&typed);
+        assert!(again.code == 2 && again.stderr.contains("--force"), "{}", again.stderr);
+        assert_eq!(folder.run(&[&typed[..], &["--force"]].concat()).code, 0);
+        assert_eq!(std::fs::read(folder.path(file)).unwrap(), first, "equal input, equal bytes");
+    }
+    let joints = std::fs::read_to_string(folder.path("robot.xml")).unwrap().matches("<joint name=").count();
+    assert_eq!((joints, &std::fs::read(folder.path("robot.fmu")).unwrap()[..2]), (6, &b"PK"[..]));
+    let folder = with_report();
+    let flat: &[&str] = &["cannot export a chain", "flat at", "--pressure 20kPa"];
+    let collapsed: &[&str] = &["does not hold", "the body folds", "--pressure"];
+    let heavy = "tip_load:force_y_n=-4";
+    let cases: [(&[&str], &[&str]); 11] = [
+        (&["mjcf", "epam", "--pressure", "0kPa"], flat),
+        (&["urdf", "epam", "--pressure", "1kPa"], flat),
+        (&["linear", "epam", "--pressure", "0kPa"], flat),
+        (&["c", "epam", "--pressure", "10:40kPa", "--effect", heavy], collapsed),
+        (&["fmu", "epam", "--pressure", "10:40kPa", "--effect", heavy], collapsed),
+        (&["linear", "epam", "--pressure", "20kPa", "--effect", heavy], collapsed),
+        (&["mjcf", "epam", "--pressure", "20kPa", "--effect", heavy], collapsed),
+        (&["urdf", "epam", "--pressure", "20kPa", "--effect", heavy], collapsed),
+        (&["urdf", "epam", "--pressure", "20kPa", "--mass", "0"], &["--mass is 0 kg/m", "--mass 0.1"]),
+        (&["mjcf", "cpam", "--pressure", "60kPa", "--joints", "1"], &["joint 1 is bent by", "--joints 4"]),
+        (&["fmu", "epam", "--out", "robot.c"], &["does not end with .fmu"]),
+    ];
+    for (args, words) in cases {
+        refuse(&folder, &[&["export"], args].concat(), 2, words);
+    }
+}
+
 /// Rows of a table of docs/control.md, without its head.
 fn published_rows() -> Vec<[f64; 6]> {
     let text = std::fs::read_to_string(repository().join("data/sets/jitosho-2023-arm/joint_model.csv")).unwrap();

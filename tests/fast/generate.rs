@@ -16,12 +16,15 @@ fn every_synthetic_set_is_made_again_byte_for_byte_from_its_truth() {
         let (seed, protocol) =
             if name == "synthetic-epam-two-bodies" { ("12", TWO_BODIES) } else { ("11", "0,10,20,30,0@2") };
         let folder = Folder::new();
-        let args = ["data", "generate", &truth, "--out", &name, "--seed", seed, "--protocol", protocol];
+        let args = ["data", "generate", &truth, "--out", &name, "--seed", seed, "--white", "--protocol", protocol];
         assert_eq!(folder.run(&args).code, 0, "{name}");
         for file in ["markers.csv", "about.toml", "truth.toml"] {
             let made = std::fs::read(folder.path(&name).join(file)).unwrap();
             assert!(made == std::fs::read(set.join(file)).unwrap(), "{name}/{file}");
         }
+        let hidden = std::fs::read_to_string(set.join("truth.toml")).unwrap();
+        let hidden = hidden.lines().next().unwrap().trim_start_matches("name = ").trim_matches('"');
+        assert!(!folder.run(&["list", "datasets"]).stdout.contains(hidden), "{name} shows its answer: {hidden}");
     }
 }
 
@@ -29,8 +32,17 @@ fn every_synthetic_set_is_made_again_byte_for_byte_from_its_truth() {
 fn every_finite_element_set_is_made_again_byte_for_byte_from_the_stored_runs() {
     for robot in ["spam", "cpam", "epam", "fpam"] {
         let (folder, name) = (Folder::new(), format!("fem-{robot}"));
-        let ran =
-            folder.run(&["data", "fem", &format!("{robot}-textbook"), "--stored", "--seed", "21", "--out", &name]);
+        let ran = folder.run(&[
+            "data",
+            "fem",
+            &format!("{robot}-textbook"),
+            "--stored",
+            "--white",
+            "--seed",
+            "21",
+            "--out",
+            &name,
+        ]);
         assert_eq!(ran.code, 0, "{}", ran.stderr);
         for file in ["markers.csv", "about.toml", "truth.toml"] {
             let made = std::fs::read(folder.path(&name).join(file)).unwrap();

@@ -43,6 +43,44 @@ fn from_deeplabcut_to_the_named_effect() {
     assert!(again.code == 2 && again.stderr.contains("--force"), "{}", again.stderr);
 }
 
+/// A camera whose frame rate varies: the refusal comes with the picture of both tracks, and a dataset stays as it was.
+#[test]
+fn a_refused_clock_leaves_its_picture_and_no_dataset() {
+    let folder = Folder::new();
+    let [run, log] = ["vfr.csv", "pressure.csv"].map(|name| case(&format!("c39-frame-rate/{name}")));
+    let mut args = vec!["data", "import", &run, "--pressure", &log, "--scale", "3.1px/mm", "--base", "212,540"];
+    args.extend(["--fps", "30", "--actuator", "epam", "--out", "mine"]);
+    let ran = folder.run(&args);
+    assert!(ran.code == 3 && ran.stderr.contains("mine/clock.svg"), "{}", ran.stderr);
+    let mut names = assert_hashes(&folder.path("mine"));
+    names.sort();
+    assert_eq!(names, ["clock.png", "clock.svg"]);
+    let found = folder.run(&[&args[..], &["--clock-offset", "find"]].concat());
+    assert!(found.code == 0 && folder.path("mine/markers.csv").exists(), "{}", found.stderr);
+    let before = folder.contents();
+    let again = folder.run(&[&args[..], &["--force"]].concat());
+    assert!(again.code == 3 && folder.contents() == before, "{}", again.stderr);
+}
+
+/// Motion capture and a log of LabVIEW in four commands: import, check, compare, diagnose.
+#[test]
+fn from_vicon_and_labview_to_the_named_effect() {
+    let folder = Folder::new();
+    let runs = [1, 2, 3].map(|run| case(&format!("c21-vicon-nexus/trial{run}.csv")));
+    let log = case("c26-pressure-loggers/labview.lvm");
+    let mut args = vec!["data", "import", &runs[0], &runs[1], &runs[2], "--pressure", &log, "--actuator", "epam"];
+    args.extend(["--stations", "a=90mm,b=210mm,c=330mm", "--out", "mine"]);
+    assert_eq!(folder.run(&args).code, 0);
+    let checked = folder.run(&["data", "check", "mine"]);
+    assert!(checked.code == 0 && !checked.stdout.contains("looks like"), "{}{}", checked.stdout, checked.stderr);
+    let compared = folder.run(&["compare", "epam-textbook", "mine", "--json"]).json("ibr.compare");
+    assert!(compared["schema"] == "ibr.compare", "{compared}");
+    let diagnosis = folder.run(&["diagnose", "epam-textbook", "mine", "--json"]).json("ibr.diagnose");
+    let ranked = &diagnosis["ranked"][0];
+    let (name, beta) = (ranked["effect"].as_str(), ranked["value"].as_f64().unwrap());
+    assert!(name == Some("end_constraint") && (beta - 0.402).abs() < 0.008, "{name:?} {beta}");
+}
+
 /// A ramp is sent to the import by whatever reads it, and comes back binned.
 #[test]
 fn a_ramp_is_sent_to_the_import() {

@@ -8,7 +8,7 @@ const ROBOT: &str = "epam-two-strips";
 
 fn made(protocol: &str) -> Folder {
     let folder = Folder::new();
-    let ran = folder.run(&["data", "generate", ROBOT, "--protocol", protocol, "--out", "made"]);
+    let ran = folder.run(&["data", "generate", ROBOT, "--protocol", protocol, "--white", "--out", "made"]);
     assert_eq!(ran.code, 0, "{}", ran.stderr);
     folder
 }

@@ -17,6 +17,7 @@ mod compare;
 mod data_errors;
 mod design;
 mod diagnose;
+mod examples;
 mod export;
 mod generate;
 mod held;

@@ -31,3 +31,18 @@ fn what_cannot_be_drawn_says_what_to_type_and_leaves_files_alone() {
     }
     assert_eq!(std::fs::read_to_string(folder.path("old.svg")).unwrap(), "mine");
 }
+
+#[test]
+fn a_kerf_is_stated_where_cut_lines_have_it() {
+    let folder = Folder::new();
+    for (args, kerf) in [(&["--kerf", "0.2mm"][..], true), (&[], false)] {
+        let ran = folder.run(&[&["pattern", "epam", "--out", "kerf.dxf", "--force"], args].concat());
+        assert_eq!(ran.code, 0, "{}", ran.stderr);
+        let drawn = std::fs::read_to_string(folder.path("kerf.dxf")).unwrap();
+        assert!(
+            ran.stdout.contains("Kerf 0.20 mm") == kerf && drawn.contains("Kerf 0.20 mm") == kerf,
+            "{}",
+            ran.stdout
+        );
+    }
+}

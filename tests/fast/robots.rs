@@ -64,7 +64,7 @@ fn wrong_settings_are_refused_before_anything_is_run() {
         (["--mesh", "4"], ["--mesh", "no unit"]),
         (["--mesh", "40mm"], ["elements", "lower actuator_mesh_mm from 40"]),
         (["--set", "bnd=1"], ["unknown key `bnd`", "hourglass"]),
-        (["--set", "model=papers"], ["unknown model", "known: recommended, paper"]),
+        (["--set", "model=papers"], ["unknown model", "known here: recommended, paper"]),
         (["--set", "bond=2"], ["bond must be from 0 to 1, not 2", "here"]),
         (["--set", "body.radius_mm=0"], ["radius must be from 1 to 1000 mm, not 0", "here"]),
         (["--set", "weld_mm=70"], ["welds of 70 mm every 60 mm overlap", "below 60 mm"]),

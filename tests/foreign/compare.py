@@ -2,8 +2,9 @@
 
     python3 compare.py table FOLDER     FOLDER/CASE has history.csv of the engine, deck.inp and deck.dat of CalculiX
     python3 compare.py cases            the names of the cases
+    python3 compare.py nodes DECK...    places of the nodes in DECK.inp and in DECK.frd, as CalculiX read them
 
-Ends with 1 where the two are more than 3 % apart. The standard library is enough.
+Ends with 1 where the two are more than 3 % apart, or a node is elsewhere. The standard library is enough.
 """
 
 import csv
@@ -126,8 +127,35 @@ def table(folder):
     return 0 if is_near else 1
 
 
+def nodes(decks):
+    """Largest distance of a coordinate in the deck from the one that CalculiX read; its .frd has six digits."""
+    is_near = True
+    for deck in decks:
+        written, inside = {}, False
+        for line in open(f"{deck}.inp"):
+            if line.startswith("*"):
+                inside = line.split(",")[0].strip().upper() == "*NODE"
+            elif inside:
+                number, *place = line.split(",")
+                written[int(number)] = [float(x) for x in place]
+        read = {}
+        for line in open(f"{deck}.frd"):
+            if line.startswith(" -3"):
+                break
+            if line.startswith(" -1"):
+                read[int(line[3:13])] = [float(line[13 + 12 * k : 25 + 12 * k]) for k in range(3)]
+        size = max(abs(x) for place in written.values() for x in place)
+        known = written.keys() & read.keys()
+        off = max(abs(a - b) for number in known for a, b in zip(written[number], read[number]))
+        is_near &= off <= 1e-5 * size and len(known) > 0.9 * len(written)
+        print(f"{pathlib.Path(deck).name}: {len(known)} of {len(written)} nodes, at most {1e3 * off:.2g} mm apart")
+    return 0 if is_near else 1
+
+
 if __name__ == "__main__":
-    if sys.argv[1] == "cases":
+    if sys.argv[1] == "nodes":
+        sys.exit(nodes(sys.argv[2:]))
+    elif sys.argv[1] == "cases":
         print(*dict.fromkeys(row[0] for row in ROWS))
     else:
         sys.exit(table(pathlib.Path(sys.argv[2])))

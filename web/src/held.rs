@@ -7,12 +7,22 @@ use compare::diagnosis::{Answer, Diagnosis, Options, Standing, diagnose};
 use compare::{CompareError, Evidence};
 use data::Dataset;
 use ibr::compared::Compared;
-use ibr::pages::{Diagnosed, Files, PageError, compare_files, diagnosis_plots, measured};
+use ibr::pages::{Diagnosed, Files, PageError, compare_files, demo_plots, diagnosis_plots, measured};
 use ibr::shown::as_json;
 use ibr::shown::comparison::CompareAnswer;
+use ibr::shown::demo::panels;
 use ibr::shown::diagnosis::{DiagnosisAnswer, verdict};
 use report::page::inline;
 use serde_json::{Map, Value, json};
+
+/// The panels of `ibr demo`, and their pictures.
+///
+/// # Errors
+/// Damaged embedded data or a model without equilibrium.
+pub fn demo() -> Result<Value, CompareError> {
+    let computed = compare::demo::demo(&mut |_, _| ())?;
+    Ok(json!({"panels": panels(&computed), "pictures": pictures(demo_plots(&computed, &mut |_, _| ()))?}))
+}
 
 /// The answer of `ibr compare --json`, and its pictures.
 ///
@@ -29,9 +39,7 @@ pub fn compared(robot: &Robot, data: &Measured) -> Result<Value, CompareError> {
 }
 
 /// The answer of `ibr diagnose --json`, its pictures and its page, and every candidate as changes of the robot.
-///
-/// # Errors
-/// As [`compared`].
+/// Errors as for [`compared`].
 pub fn diagnosed(robot: &Robot, data: &Measured) -> Result<Value, CompareError> {
     let (file, evidence) = (robot.planar()?, data.evidence()?);
     let d = diagnose(&file, std::slice::from_ref(&evidence), &Options::default(), &mut |_, _| ())?;

@@ -1,7 +1,7 @@
 //! What the page in a browser calls: a question as JSON, an answer as JSON. All physics and all words are the library's.
 //!
 //! The page writes a question of `n` bytes to [`room`]`(n)`, calls [`ask`], and reads as many bytes at [`answer`]. Questions are those
-//! of [`question::Ask`].
+//! of [`question`].
 #![allow(unsafe_code, reason = "names that the page can call")]
 
 pub mod data_of;

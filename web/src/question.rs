@@ -7,44 +7,24 @@ use compare::CompareError;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// A question.
+/// A question: what there is; the five panels of the demonstration; what a robot is; its shape at one pressure \[kPa\] for all supply channels or one for each, and
+/// that of its bare model; it compared with measurements; what it lacks.
 #[derive(Debug, Deserialize)]
 #[serde(tag = "ask", rename_all = "snake_case", deny_unknown_fields)]
-pub enum Ask {
-    /// What there is: robots, example data, colours.
+enum Ask {
     Start,
-    /// What a robot is: its text, what can be turned, its effects.
-    Robot {
-        /// Which.
-        robot: Robot,
-    },
-    /// Its shape at a pressure of every supply channel \[kPa\], and that of its bare model.
-    Predict {
-        /// Which.
-        robot: Robot,
-        /// One pressure for all channels, or one for each.
-        actuator_kpa: Vec<f64>,
-    },
-    /// It held against measurements.
-    Compare {
-        /// Which.
-        robot: Robot,
-        /// Measurements.
-        data: Measured,
-    },
-    /// What it lacks.
-    Diagnose {
-        /// Which.
-        robot: Robot,
-        /// Measurements.
-        data: Measured,
-    },
+    Demo,
+    Robot { robot: Robot },
+    Predict { robot: Robot, actuator_kpa: Vec<f64> },
+    Compare { robot: Robot, data: Measured },
+    Diagnose { robot: Robot, data: Measured },
 }
 
 impl Ask {
     fn answer(&self) -> Result<Value, CompareError> {
         match self {
             Ask::Start => Ok(start()),
+            Ask::Demo => held::demo(),
             Ask::Robot { robot } => robot.told(),
             Ask::Predict { robot, actuator_kpa } => robot.predicted(actuator_kpa),
             Ask::Compare { robot, data } => held::compared(robot, data),
@@ -66,10 +46,13 @@ pub fn answer(question: &str) -> String {
     told.to_string()
 }
 
+/// Robot and data that the page opens with: the data hold an effect that the textbook robot lacks.
+const STORY: [&str; 2] = [compare::demo::ROBOT[0], "synthetic-epam"];
+
 fn start() -> Value {
-    let [robot, data] = compare::demo::HIDDEN_IN;
+    let [robot, data] = STORY;
     json!({
         "version": env!("CARGO_PKG_VERSION"), "robots": robot::shipped(), "data": data_of::examples(),
-        "story": {"robot": format!("{robot}-textbook"), "data": data}, "colours": report::page::colours(),
+        "story": {"robot": format!("{robot}-textbook"), "data": data}, "colours": report::colours(),
     })
 }

@@ -3,10 +3,10 @@
 use crate::seen::views;
 use compare::{CompareError, ScenarioFile};
 use ibr::shown::predicted::{PredictedState, above_limit, beyond_words};
-use ibr::studies::{IN_SPACE, scenario_in_space};
+use ibr::studies::{IN_SPACE, scenario};
 use ibr::{AtPressure, Predictor};
 use models::effects::{Effect, Parameter};
-use models::scenario::SHIPPED;
+use models::scenario::ROBOTS;
 use models::{Known, Model, Scenario};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -28,16 +28,15 @@ pub struct Robot {
     pub changes: Vec<(String, String)>,
 }
 
-/// The shipped robots, each followed by what textbooks have of it, then those with strips round the body.
+/// The shipped robots, what textbooks have of them, then those with strips round the body.
 pub fn shipped_names() -> Vec<String> {
-    let planar = SHIPPED.iter().flat_map(|(name, _)| [name.to_string(), format!("{name}-textbook")]);
+    let planar = ROBOTS.into_iter().map(String::from);
     planar.chain(IN_SPACE.map(String::from)).collect()
 }
 
-/// Their names, what they are, and their actuators.
 pub(crate) fn shipped() -> Vec<Value> {
     let told = |name: String| {
-        let scenario = scenario_in_space(&name).ok()?.scenario;
+        let scenario = ibr::studies::scenario(&name).ok()?.scenario;
         let kind = scenario.actuator.kind;
         let known = match (scenario.is_spatial(), scenario.effects.len()) {
             (true, _) => "",
@@ -50,26 +49,21 @@ pub(crate) fn shipped() -> Vec<Value> {
 }
 
 impl Robot {
-    /// Its scenario, without and with the changes.
-    ///
-    /// # Errors
-    /// As [`scenario_in_space`] and [`ScenarioFile::with`].
+    /// Its scenario, without and with the changes. Errors as for [`scenario`] and [`ScenarioFile::with`].
     fn files(&self) -> Result<[ScenarioFile; 2], CompareError> {
         let given = match &self.text {
-            Some(text) => ScenarioFile::parse_in_space(&self.name, text),
-            None => scenario_in_space(&self.name),
+            Some(text) => ScenarioFile::parse(&self.name, text),
+            None => scenario(&self.name),
         }?;
         let changed = given.with(&self.changes)?;
         Ok([given, changed])
     }
 
     /// The scenario with the changes, for what is built for planar robots alone.
-    ///
-    /// # Errors
-    /// As [`ScenarioFile::parse`].
+    /// Errors as for [`ScenarioFile::planar`].
     pub fn planar(&self) -> Result<ScenarioFile, CompareError> {
         let [_, changed] = self.files()?;
-        ScenarioFile::parse(&changed.name, &changed.text)
+        changed.planar()
     }
 
     /// What it is: its text, what can be turned, its effects.
@@ -109,7 +103,10 @@ impl Robot {
         told["bare"] = bare.state(&state.loads).map_or(Value::Null, |state| drawn(&bare, &state, false));
         told["units"] = units(&file.scenario);
         told["notes"] = json!(
-            beyond_words(own.model(), &state).into_iter().chain(above_limit(&file, &[state])).collect::<Vec<_>>()
+            beyond_words(&own.model, &state.loads, &state.prediction)
+                .into_iter()
+                .chain(above_limit(&file, &[state.loads]))
+                .collect::<Vec<_>>()
         );
         Ok(told)
     }
@@ -126,14 +123,14 @@ fn units(scenario: &Scenario) -> Value {
 
 /// A state as `ibr predict --json` tells it, with what is drawn \[m\].
 fn drawn(of: &Predictor, state: &AtPressure, with_units: bool) -> Value {
-    let mut told = PredictedState::of(of.model(), of.scenario(), state).json();
+    let mut told = PredictedState::of(&of.model, &of.scenario, state).json();
     match views(of, state, STATIONS, with_units) {
         Some(views) => told["views"] = views,
-        None => told["sides"] = json!(of.model().outline(&state.prediction, STATIONS)),
+        None => told["sides"] = json!(of.model.outline(&state.prediction, STATIONS)),
     }
-    told["radius_m"] = json!(of.scenario().radius_m);
-    told["length_m"] = json!(of.scenario().length_m);
-    told["height_m"] = json!(of.model().pouch_shape(&state.loads, &state.prediction).map(|shape| shape.height_m));
+    told["radius_m"] = json!(of.scenario.radius_m);
+    told["length_m"] = json!(of.scenario.length_m);
+    told["height_m"] = json!(of.model.pouch_shape(&state.loads, &state.prediction).map(|shape| shape.height_m));
     told
 }
 

@@ -10,7 +10,6 @@ use std::f64::consts::{PI, TAU};
 const PIECES: usize = 24;
 /// Points of a unit along and across it.
 const GRID: [usize; 2] = [9, 7];
-/// Points of the ring at the tip.
 const RING: usize = 32;
 /// Of a unit vector: what is seen end-on.
 const END_ON: f64 = 1e-9;
@@ -20,7 +19,6 @@ const END_ON: f64 = 1e-9;
 struct Side {
     axis: &'static str,
     up: usize,
-    /// Towards who looks.
     toward: [f64; 3],
 }
 
@@ -55,7 +53,7 @@ impl Side {
 
 /// The body from both sides, and where the centre line ends; with `units`, every unit of every strip.
 pub fn views(of: &Predictor, state: &AtPressure, stations: usize, with_units: bool) -> Option<Value> {
-    let (scenario, model, at) = (of.scenario(), of.model(), &state.prediction);
+    let (scenario, model, at) = (&of.scenario, &of.model, &state.prediction);
     let station = |i: usize| scenario.length_m * i as f64 / (stations - 1) as f64;
     let frames = (0..stations).map(|i| model.frame_at(at, station(i))).collect::<Option<Vec<_>>>()?;
     let (tip, radius_m) = (frames.last()?, scenario.radius_m);
@@ -90,7 +88,7 @@ struct Unit {
 
 /// The units of a strip: pouches as lenses of their height, a muscle as a tube in pieces.
 fn placed(of: &Predictor, state: &AtPressure, index: usize, strip: &ActuatorChoice) -> Vec<Unit> {
-    let (scenario, model, at) = (of.scenario(), of.model(), &state.prediction);
+    let (scenario, model, at) = (&of.scenario, &of.model, &state.prediction);
     let (radius_m, is_pouch) = (scenario.radius_m, strip.kind.has_pouches());
     let count = if is_pouch { strip.count } else { PIECES };
     let (length_m, covered_m) = (strip.strip_m() / count as f64, strip.covered_m(radius_m));
@@ -145,7 +143,7 @@ mod tests {
 
     fn seen(more: &str) -> (Predictor, AtPressure, Value) {
         let text = models::shipped("epam-textbook").unwrap().replace("count = 6", &format!("count = 6\n{more}"));
-        let of = Predictor::new(&ScenarioFile::parse_in_space("robot", &text).unwrap());
+        let of = Predictor::new(&ScenarioFile::parse("robot", &text).unwrap());
         let state = of.state(&of.loads(None, &[20e3]).unwrap()).unwrap();
         let views = views(&of, &state, 97, true);
         (of, state, json!(views))
@@ -159,7 +157,7 @@ mod tests {
     fn a_strip_towards_z_is_seen_as_the_planar_robot() {
         let (planar, at, none) = seen("");
         assert!(none.is_null(), "one side is enough");
-        let wanted = planar.model().outline(&at.prediction, 97);
+        let wanted = planar.model.outline(&at.prediction, 97);
         let (_, _, views) = seen("azimuth_deg = 90");
         assert_eq!([&views[0]["axis"], &views[1]["axis"]], ["y", "z"]);
         for (wanted, found) in wanted.iter().zip(views[1]["sides"].as_array().unwrap()) {

@@ -79,9 +79,9 @@ fn robots_with_strips_round_the_body_are_the_library_s() {
         assert_eq!(told["effects"].as_array().unwrap().iter().find(strange), None);
         let found = ask(&json!({"ask": "predict", "robot": given, "actuator_kpa": kpa}));
         let pa: Vec<f64> = kpa.iter().map(|p| 1e3 * p).collect();
-        let own = ibr::Predictor::new(&ibr::studies::scenario_in_space(name).unwrap());
+        let own = ibr::Predictor::new(&ibr::studies::scenario(name).unwrap());
         let state = own.state(&own.loads(None, &pa).unwrap()).unwrap();
-        let wanted = ibr::shown::predicted::PredictedState::of(own.model(), own.scenario(), &state).json();
+        let wanted = ibr::shown::predicted::PredictedState::of(&own.model, &own.scenario, &state).json();
         assert!(wanted["tip"]["z_mm"].as_f64().unwrap().abs() > 1.0 && wanted["sections"].is_array());
         same(&wanted, &found, 1e-12);
         // The edges of both sides end around the tip.
@@ -147,4 +147,16 @@ fn what_is_refused_says_what_to_do() {
     assert!(table["message"].as_str().unwrap().contains("m.csv"), "{table}");
     let lost = refused(&json!({"ask": "predict", "robot": {"name": "epam"}, "actuator_kpa": []}));
     assert!(lost["message"].as_str().unwrap().contains("0 actuator pressures"), "{lost}");
+}
+
+#[test]
+fn the_page_opens_with_the_five_panels_of_the_demo() {
+    let told = ask(&json!({"ask": "demo"}));
+    let panels = told["panels"].as_array().unwrap();
+    assert_eq!(panels.len(), 5);
+    for panel in panels {
+        let picture = told["pictures"][panel["picture"].as_str().unwrap()].as_str().unwrap_or_default();
+        assert!(picture.contains("<svg") && !panel["lead"].as_str().unwrap().is_empty(), "{}", panel["title"]);
+    }
+    assert!(panels[3]["table"]["rows"].as_array().unwrap().len() > 3);
 }

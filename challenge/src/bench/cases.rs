@@ -8,13 +8,17 @@ use crate::score::{Claim, score};
 use crate::truth::{ROBOTS, standard_protocol};
 use crate::{Draw, HIDDEN, HiddenEffect, Hiding, OUTSIDE, Truth, truth};
 use compare::Evidence;
-use compare::diagnosis::{Confidence, Diagnosis, Experiment, Options};
+use compare::diagnosis::{Confidence, Diagnosis, Experiment, Options, Verdict, with_fitted};
 use compare::error::CompareError;
-use compare::study::generate;
+use compare::study::{fit_scenario, generate, predict_dataset};
 use data::{About, Dataset};
+use models::Scenario;
 
 /// Step through a list of effects, prime to their numbers, so that a short bench sees different groups.
 const STRIDE: usize = 13;
+
+/// A protocol that no set has: body and actuator pressure \[Pa\].
+const UNSEEN: [[f64; 2]; 5] = [[3e3, 0.0], [3e3, 7e3], [3e3, 15e3], [3e3, 25e3], [3e3, 12e3]];
 
 /// Stiffness of clamps, over the typical one: from a soft one to a rigid cap.
 const CLAMPS: [f64; 2] = [0.5, 30.0];
@@ -32,7 +36,7 @@ pub(super) fn draw(part: Lot, seed: u64, stream: u64, index: usize) -> Result<Tr
         Lot::Hidden(Hiding::One)
         | Lot::Measured(Hiding::One)
         | Lot::LostMarkers(Hiding::One)
-        | Lot::HoldsScatter(Hiding::One) => {
+        | Lot::White(Hiding::One) => {
             hide_one(truth::applicable(actuator, HIDDEN)?, &mut truth);
         }
         Lot::Interval => {
@@ -43,14 +47,14 @@ pub(super) fn draw(part: Lot, seed: u64, stream: u64, index: usize) -> Result<Tr
         Lot::Hidden(Hiding::Outside) => truth.add(OUTSIDE[turn * STRIDE % OUTSIDE.len()].name, 1.0),
         Lot::Hidden(kind) | Lot::Measured(kind) => truth.hide(kind, &mut draw)?,
         Lot::HeavyTails => truth.heavy_tails = true,
-        Lot::LostMarkers(_) | Lot::HoldsScatter(_) => {}
+        Lot::LostMarkers(_) | Lot::White(_) => {}
         Lot::Clamp => {
             let [softest, stiffest] = CLAMPS.map(f64::ln);
             truth.add(["base_clamp", "tip_clamp"][turn % 2], draw.between(softest, stiffest).exp());
         }
         Lot::Softening => truth.add("softening", draw.between(0.8, 1.5)),
     }
-    truth.holds_scatter = matches!(part, Lot::HoldsScatter(_));
+    truth.holds_scatter = !matches!(part, Lot::White(_));
     truth.lost_markers = matches!(part, Lot::LostMarkers(_));
     Ok(truth)
 }
@@ -63,7 +67,7 @@ pub(super) fn named(case: &PlannedSet, diagnose: Diagnoser) -> Result<Named, Str
         Lot::HeavyTails => hidden(truth, Hiding::Nothing, diagnose),
         Lot::Measured(_) => tested(truth).and_then(|about| alone(truth, about, diagnose)),
         Lot::Interval => interval(truth, diagnose),
-        Lot::LostMarkers(_) | Lot::HoldsScatter(_) | Lot::Clamp | Lot::Softening => {
+        Lot::LostMarkers(_) | Lot::White(_) | Lot::Clamp | Lot::Softening => {
             about(truth).and_then(|about| alone(truth, about, diagnose))
         }
     };
@@ -124,6 +128,7 @@ fn silent(truth: &Truth) -> Truth {
         camera_sd_m: 0.01 * truth.camera_sd_m,
         pressure_sd: 0.01 * truth.pressure_sd,
         alignment_sd_m: 0.01 * truth.alignment_sd_m,
+        holds_scatter: false,
         ..truth.clone()
     }
 }
@@ -150,6 +155,28 @@ fn interval(truth: &Truth, diagnose: Diagnoser) -> Result<Named, CompareError> {
     Ok(named)
 }
 
+/// Errors of base and final model against the robot without noise, under the unseen protocol; `None` without a name, or where the
+/// robot or a model has no equilibrium there.
+fn unseen_mm(truth: &Truth, found: &Diagnosis) -> Option<[f64; 2]> {
+    if found.verdict != Some(Verdict::Effect) {
+        return None;
+    }
+    let right = silent(truth).dataset("unseen", &UNSEEN).ok()?;
+    let mean_m = right.mean_over_runs();
+    let given = fit_scenario(&truth.told().ok()?, &right, Some(&about(truth).ok()?)).ok()?.0;
+    let added: Vec<_> = found.added.iter().map(|a| (a.effect.as_str(), &a.parameters[..])).collect();
+    let models = [
+        given.with_bending(found.base.bending.first()?.value_nm2),
+        with_fitted(&given, &added, found.base.bending_with_added_nm2.first().copied()),
+    ];
+    let error_mm = |model: &Scenario| {
+        let predicted = predict_dataset(model, &right).ok()?.coordinates_m;
+        let squares: f64 = predicted.iter().zip(&mean_m).map(|(a, b)| (a - b).powi(2)).sum();
+        Some(1e3 * (squares / mean_m.len() as f64).sqrt())
+    };
+    Some([error_mm(&models[0])?, error_mm(&models[1])?])
+}
+
 fn scored(truth: &Truth, found: &Diagnosis) -> Named {
     let answer = Claim::of(found);
     let first = found.ranked.iter().find(|row| answer.added.first() == Some(&row.effect));
@@ -164,6 +191,12 @@ fn scored(truth: &Truth, found: &Diagnosis) -> Named {
         systematic_mm: [found.base.systematic_mm, found.base.systematic_with_added_mm],
         tolerance_mm: found.tolerance_mm,
         heldout_mm: found.base.heldout_run_mm.zip(first.and_then(|row| row.heldout_run_mm)).map(|(a, b)| [a, b]),
+        unseen_mm: unseen_mm(truth, found),
+        bending_held: found
+            .base
+            .bending
+            .first()
+            .and_then(|b| b.lo.zip(b.hi).map(|(lo, hi)| (lo..=hi).contains(&truth.bending_nm2))),
         covered: None,
         bic_behind: found.ranked.iter().find(|row| is_true(&row.effect)).map(|row| row.bic_difference),
         smallest_detectable: found

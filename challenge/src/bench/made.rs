@@ -7,7 +7,7 @@
 use super::outcome::Diagnoser;
 use super::row::{Goal, Rate};
 use compare::Evidence;
-use compare::diagnosis::{Diagnosis, Options, Verdict};
+use compare::diagnosis::{Confidence, Diagnosis, Options, Verdict};
 use compare::error::CompareError;
 use compare::policy;
 use compare::study::engines::of_the_program;
@@ -57,6 +57,8 @@ pub struct OneOff {
     pub by_design: bool,
     /// It is told so, or in the stated set, or among the attempts.
     pub mentioned: bool,
+    /// Called identified.
+    pub identified: bool,
     /// Error beyond noise without it, with it as the shipped scenario has it, and with the answer or the attempt \[mm\].
     pub systematic_mm: [f64; 3],
 }
@@ -93,7 +95,24 @@ pub(super) fn made(robot: &str, diagnose: Diagnoser) -> Result<Vec<OneOff>, Comp
         }
     }
     let answers: Result<Vec<Option<OneOff>>, CompareError> = questions.par_iter().map(|q| q.ask(diagnose)).collect();
-    Ok(answers?.into_iter().flatten().collect())
+    let mut all: Vec<OneOff> = answers?.into_iter().flatten().collect();
+    all.push(all_off(robot, &whole, &evidence[..1], diagnose)?);
+    Ok(all)
+}
+
+/// What a question of all mechanisms at once lacks.
+const ALL: &str = "all mechanisms";
+
+/// The same question of the robot without any of its mechanisms, as a user asks it: reported where the answer states that the mechanisms of
+/// the shipped robot come nearer.
+fn all_off(robot: &str, whole: &Scenario, evidence: &[Evidence], diagnose: Diagnoser) -> Result<OneOff, CompareError> {
+    let bare = shipped_scenario(&format!("{robot}-textbook"))?;
+    let does_mm = apart_mm(whole, &bare, &evidence[0])?;
+    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
+    let found = diagnose(&bare, evidence, &options, &mut |_, _| ())?;
+    let is_told = found.other_design.is_some();
+    let question = Question { robot, whole, lacking: ALL, evidence, kept: false, whole_mm: f64::NAN };
+    Ok(OneOff { matters: true, by_design: is_told, mentioned: is_told, ..question.told(does_mm, &found) })
 }
 
 fn options(kept: bool) -> Options {
@@ -144,6 +163,7 @@ impl Question<'_> {
             in_set,
             by_design,
             mentioned: by_design || in_set || holds(&attempted),
+            identified: found.confidence == Some(Confidence::IdentifiedInCatalog),
             stated: found.indistinguishable.clone(),
             attempted,
             systematic_mm: [found.base.systematic_mm, whole_mm, found.base.systematic_with_added_mm],
@@ -167,8 +187,10 @@ pub(super) fn rows(made: &[OneOff]) -> Vec<Rate> {
         ("the same at two body pressures, B kept", 2, true),
         ("the same at two body pressures, B fitted", 2, false),
     ];
+    let (all, made): (Vec<&OneOff>, Vec<&OneOff>) = made.iter().partition(|m| m.lacking == ALL);
     let row = |(case, bodies, kept): (&'static str, usize, bool)| {
-        let own: Vec<&OneOff> = made.iter().filter(|m| m.matters && m.bodies == bodies && m.kept == kept).collect();
+        let own: Vec<&OneOff> =
+            made.iter().copied().filter(|m| m.matters && m.bodies == bodies && m.kept == kept).collect();
         let share = |figure, hit: fn(&OneOff) -> bool| {
             Rate::share(case, figure, Goal::AtLeast(0.8), &own.iter().map(|m| hit(m)).collect::<Vec<_>>())
         };
@@ -177,5 +199,13 @@ pub(super) fn rows(made: &[OneOff]) -> Vec<Rate> {
             share("the same, attempts that are said not to be enough counted too", |m| m.mentioned),
         ]
     };
-    cases.into_iter().flat_map(row).collect()
+    let case = "finite elements, all mechanisms off";
+    let whole = |figure, goal, hit: fn(&OneOff) -> bool| {
+        Rate::share(case, figure, goal, &all.iter().map(|m| hit(m)).collect::<Vec<_>>())
+    };
+    let rows = [
+        whole("the mechanisms of the shipped robot are reported", Goal::AtLeast(0.8), |m| m.by_design),
+        whole("called identified", Goal::AtMost(0.0), |m| m.identified),
+    ];
+    rows.into_iter().chain(cases.into_iter().flat_map(row)).collect()
 }

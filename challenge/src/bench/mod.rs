@@ -7,6 +7,7 @@
 mod attainable;
 mod cases;
 mod covered;
+mod faults;
 mod follow;
 mod made;
 mod oracle;
@@ -19,6 +20,7 @@ mod table;
 mod tests;
 
 pub use attainable::Attainable;
+pub use faults::FaultSet;
 pub use made::OneOff;
 pub use outcome::{After, Diagnoser, Lot, Named, PlannedSet, SetOutcome};
 pub use row::{Goal, Rate};
@@ -87,6 +89,8 @@ pub struct Discovery {
     pub slipped: Vec<SlippedSet>,
     /// Scenarios with an effect that the robot does not have.
     pub surplus: Vec<SurplusSet>,
+    /// Instruments that read wrongly and places that bend otherwise.
+    pub faults: Vec<FaultSet>,
     /// Every set.
     pub seen: Vec<SetSeen>,
     /// Sets that could not be made or diagnosed, with the reason.
@@ -115,6 +119,8 @@ enum Piece {
     Slipped(u64, usize),
     /// A scenario with an effect too many, of (seed, number).
     Surplus(u64, usize),
+    /// An instrument or a place, of (seed, number).
+    Fault(u64, usize),
 }
 
 /// What a piece gave, or why it failed.
@@ -128,6 +134,8 @@ pub enum Answer {
     Slipped(Result<Box<SlippedSet>, String>),
     /// Of an effect too many.
     Surplus(Result<Box<SurplusSet>, String>),
+    /// Of an instrument or a place.
+    Fault(Result<Box<FaultSet>, String>),
 }
 
 impl Bench {
@@ -138,6 +146,7 @@ impl Bench {
     pub fn plan(options: DiscoveryOptions) -> Result<Bench, CompareError> {
         let mut pieces: Vec<Piece> = plan(&options)?.into_iter().map(Piece::Set).collect();
         pieces.extend((0..surplus::count(options.sets)).map(|index| Piece::Surplus(options.seed, index)));
+        pieces.extend((0..faults::count(options.sets)).map(|index| Piece::Fault(options.seed, index)));
         if options.sets >= WHOLE {
             pieces.extend(made::MADE.map(Piece::Made));
             pieces.extend((0..slipped::count(options.sets)).map(|index| Piece::Slipped(options.seed, index)));
@@ -161,6 +170,10 @@ impl Bench {
                 let found = surplus::surplus(*seed, *index, diagnose);
                 Answer::Surplus(found.map(Box::new).map_err(|error| format!("an effect too many: {error}")))
             }
+            Piece::Fault(seed, index) => {
+                let found = faults::fault(*seed, *index, diagnose);
+                Answer::Fault(found.map(Box::new).map_err(|error| format!("a fault: {error}")))
+            }
             Piece::Slipped(seed, index) => Answer::Slipped(slipped::slipped(*seed, *index, diagnose).map(Box::new)),
         }
     }
@@ -168,7 +181,7 @@ impl Bench {
     /// The table, of the answers to all pieces in order.
     pub fn table(self, answers: Vec<Answer>) -> Discovery {
         let (mut outcomes, mut made, mut failed) = (Vec::new(), Vec::new(), Vec::new());
-        let (mut slipped, mut surplus) = (Vec::new(), Vec::new());
+        let (mut slipped, mut surplus, mut faults) = (Vec::new(), Vec::new(), Vec::new());
         for (piece, answer) in self.pieces.into_iter().zip(answers) {
             let failure = match (piece, answer) {
                 (Piece::Set(PlannedSet { part, truth }), Answer::Set(found)) => {
@@ -179,6 +192,7 @@ impl Bench {
                 (Piece::Made(_), Answer::Made(found)) => found.map(|found| made.extend(found)).err(),
                 (Piece::Surplus(..), Answer::Surplus(found)) => found.map(|found| surplus.push(*found)).err(),
                 (Piece::Slipped(..), Answer::Slipped(found)) => found.map(|found| slipped.push(*found)).err(),
+                (Piece::Fault(..), Answer::Fault(found)) => found.map(|found| faults.push(*found)).err(),
                 (piece, _) => Some(format!("{piece:?}: an answer to something else")),
             };
             failed.extend(failure);
@@ -190,7 +204,11 @@ impl Bench {
             rows: [
                 table::rows(&outcomes),
                 surplus::rows(&surplus),
-                covered::rows(&outcomes),
+                faults::rows(&faults),
+                covered::rows(
+                    &outcomes,
+                    faults.iter().filter_map(FaultSet::holds).chain(surplus.iter().filter_map(SurplusSet::holds)),
+                ),
                 slipped::rows(&slipped),
                 made::rows(&made),
             ]
@@ -202,6 +220,7 @@ impl Bench {
             missed_by_law: silence.iter().filter(|missed| **missed).count(),
             slipped,
             surplus,
+            faults,
             made,
             seen: outcomes.iter().map(seen).collect(),
             failed,
@@ -236,12 +255,12 @@ fn plan(options: &DiscoveryOptions) -> Result<Vec<PlannedSet>, CompareError> {
         (Lot::LostMarkers(Hiding::One), half),
         (Lot::Clamp, half),
         (Lot::Softening, half),
-        (Lot::HoldsScatter(Hiding::Nothing), half),
-        (Lot::HoldsScatter(Hiding::One), half),
+        (Lot::White(Hiding::Nothing), half),
+        (Lot::White(Hiding::One), half),
     ];
     let mut plan = Vec::new();
     for (number, (part, sets)) in parts.into_iter().enumerate() {
-        let same = |other: &(Lot, usize)| matches!(part, Lot::Measured(kind) | Lot::LostMarkers(kind) | Lot::HoldsScatter(kind) if other.0 == Lot::Hidden(kind));
+        let same = |other: &(Lot, usize)| matches!(part, Lot::Measured(kind) | Lot::LostMarkers(kind) | Lot::White(kind) if other.0 == Lot::Hidden(kind));
         let number = parts.iter().position(same).unwrap_or(number);
         for index in 0..sets {
             let stream = ((number as u64) << 32) + index as u64;

@@ -1,5 +1,6 @@
 //! Sets of the bench: what is planned, hidden, and found.
 
+use crate::loads::in_plane;
 use crate::score::{Claim, ClaimScore};
 use crate::truth::{Hiding, Truth};
 use compare::diagnosis::{Diagnosis, Distances, Options};
@@ -34,8 +35,8 @@ pub enum Lot {
     HeavyTails,
     /// Nothing, or the same effects, seen by a camera that loses markers.
     LostMarkers(Hiding),
-    /// Nothing, or the same effects, with scatter of single holds.
-    HoldsScatter(Hiding),
+    /// Nothing, or the same effects, without scatter of single holds.
+    White(Hiding),
     /// A clamp at base or tip, from half of its typical stiffness to thirty times that.
     Clamp,
     /// A wall that softens as it bends.
@@ -74,6 +75,10 @@ pub struct Named {
     pub tolerance_mm: f64,
     /// The same on runs left out, where the diagnosis gives both.
     pub heldout_mm: Option<[f64; 2]>,
+    /// Rms error of the calibrated base and of the final model under a protocol that nobody measured \[mm\], of verdicts that name.
+    pub unseen_mm: Option<[f64; 2]>,
+    /// The base's 95 % interval of B holds the true one.
+    pub bending_held: Option<bool>,
     /// The true value is inside the 95 % interval; `None` if another effect was chosen or there is no interval.
     pub covered: Option<bool>,
     /// λ between the best explanation and its rivals, by name.
@@ -118,7 +123,7 @@ pub(super) fn about(truth: &Truth) -> Result<About, CompareError> {
         actuator: Some(truth.actuator.clone()),
         geometry: None,
         markers: Vec::new(),
-        gravity_direction: Some(truth.told()?.gravity_direction),
+        gravity_direction: Some(in_plane(truth.told()?.gravity_direction)),
         direct: Direct::default(),
         bending_nm2: None,
         measured: Vec::new(),

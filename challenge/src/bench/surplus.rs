@@ -30,6 +30,11 @@ pub struct SurplusSet {
 }
 
 impl SurplusSet {
+    /// Whether the stated set holds the truth; `None` without one.
+    pub(super) fn holds(&self) -> Option<bool> {
+        (self.verdict == Some(Verdict::Effect)).then(|| self.is_named())
+    }
+
     fn is_named(&self) -> bool {
         let is_it = |part: &str| taken_away(part) == Some(&self.effect);
         self.stated.iter().any(|entry| entry.split(" + ").any(is_it))

@@ -61,8 +61,8 @@ pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
     rows.extend(one(outcomes, Lot::Measured(Hiding::One), "one hidden effect, B measured to 10 %"));
     let lossy = found(outcomes, Lot::LostMarkers(Hiding::One));
     rows.extend(named(&lossy, "one hidden effect, markers lost", &[ALARM], &[IN_SET, OUTSIDE]));
-    let scattered = found(outcomes, Lot::HoldsScatter(Hiding::One));
-    rows.extend(named(&scattered, "one hidden effect, holds scatter", &[ALARM], &[IN_SET, OUTSIDE]));
+    let white = found(outcomes, Lot::White(Hiding::One));
+    rows.extend(named(&white, "one hidden effect, white noise", &[ALARM], &[IN_SET, OUTSIDE]));
     for (part, case) in [(Lot::Clamp, "a clamp of any stiffness"), (Lot::Softening, "a softening wall")] {
         rows.extend(named(&found(outcomes, part), case, &[ALARM], &[ALONE_IN_SET]));
     }
@@ -114,16 +114,18 @@ fn nothing(outcomes: &[SetOutcome]) -> Vec<Rate> {
     let (case, tested_case) = ("no hidden effect", "no hidden effect, B measured to 10 %");
     let (all, tested) = (found(outcomes, NOTHING), found(outcomes, Lot::Measured(Hiding::Nothing)));
     let (few, many): (Sets, Sets) = all.iter().copied().partition(|(outcome, _)| outcome.truth.runs < 5);
+    let held: Vec<bool> = all.iter().filter_map(|(_, named)| named.bending_held).collect();
     let lossy = found(outcomes, Lot::LostMarkers(Hiding::Nothing));
-    let scattered = found(outcomes, Lot::HoldsScatter(Hiding::Nothing));
+    let white = found(outcomes, Lot::White(Hiding::Nothing));
     vec![
-        share(&scattered, "no hidden effect, holds scatter", FALSE_ALARM),
+        share(&white, "no hidden effect, white noise", FALSE_ALARM),
         share(&lossy, "no hidden effect, markers lost", FALSE_ALARM),
         share(&found(outcomes, Lot::HeavyTails), "no hidden effect, heavy tails", FALSE_ALARM),
         share(&many, case, ("false alarms, 5 and 10 runs", AtMost(0.03), FALSE_ALARM.2)),
         share(&few, case, ("false alarms, 3 runs", AtMost(0.05), FALSE_ALARM.2)),
         share(&tested, tested_case, FALSE_ALARM),
         share(&all, case, STIFFNESS),
+        Rate::share(case, "95 % interval of B holds B", AtLeast(0.9), &held),
         share(&tested, tested_case, STIFFNESS),
     ]
 }
@@ -162,7 +164,7 @@ pub(super) fn missed_in_silence(outcomes: &[SetOutcome]) -> Vec<bool> {
     all.iter().filter_map(|(_, named)| named.after_in_silence.as_ref()).map(|score| score.rank != Some(1)).collect()
 }
 
-fn quality(outcomes: &[SetOutcome]) -> [Rate; 3] {
+fn quality(outcomes: &[SetOutcome]) -> [Rate; 4] {
     let own = found(outcomes, Lot::Interval);
     let covered: Vec<bool> = own.iter().filter_map(|(_, named)| named.covered).collect();
     let all = found(outcomes, ONE);
@@ -170,12 +172,15 @@ fn quality(outcomes: &[SetOutcome]) -> [Rate; 3] {
     let ratio = |[before, after]: [f64; 2]| (before > 0.0).then(|| after / before);
     let fitted: Vec<f64> = alarmed().filter_map(|named| ratio(named.systematic_mm)).collect();
     let held: Vec<f64> = alarmed().filter_map(|named| named.heldout_mm.and_then(ratio)).collect();
+    let unseen = outcomes.iter().filter_map(|o| o.named.as_ref()?.unseen_mm).map(|[before, after]| after < before);
+    let unseen: Vec<bool> = unseen.collect();
     let case = "error beyond noise, one hidden effect";
     let (by_law, interval) = ("one effect by the catalogue's own law", "95 % interval holds the true value");
     [
         Rate::share(by_law, interval, Between(0.93, 0.97), &covered),
         Rate::number(case, "median of after / before", AtMost(0.10), median(&fitted), fitted.len()),
         Rate::number(case, "the same on held-out runs", AtMost(0.10), median(&held), held.len()),
+        Rate::share("an unseen protocol, a verdict that names", "the error falls", AtLeast(0.95), &unseen),
     ]
 }
 

@@ -55,7 +55,10 @@ fn a_diagnosis_that_fails_is_counted_and_named() {
     let bench = Bench::plan(DiscoveryOptions { seed: 1, sets: WHOLE, laws: Laws::First }).unwrap();
     let sets = plan(&bench.options).unwrap().len();
     let answers: Vec<Answer> = (0..bench.pieces.len()).map(|piece| bench.answer(piece, refuse)).collect();
-    assert_eq!(answers.len(), sets + made::MADE.len() + slipped::count(WHOLE) + surplus::count(WHOLE));
+    assert_eq!(
+        answers.len(),
+        sets + made::MADE.len() + slipped::count(WHOLE) + surplus::count(WHOLE) + faults::count(WHOLE)
+    );
     let told = bench.table(answers.clone());
     assert_eq!(told.failed.len(), answers.len());
     assert!(told.failed.iter().all(|why| why.contains("no model is given")) && told.seen.len() == sets);
@@ -64,6 +67,7 @@ fn a_diagnosis_that_fails_is_counted_and_named() {
             && told.made.is_empty()
             && told.slipped.is_empty()
             && told.surplus.is_empty()
+            && told.faults.is_empty()
     );
 }
 

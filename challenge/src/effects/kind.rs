@@ -39,7 +39,7 @@ impl HiddenEffect {
 
     /// Whether no entry of the catalogue describes it.
     pub fn is_outside(&self) -> bool {
-        self.laws.len() == 1
+        models::effects::by_name(self.name).is_none()
     }
 
     /// Whether a robot of this scenario can have it: its mechanism exists there, the scenario does not already have it, and

@@ -9,6 +9,7 @@ mod actuator;
 mod body;
 mod kind;
 mod outside;
+mod places;
 mod setup;
 mod size;
 #[cfg(test)]
@@ -47,19 +48,16 @@ pub const HIDDEN: &[HiddenEffect] = &[
 ];
 
 /// Effects that are hidden in sets of their own, beside those that the generator draws from [`HIDDEN`].
-pub const ALSO: &[HiddenEffect] = &[body::SOFTENING];
+pub const ALSO: &[HiddenEffect] =
+    &[body::SOFTENING, places::WEAK_PLACE, places::TAPERED_WALL, places::CAMERA_LENS, places::TIP_SPRING];
 
 /// Effects that no entry of the catalogue describes.
 pub const OUTSIDE: &[HiddenEffect] = &[
-    outside::DEAD_POUCH,
-    outside::WEAK_POUCH,
-    outside::STIFFNESS_TAPER,
     outside::KINK,
     outside::OBSTACLE,
     outside::STUCK_REGULATOR,
     outside::SHIFTED_MARKER,
     outside::SWAPPED_MARKERS,
-    outside::LENS_DISTORTION,
     outside::DRIFTING_CAMERA,
 ];
 

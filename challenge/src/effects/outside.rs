@@ -1,56 +1,6 @@
 //! Effects that no entry of the catalogue describes: local, or of the measurement.
 
 use super::kind::{HiddenEffect, Law};
-use crate::robot::TrueRobot;
-
-/// Factor on the actuator's pressure between two shares of the body length.
-fn weaken(robot: &mut TrueRobot, from: f64, to: f64, strength: f64) {
-    let length = robot.length_m;
-    robot.each(|cell, s| {
-        if let Some(drive) = cell.drive.as_mut().filter(|_| s > from * length && s < to * length) {
-            drive.strength *= strength;
-        }
-    });
-}
-
-pub(super) const DEAD_POUCH: HiddenEffect = HiddenEffect {
-    name: "dead_pouch",
-    sentence: "The third sixth of the actuator gets no air.",
-    family: None,
-    laws: &[Law {
-        words: "pressure × (1 − a) between L/3 and L/2",
-        unit: "-",
-        size: |_| 1.0,
-        put: |robot, amount| weaken(robot, 1.0 / 3.0, 0.5, (1.0 - amount).max(0.0)),
-    }],
-};
-
-pub(super) const WEAK_POUCH: HiddenEffect = HiddenEffect {
-    name: "weak_pouch",
-    sentence: "The fourth sixth of the actuator gets half of the pressure through a pinched hose.",
-    family: None,
-    laws: &[Law {
-        words: "pressure × (1 − a) between L/2 and 2L/3",
-        unit: "-",
-        size: |_| 0.5,
-        put: |robot, amount| weaken(robot, 0.5, 2.0 / 3.0, (1.0 - amount).max(0.0)),
-    }],
-};
-
-pub(super) const STIFFNESS_TAPER: HiddenEffect = HiddenEffect {
-    name: "stiffness_taper",
-    sentence: "The wall is stiffer at the base than at the tip: the glue got thinner on the way.",
-    family: None,
-    laws: &[Law {
-        words: "B (1 + a (1 − 2s/L))",
-        unit: "-",
-        size: |_| 0.6,
-        put: |robot, amount| {
-            let length = robot.length_m;
-            robot.each(|cell, s| cell.wall.bending *= (1.0 + amount * (1.0 - 2.0 * s / length)).max(0.02));
-        },
-    }],
-};
 
 pub(super) const KINK: HiddenEffect = HiddenEffect {
     name: "kink",
@@ -136,18 +86,6 @@ pub(super) const SWAPPED_MARKERS: HiddenEffect = HiddenEffect {
                 robot.markers_m[3] = fourth - share * (fourth - third);
             }
         },
-    }],
-};
-
-pub(super) const LENS_DISTORTION: HiddenEffect = HiddenEffect {
-    name: "lens_distortion",
-    sentence: "The lens bulges the image about its centre.",
-    family: None,
-    laws: &[Law {
-        words: "1 + k r² about (L/2, L/6)",
-        unit: "1/m²",
-        size: |_| 0.8,
-        put: |robot, amount| robot.camera.lens_per_m2 += amount,
     }],
 };
 

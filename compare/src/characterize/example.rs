@@ -70,7 +70,6 @@ fn point(direction: Direction, at: f64, factor: f64) -> [f64; 2] {
     }
 }
 
-/// Yarns that stretch as the tables say.
 fn yarns() -> Option<Woven> {
     let yarn = |rows: &[[f64; 2]]| Yarn::new(Curve::table(rows).ok()?, None).ok();
     Woven::new([yarn(&WARP)?, yarn(&FILL)?], Curve::linear(1e6), 0.0, THICKNESS_M).ok()

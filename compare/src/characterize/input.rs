@@ -54,10 +54,7 @@ impl FabricTests {
         Ok(())
     }
 
-    /// Numbers and curves of the fabric.
-    ///
-    /// # Errors
-    /// As [`characterize`].
+    /// Numbers and curves of the fabric. Errors as for [`characterize`].
     pub fn reduce(&self, settings: &Reduction) -> Result<Characterized, CompareError> {
         let mut found = characterize(&self.coupons, settings)?;
         self.bent.iter().for_each(|table| found.bend(&bending_lengths_m(table), table.provenance.word()));

@@ -19,7 +19,7 @@ pub mod write;
 
 pub use input::FabricTests;
 pub use reduce::characterize;
-pub use result::{BiasStrip, Characterized, MeanCurve, Replay, ShearCurve, Specimen};
+pub use result::{BiasStrip, Characterized, MeanCurve, Replay, ShearCurve, Specimen, directions};
 pub use scatter::{FabricNumber, Scatter};
 
 /// Shear angle of the paper's validity limit \[rad\]: 24 % strain of its strip of 250 mm by 20 mm.

@@ -1,12 +1,11 @@
 //! Over specimens: the numbers with their scatter, the mean curves, the shear curve.
 
-use data::{Coupon, DataError, Direction, Fault, Provenance};
-use models::fabrics::{Fabric, shear_modulus, specimen as fit};
-
-use super::result::{Characterized, MeanCurve, ShearCurve, Specimen};
+use super::result::{Characterized, MeanCurve, ShearCurve, Specimen, directions};
 use super::scatter::Scatter;
 use super::{PAPER_LIMIT_RAD, Reduction, replay, specimen, warn};
 use crate::CompareError;
+use data::{Coupon, DataError, Direction, Fault, Provenance};
+use models::fabrics::{Fabric, shear_modulus, specimen as fit};
 
 const YARNS: [Direction; 2] = [Direction::Warp, Direction::Fill];
 /// Rows of a mean curve: a law's table, fine enough for any bend of a fabric.
@@ -131,7 +130,7 @@ fn shear_curve(specimens: &[Specimen], thickness_m: Option<f64>) -> Option<Shear
 }
 
 fn moduli(found: &mut Characterized) {
-    for direction in found.directions() {
+    for direction in directions(&found.specimens) {
         let degrees = direction.degrees();
         let how = match direction {
             Direction::Warp | Direction::Fill => format!("along {}", direction.word()),
@@ -238,7 +237,6 @@ fn link(found: &mut Characterized) {
     found.add(["g12_link", "G12 from the moduli, free edges"], "MPa", Some(scatter.scaled(1e-6)), known);
 }
 
-/// How far the curves go.
 fn reach(found: &mut Characterized) {
     for direction in YARNS {
         let (word, known) = (direction.word(), found.provenance.word());
@@ -246,7 +244,7 @@ fn reach(found: &mut Characterized) {
         let number = [format!("reach_{word}"), format!("strain at the largest stress, {word}")];
         found.add(number.each_ref().map(String::as_str), "%", ends, known);
     }
-    let alone = found.directions().into_iter().filter(|d| found.of(*d).count() == 1);
+    let alone = directions(&found.specimens).into_iter().filter(|d| found.of(*d).count() == 1);
     let single: Vec<String> = alone.map(|d| format!("{}°", d.degrees())).collect();
     if !single.is_empty() {
         found.notes.push(format!("one specimen only at {}: no interval can be given", single.join(", ")));

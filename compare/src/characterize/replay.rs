@@ -3,28 +3,24 @@
 //! A bias extension whose size is known is replayed by its zones ([`models::fabrics::BiasExtension`]), any other test as a long
 //! specimen with free edges ([`Pull`]). The laws are read from the text that is written, digits and all.
 
-use std::sync::Arc;
-
-use models::fabrics::{self, BiasExtension, Fabric, Pull, Recipe, specimen as fit};
-
 use super::result::{BiasStrip, Characterized, Replay, Specimen};
 use super::write::fabric_toml;
 use super::{PAPER_LIMIT_RAD, Reduction};
+use models::fabrics::{self, BiasExtension, Fabric, Pull, Recipe, specimen as fit};
+use std::sync::Arc;
 
 /// Places of a replay: a mean curve has fewer rows.
 const PLACES: usize = 48;
 
-/// Every specimen with a stress, by every law.
 pub(super) fn replays(found: &Characterized, settings: &Reduction) -> Vec<Replay> {
     let mut all = Vec::new();
     for (law, fabric) in laws(found, settings) {
-        let tests = found.specimens.iter().enumerate().filter(|(_, s)| s.stress.len() > 1);
-        all.extend(tests.filter_map(|(i, test)| replayed(i, test, &law, &fabric)));
+        let tests = found.specimens.iter().filter(|s| s.stress.len() > 1);
+        all.extend(tests.filter_map(|test| replayed(test, &law, &fabric)));
     }
     all
 }
 
-/// The laws of the fragment, made.
 pub(super) fn laws(found: &Characterized, settings: &Reduction) -> Vec<(String, Arc<dyn Fabric>)> {
     let text = fabric_toml(found, settings, "").unwrap_or_default();
     let table: toml::Table = text.parse().unwrap_or_default();
@@ -49,7 +45,7 @@ fn make(table: &toml::Table) -> Option<Arc<dyn Fabric>> {
     (fabrics::by_name(table.get("law")?.as_str()?)?.make)(&recipe).ok()
 }
 
-fn replayed(place: usize, test: &Specimen, law: &str, fabric: &Arc<dyn Fabric>) -> Option<Replay> {
+fn replayed(test: &Specimen, law: &str, fabric: &Arc<dyn Fabric>) -> Option<Replay> {
     let end = test.stress.last()?[0];
     let rows = match (&test.strip, test.thickness_m) {
         (Some(strip), Some(thickness_m)) => zones(strip, thickness_m, end, fabric)?,
@@ -60,7 +56,8 @@ fn replayed(place: usize, test: &Specimen, law: &str, fabric: &Arc<dyn Fabric>) 
     let squares: f64 = rows.iter().map(|[x, y]| (y - fit::at(&test.stress, *x)).powi(2)).sum();
     let (at_end, rms) = (y / fit::at(&test.stress, x) - 1.0, (squares / rows.len() as f64).sqrt() / largest);
     let used = test.direction.along_yarn() || test.direction == data::Direction::Bias;
-    Some(Replay { specimen: place, law: law.to_string(), used, at_end, rms, rows })
+    let (specimen, direction_deg) = (test.name.clone(), test.direction.degrees());
+    Some(Replay { law: law.to_string(), specimen, used, direction_deg, at_end, rms, rows })
 }
 
 fn free(test: &Specimen, end: f64, fabric: &Arc<dyn Fabric>) -> Option<Vec<[f64; 2]>> {

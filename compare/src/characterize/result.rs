@@ -1,9 +1,9 @@
 //! What the tests of a fabric give.
 
+use super::scatter::{FabricNumber, Scatter};
 use data::{Direction, Provenance};
 use models::fabrics::{BiasExtension, Curve, Woven, Yarn, specimen as fit};
-
-use super::scatter::{FabricNumber, Scatter};
+use serde::Serialize;
 
 /// All that the specimens of one fabric say.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,20 +92,24 @@ pub struct BiasStrip {
     pub locking: Option<fit::Locking>,
 }
 
-/// One test by one law.
-#[derive(Debug, Clone, PartialEq)]
+/// A test computed with a law.
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Replay {
-    /// Place of the specimen.
-    pub specimen: usize,
-    /// Name of the law in the fragment.
+    /// Which law
     pub law: String,
-    /// Whether the law was made from tests of this direction; else it is a check.
+    /// Specimen
+    pub specimen: String,
+    /// The law was made of tests of this direction; else it is a check
+    #[serde(rename = "used_for_the_law")]
     pub used: bool,
-    /// Law over test at the end, less one: up to 36° of shear in a bias extension.
+    /// Direction of the pull to the warp
+    pub direction_deg: f64,
+    /// Law over test at the end, less one: up to 36° of shear in a bias extension
     pub at_end: f64,
-    /// Root mean square of the difference over the test's largest stress.
+    /// Rms of the difference over the test's largest stress
     pub rms: f64,
     /// Rows nominal strain, nominal stress by the law \[Pa\].
+    #[serde(skip)]
     pub rows: Vec<[f64; 2]>,
 }
 
@@ -132,11 +136,6 @@ impl Characterized {
     /// A number by its key.
     pub fn quantity(&self, key: &str) -> Option<&FabricNumber> {
         self.quantities.iter().find(|q| q.key == key)
-    }
-
-    /// Directions that were pulled, by angle.
-    pub fn directions(&self) -> Vec<Direction> {
-        directions(&self.specimens)
     }
 
     /// ν₁₂: measured, else 0.
@@ -181,7 +180,7 @@ impl Characterized {
 }
 
 /// Directions that were pulled, by angle.
-pub(super) fn directions(specimens: &[Specimen]) -> Vec<Direction> {
+pub fn directions(specimens: &[Specimen]) -> Vec<Direction> {
     let mut all: Vec<Direction> = specimens.iter().map(|s| s.direction).collect();
     all.sort_by(|a, b| a.degrees().total_cmp(&b.degrees()));
     all.dedup();

@@ -1,19 +1,15 @@
 //! One specimen: stress over strain, modulus, C₁₀, and the shear curve of a bias extension.
 
-use data::{Coupon, DataError, Direction, Fault, Pulled};
-use models::fabrics::{BiasExtension, Fabric, specimen as fit};
-
 use super::Reduction;
 use super::result::{BiasStrip, Specimen};
 use crate::policy;
+use data::{Coupon, DataError, Direction, Fault, Pulled};
+use models::fabrics::{BiasExtension, Fabric, specimen as fit};
 
 /// Most rows that go into a reduction: far finer than any law's table, and the noise is averaged.
 const MOST_ROWS: usize = 400;
 
 /// Reduces one specimen, but for the shear of a bias test; adds to `warnings` what a user should look at.
-///
-/// # Errors
-/// A size that is missing, a modulus that only another unit explains.
 pub(super) fn reduce(coupon: &Coupon, settings: &Reduction, warnings: &mut Vec<String>) -> Result<Specimen, DataError> {
     let along = coupon.direction.along_yarn();
     let whole = stresses(coupon)?;
@@ -82,7 +78,6 @@ fn poisson(coupon: &Coupon, stress: &[[f64; 2]], up_to: f64) -> Option<f64> {
     Some(-fit::slope(small(&rows.collect::<Vec<_>>(), up_to))?)
 }
 
-/// A fault of a specimen.
 pub(super) fn fault(coupon: &Coupon, message: String, help: impl Into<String>) -> DataError {
     let message = format!("specimen {} ({}°): {message}", coupon.specimen, coupon.direction.degrees());
     DataError::Runs(Box::new(Fault::of_file(&coupon.file, message, help).at_line(coupon.line)))
@@ -117,9 +112,6 @@ fn up_to_peak(rows: &[[f64; 2]]) -> Vec<[f64; 2]> {
 }
 
 /// The bias extension of a coupon pulled at 45° whose sizes are known; the stretch of `yarns` is taken out.
-///
-/// # Errors
-/// A strip with H < 2W.
 pub(super) fn strip(
     coupon: &Coupon,
     yarns: Option<&dyn Fabric>,
@@ -220,7 +212,6 @@ fn stress_advice(coupon: &Coupon, modulus_pa: f64, fits: impl Fn(f64) -> bool) -
     if found.is_empty() { format!("check the units of {strain} and {stress}") } else { found.join("; ") }
 }
 
-/// Four digits.
 fn short(x: f64) -> String {
     if x != 0.0 && !(1e-3..1e6).contains(&x.abs()) {
         return format!("{x:.3e}");

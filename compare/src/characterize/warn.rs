@@ -1,11 +1,10 @@
 //! What a user should look at before the numbers are believed.
 
-use data::{Coupon, Direction, Pulled};
-use models::fabrics::specimen::{self as fit, Slip};
-
 use super::result::{Replay, Specimen, directions};
 use super::scatter::{Scatter, deviating};
 use crate::policy;
+use data::{Coupon, Direction, Pulled};
+use models::fabrics::specimen::{self as fit, Slip};
 
 /// A specimen that slipped in its grips, and rows that were left out. Rows: strain or displacement, and stress or force.
 pub(super) fn slips(coupon: &Coupon, rows: &[[f64; 2]], warnings: &mut Vec<String>) {
@@ -33,7 +32,6 @@ pub(super) fn slips(coupon: &Coupon, rows: &[[f64; 2]], warnings: &mut Vec<Strin
     }
 }
 
-/// Slack that was taken off.
 pub(super) fn slack(specimens: &[Specimen]) -> Option<String> {
     let one = |s: &Specimen| format!("{} ({}°) {:.3} %", s.name, s.direction.degrees(), 100.0 * s.slack);
     let all: Vec<String> = specimens.iter().filter(|s| s.slack > 0.0).map(one).collect();

@@ -1,9 +1,8 @@
 //! Results as text: the TOML fragment that cases take, and tables.
 
-use data::{Column, Direction, Table};
-
 use super::result::{Characterized, MeanCurve, ShearCurve};
 use super::{PAPER_LIMIT_RAD, Reduction};
+use data::{Column, Direction, Table};
 
 /// `[fabric.NAME]` tables for a finite element case, one for every law that these tests determine; none without thickness.
 ///

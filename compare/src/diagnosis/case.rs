@@ -1,6 +1,6 @@
 //! A scenario and its datasets made ready for hypotheses: noise, calibrated base, catalogue.
 
-use super::candidates::{Candidate, candidates, hold, present, surplus, taken_away};
+use super::candidates::{Candidate, candidates, hold, present, surplus, taken_away, tried_between};
 use super::known::{Known, add_shapes, known, make_room};
 use super::options::Options;
 use super::problem::{Block, Fit, Problem};
@@ -27,7 +27,7 @@ const EIGEN_ROUNDS: usize = 1000;
 type NoiseOf<'n> = dyn Fn(&Source, &[f64]) -> Result<NoiseModel, CompareError> + 'n;
 
 /// What every hypothesis is held against.
-pub struct Case<'a> {
+pub(crate) struct Case<'a> {
     /// All data; errors in millimetres, places and held-out parts refer to the first.
     pub sources: &'a [Source],
     /// Noise of their means.
@@ -50,7 +50,7 @@ pub struct Case<'a> {
 
 /// Catalogue of a diagnosis: the scenario's own effects first if they are refitted, then those that may be missing, then those that may
 /// be one too many; without effects of which nothing is left to be seen in any of the data.
-pub fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate>, usize) {
+pub(super) fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate>, usize) {
     let scenario = sources[0].as_given();
     let open = |c: &Candidate| sources.iter().any(|source| source.shows(c.stage));
     let mut list = if options.refit_present { present(scenario) } else { Vec::new() };
@@ -63,6 +63,7 @@ pub fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate>, usiz
     let measured: Vec<&MeasuredValue> = sources.iter().flat_map(|source| &source.measured).collect();
     let bodies = body_pressures(sources.iter().map(|source| &source.dataset)).len();
     hold(&mut list, options.keep_bending, bodies > 1, &measured);
+    tried_between(&mut list, &sources[0].dataset.holds);
     make_room(&mut list, &measured, scenario);
     list[..own].iter_mut().for_each(|candidate| candidate.as_given(&candidate.own_values(scenario)));
     let missing = list.split_off(own);
@@ -72,7 +73,7 @@ pub fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate>, usiz
 
 impl<'a> Case<'a> {
     /// Estimates the noise and fits the base, twice: each needs the other.
-    pub fn new(
+    pub(crate) fn new(
         sources: &'a [Source],
         (candidates, own): (&'a [Candidate], usize),
         options: &Options,
@@ -92,7 +93,7 @@ impl<'a> Case<'a> {
     }
 
     /// The same with noise from elsewhere.
-    pub fn with_noise(
+    pub(crate) fn with_noise(
         sources: &'a [Source],
         noise: &NoiseOf,
         (candidates, own): (&'a [Candidate], usize),
@@ -143,77 +144,77 @@ impl<'a> Case<'a> {
     }
 
     /// The data to which errors in millimetres, places and held-out parts refer.
-    pub fn first(&self) -> &'a Source {
+    pub(crate) fn first(&self) -> &'a Source {
         &self.sources[0]
     }
 
     /// Noise of the mean of the first data.
-    pub fn noise(&self) -> &NoiseModel {
+    pub(crate) fn noise(&self) -> &NoiseModel {
         &self.noises[0]
     }
 
-    pub fn candidate(&self, effect: usize) -> &Candidate {
+    pub(crate) fn candidate(&self, effect: usize) -> &Candidate {
         &self.problem.candidates[effect]
     }
 
     /// Effects that a fit adds to the base.
-    pub fn added<'f>(&self, fit: &'f Fit) -> &'f [usize] {
+    pub(crate) fn added<'f>(&self, fit: &'f Fit) -> &'f [usize] {
         &fit.effects[self.always.len()..]
     }
 
-    pub fn names(&self, fit: &Fit) -> Vec<String> {
+    pub(crate) fn names(&self, fit: &Fit) -> Vec<String> {
         self.added(fit).iter().map(|e| self.candidate(*e).name.clone()).collect()
     }
 
     /// Effects of every hypothesis and one more.
-    pub fn with(&self, effect: usize) -> Vec<usize> {
+    pub(crate) fn with(&self, effect: usize) -> Vec<usize> {
         self.always.iter().copied().chain([effect]).collect()
     }
 
     /// Stiffnesses of a fit, one per body pressure \[N·m²\].
-    pub fn bendings(&self, fit: &Fit) -> Vec<f64> {
+    pub(crate) fn bendings(&self, fit: &Fit) -> Vec<f64> {
         fit.theta()[..self.problem.bendings].to_vec()
     }
 
     /// Prediction of a fit in run layout of the first data \[m\].
-    pub fn prediction(&self, fit: &Fit) -> Vec<f64> {
+    pub(crate) fn prediction(&self, fit: &Fit) -> Vec<f64> {
         self.prediction_of(&self.problem.blocks[0], fit)
     }
 
     /// The same of another block.
-    pub fn prediction_of(&self, block: &Block, fit: &Fit) -> Vec<f64> {
+    pub(crate) fn prediction_of(&self, block: &Block, fit: &Fit) -> Vec<f64> {
         let predicted = self.problem.predict(block, &block.holds, &fit.effects, fit.theta());
         // A fit ends at a place that was predicted before, so there is a prediction.
         predicted.unwrap_or_else(|| block.target_m.clone())
     }
 
     /// The part of whitened values that belongs to the first data.
-    pub fn of_first<'v>(&self, white: &'v [f64]) -> &'v [f64] {
+    pub(crate) fn of_first<'v>(&self, white: &'v [f64]) -> &'v [f64] {
         &white[..self.noise().directions.len()]
     }
 
     /// Whether p-values can be formed.
-    pub fn gives_p_values(&self) -> bool {
+    pub(crate) fn gives_p_values(&self) -> bool {
         self.noises.iter().all(NoiseModel::gives_p_values)
     }
 
-    pub fn is_gauged(&self) -> bool {
+    pub(crate) fn is_gauged(&self) -> bool {
         self.sources.iter().any(|source| source.gauge.is_some())
     }
 
     /// Error beyond noise of a prediction of the first data \[mm\]; the root-mean-square error if the noise is unknown.
-    pub fn error_mm(&self, prediction_m: &[f64]) -> f64 {
+    pub(crate) fn error_mm(&self, prediction_m: &[f64]) -> f64 {
         error_mm(prediction_m, &self.problem.blocks[0].target_m, self.noise())
     }
 
     /// The same of a fit in each of the data \[mm\].
-    pub fn errors_mm(&self, fit: &Fit) -> Vec<f64> {
+    pub(crate) fn errors_mm(&self, fit: &Fit) -> Vec<f64> {
         let blocks = self.problem.blocks.iter().zip(&self.noises);
         blocks.map(|(block, noise)| error_mm(&self.prediction_of(block, fit), &block.target_m, noise)).collect()
     }
 
     /// Root mean square of a fit's errors over all values of all data \[mm\].
-    pub fn error_in_all_mm(&self, fit: &Fit) -> f64 {
+    pub(crate) fn error_in_all_mm(&self, fit: &Fit) -> f64 {
         let errors = self.errors_mm(fit).into_iter().zip(&self.noises).map(|(mm, noise)| (mm, noise.all_seen() as f64));
         let (squares, count) = errors.fold((0.0, 0.0), |(s, n), (mm, k)| (s + k * mm * mm, n + k));
         (squares / count).sqrt()
@@ -221,7 +222,7 @@ impl<'a> Case<'a> {
 
     /// Error beyond noise that no scatter between runs explains \[mm\]: from the whitened sum of squares, whose expectation
     /// under noise is its degrees of freedom. Pressure, alignment and rotation of a run do not count.
-    pub fn beyond_noise_mm(&self, fit: &Fit) -> f64 {
+    pub(crate) fn beyond_noise_mm(&self, fit: &Fit) -> f64 {
         let unseen: usize = self.noises.iter().map(|noise| noise.directions.len() - noise.all_seen()).sum();
         let seen = fit.minimum.residual.len() - self.problem.known.len() - unseen;
         let (cost, dof) = (self.seen_cost(fit), seen.saturating_sub(fit.theta().len()).max(1) as f64);
@@ -235,30 +236,30 @@ impl<'a> Case<'a> {
     }
 
     /// Fall of the sum of squares that the markers show against the calibrated base.
-    pub fn seen_gain(&self, fit: &Fit) -> f64 {
+    pub(crate) fn seen_gain(&self, fit: &Fit) -> f64 {
         (self.seen_cost(&self.base) - self.seen_cost(fit)).max(0.0)
     }
 
     /// Fall of the whitened sum of squares against the calibrated base.
-    pub fn gain(&self, fit: &Fit) -> f64 {
+    pub(crate) fn gain(&self, fit: &Fit) -> f64 {
         (self.base.cost() - fit.cost()).max(0.0)
     }
 
     /// Parameters beyond the base that do not shape a law; a shape pays by its prior.
-    pub fn extra(&self, fit: &Fit) -> usize {
+    pub(crate) fn extra(&self, fit: &Fit) -> usize {
         self.problem.sizes(&fit.effects) - self.problem.sizes(&self.always)
     }
 
     /// p of a gain by `parameters`, the best of `tests`; `None` if no p-values can be formed. Of several data σ² has the fewest
     /// degrees of freedom.
-    pub fn p_of_gain(&self, gain: f64, parameters: usize, tests: f64) -> Option<f64> {
+    pub(crate) fn p_of_gain(&self, gain: f64, parameters: usize, tests: f64) -> Option<f64> {
         let (q, dof) = (parameters.max(1), self.noises.iter().map(|noise| noise.pure_error_dof).min().unwrap_or(0));
         let p = tests * f_tail(gain / q as f64, q, dof);
         self.gives_p_values().then_some(p.min(1.0))
     }
 
     /// Whether a parameter of its effects sits on a bound against which the data push.
-    pub fn is_rejected(&self, fit: &Fit) -> bool {
+    pub(crate) fn is_rejected(&self, fit: &Fit) -> bool {
         fit.binding[self.problem.bendings..].contains(&true)
     }
 }

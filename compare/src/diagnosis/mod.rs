@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! prepare ─► noise, base ─► every effect refitted ─► one p ─► set ─► pairs if wanted ─► lack of fit, places ─► verdict
-//! (source)      (case)          (screen, singles)                       (pairs)            (lack_of_fit, stands_out, decide)
+//! (source)      (case)          (screen, singles)                       (pairs)            (lack_of_fit, left_patterns, decide)
 //!                                 └─► intervals, held-out error, smallest detectable sizes (assemble), next experiment
 //! ```
 //!
@@ -30,8 +30,8 @@ pub(crate) mod verdict;
 
 pub use crate::prepare::{Outliers, OutlyingRun};
 pub use crate::slips::pressure::{BestEffect, PressureSlipFound};
-pub use answers::{Answer, Standing};
-pub(crate) use answers::{in_step, with_fitted};
+pub(crate) use answers::in_step;
+pub use answers::{Answer, Standing, with_fitted};
 pub use bench::{BenchDiagnosis, BenchOptions, BenchRanked, LeftOut, diagnose_bench};
 pub use candidates::taken_away;
 pub use distance::{Distances, KnownNoise, distances, power};
@@ -60,7 +60,7 @@ use other_design::other_design;
 use pressures::Pressures;
 use source::Source;
 use story::story;
-use verdict::{assemble, bending_alarm, closest, decide, lack_of_fit, limits, patterns, pressures, stands_out};
+use verdict::{assemble, bending_alarm, closest, decide, lack_of_fit, left_patterns, limits, patterns, pressures};
 
 /// Diagnoses measurements: is an effect missing in the scenario, which, and what would tell. Several data of one robot lie each
 /// under its own protocol and loads: one bending stiffness for every body pressure and one value of every parameter must meet

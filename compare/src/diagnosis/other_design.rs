@@ -17,7 +17,7 @@ use models::scenario::EffectChoice;
 
 /// The answer with every mechanism of the shipped robot of this kind, or with none of them, nothing of them fitted: if what `found`
 /// leaves is more than noise and beyond the tolerance, or its stiffness is on a bound, and it leaves less by a fifth. One mechanism alone is a candidate like any other.
-pub fn other_design(
+pub(super) fn other_design(
     found: &Diagnosis,
     scenario: &Scenario,
     evidence: &[Evidence],
@@ -37,7 +37,7 @@ pub fn other_design(
         let Ok(Some(answer)) = of_design(&other, switched, evidence, options, found.base.systematic_mm) else {
             continue;
         };
-        let most = best.as_ref().map_or(found.base.systematic_with_added_mm, |best| best.systematic_after_mm);
+        let most = best.as_ref().map_or_else(|| own_mm(found), |best| best.systematic_after_mm);
         if policy::is_closer(answer.systematic_after_mm, most) {
             best = Some(answer);
         }
@@ -45,9 +45,20 @@ pub fn other_design(
     Ok(best)
 }
 
+/// What the scenario's own answer leaves; where it explains nothing, what its best single effect leaves, because other designs are asked
+/// for no pairs \[mm\].
+fn own_mm(found: &Diagnosis) -> f64 {
+    let base = &found.base;
+    if found.verdict == Some(Verdict::Effect) {
+        return base.systematic_with_added_mm;
+    }
+    let singles = found.ranked.iter().filter(|row| !row.at_bound).map(|row| row.systematic_after_mm);
+    singles.fold(base.systematic_mm, f64::min)
+}
+
 /// The scenario with every mechanism of the shipped robot of this kind, and with none of them, as far as that switches several; each with
 /// what it switches, as candidates are called.
-pub fn designs(scenario: &Scenario, options: &Options) -> Result<Vec<(Scenario, Vec<String>)>, CompareError> {
+pub(super) fn designs(scenario: &Scenario, options: &Options) -> Result<Vec<(Scenario, Vec<String>)>, CompareError> {
     let has = |e: &EffectChoice| scenario.effects.iter().any(|own| own.name == e.name);
     let all = shipped_scenario(scenario.actuator.kind.name)?.effects;
     let (own, mut lacking): (Vec<_>, Vec<_>) = all.into_iter().partition(has);

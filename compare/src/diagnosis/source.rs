@@ -15,14 +15,14 @@ use models::Scenario;
 use models::effects::Stage;
 
 /// Whether one direction of gravity is the other one rolled by 180° about the robot's axis: it pulls the other way across.
-pub fn is_rolled([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> bool {
-    ay.abs() > policy::SAME_DIRECTION
+pub(super) fn is_rolled([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> bool {
+    ay.abs().max(az.abs()) > policy::SAME_DIRECTION
         && (ax - bx).abs() < policy::SAME_DIRECTION
-        && (ay + by).abs() < policy::SAME_DIRECTION
+        && (ay + by).abs().max((az + bz).abs()) < policy::SAME_DIRECTION
 }
 
 /// A scenario as the robot sees it when it is rolled by 180°: forces and cameras that stay in the room change sides.
-pub fn seen_rolled(scenario: &Scenario) -> Scenario {
+pub(super) fn seen_rolled(scenario: &Scenario) -> Scenario {
     let mut seen = scenario.clone();
     for effect in &mut seen.effects {
         let parameters = models::effects::by_name(&effect.name).map_or(&[][..], |entry| entry.parameters);
@@ -33,12 +33,12 @@ pub fn seen_rolled(scenario: &Scenario) -> Scenario {
 }
 
 /// Distinct body pressures in order of appearance \[Pa\].
-pub fn body_pressures<'d>(datasets: impl IntoIterator<Item = &'d Dataset>) -> Vec<f64> {
+pub(super) fn body_pressures<'d>(datasets: impl IntoIterator<Item = &'d Dataset>) -> Vec<f64> {
     levels(datasets.into_iter().flat_map(|dataset| &dataset.holds).map(|hold| hold.p_body_pa))
 }
 
 /// Distinct actuator pressures above zero in order of appearance, sums over supply channels \[Pa\].
-pub fn pressure_levels(holds: &[Hold]) -> Vec<f64> {
+pub(super) fn pressure_levels(holds: &[Hold]) -> Vec<f64> {
     levels(holds.iter().map(Hold::sum_act_pa).filter(|p| *p > policy::ZERO_PRESSURE_PA))
 }
 
@@ -53,13 +53,13 @@ fn levels(pressures_pa: impl Iterator<Item = f64>) -> Vec<f64> {
 }
 
 /// Index of the nearest level; 0 without levels.
-pub fn nearest(levels: &[f64], p: f64) -> usize {
+pub(super) fn nearest(levels: &[f64], p: f64) -> usize {
     (0..levels.len()).min_by(|a, b| (levels[*a] - p).abs().total_cmp(&(levels[*b] - p).abs())).unwrap_or(0)
 }
 
 /// A dataset, its base as measured there, and what is known in addition to the markers.
 #[derive(Clone)]
-pub struct Source {
+pub(crate) struct Source {
     /// The base with the dataset's markers and loads, without effects of what was measured directly.
     pub scenario: Scenario,
     /// The data without copies and strays; with a gauge at its readings.
@@ -82,7 +82,7 @@ pub struct Source {
 
 impl Source {
     /// Of data as they are, with a scenario that is fitted to them.
-    pub fn of(scenario: Scenario, dataset: Dataset, about: Option<&About>) -> Source {
+    pub(crate) fn of(scenario: Scenario, dataset: Dataset, about: Option<&About>) -> Source {
         Source {
             scenario,
             dataset,
@@ -98,7 +98,7 @@ impl Source {
     }
 
     /// Of evidence made ready, with cautions.
-    pub fn prepared(scenario: &Scenario, evidence: &Evidence) -> Result<(Source, Vec<String>), CompareError> {
+    pub(crate) fn prepared(scenario: &Scenario, evidence: &Evidence) -> Result<(Source, Vec<String>), CompareError> {
         let (dataset, about) = (&evidence.dataset, evidence.about.as_ref());
         Layout::of(dataset)?;
         let (scenario, mut warnings) = fit_scenario(scenario, dataset, about)?;
@@ -128,7 +128,7 @@ impl Source {
     }
 
     /// Every evidence made ready, without copies, and cautions.
-    pub fn all(scenario: &Scenario, evidence: &[Evidence]) -> Result<(Vec<Source>, Vec<String>), CompareError> {
+    pub(crate) fn all(scenario: &Scenario, evidence: &[Evidence]) -> Result<(Vec<Source>, Vec<String>), CompareError> {
         let (mut sources, mut warnings) = (Vec::<Source>::new(), Vec::new());
         for (i, measured) in evidence.iter().enumerate() {
             let name = &measured.dataset.name;
@@ -138,7 +138,8 @@ impl Source {
                 ));
                 continue;
             }
-            let own = measured.about.as_ref().and_then(|a| a.gravity_direction).unwrap_or(scenario.gravity_direction);
+            let own = measured.about.as_ref().and_then(|a| a.gravity_direction);
+            let own = own.map_or(scenario.gravity_direction, |[x, y]| [x, y, 0.0]);
             let rolled = sources.first().is_some_and(|first| is_rolled(own, first.scenario.gravity_direction));
             let base = if rolled { seen_rolled(scenario) } else { scenario.clone() };
             let (source, told) = Source::prepared(&base, measured)?;
@@ -171,17 +172,17 @@ impl Source {
     }
 
     /// Whether anything is left to be seen of effects of a stage.
-    pub fn shows(&self, stage: Stage) -> bool {
+    pub(crate) fn shows(&self, stage: Stage) -> bool {
         is_open(stage, self.direct) || stage == Stage::Supply && self.gauge.is_some()
     }
 
     /// The base with all its effects.
-    pub fn as_given(&self) -> &Scenario {
+    pub(crate) fn as_given(&self) -> &Scenario {
         self.gauge.as_ref().map_or(&self.scenario, |gauge| &gauge.scenario)
     }
 
     /// Noise at the readings of the gauge, if there is one, given ∂f/∂ln p.
-    pub fn at_readings(&self, noise: NoiseModel, slope: &[f64]) -> Result<NoiseModel, CompareError> {
+    pub(crate) fn at_readings(&self, noise: NoiseModel, slope: &[f64]) -> Result<NoiseModel, CompareError> {
         match &self.gauge {
             Some(gauge) => noise.at_readings(gauge.errors_m(&self.dataset, slope)),
             None => Ok(noise),
@@ -191,10 +192,13 @@ impl Source {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-
     #[test]
     fn a_robot_is_rolled_if_gravity_pulls_it_the_other_way_across_to_a_twentieth() {
+        let is_rolled = |[ax, ay]: [f64; 2], [bx, by]: [f64; 2]| {
+            let in_z = super::is_rolled([ax, 0.0, ay], [bx, 0.0, by]);
+            assert_eq!(super::is_rolled([ax, ay, 0.0], [bx, by, 0.0]), in_z);
+            in_z
+        };
         assert!(is_rolled([0.0, -1.0], [0.0, 1.0]) && !is_rolled([0.0, -1.0], [0.0, -1.0]));
         // Hung along x nothing is across.
         assert!(is_rolled([0.99, 0.051], [0.99, -0.051]) && !is_rolled([1.0, 0.049], [1.0, -0.049]));

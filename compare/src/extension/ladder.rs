@@ -55,9 +55,7 @@ pub struct Climb {
 }
 
 /// Adds what the diagnosis adds, at most `most` effects, until nothing more is found.
-///
-/// # Errors
-/// As [`diagnose`] and [`extend`].
+/// Errors as for [`diagnose`] and [`extend`].
 pub fn ladder(
     file: &ScenarioFile,
     evidence: &[Evidence],
@@ -98,7 +96,6 @@ impl Climb {
         Ok(())
     }
 
-    /// Adds what the diagnosis adds; the new scenario.
     fn step(&mut self, file: &ScenarioFile, d: &Diagnosis) -> Result<ScenarioFile, CompareError> {
         let Extension { file, steps, fitted, .. } = extend(file, d)?;
         let number = self.steps.len() + 1;

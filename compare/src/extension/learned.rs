@@ -12,9 +12,6 @@ use crate::scenario_file::ScenarioFile;
 const CENTRE_LINE: &str = "centre_line_mm";
 
 /// The scenario with the law that a diagnosis learned.
-///
-/// # Errors
-/// A diagnosis that learned none; a text that cannot be extended.
 pub(super) fn learned(file: &ScenarioFile, found: &Diagnosis) -> Result<Extension, CompareError> {
     let Some(law) = &found.learned else {
         let message = "no law of the library predicts pressures left out better than the model as it is";
@@ -42,7 +39,6 @@ pub(super) fn learned(file: &ScenarioFile, found: &Diagnosis) -> Result<Extensio
     Ok(extension)
 }
 
-/// Where the formula comes from, for its comment.
 fn origin(found: &Diagnosis, law: &LearnedLaw) -> Vec<String> {
     let data: Vec<String> = found.evidence.iter().map(|used| used.words.clone()).collect();
     vec![

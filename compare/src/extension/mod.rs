@@ -9,12 +9,6 @@ pub mod typed_effect;
 pub mod validation;
 mod written;
 
-pub(crate) use steps::Ground;
-pub use steps::{ErrorStep, error_steps};
-pub use text::{Addition, NewBending, today};
-pub(crate) use text::{Origin, extended, origins};
-pub use written::{Extension, FittedEffect};
-
 use crate::diagnosis::words::{named, step, three};
 use crate::diagnosis::{Added, Diagnosis, Options, Ranked, diagnose, taken_away};
 use crate::error::CompareError;
@@ -23,8 +17,12 @@ use crate::policy;
 use crate::progress::Progress;
 use crate::scenario_file::ScenarioFile;
 use crate::typed_effect::{Values, typed, values_of};
-use models::Known;
-use models::Scenario;
+use models::{Known, Scenario};
+pub(crate) use steps::Ground;
+pub use steps::{ErrorStep, error_steps};
+pub use text::{Addition, BodyValue, today};
+pub(crate) use text::{Origin, extended, origins};
+pub use written::{Extension, FittedEffect};
 
 /// What asks for a learned law; the name of the first one too.
 const LEARNED: &str = "learned";
@@ -166,7 +164,6 @@ fn fitted(file: &ScenarioFile, ground: &Ground, name: &str) -> Result<Extension,
     Ok(extension)
 }
 
-/// Effects with fitted values.
 fn calibrated(
     file: &ScenarioFile,
     ground: &Ground,
@@ -214,7 +211,6 @@ fn with_values_told(a: &Addition) -> String {
     format!("{}, {}", a.name, values.join(", "))
 }
 
-/// What these data cannot choose between.
 fn rivals(d: &Diagnosis) -> Option<String> {
     let names = d.indistinguishable.join(", ");
     let told = || format!("Equally good with these data: {names}. The data do not choose between them.");

@@ -2,8 +2,8 @@
 
 use crate::error::CompareError;
 use data::Fault;
-use fem::session::sha256;
-use models::scenario::SHIPPED;
+use fem::session::{Source, sha256};
+use models::scenario::ROBOTS;
 use models::{Scenario, ScenarioError};
 use spelling::files::{MOST_TEXT, read_whole};
 use std::ops::Deref;
@@ -35,28 +35,22 @@ impl ScenarioFile {
     /// # Errors
     /// No such file, or a fault in it with its line and what to write.
     pub fn read(name: &str) -> Result<ScenarioFile, CompareError> {
-        ScenarioFile::read_in_space(name)?.planar()
-    }
-
-    /// The same for what is built for strips round the body too.
-    ///
-    /// # Errors
-    /// As [`ScenarioFile::read`].
-    pub fn read_in_space(name: &str) -> Result<ScenarioFile, CompareError> {
         let cause = match (read_whole(Path::new(name), MOST_TEXT), models::shipped(name)) {
-            (Err(_), Some(text)) if !Path::new(name).exists() => return ScenarioFile::parse_in_space(name, text),
+            (Err(_), Some(text)) if !Path::new(name).exists() => return ScenarioFile::parse(name, text),
             (Err(cause), _) => cause.to_string(),
             (Ok(bytes), _) => match String::from_utf8(bytes) {
                 Ok(text) if text.trim().is_empty() => "the file is empty".to_string(),
-                Ok(text) => return ScenarioFile::parse_in_space(name, &text),
+                Ok(text) => return ScenarioFile::parse(name, &text),
                 Err(_) => "it is not a text in UTF-8".to_string(),
             },
         };
-        let names: Vec<&str> = SHIPPED.iter().map(|s| s.0).collect();
-        let (meant, names) = (spelling::meant(name, names.iter().copied()), names.join(", "));
-        let help =
-            format!("{meant}give a TOML file, or a shipped robot: {names}; `ibr new epam > my.toml` makes a start");
-        Err(CompareError::Unread { path: name.into(), cause, help })
+        Err(CompareError::Unread { path: name.into(), cause, help: ScenarioFile::help(name, &ROBOTS) })
+    }
+
+    /// Help where a file of this name cannot be read, with the names of what is shipped.
+    pub fn help(name: &str, shipped: &[&str]) -> String {
+        let (meant, names) = (spelling::meant(name, shipped.iter().copied()), shipped.join(", "));
+        format!("{meant}give a TOML file, or a shipped robot: {names}; `ibr new epam > my.toml` makes a start")
     }
 
     /// Of a text; `name` is for messages.
@@ -64,11 +58,15 @@ impl ScenarioFile {
     /// # Errors
     /// A fault in it with its line and what to write.
     pub fn parse(name: &str, text: &str) -> Result<ScenarioFile, CompareError> {
-        ScenarioFile::parse_in_space(name, text)?.planar()
+        let scenario = Scenario::parse(text).map_err(|error| fault(name, text, &error))?;
+        Ok(ScenarioFile { name: name.into(), text: text.into(), scenario })
     }
 
-    /// A robot without strips round the body: most questions are built for those alone.
-    fn planar(self) -> Result<ScenarioFile, CompareError> {
+    /// The same robot, for what is built for planar ones alone.
+    ///
+    /// # Errors
+    /// Strips round the body, with their line.
+    pub fn planar(self) -> Result<ScenarioFile, CompareError> {
         if !self.scenario.is_spatial() {
             return Ok(self);
         }
@@ -84,15 +82,6 @@ impl ScenarioFile {
         Err(fault(&self.name, &self.text, &error))
     }
 
-    /// The same for what is built for strips round the body too.
-    ///
-    /// # Errors
-    /// As [`ScenarioFile::parse`].
-    pub fn parse_in_space(name: &str, text: &str) -> Result<ScenarioFile, CompareError> {
-        let scenario = Scenario::parse(text).map_err(|error| fault(name, text, &error))?;
-        Ok(ScenarioFile { name: name.into(), text: text.into(), scenario })
-    }
-
     /// The same with values set, each at its place such as `body.radius_mm` and written as in TOML; the rest of the text stays.
     /// The first of several tables `[[strip]]` is `strip.1`.
     ///
@@ -103,10 +92,7 @@ impl ScenarioFile {
         if self.scenario.is_spatial() { Ok(new) } else { new.planar() }
     }
 
-    /// The same; strips round the body may come in.
-    ///
-    /// # Errors
-    /// As [`ScenarioFile::with`].
+    /// The same; strips round the body may come in. Errors as for [`ScenarioFile::with`].
     pub fn with_in_space(&self, changes: &[(String, String)]) -> Result<ScenarioFile, CompareError> {
         let refused = |message: String| {
             CompareError::refused(message, "write for example body.radius_mm = 40, and text in quotes")
@@ -118,7 +104,7 @@ impl ScenarioFile {
             set(&mut document, place, value)
                 .ok_or_else(|| refused(format!("{place} is not in a table of {}", self.name)))?;
         }
-        ScenarioFile::parse_in_space(&self.name, &document.to_string())
+        ScenarioFile::parse(&self.name, &document.to_string())
     }
 
     /// The scenario that an embedded set or a folder of data brings along.
@@ -126,17 +112,14 @@ impl ScenarioFile {
     /// # Errors
     /// A fault in it.
     pub fn beside(data: &str) -> Result<Option<ScenarioFile>, CompareError> {
-        ScenarioFile::beside_in_space(data)?.map(ScenarioFile::planar).transpose()
-    }
-
-    /// The same for what is built for strips round the body too.
-    ///
-    /// # Errors
-    /// A fault in it.
-    pub fn beside_in_space(data: &str) -> Result<Option<ScenarioFile>, CompareError> {
         let of_set = || data::set_file(data, "scenario.toml").ok().map(str::to_string);
         let text = std::fs::read_to_string(Path::new(data).join("scenario.toml")).ok().or_else(of_set);
-        text.map(|text| ScenarioFile::parse_in_space(&format!("{data}/scenario.toml"), &text)).transpose()
+        text.map(|text| ScenarioFile::parse(&format!("{data}/scenario.toml"), &text)).transpose()
+    }
+
+    /// For finite elements, with the folder that paths in it count from.
+    pub fn source(&self, folder: &Path) -> Source {
+        Source { text: self.text.clone(), name: self.name.clone(), folder: folder.to_path_buf() }
     }
 
     /// SHA-256 of the text, in hex.
@@ -222,7 +205,7 @@ mod tests {
     fn a_strip_is_named_by_its_number() {
         let text = "[body]\nradius_mm = 40\nlength_mm = 360\npressure_kpa = 2\n[actuator]\nkind = 'epam'\nlength_mm = 60\n\
                     width_mm = 50\ncount = 6\nazimuth_deg = 0\n[[strip]]\nazimuth_deg = 90\nchannel = 1\n";
-        let robot = ScenarioFile::parse_in_space("two", text).unwrap();
+        let robot = ScenarioFile::parse("two", text).unwrap();
         let turned = |place: &str| robot.with_in_space(&[(place.into(), "80".into())]);
         assert!(turned("strip.1.azimuth_deg").unwrap().text.contains("[[strip]]\nazimuth_deg = 80\n"));
         for place in ["strip.0.azimuth_deg", "strip.2.azimuth_deg", "strip.azimuth_deg", "strip.1"] {

@@ -1,11 +1,9 @@
 //! From a diagnosis to what is written into a scenario, and the error before and after.
 
-use super::text::{Addition, NewBending, today};
-use crate::diagnosis::in_step;
+use super::text::{Addition, BENDING, BodyValue, today};
 use crate::diagnosis::words::three;
-use crate::diagnosis::{Diagnosis, LearnedLaw, ParameterValue, Ranked, taken_away};
-use models::Known;
-use models::Scenario;
+use crate::diagnosis::{Diagnosis, LearnedLaw, ParameterValue, Ranked, in_step, taken_away};
+use models::{Known, Scenario};
 use serde::Serialize;
 
 /// A model on the way from the scenario as given to the extended one.
@@ -50,28 +48,27 @@ pub(crate) struct Ground<'a> {
 
 impl<'a> Ground<'a> {
     /// Of a diagnosis of this scenario.
-    pub fn new(d: &'a Diagnosis, scenario: &Scenario) -> Ground<'a> {
+    pub(crate) fn new(d: &'a Diagnosis, scenario: &Scenario) -> Ground<'a> {
         Ground { d, level: d.level(1e-3 * scenario.p_body_pa) }
     }
 
     /// Of one B per body pressure, that of the scenario; the scenario's own if it was kept.
-    pub fn bending(&self, values_nm2: &[f64]) -> f64 {
+    pub(crate) fn bending(&self, values_nm2: &[f64]) -> f64 {
         values_nm2.get(self.level).copied().unwrap_or(self.d.base.bending_nominal_nm2)
     }
 
     /// B of the calibrated base.
-    pub fn base_bending(&self) -> f64 {
+    pub(crate) fn base_bending(&self) -> f64 {
         let values: Vec<f64> = self.d.base.bending.iter().map(|b| b.value_nm2).collect();
         self.bending(&values)
     }
 
-    /// Whether B was fitted.
     fn fits_bending(&self) -> bool {
         !self.d.base.bending.is_empty()
     }
 
     /// An effect to be written.
-    pub fn addition(&self, name: &str, values: Vec<(String, f64)>, known: Known) -> Addition {
+    pub(crate) fn addition(&self, name: &str, values: Vec<(String, f64)>, known: Known) -> Addition {
         let ranked = self.d.ranked(name);
         Addition {
             name: name.into(),
@@ -86,7 +83,7 @@ impl<'a> Ground<'a> {
     }
 
     /// An effect whose values were fitted.
-    pub fn calibrated(&self, name: &str, values: &[ParameterValue]) -> Addition {
+    pub(crate) fn calibrated(&self, name: &str, values: &[ParameterValue]) -> Addition {
         let interval = |p: &ParameterValue| match p.held {
             true => Some(format!("{} held, not fitted", p.key)),
             false => Some(format!("{} {} to {} (95 %)", p.key, three(p.lo?), three(p.hi?))),
@@ -102,13 +99,13 @@ impl<'a> Ground<'a> {
     }
 
     /// B with the effect, if it was fitted.
-    pub fn new_bending(&self, value_nm2: f64) -> Option<NewBending> {
+    pub(crate) fn new_bending(&self, value: f64) -> Option<BodyValue> {
         let remark = format!("calibrated on {} ({})", self.d.dataset, today());
-        self.fits_bending().then_some(NewBending { value_nm2, remark })
+        self.fits_bending().then_some(BodyValue { key: BENDING, value, remark })
     }
 
     /// The scenario as given and with B calibrated.
-    pub fn first_steps(&self) -> Vec<ErrorStep> {
+    pub(crate) fn first_steps(&self) -> Vec<ErrorStep> {
         let base = &self.d.base;
         let (model, known) = ("scenario as given", Known::Assumed);
         if !self.fits_bending() {
@@ -120,28 +117,28 @@ impl<'a> Ground<'a> {
     }
 
     /// The base of the diagnosis.
-    pub fn base_step(&self, model: &str, known: Known) -> ErrorStep {
+    pub(crate) fn base_step(&self, model: &str, known: Known) -> ErrorStep {
         let base = &self.d.base;
         let held_out = [base.heldout_mm, base.heldout_run_mm];
         step(model, known.word(), base.systematic_mm, held_out, self.base_bending())
     }
 
     /// The base with one effect fitted.
-    pub fn ranked_step(&self, r: &Ranked) -> ErrorStep {
+    pub(crate) fn ranked_step(&self, r: &Ranked) -> ErrorStep {
         let (model, bending_nm2) = (in_step(&r.effect), self.bending(&r.bending_nm2));
         let held_out = [r.heldout_mm, r.heldout_run_mm];
         step(&model, Known::Calibrated.word(), r.systematic_after_mm, held_out, bending_nm2)
     }
 
     /// The base with a learned law.
-    pub fn learned_step(&self, law: &LearnedLaw) -> ErrorStep {
+    pub(crate) fn learned_step(&self, law: &LearnedLaw) -> ErrorStep {
         let (model, bending_nm2) = (format!("+ {}", law.name), self.bending(&law.bending_nm2));
         let held_out = [law.heldout_after_mm, law.heldout_run_after_mm];
         step(&model, Known::Calibrated.word(), law.after_mm, held_out, bending_nm2)
     }
 
     /// The final model of the diagnosis, or the one that it attempted.
-    pub fn verdict_step(&self) -> ErrorStep {
+    pub(crate) fn verdict_step(&self) -> ErrorStep {
         let base = &self.d.base;
         let (model, how_known) = self.d.final_model().unwrap_or_default();
         let held_out = [base.heldout_with_added_mm, base.heldout_run_with_added_mm];
@@ -149,7 +146,7 @@ impl<'a> Ground<'a> {
     }
 
     /// What a reader of the new scenario should know.
-    pub fn warnings(&self) -> Vec<String> {
+    pub(crate) fn warnings(&self) -> Vec<String> {
         let mut warnings = self.d.warnings.clone();
         if self.d.base.bending.len() > 1 {
             let all: Vec<String> = self.d.base.bending.iter().map(|b| format!("{} kPa", b.p_body_kpa)).collect();

@@ -28,18 +28,10 @@ pub struct Addition {
     pub remarks: Vec<String>,
 }
 
-/// A bending stiffness that replaces the scenario's.
+/// A value of `[body]` that replaces the scenario's.
 #[derive(Debug, Clone, PartialEq)]
-pub struct NewBending {
-    /// B \[N·m²\].
-    pub value_nm2: f64,
-    /// Where it comes from.
-    pub remark: String,
-}
-
-/// A value of `[body]` to be written.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct BodyValue {
+pub struct BodyValue {
+    /// Its key.
     pub key: &'static str,
     /// In the unit of the key.
     pub value: f64,
@@ -49,7 +41,7 @@ pub(super) struct BodyValue {
 
 /// What the text of a scenario says about an effect that was added to it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Origin {
+pub(crate) struct Origin {
     /// Name of the effect.
     pub effect: String,
     /// SHA-256 of the data it was fitted to or judged on.
@@ -67,22 +59,18 @@ const WITHOUT: &str = "calibrated without it B = ";
 /// What comes before the hash of the data.
 const HASH: &str = "SHA-256 ";
 /// Key of the bending stiffness in `[body]`.
-const BENDING: &str = "bending_stiffness_nm2";
+pub(super) const BENDING: &str = "bending_stiffness_nm2";
 
 /// The scenario with B replaced and the effects appended; it keeps its name.
 ///
 /// # Errors
 /// A text in which this cannot be written without touching what stands there.
-pub fn extended(
+pub(crate) fn extended(
     file: &ScenarioFile,
-    bending: Option<&NewBending>,
+    bending: Option<&BodyValue>,
     additions: &[Addition],
 ) -> Result<ScenarioFile, CompareError> {
-    let mut document: DocumentMut = file.text.parse().map_err(|e: toml_edit::TomlError| refused(e.message()))?;
-    if let Some(new) = bending {
-        let new = BodyValue { key: BENDING, value: new.value_nm2, remark: new.remark.clone() };
-        set_body(&mut document, &new).ok_or_else(|| refused("it has no table [body]"))?;
-    }
+    let mut document = with_body(file, bending)?;
     for addition in additions {
         let why = || match taken_away(&addition.name) {
             Some(gone) => format!("it has no table [effects.{gone}]"),
@@ -99,19 +87,13 @@ pub fn extended(
 }
 
 /// The scenario with one more `[[formula]]` at its end, under a comment, and a value of its body.
-///
-/// # Errors
-/// A text to which this cannot be added.
 pub(super) fn with_formula(
     file: &ScenarioFile,
     toml: &str,
     comment: &[String],
     body: Option<&BodyValue>,
 ) -> Result<ScenarioFile, CompareError> {
-    let mut document: DocumentMut = file.text.parse().map_err(|e: toml_edit::TomlError| refused(e.message()))?;
-    if let Some(new) = body {
-        set_body(&mut document, new).ok_or_else(|| refused("it has no table [body]"))?;
-    }
+    let document = with_body(file, body)?;
     let comment: String = comment.iter().map(|line| format!("# {}\n", one_line(line))).collect();
     let text = format!("{}\n\n{comment}{toml}", document.to_string().trim_end());
     let scenario = Scenario::parse(&text).map_err(|e| refused(&e.to_string()))?;
@@ -119,7 +101,7 @@ pub(super) fn with_formula(
 }
 
 /// The effects that were added to a scenario, in the order of its text.
-pub fn origins(text: &str) -> Vec<Origin> {
+pub(crate) fn origins(text: &str) -> Vec<Origin> {
     let document: DocumentMut = text.parse().unwrap_or_default();
     let effects = document.get("effects").and_then(Item::as_table_like).map(|table| table.iter());
     let origin = |(effect, item): (&str, &Item)| {
@@ -138,7 +120,7 @@ fn hashes(text: &str) -> Vec<String> {
     text.split(HASH).skip(1).map(hash).collect()
 }
 
-pub fn rounded(v: f64) -> f64 {
+pub(super) fn rounded(v: f64) -> f64 {
     if v == 0.0 || !v.is_finite() {
         return v;
     }
@@ -146,7 +128,14 @@ pub fn rounded(v: f64) -> f64 {
     format!("{v:.digits$}").parse().unwrap_or(v)
 }
 
-fn meant(scenario: &Scenario, bending: Option<&NewBending>, additions: &[Addition]) -> Scenario {
+/// The text with a value of its body replaced.
+fn with_body(file: &ScenarioFile, body: Option<&BodyValue>) -> Result<DocumentMut, CompareError> {
+    let mut document: DocumentMut = file.text.parse().map_err(|e: toml_edit::TomlError| refused(e.message()))?;
+    let set = body.map_or(Some(()), |new| set_body(&mut document, new));
+    set.map(|()| document).ok_or_else(|| refused("it has no table [body]"))
+}
+
+fn meant(scenario: &Scenario, bending: Option<&BodyValue>, additions: &[Addition]) -> Scenario {
     let mut wanted = scenario.clone();
     for a in additions {
         if let Some(gone) = taken_away(&a.name) {
@@ -162,7 +151,7 @@ fn meant(scenario: &Scenario, bending: Option<&NewBending>, additions: &[Additio
         wanted = wanted.with_effect(&a.name, &values);
     }
     if let Some(b) = bending {
-        wanted.bending_stiffness = rounded(b.value_nm2);
+        wanted.bending_stiffness = rounded(b.value);
     }
     wanted
 }
@@ -270,7 +259,7 @@ mod tests {
     fn what_was_there_stays_and_what_is_added_is_read_back() {
         for (_, text) in models::scenario::SHIPPED {
             let file = ScenarioFile::parse("mine", text).unwrap();
-            let bending = NewBending { value_nm2: 1.23456789, remark: "calibrated".into() };
+            let bending = BodyValue { key: BENDING, value: 1.23456789, remark: "calibrated".into() };
             let ScenarioFile { text: new, scenario: parsed, .. } =
                 extended(&file, Some(&bending), &[friction()]).unwrap();
             assert_eq!(parsed.bending_stiffness, 1.23457);
@@ -292,7 +281,7 @@ mod tests {
         let lines = models::shipped("spam").unwrap().lines().filter(|l| !l.starts_with("bending"));
         let text: String = lines.flat_map(|line| [line, "\r\n"]).collect();
         let file = ScenarioFile::parse("mine", &text).unwrap();
-        let bending = NewBending { value_nm2: 2.0, remark: "r".into() };
+        let bending = BodyValue { key: BENDING, value: 2.0, remark: "r".into() };
         let ScenarioFile { text: new, scenario: parsed, .. } = extended(&file, Some(&bending), &[]).unwrap();
         assert_eq!(parsed.bending_stiffness, 2.0);
         assert!(new.find("radius_mm") < new.find("bending_stiffness_nm2"));

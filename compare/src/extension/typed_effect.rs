@@ -41,7 +41,14 @@ pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, &'stati
         chosen[index] = p.si * number_of(p, key, number, help)?;
     }
     let origin = if values.is_empty() { "typical value of the catalogue" } else { "value given on the command line" };
-    Ok((scenario.with_effect(name, &chosen), origin))
+    let with = scenario.with_effect(name, &chosen);
+    match with.idle_force_n() {
+        Some(force) => {
+            let message = format!("force_z_n = {force}, and this robot bends in the x–y plane alone");
+            Err(CompareError::refused(message, "remove it, or give the robot a [[strip]]"))
+        }
+        None => Ok((with, origin)),
+    }
 }
 
 /// A value within its usual bounds.

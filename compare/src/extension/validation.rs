@@ -8,8 +8,7 @@ use crate::policy;
 use crate::scenario_file::ScenarioFile;
 use crate::study::comparison::{Comparison, Contender, compare_all};
 use data::Geometry;
-use models::Known;
-use models::Scenario;
+use models::{Known, Scenario};
 use serde::Serialize;
 
 /// One evidence, with and without the effects.
@@ -80,10 +79,7 @@ impl BeforeAfter {
         Ok(BeforeAfter { effects, before, after: file.scenario.clone(), origins })
     }
 
-    /// Holds both against data.
-    ///
-    /// # Errors
-    /// As [`crate::compare`].
+    /// Holds both against data. Errors as for [`crate::compare`].
     pub fn judge(&self, evidence: &Evidence, sigma_m: Option<f64>) -> Result<Validation, CompareError> {
         let sha256 = evidence.sha256()?;
         let fitted_to_these = self.origins.iter().any(|o| o.data_sha256.contains(&sha256));

@@ -1,7 +1,7 @@
 //! A new scenario, and what it brings.
 
 use super::steps::{ErrorStep, Ground};
-use super::text::{Addition, NewBending, extended};
+use super::text::{Addition, BodyValue, extended};
 use crate::diagnosis::ParameterValue;
 use crate::error::CompareError;
 use crate::scenario_file::ScenarioFile;
@@ -17,7 +17,7 @@ pub struct Extension {
     /// Their fitted values; none for those that were given.
     pub fitted: Vec<FittedEffect>,
     /// The new bending stiffness, if it was fitted.
-    pub bending: Option<NewBending>,
+    pub bending: Option<BodyValue>,
     /// Errors on the way, the scenario as given first; none without data.
     pub steps: Vec<ErrorStep>,
     /// Noise of the mean \[mm\].
@@ -29,10 +29,9 @@ pub struct Extension {
 }
 
 impl Extension {
-    /// A new text, without errors on the way.
     pub(super) fn written(
         file: &ScenarioFile,
-        bending: Option<NewBending>,
+        bending: Option<BodyValue>,
         additions: Vec<Addition>,
         told: Vec<String>,
     ) -> Result<Extension, CompareError> {

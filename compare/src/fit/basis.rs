@@ -6,13 +6,13 @@ use super::least_squares::{dot, square};
 const NEW_PART: f64 = 1e-6;
 
 #[derive(Debug, Clone, Default)]
-pub struct Basis {
+pub(crate) struct Basis {
     columns: Vec<Vec<f64>>,
 }
 
 impl Basis {
     /// Basis of the span of some columns; columns without a new part are passed over.
-    pub fn of(columns: &[Vec<f64>]) -> Basis {
+    pub(crate) fn of(columns: &[Vec<f64>]) -> Basis {
         let mut basis = Basis::default();
         for column in columns {
             basis.add(column);
@@ -21,7 +21,7 @@ impl Basis {
     }
 
     /// What is left of a vector when the span is fitted to it. Twice, because once leaves rounding.
-    pub fn rest(&self, vector: &[f64]) -> Vec<f64> {
+    pub(crate) fn rest(&self, vector: &[f64]) -> Vec<f64> {
         let mut rest = vector.to_vec();
         for _ in 0..2 {
             for q in &self.columns {
@@ -33,7 +33,7 @@ impl Basis {
     }
 
     /// Adds a column; false if it brings nothing new.
-    pub fn add(&mut self, column: &[f64]) -> bool {
+    pub(crate) fn add(&mut self, column: &[f64]) -> bool {
         let (rest, length) = (self.rest(column), square(column).sqrt());
         let new = square(&rest).sqrt();
         if new.is_nan() || new <= NEW_PART * length || new == 0.0 {
@@ -45,13 +45,13 @@ impl Basis {
 }
 
 /// What is left of a column when all others are fitted to it.
-pub fn own_part(columns: &[Vec<f64>], k: usize) -> Vec<f64> {
+pub(crate) fn own_part(columns: &[Vec<f64>], k: usize) -> Vec<f64> {
     let others: Vec<Vec<f64>> = (0..columns.len()).filter(|j| *j != k).map(|j| columns[j].clone()).collect();
     Basis::of(&others).rest(&columns[k])
 }
 
 /// Cosine of the angle between two vectors; 0 if one vanishes.
-pub fn cosine(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn cosine(a: &[f64], b: &[f64]) -> f64 {
     let lengths = (square(a) * square(b)).sqrt();
     if lengths > 0.0 { dot(a, b) / lengths } else { 0.0 }
 }

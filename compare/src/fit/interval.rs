@@ -44,7 +44,7 @@ const HALVINGS: usize = 10;
 const MOST_DOF: f64 = 1e4;
 
 /// Data that a fit was held against.
-pub struct FittedData<'a> {
+pub(crate) struct FittedData<'a> {
     pub dataset: &'a Dataset,
     /// Noise of their mean.
     pub noise: &'a NoiseModel,
@@ -58,7 +58,7 @@ pub struct FittedData<'a> {
 
 /// Half of an interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Half {
+pub(crate) struct Half {
     /// Half-width.
     pub width: f64,
     /// What the law misses by is in it.
@@ -67,7 +67,7 @@ pub struct Half {
 
 /// Half of the interval of a parameter, `white` being its weights on values whitened with noise and misfit, those of all data
 /// one after the other, then those of what was measured by itself; `None` if the noise is unknown.
-pub fn half_width(data: &[FittedData], white: &[f64], parameters: usize) -> Option<Half> {
+pub(crate) fn half_width(data: &[FittedData], white: &[f64], parameters: usize) -> Option<Half> {
     let (mut total, mut squares_over_dof, mut from) = (0.0, 0.0, 0);
     let (mut each, mut cells, mut pressures) = (0.0, 0, Vec::new());
     for part in data {
@@ -146,7 +146,7 @@ impl FittedData<'_> {
 }
 
 /// What a misfit adds to the variance, and its degrees of freedom.
-pub fn misfit(pressures: &[[f64; 2]], (each, cells): (f64, usize), parameters: usize) -> (f64, f64) {
+pub(crate) fn misfit(pressures: &[[f64; 2]], (each, cells): (f64, usize), parameters: usize) -> (f64, f64) {
     let all: f64 = pressures.iter().map(|[squares, _]| squares).sum();
     let count = pressures.iter().filter(|[squares, _]| *squares > policy::PRESSURE_TELLS * all).count();
     let spare = count.saturating_sub(parameters) as f64;
@@ -156,7 +156,7 @@ pub fn misfit(pressures: &[[f64; 2]], (each, cells): (f64, usize), parameters: u
 
 /// The interval of a parameter: `squares` is the least sum of squares' second derivative by half, `rise` how far it has risen above
 /// that of the fit with the parameter at a place; without it the interval is linear.
-pub fn interval(
+pub(crate) fn interval(
     (value, half, squares): (f64, Half, f64),
     [lower, upper]: [f64; 2],
     rise: Option<&mut dyn FnMut(f64) -> f64>,
@@ -175,7 +175,7 @@ pub fn interval(
 
 /// Weights of a parameter on whitened values, and half of the second derivative of the least sum of squares; `None` if the data do not
 /// hold it.
-pub fn weights(jacobian: &[Vec<f64>], k: usize) -> Option<(Vec<f64>, f64)> {
+pub(crate) fn weights(jacobian: &[Vec<f64>], k: usize) -> Option<(Vec<f64>, f64)> {
     let own = own_part(jacobian, k);
     let squares = square(&own);
     let is_held = squares > LEAST_OWN * square(&jacobian[k]) && squares > 0.0;
@@ -183,7 +183,7 @@ pub fn weights(jacobian: &[Vec<f64>], k: usize) -> Option<(Vec<f64>, f64)> {
 }
 
 /// The interval of a parameter of a fit; `residuals` make its profile.
-pub fn of_parameter(
+pub(crate) fn of_parameter(
     k: usize,
     at: &[f64],
     ranges: &[Range],

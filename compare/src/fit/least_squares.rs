@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// Range and natural step of one coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Range {
+pub(crate) struct Range {
     pub lower: f64,
     pub upper: f64,
     /// A change of this size matters.
@@ -17,7 +17,7 @@ pub struct Range {
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub struct Minimum {
+pub(crate) struct Minimum {
     pub at: Vec<f64>,
     pub residual: Vec<f64>,
     /// Sum of squares of the residuals.
@@ -28,16 +28,16 @@ pub struct Minimum {
 
 impl Range {
     /// Every value.
-    pub fn endless(scale: f64) -> Range {
+    pub(crate) fn endless(scale: f64) -> Range {
         Range { lower: f64::NEG_INFINITY, upper: f64::INFINITY, scale }
     }
 
-    pub fn fixed(at: f64, scale: f64) -> Range {
+    pub(crate) fn fixed(at: f64, scale: f64) -> Range {
         Range { lower: at, upper: at, scale }
     }
 
     /// Whether it has more than one value.
-    pub fn is_free(&self) -> bool {
+    pub(crate) fn is_free(&self) -> bool {
         self.lower < self.upper
     }
 }
@@ -51,19 +51,19 @@ const ROUNDS: usize = 40;
 const DAMPING: [f64; 2] = [1e-3, 1e8];
 
 /// Residuals at a place; `None` where they do not exist, which counts as infinitely bad.
-pub type Residuals<'a> = dyn FnMut(&[f64]) -> Option<Vec<f64>> + 'a;
+pub(crate) type Residuals<'a> = dyn FnMut(&[f64]) -> Option<Vec<f64>> + 'a;
 
 /// Derivatives of residuals at a place, one column per coordinate.
-pub type Slopes<'a> = dyn FnMut(&Minimum, &mut Residuals) -> Vec<Vec<f64>> + 'a;
+pub(crate) type Slopes<'a> = dyn FnMut(&Minimum, &mut Residuals) -> Vec<Vec<f64>> + 'a;
 
 /// Minimises the sum of squares from `start` until a round lowers it by less than `enough`; `None` if the residuals do
 /// not exist there.
-pub fn minimise(start: &[f64], ranges: &[Range], enough: f64, residuals: &mut Residuals) -> Option<Minimum> {
+pub(crate) fn minimise(start: &[f64], ranges: &[Range], enough: f64, residuals: &mut Residuals) -> Option<Minimum> {
     minimise_by(start, ranges, enough, residuals, &mut |at, residuals| jacobian(at, ranges, residuals))
 }
 
 /// The same with derivatives from elsewhere.
-pub fn minimise_by(
+pub(crate) fn minimise_by(
     start: &[f64],
     ranges: &[Range],
     enough: f64,
@@ -148,7 +148,7 @@ fn is_held(x: f64, range: &Range, gradient: f64) -> bool {
 
 /// One-sided differences, inwards at the upper bound; a column is zero where the residuals do not exist, and for a
 /// coordinate whose range is one value.
-pub fn jacobian(at: &Minimum, ranges: &[Range], residuals: &mut Residuals) -> Vec<Vec<f64>> {
+pub(crate) fn jacobian(at: &Minimum, ranges: &[Range], residuals: &mut Residuals) -> Vec<Vec<f64>> {
     let mut moved = at.at.clone();
     let mut columns = Vec::with_capacity(ranges.len());
     for (k, range) in ranges.iter().enumerate() {
@@ -170,16 +170,23 @@ pub fn jacobian(at: &Minimum, ranges: &[Range], residuals: &mut Residuals) -> Ve
 }
 
 /// JᵀJ of some columns.
-pub fn products(jacobian: &[Vec<f64>], chosen: &[usize]) -> DMatrix<f64> {
+pub(crate) fn products(jacobian: &[Vec<f64>], chosen: &[usize]) -> DMatrix<f64> {
     DMatrix::from_fn(chosen.len(), chosen.len(), |i, j| dot(&jacobian[chosen[i]], &jacobian[chosen[j]]))
 }
 
-pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+/// Σ aᵢ bᵢ, summed in eight parts that do not wait for each other.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (whole, rest) = a[..a.len().min(b.len())].as_chunks::<8>();
+    let mut parts = [0.0; 8];
+    for (a, b) in whole.iter().zip(b.as_chunks::<8>().0) {
+        parts.iter_mut().zip(a.iter().zip(b)).for_each(|(part, (a, b))| *part += a * b);
+    }
+    let last: f64 = rest.iter().zip(&b[8 * whole.len()..]).map(|(a, b)| a * b).sum();
+    parts.iter().sum::<f64>() + last
 }
 
 /// Sum of squares.
-pub fn square(a: &[f64]) -> f64 {
+pub(crate) fn square(a: &[f64]) -> f64 {
     dot(a, a)
 }
 

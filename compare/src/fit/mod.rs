@@ -1,6 +1,6 @@
 //! Linear algebra and least squares of all fits, and the intervals of what was fitted.
 
-pub mod basis;
-pub mod interval;
-pub mod least_squares;
-pub mod whiten;
+pub(crate) mod basis;
+pub(crate) mod interval;
+pub(crate) mod least_squares;
+pub(crate) mod whiten;

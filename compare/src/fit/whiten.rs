@@ -4,13 +4,14 @@
 
 use crate::directions::Row;
 use crate::error::CompareError;
+use crate::fit::least_squares::dot;
 use nalgebra::{DMatrix, SymmetricEigen};
 
 /// Rounds of the eigenvalue iteration over the directions; a handful suffice.
 const EIGEN_ROUNDS: usize = 500;
 
 /// Rounds in which fit and misfit settle.
-pub const MISFIT_ROUNDS: usize = 3;
+pub(crate) const MISFIT_ROUNDS: usize = 3;
 
 /// The prepared transformation.
 #[derive(Debug, Clone)]
@@ -67,8 +68,8 @@ impl Whitener {
         let mut white = residual_m.to_vec();
         for (b, w) in self.basis.iter().zip(&self.spread_m2) {
             let shrink = (1.0 + w / (self.unit_m * self.unit_m)).powf(-0.5) - 1.0;
-            let along: f64 = b.iter().zip(residual_m).map(|(b, r)| b * r).sum();
-            white.iter_mut().zip(b).for_each(|(w, b)| *w += shrink * along * b);
+            let along = shrink * dot(b, residual_m);
+            white.iter_mut().zip(b).for_each(|(w, b)| *w += along * b);
         }
         white.iter_mut().for_each(|w| *w /= self.unit_m);
         white

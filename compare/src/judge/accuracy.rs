@@ -7,12 +7,12 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 /// Below this model deflection the accuracy is undefined \[m\].
-pub const SMALLEST_Y_M: f64 = 1e-9;
+pub(crate) const SMALLEST_Y_M: f64 = 1e-9;
 
 /// a = 1 − mean over markers of ((y_model − y_measured)/y_model)², the model in the denominator.
 ///
 /// `None` (undefined) for no markers, different lengths, or any |y_model| below 1e-9 m.
-pub fn paper_accuracy(y_model_m: &[f64], y_measured_m: &[f64]) -> Option<f64> {
+pub(crate) fn paper_accuracy(y_model_m: &[f64], y_measured_m: &[f64]) -> Option<f64> {
     let undefined = y_model_m.is_empty() || y_model_m.len() != y_measured_m.len();
     if undefined || y_model_m.iter().any(|y| y.abs() < SMALLEST_Y_M) {
         return None;
@@ -22,13 +22,13 @@ pub fn paper_accuracy(y_model_m: &[f64], y_measured_m: &[f64]) -> Option<f64> {
 }
 
 /// Root-mean-square relative error that an accuracy stands for, 100 √(1 − a) \[%\].
-pub fn relative_pct(accuracy: f64) -> f64 {
+pub(crate) fn relative_pct(accuracy: f64) -> f64 {
     100.0 * (1.0 - accuracy).max(0.0).sqrt()
 }
 
 /// 95 % intervals of the accuracy, from resampling whole runs.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Band {
+pub(crate) struct Band {
     pub holds: Vec<Option<[f64; 2]>>,
     /// Of the mean over the loading holds under pressure.
     pub overall: Option<[f64; 2]>,
@@ -36,7 +36,7 @@ pub struct Band {
 
 /// Bootstrap over runs: runs are drawn with replacement, the mean is formed, a computed; 2.5 % and 97.5 % quantiles.
 /// Deterministic for a given seed. No interval for fewer than 3 runs, no samples, or where the accuracy is undefined.
-pub fn accuracy_band(c: &BesideMean, samples: usize, seed: u64) -> Band {
+pub(crate) fn accuracy_band(c: &BesideMean, samples: usize, seed: u64) -> Band {
     let holds = c.layout.holds;
     let runs = c.dataset.runs.len();
     if runs < policy::FEWEST_RUNS || samples == 0 {

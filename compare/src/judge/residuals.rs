@@ -25,7 +25,7 @@ pub struct Deviation {
 impl Deviation {
     /// Whether it is more than noise: p < α, or above 5 times the noise where no p can be given; `None` if the noise
     /// is unknown.
-    pub fn stands_out(&self, alpha: f64) -> Option<bool> {
+    pub fn is_significant(&self, alpha: f64) -> Option<bool> {
         match self.p_corrected {
             Some(p) => Some(p < alpha),
             None => self.in_noise.map(|z| z.abs() > policy::MANY_TIMES_THE_NOISE),
@@ -248,7 +248,7 @@ mod tests {
 
     #[test]
     fn without_a_p_value_five_times_the_noise_stands_out() {
-        let of = |in_noise, p_corrected| Deviation { mm: 1.0, in_noise, p_corrected }.stands_out(0.01);
+        let of = |in_noise, p_corrected| Deviation { mm: 1.0, in_noise, p_corrected }.is_significant(0.01);
         assert_eq!([4.9, 5.1, -5.1].map(|z| of(Some(z), None)), [Some(false), Some(true), Some(true)]);
         assert_eq!(
             (of(Some(9.0), Some(0.02)), of(Some(2.0), Some(0.009)), of(None, None)),

@@ -69,7 +69,7 @@ pub struct ScalingCheck {
 ///
 /// # Errors
 /// Empty data, or a covariance that cannot be decomposed.
-pub fn scaling_of_data(dataset: &Dataset, noise: &NoiseModel, alpha: f64) -> Result<ScalingCheck, CompareError> {
+pub(crate) fn scaling_of_data(dataset: &Dataset, noise: &NoiseModel, alpha: f64) -> Result<ScalingCheck, CompareError> {
     let layout = Layout::of(dataset)?;
     let mean = dataset.mean_over_runs();
     let mut pairs = matching_pairs(dataset, &layout, &mean);

@@ -115,7 +115,7 @@ impl<'a> Judge<'a> {
     }
 
     fn fails(&self, d: &Deviation) -> bool {
-        d.mm.abs() > self.least_mm && d.stands_out(self.alpha).unwrap_or(true)
+        d.mm.abs() > self.least_mm && d.is_significant(self.alpha).unwrap_or(true)
     }
 
     fn cell(&self, (hold, marker): (usize, usize)) -> &ResidualCell {
@@ -206,7 +206,7 @@ impl<'a> Judge<'a> {
     fn bending_is_right(&self, hold: usize) -> bool {
         (0..self.c.layout.markers).all(|m| {
             let y = self.cell((hold, m)).y;
-            !y.stands_out(self.alpha).unwrap_or(y.mm.abs() > self.least_mm)
+            !y.is_significant(self.alpha).unwrap_or(y.mm.abs() > self.least_mm)
         })
     }
 
@@ -282,7 +282,7 @@ impl<'a> Judge<'a> {
         let (finding, sentence) = if !self.c.noise.is_known() {
             let least = self.least_mm;
             (Finding::WithinTolerance, format!("No difference above {least:.2} mm was found (largest {size})."))
-        } else if entries().any(|d| d.stands_out(self.alpha) == Some(true)) {
+        } else if entries().any(|d| d.is_significant(self.alpha) == Some(true)) {
             let tolerance = 1e3 * options.tolerance_m;
             let below = format!("Every difference is below the tolerance of {tolerance:.2} mm");
             (Finding::WithinTolerance, format!("{below}, though not all are noise (most significant {size})."))

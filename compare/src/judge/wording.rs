@@ -69,9 +69,10 @@ fn group_words(map: &ResidualMap, group: &[usize], several_bodies: bool) -> Stri
     format!("{} kPa{at}", list(&words))
 }
 
-/// `tip +38.2 mm at 30 kPa, 41 times the noise`; the pressure is left out if `holds` names only that one.
+/// `outermost marker +38.2 mm at 30 kPa, 41 times the noise`; the pressure is left out if `holds` names only that one.
 pub fn evidence(map: &ResidualMap, (hold, marker): (usize, usize), holds: &[usize], deviation: &Deviation) -> String {
-    let place = if marker == map.tip { "tip".to_string() } else { format!("marker {}", map.markers[marker]) };
+    let place =
+        if marker == map.tip { "outermost marker".to_string() } else { format!("marker {}", map.markers[marker]) };
     let at = if holds.len() > 1 { format!(" at {}", pressures(map, &[hold])) } else { String::new() };
     format!("{place} {}{at}{}", signed_mm(deviation.mm), times_the_noise(deviation))
 }

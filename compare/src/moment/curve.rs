@@ -8,7 +8,7 @@ const STRETCHES: usize = 24;
 
 /// Pressures that an explanation is followed through.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Path {
+pub(crate) struct Path {
     /// Body pressure \[Pa\].
     pub p_body_pa: f64,
     /// Actuator pressures on the way up or down \[Pa\].
@@ -20,10 +20,10 @@ pub struct Path {
 }
 
 /// Bend \[1/m\] and missing moment \[N·m\], mean over the body where it has actuators; NaN where there is none.
-pub type CurvePoint = [f64; 2];
+pub(crate) type CurvePoint = [f64; 2];
 
 /// What the base misses at the bends of another robot, at every pressure of a path.
-pub fn curve(base: &Scenario, other: &Scenario, path: &Path) -> Result<Vec<CurvePoint>, CompareError> {
+pub(crate) fn curve(base: &Scenario, other: &Scenario, path: &Path) -> Result<Vec<CurvePoint>, CompareError> {
     let cuts: Vec<f64> = (1..STRETCHES).map(|i| base.length_m * i as f64 / STRETCHES as f64).collect();
     let [base, other] = [base, other].map(|scenario| Model::in_pieces(scenario, &cuts));
     let (mut of_base, mut of_other) = (base.prediction(), other.prediction());
@@ -44,7 +44,7 @@ pub fn curve(base: &Scenario, other: &Scenario, path: &Path) -> Result<Vec<Curve
 }
 
 /// What the base misses where its actuators bend it all along by a turn of the tip; `None` where they cannot.
-pub fn at_turn(base: &Scenario, loads: &Loads, turn_rad: f64) -> Option<CurvePoint> {
+pub(crate) fn at_turn(base: &Scenario, loads: &Loads, turn_rad: f64) -> Option<CurvePoint> {
     let model = Model::new(base);
     let of = |i: usize, bend: f64| if model.is_active(i) { bend } else { 0.0 };
     let count = model.segments().len();
@@ -81,7 +81,7 @@ fn mean(model: &Model, bends: &[f64], missing: &[f64]) -> CurvePoint {
 }
 
 /// Half-widths of the band that some shifted curves span about a curve: their distances across it, added in squares.
-pub fn band(curve: &[CurvePoint], shifted: &[Vec<CurvePoint>]) -> Vec<f64> {
+pub(crate) fn band(curve: &[CurvePoint], shifted: &[Vec<CurvePoint>]) -> Vec<f64> {
     let slope = |i: usize| {
         let (low, high) = (i.saturating_sub(1), (i + 1).min(curve.len() - 1));
         let run = curve[high][0] - curve[low][0];

@@ -11,11 +11,11 @@ use super::view::{Pieces, View};
 use crate::error::CompareError;
 use data::Phase;
 use models::Scenario;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, RowDVector};
 
 /// Scenarios of a model, one per bending stiffness, and which of them holds in which hold.
 #[derive(Clone, Copy)]
-pub struct Robot<'a> {
+pub(crate) struct Robot<'a> {
     /// One per stiffness.
     pub scenarios: &'a [Scenario],
     /// Of every hold.
@@ -23,7 +23,7 @@ pub struct Robot<'a> {
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub struct Point {
+pub(crate) struct Point {
     pub hold: usize,
     /// Place, base first; `None`: mean over the places.
     pub place: Option<usize>,
@@ -42,11 +42,13 @@ pub struct Point {
     /// Missing moment \[N·m\].
     pub moment: f64,
     pub moment_sd: f64,
+    /// Correlation of the errors of bend and moment.
+    pub correlation: f64,
 }
 
 /// Missing moments of a dataset.
 #[derive(Debug, Clone)]
-pub struct Moments {
+pub(crate) struct Moments {
     /// Places of every hold, then changes within the holds.
     pub points: Vec<Point>,
     /// Covariance of the moments \[N²·m²\].
@@ -66,7 +68,7 @@ const COMPLETE: f64 = 3.0;
 type Sum = Vec<(f64, usize, usize)>;
 
 /// What a robot misses at a shape.
-pub fn moments(view: &View, shape: &Shape, robot: &Robot) -> Result<Moments, CompareError> {
+pub(crate) fn moments(view: &View, shape: &Shape, robot: &Robot) -> Result<Moments, CompareError> {
     let field = Field::of(view, shape, robot)?;
     let layout = Layout::of(&shape.division);
     let (mut sums, mut labels, mut wholes) = (Vec::new(), Vec::new(), Vec::new());
@@ -95,7 +97,7 @@ pub fn moments(view: &View, shape: &Shape, robot: &Robot) -> Result<Moments, Com
     let told = |(sum, (hold, place, since_first)): (&Sum, &(usize, Option<usize>, Option<usize>))| {
         let at = &view.dataset.holds[*hold];
         let [kappa, moment] = field.value(sum);
-        let [kappa_sd, moment_sd] = field.sd(sum, shape, &layout);
+        let [kappa_sd, moment_sd, correlation] = field.errors(sum, shape, &layout);
         let t_s = match since_first {
             Some(group) => shape.division.moments[hold * groups + group].t_s,
             None => at.t_s.iter().sum::<f64>() / at.t_s.len() as f64,
@@ -112,6 +114,7 @@ pub fn moments(view: &View, shape: &Shape, robot: &Robot) -> Result<Moments, Com
             kappa_sd,
             moment,
             moment_sd,
+            correlation,
         }
     };
     let mut gain = DMatrix::zeros(sums.len(), shape.numbers.len());
@@ -175,8 +178,8 @@ impl Field {
     }
 
     /// Derivative of a sum by the numbers of the shape: of moments, or of bends.
-    fn gradient(&self, sum: &Sum, shape: &Shape, layout: &Layout, moments: bool) -> nalgebra::RowDVector<f64> {
-        let mut row = nalgebra::RowDVector::zeros(shape.numbers.len());
+    fn gradient(&self, sum: &Sum, shape: &Shape, layout: &Layout, moments: bool) -> RowDVector<f64> {
+        let mut row = RowDVector::zeros(shape.numbers.len());
         for (weight, m, place) in sum {
             let at = shape.division.moments[*m];
             let weight = weight * if moments { self.slope[*m][*place] } else { 1.0 };
@@ -186,16 +189,24 @@ impl Field {
         row
     }
 
-    fn sd(&self, sum: &Sum, shape: &Shape, layout: &Layout) -> [f64; 2] {
-        [false, true].map(|moments| {
-            let row = self.gradient(sum, shape, layout, moments);
-            (&row * &shape.covariance * row.transpose())[(0, 0)].max(0.0).sqrt()
-        })
+    /// Standard deviations of bend and moment, and their correlation: of the covariance of the shape's numbers, shared ones too.
+    fn errors(&self, sum: &Sum, shape: &Shape, layout: &Layout) -> [f64; 3] {
+        let [bend, moment] = [false, true].map(|moments| self.gradient(sum, shape, layout, moments));
+        let covariance = |a: &RowDVector<f64>, b: &RowDVector<f64>| (a * &shape.covariance * b.transpose())[(0, 0)];
+        let [bend_sd, moment_sd] = [&bend, &moment].map(|row| covariance(row, row).max(0.0).sqrt());
+        let scale = bend_sd * moment_sd;
+        let correlation = if scale > 0.0 { (covariance(&bend, &moment) / scale).clamp(-1.0, 1.0) } else { 0.0 };
+        [bend_sd, moment_sd, correlation]
     }
 }
 
 /// Missing moment of every place at given bends, moment after moment \[N·m\].
-pub fn missing(view: &View, shape: &Shape, robot: &Robot, bends: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, CompareError> {
+pub(crate) fn missing(
+    view: &View,
+    shape: &Shape,
+    robot: &Robot,
+    bends: &[Vec<f64>],
+) -> Result<Vec<Vec<f64>>, CompareError> {
     let steps = shape.division.steps(view.dataset);
     let places = shape.division.places.len();
     let mut out = vec![vec![f64::NAN; places]; steps.len()];

@@ -1,6 +1,7 @@
 //! The missing moment as printed: units of the report, no NaN.
 
 use serde::Serialize;
+use std::f64::consts::TAU;
 
 /// What the model's terms miss at the bends that were measured, and what the explanations predict there.
 ///
@@ -72,6 +73,8 @@ pub struct MomentPoint {
     pub moment_nm: f64,
     /// Its standard deviation.
     pub moment_sd_nm: f64,
+    /// Correlation of the errors of bend and moment, −1 to 1: both follow from the same fitted shape.
+    pub correlation: f64,
 }
 
 /// What an explanation predicts along a path of pressures.
@@ -89,6 +92,9 @@ pub struct MomentCurve {
     pub points: Vec<[f64; 4]>,
 }
 
+/// Corners of a drawn ellipse.
+const ELLIPSE: usize = 48;
+
 /// Standard deviations from which a shared number is reported, and its least value in its unit.
 const TOLD: (f64, f64) = (4.0, 1.0);
 
@@ -100,6 +106,17 @@ impl SharedNumber {
 }
 
 impl MomentPoint {
+    /// Points (bend \[°\], moment \[N·m\]) of the ellipse of one standard deviation of both errors together.
+    pub fn error_ellipse(&self) -> Vec<[f64; 2]> {
+        let across = (1.0 - self.correlation * self.correlation).max(0.0).sqrt();
+        let at = |k: usize| {
+            let (sin, cos) = (TAU * k as f64 / ELLIPSE as f64).sin_cos();
+            let moment = self.correlation * cos + across * sin;
+            [self.bend_deg + self.bend_sd_deg * cos, self.moment_nm + self.moment_sd_nm * moment]
+        };
+        (0..=ELLIPSE).map(at).collect()
+    }
+
     /// Whether it is the mean over the body of a hold.
     pub fn is_of_hold(&self) -> bool {
         self.place_mm.is_none() && !self.is_change

@@ -39,7 +39,7 @@ impl Shape {
 
 /// Where each number of a shape stands.
 #[derive(Debug, Clone, Copy)]
-pub struct Layout {
+pub(super) struct Layout {
     holds: usize,
     places: usize,
     groups: usize,
@@ -47,28 +47,28 @@ pub struct Layout {
 
 impl Layout {
     /// Of a division.
-    pub fn of(division: &Division) -> Layout {
+    pub(super) fn of(division: &Division) -> Layout {
         let Division { places, groups, moments } = division;
         Layout { holds: moments.len() / groups, places: places.len(), groups: *groups }
     }
 
     /// Bend of a hold at a place.
-    pub fn bend(&self, hold: usize, place: usize) -> usize {
+    pub(super) fn bend(&self, hold: usize, place: usize) -> usize {
         hold * self.places + place
     }
 
     /// Drift of a later group of samples in a hold, from 1.
-    pub fn drift(&self, hold: usize, group: usize) -> usize {
+    pub(super) fn drift(&self, hold: usize, group: usize) -> usize {
         self.holds * self.places + hold * (self.groups - 1) + group - 1
     }
 
     /// First of the shared numbers.
-    pub fn shared(&self) -> usize {
+    pub(super) fn shared(&self) -> usize {
         self.holds * (self.places + self.groups - 1)
     }
 
     /// Drift of a group as a sum of numbers: the first is what the others leave.
-    pub fn drifts(&self, hold: usize, group: usize) -> Vec<(usize, f64)> {
+    pub(super) fn drifts(&self, hold: usize, group: usize) -> Vec<(usize, f64)> {
         match group {
             0 => (1..self.groups).map(|later| (self.drift(hold, later), -1.0)).collect(),
             _ => vec![(self.drift(hold, group), 1.0)],
@@ -96,7 +96,7 @@ const TRIED: usize = 66;
 ///
 /// # Errors
 /// Positions that no shape comes near: not finite.
-pub fn shape(view: &View) -> Result<Shape, CompareError> {
+pub(crate) fn shape(view: &View) -> Result<Shape, CompareError> {
     let uniform = Division::uniform(view);
     let start = start(view, &uniform);
     let most = start.iter().fold(0.0_f64, |most, bend| most.max(bend.abs()));

@@ -6,7 +6,7 @@ use super::shape::Shape;
 use data::Dataset;
 
 /// Degrees of the whole body per curvature.
-pub fn degrees(length_m: f64) -> f64 {
+pub(crate) fn degrees(length_m: f64) -> f64 {
     length_m.to_degrees()
 }
 
@@ -23,7 +23,7 @@ impl MeasuredShape {
 }
 
 /// All points of a dataset, those of whole holds first.
-pub fn told(dataset: &Dataset, shape: &Shape, moments: &Moments, length_m: f64) -> Vec<MomentPoint> {
+pub(crate) fn told(dataset: &Dataset, shape: &Shape, moments: &Moments, length_m: f64) -> Vec<MomentPoint> {
     let per = degrees(length_m);
     let point = |p: &Point| MomentPoint {
         dataset: dataset.name.clone(),
@@ -38,12 +38,13 @@ pub fn told(dataset: &Dataset, shape: &Shape, moments: &Moments, length_m: f64) 
         bend_sd_deg: per * p.kappa_sd,
         moment_nm: p.moment,
         moment_sd_nm: p.moment_sd,
+        correlation: p.correlation,
     };
     moments.of_holds.iter().chain(&moments.points).map(point).collect()
 }
 
 /// What the shapes say: where the tracked line lies otherwise than the scenario says, and what no bending explains.
-pub fn shape_sentences(shapes: &[MeasuredShape], noise_known: bool) -> Vec<String> {
+pub(crate) fn shape_sentences(shapes: &[MeasuredShape], noise_known: bool) -> Vec<String> {
     let mut sentences = Vec::new();
     for shape in shapes {
         let Some(line) = shape.shared.first().filter(|s| s.is_told()) else { continue };
@@ -69,7 +70,7 @@ const LEAST_LEFT_MM: f64 = 0.1;
 const NONE_WITHIN: f64 = 2.0;
 
 /// What points of whole holds say.
-pub fn sentences(points: &[MomentPoint]) -> Vec<String> {
+pub(crate) fn sentences(points: &[MomentPoint]) -> Vec<String> {
     let mut holds: Vec<&MomentPoint> = points.iter().filter(|p| p.is_of_hold()).collect();
     holds.sort_by(|a, b| a.bend_deg.total_cmp(&b.bend_deg));
     let (Some(first), Some(last)) = (holds.first(), holds.last()) else {

@@ -144,26 +144,26 @@ fn cuts(view: &View, least_m: f64) -> Vec<f64> {
 }
 
 /// A model with the pieces of a division, and which place each of them belongs to.
-pub struct Pieces {
+pub(super) struct Pieces {
     pub model: Model,
     place_of: Vec<Option<usize>>,
 }
 
 impl Pieces {
     /// Of a robot.
-    pub fn new(scenario: &Scenario, division: &Division) -> Pieces {
+    pub(super) fn new(scenario: &Scenario, division: &Division) -> Pieces {
         let model = Model::in_pieces(scenario, &division.cuts());
         let place_of = (0..model.segments().len()).map(|i| place_of(&model, i, &division.places)).collect();
         Pieces { model, place_of }
     }
 
     /// Curvature of every piece \[1/m\] from those of the places; a passive piece beside actuators stays straight.
-    pub fn curvatures(&self, bends: &[f64]) -> Vec<f64> {
+    pub(super) fn curvatures(&self, bends: &[f64]) -> Vec<f64> {
         self.place_of.iter().map(|place| place.map_or(0.0, |place| bends[place])).collect()
     }
 
     /// Mean of a value of the pieces over each place's length.
-    pub fn mean(&self, of_pieces: &[f64], places: usize) -> Vec<f64> {
+    pub(super) fn mean(&self, of_pieces: &[f64], places: usize) -> Vec<f64> {
         let mut sums = vec![[0.0; 2]; places];
         for ((segment, place), value) in self.model.segments().iter().zip(&self.place_of).zip(of_pieces) {
             if let Some(place) = place {

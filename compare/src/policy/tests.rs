@@ -28,6 +28,7 @@ fn one_effect_may_leave_a_fifth_and_two_less() {
 fn six_units_part_explanations_and_a_fifth_of_the_error_attempts() {
     turns_at(1.0, helps);
     turns_at(25.0, |gain| !is_a_hint(gain));
+    turns_at(0.5, is_worth_a_look);
     turns_at(200.0, is_beyond_doubt);
     turns_at(6.0, |worse| !is_alike(40.0 + worse, 40.0));
     turns_at(8.0, |after| !is_closer(after, 10.0));
@@ -44,7 +45,7 @@ fn a_quarter_of_its_range_is_one_deviation_of_a_shape() {
 /// That they are true is held by `ibr bench discovery`.
 #[test]
 fn most_stated_sets_hold_the_truth_and_not_all() {
-    assert!((0.9..=1.0).contains(&COVERED) && (0.8..=COVERED).contains(&COVERED_BY_OTHERS));
+    assert!((0.9..=1.0).contains(&COVERED));
 }
 
 #[test]

@@ -169,7 +169,7 @@ pub(crate) struct Trial {
 
 impl Trial {
     /// The scenario in the size and at the pressure of a row, or what is missing and what to add.
-    pub fn specimen(&self, row: &BenchRow) -> Result<Scenario, [&'static str; 2]> {
+    pub(crate) fn specimen(&self, row: &BenchRow) -> Result<Scenario, [&'static str; 2]> {
         let Trial { scenario, bias_rad } = self;
         if row.get("load").is_some() {
             let radius_m = row.get("radius").unwrap_or(scenario.radius_m);

@@ -26,7 +26,7 @@ const SAME: f64 = 1e-6;
 
 /// ∂y/∂ln P of the mean over runs in run layout \[m\], zero in holds without actuator pressure; `None` where no branch has two
 /// pressures, or supply channels have different ones.
-pub fn data_slope(dataset: &Dataset) -> Option<Vec<f64>> {
+pub(crate) fn data_slope(dataset: &Dataset) -> Option<Vec<f64>> {
     let layout = Layout::of(dataset).ok().filter(|_| !dataset.channels_differ())?;
     let mean = dataset.mean_over_runs();
     let means = layout.hold_means(&mean);

@@ -9,24 +9,24 @@ const SMALLEST_NEW_PART: f64 = 1e-3;
 
 /// What one value of U is moved by: pressure, shifts along x and y, rotation about z; in space also the shift along z and the
 /// rotations about x and y, which are 0 in the plane.
-pub type Row = [f64; 7];
+pub(crate) type Row = [f64; 7];
 
 /// The rows of [`Row`] that are shifts, and those that are rotations.
-pub const SHIFTS: [usize; 3] = [1, 2, 4];
-pub const ROTATIONS: [usize; 3] = [3, 5, 6];
+pub(crate) const SHIFTS: [usize; 3] = [1, 2, 4];
+pub(crate) const ROTATIONS: [usize; 3] = [3, 5, 6];
 
 /// Order in which directions claim their part; the pressure comes last because the others exist without a model.
 const PRIORITY: [usize; 7] = [1, 2, 4, 3, 5, 6, 0];
 
 /// U of a dataset, with zeros where too few runs saw a marker: with the residual zero there too, such values are as if they were not.
-pub fn directions_of(dataset: &Dataset, dprediction_dlnp: &[f64]) -> Vec<Row> {
+pub(crate) fn directions_of(dataset: &Dataset, dprediction_dlnp: &[f64]) -> Vec<Row> {
     let mut rows = nuisance_directions(&dataset.mean_over_runs(), dprediction_dlnp, dataset.axes);
     dataset.unseen_values().for_each(|i| rows[i] = Row::default());
     rows
 }
 
 /// U: one row \[∂f/∂ln p, shifts, rotations about the base\] per value in run layout, from the mean over runs \[m\].
-pub fn nuisance_directions(mean_m: &[f64], dprediction_dlnp: &[f64], axes: usize) -> Vec<Row> {
+pub(crate) fn nuisance_directions(mean_m: &[f64], dprediction_dlnp: &[f64], axes: usize) -> Vec<Row> {
     let mut rows = Vec::with_capacity(mean_m.len());
     for (place, dp) in mean_m.chunks_exact(axes).zip(dprediction_dlnp.chunks_exact(axes)) {
         let [x, y, z] = std::array::from_fn(|axis| place.get(axis).copied().unwrap_or(0.0));
@@ -38,7 +38,7 @@ pub fn nuisance_directions(mean_m: &[f64], dprediction_dlnp: &[f64], axes: usize
 }
 
 /// Least squares on those directions that can be told apart: U = Q T with orthonormal Q.
-pub struct DirectionFit {
+pub(crate) struct DirectionFit {
     columns: Vec<usize>,
     basis: Vec<Vec<f64>>,
     inverse: Vec<Row>,
@@ -47,7 +47,7 @@ pub struct DirectionFit {
 impl DirectionFit {
     /// Orthogonalise (Gram–Schmidt, twice); drop directions that vanish or repeat others, and all of them if there
     /// are not more values than directions.
-    pub fn new(directions: &[Row]) -> DirectionFit {
+    pub(crate) fn new(directions: &[Row]) -> DirectionFit {
         let mut fit = DirectionFit { columns: Vec::new(), basis: Vec::new(), inverse: Vec::new() };
         for j in PRIORITY {
             fit.add(j, directions.iter().map(|row| row[j]).collect());
@@ -59,17 +59,17 @@ impl DirectionFit {
     }
 
     /// Number of directions kept.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.columns.len()
     }
 
     /// Whether direction `j` was kept.
-    pub fn kept(&self, j: usize) -> bool {
+    pub(crate) fn kept(&self, j: usize) -> bool {
         self.columns.contains(&j)
     }
 
     /// Coefficients of the directions (0 for dropped ones) and what remains.
-    pub fn solve(&self, deviation: &[f64]) -> (Row, Vec<f64>) {
+    pub(crate) fn solve(&self, deviation: &[f64]) -> (Row, Vec<f64>) {
         let mut rest = deviation.to_vec();
         let mut coefficients = Row::default();
         for (q, inverse) in self.basis.iter().zip(&self.inverse) {
@@ -81,7 +81,7 @@ impl DirectionFit {
     }
 
     /// Observed coefficient variances minus the part the camera noise explains, σ² (UᵀU)⁻¹_jj, not below zero.
-    pub fn noise_free(&self, observed: Row, sigma2: f64) -> Row {
+    pub(crate) fn noise_free(&self, observed: Row, sigma2: f64) -> Row {
         std::array::from_fn(|j| {
             let camera: f64 = self.inverse.iter().map(|t| t[j] * t[j]).sum();
             (observed[j] - sigma2 * camera).max(0.0)

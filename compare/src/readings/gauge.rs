@@ -28,25 +28,25 @@ use crate::policy;
 use crate::stats::t_inflation;
 use crate::study::generate::held;
 use data::{Dataset, Hold, Lost};
-use models::{Scenario, Supply};
+use models::{Moment, Scenario, Supply};
 use std::collections::BTreeSet;
 
 /// Mean over runs of the reading beside one sample.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Reading {
+pub(crate) struct Reading {
     /// Hold of the positions that belong to it ([`Gauge::positions`]).
     pub hold: usize,
     /// Set pressure \[Pa\].
     pub set_pa: f64,
     /// For how long it had been set \[s\].
-    pub held_s: f64,
+    pub at: Moment,
     /// Mean over runs \[Pa\].
     pub read_pa: f64,
 }
 
 /// The readings of a dataset, and their errors.
 #[derive(Debug, Clone)]
-pub struct Gauge {
+pub(crate) struct Gauge {
     /// Readings at set pressures above zero.
     pub readings: Vec<Reading>,
     /// The scenario as given, with its own supply effects.
@@ -65,7 +65,7 @@ pub struct Gauge {
 
 impl Gauge {
     /// Of the readings in a dataset; `None` if it has none above zero pressure.
-    pub fn of(dataset: &Dataset, scenario: &Scenario) -> Option<Gauge> {
+    pub(crate) fn of(dataset: &Dataset, scenario: &Scenario) -> Option<Gauge> {
         let runs: Vec<&[f64]> = (0..dataset.runs.len()).map(|r| dataset.gauge(r)).collect::<Option<_>>()?;
         let set: Vec<f64> = dataset.holds.iter().flat_map(|h| vec![h.p_act_pa; dataset.samples_per_hold]).collect();
         let used: Vec<usize> = (0..set.len()).filter(|i| set[*i] > policy::ZERO_PRESSURE_PA).collect();
@@ -97,8 +97,8 @@ impl Gauge {
     }
 
     /// What a gauge would read behind a supply, in the mean of `runs` runs whose pressures scatter by `run_sd`.
-    pub fn planned(dataset: &Dataset, scenario: &Scenario, supply: &Supply, runs: usize, run_sd: f64) -> Gauge {
-        let expected: Vec<f64> = held(&dataset.holds).iter().map(|(set, t)| supply.pressure(*set, *t)).collect();
+    pub(crate) fn planned(dataset: &Dataset, scenario: &Scenario, supply: &Supply, runs: usize, run_sd: f64) -> Gauge {
+        let expected: Vec<f64> = held(&dataset.holds).iter().map(|(set, at)| supply.pressure(*set, at)).collect();
         let share = 1.0 / (runs.max(1) as f64).sqrt();
         Gauge::new(dataset, scenario, &expected, policy::READING_SD_PA * share, run_sd * share)
     }
@@ -115,7 +115,7 @@ impl Gauge {
         let reading = |i: usize| Reading {
             hold: if split { i } else { i / samples },
             set_pa: held[i].0,
-            held_s: held[i].1,
+            at: held[i].1,
             read_pa: mean[i],
         };
         Gauge {
@@ -130,7 +130,7 @@ impl Gauge {
     }
 
     /// The dataset with its positions at what was read in place of what was set.
-    pub fn positions(&self, dataset: &Dataset) -> Dataset {
+    pub(crate) fn positions(&self, dataset: &Dataset) -> Dataset {
         let mut read = Dataset { gauge_pa: None, ..dataset.clone() };
         if self.split {
             let each =
@@ -155,7 +155,7 @@ impl Gauge {
     }
 
     /// The dataset of [`Gauge::positions`] with its holds as they were set.
-    pub fn as_set(&self, positions: &Dataset) -> Dataset {
+    pub(crate) fn as_set(&self, positions: &Dataset) -> Dataset {
         let samples_per_hold = self.set.first().map_or(1, |hold| hold.t_s.len());
         let mut lost = positions.lost.clone();
         if self.split {
@@ -169,7 +169,7 @@ impl Gauge {
 
     /// What one standard deviation of each error of the gauge does to positions predicted at its readings \[m\], from
     /// ∂f/∂ln p there.
-    pub fn errors_m(&self, positions: &Dataset, d_ln_pressure_m: &[f64]) -> Vec<Vec<f64>> {
+    pub(crate) fn errors_m(&self, positions: &Dataset, d_ln_pressure_m: &[f64]) -> Vec<Vec<f64>> {
         let width = positions.values_per_run() / positions.holds.len();
         let read: Vec<usize> = (0..positions.holds.len()).filter(|h| self.of_hold(*h).next().is_some()).collect();
         // What an error of `sd` pascal at some holds does.
@@ -188,7 +188,7 @@ impl Gauge {
     }
 
     /// Whitens the differences between laws and readings.
-    pub fn whitener(&self) -> Result<Whitener, CompareError> {
+    pub(crate) fn whitener(&self) -> Result<Whitener, CompareError> {
         let column = |of: &dyn Fn(&Reading) -> f64| self.readings.iter().map(of).collect::<Vec<f64>>();
         let columns = [
             column(&|r| self.run_sd * r.set_pa),
@@ -199,9 +199,9 @@ impl Gauge {
     }
 
     /// Pressure by the laws of a scenario minus what was read \[Pa\], one for each reading.
-    pub fn differences_pa(&self, scenario: &Scenario) -> Vec<f64> {
+    pub(crate) fn differences_pa(&self, scenario: &Scenario) -> Vec<f64> {
         let supply = Supply::of(scenario);
-        self.readings.iter().map(|r| supply.pressure(r.set_pa, r.held_s) - r.read_pa).collect()
+        self.readings.iter().map(|r| supply.pressure(r.set_pa, &r.at) - r.read_pa).collect()
     }
 }
 

@@ -33,15 +33,15 @@ use data::Dataset;
 use nalgebra::{DMatrix, DVector};
 
 /// Kinds of errors: four that differ from hold to hold, and those of a marker in a run.
-pub const KINDS: usize = 5;
+pub(crate) const KINDS: usize = 5;
 
 /// Scatter of single holds of one run.
 #[derive(Debug, Clone, Default)]
-pub struct HoldScatter {
+pub struct HoldNoise {
     /// Standard deviations of pressure \[-\], bend \[-\], shift \[m\], roll \[rad\] and marker \[m\].
     pub sd: [f64; KINDS],
     /// Whether they are more than chance makes easily: enough to be printed.
-    pub stands_out: [bool; KINDS],
+    pub is_significant: [bool; KINDS],
     /// Their variances for tests.
     pub test_variance: [f64; KINDS],
     /// Variance of a reading beyond those \[m²\], and its degrees of freedom.
@@ -55,7 +55,7 @@ pub struct HoldScatter {
     pub columns: Vec<Column>,
 }
 
-impl HoldScatter {
+impl HoldNoise {
     /// Variances of the kinds, best estimate.
     pub fn variance(&self) -> [f64; KINDS] {
         self.sd.map(|sd| sd * sd)
@@ -124,17 +124,17 @@ impl Column {
 
 /// The scatter of holds about the mean of each group of runs; nothing where runs or holds are too few. `rows` is U, `sigma2` the
 /// variance of single samples \[m²\] with `sigma_dof` degrees of freedom.
-pub fn hold_scatter(
+pub(crate) fn hold_scatter(
     dataset: &Dataset,
     groups: &[Vec<usize>],
     rows: &[Row],
     sigma2: f64,
     sigma_dof: usize,
-) -> HoldScatter {
-    let Ok(layout) = Layout::of(dataset) else { return HoldScatter::default() };
+) -> HoldNoise {
+    let Ok(layout) = Layout::of(dataset) else { return HoldNoise::default() };
     let runs = dataset.runs.len() - groups.len();
     if dataset.runs.len() < policy::FEWEST_RUNS || layout.holds < policy::FEWEST_HOLDS {
-        return HoldScatter::default();
+        return HoldNoise::default();
     }
     let means = Means::new(dataset, &layout, rows);
     let deviations = means.deviations(dataset, &layout, groups);
@@ -215,7 +215,7 @@ impl Means {
         (0..self.columns.len()).filter(|c| self.columns[*c].kind == kind).collect()
     }
 
-    fn solve(self, deviations: &[DVector<f64>], runs: usize) -> HoldScatter {
+    fn solve(self, deviations: &[DVector<f64>], runs: usize) -> HoldNoise {
         let dof = runs.max(1) as f64;
         let zq = self.z.tr_mul(&self.q);
         let g = self.z.tr_mul(&self.z) - &zq * zq.transpose();
@@ -267,14 +267,14 @@ impl Means {
         };
         let forms = DMatrix::from_fn(used.len(), used.len(), |i, j| 2.0 / dof * form(used[i], used[j]));
         let covariance = &inverse * forms * &inverse;
-        let mut scatter = HoldScatter { reading_m2: theta[0], columns: self.columns, ..HoldScatter::default() };
+        let mut scatter = HoldNoise { reading_m2: theta[0], columns: self.columns, ..HoldNoise::default() };
         for (i, k) in used.iter().enumerate() {
             let sd = covariance[(i, i)].max(0.0).sqrt();
             if *k == 0 {
                 scatter.dof = (2.0 * (theta[0] / sd).powi(2)).round() as usize;
             } else if theta[*k] > 0.0 {
                 scatter.sd[k - 1] = theta[*k].sqrt();
-                scatter.stands_out[k - 1] = policy::holds_scatter(theta[*k], sd);
+                scatter.is_significant[k - 1] = policy::holds_scatter(theta[*k], sd);
                 scatter.test_variance[k - 1] = theta[*k] + policy::HOLD_VARIANCE_ERRORS * sd;
             }
         }

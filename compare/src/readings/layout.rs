@@ -16,7 +16,7 @@ pub struct Layout {
 }
 
 /// A sparse linear functional of one run: (index in the run layout, weight).
-pub type Weights = Vec<(usize, f64)>;
+pub(crate) type Weights = Vec<(usize, f64)>;
 
 impl Layout {
     /// The layout of a dataset; an error if any count, or the number of runs, is zero or an array is not finite.
@@ -101,7 +101,7 @@ impl Layout {
 }
 
 /// The value of a functional.
-pub fn apply(weights: &[(usize, f64)], values: &[f64]) -> f64 {
+pub(crate) fn apply(weights: &[(usize, f64)], values: &[f64]) -> f64 {
     weights.iter().map(|&(i, w)| w * values[i]).sum()
 }
 

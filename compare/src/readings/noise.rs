@@ -36,7 +36,7 @@ use crate::data_slope::data_slope;
 use crate::directions::{DirectionFit, ROTATIONS, Row, SHIFTS, directions_of};
 use crate::error::CompareError;
 use crate::fit::whiten::Whitener;
-use crate::hold_scatter::{HoldScatter, hold_scatter};
+use crate::hold_scatter::{HoldNoise, hold_scatter};
 use crate::layout::{Layout, Weights};
 use crate::policy;
 use crate::run_scatter::{between_sessions, pooled, rotations, session_groups, within_sessions};
@@ -95,7 +95,7 @@ pub struct NoiseModel {
     pub directions: Vec<Row>,
     /// Scatter of single holds of one run.
     #[serde(skip)]
-    pub per_hold: HoldScatter,
+    pub per_hold: HoldNoise,
     /// What one standard deviation of each error of the gauge does to the mean \[m\], in run layout; empty unless the
     /// actuator's pressure was read there ([`NoiseModel::at_readings`]).
     #[serde(skip)]
@@ -308,7 +308,7 @@ impl NoiseModel {
             hold_sigma_m: Vec::new(),
             runs_identical: false,
             directions,
-            per_hold: HoldScatter::default(),
+            per_hold: HoldNoise::default(),
             gauge_errors: Vec::new(),
             whitener,
         })

@@ -52,7 +52,7 @@ impl NoiseSummary {
         let mm = |m: f64| 1e3 * m;
         let [pressure, alignment, _, rotation, ..] = noise.run_sd;
         let samples = holds.first().map_or(1, |hold| hold.t_s.len());
-        let held = |kind: usize, unit: f64| noise.per_hold.stands_out[kind].then(|| unit * noise.per_hold.sd[kind]);
+        let held = |kind: usize, unit: f64| noise.per_hold.is_significant[kind].then(|| unit * noise.per_hold.sd[kind]);
         let single = noise.per_hold.lasts.then(|| noise.per_hold.sample_m2.sqrt()).or(noise.sigma_m);
         let mut summary = NoiseSummary {
             status: noise.status,

@@ -8,7 +8,7 @@ use data::{About, Dataset};
 use serde::Serialize;
 
 /// Data ready for a fit.
-pub struct Prepared {
+pub(crate) struct Prepared {
     pub dataset: Dataset,
     /// Session of every run; empty if there is one.
     pub sessions: Vec<usize>,
@@ -18,7 +18,7 @@ pub struct Prepared {
 }
 
 /// Leaves copies out and replaces stray samples by the mean of the other runs.
-pub fn prepare(dataset: &Dataset, about: Option<&About>) -> Prepared {
+pub(crate) fn prepare(dataset: &Dataset, about: Option<&About>) -> Prepared {
     let report = data::check(dataset, about);
     let mut warnings = Vec::new();
     let copies = report.identical_runs;
@@ -46,7 +46,7 @@ pub fn prepare(dataset: &Dataset, about: Option<&About>) -> Prepared {
 }
 
 /// Runs whose scatter about the mean, beyond pressure, alignment and rotation, exceeds that of the others.
-pub fn outlying_runs(dataset: &Dataset, noise: &NoiseModel) -> Vec<OutlyingRun> {
+pub(crate) fn outlying_runs(dataset: &Dataset, noise: &NoiseModel) -> Vec<OutlyingRun> {
     let runs = dataset.runs.len();
     if !noise.gives_p_values() {
         return Vec::new();

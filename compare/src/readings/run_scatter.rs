@@ -5,7 +5,7 @@ use crate::error::CompareError;
 use data::Dataset;
 
 /// What the repeats inside sessions say.
-pub struct Within {
+pub(crate) struct Within {
     /// Variance of the camera \[m²\].
     pub sigma2: f64,
     /// The same of each hold.
@@ -17,7 +17,7 @@ pub struct Within {
 }
 
 /// Scatter of the runs about the mean of their session.
-pub fn within_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit) -> Within {
+pub(crate) fn within_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit) -> Within {
     let holds = dataset.holds.len();
     let mut within =
         Within { sigma2: 0.0, hold_sigma2: vec![0.0; holds], dof: 0, coefficient_variance: Row::default() };
@@ -52,7 +52,7 @@ pub fn within_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &Direction
 }
 
 /// Variance of the coefficients of the overall mean as the session means show it; zeros for one session.
-pub fn between_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit, sigma2: f64) -> Row {
+pub(crate) fn between_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit, sigma2: f64) -> Row {
     if groups.len() < 2 {
         return Row::default();
     }
@@ -71,7 +71,7 @@ pub fn between_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &Directio
 }
 
 /// Shifts along all axes are the same kind of error, and so are rotations: one variance for each kind.
-pub fn pooled(mut variance: Row, axes: usize) -> Row {
+pub(crate) fn pooled(mut variance: Row, axes: usize) -> Row {
     for kind in [&SHIFTS[..axes], rotations(axes)] {
         let mean = kind.iter().map(|j| variance[*j]).sum::<f64>() / kind.len() as f64;
         kind.iter().for_each(|j| variance[*j] = mean);
@@ -80,7 +80,7 @@ pub fn pooled(mut variance: Row, axes: usize) -> Row {
 }
 
 /// Rotations of a robot whose markers are seen along so many axes.
-pub fn rotations(axes: usize) -> &'static [usize] {
+pub(crate) fn rotations(axes: usize) -> &'static [usize] {
     if axes == 2 { &ROTATIONS[..1] } else { &ROTATIONS }
 }
 
@@ -95,7 +95,7 @@ fn mean_of(dataset: &Dataset, runs: &[usize]) -> Vec<f64> {
 }
 
 /// Runs of each session, in order of first appearance.
-pub fn session_groups(sessions: &[usize], runs: usize) -> Result<Vec<Vec<usize>>, CompareError> {
+pub(crate) fn session_groups(sessions: &[usize], runs: usize) -> Result<Vec<Vec<usize>>, CompareError> {
     if sessions.is_empty() {
         return Ok(vec![(0..runs).collect()]);
     }

@@ -26,7 +26,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// A robot's markers and radius \[m\].
 #[derive(Debug, Clone, Copy)]
-pub struct MarkedBody<'a> {
+pub(super) struct MarkedBody<'a> {
     /// Stations of the markers.
     pub stations_m: &'a [f64],
     /// R.
@@ -35,7 +35,7 @@ pub struct MarkedBody<'a> {
 
 /// A uniformly bent body laid through some markers.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Laid {
+pub(super) struct Laid {
     /// κ \[1/m\].
     pub curvature: f64,
     /// Sum of squares of the distances of the markers from their places on it \[m²\].
@@ -44,7 +44,7 @@ pub struct Laid {
 
 impl MarkedBody<'_> {
     /// The bend that leaves least, starting at the base or, `loose`, anywhere but heading along x.
-    pub fn lay(&self, points: &[[f64; 2]], loose: bool) -> Laid {
+    pub(super) fn lay(&self, points: &[[f64; 2]], loose: bool) -> Laid {
         let most = (MOST_SHORTENED / self.radius_m).min(1.5 * std::f64::consts::PI / self.longest_m().max(1e-9));
         let left = |curvature: f64| self.squares(points, curvature, loose);
         let step = 2.0 * most / STEPS as f64;
@@ -60,12 +60,12 @@ impl MarkedBody<'_> {
     }
 
     /// Station of the outermost marker.
-    pub fn longest_m(&self) -> f64 {
+    pub(super) fn longest_m(&self) -> f64 {
         self.stations_m.iter().fold(0.0, |longest: f64, s| longest.max(*s))
     }
 
     /// Where a marker that was lost would be, next to those that were seen.
-    pub fn beside(&self, dataset: &Dataset, hold: usize, points: &[[f64; 2]], lost: usize) -> [f64; 2] {
+    pub(super) fn beside(&self, dataset: &Dataset, hold: usize, points: &[[f64; 2]], lost: usize) -> [f64; 2] {
         let seen: Vec<usize> = (0..points.len()).filter(|marker| dataset.is_seen(hold, *marker)).collect();
         let stations_m: Vec<f64> = seen.iter().map(|marker| self.stations_m[*marker]).collect();
         let of_seen: Vec<[f64; 2]> = seen.iter().map(|marker| points[*marker]).collect();
@@ -77,7 +77,7 @@ impl MarkedBody<'_> {
     }
 
     /// How far every marker is from its place on the body laid through all of them, wherever that starts \[m\].
-    pub fn off(&self, points: &[[f64; 2]]) -> Vec<f64> {
+    pub(super) fn off(&self, points: &[[f64; 2]]) -> Vec<f64> {
         let (apart, [x, y]) = self.apart(points, self.lay(points, true).curvature);
         apart.iter().map(|d| (d[0] - x).hypot(d[1] - y)).collect()
     }
@@ -108,7 +108,7 @@ impl MarkedBody<'_> {
     }
 
     /// Where it has the marker at a station \[m\].
-    pub fn place(&self, s: f64, curvature: f64) -> [f64; 2] {
+    pub(super) fn place(&self, s: f64, curvature: f64) -> [f64; 2] {
         let (psi, length) = (curvature * s, (1.0 - curvature.abs() * self.radius_m) * s);
         if psi.abs() < 1e-6 {
             return [length, 0.5 * length * psi];

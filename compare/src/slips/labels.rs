@@ -1,6 +1,6 @@
 //! Labels of two markers exchanged, in every hold or where a tracker lost them.
 
-use super::{ANY_BASE, SlipSeen, told};
+use super::seen::{ANY_BASE, SlipSeen, told};
 use crate::policy;
 use crate::stats::quantile;
 use crate::wording::list;

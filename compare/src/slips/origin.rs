@@ -10,7 +10,7 @@
 //! with one κ per hold, one scale c and one angle φ. A constant (x₀, y₀) is in none of these, nor in any effect of the catalogue
 //! (`marker_height` is nothing in a straight robot).
 
-use super::{SlipSeen, become_mm};
+use super::seen::{SlipSeen, become_mm};
 use crate::policy;
 use crate::stats::f_tail;
 use crate::wording::{list, short};

@@ -4,7 +4,7 @@
 //! along x. Two ways that are alike for a straight robot (x turned over, numbers from the tip) differ when it bends, or by the base.
 //! y turned over in all runs is refused where the table is read; in some runs it is seen by the others.
 
-use super::{ANY_BASE, SlipSeen, told};
+use super::seen::{ANY_BASE, SlipSeen, told};
 use crate::policy;
 
 /// Factor on the numbers, if they are as the words say.

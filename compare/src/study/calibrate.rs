@@ -34,7 +34,6 @@ impl std::str::FromStr for Knob {
 }
 
 impl Knob {
-    /// Name in messages.
     fn word(self) -> &'static str {
         match self {
             Knob::Bending => "B",
@@ -42,7 +41,6 @@ impl Knob {
         }
     }
 
-    /// The scenario with this value.
     fn set(self, scenario: &Scenario, value: f64) -> Scenario {
         match self {
             Knob::Bending => scenario.with_bending(value),
@@ -109,9 +107,6 @@ impl CostFunction for Misfit<'_> {
 }
 
 /// Fits one number ≥ 0 to a dataset, everything else fixed; a **calibrated** number, not a prediction.
-///
-/// # Errors
-/// What the model or the noise estimate returns.
 pub fn calibrate(
     scenario: &Scenario,
     dataset: &Dataset,

@@ -4,16 +4,14 @@ use crate::error::CompareError;
 use crate::evaluate::{EvaluateOptions, Evaluation, evaluate};
 use crate::evidence::Evidence;
 use crate::prepare::{OutlyingRun, Prepared, outlying_runs, prepare};
-use crate::slips::pressure::PressureSlipFound;
-use crate::slips::pressure::pressure_words;
+use crate::slips::pressure::{PressureSlipFound, pressure_words};
 use crate::slips::slips_of;
 use crate::study::calibrate::{Knob, calibrate};
 use crate::study::predict::{fit_scenario, predict_dataset, seen_by};
 use crate::typed_effect::with_effect;
 use data::check::Outlier;
 use data::{About, Dataset};
-use models::Known;
-use models::Scenario;
+use models::{Known, Scenario};
 
 /// A model to hold against data.
 #[derive(Debug, Clone)]

@@ -8,7 +8,7 @@ use super::eye::Seen;
 pub use super::eye::{Generator, HoldScatter, Scatter};
 use crate::error::CompareError;
 use data::{About, Dataset, Direct, Geometry, Hold, Marker, MarkerStation, Phase, Provenance};
-use models::{CHANNELS, Loads, Model, Prediction, Scenario, Step, Supply};
+use models::{CHANNELS, Loads, Model, Moment, Prediction, Scenario, Step, Supply};
 use spelling::units::Range;
 
 /// Reads a protocol like `0,10,20,30,0@2; 0,20,40,60,0@4`: actuator pressures in kPa at a body pressure in kPa.
@@ -101,8 +101,8 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
         if model.is_spatial() {
             eye.tilt();
         }
-        for (i, (set_pa, held_s)) in held(&holds(generator)).into_iter().enumerate() {
-            gauge_pa.push(manometer.read(supply.pressure(gains[i / generator.samples] * set_pa, held_s)));
+        for (i, (set_pa, at)) in held(&holds(generator)).into_iter().enumerate() {
+            gauge_pa.push(manometer.read(supply.pressure(gains[i / generator.samples] * set_pa, &at)));
         }
         if model.has_history() {
             let mut each = |_: usize, at: &Prediction| eye.look_at(at, model.is_spatial(), &mut coordinates_m);
@@ -133,12 +133,19 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
 
 /// Set pressure of every sample \[Pa\], and for how long it has been held \[s\]; the time between two holds belongs to the
 /// second, and a clock that jumps back starts anew, as in [`Model::follow`].
-pub fn held(holds: &[Hold]) -> Vec<(f64, f64)> {
-    let mut end_s = 0.0;
+pub fn held(holds: &[Hold]) -> Vec<(f64, Moment)> {
+    let (mut end_s, mut before_pa, mut falling) = (0.0, 0.0, false);
     let mut all = Vec::new();
     for hold in holds {
         let begin_s = if hold.t_s.first().is_some_and(|t| *t < end_s) { 0.0 } else { end_s };
-        all.extend(hold.t_s.iter().map(|t| (hold.p_act_pa, t - begin_s)));
+        if begin_s == 0.0 {
+            (before_pa, falling) = (0.0, false);
+        }
+        if hold.p_act_pa != before_pa {
+            (falling, before_pa) = (hold.p_act_pa < before_pa, hold.p_act_pa);
+        }
+        let at = |t_s: &f64| Moment { held_s: t_s - begin_s, t_s: *t_s, falling, s_m: 0.0 };
+        all.extend(hold.t_s.iter().map(|t_s| (hold.p_act_pa, at(t_s))));
         end_s = hold.t_s.last().copied().unwrap_or(end_s);
     }
     all
@@ -215,7 +222,8 @@ pub fn about(scenario: &Scenario, dataset: &Dataset, g: &Generator) -> About {
     let shape = &scenario.actuator.shape;
     let stations = dataset.markers.iter().zip(&scenario.markers_m);
     About {
-        title: format!("Synthetic markers of {}", scenario.name),
+        // The name of a practice set's robot can be the answer.
+        title: format!("Synthetic markers of a robot with {} actuators; truth.toml describes it", dataset.actuator),
         provenance: Provenance::Synthetic,
         source: format!("ibr data generate, seed {}", g.seed),
         licence: "CC0-1.0".into(),

@@ -7,7 +7,6 @@ pub mod comparison;
 pub mod engines;
 pub mod eye;
 pub mod generate;
-pub mod measured;
 pub mod paper;
 pub mod predict;
 pub mod published;

@@ -41,8 +41,8 @@ pub fn fit_scenario(
     let mut warnings = data::check::contradictions(dataset);
     warnings.extend(data::losses(dataset));
     if let Some(about) = about {
-        if let Some(direction) = about.gravity_direction {
-            fitted.gravity_direction = direction;
+        if let Some([x, y]) = about.gravity_direction {
+            fitted.gravity_direction = [x, y, 0.0];
         }
         fitted = with_tip_force(fitted, dataset, about)?;
         fitted = without_settled(&fitted, about.direct);
@@ -63,10 +63,6 @@ pub fn seen_by(scenario: &Scenario, dataset: Dataset) -> Dataset {
     if scenario.is_spatial() || !dataset.has_z() { dataset } else { dataset.in_plane() }
 }
 
-/// A caution about the supply channels.
-///
-/// # Errors
-/// A channel of the robot without pressure in the table, or a pressure of its own of a channel that supplies nothing.
 fn channels(scenario: &Scenario, dataset: &Dataset) -> Result<Option<String>, CompareError> {
     let fed: Vec<usize> = Model::new(scenario).channels().collect();
     let last = dataset.more_channels();
@@ -146,8 +142,9 @@ fn with_tip_force(scenario: Scenario, dataset: &Dataset, about: &About) -> Resul
     if known == [0.0, 0.0] {
         return Ok(scenario);
     }
-    let own = scenario.effects.iter().find(|e| e.name == "tip_load").map_or([0.0, 0.0], |e| [e.values[0], e.values[1]]);
-    Ok(scenario.with_effect("tip_load", &[own[0] + known[0], own[1] + known[1]]))
+    let own = scenario.effects.iter().find(|e| e.name == "tip_load");
+    let [x, y, z] = own.map_or([0.0; 3], |e| [e.values[0], e.values[1], e.values[2]]);
+    Ok(scenario.with_effect("tip_load", &[x + known[0], y + known[1], z]))
 }
 
 /// Differences beyond 2 % between the scenario and the data's own description.
@@ -231,9 +228,6 @@ fn predict_everywhere(scenario: &Scenario, dataset: &Dataset) -> Result<Predicte
 
 /// ∂f/∂ln P \[m\] to estimate noise with before anything was fitted: the data's own, which no scenario's stiffness moves; the
 /// scenario's where the data do not show it.
-///
-/// # Errors
-/// What the model returns when a hold has no equilibrium.
 pub(crate) fn first_slope(scenario: &Scenario, dataset: &Dataset) -> Result<Vec<f64>, CompareError> {
     match data_slope(dataset) {
         Some(slope) => Ok(slope),

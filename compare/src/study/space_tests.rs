@@ -13,7 +13,7 @@ const TWO: &str = include_str!("../../../studies/epam-two-strips.toml");
 const PROTOCOL: &str = "0/0,10/0,20/10,20/20,0/25,0/0@2";
 
 fn robot(text: &str) -> Scenario {
-    ScenarioFile::parse_in_space("robot", text).unwrap().scenario
+    ScenarioFile::parse("robot", text).unwrap().scenario
 }
 
 fn alone(scenario: &Scenario, dataset: Dataset) -> Comparison {

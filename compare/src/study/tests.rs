@@ -142,7 +142,7 @@ fn a_known_tip_force_enters_the_model_and_mixed_ones_are_refused() {
     let scenario = textbook_scenario("epam").unwrap();
     let dataset = generate(&scenario, "made", &quiet(2)).unwrap();
     let (loaded, _) = fit_scenario(&scenario, &dataset, Some(&about(&[[0.0, -0.2], [0.0, -0.2]]))).unwrap();
-    assert_eq!(loaded.effects.iter().find(|e| e.name == "tip_load").unwrap().values, [0.0, -0.2]);
+    assert_eq!(loaded.effects.iter().find(|e| e.name == "tip_load").unwrap().values, [0.0, -0.2, 0.0]);
     let mixed = fit_scenario(&scenario, &dataset, Some(&about(&[[0.0, -0.2], [0.0, 0.2]])));
     assert!(matches!(mixed, Err(crate::CompareError::MixedTipForces { .. })));
 }

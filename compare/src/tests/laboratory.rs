@@ -122,7 +122,7 @@ fn scatter_of_a_known_size_comes_back() {
         let data = generate(&model(), "made", &Generator { runs: 200, per_hold, ..Generator::default() }).unwrap();
         let predicted = predict_dataset(&model(), &data).unwrap();
         let noise = NoiseModel::estimate(&data, &predicted.d_ln_pressure_m, &[], None).unwrap().per_hold;
-        (noise.sd, noise.lasting_m(5), noise.stands_out)
+        (noise.sd, noise.lasting_m(5), noise.is_significant)
     };
     let near = |found: f64, true_value: f64| assert!((found / true_value - 1.0).abs() < 0.2, "{found} {true_value}");
     near(of(HoldScatter { pressure_sd: 0.02, ..NONE }).0[0], 0.02);

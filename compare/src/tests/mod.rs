@@ -3,4 +3,4 @@
 mod laboratory;
 mod monte_carlo;
 mod scenarios;
-pub mod synthetic;
+pub(crate) mod synthetic;

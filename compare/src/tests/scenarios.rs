@@ -35,7 +35,11 @@ fn a_model_that_bends_too_far_is_described_by_pressure_marker_and_phase() {
     let e = of(&robot.measured(5, CAREFUL, 1), &model);
     let s = statement(&e, Finding::Loading);
     println!("{}\n{:#?}", s.sentence, e.where_it_fails);
-    assert!(s.sentence.starts_with("The model bends too far at 10, 20 and 30 kPa (tip +"), "{}", s.sentence);
+    assert!(
+        s.sentence.starts_with("The model bends too far at 10, 20 and 30 kPa (outermost marker +"),
+        "{}",
+        s.sentence
+    );
     assert!(s.sentence.contains("growing towards the tip"), "{}", s.sentence);
     assert!(s.sentence.contains("at 0 kPa and after unloading it is right to within noise"), "{}", s.sentence);
     assert!(s.largest.unwrap().p_corrected.unwrap() <= 1e-6 && s.holds == [1, 2, 3]);
@@ -54,7 +58,7 @@ fn hysteresis_is_seen_on_unloading_only() {
     let s = statement(&e, Finding::Unloading);
     println!("{}", s.sentence);
     assert!(
-        s.sentence.starts_with("After unloading, at 0 kPa, the model is bent too little (tip -7."),
+        s.sentence.starts_with("After unloading, at 0 kPa, the model is bent too little (outermost marker -7."),
         "{}",
         s.sentence
     );

@@ -6,7 +6,7 @@ use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 /// Standard deviations of the noise put into a dataset.
 #[derive(Clone, Copy)]
-pub struct SyntheticNoise {
+pub(crate) struct SyntheticNoise {
     /// Camera, one coordinate \[m\].
     pub sigma_m: f64,
     /// Relative pressure, one value per run.
@@ -16,13 +16,13 @@ pub struct SyntheticNoise {
 }
 
 /// Camera noise only, 1 mm.
-pub const CAMERA: SyntheticNoise = SyntheticNoise { sigma_m: 1e-3, pressure: 0.0, alignment_m: 0.0 };
+pub(crate) const CAMERA: SyntheticNoise = SyntheticNoise { sigma_m: 1e-3, pressure: 0.0, alignment_m: 0.0 };
 /// The handbook case: camera 1 mm, pressure 2 %, alignment 0.5 mm.
-pub const TYPICAL: SyntheticNoise = SyntheticNoise { sigma_m: 1e-3, pressure: 0.02, alignment_m: 5e-4 };
+pub(crate) const TYPICAL: SyntheticNoise = SyntheticNoise { sigma_m: 1e-3, pressure: 0.02, alignment_m: 5e-4 };
 
 /// A noise-free robot under a protocol.
 #[derive(Clone)]
-pub struct SyntheticRobot {
+pub(crate) struct SyntheticRobot {
     /// (actuator, body) pressure of each hold \[kPa\]; a hold below its predecessor is unloading.
     pub pressures_kpa: Vec<(f64, f64)>,
     /// Samples per hold.
@@ -37,13 +37,13 @@ pub struct SyntheticRobot {
 
 impl SyntheticRobot {
     /// The paper's protocol, 0-10-20-30-0 kPa at 2 kPa, 5 samples, 6 markers; tip about 60 mm at 30 kPa.
-    pub fn paper() -> SyntheticRobot {
+    pub(crate) fn paper() -> SyntheticRobot {
         let pressures_kpa = [0.0, 10.0, 20.0, 30.0, 0.0].map(|p| (p, 2.0)).to_vec();
         SyntheticRobot { pressures_kpa, samples: 5, markers: 6, curvature_per_m: 1.6, resistance_kpa: 0.0 }
     }
 
     /// Positions in run layout \[m\] with all actuator pressures multiplied by `factor`.
-    pub fn shape(&self, factor: f64) -> Vec<f64> {
+    pub(crate) fn shape(&self, factor: f64) -> Vec<f64> {
         let mut xy = Vec::new();
         for &(p, body) in &self.pressures_kpa {
             let ratio = p * factor / (body + self.resistance_kpa);
@@ -56,14 +56,14 @@ impl SyntheticRobot {
     }
 
     /// ∂f/∂ln p in run layout \[m\], central difference.
-    pub fn slope(&self) -> Vec<f64> {
+    pub(crate) fn slope(&self) -> Vec<f64> {
         let h = 1e-4_f64;
         let (up, down) = (self.shape(h.exp()), self.shape((-h).exp()));
         up.iter().zip(down).map(|(u, d)| (u - d) / (2.0 * h)).collect()
     }
 
     /// Runs of this robot seen with noise.
-    pub fn measured(&self, runs: usize, noise: SyntheticNoise, seed: u64) -> Dataset {
+    pub(crate) fn measured(&self, runs: usize, noise: SyntheticNoise, seed: u64) -> Dataset {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut coordinates_m = Vec::new();
         for _ in 0..runs {
@@ -100,7 +100,7 @@ impl SyntheticRobot {
 }
 
 /// Add a displacement to every run of a dataset; `by` gets (hold, sample, marker) and returns \[m\].
-pub fn displace(dataset: &mut Dataset, by: impl Fn(usize, usize, usize) -> [f64; 2]) {
+pub(crate) fn displace(dataset: &mut Dataset, by: impl Fn(usize, usize, usize) -> [f64; 2]) {
     let n = dataset.values_per_run();
     for run in 0..dataset.runs.len() {
         for hold in 0..dataset.holds.len() {
@@ -117,7 +117,7 @@ pub fn displace(dataset: &mut Dataset, by: impl Fn(usize, usize, usize) -> [f64;
 }
 
 /// A standard normal number (Box–Muller).
-pub fn normal(rng: &mut ChaCha8Rng) -> f64 {
+pub(crate) fn normal(rng: &mut ChaCha8Rng) -> f64 {
     let uniform = |rng: &mut ChaCha8Rng| (f64::from(rng.next_u32()) + 0.5) / 4294967296.0;
     let (a, b) = (uniform(rng), uniform(rng));
     (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()

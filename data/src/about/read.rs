@@ -24,8 +24,12 @@ pub fn read_about(path: &Path) -> Result<About> {
 
 /// Reads the text of an `about.toml`; `file` names it in errors.
 ///
-/// # Errors
-/// As [`read_about`].
+/// ```
+/// let text = "title = \"a\"\nprovenance = \"measured\"\nsource = \"us\"\nlicence = \"CC0-1.0\"\n\
+///             [markers]\nnames = [\"tip\"]\ns_mm = [330]\n";
+/// let about = data::parse_about("about.toml", text).unwrap();
+/// assert!((about.markers[0].station_m - 0.33).abs() < 1e-12, "lengths become metres");
+/// ```
 pub fn parse_about(file: &str, text: &str) -> Result<About> {
     let raw: RawAbout = parse_toml(file, text)?;
     let check = Check { file, text };

@@ -5,6 +5,8 @@ use crate::units::mm;
 
 /// A marker moves at least this part of the way of one that is nearer to the base.
 const LEAST_PART: f64 = 0.15;
+/// The innermost marker moves at least this part of what it would if the body bent evenly.
+const INSIDE_PART: f64 = 0.3;
 /// Ways that are judged \[m\].
 const TELLING_M: f64 = 0.01;
 /// Fewest holds over which a way is judged.
@@ -41,6 +43,33 @@ fn of_run(seen: &Seen, run: &SeenRun) -> Option<Doubt> {
     None
 }
 
+/// Words on the innermost marker if it stays where it is and the next one moves. A robot whose actuator begins beyond it does so too, so it is not a
+/// contradiction.
+pub(crate) fn still_inside(seen: &Seen) -> Option<String> {
+    seen.runs.iter().filter(|run| run.levels.len() >= FEWEST).find_map(|run| {
+        let rest = run.at_rest()?;
+        let mut order: Vec<usize> = (0..rest.len()).collect();
+        order.sort_by(|a, b| size(rest[*a]).total_cmp(&size(rest[*b])));
+        let [inner, next] = [*order.first()?, *order.get(1)?];
+        let [own, other] = [inner, next].map(|marker| ways_m(run, marker).iter().sum::<f64>());
+        // A body that bends evenly moves a marker by the square of its distance from the base.
+        let even = (size(rest[inner]) / size(rest[next])).powi(2);
+        let names = [inner, next].map(|of| &seen.markers[of].0);
+        (other > TELLING_M && own < INSIDE_PART * even * other).then(|| {
+            format!(
+                "run {}: marker {} moves by {:.1} mm, and marker {} by {:.1} mm: marker {} is a place on the background, or the actuator begins \
+                 beyond it",
+                run.label,
+                names[0],
+                mm(own),
+                names[1],
+                mm(other),
+                names[0]
+            )
+        })
+    })
+}
+
 /// Way from each hold to the next one \[m\]; 0 where the marker was not seen in both.
 fn ways_m(run: &SeenRun, marker: usize) -> Vec<f64> {
     let way = |pair: &[super::seen::Level]| match [&pair[0], &pair[1]].map(|level| level.places_m[marker]) {
@@ -53,7 +82,7 @@ fn ways_m(run: &SeenRun, marker: usize) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::super::tests::{Made, refused, right};
-    use super::background;
+    use super::{background, still_inside};
 
     #[test]
     fn a_marker_on_the_background_is_refused() {
@@ -74,5 +103,14 @@ mod tests {
         };
         refused(background, later, &["from 5.5 s", "marker b moves by 0.0 mm"]);
         right(background);
+        let mut made = Made::new(1);
+        made.each(|_, t, marker, place| {
+            if marker == 0 {
+                *place = [0.09 + 2e-4 * (7.0 * t).sin(), 0.01]
+            }
+        });
+        let said = still_inside(&made.seen()).unwrap();
+        assert!(said.contains("run 1: marker a moves by") && said.contains("begins beyond it"), "{said}");
+        assert!((0..20).all(|seed| still_inside(&Made::new(seed).seen()).is_none()));
     }
 }

@@ -1,5 +1,6 @@
-//! The clock of the pressure log: whole seconds for readings in between, and readings that are missing.
+//! The pressure log: whole seconds for readings in between, readings that are missing, and readings that are repeated.
 
+use super::frozen::stands_still;
 use super::seen::{Doubt, LogSeen, Seen};
 use crate::policy::tolerance_act_pa;
 use crate::units::kpa;
@@ -8,12 +9,31 @@ use crate::units::kpa;
 const SAME_TIME: f64 = 0.3;
 /// A gap is this many times longer than nine in ten distances of readings, and at least so long \[s\].
 const GAP: (f64, f64) = (5.0, 1.0);
+/// Part of the range at its ends in which a sensor may repeat its reading.
+const END: f64 = 0.05;
 /// Fewest readings of a log that is judged.
 const FEWEST: usize = 20;
 
-/// Several readings have one time, or none were written while the pressure changed.
+/// Several readings have one time, none were written while the pressure changed, or the last one was repeated.
 pub(super) fn log(seen: &Seen) -> Option<Doubt> {
-    seen.logs.iter().filter(|log| log.times_s.len() >= FEWEST).find_map(|log| coarse(log).or_else(|| gap(seen, log)))
+    let judged = seen.logs.iter().filter(|log| log.times_s.len() >= FEWEST);
+    judged.into_iter().find_map(|log| coarse(log).or_else(|| gap(seen, log)).or_else(|| still(log)))
+}
+
+/// The pressure is repeated to the last digit for a while, and not elsewhere; a sensor at the end of its range repeats it too.
+fn still(log: &LogSeen) -> Option<Doubt> {
+    let known = || log.act_pa.iter().copied().filter(|p| p.is_finite());
+    let (low, high) = (known().fold(f64::INFINITY, f64::min), known().fold(f64::NEG_INFINITY, f64::max));
+    let within = |p: f64| p > low + END * (high - low) && p < high - END * (high - low);
+    // The ends of the range are put where nothing repeats.
+    let place = |(k, p): (usize, &f64)| if within(*p) { [*p, 0.0, 0.0] } else { [*p, k as f64 + 1.0, 0.0] };
+    let places: Vec<[f64; 3]> = log.act_pa.iter().enumerate().map(place).collect();
+    let Doubt { message, .. } = stands_still(&log.times_s, &[places])?;
+    let still =
+        message.replacen("all markers stand", "the actuator's pressure stands", 1).replacen("frames", "readings", 1);
+    let help =
+        "export the log again, or leave these times out: the logger repeated its last reading while the time went on";
+    Some(Doubt::new(format!("{}: {still}", log.file), help))
 }
 
 fn coarse(log: &LogSeen) -> Option<Doubt> {
@@ -60,6 +80,13 @@ mod tests {
         refused(log, whole, &["log.csv", "readings have the time of the reading before", "decimals"]);
         let gap = |made: &mut Made| made.log.retain(|[t, _]| *t < 8.0 || *t > 16.0);
         refused(log, gap, &["log.csv: no readings from 8.0 to 16", "kPa"]);
+        let stuck = |made: &mut Made| {
+            let noise = |k: usize| (7.0 * k as f64).sin() * 20.0;
+            made.log.iter_mut().enumerate().for_each(|(k, reading)| reading[1] += noise(k));
+            let kept = made.log[200][1];
+            made.log[200..340].iter_mut().for_each(|reading| reading[1] = kept);
+        };
+        refused(log, stuck, &["log.csv: the actuator's pressure stands still", "from 10.0 to 16.9 s", "140 readings"]);
         right(log);
     }
 }

@@ -8,15 +8,21 @@ mod base;
 mod body;
 mod copies;
 mod frozen;
+mod jump;
 mod knock;
 mod log;
+mod mirrored;
 mod rest;
 mod seen;
 mod stations;
+mod stuck;
+mod swapped;
 #[cfg(test)]
 mod tests;
+mod unsteady;
 mod zoom;
 
+pub(crate) use background::still_inside;
 pub(crate) use frozen::stands_still;
 pub(crate) use seen::{Doubt, LogSeen, Seen};
 
@@ -24,14 +30,19 @@ pub(crate) use seen::{Doubt, LogSeen, Seen};
 type Check = fn(&Seen) -> Option<Doubt>;
 
 /// All checks; earlier ones explain what later ones would find.
-const CHECKS: [Check; 10] = [
+const CHECKS: [Check; 15] = [
     log::log,
     base::base,
     copies::copies,
     frozen::frozen,
+    swapped::swapped,
+    mirrored::mirrored,
     background::background,
+    stuck::stuck,
+    unsteady::unsteady,
     zoom::zoom,
     knock::knock,
+    jump::jump,
     rest::rest,
     stations::stations,
     body::body,

@@ -17,7 +17,6 @@ impl Doubt {
     }
 }
 
-/// Readings of a pressure log.
 pub(crate) struct LogSeen {
     pub file: String,
     pub times_s: Vec<f64>,
@@ -25,7 +24,6 @@ pub(crate) struct LogSeen {
     pub act_pa: Vec<f64>,
 }
 
-/// One hold of a run.
 #[derive(Debug, Clone)]
 pub(super) struct Level {
     pub frames: Vec<usize>,
@@ -43,7 +41,6 @@ impl Level {
     }
 }
 
-/// One run.
 pub(super) struct SeenRun {
     pub label: String,
     pub times_s: Vec<f64>,
@@ -91,7 +88,6 @@ impl Seen {
         Seen { runs: runs.iter().map(run).collect(), markers, logs }
     }
 
-    /// The samples of a table.
     pub(crate) fn of_dataset(set: &Dataset) -> Seen {
         let samples = set.samples_per_hold;
         let cells = || (0..set.holds.len()).flat_map(|hold| (0..samples).map(move |sample| (hold, sample)));
@@ -158,7 +154,6 @@ fn seen_run(
     SeenRun { label, times_s, act_pa, places_m, levels }
 }
 
-/// The median place.
 pub(super) fn middle(places: impl Iterator<Item = [f64; 3]>) -> Option<[f64; 3]> {
     let seen: Vec<[f64; 3]> = places.filter(|place| place[0].is_finite()).collect();
     let over = |axis: usize| median(seen.iter().map(|place| place[axis]).collect());

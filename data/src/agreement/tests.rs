@@ -20,6 +20,10 @@ pub(super) struct Made {
     pub changes: Vec<Change>,
     pub frozen: Vec<(usize, std::ops::Range<usize>)>,
     pub copied: Vec<[usize; 2]>,
+    /// The run and the time from which on the outer two markers have each other's places.
+    pub swapped: Option<(usize, f64)>,
+    /// A run whose picture is cropped \[m\].
+    pub shifted: Option<(usize, [f64; 2])>,
 }
 
 const HOLD_S: f64 = 5.0;
@@ -39,6 +43,8 @@ impl Made {
             changes: Vec::new(),
             frozen: Vec::new(),
             copied: Vec::new(),
+            swapped: None,
+            shifted: None,
         }
     }
 
@@ -92,6 +98,14 @@ impl Made {
         }
         for [from, to] in &self.copied {
             runs[*to].xy_m = runs[*from].xy_m.clone();
+        }
+        if let Some((run, [dx, dy])) = self.shifted {
+            runs[run].xy_m.iter_mut().flatten().for_each(|place| *place = [place[0] + dx, place[1] + dy]);
+        }
+        if let Some((run, from_s)) = self.swapped {
+            let [_, b, c] = &mut runs[run].xy_m[..] else { unreachable!("three markers") };
+            let first = times_s.partition_point(|t| *t < from_s);
+            b[first..].swap_with_slice(&mut c[first..]);
         }
         let stations = self.stations_m.map_or([None; 3], |stations| stations.map(Some));
         let markers = ["a", "b", "c"].iter().zip(stations).map(|(name, s)| ((*name).to_string(), s)).collect();

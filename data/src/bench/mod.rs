@@ -79,8 +79,12 @@ const HEADER: u64 = 1 << 16;
 
 /// Reads the text of a table; `None` if its header is of no kind.
 ///
-/// # Errors
-/// As [`bench()`].
+/// ```
+/// let csv = "# provenance: measured\nmuscle,p_act_kpa,contraction_pct,force_n\n1,300,5,40\n1,300,10,20\n";
+/// let pulled = data::parse_bench("pull.csv", csv).unwrap().unwrap();
+/// assert_eq!((pulled.kind.name, pulled.rows.len()), ("force_contraction", 2));
+/// assert!(data::parse_bench("x.csv", "a,b\n1,2\n").unwrap().is_none(), "of no kind");
+/// ```
 pub fn parse_bench(file: &str, text: &str) -> Result<Option<Bench>> {
     read::parse(KINDS, file, text)
 }

@@ -48,13 +48,12 @@ pub(super) fn curve(header: &Columns) -> [usize; 2] {
     if header.at[STRAIN].is_some() { [STRAIN, STRESS] } else { [DISPLACEMENT, FORCE] }
 }
 
-/// Reads comments and header.
 pub(super) fn read(lines: &mut Lines, defaults: &CouponDefaults) -> Result<(Facts, Columns)> {
     let (notes, line) = columns::notes(lines)?;
     let facts = facts(&notes)?;
     let Some(line) = line else {
         let help = format!("the first line must name the columns: {WANTED}");
-        return Err(DataError::Layout(Box::new(Fault::of_file(lines.file(), "the file is empty", help))));
+        return Err(DataError::layout(lines.file(), "the file is empty", help));
     };
     Ok((facts, header(&line.line(), &defaults.columns)?))
 }

@@ -19,6 +19,7 @@ pub(super) struct Specimens<'a> {
 type Kept = (Vec<[f64; 2]>, Vec<f64>, usize);
 
 /// One specimen with its line numbers.
+#[derive(Default)]
 struct Raw {
     name: String,
     rows: Vec<([f64; 2], u64)>,
@@ -43,12 +44,7 @@ impl<'a> Specimens<'a> {
             return Err(DataError::Cell(cells.fault(SPECIMEN, "the cell is empty".into(), help)));
         }
         let index = self.found.iter().rposition(|raw| raw.name == name).unwrap_or_else(|| {
-            self.found.push(Raw {
-                name: name.to_string(),
-                rows: Vec::new(),
-                widths_m: Vec::new(),
-                numbers: Default::default(),
-            });
+            self.found.push(Raw { name: name.to_string(), ..Raw::default() });
             self.found.len() - 1
         });
         let raw = &mut self.found[index];
@@ -71,8 +67,8 @@ impl<'a> Specimens<'a> {
     /// The specimens, complete and checked; the first has what was assumed about the file.
     pub(super) fn finish(self, defaults: &CouponDefaults, told: &[String]) -> Result<Vec<Coupon>, DataError> {
         if self.found.is_empty() {
-            let fault = Fault::of_file(&self.file, "the file has a header and no rows", "add the rows of a specimen");
-            return Err(DataError::Layout(Box::new(fault)));
+            let message = "the file has a header and no rows";
+            return Err(DataError::layout(&self.file, message, "add the rows of a specimen"));
         }
         let told_of = |k: usize| if k == 0 { told } else { &[] };
         self.found.iter().enumerate().map(|(k, raw)| self.coupon(raw, defaults, told_of(k))).collect()
@@ -82,7 +78,8 @@ impl<'a> Specimens<'a> {
         let specimen = self.specimen(raw);
         let said = |quantity: usize, typed: Option<f64>| self.number(raw, &specimen, quantity, typed);
         let direction = self.direction(&specimen, said(DIRECTION, defaults.direction_deg)?, raw)?;
-        let (rows, loaded_width_m, jitter) = self.rows(raw, &specimen)?;
+        let mut told = told.to_vec();
+        let (rows, loaded_width_m, jitter) = self.rows(raw, &specimen, &mut told)?;
         let [x, y] = curve(self.header);
         Ok(Coupon {
             file: self.file.clone(),
@@ -97,7 +94,7 @@ impl<'a> Specimens<'a> {
             provenance: self.facts.provenance,
             specimen,
             jitter,
-            told: told.to_vec(),
+            told,
         })
     }
 
@@ -142,8 +139,8 @@ impl<'a> Specimens<'a> {
         Direction::of(degrees).ok_or_else(wrong)
     }
 
-    /// Zeroed on the first row; steps back that are noise left out.
-    fn rows(&self, raw: &Raw, specimen: &str) -> Result<Kept, DataError> {
+    /// The first loading, zeroed on the first row: rows that rise above all before. Steps back that are noise are left out and counted.
+    fn rows(&self, raw: &Raw, specimen: &str, told: &mut Vec<String>) -> Result<Kept, DataError> {
         let [x, _] = curve(self.header);
         let (column, first) = (self.header.name(x), raw.rows[0].0);
         let range = raw.rows.iter().map(|(row, _)| (row[0] - first[0]).abs()).fold(0.0, f64::max);
@@ -157,24 +154,37 @@ impl<'a> Specimens<'a> {
             };
             return Err(self.fault(raw, message, help));
         }
+        let signs = self.signs(raw, told);
         let mut rows = vec![[0.0, 0.0]];
         let mut widths: Vec<f64> = raw.widths_m.first().copied().into_iter().collect();
-        let mut jitter = 0;
+        let (mut jitter, mut unloading, mut before) = (0, 0, 0.0);
         for (i, (row, line)) in raw.rows.iter().enumerate().skip(1) {
-            let moved = [row[0] - first[0], row[1] - first[1]];
+            let moved = [0, 1].map(|k| signs[k] * (row[k] - first[k]));
             let last = rows[rows.len() - 1][0];
-            if moved[0] > last {
+            // A later cycle may pass the highest row by the noise of the machine.
+            let noise = if unloading > 0 { policy::JITTER * range } else { 0.0 };
+            let back = before - moved[0];
+            before = moved[0];
+            if moved[0] > last + noise {
                 rows.push(moved);
                 widths.extend(raw.widths_m.get(i));
-            } else if last - moved[0] <= policy::JITTER * range {
+            } else if unloading == 0 && last - moved[0] <= policy::JITTER * range {
                 jitter += 1;
+            } else if back <= policy::LARGEST_STEP * range {
+                unloading += 1;
             } else {
-                let message = format!("specimen {specimen}: {column} goes back, after having been larger above");
+                let message =
+                    format!("specimen {specimen}: {column} goes back in one step, after having been larger above");
                 let help = "keep the rows of loading only (delete what follows the turn), in the order they were taken";
                 let mut fault = Fault::of_file(&self.file, message, help).at_line(*line);
                 fault.location.column_name = Some(column.to_string());
                 return Err(DataError::Cell(Box::new(fault)));
             }
+        }
+        if unloading > 0 {
+            told.push(format!(
+                "{column} comes back: the first loading is used, without {unloading} rows below earlier ones"
+            ));
         }
         if rows.len() < policy::FEWEST_ROWS {
             let message = format!("specimen {specimen} has {} rows that rise in {column}", rows.len());
@@ -185,6 +195,25 @@ impl<'a> Specimens<'a> {
             ));
         }
         Ok((rows, widths, jitter))
+    }
+
+    /// Signs that turn displacement and force of a pull into positive ones. A pull is known by its force, which grows from the first
+    /// row to the farthest one; a force is negative if it falls below the first row by more than twice what it rises above it.
+    fn signs(&self, raw: &Raw, told: &mut Vec<String>) -> [f64; 2] {
+        let first = raw.rows[0].0;
+        let of = |k: usize| raw.rows.iter().map(move |(row, _)| row[k] - first[k]);
+        let largest = |k: usize, sign: f64| of(k).map(|v| sign * v).fold(0.0, f64::max);
+        let away = |row: &[f64; 2]| (row[0] - first[0]).abs();
+        let farthest = raw.rows.iter().map(|(row, _)| *row).max_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(first);
+        if farthest[1].abs() <= first[1].abs() {
+            return [1.0; 2];
+        }
+        let turned = [farthest[0] < first[0], largest(1, -1.0) > 2.0 * largest(1, 1.0)];
+        for (quantity, _) in curve(self.header).into_iter().zip(turned).filter(|(_, turned)| *turned) {
+            let column = self.header.name(quantity);
+            told.push(format!("{column} falls as the specimen is pulled: its sign is turned"));
+        }
+        turned.map(|turned| if turned { -1.0 } else { 1.0 })
     }
 
     fn fault(&self, raw: &Raw, message: String, help: impl Into<String>) -> DataError {

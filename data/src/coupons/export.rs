@@ -16,7 +16,6 @@ pub(super) struct Export {
     pub header: String,
     /// Line number and text of every row, specimen after specimen.
     pub rows: Vec<(u64, String)>,
-    /// What was understood, in words.
     pub told: Vec<String>,
 }
 
@@ -55,9 +54,6 @@ const LOOKED_AT: usize = 200;
 type Found = [Option<(usize, Option<Unit>)>; TIME + 1];
 
 /// The export in a sheet; `None` if no row names a curve.
-///
-/// # Errors
-/// A unit that is not known or not given, a strain over a force without the length between the grips, a cell that is no number.
 pub(super) fn read(sheet: &CellText, defaults: &CouponDefaults) -> Result<Option<Export>, DataError> {
     let lines: Vec<(u64, Vec<&str>)> = sheet.lines().map(|(number, line)| (number, sheet.split(line))).collect();
     let names = |cells: &Vec<&str>| cells.iter().filter_map(|cell| quantity(cell)).collect::<Vec<_>>();

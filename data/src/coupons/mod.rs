@@ -27,7 +27,7 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::columns::Columns;
-use crate::error::{DataError, Fault};
+use crate::error::DataError;
 use crate::import::sheet::CellText;
 use crate::lines::{Line, Lines};
 pub use coupon::{Coupon, CouponDefaults, Direction, Pulled};
@@ -51,15 +51,20 @@ pub fn read_coupons(
     let bytes = read_whole(path, MOST_BYTES).map_err(|cause| {
         let help =
             "check the path; docs/characterize.md has the format, `ibr characterize --example FOLDER` makes files";
-        DataError::File(Box::new(Fault::of_file(&shown, format!("cannot open the file: {cause}"), help)))
+        DataError::file(&shown, format!("cannot open the file: {cause}"), help)
     })?;
     parse_coupons(&shown, &mut bytes.as_slice(), bytes.len() as u64, defaults, progress)
 }
 
 /// Reads all specimens from `reader`; `file` names it in errors.
 ///
-/// # Errors
-/// As [`read_coupons`].
+/// ```
+/// let rows: String = (0..20).map(|k| format!("{},{}\n", 0.1 * f64::from(k), 0.2 * f64::from(k))).collect();
+/// let csv = format!("# direction_deg: 0\n# width_mm: 20\n# length_mm: 250\ndisplacement_mm,force_n\n{rows}");
+/// let size = csv.len() as u64;
+/// let pulled = data::parse_coupons("warp.csv", &mut csv.as_bytes(), size, &Default::default(), &mut |_, _| ()).unwrap();
+/// assert_eq!((pulled.len(), pulled[0].direction), (1, data::Direction::Warp));
+/// ```
 pub fn parse_coupons(
     file: &str,
     reader: &mut dyn Read,
@@ -69,16 +74,11 @@ pub fn parse_coupons(
 ) -> Result<Vec<Coupon>, DataError> {
     let mut bytes = Vec::new();
     reader.take(MOST_BYTES).read_to_end(&mut bytes).map_err(|cause| {
-        let fault = Fault::of_file(file, format!("cannot read the file: {cause}"), "check the disk and try again");
-        DataError::File(Box::new(fault))
+        DataError::file(file, format!("cannot read the file: {cause}"), "check the disk and try again")
     })?;
     if bytes.len() as u64 == MOST_BYTES {
-        let fault = Fault::of_file(
-            file,
-            "the file is larger than any tensile test: 256 MiB",
-            "give fewer rows, or fewer specimens in a file",
-        );
-        return Err(DataError::Layout(Box::new(fault)));
+        let help = "give fewer rows, or fewer specimens in a file";
+        return Err(DataError::layout(file, "the file is larger than any tensile test: 256 MiB", help));
     }
     let sheet = std::str::from_utf8(&bytes).ok().map(|text| CellText::new(file, text)).transpose()?;
     let comma = sheet.as_ref().is_some_and(|sheet| sheet.comma);

@@ -7,14 +7,17 @@ use super::join::text_of;
 use super::sheet::CellText;
 use crate::error::Result;
 
+/// Two readings of one corner are at most so far apart \[px\].
+const SAME_CORNER_PX: f64 = 5.0;
+
 /// Reads corners: rows of column and row on the board, and x and y in the picture; a line of names may stand above them.
 ///
 /// # Errors
-/// Not readable; a row without four numbers; corners that make no plane.
+/// Not readable; a row without four numbers; one corner at two places; corners that make no plane.
 pub fn read_board(path: &Path) -> Result<Vec<[f64; 4]>> {
     let (shown, text) = (path.display().to_string(), text_of(path)?);
     let sheet = CellText::new(&shown, &text)?;
-    let mut corners = Vec::new();
+    let mut corners: Vec<[f64; 4]> = Vec::new();
     for (k, (number, line)) in sheet.lines().filter(|(_, line)| !line.starts_with('#')).enumerate() {
         let cells = sheet.split(line);
         let numbers: Option<Vec<f64>> = cells.iter().map(|cell| sheet.number(cell)).collect();
@@ -22,7 +25,18 @@ pub fn read_board(path: &Path) -> Result<Vec<[f64; 4]>> {
             .and_then(|numbers| <[f64; 4]>::try_from(numbers).ok())
             .filter(|row| row.iter().all(|v| v.is_finite()))
         {
-            Some(corner) => corners.push(corner),
+            Some(corner) => {
+                let [column, row, x, y] = corner;
+                let other = corners
+                    .iter()
+                    .find(|other| other[..2] == corner[..2] && (other[2] - x).hypot(other[3] - y) > SAME_CORNER_PX);
+                if let Some([.., px, py]) = other {
+                    let message =
+                        format!("corner {column},{row} is at {x:.1}, {y:.1} px here and at {px:.1}, {py:.1} px above");
+                    return Err(sheet.fault(number, message, "delete the wrong row, or correct its column and row"));
+                }
+                corners.push(corner);
+            }
             None if k == 0 && cells.len() == 4 => {}
             None => {
                 let help = "every row is column,row,x,y of a corner: its place on the board, counted from 0, and in the picture";

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::layout::{LIKELIHOOD, PARTS};
 use super::options::ImportOptions;
 use super::recording::Lengths;
 use super::sheet::CellText;
@@ -18,13 +19,15 @@ pub(crate) struct ColumnName {
 }
 
 /// Units of one dimension by other names, with their SI value; frames and pixels have none.
-const OTHER_NAMES: [(&str, Measured, f64); 19] = [
+const OTHER_NAMES: [(&str, Measured, f64); 21] = [
     ("sec", Measured::Time, 1.0),
     ("secs", Measured::Time, 1.0),
     ("second", Measured::Time, 1.0),
     ("seconds", Measured::Time, 1.0),
     ("msec", Measured::Time, 1e-3),
     ("milliseconds", Measured::Time, 1e-3),
+    ("millis", Measured::Time, 1e-3),
+    ("micros", Measured::Time, 1e-6),
     ("µs", Measured::Time, 1e-6),
     ("millimeters", Measured::Length, 1e-3),
     ("millimetres", Measured::Length, 1e-3),
@@ -55,13 +58,12 @@ pub(crate) fn is_frame(unit: &str) -> bool {
     matches!(unit, "frame" | "frames")
 }
 
-fn is_unit(word: &str) -> bool {
+pub(super) fn is_unit(word: &str) -> bool {
     let dimensions = [Measured::Length, Measured::Time, Measured::Pressure];
     is_pixel(word) || is_frame(word) || dimensions.into_iter().any(|dimension| si(word, dimension).is_some())
 }
 
 impl ColumnName {
-    /// Takes a name apart.
     pub(super) fn of(text: &str) -> ColumnName {
         let text = text.trim();
         let (base, bracket) = match text.find(['(', '[']) {
@@ -87,6 +89,11 @@ impl ColumnName {
         self.words.iter().map(|(word, _)| word.as_str()).eq(name.split('_'))
     }
 
+    /// Its only word.
+    fn word(&self) -> Option<&str> {
+        Some(self.words.as_slice()).filter(|words| words.len() == 1).map(|words| words[0].0.as_str())
+    }
+
     /// Whether it is one of these names.
     pub(super) fn is_any(&self, names: &[&str]) -> bool {
         names.iter().any(|name| self.is(name))
@@ -97,9 +104,10 @@ impl ColumnName {
         self.words.iter().any(|(word, _)| any.contains(&word.as_str()))
     }
 
-    /// Axis 0, 1 or 2 and the name of the marker of a coordinate such as `x_tip`, `tip.x` or `x1`.
+    /// The part of [`PARTS`] and the name of the marker of a column such as `x_tip`, `tip.x`, `x1` or `tip_score`.
     pub(super) fn coordinate(&self) -> Option<(usize, String)> {
-        let axis = |word: &str| ["x", "y", "z"].iter().position(|axis| *axis == word);
+        let likelihood = |word: &str| ["score", "confidence"].contains(&word).then_some(LIKELIHOOD);
+        let axis = |word: &str| PARTS.iter().position(|part| *part == word).or_else(|| likelihood(word));
         let mut found = self.words.iter().filter_map(|(word, at)| Some((axis(word)?, at)));
         let (Some((axis, at)), None) = (found.next(), found.next()) else { return None };
         let (before, after) = (&self.base[..at.start], &self.base[at.end..]);
@@ -139,18 +147,18 @@ pub(crate) struct Roles {
     pub marker: Option<usize>,
     /// Body's and actuator's pressure, with their pascals.
     pub pressures: [Option<(usize, f64)>; 2],
+    /// Column, axis, marker and unit.
     pub coordinates: Vec<(usize, usize, String, Option<String>)>,
+    /// Column and marker of likelihoods, and the largest that there is.
+    pub likelihoods: Vec<(usize, String, f64)>,
     pub told: Vec<String>,
 }
 
 /// Quantities that a column can be said to hold.
-pub const QUANTITIES: [&str; 10] = ["run", "actuator", "marker", "t", "frame", "p_act", "p_body", "x", "y", "z"];
+pub const QUANTITIES: [&str; 11] =
+    ["run", "actuator", "marker", "t", "frame", "p_act", "p_body", "x", "y", "z", "likelihood"];
 
 impl Roles {
-    /// Finds them in a header.
-    ///
-    /// # Errors
-    /// A column that the caller named and that is not there, two of one kind, a pressure without unit.
     pub(super) fn of(sheet: &CellText, line: u64, header: &[&str], options: &ImportOptions) -> Result<Roles> {
         let mut roles = Roles::default();
         // A quantity that was given a column of this table has no other.
@@ -195,7 +203,8 @@ impl Roles {
                 if frames && self.time.is_some() {
                     return Ok(());
                 }
-                let seconds = unit.and_then(|unit| si(unit, Measured::Time));
+                // `millis` is a name and a unit.
+                let seconds = unit.or(name.word()).and_then(|unit| si(unit, Measured::Time));
                 if !frames && seconds.is_none() {
                     self.told.push(format!("column {text} names no unit of time: taken as seconds"));
                 }
@@ -207,12 +216,22 @@ impl Roles {
             "actuator" => self.actuator.replace(index).is_some(),
             "marker" => self.marker.replace(index).is_some(),
             "p_body" | "p_act" => {
-                let pa = unit.and_then(|unit| si(unit, Measured::Pressure)).or(options.pressure_unit_pa);
+                let named = unit.and_then(|unit| si(unit, Measured::Pressure));
+                if named.zip(options.pressure_unit_pa).is_some_and(|(named, given)| named != given) {
+                    self.told.push(format!("column {text} names its unit: --pressure-unit was not used for it"));
+                }
+                let pa = named.or(options.pressure_unit_pa);
                 let pa = pa.ok_or_else(|| {
                     let help = "say it: --pressure-unit kPa (or Pa, MPa, bar, mbar, psi)";
                     sheet.fault(line, format!("the pressure column {text} names no unit"), help)
                 })?;
                 self.pressures[usize::from(quantity == "p_act")].replace((index, pa)).is_some()
+            }
+            "likelihood" => {
+                // Scores of peaks may be above one.
+                let most = if name.has(&["score"]) { f64::INFINITY } else { 1.0 };
+                self.likelihoods.push((index, name.coordinate().map_or(String::new(), |(_, marker)| marker), most));
+                false
             }
             _ => {
                 let axis = ["x", "y", "z"].iter().position(|axis| *axis == quantity).or(name.coordinate().map(|c| c.0));
@@ -228,10 +247,6 @@ impl Roles {
         if taken { Err(twice()) } else { Ok(()) }
     }
 
-    /// Unit of the coordinates.
-    ///
-    /// # Errors
-    /// Different units.
     pub(super) fn lengths(&self, sheet: &CellText, line: u64) -> Result<Lengths> {
         let units: Vec<_> = self.coordinates.iter().map(|(.., unit)| unit.as_deref()).collect();
         let Some(first) = units.first().copied().flatten() else { return Ok(Lengths::Unsaid) };
@@ -250,25 +265,31 @@ pub(crate) fn lengths(unit: &str) -> Option<Lengths> {
     if is_pixel(unit) { Some(Lengths::Pixels) } else { si(unit, Measured::Length).map(Lengths::Metres) }
 }
 
+/// Whether a column holds the time.
+pub(super) fn is_time(name: &ColumnName) -> bool {
+    let clocks = ["date_time", "datetime", "date_and_time", "time_stamp", "arrival_time"];
+    name.is_any(&["t", "time", "timestamp", "ms", "millis", "micros"]) || name.is_any(&clocks)
+}
+
 /// What a column with a telling name holds.
 fn meaning(name: &ColumnName) -> Option<&'static str> {
     let pressure =
         name.has(&["p", "pressure"]) || name.unit.as_deref().is_some_and(|unit| si(unit, Measured::Pressure).is_some());
     let coordinate = name.coordinate();
-    if name.has(&["gauge", "likelihood", "score"]) {
+    if name.has(&["gauge"]) {
         return None;
     }
     let named = [
-        ("t", name.is_any(&["t", "time", "timestamp"])),
-        ("frame", name.is_any(&["frame", "frame_idx", "frame_number"])),
+        ("t", is_time(name)),
+        ("frame", name.is_any(&["frame", "frame_idx", "frame_number", "fnum"])),
         ("run", name.is_any(&["run", "trial"])),
         ("actuator", name.is("actuator")),
-        ("marker", name.is_any(&["marker", "marker_name", "bodypart"])),
-        ("p_body", pressure && name.has(&["body", "base", "tube"])),
-        ("p_act", pressure && coordinate.is_none()),
+        ("marker", name.is_any(&["marker", "marker_name", "bodypart", "particle"])),
+        ("p_body", name.is("pb") || pressure && name.has(&["body", "base", "tube"])),
+        ("p_act", name.is("pa") || pressure && coordinate.is_none()),
     ];
     let found = named.iter().find(|(_, is)| *is).map(|(quantity, _)| *quantity);
-    found.or_else(|| coordinate.map(|(axis, _)| ["x", "y", "z"][axis]))
+    found.or_else(|| coordinate.map(|(part, _)| PARTS[part]))
 }
 
 #[cfg(test)]
@@ -285,6 +306,7 @@ mod tests {
         assert_eq!(found("x12"), (a(0, "12"), None));
         assert_eq!(found("Tip.Z [px]"), (a(2, "Tip"), unit("px")));
         assert_eq!(found("P1_x"), (a(0, "P1"), None));
+        assert_eq!((found("tip_score"), found("likelihood1")), ((a(3, "tip"), None), (a(3, "1"), None)));
         assert_eq!((ColumnName::of("Time (ms)").unit, ColumnName::of("p_act_kpa").is("p_act")), (unit("ms"), true));
         assert!(
             ColumnName::of("m").unit.is_none()

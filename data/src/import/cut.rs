@@ -21,10 +21,6 @@ pub(crate) fn pressed(recordings: Vec<Recording>, xy_m: Vec<Vec<Vec<[f64; 2]>>>)
     recordings.into_iter().zip(xy_m).map(run).collect()
 }
 
-/// Cuts runs.
-///
-/// # Errors
-/// Fewer than two holds; bins that cannot be separated.
 pub(crate) fn cut(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut Vec<String>) -> Result<Cut> {
     match options.bin_pa {
         Some(bin_pa) => binned(file, runs, bin_pa, told),

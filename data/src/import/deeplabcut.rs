@@ -19,7 +19,7 @@ pub(super) const FORMAT: Format = Format {
 };
 
 /// Likelihood below which the network itself marks a point as not seen.
-const LIKELIHOOD: f64 = 0.9;
+pub(super) const LIKELIHOOD: f64 = 0.9;
 /// Names of the rows above the frames.
 const HEADS: [&str; 4] = ["scorer", "individuals", "bodyparts", "coords"];
 

@@ -18,6 +18,5 @@ pub struct Format {
     pub likelihood: Option<f64>,
     /// Whether a text, of which these are the first lines as cells, is of this kind.
     pub(crate) recognise: fn(&CellText, &[Vec<&str>], &ImportOptions) -> bool,
-    /// Its runs.
     pub(crate) read: fn(&CellText, &ImportOptions) -> Result<Vec<Recording>>,
 }

@@ -3,11 +3,11 @@
 use super::format::Format;
 use super::options::ImportOptions;
 use super::sheet::CellText;
-use super::{deeplabcut, kinovea, motive, qualisys, sleap, tables, tracker, trackmate, triples};
+use super::{deeplabcut, kinovea, motive, qualisys, ros, sleap, tables, tracker, trackmate, triples};
 use crate::error::Result;
 
 /// All kinds.
-pub const FORMATS: [&Format; 13] = [
+pub const FORMATS: [&Format; 16] = [
     &deeplabcut::FORMAT,
     &sleap::FORMAT,
     &motive::FORMAT,
@@ -19,20 +19,24 @@ pub const FORMATS: [&Format; 13] = [
     &tables::KINEMATICS,
     &trackmate::XML,
     &trackmate::SPOTS,
+    &ros::FORMAT,
+    &tables::ANIPOSE,
+    &tables::TRACKPY,
     &tables::LONG,
     &tables::WIDE,
 ];
 
-/// A pressure log below `data/tests`.
-pub const LOG_FIXTURE: &str = "cases/c01-deeplabcut/pressure.csv";
+/// Kinds of pressure logs, each with a small file below `data/tests`; the first is a plain table.
+pub const LOGS: [(&str, &str); 4] = [
+    ("a pressure log", "cases/c01-deeplabcut/pressure.csv"),
+    ("LabVIEW text", "cases/c26-pressure-loggers/labview.lvm"),
+    ("a serial monitor", "cases/c26-pressure-loggers/arduino_serial.txt"),
+    ("a log without names", "cases/c26-pressure-loggers/arduino_noheader.csv"),
+];
 
 /// Lines that a kind is known by.
 const LOOKED_AT: usize = 8;
 
-/// The kind of a text.
-///
-/// # Errors
-/// None of them.
 pub(crate) fn recognised(sheet: &CellText, options: &ImportOptions) -> Result<&'static Format> {
     let head = sheet.head(LOOKED_AT);
     let found = FORMATS.into_iter().find(|format| (format.recognise)(sheet, &head, options));

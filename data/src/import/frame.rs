@@ -1,8 +1,9 @@
 //! From the file's coordinates to the robot's: scale, origin at the base, x along the straight robot, y towards the actuator.
 
-use super::homography::Homography;
+use super::lens::View;
 use super::options::{FileAxis, FilePlace, ImportOptions, Scale};
 use super::recording::{LOST, Lengths, Recording};
+use super::vectors::{along, cross, towards, unit_vector};
 use crate::error::{DataError, Fault, Result};
 use crate::units::mm;
 
@@ -10,12 +11,16 @@ use crate::units::mm;
 const TELLING_M: f64 = 0.005;
 /// Largest angle of the robot at rest to an axis of the file \[rad\].
 const ASKEW: f64 = 0.26;
+/// Largest angle between the plane of the motion and a plane of the file's axes \[rad\]: lengths shrink by 0.1 %.
+const TILTED: f64 = 0.05;
+
+const LARGER_BOARD: &str = "film a board that fills the part of the picture in which the robot moves";
 
 /// How a file's coordinates become metres.
 #[derive(Debug, Clone)]
 enum Map {
     Factor(f64),
-    Board(Homography),
+    Board(View),
 }
 
 impl Map {
@@ -36,7 +41,6 @@ pub(crate) struct RestAndTop {
     pub top: Vec<usize>,
 }
 
-/// Runs in the robot's frame.
 pub(crate) struct PlacedRuns {
     /// `[run][marker][frame]` \[m\], NaN where not seen.
     pub xy_m: Vec<Vec<Vec<[f64; 2]>>>,
@@ -54,9 +58,6 @@ pub(crate) struct Scene<'a> {
 
 impl Scene<'_> {
     /// Puts the runs into the robot's frame; `told` receives the assumptions.
-    ///
-    /// # Errors
-    /// Scale, base or axes are not known and cannot be found from the data.
     pub(super) fn place(&self, told: &mut Vec<String>) -> Result<PlacedRuns> {
         let (map, words) = self.map()?;
         told.push(words);
@@ -69,7 +70,7 @@ impl Scene<'_> {
         let (sin, cos) = self.options.turn_rad.sin_cos();
         let placed = |place: &[f64; 3], base: &[f64; 3]| {
             let from = map.metres(*place);
-            let [x, y] = axes.map(|axis| axis.of(from) - axis.of(*base));
+            let [x, y] = axes.map(|axis| along(axis, from) - along(axis, *base));
             [cos * x + sin * y, cos * y - sin * x]
         };
         let mut xy_m = Vec::new();
@@ -121,12 +122,33 @@ impl Scene<'_> {
             }
             Scale::Board(corners, square_m) => {
                 let help = "give at least four corners, no three on a line: a table column,row,x,y";
-                let found = Homography::of_board(corners, *square_m);
-                let (board, rms_px) = found.map_err(|message| self.fault(message, help))?;
-                (Map::Board(board), format!("a homography of {} corners, {rms_px:.2} px off (rms)", corners.len()))
+                let board = View::of_board(corners, *square_m).map_err(|message| self.fault(message, help))?;
+                let words = board.words(corners.len()) + &self.outside(&board)?;
+                (Map::Board(board), words)
             }
             Scale::Unit(metres) => (Map::Factor(*metres), format!("lengths are in {}, as given", unit(*metres))),
             Scale::OfFile => (Map::Factor(1.0), String::new()),
+        })
+    }
+
+    /// How many of the places are outside of the board, where lens and plane are extrapolated.
+    fn outside(&self, board: &View) -> Result<String> {
+        let pixels = || self.runs.iter().flat_map(|run| run.places.iter().flatten()).filter(|at| at[0].is_finite());
+        let pixels = || pixels().map(|at| [at[0], at[1]]);
+        if let Some([x, y]) = pixels().find(|pixel| !board.knows(*pixel)) {
+            let message = format!(
+                "a marker at {x:.0}, {y:.0} px is so far outside of the board that its lens is not known there"
+            );
+            return Err(self.fault(message, LARGER_BOARD));
+        }
+        let count = pixels().filter(|pixel| board.is_outside(*pixel)).count();
+        let percent = (100.0 * count as f64 / pixels().count().max(1) as f64).ceil();
+        Ok(if count == 0 {
+            String::new()
+        } else {
+            format!(
+                "; warning: {percent:.0} % of the positions are outside of the board, where its plane is extrapolated: {LARGER_BOARD}"
+            )
         })
     }
 
@@ -168,49 +190,89 @@ impl Scene<'_> {
         Ok((found.iter().map(|(at, _)| map.metres(*at)).collect(), found[0].1))
     }
 
-    /// The axes given, or: along the robot at rest, and across it where the farthest marker moves as the pressure rises.
-    fn axes(&self, labels: &[String], moved: &Moved, told: &mut Vec<String>) -> Result<[FileAxis; 2]> {
+    /// Directions in the file: the axes given, or along the robot at rest, and across it where the farthest marker moves as the pressure
+    /// rises. Where the robot or its motion is out of the planes of the file's axes, both are in the plane of the motion.
+    fn axes(&self, labels: &[String], moved: &Moved, told: &mut Vec<String>) -> Result<[[f64; 3]; 2]> {
         let words = |[along, towards]: [FileAxis; 2]| {
             format!("along the robot is the file's {}, towards the actuator its {}", along.word(), towards.word())
         };
-        if let Some(axes) = self.options.axes {
-            told.push(format!("{}, as given", words(axes)));
-            return Ok(axes);
-        }
         let help = "give --axes ALONG,TOWARDS, for example --axes x,-y where y of the picture points down";
-        let along = moved.along();
-        let Some([near, far]) = moved.ends(along) else {
+        if let Some(axes) = self.options.axes {
+            let directions = axes.map(FileAxis::direction);
+            if let Some(ends) = moved.ends(moved.along()) {
+                self.straight(axes[0], directions, moved, ends)?;
+                self.in_plane(axes, moved, ends)?;
+            }
+            told.push(format!("{}, as given", words(axes)));
+            return Ok(directions);
+        }
+        let index = moved.along();
+        let Some([near, far]) = moved.ends(index) else {
             let message = "no marker was seen both at the lowest and at the highest pressure";
             return Err(self.fault(message, help));
         };
         let (rest, by) = (moved.rest[far], moved.by[far]);
         let most = |a: &usize, b: &usize| by[*a].abs().total_cmp(&by[*b].abs());
-        let across = (0..3).filter(|axis| *axis != along).max_by(most).unwrap_or(1);
-        let by_mm = mm(by[across].abs());
-        if by[across].abs() < TELLING_M {
+        let across = (0..3).filter(|axis| *axis != index).max_by(most).unwrap_or(1);
+        let axes = [(index, rest[index]), (across, by[across])];
+        let axes = axes.map(|(index, way)| FileAxis { index, turned: way < 0.0 });
+        let tilted = moved.tilted(axes, [near, far]);
+        let directions = tilted.unwrap_or(axes.map(FileAxis::direction));
+        let by_mm = mm(along(directions[1], by).abs());
+        if by_mm < mm(TELLING_M) {
             let message =
                 format!("the markers move by {by_mm:.1} mm across the robot: where the actuator is cannot be seen");
             return Err(self.fault(message, help));
         }
-        let axes = [(along, rest[along]), (across, by[across])];
-        let axes = axes.map(|(index, way)| FileAxis { index, turned: way < 0.0 });
-        let from = if near == far { [0.0; 3] } else { moved.rest[near] };
-        let [x, y] = axes.map(|axis| axis.of(rest) - axis.of(from));
-        let angle = y.atan2(x) - self.options.turn_rad;
-        if angle.abs() > ASKEW {
-            let degrees = angle.to_degrees();
-            let message = format!("at rest the robot lies at {degrees:.0} degrees to the file's {}", axes[0].word());
-            return Err(self.fault(message, format!("turn it: --turn {degrees:.1}deg; or correct --base")));
-        }
+        self.straight(axes[0], directions, moved, [near, far])?;
         let label = &labels[far];
-        told.push(format!("{}: marker {label} moves there by {by_mm:.1} mm as the pressure rises", words(axes)));
-        Ok(axes)
+        let words = match tilted {
+            None => words(axes),
+            Some(_) => {
+                let [x, y] = directions.map(|d| d.map(|part| format!("{:.3}", part + 0.0)).join(", "));
+                format!(
+                    "the plane of the motion is not one of the file's axes: along the robot is {x} of the file, towards the actuator {y}"
+                )
+            }
+        };
+        told.push(format!("{words}: marker {label} moves there by {by_mm:.1} mm as the pressure rises"));
+        Ok(directions)
+    }
+
+    /// Refuses a robot that is not along its axis at rest.
+    fn straight(&self, axis: FileAxis, directions: [[f64; 3]; 2], moved: &Moved, ends: [usize; 2]) -> Result<()> {
+        let [x, y] = directions.map(|direction| along(direction, moved.line(ends)));
+        let angle = y.atan2(x) - self.options.turn_rad;
+        if angle.abs() <= ASKEW {
+            return Ok(());
+        }
+        let degrees = angle.to_degrees();
+        let message = format!("at rest the robot is at {degrees:.0} degrees to the file's {}", axis.word());
+        Err(self.fault(message, format!("turn it: --turn {degrees:.1}deg; or correct --base or --axes")))
+    }
+
+    /// Refuses a robot that is out of the plane of the axes given.
+    fn in_plane(&self, axes: [FileAxis; 2], moved: &Moved, ends: [usize; 2]) -> Result<()> {
+        let line = moved.line(ends);
+        let angle = (line[third(axes)].abs() / along(line, line).sqrt()).asin();
+        if angle.is_nan() || angle <= TILTED || ends[0] == ends[1] {
+            return Ok(());
+        }
+        let message = format!("at rest the robot is {:.0} degrees out of the plane of --axes", angle.to_degrees());
+        Err(self.fault(message, "leave --axes out: the plane of the motion is found; or correct --axes"))
     }
 }
 
+/// The file's axis across two others.
+fn third(axes: [FileAxis; 2]) -> usize {
+    3 - axes[0].index - axes[1].index
+}
+
 impl FileAxis {
-    fn of(self, place: [f64; 3]) -> f64 {
-        if self.turned { -place[self.index] } else { place[self.index] }
+    fn direction(self) -> [f64; 3] {
+        let mut direction = [0.0; 3];
+        direction[self.index] = if self.turned { -1.0 } else { 1.0 };
+        direction
     }
 
     fn word(self) -> String {
@@ -233,9 +295,6 @@ fn short(value: f64) -> String {
 pub(crate) type Found = ([f64; 3], Option<usize>);
 
 /// Where a place of the caller is in a run.
-///
-/// # Errors
-/// An unknown marker, or one that was not seen at rest: message and help.
 pub(crate) fn where_is(run: &Recording, ends: &RestAndTop, place: &FilePlace) -> Result<Found, [String; 2]> {
     let name = match place {
         FilePlace::At(values) => {
@@ -291,6 +350,35 @@ impl Moved {
         let size =
             |axis: usize| if seen.len() > 1 { spread(axis) } else { seen.first().map_or(0.0, |at| at[axis].abs()) };
         (0..3).max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap_or(0)
+    }
+
+    /// From the nearest marker at rest, or the base, to the farthest \[m\].
+    fn line(&self, [near, far]: [usize; 2]) -> [f64; 3] {
+        let from = if near == far { [0.0; 3] } else { self.rest[near] };
+        [0, 1, 2].map(|axis| self.rest[far][axis] - from[axis])
+    }
+
+    /// Directions along the robot and towards the actuator in the plane of the line at rest and of the farthest marker's motion, if this
+    /// plane is tilted out of the plane of two axes. One of these axes that is in the plane is kept; without one, the robot at rest is
+    /// straight. One marker may be off the line from the base, so it shows no tilt.
+    fn tilted(&self, axes: [FileAxis; 2], ends: [usize; 2]) -> Option<[[f64; 3]; 2]> {
+        if ends[0] == ends[1] {
+            return None;
+        }
+        let (line, by) = (self.line(ends), self.by[ends[1]]);
+        let normal = unit_vector(cross(unit_vector(line)?, by))?;
+        if normal[third(axes)].abs() >= TILTED.cos() {
+            return None;
+        }
+        let [first, second] = axes.map(FileAxis::direction);
+        let is_kept = |axis: [f64; 3]| along(axis, normal).abs() <= TILTED;
+        let x = match [first, second].map(is_kept) {
+            [true, _] => cross(normal, cross(first, normal)),
+            [false, true] => cross(second, normal),
+            [false, false] => line,
+        };
+        let x = unit_vector(towards(x, line))?;
+        Some([x, towards(cross(normal, x), by)])
     }
 
     /// The markers nearest to the base and farthest from it along an axis.

@@ -8,9 +8,6 @@ const N: usize = 8;
 
 impl Homography {
     /// Least squares over corners (column, row, x, y), and how far off they are \[px, rms\].
-    ///
-    /// # Errors
-    /// Too few corners, or all on a line.
     pub(super) fn of_board(corners: &[[f64; 4]], square_m: f64) -> Result<(Homography, f64), String> {
         if corners.len() < 4 {
             return Err(format!("{} corners do not make a plane", corners.len()));
@@ -66,8 +63,8 @@ impl Homography {
     }
 }
 
-/// Gauss's elimination with pivots; `None` for a singular matrix.
-fn solve(mut rows: [[f64; N + 1]; N]) -> Option<[f64; N]> {
+/// Gauss's elimination with pivots of N rows with their right sides, M = N + 1; `None` for a singular matrix.
+pub(super) fn solve<const N: usize, const M: usize>(mut rows: [[f64; M]; N]) -> Option<[f64; N]> {
     let largest = rows.iter().flatten().fold(0.0_f64, |most, v| most.max(v.abs()));
     for k in 0..N {
         let pivot = (k..N).max_by(|a, b| rows[*a][k].abs().total_cmp(&rows[*b][k].abs()))?;
@@ -78,7 +75,7 @@ fn solve(mut rows: [[f64; N + 1]; N]) -> Option<[f64; N]> {
         let head = rows[k];
         for row in rows.iter_mut().skip(k + 1) {
             let times = row[k] / head[k];
-            (k..=N).for_each(|j| row[j] -= times * head[j]);
+            (k..M).for_each(|j| row[j] -= times * head[j]);
         }
     }
     let mut found = [0.0; N];

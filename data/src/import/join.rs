@@ -1,14 +1,15 @@
 //! Tracking files and pressure logs as recordings with times in seconds and pressures in place.
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use super::formats;
 use super::options::ImportOptions;
 use super::pressure::Log;
-use super::recording::{FrameClock, Recording, counted};
+use super::recording::{Recording, counted};
 use super::sheet::CellText;
+use super::{binary, formats, labels, loggers};
 use crate::agreement::{Doubt, LogSeen, stands_still};
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 use crate::lines::Progress;
 use crate::policy::is_a_room;
 use crate::units::kpa;
@@ -16,13 +17,17 @@ use spelling::files::{MOST_DATA, read_whole};
 use spelling::units::Range;
 
 /// A file's text.
-///
-/// # Errors
-/// It cannot be read, or is not a text.
 pub(crate) fn text_of(path: &Path) -> Result<String> {
     let shown = path.display().to_string();
-    let bytes = read_whole(path, MOST_DATA)
-        .map_err(|cause| DataError::file(&shown, format!("cannot open the file: {cause}"), "check the path"))?;
+    let unread = |cause| DataError::file(&shown, format!("cannot open the file: {cause}"), "check the path");
+    // A large binary file is refused before it is read. A pipe can be read only once.
+    let mut head = Vec::new();
+    if path.is_file() {
+        let file = std::fs::File::open(path).map_err(unread)?;
+        file.take(binary::HEAD as u64).read_to_end(&mut head).map_err(unread)?;
+    }
+    binary::refuse(&shown, &head)?;
+    let bytes = read_whole(path, MOST_DATA).map_err(unread)?;
     if let [0xff, 0xfe, rest @ ..] = &bytes[..] {
         let units: Vec<u16> = rest.chunks_exact(2).map(|pair| u16::from_le_bytes([pair[0], pair[1]])).collect();
         return Ok(String::from_utf16_lossy(&units));
@@ -40,14 +45,9 @@ pub(crate) struct Joined {
     /// Every run with its file, times in seconds and pressures in place.
     pub runs: Vec<(String, Recording)>,
     pub told: Vec<String>,
-    /// Readings of the pressure logs.
     pub logs: Vec<LogSeen>,
 }
 
-/// Reads all files.
-///
-/// # Errors
-/// A file that is not understood, of another program, or without frame rate or pressures; a named column that is nowhere.
 pub(crate) fn recordings(files: &[PathBuf], options: &ImportOptions, progress: Progress) -> Result<Joined> {
     for (k, (quantity, column)) in options.columns.iter().enumerate() {
         let earlier = options.columns[..k].iter().find(|(_, other)| other.eq_ignore_ascii_case(column));
@@ -63,8 +63,7 @@ pub(crate) fn recordings(files: &[PathBuf], options: &ImportOptions, progress: P
     for (k, path) in files.iter().enumerate() {
         if files[..k].contains(path) {
             let help = "name every file once: each is a run of its own";
-            let fault = Fault::of_file(&path.display().to_string(), "the file is named twice", help);
-            return Err(DataError::File(Box::new(fault)));
+            return Err(DataError::file(&path.display().to_string(), "the file is named twice", help));
         }
         progress(k as u64, files.len() as u64);
         let (shown, text) = (path.display().to_string(), text_of(path)?);
@@ -78,6 +77,13 @@ pub(crate) fn recordings(files: &[PathBuf], options: &ImportOptions, progress: P
         }
         added?;
     }
+    joined.merge();
+    let since = joined.runs.iter().find_map(|(_, run)| run.times.first().filter(|t| **t >= SINCE_1970_S).copied());
+    if let Some(t) = since {
+        joined.tell(format!("times are seconds since 1970; the first frame of a run is at 0 s, here at {t:.3}"));
+        let stamped = joined.runs.iter_mut().filter(|(_, run)| run.times.first().is_some_and(|t| *t >= SINCE_1970_S));
+        stamped.for_each(|(_, run)| run.zeroed());
+    }
     let frames: usize = joined.runs.iter().map(|(_, run)| run.times.len()).sum();
     let counts = [counted(joined.runs.len() as u64, "run"), counted(frames as u64, "frame")];
     joined.logs = logs.into_iter().map(Log::seen).collect();
@@ -85,7 +91,37 @@ pub(crate) fn recordings(files: &[PathBuf], options: &ImportOptions, progress: P
     Ok(joined)
 }
 
+/// Times above this are stamps since 1970 \[s\].
+const SINCE_1970_S: f64 = 1e9;
+
 impl Joined {
+    /// Files of one marker without a name each, whose stamps overlap, are one run.
+    fn merge(&mut self) {
+        let alone = |run: &Recording| run.markers == [""] && run.times.first().is_some_and(|t| *t >= SINCE_1970_S);
+        let within = |run: &Recording, of: &Recording| {
+            run.times.first() <= of.times.last() && of.times.first() <= run.times.last()
+        };
+        let mut groups: Vec<Vec<(String, Recording)>> = Vec::new();
+        for run in std::mem::take(&mut self.runs) {
+            let known =
+                groups.iter_mut().find(|group| alone(&run.1) && alone(&group[0].1) && within(&run.1, &group[0].1));
+            match known {
+                Some(group) => group.push(run),
+                None => groups.push(vec![run]),
+            }
+        }
+        for group in groups {
+            let names = labels::distinct(&group.iter().map(|(file, _)| labels::stem(file)).collect::<Vec<_>>());
+            let mut runs = group.into_iter();
+            let Some((file, mut first)) = runs.next() else { continue };
+            if alone(&first) {
+                runs.for_each(|(_, run)| first.beside(&run));
+                first.markers = names;
+            }
+            self.runs.push((file, first));
+        }
+    }
+
     fn add(&mut self, sheet: &CellText, log: Option<&Log>, options: &ImportOptions) -> Result<()> {
         let format = formats::recognised(sheet, options)?;
         if !self.program.is_empty() && self.program != format.name {
@@ -122,8 +158,6 @@ impl Joined {
     }
 }
 
-/// # Errors
-/// Hardly anything in the run, or a marker at two places at once.
 fn check_run(sheet: &CellText, run: &Recording) -> Result<()> {
     if let Some((marker, time)) = &run.twice {
         let message = format!("marker {marker} has two places at {time} of one run");
@@ -162,34 +196,31 @@ fn logs(
     }
     let mut logs = Vec::new();
     for path in &options.pressure_logs {
-        let (shown, text) = (path.display().to_string(), text_of(path)?);
-        let sheet = CellText::new(&shown, &text)?;
-        drop_named(&sheet, absent);
-        let log = Log::read(&sheet, options)?;
+        let shown = path.display().to_string();
+        let plain = loggers::plain(&shown, text_of(path)?)?;
+        let sheet = CellText::new(&shown, &plain.text)?;
+        let log = Log::read(&sheet, &plain, options)?;
+        absent.retain(|(_, column)| !log.names.iter().any(|name| name.eq_ignore_ascii_case(column)));
         told.extend(log.told.iter().map(|word| format!("pressure log: {word}")));
         logs.push(log);
     }
     Ok(logs)
 }
 
-/// Frames become seconds; returns how.
-///
-/// # Errors
-/// Frames without a rate.
 fn seconds(sheet: &CellText, run: &mut Recording, options: &ImportOptions) -> Result<String> {
-    match (run.clock, options.frames_per_s) {
-        (FrameClock::Frames, None) => {
+    match (run.in_seconds, options.frames_per_s) {
+        (false, None) => {
             let help = "add --fps with the camera's frames per second, for example --fps 30";
             Err(sheet.fault(0, "the file counts frames and does not say how many there are in a second", help))
         }
-        (FrameClock::Frames, Some(fps)) => {
+        (false, Some(fps)) => {
             let checked = Range::FRAME_RATE.check(fps);
             checked.map_err(|(message, help)| sheet.fault(0, format!("--fps: {message}"), help))?;
             run.times.iter_mut().for_each(|t| *t /= fps);
             Ok(format!("frame 0 is at 0 s, {fps} frames are a second, as given"))
         }
-        (FrameClock::Seconds, None) => Ok("times are seconds".to_string()),
-        (FrameClock::Seconds, Some(_)) => Ok("times are seconds: --fps was not used".to_string()),
+        (true, None) => Ok("times are seconds".to_string()),
+        (true, Some(_)) => Ok("times are seconds: --fps was not used".to_string()),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::format::Format;
 use super::options::ImportOptions;
-use super::recording::{FrameClock, Lengths, Pivot, Recording};
+use super::recording::{Lengths, Pivot, Recording};
 use super::sheet::CellText;
 use crate::cells::clock_s;
 use crate::error::Result;
@@ -18,7 +18,7 @@ pub(super) const TRAJECTORIES: Format = Format {
 
 fn trajectories(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     // Pixels, or the units of a calibration: the file does not say.
-    let mut pivot = Pivot::new(Lengths::Unsaid, FrameClock::Seconds);
+    let mut pivot = Pivot::new(Lengths::Unsaid, true);
     let (mut block, mut open) = (0_usize, false);
     for (line, number) in sheet.text.lines().zip(1..) {
         let cells: Vec<&str> = line.split_whitespace().collect();
@@ -29,7 +29,7 @@ fn trajectories(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Record
                 block += usize::from(!open);
                 open = true;
                 let marker = pivot.marker(&block.to_string());
-                let time = clock_s(time).map_or_else(|| sheet.time(time, number, "T"), Ok)?;
+                let time = clock_s(time).map_or_else(|| sheet.time(time, 1.0, number, "T"), Ok)?;
                 let value = |text: &str| sheet.expect(text, number, "X Y");
                 let frame = pivot.frame(time);
                 pivot.put(frame, marker, [value(x)?, value(y)?, 0.0], true);

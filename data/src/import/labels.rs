@@ -7,10 +7,13 @@ use super::options::ImportOptions;
 use super::recording::Recording;
 use crate::error::{DataError, Result};
 
+/// The name of a file without its end.
+pub(super) fn stem(file: &String) -> String {
+    Path::new(file).file_stem().map_or(file.clone(), |stem| stem.to_string_lossy().into_owned())
+}
+
 /// Labels of runs that have none: what the names of their files do not have in common.
 pub(crate) fn number_runs(runs: &mut [(String, Recording)]) {
-    let stem =
-        |file: &String| Path::new(file).file_stem().map_or(file.clone(), |stem| stem.to_string_lossy().into_owned());
     let stems: Vec<String> = runs.iter().map(|(file, _)| stem(file)).collect();
     let labels = distinct(&stems);
     let several = |k: usize| runs.iter().filter(|(file, _)| *file == runs[k].0).count() > 1;
@@ -27,7 +30,7 @@ pub(crate) fn number_runs(runs: &mut [(String, Recording)]) {
 }
 
 /// Names without what they begin and end with in common, whole numbers kept whole; all alike or one alone: their numbers.
-fn distinct(names: &[String]) -> Vec<String> {
+pub(super) fn distinct(names: &[String]) -> Vec<String> {
     let numbered = || (1..=names.len()).map(|k| k.to_string()).collect();
     let Some((first, rest)) = names.split_first().filter(|(_, rest)| !rest.is_empty()) else { return numbered() };
     let same = |a: &str, b: &str| {
@@ -58,9 +61,6 @@ pub(crate) fn without_subject<'n>(names: &[&'n str]) -> Vec<&'n str> {
 }
 
 /// Puts the markers of all runs in the order of the first.
-///
-/// # Errors
-/// A marker that one run has and another has not.
 pub(crate) fn same_markers(file: &str, runs: &mut [(String, Recording)]) -> Result<()> {
     let Some(((_, first), rest)) = runs.split_first_mut() else { return Ok(()) };
     let markers = &first.markers;
@@ -86,9 +86,6 @@ pub(crate) fn same_markers(file: &str, runs: &mut [(String, Recording)]) -> Resu
 }
 
 /// Markers without names are numbered from the base outwards; names that the caller gives replace the files' names.
-///
-/// # Errors
-/// Another number of names than of markers.
 pub(crate) fn rename(
     file: &str,
     runs: &mut [Recording],

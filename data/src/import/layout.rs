@@ -3,13 +3,16 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-use super::recording::{FrameClock, Lengths, Pivot, Recording, counted};
+use super::recording::{Lengths, Pivot, Recording, counted};
 use super::sheet::CellText;
 use crate::cells::{is_nothing, label};
 use crate::error::Result;
 
 /// What a column of a marker holds.
 pub(super) const PARTS: [&str; 4] = ["x", "y", "z", "likelihood"];
+
+/// Its place in [`PARTS`].
+pub(super) const LIKELIHOOD: usize = 3;
 
 /// The columns of one marker, in the order of [`PARTS`].
 struct Track {
@@ -19,6 +22,7 @@ struct Track {
 }
 
 /// The columns of a table with a row for every frame, or for every frame and marker.
+#[derive(Default)]
 pub(super) struct Layout {
     pub time: usize,
     /// Seconds of its unit; `None` for numbers of frames.
@@ -53,26 +57,14 @@ impl Layout {
             time,
             second,
             lengths,
-            run: None,
-            actuator: None,
-            marker: None,
-            pressures: [None, None],
             likely: [f64::NEG_INFINITY, f64::INFINITY],
-            y_down: false,
-            width: None,
-            rises: false,
             named: true,
             row_of: ["row", "marker"],
-            twice: None,
-            told: Vec::new(),
-            tracks: Vec::new(),
+            ..Layout::default()
         }
     }
 
     /// A column of a marker, new or known.
-    ///
-    /// # Errors
-    /// Two columns of one part.
     pub(super) fn add(&mut self, sheet: &CellText, line: u64, name: &str, part: usize, column: usize) -> Result<()> {
         let at = self.tracks.iter().position(|track| track.name == name).unwrap_or_else(|| {
             self.tracks.push(Track { name: name.to_string(), columns: [None; PARTS.len()] });
@@ -86,9 +78,6 @@ impl Layout {
     }
 
     /// Reads the rows that are left.
-    ///
-    /// # Errors
-    /// No marker, or one without x, y or another of `parts` coordinates; a cell or a row that cannot be read; a time that goes back.
     pub(super) fn read<'s>(
         self,
         sheet: &CellText<'s>,
@@ -105,7 +94,7 @@ impl Layout {
         if self.tracks.is_empty() {
             return Err(sheet.fault(header, "no column is the position of a marker", "export the places of markers"));
         }
-        let mut runs = Runs::new(&self);
+        let mut runs = Runs::default();
         let (mut cells, mut nameless) = (Vec::new(), 0);
         for (number, line) in rows {
             sheet.split_into(line, &mut cells);
@@ -115,12 +104,15 @@ impl Layout {
                 nameless += 1;
                 continue;
             }
-            let pivot = runs.of([self.run, self.actuator].map(|column| column.map(|column| cell(&cells, column))));
+            let pivot = runs.of(&self, &cells);
             self.read_row(sheet, number, &cells, marker, pivot)?;
         }
         let [row, what] = self.row_of;
         let left_out = (nameless > 0).then(|| format!("left out: {} of no {what}", counted(nameless, row)));
-        Ok(runs.finish(self.named, left_out.into_iter().chain(self.told).collect()))
+        let mut runs: Vec<Recording> = runs.pivots.into_iter().map(Pivot::finish).collect();
+        runs.iter_mut().for_each(|run| run.named = self.named);
+        runs.iter_mut().take(1).for_each(|run| run.told.extend(left_out.iter().chain(&self.told).cloned()));
+        Ok(runs)
     }
 
     fn read_row(
@@ -132,7 +124,7 @@ impl Layout {
         pivot: &mut Pivot,
     ) -> Result<()> {
         let time = cell(cells, self.time);
-        let t = self.second.unwrap_or(1.0) * sheet.time(time, number, "time")?;
+        let t = sheet.time(time, self.second.unwrap_or(1.0), number, "time")?;
         if self.rises && pivot.recording.times.last().is_some_and(|last| t <= *last) {
             let help = "give every run a file of its own, or say which column tells the runs apart: --map run=Trial";
             return Err(sheet.fault(number, format!("the time goes back here, to {time}"), help));
@@ -145,7 +137,7 @@ impl Layout {
                 }),
                 None => Ok(absent),
             };
-            let likelihood = value(3, f64::NAN)?;
+            let likelihood = value(LIKELIHOOD, f64::NAN)?;
             let [least, most] = self.likely;
             if most.is_finite() && !likelihood.is_nan() && !(0.0..=most).contains(&likelihood) {
                 let message = format!("a likelihood of {likelihood} is not from 0 to {most}");
@@ -181,28 +173,23 @@ fn of(name: &str) -> String {
 }
 
 /// Recordings by their label, in order of first appearance.
+#[derive(Default)]
 struct Runs {
     pivots: Vec<Pivot>,
     numbers: HashMap<String, usize>,
-    lengths: Lengths,
-    clock: FrameClock,
     last: usize,
 }
 
 impl Runs {
-    fn new(layout: &Layout) -> Runs {
-        let clock = if layout.second.is_some() { FrameClock::Seconds } else { FrameClock::Frames };
-        Runs { pivots: Vec::new(), numbers: HashMap::new(), lengths: layout.lengths, clock, last: 0 }
-    }
-
-    /// The recording of a run, by its label and the kind of its actuator.
-    fn of(&mut self, [run, actuator]: [Option<&str>; 2]) -> &mut Pivot {
+    /// The recording of the run of a row.
+    fn of(&mut self, layout: &Layout, cells: &[&str]) -> &mut Pivot {
+        let [run, actuator] = [layout.run, layout.actuator].map(|column| column.map(|column| cell(cells, column)));
         let run = run.map(label).unwrap_or_default();
         let is_last = |pivot: &Pivot| pivot.recording.run.as_deref().unwrap_or_default() == run;
         if !self.pivots.get(self.last).is_some_and(is_last) {
             self.last = self.numbers.get(run).copied().unwrap_or(self.pivots.len());
             if self.last == self.pivots.len() {
-                let mut pivot = Pivot::new(self.lengths, self.clock);
+                let mut pivot = Pivot::new(layout.lengths, layout.second.is_some());
                 pivot.recording.run = Some(run.to_string()).filter(|run| !run.is_empty());
                 pivot.recording.actuator = actuator.map(str::to_lowercase).filter(|kind| !kind.is_empty());
                 self.numbers.insert(run.to_string(), self.last);
@@ -210,12 +197,5 @@ impl Runs {
             }
         }
         &mut self.pivots[self.last]
-    }
-
-    fn finish(self, named: bool, told: Vec<String>) -> Vec<Recording> {
-        let mut runs: Vec<Recording> = self.pivots.into_iter().map(Pivot::finish).collect();
-        runs.iter_mut().for_each(|run| run.named = named);
-        runs.iter_mut().take(1).for_each(|run| run.told.extend_from_slice(&told));
-        runs
     }
 }

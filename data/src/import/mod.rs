@@ -7,6 +7,7 @@
 //! Every kind of file is one entry of [`FORMATS`], known by its content. Anything else comes from the caller
 //! ([`ImportOptions`]); assumptions are listed ([`Imported::told`]); files that can be read in two ways are refused.
 
+mod binary;
 mod board;
 mod clock;
 mod columns;
@@ -21,11 +22,14 @@ mod join;
 mod kinovea;
 mod labels;
 mod layout;
+mod lens;
+mod loggers;
 mod motive;
 mod options;
 mod pressure;
 mod qualisys;
 mod recording;
+mod ros;
 pub(crate) mod sheet;
 mod sleap;
 mod table;
@@ -34,11 +38,12 @@ mod tracker;
 mod trackmate;
 mod triples;
 pub mod typed;
+mod vectors;
 
 use std::path::{Path, PathBuf};
 
 use crate::about::{About, parse_about};
-use crate::agreement::{Doubt, Seen, doubts};
+use crate::agreement::{Doubt, Seen, doubts, still_inside};
 use crate::dataset::Dataset;
 use crate::error::{DataError, Result};
 use crate::lines::Progress;
@@ -49,12 +54,12 @@ pub use board::read_board;
 pub use columns::QUANTITIES;
 use cut::{Cut, cut, pressed};
 pub use format::Format;
-pub use formats::{FORMATS, LOG_FIXTURE};
+pub use formats::{FORMATS, LOGS};
 use frame::{PlacedRuns, RestAndTop, Scene};
 pub(crate) use holds::{PressedRun, median, plateaus};
 use join::Joined;
 pub use options::{FileAxis, FilePlace, ImportOptions, Offset, Scale};
-use recording::{Dropped, Recording, counted};
+use recording::{DROPPED, Recording, counted};
 
 /// What an import made.
 #[derive(Debug, Clone, PartialEq)]
@@ -113,67 +118,48 @@ pub fn import(files: &[PathBuf], options: &ImportOptions, progress: Progress) ->
     let runs = pressed(runs, xy_m);
     let measured = |name: &String| options.stations_m.iter().find(|(known, _)| known == name).map(|(_, s)| *s);
     let stations = markers.iter().map(|name| (name.clone(), measured(name))).collect();
-    if let Some(Doubt { message, help }) = doubts(&Seen::of_import(&runs, stations, options, logs)).into_iter().next() {
+    let seen = Seen::of_import(&runs, stations, options, logs);
+    if let Some(Doubt { message, help }) = doubts(&seen).into_iter().next() {
         return Err(DataError::runs(first, message, help));
     }
+    told.extend(still_inside(&seen));
     let cut = cut(first, runs, options, &mut told)?;
-    let made = MadeTable { program, files: &shown, cut: &cut, markers: &markers, actuator: &actuator, options };
-    made.finish(told)
+    if let Some((unknown, _)) = options.stations_m.iter().find(|(name, _)| !markers.contains(name)) {
+        let help = format!("the markers are {}", markers.join(", "));
+        return Err(DataError::runs(first, format!("--stations names {unknown}, which is no marker"), help));
+    }
+    let stations = table::stations(&cut, &markers, options);
+    if stations.iter().any(|(.., given)| !given) {
+        let list: Vec<String> = stations.iter().map(|(name, s, _)| format!("{name} {:.0} mm", s * 1e3)).collect();
+        told.push(format!(
+            "stations of markers are estimated from the robot at rest: {} (--stations)",
+            list.join(", ")
+        ));
+    }
+    let markers_csv = table::markers_csv(&cut, &markers, &actuator, options.bin_pa.is_some());
+    let name =
+        |file: &String| Path::new(file).file_name().map_or(file.clone(), |name| name.to_string_lossy().into_owned());
+    let names: Vec<String> = shown.iter().map(name).collect();
+    let about_toml = table::about_toml(program, &names, &stations, &actuator, &told);
+    let about = parse_about("about.toml as imported", &about_toml)?;
+    let read = ReadOptions { about: Some(&about), ..ReadOptions::default() };
+    let read = parse_markers("the table made", &mut markers_csv.as_bytes(), read, &mut |_, _| ());
+    let dataset = read.map_err(|error| unusable(first, &cut, &error))?;
+    let tracks = cut.iter().map(|(run, holds)| track(run, holds, &markers)).collect();
+    Ok(Imported { program, told, markers_csv, about_toml, dataset, about, tracks })
 }
 
-/// Everything that the table and its description are made of.
-struct MadeTable<'a> {
-    program: &'static str,
-    files: &'a [String],
-    cut: &'a Cut,
-    markers: &'a [String],
-    actuator: &'a str,
-    options: &'a ImportOptions,
-}
-
-impl MadeTable<'_> {
-    /// Writes both and reads them back.
-    fn finish(&self, mut told: Vec<String>) -> Result<Imported> {
-        let MadeTable { program, files, cut, markers, actuator, options } = *self;
-        if let Some((unknown, _)) = options.stations_m.iter().find(|(name, _)| !markers.contains(name)) {
-            let help = format!("the markers are {}", markers.join(", "));
-            return Err(DataError::runs(&files[0], format!("--stations names {unknown}, which is no marker"), help));
-        }
-        let stations = table::stations(cut, markers, options);
-        if stations.iter().any(|(.., given)| !given) {
-            let list: Vec<String> = stations.iter().map(|(name, s, _)| format!("{name} {:.0} mm", s * 1e3)).collect();
-            told.push(format!(
-                "stations of markers are estimated from the robot at rest: {} (--stations)",
-                list.join(", ")
-            ));
-        }
-        let markers_csv = table::markers_csv(cut, markers, actuator, options.bin_pa.is_some());
-        let name = |file: &String| {
-            Path::new(file).file_name().map_or(file.clone(), |name| name.to_string_lossy().into_owned())
-        };
-        let names: Vec<String> = files.iter().map(name).collect();
-        let about_toml = table::about_toml(program, &names, &stations, actuator, &told);
-        let about = parse_about("about.toml as imported", &about_toml)?;
-        let read = ReadOptions { about: Some(&about), ..ReadOptions::default() };
-        let read = parse_markers("the table made", &mut markers_csv.as_bytes(), read, &mut |_, _| ());
-        let dataset = read.map_err(|error| self.unusable(&error))?;
-        let tracks = cut.iter().map(|(run, holds)| track(run, holds, markers)).collect();
-        Ok(Imported { program, told, markers_csv, about_toml, dataset, about, tracks })
-    }
-
-    /// What the reader refuses in the table, with the holds of every run.
-    fn unusable(&self, error: &DataError) -> DataError {
-        let shown = |hold: &holds::Kept| format!("{:.0}", kpa(hold.act_pa)).replace("-0", "0");
-        let holds = |kept: &[holds::Kept]| {
-            let more = if kept.len() > MOST_HOLDS { ", …" } else { "" };
-            kept.iter().take(MOST_HOLDS).map(shown).collect::<Vec<_>>().join(", ") + more
-        };
-        let runs: Vec<String> =
-            self.cut.iter().map(|(run, kept)| format!("run {}: {}", run.label, holds(kept))).collect();
-        let message = format!("{}; holds found [kPa]: {}", error.message(), runs.join("; "));
-        let help = format!("{}; --hold, --frames, --settle and --bin change what is a hold", error.help());
-        DataError::runs(&self.files[0], message, help)
-    }
+/// What the reader refuses in the table, with the holds of every run.
+fn unusable(file: &str, cut: &Cut, error: &DataError) -> DataError {
+    let shown = |hold: &holds::Kept| format!("{:.0}", kpa(hold.act_pa)).replace("-0", "0");
+    let holds = |kept: &[holds::Kept]| {
+        let more = if kept.len() > MOST_HOLDS { ", …" } else { "" };
+        kept.iter().take(MOST_HOLDS).map(shown).collect::<Vec<_>>().join(", ") + more
+    };
+    let runs: Vec<String> = cut.iter().map(|(run, kept)| format!("run {}: {}", run.label, holds(kept))).collect();
+    let message = format!("{}; holds found [kPa]: {}", error.message(), runs.join("; "));
+    let help = format!("{}; --hold, --frames, --settle and --bin change what is a hold", error.help());
+    DataError::runs(file, message, help)
 }
 
 fn track(run: &holds::PressedRun, kept: &[holds::Kept], markers: &[String]) -> RunTrack {
@@ -190,14 +176,9 @@ fn track(run: &holds::PressedRun, kept: &[holds::Kept], markers: &[String]) -> R
 
 /// What was dropped on reading, in words.
 fn losses(runs: &[Recording]) -> Vec<String> {
-    let all = runs.iter().fold(Dropped::default(), |sum, run| Dropped {
-        blank: sum.blank + run.dropped.blank,
-        unlikely: sum.unlikely + run.dropped.unlikely,
-        zero: sum.zero + run.dropped.zero,
-    });
-    let kinds = [(all.blank, "blank"), (all.unlikely, "below the limit of likelihood"), (all.zero, "written as 0, 0")];
-    let lost = |(count, what): &(u64, &str)| format!("lost markers: {} {what}", counted(*count, "position"));
-    kinds.iter().filter(|(count, _)| *count > 0).map(lost).collect()
+    let all = DROPPED.iter().enumerate().map(|(k, why)| (runs.iter().map(|run| run.dropped[k]).sum::<u64>(), why));
+    let lost = |(count, why)| format!("lost markers: {} {why}", counted(count, "position"));
+    all.filter(|(count, _)| *count > 0).map(lost).collect()
 }
 
 /// Frames at the lowest and at the highest pressure.

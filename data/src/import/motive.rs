@@ -1,12 +1,12 @@
 //! Motive (OptiTrack): a line of settings, then rows Type, Name, ID, Position, axes, and a row for every frame.
 
-use super::columns::lengths;
 use super::format::Format;
 use super::labels::without_subject;
 use super::layout::Layout;
 use super::options::ImportOptions;
-use super::recording::{Lengths, Recording, counted};
+use super::recording::{Recording, counted};
 use super::sheet::CellText;
+use super::triples::unit_of;
 use crate::error::Result;
 
 pub(super) const FORMAT: Format = Format {
@@ -54,7 +54,8 @@ fn read(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
         }
     };
     let time = axes.iter().position(|name| name.starts_with("Time")).unwrap_or(1);
-    let mut layout = Layout::new(time, Some(1.0), unit(sheet, &head)?);
+    let unit = head.settings.iter().position(|cell| *cell == "Length Units").and_then(|at| head.settings.get(at + 1));
+    let mut layout = Layout::new(time, Some(1.0), unit_of(sheet, 1, unit.copied().unwrap_or_default())?);
     let is_named = |name: &str| !name.rsplit(':').next().unwrap_or_default().starts_with("Unlabeled");
     let found: Vec<(usize, &str)> = (2..axes.len()).filter_map(|column| Some((column, head.marker(column)?))).collect();
     let unnamed = found.iter().filter(|(_, name)| !is_named(name)).count() / 3;
@@ -69,12 +70,4 @@ fn read(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
         part.map_or(Ok(()), |part| layout.add(sheet, number, short, part, *column))?;
     }
     layout.read(sheet, number, 3, lines)
-}
-
-fn unit(sheet: &CellText, head: &Head) -> Result<Lengths> {
-    let said = head.settings.iter().position(|cell| *cell == "Length Units").and_then(|at| head.settings.get(at + 1));
-    let Some(word) = said else { return Ok(Lengths::Unsaid) };
-    let help = "export in meters, centimeters or millimeters";
-    lengths(&word.to_lowercase())
-        .ok_or_else(|| sheet.fault(1, format!("Length Units are {word}, which is not known"), help))
 }

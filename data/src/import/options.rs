@@ -79,6 +79,8 @@ pub struct ImportOptions {
     pub least_frames: usize,
     /// Time to leave out at the start of every hold \[s\].
     pub settle_s: f64,
+    /// Names of the columns of a pressure log that names none.
+    pub log_columns: Vec<String>,
     /// Names of columns: a quantity (run, marker, t, x, y, p_act, p_body, actuator) and the column that holds it.
     pub columns: Vec<(String, String)>,
     /// Actuator kind, where the file does not say.
@@ -107,6 +109,7 @@ impl Default for ImportOptions {
             least_hold_s: 0.5,
             least_frames: 3,
             settle_s: 0.0,
+            log_columns: Vec::new(),
             columns: Vec::new(),
             actuator: None,
             markers: Vec::new(),

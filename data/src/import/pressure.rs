@@ -1,13 +1,15 @@
 //! Pressure logs: read, and joined to frames by time (as-of: the last reading counts until the next).
 
-use super::clock::{Agreed, Clock, Readings, agree};
-use super::columns::Roles;
+use super::clock::{Clock, Readings, agree, tracks};
+use super::columns::{ColumnName, Roles, is_time, is_unit};
+use super::loggers::Plain;
 use super::options::ImportOptions;
-use super::recording::{FrameClock, Recording, counted};
+use super::recording::{Recording, counted};
 use super::sheet::CellText;
 use crate::agreement::LogSeen;
-use crate::error::{DataError, Result};
-use crate::policy::{HIGHEST_GAUGE_PA, ROOM_PA};
+use crate::error::{DataError, Fault, Result};
+use crate::policy::{HIGHEST_GAUGE_PA, ROOM_PA, tolerance_act_pa};
+use crate::units::kpa;
 use spelling::units::Range;
 
 #[derive(Debug, Clone)]
@@ -16,31 +18,116 @@ pub(crate) struct Log {
     times_s: Vec<f64>,
     /// Body's and actuator's pressure \[Pa\].
     values_pa: [Option<Vec<f64>>; 2],
+    /// Names of its columns.
+    pub names: Vec<String>,
     pub told: Vec<String>,
 }
 
 /// Two readings of one time are one if nearer than this \[s\].
 const SAME_TIME_S: f64 = 1e-6;
+const DAY_S: f64 = 86_400.0;
+/// Lines among which the names of the columns are looked for.
+const MOST_HEAD: usize = 100;
+
+/// Names of the columns, with the units of a row below them, and the number of lines up to the first row.
+fn named(sheet: &CellText, lines: &[(u64, &str)], options: &ImportOptions) -> Result<(usize, Vec<String>)> {
+    // Numbers, clocks and dates.
+    let is_value = |cell: &str| cell.starts_with(|c: char| c.is_ascii_digit()) || sheet.number(cell).is_some();
+    let is_row = |line: &str| {
+        let cells = sheet.split(line);
+        let mut filled = cells.iter().filter(|cell| !cell.is_empty()).peekable();
+        filled.peek().is_some() && filled.all(|cell| is_value(cell))
+    };
+    let Some(row) = lines.iter().take(MOST_HEAD).position(|(_, line)| is_row(line)) else {
+        return Ok((1, owned(sheet.split(lines[0].1))));
+    };
+    if row == 0 {
+        return unnamed(sheet, lines[0], options).map(|names| (0, names));
+    }
+    let above = sheet.split(lines[row - 1].1);
+    let are_units = row > 1 && above.iter().all(|cell| cell.is_empty() || is_unit(&bare(cell).to_lowercase()));
+    if !are_units {
+        // A word among the numbers is a fault of its row, not of the names.
+        let first = owned(sheet.split(lines[0].1));
+        let is_header = first.len() == above.len() && first.iter().any(|name| is_time(&ColumnName::of(name)));
+        return Ok(if is_header { (1, first) } else { (row, owned(above)) });
+    }
+    let with_unit = |(name, unit): (&&str, &&str)| {
+        if unit.is_empty() { (*name).into() } else { format!("{name} ({})", bare(unit)) }
+    };
+    Ok((row, sheet.split(lines[row - 2].1).iter().zip(&above).map(with_unit).collect()))
+}
+
+fn owned(cells: Vec<&str>) -> Vec<String> {
+    cells.into_iter().map(str::to_string).collect()
+}
+
+/// A unit without its brackets.
+fn bare(cell: &str) -> &str {
+    cell.trim_matches(['(', ')', '[', ']'])
+}
+
+/// The names that the caller gives to the columns of a log without names.
+fn unnamed(sheet: &CellText, (number, line): (u64, &str), options: &ImportOptions) -> Result<Vec<String>> {
+    let cells = sheet.split(line);
+    let given = &options.log_columns;
+    if given.len() == cells.len() {
+        return Ok(given.clone());
+    }
+    let message = match given.len() {
+        0 => format!("the pressure log has no names of columns; its first row is {}", cells.join(", ")),
+        count => format!("--log-columns names {count} columns, the row has {}: {}", cells.len(), cells.join(", ")),
+    };
+    let known: &[&str] = if cells.len() < 3 { &["t_s", "p_act_kpa"] } else { &["t_s", "p_body_kpa", "p_act_kpa"] };
+    let names: Vec<&str> = (0..cells.len()).map(|k| known.get(k).copied().unwrap_or("-")).collect();
+    let help = format!(
+        "name each of them with its unit, and - what is not used, for example --log-columns {}",
+        names.join(",")
+    );
+    Err(sheet.fault(number, message, help))
+}
+
+/// Refuses two readings at one time that differ by more than readings of one hold \[Pa\].
+fn one_reading([before_pa, now_pa]: [f64; 2], options: &ImportOptions) -> std::result::Result<(), [String; 2]> {
+    let gauge_pa = before_pa - options.room_pa.unwrap_or(0.0);
+    if (now_pa - before_pa).abs() > tolerance_act_pa(gauge_pa) {
+        let message = format!("the pressure log has both {:.1} and {:.1} kPa", kpa(before_pa), kpa(now_pa));
+        let help = "delete the wrong row; where the clock is too coarse, export the times with their decimals";
+        return Err([message, help.into()]);
+    }
+    Ok(())
+}
 
 impl Log {
-    /// Reads a log.
-    ///
-    /// # Errors
-    /// No column of time or pressure; a cell without a number; times that go back.
-    pub(super) fn read(sheet: &CellText, options: &ImportOptions) -> Result<Log> {
-        let mut lines = sheet.lines().filter(|(_, line)| !line.starts_with('#'));
-        let Some((first, header)) = lines.next() else {
+    /// Reads the rows; `plain` has the names of the columns if no line of the file has them.
+    pub(super) fn read(sheet: &CellText, plain: &Plain, options: &ImportOptions) -> Result<Log> {
+        let lines: Vec<(u64, &str)> = sheet.lines().filter(|(_, line)| !line.starts_with('#')).collect();
+        if lines.is_empty() {
             return Err(sheet.fault(0, "the pressure log is empty", "export it again"));
-        };
-        let roles = Roles::of(sheet, first, &sheet.split(header), options)?;
-        let (time, second) = Log::columns(sheet, first, &roles)?;
+        }
+        let (at, names) =
+            if plain.names.is_empty() { named(sheet, &lines, options)? } else { (0, plain.names.clone()) };
+        let has_names = at > 0 || !plain.names.is_empty();
+        let shown: Vec<&str> = names.iter().map(String::as_str).collect();
+        let first = lines[at.saturating_sub(1)].0;
+        let roles = Roles::of(sheet, first, &shown, options)?;
+        let (time, second) = Log::columns(sheet, first, &shown, &roles)?;
         let values_pa = roles.pressures.map(|column| column.map(|_| Vec::new()));
-        let mut log = Log { file: sheet.file.to_string(), times_s: Vec::new(), values_pa, told: roles.told.clone() };
-        let mut cells = Vec::new();
-        for (number, line) in lines {
+        let mut log =
+            Log { file: sheet.file.to_string(), times_s: Vec::new(), values_pa, names, told: plain.told.clone() };
+        log.told.extend(roles.told.iter().cloned());
+        if has_names && !options.log_columns.is_empty() {
+            log.told.push("its columns have names: --log-columns was not used".into());
+        }
+        let (mut cells, mut midnights) = (Vec::new(), 0.0);
+        for (number, line) in lines.into_iter().skip(at) {
             sheet.split_into(line, &mut cells);
             let cell = |index: usize| cells.get(index).copied().unwrap_or_default();
-            let t_s = second * sheet.time(cell(time), number, "time")?;
+            let mut t_s = midnights + sheet.time(cell(time), second, number, "time")?;
+            // A clock begins again at midnight.
+            if cell(time).contains(':') && log.times_s.last().is_some_and(|last| t_s < *last - 0.5 * DAY_S) {
+                (midnights, t_s) = (midnights + DAY_S, t_s + DAY_S);
+            }
             if log.times_s.last().is_some_and(|last| t_s < *last) {
                 return Err(sheet.fault(
                     number,
@@ -48,6 +135,7 @@ impl Log {
                     "sort its rows, or give one log per run",
                 ));
             }
+            let at_once = log.times_s.last().is_some_and(|last| t_s - last < SAME_TIME_S);
             log.times_s.push(t_s);
             for (column, values) in roles.pressures.iter().zip(&mut log.values_pa) {
                 if let (Some((index, pa)), Some(values)) = (column, values) {
@@ -57,6 +145,10 @@ impl Log {
                         let told = Range::ACTUATOR_PRESSURE.check(pressure_pa.abs()).err();
                         let message = told.map_or(String::new(), |(message, _)| message);
                         return Err(sheet.fault(number, message, "check the reading and the unit of the column"));
+                    }
+                    if at_once {
+                        one_reading([values[values.len() - 1], pressure_pa], options)
+                            .map_err(|[message, help]| sheet.fault(number, format!("{message} at {t_s} s"), help))?;
                     }
                     values.push(pressure_pa);
                 }
@@ -68,7 +160,6 @@ impl Log {
         Ok(log)
     }
 
-    /// Its readings of the actuator.
     pub(super) fn seen(self) -> LogSeen {
         let [_, act] = self.values_pa;
         LogSeen { file: self.file, act_pa: act.unwrap_or_else(|| vec![0.0; self.times_s.len()]), times_s: self.times_s }
@@ -79,12 +170,17 @@ impl Log {
     }
 
     /// Puts the log's pressures into the frames of a recording (times in seconds); on a ramp readings are joined by lines.
-    ///
-    /// # Errors
-    /// The clocks disagree; hardly any frame is within the log.
     pub(super) fn join(&self, video: &str, recording: &mut Recording, options: &ImportOptions) -> Result<Vec<String>> {
-        let (clock, words) =
-            self.clock(recording, options).map_err(|[message, help]| DataError::runs(video, message, help))?;
+        let none = vec![0.0; self.times_s.len()];
+        let values_pa = [0, 1].map(|which| self.values_pa[which].as_deref().unwrap_or(&none));
+        let readings = Readings { times_s: &self.times_s, values_pa };
+        let (clock, words) = agree(&readings, recording, options).map_err(|[message, help]| {
+            let fault = Box::new(Fault::of_file(video, message, help));
+            match tracks(&readings, recording, options) {
+                Some(tracks) => DataError::Clock(fault, Box::new(tracks)),
+                None => DataError::Runs(fault),
+            }
+        })?;
         let mut told = vec![words];
         let places = self.readings_at(&recording.times, clock);
         let outside = places.iter().filter(|place| place.is_none()).count();
@@ -96,7 +192,11 @@ impl Log {
                 clock.offset_s,
                 range(&self.times_s)
             );
-            return Err(self.fault(message, "give --clock-offset: the log's time minus the camera's, or find"));
+            return Err(DataError::runs(
+                &self.file,
+                message,
+                "give --clock-offset: the log's time minus the camera's, or find",
+            ));
         }
         if outside > 0 {
             told.push(format!("left out: {} outside the pressure log", counted(outside as u64, "frame")));
@@ -110,34 +210,20 @@ impl Log {
             };
             recording.pressures[which] = Some(places.iter().zip(&recording.times).map(value).collect());
         }
-        if recording.clock == FrameClock::Frames {
+        if !recording.in_seconds {
             recording.times.iter_mut().for_each(|t| *t *= clock.rate);
         }
         Ok(told)
     }
 
-    /// The clock that the caller gives, or that movement and pressure show.
-    ///
-    /// # Errors
-    /// As [`agree`].
-    fn clock(&self, recording: &Recording, options: &ImportOptions) -> Agreed {
-        let none = vec![0.0; self.times_s.len()];
-        let [body, act] = [0, 1].map(|which| self.values_pa[which].as_deref().unwrap_or(&none));
-        let readings = Readings { times_s: &self.times_s, values_pa: [body, act] };
-        agree(&readings, recording, options)
-    }
-
     /// Column of the time and its seconds.
-    ///
-    /// # Errors
-    /// None, or frames in its place; no pressure.
-    fn columns(sheet: &CellText, line: u64, roles: &Roles) -> Result<(usize, f64)> {
+    fn columns(sheet: &CellText, line: u64, names: &[&str], roles: &Roles) -> Result<(usize, f64)> {
         let (message, help) = match roles.time {
             Some((time, Some(second))) if roles.pressures.iter().any(Option::is_some) => return Ok((time, second)),
             Some((_, Some(_))) => ("a pressure", "say which: --map p_act=NAME, and p_body=NAME if there is one"),
             _ => ("the time", "say which: --map t=NAME (a log counts seconds, not frames)"),
         };
-        let names = sheet.head(1).first().map_or(String::new(), |row| row.join(", "));
+        let names = names.join(", ");
         Err(sheet.fault(line, format!("no column of the pressure log is {message}; there are {names}"), help))
     }
 
@@ -160,9 +246,5 @@ impl Log {
         let width = self.times_s[k + 1] - self.times_s[k];
         let part = if width > 0.0 { ((t_s - self.times_s[k]) / width).clamp(0.0, 1.0) } else { 0.0 };
         values[k] + part * (next - values[k])
-    }
-
-    fn fault(&self, message: String, help: &str) -> DataError {
-        DataError::Runs(Box::new(crate::error::Fault::of_file(&self.file, message, help)))
     }
 }

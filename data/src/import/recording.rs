@@ -3,40 +3,29 @@
 use std::collections::HashMap;
 
 /// What the numbers of positions are.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) enum Lengths {
     /// Pixels of the picture, y downwards.
     Pixels,
     /// A length of so many metres.
     Metres(f64),
+    #[default]
     Unsaid,
 }
 
-/// What the numbers of times are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum FrameClock {
-    Seconds,
-    Frames,
-}
-
-/// Positions that the file has and that stand for nothing.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(crate) struct Dropped {
-    /// Empty, or a word for none.
-    pub blank: u64,
-    pub unlikely: u64,
-    pub zero: u64,
-}
+/// Why positions that the file has stand for nothing.
+pub(crate) const DROPPED: [&str; 3] = ["blank", "below the limit of likelihood", "written as 0, 0"];
 
 /// One run as a camera saw it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Recording {
     /// Label, if the file has one.
     pub run: Option<String>,
     /// Actuator kind, if the file has one.
     pub actuator: Option<String>,
     pub lengths: Lengths,
-    pub clock: FrameClock,
+    /// Times are seconds; else they are numbers of frames.
+    pub in_seconds: bool,
     /// Whether the labels are the user's; otherwise markers are numbered from the base outwards.
     pub named: bool,
     pub times: Vec<f64>,
@@ -45,7 +34,8 @@ pub(crate) struct Recording {
     pub places: Vec<Vec<[f64; 3]>>,
     /// Body and actuator pressure of every frame \[Pa\], if the file has them.
     pub pressures: [Option<Vec<f64>>; 2],
-    pub dropped: Dropped,
+    /// Positions by [`DROPPED`].
+    pub dropped: [u64; DROPPED.len()],
     /// A marker that has two places at one time, and that time.
     pub twice: Option<(String, f64)>,
     pub told: Vec<String>,
@@ -55,40 +45,21 @@ pub(crate) struct Recording {
 pub(crate) const LOST: [f64; 3] = [f64::NAN; 3];
 
 /// Collects observations in any order and makes frames of the observations at one time: the pivot from long to wide.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Pivot {
     pub recording: Recording,
     numbers: HashMap<String, usize>,
     frames: HashMap<u64, usize>,
     /// Sum and count of readings in a frame, by pressure.
     readings: [Vec<[f64; 2]>; 2],
-    last: (u64, usize),
+    /// Bits of the last time, and its frame.
+    last: Option<(u64, usize)>,
 }
 
 impl Pivot {
-    /// Nothing yet.
-    pub(super) fn new(lengths: Lengths, clock: FrameClock) -> Pivot {
-        let recording = Recording {
-            run: None,
-            actuator: None,
-            lengths,
-            clock,
-            named: true,
-            times: Vec::new(),
-            markers: Vec::new(),
-            places: Vec::new(),
-            pressures: [None, None],
-            dropped: Dropped::default(),
-            twice: None,
-            told: Vec::new(),
-        };
-        Pivot {
-            recording,
-            numbers: HashMap::new(),
-            frames: HashMap::new(),
-            readings: [Vec::new(), Vec::new()],
-            last: (u64::MAX, 0),
-        }
+    pub(super) fn new(lengths: Lengths, in_seconds: bool) -> Pivot {
+        let recording = Recording { lengths, in_seconds, named: true, ..Recording::default() };
+        Pivot { recording, ..Pivot::default() }
     }
 
     /// The number of a marker, new or known.
@@ -106,30 +77,25 @@ impl Pivot {
     /// The frame at a time, new or known.
     pub(super) fn frame(&mut self, time: f64) -> usize {
         let bits = time.to_bits();
-        if self.last.0 != bits {
-            let next = self.recording.times.len();
-            let frame = *self.frames.entry(bits).or_insert(next);
-            if frame == next {
-                self.recording.times.push(time);
-            }
-            self.last = (bits, frame);
+        if let Some((_, frame)) = self.last.filter(|(last, _)| *last == bits) {
+            return frame;
         }
-        self.last.1
+        let next = self.recording.times.len();
+        let frame = *self.frames.entry(bits).or_insert(next);
+        if frame == next {
+            self.recording.times.push(time);
+        }
+        self.last = Some((bits, frame));
+        frame
     }
 
     /// Puts a marker; false if it has a place in this frame already. Placeholders are counted.
     pub(super) fn put(&mut self, frame: usize, marker: usize, place: [f64; 3], likely: bool) -> bool {
         let Recording { places, dropped, twice, markers, times, .. } = &mut self.recording;
-        if !(place[0].is_finite() && place[1].is_finite()) {
-            dropped.blank += 1;
-            return true;
-        }
-        if place[0] == 0.0 && place[1] == 0.0 && place[2] == 0.0 {
-            dropped.zero += 1;
-            return true;
-        }
-        if !likely {
-            dropped.unlikely += 1;
+        let zero = place == [0.0; 3];
+        let why = [!(place[0].is_finite() && place[1].is_finite()), !likely && !zero, zero];
+        if let Some(why) = why.into_iter().position(|is| is) {
+            dropped[why] += 1;
             return true;
         }
         let column = &mut places[marker];
@@ -181,6 +147,30 @@ impl Recording {
         self.places.iter_mut().for_each(|column| *column = order.iter().map(|&k| column[k]).collect());
         let in_order = |readings: &Vec<f64>| order.iter().map(|&k| readings[k]).collect();
         self.pressures = [0, 1].map(|which| self.pressures[which].as_ref().map(in_order));
+    }
+
+    /// Takes the markers of another recording, each frame's from the nearest one within half a usual step.
+    pub(super) fn beside(&mut self, other: &Recording) {
+        let mut steps: Vec<f64> = self.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        steps.sort_by(f64::total_cmp);
+        let near_s = 0.5 * steps.get(steps.len() / 2).copied().unwrap_or(0.0);
+        let frame = |t: &f64| {
+            let next = other.times.partition_point(|known| known < t);
+            let off = |k: &usize| (other.times[*k] - t).abs();
+            let nearest = [next.checked_sub(1), Some(next).filter(|k| *k < other.times.len())].into_iter().flatten();
+            nearest.min_by(|a, b| off(a).total_cmp(&off(b))).filter(|k| off(k) <= near_s)
+        };
+        let frames: Vec<Option<usize>> = self.times.iter().map(frame).collect();
+        self.markers.extend(other.markers.iter().cloned());
+        let column = |places: &Vec<[f64; 3]>| frames.iter().map(|k| k.map_or(LOST, |k| places[k])).collect();
+        self.places.extend(other.places.iter().map(column));
+        self.dropped.iter_mut().zip(other.dropped).for_each(|(all, more)| *all += more);
+    }
+
+    /// Puts the first frame at 0 s.
+    pub(super) fn zeroed(&mut self) {
+        let first = self.times.first().copied().unwrap_or(0.0);
+        self.times.iter_mut().for_each(|t| *t -= first);
     }
 
     /// Where a marker was in the mean over some frames in which it was seen.

@@ -1,8 +1,9 @@
 //! A text of cells whatever its dialect: separator, decimal sign and line ends are found, not asked for.
 
-use crate::cells::{Decimals, clock_s, is_nothing, with_comma};
+use crate::cells::{Decimals, clock_s, day_s, is_nothing, with_comma};
 use crate::error::{DataError, Fault, Result};
 use crate::lines::Line;
+use spelling::units::Range;
 
 /// Lines looked at to find separator and decimal sign.
 const LOOKED_AT: usize = 400;
@@ -22,9 +23,6 @@ pub(crate) struct CellText<'a> {
 
 impl<'a> CellText<'a> {
     /// Finds the dialect of a text.
-    ///
-    /// # Errors
-    /// No text; numbers with a comma that may be decimal or of thousands.
     pub(crate) fn new(file: &'a str, text: &'a str) -> Result<CellText<'a>> {
         if text.contains('\0') {
             let (message, help) = ("the file is no text", "export it as text: CSV, TXT or XML");
@@ -50,7 +48,6 @@ impl<'a> CellText<'a> {
         line.bytes().all(|byte| byte.is_ascii_whitespace() || byte == self.delimiter as u8 || byte == b'"')
     }
 
-    /// The first lines as cells.
     pub(crate) fn head(&self, count: usize) -> Vec<Vec<&'a str>> {
         self.lines().take(count).map(|(_, line)| self.split(line)).collect()
     }
@@ -87,9 +84,6 @@ impl<'a> CellText<'a> {
     }
 
     /// The number of a cell of line `number`.
-    ///
-    /// # Errors
-    /// Anything else than a finite number or a word for none.
     pub(crate) fn expect(&self, text: &str, number: u64, column: &str) -> Result<f64> {
         self.finite(text).ok_or_else(|| self.no_number(text, number, column))
     }
@@ -104,8 +98,6 @@ impl<'a> CellText<'a> {
         self.bad_cell(text, number, column, "type a number, or leave the cell empty")
     }
 
-    /// # Errors
-    /// A row that was cut, or has cells without a name above.
     pub(crate) fn whole_row(&self, cells: &[&str], names: usize, number: u64) -> Result<()> {
         if cells.len() == names {
             return Ok(());
@@ -114,14 +106,18 @@ impl<'a> CellText<'a> {
         Err(self.fault(number, message, "export it again, or complete or delete the row"))
     }
 
-    /// Seconds or frames: a number, a clock time, or a number of seconds with its unit (`1 sec`).
-    ///
-    /// # Errors
-    /// Anything else.
-    pub(crate) fn time(&self, text: &str, number: u64, column: &str) -> Result<f64> {
-        let plain = ["seconds", "secs", "sec", "s"].iter().find_map(|unit| text.strip_suffix(unit)).unwrap_or(text);
-        let found = self.number(plain.trim()).filter(|t| t.is_finite()).or_else(|| clock_s(text));
-        found.ok_or_else(|| self.bad_cell(text, number, column, "a time is a number, or hours:minutes:seconds"))
+    /// Seconds of a number of `second` each, a clock time, or a number of seconds with its unit (`1 sec`). Larger numbers than a time can
+    /// be are milli-, micro- or nanoseconds since 1970.
+    pub(crate) fn time(&self, text: &str, second: f64, number: u64, column: &str) -> Result<f64> {
+        let plain = || ["seconds", "secs", "sec", "s"].iter().find_map(|unit| text.strip_suffix(unit));
+        let finite = |text: &str| self.number(text).filter(|t| t.is_finite());
+        let counted = finite(text).map(|t| second * t);
+        let found = counted.or_else(|| finite(plain()?.trim())).or_else(|| clock_s(text)).or_else(|| day_s(text));
+        let help = "a time is a number, or hours:minutes:seconds, with a date before it or without";
+        let t = found.ok_or_else(|| self.bad_cell(text, number, column, help))?;
+        let since_1970 =
+            [1.0, 1e-3, 1e-6, 1e-9].map(|unit| unit * t).into_iter().find(|t| Range::TIME.check(t.abs()).is_ok());
+        Ok(since_1970.unwrap_or(t))
     }
 
     fn bad_cell(&self, text: &str, number: u64, column: &str, help: &str) -> DataError {
@@ -136,8 +132,6 @@ impl<'a> CellText<'a> {
         DataError::Layout(Box::new(Fault::of_file(self.file, message, help).at_line(number)))
     }
 
-    /// # Errors
-    /// All commas may be of thousands, or points and commas are both used.
     fn has_decimal_comma(&self) -> Result<bool> {
         let mut decimals = Decimals::default();
         for (number, text) in self.lines().take(LOOKED_AT) {

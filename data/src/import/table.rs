@@ -60,17 +60,12 @@ pub(crate) fn phases(holds: &[Kept]) -> Vec<Phase> {
         let change = hold.act_pa - before;
         let least = if before.is_finite() { tolerance_act_pa(before) } else { 0.0 };
         before = hold.act_pa;
-        match change {
-            _ if hold.rising.is_some() => {
-                if hold.rising == Some(true) {
-                    Phase::Load
-                } else {
-                    Phase::Unload
-                }
-            }
-            change if change > least => Phase::Load,
-            change if change < -least => Phase::Unload,
-            _ => Phase::Hold,
+        match hold.rising {
+            Some(true) => Phase::Load,
+            Some(false) => Phase::Unload,
+            None if change > least => Phase::Load,
+            None if change < -least => Phase::Unload,
+            None => Phase::Hold,
         }
     };
     holds.iter().map(phase).collect()

@@ -6,9 +6,9 @@ use super::columns::{ColumnName, is_frame, lengths, si};
 use super::format::Format;
 use super::layout::Layout;
 use super::options::ImportOptions;
-use super::recording::{FrameClock, Lengths, Pivot, Recording, counted};
+use super::recording::{Lengths, Pivot, Recording, counted};
 use super::sheet::CellText;
-use crate::error::{DataError, Result};
+use crate::error::Result;
 use crate::units::Measured;
 
 pub(super) const SPOTS: Format = Format {
@@ -58,14 +58,6 @@ fn spots(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     layout.read(sheet, 1, 2, sheet.lines().skip(1 + heads.len()))
 }
 
-fn told(mut pivot: Pivot, single: usize) -> Recording {
-    if single > 0 {
-        pivot.recording.told.push(format!("left out: {} of no track", counted(single as u64, "spot")));
-    }
-    pivot.recording.named = false;
-    pivot.finish()
-}
-
 /// One XML element as far as it is needed here.
 struct Tag<'a> {
     name: &'a str,
@@ -105,17 +97,18 @@ fn xml(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     let unit = said("spaceUnits").or_else(|| said("spatialunits")).and_then(|unit| lengths(&unit.to_lowercase()));
     let time = said("timeUnits").or_else(|| said("timeunits")).map(str::to_lowercase).unwrap_or_default();
     let second = si(&time, Measured::Time).filter(|_| !is_frame(&time));
-    let mut pivot = Pivot::new(
-        unit.unwrap_or(Lengths::Pixels),
-        if second.is_some() { FrameClock::Seconds } else { FrameClock::Frames },
-    );
+    let mut pivot = Pivot::new(unit.unwrap_or(Lengths::Pixels), second.is_some());
     let exported = tags(sheet.text).any(|tag| tag.name == "particle");
     let single = if exported { detections(sheet, second, &mut pivot)? } else { model(sheet, second, &mut pivot)? };
-    Ok(vec![told(pivot, single)])
+    if single > 0 {
+        pivot.recording.told.push(format!("left out: {} of no track", counted(single, "spot")));
+    }
+    pivot.recording.named = false;
+    Ok(vec![pivot.finish()])
 }
 
 /// `<particle>` with `<detection t x y z>`; t counts frames of `frameInterval`.
-fn detections(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<usize> {
+fn detections(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<u64> {
     let interval = tags(sheet.text).find_map(|tag| tag.number("frameInterval")).unwrap_or(1.0);
     let step = second.map_or(1.0, |second| second * interval);
     let mut track = 0;
@@ -127,11 +120,9 @@ fn detections(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Resul
                 return Err(sheet.fault(0, "a <detection> stands before the first <particle>", help));
             }
             "detection" => {
-                let (Some(t), Some(x), Some(y)) = (tag.number("t"), tag.number("x"), tag.number("y")) else {
-                    return Err(no_number(sheet, &format!("a detection of track {track}")));
-                };
-                let (frame, marker) = (pivot.frame(t * step), pivot.marker(&track.to_string()));
-                pivot.put(frame, marker, [x, y, tag.number("z").unwrap_or(0.0)], true);
+                let time = tag.number("t").map(|t| t * step);
+                let what = || format!("a detection of track {track}");
+                put(sheet, pivot, (time, &track.to_string()), ["x", "y", "z"].map(|axis| tag.number(axis)), what)?;
             }
             _ => {}
         }
@@ -140,7 +131,7 @@ fn detections(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Resul
 }
 
 /// `<Spot>` elements, joined to tracks by the `<Edge>` elements of every `<Track>`; returns how many have none.
-fn model(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<usize> {
+fn model(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<u64> {
     let mut track_of: HashMap<&str, String> = HashMap::new();
     let (mut track, mut count) = (String::new(), 0);
     for tag in tags(sheet.text) {
@@ -163,15 +154,24 @@ fn model(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<usi
             continue;
         };
         let time = second.map_or_else(|| tag.number("FRAME"), |second| tag.number("POSITION_T").map(|t| t * second));
-        let (Some(time), Some(x), Some(y)) = (time, tag.number("POSITION_X"), tag.number("POSITION_Y")) else {
-            return Err(no_number(sheet, &format!("spot {}", tag.get("ID").unwrap_or_default())));
-        };
-        let (frame, marker) = (pivot.frame(time), pivot.marker(track));
-        pivot.put(frame, marker, [x, y, tag.number("POSITION_Z").unwrap_or(0.0)], true);
+        let place = ["POSITION_X", "POSITION_Y", "POSITION_Z"].map(|axis| tag.number(axis));
+        put(sheet, pivot, (time, track), place, || format!("spot {}", tag.get("ID").unwrap_or_default()))?;
     }
     Ok(single)
 }
 
-fn no_number(sheet: &CellText, what: &str) -> DataError {
-    sheet.fault(0, format!("{what} lacks its time or place as a number"), "save the tracks again in TrackMate")
+fn put(
+    sheet: &CellText,
+    pivot: &mut Pivot,
+    (time, track): (Option<f64>, &str),
+    [x, y, z]: [Option<f64>; 3],
+    what: impl Fn() -> String,
+) -> Result<()> {
+    let (Some(time), Some(x), Some(y)) = (time, x, y) else {
+        let message = format!("{} lacks its time or place as a number", what());
+        return Err(sheet.fault(0, message, "save the tracks again in TrackMate"));
+    };
+    let (frame, marker) = (pivot.frame(time), pivot.marker(track));
+    pivot.put(frame, marker, [x, y, z.unwrap_or(0.0)], true);
+    Ok(())
 }

@@ -40,9 +40,18 @@ fn vicon(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     };
     let (line, rate) = next("frames per second")?;
     let fps = rate_of(sheet, line, rate[0])?;
-    let ((line, names), (_, axes), (_, units)) = (next("names")?, next("axes")?, next("units")?);
-    let unit = units.iter().copied().find(|unit| !unit.is_empty()).unwrap_or_default();
-    let layout = Layout::new(0, Some(1.0 / fps), unit_of(sheet, line, unit)?);
+    let ((line, names), (_, axes), (unit_line, units)) = (next("names")?, next("axes")?, next("units")?);
+    let is_length = |column: &usize| axes.get(*column).is_some_and(|axis| ["X", "Y", "Z"].contains(axis));
+    let mut named = (0..units.len()).filter(is_length).filter(|column| !units[*column].is_empty());
+    let unit = named.next().map_or("", |column| units[column]);
+    let lengths = unit_of(sheet, line, unit)?;
+    for column in named {
+        if unit_of(sheet, unit_line, units[column])? != lengths {
+            let message = format!("column {} is in {}, and an earlier one in {unit}", column + 1, units[column]);
+            return Err(sheet.fault(unit_line, message, "export all trajectories in one unit"));
+        }
+    }
+    let layout = Layout::new(0, Some(1.0 / fps), lengths);
     let is_row = |(_, text): &(u64, &str)| sheet.split(text).iter().filter(|cell| !cell.is_empty()).count() > 1;
     columns(sheet, line, layout, &names, &axes)?.read(sheet, line, 3, lines.take_while(is_row))
 }
@@ -74,7 +83,8 @@ pub(super) fn rate_of(sheet: &CellText, line: u64, cell: &str) -> Result<f64> {
     })
 }
 
-fn unit_of(sheet: &CellText, line: u64, word: &str) -> Result<Lengths> {
+/// Lengths of a unit as written; unsaid where nothing is written.
+pub(super) fn unit_of(sheet: &CellText, line: u64, word: &str) -> Result<Lengths> {
     if word.is_empty() {
         return Ok(Lengths::Unsaid);
     }

@@ -35,6 +35,12 @@ impl FromStr for FileAxis {
 
 /// The file's axis along the robot and the one towards the actuator: `x,-y`.
 ///
+/// ```
+/// let [along, towards] = data::import::typed::axes("x,-y").unwrap();
+/// assert_eq!((along.index, towards.index, towards.turned), (0, 1, true));
+/// assert!(data::import::typed::axes("x,x").is_err());
+/// ```
+///
 /// # Errors
 /// Not two axes, or one twice.
 pub fn axes(text: &str) -> Result<[FileAxis; 2], String> {
@@ -113,6 +119,11 @@ pub fn column(text: &str) -> Result<(String, String), String> {
 }
 
 /// A marker and its station \[m\]: `a=90mm`.
+///
+/// ```
+/// assert_eq!(data::import::typed::station("a=90mm"), Ok(("a".to_string(), 0.09)));
+/// assert!(data::import::typed::station("a=90").unwrap_err().contains("unit"));
+/// ```
 ///
 /// # Errors
 /// No equals sign, or a length out of the bounds of a station.

@@ -33,12 +33,10 @@ impl Placeholders {
         }
     }
 
-    /// Rows of all of them.
     pub(crate) fn rows(&self) -> u64 {
         self.0.iter().map(|known| known.rows).sum()
     }
 
-    /// What was assumed, in words.
     pub(crate) fn told(&self) -> Vec<String> {
         let told = |Placeholder { words, rows, first_line }: &Placeholder| {
             format!(

@@ -4,63 +4,31 @@
 
 use crate::dataset::Dataset;
 use crate::error::{DataError, Fault, Result};
-use crate::header::{Header, P_ACT, P_BODY, QUANTITIES, STATION, X, Y, Z};
+use crate::header::{Header, P_ACT, P_BODY, P_MORE, QUANTITIES, STATION, X, Y, Z};
 use crate::policy;
-use crate::rows::{Row, RowReader};
+use crate::rows::RowReader;
 use crate::units::mm;
 
-/// Largest values seen, for the check of units.
-#[derive(Debug, Default, Clone, Copy)]
-pub(crate) struct Extremes {
-    pub x_m: f64,
-    pub y_m: f64,
-    pub z_m: f64,
-    pub station_m: f64,
-    pub p_body_pa: f64,
-    pub p_act_pa: f64,
-    /// There is a column of gauge readings.
-    pub gauge: bool,
-}
-
-impl Extremes {
-    pub(crate) fn widen(&mut self, row: &Row) {
-        let widen = |most: &mut f64, value: f64| *most = most.max(value.abs());
-        widen(&mut self.x_m, row.x_m);
-        widen(&mut self.y_m, row.y_m);
-        widen(&mut self.z_m, row.z_m.unwrap_or(0.0));
-        widen(&mut self.station_m, row.station_m.unwrap_or(0.0));
-        widen(&mut self.p_body_pa, row.p_body_pa);
-        [row.p_act_pa].iter().chain(&row.more_act_pa).for_each(|p| widen(&mut self.p_act_pa, *p));
-        self.gauge |= row.gauge_pa.is_some();
-    }
-}
-
 /// Refuses lengths and pressures that look like another unit.
-///
-/// # Errors
-/// Metres in a millimetre column or millimetres in a metre column; psi, bar or MPa in the kPa columns.
-pub(crate) fn check_units(cells: &RowReader, extremes: &Extremes) -> Result<()> {
+pub(crate) fn check_units(cells: &RowReader, largest: &[f64; QUANTITIES.len()]) -> Result<()> {
     let unit = |quantity: usize| cells.header.unit(quantity);
-    let known_robot = extremes.p_act_pa > 0.0 || extremes.station_m > 0.0;
+    let p_act_pa = P_MORE.iter().fold(largest[P_ACT], |most, more| most.max(largest[*more]));
+    let known_robot = p_act_pa > 0.0 || largest[STATION] > 0.0;
     let looks = |quantity, value, word: &str| Err(unit_error(&cells.header, quantity, value, word));
-    if unit(X) == "mm"
-        && known_robot
-        && extremes.x_m < policy::SHORTEST_ROBOT_M
-        && extremes.y_m < policy::SHORTEST_ROBOT_M
-    {
-        return looks(X, mm(extremes.x_m), "metres");
+    let is_short = |quantity: usize| largest[quantity] < policy::SHORTEST_ROBOT_M;
+    if unit(X) == "mm" && known_robot && is_short(X) && is_short(Y) {
+        return looks(X, mm(largest[X]), "metres");
     }
-    if unit(STATION) == "mm" && extremes.station_m > 0.0 && extremes.station_m < policy::SHORTEST_ROBOT_M {
-        return looks(STATION, mm(extremes.station_m), "metres");
+    if unit(STATION) == "mm" && largest[STATION] > 0.0 && is_short(STATION) {
+        return looks(STATION, mm(largest[STATION]), "metres");
     }
-    let lengths = [(X, extremes.x_m), (Y, extremes.y_m), (Z, extremes.z_m), (STATION, extremes.station_m)];
-    for (quantity, value_m) in lengths {
-        if unit(quantity) == "m" && value_m > policy::LONGEST_ROBOT_M {
-            return looks(quantity, value_m, "millimetres");
+    for quantity in [X, Y, Z, STATION] {
+        if unit(quantity) == "m" && largest[quantity] > policy::LONGEST_ROBOT_M {
+            return looks(quantity, largest[quantity], "millimetres");
         }
     }
     if unit(P_ACT) == "kPa" && unit(P_BODY) == "kPa" {
-        return check_small_pressures(cells, extremes.p_body_pa * 1e-3, extremes.p_act_pa * 1e-3);
+        return check_small_pressures(cells, largest[P_BODY] * 1e-3, p_act_pa * 1e-3);
     }
     Ok(())
 }
@@ -85,49 +53,29 @@ fn check_small_pressures(cells: &RowReader, p_body: f64, p_act: f64) -> Result<(
     Err(DataError::Unit(cells.header.fault(P_ACT, message, help)))
 }
 
-/// How y is not what it should be.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum WrongY {
-    Exchanged,
-    Down,
-}
-
-impl WrongY {
-    /// What to do, where y is in a column of this unit.
-    fn help(self, unit: &str, down: bool) -> String {
-        match (self, down) {
-            (WrongY::Exchanged, _) => {
-                "x runs from the base along the straight robot, y towards the actuator: exchange the names of the two columns".into()
-            }
-            (_, true) => {
-                format!("y_down_{unit} means the values grow downwards; here they grow upwards: name the column y_{unit}")
-            }
-            _ => format!("y is positive towards the actuator: multiply it by -1, or name the column y_down_{unit}"),
+/// Refuses a table whose last marker moves to negative y when the actuator is inflated; without a header, one that was
+/// read before and is now of a planar robot.
+pub(crate) fn check_y_up(header: Option<&Header>, dataset: &Dataset) -> Result<()> {
+    let Some((exchanged, message)) = wrong_y(dataset) else { return Ok(()) };
+    let (unit, down) = header.map_or(("mm", false), |header| (header.unit(Y), header.y_down));
+    let help = match (exchanged, down) {
+        (true, _) => {
+            "x runs from the base along the straight robot, y towards the actuator: exchange the names of the two columns".into()
         }
-    }
-}
-
-/// Refuses a table whose last marker moves to negative y when the actuator is inflated.
-///
-/// # Errors
-/// As [`wrong_y`].
-pub(crate) fn check_y_up(header: &Header, dataset: &Dataset) -> Result<()> {
-    let Some((wrong, message)) = wrong_y(dataset) else { return Ok(()) };
-    Err(DataError::Unit(header.fault(Y, message, wrong.help(header.unit(Y), header.y_down))))
-}
-
-/// The same of a table that was read before and is now of a planar robot.
-///
-/// # Errors
-/// As [`wrong_y`].
-pub(crate) fn check_y_up_later(dataset: &Dataset) -> Result<()> {
-    let Some((wrong, message)) = wrong_y(dataset) else { return Ok(()) };
-    Err(DataError::Unit(Box::new(Fault::of_file(&dataset.name, message, wrong.help("mm", false)))))
+        (_, true) => {
+            format!("y_down_{unit} means the values grow downwards; here they grow upwards: name the column y_{unit}")
+        }
+        _ => format!("y is positive towards the actuator: multiply it by -1, or name the column y_down_{unit}"),
+    };
+    Err(DataError::Unit(match header {
+        Some(header) => header.fault(Y, message, help),
+        None => Box::new(Fault::of_file(&dataset.name, message, help)),
+    }))
 }
 
 /// Whether the last marker is, at the highest actuator pressure, more than 5 mm below its place in the first hold (mean over runs).
-/// Markers along y rather than x in that hold are not reported as a y that points down.
-fn wrong_y(dataset: &Dataset) -> Option<(WrongY, String)> {
+/// True where the markers lie along y rather than x in that hold: then y does not point down.
+fn wrong_y(dataset: &Dataset) -> Option<(bool, String)> {
     let holds = &dataset.holds;
     let by_pressure = |&a: &usize, &b: &usize| holds[a].p_act_pa.total_cmp(&holds[b].p_act_pa);
     let highest = (0..holds.len()).max_by(by_pressure)?;
@@ -155,7 +103,7 @@ fn wrong_y(dataset: &Dataset) -> Option<(WrongY, String)> {
         let message = format!(
             "x and y look exchanged: in the first hold the markers take up {along_y:.1} mm of y and {along_x:.1} mm of x"
         );
-        return Some((WrongY::Exchanged, message));
+        return Some((true, message));
     }
     let message = format!(
         "y points down: at {:.1} kPa marker {} has moved by {:.1} mm",
@@ -163,5 +111,5 @@ fn wrong_y(dataset: &Dataset) -> Option<(WrongY, String)> {
         dataset.markers[last].name,
         mm(moved_m)
     );
-    Some((WrongY::Down, message))
+    Some((false, message))
 }

@@ -2,37 +2,51 @@
 
 use crate::dataset::Phase;
 use crate::error::Fault;
+use crate::header::{PRESSURES, Pressures};
+use crate::policy::{tolerance_act_pa, tolerance_body_pa};
 use crate::rows::Row;
-use crate::streams::pressures::{PRESSURES, are_near, pressures_pa};
+
+/// Whether pressures are within so many tolerances of the first.
+pub(crate) fn are_near(of: Pressures, other: Pressures, tolerances: f64) -> bool {
+    let tolerance = |k: usize| if k == 0 { tolerance_body_pa(of[0]) } else { tolerance_act_pa(of[k]) };
+    (0..of.len()).all(|k| (other[k] - of[k]).abs() <= tolerances * tolerance(k))
+}
 
 /// Samples kept per (run, hold, marker) before neighbours are merged; above the few that `Dataset` holds, far below a
 /// camera's frames.
 const MOST_SAMPLES: usize = 64;
 
+/// Sums over some rows.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Sample {
     pub count: u64,
-    pub t_s: f64,
-    pub x_m: f64,
-    pub y_m: f64,
-    /// 0 of a table without z.
-    pub z_m: f64,
-    pub gauge_pa: f64,
+    /// Time \[s\], x, y, z \[m\] (0 of a table without z), and what the gauge read \[Pa\].
+    sums: [f64; 5],
 }
 
 impl Sample {
+    fn mean(&self, which: usize) -> f64 {
+        self.sums[which] / self.count.max(1) as f64
+    }
+
+    /// Mean time \[s\].
+    pub(crate) fn t_s(&self) -> f64 {
+        self.mean(0)
+    }
+
     /// Mean position \[m\].
     pub(crate) fn place(&self) -> [f64; 3] {
-        [self.x_m, self.y_m, self.z_m].map(|sum| sum / self.count.max(1) as f64)
+        [1, 2, 3].map(|which| self.mean(which))
+    }
+
+    /// Mean reading of the gauge \[Pa\].
+    pub(crate) fn gauge_pa(&self) -> f64 {
+        self.mean(4)
     }
 
     pub(crate) fn add(&mut self, other: Sample) {
         self.count += other.count;
-        self.t_s += other.t_s;
-        self.x_m += other.x_m;
-        self.y_m += other.y_m;
-        self.z_m += other.z_m;
-        self.gauge_pa += other.gauge_pa;
+        self.sums.iter_mut().zip(other.sums).for_each(|(sum, value)| *sum += value);
     }
 }
 
@@ -49,7 +63,7 @@ pub(crate) struct Segment {
     pub too_low: [Option<Box<Fault>>; PRESSURES.len()],
     /// Observations per sample; doubles whenever neighbours are merged.
     pub(super) stride: u64,
-    sums_pa: [f64; PRESSURES.len()],
+    sums_pa: Pressures,
 }
 
 impl Segment {
@@ -59,10 +73,10 @@ impl Segment {
             first_line: line,
             samples: Vec::new(),
             rows: 0,
-            ends_pa: [row.p_act_pa; 2],
+            ends_pa: [row.pressures_pa[1]; 2],
             too_low: Default::default(),
             stride: 1,
-            sums_pa: [0.0; PRESSURES.len()],
+            sums_pa: Pressures::default(),
         }
     }
 
@@ -71,23 +85,23 @@ impl Segment {
         self.means_pa()[1]
     }
 
-    /// Mean of every pressure \[Pa\], in the order of [`PRESSURES`].
-    pub(crate) fn means_pa(&self) -> [f64; PRESSURES.len()] {
+    /// Mean of every pressure \[Pa\].
+    pub(crate) fn means_pa(&self) -> Pressures {
         self.sums_pa.map(|sum| sum / self.rows.max(1) as f64)
     }
 
     /// Time of the first sample \[s\].
     pub(crate) fn first_t_s(&self) -> f64 {
-        self.samples.first().map_or(f64::INFINITY, |sample| sample.t_s / sample.count.max(1) as f64)
+        self.samples.first().map_or(f64::INFINITY, Sample::t_s)
     }
 
     /// Time of the last sample \[s\].
     pub(crate) fn last_t_s(&self) -> f64 {
-        self.samples.last().map_or(f64::NEG_INFINITY, |sample| sample.t_s / sample.count.max(1) as f64)
+        self.samples.last().map_or(f64::NEG_INFINITY, Sample::t_s)
     }
 
     pub(super) fn continues_with(&self, row: &Row) -> bool {
-        row.phase == self.phase && are_near(self.means_pa(), pressures_pa(row), 1.0)
+        row.phase == self.phase && are_near(self.means_pa(), row.pressures_pa, 1.0)
     }
 
     /// Takes in a later segment of one row: a single reading that departed and came back is noise.
@@ -114,11 +128,10 @@ impl Segment {
 
     pub(super) fn add(&mut self, row: &Row) {
         self.rows += 1;
-        self.sums_pa.iter_mut().zip(pressures_pa(row)).for_each(|(sum, pressure_pa)| *sum += pressure_pa);
-        self.ends_pa[1] = row.p_act_pa;
-        let gauge_pa = row.gauge_pa.unwrap_or(0.0);
-        let z_m = row.z_m.unwrap_or(0.0);
-        self.push(Sample { count: 1, t_s: row.t_s, x_m: row.x_m, y_m: row.y_m, z_m, gauge_pa });
+        self.sums_pa.iter_mut().zip(row.pressures_pa).for_each(|(sum, pressure_pa)| *sum += pressure_pa);
+        self.ends_pa[1] = row.pressures_pa[1];
+        let [z_m, gauge_pa] = [row.z_m, row.gauge_pa].map(|value| value.unwrap_or(0.0));
+        self.push(Sample { count: 1, sums: [row.t_s, row.x_m, row.y_m, z_m, gauge_pa] });
     }
 
     fn push(&mut self, one: Sample) {
@@ -127,21 +140,17 @@ impl Segment {
             _ => self.samples.push(one),
         }
         if self.samples.len() > MOST_SAMPLES {
-            self.merge_neighbours();
+            self.stride *= 2;
+            self.samples = self.samples.chunks(2).map(merged).collect();
         }
     }
+}
 
-    fn merge_neighbours(&mut self) {
-        self.stride *= 2;
-        for pair in 0..self.samples.len().div_ceil(2) {
-            let mut merged = self.samples[2 * pair];
-            if let Some(&second) = self.samples.get(2 * pair + 1) {
-                merged.add(second);
-            }
-            self.samples[pair] = merged;
-        }
-        self.samples.truncate(self.samples.len().div_ceil(2));
-    }
+/// Samples as one.
+pub(crate) fn merged(samples: &[Sample]) -> Sample {
+    let mut all = Sample::default();
+    samples.iter().for_each(|sample| all.add(*sample));
+    all
 }
 
 /// The observations of one marker in one run.
@@ -174,21 +183,8 @@ mod tests {
     fn row(t_s: f64, p_act_pa: f64) -> Row<'static> {
         let (run, marker, phase) = ("1", "1", Phase::Load);
         let (x_m, y_m, gauge_pa) = (2.0 * t_s, -t_s, Some(3.0 * t_s));
-        let (z_m, more_act_pa) = (Some(4.0 * t_s), [0.0; 3]);
-        Row {
-            run,
-            marker,
-            phase,
-            t_s,
-            p_body_pa: 2000.0,
-            p_act_pa,
-            more_act_pa,
-            x_m,
-            y_m,
-            z_m,
-            station_m: None,
-            gauge_pa,
-        }
+        let (z_m, pressures_pa) = (Some(4.0 * t_s), [2000.0, p_act_pa, 0.0, 0.0, 0.0]);
+        Row { run, marker, phase, t_s, pressures_pa, x_m, y_m, z_m, station_m: None, gauge_pa }
     }
 
     #[test]
@@ -199,14 +195,17 @@ mod tests {
         segment = Segment::new(&row(0.0, 0.0), 1);
         segment.add(&row(0.0, 0.0));
         assert!(segment.continues_with(&row(1.0, 499.0)) && !segment.continues_with(&row(1.0, 501.0)));
-        let body = |p_body_pa: f64| Row { p_body_pa, ..row(1.0, 0.0) };
-        assert!(segment.continues_with(&body(2199.0)) && !segment.continues_with(&body(2201.0)));
+        let body = |p_body_pa: f64, p_act_pa: f64| {
+            let mut other = row(1.0, p_act_pa);
+            other.pressures_pa[0] = p_body_pa;
+            other
+        };
+        assert!(segment.continues_with(&body(2199.0, 0.0)) && !segment.continues_with(&body(2201.0, 0.0)));
         let other_phase = Row { phase: Phase::Unload, ..row(1.0, 20_000.0) };
-        let other_body = Row { p_body_pa: 2201.0, ..row(1.0, 20_000.0) };
-        assert!(!segment.continues_with(&other_phase) && !segment.continues_with(&other_body));
+        assert!(!segment.continues_with(&other_phase) && !segment.continues_with(&body(2201.0, 20_000.0)));
         for channel in 0..3 {
             let mut other = row(1.0, 0.0);
-            other.more_act_pa[channel] = 501.0;
+            other.pressures_pa[2 + channel] = 501.0;
             assert!(!segment.continues_with(&other), "{channel}");
         }
     }
@@ -216,16 +215,10 @@ mod tests {
         for rows in [1_u64, 64, 65, 1000, 12_345] {
             let mut segment = Segment::new(&row(0.0, 0.0), 1);
             (0..rows).for_each(|i| segment.add(&row(i as f64, 0.0)));
-            let total = segment.samples.iter().fold(Sample::default(), |mut total, &sample| {
-                total.add(sample);
-                total
-            });
             let sum = (rows * (rows - 1) / 2) as f64;
             assert!(segment.samples.len() <= MOST_SAMPLES && segment.samples.len() as u64 >= rows.min(32));
-            assert_eq!(
-                total,
-                Sample { count: rows, t_s: sum, x_m: 2.0 * sum, y_m: -sum, z_m: 4.0 * sum, gauge_pa: 3.0 * sum }
-            );
+            let sums = [sum, 2.0 * sum, -sum, 4.0 * sum, 3.0 * sum];
+            assert_eq!(merged(&segment.samples), Sample { count: rows, sums });
             let full = &segment.samples[..segment.samples.len() - 1];
             assert!(full.iter().all(|sample| sample.count == segment.stride), "equal counts but for the last");
         }

@@ -156,11 +156,12 @@ fn a_pull_has_six_rows_that_rise_and_no_strain_of_three() {
         let rows: String = rows.iter().map(|strain| format!("{strain},{strain}\n")).collect();
         let text = format!("# direction_deg: 0\nstrain_ratio,stress_mpa\n{rows}");
         let read = parse_coupons("a.csv", &mut text.as_bytes(), 0, &CouponDefaults::default(), &mut |_, _| ());
-        read.err().map_or(String::new(), |error| error.to_string())
+        read.map_or_else(|error| error.to_string(), |found| found[0].told.join(" "))
     };
     let rising = |count: usize, last: f64| (0..count).map(|i| last * i as f64 / (count - 1) as f64).collect::<Vec<_>>();
     assert!(pull(&rising(6, 0.1)).is_empty() && pull(&rising(5, 0.1)).contains("5 rows that rise"));
     assert!(pull(&rising(8, 2.97)).is_empty() && pull(&rising(8, 3.03)).contains("reaches a strain"));
     let back = |by: f64| pull(&[rising(8, 0.1), vec![0.1 - by * 0.1]].concat());
-    assert!(back(1.98e-3).is_empty() && back(2.02e-3).contains("goes back"));
+    assert!(back(1.98e-3).is_empty() && back(2.02e-3).contains("the first loading is used"));
+    assert!(back(0.198).contains("the first loading is used") && back(0.202).contains("goes back in one step"));
 }

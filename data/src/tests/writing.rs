@@ -113,13 +113,13 @@ fn a_parquet_file_gives_the_same_dataset_and_the_same_errors_as_csv() {
     let path = folder.path().join("markers.parquet");
     let data = read(&table(2, 5)).unwrap();
     let mut table = data.to_table();
-    table.to_parquet(&path).unwrap();
+    table.to_parquet(&path, &[]).unwrap();
     assert_eq!(read_parquet(&path).unwrap(), table);
     let (again, _) = load(&path.display().to_string(), &mut |_, _| ()).unwrap();
     assert_eq!((&again.runs, &again.holds), (&data.runs, &data.holds));
     assert!(again.coordinates_m.iter().zip(&data.coordinates_m).all(|(a, b)| (a - b).abs() <= 1e-16));
     table.columns.retain(|(name, _)| name != "p_act_kpa");
-    table.to_parquet(&path).unwrap();
+    table.to_parquet(&path, &[]).unwrap();
     let error = load(&path.display().to_string(), &mut |_, _| ()).unwrap_err();
     assert!(error.message().starts_with("column p_act_kpa is missing"), "{error}");
     std::fs::write(&path, b"no parquet").unwrap();
@@ -133,7 +133,7 @@ fn without_parquet_support_the_error_says_how_to_get_it() {
     let path = folder.path().join("markers.parquet");
     std::fs::write(&path, b"x").unwrap();
     for error in [
-        read(&table(1, 1)).unwrap().to_table().to_parquet(&path).unwrap_err(),
+        read(&table(1, 1)).unwrap().to_table().to_parquet(&path, &[]).unwrap_err(),
         read_parquet(&path).unwrap_err(),
         load(&path.display().to_string(), &mut |_, _| ()).unwrap_err(),
     ] {

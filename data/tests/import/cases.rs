@@ -1,6 +1,6 @@
 //! Files as people have them.
 
-use super::{equals_reference, known, pixels, read, refused, told};
+use super::{case, equals_reference, known, pixels, read, refused, told};
 use data::import::{ImportOptions, Scale};
 
 #[test]
@@ -100,4 +100,81 @@ fn a_ramp_is_binned() {
     let made = read(&["cases/c10-ramp/markers.csv"], &ImportOptions { bin_pa: Some(2e3), ..ImportOptions::default() });
     assert_eq!(made.dataset.runs.len(), 3);
     told(&made, &["steps of 2 kPa"]);
+}
+
+/// The reference's first run, whose first frame is at 1 s.
+fn equals_first_run(made: &data::import::Imported) {
+    let reference = super::reference();
+    let found = super::rows(&made.markers_csv);
+    assert_eq!(found.len(), 45, "{:?}", made.told);
+    for ((_, time, marker), cells) in &found {
+        let time = format!("{:.4}", time.parse::<f64>().unwrap() + 1.0);
+        let right = &reference[&("1".to_string(), time, marker.clone())];
+        assert_eq!(cells[3..6], right[3..6]);
+        let off = |k: usize| (cells[k].parse::<f64>().unwrap() - right[k].parse::<f64>().unwrap()).abs();
+        assert!(off(7) <= 1.01e-4 && off(8) <= 1.01e-4, "{marker}: {cells:?} and not {right:?}");
+    }
+}
+
+#[test]
+fn topics_of_ros_in_one_file_or_a_file_for_every_marker_equal_the_reference() {
+    let options = ImportOptions { body_pa: Some(2e3), ..known("cases/c25-ros-echo/pressure.csv") };
+    let files = ["a", "b", "c"].map(|name| format!("cases/c25-ros-echo/marker_{name}.csv"));
+    let made = read(&files.each_ref().map(String::as_str), &options);
+    equals_first_run(&made);
+    assert_eq!(made.dataset.runs, ["1"]);
+    told(
+        &made,
+        &["read as ROS (topic print): 1 run, 15 frames", "lengths are in m", "here at 1766000001.000", "of ROS"],
+    );
+    let names = ["a", "b", "c"].map(String::from).to_vec();
+    equals_first_run(&read(
+        &["cases/c25-ros-echo/all_markers.csv"],
+        &ImportOptions { markers: names, ..options.clone() },
+    ));
+    let names = ["a", "b", "c"].map(String::from).to_vec();
+    equals_first_run(&read(&["made/ros_transforms.csv"], &ImportOptions { markers: names, ..options.clone() }));
+    let folder = tempfile::tempdir().unwrap();
+    let late =
+        std::fs::read_to_string(case("cases/c25-ros-echo/marker_a.csv")).unwrap().replace("17660000", "17661000");
+    let path = folder.path().join("marker_d.csv");
+    std::fs::write(&path, late).unwrap();
+    let files = [case("cases/c25-ros-echo/marker_a.csv"), path];
+    let found = data::import::import(&files, &options, &mut |_, _| ()).unwrap_err().to_string();
+    assert!(found.contains("no frame lies within the pressure log"), "files of other times are other runs: {found}");
+}
+
+#[test]
+fn binary_files_are_named_by_their_first_bytes() {
+    let hdf5 = |inside: &[u8]| [b"\x89HDF\r\n\x1a\n\0\0", inside].concat();
+    let folder = tempfile::tempdir().unwrap();
+    for (bytes, name, export) in [
+        (hdf5(b"df_with_missing\0block0_values"), "DeepLabCut", "save_as_csv"),
+        (hdf5(b"node_names\0"), "SLEAP", "Export Analysis CSV"),
+        (hdf5(b"_NCProperties\0"), "netCDF", "to_dlc_file"),
+        (hdf5(b"else"), "HDF5", "to_csv"),
+        (b"CDF\x01\0".to_vec(), "netCDF", "to_dlc_file"),
+        (b"MATLAB 5.0 MAT-file, Platform: GLNXA64".to_vec(), "MATLAB", "writetable"),
+        ([b"MATLAB 7.3 MAT-file", &[b' '; 493][..], &hdf5(b"")].concat(), "MATLAB", "writetable"),
+        (b"TDSm\x0e\0\0\0".to_vec(), "TDMS", "as_dataframe"),
+        (b"PK\x03\x04\x14\0xl/workbook.xml".to_vec(), "Excel", "CSV UTF-8"),
+        (b"PK\x03\x04\x14\0run1.csv".to_vec(), "zip", "unpack"),
+        (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1".to_vec(), "Excel", "CSV UTF-8"),
+        (b"\x02\x50\x03\0".to_vec(), "C3D", "TRC"),
+        (b"\0\0\0\x20ftypisom".to_vec(), "video", "track the markers"),
+        (b"\0\x01\x02".to_vec(), "no text", "CSV"),
+    ] {
+        let path = folder.path().join("file");
+        std::fs::write(&path, bytes).unwrap();
+        super::refused_paths(std::slice::from_ref(&path), &ImportOptions::default(), &[name, export]);
+        let log = ImportOptions { pressure_logs: vec![path], ..pixels("cases/c01-deeplabcut/pressure.csv") };
+        refused(&["cases/c01-deeplabcut/run1.csv"], &log, &[name, export]);
+    }
+    let path = folder.path().join("large.h5");
+    std::fs::write(&path, hdf5(b"")).unwrap();
+    std::fs::OpenOptions::new().write(true).open(&path).unwrap().set_len(3 << 30).unwrap();
+    super::refused_paths(&[path], &ImportOptions::default(), &["HDF5", "to_csv"]);
+    let path = folder.path().join("zeros.csv");
+    std::fs::File::create(&path).unwrap().set_len(1 << 41).unwrap();
+    super::refused_paths(&[path], &ImportOptions::default(), &["zeros.csv: the file is no text", "CSV"]);
 }

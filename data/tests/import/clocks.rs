@@ -52,6 +52,24 @@ fn is_right(made: &Imported) {
     }
 }
 
+/// The clock of the computer that a serial monitor writes is found.
+#[test]
+fn the_clock_of_a_serial_monitor_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let [tracks, log] = files(&folder, 3.4, 0.0);
+    let line = |line: &str| {
+        let [t, act, body] = [0, 1, 2].map(|k| line.split(',').nth(k).unwrap().parse::<f64>().unwrap());
+        format!("10:11:{t:06.3} -> act {act:.3} body {body:.3}\n")
+            .replace(" act ", " p: ")
+            .replace(" body ", " kPa pb: ")
+    };
+    let text = std::fs::read_to_string(&log).unwrap();
+    std::fs::write(&log, text.lines().skip(1).map(line).collect::<String>()).unwrap();
+    let options = ImportOptions { offset: Offset::Find, pressure_unit_pa: Some(1e3), ..options(&log) };
+    let made = import(&[tracks], &options, &mut |_, _| ()).unwrap();
+    told(&made, &["the text of a serial monitor", "is 36663.40 s ahead"]);
+}
+
 #[test]
 fn a_log_of_another_clock_is_noticed_and_its_offset_found_or_given() {
     let folder = tempfile::tempdir().unwrap();
@@ -137,4 +155,17 @@ fn a_log_that_ends_early_leaves_frames_out_and_one_of_another_day_is_refused() {
         &ImportOptions { offset: Offset::Given(5000.0), ..options(&log) },
         &["no frame lies within", "5000"],
     );
+}
+
+#[test]
+fn a_refused_clock_comes_with_both_tracks_and_their_changes() {
+    let folder = tempfile::tempdir().unwrap();
+    let [tracks, log] = files(&folder, 3.4, 0.0);
+    let error = import(&[tracks], &options(&log), &mut |_, _| ()).unwrap_err();
+    let data::DataError::Clock(_, seen) = &error else { panic!("{error}") };
+    let [movement, pressure] = &seen.changes_s;
+    assert_eq!((movement.len(), pressure.len(), seen.offset_s), (4, 4, 0.0));
+    assert!(movement.iter().zip(pressure).all(|(m, p)| (p - m - 3.4).abs() < 0.3), "{movement:?} {pressure:?}");
+    let is_share = |points: &[[f64; 2]]| points.len() > 400 && points.iter().all(|[_, v]| (0.0..=1.0).contains(v));
+    assert!(is_share(&seen.movement) && is_share(&seen.pressure));
 }

@@ -1,13 +1,15 @@
 //! Files of tracking programs against the marker table that they were made from: `cases` as people have them, `kinds` a second
-//! file of each kind after its public description, `formats` the list of kinds, `broken` files with damage, `clocks` pressure logs that do not run with the camera, `slips` recordings that contradict themselves.
+//! file of each kind after its public description, `formats` the list of kinds, `boards` cameras with a lens, `broken` files with damage, `clocks` pressure logs that do not run with the camera, `slips` recordings that contradict themselves.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests: a panic is the failure to report")]
 
+mod boards;
 mod broken;
 mod cases;
 mod clocks;
 mod formats;
 mod kinds;
+mod logs;
 mod slips;
 
 use std::collections::BTreeMap;

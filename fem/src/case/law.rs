@@ -89,7 +89,9 @@ fn fabric(table: &Spanned<Free>, plies: &[RawPly], made: &Fabrics) -> Checked<Ar
         } else if law.curves.iter().any(|c| c.key == name) {
             recipe.curves.insert(name, rows(key, value)?);
         } else {
-            return Err(unknown_name(&format!("key of law \"{}\"", law.name), key, &keys(law)));
+            let keys: Vec<&str> =
+                law.parameters.iter().map(|p| p.key).chain(law.curves.iter().map(|c| c.key)).collect();
+            return Err(unknown_name(&format!("key of law \"{}\"", law.name), key, &keys));
         }
     }
     (law.make)(&recipe).map_err(|message| FemError::case(message, table.span()))
@@ -116,10 +118,6 @@ fn law(table: &Spanned<Free>) -> Checked<(&'static Law, Recipe)> {
             refuse("a fabric without law", help, table.span())
         }
     }
-}
-
-fn keys(law: &Law) -> Vec<&'static str> {
-    law.parameters.iter().map(|p| p.key).chain(law.curves.iter().map(|c| c.key)).collect()
 }
 
 /// A number as the recipe wants it: in the unit of the key.
@@ -149,14 +147,9 @@ fn rows(key: &Text, value: &Spanned<Value>) -> Checked<Vec<[f64; 2]>> {
         let pair: Option<Vec<f64>> = v.as_array()?.iter().map(real).collect();
         pair.and_then(|pair| <[f64; 2]>::try_from(pair).ok())
     };
+    let message = format!("{} must be a table of pairs", key.get_ref());
     let read: Option<Vec<[f64; 2]>> = value.get_ref().as_array().and_then(|list| list.iter().map(row).collect());
-    read.map_or_else(
-        || {
-            let message = format!("{} must be a table of pairs", key.get_ref());
-            refuse(message, "write for example [[0, 0], [0.01, 2.1]]", value.span())
-        },
-        Ok,
-    )
+    read.map_or_else(|| refuse(message, "write for example [[0, 0], [0.01, 2.1]]", value.span()), Ok)
 }
 
 fn real(value: &Value) -> Option<f64> {

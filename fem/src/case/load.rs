@@ -1,15 +1,14 @@
 //! Chambers, supports, rigid bodies, forces, gravity, obstacles and contact of a case.
 
 use super::range::{
-    ATMOSPHERE, Checked, GAP, GAUGE, LENGTH, POSITION, Range, TIME, Text, amplitude, choice, direction, number,
-    optional, plain, refuse, rising, si, unknown_name, vector,
+    ATMOSPHERE, Checked, GAP, GAUGE, LENGTH, POSITION, Range, Rows, TIME, Text, amplitude, amplitudes, choice,
+    direction, optional, plain, refuse, si, unknown_name, vector,
 };
 use super::raw::{Raw, RawChamber, RawForce, RawObstacle, RawSupport};
 use crate::mesh::Mesh;
 use crate::problem::{
     Amplitude, Chamber, Contact, Gas, Gravity, NodalForce, Obstacle, ObstacleShape, Pressure, Rigid, Support,
 };
-use spelling::Exactly;
 use std::collections::BTreeSet;
 use std::ops::Range as Place;
 use toml::Spanned;
@@ -209,25 +208,8 @@ fn with_next_row(mesh: &Mesh, nodes: &[u32]) -> Vec<u32> {
 }
 
 /// Rows of time and displacement along x, y, z, as smooth steps or straight lines.
-type Rows = Option<Spanned<Vec<Exactly<4>>>>;
-
-fn motion(smooth: &Rows, linear: &Rows) -> Checked<Option<[Amplitude; 3]>> {
-    let (rows, smooth) = match (smooth, linear) {
-        (None, None) => return Ok(None),
-        (Some(rows), None) => (rows, true),
-        (None, Some(rows)) => (rows, false),
-        (Some(_), Some(second)) => {
-            return refuse("a smooth and a linear motion at once", "keep one of the two", second.span());
-        }
-    };
-    let times: Vec<f64> = rows.get_ref().iter().map(|r| r.0[0]).collect();
-    rising(&times, rows.span())?;
-    let axis = |k: usize| -> Checked<Amplitude> {
-        let point = |Exactly(r): &Exactly<4>| Ok((r[0], number("a displacement", r[k], rows.span(), &POSITION)?));
-        let points = rows.get_ref().iter().map(point).collect::<Checked<Vec<_>>>()?;
-        Ok(if smooth { Amplitude::Smooth(points) } else { Amplitude::Linear(points) })
-    };
-    Ok(Some([axis(1)?, axis(2)?, axis(3)?]))
+fn motion(smooth: &Rows<4>, linear: &Rows<4>) -> Checked<Option<[Amplitude; 3]>> {
+    Ok(amplitudes(smooth, linear, &POSITION)?.and_then(|axes| axes.try_into().ok()))
 }
 
 /// A node set of the mesh, by name.

@@ -9,6 +9,7 @@ use crate::mesh::file::MeshFile;
 use crate::mesh::generate::{self, Around, Cap, Tube};
 use crate::policy;
 use crate::problem::Chamber;
+use crate::vec3::{bounds, extent, norm, sub};
 use crate::{FemError, Mesh};
 use std::path::Path;
 use toml::{Spanned, Value};
@@ -66,21 +67,16 @@ const fn count(key: &'static str, meaning: &'static str) -> GeneratorKey {
 }
 
 const fn cap(key: &'static str, meaning: &'static str) -> GeneratorKey {
-    GeneratorKey { key, default: Some(0.0), meaning, kind: Kind::Word(&["triangles", "quads", "open"]) }
+    optional(key, Kind::Word(&["triangles", "quads", "open"]), meaning)
 }
 
-const GAP: GeneratorKey = GeneratorKey {
-    key: "gap_mm",
-    default: Some(0.0),
-    meaning: "distance of the two layers at the start",
-    kind: Kind::Gap,
-};
-const WARP: GeneratorKey = GeneratorKey {
-    key: "warp_deg",
-    default: Some(0.0),
-    meaning: "angle of the warp to the axis, counter-clockwise seen from outside",
-    kind: Kind::Angle,
-};
+const fn optional(key: &'static str, kind: Kind, meaning: &'static str) -> GeneratorKey {
+    GeneratorKey { key, default: Some(0.0), meaning, kind }
+}
+
+const GAP: GeneratorKey = optional("gap_mm", Kind::Gap, "distance of the two layers at the start");
+const WARP: GeneratorKey =
+    optional("warp_deg", Kind::Angle, "angle of the warp to the axis, counter-clockwise seen from outside");
 
 /// All generators.
 #[rustfmt::skip]
@@ -193,15 +189,12 @@ pub(super) fn open_at<'a>(mesh: &'a Mesh, chambers: &[Chamber]) -> Vec<&'a str> 
 fn open_axis<'a>(mesh: &Mesh, chambers: &[&'a str]) -> Option<(&'a str, &'static str)> {
     let name = chambers.iter().find(|name| !rim(mesh, name).is_empty())?;
     let rim = rim(mesh, name);
-    let ends = [0, 1, 2].map(|k| {
-        let along = || (0..mesh.points.len()).map(|i| mesh.start_of(i)[k]);
-        [along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max)]
-    });
+    let [low, high] = bounds((0..mesh.points.len()).map(|i| mesh.start_of(i)));
     let near = near(mesh, &rim);
     // A flat sheet is at both ends of its normal; whether it is half a chamber cannot be seen.
     let at_end = |edge: &[u32; 2], k: usize| {
-        ends[k][1] > ends[k][0] + near
-            && ends[k].iter().any(|end| edge.iter().all(|n| (mesh.start_of(*n as usize)[k] - end).abs() <= near))
+        let lies = |end: f64| edge.iter().all(|n| (mesh.start_of(*n as usize)[k] - end).abs() <= near);
+        high[k] > low[k] + near && (lies(low[k]) || lies(high[k]))
     };
     let all = ["x", "y", "z", "xy", "xz", "yz", "xyz"];
     let fits = |axes: &&str| rim.iter().all(|edge| axes.bytes().any(|axis| at_end(edge, usize::from(axis - b'x'))));
@@ -241,14 +234,15 @@ const SMALLEST_M: f64 = 1e-3;
 /// The mesh in metres, and what was understood.
 fn in_metres(mut file: MeshFile, named: &Text, unit: Option<Text>) -> Checked<MeshFile> {
     let Some(unit) = unit else {
-        let [x, y, z] = extent(&file.mesh);
+        let [x, y, z] = extent(file.mesh.points.iter().copied());
         let message = format!("{} ({}) does not say its unit", named.get_ref(), file.format);
         let help = format!("its size is {x:.4} × {y:.4} × {z:.4}: write unit = \"mm\" (or m, cm, in) below file");
         return refuse(message, help, named.span());
     };
     let per_m = choice("unit", &unit, &UNITS)?;
     file.mesh.points.iter_mut().flatten().for_each(|x| *x /= per_m);
-    let (side, largest) = (median_side_m(&file.mesh), extent(&file.mesh).into_iter().fold(0.0, f64::max));
+    let side = median_side_m(&file.mesh);
+    let largest = extent(file.mesh.points.iter().copied()).into_iter().fold(0.0, f64::max);
     if policy::is_coarse(side) {
         let message =
             format!("half of the elements of this mesh have sides over {side:.2} m: it looks like millimetres");
@@ -272,7 +266,7 @@ fn understood(file: &MeshFile, name: &str, unit: &str) -> String {
     let parts: Vec<String> = mesh.parts.iter().map(part).collect();
     let sets: Vec<String> = mesh.sets.iter().map(|(name, nodes)| format!("`{name}` ({})", nodes.len())).collect();
     let sets = if sets.is_empty() { "none".into() } else { sets.join(", ") };
-    let [x, y, z] = extent(mesh).map(|m| m * 1e3);
+    let [x, y, z] = extent(mesh.points.iter().copied()).map(|m| m * 1e3);
     format!(
         "{name}: {} in {unit}, {x:.1} × {y:.1} × {z:.1} mm, {} nodes; parts: {}; node sets: {sets}",
         file.format,
@@ -281,18 +275,8 @@ fn understood(file: &MeshFile, name: &str, unit: &str) -> String {
     )
 }
 
-fn extent(mesh: &Mesh) -> [f64; 3] {
-    [0, 1, 2].map(|k| {
-        let along = || mesh.points.iter().map(|p| p[k]);
-        along().fold(f64::NEG_INFINITY, f64::max) - along().fold(f64::INFINITY, f64::min)
-    })
-}
-
 fn median_side_m(mesh: &Mesh) -> f64 {
-    let side = |nodes: &[u32]| {
-        let [a, b] = [nodes[0], nodes[1]].map(|n| mesh.points[n as usize]);
-        (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
-    };
+    let side = |nodes: &[u32]| norm(sub(mesh.points[nodes[0] as usize], mesh.points[nodes[1] as usize]));
     let mut sides: Vec<f64> = mesh.faces().map(side).collect();
     sides.sort_by(f64::total_cmp);
     sides.get(sides.len() / 2).copied().unwrap_or(0.0)

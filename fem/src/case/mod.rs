@@ -1,32 +1,10 @@
 //! The TOML file that describes a finite element run.
 //!
-//! ```toml
-//! kind = "fem"
-//! name = "Square pillow airbag"
-//! [mesh]
-//! generator = "pillow"
-//! side_mm = 848.5
-//! elements = 16
-//! [fabric.film]
-//! law = "isotropic"
-//! e_MPa = 588
-//! nu = 0.4
-//! thickness_mm = 0.6
-//! [part.all]
-//! fabric = "film"
-//! density_kg_m3 = 1000
-//! [chamber.air]
-//! smooth_s_kPa = [[0, 0], [0.05, 5]]
-//! [settings]
-//! end_s = 0.15
-//! ```
-//!
 //! Kilopascals, megapascals, millimetres and degrees exist here only, with the unit in the key; what comes out is SI.
 //! Every fault is a [`FemError::Case`] with its place; the first line of its message says what is wrong, the second
 //! what to type. All keys: `docs/case.md`.
 
 mod enclosed;
-pub(crate) mod key;
 mod law;
 mod load;
 mod mesh;
@@ -35,10 +13,10 @@ mod raw;
 mod section;
 mod settings;
 
-pub use key::Key;
 pub(crate) use load::encastre;
 pub(crate) use mesh::ReadMesh;
 pub use mesh::{GENERATORS, GeneratorKey, MeshGenerator};
+pub use range::Key;
 pub use settings::Outputs;
 
 use crate::mesh::file::MeshFile;
@@ -69,6 +47,10 @@ pub const SHIPPED_CASES: &[(&str, &str)] = &[
 ];
 
 /// True if the text says that it is a finite element case, whether or not it is a right one.
+///
+/// ```
+/// assert!(fem::case::is_case("kind = \"fem\"\n[mesh]\n") && !fem::case::is_case("[body]\nkind = \"fem\"\n"));
+/// ```
 pub fn is_case(text: &str) -> bool {
     let kind = |line: &str| {
         line.split_once('=').is_some_and(|(key, value)| {

@@ -11,8 +11,8 @@ use toml::{Spanned, Value};
 pub(crate) type Checked<T> = Result<T, FemError>;
 pub(crate) type Num = Spanned<f64>;
 pub(crate) type Text = Spanned<String>;
-/// Rows of (time \[s\], value).
-pub(crate) type Points = Spanned<Vec<Exactly<2>>>;
+/// Rows of time \[s\] and values, if they are there.
+pub(crate) type Rows<const N: usize> = Option<Spanned<Vec<Exactly<N>>>>;
 /// A table whose keys depend on one of its values: a mesh generator, a fabric law.
 pub(crate) type Free = BTreeMap<Text, Spanned<Value>>;
 
@@ -89,42 +89,41 @@ pub(crate) fn direction(key: &str, value: &Spanned<Exactly<3>>) -> Checked<[f64;
 }
 
 /// The amplitude that is given, if any; never two at once.
-pub(crate) fn amplitude(smooth: &Option<Points>, linear: &Option<Points>, range: &Range) -> Checked<Option<Amplitude>> {
-    match (smooth, linear) {
-        (Some(_), Some(second)) => refuse("a smooth and a linear curve at once", "keep one of the two", second.span()),
-        (Some(points), None) => Ok(Some(Amplitude::Smooth(curve(points, range)?))),
-        (None, Some(points)) => Ok(Some(Amplitude::Linear(curve(points, range)?))),
-        (None, None) => Ok(None),
-    }
+pub(crate) fn amplitude(smooth: &Rows<2>, linear: &Rows<2>, range: &Range) -> Checked<Option<Amplitude>> {
+    Ok(amplitudes(smooth, linear, range)?.and_then(|mut one| one.pop()))
 }
 
-/// (time, value) rows in SI, times rising.
-fn curve(points: &Points, range: &Range) -> Checked<Vec<(f64, f64)>> {
-    let rows: Vec<(f64, f64)> = points.get_ref().iter().map(|Exactly([t, v])| (*t, *v)).collect();
-    let times: Vec<f64> = rows.iter().map(|r| r.0).collect();
-    rising(&times, points.span())?;
-    rows.iter().map(|(t, v)| Ok((*t, number("the second number of a row", *v, points.span(), range)?))).collect()
+/// The same, one for every column behind the times.
+pub(crate) fn amplitudes<const N: usize>(
+    smooth: &Rows<N>,
+    linear: &Rows<N>,
+    range: &Range,
+) -> Checked<Option<Vec<Amplitude>>> {
+    let (rows, kind): (_, fn(_) -> Amplitude) = match (smooth, linear) {
+        (Some(_), Some(second)) => {
+            return refuse("a smooth and a linear curve at once", "keep one of the two", second.span());
+        }
+        (Some(rows), None) => (rows, Amplitude::Smooth),
+        (None, Some(rows)) => (rows, Amplitude::Linear),
+        (None, None) => return Ok(None),
+    };
+    let times: Vec<f64> = rows.get_ref().iter().map(|row| row.0[0]).collect();
+    rising(&times, rows.span())?;
+    let value = |v: f64| number("a number of a row", v, rows.span(), range);
+    let column = |k: usize| rows.get_ref().iter().map(|row| Ok((row.0[0], value(row.0[k])?))).collect::<Checked<_>>();
+    (1..N).map(|k| column(k).map(kind)).collect::<Checked<_>>().map(Some)
 }
 
 /// Times of a curve: at least two, from 0 on, each later than the one before.
-pub(crate) fn rising(times: &[f64], span: Span<usize>) -> Checked<()> {
+fn rising(times: &[f64], span: Span<usize>) -> Checked<()> {
     if times.len() < 2 {
-        return refuse(
-            "a curve needs two rows at least",
-            "write for example [[0, 0], [0.05, 5]]: time in s, value",
-            span,
-        );
+        let help = "write for example [[0, 0], [0.05, 5]]: time in s, value";
+        return refuse("a curve needs two rows at least", help, span);
     }
-    for t in times {
-        number("the time of a row", *t, span.clone(), &TIME)?;
-    }
-    match times.windows(2).find(|pair| pair[1] <= pair[0]) {
-        Some(pair) => {
-            let message = format!("the times of a curve must rise: {} s comes after {} s", pair[1], pair[0]);
-            refuse(message, "sort the rows, and write each time once", span)
-        }
-        None => Ok(()),
-    }
+    times.iter().try_for_each(|t| number("the time of a row", *t, span.clone(), &TIME).map(|_| ()))?;
+    let Some(pair) = times.windows(2).find(|pair| pair[1] <= pair[0]) else { return Ok(()) };
+    let message = format!("the times of a curve must rise: {} s comes after {} s", pair[1], pair[0]);
+    refuse(message, "sort the rows, and write each time once", span)
 }
 
 pub(crate) fn choice<T: Copy>(what: &str, text: &Spanned<String>, known: &[(&str, T)]) -> Checked<T> {
@@ -199,6 +198,54 @@ pub(crate) fn unknown(what: &str, wrong: &str, known: &[&str]) -> String {
         None if known.is_empty() => format!("unknown {what} `{wrong}`\nremove it: nothing is expected here"),
         None => format!("unknown {what} `{wrong}`\nknown here: {list}"),
     }
+}
+
+/// One number of a table that describes an `S`.
+#[derive(Debug)]
+pub struct Key<S: 'static> {
+    /// Name with unit, as in the file.
+    pub name: &'static str,
+    /// Factor from the file to SI.
+    pub si: f64,
+    /// Accepted numbers, as in the file.
+    pub bounds: [f64; 2],
+    /// What it is, and what is usual.
+    pub meaning: &'static str,
+    /// Reads it \[SI\], if it is set.
+    pub get: fn(&S) -> Option<f64>,
+    /// Writes it \[SI\].
+    pub set: fn(&mut S, f64),
+}
+
+pub(crate) const fn key<S>(
+    name: &'static str,
+    si: f64,
+    bounds: [f64; 2],
+    meaning: &'static str,
+    get: fn(&S) -> Option<f64>,
+    set: fn(&mut S, f64),
+) -> Key<S> {
+    Key { name, si, bounds, meaning, get, set }
+}
+
+impl<S> Key<S> {
+    pub(crate) fn read(&self, to: &mut S, value: &Spanned<Value>) -> Checked<()> {
+        let [low, high] = self.bounds;
+        let range = Range { si: self.si, ..plain(low, high, self.meaning) };
+        let si = number(self.name, plain_number(self.name, value)?, value.span(), &range)?;
+        if self.name == "seed" && si.fract() != 0.0 {
+            return refuse(format!("seed must be a whole number, not {si}"), "write for example 1", value.span());
+        }
+        if self.name == "mass_passes" && ![2.0, 4.0, 6.0].contains(&si) {
+            return refuse(format!("mass_passes cannot be {si}"), "write 2, 4 or 6", value.span());
+        }
+        (self.set)(to, si);
+        Ok(())
+    }
+}
+
+pub(crate) fn named<S>(keys: &'static [Key<S>], name: &str) -> Option<&'static Key<S>> {
+    keys.iter().find(|key| key.name == name)
 }
 
 #[cfg(test)]

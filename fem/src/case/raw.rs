@@ -1,6 +1,6 @@
 //! The TOML text as it stands: keys with units, every value with its place.
 
-use super::range::{Checked, Free, Num, Points, Text, unknown};
+use super::range::{Checked, Free, Num, Rows, Text, unknown};
 use crate::FemError;
 use serde::Deserialize;
 use spelling::Exactly;
@@ -66,9 +66,9 @@ pub(super) struct RawChamber {
     pub pressure_kpa: Option<Num>,
     pub preset: Option<Text>,
     #[serde(rename = "smooth_s_kPa", alias = "smooth_s_kpa")]
-    pub(crate) smooth_s_kpa: Option<Points>,
+    pub(crate) smooth_s_kpa: Rows<2>,
     #[serde(rename = "linear_s_kPa", alias = "linear_s_kpa")]
-    pub(crate) linear_s_kpa: Option<Points>,
+    pub(crate) linear_s_kpa: Rows<2>,
     pub sealed_at_s: Option<Num>,
     #[serde(rename = "atmosphere_kPa", alias = "atmosphere_kpa")]
     pub(crate) atmosphere_kpa: Option<Num>,
@@ -77,8 +77,8 @@ pub(super) struct RawChamber {
     #[serde(rename = "leak_l_min_kPa", alias = "leak_l_min_kpa")]
     pub(crate) leak_l_min_kpa: Option<Num>,
     pub inflow_l_min: Option<Num>,
-    pub(crate) inflow_smooth_s_l_min: Option<Points>,
-    pub(crate) inflow_linear_s_l_min: Option<Points>,
+    pub(crate) inflow_smooth_s_l_min: Rows<2>,
+    pub(crate) inflow_linear_s_l_min: Rows<2>,
     pub open_axis: Option<Text>,
     pub parts: Option<Spanned<Vec<Text>>>,
 }
@@ -89,8 +89,8 @@ pub(super) struct RawSupport {
     pub set: Text,
     pub axes: Option<Text>,
     pub encastre: Option<bool>,
-    pub smooth_s_mm: Option<Spanned<Vec<Exactly<4>>>>,
-    pub(crate) linear_s_mm: Option<Spanned<Vec<Exactly<4>>>>,
+    pub smooth_s_mm: Rows<4>,
+    pub(crate) linear_s_mm: Rows<4>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -104,16 +104,16 @@ pub(super) struct RawRigid {
 pub(super) struct RawForce {
     pub set: Text,
     pub total_n: Spanned<Exactly<3>>,
-    pub(crate) smooth_s: Option<Points>,
-    pub(crate) linear_s: Option<Points>,
+    pub(crate) smooth_s: Rows<2>,
+    pub(crate) linear_s: Rows<2>,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawGravity {
     pub g_m_s2: Spanned<Exactly<3>>,
-    pub(crate) smooth_s: Option<Points>,
-    pub(crate) linear_s: Option<Points>,
+    pub(crate) smooth_s: Rows<2>,
+    pub(crate) linear_s: Rows<2>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -125,8 +125,8 @@ pub(super) struct RawObstacle {
     pub axis: Option<Spanned<Exactly<3>>>,
     pub radius_mm: Option<Num>,
     pub friction: Option<Num>,
-    pub smooth_s_mm: Option<Spanned<Vec<Exactly<4>>>>,
-    pub(crate) linear_s_mm: Option<Spanned<Vec<Exactly<4>>>>,
+    pub smooth_s_mm: Rows<4>,
+    pub(crate) linear_s_mm: Rows<4>,
 }
 
 #[derive(Debug, Deserialize)]

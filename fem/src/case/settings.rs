@@ -1,10 +1,10 @@
 //! Numerical settings and outputs of a case.
 
-use super::key::{Key, key, named};
 use super::load::{part_names, set_name};
 use super::range::{
     Checked, Free, POSITION, Range, choice, direction, find, number, plain, refuse, si, switch, text, unknown_name,
 };
+use super::range::{Key, key, named};
 use super::raw::RawOutput;
 use crate::mesh::Mesh;
 use crate::output::picture::Viewpoint;

@@ -11,7 +11,7 @@ use super::surface::{self, Surface};
 use rayon::prelude::*;
 
 /// Contact between the layers of a mesh.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Contact {
     pub(super) surface: Surface,
     pub(super) penalty: Penalty,
@@ -19,11 +19,9 @@ pub struct Contact {
     pub(super) friction: f64,
     pub(super) arch: pulp::Arch,
     pub(super) chunks: Vec<Chunk>,
-    /// Positions at the last search.
     pub(super) placed_m: Vec<[f64; 4]>,
     /// Positions one step before; empty before the first step.
     pub(super) before_m: Vec<[f64; 4]>,
-    /// Positions now, during a step.
     pub(super) now_m: Vec<[f64; 4]>,
     pub(super) path_m: f64,
     pub(super) search_due_m: f64,

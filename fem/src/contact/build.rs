@@ -10,7 +10,7 @@ use super::surface::Surface;
 /// Candidates that close a chunk, so that chunks stay small on very fine meshes.
 const CANDIDATES: usize = 4096;
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Penalty {
     pub mass_kg: Vec<f64>,
     /// Least mass of the corners of each element, infinite if all are held.
@@ -203,7 +203,7 @@ impl Work {
             let heirs = remembered.iter().filter(|r| self.find(r.element).is_some_and(|at| self.piece[at] == piece));
             let mut record = match heirs.min_by(|a, b| order(a).total_cmp(&order(b))) {
                 Some(best) => *best,
-                None => Record { node, layer, own: surface.is_in(node as usize, layer), ..Record::NEW },
+                None => Record { node, layer, own: surface.is_in(node as usize, layer), ..Record::new() },
             };
             let mass = members().map(|e| penalty.light_kg[e as usize]).fold(own_kg, f64::min);
             let mass = if mass.is_finite() { mass } else { 0.0 };

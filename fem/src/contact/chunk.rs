@@ -39,10 +39,8 @@ pub(super) struct Chunk {
     /// Those on faces, ready to be stepped.
     #[serde(skip)]
     pub(crate) packs: Vec<Pack>,
-    /// Their number.
     #[serde(skip)]
     pub faces: u32,
-    /// Positions at the last look.
     pub(crate) seen_m: Vec<[f64; 4]>,
     /// Way: sum over the looks of the most that two nodes can have moved against each other in between.
     pub way_m: f64,
@@ -57,7 +55,6 @@ pub(super) struct Chunk {
     /// Nodes that looks of the step found on the wrong side of an element.
     #[serde(skip)]
     pub passed: Vec<(u32, u32)>,
-    /// Room for a look.
     #[serde(skip)]
     pub asked: Vec<Question>,
     #[serde(skip)]

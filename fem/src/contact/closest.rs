@@ -12,7 +12,6 @@ pub(super) enum Feature {
     Face,
     /// Distance to the line through the first two corners.
     Edge,
-    /// Distance to the first corner.
     Corner,
 }
 
@@ -130,8 +129,9 @@ pub(super) fn describe(
     if free == 3 || aside <= flat_m * flat_m {
         return face;
     }
-    let order = if free == 2 { edge_first(w) } else { corner_first(w) };
-    let corners = order.map(|k| triangle[k]);
+    // The edge lies opposite the corner without weight.
+    let first = (0..3).find(|k| if free == 2 { w[(k + 2) % 3] == 0.0 } else { w[*k] > 0.0 }).unwrap_or(2);
+    let corners = [0, 1, 2].map(|k| triangle[(first + k) % 3]);
     let feature = if free == 2 { Feature::Edge } else { Feature::Corner };
     let (outward, rim) = match feature {
         Feature::Edge => edge_normal(surface, x, element, [corners[0], corners[1]], normal),
@@ -155,26 +155,6 @@ pub(super) fn element_normal(surface: &Surface, x: &[[f64; 4]], element: u32) ->
 #[inline(always)]
 pub(super) fn blend(w: [f64; 3], a: V3, b: V3, c: V3) -> V3 {
     along(along(scale(a, w[0]), w[1], b), w[2], c)
-}
-
-fn edge_first(w: [f64; 3]) -> [usize; 3] {
-    if w[2] == 0.0 {
-        [0, 1, 2]
-    } else if w[0] == 0.0 {
-        [1, 2, 0]
-    } else {
-        [2, 0, 1]
-    }
-}
-
-fn corner_first(w: [f64; 3]) -> [usize; 3] {
-    if w[0] > 0.0 {
-        [0, 1, 2]
-    } else if w[1] > 0.0 {
-        [1, 2, 0]
-    } else {
-        [2, 0, 1]
-    }
 }
 
 /// Sum of the normals on both sides of an edge, and whether there is only one side.

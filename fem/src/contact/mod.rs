@@ -64,8 +64,7 @@ use build::Penalty;
 use chunk::{Chunk, touch};
 use follow::follow;
 pub(crate) use passed::Passage;
-use passed::Passed;
-use press::{Sums, motion, push};
+use press::{motion, push};
 use record::Reach;
 use surface::Surface;
 
@@ -98,16 +97,8 @@ impl Contact {
             penalty: Penalty { mass_kg: mass_kg.to_vec(), light_kg, stiffness_1_s2, damping_1_s },
             reach,
             friction: settings.friction,
-            arch: pulp::Arch::new(),
-            chunks: Vec::new(),
             placed_m,
-            before_m: Vec::new(),
-            now_m: Vec::new(),
-            path_m: 0.0,
-            search_due_m: 0.0,
-            searches: 0,
-            sums: Sums::default(),
-            passed: Passed::default(),
+            ..Contact::default()
         };
         let start = std::mem::take(&mut contact.placed_m);
         contact.search(&start);

@@ -10,7 +10,6 @@ use super::record::{Record, Touch};
 use crate::sheet::group::{LANES, Lane};
 use crate::sheet::lanes::{V, axes, inner, product};
 
-/// Eight pairs.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
 pub(super) struct Pack {

@@ -5,7 +5,7 @@ use super::surface::Surface;
 use crate::vec3::V3;
 
 /// Distances that decide about pairs \[m\].
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Reach {
     /// A side is decided, and remembered, within this distance.
     pub side_m: f64,
@@ -55,7 +55,6 @@ pub(super) struct Record {
     pub(crate) within_m: f64,
     /// Way of the chunk at which to look again.
     pub(crate) due_m: f64,
-    /// Elastic slide.
     pub(crate) spring_m: V3,
     /// Depth in the step before \[m\].
     pub last_m: f64,
@@ -64,29 +63,9 @@ pub(super) struct Record {
 }
 
 impl Record {
-    /// Due at once.
-    pub(super) const NEW: Record = Record {
-        node: 0,
-        corners: [0; 3],
-        element: 0,
-        layer: 0,
-        feature: Feature::Face,
-        side: 0,
-        own: false,
-        first: 0,
-        count: 0,
-        sign: 0.0,
-        rest_m: 0.0,
-        wanted_m: 0.0,
-        stiffness_n_m: 0.0,
-        damping_n_s_m: 0.0,
-        distance_m: 0.0,
-        within_m: f64::INFINITY,
-        due_m: f64::NEG_INFINITY,
-        spring_m: [0.0; 3],
-        last_m: 0.0,
-        damped_n: 0.0,
-    };
+    pub(super) fn new() -> Record {
+        Record { within_m: f64::INFINITY, due_m: f64::NEG_INFINITY, ..Record::default() }
+    }
 
     /// True if the step before left something to account for.
     pub(super) fn holds(&self) -> bool {

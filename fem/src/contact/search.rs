@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 use super::surface::{NONE, Surface};
-use crate::vec3::{V3, dot, node, sub};
+use crate::vec3::{V3, bounds, dot, node, sub};
 
 const PIECE: usize = 1024;
 
@@ -108,10 +108,7 @@ pub(super) struct Placed {
 impl Grid {
     /// Columns of `size_m`, or wider ones where the points are spread so thin that there would be too many.
     pub(super) fn new(places: Vec<Placed>, size_m: f64) -> Grid {
-        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for Placed { place: p, .. } in &places {
-            (0..3).for_each(|k| (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k])));
-        }
+        let [low, high] = bounds(places.iter().map(|p| p.place));
         let length = sub(high, low).map(|l| l.max(0.0));
         let short = (0..3).fold(0, |s, k| if length[k] < length[s] { k } else { s });
         let across = [(short + 1) % 3, (short + 2) % 3];

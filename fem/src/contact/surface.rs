@@ -5,7 +5,6 @@ use std::collections::HashMap;
 use crate::vec3::{V3, area, norm, sub};
 use crate::{FemError, Mesh};
 
-/// No element, no node.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// Elements of the parts that take part.
@@ -14,11 +13,9 @@ pub(super) struct Surface {
     /// Corners; the fourth is [`NONE`] for a triangle.
     pub elements: Vec<[u32; 4]>,
     pub layer: Vec<u32>,
-    /// Part, and number within it.
     pub origin: Vec<(u32, u32)>,
     /// Element of the same layer across the edge from corner k to the next.
     pub across: Vec<[u32; 4]>,
-    /// Elements at each node.
     pub around: Lists,
     /// Number of nodes that have some.
     pub nodes: usize,
@@ -77,7 +74,9 @@ impl Surface {
                 surface.origin.push((p as u32, i as u32));
             }
         }
-        surface.around = Lists::new(mesh.points.len(), &surface.corner_pairs());
+        let corners = |e: usize| surface.corners(e).iter().map(move |n| (*n, e as u32));
+        let pairs: Vec<(u32, u32)> = (0..surface.elements.len()).flat_map(corners).collect();
+        surface.around = Lists::new(mesh.points.len(), &pairs);
         surface.nodes = (0..mesh.points.len()).filter(|n| !surface.around.of(*n).is_empty()).count();
         surface.border(mesh)?;
         surface.skip = surface.rings(mesh.points.len());
@@ -92,7 +91,6 @@ impl Surface {
         let nodes = &self.elements[element];
         if nodes[3] == NONE { &nodes[..3] } else { nodes }
     }
-    /// How messages call an element.
     pub(super) fn name(&self, mesh: &Mesh, element: usize) -> String {
         let (part, i) = self.origin[element];
         format!("element {} of part {:?}", i + 1, mesh.parts[part as usize].name)
@@ -106,10 +104,6 @@ impl Surface {
     /// True if `node` is a corner of an element of `layer`.
     pub(super) fn is_in(&self, node: usize, layer: u32) -> bool {
         self.around.of(node).iter().any(|e| self.layer[*e as usize] == layer)
-    }
-
-    fn corner_pairs(&self) -> Vec<(u32, u32)> {
-        (0..self.elements.len()).flat_map(|e| self.corners(e).iter().map(move |n| (*n, e as u32))).collect()
     }
 
     /// Finds the element across each edge; the fronts of neighbours in one layer must be on the same side.

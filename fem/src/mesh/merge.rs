@@ -9,40 +9,37 @@ impl Mesh {
     ///
     /// # Errors
     /// [`FemError::Mesh`] naming a part that both have.
-    pub fn append(&mut self, other: Mesh) -> Result<(), FemError> {
+    pub fn append(&mut self, mut other: Mesh) -> Result<(), FemError> {
         if let Some(part) = other.parts.iter().find(|part| self.parts.iter().any(|own| own.name == part.name)) {
-            return fault(format!("both meshes have a part `{}`; rename one", part.name));
+            return Err(FemError::Mesh(format!("both meshes have a part `{}`; rename one", part.name)));
         }
-        if self.points.len() + other.points.len() > u32::MAX as usize {
-            return fault("more nodes than can be numbered".into());
+        let Ok(offset) = u32::try_from(self.points.len() + other.points.len()).map(|_| self.points.len() as u32) else {
+            return Err(FemError::Mesh("more nodes than can be numbered".into()));
+        };
+        if self.start.len() + other.start.len() > 0 {
+            (self.start, other.start) = (self.starts(), other.starts());
+            self.start.append(&mut other.start);
         }
-        let offset = self.points.len() as u32;
-        if self.start.is_empty() && !other.start.is_empty() {
-            self.start = self.points.clone();
-        }
-        if !self.start.is_empty() {
-            self.start.extend(if other.start.is_empty() { &other.points } else { &other.start });
-        }
-        self.points.extend(other.points);
-        for mut part in other.parts {
-            part.quads.iter_mut().flatten().for_each(|n| *n = n.saturating_add(offset));
-            part.triangles.iter_mut().flatten().for_each(|n| *n = n.saturating_add(offset));
-            self.parts.push(part);
-        }
-        for (name, nodes) in other.sets {
-            self.sets.entry(name).or_default().extend(nodes.iter().map(|n| n.saturating_add(offset)));
-        }
-        for mut tie in other.ties {
-            tie.node = tie.node.saturating_add(offset);
-            tie.to.iter_mut().for_each(|(n, _)| *n = n.saturating_add(offset));
-            self.ties.push(tie);
-        }
+        self.points.append(&mut other.points);
+        other.each_node(|n| *n = n.saturating_add(offset));
+        self.parts.append(&mut other.parts);
+        other.sets.into_iter().for_each(|(name, nodes)| self.sets.entry(name).or_default().extend(nodes));
+        self.ties.append(&mut other.ties);
         Ok(())
     }
-}
 
-fn fault<T>(message: String) -> Result<T, FemError> {
-    Err(FemError::Mesh(message))
+    /// Changes the number of every node in elements, sets and ties.
+    pub(crate) fn each_node(&mut self, mut change: impl FnMut(&mut u32)) {
+        for part in &mut self.parts {
+            part.quads.iter_mut().flatten().for_each(&mut change);
+            part.triangles.iter_mut().flatten().for_each(&mut change);
+        }
+        self.sets.values_mut().flatten().for_each(&mut change);
+        for tie in &mut self.ties {
+            change(&mut tie.node);
+            tie.to.iter_mut().for_each(|(node, _)| change(node));
+        }
+    }
 }
 
 #[cfg(test)]

@@ -12,7 +12,6 @@ pub mod generate;
 
 mod enclose;
 mod merge;
-mod names;
 
 pub use enclose::enclose;
 
@@ -69,6 +68,10 @@ pub struct Tie {
 }
 
 impl Part {
+    /// Quadrilaterals in surroundings without a chamber.
+    pub(crate) fn of(name: &str, quads: Vec<[u32; 4]>) -> Part {
+        Part { name: name.into(), quads, ..Part::default() }
+    }
     /// Number of elements, quads and triangles.
     pub fn len(&self) -> usize {
         self.quads.len() + self.triangles.len()
@@ -131,7 +134,6 @@ impl Mesh {
         }
         sum
     }
-    /// Where all nodes start.
     pub(crate) fn starts(&self) -> Vec<[f64; 3]> {
         (0..self.points.len()).map(|node| self.start_of(node)).collect()
     }

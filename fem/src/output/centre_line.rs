@@ -50,16 +50,10 @@ impl CentreLine {
     /// [`FemError::Problem`] for an unknown part, an axis without direction, or a station beside the mesh.
     pub fn new(mesh: &Mesh, parts: &[String], axis: V3, stations_m: &[f64]) -> Result<CentreLine, FemError> {
         let sections = Sections::of(mesh, parts, axis)?;
-        let (low, high) = sections.range();
-        let outside = |s: f64| {
-            format!(
-                "centre line: station {} mm is not on the mesh, which reaches from {} to {} mm",
-                s,
-                low * 1e3,
-                high * 1e3
-            )
-        };
-        CentreLine::made(mesh, stations_m, |s| sections.weights(s, low, high), outside)
+        let [from, to] = sections.range.map(|m| m * 1e3);
+        let outside =
+            |s: f64| format!("centre line: station {s} mm is not on the mesh, which reaches from {from} to {to} mm");
+        CentreLine::made(mesh, stations_m, |s| sections.weights(s), outside)
     }
 
     /// As [`CentreLine::new`], but in place of centroids the points of the sections on the side that faces `eye` (any direction
@@ -69,9 +63,9 @@ impl CentreLine {
     /// As [`CentreLine::new`]; also for a section that is open to that side.
     pub fn seen(mesh: &Mesh, parts: &[String], axis: V3, eye: V3, stations_m: &[f64]) -> Result<CentreLine, FemError> {
         let sections = Sections::of(mesh, parts, axis)?;
-        let ((low, high), side) = (sections.range(), cross(axis, eye));
+        let side = cross(axis, eye);
         let hidden = |s: f64| format!("markers: no wall at {s} mm on the side {eye:?}");
-        CentreLine::made(mesh, stations_m, |s| sections.facing(s, low, high, eye, side), hidden)
+        CentreLine::made(mesh, stations_m, |s| sections.facing(s, eye, side), hidden)
     }
 
     /// `missing` says of a station \[mm\] why it has no weights.
@@ -114,15 +108,10 @@ impl CentreLine {
 #[derive(Debug)]
 pub(crate) struct CentreLineFile {
     line: CentreLine,
-    table: Table,
+    pub table: Table,
 }
 
 impl CentreLineFile {
-    /// Refuses a file that [`CentreLineFile::open`] refuses, and touches nothing.
-    pub(crate) fn check(path: &Path, line: &CentreLine, times_s: &[f64]) -> Result<(), FemError> {
-        Table::check(path, times_s, line.stations_m.len())
-    }
-
     /// The file after the rows of `times_s` \[s\], which a checkpoint knows of; later ones are dropped.
     pub(crate) fn open(path: &Path, line: CentreLine, times_s: &[f64]) -> Result<CentreLineFile, FemError> {
         let table = Table::open(path, times_s, line.stations_m.len())?;
@@ -141,11 +130,6 @@ impl CentreLineFile {
             rows += &format!("{},{step},{s},{x},{y},{z}\n", number(time_s));
         }
         self.table.append(step, "time_s,step,s_mm,x_mm,y_mm,z_mm", &rows)
-    }
-
-    /// Waits until the disk has all rows; to be called before a checkpoint is written.
-    pub(crate) fn sync(&self) -> Result<(), FemError> {
-        self.table.sync()
     }
 }
 
@@ -173,6 +157,8 @@ struct Sections<'a> {
     mesh: &'a Mesh,
     chosen: Vec<&'a Part>,
     coordinates: Vec<f64>,
+    /// Of the nodes of the parts, along the axis.
+    range: [f64; 2],
 }
 
 impl<'a> Sections<'a> {
@@ -183,25 +169,20 @@ impl<'a> Sections<'a> {
             return Err(FemError::Problem(format!("centre line: {axis:?} is no direction, write [1, 0, 0] for x")));
         }
         let along = |p: &V3| dot(*p, axis) / length;
-        let sections = Sections { mesh, chosen, coordinates: mesh.points.iter().map(along).collect() };
-        let stray = sections.elements().flatten().copied().find(|&node| node as usize >= mesh.points.len());
-        match stray {
-            None => Ok(sections),
-            Some(node) => Err(FemError::Mesh(format!("an element has node {}, which is not in the mesh", node + 1))),
+        let coordinates: Vec<f64> = mesh.points.iter().map(along).collect();
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        for node in chosen.iter().flat_map(|part| part.faces()).flatten() {
+            let Some(c) = coordinates.get(*node as usize) else {
+                return Err(FemError::Mesh(format!("an element has node {}, which is not in the mesh", node + 1)));
+            };
+            range = [range[0].min(*c), range[1].max(*c)];
         }
-    }
-
-    fn elements(&self) -> impl Iterator<Item = &[u32]> {
-        self.chosen.iter().flat_map(|part| part.faces())
-    }
-
-    fn range(&self) -> (f64, f64) {
-        let places = self.elements().flatten().map(|&node| self.coordinates[node as usize]);
-        places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), c| (low.min(c), high.max(c)))
+        Ok(Sections { mesh, chosen, coordinates, range })
     }
 
     /// Segments of the section at `station`, one for every element cut; ends as edge and place on it.
-    fn cuts(&self, station: f64, low: f64, high: f64) -> Vec<[Cut; 2]> {
+    fn cuts(&self, station: f64) -> Vec<[Cut; 2]> {
+        let [low, high] = self.range;
         let near = ON_STATION * (high - low);
         let beyond = |node: u32| {
             let c = self.coordinates[node as usize] - station;
@@ -211,7 +192,7 @@ impl<'a> Sections<'a> {
         let at_start = station <= low + near;
         let above = |c: f64| if at_start { c > 0.0 } else { c >= 0.0 };
         let mut segments = Vec::new();
-        for nodes in self.elements() {
+        for nodes in self.chosen.iter().flat_map(|part| part.faces()) {
             let mut ends = Vec::with_capacity(4);
             for (k, &i) in nodes.iter().enumerate() {
                 let j = nodes[(k + 1) % nodes.len()];
@@ -226,10 +207,10 @@ impl<'a> Sections<'a> {
     }
 
     /// Weights of the section at `station`; `None` beside the mesh.
-    fn weights(&self, station: f64, low: f64, high: f64) -> Option<Weights> {
+    fn weights(&self, station: f64) -> Option<Weights> {
         let mut sums: BTreeMap<u32, f64> = BTreeMap::new();
         let mut total = 0.0;
-        for segment in self.cuts(station, low, high) {
+        for segment in self.cuts(station) {
             let length = self.distance(segment[0], segment[1]);
             total += length;
             for (i, j, t) in segment {
@@ -241,8 +222,8 @@ impl<'a> Sections<'a> {
     }
 
     /// Weights of the point of the section at `station` that lies towards `eye`, where `side` (across both) changes sign.
-    fn facing(&self, station: f64, low: f64, high: f64, eye: [f64; 3], side: [f64; 3]) -> Option<Weights> {
-        for segment in self.cuts(station, low, high) {
+    fn facing(&self, station: f64, eye: [f64; 3], side: [f64; 3]) -> Option<Weights> {
+        for segment in self.cuts(station) {
             let [a, b] = segment.map(|cut| self.point(cut));
             let (sa, sb) = (dot(a, side), dot(b, side));
             if (sa >= 0.0) == (sb >= 0.0) {

@@ -170,7 +170,7 @@ fn a_marker_is_on_the_side_that_the_eye_sees_and_goes_with_its_wall() {
 
 /// `count` stations evenly from end to end of the parts.
 fn even(mesh: &Mesh, parts: &[String], axis: [f64; 3], count: usize) -> Result<CentreLine, FemError> {
-    let (low, high) = Sections::of(mesh, parts, axis)?.range();
+    let [low, high] = Sections::of(mesh, parts, axis)?.range;
     let share = |i: usize| if count == 1 { 0.5 } else { i as f64 / (count - 1) as f64 };
     let stations: Vec<f64> = (0..count).map(|i| low + (high - low) * share(i)).collect();
     CentreLine::new(mesh, parts, axis, &stations)

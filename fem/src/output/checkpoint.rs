@@ -12,8 +12,8 @@ use std::io::{Error, Write};
 use std::path::{Path, PathBuf};
 
 use crate::FemError;
-use crate::atomic::replace;
 use crate::bytes::{pack, unpack};
+use crate::output::replace;
 use serde::{Deserialize, Serialize};
 use spelling::files::{sealed, sync_folder, unsealed, write_new};
 
@@ -25,7 +25,6 @@ const PARTIAL: &str = "checkpoint.partial";
 /// The end of a complete run, from which another one may go on.
 const END: &str = "checkpoint.end";
 
-/// Everything a checkpoint holds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Checkpoint {
     /// Number that stands for the problem; a run of another problem must not go on from here.
@@ -36,23 +35,19 @@ pub(crate) struct Checkpoint {
     pub payload: Vec<u8>,
 }
 
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct LoadedCheckpoint {
-    pub checkpoint: Checkpoint,
-    /// Set if the newest one was not good and the one before it is used instead: what to tell the user.
-    pub(crate) notice: Option<String>,
-}
-
 /// Writes `checkpoint` to `folder`, which is created; the one before it is kept.
 pub(crate) fn write_checkpoint(folder: &Path, checkpoint: &Checkpoint) -> Result<PathBuf, FemError> {
     write_through(folder, checkpoint, &mut |out, bytes| out.write_all(bytes))
 }
 
+/// A checkpoint; with what to tell the user if the newest one was not good, and this is the one before it.
+type Loaded = (Checkpoint, Option<String>);
+
 /// Reads the newest good checkpoint of the problem with this `fingerprint`; `None` if the folder has none.
-pub(crate) fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<LoadedCheckpoint>, FemError> {
+pub(crate) fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<Loaded>, FemError> {
     let (newest, previous) = names(folder);
     let fault = match read_file(&newest, fingerprint)? {
-        Found::Good(checkpoint) => return Ok(Some(LoadedCheckpoint { checkpoint, notice: None })),
+        Found::Good(checkpoint) => return Ok(Some((checkpoint, None))),
         Found::Foreign(reason) => return Err(FemError::Checkpoint { path: newest, reason }),
         Found::Damaged(reason) => Some(reason),
         Found::Nothing => None,
@@ -65,7 +60,7 @@ pub(crate) fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<
                 "checkpoint {} {why}: going on from the one before it, step {step}, t = {time:.6} s",
                 newest.display()
             );
-            Ok(Some(LoadedCheckpoint { checkpoint, notice: Some(notice) }))
+            Ok(Some((checkpoint, Some(notice))))
         }
         (Found::Foreign(reason), _) => Err(FemError::Checkpoint { path: previous, reason }),
         (Found::Nothing, None) => Ok(None),
@@ -163,7 +158,10 @@ fn decode(bytes: &[u8], fingerprint: Option<u64>) -> Found {
         return Found::Damaged("is cut off before its version".into());
     };
     if version != VERSION {
-        return Found::Foreign(of_version(version));
+        return Found::Foreign(format!(
+            "its format version is {version}, this program reads {VERSION}: go on with the program that wrote it, or start \
+             anew with --force"
+        ));
     }
     let Some(checkpoint) = unpack::<Checkpoint>(state) else {
         return Found::Damaged("has fields of the wrong length".into());
@@ -176,13 +174,6 @@ fn decode(bytes: &[u8], fingerprint: Option<u64>) -> Found {
         ));
     }
     Found::Good(checkpoint)
-}
-
-fn of_version(found: u64) -> String {
-    format!(
-        "its format version is {found}, this program reads {VERSION}: go on with the program that wrote it, or start anew \
-         with --force"
-    )
 }
 
 #[cfg(test)]

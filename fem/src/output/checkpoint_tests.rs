@@ -48,7 +48,7 @@ fn the_newest_checkpoint_comes_back_to_the_bit_and_the_one_before_is_kept() {
         let path = write_checkpoint(&inside, &state(step)).unwrap();
         assert_eq!(path, inside.join("checkpoint"));
         let loaded = read_checkpoint(&inside, PROBLEM).unwrap().unwrap();
-        assert_eq!(loaded, LoadedCheckpoint { checkpoint: state(step), notice: None });
+        assert_eq!(loaded, (state(step), None));
     }
     assert_eq!(std::fs::read(inside.join("checkpoint.previous")).unwrap(), encode(&state(2)));
     assert_eq!(std::fs::read_dir(&inside).unwrap().count(), 2);
@@ -81,8 +81,8 @@ fn a_damaged_newest_one_falls_back_to_the_one_before_and_says_so() {
     write_checkpoint(folder.path(), &state(2)).unwrap();
     std::fs::write(folder.path().join("checkpoint"), &encode(&state(2))[..300]).unwrap();
     let loaded = read_checkpoint(folder.path(), PROBLEM).unwrap().unwrap();
-    assert_eq!(loaded.checkpoint, state(1));
-    let notice = loaded.notice.unwrap();
+    assert_eq!(loaded.0, state(1));
+    let notice = loaded.1.unwrap();
     assert!(notice.contains("cut off or damaged") && notice.contains("step 1"), "{notice}");
     std::fs::write(folder.path().join("checkpoint.previous"), b"").unwrap();
     assert!(reason(folder.path()).contains("no other good one"));
@@ -107,9 +107,9 @@ fn a_kill_at_any_moment_of_writing_leaves_a_good_one() {
             bytes.iter().for_each(|bytes| std::fs::write(path, bytes).unwrap());
         }
         let loaded = read_checkpoint(folder.path(), PROBLEM).unwrap().unwrap();
-        assert_eq!((loaded.checkpoint, loaded.notice.is_some()), (state(step), files[1].is_none()));
+        assert_eq!((loaded.0, loaded.1.is_some()), (state(step), files[1].is_none()));
         write_checkpoint(folder.path(), &state(4)).unwrap();
-        assert_eq!(read_checkpoint(folder.path(), PROBLEM).unwrap().unwrap().checkpoint, state(4));
+        assert_eq!(read_checkpoint(folder.path(), PROBLEM).unwrap().unwrap().0, state(4));
         assert!(!partial.exists() && decodes(&previous), "step {step}");
     }
 }
@@ -141,7 +141,7 @@ fn a_real_device_without_room_is_an_input_output_error() {
     std::os::unix::fs::symlink("/dev/full", folder.path().join("checkpoint.partial")).unwrap();
     let error = write_checkpoint(folder.path(), &state(2)).unwrap_err();
     assert!(matches!(&error, FemError::Io { source, .. } if source.kind() == std::io::ErrorKind::StorageFull));
-    assert_eq!(read_checkpoint(folder.path(), PROBLEM).unwrap().unwrap().checkpoint, state(1));
+    assert_eq!(read_checkpoint(folder.path(), PROBLEM).unwrap().unwrap().0, state(1));
 }
 
 #[test]

@@ -53,7 +53,7 @@ impl Record {
 
 #[derive(Debug)]
 pub(crate) struct History {
-    table: Table,
+    pub table: Table,
     probes: Vec<Probe>,
 }
 
@@ -72,11 +72,6 @@ impl History {
         Ok(History { table: Table::open(path, times_s, 1)?, probes })
     }
 
-    /// Refuses a file that [`History::open`] refuses, and touches nothing.
-    pub(crate) fn check(path: &Path, times_s: &[f64]) -> Result<(), FemError> {
-        Table::check(path, times_s, 1)
-    }
-
     /// Adds a row; a step that has a row already is not written again.
     pub(crate) fn append(&mut self, record: &Record) -> Result<(), FemError> {
         let cells = self.cells(record)?;
@@ -89,11 +84,6 @@ impl History {
         names.insert(1, "step");
         values.insert(1, record.step.to_string());
         self.table.append(record.step, &names.join(","), &(values.join(",") + "\n"))
-    }
-
-    /// Waits until the disk has all rows; to be called before a checkpoint is written.
-    pub(crate) fn sync(&self) -> Result<(), FemError> {
-        self.table.sync()
     }
 
     /// Names and values of a row, without the step.

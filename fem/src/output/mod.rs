@@ -1,14 +1,5 @@
 //! What a run leaves behind.
 //!
-//! | module | writes |
-//! |---|---|
-//! | [`vtu`], [`pvd`] | frames for ParaView and their time series |
-//! | [`history`] | `history.csv`: energies, balance, chambers and probes over time |
-//! | [`centre_line`] | `centre_line.csv`: the middle of every section over time |
-//! | [`checkpoint`] | where a stopped run goes on, to the bit |
-//! | [`picture`] | a PNG of the deformed mesh |
-//! | [`deck`] | the problem for another solver |
-//!
 //! Files that are replaced (frames, series, checkpoints) are written under another name and renamed, so that a reader, a
 //! full disk or a kill never meets half a file. Tables grow line by line and are cut back to the checkpoint on resume:
 //! an interrupted and resumed run leaves the same bytes as an uninterrupted one.
@@ -20,7 +11,16 @@ mod frame;
 pub(crate) mod history;
 pub(crate) mod picture;
 pub(crate) mod pvd;
-mod table;
+pub(crate) mod table;
 pub(crate) mod vtu;
 
 pub(crate) use frame::Frame;
+
+use crate::FemError;
+use std::io::{Error, Write};
+use std::path::Path;
+
+/// Writes `path` whole or not at all.
+pub(crate) fn replace(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> Result<(), Error>) -> Result<(), FemError> {
+    spelling::files::replace(path, write).map_err(FemError::io(path))
+}

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::frame::Frame;
 use super::vtu::write_vtu;
-use crate::atomic::replace;
+use crate::output::replace;
 use crate::{FemError, Mesh};
 
 /// A growing series of frames in one folder.

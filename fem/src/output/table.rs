@@ -5,11 +5,11 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::FemError;
-use crate::atomic::replace;
+use crate::output::replace;
 
 /// A growing table with a column `step`. Rows of one step are written in one go and handed to the system at once.
 #[derive(Debug)]
-pub(super) struct Table {
+pub(crate) struct Table {
     path: PathBuf,
     file: File,
     header: String,
@@ -19,27 +19,23 @@ pub(super) struct Table {
 impl Table {
     /// The table after the outputs at `times_s` \[s\], of so many rows each, which must be there: later rows, and a last line that a
     /// kill cut short, are dropped. Without any output it is empty, whatever was there.
-    pub(super) fn open(path: &Path, times_s: &[f64], rows_each: usize) -> Result<Table, FemError> {
+    pub(crate) fn open(path: &Path, times_s: &[f64], rows_each: usize) -> Result<Table, FemError> {
         let text = content(path)?;
         let (header, last_step, kept) = kept(path, &text, times_s, rows_each)?;
         if kept.len() < text.len() || !path.exists() {
             replace(path, &mut |out| out.write_all(kept.as_bytes()))?;
         }
-        Table::append_to(path, header.to_string(), last_step)
+        let file = OpenOptions::new().append(true).open(path).map_err(FemError::io(path))?;
+        Ok(Table { path: path.to_path_buf(), file, header: header.to_string(), last_step })
     }
 
     /// Refuses what [`Table::open`] refuses, and touches nothing.
-    pub(super) fn check(path: &Path, times_s: &[f64], rows_each: usize) -> Result<(), FemError> {
+    pub(crate) fn check(path: &Path, times_s: &[f64], rows_each: usize) -> Result<(), FemError> {
         kept(path, &content(path)?, times_s, rows_each).map(|_| ())
     }
 
-    fn append_to(path: &Path, header: String, last_step: Option<u64>) -> Result<Table, FemError> {
-        let file = OpenOptions::new().append(true).open(path).map_err(FemError::io(path))?;
-        Ok(Table { path: path.to_path_buf(), file, header, last_step })
-    }
-
     /// Adds the rows (each ending in a newline) of one step. A step that is in the table already is not written again.
-    pub(super) fn append(&mut self, step: u64, header: &str, rows: &str) -> Result<(), FemError> {
+    pub(crate) fn append(&mut self, step: u64, header: &str, rows: &str) -> Result<(), FemError> {
         if self.last_step == Some(step) || rows.is_empty() {
             return Ok(());
         }
@@ -65,35 +61,43 @@ impl Table {
     }
 
     /// Waits until the disk has all rows; to be called before a checkpoint is written.
-    pub(super) fn sync(&self) -> Result<(), FemError> {
+    pub(crate) fn sync(&self) -> Result<(), FemError> {
         self.file.sync_all().map_err(FemError::io(&self.path))
     }
 }
 
-/// Why a table cannot go on.
-enum Lost {
-    /// A line that is no row.
-    Foreign { line: usize },
-    /// A row that is not there.
-    Row { time_s: f64 },
-}
-
-/// Header, step of the last kept row and the kept text.
-fn cut<'t>(text: &'t str, times_s: &[f64], rows_each: usize) -> Result<(&'t str, Option<u64>, &'t str), Lost> {
+/// Header, last step and rows that an interrupted run goes on after.
+fn kept<'t>(
+    path: &Path,
+    text: &'t str,
+    times_s: &[f64],
+    rows_each: usize,
+) -> Result<(&'t str, Option<u64>, &'t str), FemError> {
+    let foreign = |line: usize| {
+        let message = "not a row as this program writes it, so it cannot go on in this file: move it away".into();
+        FemError::MeshFile { path: path.to_path_buf(), line, message }
+    };
+    let lost = |time_s: f64| {
+        FemError::Problem(format!(
+            "{} has lost the row of {time_s} s that the interrupted run wrote: put the file back as it was, or start again \
+             with --force",
+            path.display()
+        ))
+    };
     let mut lines = text.split_inclusive('\n').take_while(|line| line.ends_with('\n'));
     let Some(&first_s) = times_s.first() else { return Ok(("", None, "")) };
-    let header = lines.next().ok_or(Lost::Row { time_s: first_s })?;
+    let header = lines.next().ok_or_else(|| lost(first_s))?;
     let column = |wanted| header.trim_end().split(',').position(|name| name == wanted);
-    let (time, step) = column("time_s").zip(column("step")).ok_or(Lost::Foreign { line: 1 })?;
+    let (time, step) = column("time_s").zip(column("step")).ok_or_else(|| foreign(1))?;
     let (mut kept, mut last) = (header.len(), None);
     for index in 0..times_s.len() * rows_each {
         let time_s = times_s[index / rows_each];
-        let line = lines.next().ok_or(Lost::Row { time_s })?;
+        let line = lines.next().ok_or_else(|| lost(time_s))?;
         let cell = |column: usize| line.split(',').nth(column).map(str::trim_end);
-        let at: f64 = cell(time).and_then(|cell| cell.parse().ok()).ok_or(Lost::Foreign { line: index + 2 })?;
-        last = Some(cell(step).and_then(|cell| cell.parse().ok()).ok_or(Lost::Foreign { line: index + 2 })?);
+        let at: f64 = cell(time).and_then(|cell| cell.parse().ok()).ok_or_else(|| foreign(index + 2))?;
+        last = Some(cell(step).and_then(|cell| cell.parse().ok()).ok_or_else(|| foreign(index + 2))?);
         if at != time_s {
-            return Err(Lost::Row { time_s });
+            return Err(lost(time_s));
         }
         kept += line.len();
     }
@@ -101,12 +105,12 @@ fn cut<'t>(text: &'t str, times_s: &[f64], rows_each: usize) -> Result<(&'t str,
 }
 
 /// The shortest digits that give the same bits when read back.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     format!("{value:e}")
 }
 
 /// Refuses text that would break a cell.
-pub(super) fn check_label(label: &str, what: &str) -> Result<(), FemError> {
+pub(crate) fn check_label(label: &str, what: &str) -> Result<(), FemError> {
     if label.is_empty() || label.contains([',', ';', '"', '\t', '\n', '\r']) {
         return Err(FemError::Problem(format!(
             "{what} `{label}` cannot be a cell of a table: use letters, digits, - and _ only"
@@ -117,27 +121,6 @@ pub(super) fn check_label(label: &str, what: &str) -> Result<(), FemError> {
 
 fn content(path: &Path) -> Result<String, FemError> {
     if path.exists() { std::fs::read_to_string(path).map_err(FemError::io(path)) } else { Ok(String::new()) }
-}
-
-/// Header, last step and rows that an interrupted run goes on after.
-fn kept<'a>(
-    path: &Path,
-    text: &'a str,
-    times_s: &[f64],
-    rows_each: usize,
-) -> Result<(&'a str, Option<u64>, &'a str), FemError> {
-    cut(text, times_s, rows_each).map_err(|lost| match lost {
-            Lost::Foreign { line } => FemError::MeshFile {
-                path: path.to_path_buf(),
-                line,
-                message: "not a row as this program writes it, so it cannot go on in this file: move it away".into(),
-            },
-            Lost::Row { time_s } => FemError::Problem(format!(
-                "{} has lost the row of {time_s} s that the interrupted run wrote: put the file back as it was, or start again \
-                 with --force",
-                path.display()
-            )),
-        })
 }
 
 #[cfg(test)]

@@ -1,4 +1,5 @@
-//! One frame for ParaView: a VTK unstructured grid in XML, version 1.0, arrays appended raw and compressed by zlib.
+//! One frame for ParaView, VTK, PyVista and meshio: a VTK unstructured grid in XML, version 1.0, arrays compressed by zlib, in base64
+//! in their tags. meshio 5.3.5 reads neither raw appended arrays nor texts, so names are in the names of arrays.
 //!
 //! Points are where the nodes are \[mm\]: a series opens as the deformed robot, moving. `displacement_mm` is the way from the start
 //! in the same unit, so *Warp By Vector* with factor −1 gives the start.
@@ -13,9 +14,9 @@
 //! | `strain_1`, `strain_2` | element | principal Green–Lagrange strains |
 //! | `thickness_mm` | element | thickness now \[mm\] |
 //! | `wrinkle_state` | element | 0 taut, 1 wrinkled, 2 slack |
-//! | `part_id` | element | its part: place in `part_names`, from 0 |
-//! | `part_names` | frame | names of the parts |
-//! | `chamber_names`, `chamber_kPa`, `chamber_cm3` | frame | gauge pressure and volume; absent without chambers |
+//! | `part_id` | element | number of its part, from 0 |
+//! | `part_id NAME` | frame | number of the part of this name |
+//! | `chamber_kPa NAME`, `chamber_cm3 NAME` | frame | gauge pressure and volume of the chamber of this name |
 //! | `hold_kPa` | frame | actuator pressure of the hold that the moment leads to or lies in; robots only |
 //! | `TimeValue` | frame | time \[s\] |
 //!
@@ -28,9 +29,12 @@
 use std::io::{Error, Write};
 use std::path::Path;
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
 use super::frame::Frame;
-use crate::atomic::replace;
 use crate::mesh::Part;
+use crate::output::replace;
 use crate::{FemError, Mesh};
 
 const TRIANGLE: u8 = 5;
@@ -41,7 +45,6 @@ const LEVEL: u8 = 1;
 const BITS: u32 = 10;
 /// Bits of the largest coordinate that are kept after the leading one.
 const PLACE_BITS: i32 = 17;
-/// Length of a direction.
 const DIRECTION: f64 = 127.0;
 
 /// Writes one frame to `path`, whole or not at all.
@@ -51,11 +54,10 @@ pub(crate) fn write_vtu(path: &Path, mesh: &Mesh, frame: &Frame) -> Result<(), F
     replace(path, &mut |out| bytes.write(out))
 }
 
-/// A file on its way: tags, and the arrays that they name by their places.
+/// The tags of a file, with the arrays in them.
 #[derive(Default)]
 struct Grid {
     tags: String,
-    appended: Vec<u8>,
 }
 
 impl Grid {
@@ -78,25 +80,20 @@ impl Grid {
         writeln!(out, r#"<?xml version="1.0"?>"#)?;
         let head = r#"type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64""#;
         writeln!(out, "<VTKFile {head} compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>")?;
-        write!(out, "{}</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_", self.tags)?;
-        out.write_all(&self.appended)?;
-        writeln!(out, "\n</AppendedData>\n</VTKFile>")
+        writeln!(out, "{}</UnstructuredGrid>\n</VTKFile>", self.tags)
     }
 
     fn about(&mut self, mesh: &Mesh, frame: &Frame) {
-        let numbers = |values: &[f64]| values.iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<u8>>();
-        let chambers = &frame.chambers;
-        let kpa: Vec<f64> = chambers.iter().map(|c| c.pressure_pa * 1e-3).collect();
-        let cm3: Vec<f64> = chambers.iter().map(|c| c.volume_m3 * 1e6).collect();
-        self.field("Float64", "TimeValue", 1, &numbers(&[frame.time_s]));
-        self.names("part_names", mesh.parts.iter().map(|part| part.name.as_str()));
-        if !chambers.is_empty() {
-            self.names("chamber_names", chambers.iter().map(|chamber| chamber.name.as_str()));
-            self.field("Float64", "chamber_kPa", chambers.len(), &numbers(&kpa));
-            self.field("Float64", "chamber_cm3", chambers.len(), &numbers(&cm3));
+        self.field("TimeValue", frame.time_s);
+        for (id, part) in mesh.parts.iter().enumerate() {
+            self.field(&format!("part_id {}", part.name), id as f64);
+        }
+        for chamber in &frame.chambers {
+            self.field(&format!("chamber_kPa {}", chamber.name), chamber.pressure_pa * 1e-3);
+            self.field(&format!("chamber_cm3 {}", chamber.name), chamber.volume_m3 * 1e6);
         }
         if let Some(pa) = frame.hold_pa {
-            self.field("Float64", "hold_kPa", 1, &numbers(&[pa * 1e-3]));
+            self.field("hold_kPa", pa * 1e-3);
         }
     }
 
@@ -170,26 +167,18 @@ impl Grid {
         self.array(&format!("type=\"UInt8\" Name=\"{name}\""), &values.collect::<Vec<u8>>());
     }
 
-    /// Texts, each with a zero at its end.
-    fn names<'a>(&mut self, name: &str, values: impl ExactSizeIterator<Item = &'a str>) {
-        let count = values.len();
-        let bytes: Vec<u8> = values.flat_map(|text| text.bytes().chain([0])).collect();
-        self.field("String", name, count, &bytes);
+    fn field(&mut self, name: &str, value: f64) {
+        let name = name.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
+        self.array(&format!("type=\"Float64\" Name=\"{name}\" NumberOfTuples=\"1\""), &value.to_le_bytes());
     }
 
-    fn field(&mut self, kind: &str, name: &str, count: usize, bytes: &[u8]) {
-        self.array(&format!("type=\"{kind}\" Name=\"{name}\" NumberOfTuples=\"{count}\""), bytes);
-    }
-
-    /// One array: one block, before it the number of blocks, their size, that of a shorter last one (0: there is none), and the size
-    /// of each when compressed.
+    /// One array: the number of blocks, their size, the size of a shorter last one (0: there is none) and the size of each when
+    /// compressed, in base64; then the block, in base64.
     fn array(&mut self, head: &str, bytes: &[u8]) {
-        self.tags += &format!("<DataArray {head} format=\"appended\" offset=\"{}\"/>\n", self.appended.len());
         let packed = miniz_oxide::deflate::compress_to_vec_zlib(bytes, LEVEL);
-        for number in [1, bytes.len(), 0, packed.len()] {
-            self.appended.extend((number as u64).to_le_bytes());
-        }
-        self.appended.extend(packed);
+        let sizes = [1, bytes.len(), 0, packed.len()].map(|number| (number as u64).to_le_bytes());
+        let [sizes, packed] = [sizes.as_flattened(), &packed].map(|bytes| STANDARD.encode(bytes));
+        self.tags += &format!("<DataArray {head} format=\"binary\">{sizes}{packed}</DataArray>\n");
     }
 }
 

@@ -20,29 +20,22 @@ impl Problem {
             return refuse(format!("{} parts but {} sections", self.mesh.parts.len(), self.sections.len()));
         }
         for (section, part) in self.sections.iter().zip(&self.mesh.parts) {
+            let (bad, density) = (|what: &str| refuse(format!("part `{}`{what}", part.name)), section.density_kg_m3);
             if section.plies.is_empty() {
-                return refuse(format!("part `{}` has no ply", part.name));
+                return bad(" has no ply");
             }
-            if !(section.density_kg_m3 > 0.0 && section.density_kg_m3.is_finite()) {
-                return refuse(format!(
-                    "part `{}`: density must be positive, not {}",
-                    part.name, section.density_kg_m3
-                ));
+            if !(density > 0.0 && density.is_finite()) {
+                return bad(&format!(": density must be positive, not {density}"));
             }
             if !(section.bending_factor >= 0.0 && section.bending_factor.is_finite()) {
-                return refuse(format!("part `{}`: bending_factor must be 0 or more", part.name));
+                return bad(": bending_factor must be 0 or more");
             }
-            if let Some(ply) =
-                section.plies.iter().find(|p| p.fabric.thickness_m() <= 0.0 || !p.fabric.thickness_m().is_finite())
-            {
-                return refuse(format!(
-                    "part `{}`: thickness must be positive, not {}",
-                    part.name,
-                    ply.fabric.thickness_m()
-                ));
+            let mut thick = section.plies.iter().map(|ply| ply.fabric.thickness_m());
+            if let Some(thickness) = thick.find(|t| *t <= 0.0 || !t.is_finite()) {
+                return bad(&format!(": thickness must be positive, not {thickness}"));
             }
             if section.plies.iter().any(|ply| !stiff(&*ply.fabric)) {
-                return refuse(format!("part `{}`: some stiffness of its fabric is not positive", part.name));
+                return bad(": some stiffness of its fabric is not positive");
             }
         }
         let chambers: Vec<&str> = self.chambers.iter().map(|c| c.name.as_str()).collect();
@@ -69,12 +62,13 @@ fn stiff(fabric: &dyn models::Fabric) -> bool {
 
 impl Settings {
     fn check(&self) -> Result<(), FemError> {
+        let refuse = |message: String| Err(FemError::Problem(format!("settings: {message}")));
         let positive = [("end_s", self.end_s), ("cfl", self.cfl), ("output_every_s", self.output_every_s)];
         if let Some((name, value)) = positive.iter().find(|(_, v)| !(*v > 0.0 && v.is_finite())) {
-            return Err(FemError::Problem(format!("settings: {name} must be positive, not {value}")));
+            return refuse(format!("{name} must be positive, not {value}"));
         }
         if let Some(dt) = self.dt_s.filter(|dt| !(*dt > 0.0 && dt.is_finite())) {
-            return Err(FemError::Problem(format!("settings: the time step must be positive, not {dt}; leave it out")));
+            return refuse(format!("the time step must be positive, not {dt}; leave it out"));
         }
         let not_negative = [
             ("mass_damping_1_s", self.mass_damping_1_s),
@@ -83,14 +77,14 @@ impl Settings {
             ("imperfection", self.imperfection),
         ];
         if let Some((name, value)) = not_negative.iter().find(|(_, v)| !(*v >= 0.0 && v.is_finite())) {
-            return Err(FemError::Problem(format!("settings: {name} must be 0 or more, not {value}")));
+            return refuse(format!("{name} must be 0 or more, not {value}"));
         }
         let passes = self.mass_passes;
         if ![2, 4, 6].contains(&passes) {
-            return Err(FemError::Problem(format!("settings: mass_passes must be 2, 4 or 6, not {passes}")));
+            return refuse(format!("mass_passes must be 2, 4 or 6, not {passes}"));
         }
         if self.cfl > 1.0 {
-            return Err(FemError::Problem(format!("settings: cfl {} is over 1, the limit of stability", self.cfl)));
+            return refuse(format!("cfl {} is over 1, the limit of stability", self.cfl));
         }
         Ok(())
     }

@@ -5,7 +5,6 @@ use crate::FemError;
 use crate::policy;
 use crate::vec3::{V3, along, cross, dot, scale, sub, unit};
 
-/// Its surface.
 #[derive(Debug, Clone)]
 pub(crate) struct Solid {
     pub point: V3,

@@ -69,6 +69,12 @@ pub const ASSUMED: &[Assumed] = &[
 ];
 
 /// Shares 0 to 1 of the interval of each of `numbers` numbers for `robots` robots; the same seed gives the same hypercube everywhere.
+///
+/// ```
+/// let mut first: Vec<f64> = fem::robot::hypercube(4, 2, 7).iter().map(|robot| robot[0]).collect();
+/// first.sort_by(f64::total_cmp);
+/// assert!((0..4).all(|k| (first[k] * 4.0) as usize == k), "one robot in every quarter");
+/// ```
 pub fn hypercube(robots: usize, numbers: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut draws = Draws(seed);
     latin(robots, numbers, || draws.next()).chunks(numbers.max(1)).map(<[f64]>::to_vec).collect()

@@ -2,7 +2,7 @@
 
 use super::RobotSettings;
 use crate::FemError;
-use crate::case::key::{Key, key};
+use crate::case::range::{Key, key};
 
 /// All numbers of the table.
 #[rustfmt::skip]

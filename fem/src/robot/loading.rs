@@ -16,7 +16,7 @@ use crate::{FemError, Problem};
 const SHORTEST: f64 = 1.0 / 6.0;
 
 /// Everything about a robot's run: its numbers and its loads.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct RobotRun {
     /// Where the settings come from that no key of `[fem]` sets.
     pub model: Preset,

@@ -4,13 +4,12 @@
 //! `pressures_kpa = [30, 30]` with `tip_force_n = [[0, 0, 0], [0, -0.5, 0]]`, loads the robot at pressure. All steps are of fifth
 //! order ([`Amplitude::Smooth`]).
 
-use toml::{Spanned, Value};
-
 use super::load::Load;
 use super::loading::RobotRun;
 use crate::case::range::{Checked, Free, POSITION, Range, find, number, plain, plain_number, refuse};
 use crate::problem::{Amplitude, Gravity, NodalForce};
 use crate::{FemError, Problem};
+use toml::{Spanned, Value};
 
 pub(super) fn numbers(name: &str, value: &Spanned<Value>, range: &Range) -> Checked<Vec<f64>> {
     let Some(list) = value.get_ref().as_array() else {
@@ -28,6 +27,8 @@ pub(super) fn triple(name: &str, value: &Spanned<Value>, range: &Range) -> Check
 
 /// Keys of lists with an entry for every pressure.
 const LISTS: [&str; 3] = ["tip_force_n", "gravity_m_s2", "obstacle_moves_mm"];
+/// How `pressures_kpa` is written.
+pub(super) const PRESSURES: &str = "write for example [10, 20, 30], or with channels [[20, 10], [30, 15]]";
 const FORCE: Range = plain(-1e4, 1e4, "write newtons: [x, y, z], or [[x, y, z], …] with one for every pressure");
 const ACCELERATION: Range =
     plain(-1e3, 1e3, "write m/s²: [0, -9.81, 0], or [[0, 0, 0], …] with one for every pressure");
@@ -67,11 +68,8 @@ pub(super) fn check(run: &RobotRun, table: &Free) -> Checked<()> {
         }
         if run.separate {
             let help = "write separate = false, or one load for all";
-            return refuse(
-                format!("{name} changes within a run, and every pressure is a run of its own"),
-                help,
-                span(name),
-            );
+            let message = format!("{name} changes within a run, and every pressure is a run of its own");
+            return refuse(message, help, span(name));
         }
     }
     let steps = 1..run.pressures_pa.len();
@@ -79,17 +77,11 @@ pub(super) fn check(run: &RobotRun, table: &Free) -> Checked<()> {
         run.pressures_pa[i - 1] == run.pressures_pa[*i]
             && lists.iter().all(|list| list.is_empty() || list[i - 1] == list[*i])
     };
-    match steps.into_iter().find(idle) {
-        Some(_) => {
-            let help = "write for example [10, 20, 30], or with channels [[20, 10], [30, 15]]";
-            refuse(
-                "pressures_kpa needs pressures that differ one by one, or loads that do",
-                help,
-                span("pressures_kpa"),
-            )
-        }
-        None => Ok(()),
+    if !steps.into_iter().any(|i| idle(&i)) {
+        return Ok(());
     }
+    let message = "pressures_kpa needs pressures that differ one by one, or loads that do";
+    refuse(message, PRESSURES, span("pressures_kpa"))
 }
 
 impl RobotRun {

@@ -28,7 +28,6 @@ mod lines;
 mod load;
 mod loading;
 mod loads;
-mod model;
 mod plies;
 mod reading;
 mod rest;
@@ -44,13 +43,12 @@ pub use inflated::InflatedPouch;
 pub use keys::{KEYS, NUMERICAL, OTHERS};
 pub use load::{Load, RobotStart};
 pub use loading::{HoldEnd, RobotRun};
-pub use model::Preset;
 pub use reading::Reading;
 pub(crate) use reading::RobotGauge;
 pub use rest::Rest;
 pub(crate) use rest::Settling;
 pub use seams::{SeamForce, Seams};
-pub use settings::RobotSettings;
+pub use settings::{Preset, RobotSettings};
 pub(crate) use snaps::Watch;
 pub use snaps::{Sample, Snap, snaps};
 pub use table::with_fem;
@@ -215,7 +213,6 @@ fn rows(lines: &Lines, pattern: &Pattern, settings: &RobotSettings) -> Result<()
     )))
 }
 
-/// Body first, then every strip.
 fn chambers(scenario: &Scenario, settings: &RobotSettings) -> Vec<Chamber> {
     let filled = settings.body_ramp_s;
     let full = filled + settings.actuator_ramp_s;

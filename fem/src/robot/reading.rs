@@ -265,9 +265,7 @@ impl RobotGauge {
         let (cross, dot) = (before[0] * now[1] - before[1] * now[0], before[0] * now[0] + before[1] * now[1]);
         cross.atan2(dot)
     }
-}
 
-impl RobotGauge {
     /// Normal of the tip's ring, x at the start: that of its moments Σ (y₀ − ȳ₀) x and Σ (z₀ − z̄₀) x.
     fn normal(&self, positions: &[[f64; 3]]) -> [f64; 3] {
         let starts = || self.tip.iter().map(|node| self.mesh.start_of(*node as usize));

@@ -27,7 +27,6 @@ pub(super) const WINDOW: f64 = 0.64;
 /// Windows at whose ends the tip is where it is now.
 const STILL: usize = 4;
 
-/// The tip during a hold.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Settling {
     /// Waited time of the run at its beginning \[s\].

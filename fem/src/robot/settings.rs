@@ -20,10 +20,9 @@ const TIE_M: f64 = 1e-6;
 
 /// Mesh, fabrication and loading of a robot: the numbers of [`super::KEYS`] in SI, and the words and lists.
 #[derive(Debug, Clone, PartialEq)]
+#[allow(missing_docs, reason = "`KEYS` says what the other numbers are, and `ASSUMED` which of them nobody measured")]
 pub struct RobotSettings {
-    /// Element size of the body \[m\].
     pub body_size_m: f64,
-    /// Element size of the strip under the actuator and of the actuator \[m\].
     pub actuator_size_m: f64,
     /// Distance of the rings at the actuator over `actuator_size_m`; `None`: 1, and 0.8 under a taped sheet.
     pub ring_spacing: Option<f64>,
@@ -32,7 +31,6 @@ pub struct RobotSettings {
     pub seam_row_m: Option<f64>,
     /// Distance between layers at the start \[m\]. Published: 0.01 mm.
     pub layer_gap_m: f64,
-    /// Coefficient of Coulomb friction between layers that touch, where the robot has contact at all. Assumed.
     pub layer_friction: f64,
     /// Width of the welds across the robot and along the actuator's sides \[m\]; 0 is a line, along which taped plies fold
     /// without end as the mesh gets finer. Assumed.
@@ -47,17 +45,12 @@ pub struct RobotSettings {
     pub wrinkle_length: Option<f64>,
     /// How far taped and glued plies bend as one: 1 without slip, 0 as loose sheets. Assumed.
     pub bond: f64,
-    /// Thickness of the transfer tape \[m\]. Assumed.
     pub tape_m: f64,
-    /// Young's modulus of the tape's adhesive \[Pa\]. Assumed.
     pub tape_e_pa: f64,
-    /// Width of the taped sheet beyond the welds along its sides \[m\]. Assumed.
     pub tape_margin_m: f64,
     /// Whether tape holds separate pouches at their seams only, and not over their whole face. The paper prints neither.
     pub taped_at_seams: bool,
-    /// Thickness of the glue film \[m\]. Assumed.
     pub glue_m: f64,
-    /// Young's modulus of the glue (silicone) \[Pa\]. Assumed.
     pub glue_e_pa: f64,
     /// Contraction along fill per stretch along warp of an anisotropic fabric; `None` keeps the material's own.
     /// Assumed.
@@ -72,18 +65,14 @@ pub struct RobotSettings {
     pub body_sheet_e_pa: Option<f64>,
     /// Force per length that a weld carries \[N/m\], from a peel or tensile test of a seam; `None`: not known. Changes no run.
     pub weld_strength_n_per_m: Option<f64>,
-    /// Mass per volume of all fabrics, tape and glue \[kg/m³\]. Assumed.
     pub density_kg_m3: f64,
     /// Actuator gauge pressure at the end \[Pa\].
     pub actuator_pa: f64,
-    /// Duration of the body's ramp, which comes first \[s\].
     pub body_ramp_s: f64,
-    /// Duration of the actuator's ramp \[s\].
     pub actuator_ramp_s: f64,
     /// The actuator's pressure grows by equal shares of itself plus this in equal times \[Pa\]: a robot bends most, and its
     /// folds open, while this is about the body's pressure. `None`: a fifth-order step of the pressure itself.
     pub ramp_floor_pa: Option<f64>,
-    /// Time at full pressure before the robot is watched \[s\].
     pub hold_s: f64,
     /// Longest time that a hold then waits until the tip is at rest \[s\]; `None`: six times the actuator's ramp.
     pub rest_s: Option<f64>,
@@ -97,13 +86,11 @@ pub struct RobotSettings {
     pub mass_passes: Option<usize>,
     /// Movement of the tip that a hold does not wait for, as a share of its displacement (`fem/src/robot/rest.rs`).
     pub creep: f64,
-    /// Share of the stable step that is used.
     pub cfl: f64,
     /// In-plane viscosity ([`crate::problem::Settings::viscosity`]).
     pub viscosity: f64,
     /// Mass damping \[1/s\]; `None`: 1.4 ω, the estimate of the tip's lowest frequency (`fem/src/robot/rest.rs`).
     pub mass_damping_1_s: Option<f64>,
-    /// Hourglass coefficient.
     pub hourglass: f64,
     /// Share of the stored energy that hourglass control may hold at the end ([`crate::problem::Guards::hourglass`]).
     pub guard_hourglass: f64,
@@ -251,5 +238,33 @@ impl RobotSettings {
 impl Default for RobotSettings {
     fn default() -> RobotSettings {
         RobotSettings::compressed()
+    }
+}
+
+/// Where the settings come from that `[fem]` does not name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Preset {
+    /// [`RobotSettings::compressed`]: the recommended set.
+    #[default]
+    Recommended,
+    /// [`RobotSettings::paper`]: the modelling choices of du Pasquier et al. 2023.
+    Paper,
+}
+
+impl Preset {
+    /// All of them, as in the file.
+    pub(crate) const ALL: [(&str, Preset); 2] = [("recommended", Preset::Recommended), ("paper", Preset::Paper)];
+
+    /// As in the file.
+    pub fn name(self) -> &'static str {
+        Preset::ALL[self as usize].0
+    }
+
+    /// What it sets.
+    pub fn settings(self) -> RobotSettings {
+        match self {
+            Preset::Recommended => RobotSettings::compressed(),
+            Preset::Paper => RobotSettings::paper(),
+        }
     }
 }

@@ -9,7 +9,6 @@ use crate::FemError;
 use crate::mesh::generate::{Around, Cap, Tube, tube};
 use crate::mesh::{Mesh, Part};
 
-/// Names of the chambers.
 pub(super) const BODY: &str = "body";
 pub(super) const ACTUATOR: &str = "actuator";
 /// The ring at the base, open there and held.
@@ -235,7 +234,6 @@ impl Sewer<'_> {
 enum Place {
     Beside,
     Under,
-    /// With the number of layers.
     Weld(usize),
     /// Stuck to the bottom sheet beyond its welds.
     Margin,

@@ -48,17 +48,14 @@ pub struct Snap {
     pub kinetic_j: f64,
 }
 
-/// Samples a run.
 #[derive(Debug, Clone)]
 pub(crate) struct Watch {
-    /// Stretch of every node.
     stretch: Vec<u32>,
     x_m: Vec<f64>,
-    samples: Vec<Sample>,
+    pub samples: Vec<Sample>,
 }
 
 impl Watch {
-    /// For a mesh along x.
     pub(crate) fn new(mesh: &Mesh) -> Watch {
         let x_m: Vec<f64> = (0..mesh.points.len()).map(|node| mesh.start_of(node)[0]).collect();
         let low = x_m.iter().copied().fold(f64::INFINITY, f64::min);
@@ -69,8 +66,7 @@ impl Watch {
     /// Takes a sample; to be called in step with the run.
     pub(crate) fn sample(&mut self, run: &Simulation) {
         let ledger = run.ledger();
-        let stored_j =
-            ledger.rows.iter().filter(|r| r.kind == models::RowKind::Stored).map(|r| r.energy_j).sum::<f64>();
+        let stored_j = ledger.stored_j(|_| true);
         let squares = self.against_stretch(&run.velocities());
         let all: f64 = squares.iter().map(|s| s[1]).sum();
         let own: f64 = squares.iter().map(|s| s[0]).sum();
@@ -78,15 +74,6 @@ impl Watch {
         let place_m = if walls_j > QUIET * stored_j { self.place(&squares) } else { f64::NAN };
         let (time_s, kinetic_j) = (run.time_s(), ledger.kinetic_j);
         self.samples.push(Sample { time_s, kinetic_j, walls_j, stored_j, place_m });
-    }
-
-    /// All samples so far.
-    pub(crate) fn samples(&self) -> &[Sample] {
-        &self.samples
-    }
-
-    pub(crate) fn restore(&mut self, samples: Vec<Sample>) {
-        self.samples = samples;
     }
 
     /// |v − v̄|² and |v|² of every node.

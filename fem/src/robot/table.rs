@@ -16,14 +16,14 @@ use serde::Deserialize;
 use toml::{Spanned, Value};
 
 use super::keys::{KEYS, OTHERS};
-use super::load::Load;
 use super::loading::highest_pa;
-use super::loads::{self, numbers, triple};
+use super::loads::{self, PRESSURES, numbers, triple};
 use super::{Preset, RobotRun, RobotSettings};
 use crate::FemError;
-use crate::case::key::named;
+use crate::case::range::named;
 use crate::case::range::{
-    Checked, Free, LENGTH, POSITION, PRESSURE, Range, find, number, plain, plain_number, refuse, switch, unknown_name,
+    Checked, Free, LENGTH, POSITION, PRESSURE, Range, choice, find, number, plain, plain_number, refuse, switch, text,
+    unknown_name,
 };
 use crate::problem::{Obstacle, ObstacleShape};
 
@@ -49,19 +49,14 @@ impl RobotRun {
             .map_err(|error| FemError::Case { message: format!("{}\n", error.message()), span: error.span() })?;
         let empty = Free::new();
         let table = file.fem.as_ref().map_or(&empty, |table| table.get_ref());
-        let model = model(table)?;
+        let model = find(table, "model").map_or(Ok(Preset::default()), |value| word("model", value, &Preset::ALL))?;
         let mut run = RobotRun {
             model,
             set: table.keys().map(|key| key.get_ref().clone()).filter(|key| key != "model").collect(),
             settings: model.settings(),
-            separate: model.separate(),
+            separate: model == Preset::Paper,
             pressures_pa: usual_pressures(scenario),
-            tip_force_n: Load::default(),
-            gravity_m_s2: Load::default(),
-            obstacle: None,
-            obstacle_moves_m: Vec::new(),
-            start: None,
-            meshes_m: Vec::new(),
+            ..RobotRun::default()
         };
         // What others override or need comes first, whatever their order.
         let first = |name: &str| name == "mesh_mm" || name == "obstacle_mm";
@@ -83,13 +78,6 @@ fn usual_pressures(scenario: &Scenario) -> Vec<[f64; CHANNELS]> {
     usual.into_iter().map(|pa| [pa; CHANNELS]).collect()
 }
 
-fn model(table: &Free) -> Checked<Preset> {
-    let Some(value) = find(table, "model") else { return Ok(Preset::default()) };
-    let known = || format!("known: {}", Preset::ALL.map(Preset::name).join(", "));
-    let unknown = || refuse(format!("unknown model {}", value.get_ref()), known(), value.span());
-    value.get_ref().as_str().and_then(Preset::named).map_or_else(unknown, Ok)
-}
-
 fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Checked<()> {
     let name = key.get_ref().as_str();
     if let Some(known) = named(KEYS, name) {
@@ -98,11 +86,11 @@ fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Ch
     match name {
         "model" => {}
         "separate" => run.separate = switch(name, value, "as the model has it")?,
-        "base" => run.settings.encastre = encastre(value)?,
+        "base" => run.settings.encastre = word(name, value, &[("pinned", false), ("encastre", true)])?,
         "pressures_kpa" => run.pressures_pa = pressures(value)?,
         "meshes_mm" => run.meshes_m = meshes(value)?,
         "contact" => run.settings.contact = Some(switch(name, value, "where the pattern folds")?),
-        "taped" => run.settings.taped_at_seams = at_seams(value)?,
+        "taped" => run.settings.taped_at_seams = word(name, value, &[("face", false), ("seams", true)])?,
         "selective_mass" => run.settings.selective_mass = switch(name, value, "short waves are heavy then")?,
         "tip_force_n" | "gravity_m_s2" => loads::read(run, name, value)?,
         "obstacle_mm" => {
@@ -111,18 +99,14 @@ fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Ch
             let shape = ObstacleShape::Cylinder { point: [x, y, 0.0], axis: [0.0, 0.0, 1.0], radius_m: radius };
             run.obstacle = Some(Obstacle { shape, friction: 0.0, motion: None });
         }
-        "obstacle_moves_mm" if run.obstacle.is_some() => loads::read(run, name, value)?,
-        "obstacle_moves_mm" => {
-            return refuse("there is no obstacle to move", "add obstacle_mm = [x, y, radius]", key.span());
+        "obstacle_moves_mm" | "obstacle_friction" if run.obstacle.is_none() => {
+            let message = format!("{name} without an obstacle");
+            return refuse(message, "add obstacle_mm = [x, y, radius]", key.span());
         }
+        "obstacle_moves_mm" => loads::read(run, name, value)?,
         "obstacle_friction" => {
             let friction = number(name, plain_number(name, value)?, value.span(), &plain(0.0, 2.0, "Coulomb"))?;
-            match &mut run.obstacle {
-                Some(obstacle) => obstacle.friction = friction,
-                None => {
-                    return refuse("there is no obstacle to rub on", "add obstacle_mm = [x, y, radius]", key.span());
-                }
-            }
+            run.obstacle.iter_mut().for_each(|obstacle| obstacle.friction = friction);
         }
         _ => {
             let known: Vec<&str> = OTHERS.into_iter().chain(KEYS.iter().map(|k| k.name)).collect();
@@ -132,41 +116,28 @@ fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Ch
     Ok(())
 }
 
-fn encastre(value: &Spanned<Value>) -> Checked<bool> {
-    match value.get_ref().as_str() {
-        Some("pinned") => Ok(false),
-        Some("encastre") => Ok(true),
-        _ => refuse(format!("base cannot be {}", value.get_ref()), "write \"pinned\" or \"encastre\"", value.span()),
-    }
-}
-
-fn at_seams(value: &Spanned<Value>) -> Checked<bool> {
-    match value.get_ref().as_str() {
-        Some("seams") => Ok(true),
-        Some("face") => Ok(false),
-        _ => refuse(format!("unknown place of the tape {}", value.get_ref()), "known: face, seams", value.span()),
-    }
+fn word<T: Copy>(name: &str, value: &Spanned<Value>, known: &[(&str, T)]) -> Checked<T> {
+    choice(name, &text(name, value)?, known)
 }
 
 /// Each a number for all channels, or a list with one for each.
 fn pressures(value: &Spanned<Value>) -> Checked<Vec<[f64; CHANNELS]>> {
-    const HOW: &str = "write for example [10, 20, 30], or with channels [[20, 10], [30, 15]]";
     let Some(list) = value.get_ref().as_array() else {
-        return refuse("pressures_kpa must be a list", HOW, value.span());
+        return refuse("pressures_kpa must be a list", PRESSURES, value.span());
     };
     let one = |entry: &Value| {
         let channels = entry.as_array().cloned().unwrap_or_else(|| vec![entry.clone(); CHANNELS]);
         let mut found = numbers("pressures_kpa", &Spanned::new(value.span(), Value::Array(channels)), &PRESSURE)?;
         if found.is_empty() || found.len() > CHANNELS {
             let message = format!("pressures_kpa has {} channels; there are 1 to {CHANNELS}", found.len());
-            return refuse(message, HOW, value.span());
+            return refuse(message, PRESSURES, value.span());
         }
         found.resize(CHANNELS, 0.0);
         Ok(std::array::from_fn(|channel| found[channel]))
     };
     let found: Vec<[f64; CHANNELS]> = list.iter().map(one).collect::<Checked<_>>()?;
     if found.is_empty() {
-        return refuse("pressures_kpa names no pressure", HOW, value.span());
+        return refuse("pressures_kpa names no pressure", PRESSURES, value.span());
     }
     Ok(found)
 }

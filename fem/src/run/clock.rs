@@ -1,9 +1,10 @@
 //! Time and energies of a run that only stepping can add up.
 
+use crate::Mesh;
 use serde::{Deserialize, Serialize};
 
 /// Where a run stands in time \[s\].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Clock {
     pub step: u64,
     /// Time of loads and supports; it stops while the run waits.
@@ -21,7 +22,6 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    /// The clock that runs.
     pub(crate) fn runs_s(&self) -> f64 {
         if self.waits { self.waited_s } else { self.time_s }
     }
@@ -51,5 +51,33 @@ impl Halves {
     pub(super) fn add(&mut self, whole: f64) {
         self.sum += 0.5 * (self.last + whole);
         self.last = whole;
+    }
+}
+
+/// Largest stable step \[s\] from the nodes' stiffness bounds \[N/m\] and masses \[kg\].
+pub(super) fn stable_step(bound: &[f64], mass: &[f64], viscosity: f64) -> f64 {
+    let square = bound.iter().zip(mass).filter(|(_, m)| **m > 0.0).map(|(k, m)| k / m).fold(0.0, f64::max);
+    2.0 / square.sqrt() * damped(viscosity)
+}
+
+/// What viscosity leaves of the stable step.
+pub(super) fn damped(viscosity: f64) -> f64 {
+    (1.0 + viscosity * viscosity).sqrt() - viscosity
+}
+
+/// Tied nodes hand their mass to the nodes they follow.
+pub(super) fn give_tied_masses(mesh: &Mesh, mass: &mut [f64]) {
+    for tie in &mesh.ties {
+        let own = std::mem::take(&mut mass[tie.node as usize]);
+        tie.to.iter().for_each(|(node, weight)| mass[*node as usize] += weight * own);
+    }
+}
+
+/// Tied nodes hand their stiffness to the nodes they follow: |Σ w u|² ≤ Σ|w| Σ |w| u².
+pub(super) fn give_tied_bounds(mesh: &Mesh, bound: &mut [f64]) {
+    for tie in &mesh.ties {
+        let own = std::mem::take(&mut bound[tie.node as usize]);
+        let sum: f64 = tie.to.iter().map(|(_, weight)| weight.abs()).sum();
+        tie.to.iter().for_each(|(node, weight)| bound[*node as usize] += sum * weight.abs() * own);
     }
 }

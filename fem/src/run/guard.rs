@@ -3,7 +3,7 @@
 use models::fabrics::Kind;
 use models::{Account, Pose};
 
-use super::stable::{give_tied_bounds, stable_step};
+use super::clock::{give_tied_bounds, stable_step};
 use super::{Ledger, Simulation, highest};
 use crate::policy;
 use crate::problem::Guards;
@@ -22,44 +22,6 @@ const WHOLE: u64 = 8192;
 pub(crate) const LESS_HOURGLASS: &str = "for a sheet that pleats, law = \"tension-field\" with the same moduli and a hundredth of \
     hourglass; else smaller elements or a tenth of hourglass";
 
-/// What a run shows of why it went wrong.
-struct Evidence {
-    extent_m: f64,
-    forced_dt_s: Option<f64>,
-    added_mass: f64,
-    contact_share: f64,
-}
-
-impl Evidence {
-    /// The likely cause, and what to do about it: the first that there is evidence of.
-    fn cause(&self) -> String {
-        let percent = |share: f64| 100.0 * share;
-        if policy::is_huge(self.extent_m) {
-            return format!(
-                "The mesh is {:.0} m long: if that is millimetres, write the mesh in metres",
-                self.extent_m
-            );
-        }
-        if let Some(dt_s) = self.forced_dt_s {
-            return format!("The step is forced to {dt_s:e} s: leave dt_s out, then it adapts");
-        }
-        if policy::is_pressed(self.contact_share) {
-            let share = percent(self.contact_share);
-            return format!(
-                "Contact holds {share:.0} % of the stored energy: layers start too deep in each other, or press harder than \
-                their elements can carry; start them farther apart (gap_mm), or make the elements smaller"
-            );
-        }
-        if policy::is_heavy(self.added_mass) {
-            let share = percent(self.added_mass);
-            return format!(
-                "{share:.0} % of mass were added for a longer step: ask for a shorter one, or load more slowly"
-            );
-        }
-        "Look for a load in the wrong unit, for elements that are too coarse for what they do, or shorten the step (cfl)".into()
-    }
-}
-
 impl Simulation {
     pub(super) fn guard(&mut self) -> Result<(), FemError> {
         let books = self.books;
@@ -75,7 +37,7 @@ impl Simulation {
         }
         let ledger = self.ledger();
         self.books.scale = ledger.scale_j;
-        let guards = &self.limits.guards;
+        let guards = &self.settings.guards;
         if misses_balance(guards, ledger.residual_share()) {
             return Err(self.stopped(format!(
                 "the energy balance misses {:.3e} J, {:.1} % of the external work of {:.3e} J (limit {} %). {}",
@@ -83,7 +45,7 @@ impl Simulation {
                 100.0 * ledger.residual_share(),
                 ledger.scale_j,
                 100.0 * guards.residual,
-                self.evidence(&ledger).cause()
+                self.cause(&ledger)
             )));
         }
         self.guard_speed()
@@ -94,8 +56,8 @@ impl Simulation {
     /// # Errors
     /// [`FemError::Stopped`] with the share, the limit and what to type.
     pub fn judge_end(&self) -> Result<(), FemError> {
-        let (share, limit) = (self.ledger().hourglass_share(), self.limits.guards.hourglass);
-        if !is_its_own(&self.limits.guards, share) {
+        let (share, limit) = (self.ledger().hourglass_share(), self.settings.guards.hourglass);
+        if !is_its_own(&self.settings.guards, share) {
             return Ok(());
         }
         Err(self.stopped(format!(
@@ -112,24 +74,19 @@ impl Simulation {
         let fastest =
             (0..self.v.len()).fold(0, |best, i| if square(&self.v[i]) > square(&self.v[best]) { i } else { best });
         let speed = self.v.get(fastest).map_or(0.0, |v| square(v).sqrt());
-        if speed <= self.limits.speed_m_s {
+        if speed <= self.fastest_m_s {
             return Ok(());
         }
         Err(self.stopped(format!(
             "node {} moves at {speed:.0} m/s; sound in the fabric travels at {:.0} m/s. {}",
             self.order.old[fastest] + 1,
-            self.limits.speed_m_s,
-            self.evidence(&self.ledger()).cause()
+            self.fastest_m_s,
+            self.cause(&self.ledger())
         )))
     }
 
-    fn evidence(&self, ledger: &Ledger) -> Evidence {
-        Evidence {
-            extent_m: extent_m(&self.mesh),
-            forced_dt_s: self.limits.forced_dt_s,
-            added_mass: self.limits.added_mass,
-            contact_share: ledger.share_of(Account::Contact),
-        }
+    fn cause(&self, ledger: &Ledger) -> String {
+        cause(extent_m(&self.mesh), self.settings.dt_s, self.added_mass, ledger.share_of(Account::Contact))
     }
 
     fn not_a_number(&self) -> String {
@@ -140,7 +97,7 @@ impl Simulation {
 
     /// Estimates the stable step anew; looks for collapsed or inverted elements.
     pub(super) fn recheck(&mut self) -> Result<(), FemError> {
-        if self.limits.guards.inverted {
+        if self.settings.guards.inverted {
             self.guard_elements()?;
         }
         let pose = Pose::nodes(self.x.as_flattened());
@@ -152,7 +109,7 @@ impl Simulation {
         let mut bound = others.clone();
         self.sheet.stiffness_bound(&pose, &mut bound);
         give_tied_bounds(&self.mesh, &mut bound);
-        let nodes = stable_step(&bound, &self.mass, self.limits.viscosity);
+        let nodes = stable_step(&bound, &self.mass, self.settings.viscosity);
         if self.clock.step.is_multiple_of(WHOLE) {
             self.clock.gain = highest::gain(
                 &self.sheet,
@@ -165,8 +122,8 @@ impl Simulation {
             );
         }
         let stable = self.clock.gain * nodes;
-        match self.limits.forced_dt_s {
-            None => self.clock.dt_s = (self.limits.cfl * stable).min(self.clock.longest_s),
+        match self.settings.dt_s {
+            None => self.clock.dt_s = (self.settings.cfl * stable).min(self.clock.longest_s),
             Some(dt) if dt <= stable => {}
             Some(dt) => {
                 return Err(self.stopped(format!(
@@ -222,13 +179,34 @@ impl Simulation {
     }
 }
 
+/// The likely cause of a stop, and what to do about it: the first that there is evidence of.
+fn cause(extent_m: f64, forced_dt_s: Option<f64>, added_mass: f64, contact: f64) -> String {
+    if policy::is_huge(extent_m) {
+        return format!("The mesh is {extent_m:.0} m long: if that is millimetres, write the mesh in metres");
+    }
+    if let Some(dt_s) = forced_dt_s {
+        return format!("The step is forced to {dt_s:e} s: leave dt_s out, then it adapts");
+    }
+    if policy::is_pressed(contact) {
+        return format!(
+            "Contact holds {:.0} % of the stored energy: layers start too deep in each other, or press harder than \
+            their elements can carry; start them farther apart (gap_mm), or make the elements smaller",
+            100.0 * contact
+        );
+    }
+    if policy::is_heavy(added_mass) {
+        return format!(
+            "{:.0} % of mass were added for a longer step: ask for a shorter one, or load more slowly",
+            100.0 * added_mass
+        );
+    }
+    "Look for a load in the wrong unit, for elements that are too coarse for what they do, or shorten the step (cfl)"
+        .into()
+}
+
 /// Longest side of the box round the free shape \[m\].
 fn extent_m(mesh: &Mesh) -> f64 {
-    let along = |k: usize| {
-        let each = || mesh.points.iter().map(|p| p[k]);
-        each().fold(f64::NEG_INFINITY, f64::max) - each().fold(f64::INFINITY, f64::min)
-    };
-    (0..3).map(along).fold(0.0, f64::max)
+    crate::vec3::extent(mesh.points.iter().copied()).into_iter().fold(0.0, f64::max)
 }
 
 /// What the residual is judged against at least \[J\], before the loads have done work:
@@ -322,15 +300,14 @@ mod tests {
 
     #[test]
     fn a_stop_names_what_the_run_shows_and_not_always_the_step() {
-        let plain = || Evidence { extent_m: 0.4, forced_dt_s: None, added_mass: 0.3, contact_share: 0.01 };
-        for (evidence, words) in [
-            (plain(), "load in the wrong unit"),
-            (Evidence { extent_m: 360.0, ..plain() }, "The mesh is 360 m long"),
-            (Evidence { forced_dt_s: Some(1e-5), ..plain() }, "leave dt_s out"),
-            (Evidence { contact_share: 0.4, ..plain() }, "Contact holds 40 %"),
-            (Evidence { added_mass: 4.0, ..plain() }, "400 % of mass were added"),
+        for (cause, words) in [
+            (cause(0.4, None, 0.3, 0.01), "load in the wrong unit"),
+            (cause(360.0, None, 0.3, 0.01), "The mesh is 360 m long"),
+            (cause(0.4, Some(1e-5), 0.3, 0.01), "leave dt_s out"),
+            (cause(0.4, None, 0.3, 0.4), "Contact holds 40 %"),
+            (cause(0.4, None, 4.0, 0.01), "400 % of mass were added"),
         ] {
-            assert!(evidence.cause().contains(words), "{}", evidence.cause());
+            assert!(cause.contains(words), "{cause}");
         }
     }
 }

@@ -21,7 +21,6 @@ use crate::vec3::cross;
 
 /// Factor on the estimated frequency: Lanczos comes from below. 80 steps find up to a thousandth more.
 const SURE: f64 = 1.01;
-/// Most Lanczos steps.
 const MOST: usize = 80;
 /// Steps between two looks at the estimate, and what it must have gained since, as a share, to go on.
 const LOOK: usize = 5;
@@ -101,7 +100,6 @@ impl Whole<'_> {
         force
     }
 
-    /// The largest eigenvalue, from below.
     fn highest_1_s2(&self, start: &[[f64; 4]]) -> f64 {
         let mut v = self.light(start);
         let mut pull = self.stiff(&v);

@@ -51,7 +51,7 @@ impl Ledger {
         if all > 0.0 { self.stored_j(|row| row.account == account) / all } else { 0.0 }
     }
 
-    pub(super) fn stored_j(&self, wanted: impl Fn(&Row) -> bool) -> f64 {
+    pub(crate) fn stored_j(&self, wanted: impl Fn(&Row) -> bool) -> f64 {
         let rows = self.rows.iter().filter(|r| r.kind == RowKind::Stored && wanted(r));
         rows.map(|r| r.energy_j).sum()
     }

@@ -18,7 +18,6 @@ mod reaction;
 mod selective;
 mod setup;
 mod sides;
-mod stable;
 mod step;
 mod team;
 mod update;
@@ -26,7 +25,7 @@ mod update;
 pub use crate::sheet::fields::ElementFields;
 pub use ledger::Ledger;
 pub use reaction::Reaction;
-pub use sides::ChangedSides;
+pub use sides::{FirstThrough, Through};
 
 use models::{Account, Pose, RowKind};
 use serde::{Deserialize, Serialize};
@@ -34,7 +33,7 @@ use serde::{Deserialize, Serialize};
 use crate::bytes::{pack, unpack};
 use crate::contact::Contact;
 use crate::contact::edges::Edges;
-use crate::problem::Guards;
+use crate::problem::Settings;
 use crate::sheet::Sheet;
 use crate::sheet::order::Order;
 use crate::transient::row;
@@ -61,14 +60,17 @@ pub struct Simulation {
     tie_offset: Vec<[f64; 3]>,
     /// Mass of each node, scaling included \[kg\].
     mass: Vec<f64>,
-    /// Nodes with prescribed axes.
     fixed: Vec<(u32, [bool; 3])>,
     /// Those of them that supports move or bodies and ties carry along.
     moved: Vec<(u32, [bool; 3])>,
     /// Position and velocity of `moved` nodes during an update.
     held: Vec<([f64; 4], [f64; 4])>,
     arch: pulp::Arch,
-    limits: Limits,
+    settings: Settings,
+    /// Speed that stops the run \[m/s\].
+    fastest_m_s: f64,
+    /// Added mass over true mass.
+    added_mass: f64,
     x: Vec<[f64; 4]>,
     v: Vec<[f64; 4]>,
     selective: Option<Selective>,
@@ -78,20 +80,6 @@ pub struct Simulation {
     /// Taken out while it works.
     team: Option<Team>,
     cpu_s: f64,
-}
-
-/// What does not change during a run.
-#[derive(Debug, Clone)]
-struct Limits {
-    cfl: f64,
-    viscosity: f64,
-    damping_1_s: f64,
-    forced_dt_s: Option<f64>,
-    guards: Guards,
-    /// Speed that stops the run \[m/s\].
-    speed_m_s: f64,
-    /// Added mass over true mass.
-    added_mass: f64,
 }
 
 /// What a checkpoint holds of a run.
@@ -192,7 +180,7 @@ impl Simulation {
             terms: self.others().map(|term| SavedTerm::of(term, &pose)).collect(),
             bodies: self.bodies.iter().map(|body| body.now).collect(),
             reactions: self.reactions.save(),
-            masses: (self.mass.clone(), self.limits.added_mass, self.clock.longest_s),
+            masses: (self.mass.clone(), self.added_mass, self.clock.longest_s),
         })
     }
 
@@ -260,7 +248,7 @@ impl Simulation {
     }
     /// Mass added by mass scaling over true mass; without what selective mass scaling adds to short waves.
     pub fn added_mass(&self) -> f64 {
-        self.limits.added_mass
+        self.added_mass
     }
     /// Node positions in mesh order \[m\].
     pub fn positions(&self) -> Vec<[f64; 3]> {
@@ -340,7 +328,7 @@ impl Simulation {
     /// Force and moment that supports exert on the structure, one for every node set that they name, at the positions of the last
     /// step before the present moment; 0 before the first.
     pub fn reactions(&self) -> &[Reaction] {
-        self.reactions.all()
+        &self.reactions.all
     }
 
     /// The force of [`Simulation::reactions`] at a node set \[N\]; `None` for a set that no support names.
@@ -355,7 +343,6 @@ impl Simulation {
         self.order.new.iter().map(|place| pressure[*place as usize]).collect()
     }
 
-    /// The terms beside the shells.
     fn others(&self) -> impl Iterator<Item = &dyn Transient> {
         let contact = self.contact.iter().map(|c| c as &dyn Transient);
         let contact = contact.chain(self.edges.iter().map(|e| e as &dyn Transient));

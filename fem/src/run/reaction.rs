@@ -26,7 +26,7 @@ pub struct Reaction {
 /// The reactions of a run, as they were in the last step that somebody looks at.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Reactions {
-    all: Vec<Reaction>,
+    pub all: Vec<Reaction>,
     /// Nodes of each, with the axes that are its own.
     nodes: Vec<Vec<(u32, [bool; 3])>>,
 }
@@ -63,11 +63,6 @@ impl Reactions {
         })
     }
 
-    pub(super) fn all(&self) -> &[Reaction] {
-        &self.all
-    }
-
-    /// Forgets the step before.
     pub(super) fn clear(&mut self) {
         self.all.iter_mut().for_each(|r| (r.force_n, r.moment_nm) = ([0.0; 3], [0.0; 3]));
     }

@@ -39,7 +39,6 @@ const LEAST: f64 = 0.01;
 pub(super) struct Selective {
     /// Where the links of a node begin.
     first: Vec<u32>,
-    /// Nodes at the other ends.
     ends: Vec<u32>,
     /// w \[kg\] of the links.
     weights: Vec<f64>,

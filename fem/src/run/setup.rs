@@ -2,12 +2,12 @@
 
 use models::Pose;
 
+use super::clock::{damped, give_tied_bounds, give_tied_masses, stable_step};
 use super::constraint::{Body, Driven, bodies, driven};
 use super::reaction::Reactions;
 use super::selective::Selective;
-use super::stable::{damped, give_tied_bounds, give_tied_masses, stable_step};
 use super::team::Team;
-use super::{Books, Clock, Limits, Simulation, guard, highest};
+use super::{Books, Clock, Simulation, guard, highest};
 use crate::contact::Contact;
 use crate::contact::edges::Edges;
 use crate::policy;
@@ -16,7 +16,7 @@ use crate::random::gaussian;
 use crate::sheet::Sheet;
 use crate::sheet::order::{Order, renumber};
 use crate::sheet::reference::bending_stiffness;
-use crate::terms::{Folds, Gravity, NodalForces, Obstacles, RestCurvature, penalty_stiffness_n_m};
+use crate::terms::{DeadLoads, Folds, Obstacles, RestCurvature, penalty_stiffness_n_m};
 use crate::vec3::{area, norm};
 use crate::{FemError, Mesh, Problem, Transient};
 
@@ -48,8 +48,7 @@ impl Simulation {
         imperfect(&mut x, &mesh, &order, &fixed, settings.imperfection, settings.seed);
         let bent = bent(problem, &mesh, &sheet);
         let still = Still { fixed: listed(&fixed), carried: carried(problem, &mesh, &driven)? };
-        let Masses { true_mass, mass, added_mass, gain, dt_s } =
-            masses_and_step(settings, &mesh, &sheet, &bent, &x, &still)?;
+        let (true_mass, mass, added_mass, gain, dt_s) = masses_and_step(settings, &mesh, &sheet, &bent, &x, &still)?;
         let (mass, added_mass, dt_s) = earlier.cloned().unwrap_or((mass, added_mass, dt_s));
         mesh.start = x.iter().map(|x| [x[0], x[1], x[2]]).collect();
         let terms = terms(problem, &mesh, [&true_mass, &mass], dt_s, bent)?;
@@ -69,18 +68,11 @@ impl Simulation {
             v: vec![[0.0; 4]; count],
             selective: still.selective(settings, &mesh, &mass),
             force: vec![[0.0; 4]; count],
-            clock: Clock {
-                step: 0,
-                time_s: 0.0,
-                waited_s: 0.0,
-                waits: false,
-                dt_s,
-                before_s: 0.0,
-                longest_s: dt_s,
-                gain,
-            },
+            clock: Clock { dt_s, longest_s: dt_s, gain, ..Clock::default() },
             books: Books { scale: guard::least_scale_j(problem, &mesh, &sheet, &true_mass), ..Books::default() },
-            limits: limits(settings, &sheet, added_mass),
+            settings: settings.clone(),
+            fastest_m_s: Some(settings.guards.speed_m_s).filter(|v| *v > 0.0).unwrap_or_else(|| sound_speed(&sheet)),
+            added_mass,
             team: Some(Team::new(settings.threads)?),
             cpu_s: 0.0,
             order,
@@ -103,18 +95,8 @@ impl Simulation {
     }
 }
 
-/// Masses and the first time step.
-struct Masses {
-    /// Before scaling, ties handed over \[kg\].
-    true_mass: Vec<f64>,
-    /// After scaling \[kg\].
-    mass: Vec<f64>,
-    /// What scaling added, over the true mass.
-    added_mass: f64,
-    /// γ of the module.
-    gain: f64,
-    dt_s: f64,
-}
+/// Masses before and after scaling, ties handed over \[kg\], what scaling added over the true mass, γ of `highest`, and the first step \[s\].
+type Masses = (Vec<f64>, Vec<f64>, f64, f64, f64);
 
 /// Weights of bending in the nodes' shares of added mass, of which the one that needs least in all is taken. Smoothing in many passes helps
 /// stretch more than the bending of stuck plies, which then asks for mass everywhere if all nodes are raised alike.
@@ -163,7 +145,7 @@ fn masses_and_step(
     let added_mass = all / alone - 1.0;
     let (gain, nodes) = gain(&mass);
     let dt_s = choose_step(gain * nodes, settings)?;
-    Ok(Masses { true_mass, mass, added_mass, gain, dt_s })
+    Ok((true_mass, mass, added_mass, gain, dt_s))
 }
 
 /// What does not move as forces say.
@@ -204,18 +186,6 @@ fn moved(driven: &[Driven], bodies: &[Body], mesh: &Mesh, fixed: &mut [[bool; 3]
     moved
 }
 
-fn limits(settings: &Settings, sheet: &Sheet, added_mass: f64) -> Limits {
-    Limits {
-        cfl: settings.cfl,
-        viscosity: settings.viscosity,
-        damping_1_s: settings.mass_damping_1_s,
-        forced_dt_s: settings.dt_s,
-        guards: settings.guards.clone(),
-        speed_m_s: if settings.guards.speed_m_s > 0.0 { settings.guards.speed_m_s } else { sound_speed(sheet) },
-        added_mass,
-    }
-}
-
 /// Contact in the order of the run. A fault is looked for again in mesh order, so that its message has the user's
 /// numbers.
 fn contact(
@@ -243,10 +213,10 @@ fn terms(
     mut terms: Vec<Box<dyn Transient>>,
 ) -> Result<Vec<Box<dyn Transient>>, FemError> {
     if !problem.forces.is_empty() {
-        terms.push(Box::new(NodalForces::new(mesh, &problem.forces)?));
+        terms.push(Box::new(DeadLoads::forces(mesh, &problem.forces)?));
     }
     if let Some(gravity) = &problem.gravity {
-        terms.push(Box::new(Gravity::new(gravity, true_mass)?));
+        terms.push(Box::new(DeadLoads::gravity(gravity, true_mass)?));
     }
     if !problem.obstacles.is_empty() {
         let stiffness = penalty_stiffness_n_m(mass, dt_s);

@@ -133,7 +133,8 @@ impl Simulation {
         }
         constraint::hand_over(&self.mesh.ties, &mut self.force);
         if let Some(edges) = &mut self.edges {
-            let step = hold::Step { x: &self.x, v: &self.v, dv_s: dv, dt_s: dt, damping_1_s: self.limits.damping_1_s };
+            let step =
+                hold::Step { x: &self.x, v: &self.v, dv_s: dv, dt_s: dt, damping_1_s: self.settings.mass_damping_1_s };
             edges.hold(&step, &mut self.force);
         }
         // Only where somebody will look: before the supports set velocities, and after.
@@ -153,11 +154,11 @@ impl Simulation {
             self.reactions.add(&self.x, |i| [0, 1, 2].map(|k| mass[i] * v[i][k] / dv));
         }
         for body in &mut self.bodies {
-            body.step(dv, dt, self.limits.damping_1_s, &self.force, &self.x, &mut self.v);
+            body.step(dv, dt, self.settings.mass_damping_1_s, &self.force, &self.x, &mut self.v);
         }
         let before = if self.clock.step == 0 { self.kinetic_at_start() } else { 0.0 };
         self.hold_driven();
-        let update = Update { dv, dt, damping: self.limits.damping_1_s, arch: self.arch };
+        let update = Update { dv, dt, damping: self.settings.mass_damping_1_s, arch: self.arch };
         let [kinetic, damped] = match &mut self.selective {
             Some(selective) => selective.step(update, &mut self.force, &mut self.v, &mut self.x),
             None => update.all(&self.mass, &mut self.force, &mut self.v, &mut self.x),
@@ -169,7 +170,7 @@ impl Simulation {
         }
         self.books.kinetic = kinetic;
         self.books.stored = stored;
-        self.books.damping.add(self.limits.damping_1_s * dv * damped);
+        self.books.damping.add(self.settings.mass_damping_1_s * dv * damped);
         if self.clock.step == 0 {
             // The potential of loads, which `stored` has, depends on where the origin is.
             self.books.start = before + self.ledger().stored_j(|_| true);
@@ -179,9 +180,7 @@ impl Simulation {
         self.clock.waited_s += if self.clock.waits { dt } else { 0.0 };
         self.clock.step += 1;
     }
-}
 
-impl Simulation {
     fn kinetic_at_start(&self) -> f64 {
         let each = |(m, v): (&f64, &[f64; 4])| 0.5 * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
         match &self.selective {

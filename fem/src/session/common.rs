@@ -6,6 +6,10 @@ use std::ops::ControlFlow;
 pub type Progress<'a> = &'a mut (dyn FnMut(&str, Option<f64>) -> ControlFlow<()> + Send);
 
 /// Without the digits that a change of unit leaves behind.
+///
+/// ```
+/// assert_eq!(fem::session::rounded(0.1 + 0.2), 0.3);
+/// ```
 pub fn rounded(value: f64) -> f64 {
     format!("{value:.9e}").parse().unwrap_or(value)
 }

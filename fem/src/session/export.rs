@@ -38,7 +38,7 @@ pub fn export(source: &Source, path: &Path, solver: Solver) -> Result<Export, Fe
             problem.check().map_err(|error| source.refused(error))?;
             let (text, missing) = deck::text(problem, solver);
             left_out = missing;
-            crate::atomic::replace(path, &mut |out| out.write_all(text.as_bytes()))?;
+            crate::output::replace(path, &mut |out| out.write_all(text.as_bytes()))?;
         }
         Some("vtu") => {
             let start = Simulation::new(problem).map_err(|error| source.refused(error))?;

@@ -2,7 +2,7 @@
 
 use super::manifest::{Manifest, sha256};
 use crate::FemError;
-use crate::atomic::replace;
+use crate::output::replace;
 use crate::record::RecordShape;
 use serde::{Deserialize, Serialize};
 use spelling::files::is_partial;
@@ -55,19 +55,6 @@ pub(super) struct RunIdentity {
     pub from: Option<String>,
 }
 
-/// A request to open a folder.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct RunWish<'a> {
-    /// Folder.
-    pub folder: &'a Path,
-    /// Text of the case.
-    pub text: &'a str,
-    /// Go on with an interrupted run.
-    pub resume: bool,
-    /// Replace a run.
-    pub force: bool,
-}
-
 /// A folder that may be written to.
 #[derive(Debug)]
 pub(super) struct Workplace {
@@ -76,17 +63,8 @@ pub(super) struct Workplace {
     /// The interrupted run to go on with.
     pub interrupted: Option<RunIdentity>,
     /// Where the complete run goes in the end.
-    target: PathBuf,
+    pub target: PathBuf,
     _lock: File,
-}
-
-/// What came of the wish.
-#[derive(Debug)]
-pub(super) enum Opened {
-    /// A run can start or go on.
-    Work(Workplace),
-    /// `--resume` of a run that is complete.
-    Complete,
 }
 
 #[derive(Debug)]
@@ -112,33 +90,31 @@ pub(super) fn is_of(folder: &Path, text: &str) -> Result<Option<bool>, FemError>
     })
 }
 
-/// Finds out what can be done with the folder, and takes it.
+/// Finds out what can be done with the folder, to `resume` a run of the case in `text` or to replace one by `force`, and takes it; `None`
+/// for a run to resume that is complete.
 ///
 /// # Errors
 /// The folder holds another run, or files that are none of ours, or another process writes to it.
-pub(super) fn open(wish: &RunWish) -> Result<Opened, FemError> {
-    let refuse = |cause: &str, help: &str| Err(FemError::folder(wish.folder, cause, help));
-    if matches!(look(&aside(wish.folder))?, Found::Finished) {
-        mend(wish.folder, &aside(wish.folder)).map_err(|cause| unwritable(wish.folder, &cause))?;
+pub(super) fn open(folder: &Path, text: &str, resume: bool, force: bool) -> Result<Option<Workplace>, FemError> {
+    let refuse = |cause: &str, help: &str| Err(FemError::folder(folder, cause, help));
+    if matches!(look(&aside(folder))?, Found::Finished) {
+        mend(folder, &aside(folder)).map_err(|cause| unwritable(folder, &cause))?;
     }
-    match (look(wish.folder)?, wish.resume, wish.force) {
-        (Found::Nothing, ..) => take(wish.folder, wish.folder, None),
+    match (look(folder)?, resume, force) {
+        (Found::Nothing, ..) | (Found::Unfinished(_), false, true) => take(folder, folder, None).map(Some),
         (Found::Unfinished(marker), true, _) => {
-            same_case(wish, &marker.case_sha256)?;
-            take(wish.folder, wish.folder, Some(marker))
+            same_case(folder, text, &marker.case_sha256)?;
+            take(folder, folder, Some(marker)).map(Some)
         }
-        (Found::Unfinished(_), false, true) => take(wish.folder, wish.folder, None),
         (Found::Unfinished(_), false, false) => {
             refuse("it holds an interrupted run", "add --resume to go on with it, or --force to start again")
         }
-        (Found::Finished, _, true) => open_beside(wish),
+        (Found::Finished, _, true) => open_beside(folder, text, resume).map(Some),
         (Found::Finished, true, false) => {
-            same_case(wish, &case_sha256(wish.folder).unwrap_or_default())?;
+            same_case(folder, text, &case_sha256(folder).unwrap_or_default())?;
             // A kill after the last file of the run leaves them.
-            remove(&wish.folder.join("checkpoint"))?;
-            remove(&wish.folder.join("checkpoint.previous"))?;
-            remove(&wish.folder.join(LOCK))?;
-            Ok(Opened::Complete)
+            ["checkpoint", "checkpoint.previous", LOCK].iter().try_for_each(|name| remove(&folder.join(name)))?;
+            Ok(None)
         }
         (Found::Finished, false, false) => {
             refuse("it holds a finished run", "choose another folder with --out, or add --force to replace it")
@@ -155,7 +131,7 @@ pub(crate) fn reopen(
     marker: RunIdentity,
     keep: &dyn Fn() -> Result<(), FemError>,
 ) -> Result<Workplace, FemError> {
-    let place = locked(folder, folder, Some(marker.clone()))?;
+    let place = take(folder, folder, Some(marker.clone()))?;
     keep()?;
     place.mark(&marker)?;
     remove(&folder.join(LAST))?;
@@ -163,17 +139,17 @@ pub(crate) fn reopen(
 }
 
 /// The new run is made next to the finished one, which stays until then.
-fn open_beside(wish: &RunWish) -> Result<Opened, FemError> {
-    let beside = named_like(wish.folder, ".new");
+fn open_beside(folder: &Path, text: &str, resume: bool) -> Result<Workplace, FemError> {
+    let beside = named_like(folder, ".new");
     match look(&beside)? {
-        Found::Unfinished(marker) if wish.resume => {
-            same_case(&RunWish { folder: &beside, ..*wish }, &marker.case_sha256)?;
-            take(&beside, wish.folder, Some(marker))
+        Found::Unfinished(marker) if resume => {
+            same_case(&beside, text, &marker.case_sha256)?;
+            take(&beside, folder, Some(marker))
         }
         Found::Foreign(name) => {
             Err(FemError::folder(&beside, format!("it holds other files ({name})"), "move that folder away"))
         }
-        _ => take(&beside, wish.folder, None),
+        _ => take(&beside, folder, None),
     }
 }
 
@@ -198,13 +174,13 @@ pub(super) fn unwritable(path: &Path, cause: &std::io::Error) -> FemError {
     FemError::folder(path, cause.to_string(), "choose another folder with --out")
 }
 
-fn same_case(wish: &RunWish, case_sha256: &str) -> Result<(), FemError> {
-    if case_sha256 == sha256(wish.text.as_bytes()) {
+fn same_case(folder: &Path, text: &str, case_sha256: &str) -> Result<(), FemError> {
+    if case_sha256 == sha256(text.as_bytes()) {
         return Ok(());
     }
-    let own = wish.folder.join("case.toml");
+    let own = folder.join("case.toml");
     let help = format!("give the case it was started with: {}; or start again with --force", own.display());
-    Err(FemError::folder(wish.folder, "the run in it is of another case, or the case has changed", help))
+    Err(FemError::folder(folder, "the run in it is of another case, or the case has changed", help))
 }
 
 fn look(folder: &Path) -> Result<Found, FemError> {
@@ -253,19 +229,12 @@ fn read_marker(folder: &Path) -> Option<RunIdentity> {
     UNFINISHED.read(MARKER, &std::fs::read_to_string(folder.join(MARKER)).ok()?, "").ok()
 }
 
-fn take(folder: &Path, target: &Path, interrupted: Option<RunIdentity>) -> Result<Opened, FemError> {
-    locked(folder, target, interrupted).map(Opened::Work)
-}
-
-fn locked(folder: &Path, target: &Path, interrupted: Option<RunIdentity>) -> Result<Workplace, FemError> {
+fn take(folder: &Path, target: &Path, interrupted: Option<RunIdentity>) -> Result<Workplace, FemError> {
     std::fs::create_dir_all(folder).map_err(|cause| unwritable(folder, &cause))?;
     let lock = File::create(folder.join(LOCK)).map_err(|cause| unwritable(folder, &cause))?;
     if let Err(std::fs::TryLockError::WouldBlock) = lock.try_lock() {
-        return Err(FemError::folder(
-            folder,
-            "another run is writing to it",
-            "wait for it, or choose another folder with --out",
-        ));
+        let help = "wait for it, or choose another folder with --out";
+        return Err(FemError::folder(folder, "another run is writing to it", help));
     }
     sweep(folder)?;
     sweep(&folder.join("frames"))?;
@@ -276,11 +245,6 @@ fn locked(folder: &Path, target: &Path, interrupted: Option<RunIdentity>) -> Res
 type Step<'a> = &'a dyn Fn() -> Result<(), FemError>;
 
 impl Workplace {
-    /// Where the complete run goes in the end.
-    pub(super) fn target(&self) -> &Path {
-        &self.target
-    }
-
     /// Clears away an earlier run and marks the folder as a run in progress. Killed at any point, the folder is known as
     /// an unfinished run: of the earlier case until its files are gone, then of this one.
     pub(super) fn start(&self, marker: &RunIdentity, text: &str) -> Result<(), FemError> {

@@ -25,6 +25,10 @@ impl FileHash {
 }
 
 /// SHA-256 in hex.
+///
+/// ```
+/// assert!(fem::session::sha256(b"abc").starts_with("ba7816bf8f01cfea"));
+/// ```
 pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
 }

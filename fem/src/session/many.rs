@@ -79,6 +79,12 @@ impl Shard {
     }
 
     /// Every N-th of some things, from the K-th on.
+    ///
+    /// ```
+    /// let shard = fem::session::Shard::parse("2/3").unwrap();
+    /// assert_eq!(shard.own(0..8).collect::<Vec<_>>(), [1, 4, 7]);
+    /// assert!(fem::session::Shard::parse("4/3").is_err());
+    /// ```
     pub fn own<T>(self, all: impl IntoIterator<Item = T>) -> impl Iterator<Item = T> {
         all.into_iter().skip(self.which - 1).step_by(self.of)
     }
@@ -110,7 +116,6 @@ fn tasks(jobs: &[Job], root: &Path) -> Result<(Vec<Task>, Vec<usize>), FemError>
 const CONTACT: f64 = 2.5;
 
 struct Task {
-    /// Its first job.
     at: usize,
     fingerprint: u64,
     /// Grows with the time it will take.

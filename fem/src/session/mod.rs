@@ -16,19 +16,6 @@
 //! # Ok::<(), fem::FemError>(())
 //! ```
 //!
-//! | file | holds |
-//! |---|---|
-//! | `source` | the text of a case or a robot's scenario, and what it describes |
-//! | `export` | the problem as a file for another solver |
-//! | `stepping` | rows, frames and checkpoints as a run goes |
-//! | `watch`, `robot_files` | what is read of a robot, its tables and pictures |
-//! | `goes_on` | the end of a complete run, and runs that go on from it |
-//! | `run` | how a run is made, and a complete one |
-//! | `folder` | who may write to a run's folder, and how a new run takes the place of an older one |
-//! | `memory` | whether a mesh fits into this machine |
-//! | `summary` | the records `summary.json` and the cost of a run |
-//! | `plan`, `many`, `table` | runs that differ in seed, pressure, mesh or assumed numbers; several beside each other; the cache by hash; what they gave |
-//!
 //! A run in a folder is marked as unfinished until its last file is written; killed at any moment it can go on with
 //! [`Settings::resume`], and ends with the same bits.
 
@@ -59,15 +46,15 @@ pub use plan::{AS_IT_IS, Changes, Cube, Felt, Variation, cube, felt, mesh_keys, 
 pub use run::{FeRun, Further, Settings};
 pub use source::{Loaded, Source};
 pub use summary::{
-    ChamberEnd, Cost, EnergyLine, FirstThrough, KineticShares, MeshQuality, ProbeEnd, ReactionEnd, Rule, SUMMARY,
-    Summary, Through,
+    ChamberEnd, Cost, EnergyLine, KineticShares, MeshQuality, ProbeEnd, ReactionEnd, Rule, SUMMARY, Summary,
 };
 pub use table::{Heights, RunRow, RunTable, SeedGroup};
 pub use watch::{RobotSummary, WatchedRobot};
 
 use crate::robot::Reading;
+pub use crate::run::{FirstThrough, Through};
 use crate::{FemError, Simulation};
-use folder::{Opened, RunIdentity, RunWish, Workplace};
+use folder::{RunIdentity, Workplace};
 use goes_on::Earlier;
 use std::time::Instant;
 use stepping::Running;
@@ -93,16 +80,13 @@ pub fn simulate(source: &Source, settings: &Settings, progress: Progress) -> Res
     };
     let place = match &settings.folder {
         None => None,
-        Some(folder) => {
-            let (resume, force) = (settings.resume, settings.force);
-            match folder::open(&RunWish { folder, text: &loaded.source.text, resume, force })? {
-                Opened::Complete => match goes_on::reopened(folder, &loaded, settings)? {
-                    Some(place) => Some(place),
-                    None => return FeRun::read(folder),
-                },
-                Opened::Work(place) => Some(place),
-            }
-        }
+        Some(folder) => match folder::open(folder, &loaded.source.text, settings.resume, settings.force)? {
+            Some(place) => Some(place),
+            None => match goes_on::reopened(folder, &loaded, settings)? {
+                Some(place) => Some(place),
+                None => return FeRun::read(folder),
+            },
+        },
     };
     begin(&mut loaded, place.as_ref(), settings, earlier.as_ref())?;
     let robot = loaded.robot.as_ref().map(|robot| robot.watch(&loaded.case.problem));
@@ -148,22 +132,18 @@ fn same_run(
         from: earlier.map(|earlier| earlier.sha256.clone()),
     };
     let Some(begun) = &place.interrupted else { return Ok(asked) };
-    if asked.from != begun.from {
+    let (message, help) = if asked.from != begun.from {
         let message = "the interrupted run goes on from the end of another run than the one asked for";
-        return Err(FemError::setting(
-            message,
-            "give the --from that it was started with, or start again with --force",
-        ));
-    }
-    if settings.end_s.is_some() && asked.end_s != begun.end_s {
+        (message.into(), "give the --from that it was started with")
+    } else if settings.end_s.is_some() && asked.end_s != begun.end_s {
         let message = format!("the interrupted run ends at {} s, not at {} s", begun.end_s, asked.end_s);
-        return Err(FemError::setting(message, "leave --end out, or start again with --force"));
-    }
-    if !settings.frames && begun.frames {
-        let message = "the interrupted run writes frames";
-        return Err(FemError::setting(message, "leave --no-frames out, or start again with --force"));
-    }
-    Ok(begun.clone())
+        (message, "leave --end out")
+    } else if !settings.frames && begun.frames {
+        ("the interrupted run writes frames".into(), "leave --no-frames out")
+    } else {
+        return Ok(begun.clone());
+    };
+    Err(FemError::setting(message, format!("{help}, or start again with --force")))
 }
 
 /// A run that was stopped keeps what it has written.
@@ -191,7 +171,7 @@ fn finish(
         folder: None,
         fresh: true,
         notices: [&loaded.case.notices[..], &running.notices].concat(),
-        energies: running.robot.as_ref().map_or(Vec::new(), |seen| seen.watch.samples().to_vec()),
+        energies: running.robot.as_ref().map_or(Vec::new(), |seen| seen.watch.samples.clone()),
         files: Vec::new(),
     };
     let mut files = vec![("summary.json".to_string(), format!("{:#}\n", SUMMARY.stamped(&run.summary)).into_bytes())];
@@ -230,7 +210,7 @@ fn complete(
         outputs: place.files()?.iter().map(|(name, bytes)| FileHash::of(name, bytes)).collect(),
         cost: Some(run.cost.clone()),
     };
-    run.folder = Some(place.target().to_path_buf());
+    run.folder = Some(place.target.clone());
     run.notices.extend(place.complete(&manifest)?);
     Ok(())
 }

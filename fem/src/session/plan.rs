@@ -2,7 +2,7 @@
 
 use super::{Source, rounded};
 use crate::FemError;
-use crate::case::key::{Key, named};
+use crate::case::range::{Key, named};
 use crate::robot::{ASSUMED, Assumed, KEYS, NUMERICAL, RobotRun, RobotSettings, hypercube};
 use models::{CHANNELS, Scenario};
 
@@ -29,6 +29,10 @@ pub fn mesh_keys([body_mm, actuator_mm]: &[f64; 2]) -> [(String, String); 2] {
 }
 
 /// An entry of `pressures_kpa` for pressures of the channels \[Pa\].
+///
+/// ```
+/// assert_eq!(fem::session::pressures_in_toml(&[20e3; models::CHANNELS]), "20");
+/// ```
 pub fn pressures_in_toml(channels_pa: &[f64; CHANNELS]) -> String {
     let kpa = channels_pa.map(|pa| rounded(pa * 1e-3));
     if kpa.iter().all(|p| *p == kpa[0]) { kpa[0].to_string() } else { format!("{kpa:?}") }

@@ -38,6 +38,12 @@ impl Source {
     }
 
     /// Whether it is the scenario of a robot.
+    ///
+    /// ```
+    /// use fem::session::Source;
+    /// assert!(Source::new("epam", models::shipped("epam").unwrap()).is_robot());
+    /// assert!(!Source::new("pillow", fem::case::shipped_case("pillow").unwrap()).is_robot());
+    /// ```
     pub fn is_robot(&self) -> bool {
         let table = |name: &str| self.text.lines().any(|line| line.trim() == name);
         !is_case(&self.text) && table("[body]") && table("[actuator]")
@@ -103,7 +109,6 @@ impl Source {
         Ok(Loaded { source: self.clone(), case, robot })
     }
 
-    /// The robot of a scenario.
     fn robot(&self, earlier: Option<(f64, &Loads)>) -> Result<(Case, WatchedRobot), FemError> {
         let scenario = self.scenario()?;
         let mut run = RobotRun::parse(&self.text, &scenario)?;

@@ -10,6 +10,7 @@ use crate::output::centre_line::{CentreLine, CentreLineFile};
 use crate::output::checkpoint::{Checkpoint, read_checkpoint, write_checkpoint};
 use crate::output::history::{History, Record};
 use crate::output::pvd::Series;
+use crate::output::table::Table;
 use crate::robot::Rest;
 use crate::run::Advance;
 use crate::{FemError, Simulation};
@@ -35,7 +36,6 @@ pub(super) struct Running<'a> {
     pub run: Simulation,
     /// Energies at all outputs so far.
     pub balances: Vec<Balance>,
-    /// Processor seconds of earlier sessions.
     pub(crate) cpu_before_s: f64,
     /// What to tell the user in the end.
     pub notices: Vec<String>,
@@ -45,7 +45,6 @@ pub(super) struct Running<'a> {
     pub robot: Option<Watched>,
     case: &'a Case,
     files: Option<Files>,
-    /// Number of the next output.
     next: u64,
 }
 
@@ -80,10 +79,9 @@ impl<'a> Running<'a> {
         mut robot: Option<Watched>,
     ) -> Result<Running<'a>, FemError> {
         let fingerprint = case.problem.fingerprint();
-        let Some(loaded) = read_checkpoint(folder, fingerprint)? else {
+        let Some((Checkpoint { payload, .. }, notice)) = read_checkpoint(folder, fingerprint)? else {
             return Running::start(case, fresh, Some(folder), robot);
         };
-        let Checkpoint { payload, .. } = loaded.checkpoint;
         let foreign = || FemError::Checkpoint {
             path: folder.join("checkpoint"),
             reason: "it holds something else than this program writes; start again with --force".into(),
@@ -104,7 +102,7 @@ impl<'a> Running<'a> {
             run,
             balances: saved.balances,
             cpu_before_s: saved.cpu_s,
-            notices: loaded.notice.into_iter().collect(),
+            notices: notice.into_iter().collect(),
             robot,
             case,
             files,
@@ -118,8 +116,9 @@ impl<'a> Running<'a> {
         let (end_s, every_s) = (settings.end_s, settings.output_every_s);
         // The last output is the end itself; a whole number of intervals shall not get a second one just before it.
         let last = (end_s / every_s - 1e-6).ceil().max(1.0) as u64;
-        let keeper = Keeper { every: checkpoint_every, saved_at: Instant::now(), saving: Duration::ZERO };
-        let mut pace = Pace { teller: Teller::new(&self.run, end_s), keeper, progress };
+        let (now, from_s) = (Instant::now(), self.run.time_s());
+        let (every, saving) = (checkpoint_every, Duration::ZERO);
+        let mut pace = Pace { progress, began: now, from_s, end_s, told: None, every, saved_at: now, saving };
         while self.next <= last {
             let output_s = if self.next == last { end_s } else { self.next as f64 * every_s };
             let hold_s = self.robot.as_ref().and_then(Watched::next_s).filter(|hold_s| *hold_s <= output_s);
@@ -144,16 +143,16 @@ impl<'a> Running<'a> {
     }
 
     /// Steps to a moment, with checkpoints on the way; [`FemError::Interrupted`] once `progress` asks to end.
-    fn advance(&mut self, goal: Goal, Pace { teller, keeper, progress }: &mut Pace) -> Result<(), FemError> {
+    fn advance(&mut self, goal: Goal, pace: &mut Pace) -> Result<(), FemError> {
         let (next, balances, files, robot) = (self.next, &self.balances, &self.files, &mut self.robot);
         let outside_s = self.cpu_before_s + thread_seconds() - self.began.1;
         let mut fault = None;
         let mut each = |run: &Simulation| {
-            let flow = teller.tell(run, progress);
+            let flow = pace.tell(run);
             robot.iter_mut().for_each(|robot| robot.watch.sample(run));
-            if let Some(files) = files.as_ref().filter(|_| keeper.is_due()) {
+            if let Some(files) = files.as_ref().filter(|_| pace.is_due()) {
                 let cpu_s = outside_s + run.cpu_s();
-                fault = keeper.keep(|| files.save(run, next, balances, robot.as_ref(), cpu_s)).err();
+                fault = pace.keep(|| files.save(run, next, balances, robot.as_ref(), cpu_s)).err();
             }
             fault.is_none() && flow.is_continue()
         };
@@ -209,8 +208,8 @@ impl Files {
     /// Files of a run after its outputs at `times_s`; what is lost is told before anything is cut.
     fn open(case: &Case, folder: &Path, times_s: &[f64]) -> Result<Files, FemError> {
         let (history, path, line) = (folder.join("history.csv"), folder.join("centre_line.csv"), centre_line(case)?);
-        History::check(&history, times_s)?;
-        line.iter().try_for_each(|line| CentreLineFile::check(&path, line, times_s))?;
+        Table::check(&history, times_s, 1)?;
+        line.iter().try_for_each(|line| Table::check(&path, times_s, line.stations_m().len()))?;
         Ok(Files {
             folder: folder.into(),
             series: case.outputs.frames.then(|| Series::open(folder, times_s)).transpose()?,
@@ -228,8 +227,8 @@ impl Files {
         robot: Option<&Watched>,
         cpu_s: f64,
     ) -> Result<(), FemError> {
-        self.history.sync()?;
-        self.centre_line.as_ref().map_or(Ok(()), CentreLineFile::sync)?;
+        self.history.table.sync()?;
+        self.centre_line.iter().try_for_each(|line| line.table.sync())?;
         let payload = Saved::pack(run, next, balances, robot, cpu_s);
         let (step, time_s) = (run.step(), run.time_s());
         let checkpoint = Checkpoint { fingerprint: self.fingerprint, step, time_s, payload };
@@ -279,7 +278,6 @@ fn centre_line(case: &Case) -> Result<Option<CentreLine>, FemError> {
 /// Where a run steps to \[s\].
 #[derive(Clone, Copy)]
 enum Goal {
-    /// A time of its loads.
     Time(f64),
     /// A time waited in all, with the loads of a moment.
     Waited(f64, f64),
@@ -287,19 +285,17 @@ enum Goal {
 
 /// Receiver of progress, and when checkpoints are written.
 struct Pace<'a> {
-    teller: Teller,
-    keeper: Keeper,
     progress: Progress<'a>,
-}
-
-struct Keeper {
+    began: Instant,
+    from_s: f64,
+    end_s: f64,
+    told: Option<Instant>,
     every: Duration,
     saved_at: Instant,
-    /// What the last one took.
     saving: Duration,
 }
 
-impl Keeper {
+impl Pace<'_> {
     /// A large run writes hundreds of megabytes: not for more than a fiftieth of its time.
     fn is_due(&self) -> bool {
         self.saved_at.elapsed() >= self.every.max(50 * self.saving)
@@ -312,25 +308,12 @@ impl Keeper {
         self.saving = self.saved_at - began;
         saved
     }
-}
 
-struct Teller {
-    began: Instant,
-    from_s: f64,
-    end_s: f64,
-    last: Option<Instant>,
-}
-
-impl Teller {
-    fn new(run: &Simulation, end_s: f64) -> Teller {
-        Teller { began: Instant::now(), from_s: run.time_s(), end_s, last: None }
-    }
-
-    fn tell(&mut self, run: &Simulation, progress: Progress) -> ControlFlow<()> {
-        if self.last.is_some_and(|last| last.elapsed() < TELL_EVERY) {
+    fn tell(&mut self, run: &Simulation) -> ControlFlow<()> {
+        if self.told.is_some_and(|told| told.elapsed() < TELL_EVERY) {
             return ControlFlow::Continue(());
         }
-        self.last = Some(Instant::now());
+        self.told = Some(Instant::now());
         let (t, ledger) = (run.time_s(), run.ledger());
         let done = (t - self.from_s) / (self.end_s - self.from_s).max(f64::MIN_POSITIVE);
         let left_s = self.began.elapsed().as_secs_f64() * (1.0 - done) / done.max(1e-9);
@@ -344,7 +327,7 @@ impl Teller {
             100.0 * ledger.residual_share(),
             clock(left_s)
         );
-        progress(&text, Some(t / self.end_s))
+        (self.progress)(&text, Some(t / self.end_s))
     }
 }
 

@@ -5,7 +5,7 @@ use super::watch::{RobotSummary, WatchedRobot};
 use crate::case::Case;
 use crate::policy;
 use crate::record::RecordShape;
-use crate::run::LESS_HOURGLASS;
+use crate::run::{LESS_HOURGLASS, Through};
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
@@ -67,45 +67,6 @@ pub struct Summary {
     /// Nodes that came through a layer; without contact `None`.
     #[serde(default)]
     pub changed_sides: Option<Through>,
-}
-
-/// Nodes that came through a layer.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Through {
-    /// How many.
-    pub nodes: usize,
-    /// Share of those in contact.
-    pub share: f64,
-    /// The first of them.
-    pub first: Option<FirstThrough>,
-}
-
-impl Through {
-    fn of(found: crate::run::ChangedSides) -> Through {
-        let first = found.first.map(|first| FirstThrough {
-            text: first.to_string(),
-            node: first.node,
-            part: first.part,
-            time_s: first.time_s,
-            place_mm: first.place_m.map(|c| c * 1e3),
-        });
-        Through { nodes: found.nodes, share: found.share, first }
-    }
-}
-
-/// The first of them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct FirstThrough {
-    /// Node.
-    pub node: usize,
-    /// Part.
-    pub part: String,
-    /// When \[s\].
-    pub time_s: f64,
-    /// Where \[mm\].
-    pub place_mm: [f64; 3],
-    /// The same in words.
-    pub text: String,
 }
 
 /// Shape of the elements: smallest, median and largest side, and the worst of each.
@@ -254,12 +215,10 @@ impl Summary {
             residual_share_peak: running.balances.iter().fold(0.0, |most, b| b.residual_share.max(most)),
             hourglass_share: ledger.hourglass_share(),
             kinetic_share: kinetic(&running.balances),
-            changed_sides: run.changed_sides().map(Through::of),
+            changed_sides: run.changed_sides(),
         }
     }
-}
 
-impl Summary {
     /// What to know before believing the numbers: hourglass control, motion at the end, added mass, layers that were passed.
     pub fn warnings(&self) -> Vec<String> {
         let mut found = self.robot.as_ref().map_or(Vec::new(), RobotSummary::warnings);

@@ -80,7 +80,14 @@ impl RunTable {
                 }
             }
         }
-        tips.iter().map(|(group, kpa, tips)| SeedGroup::of(group, *kpa, tips)).collect()
+        let group = |(group, actuator_kpa, tips): (&str, f64, Vec<f64>)| {
+            let runs = tips.len();
+            let tip_mean_mm = tips.iter().sum::<f64>() / runs as f64;
+            let sum: f64 = tips.iter().map(|t| (t - tip_mean_mm).powi(2)).sum();
+            let tip_sd_mm = if runs > 1 { (sum / (runs as f64 - 1.0)).sqrt() } else { 0.0 };
+            SeedGroup { group: group.into(), actuator_kpa, runs, tip_mean_mm, tip_sd_mm }
+        };
+        tips.into_iter().map(group).collect()
     }
 
     /// `table.csv`.
@@ -94,16 +101,6 @@ impl RunTable {
             }
         }
         out
-    }
-}
-
-impl SeedGroup {
-    fn of(group: &str, actuator_kpa: f64, tips: &[f64]) -> SeedGroup {
-        let n = tips.len() as f64;
-        let tip_mean_mm = tips.iter().sum::<f64>() / n;
-        let sum: f64 = tips.iter().map(|t| (t - tip_mean_mm).powi(2)).sum();
-        let tip_sd_mm = if n > 1.0 { (sum / (n - 1.0)).sqrt() } else { 0.0 };
-        SeedGroup { group: group.into(), actuator_kpa, runs: tips.len(), tip_mean_mm, tip_sd_mm }
     }
 }
 

@@ -111,17 +111,16 @@ impl Watched {
 
     /// Buckling while the actuator is filled.
     pub(super) fn snaps(&self) -> Vec<Snap> {
-        snaps(self.watch.samples(), self.filled_s)
+        snaps(&self.watch.samples, self.filled_s)
     }
 
     pub(super) fn save(&self) -> WatchedState {
-        let (samples, settling) = (self.watch.samples().to_vec(), self.settling.clone());
+        let (samples, settling) = (self.watch.samples.clone(), self.settling.clone());
         WatchedState { samples, settling, readings: self.readings.clone() }
     }
 
     pub(super) fn restore(&mut self, state: WatchedState) {
-        self.watch.restore(state.samples);
-        (self.settling, self.readings) = (state.settling, state.readings);
+        (self.watch.samples, self.settling, self.readings) = (state.samples, state.settling, state.readings);
     }
 
     pub(super) fn summary(&self, WatchedRobot { scenario, run, .. }: &WatchedRobot) -> RobotSummary {

@@ -47,11 +47,9 @@ pub struct CurvatureRow {
 /// Share of an element that belongs to a corner: `share` (x_b − x_a) × (x_d − x_c) is its area vector \[m²\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Facet {
-    /// Nodes a, b, c, d.
     pub nodes: [u32; 4],
     /// ⅛ of a quadrilateral's diagonals, ⅙ of a triangle's sides.
     pub share: f64,
-    /// Part number.
     pub part: usize,
 }
 

@@ -49,7 +49,6 @@ pub(crate) struct Stock {
     pub real: Lane,
 }
 
-/// One element before packing.
 #[derive(Debug, Clone)]
 pub(crate) struct Item {
     pub node: Vec<u32>,

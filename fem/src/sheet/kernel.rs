@@ -45,7 +45,6 @@ pub(super) struct Strain(pub Lane3);
 pub(super) enum Corners<'a> {
     /// Groups in regular rows: by corner, axis and node.
     Rows([[&'a mut [f64]; 3]; 4]),
-    /// Other groups: one entry each.
     Groups(&'a mut [CornerForces]),
 }
 

@@ -70,7 +70,6 @@ impl<S: Simd> V<S> {
         V(self.0, self.0.div_f64s(self.0.splat_f64s(1.0), self.1))
     }
 
-    /// √self.
     #[inline(always)]
     pub(crate) fn sqrt(self) -> V<S> {
         V(self.0, self.0.sqrt_f64s(self.1))
@@ -95,7 +94,6 @@ impl<S: Simd> V<S> {
         V(self.0, self.0.select_f64s(self.0.greater_than_or_equal_f64s(self.1, zero), yes.1, no.1))
     }
 
-    /// The largest lane.
     #[inline(always)]
     pub(crate) fn largest(self) -> f64 {
         self.0.reduce_max_f64s(self.1)
@@ -147,13 +145,11 @@ impl<S: Simd> V<S> {
     }
 }
 
-/// Scalar product lane by lane.
 #[inline(always)]
 pub(crate) fn inner<S: Simd>(a: [V<S>; 3], b: [V<S>; 3]) -> V<S> {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Vector product lane by lane.
 #[inline(always)]
 pub(crate) fn product<S: Simd>(a: [V<S>; 3], b: [V<S>; 3]) -> [V<S>; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]

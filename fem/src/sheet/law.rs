@@ -15,7 +15,6 @@ pub(super) struct Who<'a> {
     pub(crate) stock: &'a Stock,
     /// Their memory, if the fabric has one.
     pub past: Option<&'a [Past; LANES]>,
-    /// Part of the eight.
     pub part: usize,
 }
 

@@ -7,7 +7,6 @@ pub mod bending;
 pub mod bound;
 pub mod chamber;
 pub mod edge;
-mod element;
 pub mod fields;
 pub mod group;
 mod kernel;
@@ -29,7 +28,7 @@ use crate::mesh::Mesh;
 use crate::problem::{Chamber, Section, Settings};
 use crate::transient::row;
 use crate::{FemError, NODE, Tick, Transient};
-pub use element::Element;
+pub use reference::Element;
 
 use bending::BendingMatrix;
 use chamber::{Air, AirNow};

@@ -7,6 +7,7 @@
 use std::ops::Range;
 
 use crate::mesh::Mesh;
+use crate::vec3::extent;
 
 /// A renumbering of the nodes and the patches in the new numbering.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,15 +62,7 @@ impl Order {
 
 /// Puts the `at` nodes that come first along the longest side of the bounding box in front.
 fn split(mesh: &Mesh, nodes: &mut [u32], at: usize) {
-    let mut low = [f64::INFINITY; 3];
-    let mut high = [f64::NEG_INFINITY; 3];
-    for node in nodes.iter() {
-        for k in 0..3 {
-            low[k] = low[k].min(mesh.points[*node as usize][k]);
-            high[k] = high[k].max(mesh.points[*node as usize][k]);
-        }
-    }
-    let size: Vec<f64> = (0..3).map(|k| high[k] - low[k]).collect();
+    let size = extent(nodes.iter().map(|node| mesh.points[*node as usize]));
     let axis = (0..3).fold(0, |best, k| if size[k] > size[best] { k } else { best });
     // The node number breaks ties, so that the order is a function of the mesh alone.
     nodes.select_nth_unstable_by(at, |a, b| {
@@ -89,15 +82,6 @@ pub fn renumber(mesh: &Mesh, order: &Order) -> Mesh {
             }
         }
     }
-    let turn = |n: &mut u32| *n = order.new[*n as usize];
-    for part in &mut new.parts {
-        part.quads.iter_mut().flatten().for_each(turn);
-        part.triangles.iter_mut().flatten().for_each(turn);
-    }
-    new.sets.values_mut().flatten().for_each(turn);
-    for tie in &mut new.ties {
-        turn(&mut tie.node);
-        tie.to.iter_mut().for_each(|t| turn(&mut t.0));
-    }
+    new.each_node(|n| *n = order.new[*n as usize]);
     new
 }

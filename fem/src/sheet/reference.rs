@@ -7,12 +7,11 @@
 //! ```
 //! a = 1 warp, 2 fill. Reference: Flanagan, Belytschko 1981 (one-point quadrature, hourglass vector γ).
 
-use models::Fabric;
-
 use crate::policy;
 use crate::problem::Section;
 use crate::problem::start::X;
 use crate::vec3::{along, area, cross, direction, dot, norm, sub};
+use models::Fabric;
 
 /// Reference data of one element.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -113,4 +112,39 @@ pub fn bending_stiffness(section: &Section) -> f64 {
         mean_stiffness(&*p.fabric) * t * t / 12.0
     };
     section.bending_factor * section.plies.iter().map(of).sum::<f64>()
+}
+
+/// One element, for everything that is not the hot loop.
+#[derive(Debug, Clone)]
+pub struct Element {
+    /// Corner nodes; a triangle repeats its third.
+    pub node: [u32; 4],
+    /// 3 or 4.
+    pub corners: usize,
+    /// Part number.
+    pub part: usize,
+    /// Reference data.
+    pub reference: Reference,
+    /// Hourglass stiffness k \[N/m\].
+    pub hourglass: f64,
+}
+
+impl Element {
+    /// Corner nodes without repetition.
+    pub fn nodes(&self) -> &[u32] {
+        &self.node[..self.corners]
+    }
+
+    /// Columns F₁, F₂ of the deformation gradient at the element's centre.
+    pub fn deformation(&self, q: &[[f64; 4]]) -> [[f64; 3]; 2] {
+        let mut f = [[0.0; 3]; 2];
+        for (n, node) in self.nodes().iter().enumerate() {
+            let b = self.reference.gradient(self.corners, n);
+            let x = q[*node as usize];
+            for a in 0..2 {
+                (0..3).for_each(|k| f[a][k] += b[a] * x[k]);
+            }
+        }
+        f
+    }
 }

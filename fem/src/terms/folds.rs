@@ -53,7 +53,7 @@ const SHARP: f64 = 0.904;
 const SAME: f64 = 1e-9;
 
 /// All folds of a mesh.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Folds {
     edges: Vec<Edge>,
     sides: Vec<[Side; 2]>,
@@ -99,13 +99,7 @@ impl Folds {
                 beside.entry([a.min(b), a.max(b)]).or_default().push(index);
             }
         }
-        let mut folds = Folds {
-            edges: Vec::new(),
-            sides: Vec::new(),
-            fabrics: sheet.fabrics.clone(),
-            tension_work_j: 0.0,
-            stored_j: None,
-        };
+        let mut folds = Folds { fabrics: sheet.fabrics.clone(), ..Folds::default() };
         for (ends, elements) in beside {
             let of = |e: &usize| stiffness[sheet.elements[*e].part];
             let Some(stiffest) = elements.iter().copied().reduce(|a, b| if of(&b) > of(&a) { b } else { a }) else {
@@ -128,14 +122,14 @@ impl Folds {
         edge.nodes[1] = ends[1];
         let sides = beside.map(|(element, stiffness_nm)| Side::new(mesh, ends, element, stiffness_nm));
         edge.length_m = norm(sub(mesh.points[ends[1] as usize], mesh.points[ends[0] as usize]));
-        for (k, (side, row)) in sides.iter().enumerate() {
-            (0..2).for_each(|n| edge.weights[n] += row.ends[n]);
+        for (k, (side, ends_1_m, opposite_1_m)) in sides.iter().enumerate() {
+            (0..2).for_each(|n| edge.weights[n] += ends_1_m[n]);
             for (n, opposite) in side.opposite(ends).enumerate() {
                 edge.nodes[2 + 2 * k + n] = opposite;
-                edge.weights[2 + 2 * k + n] = row.opposite;
+                edge.weights[2 + 2 * k + n] = *opposite_1_m;
             }
         }
-        let sides = sides.map(|(side, _)| side);
+        let sides = sides.map(|(side, ..)| side);
         edge.stiffness_n = in_series(&sides);
         self.edges.push(edge);
         self.sides.push(sides);
@@ -155,13 +149,9 @@ impl Folds {
     }
 }
 
-struct SideRow {
-    ends: [f64; 2],
-    opposite: f64,
-}
-
 impl Side {
-    fn new(mesh: &Mesh, ends: [u32; 2], element: &Element, stiffness_nm: f64) -> (Side, SideRow) {
+    /// With its part of L at the ends of the edge and at each opposite corner \[1/m\].
+    fn new(mesh: &Mesh, ends: [u32; 2], element: &Element, stiffness_nm: f64) -> (Side, [f64; 2], f64) {
         let at = |n: u32| mesh.points[n as usize];
         let mut side =
             Side { element: element.clone(), across: [0.0; 2], height_m: 0.0, stiffness_nm, tension_n_m: 0.0 };
@@ -176,7 +166,7 @@ impl Side {
         let unit = scale(across, 1.0 / side.height_m);
         side.across = [dot(unit, element.reference.axes[0]), dot(unit, element.reference.axes[1])];
         let per = 1.0 / side.height_m;
-        (side, SideRow { ends: [(skew - 0.5) * per, (-skew - 0.5) * per], opposite: per / count })
+        (side, [(skew - 0.5) * per, (-skew - 0.5) * per], per / count)
     }
 
     /// Corners that are not on the edge.
@@ -195,6 +185,12 @@ impl Side {
 }
 
 /// k of one side alone \[N\]: bending stiffness D \[N m\], tension T across the edge \[N/m\], length h of the element \[m\].
+///
+/// ```
+/// let (bending_nm, height_m) = (1e-4, 0.004);
+/// let untaut = fem::terms::edge_stiffness_n(bending_nm, 0.0, height_m);
+/// assert!((untaut - 2.0 * bending_nm / height_m).abs() < 1e-12, "2 D/h without tension");
+/// ```
 pub fn edge_stiffness_n(bending_nm: f64, tension_n_m: f64, height_m: f64) -> f64 {
     let r = 0.5 * height_m * (tension_n_m / bending_nm).sqrt();
     let root = (1.0 + r * r).sqrt();

@@ -1,16 +1,14 @@
 //! Folds, loads, obstacles, rest curvature: the small entries of the list of terms.
 
 mod coulomb;
+mod dead_loads;
 mod folds;
-mod gravity;
-mod nodal_forces;
 mod obstacles;
 mod rest_curvature;
 
 pub(crate) use coulomb::slide;
+pub use dead_loads::DeadLoads;
 pub use folds::{Folds, edge_stiffness_n};
-pub use gravity::Gravity;
-pub use nodal_forces::NodalForces;
 pub use obstacles::Obstacles;
 pub use rest_curvature::RestCurvature;
 

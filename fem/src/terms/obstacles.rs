@@ -36,7 +36,7 @@ const CHUNK: usize = 1024;
 const DAMPING: f64 = 2.53;
 
 /// All obstacles of a run.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Obstacles {
     solids: Vec<Solid>,
     paths: Vec<Path>,
@@ -89,11 +89,8 @@ impl Obstacles {
             paths: obstacles.iter().map(Path::of).collect(),
             solids,
             stiffness_n_m: stiffness_n_m.to_vec(),
-            before_m: Vec::new(),
             sums: vec![[0.0; 6]; nodes.div_ceil(CHUNK)],
-            stored_j: 0.0,
-            lost_j: [0.0; 2],
-            work_j: 0.0,
+            ..Obstacles::default()
         })
     }
     fn solids_as_text(&self) -> String {

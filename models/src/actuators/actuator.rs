@@ -82,7 +82,6 @@ const WEAK: f64 = 1e3;
 /// What a growing arm makes of a demand: `m (1 − r)/d` with `d = D/D₀` and `r = ε d'/(ε' d)`, what virtual work takes.
 pub(super) struct Need {
     pub value: f64,
-    /// Its derivative by the coordinate.
     pub slope: f64,
     /// d/(1 − r): weighted imbalance per `force − weight·need`.
     pub lever: f64,

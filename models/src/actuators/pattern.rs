@@ -279,7 +279,6 @@ fn overlap_m(a: &Panel, b: &Panel) -> f64 {
     a.range_m()[1].min(b.range_m()[1]) - a.range_m()[0].max(b.range_m()[0])
 }
 
-/// Millimetres as messages give them.
 fn mm(length_m: f64) -> String {
     // Adding 0 turns −0 into 0.
     format!("{}", (length_m * 1e6).round() / 1e3 + 0.0)

@@ -34,12 +34,10 @@ pub(super) const ENTRY: Effect = Effect {
         ..PLAIN
     }],
     needs: Needs::Actuator,
-    add,
+    add: |values, assembly| {
+        for site in &mut assembly.sites {
+            site.linkage.arm_growth += values[0];
+        }
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in &mut assembly.sites {
-        site.linkage.arm_growth += values[0];
-    }
-}

@@ -27,7 +27,7 @@ pub(super) const ENTRY: Effect = Effect {
     reference: "derived here",
     parameters: &[share("extra stiffness at the base as a share of B"), REACH, END],
     needs: Needs::Body,
-    add,
+    add: |values, assembly| clamp(&ENTRY, values, 0.0, assembly),
     ..BALANCE
 };
 
@@ -64,43 +64,21 @@ pub(super) const END: Parameter = Parameter {
     ..SHAPE
 };
 
-/// A wall that is stiffer towards one place.
-struct Clamp {
-    name: &'static str,
-    stiffness: f64,
-    at_m: f64,
-    length_m: f64,
-    end: f64,
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    clamp(ENTRY.name, [values[0], values[1], values[2]], 0.0, assembly);
-}
-
 /// Stiffens the wall around station `at_m` by a share of its B, which fades over so many radii, and how suddenly.
-pub(super) fn clamp(name: &'static str, [share, reach, end]: [f64; 3], at_m: f64, assembly: &mut Assembly) {
+pub(super) fn clamp(effect: &Effect<'static>, values: &[f64], at_m: f64, assembly: &mut Assembly) {
+    let [share, reach, end] = [values[0], values[1], values[2]];
     if share == 0.0 {
         return;
     }
     assembly.varies = true;
     for site in &mut assembly.sites {
         let (stiffness, length_m) = (share * site.bending.stiffness, reach * site.radius_m);
-        site.body_terms.push(Box::new(Clamp { name, stiffness, at_m, length_m, end }));
+        site.body_terms.push(effect.law(Account::Wall, move |at, force| {
+            let away = (at.s_m - at_m).abs() / length_m;
+            let away = if end == 1.0 { away } else { away.powf(end) };
+            let moment = stiffness * (-away).exp() * at.q[0];
+            force[0] -= moment;
+            0.5 * moment * at.q[0]
+        }));
     }
 }
-
-impl Term for Clamp {
-    fn line(&self) -> LedgerLine {
-        LedgerLine::new(self.name, Account::Wall)
-    }
-
-    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        let away = (at.s_m - self.at_m).abs() / self.length_m;
-        let away = if self.end == 1.0 { away } else { away.powf(self.end) };
-        let moment = self.stiffness * (-away).exp() * at.q[0];
-        force[0] -= moment;
-        0.5 * moment * at.q[0]
-    }
-}
-
-impl Remembering for Clamp {}

@@ -37,10 +37,9 @@ pub(super) const ENTRY: Effect = Effect {
         ..PLAIN
     }],
     needs: Needs::Body,
-    add,
+    add: |values, assembly| {
+        let offset_pa = values[0];
+        assembly.body.push(Box::new(move |p, _, _| p - offset_pa));
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    assembly.body_offset_pa = values[0];
-}

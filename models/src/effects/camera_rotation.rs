@@ -46,15 +46,13 @@ pub(super) const ENTRY: Effect = Effect {
         },
     ],
     needs: Needs::Body,
-    add,
+    add: |values, assembly| {
+        let (sin, cos) = values[0].sin_cos();
+        let about_m = values[1] * assembly.length_m();
+        assembly.camera.push(Box::new(move |seen| {
+            let [x, y] = [seen.xy[0] - about_m, seen.xy[1]];
+            seen.xy = [about_m + x * cos - y * sin, x * sin + y * cos];
+        }));
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let (sin, cos) = values[0].sin_cos();
-    let about_m = values[1] * assembly.length_m();
-    assembly.camera.push(Box::new(move |seen| {
-        let [x, y] = [seen.xy[0] - about_m, seen.xy[1]];
-        seen.xy = [about_m + x * cos - y * sin, x * sin + y * cos];
-    }));
-}

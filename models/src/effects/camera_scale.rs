@@ -33,14 +33,12 @@ pub(super) const ENTRY: Effect = Effect {
         ..PLAIN
     }],
     needs: Needs::Body,
-    add,
+    add: |values, assembly| {
+        let factor = 1.0 + values[0];
+        assembly.camera.push(Box::new(move |seen| {
+            seen.xy[0] *= factor;
+            seen.xy[1] *= factor;
+        }));
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let factor = 1.0 + values[0];
-    assembly.camera.push(Box::new(move |seen| {
-        seen.xy[0] *= factor;
-        seen.xy[1] *= factor;
-    }));
-}

@@ -27,19 +27,17 @@ pub(super) const ENTRY: Effect = Effect {
     reference: "derived here",
     parameters: &[Parameter { symbol: "w/W", meaning: "share of the pouch's width that is pulled straight", ..SHARE }],
     needs: Needs::Family(Family::Pouch),
-    add,
+    add: |values, assembly| {
+        if values[0] == 0.0 {
+            return;
+        }
+        for site in assembly.active_sites(Family::Pouch) {
+            let width_m = values[0] * site.strip_m;
+            let Some(drawn) = Section::drawn_in(site.radius_m, width_m, width_m) else { continue };
+            site.linkage.arm_m += drawn.chord_m - 2.0 * site.radius_m;
+            (site.area_m2, site.first_m3) = drawn.about_axis(site.radius_m);
+            site.body_pressure.scale(drawn.moment_share(site.radius_m));
+        }
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    if values[0] == 0.0 {
-        return;
-    }
-    for site in assembly.active_sites(Family::Pouch) {
-        let width_m = values[0] * site.shape.width_m;
-        let Some(drawn) = Section::drawn_in(site.radius_m, width_m, width_m) else { continue };
-        site.linkage.arm_m += drawn.chord_m - 2.0 * site.radius_m;
-        site.area_m2 = drawn.area_m2;
-        site.body_pressure.scale(drawn.moment_share(site.radius_m));
-    }
-}

@@ -36,63 +36,17 @@ pub(super) const ENTRY: Effect = Effect {
         ..PLAIN
     }],
     needs: Needs::Actuator,
-    add,
+    add: |values, assembly| {
+        let share = values[0];
+        for site in assembly.sites.iter_mut().filter(|site| site.actuator.is_some()) {
+            site.inner_share = share;
+            let law = ENTRY.law(Account::BodyGas, move |at, force| {
+                let pressure = share * at.p_body_pa;
+                force[actuator_q::VOLUME] -= pressure;
+                pressure * at.q[actuator_q::VOLUME]
+            });
+            site.act(*law, SideEffects { closes: share, ..SideEffects::default() });
+        }
+    },
     ..BALANCE
 };
-
-struct DisplacedGas {
-    share: f64,
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in assembly.sites.iter_mut().filter(|site| site.actuator.is_some()) {
-        site.inner_share = values[0];
-        site.act(DisplacedGas { share: values[0] }, Besides { closes: values[0], ..Besides::default() });
-    }
-}
-
-impl Term for DisplacedGas {
-    fn line(&self) -> LedgerLine {
-        ENTRY.line(Account::BodyGas)
-    }
-
-    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        let pressure = self.share * at.p_body_pa;
-        force[actuator_q::VOLUME] -= pressure;
-        pressure * at.q[actuator_q::VOLUME]
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::scenario::Scenario;
-    use crate::{Loads, Model};
-
-    fn shipped(effect: &str) -> Model {
-        let text = crate::shipped("cpam-textbook").unwrap_or_default();
-        Model::new(&Scenario::parse(&format!("{text}\n{effect}")).unwrap())
-    }
-
-    #[test]
-    fn it_is_an_offset_that_grows_with_the_bodys_pressure() {
-        for body_pa in [1e3, 2e3, 4e3] {
-            let share = shipped("[effects.displaced_gas]\nshare = 0.5\n");
-            let offset = shipped(&format!("[effects.pressure_offset]\noffset_kpa = {}\n", 0.5e-3 * body_pa));
-            for actuator_pa in [0.0, 0.9 * body_pa, 5e3, 30e3] {
-                let loads = Loads::uniform(body_pa, actuator_pa);
-                let [mut a, mut b] = [share.prediction(), offset.prediction()];
-                share.predict(&loads, &mut a).unwrap();
-                offset.predict(&loads, &mut b).unwrap();
-                assert!((a.tip.y_m - b.tip.y_m).abs() < 1e-9, "{body_pa} {actuator_pa}: {} {}", a.tip.y_m, b.tip.y_m);
-            }
-        }
-    }
-
-    #[test]
-    fn an_actuator_below_its_share_of_the_bodys_pressure_stays_flat() {
-        let model = shipped("[effects.displaced_gas]\nshare = 0.9\n");
-        let mut at = model.prediction();
-        model.predict(&Loads::uniform(4e3, 3.5e3), &mut at).unwrap();
-        assert!(at.tip.y_m.abs() < 1e-5, "{}", at.tip.y_m);
-    }
-}

@@ -55,19 +55,18 @@ pub(super) const ENTRY: Effect = Effect {
         },
     ],
     needs: Needs::Actuator,
-    add,
+    add: |values, assembly| {
+        for site in &mut assembly.sites {
+            if let Some(actuator) = site.actuator {
+                let active = active_fraction(actuator, &site.shape, values[0]);
+                site.linkage.active_fraction *= active;
+                site.linkage.stroke_fraction *=
+                    if values[1] == 1.0 { active } else { 1.0 - values[1] * (1.0 - active) };
+            }
+        }
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in &mut assembly.sites {
-        if let Some(actuator) = site.actuator {
-            let active = active_fraction(actuator, &site.shape, values[0]);
-            site.linkage.active_fraction *= active;
-            site.linkage.stroke_fraction *= if values[1] == 1.0 { active } else { 1.0 - values[1] * (1.0 - active) };
-        }
-    }
-}
 
 fn active_fraction(actuator: &Actuator, shape: &ActuatorShape, beta: f64) -> f64 {
     let loss = match actuator.family {

@@ -28,16 +28,14 @@ pub(super) const ENTRY: Effect = Effect {
     reference: "Bolen 2026 (Festo muscle of 10 mm); scaling with the diameter assumed",
     parameters: &[Parameter { meaning: "share of the loss of plugs", ..SHARE }],
     needs: Needs::Family(Family::Mckibben),
-    add,
+    add: |values, assembly| {
+        for site in assembly.active_sites(Family::Mckibben) {
+            let slenderness = site.shape.length_m * PI / (2.0 * site.shape.width_m);
+            site.linkage.active_fraction *= 1.0 - values[0] * (1.0 - share_of_force(slenderness));
+        }
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in assembly.active_sites(Family::Mckibben) {
-        let slenderness = site.shape.length_m * PI / (2.0 * site.shape.width_m);
-        site.linkage.active_fraction *= 1.0 - values[0] * (1.0 - share_of_force(slenderness));
-    }
-}
 
 /// Diameter of the muscle of that fit \[m\], growth of its force with length \[1/m\], length lost at the ends \[m\].
 const FESTO_M: f64 = 0.01;

@@ -1,9 +1,9 @@
 //! An effect as plain data: its words, its parameters, and the function that adds it. Each effect sees this through `use super::entry::*`.
 
-pub(super) use crate::actuators::{ActuatorShape, Family};
+pub(super) use crate::actuators::Family;
 pub(super) use crate::assembly::Assembly;
 pub(super) use crate::section::Section;
-pub(super) use crate::site::{Besides, Site};
+pub(super) use crate::site::{SideEffects, Site};
 pub(super) use crate::term::{Account, LedgerLine, Memory, Pose, Remembering, Term, actuator_q};
 
 /// Where in a prediction an effect acts; stages always run in this order.
@@ -160,6 +160,10 @@ pub enum Fitted {
     WithKeptBending,
     /// Only data at several body pressures, or a separate test: at one pressure it has the curve of another effect.
     WithBodyPressures,
+    /// All; it is a time of the protocol, tried in the middle between two holds.
+    BetweenHolds,
+    /// All; it is a lag, tried in the middle between two samples.
+    BetweenSamples,
     /// None: it follows from how the robot is cut and joined, or from a test of its fabric.
     FromDesign,
 }
@@ -256,7 +260,27 @@ impl Effect<'static> {
     pub(super) const fn line(&self, account: Account) -> LedgerLine {
         LedgerLine::new(self.name, account)
     }
+
+    /// Its term without memory: a law that adds its force and returns its energy.
+    pub(super) fn law<F: Fn(&Pose, &mut [f64]) -> f64 + Send + Sync>(&self, account: Account, law: F) -> Box<Law<F>> {
+        Box::new(Law(self.line(account), law))
+    }
 }
+
+/// A term that is a law alone, with its line in the ledger.
+pub(super) struct Law<F>(pub LedgerLine, pub F);
+
+impl<F: Fn(&Pose, &mut [f64]) -> f64 + Send + Sync> Term for Law<F> {
+    fn line(&self) -> LedgerLine {
+        self.0
+    }
+
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        (self.1)(at, force)
+    }
+}
+
+impl<F: Fn(&Pose, &mut [f64]) -> f64 + Send + Sync> Remembering for Law<F> {}
 
 impl Effect<'_> {
     /// Neutral values of all parameters, SI.

@@ -34,12 +34,10 @@ pub(super) const ENTRY: Effect = Effect {
         ..PLAIN
     }],
     needs: Needs::Actuator,
-    add,
+    add: |values, assembly| {
+        for site in &mut assembly.sites {
+            site.linkage.compliance_per_n += values[0] / site.shape.width_m;
+        }
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in &mut assembly.sites {
-        site.linkage.compliance_per_n += values[0] / site.shape.width_m;
-    }
-}

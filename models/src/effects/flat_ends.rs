@@ -37,12 +37,10 @@ pub(super) const ENTRY: Effect = Effect {
         ..PLAIN
     }],
     needs: Needs::Family(Family::Mckibben),
-    add,
+    add: |values, assembly| {
+        for site in assembly.active_sites(Family::Mckibben) {
+            site.weave.flat_ends = values[0];
+        }
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in assembly.active_sites(Family::Mckibben) {
-        site.weave.flat_ends = values[0];
-    }
-}

@@ -71,10 +71,9 @@ fn add(values: &[f64], assembly: &mut Assembly) {
             width_m: site.shape.width_m,
             sealed: site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape)),
             inner: site.inner_share,
-            wall_m: Section::drawn_in(site.radius_m, site.shape.width_m, site.shape.width_m)
-                .map_or(0.0, |flat| 0.5 * flat.radius_m * flat.cos),
+            wall_m: site.drawn_in(site.strip_m).map_or(0.0, |flat| 0.5 * flat.radius_m * flat.cos),
         };
-        site.act(term, Besides { unforeseen: true, ..Besides::default() });
+        site.act(term, SideEffects { shifts_balance: true, ..SideEffects::default() });
     }
 }
 
@@ -115,6 +114,10 @@ impl Term for FoldEnergy {
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
         let theta = at.q[actuator_q::COORDINATE];
+        if theta == 0.0 {
+            // Flat sheets are not folded; below the quotients are 0/0.
+            return 0.0;
+        }
         let root = |pressure: f64| pressure.max(0.0).sqrt();
         let (sin, cos) = sin_cos(0.5 * theta);
         let pull = root(at.p_act_pa) + root(at.p_act_pa - at.p_body_pa);
@@ -164,5 +167,6 @@ mod tests {
             let computed = length * term.add(&Pose::new(&[theta, 0.0, 0.0, 0.0], p_body, p_act), &mut [0.0; 4]);
             assert!((computed / (ends + sides) - 1.0).abs() < 0.002, "{theta}: {computed} {ends} {sides}");
         }
+        assert_eq!(term.add(&Pose::new(&[0.0; 4], p_body, p_act), &mut [0.0; 4]), 0.0);
     }
 }

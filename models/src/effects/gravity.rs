@@ -1,13 +1,13 @@
-//! Weight of the robot in the bending plane.
+//! Weight of the robot.
 //!
 //! ```text
-//! E = −Σ w hᵢ ĝ·xᵢ      w [N/m] per length, ĝ unit vector of gravity in the plane
+//! E = −Σ w hᵢ ĝ·xᵢ      w [N/m] per length, ĝ unit vector of gravity
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | w | weight per length of body | N/m |
-//! | ĝ | direction: against the bend, −y, unless the data set says otherwise | - |
+//! | ĝ | direction: −y unless scenario or data set state another; z acts with strips round the body | - |
 //! | xᵢ, hᵢ | node position and its share of the length | m |
 //!
 //! Validity: needs a fine enough division (12 segments give 0.1 % of the droop of a 360 mm robot). Vanishes when the
@@ -22,7 +22,7 @@ pub(super) const ENTRY: Effect = Effect {
     sentence: "The robot's weight bends it: most at the base, and the other way when the robot is turned over.",
     differs: "The error is largest near the base, and changes its sign when the robot is turned over.",
     remedy: "Weigh the robot; repeat the test with the robot rolled by 180°.",
-    validity: "bending plane vertical; dead load",
+    validity: "bending plane vertical, or strips round the body; dead load",
     reference: "statics",
     parameters: &[Parameter {
         key: "weight_n_per_m",
@@ -38,31 +38,20 @@ pub(super) const ENTRY: Effect = Effect {
     ..BALANCE
 };
 
-struct Gravity {
-    /// Weight of each node, x then y \[N\].
-    forces: Vec<f64>,
-}
-
 fn add(values: &[f64], assembly: &mut Assembly) {
     if values[0] == 0.0 {
         return;
     }
-    let [gx, gy] = assembly.gravity_direction;
-    let forces = assembly.node_lengths().iter().flat_map(|h| [values[0] * h * gx, values[0] * h * gy]).collect();
-    assembly.node_terms.push(Box::new(Gravity { forces }));
-}
-
-impl Term for Gravity {
-    fn line(&self) -> LedgerLine {
-        ENTRY.line(Account::Load)
-    }
-
-    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+    let direction = &assembly.gravity_direction[..assembly.axes];
+    // Of each node, x, y and in space z [N].
+    let weights: Vec<f64> =
+        assembly.node_lengths().iter().flat_map(|h| direction.iter().map(move |g| values[0] * h * g)).collect();
+    assembly.node_terms.push(ENTRY.law(Account::Load, move |at, force| {
         let mut energy = 0.0;
-        for ((f, q), w) in force.iter_mut().zip(at.q).zip(&self.forces) {
+        for ((f, q), w) in force.iter_mut().zip(at.q).zip(&weights) {
             *f += w;
             energy -= w * q;
         }
         energy
-    }
+    }));
 }

@@ -35,30 +35,14 @@ pub(super) const ENTRY: Effect = Effect {
         ..PLAIN
     }],
     needs: Needs::Body,
-    add,
+    add: |values, assembly| {
+        for site in &mut assembly.sites {
+            let moment = site.bending.stiffness * values[0];
+            site.body_terms.push(ENTRY.law(Account::Wall, move |at, force| {
+                force[0] += moment;
+                -moment * at.q[0]
+            }));
+        }
+    },
     ..BALANCE
 };
-
-struct InitialCurvature {
-    moment: f64,
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in &mut assembly.sites {
-        let moment = site.bending.stiffness * values[0];
-        site.body_terms.push(Box::new(InitialCurvature { moment }));
-    }
-}
-
-impl Term for InitialCurvature {
-    fn line(&self) -> LedgerLine {
-        ENTRY.line(Account::Wall)
-    }
-
-    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        force[0] += self.moment;
-        -self.moment * at.q[0]
-    }
-}
-
-impl Remembering for InitialCurvature {}

@@ -52,17 +52,15 @@ pub(super) const ENTRY: Effect = Effect {
         },
     ],
     needs: Needs::Actuator,
-    add,
+    add: |values, assembly| {
+        let [rate, exponent] = [values[0], values[1]];
+        if rate == 0.0 {
+            return;
+        }
+        assembly.timed = true;
+        assembly.supply.push(Box::new(move |p, at| p * left(p / REFERENCE_PA, rate * at.held_s, exponent)));
+    },
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let [rate, exponent] = [values[0], values[1]];
-    if rate == 0.0 {
-        return;
-    }
-    assembly.timed = true;
-    assembly.supply.push(Box::new(move |p, held_s| p * left(p / REFERENCE_PA, rate * held_s, exponent)));
-}
 
 /// Share of a pressure (over P_r) that is left after r t: 1 − (1 − k) r t u^{k−1} to the power of 1/(1 − k), or e^{−r t}.
 fn left(p: f64, lost: f64, exponent: f64) -> f64 {

@@ -50,16 +50,14 @@ pub(super) const ENTRY: Effect = Effect {
         },
     ],
     needs: Needs::Body,
-    add,
+    add: |values, assembly| {
+        let height = values[0];
+        let along = height * values[1].tan();
+        assembly.camera.push(Box::new(move |seen| {
+            let (sin, cos) = seen.heading.sin_cos();
+            seen.xy[0] += along * (cos - 1.0) - height * sin;
+            seen.xy[1] += height * (cos - 1.0) + along * sin;
+        }));
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let height = values[0];
-    let along = height * values[1].tan();
-    assembly.camera.push(Box::new(move |seen| {
-        let (sin, cos) = seen.heading.sin_cos();
-        seen.xy[0] += along * (cos - 1.0) - height * sin;
-        seen.xy[1] += height * (cos - 1.0) + along * sin;
-    }));
-}

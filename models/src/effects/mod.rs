@@ -5,10 +5,15 @@
 
 mod arm_growth;
 mod base_clamp;
+mod body_leak;
 mod body_pressure_offset;
+mod camera_lens;
+mod camera_moved;
 mod camera_rotation;
 mod camera_scale;
+mod camera_tilt;
 mod chord_arm;
+mod clock_lag;
 mod creep;
 mod crimped_sides;
 mod displaced_gas;
@@ -19,6 +24,8 @@ mod fabric_stretch;
 mod flat_ends;
 mod fold_energy;
 mod friction;
+mod gauge_curve;
+mod gauge_drift;
 mod glued_face;
 mod gravity;
 mod gussets;
@@ -30,6 +37,8 @@ mod ovalization;
 mod plastic_set;
 mod pressure_loss;
 mod pressure_offset;
+mod regulator_hysteresis;
+mod sealed_body;
 mod sealed_sides;
 mod seam_stiffness;
 mod self_contact;
@@ -38,8 +47,11 @@ mod shear_stiffness;
 mod softening;
 mod sunk_muscle;
 mod tail_tension;
+mod tapered_wall;
 mod tip_clamp;
 mod tip_load;
+mod tip_spring;
+mod weak_place;
 mod weld_width;
 mod wrinkling;
 mod yarn_stretch;
@@ -49,7 +61,6 @@ pub use entry::{Effect, Fitted, Group, Needs, Parameter, Stage};
 
 /// The list, in the order in which effects are added to a model.
 pub const EFFECTS: &[Effect] = &[
-    // Over the whole width, before welds take of it.
     chord_arm::ENTRY,
     weld_width::ENTRY,
     end_constraint::ENTRY,
@@ -70,28 +81,40 @@ pub const EFFECTS: &[Effect] = &[
     fold_energy::ENTRY,
     crimped_sides::ENTRY,
     self_contact::ENTRY,
+    weak_place::ENTRY,
     wrinkling::ENTRY,
     softening::ENTRY,
     tail_tension::ENTRY,
     base_clamp::ENTRY,
     tip_clamp::ENTRY,
+    tapered_wall::ENTRY,
     initial_curvature::ENTRY,
     plastic_set::ENTRY,
     friction::ENTRY,
     creep::ENTRY,
     gravity::ENTRY,
     tip_load::ENTRY,
+    tip_spring::ENTRY,
     pressure_offset::ENTRY,
     pressure_loss::ENTRY,
     body_pressure_offset::ENTRY,
     leak::ENTRY,
+    gauge_drift::ENTRY,
+    gauge_curve::ENTRY,
+    regulator_hysteresis::ENTRY,
+    body_leak::ENTRY,
+    sealed_body::ENTRY,
     marker_height::ENTRY,
     mount_rotation::ENTRY,
     camera_scale::ENTRY,
     camera_rotation::ENTRY,
+    camera_tilt::ENTRY,
+    camera_lens::ENTRY,
+    camera_moved::ENTRY,
+    clock_lag::ENTRY,
 ];
 
-/// Effects that act with strips round the body: those inside an actuator, and on its supply. Others are refused.
+/// Effects that act with strips round the body: those inside an actuator, on its supply, and dead loads. Others are refused.
 pub const IN_SPACE: &[&str] = &[
     "chord_arm",
     "weld_width",
@@ -109,6 +132,8 @@ pub const IN_SPACE: &[&str] = &[
     "pressure_offset",
     "pressure_loss",
     "body_pressure_offset",
+    "gravity",
+    "tip_load",
 ];
 
 /// The entry of that name.

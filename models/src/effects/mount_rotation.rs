@@ -37,15 +37,13 @@ pub(super) const ENTRY: Effect = Effect {
         ..PLAIN
     }],
     needs: Needs::Body,
-    add,
+    add: |values, assembly| {
+        let per_pa = values[0];
+        assembly.camera.push(Box::new(move |seen| {
+            let (sin, cos) = (per_pa * seen.p_act_pa).sin_cos();
+            let [x, y] = seen.xy;
+            seen.xy = [x * cos - y * sin, x * sin + y * cos];
+        }));
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let per_pa = values[0];
-    assembly.camera.push(Box::new(move |seen| {
-        let (sin, cos) = (per_pa * seen.p_act_pa).sin_cos();
-        let [x, y] = seen.xy;
-        seen.xy = [x * cos - y * sin, x * sin + y * cos];
-    }));
-}

@@ -57,15 +57,13 @@ pub(super) const ENTRY: Effect = Effect {
         },
     ],
     needs: Needs::Body,
-    add,
+    add: |values, assembly| {
+        for site in &mut assembly.sites {
+            site.linkage.section = Some(SectionLaw { law: flattened, parameters: [values[0], values[1]] });
+        }
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in &mut assembly.sites {
-        site.linkage.section = Some(SectionLaw { law: flattened, parameters: [values[0], values[1]] });
-    }
-}
 
 /// κ = g (1 + o g_r² (g/g_r)ⁿ) and dκ/dg.
 fn flattened([flattening_m2, exponent]: [f64; 2], g: f64) -> (f64, f64) {

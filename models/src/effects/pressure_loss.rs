@@ -51,16 +51,14 @@ pub(super) const ENTRY: Effect = Effect {
         },
     ],
     needs: Needs::Actuator,
-    add,
+    add: |values, assembly| {
+        let (lost, exponent) = (values[0], values[1]);
+        if exponent == 1.0 {
+            assembly.supply.push(Box::new(move |p, _| p * (1.0 - lost)));
+        } else {
+            let law = move |p: f64| p - lost * REFERENCE_PA * (p / REFERENCE_PA).powf(exponent);
+            assembly.supply.push(Box::new(move |p, _| law(p.max(0.0)).max(0.0)));
+        }
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let (lost, exponent) = (values[0], values[1]);
-    if exponent == 1.0 {
-        assembly.supply.push(Box::new(move |p, _| p * (1.0 - lost)));
-    } else {
-        let law = move |p: f64| p - lost * REFERENCE_PA * (p / REFERENCE_PA).powf(exponent);
-        assembly.supply.push(Box::new(move |p, _| law(p.max(0.0)).max(0.0)));
-    }
-}

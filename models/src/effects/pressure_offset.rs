@@ -36,12 +36,10 @@ pub(super) const ENTRY: Effect = Effect {
         ..PLAIN
     }],
     needs: Needs::Actuator,
-    add,
+    add: |values, assembly| {
+        let offset = values[0];
+        // A vented line stays vented, and from there the pressure rises without a jump.
+        assembly.supply.push(Box::new(move |p, _| if p > 0.0 { (p - offset.max(-p)).max(0.0) } else { p }));
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let offset = values[0];
-    // A vented line stays vented, and from there the pressure rises without a jump.
-    assembly.supply.push(Box::new(move |p, _| if p > 0.0 { (p - offset.max(-p)).max(0.0) } else { p }));
-}

@@ -15,7 +15,7 @@
 //! | σ | 1: sealed sides, 0: sides that open freely | – |
 //! | e | edge restraint of the actuator: 1 sealed, 0 freed by gussets | – |
 //! | L, W | flat length and width of the pouch | m |
-//! | A(w), Q(w) | area and moment of area Aȳ of the body's section with a chord w (`section.rs`), derivatives at W | m², m³ |
+//! | A(w), Q(w) | area and moment of area Aȳ of the body's section with a chord w (`section.rs`), derivatives at the strip's width | m², m³ |
 //! | χ | share of the pouch that lies in the body (`displaced_gas`) | – |
 //!
 //! The wall pulls the sides apart with p_b R' cosα, so that their arcs have a radius of a + ρ₀, ρ₀ = p_b R' cosα/2P̄, and end before
@@ -64,19 +64,20 @@ fn add(values: &[f64], assembly: &mut Assembly) {
         if share > 0.0 {
             let term = SealedSides::new(share, site);
             let closes = term.closes(share, site.shape.width_m);
-            let besides = Besides { closes, narrows: share * NARROWED, unforeseen: true, ..Besides::default() };
-            site.act(term, besides);
+            let effects =
+                SideEffects { closes, narrows: share * NARROWED, shifts_balance: true, ..SideEffects::default() };
+            site.act(term, effects);
         }
     }
 }
 
 impl SealedSides {
     pub(super) fn new(share: f64, site: &Site) -> SealedSides {
-        let (length_m, width_m) = (site.shape.length_m, site.shape.width_m);
-        let at = |chord_m: f64| Section::drawn_in(site.radius_m, width_m, chord_m);
-        let step = 1e-3 * width_m;
+        let (length_m, strip_m) = (site.shape.length_m, site.strip_m);
+        let step = 1e-3 * strip_m;
         // A pouch too wide for the body leaves its section alone.
-        let sections = at(width_m - step).zip(at(width_m)).zip(at(width_m + step));
+        let [low, middle, high] = [-step, 0.0, step].map(|more| site.drawn_in(strip_m + more));
+        let sections = low.zip(middle).zip(high);
         let factors = |of: fn(&Section) -> f64| {
             let Some(((low, middle), high)) = &sections else { return [0.0; 2] };
             let (low, middle, high) = (of(low), of(middle), of(high));

@@ -33,29 +33,15 @@ pub(super) const ENTRY: Effect = Effect {
         ..PLAIN
     }],
     needs: Needs::Family(Family::Pouch),
-    add,
+    add: |values, assembly| {
+        for site in assembly.active_sites(Family::Pouch) {
+            let per_length = values[0] / site.shape.length_m;
+            site.actuator_terms.push(ENTRY.law(Account::Wall, move |at, force| {
+                let angle = at.q[actuator_q::COORDINATE];
+                force[actuator_q::COORDINATE] -= per_length * angle;
+                0.5 * per_length * angle * angle
+            }));
+        }
+    },
     ..BALANCE
 };
-
-struct SeamStiffness {
-    per_length: f64,
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in assembly.active_sites(Family::Pouch) {
-        let per_length = values[0] / site.shape.length_m;
-        site.actuator_terms.push(Box::new(SeamStiffness { per_length }));
-    }
-}
-
-impl Term for SeamStiffness {
-    fn line(&self) -> LedgerLine {
-        ENTRY.line(Account::Wall)
-    }
-
-    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        let angle = at.q[actuator_q::COORDINATE];
-        force[actuator_q::COORDINATE] -= self.per_length * angle;
-        0.5 * self.per_length * angle * angle
-    }
-}

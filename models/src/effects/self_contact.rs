@@ -62,36 +62,22 @@ pub(super) const ENTRY: Effect = Effect {
     ..BALANCE
 };
 
-struct SelfContact {
-    stiffness: f64,
-    touch: f64,
-    length_m: f64,
-    /// Turn per half arc angle: two arcs of pouches, none of a muscle.
-    arcs: f64,
-}
-
 fn add(values: &[f64], assembly: &mut Assembly) {
+    let [stiffness, touch] = [values[0], values[1]];
     for site in &mut assembly.sites {
         let Some(actuator) = site.actuator else { continue };
+        // Turn per half arc angle: two arcs of pouches, none of a muscle.
         let (length_m, arcs) = match actuator.family {
             Family::Pouch => (site.shape.length_m, 2.0),
             Family::Mckibben => (1.0, 0.0),
         };
-        site.actuator_terms.push(Box::new(SelfContact { stiffness: values[0], touch: values[1], length_m, arcs }));
-    }
-}
-
-impl Term for SelfContact {
-    fn line(&self) -> LedgerLine {
-        ENTRY.line(Account::Contact)
-    }
-
-    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        let turned = self.arcs * at.q[actuator_q::COORDINATE] + at.q[actuator_q::CURVATURE] * self.length_m;
-        let overlap = (turned - self.touch).max(0.0);
-        let moment = self.stiffness * overlap / self.length_m;
-        force[actuator_q::COORDINATE] -= self.arcs * moment;
-        force[actuator_q::CURVATURE] -= self.length_m * moment;
-        0.5 * moment * overlap
+        site.actuator_terms.push(ENTRY.law(Account::Contact, move |at, force| {
+            let turned = arcs * at.q[actuator_q::COORDINATE] + at.q[actuator_q::CURVATURE] * length_m;
+            let overlap = (turned - touch).max(0.0);
+            let moment = stiffness * overlap / length_m;
+            force[actuator_q::COORDINATE] -= arcs * moment;
+            force[actuator_q::CURVATURE] -= length_m * moment;
+            0.5 * moment * overlap
+        }));
     }
 }

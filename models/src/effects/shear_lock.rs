@@ -63,29 +63,16 @@ pub(super) const ENTRY: Effect = Effect {
 /// Usual stiffness of the jammed weave \[N/m\].
 const JAMMED: f64 = 2000.0;
 
-struct ShearLock {
-    lock: f64,
-    stiffness: f64,
-    shape: ActuatorShape,
-}
-
 fn add(values: &[f64], assembly: &mut Assembly) {
+    let [lock, stiffness] = [values[0], values[1]];
     for site in assembly.active_sites(Family::Mckibben) {
         let shape = site.shape;
-        site.actuator_terms.push(Box::new(ShearLock { lock: values[0], stiffness: values[1], shape }));
-    }
-}
-
-impl Term for ShearLock {
-    fn line(&self) -> LedgerLine {
-        ENTRY.line(Account::Wall)
-    }
-
-    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        let [shear, d_shear] = self.shape.yarn_shear(at.q[actuator_q::CONTRACTION]);
-        let beyond = (shear - self.lock).max(0.0);
-        let moment = 2.0 * self.stiffness * self.shape.width_m * beyond;
-        force[actuator_q::CONTRACTION] -= moment * d_shear;
-        0.5 * moment * beyond
+        site.actuator_terms.push(ENTRY.law(Account::Wall, move |at, force| {
+            let [shear, d_shear] = shape.yarn_shear(at.q[actuator_q::CONTRACTION]);
+            let beyond = (shear - lock).max(0.0);
+            let moment = 2.0 * stiffness * shape.width_m * beyond;
+            force[actuator_q::CONTRACTION] -= moment * d_shear;
+            0.5 * moment * beyond
+        }));
     }
 }

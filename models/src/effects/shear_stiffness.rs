@@ -57,51 +57,33 @@ pub(super) const ENTRY: Effect = Effect {
     ..BALANCE
 };
 
-struct ShearStiffness {
-    shear_n_per_m: f64,
-    exponent: f64,
-    /// The part with n = 1 is in the muscle's cell.
-    beyond: bool,
-    shape: ActuatorShape,
-}
-
 fn add(values: &[f64], assembly: &mut Assembly) {
     let [shear_n_per_m, exponent] = [values[0], values[1]];
     for site in assembly.active_sites(Family::Mckibben) {
+        // The part with n = 1 is in the muscle's cell.
         let beyond = site.weave.is_cell();
         if beyond {
             site.weave.shear_n_per_m = shear_n_per_m;
         }
         if !beyond || exponent != 1.0 {
             let shape = site.shape;
-            site.actuator_terms.push(Box::new(ShearStiffness { shear_n_per_m, exponent, beyond, shape }));
+            site.actuator_terms.push(ENTRY.law(Account::Stretch, move |at, force| {
+                let [shear, d_shear] = shape.yarn_shear(at.q[actuator_q::CONTRACTION]);
+                let linear = 2.0 * shear_n_per_m * shape.width_m * shear;
+                let (moment, energy) = match exponent == 1.0 {
+                    true => (linear, 0.5 * linear * shear),
+                    false => of_power(2.0 * shear_n_per_m * shape.width_m * REFERENCE_RAD, exponent, shear),
+                };
+                let of_cell = if beyond { linear } else { 0.0 };
+                force[actuator_q::CONTRACTION] -= (moment - of_cell) * d_shear;
+                energy - 0.5 * of_cell * shear
+            }));
         }
     }
 }
 
-impl ShearStiffness {
-    /// Moment and energy per metre, with n ≠ 1.
-    fn of_power(&self, shear: f64) -> (f64, f64) {
-        let of_size = 2.0 * self.shear_n_per_m * self.shape.width_m * REFERENCE_RAD;
-        let moment = of_size * (shear.abs() / REFERENCE_RAD).powf(self.exponent).copysign(shear);
-        (moment, moment * shear / (1.0 + self.exponent))
-    }
-}
-
-impl Term for ShearStiffness {
-    fn line(&self) -> LedgerLine {
-        ENTRY.line(Account::Stretch)
-    }
-
-    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        let [shear, d_shear] = self.shape.yarn_shear(at.q[actuator_q::CONTRACTION]);
-        let linear = 2.0 * self.shear_n_per_m * self.shape.width_m * shear;
-        let (moment, energy) = match self.exponent == 1.0 {
-            true => (linear, 0.5 * linear * shear),
-            false => self.of_power(shear),
-        };
-        let of_cell = if self.beyond { linear } else { 0.0 };
-        force[actuator_q::CONTRACTION] -= (moment - of_cell) * d_shear;
-        energy - 0.5 * of_cell * shear
-    }
+/// Moment and energy per metre with n ≠ 1; `size` is the linear moment at the reference shear.
+fn of_power(size: f64, exponent: f64, shear: f64) -> (f64, f64) {
+    let moment = size * (shear.abs() / REFERENCE_RAD).powf(exponent).copysign(shear);
+    (moment, moment * shear / (1.0 + exponent))
 }

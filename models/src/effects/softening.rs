@@ -38,29 +38,18 @@ pub(super) const ENTRY: Effect = Effect {
     ..BALANCE
 };
 
-struct Softening {
-    stiffness: f64,
-    softening: f64,
-}
-
 fn add(values: &[f64], assembly: &mut Assembly) {
-    if values[0] == 0.0 {
+    let a = values[0];
+    if a == 0.0 {
         return;
     }
     for site in &mut assembly.sites {
-        site.body_terms.push(Box::new(Softening { stiffness: site.bending.stiffness, softening: values[0] }));
-    }
-}
-
-impl Term for Softening {
-    fn line(&self) -> LedgerLine {
-        ENTRY.line(Account::Wall)
-    }
-
-    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        let (kappa, a) = (at.q[0].abs(), self.softening);
-        force[0] += self.stiffness * a * kappa * at.q[0] / (1.0 + a * kappa);
-        self.stiffness / (a * a) * lost(a * kappa)
+        let stiffness = site.bending.stiffness;
+        site.body_terms.push(ENTRY.law(Account::Wall, move |at, force| {
+            let kappa = at.q[0].abs();
+            force[0] += stiffness * a * kappa * at.q[0] / (1.0 + a * kappa);
+            stiffness / (a * a) * lost(a * kappa)
+        }));
     }
 }
 
@@ -74,5 +63,3 @@ fn lost(x: f64) -> f64 {
 
 /// Below it the series is exact to 1e-10.
 const SMALL: f64 = 0.02;
-
-impl Remembering for Softening {}

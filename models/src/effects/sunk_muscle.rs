@@ -53,6 +53,8 @@ fn add(values: &[f64], assembly: &mut Assembly) {
         // The axis stays in the wall's chord however wide the tube is.
         site.linkage.arm_growth = part(site.linkage.arm_growth, 0.0);
         site.weave.drawn_in_m2 = values[0] * lost_m2;
+        let (area_m2, first_m3) = body.about_axis(radius_m);
+        (site.area_m2, site.first_m3) = (part(site.area_m2, area_m2), values[0] * first_m3);
         site.body_pressure.scale(part(1.0, body.moment_share(radius_m)));
     }
 }

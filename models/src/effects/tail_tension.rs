@@ -35,33 +35,18 @@ pub(super) const ENTRY: Effect = Effect {
         ..PLAIN
     }],
     needs: Needs::Body,
-    add,
+    add: |values, assembly| {
+        let moment = values[0];
+        for site in &mut assembly.sites {
+            site.body_terms.push(ENTRY.law(Account::Wall, move |at, force| {
+                let (energy, slope) = soft_step(at.q[0], STEP);
+                force[0] -= moment * slope;
+                moment * energy
+            }));
+        }
+    },
     ..BALANCE
 };
 
 /// Curvature over which the step sets in \[1/m\], as for the body's hinge.
 const STEP: f64 = 0.05;
-
-struct TailTension {
-    moment: f64,
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in &mut assembly.sites {
-        site.body_terms.push(Box::new(TailTension { moment: values[0] }));
-    }
-}
-
-impl Term for TailTension {
-    fn line(&self) -> LedgerLine {
-        ENTRY.line(Account::Wall)
-    }
-
-    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        let (energy, slope) = soft_step(at.q[0], STEP);
-        force[0] -= self.moment * slope;
-        self.moment * energy
-    }
-}
-
-impl Remembering for TailTension {}

@@ -27,11 +27,6 @@ pub(super) const ENTRY: Effect = Effect {
     reference: "derived here",
     parameters: &[share("extra stiffness at the tip as a share of B"), REACH, END],
     needs: Needs::Body,
-    add,
+    add: |values, assembly| clamp(&ENTRY, values, assembly.length_m(), assembly),
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let tip_m = assembly.length_m();
-    clamp(ENTRY.name, [values[0], values[1], values[2]], tip_m, assembly);
-}

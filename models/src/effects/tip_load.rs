@@ -1,12 +1,12 @@
 //! A known force at the tip, constant in direction.
 //!
 //! ```text
-//! E = −F_x x_tip − F_y y_tip
+//! E = −F_x x_tip − F_y y_tip − F_z z_tip
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | F_x, F_y | force on the tip, y towards the actuator | N |
+//! | F_x, F_y, F_z | force on the tip, y towards azimuth 0; z acts with strips round the body | N |
 //!
 //! Validity: dead load at the end of the centre line. Statics.
 
@@ -21,9 +21,25 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Hang a known weight on the tip, or take off what hangs there.",
     validity: "dead load at the tip",
     reference: "statics",
-    parameters: &[force("force_x_n", "F_x", 0.0, false), force("force_y_n", "F_y", -0.4, true)],
+    parameters: &[
+        force("force_x_n", "F_x", 0.0, false),
+        force("force_y_n", "F_y", -0.4, true),
+        Parameter { fitted: Fitted::FromDesign, ..force("force_z_n", "F_z", 0.0, true) },
+    ],
     needs: Needs::Body,
-    add,
+    add: |values, assembly| {
+        let (axes, [x, y, z]) = (assembly.axes, [values[0], values[1], values[2]]);
+        if [x, y, z][..axes].iter().any(|f| *f != 0.0) {
+            assembly.node_terms.push(ENTRY.law(Account::Load, move |at, force| {
+                let tip = at.q.len() - axes;
+                for (f, own) in force[tip..].iter_mut().zip([x, y, z]) {
+                    *f += own;
+                }
+                let in_plane = -x * at.q[tip] - y * at.q[tip + 1];
+                at.q.get(tip + 2).map_or(in_plane, |q| in_plane - z * q)
+            }));
+        }
+    },
     ..BALANCE
 };
 
@@ -39,28 +55,5 @@ const fn force(key: &'static str, symbol: &'static str, typical: f64, in_room: b
         in_room,
         meaning: "force on the tip",
         ..PLAIN
-    }
-}
-
-struct TipLoad {
-    force: [f64; 2],
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    if values[0] != 0.0 || values[1] != 0.0 {
-        assembly.node_terms.push(Box::new(TipLoad { force: [values[0], values[1]] }));
-    }
-}
-
-impl Term for TipLoad {
-    fn line(&self) -> LedgerLine {
-        ENTRY.line(Account::Load)
-    }
-
-    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        let tip = at.q.len() - 2;
-        force[tip] += self.force[0];
-        force[tip + 1] += self.force[1];
-        -self.force[0] * at.q[tip] - self.force[1] * at.q[tip + 1]
     }
 }

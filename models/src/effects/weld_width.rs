@@ -34,21 +34,19 @@ pub(super) const ENTRY: Effect = Effect {
         ..PLAIN
     }],
     needs: Needs::Family(Family::Pouch),
-    add,
+    add: |values, assembly| {
+        for site in assembly.active_sites(Family::Pouch) {
+            let pitch_m = site.shape.length_m;
+            let weld_m = values[0].min(MOST * pitch_m.min(site.shape.width_m));
+            site.shape.length_m -= weld_m;
+            site.shape.width_m -= weld_m;
+            let pouch = site.shape.length_m / pitch_m;
+            site.linkage.active_fraction *= pouch;
+            site.linkage.stroke_fraction *= pouch;
+        }
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in assembly.active_sites(Family::Pouch) {
-        let pitch_m = site.shape.length_m;
-        let weld_m = values[0].min(MOST * pitch_m.min(site.shape.width_m));
-        site.shape.length_m -= weld_m;
-        site.shape.width_m -= weld_m;
-        let pouch = site.shape.length_m / pitch_m;
-        site.linkage.active_fraction *= pouch;
-        site.linkage.stroke_fraction *= pouch;
-    }
-}
 
 /// Wider welds leave no pouch.
 const MOST: f64 = 0.9;

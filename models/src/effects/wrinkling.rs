@@ -49,41 +49,27 @@ pub(super) const ENTRY: Effect = Effect {
     ..BALANCE
 };
 
-struct Wrinkling {
-    compliance_m_per_n: f64,
-    radius_m: f64,
-}
-
 fn add(values: &[f64], assembly: &mut Assembly) {
-    if values[0] == 0.0 {
+    let c = values[0];
+    if c == 0.0 {
         return;
     }
     for site in &mut assembly.sites {
-        let radius_m = site.radius_m;
-        let law = Wrinkling { compliance_m_per_n: values[0], radius_m };
+        let r = site.radius_m;
+        let law = Law(BODY_PRESSURE, move |at: &Pose, force: &mut [f64]| {
+            let kappa = at.q[0].abs();
+            let thrust = PI * r * r * at.p_body_pa;
+            let wrinkling = 0.5 * at.p_body_pa * c;
+            let (moment, energy) = if kappa <= wrinkling {
+                let moment = PI * r.powi(3) / c * kappa;
+                (moment, 0.5 * moment * kappa)
+            } else {
+                wrinkled(thrust, r, c, kappa, gamma0_from_curvature_ratio(kappa / wrinkling))
+            };
+            force[0] -= moment * at.q[0].signum();
+            energy
+        });
         site.body_pressure = BodyLaw::Replaced(Box::new(law));
-    }
-}
-
-impl Term for Wrinkling {
-    fn line(&self) -> LedgerLine {
-        BODY_PRESSURE
-    }
-
-    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        let (r, c) = (self.radius_m, self.compliance_m_per_n);
-        let kappa = at.q[0].abs();
-        let thrust = PI * r * r * at.p_body_pa;
-        let wrinkling = 0.5 * at.p_body_pa * c;
-        let (moment, energy) = if kappa <= wrinkling {
-            let moment = PI * r.powi(3) / c * kappa;
-            (moment, 0.5 * moment * kappa)
-        } else {
-            let gamma = gamma0_from_curvature_ratio(kappa / wrinkling);
-            wrinkled(thrust, r, c, kappa, gamma)
-        };
-        force[0] -= moment * at.q[0].signum();
-        energy
     }
 }
 

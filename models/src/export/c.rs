@@ -6,7 +6,7 @@ use std::fmt::Write;
 /// What the files say about where they come from.
 #[derive(Debug, Clone)]
 pub struct Origin<'a> {
-    /// Name of the files without ending; every name in them begins with it.
+    /// Name of the files without ending; every name in them begins with it, in letters that C allows.
     pub prefix: &'a str,
     /// Name of the robot.
     pub robot: &'a str,
@@ -22,7 +22,8 @@ const SOURCE: &str = include_str!("table.c");
 
 impl Origin<'_> {
     /// The prefix as C allows it: letters, digits and underscores, no digit first.
-    fn name(&self) -> String {
+    /// Public names and the unit for co-simulation begin with it.
+    pub fn name(&self) -> String {
         let kept = self.prefix.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' });
         let name: String = kept.collect();
         if name.starts_with(|c: char| c.is_ascii_digit()) || name.is_empty() { format!("robot_{name}") } else { name }
@@ -42,7 +43,7 @@ impl Table {
         [HEADER, SOURCE].map(|text| self.fill(text, origin))
     }
 
-    fn fill(&self, text: &str, origin: &Origin) -> String {
+    pub(super) fn fill(&self, text: &str, origin: &Origin) -> String {
         let name = origin.name();
         let (bound, share) = (&self.bound, |m: f64| sure(m / self.length_m));
         let markers = match self.markers() {
@@ -55,6 +56,7 @@ impl Table {
         });
         let kpa = |pa: f64| format!("{}", round(pa / 1e3));
         let filled = [
+            ("@FILE@", plain(origin.prefix)),
             ("@ROBOT@", plain(origin.robot)),
             ("@COMMAND@", plain(origin.command)),
             ("@HISTORY@", origin.history_words()),

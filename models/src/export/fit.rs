@@ -71,7 +71,6 @@ pub(super) fn horner(c: &[f32], t: f64) -> [f64; 2] {
     c.iter().rev().fold([0.0, 0.0], |[value, slope], c| [value * t + f64::from(*c), slope * t + value])
 }
 
-/// One piece under way.
 pub(super) struct Fitter<'a, 'm> {
     pub sampler: &'a mut Sampler<'m>,
     pub degree: usize,

@@ -10,14 +10,14 @@
 
 use crate::error::Unsolved;
 use crate::follow::Step;
-use crate::model::{Model, Prediction};
+use crate::model::{MOST_ACTUATOR_PA, Model, Prediction};
 use crate::scenario::Scenario;
 use crate::term::{CHANNELS, Loads};
 use serde::Serialize;
 use spelling::si;
 
 /// A joint: a piece of the body, bent as a whole.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Joint {
     /// Start of its piece along the undeformed body \[m\].
     #[serde(rename = "s_mm", serialize_with = "si::mm")]
@@ -25,6 +25,13 @@ pub struct Joint {
     /// Length of its piece \[m\].
     #[serde(rename = "length_mm", serialize_with = "si::mm")]
     pub length_m: f64,
+    /// Its axis along the straight chain from the base \[m\]: halfway through its piece. Its two halves are rigid and
+    /// (h/2) tan(q/2)/(q/2) long, so that the piece ends where the model's arc does.
+    #[serde(rename = "joint_at_mm", serialize_with = "si::mm")]
+    pub joint_at_m: f64,
+    /// Its axis from the centre line, away from the actuator \[m\]: on the taut generator, whose length is kept.
+    #[serde(rename = "line_offset_mm", serialize_with = "si::mm")]
+    pub line_offset_m: f64,
     /// Angle q at the working point \[rad\].
     pub angle_rad: f64,
     /// K \[N·m/rad\]; NaN (null) where the actuator is flat and no bend has a slope.
@@ -41,11 +48,21 @@ pub struct Joint {
     pub damping_nms: Option<f64>,
 }
 
+impl Joint {
+    /// Length of either rigid half of its piece \[m\].
+    pub(super) fn half_m(&self) -> f64 {
+        let x = 0.5 * self.angle_rad;
+        0.5 * self.length_m * if x.abs() < 1e-6 { 1.0 } else { x.tan() / x }
+    }
+}
+
 /// The chain, base to tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Linear {
     /// Pressures of the working point.
     pub loads: Loads,
+    /// The tip along the straight chain, on the centre line \[m\].
+    pub tip_at_m: f64,
     /// Its joints.
     pub joints: Vec<Joint>,
 }
@@ -64,9 +81,6 @@ impl Linear {
     /// let chain = models::export::Linear::new(&robot, 6, &models::Loads::uniform(2e3, 10e3)).unwrap();
     /// assert!(chain.joints.len() == 6 && chain.joints[2].stiffness_nm > 0.0 && chain.joints[2].per_pa[0] > 0.0);
     /// ```
-    ///
-    /// # Errors
-    /// What [`Model::predict`] returns at the working point.
     pub fn new(scenario: &Scenario, joints: usize, loads: &Loads) -> Result<Linear, Unsolved> {
         let cuts: Vec<f64> = (1..joints).map(|i| scenario.length_m * i as f64 / joints as f64).collect();
         let whole = Model::in_pieces(scenario, &cuts);
@@ -79,7 +93,13 @@ impl Linear {
         held.state = held.model.prediction();
         let creep = scenario.effects.iter().find(|effect| effect.name == "creep");
         let joint = |i| held.joint(i, creep.map(|effect| effect.values[0] * effect.values[1]));
-        Ok(Linear { loads: *loads, joints: (0..whole.segments().len()).map(joint).collect::<Result<_, _>>()? })
+        let mut joints = (0..whole.segments().len()).map(joint).collect::<Result<Vec<_>, _>>()?;
+        let mut end_m = 0.0;
+        for joint in &mut joints {
+            joint.joint_at_m = end_m + joint.half_m();
+            end_m = joint.joint_at_m + joint.half_m();
+        }
+        Ok(Linear { loads: *loads, tip_at_m: end_m, joints })
     }
 }
 
@@ -105,6 +125,7 @@ impl Held {
         let segment = self.model.segments()[index];
         let site = &self.model.assembly().sites[segment.site];
         let (h, channel, bending) = (segment.length_m, site.channel, site.bending.stiffness);
+        let [_, line_offset_m, _] = site.centre_line.shortening(self.bent[index]);
         let (is_active, bent, loads) = (self.model.is_active(index), self.bent[index], self.loads);
         let at_point = self.missing(index, bent, &loads)?;
         let step = NUDGE * bent.abs().max(LEAST[0]);
@@ -123,14 +144,15 @@ impl Held {
         let driven: f64 = (0..CHANNELS).map(|c| per_pa[c] * loads.actuator_pa[c]).sum();
         let offset_nm = stiffness_nm * angle_rad - driven - at_point;
         let damping_nms = creeping_s.map(|share_s| share_s * bending / h);
-        Ok(Joint { start_m: segment.start_m, length_m: h, angle_rad, stiffness_nm, per_pa, offset_nm, damping_nms })
+        let place = Joint { start_m: segment.start_m, length_m: h, line_offset_m, angle_rad, ..Joint::default() };
+        Ok(Joint { stiffness_nm, per_pa, offset_nm, damping_nms, ..place })
     }
 
     /// How much more moment a joint has per pascal of its channel.
     fn by_pressure(&mut self, index: usize, channel: usize) -> Result<f64, Unsolved> {
         let step = NUDGE * self.loads.actuator_pa[channel].max(LEAST[1]);
         let [mut up, mut down] = [self.loads; 2];
-        up.actuator_pa[channel] += step;
+        up.actuator_pa[channel] = (up.actuator_pa[channel] + step).min(MOST_ACTUATOR_PA);
         down.actuator_pa[channel] = (down.actuator_pa[channel] - step).max(0.0);
         let span = up.actuator_pa[channel] - down.actuator_pa[channel];
         let bent = self.bent[index];

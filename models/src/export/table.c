@@ -1,17 +1,37 @@
-/* @ROBOT@, made by ibr: see NAME.h for what it is and how exact. */
-#include "NAME.h"
+/* @ROBOT@, made by ibr: see @FILE@.h for what it is and how exact. */
+#include "@FILE@.h"
 #include <math.h>
+
+/* Constants stay in flash on AVR. */
+#ifdef __AVR__
+#include <avr/pgmspace.h>
+#define IN_FLASH PROGMEM
+#define READ(place) ((IBR_REAL)pgm_read_float(&(place)))
+#else
+#define IN_FLASH
+#define READ(place) ((IBR_REAL)(place))
+#endif
+
+/* sqrtf where IBR_REAL is float: C++ and C99 have no common name for both. */
+#define real_is_float 1
+#define JOINED(a, b) a##b
+#define REAL_IS(real) JOINED(real_is_, real)
+#if REAL_IS(IBR_REAL)
+#define ROOT sqrtf
+#else
+#define ROOT sqrt
+#endif
 
 enum { PIECES = @PIECES@, TERMS = @DEGREE@ + 1, OUTPUTS = @OUTPUTS@, FIRST = @FIRST@, LAST = @LAST@ };
 
 static const IBR_REAL low_pa = (IBR_REAL)@LOW@, high_pa = (IBR_REAL)@HIGH@, open_pa = (IBR_REAL)@OPEN@;
 
 /* Ends of the pieces in u = sqrt((p - open)/(high - open)). */
-static const float edges[PIECES + 1] = {
+static const float edges[PIECES + 1] IN_FLASH = {
 @EDGES@};
 
 /* Rising powers of t, which runs from -1 to 1 over a piece: x, y, angle, then x, y of each marker; m and rad. */
-static const float coefficients[PIECES * OUTPUTS * TERMS] = {
+static const float coefficients[PIECES * OUTPUTS * TERMS] IN_FLASH = {
 @COEFFICIENTS@};
 
 /* A place in the table: piece, t, and u. */
@@ -29,16 +49,16 @@ static int place(IBR_REAL p_pa, place_t *at)
         p_pa = low_pa;
     if (p_pa > high_pa)
         p_pa = high_pa;
-    at->u = p_pa > open_pa ? (IBR_REAL)sqrt((p_pa - open_pa) / (high_pa - open_pa)) : 0;
+    at->u = p_pa > open_pa ? ROOT((p_pa - open_pa) / (high_pa - open_pa)) : 0;
     while (low < high) {
         const int middle = (low + high) / 2;
-        if (edges[middle + 1] < at->u)
+        if (READ(edges[middle + 1]) < at->u)
             low = middle + 1;
         else
             high = middle;
     }
     at->piece = low;
-    at->t = (2 * at->u - edges[low] - edges[low + 1]) / ((IBR_REAL)edges[low + 1] - edges[low]);
+    at->t = (2 * at->u - READ(edges[low]) - READ(edges[low + 1])) / (READ(edges[low + 1]) - READ(edges[low]));
     return !inside;
 }
 
@@ -49,7 +69,7 @@ static IBR_REAL value(int piece, int output, IBR_REAL t, IBR_REAL *slope)
     IBR_REAL sum = 0, rise = 0;
     for (int k = TERMS - 1; k >= 0; k--) {
         rise = rise * t + sum;
-        sum = sum * t + c[k];
+        sum = sum * t + READ(c[k]);
     }
     *slope = rise;
     return sum;
@@ -70,7 +90,7 @@ int NAME_slope(IBR_REAL p_pa, NAME_tip_t *per_pa)
 {
     place_t at;
     const int outside = place(p_pa, &at);
-    const IBR_REAL per = ((IBR_REAL)edges[at.piece + 1] - edges[at.piece]) * at.u * (high_pa - open_pa);
+    const IBR_REAL per = (READ(edges[at.piece + 1]) - READ(edges[at.piece])) * at.u * (high_pa - open_pa);
     IBR_REAL slope[3];
     for (int i = 0; i < 3; i++)
         value(at.piece, i, at.t, &slope[i]);
@@ -102,7 +122,7 @@ static IBR_REAL meet(int piece, IBR_REAL y_m)
             high = t;
         else
             low = t;
-        if (fabs(next - t) < (IBR_REAL)1e-7)
+        if (next - t < (IBR_REAL)1e-7 && t - next < (IBR_REAL)1e-7)
             return next;
         t = next > low && next < high ? next : (low + high) / 2;
     }
@@ -135,7 +155,7 @@ int NAME_pressure(IBR_REAL y_m, IBR_REAL *p_pa)
         }
         t = meet(low, y_m);
     }
-    u = ((IBR_REAL)edges[low] + edges[low + 1] + t * ((IBR_REAL)edges[low + 1] - edges[low])) / 2;
+    u = (READ(edges[low]) + READ(edges[low + 1]) + t * (READ(edges[low + 1]) - READ(edges[low]))) / 2;
     *p_pa = open_pa + u * u * (high_pa - open_pa);
     return outside;
 }

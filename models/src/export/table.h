@@ -12,8 +12,8 @@
  * The model itself is a prediction: how far a robot is from it only measurements tell.
  *
  * The actuator is flat up to @OPEN_KPA@ kPa. One pressure belongs to a height of the tip @RISING@.
- * Constants: @BYTES@ bytes, single precision. C99, nothing allocated, no state: it may be called from anywhere.
- * Compile NAME.c with your program and link with -lm. With -DIBR_REAL=float everything is computed in single precision,
+ * Constants: @BYTES@ bytes, single precision, in flash on AVR. C99 and C++, nothing allocated, no state.
+ * Compile @FILE@.c with your program and link with -lm. With -DIBR_REAL=float everything is computed in single precision,
  * for a processor that has no other; the differences above are then larger by about 1e-6 of the length. */
 #ifndef UPPER_H
 #define UPPER_H
@@ -23,6 +23,10 @@
 #endif
 
 #define UPPER_MARKERS @MARKERS@
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* Pose of the tip, or its slope by the pressure. */
 typedef struct {
@@ -41,5 +45,9 @@ int NAME_slope(IBR_REAL p_pa, NAME_tip_t *per_pa);
 int NAME_markers(IBR_REAL p_pa, IBR_REAL *xy_m);
 /* Pressure in Pa at which the tip is at a height in m. */
 int NAME_pressure(IBR_REAL y_m, IBR_REAL *p_pa);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -70,9 +70,6 @@ impl BiasExtension {
     ///
     /// The stretch of `yarns` (only their part of that law is used) is taken out; without them they are stiff. Rows whose
     /// angle does not rise are left out.
-    ///
-    /// # Errors
-    /// As [`BiasExtension::shear`].
     pub fn shear_force(&self, rows: &[[f64; 2]], yarns: Option<&dyn Fabric>) -> Result<Vec<[f64; 2]>, String> {
         let fits = self.width_m > 0.0 && self.length_m >= 2.0 * self.width_m && self.thickness_m > 0.0;
         if !(fits && self.length_m.is_finite()) {

@@ -70,7 +70,7 @@ pub struct Slack {
 ///
 /// None unless the first slope is below three quarters of the steepest by more than the rows' noise, and the steep part takes a
 /// third of `up_to` at least: a curve that goes on to stiffen is a fabric's crimp and stays. A toe longer than that has to be free of
-/// force but for a twentieth of what the straight part gains over `up_to`.
+/// force but for a twentieth of what the straight part gains over `up_to`, and for noise. Slopes are taken over more rows where there is noise.
 ///
 /// ```
 /// use models::fabrics::specimen::slack;
@@ -87,7 +87,7 @@ pub fn slack(rows: &[[f64; 2]], up_to: f64) -> Option<Slack> {
     let long = || {
         let found = toe(&rows[..count(begins + up_to)], (taut / 6).max(3), taut.div_ceil(3))?;
         let gained = rows[found.from][1] * up_to / (rows[found.from][0] - found.at);
-        (at(rows, found.at) <= FREE * gained).then_some(found)
+        (at(rows, found.at) <= FREE * gained + 3.0 * noise(rows)).then_some(found)
     };
     short.or_else(long)
 }
@@ -97,14 +97,13 @@ fn toe(rows: &[[f64; 2]], width: usize, least: usize) -> Option<Slack> {
     const SOFT: f64 = 0.75;
     const STEEP: f64 = 0.9;
     let within = rows.len();
-    if within < 2 * width {
-        return None;
-    }
+    let width = steady(rows, width, least)?;
     let slopes: Vec<f64> = rows.windows(width).filter_map(slope).collect();
     let steepest = slopes.iter().copied().fold(0.0, f64::max);
-    let from = slopes.iter().position(|s| *s >= STEEP * steepest)?;
-    let soft = slopes[0] < SOFT * steepest && steepest - slopes[0] > 5.7 * slope_error(rows, width);
-    if !(soft && within - from >= least && slopes[from..].iter().all(|s| *s >= SOFT * steepest)) {
+    let error = slope_error(rows, width);
+    let from = slopes.iter().position(|s| *s >= STEEP * steepest - 2.0 * error)?;
+    let soft = slopes[0] < SOFT * steepest && steepest - slopes[0] > 5.7 * error;
+    if !(soft && within - from >= least && slopes[from..].iter().all(|s| *s >= SOFT * steepest - 3.0 * error)) {
         return None;
     }
     // The first steep window still has the end of the toe in it: the line is taken behind it.
@@ -113,6 +112,14 @@ fn toe(rows: &[[f64; 2]], width: usize, least: usize) -> Option<Slack> {
     let [x, y] = [0, 1].map(|k| line.iter().map(|row| row[k]).sum::<f64>() / width as f64);
     let at = x - y / slope(line)?;
     (at > 0.0 && at < rows[from][0]).then_some(Slack { at, from })
+}
+
+/// Fewest rows, from `width` to `most`, over which the noise leaves a slope to a twenty-fifth of the steepest one, or `most`.
+fn steady(rows: &[[f64; 2]], width: usize, most: usize) -> Option<usize> {
+    const SHARE: f64 = 0.04;
+    let steepest = |width: usize| rows.windows(width).filter_map(slope).fold(0.0, f64::max);
+    let is_steady = |width: &usize| slope_error(rows, *width) <= SHARE * steepest(*width);
+    (2 * width <= rows.len()).then(|| (width..most).find(is_steady).unwrap_or(most.max(width)))
 }
 
 /// Where the force rises above its noise, and above a two-hundredth of the largest force, for good.

@@ -192,7 +192,6 @@ impl Fabric for Woven {
     }
 }
 
-/// Where the yarns are.
 struct Stretch {
     lambda: [f64; 2],
     nominal: [f64; 2],

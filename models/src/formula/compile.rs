@@ -5,7 +5,7 @@
 //! power = atom ('^' sign)?      atom = number | name | name '(' sum (',' sum)* ')' | '(' sum ')'
 //! ```
 
-use super::program::{DEPTH, FUNCTIONS, Op, PAIRS};
+use super::program::{DEPTH, FUNCTIONS, Op, PAIRS, Two};
 use spelling::units::Dimension;
 
 /// What is wrong, what to type, and where: byte range in the formula.
@@ -66,7 +66,6 @@ struct Reader<'a> {
     names: &'a [Name<'a>],
     program: Vec<Op>,
     used: Vec<bool>,
-    /// Values on the stack here.
     depth: usize,
     nesting: usize,
 }
@@ -80,9 +79,7 @@ impl<'a> Reader<'a> {
         while let Some(sign) = self.take(&['+', '-']) {
             let right = self.product()?;
             alike(&left, &right, if sign == '+' { "added to" } else { "subtracted from" })?;
-            self.operate(if sign == '+' { Op::Add } else { Op::Subtract });
-            let value = both(left.value, right.value, |a, b| if sign == '+' { a + b } else { a - b });
-            left = Part { dimension: left.dimension, value, at: (left.at.0, right.at.1) };
+            left = self.joined(left, right, if sign == '+' { |a, b| a + b } else { |a, b| a - b });
         }
         Ok(left)
     }
@@ -91,11 +88,9 @@ impl<'a> Reader<'a> {
         let mut left = self.sign()?;
         while let Some(sign) = self.take(&['*', '/']) {
             let right = self.sign()?;
-            let power = if sign == '*' { 1.0 } else { -1.0 };
-            self.operate(if sign == '*' { Op::Multiply } else { Op::Divide });
-            let value = both(left.value, right.value, |a, b| if sign == '*' { a * b } else { a / b });
-            let dimension = left.dimension.times(right.dimension, power);
-            left = Part { dimension, value, at: (left.at.0, right.at.1) };
+            let dimension = left.dimension.times(right.dimension, if sign == '*' { 1.0 } else { -1.0 });
+            left = self.joined(left, right, if sign == '*' { |a, b| a * b } else { |a, b| a / b });
+            left.dimension = dimension;
         }
         Ok(left)
     }
@@ -108,7 +103,7 @@ impl<'a> Reader<'a> {
         self.nesting -= 1;
         let minus = sign == '-';
         if minus {
-            self.program.push(Op::Negate);
+            self.program.push(Op::Apply(|x| -x));
         }
         Ok(Part { value: part.value.map(|v| if minus { -v } else { v }), at: (start, part.at.1), ..part })
     }
@@ -135,15 +130,12 @@ impl<'a> Reader<'a> {
                 return Err(slip(message, "write the exponent as a number, for example ^3", at));
             }
         };
-        match exponent.value.filter(|v| v.fract() == 0.0 && v.abs() <= 100.0) {
-            Some(whole) => {
-                self.program.truncate(before);
-                self.program.push(Op::Whole(whole as i32));
-                self.depth -= 1;
-            }
-            None => self.operate(Op::Power),
+        let part = self.joined(base, exponent, f64::powf);
+        if let Some(whole) = exponent.value.filter(|v| v.fract() == 0.0 && v.abs() <= 100.0) {
+            self.program.truncate(before);
+            self.program.push(Op::Whole(whole as i32));
         }
-        Ok(Part { dimension, value: both(base.value, exponent.value, f64::powf), at })
+        Ok(Part { dimension, ..part })
     }
 
     fn atom(&mut self) -> Result<Part, Slip> {
@@ -215,18 +207,18 @@ impl<'a> Reader<'a> {
         let open = self.at;
         self.at += 1;
         let first = self.sum()?;
-        if let Some(function) = FUNCTIONS.iter().find(|known| known.name == name) {
+        if let Some((_, law, power)) = FUNCTIONS.iter().find(|known| known.0 == name) {
             self.close(open)?;
-            if function.power.is_none() && !first.dimension.is(Dimension::NONE) {
+            if power.is_none() && !first.dimension.is(Dimension::NONE) {
                 let message = format!("{name} needs a pure number, not {}", first.dimension.words());
                 return Err(slip(message, "divide by a parameter of the same unit", first.at));
             }
-            self.program.push(Op::Apply(function.law));
-            let dimension = Dimension::NONE.times(first.dimension, function.power.unwrap_or(0.0));
+            self.program.push(Op::Apply(*law));
+            let dimension = Dimension::NONE.times(first.dimension, power.unwrap_or(0.0));
             return Ok(Part { dimension, value: None, at: (at.0, self.at) });
         }
-        let Some(function) = PAIRS.iter().find(|known| known.name == name) else {
-            let known: Vec<&str> = FUNCTIONS.iter().map(|f| f.name).chain(PAIRS.iter().map(|f| f.name)).collect();
+        let Some((_, law)) = PAIRS.iter().find(|known| known.0 == name) else {
+            let known: Vec<&str> = FUNCTIONS.iter().map(|f| f.0).chain(PAIRS.iter().map(|f| f.0)).collect();
             return Err(slip(format!("there is no function `{name}`"), &spelling::known(name, &known), at));
         };
         if self.take(&[',']).is_none() {
@@ -236,8 +228,7 @@ impl<'a> Reader<'a> {
         let second = self.sum()?;
         self.close(open)?;
         alike(&first, &second, "compared with")?;
-        self.operate(Op::Combine(function.law));
-        Ok(Part { dimension: first.dimension, value: None, at: (at.0, self.at) })
+        Ok(Part { value: None, at: (at.0, self.at), ..self.joined(first, second, *law) })
     }
 
     fn close(&mut self, open: usize) -> Result<(), Slip> {
@@ -264,10 +255,12 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// An instruction that makes one value of two.
-    fn operate(&mut self, op: Op) {
-        self.program.push(op);
+    /// Two parts as one by a law, of the dimension of the left.
+    fn joined(&mut self, left: Part, right: Part, law: Two) -> Part {
+        self.program.push(Op::Combine(law));
         self.depth -= 1;
+        let value = left.value.zip(right.value).map(|(a, b)| law(a, b));
+        Part { dimension: left.dimension, value, at: (left.at.0, right.at.1) }
     }
 
     fn skip_space(&mut self) {
@@ -275,7 +268,6 @@ impl<'a> Reader<'a> {
         self.at += rest.len() - rest.trim_start().len();
     }
 
-    /// Start of the next part.
     fn here(&mut self) -> usize {
         self.skip_space();
         self.at
@@ -295,10 +287,6 @@ impl<'a> Reader<'a> {
         let end = if end == 0 { rest.chars().next().map_or(0, char::len_utf8) } else { end };
         (&rest[..end], (self.at, self.at + end))
     }
-}
-
-fn both(a: Option<f64>, b: Option<f64>, f: impl Fn(f64, f64) -> f64) -> Option<f64> {
-    Some(f(a?, b?))
 }
 
 /// Only like can be added and compared.

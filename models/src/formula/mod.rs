@@ -26,7 +26,7 @@ mod variables;
 use crate::assembly::Assembly;
 use crate::effects::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::root::POLE;
-use crate::site::Besides;
+use crate::site::SideEffects;
 use crate::term::{Account, Extreme, LedgerLine, Pose, Remembering, Term};
 use compile::{Compiled, Name, compile};
 use integral::integral;
@@ -105,30 +105,22 @@ impl PartialEq for Formula {
     }
 }
 
-/// What the text says of a formula, its parameters checked.
-pub(crate) struct Draft {
-    pub name: String,
-    pub moment: String,
-    pub sentence: String,
-    pub differs: String,
-    pub remedy: String,
-    pub parameters: Vec<FormulaParameter>,
-}
-
 impl Formula {
-    /// Compiles a draft: names, units, and values where it will be asked for.
-    pub(crate) fn new(draft: Draft) -> Result<Formula, Slip> {
-        let Compiled { program, dimension, used } = compile(&draft.moment, &names(&draft.parameters))?;
-        let whole = (0, draft.moment.len());
+    /// Compiles what the text says, its parameters checked: names, units, and values where it will be asked for.
+    pub(crate) fn new(
+        [name, moment, sentence, differs, remedy]: [String; 5],
+        parameters: Vec<FormulaParameter>,
+    ) -> Result<Formula, Slip> {
+        let Compiled { program, dimension, used } = compile(&moment, &names(&parameters))?;
+        let whole = (0, moment.len());
         let slip = |message: String, help: &str| Err(Slip { message, help: help.into(), at: whole });
         if !dimension.is(Dimension::MOMENT) {
             let message = format!("the moment comes out in {}, not in N m", dimension.words());
-            return slip(message, &units_help(&draft.parameters));
+            return slip(message, &units_help(&parameters));
         }
-        if let Some(idle) = draft.parameters.iter().zip(&used[VARIABLES.len()..]).find(|(_, used)| !**used) {
+        if let Some(idle) = parameters.iter().zip(&used[VARIABLES.len()..]).find(|(_, used)| !**used) {
             return slip(format!("the parameter {} does not occur in the formula", idle.0.key), "use it or remove it");
         }
-        let Draft { name, moment, sentence, differs, remedy, parameters } = draft;
         let (program, uses_station, uses_pull) = (program.into(), used[STATION], used[PULL]);
         let formula = Formula { name, moment, sentence, differs, remedy, parameters, program, uses_station, uses_pull };
         match formula.misbehaves() {
@@ -179,7 +171,7 @@ impl Formula {
             let (name, program, unit_m) = (Arc::clone(&name), Arc::clone(&self.program), site.shape.length_m);
             if self.uses_pull {
                 if let Some(term) = PullTerm::new(program, site, inputs) {
-                    site.act(term, Besides { unforeseen: true, ..Besides::default() });
+                    site.act(term, SideEffects { shifts_balance: true, ..SideEffects::default() });
                 }
                 continue;
             }
@@ -238,7 +230,6 @@ fn units_help(parameters: &[FormulaParameter]) -> String {
     )
 }
 
-/// The formula at one place.
 struct FormulaTerm {
     name: Arc<str>,
     program: Arc<[Op]>,

@@ -1,21 +1,18 @@
 //! A formula as a short list of instructions over a stack: compiled once, evaluated without allocation.
 
-/// One instruction.
+/// Functions of one number and of two.
+type One = fn(f64) -> f64;
+pub(crate) type Two = fn(f64, f64) -> f64;
+
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Op {
     Number(f64),
     /// A variable or a parameter by its place.
     Load(usize),
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-    Negate,
-    Power,
-    /// A whole power, cheaper than [`Op::Power`] and defined for negative bases.
+    /// A whole power, cheaper than any other and defined for negative bases.
     Whole(i32),
-    Apply(fn(f64) -> f64),
-    Combine(fn(f64, f64) -> f64),
+    Apply(One),
+    Combine(Two),
 }
 
 /// Deepest stack a formula may need.
@@ -29,15 +26,12 @@ pub(crate) fn run(program: &[Op], inputs: &[f64]) -> f64 {
         match *op {
             Op::Number(value) => push(&mut stack, &mut top, value),
             Op::Load(place) => push(&mut stack, &mut top, inputs[place]),
-            Op::Negate => stack[top - 1] = -stack[top - 1],
             Op::Whole(power) => stack[top - 1] = stack[top - 1].powi(power),
             Op::Apply(function) => stack[top - 1] = function(stack[top - 1]),
-            Op::Add => pair(&mut stack, &mut top, |a, b| a + b),
-            Op::Subtract => pair(&mut stack, &mut top, |a, b| a - b),
-            Op::Multiply => pair(&mut stack, &mut top, |a, b| a * b),
-            Op::Divide => pair(&mut stack, &mut top, |a, b| a / b),
-            Op::Power => pair(&mut stack, &mut top, f64::powf),
-            Op::Combine(function) => pair(&mut stack, &mut top, function),
+            Op::Combine(function) => {
+                top -= 1;
+                stack[top - 1] = function(stack[top - 1], stack[top]);
+            }
         }
     }
     stack[0]
@@ -49,44 +43,21 @@ fn push(stack: &mut [f64; DEPTH], top: &mut usize, value: f64) {
     *top += 1;
 }
 
-#[inline]
-fn pair(stack: &mut [f64; DEPTH], top: &mut usize, function: impl Fn(f64, f64) -> f64) {
-    *top -= 1;
-    stack[*top - 1] = function(stack[*top - 1], stack[*top]);
-}
-
-/// A function of one argument.
-pub(crate) struct Function {
-    pub name: &'static str,
-    pub law: fn(f64) -> f64,
-    /// Power of the argument's dimension in the result; `None`: the argument must be a pure number.
-    pub power: Option<f64>,
-}
-
-const fn function(name: &'static str, law: fn(f64) -> f64, power: Option<f64>) -> Function {
-    Function { name, law, power }
-}
-
-/// What a formula may call with one argument.
-pub(crate) const FUNCTIONS: &[Function] = &[
-    function("abs", f64::abs, Some(1.0)),
-    function("pos", |x| x.max(0.0), Some(1.0)),
-    function("sqrt", f64::sqrt, Some(0.5)),
-    function("sign", |x| f64::from(i8::from(x > 0.0) - i8::from(x < 0.0)), Some(0.0)),
-    function("step", |x| f64::from(u8::from(x > 0.0)), Some(0.0)),
-    function("exp", f64::exp, None),
-    function("ln", f64::ln, None),
-    function("sin", f64::sin, None),
-    function("cos", f64::cos, None),
-    function("tan", f64::tan, None),
-    function("tanh", f64::tanh, None),
+/// What a formula may call with one argument: name, law, and power of the argument's dimension in the result; `None`: the
+/// argument must be a pure number.
+pub(crate) const FUNCTIONS: &[(&str, One, Option<f64>)] = &[
+    ("abs", f64::abs, Some(1.0)),
+    ("pos", |x| x.max(0.0), Some(1.0)),
+    ("sqrt", f64::sqrt, Some(0.5)),
+    ("sign", |x| f64::from(i8::from(x > 0.0) - i8::from(x < 0.0)), Some(0.0)),
+    ("step", |x| f64::from(u8::from(x > 0.0)), Some(0.0)),
+    ("exp", f64::exp, None),
+    ("ln", f64::ln, None),
+    ("sin", f64::sin, None),
+    ("cos", f64::cos, None),
+    ("tan", f64::tan, None),
+    ("tanh", f64::tanh, None),
 ];
 
-/// A function of two arguments of one dimension.
-pub(crate) struct Pair {
-    pub name: &'static str,
-    pub law: fn(f64, f64) -> f64,
-}
-
-/// What a formula may call with two arguments.
-pub(crate) const PAIRS: &[Pair] = &[Pair { name: "min", law: f64::min }, Pair { name: "max", law: f64::max }];
+/// What a formula may call with two arguments of one dimension.
+pub(crate) const PAIRS: &[(&str, Two)] = &[("min", f64::min), ("max", f64::max)];

@@ -9,15 +9,9 @@ fn parameter(key: &str, unit: &str, typical: f64) -> FormulaParameter {
     FormulaParameter { key, unit, si, neutral: 0.0, typical, lower: 0.0, upper: 10.0 * typical, meaning }
 }
 
-fn draft(moment: &str, parameters: &[(&str, &str)]) -> Draft {
-    Draft {
-        name: "own".into(),
-        moment: moment.into(),
-        sentence: String::new(),
-        differs: String::new(),
-        remedy: String::new(),
-        parameters: parameters.iter().map(|(key, unit)| parameter(key, unit, 0.5)).collect(),
-    }
+fn made(moment: &str, parameters: &[(&str, &str)]) -> Result<Formula, Slip> {
+    let texts = ["own", moment, "", "", ""].map(str::to_string);
+    Formula::new(texts, parameters.iter().map(|(key, unit)| parameter(key, unit, 0.5)).collect())
 }
 
 /// Value of a formula of `x` alone, whatever its unit.
@@ -53,8 +47,7 @@ fn a_formula_means_what_mathematics_means() {
 /// Sixty-four parentheses, far from the depth of any stack.
 #[test]
 fn parentheses_nest_sixty_four_deep_and_no_deeper() {
-    let nested =
-        |depth: usize| Formula::new(draft(&format!("{}k{}", "(".repeat(depth), ")".repeat(depth)), &[("k", "N m")]));
+    let nested = |depth: usize| made(&format!("{}k{}", "(".repeat(depth), ")".repeat(depth)), &[("k", "N m")]);
     let deepest = (1..200).take_while(|depth| nested(*depth).is_ok()).count();
     assert_eq!(deepest, 64);
 }
@@ -99,22 +92,22 @@ fn each_slip_is_refused_with_its_place() {
         ("-k*theta§2", "N m", "§", "not expected"),
         ("", "N m", "", "ends too early"),
     ] {
-        let slip = Formula::new(draft(moment, &[("k", unit)])).unwrap_err();
+        let slip = made(moment, &[("k", unit)]).unwrap_err();
         let at = &moment[slip.at.0..slip.at.1];
         assert!(slip.message.contains(message) && !slip.help.is_empty(), "{moment}: {slip:?}");
         assert_eq!(at, place, "{moment}: {slip:?}");
     }
     for deep in [format!("{}k", "(".repeat(500)), format!("{}k", "-".repeat(500)), format!("k{}", "^2".repeat(500))] {
-        assert!(Formula::new(draft(&deep, &[("k", "N m")])).is_err());
+        assert!(made(&deep, &[("k", "N m")]).is_err());
     }
-    assert!(Formula::new(draft(&format!("{}k*theta", "k+(".repeat(60)), &[("k", "N m")])).is_err());
+    assert!(made(&format!("{}k*theta", "k+(".repeat(60)), &[("k", "N m")]).is_err());
 }
 
 #[test]
 fn no_prefix_of_a_formula_panics() {
     let text = "-k*step(kappa - k0)*(kappa - k0)^1.5*max(R, s)^0.5/tanh(p_act/p_body) + 1e-3*é";
     for end in (0..=text.len()).filter(|end| text.is_char_boundary(*end)) {
-        let _ = Formula::new(draft(&text[..end], &[("k", "N m2"), ("k0", "1/m")]));
+        let _ = made(&text[..end], &[("k", "N m2"), ("k0", "1/m")]);
     }
 }
 
@@ -122,7 +115,7 @@ fn no_prefix_of_a_formula_panics() {
 fn a_misspelt_variable_or_function_is_answered_with_what_was_meant() {
     for (moment, meant) in [("-k*kapa", "did you mean kappa? known: kappa, "), ("-k*sqr(theta)", "did you mean sqrt?")]
     {
-        let slip = Formula::new(draft(moment, &[("k", "N m")])).unwrap_err();
+        let slip = made(moment, &[("k", "N m")]).unwrap_err();
         assert!(slip.help.starts_with(meant), "{slip:?}");
     }
 }
@@ -160,7 +153,7 @@ fn the_force_is_minus_the_slope_of_the_energy_also_at_corners() {
         ("-k*tanh(20*theta)*p_act/p_body*exp(-s/R)", vec![("k", "N m")]),
         ("-k*sqrt(abs(theta))*sign(theta)", vec![("k", "N m")]),
     ] {
-        let formula = Formula::new(draft(moment, &parameters)).unwrap_or_else(|e| panic!("{moment}: {e:?}"));
+        let formula = made(moment, &parameters).unwrap_or_else(|e| panic!("{moment}: {e:?}"));
         let robot = Scenario::parse(shipped("epam-textbook").unwrap()).unwrap();
         let mut assembly = crate::assemble::assemble(&robot, &robot.spans(), 12);
         formula.add(&vec![0.5; parameters.len()], &mut assembly);

@@ -4,7 +4,7 @@ use super::{Model, Prediction, Tip, post};
 use crate::assembly::Segment;
 use crate::error::Unsolved;
 use crate::robot::Workspace;
-use crate::space::{Bend, Section, SectionState, Stretch, StripState};
+use crate::space::{Bend, Section, SectionState, Stretch, StripState, place, stretch};
 use crate::term::{Row, RowKind};
 
 impl Model {
@@ -31,18 +31,24 @@ impl Model {
     }
 
     pub(crate) fn stretch_in_space(&self, work: &Workspace, segment: usize) -> Stretch {
-        let site = &self.assembly().sites[self.assembly().segments[segment].site];
-        let bend = work.space.bends[segment];
-        let contraction = bend.contraction + (site.centre_line_m - site.radius_m) * bend.size();
-        Stretch { from: work.space.frames[segment], bend, contraction }
+        stretch(self.assembly(), &work.space, segment)
+    }
+
+    /// A point of the centre line \[m\].
+    pub(crate) fn point(&self, work: &Workspace, segment: usize, offset_m: f64) -> [f64; 3] {
+        if self.is_spatial() {
+            return self.stretch_in_space(work, segment).at(offset_m).at;
+        }
+        let ([x, y], _) = self.stretch(work, segment).at(offset_m);
+        [x, y, 0.0]
     }
 
     /// Places the nodes and the tip.
     pub(crate) fn place_in_space(&self, out: &mut Prediction) {
+        place(self.assembly(), &mut out.work.space);
         let mut turned = 0.0;
         for (i, segment) in self.assembly().segments.iter().enumerate() {
-            let end = self.stretch_in_space(&out.work, i).at(segment.length_m);
-            out.work.space.frames[i + 1] = end;
+            let end = out.work.space.frames[i + 1];
             turned += out.work.space.bends[i].size() * segment.length_m;
             out.work.nodes[2 * i + 2] = end.at[0];
             out.work.nodes[2 * i + 3] = end.at[1];
@@ -62,12 +68,12 @@ impl Model {
 
     /// Sets the strips' pressures from those of the channels.
     pub(crate) fn supply_strips(&self, actuator_pa: &[f64], work: &mut Workspace) {
-        let held_s = work.history.held_s;
+        let moment = work.history.moment;
         for (states, strips) in work.space.strips.iter_mut().zip(&self.assembly().around) {
             for (state, strip) in states.iter_mut().zip(strips) {
                 let site = &self.assembly().sites[strip.site];
                 let set = if site.actuator.is_some() { actuator_pa[site.channel] } else { 0.0 };
-                state.p_act_pa = self.assembly().supply.iter().fold(set, |p, law| law(p, held_s));
+                state.p_act_pa = self.assembly().supply.iter().fold(set, |p, law| law(p, &moment));
             }
         }
     }
@@ -80,5 +86,6 @@ impl Model {
                 post(rows, line, RowKind::Stored, energy * segment.length_m);
             });
         }
+        self.node_energies(&at.work.space.nodes(), body_pa, rows);
     }
 }

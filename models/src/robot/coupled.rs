@@ -5,7 +5,7 @@ use crate::assembly::Assembly;
 use crate::error::Unsolved;
 use crate::history::History;
 use crate::root::NoRoot;
-use crate::shape::{advance, arc, turned};
+use crate::shape::{advance, arc, slid, turned};
 use crate::site::{Site, SiteLoads, SiteState};
 use crate::term::Pose;
 
@@ -15,6 +15,11 @@ const MAX_ITERATIONS: usize = 60;
 const HALVINGS: usize = 12;
 /// Agreement of moments at the end, relative to the largest one.
 const MOMENT_TOLERANCE: f64 = 1e-10;
+
+/// Rounds in which the slide of the wall and a spring at the nodes agree: each leaves the share k L/(G t π R) of the gap, some 1e-3.
+const SPRING_ROUNDS: usize = 4;
+/// Newton steps of a slide, which is some hundredths.
+const SLIDE_STEPS: usize = 4;
 
 /// Newton on the moments m of the transverse loads: `G(κ(m)) − m = 0`, each κ(m) by the bracketed solve of its place.
 pub(super) fn coupled(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace, warm: bool) -> Result<(), Unsolved> {
@@ -91,18 +96,29 @@ fn update(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Result<f
 
 /// Shape and loads at the curvatures in `work`, and the largest disagreement of moments (NaN if any is).
 pub(super) fn disagreement(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> f64 {
+    let (sheared, springs) = (work.is_sheared(), assembly.springs);
+    if springs {
+        work.coupled.shear.fill(0.0);
+    }
     place_nodes(assembly, work);
+    node_forces(assembly, p_body_pa, work);
+    for _ in 0..usize::from(sheared) * if springs { SPRING_ROUNDS } else { 1 } {
+        shear(assembly, p_body_pa, work);
+        place_nodes(assembly, work);
+        if springs {
+            node_forces(assembly, p_body_pa, work);
+        }
+    }
+    load_moments(assembly, work);
+    work.coupled.residual.iter().fold(0.0, |w, r| if r.abs() > w || r.is_nan() { r.abs() } else { w })
+}
+
+fn node_forces(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) {
     work.coupled.forces.fill(0.0);
     let pose = Pose::new(&work.nodes, p_body_pa, 0.0);
     for term in &assembly.node_terms {
         term.add(&pose, &mut work.coupled.forces);
     }
-    if work.is_sheared() {
-        shear(assembly, p_body_pa, work);
-        place_nodes(assembly, work);
-    }
-    load_moments(assembly, work);
-    work.coupled.residual.iter().fold(0.0, |w, r| if r.abs() > w || r.is_nan() { r.abs() } else { w })
 }
 
 pub(super) fn solve_segment(
@@ -142,9 +158,12 @@ fn unsolved(error: NoRoot, site: &Site, start_m: f64, loads: &SiteLoads) -> Unso
     };
     let (s_mm, p_act_kpa, p_body_kpa) = (start_m * 1e3, loads.p_act_pa / 1e3, loads.p_body_pa / 1e3);
     let imbalance = low.abs().max(high.abs());
-    match site.extreme(loads).filter(|extreme| extreme.moment > TO_BLAME * imbalance || !imbalance.is_finite()) {
-        Some(extreme) => Unsolved::Formula { extreme, s_mm, p_act_kpa, p_body_kpa },
-        None => Unsolved::NoEquilibrium { s_mm, p_act_kpa, p_body_kpa, low, high },
+    let extreme = site.extreme(loads).filter(|extreme| extreme.moment > TO_BLAME * imbalance || !imbalance.is_finite());
+    let law = if imbalance.is_finite() { None } else { site.without_value(loads) };
+    match (extreme, law) {
+        (Some(extreme), _) => Unsolved::Formula { extreme, s_mm, p_act_kpa, p_body_kpa },
+        (None, Some(law)) => Unsolved::NoValue { law, s_mm, p_act_kpa, p_body_kpa },
+        (None, None) => Unsolved::NoEquilibrium { s_mm, p_act_kpa, p_body_kpa, low, high },
     }
 }
 
@@ -154,19 +173,19 @@ pub(super) fn place_nodes(assembly: &Assembly, work: &mut Workspace) {
     let mut direction = [1.0, 0.0];
     for (i, segment) in assembly.segments.iter().enumerate() {
         let kappa = work.states[i].curvature;
-        let offset_m = assembly.sites[segment.site].centre_line_m;
+        let centre = assembly.sites[segment.site].centre_line;
         let [along, across, sin, cos] = match work.coupled.arcs.get_mut(i) {
             Some(kept) => {
-                *kept = arc(kappa, segment.length_m, offset_m);
+                *kept = arc(kappa, segment.length_m, centre);
                 [kept.along, kept.across, kept.turn[0], kept.turn[1]]
             }
             // Without transverse loads the derivatives are not needed, and the compiler drops them here.
             None => {
-                let step = arc(kappa, segment.length_m, offset_m);
+                let step = arc(kappa, segment.length_m, centre);
                 [step.along, step.across, step.turn[0], step.turn[1]]
             }
         };
-        xy = advance(xy, direction, along, across + work.shear(i) * segment.length_m);
+        xy = advance(xy, slid(direction, work.shear(i)), along, across);
         heading += kappa * segment.length_m;
         direction = turned(direction, [sin, cos]);
         work.nodes[2 * i + 2] = xy[0];
@@ -176,16 +195,23 @@ pub(super) fn place_nodes(assembly: &Assembly, work: &mut Workspace) {
     }
 }
 
-/// Shear angles γ = V/K, V the force on all nodes beyond across the start of the segment: a segment slides across its start,
-/// so that its own bend does not turn the slide. The loads are dead: sheared nodes change none of them.
+/// Shear angles γ: the slide of a segment turns its chord d by γ and keeps its length, as inextensible fabric does. With S the
+/// force on all nodes beyond, `K γ h = S·∂(R(γ) d)/∂γ`, K the shear stiffness. Sheared nodes change no dead load.
 fn shear(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) {
     let mut beyond = [0.0; 2];
-    for i in (0..assembly.segments.len()).rev() {
-        let node = 2 * (i + 1);
+    for (i, segment) in assembly.segments.iter().enumerate().rev() {
+        let (node, own) = (2 * (i + 1), &work.coupled.arcs[i]);
         beyond = [beyond[0] + work.coupled.forces[node], beyond[1] + work.coupled.forces[node + 1]];
-        let [cos, sin] = work.directions[i];
-        let stiffness = assembly.sites[assembly.segments[i].site].shear_stiffness_n(p_body_pa);
-        work.coupled.shear[i] = (beyond[1] * cos - beyond[0] * sin) / stiffness;
+        let chord = advance([0.0; 2], work.directions[i], own.along, own.across).map(|d| d / segment.length_m);
+        let across = chord[0] * beyond[1] - chord[1] * beyond[0];
+        let along = chord[0] * beyond[0] + chord[1] * beyond[1];
+        let stiffness = assembly.sites[segment.site].shear_stiffness_n(p_body_pa);
+        let step = |angle: f64| {
+            let (sin, cos) = angle.sin_cos();
+            angle - (stiffness * angle - across * cos + along * sin) / (stiffness + across * sin + along * cos)
+        };
+        work.coupled.shear[i] =
+            if stiffness.is_finite() { (0..SLIDE_STEPS).fold(0.0, |angle, _| step(angle)) } else { 0.0 };
     }
 }
 
@@ -206,8 +232,9 @@ fn load_moments(assembly: &Assembly, work: &mut Workspace) {
         sum = [sum[0] + load.forces[node], sum[1] + load.forces[node + 1]];
         let per_h = 1.0 / assembly.segments[i].length_m;
         let own = &load.arcs[i];
-        let change = advance([0.0; 2], work.directions[i], own.d_along, own.d_across);
-        let second = advance([0.0; 2], work.directions[i], own.dd_along, own.dd_across);
+        let direction = slid(work.directions[i], load.shear.get(i).copied().unwrap_or(0.0));
+        let change = advance([0.0; 2], direction, own.d_along, own.d_across);
+        let second = advance([0.0; 2], direction, own.dd_along, own.dd_across);
         load.residual[i] = (sum[0] * change[0] + sum[1] * change[1]) * per_h + turn - load.moments[i];
         load.coupling[i] = (sum[1] * change[0] - sum[0] * change[1]) * per_h - reach;
         load.diagonal[i] = (sum[0] * second[0] + sum[1] * second[1]) * per_h - reach * assembly.segments[i].length_m;
@@ -251,7 +278,7 @@ mod tests {
     /// Segments of unequal length; only their lengths matter here.
     fn assembly(lengths: &[f64]) -> Assembly {
         let segments = lengths.iter().map(|h| Segment { site: 0, start_m: 0.0, length_m: *h }).collect();
-        Assembly { segments, ..Assembly::empty([0.0, -1.0]) }
+        Assembly { segments, ..Assembly::empty([0.0, -1.0, 0.0]) }
     }
 
     #[test]

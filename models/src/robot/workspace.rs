@@ -18,7 +18,6 @@ pub(crate) struct Held {
 /// Buffers of a prediction; made once, so that predicting allocates nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Workspace {
-    /// Equilibrium per segment.
     pub states: Vec<SiteState>,
     /// Actuator pressure per segment after the supply stage \[Pa\].
     pub p_act_pa: Vec<f64>,
@@ -32,7 +31,7 @@ pub(crate) struct Workspace {
     pub history: History,
     /// Where the robot is held instead of solved for.
     pub held: Held,
-    /// What a robot in space has besides.
+    /// What a robot in space has in addition.
     pub space: SpaceWork,
     pub(super) coupled: Coupled,
 }
@@ -81,7 +80,14 @@ impl Workspace {
         }
     }
 
-    /// Shear angle of a segment.
+    /// Tension of the outer loads along the middle of a segment \[N\].
+    pub(crate) fn tension_n(&self, index: usize) -> f64 {
+        let beyond = self.coupled.forces[2 * (index + 1)..].chunks_exact(2);
+        let [x, y] = beyond.fold([0.0; 2], |sum, force| [sum[0] + force[0], sum[1] + force[1]]);
+        let (sin, cos) = (0.5 * (self.headings[index] + self.headings[index + 1])).sin_cos();
+        x * cos + y * sin
+    }
+
     #[inline]
     pub(crate) fn shear(&self, index: usize) -> f64 {
         self.coupled.shear.get(index).copied().unwrap_or(0.0)

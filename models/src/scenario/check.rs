@@ -11,7 +11,6 @@ use super::supply::line;
 use crate::catalogue::Catalogue;
 use crate::effects::Effect;
 use crate::formula::Formula;
-use spelling::Exactly;
 use spelling::units::Range;
 use std::sync::Arc;
 use toml::Spanned;
@@ -24,6 +23,7 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
     let more_strips = more_strips(&raw.strip, first.as_ref(), &choice, radius_m, length_m)?;
     let zones = raw.zone.iter().map(|table| zone(table, length_m, &choice)).collect::<Checked<Vec<_>>>()?;
     let formulas = formulas(raw, text)?;
+    let is_spatial = !more_strips.is_empty() || !choice.is_planar();
     let scenario = Scenario {
         name: raw.name.clone(),
         radius_m,
@@ -35,7 +35,7 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
         wall: wall(&body)?,
         // A beam has no actuator's side opposite which a generator stays taut: its axis keeps its length.
         centre_line_m: body.number("centre_line_mm")?.or((!choice.exists()).then_some(0.0)),
-        gravity_direction: gravity(&body)?,
+        gravity_direction: gravity(&body, is_spatial)?,
         actuator: choice,
         more_strips,
         zones,
@@ -83,13 +83,19 @@ fn wall(body: &Given) -> Checked<Wall> {
     Ok(Wall { stiffness_n_per_m, shear_n_per_m, basis })
 }
 
-fn gravity(body: &Given) -> Checked<[f64; 2]> {
-    let Some(Exactly([x, y])) = body.read("gravity")? else { return Ok([0.0, -1.0]) };
+fn gravity(body: &Given, is_spatial: bool) -> Checked<[f64; 3]> {
+    let Some(given) = body.read::<Vec<f64>>("gravity")? else { return Ok([0.0, -1.0, 0.0]) };
+    let direction = match given[..] {
+        [x, y] => [x, y, 0.0],
+        [x, y, z] if is_spatial => [x, y, z],
+        _ => [f64::NAN; 3],
+    };
     // Written so that NaN is refused as well.
-    if (f64::hypot(x, y) - 1.0).abs() <= 1e-3 {
-        return Ok([x, y]);
+    if (direction.iter().map(|g| g * g).sum::<f64>().sqrt() - 1.0).abs() <= 1e-3 {
+        return Ok(direction);
     }
-    let message = format!("gravity must be a unit vector in the x–y plane, not [{x}, {y}]");
+    let room = if is_spatial { "[x, y] or [x, y, z]" } else { "in the x–y plane" };
+    let message = format!("gravity must be a unit vector {room}, not {given:?}");
     refuse(message, "[0, -1] points against the bend, [1, 0] along the robot", body.span_of("gravity"))
 }
 

@@ -65,6 +65,11 @@ impl PartialEq for ActuatorChoice {
 }
 
 impl ActuatorChoice {
+    /// Whether its strip lies along azimuth 0.
+    pub(super) fn is_planar(&self) -> bool {
+        self.azimuth_rad == 0.0 && self.turns == 0.0
+    }
+
     /// Length along the strip, all units \[m\].
     pub fn strip_m(&self) -> f64 {
         self.count as f64 * self.shape.length_m

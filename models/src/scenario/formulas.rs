@@ -4,7 +4,7 @@ use super::given::{Checked, refuse, unit};
 use super::raw::{Raw, RawFormula, RawParameter};
 use crate::effects::EFFECTS;
 use crate::error::ScenarioError;
-use crate::formula::{self, Draft, Formula, FormulaParameter, MOST_PARAMETERS, Slip};
+use crate::formula::{self, Formula, FormulaParameter, MOST_PARAMETERS, Slip};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
@@ -35,15 +35,14 @@ fn compiled(raw: &RawFormula, text: &str) -> Checked<Formula> {
         return refuse(message, "give the formula another name", raw.name.span());
     }
     let words = |text: &Option<String>, default: &str| text.clone().unwrap_or_else(|| default.to_string());
-    let draft = Draft {
-        name: name.clone(),
-        moment: raw.moment.get_ref().clone(),
-        sentence: words(&raw.sentence, "The scenario's own formula."),
-        differs: words(&raw.differs, "As its formula says."),
-        remedy: words(&raw.remedy, "Measure the parameters of the formula on the robot."),
-        parameters: parameters(&raw.parameters, raw)?,
-    };
-    Formula::new(draft).map_err(|slip| placed(slip, &raw.moment, text))
+    let texts = [
+        name.clone(),
+        raw.moment.get_ref().clone(),
+        words(&raw.sentence, "The scenario's own formula."),
+        words(&raw.differs, "As its formula says."),
+        words(&raw.remedy, "Measure the parameters of the formula on the robot."),
+    ];
+    Formula::new(texts, parameters(&raw.parameters, raw)?).map_err(|slip| placed(slip, &raw.moment, text))
 }
 
 fn parameters(raw: &BTreeMap<Spanned<String>, RawParameter>, of: &RawFormula) -> Checked<Vec<FormulaParameter>> {

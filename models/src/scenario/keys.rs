@@ -115,7 +115,7 @@ pub const KEYS: &[Key] = &[
         "shear stiffness G t of the wall"),
     other(BODY, "wall_basis", None, "how the two are known"),
     other(BODY, "centre_line_mm", Some(POSITION), "distance of the centre line from the taut generator"),
-    other(BODY, "gravity", None, "direction of gravity in the x–y plane"),
+    other(BODY, "gravity", None, "direction of gravity in x–y, with strips round the body in x–y–z"),
     other(ACTUATOR, "kind", None, "kind of the actuator"),
     number(UNIT, "length_mm", LENGTH, "flat length of one unit", |s| s.actuator.shape.length_m),
     number(UNIT, "width_mm", LENGTH, "flat width of one unit", |s| s.actuator.shape.width_m),

@@ -64,6 +64,10 @@ pub const SHIPPED: &[(&str, &str)] = &[
     ("fpam", in_the_wall!("../../scenarios/fpam.toml", "../../scenarios/muscle-mechanics.toml")),
 ];
 
+/// Names that [`shipped`] knows: the four robots, and each without the mechanics that textbook models lack.
+pub const ROBOTS: [&str; 8] =
+    ["spam", "cpam", "epam", "fpam", "spam-textbook", "cpam-textbook", "epam-textbook", "fpam-textbook"];
+
 /// What textbooks leave out.
 const MECHANICS: [&str; 2] =
     [include_str!("../../scenarios/pouch-mechanics.toml"), include_str!("../../scenarios/muscle-mechanics.toml")];

@@ -2,7 +2,7 @@
 
 use super::choice::ActuatorChoice;
 use crate::catalogue::Catalogue;
-use crate::effects::{EFFECTS, Effect, Fitted, IN_SPACE};
+use crate::effects::{EFFECTS, Effect, Fitted, IN_SPACE, Parameter};
 use crate::formula::Formula;
 use crate::line::Line;
 use std::sync::Arc;
@@ -28,8 +28,8 @@ pub struct Scenario {
     pub wall: Wall,
     /// Distance of the centre line from the taut generator \[m\]; `None`: the radius, 0: it does not shorten.
     pub centre_line_m: Option<f64>,
-    /// Unit vector of gravity in the x–y plane.
-    pub gravity_direction: [f64; 2],
+    /// Unit vector of gravity: x, y, and z with strips round the body.
+    pub gravity_direction: [f64; 3],
     /// The actuator.
     pub actuator: ActuatorChoice,
     /// Further strips of it round the body.
@@ -117,8 +117,9 @@ impl Scenario {
     pub fn with_effect(&self, name: &str, values: &[f64]) -> Scenario {
         let catalogue = self.catalogue();
         let given = values.len();
-        let takes =
-            |e: &Effect| given <= e.parameters.len() && e.parameters[given..].iter().all(|p| p.fitted == Fitted::Shape);
+        let is_usual =
+            |p: &Parameter| p.fitted == Fitted::Shape || (p.fitted, p.typical) == (Fitted::FromDesign, p.neutral);
+        let takes = |e: &Effect| given <= e.parameters.len() && e.parameters[given..].iter().all(is_usual);
         let effect = catalogue.by_name(name).filter(takes);
         let neutral = effect.map(|e| e.neutral());
         assert!(neutral.is_some(), "no effect `{name}` with {given} parameters");
@@ -130,6 +131,13 @@ impl Scenario {
         changed.effects.push(choice);
         changed.effects.sort_by_key(|e| order(&e.name, &self.formulas));
         changed
+    }
+
+    /// Its effects in the order of the catalogue, whatever order they were written or chosen in.
+    pub(crate) fn effects_in_order(&self) -> Vec<&EffectChoice> {
+        let mut chosen: Vec<&EffectChoice> = self.effects.iter().collect();
+        chosen.sort_by_key(|e| order(&e.name, &self.formulas));
+        chosen
     }
 
     /// Every effect this scenario may use: the common ones, and its own formulas.
@@ -160,7 +168,13 @@ impl Scenario {
 
     /// Whether strips lie elsewhere than along azimuth 0: the robot then leaves the x–y plane, and [`crate::space`] has its balance.
     pub fn is_spatial(&self) -> bool {
-        !self.more_strips.is_empty() || self.actuator.azimuth_rad != 0.0 || self.actuator.turns != 0.0
+        !self.more_strips.is_empty() || !self.actuator.is_planar()
+    }
+
+    /// Force on the tip of a planar robot along z, which moves nothing \[N\]; `None` without one.
+    pub fn idle_force_n(&self) -> Option<f64> {
+        let load = self.effects.iter().find(|e| e.name == "tip_load").filter(|_| !self.is_spatial());
+        load.map(|e| e.values[2]).filter(|force| *force != 0.0)
     }
 
     /// Whether an effect can act on this robot: as [`ActuatorChoice::takes`]; with strips round the body only effects in [`IN_SPACE`].

@@ -121,10 +121,24 @@ fn overlap(a: &ActuatorChoice, b: &ActuatorChoice, radius_m: f64) -> bool {
     whole * TAU < high + least
 }
 
+/// Refuses a force across the plane in which a robot bends.
+fn no_z(scenario: &Scenario, raw: &Raw) -> Checked<()> {
+    let name = raw.effects.keys().find(|name| name.get_ref() == "tip_load");
+    match (scenario.idle_force_n(), name) {
+        (Some(force), Some(name)) => {
+            let message = format!(
+                "cannot push the tip along z: force_z_n is {force}, and this robot bends in the x–y plane alone"
+            );
+            refuse(message, "remove force_z_n, or give the robot a [[strip]]", name.span())
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Refuses what is not built for strips round the body.
 pub(super) fn check_space(scenario: &Scenario, raw: &Raw, body: &Given) -> Checked<()> {
     if !scenario.is_spatial() {
-        return Ok(());
+        return no_z(scenario, raw);
     }
     if let Some(name) = raw.effects.keys().find(|name| !IN_SPACE.contains(&name.get_ref().as_str())) {
         let message = format!("the effect {} is not built for strips round the body", name.get_ref());

@@ -1,7 +1,7 @@
 //! Starts of a place, tabulated where the guess of its actuator fails.
 
 use super::starts::Starts;
-use super::{Besides, Site, SiteLoads, SiteState, TYPICAL_STROKE};
+use super::{SideEffects, Site, SiteLoads, SiteState, TYPICAL_STROKE};
 use crate::root::Start;
 use crate::term::Memory;
 
@@ -12,12 +12,12 @@ impl Site {
     /// Tabulates starts for this body pressure and actuator pressures up to `p_max_pa`, where the guess fails.
     pub(crate) fn tabulate(&mut self, p_body_pa: f64, p_max_pa: f64) {
         let remembers = self.body_terms.iter().any(|term| term.memory() != Memory::NONE);
-        if !self.besides.unforeseen || remembers {
+        if !self.side_effects.shifts_balance || remembers {
             return;
         }
         let loads = |p_act_pa: f64| SiteLoads { p_body_pa, p_act_pa, ..SiteState::REST.loads };
         let moment = self.resisting(&loads(0.0), &[]);
-        let Besides { closes, tabulated_from, .. } = self.besides;
+        let SideEffects { closes, tabulated_from, .. } = self.side_effects;
         let opened = ((2.0 * closes).max(tabulated_from) * p_body_pa).max(LOWEST_SHARE * p_max_pa);
         let mut near = None;
         self.starts = Starts::new(moment, [opened, p_max_pa], |p_act_pa| {

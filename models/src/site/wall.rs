@@ -1,6 +1,6 @@
 //! The body's side of a place: moments of its wall and of its further terms.
 
-use super::{PASSIVE_RANGE, Site, SiteLoads, SiteState};
+use super::{Site, SiteLoads, SiteState};
 use crate::root::{NoRoot, Start, find_root};
 use crate::term::{Pose, Term};
 
@@ -29,11 +29,6 @@ impl Site {
         force[0]
     }
 
-    /// Moment of the outer loads at a state, and that of the wall, their sum with the actuator's \[N·m\].
-    pub(crate) fn moments(&self, state: &SiteState, memory: &[f64]) -> [f64; 2] {
-        [state.loads.moment, self.body_moment(state.curvature, &state.loads, memory)]
-    }
-
     /// ∂U/∂κ of all body-side terms \[N·m\].
     #[inline]
     pub(super) fn body_moment(&self, curvature: f64, loads: &SiteLoads, memory: &[f64]) -> f64 {
@@ -49,6 +44,11 @@ impl Site {
             term.add_force(&pose, &mut force);
         }
         -force[0]
+    }
+
+    /// Curvature beyond which a passive stretch has folded \[1/m\]: its centre line would be longer again than the fabric.
+    pub(super) fn folded(&self) -> f64 {
+        2.0 / self.radius_m
     }
 
     /// Without actuator pressure the pouch is slack: only the wall resists.
@@ -72,7 +72,7 @@ impl Site {
         } else {
             let slope = -stiffness(x);
             let start = Start { x, f: Some(at_rest), slope };
-            let root = find_root(&mut imbalance, (-PASSIVE_RANGE, PASSIVE_RANGE), start)?;
+            let root = find_root(&mut imbalance, (-self.folded(), self.folded()), start)?;
             root.x + root.step
         };
         Ok(SiteState { curvature, compliance: 1.0 / stiffness(curvature), loads: *loads, ..SiteState::REST })

@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! ε = cos²β (ε₀ + b κ·e)        e = (cos θ, sin θ),  b = D − R,  tan β = R dθ/ds
-//! U(κ, ε₀) = p_b (A ε₀ + m·κ) + ½ B|κ|² + Σ U_i(ε)/cos β        minimal, with ε₀ ≥ R|κ|
+//! U(κ, ε₀) = p_b (A ε₀ + m·κ) + ½ B|κ|² + Σ U_i(ε)/cos β − M·κ − f ε        minimal, with ε₀ ≥ R|κ|
 //! ```
 //!
 //! | symbol | meaning | unit |
@@ -14,17 +14,32 @@
 //! | β | slant of a helical strip to the axis | rad |
 //! | U_i | energy of the actuator per metre of strip: the terms of its [`Site`] | J/m |
 //! | A, m | area of the section, and its first moment about the axis: strips that draw the wall in take of both | m², m³ |
+//! | M, f | generalised forces of outer loads, per length, on κ and on the contraction ε of the centre line: `loaded.rs` | N·m, N |
 //! | B | bending stiffness | N·m² |
 //!
 //! Where one strip pulls, ε₀ = R|κ|: the generator opposite to the bend is taut, ε = κD, and this is the planar balance. Where strips
 //! pull more than p_b A together, nothing is taut: the body shortens. Two equal strips at 180° do so, and each
 //! resists the other.
 //!
+//! Outer loads are dead forces F_k on the nodes x_k. M and f are minus the slopes of −Σ F_k·x_k, so the shape and the bends are found
+//! together. The wall alone carries |M| ≤ p_b A R, less with a force that pushes along the body; beyond, B does. Without B
+//! nothing does: no equilibrium.
+//!
 //! **Validity**: U is convex as long as the pull of a strip falls with its contraction, so there is one minimum. Each actuator's own
-//! terms see the bend ε/D that its contraction would make alone. The body does not twist. A bend has no shear. The wall's step at
-//! κ = 0 is sharp: `hinge_curvature_per_m` acts in sections with one upright strip alone. Derived here.
+//! terms see the bend ε/D that its contraction would make alone. The body does not twist, whatever moment the loads have along it. A
+//! bend has no shear. `hinge_curvature_per_m` softens the wall's step at κ = 0 in sections without open strips (`passive.rs`) and in
+//! those with one upright strip alone, loaded in its plane; in others the step is sharp. A section with such a strip has the planar
+//! balance, in which the generator opposite stays taut even where the strip pulls harder than p_b A. Derived here.
 
+mod coupling;
+mod energies;
 mod frame;
+mod lever;
+mod loaded;
+mod loaded_section;
+#[cfg(test)]
+mod loaded_tests;
+mod passive;
 mod section;
 mod state;
 #[cfg(test)]
@@ -39,10 +54,10 @@ use crate::scenario::ActuatorChoice;
 use crate::site::Site;
 use crate::site::SiteState;
 pub use frame::Frame;
-pub(crate) use frame::{Bend, Stretch};
+pub(crate) use frame::{Bend, Stretch, direction};
 pub(crate) use section::Section;
-pub(crate) use state::SpaceWork;
 pub use state::{SectionState, StripState};
+pub(crate) use state::{SpaceWork, place, stretch};
 
 /// Strips of every segment; `spans` sites per strip, those of the first strip first.
 pub(crate) fn around(strips: &[ActuatorChoice], radius_m: f64, spans: usize, segments: &[Segment]) -> Vec<Vec<Strip>> {
@@ -62,6 +77,18 @@ pub(crate) fn equilibrium(
     states: &mut [SiteState],
 ) -> Result<(), Unsolved> {
     refuse_the_rest(assembly)?;
+    unloaded(assembly, p_body_pa, work)?;
+    if !assembly.node_terms.is_empty() {
+        loaded::equilibrium(assembly, p_body_pa, work)?;
+    }
+    for (state, bend) in states.iter_mut().zip(&work.bends) {
+        state.curvature = bend.size();
+    }
+    Ok(())
+}
+
+/// Equilibrium of every section without loads.
+fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Result<(), Unsolved> {
     for i in 0..assembly.segments.len() {
         let alike = i > 0 && same_section(assembly, work, i);
         if alike {
@@ -72,7 +99,6 @@ pub(crate) fn equilibrium(
             let section = Section::new(assembly, i, p_body_pa);
             work.bends[i] = section.solve(&mut work.strips[i])?;
         }
-        states[i].curvature = work.bends[i].size();
     }
     Ok(())
 }
@@ -80,7 +106,7 @@ pub(crate) fn equilibrium(
 /// Refuses parts of a model that the sections do not see.
 fn refuse_the_rest(assembly: &Assembly) -> Result<(), Unsolved> {
     let what = match () {
-        _ if !assembly.node_terms.is_empty() => "a load on the body",
+        _ if assembly.springs => "a spring at the tip",
         _ if !assembly.camera.is_empty() => "an effect of the camera",
         _ if assembly.sites.iter().any(|site| !site.body_terms.is_empty()) => "an effect on the bend of the body",
         _ if assembly.sites.iter().any(|site| site.linkage.section.is_some()) => "a section that changes as it bends",

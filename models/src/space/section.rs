@@ -1,14 +1,13 @@
 //! Equilibrium of one section: the minimum of a convex energy over κ, the contraction ε₀ found inside.
 
+use super::coupling::Outer;
 use super::frame::{Bend, direction};
 use super::state::StripState;
 use crate::actuators::Actuator;
 use crate::assembly::{Assembly, Segment, Strip};
-use crate::body::BODY_PRESSURE;
 use crate::error::Unsolved;
 use crate::root::{Start, find_root};
 use crate::site::{Site, SiteLoads, SiteState};
-use crate::term::{LedgerLine, Pose, Term};
 use std::f64::consts::PI;
 
 /// Newton steps; a dozen are usual.
@@ -18,27 +17,33 @@ const TOLERANCE: f64 = 1e-11;
 /// A step that is rounding \[1/m\].
 const LEAST_STEP: f64 = 1e-13;
 /// Curvature below which a bend has no direction \[1/m\].
-const STRAIGHT: f64 = 1e-12;
+pub(super) const STRAIGHT: f64 = 1e-12;
 /// Relative step of the stiffness of a strip.
 const STEP: f64 = 1e-6;
 /// Contraction tried first beyond a taut wall.
 const FIRST_CONTRACTION: f64 = 1e-2;
 /// Determinant over the square of the trace, and trace over p_b A R², below which an energy is flat along some bend.
-const FLAT: f64 = 1e-8;
+pub(super) const FLAT: f64 = 1e-8;
 /// Halvings of a step.
 const HALVINGS: usize = 40;
 
 /// One section of the body and what acts there.
 pub(crate) struct Section<'a> {
-    sites: &'a [Site],
-    strips: &'a [Strip],
-    segment: Segment,
-    p_body_pa: f64,
-    radius_m: f64,
-    bending: f64,
-    area_m2: f64,
+    pub(super) sites: &'a [Site],
+    pub(super) strips: &'a [Strip],
+    pub(super) segment: Segment,
+    pub(super) p_body_pa: f64,
+    pub(super) radius_m: f64,
+    pub(super) bending: f64,
+    /// Curvature over which the hinge of the wall sets in \[1/m\].
+    pub(super) hinge_per_m: f64,
+    pub(super) area_m2: f64,
     /// First moment of the area about the axis, (y, z) \[m³\].
-    moment_m3: [f64; 2],
+    pub(super) moment_m3: [f64; 2],
+    /// Distance of the centre line from the axis, away from the taut generator \[m\].
+    pub(super) offset_m: f64,
+    /// Loads on it from outside.
+    pub(super) outer: Outer,
 }
 
 /// A strip at one coordinate, in a section bent by k = κ·e.
@@ -56,26 +61,41 @@ pub(super) struct Fit {
 
 /// All strips at one bend and contraction.
 #[derive(Clone, Copy, Default)]
-struct Pulls {
-    force: f64,
+pub(super) struct Pulls {
+    pub force: f64,
     /// Σ F b e.
-    moment: [f64; 2],
+    pub moment: [f64; 2],
     /// Σ K over (1, b e): stiffness of contraction, mixed, and of the bend.
     stiffness: f64,
     mixed: [f64; 2],
     bend: [[f64; 2]; 2],
 }
 
-/// Slope and curvature of the energy by κ, with ε₀ at its best.
-struct Balance {
-    contraction: f64,
-    slope: [f64; 2],
-    second: [[f64; 2]; 2],
-    /// Force with which the wall holds ε₀ at R|κ| \[N\].
-    taut_n: f64,
+/// Which strips of a section are open.
+pub(super) enum Acting {
+    /// None: the wall alone resists.
+    Nothing,
+    /// One upright strip in a section that no other strip draws in.
+    One(usize),
+    /// Others.
+    Several,
 }
 
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+/// Slope and curvature of the energy by κ, with ε₀ at its best.
+pub(super) struct Balance {
+    pub contraction: f64,
+    pub slope: [f64; 2],
+    pub second: [[f64; 2]; 2],
+    /// Force with which the wall holds ε₀ at R|κ| \[N\].
+    pub taut_n: f64,
+    /// Moment of the wall against the first bend \[N·m\].
+    pub hinge_nm: f64,
+    /// By how much the contraction of the centre line grows with κ, and with an axial force at fixed κ \[1/N\].
+    pub along: [f64; 2],
+    pub give: f64,
+}
+
+pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
@@ -100,20 +120,21 @@ impl<'a> Section<'a> {
             p_body_pa,
             radius_m: body.radius_m,
             bending: body.bending.stiffness,
+            hinge_per_m: body.body_pressure.hinge_per_m(),
             area_m2,
             moment_m3,
+            offset_m: body.centre_line.from_taut_m - body.radius_m,
+            outer: [0.0; 3],
         }
     }
 
-    fn loads(&self, p_act_pa: f64) -> SiteLoads {
-        SiteLoads {
-            p_body_pa: self.p_body_pa,
-            p_act_pa,
-            moment: 0.0,
-            s_m: self.segment.middle_m(),
-            dt_s: 0.0,
-            stamp: 0,
-        }
+    /// The same under loads from outside.
+    pub(super) fn under(self, outer: Outer) -> Section<'a> {
+        Section { outer, ..self }
+    }
+
+    fn loads(&self, p_act_pa: f64, moment: f64) -> SiteLoads {
+        SiteLoads { p_body_pa: self.p_body_pa, p_act_pa, moment, s_m: self.segment.middle_m(), dt_s: 0.0, stamp: 0 }
     }
 
     /// Its actuator, if the pressure opens it.
@@ -131,7 +152,7 @@ impl<'a> Section<'a> {
         let d_arm = link.arm_growth * stroke.d_lift;
         let geometric = link.stroke_fraction * stroke.contraction / arm;
         let d_geometric = (link.stroke_fraction * stroke.d_contraction - geometric * d_arm) / arm;
-        let loads = self.loads(p_act_pa);
+        let loads = self.loads(p_act_pa, 0.0);
         let slope = link.active_fraction * site.actuator_slope(a, &stroke, geometric, d_geometric, &loads);
         let cos2 = strip.cos_slant * strip.cos_slant;
         let tension = -slope / (link.stroke_fraction * stroke.d_contraction - cos2 * k * d_arm);
@@ -154,7 +175,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    fn pulls(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> Pulls {
+    pub(super) fn pulls(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> Pulls {
         let mut sum = Pulls::default();
         for (strip, state) in self.strips.iter().zip(strips) {
             let Some(actuator) = self.open(strip, state) else { continue };
@@ -181,8 +202,12 @@ impl<'a> Section<'a> {
     }
 
     /// Slope of the energy by κ where ε₀ is at its best: R|κ|, or more where the strips pull harder than the gas.
-    fn balance(&self, strips: &mut [StripState], kappa: [f64; 2]) -> Result<Balance, Unsolved> {
-        let (size, thrust) = (kappa[0].hypot(kappa[1]), self.p_body_pa * self.area_m2);
+    pub(super) fn balance(&self, strips: &mut [StripState], kappa: [f64; 2]) -> Result<Balance, Unsolved> {
+        if self.is_passive(strips) {
+            return Ok(self.passive_balance(kappa));
+        }
+        let (size, [outer_y, outer_z, axial]) = (kappa[0].hypot(kappa[1]), self.outer);
+        let thrust = self.p_body_pa * self.area_m2 - axial;
         let floor = self.radius_m * size;
         let mut contraction = floor;
         let mut pulls = self.pulls(strips, kappa, contraction);
@@ -199,22 +224,33 @@ impl<'a> Section<'a> {
         }
         let taut_n = if is_slack { 0.0 } else { thrust - pulls.force };
         let n = if size > STRAIGHT { kappa.map(|k| k / size) } else { [0.0; 2] };
-        let held = taut_n * self.radius_m;
+        let held = taut_n * self.radius_m - axial * self.offset_m;
         let slope = std::array::from_fn(|i| {
-            self.p_body_pa * self.moment_m3[i] + self.bending * kappa[i] + held * n[i] - pulls.moment[i]
+            let own = self.p_body_pa * self.moment_m3[i] + self.bending * kappa[i] + held * n[i] - pulls.moment[i];
+            own - [outer_y, outer_z][i]
         });
+        let stiffness = pulls.stiffness.max(f64::MIN_POSITIVE);
         let second = |i: usize, j: usize| {
             let own = if i == j { self.bending } else { 0.0 };
+            let across = if i == j { 1.0 - n[i] * n[j] } else { -n[i] * n[j] };
             if is_slack {
-                return own + pulls.bend[i][j]
-                    - pulls.mixed[i] * pulls.mixed[j] / pulls.stiffness.max(f64::MIN_POSITIVE);
+                let turned = if size > STRAIGHT { held / size * across } else { 0.0 };
+                return own + pulls.bend[i][j] - pulls.mixed[i] * pulls.mixed[j] / stiffness + turned;
             }
             let r = self.radius_m;
             let taut = pulls.bend[i][j] + r * (n[i] * pulls.mixed[j] + n[j] * pulls.mixed[i]);
-            let across = if i == j { 1.0 - n[i] * n[j] } else { -n[i] * n[j] };
             own + taut + r * r * pulls.stiffness * n[i] * n[j] + held / size.max(STRAIGHT) * across
         };
-        Ok(Balance { contraction, slope, second: [[second(0, 0), second(0, 1)], [second(1, 0), second(1, 1)]], taut_n })
+        let own = |i: usize| if is_slack { -pulls.mixed[i] / stiffness } else { self.radius_m * n[i] };
+        Ok(Balance {
+            contraction,
+            slope,
+            second: [[second(0, 0), second(0, 1)], [second(1, 0), second(1, 1)]],
+            taut_n,
+            hinge_nm: held,
+            along: std::array::from_fn(|i| own(i) + self.offset_m * n[i]),
+            give: if is_slack { 1.0 / stiffness } else { 0.0 },
+        })
     }
 
     /// The equilibrium; `strips` has the pressures, and gets the rest.
@@ -222,16 +258,23 @@ impl<'a> Section<'a> {
         for state in &mut *strips {
             (state.coordinate, state.tension) = (0.0, 0.0);
         }
-        let open = |(strip, state): (&Strip, &StripState)| self.open(strip, state).is_some();
-        let mut opened = self.strips.iter().zip(&*strips).enumerate().filter(|(_, pair)| open(*pair)).map(|(i, _)| i);
-        let kappa = match (opened.next(), opened.next()) {
-            (None, _) => return Ok(Bend::default()),
-            (Some(one), None) if self.strips[one].cos_slant == 1.0 && self.is_round_but(one) => {
-                return self.alone(one, &mut strips[one]);
-            }
-            _ => self.first_guess(strips),
+        let kappa = match self.acting(strips) {
+            Acting::Nothing => return Ok(Bend::default()),
+            Acting::One(one) => return Ok(self.alone(one, &mut strips[one])?.0),
+            Acting::Several => self.first_guess(strips),
         };
         self.minimum(strips, kappa)
+    }
+
+    /// Which strips are open.
+    pub(super) fn acting(&self, strips: &[StripState]) -> Acting {
+        let open = |(strip, state): (&Strip, &StripState)| self.open(strip, state).is_some();
+        let mut opened = self.strips.iter().zip(strips).enumerate().filter(|(_, pair)| open(*pair)).map(|(i, _)| i);
+        match (opened.next(), opened.next()) {
+            (None, _) => Acting::Nothing,
+            (Some(one), None) if self.strips[one].cos_slant == 1.0 && self.is_round_but(one) => Acting::One(one),
+            _ => Acting::Several,
+        }
     }
 
     /// Whether no other strip draws the section in: then a strip alone bends it in its own plane.
@@ -240,22 +283,24 @@ impl<'a> Section<'a> {
         (0..self.strips.len()).all(|i| i == one || round(&self.sites[self.strips[i].site]))
     }
 
-    /// The planar balance of one strip, turned.
-    fn alone(&self, one: usize, state: &mut StripState) -> Result<Bend, Unsolved> {
-        let (strip, loads) = (&self.strips[one], self.loads(state.p_act_pa));
+    /// The planar balance of one strip, turned, with its compliance.
+    pub(super) fn alone(&self, one: usize, state: &mut StripState) -> Result<(Bend, f64), Unsolved> {
+        let (strip, [y, z, axial]) = (&self.strips[one], self.outer);
+        let moment = dot([y, z], direction(strip.azimuth_rad)) + (self.radius_m + self.offset_m) * axial;
+        let loads = self.loads(state.p_act_pa, moment);
         let solved = self.sites[strip.site].solve(&loads, &[], None);
         let at: SiteState = solved.map_err(|_| self.unsolved(std::slice::from_ref(state), 0.0))?;
         (state.coordinate, state.tension) = (at.coordinate, at.tension);
         let kappa = direction(strip.azimuth_rad).map(|e| at.curvature * e);
-        Ok(Bend { kappa, contraction: self.radius_m * at.curvature.abs() })
+        Ok((Bend { kappa, contraction: self.radius_m * at.curvature.abs() }, at.compliance))
     }
 
     /// The bends of all strips alone, added.
-    fn first_guess(&self, strips: &[StripState]) -> [f64; 2] {
+    pub(super) fn first_guess(&self, strips: &[StripState]) -> [f64; 2] {
         let mut sum = [0.0; 2];
         for (strip, state) in self.strips.iter().zip(strips) {
             let site = &self.sites[strip.site];
-            let Ok(at) = site.solve(&self.loads(state.p_act_pa), &[], None) else { continue };
+            let Ok(at) = site.solve(&self.loads(state.p_act_pa, 0.0), &[], None) else { continue };
             let e = direction(strip.azimuth_rad);
             sum = [sum[0] + at.curvature * e[0], sum[1] + at.curvature * e[1]];
         }
@@ -266,11 +311,13 @@ impl<'a> Section<'a> {
         let scale = self.p_body_pa * self.area_m2 * self.radius_m;
         let mut kappa = start;
         let mut at = self.balance(strips, kappa)?;
+        // Under a load the minimum of a slack body may be far along a flat way.
+        let mut reach = 1.0;
         for _ in 0..MAX_ITERATIONS {
             let size = kappa[0].hypot(kappa[1]);
             let left = at.slope[0].hypot(at.slope[1]);
             // At the tip of the cone the wall takes any moment up to this.
-            let carried = if size <= STRAIGHT { at.taut_n * self.radius_m } else { 0.0 };
+            let carried = if size <= STRAIGHT { at.hinge_nm } else { 0.0 };
             if left <= TOLERANCE * scale + carried {
                 return Ok(Bend { kappa, contraction: at.contraction });
             }
@@ -283,6 +330,7 @@ impl<'a> Section<'a> {
             }
             let det = a * d - b * b;
             let mut step = [-(d * g[0] - b * g[1]) / det, -(a * g[1] - b * g[0]) / det];
+            step = step.map(|s| s * reach);
             let longest = 2.0 / self.radius_m;
             let length = step[0].hypot(step[1]);
             if length.is_nan() {
@@ -302,6 +350,8 @@ impl<'a> Section<'a> {
                 }
                 share *= 0.5;
             }
+            let goes_on = is_flat && share == 1.0 && self.outer != [0.0; 3];
+            reach = if goes_on { 2.0 * reach } else { 1.0 };
             kappa = [kappa[0] + share * step[0], kappa[1] + share * step[1]];
             if share * step[0].hypot(step[1]) <= LEAST_STEP * (1.0 + kappa[0].hypot(kappa[1])) {
                 return Ok(Bend { kappa, contraction: at.contraction });
@@ -310,41 +360,8 @@ impl<'a> Section<'a> {
         Err(self.unsolved(strips, at.slope[0].hypot(at.slope[1])))
     }
 
-    fn unsolved(&self, strips: &[StripState], residual: f64) -> Unsolved {
+    pub(super) fn unsolved(&self, strips: &[StripState], residual: f64) -> Unsolved {
         let p_act_kpa = strips.iter().fold(0.0, |most: f64, state| most.max(state.p_act_pa)) / 1e3;
         Unsolved::NotConverged { iterations: MAX_ITERATIONS, p_act_kpa, residual }
-    }
-
-    /// Energies per metre of body \[J/m\] by line of the ledger.
-    pub(crate) fn energies(&self, bend: &Bend, strips: &[StripState], post: &mut dyn FnMut(LedgerLine, f64)) {
-        for (strip, state) in self.strips.iter().zip(strips) {
-            let site = &self.sites[strip.site];
-            let Some(actuator) = site.actuator.filter(|_| state.p_act_pa > 0.0) else { continue };
-            let stroke = (actuator.stroke)(&site.shape, state.coordinate.max(actuator.range.0));
-            let at = Pose { s_m: self.segment.middle_m(), ..Pose::new(&[], self.p_body_pa, state.p_act_pa) };
-            site.actuator_energies(&stroke, [state.coordinate, state.tension], &at, &mut |line, energy| {
-                post(line, energy / strip.cos_slant);
-            });
-        }
-        let gas = self.area_m2 * bend.contraction + dot(self.moment_m3, bend.kappa);
-        post(BODY_PRESSURE, self.p_body_pa * gas);
-        post(crate::body::Bending { stiffness: 0.0 }.line(), 0.5 * self.bending * dot(bend.kappa, bend.kappa));
-    }
-
-    /// Energy per metre at any bend and contraction, strips settled \[J/m\]; for tests.
-    #[cfg(test)]
-    pub(crate) fn energy(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> f64 {
-        self.pulls(strips, kappa, contraction);
-        let mut sum = 0.0;
-        self.energies(&Bend { kappa, contraction }, strips, &mut |_, energy| sum += energy);
-        sum
-    }
-
-    /// Forces on κ and ε₀ there, of everything but the constraint; for tests.
-    #[cfg(test)]
-    pub(crate) fn forces(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> [f64; 3] {
-        let pulls = self.pulls(strips, kappa, contraction);
-        let by = |i: usize| pulls.moment[i] - self.p_body_pa * self.moment_m3[i] - self.bending * kappa[i];
-        [by(0), by(1), pulls.force - self.p_body_pa * self.area_m2]
     }
 }

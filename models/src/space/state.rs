@@ -1,6 +1,7 @@
 //! What a robot in space is at equilibrium: its sections and strips.
 
-use super::frame::{Bend, Frame};
+use super::coupling::Loaded;
+use super::frame::{Bend, Frame, Stretch};
 use crate::assembly::{Assembly, Segment};
 
 /// A section at equilibrium.
@@ -36,6 +37,8 @@ pub(crate) struct SpaceWork {
     pub strips: Vec<Vec<StripState>>,
     /// Place and frame at each node.
     pub frames: Vec<Frame>,
+    /// What only loads on the body need; empty without them.
+    pub loaded: Loaded,
 }
 
 impl SpaceWork {
@@ -45,6 +48,27 @@ impl SpaceWork {
             bends: vec![Bend::default(); count],
             strips: assembly.around.iter().map(|strips| vec![StripState::default(); strips.len()]).collect(),
             frames: vec![Frame::BASE; if count == 0 { 0 } else { count + 1 }],
+            loaded: Loaded::new(if assembly.node_terms.is_empty() { 0 } else { count }),
         }
+    }
+
+    /// Node positions x₀, y₀, z₀, x₁, … \[m\].
+    pub(crate) fn nodes(&self) -> Vec<f64> {
+        self.frames.iter().flat_map(|frame| frame.at).collect()
+    }
+}
+
+/// A segment in its bend.
+pub(crate) fn stretch(assembly: &Assembly, work: &SpaceWork, segment: usize) -> Stretch {
+    let site = &assembly.sites[assembly.segments[segment].site];
+    let bend = work.bends[segment];
+    let contraction = bend.contraction + (site.centre_line.from_taut_m - site.radius_m) * bend.size();
+    Stretch { from: work.frames[segment], bend, contraction }
+}
+
+/// Places the frames along the arc.
+pub(crate) fn place(assembly: &Assembly, work: &mut SpaceWork) {
+    for (i, segment) in assembly.segments.iter().enumerate() {
+        work.frames[i + 1] = stretch(assembly, work, i).at(segment.length_m);
     }
 }

@@ -35,6 +35,23 @@ fn the_inverse_of_a_prediction_returns_its_pressure() {
 }
 
 #[test]
+fn the_jacobian_at_the_largest_pressure_continues_those_below_it() {
+    for kind in ["spam", "cpam", "epam", "fpam"] {
+        let model = Model::new(&robot(kind));
+        let slope = |p: f64| {
+            let [TipSlope { x_per_pa, y_per_pa, angle_per_pa }, ..] =
+                model.jacobian(&Loads::uniform(2e3, p), &mut model.prediction()).unwrap();
+            [x_per_pa, y_per_pa, angle_per_pa]
+        };
+        let [at, near, far] = [1e6, 0.999e6, 0.998e6].map(slope);
+        for i in 0..3 {
+            let continued = 2.0 * near[i] - far[i];
+            assert!((at[i] / continued - 1.0).abs() < 2e-5, "{kind} {i}: {:e} and {continued:e}", at[i]);
+        }
+    }
+}
+
+#[test]
 fn a_target_out_of_reach_is_refused_with_the_reachable_range() {
     for (name, scenario) in robots() {
         let model = Model::new(&scenario);

@@ -26,6 +26,41 @@ fn at_the_working_point_the_moments_balance_and_beside_it_they_follow_the_model(
     }
 }
 
+#[test]
+fn a_chain_at_the_largest_pressure_continues_those_below_it() {
+    let drive = |p: f64| Linear::new(&robot("epam"), 6, &Loads::uniform(2e3, p)).unwrap().joints[0].per_pa[0];
+    let [at, near, far] = [1e6, 0.999e6, 0.998e6].map(drive);
+    assert!((at / (2.0 * near - far) - 1.0).abs() < 1e-4, "{at:e} {near:e} {far:e}");
+}
+
+#[test]
+fn the_tip_of_the_chain_is_the_tip_of_the_model_at_the_working_point_and_that_of_the_straight_robot_nearby() {
+    for scenario in robots().iter().take(4) {
+        let loads = Loads::uniform(2e3, 20e3);
+        let chain = Linear::new(scenario, 6, &loads).unwrap();
+        let tip = predicted(&Model::new(scenario), &loads).unwrap().tip;
+        let reached = |share: f64| {
+            let ([mut x, mut y], mut heading, mut before) = ([0.0; 2], 0.0_f64, 0.0);
+            let mut move_by = |along: f64, across: f64, heading: f64| {
+                x += along * heading.cos() - across * heading.sin();
+                y += along * heading.sin() + across * heading.cos();
+            };
+            for joint in &chain.joints {
+                move_by(joint.joint_at_m - before, -joint.line_offset_m, heading);
+                heading += share * joint.angle_rad;
+                move_by(0.0, joint.line_offset_m, heading);
+                before = joint.joint_at_m;
+            }
+            move_by(chain.tip_at_m - before, 0.0, heading);
+            [x, y, heading]
+        };
+        let miss = |[x, y, heading]: [f64; 3]| (x - tip.x_m).hypot(y - tip.y_m).max((heading - tip.angle_rad).abs());
+        assert!(tip.angle_rad > 0.2 && miss(reached(1.0)) < 1e-12, "{}: {:?} {tip:?}", scenario.name, reached(1.0));
+        let [longer, aside, _] = reached(0.0);
+        assert!(aside.abs() < 1e-15 && (0.0..0.01).contains(&(longer / scenario.length_m - 1.0)), "{longer}");
+    }
+}
+
 /// A beam: K is its bending stiffness over the length of a joint, plus the hinge of its pressure.
 #[test]
 fn the_joint_of_a_beam_has_its_closed_form() {

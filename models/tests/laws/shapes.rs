@@ -5,6 +5,10 @@ use models::{Model, Pose, Scenario, Supply};
 
 const BODY: f64 = 2e3;
 
+fn held(held_s: f64) -> models::Moment {
+    models::Moment { held_s, ..Default::default() }
+}
+
 /// Torricelli: a closed volume that empties through a hole, p = p₀ (1 − ½ r t √(P_r/p₀))².
 #[test]
 fn a_leak_through_a_hole_is_torricellis() {
@@ -12,12 +16,12 @@ fn a_leak_through_a_hole_is_torricellis() {
     let through = |k: f64| Supply::of(&robot.with_effect("leak", &[0.05, k]));
     for (p, t) in [(5e3, 1.0), (20e3, 4.0), (30e3, 10.0)] {
         let exact = p * (1.0 - 0.5 * 0.05 * t * (20e3_f64 / p).sqrt()).powi(2);
-        assert!((through(0.5).pressure(p, t) / exact - 1.0).abs() < 1e-12, "{p} {t}");
+        assert!((through(0.5).pressure(p, &held(t)) / exact - 1.0).abs() < 1e-12, "{p} {t}");
         let pores = p * (-0.05_f64 * t).exp();
-        assert!((through(1.0 + 1e-7).pressure(p, t) / pores - 1.0).abs() < 1e-6, "{p} {t}: no jump at k = 1");
+        assert!((through(1.0 + 1e-7).pressure(p, &held(t)) / pores - 1.0).abs() < 1e-6, "{p} {t}: no jump at k = 1");
     }
-    assert_eq!(through(0.5).pressure(10.0, 60.0), 0.0, "a hole empties it, pores never do");
-    assert_eq!(through(0.5).pressure(0.0, 60.0), 0.0);
+    assert_eq!(through(0.5).pressure(10.0, &held(60.0)), 0.0, "a hole empties it, pores never do");
+    assert_eq!(through(0.5).pressure(0.0, &held(60.0)), 0.0);
 }
 
 /// Markers and heading of the tip at 20 kPa.

@@ -121,7 +121,8 @@ impl Potential<'_> {
         let site = self.site(segment);
         let stroke = (site.actuator.unwrap().stroke)(&site.shape, a);
         let arm = site.linkage.arm_m + site.linkage.arm_growth * stroke.lift;
-        (site.linkage.bent(site.linkage.stroke_fraction * stroke.contraction / arm).0, arm)
+        let strain = site.linkage.stroke_fraction * stroke.contraction;
+        (site.linkage.bent(turn(strain, arm, 2.0 * site.radius_m)).0, arm)
     }
 
     /// Π(a, κ) of one segment per length; with extensible fabric a and κ are independent, else κ must be that of `a`.
@@ -156,7 +157,8 @@ impl Potential<'_> {
         let mut nodes = vec![0.0, 0.0];
         let (mut x, mut y, mut heading) = (0.0, 0.0, 0.0_f64);
         for (segment, kappa) in self.assembly.segments.iter().zip(kappas) {
-            let line = (1.0 - kappa * self.assembly.sites[segment.site].radius_m) * segment.length_m;
+            let shorter = shortening(*kappa) * self.assembly.sites[segment.site].radius_m;
+            let line = (1.0 - shorter) * segment.length_m;
             let half = 0.5 * kappa * segment.length_m;
             let chord = if half == 0.0 { line } else { line * half.sin() / half };
             x += chord * (heading + half).cos();
@@ -167,6 +169,25 @@ impl Potential<'_> {
         let pose = Pose::new(&nodes, self.loads.body_pa, 0.0);
         self.assembly.node_terms.iter().map(|t| t.add(&pose, &mut vec![0.0; nodes.len()])).sum()
     }
+}
+
+/// Hinge curvature of the robots here \[1/m\].
+const HINGE: f64 = 0.05;
+
+/// Shortening of a line at unit distance from the generator opposite to the bend, which changes side at κ = 0.
+fn shortening(kappa: f64) -> f64 {
+    if kappa >= 0.0 { kappa } else { kappa + 2.0 * HINGE * (kappa / HINGE).cosh().ln() }
+}
+
+/// Curvature of a line that shortens by `strain`, by bisection where it lengthens.
+fn turn(strain: f64, arm: f64, diameter: f64) -> f64 {
+    let [mut low, mut high] = [-30.0, 0.0];
+    for _ in 0..if strain < 0.0 { 100 } else { 0 } {
+        let middle = 0.5 * (low + high);
+        let of = arm * middle + 0.5 * diameter * (shortening(middle) - middle);
+        *(if of > strain { &mut high } else { &mut low }) = middle;
+    }
+    if strain < 0.0 { 0.5 * (low + high) } else { strain / arm }
 }
 
 /// Curvature g of the body whose section stays as it is where that of `linkage` has κ, by Newton.

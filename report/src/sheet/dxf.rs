@@ -1,41 +1,44 @@
-//! DXF of the oldest dialect that every cutter reads (AC1009, AutoCAD R12), in mm.
+//! DXF of the oldest dialect that every cutter reads (AC1009, AutoCAD R12), in mm. Its texts are ASCII: × is x, others are `\U+` and their code in hex.
 
 use super::{PatternSheet, PenLine, SheetText};
 
-/// The drawing as a DXF file: one layer a pen, and `TEXT` for words. Characters beyond ASCII become `?`, which R12 has not.
+/// The drawing as a DXF file: one layer a pen.
 pub fn dxf(sheet: &PatternSheet) -> String {
     let mut out = Pairs::default();
     out.text(999, "made by ibr");
     out.section("HEADER");
     out.text(9, "$ACADVER").text(1, "AC1009");
+    // Metric, and millimetres: some programs read the one, some the other.
+    out.text(9, "$MEASUREMENT").text(70, "1");
     out.text(9, "$INSUNITS").text(70, "4");
     out.text(9, "$EXTMIN").point(10, [0.0, 0.0]);
     out.text(9, "$EXTMAX").point(10, sheet.size);
     out.text(0, "ENDSEC");
     out.section("TABLES");
-    out.text(0, "TABLE").text(2, "LAYER").number(70, sheet.layers.len() + 1);
-    for (name, aci) in sheet.layers.iter().map(|layer| (layer.name, layer.aci)).chain([(WORDS, 7)]) {
-        out.text(0, "LAYER").text(2, name).text(70, "0").number(62, usize::from(aci)).text(6, "CONTINUOUS");
+    out.text(0, "TABLE").text(2, "LAYER").number(70, sheet.layers.len());
+    for layer in &sheet.layers {
+        out.text(0, "LAYER").text(2, layer.name).text(70, "0").number(62, usize::from(layer.aci)).text(6, "CONTINUOUS");
     }
     out.text(0, "ENDTAB").text(0, "ENDSEC");
     out.section("ENTITIES");
     sheet.lines.iter().for_each(|line| polyline(sheet, line, &mut out));
-    sheet.labels.iter().for_each(|label| word(label, &mut out));
+    let words = sheet.layers.last().map_or("0", |layer| layer.name);
+    sheet.labels.iter().for_each(|label| word(label, words, &mut out));
     out.text(0, "ENDSEC").text(0, "EOF");
     out.0
 }
 
-/// Pen of words.
-const WORDS: &str = "TEXT";
-
-/// Group codes and values, a line each.
 #[derive(Default)]
 struct Pairs(String);
 
 impl Pairs {
     fn text(&mut self, code: u16, value: &str) -> &mut Pairs {
-        let plain: String = value.chars().map(|c| if (' '..='~').contains(&c) { c } else { '?' }).collect();
-        self.0.push_str(&format!("{code}\n{plain}\n"));
+        let plain = |c: char| match c {
+            ' '..='~' => c.to_string(),
+            '×' => "x".into(),
+            _ => format!("\\U+{:04X}", u32::from(c)),
+        };
+        self.0.push_str(&format!("{code}\n{}\n", value.chars().map(plain).collect::<String>()));
         self
     }
 
@@ -65,6 +68,6 @@ fn polyline(sheet: &PatternSheet, line: &PenLine, out: &mut Pairs) {
     out.text(0, "SEQEND").text(8, layer.name);
 }
 
-fn word(label: &SheetText, out: &mut Pairs) {
-    out.text(0, "TEXT").text(8, WORDS).point(10, label.at).length(40, label.height).text(1, &label.text);
+fn word(label: &SheetText, layer: &str, out: &mut Pairs) {
+    out.text(0, "TEXT").text(8, layer).point(10, label.at).length(40, label.height).text(1, &label.text);
 }

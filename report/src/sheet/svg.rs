@@ -1,27 +1,12 @@
 //! SVG in millimetres, whole or by pages.
 
-use super::{PatternSheet, PenLine, SheetText};
+use super::{PatternSheet, SheetText};
 use crate::markup::escape;
 use std::fmt::Write;
 
-/// Paper of a printer.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Paper {
-    /// Name as typed.
-    pub name: &'static str,
-    /// Width and height \[mm\].
-    pub size: [f64; 2],
-}
-
-impl Paper {
-    /// Papers by name.
-    pub const ALL: [Paper; 4] = [
-        Paper { name: "a4", size: [210.0, 297.0] },
-        Paper { name: "a3", size: [297.0, 420.0] },
-        Paper { name: "letter", size: [215.9, 279.4] },
-        Paper { name: "tabloid", size: [279.4, 431.8] },
-    ];
-}
+/// Papers of a printer: name as typed, width and height \[mm\].
+pub const PAPERS: [(&str, [f64; 2]); 4] =
+    [("a4", [210.0, 297.0]), ("a3", [297.0, 420.0]), ("letter", [215.9, 279.4]), ("tabloid", [279.4, 431.8])];
 
 /// What printers leave white \[mm\].
 const MARGIN: f64 = 10.0;
@@ -40,8 +25,8 @@ pub fn svg(sheet: &PatternSheet) -> String {
 
 /// The drawing cut into pages, row by row from the top: (row, column) from 1 and the SVG. Neighbours share a strip with a cross at
 /// each of its ends, by which they are put together.
-pub fn pages(sheet: &PatternSheet, paper: &Paper) -> Vec<([usize; 2], String)> {
-    let inner = paper.size.map(|side| side - 2.0 * MARGIN);
+pub fn pages(sheet: &PatternSheet, paper: [f64; 2]) -> Vec<([usize; 2], String)> {
+    let inner = paper.map(|side| side - 2.0 * MARGIN);
     let step = inner.map(|side| side - OVERLAP);
     let count = [0, 1].map(|i| (((sheet.size[i] - OVERLAP) / step[i] - 1e-9).ceil().max(1.0)) as usize);
     let [columns, rows] = count;
@@ -49,42 +34,38 @@ pub fn pages(sheet: &PatternSheet, paper: &Paper) -> Vec<([usize; 2], String)> {
         let corner = [column as f64 * step[0], row as f64 * step[1]];
         let window = [corner[0], corner[1], inner[0], inner[1]];
         let words = format!("{}: row {} of {rows}, column {} of {columns}", sheet.title, row + 1, column + 1);
-        ([row + 1, column + 1], document(sheet, paper.size, [MARGIN; 2], window, &words))
+        ([row + 1, column + 1], document(sheet, paper, [MARGIN; 2], window, &words))
     };
     (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))).map(|(r, c)| page(r, c)).collect()
 }
 
-/// A paper that shows a window of the drawing, x, y from the top, width, height, from a corner on.
+/// A paper that shows a window of the drawing, x, y from the top, width, height, from a corner on; a group for every pen.
 fn document(sheet: &PatternSheet, paper: [f64; 2], corner: [f64; 2], window: [f64; 4], words: &str) -> String {
-    let mut out = String::new();
     let [width, height] = paper;
     let [x, y, w, h] = window;
-    let _ = writeln!(
-        out,
+    let mut out = format!(
         r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}mm" height="{height}mm" viewBox="0 0 {width} {height}">
 <!-- made by ibr -->
 <title>{}</title>
-<svg x="{}" y="{}" width="{w}" height="{h}" viewBox="{x} {y} {w} {h}" overflow="hidden">"#,
-        escape(&sheet.title),
-        corner[0],
-        corner[1]
+"#,
+        escape(&sheet.title)
     );
-    sheet.lines.iter().for_each(|line| drawn(sheet, line, &mut out));
-    sheet.labels.iter().for_each(|label| written(label, sheet.size[1], &mut out));
-    out.push_str("</svg>\n");
     if !words.is_empty() {
-        crosses(corner, [w, h], &mut out);
-        let size = 2.5 * FONT;
-        let base = corner[1] - 3.0;
-        let _ = writeln!(
-            out,
-            r##"<text x="{}" y="{base}" font-family="sans-serif" font-size="{size:.2}" fill="#000000">{}</text>"##,
-            corner[0] + 5.0,
-            escape(words)
+        let [dx, dy] = [corner[0] - x, corner[1] - y];
+        out += &format!(
+            r#"<clipPath id="page"><rect x="{x}" y="{y}" width="{w}" height="{h}"/></clipPath>
+<g clip-path="url(#page)" transform="translate({dx} {dy})">
+"#
         );
     }
-    out.push_str("</svg>\n");
-    out
+    (0..sheet.layers.len()).for_each(|layer| group(sheet, layer, &mut out));
+    if !words.is_empty() {
+        out.push_str("</g>\n");
+        crosses(corner, [w, h], &mut out);
+        let words = SheetText { at: [corner[0] + 5.0, 3.0 - corner[1]], height: 2.5, text: words.into() };
+        written(&words, 0.0, "#000000", &mut out);
+    }
+    out + "</svg>\n"
 }
 
 /// Crosses at the corners of the strips that neighbouring pages share.
@@ -102,28 +83,27 @@ fn crosses(corner: [f64; 2], inner: [f64; 2], out: &mut String) {
     }
 }
 
-fn drawn(sheet: &PatternSheet, line: &PenLine, out: &mut String) {
-    let Some(layer) = sheet.layers.get(line.layer) else { return };
-    let place = |p: &[f64; 2]| format!("{:.3},{:.3}", p[0], sheet.size[1] - p[1]);
-    let points: Vec<String> = line.points.iter().map(place).collect();
-    let shape = if line.closed { "polygon" } else { "polyline" };
-    let fill = if layer.tinted && line.closed { layer.colour } else { "none" };
-    let dashes: Vec<String> = layer.dashes.iter().map(f64::to_string).collect();
+fn group(sheet: &PatternSheet, layer: usize, out: &mut String) {
+    let pen = &sheet.layers[layer];
+    let dashes: Vec<String> = pen.dashes.iter().map(f64::to_string).collect();
     let dashes = if dashes.is_empty() { String::new() } else { format!(r#" stroke-dasharray="{}""#, dashes.join(" ")) };
-    let _ = writeln!(
-        out,
-        r#"<{shape} class="{}" points="{}" fill="{fill}" fill-opacity="0.18" stroke="{}" stroke-width="{PEN}"{dashes}/>"#,
-        layer.name,
-        points.join(" "),
-        layer.colour
-    );
+    let _ = writeln!(out, r#"<g id="{}" fill="none" stroke="{}" stroke-width="{PEN}"{dashes}>"#, pen.name, pen.colour);
+    for line in sheet.lines.iter().filter(|line| line.layer == layer) {
+        let place = |p: &[f64; 2]| format!("{:.3},{:.3}", p[0], sheet.size[1] - p[1]);
+        let points: Vec<String> = line.points.iter().map(place).collect();
+        let _ = writeln!(out, r#"<path d="M{}{}"/>"#, points.join(" "), if line.closed { "Z" } else { "" });
+    }
+    if layer + 1 == sheet.layers.len() {
+        sheet.labels.iter().for_each(|label| written(label, sheet.size[1], pen.colour, out));
+    }
+    out.push_str("</g>\n");
 }
 
-fn written(label: &SheetText, height: f64, out: &mut String) {
+fn written(label: &SheetText, height: f64, colour: &str, out: &mut String) {
     let [x, y] = label.at;
     let _ = writeln!(
         out,
-        r##"<text x="{x:.3}" y="{:.3}" font-family="sans-serif" font-size="{:.2}" fill="#000000">{}</text>"##,
+        r#"<text x="{x:.3}" y="{:.3}" font-family="sans-serif" font-size="{:.2}" fill="{colour}" stroke="none">{}</text>"#,
         height - y,
         label.height * FONT,
         escape(&label.text)

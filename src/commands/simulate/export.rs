@@ -5,7 +5,6 @@ use crate::cli::SimulateArgs;
 use crate::prelude::*;
 use fem::session::{Export, Solver, export};
 
-/// Writes the problem for another program.
 pub(super) fn written(args: &SimulateArgs, plan: &RunPlan, file: &Path, force: bool) -> Result<Outcome> {
     let RunPlan::Single(source) = plan else {
         return Err(Failure::usage(

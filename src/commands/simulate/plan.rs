@@ -76,7 +76,6 @@ pub(super) fn plan(args: &SimulateArgs, source: Source) -> Result<RunPlan> {
     Ok(RunPlan::Table(base, product(&run, args.seeds, separate, &meshes)))
 }
 
-/// An option that only robots have.
 fn robot_option(args: &SimulateArgs) -> Option<&'static str> {
     let given = [
         ("--pressure", args.pressure.is_some()),
@@ -89,9 +88,8 @@ fn robot_option(args: &SimulateArgs) -> Option<&'static str> {
     given.iter().find(|(_, given)| *given).map(|(option, _)| *option)
 }
 
-/// A robot with other values in its scenario.
 fn changed(source: Source, changes: &[(String, String)]) -> Result<Source> {
-    let file = ScenarioFile::parse_in_space(&source.name, &source.text)?.with_in_space(changes)?;
+    let file = ScenarioFile::parse(&source.name, &source.text)?.with_in_space(changes)?;
     Ok(Source { text: file.text, ..source })
 }
 

@@ -3,10 +3,10 @@
 use crate::cli::{ShardArgs, SimulateArgs};
 use crate::commands::shards::shared;
 use crate::prelude::*;
-use compare::study::uncertain::Uncertain;
-use compare::study::uncertain::{Intervals, Member, Varied, Weight};
-use fem::session::{AS_IT_IS, Heights, RunRow, SeedGroup};
-use fem::session::{Cube, Job, RunTable, Settings, Source, Variation, simulate_all};
+use compare::study::uncertain::{Intervals, Member, Uncertain, Varied, Weight};
+use fem::session::{
+    AS_IT_IS, Cube, Heights, Job, RunRow, RunTable, SeedGroup, Settings, Source, Variation, simulate_all,
+};
 use ibr::pages::{Files, marker_intervals, mesh_plot, what_to_measure};
 use std::collections::BTreeMap;
 
@@ -80,7 +80,6 @@ pub(super) fn uncertain(
     Ok(outcome)
 }
 
-/// Writes files and their manifest beside the runs.
 fn write(
     outcome: &mut Outcome,
     settings: &Settings,
@@ -124,7 +123,6 @@ fn table_text(all: &RunTable) -> String {
     text + &several.under("Tip, mean and standard deviation over the seeds")
 }
 
-/// Robots that differ in unmeasured numbers.
 fn uncertain_text(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> String {
     let stopped: Vec<&Member> = all.members.iter().filter(|m| m.stopped.is_some()).collect();
     let mut out = format!(

@@ -29,7 +29,6 @@ fn written<S: Serializer>(values: &[f64], to: S) -> Result<S::Ok, S::Error> {
 }
 
 impl Miss {
-    /// Of a robot of a length.
     pub(super) fn new(what: String, wanted: Vec<f64>, found: Vec<f64>, length_m: f64) -> Miss {
         let miss_m = match (&wanted[..], &found[..]) {
             ([a, b], [x, y]) => (a - x).hypot(b - y),

@@ -93,9 +93,7 @@ impl Rounds {
     }
 
     /// Searches the next design, which shall be checked; `None` at the end. The same answers give the same bits.
-    ///
-    /// # Errors
-    /// As [`design`].
+    /// Errors as for [`design`].
     pub fn search(&mut self, wish: &Wish, progress: Progress) -> Result<Option<&Design>, SweepError> {
         let round = match self.all.last() {
             None => Some(Round::unchecked(design(wish, progress)?, None)),

@@ -150,7 +150,6 @@ impl Wish {
         self.free.iter().zip(from.iter().zip(to)).map(of).sum()
     }
 
-    /// Every part of the wish for a robot.
     fn misses(&self, tried: &Tried) -> Vec<Miss> {
         let Tried { file, model, pose, .. } = tried;
         let line = match self.wanted.places.is_empty() {

@@ -1,7 +1,7 @@
 //! The TOML file of a wish.
 
 use crate::axis::{Axis, Changes, RawAxis, axes};
-use crate::form::{Form, Wrong};
+use crate::form::{Form, ReadRobot, Wrong};
 use compare::{CompareError, ScenarioFile};
 use serde::Deserialize;
 use spelling::Exactly;
@@ -136,23 +136,19 @@ impl Wish {
     ///
     /// # Errors
     /// A file that cannot be read; a fault of the wish or of the robot, with its line and what to write.
-    pub fn read(
-        path: &Path,
-        scenario: impl Fn(&str) -> Result<ScenarioFile, CompareError>,
-    ) -> Result<Wish, CompareError> {
+    pub fn read(path: &Path, scenario: ReadRobot) -> Result<Wish, CompareError> {
         FORM.read(path, scenario)?.checked()
     }
 
-    /// Of a text; `name` is for messages.
+    /// Of a text; `name` is for messages. Errors as for [`Wish::read`].
     ///
-    /// # Errors
-    /// As [`Wish::read`].
-    pub fn parse(
-        name: &str,
-        text: &str,
-        folder: &Path,
-        scenario: impl Fn(&str) -> Result<ScenarioFile, CompareError>,
-    ) -> Result<Wish, CompareError> {
+    /// ```
+    /// use sweep::design::Wish;
+    /// let text = "kind = \"design\"\nscenario = \"epam\"\n[wish]\ntip_mm = [310, 110]\n[[free]]\nkey = \"pressure_kpa\"\nfrom = 5\nto = 30\n";
+    /// let read = |text: &str| Wish::parse("wish.toml", text, "".as_ref(), compare::ScenarioFile::read);
+    /// assert!(read(text).is_ok() && read(&text.replace("tip_mm", "tip_cm")).is_err());
+    /// ```
+    pub fn parse(name: &str, text: &str, folder: &Path, scenario: ReadRobot) -> Result<Wish, CompareError> {
         FORM.parse(name, text, folder, scenario)?.checked()
     }
 

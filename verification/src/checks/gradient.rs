@@ -4,7 +4,7 @@ use super::setup::*;
 use fem::contact::Contact;
 use fem::mesh::generate::{Around, Cap, Tube, crossed_sheets, tube};
 use fem::problem;
-use fem::terms::{Gravity, NodalForces, Obstacles, RestCurvature};
+use fem::terms::{DeadLoads, Obstacles, RestCurvature};
 use fem::{Tick, Transient};
 use models::fabrics::{NeoHookean, Orthotropic};
 use models::{Pose, Term};
@@ -65,8 +65,8 @@ fn loads(mesh: &Mesh, mass_kg: &[f64]) -> Result<Vec<Box<dyn Term>>, FemError> {
     let solids = solids.map(|shape| Obstacle { shape, friction: 0.0, motion: None });
     let stiffness = vec![1e4; mesh.points.len()];
     Ok(vec![
-        Box::new(NodalForces::new(mesh, &[force])?),
-        Box::new(Gravity::new(&gravity, mass_kg)?),
+        Box::new(DeadLoads::forces(mesh, &[force])?),
+        Box::new(DeadLoads::gravity(&gravity, mass_kg)?),
         Box::new(Obstacles::new(mesh, &solids, &stiffness)?),
     ])
 }

@@ -95,7 +95,7 @@ impl Work {
             ROBOTS.len(),
         );
         let json = json!({
-            "schema": "ibr.bench.discovery", "version": 1, "seed": seed, "sets": sets, "laws": laws, "rows": bench.rows, "slipped": bench.slipped,
+            "schema": "ibr.bench.discovery", "version": 1, "seed": seed, "sets": sets, "laws": laws, "rows": bench.rows, "slipped": bench.slipped, "surplus": bench.surplus, "faults": bench.faults,
             "confusion": bench.confusion, "breakdown": bench.breakdown, "attainable": bench.attainable,
             "missed_after": bench.missed_after, "missed_by_law": bench.missed_by_law,
             "made": bench.made, "seen": bench.seen, "failed": bench.failed, "time": {"machine": machine, "row": time},

@@ -7,7 +7,7 @@ use models::Scenario;
 use models::effects::{Effect, Fitted, Group, Stage};
 
 /// An effect, or a number of the scenario.
-pub struct Law {
+pub(super) struct Law {
     pub candidate: Candidate,
     number: Option<&'static Number>,
 }
@@ -113,7 +113,7 @@ const NUMBERS: &[Number] = &[
 
 impl Law {
     /// Where fits start: as of markers, and at the bounds: where a beam has folded no slope leads back.
-    pub fn starts(&self) -> Vec<Vec<f64>> {
+    pub(super) fn starts(&self) -> Vec<Vec<f64>> {
         let mut starts = self.candidate.starts();
         let k = self.candidate.lead();
         for bound in [self.candidate.parameters[k].lower, self.candidate.parameters[k].upper] {
@@ -125,7 +125,7 @@ impl Law {
     }
 
     /// The trial with this law at these values, SI.
-    pub fn apply(&self, trial: &mut Trial, values: &[f64]) {
+    pub(super) fn apply(&self, trial: &mut Trial, values: &[f64]) {
         match self.number {
             Some(number) => (number.set)(trial, values[0]),
             None => trial.scenario = self.candidate.apply(&trial.scenario, values),
@@ -135,13 +135,15 @@ impl Law {
 
 /// Every law that may act on a table, and which of them are fitted along: what no model can do without and nobody told, and with
 /// `refit` what the scenario has.
-pub fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Law>, Vec<usize>) {
+pub(super) fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Law>, Vec<usize>) {
     let beam = bench.kind.name == "load_deflection";
     let has = |name: &str| scenario.effects.iter().any(|e| e.name == name);
     // The machine's own load is no unknown; what a camera does to markers no dial gauge sees.
     let may = |e: &Effect| {
-        e.name != "tip_load"
+        !["tip_load", "weak_place"].contains(&e.name)
             && e.stage != Stage::Camera
+            // A supply that changes in time does nothing to a row by itself.
+            && !(e.stage == Stage::Supply && e.history)
             && scenario.actuator.takes(e)
             && (beam || e.needs_actuator())
             && (refit || !has(e.name))

@@ -4,7 +4,7 @@ use super::scatter::steadied;
 use crate::bench::{Trial, is_free, measured, place};
 use data::bench::BenchRow;
 
-pub struct Reading<'a> {
+pub(super) struct Reading<'a> {
     pub row: &'a BenchRow,
     /// As measured, SI.
     pub measured: f64,
@@ -22,17 +22,17 @@ pub struct Reading<'a> {
 
 impl<'a> Reading<'a> {
     /// d, of a model's value.
-    pub fn off(&self, model: f64) -> f64 {
+    pub(super) fn off(&self, model: f64) -> f64 {
         (model / self.small).asinh() - (self.measured / self.small).asinh()
     }
 
-    pub fn noise(&self) -> Option<f64> {
+    pub(super) fn noise(&self) -> Option<f64> {
         let [error, dof] = self.error?;
         Some(if dof.is_finite() { error / self.measured.hypot(self.small) } else { error })
     }
 
     /// A row of a scenario's table.
-    pub fn new(row: &'a BenchRow, trial: &Trial, small: f64, sigma: Option<f64>) -> Reading<'a> {
+    pub(super) fn new(row: &'a BenchRow, trial: &Trial, small: f64, sigma: Option<f64>) -> Reading<'a> {
         let beam = row.get("load").is_some();
         let sized = trial.specimen(row).unwrap_or_else(|_| trial.scenario.clone());
         let sd = row.get(if beam { "deflection_sd" } else { "force_sd" }).filter(|_| !is_free(row));
@@ -55,7 +55,7 @@ impl<'a> Reading<'a> {
 }
 
 /// Standard errors of rows of one kind, each steadied by the others.
-pub fn steady<'r, 'a: 'r>(readings: impl Iterator<Item = &'r mut Reading<'a>>) {
+pub(super) fn steady<'r, 'a: 'r>(readings: impl Iterator<Item = &'r mut Reading<'a>>) {
     let mut told: Vec<&mut Reading> = readings.filter(|r| r.error.is_some_and(|[_, dof]| dof.is_finite())).collect();
     let rows: Vec<[f64; 3]> = told
         .iter()
@@ -67,7 +67,7 @@ pub fn steady<'r, 'a: 'r>(readings: impl Iterator<Item = &'r mut Reading<'a>>) {
 }
 
 /// Indices of equal keys, in the order in which these come.
-pub fn groups<K: PartialEq>(keys: impl Iterator<Item = K>) -> Vec<Vec<usize>> {
+pub(super) fn groups<K: PartialEq>(keys: impl Iterator<Item = K>) -> Vec<Vec<usize>> {
     let mut found: Vec<(K, Vec<usize>)> = Vec::new();
     for (i, key) in keys.enumerate() {
         match found.iter_mut().find(|(known, _)| *known == key) {

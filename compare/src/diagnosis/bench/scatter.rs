@@ -24,7 +24,7 @@ const ALIKE: f64 = 1e4;
 type Unit = dyn Fn(&[f64; 3]) -> f64;
 
 /// Steadied standard deviations and their degrees of freedom, from sd, ν and the size of every row.
-pub fn steadied(rows: &[[f64; 3]]) -> Vec<[f64; 2]> {
+pub(super) fn steadied(rows: &[[f64; 3]]) -> Vec<[f64; 2]> {
     let apart = |unit: &Unit| common(rows, unit).1;
     let [own, ratio]: [&Unit; 2] = [&|_| 1.0, &|row| row[2]];
     let unit = if apart(own) < apart(ratio) { own } else { ratio };

@@ -13,7 +13,7 @@ use crate::wording::{list, p_value, short};
 const MOST_LEVELS: usize = 4;
 
 /// The answer, a sentence or two per entry.
-pub fn story(d: &BenchDiagnosis) -> Vec<String> {
+pub(super) fn story(d: &BenchDiagnosis) -> Vec<String> {
     let mut told = vec![opening(d)];
     told.extend(d.base.iter().map(|p| format!("Fitted along: {}.", with_interval(p))));
     let best = d.set().next();
@@ -107,7 +107,7 @@ fn holds(before: &LeftOut, after: &LeftOut, effect: &str) -> String {
 }
 
 /// Where errors d ([`super::table`]) are: on the whole, by load, pressure and specimen, and the largest.
-pub fn places(table: &Table, off: &[f64]) -> Vec<String> {
+pub(super) fn places(table: &Table, off: &[f64]) -> Vec<String> {
     let beam = table.readings[0].row.get("load").is_some();
     let free = table.readings.iter().any(|r| is_free(r.row));
     let mean = mean(off, &(0..off.len()).collect::<Vec<_>>());

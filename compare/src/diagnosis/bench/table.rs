@@ -34,7 +34,7 @@ const ENOUGH: f64 = 1e-3;
 const STARTS: usize = 3;
 
 /// A table and everything that may be tried on it.
-pub struct Table<'a> {
+pub(super) struct Table<'a> {
     pub readings: Vec<Reading<'a>>,
     pub laws: Vec<Law>,
     pub always: Vec<usize>,
@@ -49,7 +49,7 @@ pub struct Table<'a> {
 
 /// The base, or the base with one law.
 #[derive(Clone)]
-pub struct Fit {
+pub(super) struct Fit {
     pub law: Option<usize>,
     pub minimum: Minimum,
     pub binding: Vec<bool>,
@@ -57,19 +57,19 @@ pub struct Fit {
 
 impl Fit {
     /// Whether the data push against a bound.
-    pub fn is_rejected(&self) -> bool {
+    pub(super) fn is_rejected(&self) -> bool {
         self.binding.contains(&true)
     }
 
     /// Fall of the whitened sum of squares.
-    pub fn gain_over(&self, base: &Fit) -> f64 {
+    pub(super) fn gain_over(&self, base: &Fit) -> f64 {
         base.minimum.cost - self.minimum.cost
     }
 }
 
 impl<'a> Table<'a> {
     /// Reads a table; `sigma` is the relative standard deviation of rows that state none.
-    pub fn new(
+    pub(super) fn new(
         bench: &'a Bench,
         scenario: Option<&Scenario>,
         sigma: Option<f64>,
@@ -153,12 +153,12 @@ impl<'a> Table<'a> {
     }
 
     /// Name of the model.
-    pub fn name(&self) -> &str {
+    pub(super) fn name(&self) -> &str {
         &self.trial.scenario.name
     }
 
     /// Laws that are tried, and not fitted along anyhow.
-    pub fn tried_laws(&self) -> impl Iterator<Item = usize> {
+    pub(super) fn tried_laws(&self) -> impl Iterator<Item = usize> {
         (0..self.laws.len()).filter(|i| !self.always.contains(i))
     }
 
@@ -177,7 +177,7 @@ impl<'a> Table<'a> {
     }
 
     /// What the model says of every row, SI; `None` where it has no answer to one.
-    pub fn predicted(&self, law: Option<usize>, theta: &[f64]) -> Option<Vec<f64>> {
+    pub(super) fn predicted(&self, law: Option<usize>, theta: &[f64]) -> Option<Vec<f64>> {
         self.predicted_by(&self.tried(law, theta))
     }
 
@@ -191,7 +191,7 @@ impl<'a> Table<'a> {
     }
 
     /// Errors d of every row.
-    pub fn off(&self, law: Option<usize>, theta: &[f64]) -> Option<Vec<f64>> {
+    pub(super) fn off(&self, law: Option<usize>, theta: &[f64]) -> Option<Vec<f64>> {
         Some(self.predicted(law, theta)?.into_iter().zip(&self.readings).map(|(f, r)| r.off(f)).collect())
     }
 
@@ -220,7 +220,7 @@ impl<'a> Table<'a> {
     }
 
     /// The best fit from several starts; from the base's own values where there is a base.
-    pub fn fit(&self, law: Option<usize>, base: Option<&Fit>) -> Option<Fit> {
+    pub(super) fn fit(&self, law: Option<usize>, base: Option<&Fit>) -> Option<Fit> {
         let mut starts = match (base, law) {
             (Some(base), Some(i)) => {
                 self.laws[i].starts().into_iter().map(|own| [base.minimum.at.as_slice(), &own].concat()).collect()
@@ -243,12 +243,12 @@ impl<'a> Table<'a> {
     }
 
     /// A fit to some rows.
-    pub fn refit(&self, law: Option<usize>, start: &[f64], rows: &[usize]) -> Option<Minimum> {
+    pub(super) fn refit(&self, law: Option<usize>, start: &[f64], rows: &[usize]) -> Option<Minimum> {
         minimise(start, &self.ranges(law), ENOUGH, &mut |theta| self.residuals(law, theta, rows))
     }
 
     /// Without standard deviations what the best fit leaves is taken for noise.
-    pub fn take_for_noise(&mut self, fits: &mut [Fit]) {
+    pub(super) fn take_for_noise(&mut self, fits: &mut [Fit]) {
         let spare = |f: &Fit| self.readings.len().saturating_sub(self.count(f.law)).max(1) as f64;
         let variances = fits.iter().filter(|f| !f.is_rejected()).map(|f| f.minimum.cost / spare(f));
         let Some(least) = variances.reduce(f64::min).filter(|_| !self.known) else { return };
@@ -262,12 +262,12 @@ impl<'a> Table<'a> {
     }
 
     /// Parameters that a fit has free.
-    pub fn count(&self, law: Option<usize>) -> usize {
+    pub(super) fn count(&self, law: Option<usize>) -> usize {
         self.of(law).map(|l| l.candidate.count()).sum()
     }
 
     /// Parameters of a fit, the base's first, with 95 % intervals.
-    pub fn values(&self, fit: &Fit) -> Vec<ParameterValue> {
+    pub(super) fn values(&self, fit: &Fit) -> Vec<ParameterValue> {
         let free = self.of(fit.law).flat_map(|l| &l.candidate.parameters);
         let of = |(k, p): (usize, &Free)| {
             let interval = if p.is_free() { self.interval(fit, k) } else { None };

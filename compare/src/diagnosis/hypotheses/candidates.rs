@@ -4,12 +4,12 @@
 use crate::diagnosis::result::explained::ParameterValue;
 use crate::fit::least_squares::Range;
 use crate::policy;
-use data::MeasuredValue;
+use data::{Hold, MeasuredValue};
 use models::Scenario;
 use models::effects::{Effect, Fitted, Group, Stage};
 
 /// How the name of a candidate begins that takes an effect of the scenario away.
-pub const WITHOUT: &str = "without ";
+pub(crate) const WITHOUT: &str = "without ";
 
 /// The effect of the scenario that a candidate of this name takes away.
 pub fn taken_away(name: &str) -> Option<&str> {
@@ -18,7 +18,7 @@ pub fn taken_away(name: &str) -> Option<&str> {
 
 /// An effect that can be switched on, or off, with what a fit and a reader need.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Candidate {
+pub(crate) struct Candidate {
     /// Of the effect; with [`WITHOUT`] before it where it is taken away.
     pub name: String,
     /// Where it takes an effect of the scenario away: the number of parameters that adding the effect would fit. The penalty is the same.
@@ -36,7 +36,7 @@ pub struct Candidate {
 
 /// A parameter to fit; values in SI, `si` leads back to `unit`.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Free {
+pub(crate) struct Free {
     pub key: String,
     pub symbol: String,
     /// Unit of the scenario value.
@@ -63,22 +63,22 @@ pub struct Free {
 
 impl Free {
     /// Whether it is fitted: a parameter that is typically zero (a force along the robot) stays there.
-    pub fn is_free(&self) -> bool {
+    pub(crate) fn is_free(&self) -> bool {
         !self.is_held && (self.typical != 0.0 || self.neutral != 0.0 || self.is_shape())
     }
 
     /// Whether it shapes the law about its usual form.
-    pub fn is_shape(&self) -> bool {
+    pub(crate) fn is_shape(&self) -> bool {
         self.fitted == Fitted::Shape
     }
 
     /// Value where it is not fitted: neutral, or as the design has it.
-    pub fn held_at(&self) -> f64 {
+    pub(crate) fn held_at(&self) -> f64 {
         if self.fitted == Fitted::FromDesign { self.typical } else { self.neutral }
     }
 
     /// Range of a fit; a single value where it is not fitted.
-    pub fn range(&self) -> Range {
+    pub(crate) fn range(&self) -> Range {
         match self.is_free() {
             true => Range { lower: self.lower, upper: self.upper, scale: self.scale() },
             false => Range::fixed(self.held_at(), self.scale()),
@@ -86,7 +86,7 @@ impl Free {
     }
 
     /// As a fit found it, in SI.
-    pub fn found(&self, value: f64, interval: Option<[f64; 2]>, at_bound: bool) -> ParameterValue {
+    pub(crate) fn found(&self, value: f64, interval: Option<[f64; 2]>, at_bound: bool) -> ParameterValue {
         ParameterValue {
             key: self.key.clone(),
             symbol: self.symbol.clone(),
@@ -100,19 +100,19 @@ impl Free {
     }
 
     /// Length of one step of the fit.
-    pub fn scale(&self) -> f64 {
+    pub(crate) fn scale(&self) -> f64 {
         let typical = (self.typical - self.neutral).abs();
         if typical > 0.0 { typical } else { 0.1 * (self.upper - self.lower) }
     }
 
     /// Whether physics, too, ends on the side of its range at which a value lies; a share of 0.8 is nearly all there is.
-    pub fn is_forbidden_beyond(&self, value: f64) -> bool {
+    pub(crate) fn is_forbidden_beyond(&self, value: f64) -> bool {
         let side = usize::from(self.upper - value < value - self.lower);
         self.possible[side].is_finite()
     }
 
     /// Searched ten times as far from neutral on the side at which a value lies.
-    pub fn widen(&mut self, value: f64) {
+    pub(crate) fn widen(&mut self, value: f64) {
         let further = |bound: f64| self.neutral + policy::WIDER * (bound - self.neutral);
         match self.upper - value < value - self.lower {
             true => self.upper = further(self.upper),
@@ -121,18 +121,18 @@ impl Free {
     }
 
     /// Whether it shapes the law and lies at an end of its range.
-    pub fn is_shape_at_end(&self, value: f64) -> bool {
+    pub(crate) fn is_shape_at_end(&self, value: f64) -> bool {
         let at_end = [self.lower, self.upper].iter().any(|end| (value - end).abs() < NEAR * self.scale());
         self.is_free() && !self.is_shape() && self.typical == self.neutral && at_end
     }
 }
 
 /// Distance from a bound, over the scale of the parameter, that is none.
-pub const NEAR: f64 = 1e-6;
+pub(crate) const NEAR: f64 = 1e-6;
 
 impl Candidate {
     /// The scenario with this effect at these values (SI), or without it. Known forces on the tip add up.
-    pub fn apply(&self, scenario: &Scenario, values: &[f64]) -> Scenario {
+    pub(crate) fn apply(&self, scenario: &Scenario, values: &[f64]) -> Scenario {
         if let Some(name) = taken_away(&self.name) {
             let is_there = scenario.effects.iter().any(|e| e.name == name);
             return if is_there { scenario.with_effect(name, values) } else { scenario.clone() };
@@ -148,7 +148,7 @@ impl Candidate {
     }
 
     /// What is held stays at these values, those of the scenario that has the effect; of what is fitted they lie within the bounds.
-    pub fn as_given(&mut self, values: &[f64]) {
+    pub(crate) fn as_given(&mut self, values: &[f64]) {
         for (p, value) in self.parameters.iter_mut().zip(values) {
             if p.is_held {
                 (p.neutral, p.typical) = (*value, *value);
@@ -158,38 +158,38 @@ impl Candidate {
     }
 
     /// Values `share` of the way from neutral to typical.
-    pub fn at(&self, share: f64) -> Vec<f64> {
+    pub(crate) fn at(&self, share: f64) -> Vec<f64> {
         self.parameters.iter().map(|p| p.neutral + share * (p.typical - p.neutral)).collect()
     }
 
     /// Whether it is there or not by design, with nothing to fit.
-    pub fn is_by_design(&self) -> bool {
+    pub(crate) fn is_by_design(&self) -> bool {
         self.removes.is_none() && self.parameters.iter().all(|p| p.fitted == Fitted::FromDesign)
     }
 
     /// Whether a fit can try it: something is fitted, or it is there or not.
-    pub fn is_tried(&self) -> bool {
+    pub(crate) fn is_tried(&self) -> bool {
         self.count() > 0 || self.is_by_design() || self.removes.is_some()
     }
 
     /// First parameter whose typical value is not its neutral one.
-    pub fn lead(&self) -> usize {
+    pub(crate) fn lead(&self) -> usize {
         self.parameters.iter().position(|p| p.typical != p.neutral).unwrap_or(0)
     }
 
     /// Values that a scenario has; neutral ones where it lacks the effect.
-    pub fn own_values(&self, scenario: &Scenario) -> Vec<f64> {
+    pub(crate) fn own_values(&self, scenario: &Scenario) -> Vec<f64> {
         let own = scenario.effects.iter().find(|e| e.name == self.name);
         own.map_or_else(|| self.at(0.0), |e| e.values.clone())
     }
 
     /// Number of parameters that are fitted.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.parameters.iter().filter(|p| p.is_free()).count()
     }
 
     /// Number of those that do not shape its law; of an effect that is taken away, as many as adding it would fit.
-    pub fn sizes(&self) -> usize {
+    pub(crate) fn sizes(&self) -> usize {
         self.removes.unwrap_or_else(|| self.parameters.iter().filter(|p| p.is_free() && !p.is_shape()).count())
     }
 
@@ -219,7 +219,7 @@ impl Candidate {
 
     /// Values from which a fit is started: neutral, typical, three times as much, and the other sign where bounds allow
     /// it, and what the catalogue names.
-    pub fn starts(&self) -> Vec<Vec<f64>> {
+    pub(crate) fn starts(&self) -> Vec<Vec<f64>> {
         if self.count() == 0 {
             return vec![self.parameters.iter().map(Free::held_at).collect()];
         }
@@ -244,12 +244,17 @@ impl Candidate {
 
 /// Holds parameters at their neutral values that the data do not hold: a bending stiffness that is kept, several body pressures and
 /// tests of their own hold more.
-pub fn hold(candidates: &mut [Candidate], kept_bending: bool, body_pressures: bool, measured: &[&MeasuredValue]) {
+pub(crate) fn hold(
+    candidates: &mut [Candidate],
+    kept_bending: bool,
+    body_pressures: bool,
+    measured: &[&MeasuredValue],
+) {
     for Candidate { name, parameters, .. } in candidates {
         for p in parameters {
             let is_measured = measured.iter().any(|m| m.effect == *name && m.key == p.key);
             p.is_held = match p.fitted {
-                Fitted::Always | Fitted::Shape => false,
+                Fitted::Always | Fitted::Shape | Fitted::BetweenHolds | Fitted::BetweenSamples => false,
                 Fitted::WithKeptBending => !kept_bending,
                 Fitted::WithBodyPressures => !body_pressures && !is_measured,
                 Fitted::FromDesign => true,
@@ -258,15 +263,37 @@ pub fn hold(candidates: &mut [Candidate], kept_bending: bool, body_pressures: bo
     }
 }
 
+/// Lags that are tried, in samples.
+const LAGS: usize = 5;
+
+/// Times of the protocol are tried in the middle between two holds, lags between two samples: nothing changes elsewhere.
+pub(crate) fn tried_between(candidates: &mut [Candidate], holds: &[Hold]) {
+    let middle = |pair: &[Hold]| Some(0.5 * (pair[0].t_s.last()? + pair[1].t_s.first()?));
+    let between: Vec<f64> = holds.windows(2).filter_map(middle).collect();
+    let of_sample = |hold: &Hold| Some((hold.t_s.last()? - hold.t_s.first()?) / (hold.t_s.len() as f64 - 1.0).max(1.0));
+    let sample_s = holds.first().and_then(of_sample).unwrap_or(0.0);
+    let lags = (0..LAGS).map(|k| (k as f64 + 0.5) * sample_s).flat_map(|lag| [-lag, lag]);
+    let lags: Vec<f64> = lags.filter(|lag| *lag != 0.0).collect();
+    for p in candidates.iter_mut().flat_map(|c| &mut c.parameters) {
+        let starts = match p.fitted {
+            Fitted::BetweenHolds => &between,
+            Fitted::BetweenSamples => &lags,
+            _ => continue,
+        };
+        p.upper = starts.iter().fold(p.upper, |most, t| most.max(*t));
+        p.starts.clone_from(starts);
+    }
+}
+
 /// Gives all laws their usual forms.
-pub fn hold_shapes(candidates: &mut [Candidate]) {
+pub(crate) fn hold_shapes(candidates: &mut [Candidate]) {
     let all = candidates.iter_mut().flat_map(|c| &mut c.parameters);
     all.filter(|p| p.is_shape()).for_each(|p| p.is_held = true);
 }
 
 /// Effects of the catalogue and formulas of the scenario that exist for this actuator and are not in the scenario yet. What follows
 /// from how the robot is cut and joined is there or not, with nothing to fit: it may be missing where a scenario describes that.
-pub fn candidates(scenario: &Scenario) -> Vec<Candidate> {
+pub(crate) fn candidates(scenario: &Scenario) -> Vec<Candidate> {
     let absent = |effect: &Effect| !scenario.effects.iter().any(|e| e.name == effect.name);
     let (catalogue, actuator) = (scenario.catalogue(), scenario.actuator.kind.name);
     let is_described = scenario.effects.iter().any(|e| catalogue.by_name(&e.name).is_some_and(|e| !e.is_fitted()));
@@ -275,14 +302,14 @@ pub fn candidates(scenario: &Scenario) -> Vec<Candidate> {
 }
 
 /// The scenario's own effects, to be fitted along with the base; known forces stay known.
-pub fn present(scenario: &Scenario) -> Vec<Candidate> {
+pub(crate) fn present(scenario: &Scenario) -> Vec<Candidate> {
     let own = |effect: &Effect| effect.name != "tip_load" && scenario.effects.iter().any(|e| e.name == effect.name);
     let (catalogue, actuator) = (scenario.catalogue(), scenario.actuator.kind.name);
     catalogue.effects().filter(own).map(|e| candidate(&e, actuator)).collect()
 }
 
 /// The scenario's own effects, each taken away; those in `refitted` can go to zero anyway. Known forces stay.
-pub fn surplus(scenario: &Scenario, refitted: &[Candidate]) -> Vec<Candidate> {
+pub(crate) fn surplus(scenario: &Scenario, refitted: &[Candidate]) -> Vec<Candidate> {
     let is_refitted = |own: &Candidate| own.count() > 0 && refitted.iter().any(|c| c.name == own.name);
     let mut all = present(scenario);
     hold(&mut all, true, true, &[]);
@@ -290,7 +317,7 @@ pub fn surplus(scenario: &Scenario, refitted: &[Candidate]) -> Vec<Candidate> {
     all.into_iter().filter(|own| !is_refitted(own)).map(|own| own.away(scenario)).filter(acts).collect()
 }
 
-pub fn candidate(effect: &Effect, actuator: &str) -> Candidate {
+pub(crate) fn candidate(effect: &Effect, actuator: &str) -> Candidate {
     let free = |p: &models::effects::Parameter| Free {
         key: p.key.to_string(),
         symbol: p.symbol.to_string(),

@@ -14,7 +14,7 @@ const ROUNDS: usize = 12;
 const CLOSE: f64 = 0.02;
 
 /// Smallest detectable size of an effect: where its trace, base fitted out, reaches (z_{α/2m} + z_0.9)² in units of noise.
-pub fn smallest_detectable(case: &Case, effect: usize) -> Undetectable {
+pub(crate) fn smallest_detectable(case: &Case, effect: usize) -> Undetectable {
     let candidate = case.candidate(effect);
     let share = case.noise().is_known().then(|| smallest_share(case, effect)).flatten();
     let free = &candidate.parameters[candidate.lead()];
@@ -29,7 +29,7 @@ pub fn smallest_detectable(case: &Case, effect: usize) -> Undetectable {
 }
 
 /// The trace an effect must leave to be seen with 90 % probability.
-pub fn needed(case: &Case) -> f64 {
+pub(crate) fn needed(case: &Case) -> f64 {
     let z = Normal::new(0.0, 1.0).map_or(4.0, |n| n.inverse_cdf(1.0 - case.alpha / (2.0 * case.tests)));
     (z + policy::Z_POWER).powi(2)
 }
@@ -83,7 +83,7 @@ fn largest_share(case: &Case, effect: usize) -> f64 {
 }
 
 /// Of every effect that the scenario lacks and that neither the set nor a pair in it names; a ranking without verdict finds nothing.
-pub fn undetectable(case: &Case, stated: &[String], added: &[Added]) -> Vec<Undetectable> {
+pub(crate) fn undetectable(case: &Case, stated: &[String], added: &[Added]) -> Vec<Undetectable> {
     let found = |name: &str| {
         let in_set = !added.is_empty() && stated.iter().flat_map(|entry| entry.split(" + ")).any(|part| part == name);
         in_set || added.iter().any(|a| a.effect == name)

@@ -10,7 +10,12 @@ use models::{Model, Prediction, Scenario};
 
 /// Fills `out`, in run layout, at the given holds \[m\]; other values stay as they are. Where too few runs saw a marker stands what
 /// stands in the data.
-pub fn positions(scenario: &Scenario, dataset: &Dataset, holds: &[usize], out: &mut [f64]) -> Result<(), CompareError> {
+pub(crate) fn positions(
+    scenario: &Scenario,
+    dataset: &Dataset,
+    holds: &[usize],
+    out: &mut [f64],
+) -> Result<(), CompareError> {
     everywhere(scenario, dataset, holds, out)?;
     as_in_data(dataset, out);
     Ok(())

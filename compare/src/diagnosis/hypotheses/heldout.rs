@@ -36,7 +36,7 @@ struct Fold<'a> {
 }
 
 /// The parts of a dataset, made once for all effects.
-pub struct HeldOut<'a> {
+pub(crate) struct HeldOut<'a> {
     pressures: Vec<Fold<'a>>,
     runs: Vec<Fold<'a>>,
 }
@@ -46,17 +46,17 @@ impl<'a> HeldOut<'a> {
     ///
     /// # Errors
     /// If a covariance cannot be decomposed.
-    pub fn new(case: &Case<'a>) -> Result<HeldOut<'a>, CompareError> {
+    pub(crate) fn new(case: &Case<'a>) -> Result<HeldOut<'a>, CompareError> {
         Ok(HeldOut { pressures: pressure_folds(case)?, runs: run_folds(case)? })
     }
 
     /// Error beyond noise at actuator pressures left out \[mm\]; `None` with one pressure.
-    pub fn pressure_mm(&self, fit: &Fit) -> Option<f64> {
+    pub(crate) fn pressure_mm(&self, fit: &Fit) -> Option<f64> {
         error_mm(&self.pressures, fit)
     }
 
     /// Error beyond noise of runs left out \[mm\]; `None` with one run.
-    pub fn run_mm(&self, fit: &Fit) -> Option<f64> {
+    pub(crate) fn run_mm(&self, fit: &Fit) -> Option<f64> {
         error_mm(&self.runs, fit)
     }
 }

@@ -7,7 +7,7 @@ use crate::fit::interval::{FittedData, half_width, of_parameter, weights};
 use crate::fit::least_squares::Residuals;
 
 /// Intervals of all parameters of a fit, SI; `None` if the noise is unknown or the data do not hold the parameter.
-pub fn intervals<'c>(case: &'c Case<'c>, fit: &Fit, profiled: bool) -> Vec<Option<[f64; 2]>> {
+pub(crate) fn intervals<'c>(case: &'c Case<'c>, fit: &Fit, profiled: bool) -> Vec<Option<[f64; 2]>> {
     let part = |(i, source): (usize, &'c Source)| -> FittedData<'c> {
         let block = &case.problem.blocks[i];
         let residual_m = case.prediction_of(block, fit).iter().zip(&block.target_m).map(|(f, y)| f - y).collect();

@@ -12,7 +12,7 @@ use models::Scenario;
 
 /// A parameter measured by itself, or the usual form of a law, in SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Known {
+pub(crate) struct Known {
     /// Effect, as an index into the catalogue.
     pub effect: usize,
     pub parameter: usize,
@@ -64,17 +64,17 @@ pub const BENCH_TEST: f64 = 0.1;
 
 impl Known {
     /// A test whose result is not known yet.
-    pub fn planned(effect: usize, parameter: usize) -> Known {
+    pub(crate) fn planned(effect: usize, parameter: usize) -> Known {
         Known { effect, parameter, value: 0.0, sd: 0.0, lacking: 0.0, usual: false }
     }
 
     /// Difference of a hypothesis to it, in standard deviations; `values` are those of its effects, one after the other.
-    pub fn residual(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> f64 {
+    pub(crate) fn residual(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> f64 {
         self.of(candidates, effects, values).map_or(self.lacking, |value| (value - self.value) / self.sd)
     }
 
     /// The parameter as a hypothesis has it; `None` without the effect.
-    pub fn of(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Option<f64> {
+    pub(crate) fn of(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Option<f64> {
         let mut from = 0;
         for effect in effects {
             if *effect == self.effect {
@@ -86,14 +86,14 @@ impl Known {
     }
 
     /// The same with another value.
-    pub fn at(self, candidates: &[Candidate], value: f64, sd: f64) -> Known {
+    pub(crate) fn at(self, candidates: &[Candidate], value: f64, sd: f64) -> Known {
         let neutral = candidates[self.effect].parameters[self.parameter].neutral;
         Known { value, sd, lacking: (neutral - value) / sd, ..self }
     }
 }
 
 /// Adds the usual forms of all laws to what was measured.
-pub fn add_shapes(known: &mut Vec<Known>, candidates: &[Candidate]) {
+pub(crate) fn add_shapes(known: &mut Vec<Known>, candidates: &[Candidate]) {
     for (effect, candidate) in candidates.iter().enumerate() {
         for (parameter, p) in candidate.parameters.iter().enumerate().filter(|(_, p)| p.is_shape() && p.is_free()) {
             if known.iter().all(|k| (k.effect, k.parameter) != (effect, parameter)) {
@@ -105,7 +105,7 @@ pub fn add_shapes(known: &mut Vec<Known>, candidates: &[Candidate]) {
 }
 
 /// What a bench test would measure of the catalogue: effect and parameter; nothing of effects that are not candidates.
-pub fn parameters_of(test: &BenchTest, candidates: &[Candidate]) -> Vec<(usize, usize)> {
+pub(crate) fn parameters_of(test: &BenchTest, candidates: &[Candidate]) -> Vec<(usize, usize)> {
     test.parameters.iter().filter_map(|(effect, key)| place(candidates, effect, key)).collect()
 }
 
@@ -114,7 +114,7 @@ pub fn parameters_of(test: &BenchTest, candidates: &[Candidate]) -> Vec<(usize, 
 /// # Errors
 /// A name that neither the catalogue nor the scenario has, a value beyond its bounds. An effect that the actuator cannot have is no
 /// fault: a test of the fabric tells of all.
-pub fn known<'m>(
+pub(crate) fn known<'m>(
     measured: impl IntoIterator<Item = &'m MeasuredValue>,
     candidates: &[Candidate],
     scenario: &Scenario,
@@ -165,7 +165,7 @@ fn check(scenario: &Scenario, m: &MeasuredValue) -> Result<(), CompareError> {
 }
 
 /// What was measured to be more than fits look for: possible, and perhaps another unit.
-pub fn unusual(measured: &[MeasuredValue], scenario: &Scenario) -> Vec<String> {
+pub(crate) fn unusual(measured: &[MeasuredValue], scenario: &Scenario) -> Vec<String> {
     let catalogue = scenario.catalogue();
     let told = measured.iter().filter_map(|m| {
         let effect = catalogue.by_name(&m.effect)?;
@@ -184,7 +184,7 @@ pub fn unusual(measured: &[MeasuredValue], scenario: &Scenario) -> Vec<String> {
 }
 
 /// Room for what was measured beyond the bounds of a fit, as far as that is possible.
-pub fn make_room(candidates: &mut [Candidate], measured: &[&MeasuredValue], scenario: &Scenario) {
+pub(crate) fn make_room(candidates: &mut [Candidate], measured: &[&MeasuredValue], scenario: &Scenario) {
     let catalogue = scenario.catalogue();
     for m in measured {
         let Some((effect, parameter)) = place(candidates, &m.effect, &m.key) else { continue };

@@ -1,13 +1,13 @@
 //! Hypotheses: what may be missing, how it is fitted, and how hypotheses are ordered.
 
-pub mod candidates;
-pub mod detect;
-pub mod evaluator;
-pub mod heldout;
-pub mod interval;
-pub mod known;
-pub mod order;
-pub mod pairs;
-pub mod problem;
-pub mod screen;
-pub mod singles;
+pub(super) mod candidates;
+pub(super) mod detect;
+pub(super) mod evaluator;
+pub(super) mod heldout;
+pub(super) mod interval;
+pub(super) mod known;
+pub(super) mod order;
+pub(super) mod pairs;
+pub(super) mod problem;
+pub(super) mod screen;
+pub(super) mod singles;

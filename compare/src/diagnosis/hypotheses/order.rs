@@ -26,7 +26,7 @@ use crate::policy;
 
 /// Explanations of as many effects, best first.
 #[derive(Default)]
-pub struct Ordered {
+pub(crate) struct Ordered {
     pub fits: Vec<Fit>,
     /// For the form of their laws.
     pub allowance: f64,
@@ -38,25 +38,25 @@ pub struct Ordered {
 
 impl Ordered {
     /// Candidates that these data do not separate.
-    pub fn stated(&self) -> impl Iterator<Item = &Fit> {
+    pub(crate) fn stated(&self) -> impl Iterator<Item = &Fit> {
         self.set.iter().map(|i| &self.fits[*i])
     }
 }
 
 /// What a gain that large makes of differences between sums of squares.
-pub fn allowance(best_gain: f64) -> f64 {
+pub(crate) fn allowance(best_gain: f64) -> f64 {
     1.0 + policy::FORM * best_gain.max(0.0) / policy::SAME_EVIDENCE
 }
 
 /// C of an explanation, up to a constant.
-pub fn criterion(case: &Case, fit: &Fit, allowance: f64) -> f64 {
+pub(crate) fn criterion(case: &Case, fit: &Fit, allowance: f64) -> f64 {
     criterion_of(case, fit.cost(), case.extra(fit), allowance) + oddness(case, fit) + odd_forms(case, fit, allowance)
 }
 
 /// Σ (ln(B/B₀) / ln 2)² of the stated stiffness B₀, where one is stated; a bending test is among the squares already. It orders slips and
 /// no effects: of the sets of `ibr bench discovery --sets 49 --seed 11` it puts the truth on top in 86.0 in place of 83.7 %, and names
 /// fewer of two effects.
-pub fn odd_bending(case: &Case, fit: &Fit) -> f64 {
+pub(crate) fn odd_bending(case: &Case, fit: &Fit) -> f64 {
     let stated = case.first().scenario.bending_stiffness;
     if stated == 0.0 || case.problem.known_bending.is_some() {
         return 0.0;
@@ -67,14 +67,14 @@ pub fn odd_bending(case: &Case, fit: &Fit) -> f64 {
 
 /// Whether an answer has another stiffness than is stated, by a factor of two, or an effect of an unusual size: a measurement
 /// comes before belief.
-pub fn is_unusual(case: &Case, fit: &Fit) -> bool {
+pub(crate) fn is_unusual(case: &Case, fit: &Fit) -> bool {
     let stated = case.first().scenario.bending_stiffness;
     let is_other = |b: &f64| !policy::is_same_stiffness(*b, stated);
     case.problem.known_bending.is_none() && case.bendings(fit).iter().any(is_other) || !unusual(case, fit).is_empty()
 }
 
 /// Effects of one parameter that a fit adds at an unusual size: effect and size over the usual one.
-pub fn unusual(case: &Case, fit: &Fit) -> Vec<(usize, f64)> {
+pub(crate) fn unusual(case: &Case, fit: &Fit) -> Vec<(usize, f64)> {
     let size = |(effect, p, value): (usize, &Free, f64)| (effect, (value - p.neutral).abs() / p.scale());
     added_values(case, fit).into_iter().map(size).filter(|(_, size)| policy::is_unusual_size(*size)).collect()
 }
@@ -96,13 +96,13 @@ fn added_values<'c>(case: &'c Case, fit: &Fit) -> Vec<(usize, &'c Free, f64)> {
 }
 
 /// The same of a sum of squares and a number of parameters added.
-pub fn criterion_of(case: &Case, cost: f64, added: usize, allowance: f64) -> f64 {
+pub(crate) fn criterion_of(case: &Case, cost: f64, added: usize, allowance: f64) -> f64 {
     let values = case.noises.iter().map(|noise| noise.all_seen()).sum::<usize>();
     criterion_from(values, cost, added, allowance)
 }
 
 /// The same of so many values.
-pub fn criterion_from(values: usize, cost: f64, added: usize, allowance: f64) -> f64 {
+pub(crate) fn criterion_from(values: usize, cost: f64, added: usize, allowance: f64) -> f64 {
     cost / allowance + added as f64 * price(values as f64, allowance)
 }
 
@@ -112,7 +112,7 @@ fn price(values: f64, allowance: f64) -> f64 {
 }
 
 /// Fits in order of C, and the allowance used: that of the best gain among those that no bound rejects.
-pub fn sort(case: &Case, fits: &mut [Fit], over: &Fit) -> f64 {
+pub(crate) fn sort(case: &Case, fits: &mut [Fit], over: &Fit) -> f64 {
     let gain = |fit: &&Fit| over.cost() - fit.cost();
     let allowance = allowance(fits.iter().filter(|f| !case.is_rejected(f)).map(|f| gain(&f)).fold(0.0, f64::max));
     fits.sort_by(|a, b| criterion(case, a, allowance).total_cmp(&criterion(case, b, allowance)));

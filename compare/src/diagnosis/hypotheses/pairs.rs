@@ -14,9 +14,11 @@ use crate::stats::reported_p;
 /// Pairs refitted, the most promising by screening every effect on top of every other.
 const REFITTED: usize = 32;
 const REPORTED: usize = 12;
+/// What has more numbers than this mends anything next to another effect: it is an answer alone.
+const MOST_SIZES: usize = 2;
 
 /// The p that another effect is wanted on top of a fit, screened and corrected for all effects; 1 if none.
-pub fn another_wanted(case: &Case, fit: &Fit) -> f64 {
+pub(crate) fn another_wanted(case: &Case, fit: &Fit) -> f64 {
     let free = Basis::of(&fit.minimum.jacobian);
     let others = case.tried.iter().filter(|e| !fit.effects.contains(e));
     let best = others.filter_map(|e| score(&case.problem, fit, &free, *e)).map(|s| s.gain).fold(0.0, f64::max);
@@ -24,7 +26,7 @@ pub fn another_wanted(case: &Case, fit: &Fit) -> f64 {
 }
 
 /// Promising pairs fitted, without those that a bound rejects; and how many there are in all.
-pub fn fit_pairs(case: &Case, singles: &[Fit], progress: &mut Progress) -> (Vec<Fit>, usize) {
+pub(crate) fn fit_pairs(case: &Case, singles: &[Fit], progress: &mut Progress) -> (Vec<Fit>, usize) {
     let fit = |(a, b): &(usize, usize)| {
         let (first, second) = (&singles[*a], &singles[*b]);
         let effects = [&first.effects[..], &[own(second)]].concat();
@@ -42,9 +44,10 @@ pub fn fit_pairs(case: &Case, singles: &[Fit], progress: &mut Progress) -> (Vec<
 fn promising(case: &Case, singles: &[Fit]) -> Vec<(usize, usize)> {
     let n = singles.len();
     let mut expected = vec![f64::INFINITY; n * n];
-    for (a, first) in singles.iter().enumerate() {
+    let may_join = |fit: &Fit| case.candidate(own(fit)).sizes() <= MOST_SIZES;
+    for (a, first) in singles.iter().enumerate().filter(|(_, fit)| may_join(fit)) {
         let free = Basis::of(&first.minimum.jacobian);
-        for (b, second) in singles.iter().enumerate().filter(|(b, _)| *b != a) {
+        for (b, second) in singles.iter().enumerate().filter(|(b, fit)| *b != a && may_join(fit)) {
             let gain = score(&case.problem, first, &free, own(second)).map_or(0.0, |s| s.gain);
             let (low, high) = (a.min(b), a.max(b));
             let place = &mut expected[low * n + high];
@@ -72,7 +75,7 @@ fn swapped(case: &Case, first: &Fit, second: &Fit) -> Option<Vec<f64>> {
 }
 
 /// Indices of the pairs that cannot be told from the best one.
-pub fn indistinguishable(case: &Case, pairs: &[Fit], allowance: f64) -> Vec<usize> {
+pub(crate) fn indistinguishable(case: &Case, pairs: &[Fit], allowance: f64) -> Vec<usize> {
     let Some(best) = pairs.first() else { return Vec::new() };
     let c = |fit: &Fit| criterion(case, fit, allowance);
     let is_alike = |i: &usize| policy::is_alike(c(&pairs[*i]), c(best));
@@ -80,7 +83,7 @@ pub fn indistinguishable(case: &Case, pairs: &[Fit], allowance: f64) -> Vec<usiz
 }
 
 /// What a reader needs of the best pairs.
-pub fn describe(case: &Case, pairs: &Ordered, single: &Fit) -> Vec<Combination> {
+pub(crate) fn describe(case: &Case, pairs: &Ordered, single: &Fit) -> Vec<Combination> {
     let Ordered { fits, allowance, set, tried } = pairs;
     let c = |fit: &Fit| criterion(case, fit, *allowance);
     let entry = |(i, fit): (usize, &Fit)| Combination {
@@ -98,7 +101,7 @@ pub fn describe(case: &Case, pairs: &Ordered, single: &Fit) -> Vec<Combination> 
 }
 
 /// p of the gain of a pair over the best single effect, or over the base.
-pub fn p_over(case: &Case, pair: &Fit, single: &Fit, tried: usize) -> Option<f64> {
+pub(crate) fn p_over(case: &Case, pair: &Fit, single: &Fit, tried: usize) -> Option<f64> {
     let more = case.extra(pair).saturating_sub(case.extra(single)).max(1);
     case.p_of_gain((single.cost() - pair.cost()).max(0.0), more, tried as f64)
 }

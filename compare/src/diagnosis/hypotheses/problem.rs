@@ -27,7 +27,7 @@ type WhitenerOf<'w> = dyn Fn(usize) -> Cow<'w, Whitener> + 'w;
 
 /// What a fit meets of a dataset.
 #[derive(Clone)]
-pub struct Block<'a> {
+pub(crate) struct Block<'a> {
     pub source: Cow<'a, Source>,
     /// Holds that are fitted, rising.
     pub holds: Vec<usize>,
@@ -43,7 +43,7 @@ pub struct Block<'a> {
 
 impl<'a> Block<'a> {
     /// All holds of a dataset's mean; `levels` are body pressures with a stiffness of their own \[Pa\].
-    pub fn of(source: &'a Source, noise: &NoiseModel, levels: &[f64]) -> Result<Block<'a>, CompareError> {
+    pub(crate) fn of(source: &'a Source, noise: &NoiseModel, levels: &[f64]) -> Result<Block<'a>, CompareError> {
         let dataset = &source.dataset;
         let all: Vec<usize> = (0..dataset.holds.len()).collect();
         Ok(Block {
@@ -57,7 +57,7 @@ impl<'a> Block<'a> {
     }
 
     /// The same with another target at some of its holds.
-    pub fn to_meet(
+    pub(crate) fn to_meet(
         &self,
         holds: Vec<usize>,
         target_m: Vec<f64>,
@@ -81,7 +81,7 @@ fn values_of(dataset: &Dataset, holds: &[usize]) -> Vec<Weights> {
 
 /// A list of blocks with shared parameters.
 #[derive(Clone)]
-pub struct Problem<'a> {
+pub(crate) struct Problem<'a> {
     pub candidates: &'a [Candidate],
     pub blocks: Vec<Block<'a>>,
     /// Bending stiffnesses that are fitted; 0 if B is kept as the scenarios say.
@@ -96,7 +96,7 @@ pub struct Problem<'a> {
 
 /// A fitted hypothesis. Parameters: bending stiffnesses, then those of its effects one after the other.
 #[derive(Debug, Clone)]
-pub struct Fit {
+pub(crate) struct Fit {
     /// Effects, as indices into the catalogue.
     pub effects: Vec<usize>,
     /// Where the fit ended; residuals are whitened.
@@ -113,28 +113,28 @@ pub struct Fit {
 
 impl Fit {
     /// Whitened sum of squares.
-    pub fn cost(&self) -> f64 {
+    pub(crate) fn cost(&self) -> f64 {
         self.minimum.cost
     }
 
-    pub fn theta(&self) -> &[f64] {
+    pub(crate) fn theta(&self) -> &[f64] {
         &self.minimum.at
     }
 
     /// Parameters of the hypothesis with one more effect.
-    pub fn theta_with(&self, values: &[f64]) -> Vec<f64> {
+    pub(crate) fn theta_with(&self, values: &[f64]) -> Vec<f64> {
         [self.theta(), values].concat()
     }
 
     /// Change of the whitened residuals from another fit.
-    pub fn change_from(&self, other: &Fit) -> Vec<f64> {
+    pub(crate) fn change_from(&self, other: &Fit) -> Vec<f64> {
         self.minimum.residual.iter().zip(&other.minimum.residual).map(|(a, b)| a - b).collect()
     }
 }
 
 impl Problem<'_> {
     /// The base of a block with effects at values in SI: one scenario per bending stiffness, one alone if B is kept.
-    pub fn scenarios(&self, block: &Block, effects: &[usize], theta: &[f64]) -> Vec<Scenario> {
+    pub(crate) fn scenarios(&self, block: &Block, effects: &[usize], theta: &[f64]) -> Vec<Scenario> {
         let Source { scenario, direct, rolled, .. } = &*block.source;
         let (bendings, values) = theta.split_at(self.bendings);
         let in_room = effects.iter().flat_map(|e| &self.candidates[*e].parameters).map(|p| p.in_room && *rolled);
@@ -144,7 +144,7 @@ impl Problem<'_> {
     }
 
     /// Positions at some holds of a block in run layout \[m\], others zero; `None` without equilibrium.
-    pub fn predict(&self, block: &Block, holds: &[usize], effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
+    pub(crate) fn predict(&self, block: &Block, holds: &[usize], effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
         let mut out = vec![0.0; block.source.dataset.values_per_run()];
         for (group, scenario) in self.scenarios(block, effects, theta).iter().enumerate() {
             let own: Vec<usize> = holds.iter().copied().filter(|h| block.bending_of[*h] == group).collect();
@@ -156,7 +156,7 @@ impl Problem<'_> {
     }
 
     /// Differences of the supply's laws to the readings of a block's gauge \[Pa\]; none without one.
-    pub fn supply_pa(&self, block: &Block, effects: &[usize], theta: &[f64]) -> Vec<f64> {
+    pub(crate) fn supply_pa(&self, block: &Block, effects: &[usize], theta: &[f64]) -> Vec<f64> {
         block.source.gauge.as_ref().map_or(Vec::new(), |gauge| {
             let is_supply = |stage| stage == Stage::Supply;
             let laws = with(&gauge.scenario, self.candidates, effects, &theta[self.bendings..], &is_supply);
@@ -165,13 +165,13 @@ impl Problem<'_> {
     }
 
     /// The same, whitened.
-    pub fn supply(&self, block: &Block, effects: &[usize], theta: &[f64]) -> Vec<f64> {
+    pub(crate) fn supply(&self, block: &Block, effects: &[usize], theta: &[f64]) -> Vec<f64> {
         let whitened = |whitener: &Whitener| whitener.whiten(&self.supply_pa(block, effects, theta));
         block.of_gauge.as_ref().map(whitened).unwrap_or_default()
     }
 
     /// Whitened residuals of all blocks, prediction minus target, and of what was measured by itself.
-    pub fn residuals(&self, effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
+    pub(crate) fn residuals(&self, effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
         self.residuals_by(&|i| Cow::Borrowed(&self.blocks[i].whitener), effects, theta)
     }
 
@@ -196,18 +196,18 @@ impl Problem<'_> {
     }
 
     /// Ranges of the parameters of a hypothesis.
-    pub fn ranges(&self, effects: &[usize]) -> Vec<Range> {
+    pub(crate) fn ranges(&self, effects: &[usize]) -> Vec<Range> {
         let bending = Range { lower: 0.0, upper: policy::MOST_BENDING, scale: BENDING_SCALE };
         std::iter::repeat_n(bending, self.bendings).chain(self.parameters(effects).map(Free::range)).collect()
     }
 
     /// Number of fitted parameters of a hypothesis beyond the bending stiffnesses, without those that shape a law.
-    pub fn sizes(&self, effects: &[usize]) -> usize {
+    pub(crate) fn sizes(&self, effects: &[usize]) -> usize {
         effects.iter().map(|e| self.candidates[*e].sizes()).sum()
     }
 
     /// The best fit from several starts; `None` if none of them has an equilibrium.
-    pub fn fit(&self, effects: &[usize], starts: &[Vec<f64>]) -> Option<Fit> {
+    pub(crate) fn fit(&self, effects: &[usize], starts: &[Vec<f64>]) -> Option<Fit> {
         let ranges = self.ranges(effects);
         let from =
             |start: &Vec<f64>| minimise(start, &ranges, self.enough, &mut |theta| self.residuals(effects, theta));
@@ -253,7 +253,7 @@ impl Problem<'_> {
     }
 
     /// Whitened residuals in units of noise and misfit.
-    pub fn residuals_allowing(&self, misfit: &[f64], effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
+    pub(crate) fn residuals_allowing(&self, misfit: &[f64], effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
         let whitener = |i: usize| match &self.blocks[i].whitener {
             own if misfit[i] > 1.0 => Cow::Owned(own.wider(misfit[i])),
             own => Cow::Borrowed(own),
@@ -262,7 +262,7 @@ impl Problem<'_> {
     }
 
     /// Derivatives of these at the end of a fit.
-    pub fn jacobian_allowing(&self, fit: &Fit) -> Option<Vec<Vec<f64>>> {
+    pub(crate) fn jacobian_allowing(&self, fit: &Fit) -> Option<Vec<Vec<f64>>> {
         if fit.misfit.iter().all(|factor| *factor == 1.0) {
             return Some(fit.minimum.jacobian.clone());
         }
@@ -295,7 +295,7 @@ impl Problem<'_> {
     }
 
     /// Fit of the base: B scanned from zero up, evenly in √B, then refined.
-    pub fn fit_base(&self, always: &[usize], own_values: &[f64]) -> Option<Fit> {
+    pub(crate) fn fit_base(&self, always: &[usize], own_values: &[f64]) -> Option<Fit> {
         let start = |i: u32| -> Vec<f64> {
             let bending = policy::MOST_BENDING * (f64::from(i) / f64::from(BENDINGS_TRIED)).powi(2);
             [&vec![bending; self.bendings], own_values].concat()
@@ -309,7 +309,7 @@ impl Problem<'_> {
 }
 
 /// A scenario with those of the effects whose stage is open, at values in SI.
-pub fn with(
+pub(crate) fn with(
     scenario: &Scenario,
     candidates: &[Candidate],
     effects: &[usize],
@@ -328,7 +328,7 @@ pub fn with(
 }
 
 /// On a bound that is not the neutral value, and the sum of squares would fall beyond it by more than noise explains.
-pub fn is_binding(minimum: &Minimum, k: usize, range: &Range, neutral: f64) -> bool {
+pub(crate) fn is_binding(minimum: &Minimum, k: usize, range: &Range, neutral: f64) -> bool {
     let near = NEAR * range.scale;
     let at_bound = minimum.at[k] - range.lower < near || range.upper - minimum.at[k] < near;
     if !at_bound || (minimum.at[k] - neutral).abs() < near {

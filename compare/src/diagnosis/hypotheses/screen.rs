@@ -14,7 +14,7 @@ const FIRST_BIT: f64 = 0.02;
 
 /// What screening says of an effect.
 #[derive(Debug, Clone)]
-pub struct Score {
+pub(crate) struct Score {
     /// Expected fall of the whitened sum of squares along the typical direction, within the bounds.
     pub gain: f64,
     /// Amount at which it is expected, in units of the typical size; 0 if bounds forbid the right sign.
@@ -22,7 +22,7 @@ pub struct Score {
 }
 
 /// Whitened trace of the first bit of an effect per typical size, everything free fitted out; `None` if it leaves none.
-pub fn trace(problem: &Problem, fit: &Fit, free: &Basis, effect: usize) -> Option<Vec<f64>> {
+pub(crate) fn trace(problem: &Problem, fit: &Fit, free: &Basis, effect: usize) -> Option<Vec<f64>> {
     let candidate = &problem.candidates[effect];
     let effects: Vec<usize> = fit.effects.iter().copied().chain([effect]).collect();
     let moved = problem.residuals(&effects, &fit.theta_with(&candidate.at(FIRST_BIT)))?;
@@ -33,7 +33,7 @@ pub fn trace(problem: &Problem, fit: &Fit, free: &Basis, effect: usize) -> Optio
 }
 
 /// Screens an effect on top of a fit; `None` if it changes nothing there or has no equilibrium.
-pub fn score(problem: &Problem, fit: &Fit, free: &Basis, effect: usize) -> Option<Score> {
+pub(crate) fn score(problem: &Problem, fit: &Fit, free: &Basis, effect: usize) -> Option<Score> {
     let rest = trace(problem, fit, free, effect)?;
     let squares = square(&rest);
     let candidate = &problem.candidates[effect];
@@ -47,7 +47,7 @@ pub fn score(problem: &Problem, fit: &Fit, free: &Basis, effect: usize) -> Optio
 }
 
 /// Starts for the fit of an effect on top of another: the expected amount, then the catalogue's own.
-pub fn starts(problem: &Problem, fit: &Fit, effect: usize, own: bool) -> Vec<Vec<f64>> {
+pub(crate) fn starts(problem: &Problem, fit: &Fit, effect: usize, own: bool) -> Vec<Vec<f64>> {
     let candidate = &problem.candidates[effect];
     if candidate.count() == 0 {
         return candidate.starts().iter().map(|values| fit.theta_with(values)).collect();
@@ -61,7 +61,7 @@ pub fn starts(problem: &Problem, fit: &Fit, effect: usize, own: bool) -> Vec<Vec
 
 /// Bounds what lacking an effect costs by what it changes at the markers where the robot is fitted with it: with the base alone, whose
 /// stiffness has taken its place, it might not act at all.
-pub fn bound(problem: &Problem, base: &Fit, known: &mut [Known]) {
+pub(crate) fn bound(problem: &Problem, base: &Fit, known: &mut [Known]) {
     for i in 0..known.len() {
         let effect = known[i].effect;
         if known[i].usual || base.effects.contains(&effect) {

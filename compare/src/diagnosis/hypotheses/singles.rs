@@ -16,7 +16,11 @@ use crate::study::predict_dataset;
 
 /// All effects fitted, best first, and the allowance for their form; those without equilibrium left out. Where the data push beyond
 /// a range that ends where physics does not, the case searches further from then on, in the catalogue `wider`.
-pub fn fit_all<'a>(case: &mut Case<'a>, wider: &'a mut Vec<Candidate>, progress: &mut Progress) -> (Vec<Fit>, f64) {
+pub(crate) fn fit_all<'a>(
+    case: &mut Case<'a>,
+    wider: &'a mut Vec<Candidate>,
+    progress: &mut Progress,
+) -> (Vec<Fit>, f64) {
     let fit = |case: &Case, effect: usize, from: Option<&Fit>| {
         let from = from.map(|fit| fit.theta().to_vec());
         let starts = from.into_iter().chain(starts(&case.problem, &case.base, effect, true));
@@ -53,7 +57,7 @@ fn added(fit: &Fit) -> usize {
 }
 
 /// Effects that no fit could try, and why: without equilibrium at whatever value.
-pub fn left_out(case: &Case, fits: &[Fit]) -> Vec<String> {
+pub(crate) fn left_out(case: &Case, fits: &[Fit]) -> Vec<String> {
     let Case { problem, base, .. } = case;
     let is_fitted = |effect: &usize| fits.iter().any(|fit| fit.effects.last() == Some(effect));
     let why = |effect: usize| {
@@ -76,7 +80,7 @@ fn is_shape_at_end(case: &Case, fit: &Fit) -> bool {
 }
 
 /// Indices of the fits that cannot be told from the best acceptable one, best first; empty if none helps.
-pub fn indistinguishable(case: &Case, fits: &[Fit], allowance: f64) -> Vec<usize> {
+pub(crate) fn indistinguishable(case: &Case, fits: &[Fit], allowance: f64) -> Vec<usize> {
     let acceptable = |i: &usize| !case.is_rejected(&fits[*i]) && case.gain(&fits[*i]) > 0.0;
     let Some(best) = (0..fits.len()).find(acceptable) else { return Vec::new() };
     let c = |i: usize| criterion(case, &fits[i], allowance);
@@ -86,8 +90,11 @@ pub fn indistinguishable(case: &Case, fits: &[Fit], allowance: f64) -> Vec<usize
     (0..fits.len()).filter(acceptable).filter(is_alike).collect()
 }
 
+/// Beyond the set, the error at left-out data is computed for so many fits that lead the order, and for so many that leave least.
+const LEFT_OUT_OF: usize = 8;
+
 /// What a reader needs of every fit.
-pub fn rank(case: &Case, singles: &Ordered, held_out: &HeldOut) -> Vec<Ranked> {
+pub(crate) fn rank(case: &Case, singles: &Ordered, held_out: &HeldOut) -> Vec<Ranked> {
     let Ordered { fits, allowance, set, .. } = singles;
     let c = |fit: &Fit| criterion(case, fit, *allowance);
     let before = case.error_mm(&case.prediction(&case.base));
@@ -95,6 +102,11 @@ pub fn rank(case: &Case, singles: &Ordered, held_out: &HeldOut) -> Vec<Ranked> {
     let trace = |fit: &Fit| Basis::of(&case.base.minimum.jacobian).rest(&fit.change_from(&case.base));
     let best_trace = fits.get(best).map(trace).unwrap_or_default();
     let least = fits.get(best).map_or(0.0, c);
+    let after: Vec<f64> = fits.iter().map(|fit| case.error_mm(&case.prediction(fit))).collect();
+    let mut nearest: Vec<usize> = (0..fits.len()).collect();
+    nearest.sort_by(|a, b| after[*a].total_cmp(&after[*b]));
+    nearest.truncate(LEFT_OUT_OF);
+    let is_left_out = |i: usize| set.contains(&i) || i < LEFT_OUT_OF || nearest.contains(&i);
     let entry = |(i, fit): (usize, &Fit)| {
         let candidate = case.candidate(added(fit));
         let parameters = parameter_values(case, fit, set.contains(&i));
@@ -116,9 +128,9 @@ pub fn rank(case: &Case, singles: &Ordered, held_out: &HeldOut) -> Vec<Ranked> {
             bic_difference: c(fit) - least,
             p_corrected: case.p_of_gain(gain, candidate.sizes(), case.tests).map(reported_p),
             systematic_before_mm: before,
-            systematic_after_mm: case.error_mm(&case.prediction(fit)),
-            heldout_mm: held_out.pressure_mm(fit),
-            heldout_run_mm: held_out.run_mm(fit),
+            systematic_after_mm: after[i],
+            heldout_mm: is_left_out(i).then(|| held_out.pressure_mm(fit)).flatten(),
+            heldout_run_mm: is_left_out(i).then(|| held_out.run_mm(fit)).flatten(),
             bending_nm2: case.bendings(fit),
             cosine_with_best: cosine(&best_trace, &trace(fit)),
             in_set: set.contains(&i),
@@ -131,7 +143,7 @@ pub fn rank(case: &Case, singles: &Ordered, held_out: &HeldOut) -> Vec<Ranked> {
 }
 
 /// Parameters of all effects of a fit in the units of the scenario.
-pub fn parameter_values(case: &Case, fit: &Fit, profiled: bool) -> Vec<ParameterValue> {
+pub(crate) fn parameter_values(case: &Case, fit: &Fit, profiled: bool) -> Vec<ParameterValue> {
     let intervals = intervals(case, fit, profiled);
     let free = fit.effects.iter().flat_map(|e| &case.candidate(*e).parameters);
     let found = |(k, p): (usize, &Free)| p.found(fit.theta()[k], intervals[k], fit.binding[k]);

@@ -30,7 +30,7 @@ const SHARE: f64 = 0.5;
 ///
 /// # Errors
 /// Data of which no shape comes near.
-pub fn moments(
+pub(crate) fn moments(
     case: &Case,
     decision: &Decision,
     options: &Options,

@@ -31,7 +31,7 @@ const BAND: f64 = 1.96;
 
 /// What is missing in all data, relative to the scenario as given: with its own bending stiffness, or the one that was measured by
 /// itself. A fitted one would hide in the points whatever it takes the place of; it is a curve among the others.
-pub fn missing_moment(
+pub(crate) fn missing_moment(
     case: &Case,
     seen: &[Seen],
     decision: &Decision,
@@ -50,7 +50,7 @@ pub fn missing_moment(
 }
 
 /// A dataset's shape, and what the base misses there.
-pub struct Seen {
+pub(crate) struct Seen {
     base: Vec<Scenario>,
     of_hold: Vec<usize>,
     pub shape: Shape,
@@ -68,7 +68,7 @@ impl Seen {
 
     /// What another robot misses at the bends that were measured, moment after moment and place after place \[N·m\]: the base,
     /// changed.
-    pub fn missing(
+    pub(crate) fn missing(
         &self,
         block: &Block,
         change: &dyn Fn(&Scenario) -> Scenario,
@@ -78,7 +78,7 @@ impl Seen {
         missing(&view(block, &other[0]), &self.shape, &robot, &self.shape.bends())
     }
 
-    pub fn robot(&self) -> &Scenario {
+    pub(crate) fn robot(&self) -> &Scenario {
         &self.base[0]
     }
 }
@@ -87,7 +87,7 @@ impl Seen {
 ///
 /// # Errors
 /// Data of which no shape comes near.
-pub fn seen(case: &Case) -> Result<Vec<Seen>, CompareError> {
+pub(crate) fn seen(case: &Case) -> Result<Vec<Seen>, CompareError> {
     case.problem.blocks.iter().map(|block| Seen::of(case, block)).collect()
 }
 
@@ -128,7 +128,7 @@ fn curves(
 }
 
 /// The curves of one fit: ways up and down at every body pressure.
-pub fn curves_of(
+pub(crate) fn curves_of(
     case: &Case,
     fit: &Fit,
     (answer, is_told): (&str, bool),

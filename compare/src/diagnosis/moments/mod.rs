@@ -1,4 +1,4 @@
 //! The missing moment of a diagnosis, and the law that is learned from it.
 
-pub mod learned;
-pub mod missing;
+pub(super) mod learned;
+pub(super) mod missing;

@@ -7,7 +7,7 @@ use data::{Dataset, Direct, Hold, Lost, Phase};
 use models::Scenario;
 
 /// Known force hung on the tip \[N\].
-pub const TIP_FORCE_N: f64 = 0.3;
+pub(crate) const TIP_FORCE_N: f64 = 0.3;
 /// Length of a long hold \[s\].
 const LONG_HOLD_S: f64 = 60.0;
 
@@ -17,7 +17,7 @@ pub const BENDING_TEST: f64 = 0.1;
 pub const BENDING_TEST_NAME: &str = "bending test";
 
 /// An experiment: one or more parts, each a protocol under loads, or a bending test of the body by itself.
-pub struct Plan {
+pub(crate) struct Plan {
     pub name: String,
     pub sentence: String,
     /// Parts, each measured as often as the data at hand; none of a bending test.
@@ -28,7 +28,7 @@ pub struct Plan {
 
 /// What may be measured beside the markers.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Instruments {
+pub(crate) struct Instruments {
     /// Directly, in the same runs.
     pub direct: Direct,
     /// By tests of their own.
@@ -36,13 +36,13 @@ pub struct Instruments {
 }
 
 /// The bending stiffness measured by itself.
-pub fn bending_test() -> Plan {
+pub(crate) fn bending_test() -> Plan {
     Plan { name: BENDING_TEST_NAME.into(), sentence: data::BENDING_TEST.into(), parts: Vec::new(), tests: Vec::new() }
 }
 
 /// All experiments for the robot and the protocol of the data at hand; then the same with what `instruments` measure directly,
 /// if that is more than in those data.
-pub fn plans(scenario: &Scenario, dataset: &Dataset, at_hand: Direct, instruments: Instruments) -> Vec<Plan> {
+pub(crate) fn plans(scenario: &Scenario, dataset: &Dataset, at_hand: Direct, instruments: Instruments) -> Vec<Plan> {
     let Instruments { direct, tests } = instruments;
     let all = Direct { pressure: at_hand.pressure || direct.pressure, frame: at_hand.frame || direct.frame };
     let mut plans = protocols(scenario, dataset, at_hand);
@@ -94,8 +94,8 @@ fn protocols(scenario: &Scenario, dataset: &Dataset, direct: Direct) -> Vec<Plan
     };
     let one = |pressures: &[f64], body: f64, hold_s: f64| vec![part(scenario, pressures, body, hold_s)];
     let usual = hold_length_s(dataset);
-    let [gravity_x, gravity_y] = scenario.gravity_direction;
-    let rolled = Scenario { gravity_direction: [gravity_x, -gravity_y], ..seen_rolled(scenario) };
+    let [gravity_x, gravity_y, gravity_z] = scenario.gravity_direction;
+    let rolled = Scenario { gravity_direction: [gravity_x, -gravity_y, -gravity_z], ..seen_rolled(scenario) };
     let turned = vec![part(&rolled, &standard, body, usual)];
     let tipped = [TIP_FORCE_N, -TIP_FORCE_N].map(|force| part(&tipped(scenario, force), &standard, body, usual)).into();
     let other_body = second_body(dataset, body);
@@ -119,7 +119,7 @@ fn protocols(scenario: &Scenario, dataset: &Dataset, direct: Direct) -> Vec<Plan
         plan("repeat", "repeat the same protocol as often again".into(), one(&standard, body, usual)),
     ];
     if scenario.is_spatial() {
-        // No load from outside acts on strips round the body.
+        // Which way across such a robot a load tells most is not searched for.
         plans.retain(|plan| !["tip force", "turned over"].contains(&plan.name.as_str()));
         plans.iter_mut().for_each(|plan| plan.sentence += ", with the same pressure in all supply channels");
     }
@@ -127,7 +127,7 @@ fn protocols(scenario: &Scenario, dataset: &Dataset, direct: Direct) -> Vec<Plan
 }
 
 /// `0,10,20,30,0@2`, as `ibr data generate --protocol` takes it; empty of a bending test.
-pub fn protocol_text(plan: &Plan) -> String {
+pub(crate) fn protocol_text(plan: &Plan) -> String {
     let Some(part) = plan.parts.first() else { return String::new() };
     let holds = &part.dataset.holds;
     let kpa = |p: f64| format!("{}", (p / 100.0).round() / 10.0);
@@ -137,8 +137,9 @@ pub fn protocol_text(plan: &Plan) -> String {
 
 /// With a force on the tip beside the known one.
 fn tipped(scenario: &Scenario, force_n: f64) -> Scenario {
-    let known = scenario.effects.iter().find(|e| e.name == "tip_load").map_or([0.0; 2], |e| [e.values[0], e.values[1]]);
-    scenario.with_effect("tip_load", &[known[0], known[1] + force_n])
+    let known = scenario.effects.iter().find(|e| e.name == "tip_load");
+    let [x, y, z] = known.map_or([0.0; 3], |e| [e.values[0], e.values[1], e.values[2]]);
+    scenario.with_effect("tip_load", &[x, y + force_n, z])
 }
 
 /// Twice the first body pressure, or the middle of the two that are there.

@@ -11,8 +11,8 @@
 //!
 //! with the allowance A for the form of laws and the gain G expected of a there ([`crate::diagnosis::order`]); 16 where A = 1.
 
-pub mod experiments;
-pub mod worth;
+pub(super) mod experiments;
+pub(super) mod worth;
 
 use crate::diagnosis::case::Case;
 use crate::diagnosis::decide::Decision;
@@ -42,7 +42,7 @@ const LAMBDA_ERROR: f64 = 0.05;
 
 /// Looks for the experiment; `None` if there is nothing to separate or the noise is unknown. Where the answer is outside the
 /// catalogue the names at hand are wrong anyhow: nothing is computed to separate them, and `outside` says what to look at.
-pub fn next_experiment(
+pub(super) fn next_experiment(
     case: &Case,
     decision: &Decision,
     outside: Option<String>,

@@ -7,7 +7,7 @@ use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::Worth;
 
 /// Root-mean-square distance over all marker coordinates between the calibrated base and a fit.
-pub fn worth(case: &Case, fit: &Fit) -> Worth {
+pub(crate) fn worth(case: &Case, fit: &Fit) -> Worth {
     let first = case.first();
     let set = first.gauge.as_ref().map_or_else(|| first.dataset.clone(), |gauge| gauge.as_set(&first.dataset));
     let instruments = Instruments { direct: first.direct, tests: Vec::new() };

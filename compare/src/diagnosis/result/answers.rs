@@ -190,7 +190,7 @@ impl Diagnosis {
 }
 
 /// What a model changes from the one before it: `+ a`, or `- a` where it leaves an effect out.
-pub fn in_step(name: &str) -> String {
+pub(crate) fn in_step(name: &str) -> String {
     taken_away(name).map_or_else(|| format!("+ {name}"), |gone| format!("- {gone}"))
 }
 

@@ -67,10 +67,10 @@ pub struct Ranked {
     pub systematic_before_mm: f64,
     /// The same with the effect \[mm\].
     pub systematic_after_mm: f64,
-    /// Error beyond noise at actuator pressures left out of the fit, rms over the pressures \[mm\]; `None` with one
-    /// pressure.
+    /// Error beyond noise at actuator pressures left out of the fit, rms over the pressures \[mm\]. `None` with one pressure, and
+    /// for effects outside the set that neither lead nor come close.
     pub heldout_mm: Option<f64>,
-    /// Error beyond noise of runs left out of the fit, rms over the runs \[mm\]; `None` with one run.
+    /// Error beyond noise of runs left out of the fit, rms over the runs \[mm\]; `None` as above, and with one run.
     pub heldout_run_mm: Option<f64>,
     /// Effective bending stiffness with the effect, one per body pressure \[N·m²\].
     pub bending_nm2: Vec<f64>,

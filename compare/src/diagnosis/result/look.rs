@@ -9,7 +9,7 @@ use crate::residuals::ResidualCell;
 use crate::wording::{channels_word, list};
 
 /// What to do next where nothing in the catalogue explains the misfit; `None` with another verdict.
-pub fn next(d: &Diagnosis) -> Option<String> {
+pub(crate) fn next(d: &Diagnosis) -> Option<String> {
     if d.verdict != Some(Verdict::OutOfCatalog) {
         return None;
     }

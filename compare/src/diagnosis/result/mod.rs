@@ -238,7 +238,7 @@ pub struct Diagnosis {
     pub ranked: Vec<Ranked>,
     /// Names that these data cannot tell apart, best first; for two added effects written `a + b`.
     pub indistinguishable: Vec<String>,
-    /// Share of such sets that held the truth on `ibr bench discovery`; `None` unless one effect is added.
+    /// Share of such sets that held a true effect on `ibr bench discovery`; `None` in space, and where no effect is added.
     pub covered: Option<f64>,
     /// Those of them (or of the ranking within reach of it) that belong to supply or measurement: rule out first.
     pub rule_out_first: Vec<String>,

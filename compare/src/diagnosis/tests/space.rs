@@ -8,7 +8,7 @@ use data::Dataset;
 
 /// Two strips at 90°, complete: every effect that the shipped robot has.
 fn complete() -> Scenario {
-    ScenarioFile::parse_in_space("robot", include_str!("../../../../studies/epam-two-strips.toml")).unwrap().scenario
+    ScenarioFile::parse("robot", include_str!("../../../../studies/epam-two-strips.toml")).unwrap().scenario
 }
 
 fn lacking(effect: &str) -> Scenario {
@@ -37,7 +37,7 @@ fn what_a_robot_with_two_strips_lacks_is_named_first() {
         let found = run(&lacking(effect), &measured(&truth, seed));
         assert_eq!(found.verdict, Some(Verdict::Effect), "{effect}: {:?}", found.summary);
         assert_eq!(found.indistinguishable[0], effect, "{:?}", found.indistinguishable);
-        assert!(found.limits.iter().any(|l| l.contains("gravity") && l.contains("tip_load")), "{:?}", found.limits);
+        assert!(found.limits.iter().any(|l| l.contains("tip_spring") && l.contains("friction")), "{:?}", found.limits);
     }
 }
 

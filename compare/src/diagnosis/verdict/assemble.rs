@@ -9,13 +9,13 @@ use crate::diagnosis::decide::Decision;
 use crate::diagnosis::detect::undetectable;
 use crate::diagnosis::heldout::HeldOut;
 use crate::diagnosis::interval::intervals;
+use crate::diagnosis::left_patterns::left_pattern;
 use crate::diagnosis::limits::{limits, not_in_space};
 use crate::diagnosis::order;
 use crate::diagnosis::pairs::describe;
 use crate::diagnosis::problem::{Block, Fit};
 use crate::diagnosis::result::*;
 use crate::diagnosis::singles::{parameter_values, rank};
-use crate::diagnosis::stands_out::left_pattern;
 use crate::diagnosis::worth::worth;
 use crate::error::CompareError;
 use crate::evidence::{Evidence, Used};
@@ -29,7 +29,7 @@ use crate::study::predict_dataset;
 use crate::where_it_fails::{FailureOptions, Statement, where_it_fails};
 
 /// The parts of a diagnosis in addition to the decision.
-pub struct Beside<'e> {
+pub(crate) struct Beside<'e> {
     pub evidence: &'e [Evidence],
     pub excluded: Vec<String>,
     pub outliers: Outliers,
@@ -39,7 +39,7 @@ pub struct Beside<'e> {
 }
 
 /// Everything but what is asked of a finished verdict: the story, the next experiment, the missing moment.
-pub fn assemble(case: &Case, decision: &Decision, beside: Beside) -> Result<Diagnosis, CompareError> {
+pub(crate) fn assemble(case: &Case, decision: &Decision, beside: Beside) -> Result<Diagnosis, CompareError> {
     let Beside { evidence, excluded, outliers, slips, pressure_slip, mut warnings } = beside;
     let held_out = HeldOut::new(case)?;
     let mut ranked = rank(case, &decision.singles, &held_out);
@@ -113,10 +113,9 @@ pub fn assemble(case: &Case, decision: &Decision, beside: Beside) -> Result<Diag
     })
 }
 
-/// Whether the share of true answers is known: the made-up robots were planar, and lacked one effect.
+/// Whether the share of true answers is known: the made-up robots were planar.
 fn is_covered(case: &Case, added: &[Added]) -> bool {
-    let is_one = matches!(added, [one] if taken_away(&one.effect).is_none());
-    is_one && !case.first().scenario.is_spatial()
+    !added.is_empty() && !case.first().scenario.is_spatial()
 }
 
 /// Data after the first.
@@ -141,7 +140,7 @@ fn gauge_fit(case: &Case, block: &Block, last: &Fit) -> Option<GaugeFit> {
     Some(GaugeFit {
         dataset: block.source.dataset.name.clone(),
         set_kpa: kpa(|r| r.set_pa),
-        held_s: readings.iter().map(|r| r.held_s).collect(),
+        held_s: readings.iter().map(|r| r.at.held_s).collect(),
         read_kpa: kpa(|r| r.read_pa),
         with_added_kpa: readings.iter().zip(&after).map(|(r, after)| 1e-3 * (r.read_pa + after)).collect(),
         before_kpa: rms(&before),
@@ -196,7 +195,7 @@ fn confidence(case: &Case, decision: &Decision) -> Option<Confidence> {
 }
 
 /// By the gain of an answer and the number of answers that fit as well, itself included.
-pub fn confidence_of(gain: f64, rivals: usize) -> Confidence {
+pub(crate) fn confidence_of(gain: f64, rivals: usize) -> Confidence {
     match gain {
         gain if policy::is_a_hint(gain) => Confidence::Hint,
         gain if policy::is_beyond_doubt(gain) && rivals == 1 => Confidence::IdentifiedInCatalog,

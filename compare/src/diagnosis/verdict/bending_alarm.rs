@@ -10,7 +10,7 @@ use crate::diagnosis::result::BendingAlarm;
 use crate::policy;
 
 /// The alarm, where the stiffness is fitted and was told.
-pub fn bending_alarm(case: &Case, last: &Fit) -> Option<BendingAlarm> {
+pub(crate) fn bending_alarm(case: &Case, last: &Fit) -> Option<BendingAlarm> {
     let test = case.problem.known_bending;
     let told = test.map_or(case.first().scenario.bending_stiffness, |[found, _]| found);
     let is_off = |b: f64| match test {

@@ -11,7 +11,7 @@ use crate::policy;
 
 /// Two effects if a pair comes closer by a fifth than any single one, else one: the final model if it has as many and none of them
 /// comes closer by a fifth, else the nearest.
-pub fn closest(case: &Case, [singles, pairs]: [&[Fit]; 2], last: Fit) -> Fit {
+pub(crate) fn closest(case: &Case, [singles, pairs]: [&[Fit]; 2], last: Fit) -> Fit {
     let (singles, pairs) = (by_distance(case, singles), by_distance(case, pairs));
     let least = |fits: &[(f64, &Fit)]| fits.first().map_or(f64::INFINITY, |(error, _)| *error);
     let wants_two = policy::is_closer(least(&pairs), least(&singles));
@@ -26,7 +26,7 @@ pub fn closest(case: &Case, [singles, pairs]: [&[Fit]; 2], last: Fit) -> Fit {
 
 /// The closest, then what leaves the same distance to a fifth and less than the base: single effects, and beside a pair the pairs of
 /// which no member does so alone, nearest first.
-pub fn as_close(case: &Case, [singles, pairs]: [&[Fit]; 2], closest: &Fit) -> Vec<Fit> {
+pub(crate) fn as_close(case: &Case, [singles, pairs]: [&[Fit]; 2], closest: &Fit) -> Vec<Fit> {
     let added = |fit: &Fit| case.added(fit).to_vec();
     let (own, before) = (added(closest), case.error_in_all_mm(&case.base));
     let most = (case.error_in_all_mm(closest) / policy::CLOSER).min(before);
@@ -42,7 +42,11 @@ pub fn as_close(case: &Case, [singles, pairs]: [&[Fit]; 2], closest: &Fit) -> Ve
 }
 
 /// What follows from the design and takes a fifth of the error, the nearest first; none where the verdict is that nothing is missing.
-pub fn by_design<'d>(case: &Case, verdict: Option<Verdict>, singles: &'d [Fit]) -> impl Iterator<Item = &'d Fit> {
+pub(crate) fn by_design<'d>(
+    case: &Case,
+    verdict: Option<Verdict>,
+    singles: &'d [Fit],
+) -> impl Iterator<Item = &'d Fit> {
     let is_open = verdict != Some(Verdict::None);
     let before = case.error_in_all_mm(&case.base);
     let mut pay = by_distance(case, if is_open { singles } else { &[] });

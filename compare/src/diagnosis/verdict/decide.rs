@@ -3,6 +3,7 @@
 use crate::diagnosis::case::Case;
 use crate::diagnosis::closest::{as_close, closest};
 use crate::diagnosis::lack_of_fit::{lack_of_fit, with_supply};
+use crate::diagnosis::left_patterns::{ClearPattern, Simpler, alone, left_patterns};
 use crate::diagnosis::options::Options;
 use crate::diagnosis::order::{self, Ordered};
 use crate::diagnosis::pairs::{another_wanted, fit_pairs, indistinguishable as alike_pairs, p_over};
@@ -11,14 +12,13 @@ use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::{LackOfFit, Verdict};
 use crate::diagnosis::singles::indistinguishable;
 use crate::diagnosis::source::Source;
-use crate::diagnosis::stands_out::{Simpler, StandsOut, alone, stands_out};
 use crate::error::CompareError;
 use crate::policy;
 use crate::progress::Progress;
 use crate::stats::reported_p;
 
 /// Everything that was fitted, and what follows.
-pub struct Decision {
+pub(crate) struct Decision {
     pub singles: Ordered,
     /// Empty if one effect is enough.
     pub pairs: Ordered,
@@ -40,12 +40,12 @@ pub struct Decision {
 
 impl Decision {
     /// Everything of the catalogue that was fitted: single effects and pairs.
-    pub fn rivals(&self) -> Vec<Fit> {
+    pub(crate) fn rivals(&self) -> Vec<Fit> {
         [&self.singles.fits[..], &self.pairs.fits].concat()
     }
 
     /// The same without an answer: the data are not what they say.
-    pub fn withheld(self) -> Decision {
+    pub(crate) fn withheld(self) -> Decision {
         let singles = Ordered { set: Vec::new(), ..self.singles };
         let (pairs, p_value, before) = (Ordered::default(), self.p_value, self.before);
         let (last, as_close, verdict, fault) = (None, Vec::new(), None, None);
@@ -54,7 +54,7 @@ impl Decision {
 }
 
 /// Tests fits of single effects, fits pairs where they are wanted, and decides.
-pub fn decide(
+pub(crate) fn decide(
     case: &Case,
     (singles, allowance): (Vec<Fit>, f64),
     options: &Options,
@@ -143,12 +143,12 @@ fn is_unexplained(case: &Case, fit: &Fit, lof: Option<LackOfFit>, effects: usize
 
 /// Whether a place stands out of what a fit leaves, at a level.
 fn leaves_a_place(case: &Case, fit: &Fit, level: f64) -> bool {
-    let look = stands_out(case, fit);
+    let look = left_patterns(case, fit);
     look.first(false).is_some_and(|seen| is_a_place_left(case, fit, seen) && look.is_below(seen, level))
 }
 
 /// Whether a place that a fit leaves has a share of the error; amplitudes, as far as they were seen.
-fn is_a_place_left(case: &Case, fit: &Fit, seen: &StandsOut) -> bool {
+fn is_a_place_left(case: &Case, fit: &Fit, seen: &ClearPattern) -> bool {
     policy::is_a_place_left(seen.gain, case.gain(fit))
 }
 
@@ -160,8 +160,8 @@ fn simpler(case: &Case, last: &Fit) -> Option<Simpler> {
         ..=1 => (&[Fault::Place], policy::SAME_EVIDENCE),
         _ => (&[Fault::Place, Fault::Hold], 0.0),
     };
-    let allowance = |fault: &StandsOut| order::allowance(case.gain(last).max(fault.gain));
-    let is_simpler = |fault: &StandsOut| {
+    let allowance = |fault: &ClearPattern| order::allowance(case.gain(last).max(fault.gain));
+    let is_simpler = |fault: &ClearPattern| {
         let allowance = allowance(fault);
         let by_fault = order::criterion_of(case, case.base.cost() - fault.gain, 1, allowance);
         by_fault + margin < order::criterion(case, last, allowance)
@@ -224,7 +224,7 @@ fn p_of(case: &Case, fit: &Fit) -> Option<f64> {
 }
 
 /// Weighted Bonferroni over the two kinds of tests.
-pub fn combined(p_effect: f64, p_lack_of_fit: f64) -> f64 {
+pub(crate) fn combined(p_effect: f64, p_lack_of_fit: f64) -> f64 {
     (p_effect / policy::SHARE_OF_EFFECTS).min(p_lack_of_fit / (1.0 - policy::SHARE_OF_EFFECTS)).min(1.0)
 }
 

@@ -26,7 +26,7 @@ use data::Dataset;
 ///
 /// # Errors
 /// If a prediction is not finite or the covariance cannot be decomposed.
-pub fn lack_of_fit(
+pub(crate) fn lack_of_fit(
     dataset: &Dataset,
     noise: &NoiseModel,
     prediction_m: &[f64],
@@ -49,7 +49,7 @@ pub fn lack_of_fit(
 }
 
 /// The same with what the gauge says of the supply; `white` are its readings minus the laws, whitened.
-pub fn with_supply(lof: LackOfFit, gauge: &Gauge, white: &[f64]) -> LackOfFit {
+pub(crate) fn with_supply(lof: LackOfFit, gauge: &Gauge, white: &[f64]) -> LackOfFit {
     let chi2: f64 = white.iter().map(|w| w * w).sum();
     let p = f_tail(chi2 / white.len() as f64, white.len(), gauge.dof);
     LackOfFit { supply: Some(reported_p(p)), p_value: (1.25 * lof.p_value).min(reported_p(5.0 * p)), ..lof }

@@ -11,7 +11,7 @@ use crate::wording::list;
 use data::{Dataset, Hold, Phase};
 use models::Scenario;
 
-pub fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Vec<String> {
+pub(crate) fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Vec<String> {
     let mut limits = Vec::new();
     let holds = || datasets.iter().flat_map(|dataset| &dataset.holds);
     let mut levels: Vec<f64> = holds().map(Hold::sum_act_pa).filter(|p| *p > policy::ZERO_PRESSURE_PA).collect();
@@ -49,7 +49,7 @@ pub fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Vec<Strin
 
 /// Effects that act on the actuator of a robot in space and are not built for strips round the body, in one sentence; none of a planar
 /// robot.
-pub fn not_in_space(scenario: &Scenario) -> Vec<String> {
+pub(crate) fn not_in_space(scenario: &Scenario) -> Vec<String> {
     let catalogue = scenario.catalogue();
     let left_out = catalogue.effects().filter(|e| scenario.actuator.takes(e) && !scenario.takes(e));
     let names: Vec<String> = left_out.map(|e| e.name.to_string()).collect();
@@ -91,7 +91,7 @@ fn tests_of_their_own(case: &Case) -> Vec<String> {
     told.collect()
 }
 
-pub fn warnings(case: &Case) -> Vec<String> {
+pub(crate) fn warnings(case: &Case) -> Vec<String> {
     let mut warnings: Vec<String> = bending_test(case).into_iter().chain(tests_of_their_own(case)).collect();
     let target = &case.problem.blocks[0].target_m;
     let axes = case.first().dataset.axes;

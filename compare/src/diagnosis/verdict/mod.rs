@@ -1,11 +1,11 @@
 //! From fits to a verdict, and what else is to be said of the data.
 
-pub mod assemble;
-pub mod bending_alarm;
-pub mod closest;
-pub mod decide;
-pub mod lack_of_fit;
-pub mod limits;
-pub mod patterns;
-pub mod pressures;
-pub mod stands_out;
+pub(crate) mod assemble;
+pub(crate) mod bending_alarm;
+pub(crate) mod closest;
+pub(crate) mod decide;
+pub(crate) mod lack_of_fit;
+pub(crate) mod left_patterns;
+pub(crate) mod limits;
+pub(crate) mod patterns;
+pub(crate) mod pressures;

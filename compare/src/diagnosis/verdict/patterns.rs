@@ -21,7 +21,7 @@ use crate::wording::short;
 use data::{Hold, Phase};
 
 /// A pattern in the data.
-pub struct Pattern {
+pub(crate) struct Pattern {
     /// What it looks like, to follow "What is left looks as if".
     pub words: String,
     /// What would show it, to follow "Next:".
@@ -36,7 +36,7 @@ pub struct Pattern {
 
 /// A fault that one pattern tells by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fault {
+pub(crate) enum Fault {
     /// A place of the robot or a marker, with the times of the bending or none of its own.
     Place,
     /// One hold: a set point that was not reached.
@@ -80,7 +80,7 @@ struct Outline {
 }
 
 /// All patterns for a prediction in run layout \[m\]; none for data of another shape, and none in space.
-pub fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
+pub(crate) fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
     let Some(layout) = planar(case) else { return Vec::new() };
     let (markers, outlines) = (&case.first().dataset.markers, outlines(case, &layout, prediction_m));
     let bent = bending(&layout, prediction_m);
@@ -165,7 +165,7 @@ const AXES: [(&str, [f64; 2]); 2] = [("x", [1.0, 0.0]), ("y", [0.0, 1.0])];
 
 /// Uniform bending of every hold by itself, what any law of a uniform robot may do: of the outline, and as the model bends with
 /// pressure, which knows stretches without actuator.
-pub fn uniform_bending(case: &Case, prediction_m: &[f64]) -> Vec<Vec<f64>> {
+pub(crate) fn uniform_bending(case: &Case, prediction_m: &[f64]) -> Vec<Vec<f64>> {
     let Some(layout) = planar(case) else { return Vec::new() };
     let outlines = outlines(case, &layout, prediction_m);
     let bent = Place::Bends(stretches(case).iter().map(|[_, ds]| *ds).collect());

@@ -42,7 +42,7 @@ struct Weighed {
 }
 
 /// All data of a diagnosis.
-pub struct Pressures<'p> {
+pub(crate) struct Pressures<'p> {
     pub sources: &'p [Source],
     pub options: &'p Options,
 }
@@ -59,7 +59,7 @@ struct Undone {
 
 impl Pressures<'_> {
     /// The slip that beats the base and all `rivals`, if there is one.
-    pub fn found(
+    pub(crate) fn found(
         &self,
         case: &Case,
         rivals: impl FnOnce() -> Result<Vec<Fit>, CompareError>,
@@ -86,7 +86,7 @@ impl Pressures<'_> {
 
     /// Whether a slip is asked of other designs too: numbers alone look like one, or the base leaves
     /// a quarter of the movement.
-    pub fn may_slip_in_another_design(&self, case: &Case, verdict: Option<Verdict>) -> bool {
+    pub(crate) fn may_slip_in_another_design(&self, case: &Case, verdict: Option<Verdict>) -> bool {
         let looks = |Source { scenario, dataset, .. }: &Source| {
             PressureSlip::all(dataset, scenario.p_body_pa).iter().any(|slip| slip.is_in_numbers(dataset, scenario))
         };
@@ -127,7 +127,7 @@ impl Pressures<'_> {
     }
 
     /// What to say of data with which the base has no equilibrium: the slip without which it has one, else the error.
-    pub fn refusal(&self, error: CompareError) -> CompareError {
+    pub(crate) fn refusal(&self, error: CompareError) -> CompareError {
         match (&error, self.instead()) {
             (CompareError::Fit { .. } | CompareError::Unsolved(_), Some(found)) => {
                 CompareError::refused(found.words, "mend the column and run the same again")
@@ -213,7 +213,7 @@ pub fn pressure_slip(
 }
 
 /// The same of the robot with all mechanisms of the shipped one of its kind, or with none.
-pub fn slip_of_another_design(
+pub(crate) fn slip_of_another_design(
     scenario: &Scenario,
     evidence: &[Evidence],
     options: &Options,

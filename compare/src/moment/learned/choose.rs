@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 /// Missing moments, and where they were measured.
 #[derive(Debug, Clone)]
-pub struct Material {
+pub(crate) struct Material {
     /// κ, θ, P, p_b, s, R, B and pull of each, SI ([`Formula::moment_at`]).
     pub places: Vec<[f64; 8]>,
     /// Missing moment of each \[N·m\].
@@ -20,7 +20,7 @@ pub struct Material {
 
 /// A law of the library and how well it predicts.
 #[derive(Debug, Clone)]
-pub struct Tried {
+pub(crate) struct Tried {
     /// The law; `None`: nothing is missing.
     pub form: Option<&'static Form>,
     /// Of every level, the misfit there without it over the number of points.
@@ -31,13 +31,13 @@ pub struct Tried {
 
 impl Tried {
     /// What it misses at levels left out, in units of noise: root mean square over the levels.
-    pub fn score(&self) -> f64 {
+    pub(crate) fn score(&self) -> f64 {
         (self.of_levels.iter().sum::<f64>() / self.of_levels.len() as f64).sqrt()
     }
 }
 
 /// All laws, and none, by how well they predict levels that were left out, the best first; empty with fewer levels than that takes.
-pub fn rank(material: &Material, robot: &Scenario) -> Vec<Tried> {
+pub(crate) fn rank(material: &Material, robot: &Scenario) -> Vec<Tried> {
     let levels = material.levels();
     let count = levels.iter().max().map_or(0, |last| last + 1);
     if count < policy::FEWEST_LEVELS {
@@ -60,7 +60,7 @@ pub fn rank(material: &Material, robot: &Scenario) -> Vec<Tried> {
 
 /// Of laws with their numbers and what they miss at pressures left out, in units of noise, the one to take: the fewest numbers
 /// where no other is closer by a fifth, one noise added to each.
-pub fn taken(laws: &[(usize, f64)]) -> Option<usize> {
+pub(crate) fn taken(laws: &[(usize, f64)]) -> Option<usize> {
     let best = laws.iter().map(|(_, missed)| *missed).min_by(f64::total_cmp)?;
     let alike = (0..laws.len()).filter(|i| !policy::is_closer(1.0_f64.hypot(best), 1.0_f64.hypot(laws[*i].1)));
     alike.min_by(|a, b| laws[*a].0.cmp(&laws[*b].0).then(laws[*a].1.total_cmp(&laws[*b].1)))

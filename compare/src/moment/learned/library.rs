@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 /// In which unit of the robot a number is of order one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Unit {
+pub(crate) enum Unit {
     /// π p_b R³ \[N·m\].
     Moment,
     /// 10 π p_b R⁴ \[N·m²\]: that moment at a tenth of the sharpest bend.
@@ -26,7 +26,7 @@ pub enum Unit {
 
 /// One number of a law.
 #[derive(Debug, Clone, Copy)]
-pub struct Number {
+pub(crate) struct Number {
     /// Key in the formula.
     pub key: &'static str,
     pub unit: Unit,
@@ -38,7 +38,7 @@ pub struct Number {
 
 /// A law of the library.
 #[derive(Debug)]
-pub struct Form {
+pub(crate) struct Form {
     pub words: &'static str,
     /// The moment; `TIP` stands for half of the length over the radius.
     pub moment: &'static str,
@@ -49,7 +49,7 @@ pub struct Form {
 
 /// What laws of a shape usually are.
 #[derive(Debug, Clone, Copy)]
-pub struct Usual {
+pub(crate) struct Usual {
     pub words: &'static str,
     pub check: &'static str,
 }
@@ -126,10 +126,10 @@ const fn law(words: &'static str, moment: &'static str, numbers: &'static [Numbe
 }
 
 /// A share of the pull.
-pub const PULL: Form = law("a share of the pull", "-a*pull", &[A], SHARE);
+pub(crate) const PULL: Form = law("a share of the pull", "-a*pull", &[A], SHARE);
 
 /// Laws, those with fewer numbers first.
-pub const LIBRARY: &[Form] = &[
+pub(crate) const LIBRARY: &[Form] = &[
     law("a steady moment", "-m*tanh(kappa*R/0.002)", &[M], TENSION),
     law("a spring", "-k*kappa", &[K], STIFFNESS),
     PULL,
@@ -183,7 +183,7 @@ pub const LIBRARY: &[Form] = &[
 
 impl Number {
     /// Its unit in SI, on a robot.
-    pub fn scale(&self, robot: &Scenario) -> f64 {
+    pub(crate) fn scale(&self, robot: &Scenario) -> f64 {
         let (r, moment) = (robot.radius_m, PI * robot.p_body_pa * robot.radius_m.powi(3));
         match self.unit {
             Unit::Moment => moment,
@@ -193,7 +193,7 @@ impl Number {
         }
     }
 
-    pub fn unit_text(&self) -> &'static str {
+    pub(crate) fn unit_text(&self) -> &'static str {
         match self.unit {
             Unit::Moment => "N m",
             Unit::Stiffness => "N m2",
@@ -203,34 +203,34 @@ impl Number {
     }
 
     /// Whether the law is linear in it: then it vanishes without it.
-    pub fn is_linear(&self) -> bool {
+    pub(crate) fn is_linear(&self) -> bool {
         self.tried.is_empty()
     }
 }
 
 impl Form {
     /// Whether a part is proportional to the bend: it takes the place of a bending stiffness that is fitted.
-    pub fn has_spring(&self) -> bool {
+    pub(crate) fn has_spring(&self) -> bool {
         self.moment.contains("k*kappa") || self.moment.contains("^n")
     }
 
     /// Whether it can be told from another only where the body's pressure changes.
-    pub fn is_of_body(&self) -> bool {
+    pub(crate) fn is_of_body(&self) -> bool {
         self.usual.words == BODY.words
     }
 
     /// Whether it is a bending stiffness and nothing else.
-    pub fn is_stiffness(&self) -> bool {
+    pub(crate) fn is_stiffness(&self) -> bool {
         self.usual.words == STIFFNESS.words
     }
 
     /// The moment on a robot, whose tip lies so many diameters away.
-    pub fn moment_of(&self, robot: &Scenario) -> String {
+    pub(crate) fn moment_of(&self, robot: &Scenario) -> String {
         self.moment.replace("TIP", &tidy(0.5 * robot.length_m / robot.radius_m).to_string())
     }
 
     /// As a `[[formula]]` of a scenario.
-    pub fn toml(&self, name: &str, robot: &Scenario) -> String {
+    pub(crate) fn toml(&self, name: &str, robot: &Scenario) -> String {
         let Form { words, usual: Usual { words: usual, check }, .. } = self;
         let moment = self.moment_of(robot);
         let mut out = format!(
@@ -254,7 +254,7 @@ impl Form {
     }
 
     /// Compiled, for a robot.
-    pub fn formula(&self, name: &str, robot: &Scenario) -> Option<Arc<Formula>> {
+    pub(crate) fn formula(&self, name: &str, robot: &Scenario) -> Option<Arc<Formula>> {
         let body = "[body]\nradius_mm = 40\nlength_mm = 360\npressure_kpa = 2\n";
         Scenario::parse(&format!("{body}{}", self.toml(name, robot))).ok()?.formulas.pop()
     }

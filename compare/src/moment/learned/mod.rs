@@ -13,7 +13,7 @@ mod library;
 #[cfg(test)]
 mod tests;
 
-pub use choose::{Material, Tried, rank, taken};
-pub use library::{Form, PULL};
+pub(crate) use choose::{Material, Tried, rank, taken};
+pub(crate) use library::{Form, PULL};
 #[cfg(test)]
-pub use library::{LIBRARY, Number};
+pub(crate) use library::{LIBRARY, Number};

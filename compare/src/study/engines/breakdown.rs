@@ -104,9 +104,6 @@ pub struct PartingShape {
 }
 
 /// Every run of one of these robots at every pressure.
-///
-/// # Errors
-/// A model without equilibrium.
 pub fn partings(scenarios: &[Scenario], runs: &[EngineRun]) -> Result<Vec<Parting>, CompareError> {
     let mut rows = Vec::new();
     for run in runs.iter().filter(|run| run.cut.is_empty()) {

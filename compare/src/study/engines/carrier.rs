@@ -49,9 +49,6 @@ impl Cut {
 }
 
 /// What carries the difference of a pair of this run, of all runs.
-///
-/// # Errors
-/// A model without equilibrium.
 pub fn carrier(
     scenario: &Scenario,
     run: &EngineRun,
@@ -74,7 +71,6 @@ pub fn carrier(
     Ok(best)
 }
 
-/// Robot, place and mesh of a run.
 fn place(run: &EngineRun) -> (&str, &str, [u64; 2], usize, [f64; 4]) {
     let lengths = [run.body_kpa, run.pouch_mm, run.radius_mm, run.width_mm];
     (&run.actuator, &run.scenario, run.mesh_mm.map(f64::to_bits), run.count, lengths)

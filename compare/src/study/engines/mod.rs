@@ -17,21 +17,19 @@ mod of_run;
 mod robots;
 mod volumes;
 
-pub use carrier::{CUTS, Carrier, Cut, carrier};
-pub use lines::*;
-pub use of_run::{all_runs, as_run, known_runs, of_the_program, runs_of, seed_jobs};
-pub(in crate::study) use of_run::{and_back, is_paper};
-pub use robots::{EngineRobot, Engines, PartingMap, engines, varied};
-pub use volumes::{BodyVolumes, MeanVolumes, Volumes, body_volumes, volumes};
-
-use crate::accuracy::paper_accuracy;
 use crate::characterize::Scatter;
 use crate::error::CompareError;
 use crate::policy;
+pub use carrier::{CUTS, Carrier, Cut, carrier};
 use fem::FemError;
 use fem::record::RecordShape;
+pub use lines::*;
 use models::{Account, Loads, Model, Scenario, Target};
+pub use of_run::{all_runs, as_run, known_runs, of_the_program, runs_of, seed_jobs};
+pub(in crate::study) use of_run::{and_back, is_paper};
+pub use robots::{EngineRobot, Engines, PartingMap, engines, varied};
 use serde::{Deserialize, Serialize};
+pub use volumes::{BodyVolumes, MeanVolumes, Volumes, body_volumes, volumes};
 
 /// Terms of the common ledger.
 pub const TERMS: [&str; 7] =
@@ -165,9 +163,6 @@ impl EnginePair {
 }
 
 /// Both engines at every pressure of a run; runs of the same robot with a term cut say what carries a difference.
-///
-/// # Errors
-/// A model without equilibrium.
 pub fn pairs(scenario: &Scenario, run: &EngineRun, all: &[EngineRun]) -> Result<Vec<EnginePair>, CompareError> {
     let Some((filled, states)) = run.states.split_first() else { return Ok(Vec::new()) };
     let mut pairs = states.iter().map(|state| pair(scenario, run, filled, state)).collect::<Result<Vec<_>, _>>()?;
@@ -265,12 +260,6 @@ fn fe_ledger(run: &EngineRun, filled: &EngineState, state: &EngineState) -> Ener
     ]
 }
 
-/// The paper's accuracy of one displacement against one measurement.
-pub fn accuracy(model_mm: f64, measured_mm: f64) -> Option<f64> {
-    paper_accuracy(&[model_mm], &[measured_mm])
-}
-
-/// Files of finite element runs.
 const RUNS: RecordShape = RecordShape { schema: "ibr.fem_runs", version: 2 };
 
 /// A record of runs.

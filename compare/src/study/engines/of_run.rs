@@ -73,7 +73,6 @@ pub(in crate::study) fn is_paper(summary: &Summary) -> bool {
     summary.robot.as_ref().is_some_and(|robot| robot.model == Preset::Paper.name())
 }
 
-/// Pressures up and down again.
 pub(in crate::study) fn and_back(up: &[f64]) -> Vec<f64> {
     up.iter().chain(up.iter().rev().skip(1)).copied().collect()
 }
@@ -103,10 +102,7 @@ pub fn seed_jobs(
 }
 
 /// Runs of robots, each problem once: read if they are there, made or gone on with if not. A run that a guard stopped is its
-/// error.
-///
-/// # Errors
-/// Those of [`simulate_all`].
+/// error. Errors as for [`simulate_all`].
 pub fn runs_of(
     jobs: &[Job],
     settings: &Settings,

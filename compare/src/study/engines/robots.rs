@@ -20,8 +20,6 @@ pub struct EngineRobot {
     pub ensemble: Ensemble,
     /// Hypercubes over what nobody measured that come with the program, one for every way that the robot may be made.
     pub uncertain: Vec<Uncertain>,
-    /// The first run, if there is one.
-    pub run: Option<EngineRun>,
     /// Both engines at this run's pressures.
     pub pairs: Vec<EnginePair>,
     /// What its finite element bodies lose, at every body pressure that was run.
@@ -73,16 +71,14 @@ fn robot(scenario: &Scenario, runs: &[EngineRun]) -> Result<EngineRobot, Compare
     }
     let ensemble = ensemble(runs, scenario);
     let uncertain = if shipped { uncertain::stored()? } else { Vec::new() };
-    let run = ensemble.runs.first().cloned();
     Ok(EngineRobot {
         published: printed,
         with_effects,
         uncertain: uncertain.into_iter().filter(|u| u.scenario == scenario.name).collect(),
-        pairs: run.as_ref().map_or(Ok(Vec::new()), |run| pairs(scenario, run, runs))?,
+        pairs: ensemble.runs.first().map_or(Ok(Vec::new()), |run| pairs(scenario, run, runs))?,
         bodies: body_volumes(scenario, runs),
         scenario: scenario.clone(),
         ensemble,
-        run,
     })
 }
 

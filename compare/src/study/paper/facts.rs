@@ -48,8 +48,8 @@ pub struct FactRow {
 /// What a check found, in words, and what follows; `None` without the numbers or runs that it needs.
 pub(super) type FactFound = Option<(String, FactVerdict)>;
 
-/// Name of a fact, the reason if its check finds nothing, and the check.
-pub(super) type FactCheck = (&'static str, &'static str, fn(&FactCase) -> FactFound);
+/// Name of a fact and its check.
+pub(super) type FactCheck = (&'static str, fn(&FactCase) -> FactFound);
 
 pub(super) fn holds_if(holds: bool, found: String, else_by: impl Into<String>) -> FactFound {
     Some((found, if holds { FactVerdict::Holds } else { FactVerdict::Misses(else_by.into()) }))
@@ -76,17 +76,17 @@ pub(super) struct FactCase<'a> {
 
 impl<'a> FactCase<'a> {
     /// A number of the fact; NaN if the file has fewer, which a test refuses.
-    pub fn number(&self, k: usize) -> f64 {
+    pub(super) fn number(&self, k: usize) -> f64 {
         self.numbers.get(k).copied().unwrap_or(f64::NAN)
     }
 
     /// Largest measured displacement \[mm\].
-    pub fn d_max_mm(&self, kind: &str) -> Option<f64> {
+    pub(super) fn d_max_mm(&self, kind: &str) -> Option<f64> {
         Some(self.paper.actuator(kind)?.d_max_m * 1e3)
     }
 
     /// Runs of the robots at the pressures on the finest mesh that has all of them.
-    pub fn all(&self, wanted: &[(&str, f64)]) -> Option<([f64; 2], Vec<&'a PaperRun>)> {
+    pub(super) fn all(&self, wanted: &[(&str, f64)]) -> Option<([f64; 2], Vec<&'a PaperRun>)> {
         MESHES_MM.iter().rev().find_map(|mesh| {
             let found = wanted.iter().map(|(kind, kpa)| find(self.runs, kind, *mesh, *kpa));
             Some((*mesh, found.collect::<Option<_>>()?))

@@ -8,15 +8,14 @@ mod in_print;
 mod in_runs;
 mod jobs;
 
-pub use checked::facts;
-pub use facts::{FactRow, FactVerdict};
-pub use implied::{HeightRow, Implied, against, heights};
-pub use jobs::{jobs, runs_below};
-
 use crate::policy;
 use crate::study::engines::{EngineRun, EngineState, Listed};
+pub use checked::facts;
+pub use facts::{FactRow, FactVerdict};
 use fem::FemError;
 use fem::record::RecordShape;
+pub use implied::{HeightRow, Implied, against, heights};
+pub use jobs::{jobs, runs_below};
 use serde::{Deserialize, Serialize};
 
 /// Meshes of the paper: the coarsest of its study on body and actuator, and the final one \[mm\].
@@ -62,7 +61,6 @@ pub struct Peak {
     pub on_seam: bool,
 }
 
-/// Files of such runs.
 const RUNS: RecordShape = RecordShape { schema: "ibr.paper_runs", version: 2 };
 
 /// Runs of the preset that come with the program, made by `ibr compare --paper --runs FOLDER`.

@@ -4,11 +4,10 @@
 //! finite elements: welds of 3 mm, a bending stiffness of 0.2 of that of a solid sheet, ν₁₂ = 0.2.
 
 use data::{Published, PublishedFabric};
-use models::Known;
-use models::Scenario;
 use models::actuators::Family;
 use models::fabrics::shear_modulus;
 use models::scenario::ActuatorChoice;
+use models::{Known, Scenario};
 
 /// An effect to add, with the origin of its value (SI).
 pub(super) struct MechanicsPart {

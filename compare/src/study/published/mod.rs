@@ -11,8 +11,7 @@ pub mod tradeoff;
 use crate::error::CompareError;
 use data::{Published, PublishedActuator, published};
 use mechanics::{additions, with};
-use models::Known;
-use models::{Loads, Model, Scenario, shipped};
+use models::{Known, Loads, Model, Scenario, shipped};
 use serde::Serialize;
 use spelling::si;
 
@@ -104,9 +103,6 @@ fn ladder(paper: &Published, actuator: &PublishedActuator) -> Result<PublishedLa
 }
 
 /// The scenario that comes with the library for an actuator kind.
-///
-/// # Errors
-/// An unknown kind.
 pub fn shipped_scenario(kind: &str) -> Result<Scenario, CompareError> {
     let missing = |problem: String| CompareError::NoScenario { kind: kind.to_string(), problem };
     let text = shipped(kind).ok_or_else(|| missing("there is none".into()))?;
@@ -114,9 +110,6 @@ pub fn shipped_scenario(kind: &str) -> Result<Scenario, CompareError> {
 }
 
 /// The same without the mechanics that textbook models lack.
-///
-/// # Errors
-/// An unknown kind.
 pub fn textbook_scenario(kind: &str) -> Result<Scenario, CompareError> {
     shipped_scenario(&format!("{kind}-textbook"))
 }
@@ -130,7 +123,10 @@ fn start(scenario: &Scenario, loads: &Loads) -> Result<Rung, CompareError> {
 }
 
 /// Heights of the outermost marker, else of the tip, and of the tip \[m\].
-pub(crate) fn heights_m(scenario: &Scenario, loads: &Loads) -> Result<[f64; 2], CompareError> {
+///
+/// # Errors
+/// No equilibrium.
+pub fn heights_m(scenario: &Scenario, loads: &Loads) -> Result<[f64; 2], CompareError> {
     let model = Model::new(scenario);
     let mut state = model.prediction();
     model.predict(loads, &mut state)?;

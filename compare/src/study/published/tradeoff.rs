@@ -31,9 +31,6 @@ const BATCHES: usize = 21;
 const PER_BATCH: usize = 500;
 
 /// Median time of one prediction at pressures from 10 to 30 kPa \[s\].
-///
-/// # Errors
-/// What the model returns.
 pub fn time_prediction(scenario: &Scenario) -> Result<f64, CompareError> {
     let model = Model::new(scenario);
     let mut state = model.prediction();
@@ -52,9 +49,6 @@ pub fn time_prediction(scenario: &Scenario) -> Result<f64, CompareError> {
 }
 
 /// Times every rung of the published ladders.
-///
-/// # Errors
-/// What the models return.
 pub fn tradeoff(ladders: &[PublishedLadder]) -> Result<Vec<Timing>, CompareError> {
     let mut timings = Vec::new();
     for ladder in ladders {

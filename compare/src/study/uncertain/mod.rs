@@ -18,16 +18,14 @@
 
 mod of_run;
 
-pub use crate::policy::is_same_reading;
-pub use of_run::Intervals;
-
 use crate::policy;
-use nalgebra::{DMatrix, DVector};
-use serde::{Deserialize, Serialize};
-
+pub use crate::policy::is_same_reading;
 use crate::stats::quantile;
 use fem::FemError;
 use fem::record::RecordShape;
+use nalgebra::{DMatrix, DVector};
+pub use of_run::Intervals;
+use serde::{Deserialize, Serialize};
 
 /// Ends of the interval that is told, and its middle.
 pub const QUANTILES: [f64; 3] = [0.1, 0.5, 0.9];
@@ -104,7 +102,6 @@ pub struct Weight {
     pub share: f64,
 }
 
-/// Records of hypercubes.
 const RECORD: RecordShape = RecordShape { schema: "ibr.uncertain", version: 1 };
 
 /// Hypercubes of the paper's robots, as `ibr simulate NAME --uncertain` wrote them.

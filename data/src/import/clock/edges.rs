@@ -5,7 +5,6 @@ use super::super::options::ImportOptions;
 use super::track::Track;
 use crate::policy::{is_a_room, tolerance_act_pa, tolerance_body_pa};
 
-/// One change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Edge {
     /// When half of it has happened \[s\].

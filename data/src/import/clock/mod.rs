@@ -12,7 +12,8 @@ mod tests;
 mod track;
 
 use super::options::{ImportOptions, Offset};
-use super::recording::{FrameClock, Recording};
+use super::recording::Recording;
+use crate::error::ClockTracks;
 use crate::policy::{SAME_ACTUATOR_PA, tolerance_act_pa};
 use edges::Edge;
 use follows::{Frame, follows};
@@ -36,7 +37,6 @@ const ON_ITS_WAY: f64 = 0.2;
 /// Part of the range of the pressure by which it turns.
 const TURN: f64 = 0.05;
 
-/// Readings of a pressure log.
 pub(crate) struct Readings<'a> {
     pub times_s: &'a [f64],
     /// Body's and actuator's pressure \[Pa\].
@@ -47,15 +47,8 @@ pub(crate) struct Readings<'a> {
 pub(crate) type Agreed = Result<(Clock, String), [String; 2]>;
 
 /// Checks the clock that the caller gives, or finds it.
-///
-/// # Errors
-/// Movement and pressure contradict the clock; none is found, or several are.
 pub(crate) fn agree(readings: &Readings, recording: &Recording, options: &ImportOptions) -> Agreed {
-    let given = match options.offset {
-        Offset::Given(offset_s) => Some(Clock { offset_s, rate: 1.0 }),
-        Offset::Same => Some(Clock { offset_s: 0.0, rate: 1.0 }),
-        Offset::Find => None,
-    };
+    let given = given(options);
     let act = || readings.values_pa[1].iter().copied().filter(|p| p.is_finite());
     let (low, high) = (act().fold(f64::INFINITY, f64::min), act().fold(f64::NEG_INFINITY, f64::max));
     let unseen = |why: &str| given.map(|clock| (clock, kept(options.offset))).ok_or_else(|| nothing(recording, why));
@@ -63,11 +56,7 @@ pub(crate) fn agree(readings: &Readings, recording: &Recording, options: &Import
         return unseen("the actuator's pressure does not change");
     }
     let Some(track) = Track::of(recording) else { return unseen("no marker moves") };
-    let ends = |times: &[f64]| [times[0], times[times.len() - 1]];
-    let log = edges::of_log(readings.times_s, readings.values_pa, options);
-    let gap_s = edges::usual_gap_s(&log, ends(readings.times_s));
-    let camera = if log.is_empty() { Vec::new() } else { edges::of_movement(&track, gap_s) };
-    let [log, camera] = [log, camera].map(|found| if edges::too_many(&found) { Vec::new() } else { found });
+    let (log, camera, gap_s) = changes(readings, &track, options);
     let sides =
         Sides { camera: &camera, log: &log, camera_s: ends(&track.times), log_s: ends(readings.times_s), gap_s };
     let judge = Judge::of(&sides, &track, readings, options, (TURN * (high - low)).max(SAME_ACTUATOR_PA));
@@ -75,6 +64,58 @@ pub(crate) fn agree(readings: &Readings, recording: &Recording, options: &Import
         Some(clock) => judge.check(clock, recording, options.offset),
         None => judge.find(recording),
     }
+}
+
+fn given(options: &ImportOptions) -> Option<Clock> {
+    match options.offset {
+        Offset::Given(offset_s) => Some(Clock { offset_s, rate: 1.0 }),
+        Offset::Same => Some(Clock { offset_s: 0.0, rate: 1.0 }),
+        Offset::Find => None,
+    }
+}
+
+fn ends(times: &[f64]) -> [f64; 2] {
+    [times[0], times[times.len() - 1]]
+}
+
+/// Changes of pressure and of movement, and the usual time between those of the pressure \[s\].
+fn changes(readings: &Readings, track: &Track, options: &ImportOptions) -> (Vec<Edge>, Vec<Edge>, f64) {
+    let log = edges::of_log(readings.times_s, readings.values_pa, options);
+    let gap_s = edges::usual_gap_s(&log, ends(readings.times_s));
+    let camera = if log.is_empty() { Vec::new() } else { edges::of_movement(track, gap_s) };
+    let [log, camera] = [log, camera].map(|found| if edges::too_many(&found) { Vec::new() } else { found });
+    (log, camera, gap_s)
+}
+
+/// Points of a track in a picture.
+const MOST_POINTS: usize = 2_000;
+
+/// Movement and pressure as the clock of the caller puts them next to each other; without one both begin at the log's first reading.
+/// `None` if no marker moves.
+pub(crate) fn tracks(readings: &Readings, recording: &Recording, options: &ImportOptions) -> Option<ClockTracks> {
+    let track = Track::of(recording)?;
+    let (log, camera, _) = changes(readings, &track, options);
+    let begin_s = readings.times_s[0] - track.times[0];
+    let clock = given(options).unwrap_or(Clock { offset_s: begin_s, rate: 1.0 });
+    let shares = |times: &[f64], values: &[f64]| {
+        let known = || values.iter().copied().filter(|v| v.is_finite());
+        let (low, high) = (known().fold(f64::INFINITY, f64::min), known().fold(f64::NEG_INFINITY, f64::max));
+        let point = |(t, v): (&f64, &f64)| [*t, (v - low) / (high - low).max(f64::MIN_POSITIVE)];
+        times.iter().zip(values).step_by(times.len().div_ceil(MOST_POINTS)).map(point).collect::<Vec<_>>()
+    };
+    let [moved, pressed] = [&camera, &log].map(|edges| edges.iter().map(|edge| edge.t_s).collect::<Vec<f64>>());
+    let of_log = |times: &[f64]| times.iter().map(|t| clock.at(*t)).collect::<Vec<f64>>();
+    let mut movement = shares(&of_log(&track.times), &track.along());
+    // From the first frame on, which is usually at rest.
+    if movement.first().is_some_and(|[_, share]| *share > 0.5) {
+        movement.iter_mut().for_each(|[_, share]| *share = 1.0 - *share);
+    }
+    Some(ClockTracks {
+        movement,
+        pressure: shares(readings.times_s, readings.values_pa[1]),
+        changes_s: [of_log(&moved), pressed],
+        offset_s: clock.offset_s,
+    })
 }
 
 /// What was assumed, where nothing contradicts it.
@@ -86,8 +127,7 @@ fn kept(offset: Offset) -> String {
 }
 
 fn nothing(recording: &Recording, why: &str) -> [String; 2] {
-    let rate =
-        if recording.clock == FrameClock::Frames { "; check --fps, and whether the frame rate varies" } else { "" };
+    let rate = if recording.in_seconds { "" } else { "; check --fps, and whether the frame rate varies" };
     [
         format!("movement and pressure do not show the offset of the clocks: {why}"),
         format!("give the log's time minus the camera's: --clock-offset 0s, or what a flash or a knock shows{rate}"),
@@ -205,7 +245,7 @@ impl<'a> Judge<'a> {
     fn words(&self, candidate: &Candidate, recording: &Recording) -> String {
         let Clock { offset_s, rate } = candidate.clock;
         let most = self.sides.camera.len().max(self.sides.log.len());
-        let rate = match self.frames_per_s.filter(|_| recording.clock == FrameClock::Frames) {
+        let rate = match self.frames_per_s.filter(|_| !recording.in_seconds) {
             _ if rate == 1.0 => String::new(),
             None => format!(", and runs {rate:.4} times as fast"),
             Some(fps) => format!(" with {:.3} frames per second", fps / rate),

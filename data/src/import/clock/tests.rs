@@ -2,7 +2,7 @@
 
 use super::{Readings, agree};
 use crate::import::options::{ImportOptions, Offset};
-use crate::import::recording::{FrameClock, Lengths, Pivot, Recording};
+use crate::import::recording::{Lengths, Pivot, Recording};
 
 /// Uniform numbers in 0..1 (Knuth's MMIX constants).
 struct Dice(u64);
@@ -65,7 +65,7 @@ impl Take {
         let end_s = levels.len() as f64 * self.hold_s;
         let [begin, stop] =
             [self.hold_s * (self.misses as f64 + 1.0 - self.margins[0]), end_s - self.hold_s * (1.0 - self.margins[1])];
-        let mut pivot = Pivot::new(Lengths::Pixels, FrameClock::Seconds);
+        let mut pivot = Pivot::new(Lengths::Pixels, true);
         let markers = [100.0, 200.0, 300.0].map(|s| (pivot.marker(&format!("{s}")), s));
         let (mut bend, mut t_s, mut shown_s) = (0.0, begin - 20.0, 0.0);
         while t_s < stop {

@@ -51,7 +51,6 @@ impl Track {
         Some(Track { times, columns, noise, direction })
     }
 
-    /// Movement along the principal direction.
     pub(super) fn along(&self) -> Vec<f64> {
         let at = |k: usize| self.direction.iter().zip(&self.columns).map(|(d, values)| d * values[k]).sum();
         (0..self.times.len()).map(at).collect()

@@ -18,13 +18,12 @@ const DAMPING: f64 = 0.1;
 #[derive(Debug, Clone, Default)]
 pub(super) struct Held {
     pub forces: Vec<(u32, V3)>,
-    /// Positions one step before.
     pub before_m: Vec<[f64; 4]>,
     pub lost_j: f64,
 }
 
 /// Contact between sides of elements, and what keeps everything from passing through each other.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Edges {
     pub(super) sides: Sides,
     pub(super) mass_kg: Vec<f64>,
@@ -37,7 +36,6 @@ pub struct Edges {
     pub(super) reach_m: f64,
     pub(super) skin_m: f64,
     pub(super) chunks: Vec<Chunk>,
-    /// Positions at the last search.
     pub(super) placed_m: Vec<[f64; 4]>,
     pub(super) path_m: f64,
     pub(super) search_due_m: f64,
@@ -76,14 +74,7 @@ impl Edges {
             thickness_m: settings.thickness_m.min(0.25 * surface.size_m),
             reach_m: settings.thickness_m.max(4.0 * settings.gap_m),
             skin_m: 0.25 * surface.size_m,
-            chunks: Vec::new(),
-            placed_m: Vec::new(),
-            path_m: 0.0,
-            search_due_m: 0.0,
-            searches: 0,
-            stored_j: 0.0,
-            lost_j: 0.0,
-            held: Held::default(),
+            ..Edges::default()
         };
         edges.search(&x);
         edges.start_gaps(&x);

@@ -20,7 +20,6 @@ pub(super) struct Hit {
     pub nodes: [u32; 4],
     /// How far it may close \[m\].
     pub(crate) most_m: f64,
-    /// When it meets.
     pub touch: Touch,
 }
 
@@ -31,7 +30,6 @@ pub(super) struct Look<'a> {
     pub(crate) path_m: f64,
     /// What is closer than this is one.
     pub one_m: f64,
-    /// Distance that meetings leave.
     pub least_m: f64,
 }
 
@@ -51,7 +49,6 @@ pub(super) struct Chunk {
     /// Path of the fastest node at which springs, and meetings, must be looked at again.
     pub(crate) press_due_m: f64,
     pub(crate) cross_due_m: f64,
-    /// Forces of the last step.
     #[serde(skip)]
     pub pushes: Vec<Push>,
     /// Energy stored, and lost in the last step \[J\].

@@ -150,7 +150,6 @@ fn furthest_m(motion: &[V3]) -> f64 {
     motion.iter().map(|m| dot(*m, *m)).fold(0.0, f64::max).sqrt()
 }
 
-/// Nodes that move as one.
 #[derive(Debug, Default)]
 struct Zones {
     of: BTreeMap<u32, u32>,

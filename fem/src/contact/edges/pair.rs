@@ -102,7 +102,9 @@ impl Pair {
         if !touch.inside || (idle && touch.distance_m >= self.rest_m) {
             self.on = false;
             self.rest_m = if touch.inside { self.wanted_m.min(touch.distance_m) } else { self.wanted_m };
-            sums[1] += self.release();
+            // Lets go of what the spring holds.
+            sums[1] += 0.5 * self.stiffness_n_m * self.deep_m * self.deep_m;
+            (self.deep_m, self.damped_n) = (0.0, 0.0);
             return 0.0;
         }
         if !self.on {
@@ -141,13 +143,6 @@ impl Pair {
     pub(crate) fn idle_m(&self, touch: &Touch) -> f64 {
         let gap_m = if touch.inside { self.rest_m } else { self.wanted_m };
         if self.on { 0.0 } else { (touch.distance_m - gap_m).max(SLACK * self.wanted_m) }
-    }
-
-    /// Lets go of what the spring holds; returns the energy lost.
-    pub(super) fn release(&mut self) -> f64 {
-        let lost = 0.5 * self.stiffness_n_m * self.deep_m * self.deep_m;
-        (self.deep_m, self.damped_n) = (0.0, 0.0);
-        lost
     }
 
     /// Touch when the distance falls to `stop` within the motion `by` (additive continuous collision

@@ -6,7 +6,7 @@ use super::super::closest::TRIANGLES;
 use super::super::search::{Grid, Placed};
 use super::super::surface::{NONE, Surface};
 use super::pair::touch;
-use crate::vec3::{V3, add, node, scale};
+use crate::vec3::{self, V3, add, node, scale};
 
 const PIECE: usize = 256;
 
@@ -81,7 +81,6 @@ fn gather(count: usize, of: impl Fn(u32, &mut Vec<u32>) -> u32 + Sync) -> Vec<[u
     found.concat()
 }
 
-/// Lowest and highest corner.
 type Bounds = [V3; 2];
 
 /// Items by the column in which their middle lies, with their boxes, which are larger by the radius.
@@ -97,12 +96,7 @@ fn touch_each_other(a: Bounds, b: Bounds) -> bool {
 }
 
 fn bounds(x: &[[f64; 4]], nodes: &[u32]) -> Bounds {
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for n in nodes {
-        let p = node(x, *n as usize);
-        (0..3).for_each(|k| (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k])));
-    }
-    [low, high]
+    vec3::bounds(nodes.iter().map(|n| node(x, *n as usize)))
 }
 
 impl Boxes {

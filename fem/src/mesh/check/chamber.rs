@@ -1,10 +1,9 @@
 //! Chambers: closed, bounded by one consistently oriented surface, with the gas inside.
 
-use super::words::{describe, fault, millimetres};
+use super::words::{describe, fault, meant, millimetres};
 use crate::FemError;
-use crate::mesh::names::meant;
 use crate::mesh::{Mesh, Part};
-use crate::vec3::{area, centre, norm, scale, sub};
+use crate::vec3::{area, centre, extent, norm, scale, sub};
 
 /// Share of the area to the power 3/2 below which a volume is flat and has no sign.
 const FLAT: f64 = 1e-9;
@@ -19,7 +18,6 @@ pub(super) struct Closed {
     pub(super) seams: usize,
 }
 
-/// One side of a face.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Use {
     low: u32,
@@ -84,11 +82,8 @@ pub fn planes(mesh: &Mesh, edges: &[[u32; 2]], held: impl Fn(u32, usize) -> bool
 
 /// Distance within which nodes of these edges count as lying in one plane \[m\].
 pub fn near(mesh: &Mesh, edges: &[[u32; 2]]) -> f64 {
-    let reach = |k: usize| {
-        let along = || edges.iter().flatten().map(|n| mesh.start_of(*n as usize)[k]);
-        along().fold(f64::NEG_INFINITY, f64::max) - along().fold(f64::INFINITY, f64::min)
-    };
-    IN_PLANE * (0..3).map(reach).fold(0.0, f64::max)
+    let reach = extent(edges.iter().flatten().map(|n| mesh.start_of(*n as usize)));
+    IN_PLANE * reach.into_iter().fold(0.0, f64::max)
 }
 
 /// Sorted, those within `near` of another left out.
@@ -149,13 +144,8 @@ fn openings(mesh: &Mesh, open: &[&str]) -> Result<Vec<Opening>, FemError> {
             return fault(format!("there is no set `{name}` to be open at{meant}"));
         };
         let mut nodes = vec![false; mesh.points.len()];
-        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for node in members {
-            nodes[*node as usize] = true;
-            let x = mesh.start_of(*node as usize);
-            (0..3).for_each(|k| (low[k], high[k]) = (low[k].min(x[k]), high[k].max(x[k])));
-        }
-        let spread = sub(high, low);
+        members.iter().for_each(|node| nodes[*node as usize] = true);
+        let spread = extent(members.iter().map(|node| mesh.start_of(*node as usize)));
         openings.push(Opening { nodes, flat: spread.map(|s| s <= IN_PLANE * norm(spread)) });
     }
     Ok(openings)
@@ -188,10 +178,6 @@ fn tied(mesh: &Mesh) -> Vec<bool> {
     tied
 }
 
-fn describe_use(mesh: &Mesh, edge: &Use) -> String {
-    describe(&mesh.parts[edge.part], edge.element)
-}
-
 /// "the edge between nodes 5 and 6 at (1.0, 2.0, 0.0) mm".
 fn describe_edge(mesh: &Mesh, edge: &Use) -> String {
     let ends = [edge.low, edge.high].map(|n| mesh.start_of(n as usize));
@@ -204,12 +190,12 @@ fn leak(mesh: &Mesh, chamber: &str, edge: Use, uses: &[Use]) -> FemError {
         "chamber `{chamber}` is open: {} belongs to {} only ({open} such edges); close it, weld the nodes there, or name \
          the set of nodes at which it may be open",
         describe_edge(mesh, &edge),
-        describe_use(mesh, &edge)
+        describe(&mesh.parts[edge.part], edge.element)
     ))
 }
 
 fn pinch(mesh: &Mesh, chamber: &str, edge: &[Use]) -> FemError {
-    let elements: Vec<String> = edge.iter().map(|u| describe_use(mesh, u)).collect();
+    let elements: Vec<String> = edge.iter().map(|u| describe(&mesh.parts[u.part], u.element)).collect();
     FemError::Mesh(format!(
         "chamber `{chamber}` is not the inside of a closed surface: {} of its faces meet at {}: {}; a wall that ends inside \
          a chamber must have it on both sides, or one of these is turned over",
@@ -230,9 +216,9 @@ fn flipped(mesh: &Mesh, chamber: &str, turned: &[(Use, Use)]) -> FemError {
     FemError::Mesh(format!(
         "{} is turned over: at {} it faces chamber `{chamber}` the other way than {} ({} such edges); list its nodes in \
          the opposite order, or swap front and back of its part",
-        describe_use(mesh, wrong),
+        describe(&mesh.parts[wrong.part], wrong.element),
         describe_edge(mesh, wrong),
-        describe_use(mesh, right),
+        describe(&mesh.parts[right.part], right.element),
         turned.len()
     ))
 }

@@ -23,8 +23,7 @@ pub(crate) use words::describe;
 
 use crate::FemError;
 use crate::mesh::Mesh;
-use crate::mesh::names::meant;
-use words::{fault, millimetres};
+use words::{fault, meant, millimetres};
 
 /// Checks a mesh whose chambers are all closed. `chambers` are the names that parts may use.
 ///

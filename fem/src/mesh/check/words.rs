@@ -19,3 +19,8 @@ pub(super) fn millimetres(x: [f64; 3]) -> String {
 pub(super) fn fault<T>(message: String) -> Result<T, FemError> {
     Err(FemError::Mesh(message))
 }
+
+/// "; did you mean `x`?", or nothing.
+pub(super) fn meant<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    spelling::nearest(wrong, known).map_or(String::new(), |name| format!("; did you mean `{name}`?"))
+}

@@ -3,15 +3,13 @@
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
-use super::{MeshFile, Surface};
+use super::content::{MeshFile, Surface};
 use crate::mesh::{Mesh, Part};
 
 /// What a foreign file has said so far.
 #[derive(Default)]
 pub(super) struct Builder {
-    /// Places as in the file.
     pub(super) mesh: Mesh,
-    /// Surfaces that may be chambers.
     pub(super) surfaces: Vec<Surface>,
     /// Parts, and the directions of their warp that are not read.
     pub(super) unread: Vec<(String, String)>,
@@ -68,7 +66,7 @@ impl Builder {
     pub(super) fn part(&mut self, name: &str) -> &mut Part {
         let parts = &mut self.mesh.parts;
         let at = *self.parts.entry(name.into()).or_insert_with(|| {
-            parts.push(Part { name: name.into(), ..Part::default() });
+            parts.push(Part::of(name, Vec::new()));
             parts.len() - 1
         });
         &mut parts[at]

@@ -1,4 +1,4 @@
-//! What a mesh file says.
+//! What a mesh file holds.
 
 use crate::mesh::Mesh;
 
@@ -31,7 +31,6 @@ pub struct Surface {
 }
 
 impl From<Mesh> for MeshFile {
-    /// A generated mesh.
     fn from(mesh: Mesh) -> MeshFile {
         MeshFile { mesh, ..MeshFile::default() }
     }

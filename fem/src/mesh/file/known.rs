@@ -1,7 +1,8 @@
 //! Which format a file has, by its content.
 
+use super::content::MeshFile;
 use super::scan::Scan;
-use super::{MeshFile, abaqus, gmsh, stl};
+use super::{abaqus, gmsh, stl};
 
 pub(super) struct Format {
     pub(super) name: &'static str,
@@ -11,9 +12,7 @@ pub(super) struct Format {
 
 #[derive(Clone, Copy)]
 pub(super) enum Read {
-    /// Line by line.
     Text(fn(&mut Scan) -> Result<MeshFile, String>),
-    /// From all bytes.
     Bytes(fn(&[u8]) -> Result<MeshFile, String>),
 }
 

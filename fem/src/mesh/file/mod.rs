@@ -9,9 +9,8 @@ mod known;
 mod scan;
 mod stl;
 
-pub use content::{MeshFile, Surface};
-
 use crate::FemError;
+pub use content::{MeshFile, Surface};
 use known::Read;
 use scan::Scan;
 use spelling::files::{MOST_DATA, read_whole};

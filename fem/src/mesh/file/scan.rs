@@ -32,7 +32,6 @@ impl<'a> Scan<'a> {
         Ok(line.split_whitespace().collect())
     }
 
-    /// How many lines follow.
     pub(super) fn count(&self, word: &str) -> Result<usize, String> {
         let count: usize = word.parse().map_err(|_| format!("expected how many lines follow, found `{word}`"))?;
         if count > self.size {
@@ -42,7 +41,6 @@ impl<'a> Scan<'a> {
     }
 }
 
-/// The file ends too early.
 pub(super) fn cut_off(what: &str) -> String {
     format!("the file ends before {what}: it was cut off; write it again")
 }

@@ -5,8 +5,8 @@
 
 use std::collections::HashMap;
 
-use super::MeshFile;
 use super::build::Builder;
+use super::content::MeshFile;
 use super::scan::{Scan, cut_off, place};
 use crate::vec3::{area, dot, norm};
 
@@ -23,12 +23,8 @@ struct Facet {
 
 /// Whether the bytes have the length that a binary file says.
 pub(super) fn is_binary(bytes: &[u8]) -> bool {
-    facets_of(bytes).is_some_and(|count| bytes.len() == HEADER + FACET * count)
-}
-
-fn facets_of(bytes: &[u8]) -> Option<usize> {
-    let count = bytes.get(HEADER - 4..HEADER)?;
-    Some(u32::from_le_bytes([count[0], count[1], count[2], count[3]]) as usize)
+    let count = bytes.get(..HEADER).and_then(|head| head.last_chunk()).map(|count| u32::from_le_bytes(*count) as usize);
+    count.is_some_and(|count| bytes.len() == HEADER + FACET * count)
 }
 
 pub(super) fn read_binary(bytes: &[u8]) -> Result<MeshFile, String> {

@@ -37,7 +37,7 @@ pub fn disc_balloon(radius_m: f64, n: usize) -> Result<Mesh, FemError> {
     for (name, nodes, layer) in [("top", &top, 0), ("bottom", &bottom, 1)] {
         mesh.sets.insert(format!("centre_{name}"), disc.centre.iter().map(|i| nodes[*i]).collect());
         let quads = disc.quads(nodes, layer == 1);
-        mesh.parts.push(Part { name: name.into(), quads, back: Some("air".into()), layer, ..Part::default() });
+        mesh.parts.push(Part { back: Some("air".into()), layer, ..Part::of(name, quads) });
     }
     Ok(mesh)
 }
@@ -45,7 +45,6 @@ pub fn disc_balloon(radius_m: f64, n: usize) -> Result<Mesh, FemError> {
 pub(super) struct Disc {
     /// Places of the nodes, the rim last: counter-clockwise from −45°.
     pub(super) points: Vec<[f64; 2]>,
-    /// First node of the rim.
     pub(super) rim: usize,
     /// Nodes in the middle: 1, or 4 around it.
     pub(super) centre: Vec<usize>,

@@ -77,7 +77,7 @@ pub fn folded_pouch(pouch: &FoldedPouch) -> Result<Mesh, FemError> {
         let turned = matches!(panel.0, "bottom" | "right_upper" | "left_upper");
         let quads = if turned { grid.quads_turned() } else { grid.quads() };
         let back = Some("air".into());
-        mesh.parts.push(Part { name: panel.0.into(), quads, layer: panel.1, back, ..Part::default() });
+        mesh.parts.push(Part { layer: panel.1, back, ..Part::of(panel.0, quads) });
     }
     for ((joint, ..), node) in known {
         heights[node as usize] = joint.height() * pouch.gap_m;
@@ -90,7 +90,6 @@ pub fn folded_pouch(pouch: &FoldedPouch) -> Result<Mesh, FemError> {
 /// What a node belongs to, and so who shares it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 enum Joint {
-    /// One panel, at this level.
     Inside(usize, i8),
     /// Crease between this level and the next.
     Crease(usize, i8),

@@ -17,6 +17,13 @@ use crate::mesh::{Mesh, Part};
 /// Parts `top` (layer 0, front up) and `bottom` (layer 1, front down), chamber `air` between. Sets `rim`, `corners`,
 /// `mid_edges` (4 nodes), `mid_edge` (the one at x > 0), `centre_top`, `centre_bottom`.
 ///
+/// ```
+/// let mesh = fem::mesh::generate::pillow(0.1, 4, 0.0).unwrap();
+/// // Two layers share the nodes of the weld.
+/// assert_eq!((mesh.elements(), mesh.points.len()), (2 * 16, 2 * 25 - 16));
+/// assert!(fem::mesh::check::check(&mesh, &["air"]).is_ok(), "no leak");
+/// ```
+///
 /// # Errors
 /// [`FemError::Mesh`] for a length out of range, or `n` odd or below 2.
 pub fn pillow(side_m: f64, n: usize, gap_m: f64) -> Result<Mesh, FemError> {
@@ -42,6 +49,12 @@ pub fn pillow(side_m: f64, n: usize, gap_m: f64) -> Result<Mesh, FemError> {
 /// [`crate::mesh::check::check_open`]. The inner nodes start at z = ±`gap_m`/2. Sets `left`, `right` (the welds), `open_0`
 /// (y < 0), `open_1`, `middle` (the line y = 0 of both layers), `centre_top`, `centre_bottom`. Parts and chamber as in
 /// [`pillow`].
+///
+/// ```
+/// let mesh = fem::mesh::generate::long_pouch(0.06, 0.02, 6, 2, 0.0).unwrap();
+/// assert!(fem::mesh::check::check(&mesh, &["air"]).is_err(), "open at both sides");
+/// assert!(fem::mesh::check::check_open(&mesh, &["air"], &["open_0", "open_1"]).is_ok());
+/// ```
 ///
 /// # Errors
 /// [`FemError::Mesh`] for a length out of range, `n` (along x) or `m` (along y) odd or below 2.
@@ -126,7 +139,7 @@ fn two_layers(size: [f64; 2], n: [usize; 2], shared: impl Fn(usize, usize) -> bo
     let top = Grid::add(&mut mesh, n[0], n[1], place);
     let bottom = Grid::sharing(&mut mesh, n[0], n[1], place, |i, j| shared(i, j).then(|| top.at(i, j)));
     let air = Some("air".to_string());
-    let part = Part { name: "top".into(), quads: top.quads(), back: air, ..Part::default() };
+    let part = Part { back: air, ..Part::of("top", top.quads()) };
     let turned = Part { name: "bottom".into(), quads: bottom.quads_turned(), layer: 1, ..part.clone() };
     mesh.parts = vec![part, turned];
     (mesh, top, bottom)

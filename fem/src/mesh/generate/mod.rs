@@ -2,18 +2,7 @@
 //!
 //! Every generator names its node sets, winds its elements counter-clockwise seen from the front, and returns a mesh that
 //! passes [`super::check::check`] for the chambers it names. Shapes are stress free unless a start shape is said.
-//!
-//! | function | shape | chamber | sets |
-//! |---|---|---|---|
-//! | [`plate`] | flat rectangle | none | `left` `right` `bottom` `top` `corners` `centre` |
-//! | [`pillow`] | two squares welded at their edges | `air` | `rim` `corners` `mid_edges` `mid_edge` `centre_top` `centre_bottom` |
-//! | [`disc_balloon`] | two discs welded at the rim | `air` | `rim` `centre_top` `centre_bottom` |
-//! | [`long_pouch`] | two strips welded at their ends, open at the sides | `air` | `left` `right` `open_0` `open_1` `middle` |
-//! | [`folded_pouch`] | pouch with a Z-fold at each side | `air` | `ends` `creases` `middle_top` `middle_bottom` |
-//! | [`flat_tube`] | flat tube with welded ends, bias warp | `air` | `end_0` `end_1` `gauge_0` `gauge_1` … |
-//! | [`tube`] | cylinder along x, caps | `body` | `base` `base_2` `tip` `base_cap` `tip_cap` … |
-//! | [`sphere`] | sphere of quads | `air` | `top` `bottom` |
-//! | [`crossed_sheets`] | two strips, one across the other | none | `lower_ends` `upper_ends` … |
+//! Node sets of all: `docs/case.md`; of [`folded_pouch`], which is not a generator of cases, its own page.
 
 mod disc;
 mod folded_pouch;
@@ -57,7 +46,6 @@ fn even(what: &str, name: &str, value: usize) -> Result<(), FemError> {
     Err(FemError::Mesh(format!("{what}: {name} is {value}, and must be even so that a node lies in the middle")))
 }
 
-/// Refuses meshes that nobody wants.
 fn few_enough(what: &str, a: usize, b: usize) -> Result<(), FemError> {
     if a.saturating_add(1).saturating_mul(b.saturating_add(1)) <= policy::MOST_NODES {
         return Ok(());

@@ -19,6 +19,11 @@ pub struct Distortion {
 ///
 /// Sets `left` (x = 0), `right`, `bottom` (y = 0), `top`, `corners`, `centre` (the 1, 2 or 4 nodes nearest to it).
 ///
+/// ```
+/// let mesh = fem::mesh::generate::plate(0.2, 0.1, 4, 2, None).unwrap();
+/// assert_eq!((mesh.elements(), mesh.points.len(), mesh.sets["left"].len()), (4 * 2, 5 * 3, 3));
+/// ```
+///
 /// # Errors
 /// [`FemError::Mesh`] for a length, count or distortion out of range.
 pub fn plate(lx_m: f64, ly_m: f64, nx: usize, ny: usize, distortion: Option<Distortion>) -> Result<Mesh, FemError> {
@@ -43,7 +48,7 @@ pub fn plate(lx_m: f64, ly_m: f64, nx: usize, ny: usize, distortion: Option<Dist
     if let Some(distortion) = distortion {
         distort(&mut mesh, &grid, distortion, [dx, dy])?;
     }
-    mesh.parts.push(Part { name: "plate".into(), quads: grid.quads(), ..Part::default() });
+    mesh.parts.push(Part::of("plate", grid.quads()));
     Ok(mesh)
 }
 
@@ -72,8 +77,8 @@ pub fn crossed_sheets(length_m: f64, width_m: f64, n: usize, gap_m: f64) -> Resu
     mesh.sets.insert("upper".into(), (count as u32..mesh.points.len() as u32).collect());
     mesh.sets.insert("lower_ends".into(), union([lower.column(0), lower.column(along)]));
     mesh.sets.insert("upper_ends".into(), union([upper.row(0), upper.row(along - 1)]));
-    mesh.parts.push(Part { name: "lower".into(), quads: lower.quads(), ..Part::default() });
-    mesh.parts.push(Part { name: "upper".into(), quads: upper.quads(), layer: 1, ..Part::default() });
+    mesh.parts.push(Part::of("lower", lower.quads()));
+    mesh.parts.push(Part { layer: 1, ..Part::of("upper", upper.quads()) });
     Ok(mesh)
 }
 

@@ -10,6 +10,12 @@ use crate::mesh::{Mesh, Part};
 /// Sphere around the origin, `n` elements along each edge of the cube, 6n² quads; part `sphere`, front outward, chamber
 /// `air` inside. Sets `top` (highest nodes, 1 or 4), `bottom`.
 ///
+/// ```
+/// let mesh = fem::mesh::generate::sphere(0.05, 8).unwrap();
+/// assert_eq!(mesh.elements(), 6 * 8 * 8);
+/// assert!(mesh.points.iter().all(|p| (fem::vec3::norm(*p) - 0.05).abs() < 1e-15));
+/// ```
+///
 /// # Errors
 /// [`FemError::Mesh`] for a radius or count out of range.
 pub fn sphere(radius_m: f64, n: usize) -> Result<Mesh, FemError> {
@@ -38,7 +44,7 @@ pub fn sphere(radius_m: f64, n: usize) -> Result<Mesh, FemError> {
         let nodes = near.iter().flat_map(|j| near.iter().map(|i| known[&[*i, *j, side]])).collect();
         mesh.sets.insert(name.into(), nodes);
     }
-    mesh.parts.push(Part { name: "sphere".into(), quads, back: Some("air".into()), ..Part::default() });
+    mesh.parts.push(Part { back: Some("air".into()), ..Part::of("sphere", quads) });
     Ok(mesh)
 }
 

@@ -112,29 +112,17 @@ struct Quadratic {
     nodes: String,
     elements: String,
     equations: String,
-    /// Nodes in all.
     count: u32,
-    /// The piece whose elements have the node itself.
-    owner: BTreeMap<u32, usize>,
-    /// Nodes of further pieces, by node and piece.
-    copies: BTreeMap<(u32, usize), u32>,
-    /// Middles of sides by their ends, and the piece that had the side first; those that follow others are not free.
-    middles: BTreeMap<[u32; 2], Middle>,
-    /// Middles of further pieces.
-    further: BTreeMap<([u32; 2], usize), u32>,
-}
-
-struct Middle {
-    node: u32,
-    piece: usize,
-    is_free: bool,
+    /// Nodes in the middle of two others, a corner in that of itself and itself: those of the piece that had the place first.
+    first: BTreeMap<[u32; 2], u32>,
+    /// The nodes of every piece at these places.
+    known: BTreeMap<([u32; 2], usize), u32>,
 }
 
 impl Quadratic {
     fn of(problem: &Problem) -> Quadratic {
         let mesh = &problem.mesh;
         let mut made = Quadratic { count: mesh.points.len() as u32, ..Quadratic::default() };
-        mesh.ties.iter().for_each(|tie| follow(&mut made.equations, tie.node, &tie.to));
         let mut pieces = Vec::new();
         let mut first = 1;
         for (part, section) in mesh.parts.iter().zip(&problem.sections) {
@@ -156,79 +144,48 @@ impl Quadratic {
 
     fn element(&mut self, problem: &Problem, name: usize, corners: &[u32], piece: usize) {
         let sides = corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| [*a.min(b), *a.max(b)]);
-        let own: Vec<u32> = corners.iter().map(|node| self.corner(problem, *node, piece)).collect();
-        let middles: Vec<u32> = sides.map(|side| self.middle(problem, side, piece)).collect();
-        put(&mut self.elements, format_args!("{name}, {}", numbers(&[own, middles].concat())));
+        let places = corners.iter().map(|node| [*node; 2]).chain(sides);
+        let nodes: Vec<u32> = places.map(|place| self.node(problem, place, piece)).collect();
+        put(&mut self.elements, format_args!("{name}, {}", numbers(&nodes)));
     }
 
-    fn corner(&mut self, problem: &Problem, node: u32, piece: usize) -> u32 {
-        if *self.owner.entry(node).or_insert(piece) == piece {
-            return node;
-        }
-        if let Some(copy) = self.copies.get(&(node, piece)) {
-            return *copy;
-        }
-        let copy = self.add(place(problem, node));
-        follow(&mut self.equations, copy, &[(node, 1.0)]);
-        self.copies.insert((node, piece), copy);
-        copy
-    }
-
-    fn middle(&mut self, problem: &Problem, side: [u32; 2], piece: usize) -> u32 {
-        let known = self.middles.get(&side).map(|middle| (middle.node, middle.piece));
-        if let Some((node, _)) = known.filter(|(_, first)| *first == piece) {
-            return node;
-        }
-        if let Some(node) = self.further.get(&(side, piece)) {
+    /// The node of a piece in the middle of two nodes, counted from 0.
+    fn node(&mut self, problem: &Problem, between: [u32; 2], piece: usize) -> u32 {
+        if let Some(node) = self.known.get(&(between, piece)) {
             return *node;
         }
-        let [a, b] = side.map(|node| place(problem, node));
-        let node = self.add([0, 1, 2].map(|axis| 0.5 * (a[axis] + b[axis])));
-        match known {
-            Some((first, _)) => {
-                follow(&mut self.equations, node, &[(first, 1.0)]);
-                self.further.insert((side, piece), node);
-            }
-            None => {
-                let is_free = !is_glued(problem, side);
-                if !is_free {
-                    follow(&mut self.equations, node, &side.map(|end| (end, 0.5)));
-                }
-                self.middles.insert(side, Middle { node, piece, is_free });
-            }
+        let first = self.first.get(&between).copied();
+        let node = if first.is_none() && between[0] == between[1] {
+            between[0]
+        } else {
+            let [a, b] = between.map(|node| place(problem, node));
+            self.count += 1;
+            put(
+                &mut self.nodes,
+                format_args!("{}, {}", self.count, row(&[0, 1, 2].map(|axis| 0.5 * (a[axis] + b[axis])))),
+            );
+            self.count - 1
+        };
+        match first {
+            Some(first) => follow(&mut self.equations, node, first),
+            None => drop(self.first.insert(between, node)),
         }
+        self.known.insert((between, piece), node);
         node
     }
 
-    /// A new node, counted from 0.
-    fn add(&mut self, place: [f64; 3]) -> u32 {
-        self.count += 1;
-        put(&mut self.nodes, format_args!("{}, {}", self.count, row(&place)));
-        self.count - 1
-    }
-
-    /// Free nodes of a set with the middles of sides within it; `all`: those that follow them as well.
-    fn within(&self, problem: &Problem, nodes: &[u32], all: bool) -> Vec<u32> {
+    /// Nodes of a set with the middles of sides within it; `all`: those of further pieces as well.
+    fn within(&self, nodes: &[u32], all: bool) -> Vec<u32> {
         let set: BTreeSet<u32> = nodes.iter().copied().collect();
-        let tied = |node: &u32| problem.mesh.ties.iter().any(|tie| tie.node == *node);
-        let inside = |side: &[u32; 2]| side.iter().all(|node| set.contains(node));
-        let corners = set.iter().copied().filter(|node| all || !tied(node));
-        let middles = self.middles.iter().filter(|(side, middle)| inside(side) && (all || middle.is_free));
-        let copies = self.copies.iter().filter(|((node, _), _)| all && set.contains(node)).map(|(_, copy)| *copy);
-        let further = self.further.iter().filter(|((side, _), _)| all && inside(side)).map(|(_, node)| *node);
-        corners.chain(middles.map(|(_, middle)| middle.node)).chain(copies).chain(further).collect()
-    }
-}
-
-/// True if a side is glued to an element of others: one of its ends follows the other, or what the other follows too.
-fn is_glued(problem: &Problem, [a, b]: [u32; 2]) -> bool {
-    let leaders = |node: u32| problem.mesh.ties.iter().find(|tie| tie.node == node).map(|tie| &tie.to);
-    let leads = |node: u32, to: &Vec<(u32, f64)>| to.iter().any(|(leader, _)| *leader == node);
-    match (leaders(a), leaders(b)) {
-        (None, None) => false,
-        (Some(to), None) => leads(b, to),
-        (None, Some(to)) => leads(a, to),
-        (Some(_), Some(_)) => true,
+        let inside = |place: &[u32; 2]| place.iter().all(|node| set.contains(node));
+        let middles = self.first.iter().filter(|(place, _)| place[0] != place[1] && inside(place));
+        let further = |corners: bool| {
+            let own = move |place: &[u32; 2]| (place[0] == place[1]) == corners && inside(place);
+            let known = self.known.iter().filter(move |((place, _), node)| own(place) && self.first[place] != **node);
+            known.filter(|_| all).map(|(_, node)| *node)
+        };
+        let first = set.iter().copied().chain(middles.map(|(_, node)| *node));
+        first.chain(further(true)).chain(further(false)).collect()
     }
 }
 
@@ -237,12 +194,12 @@ fn held_sets(out: &mut String, problem: &Problem, mesh: &Quadratic) {
     let nodes = |set: &str| problem.mesh.sets.get(set).map_or(&[][..], Vec::as_slice);
     for (index, support) in problem.supports.iter().enumerate() {
         for (name, all) in [("support", false), ("reaction", true)] {
-            node_set(out, &own(&format!("{name}_{}", index + 1)), &mesh.within(problem, nodes(&support.set), all));
+            node_set(out, &own(&format!("{name}_{}", index + 1)), &mesh.within(nodes(&support.set), all));
         }
     }
     let mut next = mesh.count;
     for (index, rigid) in problem.rigid.iter().enumerate() {
-        let (set, nodes) = (own(&format!("rigid_{}", index + 1)), mesh.within(problem, nodes(&rigid.set), false));
+        let (set, nodes) = (own(&format!("rigid_{}", index + 1)), mesh.within(nodes(&rigid.set), false));
         let at = row(&nodes.first().map_or([0.0; 3], |node| place(problem, *node)));
         put(out, format_args!("*NODE\n{}, {at}\n{}, {at}", next + 1, next + 2));
         node_set(out, &set, &nodes);
@@ -253,18 +210,18 @@ fn held_sets(out: &mut String, problem: &Problem, mesh: &Quadratic) {
 
 fn material(out: &mut String, problem: &Problem, index: usize, part: &Part, section: &Section) {
     let Plate { thickness_m, moduli_pa: [e1, e2, g], nu12, density_kg_m3, .. } = plate(section);
-    put(out, format_args!("*MATERIAL, NAME={}", part.name));
+    let (name, thickness, density) = (&part.name, number(thickness_m), number(density_kg_m3));
     // CalculiX refuses an isotropic ν of ½, which incompressible films have.
     let is_isotropic = nu12 < 0.499 && (e1 / e2 - 1.0).abs() < 1e-9 && (2.0 * g * (1.0 + nu12) / e1 - 1.0).abs() < 1e-9;
-    if is_isotropic {
-        put(out, format_args!("*ELASTIC\n{}", row(&[e1, nu12])));
+    let elastic = if is_isotropic {
+        row(&[e1, nu12])
     } else {
         let across = (e1 * e2).sqrt();
         let constants = row(&[e1, e2, across, nu12, 0.0, 0.0, g, 0.5 * across]);
-        put(out, format_args!("*ELASTIC, TYPE=ENGINEERING CONSTANTS\n{constants}\n{}", number(0.5 * across)));
-    }
-    put(out, format_args!("*DENSITY\n{}", number(density_kg_m3)));
-    let (name, thickness) = (&part.name, number(thickness_m));
+        format!("{constants}\n{}", number(0.5 * across))
+    };
+    let kind = if is_isotropic { "" } else { ", TYPE=ENGINEERING CONSTANTS" };
+    put(out, format_args!("*MATERIAL, NAME={name}\n*ELASTIC{kind}\n{elastic}\n*DENSITY\n{density}"));
     if is_isotropic {
         put(out, format_args!("*SHELL SECTION, ELSET={name}, MATERIAL={name}\n{thickness}"));
     }
@@ -296,12 +253,9 @@ fn increments(problem: &Problem) -> String {
     let end_s = problem.settings.end_s;
     let pressures = problem.chambers.iter().map(|chamber| chamber.pressure.filling());
     let motions = problem.supports.iter().flat_map(|support| support.motion.iter().flatten());
-    let others =
-        problem.forces.iter().map(|force| &force.amplitude).chain(problem.gravity.iter().map(|g| &g.amplitude));
-    let stretches = pressures.chain(motions).chain(others).flat_map(|curve| {
-        let points = curve.points();
-        points.windows(2).map(|pair| pair[1].0 - pair[0].0).collect::<Vec<f64>>()
-    });
+    let forces = problem.forces.iter().map(|force| &force.amplitude);
+    let curves = pressures.chain(motions).chain(forces).chain(problem.gravity.iter().map(|g| &g.amplitude));
+    let stretches = curves.flat_map(|curve| curve.points().windows(2).map(|pair| pair[1].0 - pair[0].0));
     let largest = stretches.filter(|s| *s > 0.0).fold(LARGEST[0] * end_s, |least, s| least.min(LARGEST[1] * s));
     row(&[SMALLER[0] * largest, end_s, SMALLER[1] * largest, largest])
 }

@@ -25,9 +25,7 @@ use crate::problem::{MassScaling, Section};
 use crate::sheet::reference::bending_stiffness;
 use crate::vec3::{area, cross, direction};
 pub use shared::Solver;
-use shared::{
-    Plate, follow, heading, label, left_out, loads, node_set, number, numbers, places, plate, put, row, surfaces,
-};
+use shared::{Plate, heading, label, left_out, loads, node_set, number, numbers, places, plate, put, row, surfaces};
 
 /// The text, and what it does not say.
 pub(crate) fn text(problem: &Problem, solver: Solver) -> (String, Vec<String>) {
@@ -36,7 +34,6 @@ pub(crate) fn text(problem: &Problem, solver: Solver) -> (String, Vec<String>) {
     }
     let mut out = heading(problem);
     nodes_and_elements(&mut out, problem);
-    sets_and_surfaces(&mut out, problem);
     for (number, (part, section)) in problem.mesh.parts.iter().zip(&problem.sections).enumerate() {
         material(&mut out, problem, number, part, section);
     }
@@ -50,24 +47,18 @@ pub(crate) fn text(problem: &Problem, solver: Solver) -> (String, Vec<String>) {
 }
 
 fn nodes_and_elements(out: &mut String, problem: &Problem) {
-    let mesh = &problem.mesh;
     places(out, problem);
     let mut first = 1;
-    for (part, section) in mesh.parts.iter().zip(&problem.sections) {
+    for (part, section) in problem.mesh.parts.iter().zip(&problem.sections) {
         let kinds = if bending_stiffness(section) > 0.0 { ["S4R", "S3R"] } else { ["M3D4R", "M3D3"] };
-        let blocks = [(kinds[0], 0..part.quads.len()), (kinds[1], part.quads.len()..part.len())];
-        for (kind, elements) in blocks.into_iter().filter(|(_, elements)| !elements.is_empty()) {
-            put(out, format_args!("*ELEMENT, TYPE={kind}, ELSET={}", label(&part.name)));
-            for i in elements {
-                put(out, format_args!("{}, {}", first + i, numbers(part.nodes(i))));
+        for (kind, elements) in kinds.into_iter().zip([0..part.quads.len(), part.quads.len()..part.len()]) {
+            if !elements.is_empty() {
+                put(out, format_args!("*ELEMENT, TYPE={kind}, ELSET={}", label(&part.name)));
             }
+            elements.for_each(|i| put(out, format_args!("{}, {}", first + i, numbers(part.nodes(i)))));
         }
         first += part.len();
     }
-    mesh.ties.iter().for_each(|tie| follow(out, tie.node, &tie.to));
-}
-
-fn sets_and_surfaces(out: &mut String, problem: &Problem) {
     for (name, nodes) in problem.mesh.sets.iter().filter(|(_, nodes)| !nodes.is_empty()) {
         node_set(out, &label(name), nodes);
     }
@@ -76,12 +67,10 @@ fn sets_and_surfaces(out: &mut String, problem: &Problem) {
 
 fn material(out: &mut String, problem: &Problem, index: usize, part: &Part, section: &Section) {
     let Plate { thickness_m, moduli_pa: [e1, e2, g], nu12, density_kg_m3, bends } = plate(section);
-    let name = label(&part.name);
-    put(out, format_args!("*MATERIAL, NAME={name}\n*ELASTIC, TYPE=LAMINA\n{}", row(&[e1, e2, nu12, g, g, g])));
-    put(out, format_args!("*DENSITY\n{},", number(density_kg_m3)));
-    if problem.settings.mass_damping_1_s > 0.0 {
-        put(out, format_args!("*DAMPING, ALPHA={}", number(problem.settings.mass_damping_1_s)));
-    }
+    let (name, damping) = (label(&part.name), problem.settings.mass_damping_1_s);
+    let damping = if damping > 0.0 { format!("*DAMPING, ALPHA={}\n", number(damping)) } else { String::new() };
+    let [moduli, density] = [row(&[e1, e2, nu12, g, g, g]), number(density_kg_m3)];
+    *out += &format!("*MATERIAL, NAME={name}\n*ELASTIC, TYPE=LAMINA\n{moduli}\n*DENSITY\n{density},\n{damping}");
     orientation(out, problem, index, part);
     let (kind, t) = (if bends { "SHELL" } else { "MEMBRANE" }, number(thickness_m));
     put(out, format_args!("*{kind} SECTION, ELSET={name}, MATERIAL={name}, ORIENTATION=warp_{}\n{t},", index + 1));
@@ -97,29 +86,31 @@ fn orientation(out: &mut String, problem: &Problem, index: usize, part: &Part) {
         let across = cross(direction(area(&corners)), warp);
         row(&[warp, if across == [0.0; 3] { [0.0, 1.0, 0.0] } else { direction(across) }].concat())
     };
-    match part.warp.len() {
-        0 | 1 => put(out, format_args!("*ORIENTATION, NAME={name}\n{}\n3, 0.", axes(0))),
-        _ => {
-            put(out, format_args!("*DISTRIBUTION TABLE, NAME={name}_table\nCOORD3D, COORD3D"));
-            put(out, format_args!("*DISTRIBUTION, NAME={name}_by_element, LOCATION=ELEMENT, TABLE={name}_table"));
-            put(out, format_args!(", {}", axes(0)));
-            (0..part.len()).for_each(|i| put(out, format_args!("{}, {}", before + i + 1, axes(i))));
-            put(out, format_args!("*ORIENTATION, NAME={name}\n{name}_by_element\n3, 0."));
-        }
+    let first = axes(0);
+    if part.warp.len() < 2 {
+        return put(out, format_args!("*ORIENTATION, NAME={name}\n{first}\n3, 0."));
     }
+    let table =
+        format!("*DISTRIBUTION TABLE, NAME={name}_table\nCOORD3D, COORD3D\n*DISTRIBUTION, NAME={name}_by_element");
+    put(out, format_args!("{table}, LOCATION=ELEMENT, TABLE={name}_table\n, {first}"));
+    (0..part.len()).for_each(|i| put(out, format_args!("{}, {}", before + i + 1, axes(i))));
+    put(out, format_args!("*ORIENTATION, NAME={name}\n{name}_by_element\n3, 0."));
 }
 
 fn contact(out: &mut String, problem: &Problem) {
     let Some(contact) = &problem.contact else { return };
-    put(out, format_args!("*SURFACE INTERACTION, NAME=layers\n*FRICTION\n{},", number(contact.friction)));
-    put(out, "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT PROPERTY ASSIGNMENT\n, , layers");
+    let friction = number(contact.friction);
+    put(out, format_args!("*SURFACE INTERACTION, NAME=layers\n*FRICTION\n{friction},\n*CONTACT"));
+    put(out, "*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT PROPERTY ASSIGNMENT\n, , layers");
 }
 
 fn numerics(out: &mut String, problem: &Problem) {
-    put(out, format_args!("*STEP, NAME=run, NLGEOM=YES\n*DYNAMIC, EXPLICIT\n, {}", number(problem.settings.end_s)));
-    match problem.settings.mass_scaling {
-        MassScaling::None => {}
-        MassScaling::Fixed(factor) => put(out, format_args!("*FIXED MASS SCALING, FACTOR={}", number(factor))),
-        MassScaling::TargetStep(dt) => put(out, format_args!("*FIXED MASS SCALING, DT={}, TYPE=BELOW MIN", number(dt))),
-    }
+    let end_s = number(problem.settings.end_s);
+    put(out, format_args!("*STEP, NAME=run, NLGEOM=YES\n*DYNAMIC, EXPLICIT\n, {end_s}"));
+    let scaling = match problem.settings.mass_scaling {
+        MassScaling::None => return,
+        MassScaling::Fixed(factor) => format!("FACTOR={}", number(factor)),
+        MassScaling::TargetStep(dt) => format!("DT={}, TYPE=BELOW MIN", number(dt)),
+    };
+    put(out, format_args!("*FIXED MASS SCALING, {scaling}"));
 }

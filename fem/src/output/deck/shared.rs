@@ -36,7 +36,6 @@ pub(super) fn heading(problem: &Problem) -> String {
     )
 }
 
-/// A line.
 pub(super) fn put(out: &mut String, line: impl std::fmt::Display) {
     // Writing to a string cannot fail.
     let _ = writeln!(out, "{line}");
@@ -63,7 +62,6 @@ pub(super) fn numbers(nodes: &[u32]) -> String {
     nodes.iter().map(|n| (u64::from(*n) + 1).to_string()).collect::<Vec<_>>().join(", ")
 }
 
-/// Where a node starts.
 pub(super) fn place(problem: &Problem, node: u32) -> [f64; 3] {
     problem.mesh.start_of(node as usize)
 }
@@ -79,14 +77,10 @@ pub(super) fn places(out: &mut String, problem: &Problem) {
     }
 }
 
-/// A node's translations as weighted sums of other nodes' translations.
-pub(super) fn follow(out: &mut String, node: u32, to: &[(u32, f64)]) {
+/// A node's translations as those of another.
+pub(super) fn follow(out: &mut String, node: u32, first: u32) {
     for axis in 1..=3 {
-        let followed = to.iter().map(|(node, weight)| format!("{}, {axis}, {}", u64::from(*node) + 1, number(*weight)));
-        let terms: Vec<String> =
-            std::iter::once(format!("{}, {axis}, -1.0", u64::from(node) + 1)).chain(followed).collect();
-        put(out, format_args!("*EQUATION\n{}", terms.len()));
-        terms.chunks(4).for_each(|terms| put(out, terms.join(", ")));
+        put(out, format_args!("*EQUATION\n2\n{}, {axis}, -1.0, {}, {axis}, 1.0", node + 1, first + 1));
     }
 }
 
@@ -95,7 +89,6 @@ pub(super) fn node_set(out: &mut String, name: &str, nodes: &[u32]) {
     nodes.chunks(16).for_each(|nodes| put(out, format_args!("{},", numbers(nodes))));
 }
 
-/// The walls of every chamber.
 pub(super) fn surfaces(out: &mut String, problem: &Problem) {
     for chamber in &problem.chambers {
         put(out, format_args!("*SURFACE, TYPE=ELEMENT, NAME={}", label(&chamber.name)));
@@ -180,35 +173,34 @@ pub(super) fn loads(out: &mut String, step: &mut String, problem: &Problem, solv
         for axis in (0..3).filter(|axis| support.axes[*axis]) {
             let (name, dof) = (format!("support_{}", index + 1), axis + 1);
             let set = if solver == Solver::Abaqus { label(&support.set) } else { own(&name) };
-            match &support.motion {
-                None => put(out, format_args!("*BOUNDARY\n{set}, {dof}, {dof}")),
-                Some(motion) => {
-                    let name = format!("{name}_{dof}");
-                    curve(out, &name, &motion[axis], problem, solver);
-                    put(step, format_args!("*BOUNDARY, AMPLITUDE={name}\n{set}, {dof}, {dof}, 1."));
-                }
-            }
+            let Some(motion) = &support.motion else {
+                put(out, format_args!("*BOUNDARY\n{set}, {dof}, {dof}"));
+                continue;
+            };
+            curve(out, &format!("{name}_{dof}"), &motion[axis], problem, solver);
+            put(step, format_args!("*BOUNDARY, AMPLITUDE={name}_{dof}\n{set}, {dof}, {dof}, 1."));
         }
     }
-    for (index, chamber) in problem.chambers.iter().enumerate() {
-        let name = format!("pressure_{}", index + 1);
+    for (number, chamber) in (1..).zip(&problem.chambers) {
+        let (name, walls) = (format!("pressure_{number}"), label(&chamber.name));
         curve(out, &name, chamber.pressure.filling(), problem, solver);
-        put(step, format_args!("*DSLOAD, AMPLITUDE={name}\n{}, P, 1.", label(&chamber.name)));
+        put(step, format_args!("*DSLOAD, AMPLITUDE={name}\n{walls}, P, 1."));
     }
-    for (index, force) in problem.forces.iter().enumerate() {
-        let name = format!("force_{}", index + 1);
+    for (index, force) in (1..).zip(&problem.forces) {
+        let (name, set) = (format!("force_{index}"), label(&force.set));
         curve(out, &name, &force.amplitude, problem, solver);
         put(step, format_args!("*CLOAD, AMPLITUDE={name}"));
         let nodes = problem.mesh.sets.get(&force.set).map_or(1, Vec::len) as f64;
-        for axis in (0..3).filter(|axis| force.total_n[*axis] != 0.0) {
-            put(step, format_args!("{}, {}, {}", label(&force.set), axis + 1, number(force.total_n[axis] / nodes)));
+        for (dof, n) in (1..).zip(force.total_n).filter(|(_, n)| *n != 0.0) {
+            put(step, format_args!("{set}, {dof}, {}", number(n / nodes)));
         }
     }
     if let Some(gravity) = &problem.gravity {
         let size = gravity.g_m_s2.iter().map(|g| g * g).sum::<f64>().sqrt();
         curve(out, "gravity", &gravity.amplitude, problem, solver);
         put(step, "*DLOAD, AMPLITUDE=gravity");
-        let pull = row(&[size, gravity.g_m_s2[0] / size, gravity.g_m_s2[1] / size, gravity.g_m_s2[2] / size]);
+        let [x, y, z] = gravity.g_m_s2.map(|g| g / size);
+        let pull = row(&[size, x, y, z]);
         problem.mesh.parts.iter().for_each(|part| put(step, format_args!("{}, GRAV, {pull}", label(&part.name))));
     }
 }

@@ -3,8 +3,7 @@
 //! The cut stays with the material: elements are cut once, in the shape they started in, and the pieces are drawn at the
 //! present positions. What a plane through a bent robot would cut elsewhere does not come in.
 
-use super::raster::Canvas;
-use super::{FINE, Image, PictureLook, Placing, check, range, share, viridis};
+use super::{Corner, FINE, Image, PictureLook, check, drawn};
 use crate::vec3::{dot, sub};
 use crate::{FemError, Mesh};
 
@@ -36,39 +35,28 @@ pub(crate) fn section(
     }
     let axes = facing(&pieces, look.view.axes());
     let flat = |p: [f64; 3]| axes.map(|axis| dot(axis, p));
-    let seen: Vec<[f64; 3]> = pieces.iter().flat_map(|p| p.ends).map(flat).collect();
-    let limits = look.limits.unwrap_or_else(|| range(values));
-    let with_bar = look.bar && !values.is_empty();
-    let place = Placing::of(&seen, &PictureLook { bounds: None, ..look.clone() }, with_bar);
-    let mut canvas = Canvas::new(look.width * FINE, look.height * FINE);
-    for (piece, ends) in pieces.iter().zip(seen.chunks_exact(2)) {
-        let colour = values.get(piece.element).map_or(super::PLAIN, |&value| viridis(share(value, limits)));
-        let [a, b] = [ends[0], ends[1]].map(|p| place.on_canvas([p[0], p[1], 0.0]));
-        let length = (b.x - a.x).hypot(b.y - a.y).max(f64::MIN_POSITIVE);
-        let half = 0.5 * LINE * FINE as f64;
-        // A little longer than the piece, so that neighbours join.
-        let (along, across) = ([(b.x - a.x) / length * half, (b.y - a.y) / length * half], half);
-        let turned = [-along[1] / half * across, along[0] / half * across];
-        let corner = |p: &super::Corner, s: f64, t: f64| super::Corner {
-            x: p.x + s * 0.4 * along[0] + t * turned[0],
-            y: p.y + s * 0.4 * along[1] + t * turned[1],
-            depth: 0.0,
-        };
-        let corners = [corner(&a, -1.0, -1.0), corner(&b, 1.0, -1.0), corner(&b, 1.0, 1.0), corner(&a, -1.0, 1.0)];
-        canvas.element(&corners, colour, 0.0, 0.0);
-    }
-    let mut image = canvas.averaged(FINE);
-    // Only what is cut counts: the rest is not seen.
-    let cut: Vec<f64> = pieces.iter().filter_map(|p| values.get(p.element).copied()).collect();
-    super::notes::draw(&mut image, look, &place, axes, super::bar(&cut, limits, with_bar));
-    Ok(image)
+    let seen: Vec<[f64; 3]> = pieces.iter().flat_map(|piece| piece.1).map(flat).collect();
+    let shown: Vec<usize> = pieces.iter().map(|piece| piece.0).collect();
+    Ok(drawn(look, axes, &seen, values, &shown, |canvas, place, colour| {
+        for (element, ends) in shown.iter().zip(seen.chunks_exact(2)) {
+            let [a, b] = [ends[0], ends[1]].map(|p| place.on_canvas([p[0], p[1], 0.0]));
+            let length = (b.x - a.x).hypot(b.y - a.y).max(f64::MIN_POSITIVE);
+            let half = 0.5 * LINE * FINE as f64;
+            let along = [(b.x - a.x) / length * half, (b.y - a.y) / length * half];
+            // A little longer than the piece, so that neighbours join.
+            let corner = |p: &Corner, s: f64, t: f64| Corner {
+                x: p.x + s * 0.4 * along[0] - t * along[1],
+                y: p.y + s * 0.4 * along[1] + t * along[0],
+                depth: 0.0,
+            };
+            let corners = [corner(&a, -1.0, -1.0), corner(&b, 1.0, -1.0), corner(&b, 1.0, 1.0), corner(&a, -1.0, 1.0)];
+            canvas.element(&corners, colour(*element), 0.0, 0.0);
+        }
+    }))
 }
 
-/// A cut element, where it is now.
-struct Piece {
-    element: usize,
-    ends: [[f64; 3]; 2],
-}
+/// A cut element, and where it is cut now.
+type Piece = (usize, [[f64; 3]; 2]);
 
 fn pieces(mesh: &Mesh, positions: &[[f64; 3]], cut: &Cut) -> Vec<Piece> {
     let height: Vec<f64> = (0..mesh.points.len()).map(|n| dot(cut.normal, mesh.start_of(n)) - cut.at_m).collect();
@@ -86,7 +74,7 @@ fn pieces(mesh: &Mesh, positions: &[[f64; 3]], cut: &Cut) -> Vec<Piece> {
             })
             .collect();
         if let [a, b] = ends[..] {
-            pieces.push(Piece { element, ends: [a, b] });
+            pieces.push((element, [a, b]));
         }
     }
     pieces
@@ -95,7 +83,7 @@ fn pieces(mesh: &Mesh, positions: &[[f64; 3]], cut: &Cut) -> Vec<Piece> {
 /// The view's axes, turned about its right so that it looks along the normal of the points' mean plane.
 fn facing(pieces: &[Piece], axes: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     let [right, up, towards] = axes;
-    let all = || pieces.iter().flat_map(|p| p.ends);
+    let all = || pieces.iter().flat_map(|piece| piece.1);
     let count = all().count() as f64;
     let mean = all().fold([0.0; 3], |sum, p| [0, 1, 2].map(|k| sum[k] + p[k] / count));
     // Regression of depth on height: the plane's tilt about the right.
@@ -136,7 +124,7 @@ mod tests {
         assert_eq!(found.len(), 24);
         let axes = facing(&found, Viewpoint::End.axes());
         let centre = [0.11 * c, 0.11 * s, 0.0];
-        for p in found.iter().flat_map(|p| p.ends) {
+        for p in found.iter().flat_map(|piece| piece.1) {
             let d = sub(p, centre);
             assert!((dot(d, axes[0]).hypot(dot(d, axes[1])) - 0.04).abs() < 1e-6 && dot(d, axes[2]).abs() < 1e-9);
         }

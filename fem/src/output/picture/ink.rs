@@ -6,7 +6,6 @@ use super::raster::Image;
 
 /// DejaVu Sans, as in the plots: Latin, Greek, signs of mathematics.
 const FONT: &[u8] = include_bytes!("../../../../assets/DejaVuSans-subset.ttf");
-/// Colour of letters and lines.
 const INK: [f64; 3] = [0.16; 3];
 
 /// Height of a font's em \[pixels\] that can be read on a picture of a height.

@@ -2,7 +2,7 @@
 
 use super::ink::letter_size;
 use super::raster::Corner;
-use crate::vec3::dot;
+use crate::vec3::bounds;
 
 /// Pixels are drawn this many times finer in both directions, then averaged: smooth outlines.
 pub(super) const FINE: usize = 2;
@@ -48,14 +48,9 @@ pub(crate) struct PictureLook {
     pub height: usize,
     /// Values of the two ends of the colour map; `None`: smallest and largest value.
     pub limits: Option<(f64, f64)>,
-    /// Lowest and highest corner of what is shown \[m\], to keep the frames of a film in place; `None`: the mesh.
-    pub bounds: Option<([f64; 3], [f64; 3])>,
-    /// Draw the outlines of elements where they are large enough.
-    pub edges: bool,
-    /// Draw the colour map with numbers at the right; ≥ marks a value beyond the limits.
-    pub bar: bool,
-    /// Draw the axes and a length at the bottom left.
-    pub scale: bool,
+    /// Draw the outlines of elements where they are large enough, the colour map with numbers at the right (≥ marks a value beyond
+    /// the limits), the axes and a length at the bottom left.
+    pub marks: bool,
     /// Line at the top: what is shown, and in which unit the colours are.
     pub title: String,
 }
@@ -63,17 +58,7 @@ pub(crate) struct PictureLook {
 impl Default for PictureLook {
     fn default() -> PictureLook {
         let (width, height) = (960, 600);
-        PictureLook {
-            view: Viewpoint::Isometric,
-            width,
-            height,
-            limits: None,
-            bounds: None,
-            edges: true,
-            bar: true,
-            scale: true,
-            title: String::new(),
-        }
+        PictureLook { view: Viewpoint::Isometric, width, height, limits: None, marks: true, title: String::new() }
     }
 }
 
@@ -86,27 +71,19 @@ pub(super) struct Placing {
 
 impl Placing {
     pub(super) fn of(seen: &[[f64; 3]], look: &PictureLook, with_bar: bool) -> Placing {
-        let corners = look.bounds.map(|(low, high)| {
-            let pick = |i: usize| [0, 1, 2].map(|k| if i >> k & 1 == 0 { low[k] } else { high[k] });
-            (0..8).map(|i| look.view.axes().map(|axis| dot(axis, pick(i)))).collect::<Vec<_>>()
-        });
-        let shown = corners.as_deref().unwrap_or(seen);
-        let [x, y] = [0, 1].map(|k| {
-            shown.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p[k]), high.max(p[k])))
-        });
+        let [low, high] = bounds(seen.iter().copied());
         let margin = 0.04 * look.width.min(look.height) as f64;
         let [top, right, bottom] = room(look, with_bar);
         let (width, height) = (look.width as f64 - right, look.height as f64 - top - bottom);
         let room = [width - 2.0 * margin, height - 2.0 * margin];
-        let scale = (room[0] / (x.1 - x.0)).min(room[1] / (y.1 - y.0));
+        let scale = (room[0] / (high[0] - low[0])).min(room[1] / (high[1] - low[1]));
         // A mesh without extent, or without nodes, is drawn at any scale.
         let scale = if scale.is_finite() && scale > 0.0 { scale } else { 1.0 };
         let fine = FINE as f64;
-        let middle = [0.5 * (x.0 + x.1), 0.5 * (y.0 + y.1)];
+        let middle = [0, 1].map(|k| 0.5 * (low[k] + high[k]));
         Placing { scale: scale * fine, middle, centre: [0.5 * width * fine, (top + 0.5 * height) * fine] }
     }
 
-    /// Of the finished image.
     pub(super) fn pixels_per_m(&self) -> f64 {
         self.scale / FINE as f64
     }
@@ -125,5 +102,5 @@ fn room(look: &PictureLook, with_bar: bool) -> [f64; 3] {
     let size = letter_size(look.height);
     let top = if look.title.is_empty() { 0.0 } else { 2.0 * size };
     let right = if with_bar { (1.8 + 0.62 * LONGEST) * size } else { 0.0 };
-    [top, right, if look.scale { 5.0 * size } else { 0.0 }]
+    [top, right, if look.marks { 5.0 * size } else { 0.0 }]
 }

@@ -3,19 +3,17 @@
 //! Elements have one colour each, from a perceptually even colour map between two limits, darkened where they turn away
 //! from the light. Nothing here feeds back into a run.
 
-mod colour;
 mod cut;
 mod ink;
 mod look;
 mod notes;
 mod raster;
 
-pub(crate) use colour::viridis;
 pub(crate) use cut::{Cut, section};
 pub(crate) use look::PictureLook;
 pub use look::Viewpoint;
 pub(crate) use notes::round_above;
-pub(crate) use raster::Image;
+pub(crate) use raster::{Image, viridis};
 
 use crate::vec3::{cross, dot, norm, sub};
 use crate::{FemError, Mesh};
@@ -28,7 +26,6 @@ const MOST_PIXELS: usize = 4096;
 const FEWEST_PIXELS: usize = 128;
 /// Edges of elements that are shorter than this many pixels would only darken the picture.
 const SHORTEST_EDGE: f64 = 5.0;
-/// Colour of elements without values.
 const PLAIN: [f64; 3] = [0.62, 0.68, 0.76];
 
 /// Draws the mesh with its nodes at `positions` \[m\], elements coloured by `values` (mesh order, any unit; empty: grey).
@@ -39,23 +36,39 @@ pub(crate) fn render(
     look: &PictureLook,
 ) -> Result<Image, FemError> {
     check(mesh, positions, values, look)?;
-    let limits = look.limits.unwrap_or_else(|| range(values));
     let axes = look.view.axes();
     let seen: Vec<[f64; 3]> = positions.iter().map(|p| axes.map(|axis| dot(axis, *p))).collect();
-    let with_bar = look.bar && !values.is_empty();
-    let place = Placing::of(&seen, look, with_bar);
+    let all: Vec<usize> = (0..mesh.elements()).collect();
+    Ok(drawn(look, axes, &seen, values, &all, |canvas, place, colour| {
+        for (index, nodes) in mesh.faces().enumerate() {
+            let corners: Vec<[f64; 3]> = nodes.iter().map(|&node| seen[node as usize]).collect();
+            let light = shade(&corners);
+            let corners: Vec<Corner> = corners.into_iter().map(|p| place.on_canvas(p)).collect();
+            let edge = if look.marks { FINE as f64 * 0.5 } else { 0.0 };
+            canvas.element(&corners, colour(index).map(|c| c * light), edge, SHORTEST_EDGE * FINE as f64);
+        }
+    }))
+}
+
+/// An image with room for what is seen, which `fill` draws in the colours of elements, and notes on it. Only the `shown` elements count
+/// for the end of the colour bar.
+fn drawn(
+    look: &PictureLook,
+    axes: [[f64; 3]; 3],
+    seen: &[[f64; 3]],
+    values: &[f64],
+    shown: &[usize],
+    fill: impl FnOnce(&mut Canvas, &Placing, &dyn Fn(usize) -> [f64; 3]),
+) -> Image {
+    let limits = look.limits.unwrap_or_else(|| range(values));
+    let with_bar = look.marks && !values.is_empty();
+    let place = Placing::of(seen, look, with_bar);
     let mut canvas = Canvas::new(look.width * FINE, look.height * FINE);
-    for (index, nodes) in mesh.faces().enumerate() {
-        let corners: Vec<[f64; 3]> = nodes.iter().map(|&node| seen[node as usize]).collect();
-        let base = values.get(index).map_or(PLAIN, |&value| viridis(share(value, limits)));
-        let light = shade(&corners);
-        let corners: Vec<Corner> = corners.into_iter().map(|p| place.on_canvas(p)).collect();
-        let edge = if look.edges { FINE as f64 * 0.5 } else { 0.0 };
-        canvas.element(&corners, base.map(|c| c * light), edge, SHORTEST_EDGE * FINE as f64);
-    }
+    fill(&mut canvas, &place, &|element| values.get(element).map_or(PLAIN, |&value| viridis(share(value, limits))));
     let mut image = canvas.averaged(FINE);
-    notes::draw(&mut image, look, &place, axes, bar(values, limits, with_bar));
-    Ok(image)
+    let beyond = shown.iter().filter_map(|element| values.get(*element)).any(|value| *value > limits.1);
+    notes::draw(&mut image, look, &place, axes, with_bar.then_some((limits, beyond)));
+    image
 }
 
 /// The bytes of an image as PNG; empty if it cannot be encoded, which only an image of another size than it says can.
@@ -97,12 +110,9 @@ fn check(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &PictureLook
     if let Some(node) = mesh.faces().flatten().find(|&&node| node as usize >= nodes) {
         return refuse(format!("an element has node {}, the mesh has {nodes}", node + 1));
     }
-    match (look.limits, look.bounds) {
-        (Some((low, high)), _) if !(low < high && (high - low).is_finite()) => {
+    match look.limits {
+        Some((low, high)) if !(low < high && (high - low).is_finite()) => {
             refuse(format!("the colour limits {low} and {high} must be finite and rising"))
-        }
-        (_, Some((low, high))) if !(0..3).all(|k| low[k] <= high[k] && (high[k] - low[k]).is_finite()) => {
-            refuse(format!("the bounds {low:?} and {high:?} must be finite and rising"))
         }
         _ => Ok(()),
     }
@@ -112,11 +122,6 @@ fn check(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &PictureLook
 fn range(values: &[f64]) -> (f64, f64) {
     let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
     if low < high { (low, high) } else { (low, low + low.abs().max(1e-300) * 1e-3) }
-}
-
-/// What the colour bar shows: the limits, and whether values go beyond them.
-fn bar(values: &[f64], limits: (f64, f64), with_bar: bool) -> Option<((f64, f64), bool)> {
-    with_bar.then(|| (limits, values.iter().any(|v| *v > limits.1)))
 }
 
 /// Where a value lies between the limits, 0 to 1.

@@ -1,9 +1,8 @@
 //! What explains a picture: title, colour bar, scale, axes.
 
-use super::colour::viridis;
 use super::ink::{letter_size, line, stroke, width, write};
 use super::look::{LONGEST, PictureLook, Placing};
-use super::raster::{Image, bytes};
+use super::raster::{Image, bytes, viridis};
 
 /// Colours of the axes x, y, z.
 const AXES: [(&str, [f64; 3]); 3] = [("x", [0.78, 0.16, 0.16]), ("y", [0.13, 0.53, 0.2]), ("z", [0.15, 0.35, 0.75])];
@@ -21,7 +20,7 @@ pub(super) fn draw(
     if let Some((limits, beyond)) = bar {
         draw_bar(image, limits, beyond);
     }
-    if look.scale {
+    if look.marks {
         draw_axes(image, axes);
         draw_scale(image, place.pixels_per_m());
     }

@@ -12,7 +12,7 @@ fn sheet(n: usize, at: impl Fn(f64, f64) -> [f64; 3]) -> Mesh {
 }
 
 fn bare(view: Viewpoint) -> PictureLook {
-    PictureLook { view, width: 400, height: 300, edges: false, bar: false, scale: false, ..PictureLook::default() }
+    PictureLook { view, width: 400, height: 300, marks: false, ..PictureLook::default() }
 }
 
 fn pixel(image: &Image, x: usize, y: usize) -> [u8; 3] {
@@ -20,21 +20,20 @@ fn pixel(image: &Image, x: usize, y: usize) -> [u8; 3] {
     [image.rgb[at], image.rgb[at + 1], image.rgb[at + 2]]
 }
 
-fn drawn(image: &Image) -> usize {
+fn inked(image: &Image) -> usize {
     image.rgb.chunks(3).filter(|p| *p != [255; 3]).count()
 }
 
 #[test]
 fn a_square_seen_from_the_front_covers_its_pixels_in_the_colour_of_its_value() {
     let mesh = sheet(1, |a, b| [a - 0.5, b - 0.5, 0.0]);
-    let bounds = Some(([-1.0, -1.0, 0.0], [1.0, 1.0, 0.0]));
-    let look = PictureLook { limits: Some((0.0, 10.0)), bounds, ..bare(Viewpoint::Side) };
+    let look = PictureLook { limits: Some((0.0, 10.0)), ..bare(Viewpoint::Side) };
     let image = render(&mesh, &mesh.points, &[5.0], &look).unwrap();
-    // 300 pixels less two margins of 12 show 2 m, so the square has 138 pixels a side.
-    assert_eq!(drawn(&image), 138 * 138);
+    // 300 pixels less two margins of 12 show 1 m, so the square has 276 pixels a side.
+    assert_eq!(inked(&image), 276 * 276);
     let light = 0.7 + 0.3 * 0.8;
     assert_eq!(pixel(&image, 200, 150), viridis(0.5).map(|c| (c * light * 255.0).round() as u8));
-    assert_eq!(pixel(&image, 200 - 70, 150), [255; 3]);
+    assert_eq!(pixel(&image, 200 - 140, 150), [255; 3]);
 }
 
 #[test]
@@ -60,12 +59,11 @@ fn a_sphere_has_a_round_outline_from_every_side() {
         [latitude.cos() * longitude.cos(), latitude.sin(), latitude.cos() * longitude.sin()]
     };
     let mesh = sheet(96, ball);
-    let bounds = Some(([-1.0; 3], [1.0; 3]));
     for view in [Viewpoint::Side, Viewpoint::Top, Viewpoint::End] {
-        let image = render(&mesh, &mesh.points, &[], &PictureLook { bounds, ..bare(view) }).unwrap();
+        let image = render(&mesh, &mesh.points, &[], &bare(view)).unwrap();
         let wanted = std::f64::consts::PI * 138.0 * 138.0;
         // Pixels on the rim count fully: half a pixel of radius at most.
-        let error = drawn(&image) as f64 / wanted - 1.0;
+        let error = inked(&image) as f64 / wanted - 1.0;
         assert!(error.abs() < 1.0 / 138.0, "{view:?} {error}");
     }
 }
@@ -88,7 +86,7 @@ fn axes_of_every_view_are_right_handed_and_of_unit_length() {
 #[test]
 fn the_scale_has_the_length_that_it_says() {
     let mesh = sheet(1, |a, b| [0.1 * a, 0.01 * b, 0.0]);
-    let look = PictureLook { scale: true, ..bare(Viewpoint::Side) };
+    let look = PictureLook { marks: true, ..bare(Viewpoint::Side) };
     let image = render(&mesh, &mesh.points, &[], &look).unwrap();
     let ink = |x: &usize, y: usize| pixel(&image, *x, y)[0] < 100;
     // Letters are a fortieth of the height and at least 10 pixels; the line is 1.6 of them above the edge, right of the axes.
@@ -110,10 +108,9 @@ fn what_cannot_be_drawn_is_refused() {
     assert!(say(&points, &[1.0, 2.0, f64::NAN, 0.0], &look).contains("element 3 is NaN"));
     assert!(say(&points, &[], &PictureLook { width: 5000, ..look.clone() }).contains("128 to 4096"));
     assert!(say(&points, &[], &PictureLook { limits: Some((1.0, 1.0)), ..look.clone() }).contains("limits"));
-    assert!(say(&points, &[], &PictureLook { bounds: Some(([1.0; 3], [0.0; 3])), ..look.clone() }).contains("bounds"));
     points[4][2] = f64::INFINITY;
     assert!(say(&points, &[], &look).contains("node 5"));
-    assert_eq!(drawn(&render(&Mesh::default(), &[], &[], &look).unwrap()), 0);
+    assert_eq!(inked(&render(&Mesh::default(), &[], &[], &look).unwrap()), 0);
 }
 
 #[test]

@@ -24,7 +24,6 @@ type Known = BTreeMap<(Vec<i32>, i64, Vec<i64>), (Range<u32>, Option<u32>)>;
 /// Eight consecutive nodes and all shifts at which they have neighbours; where one of them has none its weight is 0.
 #[derive(Debug, Clone)]
 struct Stencil {
-    /// First of the eight.
     first: u32,
     /// Range in `shifts` and `common`.
     entries: Range<u32>,

@@ -93,7 +93,6 @@ pub(super) struct PassShared<'a> {
     pub rate: f64,
     /// Whether energies and fluxes are wanted; without, only the heat of viscosity is summed up.
     pub books: bool,
-    /// Vector instructions of this machine.
     pub(crate) arch: pulp::Arch,
 }
 
@@ -159,10 +158,8 @@ impl Patch {
     }
 }
 
-/// A list without repetitions.
 struct Distinct<T> {
     items: Vec<T>,
-    /// Places by key.
     known: BTreeMap<Vec<i64>, u32>,
 }
 

@@ -77,16 +77,12 @@ impl pulp::WithSimd for Pass<'_, '_> {
         take_positions(patch, room, shared.q);
         for index in 0..patch.runs.len() {
             let fabric = &*shared.fabrics[patch.runs[index].key.fabric];
-            match (fabric.kind(), shared.books) {
-                (Kind::NeoHookean(_), true) => run::<S, _, true>(simd, patch, room, shared, index, Rubber(1.0)),
-                (Kind::NeoHookean(_), false) => run::<S, _, false>(simd, patch, room, shared, index, Rubber(1.0)),
-                (Kind::Orthotropic(law), true) => run::<S, _, true>(simd, patch, room, shared, index, law),
-                (Kind::Orthotropic(law), false) => run::<S, _, false>(simd, patch, room, shared, index, law),
-                (Kind::Mixed(law), true) => run::<S, _, true>(simd, patch, room, shared, index, law),
-                (Kind::Mixed(law), false) => run::<S, _, false>(simd, patch, room, shared, index, law),
-                (Kind::WrinklingFilm(_), true) => run::<S, _, true>(simd, patch, room, shared, index, WrinklingFilm),
-                (Kind::WrinklingFilm(_), false) => run::<S, _, false>(simd, patch, room, shared, index, WrinklingFilm),
-                (Kind::Other, _) => run::<S, _, true>(simd, patch, room, shared, index, Called(fabric)),
+            match fabric.kind() {
+                Kind::NeoHookean(_) => counted(simd, patch, room, shared, index, Rubber(1.0)),
+                Kind::Orthotropic(law) => counted(simd, patch, room, shared, index, law),
+                Kind::Mixed(law) => counted(simd, patch, room, shared, index, law),
+                Kind::WrinklingFilm(_) => counted(simd, patch, room, shared, index, WrinklingFilm),
+                Kind::Other => run::<S, _, true>(simd, patch, room, shared, index, Called(fabric)),
             }
         }
         if !patch.bend.is_empty() {
@@ -121,6 +117,15 @@ fn take_positions(patch: &Patch, room: &mut Room, q: &[[f64; 4]]) {
         for (((x, y), z), p) in to.zip(&q[stretch.outer.clone()]) {
             (*x, *y, *z) = (p[0], p[1], p[2]);
         }
+    }
+}
+
+/// With energies and fluxes where they are wanted.
+#[inline(always)]
+fn counted<S: Simd>(simd: S, patch: &mut Patch, room: &mut Room, all: PassShared, index: usize, law: impl ShellLaw) {
+    match all.books {
+        true => run::<S, _, true>(simd, patch, room, all, index, law),
+        false => run::<S, _, false>(simd, patch, room, all, index, law),
     }
 }
 

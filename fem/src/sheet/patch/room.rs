@@ -44,7 +44,6 @@ pub(crate) struct Room<'a> {
 pub(crate) struct RoomNeeds {
     /// Nodes, with one more group of lanes than they fill.
     pub nodes: usize,
-    /// Groups outside regular rows.
     pub others: usize,
     /// Where no regular row writes the forces of corner c on a node of the patch.
     pub(crate) no_corner: [Gaps; 4],

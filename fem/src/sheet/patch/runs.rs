@@ -74,11 +74,9 @@ pub(crate) fn next_in_row(a: &Item, b: &Item) -> bool {
 pub(super) struct Stretch {
     /// In the numbering of the patch.
     pub local: Range<usize>,
-    /// In the other.
     pub outer: Range<usize>,
 }
 
-/// Stretches of pairs of numbers.
 pub(super) fn stretches(pairs: &[(usize, usize)]) -> Vec<Stretch> {
     let follow = |a: &(usize, usize), b: &(usize, usize)| b.0 == a.0 + 1 && b.1 == a.1 + 1;
     let stretch = |chunk: &[(usize, usize)]| {

@@ -3,8 +3,8 @@
 use std::collections::{HashMap, HashSet};
 
 use super::super::build::Builder;
+use super::super::content::{MeshFile, Surface};
 use super::super::scan::Scan;
-use super::super::{MeshFile, Surface};
 use super::model::{Group, Instance, Member, Model, Orientation, Section, Sides};
 use crate::vec3::{add, cross, dot, norm, scale, sub};
 
@@ -22,7 +22,6 @@ struct Assembly {
     nodes: HashMap<Item, u32>,
     /// Nodes in the order of the mesh.
     items: Vec<Item>,
-    /// Corners, and the part.
     elements: HashMap<Item, (Vec<u32>, String)>,
     sets: Sets,
     /// More than one instance has elements: names need theirs.
@@ -77,7 +76,6 @@ impl Assembly {
         Ok(())
     }
 
-    /// The corners of all elements.
     fn numbers(&mut self, model: &Model) -> Result<(), Fault> {
         for (i, instance) in model.instances.iter().enumerate() {
             for element in &model.bodies[instance.body].elements {
@@ -166,11 +164,8 @@ impl Assembly {
                     }
                 }
                 if let Some(name) = orientation {
-                    turned.push((
-                        self.prefixed(model, i, set),
-                        orientation_of(model, inst, name).map_err(|m| (*line, m))?,
-                        inst,
-                    ));
+                    let orientation = orientation_of(model, inst, name).map_err(|message| (*line, message))?;
+                    turned.push((self.prefixed(model, i, set), orientation, inst));
                 }
             }
         }
@@ -195,8 +190,8 @@ impl Assembly {
                 continue;
             }
             let warp = warp(orientation).map_err(|message| (orientation.line, message))?;
-            let [x, y, z] = warp_in(inst, warp);
-            self.builder.warp(&part, [x, y, z], &format!("*ORIENTATION `{}`", orientation.name));
+            let turned = sub(stand(inst, warp), stand(inst, [0.0; 3]));
+            self.builder.warp(&part, turned, &format!("*ORIENTATION `{}`", orientation.name));
         }
         Ok(())
     }
@@ -308,11 +303,6 @@ fn warp(orientation: &Orientation) -> Result<[f64; 3], String> {
     };
     let (sin, cos) = turn.get(1).copied().unwrap_or(0.0).to_radians().sin_cos();
     Ok(add(scale(axes[about % 3], cos), scale(axes[(about + 1) % 3], sin)))
-}
-
-/// A direction of a part as its instance stands.
-fn warp_in(instance: &Instance, warp: [f64; 3]) -> [f64; 3] {
-    sub(stand(instance, warp), stand(instance, [0.0; 3]))
 }
 
 /// Where a point of a part stands: moved, then turned by Rodrigues' formula.

@@ -51,7 +51,6 @@ pub(super) const IGNORED: &str = "\
 pub(super) struct Keyword {
     /// In capitals without spaces.
     pub(super) name: String,
-    /// As the file writes it.
     pub(super) written: String,
     pub(super) line: usize,
     parameters: Vec<(String, Option<String>)>,

@@ -8,7 +8,7 @@ mod assemble;
 mod keywords;
 mod model;
 
-use super::MeshFile;
+use super::content::MeshFile;
 use super::scan::{Scan, number, numbers, whole};
 use keywords::{IGNORED, Keyword, REFUSED, SHAPES};
 use model::{Body, Element, Group, Instance, Member, Model, Orientation, Section, Sides};
@@ -34,9 +34,9 @@ struct Reader {
 }
 
 pub(super) fn read(scan: &mut Scan) -> Result<MeshFile, String> {
-    let whole_text = Instance { name: String::new(), body: 0, moved: [0.0; 3], turned: None };
-    let (bodies, instances) = (vec![Body::default()], vec![whole_text]);
-    let model = Model { bodies, instances, pressed: Vec::new(), ignored: Vec::new() };
+    // The whole text.
+    let (bodies, instances) = (vec![Body::default()], vec![Instance::default()]);
+    let model = Model { bodies, instances, ..Model::default() };
     let mut reader = Reader { model, body: 0, reading: Reading::Nothing, in_step: false };
     while let Some(line) = scan.line() {
         if line.starts_with("**") {
@@ -127,7 +127,7 @@ impl Reader {
         let (name, part) = (keyword.needed("NAME")?, keyword.needed("PART")?);
         let found = self.model.bodies.iter().position(|body| body.name.eq_ignore_ascii_case(&part));
         let body = found.filter(|at| *at > 0).ok_or_else(|| format!("there is no *PART `{part}` above"))?;
-        self.model.instances.push(Instance { name, body, moved: [0.0; 3], turned: None });
+        self.model.instances.push(Instance { name, body, ..Instance::default() });
         // What an instance adds to its part has the numbers of the part.
         self.body = body;
         self.reading = Reading::Place;

@@ -1,6 +1,7 @@
 //! What an Abaqus file says, in the order of the file.
 
 /// What a file says, in the order of the file.
+#[derive(Default)]
 pub(super) struct Model {
     /// The first one is the text outside of parts.
     pub(super) bodies: Vec<Body>,
@@ -70,6 +71,7 @@ pub(super) struct Sides {
 }
 
 /// Placement of a part: moved, then turned about an axis through two points.
+#[derive(Default)]
 pub(super) struct Instance {
     pub(super) name: String,
     pub(super) body: usize,

@@ -1,0 +1,45 @@
+//! Energies of a section, by line of the ledger.
+
+use super::frame::Bend;
+use super::section::{Section, dot};
+use super::state::StripState;
+use crate::body::{BODY_PRESSURE, Bending};
+use crate::term::{LedgerLine, Pose, Term};
+
+impl Section<'_> {
+    /// Energies per metre of body \[J/m\] by line of the ledger.
+    pub(crate) fn energies(&self, bend: &Bend, strips: &[StripState], post: &mut dyn FnMut(LedgerLine, f64)) {
+        for (strip, state) in self.strips.iter().zip(strips) {
+            let site = &self.sites[strip.site];
+            let Some(actuator) = site.actuator.filter(|_| state.p_act_pa > 0.0) else { continue };
+            let stroke = (actuator.stroke)(&site.shape, state.coordinate.max(actuator.range.0));
+            let at = Pose { s_m: self.segment.middle_m(), ..Pose::new(&[], self.p_body_pa, state.p_act_pa) };
+            site.actuator_energies(&stroke, [state.coordinate, state.tension], &at, &mut |line, energy| {
+                post(line, energy / strip.cos_slant);
+            });
+        }
+        let gas = match self.is_passive(strips) {
+            true => self.displaced_m2(bend.kappa),
+            false => self.area_m2 * bend.contraction + dot(self.moment_m3, bend.kappa),
+        };
+        post(BODY_PRESSURE, self.p_body_pa * gas);
+        post(Bending { stiffness: 0.0 }.line(), 0.5 * self.bending * dot(bend.kappa, bend.kappa));
+    }
+
+    /// Energy per metre at any bend and contraction, strips settled \[J/m\]; for tests.
+    #[cfg(test)]
+    pub(crate) fn energy(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> f64 {
+        self.pulls(strips, kappa, contraction);
+        let mut sum = 0.0;
+        self.energies(&Bend { kappa, contraction }, strips, &mut |_, energy| sum += energy);
+        sum
+    }
+
+    /// Forces on κ and ε₀ there, of everything but the constraint; for tests.
+    #[cfg(test)]
+    pub(crate) fn forces(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> [f64; 3] {
+        let pulls = self.pulls(strips, kappa, contraction);
+        let by = |i: usize| pulls.moment[i] - self.p_body_pa * self.moment_m3[i] - self.bending * kappa[i];
+        [by(0), by(1), pulls.force - self.p_body_pa * self.area_m2]
+    }
+}

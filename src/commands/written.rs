@@ -1,0 +1,18 @@
+//! Datasets that commands write.
+
+use crate::prelude::*;
+use data::About;
+
+/// Writes a dataset with what made it.
+pub(super) fn write_dataset(
+    folder: &Path,
+    dataset: &Dataset,
+    about: &About,
+    truth: String,
+    inputs: &[Input],
+    context: &mut Context,
+) -> Result<()> {
+    let mut files = Files { files: data::set_files(dataset, about)?.into(), ..Files::default() };
+    files.text("truth.toml", truth);
+    replace_files(folder, &files, inputs, context)
+}
