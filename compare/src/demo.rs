@@ -18,17 +18,16 @@ use serde::Serialize;
 
 /// Robot and data of the demonstration.
 pub const ROBOT: [&str; 2] = ["epam", "fem-epam"];
-/// Robots of the last panel.
 const ROBOTS: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
 /// Body pressure of the data that are left out \[Pa\].
 const LEFT_OUT_PA: f64 = 4e3;
 
-/// Everything the demonstration computes.
+/// Results of the five panels, from a textbook model to both engines.
 #[derive(Debug, Clone)]
 pub struct Demo {
-    /// The textbook model.
+    /// ePAM of the textbook, without the mechanisms of the shipped robot.
     pub robot: Scenario,
-    /// What the camera saw.
+    /// Synthetic camera measurements of finite element runs, dataset `fem-epam`.
     pub data: Evidence,
     /// The one compared with the other.
     pub compared: Comparison,
@@ -38,7 +37,7 @@ pub struct Demo {
     pub diagnosis: Diagnosis,
     /// The textbook model, and one more mechanism in every step.
     pub steps: Vec<Mechanism>,
-    /// Both engines on four robots.
+    /// Reduced model and finite elements for the four published robots.
     pub engines: Engines,
     /// Their displacements and accuracies at every pressure that the paper prints.
     pub lines: Vec<EngineLine>,
@@ -47,11 +46,11 @@ pub struct Demo {
 /// A model with one more mechanism, and its errors: root mean square over markers and holds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Mechanism {
-    /// What was added; empty: nothing.
+    /// Name of the mechanism added in this step, empty for the textbook model.
     pub effect: String,
-    /// What it is.
+    /// What the mechanism does, from the catalogue of effects.
     pub sentence: String,
-    /// In the data \[mm\]
+    /// Root-mean-square distance of the markers from the data that choose the mechanism \[mm\].
     pub error_mm: f64,
     /// In data at twice the body pressure, which chose nothing \[mm\]
     pub left_out_mm: f64,

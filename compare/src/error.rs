@@ -3,27 +3,23 @@
 use data::Fault;
 
 /// Errors of this crate; each says where and what is wrong, and in the message or as [`CompareError::help`] what to do.
+#[expect(missing_docs, reason = "fields have the words and units of their message")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CompareError {
     /// A wish that cannot be met.
     #[error("{message}")]
     Refused {
-        /// What is wrong.
         message: String,
-        /// What to type.
         help: String,
     },
     /// A file that cannot be read.
     #[error("cannot read {path}: {cause}")]
     Unread {
-        /// File.
         path: String,
-        /// Why.
         cause: String,
-        /// What to do.
         help: String,
     },
-    /// A scenario with a fault.
+    /// A scenario whose text has a fault, with its line and the remedy.
     #[error("{0}")]
     Scenario(Box<Fault>),
     /// A table, a description or arrays that cannot be used together, with place and remedy.
@@ -32,17 +28,14 @@ pub enum CompareError {
     /// A setting is outside its range.
     #[error("{name} = {value} is not possible: {expected}")]
     BadOption {
-        /// Name of the setting.
         name: &'static str,
-        /// Value given.
         value: f64,
-        /// What is expected.
         expected: &'static str,
     },
     /// A matrix decomposition did not converge.
     #[error("the noise covariance could not be decomposed: check the marker positions for extreme values")]
     Decomposition,
-    /// The model found no equilibrium.
+    /// The balance of moments has no solution at some place and pressures.
     #[error("{0}")]
     Unsolved(#[from] models::Unsolved),
     /// Scenario and data are of different robots.
@@ -50,34 +43,27 @@ pub enum CompareError {
         "the data `{dataset}` are of actuator {data}, the scenario is of actuator {scenario}: use the matching scenario"
     )]
     WrongActuator {
-        /// Name of the dataset.
         dataset: String,
-        /// Actuator kind in the data.
         data: String,
-        /// Actuator kind in the scenario.
         scenario: String,
     },
-    /// Marker stations are known nowhere.
+    /// Neither the data nor the scenario states where a marker is on the body.
     #[error(
         "the station of marker `{marker}` is not known: add an s_mm column to the data, [markers] names and s_mm to \
          about.toml, or {needed} stations to [markers] s_mm of the scenario (it has {found})"
     )]
     NoStation {
-        /// First marker without station.
         marker: String,
-        /// Markers in the data.
+        /// How many markers the data have.
         needed: usize,
-        /// Stations in the scenario.
+        /// How many stations the scenario has in `[markers] s_mm`.
         found: usize,
     },
     /// A marker sits beyond the robot's end.
     #[error("marker `{marker}` at s = {s_mm} mm is beyond the robot's end at {length_mm} mm: check units and scenario")]
     OffTheBody {
-        /// Marker label.
         marker: String,
-        /// Its station \[mm\].
         s_mm: f64,
-        /// Body length \[mm\].
         length_mm: f64,
     },
     /// Runs with different known tip forces cannot share one mean.
@@ -86,53 +72,44 @@ pub enum CompareError {
          because runs are averaged"
     )]
     MixedTipForces {
-        /// A run and its force.
+        /// A run and its tip force, in words.
         first: String,
-        /// Another.
+        /// A run with another tip force, in words.
         second: String,
     },
     /// A protocol text that cannot be read.
     #[error("protocol `{text}`: {problem}; write pressures in kPa, for example \"0,10,20,30,0@2; 0,20,40,60,0@4\"")]
     BadProtocol {
-        /// The text.
         text: String,
-        /// What is wrong.
         problem: String,
     },
-    /// Data that cannot be read.
+    /// A fault that reading the data found, with file, line and remedy.
     #[error("{0}")]
     Data(#[from] data::DataError),
     /// A finite element run cannot be made, or its record not be read.
     #[error("{message}")]
     Fem {
-        /// What is wrong, and where.
         message: String,
-        /// What to do.
         help: String,
     },
     /// The generator of hidden-effect data cannot make this robot or this run.
     #[error("the data cannot be generated: {problem}")]
     NotSimulated {
-        /// Why.
         problem: String,
     },
     /// No scenario comes with the library for this actuator, or it is damaged.
     #[error("no shipped scenario of actuator `{kind}`: {problem}")]
     NoScenario {
-        /// Actuator kind.
         kind: String,
-        /// Why.
         problem: String,
     },
     /// Nothing to hold against the data.
     #[error("no model is given to hold against the data: give at least one")]
     NoModel,
-    /// A fit broke off.
+    /// A search that ended without a minimum.
     #[error("the fit of {what} broke off: {problem}")]
     Fit {
-        /// What was fitted.
         what: &'static str,
-        /// Why.
         problem: String,
     },
 }

@@ -25,7 +25,7 @@ pub const WORTH_A_SECOND_MM: f64 = 0.15;
 /// More than this share of the error left by one effect means that the catalogue does not explain it. Errors are those beyond noise
 /// and scatter between runs.
 pub const LEFT_BY_ONE: f64 = 0.2;
-/// The same of two effects.
+/// The same share where two effects were fitted together.
 pub const LEFT_BY_TWO: f64 = 0.15;
 /// Less is nothing left over, whatever its share \[mm\].
 pub const LEAST_LEFT_MM: f64 = 0.05;
@@ -320,7 +320,7 @@ pub fn is_never_above(act_pa: f64, body_pa: f64) -> bool {
     act_pa < body_pa - ZERO_PRESSURE_PA
 }
 
-/// Whether two ratios P/p match.
+/// Whether two ratios P/p differ by a factor within [`SAME_RATIO`].
 pub fn is_same_ratio(one: f64, other: f64) -> bool {
     (one / other).ln().abs() <= SAME_RATIO
 }

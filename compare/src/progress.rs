@@ -10,13 +10,13 @@ pub type Progress<'p> = dyn FnMut(&str, Option<f64>) + Send + 'p;
 /// epam-textbook synthetic-epam --out FOLDER` (0.5 s) and `ibr demo` (14 s). Other data take other shares. A finite element run tells
 /// the share of its simulated time: of `ibr simulate epam` (5.6 s) 0.5 was told at 0.41 and 0.95 at 0.80; pictures come after.
 pub mod shares {
-    /// After reading of data.
+    /// The data are read, and the command's own work begins.
     pub const READ: f64 = 0.01;
     /// Of a diagnosis: left-out data begin (0.21 with one effect missing, 0.52 with two), then the next experiment (0.63, 0.77).
     pub const DIAGNOSIS: [f64; 2] = [0.4, 0.7];
-    /// Of its fits: pairs begin.
+    /// Share of a diagnosis's fits after which pairs of effects are fitted.
     pub const PAIRS: f64 = 0.35;
-    /// Its report begins.
+    /// The fits of a diagnosis are done, and its report begins.
     pub const DIAGNOSED: f64 = 0.1;
     /// The report of a comparison begins.
     pub const COMPARED: f64 = 0.02;

@@ -27,7 +27,7 @@ use serde::Serialize;
 const PHYSICAL: usize = TERMS.len() - 1;
 /// Candidates held against the ledger, those of the stated set before others.
 const MOST: usize = 6;
-/// Places in [`TERMS`].
+/// Places of two terms in [`TERMS`].
 const GAS: usize = 0;
 const BENDING: usize = 2;
 
@@ -40,7 +40,7 @@ pub struct Height {
     pub measured_mm: f64,
     /// The model with its calibrated B \[mm\].
     pub base_mm: f64,
-    /// The final model \[mm\].
+    /// The final model of the diagnosis, with the effects it adds \[mm\].
     pub best_mm: f64,
     /// Finite elements, mean over seeds \[mm\].
     pub fe_mm: f64,
@@ -78,7 +78,7 @@ pub struct FeMoment {
     pub moment_sd_nm: f64,
 }
 
-/// Finite elements beside a diagnosis.
+/// A diagnosis compared with finite element runs of the same robot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Witness {
     /// Runs, one per seed of the imperfections.
@@ -98,7 +98,7 @@ pub struct Witness {
     pub fe_mj: Option<Energies>,
     /// The base first, then candidates, nearest ledger first; empty without a ledger.
     pub models: Vec<WitnessRow>,
-    /// What follows, in sentences.
+    /// Conclusions for the reader, one sentence each.
     pub sentences: Vec<String>,
 }
 

@@ -6,9 +6,9 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 use std::fmt::Write as _;
 
-/// Specimens per direction.
+/// How many specimens each direction has.
 pub const SPECIMENS: usize = 5;
-/// Thickness \[m\].
+/// Thickness of the fabric in every test \[m\].
 pub const THICKNESS_M: f64 = 5e-5;
 /// Strip of all directions: that of the paper.
 pub const STRIP: BiasExtension = BiasExtension { length_m: 0.25, width_m: 0.02, thickness_m: THICKNESS_M };

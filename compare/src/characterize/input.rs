@@ -9,14 +9,14 @@ use fem::session::FileHash;
 use spelling::files::{MOST_DATA, read_whole};
 use std::path::Path;
 
-/// Tests of one fabric.
+/// Tensile and cantilever tests of one fabric.
 #[derive(Debug, Clone, Default)]
 pub struct FabricTests {
-    /// Pulled specimens.
+    /// Specimens that were pulled, of all files.
     pub coupons: Vec<Coupon>,
-    /// Cantilever tests.
+    /// Cantilever tests, one table of bending lengths each.
     pub bent: Vec<Bench>,
-    /// Files that were read.
+    /// Files that were read, with the hash of each.
     pub files: Vec<FileHash>,
 }
 

@@ -27,7 +27,7 @@ pub const PAPER_LIMIT_RAD: f64 = 0.630_801_3;
 /// Shear angle up to which optical angles agree within 5° with the kinematics (Cao et al. 2008) \[rad\].
 pub const OPTICAL_LIMIT_RAD: f64 = std::f64::consts::PI / 6.0;
 
-/// Choices of the user.
+/// How tests are reduced: name of the fabric, range of the modulus, checks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reduction {
     /// Name of the fabric in the TOML fragment.

@@ -10,11 +10,11 @@ use serde::Serialize;
 pub struct Characterized {
     /// One by one, in the order given.
     pub specimens: Vec<Specimen>,
-    /// Numbers of the fabric.
+    /// Numbers of the fabric, with their scatter over specimens.
     pub quantities: Vec<FabricNumber>,
     /// Mean curves along warp and fill.
     pub yarns: Vec<MeanCurve>,
-    /// Shear curve, from bias extension.
+    /// Shear curve from bias extension; `None` without such tests.
     pub shear: Option<ShearCurve>,
     /// Mean thickness \[m\], if any specimen has one.
     pub thickness_m: Option<f64>,
@@ -31,7 +31,7 @@ pub struct Characterized {
 /// Mean stress over strain of one direction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeanCurve {
-    /// Warp or fill.
+    /// Direction of the pull: along warp or along fill.
     pub direction: Direction,
     /// Rows nominal strain, mean nominal stress \[Pa\]; strictly rising from `[0, 0]`.
     pub rows: Vec<[f64; 2]>,
@@ -50,14 +50,14 @@ pub struct ShearCurve {
     pub moment_pa: Option<Vec<[f64; 2]>>,
 }
 
-/// The numbers of one specimen.
+/// What one specimen's test gives: curve, modulus and contraction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Specimen {
-    /// Label.
+    /// Label of the specimen as in its file.
     pub name: String,
-    /// File it came from.
+    /// Name of the file with the specimen.
     pub file: String,
-    /// Direction of the pull.
+    /// Direction of the pull to the yarns.
     pub direction: Direction,
     /// Rows nominal strain, nominal stress \[Pa\] up to the largest; empty if the cross-section is not known.
     pub stress: Vec<[f64; 2]>,
@@ -73,7 +73,7 @@ pub struct Specimen {
     pub c10_pa: Option<[f64; 2]>,
     /// Bias extension, where width and length are known.
     pub strip: Option<BiasStrip>,
-    /// Thickness \[m\].
+    /// Thickness of the specimen \[m\]; `None` if not stated.
     pub thickness_m: Option<f64>,
 }
 
@@ -88,16 +88,16 @@ pub struct BiasStrip {
     pub shear: Vec<[f64; 2]>,
     /// Slope of the shear force at small angles \[N/m\].
     pub slope_n_per_m: Option<f64>,
-    /// Where shear stiffens for good.
+    /// Shear angle at which shear stiffens for good, if there is one.
     pub locking: Option<fit::Locking>,
 }
 
 /// A test computed with a law.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Replay {
-    /// Which law
+    /// Name of the law that was computed.
     pub law: String,
-    /// Specimen
+    /// Label of the specimen it is compared with.
     pub specimen: String,
     /// The law was made of tests of this direction; else it is a check
     #[serde(rename = "used_for_the_law")]
@@ -123,22 +123,22 @@ impl Characterized {
         self.add(stiffness, "µN·m", d, format!("{word}: D = w c³"));
     }
 
-    /// Specimens of a direction.
+    /// Specimens that were pulled in this direction.
     pub fn of(&self, direction: Direction) -> impl Iterator<Item = &Specimen> {
         self.specimens.iter().filter(move |s| s.direction == direction)
     }
 
-    /// Bias-extension tests.
+    /// Specimens of bias extension that have a size, with their strips.
     pub fn strips(&self) -> impl Iterator<Item = (&Specimen, &BiasStrip)> {
         self.specimens.iter().filter_map(|s| Some((s, s.strip.as_ref()?)))
     }
 
-    /// A number by its key.
+    /// The number with this key, such as `nu12`; `None` if no test gives it.
     pub fn quantity(&self, key: &str) -> Option<&FabricNumber> {
         self.quantities.iter().find(|q| q.key == key)
     }
 
-    /// ν₁₂: measured, else 0.
+    /// Poisson's ratio ν₁₂ as measured, not below 0; 0 if not measured.
     pub fn nu12(&self) -> f64 {
         self.quantity("nu12").map_or(0.0, |q| q.scatter.mean.max(0.0))
     }

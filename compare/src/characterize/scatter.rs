@@ -7,10 +7,10 @@ use serde::Serialize;
 /// A number of every specimen, summed up.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Scatter {
-    /// Specimens.
+    /// Number of specimens in the mean.
     #[serde(rename = "specimens")]
     pub n: usize,
-    /// Mean.
+    /// Mean over specimens, in the unit of the number.
     pub mean: f64,
     /// Standard deviation between specimens, of two or more.
     pub sd: Option<f64>,
@@ -22,13 +22,13 @@ pub struct Scatter {
 /// A number of the fabric in display units.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FabricNumber {
-    /// Short name, as in JSON.
+    /// Key of the number in JSON, such as `nu12`.
     pub key: String,
-    /// What it is.
+    /// Name of the number for tables.
     pub name: String,
-    /// Unit.
+    /// Unit of mean and scatter, for display.
     pub unit: &'static str,
-    /// Over specimens, in `unit`.
+    /// Mean and scatter over specimens, in `unit`.
     #[serde(flatten)]
     pub scatter: Scatter,
     /// How it is known, and from what.
@@ -63,7 +63,7 @@ impl Scatter {
         Scatter { n, mean, sd: None, half: Some(t_975(dof) * total.sqrt()) }
     }
 
-    /// In other units.
+    /// Mean and scatter times a factor, as for another unit.
     pub fn scaled(self, factor: f64) -> Scatter {
         let by = |v: Option<f64>| v.map(|v| v * factor.abs());
         Scatter { n: self.n, mean: self.mean * factor, sd: by(self.sd), half: by(self.half) }

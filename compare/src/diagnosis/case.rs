@@ -30,12 +30,12 @@ type NoiseOf<'n> = dyn Fn(&Source, &[f64]) -> Result<NoiseModel, CompareError> +
 pub(crate) struct Case<'a> {
     /// All data; errors in millimetres, places and held-out parts refer to the first.
     pub sources: &'a [Source],
-    /// Noise of their means.
+    /// Noise of the mean of each source.
     pub noises: Vec<NoiseModel>,
     pub problem: Problem<'a>,
     /// Effects in every hypothesis: the scenario's own, if they are refitted.
     pub always: Vec<usize>,
-    /// Effects that may be missing.
+    /// Candidates that are fitted as missing, as indices into the catalogue.
     pub tried: Vec<usize>,
     /// Body pressures with a bending stiffness of their own \[Pa\].
     pub body_pa: Vec<f64>,
@@ -181,7 +181,6 @@ impl<'a> Case<'a> {
         self.prediction_of(&self.problem.blocks[0], fit)
     }
 
-    /// The same of another block.
     pub(crate) fn prediction_of(&self, block: &Block, fit: &Fit) -> Vec<f64> {
         let predicted = self.problem.predict(block, &block.holds, &fit.effects, fit.theta());
         // A fit ends at a place that was predicted before, so there is a prediction.
@@ -193,7 +192,6 @@ impl<'a> Case<'a> {
         &white[..self.noise().directions.len()]
     }
 
-    /// Whether p-values can be formed.
     pub(crate) fn gives_p_values(&self) -> bool {
         self.noises.iter().all(NoiseModel::gives_p_values)
     }

@@ -26,7 +26,7 @@ use statrs::distribution::{ContinuousCDF, Normal};
 /// The noise of a test, known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KnownNoise {
-    /// Runs in the mean.
+    /// Number of runs that the mean is taken over.
     pub runs: usize,
     /// Camera noise of one coordinate \[m\].
     pub sigma_m: f64,

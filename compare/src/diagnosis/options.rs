@@ -1,4 +1,4 @@
-//! Settings of a diagnosis.
+//! Settings of a diagnosis: what it tries, at which level it decides, what it excludes.
 
 use crate::diagnosis::candidates::WITHOUT;
 use crate::error::CompareError;
@@ -24,9 +24,9 @@ pub struct Options {
     pub pairs: bool,
     /// Try the robot with all mechanisms of the shipped one, or with none.
     pub other_design: bool,
-    /// Look for the next experiment.
+    /// Search for the experiment that separates the remaining explanations.
     pub next_experiment: bool,
-    /// Look at the missing moment.
+    /// Compute what moment the base lacks at the measured bends.
     pub missing_moment: bool,
     /// Learn a law of the missing moment, also where the verdict names an effect or nothing.
     pub learn: bool,

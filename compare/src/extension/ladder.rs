@@ -14,16 +14,16 @@ use serde::Serialize;
 /// Effects that a climb adds at most: beyond them a name says little.
 pub const MOST_EFFECTS: usize = 3;
 
-/// One step up.
+/// One step of the ladder: effects added together after one diagnosis.
 #[derive(Debug, Clone, Serialize)]
 pub struct ClimbStep {
-    /// Effects and their fitted values.
+    /// Effects that the step adds, with their fitted values.
     pub added: Vec<FittedEffect>,
     /// Names that these data cannot tell apart.
     pub indistinguishable: Vec<String>,
     /// Corrected p of "nothing is missing" before it.
     pub p_value: Option<f64>,
-    /// How sure the name is.
+    /// How sure the names of the effects are; `None` if the verdict has no confidence.
     pub confidence: Option<Confidence>,
     /// File of the scenario with it.
     pub file: String,
@@ -34,23 +34,23 @@ pub struct ClimbStep {
 pub struct Climb {
     /// Errors, the scenario as given first.
     pub rungs: Vec<ErrorStep>,
-    /// What each step added.
+    /// Effects added by each step, in order.
     pub steps: Vec<ClimbStep>,
-    /// The story in sentences.
+    /// The steps and the ending, one sentence each.
     #[serde(skip)]
     pub told: Vec<String>,
     /// Name of the file and text of the scenario of every step.
     #[serde(skip)]
     pub files: Vec<(String, String)>,
-    /// Noise of the mean \[mm\].
+    /// Noise of the mean over runs, of one coordinate \[mm\].
     pub noise_floor_mm: Option<f64>,
-    /// Why it ended, for programs.
+    /// Why the ladder ended, as a word such as `noise` or `no_p_values`.
     pub stopped: &'static str,
-    /// The same for readers.
+    /// Why the ladder ended, as a sentence.
     pub ending: String,
     /// The answer with the B of the last scenario, where with a fitted one there is none.
     pub kept_bending: Option<KeptBending>,
-    /// Cautions.
+    /// Cautions about scenario, data and fits, one sentence each.
     pub warnings: Vec<String>,
 }
 

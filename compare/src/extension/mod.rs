@@ -30,7 +30,7 @@ const LEARNED: &str = "learned";
 /// The effect to add, as a user types it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Wish {
-    /// What the diagnosis adds.
+    /// Effects that the verdict of the diagnosis adds.
     Best,
     /// The law that is learned from the missing moment where the catalogue has none.
     Learned,

@@ -15,9 +15,9 @@ use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 pub struct ScenarioFile {
     /// File or name, as it was asked for.
     pub name: String,
-    /// The TOML text.
+    /// TOML text of the scenario, with its comments.
     pub text: String,
-    /// What it means.
+    /// The same robot as values in SI units.
     pub scenario: Scenario,
 }
 

@@ -9,7 +9,7 @@ use serde::Serialize;
 /// A model on the way from the scenario as given to the extended one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ErrorStep {
-    /// In words.
+    /// Short description of the model in words.
     pub model: String,
     /// How its newest value is known.
     pub how_known: &'static str,
@@ -40,7 +40,6 @@ pub fn error_steps(d: &Diagnosis, scenario: &Scenario) -> Vec<ErrorStep> {
 
 /// A diagnosis, as that of one scenario.
 pub(crate) struct Ground<'a> {
-    /// What was found.
     pub d: &'a Diagnosis,
     /// Which of the fitted stiffnesses is the scenario's.
     level: usize,
@@ -57,7 +56,6 @@ impl<'a> Ground<'a> {
         values_nm2.get(self.level).copied().unwrap_or(self.d.base.bending_nominal_nm2)
     }
 
-    /// B of the calibrated base.
     pub(crate) fn base_bending(&self) -> f64 {
         let values: Vec<f64> = self.d.base.bending.iter().map(|b| b.value_nm2).collect();
         self.bending(&values)
@@ -67,7 +65,7 @@ impl<'a> Ground<'a> {
         !self.d.base.bending.is_empty()
     }
 
-    /// An effect to be written.
+    /// An effect to write, with the data that a fit used and today's date.
     pub(crate) fn addition(&self, name: &str, values: Vec<(String, f64)>, known: Known) -> Addition {
         let ranked = self.d.ranked(name);
         Addition {
@@ -116,7 +114,6 @@ impl<'a> Ground<'a> {
         vec![given, self.base_step("B calibrated", Known::Calibrated)]
     }
 
-    /// The base of the diagnosis.
     pub(crate) fn base_step(&self, model: &str, known: Known) -> ErrorStep {
         let base = &self.d.base;
         let held_out = [base.heldout_mm, base.heldout_run_mm];

@@ -10,17 +10,17 @@ use toml_edit::{Decor, DocumentMut, Item, Table, Value, value};
 /// An effect as it is to be written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Addition {
-    /// Name in the catalogue.
+    /// Name of the effect in the catalogue.
     pub name: String,
     /// Keys and values, in the units of the keys.
     pub values: Vec<(String, f64)>,
-    /// `assumed` or `calibrated`.
+    /// How the values are known: `assumed` or `calibrated`.
     pub basis: &'static str,
     /// 95 % intervals in words; empty for none.
     pub interval: String,
     /// Name and SHA-256 of the data, if there were any.
     pub data: Vec<[String; 2]>,
-    /// Date, for example `2026-11-21`.
+    /// Day of the fit in UTC, for example `2026-11-21`.
     pub date: String,
     /// B of the scenario without the effect, calibrated on the same data \[N·m²\].
     pub bending_without_nm2: Option<f64>,
@@ -31,18 +31,17 @@ pub struct Addition {
 /// A value of `[body]` that replaces the scenario's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyValue {
-    /// Its key.
+    /// Key of `[body]`, with its unit.
     pub key: &'static str,
     /// In the unit of the key.
     pub value: f64,
-    /// Where it comes from.
+    /// Source of the value, written as a comment after it.
     pub remark: String,
 }
 
 /// What the text of a scenario says about an effect that was added to it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Origin {
-    /// Name of the effect.
     pub effect: String,
     /// SHA-256 of the data it was fitted to or judged on.
     pub data_sha256: Vec<String>,
@@ -213,7 +212,7 @@ fn one_line(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
-/// `None` without a table `[body]`.
+/// Replaces one value and keeps its old comment; `None` without a table `[body]`.
 fn set_body(document: &mut DocumentMut, new: &BodyValue) -> Option<()> {
     let is_inline = document.get("body")?.is_inline_table();
     let body = document.get_mut("body")?.as_table_like_mut()?;
@@ -233,7 +232,7 @@ fn set_body(document: &mut DocumentMut, new: &BodyValue) -> Option<()> {
     Some(())
 }
 
-/// Today's date, UTC.
+/// Today's date in UTC, as `2026-11-21`.
 pub fn today() -> String {
     time::OffsetDateTime::now_utc().date().to_string()
 }

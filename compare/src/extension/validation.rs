@@ -14,27 +14,27 @@ use serde::Serialize;
 /// One evidence, with and without the effects.
 #[derive(Debug, Clone, Serialize)]
 pub struct Validation {
-    /// Name of the evidence.
+    /// Name of the data that test the effects.
     pub data: String,
-    /// Its runs.
+    /// Number of runs of these data.
     pub runs: usize,
-    /// Body pressures \[kPa\].
+    /// Different body pressures of the holds, rising \[kPa\].
     pub p_body_kpa: Vec<f64>,
-    /// Actuator pressures \[kPa\].
+    /// Different actuator pressures of the holds, rising \[kPa\].
     pub p_act_kpa: Vec<f64>,
     /// The effects were fitted to these very data: no test.
     pub fitted_to_these: bool,
     /// Lengths that were taken from the data's description.
     pub geometry_of_data: Vec<String>,
-    /// Without the effects.
+    /// Misfit of the scenario without the effects.
     pub before: HowFar,
-    /// With them.
+    /// Misfit of the scenario with the effects.
     pub after: HowFar,
-    /// Noise of the mean \[mm\].
+    /// Noise of the mean over runs, of one coordinate \[mm\].
     pub noise_floor_mm: Option<f64>,
-    /// For programs.
+    /// Verdict as a word for programs, such as `helps` or `worse`.
     pub verdict: &'static str,
-    /// For readers.
+    /// Whether the effects help, with both errors, as a sentence.
     pub sentence: String,
     /// What does not match between scenario and data.
     #[serde(skip)]
@@ -44,9 +44,9 @@ pub struct Validation {
 /// How well a model meets a dataset.
 #[derive(Debug, Clone, Serialize)]
 pub struct HowFar {
-    /// Error beyond noise \[mm\].
+    /// Error beyond noise; the root-mean-square error where the noise is unknown \[mm\].
     pub beyond_noise_mm: f64,
-    /// χ² per degree of freedom.
+    /// χ² per degree of freedom; `None` if the noise is unknown.
     pub reduced_chi2: Option<f64>,
     /// Signed error of the tip where it is largest \[mm\].
     pub largest_tip_error_mm: f64,
@@ -55,11 +55,11 @@ pub struct HowFar {
 /// A scenario with and without what was added to it.
 #[derive(Debug, Clone)]
 pub struct BeforeAfter {
-    /// Effects to judge.
+    /// Names of the effects that are judged.
     pub effects: Vec<String>,
     /// Without them, with the B that was calibrated without the first of them.
     pub before: Scenario,
-    /// With them.
+    /// The scenario as written, with the effects.
     pub after: Scenario,
     origins: Vec<Origin>,
 }

@@ -12,7 +12,7 @@ use serde::Serialize;
 pub struct Extension {
     /// The scenario with the effects; text and comments of the old one stay.
     pub file: ScenarioFile,
-    /// Effects that were added.
+    /// Effects as they were written into the scenario.
     pub additions: Vec<Addition>,
     /// Their fitted values; none for those that were given.
     pub fitted: Vec<FittedEffect>,
@@ -20,11 +20,11 @@ pub struct Extension {
     pub bending: Option<BodyValue>,
     /// Errors on the way, the scenario as given first; none without data.
     pub steps: Vec<ErrorStep>,
-    /// Noise of the mean \[mm\].
+    /// Noise of the mean over runs, of one coordinate \[mm\].
     pub noise_floor_mm: Option<f64>,
-    /// What was done, in sentences.
+    /// What was added and calibrated, one sentence each.
     pub told: Vec<String>,
-    /// Cautions.
+    /// Cautions about scenario, data and fits, one sentence each.
     pub warnings: Vec<String>,
 }
 
@@ -50,8 +50,8 @@ impl Extension {
 /// An effect and its fitted values.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FittedEffect {
-    /// Name in scenarios.
+    /// Name of the effect as scenarios write it.
     pub effect: String,
-    /// Its values.
+    /// Fitted or held values of its parameters.
     pub parameters: Vec<ParameterValue>,
 }

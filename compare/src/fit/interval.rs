@@ -46,7 +46,7 @@ const MOST_DOF: f64 = 1e4;
 /// Data that a fit was held against.
 pub(crate) struct FittedData<'a> {
     pub dataset: &'a Dataset,
-    /// Noise of their mean.
+    /// Noise of the mean over runs of this dataset.
     pub noise: &'a NoiseModel,
     /// Prediction minus mean in run layout \[m\].
     pub residual_m: Vec<f64>,
@@ -56,10 +56,9 @@ pub(crate) struct FittedData<'a> {
     pub readings: usize,
 }
 
-/// Half of an interval.
+/// Half-width of a confidence interval, and whether misfit widened it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Half {
-    /// Half-width.
     pub width: f64,
     /// What the law misses by is in it.
     pub misses: bool,

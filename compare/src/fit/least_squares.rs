@@ -27,7 +27,7 @@ pub(crate) struct Minimum {
 }
 
 impl Range {
-    /// Every value.
+    /// A range without bounds, for a parameter of this typical size.
     pub(crate) fn endless(scale: f64) -> Range {
         Range { lower: f64::NEG_INFINITY, upper: f64::INFINITY, scale }
     }
@@ -169,7 +169,7 @@ pub(crate) fn jacobian(at: &Minimum, ranges: &[Range], residuals: &mut Residuals
     columns
 }
 
-/// JᵀJ of some columns.
+/// JᵀJ of the chosen columns of J.
 pub(crate) fn products(jacobian: &[Vec<f64>], chosen: &[usize]) -> DMatrix<f64> {
     DMatrix::from_fn(chosen.len(), chosen.len(), |i, j| dot(&jacobian[chosen[i]], &jacobian[chosen[j]]))
 }
@@ -185,7 +185,6 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     parts.iter().sum::<f64>() + last
 }
 
-/// Sum of squares.
 pub(crate) fn square(a: &[f64]) -> f64 {
     dot(a, a)
 }

@@ -13,11 +13,11 @@ const EIGEN_ROUNDS: usize = 500;
 /// Rounds in which fit and misfit settle.
 pub(crate) const MISFIT_ROUNDS: usize = 3;
 
-/// The prepared transformation.
+/// Eigenvalues and basis that whiten a residual, computed once for many residuals.
 #[derive(Debug, Clone)]
 pub struct Whitener {
     unit_m: f64,
-    /// Eigenvalues w \[m²\].
+    /// Eigenvalues w of T Tᵀ, one per column of the basis \[m²\].
     spread_m2: Vec<f64>,
     basis: Vec<Vec<f64>>,
 }
@@ -58,7 +58,7 @@ impl Whitener {
         Whitener { unit_m: self.unit_m * factor.sqrt(), ..self.clone() }
     }
 
-    /// s \[m\].
+    /// Standard deviation s of the uncorrelated part \[m\].
     pub fn unit_m(&self) -> f64 {
         self.unit_m
     }

@@ -9,9 +9,7 @@ use data::{Dataset, Phase};
 /// A prediction f and the mean over runs ȳ of one dataset, with the noise of ȳ. Lengths in metres.
 pub struct BesideMean<'a> {
     pub dataset: &'a Dataset,
-    /// The noise of their mean.
     pub noise: &'a NoiseModel,
-    /// Counts of one run.
     pub layout: Layout,
     /// f − ȳ in run layout.
     pub residual_m: Vec<f64>,

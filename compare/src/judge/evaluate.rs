@@ -23,11 +23,11 @@ pub struct EvaluateOptions {
     pub fitted_parameters: usize,
     /// Differences up to this are not called failures \[m\]; `None`: the larger of 0.15 mm and 0.5 % of d_max.
     pub tolerance_m: Option<f64>,
-    /// Family-wise significance level.
+    /// Significance level over all statements together.
     pub alpha: f64,
     /// Bootstrap resamples of the accuracy; 0 for no interval.
     pub bootstrap_samples: usize,
-    /// Seed of the bootstrap.
+    /// Seed of the bootstrap over runs.
     pub seed: u64,
 }
 
@@ -48,9 +48,9 @@ impl Default for EvaluateOptions {
 /// The result of holding one prediction against one dataset; serialises without NaN or infinity.
 #[derive(Debug, Clone, Serialize)]
 pub struct Evaluation {
-    /// Name of the dataset.
+    /// Name of the dataset that the model is compared with.
     pub dataset: String,
-    /// Actuator kind of the dataset.
+    /// Actuator kind of the dataset, such as `epam`.
     pub actuator: String,
     /// The noise of the mean, in words and printed units.
     pub noise: NoiseSummary,

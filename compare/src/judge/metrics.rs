@@ -25,9 +25,9 @@ pub struct HoldMetrics {
     /// Pressures of all supply channels, where there are several \[kPa\].
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub p_act_channels_kpa: Vec<f64>,
-    /// Body pressure \[kPa\].
+    /// Body pressure of the hold \[kPa\].
     pub p_body_kpa: f64,
-    /// `load`, `hold` or `unload`.
+    /// How the hold was reached: `load`, `hold` or `unload`.
     pub phase: &'static str,
     /// 0 for the first hold with these pressures and this phase, 1 for the second, …
     pub occurrence: usize,
@@ -42,7 +42,7 @@ pub struct HoldMetrics {
     pub rms_relative_pct: Option<f64>,
     /// a over the markers with a measured |y| > max(5 mm, 5σ/√R).
     pub accuracy_far_markers: Option<f64>,
-    /// Markers left out of `accuracy_far_markers`.
+    /// How many markers `accuracy_far_markers` leaves out.
     pub markers_left_out: usize,
     /// Root-mean-square error of one coordinate over samples and markers \[mm\].
     pub rmse_mm: f64,
@@ -54,7 +54,7 @@ pub struct HoldMetrics {
     pub nrmse_pct: Option<f64>,
     /// y of the model minus y measured at the outermost marker that was seen \[mm\].
     pub tip_error_mm: f64,
-    /// The same for x \[mm\].
+    /// The same error for x, along the straight robot \[mm\].
     pub tip_error_x_mm: f64,
     /// The same for z, where the markers have it \[mm\].
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -67,7 +67,7 @@ pub struct HoldMetrics {
     pub p_value: Option<f64>,
 }
 
-/// Metrics over all holds.
+/// Metrics over all holds together, in printed units.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OverallMetrics {
     /// Mean of the paper's accuracy over the loading holds under pressure where it is defined.
@@ -84,15 +84,15 @@ pub struct OverallMetrics {
     pub rmse_mm: f64,
     /// Root-mean-square noise of one coordinate of the mean \[mm\].
     pub noise_floor_mm: Option<f64>,
-    /// Error beyond noise \[mm\].
+    /// Error beyond noise, √max(0, mean (f − ȳ)² − noise variance of the mean) \[mm\].
     pub systematic_mm: Option<f64>,
     /// Largest measured distance of a marker from the straight body, d_max \[mm\].
     pub d_max_mm: f64,
-    /// RMSE/d_max \[%\].
+    /// RMSE over the largest measured distance d_max \[%\].
     pub nrmse_pct: Option<f64>,
     /// The tip error (y) that is largest in size, with its sign; in space the largest distance \[mm\].
     pub largest_tip_error_mm: f64,
-    /// χ²/dof of all whitened residuals.
+    /// χ²/dof of all whitened residuals; `None` if the noise is unknown.
     pub reduced_chi2: Option<f64>,
     /// Its degrees of freedom: values minus fitted parameters.
     pub dof: usize,
@@ -100,20 +100,20 @@ pub struct OverallMetrics {
     pub p_value: Option<f64>,
 }
 
-/// All metrics of one comparison.
+/// Metrics of one comparison, per hold and over all.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Metrics {
     /// One entry per hold, in protocol order.
     pub holds: Vec<HoldMetrics>,
-    /// Everything together.
+    /// Metrics over all holds and markers together.
     pub overall: OverallMetrics,
-    /// Label of the outermost marker.
+    /// Label of the marker furthest from the base.
     pub tip_marker: String,
     /// How model and measurement are paired.
     pub pairing: &'static str,
 }
 
-/// Settings of [`metrics`].
+/// Degrees of freedom and bootstrap of [`metrics`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MetricsOptions {
     /// Parameters of the model fitted to these data; they cost degrees of freedom of the overall χ².

@@ -14,7 +14,7 @@ use serde::Serialize;
 /// A signed difference, model minus measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Deviation {
-    /// In millimetres.
+    /// Difference in length, model minus measurement \[mm\].
     pub mm: f64,
     /// In standard deviations of the noise of the mean; `None` if the noise is unknown.
     pub in_noise: Option<f64>,
@@ -36,7 +36,7 @@ impl Deviation {
 /// One marker at one hold, means over the samples.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ResidualCell {
-    /// Along the straight robot.
+    /// Along the straight robot, away from the base.
     pub x: Deviation,
     /// Across it, the direction of bending.
     pub y: Deviation,
@@ -66,9 +66,9 @@ pub struct HoldLabel {
     /// Pressures of all supply channels, where there are several \[kPa\].
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub p_act_channels_kpa: Vec<f64>,
-    /// Body pressure \[kPa\].
+    /// Body pressure of the hold \[kPa\].
     pub p_body_kpa: f64,
-    /// `load`, `hold` or `unload`.
+    /// How the hold was reached: `load`, `hold` or `unload`.
     pub phase: &'static str,
     /// 0 for the first hold with these pressures and this phase, 1 for the second, …
     pub occurrence: usize,
@@ -77,7 +77,7 @@ pub struct HoldLabel {
 /// Error in the movement during one hold: late third minus early third of the samples, model minus measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Drift {
-    /// Index of the hold.
+    /// Index of the hold in the protocol.
     pub hold: usize,
     /// Mean over markers, weighted by the shape of the most bent hold; positive: the model moves on in the bending
     /// direction more than the robot.
@@ -98,13 +98,13 @@ pub struct LoopGap {
 /// The residual map and the directed contrasts.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ResidualMap {
-    /// Columns.
+    /// Holds in protocol order, the columns of the map.
     pub holds: Vec<HoldLabel>,
     /// Rows, ordered as in the data.
     pub markers: Vec<String>,
-    /// Index of the outermost marker.
+    /// Index of the marker furthest from the base.
     pub tip: usize,
-    /// `cells[marker][hold]`.
+    /// Differences as `cells[marker][hold]`, means over the samples.
     pub cells: Vec<Vec<ResidualCell>>,
     /// Drift error of each hold; empty with one sample per hold.
     pub drifts: Vec<Drift>,

@@ -15,7 +15,7 @@ use crate::wording::{list, short};
 use data::{Dataset, Hold, Phase};
 use serde::Serialize;
 
-/// The outcome of the check.
+/// Whether shapes at the same ratio of pressures agree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ScalingVerdict {
@@ -55,11 +55,11 @@ pub struct ScalingPair {
 /// The result of the scaling-law check.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScalingCheck {
-    /// What follows.
+    /// Whether shapes depend on the pressures through their ratio alone.
     pub verdict: ScalingVerdict,
     /// In words, with what to measure if it cannot be checked.
     pub sentence: String,
-    /// The pairs that were compared.
+    /// Pairs of holds at the same ratio that were compared.
     pub pairs: Vec<ScalingPair>,
 }
 

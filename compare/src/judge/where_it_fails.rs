@@ -10,13 +10,13 @@ use crate::wording::{evidence, list, markers, p_value, pressures, times_the_nois
 use data::Phase;
 use serde::Serialize;
 
-/// What a statement is about.
+/// Where or when the difference of a statement is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Finding {
     /// One run: the noise is unknown, what follows is description only.
     NoiseUnknown,
-    /// No difference beyond noise.
+    /// Model and measurement differ by no more than noise.
     Agrees,
     /// Differences beyond noise, all below the tolerance.
     WithinTolerance,
@@ -30,38 +30,37 @@ pub enum Finding {
     Lengthwise,
     /// Positions across the body (y or z) wrong, of markers with z.
     Across,
-    /// Movement during holds wrong.
+    /// Movement of the markers during holds is wrong.
     Drift,
     /// More than noise as a whole, but nowhere in particular.
     Diffuse,
 }
 
-/// One sentence and its evidence.
+/// One sentence on where a model fails, with its evidence.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Statement {
-    /// What it is about.
+    /// Where or when the difference is.
     pub finding: Finding,
-    /// Plain language.
+    /// The finding in plain words, as one sentence.
     pub sentence: String,
-    /// Indices of the holds concerned.
+    /// Indices of the holds that the statement is about.
     pub holds: Vec<usize>,
-    /// Indices of the markers concerned.
+    /// Indices of the markers that the statement is about.
     pub markers: Vec<usize>,
-    /// The strongest piece of evidence.
+    /// The difference that the sentence quotes; `None` if it quotes none.
     pub largest: Option<Deviation>,
 }
 
 impl Statement {
-    /// Without evidence.
     fn of(finding: Finding, sentence: String) -> Statement {
         Statement { finding, sentence, holds: Vec::new(), markers: Vec::new(), largest: None }
     }
 }
 
-/// Settings of [`where_it_fails`].
+/// Significance level and tolerance of [`where_it_fails`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FailureOptions {
-    /// Family-wise significance level.
+    /// Significance level over all statements together.
     pub alpha: f64,
     /// Differences up to this are not called failures \[m\].
     pub tolerance_m: f64,

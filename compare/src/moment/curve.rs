@@ -9,7 +9,6 @@ const STRETCHES: usize = 24;
 /// Pressures that an explanation is followed through.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Path {
-    /// Body pressure \[Pa\].
     pub p_body_pa: f64,
     /// Actuator pressures on the way up or down \[Pa\].
     pub p_act_pa: Vec<f64>,

@@ -16,9 +16,8 @@ use nalgebra::{DMatrix, RowDVector};
 /// Scenarios of a model, one per bending stiffness, and which of them holds in which hold.
 #[derive(Clone, Copy)]
 pub(crate) struct Robot<'a> {
-    /// One per stiffness.
     pub scenarios: &'a [Scenario],
-    /// Of every hold.
+    /// Index of the scenario that applies in each hold.
     pub of_hold: &'a [usize],
 }
 
@@ -29,29 +28,26 @@ pub(crate) struct Point {
     pub place: Option<usize>,
     /// Group of samples, of which the change since the first is told; `None`: mean over the hold.
     pub since_first: Option<usize>,
-    /// Actuator pressure \[Pa\].
     pub p_act_pa: f64,
-    /// Body pressure \[Pa\].
     pub p_body_pa: f64,
     pub phase: Phase,
-    /// Mean time \[s\].
+    /// Mean time of the samples \[s\].
     pub t_s: f64,
-    /// Bend \[1/m\].
+    /// Curvature of the place, or its change \[1/m\].
     pub kappa: f64,
     pub kappa_sd: f64,
-    /// Missing moment \[N·m\].
+    /// Moment that bends the robot further if positive \[N·m\].
     pub moment: f64,
     pub moment_sd: f64,
     /// Correlation of the errors of bend and moment.
     pub correlation: f64,
 }
 
-/// Missing moments of a dataset.
+/// Missing moments at all places and holds of a dataset.
 #[derive(Debug, Clone)]
 pub(crate) struct Moments {
     /// Places of every hold, then changes within the holds.
     pub points: Vec<Point>,
-    /// Covariance of the moments \[N²·m²\].
     pub covariance: DMatrix<f64>,
     /// Mean over the places of every hold.
     pub of_holds: Vec<Point>,

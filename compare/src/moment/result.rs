@@ -23,41 +23,41 @@ pub struct MissingMoment {
 /// Shape of the holds of a dataset, each with separate bends and no law.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeasuredShape {
-    /// Dataset.
+    /// Name of the dataset that was measured.
     pub dataset: String,
     /// Stations between which bends are free \[mm\].
     pub places_mm: Vec<[f64; 2]>,
     /// What no law of bending can mend, beyond noise \[mm\].
     pub floor_mm: f64,
-    /// What all holds share.
+    /// Numbers that all holds share, such as an error of alignment.
     pub shared: Vec<SharedNumber>,
 }
 
 /// A number that all holds of a dataset share.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SharedNumber {
-    /// What it is.
+    /// Name of the number in words.
     pub name: String,
-    /// Unit.
+    /// Unit of the value and its standard deviation.
     pub unit: String,
     /// Value; zero: as the scenario says.
     pub value: f64,
-    /// Its standard deviation.
+    /// Standard deviation of the value, in `unit`.
     pub sd: f64,
 }
 
-/// A missing moment.
+/// The moment that the terms of a model miss at one measured bend.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MomentPoint {
-    /// Dataset.
+    /// Name of the dataset that was measured.
     pub dataset: String,
-    /// Hold, from 1.
+    /// Number of the hold, from 1.
     pub hold: usize,
-    /// Body pressure \[kPa\].
+    /// Body pressure of the hold \[kPa\].
     pub p_body_kpa: f64,
-    /// Actuator pressure \[kPa\].
+    /// Actuator pressure of the hold \[kPa\].
     pub p_act_kpa: f64,
-    /// How the hold was reached.
+    /// How the hold was reached: `load`, `hold` or `unload`.
     pub phase: &'static str,
     /// Stretch of the body \[mm\]; `None`: mean over the body.
     pub place_mm: Option<[f64; 2]>,
@@ -67,11 +67,11 @@ pub struct MomentPoint {
     pub t_s: f64,
     /// Bend, as the turn of the whole body at this curvature \[°\].
     pub bend_deg: f64,
-    /// Its standard deviation.
+    /// Standard deviation of the bend \[°\].
     pub bend_sd_deg: f64,
-    /// Missing moment \[N·m\].
+    /// Missing moment, positive if the robot bends further than the model \[N·m\].
     pub moment_nm: f64,
-    /// Its standard deviation.
+    /// Standard deviation of the missing moment \[N·m\].
     pub moment_sd_nm: f64,
     /// Correlation of the errors of bend and moment, −1 to 1: both follow from the same fitted shape.
     pub correlation: f64,
@@ -84,15 +84,14 @@ pub struct MomentCurve {
     pub answer: String,
     /// It is stated by the verdict, or its attempt; others fit worse.
     pub is_told: bool,
-    /// Body pressure \[kPa\].
+    /// Body pressure along the curve \[kPa\].
     pub p_body_kpa: f64,
-    /// The way down.
+    /// Whether the curve is for falling actuator pressure.
     pub is_unloading: bool,
     /// Actuator pressure \[kPa\], bend \[°\], missing moment and the half-width of its 95 % band \[N·m\].
     pub points: Vec<[f64; 4]>,
 }
 
-/// Corners of a drawn ellipse.
 const ELLIPSE: usize = 48;
 
 /// Standard deviations from which a shared number is reported, and its least value in its unit.
@@ -129,7 +128,7 @@ impl MissingMoment {
         self.points.iter().filter(|p| p.is_of_hold())
     }
 
-    /// The points as CSV.
+    /// All points as CSV, one row each under a header with units.
     pub fn csv(&self) -> String {
         let mut out = String::from(
             "dataset,hold,p_body_kpa,p_act_kpa,phase,from_mm,to_mm,change,t_s,bend_deg,bend_sd_deg,moment_nm,moment_sd_nm\n",

@@ -16,7 +16,7 @@ use crate::fit::least_squares::{Range, minimise_by, products, square};
 use models::{Prediction, Scenario, Step};
 use nalgebra::DMatrix;
 
-/// The bends that were measured.
+/// Bends of all holds, fitted to the markers without a law.
 #[derive(Debug, Clone)]
 pub struct Shape {
     /// What has a bend of its own.
@@ -46,7 +46,6 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Of a division.
     pub(super) fn of(division: &Division) -> Layout {
         let Division { places, groups, moments } = division;
         Layout { holds: moments.len() / groups, places: places.len(), groups: *groups }
@@ -62,7 +61,6 @@ impl Layout {
         self.holds * self.places + hold * (self.groups - 1) + group - 1
     }
 
-    /// First of the shared numbers.
     pub(super) fn shared(&self) -> usize {
         self.holds * (self.places + self.groups - 1)
     }

@@ -11,7 +11,7 @@ pub(crate) fn degrees(length_m: f64) -> f64 {
 }
 
 impl MeasuredShape {
-    /// Of a shape.
+    /// The parts of a fitted shape that reports print.
     pub fn of(dataset: &Dataset, shape: &Shape) -> MeasuredShape {
         MeasuredShape {
             dataset: dataset.name.clone(),

@@ -13,7 +13,6 @@ pub struct View<'a> {
     pub direct: Direct,
     /// Mean over runs \[m\], in run layout.
     pub target_m: &'a [f64],
-    /// Noise of that mean.
     pub whitener: &'a Whitener,
 }
 
@@ -22,14 +21,12 @@ pub struct View<'a> {
 pub struct Place {
     /// Start along the taut generator \[m\].
     pub from_m: f64,
-    /// End \[m\].
     pub to_m: f64,
     /// Whether any actuator lies in it.
     pub is_active: bool,
 }
 
 impl Place {
-    /// Length \[m\].
     pub fn length_m(&self) -> f64 {
         self.to_m - self.from_m
     }
@@ -41,7 +38,6 @@ pub struct Moment {
     pub hold: usize,
     /// Which of the hold's groups, in time.
     pub group: usize,
-    /// Mean time \[s\].
     pub t_s: f64,
 }
 
@@ -51,13 +47,13 @@ pub struct Division {
     pub places: Vec<Place>,
     /// Groups of samples in each hold.
     pub groups: usize,
-    /// Hold after hold.
+    /// Groups of samples, hold after hold.
     pub moments: Vec<Moment>,
 }
 
 /// Groups of samples in a hold; more show no more of a creep.
 const MOST_GROUPS: usize = 6;
-/// Free numbers of a shape.
+/// Most free numbers that a shape may have.
 const MOST_NUMBERS: usize = 160;
 /// A place is as long as it takes for its bend to be known to this share of the largest one.
 const KNOWN_TO: f64 = 0.1;
@@ -108,12 +104,10 @@ impl Division {
         }
     }
 
-    /// Stations between places \[m\].
     pub fn cuts(&self) -> Vec<f64> {
         self.places.iter().skip(1).map(|place| place.from_m).collect()
     }
 
-    /// Group of a sample.
     pub fn group(&self, sample: usize, samples: usize) -> usize {
         sample * self.groups / samples
     }
@@ -150,7 +144,6 @@ pub(super) struct Pieces {
 }
 
 impl Pieces {
-    /// Of a robot.
     pub(super) fn new(scenario: &Scenario, division: &Division) -> Pieces {
         let model = Model::in_pieces(scenario, &division.cuts());
         let place_of = (0..model.segments().len()).map(|i| place_of(&model, i, &division.places)).collect();

@@ -64,7 +64,7 @@ pub fn is_none(share: f64) -> bool {
     share <= NONE
 }
 
-/// Whether it is very little.
+/// Whether a share is very little in the words of a publication.
 pub fn is_little(share: f64) -> bool {
     share <= LITTLE
 }
@@ -91,7 +91,7 @@ pub const FEWEST_ROWS: usize = 5;
 pub const SURELY_SLIP_RAD: f64 = 70.0 * std::f64::consts::PI / 180.0;
 /// Moduli of films and coated fabrics pulled along a yarn \[Pa\]: silicone on light nylon to uncoated polyester, with room.
 pub const ALONG_PA: [f64; 2] = [5e6, 20e9];
-/// The same at 45°.
+/// The same of fabrics pulled at 45° to the yarns.
 pub const BIAS_PA: [f64; 2] = [0.02e6, 2e9];
 
 /// Whether a specimen is not one of the others, of how far it is off their mean and whether chance does that.

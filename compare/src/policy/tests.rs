@@ -1,4 +1,4 @@
-//! Decisions at their boundaries.
+//! Each decision changes at the value that the policy states for it.
 
 use super::*;
 

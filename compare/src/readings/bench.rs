@@ -16,18 +16,18 @@ use crate::CompareError;
 use crate::stats::t_975;
 use models::Known;
 
-/// A table beside its model.
+/// A bench table compared with the model's values, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Held {
-    /// What was held against what.
+    /// Which table is compared with which model.
     pub title: String,
     /// Name of the measured quantity, with its unit.
     pub quantity: String,
     /// How the model's numbers are known.
     pub known: Known,
-    /// Rows in the table's order.
+    /// Compared rows, in the order of the table.
     pub rows: Vec<HeldRow>,
-    /// What else to know.
+    /// Remarks on the comparison, such as values that had to be assumed.
     pub notes: Vec<String>,
 }
 
@@ -48,7 +48,7 @@ pub struct HeldRow {
 }
 
 impl HeldRow {
-    /// Model over measurement, less one.
+    /// Model over measurement less one; `None` if the model has no value or the measurement is 0.
     pub fn off(&self) -> Option<f64> {
         self.model.filter(|_| self.measured != 0.0).map(|m| m / self.measured - 1.0)
     }

@@ -58,12 +58,10 @@ impl DirectionFit {
         fit
     }
 
-    /// Number of directions kept.
     pub(crate) fn count(&self) -> usize {
         self.columns.len()
     }
 
-    /// Whether direction `j` was kept.
     pub(crate) fn kept(&self, j: usize) -> bool {
         self.columns.contains(&j)
     }

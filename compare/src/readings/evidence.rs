@@ -10,7 +10,7 @@ use fem::session::sha256;
 pub struct Evidence {
     /// File, folder or embedded set, as it was named.
     pub name: String,
-    /// Marker positions.
+    /// Marker positions of all runs, with pressures and times.
     pub dataset: Dataset,
     /// How the robot lay, what was loaded, what was measured directly.
     pub about: Option<About>,

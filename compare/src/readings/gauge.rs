@@ -36,11 +36,9 @@ use std::collections::BTreeSet;
 pub(crate) struct Reading {
     /// Hold of the positions that belong to it ([`Gauge::positions`]).
     pub hold: usize,
-    /// Set pressure \[Pa\].
     pub set_pa: f64,
     /// For how long it had been set \[s\].
     pub at: Moment,
-    /// Mean over runs \[Pa\].
     pub read_pa: f64,
 }
 

@@ -42,12 +42,11 @@ pub struct HoldNoise {
     pub sd: [f64; KINDS],
     /// Whether they are more than chance makes easily: enough to be printed.
     pub is_significant: [bool; KINDS],
-    /// Their variances for tests.
+    /// Variances of these kinds that tests use.
     pub test_variance: [f64; KINDS],
     /// Variance of a reading beyond those \[m²\], and its degrees of freedom.
     pub reading_m2: f64,
     pub dof: usize,
-    /// Variance of single samples \[m²\].
     pub sample_m2: f64,
     /// Errors last through a hold: readings scatter more than their samples say.
     pub lasts: bool,
@@ -100,16 +99,16 @@ impl HoldNoise {
 /// A direction in which a hold errs.
 #[derive(Debug, Clone)]
 pub struct Column {
-    /// Index of the kind.
+    /// Kind of the error, an index into `HoldNoise::sd`.
     pub kind: usize,
-    /// First value in run layout.
+    /// Place of the column's first value in run layout.
     pub from: usize,
     /// Per unit of the error \[m\].
     pub values: Vec<f64>,
 }
 
 impl Column {
-    /// Weighted sum of the column.
+    /// Sum of this column times sparse `weights`, given as places in run layout.
     pub fn along(&self, weights: impl Iterator<Item = (usize, f64)>) -> f64 {
         weights.filter_map(|(i, w)| Some(w * self.values.get(i.checked_sub(self.from)?)?)).sum()
     }

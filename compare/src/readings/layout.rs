@@ -7,7 +7,6 @@ use data::Dataset;
 /// Counts of one run; arrays "in run layout" are flat in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Layout {
-    /// Holds of the protocol.
     pub holds: usize,
     pub samples: usize,
     pub markers: usize,
@@ -52,7 +51,6 @@ impl Layout {
         ((hold * self.samples + sample) * self.markers + marker) * self.axes
     }
 
-    /// The indices of one hold.
     pub fn hold_range(&self, hold: usize) -> std::ops::Range<usize> {
         self.index(hold, 0, 0)..self.index(hold + 1, 0, 0)
     }
@@ -100,7 +98,7 @@ impl Layout {
     }
 }
 
-/// The value of a functional.
+/// Σ wᵢ vᵢ over sparse weights (i, wᵢ).
 pub(crate) fn apply(weights: &[(usize, f64)], values: &[f64]) -> f64 {
     weights.iter().map(|&(i, w)| w * values[i]).sum()
 }

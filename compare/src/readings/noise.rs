@@ -69,9 +69,9 @@ pub enum NoiseStatus {
 pub struct NoiseModel {
     /// Where the noise level comes from.
     pub status: NoiseStatus,
-    /// Runs R.
+    /// Number of runs R that the mean is taken over.
     pub runs: usize,
-    /// Sessions S.
+    /// Number of sessions S, between which the robot was mounted again.
     pub sessions: usize,
     /// Camera noise σ of one coordinate of one sample \[m\]; `None` if unknown.
     pub sigma_m: Option<f64>,

@@ -10,11 +10,11 @@ use serde::Serialize;
 /// What a reader needs to know about the noise of a dataset.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NoiseSummary {
-    /// How well it is known.
+    /// Whether the noise was measured from repeats, stated by the user, or is unknown.
     pub status: NoiseStatus,
-    /// Runs.
+    /// Number of runs that the mean is taken over.
     pub runs: usize,
-    /// Sessions.
+    /// Number of sessions that the runs belong to.
     pub sessions: usize,
     /// Camera noise of one coordinate \[mm\].
     pub camera_mm: Option<f64>,
@@ -26,11 +26,11 @@ pub struct NoiseSummary {
     pub rotation_mrad: Option<f64>,
     /// The same of single holds of a run: pressure \[%\]; like the others `None` where none is found.
     pub hold_pressure_pct: Option<f64>,
-    /// Bend \[% of the bend\].
+    /// Hold-to-hold scatter of the bend within a run \[% of the bend\].
     pub hold_bend_pct: Option<f64>,
-    /// Shift of one coordinate \[mm\].
+    /// Hold-to-hold shift of one coordinate within a run \[mm\].
     pub hold_alignment_mm: Option<f64>,
-    /// Rotation \[mrad\].
+    /// Hold-to-hold rotation of the markers within a run \[mrad\].
     pub hold_rotation_mrad: Option<f64>,
     /// Errors of a marker's coordinate that last through a hold \[mm\].
     pub lasting_mm: Option<f64>,
@@ -38,9 +38,9 @@ pub struct NoiseSummary {
     pub marker_mm: Option<f64>,
     /// Root-mean-square noise of one coordinate of the mean over runs, run-level part included \[mm\].
     pub noise_of_mean_mm: Option<f64>,
-    /// Whether p-values are given.
+    /// Whether there are enough runs to form p-values.
     pub p_values: bool,
-    /// All of this in words.
+    /// The noise in words, for reports.
     pub sentence: String,
     /// A caution where the scatter differs between holds.
     pub warning: Option<String>,

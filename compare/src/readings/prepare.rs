@@ -7,7 +7,7 @@ use crate::stats::f_tail;
 use data::{About, Dataset};
 use serde::Serialize;
 
-/// Data ready for a fit.
+/// A dataset without copies of runs, with stray samples replaced.
 pub(crate) struct Prepared {
     pub dataset: Dataset,
     /// Session of every run; empty if there is one.
@@ -130,7 +130,7 @@ fn sessions(dataset: &Dataset, about: Option<&About>, warnings: &mut Vec<String>
 pub struct Outliers {
     /// Samples far from the median over runs; they were replaced by the mean of the other runs.
     pub samples: Vec<data::check::Outlier>,
-    /// Share of all samples.
+    /// Replaced samples as a share of all samples.
     pub share: f64,
     /// Runs whose shape differs from the others, beyond pressure, alignment and rotation.
     pub runs: Vec<OutlyingRun>,
@@ -141,7 +141,7 @@ pub struct Outliers {
 /// A run that differs from the others.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OutlyingRun {
-    /// Label.
+    /// Label of the run as in the data.
     pub run: String,
     /// Its scatter over that of the other runs.
     pub scatter_ratio: f64,
@@ -150,7 +150,7 @@ pub struct OutlyingRun {
 }
 
 impl OutlyingRun {
-    /// What to do with it.
+    /// A sentence that names the run and its excess scatter.
     pub fn words(&self) -> String {
         let OutlyingRun { run, scatter_ratio, .. } = self;
         format!(

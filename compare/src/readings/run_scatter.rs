@@ -6,9 +6,8 @@ use data::Dataset;
 
 /// What the repeats inside sessions say.
 pub(crate) struct Within {
-    /// Variance of the camera \[m²\].
+    /// Variance of one camera coordinate of one sample \[m²\].
     pub sigma2: f64,
-    /// The same of each hold.
     pub hold_sigma2: Vec<f64>,
     /// Degrees of freedom of the first.
     pub dof: usize,

@@ -21,22 +21,20 @@ const STEPS: usize = 24;
 const REFINED: usize = 28;
 /// Largest |κ| R: the near side of the body has no length left at 1.
 const MOST_SHORTENED: f64 = 0.9;
-/// Share of the golden section.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// A robot's markers and radius \[m\].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MarkedBody<'a> {
-    /// Stations of the markers.
     pub stations_m: &'a [f64],
-    /// R.
+    /// Radius R of the body \[m\].
     pub radius_m: f64,
 }
 
 /// A uniformly bent body laid through some markers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Laid {
-    /// κ \[1/m\].
+    /// Curvature κ, positive towards +y \[1/m\].
     pub curvature: f64,
     /// Sum of squares of the distances of the markers from their places on it \[m²\].
     pub squares: f64,
@@ -59,7 +57,6 @@ impl MarkedBody<'_> {
         Laid { curvature, squares: left(curvature) }
     }
 
-    /// Station of the outermost marker.
     pub(super) fn longest_m(&self) -> f64 {
         self.stations_m.iter().fold(0.0, |longest: f64, s| longest.max(*s))
     }

@@ -87,7 +87,7 @@ fn shift(seen: &SlipSeen, holds: &[usize]) -> Option<[f64; 2]> {
 struct Straight {
     /// Columns that grow from the base: scale, angle, a bend in every hold.
     grown: DMatrix<f64>,
-    /// The same, x₀ and y₀.
+    /// The same columns with shifts x₀ and y₀ of the origin added.
     shifted: DMatrix<f64>,
     /// Distances from the bent bodies, per run \[m\].
     runs: Vec<DVector<f64>>,

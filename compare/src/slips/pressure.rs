@@ -12,12 +12,12 @@ use models::Scenario;
 use serde::Serialize;
 use spelling::units::{Dimension, units_of};
 
-/// A column of pressures.
+/// Which of the two kinds of pressure column is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PressureColumn {
-    /// Of the actuator.
+    /// `p_act`, with all supply channels where there are several.
     Actuator,
-    /// Of the body.
+    /// `p_body`, the pressure that keeps the body straight.
     Body,
 }
 
@@ -26,11 +26,11 @@ pub enum PressureColumn {
 pub enum PressureSlip {
     /// A column is in another unit than its name says.
     Unit(PressureColumn, WrongUnit),
-    /// Body and actuator are exchanged.
+    /// The columns of body and actuator pressure are exchanged.
     Exchanged,
     /// A sensor of absolute pressure, in a room of this pressure \[Pa\].
     Absolute(PressureColumn, f64),
-    /// Two supply channels are exchanged.
+    /// Two supply channels are exchanged, given by their numbers.
     Channels([usize; 2]),
     /// Two axes are exchanged, in space.
     Axes([usize; 2]),
@@ -38,7 +38,7 @@ pub enum PressureSlip {
     Turned(usize),
 }
 
-/// A unit taken for another.
+/// A pressure column in another unit than its name states.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WrongUnit {
     /// What the numbers have to be multiplied by.
@@ -62,14 +62,13 @@ fn wrong_units() -> impl Iterator<Item = WrongUnit> {
 
 const COLUMNS: [PressureColumn; 2] = [PressureColumn::Actuator, PressureColumn::Body];
 
-/// Names of axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Where they point.
+/// Convention of the axes in space, printed with a remedy.
 const FRAME: &str =
     "x runs from the base along the straight robot, y towards azimuth 0\u{b0}, z towards azimuth 90\u{b0}";
 
-/// Pairs of so many.
+/// All pairs of numbers below `count`, each once.
 fn pairs(count: usize) -> impl Iterator<Item = [usize; 2]> {
     (0..count).flat_map(move |one| (one + 1..count).map(move |other| [one, other]))
 }
@@ -90,7 +89,6 @@ impl PressureColumn {
         self.words()[1]
     }
 
-    /// The lowest of its pressures.
     fn of(self, hold: &Hold) -> f64 {
         match self {
             PressureColumn::Actuator => hold.channels_pa().fold(f64::INFINITY, f64::min),
@@ -198,7 +196,7 @@ impl PressureSlip {
         }
     }
 
-    /// `6.895 times the numbers`.
+    /// How the table was corrected to try this slip, such as `6.895 times the numbers`.
     pub fn with(&self) -> String {
         match self {
             PressureSlip::Unit(_, unit) => format!("{} times the numbers", (1e4 * unit.factor).round() / 1e4),
@@ -210,7 +208,7 @@ impl PressureSlip {
         }
     }
 
-    /// What to type.
+    /// How to correct the table if the pressures are as suspected.
     pub fn help(&self) -> String {
         match self {
             PressureSlip::Unit(column, WrongUnit { units: [[_, right], [_, wrong]], .. }) => {
@@ -254,7 +252,7 @@ pub fn by_numbers(dataset: &Dataset) -> Vec<PressureSlip> {
     }
 }
 
-/// The same in words.
+/// A warning for each slip that the pressures show without a model.
 pub fn pressure_words(dataset: &Dataset) -> Vec<String> {
     let told = |slip: &PressureSlip| {
         let why = match slip {
@@ -287,7 +285,7 @@ pub struct PressureSlipFound {
 /// What comes nearest without a slip.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BestEffect {
-    /// Names.
+    /// Names of the effects that were fitted together.
     pub effects: Vec<String>,
     /// Error beyond noise that they leave \[mm\].
     pub left_mm: f64,

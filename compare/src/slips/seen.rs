@@ -54,7 +54,7 @@ impl SlipSeen<'_> {
     }
 }
 
-/// `31 mm become 2.1 mm`.
+/// An improvement in words, such as `31 mm become 2.1 mm`.
 pub(super) fn become_mm([before_m, after_m]: [f64; 2]) -> String {
     format!("{} mm become {} mm", short(1e3 * before_m), short(1e3 * after_m))
 }

@@ -12,10 +12,10 @@ use argmin::solver::brent::BrentOpt;
 use data::Dataset;
 use models::Scenario;
 
-/// The number to fit.
+/// Which number of a scenario a calibration fits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Knob {
-    /// Effective bending stiffness B \[N·m²\].
+    /// Effective bending stiffness B of the body \[N·m²\].
     Bending,
     /// Body pressure \[kPa\]; in data of several, that of the scenario, the others as far away from it as they are told.
     BodyPressure,
@@ -57,7 +57,7 @@ impl Knob {
     }
 }
 
-/// A fitted number.
+/// A number fitted to the mean over runs, with its interval.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Calibration {
     /// What was found, in the unit of its [`Knob`].
@@ -68,7 +68,7 @@ pub struct Calibration {
     pub misses: bool,
     /// The fit ended on a bound: this number does not explain the data.
     pub at_bound: bool,
-    /// The scenario with it.
+    /// The scenario with the fitted value.
     pub scenario: Scenario,
 }
 
@@ -90,7 +90,6 @@ impl Misfit<'_> {
         Ok(self.noise.whiten(&self.residual_m(value)?).iter().map(|r| r * r).sum())
     }
 
-    /// Prediction minus mean \[m\].
     fn residual_m(&self, value: f64) -> Result<Vec<f64>, CompareError> {
         let predicted = predict_dataset(&self.knob.set(self.scenario, value), self.dataset)?;
         Ok(predicted.coordinates_m.iter().zip(&self.mean_m).map(|(f, y)| f - y).collect())

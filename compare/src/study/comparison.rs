@@ -16,18 +16,18 @@ use models::{Known, Scenario};
 /// A model to hold against data.
 #[derive(Debug, Clone)]
 pub struct Contender {
-    /// In words.
+    /// Short name of the model for tables.
     pub label: String,
-    /// How its values are known.
+    /// How the model's values are known.
     pub known: Known,
-    /// Where they come from.
+    /// Effects of the model, or the source of its values.
     pub why: String,
-    /// The model.
+    /// The model as given, before it is fitted to the data's stations and loads.
     pub scenario: Scenario,
 }
 
 impl Contender {
-    /// A scenario as it is.
+    /// A scenario under the name `scenario`, known as its weakest value is.
     pub fn as_given(scenario: &Scenario) -> Contender {
         let own: Vec<&str> = scenario.effects.iter().map(|e| e.name.as_str()).collect();
         let why = if own.is_empty() { "no effect".to_string() } else { format!("with {}", own.join(", ")) };
@@ -55,14 +55,14 @@ fn basis(scenario: &Scenario) -> Known {
     }
 }
 
-/// One model of a [`Comparison`].
+/// One model of a [`Comparison`], with its evaluation.
 #[derive(Debug, Clone)]
 pub struct Variant {
-    /// In words.
+    /// Short name of the model for tables.
     pub label: String,
-    /// How its values are known.
+    /// How the model's values are known.
     pub known: Known,
-    /// Where they come from.
+    /// Effects of the model, or the source of its values.
     pub why: String,
     /// The model, fitted to stations and loads of the data.
     pub scenario: Scenario,
@@ -83,9 +83,9 @@ impl Variant {
 pub struct Comparison {
     /// The data as they were compared: without copies of runs, strays replaced.
     pub dataset: Dataset,
-    /// Their description.
+    /// Description of the data from `about.toml`, if there is one.
     pub about: Option<About>,
-    /// Models, the one given first.
+    /// Models with their evaluations, the one given first.
     pub variants: Vec<Variant>,
     /// What does not match between scenario and data.
     pub warnings: Vec<String>,

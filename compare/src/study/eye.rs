@@ -7,13 +7,13 @@ use rand_chacha::rand_core::{RngCore, SeedableRng};
 /// What a synthetic test is like; `Default` is the protocol of du Pasquier et al. 2023 with plausible scatter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Generator {
-    /// Seed of the scatter.
+    /// Seed of all random numbers of the scatter.
     pub seed: u64,
-    /// Runs.
+    /// How many runs of the protocol are made.
     pub runs: usize,
-    /// Samples per hold.
+    /// How many samples each hold has.
     pub samples: usize,
-    /// Length of a hold \[s\].
+    /// Time from the start to the end of each hold \[s\].
     pub hold_s: f64,
     /// Holds: body pressure, actuator pressure \[Pa\].
     pub protocol: Vec<[f64; 2]>,
@@ -27,7 +27,7 @@ pub struct Generator {
     pub alignment_sd_m: f64,
     /// Run-to-run roll of the camera \[rad\].
     pub rotation_sd: f64,
-    /// Scatter of single holds.
+    /// Scatter that differs from hold to hold of a run.
     pub per_hold: HoldScatter,
     /// A gauge at the actuator is read along.
     pub gauge: bool,
@@ -40,7 +40,7 @@ pub struct HoldScatter {
     pub pressure_sd: f64,
     /// Shift of the camera or the base along each axis \[m\].
     pub alignment_sd_m: f64,
-    /// Roll of the camera \[rad\].
+    /// Roll of the camera about the origin \[rad\].
     pub rotation_sd: f64,
     /// Error of one coordinate of a marker that lasts through the hold, as of a tracker \[m\].
     pub lasting_sd_m: f64,
@@ -154,7 +154,7 @@ impl<'a> Seen<'a> {
         }
     }
 
-    /// One sample of all markers.
+    /// Appends x and y of all markers as the camera sees them once \[m\].
     pub fn look(&mut self, markers: &[[f64; 2]], coordinates_m: &mut Vec<f64>) {
         self.hold(markers.len());
         let (shift, held) = (self.shift, self.held_shift);
@@ -177,7 +177,7 @@ pub struct Scatter {
 const HEAVY_DOF: usize = 3;
 
 impl Scatter {
-    /// One number of variance 1.
+    /// A random number of mean 0 and variance 1.
     pub(super) fn camera(&mut self, heavy_tails: bool) -> f64 {
         let normal = self.normal();
         if !heavy_tails {
@@ -188,18 +188,18 @@ impl Scatter {
         normal / chi2.sqrt()
     }
 
-    /// From a seed.
+    /// Random numbers that follow from the seed alone.
     pub fn new(seed: u64) -> Scatter {
         Scatter { rng: ChaCha8Rng::seed_from_u64(seed), spare: None }
     }
 
-    /// Uniform in [0, 1).
+    /// A uniform random number in [0, 1).
     pub fn uniform(&mut self) -> f64 {
         // 53 random bits: every double in [0, 1) of that spacing.
         (self.rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Standard normal.
+    /// A standard normal random number, by the polar method.
     pub fn normal(&mut self) -> f64 {
         if let Some(value) = self.spare.take() {
             return value;

@@ -162,7 +162,7 @@ impl Manometer {
     /// Standard deviations of zero \[Pa\], gain \[-\] and reading \[Pa\].
     const SD: [f64; 3] = [100.0, 0.003, 50.0];
 
-    /// From a seed.
+    /// A gauge whose zero, gain and noise follow from the seed.
     pub fn new(seed: u64) -> Manometer {
         // Other numbers than the camera's, which are the same with and without a gauge.
         let mut scatter = Scatter::new(seed ^ 0x6A06E);
@@ -217,7 +217,7 @@ pub fn holds(generator: &Generator) -> Vec<Hold> {
     holds
 }
 
-/// Description of generated data.
+/// Title, source, licence and geometry of generated data.
 pub fn about(scenario: &Scenario, dataset: &Dataset, g: &Generator) -> About {
     let shape = &scenario.actuator.shape;
     let stations = dataset.markers.iter().zip(&scenario.markers_m);

@@ -11,7 +11,7 @@ use models::{Loads, Model, Prediction, Scenario, Step};
 /// Prediction in the layout of [`Dataset::run`], `[hold][sample][marker][axis]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Predicted {
-    /// Positions f \[m\].
+    /// Predicted positions f of the markers \[m\].
     pub coordinates_m: Vec<f64>,
     /// ∂f/∂ln P \[m\]: what a relative error of the actuator pressure does.
     pub d_ln_pressure_m: Vec<f64>,

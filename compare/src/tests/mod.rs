@@ -1,4 +1,4 @@
-//! Statistics held against simulated truth.
+//! Noise model and diagnosis compared with the truth of simulated data.
 
 mod laboratory;
 mod monte_carlo;

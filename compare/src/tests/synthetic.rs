@@ -7,7 +7,7 @@ use rand_chacha::rand_core::{RngCore, SeedableRng};
 /// Standard deviations of the noise put into a dataset.
 #[derive(Clone, Copy)]
 pub(crate) struct SyntheticNoise {
-    /// Camera, one coordinate \[m\].
+    /// Camera noise of one coordinate of one sample \[m\].
     pub sigma_m: f64,
     /// Relative pressure, one value per run.
     pub pressure: f64,
@@ -15,7 +15,6 @@ pub(crate) struct SyntheticNoise {
     pub alignment_m: f64,
 }
 
-/// Camera noise only, 1 mm.
 pub(crate) const CAMERA: SyntheticNoise = SyntheticNoise { sigma_m: 1e-3, pressure: 0.0, alignment_m: 0.0 };
 /// The handbook case: camera 1 mm, pressure 2 %, alignment 0.5 mm.
 pub(crate) const TYPICAL: SyntheticNoise = SyntheticNoise { sigma_m: 1e-3, pressure: 0.02, alignment_m: 5e-4 };
@@ -25,7 +24,6 @@ pub(crate) const TYPICAL: SyntheticNoise = SyntheticNoise { sigma_m: 1e-3, press
 pub(crate) struct SyntheticRobot {
     /// (actuator, body) pressure of each hold \[kPa\]; a hold below its predecessor is unloading.
     pub pressures_kpa: Vec<(f64, f64)>,
-    /// Samples per hold.
     pub samples: usize,
     /// Markers at 30, 90, 150, … mm.
     pub markers: usize,
@@ -116,7 +114,6 @@ pub(crate) fn displace(dataset: &mut Dataset, by: impl Fn(usize, usize, usize) -
     }
 }
 
-/// A standard normal number (Box–Muller).
 pub(crate) fn normal(rng: &mut ChaCha8Rng) -> f64 {
     let uniform = |rng: &mut ChaCha8Rng| (f64::from(rng.next_u32()) + 0.5) / 4294967296.0;
     let (a, b) = (uniform(rng), uniform(rng));

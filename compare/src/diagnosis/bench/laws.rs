@@ -14,7 +14,7 @@ pub(super) struct Law {
 
 /// A number of a scenario that a bench tells.
 struct Number {
-    /// Of which kind of table.
+    /// Kind of bench table in which the number acts.
     table: &'static str,
     name: &'static str,
     key: &'static str,

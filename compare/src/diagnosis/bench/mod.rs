@@ -32,7 +32,7 @@ use models::Scenario;
 use reading::groups;
 use table::{Fit, Table};
 
-/// Settings of [`diagnose_bench`].
+/// Level, assumed scatter and refit of the scenario's own numbers in [`diagnose_bench`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BenchOptions {
     /// Level of the one corrected p-value.

@@ -6,12 +6,11 @@ use data::bench::BenchRow;
 
 pub(super) struct Reading<'a> {
     pub row: &'a BenchRow,
-    /// As measured, SI.
     pub measured: f64,
     pub small: f64,
     /// Standard error of the mean and its degrees of freedom; of d where these are infinite.
     pub error: Option<[f64; 2]>,
-    /// Actuator's or body's \[Pa\].
+    /// Pressure of the specimen, an actuator or a body \[Pa\].
     pub pressure_pa: f64,
     /// Size and number of the specimen.
     pub specimen: String,
@@ -21,7 +20,7 @@ pub(super) struct Reading<'a> {
 }
 
 impl<'a> Reading<'a> {
-    /// d, of a model's value.
+    /// Error d = asinh(model/small) − asinh(measured/small).
     pub(super) fn off(&self, model: f64) -> f64 {
         (model / self.small).asinh() - (self.measured / self.small).asinh()
     }

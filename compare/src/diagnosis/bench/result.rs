@@ -6,30 +6,30 @@ use serde::Serialize;
 /// Errors of a model at what its fit had not seen.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LeftOut {
-    /// `pressure`, `specimen` or `load`.
+    /// Kind of part that was left out: `pressure`, `specimen` or `load`.
     pub what: &'static str,
     /// Typical factor by which it is off, less one, all parts together.
     pub off: f64,
     /// Parts in which no other law of the table was better in the fit.
     pub first_in: usize,
-    /// Parts.
+    /// How many parts were left out, one at a time.
     pub parts: usize,
 }
 
-/// One law fitted alone.
+/// One law, fitted together with the base.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BenchRanked {
     /// Name of the effect, or of the number of the scenario.
     pub effect: String,
-    /// What it belongs to.
+    /// What the law belongs to: actuator, body, load, supply or measurement.
     pub group: Group,
-    /// One plain sentence.
+    /// What the law does, in one plain sentence.
     pub sentence: String,
     /// What measurements show where it is missing.
     pub differs: String,
-    /// What to measure.
+    /// What to measure to see whether the law acts.
     pub remedy: String,
-    /// Its parameters.
+    /// Fitted values of the law's parameters.
     pub parameters: Vec<ParameterValue>,
     /// A value sits on its physical bound and the data push beyond: rejected.
     pub at_bound: bool,
@@ -48,17 +48,17 @@ pub struct BenchRanked {
 /// Everything a diagnosis of a table found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BenchDiagnosis {
-    /// Table.
+    /// File of the bench table that was diagnosed.
     pub table: String,
-    /// Its kind.
+    /// Kind of the bench table, such as `load_deflection`.
     pub kind: &'static str,
     /// Model that it was held against.
     pub scenario: String,
-    /// Rows.
+    /// Number of rows of the table.
     pub rows: usize,
     /// Whether all rows have a standard deviation.
     pub noise_known: bool,
-    /// Verdict; `None` without standard deviations.
+    /// Verdict of the diagnosis; `None` without standard deviations.
     pub verdict: Option<Verdict>,
     /// One p of "nothing is missing", corrected for everything that was tried.
     pub p_value: Option<f64>,
@@ -74,13 +74,13 @@ pub struct BenchDiagnosis {
     pub base: Vec<ParameterValue>,
     /// The base at what was left out.
     pub left_out: Vec<LeftOut>,
-    /// Laws, best first.
+    /// Laws that were tried, the best first.
     pub ranked: Vec<BenchRanked>,
     /// Whether the best of them leaves noise, or less than a fifth of the error.
     pub explains: bool,
     /// Effects that would act, by a size that neither table nor scenario tells.
     pub unsized_laws: Vec<String>,
-    /// The answer in sentences.
+    /// The answer and its reasons, one sentence each.
     pub summary: Vec<String>,
     /// Where the model as it is fails.
     pub where_it_fails: Vec<String>,

@@ -50,7 +50,7 @@ fn common(rows: &[[f64; 3]], unit: &Unit) -> (f64, f64) {
     (mean, variance - rows.iter().map(|row| trigamma(0.5 * row[1])).sum::<f64>() / n)
 }
 
-/// d₀ with ψ'(d₀/2) = variance.
+/// Prior degrees of freedom d₀, from ψ'(d₀/2) = variance.
 fn prior(variance: f64) -> f64 {
     let (mut low, mut high) = (0.1_f64, ALIKE);
     for _ in 0..60 {

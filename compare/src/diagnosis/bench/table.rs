@@ -152,7 +152,6 @@ impl<'a> Table<'a> {
         thin.zip(thick).is_none_or(differ)
     }
 
-    /// Name of the model.
     pub(super) fn name(&self) -> &str {
         &self.trial.scenario.name
     }
@@ -190,7 +189,7 @@ impl<'a> Table<'a> {
         self.readings.iter().map(of).collect()
     }
 
-    /// Errors d of every row.
+    /// Errors d of all rows; `None` if the model has no value for one.
     pub(super) fn off(&self, law: Option<usize>, theta: &[f64]) -> Option<Vec<f64>> {
         Some(self.predicted(law, theta)?.into_iter().zip(&self.readings).map(|(f, r)| r.off(f)).collect())
     }
@@ -242,7 +241,6 @@ impl<'a> Table<'a> {
         Fit { law, binding: (0..ranges.len()).map(binding).collect(), minimum }
     }
 
-    /// A fit to some rows.
     pub(super) fn refit(&self, law: Option<usize>, start: &[f64], rows: &[usize]) -> Option<Minimum> {
         minimise(start, &self.ranges(law), ENOUGH, &mut |theta| self.residuals(law, theta, rows))
     }

@@ -30,7 +30,6 @@ pub(crate) struct Candidate {
     /// What measurements show where it acts and the model lacks it.
     pub differs: String,
     pub remedy: String,
-    /// Its parameters, SI inside.
     pub parameters: Vec<Free>,
 }
 
@@ -39,16 +38,13 @@ pub(crate) struct Candidate {
 pub(crate) struct Free {
     pub key: String,
     pub symbol: String,
-    /// Unit of the scenario value.
     pub unit: String,
-    /// Factor to SI.
+    /// Factor from `unit` to the SI unit.
     pub si: f64,
     /// Value at which the effect vanishes.
     pub neutral: f64,
     pub typical: f64,
-    /// Lower bound of a fit.
     pub lower: f64,
-    /// Upper bound of a fit.
     pub upper: f64,
     pub possible: [f64; 2],
     /// Where a fit starts beside neutral and typical: thresholds and time scales.

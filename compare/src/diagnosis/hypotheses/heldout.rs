@@ -21,7 +21,7 @@ const DIFFERENCE: f64 = 1e-4;
 /// A coarse end is enough for an error in hundredths of a millimetre.
 const ENOUGH: f64 = 1e-2;
 
-/// One part left out.
+/// Pressures or runs that are left out of a fit and then predicted by it.
 struct Fold<'a> {
     problem: Problem<'a>,
     holds: Vec<usize>,

@@ -16,7 +16,6 @@ pub(crate) struct Known {
     /// Effect, as an index into the catalogue.
     pub effect: usize,
     pub parameter: usize,
-    /// What was found.
     pub value: f64,
     pub sd: f64,
     /// What a hypothesis without the effect differs from it by, in standard deviations.
@@ -28,15 +27,15 @@ pub(crate) struct Known {
 /// A test beside the markers, and what it measures.
 #[derive(Debug, PartialEq)]
 pub struct BenchTest {
-    /// Short name.
+    /// Short name of the test, such as `caliper`.
     pub name: &'static str,
-    /// What is looked at.
+    /// What the test measures, on which object.
     pub sentence: &'static str,
-    /// Effects and parameters.
+    /// Effects and the parameters that the test measures.
     pub parameters: &'static [(&'static str, &'static str)],
 }
 
-/// Tests that may be proposed.
+/// Separate tests that a next experiment may propose.
 pub const BENCH_TESTS: [BenchTest; 3] = [
     BenchTest {
         name: "fabric test",
@@ -85,7 +84,7 @@ impl Known {
         None
     }
 
-    /// The same with another value.
+    /// The same parameter as if a test had found this value.
     pub(crate) fn at(self, candidates: &[Candidate], value: f64, sd: f64) -> Known {
         let neutral = candidates[self.effect].parameters[self.parameter].neutral;
         Known { value, sd, lacking: (neutral - value) / sd, ..self }

@@ -29,7 +29,7 @@ type WhitenerOf<'w> = dyn Fn(usize) -> Cow<'w, Whitener> + 'w;
 #[derive(Clone)]
 pub(crate) struct Block<'a> {
     pub source: Cow<'a, Source>,
-    /// Holds that are fitted, rising.
+    /// Fitted holds of the dataset, rising.
     pub holds: Vec<usize>,
     /// Index of the bending stiffness of every hold of the dataset; 0 if B is kept.
     pub bending_of: Vec<usize>,
@@ -67,13 +67,13 @@ impl<'a> Block<'a> {
         Ok(Block { whitener, holds, target_m, ..self.clone() })
     }
 
-    /// Values of a hold.
+    /// How many values a hold has in run layout.
     fn width(&self) -> usize {
         self.source.dataset.values_per_run() / self.source.dataset.holds.len()
     }
 }
 
-/// Every value of some holds.
+/// Unit weights on every value of the given holds.
 fn values_of(dataset: &Dataset, holds: &[usize]) -> Vec<Weights> {
     let width = dataset.values_per_run() / dataset.holds.len();
     holds.iter().flat_map(|h| h * width..(h + 1) * width).map(|i| vec![(i, 1.0)]).collect()
@@ -112,7 +112,6 @@ pub(crate) struct Fit {
 }
 
 impl Fit {
-    /// Whitened sum of squares.
     pub(crate) fn cost(&self) -> f64 {
         self.minimum.cost
     }
@@ -164,7 +163,7 @@ impl Problem<'_> {
         })
     }
 
-    /// The same, whitened.
+    /// The same in standard deviations of the gauge; empty without one.
     pub(crate) fn supply(&self, block: &Block, effects: &[usize], theta: &[f64]) -> Vec<f64> {
         let whitened = |whitener: &Whitener| whitener.whiten(&self.supply_pa(block, effects, theta));
         block.of_gauge.as_ref().map(whitened).unwrap_or_default()

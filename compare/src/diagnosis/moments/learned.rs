@@ -18,7 +18,7 @@ use crate::moment::{MissingMoment, MomentCurve, MomentPoint};
 use models::Scenario;
 use nalgebra::{DMatrix, DVector};
 
-/// Its name as an effect.
+/// Name that a learned law gets as an effect of a scenario.
 const NAME: &str = "learned";
 const CURVE: &str = "learned law";
 /// The effect that moves the line of the markers.

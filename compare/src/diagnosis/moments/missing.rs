@@ -18,7 +18,6 @@ use models::effects::Stage;
 const MOST_CURVES: usize = 4;
 /// Others than those that are told, so that there is something to compare with.
 const OTHERS: usize = 1;
-/// Pressures of a curve.
 const PRESSURES: usize = 24;
 /// Least pressure of a curve, over the highest.
 const LEAST: f64 = 0.15;
@@ -150,7 +149,6 @@ fn has_moment(case: &Case, fit: &Fit) -> bool {
     added.is_empty() || added.iter().any(|e| case.candidate(*e).stage != Stage::Camera)
 }
 
-/// The fit behind an answer.
 fn fit_of<'a>(case: &Case, decision: &'a Decision, name: &str) -> Option<&'a Fit> {
     let Decision { singles, pairs, as_close, last, .. } = decision;
     let mut all = singles.fits.iter().chain(&pairs.fits).chain(as_close).chain(last);

@@ -13,7 +13,7 @@ const LONG_HOLD_S: f64 = 60.0;
 
 /// Standard deviation that is expected of a bending test, as a share of the stiffness. Assumed.
 pub const BENDING_TEST: f64 = 0.1;
-/// Name of that experiment.
+/// Name of the experiment that measures B alone.
 pub const BENDING_TEST_NAME: &str = "bending test";
 
 /// An experiment: one or more parts, each a protocol under loads, or a bending test of the body by itself.
@@ -29,9 +29,9 @@ pub(crate) struct Plan {
 /// What may be measured beside the markers.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Instruments {
-    /// Directly, in the same runs.
+    /// What is measured directly in the same runs.
     pub direct: Direct,
-    /// By tests of their own.
+    /// Separate tests of robot or fabric.
     pub tests: Vec<&'static BenchTest>,
 }
 

@@ -37,7 +37,7 @@ use std::borrow::Cow;
 /// Most times the runs at hand that are proposed.
 const MOST_REPEATS: usize = 20;
 const RIVALS: usize = 5;
-/// Accuracy of λ.
+/// Relative error at which the fits for λ may stop.
 const LAMBDA_ERROR: f64 = 0.05;
 
 /// Looks for the experiment; `None` if there is nothing to separate or the noise is unknown. Where the answer is outside the

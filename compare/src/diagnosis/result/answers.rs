@@ -12,7 +12,7 @@ pub enum Standing {
     Stated,
     /// The best that the catalogue can do, which is not enough.
     Attempt,
-    /// Fits worse.
+    /// An explanation that fits worse than the stated ones.
     Other,
     /// A value sits on a physical bound.
     Rejected,
@@ -27,9 +27,9 @@ pub struct Answer<'d> {
     pub bending_nm2: &'d [f64],
     /// Fall of the whitened sum of squares against the calibrated base; NaN where it was not kept.
     pub gain: f64,
-    /// Error beyond noise \[mm\].
+    /// Root-mean-square error beyond noise with it \[mm\].
     pub after_mm: f64,
-    /// What is said of it.
+    /// Place of the answer in the verdict.
     pub standing: Standing,
 }
 
@@ -122,7 +122,7 @@ impl Diagnosis {
         answers
     }
 
-    /// Whether the verdict names nothing.
+    /// Whether the verdict is that no effect is missing.
     pub fn is_quiet(&self) -> bool {
         self.verdict == Some(Verdict::None)
     }

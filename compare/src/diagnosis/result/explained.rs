@@ -9,9 +9,9 @@ use serde::Serialize;
 pub struct ParameterValue {
     /// Key in the scenario, with the unit as suffix.
     pub key: String,
-    /// Letter in the formula.
+    /// Letter of the parameter in the formula of its effect.
     pub symbol: String,
-    /// Unit.
+    /// Unit of the value as the scenario writes it.
     pub unit: String,
     /// Best value; **calibrated** on these data unless it was held.
     pub value: f64,
@@ -35,19 +35,19 @@ impl ParameterValue {
 /// One effect of the catalogue, refitted together with the base.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Ranked {
-    /// Name in scenarios.
+    /// Name of the effect as scenarios write it.
     pub effect: String,
-    /// Group.
+    /// What the effect belongs to: actuator, body, load, supply or measurement.
     pub group: Group,
-    /// One plain sentence.
+    /// What the effect does, in one plain sentence.
     pub sentence: String,
     /// What measurements show where it acts and the model lacks it.
     pub differs: String,
     /// What to measure or change on the robot.
     pub remedy: String,
-    /// Value of its first parameter.
+    /// Fitted value of the effect's first parameter.
     pub value: f64,
-    /// Unit of that parameter.
+    /// Unit of the first parameter in scenarios.
     pub unit: String,
     /// Lower end of its 95 % interval.
     pub lo: Option<f64>,
@@ -55,7 +55,7 @@ pub struct Ranked {
     pub hi: Option<f64>,
     /// A value sits on a physical bound and the data push against it: the effect is rejected.
     pub at_bound: bool,
-    /// All parameters.
+    /// All parameters with values and intervals.
     pub parameters: Vec<ParameterValue>,
     /// Fall of the whitened sum of squares against the calibrated base.
     pub gain: f64,
@@ -76,18 +76,18 @@ pub struct Ranked {
     pub bending_nm2: Vec<f64>,
     /// Cosine between this effect's and the best one's trace in the data, base fitted out; ±1: these data do not separate them.
     pub cosine_with_best: f64,
-    /// Member of the indistinguishable set.
+    /// Whether the data cannot tell it from the best explanation.
     pub in_set: bool,
     /// Different starts of the fit ended in different minima; the best one is given.
     pub several_minima: bool,
-    /// Cautions about this effect.
+    /// Cautions about this effect and its fit, one sentence each.
     pub notes: Vec<String>,
 }
 
-/// Several effects together.
+/// Several effects that were fitted together.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Combination {
-    /// Names.
+    /// Names of the effects that were fitted together.
     pub effects: Vec<String>,
     /// Values of all parameters, effect by effect.
     pub parameters: Vec<ParameterValue>,
@@ -97,7 +97,7 @@ pub struct Combination {
     pub bic_difference: f64,
     /// p of the gain over the best single effect, corrected for all combinations tried.
     pub p_corrected: Option<f64>,
-    /// Error beyond noise \[mm\].
+    /// Root-mean-square error beyond noise with them \[mm\].
     pub systematic_after_mm: f64,
     /// Effective bending stiffness with them, one per body pressure \[N·m²\].
     pub bending_nm2: Vec<f64>,
@@ -110,7 +110,7 @@ pub struct Combination {
 /// An attempt, or something that leaves the same distance.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AsClose {
-    /// Names.
+    /// Names of the effects that were fitted together.
     pub effects: Vec<String>,
     /// Error beyond noise with it \[mm\], over all data.
     pub systematic_after_mm: f64,
@@ -123,7 +123,7 @@ pub struct Worth {
     pub here_mm: f64,
     /// The same in the listed protocol where it is largest \[mm\]; `None` without an equilibrium in any of them.
     pub elsewhere_mm: Option<f64>,
-    /// That protocol in words.
+    /// The protocol of `elsewhere_mm`, in words.
     pub elsewhere: Option<String>,
 }
 
@@ -135,39 +135,39 @@ pub(crate) fn names_of(added: &[Added]) -> Vec<String> {
 /// An effect that the verdict adds to the model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Added {
-    /// Name in scenarios.
+    /// Name of the effect as scenarios write it.
     pub effect: String,
-    /// Group.
+    /// What the effect belongs to: actuator, body, load, supply or measurement.
     pub group: Group,
-    /// Values in the final model.
+    /// Values of its parameters in the final model.
     pub parameters: Vec<ParameterValue>,
 }
 
 /// How large an effect would have to be.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Undetectable {
-    /// Name in scenarios.
+    /// Name of the effect as scenarios write it.
     pub effect: String,
-    /// Group.
+    /// What the effect belongs to: actuator, body, load, supply or measurement.
     pub group: Group,
     /// Smallest value of its first parameter found with 90 % probability; `None`: none within its bounds.
     pub smallest_detectable: Option<f64>,
-    /// Unit.
+    /// Unit of the smallest detectable value.
     pub unit: String,
     /// The same as a multiple of the effect's typical size.
     pub times_typical: Option<f64>,
 }
 
-/// A law that was learned.
+/// A law of the missing moment that was learned from the data.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LearnedLaw {
-    /// Name as an effect.
+    /// Name under which the law is an effect of a scenario.
     pub name: String,
-    /// What it is, in words.
+    /// What the law does, in words.
     pub words: String,
     /// The moment as a formula, with its numbers and units.
     pub formula: String,
-    /// Its numbers.
+    /// Numbers of the formula with values and intervals.
     pub parameters: Vec<ParameterValue>,
     /// Where the line of the markers lies, where that was fitted along.
     pub line: Option<LearnedLine>,
@@ -185,11 +185,11 @@ pub struct LearnedLaw {
     pub bending_nm2: Vec<f64>,
     /// What such a law usually is.
     pub usual: String,
-    /// What tells.
+    /// The measurement that shows whether the usual cause applies.
     pub check: String,
     /// What was fitted to the markers: nothing, and the laws that fit the missing moments best.
     pub tried: Vec<LearnedTried>,
-    /// The entry of a scenario.
+    /// The law as a `[[formula]]` of a scenario.
     #[serde(skip)]
     pub toml: String,
 }
@@ -197,7 +197,7 @@ pub struct LearnedLaw {
 /// The line of the markers, further from the taut side than the scenario says.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LearnedLine {
-    /// By so much \[mm\].
+    /// Fitted distance beyond the scenario's line \[mm\].
     pub value_mm: f64,
     /// Ends of its 95 % interval \[mm\].
     pub interval_mm: Option<[f64; 2]>,
@@ -210,9 +210,9 @@ pub struct LearnedLine {
 /// A law of the library that was fitted to the markers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LearnedTried {
-    /// In words.
+    /// What the law does, in words.
     pub words: String,
-    /// Its numbers, and the stiffness.
+    /// How many numbers were fitted, bending stiffnesses included.
     pub numbers: usize,
     /// Square of what it misses at pressures left out, over that of noise, in moments.
     pub missed: f64,
@@ -220,12 +220,12 @@ pub struct LearnedTried {
     pub heldout_mm: f64,
 }
 
-/// A proposed experiment.
+/// A proposed experiment and what it separates.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Experiment {
-    /// Short name.
+    /// Short name of the experiment for tables.
     pub name: String,
-    /// What to do.
+    /// Instructions for the experiment, in one sentence.
     pub sentence: String,
     /// Protocol in the form of `ibr data generate --protocol`; empty of a test by itself.
     pub protocol: String,
@@ -238,7 +238,7 @@ pub struct Experiment {
     /// λ that tells two explanations apart in about nine of ten cases: 16, and more the more a law's form is granted, a
     /// twentieth of the best gain.
     pub needed: f64,
-    /// Rivals with as much.
+    /// How many rivals reach the needed λ.
     pub separated: usize,
     /// Smallest λ of the rivals it can tell apart (λ ≥ 3 after up to four times the runs), else the largest of all.
     pub lambda: f64,
@@ -256,13 +256,13 @@ impl Experiment {
 /// Expected separation of two explanations after an experiment.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Separation {
-    /// Rival explanation.
+    /// Names of the rival effects, `a` or `a + b`.
     pub rival: String,
     /// λ: expected difference of the whitened sums of squares.
     pub lambda: f64,
 }
 
-/// What to measure next.
+/// Which measurement would separate the remaining explanations.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct NextExperiment {
     /// The explanation to separate from its rivals; empty without rivals.
@@ -271,10 +271,10 @@ pub struct NextExperiment {
     pub recommended: Option<Experiment>,
     /// λ with what is there already.
     pub now: Vec<Separation>,
-    /// λ that would suffice there.
+    /// λ that would separate two explanations with the present data.
     pub needed_now: f64,
     /// All that were tried, best first; none for an answer outside the catalogue.
     pub tried: Vec<Experiment>,
-    /// In words.
+    /// The recommendation in words, or why there is none.
     pub sentence: String,
 }

@@ -60,7 +60,7 @@ pub struct OtherDesign {
     pub switched: Vec<String>,
     /// Error beyond noise then, with B fitted \[mm\].
     pub systematic_mm: f64,
-    /// Verdict then.
+    /// Verdict for the robot made otherwise; `None` without p-values.
     pub verdict: Option<Verdict>,
     /// Names that these data cannot tell apart then, best first.
     pub indistinguishable: Vec<String>,
@@ -71,7 +71,7 @@ pub struct OtherDesign {
 /// The calibrated base: the scenario with only the bending stiffness fitted.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BaseFit {
-    /// B of the scenario \[N·m²\].
+    /// B as the scenario states it \[N·m²\].
     pub bending_nominal_nm2: f64,
     /// Fitted B, one per body pressure.
     pub bending: Vec<Bending>,
@@ -97,16 +97,16 @@ pub struct BaseFit {
     pub heldout_run_with_added_mm: Option<f64>,
 }
 
-/// A fitted bending stiffness.
+/// A fitted bending stiffness and its 95 % interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bending {
     /// Body pressure it belongs to \[kPa\].
     pub p_body_kpa: f64,
-    /// Effective bending stiffness B \[N·m²\].
+    /// Fitted effective bending stiffness B \[N·m²\].
     pub value_nm2: f64,
     /// Lower end of the 95 % interval.
     pub lo: Option<f64>,
-    /// Upper end.
+    /// Upper end of the 95 % interval.
     pub hi: Option<f64>,
     /// On a bound of its search.
     pub at_bound: bool,
@@ -115,13 +115,13 @@ pub struct Bending {
 /// Four tests of whether what is left is noise.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LackOfFit {
-    /// All values.
+    /// p of all whitened values together.
     pub all: f64,
-    /// Means of the holds.
+    /// p of the means of the holds.
     pub hold_means: f64,
     /// Drift within the holds; 1 with fewer than three samples.
     pub drift: f64,
-    /// Means of the markers.
+    /// p of the means of the markers.
     pub marker_means: f64,
     /// Readings of a gauge at the actuator against the supply's laws, where there are any.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -133,7 +133,7 @@ pub struct LackOfFit {
 /// A pattern without physics that noise would rarely leave: one marker, one hold, one place of the robot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LeftPattern {
-    /// What it looks like.
+    /// What the misfit looks like, in words.
     pub words: String,
     /// Where to look and what to take again.
     pub check: String,
@@ -156,7 +156,7 @@ pub struct BendingAlarm {
     pub told_nm2: f64,
     /// Standard deviation of the bending test; `None`: the scenario says it \[N·m²\].
     pub test_sd_nm2: Option<f64>,
-    /// Fitted without an effect \[N·m²\].
+    /// B fitted to the base, without an effect \[N·m²\].
     pub base_nm2: f64,
     /// Of the answer; without one, of the base \[N·m²\].
     pub answer_nm2: f64,
@@ -167,9 +167,9 @@ pub struct BendingAlarm {
 /// Data of the same robot that were fitted along with the first.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FittedBeside {
-    /// Dataset.
+    /// Name of the dataset that was fitted along.
     pub dataset: String,
-    /// Runs.
+    /// Number of runs of that dataset.
     pub runs: usize,
     /// What was measured directly in it.
     pub direct: Direct,
@@ -182,13 +182,13 @@ pub struct FittedBeside {
 /// Readings of a gauge at the actuator, compared with the set pressures.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GaugeFit {
-    /// Dataset.
+    /// Name of the dataset that has the gauge.
     pub dataset: String,
-    /// Set pressures \[kPa\].
+    /// Set actuator pressures, one per reading \[kPa\].
     pub set_kpa: Vec<f64>,
     /// For how long they had been set \[s\].
     pub held_s: Vec<f64>,
-    /// Mean readings there \[kPa\].
+    /// Mean over runs of the gauge's readings \[kPa\].
     pub read_kpa: Vec<f64>,
     /// The same by the supply's laws with what was added, or attempted \[kPa\].
     pub with_added_kpa: Vec<f64>,
@@ -198,16 +198,16 @@ pub struct GaugeFit {
     pub after_kpa: f64,
 }
 
-/// Everything a diagnosis found.
+/// Everything that a diagnosis found: verdict, fits, errors and cautions.
 #[derive(Debug, Clone, Serialize)]
 pub struct Diagnosis {
-    /// Name of the scenario.
+    /// Name of the scenario that was diagnosed.
     pub scenario: String,
-    /// Name of the dataset.
+    /// Name of the first dataset that was fitted.
     pub dataset: String,
-    /// Actuator kind.
+    /// Actuator kind of the scenario, such as `epam`.
     pub actuator: String,
-    /// Runs used.
+    /// Number of runs of the first dataset, without copies.
     pub runs: usize,
     /// The data, in the order that they were given in.
     #[serde(skip)]
@@ -228,11 +228,11 @@ pub struct Diagnosis {
     pub tolerance_mm: f64,
     /// How sure the name is; `None` without verdict `effect`.
     pub confidence: Option<Confidence>,
-    /// The story in sentences.
+    /// The answer and its reasons, one sentence each.
     pub summary: Vec<String>,
-    /// Noise of the data.
+    /// Noise of the first dataset's mean, in printed units.
     pub noise: NoiseSummary,
-    /// The calibrated base.
+    /// The scenario with only its bending stiffness fitted.
     pub base: BaseFit,
     /// Effects of actuator, body and loads and those of supply and measurement, best first.
     pub ranked: Vec<Ranked>,
@@ -291,6 +291,6 @@ pub struct Diagnosis {
     pub pressure_slip: Option<PressureSlipFound>,
     /// Cautions that come before the verdict: slips in the data, that no effect of a robot is. They are in `warnings` too.
     pub slips: Vec<String>,
-    /// Cautions.
+    /// Cautions about scenario, data and fits, one sentence each.
     pub warnings: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! The diagnosis told in sentences.
+//! Sentences that report a diagnosis: the verdict first, then its reasons.
 
 use crate::policy;
 use data::Direct;
@@ -28,7 +28,7 @@ impl Diagnosis {
 }
 
 impl LearnedLaw {
-    /// What was learned, in sentences.
+    /// The law, its errors and its numbers, one sentence each.
     pub fn sentences(&self) -> Vec<String> {
         let mm = |v: Option<f64>| v.map_or("unknown".into(), |mm| format!("{mm:.2}"));
         let (before, after) = (mm(self.heldout_before_mm), mm(self.heldout_after_mm));
@@ -82,7 +82,6 @@ pub(crate) fn story(d: &Diagnosis) -> Vec<String> {
     told
 }
 
-/// p of "nothing is missing".
 fn p_of(d: &Diagnosis) -> String {
     d.p_value.map(p_value).unwrap_or_default()
 }

@@ -1,4 +1,4 @@
-//! Numbers and values in words.
+//! Numbers, values with units, and intervals in words.
 
 use crate::diagnosis::candidates::taken_away;
 use crate::diagnosis::result::ParameterValue;
@@ -52,7 +52,7 @@ pub fn named(p: &ParameterValue) -> String {
     format!("{} = {}{interval}", p.symbol, with_unit(&three(p.value), &p.unit))
 }
 
-/// The same of several.
+/// Several values with their symbols, separated by commas.
 pub fn listed(values: &[ParameterValue]) -> String {
     values.iter().map(named).collect::<Vec<_>>().join(", ")
 }

@@ -10,7 +10,7 @@ fn set() -> Dataset {
     data::load("synthetic-epam", &mut |_, _| {}).unwrap().0
 }
 
-/// The set without a marker.
+/// The set as if it never had this marker.
 fn without(marker: usize) -> Dataset {
     let whole = set();
     let width = whole.markers.len();

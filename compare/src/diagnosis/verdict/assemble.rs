@@ -118,7 +118,7 @@ fn is_covered(case: &Case, added: &[Added]) -> bool {
     !added.is_empty() && !case.first().scenario.is_spatial()
 }
 
-/// Data after the first.
+/// Errors in all data after the first, with the base and with the last fit.
 fn fitted_beside(case: &Case, last: &Fit) -> Vec<FittedBeside> {
     let errors = case.errors_mm(&case.base).into_iter().zip(case.errors_mm(last));
     let all = case.sources.iter().zip(errors).map(|(source, (systematic_mm, systematic_with_added_mm))| FittedBeside {

@@ -1,4 +1,4 @@
-//! From fits to a verdict.
+//! The verdict from all fits: noise, one effect, two effects, a fault or nothing in the catalogue.
 
 use crate::diagnosis::case::Case;
 use crate::diagnosis::closest::{as_close, closest};
@@ -26,7 +26,7 @@ pub(crate) struct Decision {
     pub last: Option<Fit>,
     /// Where nothing explains the data: the final model and what comes as close.
     pub as_close: Vec<Fit>,
-    /// `None` without p-values.
+    /// `None` if no p-values can be formed.
     pub verdict: Option<Verdict>,
     /// One corrected p of "nothing is missing".
     pub p_value: Option<f64>,

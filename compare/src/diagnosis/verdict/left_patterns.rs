@@ -23,7 +23,6 @@ const SIMULATED: usize = 4000;
 const TOGETHER: usize = 8;
 /// Quantile that sets the number of independent patterns.
 const QUANTILE: f64 = 0.99;
-/// Seed of the simulation.
 const SEED: u64 = 20_261_121;
 /// Fits that leave less than this share of a pattern can imitate it.
 const LEFT: f64 = 0.02;
@@ -48,7 +47,6 @@ pub(crate) struct ClearPattern {
 /// A fault that is a simpler answer than effects.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Simpler {
-    /// The fault.
     pub fault: ClearPattern,
     pub p_value: f64,
     /// It explains no more than they do, and is preferred for its single number.
@@ -57,9 +55,8 @@ pub(crate) struct Simpler {
 
 /// Everything that may be seen in the residuals of a fit.
 pub(crate) struct Look {
-    /// The clearest first.
+    /// Patterns found in the residuals, the clearest first.
     pub seen: Vec<ClearPattern>,
-    /// Unit vectors of all patterns.
     units: Vec<Vec<f64>>,
     tests: OnceCell<f64>,
 }

@@ -20,7 +20,7 @@ use crate::layout::Layout;
 use crate::wording::short;
 use data::{Hold, Phase};
 
-/// A pattern in the data.
+/// A simple pattern of residuals, as a direction in run layout.
 pub(crate) struct Pattern {
     /// What it looks like, to follow "What is left looks as if".
     pub words: String,
@@ -30,7 +30,7 @@ pub(crate) struct Pattern {
     pub is_uniform: bool,
     /// What broke, if this is what something broken looks like.
     pub fault: Option<Fault>,
-    /// In run layout \[any unit\].
+    /// Change of all values in run layout, in any unit.
     pub direction: Vec<f64>,
 }
 
@@ -43,7 +43,7 @@ pub(crate) enum Fault {
     Hold,
 }
 
-/// Where a pattern acts.
+/// Where a pattern acts on the markers.
 enum Place {
     /// A rotation halfway between neighbouring markers, 0 between base and first marker.
     Bend(usize),
@@ -51,7 +51,7 @@ enum Place {
     Bends(Vec<f64>),
     /// One marker in x or y.
     Marker(usize, [f64; 2]),
-    /// One marker along the robot.
+    /// One marker, displaced along the robot.
     Along(usize),
     /// All markers in x or y.
     All([f64; 2]),
@@ -59,10 +59,10 @@ enum Place {
 
 /// A time that singles out holds.
 struct When {
-    /// To follow what happens then.
+    /// Clause on the time that follows the description of the pattern.
     words: String,
     check: String,
-    /// One factor per hold.
+    /// Factor of the pattern in each hold.
     time: Vec<f64>,
 }
 
@@ -160,7 +160,6 @@ pub(crate) fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
     found
 }
 
-/// Directions of the image.
 const AXES: [(&str, [f64; 2]); 2] = [("x", [1.0, 0.0]), ("y", [0.0, 1.0])];
 
 /// Uniform bending of every hold by itself, what any law of a uniform robot may do: of the outline, and as the model bends with
@@ -229,7 +228,6 @@ fn times(case: &Case, bent: &[f64]) -> Vec<When> {
     all
 }
 
-/// Indices of markers by station.
 fn order(stations_m: &[f64]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..stations_m.len()).collect();
     order.sort_by(|a, b| stations_m[*a].total_cmp(&stations_m[*b]));

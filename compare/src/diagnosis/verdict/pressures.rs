@@ -41,7 +41,6 @@ struct Weighed {
     has_its_stiffness: bool,
 }
 
-/// All data of a diagnosis.
 pub(crate) struct Pressures<'p> {
     pub sources: &'p [Source],
     pub options: &'p Options,
@@ -49,7 +48,7 @@ pub(crate) struct Pressures<'p> {
 
 /// A slip undone, and the base then.
 struct Undone {
-    /// Index of the source.
+    /// Source whose table was corrected, as an index.
     of: usize,
     slip: PressureSlip,
     weighed: Weighed,

@@ -11,7 +11,6 @@ use std::sync::Arc;
 pub(crate) struct Material {
     /// κ, θ, P, p_b, s, R, B and pull of each, SI ([`Formula::moment_at`]).
     pub places: Vec<[f64; 8]>,
-    /// Missing moment of each \[N·m\].
     pub moments: DVector<f64>,
     pub covariance: DMatrix<f64>,
     /// The bending stiffness is fitted along; it may fall by so much \[N·m²\]. `None`: it is kept.
@@ -89,11 +88,10 @@ struct Law {
     form: Option<&'static Form>,
     /// Values of all numbers with which the columns were made, and these: one per linear number, and the stiffness's.
     grid: Vec<(Vec<f64>, DMatrix<f64>)>,
-    /// Bounds of the coefficients.
+    /// Lower and upper bound of each coefficient.
     bounds: Vec<[f64; 2]>,
 }
 
-/// Fitted numbers of a law.
 struct Fitted {
     values: Vec<f64>,
     cost: f64,

@@ -14,20 +14,19 @@ use std::sync::Arc;
 /// In which unit of the robot a number is of order one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Unit {
-    /// π p_b R³ \[N·m\].
+    /// Moment of the gas in the body, π p_b R³ \[N·m\].
     Moment,
     /// 10 π p_b R⁴ \[N·m²\]: that moment at a tenth of the sharpest bend.
     Stiffness,
-    /// 1/R \[1/m\].
+    /// Curvature 1/R, the sharpest bend of a body \[1/m\].
     Bend,
-    /// None.
+    /// Dimensionless number that needs no scale.
     One,
 }
 
-/// One number of a law.
+/// A number of a law, with its unit, bounds and meaning.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Number {
-    /// Key in the formula.
     pub key: &'static str,
     pub unit: Unit,
     pub bounds: [f64; 2],
@@ -36,7 +35,7 @@ pub(crate) struct Number {
     pub meaning: &'static str,
 }
 
-/// A law of the library.
+/// A law of the library as a formula of bend and pressures.
 #[derive(Debug)]
 pub(crate) struct Form {
     pub words: &'static str,
@@ -125,7 +124,6 @@ const fn law(words: &'static str, moment: &'static str, numbers: &'static [Numbe
     Form { words, moment, numbers, usual }
 }
 
-/// A share of the pull.
 pub(crate) const PULL: Form = law("a share of the pull", "-a*pull", &[A], SHARE);
 
 /// Laws, those with fewer numbers first.
@@ -253,7 +251,7 @@ impl Form {
         out
     }
 
-    /// Compiled, for a robot.
+    /// The law compiled as a formula for this robot; `None` if it cannot be parsed.
     pub(crate) fn formula(&self, name: &str, robot: &Scenario) -> Option<Arc<Formula>> {
         let body = "[body]\nradius_mm = 40\nlength_mm = 360\npressure_kpa = 2\n";
         Scenario::parse(&format!("{body}{}", self.toml(name, robot))).ok()?.formulas.pop()

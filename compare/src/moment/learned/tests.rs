@@ -6,7 +6,6 @@ use crate::study::published::textbook_scenario;
 use models::Scenario;
 use nalgebra::{DMatrix, DVector};
 
-/// Places along the robot.
 const STATIONS: [f64; 5] = [0.045, 0.12, 0.18, 0.24, 0.315];
 
 fn robot() -> Scenario {

@@ -65,13 +65,13 @@ fn places(scenario: &Scenario, ranges: &Ranges) -> Vec<(f64, Option<f64>)> {
 /// Both engines in one run at one pressure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Parting {
-    /// Actuator kind.
+    /// Actuator kind of the robot, such as `epam`.
     pub robot: String,
     /// Element size at the actuator \[mm\].
     pub mesh_mm: f64,
     /// Body gauge pressure \[kPa\].
     pub body_kpa: f64,
-    /// Length of a pouch \[mm\].
+    /// Length of one unit of the actuator \[mm\].
     pub pouch_mm: f64,
     /// Actuator gauge pressure \[kPa\].
     pub actuator_kpa: f64,
@@ -83,13 +83,13 @@ pub struct Parting {
     pub difference: Option<f64>,
     /// The term that carries it, and the difference without it.
     pub carried_by: Option<Carrier>,
-    /// Excess of every term \[mJ\].
+    /// Energies of the finite elements minus the reduced model's at this bend \[mJ\].
     pub excess_mj: Option<Energies>,
     /// Tip of the scenario without its effects \[mm\].
     pub bare_tip_mm: f64,
-    /// Its difference.
+    /// Relative difference of that tip from the finite elements'.
     pub bare_difference: Option<f64>,
-    /// Inflated shape in both.
+    /// Sizes of the inflated robot in both engines, where the run has them.
     pub shape: Option<PartingShape>,
 }
 
@@ -97,9 +97,9 @@ pub struct Parting {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PartingShape {
     names: [&'static str; 5],
-    /// Of the reduced model.
+    /// Sizes in the reduced model, in the order of [`SHAPE`].
     pub reduced: [f64; 5],
-    /// Of the finite elements.
+    /// Sizes in the finite elements, in the order of [`SHAPE`].
     pub fe: [f64; 5],
 }
 
@@ -129,7 +129,7 @@ pub fn partings(scenarios: &[Scenario], runs: &[EngineRun]) -> Result<Vec<Partin
     Ok(rows)
 }
 
-/// Columns of `breakdown.csv`.
+/// Columns of `breakdown.csv` with their values as text.
 pub const PARTINGS_CSV: [TextColumn<Parting>; 10] = [
     ("robot", |row| row.robot.clone()),
     ("mesh_mm", |row| row.mesh_mm.to_string()),

@@ -18,7 +18,7 @@ use serde::Serialize;
 /// A term that is cut to a tenth.
 #[derive(Debug)]
 pub struct Cut {
-    /// Its name in [`super::TERMS`].
+    /// Name of the term in [`super::TERMS`].
     pub term: &'static str,
     /// Its account in the reduced model.
     account: Account,
@@ -26,16 +26,16 @@ pub struct Cut {
     pub key: (&'static str, f64),
 }
 
-/// All of them.
+/// Terms that runs cut to a tenth.
 pub const CUTS: [Cut; 2] = [
     Cut { term: "wall bending", account: Account::Wall, key: ("bending_share", 0.1) },
     Cut { term: "compressed sheets", account: Account::Compression, key: ("wrinkle_length", 10.0) },
 ];
 
-/// What carries a difference.
+/// The term without which the two engines differ least.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Carrier {
-    /// The term in [`super::TERMS`].
+    /// Name of the term in [`super::TERMS`].
     pub term: &'static str,
     /// Reduced minus finite element tip over the latter, without the term.
     pub difference_without: f64,

@@ -8,28 +8,28 @@ use crate::study::columns::TextColumn;
 use crate::study::published::heights_m;
 use models::{Known, Loads};
 
-/// One line of the comparison.
+/// One source's displacements of one robot at one pressure.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct EngineLine {
-    /// Robot.
+    /// Printed name of a published robot, else the name of its scenario.
     pub robot: String,
     /// Actuator pressure \[kPa\].
     pub actuator_kpa: f64,
-    /// Who says so.
+    /// Publication, model or finite element runs that give the numbers.
     pub source: String,
-    /// How it is known.
+    /// How the numbers are known, such as `published` or `assumed`.
     pub known: String,
-    /// Outermost marker \[mm\].
+    /// Displacement of the outermost marker \[mm\].
     pub marker_mm: Option<f64>,
     /// Its standard deviation over the seeds \[mm\].
     pub spread_mm: Option<f64>,
-    /// Tip \[mm\].
+    /// Displacement of the end of the robot \[mm\].
     pub tip_mm: Option<f64>,
     /// The paper's accuracy: as printed, or of the outermost marker against the measured displacement.
     pub accuracy: Option<f64>,
 }
 
-/// Columns of `engines.csv`.
+/// Columns of `engines.csv` with their values as text.
 pub const LINES_CSV: [TextColumn<EngineLine>; 8] = [
     ("robot", |line| line.robot.replace(',', ";")),
     ("p_act_kpa", |line| line.actuator_kpa.to_string()),

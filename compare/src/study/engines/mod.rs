@@ -31,10 +31,10 @@ pub use robots::{EngineRobot, Engines, PartingMap, engines, varied};
 use serde::{Deserialize, Serialize};
 pub use volumes::{BodyVolumes, MeanVolumes, Volumes, body_volumes, volumes};
 
-/// Terms of the common ledger.
+/// Terms of the ledger that both engines have, in this order.
 pub const TERMS: [&str; 7] =
     ["pouch gas", "body folds", "wall bending", "stretch", "compressed sheets", "contact", "hourglass"];
-/// Energies in [`TERMS`] \[mJ\].
+/// Energies of all terms in the order of [`TERMS`] \[mJ\].
 pub type Energies = [f64; TERMS.len()];
 /// Highest pressure at which a model is asked for a bend \[Pa\].
 const HIGHEST_PA: f64 = 500e3;
@@ -42,17 +42,17 @@ const HIGHEST_PA: f64 = 500e3;
 /// A finished finite element run of a robot.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct EngineRun {
-    /// Actuator kind.
+    /// Actuator kind of the robot, such as `epam`.
     pub actuator: String,
-    /// Name of the scenario.
+    /// Name of the scenario that was run.
     pub scenario: String,
     /// Element sizes of body and actuator \[mm\].
     pub mesh_mm: [f64; 2],
-    /// Elements.
+    /// Number of elements of the mesh.
     pub elements: u64,
-    /// Steps.
+    /// Number of time steps of the run.
     pub steps: u64,
-    /// Processor time \[s\].
+    /// Processor time of the whole run \[s\].
     pub cpu_s: f64,
     /// Number of the engine that made it.
     pub engine: u64,
@@ -64,9 +64,9 @@ pub struct EngineRun {
     pub width_mm: f64,
     /// Length of one unit of the actuator \[mm\].
     pub pouch_mm: f64,
-    /// Units in series.
+    /// Number of actuator units in series.
     pub count: usize,
-    /// Seed of its imperfections.
+    /// Seed of the imperfections in the mesh.
     pub seed: u64,
     /// Marker stations along the robot \[mm\].
     pub stations_mm: Vec<f64>,
@@ -89,13 +89,13 @@ pub struct EngineState {
     pub actuator_kpa: f64,
     /// Height of the outermost marker \[mm\].
     pub marker_mm: f64,
-    /// Height of the tip \[mm\].
+    /// Height of the tip in the plane of bending \[mm\].
     pub tip_mm: f64,
-    /// Turn of the tip \[rad\].
+    /// Turn of the tip from the straight robot \[rad\].
     pub turn_rad: f64,
-    /// Volume of the body \[cm³\].
+    /// Volume of gas in the body \[cm³\].
     pub body_cm3: f64,
-    /// Volume of the actuator \[cm³\].
+    /// Volume of gas in all pouches or muscles \[cm³\].
     pub actuator_cm3: f64,
     /// Stored in membrane, compressed sheets, bending, contact and hourglass control, and lost so far \[mJ\].
     pub energies_mj: [f64; 6],
@@ -104,7 +104,7 @@ pub struct EngineState {
     /// Whether the tip was at rest; `None` in runs that did not keep it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub is_at_rest: Option<bool>,
-    /// Largest von Mises stress \[MPa\].
+    /// Largest von Mises stress of all elements \[MPa\].
     pub von_mises_mpa: f64,
     /// Largest pull on a weld \[N/m\].
     pub weld_n_per_m: f64,
@@ -123,7 +123,7 @@ pub struct EngineState {
     pub seen_mm: Vec<[f64; 2]>,
 }
 
-/// Both engines in one state.
+/// Reduced model and finite elements at one actuator pressure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct EnginePair {
     /// Actuator gauge pressure \[kPa\].
@@ -262,7 +262,6 @@ fn fe_ledger(run: &EngineRun, filled: &EngineState, state: &EngineState) -> Ener
 
 const RUNS: RecordShape = RecordShape { schema: "ibr.fem_runs", version: 2 };
 
-/// A record of runs.
 #[derive(Deserialize)]
 pub(in crate::study) struct Listed<R> {
     pub runs: Vec<R>,
@@ -293,7 +292,7 @@ pub fn runs_json(runs: &[EngineRun]) -> String {
 /// Runs of one robot as it is that differ in their seed only.
 #[derive(Debug, Clone, Default)]
 pub struct Ensemble {
-    /// Runs, by seed.
+    /// Runs in the order of their seeds.
     pub runs: Vec<EngineRun>,
 }
 

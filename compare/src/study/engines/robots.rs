@@ -7,10 +7,10 @@ use crate::study::uncertain::{self, Uncertain};
 use data::{PublishedActuator, published};
 use models::Scenario;
 
-/// One robot with both engines.
+/// One robot with the predictions of both engines.
 #[derive(Debug, Clone)]
 pub struct EngineRobot {
-    /// The robot.
+    /// The robot as the reduced model has it.
     pub scenario: Scenario,
     /// What is printed about it; `None` for a robot that is not one of the paper's.
     pub published: Option<PublishedActuator>,
@@ -29,7 +29,7 @@ pub struct EngineRobot {
 /// Where the models part, for one robot and one quantity.
 #[derive(Debug, Clone)]
 pub struct PartingMap {
-    /// Actuator kind.
+    /// Actuator kind of the robot, such as `epam`.
     pub actuator: String,
     /// Head of the rows, with unit.
     pub row_label: String,
@@ -39,10 +39,10 @@ pub struct PartingMap {
     pub mesh_mm: f64,
 }
 
-/// Everything the page shows.
+/// Everything that the page of both engines shows.
 #[derive(Debug, Clone)]
 pub struct Engines {
-    /// Robots.
+    /// Robots with their runs and published numbers.
     pub robots: Vec<EngineRobot>,
     /// Maps of those that have runs for them.
     pub maps: Vec<PartingMap>,

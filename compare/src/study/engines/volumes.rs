@@ -86,9 +86,9 @@ fn lens_m3(scenario: &Scenario, turn_rad: f64) -> Option<f64> {
 /// A robot at one body pressure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BodyVolumes {
-    /// Name of the scenario.
+    /// Name of the scenario that was run.
     pub robot: String,
-    /// Actuator kind.
+    /// Actuator kind of the robot, such as `epam`.
     pub actuator: String,
     /// Body gauge pressure \[kPa\].
     pub body_kpa: f64,
@@ -96,9 +96,9 @@ pub struct BodyVolumes {
     pub own: bool,
     /// Element size at the actuator \[mm\].
     pub mesh_mm: f64,
-    /// Seeds.
+    /// Number of seeds in the means.
     pub seeds: usize,
-    /// Every pressure of its runs.
+    /// Mean volumes at every pressure of the runs.
     pub states: Vec<MeanVolumes>,
 }
 

@@ -4,22 +4,22 @@ use super::{MESHES_MM, PaperRun, find};
 use data::Published;
 use serde::Serialize;
 
-/// What a check came to.
+/// Result of checking a sentence of the paper.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "is", content = "why", rename_all = "snake_case")]
 pub enum FactVerdict {
     /// The engine or the paper's own numbers say the same.
     Holds,
-    /// They say something else.
+    /// The engine or the paper's own numbers say something else.
     Misses(String),
     /// The paper says something else elsewhere.
     ContradictsItself(String),
-    /// Nothing follows.
+    /// Neither runs nor printed numbers decide it.
     CannotBeChecked(String),
 }
 
 impl FactVerdict {
-    /// In words.
+    /// The verdict with its reason, in words.
     pub fn words(&self) -> String {
         match self {
             FactVerdict::Holds => "holds".into(),
@@ -30,18 +30,18 @@ impl FactVerdict {
     }
 }
 
-/// A sentence and its verdict.
+/// A sentence of the paper and its verdict.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FactRow {
-    /// Name of the fact.
+    /// Name of the fact in the list of facts.
     pub id: String,
-    /// Section, table or figure.
+    /// Section, table or figure of the paper.
     pub place: String,
-    /// As printed, shortened.
+    /// The sentence as the paper prints it, shortened.
     pub says: String,
     /// What the engine says, or the paper elsewhere.
     pub found: String,
-    /// What follows.
+    /// Whether the finding supports the sentence.
     pub verdict: FactVerdict,
 }
 
@@ -80,7 +80,7 @@ impl<'a> FactCase<'a> {
         self.numbers.get(k).copied().unwrap_or(f64::NAN)
     }
 
-    /// Largest measured displacement \[mm\].
+    /// Largest displacement that the paper reports for this actuator \[mm\].
     pub(super) fn d_max_mm(&self, kind: &str) -> Option<f64> {
         Some(self.paper.actuator(kind)?.d_max_m * 1e3)
     }

@@ -54,19 +54,19 @@ impl Implied {
 /// A run beside what the paper implies.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HeightRow {
-    /// `spam`, `cpam`, `epam` or `fpam`.
+    /// Robot of the paper: `spam`, `cpam`, `epam` or `fpam`.
     pub robot: String,
     /// Actuator gauge pressure \[kPa\].
     pub actuator_kpa: f64,
     /// Element sizes of body and actuator \[mm\].
     pub mesh_mm: [f64; 2],
-    /// What the accuracy implies.
+    /// Heights that the printed accuracy implies.
     pub implied: Implied,
     /// Heights of the markers, base first \[mm\].
     pub markers_mm: Vec<f64>,
-    /// Height of the tip \[mm\].
+    /// Height of the tip in the run \[mm\].
     pub tip_mm: f64,
-    /// What follows, in words.
+    /// Whether the run meets the implied heights, in words.
     pub verdict: String,
 }
 

@@ -31,7 +31,7 @@ pub struct PaperRun {
     pub encastre: bool,
     /// Mass added by scaling, over the true mass.
     pub added_mass_share: f64,
-    /// Its energies while it moved.
+    /// Kinetic energy compared with the other energies at the outputs.
     pub kinetic: Kinetic,
     /// Where the largest von Mises stress is.
     pub peak: Peak,
@@ -40,7 +40,7 @@ pub struct PaperRun {
 /// Kinetic energy at the outputs of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Kinetic {
-    /// Outputs after the start.
+    /// Number of outputs after the start.
     pub outputs: u64,
     /// Those below 10 % of the internal energy.
     pub below_10_pct_of_internal: u64,
@@ -53,7 +53,7 @@ pub struct Kinetic {
 /// The element with the largest von Mises stress at the end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Peak {
-    /// Part of the robot.
+    /// Part of the robot that the element belongs to.
     pub part: String,
     /// Place along the straight robot \[mm\].
     pub at_mm: f64,
@@ -98,7 +98,7 @@ pub fn ordered(mut runs: Vec<PaperRun>) -> Vec<PaperRun> {
 }
 
 impl PaperRun {
-    /// Its one pressure.
+    /// Last state of the run, at its one pressure.
     pub fn end(&self) -> Option<&EngineState> {
         self.run.states.last()
     }
@@ -117,7 +117,7 @@ pub fn find<'a>(runs: &'a [PaperRun], kind: &str, mesh_mm: [f64; 2], kpa: f64) -
     runs.iter().find(|r| !r.encastre && r.is(kind, mesh_mm, kpa))
 }
 
-/// A mesh in words.
+/// Element sizes as text: `20/10 mm`, or `10 mm` if both are equal.
 pub fn mesh_name([body, actuator]: [f64; 2]) -> String {
     if body == actuator { format!("{actuator} mm") } else { format!("{body}/{actuator} mm") }
 }

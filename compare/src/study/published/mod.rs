@@ -18,10 +18,10 @@ use spelling::si;
 /// One rung: a model and what it predicts for the outermost marker.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Rung {
-    /// What was added, in words.
+    /// What this rung adds to the one before, in words.
     #[serde(rename = "model")]
     pub label: String,
-    /// The model.
+    /// The model of this rung, with everything added so far.
     #[serde(skip)]
     pub scenario: Scenario,
     /// Height of the outermost marker \[m\].
@@ -33,16 +33,16 @@ pub struct Rung {
     /// How the value added is known.
     #[serde(rename = "how_known")]
     pub known: Known,
-    /// Where the value comes from.
+    /// Source of the added value, or why it is assumed.
     pub why: String,
 }
 
 /// The rungs of one actuator and the published displacement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PublishedLadder {
-    /// The paper's numbers.
+    /// Displacements and accuracies that the paper prints.
     pub published: PublishedActuator,
-    /// Bare model first.
+    /// Models in order, the bare one first.
     pub rungs: Vec<Rung>,
     /// B that makes the last uncalibrated rung meet the displacement \[N·m²\]; `None` if no B ≥ 0 does.
     pub calibrated_bending: Option<f64>,

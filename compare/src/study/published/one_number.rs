@@ -18,14 +18,14 @@ const GRID: u32 = 60;
 /// Halvings of the interval in which the displacement is met.
 const HALVINGS: u32 = 60;
 
-/// One explanation of a displacement.
+/// One parameter that alone meets a published displacement.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Explanation {
-    /// Effect, or `bending_stiffness`.
+    /// Name of the effect, or `bending_stiffness`.
     pub effect: String,
     /// Key of the parameter that was varied.
     pub key: String,
-    /// Unit.
+    /// Unit of the value as scenarios write it.
     pub unit: String,
     /// The value that meets the displacement.
     pub value: f64,
@@ -38,13 +38,13 @@ pub struct Explanation {
 /// A published displacement and all that meets it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OneNumber {
-    /// Name as printed.
+    /// Name of the robot as the paper prints it.
     pub robot: String,
-    /// Actuator kind.
+    /// Actuator kind of the robot, such as `epam`.
     pub actuator: String,
     /// Pressures \[kPa\], the last is that of the displacement.
     pub p_act_kpa: Vec<f64>,
-    /// Printed displacement \[mm\].
+    /// Displacement that the paper prints \[mm\].
     pub measured_mm: f64,
     /// The model with what its geometry brings, without bending stiffness, at every pressure \[mm\].
     pub bare_mm: Vec<f64>,

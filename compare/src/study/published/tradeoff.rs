@@ -9,15 +9,15 @@ use std::time::Instant;
 /// Time and error of one model.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Timing {
-    /// Engine: `reduced` or `finite elements`.
+    /// Engine of the prediction: `reduced` or `finite elements`.
     pub engine: String,
-    /// Actuator kind.
+    /// Actuator kind of the robot, such as `epam`.
     pub actuator: String,
-    /// Model in words.
+    /// Short description of the model in words.
     pub model: String,
     /// Median time of one prediction, equilibrium and markers \[µs\].
     pub prediction_us: f64,
-    /// Predicted minus published displacement \[mm\].
+    /// Predicted minus published displacement of the outermost marker \[mm\].
     pub error_mm: f64,
     /// The same relative to the published displacement \[%\].
     pub error_pct: f64,

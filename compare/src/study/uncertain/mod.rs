@@ -32,7 +32,7 @@ pub const QUANTILES: [f64; 3] = [0.1, 0.5, 0.9];
 /// Runs beyond the numbers that a straight law needs to say anything.
 const SPARE: usize = 5;
 
-/// A number that nobody measured.
+/// A number of the robot that has an interval because nobody measured it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Varied {
     /// Key of `[fem]`, with its unit.
@@ -41,25 +41,25 @@ pub struct Varied {
     pub interval: [f64; 2],
     /// Its values at a tenth and at nine tenths of that.
     pub tenths: [f64; 2],
-    /// What it is.
+    /// Meaning of the key, as the documents state it.
     pub meaning: String,
-    /// Where the interval comes from.
+    /// Source or reason of the interval.
     pub reason: String,
 }
 
-/// One robot of the hypercube.
+/// One robot of the hypercube, with its numbers and its states.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Member {
     /// Places of the numbers in their intervals, 0 to 1.
     pub shares: Vec<f64>,
     /// What it did; empty if it stopped.
     pub states: Vec<MemberState>,
-    /// Why it stopped.
+    /// Reason why its run stopped early, if it did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stopped: Option<String>,
 }
 
-/// A robot at a pressure.
+/// Markers of a robot at one actuator pressure.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MemberState {
     /// Actuator gauge pressure \[kPa\].
@@ -68,14 +68,14 @@ pub struct MemberState {
     pub moved_mm: Vec<[f64; 2]>,
 }
 
-/// A hypercube of robots.
+/// A Latin hypercube of robots, run with finite elements.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Uncertain {
     /// Number of the engine that made it.
     pub engine: u32,
-    /// Actuator kind.
+    /// Actuator kind of the scenario, such as `epam`.
     pub actuator: String,
-    /// Name of the scenario.
+    /// Name of the scenario that is varied.
     pub scenario: String,
     /// Settings that make it another robot than the recommended one, as typed; empty for that one.
     pub variant: String,
@@ -85,20 +85,20 @@ pub struct Uncertain {
     pub body_kpa: f64,
     /// Stations of the markers along the straight robot \[mm\].
     pub stations_mm: Vec<f64>,
-    /// What was varied.
+    /// Numbers that were varied, with their intervals.
     pub numbers: Vec<Varied>,
-    /// The robots.
+    /// Robots of the hypercube, one per run.
     pub members: Vec<Member>,
 }
 
-/// What one number does.
+/// How far one varied number moves the outermost marker.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Weight {
-    /// Its place in [`Uncertain::numbers`].
+    /// Index of the number in [`Uncertain::numbers`].
     pub number: usize,
     /// From a tenth to nine tenths of its interval \[mm\].
     pub swing_mm: f64,
-    /// Share of the variance.
+    /// Share of the variance over all members that this number explains.
     pub share: f64,
 }
 
@@ -148,7 +148,7 @@ impl Uncertain {
         self.members.iter().filter_map(|m| here(m).map(|k| (m, &m.states[k]))).collect()
     }
 
-    /// Pressures that were read \[kPa\].
+    /// Actuator pressures at which states were read, of the longest run \[kPa\].
     pub fn pressures_kpa(&self) -> Vec<f64> {
         let longest = self.members.iter().max_by_key(|m| m.states.len());
         longest.map_or(Vec::new(), |m| m.states.iter().map(|s| s.actuator_kpa).collect())
@@ -168,7 +168,7 @@ impl Uncertain {
         self.quantiles_mm(actuator_kpa, self.stations_mm.len().checked_sub(1)?, 1)
     }
 
-    /// Robots that [`Uncertain::weights`] needs.
+    /// How many robots [`Uncertain::weights`] needs at least.
     pub fn needed(&self) -> usize {
         self.numbers.len() + SPARE
     }

@@ -67,7 +67,7 @@ impl Uncertain {
         })
     }
 
-    /// The highest pressure \[kPa\].
+    /// Highest actuator pressure that was read, 0 without states \[kPa\].
     pub fn top_kpa(&self) -> f64 {
         self.pressures_kpa().into_iter().fold(0.0, f64::max)
     }
