@@ -8,17 +8,10 @@ use data::Fault;
 pub enum CompareError {
     /// A wish that cannot be met.
     #[error("{message}")]
-    Refused {
-        message: String,
-        help: String,
-    },
+    Refused { message: String, help: String },
     /// A file that cannot be read.
     #[error("cannot read {path}: {cause}")]
-    Unread {
-        path: String,
-        cause: String,
-        help: String,
-    },
+    Unread { path: String, cause: String, help: String },
     /// A scenario whose text has a fault, with its line and the remedy.
     #[error("{0}")]
     Scenario(Box<Fault>),
@@ -27,11 +20,7 @@ pub enum CompareError {
     Unfit(String),
     /// A setting is outside its range.
     #[error("{name} = {value} is not possible: {expected}")]
-    BadOption {
-        name: &'static str,
-        value: f64,
-        expected: &'static str,
-    },
+    BadOption { name: &'static str, value: f64, expected: &'static str },
     /// A matrix decomposition did not converge.
     #[error("the noise covariance could not be decomposed: check the marker positions for extreme values")]
     Decomposition,
@@ -42,11 +31,7 @@ pub enum CompareError {
     #[error(
         "the data `{dataset}` are of actuator {data}, the scenario is of actuator {scenario}: use the matching scenario"
     )]
-    WrongActuator {
-        dataset: String,
-        data: String,
-        scenario: String,
-    },
+    WrongActuator { dataset: String, data: String, scenario: String },
     /// Neither the data nor the scenario states where a marker is on the body.
     #[error(
         "the station of marker `{marker}` is not known: add an s_mm column to the data, [markers] names and s_mm to \
@@ -61,11 +46,7 @@ pub enum CompareError {
     },
     /// A marker sits beyond the robot's end.
     #[error("marker `{marker}` at s = {s_mm} mm is beyond the robot's end at {length_mm} mm: check units and scenario")]
-    OffTheBody {
-        marker: String,
-        s_mm: f64,
-        length_mm: f64,
-    },
+    OffTheBody { marker: String, s_mm: f64, length_mm: f64 },
     /// Runs with different known tip forces cannot share one mean.
     #[error(
         "the runs have different known tip forces ({first} and {second}): put each force into a dataset of its own, \
@@ -79,39 +60,25 @@ pub enum CompareError {
     },
     /// A protocol text that cannot be read.
     #[error("protocol `{text}`: {problem}; write pressures in kPa, for example \"0,10,20,30,0@2; 0,20,40,60,0@4\"")]
-    BadProtocol {
-        text: String,
-        problem: String,
-    },
+    BadProtocol { text: String, problem: String },
     /// A fault that reading the data found, with file, line and remedy.
     #[error("{0}")]
     Data(#[from] data::DataError),
     /// A finite element run cannot be made, or its record not be read.
     #[error("{message}")]
-    Fem {
-        message: String,
-        help: String,
-    },
+    Fem { message: String, help: String },
     /// The generator of hidden-effect data cannot make this robot or this run.
     #[error("the data cannot be generated: {problem}")]
-    NotSimulated {
-        problem: String,
-    },
+    NotSimulated { problem: String },
     /// No scenario comes with the library for this actuator, or it is damaged.
     #[error("no shipped scenario of actuator `{kind}`: {problem}")]
-    NoScenario {
-        kind: String,
-        problem: String,
-    },
+    NoScenario { kind: String, problem: String },
     /// Nothing to hold against the data.
     #[error("no model is given to hold against the data: give at least one")]
     NoModel,
     /// A search that ended without a minimum.
     #[error("the fit of {what} broke off: {problem}")]
-    Fit {
-        what: &'static str,
-        problem: String,
-    },
+    Fit { what: &'static str, problem: String },
 }
 
 impl From<fem::FemError> for CompareError {
