@@ -19,21 +19,21 @@
 
 use super::laws::ByLaw;
 
-/// Lean of pins \[rad\].
+/// Angle by which pins lean in the second law of the height \[rad\].
 const LEAN_RAD: f64 = 0.349;
 
 /// Camera laws; all off at 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Camera {
-    /// Body length L \[m\].
+    /// Length L of the straight body \[m\].
     pub length_m: f64,
-    /// Marker height e \[m\].
+    /// Height e of the markers above the centre line \[m\].
     pub height_m: ByLaw,
     /// Mount rotation at 30 kPa φ \[rad\].
     pub mount_rad: ByLaw,
-    /// Scale error c \[-\].
+    /// Relative error c of the scale \[-\].
     pub scale: ByLaw,
-    /// Roll δ \[rad\].
+    /// Roll δ of the camera against the robot \[rad\].
     pub roll_rad: ByLaw,
     /// Lens k of r² \[1/m²\], and of r⁴ \[1/m⁴\].
     pub lens: ByLaw,
@@ -41,14 +41,14 @@ pub struct Camera {
     pub drift_m: f64,
 }
 
-/// A marker before the camera.
+/// A marker's place on the robot, before the camera distorts it.
 #[derive(Debug, Clone, Copy)]
 pub struct SeenPoint {
     /// Place on the centre line \[m\].
     pub xy: [f64; 2],
-    /// Heading \[rad\].
+    /// Angle of the centre line from the straight robot \[rad\].
     pub heading: f64,
-    /// Station \[m\].
+    /// Station of the marker on the undeformed body \[m\].
     pub station_m: f64,
 }
 

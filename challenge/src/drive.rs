@@ -31,34 +31,34 @@ const DENSE_RAD: f64 = 0.36;
 /// Room at which the law ends: its load is a million times the scale.
 const LEAST_ROOM: f64 = 0.01;
 
-/// Laws of one cell's actuator.
+/// Geometry of one cell's actuator and amounts of its hidden laws.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drive {
-    /// Pouch or McKibben.
+    /// Mechanism of contraction, a pouch or a McKibben muscle.
     pub family: Family,
     /// Flat length of one unit L₀ \[m\].
     pub length_m: f64,
-    /// Flat width W \[m\].
+    /// Width W of the flat unit \[m\].
     pub width_m: f64,
-    /// Factor on the volume \[-\].
+    /// Factor on the volume of the unit \[-\].
     pub gain: f64,
-    /// Arm at rest D₀ \[m\].
+    /// Distance D₀ of the line of action from the taut generator at rest \[m\].
     pub arm_m: f64,
     /// Share of the lift by which the arm grows \[-\]: the base's geometry.
     pub lift_share: f64,
     /// Factor on the pressure \[-\]: 1; 0 in a dead pouch.
     pub strength: f64,
-    /// Sealed edges β \[-\].
+    /// Share β of the volume that sealed edges cost \[-\].
     pub edge_loss: ByLaw,
-    /// Swelling arm s \[m\].
+    /// Largest growth s of the arm by swelling \[m\].
     pub swell_m: ByLaw,
-    /// Stretch c \[m/N\].
+    /// Compliance c of the stretched fabric \[m/N\].
     pub stretch_m_per_n: ByLaw,
-    /// Crease m \[N·m\] per pouch.
+    /// Scale m of the moment of a crease, per pouch \[N·m\].
     pub crease_nm: ByLaw,
-    /// Shear stiffness G \[N/m\].
+    /// Shear stiffness G of the fabric at small angles \[N/m\].
     pub shear_n_per_m: ByLaw,
-    /// Shear lock τ_L \[N/m\].
+    /// Scale τ_L of the load at which shear locks \[N/m\].
     pub lock_n_per_m: ByLaw,
 }
 
@@ -70,7 +70,7 @@ pub(super) struct DriveState {
     pub d_contraction: f64,
     /// P dv/da − dU/da \[N·m/m…\], the generalised push on the coordinate.
     pub push: f64,
-    /// Arm \[m\] and its slope.
+    /// Arm \[m\] and its slope by the coordinate.
     pub arm: f64,
     pub d_arm: f64,
     /// Factor that makes the balance nearly linear.
@@ -85,7 +85,7 @@ struct Bag {
 }
 
 impl Drive {
-    /// Interval of the coordinate.
+    /// Lower and upper bound of the coordinate, a half arc angle or a contraction.
     pub(super) fn range(&self) -> (f64, f64) {
         match self.family {
             Family::Pouch => (1e-3, PI - 1e-6),

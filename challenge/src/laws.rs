@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Laws of a robot.
+/// Whether hidden effects act by their first or their second laws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Laws {

@@ -8,11 +8,11 @@ const TABLE_M: f64 = 0.3;
 pub struct DeadLoads {
     /// Weight per length of each cell \[N/m\].
     pub weight_n_per_m: Vec<f64>,
-    /// Unit vector of gravity.
+    /// Unit vector of gravity in the plane of bending.
     pub down: [f64; 2],
     /// Pull of a cable on the tip \[N\].
     pub cable_n: f64,
-    /// The cable's pulley \[m\].
+    /// Place of the pulley over which the cable runs \[m\].
     pub pulley_m: [f64; 2],
     /// Weight of what the tip carries \[N\].
     pub cap_n: f64,
@@ -32,7 +32,7 @@ pub(crate) fn in_plane([x, y, _]: [f64; 3]) -> [f64; 2] {
 }
 
 impl DeadLoads {
-    /// Nothing.
+    /// No weights and no forces, with gravity along `down`.
     pub fn none(cells: usize, down: [f64; 2]) -> DeadLoads {
         DeadLoads {
             weight_n_per_m: vec![0.0; cells],

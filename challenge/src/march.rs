@@ -8,7 +8,6 @@ use data::Hold;
 
 /// Time in which a regulator reaches a new set pressure \[s\].
 const RAMP_S: f64 = 0.4;
-/// Steps of a ramp.
 const RAMP_STEPS: usize = 8;
 /// Longest step while a pressure is held \[s\].
 const LONGEST_STEP_S: f64 = 0.5;
@@ -26,7 +25,7 @@ struct March<'a> {
     moments: Vec<f64>,
 }
 
-/// One instant.
+/// Pressures and time step of one call of the solver.
 #[derive(Clone, Copy)]
 struct Instant {
     p_body_pa: f64,
@@ -94,7 +93,6 @@ impl March<'_> {
         Ok(())
     }
 
-    /// Holds the pressure until `until_s`.
     fn hold(&mut self, hold: &Hold, begin_s: f64, time_s: &mut f64, until_s: f64) -> Result<(), CompareError> {
         let left = (until_s - *time_s).max(0.0);
         let steps = if self.robot.remembers() { (left / LONGEST_STEP_S).ceil().max(1.0) } else { 1.0 };
@@ -160,7 +158,6 @@ impl March<'_> {
         Ok(())
     }
 
-    /// Appends what the camera sees.
     fn sight(&self, set_pa: f64, xy_m: &mut Vec<f64>) {
         let shape = CellPoses::new(&self.robot.cells, &self.curvatures);
         for station in &self.robot.markers_m {

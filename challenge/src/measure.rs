@@ -8,7 +8,7 @@ use compare::study::generate::{Generator, Manometer, Scatter, holds, markers};
 use data::{Dataset, Hold};
 use models::Scenario;
 
-/// How a robot is measured.
+/// Scatter and camera faults with which a robot is measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurement {
     /// Runs, protocol, scatter and its seed.

@@ -52,7 +52,7 @@ fn read(path: &Path, help: &str) -> Result<String, CompareError> {
 }
 
 impl Truth {
-    /// The truth in words.
+    /// Robot, noise and hidden effects, for the reader who opens the seal.
     pub fn words(&self) -> String {
         let mut text = format!(
             "Robot: actuator {}, bending stiffness {:.3} N m², {} runs, camera noise {:.2} mm{}{}{}.\n",

@@ -11,7 +11,7 @@ use models::Scenario;
 use sha2::{Digest, Sha256};
 use std::hash::{BuildHasher, Hasher};
 
-/// Sizes accepted, in typical sizes.
+/// Accepted sizes of hidden effects as multiples of the typical size.
 const SIZES: std::ops::RangeInclusive<f64> = 0.05..=3.0;
 
 /// What a challenge shall be; what is left out is drawn.
@@ -21,9 +21,9 @@ pub struct Riddle {
     pub seed: Option<u64>,
     /// What to hide: nothing or `random`, `none`, or `NAME[=times its typical size]` each.
     pub effects: Vec<String>,
-    /// One of [`ROBOTS`].
+    /// Actuator kind, one of [`ROBOTS`]; drawn if `None`.
     pub actuator: Option<String>,
-    /// Runs.
+    /// How many runs are measured; drawn if `None`.
     pub runs: Option<usize>,
     /// Camera noise of one coordinate \[m\].
     pub camera_sd_m: Option<f64>,
@@ -33,10 +33,10 @@ pub struct Riddle {
     pub white: bool,
 }
 
-/// A challenge to hand out.
+/// A challenge as it is handed out, truth sealed.
 #[derive(Debug, Clone)]
 pub struct Handout {
-    /// The measured markers.
+    /// Measured markers, which the files contain as `markers.csv`.
     pub dataset: Dataset,
     /// Files by name: those of [`SEALED`], then [`FILE`].
     pub files: Vec<(String, Vec<u8>)>,
@@ -77,7 +77,6 @@ impl Riddle {
         Ok(truth)
     }
 
-    /// Hides the named effects.
     fn hide(&self, truth: &mut Truth, draw: &mut Draw) -> Result<(), CompareError> {
         if let Some(alone) = self.effects.iter().find(|text| ["none", "random"].contains(&text.as_str())) {
             let message = format!("--effect {alone} stands alone: it cannot be given with others");

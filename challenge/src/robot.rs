@@ -23,24 +23,24 @@ pub struct Cell {
     pub length_m: f64,
     /// Distance of the centre line from the taut generator \[m\].
     pub centre_line_m: f64,
-    /// Actuator, if any.
+    /// Actuator over this cell; `None` on a passive stretch.
     pub drive: Option<Drive>,
-    /// Body.
+    /// Body of the cell, with the laws of its wall.
     pub wall: CellWall,
 }
 
 /// Everything the generator knows about a robot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrueRobot {
-    /// Base to tip.
+    /// Cells of the body, from base to tip.
     pub cells: Vec<Cell>,
-    /// Body length \[m\].
+    /// Length of the straight body from base to tip \[m\].
     pub length_m: f64,
     /// Marker stations where they really are \[m\].
     pub markers_m: Vec<f64>,
     /// From the regulator to the actuator.
     pub supply: TrueSupply,
-    /// Weights and forces.
+    /// Weights and forces that act from outside.
     pub loads: DeadLoads,
     /// What the camera makes of it.
     pub camera: Camera,
@@ -155,7 +155,7 @@ fn cells(scenario: &Scenario, lift_share: f64, scale_per_m: f64) -> Vec<Cell> {
 pub(super) struct Acting {
     pub p_body_pa: f64,
     pub p_act_pa: f64,
-    /// Of weights and forces \[N·m\].
+    /// Moment of weights and forces about the cell \[N·m\].
     pub moment: f64,
     pub dt_s: f64,
 }

@@ -18,7 +18,7 @@ pub struct Claim {
     pub added: Vec<String>,
 }
 
-/// How good an answer is.
+/// How an answer compares with the truth.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ClaimScore {
     /// It says that something is missing.
@@ -33,16 +33,16 @@ pub struct ClaimScore {
     pub in_set: bool,
     /// All true effects are in the stated set together (a pair of them, or the one).
     pub all_in_set: bool,
-    /// Names in the set.
+    /// Number of names or pairs in the stated set.
     pub set_size: usize,
-    /// True effects among the added.
+    /// How many of the added effects are true.
     pub named: usize,
     /// An effect that is not true is asserted: it was added, and no entry of the stated set is free of such.
     pub wrong: bool,
 }
 
 impl Claim {
-    /// Of a diagnosis.
+    /// The scored parts of a diagnosis.
     pub fn of(diagnosis: &Diagnosis) -> Claim {
         let verdict = match diagnosis.verdict {
             Some(Verdict::None) => Some("none"),
@@ -61,7 +61,7 @@ impl Claim {
     }
 }
 
-/// Scores an answer.
+/// Compares an answer with the truth; effects outside the catalogue cannot be named.
 pub fn score(truth: &Truth, answer: &Claim) -> ClaimScore {
     let inside = |name: &&str| by_name(name).is_some_and(|effect| !effect.is_outside());
     let names: Vec<&str> = truth.effects.iter().map(|choice| choice.name.as_str()).collect();

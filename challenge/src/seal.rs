@@ -12,31 +12,31 @@ use sha2::{Digest, Sha256};
 /// Format of the seal; 2 covers all files of the challenge, 1 covered the markers alone.
 pub const VERSION: u32 = 2;
 
-/// What `seal.toml` holds.
+/// Contents of `seal.toml`: the truth in masked form and a hash that commits to it.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Seal {
-    /// `ibr.challenge`
+    /// Always `ibr.challenge`, which identifies the file.
     pub schema: String,
-    /// [`VERSION`].
+    /// Format of the seal, [`VERSION`] when written.
     pub version: u32,
-    /// Commitment.
+    /// SHA-256 of salt and truth, in hexadecimal digits.
     pub sha256: String,
-    /// Random bytes in hex.
+    /// Random bytes that make the hash unguessable, in hexadecimal digits.
     pub salt: String,
-    /// Encoded truth.
+    /// Truth XOR keystream, in hexadecimal digits.
     pub truth: String,
 }
 
-/// Name of the file.
+/// Name of the file that holds the seal.
 pub const FILE: &str = "seal.toml";
 /// The files handed out with it, all of them sealed.
 pub const SEALED: [&str; 3] = ["scenario.toml", "about.toml", "markers.csv"];
-/// Bytes of the salt.
+/// Number of random bytes in a salt.
 pub const SALT: usize = 16;
 
 impl Seal {
-    /// Seals a text.
+    /// Seals a text with a hash of salt and text.
     pub fn close(text: &str, salt: &[u8; SALT]) -> Seal {
         Seal {
             schema: "ibr.challenge".into(),
@@ -57,7 +57,7 @@ impl Seal {
         String::from_utf8(text).ok()
     }
 
-    /// As a file.
+    /// Text of the file `seal.toml`, with a comment for its reader.
     pub fn to_toml(&self) -> String {
         let Seal { schema, version, sha256, salt, truth } = self;
         format!(
@@ -77,7 +77,7 @@ fn masked(text: &[u8], salt: &[u8]) -> Vec<u8> {
     text.iter().zip(stream).map(|(byte, mask)| byte ^ mask).collect()
 }
 
-/// Bytes in hexadecimal digits.
+/// Two lower-case hexadecimal digits per byte, without separators.
 pub fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }

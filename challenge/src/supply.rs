@@ -18,15 +18,15 @@ use super::laws::ByLaw;
 /// Supply laws; all off at 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TrueSupply {
-    /// Dead band p₀ \[Pa\].
+    /// Pressure p₀ that a dead band withholds \[Pa\].
     pub dead_band_pa: ByLaw,
-    /// Loss f \[-\].
+    /// Coefficient f of the pressure lost on the way \[-\].
     pub loss: ByLaw,
-    /// Leak r \[1/s\].
+    /// Rate r of the leak at the actuator \[1/s\].
     pub leak_per_s: ByLaw,
     /// Missing share at one set point \[-\].
     pub stuck: f64,
-    /// That set point \[Pa\].
+    /// Set point with the missing share \[Pa\].
     pub stuck_at_pa: f64,
 }
 

@@ -13,38 +13,38 @@ use serde::{Deserialize, Serialize};
 /// robots bend about as far as the published ones (handbook of the prototype; the cPAM's is divided by its volume gain).
 pub const ROBOTS: [(&str, f64); 4] = [("spam", 6.0), ("cpam", 0.5), ("epam", 1.35), ("fpam", 0.3)];
 
-/// How much is hidden.
+/// How many effects a set hides, and of which kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hiding {
-    /// Nothing.
+    /// No effect: the data come from the model and noise.
     Nothing,
     /// One effect that the catalogue also knows.
     One,
-    /// Two of them.
+    /// Two effects that the catalogue also knows.
     Two,
     /// One that the catalogue does not know.
     Outside,
 }
 
-/// An effect and its size.
+/// A hidden effect and its size.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HiddenChoice {
-    /// Name.
+    /// Name of the effect in the catalogue or among those outside.
     pub name: String,
-    /// Size in typical sizes.
+    /// Size as a multiple of the effect's typical size.
     pub times_typical: f64,
 }
 
-/// Everything hidden in a dataset.
+/// A robot, its noise and its hidden effects: everything that a seal keeps secret.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Truth {
-    /// Actuator kind, one of [`ROBOTS`].
+    /// Actuator kind of the robot, one of [`ROBOTS`].
     pub actuator: String,
     /// Bending stiffness of this robot \[N·m²\].
     pub bending_nm2: f64,
-    /// Seed of the scatter.
+    /// Seed of the scatter of the measurement.
     pub seed: u64,
-    /// Runs.
+    /// Number of runs of the measurement.
     pub runs: usize,
     /// Camera noise of one coordinate \[m\].
     pub camera_sd_m: f64,
@@ -53,7 +53,7 @@ pub struct Truth {
     /// A camera that loses markers ([`Measurement::lost_markers`]).
     #[serde(default)]
     pub lost_markers: bool,
-    /// Single holds scatter ([`HoldScatter::USUAL`]).
+    /// Holds of one run scatter as in [`HoldScatter::USUAL`].
     #[serde(default)]
     pub holds_scatter: bool,
     /// Run-to-run relative error of the pressure \[-\].
@@ -63,7 +63,7 @@ pub struct Truth {
     /// By which laws the effects act.
     #[serde(default, skip_serializing_if = "Laws::are_first")]
     pub laws: Laws,
-    /// The effects.
+    /// Hidden effects with their sizes; empty if nothing is hidden.
     #[serde(default, rename = "effect")]
     pub effects: Vec<HiddenChoice>,
 }
@@ -78,7 +78,7 @@ impl Draw {
         Draw(Scatter::new(seed.wrapping_add(index.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15))))
     }
 
-    /// Uniform in [low, high).
+    /// A uniform random number in [low, high).
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.0.uniform()
     }
@@ -134,7 +134,7 @@ impl Truth {
         Ok(())
     }
 
-    /// Hides an effect.
+    /// Adds an effect of this size to those that are hidden.
     pub fn add(&mut self, name: &str, times_typical: f64) {
         self.effects.push(HiddenChoice { name: name.to_string(), times_typical });
     }

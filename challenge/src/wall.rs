@@ -54,40 +54,40 @@ const CREASED_FROM: f64 = 0.4;
 /// Time in which a set fades \[s\].
 const RECOVERY_S: f64 = 40.0;
 
-/// Laws of one cell's body.
+/// Stiffness of one cell's body and amounts of its hidden laws.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CellWall {
-    /// Bending stiffness B \[N·m²\].
+    /// Bending stiffness B of the body \[N·m²\].
     pub bending: f64,
     /// Hinge moment per body pressure, share·π R³ \[m³\].
     pub hinge_m3: f64,
-    /// Hinge step k₀ \[1/m\].
+    /// Curvature k₀ over which the hinge reaches its moment \[1/m\].
     pub step_per_m: f64,
     /// Curvature scale κ_c of the hidden laws \[1/m\].
     pub scale_per_m: f64,
-    /// Wrinkling κ_w \[1/m\].
+    /// Curvature κ_w at which wrinkling begins \[1/m\].
     pub wrinkle_per_m: ByLaw,
-    /// Softening s \[-\].
+    /// Share s of B that creases take away \[-\].
     pub creased: ByLaw,
-    /// Tail t \[m³\].
+    /// Moment t of the tail per body pressure \[m³\].
     pub tail_m3: ByLaw,
     /// Length of the tail that is dragged along beyond this cell \[m\].
     pub dragged_m: f64,
-    /// Ovalization o \[-\].
+    /// Share o of the arm that ovalization takes away \[-\].
     pub oval: ByLaw,
-    /// Stop m \[N·m\].
+    /// Scale m of the moment of a stop \[N·m\].
     pub stop_nm: ByLaw,
-    /// Rest curvature κ₀ \[1/m\].
+    /// Curvature κ₀ at which the unloaded body rests \[1/m\].
     pub rest_per_m: f64,
     /// Friction, sum of all layers \[N·m\].
     pub friction_nm: ByLaw,
     /// Creep stiffness, sum of all arms \[N·m²\].
     pub creep_nm2: ByLaw,
-    /// Set s \[-\].
+    /// Share s of a large bend that stays as a set \[-\].
     pub set: ByLaw,
 }
 
-/// What a cell remembers.
+/// State of a cell that its next step in time starts from.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CellMemory {
     slid: [f64; 4],

@@ -43,12 +43,12 @@ pub use read::{parse_about, read_about};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Provenance {
-    /// Measured on a robot.
+    /// Measured on a robot, neither printed nor generated.
     #[default]
     Measured,
-    /// Read off a printed figure.
+    /// Read off a printed figure of a publication.
     Digitised,
-    /// Made by a generator.
+    /// Made by a generator, without a robot.
     Synthetic,
     /// Printed as a number in a publication.
     Published,
@@ -85,23 +85,23 @@ pub const BENDING_TEST: &str = "measure the bending stiffness by itself, to 10 %
 /// Description of a dataset, in SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct About {
-    /// One line.
+    /// Title of the dataset in one line.
     pub title: String,
     /// How the numbers came to be.
     pub provenance: Provenance,
     /// Who or what they come from.
     pub source: String,
-    /// Terms of use.
+    /// Licence under which the data may be passed on.
     pub licence: String,
     /// Actuator kind, lower case; `None` for a set about several kinds.
     pub actuator: Option<String>,
-    /// Dimensions of the robot.
+    /// Dimensions of the robot; `None` if not described.
     pub geometry: Option<Geometry>,
     /// Markers and their stations; empty if not described.
     pub markers: Vec<MarkerStation>,
     /// Unit vector of gravity in the x–y plane; `None` if gravity does not act in it.
     pub gravity_direction: Option<[f64; 2]>,
-    /// What was measured directly.
+    /// Whether pressure and frame were measured directly in the same runs.
     pub direct: Direct,
     /// Bending stiffness of this robot at the first body pressure, measured separately, and its standard deviation \[N·m²\].
     pub bending_nm2: Option<[f64; 2]>,
@@ -109,7 +109,7 @@ pub struct About {
     pub measured: Vec<MeasuredValue>,
     /// Runs with a tip force or a session of their own.
     pub runs: Vec<AboutRun>,
-    /// Free text.
+    /// Remarks of the author in free text.
     pub notes: Option<String>,
 }
 
@@ -127,13 +127,13 @@ pub struct Direct {
 /// A parameter of an effect that a separate test measured: a strip of fabric, a scale.
 #[derive(Debug, Clone)]
 pub struct MeasuredValue {
-    /// Effect, as in scenarios.
+    /// Effect that has the parameter, as scenarios write it.
     pub effect: String,
     /// Its parameter, with the unit in its name.
     pub key: String,
     /// What was found, in that unit.
     pub value: f64,
-    /// Its standard deviation.
+    /// Standard deviation of the value, in the same unit.
     pub sd: f64,
     /// Where it is written, `about.toml:27`; empty for a value from elsewhere.
     pub place: String,
@@ -146,7 +146,7 @@ impl PartialEq for MeasuredValue {
     }
 }
 
-/// Dimensions of the robot \[m\].
+/// Dimensions of the robot in metres, as they were measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Geometry {
     /// Radius of the inflated body R.
@@ -165,7 +165,7 @@ pub struct Geometry {
     pub arm_m: Option<f64>,
 }
 
-/// A marker named in `about.toml`.
+/// A marker named in `about.toml`, with its station.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarkerStation {
     /// Label as in the `marker` column.
@@ -174,7 +174,7 @@ pub struct MarkerStation {
     pub station_m: f64,
 }
 
-/// A run named in `about.toml`.
+/// A run named in `about.toml`, with its force or session.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AboutRun {
     /// Label as in the `run` column.

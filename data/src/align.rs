@@ -96,7 +96,7 @@ fn marker_order(stations_m: &[Option<f64>]) -> Vec<usize> {
 
 /// Every stream, and which of its segments is which hold of the protocol.
 struct Grid<'a> {
-    /// `[run][marker]`
+    /// Streams by run and marker, `[run][marker]`.
     streams: Vec<Vec<&'a Stream>>,
     /// `[run][marker][hold]` → segment; `None` where the marker was lost
     segments: Vec<Vec<Vec<Option<usize>>>>,

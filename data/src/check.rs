@@ -15,23 +15,23 @@ const SD_PER_MAD: f64 = 1.482_602_218_505_602;
 /// What a dataset holds; mm, kPa and s because it is printed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CheckReport {
-    /// Name of the dataset.
+    /// Name of the dataset that was checked.
     pub name: String,
-    /// Actuator kind.
+    /// Actuator kind of the dataset, such as `epam`.
     pub actuator: String,
     /// `measured`, `digitised`, `synthetic` or `published`; `None` without about.toml.
     pub provenance: Option<String>,
-    /// Run labels.
+    /// Labels of the runs in the order of the table.
     pub runs: Vec<String>,
-    /// Samples per (run, hold, marker).
+    /// Samples per run, hold and marker.
     pub samples_per_hold: usize,
-    /// Holds in protocol order.
+    /// Checks of the holds in protocol order.
     pub holds: Vec<HoldCheck>,
-    /// Markers in order of station.
+    /// Checks of the markers in order of station.
     pub markers: Vec<MarkerCheck>,
-    /// Distinct actuator pressures \[kPa\], rising.
+    /// Distinct actuator pressures of the holds, rising \[kPa\].
     pub actuator_pressures_kpa: Vec<f64>,
-    /// Distinct body pressures \[kPa\], rising.
+    /// Distinct body pressures of the holds, rising \[kPa\].
     pub body_pressures_kpa: Vec<f64>,
     /// How far z of a marker is at most from its z in the first hold \[mm\], where the table has z.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -46,17 +46,17 @@ pub struct CheckReport {
     pub warnings: Vec<String>,
 }
 
-/// One hold.
+/// Pressures, duration and scatter of one hold.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HoldCheck {
-    /// Actuator pressure \[kPa\].
+    /// Actuator pressure, of supply channel 0 where there are several \[kPa\].
     pub p_act_kpa: f64,
     /// Of every supply channel \[kPa\], where the table has several.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub p_act_channels_kpa: Vec<f64>,
-    /// Body pressure \[kPa\].
+    /// Body pressure of the hold \[kPa\].
     pub p_body_kpa: f64,
-    /// `load`, `hold` or `unload`.
+    /// How the hold was reached: `load`, `hold` or `unload`.
     pub phase: &'static str,
     /// 0 for the first hold of its kind.
     pub occurrence: usize,
@@ -68,12 +68,12 @@ pub struct HoldCheck {
     pub gauge_kpa: Option<f64>,
 }
 
-/// One marker.
+/// Station and scatter of one marker.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MarkerCheck {
-    /// Label.
+    /// Label as in the `marker` column.
     pub name: String,
-    /// Station \[mm\].
+    /// Station on the undeformed body from its base \[mm\]; `None` if unknown.
     pub s_mm: Option<f64>,
     /// Run-to-run standard deviation of the hold means, rms over holds and axes \[mm\]; `None` for one run.
     pub scatter_mm: Option<f64>,
@@ -82,13 +82,13 @@ pub struct MarkerCheck {
 /// A sample far from the median over runs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Outlier {
-    /// Run label.
+    /// Label of the run as in the table.
     pub run: String,
-    /// Index of the hold.
+    /// Index of the hold in the protocol.
     pub hold: usize,
     /// Index of the sample in the hold.
     pub sample: usize,
-    /// Marker label.
+    /// Label of the marker as in the table.
     pub marker: String,
     /// Distance along x from the median over runs \[mm\].
     pub dx_mm: f64,
@@ -101,7 +101,7 @@ pub struct Outlier {
     pub robust_z: f64,
 }
 
-/// Checks a dataset.
+/// Counts and scatter of a dataset, with warnings about what limits its use.
 pub fn check(dataset: &Dataset, about: Option<&About>) -> CheckReport {
     let variance_mm2 = variance_of_hold_means_mm2(dataset);
     let (holds, markers) = (dataset.holds.len(), dataset.markers.len());

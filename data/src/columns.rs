@@ -12,7 +12,7 @@ use spelling::units::Unit;
 pub struct Field {
     /// Name without unit; the whole name of a text or of a number without unit.
     pub base: &'static str,
-    /// Name as usually written.
+    /// Name with the unit that is usual, for remedies.
     pub expected: &'static str,
     dimension: Option<Measured>,
     /// Whether a table of this kind always has it.
@@ -74,7 +74,6 @@ impl Meaning {
         }
     }
 
-    /// The field, whatever its unit.
     pub(crate) fn field(&self) -> Option<usize> {
         match self {
             Meaning::Known(at, _) | Meaning::NoUnit(at) | Meaning::OtherUnit(at) => Some(*at),
@@ -248,7 +247,6 @@ impl Columns {
     }
 }
 
-/// A row of a table.
 pub(crate) struct TableRow<'a> {
     columns: &'a Columns,
     pub line: Line<'a>,
@@ -279,7 +277,7 @@ impl TableRow<'_> {
         })
     }
 
-    /// A fault of one cell.
+    /// A fault of one cell, with the bytes of the cell in the file.
     pub(crate) fn fault(&self, field: usize, message: String, help: String) -> Box<Fault> {
         let mut fault = self.line.fault(message, help);
         let Some(Column { index, .. }) = self.columns.at[field] else { return fault };

@@ -37,7 +37,7 @@ pub struct Hold {
     pub p_act_pa: f64,
     /// The same of the supply channels 1, 2, … \[Pa\]; empty where the table has one actuator pressure.
     pub more_act_pa: Vec<f64>,
-    /// How the hold was reached.
+    /// Whether the hold was reached by loading, by unloading or with equal pressure.
     pub phase: Phase,
     /// 0 for the first hold with these pressures and this phase, 1 for the second, …
     pub occurrence: usize,
@@ -75,7 +75,7 @@ pub struct Dataset {
     pub actuator: String,
     /// Run labels in order of first appearance.
     pub runs: Vec<String>,
-    /// Holds in protocol order.
+    /// Holds of the protocol in the order of time, the same in every run.
     pub holds: Vec<Hold>,
     /// Markers ordered by station (by first appearance where stations are unknown).
     pub markers: Vec<Marker>,
@@ -123,12 +123,12 @@ impl Dataset {
         &self.run(run)[i..i + self.axes]
     }
 
-    /// Whether the table has z.
+    /// Whether positions have three coordinates, x, y and z.
     pub fn has_z(&self) -> bool {
         self.axes == 3
     }
 
-    /// The same without z.
+    /// The same positions without z, as a camera across the plane of bending sees them.
     pub fn in_plane(&self) -> Dataset {
         let coordinates_m = self.coordinates_m.chunks_exact(self.axes).flat_map(|place| &place[..2]).copied().collect();
         Dataset { axes: 2, coordinates_m, ..self.clone() }

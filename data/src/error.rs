@@ -21,11 +21,11 @@ pub struct Location {
 /// One fault in one file: where, the mistake, what to type, and the line itself where it was at hand.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Fault {
-    /// Where.
+    /// File, line and column of the fault.
     pub location: Location,
     /// The mistake, one sentence without a full stop.
     pub message: String,
-    /// What to do or type.
+    /// Remedy, as an instruction to the user.
     pub help: String,
     /// Bytes of the file that are at fault, `(start, end)`.
     pub span: Option<(usize, usize)>,
@@ -140,7 +140,7 @@ pub enum DataError {
     /// The clocks of camera and pressure log do not agree.
     #[error("{0}")]
     Clock(Box<Fault>, Box<ClockTracks>),
-    /// A TOML description is wrong.
+    /// A TOML description has a fault, at a line of its text.
     #[error("{0}")]
     About(Box<Fault>),
     /// The crate was built without the feature this needs.
@@ -169,7 +169,7 @@ impl DataError {
         DataError::About(Box::new(Fault::of_file(file, message, help)))
     }
 
-    /// The fault inside.
+    /// The fault inside, with place, message and remedy.
     pub fn fault(&self) -> &Fault {
         use DataError::{About, Cell, Clock, Column, Feature, File, Layout, Runs, Unit};
         match self {
@@ -189,17 +189,17 @@ impl DataError {
         self
     }
 
-    /// The mistake, without the place.
+    /// The mistake as one sentence, without the place.
     pub fn message(&self) -> &str {
         &self.fault().message
     }
 
-    /// What to do or type.
+    /// Remedy, as an instruction to the user.
     pub fn help(&self) -> &str {
         &self.fault().help
     }
 
-    /// Where.
+    /// File, line and column of the fault.
     pub fn location(&self) -> &Location {
         &self.fault().location
     }

@@ -5,7 +5,6 @@ use crate::error::{DataError, Fault, Result};
 use crate::lines::{KeptLine, Line, Lines};
 use crate::units::Measured;
 
-/// Positions in [`QUANTITIES`].
 pub(crate) const RUN: usize = 0;
 pub(crate) const ACTUATOR: usize = 1;
 pub(crate) const TIME: usize = 2;
@@ -54,7 +53,7 @@ pub(crate) struct Header {
     /// The y column was called `y_down_…`: its sign is turned on reading.
     pub y_down: bool,
     pub delimiter: u8,
-    /// A line `sep=;` named it.
+    /// The file begins with `sep=;` or the like, which names the delimiter.
     pub named: bool,
     /// The line itself, for faults of a whole column.
     pub line: KeptLine,

@@ -48,7 +48,7 @@ impl Line<'_> {
     }
 }
 
-/// An owned [`Line`].
+/// A [`Line`] that owns its text.
 #[derive(Debug, Clone)]
 pub(crate) struct KeptLine {
     pub file: String,

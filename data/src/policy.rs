@@ -15,9 +15,9 @@ pub(crate) const LOWEST_GAUGE_PA: f64 = -500.0;
 pub(crate) const HIGHEST_GAUGE_PA: f64 = 1e6;
 /// Largest body and actuator pressure, as numbers in the kPa columns, that look like psi.
 pub(crate) const LIKE_PSI: [f64; 2] = [0.6, 7.0];
-/// The same of bar.
+/// Largest body and actuator pressure, as numbers in the kPa columns, that look like bar.
 pub(crate) const LIKE_BAR: [f64; 2] = [0.06, 1.0];
-/// The same of MPa.
+/// Largest body and actuator pressure, as numbers in the kPa columns, that look like MPa.
 pub(crate) const LIKE_MPA: [f64; 2] = [0.006, 0.1];
 
 /// A pressure stays inside one hold within this share of it.

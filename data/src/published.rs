@@ -10,18 +10,18 @@ use crate::about::parse_toml;
 use crate::error::{DataError, Result};
 use crate::sets::{set_file, shown};
 
-/// Name of the embedded set.
+/// Name of the embedded set with the paper's numbers.
 pub const PAPER: &str = "du-pasquier-2023";
 
 /// The paper's numbers in SI units; provenance: *published*.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Published {
-    /// What was tested.
+    /// Pressures and markers of the tests.
     pub protocol: PublishedProtocol,
     /// The four actuators (Tables II and III).
     #[serde(rename = "actuator")]
     pub actuators: Vec<PublishedActuator>,
-    /// The two fabrics (Table I).
+    /// The two fabrics (Table I), nylon with coats of TPU and of silicone.
     #[serde(rename = "fabric")]
     pub fabrics: Vec<PublishedFabric>,
     /// Settings of the paper's own simulation (Section III-A).
@@ -48,11 +48,11 @@ pub struct PublishedProtocol {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PublishedFact {
-    /// Name, unique.
+    /// Name of the fact, unique in the list.
     pub id: String,
-    /// Section, table or figure.
+    /// Section, table or figure of the paper.
     pub place: String,
-    /// As printed, shortened.
+    /// The sentence as the paper prints it, shortened.
     pub says: String,
     /// Its numbers in the printed units (kPa, mm, %).
     pub numbers: Vec<f64>,
@@ -72,19 +72,19 @@ pub fn printed(kind: &str) -> &str {
 /// One column of Table II and one row of Table III.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct PublishedActuator {
-    /// `spam`, `cpam`, `epam` or `fpam`.
+    /// Actuator kind: `spam`, `cpam`, `epam` or `fpam`.
     pub kind: String,
-    /// As printed, for example `sPAMs/PMs`.
+    /// Name as the paper prints it, for example `sPAMs/PMs`.
     pub printed_name: String,
     /// Name of the fabric of the actuator, as in [`Published::fabrics`].
     pub fabric: String,
-    /// L_IBR \[m\] (Table II).
+    /// Length of the body, L_IBR \[m\] (Table II).
     #[serde(rename = "body_length_mm", deserialize_with = "mm")]
     pub body_length_m: f64,
     /// L_actuator \[m\] (Table II): one pouch, or the whole muscle of the fPAM.
     #[serde(rename = "actuator_length_mm", deserialize_with = "mm")]
     pub actuator_length_m: f64,
-    /// W \[m\] (Table II).
+    /// Width of the flat actuator, W \[m\] (Table II).
     #[serde(rename = "width_mm", deserialize_with = "mm")]
     pub width_m: f64,
     /// f \[m\] (Table II), printed for the cPAM only.
@@ -101,10 +101,10 @@ pub struct PublishedActuator {
     pub d_max_pressure_pa: f64,
 }
 
-/// One row of Table I.
+/// One fabric, a row of Table I.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct PublishedFabric {
-    /// Name.
+    /// Name of the fabric, as actuators refer to it.
     pub name: String,
     /// Elastic modulus along the warp \[Pa\].
     #[serde(rename = "e0_mpa", deserialize_with = "mpa")]

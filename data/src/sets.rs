@@ -10,15 +10,15 @@ static SETS: Dir = include_dir!("$CARGO_MANIFEST_DIR/sets");
 /// What `ibr data list` prints of an embedded set.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct SetInfo {
-    /// Folder name; `load` accepts it.
+    /// Name of its folder, which `load` accepts in place of a path.
     pub name: String,
-    /// One line.
+    /// Title of the set in one line.
     pub title: String,
     /// How its numbers came to be.
     pub provenance: Provenance,
     /// Who or what they come from.
     pub source: String,
-    /// Terms of use.
+    /// Licence under which the set may be passed on.
     pub licence: String,
     /// File names in the folder, sorted.
     pub files: Vec<String>,

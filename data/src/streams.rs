@@ -80,7 +80,6 @@ impl Recorder {
         DataError::Runs(Box::new(Fault::of_file(&self.file, message, help).at_line(line)))
     }
 
-    /// A stream in a message.
     pub(crate) fn words(&self, stream: &Stream) -> String {
         format!("run {}, marker {}", self.runs.names[stream.run], self.markers.names[stream.marker])
     }

@@ -9,21 +9,21 @@ use crate::atomic::cannot_write;
 use crate::cells::quoted;
 use crate::error::Result;
 
-/// One column.
+/// The values of one column, all of one type.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Column {
     /// Floating point numbers; NaN for an empty cell.
     F64(Vec<f64>),
-    /// Texts.
+    /// Texts, one per row of the table.
     Str(Vec<String>),
-    /// Whole numbers.
+    /// Whole numbers, one per row of the table.
     I64(Vec<i64>),
     /// True or false; `None` for an empty cell.
     Bool(Vec<Option<bool>>),
 }
 
 impl Column {
-    /// Number of rows.
+    /// Number of rows, empty cells included.
     pub fn len(&self) -> usize {
         match self {
             Column::F64(values) => values.len(),
@@ -33,7 +33,7 @@ impl Column {
         }
     }
 
-    /// Whether it has no row.
+    /// Whether it has no row at all.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -50,10 +50,10 @@ impl Column {
     }
 }
 
-/// Named columns of equal length.
+/// Named columns of equal length, in order.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {
-    /// Names and values, in order.
+    /// Name and values of every column, in the order of the table.
     pub columns: Vec<(String, Column)>,
 }
 

@@ -31,12 +31,10 @@ pub(crate) fn table(runs: usize, frames: usize) -> String {
     text
 }
 
-/// Reads a table called `markers.csv`.
 pub(crate) fn read(text: &str) -> Result<Dataset, DataError> {
     read_bytes(text.as_bytes(), ReadOptions::default())
 }
 
-/// Reads bytes with options.
 pub(crate) fn read_bytes(mut bytes: &[u8], options: ReadOptions) -> Result<Dataset, DataError> {
     parse_markers("markers.csv", &mut bytes, options, &mut |_, _| ())
 }

@@ -1,4 +1,4 @@
-//! A dataset as a table.
+//! A dataset as a table with one row per run, sample and marker.
 
 use crate::dataset::Dataset;
 use crate::table::{Column, Table};

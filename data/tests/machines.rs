@@ -1,4 +1,4 @@
-//! Exports of tensile machines.
+//! Files as tensile machines export them, and the coupons read from them.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests: a panic is the failure to report")]
 

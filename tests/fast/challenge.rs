@@ -1,4 +1,4 @@
-//! `ibr challenge`: sealed, opened, refused.
+//! `ibr challenge` seals, opens and refuses, and its hash is right.
 
 use crate::refused::refuse;
 use crate::support::Folder;

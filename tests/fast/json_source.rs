@@ -3,7 +3,6 @@
 #[derive(Debug, Clone, Default)]
 pub struct Field {
     pub name: String,
-    /// Type as written.
     pub kind: String,
     pub docs: String,
     pub serde: String,
@@ -12,9 +11,9 @@ pub struct Field {
 #[derive(Debug, Clone)]
 pub enum Shape {
     Record(Vec<Field>),
-    /// One of these words.
+    /// An enum without data: these words.
     Words(Vec<String>),
-    /// One of these types.
+    /// An untagged enum: one of these types.
     Either(Vec<String>),
     Alias(String),
 }
@@ -32,7 +31,7 @@ pub struct Before {
 }
 
 impl Before {
-    /// Takes a line of it.
+    /// Takes a line that belongs to it; false for any other line.
     pub fn takes(&mut self, line: &str) -> bool {
         if let Some(doc) = line.strip_prefix("///") {
             self.docs.push(doc.trim().to_string());

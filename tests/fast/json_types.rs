@@ -9,10 +9,9 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Where the types are.
+/// Folders of the crates whose types are read.
 const CRATES: [&str; 8] = ["src", "models", "data", "fem", "compare", "sweep", "challenge", "verification"];
 
-/// Text before the types.
 const HEAD: &str = "\
 # JSON
 
@@ -28,14 +27,13 @@ This page is made from the types: `IBR_WRITE_JSON_MD=1 cargo test --test fast js
 
 ";
 
-/// One key of a record.
+/// One key of a record, as a row of the page.
 #[derive(Debug, Clone)]
 pub struct JsonKey {
-    /// Its name.
     pub name: String,
-    /// Its type.
+    /// Type of its value, as the page prints it.
     pub kind: String,
-    /// It may be missing.
+    /// Whether the key may be missing.
     pub optional: bool,
     meaning: String,
     unit: String,
@@ -43,7 +41,7 @@ pub struct JsonKey {
 
 #[derive(Debug, Clone)]
 struct Type {
-    /// Its crate, and its file.
+    /// Crate and file that declare the type.
     part: String,
     file: String,
     is_public: bool,
@@ -54,14 +52,13 @@ struct Type {
 /// All types that are written as JSON.
 pub struct Types {
     by_name: BTreeMap<String, Vec<Type>>,
-    /// `use` statements of every file.
     uses: BTreeMap<String, Vec<String>>,
     /// Records that were met, and the file of each.
     met: RefCell<BTreeMap<String, String>>,
 }
 
 impl Types {
-    /// Reads all sources.
+    /// Reads the types of all sources of [`CRATES`].
     pub fn read() -> Types {
         let mut types = Types { by_name: BTreeMap::new(), uses: BTreeMap::new(), met: RefCell::default() };
         for part in CRATES {
@@ -268,7 +265,7 @@ impl Types {
         found
     }
 
-    /// The whole page.
+    /// The whole page as Markdown: answers, then records.
     pub fn page(&self) -> String {
         let (mut page, answers) = (HEAD.to_string() + "## Answers\n", self.answers());
         for (schema, (typed, keys)) in &answers {

@@ -1,4 +1,4 @@
-//! `ibr predict`: inverse, channels, limits.
+//! `ibr predict`: inverse, several channels, limits of pressure, refusals.
 
 use crate::refused::{refuse, with_report};
 use crate::support::Folder;

@@ -1,4 +1,4 @@
-//! Help, completions, manual, pipes.
+//! The shell's side of `ibr`: help, completions, manual pages, pipes.
 
 use crate::support::{Folder, Ran};
 use std::io::{BufRead, BufReader};

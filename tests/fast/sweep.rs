@@ -1,4 +1,4 @@
-//! `ibr sweep`: studies, shards, schedulers.
+//! `ibr sweep`: studies in shards, with schedulers and resumed work.
 
 use crate::refused::refuse;
 use crate::support::{Folder, Ran};

@@ -12,24 +12,19 @@ pub struct Folder(tempfile::TempDir);
 pub struct Ran {
     /// Exit code; -1 if a signal ended it.
     pub code: i32,
-    /// Standard output.
     pub stdout: String,
-    /// Standard error.
     pub stderr: String,
 }
 
-/// Root of the repository.
 pub fn repository() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
 impl Folder {
-    /// A new, empty one.
     pub fn new() -> Folder {
         Folder(tempfile::tempdir().expect("a temporary folder"))
     }
 
-    /// A path in it.
     pub fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }
@@ -48,7 +43,6 @@ impl Folder {
         command
     }
 
-    /// Runs `ibr` to its end.
     pub fn run(&self, args: &[&str]) -> Ran {
         Ran::from(self.ibr(args).output().expect("ibr starts"))
     }

@@ -15,7 +15,7 @@ const LONGEST: Duration = Duration::from_secs(60);
 /// What is wrong with the file.
 #[derive(Debug, Clone)]
 pub enum Broken {
-    /// Its bytes.
+    /// There is a file with these bytes.
     Bytes(Vec<u8>),
     /// There is a folder of that name.
     Folder,
@@ -25,7 +25,7 @@ pub enum Broken {
     Reads(Vec<u8>, Vec<u8>),
 }
 
-/// One of them.
+/// A bad input with the command that must refuse it, or must read it.
 #[derive(Debug, Clone)]
 pub struct Case {
     pub name: String,
@@ -38,7 +38,6 @@ pub struct Case {
     pub says: Vec<String>,
 }
 
-/// What a run did.
 pub struct Ran {
     pub code: i32,
     pub stdout: String,

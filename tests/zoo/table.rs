@@ -1,4 +1,4 @@
-//! The tables of this folder.
+//! Tables of bad inputs, one TOML file per kind of file or command line.
 
 use crate::case::{Broken, Case};
 use crate::common;
@@ -10,7 +10,6 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Table {
-    /// Name of the table.
     #[serde(skip)]
     pub name: String,
     /// What is broken, and the good contents of it: `shipped:NAME`, `case:NAME`, `set:SET/FILE` or a file of the repository.
@@ -18,16 +17,16 @@ pub struct Table {
     pub file: String,
     #[serde(default)]
     pub good: String,
-    /// Other files of the folder.
+    /// Further files of the folder, by name, with their good contents.
     #[serde(default)]
     pub beside: BTreeMap<String, String>,
     /// Commands that make the folder first.
     #[serde(default)]
     pub prepare: Vec<String>,
-    /// What reads the file.
+    /// Command line of `ibr` that reads the file.
     #[serde(default)]
     pub command: String,
-    /// Exit code.
+    /// Exit code of a refusal, unless a case states another.
     #[serde(default = "refused")]
     pub code: i32,
     /// Which of the broken files that any reader meets are read all the same.
@@ -36,16 +35,15 @@ pub struct Table {
     /// Which of them make no sense here.
     #[serde(default)]
     pub skips: Vec<String>,
-    /// What can be wrong.
+    /// Cases of this kind, each with one fault.
     #[serde(default)]
     pub bad: Vec<Bad>,
 }
 
-/// One thing that is wrong.
+/// One fault, and how the good file is changed to have it.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bad {
-    /// What.
     name: String,
     /// A change of the good file: what stood there, and what stands there now. The first must be there.
     #[serde(default)]
@@ -54,15 +52,15 @@ pub struct Bad {
     many: Option<(String, String, usize)>,
     /// In place of the good file.
     text: Option<String>,
-    /// Below it.
+    /// Text that is appended to the good file.
     append: Option<String>,
     /// Bytes in hex, and from where.
     patch: Option<(usize, String)>,
-    /// Other good contents.
+    /// Good contents in place of the table's.
     good: Option<String>,
-    /// Another command.
+    /// Command line in place of the table's.
     command: Option<String>,
-    /// Another exit code.
+    /// Exit code in place of the table's.
     code: Option<i32>,
     /// What the message has to say.
     says: Vec<String>,
@@ -72,7 +70,7 @@ fn refused() -> i32 {
     3
 }
 
-/// All tables.
+/// Reads all tables of this folder, in the order of their names.
 pub fn tables() -> Vec<Table> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/zoo");
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
@@ -86,7 +84,7 @@ pub fn tables() -> Vec<Table> {
     files.iter().map(read).collect()
 }
 
-/// Good contents by their name.
+/// Good contents as bytes, by `shipped:NAME`, `case:NAME`, `set:SET/FILE`, `text:TEXT` or a path.
 fn contents(good: &str) -> Vec<u8> {
     match good.split_once(':') {
         Some(("shipped", name)) => models::shipped(name).unwrap().into(),

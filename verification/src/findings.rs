@@ -5,26 +5,26 @@ use serde_json::Value;
 /// Text, tables, the same as JSON, and whether all that is wanted was met.
 #[derive(Debug)]
 pub struct Findings {
-    /// What to print, in order.
+    /// Texts and tables to print, in order.
     pub parts: Vec<Printed>,
-    /// The same for programs.
+    /// The same answer for programs, as JSON.
     pub json: Value,
     /// Whether something that is wanted was not reached.
     pub missed: bool,
 }
 
-/// A piece of an answer.
+/// One piece of an answer that a page prints.
 #[derive(Debug)]
 pub enum Printed {
-    /// Lines of text.
+    /// Lines of text, as they are printed.
     Text(String),
-    /// A table.
+    /// A table with text columns first.
     Table {
-        /// Heads of the columns.
+        /// Heads of the columns, from left to right.
         head: &'static [&'static str],
         /// So many first columns are text, the others numbers.
         left: usize,
-        /// Cells row by row.
+        /// Cells as text, row by row.
         rows: Vec<Vec<String>>,
     },
 }
@@ -46,10 +46,10 @@ pub enum Error {
     /// A finite element run that cannot be made or was stopped.
     #[error(transparent)]
     Fem(#[from] fem::FemError),
-    /// A model without equilibrium.
+    /// A model that has no equilibrium at some pressures.
     #[error(transparent)]
     Unsolved(#[from] models::Unsolved),
-    /// Data or a diagnosis.
+    /// Data that cannot be read, or a diagnosis that failed.
     #[error(transparent)]
     Compare(#[from] compare::CompareError),
     /// A folder for answers that cannot be written to, or an interrupt.
@@ -58,9 +58,9 @@ pub enum Error {
     /// A check that does not exist.
     #[error("there is no check `{name}`; write one of {known}")]
     NoCheck {
-        /// As it was asked for.
+        /// Name of the check as it was typed.
         name: String,
-        /// All that there are.
+        /// Names of all checks, for the message.
         known: String,
     },
 }

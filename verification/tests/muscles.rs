@@ -14,7 +14,7 @@ fn shape(bias_deg: f64) -> ActuatorShape {
     ActuatorShape { length_m: 0.3, width_m: 0.06, fold_m: 0.0, volume_gain: 1.0, bias_rad }
 }
 
-/// The muscle without effects.
+/// The shipped muscle without any effects.
 fn fpam() -> Scenario {
     Scenario::parse(shipped("fpam").unwrap()).unwrap().bare()
 }

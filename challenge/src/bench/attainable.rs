@@ -18,7 +18,7 @@ use serde::Serialize;
 const FALSE_ALARMS: f64 = 0.03;
 /// Kinds of effects among which an alarm has to look: about as many independent ones as the catalogue holds.
 const KINDS: f64 = 10.0;
-/// False flags allowed.
+/// Share of sets inside the catalogue that a test may wrongly flag.
 const FALSE_FLAGS: f64 = 0.05;
 /// λ at which a known difference is seen nine times in ten at the level of 1 %: (2.33 + 1.28)².
 const SEEN: f64 = 13.0;
@@ -36,7 +36,7 @@ pub struct Attainable {
     pub first_three: Option<f64>,
     /// Two hidden effects: one of them at least in the first pair named, for whoever has every law as it is.
     pub one_of_two: Option<f64>,
-    /// The same, both.
+    /// Two hidden effects: both in that pair.
     pub both: Option<f64>,
     /// Flags outside the catalogue, if no effect or one is an explanation; false flags in 5 %.
     pub flag_one: Option<f64>,
@@ -65,7 +65,6 @@ pub(super) fn distances_of(truth: &Truth, data: &Dataset, pairs: bool) -> Result
     distances(&truth.told()?, &mean, Some(&about(truth)?), noise, pairs)
 }
 
-/// Of all outcomes.
 pub(super) fn of(outcomes: &[SetOutcome]) -> Attainable {
     let (one, outside) = (found(outcomes, Hiding::One), found(outcomes, Hiding::Outside));
     let mean = |sets: &[(&Named, Distances)], see: &dyn Fn(&Distances) -> f64| {

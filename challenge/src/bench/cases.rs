@@ -1,4 +1,4 @@
-//! One set: drawn, measured, diagnosed.
+//! One set of the bench: draws it, measures it and diagnoses it.
 
 use super::attainable::distances_of;
 use super::follow::{follow_up, tested};
@@ -74,7 +74,6 @@ pub(super) fn named(case: &PlannedSet, diagnose: Diagnoser) -> Result<Named, Str
     found.map_err(|error| format!("{} {:?}: {error}", truth.actuator, names(truth)))
 }
 
-/// Diagnoses data of a robot.
 fn diagnosed(
     truth: &Truth,
     data: Vec<(Dataset, About)>,
@@ -116,7 +115,7 @@ fn alone(truth: &Truth, about: About, diagnose: Diagnoser) -> Result<Named, Comp
     Ok(scored(truth, &diagnosed(truth, vec![(data, about)], false, diagnose)?))
 }
 
-/// The answer after an experiment.
+/// Answer to old and new data after the recommended experiment, and its score.
 fn after(truth: &Truth, experiment: &Experiment, diagnose: Diagnoser) -> Result<After, CompareError> {
     let answer = Claim::of(&diagnosed(truth, follow_up(truth, experiment)?, false, diagnose)?);
     Ok(After { experiment: experiment.name.clone(), score: score(truth, &answer), answer })

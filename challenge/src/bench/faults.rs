@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 const PROTOCOL_PA: [f64; 7] = [0.0, 10e3, 20e3, 30e3, 20e3, 10e3, 0.0];
 const BODY_PA: f64 = 2e3;
 
-/// What is wrong.
+/// How a fault gets into the data of a set.
 enum Fault {
     /// Of the robot: an effect of the generator.
     Robot,
@@ -75,12 +75,12 @@ fn knocked([x, y]: [f64; 2]) -> [f64; 2] {
     [0.124 + dx * cos - dy * sin, 0.052 + dx * sin + dy * cos]
 }
 
-/// What became of a set.
+/// A set with one fault, and the diagnosis of it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct FaultSet {
     /// The catalogue's name of what is wrong.
     pub fault: String,
-    /// Robot, noise and runs.
+    /// Robot, noise and runs without the fault.
     pub truth: Truth,
     /// Verdict; `None` if the data do not allow one.
     pub verdict: Option<Verdict>,
@@ -162,7 +162,6 @@ fn show_late(made: &mut Dataset, lag_s: f64) {
     }
 }
 
-/// Their rows of the table.
 pub(super) fn rows(sets: &[FaultSet]) -> Vec<Rate> {
     let is_physics = |part: &str| models::effects::by_name(part).is_none_or(|effect| !effect.group.is_nuisance());
     let share = |case, figure, goal, sets: &[&FaultSet], hit: &dyn Fn(&FaultSet) -> bool| {

@@ -19,23 +19,21 @@ use models::Scenario;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Robots with finite element runs.
+/// Robots that come with finite element runs.
 pub(super) const MADE: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
 /// Body pressure of the second data \[Pa\].
 const SECOND_PA: f64 = 4e3;
-/// Their finite element runs.
 const RUNS: usize = 5;
-/// Their seed.
 const SEED: u64 = 22;
 
 /// What became of one mechanism that was switched off.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct OneOff {
-    /// Robot.
+    /// Actuator kind of the robot, such as `epam`.
     pub robot: String,
-    /// Mechanism that the model lacks.
+    /// Mechanism that was switched off in the model.
     pub lacking: String,
-    /// Body pressures of the data.
+    /// How many body pressures the data have.
     pub bodies: usize,
     /// The scenario's bending stiffness was kept.
     pub kept: bool,
@@ -57,7 +55,7 @@ pub struct OneOff {
     pub by_design: bool,
     /// It is told so, or in the stated set, or among the attempts.
     pub mentioned: bool,
-    /// Called identified.
+    /// The diagnosis states it as identified, not as a hint.
     pub identified: bool,
     /// Error beyond noise without it, with it as the shipped scenario has it, and with the answer or the attempt \[mm\].
     pub systematic_mm: [f64; 3],

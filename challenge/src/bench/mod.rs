@@ -35,10 +35,10 @@ use compare::diagnosis::Distances;
 use compare::error::CompareError;
 use serde::{Deserialize, Serialize};
 
-/// How large the bench is.
+/// Size of a bench, its seed and the laws of its effects.
 #[derive(Debug, Clone, Copy)]
 pub struct DiscoveryOptions {
-    /// Seed of everything.
+    /// Seed from which every set is drawn.
     pub seed: u64,
     /// Sets with nothing hidden, and with one effect; half as many of the other parts.
     pub sets: usize,
@@ -49,13 +49,13 @@ pub struct DiscoveryOptions {
 /// One set as it was made and answered.
 #[derive(Debug, Clone, Serialize)]
 pub struct SetSeen {
-    /// Part of the table.
+    /// Part of the table that the set belongs to.
     pub part: String,
     /// What was hidden, in which robot, with which noise.
     pub truth: Truth,
     /// What was answered; `None` if the set failed.
     pub answer: Option<Claim>,
-    /// How good that is.
+    /// Comparison of the answer with the truth; `None` if the set failed.
     pub score: Option<ClaimScore>,
     /// Answer and score after the recommended next experiment, of ambiguous sets.
     pub after: Option<After>,
@@ -63,16 +63,16 @@ pub struct SetSeen {
     pub distances: Option<Distances>,
 }
 
-/// The result.
+/// Results of the whole bench: the table, its background and every set.
 #[derive(Debug, Clone, Serialize)]
 pub struct Discovery {
-    /// Seed.
+    /// Seed from which every set was drawn.
     pub seed: u64,
-    /// Laws of the hidden effects.
+    /// By which laws the hidden effects act.
     pub laws: Laws,
-    /// Rows of the table.
+    /// Figures with their targets, in the order of the table.
     pub rows: Vec<Rate>,
-    /// Truth against name, single effects.
+    /// How often each hidden effect got each name, of sets with one effect.
     pub confusion: Vec<Confusion>,
     /// Single effects by actuator, camera noise and runs.
     pub breakdown: Vec<Slice>,
@@ -91,7 +91,7 @@ pub struct Discovery {
     pub surplus: Vec<SurplusSet>,
     /// Instruments that read wrongly and places that bend otherwise.
     pub faults: Vec<FaultSet>,
-    /// Every set.
+    /// Every planned set, as it was made and answered.
     pub seen: Vec<SetSeen>,
     /// Sets that could not be made or diagnosed, with the reason.
     pub failed: Vec<String>,
@@ -103,15 +103,15 @@ const WHOLE: usize = 50;
 /// A bench that is planned: pieces of work that do not depend on each other, and have one answer on any machine.
 #[derive(Debug, Clone)]
 pub struct Bench {
-    /// How large it is.
+    /// Size, seed and laws of the bench.
     pub options: DiscoveryOptions,
     pieces: Vec<Piece>,
 }
 
-/// What is asked.
+/// A piece of work that needs no other one.
 #[derive(Debug, Clone)]
 enum Piece {
-    /// A set of the plan.
+    /// A set that was drawn for the plan.
     Set(PlannedSet),
     /// Finite element data of a robot.
     Made(&'static str),
@@ -126,13 +126,13 @@ enum Piece {
 /// What a piece gave, or why it failed.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Answer {
-    /// Of a set.
+    /// Of a set that was drawn for the plan.
     Set(Result<Box<Named>, String>),
-    /// Of finite element data.
+    /// Of finite element data, mechanism by mechanism.
     Made(Result<Vec<OneOff>, String>),
-    /// Of a column written wrongly.
+    /// Of a column of pressures written wrongly.
     Slipped(Result<Box<SlippedSet>, String>),
-    /// Of an effect too many.
+    /// Of a scenario with an effect too many.
     Surplus(Result<Box<SurplusSet>, String>),
     /// Of an instrument or a place.
     Fault(Result<Box<FaultSet>, String>),

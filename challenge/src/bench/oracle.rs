@@ -170,7 +170,6 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Straight lines through points.
 struct Polyline {
     points: Vec<Vec<f64>>,
     /// Scalar product of every point with itself and with the next.

@@ -13,19 +13,19 @@ use serde::{Deserialize, Serialize};
 /// What diagnoses; the bench is given it.
 pub type Diagnoser = fn(&Scenario, &[Evidence], &Options, &mut Progress) -> Result<Diagnosis, CompareError>;
 
-/// One set of the bench.
+/// A set before it is measured and diagnosed.
 #[derive(Debug, Clone)]
 pub struct PlannedSet {
-    /// Part of the table.
+    /// Part of the table that the set belongs to.
     pub part: Lot,
-    /// What is hidden.
+    /// Robot, noise and the effects that are hidden.
     pub truth: Truth,
 }
 
-/// Parts of the table.
+/// Parts of the table, each a kind of set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Lot {
-    /// Hidden by the generator.
+    /// Nothing, one effect, two, or one outside the catalogue.
     Hidden(Hiding),
     /// The same sets, of robots whose bending stiffness was measured, to 10 %.
     Measured(Hiding),
@@ -43,23 +43,23 @@ pub enum Lot {
     Softening,
 }
 
-/// What became of a set.
+/// A set after its diagnosis, or after its failure.
 #[derive(Debug, Clone)]
 pub struct SetOutcome {
-    /// Part of the table.
+    /// Part of the table that the set belongs to.
     pub part: Lot,
-    /// What was hidden.
+    /// Robot, noise and the effects that were hidden.
     pub truth: Truth,
     /// What was found; `None` if it failed.
     pub named: Option<Named>,
 }
 
-/// What was found.
+/// The answer to a set, with all that the table counts.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Named {
-    /// The answer.
+    /// Those parts of the diagnosis that are scored.
     pub answer: Claim,
-    /// Its score.
+    /// Comparison of the answer with the truth.
     pub score: ClaimScore,
     /// A single name is called identified.
     pub identified: bool,
@@ -98,14 +98,14 @@ pub struct Named {
     pub after_in_silence: Option<ClaimScore>,
 }
 
-/// What the recommended experiment brought.
+/// The answer after the recommended experiment was measured too.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct After {
-    /// The experiment.
+    /// Short name of the recommended experiment.
     pub experiment: String,
-    /// The answer to all data.
+    /// Answer to old and new data together.
     pub answer: Claim,
-    /// Its score.
+    /// Comparison of that answer with the truth.
     pub score: ClaimScore,
 }
 

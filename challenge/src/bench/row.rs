@@ -3,32 +3,32 @@
 use serde::Serialize;
 use statrs::distribution::{Beta, ContinuousCDF};
 
-/// What a figure must reach.
+/// Bounds that a figure of the table must meet.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Goal {
-    /// At least.
+    /// The figure must not be below this.
     AtLeast(f64),
-    /// At most.
+    /// The figure must not be above this.
     AtMost(f64),
-    /// Between two.
+    /// The figure must be within these two, ends included.
     Between(f64, f64),
 }
 
-/// A figure of the table.
+/// One figure of the table, with its target.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Rate {
-    /// Which sets.
+    /// Sets that the figure is taken from, in words.
     pub case: &'static str,
-    /// Which figure.
+    /// What the figure counts or measures, in words.
     pub figure: &'static str,
-    /// Target.
+    /// Bounds that the figure must meet.
     pub target: Goal,
-    /// Measured; `None` without sets.
+    /// Value of the figure; `None` without sets.
     pub measured: Option<f64>,
     /// 95 % interval of a share (Clopper–Pearson).
     pub interval: Option<[f64; 2]>,
-    /// Sets it is from.
+    /// How many sets the figure is taken from.
     pub sets: usize,
     /// It is a share and printed in per cent.
     pub share: bool,
@@ -55,7 +55,7 @@ impl Rate {
         Rate { case, figure, target, measured, interval, sets: n, share: true, met: measured.map(|v| target.met(v)) }
     }
 
-    /// A mean or median.
+    /// A row for a mean or a median, without an interval.
     pub fn number(case: &'static str, figure: &'static str, target: Goal, value: Option<f64>, sets: usize) -> Rate {
         let met = value.map(|v| target.met(v));
         Rate { case, figure, target, measured: value, interval: None, sets, share: false, met }

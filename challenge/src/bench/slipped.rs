@@ -37,20 +37,20 @@ const SETS: usize = (KINDS.len() + PLACEHOLDERS.len()) * ROBOTS.len();
 /// Keeps their streams apart from those of the other parts.
 const STREAM: u64 = 100 << 32;
 
-/// What became of a set.
+/// A set with a wrong column or placeholders, and the diagnosis of it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct SlippedSet {
-    /// What stands in the column.
+    /// What the table has in place of the right numbers.
     pub kind: String,
     /// It is of a column of pressures, else a placeholder.
     pub is_column: bool,
-    /// Robot, noise and runs.
+    /// Robot, noise and runs before the table was spoiled.
     pub truth: Truth,
     /// It was told as a slip of the pressures.
     pub told: bool,
-    /// What was said.
+    /// The warning or the refusal in words; `None` without one.
     pub words: Option<String>,
-    /// Effects that the verdict adds.
+    /// Effects that the verdict adds to the model.
     pub named: Vec<String>,
 }
 
@@ -117,7 +117,6 @@ fn read_with(right: &Dataset, placeholder: &str) -> Result<Dataset, CompareError
     Ok(data::parse_markers("slipped.csv", &mut table.as_bytes(), data::ReadOptions::default(), &mut |_, _| ())?)
 }
 
-/// Their rows of the table.
 pub(super) fn rows(sets: &[SlippedSet]) -> Vec<Rate> {
     let (columns, placeholders): (Vec<&SlippedSet>, Vec<&SlippedSet>) = sets.iter().partition(|set| set.is_column);
     let share = |case, figure, target, sets: &[&SlippedSet], hit: fn(&SlippedSet) -> bool| {

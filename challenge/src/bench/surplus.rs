@@ -16,12 +16,12 @@ const SETS: usize = EFFECTS.len() * ROBOTS.len();
 /// First of their streams of random numbers; other parts have smaller ones.
 const STREAM: u64 = 101 << 32;
 
-/// What became of a set.
+/// A set with an effect too many in its scenario, and the diagnosis of it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct SurplusSet {
     /// Effect that the scenario has and the robot does not have.
     pub effect: String,
-    /// Robot, noise and runs.
+    /// Robot, noise and runs, without that effect.
     pub truth: Truth,
     /// Verdict; `None` if the data do not allow one.
     pub verdict: Option<Verdict>,
@@ -46,7 +46,6 @@ pub(super) fn count(sets: usize) -> usize {
     SETS * sets.div_ceil(100)
 }
 
-/// Makes and diagnoses a set.
 pub(super) fn surplus(seed: u64, index: usize, diagnose: Diagnoser) -> Result<SurplusSet, CompareError> {
     let name = EFFECTS[index / ROBOTS.len() % EFFECTS.len()];
     let robot = ROBOTS[index % ROBOTS.len()].0;
@@ -60,7 +59,6 @@ pub(super) fn surplus(seed: u64, index: usize, diagnose: Diagnoser) -> Result<Su
     Ok(SurplusSet { effect: name.into(), truth, verdict: found.verdict, stated: found.indistinguishable })
 }
 
-/// Their rows of the table.
 pub(super) fn rows(sets: &[SurplusSet]) -> Vec<Rate> {
     let alarmed: Vec<&SurplusSet> = sets.iter().filter(|set| set.verdict != Some(Verdict::None)).collect();
     let case = "an effect too many in the scenario";

@@ -9,11 +9,11 @@ use serde::Serialize;
 /// One named effect with the hidden one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Confusion {
-    /// Hidden.
+    /// Effect that was hidden in these sets.
     pub truth: String,
     /// On top of the ranking; `none` without alarm, `out_of_catalog` for that verdict.
     pub named: String,
-    /// How often.
+    /// In how many sets this name came on top.
     pub count: usize,
     /// Median λ between the two where the diagnosis gave it: below 16 the data do not hold the answer.
     pub lambda: Option<f64>,
@@ -29,9 +29,9 @@ pub struct Confusion {
 pub struct Slice {
     /// Which part: an actuator, a camera noise, a number of runs.
     pub of: String,
-    /// Sets.
+    /// How many sets this part has.
     pub sets: usize,
-    /// Share with alarm.
+    /// Share of these sets that gave an alarm.
     pub alarm: f64,
     /// Given alarm: share with the truth on top.
     pub on_top: f64,

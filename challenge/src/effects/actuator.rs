@@ -1,4 +1,4 @@
-//! Effects of the actuator.
+//! Hidden effects that act in the actuator and its fabric.
 
 use super::kind::{HiddenEffect, Law};
 use crate::drive::Drive;

@@ -1,4 +1,4 @@
-//! Effects of the body.
+//! Hidden effects that act in the wall of the body.
 
 use super::kind::{HiddenEffect, Law};
 use crate::robot::TrueRobot;

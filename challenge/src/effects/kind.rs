@@ -5,12 +5,12 @@ use crate::robot::TrueRobot;
 use models::Scenario;
 use models::actuators::Family;
 
-/// One form of a mechanism.
+/// One equation of a mechanism, and how to put it into a robot.
 #[derive(Clone, Copy)]
 pub struct Law {
     /// Its equation; how it differs from the catalogue's, or whose it is.
     pub words: &'static str,
-    /// Unit of the amount.
+    /// Unit of the amount that `put` takes.
     pub unit: &'static str,
     /// Amount of a typical size, SI; of a second law where the search for it begins.
     pub(super) size: fn(&TrueRobot) -> f64,
@@ -23,7 +23,7 @@ pub struct Law {
 pub struct HiddenEffect {
     /// Name; the catalogue's for the effect of the same cause.
     pub name: &'static str,
-    /// What happens, in plain words.
+    /// What the effect does to a robot, in plain words.
     pub sentence: &'static str,
     /// Contraction mechanism it needs; `None`: any.
     pub family: Option<Family>,

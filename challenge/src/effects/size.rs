@@ -11,7 +11,6 @@ use std::sync::{Mutex, PoisonError};
 
 /// Agreement wanted of the logarithms of two movements.
 const AGREED: f64 = 0.005;
-/// Rounds of the search.
 const ROUNDS: usize = 40;
 /// Largest step of the logarithm of an amount.
 const STEP: f64 = 1.5;

@@ -22,7 +22,7 @@ pub struct NoiseSummary {
     pub pressure_pct: Option<f64>,
     /// Run-to-run alignment scatter of one coordinate \[mm\].
     pub alignment_mm: Option<f64>,
-    /// Run-to-run rotation scatter \[mrad\].
+    /// Run-to-run rotation of the markers, standard deviation \[mrad\].
     pub rotation_mrad: Option<f64>,
     /// The same of single holds of a run: pressure \[%\]; like the others `None` where none is found.
     pub hold_pressure_pct: Option<f64>,

@@ -270,7 +270,7 @@ pub fn pressure_words(dataset: &Dataset) -> Vec<String> {
 /// A slip of a pressure column that withholds the verdict.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PressureSlipFound {
-    /// Name of the dataset.
+    /// Name of the dataset with the suspected column.
     pub dataset: String,
     /// What it looks like, the evidence, what to type.
     pub words: String,

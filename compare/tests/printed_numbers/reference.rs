@@ -23,7 +23,7 @@ fn quantile_of_t(p: f64, dof: f64) -> f64 {
 pub struct Noise {
     runs: usize,
     sigma2: f64,
-    /// Degrees of freedom of σ².
+    /// Degrees of freedom of the estimate of σ².
     pub dof: usize,
     u: DMatrix<f64>,
     /// Variances of the four errors of the mean: best estimate, and as in tests.
@@ -101,7 +101,6 @@ impl Fit {
         self.rest.norm_squared()
     }
 
-    /// (JᵀJ)⁻¹.
     pub fn covariance(&self) -> DMatrix<f64> {
         self.slope.tr_mul(&self.slope).try_inverse().unwrap()
     }

@@ -14,7 +14,6 @@ pub fn text() -> String {
     given
 }
 
-/// The scenario of that text.
 pub fn scenario() -> Scenario {
     Scenario::parse(&text()).unwrap()
 }
@@ -92,7 +91,6 @@ fn measured(name: &str, holds: &[Hold], (truth_m, slope_m): (&[f64], &[f64]), ru
     Dataset { coordinates_m, runs: (1..=runs).map(|run| run.to_string()).collect(), ..exact(name, holds, truth_m) }
 }
 
-/// One run without scatter.
 pub fn exact(name: &str, holds: &[Hold], truth_m: &[f64]) -> Dataset {
     let marker = |(i, s): (usize, &f64)| Marker { name: (i + 1).to_string(), station_m: Some(*s) };
     Dataset {

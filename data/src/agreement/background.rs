@@ -7,7 +7,7 @@ use crate::units::mm;
 const LEAST_PART: f64 = 0.15;
 /// The innermost marker moves at least this part of what it would if the body bent evenly.
 const INSIDE_PART: f64 = 0.3;
-/// Ways that are judged \[m\].
+/// Way that a marker must go to be judged \[m\].
 const TELLING_M: f64 = 0.01;
 /// Fewest holds over which a way is judged.
 const FEWEST: usize = 3;

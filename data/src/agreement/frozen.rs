@@ -6,9 +6,9 @@ use super::seen::{Doubt, Seen};
 const SAME_M: f64 = 1e-9;
 /// Repeated frames may be this share of all others: a coarse tracker repeats places of a robot at rest.
 const USUAL: f64 = 0.2;
-/// Fewest frames that are alike.
+/// Fewest equal frames that count as frozen.
 const FEWEST: f64 = 4.0;
-/// Fewest seconds that they last.
+/// Shortest time that equal frames must last \[s\].
 const LEAST_S: f64 = 0.5;
 
 /// Some frames of a run are alike, and the others are not.

@@ -3,7 +3,7 @@
 use super::seen::{Doubt, Seen, SeenRun, middle, minus, size};
 use crate::units::mm;
 
-/// Movement that is judged \[m\].
+/// Movement that a marker must make to be judged \[m\].
 const TELLING_M: f64 = 0.01;
 /// Cosine between the movements of a run and of the others, below which the run goes another way.
 const ANOTHER_WAY: f64 = 0.0;

@@ -20,7 +20,6 @@ impl Doubt {
 pub(crate) struct LogSeen {
     pub file: String,
     pub times_s: Vec<f64>,
-    /// Actuator pressure \[Pa\].
     pub act_pa: Vec<f64>,
 }
 
@@ -63,7 +62,6 @@ impl SeenRun {
     }
 }
 
-/// A recording.
 pub(crate) struct Seen {
     pub(super) runs: Vec<SeenRun>,
     /// Labels, and stations that somebody measured \[m\].

@@ -4,7 +4,7 @@ use super::seen::{Doubt, LogSeen, Seen};
 use super::{Check, doubts};
 use crate::import::{ImportOptions, PressedRun};
 
-/// By run, time and marker.
+/// Changes a place \[m\], given run, time and marker.
 type Change = Box<dyn Fn(usize, f64, usize, &mut [f64; 2])>;
 
 /// Three runs of a robot that bends evenly, with markers at 90, 210 and 330 mm, 25 frames per second.
@@ -15,7 +15,7 @@ pub(super) struct Made {
     pub body_kpa: [f64; 2],
     pub noise_mm: f64,
     pub seed: u64,
-    /// Time and actuator pressure \[Pa\].
+    /// Rows of time \[s\] and actuator pressure \[Pa\].
     pub log: Vec<[f64; 2]>,
     pub changes: Vec<Change>,
     pub frozen: Vec<(usize, std::ops::Range<usize>)>,

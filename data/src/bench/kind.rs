@@ -3,14 +3,14 @@
 use crate::about::Provenance;
 use crate::columns::Field;
 
-/// A kind of table.
+/// A kind of bench table, with its columns and what a row must fulfil.
 #[derive(Debug, Clone, Copy)]
 pub struct BenchKind {
     /// Name, also of the file in a folder of data: `load_deflection` is `load_deflection.csv`.
     pub name: &'static str,
-    /// One plain sentence.
+    /// What such a table contains, in one plain sentence.
     pub sentence: &'static str,
-    /// Its columns.
+    /// Columns that a table of this kind has or may have.
     pub columns: &'static [Field],
     /// What a row must fulfil beyond its columns: message and what to write.
     pub(super) check: fn(&BenchRow) -> Result<(), [String; 2]>,
@@ -37,12 +37,12 @@ impl BenchRow {
     }
 }
 
-/// A table of bench tests.
+/// A table of bench tests, with the robot that it belongs to.
 #[derive(Debug, Clone)]
 pub struct Bench {
-    /// Its kind.
+    /// Kind of the table, an entry of the list.
     pub kind: &'static BenchKind,
-    /// File it was read from.
+    /// File or embedded set that it was read from.
     pub file: String,
     /// How its numbers came to be.
     pub provenance: Provenance,

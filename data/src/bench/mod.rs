@@ -21,7 +21,7 @@ use spelling::files::{MOST_DATA, read_whole};
 pub use bending_length::bending_lengths_m;
 pub use kind::{Bench, BenchKind, BenchRow};
 
-/// The list.
+/// Kinds of bench tables that can be read.
 pub const KINDS: &[BenchKind] = &[load_deflection::ENTRY, force_contraction::ENTRY, bending_length::ENTRY];
 
 /// Reads a table of bench tests: a CSV file, a folder or an embedded set with one. `None` if it is something else (markers).

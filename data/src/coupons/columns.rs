@@ -7,7 +7,6 @@ use crate::error::{DataError, Fault, Result};
 use crate::lines::{Line, Lines};
 use crate::units::Measured::{Angle, Force, Length, Pressure, Ratio};
 
-/// Positions in [`QUANTITIES`].
 pub(super) const STRAIN: usize = 0;
 pub(super) const STRESS: usize = 1;
 pub(super) const DISPLACEMENT: usize = 2;

@@ -1,17 +1,17 @@
-//! A pulled specimen.
+//! A pulled specimen: its direction, its curve and its size.
 
 use crate::about::Provenance;
 
 /// Angle of the pull to the warp.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Direction {
-    /// 0°.
+    /// Along the warp yarns, at 0°.
     Warp,
-    /// 45°.
+    /// At 45° to the yarns, where the fabric shears.
     Bias,
     /// Between them \[thousandths of a degree\]; it checks the law that the others make.
     Between(u32),
-    /// 90°.
+    /// Along the fill yarns, at 90°.
     Fill,
 }
 
@@ -20,32 +20,32 @@ pub enum Direction {
 pub enum Pulled {
     /// Rows nominal strain \[1\], nominal stress \[Pa\].
     Stress(Vec<[f64; 2]>),
-    /// Rows displacement \[m\], force \[N\].
+    /// Rows displacement \[m\], force \[N\], where the section is not known.
     Force(Vec<[f64; 2]>),
 }
 
-/// One pulled specimen.
+/// One pulled specimen, with everything that its file states of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coupon {
-    /// File it was read from.
+    /// Name of the file it was read from.
     pub file: String,
-    /// Its label.
+    /// Label of the specimen in its file.
     pub specimen: String,
     /// Line of its first row, from 1.
     pub line: u64,
-    /// Direction of the pull.
+    /// Direction of the pull to the warp.
     pub direction: Direction,
-    /// Its curve.
+    /// Stress over strain, or force over displacement.
     pub pulled: Pulled,
     /// Width under load at every row \[m\]; empty without that column.
     pub loaded_width_m: Vec<f64>,
     /// The columns of x and y as the file names them.
     pub columns: [String; 2],
-    /// Width \[m\].
+    /// Width of the unloaded specimen \[m\]; `None` if not stated.
     pub width_m: Option<f64>,
     /// Free length between the grips \[m\].
     pub length_m: Option<f64>,
-    /// Thickness \[m\].
+    /// Thickness of the specimen \[m\]; `None` if not stated.
     pub thickness_m: Option<f64>,
     /// How its numbers came to be.
     pub provenance: Provenance,
@@ -58,20 +58,20 @@ pub struct Coupon {
 /// What holds where a file has no line; a file with another value is refused.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct CouponDefaults {
-    /// Direction \[deg\].
+    /// Angle of the pull to the warp \[deg\].
     pub direction_deg: Option<f64>,
-    /// Width \[m\].
+    /// Width of the unloaded specimens \[m\].
     pub width_m: Option<f64>,
-    /// Free length \[m\].
+    /// Free length between the grips \[m\].
     pub length_m: Option<f64>,
-    /// Thickness \[m\].
+    /// Thickness of all specimens of the file \[m\].
     pub thickness_m: Option<f64>,
     /// Names of the columns, in place of those in the header lines.
     pub columns: Vec<String>,
 }
 
 impl Direction {
-    /// Angle to the warp \[deg\].
+    /// Angle of the pull to the warp, 0 to 90 \[deg\].
     pub fn degrees(self) -> f64 {
         match self {
             Direction::Warp => 0.0,
@@ -81,7 +81,7 @@ impl Direction {
         }
     }
 
-    /// `warp`, `bias`, `fill`, or `off-axis`.
+    /// The word of files and tables: `warp`, `bias`, `fill`, or `off-axis`.
     pub fn word(self) -> &'static str {
         match self {
             Direction::Warp => "warp",
@@ -104,14 +104,14 @@ impl Direction {
 }
 
 impl Pulled {
-    /// The rows, to be changed.
+    /// Rows of either kind of curve, for changes.
     pub fn rows_mut(&mut self) -> &mut Vec<[f64; 2]> {
         match self {
             Pulled::Stress(rows) | Pulled::Force(rows) => rows,
         }
     }
 
-    /// The rows.
+    /// Rows of either kind of curve.
     pub fn rows(&self) -> &[[f64; 2]] {
         match self {
             Pulled::Stress(rows) | Pulled::Force(rows) => rows,

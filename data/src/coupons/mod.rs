@@ -35,7 +35,7 @@ use curve::Specimens;
 use export::Export;
 use spelling::files::read_whole;
 
-/// Largest file read.
+/// Largest file that is read \[bytes\], 256 MiB.
 const MOST_BYTES: u64 = 256 << 20;
 
 /// Reads all specimens of a file; `progress(bytes_done, bytes_total)` is called about every MiB and at the end.

@@ -5,7 +5,6 @@ use crate::error::{DataError, Result};
 /// Bytes of a file that are looked at.
 pub(super) const HEAD: usize = 1 << 16;
 
-/// A kind of binary file.
 struct Binary {
     name: &'static str,
     is: fn(&[u8]) -> bool,

@@ -89,7 +89,6 @@ impl ColumnName {
         self.words.iter().map(|(word, _)| word.as_str()).eq(name.split('_'))
     }
 
-    /// Its only word.
     fn word(&self) -> Option<&str> {
         Some(self.words.as_slice()).filter(|words| words.len() == 1).map(|words| words[0].0.as_str())
     }
@@ -147,7 +146,7 @@ pub(crate) struct Roles {
     pub marker: Option<usize>,
     /// Body's and actuator's pressure, with their pascals.
     pub pressures: [Option<(usize, f64)>; 2],
-    /// Column, axis, marker and unit.
+    /// Column, axis, marker and unit of every coordinate.
     pub coordinates: Vec<(usize, usize, String, Option<String>)>,
     /// Column and marker of likelihoods, and the largest that there is.
     pub likelihoods: Vec<(usize, String, f64)>,

@@ -1,16 +1,16 @@
-//! A kind of tracking file.
+//! A kind of tracking file: its name, how it is recognised, and its reader.
 
 use super::options::ImportOptions;
 use super::recording::Recording;
 use super::sheet::CellText;
 use crate::error::Result;
 
-/// A kind of tracking file.
+/// A program's tracking file, as one entry of the list.
 #[derive(Debug)]
 pub struct Format {
-    /// What wrote it.
+    /// Program or layout of such files, for example `DeepLabCut`.
     pub name: &'static str,
-    /// How it is known.
+    /// Sign by which a file of this kind is recognised, in words.
     pub known_by: &'static str,
     /// A small file of this kind below `data/tests`.
     pub fixture: &'static str,

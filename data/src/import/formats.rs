@@ -6,7 +6,7 @@ use super::sheet::CellText;
 use super::{deeplabcut, kinovea, motive, qualisys, ros, sleap, tables, tracker, trackmate, triples};
 use crate::error::Result;
 
-/// All kinds.
+/// Kinds of tracking files, in the order in which they are tried.
 pub const FORMATS: [&Format; 16] = [
     &deeplabcut::FORMAT,
     &sleap::FORMAT,

@@ -51,7 +51,7 @@ pub(crate) struct PlacedRuns {
 pub(crate) struct Scene<'a> {
     pub file: &'a str,
     pub runs: &'a [Recording],
-    /// Of every run.
+    /// Frames at rest and at the top, of every run.
     pub ends: &'a [RestAndTop],
     pub options: &'a ImportOptions,
 }

@@ -8,7 +8,6 @@ use crate::policy::{tolerance_act_pa, tolerance_body_pa};
 /// One run with its pressures, in the robot's frame.
 pub(crate) struct PressedRun {
     pub label: String,
-    /// Time of every frame \[s\].
     pub times_s: Vec<f64>,
     /// Body and actuator pressure of every frame \[Pa\], NaN where not known.
     pub pressures_pa: [Vec<f64>; 2],
@@ -20,7 +19,6 @@ pub(crate) struct PressedRun {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Kept {
     pub frames: Vec<usize>,
-    /// Mean actuator pressure \[Pa\].
     pub act_pa: f64,
     /// Whether a ramp rose or fell there.
     pub rising: Option<bool>,

@@ -16,7 +16,7 @@ use crate::units::kpa;
 use spelling::files::{MOST_DATA, read_whole};
 use spelling::units::Range;
 
-/// A file's text.
+/// Text of a file; binary files are refused by their first bytes, with the export to use.
 pub(crate) fn text_of(path: &Path) -> Result<String> {
     let shown = path.display().to_string();
     let unread = |cause| DataError::file(&shown, format!("cannot open the file: {cause}"), "check the path");

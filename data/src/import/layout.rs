@@ -11,7 +11,6 @@ use crate::error::Result;
 /// What a column of a marker holds.
 pub(super) const PARTS: [&str; 4] = ["x", "y", "z", "likelihood"];
 
-/// Its place in [`PARTS`].
 pub(super) const LIKELIHOOD: usize = 3;
 
 /// The columns of one marker, in the order of [`PARTS`].

@@ -61,29 +61,29 @@ use join::Joined;
 pub use options::{FileAxis, FilePlace, ImportOptions, Offset, Scale};
 use recording::{DROPPED, Recording, counted};
 
-/// What an import made.
+/// Tables and descriptions that an import made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Imported {
     /// The program that wrote the files.
     pub program: &'static str,
     /// What was understood and assumed, in words.
     pub told: Vec<String>,
-    /// The marker table.
+    /// Text of the marker table, in the project's format.
     pub markers_csv: String,
     /// Its description, half filled, with questions as comments.
     pub about_toml: String,
-    /// The same, read back.
+    /// The marker table, read back from its text.
     pub dataset: Dataset,
-    /// The same, read back.
+    /// The description, read back from its text.
     pub about: About,
     /// The tracks over time, for a picture.
     pub tracks: Vec<RunTrack>,
 }
 
-/// One run over time.
+/// Markers and holds of one run over time, for a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunTrack {
-    /// Label of the run.
+    /// Label of the run, as in the marker table.
     pub run: String,
     /// Markers: label and (time \[s\], y \[m\]) of frames, thinned for a picture; NaN where not seen.
     pub lines: Vec<(String, Vec<[f64; 2]>)>,

@@ -3,10 +3,10 @@
 /// How lengths of the file become metres.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub enum Scale {
-    /// As in the file.
+    /// In the unit that the file states.
     #[default]
     OfFile,
-    /// Pixels per metre.
+    /// The file counts pixels, so many per metre.
     PixelsPerMetre(f64),
     /// The numbers are lengths of so many metres.
     Unit(f64),
@@ -19,9 +19,9 @@ pub enum Scale {
 /// A place in the file's units or a marker.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FilePlace {
-    /// Coordinates x, y (and z).
+    /// Coordinates x, y (and z) in the file's units.
     At(Vec<f64>),
-    /// A marker at rest.
+    /// A marker, where it is before the actuator is filled.
     Marker(String),
 }
 
@@ -42,18 +42,18 @@ pub enum Offset {
 pub struct FileAxis {
     /// x, y or z of the file.
     pub index: usize,
-    /// It points the other way.
+    /// It points against the file's axis.
     pub turned: bool,
 }
 
-/// What the caller knows.
+/// Scale, frame, clocks and pressures of a recording, as far as the caller knows them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImportOptions {
     /// Pressure logs: none, one for all runs, or one for every file.
     pub pressure_logs: Vec<std::path::PathBuf>,
-    /// How lengths become metres.
+    /// How lengths of the file become metres.
     pub scale: Scale,
-    /// The robot's base.
+    /// Base of the robot; the file's origin if left out, which is refused for pixels.
     pub base: Option<FilePlace>,
     /// The file's axes along the robot and towards the actuator; found if left out.
     pub axes: Option<[FileAxis; 2]>,
@@ -63,7 +63,7 @@ pub struct ImportOptions {
     pub likelihood: Option<f64>,
     /// Frames per second, where the file counts frames.
     pub frames_per_s: Option<f64>,
-    /// How the clocks agree.
+    /// How the clocks of pressure log and camera agree.
     pub offset: Offset,
     /// Body pressure, where no log has it \[Pa\].
     pub body_pa: Option<f64>,
@@ -73,9 +73,9 @@ pub struct ImportOptions {
     pub pressure_unit_pa: Option<f64>,
     /// Bins the recording by actuator pressure instead of finding holds \[Pa\].
     pub bin_pa: Option<f64>,
-    /// Shortest hold \[s\].
+    /// Shortest time at one pressure that counts as a hold \[s\].
     pub least_hold_s: f64,
-    /// Fewest frames of a hold.
+    /// Fewest frames that a hold must have.
     pub least_frames: usize,
     /// Time to leave out at the start of every hold \[s\].
     pub settle_s: f64,

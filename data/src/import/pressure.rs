@@ -16,9 +16,8 @@ use spelling::units::Range;
 pub(crate) struct Log {
     file: String,
     times_s: Vec<f64>,
-    /// Body's and actuator's pressure \[Pa\].
+    /// Pressures of body and actuator \[Pa\], where the log has them.
     values_pa: [Option<Vec<f64>>; 2],
-    /// Names of its columns.
     pub names: Vec<String>,
     pub told: Vec<String>,
 }
@@ -62,7 +61,6 @@ fn owned(cells: Vec<&str>) -> Vec<String> {
     cells.into_iter().map(str::to_string).collect()
 }
 
-/// A unit without its brackets.
 fn bare(cell: &str) -> &str {
     cell.trim_matches(['(', ')', '[', ']'])
 }

@@ -34,7 +34,7 @@ pub(crate) struct Recording {
     pub places: Vec<Vec<[f64; 3]>>,
     /// Body and actuator pressure of every frame \[Pa\], if the file has them.
     pub pressures: [Option<Vec<f64>>; 2],
-    /// Positions by [`DROPPED`].
+    /// Positions that were left out, counted by the reasons in [`DROPPED`].
     pub dropped: [u64; DROPPED.len()],
     /// A marker that has two places at one time, and that time.
     pub twice: Option<(String, f64)>,

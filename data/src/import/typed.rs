@@ -19,7 +19,7 @@ impl FromStr for FilePlace {
     }
 }
 
-/// `x`, `-y`, `+z`.
+/// Reads an axis as typed: `x`, `-y`, `+z`.
 impl FromStr for FileAxis {
     type Err = String;
 
@@ -94,7 +94,7 @@ pub fn known_distance(text: &str) -> Result<Scale, String> {
     if length_m > 0.0 { Ok(Scale::Known([place(a), place(b)], length_m)) } else { Err(wrong()) }
 }
 
-/// `find` or a time.
+/// Reads `find`, or a time with or without its unit.
 impl FromStr for Offset {
     type Err = String;
 

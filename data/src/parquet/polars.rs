@@ -105,7 +105,7 @@ fn on_reader<T: Send + 'static>(read: impl FnOnce() -> std::result::Result<T, St
 
 type Read<T> = std::result::Result<T, String>;
 
-/// Memory of the table \[bytes\].
+/// Bytes that the whole table takes in memory, by the row count and types that the file states.
 fn size(said: &FileMetadata) -> Read<usize> {
     let rows = said.row_groups.iter().map(RowGroupMetadata::num_rows).fold(said.num_rows, usize::max);
     let is_text = |field: &ArrowField| matches!(field.dtype, ArrowDataType::Utf8View | ArrowDataType::BinaryView);
@@ -159,7 +159,6 @@ fn arrays(part: &ColumnChunkMetadata, bytes: &Buffer<u8>, field: &ArrowField) ->
     Ok(column_iter_to_arrays(vec![pages], vec![kind], field.clone(), None)?.0)
 }
 
-/// A column in the making.
 enum Cells {
     Whole(Vec<i64>),
     /// Values and the factor of a decimal's last digit.

@@ -16,7 +16,6 @@ pub(crate) fn are_near(of: Pressures, other: Pressures, tolerances: f64) -> bool
 /// camera's frames.
 const MOST_SAMPLES: usize = 64;
 
-/// Sums over some rows.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Sample {
     pub count: u64,
@@ -29,12 +28,10 @@ impl Sample {
         self.sums[which] / self.count.max(1) as f64
     }
 
-    /// Mean time \[s\].
     pub(crate) fn t_s(&self) -> f64 {
         self.mean(0)
     }
 
-    /// Mean position \[m\].
     pub(crate) fn place(&self) -> [f64; 3] {
         [1, 2, 3].map(|which| self.mean(which))
     }
@@ -80,12 +77,11 @@ impl Segment {
         }
     }
 
-    /// Mean actuator pressure \[Pa\].
     pub(crate) fn p_act_pa(&self) -> f64 {
         self.means_pa()[1]
     }
 
-    /// Mean of every pressure \[Pa\].
+    /// Mean over the rows of every pressure \[Pa\].
     pub(crate) fn means_pa(&self) -> Pressures {
         self.sums_pa.map(|sum| sum / self.rows.max(1) as f64)
     }
@@ -146,7 +142,6 @@ impl Segment {
     }
 }
 
-/// Samples as one.
 pub(crate) fn merged(samples: &[Sample]) -> Sample {
     let mut all = Sample::default();
     samples.iter().for_each(|sample| all.add(*sample));

@@ -1,4 +1,4 @@
-//! `check`: scatter, outliers, copies, warnings.
+//! Scatter, outliers, copies and warnings that `check` reports.
 
 use super::{read, table};
 use crate::{Dataset, check};

@@ -1,4 +1,4 @@
-//! Markers that a camera lost.
+//! Markers that a camera lost in some holds or runs.
 
 use super::{read, table};
 use crate::{DataError, Dataset, Lost, check, write_markers_csv};

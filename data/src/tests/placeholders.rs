@@ -1,4 +1,4 @@
-//! Positions that stand for none.
+//! Positions such as 0, 0 that mean that a marker was not seen.
 
 use super::{read, table};
 use crate::check;

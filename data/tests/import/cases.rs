@@ -1,4 +1,4 @@
-//! Files as people have them.
+//! Tracking files as laboratories have them, with their usual faults.
 
 use super::{case, equals_reference, known, pixels, read, refused, told};
 use data::import::{ImportOptions, Scale};

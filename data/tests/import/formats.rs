@@ -4,7 +4,7 @@ use super::{case, known, pixels};
 use data::import::{FORMATS, FilePlace, ImportOptions, LOGS, Scale, import};
 use std::path::Path;
 
-/// What each fixture may need.
+/// Options among which each fixture finds what it needs.
 fn options() -> [ImportOptions; 7] {
     let map =
         "run=Trial,marker=Point,t=Elapsed (ms),x=PosX (cm),y=PosY (cm),p_act=Sensor A (mbar),p_body=Sensor B (mbar)";

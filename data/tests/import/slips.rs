@@ -22,7 +22,6 @@ impl Dice {
 /// A robot, its protocol and its camera.
 #[derive(Clone)]
 struct Take {
-    /// Bend over the pressure \[rad\].
     robot: fn(f64) -> f64,
     fps: f64,
     hold_s: f64,

@@ -60,7 +60,6 @@ pub(super) fn masses(mesh: &Mesh, areal: &[f64]) -> Vec<f64> {
     mass
 }
 
-/// Momentum \[N s\].
 pub(super) fn momentum(mass: &[f64], v: &[V3]) -> V3 {
     let mut sum = [0.0; 3];
     mass.iter().zip(v).for_each(|(m, v)| (0..3).for_each(|k| sum[k] += m * v[k]));

@@ -22,7 +22,7 @@ const RADIUS_M: f64 = 0.1;
 const YOUNG_PA: f64 = 300e6;
 const POISSON: f64 = 0.3;
 const THICKNESS_M: f64 = 1e-4;
-/// p R0/(E t).
+/// Load of the soft film, p R0/(E t).
 const LOAD: f64 = 0.01;
 
 fn run() -> Found {

@@ -21,11 +21,11 @@ pub(super) const CHECK: Check = Check::slow(
 
 /// The curve that goes in: moment per volume over shear angle \[rad, Pa\].
 pub const SHEAR: [[f64; 2]; 5] = [[0.0, 0.0], [0.15, 0.1e6], [0.35, 0.3e6], [0.55, 0.6e6], [0.8, 1.1e6]];
-/// Size of the strip.
+/// Strip of the simulated tests, twice as long as wide.
 pub const STRIP: BiasExtension = BiasExtension { length_m: 0.08, width_m: 0.04, thickness_m: THICKNESS_M };
 /// Modulus of the yarns \[Pa\]: a hundred thousand times the shear; errors fall with its inverse.
 const YARN_PA: f64 = 1e11;
-/// Thickness of the fabric \[m\].
+/// Thickness of the fabric in all checks \[m\].
 pub const THICKNESS_M: f64 = 5e-5;
 /// Half diagonal of an element: an eighth of the width.
 const HALF_M: f64 = 5e-3;
@@ -34,7 +34,7 @@ const ROWS: usize = 14;
 /// Shear angle of the last row \[rad\].
 const LAST: f64 = 0.7;
 
-/// The simulated test.
+/// Curve of a simulated bias-extension test.
 pub struct BiasPull {
     /// Rows displacement \[m\], force \[N\] of the right clamp, the first `[0, 0]`.
     pub rows: Vec<[f64; 2]>,

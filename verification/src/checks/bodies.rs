@@ -79,7 +79,6 @@ fn angular(mass: &[f64], x: &[V3], v: &[V3], about: V3) -> V3 {
     sum
 }
 
-/// Lengthening of the strips \[m\].
 const PULL_M: f64 = 1e-4;
 
 fn ties() -> Found {

@@ -96,7 +96,6 @@ fn at_share(share: f64) -> f64 {
     tip_deflection_with_shear_m(&BEAM, share * collapse_tip_load_n(&BEAM))
 }
 
-/// Mesh and hourglass coefficient.
 struct Setup {
     around: usize,
     along: usize,

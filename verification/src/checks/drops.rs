@@ -26,7 +26,6 @@ pub(super) const CROSSED: Check = Check::quick(
 );
 
 const OUTPUTS: usize = 30;
-/// Radius of the ball \[m\].
 const BALL_M: f64 = 0.05;
 /// Speed at which things are dropped \[m/s\].
 const SPEED: f64 = 2.0;
@@ -35,7 +34,7 @@ fn fabric() -> Section {
     section(Arc::new(NeoHookean::new(50.3e6, 2e-4)), 0.1)
 }
 
-/// 5 kPa within 4 ms.
+/// Gas that rises to 5 kPa within 4 ms.
 fn air() -> Chamber {
     chamber("air", rise(4e-3, 5e3))
 }

@@ -30,7 +30,6 @@ const HALF_M: f64 = 7.5e-3;
 const STIFFER: f64 = 60.0;
 /// Length of each soft part \[m\]: the pull's direction is reached to e⁻²⁴.
 const SOFT_M: f64 = 24e-3;
-/// Strain under the pull.
 const STRAIN: f64 = 1e-3;
 const END_S: f64 = 0.02;
 

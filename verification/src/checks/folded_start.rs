@@ -52,7 +52,7 @@ fn bent(x: f64, height: f64) -> V3 {
     [at[0] - height * sin, 0.0, at[1] + height * cos]
 }
 
-/// Volume at 5 kPa \[m³\].
+/// Volume of the cushion at rest under 5 kPa \[m³\].
 fn volume(mesh: Mesh, contact: bool) -> Result<f64, FemError> {
     let film = Orthotropic::new(300e6, 300e6, 0.0, 110e6, 2e-4);
     let field = TensionField::new(film, 0.01).map_err(FemError::Problem)?;

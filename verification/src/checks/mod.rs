@@ -46,14 +46,14 @@ pub struct Check {
     pub source: &'static str,
     /// True if it takes more than a few CPU-seconds; `ibr verify` runs it only when asked for all.
     pub slow: bool,
-    /// Runs it.
+    /// Runs the problem and compares its numbers.
     pub run: fn() -> Found,
 }
 
-/// What a check found.
+/// Numbers and curves that a check found.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct CheckOutcome {
-    /// Numbers against known ones.
+    /// Numbers of the engine, each with its known one.
     pub lines: Vec<Line>,
     /// Curves worth a picture; may be empty.
     pub figure: Option<Figure>,
@@ -62,11 +62,11 @@ pub struct CheckOutcome {
 /// One number against a known one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Line {
-    /// What is compared, with unit.
+    /// Name of the compared number, with its unit.
     pub quantity: String,
-    /// What the engine gave.
+    /// Number that the engine gave, in the same unit.
     pub measured: f64,
-    /// What it is held against.
+    /// Known number or bounds that it is compared with.
     pub against: Against,
 }
 
@@ -75,44 +75,44 @@ pub struct Line {
 pub enum Against {
     /// A known value and the largest relative error that passes.
     Value {
-        /// Known value.
+        /// Known value, in the unit of the line.
         exact: f64,
-        /// Largest relative error.
+        /// Largest relative error with which the check passes.
         tolerance: f64,
     },
     /// Must not exceed this (residuals, rounding).
     AtMost(f64),
     /// Must reach this (rates of convergence).
     AtLeast(f64),
-    /// A published band.
+    /// From the first to the second, a published band.
     Between(f64, f64),
 }
 
 /// A figure: curves over common axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    /// Title.
+    /// Title that is printed above the figure.
     pub title: String,
-    /// Horizontal axis with unit.
+    /// Label of the horizontal axis, with unit.
     pub x: String,
-    /// Vertical axis with unit.
+    /// Label of the vertical axis, with unit.
     pub y: String,
-    /// Curves.
+    /// Curves of engine and known answer over common axes.
     pub curves: Vec<FigureCurve>,
 }
 
-/// A curve of a figure.
+/// One curve of a figure, of the engine or exact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FigureCurve {
-    /// Legend.
+    /// Words of the curve in the legend.
     pub label: String,
-    /// Points.
+    /// Points (x, y) in the units of the axes.
     pub points: Vec<[f64; 2]>,
     /// True for the known answer (drawn as a line), false for the engine (drawn as marks).
     pub exact: bool,
 }
 
-/// All checks, quick ones first.
+/// Checks that `ibr verify` can run, quick ones first.
 pub const CHECKS: &[Check] = &[
     patch::UNIFORM,
     patch::BENDING,
@@ -156,7 +156,7 @@ pub const CHECKS: &[Check] = &[
     robots::FOLDS,
 ];
 
-/// What running a check gives.
+/// Outcome of a check, or why its run stopped.
 pub type Found = Result<CheckOutcome, FemError>;
 
 impl Check {
@@ -188,12 +188,10 @@ impl Figure {
 }
 
 impl FigureCurve {
-    /// The known answer.
     fn exact(label: impl Into<String>, points: impl IntoIterator<Item = [f64; 2]>) -> FigureCurve {
         FigureCurve { label: label.into(), points: points.into_iter().collect(), exact: true }
     }
 
-    /// What the engine gave.
     fn engine(label: impl Into<String>, points: impl IntoIterator<Item = [f64; 2]>) -> FigureCurve {
         FigureCurve { exact: false, ..FigureCurve::exact(label, points) }
     }

@@ -22,7 +22,6 @@ const SIDE_M: f64 = 0.848_528_137_423_857;
 const CENTRE_M: [f64; 2] = [0.205, 0.217];
 /// Inward displacement of the middle of a side \[m\], likewise.
 const MID_EDGE_M: [f64; 2] = [0.11, 0.125];
-/// Elements per side.
 const MESHES: [usize; 5] = [16, 24, 32, 40, 48];
 
 fn run() -> Found {

@@ -3,19 +3,15 @@
 use super::setup::*;
 use models::Fabric;
 
-/// A strip between two clamps.
+/// A flat strip that two clamps pull along x.
 pub(super) struct Strip {
-    /// Length and width \[m\].
     pub size_m: [f64; 2],
-    /// Elements along and across.
     pub elements: [usize; 2],
-    /// What it is cut from.
     pub fabric: Arc<dyn Fabric>,
     /// Angle of the warp to the pull \[rad\].
     pub warp_rad: f64,
     /// Displacement of the right clamp over time \[s, m\], smooth in between.
     pub pull: Vec<(f64, f64)>,
-    /// Mass damping \[1/s\].
     pub damping_1_s: f64,
 }
 

@@ -1,4 +1,4 @@
-//! All that `ibr verify` prints.
+//! `ibr verify`: closed forms and checks, as text, tables and JSON.
 
 use super::{Against, CHECKS, Check, CheckOutcome, Figure, Line};
 use crate::exact::{OracleRow, oracle_table};
@@ -8,7 +8,7 @@ use fem::cost::process_seconds;
 use fem::record::RecordShape;
 use serde::Serialize;
 
-/// What is verified.
+/// Which checks a call of `ibr verify` runs.
 #[derive(Debug, Clone, Copy)]
 pub struct Choice<'a> {
     /// Also the checks that take long.
@@ -137,75 +137,73 @@ fn engine_check<'a>(check: &'a Check, outcome: &CheckOutcome, cpu_s: f64) -> Eng
 /// `ibr.verify`: `ibr verify`
 #[derive(Serialize)]
 struct Verified<'a> {
-    /// Known numbers that are missed
+    /// How many computed numbers differ from the known ones.
     wrong: usize,
-    /// Known numbers
+    /// Numbers of closed forms, each with its known one.
     rows: Vec<KnownNumber<'a>>,
-    /// Lines that do not pass
+    /// How many lines of finite element checks do not pass.
     engine_missed: usize,
-    /// Finite element checks
+    /// Finite element checks that were run.
     engine: Vec<EngineCheck<'a>>,
 }
 
-/// A number of a closed form.
 #[derive(Serialize)]
 struct KnownNumber<'a> {
-    /// Closed form
+    /// Closed form that the number belongs to.
     section: &'a str,
-    /// Which number
+    /// Quantity and arguments of the number, with unit.
     quantity: &'a str,
-    /// As known
+    /// Known number, as printed with all its digits.
     expected: &'a str,
-    /// As computed
+    /// Number that this program computes for it.
     computed: f64,
-    /// Whether they agree
+    /// Whether the computed number rounds to the known one.
     agrees: bool,
 }
 
-/// A finite element check.
 #[derive(Serialize)]
 struct EngineCheck<'a> {
-    /// Name of the check
+    /// Name of the check, as `--only` takes it.
     check: &'a str,
-    /// One plain sentence
+    /// What is simulated and compared, in one plain sentence.
     sentence: &'a str,
     /// Who or what it comes from
     source: &'a str,
-    /// Processor time
+    /// Processor time of the whole check.
     cpu_s: f64,
-    /// What is compared
+    /// Numbers of the check, each with what it is compared with.
     lines: Vec<CheckLine>,
 }
 
 /// A line of a finite element check.
 #[derive(Serialize)]
 struct CheckLine {
-    /// What is compared, with unit
+    /// Name of the compared number, with its unit.
     quantity: String,
-    /// What the engine gave
+    /// Number that the engine gave, in the same unit.
     measured: f64,
-    /// What it is compared with
+    /// Known number or bounds that it is compared with.
     against: Target,
-    /// Whether it passes
+    /// Whether the number is within the bounds.
     passes: bool,
 }
 
 /// What a line is compared with.
 #[derive(Serialize, Default)]
 struct Target {
-    /// Exact value
+    /// Known value, in the unit of the line.
     #[serde(skip_serializing_if = "Option::is_none")]
     exact: Option<f64>,
-    /// Largest difference from it
+    /// Largest relative difference from it that passes.
     #[serde(skip_serializing_if = "Option::is_none")]
     tolerance: Option<f64>,
-    /// Upper limit
+    /// Limit that the number must not exceed.
     #[serde(skip_serializing_if = "Option::is_none")]
     at_most: Option<f64>,
-    /// Lower limit
+    /// Limit that the number must reach.
     #[serde(skip_serializing_if = "Option::is_none")]
     at_least: Option<f64>,
-    /// Both limits
+    /// Lower and upper limit of the number.
     #[serde(skip_serializing_if = "Option::is_none")]
     between: Option<[f64; 2]>,
 }

@@ -101,7 +101,6 @@ pub(super) fn balance(residual_share: f64) -> Line {
     Line::at_most("energy residual over external work", residual_share, 0.01)
 }
 
-/// Runs to a time.
 pub(super) fn advance(run: &mut Simulation, time_s: f64) -> Result<(), FemError> {
     run.advance_until(time_s, &mut |_| true).map(|_| ())
 }
@@ -138,12 +137,12 @@ pub(super) fn node_forces(problem: &Problem, x: &[[f64; 3]], time_s: f64) -> Res
     Ok(order.new.iter().map(|place| force[*place as usize]).map(|f| [f[0], f[1], f[2]]).collect())
 }
 
-/// Node positions of stride [`NODE`].
+/// Placed nodes as flat coordinates of stride [`NODE`].
 pub(super) fn placed(points: &[[f64; 3]], place: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<f64> {
     points.iter().map(|p| place(*p)).flat_map(|p| [p[0], p[1], p[2], 0.0]).collect()
 }
 
-/// Largest absolute number.
+/// Largest absolute value, NaN if any is NaN.
 pub(super) fn largest(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0, |m, x| if x.is_nan() { f64::NAN } else { m.max(x.abs()) })
 }

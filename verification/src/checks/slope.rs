@@ -10,7 +10,6 @@ pub(super) const CHECK: Check = Check::quick(
     run,
 );
 
-/// Slope \[rad\].
 const SLOPE: f64 = std::f64::consts::FRAC_PI_6;
 const GRAVITY: f64 = 9.81;
 /// Time in which gravity comes up, so that the plate does not bounce on its penalty springs \[s\].
@@ -61,7 +60,7 @@ fn plate(friction: f64, rigid: bool) -> Result<Simulation, FemError> {
     Simulation::new(&problem)
 }
 
-/// Mean component down the slope.
+/// Mean component down the slope of vectors at the nodes.
 fn along(values: &[[f64; 3]]) -> f64 {
     let (sin, cos) = SLOPE.sin_cos();
     values.iter().map(|v| cos * v[0] - sin * v[2]).sum::<f64>() / values.len() as f64

@@ -60,11 +60,11 @@ pub fn volume_m3(flat_radius_m: f64) -> f64 {
 /// Shape of a balloon of elastic film, in units of R0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Elastic {
-    /// Inflated radius of the rim.
+    /// Radius of the inflated rim over R0.
     pub radius: f64,
-    /// Whole thickness at the axis.
+    /// Thickness of the balloon at its axis over R0.
     pub thickness: f64,
-    /// Volume over R0³.
+    /// Volume of the balloon over R0³.
     pub volume: f64,
     /// Stretch at the pole, equal in both directions.
     pub pole_stretch: f64,
@@ -135,7 +135,6 @@ fn stretch_under(tension: f64, a: f64, e: f64) -> f64 {
     stretch
 }
 
-/// See `known.txt`.
 pub(super) fn known() -> Known {
     let [stiff, soft] = [1e-3, 1e-2].map(|load| elastic(load, 0.3));
     let sizes = |at: &Elastic| [at.radius, at.thickness, at.volume];

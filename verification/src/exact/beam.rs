@@ -20,9 +20,9 @@ pub use models::comer_levy::{curvature_ratio, moment_ratio, moment_ratio_from_cu
 /// Section of an inflated tube whose wall carries tension only.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TubeSection {
-    /// Radius R \[m\].
+    /// Radius R of the tube \[m\].
     pub radius_m: f64,
-    /// Membrane stiffness E t \[N/m\].
+    /// Membrane stiffness E t along the tube \[N/m\].
     pub membrane_stiffness_n_per_m: f64,
     /// Thrust N in the membrane \[N\], positive; see [`thrust_n`].
     pub thrust_n: f64,
@@ -54,17 +54,17 @@ pub fn collapse_moment_nm(tube: &TubeSection) -> f64 {
 /// shear modulus. Valid before the first wrinkle. Attributed to Fichter, NASA TN D-3466 (1966); recalled, not read.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cantilever {
-    /// Radius R \[m\].
+    /// Radius R of the tube \[m\].
     pub radius_m: f64,
-    /// Wall thickness t \[m\].
+    /// Thickness t of the wall \[m\].
     pub thickness_m: f64,
-    /// Length L \[m\].
+    /// Length L from clamp to tip \[m\].
     pub length_m: f64,
-    /// Young's modulus E \[Pa\].
+    /// Young's modulus E of the wall \[Pa\].
     pub young_pa: f64,
-    /// Shear modulus G \[Pa\].
+    /// Shear modulus G of the wall \[Pa\].
     pub shear_pa: f64,
-    /// Gauge pressure p \[Pa\].
+    /// Gauge pressure p of the gas \[Pa\].
     pub pressure_pa: f64,
 }
 

@@ -16,16 +16,16 @@ use std::f64::consts::FRAC_PI_2;
 use super::Known;
 use models::fabrics::BiasExtension;
 
-/// Linear orthotropic sheet.
+/// Elastic constants of a linear orthotropic sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OrthotropicSheet {
-    /// E₁ \[Pa\].
+    /// Modulus E₁ along the warp \[Pa\].
     pub warp_pa: f64,
-    /// E₂ \[Pa\].
+    /// Modulus E₂ along the fill \[Pa\].
     pub fill_pa: f64,
-    /// ν₁₂.
+    /// Contraction ν₁₂ along the fill per stretch along the warp.
     pub poisson: f64,
-    /// G \[Pa\].
+    /// Shear modulus G in the sheet's plane \[Pa\].
     pub shear_pa: f64,
 }
 
@@ -43,7 +43,6 @@ pub fn poisson(sheet: &OrthotropicSheet, angle: f64) -> f64 {
     modulus_pa(sheet, angle) * (straight - cross * (s * c).powi(2))
 }
 
-/// `1/G − 2ν₁₂/E₁` \[1/Pa\].
 fn mixed(sheet: &OrthotropicSheet) -> f64 {
     1.0 / sheet.shear_pa - 2.0 * sheet.poisson / sheet.warp_pa
 }

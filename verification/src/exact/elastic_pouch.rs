@@ -31,7 +31,7 @@ use super::Known;
 use super::pouch::Pouch;
 use super::solve::{falling_root, sinc};
 
-/// Film of a pouch.
+/// Law of the film of which a pouch is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PouchFilm {
     /// Linear between Green strain and second Piola–Kirchhoff tension, width kept; A₁₁ \[N/m\].

@@ -34,11 +34,11 @@ pub fn weight_deflection_m(plate_nm: f64, length_m: f64, weight_n_per_m2: f64) -
 /// Where the tip of a cantilever ends, in lengths L.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ElasticaTip {
-    /// Deflection v/L.
+    /// Deflection v/L across the clamp's tangent.
     pub deflection: f64,
     /// Shortening of the projection on the clamp's tangent, 1 − x_L/L.
     pub shortening: f64,
-    /// Rotation θ_L \[rad\].
+    /// Rotation θ_L of the tip's tangent \[rad\].
     pub rotation: f64,
 }
 
@@ -95,7 +95,6 @@ fn from_tip(tip: f64, f: impl Fn(f64) -> f64) -> f64 {
     integral(integrand, start, FRAC_PI_2, PANELS)
 }
 
-/// See `known.txt`.
 pub(super) fn known() -> Known {
     let [quarter, one, two, five, ten] = [0.25, 1.0, 2.0, 5.0, 10.0].map(cantilever);
     let all = |tip: &ElasticaTip| [tip.deflection, tip.shortening, tip.rotation];

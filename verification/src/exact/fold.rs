@@ -35,7 +35,6 @@ pub fn stiffened_moments_n(soft_nm: f64, stiff_nm: f64, length_m: f64, pull_n_m:
     [square(meet, angle).sqrt(), moment_n(soft_nm, pull_n_m, meet)]
 }
 
-/// See `known.txt`.
 pub(super) fn known() -> Known {
     let [half, one, more] = [0.5, 1.0, 1.5].map(|angle| stiffened_moments_n(1.0, 60.0, 7.5, 1.0, angle));
     vec![("fold of a pulled sheet", vec![moment_n(1.0, 1.0, 1.0), half[0], one[0], more[0], one[1]])]

@@ -27,12 +27,12 @@ use super::hinge::{BentBody, Lever, axis_point_m, restoring_moment_nm};
 use super::solve::falling_root;
 use models::fabrics::shear_modulus;
 
-/// A fabric muscle.
+/// Size and shear stiffness of a fabric muscle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fpam {
     /// Width W of the flat tube \[m\].
     pub flat_width_m: f64,
-    /// Length Lf at rest \[m\].
+    /// Length Lf of the tube at rest \[m\].
     pub rest_length_m: f64,
     /// Shear stiffness G t of the fabric \[N/m\].
     pub shear_stiffness_n_per_m: f64,

@@ -56,7 +56,7 @@ pub struct SeriesUnit {
     pub body_radius_m: f64,
     /// Sealed-end factor η, 1 for an ideal pouch.
     pub end_factor: f64,
-    /// Where the chord runs.
+    /// Where the chord of the pouch runs.
     pub arm: Arm,
 }
 
@@ -67,7 +67,7 @@ pub struct BentBody {
     pub body_radius_m: f64,
     /// Length L_b of the actuated body when straight, and of its far fibre always \[m\].
     pub length_m: f64,
-    /// Total bending angle Φ \[rad\].
+    /// Total bending angle Φ of the arc \[rad\].
     pub total_angle: f64,
 }
 

@@ -80,7 +80,6 @@ fn moment_slope(taut: f64) -> f64 {
     sine * (a * taut - 4.0 * b * sine) / (4.0 * b * b)
 }
 
-/// See `known.txt`.
 pub(super) fn known() -> Known {
     let deflections = [0.25, 0.5, 0.6, 0.75, 0.9, 0.95, 0.99].map(deflection_ratio);
     vec![("inflated cantilever under a tip load", deflections.to_vec())]

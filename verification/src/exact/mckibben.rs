@@ -33,7 +33,6 @@ pub fn max_contraction(rest_angle: f64) -> f64 {
     1.0 - 1.0 / (3.0_f64.sqrt() * rest_angle.cos())
 }
 
-/// See `known.txt`.
 pub(super) fn known() -> Known {
     let tondu_lopez = [20.0_f64, 30.0, 45.0].map(f64::to_radians).map(|rest| {
         let [a, b] = tondu_lopez_coefficients(rest);

@@ -18,11 +18,11 @@ use super::Known;
 /// How the sides of the sheet are held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sides {
-    /// Free to shrink.
+    /// Free to shrink, so that the pull is uniaxial.
     Free,
     /// Kept at their length (pure shear).
     Kept,
-    /// Pulled equally.
+    /// Pulled as much as the sheet itself, equal biaxial.
     Pulled,
 }
 

@@ -14,9 +14,9 @@ pub struct OracleRow {
     pub section: &'static str,
     /// Which quantity at which arguments, with its unit.
     pub quantity: &'static str,
-    /// The expected number as printed.
+    /// The expected number with the digits that `known.txt` prints.
     pub printed: &'static str,
-    /// The expected number.
+    /// The expected number as a value.
     pub expected: f64,
     /// What this crate computes, in the same unit.
     pub computed: f64,

@@ -26,12 +26,12 @@ use super::solve::{falling_root, integral, sinc, sine_deficit};
 /// Contraction of a fully round pouch, 1 − 2/π.
 pub const MAX_CONTRACTION: f64 = 1.0 - 2.0 / PI;
 
-/// Flat size of a pouch.
+/// Flat size of a pouch, before it is filled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pouch {
     /// Flat length L0 along the direction of contraction \[m\].
     pub length_m: f64,
-    /// Width W \[m\].
+    /// Width W across the direction of contraction \[m\].
     pub width_m: f64,
 }
 

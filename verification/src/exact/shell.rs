@@ -25,7 +25,7 @@ use super::Known;
 /// A cylinder clamped at a rigid ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClampedCylinder {
-    /// Radius r \[m\].
+    /// Radius r of the cylinder \[m\].
     pub radius_m: f64,
     /// Membrane stiffness E t around the tube \[N/m\].
     pub membrane_stiffness_n_per_m: f64,
@@ -33,7 +33,7 @@ pub struct ClampedCylinder {
     pub poisson: f64,
     /// Bending stiffness D along the axis \[N m\].
     pub bending_stiffness_nm: f64,
-    /// Axial tension N \[N/m\].
+    /// Axial tension N of the wall \[N/m\].
     pub axial_tension_n_per_m: f64,
 }
 
@@ -55,7 +55,6 @@ pub fn displacement_m(shell: &ClampedCylinder, pressure_pa: f64, distance_m: f64
     far_displacement_m(shell, pressure_pa) * (1.0 - wave - a * sine)
 }
 
-/// k = E t/r² \[Pa/m\].
 fn stiffness(shell: &ClampedCylinder) -> f64 {
     shell.membrane_stiffness_n_per_m / shell.radius_m.powi(2)
 }

@@ -28,18 +28,18 @@ use std::f64::consts::{FRAC_PI_4, PI};
 use super::Known;
 use models::fabrics::{Fabric, NeoHookean, Orthotropic};
 
-/// A closed cylinder.
+/// A closed cylinder of fabric, before it is inflated.
 #[derive(Debug, Clone, Copy)]
 pub struct ClosedTube<'a> {
     /// Radius R of the unstressed cylinder \[m\]; flat width/π.
     pub radius_m: f64,
     /// Angle ψ of the warp from the axis \[rad\]; π/4 for a bias cut.
     pub warp_angle: f64,
-    /// The wall.
+    /// Fabric of the wall, its warp at `warp_angle`.
     pub fabric: &'a dyn Fabric,
 }
 
-/// What the ends may do.
+/// Which motion the ends of the tube allow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ends {
     /// They move apart and turn freely under an axial pull N \[N\]; 0 for a free tube.
@@ -50,19 +50,19 @@ pub enum Ends {
     Held(f64),
 }
 
-/// Deformation of the tube.
+/// Deformation of the inflated tube from its unstressed state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inflated {
-    /// Stretch λₓ along the axis.
+    /// Stretch λₓ along the tube's axis.
     pub axial_stretch: f64,
-    /// Stretch λ_c around the tube.
+    /// Stretch λ_c around the tube's axis.
     pub hoop_stretch: f64,
     /// Slide g of a generator around the tube per unstressed length.
     pub slide: f64,
 }
 
 impl Inflated {
-    /// Contraction `1 − λₓ`.
+    /// Contraction `1 − λₓ` along the axis.
     pub fn contraction(&self) -> f64 {
         1.0 - self.axial_stretch
     }
@@ -205,7 +205,6 @@ fn solve_3x3(m: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
     })
 }
 
-/// See `known.txt`.
 pub(super) fn known() -> Known {
     let state = |fabric: &dyn Fabric, warp_angle, radius_m, pressure_pa, ends| {
         let none = Inflated { axial_stretch: f64::NAN, hoop_stretch: f64::NAN, slide: f64::NAN };

@@ -48,7 +48,7 @@ impl Work {
         Ok(Work { bench, files })
     }
 
-    /// Pieces of the whole bench.
+    /// How many pieces the whole bench has.
     pub fn pieces(&self) -> usize {
         self.bench.keys().len()
     }
@@ -204,7 +204,7 @@ fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
     ]
 }
 
-/// A number or a dash.
+/// A number with one decimal, or a dash for `None`.
 fn number(value: Option<f64>) -> String {
     value.map_or_else(|| "–".into(), |v| format!("{v:.1}"))
 }

@@ -23,12 +23,11 @@ const TURN_STEPS: u64 = 192;
 const WHOLE_RUNS: usize = 5;
 const STRETCHES: usize = 40;
 
-/// One measured line.
 struct Figure {
     what: String,
     elements: usize,
     unit: &'static str,
-    /// One per repeat, ascending.
+    /// Measured values, one per repeat, ascending.
     values: Vec<f64>,
     /// What it must reach: a ratio of two things measured beside each other, or what no machine changes.
     wanted: Option<Against>,

@@ -8,7 +8,6 @@ use models::{Loads, Model, Scenario, Target, Unsolved};
 use serde::Serialize;
 use std::time::Instant;
 
-/// Median over this many batches.
 const BATCHES: usize = 31;
 
 /// Predictions in one batch, in an order without pattern.
@@ -17,7 +16,6 @@ const BATCH: usize = 10_000;
 /// What mechanics may cost: over the textbook model beside it in the same run.
 const WANTED_RATIO: f64 = 1.5;
 
-/// One quantity of one actuator.
 struct Figure {
     id: String,
     /// Textbook model, and the robot as it ships \[µs\].
@@ -55,28 +53,27 @@ impl Figure {
 /// `ibr.bench`: `ibr bench`
 #[derive(Serialize)]
 struct BenchAnswer<'a> {
-    /// Processor, cores, system
+    /// Processor, number of cores and operating system.
     machine: &'a str,
-    /// Times
+    /// Times of the calls of every robot.
     figures: Vec<BenchFigure<'a>>,
 }
 
-/// A time of the model.
 #[derive(Serialize)]
 struct BenchFigure<'a> {
-    /// What is timed
+    /// Robot and call that are timed.
     id: &'a str,
-    /// Median time, textbook robot
+    /// Median time of a call, textbook robot.
     textbook_us: f64,
-    /// Longest time allowed
+    /// Longest time that the textbook robot may take.
     target_us: f64,
-    /// Median time, shipped robot
+    /// Median time of a call, shipped robot.
     shipped_us: f64,
-    /// Shipped over textbook robot
+    /// Time of the shipped robot over that of the textbook one.
     ratio: f64,
-    /// Largest ratio allowed
+    /// Largest ratio that is allowed; `None` where only the time counts.
     target_ratio: Option<f64>,
-    /// Whether the target is met
+    /// Whether time and ratio are within their limits.
     met: bool,
 }
 
@@ -125,7 +122,7 @@ fn of_kind(kind: &str) -> Result<Vec<Figure>, Error> {
         .collect()
 }
 
-/// In the order of [`TIMED`].
+/// The calls to time, in the order of [`TIMED`].
 fn calls(scenario: &Scenario) -> Result<[Call; 4], Error> {
     let [plain, each, inverse] = [Model::new(scenario), Model::new(scenario), Model::new(scenario)];
     let loaded = Model::new(&scenario.with_effect("gravity", &[1.5]).with_effect("tip_load", &[0.0, -0.1]));

@@ -10,7 +10,7 @@
 use fem::Problem;
 use fem::problem::Chamber;
 
-/// A membrane of triangles.
+/// A membrane of triangles with its motion, over one gas pressure.
 pub struct Membrane {
     x: Vec<[f64; 3]>,
     v: Vec<[f64; 3]>,
@@ -61,16 +61,16 @@ impl Membrane {
         }
     }
 
-    /// Number of triangles.
+    /// Number of triangles, two for every quadrilateral.
     pub fn triangles(&self) -> usize {
         self.triangles.len()
     }
-    /// Length of a step \[s\].
+    /// Length of every step, 0.9 of the stability limit \[s\].
     pub fn dt_s(&self) -> f64 {
         self.dt_s
     }
 
-    /// So many steps.
+    /// Takes so many steps of the explicit motion.
     pub fn advance_by(&mut self, steps: u64) {
         for _ in 0..steps {
             self.forces(self.air.pressure.filling().at(self.time_s));

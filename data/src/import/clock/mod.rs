@@ -39,7 +39,7 @@ const TURN: f64 = 0.05;
 
 pub(crate) struct Readings<'a> {
     pub times_s: &'a [f64],
-    /// Body's and actuator's pressure \[Pa\].
+    /// Pressures of body and actuator \[Pa\].
     pub values_pa: [&'a [f64]; 2],
 }
 

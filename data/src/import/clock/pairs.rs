@@ -10,7 +10,7 @@ pub(crate) struct Clock {
 }
 
 impl Clock {
-    /// The log's time \[s\].
+    /// The time of the log at a time of the camera \[s\].
     pub(crate) fn at(self, t_s: f64) -> f64 {
         self.offset_s + self.rate * t_s
     }
@@ -54,7 +54,6 @@ pub(super) struct Candidate {
 }
 
 impl Candidate {
-    /// Pairs less changes without partner.
     pub(super) fn score(&self) -> isize {
         self.pairs.len() as isize - self.alone as isize
     }

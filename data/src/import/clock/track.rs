@@ -5,7 +5,6 @@ use super::super::recording::Recording;
 
 /// Frames that are used; longer recordings are averaged over blocks of frames.
 const MOST_FRAMES: usize = 20_000;
-/// Markers that are used.
 const MOST_MARKERS: usize = 16;
 /// A marker that is seen in a smaller share of the frames is not used.
 const SEEN: f64 = 0.5;
@@ -15,7 +14,6 @@ const ITERATIONS: usize = 30;
 /// Coordinates of the markers over the camera's time.
 pub(super) struct Track {
     pub times: Vec<f64>,
-    /// `[coordinate][frame]`, in the file's units.
     pub columns: Vec<Vec<f64>>,
     /// Standard deviation of the noise of every column.
     pub noise: Vec<f64>,
