@@ -35,10 +35,15 @@ fn bare(study: &Study, file: &Path) {
 }
 
 fn swept(study: &Study, folder: &Path) {
-    let settings =
-        Settings { folder: folder.to_path_buf(), shard: Shard::WHOLE, threads: 1, maker: ibr::program::maker() };
+    let settings = Settings {
+        folder: folder.to_path_buf(),
+        shard: Shard::WHOLE,
+        keep_runs: false,
+        threads: 1,
+        maker: ibr::program::maker(),
+    };
     run(study, &settings, &mut |_, _| ControlFlow::Continue(())).expect("a sweep");
-    let table = collect(study, folder).expect("all parts");
+    let table = collect(study, folder, false).expect("all parts");
     table.to_parquet(&folder.join("table.parquet"), &[]).expect("a table");
 }
 

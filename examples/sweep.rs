@@ -26,9 +26,15 @@ vary = [{ key = "actuator.width_mm", values = [40, 60] }, { key = "pressure_kpa"
 pub(crate) fn example() -> Result<String, Box<dyn std::error::Error>> {
     let study = Study::parse("study.toml", STUDY, Path::new(""), ibr::studies::scenario)?;
     let folder = std::env::temp_dir().join(format!("ibr-sweep-{}", std::process::id()));
-    let settings = Settings { folder: folder.clone(), shard: Shard::WHOLE, threads: 1, maker: Default::default() };
+    let settings = Settings {
+        folder: folder.clone(),
+        shard: Shard::WHOLE,
+        keep_runs: false,
+        threads: 1,
+        maker: Default::default(),
+    };
     run(&study, &settings, &mut |_, _| Continue(()))?;
-    let table = collect(&study, &folder)?;
+    let table = collect(&study, &folder, false)?;
     std::fs::remove_dir_all(&folder)?;
     let column = |name: &str| match table.columns.iter().find(|column| column.0 == name) {
         Some((_, Column::F64(values))) => values.clone(),

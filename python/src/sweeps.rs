@@ -36,8 +36,8 @@ pub(crate) fn sweep<'py>(
         false => Study::read(Path::new(&study), scenario),
     }
     .map_err(raised)?;
-    let settings = Settings { folder, shard: Shard::WHOLE, threads, maker: ibr::program::maker() };
+    let settings = Settings { folder, shard: Shard::WHOLE, keep_runs: false, threads, maker: ibr::program::maker() };
     let made = beside(py, progress.as_ref(), |tell| run(&study, &settings, tell))?;
     made.map_err(raised)?;
-    columns(py, &py.detach(|| collect(&study, &settings.folder)).map_err(raised)?)
+    columns(py, &py.detach(|| collect(&study, &settings.folder, false)).map_err(raised)?)
 }

@@ -2,6 +2,7 @@
 
 use clap::Args;
 use std::path::PathBuf;
+use sweep::schedule::Cluster;
 
 #[derive(Debug, Args)]
 pub(crate) struct ShardArgs {
@@ -11,17 +12,42 @@ pub(crate) struct ShardArgs {
     /// Let a scheduler run the shards: submit them, watch, collect
     #[arg(long, value_name = "SCHEDULER", value_parser = ["slurm", "hq"])]
     pub engine: Option<String>,
-    /// With --engine: shards of the job
-    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=1000))]
+    /// Options of sbatch, for example "--time=2:00:00 --mem-per-cpu=2G --partition=long"; implies --engine slurm
+    #[arg(long, value_name = "OPTIONS", value_parser = one_line, allow_hyphen_values = true, conflicts_with_all = ["hq", "shard"])]
+    pub slurm: Option<String>,
+    /// Options of hq submit, for example "--time-limit 2h --resource mem=sum(2G)"; implies --engine hq
+    #[arg(long, value_name = "OPTIONS", value_parser = one_line, allow_hyphen_values = true, conflicts_with_all = ["slurm", "shard"])]
+    pub hq: Option<String>,
+    /// With a scheduler: shards of the job
+    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=10_000))]
     pub shards: u64,
-    /// With --engine: print what would be submitted
-    #[arg(long, requires = "engine")]
+    /// With a scheduler: print what would be submitted
+    #[arg(long)]
     pub script: bool,
+}
+
+/// Options that stand in one line of a job's script.
+fn one_line(text: &str) -> Result<String, String> {
+    match text.contains(['\n', '\r']) {
+        true => Err("write all options in one line".into()),
+        false => Ok(text.trim().to_string()),
+    }
 }
 
 impl ShardArgs {
     pub(crate) fn asked(&self) -> bool {
-        self.shard.is_some() || self.engine.is_some()
+        self.shard.is_some() || self.cluster().is_some()
+    }
+
+    /// The scheduler that was asked for, and its own options.
+    pub(crate) fn cluster(&self) -> Option<(Cluster, &str)> {
+        let named = match self.engine.as_deref() {
+            Some("slurm") => Some((Cluster::Slurm, "")),
+            Some(_) => Some((Cluster::HyperQueue, "")),
+            None => None,
+        };
+        let slurm = self.slurm.as_deref().map(|options| (Cluster::Slurm, options));
+        slurm.or(self.hq.as_deref().map(|options| (Cluster::HyperQueue, options))).or(named)
     }
 }
 
@@ -38,6 +64,12 @@ pub(crate) struct SweepArgs {
     /// Write table.parquet in place of table.csv
     #[arg(long)]
     pub parquet: bool,
+    /// Keep a folder for every finite element run, with summary and pictures
+    #[arg(long)]
+    pub keep_runs: bool,
+    /// Compute nothing: write the table of the parts that are there, also while others run
+    #[arg(long, conflicts_with_all = ["shard", "engine", "slurm", "hq", "script"])]
+    pub so_far: bool,
 }
 
 #[derive(Debug, Args)]

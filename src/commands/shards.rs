@@ -4,11 +4,7 @@ use crate::cli::ShardArgs;
 use crate::prelude::*;
 use fem::FemError;
 use fem::session::{Job, Settings, Shard, is_finished, problems, simulate_all};
-use sweep::schedule::{self, Cluster};
-
-fn cluster(args: &ShardArgs) -> Option<Cluster> {
-    args.engine.as_deref().map(|name| if name == "hq" { Cluster::HyperQueue } else { Cluster::Slurm })
-}
+use sweep::schedule;
 
 pub(super) fn shard(args: &ShardArgs) -> Result<Shard> {
     let shard = args.shard.as_deref().map_or(Ok(Shard::WHOLE), Shard::parse);
@@ -16,13 +12,17 @@ pub(super) fn shard(args: &ShardArgs) -> Result<Shard> {
 }
 
 /// What is submitted: the command as it was typed, with a shard. Its files go below `folder`.
-fn job(args: &ShardArgs, folder: &Path, context: &Context) -> Result<schedule::Job> {
+fn job(args: &ShardArgs, options: &str, folder: &Path, context: &Context) -> Result<schedule::Job> {
     let program = std::env::current_exe()
         .map_err(|cause| Failure::usage(format!("this program cannot be found: {cause}"), "run the shards by hand"))?;
     let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_path_buf());
     let (shards, threads) = (args.shards as usize, context.threads.max(1));
-    Ok(schedule::Job { program, words: without(&context.typed), folder, shards, threads })
+    let (words, started_in) = (without(&context.typed), std::env::current_dir().unwrap_or_default());
+    Ok(schedule::Job { program, words, started_in, folder, shards, threads, options: options.to_string() })
 }
+
+/// Options with a value that the job has and its shards have not.
+const OF_THE_JOB: [&str; 5] = ["--engine", "--slurm", "--hq", "--shards", "--threads"];
 
 /// Typed words without those that a shard gets otherwise.
 fn without(typed: &[String]) -> Vec<String> {
@@ -30,10 +30,12 @@ fn without(typed: &[String]) -> Vec<String> {
     let mut rest = typed.iter();
     while let Some(word) = rest.next() {
         match word.as_str() {
-            "--engine" | "--shards" | "--threads" => _ = rest.next(),
             "--script" | "--json" | "--quiet" | "-q" => {}
-            other if ["--engine=", "--shards=", "--threads="].iter().any(|option| other.starts_with(option)) => {}
-            _ => words.push(word.clone()),
+            other => match OF_THE_JOB.iter().find_map(|option| other.strip_prefix(option)) {
+                Some("") => _ = rest.next(),
+                Some(value) if value.starts_with('=') => {}
+                _ => words.push(word.clone()),
+            },
         }
     }
     words
@@ -54,8 +56,15 @@ pub(super) struct Work<'w> {
 
 /// Has a scheduler run all shards, if one was asked for. `None`: the command goes on; else what it has to say.
 pub(super) fn by_scheduler(args: &ShardArgs, work: &Work, context: &mut Context) -> Result<Option<Outcome>> {
-    let Some(cluster) = cluster(args) else { return Ok(None) };
-    let job = job(args, work.folder, context)?;
+    let Some((cluster, options)) = args.cluster() else {
+        let help = "add --engine slurm or --engine hq";
+        return if args.script {
+            Err(Failure::usage("--script prints the job of a scheduler", help))
+        } else {
+            Ok(None)
+        };
+    };
+    let job = job(args, options, work.folder, context)?;
     if args.script {
         return Ok(Some(Outcome::of(job.script(cluster))));
     }
@@ -142,7 +151,7 @@ mod tests {
 
     #[test]
     fn a_shard_is_told_what_was_typed_but_for_what_it_gets_otherwise() {
-        let typed = "breakdown epam --pressure 5kPa --engine slurm --threads=4 --shards 3 --quiet --out a";
+        let typed = "breakdown epam --pressure 5kPa --engine slurm --threads=4 --shards 3 --slurm --mem=4G --hq=x --quiet --out a";
         let typed: Vec<String> = typed.split(' ').map(String::from).collect();
         assert_eq!(without(&typed).join(" "), "breakdown epam --pressure 5kPa --out a");
     }

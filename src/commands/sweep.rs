@@ -8,7 +8,7 @@ use ::sweep::influence::{influences, pairs};
 use data::Table;
 use data::table::Column;
 use ibr::pages::{sweep_picture_names, sweep_pictures};
-use sweep::{Found, Settings, Study, SweepError, collect, parts_missing, run as compute};
+use sweep::{Found, Settings, Study, SweepError, collect, parts_missing, run as compute, there};
 
 pub(super) fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome> {
     let study = Study::read(&args.study, ibr::studies::scenario)?;
@@ -22,10 +22,14 @@ pub(super) fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome> {
         return Ok(script);
     }
     let shard = shard(&args.shards)?;
-    let settings = Settings { folder: folder.clone(), shard, threads: context.threads, maker: maker() };
+    let keep_runs = args.keep_runs;
+    let settings = Settings { folder: folder.clone(), shard, keep_runs, threads: context.threads, maker: maker() };
     // Ctrl-C leaves what is complete.
-    let found = context.fem(|progress| compute(&study, &settings, progress))?;
-    match collect(&study, &folder) {
+    let found = match args.so_far {
+        true => there(&study, &folder)?,
+        false => context.fem(|progress| compute(&study, &settings, progress))?,
+    };
+    match collect(&study, &folder, args.so_far) {
         Ok(table) => whole(args, &study, &folder, &found, table, context),
         Err(SweepError::Missing(missing)) => {
             let text = format!(

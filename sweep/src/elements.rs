@@ -1,46 +1,48 @@
-//! Parts by finite elements: one run per robot, read at all its pressures.
+//! Parts by finite elements: one run per robot, read at all its pressures, and then forgotten unless its folder is wanted.
 
-use crate::SweepError;
 use crate::columns::{ACCOUNTS, columns};
 use crate::part::{Part, Rows};
 use crate::study::{Output, Study};
 use compare::wording::short;
 use fem::FemError;
 use fem::robot::Reading;
-use fem::session::{FeRun, Job, Many, Progress, Settings, simulate_all};
+use fem::session::{FeRun, Job, Progress, Settings, simulate_each, simulate_job};
 use models::CHANNELS;
+use std::path::Path;
 
-pub(crate) type Made = (Part, Rows);
-
-/// Runs what the parts need, in folders named by problem and engine, and reads their rows.
+/// Runs the robots of the parts, and writes each part below `folder` as soon as it is complete; returns the processor time \[s\].
+/// With [`Settings::folder`] each run stays there, in a folder named by problem and engine, and is not made again.
 pub(crate) fn compute(
     study: &Study,
     parts: &[Part],
+    folder: &Path,
     settings: &Settings,
     progress: Progress,
-) -> Result<Vec<Made>, SweepError> {
+) -> Result<f64, FemError> {
     let width = columns(study).len();
-    let (mut jobs, mut of_part) = (Vec::new(), Vec::new());
-    for part in parts {
-        let robot = part.robots(study.per_robot()).start;
-        of_part.push(job(study, robot).map(|(job, kpa)| {
-            jobs.push(job);
-            (jobs.len() - 1, kpa)
-        }));
-    }
-    let Many { runs, of } = simulate_all(&jobs, settings, progress)?;
-    let rows = |(part, job): (&Part, Result<(usize, Vec<f64>), String>)| {
-        let mut rows = Rows::default();
-        match job.and_then(|(job, kpa)| Ok((runs[of[job]].as_ref().map_err(FemError::to_string)?, kpa))) {
-            Ok((run, kpa)) => {
-                rows.cpu_s = run.cost.cpu_s_of_all_sessions;
-                kpa.iter().for_each(|kpa| read(study, run, *kpa, width, &mut rows));
+    let times = simulate_each(parts.len(), settings.threads, progress, &|k, threads, tell| {
+        let (part, settings) = (&parts[k], Settings { threads, ..settings.clone() });
+        let robots = part.robots(study.per_robot());
+        let (first, count, mut rows) = (robots.start, robots.len() as f64, Rows::default());
+        for robot in robots {
+            let done = (robot - first) as f64;
+            let mut told = |text: &str, share: Option<f64>| tell(text, share.map(|share| (done + share) / count));
+            match job(study, robot).map(|(job, kpa)| (simulate_job(&job, &settings, &mut told), kpa)) {
+                Ok((Ok(run), kpa)) => {
+                    rows.cpu_s += run.cost.cpu_s_of_all_sessions;
+                    kpa.iter().for_each(|kpa| read(study, &run, *kpa, width, &mut rows));
+                }
+                Ok((Err(stopped), kpa)) if stopped.is_stop() => {
+                    kpa.iter().for_each(|_| rows.fail(width, stopped.to_string()));
+                }
+                Ok((Err(error), _)) => return Err(error),
+                Err(why) => (0..study.per_robot()).for_each(|_| rows.fail(width, why.clone())),
             }
-            Err(why) => part.cases.clone().for_each(|_| rows.fail(width, why.clone())),
         }
-        (part.clone(), rows)
-    };
-    Ok(parts.iter().zip(of_part).map(rows).collect())
+        rows.write(&part.path(study, folder)).map_err(|error| error.of_run(folder))?;
+        Ok(rows.cpu_s)
+    })?;
+    Ok(times.iter().sum())
 }
 
 /// The run of a robot, which rises through its pressures; or why there is none.
@@ -110,6 +112,6 @@ fn put(output: Output, r: &Reading, run: &FeRun, study: &Study, numbers: &mut Ve
             numbers.extend(ACCOUNTS.map(|(name, _)| of(name)));
         }
         Output::Limits => numbers.push(f64::from(u8::from(run.summary.warnings().is_empty()))),
-        Output::Time => numbers.push(f64::NAN),
+        Output::Time => numbers.push(run.cost.cpu_s_of_all_sessions / run.readings().len().max(1) as f64),
     }
 }

@@ -34,6 +34,11 @@ impl SweepError {
         SweepError::Write { path: path.to_path_buf(), cause: cause.to_string() }
     }
 
+    /// The same as an error of several runs, which end at it.
+    pub(crate) fn of_run(self, folder: &Path) -> FemError {
+        FemError::Folder { path: folder.to_path_buf(), cause: self.to_string(), help: self.help() }
+    }
+
     /// What to do about it.
     pub fn help(&self) -> String {
         match self {

@@ -31,6 +31,6 @@ mod tests;
 pub use error::SweepError;
 pub use fem::session::Shard;
 pub use form::ReadRobot;
-pub use run::{Found, Settings, parts_missing, run};
+pub use run::{Found, Settings, parts_missing, run, there};
 pub use study::{Axis, Engine, Output, PRESSURE, Study};
 pub use table::{collect, names};

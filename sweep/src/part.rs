@@ -1,7 +1,7 @@
 //! Some cases that are computed together, and their file.
 
 use crate::axis::Changes;
-use crate::policy::PART;
+use crate::policy::{PART, PARTS};
 use crate::study::{Engine, Study};
 use crate::{SweepError, pieces};
 use fem::session::sha256;
@@ -72,14 +72,14 @@ impl Part {
     }
 }
 
-/// All parts of a study in order: equal pieces for the reduced model, one robot each for finite elements.
+/// All parts of a study in order: equal pieces, for finite elements of whole robots.
 pub(crate) fn parts(study: &Study) -> Vec<Part> {
     let of = |engine: &Engine| {
+        let (engine, cases, per_robot) = (*engine, study.cases(*engine), study.per_robot());
         let size = match engine {
-            Engine::Reduced => PART,
-            Engine::Elements => study.per_robot(),
+            Engine::Reduced => cases.div_ceil(PARTS).clamp(PART[0], PART[1]),
+            Engine::Elements => per_robot * (cases / per_robot).div_ceil(PARTS),
         };
-        let (engine, cases) = (*engine, study.cases(*engine));
         (0..cases.div_ceil(size)).map(move |k| Part { engine, cases: k * size..cases.min((k + 1) * size) })
     };
     study.engines.iter().flat_map(of).collect()

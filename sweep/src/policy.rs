@@ -2,7 +2,7 @@
 
 /// Cases of a study; more were hardly meant.
 pub const MOST_CASES: usize = 20_000_000;
-/// Cases of the reduced model in one part: some milliseconds of work, and a file of some hundred kB.
-pub const PART: usize = 8192;
-/// Cases that the Sobol sequence has.
-pub const MOST_SOBOL: usize = 65_536;
+/// Parts of one engine that a study is cut into, as far as [`PART`] allows: few files, and enough of them for many shards to share evenly.
+pub const PARTS: usize = 96;
+/// Fewest and most cases of the reduced model in one part: from a millisecond of work to some seconds.
+pub const PART: [usize; 2] = [256, 65_536];

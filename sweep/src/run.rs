@@ -11,8 +11,10 @@ use std::path::PathBuf;
 /// How a sweep is made.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// Folder of the parts and of finite element runs.
+    /// Folder of the parts.
     pub folder: PathBuf,
+    /// Whether every finite element run keeps a folder of its own below it, with summary and pictures.
+    pub keep_runs: bool,
     /// Which parts.
     pub shard: Shard,
     /// Threads; 0: one per core. Bits do not depend on it.
@@ -39,6 +41,18 @@ pub fn parts_missing(study: &Study, folder: &std::path::Path) -> usize {
     parts(study).iter().filter(|part| !part.path(study, folder).exists()).count()
 }
 
+/// What is there of a study, without computing anything.
+///
+/// # Errors
+/// A part whose file is damaged.
+pub fn there(study: &Study, folder: &std::path::Path) -> Result<Found, SweepError> {
+    let (all, width) = (parts(study), columns(study).len());
+    let read = |part: &Part| Rows::read(&part.path(study, folder), part.cases.len() * width);
+    let found: Vec<Rows> = all.iter().map(read).filter_map(Result::transpose).collect::<Result<_, _>>()?;
+    let (kept, cpu_s) = (found.len(), found.iter().map(|rows| rows.cpu_s).sum());
+    Ok(Found { parts: all.len(), kept, missing: all.len() - kept, cpu_s })
+}
+
 /// Computes what is missing of a shard. `progress` is told how far it is and says whether to go on.
 ///
 /// # Errors
@@ -56,13 +70,10 @@ pub fn run(study: &Study, settings: &Settings, progress: Progress) -> Result<Fou
     let (quick, long): (Vec<Part>, Vec<Part>) = wanted.partition(|part| part.engine == Engine::Reduced);
     cpu_s += by_model(study, settings, &quick, progress)?;
     if !long.is_empty() {
-        let (folder, maker) = (Some(settings.folder.join("runs")), settings.maker.clone());
+        let (folder, maker) = (settings.keep_runs.then(|| settings.folder.join("runs")), settings.maker.clone());
         let (threads, usual) = (settings.threads, fem::session::Settings::default());
         let runs = fem::session::Settings { folder, frames: false, threads, maker, ..usual };
-        for (part, rows) in elements::compute(study, &long, &runs, progress)? {
-            rows.write(&part.path(study, &settings.folder))?;
-            cpu_s += rows.cpu_s;
-        }
+        cpu_s += elements::compute(study, &long, &settings.folder, &runs, progress)?;
     }
     let missing = parts_missing(study, &settings.folder);
     Ok(Found { parts: kept + quick.len() + long.len(), kept, missing, cpu_s })

@@ -1,6 +1,5 @@
 //! Where in its range each key is, case by case.
 
-use crate::policy::MOST_SOBOL;
 use compare::study::generate::Scatter;
 use serde::Deserialize;
 
@@ -23,17 +22,13 @@ pub(crate) struct Points {
 }
 
 impl Points {
-    /// `cases` points over so many axes; `Err` says why not.
-    pub(crate) fn new(method: Method, cases: usize, axes: usize, seed: u32) -> Result<Points, String> {
+    /// `cases` points over so many axes.
+    pub(crate) fn new(method: Method, cases: usize, axes: usize, seed: u32) -> Points {
         match method {
-            Method::LatinHypercube => Ok(latin(cases, axes, seed)),
-            Method::Sobol if cases > MOST_SOBOL => {
-                Err(format!("{cases} cases are more than the Sobol sequence has here, {MOST_SOBOL}"))
-            }
+            Method::LatinHypercube => latin(cases, axes, seed),
             Method::Sobol => {
-                let at = |i: usize, axis: usize| f64::from(sobol_burley::sample(i as u32, axis as u32, seed));
-                let all = (0..cases).flat_map(|i| (0..axes).map(move |axis| at(i, axis))).collect();
-                Ok(Points { axes, all })
+                let all = (0..cases).flat_map(|i| (0..axes).map(move |axis| sobol(i, axis, seed))).collect();
+                Points { axes, all }
             }
         }
     }
@@ -42,6 +37,15 @@ impl Points {
     pub(crate) fn of(&self, case: usize) -> &[f64] {
         &self.all[case * self.axes..(case + 1) * self.axes]
     }
+}
+
+/// The sequence has 2¹⁶ points in so many axes; further points and axes are the same net with a scrambling of its own.
+fn sobol(case: usize, axis: usize, seed: u32) -> f64 {
+    const NET: usize = 1 << 16;
+    const AXES: usize = sobol_burley::NUM_DIMENSIONS as usize;
+    let net = (case / NET + (axis / AXES << 16)) as u32;
+    let scrambling = seed ^ net.wrapping_mul(0x9e37_79b9);
+    f64::from(sobol_burley::sample((case % NET) as u32, (axis % AXES) as u32, scrambling))
 }
 
 fn latin(cases: usize, axes: usize, seed: u32) -> Points {

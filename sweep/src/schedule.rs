@@ -25,12 +25,16 @@ pub struct Job {
     pub program: PathBuf,
     /// What it is told beside threads and shard: a command and its options.
     pub words: Vec<String>,
+    /// Folder that relative paths of the words count from.
+    pub started_in: PathBuf,
     /// Folder of the job and its logs.
     pub folder: PathBuf,
     /// Shards.
     pub shards: usize,
     /// Threads of each.
     pub threads: usize,
+    /// The scheduler's own options, in one line; empty without.
+    pub options: String,
 }
 
 const LOOK: Duration = Duration::from_millis(300);
@@ -68,24 +72,26 @@ fn quoted(word: &str) -> String {
 impl Job {
     /// The script of one shard, with what the scheduler reads in it.
     pub fn script(&self, cluster: Cluster) -> String {
-        let Job { program, words, folder, shards, threads } = self;
+        let Job { program, words, started_in, folder, shards, threads, options } = self;
         let logs = folder.join("logs");
-        let head = match cluster {
-            Cluster::Slurm => format!(
-                "#SBATCH --job-name=ibr-sweep\n#SBATCH --array=1-{shards}\n#SBATCH --cpus-per-task={threads}\n\
-                 #SBATCH --output={}/%a.log\n",
-                logs.display()
-            ),
-            Cluster::HyperQueue => format!(
-                "#HQ --name ibr-sweep --array 1-{shards} --cpus {threads}\n\
-                 #HQ --stdout {0}/%{{TASK_ID}}.log --stderr {0}/%{{TASK_ID}}.err\n",
-                logs.display()
-            ),
+        let (directive, head) = match cluster {
+            Cluster::Slurm => {
+                let output = format!("#SBATCH --output={}/%a.log\n", logs.display());
+                let job = "#SBATCH --job-name=ibr-sweep\n";
+                ("#SBATCH", format!("{job}#SBATCH --array=1-{shards}\n#SBATCH --cpus-per-task={threads}\n{output}"))
+            }
+            Cluster::HyperQueue => {
+                let logs = logs.display();
+                let output = format!("#HQ --stdout {logs}/%{{TASK_ID}}.log --stderr {logs}/%{{TASK_ID}}.err\n");
+                ("#HQ", format!("#HQ --name ibr-sweep --array 1-{shards} --cpus {threads}\n{output}"))
+            }
         };
+        let own = if options.is_empty() { String::new() } else { format!("{directive} {options}\n") };
+        let place = quoted(&started_in.display().to_string());
         let typed: Vec<String> =
             std::iter::once(&program.display().to_string()).chain(words).map(|word| quoted(word)).collect();
         format!(
-            "#!/bin/bash\n{head}exec {} --quiet --threads {threads} --shard \"${}/{shards}\"\n",
+            "#!/bin/bash\n{head}{own}cd {place}\nexec {} --quiet --threads {threads} --shard \"${}/{shards}\"\n",
             typed.join(" "),
             cluster.variable()
         )

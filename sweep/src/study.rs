@@ -199,9 +199,7 @@ impl Study {
                     let help = "add engines = [\"reduced\", \"finite elements\"], or leave checked out";
                     return Err((Some(sample.span()), "`checked` without finite elements".into(), help));
                 }
-                let points = (cases <= MOST_CASES).then(|| Points::new(method, cases, axes.len(), seed)).transpose();
-                let points = points.map_err(|m| (Some(sample.span()), m, "take fewer, or a latin hypercube"))?;
-                (Some(cases), points)
+                (Some(cases), (cases <= MOST_CASES).then(|| Points::new(method, cases, axes.len(), seed)))
             }
         };
         let per_robot = pressures_kpa.len().max(1);

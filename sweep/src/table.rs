@@ -4,7 +4,7 @@ use crate::SweepError;
 use crate::axis::as_number;
 use crate::columns::{CPU_S, TRUSTED, columns};
 use crate::part::{Part, Rows, parts};
-use crate::study::{PRESSURE, Study};
+use crate::study::{Engine, PRESSURE, Study};
 use data::table::{Column, Table};
 use std::path::Path;
 use toml::Value;
@@ -22,18 +22,18 @@ pub fn names(study: &Study) -> Vec<String> {
     first.chain(study.keys()).chain(columns(study)).chain(last).collect()
 }
 
-/// The table of the parts in a folder.
+/// The table of the parts in a folder: of all, or `so_far` of those that are there.
 ///
 /// # Errors
-/// [`SweepError::Missing`]; a part whose file is damaged.
-pub fn collect(study: &Study, folder: &Path) -> Result<Table, SweepError> {
+/// [`SweepError::Missing`], so far if none is there; a part whose file is damaged.
+pub fn collect(study: &Study, folder: &Path, so_far: bool) -> Result<Table, SweepError> {
     let found = columns(study);
     let width = found.len();
     let all = parts(study);
     let read = |part: &Part| Rows::read(&part.path(study, folder), part.cases.len() * width);
     let rows: Vec<Option<Rows>> = all.iter().map(read).collect::<Result<_, _>>()?;
     let missing = rows.iter().filter(|rows| rows.is_none()).count();
-    if missing > 0 {
+    if missing > 0 && !(so_far && missing < all.len()) {
         return Err(SweepError::Missing(missing));
     }
     let per_robot = study.per_robot();
@@ -42,15 +42,16 @@ pub fn collect(study: &Study, folder: &Path) -> Result<Table, SweepError> {
     // Every case: its part, the rows of that, and which of them is its own.
     let cases: Vec<(&Part, &Rows, usize, usize)> = all
         .iter()
-        .zip(rows.iter().flatten())
+        .zip(&rows)
+        .filter_map(|(part, rows)| Some((part, rows.as_ref()?)))
         .flat_map(|(part, rows)| part.cases.clone().enumerate().map(move |(i, case)| (part, rows, i, case)))
         .collect();
     let place = |name: &str| found.iter().position(|known| known == name);
     let (timed, judged) = (place(CPU_S), place(TRUSTED));
     let number = |k: usize| {
         let of = |(part, rows, i, _): &(&Part, &Rows, usize, usize)| match timed == Some(k) {
-            true => rows.cpu_s / part.cases.len() as f64,
-            false => rows.numbers[i * width + k],
+            true if part.engine == Engine::Reduced => rows.cpu_s / part.cases.len() as f64,
+            _ => rows.numbers[i * width + k],
         };
         let numbers = cases.iter().map(of);
         match judged == Some(k) {

@@ -31,6 +31,7 @@ pub(super) fn reduce(coupon: &Coupon, settings: &Reduction, warnings: &mut Vec<S
     if let Some(modulus_pa) = modulus_pa.filter(|_| !settings.any_modulus) {
         plausible(coupon, modulus_pa)?;
     }
+    super::warn::stiffens(coupon, &stress, modulus_pa.map(|modulus_pa| [modulus_strain, modulus_pa]), warnings);
     let c10_pa = |rows: &[[f64; 2]]| Some([fit::c10_pa(rows)?, fit::c10_by_share_pa(rows)?]);
     Ok(Specimen {
         name: coupon.specimen.clone(),

@@ -32,6 +32,20 @@ pub(super) fn slips(coupon: &Coupon, rows: &[[f64; 2]], warnings: &mut Vec<Strin
     }
 }
 
+/// A modulus from a part of the curve that is much softer than what follows. `modulus`: its strain and its size \[Pa\].
+pub(super) fn stiffens(coupon: &Coupon, stress: &[[f64; 2]], modulus: Option<[f64; 2]>, warnings: &mut Vec<String>) {
+    let Some([up_to, soft_pa]) = modulus.filter(|_| coupon.direction.along_yarn()) else { return };
+    let Some([at, steep_pa]) = fit::stiffening(stress, up_to) else { return };
+    let (who, degrees) = (&coupon.specimen, coupon.direction.degrees());
+    let [soft_mpa, steep_mpa] = [soft_pa, steep_pa].map(|pa| 1e-6 * pa);
+    let [up_to, at] = [up_to, at].map(|strain| 100.0 * strain);
+    warnings.push(format!(
+        "specimen {who} ({degrees}°): its modulus is {soft_mpa:.1} MPa up to {up_to:.1} % strain, and the curve rises to \
+         {steep_mpa:.1} MPa at {at:.1} %: crimp of the yarns, where the first number holds, or slack in the grips, where the second \
+         does; for slack leave out the rows before the specimen is taut"
+    ));
+}
+
 pub(super) fn slack(specimens: &[Specimen]) -> Option<String> {
     let one = |s: &Specimen| format!("{} ({}°) {:.3} %", s.name, s.direction.degrees(), 100.0 * s.slack);
     let all: Vec<String> = specimens.iter().filter(|s| s.slack > 0.0).map(one).collect();

@@ -44,16 +44,41 @@ pub fn simulate_all(jobs: &[Job], settings: &Settings, progress: Progress) -> Re
     }
     let mut order: Vec<usize> = (0..tasks.len()).collect();
     order.sort_by(|a, b| tasks[*b].effort.total_cmp(&tasks[*a].effort));
-    let (workers, threads) = shared(settings.threads, tasks.len());
-    let each = Settings { threads, ..settings.clone() };
-    let found =
-        together(tasks.len(), workers, progress, &|k, tell: Progress| match tasks[order[k]].run(jobs, &each, tell) {
+    let found = simulate_each(tasks.len(), settings.threads, progress, &|k, threads, tell| {
+        let (task, each) = (&tasks[order[k]], Settings { threads, ..settings.clone() });
+        let what = format!("{} of {}, {}", task.at + 1, jobs.len(), jobs[task.at].what);
+        match task.run(&jobs[task.at], &each, &mut |text, share| tell(&format!("{what}: {text}"), share)) {
             Err(stopped) if stopped.is_stop() => Ok(Err(stopped)),
             other => other.map(Ok),
-        })?;
+        }
+    })?;
     let mut runs: Vec<(usize, Result<FeRun, FemError>)> = order.into_iter().zip(found).collect();
     runs.sort_by_key(|run| run.0);
     Ok(Many { runs: runs.into_iter().map(|run| run.1).collect(), of })
+}
+
+/// Does work `0..count` beside each other on threads (0: one per core); `one` gets its number, its threads and whom to tell.
+///
+/// # Errors
+/// That of the first work that failed; after it, or once `progress` asks to end, nothing new is begun.
+pub fn simulate_each<T: Send>(
+    count: usize,
+    threads: usize,
+    progress: Progress,
+    one: &(dyn Fn(usize, usize, Progress) -> Result<T, FemError> + Sync),
+) -> Result<Vec<T>, FemError> {
+    let (workers, threads) = shared(threads, count);
+    together(count, workers, progress, &|k, tell: Progress| one(k, threads, tell))
+}
+
+/// One run: in memory, or below [`Settings::folder`] in a folder of its own, where a finished one of the same problem is taken.
+///
+/// # Errors
+/// Those of [`simulate`].
+pub fn simulate_job(job: &Job, settings: &Settings, progress: Progress) -> Result<FeRun, FemError> {
+    let Some(root) = &settings.folder else { return simulate(&job.source, settings, progress) };
+    let task = Task::of(0, job, &job.source.load()?, root);
+    task.run(job, settings, &mut |text, share| progress(&format!("{}: {text}", job.what), share))
 }
 
 /// One share of several runs, for machines beside each other that see one folder.
@@ -145,8 +170,7 @@ impl Task {
         Err(FemError::folder(&self.folder, cause, "choose another folder with --out, or add --force to run it again"))
     }
 
-    fn run(&self, jobs: &[Job], settings: &Settings, tell: Progress) -> Result<FeRun, FemError> {
-        let job = &jobs[self.at];
+    fn run(&self, job: &Job, settings: &Settings, tell: Progress) -> Result<FeRun, FemError> {
         if job.folder.is_none()
             && let Some(run) = finished(&self.folder)?
         {
@@ -155,8 +179,7 @@ impl Task {
         let other = folder::is_of(&self.folder, &job.source.text)? == Some(false);
         let folder = Some(self.folder.clone());
         let settings = Settings { folder, resume: !other, force: other, keep_end: false, ..settings.clone() };
-        let what = format!("{} of {}, {}", self.at + 1, jobs.len(), job.what);
-        simulate(&job.source, &settings, &mut |text, share| tell(&format!("{what}: {text}"), share))
+        simulate(&job.source, &settings, tell)
     }
 }
 

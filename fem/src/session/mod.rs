@@ -40,7 +40,7 @@ pub use common::{Progress, rounded};
 pub use export::{Export, Solver, export};
 pub use folder::is_finished;
 pub use manifest::{FileHash, MANIFEST, Maker, Manifest, sha256};
-pub use many::{Job, Many, Shard, finished_below, problems, simulate_all};
+pub use many::{Job, Many, Shard, finished_below, problems, simulate_all, simulate_each, simulate_job};
 pub use memory::least_bytes;
 pub use plan::{AS_IT_IS, Changes, Cube, Felt, Variation, cube, felt, mesh_keys, numerics, pressures_in_toml, product};
 pub use run::{FeRun, Further, Settings};

@@ -114,6 +114,24 @@ fn toe(rows: &[[f64; 2]], width: usize, least: usize) -> Option<Slack> {
     (at > 0.0 && at < rows[from][0]).then_some(Slack { at, from })
 }
 
+/// Where a curve is steeper than its start: strain at which the steepest stretch of length `up_to` begins, and its slope.
+///
+/// None unless that slope exceeds 4/3 of the first stretch's by more than the rows' noise. Crimp of the yarns and a toe too wide
+/// for [`slack`] give the same curve: only the user knows which it is.
+pub fn stiffening(rows: &[[f64; 2]], up_to: f64) -> Option<[f64; 2]> {
+    const MORE: f64 = 4.0 / 3.0;
+    let stretches = (0..rows.len()).filter_map(|i| {
+        let within = rows[i..].partition_point(|row| row[0] <= rows[i][0] + up_to);
+        let stretch = &rows[i..i + within];
+        (within > 2 && i + within < rows.len())
+            .then(|| Some((rows[i][0], slope(stretch)?, slope_error(stretch, within))))?
+    });
+    let stretches: Vec<_> = stretches.collect();
+    let (_, first, error) = *stretches.first()?;
+    let (at, most, other) = *stretches.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (most > MORE * first + 3.0 * error.hypot(other)).then_some([at, most])
+}
+
 /// Fewest rows, from `width` to `most`, over which the noise leaves a slope to a twenty-fifth of the steepest one, or `most`.
 fn steady(rows: &[[f64; 2]], width: usize, most: usize) -> Option<usize> {
     const SHARE: f64 = 0.04;

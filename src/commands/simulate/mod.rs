@@ -40,7 +40,7 @@ pub(super) fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome>
     };
     check_folder(&folder)?;
     match plan {
-        RunPlan::Single(_) if args.shards.shard.is_some() || args.shards.engine.is_some() => {
+        RunPlan::Single(_) if args.shards.asked() => {
             let help =
                 "add --seeds, --uncertain, --set separate=true or several --mesh, or leave --shard and --engine out";
             Err(Failure::usage("one run has no shards", help))

@@ -173,7 +173,7 @@ impl Wish {
         if self.assumed.is_empty() {
             return None;
         }
-        let all = Points::new(Method::Sobol, points, self.assumed.len(), 1).ok()?;
+        let all = Points::new(Method::Sobol, points, self.assumed.len(), 1);
         let none = [f64::INFINITY, f64::NEG_INFINITY];
         let mut spread = Spread { x_m: none, y_m: none, worst_m: 0.0 };
         for k in 0..points {
@@ -258,8 +258,7 @@ pub(super) fn design_near(wish: &Wish, near: Option<&[f64]>, progress: Progress)
     let ranges: Vec<usize> = (0..wish.free.len()).filter(|k| wish.free[*k].entries().is_none()).collect();
     let combinations = wish.free.iter().filter_map(Axis::entries).try_fold(1_usize, |n, m| n.checked_mul(m));
     let starts = combinations.unwrap_or(MOST_STARTS).saturating_mul(STARTS_PER_COMBINATION).min(MOST_STARTS);
-    let points = Points::new(Method::Sobol, starts, wish.free.len(), 1)
-        .map_err(|message| CompareError::refused(message, "leave keys out"))?;
+    let points = Points::new(Method::Sobol, starts, wish.free.len(), 1);
     let from: Vec<&[f64]> = (0..starts).map(|k| points.of(k)).chain(near).collect();
     let starts = from.len();
     let one = |k: usize| Ok(Problem { wish, fixed: from[k].to_vec(), ranges: &ranges, near }.solved());

@@ -42,7 +42,7 @@ fn tip(width_mm: f64, count: usize, kpa: f64) -> [f64; 2] {
 
 #[test]
 fn wishes_that_hidden_designs_have_are_reached() {
-    let hidden = Points::new(Method::LatinHypercube, 10, 3, 20).unwrap();
+    let hidden = Points::new(Method::LatinHypercube, 10, 3, 20);
     let reached = (0..10).filter(|k| {
         let [w, c, p] = [0, 1, 2].map(|i| hidden.of(*k)[i]);
         let [x, y] = tip(40.0 + 30.0 * w, 4 + (3.0 * c) as usize, 5.0 + 25.0 * p);
