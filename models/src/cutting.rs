@@ -166,7 +166,6 @@ fn ordered(pair: [f64; 2]) -> [f64; 2] {
     [pair[0].min(pair[1]), pair[0].max(pair[1])]
 }
 
-/// A run of equal units.
 struct Strip {
     pattern: Pattern,
     start_m: f64,

@@ -7,12 +7,12 @@ use crate::root::{Start, find_root};
 use crate::term::{CHANNELS, Loads};
 use spelling::si;
 
-/// What the tip shall do.
+/// Quantity of the tip that an inverse brings to a target value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Target {
     /// Height of the tip's centre line y \[m\].
     TipHeight(f64),
-    /// Total bending angle \[rad\].
+    /// Total bending angle of the body from base to tip \[rad\].
     Angle(f64),
 }
 

@@ -23,7 +23,7 @@ pub enum Limit {
     Crossing,
 }
 
-/// A stretch beyond a limit.
+/// Stretch of the body that exceeds one limit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Beyond {
     /// Which.

@@ -78,7 +78,7 @@ const GAP: GeneratorKey = optional("gap_mm", Kind::Gap, "distance of the two lay
 const WARP: GeneratorKey =
     optional("warp_deg", Kind::Angle, "angle of the warp to the axis, counter-clockwise seen from outside");
 
-/// All generators.
+/// Mesh generators that cases may name, each with its keys.
 #[rustfmt::skip]
 pub const GENERATORS: &[MeshGenerator] = &[
     MeshGenerator {

@@ -156,7 +156,7 @@ pub(super) struct Step<'a> {
 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Touch {
-    /// Rest gap minus distance.
+    /// Penetration: rest gap minus distance, positive in contact.
     pub(crate) depth_m: f64,
     /// Way in which the distance grows.
     pub normal: V3,

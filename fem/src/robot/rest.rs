@@ -37,7 +37,7 @@ pub(crate) struct Settling {
     tip_m: Vec<[f64; 3]>,
 }
 
-/// What a hold waits for.
+/// Next window of a hold, or its end and the tip's state there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Rest {
     /// The next window ends at this waited time of the run \[s\].
@@ -48,7 +48,7 @@ pub enum Rest {
         waited_s: f64,
         /// How far the tip still goes, by its last movements \[m\].
         ahead_m: f64,
-        /// Whether it is at rest.
+        /// True if the tip came to rest before the hold's time was over.
         is_at_rest: bool,
     },
 }

@@ -14,7 +14,7 @@ use std::collections::{BTreeSet, HashMap};
 use crate::Mesh;
 use crate::run::ElementFields;
 
-/// Elements beside the welds.
+/// Elements next to the welds of a robot, by their number in the mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Seams {
     elements: Vec<usize>,
@@ -34,7 +34,7 @@ pub struct SeamForce {
 }
 
 impl Seams {
-    /// Of a mesh.
+    /// Finds the sides that more than two elements share: those are welded.
     pub fn of(mesh: &Mesh) -> Seams {
         let mut beside: HashMap<(u32, u32), Vec<usize>> = HashMap::new();
         for (index, nodes) in mesh.faces().enumerate() {

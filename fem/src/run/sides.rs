@@ -15,7 +15,7 @@ pub struct Through {
     pub first: Option<FirstThrough>,
 }
 
-/// The first of them.
+/// The first node that changed the side of a layer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FirstThrough {
     /// Node.

@@ -5,7 +5,7 @@ use crate::record::RecordShape;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-/// Of a manifest.
+/// Name and version of the record in `manifest.json`.
 pub const MANIFEST: RecordShape = RecordShape { schema: "ibr.manifest", version: 1 };
 
 /// A file, as a manifest names it.
@@ -18,7 +18,7 @@ pub struct FileHash {
 }
 
 impl FileHash {
-    /// A file with known contents.
+    /// Hashes the contents of a file that need not exist.
     pub fn of(name: &str, bytes: &[u8]) -> FileHash {
         FileHash { name: name.to_string(), sha256: sha256(bytes) }
     }
@@ -33,7 +33,7 @@ pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
 }
 
-/// Who makes files.
+/// Program, date and machine that made the files of a run.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Maker {
     /// Program and version.
@@ -46,7 +46,7 @@ pub struct Maker {
     pub command: String,
 }
 
-/// `manifest.json`.
+/// Content of `manifest.json`: maker, inputs, hashes and cost of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// Who made the files.
@@ -62,7 +62,7 @@ pub struct Manifest {
 }
 
 impl Manifest {
-    /// The file's text.
+    /// Text of `manifest.json`, indented, with a line break at its end.
     pub fn text(&self) -> String {
         format!("{:#}\n", MANIFEST.stamped(self))
     }

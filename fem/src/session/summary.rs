@@ -9,7 +9,7 @@ use crate::run::{LESS_HOURGLASS, Through};
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
-/// `summary.json`.
+/// Name and version of the record in `summary.json`.
 pub const SUMMARY: RecordShape = RecordShape { schema: "ibr.simulate", version: 1 };
 
 /// A complete run in numbers that depend on the case alone: the same to the bit however often it was interrupted.
@@ -91,7 +91,7 @@ pub struct ProbeEnd {
     pub displacement_mm: [f64; 3],
 }
 
-/// A volume of air.
+/// Pressure and volume of one chamber at the end of the run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ChamberEnd {
     /// Name.
@@ -113,7 +113,7 @@ pub struct ReactionEnd {
     pub moment_nm: [f64; 3],
 }
 
-/// One line of the ledger.
+/// One energy of the ledger at the end of the run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EnergyLine {
     /// Term.

@@ -17,12 +17,12 @@ pub struct Heights {
     pub is_at_rest: bool,
 }
 
-/// Heights of one run.
+/// Heights of the outermost marker and the tip in one run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunRow {
-    /// What it is.
+    /// The run's label, and what differs from the common scenario.
     pub variation: Variation,
-    /// By time.
+    /// Heights at the ends of the holds, by time.
     pub heights: Vec<Heights>,
     /// Folder; empty if the run is that of another row.
     pub folder: String,
@@ -45,10 +45,10 @@ pub struct SeedGroup {
     pub tip_sd_mm: f64,
 }
 
-/// Several runs of a robot.
+/// Heights of several runs of one robot, as a table.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RunTable {
-    /// Runs.
+    /// One row per run, in the order of the variations.
     pub rows: Vec<RunRow>,
 }
 
@@ -90,7 +90,7 @@ impl RunTable {
         tips.into_iter().map(group).collect()
     }
 
-    /// `table.csv`.
+    /// Text of `table.csv`: a line per run and hold, with a head.
     pub fn csv(&self) -> String {
         let mut out = String::from("run,changes,p_act_kpa,marker_mm,tip_mm,at_rest,cpu_s\n");
         for RunRow { variation: Variation { label, changes, .. }, heights, cpu_s, .. } in &self.rows {

@@ -19,9 +19,9 @@ const NOW_S: f64 = 1e-12;
 /// A robot and how to read it.
 #[derive(Clone)]
 pub struct WatchedRobot {
-    /// Its scenario.
+    /// Scenario of which the case was made.
     pub scenario: Scenario,
-    /// Its run.
+    /// Settings, loads and pressures of the run.
     pub run: RobotRun,
     gauge: RobotGauge,
 }

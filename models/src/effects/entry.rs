@@ -143,16 +143,16 @@ pub(super) const SHARE: Parameter<'static> =
 pub(super) const POSITIVE: [f64; 2] = [0.0, f64::INFINITY];
 /// Of a time, or of a stiffness that is never nothing.
 pub(super) const ABOVE_ZERO: [f64; 2] = [f64::MIN_POSITIVE, f64::INFINITY];
-/// Of what has a direction.
+/// Possible values of a quantity that has a direction or a sign.
 pub(super) const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// A number that shapes a law, neutral where the law has its usual form.
 pub(super) const SHAPE: Parameter<'static> = Parameter { typical: 0.0, fitted: Fitted::Shape, ..PLAIN };
 
-/// Which data hold a parameter.
+/// Which data can determine a parameter, and so whether a diagnosis fits it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fitted {
-    /// All.
+    /// All data, without a condition on the robot or its pressures.
     Always,
     /// All, about its neutral value: it shapes a law whose exact form is not known, and has no effect alone.
     Shape,
@@ -173,7 +173,7 @@ pub enum Fitted {
 pub enum Needs {
     /// Any body, a passive beam too.
     Body,
-    /// Any actuator, or its supply.
+    /// Any actuator, or the supply that fills it.
     Actuator,
     /// An actuator of this contraction mechanism.
     Family(Family),
@@ -244,7 +244,6 @@ impl Parameter<'_> {
         format!("{low} to {high}{}", self.after())
     }
 
-    /// The unit after a number.
     fn after(&self) -> String {
         if self.unit == "-" { String::new() } else { format!(" {}", self.unit) }
     }

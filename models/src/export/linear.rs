@@ -56,14 +56,14 @@ impl Joint {
     }
 }
 
-/// The chain, base to tip.
+/// Chain of rigid links and linear joints about one working point, base to tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Linear {
-    /// Pressures of the working point.
+    /// Pressures of the working point, about which the joints are linear.
     pub loads: Loads,
     /// The tip along the straight chain, on the centre line \[m\].
     pub tip_at_m: f64,
-    /// Its joints.
+    /// Joints between the rigid links, base to tip.
     pub joints: Vec<Joint>,
 }
 

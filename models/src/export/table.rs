@@ -24,15 +24,15 @@ const SLOPE_FROM: f64 = 0.01;
 /// Tip and markers over the actuator pressure at one body pressure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// Body gauge pressure \[Pa\].
+    /// Gauge pressure of the body \[Pa\], the same at every entry.
     pub body_pa: f64,
     /// Least and largest actuator pressure \[Pa\].
     pub range_pa: [f64; 2],
     /// Pressure P₀ up to which every actuator is flat \[Pa\].
     pub open_pa: f64,
-    /// Length of the robot \[m\].
+    /// Length of the undeformed robot \[m\], to which errors are relative.
     pub length_m: f64,
-    /// Degree of the polynomials.
+    /// Degree of the polynomials, the same in all pieces and outputs.
     pub degree: usize,
     /// How far it is from the model.
     pub bound: Bound,
@@ -157,12 +157,12 @@ impl Table {
         4 * (self.edges.len() + self.coefficients.len())
     }
 
-    /// Pieces.
+    /// Number of pieces of the range of pressures, each with polynomials of its own.
     pub fn pieces(&self) -> usize {
         self.edges.len() - 1
     }
 
-    /// Markers.
+    /// Number of markers, each with an x and a y among the outputs.
     pub fn markers(&self) -> usize {
         (self.outputs - 3) / 2
     }
