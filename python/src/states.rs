@@ -1,5 +1,3 @@
-//! Predicted states.
-
 use crate::arrays::{matrix, rows_mm, vector, with_z};
 use crate::errors::raised;
 use ibr::models::{Loads, Prediction, Tip};
@@ -11,7 +9,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
 use pyo3::prelude::*;
 use std::sync::{Arc, OnceLock};
 
-/// Points of a centre line.
+/// Number of points along a centre line, base and tip included.
 const LINE_POINTS: usize = 101;
 
 /// Shape of a robot at one pressure.

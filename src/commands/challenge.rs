@@ -99,7 +99,6 @@ struct Revealed {
     diagnosis: Option<Scored>,
 }
 
-/// A diagnosis and its score.
 #[derive(Serialize)]
 struct Scored {
     /// The answer to all data
@@ -115,7 +114,6 @@ struct HiddenEntries {
     effects: Vec<HiddenEntry>,
 }
 
-/// What can be hidden.
 #[derive(Serialize)]
 struct HiddenEntry {
     /// Name

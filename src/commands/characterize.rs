@@ -1,5 +1,3 @@
-//! `ibr characterize`
-
 use super::inputs::quantity;
 use crate::cli::CharacterizeArgs;
 use crate::prelude::*;
@@ -162,7 +160,6 @@ struct FabricAnswer<'a> {
     measured_toml: Option<String>,
 }
 
-/// A mean over specimens.
 #[derive(Serialize)]
 struct FabricQuantity<'a> {
     /// The number

@@ -108,7 +108,6 @@ struct CheckedTable {
     check: Check,
 }
 
-/// What was found in data.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Check {
@@ -118,7 +117,6 @@ enum Check {
     Bench(BenchCheck),
 }
 
-/// A table of bench tests.
 #[derive(Serialize)]
 struct BenchCheck {
     /// Kind of the table of bench tests

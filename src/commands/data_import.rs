@@ -1,5 +1,3 @@
-//! `ibr data import`
-
 use super::import_options::options;
 use crate::cli::Import;
 use crate::prelude::*;

@@ -1,5 +1,3 @@
-//! `ibr design`
-
 use super::pattern::usual_pattern;
 use crate::cli::DesignArgs;
 use crate::prelude::*;
@@ -283,7 +281,6 @@ struct DesignAnswer<'a> {
     ended: Option<Option<End>>,
 }
 
-/// A value of a design.
 #[derive(Serialize)]
 struct ChosenValue<'a> {
     /// Key of the scenario
@@ -313,7 +310,6 @@ impl<'a> TriedDesign<'a> {
     }
 }
 
-/// A design that was checked.
 #[derive(Serialize)]
 struct CheckedDesign<'a> {
     /// The design

@@ -55,7 +55,6 @@ struct EnginesAnswer<'a> {
     volumes: Vec<&'a BodyVolumes>,
 }
 
-/// Ledgers of a robot.
 #[derive(Serialize)]
 struct RobotLedgers<'a> {
     /// Name of the robot

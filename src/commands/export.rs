@@ -1,5 +1,3 @@
-//! `ibr export`
-
 use super::export_table::{target, trusted, write};
 use super::inputs;
 use super::predict::wanted;
@@ -127,7 +125,7 @@ fn rigid(
     Ok(outcome)
 }
 
-/// Standard gravity \[m/s²\].
+/// Standard acceleration of gravity at the earth's surface \[m/s²\].
 const G_M_S2: f64 = 9.80665;
 /// Assumed mass per length of a fabric robot, and a bound for a slip of the unit \[kg/m\].
 const MASS_KG_PER_M: f64 = 0.1;

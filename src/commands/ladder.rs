@@ -1,5 +1,3 @@
-//! `ibr ladder`
-
 use super::inputs::{self, plain};
 use crate::cli::LadderArgs;
 use crate::prelude::*;

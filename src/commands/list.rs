@@ -1,5 +1,3 @@
-//! `ibr list` and `ibr new`
-
 use crate::prelude::*;
 use compare::diagnosis::words::with_unit;
 use data::SetInfo;
@@ -60,7 +58,6 @@ struct Lists {
     robots: Option<Vec<NamedText>>,
 }
 
-/// Finite element cases.
 #[derive(Serialize)]
 struct Cases {
     /// Cases that come with the program
@@ -80,7 +77,6 @@ struct NamedText {
     title: &'static str,
 }
 
-/// What a textbook robot is.
 const TEXTBOOK: &str = "the same without the mechanics that textbook models lack";
 
 impl Lists {

@@ -1,5 +1,3 @@
-//! `ibr pattern`
-
 use super::inputs::quantity;
 use crate::cli::PatternArgs;
 use crate::prelude::*;

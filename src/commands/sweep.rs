@@ -1,5 +1,3 @@
-//! `ibr sweep`
-
 use super::shards::{Work, by_scheduler, shard};
 use crate::cli::SweepArgs;
 use crate::prelude::*;

@@ -1,5 +1,3 @@
-//! `ibr tradeoff`
-
 use crate::cli::TradeoffArgs;
 use crate::prelude::*;
 use compare::study::Rung;

@@ -1,4 +1,4 @@
-//! A comparison.
+//! Text and JSON of a comparison, `ibr.compare`.
 
 use crate::prelude::*;
 use crate::words::hold_name;
@@ -128,7 +128,7 @@ impl<'a> CompareAnswer<'a> {
     }
 }
 
-/// For readers.
+/// Text of the comparison as the command prints it.
 pub fn text(answer: &CompareAnswer) -> String {
     let CompareAnswer { found, added, sentence, .. } = answer;
     let first = &found.variants[0];

@@ -24,7 +24,7 @@ pub fn steps_text(steps: &[ErrorStep], noise_floor_mm: Option<f64>) -> String {
     format!("Error beyond noise ({floor})\n{}", steps.text())
 }
 
-/// A climb as text.
+/// Text of a climb: its steps, sentences, and warnings about their meaning.
 pub fn climb_text(climb: &Climb) -> String {
     let mut out = steps_text(&climb.rungs, climb.noise_floor_mm);
     out += &lines("  - ", &climb.told);
@@ -68,7 +68,7 @@ pub struct AddAnswer<'a> {
     pub warnings: &'a [String],
 }
 
-/// An effect that was added.
+/// Effect that a scenario has gained, with its values and their source.
 #[derive(Serialize)]
 pub struct AddedEffect<'a> {
     /// Name of the effect

@@ -16,7 +16,6 @@ pub(crate) struct BenchAnswer<'a> {
     pub held: HeldTable<'a>,
 }
 
-/// Bench tests with their model.
 #[derive(Serialize)]
 pub(crate) struct HeldTable<'a> {
     /// One line

@@ -1,4 +1,4 @@
-//! Predicted states.
+//! Text and JSON of predicted states, `ibr.predict`.
 
 use crate::prelude::*;
 use ::sweep::PRESSURE;
@@ -8,7 +8,7 @@ use models::assembly::Segment;
 use models::space::SectionState;
 use models::{Beyond, CHANNELS, End, Limit, Prediction, Row, Steered, TipSlope};
 
-/// For readers.
+/// Text of predicted states as the command prints it: pressures, tip and warnings.
 pub fn text(scenario: &Scenario, states: &[AtPressure]) -> String {
     let is_spatial = scenario.is_spatial();
     let tip = |s: &AtPressure| s.prediction.tip;
@@ -101,7 +101,7 @@ pub struct PredictAnswer<'a> {
     pub nearest: Option<NearestPlace>,
 }
 
-/// A state at one pressure.
+/// Shape, tip and markers at one set of pressures, as JSON.
 #[derive(Serialize)]
 pub struct PredictedState {
     /// Actuator pressure
@@ -143,7 +143,7 @@ pub struct PredictedMarker {
     pub z_mm: Option<f64>,
 }
 
-/// The tip.
+/// Pose of the tip in the frame of the clamp, as JSON.
 #[derive(Serialize)]
 pub struct PredictedTip {
     /// Along the straight robot
@@ -172,7 +172,7 @@ pub struct SpaceSection {
 }
 
 impl PredictedState {
-    /// As JSON.
+    /// Converts the state to a JSON object.
     pub fn json(&self) -> serde_json::Value {
         // Keys are texts: nothing here can fail.
         serde_json::to_value(self).unwrap_or_default()
@@ -266,7 +266,7 @@ pub struct NearestPlace {
     pub held_back: Vec<ChannelLimit>,
 }
 
-/// A channel at a limit.
+/// Supply channel whose pressure is at a limit, as JSON.
 #[derive(Serialize)]
 pub struct ChannelLimit {
     /// Supply channel
@@ -278,7 +278,7 @@ pub struct ChannelLimit {
 }
 
 impl NearestPlace {
-    /// Of a place \[m\].
+    /// Names the limits that keep the robot from a place \[m\], and the remaining distance.
     pub fn of(place_m: [f64; 2], found: &Steered) -> NearestPlace {
         let [x_mm, y_mm] = place_m.map(|m| m * 1e3);
         let held_back = held(found).map(|(channel, limit, p_kpa)| ChannelLimit { channel, limit, p_kpa }).collect();

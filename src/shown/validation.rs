@@ -33,7 +33,7 @@ impl<'a> ValidateAnswer<'a> {
     }
 }
 
-/// For readers.
+/// Text of a validation as the command prints it.
 pub fn text(file: &str, both: &BeforeAfter, found: &[Validation]) -> String {
     let mut out = format!(
         "{file}: {} on other data, nothing refitted (B {:.3} N m² with, {:.3} without)\n",

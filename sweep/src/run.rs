@@ -8,12 +8,12 @@ use crate::{SweepError, elements, reduced};
 use fem::session::{Maker, Progress, Shard};
 use std::path::PathBuf;
 
-/// How a sweep is made.
+/// Folder, shard and threads of a sweep.
 #[derive(Debug, Clone)]
 pub struct Settings {
     /// Folder of the parts and of finite element runs.
     pub folder: PathBuf,
-    /// Which parts.
+    /// Parts of the study that this call computes.
     pub shard: Shard,
     /// Threads; 0: one per core. Bits do not depend on it.
     pub threads: usize,
@@ -21,7 +21,7 @@ pub struct Settings {
     pub maker: Maker,
 }
 
-/// What was done.
+/// Numbers of parts of a sweep: of this shard, kept from before, still missing.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Found {
     /// Parts of this shard.

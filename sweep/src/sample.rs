@@ -4,7 +4,6 @@ use crate::policy::MOST_SOBOL;
 use compare::study::generate::Scatter;
 use serde::Deserialize;
 
-/// How cases are spread.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 pub(crate) enum Method {
     /// Every n-th of each range is met once (McKay, Beckman and Conover 1979).

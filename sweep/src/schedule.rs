@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::time::Duration;
 
-/// A scheduler.
+/// Scheduler of a cluster, for which job scripts are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Cluster {
     /// An array job: `sbatch`, `squeue`.
@@ -18,18 +18,18 @@ pub enum Cluster {
     HyperQueue,
 }
 
-/// What is submitted.
+/// Job of several shards of one command, as a scheduler takes it.
 #[derive(Debug, Clone)]
 pub struct Job {
-    /// The program.
+    /// Path of the program that each shard calls.
     pub program: PathBuf,
     /// What it is told beside threads and shard: a command and its options.
     pub words: Vec<String>,
     /// Folder of the job and its logs.
     pub folder: PathBuf,
-    /// Shards.
+    /// Number of shards, one task of the scheduler each.
     pub shards: usize,
-    /// Threads of each.
+    /// Number of threads that each shard asks for.
     pub threads: usize,
 }
 

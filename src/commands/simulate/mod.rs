@@ -1,5 +1,3 @@
-//! `ibr simulate`
-
 mod export;
 mod plan;
 mod several;

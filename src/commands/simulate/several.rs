@@ -188,7 +188,6 @@ struct SimulationsAnswer<'a> {
     groups: Vec<SeedGroup>,
 }
 
-/// One of several runs.
 #[derive(Serialize)]
 struct RunRecord<'a> {
     /// What differs, in words

@@ -21,7 +21,7 @@ pub struct Checked {
     pub pictures: Vec<(String, Vec<u8>)>,
 }
 
-/// A design and its check.
+/// One round of a design: the design, and finite elements of it.
 #[derive(Debug, Clone)]
 pub struct Round {
     /// The design; its misses are those of the model as it is.
@@ -87,7 +87,7 @@ pub struct Rounds {
 }
 
 impl Rounds {
-    /// None so far.
+    /// Starts without a round, with at most so many corrections.
     pub fn new(corrections: usize) -> Rounds {
         Rounds { corrections, all: Vec::new(), came_back: false }
     }

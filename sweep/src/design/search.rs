@@ -59,18 +59,18 @@ pub struct Held {
     pub gain_m: f64,
 }
 
-/// A design.
+/// Robot that comes nearest to a wish, with what limits it.
 #[derive(Debug, Clone)]
 pub struct Design {
     /// The robot with the chosen values; its pressure to predict at is the chosen one where the channels share it.
     pub file: ScenarioFile,
     /// Keys and values as they are written.
     pub chosen: Vec<(String, String)>,
-    /// Pressures of the channels \[Pa\].
+    /// Pressures of body and channels at which the wish is met \[Pa\].
     pub loads: Loads,
-    /// Its pose.
+    /// Pose of the model at these pressures.
     pub pose: Prediction,
-    /// The wish, part by part.
+    /// Miss of every part of the wish by the model.
     pub misses: Vec<Miss>,
     /// Over the assumed numbers; `None` where none are named.
     pub spread: Option<Spread>,
