@@ -42,7 +42,7 @@ pub struct Sighting {
 /// A stretch of the robot in which the curvature is constant.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Segment {
-    /// Index of its site.
+    /// Index into [`Assembly::sites`] of the site that the segment belongs to.
     #[serde(skip)]
     pub site: usize,
     /// Start along the taut generator \[m\].

@@ -26,12 +26,12 @@ pub enum Limit {
 /// Stretch of the body that exceeds one limit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Beyond {
-    /// Which.
+    /// Limit that the stretch of the body exceeds.
     pub limit: Limit,
     /// Start along the taut generator \[m\].
     #[serde(rename = "s_mm", serialize_with = "si::mm")]
     pub start_m: f64,
-    /// Length \[m\].
+    /// Length along the taut generator \[m\].
     #[serde(rename = "length_mm", serialize_with = "si::mm")]
     pub length_m: f64,
     /// Largest share of the limit there \[-\]: above 1.

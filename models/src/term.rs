@@ -190,7 +190,7 @@ impl LedgerLine {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RowKind {
-    /// Recoverable energy held now.
+    /// Recoverable energy that the structure holds now.
     Stored,
     /// Energy lost since the start; never falls.
     #[serde(rename = "lost")]
@@ -216,7 +216,7 @@ pub struct Row {
     /// Where the energy is or went.
     #[serde(rename = "term")]
     pub name: &'static str,
-    /// What energy it is.
+    /// Kind of energy, by which the lines of both engines are compared.
     #[serde(skip)]
     pub account: Account,
     /// Which side of the balance it is on.

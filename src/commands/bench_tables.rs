@@ -117,7 +117,6 @@ fn share(text: &str) -> Result<f64> {
 /// `ibr.diagnose.bench`: `ibr diagnose TABLE`, a table of bench tests
 #[derive(Serialize)]
 struct BenchDiagnosisAnswer<'a> {
-    /// What was found
     #[serde(flatten)]
     found: &'a BenchDiagnosis,
     /// How its numbers came to be

@@ -24,7 +24,7 @@ pub struct Settings {
 /// Numbers of parts of a sweep: of this shard, kept from before, still missing.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Found {
-    /// Parts of this shard.
+    /// Number of parts in this shard.
     pub parts: usize,
     /// Of them those that were there before.
     pub kept: usize,

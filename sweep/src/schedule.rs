@@ -12,9 +12,9 @@ use std::time::Duration;
 /// Scheduler of a cluster, for which job scripts are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Cluster {
-    /// An array job: `sbatch`, `squeue`.
+    /// Slurm, with an array job: `sbatch`, `squeue`.
     Slurm,
-    /// A task array: `hq`.
+    /// HyperQueue, with a task array of `hq`.
     HyperQueue,
 }
 

@@ -20,11 +20,11 @@ pub(crate) type ReadMesh<'a> = &'a mut dyn FnMut(&Path) -> Result<MeshFile, FemE
 /// A generator of meshes as cases name it.
 #[derive(Debug, Clone, Copy, serde::Serialize)]
 pub struct MeshGenerator {
-    /// Name in `[mesh] generator`.
+    /// Name of the generator in `[mesh] generator`.
     pub name: &'static str,
     /// One plain sentence for a user.
     pub sentence: &'static str,
-    /// Its keys.
+    /// Values that the generator takes, in their order.
     pub keys: &'static [GeneratorKey],
     #[serde(skip)]
     make: fn(&[f64]) -> Result<Mesh, FemError>,
@@ -37,7 +37,7 @@ pub struct GeneratorKey {
     pub key: &'static str,
     /// Value if it is left out, as typed; null: it must be given.
     pub default: Option<f64>,
-    /// What it is.
+    /// Meaning in a few words, for documents and messages.
     pub meaning: &'static str,
     #[serde(skip)]
     kind: Kind,

@@ -31,7 +31,6 @@ const STILL: usize = 4;
 pub(crate) struct Settling {
     /// Waited time of the run at its beginning \[s\].
     from_s: f64,
-    /// Length of a window \[s\].
     window_s: f64,
     /// Displacements at the ends of the windows \[m\].
     tip_m: Vec<[f64; 3]>,

@@ -25,9 +25,9 @@ pub struct Seams {
 /// The largest pull on a weld.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct SeamForce {
-    /// Force per length \[N/m\].
+    /// Largest force per length that fabric can put on the weld \[N/m\].
     pub n_per_m: f64,
-    /// Element, in mesh order.
+    /// Number of the element, in mesh order.
     pub element: usize,
     /// Whether the weld runs across the robot, and not along a side of its actuator.
     pub is_across: bool,

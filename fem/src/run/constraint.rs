@@ -26,7 +26,7 @@ pub(super) struct Body {
 /// Where a body is, and how it moves.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct BodyNow {
-    /// Centre of mass \[m\].
+    /// Position of the centre of mass \[m\].
     centre: [f64; 3],
     /// Its velocity half a step back \[m/s\].
     velocity: [f64; 3],

@@ -7,13 +7,13 @@ use serde::Serialize;
 /// A robot's heights at one pressure.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Heights {
-    /// Actuator gauge pressure \[kPa\].
+    /// Gauge pressure of the actuator at this hold \[kPa\].
     pub actuator_kpa: f64,
-    /// Outermost marker \[mm\].
+    /// Height of the outermost marker across the straight robot \[mm\].
     pub marker_mm: f64,
-    /// Tip \[mm\].
+    /// Height of the tip across the straight robot \[mm\].
     pub tip_mm: f64,
-    /// Whether it was at rest.
+    /// Whether the tip was at rest when it was read.
     pub is_at_rest: bool,
 }
 
@@ -33,13 +33,13 @@ pub struct RunRow {
 /// Runs that differ in their seed only, at one pressure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SeedGroup {
-    /// Name of the group.
+    /// Name of the group: what its runs have in common.
     pub group: String,
-    /// Actuator gauge pressure \[kPa\].
+    /// Gauge pressure of the actuator at this hold \[kPa\].
     pub actuator_kpa: f64,
-    /// How many.
+    /// Number of runs in the group, one per seed.
     pub runs: usize,
-    /// Mean of the tips \[mm\].
+    /// Mean height of the tip over the runs \[mm\].
     pub tip_mean_mm: f64,
     /// Standard deviation of the sample; 0 for one.
     pub tip_sd_mm: f64,

@@ -34,7 +34,7 @@ struct Cut {
 /// What a checkpoint holds of a chamber.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub struct AirNow {
-    /// Gauge pressure now \[Pa\].
+    /// Gauge pressure in the chamber now \[Pa\].
     pub pressure_pa: f64,
     /// Volume at the last step \[m³\]; `None` before the first.
     pub volume_m3: Option<f64>,

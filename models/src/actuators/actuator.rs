@@ -17,11 +17,11 @@ pub enum Family {
 pub struct Actuator {
     /// Name in scenarios and data: `spam`, `cpam`, `epam`, `fpam`.
     pub name: &'static str,
-    /// Full name.
+    /// Full name, as in headings and reports.
     pub title: &'static str,
-    /// One plain sentence.
+    /// One plain sentence: how it contracts and bends the body.
     pub sentence: &'static str,
-    /// Stroke law in Unicode.
+    /// Stroke law as a formula in Unicode.
     pub formula: &'static str,
     /// Literature, and which parts are derived here.
     pub reference: &'static str,

@@ -48,15 +48,15 @@ pub struct Table {
 /// Largest differences between a table and its model, over thousands of pressures.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Bound {
-    /// Pressures looked at.
+    /// Number of pressures at which both were compared.
     pub pressures: usize,
-    /// Distance of the tip \[m\].
+    /// Largest distance between both positions of the tip \[m\].
     #[serde(rename = "tip_mm", serialize_with = "si::mm")]
     pub tip_m: f64,
-    /// Total bend \[rad\].
+    /// Largest difference of the total bending angle \[rad\].
     #[serde(rename = "angle_deg", serialize_with = "si::deg")]
     pub angle_rad: f64,
-    /// Distance of a marker \[m\].
+    /// Largest distance between both positions of a marker \[m\].
     #[serde(rename = "marker_mm", serialize_with = "si::mm")]
     pub marker_m: f64,
     /// Slope of the tip's height \[m/Pa\], from [`Bound::slope_from_pa`] on.

@@ -38,7 +38,7 @@ pub struct Spread {
     /// Smallest and largest x of the tip \[m\].
     #[serde(rename = "tip_x_mm", serialize_with = "si::mm")]
     pub x_m: [f64; 2],
-    /// Smallest and largest y \[m\].
+    /// Smallest and largest y of the tip \[m\].
     #[serde(rename = "tip_y_mm", serialize_with = "si::mm")]
     pub y_m: [f64; 2],
     /// Largest miss of any part of the wish \[m\].
@@ -49,7 +49,7 @@ pub struct Spread {
 /// A free key at an end of its range or list that holds the design back.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Held {
-    /// The key.
+    /// Free key that is at an end of its range.
     pub key: String,
     /// The end, in the unit of the key.
     #[serde(rename = "end")]
