@@ -44,7 +44,7 @@ pub struct PatternMark {
     pub y_m: [f64; 2],
 }
 
-/// A rectangle of fabric.
+/// Rectangle of fabric with all that is cut, drawn and welded on it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PatternPiece {
     /// Part of the robot that the piece becomes.

@@ -10,7 +10,7 @@ use serde::Serialize;
 use spelling::si;
 use std::f64::consts::PI;
 
-/// What is beyond its limit.
+/// Limit that a stretch of the body can exceed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Limit {

@@ -60,7 +60,7 @@ impl State {
         vector(py, [self.tip.x_m * 1e3, self.tip.y_m * 1e3].into_iter().chain(z).collect())
     }
 
-    /// Total bending angle (degrees).
+    /// Total bending angle from base to tip (degrees).
     #[getter]
     fn angle_deg(&self) -> f64 {
         self.tip.angle_rad.to_degrees()
@@ -87,7 +87,7 @@ impl State {
         vector(py, self.loads.actuator_pa.iter().map(|p| p / 1e3).collect())
     }
 
-    /// Body pressure (kPa).
+    /// Body pressure at which the state is predicted (kPa).
     #[getter]
     fn body_pressure_kpa(&self) -> f64 {
         self.loads.body_pa / 1e3
@@ -117,7 +117,7 @@ impl State {
         Ok(PredictedState::of(&robot.model, &robot.scenario, self.whole()?).json().to_string())
     }
 
-    /// The same as a dictionary.
+    /// The JSON of the state as a dictionary.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         py.import("json")?.call_method1("loads", (self.to_json()?,))
     }

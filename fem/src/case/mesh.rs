@@ -30,7 +30,7 @@ pub struct MeshGenerator {
     make: fn(&[f64]) -> Result<Mesh, FemError>,
 }
 
-/// A value of a generator.
+/// One value that a generator of meshes takes.
 #[derive(Debug, Clone, Copy, serde::Serialize)]
 pub struct GeneratorKey {
     /// Key, with the unit as suffix.

@@ -35,7 +35,7 @@ pub struct Sample {
     pub place_m: f64,
 }
 
-/// One buckling event.
+/// One buckling event: when, where and how much energy it releases.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Snap {
     /// When the kinetic energy of the walls peaks \[s\].
