@@ -10,13 +10,13 @@
 // Supply channels; every array of pressures has so many, those of channels that feed nothing are not read.
 #define IBR_CHANNELS 4
 
-// Done.
+// The call did what was asked; its results are written.
 #define IBR_OK 0
 
 // An argument that means nothing: a null pointer, a negative pressure, a place that is not finite.
 #define IBR_BAD_ARGUMENT 1
 
-// No equilibrium there.
+// The robot has no equilibrium at these pressures.
 #define IBR_UNSOLVED 2
 
 // The tip cannot be where it is wanted; the error text has the range in reach.
@@ -28,23 +28,23 @@
 // A robot, and the buffers of its computations.
 typedef struct ibr_robot ibr_robot;
 
-// Pose of the robot's end.
+// Pose of the end of the robot's centre line.
 typedef struct ibr_tip {
-  // Along the undeformed body, m.
+  // Coordinate along the undeformed body, m.
   double x_m;
-  // Towards the actuator, m.
+  // Coordinate across the undeformed body, towards the actuator, m.
   double y_m;
-  // Total bending angle, rad.
+  // Total bending angle from base to tip, rad.
   double angle_rad;
 } ibr_tip;
 
 // Slopes of the tip's pose by the pressure of one channel; not a number where an actuator of the channel is flat.
 typedef struct ibr_slope {
-  // m/Pa.
+  // Slope of `x_m` by the channel's pressure, m/Pa.
   double x_per_pa;
-  // m/Pa.
+  // Slope of `y_m` by the channel's pressure, m/Pa.
   double y_per_pa;
-  // rad/Pa.
+  // Slope of `angle_rad` by the channel's pressure, rad/Pa.
   double angle_per_pa;
 } ibr_slope;
 

@@ -1,4 +1,4 @@
-//! The command line as data.
+//! Command line as data: one type per command, parsed by clap.
 
 mod data;
 mod discover;

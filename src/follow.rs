@@ -65,7 +65,7 @@ impl Follower {
         self.before.map_or([0.0; CHANNELS], |last| last.loads.actuator_pa)
     }
 
-    /// Channels that feed an actuator.
+    /// Channels that feed an actuator, whose pressures a line may set.
     pub fn channels(&self) -> Vec<usize> {
         self.model.channels().collect()
     }
@@ -74,7 +74,7 @@ impl Follower {
 /// What a stream had, when it ends.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Followed {
-    /// Lines that were answered.
+    /// Number of lines that were answered with a state.
     pub lines: u64,
     /// Lines of each mark, and the first one.
     marks: [(u64, u64); MARKS.len()],

@@ -1,4 +1,4 @@
-//! The command `ibr`.
+//! Binary of the command `ibr`, a call of the library's program.
 
 use std::process::ExitCode;
 

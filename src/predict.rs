@@ -3,12 +3,12 @@
 use compare::CompareError;
 use models::{Aim, CHANNELS, HOLD_S, Limits, Loads, Model, Prediction, Scenario, Steered, Step, Target, TipSlope};
 
-/// One predicted state.
+/// Predicted state at one set of pressures.
 #[derive(Debug, Clone)]
 pub struct AtPressure {
-    /// Pressures of body and actuator.
+    /// Pressures of the body and of all channels at this state.
     pub loads: Loads,
-    /// Pose, tip and markers.
+    /// Predicted tip, markers and shape at these pressures.
     pub prediction: Prediction,
     /// Change of the tip with the pressure of each channel.
     pub slopes: [TipSlope; CHANNELS],

@@ -6,14 +6,14 @@ use models::{Aim, Batch, CHANNELS, Limits, Loads, Model, Prediction, Scenario, S
 
 /// A robot ready to be asked. Pressures are refused where the scenario has nothing that they could act on.
 pub struct Predictor {
-    /// The scenario.
+    /// Checked scenario, a copy of the one given.
     pub scenario: Scenario,
-    /// Its model.
+    /// Model of the scenario, with its effects.
     pub model: Model,
 }
 
 impl Predictor {
-    /// Puts a scenario together.
+    /// Builds the model of a scenario and keeps a copy of the scenario.
     pub fn new(scenario: &Scenario) -> Predictor {
         Predictor { scenario: scenario.clone(), model: Model::new(scenario) }
     }

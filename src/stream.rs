@@ -7,7 +7,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
-/// Most bytes of a line.
+/// Largest length of one line of the stream \[bytes\].
 const MOST_LINE: u64 = 4096;
 
 /// What a line of the stream is marked with, and what that means; in the order of the counts of [`crate::Followed`].

@@ -43,7 +43,7 @@ pub const IN_SPACE: [&str; 2] = ["epam-two-strips", "epam-helix"];
 pub const SMALL_RUN: [(&str, &str); 3] =
     [("actuator_mesh_mm", "4"), ("body_ramp_s", "0.02"), ("actuator_ramp_s", "0.18")];
 
-/// The text of a study.
+/// Finds the scenario text of a study by name; `None` if there is none.
 pub fn study(name: &str) -> Option<&'static str> {
     STUDIES.iter().find(|s| s.0 == name).map(|s| s.2)
 }

@@ -98,7 +98,6 @@ impl<R> Table<R> {
     }
 }
 
-/// A table of a page.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct PageTable {
     caption: String,

@@ -32,7 +32,7 @@ pub(crate) fn in_words(sentence: &str) -> String {
     names.fold(sentence.to_string(), |text, name| text.replace(name, &effect(name)))
 }
 
-/// `20/10 kPa load (body 2)`.
+/// Name of a hold in tables, for example `20/10 kPa load (body 2)`.
 pub(crate) fn hold_name(hold: &HoldMetrics) -> String {
     let [act, body] = [kpa(hold.p_act_kpa, &hold.p_act_channels_kpa), format!("{:.0}", hold.p_body_kpa)];
     format!("{act} kPa {} (body {body})", hold.phase)

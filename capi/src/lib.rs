@@ -15,11 +15,11 @@ use text::Text;
 
 /// Supply channels; every array of pressures has so many, those of channels that feed nothing are not read.
 pub const IBR_CHANNELS: usize = 4;
-/// Done.
+/// The call did what was asked; its results are written.
 pub const IBR_OK: i32 = 0;
 /// An argument that means nothing: a null pointer, a negative pressure, a place that is not finite.
 pub const IBR_BAD_ARGUMENT: i32 = 1;
-/// No equilibrium there.
+/// The robot has no equilibrium at these pressures.
 pub const IBR_UNSOLVED: i32 = 2;
 /// The tip cannot be where it is wanted; the error text has the range in reach.
 pub const IBR_OUT_OF_REACH: i32 = 3;
@@ -46,15 +46,15 @@ impl ibr_robot {
     }
 }
 
-/// Pose of the robot's end.
+/// Pose of the end of the robot's centre line.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ibr_tip {
-    /// Along the undeformed body, m.
+    /// Coordinate along the undeformed body, m.
     pub x_m: f64,
-    /// Towards the actuator, m.
+    /// Coordinate across the undeformed body, towards the actuator, m.
     pub y_m: f64,
-    /// Total bending angle, rad.
+    /// Total bending angle from base to tip, rad.
     pub angle_rad: f64,
 }
 
@@ -62,11 +62,11 @@ pub struct ibr_tip {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ibr_slope {
-    /// m/Pa.
+    /// Slope of `x_m` by the channel's pressure, m/Pa.
     pub x_per_pa: f64,
-    /// m/Pa.
+    /// Slope of `y_m` by the channel's pressure, m/Pa.
     pub y_per_pa: f64,
-    /// rad/Pa.
+    /// Slope of `angle_rad` by the channel's pressure, rad/Pa.
     pub angle_per_pa: f64,
 }
 

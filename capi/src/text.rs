@@ -23,7 +23,6 @@ impl Text {
         (self.bytes[0], self.length) = (0, 0);
     }
 
-    /// Says this and nothing else.
     pub(crate) fn say(&mut self, words: fmt::Arguments) {
         self.clear();
         // What does not fit is cut.

@@ -1,9 +1,9 @@
-//! Quantities over time.
+//! Quantities that change over time: pressures, displacements, multipliers of loads.
 
-/// A quantity over time.
+/// A scalar as a function of the simulated time.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Amplitude {
-    /// Always the same.
+    /// The same value at all times.
     Constant(f64),
     /// Fifth-order smooth steps between (time \[s\], value) points: a + (b − a) ξ³(10 − 15ξ + 6ξ²); constant outside.
     Smooth(Vec<(f64, f64)>),
@@ -12,7 +12,7 @@ pub enum Amplitude {
     /// ln(value + floor) runs at one rate from point to point, eased in over the first tenth of the time and out over the last
     /// four: equal shares, not equal amounts, in equal times. Values are above −floor.
     Growing {
-        /// (time \[s\], value) points.
+        /// Points (time \[s\], value) in rising order of time.
         points: Vec<(f64, f64)>,
         /// Value from which growth is by shares.
         floor: f64,

@@ -12,7 +12,7 @@ pub enum FemError {
     #[error("{}:{line}: {message}", path.display())]
     MeshFile {
         path: PathBuf,
-        /// Line, counted from 1.
+        /// Line of the mesh file, counted from 1.
         line: usize,
         /// What is wrong and what to write.
         message: String,
@@ -87,13 +87,13 @@ fn so_far(time_s: f64, step: u64, done: usize, of: usize) -> String {
 pub struct Refusal {
     /// File, or name of what comes with the program.
     pub file: String,
-    /// Its text.
+    /// Whole text of the file, which the message quotes.
     pub text: String,
-    /// What is wrong.
+    /// The fault: the key, its value and what is allowed.
     pub message: String,
     /// What to write; may be empty.
     pub help: String,
-    /// Bytes of the text.
+    /// Byte range of the fault in the text; `None` if it concerns the whole.
     pub span: Option<std::ops::Range<usize>>,
 }
 
@@ -113,13 +113,13 @@ impl Refusal {
 /// What is wrong with a record, and where.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Damage {
-    /// The file.
+    /// Path of the damaged file, as in the message.
     pub file: String,
     /// Line, counted from 1; `None` if the whole file is of another kind.
     pub line: Option<u64>,
-    /// What is wrong.
+    /// The fault, without file and line.
     pub message: String,
-    /// What to do.
+    /// Remedy: what to do with the file.
     pub help: String,
 }
 

@@ -15,12 +15,12 @@ pub use models::fabrics::Ply;
 pub use print::{GRAVITY, Loads, force_on, motion_of, pressure_of};
 use std::sync::Arc;
 
-/// Everything that defines a run.
+/// Mesh, materials, loads, supports and settings of one run.
 #[derive(Debug, Clone, Default)]
 pub struct Problem {
-    /// Title for outputs.
+    /// Title of the run in its outputs.
     pub name: String,
-    /// Nodes and elements.
+    /// Nodes and elements in their stress-free shape.
     pub mesh: Mesh,
     /// One section per part, in the order of `mesh.parts`.
     pub sections: Vec<Section>,
@@ -28,19 +28,19 @@ pub struct Problem {
     pub chambers: Vec<Chamber>,
     /// Node sets along whose edges chambers are open: cuts by planes of symmetry that hold the fabric's edge.
     pub open: Vec<String>,
-    /// Nodes whose motion is prescribed.
+    /// Node sets that stand still or follow a prescribed motion.
     pub supports: Vec<Support>,
     /// Parts of the structure that move as one rigid body.
     pub rigid: Vec<Rigid>,
-    /// Forces on nodes.
+    /// Forces that act on the nodes of sets, from outside.
     pub forces: Vec<NodalForce>,
-    /// Gravity \[m/s²\].
+    /// Uniform gravity \[m/s²\]; `None` if there is none.
     pub gravity: Option<Gravity>,
-    /// Solids in the way.
+    /// Rigid solids that the robot may touch.
     pub obstacles: Vec<Obstacle>,
     /// Contact between layers; `None` switches the search off.
     pub contact: Option<Contact>,
-    /// Numerical settings.
+    /// Time step, damping, outputs, guards and other numerical settings.
     pub settings: Settings,
 }
 
@@ -72,7 +72,7 @@ impl Section {
 /// A volume of air with one pressure.
 #[derive(Debug, Clone)]
 pub struct Chamber {
-    /// Name that parts refer to.
+    /// Name by which parts refer to the chamber in `front` and `back`.
     pub name: String,
     /// How its gauge pressure comes about.
     pub pressure: Pressure,
@@ -91,13 +91,13 @@ impl Chamber {
 /// How the gauge pressure of a chamber comes about.
 #[derive(Debug, Clone)]
 pub enum Pressure {
-    /// Set from outside \[Pa\].
+    /// Gauge pressure over time, set from outside \[Pa\].
     Set(Amplitude),
     /// Set until `sealed_at_s`; then the gas in the chamber decides.
     Sealed {
-        /// Pressure before sealing \[Pa\].
+        /// Gauge pressure over time before sealing \[Pa\].
         filling: Amplitude,
-        /// Time of sealing \[s\].
+        /// Time at which the chamber is sealed \[s\].
         sealed_at_s: f64,
         /// The gas and its ways in and out.
         gas: Gas,
@@ -112,10 +112,10 @@ impl Pressure {
     }
 }
 
-/// Nodes whose motion is prescribed.
+/// Nodes that stand still or follow a prescribed motion along some axes.
 #[derive(Debug, Clone)]
 pub struct Support {
-    /// Node set.
+    /// Name of the node set, a key of [`Mesh::sets`].
     pub set: String,
     /// Which of x, y, z are prescribed. All three is pinned. A row of pinned nodes next to another row is encastre: shells
     /// have no rotations of their own, so a clamped edge holds two rows of nodes.
@@ -127,73 +127,73 @@ pub struct Support {
 /// Nodes that keep their distances: an end cap, a plate.
 #[derive(Debug, Clone)]
 pub struct Rigid {
-    /// Node set.
+    /// Name of the node set, a key of [`Mesh::sets`].
     pub set: String,
 }
 
 /// The same force on every node of a set.
 #[derive(Debug, Clone)]
 pub struct NodalForce {
-    /// Node set.
+    /// Name of the node set, a key of [`Mesh::sets`].
     pub set: String,
     /// Total force on the set \[N\], shared equally between its nodes.
     pub total_n: [f64; 3],
-    /// Multiplier over time.
+    /// Multiplier of the force over time \[-\].
     pub amplitude: Amplitude,
 }
 
-/// Uniform gravity.
+/// Gravity, the same everywhere, with a multiplier over time.
 #[derive(Debug, Clone)]
 pub struct Gravity {
-    /// Acceleration \[m/s²\].
+    /// Acceleration along x, y and z \[m/s²\].
     pub g_m_s2: [f64; 3],
-    /// Multiplier over time.
+    /// Multiplier of the acceleration over time \[-\].
     pub amplitude: Amplitude,
 }
 
 /// A rigid solid that does not turn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Obstacle {
-    /// Its surface.
+    /// Surface at the start, before any motion.
     pub shape: ObstacleShape,
-    /// Coulomb friction coefficient.
+    /// Coulomb friction coefficient between solid and fabric; 0 for none.
     pub friction: f64,
     /// Displacement over time \[m\] per axis; `None` holds still.
     pub motion: Option<[Amplitude; 3]>,
 }
 
 impl Obstacle {
-    /// Displacement at a time \[m\].
+    /// Displacement from the start at a time \[m\]; 0 without a motion.
     pub fn moved_m(&self, time_s: f64) -> [f64; 3] {
         self.motion.as_ref().map_or([0.0; 3], |motion| [0, 1, 2].map(|k| motion[k].at(time_s)))
     }
 }
 
-/// Surface of an obstacle.
+/// Surface of an obstacle, at the start of its motion.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ObstacleShape {
     /// Half space behind a plane; `normal` points to the free side.
     Plane {
         /// A point of the plane \[m\].
         point: [f64; 3],
-        /// Outward normal, any length.
+        /// Outward normal towards the free side; any length above 0.
         normal: [f64; 3],
     },
-    /// Infinite solid cylinder.
+    /// Solid cylinder without ends; the fabric is outside.
     Cylinder {
         /// A point of the axis \[m\].
         point: [f64; 3],
-        /// Axis direction, any length.
+        /// Direction of the axis; any length above 0.
         axis: [f64; 3],
-        /// Radius \[m\].
+        /// Radius of the cylinder \[m\], above 0.
         radius_m: f64,
     },
 }
 
-/// Contact between layers of fabric.
+/// Contact between layers of fabric: friction, distances and parts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contact {
-    /// Coulomb friction coefficient.
+    /// Coulomb friction coefficient between two layers; 0 for none.
     pub friction: f64,
     /// Distance kept between layers that start close to each other \[m\] (paper: layers 0.01 mm apart).
     pub gap_m: f64,
@@ -212,10 +212,10 @@ impl Default for Contact {
     }
 }
 
-/// Numerical settings.
+/// Numerical settings of a run: time, step, damping, outputs and guards.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// Simulated time \[s\].
+    /// Simulated time at which the run ends \[s\].
     pub end_s: f64,
     /// Share of the stable step that is used; .9 unless fabric strains exceed 10 %.
     pub cfl: f64,
@@ -237,18 +237,18 @@ pub struct Settings {
     /// Hourglass coefficient; .01 does not lock, .05 and more do. Where the wall wrinkles at the scale of the
     /// mesh it needs less: p R/(E t) for a bent tube, a tenth of that for a pleated balloon (measured in `verification::checks`).
     pub hourglass: f64,
-    /// Time between outputs \[s\].
+    /// Simulated time between two outputs \[s\].
     pub output_every_s: f64,
     /// Threads; 0: as many as the machine has. Results do not depend on it.
     pub threads: usize,
     /// Standard deviation of the random out-of-plane offset of every free node at the start, as a share of the local
     /// element size; 0 for a perfect start.
     pub imperfection: f64,
-    /// Seed of the imperfection.
+    /// Seed of the random imperfection; the same seed gives the same offsets.
     pub seed: u64,
     /// How a robot's holds wait until its tip is at rest; `None` for other cases.
     pub patience: Option<Patience>,
-    /// Stops of an untrustworthy run.
+    /// Limits at which an untrustworthy run stops.
     pub guards: Guards,
 }
 
@@ -266,9 +266,9 @@ pub struct Patience {
 /// How masses are raised to lengthen the step. With rate-free fabrics this equals a shorter simulated time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MassScaling {
-    /// True masses.
+    /// All nodes keep their true masses.
     None,
-    /// All masses times this factor.
+    /// All masses are multiplied by this factor.
     Fixed(f64),
     /// Only the nodes that would limit the step, just enough for this step \[s\].
     TargetStep(f64),

@@ -10,10 +10,10 @@ use serde::{Deserialize, Serialize};
 use serde_json::error::Category;
 use serde_path_to_error::deserialize;
 
-/// The shape of a record.
+/// Name and version of a JSON record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RecordShape {
-    /// Its name, `ibr.simulate`.
+    /// Name of the record, for example `ibr.simulate`.
     pub schema: &'static str,
     /// Goes up whenever a record of before can no longer be read as it was meant.
     pub version: u64,
@@ -34,7 +34,7 @@ struct Stamp {
 }
 
 impl RecordShape {
-    /// A record of this shape.
+    /// Serialises `body` with the schema and version of this record in front.
     pub fn stamped<T: Serialize>(self, body: &T) -> serde_json::Value {
         // Keys are strings and numbers that are not finite become null: nothing here can fail.
         serde_json::to_value(Stamped { schema: self.schema, version: self.version, body }).unwrap_or_default()

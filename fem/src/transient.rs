@@ -5,11 +5,11 @@ use models::{Account, Pose, Row, RowKind, Term};
 /// Where the time integration stands when a term is advanced.
 #[derive(Debug, Clone, Copy)]
 pub struct Tick {
-    /// Steps done before this one.
+    /// Number of steps done before this one.
     pub step: u64,
-    /// Time of the positions \[s\].
+    /// Simulated time of the positions \[s\].
     pub time_s: f64,
-    /// Length of the step \[s\].
+    /// Length of the step from these positions \[s\].
     pub dt_s: f64,
 }
 

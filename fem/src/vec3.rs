@@ -1,6 +1,6 @@
 //! Vectors of three numbers, written out so that the order of additions is fixed.
 
-/// A vector.
+/// Three coordinates x, y and z of a point or vector.
 pub type V3 = [f64; 3];
 
 /// x, y, z of node `i` of an array of stride [`crate::NODE`].
@@ -9,27 +9,27 @@ pub fn node(q: &[[f64; 4]], i: usize) -> V3 {
     let [x, y, z, _] = q[i];
     [x, y, z]
 }
-/// a + b
+/// Sum a + b of two vectors.
 #[inline(always)]
 pub fn add(a: V3, b: V3) -> V3 {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
-/// a − b
+/// Difference a − b of two vectors.
 #[inline(always)]
 pub fn sub(a: V3, b: V3) -> V3 {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
-/// s a
+/// Product s a of a vector and a number.
 #[inline(always)]
 pub fn scale(a: V3, s: f64) -> V3 {
     [a[0] * s, a[1] * s, a[2] * s]
 }
-/// a + s b
+/// Sum a + s b, the step from a along b.
 #[inline(always)]
 pub fn along(a: V3, s: f64, b: V3) -> V3 {
     [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]]
 }
-/// a · b
+/// Scalar product a · b of two vectors.
 #[inline(always)]
 pub fn dot(a: V3, b: V3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -45,7 +45,7 @@ pub fn dot(a: V3, b: V3) -> f64 {
 pub fn cross(a: V3, b: V3) -> V3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
-/// Length.
+/// Euclidean length of a vector, √(a · a).
 #[inline(always)]
 pub fn norm(a: V3) -> f64 {
     dot(a, a).sqrt()
@@ -72,7 +72,6 @@ pub(crate) fn bounds(points: impl Iterator<Item = V3>) -> [V3; 2] {
         [[0, 1, 2].map(|k| low[k].min(p[k])), [0, 1, 2].map(|k| high[k].max(p[k]))]
     })
 }
-/// The sides of that box.
 pub(crate) fn extent(points: impl Iterator<Item = V3>) -> V3 {
     let [low, high] = bounds(points);
     sub(high, low)

@@ -18,7 +18,6 @@ struct Place {
 }
 
 impl Place {
-    /// Rodrigues' formula.
     fn turn(&self, v: V3) -> V3 {
         let (axis, (sin, cos)) = (unit(self.axis).unwrap(), self.angle_rad.sin_cos());
         let (across, along) = (cross(axis, v), dot(axis, v) * (1.0 - cos));

@@ -17,7 +17,6 @@ use watch::{Fault, Watched};
 #[global_allocator]
 static COUNTING: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
-/// What was asked for.
 struct Wish {
     readers: Vec<&'static Reader>,
     cases: u64,

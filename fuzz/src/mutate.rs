@@ -30,7 +30,6 @@ impl Random {
     }
 }
 
-/// Numbers that readers trip over.
 const NUMBERS: &[&str] = &[
     "0",
     "-0",
@@ -103,7 +102,6 @@ const PIECES: &[&str] = &[
     "[[[[[[[[",
     "<a><a><a><a>",
 ];
-/// No input grows beyond this.
 const MOST_BYTES: usize = 200_000;
 
 /// A broken input: one of the good ones, changed once or a few times.

@@ -10,23 +10,17 @@ use models::{Loads, Model, Scenario};
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-/// A reader.
 #[derive(Debug)]
 pub struct Reader {
-    /// Its name.
     pub name: &'static str,
-    /// Good inputs.
     good: Good,
     /// Reads, as the program does; whether it was read without an error.
     pub read: fn(&[u8]) -> bool,
 }
 
-/// Where good inputs come from.
 #[derive(Debug)]
 enum Good {
-    /// Files of this repository.
     Files(&'static [&'static str]),
-    /// Made by the libraries.
     Made(fn() -> Vec<Vec<u8>>),
 }
 
@@ -38,7 +32,6 @@ const fn made(name: &'static str, make: fn() -> Vec<Vec<u8>>, read: fn(&[u8]) ->
     Reader { name, good: Good::Made(make), read }
 }
 
-/// All of them.
 pub const READERS: &[Reader] = &[
     made("scenario", scenarios, scenario),
     made("formula", formulas, formula),
@@ -131,7 +124,6 @@ pub const READERS: &[Reader] = &[
 ];
 
 impl Reader {
-    /// Its good inputs.
     pub fn corpus(&self) -> Vec<Vec<u8>> {
         match self.good {
             Good::Files(files) => {
@@ -184,7 +176,6 @@ fn scenarios() -> Vec<Vec<u8>> {
     texts(&[shipped("epam"), shipped("fpam"), &spring, &zone, &strips])
 }
 
-/// As `ibr predict` does.
 fn predicts(text: &str) -> bool {
     let Ok(scenario) = Scenario::parse(text) else { return false };
     let model = Model::new(&scenario);

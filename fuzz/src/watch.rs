@@ -15,20 +15,17 @@ pub const LONGEST: Duration = Duration::from_secs(20);
 /// No small file needs more memory, all requests added up.
 pub const MOST_MEMORY: usize = 1 << 30;
 
-/// How a reader did.
 pub struct Fault {
     /// Different faults: places of panics, and reasons.
     pub kinds: usize,
     /// Inputs that were read without an error.
     pub read: u64,
-    /// Time of all cases.
     pub seconds: f64,
 }
 
 /// The case that a reader works on.
 type Current = Option<(u64, Instant, Vec<u8>)>;
 
-/// A reader under watch.
 pub struct Watched<'r> {
     reader: &'r Reader,
     keep: PathBuf,
@@ -39,11 +36,9 @@ pub struct Watched<'r> {
     began: Instant,
 }
 
-/// Where the last panic was.
 static PANIC: Mutex<String> = Mutex::new(String::new());
 
 impl<'r> Watched<'r> {
-    /// From now on.
     pub fn new(reader: &'r Reader, keep: &Path) -> Watched<'r> {
         std::panic::set_hook(Box::new(|panic| {
             let place = panic.location().map(ToString::to_string).unwrap_or_default();
@@ -81,7 +76,6 @@ impl<'r> Watched<'r> {
         });
     }
 
-    /// Gives it one input.
     pub fn feed(&mut self, case: u64, input: Vec<u8>, counting: &StatsAlloc<System>) {
         let now = |value: Current| *self.current.lock().unwrap_or_else(PoisonError::into_inner) = value;
         now(Some((case, Instant::now(), input.clone())));
@@ -111,7 +105,6 @@ impl<'r> Watched<'r> {
         }
     }
 
-    /// How it went.
     pub fn end(self) -> Fault {
         self.over.store(true, Ordering::Relaxed);
         Fault { kinds: self.kinds.len(), read: self.read, seconds: self.began.elapsed().as_secs_f64() }

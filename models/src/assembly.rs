@@ -15,7 +15,7 @@ pub struct Moment {
     pub t_s: f64,
     /// The last change of the set actuator pressure was downwards.
     pub falling: bool,
-    /// Station along the body \[m\].
+    /// Middle of the segment along the taut generator \[m\].
     pub s_m: f64,
 }
 
@@ -42,7 +42,7 @@ pub struct Sighting {
 /// A stretch of the robot in which the curvature is constant.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Segment {
-    /// Index of its site.
+    /// Index into [`Assembly::sites`] of the site that the segment belongs to.
     #[serde(skip)]
     pub site: usize,
     /// Start along the taut generator \[m\].
@@ -63,7 +63,7 @@ impl Segment {
 /// A strip of actuators where it passes a segment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strip {
-    /// Index of its site.
+    /// Index into [`Assembly::sites`] of the site whose actuator the strip carries here.
     pub site: usize,
     /// Azimuth in the middle of the segment, from y towards z \[rad\].
     pub azimuth_rad: f64,
@@ -81,15 +81,15 @@ pub struct Assembly {
     pub around: Vec<Vec<Strip>>,
     /// Coordinates of a node: 2, or 3 with strips round the body.
     pub axes: usize,
-    /// Terms over node positions, J.
+    /// Terms whose coordinates are the positions of all nodes, in J of the whole robot.
     pub node_terms: Vec<Box<dyn Term>>,
     /// Whether a node term depends on where the nodes are: its load is not dead.
     pub springs: bool,
-    /// Supply laws in order.
+    /// Laws from set to actuator pressure, applied one after the other at every segment.
     pub supply: Vec<SupplyLaw>,
     /// Laws of the body pressure in order.
     pub body: Vec<BodyLaw>,
-    /// Camera laws in order.
+    /// Laws from true to seen marker positions, applied one after the other to every marker.
     pub camera: Vec<CameraLaw>,
     /// Whether a law depends on time.
     pub timed: bool,
@@ -102,7 +102,7 @@ pub struct Assembly {
 }
 
 impl Assembly {
-    /// Without any part.
+    /// Starts a planar assembly without sites, segments, terms or laws.
     pub fn empty(gravity_direction: [f64; 3]) -> Assembly {
         Assembly {
             sites: Vec::new(),

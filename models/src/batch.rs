@@ -11,7 +11,7 @@ pub struct Batch {
     pub markers: Vec<[f64; 2]>,
     /// Their z \[m\] in the same order, of a robot in space; empty of a planar one.
     pub markers_z_m: Vec<f64>,
-    /// Tip per state.
+    /// Pose of the end of the centre line, one per state.
     pub tips: Vec<Tip>,
     /// One set of buffers per thread.
     states: Vec<Prediction>,
@@ -22,7 +22,6 @@ struct Part<'a> {
     first: usize,
     loads: &'a [Loads],
     markers: &'a mut [[f64; 2]],
-    /// Empty of a planar robot.
     z_m: &'a mut [f64],
     tips: &'a mut [Tip],
 }

@@ -24,9 +24,9 @@ use std::f64::consts::{LN_2, PI};
 /// effect `wrinkling`. Derived here; the collapse moment is that of Comer & Levy 1963.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyPressure {
-    /// Body radius R \[m\].
+    /// Radius R of the inflated body \[m\].
     pub radius_m: f64,
-    /// Hinge curvature k₀ \[1/m\].
+    /// Curvature k₀ over which the hinge sets in \[1/m\]; numerical, not a property of the fabric.
     pub hinge_curvature: f64,
     /// Share of the collapse moment that the hinge carries \[-\]: 1 collapse, ½ first wrinkle.
     pub share: f64,
@@ -61,9 +61,9 @@ pub struct BodyPressure {
 /// beams, this one came nearest: agreement with them is no independent evidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyWall {
-    /// Body radius R \[m\].
+    /// Radius R of the inflated body \[m\].
     pub radius_m: f64,
-    /// Membrane stiffness E t \[N/m\].
+    /// Modulus times thickness of the wall along the body, E t \[N/m\].
     pub stiffness_n_per_m: f64,
     /// Share of the collapse moment \[-\]; the initial stiffness keeps its value.
     pub share: f64,
@@ -74,7 +74,7 @@ pub(crate) const BODY_PRESSURE: LedgerLine = LedgerLine::new("body_pressure", Ac
 
 /// Law of the body pressure: its own, or what an effect puts in its place.
 pub enum BodyLaw {
-    /// The hinge, its step numerical.
+    /// The hinge, with a numerical step over k₀ instead of a wall's compliance.
     Hinge(BodyPressure),
     /// The hinge in series with a wall.
     Wall(BodyWall),
@@ -203,7 +203,7 @@ pub(crate) fn soft_step(x: f64, k0: f64) -> (f64, f64) {
     (x.abs() + k0 * (rest - LN_2), soft_slope(u))
 }
 
-/// `tanh u`.
+/// `tanh u` by its series near 0 and by ±1 beyond [`COMPLETE`], where it is complete.
 #[inline]
 fn soft_slope(u: f64) -> f64 {
     let size = u.abs();
@@ -229,7 +229,7 @@ const SERIES_BELOW: f64 = 0.02;
 /// calibrate it on data and say so. Do not read a fitted B as a fabric property.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bending {
-    /// Effective bending stiffness B \[N·m²\].
+    /// Effective bending stiffness B of the whole section \[N·m²\], 0 in the bare model.
     pub stiffness: f64,
 }
 

@@ -33,12 +33,12 @@ impl<'a> Catalogue<'a> {
         Catalogue { own: formulas.iter().map(|formula| (&**formula, formula.parameters())).collect() }
     }
 
-    /// All entries.
+    /// Iterates over [`EFFECTS`], then over the formulas of the scenario in their order.
     pub fn effects(&self) -> impl Iterator<Item = Effect<'_>> {
         EFFECTS.iter().copied().chain(self.own.iter().map(|(formula, parameters)| formula.effect(parameters)))
     }
 
-    /// The entry of that name.
+    /// Finds an effect or a formula by its key in `[effects]`; `None` if neither has that name.
     pub fn by_name(&self, name: &str) -> Option<Effect<'_>> {
         self.effects().find(|effect| effect.name == name)
     }

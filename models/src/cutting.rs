@@ -27,31 +27,31 @@ pub enum MarkKind {
     Mountain,
     /// Where another piece comes to lie.
     Place,
-    /// Where a marker sticks.
+    /// Place at which a marker is stuck to the fabric.
     Marker,
 }
 
 /// A mark: an area, a line if one side has no length, a point if none has.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PatternMark {
-    /// What it means.
+    /// Meaning of the mark on the piece.
     pub kind: MarkKind,
     /// From and to along the robot \[m\]; equal for a line or a point.
     #[serde(rename = "x_mm", serialize_with = "si::mm")]
     pub x_m: [f64; 2],
-    /// From and to across \[m\].
+    /// From and to across the robot \[m\].
     #[serde(rename = "y_mm", serialize_with = "si::mm")]
     pub y_m: [f64; 2],
 }
 
-/// A rectangle of fabric.
+/// Rectangle of fabric with all that is cut, drawn and welded on it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PatternPiece {
-    /// What it becomes.
+    /// Part of the robot that the piece becomes.
     pub name: String,
-    /// How many are cut.
+    /// Number of pieces of this shape to cut.
     pub copies: usize,
-    /// Material, in [`crate::fabrics::MATERIALS`].
+    /// Fabric of the piece, a name in [`crate::fabrics::MATERIALS`].
     pub fabric: &'static str,
     /// Angle of the warp to the robot's axis \[rad\], counter-clockwise.
     #[serde(rename = "warp_deg", serialize_with = "si::deg")]
@@ -59,7 +59,7 @@ pub struct PatternPiece {
     /// Cut edges along the robot \[m\], from its base.
     #[serde(rename = "x_mm", serialize_with = "si::mm")]
     pub x_m: [f64; 2],
-    /// Cut edges across \[m\].
+    /// Cut edges across the robot \[m\], from and to.
     #[serde(rename = "y_mm", serialize_with = "si::mm")]
     pub y_m: [f64; 2],
     /// All that is drawn on it.
@@ -166,7 +166,6 @@ fn ordered(pair: [f64; 2]) -> [f64; 2] {
     [pair[0].min(pair[1]), pair[0].max(pair[1])]
 }
 
-/// A run of equal units.
 struct Strip {
     pattern: Pattern,
     start_m: f64,

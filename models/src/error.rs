@@ -1,4 +1,4 @@
-//! Errors of the models.
+//! Errors of the models: a refused scenario, and a state without a solution.
 
 use crate::root::POLE;
 use crate::term::Extreme;
@@ -9,9 +9,9 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{message}")]
 pub struct ScenarioError {
-    /// What is wrong.
+    /// The fault in one sentence that names the key and its value.
     pub message: String,
-    /// What to type instead.
+    /// What to write instead; `None` where the message already names it.
     pub help: Option<String>,
     /// Byte range of the culprit in the scenario text.
     pub span: Option<(usize, usize)>,
@@ -33,7 +33,7 @@ impl ScenarioError {
     }
 }
 
-/// Why no prediction came out.
+/// Reason for which a model has no prediction, inverse or pressures.
 #[expect(missing_docs, reason = "fields have the words and units of their message")]
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Unsolved {
@@ -43,7 +43,7 @@ pub enum Unsolved {
     /// A wanted place or limits that mean nothing.
     #[error("{what}")]
     BadAim { what: &'static str },
-    /// Built for planar robots alone.
+    /// The call covers planar robots only, and this robot has strips round the body.
     #[error(
         "{what} is built for planar robots; this one has strips round the body, for which ibr predict gives the shape at pressures"
     )]

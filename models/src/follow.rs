@@ -8,9 +8,9 @@ use spelling::units::Range;
 /// A state of a protocol: the pressures that were set after the step before, and the time at which the robot is looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
-    /// Time since the start \[s\].
+    /// Time since the start of the protocol \[s\], at which the robot is looked at.
     pub t_s: f64,
-    /// Set pressures.
+    /// Gauge pressures that are set after the previous step.
     pub loads: Loads,
 }
 

@@ -34,15 +34,14 @@ fn times([x, dx]: Sloped, [y, dy]: Sloped) -> Sloped {
 pub(crate) struct Lens {
     theta: f64,
     length_m: f64,
-    /// Sine and cosine of ½θ.
     half: (f64, f64),
 }
 
 /// Its side at φ = tθ.
 struct Side {
-    /// a, u.
+    /// Half height a of the section and opening u of the fold \[m\], with slopes over θ.
     of_theta: [Sloped; 2],
-    /// cosφ.
+    /// cosφ, by which a step of t is a step along the body.
     along: Sloped,
     /// M² − B² where B > 0: the fold is open where it is not negative.
     spare: f64,
@@ -127,7 +126,6 @@ impl Lens {
 
 /// Ends of the parts where the fold is open, over all of it.
 const OPEN_CUTS: [f64; 5] = [0.5, 0.75, 0.9, 0.97, 1.0];
-/// Enough for rounding.
 const HALVINGS: usize = 50;
 /// Gauss's points and weights on [0, 1].
 const GAUSS: [[f64; 2]; 4] = [

@@ -6,7 +6,7 @@
 use crate::gusset::{Lens, Sloped, Sums};
 use std::f64::consts::PI;
 
-/// Steps of either part.
+/// Number of cubics in each of the two parts, below and beyond θ₀.
 const STEPS: usize = 96;
 /// Least half angle, and least root beyond θ₀.
 const LEAST: f64 = 1e-6;
@@ -17,7 +17,6 @@ struct Part {
     pieces: Vec<[[f64; 4]; 3]>,
 }
 
-/// The table.
 pub(crate) struct GussetTable {
     /// θ₀; π where the fold stays held.
     opens: f64,

@@ -7,25 +7,25 @@ use crate::root::{Start, find_root};
 use crate::term::{CHANNELS, Loads};
 use spelling::si;
 
-/// What the tip shall do.
+/// Quantity of the tip that an inverse brings to a target value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Target {
     /// Height of the tip's centre line y \[m\].
     TipHeight(f64),
-    /// Total bending angle \[rad\].
+    /// Total bending angle of the body from base to tip \[rad\].
     Angle(f64),
 }
 
 /// Slopes of the tip pose by the pressure of one channel.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct TipSlope {
-    /// ∂x/∂P \[m/Pa\].
+    /// Slope ∂x/∂P along the straight robot \[m/Pa\].
     #[serde(rename = "x_mm_per_kpa", serialize_with = "si::mm_per_kpa")]
     pub x_per_pa: f64,
-    /// ∂y/∂P \[m/Pa\].
+    /// Slope ∂y/∂P across it, towards the actuator \[m/Pa\].
     #[serde(rename = "y_mm_per_kpa", serialize_with = "si::mm_per_kpa")]
     pub y_per_pa: f64,
-    /// ∂(angle)/∂P \[rad/Pa\].
+    /// Slope ∂(angle)/∂P of the total bending angle \[rad/Pa\].
     #[serde(rename = "angle_deg_per_kpa", serialize_with = "si::deg_per_kpa")]
     pub angle_per_pa: f64,
 }

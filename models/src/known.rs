@@ -6,11 +6,11 @@
 pub enum Known {
     /// Measured by the user or in the named dataset.
     Measured,
-    /// Printed in a publication.
+    /// Printed in a publication, and taken from there.
     Published,
     /// Taken as likely, without a measurement.
     Assumed,
-    /// Fitted to named data.
+    /// Fitted to data that the report names.
     Calibrated,
     /// Computed from inputs that were not fitted to what it is compared with.
     Predicted,

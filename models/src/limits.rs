@@ -10,7 +10,7 @@ use serde::Serialize;
 use spelling::si;
 use std::f64::consts::PI;
 
-/// What is beyond its limit.
+/// Limit that a stretch of the body can exceed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Limit {
@@ -23,15 +23,15 @@ pub enum Limit {
     Crossing,
 }
 
-/// A stretch beyond a limit.
+/// Stretch of the body that exceeds one limit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Beyond {
-    /// Which.
+    /// Limit that the stretch of the body exceeds.
     pub limit: Limit,
     /// Start along the taut generator \[m\].
     #[serde(rename = "s_mm", serialize_with = "si::mm")]
     pub start_m: f64,
-    /// Length \[m\].
+    /// Length along the taut generator \[m\].
     #[serde(rename = "length_mm", serialize_with = "si::mm")]
     pub length_m: f64,
     /// Largest share of the limit there \[-\]: above 1.

@@ -26,14 +26,14 @@ pub struct Line {
     pub valve_time_s: f64,
     /// Flow p₀ C/V \[1/s\]; infinite: at once.
     pub flow_per_s: f64,
-    /// Critical pressure ratio b \[-\].
+    /// Ratio b of absolute pressures below which the flow is choked \[-\], as in ISO 6358.
     pub critical_ratio: f64,
 }
 
-/// Pressures on their way \[Pa\].
+/// Gauge pressures between the valves and the actuators at one time \[Pa\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct InLine {
-    /// Behind each valve.
+    /// Pressure behind each channel's valve, which follows the set one with the time constant τ.
     pub valve_pa: [f64; CHANNELS],
     /// In the actuators of each channel.
     pub arrived_pa: [f64; CHANNELS],
@@ -41,7 +41,7 @@ pub struct InLine {
 
 /// Reference pressure of a sonic conductance \[Pa\].
 pub(crate) const REFERENCE_PA: f64 = 1e5;
-/// Pressure of the room \[Pa\].
+/// Absolute pressure of the room \[Pa\], added to gauge pressures for the ratio of the flow.
 const ROOM_PA: f64 = 101_325.0;
 /// Ratio of pressures from which the flow is laminar.
 const LAMINAR: f64 = 0.999;
@@ -97,7 +97,7 @@ impl Line {
         p
     }
 
-    /// Rise of the pressure \[Pa/s\].
+    /// dp/dt in the actuator \[Pa/s\]: positive while the valve's pressure is the higher one.
     fn rate(&self, valve_pa: f64, p_pa: f64) -> f64 {
         let [up, down] = [valve_pa.max(p_pa), valve_pa.min(p_pa)].map(|p| p + ROOM_PA);
         (valve_pa - p_pa).signum() * self.flow_per_s * up * self.share(down / up)

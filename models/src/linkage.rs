@@ -24,7 +24,7 @@ pub struct Linkage {
 pub struct SectionLaw {
     /// κ and dκ/dg from the law's size and shape, and `g`.
     pub law: fn([f64; 2], f64) -> (f64, f64),
-    /// Those two, SI.
+    /// Size and shape of [`SectionLaw::law`] in SI units.
     pub parameters: [f64; 2],
 }
 

@@ -19,7 +19,7 @@ use crate::assembly::Assembly;
 use crate::scenario::Scenario;
 use crate::site::{Site, SiteLoads};
 
-/// An actuator between two grips.
+/// An actuator clamped between two grips, without a robot's balance of moments.
 pub struct Machine {
     assembly: Assembly,
     place: usize,

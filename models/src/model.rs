@@ -21,10 +21,10 @@ pub struct Model {
     p_max_pa: f64,
 }
 
-/// Pose of the robot's end.
+/// Pose of the end of the centre line in the coordinates of the clamp.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tip {
-    /// Along the undeformed body \[m\].
+    /// Coordinate along the axis of the undeformed body \[m\].
     pub x_m: f64,
     /// Towards azimuth 0, where the actuator of a planar robot is \[m\].
     pub y_m: f64,
@@ -41,13 +41,13 @@ pub struct Prediction {
     pub markers: Vec<[f64; 2]>,
     /// Their third coordinate, 0 of a planar robot \[m\].
     pub markers_z_m: Vec<f64>,
-    /// End of the centre line.
+    /// Pose of the end of the centre line, before any camera law.
     pub tip: Tip,
     pub(crate) work: Workspace,
 }
 
 impl Model {
-    /// Puts a scenario together.
+    /// Builds sites, segments, terms and laws of a scenario and locates its markers.
     pub fn new(scenario: &Scenario) -> Model {
         Model::of(scenario, scenario.spans())
     }
@@ -88,7 +88,7 @@ impl Model {
         Model { assembly, markers, p_max_pa: scenario.p_max_pa }
     }
 
-    /// Buffers for [`Model::predict`].
+    /// Allocates the buffers that [`Model::predict`] fills; the tip and markers are 0 until then.
     pub fn prediction(&self) -> Prediction {
         Prediction {
             markers: vec![[0.0; 2]; self.markers.len()],

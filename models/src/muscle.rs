@@ -45,14 +45,14 @@ use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
 /// The cell of one site as a term over the contraction.
 #[derive(Debug, Clone, Copy)]
 struct Muscle {
-    /// r₀ \[m\].
+    /// Radius r₀ of the tube at rest, W/π \[m\].
     radius_m: f64,
     volume_gain: f64,
-    /// n/L and h/(rD) \[1/m\].
+    /// Flat ends per length, n/L, and lever of the glued half over radius and arm, h/(rD) \[1/m\].
     per_m: [f64; 2],
-    /// ΔA/W \[m\].
+    /// Section area lost to the muscle over its width, ΔA/W \[m\].
     drawn_in_m: f64,
-    /// cos²α₀, sin²α₀.
+    /// cos²α₀ and sin²α₀ of the angle between yarns and axis.
     bias: [f64; 2],
     /// The free half and the glued one.
     halves: [Half; 2],
@@ -72,7 +72,7 @@ pub(crate) fn complete(site: &mut Site) {
 struct Half {
     /// a/τ and k: e = a τ + k ε.
     hoop: [f64; 2],
-    /// A, B, C.
+    /// Coefficients A, B and C of its energy F/W.
     by: [f64; 3],
     /// K, yarns along the wall: taut alone.
     wall: f64,

@@ -31,7 +31,6 @@ fn stretchy(compliance_m_per_n: f64) -> Weave {
     Weave { compliance_m_per_n, ..Weave::default() }
 }
 
-/// Pull at a contraction \[N\].
 fn pull_n(at: &Muscle, contraction: f64, p_act_pa: f64) -> f64 {
     -at.potential(contraction, p_act_pa, 0.0).1
 }

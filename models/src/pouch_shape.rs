@@ -35,7 +35,7 @@ pub struct PouchShape {
     pub height_m: f64,
     /// Gas of the whole actuator \[m³\].
     pub actuator_m3: f64,
-    /// Gas of the body \[m³\].
+    /// Volume of gas in the whole body \[m³\].
     pub body_m3: f64,
 }
 

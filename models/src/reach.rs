@@ -64,7 +64,6 @@ pub(crate) fn reach(f: &mut dyn FnMut(f64) -> f64, wanted: f64, most: f64, sampl
 struct Seen {
     wanted: f64,
     gap: Option<Reach>,
-    /// Last point with an equilibrium.
     last: Option<Point>,
     least: f64,
     most: f64,

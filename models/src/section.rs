@@ -19,11 +19,9 @@ use std::f64::consts::PI;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Section {
     pub radius_m: f64,
-    /// cosα.
     pub cos: f64,
     pub area_m2: f64,
     pub centroid_m: f64,
-    /// Height of the chord.
     pub chord_m: f64,
 }
 

@@ -27,7 +27,6 @@ pub(crate) struct Arc {
 }
 
 impl Arc {
-    /// Nowhere.
     pub(crate) const NONE: Arc =
         Arc { along: 0.0, across: 0.0, d_along: 0.0, d_across: 0.0, dd_along: 0.0, dd_across: 0.0, turn: [0.0, 1.0] };
 }

@@ -34,21 +34,21 @@ use std::f64::consts::PI;
 
 /// One place of the robot while a model is put together; an effect changes what it owns.
 pub struct Site {
-    /// Body radius R \[m\].
+    /// Radius R of the inflated body \[m\].
     pub radius_m: f64,
     /// Centre line: R from the taut generator, or as far as the scenario says.
     pub centre_line: CentreLine,
     /// Actuator kind, `None` on a passive stretch.
     pub actuator: Option<&'static Actuator>,
-    /// Dimensions of one actuator unit.
+    /// Dimensions of one actuator unit, after the effects that change them.
     pub shape: ActuatorShape,
     /// Width of the strip as cut \[m\]: it is what the wall loses to the actuator, whatever welds take of the pouch.
     pub(crate) strip_m: f64,
     /// What effects make of a muscle's tube.
     pub weave: Weave,
-    /// Supply channel.
+    /// Supply channel that fills the actuator, an index into [`crate::Loads::actuator_pa`].
     pub channel: usize,
-    /// Link between contraction and curvature.
+    /// Relation between the contraction of the actuator and the curvature of the body.
     pub linkage: Linkage,
     /// Share χ of the actuator's volume that lies in the body and works against its pressure.
     pub inner_share: f64,
@@ -66,7 +66,7 @@ pub struct Site {
     pub actuator_terms: Vec<Box<dyn Term>>,
     /// Body pressure work; an effect may replace the law.
     pub body_pressure: BodyLaw,
-    /// Effective bending stiffness.
+    /// Elastic bending of the wall with its effective stiffness B.
     pub bending: Bending,
     /// Further terms over `[κ]`, J per metre of body.
     pub body_terms: Vec<Box<dyn Remembering>>,
@@ -87,7 +87,7 @@ pub(crate) struct SideEffects {
     pub tabulated_from: f64,
 }
 
-/// Equilibrium of one place.
+/// Equilibrium of one place, with the loads at which it was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SiteState {
     /// Actuator coordinate; 0 on a passive or unpressurised stretch.
@@ -105,7 +105,6 @@ pub struct SiteState {
 }
 
 impl SiteState {
-    /// Straight, slack and unloaded.
     pub(crate) const REST: SiteState = SiteState {
         coordinate: 0.0,
         curvature: 0.0,
@@ -124,7 +123,6 @@ pub(crate) struct SiteLoads {
     pub p_act_pa: f64,
     /// Generalised force of transverse loads on κ, per length \[N·m\].
     pub moment: f64,
-    /// Station \[m\].
     pub s_m: f64,
     /// Time since the remembered state \[s\].
     pub dt_s: f64,
@@ -147,7 +145,6 @@ struct Balance {
     tension: f64,
     /// N D + M_load − ∂U/∂κ \[N·m\], times the stroke's weight: zero at equilibrium, nearly linear in `a`.
     imbalance: f64,
-    /// dκ/da of inextensible fabric.
     d_curvature: f64,
     weight: f64,
 }

@@ -17,7 +17,7 @@
 use crate::space::direction;
 use std::f64::consts::PI;
 
-/// A strip at its state.
+/// Force and geometry of a strip at its state of equilibrium.
 pub(crate) struct Pull {
     pub azimuth_rad: f64,
     /// Distance of its line of action from the axis \[m\].
@@ -32,10 +32,8 @@ pub(crate) struct Pull {
 pub(crate) struct Statics<'a> {
     pub p_body_pa: f64,
     pub radius_m: f64,
-    /// M \[N·m\] and F \[N\].
     pub moment_nm: [f64; 2],
     pub tension_n: f64,
-    /// Strips that pull.
     pub pulls: &'a mut dyn Iterator<Item = Pull>,
 }
 

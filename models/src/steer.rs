@@ -12,7 +12,7 @@ use crate::model::{MOST_ACTUATOR_PA, Model, Prediction};
 use crate::reach::MET;
 use crate::term::{CHANNELS, Loads};
 
-/// Where the robot shall be.
+/// Target place of the tip or of all markers, in the robot's plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Aim<'a> {
     /// End of the centre line \[m\].
@@ -24,22 +24,22 @@ pub enum Aim<'a> {
 /// Pressures that may be asked for, per channel \[Pa\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
-    /// Least.
+    /// Least gauge pressure that may be set, per channel.
     pub least_pa: [f64; CHANNELS],
-    /// Largest.
+    /// Largest gauge pressure that may be set, per channel.
     pub most_pa: [f64; CHANNELS],
 }
 
 /// Which limit a pressure is at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
-    /// The least pressure.
+    /// The channel is at its least pressure, and less would bring the robot nearer.
     Least,
-    /// The largest.
+    /// The channel is at its largest pressure, and more would bring the robot nearer.
     Most,
 }
 
-/// The pressures found.
+/// Pressures that bring the robot nearest to its aim, with the remaining distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steered {
     /// Pressures of body and channels; 0 in a channel that feeds nothing.
@@ -68,7 +68,7 @@ const SETTLED: f64 = 1e-12;
 /// Step of the central differences over the largest √P.
 const NUDGE: f64 = 1e-5;
 
-/// √P per channel.
+/// √P per channel: the coordinates of the search.
 type Roots = [f64; CHANNELS];
 
 impl Limits {
@@ -100,7 +100,7 @@ impl Limits {
 }
 
 impl Steering {
-    /// The state that was found.
+    /// Borrows the prediction at the pressures of the last call of [`Model::steer`].
     pub fn state(&self) -> &Prediction {
         &self.states[0]
     }
@@ -307,7 +307,7 @@ fn solve(gradient: &Roots, matrix: &[Roots; CHANNELS], free: &[bool; CHANNELS], 
 }
 
 impl Model {
-    /// Buffers for [`Model::steer`].
+    /// Allocates the buffers of [`Model::steer`]: one state, and two for the slope of each channel.
     pub fn steering(&self) -> Steering {
         Steering { states: vec![self.prediction(); 1 + 2 * CHANNELS] }
     }

@@ -21,7 +21,7 @@ use spelling::si;
 /// Gauge pressures acting on the robot \[Pa\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loads {
-    /// Body gauge pressure p_b \[Pa\].
+    /// Gauge pressure p_b in the body, the same everywhere.
     pub body_pa: f64,
     /// Gauge pressure of each supply channel P \[Pa\]; a zone names its channel (0 unless said).
     pub actuator_pa: [f64; CHANNELS],
@@ -65,7 +65,7 @@ impl<'a> Pose<'a> {
 pub struct Pose<'a> {
     /// Generalised coordinates; their meaning is that of the list the term is in.
     pub q: &'a [f64],
-    /// Body gauge pressure \[Pa\].
+    /// Gauge pressure p_b in the body \[Pa\].
     pub p_body_pa: f64,
     /// Pressure in this segment's actuator, after the supply stage \[Pa\]; 0 where there is none.
     pub p_act_pa: f64,
@@ -81,23 +81,23 @@ pub struct Pose<'a> {
 /// What a term with history keeps of every place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Memory {
-    /// Number of values.
+    /// Number of values that the term keeps per place.
     pub values: usize,
     /// Shortest time over which they change by themselves \[s\]; infinite when only motion changes them.
     pub time_s: f64,
 }
 
 impl Memory {
-    /// A static term.
+    /// Memory of a static term: no values, and no time over which they change.
     pub const NONE: Memory = Memory { values: 0, time_s: f64::INFINITY };
 }
 
 /// Where a formula of the scenario is largest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Extreme {
-    /// Name of the formula.
+    /// Name of the formula in `[effects.<name>]`, for the message.
     pub formula: String,
-    /// Curvature \[1/m\].
+    /// Curvature at which its moment is largest \[1/m\].
     pub kappa: f64,
     /// Bend of one actuator unit \[rad\].
     pub theta: f64,
@@ -126,7 +126,7 @@ pub trait Term: Send + Sync {
 /// One with history returns its **incremental potential**: what it stores now and loses on the way from the state it
 /// remembers. At its new memory and without time it returns what it stores.
 pub trait Remembering: Term {
-    /// What it remembers between states.
+    /// States how many values the term keeps per place and how fast they change.
     fn memory(&self) -> Memory {
         Memory::NONE
     }
@@ -149,15 +149,15 @@ pub trait Remembering: Term {
 pub enum Account {
     /// Gas of the actuator, or of all chambers.
     ActuatorGas,
-    /// Gas of the body.
+    /// Pressure work of the gas in the body.
     BodyGas,
     /// Walls, welds and folds as they bend, and fabric that locks.
     Wall,
-    /// Stretch and shear of fabric.
+    /// Stretch and shear of fabric, from its membrane strain.
     Stretch,
     /// Sheets that are compressed and wrinkle.
     Compression,
-    /// What touches.
+    /// Contact between layers, or with an obstacle.
     Contact,
     /// What numbers need and nature has not.
     Numerical,
@@ -170,7 +170,7 @@ pub enum Account {
 pub struct LedgerLine {
     /// Where the energy is or went.
     pub name: &'static str,
-    /// What energy it is.
+    /// Kind of energy, by which the lines of both engines are compared.
     pub account: Account,
 }
 
@@ -190,7 +190,7 @@ impl LedgerLine {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RowKind {
-    /// Recoverable energy held now.
+    /// Recoverable energy that the structure holds now.
     Stored,
     /// Energy lost since the start; never falls.
     #[serde(rename = "lost")]
@@ -216,7 +216,7 @@ pub struct Row {
     /// Where the energy is or went.
     #[serde(rename = "term")]
     pub name: &'static str,
-    /// What energy it is.
+    /// Kind of energy, by which the lines of both engines are compared.
     #[serde(skip)]
     pub account: Account,
     /// Which side of the balance it is on.
@@ -231,12 +231,12 @@ pub struct Row {
 pub mod actuator_q {
     /// The actuator's own coordinate: half arc angle θ \[rad\] of a pouch, contraction ε of a fabric muscle.
     pub const COORDINATE: usize = 0;
-    /// Contraction ε \[-\].
+    /// Contraction ε of the actuator \[-\], positive where it shortens.
     pub const CONTRACTION: usize = 1;
     /// Volume per unit flat length \[m²\].
     pub const VOLUME: usize = 2;
     /// Curvature κ the body would have if the fabric did not stretch \[1/m\].
     pub const CURVATURE: usize = 3;
-    /// Length of the slice.
+    /// Number of coordinates, the length of `Pose::q` in these terms.
     pub const LEN: usize = 4;
 }

@@ -3,7 +3,6 @@
 
 /// Angles up to which three-part reduction keeps full accuracy; larger ones go to the standard library.
 const REDUCED_UP_TO: f64 = 1e4;
-/// 2/π.
 const TWO_OVER_PI: f64 = std::f64::consts::FRAC_2_PI;
 /// π/2 in three parts of 33 bits, so that n times a part is exact for |n| < 2²⁰ (Cody & Waite; values as in fdlibm).
 const PIO2: [f64; 3] = [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21];
@@ -65,7 +64,6 @@ pub fn sinc(x: f64) -> f64 {
     1.0 - x * x * sine_deficit(x)
 }
 
-/// `Σ weight(k) (−x²)^k / (2k+3)!`
 fn series(x: f64, weight: impl Fn(f64) -> f64) -> f64 {
     let (mut term, mut sum) = (1.0 / 6.0, weight(0.0) / 6.0);
     for k in 1..=10 {

@@ -7,7 +7,7 @@ pub struct Weave {
     pub compliance_m_per_n: f64,
     /// E t of the wall to which one half is glued \[N/m\]; 0: it is not.
     pub wall_n_per_m: f64,
-    /// Ends that are sealed flat.
+    /// Number n of ends that are sealed flat, 0 to 2.
     pub flat_ends: f64,
     /// Area ΔA that the body's section loses to the muscle \[m²\].
     pub drawn_in_m2: f64,

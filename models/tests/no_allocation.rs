@@ -31,7 +31,6 @@ fn everything(scenario: &Scenario) -> Scenario {
     effects.fold(scenario.with_bending(0.7), |s, e| s.with_effect(e.name, &e.typical()))
 }
 
-/// Allocations of `work`.
 fn allocations(work: impl FnOnce()) -> usize {
     let region = Region::new(COUNTING);
     work();

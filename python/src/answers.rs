@@ -25,10 +25,10 @@ type Page = Box<dyn Fn() -> Result<Files, PageError> + Send + Sync>;
 /// A result as the command tells it.
 #[pyclass(frozen, module = "ibr")]
 pub struct Answer {
-    /// For readers.
+    /// Text of the answer, as the command prints it.
     #[pyo3(get)]
     text: String,
-    /// For programs.
+    /// JSON of the answer, as the command prints it with `--json`.
     #[pyo3(get)]
     json: String,
     /// What to know before believing it.
@@ -74,7 +74,7 @@ fn metres(mm: Option<f64>) -> Option<f64> {
     mm.map(|mm| mm / 1e3)
 }
 
-/// `ibr compare`.
+/// Answer of `ibr compare` for a scenario and data.
 #[pyfunction]
 #[pyo3(signature = (scenario, data, effects, sigma_mm, calibrate))]
 pub(crate) fn compare(
@@ -120,7 +120,7 @@ impl Whole {
     }
 }
 
-/// What a diagnosis is asked.
+/// Options of a diagnosis, read from a dictionary.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Asked {
@@ -148,7 +148,7 @@ fn all_evidence(data: &[PyRef<'_, Data>]) -> Vec<Evidence> {
     data.iter().map(|data| data.evidence.clone()).collect()
 }
 
-/// `ibr diagnose`.
+/// Answer of `ibr diagnose` for a scenario and data.
 #[pyfunction]
 #[pyo3(signature = (scenario, data, asked, progress = None))]
 pub(crate) fn diagnose(
@@ -196,7 +196,7 @@ pub(crate) fn extend(py: Python<'_>, scenario: &Scenario, diagnosed: &Answer) ->
     extended(&scenario.file, &[], extension)
 }
 
-/// `ibr add`.
+/// Answer of `ibr add` for a scenario, an effect and data.
 #[pyfunction]
 #[pyo3(signature = (scenario, effect, data, asked, progress = None))]
 pub(crate) fn add(
@@ -216,7 +216,7 @@ pub(crate) fn add(
     extended(file, &evidence, found.map_err(raised)?)
 }
 
-/// `ibr validate`.
+/// Answer of `ibr validate` for a scenario and other data.
 #[pyfunction]
 #[pyo3(signature = (scenario, data, without, sigma_mm))]
 pub(crate) fn validate(

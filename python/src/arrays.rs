@@ -27,7 +27,6 @@ pub(crate) fn matrix(py: Python<'_>, rows: usize, columns: usize, flat: Vec<f64>
     Array2::from_shape_vec((rows, columns), flat).unwrap_or_default().into_pyarray(py)
 }
 
-/// A list as an array.
 pub(crate) fn vector(py: Python<'_>, values: Vec<f64>) -> Bound<'_, PyArray1<f64>> {
     values.into_pyarray(py)
 }

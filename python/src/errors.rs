@@ -13,13 +13,12 @@ create_exception!(
     "What is wrong, where, and what to write instead.\n\n`where` is the file and its line or column, `help` what to do; None where there is none."
 );
 
-/// What an error says.
+/// Message of an error, and where in a file it is.
 #[derive(Debug, Default)]
 pub(crate) struct Told {
     message: String,
-    /// File and line.
     place: Option<String>,
-    /// The line itself.
+    /// Text of the line that has the fault.
     line: Option<String>,
     help: Option<String>,
 }
@@ -56,7 +55,7 @@ pub(crate) fn refused(message: impl Into<String>, help: impl Into<String>) -> Py
     raised(ibr::Error::refused(message, help))
 }
 
-/// The exception of an error.
+/// Makes the Python exception of an error, with its place and remedy as attributes.
 pub(crate) fn raised(error: impl Into<Told>) -> PyErr {
     let Told { message: mut text, place, line, help } = error.into();
     let help = help.filter(|help| !help.is_empty());

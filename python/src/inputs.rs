@@ -80,7 +80,7 @@ pub(crate) fn places(table: &str, given: &Bound<'_, PyDict>, found: &mut Vec<(St
     Ok(())
 }
 
-/// Measurements of one robot.
+/// Measurements of one robot: a dataset by name, file or import.
 #[pyclass(frozen, module = "ibr")]
 pub struct Data {
     pub evidence: Evidence,
@@ -116,25 +116,25 @@ impl Data {
         Ok(Data::of(Evidence::of(dataset, about)))
     }
 
-    /// Name.
+    /// Name by which the data were asked for.
     #[getter]
     fn name(&self) -> &str {
         &self.evidence.name
     }
 
-    /// Labels of the runs.
+    /// Labels of the runs, in the order of the table.
     #[getter]
     fn runs(&self) -> Vec<String> {
         self.evidence.dataset.runs.clone()
     }
 
-    /// Labels of the markers.
+    /// Labels of the markers, in the order of the table.
     #[getter]
     fn markers(&self) -> Vec<&str> {
         self.evidence.dataset.markers.iter().map(|marker| marker.name.as_str()).collect()
     }
 
-    /// Kind of the actuator.
+    /// Kind of the actuator, for example `epam`.
     #[getter]
     fn actuator(&self) -> &str {
         &self.evidence.dataset.actuator

@@ -1,5 +1,3 @@
-//! Finite element runs.
-
 use crate::answers::Answer;
 use crate::errors::raised;
 use crate::inputs::toml_text;

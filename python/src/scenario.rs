@@ -81,7 +81,7 @@ impl Scenario {
         Scenario::named(source)
     }
 
-    /// The same with values set.
+    /// The same scenario with values of its text set, comments kept.
     #[pyo3(signature = (**changes))]
     fn replace(&self, changes: Option<&Bound<'_, PyDict>>) -> PyResult<Scenario> {
         let mut set = Vec::new();
@@ -89,7 +89,7 @@ impl Scenario {
         self.file.with_in_space(&set).map(Scenario::of).map_err(raised)
     }
 
-    /// The TOML text.
+    /// Text of the scenario in TOML, comments kept.
     #[getter]
     fn text(&self) -> &str {
         &self.file.text
@@ -101,19 +101,19 @@ impl Scenario {
         &self.file.name
     }
 
-    /// Name in the text.
+    /// Name of the robot in the text.
     #[getter]
     fn name(&self) -> &str {
         &self.file.scenario.name
     }
 
-    /// Kind of the actuator.
+    /// Kind of the actuator, for example `epam`.
     #[getter]
     fn actuator(&self) -> &str {
         self.file.actuator.kind.name
     }
 
-    /// Names of its physical effects.
+    /// Names of the physical effects in the scenario.
     #[getter]
     fn effects(&self) -> Vec<&str> {
         self.file.effects.iter().map(|effect| effect.name.as_str()).collect()
@@ -125,7 +125,7 @@ impl Scenario {
         self.file.markers_m.iter().map(|s| s * 1e3).collect()
     }
 
-    /// Body pressure (kPa).
+    /// Body pressure where none is given (kPa).
     #[getter]
     fn body_pressure_kpa(&self) -> f64 {
         self.file.p_body_pa / 1e3
@@ -137,7 +137,7 @@ impl Scenario {
         self.robot.model.has_history()
     }
 
-    /// Shape at a pressure.
+    /// Shape at one actuator pressure, or at one for every channel (kPa).
     #[pyo3(signature = (pressure_kpa, body_pressure_kpa = None))]
     fn predict(&self, pressure_kpa: Pressures, body_pressure_kpa: Option<f64>) -> PyResult<State> {
         let loads = self.loads(&pressure_kpa, body_pressure_kpa)?;
@@ -146,7 +146,7 @@ impl Scenario {
         State::new(&self.robot, loads, &at)
     }
 
-    /// Many states at once.
+    /// One state per pressure, computed on several threads (kPa).
     #[pyo3(signature = (pressure_kpa, body_pressure_kpa = None, threads = 0))]
     fn batch(
         &self,
@@ -161,7 +161,7 @@ impl Scenario {
         States::new(py, &batch.tips, batch.markers, z_m)
     }
 
-    /// A protocol in time.
+    /// States of a protocol in time, from rest at time 0.
     #[pyo3(signature = (t_s, pressure_kpa, body_pressure_kpa = None))]
     fn follow(
         &self,
@@ -247,7 +247,7 @@ impl Scenario {
         Ok((State::new(&self.robot, found.loads, &at)?, found.miss_m * 1e3))
     }
 
-    /// Slopes of the tip.
+    /// Slopes of the tip, a row per channel: x and y (mm/kPa), angle (degrees/kPa).
     #[pyo3(signature = (pressure_kpa, body_pressure_kpa = None))]
     fn jacobian<'py>(
         &self,

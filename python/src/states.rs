@@ -1,5 +1,3 @@
-//! Predicted states.
-
 use crate::arrays::{matrix, rows_mm, vector, with_z};
 use crate::errors::raised;
 use ibr::models::{Loads, Prediction, Tip};
@@ -11,7 +9,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
 use pyo3::prelude::*;
 use std::sync::{Arc, OnceLock};
 
-/// Points of a centre line.
+/// Number of points along a centre line, base and tip included.
 const LINE_POINTS: usize = 101;
 
 /// Shape of a robot at one pressure.
@@ -62,7 +60,7 @@ impl State {
         vector(py, [self.tip.x_m * 1e3, self.tip.y_m * 1e3].into_iter().chain(z).collect())
     }
 
-    /// Total bending angle (degrees).
+    /// Total bending angle from base to tip (degrees).
     #[getter]
     fn angle_deg(&self) -> f64 {
         self.tip.angle_rad.to_degrees()
@@ -89,7 +87,7 @@ impl State {
         vector(py, self.loads.actuator_pa.iter().map(|p| p / 1e3).collect())
     }
 
-    /// Body pressure (kPa).
+    /// Body pressure at which the state is predicted (kPa).
     #[getter]
     fn body_pressure_kpa(&self) -> f64 {
         self.loads.body_pa / 1e3
@@ -119,7 +117,7 @@ impl State {
         Ok(PredictedState::of(&robot.model, &robot.scenario, self.whole()?).json().to_string())
     }
 
-    /// The same as a dictionary.
+    /// The JSON of the state as a dictionary.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         py.import("json")?.call_method1("loads", (self.to_json()?,))
     }

@@ -1,5 +1,3 @@
-//! Many cases of one robot.
-
 use crate::arrays::columns;
 use crate::errors::{Told, raised};
 use crate::progress::beside;

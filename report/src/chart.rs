@@ -3,7 +3,7 @@
 use crate::palette::Ink;
 use crate::scene::Symbol;
 
-/// Marks over two axes.
+/// Chart as marks over two axes, with labels and legend.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Chart {
     /// Title above the plot; empty for none.
@@ -12,11 +12,11 @@ pub struct Chart {
     pub x_label: String,
     /// Label of the vertical axis or of the rows' names, with unit.
     pub y_label: String,
-    /// What the axes measure.
+    /// Kind of the two axes, and the names of rows and columns.
     pub space: Space,
-    /// Marks, the lowest first.
+    /// Marks in the order of drawing; later ones cover earlier ones.
     pub marks: Vec<Mark>,
-    /// Legend.
+    /// Entries of the legend; empty for a chart without one.
     pub keys: Vec<Key>,
     /// What the colours of cells say, and the value of the strongest.
     pub heat: Option<(String, f64)>,
@@ -27,7 +27,7 @@ pub struct Chart {
 /// The two axes of a [`Chart`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Space {
-    /// Two axes of numbers.
+    /// Two linear axes of numbers, each to its own scale.
     #[default]
     Plane,
     /// Two lengths to the same scale.
@@ -36,22 +36,22 @@ pub enum Space {
     Log,
     /// Rows over an axis of numbers.
     Rows(Vec<ChartRow>),
-    /// Rows and columns.
+    /// Rows and columns of cells, without an axis of numbers.
     Grid(Vec<ChartRow>, Vec<ChartColumn>),
 }
 
 /// A row of bars or cells.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ChartRow {
-    /// What it is called.
+    /// Name of the row, above its bars or next to them.
     pub name: String,
-    /// Where its name stands.
+    /// Position of the name relative to the row's bars.
     pub place: RowPlace,
-    /// Bars below each other.
+    /// Number of bars below each other in the row.
     pub lanes: usize,
     /// What else is said of it, at the right.
     pub aside: String,
-    /// Colour of that.
+    /// Colour of the text at the right of the row.
     pub ink: Ink,
 }
 
@@ -61,7 +61,7 @@ pub enum RowPlace {
     /// In a line of its own above the bars.
     #[default]
     Above,
-    /// On the left of them.
+    /// At the left of the bars, in the margin.
     Beside,
     /// Above the rows that follow; it has no marks.
     Heading,
@@ -79,10 +79,10 @@ impl ChartRow {
     }
 }
 
-/// A column of cells.
+/// Column of cells in a grid, with its groups.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ChartColumn {
-    /// What it is called.
+    /// Name of the column, at the top of its cells.
     pub name: String,
     /// What it and its neighbours have in common, from narrow to wide; empty for nothing.
     pub groups: [String; 2],
@@ -91,17 +91,17 @@ pub struct ChartColumn {
 /// One mark of a [`Chart`]; numbers in the units of the axes. What is not finite is left out, and lifts the pen of a line.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Mark {
-    /// A line through points.
+    /// Solid line through points, broken where one is not finite.
     Line(Vec<[f64; 2]>, Ink),
-    /// A line with gaps.
+    /// Dashed line through points, broken where one is not finite.
     Dashed(Vec<[f64; 2]>, Ink),
-    /// A filled outline.
+    /// Filled outline through points, in the soft colour.
     Band(Vec<[f64; 2]>),
     /// A symbol with error bars and a label beside it.
     Point(Point),
     /// A label at the right edge, joined to its point.
     Tip([f64; 2], String, Ink),
-    /// A bar of a row.
+    /// Horizontal bar in a lane of one row.
     Bar(Bar),
     /// A cell: row, column, strength of its colour from −1 to 1 (not finite: nothing is known), what it says, and small words below.
     Cell([usize; 2], f64, String, String),
@@ -109,33 +109,33 @@ pub enum Mark {
     Rule(f64),
 }
 
-/// A symbol of a [`Chart`].
+/// One symbol of a [`Chart`] with error bars and a label.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Point {
-    /// Where.
+    /// Position of its centre, in the units of the axes.
     pub at: [f64; 2],
-    /// Half-widths of its error bars.
+    /// Half-widths of its error bars along x and y; 0 for none.
     pub error: [f64; 2],
-    /// Colour.
+    /// Colour of the symbol, its error bars and label.
     pub ink: Ink,
-    /// Shape.
+    /// Shape of the symbol, drawn open or filled.
     pub symbol: Symbol,
     /// Whether only its rim is drawn.
     pub open: bool,
-    /// Label; empty for none.
+    /// Text next to the symbol; empty for none.
     pub label: String,
 }
 
-/// A bar of a [`Chart`].
+/// One horizontal bar of a [`Chart`] with rows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Bar {
-    /// Row.
+    /// Index of its row in [`Space::Rows`].
     pub row: usize,
     /// Which of the row's bars below each other.
     pub lane: usize,
-    /// From where to where.
+    /// Start and end of the bar, in the unit of the axis.
     pub span: [f64; 2],
-    /// Colour.
+    /// Colour of the bar, before its opacity.
     pub ink: Ink,
     /// Opacity, 0 to 1; the one of a change, e.g., is pale.
     pub alpha: f64,
@@ -159,36 +159,36 @@ impl Bar {
     }
 }
 
-/// An entry of the legend.
+/// One entry of the legend: a sample and its name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Key {
-    /// What is shown.
+    /// Kind of sample that the legend shows.
     pub look: KeyLook,
-    /// Colour.
+    /// Colour of the sample, the one of the series.
     pub ink: Ink,
-    /// What it means.
+    /// Name of the series in the legend.
     pub name: String,
 }
 
 /// How a [`Key`] shows a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum KeyLook {
-    /// A line.
+    /// Solid line, the sample of [`Mark::Line`].
     Line,
-    /// A line with gaps.
+    /// Dashed line, the sample of [`Mark::Dashed`].
     Dashed,
-    /// A symbol, open or filled.
+    /// Symbol alone; `true` where only its rim is drawn.
     Symbol(Symbol, bool),
-    /// A symbol with error bars.
+    /// Filled symbol with error bars, for measured values.
     Measured(Symbol),
     /// A symbol, open or filled, on a line.
     SymbolLine(Symbol, bool),
-    /// A patch of colour.
+    /// Filled rectangle, the sample of bars and bands.
     Patch,
 }
 
 impl Key {
-    /// An entry.
+    /// Makes an entry of the legend from sample, colour and name.
     pub fn new(look: KeyLook, ink: Ink, name: &str) -> Key {
         Key { look, ink, name: name.into() }
     }

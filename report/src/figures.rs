@@ -22,11 +22,11 @@ pub struct Lines {
     pub x_label: String,
     /// Label of the y axis with unit, e.g. `tip displacement [mm]`.
     pub y_label: String,
-    /// Up to 24 series.
+    /// Series of the chart, at most 24.
     pub series: Vec<LineSeries>,
 }
 
-/// One series of [`Lines`].
+/// One series of [`Lines`]: points, error bars, style and colour.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LineSeries {
     /// Name in the legend; empty for none.
@@ -35,7 +35,7 @@ pub struct LineSeries {
     pub points: Vec<[f64; 2]>,
     /// Half-widths of error bars along y, one per point, or empty for none.
     pub half_width: Vec<f64>,
-    /// How it is drawn.
+    /// Style of its line and symbols.
     pub style: LineStyle,
     /// Colour number, so that related series (load and unload) can share one; the default is its place in the list.
     pub colour: Option<usize>,
@@ -54,7 +54,7 @@ impl LineSeries {
         LineSeries { name: name.into(), points, style, ..LineSeries::default() }
     }
 
-    /// In this colour.
+    /// Gives the series this colour number, which others may share.
     pub fn coloured(self, colour: usize) -> LineSeries {
         LineSeries { colour: Some(colour), ..self }
     }
@@ -65,19 +65,19 @@ impl LineSeries {
     }
 }
 
-/// How a [`LineSeries`] is drawn.
+/// Style of the line and symbols of a [`LineSeries`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LineStyle {
-    /// Solid line.
+    /// Solid line without symbols at its points.
     #[default]
     Line,
-    /// Dashed line.
+    /// Dashed line without symbols at its points.
     Dashed,
-    /// Filled symbols.
+    /// Filled symbols at the points, without a line.
     Points,
-    /// Open symbols.
+    /// Open symbols at the points, without a line.
     OpenPoints,
-    /// Solid line with filled symbols.
+    /// Solid line with a filled symbol at every point.
     LinePoints,
 }
 
@@ -132,7 +132,7 @@ pub struct Shapes {
     pub title: String,
     /// Name of the axis across the robot; empty: `y sideways [mm]`.
     pub across: String,
-    /// Centre line at rest.
+    /// Centre line of the unpressurised robot \[mm\].
     pub rest_mm: Vec<[f64; 2]>,
     /// Body radius, drawn as a soft band about the line at rest; 0 for none.
     pub body_radius_mm: f64,
@@ -140,14 +140,14 @@ pub struct Shapes {
     pub poses: Vec<ShapePose>,
 }
 
-/// One pose of [`Shapes`].
+/// One pose of [`Shapes`]: centre line and markers at one pressure.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ShapePose {
     /// Direct label at the tip, e.g. `30 kPa`.
     pub label: String,
     /// Predicted centre line; may be empty.
     pub curve_mm: Vec<[f64; 2]>,
-    /// Predicted markers; may be empty.
+    /// Predicted marker positions \[mm\]; may be empty.
     pub predicted_mm: Vec<[f64; 2]>,
     /// Measured markers, each with the half-widths of its error bars along x and y, 0 for none; may be empty.
     pub measured: Vec<[[f64; 2]; 2]>,
@@ -234,7 +234,7 @@ pub fn bars(
     rows(title, value_label, groups.iter().map(row).collect(), marks, keys).draw("bars")
 }
 
-/// One step of a [`ladder`].
+/// One step of a [`ladder`]: its label, value and range.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LadderStep {
     /// What is added, e.g. `+ sealed-edge loss, η = 0.60`.
@@ -312,7 +312,7 @@ pub fn ledger(title: &str, value_label: &str, terms: &[String], bars: &[LedgerCa
     rows(title, value_label, cases, marks, keys).draw("ledger")
 }
 
-/// A chart of rows.
+/// Makes a chart of rows over one axis of numbers.
 pub fn rows(title: &str, value_label: &str, rows: Vec<ChartRow>, marks: Vec<Mark>, keys: Vec<Key>) -> Chart {
     let mut chart = Chart::new(title, value_label, "");
     (chart.space, chart.marks, chart.keys) = (Space::Rows(rows), marks, keys);

@@ -48,7 +48,7 @@ pub struct Drawn {
 #[expect(missing_docs, reason = "fields have the words of their message")]
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
-    /// There is no finite value.
+    /// No value of the chart is finite, so it has no range.
     #[error("nothing to draw in the {chart} plot: give it at least one finite value")]
     NothingToDraw { chart: &'static str },
     /// A value is too large to be meant.
@@ -60,23 +60,21 @@ pub enum ReportError {
     /// More entries than can be told apart in one plot.
     #[error("the {chart} plot has {found} {what}, at most {most} fit: split it into several plots")]
     TooMany { chart: &'static str, what: &'static str, most: usize, found: usize },
-    /// The page template failed.
+    /// The template of the page cannot be filled in.
     #[error("the report page cannot be filled in: {0}")]
     Template(#[from] minijinja::Error),
     /// The embedded font could not be read.
     #[error("the embedded font cannot be read: rebuild the program")]
     Font,
-    /// The drawing library failed.
+    /// The drawing library returned an error, given here as text.
     #[error("the plot cannot be drawn: {0}")]
     Drawing(String),
 }
 
-/// Errors unless `found == expected`.
 fn same_length(chart: &'static str, what: &'static str, expected: usize, found: usize) -> Result<(), ReportError> {
     if expected == found { Ok(()) } else { Err(ReportError::Length { chart, what, expected, found }) }
 }
 
-/// Errors if `found > most`.
 fn at_most(chart: &'static str, what: &'static str, most: usize, found: usize) -> Result<(), ReportError> {
     if found <= most { Ok(()) } else { Err(ReportError::TooMany { chart, what, most, found }) }
 }

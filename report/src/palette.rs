@@ -3,22 +3,22 @@
 /// What a colour is used for; `INKS` gives its light and dark value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Ink {
-    /// Background.
+    /// Background of charts and pages, white in the light scheme.
     Paper,
-    /// Text and main marks.
+    /// Text and main marks, the colour of highest contrast.
     #[default]
     Ink,
-    /// Secondary text.
+    /// Secondary text, such as notes and asides.
     Muted,
-    /// Axis lines.
+    /// Axis lines and their tick marks.
     Axis,
-    /// Grid lines.
+    /// Grid lines, paler than the axes.
     Grid,
     /// Soft fills: bands, the body at rest.
     Soft,
-    /// Heat map, most negative.
+    /// Most negative end of the heat map, for values of −1.
     HeatNegative,
-    /// Heat map, most positive.
+    /// Most positive end of the heat map, for values of 1.
     HeatPositive,
     /// Series colour, counted from 0 and repeated after `SERIES`.
     Series(usize),

@@ -17,19 +17,19 @@ pub(crate) enum Anchor {
 /// Marker shapes, in the order in which series take them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Symbol {
-    /// ●
+    /// Circle ●, the symbol of the first series.
     #[default]
     Circle,
-    /// ■
+    /// Square ■, the symbol of the second series.
     Square,
-    /// ◆
+    /// Diamond ◆, the symbol of the third series.
     Diamond,
-    /// ▲
+    /// Triangle ▲, the symbol of the fourth series.
     Triangle,
 }
 
 impl Symbol {
-    /// The shape of series `i`.
+    /// Symbol of series `i` from 0; four symbols, then again.
     pub fn of(i: usize) -> Self {
         [Symbol::Circle, Symbol::Square, Symbol::Diamond, Symbol::Triangle][i % 4]
     }

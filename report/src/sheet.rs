@@ -13,7 +13,7 @@ pub struct Pen {
     pub name: &'static str,
     /// What its lines mean, shown in the legend with the colour in words.
     pub meaning: &'static str,
-    /// Colour in an SVG, `#rrggbb`.
+    /// Colour of its lines in an SVG, `#rrggbb`.
     pub colour: &'static str,
     /// AutoCAD colour number of nearly the same.
     pub aci: u8,
@@ -21,38 +21,38 @@ pub struct Pen {
     pub dashes: &'static [f64],
 }
 
-/// A line through points \[mm\].
+/// Line through points \[mm\], open or closed, drawn by one pen.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PenLine {
     /// Place of its pen in [`PatternSheet::layers`].
     pub layer: usize,
-    /// Corners, y upwards.
+    /// Corners x, y in their order \[mm\], y upwards.
     pub points: Vec<[f64; 2]>,
-    /// Back to the start.
+    /// True where a last stroke leads back to the start.
     pub closed: bool,
 }
 
 /// A word at its lower left corner.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SheetText {
-    /// Where \[mm\].
+    /// Lower left corner of the word \[mm\], y upwards.
     pub at: [f64; 2],
-    /// Height of capital letters \[mm\].
+    /// Height of the capital letters of the word \[mm\].
     pub height: f64,
-    /// What it says.
+    /// Word or number, in one line.
     pub text: String,
 }
 
 /// A drawing \[mm\], y upwards, its lower left corner at the origin.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PatternSheet {
-    /// Title of the file.
+    /// Title of the drawing, in the file's head.
     pub title: String,
-    /// Width and height \[mm\].
+    /// Width and height of the sheet \[mm\].
     pub size: [f64; 2],
     /// Pens, the lowest first; lines name them by place.
     pub layers: Vec<Pen>,
-    /// Lines.
+    /// Lines of all pens, in the order of drawing.
     pub lines: Vec<PenLine>,
     /// Words, in the last of the layers.
     pub labels: Vec<SheetText>,
@@ -64,7 +64,7 @@ impl PatternSheet {
         self.lines.push(PenLine { layer, points: points.to_vec(), closed });
     }
 
-    /// Writes words of a height.
+    /// Adds a word at its lower left corner, of a height \[mm\].
     pub fn word(&mut self, at: [f64; 2], height: f64, text: impl Into<String>) {
         self.labels.push(SheetText { at, height, text: text.into() });
     }

@@ -60,7 +60,6 @@ fn planes(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, ReportError
     vec![shapes(&shape), cost.draw("trade-off"), lines(&curves)]
 }
 
-/// The charts of rows.
 fn stacks(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, ReportError>> {
     let target = Some((label(name), v(3)));
     let step = |i: usize| LadderStep {

@@ -44,7 +44,7 @@ impl Staged {
         Ok(Staged { folder, staging, is_beside: false })
     }
 
-    /// Where the new files go.
+    /// Folder in which the caller writes the new files.
     pub fn path(&self) -> &Path {
         &self.staging
     }
@@ -146,7 +146,7 @@ pub fn mend(folder: &Path, aside: &Path) -> Result<()> {
     if folder.exists() { std::fs::remove_dir_all(aside) } else { std::fs::rename(aside, folder) }
 }
 
-/// Names in a folder, sorted.
+/// Names of the entries of a folder in alphabetical order.
 pub fn names(folder: &Path) -> Result<Vec<String>> {
     let entries = std::fs::read_dir(folder)?;
     let mut names: Vec<String> =

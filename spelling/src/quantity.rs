@@ -5,13 +5,13 @@ use crate::units::{ANGLES, Dimension, Unit, units_of};
 /// What a quantity measures; fixes the units that are understood.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
-    /// Gauge pressure → Pa.
+    /// Gauge pressure, read in any known unit and returned in Pa.
     Pressure,
-    /// Length → m.
+    /// Length, read in any known unit and returned in m.
     Length,
-    /// Angle → rad.
+    /// Angle, read in any known unit and returned in rad.
     Angle,
-    /// Time → s.
+    /// Time, read in any known unit and returned in s.
     Time,
 }
 

@@ -2,11 +2,11 @@
 
 use serde::{Serialize, Serializer};
 
-/// A number, or several.
+/// A number, or a list or option of numbers, that is serialised in another unit.
 pub trait Numbers {
-    /// What is written.
+    /// Type of the converted numbers, of the same shape.
     type Written: Serialize;
-    /// All of them converted.
+    /// Applies `to` to every number, and keeps the shape.
     fn converted(&self, to: fn(f64) -> f64) -> Self::Written;
 }
 
@@ -36,7 +36,7 @@ pub fn mm<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error>
     value.converted(|m| 1e3 * m).serialize(to)
 }
 
-/// Pascals as kilopascals.
+/// Serialises pascals as kilopascals, for `serialize_with`.
 pub fn kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
     value.converted(|pa| pa / 1e3).serialize(to)
 }
@@ -56,7 +56,7 @@ pub fn deg_per_kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, 
     value.converted(|rad_per_pa| 1e3 * rad_per_pa.to_degrees()).serialize(to)
 }
 
-/// Radians as degrees.
+/// Serialises radians as degrees, for `serialize_with`.
 pub fn deg<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
     value.converted(f64::to_degrees).serialize(to)
 }

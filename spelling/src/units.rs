@@ -10,17 +10,17 @@ pub struct Dimension(pub [f64; 3]);
 impl Dimension {
     /// Of a pure number or an angle.
     pub const NONE: Dimension = Dimension([0.0; 3]);
-    /// Of a length.
+    /// Dimension of a length: metre to the power of one.
     pub const LENGTH: Dimension = Dimension([0.0, 1.0, 0.0]);
-    /// Of a time.
+    /// Dimension of a time: second to the power of one.
     pub const TIME: Dimension = Dimension([0.0, 0.0, 1.0]);
-    /// Of a force.
+    /// Dimension of a force, kg·m/s² in base units.
     pub const FORCE: Dimension = Dimension([1.0, 1.0, -2.0]);
     /// Of a pressure or a stress.
     pub const PRESSURE: Dimension = Dimension([1.0, -1.0, -2.0]);
     /// Of a moment or an energy.
     pub const MOMENT: Dimension = Dimension([1.0, 2.0, -2.0]);
-    /// Of a mass.
+    /// Dimension of a mass: kilogram to the power of one.
     pub const MASS: Dimension = Dimension([1.0, 0.0, 0.0]);
 
     /// Dimension of a product with the `power` of another.
@@ -56,9 +56,9 @@ impl Dimension {
 /// A unit: `value_SI = value · numerator / denominator`, a ratio so that whole millimetres are rounded once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
-    /// As printed.
+    /// Symbol of the unit, as printed and as typed.
     pub symbol: &'static str,
-    /// What it measures.
+    /// Powers of kilogram, metre and second in the unit.
     pub dimension: Dimension,
     numerator: f64,
     denominator: f64,
@@ -75,7 +75,7 @@ impl Unit {
         value * self.numerator / self.denominator
     }
 
-    /// This unit in SI.
+    /// Value of one of this unit in SI.
     pub fn factor(self) -> f64 {
         self.numerator / self.denominator
     }
@@ -108,7 +108,7 @@ pub const UNITS: &[Unit] = &[
     Unit::new("g", Dimension::MASS, 1.0, 1e3),
 ];
 
-/// Angles in radians.
+/// Units of angles, whose SI unit is the radian.
 pub const ANGLES: &[Unit] =
     &[Unit::new("deg", Dimension::NONE, PI, 180.0), Unit::new("rad", Dimension::NONE, 1.0, 1.0)];
 
@@ -130,11 +130,11 @@ pub struct Range {
     pub name: &'static str,
     /// Unit after the number; empty for a pure one.
     pub unit: &'static str,
-    /// Factor to SI.
+    /// Factor from the number as typed to SI.
     pub si: f64,
-    /// Least accepted.
+    /// Least accepted number, as typed; itself accepted.
     pub low: f64,
-    /// Largest accepted.
+    /// Largest accepted number, as typed; itself accepted.
     pub high: f64,
     /// What to type instead of something smaller.
     pub too_small: &'static str,
@@ -143,7 +143,7 @@ pub struct Range {
 }
 
 impl Range {
-    /// Lengths.
+    /// Lengths in millimetres, from 1 mm to 100 m.
     pub const LENGTH: Range = Range {
         name: "length",
         unit: "mm",
@@ -174,9 +174,9 @@ impl Range {
         too_small: "this looks like psi: write kilopascals, for example 2 for 0.29 psi (1 psi is 6.895 kPa)",
         ..Range::PRESSURE
     };
-    /// Gauge pressures of an actuator.
+    /// Gauge pressures of an actuator in kilopascals, from 0 to 1000 kPa.
     pub const ACTUATOR_PRESSURE: Range = Range { name: "actuator pressure", high: 1000.0, ..Range::PRESSURE };
-    /// Gauge pressures.
+    /// Gauge pressures in kilopascals, from 0 to 500 kPa.
     pub const PRESSURE: Range = Range {
         name: "pressure",
         unit: "kPa",
@@ -185,7 +185,7 @@ impl Range {
         ..Range::plain(0.0, 500.0, "this looks like pascals: write kilopascals, for example 30 for 30000 Pa")
     };
 
-    /// A pure number.
+    /// Interval of a pure number, with one remedy for both ends.
     pub const fn plain(low: f64, high: f64, usual: &'static str) -> Range {
         Range { name: "", unit: "", si: 1.0, low, high, too_small: usual, too_large: usual }
     }

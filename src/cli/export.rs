@@ -1,5 +1,3 @@
-//! `ibr export`
-
 use super::RobotArgs;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;

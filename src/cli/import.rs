@@ -1,5 +1,3 @@
-//! `ibr data import`
-
 use clap::Args;
 use std::path::PathBuf;
 

@@ -1,5 +1,3 @@
-//! `ibr add`
-
 use super::inputs;
 use crate::cli::AddArgs;
 use crate::prelude::*;

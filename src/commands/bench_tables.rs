@@ -105,7 +105,7 @@ fn needs_markers(spec: &str) -> Result<()> {
     }
 }
 
-/// `3%` → 0.03.
+/// Reads a percentage as a share: `3%` is 0.03.
 fn share(text: &str) -> Result<f64> {
     let value = text.trim().strip_suffix('%').and_then(|number| number.trim().parse::<f64>().ok());
     value.filter(|v| *v > 0.0 && *v <= 100.0).map(|v| 0.01 * v).ok_or_else(|| {
@@ -117,7 +117,6 @@ fn share(text: &str) -> Result<f64> {
 /// `ibr.diagnose.bench`: `ibr diagnose TABLE`, a table of bench tests
 #[derive(Serialize)]
 struct BenchDiagnosisAnswer<'a> {
-    /// What was found
     #[serde(flatten)]
     found: &'a BenchDiagnosis,
     /// How its numbers came to be

@@ -68,7 +68,7 @@ fn runs(args: &BreakdownArgs, context: &mut Context) -> Result<Result<Made, Outc
 /// `ibr.breakdown`: `ibr breakdown`
 #[derive(Serialize)]
 struct Breakdown<'a> {
-    /// One robot at one pressure
+    /// One robot at one pressure, in both engines
     cells: &'a [Parting],
 }
 

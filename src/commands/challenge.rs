@@ -80,29 +80,28 @@ fn rows(effects: &[&HiddenEffect]) -> String {
 /// `ibr.challenge.new`: `ibr challenge new`
 #[derive(Serialize)]
 struct NewChallenge {
-    /// Folder that was written
+    /// Folder in which robot, data and sealed truth were written
     folder: String,
-    /// SHA-256 of salt and truth
+    /// SHA-256 of salt and truth, which seals the hidden effect
     sha256: String,
-    /// Runs
+    /// Number of runs in the data
     runs: usize,
 }
 
 /// `ibr.challenge.reveal`: `ibr challenge reveal FOLDER`
 #[derive(Serialize)]
 struct Revealed {
-    /// SHA-256 of salt and truth
+    /// SHA-256 of salt and truth, recomputed from the files
     sha256: String,
-    /// What was hidden
+    /// Effect that was hidden, with its values
     truth: Truth,
     /// The diagnosis and its score; null without one
     diagnosis: Option<Scored>,
 }
 
-/// A diagnosis and its score.
 #[derive(Serialize)]
 struct Scored {
-    /// The answer to all data
+    /// Answer of the diagnosis to all data of the challenge
     answer: Claim,
     /// Its score; null without a verdict
     score: Option<ClaimScore>,
@@ -111,18 +110,17 @@ struct Scored {
 /// `ibr.challenge.list`: `ibr challenge list`
 #[derive(Serialize)]
 struct HiddenEntries {
-    /// What can be hidden
+    /// Effects that a challenge can hide
     effects: Vec<HiddenEntry>,
 }
 
-/// What can be hidden.
 #[derive(Serialize)]
 struct HiddenEntry {
-    /// Name
+    /// Name of the hidden effect or law
     name: &'static str,
-    /// One plain sentence
+    /// One plain sentence about its mechanism
     sentence: &'static str,
-    /// Its law
+    /// Formula of the law that the data follow
     law: &'static str,
     /// Another law of it; null where the catalogue has none
     second_law: Option<&'static str>,

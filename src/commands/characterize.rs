@@ -1,5 +1,3 @@
-//! `ibr characterize`
-
 use super::inputs::quantity;
 use crate::cli::CharacterizeArgs;
 use crate::prelude::*;
@@ -74,7 +72,7 @@ fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome> {
 /// `ibr.characterize.example`: `ibr characterize --example FOLDER`
 #[derive(Serialize)]
 struct CharacterizeExample {
-    /// Files that were written
+    /// Files of made-up tests that were written
     files: Vec<String>,
 }
 
@@ -136,36 +134,34 @@ fn digits(x: Option<f64>) -> String {
 struct FabricAnswer<'a> {
     /// How the tests came to be
     provenance: Provenance,
-    /// Means over specimens
+    /// Means of the measured quantities over all specimens
     quantities: Vec<FabricQuantity<'a>>,
-    /// What was read of each
+    /// Numbers that were read from each specimen
     specimens: Vec<SpecimenRead<'a>>,
     /// Curve along the warp: strain, stress
     warp_strain_pa: Option<&'a [[f64; 2]]>,
     /// Curve along the fill: strain, stress
     fill_strain_pa: Option<&'a [[f64; 2]]>,
-    /// Shear curve: angle, tension
+    /// Shear curve: shear angle, shear force per length
     shear_rad_n_per_m: Option<&'a [[f64; 2]]>,
-    /// Shear curve: angle, stress
+    /// Shear curve: shear angle, shear stress
     shear_rad_pa: Option<&'a [[f64; 2]]>,
-    /// Thickness
+    /// Thickness of the fabric in the tests
     thickness_m: Option<f64>,
-    /// Tests computed with the law
+    /// Tests of the specimens recomputed with the fitted law
     replays: &'a [Replay],
-    /// Cautions
+    /// Reasons to doubt a number or the law
     warnings: &'a [String],
-    /// Remarks
+    /// Remarks on what was assumed and left out
     notes: &'a [String],
-    /// A table for cases
+    /// Text of a fabric table for finite element cases
     fabric_toml: Option<&'a str>,
-    /// Lines for about.toml
+    /// Lines that record the measured numbers in about.toml
     measured_toml: Option<String>,
 }
 
-/// A mean over specimens.
 #[derive(Serialize)]
 struct FabricQuantity<'a> {
-    /// The number
     #[serde(flatten)]
     number: &'a FabricNumber,
     /// 95 % interval of the mean
@@ -175,25 +171,25 @@ struct FabricQuantity<'a> {
 /// What was read of a specimen.
 #[derive(Serialize)]
 struct SpecimenRead<'a> {
-    /// Specimen
+    /// Name of the specimen in the file
     specimen: &'a str,
-    /// File
+    /// File in which the specimen was found
     file: &'a str,
     /// Direction of the pull to the warp
     direction_deg: f64,
-    /// Modulus
+    /// Modulus of the pulled direction, from rows of small strain
     modulus_pa: Option<f64>,
     /// Strain up to which it was taken
     modulus_to_strain: f64,
-    /// Strain taken off as slack
+    /// Strain subtracted as slack of the specimen in its grips
     slack_strain: f64,
-    /// Ratio of Poisson
+    /// Poisson's ratio of the pulled direction
     poisson: Option<f64>,
-    /// Neo-Hookean C10
+    /// Constant C10 of the neo-Hookean law over the whole curve
     c10_pa: Option<f64>,
-    /// Shear at which it locks
+    /// Shear angle at which the fabric locks
     locking_rad: Option<f64>,
-    /// Shear and tension
+    /// Curve of shear angle and shear force per length
     shear_rad_n_per_m: Option<&'a [[f64; 2]]>,
 }
 

@@ -1,5 +1,3 @@
-//! `ibr compare`
-
 use super::inputs::{self, plain, positive};
 use crate::cli::CompareArgs;
 use crate::prelude::*;

@@ -95,35 +95,33 @@ fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome> {
 /// `ibr.data.generate`: `ibr data generate SCENARIO`
 #[derive(Serialize)]
 struct Generated {
-    /// Folder that was written
+    /// Folder in which data and description were written
     folder: String,
-    /// Runs
+    /// Number of runs in the data
     runs: usize,
 }
 
 /// `ibr.data.check`: `ibr data check DATA`
 #[derive(Serialize)]
 struct CheckedTable {
-    /// What was found
+    /// Result of the check, by the kind of table
     check: Check,
 }
 
-/// What was found in data.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Check {
-    /// In a table of markers
+    /// Table of markers, with holds and runs
     Markers(Box<CheckReport>),
     /// In a table of bench tests
     Bench(BenchCheck),
 }
 
-/// A table of bench tests.
 #[derive(Serialize)]
 struct BenchCheck {
     /// Kind of the table of bench tests
     kind: &'static str,
-    /// Rows of that table
+    /// Number of rows in that table
     rows: usize,
     /// How its numbers came to be
     provenance: Provenance,

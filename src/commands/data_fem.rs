@@ -84,8 +84,8 @@ fn made(
 /// `ibr.data.fem`: `ibr data fem SCENARIO`
 #[derive(Serialize)]
 struct SeenByFem {
-    /// Folder that was written
+    /// Folder in which data and description were written
     folder: String,
-    /// Runs
+    /// Number of runs in the data
     runs: usize,
 }

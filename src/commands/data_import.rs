@@ -1,5 +1,3 @@
-//! `ibr data import`
-
 use super::import_options::options;
 use crate::cli::Import;
 use crate::prelude::*;
@@ -96,13 +94,13 @@ fn told(made: &Imported) -> String {
 struct ImportAnswer<'a> {
     /// The program that wrote the files
     program: &'a str,
-    /// Labels of runs
+    /// Labels of the runs in the table
     runs: &'a [String],
-    /// Labels of markers
+    /// Labels of the markers in the table
     markers: Vec<&'a str>,
-    /// Holds
+    /// Number of holds at constant pressure in the table
     holds: usize,
-    /// What was understood and assumed
+    /// Sentences about what was understood and assumed
     told: &'a [String],
     /// Folder that was written; null without `--out`
     folder: Option<String>,
@@ -118,6 +116,6 @@ fn import_answer<'a>(made: &'a Imported, folder: Option<&Path>) -> ImportAnswer<
 /// `ibr.data.import.example`: `ibr data import --example FOLDER`
 #[derive(Serialize)]
 struct ImportExample {
-    /// Files that were written
+    /// Files of the example that were written
     files: Vec<String>,
 }

@@ -1,5 +1,3 @@
-//! `ibr demo`
-
 use crate::prelude::*;
 use crate::shown::demo::{DemoAnswer, text};
 use compare::demo::demo;

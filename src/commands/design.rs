@@ -1,5 +1,3 @@
-//! `ibr design`
-
 use super::pattern::usual_pattern;
 use crate::cli::DesignArgs;
 use crate::prelude::*;
@@ -252,7 +250,7 @@ fn rounds_text(wish: &Wish, rounds: &Rounds) -> String {
 /// `ibr.design`: `ibr design WISH`
 #[derive(Serialize)]
 struct DesignAnswer<'a> {
-    /// The wish as typed
+    /// Path or name of the wish as typed
     wish: String,
     /// The robot that it began with
     scenario: &'a str,
@@ -260,18 +258,17 @@ struct DesignAnswer<'a> {
     reached: bool,
     /// Share of the length by which a wish may be missed
     tolerance_mm: f64,
-    /// What is written
     #[serde(flatten)]
     best: TriedDesign<'a>,
-    /// Actuator pressure of every channel
+    /// Actuator pressure of every channel at the design
     p_act_channels_kpa: Vec<f64>,
-    /// Body pressure
+    /// Body pressure of the best design found
     p_body_kpa: f64,
     /// Over the assumed numbers, where some are named
     interval: Option<Spread>,
     /// Ends of ranges that hold the design back, the most first
     held: &'a [Held],
-    /// Starts of the search
+    /// Number of starts of the search
     starts: usize,
     /// Starts that ended at this design or an equal one
     starts_that_agree: usize,
@@ -283,19 +280,18 @@ struct DesignAnswer<'a> {
     ended: Option<Option<End>>,
 }
 
-/// A value of a design.
 #[derive(Serialize)]
 struct ChosenValue<'a> {
-    /// Key of the scenario
+    /// Key of the scenario that was chosen
     key: &'a str,
-    /// Value as written there
+    /// Value as the scenario has it, in the unit of the key
     value: &'a str,
 }
 
 /// A design with its wish and its check.
 #[derive(Serialize)]
 struct TriedDesign<'a> {
-    /// Values of the free keys
+    /// Values that were chosen for the free keys
     chosen: Vec<ChosenValue<'a>>,
     /// The wish by the model as it is, part by part
     misses: &'a [Miss],
@@ -313,10 +309,8 @@ impl<'a> TriedDesign<'a> {
     }
 }
 
-/// A design that was checked.
 #[derive(Serialize)]
 struct CheckedDesign<'a> {
-    /// The design
     #[serde(flatten)]
     design: TriedDesign<'a>,
     /// Largest miss by finite elements, and by the model of parts that they do not read

@@ -1,5 +1,3 @@
-//! `ibr diagnose`
-
 use super::inputs;
 use crate::cli::DiagnoseArgs;
 use crate::prelude::*;

@@ -47,18 +47,17 @@ fn made(args: &CompareArgs, robots: &[(Source, Scenario)], context: &mut Context
 /// `ibr.engines`: `ibr compare --engines`
 #[derive(Serialize)]
 struct EnginesAnswer<'a> {
-    /// Every source at every pressure
+    /// Height by every source for every robot and pressure
     lines: &'a [EngineLine],
-    /// Ledgers of both engines
+    /// Energies of both engines, robot by robot
     ledgers: Vec<RobotLedgers<'a>>,
-    /// Volumes of body and actuator
+    /// Volumes of body and actuator in both engines
     volumes: Vec<&'a BodyVolumes>,
 }
 
-/// Ledgers of a robot.
 #[derive(Serialize)]
 struct RobotLedgers<'a> {
-    /// Name of the robot
+    /// Name of the robot in its scenario
     robot: &'a str,
     /// Ledgers of both engines, by pressure
     pairs: &'a [EnginePair],

@@ -1,5 +1,3 @@
-//! `ibr export`
-
 use super::export_table::{target, trusted, write};
 use super::inputs;
 use super::predict::wanted;
@@ -127,7 +125,7 @@ fn rigid(
     Ok(outcome)
 }
 
-/// Standard gravity \[m/s²\].
+/// Standard acceleration of gravity at the earth's surface \[m/s²\].
 const G_M_S2: f64 = 9.80665;
 /// Assumed mass per length of a fabric robot, and a bound for a slip of the unit \[kg/m\].
 const MASS_KG_PER_M: f64 = 0.1;
@@ -138,15 +136,15 @@ const MOST_TURN_RAD: f64 = std::f64::consts::FRAC_PI_3;
 /// `ibr.export.rigid`: `ibr export mjcf SCENARIO`, `ibr export urdf SCENARIO`
 #[derive(Serialize)]
 struct RigidAnswer<'a> {
-    /// Scenario as typed
+    /// Path or name of the scenario as typed
     scenario: &'a str,
-    /// File
+    /// File that was written for the simulator
     written: &'a str,
-    /// Hinges
+    /// Number of hinges in the file
     joints: usize,
     /// Actuator pressure of every channel at the working point
     p_act_channels_kpa: [f64; CHANNELS],
-    /// Mass per length
+    /// Mass of the body per length
     mass_kg_per_m: f64,
     /// Gravity in the file along x and y \[m/s²\]
     gravity_m_s2: [f64; 2],
@@ -185,16 +183,16 @@ fn or_dash(value: f64) -> String {
 /// `ibr.export.linear`: `ibr export linear SCENARIO`
 #[derive(Serialize)]
 struct LinearAnswer<'a> {
-    /// Scenario as typed
+    /// Path or name of the scenario as typed
     scenario: &'a str,
-    /// Name in the scenario
+    /// Name of the robot in the scenario
     name: &'a str,
-    /// Body pressure
+    /// Body pressure at the working point
     p_body_kpa: f64,
     /// Actuator pressure of every channel at the working point
     p_act_channels_kpa: [f64; CHANNELS],
     /// Tip along the straight chain, on the centre line
     tip_at_mm: f64,
-    /// Base to tip
+    /// Joints between rigid links, base to tip
     joints: &'a [Joint],
 }

@@ -153,27 +153,27 @@ fn refused(error: Untabulated) -> Failure {
 /// `ibr.export.c`: `ibr export c SCENARIO`, `ibr export fmu SCENARIO`
 #[derive(Serialize)]
 struct TableAnswer<'a> {
-    /// Scenario as typed
+    /// Path or name of the scenario as typed
     scenario: &'a str,
-    /// Files
+    /// Files that were written, C or FMU
     written: &'a [String],
-    /// Constants, in single precision
+    /// Size of the constants in single precision, in bytes
     bytes: usize,
-    /// Polynomials of each output
+    /// Number of polynomials of each output, one per range of pressures
     pieces: usize,
-    /// Of the polynomials
+    /// Degree of the polynomials, the same for all
     degree: usize,
-    /// Markers in the table
+    /// Number of markers in the table
     markers: usize,
-    /// Body pressure
+    /// Body pressure for which the table holds
     p_body_kpa: f64,
-    /// Actuator pressures, from and to
+    /// Range of actuator pressures, from and to
     p_act_kpa: [f64; 2],
     /// Pressure up to which the actuator is flat
     p_open_kpa: f64,
     /// Heights of the tip that have one pressure, from and to
     heights_mm: Option<[f64; 2]>,
-    /// Largest differences from the model
+    /// Largest differences between the table and the model
     bound: &'a Bound,
 }
 

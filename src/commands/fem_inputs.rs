@@ -35,7 +35,7 @@ pub(super) fn kept(folder: &Path, context: &Context) -> Settings {
     Settings { folder, threads, frames: false, further, maker: maker(), ..Settings::default() }
 }
 
-/// Pressures as typed \[kPa\].
+/// Reads `--pressure` as comma-separated pressures with units \[kPa\].
 pub(super) fn pressures(text: &str) -> Result<Vec<f64>> {
     let one = |p: &str| Ok(rounded(quantity("--pressure", p, Quantity::Pressure)? / 1e3));
     text.split(',').map(one).collect()

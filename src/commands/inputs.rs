@@ -11,7 +11,7 @@ use ibr::studies::scenario;
 use models::scenario::quantity::parse;
 use spelling::units::Range;
 
-/// `key=value` of an option `--set`.
+/// Splits `key=value` of an option `--set` at its first `=`.
 pub(super) fn setting<'t>(text: &'t str, help: &str) -> Result<(&'t str, &'t str)> {
     let both = text.split_once('=').map(|(key, value)| (key.trim(), value.trim()));
     both.ok_or_else(|| Failure::usage(format!("--set {text}: there is no ="), help))

@@ -1,5 +1,3 @@
-//! `ibr ladder`
-
 use super::inputs::{self, plain};
 use crate::cli::LadderArgs;
 use crate::prelude::*;
@@ -13,12 +11,11 @@ use ibr::pages::{Climbed, ladder_page};
 /// `ibr.ladder`: `ibr ladder SCENARIO DATA`
 #[derive(Serialize)]
 struct LadderAnswer<'a> {
-    /// What was found
     #[serde(flatten)]
     climb: &'a Climb,
-    /// Scenario as typed
+    /// Path or name of the scenario as typed
     scenario_file: &'a str,
-    /// Data as typed
+    /// Path or name of the data as typed
     data: &'a str,
     /// Data that were fitted along, as typed
     also: &'a [String],

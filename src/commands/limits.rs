@@ -32,22 +32,22 @@ pub(super) fn run(typed: &str, scenario: &Scenario, wanted: &[Loads]) -> Result<
 /// `ibr.predict.limits`: `ibr predict SCENARIO --limits`
 #[derive(Serialize)]
 struct LimitsAnswer<'a> {
-    /// Scenario as typed
+    /// Path or name of the scenario as typed
     scenario: &'a str,
-    /// Name in the scenario
+    /// Name of the robot in the scenario
     name: &'a str,
-    /// Body pressure
+    /// Body pressure at which the loads act
     p_body_kpa: f64,
-    /// Length of the robot
+    /// Length of the robot in the scenario
     length_mm: f64,
-    /// Straight, then at each pressure
+    /// Length at which it folds: straight, then at each pressure
     collapse: Vec<CollapseLength>,
 }
 
 /// Length at which loads fold the robot.
 #[derive(Serialize)]
 struct CollapseLength {
-    /// Actuator pressure of every channel
+    /// Actuator pressure of every channel at that length
     p_act_channels_kpa: Vec<f64>,
     /// Length at which the loads fold it; null: none within 50 times its length
     length_mm: Option<f64>,

@@ -1,5 +1,3 @@
-//! `ibr list` and `ibr new`
-
 use crate::prelude::*;
 use compare::diagnosis::words::with_unit;
 use data::SetInfo;
@@ -17,10 +15,10 @@ pub(super) fn run(what: Option<&str>) -> Result<Outcome> {
 /// `ibr.new`: `ibr new KIND`
 #[derive(Serialize)]
 struct NewAnswer {
-    /// Text of the case
+    /// Text of the finite element case
     #[serde(skip_serializing_if = "Option::is_none")]
     case_toml: Option<&'static str>,
-    /// Text of the scenario
+    /// Text of the scenario of the robot
     #[serde(skip_serializing_if = "Option::is_none")]
     scenario_toml: Option<&'static str>,
 }
@@ -43,16 +41,16 @@ pub(super) fn new(kind: &str) -> Result<Outcome> {
 /// `ibr.list`: `ibr list`, `ibr data list`
 #[derive(Serialize, Default)]
 struct Lists {
-    /// Actuators
+    /// Actuators of the catalogue, with their laws
     #[serde(skip_serializing_if = "Option::is_none")]
     actuators: Option<&'static [Actuator]>,
-    /// Finite element cases
+    /// Finite element cases that come with the program
     #[serde(skip_serializing_if = "Option::is_none")]
     cases: Option<Cases>,
-    /// Embedded data
+    /// Data sets that come with the program
     #[serde(skip_serializing_if = "Option::is_none")]
     datasets: Option<Vec<SetInfo>>,
-    /// Effects
+    /// Effects of the catalogue, with their laws and parameters
     #[serde(skip_serializing_if = "Option::is_none")]
     effects: Option<&'static [Effect<'static>]>,
     /// Robots that are known by name
@@ -60,27 +58,25 @@ struct Lists {
     robots: Option<Vec<NamedText>>,
 }
 
-/// Finite element cases.
 #[derive(Serialize)]
 struct Cases {
     /// Cases that come with the program
     shipped: Vec<NamedText>,
     /// Robots that come with it in addition to the four
     studies: Vec<NamedText>,
-    /// Meshes for cases
+    /// Generators that `[mesh] generator` of a case may name
     generators: &'static [MeshGenerator],
 }
 
 /// A name and what it is.
 #[derive(Serialize)]
 struct NamedText {
-    /// Name
+    /// Name by which commands take it
     name: &'static str,
-    /// One line
+    /// Title in one line, for people
     title: &'static str,
 }
 
-/// What a textbook robot is.
 const TEXTBOOK: &str = "the same without the mechanics that textbook models lack";
 
 impl Lists {

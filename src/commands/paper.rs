@@ -46,7 +46,7 @@ fn runs(args: &CompareArgs, context: &mut Context) -> Result<Vec<PaperRun>> {
 /// `ibr.paper`: `ibr compare --paper`
 #[derive(Serialize)]
 struct PaperAnswer<'a> {
-    /// Runs
+    /// Number of finite element runs that were compared
     runs: usize,
     /// Heights of markers against its figures
     heights: &'a [HeightRow],

@@ -1,5 +1,3 @@
-//! `ibr pattern`
-
 use super::inputs::quantity;
 use crate::cli::PatternArgs;
 use crate::prelude::*;
@@ -49,17 +47,17 @@ pub(super) fn run(args: &PatternArgs, context: &mut Context) -> Result<Outcome> 
 /// `ibr.pattern`: `ibr pattern SCENARIO`
 #[derive(Serialize)]
 struct PatternAnswer<'a> {
-    /// Scenario as typed
+    /// Path or name of the scenario as typed
     scenario: &'a str,
-    /// Width of the welds
+    /// Width of the welds between pieces
     weld_mm: f64,
-    /// Fabric beyond welds and ends
+    /// Width of the fabric beyond welds and ends
     allowance_mm: f64,
-    /// Pieces to cut
+    /// Pieces to cut, with the marks on each
     pieces: &'a [PatternPiece],
     /// What the plan leaves to its reader
     notes: Vec<String>,
-    /// Files
+    /// Files of drawings that were written
     written: Vec<String>,
 }
 

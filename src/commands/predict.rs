@@ -1,5 +1,3 @@
-//! `ibr predict`
-
 use super::inputs::{self, quantity};
 use super::limits;
 use crate::cli::PredictArgs;
@@ -69,12 +67,11 @@ fn follow(scenario: &Scenario, context: &Context) -> Result<Outcome> {
     Ok(Outcome { notes: followed.words(), ..Outcome::default() })
 }
 
-/// The place of `--inverse X,Y`.
 fn place((x, y): (&str, &str)) -> Result<[f64; 2]> {
     Ok([quantity("--inverse", x, Quantity::Length)?, quantity("--inverse", y, Quantity::Length)?])
 }
 
-/// What `--inverse` asks for.
+/// Reads a height, an angle or a place from the text of `--inverse`.
 fn target(wanted: &str) -> Result<Target> {
     match wanted.split_once('=') {
         Some(("tip", value)) => Ok(Target::TipHeight(quantity("--inverse", value, Quantity::Length)?)),

@@ -27,7 +27,7 @@ pub(super) fn run(name: &str, out: Option<&Path>, context: &mut Context) -> Resu
 /// `ibr.one_number`: `ibr diagnose SCENARIO --published`
 #[derive(Serialize)]
 struct OneNumberAnswer<'a> {
-    /// What was found
+    /// Published number, and what a diagnosis makes of it
     result: &'a OneNumber,
 }
 

@@ -81,9 +81,9 @@ pub(super) fn by_scheduler(args: &ShardArgs, work: &Work, context: &mut Context)
 struct ShardAnswer {
     /// Runs or sets of this shard that were made now
     made: usize,
-    /// Missing parts of all shards
+    /// Parts of all shards that are still missing
     missing: usize,
-    /// Those in all
+    /// Number of parts of all shards
     runs: usize,
 }
 

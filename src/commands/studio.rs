@@ -1,5 +1,3 @@
-//! `ibr studio`
-
 use crate::cli::StudioArgs;
 use crate::prelude::*;
 use crate::studio::Studio;

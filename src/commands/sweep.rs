@@ -1,5 +1,3 @@
-//! `ibr sweep`
-
 use super::shards::{Work, by_scheduler, shard};
 use crate::cli::SweepArgs;
 use crate::prelude::*;
@@ -133,29 +131,28 @@ fn swept_text(study: &Study, found: &Found, table: &Table) -> String {
 /// `ibr.sweep`: `ibr sweep STUDY`
 #[derive(Serialize)]
 struct SweepAnswer<'a> {
-    /// The study as typed
+    /// Path or name of the study as typed
     study: String,
-    /// The robot
+    /// Path or name of the robot that the study varies
     scenario: &'a str,
-    /// Cases of the study
+    /// Number of cases of the study
     cases: usize,
-    /// What computes the cases
+    /// Engines that compute the cases: reduced, finite elements
     engines: Vec<&'static str>,
-    /// What was done
     #[serde(flatten)]
     found: &'a Found,
     /// Rows without numbers, by their reason
     failed: Vec<FailedRows>,
-    /// Columns of the table
+    /// Names of the columns in the table
     columns: Vec<String>,
 }
 
 /// Rows without numbers for one reason.
 #[derive(Serialize)]
 struct FailedRows {
-    /// Why
+    /// Message of the model or of the finite elements
     reason: String,
-    /// How many
+    /// Number of rows that have this reason
     rows: usize,
 }
 

@@ -1,5 +1,3 @@
-//! `ibr tradeoff`
-
 use crate::cli::TradeoffArgs;
 use crate::prelude::*;
 use compare::study::Rung;
@@ -57,9 +55,9 @@ fn published(ladders: &[PublishedLadder]) -> Table<(&PublishedActuator, &Rung)> 
 /// `ibr.tradeoff`: `ibr tradeoff`
 #[derive(Serialize)]
 struct TradeoffAnswer {
-    /// Processor, cores, system
+    /// Processor, number of cores and operating system
     machine: String,
-    /// Models
+    /// Models and the time that each takes
     models: Vec<Timing>,
 }
 

@@ -1,5 +1,3 @@
-//! `ibr validate`
-
 use super::inputs::{self, positive};
 use crate::cli::ValidateArgs;
 use crate::prelude::*;

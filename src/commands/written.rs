@@ -1,4 +1,4 @@
-//! Datasets that commands write.
+//! Datasets that `ibr data generate` and `ibr data fem` write.
 
 use crate::prelude::*;
 use data::About;

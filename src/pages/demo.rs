@@ -51,7 +51,6 @@ pub(crate) fn demo_page(demo: &Demo, maker: &Maker, progress: &mut Progress) -> 
     Ok(files)
 }
 
-/// Where the markers come from.
 const MARKERS: &str = "finite elements of this program with camera noise; no measurement";
 
 fn found(demo: &Demo) -> Diagnosed<'_> {

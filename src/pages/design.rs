@@ -1,5 +1,3 @@
-//! A design and its wish.
-
 use super::Result;
 use super::figures::{LINE_POINTS, mm};
 use crate::prelude::*;

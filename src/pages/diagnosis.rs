@@ -23,13 +23,13 @@ const MOST_TOLD: usize = 6;
 
 /// A diagnosis with what it was made of.
 pub struct Diagnosed<'a> {
-    /// What was found.
+    /// Result of the diagnosis that the page shows.
     pub diagnosis: &'a Diagnosis,
-    /// The scenario as given.
+    /// Scenario as the user gave it, before any effect is added.
     pub scenario: &'a Scenario,
-    /// The data.
+    /// Measurements that the scenario was compared with.
     pub dataset: &'a Dataset,
-    /// Their description.
+    /// Description of the measurements; `None` if they have none.
     pub about: Option<&'a About>,
     /// Finite element runs of the same robot, if there are any.
     pub witness: Option<&'a Witness>,
@@ -49,7 +49,7 @@ pub fn diagnosis_page(found: &Diagnosed, maker: &Maker, progress: &mut Progress)
     Ok(files)
 }
 
-/// Its plots alone.
+/// Draws the plots of a diagnosis without its report.
 pub fn diagnosis_plots(found: &Diagnosed, progress: &mut Progress) -> Result<Files> {
     let mut files = Files::default();
     draw(found, "", &diagnosis_pictures(), &mut files, progress)?;

@@ -1,5 +1,3 @@
-//! A diagnosis → plots.
-
 use super::Result;
 use super::figures::measured;
 use crate::prelude::*;

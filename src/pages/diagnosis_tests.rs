@@ -53,7 +53,6 @@ fn a_marker_that_slid_along_the_body_is_seen_in_the_residual_map() {
     }
 }
 
-/// The report of a diagnosis.
 fn page(diagnosis: &Diagnosis, scenario: &Scenario, dataset: &Dataset) -> String {
     let typed = ["S", "D"];
     let found = Diagnosed { diagnosis, scenario, dataset, about: None, witness: None, typed, more: String::new() };

@@ -1,5 +1,3 @@
-//! Plots of both engines.
-
 use super::Result;
 use crate::prelude::*;
 use compare::study::engines::{EnginePair, EngineRobot, Engines, PartingMap, TERMS};

@@ -1,5 +1,3 @@
-//! Results → plots.
-
 use super::Result;
 use crate::prelude::*;
 use compare::characterize::Scatter;
@@ -52,7 +50,6 @@ pub(super) fn several_bodies(dataset: &Dataset) -> bool {
     bodies(dataset).len() > 1
 }
 
-/// `, body 2 kPa`.
 pub(super) fn body(p_body_pa: f64) -> String {
     format!(", body {} kPa", compare::wording::short(p_body_pa * 1e-3))
 }

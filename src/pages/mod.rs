@@ -53,7 +53,7 @@ pub(crate) use uncertain::{marker_intervals, what_to_measure};
 /// Files of one result, in memory until all are done; the report is last.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Files {
-    /// File name and contents.
+    /// Name and contents of each file, in the order of writing.
     pub files: Vec<(String, Vec<u8>)>,
     /// File name and table, written as Parquet.
     pub parquet: Vec<(String, data::Table)>,
@@ -73,12 +73,11 @@ impl Files {
         self.retired = pictures.iter().flat_map(|name| ["svg", "png"].map(|kind| format!("{name}.{kind}"))).collect();
     }
 
-    /// Adds a text.
+    /// Adds a text file under this name.
     pub fn text(&mut self, name: &str, text: String) {
         self.files.push((name.to_string(), text.into_bytes()));
     }
 
-    /// Adds a table as `<name>.csv`.
     fn csv(&mut self, name: &str, table: &data::Table) -> Result<()> {
         let mut csv = Vec::new();
         table.to_csv(&mut csv)?;
@@ -144,7 +143,7 @@ pub enum PageError {
     /// A model without equilibrium, or data that were refused.
     #[error(transparent)]
     Compare(#[from] ::compare::CompareError),
-    /// What cannot be drawn.
+    /// A chart or a page that cannot be drawn from these results.
     #[error(transparent)]
     Report(#[from] report::ReportError),
 }

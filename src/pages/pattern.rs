@@ -4,7 +4,7 @@ use models::cutting::{CuttingPlan, MarkKind, PatternPiece};
 use report::sheet::{PatternSheet, Pen};
 
 const MM: f64 = 1e3;
-/// White around everything \[mm\].
+/// White border on every side of the drawing \[mm\].
 const BORDER: f64 = 10.0;
 /// Between pieces \[mm\], for their names.
 const GAP: f64 = 16.0;

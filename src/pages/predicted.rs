@@ -1,5 +1,3 @@
-//! Predicted shapes.
-
 use super::Result;
 use super::figures::{LINE_POINTS, MOST_POSES, mm};
 use crate::AtPressure;

@@ -1,5 +1,3 @@
-//! Results → CSV.
-
 use super::figures::measured;
 use ::compare::metrics::HoldMetrics;
 use ::compare::residuals::ResidualCell;

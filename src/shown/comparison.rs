@@ -1,4 +1,4 @@
-//! A comparison.
+//! Text and JSON of a comparison, `ibr.compare`.
 
 use crate::prelude::*;
 use crate::words::hold_name;
@@ -14,11 +14,11 @@ use compare::{Evaluation, NoiseSummary, ScalingCheck};
 pub struct CompareAnswer<'a> {
     /// Scenario as typed, or `its own`
     pub scenario: &'a str,
-    /// Data as typed
+    /// Path or name of the data as typed
     pub data: &'a str,
-    /// Actuator kind
+    /// Kind of the actuator, `epam` for example
     pub actuator: &'a str,
-    /// Runs
+    /// Number of runs in the data
     pub runs: usize,
     /// How the data came to be; null without about.toml
     pub provenance: Option<Provenance>,
@@ -35,7 +35,7 @@ pub struct CompareAnswer<'a> {
     pub models: Vec<ModelOnData<'a>>,
     /// What effects that `ibr add` wrote bring here; null without any
     pub added: Option<AddedOnData<'a>>,
-    /// Cautions
+    /// Reasons to doubt data or comparison
     pub warnings: &'a [String],
     #[serde(skip)]
     found: &'a Comparison,
@@ -46,17 +46,17 @@ pub struct CompareAnswer<'a> {
 /// A model compared with the data.
 #[derive(Serialize)]
 pub struct ModelOnData<'a> {
-    /// In words
+    /// Name of the model in words
     pub label: &'a str,
-    /// How its values are known
+    /// How the values of the model are known
     pub how_known: Known,
-    /// Where its values come from
+    /// Source of its values in one sentence
     pub why: &'a str,
-    /// Bending stiffness
+    /// Effective bending stiffness B of the body
     pub bending_nm2: f64,
-    /// Names of effects
+    /// Names of the effects in the model
     pub effects: Vec<&'a str>,
-    /// How far off it is
+    /// Errors of the model on the data, as keys of this object
     #[serde(flatten)]
     pub errors: ModelErrors<'a>,
 }
@@ -66,9 +66,9 @@ pub struct ModelOnData<'a> {
 pub struct ModelErrors<'a> {
     /// Accuracy and its companions, hold by hold
     pub holds: &'a [HoldMetrics],
-    /// The same over all holds
+    /// Accuracy and its companions over all holds
     pub overall: &'a OverallMetrics,
-    /// Residuals, marker by hold
+    /// Residuals of every marker in every hold
     pub residual_map: &'a ResidualMap,
     /// Where it fails, in plain language
     pub where_it_fails: &'a [Statement],
@@ -85,9 +85,9 @@ impl<'a> ModelErrors<'a> {
 pub struct AddedOnData<'a> {
     /// Effects that were added to the scenario
     pub effects: &'a [String],
-    /// Without them
+    /// Errors of the scenario without the added effects
     pub before: &'a HowFar,
-    /// With the effects
+    /// Errors of the scenario with the added effects
     pub after: &'a HowFar,
     /// They were fitted to these very data: no test
     pub fitted_to_these: bool,
@@ -128,7 +128,7 @@ impl<'a> CompareAnswer<'a> {
     }
 }
 
-/// For readers.
+/// Text of the comparison as the command prints it.
 pub fn text(answer: &CompareAnswer) -> String {
     let CompareAnswer { found, added, sentence, .. } = answer;
     let first = &found.variants[0];

@@ -9,7 +9,7 @@ use compare::study::Comparison;
 use compare::study::engines::EngineLine;
 use compare::where_it_fails::Statement;
 
-/// Mechanisms that panel 3 lists.
+/// Number of mechanisms that panel 3 lists, best first.
 const CANDIDATES: usize = 3;
 /// Actuator pressures that panel 2 lists \[kPa\].
 const SHOWN_KPA: [f64; 4] = [5.0, 10.0, 20.0, 30.0];
@@ -40,7 +40,7 @@ impl Panel {
     }
 }
 
-/// What a vine robot is.
+/// Sentences of panel 1: what a vine robot is, and this one's dimensions.
 fn robot(demo: &Demo) -> String {
     let Scenario { name, length_m, radius_m, p_body_pa, actuator, markers_m, .. } = &demo.robot;
     format!(
@@ -72,7 +72,6 @@ fn heights(found: &Comparison) -> Table<(&HoldLabel, &ResidualCell, f64)> {
         .number("times the noise", 0, |(_, cell, _)| cell.y.in_noise.map(f64::abs))
 }
 
-/// The nearest mechanisms.
 fn candidates(demo: &Demo) -> Table<&Mechanism> {
     Table::of(demo.candidates.iter().take(CANDIDATES))
         .words("effect", |m| &m.effect)
@@ -129,7 +128,7 @@ const ELEMENTS: &str = "finite elements";
 const PAPER: &str = "the paper's";
 const MEASURED: &str = "measurement";
 
-/// Robots of the last panel.
+/// Lines of panel 5 by robot, in the order of their first appearance.
 pub(crate) fn breaking(demo: &Demo) -> Vec<Breaking<'_>> {
     let mut robots: Vec<Breaking> = Vec::new();
     for line in &demo.lines {
@@ -152,7 +151,7 @@ fn breaking_table(demo: &Demo) -> Table<Breaking<'_>> {
         .right("accuracy %", Breaking::accuracies)
 }
 
-/// The five panels.
+/// Panels of the demonstration: title, lead and table of each.
 pub fn panels(demo: &Demo) -> [Panel; 5] {
     let [first, last] = [demo.steps.first(), demo.steps.last()].map(|step| step.map_or(f64::NAN, |s| s.error_mm));
     let fails = &demo.compared.variants[0].evaluation.where_it_fails;
@@ -167,7 +166,7 @@ pub fn panels(demo: &Demo) -> [Panel; 5] {
     ]
 }
 
-/// The five panels as text.
+/// Text of the demonstration as the command prints it.
 pub(crate) fn text(demo: &Demo) -> String {
     let rest = format!(
         "Everything else: `ibr list datasets`, `ibr tradeoff`, `ibr breakdown`, and `ibr diagnose {}-textbook {} --out FOLDER`.\n",
@@ -178,13 +177,9 @@ pub(crate) fn text(demo: &Demo) -> String {
     panels(demo).into_iter().enumerate().map(panel).collect::<String>() + &wrapped(&rest, 0)
 }
 
-/// Lead of panel 2.
 const CAMERA: &str = "The textbook model, and the same robot in finite elements with every mechanism, seen by a camera in 5 runs. Outermost marker:";
-/// Lead of panel 3.
 const ALONE: &str = "Mechanisms of how it is made, each added alone, none of their numbers fitted:";
-/// Lead of panel 4.
 const ADDED: &str = "Each row adds the mechanism that leaves least. Left-out data: twice the body pressure.";
-/// Lead of panel 5.
 const BREAKING: &str = "Four published robots: pouches taped onto the body (sPAM), folded (cPAM) or in its wall (ePAM), and a fabric muscle \
      (fPAM). Outermost marker in mm: reduced model / finite elements ± spread of 5 seeds; * more than 15 % apart. Accuracy, \
      1 − (relative error)²: reduced and finite elements at 30 kPa; the paper's own at 10, 20, 30 kPa.";
@@ -220,7 +215,7 @@ pub(crate) struct DemoAnswer<'a> {
 }
 
 impl<'a> DemoAnswer<'a> {
-    /// Of the demonstration.
+    /// Borrows the parts of a demonstration that its JSON has.
     pub(crate) fn of(demo: &'a Demo) -> DemoAnswer<'a> {
         DemoAnswer {
             where_it_fails: &demo.compared.variants[0].evaluation.where_it_fails,

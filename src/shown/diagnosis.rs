@@ -9,12 +9,12 @@ use compare::witness::Witness;
 /// `ibr.diagnose`: `ibr diagnose SCENARIO DATA`, and `diagnosis.json`
 #[derive(Serialize)]
 pub struct DiagnosisAnswer<'a> {
-    /// What was found
+    /// Result of the diagnosis, as keys of this object
     #[serde(flatten)]
     pub diagnosis: &'a Diagnosis,
     /// The same robot in finite elements; null without runs
     pub finite_elements: Option<&'a Witness>,
-    /// Scenario as typed
+    /// Path or name of the scenario as typed
     pub scenario_file: &'a str,
     /// SHA-256 of every table as read
     pub data_sha256: Vec<&'a str>,

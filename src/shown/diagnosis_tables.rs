@@ -1,4 +1,4 @@
-//! Every table of a diagnosis.
+//! All tables of a diagnosis, as text and as rows.
 
 use super::engines::over_seeds;
 use crate::prelude::*;
@@ -23,7 +23,7 @@ pub(crate) fn tables(d: &Diagnosis, witness: Option<&Witness>) -> String {
 /// What the first column of effects and pairs means.
 pub(crate) const MARKS: &str = "= cannot be told from the best · ! on a physical bound, rejected\n";
 
-/// What [`unseen`] shows.
+/// Title of the table that [`unseen`] makes.
 pub(crate) const UNSEEN: &str = "Effects not found; smallest size that would have been seen (90 %)";
 
 /// It is stated in words: of the answer, or of the set where no pair is stated.

@@ -24,7 +24,7 @@ pub fn steps_text(steps: &[ErrorStep], noise_floor_mm: Option<f64>) -> String {
     format!("Error beyond noise ({floor})\n{}", steps.text())
 }
 
-/// A climb as text.
+/// Text of a climb: its steps, sentences, and warnings about their meaning.
 pub fn climb_text(climb: &Climb) -> String {
     let mut out = steps_text(&climb.rungs, climb.noise_floor_mm);
     out += &lines("  - ", &climb.told);
@@ -40,42 +40,42 @@ pub fn climb_text(climb: &Climb) -> String {
 /// `ibr.add`: `ibr add SCENARIO EFFECT [DATA]`
 #[derive(Serialize)]
 pub struct AddAnswer<'a> {
-    /// Scenario as typed
+    /// Path or name of the scenario as typed
     pub scenario_file: &'a str,
-    /// SHA-256 of the scenario
+    /// SHA-256 of the scenario that was extended
     pub scenario_sha256: String,
-    /// File that was written
+    /// File to which the extended scenario was written
     pub written: &'a str,
-    /// What was added
+    /// Effects that were added, with values and source
     pub effects: Vec<AddedEffect<'a>>,
     /// B that was written; null if it was kept
     pub bending_nm2: Option<f64>,
-    /// Without it, B calibrated
+    /// Errors without the effect, with B calibrated
     pub before: Option<&'a ErrorStep>,
-    /// With the effect
+    /// Errors with the effect on the same data
     pub after: Option<&'a ErrorStep>,
     /// Errors on the way, as given first
     pub rungs: &'a [ErrorStep],
-    /// Noise of the mean
+    /// Noise of the mean over runs of the data
     pub noise_floor_mm: Option<f64>,
     /// Data of the fit; null without
     pub data: Option<FileHash>,
-    /// Data that were fitted along
+    /// Further data to which the values were fitted
     pub also: Vec<FileHash>,
-    /// Date
+    /// Date on which the scenario was written
     pub date: String,
-    /// Cautions
+    /// Reasons to doubt the values or the effect
     pub warnings: &'a [String],
 }
 
-/// An effect that was added.
+/// Effect that a scenario has gained, with its values and their source.
 #[derive(Serialize)]
 pub struct AddedEffect<'a> {
-    /// Name of the effect
+    /// Name of the effect in the catalogue
     pub effect: &'a str,
-    /// `assumed` or `calibrated`
+    /// How the values are known: `assumed` or `calibrated`
     pub how_known: &'static str,
-    /// Values written, by key
+    /// Values that were written, by their keys
     pub values: BTreeMap<&'a str, f64>,
     /// Fitted values; null for a value that was given
     pub parameters: Option<&'a [ParameterValue]>,

@@ -6,42 +6,40 @@ use compare::bench::{Held, HeldRow};
 /// `ibr.compare.bench`: `ibr compare TABLE`, a table of bench tests
 #[derive(Serialize)]
 pub(crate) struct BenchAnswer<'a> {
-    /// Data as typed
+    /// Path or name of the data as typed
     pub data: &'a str,
-    /// Kind of table
+    /// Kind of the table of bench tests
     pub kind: &'a str,
     /// How its numbers came to be
     pub provenance: Provenance,
-    /// The table with its model
+    /// Rows of the table next to their model
     pub held: HeldTable<'a>,
 }
 
-/// Bench tests with their model.
 #[derive(Serialize)]
 pub(crate) struct HeldTable<'a> {
-    /// One line
+    /// Title of the table in one line
     pub title: &'a str,
-    /// Quantity compared, with unit
+    /// Quantity that is compared, with its unit
     pub quantity: &'a str,
     /// How the model's numbers are known
     pub how_known: Known,
     /// Rms of `off` over rows that nothing was fitted to
     pub rms_off: Option<f64>,
-    /// Rows
+    /// Tests of the table, each with its model
     pub rows: Vec<HeldTest<'a>>,
-    /// Remarks
+    /// Remarks on the tests and the model
     pub notes: &'a [String],
 }
 
 /// A row of bench tests with its model.
 #[derive(Serialize)]
 pub(crate) struct HeldTest<'a> {
-    /// The row
     #[serde(flatten)]
     pub row: &'a HeldRow,
-    /// Model over measurement, less one
+    /// Relative error of the model: model over measurement, less one
     pub off: Option<f64>,
-    /// What follows
+    /// Consequence of the error, in words
     pub verdict: String,
 }
 

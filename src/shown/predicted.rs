@@ -1,4 +1,4 @@
-//! Predicted states.
+//! Text and JSON of predicted states, `ibr.predict`.
 
 use crate::prelude::*;
 use ::sweep::PRESSURE;
@@ -8,7 +8,7 @@ use models::assembly::Segment;
 use models::space::SectionState;
 use models::{Beyond, CHANNELS, End, Limit, Prediction, Row, Steered, TipSlope};
 
-/// For readers.
+/// Text of predicted states as the command prints it: pressures, tip and warnings.
 pub fn text(scenario: &Scenario, states: &[AtPressure]) -> String {
     let is_spatial = scenario.is_spatial();
     let tip = |s: &AtPressure| s.prediction.tip;
@@ -86,41 +86,41 @@ fn total_slope(state: &AtPressure) -> f64 {
 /// `ibr.predict`: `ibr predict SCENARIO`
 #[derive(Serialize)]
 pub struct PredictAnswer<'a> {
-    /// Scenario as typed
+    /// Path or name of the scenario as typed
     pub scenario: &'a str,
-    /// Name in the scenario
+    /// Name of the robot in the scenario
     pub name: &'a str,
-    /// Actuator kind
+    /// Kind of the actuator, `epam` for example
     pub actuator: &'a str,
-    /// Names of effects
+    /// Names of the effects in the model
     pub effects: Vec<&'a str>,
-    /// One for each pressure
+    /// Predicted states, one for each pressure
     pub states: Vec<PredictedState>,
     /// With `--inverse X,Y`: what became of the place
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nearest: Option<NearestPlace>,
 }
 
-/// A state at one pressure.
+/// Shape, tip and markers at one set of pressures, as JSON.
 #[derive(Serialize)]
 pub struct PredictedState {
-    /// Actuator pressure
+    /// Actuator pressure of channel 0, the only one of most robots
     pub p_act_kpa: f64,
-    /// Actuator pressure of every channel
+    /// Actuator pressure of every channel, in their order
     pub p_act_channels_kpa: Vec<f64>,
-    /// Body pressure
+    /// Body pressure at which the state is predicted
     pub p_body_kpa: f64,
     /// Markers as the camera sees them
     pub markers: Vec<PredictedMarker>,
-    /// Tip
+    /// Pose of the centre line's end
     pub tip: PredictedTip,
-    /// Curvature of every segment
+    /// Curvature of every segment, base to tip
     pub curvature_per_m: Vec<f64>,
-    /// Segments
+    /// Segments of constant curvature, base to tip
     pub segments: Vec<Segment>,
     /// Change of the tip with the pressure of each channel
     pub jacobian: Vec<TipSlope>,
-    /// Energies at equilibrium
+    /// Energies at equilibrium, a row per term
     pub ledger: Vec<Row>,
     /// Stretches that the robot would not hold
     pub beyond: Vec<Beyond>,
@@ -132,47 +132,47 @@ pub struct PredictedState {
 /// A marker as the camera sees it.
 #[derive(Serialize)]
 pub struct PredictedMarker {
-    /// Station along the body
+    /// Station along the undeformed body, from the base
     pub s_mm: f64,
-    /// Along the straight robot
+    /// Coordinate along the straight robot, from the base
     pub x_mm: f64,
-    /// Across it
+    /// Coordinate across it, towards the actuator
     pub y_mm: f64,
     /// Towards azimuth 90°, with strips round the body
     #[serde(skip_serializing_if = "Option::is_none")]
     pub z_mm: Option<f64>,
 }
 
-/// The tip.
+/// Pose of the tip in the frame of the clamp, as JSON.
 #[derive(Serialize)]
 pub struct PredictedTip {
-    /// Along the straight robot
+    /// Coordinate along the straight robot, from the base
     pub x_mm: f64,
-    /// Across it
+    /// Coordinate across it, towards the actuator
     pub y_mm: f64,
     /// Towards azimuth 90°, with strips round the body
     #[serde(skip_serializing_if = "Option::is_none")]
     pub z_mm: Option<f64>,
-    /// Angle
+    /// Total bending angle from base to tip
     pub angle_deg: f64,
 }
 
 /// A section of a robot with strips round the body.
 #[derive(Serialize)]
 pub struct SpaceSection {
-    /// Where it is
+    /// Segment of the body, as keys of this object
     #[serde(flatten)]
     pub segment: Segment,
     /// Bend towards azimuth 0° and 90° of a frame that follows the body without twist
     pub curvature_yz_per_m: [f64; 2],
-    /// Contraction of the axis
+    /// Contraction of the axis, positive where it shortens
     pub contraction: f64,
-    /// Tension along every strip
+    /// Tension along every strip, in the order of the scenario
     pub tension_n: Vec<f64>,
 }
 
 impl PredictedState {
-    /// As JSON.
+    /// Converts the state to a JSON object.
     pub fn json(&self) -> serde_json::Value {
         // Keys are texts: nothing here can fail.
         serde_json::to_value(self).unwrap_or_default()
@@ -256,9 +256,9 @@ fn held(found: &Steered) -> impl Iterator<Item = (usize, &'static str, f64)> + '
 /// What became of the target place of the tip.
 #[derive(Serialize)]
 pub struct NearestPlace {
-    /// Target
+    /// Target coordinate of the tip along the straight robot
     pub x_mm: f64,
-    /// Target
+    /// Target coordinate of the tip across it
     pub y_mm: f64,
     /// Distance of the tip from the place
     pub miss_mm: f64,
@@ -266,19 +266,19 @@ pub struct NearestPlace {
     pub held_back: Vec<ChannelLimit>,
 }
 
-/// A channel at a limit.
+/// Supply channel whose pressure is at a limit, as JSON.
 #[derive(Serialize)]
 pub struct ChannelLimit {
-    /// Supply channel
+    /// Number of the supply channel, from 0
     pub channel: usize,
-    /// `least` or `largest`
+    /// Which limit the pressure is at: `least` or `largest`
     pub limit: &'static str,
-    /// Its pressure
+    /// Pressure of the channel, which is its limit
     pub p_kpa: f64,
 }
 
 impl NearestPlace {
-    /// Of a place \[m\].
+    /// Names the limits that keep the robot from a place \[m\], and the remaining distance.
     pub fn of(place_m: [f64; 2], found: &Steered) -> NearestPlace {
         let [x_mm, y_mm] = place_m.map(|m| m * 1e3);
         let held_back = held(found).map(|(channel, limit, p_kpa)| ChannelLimit { channel, limit, p_kpa }).collect();

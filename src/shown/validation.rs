@@ -6,11 +6,11 @@ use compare::validation::{BeforeAfter, Validation};
 /// `ibr.validate`: `ibr validate SCENARIO DATA`
 #[derive(Serialize)]
 pub struct ValidateAnswer<'a> {
-    /// Scenario as typed
+    /// Path or name of the scenario as typed
     pub scenario_file: &'a str,
-    /// Effects that are judged
+    /// Effects that `ibr add` wrote and the data judge
     pub added: &'a [String],
-    /// Bending stiffness
+    /// Bending stiffness without and with the effects
     pub bending_nm2: TwoStiffnesses,
     /// One for each of the data
     pub datasets: &'a [Validation],
@@ -19,9 +19,9 @@ pub struct ValidateAnswer<'a> {
 /// A bending stiffness without and with effects.
 #[derive(Serialize)]
 pub struct TwoStiffnesses {
-    /// Without them
+    /// Bending stiffness of the scenario without them
     pub before: f64,
-    /// With the effects
+    /// Bending stiffness of the scenario with the effects
     pub after: f64,
 }
 
@@ -33,7 +33,7 @@ impl<'a> ValidateAnswer<'a> {
     }
 }
 
-/// For readers.
+/// Text of a validation as the command prints it.
 pub fn text(file: &str, both: &BeforeAfter, found: &[Validation]) -> String {
     let mut out = format!(
         "{file}: {} on other data, nothing refitted (B {:.3} N m² with, {:.3} without)\n",

@@ -16,11 +16,8 @@ const STACK: usize = 16 << 20;
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Wish {
-    /// Name of the robot.
     name: String,
-    /// Text of its scenario.
     text: String,
-    /// Actuator pressure \[kPa\].
     actuator_kpa: f64,
 }
 

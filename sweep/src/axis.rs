@@ -17,7 +17,7 @@ pub const PRESSURE: &str = "pressure_kpa";
 /// A share this close to an end is at it.
 const AT_END: f64 = 1e-3;
 
-/// A key that varies.
+/// Key of the scenario that varies, with its levels or range.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// Place in the scenario, such as `actuator.width_mm`, or `pressure_kpa`.

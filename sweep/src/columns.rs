@@ -17,7 +17,6 @@ pub(crate) const ACCOUNTS: [(&str, Account); 8] = [
 
 /// Column of whether a pose can be trusted.
 pub(crate) const TRUSTED: &str = "trusted";
-/// Column of processor time \[s\].
 pub(crate) const CPU_S: &str = "cpu_s";
 
 pub(crate) fn columns(study: &Study) -> Vec<String> {

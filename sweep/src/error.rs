@@ -4,7 +4,7 @@ use compare::CompareError;
 use fem::FemError;
 use std::path::{Path, PathBuf};
 
-/// Why a sweep ended.
+/// Reason for which a sweep did not run to its end.
 #[expect(missing_docs, reason = "fields have the words and units of their message")]
 #[derive(Debug, thiserror::Error)]
 pub enum SweepError {
@@ -39,7 +39,7 @@ impl SweepError {
         FemError::Folder { path: folder.to_path_buf(), cause: self.to_string(), help: self.help() }
     }
 
-    /// What to do about it.
+    /// Remedy in one sentence; empty where the message already contains it.
     pub fn help(&self) -> String {
         match self {
             SweepError::Study(error) => error.help().unwrap_or_default().into(),

@@ -15,11 +15,9 @@ pub type ReadRobot = fn(&str) -> Result<ScenarioFile, CompareError>;
 
 /// What such a file is called, and how it is read.
 pub(crate) struct Form<Raw, T> {
-    /// In messages.
     pub what: &'static str,
     /// The page that shows every key.
     pub page: &'static str,
-    /// The robot that it names.
     pub scenario: fn(&Raw) -> &Spanned<String>,
     /// From the robot, and the folder that paths in its file count from.
     pub of: fn(Raw, ScenarioFile, &Path) -> Result<T, Wrong>,

@@ -10,14 +10,14 @@ const MOST_GROUPS: usize = 10;
 /// Means of an output over groups of a key's values, all other keys as they come.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Influence {
-    /// The key.
+    /// Key that the groups belong to, as in the study.
     pub key: String,
     /// Name of every group, and the mean of the output in it; rising values of the key.
     pub groups: Vec<(String, f64)>,
 }
 
 impl Influence {
-    /// Lowest and highest mean.
+    /// Lowest and highest mean of the output over all groups.
     pub fn range(&self) -> [f64; 2] {
         let all = || self.groups.iter().map(|group| group.1);
         [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)]
@@ -31,7 +31,7 @@ impl Influence {
 /// Means of an output over groups of two keys.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepMap {
-    /// Keys of rows and columns.
+    /// Keys whose groups are the rows and the columns.
     pub keys: [String; 2],
     /// Names of the groups of each.
     pub names: [Vec<String>; 2],
@@ -65,7 +65,7 @@ pub fn pairs(table: &Table, output: &str) -> Vec<[f64; 2]> {
     of(Engine::Elements).into_iter().filter_map(both).collect()
 }
 
-/// The map over two keys.
+/// Means of an output over groups of two keys; `None` if a key or output is not in the table.
 pub fn map(table: &Table, engine: Engine, output: &str, keys: [&str; 2]) -> Option<SweepMap> {
     let rows = Solved::of(table, engine, output)?;
     let [down, across] = [rows.grouped(table, keys[0])?, rows.grouped(table, keys[1])?];

@@ -15,9 +15,8 @@ const FORMAT: u32 = 2;
 /// Cases of one engine that are computed together.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Part {
-    /// What computes them.
     pub engine: Engine,
-    /// Which of the study's.
+    /// Numbers of these cases among the study's.
     pub cases: Range<usize>,
 }
 
@@ -27,7 +26,6 @@ pub(crate) struct Rows {
     pub numbers: Vec<f64>,
     /// Cases that failed, counted within the part, and why.
     pub failed: Vec<(usize, String)>,
-    /// Processor time \[s\].
     pub cpu_s: f64,
 }
 

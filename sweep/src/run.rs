@@ -8,14 +8,14 @@ use crate::{SweepError, elements, reduced};
 use fem::session::{Maker, Progress, Shard};
 use std::path::PathBuf;
 
-/// How a sweep is made.
+/// Folder, shard and threads of a sweep.
 #[derive(Debug, Clone)]
 pub struct Settings {
     /// Folder of the parts.
     pub folder: PathBuf,
     /// Whether every finite element run keeps a folder of its own below it, with summary and pictures.
     pub keep_runs: bool,
-    /// Which parts.
+    /// Parts of the study that this call computes.
     pub shard: Shard,
     /// Threads; 0: one per core. Bits do not depend on it.
     pub threads: usize,
@@ -23,10 +23,10 @@ pub struct Settings {
     pub maker: Maker,
 }
 
-/// What was done.
+/// Numbers of parts of a sweep: of this shard, kept from before, still missing.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Found {
-    /// Parts of this shard.
+    /// Number of parts in this shard.
     pub parts: usize,
     /// Of them those that were there before.
     pub kept: usize,

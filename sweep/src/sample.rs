@@ -3,7 +3,6 @@
 use compare::study::generate::Scatter;
 use serde::Deserialize;
 
-/// How cases are spread.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 pub(crate) enum Method {
     /// Every n-th of each range is met once (McKay, Beckman and Conover 1979).

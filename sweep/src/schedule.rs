@@ -9,19 +9,19 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::time::Duration;
 
-/// A scheduler.
+/// Scheduler of a cluster, for which job scripts are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Cluster {
-    /// An array job: `sbatch`, `squeue`.
+    /// Slurm, with an array job: `sbatch`, `squeue`.
     Slurm,
-    /// A task array: `hq`.
+    /// HyperQueue, with a task array of `hq`.
     HyperQueue,
 }
 
-/// What is submitted.
+/// Job of several shards of one command, as a scheduler takes it.
 #[derive(Debug, Clone)]
 pub struct Job {
-    /// The program.
+    /// Path of the program that each shard calls.
     pub program: PathBuf,
     /// What it is told beside threads and shard: a command and its options.
     pub words: Vec<String>,
@@ -29,9 +29,9 @@ pub struct Job {
     pub started_in: PathBuf,
     /// Folder of the job and its logs.
     pub folder: PathBuf,
-    /// Shards.
+    /// Number of shards, one task of the scheduler each.
     pub shards: usize,
-    /// Threads of each.
+    /// Number of threads that each shard asks for.
     pub threads: usize,
     /// The scheduler's own options, in one line; empty without.
     pub options: String,

@@ -11,13 +11,13 @@ use serde::Deserialize;
 use std::path::Path;
 use toml::{Spanned, Value};
 
-/// What computes the cases.
+/// Engine that computes the cases of a study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 pub enum Engine {
-    /// The virtual-work model.
+    /// Reduced model, by balance of virtual work.
     #[serde(rename = "reduced")]
     Reduced,
-    /// The explicit finite elements.
+    /// Finite elements with explicit time integration.
     #[serde(rename = "finite elements")]
     Elements,
 }
@@ -32,15 +32,15 @@ impl Engine {
     }
 }
 
-/// Columns that are asked for.
+/// Groups of columns that a study asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Output {
     /// Place and turn of the tip.
     Tip,
-    /// Places of the markers.
+    /// Positions of all markers of the scenario.
     Markers,
-    /// Energies.
+    /// Energies of the ledger at equilibrium.
     Ledger,
     /// Whether the pose can be trusted.
     Limits,
@@ -51,13 +51,13 @@ pub enum Output {
 /// A sweep as its file tells it.
 #[derive(Debug, Clone)]
 pub struct Study {
-    /// The robot that is varied.
+    /// Robot whose keys the study varies.
     pub base: ScenarioFile,
     /// Folder that paths in the robot's file count from.
     pub folder: std::path::PathBuf,
-    /// What computes the cases.
+    /// Engines that compute the cases, one or both.
     pub engines: Vec<Engine>,
-    /// Columns.
+    /// Groups of columns in the table of results.
     pub outputs: Vec<Output>,
     /// Keys that vary from robot to robot.
     pub axes: Vec<Axis>,
@@ -213,7 +213,7 @@ impl Study {
         Ok(Study { base, folder, engines, outputs, axes, pressures_kpa, points, robots, checked })
     }
 
-    /// Cases of an engine.
+    /// Number of cases of an engine; finite elements compute only the checked robots.
     pub fn cases(&self, engine: Engine) -> usize {
         let robots = if engine == Engine::Elements { self.checked } else { self.robots };
         robots * self.per_robot()

@@ -5,7 +5,7 @@ use data::{ReadOptions, SetInfo, parse_about, parse_markers, set_about, set_file
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// Which measurements.
+/// Measurements of a question: an embedded set, or the text of a table.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measured {
@@ -14,7 +14,7 @@ pub struct Measured {
     /// A marker table; without it the set of that name.
     #[serde(default)]
     pub csv: Option<String>,
-    /// Its description, `about.toml`.
+    /// Description of the table, the text of its `about.toml`.
     #[serde(default)]
     pub about: Option<String>,
 }

@@ -37,7 +37,7 @@ pub extern "C" fn ask() -> usize {
     })
 }
 
-/// The answer.
+/// Address of the last answer, valid until the next question.
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> *const u8 {
     ANSWER.with_borrow(|answer| answer.as_ptr())

@@ -1,4 +1,4 @@
-//! The questions of the page.
+//! Questions that the page asks, as JSON, and their answers.
 
 use crate::data_of::Measured;
 use crate::robot::Robot;

@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 /// Stations at which the sides are told.
 const STATIONS: usize = 97;
 
-/// Which robot.
+/// Robot of a question: a shipped one, or the text of a scenario.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Robot {

@@ -21,7 +21,7 @@ const ACTUATOR: [f64; 2] = [0.1, 1.1];
 const FACTOR: Range = plain(-1e3, 1e3, "a multiplier over time: 0 is off, 1 is all");
 const FORCE: Range = plain(-1e5, 1e5, "write newtons: the sum over the set, [x, y, z]");
 const ACCELERATION: Range = plain(-1e4, 1e4, "write m/s², for example [0, 0, -9.81]");
-/// Litres per minute in m³/s.
+/// One litre per minute in m³/s.
 const L_MIN: f64 = 1e-3 / 60.0;
 const FLOW: Range = Range {
     si: L_MIN,

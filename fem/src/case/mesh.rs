@@ -20,24 +20,24 @@ pub(crate) type ReadMesh<'a> = &'a mut dyn FnMut(&Path) -> Result<MeshFile, FemE
 /// A generator of meshes as cases name it.
 #[derive(Debug, Clone, Copy, serde::Serialize)]
 pub struct MeshGenerator {
-    /// Name in `[mesh] generator`.
+    /// Name of the generator in `[mesh] generator`.
     pub name: &'static str,
     /// One plain sentence for a user.
     pub sentence: &'static str,
-    /// Its keys.
+    /// Values that the generator takes, in their order.
     pub keys: &'static [GeneratorKey],
     #[serde(skip)]
     make: fn(&[f64]) -> Result<Mesh, FemError>,
 }
 
-/// A value of a generator.
+/// One value that a generator of meshes takes.
 #[derive(Debug, Clone, Copy, serde::Serialize)]
 pub struct GeneratorKey {
     /// Key, with the unit as suffix.
     pub key: &'static str,
     /// Value if it is left out, as typed; null: it must be given.
     pub default: Option<f64>,
-    /// What it is.
+    /// Meaning in a few words, for documents and messages.
     pub meaning: &'static str,
     #[serde(skip)]
     kind: Kind,
@@ -78,7 +78,7 @@ const GAP: GeneratorKey = optional("gap_mm", Kind::Gap, "distance of the two lay
 const WARP: GeneratorKey =
     optional("warp_deg", Kind::Angle, "angle of the warp to the axis, counter-clockwise seen from outside");
 
-/// All generators.
+/// Mesh generators that cases may name, each with its keys.
 #[rustfmt::skip]
 pub const GENERATORS: &[MeshGenerator] = &[
     MeshGenerator {

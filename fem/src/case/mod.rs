@@ -26,9 +26,9 @@ use crate::{FemError, Problem};
 /// A run as the user describes it, in SI, checked.
 #[derive(Debug, Clone)]
 pub struct Case {
-    /// What is simulated.
+    /// Mesh, loads and settings of the run, in SI.
     pub problem: Problem,
-    /// What is written about it.
+    /// Files that the run writes, in addition to the energy ledger.
     pub outputs: Outputs,
     /// What was understood of a mesh file, and changed in it.
     pub notices: Vec<String>,

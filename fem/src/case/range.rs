@@ -213,7 +213,7 @@ pub struct Key<S: 'static> {
     pub meaning: &'static str,
     /// Reads it \[SI\], if it is set.
     pub get: fn(&S) -> Option<f64>,
-    /// Writes it \[SI\].
+    /// Writes the number \[SI\] into an `S`.
     pub set: fn(&mut S, f64),
 }
 

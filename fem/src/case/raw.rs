@@ -13,7 +13,6 @@ pub(super) struct Raw {
     pub kind: Text,
     #[serde(default)]
     pub name: String,
-    /// Free text; read by people.
     #[serde(default, rename = "notes")]
     pub _notes: String,
     pub mesh: Spanned<Free>,

@@ -1,4 +1,4 @@
-//! Parts and their plies.
+//! `[part]` tables: parts of the mesh and the plies of their sections.
 
 use super::law::{self, Fabrics};
 use super::range::{ANGLE, Checked, DENSITY, Num, Range, Text, direction, optional, plain, refuse, si, unknown_name};

@@ -12,7 +12,7 @@ use crate::policy;
 use crate::problem::{MassScaling, Settings};
 use toml::{Spanned, Value};
 
-/// The numbers of `[settings]`.
+/// Numbers of `[settings]`, each with bounds and meaning.
 #[rustfmt::skip]
 pub(super) const NUMBERS: &[Key<Settings>] = &[
     key("end_s", 1.0, [1e-6, 1000.0], "a run needs some time, in seconds; 1.1 is the paper's", |s| Some(s.end_s), |s, v| s.end_s = v),
@@ -116,13 +116,13 @@ pub struct Outputs {
     pub stations_m: Vec<f64>,
     /// Parts whose sections make the centre line; empty: all.
     pub station_parts: Vec<String>,
-    /// Direction of the stations.
+    /// Direction of the axis along which stations count.
     pub station_axis: [f64; 3],
     /// Write the deformed mesh at every output.
     pub frames: bool,
-    /// Draw the end state.
+    /// Whether a picture of the end state is drawn.
     pub pictures: bool,
-    /// Where it is seen from.
+    /// Direction from which the picture is drawn.
     pub view: Viewpoint,
 }
 

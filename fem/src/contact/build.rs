@@ -15,9 +15,9 @@ pub(super) struct Penalty {
     pub mass_kg: Vec<f64>,
     /// Least mass of the corners of each element, infinite if all are held.
     pub(crate) light_kg: Vec<f64>,
-    /// k = share · m.
+    /// Stiffness of a contact over its mass, k/m.
     pub(crate) stiffness_1_s2: f64,
-    /// c = share · m.
+    /// Damping of a contact over its mass, c/m.
     pub damping_1_s: f64,
 }
 

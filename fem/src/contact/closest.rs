@@ -22,7 +22,6 @@ pub(super) struct Closest {
     pub feature: Feature,
     /// Corners within the element, in the order the feature uses them.
     pub corners: [u8; 3],
-    /// Squared distance \[m²\].
     pub(crate) square_m2: f64,
     /// Distance, positive on the front \[m\].
     pub height_m: f64,
@@ -75,7 +74,6 @@ pub(super) fn on_triangle(p: V3, a: V3, b: V3, c: V3) -> [f64; 3] {
 /// The point of an element that is nearest to a node.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Nearest {
-    /// Squared distance \[m²\].
     pub(crate) square_m2: f64,
     pub half: usize,
     pub weights: [f64; 3],

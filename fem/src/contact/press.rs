@@ -86,7 +86,6 @@ fn grow(k: f64, rest_m: f64, touch: &mut Touch, last_m: f64, step: &Step, sums: 
 
 struct Spring {
     k: f64,
-    /// Damping coefficient over the step.
     c_dt: f64,
     last_m: f64,
 }

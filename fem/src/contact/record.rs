@@ -36,7 +36,7 @@ pub(super) struct Record {
     pub feature: Feature,
     /// Remembered side: +1 in front of the layer, −1 behind, 0 not decided.
     pub side: i8,
-    /// Same layer as the node.
+    /// True if the touched layer is the node's own.
     pub own: bool,
     /// First candidate in the chunk's list, and their number.
     pub first: u32,
@@ -156,7 +156,7 @@ pub(super) struct Step<'a> {
 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Touch {
-    /// Rest gap minus distance.
+    /// Penetration: rest gap minus distance, positive in contact.
     pub(crate) depth_m: f64,
     /// Way in which the distance grows.
     pub normal: V3,

@@ -1,4 +1,4 @@
-//! Contact as bytes and back.
+//! State of the contact as bytes for checkpoints, and back.
 
 use super::body::Contact;
 use super::chunk::Chunk;

@@ -55,7 +55,7 @@ impl Lists {
     }
 }
 
-/// Layer, lower node, higher node.
+/// Layer, then the lower and the higher node number.
 type Edge = (u32, u32, u32);
 
 impl Surface {

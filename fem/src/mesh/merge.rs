@@ -1,4 +1,4 @@
-//! Meshes put together.
+//! Several meshes as one mesh, without any weld between them.
 
 use super::Mesh;
 use crate::FemError;

@@ -22,7 +22,7 @@ use crate::FemError;
 /// Nodes and elements in their stress-free shape. Node numbers count from 0 here and from 1 in files and messages.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mesh {
-    /// Reference (stress-free) positions \[m\].
+    /// Stress-free reference positions of all nodes \[m\].
     pub points: Vec<[f64; 3]>,
     /// Positions in which the membrane is free of stress, if not at `points` (a sheet that is not quite its pattern); same
     /// length, or empty. Bending keeps the weights of `points`, which in a structured mesh most nodes share: for departures that
@@ -41,18 +41,18 @@ pub struct Mesh {
 /// A block of elements with one section, one pair of chambers and one contact layer.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Part {
-    /// Name, unique in the mesh.
+    /// Name of the part, unique in the mesh.
     pub name: String,
-    /// 4-node elements.
+    /// Elements with 4 nodes, counter-clockwise seen from the front.
     pub quads: Vec<[u32; 4]>,
-    /// 3-node elements.
+    /// Elements with 3 nodes, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
     /// Warp direction: one vector for the whole part, or one per element (quads first). Projected onto each element;
     /// need not be unit. Empty: the global x axis, which a fabric with directions must have in its sheet.
     pub warp: Vec<[f64; 3]>,
     /// Chamber that the front of the elements faces; `None`: the surroundings.
     pub front: Option<String>,
-    /// Chamber that the back faces.
+    /// Chamber that the back of the elements faces; `None`: the surroundings.
     pub back: Option<String>,
     /// Contact layer. Layers of a fold must differ, so that each remembers which side of the others it is on.
     pub layer: u32,
@@ -61,7 +61,7 @@ pub struct Part {
 /// A node that follows a point of an element.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tie {
-    /// The following node.
+    /// Node that follows, with no degrees of freedom of its own.
     pub node: u32,
     /// The nodes it follows and their weights (sum 1).
     pub to: Vec<(u32, f64)>,
@@ -76,7 +76,7 @@ impl Part {
     pub fn len(&self) -> usize {
         self.quads.len() + self.triangles.len()
     }
-    /// True without elements.
+    /// True if the part has neither quads nor triangles.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -102,7 +102,7 @@ impl Part {
 }
 
 impl Mesh {
-    /// Number of elements.
+    /// Number of elements of all parts, quads and triangles.
     pub fn elements(&self) -> usize {
         self.parts.iter().map(Part::len).sum()
     }
@@ -141,7 +141,7 @@ impl Mesh {
     pub(crate) fn free_of(&self, i: usize) -> [f64; 3] {
         if self.membrane.is_empty() { self.points[i] } else { self.membrane[i] }
     }
-    /// Where node `i` starts.
+    /// Position in which node `i` starts \[m\].
     pub fn start_of(&self, i: usize) -> [f64; 3] {
         if self.start.is_empty() { self.free_of(i) } else { self.start[i] }
     }

@@ -80,7 +80,7 @@ impl CentreLine {
         Ok(CentreLine { stations_m: stations_m.to_vec(), weights, nodes: mesh.points.len() })
     }
 
-    /// Stations \[m\].
+    /// Stations along the axis of the reference shape \[m\], as the case has them.
     pub fn stations_m(&self) -> &[f64] {
         &self.stations_m
     }
@@ -104,7 +104,6 @@ impl CentreLine {
     }
 }
 
-/// The growing file `centre_line.csv`.
 #[derive(Debug)]
 pub(crate) struct CentreLineFile {
     line: CentreLine,

@@ -31,7 +31,7 @@ pub(crate) struct Checkpoint {
     pub fingerprint: u64,
     pub step: u64,
     pub time_s: f64,
-    /// What [`crate::Simulation::save`] gave.
+    /// Bytes from [`crate::Simulation::save`], for an exact continuation.
     pub payload: Vec<u8>,
 }
 

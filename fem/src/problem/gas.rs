@@ -27,9 +27,9 @@ pub struct Gas {
     pub dead_m3: f64,
     /// n: 1 isothermal (slow), the heat ratio 1.4 adiabatic (fast).
     pub exponent: f64,
-    /// C \[m³/(s Pa)\].
+    /// Leak C as volume per gauge pressure \[m³/(s Pa)\]; 0 for a tight chamber.
     pub leak_m3_s_pa: f64,
-    /// q over time \[m³/s\].
+    /// Inflow q over time, as volume at atmospheric pressure \[m³/s\].
     pub inflow_m3_s: Amplitude,
 }
 

@@ -16,7 +16,7 @@ pub fn pressure_of(chamber: &str) -> String {
 pub fn force_on(set: &str) -> String {
     format!("force on `{set}` [N]")
 }
-/// Name of gravity in [`Loads`].
+/// Name by which [`Loads`] addresses the acceleration of gravity.
 pub const GRAVITY: &str = "gravity [m/s²]";
 /// Name of the motion of an obstacle, from 0, in [`Loads`].
 pub fn motion_of(obstacle: usize) -> String {

@@ -8,7 +8,7 @@ use crate::vec3::{V3, along, cross, dot, scale, sub, unit};
 #[derive(Debug, Clone)]
 pub(crate) struct Solid {
     pub point: V3,
-    /// Normal or axis, unit.
+    /// Unit normal of a plane, or unit axis of a cylinder.
     pub axis: V3,
     pub radius_m: Option<f64>,
     pub friction: f64,

@@ -10,20 +10,20 @@ use crate::random::Draws;
 /// A number that nobody printed, and the interval it may lie in.
 #[derive(Debug, Clone, Copy)]
 pub struct Assumed {
-    /// Its key in [`super::KEYS`].
+    /// Key of the number in [`super::KEYS`].
     pub key: &'static str,
     /// Smallest and largest plausible value, SI.
     pub interval: [f64; 2],
     /// How values are spread over it.
     pub spread: Spread,
-    /// Where the interval comes from.
+    /// Source of the interval, in a few words.
     pub reason: &'static str,
 }
 
 /// How values are spread over an interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Spread {
-    /// Every difference alike.
+    /// Equal differences have equal probability, uniform over the interval.
     Even,
     /// Every factor alike, where the ends differ by a factor of five and more.
     Factor,

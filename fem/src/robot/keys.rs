@@ -4,7 +4,7 @@ use super::RobotSettings;
 use crate::FemError;
 use crate::case::range::{Key, key};
 
-/// All numbers of the table.
+/// Numbers of the table `[fem]`, each with unit, bounds and meaning.
 #[rustfmt::skip]
 pub const KEYS: &[Key<RobotSettings>] = &[
     key("mesh_mm", 1e-3, [0.5, 50.0], "element size of body and actuator",

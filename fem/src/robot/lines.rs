@@ -54,7 +54,7 @@ struct Turn {
     /// From the first weld to the last \[m\].
     zone_m: [f64; 2],
     length_m: f64,
-    /// tan β/R \[rad/m\].
+    /// Turn per length along the body, tan β/R \[rad/m\].
     rad_per_m: f64,
     /// How far each generator's nodes lie ahead of their ring there \[m\].
     ahead_m: Vec<f64>,

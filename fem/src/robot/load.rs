@@ -10,7 +10,7 @@ use crate::problem::{GRAVITY, Loads, force_on, motion_of, pressure_of};
 pub enum Load {
     /// It grows while the body is filled, and stays; in a run that goes on from another one it grows with the first pressure.
     Always([f64; 3]),
-    /// One for every pressure.
+    /// One force or acceleration for every pressure, in their order.
     AtPressures(Vec<[f64; 3]>),
 }
 
@@ -28,7 +28,7 @@ pub struct RobotStart {
     pub body_pa: f64,
     pub pressures_pa: [f64; CHANNELS],
     pub tip_force_n: [f64; 3],
-    /// Gravity \[m/s²\].
+    /// Acceleration of gravity at the end of that run \[m/s²\].
     pub gravity_m_s2: [f64; 3],
     /// How far the obstacle has moved \[m\].
     pub obstacle_m: [f64; 3],

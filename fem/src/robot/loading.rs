@@ -20,9 +20,9 @@ const SHORTEST: f64 = 1.0 / 6.0;
 pub struct RobotRun {
     /// Where the settings come from that no key of `[fem]` sets.
     pub model: Preset,
-    /// Keys of `[fem]` beside `model`.
+    /// Keys that `[fem]` sets, without `model`.
     pub set: Vec<String>,
-    /// Mesh, fabrication, numerics.
+    /// Numbers of mesh, fabrication and integration for one run.
     pub settings: RobotSettings,
     /// Whether every pressure is a run of its own.
     pub separate: bool,
@@ -45,14 +45,14 @@ pub struct RobotRun {
 /// A moment at which a robot is read: the end of a hold.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HoldEnd {
-    /// When \[s\].
+    /// Simulated time of the end of the hold \[s\].
     pub time_s: f64,
     /// Pressures of the channels then \[Pa\].
     pub pressures_pa: [f64; CHANNELS],
 }
 
 impl HoldEnd {
-    /// The highest \[Pa\].
+    /// Highest of the channels' pressures at that time \[Pa\].
     pub fn highest_pa(&self) -> f64 {
         highest_pa(&self.pressures_pa)
     }

@@ -27,7 +27,6 @@ pub(super) fn triple(name: &str, value: &Spanned<Value>, range: &Range) -> Check
 
 /// Keys of lists with an entry for every pressure.
 const LISTS: [&str; 3] = ["tip_force_n", "gravity_m_s2", "obstacle_moves_mm"];
-/// How `pressures_kpa` is written.
 pub(super) const PRESSURES: &str = "write for example [10, 20, 30], or with channels [[20, 10], [30, 15]]";
 const FORCE: Range = plain(-1e4, 1e4, "write newtons: [x, y, z], or [[x, y, z], …] with one for every pressure");
 const ACCELERATION: Range =

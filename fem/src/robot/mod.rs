@@ -234,7 +234,7 @@ fn contact(mesh: &Mesh, pattern: &Pattern, settings: &RobotSettings) -> Option<C
     })
 }
 
-/// ω of [`Settling`] \[1/s\].
+/// Estimate ω of the tip's lowest frequency, for [`Settling`] \[1/s\].
 fn pace_1_s(scenario: &Scenario, problem: &Problem) -> f64 {
     let parts = problem.mesh.parts.iter().zip(&problem.sections);
     let mass_kg = parts.map(|(part, section)| {

@@ -47,14 +47,14 @@ pub(crate) struct RobotGauge {
 /// A robot at one moment; SI, displacements from the start.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reading {
-    /// Time \[s\].
+    /// Simulated time of the reading \[s\].
     pub time_s: f64,
     /// Actuator gauge pressure \[Pa\]; the highest of all strips.
     pub actuator_pa: f64,
     /// Gauge pressure of every strip \[Pa\]; none in readings that did not keep it.
     #[serde(default)]
     pub strips_pa: Vec<f64>,
-    /// Body gauge pressure \[Pa\].
+    /// Gauge pressure in the body \[Pa\].
     pub body_pa: f64,
     /// Marker stations and, last, the tip \[m\].
     pub stations_m: Vec<f64>,
@@ -68,13 +68,13 @@ pub struct Reading {
     /// Turn of the tip's ring \[rad\]: in the x–y plane, positive towards the actuator; with strips round the body the angle between
     /// its normal and the straight one.
     pub tip_angle_rad: f64,
-    /// Volume of the body \[m³\].
+    /// Volume of gas in the body \[m³\].
     pub body_m3: f64,
     /// Volume of the actuator, all strips \[m³\].
     pub actuator_m3: f64,
     /// Largest von Mises stress \[Pa\], with the part and the place along the robot \[m\] of its element.
     pub von_mises_pa: f64,
-    /// Part of that element.
+    /// Part of the element with that stress.
     pub von_mises_part: String,
     /// Its place along the straight robot \[m\].
     pub von_mises_at_m: f64,

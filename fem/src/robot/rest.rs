@@ -31,13 +31,12 @@ const STILL: usize = 4;
 pub(crate) struct Settling {
     /// Waited time of the run at its beginning \[s\].
     from_s: f64,
-    /// Length of a window \[s\].
     window_s: f64,
     /// Displacements at the ends of the windows \[m\].
     tip_m: Vec<[f64; 3]>,
 }
 
-/// What a hold waits for.
+/// Next window of a hold, or its end and the tip's state there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Rest {
     /// The next window ends at this waited time of the run \[s\].
@@ -48,7 +47,7 @@ pub enum Rest {
         waited_s: f64,
         /// How far the tip still goes, by its last movements \[m\].
         ahead_m: f64,
-        /// Whether it is at rest.
+        /// True if the tip came to rest before the hold's time was over.
         is_at_rest: bool,
     },
 }

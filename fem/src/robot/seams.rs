@@ -14,7 +14,7 @@ use std::collections::{BTreeSet, HashMap};
 use crate::Mesh;
 use crate::run::ElementFields;
 
-/// Elements beside the welds.
+/// Elements next to the welds of a robot, by their number in the mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Seams {
     elements: Vec<usize>,
@@ -25,16 +25,16 @@ pub struct Seams {
 /// The largest pull on a weld.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct SeamForce {
-    /// Force per length \[N/m\].
+    /// Largest force per length that fabric can put on the weld \[N/m\].
     pub n_per_m: f64,
-    /// Element, in mesh order.
+    /// Number of the element, in mesh order.
     pub element: usize,
     /// Whether the weld runs across the robot, and not along a side of its actuator.
     pub is_across: bool,
 }
 
 impl Seams {
-    /// Of a mesh.
+    /// Finds the sides that more than two elements share: those are welded.
     pub fn of(mesh: &Mesh) -> Seams {
         let mut beside: HashMap<(u32, u32), Vec<usize>> = HashMap::new();
         for (index, nodes) in mesh.faces().enumerate() {

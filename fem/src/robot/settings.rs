@@ -87,7 +87,7 @@ pub struct RobotSettings {
     /// Movement of the tip that a hold does not wait for, as a share of its displacement (`fem/src/robot/rest.rs`).
     pub creep: f64,
     pub cfl: f64,
-    /// In-plane viscosity ([`crate::problem::Settings::viscosity`]).
+    /// Viscosity of the membrane over critical damping ([`crate::problem::Settings::viscosity`]).
     pub viscosity: f64,
     /// Mass damping \[1/s\]; `None`: 1.4 ω, the estimate of the tip's lowest frequency (`fem/src/robot/rest.rs`).
     pub mass_damping_1_s: Option<f64>,
@@ -103,7 +103,7 @@ pub struct RobotSettings {
     /// How far the sewn shape, free of membrane stress, departs from the pattern \[m\]: root mean square along each axis, in random
     /// waves of 30 to 120 mm. A seed is the same robot on every mesh. Assumed.
     pub waviness_m: f64,
-    /// Seed of both.
+    /// Seed of both the imperfection and the waviness.
     pub seed: u64,
 }
 
@@ -244,7 +244,7 @@ impl Default for RobotSettings {
 /// Where the settings come from that `[fem]` does not name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Preset {
-    /// [`RobotSettings::compressed`]: the recommended set.
+    /// Settings of [`RobotSettings::compressed`], the recommended ones.
     #[default]
     Recommended,
     /// [`RobotSettings::paper`]: the modelling choices of du Pasquier et al. 2023.
@@ -255,12 +255,12 @@ impl Preset {
     /// All of them, as in the file.
     pub(crate) const ALL: [(&str, Preset); 2] = [("recommended", Preset::Recommended), ("paper", Preset::Paper)];
 
-    /// As in the file.
+    /// Word for the preset in `[fem] model`.
     pub fn name(self) -> &'static str {
         Preset::ALL[self as usize].0
     }
 
-    /// What it sets.
+    /// Settings that the preset has before other keys change them.
     pub fn settings(self) -> RobotSettings {
         match self {
             Preset::Recommended => RobotSettings::compressed(),

@@ -23,28 +23,28 @@ const QUIET: f64 = 2e-3;
 /// Energies at one moment \[s, J\], and where the fastest nodes are along the straight robot \[m\] (NaN: not looked for).
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Sample {
-    /// Time \[s\].
+    /// Simulated time of the sample \[s\].
     pub time_s: f64,
-    /// Kinetic energy \[J\].
+    /// Kinetic energy of the whole robot \[J\].
     pub kinetic_j: f64,
     /// That of the walls against their sections \[J\].
     pub walls_j: f64,
-    /// Stored energy \[J\].
+    /// Energy stored in all terms of the ledger \[J\].
     pub stored_j: f64,
     /// Place along the straight robot \[m\].
     pub place_m: f64,
 }
 
-/// One buckling event.
+/// One buckling event: when, where and how much energy it releases.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Snap {
     /// When the kinetic energy of the walls peaks \[s\].
     pub time_s: f64,
     /// Place along the straight robot \[m\].
     pub place_m: f64,
-    /// Drop of stored energy \[J\].
+    /// Drop of stored energy over the event \[J\].
     pub released_j: f64,
-    /// That peak \[J\].
+    /// Kinetic energy of the walls at the peak \[J\].
     pub kinetic_j: f64,
 }
 

@@ -27,7 +27,6 @@ use crate::case::range::{
 };
 use crate::problem::{Obstacle, ObstacleShape};
 
-/// How `meshes_mm` is written.
 const MESHES: &str = "write the element sizes of body and actuator of every run: [[8, 4], [8, 3]]";
 const ELEMENT: Range = Range { si: 1e-3, ..plain(0.5, 50.0, MESHES) };
 

@@ -9,7 +9,6 @@ use serde::{Deserialize, Serialize};
 pub(super) struct Driven {
     pub nodes: Vec<u32>,
     pub axes: [bool; 3],
-    /// Displacement from the start \[m\].
     pub motion: [Amplitude; 3],
     pub start: Vec<[f64; 3]>,
 }
@@ -18,7 +17,6 @@ pub(super) struct Driven {
 #[derive(Debug, Clone)]
 pub(super) struct Body {
     pub nodes: Vec<u32>,
-    /// Mass of each node \[kg\].
     mass: Vec<f64>,
     /// Positions relative to the centre of mass at the start \[m\].
     arm: Vec<[f64; 3]>,
@@ -28,7 +26,7 @@ pub(super) struct Body {
 /// Where a body is, and how it moves.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct BodyNow {
-    /// Centre of mass \[m\].
+    /// Position of the centre of mass \[m\].
     centre: [f64; 3],
     /// Its velocity half a step back \[m/s\].
     velocity: [f64; 3],

@@ -64,7 +64,7 @@ struct Whole<'a> {
 }
 
 impl Whole<'_> {
-    /// (K + 2 C/Δt) v.
+    /// Stiffness of one step with its viscosity, (K + 2 C/Δt) v.
     fn stiff(&self, v: &[[f64; 4]]) -> Vec<[f64; 4]> {
         let mut u = v.to_vec();
         for tie in self.ties {
@@ -77,7 +77,7 @@ impl Whole<'_> {
         force
     }
 
-    /// M⁻¹ f.
+    /// Accelerations of the forces, M⁻¹ f, with selective masses where they are used.
     fn light(&self, force: &[[f64; 4]]) -> Vec<[f64; 4]> {
         let u: Vec<[f64; 4]> = force.iter().zip(&self.inverse).map(|(f, w)| f.map(|f| w * f)).collect();
         self.selective.map_or(u.clone(), |selective| selective.smoothed(&u))

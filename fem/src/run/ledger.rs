@@ -5,11 +5,11 @@ use models::{Account, Row, RowKind};
 /// The energy balance at one moment: kinetic + Σ stored + Σ dissipated = Σ supplied + residual.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ledger {
-    /// Kinetic energy \[J\].
+    /// Kinetic energy of all nodes \[J\].
     pub kinetic_j: f64,
-    /// All other lines.
+    /// Stored, dissipated and supplied energies of all terms.
     pub rows: Vec<Row>,
-    /// What the balance misses \[J\].
+    /// Kinetic, stored and dissipated energy beyond what start and loads supplied \[J\].
     pub residual_j: f64,
     /// Work done from outside so far \[J\].
     pub external_work_j: f64,

@@ -46,7 +46,7 @@ use selective::Selective;
 pub(crate) use selective::gain;
 use team::Team;
 
-/// A run in progress.
+/// Run of one problem: mesh, terms, contact and the state of the time integration.
 pub struct Simulation {
     order: Order,
     mesh: Mesh,
@@ -69,7 +69,7 @@ pub struct Simulation {
     settings: Settings,
     /// Speed that stops the run \[m/s\].
     fastest_m_s: f64,
-    /// Added mass over true mass.
+    /// Mass added by scaling over the true mass of all nodes.
     added_mass: f64,
     x: Vec<[f64; 4]>,
     v: Vec<[f64; 4]>,
@@ -77,7 +77,7 @@ pub struct Simulation {
     force: Vec<[f64; 4]>,
     clock: Clock,
     books: Books,
-    /// Taken out while it works.
+    /// Threads of the run; `None` while they work.
     team: Option<Team>,
     cpu_s: f64,
 }
@@ -116,23 +116,23 @@ impl SavedTerm {
     }
 }
 
-/// Why [`Simulation::advance_until`] returned.
+/// Reason for which [`Simulation::advance_until`] returned to its caller.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Advance {
-    /// The time was reached.
+    /// The run reached the time that was asked for.
     Reached,
-    /// The callback asked to stop.
+    /// The callback returned false before that time.
     Interrupted,
 }
 
-/// State of one chamber.
+/// Pressure and volume of one chamber at the time of the last step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChamberState {
-    /// Name.
+    /// Name of the chamber, as in the problem.
     pub name: String,
-    /// Gauge pressure \[Pa\].
+    /// Gauge pressure in the chamber \[Pa\].
     pub pressure_pa: f64,
-    /// Volume \[m³\].
+    /// Volume enclosed by its wall \[m³\].
     pub volume_m3: f64,
 }
 
@@ -167,7 +167,7 @@ impl Simulation {
         Ok(run)
     }
 
-    /// Everything a bit-identical continuation needs.
+    /// Packs the state from which the same program continues bit by bit.
     pub fn save(&self) -> Vec<u8> {
         let pose = Pose::nodes(self.x.as_flattened());
         pack(&State {
@@ -216,7 +216,7 @@ impl Simulation {
         Some(begin)
     }
 
-    /// Simulated time \[s\].
+    /// Simulated time of the current positions \[s\].
     pub fn time_s(&self) -> f64 {
         self.clock.time_s
     }
@@ -224,11 +224,11 @@ impl Simulation {
     pub fn waited_s(&self) -> f64 {
         self.clock.waited_s
     }
-    /// Steps done.
+    /// Number of steps done since the start.
     pub fn step(&self) -> u64 {
         self.clock.step
     }
-    /// Current step length \[s\].
+    /// Length of the current time step \[s\].
     pub fn dt_s(&self) -> f64 {
         self.clock.dt_s
     }
@@ -238,7 +238,7 @@ impl Simulation {
         self.cpu_s
     }
 
-    /// Number of elements.
+    /// Number of shell elements of all parts.
     pub fn elements(&self) -> usize {
         self.sheet.elements.len()
     }

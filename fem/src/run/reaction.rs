@@ -13,7 +13,7 @@ use crate::{FemError, Mesh};
 /// Force and moment that the supports of one node set exert on the structure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reaction {
-    /// Node set.
+    /// Name of the node set whose supports react.
     pub set: String,
     /// Which of x, y, z its supports hold or drive.
     pub axes: [bool; 3],

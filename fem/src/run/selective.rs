@@ -40,7 +40,7 @@ pub(super) struct Selective {
     /// Where the links of a node begin.
     first: Vec<u32>,
     ends: Vec<u32>,
-    /// w \[kg\] of the links.
+    /// Weights wᵢⱼ of the links, node after node \[kg\].
     weights: Vec<f64>,
     rows: Vec<Row>,
     /// α of the passes, the same forwards and backwards, so that M⁻¹ stays symmetric where nodes are held.
@@ -53,7 +53,7 @@ pub(super) struct Selective {
     next: Vec<[f64; 4]>,
     /// Places of the fixed nodes during a step \[m\].
     held: Vec<[f64; 4]>,
-    /// Σ m u·v \[J\].
+    /// Σ m u·v, twice the kinetic energy \[J\].
     pub(crate) twice_j: f64,
 }
 
@@ -62,7 +62,7 @@ struct Row {
     mass: f64,
     /// 1/m; 0 for nodes without mass.
     inverse: f64,
-    /// Σ w/m.
+    /// Sum of the weights of a node's links over its mass.
     shed: f64,
 }
 
@@ -261,7 +261,7 @@ struct Push<'a> {
     v: &'a [[f64; 4]],
 }
 
-/// Σ m v(n−½)·u(n+½).
+/// Σ m v(n−½)·u(n+½) over the rows of a piece, halved recursively so that its order is fixed.
 fn push(piece: Push) -> f64 {
     let count = piece.rows.len();
     if count <= PIECE {
@@ -344,7 +344,7 @@ struct Place<'a> {
     x: &'a mut [[f64; 4]],
 }
 
-/// Σ m u·v.
+/// Σ m u·v over the nodes of a piece, halved recursively so that its order is fixed.
 fn place(piece: Place) -> f64 {
     let count = piece.x.len();
     if count <= PIECE {

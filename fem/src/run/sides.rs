@@ -7,26 +7,26 @@ use serde::{Deserialize, Serialize};
 /// Nodes that came through a layer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Through {
-    /// How many.
+    /// Number of nodes that changed the side of a layer.
     pub nodes: usize,
-    /// Share of those in contact.
+    /// Their share of the nodes that were in contact.
     pub share: f64,
-    /// The first of them.
+    /// The first node that came through; `None` if there is none.
     pub first: Option<FirstThrough>,
 }
 
-/// The first of them.
+/// The first node that changed the side of a layer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FirstThrough {
-    /// Node.
+    /// Number of the node, counted from 1.
     pub node: usize,
-    /// Part.
+    /// Name of the part that it came through.
     pub part: String,
-    /// When \[s\].
+    /// Simulated time at which it came through \[s\].
     pub time_s: f64,
-    /// Where \[mm\].
+    /// Position x, y, z of the node then \[mm\].
     pub place_mm: [f64; 3],
-    /// The same in words.
+    /// Node, part, place and time in one sentence.
     pub text: String,
 }
 

@@ -1,4 +1,4 @@
-//! One time step.
+//! One time step of central differences, and the loop over steps.
 
 use std::time::{Duration, Instant};
 
@@ -102,7 +102,6 @@ impl Simulation {
         Ok(None)
     }
 
-    /// Up to `steps` steps.
     fn burst(&mut self, steps: u64, time_s: f64) {
         for done in 1..=steps {
             let ahead = self.clock.runs_s() + 1.5 * self.clock.dt_s;

@@ -182,7 +182,6 @@ mod tests {
         assert!((1..=10).contains(&lost), "{lost}");
     }
 
-    /// 2^depth shares.
     fn shares(depth: usize) -> usize {
         if depth == 0 {
             return 1;

@@ -6,12 +6,12 @@ use crate::output::{Frame, deck, vtu};
 use crate::{FemError, Simulation};
 use std::path::Path;
 
-/// What was written.
+/// Size of an exported mesh, and what its file does not contain.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Export {
-    /// Nodes.
+    /// Number of nodes in the file.
     pub nodes: usize,
-    /// Elements.
+    /// Number of elements in the file.
     pub elements: usize,
     /// What to know about what was read.
     pub notices: Vec<String>,

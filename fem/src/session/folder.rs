@@ -44,11 +44,8 @@ const OWN: &[&str] = &[
 /// Separates one run from another, in addition to the case itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct RunIdentity {
-    /// SHA-256 of the case's text.
     pub case_sha256: String,
-    /// Simulated time \[s\].
     pub end_s: f64,
-    /// Whether frames are written.
     pub frames: bool,
     /// SHA-256 of the end of the run that it goes on from.
     #[serde(default)]

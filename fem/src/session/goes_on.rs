@@ -28,9 +28,7 @@ pub(super) struct End {
 /// The end of a complete run.
 pub(super) struct Earlier {
     folder: PathBuf,
-    /// When \[s\].
     pub time_s: f64,
-    /// SHA-256 of the file.
     pub sha256: String,
     structure: u64,
     step: u64,

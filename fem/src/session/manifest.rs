@@ -5,7 +5,7 @@ use crate::record::RecordShape;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-/// Of a manifest.
+/// Name and version of the record in `manifest.json`.
 pub const MANIFEST: RecordShape = RecordShape { schema: "ibr.manifest", version: 1 };
 
 /// A file, as a manifest names it.
@@ -13,12 +13,12 @@ pub const MANIFEST: RecordShape = RecordShape { schema: "ibr.manifest", version:
 pub struct FileHash {
     /// File, or name of what comes with the program.
     pub name: String,
-    /// SHA-256 of its bytes.
+    /// SHA-256 of the file's bytes, in hexadecimal digits.
     pub sha256: String,
 }
 
 impl FileHash {
-    /// A file with known contents.
+    /// Hashes the contents of a file that need not exist.
     pub fn of(name: &str, bytes: &[u8]) -> FileHash {
         FileHash { name: name.to_string(), sha256: sha256(bytes) }
     }
@@ -33,28 +33,28 @@ pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
 }
 
-/// Who makes files.
+/// Program, date and machine that made the files of a run.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Maker {
-    /// Program and version.
+    /// Name and version of the program that made the files.
     pub program: String,
-    /// Today, UTC.
+    /// Date on which the files were made, UTC.
     pub date: String,
-    /// Processor and number of cores.
+    /// Processor and number of cores of the machine.
     pub machine: String,
-    /// What was typed.
+    /// Command line as the user typed it.
     pub command: String,
 }
 
-/// `manifest.json`.
+/// Content of `manifest.json`: maker, inputs, hashes and cost of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
-    /// Who made the files.
+    /// Program, date, machine and command, as keys of the manifest.
     #[serde(flatten)]
     pub maker: Maker,
-    /// What they were made of.
+    /// Files and texts that the results depend on.
     pub inputs: Vec<FileHash>,
-    /// The files.
+    /// Files that the command or run wrote.
     pub outputs: Vec<FileHash>,
     /// What a finite element run took.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -62,7 +62,7 @@ pub struct Manifest {
 }
 
 impl Manifest {
-    /// The file's text.
+    /// Text of `manifest.json`, indented, with a line break at its end.
     pub fn text(&self) -> String {
         format!("{:#}\n", MANIFEST.stamped(self))
     }

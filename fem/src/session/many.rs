@@ -7,10 +7,10 @@ use crate::FemError;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
-/// A run to be made.
+/// One run for [`simulate_all`]: its source, name and folder.
 #[derive(Debug, Clone)]
 pub struct Job {
-    /// What is simulated.
+    /// Case or scenario that is simulated.
     pub source: Source,
     /// What to call it while it runs.
     pub what: String,
@@ -19,7 +19,7 @@ pub struct Job {
     pub folder: Option<String>,
 }
 
-/// Several runs.
+/// Results of several runs, of which equal problems share one.
 #[derive(Debug)]
 pub struct Many {
     /// Each problem once, in the order of the first jobs: the run, or the error of the guard that stopped it.
@@ -84,14 +84,14 @@ pub fn simulate_job(job: &Job, settings: &Settings, progress: Progress) -> Resul
 /// One share of several runs, for machines beside each other that see one folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
-    /// From 1.
+    /// Number of this shard, counted from 1.
     pub which: usize,
-    /// Shards in all.
+    /// Number of shards in all, 1 or more.
     pub of: usize,
 }
 
 impl Shard {
-    /// All of it.
+    /// The only shard of one: all runs.
     pub const WHOLE: Shard = Shard { which: 1, of: 1 };
 
     /// `2/7`; `Err` says what to write.

@@ -12,10 +12,10 @@ pub const AS_IT_IS: &str = "as-it-is";
 /// Keys of `[fem]` and their values as in TOML.
 pub type Changes = Vec<(String, String)>;
 
-/// One run of several.
+/// One run of several, by what differs from the common scenario.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Variation {
-    /// Name of its folder.
+    /// Name of the folder in which the run is kept.
     pub label: String,
     /// Keys of `[fem]` that differ from the scenario with the common options.
     pub changes: Changes,
@@ -127,13 +127,13 @@ pub type Felt = (&'static Assumed, &'static Key<RobotSettings>);
 /// Robots that fill the intervals of assumed numbers as a Latin hypercube.
 #[derive(Debug, Clone)]
 pub struct Cube {
-    /// The scenario, with one mesh.
+    /// Scenario with the element sizes of one mesh.
     pub base: Source,
-    /// The numbers.
+    /// Assumed numbers that change this robot, with their keys.
     pub numbers: Vec<Felt>,
     /// A row for every robot: where each number lies in its interval, 0 to 1.
     pub shares: Vec<Vec<f64>>,
-    /// The robots.
+    /// One run per row of `shares`.
     pub robots: Vec<Variation>,
 }
 

@@ -14,7 +14,7 @@ use std::time::Duration;
 /// Further files of a complete run, by name, made before it is marked as complete: plots.
 pub type Further = fn(&Loaded, &FeRun) -> Result<Vec<(String, Vec<u8>)>, String>;
 
-/// How a run is made.
+/// Folder, threads, checkpoints and resumption of one run.
 #[derive(Debug, Clone)]
 pub struct Settings {
     /// Folder of the run. `None`: nothing is written, files of the end are in [`FeRun::files`], and energies are judged at the
@@ -26,7 +26,7 @@ pub struct Settings {
     pub from: Option<PathBuf>,
     /// Keep the end, so that another run can go on from it.
     pub keep_end: bool,
-    /// Replace a run.
+    /// Replace a run that is in the folder already.
     pub force: bool,
     /// Write frames, if the case wants them.
     pub frames: bool,
@@ -36,9 +36,9 @@ pub struct Settings {
     pub threads: usize,
     /// Real time between checkpoints; more where they would take over a fiftieth of it.
     pub checkpoint_every: Duration,
-    /// Makes further files.
+    /// Function that makes further files of the complete run.
     pub further: Option<Further>,
-    /// For the manifest.
+    /// Program and machine, for the manifest.
     pub maker: Maker,
 }
 
@@ -60,14 +60,14 @@ impl Default for Settings {
     }
 }
 
-/// A complete run.
+/// Results of a complete run, new or read from its folder.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeRun {
-    /// The physics, `summary.json`.
+    /// Physical results, the content of `summary.json`.
     pub summary: Summary,
-    /// What it took.
+    /// Processor time, real time, threads and speed of the run.
     pub cost: Cost,
-    /// Its folder.
+    /// Folder of the run; `None` if nothing was written.
     pub folder: Option<PathBuf>,
     /// False if it was complete before, and nothing was done.
     pub fresh: bool,

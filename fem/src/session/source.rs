@@ -20,12 +20,12 @@ pub struct Source {
     pub folder: PathBuf,
 }
 
-/// A case ready to run.
+/// Checked case with its source, ready to run.
 #[derive(Clone)]
 pub struct Loaded {
-    /// Where it is from.
+    /// File or text from which the case was read.
     pub source: Source,
-    /// The case.
+    /// Problem and outputs of the case.
     pub case: Case,
     /// The robot, if it is one.
     pub robot: Option<WatchedRobot>,

@@ -9,13 +9,13 @@ use crate::run::{LESS_HOURGLASS, Through};
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
-/// `summary.json`.
+/// Name and version of the record in `summary.json`.
 pub const SUMMARY: RecordShape = RecordShape { schema: "ibr.simulate", version: 1 };
 
 /// A complete run in numbers that depend on the case alone: the same to the bit however often it was interrupted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
-    /// Name of the case.
+    /// Name of the case or scenario.
     pub name: String,
     /// Number of the engine that made it.
     pub engine: u32,
@@ -24,45 +24,45 @@ pub struct Summary {
     /// Time at which it went on from another run; 0 for a run from the start \[s\].
     #[serde(default)]
     pub began_s: f64,
-    /// Simulated time \[s\].
+    /// Simulated time at the end of the run \[s\].
     pub time_s: f64,
-    /// Steps.
+    /// Number of steps of the whole run.
     pub steps: u64,
-    /// Last step \[s\].
+    /// Length of the last time step \[s\].
     pub dt_s: f64,
-    /// Nodes.
+    /// Number of nodes of the mesh.
     pub nodes: usize,
-    /// Elements.
+    /// Number of shell elements of the mesh.
     pub elements: usize,
-    /// Over the true mass.
+    /// Mass added by scaling, over the true mass.
     pub added_mass_share: f64,
     /// Whether waves of a few elements are heavy in place of everything.
     pub selective_mass: bool,
-    /// Shape of the elements.
+    /// Shape of the elements: sides, and the worst ratios.
     pub quality: Option<MeshQuality>,
     /// Node sets that the case asks for.
     pub probes: Vec<ProbeEnd>,
-    /// Chambers at the end.
+    /// Pressure and volume of every chamber at the end.
     pub chambers: Vec<ChamberEnd>,
-    /// Supports at the end.
+    /// Force and moment of every support at the end.
     #[serde(default)]
     pub reactions: Vec<ReactionEnd>,
-    /// Where the energy is.
+    /// Energies of every term at the end.
     pub ledger: Vec<EnergyLine>,
     /// Kinetic energy at the end \[J\].
     pub kinetic_j: f64,
-    /// Work done from outside \[J\].
+    /// Work done from outside since the start \[J\].
     pub external_work_j: f64,
-    /// What the balance misses \[J\].
+    /// Energy that the balance misses at the end \[J\].
     pub residual_j: f64,
     /// The same over what it is judged against.
     pub residual_share: f64,
-    /// Its largest at the outputs.
+    /// Largest value of that share at any output.
     pub residual_share_peak: f64,
     /// Energy of hourglass control over all that is stored.
     #[serde(default)]
     pub hourglass_share: f64,
-    /// Kinetic energy while it moved.
+    /// Kinetic energy over kinetic and stored energy, at the outputs.
     pub kinetic_share: KineticShares,
     /// Nodes that came through a layer; without contact `None`.
     #[serde(default)]
@@ -74,79 +74,79 @@ pub struct Summary {
 pub struct MeshQuality {
     /// Smallest, median and largest side \[mm\].
     pub side_mm: [f64; 3],
-    /// Worst aspect ratio.
+    /// Largest ratio of longest to shortest side; 1 is best.
     pub aspect: f64,
-    /// Worst ratio of Jacobians.
+    /// Smallest ratio of the corner areas of a quad; 1 is best.
     pub jacobian_ratio: f64,
-    /// Worst warpage.
+    /// Largest distance of a quad's corners from its plane, over the root of its area.
     pub warpage: f64,
 }
 
 /// Mean displacement of a node set from where it started.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ProbeEnd {
-    /// Node set.
+    /// Name of the node set, as in the case.
     pub set: String,
-    /// x, y, z \[mm\].
+    /// Mean displacement along x, y and z \[mm\].
     pub displacement_mm: [f64; 3],
 }
 
-/// A volume of air.
+/// Pressure and volume of one chamber at the end of the run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ChamberEnd {
-    /// Name.
+    /// Name of the chamber, as in the case.
     pub name: String,
-    /// Gauge pressure \[kPa\].
+    /// Gauge pressure in the chamber \[kPa\].
     pub pressure_kpa: f64,
-    /// Volume \[cm³\].
+    /// Volume enclosed by the chamber's wall \[cm³\].
     pub volume_cm3: f64,
 }
 
 /// Force of a support on the structure, along the axes that it holds, and its moment about the middle of the set.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ReactionEnd {
-    /// Node set.
+    /// Name of the node set whose supports react.
     pub set: String,
     /// Force along the axes that are held \[N\].
     pub force_n: [Option<f64>; 3],
-    /// Moment \[N·m\].
+    /// Moment of these forces about the middle of the set \[N·m\].
     pub moment_nm: [f64; 3],
 }
 
-/// One line of the ledger.
+/// One energy of the ledger at the end of the run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EnergyLine {
-    /// Term.
+    /// Name of the term or supply in the ledger.
     pub name: String,
-    /// `stored`, `dissipated` or `supplied`.
+    /// Side of the balance: `stored`, `dissipated` or `supplied`.
     pub kind: String,
-    /// Energy \[J\].
+    /// Energy of the term at the end of the run \[J\].
     pub energy_j: f64,
 }
 
 /// Kinetic energy over kinetic and stored energy at the outputs after the start, held against the two rules.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct KineticShares {
-    /// How many.
+    /// Number of outputs after the start.
     pub outputs: usize,
-    /// Median.
+    /// Median of the share over these outputs.
     pub median: Option<f64>,
-    /// At the end.
+    /// Share at the last output of the run.
     pub end: Option<f64>,
-    /// Largest.
+    /// Largest share at any of these outputs.
     pub peak: Option<f64>,
-    /// When that was \[s\].
+    /// Time of the output with the largest share \[s\].
     pub peak_time_s: Option<f64>,
     /// The rule of the paper's source.
     pub below_10_pct_of_internal: Rule,
-    /// The paper's own.
+    /// The paper's own rule: below 1 % of all energy.
     pub below_1_pct_of_total: Rule,
 }
 
 /// A bound of the kinetic energy.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Rule {
-    /// Outputs that keep it.
+    /// Number of outputs that keep the rule.
     pub kept_at: usize,
     /// Last output that does not \[s\].
     pub last_broken_s: Option<f64>,
@@ -165,7 +165,7 @@ pub struct Cost {
     pub threads: usize,
     /// Step at which this session began.
     pub resumed_at_step: u64,
-    /// Speed of this session.
+    /// Elements times steps per second of processor time, in this session.
     pub element_steps_per_cpu_s: f64,
 }
 

@@ -7,22 +7,22 @@ use serde::Serialize;
 /// A robot's heights at one pressure.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Heights {
-    /// Actuator gauge pressure \[kPa\].
+    /// Gauge pressure of the actuator at this hold \[kPa\].
     pub actuator_kpa: f64,
-    /// Outermost marker \[mm\].
+    /// Height of the outermost marker across the straight robot \[mm\].
     pub marker_mm: f64,
-    /// Tip \[mm\].
+    /// Height of the tip across the straight robot \[mm\].
     pub tip_mm: f64,
-    /// Whether it was at rest.
+    /// Whether the tip was at rest when it was read.
     pub is_at_rest: bool,
 }
 
-/// Heights of one run.
+/// Heights of the outermost marker and the tip in one run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunRow {
-    /// What it is.
+    /// The run's label, and what differs from the common scenario.
     pub variation: Variation,
-    /// By time.
+    /// Heights at the ends of the holds, by time.
     pub heights: Vec<Heights>,
     /// Folder; empty if the run is that of another row.
     pub folder: String,
@@ -33,22 +33,22 @@ pub struct RunRow {
 /// Runs that differ in their seed only, at one pressure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SeedGroup {
-    /// Name of the group.
+    /// Name of the group: what its runs have in common.
     pub group: String,
-    /// Actuator gauge pressure \[kPa\].
+    /// Gauge pressure of the actuator at this hold \[kPa\].
     pub actuator_kpa: f64,
-    /// How many.
+    /// Number of runs in the group, one per seed.
     pub runs: usize,
-    /// Mean of the tips \[mm\].
+    /// Mean height of the tip over the runs \[mm\].
     pub tip_mean_mm: f64,
     /// Standard deviation of the sample; 0 for one.
     pub tip_sd_mm: f64,
 }
 
-/// Several runs of a robot.
+/// Heights of several runs of one robot, as a table.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RunTable {
-    /// Runs.
+    /// One row per run, in the order of the variations.
     pub rows: Vec<RunRow>,
 }
 
@@ -90,7 +90,7 @@ impl RunTable {
         tips.into_iter().map(group).collect()
     }
 
-    /// `table.csv`.
+    /// Text of `table.csv`: a line per run and hold, with a head.
     pub fn csv(&self) -> String {
         let mut out = String::from("run,changes,p_act_kpa,marker_mm,tip_mm,at_rest,cpu_s\n");
         for RunRow { variation: Variation { label, changes, .. }, heights, cpu_s, .. } in &self.rows {

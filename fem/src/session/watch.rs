@@ -19,9 +19,9 @@ const NOW_S: f64 = 1e-12;
 /// A robot and how to read it.
 #[derive(Clone)]
 pub struct WatchedRobot {
-    /// Its scenario.
+    /// Scenario of which the case was made.
     pub scenario: Scenario,
-    /// Its run.
+    /// Settings, loads and pressures of the run.
     pub run: RobotRun,
     gauge: RobotGauge,
 }
@@ -149,19 +149,19 @@ impl Watched {
 /// A robot's part of a run's summary.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RobotSummary {
-    /// Actuator kind.
+    /// Kind of the actuator: `spam`, `cpam`, `epam` or `fpam`.
     pub actuator: String,
-    /// Length of the robot \[m\].
+    /// Length of the undeformed robot \[m\].
     pub length_m: f64,
-    /// Body gauge pressure \[Pa\].
+    /// Gauge pressure of the body \[Pa\].
     pub body_pa: f64,
-    /// Radius of the body \[m\].
+    /// Radius of the inflated body \[m\].
     pub radius_m: f64,
     /// Width of one unit of the actuator \[m\].
     pub width_m: f64,
-    /// Length of one unit \[m\].
+    /// Length of one unit of the actuator \[m\].
     pub pouch_m: f64,
-    /// Units in series.
+    /// Number of units in series along the robot.
     pub count: usize,
     /// Whether strips lie round the body, so that it bends out of the x–y plane.
     #[serde(default)]
@@ -169,16 +169,16 @@ pub struct RobotSummary {
     /// Preset of `[fem]`, and the keys that were set beside it.
     #[serde(default)]
     pub model: String,
-    /// See there.
+    /// Keys of `[fem]` that were set, without `model`.
     #[serde(default)]
     pub set: Vec<String>,
-    /// How the base is held.
+    /// How the base is held: `pinned` or `encastre`.
     #[serde(default)]
     pub base: String,
     /// Keys of `[fem]`, in the units of their names; what has no bound is null.
     #[serde(deserialize_with = "with_needed")]
     settings: BTreeMap<String, Option<f64>>,
-    /// States, by time.
+    /// States of the robot at the ends of its holds, by time.
     pub readings: Vec<Reading>,
     /// Buckling while the actuator is filled.
     pub snaps: Vec<Snap>,

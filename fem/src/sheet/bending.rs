@@ -32,9 +32,9 @@ use crate::vec3::{along, cross, direction, dot, sub};
 /// Row of the curvature operator at one node: H_i A_i = Σ_j w_ij x_j (the diagonal is in the list, first).
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurvatureRow {
-    /// The node.
+    /// Number of the node, at which the curvature is taken.
     pub node: u32,
-    /// Its area A_i \[m²\].
+    /// Share A_i of the area of the elements round the node \[m²\].
     pub area: f64,
     /// Its bending stiffness D \[N m\].
     pub stiffness: f64,
@@ -58,9 +58,9 @@ pub(crate) struct Facet {
 pub struct BendingMatrix {
     /// Start of each row in the two lists below; one more than nodes.
     pub start: Vec<u32>,
-    /// Column of each entry.
+    /// Column (node number) of each entry, row after row.
     pub column: Vec<u32>,
-    /// Value of each entry \[N/m\].
+    /// Value of each entry, in the order of `column` \[N/m\].
     pub value: Vec<f64>,
 }
 

@@ -19,7 +19,7 @@ struct At<'a> {
     fabric: &'a dyn Fabric,
     e: [f64; 3],
     past: Past,
-    /// C₁₁, C₂₂, C₁₂.
+    /// Right Cauchy–Green strain (C₁₁, C₂₂, C₁₂) of the state.
     c: [f64; 3],
     /// Tangent that the step must bear \[N/m\].
     d: [[f64; 3]; 3],

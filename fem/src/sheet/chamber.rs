@@ -19,7 +19,7 @@ pub struct Air {
     area_m2: f64,
     /// Where the chamber ends at planes of all three axes.
     cut: Option<Cut>,
-    /// What changes.
+    /// Pressure, gas and other state that changes with time.
     pub now: AirNow,
 }
 
@@ -34,7 +34,7 @@ struct Cut {
 /// What a checkpoint holds of a chamber.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub struct AirNow {
-    /// Gauge pressure now \[Pa\].
+    /// Gauge pressure in the chamber now \[Pa\].
     pub pressure_pa: f64,
     /// Volume at the last step \[m³\]; `None` before the first.
     pub volume_m3: Option<f64>,
@@ -70,7 +70,7 @@ impl Air {
         self.cut = single.map(|axis| Cut { axis, at_m: planes[axis][0], rim });
     }
 
-    /// Name.
+    /// Name of the chamber, as in the problem.
     pub fn name(&self) -> &str {
         &self.chamber.name
     }

@@ -8,13 +8,13 @@ use crate::vec3::{along, cross, direction, dot};
 /// Element results in mesh order (parts one after the other, quads before triangles), averaged over plies.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ElementFields {
-    /// Von Mises Cauchy stress \[Pa\].
+    /// Von Mises equivalent of the Cauchy stress \[Pa\].
     pub von_mises_pa: Vec<f64>,
     /// Principal Cauchy stresses, larger first \[Pa\].
     pub principal_stress_pa: Vec<[f64; 2]>,
     /// Unit vectors along them, in the sheet; the first has no component against the fabric's warp.
     pub principal_direction: Vec<[[f64; 3]; 2]>,
-    /// Principal Green–Lagrange strains, larger first.
+    /// Principal Green–Lagrange strains of each element, larger first.
     pub principal_strain: Vec<[f64; 2]>,
     /// Current thickness of the section (incompressible) \[m\].
     pub thickness_m: Vec<f64>,

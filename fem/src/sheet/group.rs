@@ -12,7 +12,6 @@ pub(crate) type Lane = [f64; LANES];
 pub(crate) struct ElementGroup {
     /// Places of its shape and its stock in their tables.
     pub shape: u32,
-    /// See [`Stock`].
     pub(crate) stock: u32,
     /// Corner nodes by lane, numbered within the patch; a triangle repeats its third.
     pub node: [[u32; 4]; LANES],
@@ -23,7 +22,7 @@ pub(crate) struct ElementGroup {
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
 pub(crate) struct RestShape {
-    /// Shape gradients, see [`Reference::b`] \[1/m\].
+    /// Gradients of the shape functions by lane, as [`Reference::b`] \[1/m\].
     pub b: [[Lane; 2]; 2],
     /// A quarter of the hourglass offsets s_a \[m\].
     pub s: [Lane; 2],
@@ -127,7 +126,6 @@ impl Stock {
         stock
     }
 
-    /// As [`RestShape::key`].
     pub(crate) fn key(&self) -> Vec<i64> {
         let all = [self.per, self.flat, self.own, self.real];
         all.as_flattened().iter().map(|value| leading_bits(*value)).collect()

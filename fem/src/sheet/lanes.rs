@@ -29,7 +29,7 @@ macro_rules! axes {
 }
 pub(crate) use axes;
 
-/// A vector register of f64.
+/// A vector register of f64 with the arithmetic of the kernels.
 #[derive(Clone, Copy)]
 pub(crate) struct V<S: Simd>(S, S::f64s);
 
@@ -64,7 +64,6 @@ impl<S: Simd> V<S> {
         V(simd, simd.splat_f64s(value))
     }
 
-    /// 1/self.
     #[inline(always)]
     pub(crate) fn inverse(self) -> V<S> {
         V(self.0, self.0.div_f64s(self.0.splat_f64s(1.0), self.1))
@@ -111,13 +110,11 @@ impl<S: Simd> V<S> {
         S::as_mut_simd_f64s(to).0[part] = self.1;
     }
 
-    /// `S::F64_LANES` consecutive numbers.
     #[inline(always)]
     pub(crate) fn load_from(simd: S, from: &[f64], at: usize) -> V<S> {
         V(simd, S::as_simd_f64s(&from[at..at + S::F64_LANES]).0[0])
     }
 
-    /// Writes `S::F64_LANES` consecutive numbers.
     #[inline(always)]
     pub(crate) fn store_to(self, to: &mut [f64], at: usize) {
         S::as_mut_simd_f64s(&mut to[at..at + S::F64_LANES]).0[0] = self.1;

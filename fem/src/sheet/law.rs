@@ -20,7 +20,7 @@ pub(super) struct Who<'a> {
 
 /// Tension and energy of several elements at once, per [`Stock::per`] and area.
 pub(super) trait ShellLaw: Copy {
-    /// At strain (E₁₁, E₂₂, 2E₁₂).
+    /// Tension and energy of the lanes at the strain (E₁₁, E₂₂, 2E₁₂).
     fn at<S: Simd>(self, simd: S, e: [V<S>; 3], who: Who) -> ([V<S>; 3], V<S>);
 }
 
@@ -58,7 +58,7 @@ pub(super) fn own(fabric: &dyn Fabric) -> [f64; 2] {
 /// Far above the root of any energy of compression.
 const NEVER: f64 = 1e6;
 
-/// 2 t C₁₀ \[N/m\].
+/// Shear modulus times thickness at rest, 2 t C₁₀ \[N/m\].
 fn modulus(film: &NeoHookean) -> f64 {
     2.0 * film.thickness_m * film.c10_pa
 }

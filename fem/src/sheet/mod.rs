@@ -39,9 +39,9 @@ use reference::{Reference, mean_stiffness};
 /// All shells of a run, with the air in their chambers.
 #[derive(Debug, Clone)]
 pub struct Sheet {
-    /// Elements in mesh order.
+    /// Elements of all parts, in the order of the mesh.
     pub elements: Vec<Element>,
-    /// Fabric of each part.
+    /// Fabric of each part, all plies together.
     pub fabrics: Vec<Arc<dyn Fabric>>,
     /// Mass per area of each part \[kg/m²\].
     pub(crate) areal_density: Vec<f64>,
@@ -51,7 +51,7 @@ pub struct Sheet {
     bending_bound: Vec<f64>,
     patches: Vec<Patch>,
     viscous_j: f64,
-    /// ξ.
+    /// Damping ξ of the membrane, a share of the critical one.
     viscosity: f64,
     /// Take energies and volumes in the next step whatever its number, because somebody will look at the ledger.
     pub measure: bool,

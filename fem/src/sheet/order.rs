@@ -16,7 +16,7 @@ pub struct Order {
     pub old: Vec<u32>,
     /// `new[m]`: place of mesh node m.
     pub new: Vec<u32>,
-    /// Runs of consecutive places.
+    /// Ranges of consecutive places, one per patch.
     pub patches: Vec<Range<usize>>,
 }
 

@@ -13,7 +13,7 @@ use crate::problem::start::X;
 use crate::vec3::{along, area, cross, direction, dot, norm, sub};
 use models::Fabric;
 
-/// Reference data of one element.
+/// Geometry of one element in its stress-free shape: gradients, area and axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reference {
     /// Gradient of the shape functions in (warp, fill): of corners 1 and 2 for a quadrilateral (3 and 4 are their
@@ -21,7 +21,7 @@ pub struct Reference {
     pub b: [[f64; 2]; 2],
     /// s_a of the hourglass vector \[m\]; zero for a triangle.
     pub s: [f64; 2],
-    /// Reference area \[m²\].
+    /// Area of the stress-free element \[m²\].
     pub area: f64,
     /// Warp, fill and normal directions in space.
     pub axes: [[f64; 3]; 3],
@@ -119,18 +119,18 @@ pub fn bending_stiffness(section: &Section) -> f64 {
 pub struct Element {
     /// Corner nodes; a triangle repeats its third.
     pub node: [u32; 4],
-    /// 3 or 4.
+    /// Number of corners, 3 or 4.
     pub corners: usize,
-    /// Part number.
+    /// Number of the part in the mesh.
     pub part: usize,
-    /// Reference data.
+    /// Geometry of the element in its stress-free shape.
     pub reference: Reference,
-    /// Hourglass stiffness k \[N/m\].
+    /// Stiffness k of the hourglass control of the element \[N/m\].
     pub hourglass: f64,
 }
 
 impl Element {
-    /// Corner nodes without repetition.
+    /// Corner nodes, each once: three for a triangle.
     pub fn nodes(&self) -> &[u32] {
         &self.node[..self.corners]
     }

@@ -9,11 +9,11 @@ pub struct Tangent {
     pairs: [[u32; 2]; 2],
     /// Shape gradients that go with them \[1/m\].
     b: [[f64; 2]; 2],
-    /// Columns of the deformation gradient.
+    /// Columns of the deformation gradient F, along warp and fill.
     f: [[f64; 3]; 2],
-    /// A D \[N m\].
+    /// Area times tangent stiffness, A D \[N m\].
     stiff: [[f64; 3]; 3],
-    /// A η \[N m s\].
+    /// Area times viscosity, A η \[N m s\].
     viscous: f64,
 }
 

@@ -52,7 +52,7 @@ const SHARP: f64 = 0.904;
 /// Bending stiffnesses nearer than this are one.
 const SAME: f64 = 1e-9;
 
-/// All folds of a mesh.
+/// Folds along all edges of a mesh at which the bending stiffness jumps.
 #[derive(Debug, Clone, Default)]
 pub struct Folds {
     edges: Vec<Edge>,
@@ -68,10 +68,10 @@ pub struct Folds {
 struct Edge {
     /// Both ends of the edge, then the nodes opposite.
     nodes: [u32; 6],
-    /// L \[1/m\]; sum 0.
+    /// Weights of the operator L \[1/m\], whose sum is 0.
     weights: [f64; 6],
     length_m: f64,
-    /// k \[N\].
+    /// Stiffness k of the fold, both sides in series \[N\].
     stiffness_n: f64,
 }
 
@@ -80,11 +80,11 @@ struct Side {
     element: Element,
     /// Direction across the edge in the element's warp and fill.
     across: [f64; 2],
-    /// h \[m\].
+    /// Length h of the element across the edge \[m\].
     height_m: f64,
-    /// D \[N m\].
+    /// Bending stiffness D of the sheet on this side \[N m\].
     stiffness_nm: f64,
-    /// T, smoothed \[N/m\].
+    /// Tension T across the edge, smoothed over time; 0 under compression \[N/m\].
     tension_n_m: f64,
 }
 
@@ -203,13 +203,13 @@ fn in_series(sides: &[Side; 2]) -> f64 {
 }
 
 impl Edge {
-    /// L x.
+    /// Turn across the edge, L x: of length 2 sin ½φ.
     fn turn(&self, x: &[[f64; 4]]) -> V3 {
         let own = node(x, self.nodes[0] as usize);
         (1..6).fold([0.0; 3], |sum, k| along(sum, self.weights[k], sub(node(x, self.nodes[k] as usize), own)))
     }
 
-    /// U/(b k) and 1/cos ½φ.
+    /// Energy U/(b k) of the fold and 1/cos ½φ, from its turn L x.
     fn shape(&self, turn: V3) -> [f64; 2] {
         let square = 0.25 * dot(turn, turn);
         let near = square.min(SHARP);

@@ -35,7 +35,7 @@ const CHUNK: usize = 1024;
 /// and a mesh at 0.9 of its own limit.
 const DAMPING: f64 = 2.53;
 
-/// All obstacles of a run.
+/// Obstacles of a run, with stiffness, friction and energies of their contact.
 #[derive(Debug, Clone, Default)]
 pub struct Obstacles {
     solids: Vec<Solid>,
@@ -50,7 +50,7 @@ pub struct Obstacles {
     stored_j: f64,
     /// Lost by friction and by damping.
     lost_j: [f64; 2],
-    /// Work of solids that move.
+    /// Work that moving solids have done on the fabric so far \[J\].
     work_j: f64,
 }
 

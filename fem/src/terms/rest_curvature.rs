@@ -40,7 +40,7 @@ struct Rest {
     row: CurvatureRow,
     /// D of the parts that keep their curvature \[N m\].
     stiffness: f64,
-    /// H̄ \[1/m\].
+    /// Curvature H̄ of the stress-free shape \[1/m\].
     curvature: f64,
 }
 

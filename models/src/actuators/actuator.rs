@@ -3,7 +3,7 @@
 use super::pattern::Pattern;
 use super::shape::ActuatorShape;
 
-/// What makes the actuator contract.
+/// Contraction mechanism: what makes the actuator shorten under pressure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Family {
     /// Flat pouch that becomes a lens: geometry-based contraction.
@@ -17,11 +17,11 @@ pub enum Family {
 pub struct Actuator {
     /// Name in scenarios and data: `spam`, `cpam`, `epam`, `fpam`.
     pub name: &'static str,
-    /// Full name.
+    /// Full name, as in headings and reports.
     pub title: &'static str,
-    /// One plain sentence.
+    /// One plain sentence: how it contracts and bends the body.
     pub sentence: &'static str,
-    /// Stroke law in Unicode.
+    /// Stroke law as a formula in Unicode.
     pub formula: &'static str,
     /// Literature, and which parts are derived here.
     pub reference: &'static str,
@@ -68,11 +68,11 @@ impl Actuator {
 /// Restoring moment over P·area·D₀, `m = m₀ + m₁ ε D₀/D`, neither negative \[-\], on an arm `D = D₀ (1 + growth·lift)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Demand {
-    /// m₀: the body's hinge.
+    /// Constant part m₀ of the moment, from the body's hinge.
     pub constant: f64,
-    /// m₁: the wall's bending stiffness.
+    /// Part m₁ in proportion to the contraction, from the wall's bending stiffness.
     pub per_contraction: f64,
-    /// β/D₀ \[1/m\].
+    /// Growth of the arm per lift of the line of action, β/D₀ \[1/m\].
     pub growth: f64,
 }
 
@@ -119,17 +119,17 @@ pub(super) fn converged(step: f64, last: f64) -> bool {
 /// Stroke law at one coordinate `a`, with derivatives by `a`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stroke {
-    /// Contraction ε \[-\].
+    /// Shortening over flat length, ε \[-\].
     pub contraction: f64,
-    /// dε/da.
+    /// Slope dε/da of the contraction by the coordinate.
     pub d_contraction: f64,
     /// Volume per unit flat length \[m²\].
     pub volume: f64,
-    /// d(volume)/da.
+    /// Slope of the volume per flat length by the coordinate.
     pub d_volume: f64,
     /// How far the line of action moves away from the body \[m\].
     pub lift: f64,
-    /// d(lift)/da.
+    /// Slope of the lift by the coordinate.
     pub d_lift: f64,
     /// Positive factor that makes the moment balance nearly linear in `a` (θ for a pouch, whose force goes as 1/θ).
     pub weight: f64,

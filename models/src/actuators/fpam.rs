@@ -60,7 +60,6 @@ fn rest_radius(shape: &ActuatorShape) -> f64 {
     shape.width_m / PI
 }
 
-/// `[j, k] = [1/sin²α₀, cot²α₀]`.
 fn braid(shape: &ActuatorShape) -> [f64; 2] {
     let [cos2, sin2] = shape.bias_squares();
     [1.0 / sin2, cos2 / sin2]

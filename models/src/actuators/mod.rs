@@ -20,7 +20,7 @@ pub use actuator::{Actuator, Demand, Family, Stroke};
 pub use beam::BEAM;
 pub use shape::{ActuatorShape, BIAS};
 
-/// The entry of that name.
+/// Finds an actuator of [`ACTUATORS`] by its name in scenarios; `None` if there is none.
 pub fn by_name(name: &str) -> Option<&'static Actuator> {
     ACTUATORS.iter().find(|a| a.name == name)
 }

@@ -22,7 +22,7 @@ use super::shape::ActuatorShape;
 pub struct Pattern {
     /// Material of the actuator's sheet, in [`crate::fabrics::MATERIALS`].
     pub fabric: &'static str,
-    /// Material of the body.
+    /// Material of the body's wall, in [`crate::fabrics::MATERIALS`].
     pub body_fabric: &'static str,
     /// Loose sheets that make the body's wall beside the pouches.
     pub body_sheets: usize,
@@ -38,14 +38,14 @@ pub struct Pattern {
     pub panels: Vec<Panel>,
 }
 
-/// Bottom of the actuator's chamber.
+/// Bottom of the actuator's chamber, and how it is joined to the body's wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Joint {
     /// The body's wall is the bottom; the sheet is welded onto it along its edges.
     Wall,
     /// A bottom sheet of the actuator's own is stuck to the wall over its whole face: plies that bend as one.
     Bonded {
-        /// What is between the two.
+        /// Adhesive layer between the bottom sheet and the wall.
         film: Film,
         /// Angle of the bottom sheet's warp to the body axis \[rad\], counter-clockwise seen from outside.
         warp_rad: f64,
@@ -54,23 +54,23 @@ pub enum Joint {
     Seams,
 }
 
-/// What sticks two plies together.
+/// Adhesive layer that bonds two plies of fabric over their whole face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Film {
-    /// Adhesive transfer tape.
+    /// Adhesive transfer tape, for the material law of plies on tape.
     Tape,
-    /// Silicone glue.
+    /// Silicone glue, for the material law of glued plies.
     Glue,
 }
 
 /// One flat piece of the sheet between two edges or folds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Panel {
-    /// Name, unique in the pattern.
+    /// Name of the piece, unique in the pattern.
     pub name: &'static str,
     /// Height above the wall, counted in layers from 1.
     pub level: usize,
-    /// Where it begins \[m\].
+    /// Arc from the middle of the strip at which the piece begins \[m\].
     pub from_m: f64,
     /// Where it ends \[m\]; below `from_m` where the sheet runs back.
     pub to_m: f64,
@@ -82,7 +82,7 @@ pub struct Panel {
 const SAME_M: f64 = 1e-9;
 
 impl Panel {
-    /// Lower and higher end \[m\].
+    /// Lower and higher end of the piece along the arc \[m\], whichever way the sheet runs.
     pub fn range_m(&self) -> [f64; 2] {
         [self.from_m.min(self.to_m), self.from_m.max(self.to_m)]
     }

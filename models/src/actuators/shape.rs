@@ -5,7 +5,7 @@
 pub struct ActuatorShape {
     /// Flat length L₀ along the body: one pouch, or the whole muscle.
     pub length_m: f64,
-    /// Flat width W.
+    /// Flat width W of the pouch or of the muscle's tube.
     pub width_m: f64,
     /// Depth f of a lateral gusset fold; 0 without folds.
     pub fold_m: f64,

@@ -50,7 +50,7 @@ pub(super) const REACH: Parameter = Parameter {
     ..PLAIN
 };
 
-/// How suddenly it ends.
+/// Exponent m of the clamp's end: how suddenly the clamped stretch ends.
 pub(super) const END: Parameter = Parameter {
     key: "end_exponent",
     symbol: "m",

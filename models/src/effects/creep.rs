@@ -85,7 +85,7 @@ const STRETCH: usize = 1;
 const SIMPSON_BELOW: f64 = 0.1;
 
 impl Creep {
-    /// e^{−x} and φ.
+    /// Decay e^{−x} over x = Δt/τ, and the weight φ of the present state.
     fn decay(&self, dt_s: f64) -> (f64, f64) {
         let x = dt_s / self.time_s;
         if x == 0.0 {

@@ -12,7 +12,7 @@ pub(super) use crate::term::{Account, LedgerLine, Memory, Pose, Remembering, Ter
 pub enum Stage {
     /// Set pressure → pressure in the actuator.
     Supply,
-    /// Pressure → curvature.
+    /// From the pressure in the actuator to the curvature of the body.
     Balance,
     /// Centre line → what the camera sees.
     Camera,
@@ -33,9 +33,9 @@ impl Stage {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Group {
-    /// The actuator and its fabric.
+    /// The actuator, its fabric, folds and welds.
     Actuator,
-    /// The body's wall.
+    /// The body's wall, and friction or history in it.
     Body,
     /// What pulls on the robot from outside.
     Load,
@@ -68,11 +68,11 @@ impl Group {
 pub struct Parameter<'a> {
     /// Key in the scenario, with the unit as suffix.
     pub key: &'a str,
-    /// Letter in the formula.
+    /// Letter of the parameter in the formula of the effect.
     pub symbol: &'a str,
-    /// Unit of the scenario value.
+    /// Unit of the value in a scenario.
     pub unit: &'a str,
-    /// Factor to SI.
+    /// Factor from the value in a scenario to SI.
     #[serde(skip)]
     pub si: f64,
     /// Value at which the effect vanishes.
@@ -81,7 +81,7 @@ pub struct Parameter<'a> {
     pub typical: f64,
     /// Least value that a fit tries, and that is accepted without a known source.
     pub lower: f64,
-    /// Largest value of that kind.
+    /// Largest value that a fit tries, and that is accepted without a known source.
     pub upper: f64,
     /// Physically possible values: a separate test may find that much.
     #[serde(skip)]
@@ -97,7 +97,7 @@ pub struct Parameter<'a> {
     /// It belongs to the room: a robot rolled by 180° sees it with the other sign.
     #[serde(skip)]
     pub in_room: bool,
-    /// What it is.
+    /// Meaning in a few words, for reports and messages.
     pub meaning: &'a str,
 }
 
@@ -143,16 +143,16 @@ pub(super) const SHARE: Parameter<'static> =
 pub(super) const POSITIVE: [f64; 2] = [0.0, f64::INFINITY];
 /// Of a time, or of a stiffness that is never nothing.
 pub(super) const ABOVE_ZERO: [f64; 2] = [f64::MIN_POSITIVE, f64::INFINITY];
-/// Of what has a direction.
+/// Possible values of a quantity that has a direction or a sign.
 pub(super) const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// A number that shapes a law, neutral where the law has its usual form.
 pub(super) const SHAPE: Parameter<'static> = Parameter { typical: 0.0, fitted: Fitted::Shape, ..PLAIN };
 
-/// Which data hold a parameter.
+/// Which data can determine a parameter, and so whether a diagnosis fits it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fitted {
-    /// All.
+    /// All data, without a condition on the robot or its pressures.
     Always,
     /// All, about its neutral value: it shapes a law whose exact form is not known, and has no effect alone.
     Shape,
@@ -173,7 +173,7 @@ pub enum Fitted {
 pub enum Needs {
     /// Any body, a passive beam too.
     Body,
-    /// Any actuator, or its supply.
+    /// Any actuator, or the supply that fills it.
     Actuator,
     /// An actuator of this contraction mechanism.
     Family(Family),
@@ -182,16 +182,16 @@ pub enum Needs {
 /// A physical effect as an entry of the catalogue, or of a scenario's own ([`crate::Catalogue`]).
 #[derive(Debug, Clone, Copy, serde::Serialize)]
 pub struct Effect<'a> {
-    /// Name in scenarios.
+    /// Name of the effect in scenarios and commands.
     pub name: &'a str,
-    /// What it belongs to.
+    /// Part of robot or test that it belongs to.
     pub group: Group,
-    /// Stage in which it acts.
+    /// Stage of a prediction in which it acts.
     pub stage: Stage,
     /// Whether a state depends on those before it or on the time in a hold: needs data with an unloading branch or with
     /// several samples in a hold.
     pub history: bool,
-    /// Formula in Unicode.
+    /// Law of the effect as a formula in Unicode.
     pub formula: &'a str,
     /// One plain sentence for a user.
     pub sentence: &'a str,
@@ -199,13 +199,13 @@ pub struct Effect<'a> {
     pub differs: &'a str,
     /// What to measure or change on the robot.
     pub remedy: &'a str,
-    /// When it holds.
+    /// Conditions under which the law may be used.
     pub validity: &'a str,
-    /// Source.
+    /// Literature of the law, or `derived here`.
     pub reference: &'a str,
     /// Parameters in the order `add` takes them.
     pub parameters: &'a [Parameter<'a>],
-    /// What it acts in.
+    /// Part of the robot without which there is nothing to change.
     #[serde(skip)]
     pub needs: Needs,
     /// Adds it to a model under construction; values in SI. A formula adds itself.
@@ -244,7 +244,6 @@ impl Parameter<'_> {
         format!("{low} to {high}{}", self.after())
     }
 
-    /// The unit after a number.
     fn after(&self) -> String {
         if self.unit == "-" { String::new() } else { format!(" {}", self.unit) }
     }

@@ -48,15 +48,14 @@ pub(super) const ENTRY: Effect = Effect {
 };
 
 struct FoldEnergy {
-    /// √D \[√(N m)\].
     root: f64,
     length_m: f64,
     width_m: f64,
-    /// e: sides that are folded.
+    /// Number e of folded sides, as in the effect `sealed_sides`.
     sealed: f64,
-    /// χ.
+    /// Share χ of the pouch that is in the body.
     inner: f64,
-    /// ½ R' cosα \[m\].
+    /// ½ R' cosα of the wall's section \[m\], which gives ρ₀.
     wall_m: f64,
 }
 

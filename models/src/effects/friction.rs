@@ -46,7 +46,7 @@ pub(super) const ENTRY: Effect = Effect {
     ..BALANCE
 };
 
-/// Elastic slide \[1/m\].
+/// Elastic slide κ_s before the friction gives way \[1/m\]; numerical.
 const SLIDE: f64 = 0.02;
 
 struct Friction {

@@ -136,7 +136,7 @@ pub const IN_SPACE: &[&str] = &[
     "tip_load",
 ];
 
-/// The entry of that name.
+/// Finds an effect of [`EFFECTS`] by its key in scenarios; `None` if there is none.
 pub fn by_name(name: &str) -> Option<&'static Effect<'static>> {
     EFFECTS.iter().find(|e| e.name == name)
 }

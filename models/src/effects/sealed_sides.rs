@@ -45,11 +45,11 @@ pub(super) const ENTRY: Effect = Effect {
 };
 
 pub(super) struct SealedSides {
-    /// e σ/L \[1/m\].
+    /// Restrained share of the sides per pitch, e σ/L \[1/m\].
     pub share: f64,
     pub length_m: f64,
     arm_m: f64,
-    /// χ.
+    /// Share χ of the pouch that is in the body.
     pub inner: f64,
     /// ΔA and ΔQ as factors of a and a².
     pub area: [f64; 2],

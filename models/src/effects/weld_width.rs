@@ -48,7 +48,7 @@ pub(super) const ENTRY: Effect = Effect {
     ..BALANCE
 };
 
-/// Wider welds leave no pouch.
+/// Largest share of the pitch that welds may take: wider ones leave no pouch.
 const MOST: f64 = 0.9;
 
 #[cfg(test)]

@@ -8,9 +8,9 @@ use std::fmt::Write;
 pub struct Origin<'a> {
     /// Name of the files without ending; every name in them begins with it, in letters that C allows.
     pub prefix: &'a str,
-    /// Name of the robot.
+    /// Name of the robot, for the comment at the head of each file.
     pub robot: &'a str,
-    /// The command that made it.
+    /// Command line that wrote the files, for the comment at their head.
     pub command: &'a str,
     /// Effects with history, of which the table has the first loading only.
     pub history: &'a [&'a str],
@@ -103,7 +103,7 @@ fn sure(value: f64) -> String {
     format!("{:.1e}", up(value))
 }
 
-/// A bound in digits.
+/// Writes a bound rounded up to two significant digits, without an exponent.
 fn decimals(value: f64) -> String {
     let places = if value > 0.0 { (1.0 - value.log10().floor()).clamp(0.0, 12.0) as usize } else { 0 };
     format!("{:.places$}", up(value))

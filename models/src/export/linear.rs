@@ -22,7 +22,7 @@ pub struct Joint {
     /// Start of its piece along the undeformed body \[m\].
     #[serde(rename = "s_mm", serialize_with = "si::mm")]
     pub start_m: f64,
-    /// Length of its piece \[m\].
+    /// Length of its piece along the undeformed body \[m\].
     #[serde(rename = "length_mm", serialize_with = "si::mm")]
     pub length_m: f64,
     /// Its axis along the straight chain from the base \[m\]: halfway through its piece. Its two halves are rigid and
@@ -40,7 +40,7 @@ pub struct Joint {
     /// B of each channel \[N·m/Pa\]; NaN (null) likewise.
     #[serde(rename = "b_nm_per_kpa", serialize_with = "si::per_kpa")]
     pub per_pa: [f64; CHANNELS],
-    /// b \[N·m\]; NaN (null) likewise.
+    /// Moment b at zero angle and pressure \[N·m\]; NaN (null) likewise.
     #[serde(rename = "b_nm")]
     pub offset_nm: f64,
     /// C \[N·m·s/rad\]: of slow motion with the effect `creep`; `None` without, for nothing else here depends on the rate.
@@ -56,14 +56,14 @@ impl Joint {
     }
 }
 
-/// The chain, base to tip.
+/// Chain of rigid links and linear joints about one working point, base to tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Linear {
-    /// Pressures of the working point.
+    /// Pressures of the working point, about which the joints are linear.
     pub loads: Loads,
     /// The tip along the straight chain, on the centre line \[m\].
     pub tip_at_m: f64,
-    /// Its joints.
+    /// Joints between the rigid links, base to tip.
     pub joints: Vec<Joint>,
 }
 

@@ -15,17 +15,17 @@ use super::linear::{Joint, Linear};
 /// The surroundings of a chain in a file for a simulator.
 #[derive(Debug, Clone)]
 pub struct Surroundings<'a> {
-    /// Name of the robot.
+    /// Name of the robot, which the model in the file carries.
     pub name: &'a str,
     /// The command that made the file.
     pub command: &'a str,
     /// Radius of the body, as the links are drawn \[m\].
     pub radius_m: f64,
-    /// Mass per length \[kg/m\].
+    /// Mass of the body per length \[kg/m\], from which the links have theirs.
     pub mass_kg_per_m: f64,
     /// Gravity along x and y \[m/s²\].
     pub gravity_m_s2: [f64; 2],
-    /// Largest actuator pressure \[Pa\].
+    /// Largest actuator pressure of the robot \[Pa\], the upper end of the control range.
     pub most_pa: f64,
 }
 
@@ -77,7 +77,7 @@ impl Linear {
         (0..self.joints.len()).map(link).collect()
     }
 
-    /// Channels that drive a joint.
+    /// Iterates over the channels whose pressure moves at least one joint.
     pub fn channels(&self) -> impl Iterator<Item = usize> {
         let drives = |channel: &usize| self.joints.iter().any(|joint: &Joint| joint.per_pa[*channel] != 0.0);
         (0..crate::CHANNELS).filter(drives)

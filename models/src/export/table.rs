@@ -24,15 +24,15 @@ const SLOPE_FROM: f64 = 0.01;
 /// Tip and markers over the actuator pressure at one body pressure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// Body gauge pressure \[Pa\].
+    /// Gauge pressure of the body \[Pa\], the same at every entry.
     pub body_pa: f64,
     /// Least and largest actuator pressure \[Pa\].
     pub range_pa: [f64; 2],
     /// Pressure P₀ up to which every actuator is flat \[Pa\].
     pub open_pa: f64,
-    /// Length of the robot \[m\].
+    /// Length of the undeformed robot \[m\], to which errors are relative.
     pub length_m: f64,
-    /// Degree of the polynomials.
+    /// Degree of the polynomials, the same in all pieces and outputs.
     pub degree: usize,
     /// How far it is from the model.
     pub bound: Bound,
@@ -48,15 +48,15 @@ pub struct Table {
 /// Largest differences between a table and its model, over thousands of pressures.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Bound {
-    /// Pressures looked at.
+    /// Number of pressures at which both were compared.
     pub pressures: usize,
-    /// Distance of the tip \[m\].
+    /// Largest distance between both positions of the tip \[m\].
     #[serde(rename = "tip_mm", serialize_with = "si::mm")]
     pub tip_m: f64,
-    /// Total bend \[rad\].
+    /// Largest difference of the total bending angle \[rad\].
     #[serde(rename = "angle_deg", serialize_with = "si::deg")]
     pub angle_rad: f64,
-    /// Distance of a marker \[m\].
+    /// Largest distance between both positions of a marker \[m\].
     #[serde(rename = "marker_mm", serialize_with = "si::mm")]
     pub marker_m: f64,
     /// Slope of the tip's height \[m/Pa\], from [`Bound::slope_from_pa`] on.
@@ -157,12 +157,12 @@ impl Table {
         4 * (self.edges.len() + self.coefficients.len())
     }
 
-    /// Pieces.
+    /// Number of pieces of the range of pressures, each with polynomials of its own.
     pub fn pieces(&self) -> usize {
         self.edges.len() - 1
     }
 
-    /// Markers.
+    /// Number of markers, each with an x and a y among the outputs.
     pub fn markers(&self) -> usize {
         (self.outputs - 3) / 2
     }

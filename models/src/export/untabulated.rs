@@ -7,14 +7,14 @@ use thiserror::Error;
 pub const MOST_BYTES: usize = 4096;
 /// Its largest miss, as a share of the robot's length or in rad.
 pub const MOST_MISS: f64 = 1e-3;
-/// Why there is no table.
+/// Reason for which a model cannot be written as a table over the pressure.
 #[expect(missing_docs, reason = "fields have the words and units of their message")]
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Untabulated {
     /// The model has no prediction somewhere in the range.
     #[error(transparent)]
     Unsolved(#[from] Unsolved),
-    /// Pressures that do not rise.
+    /// Range of pressures that is empty, falls, or begins below 0.
     #[error("pressures from {low_kpa} to {high_kpa} kPa are no range: they rise, from 0 or more")]
     Order { low_kpa: f64, high_kpa: f64 },
     /// A range in which the actuator stays flat.
@@ -25,7 +25,7 @@ pub enum Untabulated {
     /// One pressure does not say where the robot is.
     #[error("{channels} supply channels move this robot, and a table knows one pressure")]
     Channels { channels: usize },
-    /// Too rough a response.
+    /// Response with a jump or a corner that no table of the allowed size follows.
     #[error(
         "no table of {MOST_BYTES} bytes follows this robot to {MOST_MISS} of its length: it has a jump or a corner at {at_kpa:.3} kPa"
     )]

@@ -44,9 +44,9 @@ const MOST: usize = 60;
 pub struct BiasExtension {
     /// Free length between the clamps H \[m\].
     pub length_m: f64,
-    /// Width W \[m\].
+    /// Width W of the strip between its free edges \[m\].
     pub width_m: f64,
-    /// Thickness t \[m\].
+    /// Thickness t of the fabric \[m\].
     pub thickness_m: f64,
 }
 

@@ -52,7 +52,7 @@ impl Curve {
         Ok(Curve::build(rows.to_vec(), [between(rows[first], rows[first + 1]), between(rows[n - 2], rows[n - 1])]))
     }
 
-    /// y(x).
+    /// Interpolates y at x; beyond the rows the outer segments go on.
     pub fn value(&self, x: f64) -> f64 {
         let p = self.piece(x);
         p.y + p.slope * (x - p.x)
@@ -63,36 +63,36 @@ impl Curve {
         self.piece(x).slope
     }
 
-    /// Largest slope between two places.
+    /// Largest slope of the pieces between two places, the ends' own pieces included.
     pub fn steepest(&self, from: f64, to: f64) -> f64 {
         let [first, last] = [from, to].map(|x| self.rows.partition_point(|r| r[0] < x));
         self.pieces[first..=last].iter().fold(0.0, |most, p| f64::max(most, p.slope))
     }
 
-    /// ∫₀ˣ y dx, never negative.
+    /// ∫₀ˣ y dx, the energy per volume at a strain of x; never negative.
     pub fn integral(&self, x: f64) -> f64 {
         let p = self.piece(x);
         let dx = x - p.x;
         p.integral + (p.y + 0.5 * p.slope * dx) * dx
     }
 
-    /// Slope just above the origin.
+    /// Slope just above x = 0, the stiffness of the unloaded fabric.
     pub fn initial_slope(&self) -> f64 {
         self.slope(f64::MIN_POSITIVE)
     }
 
-    /// Slope beyond the last row.
+    /// Slope with which the curve goes on beyond its last row.
     pub fn last_slope(&self) -> f64 {
         self.outer[1]
     }
 
-    /// Smallest and largest slope.
+    /// Smallest and largest slope of all pieces, the outer ones included.
     pub fn slope_range(&self) -> [f64; 2] {
         let widen = |r: [f64; 2], p: &Piece| [r[0].min(p.slope), r[1].max(p.slope)];
         self.pieces.iter().fold([f64::INFINITY, 0.0], widen)
     }
 
-    /// Rows x, y.
+    /// Rows (x, y) of the table in rising order of x.
     pub fn rows(&self) -> &[[f64; 2]] {
         &self.rows
     }

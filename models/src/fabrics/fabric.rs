@@ -8,7 +8,7 @@ pub type Past = [f64; 2];
 
 /// The membrane law of one sheet of fabric, in warp and fill axes.
 pub trait Fabric: Send + Sync + Debug {
-    /// Reference thickness t \[m\].
+    /// Thickness t of the unstretched fabric \[m\].
     fn thickness_m(&self) -> f64;
     /// Recoverable energy W(e) per reference area \[J/m²\].
     fn energy(&self, e: [f64; 3], past: &Past) -> f64;
@@ -37,7 +37,7 @@ pub trait Fabric: Send + Sync + Debug {
         self.tangent(e, past)
     }
 
-    /// True if [`Fabric::remember`] does something.
+    /// True if [`Fabric::remember`] changes the memory: stress then depends on past strain.
     fn has_memory(&self) -> bool {
         false
     }
@@ -57,24 +57,24 @@ pub trait Fabric: Send + Sync + Debug {
 /// A fabric whose formula the finite element kernels inline.
 #[derive(Debug, Clone, Copy)]
 pub enum Kind<'a> {
-    /// Incompressible neo-Hookean sheet.
+    /// Incompressible neo-Hookean sheet, which carries compression too.
     NeoHookean(&'a NeoHookean),
-    /// Linear orthotropic sheet.
+    /// Sheet with linear stress over Green strain and three axes of symmetry.
     Orthotropic(&'a Orthotropic),
-    /// Bonded sheets of these two.
+    /// Neo-Hookean and orthotropic sheets bonded to one, with the sum of their stresses.
     Mixed(&'a Mixed),
-    /// Neo-Hookean sheet that wrinkles.
+    /// Neo-Hookean sheet without compressive stress: it wrinkles where it would have some.
     WrinklingFilm(&'a WrinklingFilm),
-    /// Any other law.
+    /// Any other law, which kernels call through [`Fabric`].
     Other,
 }
 
-/// Incompressible neo-Hookean sheet.
+/// Incompressible neo-Hookean sheet in plane stress, with one constant C₁₀.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NeoHookean {
-    /// C₁₀ \[Pa\], positive.
+    /// Constant C₁₀ of U = C₁₀ (Ī₁ − 3) \[Pa\], positive: a sixth of the initial modulus.
     pub c10_pa: f64,
-    /// Thickness \[m\], positive.
+    /// Thickness of the unstretched sheet \[m\], positive.
     pub thickness_m: f64,
 }
 
@@ -85,18 +85,18 @@ impl NeoHookean {
     }
 }
 
-/// Linear orthotropic sheet.
+/// Sheet with linear stress resultants over Green strain, along warp and fill.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Orthotropic {
-    /// A₁₁ \[N/m\].
+    /// Stiffness A₁₁ along the warp at fixed fill \[N/m\].
     pub a11: f64,
-    /// A₂₂ \[N/m\].
+    /// Stiffness A₂₂ along the fill at fixed warp \[N/m\].
     pub a22: f64,
-    /// A₁₂ \[N/m\].
+    /// Coupling A₁₂ of warp and fill \[N/m\].
     pub a12: f64,
-    /// A₆₆ = Gt \[N/m\].
+    /// Shear stiffness A₆₆ = G t between warp and fill \[N/m\].
     pub a66: f64,
-    /// Thickness \[m\].
+    /// Thickness of the unstretched sheet \[m\].
     pub thickness_m: f64,
 }
 
@@ -118,10 +118,10 @@ pub struct Mixed {
     pub linear: [[f64; 3]; 3],
 }
 
-/// One sheet of a laminate.
+/// One sheet of a laminate and its direction there.
 #[derive(Debug, Clone)]
 pub struct Ply {
-    /// Its law, thickness included.
+    /// Law of the sheet, its own thickness included.
     pub fabric: Arc<dyn Fabric>,
     /// Angle from the laminate's warp to this ply's warp \[rad\], counter-clockwise.
     pub angle_rad: f64,

@@ -55,7 +55,7 @@ pub(super) const GLUED: Law = Law {
     },
 };
 
-/// Bonded plies.
+/// Plies bonded without slip: equal strain, and the sum of their stress resultants.
 #[derive(Debug, Clone)]
 pub struct Laminate {
     plies: Vec<(Arc<dyn Fabric>, Turn)>,
@@ -200,7 +200,7 @@ impl Fabric for Laminate {
     }
 }
 
-/// Q(α).
+/// Rotation Q(α) of strain into the axes of a ply.
 #[derive(Debug, Clone, Copy)]
 struct Turn {
     cc: f64,
@@ -214,7 +214,7 @@ impl Turn {
         Turn { cc: c * c, ss: s * s, cs: c * s }
     }
 
-    /// Q e.
+    /// Strain in the axes of the ply, Q e.
     fn strain(&self, e: [f64; 3]) -> [f64; 3] {
         let Turn { cc, ss, cs } = *self;
         [
@@ -224,7 +224,7 @@ impl Turn {
         ]
     }
 
-    /// Qᵀ S.
+    /// Stress in the axes of the laminate, Qᵀ S.
     fn back(&self, s: [f64; 3]) -> [f64; 3] {
         let Turn { cc, ss, cs } = *self;
         [

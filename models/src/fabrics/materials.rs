@@ -6,18 +6,18 @@
 
 use super::{Law, Recipe, by_name};
 
-/// A named fabric.
+/// Fabric that cases and patterns call by name.
 #[derive(Debug, Clone, Copy)]
 pub struct Material {
-    /// Name in cases.
+    /// Name by which cases, patterns and scenarios call it.
     pub name: &'static str,
-    /// Law in [`super::FABRICS`].
+    /// Name of its law in [`super::FABRICS`].
     pub law: &'static str,
     /// Numbers by key of the law, as written.
     pub numbers: &'static [(&'static str, f64)],
 }
 
-/// The list.
+/// Materials that cases may name, each with its law and numbers.
 pub const MATERIALS: &[Material] = &[
     // TPU-coated 70D ripstop nylon as the paper simulated it, isotropic; body, sPAM, ePAM and cPAM.
     Material { name: "tpu-nylon", law: "neo-hookean", numbers: &[("c10_MPa", 50.3), ("thickness_mm", 0.2)] },
@@ -36,7 +36,7 @@ const SILICONE_NYLON: &[(&str, f64)] = &[
     ("thickness_mm", 0.05),
 ];
 
-/// The material of that name.
+/// Finds a material of [`MATERIALS`] by its name; `None` if there is none.
 pub fn material(name: &str) -> Option<&'static Material> {
     MATERIALS.iter().find(|m| m.name == name)
 }
@@ -47,7 +47,7 @@ impl Material {
         Recipe::of(self.numbers)
     }
 
-    /// Its law.
+    /// Finds the entry of its law in [`super::FABRICS`].
     pub fn law(&self) -> Option<&'static Law> {
         by_name(self.law)
     }

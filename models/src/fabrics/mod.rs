@@ -40,7 +40,7 @@ pub use woven::Woven;
 pub use wrinkling_film::wrinkling_load_n_per_m;
 pub use yarn::Yarn;
 
-/// The list.
+/// Fabric laws that recipes may name, in the order of the documents.
 pub const FABRICS: &[Law] = &[
     neo_hookean::ENTRY,
     orthotropic::ISOTROPIC,
@@ -52,7 +52,7 @@ pub const FABRICS: &[Law] = &[
     wrinkling_film::ENTRY,
 ];
 
-/// The law of that name.
+/// Finds a law of [`FABRICS`] by its name in recipes; `None` if there is none.
 pub fn by_name(name: &str) -> Option<&'static Law> {
     FABRICS.iter().find(|law| law.name == name)
 }

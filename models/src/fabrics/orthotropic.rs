@@ -53,7 +53,7 @@ pub(super) const ISOTROPIC: Law = Law {
     },
 };
 
-/// What describes a linear fabric.
+/// Keys of a linear fabric: moduli, contraction ratio and thickness.
 pub(super) const MODULI: [Parameter; 6] = [
     modulus("e0_MPa", Need::Required, "modulus pulled along warp"),
     modulus("e90_MPa", Need::Required, "modulus pulled along fill"),
@@ -63,7 +63,6 @@ pub(super) const MODULI: [Parameter; 6] = [
     THICKNESS,
 ];
 
-/// A linear fabric from [`MODULI`].
 pub(super) fn from_values(v: &Values) -> Result<Orthotropic, String> {
     v.exactly_one(&["e45_MPa", "g_MPa"])?;
     let (e0, e90, nu12, t) = (v.get("e0_MPa")?, v.get("e90_MPa")?, v.get("nu12")?, v.get("thickness_mm")?);
@@ -162,7 +161,7 @@ pub fn shear_modulus(e1_pa: f64, e2_pa: f64, e45_pa: f64, nu12: f64) -> Result<f
     ))
 }
 
-/// Refuses ν₁₂² ≥ E₁/E₂.
+/// Rejects ν₁₂² ≥ E₁/E₂, for which the stiffness matrix is not positive.
 pub(super) fn coupling_fits(e1_pa: f64, e2_pa: f64, nu12: f64) -> Result<(), String> {
     if nu12 >= 0.0 && nu12 * nu12 < e1_pa / e2_pa {
         return Ok(());

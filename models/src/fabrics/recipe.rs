@@ -37,24 +37,24 @@ impl Recipe {
 pub struct Parameter {
     /// Key, with the unit as suffix.
     pub key: &'static str,
-    /// Unit of the written value.
+    /// Unit of the value in a recipe, which the key has as suffix.
     pub unit: &'static str,
-    /// Factor to SI.
+    /// Factor from the value in a recipe to SI.
     pub si: f64,
-    /// Smallest accepted value, as written.
+    /// Smallest accepted value, in the unit of the recipe.
     pub lower: f64,
-    /// Largest accepted value, as written.
+    /// Largest accepted value, in the unit of the recipe.
     pub upper: f64,
-    /// Whether it must be written.
+    /// Whether a recipe must have it, and its value where it is left out.
     pub need: Need,
-    /// What it is.
+    /// Meaning in a few words, for documents and messages.
     pub meaning: &'static str,
 }
 
 /// Whether a parameter must be written.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Need {
-    /// It must.
+    /// A recipe without it is refused.
     Required,
     /// It has this value (as written) otherwise.
     Default(f64),
@@ -65,34 +65,34 @@ pub enum Need {
 /// One table of a law; always optional, in place of the number its `meaning` names.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurveInput {
-    /// Key.
+    /// Key of the table in a recipe.
     pub key: &'static str,
-    /// Unit of the first column.
+    /// Unit of the first column in a recipe.
     pub x_unit: &'static str,
     /// Factor of the first column to SI.
     pub x_si: f64,
-    /// Unit of the second column.
+    /// Unit of the second column in a recipe.
     pub y_unit: &'static str,
     /// Factor of the second column to SI.
     pub y_si: f64,
-    /// What it is.
+    /// Meaning in a few words, and the number that the table replaces.
     pub meaning: &'static str,
 }
 
 /// A fabric law as an entry of the catalogue.
 #[derive(Debug, Clone, Copy)]
 pub struct Law {
-    /// Name in cases.
+    /// Name by which recipes and materials call the law.
     pub name: &'static str,
-    /// Numbers.
+    /// Numbers that its recipes have, required and optional.
     pub parameters: &'static [Parameter],
-    /// Tables.
+    /// Tables that its recipes may have in place of numbers.
     pub curves: &'static [CurveInput],
     /// Fewest and most plies it is made of.
     pub plies: [usize; 2],
     /// Green–Lagrange strain up to which the law is meant.
     pub strain_limit: f64,
-    /// A recipe that works.
+    /// Makes a complete recipe that the law accepts.
     pub example: fn() -> Recipe,
     /// Makes the fabric.
     ///
@@ -141,7 +141,7 @@ impl Parameter {
     }
 }
 
-/// A checked recipe, in SI.
+/// Numbers of a checked recipe in SI, with the recipe for its tables.
 pub(super) struct Values<'a> {
     law: Law,
     si: BTreeMap<&'static str, f64>,
@@ -159,7 +159,6 @@ impl Values<'_> {
         self.si.get(key).copied()
     }
 
-    /// A table in SI.
     pub(super) fn curve(&self, key: &str) -> Result<Option<Curve>, String> {
         let input = self.law.curves.iter().find(|c| c.key == key);
         let (Some(rows), Some(input)) = (self.recipe.curves.get(key), input) else {
@@ -205,7 +204,6 @@ fn known<'a>(law: &str, what: &str, given: impl Iterator<Item = &'a String>, key
     Ok(())
 }
 
-/// A thickness \[mm\].
 pub(super) const THICKNESS: Parameter = Parameter {
     key: "thickness_mm",
     unit: "mm",
@@ -216,12 +214,10 @@ pub(super) const THICKNESS: Parameter = Parameter {
     meaning: "thickness of the sheet",
 };
 
-/// A modulus \[MPa\].
 pub(super) const fn modulus(key: &'static str, need: Need, meaning: &'static str) -> Parameter {
     Parameter { key, unit: "MPa", si: 1e6, lower: 1e-6, upper: 1e6, need, meaning }
 }
 
-/// A number without unit.
 pub(super) const fn ratio(key: &'static str, bounds: [f64; 2], need: Need, meaning: &'static str) -> Parameter {
     Parameter { key, unit: "-", si: 1.0, lower: bounds[0], upper: bounds[1], need, meaning }
 }

@@ -62,7 +62,7 @@ pub fn slope(rows: &[[f64; 2]]) -> Option<f64> {
 pub struct Slack {
     /// x at which the straight line behind the toe meets zero force.
     pub at: f64,
-    /// First row of that line.
+    /// Index of the first row on the straight line behind the toe.
     pub from: usize,
 }
 
@@ -177,7 +177,7 @@ pub fn bias_grip_factor(strip: &BiasExtension) -> f64 {
 /// A place where a curve loses force and then goes on to more: a specimen that slipped in its grips.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slip {
-    /// Strain at which it begins.
+    /// Strain at which the specimen begins to lose force.
     pub at: f64,
     /// Strain at which the force is back.
     pub until: f64,
@@ -225,12 +225,12 @@ pub fn plateau(rows: &[[f64; 2]]) -> Option<Slip> {
     again.then(|| Slip { at: edges[first], until: edges[last], lost: 0.0 })
 }
 
-/// Where shear stiffens for good.
+/// Shear angle at which a fabric stiffens for good: its yarns touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Locking {
     /// x_L: shear angle at which the two lines meet \[rad\].
     pub angle: f64,
-    /// Slopes before and after \[N/m\].
+    /// Slopes of the two lines, before and after the locking angle \[N/m\].
     pub slopes: [f64; 2],
 }
 

@@ -219,7 +219,7 @@ impl Fabric for TensionField {
 enum State {
     Taut,
     Slack,
-    /// Pulled along x/2 from warp.
+    /// Wrinkled, with tension along one direction only, x/2 from the warp.
     Wrinkled {
         along: Along,
         x: f64,

@@ -90,7 +90,7 @@ pub(super) const ENTRY: Law = Law {
     make: |recipe| Ok(Arc::new(from_values(&ENTRY.read(recipe)?)?)),
 };
 
-/// Woven fabric.
+/// Woven fabric with a law for each yarn family, one for their shear, and a linear coupling.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Woven {
     thickness_m: f64,

@@ -102,7 +102,7 @@ impl WrinklingFilm {
         [0.5 * (mean + share * d - 1.0), 0.5 * (mean - share * d - 1.0), share * c]
     }
 
-    /// 2 t C₁₀ \[N/m\].
+    /// Shear modulus times thickness at rest, 2 t C₁₀ \[N/m\].
     fn k(&self) -> f64 {
         2.0 * self.film.thickness_m * self.film.c10_pa
     }
@@ -126,7 +126,6 @@ impl WrinklingFilm {
 }
 
 impl Folded {
-    /// n₁⊗n₁ as (11, 22, 12).
     fn along(&self) -> [f64; 3] {
         let r = self.r.max(f64::MIN_POSITIVE);
         [0.5 + 0.5 * self.d / r, 0.5 - 0.5 * self.d / r, 0.5 * self.c / r]

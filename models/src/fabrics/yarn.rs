@@ -4,7 +4,7 @@
 
 use super::curve::Curve;
 
-/// One yarn family.
+/// Tension of one yarn family over its strain, with a curve for unloading where it differs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Yarn {
     pub(super) load: Curve,
@@ -24,13 +24,13 @@ impl Yarn {
         Ok(Yarn { load, unload })
     }
 
-    /// Stress \[Pa\].
+    /// Stress at a strain, after the largest strain `past` of its history \[Pa\].
     pub(super) fn stress(&self, strain: f64, past: f64) -> f64 {
         let (curve, scale) = self.way(strain, past);
         scale * curve.value(strain)
     }
 
-    /// dT/dε \[Pa\].
+    /// Slope dT/dε of the stress on the same branch \[Pa\].
     pub(super) fn slope(&self, strain: f64, past: f64) -> f64 {
         let (curve, scale) = self.way(strain, past);
         scale * curve.slope(strain)
@@ -54,7 +54,7 @@ impl Yarn {
         }
     }
 
-    /// Recoverable energy per volume \[J/m³\].
+    /// Energy per volume that unloading would give back \[J/m³\].
     pub(super) fn energy(&self, strain: f64, past: f64) -> f64 {
         match &self.unload {
             Some(back) if strain > 0.0 && strain < past => self.scale(back, past) * back.integral(strain),
@@ -63,7 +63,7 @@ impl Yarn {
         }
     }
 
-    /// D(ε*) \[J/m³\].
+    /// Energy D(ε*) per volume lost by hysteresis up to the largest strain ε* \[J/m³\].
     pub(super) fn lost(&self, past: f64) -> f64 {
         match &self.unload {
             Some(back) if past > 0.0 => {

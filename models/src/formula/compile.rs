@@ -30,7 +30,6 @@ pub(crate) struct Compiled {
     pub used: Vec<bool>,
 }
 
-/// Compiles a formula over `names`.
 pub(crate) fn compile(text: &str, names: &[Name]) -> Result<Compiled, Slip> {
     let used = vec![false; names.len()];
     let mut reader = Reader { text, at: 0, names, program: Vec::new(), used, depth: 0, nesting: 0 };
@@ -51,7 +50,6 @@ fn slip(message: String, help: &str, at: (usize, usize)) -> Slip {
     Slip { message, help: help.into(), at }
 }
 
-/// A part of the formula.
 #[derive(Clone, Copy)]
 struct Part {
     dimension: Dimension,

@@ -42,9 +42,9 @@ pub(crate) use variables::{MOST_PARAMETERS, is_variable};
 /// An effect of the scenario's own.
 #[derive(Debug, Clone)]
 pub struct Formula {
-    /// Name in `[effects.<name>]`.
+    /// Name of its table in `[effects.<name>]`, not one of the catalogue.
     pub name: String,
-    /// The moment as written.
+    /// Text of the moment as the scenario has it.
     pub moment: String,
     /// One plain sentence for a user.
     pub sentence: String,
@@ -64,19 +64,19 @@ pub struct Formula {
 pub struct FormulaParameter {
     /// Name in the formula and key in the scenario.
     pub key: String,
-    /// Unit of the scenario value.
+    /// Unit of the value in the scenario; the formula has it in SI.
     pub unit: String,
-    /// Factor to SI.
+    /// Factor from the value in the scenario to SI.
     pub si: f64,
     /// Value at which the effect vanishes.
     pub neutral: f64,
-    /// Typical size.
+    /// Size that the effect typically has, in the unit of the scenario.
     pub typical: f64,
-    /// Physical lower bound.
+    /// Smallest value that is physically possible, in the unit of the scenario.
     pub lower: f64,
-    /// Physical upper bound.
+    /// Largest value that is physically possible, in the unit of the scenario.
     pub upper: f64,
-    /// What it is.
+    /// Meaning in a few words, for reports and messages.
     pub meaning: String,
 }
 

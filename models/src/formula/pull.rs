@@ -32,7 +32,7 @@ impl PullTerm {
         Some(PullTerm { program, actuator, shape: site.shape, linkage: site.linkage, inputs })
     }
 
-    /// M κ'/η at a coordinate.
+    /// M κ'/η at a coordinate: the moment as a force on the coordinate.
     fn slope(&self, at: &Pose, a: f64) -> f64 {
         let stroke = (self.actuator.stroke)(&self.shape, a.max(FLAT));
         let link = &self.linkage;

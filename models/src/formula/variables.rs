@@ -16,7 +16,7 @@ pub(super) const VARIABLES: [(&str, Dimension); 8] = [
 pub(super) const KAPPA: usize = 0;
 pub(super) const STATION: usize = 4;
 pub(super) const PULL: usize = 7;
-/// Most parameters of one formula.
+/// Largest number of parameters of one formula, for which the inputs have room.
 pub(crate) const MOST_PARAMETERS: usize = 8;
 pub(super) const INPUTS: usize = VARIABLES.len() + MOST_PARAMETERS;
 

@@ -1,4 +1,4 @@
-//! Buffers of a prediction.
+//! Buffers of a prediction, allocated once per [`Prediction`](crate::Prediction).
 
 use crate::assembly::Assembly;
 use crate::history::History;
@@ -9,9 +9,7 @@ use crate::space::SpaceWork;
 /// Curvatures to hold, and the missing moments there; empty where nothing is held.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Held {
-    /// Per segment \[1/m\].
     pub curvatures: Vec<f64>,
-    /// Per segment \[N·m\].
     pub missing: Vec<f64>,
 }
 
@@ -25,7 +23,6 @@ pub(crate) struct Workspace {
     pub nodes: Vec<f64>,
     /// Direction (cos ψ, sin ψ) at each node.
     pub directions: Vec<[f64; 2]>,
-    /// Heading at each node \[rad\].
     pub headings: Vec<f64>,
     /// What the states before have left behind.
     pub history: History,

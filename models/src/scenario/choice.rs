@@ -5,20 +5,20 @@ use crate::actuators::{Actuator, ActuatorShape, BEAM, BIAS};
 use crate::effects::Effect;
 use std::f64::consts::TAU;
 
-/// The actuator of a scenario.
+/// Actuator of a scenario: its kind, its units, and where they are on the body.
 #[derive(Debug, Clone, Copy)]
 pub struct ActuatorChoice {
-    /// Kind.
+    /// Entry of the actuator in [`crate::actuators::ACTUATORS`].
     pub kind: &'static Actuator,
-    /// Dimensions of one unit.
+    /// Dimensions of one unit, flat and unpressurised.
     pub shape: ActuatorShape,
-    /// Units in series.
+    /// Number of units in series along the body; 0 for a passive body.
     pub count: usize,
     /// Where the first unit starts \[m\].
     pub start_m: f64,
     /// Arm from the taut generator \[m\]; `None`: the kind's own.
     pub arm_m: Option<f64>,
-    /// Supply channel.
+    /// Supply channel that fills it, an index into [`crate::Loads::actuator_pa`].
     pub channel: usize,
     /// Azimuth of its first unit's start, from y towards z \[rad\].
     pub azimuth_rad: f64,
@@ -39,7 +39,7 @@ impl ActuatorChoice {
         turns: 0.0,
     };
 
-    /// Whether there is an actuator.
+    /// False for a passive body, whose number of units is 0.
     pub fn exists(&self) -> bool {
         self.count > 0
     }
@@ -84,7 +84,7 @@ impl ActuatorChoice {
         (self.strip_m().powi(2) - (TAU * radius_m * self.turns).powi(2)).sqrt()
     }
 
-    /// Azimuth at a station \[rad\].
+    /// Azimuth of the strip at a station \[rad\]: constant, or growing along a helix.
     pub fn azimuth_at(&self, radius_m: f64, s_m: f64) -> f64 {
         if self.turns == 0.0 {
             return self.azimuth_rad;

@@ -8,17 +8,17 @@ use super::stated::Scenario;
 pub struct Dial {
     /// Place in the scenario's text, as `body.radius_mm`.
     pub place: String,
-    /// What it is, in words.
+    /// Meaning of the number in words.
     pub name: &'static str,
-    /// Unit.
+    /// Unit of value, ends and step; as in the key.
     pub unit: &'static str,
-    /// What the scenario says.
+    /// Present value in the scenario, in the unit of the key.
     pub value: f64,
-    /// Least value to turn to.
+    /// Least value that the slider may have.
     pub low: f64,
-    /// Largest value to turn to.
+    /// Largest value that the slider may have.
     pub high: f64,
-    /// Distance of two values.
+    /// Distance between neighbouring values of the slider.
     pub step: f64,
 }
 

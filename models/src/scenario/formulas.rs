@@ -1,4 +1,4 @@
-//! `[[formula]]`: the scenario's own effects.
+//! `[[formula]]`: effects that the scenario itself defines by a moment.
 
 use super::given::{Checked, refuse, unit};
 use super::raw::{Raw, RawFormula, RawParameter};

@@ -69,12 +69,10 @@ impl<'a> Given<'a> {
         self.at(name).map_or(self.span.clone(), |(_, value)| value.span())
     }
 
-    /// A value as written.
     pub(super) fn raw(&self, name: &str) -> Option<&'a Spanned<Value>> {
         self.at(name).map(|(_, value)| *value)
     }
 
-    /// A value of a type.
     pub(super) fn read<T: DeserializeOwned>(&self, name: &str) -> Checked<Option<T>> {
         let Some(value) = self.raw(name) else { return Ok(None) };
         let wrong = |error| {

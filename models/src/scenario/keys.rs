@@ -8,7 +8,7 @@ use crate::term::CHANNELS;
 use spelling::units::Range;
 use std::f64::consts::PI;
 
-/// A key of the text.
+/// One key of the scenario text, with its unit, range and meaning.
 #[derive(Debug, Clone, Copy)]
 pub struct Key {
     /// Tables in which it may stand; first the one that it is described for.
@@ -17,7 +17,7 @@ pub struct Key {
     pub name: &'static str,
     /// Accepted numbers; `None` of a word or a list.
     pub range: Option<Range>,
-    /// Meaning in a few words.
+    /// Meaning in a few words, for documents, messages and sliders.
     pub meaning: &'static str,
     /// Reads its number in SI, in the first of its tables.
     get: Option<fn(&Scenario) -> f64>,

@@ -68,7 +68,6 @@ pub const SHIPPED: &[(&str, &str)] = &[
 pub const ROBOTS: [&str; 8] =
     ["spam", "cpam", "epam", "fpam", "spam-textbook", "cpam-textbook", "epam-textbook", "fpam-textbook"];
 
-/// What textbooks leave out.
 const MECHANICS: [&str; 2] =
     [include_str!("../../scenarios/pouch-mechanics.toml"), include_str!("../../scenarios/muscle-mechanics.toml")];
 

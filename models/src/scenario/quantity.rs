@@ -4,7 +4,7 @@ use spelling::units::Range;
 
 pub use spelling::quantity::{Quantity, parse};
 
-/// Most pressures of one list.
+/// Largest number of pressures in one list; longer ones are refused.
 pub const MOST: usize = 100_000;
 
 /// Reads a comma-separated list of pressures; in each, `/` separates supply channels: `10kPa/20kPa,30kPa`. A range is its first

@@ -13,7 +13,7 @@ type Num = Spanned<f64>;
 pub(super) struct Raw {
     #[serde(default)]
     pub name: String,
-    /// Free text; read by people.
+    /// Free text for people; no model reads it.
     #[serde(default, rename = "notes")]
     pub _notes: String,
     pub body: Spanned<Entries>,

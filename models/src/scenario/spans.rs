@@ -4,26 +4,26 @@ use super::choice::ActuatorChoice;
 use super::stated::{Scenario, Zone};
 use crate::actuators::{Actuator, ActuatorShape};
 
-/// A stretch of equal design.
+/// Stretch of the body with the same design everywhere in it.
 #[derive(Debug, Clone, Copy)]
 pub struct Span {
-    /// Start \[m\].
+    /// Station at which it starts along the undeformed body \[m\].
     pub start_m: f64,
-    /// Length \[m\].
+    /// Length along the undeformed body \[m\].
     pub length_m: f64,
-    /// Body radius \[m\].
+    /// Radius R of the inflated body there \[m\].
     pub radius_m: f64,
     /// Distance of the centre line from the taut generator \[m\].
     pub centre_line_m: f64,
-    /// Effective bending stiffness \[N·m²\].
+    /// Effective bending stiffness B there \[N·m²\].
     pub bending_stiffness: f64,
-    /// Actuator, if any.
+    /// Kind of the actuator there; `None` on a passive stretch.
     pub actuator: Option<&'static Actuator>,
-    /// Unit dimensions.
+    /// Dimensions of one actuator unit there.
     pub shape: ActuatorShape,
     /// Arm from the taut generator \[m\].
     pub arm_m: f64,
-    /// Supply channel.
+    /// Supply channel that fills the actuator there.
     pub channel: usize,
 }
 

@@ -10,13 +10,13 @@ use std::sync::Arc;
 /// A scenario in SI units, checked.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scenario {
-    /// Free name.
+    /// Name for people, in titles and files; no model reads it.
     pub name: String,
-    /// Body radius R \[m\].
+    /// Radius R of the inflated body outside of zones \[m\].
     pub radius_m: f64,
-    /// Body length L \[m\].
+    /// Length L of the undeformed body from clamp to tip \[m\].
     pub length_m: f64,
-    /// Body gauge pressure \[Pa\].
+    /// Gauge pressure p_b of the body \[Pa\], unless a call has another.
     pub p_body_pa: f64,
     /// Effective bending stiffness B \[N·m²\]; 0 in a bare model.
     pub bending_stiffness: f64,
@@ -30,11 +30,11 @@ pub struct Scenario {
     pub centre_line_m: Option<f64>,
     /// Unit vector of gravity: x, y, and z with strips round the body.
     pub gravity_direction: [f64; 3],
-    /// The actuator.
+    /// The actuator of a planar robot, or the first strip of several.
     pub actuator: ActuatorChoice,
     /// Further strips of it round the body.
     pub more_strips: Vec<ActuatorChoice>,
-    /// Stretches that differ.
+    /// Stretches of the body with values of their own.
     pub zones: Vec<Zone>,
     /// Marker stations along the undeformed body \[m\].
     pub markers_m: Vec<f64>,
@@ -46,7 +46,7 @@ pub struct Scenario {
     pub p_max_pa: f64,
     /// How fast a set pressure arrives, for what happens in time; `None`: at once.
     pub line: Option<Line>,
-    /// Effects, in catalogue order.
+    /// Effects that are switched on, in the order of the catalogue.
     pub effects: Vec<EffectChoice>,
     /// The scenario's own effects, in the order of the text: they follow the catalogue's.
     pub formulas: Vec<Arc<Formula>>,
@@ -66,32 +66,32 @@ pub struct Wall {
 /// A stretch of the body where something differs from the rest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Zone {
-    /// Start \[m\].
+    /// Station at which the zone starts \[m\].
     pub from_m: f64,
-    /// End \[m\].
+    /// Station at which the zone ends \[m\].
     pub to_m: f64,
-    /// Body radius \[m\].
+    /// Radius of the body in the zone \[m\]; `None`: the robot's.
     pub radius_m: Option<f64>,
-    /// Effective bending stiffness \[N·m²\].
+    /// Effective bending stiffness in the zone \[N·m²\]; `None`: the robot's.
     pub bending_stiffness: Option<f64>,
-    /// Without actuator.
+    /// True where the zone has no actuator; `None`: it has the robot's.
     pub passive: Option<bool>,
-    /// Unit length \[m\].
+    /// Length of an actuator unit in the zone \[m\]; `None`: the robot's.
     pub unit_length_m: Option<f64>,
-    /// Unit width \[m\].
+    /// Width of an actuator unit in the zone \[m\]; `None`: the robot's.
     pub width_m: Option<f64>,
-    /// Fold depth \[m\].
+    /// Depth of the gusset folds in the zone \[m\]; `None`: the robot's.
     pub fold_m: Option<f64>,
-    /// Arm \[m\].
+    /// Arm from the taut generator in the zone \[m\]; `None`: the robot's.
     pub arm_m: Option<f64>,
-    /// Supply channel.
+    /// Supply channel of the zone's actuator; `None`: the robot's.
     pub channel: Option<usize>,
 }
 
 /// An effect switched on, with its values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EffectChoice {
-    /// Name in the catalogue.
+    /// Name of the effect in the catalogue, or of a formula.
     pub name: String,
     /// Parameter values in catalogue order, SI.
     pub values: Vec<f64>,

@@ -1,4 +1,4 @@
-//! `[supply]`: valve and line.
+//! `[supply]`: time constant of the valve and flow of its line.
 
 use super::given::{Checked, Given, refuse};
 use super::raw::Entries;

@@ -13,7 +13,7 @@ use crate::root::Start;
 pub(super) struct Starts {
     first: f64,
     per_step: f64,
-    /// Coordinate, and slope per pascal.
+    /// Coordinate at each node, and its slope over the pressure.
     nodes: Vec<[f64; 2]>,
 }
 

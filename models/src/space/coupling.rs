@@ -13,7 +13,7 @@ pub(crate) struct Loaded {
     pub(super) forces: Vec<f64>,
 }
 
-/// A section among the others.
+/// Loads of a section that the rest of the robot decides, and their slopes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Coupling {
     /// Loads assumed, and their Newton step.
@@ -28,7 +28,6 @@ pub(crate) struct Coupling {
     pub(super) turned: Matrix,
     /// ∂G/∂q of itself, times the length.
     pub(super) own: Matrix,
-    /// Step per turn before it.
     pub(super) slope: Matrix,
 }
 

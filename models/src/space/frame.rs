@@ -11,16 +11,15 @@ use std::f64::consts::FRAC_PI_2;
 /// A place and the frame there: tangent, and the directions of azimuth 0° and 90°.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
-    /// x, y, z \[m\].
+    /// Position (x, y, z) in the frame of the clamp \[m\].
     pub at: [f64; 3],
-    /// Unit vector towards the tip.
+    /// Unit vector along the centre line, towards the tip.
     pub tangent: [f64; 3],
     /// Unit vectors towards azimuth 0° and 90°.
     pub sides: [[f64; 3]; 2],
 }
 
 impl Frame {
-    /// The clamp.
     pub(crate) const BASE: Frame =
         Frame { at: [0.0; 3], tangent: [1.0, 0.0, 0.0], sides: [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
 }
@@ -42,27 +41,23 @@ pub(crate) fn direction(azimuth_rad: f64) -> [f64; 2] {
 pub(crate) struct Bend {
     /// κ_y, κ_z per unpressurised length \[1/m\].
     pub kappa: [f64; 2],
-    /// Contraction ε₀ of the axis.
     pub contraction: f64,
 }
 
 impl Bend {
-    /// |κ| \[1/m\].
     pub(crate) fn size(&self) -> f64 {
         self.kappa[0].hypot(self.kappa[1])
     }
 }
 
-/// A stretch of one bend.
+/// Stretch of the body with one bend and contraction.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stretch {
     pub from: Frame,
     pub bend: Bend,
-    /// Contraction of the centre line.
     pub contraction: f64,
 }
 
-/// `a x + b y`.
 pub(crate) fn mix(a: f64, x: [f64; 3], b: f64, y: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| a * x[i] + b * y[i])
 }

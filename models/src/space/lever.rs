@@ -11,7 +11,7 @@ use super::frame::Stretch;
 use crate::shape::{SERIES_BELOW, alternating, sinc_pair};
 
 pub(super) type Vector = [f64; 3];
-/// Rows.
+/// Matrix by its rows: the first index is the row.
 pub(super) type Matrix = [[f64; 3]; 3];
 
 pub(super) fn dot(a: Vector, b: Vector) -> f64 {
@@ -81,9 +81,9 @@ impl Beyond {
 /// Changes by κ_y, κ_z and ε, one a row.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lever {
-    /// Turn of everything beyond.
+    /// Turn of the whole body beyond the segment \[rad per coordinate\].
     pub turn: Matrix,
-    /// Way of the end \[m\].
+    /// Displacement of the segment's end \[m per coordinate\].
     shift: Matrix,
     /// Second changes of the way of the end, by κ_i and κ_j.
     bow: [[Vector; 2]; 2],

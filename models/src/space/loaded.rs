@@ -17,7 +17,7 @@ use crate::error::Unsolved;
 use crate::term::Pose;
 use std::f64::consts::PI;
 
-/// Newton settles in 3–8 steps.
+/// Limit of Newton's iterations, which settle in 3 to 8 steps.
 const MAX_ITERATIONS: usize = 60;
 /// Halvings of a Newton step before it is given up.
 const HALVINGS: usize = 12;

@@ -23,7 +23,6 @@ use crate::error::Unsolved;
 const SOFT_SHARE: f64 = 0.99;
 
 impl Section<'_> {
-    /// Whether the wall alone resists.
     pub(super) fn is_passive(&self, strips: &[StripState]) -> bool {
         matches!(self.acting(strips), Acting::Nothing)
     }
@@ -34,7 +33,7 @@ impl Section<'_> {
         soft_step(size, self.hinge_per_m).0 * (self.area_m2 * self.radius_m + dot(self.moment_m3, kappa) / size)
     }
 
-    /// Slope and curvature of U.
+    /// Slope and curvature of the potential U by κ, from wall, gas and outer loads.
     pub(super) fn passive_balance(&self, kappa: [f64; 2]) -> Balance {
         let [y, z, axial] = self.outer;
         let size = kappa[0].hypot(kappa[1]).max(STRAIGHT);

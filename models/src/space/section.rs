@@ -24,7 +24,6 @@ const STEP: f64 = 1e-6;
 const FIRST_CONTRACTION: f64 = 1e-2;
 /// Determinant over the square of the trace, and trace over p_b A R², below which an energy is flat along some bend.
 pub(super) const FLAT: f64 = 1e-8;
-/// Halvings of a step.
 const HALVINGS: usize = 40;
 
 /// One section of the body and what acts there.
@@ -42,7 +41,7 @@ pub(crate) struct Section<'a> {
     pub(super) moment_m3: [f64; 2],
     /// Distance of the centre line from the axis, away from the taut generator \[m\].
     pub(super) offset_m: f64,
-    /// Loads on it from outside.
+    /// Moments and axial force from loads outside of the section.
     pub(super) outer: Outer,
 }
 
@@ -55,7 +54,6 @@ pub(super) struct Fit {
     force: f64,
     /// Distance b of its line of action from the axis \[m\].
     from_axis_m: f64,
-    /// Tension \[N\].
     pub tension: f64,
 }
 
@@ -63,7 +61,7 @@ pub(super) struct Fit {
 #[derive(Clone, Copy, Default)]
 pub(super) struct Pulls {
     pub force: f64,
-    /// Σ F b e.
+    /// Moment of all strips about the axis, Σ F b e.
     pub moment: [f64; 2],
     /// Σ K over (1, b e): stiffness of contraction, mixed, and of the bend.
     stiffness: f64,
@@ -73,11 +71,11 @@ pub(super) struct Pulls {
 
 /// Which strips of a section are open.
 pub(super) enum Acting {
-    /// None: the wall alone resists.
+    /// No strip is open: the wall alone resists.
     Nothing,
     /// One upright strip in a section that no other strip draws in.
     One(usize),
-    /// Others.
+    /// Several strips, or one that the closed form does not cover.
     Several,
 }
 
@@ -266,7 +264,6 @@ impl<'a> Section<'a> {
         self.minimum(strips, kappa)
     }
 
-    /// Which strips are open.
     pub(super) fn acting(&self, strips: &[StripState]) -> Acting {
         let open = |(strip, state): (&Strip, &StripState)| self.open(strip, state).is_some();
         let mut opened = self.strips.iter().zip(strips).enumerate().filter(|(_, pair)| open(*pair)).map(|(i, _)| i);

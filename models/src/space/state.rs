@@ -4,36 +4,34 @@ use super::coupling::Loaded;
 use super::frame::{Bend, Frame, Stretch};
 use crate::assembly::{Assembly, Segment};
 
-/// A section at equilibrium.
+/// Bend, contraction and strips of one section at equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionState<'a> {
-    /// Where it is.
+    /// Segment of the body that the section represents.
     pub segment: Segment,
     /// κ_y, κ_z: bend towards azimuth 0° and 90° of the frame that follows the body without twist \[1/m\].
     pub kappa: [f64; 2],
-    /// Contraction of the axis \[-\].
+    /// Shortening of the axis over its length \[-\].
     pub contraction: f64,
     /// Its strips, in the order of the scenario.
     pub strips: &'a [StripState],
 }
 
-/// A strip at equilibrium.
+/// Pressure, coordinate and tension of one strip at equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StripState {
     /// Pressure after the supply stage \[Pa\].
     pub p_act_pa: f64,
     /// Its actuators' coordinate; 0 where they are flat.
     pub coordinate: f64,
-    /// Tension along the strip \[N\].
+    /// Tension along the strip, positive where it pulls \[N\].
     pub tension: f64,
 }
 
 /// Buffers of a robot in space; empty for a planar one.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct SpaceWork {
-    /// Per segment.
     pub bends: Vec<Bend>,
-    /// Per segment and strip.
     pub strips: Vec<Vec<StripState>>,
     /// Place and frame at each node.
     pub frames: Vec<Frame>,
@@ -58,7 +56,6 @@ impl SpaceWork {
     }
 }
 
-/// A segment in its bend.
 pub(crate) fn stretch(assembly: &Assembly, work: &SpaceWork, segment: usize) -> Stretch {
     let site = &assembly.sites[assembly.segments[segment].site];
     let bend = work.bends[segment];

@@ -1,4 +1,4 @@
-//! Laws of robots in space.
+//! Laws of robots in space: symmetries, limits and derivatives of the energy.
 
 use super::frame::direction;
 use super::section::Section;

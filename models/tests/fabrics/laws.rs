@@ -109,7 +109,6 @@ fn green(f: [[f64; 3]; 2]) -> [f64; 3] {
     [0.5 * (dot(f[0], f[0]) - 1.0), 0.5 * (dot(f[1], f[1]) - 1.0), dot(f[0], f[1])]
 }
 
-/// About z, then about x.
 fn turn(v: [f64; 3], z: f64, x: f64) -> [f64; 3] {
     let ((sz, cz), (sx, cx)) = (z.sin_cos(), x.sin_cos());
     let w = [cz * v[0] - sz * v[1], sz * v[0] + cz * v[1], v[2]];

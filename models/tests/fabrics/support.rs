@@ -2,10 +2,8 @@
 
 use models::Fabric;
 
-/// Never loaded.
 pub const FRESH: [f64; 2] = [0.0; 2];
 
-/// Repeatable random numbers (xorshift).
 pub struct Random(u64);
 
 impl Random {

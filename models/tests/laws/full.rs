@@ -5,7 +5,6 @@ use crate::stationary::imbalance;
 use crate::support::*;
 use models::{Loads, Model, Scenario, Target};
 
-/// The shipped robots.
 fn all() -> impl Iterator<Item = (&'static str, Scenario)> {
     actuators().map(|actuator| (actuator, full(actuator)))
 }

@@ -43,7 +43,6 @@ pub fn any_robot(random: &mut Random) -> Scenario {
 /// How an inverse can be wrong, and of how many robots nothing was asked.
 #[derive(Debug, Default)]
 struct Wrong {
-    /// Without equilibrium.
     without: usize,
     /// Beyond collapse: only a wrong answer counts.
     beyond: usize,

@@ -6,7 +6,6 @@ use models::effects::{EFFECTS, Effect, Stage};
 use models::site::{Linkage, Site};
 use models::{Loads, Model, Pose, Prediction, Scenario, Unsolved, shipped};
 
-/// Names of the four actuators.
 pub fn actuators() -> impl Iterator<Item = &'static str> {
     ACTUATORS.iter().map(|a| a.name)
 }
@@ -72,18 +71,15 @@ pub fn predict(scenario: &Scenario, p_body_pa: f64, p_act_pa: f64) -> Prediction
 pub struct Random(pub u64);
 
 impl Random {
-    /// Uniform in [0, 1).
     pub fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Uniform in [low, high).
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
-    /// Log-uniform in [low, high).
     pub fn decades(&mut self, low: f64, high: f64) -> f64 {
         (self.between(low.ln(), high.ln())).exp()
     }
@@ -98,20 +94,17 @@ pub fn slope(mut f: impl FnMut(f64) -> f64, x: f64, h: f64) -> f64 {
 
 /// The total potential of a robot over free coordinates: one (coordinate, curvature) pair per segment.
 pub struct Potential<'a> {
-    /// The parts.
     pub assembly: &'a Assembly,
     /// Pressures, the same in every channel; supply effects must be off.
     pub loads: Loads,
 }
 
 impl Potential<'_> {
-    /// Whether the segment's actuator acts.
     pub fn is_active(&self, segment: usize) -> bool {
         let site = self.site(segment);
         site.actuator.is_some() && self.loads.actuator_pa[site.channel] > 0.0
     }
 
-    /// The place of a segment.
     pub fn site(&self, segment: usize) -> &Site {
         &self.assembly.sites[self.assembly.segments[segment].site]
     }

@@ -8,11 +8,11 @@ use std::fmt::Write;
 pub const PAPERS: [(&str, [f64; 2]); 4] =
     [("a4", [210.0, 297.0]), ("a3", [297.0, 420.0]), ("letter", [215.9, 279.4]), ("tabloid", [279.4, 431.8])];
 
-/// What printers leave white \[mm\].
+/// Margin that printers leave white on every side \[mm\].
 const MARGIN: f64 = 10.0;
 /// What neighbouring pages both show \[mm\].
 const OVERLAP: f64 = 10.0;
-/// Thickness of lines \[mm\].
+/// Thickness of the lines in the drawing \[mm\].
 const PEN: f64 = 0.3;
 /// Height of letters over that of capitals.
 const FONT: f64 = 1.0 / 0.72;

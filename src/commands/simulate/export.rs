@@ -1,5 +1,3 @@
-//! `ibr simulate --export`
-
 use super::plan::RunPlan;
 use crate::cli::SimulateArgs;
 use crate::prelude::*;

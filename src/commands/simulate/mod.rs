@@ -1,5 +1,3 @@
-//! `ibr simulate`
-
 mod export;
 mod plan;
 mod several;
@@ -83,13 +81,12 @@ fn one(args: &SimulateArgs, source: &Source, settings: &Settings, context: &mut 
 /// `ibr.simulate`: `ibr simulate CASE`
 #[derive(Serialize)]
 struct SimulateAnswer<'a> {
-    /// What the run came to
     #[serde(flatten)]
     summary: &'a Summary,
-    /// What it took
+    /// Processor time, real time and speed of the run
     #[serde(skip_serializing_if = "Option::is_none")]
     cost: Option<&'a Cost>,
-    /// Folder that was written
+    /// Folder in which the run was written
     #[serde(skip_serializing_if = "Option::is_none")]
     folder: Option<String>,
 }

@@ -182,24 +182,23 @@ fn calibrated(all: &Uncertain, measured: &[(f64, [f64; 2])], weights: &[Weight])
 /// `ibr.simulations`: `ibr simulate ROBOT`, several runs
 #[derive(Serialize)]
 struct SimulationsAnswer<'a> {
-    /// Run by run
+    /// Heights and processor time of every run
     runs: Vec<RunRecord<'a>>,
     /// Those that differ in the seed only
     groups: Vec<SeedGroup>,
 }
 
-/// One of several runs.
 #[derive(Serialize)]
 struct RunRecord<'a> {
-    /// What differs, in words
+    /// Difference from the common scenario, in words
     run: &'a str,
-    /// Keys and values that differ
+    /// Keys of `[fem]` that differ, with their values
     changes: BTreeMap<&'a str, &'a str>,
-    /// Folder of the run
+    /// Folder in which the run was written
     folder: &'a str,
-    /// Heights at every pressure
+    /// Heights of marker and tip at every pressure
     heights: &'a [Heights],
-    /// Processor time
+    /// Processor time that the run took
     cpu_s: f64,
 }
 
@@ -217,9 +216,9 @@ fn simulations_answer<'a>(table: &'a RunTable) -> SimulationsAnswer<'a> {
 /// `ibr.uncertain`: `ibr simulate ROBOT --uncertain`
 #[derive(Serialize)]
 struct UncertainAnswer<'a> {
-    /// Robots
+    /// Number of robots that were run
     robots: usize,
-    /// What was varied
+    /// Assumed numbers that were varied, with their intervals
     numbers: &'a [Varied],
     /// Heights of every marker at every pressure
     pressures: Vec<Intervals>,

@@ -14,14 +14,14 @@ pub struct Checked {
     pub places_m: Vec<[f64; 2]>,
     /// The parts of the wish that it can read.
     pub misses: Vec<Miss>,
-    /// What makes the run doubtful.
+    /// Sentences about what makes the run doubtful.
     pub warnings: Vec<String>,
-    /// Its pictures by name.
+    /// Pictures of the run by file name.
     #[serde(skip)]
     pub pictures: Vec<(String, Vec<u8>)>,
 }
 
-/// A design and its check.
+/// One round of a design: the design, and finite elements of it.
 #[derive(Debug, Clone)]
 pub struct Round {
     /// The design; its misses are those of the model as it is.
@@ -68,7 +68,7 @@ impl Round {
 pub enum End {
     /// The last one has the wish by finite elements.
     Reached,
-    /// So many corrections were allowed.
+    /// The allowed number of corrections is spent.
     Spent,
     /// The search came back to a design that was checked.
     Same,
@@ -87,7 +87,7 @@ pub struct Rounds {
 }
 
 impl Rounds {
-    /// None so far.
+    /// Starts without a round, with at most so many corrections.
     pub fn new(corrections: usize) -> Rounds {
         Rounds { corrections, all: Vec::new(), came_back: false }
     }

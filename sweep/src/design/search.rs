@@ -38,7 +38,7 @@ pub struct Spread {
     /// Smallest and largest x of the tip \[m\].
     #[serde(rename = "tip_x_mm", serialize_with = "si::mm")]
     pub x_m: [f64; 2],
-    /// Smallest and largest y \[m\].
+    /// Smallest and largest y of the tip \[m\].
     #[serde(rename = "tip_y_mm", serialize_with = "si::mm")]
     pub y_m: [f64; 2],
     /// Largest miss of any part of the wish \[m\].
@@ -49,7 +49,7 @@ pub struct Spread {
 /// A free key at an end of its range or list that holds the design back.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Held {
-    /// The key.
+    /// Free key that is at an end of its range.
     pub key: String,
     /// The end, in the unit of the key.
     #[serde(rename = "end")]
@@ -59,18 +59,18 @@ pub struct Held {
     pub gain_m: f64,
 }
 
-/// A design.
+/// Robot that comes nearest to a wish, with what limits it.
 #[derive(Debug, Clone)]
 pub struct Design {
     /// The robot with the chosen values; its pressure to predict at is the chosen one where the channels share it.
     pub file: ScenarioFile,
     /// Keys and values as they are written.
     pub chosen: Vec<(String, String)>,
-    /// Pressures of the channels \[Pa\].
+    /// Pressures of body and channels at which the wish is met \[Pa\].
     pub loads: Loads,
-    /// Its pose.
+    /// Pose of the model at these pressures.
     pub pose: Prediction,
-    /// The wish, part by part.
+    /// Miss of every part of the wish by the model.
     pub misses: Vec<Miss>,
     /// Over the assumed numbers; `None` where none are named.
     pub spread: Option<Spread>,

@@ -14,9 +14,9 @@ const MOST_FREE: usize = 12;
 /// What is wanted of the shape; all of it at once.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Wanted {
-    /// Place of the tip \[m\].
+    /// Target place of the tip \[m\]; `None`: anywhere.
     pub tip_m: Option<[f64; 2]>,
-    /// Angle of the tip \[rad\].
+    /// Target angle of the tip \[rad\]; `None`: any.
     pub tip_angle_rad: Option<f64>,
     /// Places that stations of the body pass.
     pub places: Vec<Place>,
@@ -27,9 +27,9 @@ pub struct Wanted {
 /// A station and where it is wanted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
-    /// Along the undeformed body \[m\].
+    /// Station along the undeformed body \[m\].
     pub s_m: f64,
-    /// x, y \[m\].
+    /// Target position x, y of the station \[m\].
     pub at_m: [f64; 2],
 }
 
@@ -48,7 +48,7 @@ pub struct Turn {
 pub struct Cost {
     /// Of the largest pressure of the scenario.
     pub pressure: f64,
-    /// Of the scenario's flat actuator.
+    /// Weight of the flat area of the actuator over the scenario's.
     pub footprint: f64,
     /// Of a tip that the assumed numbers move by the tolerance to each side.
     pub robustness: f64,
@@ -68,15 +68,15 @@ pub struct Wish {
     pub base: ScenarioFile,
     /// Folder that paths in the robot's file count from.
     pub folder: PathBuf,
-    /// What is wanted.
+    /// Targets of the shape, all at once.
     pub wanted: Wanted,
     /// Share of the body's length by which it may be missed.
     pub tolerance: f64,
-    /// What may be chosen.
+    /// Keys that the search may choose, with their ranges.
     pub free: Vec<Axis>,
     /// What is not known, and between which values it lies.
     pub assumed: Vec<Axis>,
-    /// What it costs.
+    /// Weights of pressure, size and sensitivity next to the miss.
     pub cost: Cost,
 }
 

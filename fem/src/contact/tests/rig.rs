@@ -56,7 +56,6 @@ pub(crate) struct Rig {
     pub gravity: V3,
     /// Pressure on the front of each part \[Pa\]; its work is measured, not potential.
     pub pressure: Vec<f64>,
-    /// Mass-proportional damping \[1/s\].
     pub alpha: f64,
     pub fixed: Vec<bool>,
     pub step: u64,
@@ -182,7 +181,6 @@ impl Rig {
         }
     }
 
-    /// Contact, friction, damping \[J\].
     pub(crate) fn rows(&self) -> [f64; 3] {
         let rows = self.contact.ledger(&Pose::nodes(self.x.as_flattened()));
         assert_eq!(rows[0].kind, RowKind::Stored);
@@ -206,7 +204,6 @@ impl Rig {
     }
 }
 
-/// Pseudo-random numbers in −1..1.
 pub(crate) struct Noise(pub u64);
 
 impl Noise {

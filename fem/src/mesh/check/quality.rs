@@ -8,7 +8,7 @@ use crate::vec3::{area, dot, norm, sub};
 /// Of a mesh that passed [`super::check`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quality {
-    /// Lengths of element sides \[m\].
+    /// Smallest, median and largest length of element sides \[m\].
     pub side_m: LowMidHigh,
     /// Largest ratio of longest to shortest side; 1 is best.
     pub aspect: f64,

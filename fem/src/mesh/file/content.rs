@@ -1,15 +1,15 @@
-//! What a mesh file holds.
+//! Content of a mesh file: mesh, surfaces, and what was not read.
 
 use crate::mesh::Mesh;
 
-/// What a mesh file says.
+/// Mesh of a file in its unit, with named surfaces and notices.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct MeshFile {
     /// Its mesh, in the unit of the file.
     pub mesh: Mesh,
     /// Name of the format; empty for a generated mesh, which is in metres and names its chambers.
     pub format: &'static str,
-    /// Surfaces that may be chambers.
+    /// Named surfaces, of which a case may make chambers.
     pub surfaces: Vec<Surface>,
     /// Parts, and what the file says of their warp that is not read.
     pub unread: Vec<(String, String)>,
@@ -20,7 +20,7 @@ pub struct MeshFile {
 /// A named surface of parts seen from one side each.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Surface {
-    /// Its name.
+    /// Name of the surface in the file.
     pub name: String,
     /// Parts, and whether their back is meant.
     pub faces: Vec<(String, bool)>,

@@ -15,18 +15,18 @@ use super::{at_least, few_enough, positive};
 use crate::FemError;
 use crate::mesh::{Mesh, Part};
 
-/// A pouch with side gussets.
+/// Long pouch welded at both ends, with a gusset fold along each side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FoldedPouch {
     /// Length between the two welded ends, along x \[m\].
     pub length_m: f64,
-    /// Flat width, along y \[m\].
+    /// Flat width of the pouch along y \[m\].
     pub width_m: f64,
     /// Depth of the folds \[m\], below half the width.
     pub fold_m: f64,
     /// Distance between layers at the start \[m\].
     pub gap_m: f64,
-    /// Elements along x.
+    /// Number of elements along the pouch, in x.
     pub along: usize,
     /// Elements over the depth of a fold; those over the width have the same size as nearly as it goes.
     pub in_fold: usize,

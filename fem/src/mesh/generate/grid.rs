@@ -1,4 +1,4 @@
-//! A rectangular block of quads.
+//! Rectangular block of quads, by columns and rows.
 
 use crate::mesh::Mesh;
 
@@ -35,12 +35,10 @@ impl Grid {
         self.nodes[j * (self.nu + 1) + i]
     }
 
-    /// Nodes of column `i`.
     pub(super) fn column(&self, i: usize) -> Vec<u32> {
         (0..=self.nv).map(|j| self.at(i, j)).collect()
     }
 
-    /// Nodes of row `j`.
     pub(super) fn row(&self, j: usize) -> Vec<u32> {
         (0..=self.nu).map(|i| self.at(i, j)).collect()
     }

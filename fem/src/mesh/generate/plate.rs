@@ -1,4 +1,4 @@
-//! Flat sheets.
+//! Flat sheets: one plate, or two that cross.
 
 use super::grid::{Grid, union};
 use super::{at_least, few_enough, positive};

@@ -1,4 +1,4 @@
-//! A cylinder along x.
+//! Cylinder along x, with caps at its ends.
 
 use std::f64::consts::{FRAC_PI_3, TAU};
 
@@ -8,16 +8,16 @@ use super::{at_least, few_enough, positive};
 use crate::FemError;
 use crate::mesh::{Mesh, Part};
 
-/// What [`tube`] makes.
+/// Dimensions, divisions and caps of the cylinder that [`tube`] makes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tube {
-    /// Radius of the nodes \[m\].
+    /// Distance of the nodes from the axis \[m\].
     pub radius_m: f64,
-    /// Length \[m\].
+    /// Length of the tube from cap to cap \[m\].
     pub length_m: f64,
-    /// Generator lines.
+    /// Angles of the generator lines round the axis.
     pub around: Around,
-    /// Elements along the axis.
+    /// Number of elements along the axis.
     pub along: usize,
     /// Caps at x = 0 and x = `length_m`.
     pub caps: [Cap; 2],
@@ -34,7 +34,7 @@ pub enum Around {
     Angles(Vec<f64>),
 }
 
-/// How an end is closed.
+/// Way in which one end of a tube is closed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cap {
     /// Open; the check then needs to be told (`base`, `tip` in [`crate::mesh::check::check_open`]).

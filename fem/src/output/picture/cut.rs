@@ -7,7 +7,6 @@ use super::{Corner, FINE, Image, PictureLook, check, drawn};
 use crate::vec3::{dot, sub};
 use crate::{FemError, Mesh};
 
-/// Width of a line \[pixels\].
 const LINE: f64 = 3.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -62,7 +62,7 @@ impl Default for PictureLook {
     }
 }
 
-/// From metres to fine pixels.
+/// Transform from metres in the picture's plane to fine pixels.
 pub(super) struct Placing {
     scale: f64,
     middle: [f64; 2],

@@ -25,7 +25,7 @@ type Known = BTreeMap<(Vec<i32>, i64, Vec<i64>), (Range<u32>, Option<u32>)>;
 #[derive(Debug, Clone)]
 struct Stencil {
     first: u32,
-    /// Range in `shifts` and `common`.
+    /// Range of the stencil's entries in `shifts` and `common`.
     entries: Range<u32>,
     /// Range in `weights` if they differ between the eight; otherwise they are in `common`.
     own: Option<u32>,

@@ -34,7 +34,6 @@ pub(super) struct Sums {
 /// Elements that run through the same loop: same kind, fabric and chambers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct LoopKey {
-    /// Corners, 3 or 4.
     pub corners: usize,
     pub fabric: usize,
     pub front: Option<usize>,

@@ -31,7 +31,7 @@ struct Store {
 #[derive(Debug)]
 pub(crate) struct Room<'a> {
     pub x: [&'a mut [f64]; 3],
-    /// K x by axis.
+    /// Bending forces K x of the nodes, by axis.
     pub(crate) kx: [&'a mut [f64]; 3],
     /// Forces of regular rows by corner and axis. No node is the same corner of two elements in regular rows.
     pub corner: [[&'a mut [f64]; 3]; 4],

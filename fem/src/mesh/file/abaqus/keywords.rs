@@ -49,7 +49,7 @@ pub(super) const IGNORED: &str = "\
     CAPACITY FLUIDINFLATOR TRANSFORM PARAMETER RESTART FILTER";
 
 pub(super) struct Keyword {
-    /// In capitals without spaces.
+    /// Name of the keyword in capitals, without spaces.
     pub(super) name: String,
     pub(super) written: String,
     pub(super) line: usize,

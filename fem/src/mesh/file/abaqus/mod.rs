@@ -29,7 +29,7 @@ struct Reader {
     /// The body that lines belong to.
     body: usize,
     reading: Reading,
-    /// Only pressures are of interest.
+    /// True inside `*STEP`, of which only pressures are read.
     in_step: bool,
 }
 
