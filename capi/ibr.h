@@ -40,11 +40,11 @@ typedef struct ibr_tip {
 
 // Slopes of the tip's pose by the pressure of one channel; not a number where an actuator of the channel is flat.
 typedef struct ibr_slope {
-  // Slope of `x_m` by the channel's pressure, m/Pa.
+  // Slope of x_m by the channel's pressure, m/Pa.
   double x_per_pa;
-  // Slope of `y_m` by the channel's pressure, m/Pa.
+  // Slope of y_m by the channel's pressure, m/Pa.
   double y_per_pa;
-  // Slope of `angle_rad` by the channel's pressure, rad/Pa.
+  // Slope of angle_rad by the channel's pressure, rad/Pa.
   double angle_per_pa;
 } ibr_slope;
 
