@@ -27,17 +27,22 @@ pub(super) fn swapped(seen: &Seen) -> Option<Doubt> {
 /// Whether two places became each other's.
 fn exchanged(before: [[f64; 3]; 2], after: [[f64; 3]; 2]) -> bool {
     let way = |from: usize, to: usize| size(minus(after[to], before[from]));
-    let (own, other) = (way(0, 0) + way(1, 1), way(0, 1) + way(1, 0));
-    own > 2.0 * APART_M && other < NEARER * own
+    let own = way(0, 0) + way(1, 1);
+    own > 2.0 * APART_M && way(0, 1) + way(1, 0) < NEARER * own
 }
 
 /// The time of the frame in which two markers exchange their places \[s\].
 fn within(run: &SeenRun, [a, b]: [usize; 2]) -> Option<f64> {
     let places = |k: usize| [run.places_m[a][k], run.places_m[b][k]];
-    let seen: Vec<usize> =
-        (0..run.times_s.len()).filter(|k| places(*k).iter().all(|place| place[0].is_finite())).collect();
-    let pair = seen.windows(2).find(|pair| exchanged(places(pair[0]), places(pair[1])))?;
-    Some(run.times_s[pair[1]])
+    // Labels are exchanged only where one of the two markers jumps: a comparison of squares passes most frames over.
+    let jumps = |[from, to]: [[f64; 3]; 2]| minus(to, from).map(|d| d * d).iter().sum::<f64>() > APART_M * APART_M;
+    let mut seen = (0..run.times_s.len()).filter(|k| places(*k).iter().all(|place| place[0].is_finite()));
+    let mut before = places(seen.next()?);
+    seen.find(|k| {
+        let [from, to] = [std::mem::replace(&mut before, places(*k)), places(*k)];
+        (jumps([from[0], to[0]]) || jumps([from[1], to[1]])) && exchanged(from, to)
+    })
+    .map(|k| run.times_s[k])
 }
 
 /// Whether two markers of a run are at each other's places of the other runs.

@@ -75,7 +75,7 @@ fn held(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut V
 /// The farthest that a marker is seen from the base.
 fn length_m(run: &PressedRun) -> f64 {
     let distances = run.xy_m.iter().map(|column| {
-        let seen: Vec<f64> = column.iter().map(|place| place[0].hypot(place[1])).filter(|d| d.is_finite()).collect();
+        let seen: Vec<f64> = column.iter().map(|[x, y]| (x * x + y * y).sqrt()).filter(|d| d.is_finite()).collect();
         super::holds::median(seen).unwrap_or(0.0)
     });
     distances.fold(0.0, f64::max)

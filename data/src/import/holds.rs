@@ -103,8 +103,8 @@ fn near_level(run: &PressedRun, frame: usize, level_pa: f64) -> bool {
 }
 
 pub(crate) fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
+    let middle = values.len() / 2;
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 /// The frames of every branch, up or down, by bins of the actuator's pressure: bin k holds pressures around k·`bin_pa`.
@@ -170,9 +170,7 @@ pub(crate) fn clean(run: &mut PressedRun, kept: &mut Kept, length_m: f64) -> [u6
     let middle: Vec<Option<([f64; 2], f64)>> = run.xy_m.iter().map(|column| centre(column, &kept.frames)).collect();
     let is_wild = |run: &PressedRun, marker: usize, frame: usize| {
         let place = run.xy_m[marker][frame];
-        middle[marker].is_some_and(|(centre, sd)| {
-            (place[0] - centre[0]).hypot(place[1] - centre[1]) > (WILD_SD * sd).max(WILD_SHARE * length_m)
-        })
+        middle[marker].is_some_and(|(centre, sd)| apart(place, centre) > (WILD_SD * sd).max(WILD_SHARE * length_m))
     };
     let moving = |frame: &&usize| {
         let seen = (0..run.xy_m.len()).filter(|marker| run.xy_m[*marker][**frame][0].is_finite());
@@ -198,6 +196,11 @@ pub(crate) fn clean(run: &mut PressedRun, kept: &mut Kept, length_m: f64) -> [u6
     [start as u64, wild]
 }
 
+/// Distance of two places; without the guard of `hypot` against overflow, which takes a tenth of an import.
+fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
+    ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sqrt()
+}
+
 /// Median place of a marker over frames, and its robust standard deviation; `None` where it was seen less than three times.
 fn centre(column: &[[f64; 2]], frames: &[usize]) -> Option<([f64; 2], f64)> {
     let seen: Vec<[f64; 2]> = frames.iter().map(|frame| column[*frame]).filter(|place| place[0].is_finite()).collect();
@@ -206,7 +209,7 @@ fn centre(column: &[[f64; 2]], frames: &[usize]) -> Option<([f64; 2], f64)> {
     }
     let over = |axis: usize| median(seen.iter().map(|place| place[axis]).collect()).unwrap_or_default();
     let centre = [over(0), over(1)];
-    let off = median(seen.iter().map(|place| (place[0] - centre[0]).hypot(place[1] - centre[1])).collect());
+    let off = median(seen.iter().map(|place| apart(*place, centre)).collect());
     Some((centre, off.unwrap_or_default()))
 }
 

@@ -52,6 +52,7 @@ pub(crate) struct Pivot {
     frames: HashMap<u64, usize>,
     /// Sum and count of readings in a frame, by pressure.
     readings: [Vec<[f64; 2]>; 2],
+    last_marker: Option<usize>,
     /// Bits of the last time, and its frame.
     last: Option<(u64, usize)>,
 }
@@ -64,7 +65,14 @@ impl Pivot {
 
     /// The number of a marker, new or known.
     pub(super) fn marker(&mut self, name: &str) -> usize {
+        // Markers come in the same order in every frame.
+        let next = self.last_marker.map_or(0, |last| last + 1) % self.recording.markers.len().max(1);
+        if self.recording.markers.get(next).is_some_and(|known| known == name) {
+            self.last_marker = Some(next);
+            return next;
+        }
         if let Some(&number) = self.numbers.get(name) {
+            self.last_marker = Some(number);
             return number;
         }
         let number = self.recording.markers.len();
@@ -151,9 +159,8 @@ impl Recording {
 
     /// Takes the markers of another recording, each frame's from the nearest one within half a usual step.
     pub(super) fn beside(&mut self, other: &Recording) {
-        let mut steps: Vec<f64> = self.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        steps.sort_by(f64::total_cmp);
-        let near_s = 0.5 * steps.get(steps.len() / 2).copied().unwrap_or(0.0);
+        let steps = self.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let near_s = 0.5 * super::holds::median(steps).unwrap_or(0.0);
         let frame = |t: &f64| {
             let next = other.times.partition_point(|known| known < t);
             let off = |k: &usize| (other.times[*k] - t).abs();
