@@ -240,7 +240,9 @@ fn axis(raw: &RawAxis, sampled: bool) -> Result<Axis, (String, &'static str)> {
             let at = |i: usize| match i {
                 0 => from,
                 i if i + 1 == n => to,
-                i => between(from, to, raw.log, i as f64 / (n - 1) as f64),
+                i if raw.log => between(from, to, true, i as f64 / (n - 1) as f64),
+                // One rounding, so that whole steps give whole numbers.
+                i => (from * (n - 1 - i) as f64 + to * i as f64) / (n - 1) as f64,
             };
             Levels::Listed((0..n).map(|i| number(at(i))).collect())
         }

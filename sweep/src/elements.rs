@@ -32,8 +32,8 @@ pub(crate) fn compute(
                     rows.cpu_s += run.cost.cpu_s_of_all_sessions;
                     kpa.iter().for_each(|kpa| read(study, &run, *kpa, width, &mut rows));
                 }
-                Ok((Err(stopped), kpa)) if stopped.is_stop() => {
-                    kpa.iter().for_each(|_| rows.fail(width, stopped.to_string()));
+                Ok((Err(error), kpa)) if error.is_stop() || matches!(error, FemError::Refused(_)) => {
+                    kpa.iter().for_each(|_| rows.fail(width, error.to_string()));
                 }
                 Ok((Err(error), _)) => return Err(error),
                 Err(why) => (0..study.per_robot()).for_each(|_| rows.fail(width, why.clone())),
@@ -63,9 +63,7 @@ fn job(study: &Study, robot: usize) -> Result<(Job, Vec<f64>), String> {
     let holds = if study.has_channels() { format!("{channels:?}") } else { format!("{rising:?}") };
     let set = [("fem.pressures_kpa".to_string(), holds)];
     let file = file.with(&set).map_err(|error| error.to_string())?;
-    let source = file.source(&study.folder);
-    source.load().map_err(|error| error.to_string())?;
-    Ok((Job { source, what: format!("robot {}", robot + 1), folder: None }, kpa))
+    Ok((Job { source: file.source(&study.folder), what: format!("robot {}", robot + 1), folder: None }, kpa))
 }
 
 fn flat(kpa: f64, body_pa: f64) -> String {

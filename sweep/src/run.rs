@@ -72,7 +72,7 @@ pub fn run(study: &Study, settings: &Settings, progress: Progress) -> Result<Fou
     if !long.is_empty() {
         let (folder, maker) = (settings.keep_runs.then(|| settings.folder.join("runs")), settings.maker.clone());
         let (threads, usual) = (settings.threads, fem::session::Settings::default());
-        let runs = fem::session::Settings { folder, frames: false, threads, maker, ..usual };
+        let runs = fem::session::Settings { folder, frames: false, files: settings.keep_runs, threads, maker, ..usual };
         cpu_s += elements::compute(study, &long, &settings.folder, &runs, progress)?;
     }
     let missing = parts_missing(study, &settings.folder);

@@ -390,3 +390,13 @@ fn a_scheduler_gets_one_array_job_of_the_same_command() {
     assert!(script.contains(command), "{script}");
     assert!(job.script(schedule::Cluster::HyperQueue).contains("--shard \"$HQ_TASK_ID/4\""));
 }
+
+/// A share of the range, 60/119 of it, would give 60.99999999999999, which a seed or a count refuses.
+#[test]
+fn whole_steps_of_a_range_are_whole_numbers() {
+    let text = "scenario = \"epam\"\n[[vary]]\nkey = \"actuator.count\"\nfrom = 1\nto = 120\nsteps = 120\n[[vary]]\nkey = \"pressure_kpa\"\nvalues = [10]\n";
+    let study = study(text).unwrap();
+    for robot in 0..120 {
+        assert_eq!(study.values(robot)[0], toml::Value::Integer(robot as i64 + 1));
+    }
+}

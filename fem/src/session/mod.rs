@@ -178,7 +178,9 @@ fn finish(
     if let Some(place) = place.as_ref().filter(|_| settings.keep_end) {
         goes_on::keep(&place.folder, loaded, &running)?;
     }
-    files.extend(robot_files::files(loaded, &run, &running.run, settings.further)?);
+    if settings.files {
+        files.extend(robot_files::files(loaded, &run, &running.run, settings.further)?);
+    }
     match place {
         Some(place) => complete(loaded, &mut run, files, place, settings)?,
         None => run.files = files,

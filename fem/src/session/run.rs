@@ -30,6 +30,8 @@ pub struct Settings {
     pub force: bool,
     /// Write frames, if the case wants them.
     pub frames: bool,
+    /// Make tables and pictures of the end, which take as long as a short run.
+    pub files: bool,
     /// Simulated time, if not the case's \[s\].
     pub end_s: Option<f64>,
     /// Threads; 0: one per core. Results do not depend on it.
@@ -51,6 +53,7 @@ impl Default for Settings {
             keep_end: false,
             force: false,
             frames: true,
+            files: true,
             end_s: None,
             threads: 0,
             checkpoint_every: Duration::from_secs(30),
