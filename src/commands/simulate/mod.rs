@@ -29,6 +29,7 @@ pub(super) fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome>
         keep_end: true,
         force: context.force,
         frames: !args.no_frames,
+        files: true,
         end_s: args.end.as_deref().map(|text| seconds("--end", text)).transpose()?,
         threads: context.threads,
         checkpoint_every: Duration::from_secs_f64(seconds("--checkpoint-every", &args.checkpoint_every)?),
