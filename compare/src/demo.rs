@@ -1,4 +1,4 @@
-//! The demonstration in five panels: a robot, a model next to a camera, what is missing, the error falls, where the model breaks.
+//! The demonstration in five panels: a robot, a model next to a camera, the missing effect, the fall of the error, the model's limits.
 //!
 //! The camera sees a robot of the finite element engine, which has every mechanism; the model is the textbook one. Mechanisms of the
 //! shipped robot are added one after the other, the one first that leaves least, and none of their numbers is fitted.

@@ -1,8 +1,8 @@
-//! What can go wrong when a prediction is held against measurements.
+//! What can go wrong when a prediction is compared with measurements.
 
 use data::Fault;
 
-/// Errors of this crate; each says where and what is wrong, and in the message or as [`CompareError::help`] what to do.
+/// Errors of this crate; each names place and fault, and in the message or as [`CompareError::help`] the remedy.
 #[expect(missing_docs, reason = "fields have the words and units of their message")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CompareError {
@@ -49,7 +49,7 @@ pub enum CompareError {
     OffTheBody { marker: String, s_mm: f64, length_mm: f64 },
     /// Runs with different known tip forces cannot share one mean.
     #[error(
-        "the runs have different known tip forces ({first} and {second}): put each force into a dataset of its own, \
+        "the runs have different known tip forces ({first} and {second}): put each force into a separate dataset, \
          because runs are averaged"
     )]
     MixedTipForces {

@@ -1,4 +1,4 @@
-//! The numbers that decide a verdict, and the decisions that several places take by them. Each says what it is, in which unit, and
+//! The numbers that decide a verdict, and the decisions that several places take by them. Each states its meaning, its unit, and
 //! so which error it trades for which. `tests/policy.sh` moves every one of them and names the tests that fail then.
 //!
 //! What only steers a search (steps, rounds, starts) stays where it is used: it moves no verdict.
@@ -29,10 +29,10 @@ pub const LEFT_BY_ONE: f64 = 0.2;
 pub const LEFT_BY_TWO: f64 = 0.15;
 /// Less is nothing left over, whatever its share \[mm\].
 pub const LEAST_LEFT_MM: f64 = 0.05;
-/// A place that stands out with more than this share of the error is not explained: the law of a uniform robot, however wrong
+/// A significant place with more than this share of the error is not explained: the law of a uniform robot, however wrong
 /// its form, leaves uniform bending.
 pub const PLACE_LEFT: f64 = 0.1;
-/// Left over by more than this share, a trace along yet another effect says the same as a lack of fit.
+/// Left over by more than this share, a trace along yet another effect means the same as a lack of fit.
 pub const MOST_LEFT: f64 = 0.5;
 
 /// Whether what an effect leaves of an error is worth a second one.
@@ -51,15 +51,15 @@ pub fn is_most(after_mm: f64, before_mm: f64) -> bool {
     after_mm > MOST_LEFT * before_mm
 }
 
-/// Least share of what is left that a pattern must explain to be shown.
+/// Least share of the remaining misfit that a pattern must explain to be shown.
 const LEAST_SHARE_OF_A_HINT: f64 = 0.5;
 
-/// Whether a pattern explains enough of what is left to send somebody to the robot.
+/// Whether a pattern explains enough of the remaining misfit to send somebody to the robot.
 pub fn is_worth_a_look(share: f64) -> bool {
     share >= LEAST_SHARE_OF_A_HINT
 }
 
-/// Whether a place with that gain, beside what a fit gains, holds a share of the error; amplitudes, as far as they were seen.
+/// Whether a place with that gain, compared with a fit's gain, holds a share of the error; amplitudes, as far as they were seen.
 pub fn is_a_place_left(gain: f64, of_fit: f64) -> bool {
     gain - 1.0 > PLACE_LEFT * PLACE_LEFT * (of_fit + gain)
 }
@@ -107,7 +107,7 @@ pub fn helps(gain: f64) -> bool {
     gain > HELPS
 }
 
-/// Whether a name with that gain is no more than a hint.
+/// Whether a name with that gain is only a hint.
 pub fn is_a_hint(gain: f64) -> bool {
     gain < HINT
 }
@@ -117,7 +117,7 @@ pub fn is_beyond_doubt(gain: f64) -> bool {
     gain > IDENTIFIED
 }
 
-/// Whether an explanation cannot be told from the best one, by a criterion of both.
+/// Whether an explanation cannot be separated from the best one, by a criterion of both.
 pub fn is_alike(criterion: f64, best: f64) -> bool {
     criterion - best < SAME_EVIDENCE
 }
@@ -155,7 +155,7 @@ pub fn falls(after: f64, before: f64) -> bool {
     after < FALLS * before
 }
 
-/// Whether what is left of an error is so little that an answer outside the catalogue has most of it from the catalogue.
+/// Whether so little of an error is left that an answer outside the catalogue has most of it from the catalogue.
 pub fn is_mostly_gone(after_mm: f64, before_mm: f64) -> bool {
     after_mm <= MOSTLY * before_mm
 }
@@ -165,11 +165,11 @@ pub fn cancel(cosine: f64) -> bool {
     cosine < CANCELS
 }
 
-/// A stiffness that moves by more than this share is said so.
+/// A stiffness that moves by more than this share is reported.
 pub const BENDING_MOVES: f64 = 0.2;
 /// A base that leaves more than this share of the measured movement does not fit at all.
 pub const NO_FIT: f64 = 0.5;
-/// Standard deviations by which a test of its own and the markers disagree.
+/// Standard deviations by which a separate test and the markers disagree.
 pub const DISAGREE: f64 = 3.0;
 /// Standard deviations by which the noise of a test may carry its value beyond a physical bound.
 pub const BEYOND_BOUNDS: f64 = 5.0;
@@ -187,7 +187,7 @@ pub fn bending_moves(from: f64, to: f64) -> bool {
     (to - from).abs() > BENDING_MOVES * from.max(1e-3)
 }
 
-/// Whether what a base leaves of a movement says that scenario and data are of different robots.
+/// Whether a base leaves so much of a movement that scenario and data are of different robots.
 pub fn does_not_fit(left_mm: f64, moved_mm: f64) -> bool {
     left_mm > NO_FIT * moved_mm
 }
@@ -209,17 +209,17 @@ pub fn is_another_minimum(cost: f64, least: f64) -> bool {
 
 /// Above this share stray samples are the noise, and none is replaced.
 pub const MOST_REPLACED: f64 = 0.05;
-/// A run stands out below this p, corrected for the number of runs.
+/// A run is an outlier below this p, corrected for the number of runs.
 pub const RUN_STANDS_OUT: f64 = 0.001;
 /// A pair of holds scatters otherwise below this p, corrected for the number of pairs.
 pub const HOLD_STANDS_OUT: f64 = 0.01;
 /// And if run or hold scatters by more than this factor more than the others.
 pub const RUN_SCATTERS: f64 = 1.5;
-/// Runs of which one can be told as the odd one, and for which p-values are given.
+/// Runs of which one can be identified as the odd one, and for which p-values are given.
 pub const FEWEST_RUNS: usize = 3;
 /// Fewest holds that show how single holds scatter.
 pub const FEWEST_HOLDS: usize = 3;
-/// Errors last through a hold where the chance of so much scatter of its readings by that of its samples is less.
+/// Errors last through a hold if the scatter of its samples explains the scatter of its readings with a smaller chance than this.
 pub const READINGS_LAST: f64 = 0.05;
 /// Share of a kind of scatter of holds that errors of whole runs leave, from which on it is looked for.
 pub const NEW_IN_HOLDS: f64 = 0.05;
@@ -245,12 +245,12 @@ pub const MANY_TIMES_THE_NOISE: f64 = 5.0;
 /// chance.
 pub const MISSES: f64 = 2.0;
 /// Mean square of whitened residuals, a misfit of three times the noise, from which a fit allows for it (chosen, `docs/accuracy.md`):
-/// s² then grows by that factor, so that scatter between runs, which is no misfit, stays as small as it is beside it. With few runs a
+/// s² then grows by that factor, so that scatter between runs, which is not a misfit, keeps its small share. With few runs a
 /// law that misses would otherwise hide in it.
 pub const MISFIT: f64 = 10.0;
 /// Half-width over value above which the profile is followed.
 pub const WIDE: f64 = 0.3;
-/// A pressure tells of a parameter if its share of the squared weights is above this.
+/// A pressure informs about a parameter if its share of the squared weights is above this.
 pub const PRESSURE_TELLS: f64 = 1e-3;
 
 /// Whether a law misses data by more than noise, of the mean square of its whitened residuals.
@@ -298,10 +298,10 @@ pub fn is_worth_its_time(lambda: f64) -> bool {
     lambda >= WORTHLESS
 }
 
-/// Share of the squares of a misfit that a pattern must hold to be told.
+/// Share of the squares of a misfit that a pattern must hold to be reported.
 pub const PATTERN_TELLS: f64 = 0.25;
 
-/// Levels of actuator pressure from which a law is learned: one is left out, and two tell a slope.
+/// Levels of actuator pressure from which a law is learned: one is left out, and two determine a slope.
 pub const FEWEST_LEVELS: usize = 3;
 
 /// Ratios P/p within this fraction match.
@@ -315,7 +315,7 @@ pub const SAME_PRESSURE: f64 = 0.05;
 /// Components of unit vectors that differ by less are the same.
 pub const SAME_DIRECTION: f64 = 0.05;
 
-/// Whether the highest pressure of an actuator is clearly below that of its body \[Pa\].
+/// Whether the highest pressure of an actuator is clearly below the highest of its body \[Pa\].
 pub fn is_never_above(act_pa: f64, body_pa: f64) -> bool {
     act_pa < body_pa - ZERO_PRESSURE_PA
 }

@@ -1,14 +1,14 @@
-//! How long work tells where it stands.
+//! How long work reports its progress.
 
-/// Told what is being done, and which share of the whole is done if that is known.
+/// Receives the current step, and the share of the whole that is done if that is known.
 pub type Progress<'p> = dyn FnMut(&str, Option<f64>) + Send + 'p;
 
-/// Where the parts of long work begin, as shares of its whole time: what is said of the time left rests on them.
+/// Where the parts of long work begin, as shares of its whole time; estimates of the time left rest on them.
 ///
-/// Measured once as processor time, release build on two cores, when each part was first told: `ibr diagnose epam-textbook
+/// Measured once as processor time, release build on two cores, when each part was first reported: `ibr diagnose epam-textbook
 /// synthetic-epam --out FOLDER` (2.5 s; 0.24 s without a report), `ibr compare epam synthetic-epam --out FOLDER` (1.1 s), `ibr ladder
-/// epam-textbook synthetic-epam --out FOLDER` (0.5 s) and `ibr demo` (14 s). Other data take other shares. A finite element run tells
-/// the share of its simulated time: of `ibr simulate epam` (5.6 s) 0.5 was told at 0.41 and 0.95 at 0.80; pictures come after.
+/// epam-textbook synthetic-epam --out FOLDER` (0.5 s) and `ibr demo` (14 s). Other data take other shares. A finite element run reports
+/// the share of its simulated time: of `ibr simulate epam` (5.6 s) 0.5 was reported at 0.41 and 0.95 at 0.80; pictures come after.
 pub mod shares {
     /// The data are read, and the command's own work begins.
     pub const READ: f64 = 0.01;
@@ -28,12 +28,12 @@ pub mod shares {
     pub const PICTURES: [f64; 2] = [0.2, 0.5];
 }
 
-/// The progress of a part of the whole: its shares from 0 to 1 are those of the whole from `from` to `to`.
+/// The progress of a part of the whole: its shares from 0 to 1 become shares of the whole from `from` to `to`.
 pub fn part<'p>(progress: &'p mut Progress, [from, to]: [f64; 2]) -> impl FnMut(&str, Option<f64>) + Send + 'p {
     move |what, share| progress(what, Some(from + (to - from) * share.unwrap_or(0.0).clamp(0.0, 1.0)))
 }
 
-/// Does work for every item and tells before each how much is done.
+/// Does work for every item and reports before each how much is done.
 pub fn each<T, R>(items: &[T], what: &str, progress: &mut Progress, mut work: impl FnMut(&T) -> R) -> Vec<R> {
     let one = |(i, item): (usize, &T)| {
         progress(what, Some(i as f64 / items.len() as f64));

@@ -1,6 +1,6 @@
 //! What finite element runs of the same robot say about a diagnosis.
 //!
-//! Two questions. **Do the finite elements meet the measurement where the model does not?** Then what is missing is among what
+//! Two questions. **Do the finite elements meet the measurement where the model does not?** Then the missing effect is one that
 //! they contain: sealed edges, folds, contact, stretch and shear of the fabric, the shape of the section. If they miss it too,
 //! it is rather in what they lack: the supply, the camera, memory of the fabric. **Whose ledger is theirs?** Candidates that
 //! bend the robot alike may spend the work of the gas differently; at the bend θ that the finite elements reach,
@@ -25,7 +25,7 @@ use serde::Serialize;
 
 /// Terms that are physics: all but hourglass control.
 const PHYSICAL: usize = TERMS.len() - 1;
-/// Candidates held against the ledger, those of the stated set before others.
+/// Candidates whose ledger is compared, the stated set first.
 const MOST: usize = 6;
 /// Places of two terms in [`TERMS`].
 const GAS: usize = 0;
@@ -50,7 +50,7 @@ pub struct Height {
     pub meets: bool,
 }
 
-/// The ledger of one model beside that of the finite elements.
+/// The ledger of one model next to the ledger of the finite elements.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WitnessRow {
     /// `base`, or the effects it has beyond it.
@@ -59,7 +59,7 @@ pub struct WitnessRow {
     pub energies_mj: Energies,
     /// Σ of the differences from the finite elements' \[mJ\].
     pub apart_mj: f64,
-    /// The diagnosis names it: one of those that the data do not tell apart, or the attempt.
+    /// The diagnosis names it: in the set that the data cannot separate, or as the attempt.
     pub named: bool,
 }
 
@@ -89,7 +89,7 @@ pub struct Witness {
     pub known: String,
     /// Outermost marker at the pressures that runs and data share.
     pub heights: Vec<Height>,
-    /// What the model misses at their bends, to be read beside the diagnosis's own; empty unless that was asked for.
+    /// What the model misses at their bends, to be read with the diagnosis's own; empty unless that was asked for.
     pub moments: Vec<FeMoment>,
     /// Actuator pressure of the ledgers \[kPa\].
     pub actuator_kpa: f64,
@@ -165,7 +165,7 @@ fn cases(d: &Diagnosis, scenario: &Scenario) -> Cases {
     let all: Vec<(&str, &[ParameterValue])> = added.iter().map(|a| (&*a.effect, &*a.parameters)).collect();
     let b = d.base.bending_with_added_nm2.get(level).copied();
     let has_ledger = |r: &Ranked| !r.group.is_nuisance();
-    // Beside the stated set single effects: their ledgers say what each of them does.
+    // In addition to the stated set, single effects: their ledgers show what each of them does.
     let wanted = |a: &Answer| a.helps() && (a.standing != Standing::Other || a.effects.len() == 1);
     let answers = d.answers().into_iter().filter(|a| wanted(a) && a.effects.iter().any(|(r, _)| has_ledger(r)));
     let candidate = |a: Answer| {
@@ -234,7 +234,7 @@ fn moments(scenario: &Scenario, ensemble: &Ensemble) -> Vec<FeMoment> {
     states.iter().map(|s| s.actuator_kpa).filter(|kpa| *kpa > 0.0).filter_map(at).collect()
 }
 
-/// The ledger of a model and that of the finite elements, means over seeds.
+/// The ledgers of a model and of the finite elements, means over seeds.
 fn beside(
     name: &str,
     scenario: &Scenario,
@@ -286,8 +286,8 @@ fn meeting(w: &Witness) -> String {
     let contain = "They contain sealed edges, folds, contact, stretch and shear of the fabric, but no supply, no camera and no memory.";
     let first = match (&met[..], &missed[..]) {
         ([_], []) => "They meet the measurement at the one shared pressure, which decides little.".into(),
-        (_, []) => "They meet the measurement at every shared pressure: what is missing can be among what they contain.".into(),
-        ([], _) => "They miss it everywhere: the robot is not the one they were given, one of their assumed numbers is wrong (`ibr simulate ROBOT --uncertain`), or what is missing is something they lack too.".into(),
+        (_, []) => "They meet the measurement at every shared pressure: the missing effect can be one that they contain.".into(),
+        ([], _) => "They miss it everywhere: the robot is not the one they were given, one of their assumed numbers is wrong (`ibr simulate ROBOT --uncertain`), or they lack the missing effect too.".into(),
         _ => format!(
             "They meet the measurement at {} kPa and miss it at {} kPa: they lack something too, or one of their assumed numbers is wrong (`ibr simulate ROBOT --uncertain`).",
             list(&met),
@@ -301,7 +301,7 @@ fn meeting(w: &Witness) -> String {
 fn stiffness(base: &WitnessRow, fe: &Energies) -> Option<String> {
     let (own, theirs) = (base.energies_mj[BENDING], fe[BENDING]);
     (own > 2.0 * theirs.max(0.0) && own > 0.1 * fe[GAS].abs()).then(|| {
-        format!("On the way there the calibrated B stores {own:.0} mJ in the wall, theirs {theirs:.0} mJ: in a robot like theirs this B stands for something that is not bending.")
+        format!("On the way there the calibrated B stores {own:.0} mJ in the wall, theirs {theirs:.0} mJ: in a robot like theirs this B includes something that is not bending.")
     })
 }
 

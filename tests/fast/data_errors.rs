@@ -155,7 +155,7 @@ fn a_wrong_description_beside_the_table_has_its_place() {
     let metres = format!("{measured}[geometry]\nbody_radius_mm = 0.04\nbody_length_mm = 0.36");
     described(&metres, &["about.toml:6", "looks like metres", "multiply by 1000"]);
     let forces = format!("{measured}[[run]]\nid = \"1\"\ntip_force_n = [0, -0.3]");
-    described(&forces, &["different known tip forces", "a dataset of its own"]);
+    described(&forces, &["different known tip forces", "a separate dataset"]);
     let kind = format!("actuator = \"cpam\"\n{measured}");
     described(&kind, &["the table is of actuator epam, its about.toml says cpam"]);
 }

@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 pub const SPECIMENS: usize = 5;
 /// Thickness of the fabric in every test \[m\].
 pub const THICKNESS_M: f64 = 5e-5;
-/// Strip of all directions: that of the paper.
+/// Strip of all directions, as in the paper.
 pub const STRIP: BiasExtension = BiasExtension { length_m: 0.25, width_m: 0.02, thickness_m: THICKNESS_M };
 /// Nominal strain and stress \[Pa\] along warp; the first slope is E0 = 96.5 MPa.
 pub const WARP: [[f64; 2]; 4] = [[0.0, 0.0], [0.05, 4.825e6], [0.15, 13e6], [0.25, 19e6]];

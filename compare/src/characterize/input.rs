@@ -48,7 +48,7 @@ impl FabricTests {
                 let (mut text, size) = (bytes.as_slice(), bytes.len() as u64);
                 self.coupons.extend(parse_coupons(file, &mut text, size, defaults, &mut |_, _| ())?);
             }
-            // The reader says why it cannot be read.
+            // `read_coupons` reports why the file cannot be read.
             (None, Err(_)) => self.coupons.extend(read_coupons(Path::new(file), defaults, &mut |_, _| ())?),
         }
         Ok(())

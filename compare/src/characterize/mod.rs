@@ -3,7 +3,7 @@
 //! One specimen at a time ([`specimen`]: stress over strain, modulus, C₁₀, shear curve of a bias extension), then over
 //! specimens ([`reduce`]: the specimen is the unit, mean ± t s/√n at 95 %), then every test by the law that came of them
 //! ([`mod@replay`]), then out ([`mod@write`]). Formulas are
-//! those of `models::fabrics::specimen` and `models::fabrics::BiasExtension`.
+//! in `models::fabrics::specimen` and `models::fabrics::BiasExtension`.
 
 pub mod example;
 mod input;

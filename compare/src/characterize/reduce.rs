@@ -58,7 +58,7 @@ fn strips(found: &mut Characterized, taut: &[Coupon], settings: &Reduction) -> R
     }
     if yarns.is_none() && found.strips().next().is_some() {
         found.notes.push(
-            "the shear curve takes yarns that do not stretch, as nothing says how they do: give specimens of 0° and 90° and \
+            "the shear curve assumes that yarns do not stretch: to measure their stretch, give specimens of 0° and 90° and \
              the thickness"
                 .into(),
         );
@@ -69,7 +69,7 @@ fn strips(found: &mut Characterized, taut: &[Coupon], settings: &Reduction) -> R
 
 fn different(coupons: &[Coupon]) -> Result<(), DataError> {
     if coupons.is_empty() {
-        let fault = Fault::of_file("characterize", "there is no specimen", "give at least one file");
+        let fault = Fault::of_file("characterize", "no specimen was given", "give at least one file");
         return Err(DataError::Runs(Box::new(fault)));
     }
     for (i, c) in coupons.iter().enumerate() {
@@ -209,7 +209,7 @@ fn shear(found: &mut Characterized) {
     if let Some(size) = first {
         let (ratio, factor) = (size.length_m / size.width_m, fit::bias_grip_factor(&size));
         found.notes.push(format!(
-            "grips stiffen a strip of H/W = {ratio:.1} at 45°: its E45 is {factor:.2} times that of a free one"
+            "grips stiffen a strip of H/W = {ratio:.1} at 45°: its E45 is {factor:.2} times the E45 of a free strip"
         ));
     }
 }

@@ -172,7 +172,7 @@ fn sheared(
 /// What may be written for what: unit of the column, its size \[Pa\].
 const STRESSES: [(&str, f64); 3] = [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6)];
 
-/// Refuses a modulus far from any fabric, and says which unit would make sense of it.
+/// Refuses a modulus far from any fabric, and names the unit that would make sense of it.
 fn plausible(coupon: &Coupon, modulus_pa: f64) -> Result<(), DataError> {
     let range = match coupon.direction {
         Direction::Warp | Direction::Fill => policy::ALONG_PA,
@@ -208,7 +208,7 @@ fn stress_advice(coupon: &Coupon, modulus_pa: f64, fits: impl Fn(f64) -> bool) -
     let other = if strain.to_lowercase().ends_with("ratio") { ("pct", 100.0) } else { ("ratio", 0.01) };
     if fits(modulus_pa * other.1) {
         let pa = short(modulus_pa * other.1 * 1e-6);
-        found.push(format!("if {strain} is not what it says, name it strain_{} (modulus {pa} MPa)", other.0));
+        found.push(format!("if {strain} is in another unit, name it strain_{} (modulus {pa} MPa)", other.0));
     }
     if found.is_empty() { format!("check the units of {strain} and {stress}") } else { found.join("; ") }
 }

@@ -267,7 +267,7 @@ fn a_slipping_specimen_is_named_with_its_strain() {
     let halted = |i: i32| f64::from(i.min(20)) + f64::from((i - 26).max(0));
     for (law, words) in [
         (&dropped as &dyn Fn(i32) -> f64, ["specimen G2 (0°)", "drops by 16 % from 4.75 % strain"]),
-        (&halted, ["specimen G2 (0°)", "stands still from 5.00 % strain"]),
+        (&halted, ["specimen G2 (0°)", "stays constant from 5.00 % strain"]),
     ] {
         let mut text = "# direction_deg: 0\n# specimen: G2\nstrain_pct,stress_mpa\n".to_string();
         (0..=40).for_each(|i| text.push_str(&format!("{},{}\n", 0.25 * f64::from(i), 0.25 * law(i))));

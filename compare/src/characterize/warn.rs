@@ -9,7 +9,7 @@ use models::fabrics::specimen::{self as fit, Slip};
 /// A specimen that slipped in its grips, and rows that were left out. Rows: strain or displacement, and stress or force.
 pub(super) fn slips(coupon: &Coupon, rows: &[[f64; 2]], warnings: &mut Vec<String>) {
     let who = format!("specimen {} ({}°)", coupon.specimen, coupon.direction.degrees());
-    warnings.extend(coupon.told.iter().map(|told| format!("{who}: {told}")));
+    warnings.extend(coupon.told.iter().map(|warning| format!("{who}: {warning}")));
     if coupon.jitter > 0 {
         warnings.push(format!(
             "{who}: {} rows in which {} went back a little are left out",
@@ -23,7 +23,7 @@ pub(super) fn slips(coupon: &Coupon, rows: &[[f64; 2]], warnings: &mut Vec<Strin
     let plateau = || coupon.direction.along_yarn().then(|| fit::plateau(&even)).flatten();
     if let Some(Slip { at, until, lost }) = fit::drop(&even).or_else(plateau) {
         let drops = format!("the force drops by {:.0} %", 100.0 * lost);
-        let how = if lost > 0.0 { &drops } else { "the force stands still" };
+        let how = if lost > 0.0 { &drops } else { "the force stays constant" };
         let [at, until] = [at, until].map(|x| 100.0 * x / length_m);
         warnings.push(format!(
             "{who}: {how} from {at:.2} % strain on and is back at {until:.2} %: it probably slipped in its grips; its modulus \
@@ -49,7 +49,7 @@ pub(super) fn stiffens(coupon: &Coupon, stress: &[[f64; 2]], modulus: Option<[f6
 pub(super) fn slack(specimens: &[Specimen]) -> Option<String> {
     let one = |s: &Specimen| format!("{} ({}°) {:.3} %", s.name, s.direction.degrees(), 100.0 * s.slack);
     let all: Vec<String> = specimens.iter().filter(|s| s.slack > 0.0).map(one).collect();
-    let text = format!("slack taken off, a soft start before the specimen is taut: {}", all.join(", "));
+    let text = format!("slack subtracted, a soft start before the specimen is taut: {}", all.join(", "));
     (!all.is_empty()).then_some(text)
 }
 

@@ -33,7 +33,7 @@ pub fn missing(found: &Characterized) -> &'static str {
 
 /// `[measured]` tables for the `about.toml` of a robot made of this fabric, from numbers of two specimens or more; none without any.
 ///
-/// The standard deviation is that of one more piece, s √(1 + 1/n), as the robot is one: a mean of many specimens says little of it.
+/// The standard deviation is s √(1 + 1/n), for one more piece, because the robot is one piece; the error of the mean would be too small.
 pub fn measured_toml(found: &Characterized, program: &str) -> Option<String> {
     let one_more = |key: &str| {
         let scatter = found.quantity(key)?.scatter;
@@ -125,7 +125,7 @@ fn poisson(found: &Characterized) -> String {
     }
 }
 
-/// What D of the cantilever test is where it is used: over that of a plate, D = factor E t³/12, and in the reduced model.
+/// D of the cantilever test as its users need it: as the factor in D = factor E t³/12, and as a value of the reduced model.
 fn bending(found: &Characterized) -> Option<String> {
     let (d, t) = (1e-6 * value(found, "bending_stiffness")?, found.thickness_m?);
     let moduli: Vec<f64> = ["e0", "e90"].iter().filter_map(|key| value(found, key)).collect();

@@ -26,7 +26,7 @@ const EIGEN_ROUNDS: usize = 1000;
 /// Noise of a source, given its ∂f/∂ln p.
 type NoiseOf<'n> = dyn Fn(&Source, &[f64]) -> Result<NoiseModel, CompareError> + 'n;
 
-/// What every hypothesis is held against.
+/// What every hypothesis is compared with.
 pub(crate) struct Case<'a> {
     /// All data; errors in millimetres, places and held-out parts refer to the first.
     pub sources: &'a [Source],
@@ -81,7 +81,7 @@ impl<'a> Case<'a> {
         if let Some(source) = sources.iter().skip(1).find(|s| s.dataset.runs.len() < policy::FEWEST_RUNS) {
             let (name, runs) = (&source.dataset.name, source.dataset.runs.len());
             return Err(CompareError::told(format!(
-                "{name} has {runs} run(s); data that are diagnosed beside others need {} of their own to know their noise: \
+                "{name} has {runs} run(s); data that are diagnosed together with others need {} of their own to know their noise: \
                  measure more, or diagnose them alone",
                 policy::FEWEST_RUNS
             )));
@@ -263,7 +263,7 @@ impl<'a> Case<'a> {
 }
 
 /// Effective number of independent tests, `(Σ√λ)²/Σλ` over the eigenvalues λ of the correlations between the effects' first
-/// traces (Galwey 2009): twins are one test, not two. An effect without a first trace, a threshold, is one of its own.
+/// traces (Galwey 2009): twins are one test, not two. An effect without a first trace, a threshold, counts as one more.
 fn independent_tests(problem: &Problem, base: &Fit, tried: std::ops::Range<usize>) -> f64 {
     let free = Basis::of(&base.minimum.jacobian);
     let count = tried.len();

@@ -41,11 +41,11 @@ pub struct Distances {
     pub base: f64,
     /// The base or one effect of the catalogue.
     pub one: f64,
-    /// The same or a pair of effects, if pairs were wanted.
+    /// The same or a pair of effects, if pairs were requested.
     pub two: f64,
 }
 
-/// Distances of a noise-free dataset (one run, or several alike); `pairs` are fitted only if wanted.
+/// Distances of a noise-free dataset (one run, or several alike); `pairs` are fitted only if requested.
 ///
 /// # Errors
 /// Scenario and data that do not fit together, a base without equilibrium.

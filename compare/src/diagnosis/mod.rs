@@ -1,7 +1,7 @@
-//! Which physical effect is missing, what it would bring, and when the data cannot tell.
+//! Which physical effect is missing, what it would bring, and when the data cannot decide.
 //!
 //! ```text
-//! prepare ─► noise, base ─► every effect refitted ─► one p ─► set ─► pairs if wanted ─► lack of fit, places ─► verdict
+//! prepare ─► noise, base ─► every effect refitted ─► one p ─► set ─► pairs if needed ─► lack of fit, places ─► verdict
 //! (source)      (case)          (screen, singles)                       (pairs)            (lack_of_fit, left_patterns, decide)
 //!                                 └─► intervals, held-out error, smallest detectable sizes (assemble), next experiment
 //! ```
@@ -11,7 +11,7 @@
 //! All fits minimise the whitened sum of squares of the mean over runs ([`crate::noise`]: the run is the unit). Gains are
 //! falls of that sum against the calibrated base; under "nothing is missing" a gain by q parameters follows about q·F(q,
 //! dof of σ²), and p is multiplied by the number of independent tests among the effects. Effects with a bound at their
-//! neutral value and thresholds make that conservative (Chernoff; Davies). The set is what the data cannot tell apart: BIC within 6 of the
+//! neutral value and thresholds make that conservative (Chernoff; Davies). The data cannot separate the members of the set: BIC within 6 of the
 //! best, or 95 % of its gain. A name is the best explanation *in the catalogue*, never a proof.
 
 mod bench;
@@ -62,9 +62,9 @@ use source::Source;
 use story::story;
 use verdict::{assemble, bending_alarm, closest, decide, lack_of_fit, left_patterns, limits, patterns, pressures};
 
-/// Diagnoses measurements: is an effect missing in the scenario, which, and what would tell. Several data of one robot lie each
-/// under its own protocol and loads: one bending stiffness for every body pressure and one value of every parameter must meet
-/// them all. Errors in millimetres, places and held-out parts are those of the first.
+/// Diagnoses measurements: is an effect missing in the scenario, which one, and which experiment would decide. Several data of one robot
+/// each have their own protocol and loads: one bending stiffness for every body pressure and one value of every parameter must meet
+/// them all. Errors in millimetres, places and held-out parts refer to the first data.
 ///
 /// # Errors
 /// Scenario and data that do not fit together, impossible options, a base without equilibrium; further data with fewer than three
@@ -101,7 +101,7 @@ pub fn diagnose(
     warnings.extend(singles::left_out(&case, &decision.singles.fits));
     let mut slips: Vec<String> = sources.iter().flat_map(|source| source.slips.clone()).collect();
     if let Some(found) = &pressure_slip {
-        // What its numbers alone look like is said once.
+        // A slip that the numbers alone show is reported once.
         let in_numbers: Vec<String> = evidence.iter().flat_map(|e| pressure_words(&e.dataset)).collect();
         for told in [&mut slips, &mut warnings] {
             told.retain(|words| !in_numbers.contains(words));
@@ -132,7 +132,7 @@ pub fn diagnose(
     let (mut shown, mut warnings) = (Default::default(), found.warnings.clone());
     let one_way = !scenario.is_spatial() && sources.iter().all(|source| !source.dataset.channels_differ());
     if (options.missing_moment || options.learn) && one_way {
-        // It shows a verdict and decides none: where it cannot be had, the verdict stands without it.
+        // It illustrates a verdict and decides none: if it fails, the verdict stays.
         match learned::moments(&case, &decision, options, &found) {
             Ok(moments) => shown = moments,
             Err(error) => warnings.push(format!("no missing moment is shown: {error}")),
@@ -143,7 +143,7 @@ pub fn diagnose(
     Ok(Diagnosis { summary: story(&found), ..found })
 }
 
-/// The answer with the bending stiffness as the scenario has it, if `found` has none, nobody measured B, and it comes closer by a fifth.
+/// The answer with the bending stiffness as the scenario has it, if `found` has none, B was not measured, and it comes closer by a fifth.
 ///
 /// A fitted B takes up part of every effect, and where the base misses by far it takes up the wrong part: with it goes the
 /// pressure's slope, and with that what counts as scatter between runs (7.6 % of the pressure in place of 1.8 on the ePAM of the

@@ -32,7 +32,7 @@ pub struct Options {
     pub learn: bool,
 }
 
-/// What is said not to be here where the pressures are right although they look like a slip.
+/// Entry of [`Options::not`] that declares the pressures right although they look like a slip.
 pub const PRESSURES_ARE_RIGHT: &str = "pressure_slip";
 
 impl Options {

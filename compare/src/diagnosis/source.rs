@@ -57,7 +57,7 @@ pub(super) fn nearest(levels: &[f64], p: f64) -> usize {
     (0..levels.len()).min_by(|a, b| (levels[*a] - p).abs().total_cmp(&(levels[*b] - p).abs())).unwrap_or(0)
 }
 
-/// A dataset, its base as measured there, and what is known in addition to the markers.
+/// A dataset, its base as measured there, and further measurements of the same robot.
 #[derive(Clone)]
 pub(crate) struct Source {
     /// The base with the dataset's markers and loads, without effects of what was measured directly.
@@ -69,9 +69,9 @@ pub(crate) struct Source {
     pub direct: Direct,
     /// Readings of the actuator's pressure, which the supply's laws must meet.
     pub gauge: Option<Gauge>,
-    /// Rolled by 180° against the first data: what is fixed to the room acts the other way.
+    /// Rolled by 180° against the first data: effects fixed to the room act the other way.
     pub rolled: bool,
-    /// Bending stiffness at the first body pressure, measured by itself, and its standard deviation \[N·m²\].
+    /// Bending stiffness at the first body pressure, measured separately, and its standard deviation \[N·m²\].
     pub bending_nm2: Option<[f64; 2]>,
     /// Parameters of effects measured by themselves.
     pub measured: Vec<MeasuredValue>,
@@ -109,7 +109,7 @@ impl Source {
         let mut source = Source::of(scenario, dataset_seen, about);
         if source.direct.pressure && dataset.gauge_pa.is_some() {
             warnings.push(
-                "about.toml says [direct] pressure, so p_act is the actuator's own and the column p_gauge was not used"
+                "about.toml has [direct] pressure, so p_act is the actuator's own and the column p_gauge was not used"
                     .into(),
             );
         }
@@ -146,9 +146,8 @@ impl Source {
             let bending = source.contradicts_bending(&sources).then(|| "bending".to_string());
             let effect = sources.iter().find_map(|known| known.contradicts(&source));
             for what in bending.into_iter().chain(effect.map(|effect| format!("measured.{effect}"))) {
-                warnings.push(format!(
-                    "{name} says something else of [{what}] in about.toml than data before it, which stands"
-                ));
+                warnings
+                    .push(format!("{name} contradicts [{what}] in the about.toml of data before it, which is used"));
             }
             let of = if i > 0 { format!("{name}: ") } else { String::new() };
             warnings.extend(source.slips.iter().cloned());

@@ -1,4 +1,4 @@
-//! Diagnose and extend until what is left is noise.
+//! Diagnose and extend until only noise is left.
 
 use crate::diagnosis::words::{change, listed};
 use crate::diagnosis::{
@@ -11,7 +11,7 @@ use crate::progress::{Progress, part};
 use crate::scenario_file::ScenarioFile;
 use serde::Serialize;
 
-/// Effects that a climb adds at most: beyond them a name says little.
+/// Effects that a climb adds at most: beyond them a name means little.
 pub const MOST_EFFECTS: usize = 3;
 
 /// One step of the ladder: effects added together after one diagnosis.
@@ -19,7 +19,7 @@ pub const MOST_EFFECTS: usize = 3;
 pub struct ClimbStep {
     /// Effects that the step adds, with their fitted values.
     pub added: Vec<FittedEffect>,
-    /// Names that these data cannot tell apart.
+    /// Names that these data cannot separate.
     pub indistinguishable: Vec<String>,
     /// Corrected p of "nothing is missing" before it.
     pub p_value: Option<f64>,
@@ -123,21 +123,26 @@ fn end(d: &Diagnosis, left: f64, (count, most): (usize, usize)) -> Option<(&'sta
             return Some(("no_p_values", why + "; `ibr diagnose` prints the uncalibrated ranking."));
         }
         Some(Verdict::None) => {
-            ("noise", format!("What is left, {left:.2} mm beyond noise, is not significant: noise."))
+            ("noise", format!("The remaining misfit, {left:.2} mm beyond noise, is not significant: noise."))
         }
         Some(_) if left <= d.tolerance_mm && !is_of_supply(d) => {
             let limit = d.tolerance_mm;
             (
                 "tolerance",
-                format!("What is left, {left:.2} mm, is more than noise but within the tolerance of {limit:.2} mm."),
+                format!(
+                    "The remaining misfit, {left:.2} mm, is more than noise but within the tolerance of {limit:.2} mm."
+                ),
             )
         }
         Some(Verdict::OutOfCatalog) => {
             let places: Vec<&str> = d.leftover.iter().map(|s| s.sentence.as_str()).collect();
             let places = places.join(" ");
             let of = if count > 0 { " Of the last step's scenario:" } else { "" };
-            let kept = d.told_of_kept_bending().map_or(String::new(), |told| format!("{of} {told}"));
-            ("out_of_catalog", format!("Nothing in the catalogue explains what is left, {left:.2} mm. {places}{kept}"))
+            let kept = d.told_of_kept_bending().map_or(String::new(), |words| format!("{of} {words}"));
+            (
+                "out_of_catalog",
+                format!("Nothing in the catalogue explains the remaining misfit, {left:.2} mm. {places}{kept}"),
+            )
         }
         Some(Verdict::Effect) if count + d.added.len() > most => {
             let next = change(&names_of(&d.added));
@@ -172,7 +177,7 @@ fn told(number: usize, d: &Diagnosis) -> String {
     );
     if d.indistinguishable.len() > 1 {
         told.push_str(&format!(
-            " The name is one of several that these data cannot tell apart: {}.",
+            " The name is one of several that these data cannot separate: {}.",
             d.indistinguishable.join(", ")
         ));
     }

@@ -1,4 +1,4 @@
-//! The scenario with a learned law: a `[[formula]]` of its own, and where the line of the markers lies.
+//! The scenario with a learned law: a new `[[formula]]`, and the position of the markers' line.
 
 use super::steps::Ground;
 use super::text::{Addition, BodyValue, today, with_formula};
@@ -15,7 +15,7 @@ const CENTRE_LINE: &str = "centre_line_mm";
 pub(super) fn learned(file: &ScenarioFile, found: &Diagnosis) -> Result<Extension, CompareError> {
     let Some(law) = &found.learned else {
         let message = "no law of the library predicts pressures left out better than the model as it is";
-        let help = "learning takes at least three actuator pressures; `ibr diagnose` says what else may be missing";
+        let help = "learning takes at least three actuator pressures; `ibr diagnose` names what else may be missing";
         return Err(CompareError::refused(message, help));
     };
     let ground = Ground::new(found, file);
@@ -25,7 +25,7 @@ pub(super) fn learned(file: &ScenarioFile, found: &Diagnosis) -> Result<Extensio
         BodyValue { key: CENTRE_LINE, value: 1e3 * now_m + line.value_mm, remark }
     });
     let with = with_formula(file, &law.toml, &origin(found, law), line.as_ref())?;
-    let remarks = vec![format!("{} (learned); its formula stands below", law.words)];
+    let remarks = vec![format!("{} (learned); its formula is below", law.words)];
     let addition = Addition { remarks, ..ground.calibrated(&law.name, &law.parameters) };
     let bending = (!law.bending_nm2.is_empty()).then(|| ground.new_bending(ground.bending(&law.bending_nm2))).flatten();
     let fitted = vec![FittedEffect { effect: law.name.clone(), parameters: law.parameters.clone() }];
@@ -52,7 +52,7 @@ mod tests {
     use crate::study::published::shipped_scenario;
     use models::{Loads, Model, Scenario};
 
-    /// What is fitted as the height of the markers is written as where the centre line lies: the same positions.
+    /// A fitted height of the markers is written as another position of the centre line, which gives the same positions.
     #[test]
     fn markers_off_the_axis_are_a_centre_line_elsewhere() {
         for kind in ["spam", "cpam", "epam", "fpam"] {

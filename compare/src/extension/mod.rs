@@ -50,7 +50,7 @@ impl Wish {
             CompareError::refused(format!("`{text}` needs data to {what}"), format!("ibr add SCENARIO {text} DATA"))
         };
         if text == "best" {
-            return has_data.then_some(Wish::Best).ok_or_else(|| needs("say what is best"));
+            return has_data.then_some(Wish::Best).ok_or_else(|| needs("find the best effect"));
         }
         if let Some(name) = taken_away(text) {
             let own: Vec<&str> = scenario.effects.iter().map(|e| e.name.as_str()).collect();
@@ -129,7 +129,7 @@ pub fn add(
     Ok(extension)
 }
 
-/// An effect at a value that nobody fitted.
+/// An effect at a value that was not fitted.
 fn assumed(file: &ScenarioFile, name: &str, values: &Values) -> Result<Extension, CompareError> {
     let sentence = file.catalogue().by_name(name).map(|e| e.sentence.to_string());
     let addition = Addition {

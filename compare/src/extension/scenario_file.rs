@@ -47,7 +47,7 @@ impl ScenarioFile {
         Err(CompareError::Unread { path: name.into(), cause, help: ScenarioFile::help(name, &ROBOTS) })
     }
 
-    /// Help where a file of this name cannot be read, with the names of what is shipped.
+    /// Help where a file of this name cannot be read, with the names of shipped ones.
     pub fn help(name: &str, shipped: &[&str]) -> String {
         let (meant, names) = (spelling::meant(name, shipped.iter().copied()), shipped.join(", "));
         format!("{meant}give a TOML file, or a shipped robot: {names}; `ibr new epam > my.toml` makes a start")
@@ -62,7 +62,7 @@ impl ScenarioFile {
         Ok(ScenarioFile { name: name.into(), text: text.into(), scenario })
     }
 
-    /// The same robot, for what is built for planar ones alone.
+    /// The same robot, for code that handles planar robots only.
     ///
     /// # Errors
     /// Strips round the body, with their line.
@@ -86,7 +86,7 @@ impl ScenarioFile {
     /// The first of several tables `[[strip]]` is `strip.1`.
     ///
     /// # Errors
-    /// A value that is not TOML, a place below something that is no table; a fault of the new text with its line.
+    /// A value that is not TOML, a place below something that is not a table; a fault of the new text with its line.
     pub fn with(&self, changes: &[(String, String)]) -> Result<ScenarioFile, CompareError> {
         let new = self.with_in_space(changes)?;
         if self.scenario.is_spatial() { Ok(new) } else { new.planar() }
@@ -100,7 +100,7 @@ impl ScenarioFile {
         let mut document: DocumentMut =
             self.text.parse().map_err(|error: toml_edit::TomlError| refused(error.message().into()))?;
         for (place, text) in changes {
-            let value: Value = text.parse().map_err(|_| refused(format!("{place} = {text} is no value of TOML")))?;
+            let value: Value = text.parse().map_err(|_| refused(format!("{place} = {text} is not a TOML value")))?;
             set(&mut document, place, value)
                 .ok_or_else(|| refused(format!("{place} is not in a table of {}", self.name)))?;
         }
@@ -128,7 +128,7 @@ impl ScenarioFile {
     }
 }
 
-/// Puts a value at a place; `None` if something above it is no table.
+/// Puts a value at a place; `None` if something above it is not a table.
 fn set(document: &mut DocumentMut, place: &str, value: Value) -> Option<()> {
     let mut parts: Vec<&str> = place.split('.').collect();
     let key = parts.pop()?;
@@ -196,7 +196,7 @@ mod tests {
     fn what_cannot_be_set_is_refused_with_its_place() {
         let told = |changes: &[(&str, &str)]| changed(changes).unwrap_err().to_string();
         assert!(told(&[("body.radius_mn", "45")]).contains("epam:"), "{}", told(&[("body.radius_mn", "45")]));
-        assert!(told(&[("body.radius_mm", "45 mm")]).contains("no value of TOML"));
+        assert!(told(&[("body.radius_mm", "45 mm")]).contains("not a TOML value"));
         assert!(told(&[("name.first", "45")]).contains("is not in a table"));
         assert!(told(&[("markers.s_mm.1", "45")]).contains("is not in a table"));
     }

@@ -1,4 +1,4 @@
-//! From a diagnosis to what is written into a scenario, and the error before and after.
+//! From a diagnosis to the text written into a scenario, and the error before and after.
 
 use super::text::{Addition, BENDING, BodyValue, today};
 use crate::diagnosis::words::three;
@@ -38,7 +38,7 @@ pub fn error_steps(d: &Diagnosis, scenario: &Scenario) -> Vec<ErrorStep> {
     ground.first_steps().into_iter().chain(last).collect()
 }
 
-/// A diagnosis, as that of one scenario.
+/// A diagnosis, for one scenario.
 pub(crate) struct Ground<'a> {
     pub d: &'a Diagnosis,
     /// Which of the fitted stiffnesses is the scenario's.
@@ -51,7 +51,7 @@ impl<'a> Ground<'a> {
         Ground { d, level: d.level(1e-3 * scenario.p_body_pa) }
     }
 
-    /// Of one B per body pressure, that of the scenario; the scenario's own if it was kept.
+    /// Of one B per body pressure, the one at the scenario's pressure; the scenario's own B if it was kept.
     pub(crate) fn bending(&self, values_nm2: &[f64]) -> f64 {
         values_nm2.get(self.level).copied().unwrap_or(self.d.base.bending_nominal_nm2)
     }
@@ -148,7 +148,7 @@ impl<'a> Ground<'a> {
         if self.d.base.bending.len() > 1 {
             let all: Vec<String> = self.d.base.bending.iter().map(|b| format!("{} kPa", b.p_body_kpa)).collect();
             warnings.push(format!(
-                "the data have several body pressures ({}) with a fitted B each; a scenario has one B: that of {} kPa is written",
+                "the data have several body pressures ({}) with a fitted B each; a scenario has one B, and gets the B at {} kPa",
                 all.join(", "),
                 self.d.base.bending[self.level].p_body_kpa
             ));

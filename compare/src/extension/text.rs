@@ -1,5 +1,5 @@
-//! A scenario's text with effects added: what stands there stays, comments too. The new text is parsed and held against what
-//! it should mean before anyone sees it; what was added can be read back.
+//! A scenario's text with effects added: the existing text stays, comments too. The new text is parsed and compared with
+//! its intended meaning before anyone sees it; what was added can be read back.
 
 use crate::diagnosis::taken_away;
 use crate::error::CompareError;
@@ -39,7 +39,7 @@ pub struct BodyValue {
     pub remark: String,
 }
 
-/// What the text of a scenario says about an effect that was added to it.
+/// What the text of a scenario records about an effect that was added to it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Origin {
     pub effect: String,
@@ -49,7 +49,7 @@ pub(crate) struct Origin {
     pub bending_without_nm2: Option<f64>,
 }
 
-/// Significant digits of what is written.
+/// Significant digits of the written numbers.
 const DIGITS: i32 = 6;
 /// How the note of an added effect begins.
 const ADDED: &str = "added by ibr";
@@ -63,7 +63,7 @@ pub(super) const BENDING: &str = "bending_stiffness_nm2";
 /// The scenario with B replaced and the effects appended; it keeps its name.
 ///
 /// # Errors
-/// A text in which this cannot be written without touching what stands there.
+/// A text in which this cannot be written without touching existing text.
 pub(crate) fn extended(
     file: &ScenarioFile,
     bending: Option<&BodyValue>,
@@ -113,7 +113,7 @@ pub(crate) fn origins(text: &str) -> Vec<Origin> {
     effects.into_iter().flatten().filter_map(origin).collect()
 }
 
-/// Every SHA-256 in what is said of the data.
+/// Every SHA-256 in a remark about the data.
 fn hashes(text: &str) -> Vec<String> {
     let hash = |part: &str| part.chars().take_while(char::is_ascii_alphanumeric).collect();
     text.split(HASH).skip(1).map(hash).collect()

@@ -3,7 +3,7 @@
 use crate::error::CompareError;
 use models::Scenario;
 
-/// Adds an effect typed as `name` (typical values) or `name:key=value,…`; says how its values are known.
+/// Adds an effect typed as `name` (typical values) or `name:key=value,…`; returns how its values are known.
 ///
 /// # Errors
 /// A name, key or value that is not possible, with those that are.
@@ -17,7 +17,7 @@ pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, &'stati
     let kind = scenario.actuator.kind;
     if !scenario.actuator.takes(&effect) {
         let message = format!("{name} does not exist for the actuator {}", kind.name);
-        return Err(CompareError::refused(message, "`ibr list effects` says what each effect is for"));
+        return Err(CompareError::refused(message, "`ibr list effects` states what each effect is for"));
     }
     let mut chosen = if values.is_empty() { effect.typical_for(kind.name) } else { effect.neutral() };
     let mut told = vec![false; effect.parameters.len()];
@@ -94,7 +94,7 @@ pub fn typed(scenario: &Scenario, text: &str) -> Result<(String, Option<Values>)
     Ok((name.to_string(), (!rest.is_empty()).then(|| values_of(&with, name))))
 }
 
-/// The values that an effect has in a scenario; those of its typical size where it has none.
+/// The values that an effect has in a scenario; its typical values where the scenario lacks it.
 pub fn values_of(scenario: &Scenario, name: &str) -> Values {
     let catalogue = scenario.catalogue();
     let Some(effect) = catalogue.by_name(name) else { return Vec::new() };

@@ -142,7 +142,7 @@ fn added(file: &ScenarioFile, named: &[String]) -> Result<Vec<Origin>, CompareEr
     let of = |name: &String| written.iter().find(|o| o.effect == *name).cloned().unwrap_or_else(|| by_hand(name));
     let found: Vec<Origin> = if named.is_empty() { written.clone() } else { named.iter().map(of).collect() };
     if found.is_empty() {
-        let message = "no effect of this scenario was written by `ibr add`, so there is no before and after";
+        let message = "no effect of this scenario was written by `ibr add`, so its earlier state is unknown";
         return Err(CompareError::refused(message, "name the effect to judge with --without EFFECT"));
     }
     Ok(found)

@@ -1,4 +1,4 @@
-//! Orthonormal bases of a few long columns: what is left of a trace when others are fitted out.
+//! Orthonormal bases of a few long columns: the rest of a trace when others are fitted out.
 
 use super::least_squares::{dot, square};
 
@@ -20,7 +20,7 @@ impl Basis {
         basis
     }
 
-    /// What is left of a vector when the span is fitted to it. Twice, because once leaves rounding.
+    /// The rest of a vector when the span is fitted to it. Twice, because once leaves rounding.
     pub(crate) fn rest(&self, vector: &[f64]) -> Vec<f64> {
         let mut rest = vector.to_vec();
         for _ in 0..2 {
@@ -44,7 +44,7 @@ impl Basis {
     }
 }
 
-/// What is left of a column when all others are fitted to it.
+/// The rest of a column when all others are fitted to it.
 pub(crate) fn own_part(columns: &[Vec<f64>], k: usize) -> Vec<f64> {
     let others: Vec<Vec<f64>> = (0..columns.len()).filter(|j| *j != k).map(|j| columns[j].clone()).collect();
     Basis::of(&others).rest(&columns[k])

@@ -13,12 +13,12 @@
 //! | s², f | variance of a value of the mean; mean square of the whitened residuals |
 //! | r | residuals |
 //! | c, g | values of one coordinate of one marker at one pressure; values at one pressure |
-//! | G, q | pressures that tell of the parameter; parameters fitted |
+//! | G, q | pressures that inform about the parameter; parameters fitted |
 //!
 //! A law that misses does so at a pressure as a whole: all samples and markers there err together, and its error at one pressure
-//! says nothing of that at the next. So pressures are the unit of a misfit as runs are of noise (cluster-robust variance, Liang &
+//! does not predict its error at the next. So pressures are the unit of a misfit as runs are of noise (cluster-robust variance, Liang &
 //! Zeger 1986, with the correction for few clusters), and the interval holds what the value would be at other pressures.
-//! Counting every value of the misfit by itself says a fraction of that: of `synthetic-epam` without sealed edges, B is 0.60, 0.87
+//! Taking every value of the misfit as independent understates this: for `synthetic-epam` without sealed edges, B is 0.60, 0.87
 //! and 1.15 N·m² at 10, 20 and 30 kPa alone, and 0.94 ± 0.04 by such a count. Where parameters are as many as pressures, these are met
 //! one by one and markers are the unit; samples of a hold never are.
 //!
@@ -43,7 +43,7 @@ const HALVINGS: usize = 10;
 /// 1e8 it does not return.
 const MOST_DOF: f64 = 1e4;
 
-/// Data that a fit was held against.
+/// Data that a fit was compared with.
 pub(crate) struct FittedData<'a> {
     pub dataset: &'a Dataset,
     /// Noise of the mean over runs of this dataset.
@@ -64,8 +64,8 @@ pub(crate) struct Half {
     pub misses: bool,
 }
 
-/// Half of the interval of a parameter, `white` being its weights on values whitened with noise and misfit, those of all data
-/// one after the other, then those of what was measured by itself; `None` if the noise is unknown.
+/// Half of the interval of a parameter; `None` if the noise is unknown. `white` are its weights on values whitened with noise and
+/// misfit: the values of all data one after the other, then the separately measured ones.
 pub(crate) fn half_width(data: &[FittedData], white: &[f64], parameters: usize) -> Option<Half> {
     let (mut total, mut squares_over_dof, mut from) = (0.0, 0.0, 0);
     let (mut each, mut cells, mut pressures) = (0.0, 0, Vec::new());
@@ -90,7 +90,7 @@ pub(crate) fn half_width(data: &[FittedData], white: &[f64], parameters: usize) 
         let held = noise.per_hold.variance_of_mean(&pairs, &noise.per_hold.test_variance, noise.runs);
         let dot = |column: &Vec<f64>| weights.iter().zip(column).map(|(w, c)| w * c).sum::<f64>();
         let gauge: f64 = noise.gauge_errors.iter().map(|c| dot(c).powi(2)).sum();
-        // Errors of the gauge are specified, or widened already: unit variance of what is whitened.
+        // Errors of the gauge are specified, or widened already: whitened readings have unit variance.
         total += gauge + square(&white[to..to + part.readings]);
         let run_dof = noise.runs.saturating_sub(noise.sessions).max(1) as f64;
         total += camera + run_to_run + held;
@@ -104,7 +104,7 @@ pub(crate) fn half_width(data: &[FittedData], white: &[f64], parameters: usize) 
         }
         from = to + part.readings;
     }
-    // A bending stiffness measured by itself, of unit variance too.
+    // A separately measured bending stiffness, of unit variance too.
     total += square(&white[from..]);
     let (misfit, dof) = misfit(&pressures, (each, cells), parameters);
     total += misfit;
@@ -153,8 +153,8 @@ pub(crate) fn misfit(pressures: &[[f64; 2]], (each, cells): (f64, usize), parame
     if spare > 0.0 && together > each { (together, spare) } else { (each, cells.max(1) as f64) }
 }
 
-/// The interval of a parameter: `squares` is the least sum of squares' second derivative by half, `rise` how far it has risen above
-/// that of the fit with the parameter at a place; without it the interval is linear.
+/// The interval of a parameter: `squares` is the least sum of squares' second derivative by half, `rise` how far this sum rises above
+/// its value at the fit when the parameter is held at a place; without `rise` the interval is linear.
 pub(crate) fn interval(
     (value, half, squares): (f64, Half, f64),
     [lower, upper]: [f64; 2],

@@ -206,7 +206,7 @@ mod tests {
 
     #[test]
     fn a_correlated_quadratic_in_a_box_ends_at_its_constrained_minimum() {
-        // r = A(x − c): the unconstrained minimum c lies outside; compare with a dense scan of the box.
+        // r = A(x − c): the unconstrained minimum c is outside; compare with a dense scan of the box.
         let a = [[2.0, 1.5, 0.3], [0.2, 1.0, -0.8], [0.5, -0.4, 1.1]];
         for c in [[2.0, -1.0, 0.4], [-3.0, 0.5, 2.0], [0.5, 0.5, 0.5], [1.5, 1.5, -2.0], [-0.2, 3.0, 0.1]] {
             let mut residuals = |x: &[f64]| {

@@ -21,7 +21,7 @@ pub(crate) fn paper_accuracy(y_model_m: &[f64], y_measured_m: &[f64]) -> Option<
     Some(1.0 - squares.sum::<f64>() / y_model_m.len() as f64)
 }
 
-/// Root-mean-square relative error that an accuracy stands for, 100 √(1 − a) \[%\].
+/// Root-mean-square relative error that corresponds to an accuracy, 100 √(1 − a) \[%\].
 pub(crate) fn relative_pct(accuracy: f64) -> f64 {
     100.0 * (1.0 - accuracy).max(0.0).sqrt()
 }

@@ -1,4 +1,4 @@
-//! A prediction beside the mean measurement: what every metric starts from.
+//! A prediction next to the mean measurement: what every metric starts from.
 
 use crate::error::CompareError;
 use crate::layout::Layout;

@@ -1,4 +1,4 @@
-//! One call: everything the report says about a prediction and a dataset.
+//! One call: everything the report states about a prediction and a dataset.
 
 use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
@@ -15,7 +15,7 @@ use serde::Serialize;
 /// Settings of [`evaluate`]; `Default` is what the command line uses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvaluateOptions {
-    /// One label per run if the robot was set up anew between some runs; empty: all runs are one session.
+    /// One label per run if the robot was set up again between some runs; empty: all runs are one session.
     pub sessions: Vec<usize>,
     /// Camera noise of one coordinate \[m\], used only if there is a single run.
     pub sigma_m: Option<f64>,
@@ -106,7 +106,7 @@ pub fn evaluate(
 pub(crate) fn check_level(alpha: f64, tolerance_m: Option<f64>) -> Result<(), CompareError> {
     let tolerance = tolerance_m.unwrap_or(0.0);
     let (name, value, expected) = match () {
-        () if !(alpha > 0.0 && alpha < 1.0) => ("alpha", alpha, "the significance level lies between 0 and 1"),
+        () if !(alpha > 0.0 && alpha < 1.0) => ("alpha", alpha, "the significance level is between 0 and 1"),
         () if !(tolerance >= 0.0 && tolerance.is_finite()) => {
             ("tolerance_m", tolerance, "a length in metres, not negative")
         }

@@ -1,4 +1,4 @@
-//! How well a prediction meets the measurements: the paper's accuracy and, always beside it, its honest companions.
+//! How well a prediction meets the measurements: the paper's accuracy and, always with it, its honest companions.
 //!
 //! The accuracy of Du Pasquier et al. 2023, a = 1 − mean over markers of ((y_FEA − y_EXP)/y_FEA)², has the **model** in
 //! the denominator. It is undefined where the model does not move, rewards over-prediction (twice the truth scores

@@ -1,4 +1,4 @@
-//! The residual map, marker × hold, and the directed contrasts beside it: drift during holds, loading against
+//! The residual map, marker × hold, and the directed contrasts that go with it: drift during holds, loading against
 //! unloading.
 //!
 //! Every entry is a linear functional of f − ȳ over its own standard deviation under the noise model (the widened one,

@@ -184,11 +184,11 @@ fn data_sentence(verdict: ScalingVerdict, pairs: &[ScalingPair], differing: usiz
     match verdict {
         ScalingVerdict::Collapses => format!(
             "Shapes at the same P/p collapse to within noise ({at}; largest difference {worst:.1} mm): these data \
-             need no effect with a pressure or stiffness scale of its own."
+             need no effect with its own pressure or stiffness scale."
         ),
         ScalingVerdict::DoesNotCollapse => format!(
             "Shapes at the same P/p do not collapse: {differing} of {} pairs differ by more than noise ({at}; up to \
-             {worst:.1} mm). Something has a pressure or stiffness scale of its own.",
+             {worst:.1} mm). Something has its own pressure or stiffness scale.",
             pairs.len()
         ),
         _ => format!(

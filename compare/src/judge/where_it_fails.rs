@@ -181,7 +181,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// What is right, to bound the failure: other loading pressures and the other phase.
+    /// Where the prediction is right, to bound the failure: other loading pressures and the other phase.
     fn contrast(&self, holds: &[usize], unloading: bool) -> String {
         let right = |h: &usize| !holds.contains(h) && self.bending_is_right(*h);
         let (back, there): (Vec<usize>, Vec<usize>) = (0..self.c.layout.holds).partition(|&h| self.is_unloading(h));
@@ -201,7 +201,7 @@ impl<'a> Judge<'a> {
         if places.is_empty() { String::new() } else { format!("; {} it is {degree}", list(&places)) }
     }
 
-    /// No y of this hold stands out (with unknown noise: none reaches the pattern level).
+    /// No y of this hold is significant (with unknown noise: none reaches the pattern level).
     fn bending_is_right(&self, hold: usize) -> bool {
         (0..self.c.layout.markers).all(|m| {
             let y = self.cell((hold, m)).y;
@@ -288,12 +288,12 @@ impl<'a> Judge<'a> {
         } else if let Some(p) = chi2_p.filter(|p| *p < self.alpha) {
             let more =
                 format!("As a whole the misfit is more than noise ({}), but no single marker and pressure", p_value(p));
-            (Finding::Diffuse, format!("{more} stands out (most significant difference {size})."))
+            (Finding::Diffuse, format!("{more} is significant on its own (most significant difference {size})."))
         } else if self.c.noise.gives_p_values() {
             let agrees = "The model agrees with the measurements to within noise at every pressure and marker";
             (Finding::Agrees, format!("{agrees} (most significant difference {size})."))
         } else {
-            let nothing = format!("Nothing stands out from the noise (largest {size}); no significance can be given.");
+            let nothing = format!("Nothing rises above the noise (largest {size}); no significance can be given.");
             (Finding::Agrees, nothing)
         };
         Statement { largest, ..Statement::of(finding, sentence) }

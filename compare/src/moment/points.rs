@@ -26,7 +26,7 @@ pub(crate) struct Point {
     pub hold: usize,
     /// Place, base first; `None`: mean over the places.
     pub place: Option<usize>,
-    /// Group of samples, of which the change since the first is told; `None`: mean over the hold.
+    /// Group of samples, of which the change since the first is given; `None`: mean over the hold.
     pub since_first: Option<usize>,
     pub p_act_pa: f64,
     pub p_body_pa: f64,
@@ -152,7 +152,7 @@ impl Field {
         active.retain(|p| shape.division.places[*p].is_active);
         let bend = |place: usize| shape.numbers[layout.bend(hold, place)].abs();
         let sd = |place: usize| shape.covariance[(layout.bend(hold, place), layout.bend(hold, place))].sqrt();
-        // A slack actuator on a straight body: the hinge of the folded wall has not set in, and says nothing.
+        // A slack actuator on a straight body: the hinge of the folded wall has not set in, so the hold shows nothing.
         let complete = COMPLETE * view.scenario.hinge_curvature;
         let is_slack = |p: &usize| bend(*p) < complete + COMPLETE * sd(*p);
         if view.dataset.holds[hold].p_act_pa <= 0.0 && active.iter().any(is_slack) {

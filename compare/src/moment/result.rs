@@ -40,7 +40,7 @@ pub struct SharedNumber {
     pub name: String,
     /// Unit of the value and its standard deviation.
     pub unit: String,
-    /// Value; zero: as the scenario says.
+    /// Value; zero: as in the scenario.
     pub value: f64,
     /// Standard deviation of the value, in `unit`.
     pub sd: f64,

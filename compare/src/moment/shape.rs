@@ -5,8 +5,8 @@
 //! markers = camera(line at a distance from the taut generator; κ) + noise
 //! ```
 //!
-//! Fitted by least squares to the whitened mean over runs. What is left no law of bending can mend: a marker that was glued
-//! elsewhere, a camera that moved. The numbers that are shared are where the tracked line lies, by which it shortens as it
+//! Fitted by least squares to the whitened mean over runs. No law of bending can mend the remaining misfit: a marker that was glued
+//! elsewhere, a camera that moved. The shared numbers are the position of the tracked line, by which it shortens as it
 //! bends (a marker's height is the same number), and the camera's scale and roll. Each is held near nothing by a wide prior.
 
 use super::result::SharedNumber;
@@ -19,7 +19,7 @@ use nalgebra::DMatrix;
 /// Bends of all holds, fitted to the markers without a law.
 #[derive(Debug, Clone)]
 pub struct Shape {
-    /// What has a bend of its own.
+    /// Parts with a separate bend each.
     pub division: Division,
     /// Bends, drifts and shared numbers, in that order: see `Layout`.
     pub numbers: Vec<f64>,
@@ -37,7 +37,7 @@ impl Shape {
     }
 }
 
-/// Where each number of a shape stands.
+/// Index of each number of a shape.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Layout {
     holds: usize,
@@ -150,7 +150,7 @@ impl Fit<'_> {
         let numbers = found.at;
         let all: Vec<usize> = (0..numbers.len()).collect();
         let inverse =
-            products(&found.jacobian, &all).cholesky().ok_or_else(|| no_shape("its markers do not tell one"))?;
+            products(&found.jacobian, &all).cholesky().ok_or_else(|| no_shape("its markers do not determine one"))?;
         let white = &found.residual[..found.residual.len() - numbers.len()];
         let unseen = self.view.dataset.unseen_values().count();
         let dof = (white.len() - unseen).saturating_sub(numbers.len()).max(1);
@@ -172,12 +172,12 @@ impl Fit<'_> {
         })
     }
 
-    /// Standard deviation of what is known of a number beforehand: a bend is of the size 1/R, also where no marker shows it.
+    /// Standard deviation of the prior of a number: a bend is of the size 1/R, also where no marker shows it.
     fn prior(&self, number: usize) -> f64 {
         number.checked_sub(self.layout.shared()).map_or(1.0 / self.view.scenario.radius_m, |k| PRIOR[k])
     }
 
-    /// Whitened differences of the markers, then of every number to what is known of it beforehand.
+    /// Whitened differences of the markers, then of every number from its prior.
     fn residuals(&self, numbers: &[f64]) -> Vec<f64> {
         let predicted = self.predicted(numbers, None);
         let mut residual: Vec<f64> = predicted.iter().zip(self.view.target_m).map(|(f, y)| f - y).collect();

@@ -22,7 +22,7 @@ impl MeasuredShape {
     }
 }
 
-/// All points of a dataset, those of whole holds first.
+/// All points of a dataset, points of whole holds first.
 pub(crate) fn told(dataset: &Dataset, shape: &Shape, moments: &Moments, length_m: f64) -> Vec<MomentPoint> {
     let per = degrees(length_m);
     let point = |p: &Point| MomentPoint {
@@ -43,14 +43,14 @@ pub(crate) fn told(dataset: &Dataset, shape: &Shape, moments: &Moments, length_m
     moments.of_holds.iter().chain(&moments.points).map(point).collect()
 }
 
-/// What the shapes say: where the tracked line lies otherwise than the scenario says, and what no bending explains.
+/// Findings of the shapes: another position of the tracked line than the scenario's, and the error that no bending explains.
 pub(crate) fn shape_sentences(shapes: &[MeasuredShape], noise_known: bool) -> Vec<String> {
     let mut sentences = Vec::new();
     for shape in shapes {
         let Some(line) = shape.shared.first().filter(|s| s.is_told()) else { continue };
         let side = if line.value < 0.0 { "nearer to" } else { "further from" };
         sentences.push(format!(
-            "{}: the line of the markers lies {:.1} ± {:.1} mm {side} the taut side than the scenario says. That changes how it shortens as it bends, and no law of bending can mend it.",
+            "{}: the line of the markers is {:.1} ± {:.1} mm {side} the taut side than in the scenario. That changes how it shortens as it bends, and no law of bending can mend it.",
             shape.dataset, line.value.abs(), line.sd
         ));
     }
@@ -63,7 +63,7 @@ pub(crate) fn shape_sentences(shapes: &[MeasuredShape], noise_known: bool) -> Ve
     sentences
 }
 
-/// What less remains is not told [mm].
+/// A smaller remaining error is not reported [mm].
 const LEAST_LEFT_MM: f64 = 0.1;
 
 /// Standard deviations within which a moment counts as none.
@@ -74,7 +74,7 @@ pub(crate) fn sentences(points: &[MomentPoint]) -> Vec<String> {
     let mut holds: Vec<&MomentPoint> = points.iter().filter(|p| p.is_of_hold()).collect();
     holds.sort_by(|a, b| a.bend_deg.total_cmp(&b.bend_deg));
     let (Some(first), Some(last)) = (holds.first(), holds.last()) else {
-        return vec!["No hold under pressure bends so that a missing moment could be told.".into()];
+        return vec!["No pressurised hold bends enough to show a missing moment.".into()];
     };
     let clear = |p: &MomentPoint| p.moment_nm.abs() > NONE_WITHIN * p.moment_sd_nm;
     let value = |p: &MomentPoint| format!("{:+.2} ± {:.2} N m at {:.0}°", p.moment_nm, p.moment_sd_nm, p.bend_deg);
@@ -82,7 +82,7 @@ pub(crate) fn sentences(points: &[MomentPoint]) -> Vec<String> {
         () if !holds.iter().any(|p| clear(p)) => "No moment is missing within its error at any bend".to_string(),
         () if holds.iter().all(|p| p.moment_nm < 0.0) => "Something holds the robot back that the model lacks".into(),
         () if holds.iter().all(|p| p.moment_nm > 0.0) => "Something bends the robot that the model lacks".into(),
-        () => "What is missing changes its sign: it helps at some bends and holds back at others".into(),
+        () => "The missing moment changes its sign: it helps at some bends and holds back at others".into(),
     };
     let range = if first.hold == last.hold && first.dataset == last.dataset {
         String::new()

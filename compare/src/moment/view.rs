@@ -22,7 +22,7 @@ pub struct Place {
     /// Start along the taut generator \[m\].
     pub from_m: f64,
     pub to_m: f64,
-    /// Whether any actuator lies in it.
+    /// Whether any actuator is in it.
     pub is_active: bool,
 }
 
@@ -41,7 +41,7 @@ pub struct Moment {
     pub t_s: f64,
 }
 
-/// What of the data has a bend of its own.
+/// Parts of the data with a separate bend each.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Division {
     pub places: Vec<Place>,
@@ -122,7 +122,7 @@ impl Division {
     }
 }
 
-/// Markers between which bends are told apart: seen in every hold, and far enough from each other.
+/// Markers between which the bends are separate: seen in every hold, and far enough from each other.
 fn cuts(view: &View, least_m: f64) -> Vec<f64> {
     let (stations, dataset) = (&view.scenario.markers_m, view.dataset);
     let seen = |marker: usize| (0..dataset.holds.len()).all(|hold| dataset.is_seen(hold, marker));
@@ -150,7 +150,7 @@ impl Pieces {
         Pieces { model, place_of }
     }
 
-    /// Curvature of every piece \[1/m\] from those of the places; a passive piece beside actuators stays straight.
+    /// Curvature of every piece \[1/m\] from the curvatures of the places; a passive piece next to actuators stays straight.
     pub(super) fn curvatures(&self, bends: &[f64]) -> Vec<f64> {
         self.place_of.iter().map(|place| place.map_or(0.0, |place| bends[place])).collect()
     }

@@ -2,7 +2,7 @@
 
 /// Holds within this share of the highest pressure of the lowest are the lowest.
 pub const LOWEST: f64 = 0.02;
-/// Chance of the shift where nothing is shifted, above which nothing is told.
+/// Chance of the shift where nothing is shifted, above which no shift is reported.
 pub const SHIFT_CHANCE: f64 = 1e-3;
 /// Share that a shift may leave of the mean over runs. A lens that bulges the image is off at the base too, grows otherwise
 /// from there, and leaves a third without any noise; 1300 sets of `ibr bench discovery` without a slip left 0.28 or more.
@@ -12,12 +12,12 @@ pub const NEARLY_STRAIGHT: f64 = 0.8;
 /// A distance that undoing a slip takes to less than this share of it is called far less. Undoing a slip that is not there
 /// leaves more than before, so that anything below 1 would do without noise.
 pub const FAR_LESS: f64 = 0.5;
-/// Beyond this factor either way it is no camera's scale: the catalogue's `camera_scale` ends there.
+/// Beyond this factor either way it is not a camera's scale: the catalogue's `camera_scale` ends there.
 pub const NO_SCALE: f64 = 1.25;
-/// How near a factor must be to that of a unit to be called by it.
+/// How near a factor must be to the factor of a unit to be called by it.
 pub const NEAR_UNIT: f64 = 0.1;
-/// Half of the distance of two markers must be this many times what a marker is usually off: of markers closer together than the
-/// noise no label can be told.
+/// Half of the distance of two markers must be this many times what a marker is usually off: labels of markers closer together than
+/// the noise cannot be checked.
 pub const LABELS_CLEAR: f64 = 3.0;
 
 /// Whether a pressure is the lowest of a protocol, of its lowest and highest.
@@ -35,7 +35,7 @@ pub fn is_nearly_straight(heading: f64) -> bool {
     heading < NEARLY_STRAIGHT
 }
 
-/// Whether a distance is so much less than another that it is no chance.
+/// Whether a distance is so much less than another that chance is excluded.
 pub fn is_far_less(after_m: f64, before_m: f64) -> bool {
     after_m < FAR_LESS * before_m
 }
@@ -45,12 +45,12 @@ pub fn is_no_scale(factor: f64) -> bool {
     !(1.0 / NO_SCALE..=NO_SCALE).contains(&factor)
 }
 
-/// Whether a factor is that of a unit, of their quotient.
+/// Whether a factor is the factor of a unit, from their quotient.
 pub fn is_near_unit(quotient: f64) -> bool {
     (quotient - 1.0).abs() < NEAR_UNIT
 }
 
-/// Whether two markers that are apart by twice that can be told from each other where markers are usually off by so much.
+/// Whether two markers that are apart by twice that can be distinguished where markers are usually off by so much.
 pub fn labels_are_clear(half_apart_m: f64, usual_m: f64) -> bool {
     half_apart_m > LABELS_CLEAR * usual_m
 }
@@ -72,7 +72,7 @@ pub fn is_clearly_better(criterion: f64, other: f64) -> bool {
     criterion + SLIP_CLEARLY < other
 }
 
-/// Whether a fitted stiffness may be the scenario's; any may, where that is zero and nobody knows it \[N·m²\].
+/// Whether a fitted stiffness may be the scenario's; any may, where that is zero because it is unknown \[N·m²\].
 pub fn is_same_stiffness(fitted: f64, told: f64) -> bool {
     told == 0.0 || (1.0 / SAME_STIFFNESS..=SAME_STIFFNESS).contains(&(fitted / told))
 }

@@ -1,4 +1,4 @@
-//! Models beside models, words of publications, fabric tests.
+//! Agreement between models, words of publications, fabric tests.
 
 /// Within this share of each other two models, or a model and a number, meet.
 pub const MEETS: f64 = 0.1;
@@ -8,7 +8,7 @@ pub const BENT: f64 = 0.1;
 pub const FILLED: f64 = 0.05;
 /// Readings of a run this near are of one pressure, or of one size \[kPa, mm\].
 pub const SAME_READING: f64 = 0.05;
-/// A pressure of a run within this fraction is that of a hold.
+/// Pressures of a run and of a hold within this fraction are the same.
 pub const SAME_SET_POINT: f64 = 0.02;
 /// Stations this near are the same marker \[mm\].
 pub const SAME_STATION_MM: f64 = 1.0;
@@ -40,7 +40,7 @@ pub fn is_same_set_point(of_run: f64, of_hold: f64) -> bool {
     (of_run - of_hold).abs() < SAME_SET_POINT * of_run
 }
 
-/// Whether two stations are those of one marker \[mm\].
+/// Whether two stations belong to one marker \[mm\].
 pub fn is_same_station(one_mm: f64, other_mm: f64) -> bool {
     (one_mm - other_mm).abs() < SAME_STATION_MM
 }
@@ -59,7 +59,7 @@ pub const ALMOST: f64 = 5.0;
 /// What a number with one decimal may be off by.
 pub const ROUNDED: f64 = 0.051;
 
-/// Whether a share is no difference in the words of a publication.
+/// Whether a share counts as no difference in the words of a publication.
 pub fn is_none(share: f64) -> bool {
     share <= NONE
 }
@@ -99,7 +99,7 @@ pub fn deviates(off: f64, beyond_chance: bool) -> bool {
     off.abs() > if beyond_chance { DEVIATES_BEYOND_CHANCE } else { DEVIATES }
 }
 
-/// Whether a specimen looks like those of another direction, of its modulus and their mean.
+/// Whether a specimen looks like specimens of another direction, from its modulus and their mean.
 pub fn is_like_another(modulus: f64, mean: f64) -> bool {
     (modulus / mean - 1.0).abs() < LIKE_ANOTHER
 }

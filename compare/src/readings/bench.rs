@@ -1,7 +1,7 @@
-//! Bench tests held against a model: a beam under a load, a muscle in a testing machine.
+//! Bench tests compared with a model: a beam under a load, a muscle in a testing machine.
 //!
-//! The model of a beam is that of a scenario: `[body]`, loaded at its tip. The model of a muscle is the scenario's actuator alone
-//! between two grips ([`models::Machine`]), in the size that the table tells; without a scenario the ideal braid (Chou and Hannaford
+//! The model of a beam is the `[body]` of a scenario, loaded at its tip. The model of a muscle is the scenario's actuator alone
+//! between two grips ([`models::Machine`]), in the size that the table gives; without a scenario the ideal braid (Chou and Hannaford
 //! 1996). A mean with its standard deviation and n gets a verdict: is the model within the 95 % interval of the mean?
 
 use data::Bench;
@@ -31,7 +31,7 @@ pub struct Held {
     pub notes: Vec<String>,
 }
 
-/// One measured number beside the model's.
+/// One measured number next to the model's.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HeldRow {
     /// At which pressure, size and load.
@@ -124,7 +124,7 @@ pub(crate) fn is_beam(bench: &Bench) -> Result<bool, CompareError> {
     match bench.kind.name {
         "load_deflection" => Ok(true),
         "force_contraction" => Ok(false),
-        _ => refuse(bench, "no model is held against it", "ibr characterize reads it"),
+        _ => refuse(bench, "no model is compared with it", "ibr characterize reads it"),
     }
 }
 
@@ -148,7 +148,7 @@ pub(crate) fn is_free(row: &BenchRow) -> bool {
     row.get("force") == Some(0.0)
 }
 
-/// What the model of a row's specimen says of it; none where it finds no equilibrium.
+/// The model's value for a row's specimen; none where it finds no equilibrium.
 pub(crate) fn modelled(row: &BenchRow, specimen: &Scenario) -> Option<f64> {
     match row.get("load") {
         Some(load) => deflection_m(specimen, load),
@@ -168,7 +168,7 @@ pub(crate) struct Trial {
 }
 
 impl Trial {
-    /// The scenario in the size and at the pressure of a row, or what is missing and what to add.
+    /// The scenario in the size and at the pressure of a row; the error is the missing number and the remedy.
     pub(crate) fn specimen(&self, row: &BenchRow) -> Result<Scenario, [&'static str; 2]> {
         let Trial { scenario, bias_rad } = self;
         if row.get("load").is_some() {
@@ -182,7 +182,7 @@ impl Trial {
         }
         if kind.has_pouches() && diameter.or(bias).is_some() {
             let help = "name a scenario with kind = \"fpam\", or none";
-            return Err(["the table tells of a tube of yarns, and the scenario's actuator is a pouch", help]);
+            return Err(["the table describes a tube of yarns, and the scenario's actuator is a pouch", help]);
         }
         let (bias_rad, width_m) = (bias.unwrap_or(shape.bias_rad), diameter.map_or(shape.width_m, |d| FRAC_PI_2 * d));
         // What pulls nothing may have any size.
@@ -247,10 +247,10 @@ fn calibrated_on(group: &[BenchRow]) -> Option<&BenchRow> {
 
 /// Flat width of a free muscle of unknown size \[m\].
 pub(crate) const ANY_WIDTH_M: f64 = 0.02;
-/// Length over width of a muscle whose ends nobody tells of.
+/// Length over width of a muscle whose ends are not described.
 const LONG: f64 = 1e4;
 
-/// The scenario that a table without one is held against: for a muscle the ideal braid, whose size and angle the table must tell.
+/// The scenario for a table without one: for a muscle the ideal braid, whose size and angle the table must give.
 ///
 /// # Errors
 /// A beam without a scenario.
@@ -260,7 +260,7 @@ pub(crate) fn own_or_braid(bench: &Bench, scenario: Option<&Scenario>) -> Result
     }
     let braid = models::shipped("fpam-textbook").and_then(|text| Scenario::parse(text).ok());
     let Some(mut braid) = braid.filter(|_| bench.kind.name == "force_contraction") else {
-        return refuse(bench, "a beam needs a scenario", "put scenario.toml beside the table, or name one before it");
+        return refuse(bench, "a beam needs a scenario", "put scenario.toml next to the table, or name one before it");
     };
     let shape = &mut braid.actuator.shape;
     (shape.width_m, shape.length_m, shape.bias_rad) = (f64::NAN, f64::NAN, f64::NAN);

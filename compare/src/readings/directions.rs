@@ -3,7 +3,7 @@
 use crate::fit::least_squares::dot;
 use data::Dataset;
 
-/// Part of a unit direction that must be new for it to be told apart from those before it; below this its coefficient
+/// Part of a unit direction that must be new for it to count as separate from those before it; below this its coefficient
 /// would be a thousand times noisier than the others.
 const SMALLEST_NEW_PART: f64 = 1e-3;
 
@@ -37,7 +37,7 @@ pub(crate) fn nuisance_directions(mean_m: &[f64], dprediction_dlnp: &[f64], axes
     rows
 }
 
-/// Least squares on those directions that can be told apart: U = Q T with orthonormal Q.
+/// Least squares on those directions that the data can separate: U = Q T with orthonormal Q.
 pub(crate) struct DirectionFit {
     columns: Vec<usize>,
     basis: Vec<Vec<f64>>,

@@ -30,7 +30,7 @@ impl Evidence {
         Evidence::read_with(name, &mut |_, _| ())
     }
 
-    /// The same, told how far it is.
+    /// The same, reporting its progress.
     ///
     /// # Errors
     /// As [`Evidence::read`].

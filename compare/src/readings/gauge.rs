@@ -1,4 +1,4 @@
-//! A gauge at the actuator, read beside the set pressure.
+//! A gauge at the actuator, read in addition to the set pressure.
 //!
 //! The mean over R runs of a reading r at the set pressure p_set, held for t, is
 //!
@@ -14,7 +14,7 @@
 //! | b | error of its zero \[Pa\] | ±0.1 kPa, assumed |
 //! | e | scatter of its readings \[Pa\] | repeats, at least 20 Pa each |
 //!
-//! A supply law is held against r − law(p_set, t), with the errors c, γ, b and e. Positions are predicted at r, whatever the law:
+//! A supply law is judged by r − law(p_set, t), with the errors c, γ, b and e. Positions are predicted at r, whatever the law:
 //! its slips do not get into them, the errors γ, b and e do, as ∂f/∂p. That these are the same errors in both parts is left
 //! out: a supply law changes only the first, every other effect only the second, so that no test sees both.
 //!
@@ -31,7 +31,7 @@ use data::{Dataset, Hold, Lost};
 use models::{Moment, Scenario, Supply};
 use std::collections::BTreeSet;
 
-/// Mean over runs of the reading beside one sample.
+/// Mean over runs of the gauge's reading at one sample.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Reading {
     /// Hold of the positions that belong to it ([`Gauge::positions`]).
@@ -55,7 +55,7 @@ pub(crate) struct Gauge {
     scatter_pa: f64,
     /// Standard deviation of c of the mean over runs \[-\], widened for few runs.
     run_sd: f64,
-    /// Every sample is a hold of its own.
+    /// Every sample is a separate hold.
     split: bool,
     /// Degrees of freedom of the scatter; 0 if it was assumed.
     pub dof: usize,
@@ -203,7 +203,7 @@ impl Gauge {
     }
 }
 
-/// What was lost, where every sample is a hold of its own.
+/// The lost values, where every sample is a separate hold.
 fn of_samples(lost: &Lost, samples: usize) -> Lost {
     let holds = |hold: usize| hold * samples..(hold + 1) * samples;
     let unseen = lost.unseen.iter().flat_map(|[hold, marker]| holds(*hold).map(move |h| [h, *marker]));

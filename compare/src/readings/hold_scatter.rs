@@ -9,7 +9,7 @@
 //! ```
 //!
 //! per degree of freedom of the runs, and τ² and v solve these equations, none below zero (MINQUE with the weights of white noise; Rao,
-//! J. Multivar. Anal. 1971). Their variances are those of quadratic forms of normal values, 2 |C …|² over the runs.
+//! J. Multivar. Anal. 1971). Their variances are the variances of quadratic forms of normal values, 2 |C …|² over the runs.
 //!
 //! | k | columns Z, one per hold unless said | unit of v |
 //! |---|---|---|
@@ -32,7 +32,7 @@ use crate::stats::f_tail;
 use data::Dataset;
 use nalgebra::{DMatrix, DVector};
 
-/// Kinds of errors: four that differ from hold to hold, and those of a marker in a run.
+/// Kinds of errors: four that differ from hold to hold, and the error of a marker in a run.
 pub(crate) const KINDS: usize = 5;
 
 /// Scatter of single holds of one run.
@@ -192,7 +192,7 @@ impl Means {
         Means { z: DMatrix::from_columns(&z), columns, q: basis(all), seen }
     }
 
-    /// Hold means of every run about those of its group, without what errors of whole runs explain.
+    /// Hold means of every run about the means of its group, without what errors of whole runs explain.
     fn deviations(&self, dataset: &Dataset, layout: &Layout, groups: &[Vec<usize>]) -> Vec<DVector<f64>> {
         let mut all = Vec::new();
         for group in groups.iter().filter(|group| group.len() > 1) {

@@ -64,7 +64,7 @@ impl Layout {
         match values.iter().position(|v| !policy::is_a_length(*v)) {
             None => Ok(()),
             Some(i) => Err(CompareError::told(format!(
-                "{what} is not a usable number at hold {}, marker {} (counted from 1): check the model or the file there \
+                "{what} has no usable number at hold {}, marker {} (counted from 1): check the model or the file there \
                  (finite, below 1 km)",
                 i / (self.axes * self.markers * self.samples) + 1,
                 i / self.axes % self.markers + 1

@@ -29,8 +29,9 @@
 //! With several sessions the mean cannot be better than the scatter between the session means b: v/R is replaced by
 //! b Σ_s (R_s/R)² where that is larger.
 //!
-//! Validity: normal errors, σ the same at every pressure ([`NoiseModel::uneven_holds`] tells when it is not), scatter
-//! small enough to be linear in U; the regulators of several supply channels err together. One run gives no noise at all: the status says so and no p-value is ever formed.
+//! Validity: normal errors, σ the same at every pressure ([`NoiseModel::uneven_holds`] reports when it is not), scatter
+//! small enough to be linear in U; the regulators of several supply channels err together. One run gives no noise at all: the status
+//! reports it and no p-value is ever formed.
 
 use crate::data_slope::data_slope;
 use crate::directions::{DirectionFit, ROTATIONS, Row, SHIFTS, directions_of};
@@ -141,7 +142,8 @@ impl NoiseModel {
     }
 
     /// The noise of a mean over `runs` runs if nothing of it had to be estimated: σ \[m\] and the run-to-run standard
-    /// deviations of pressure, x, y and rotation, those along and about other axes being the same. It gives no p-values; it tells how far apart two explanations are.
+    /// deviations of pressure, x, y and rotation; along and about other axes they are the same. It gives no p-values; it
+    /// measures how far apart two explanations are.
     ///
     /// # Errors
     /// As [`NoiseModel::estimate`].

@@ -47,7 +47,7 @@ pub struct NoiseSummary {
 }
 
 impl NoiseSummary {
-    /// Convert a noise model for printing; `holds` are those of the dataset.
+    /// Convert a noise model for printing; `holds` belong to the dataset.
     pub fn of(noise: &NoiseModel, holds: &[Hold]) -> NoiseSummary {
         let mm = |m: f64| 1e3 * m;
         let [pressure, alignment, _, rotation, ..] = noise.run_sd;
@@ -138,7 +138,7 @@ fn run_to_run(s: &NoiseSummary) -> String {
     let notable = |v: &f64| *v > 2e3 * policy::SENSOR_SD[3];
     parts.extend(s.rotation_mrad.filter(notable).map(|v| format!("rotation {v:.1} mrad")));
     match parts.is_empty() {
-        true => "run-to-run scatter cannot be told from it".to_string(),
+        true => "run-to-run scatter cannot be separated from it".to_string(),
         false => format!("run-to-run {}", parts.join(", ")),
     }
 }

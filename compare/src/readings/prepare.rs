@@ -45,7 +45,7 @@ pub(crate) fn prepare(dataset: &Dataset, about: Option<&About>) -> Prepared {
     Prepared { dataset: clean, sessions, outliers: Outliers { samples, share, runs: Vec::new(), copies }, warnings }
 }
 
-/// Runs whose scatter about the mean, beyond pressure, alignment and rotation, exceeds that of the others.
+/// Runs whose scatter about the mean, beyond pressure, alignment and rotation, exceeds the scatter of the others.
 pub(crate) fn outlying_runs(dataset: &Dataset, noise: &NoiseModel) -> Vec<OutlyingRun> {
     let runs = dataset.runs.len();
     if !noise.gives_p_values() {
@@ -143,7 +143,7 @@ pub struct Outliers {
 pub struct OutlyingRun {
     /// Label of the run as in the data.
     pub run: String,
-    /// Its scatter over that of the other runs.
+    /// Its scatter over the scatter of the other runs.
     pub scatter_ratio: f64,
     /// p of the ratio, corrected for the number of runs.
     pub p_corrected: f64,

@@ -117,7 +117,7 @@ pub(crate) fn session_groups(sessions: &[usize], runs: usize) -> Result<Vec<Vec<
     }
     if runs > 1 && groups.len() == runs {
         return Err(CompareError::told(
-            "every session has one run only, so run-to-run scatter cannot be told from session differences: repeat at least \
+            "every session has one run only, so run-to-run scatter cannot be separated from session differences: repeat at least \
              one session, or leave the session labels out",
         ));
     }

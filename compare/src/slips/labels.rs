@@ -5,7 +5,7 @@ use crate::policy;
 use crate::stats::quantile;
 use crate::wording::list;
 
-/// With more markers only near ones are tried: trackers confuse what is close.
+/// With more markers only near ones are tried: trackers confuse near markers.
 const ALL_PAIRS: usize = 12;
 /// How near, in places along the body.
 const NEAR: usize = 3;

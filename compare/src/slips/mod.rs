@@ -1,6 +1,6 @@
 //! Slips in a table of markers: another origin, exchanged labels, turned axes, another unit of length or pressure.
 //!
-//! A slip is no physics, and a diagnosis can only give it the name of some effect, or none. But it shows in geometry, before any
+//! A slip is not physics, and a diagnosis can only give it the name of some effect, or none. But it shows in geometry, before any
 //! model of the actuator: every robot of these stations is nearly *some* uniformly bent body (`arc`), and data with a slip
 //! are not, by the size of the slip, until it is undone. So the evidence is one number before and after, in mm.
 //!
@@ -31,7 +31,7 @@ pub fn slips(dataset: &Dataset, stations_m: &[f64], radius_m: f64) -> Vec<String
     for [hold, marker] in &dataset.lost.unseen {
         seen.points.iter_mut().for_each(|run| run[*hold][*marker] = body.beside(dataset, *hold, &run[*hold], *marker));
     }
-    // Without a marker off the base there is no body to compare with.
+    // Markers at the base alone do not show the shape of a body.
     let searches = if stations_m.iter().any(|s| *s > 0.0) { &SLIPS[..] } else { &[] };
     let geometric =
         searches.iter().flat_map(|search| search(&mut seen)).map(|words| format!("{}: {words}", dataset.name));

@@ -33,7 +33,7 @@ pub(super) fn origin(seen: &mut SlipSeen) -> Vec<String> {
     let become_mm = become_mm([before, after].map(|squares| seen.rms(squares, runs * seen.dataset.holds.len())));
     vec![format!(
         "the origin of coordinates looks shifted: at {at} kPa already every marker is off by x {x:+.1} mm, y {y:+.1} mm \
-         {in_runs}, and no scale, angle or bend does that; with it taken off all holds, {become_mm} (rms from a uniformly bent \
+         {in_runs}, and no scale, angle or bend does that; with it subtracted from all holds, {become_mm} (rms from a uniformly bent \
          robot that starts at the origin). The origin is the middle of the robot at its base: find it in the pictures; if it is \
          there, subtract {columns}"
     )]
@@ -75,7 +75,7 @@ fn shift(seen: &SlipSeen, holds: &[usize]) -> Option<[f64; 2]> {
     let p = f_tail(fall / 2.0 / (of_runs / dof as f64).max(f64::MIN_POSITIVE), 2, dof);
     let taken = |solved: &DVector<f64>| [solved[without], solved[without + 1]];
     let shift = taken(&least);
-    // Every run by itself is nearer to the shift than to none.
+    // Every single run is nearer to the shift than to none.
     let own = |run: &DVector<f64>| solve(&shifted, run).map(|solved| taken(&solved));
     let in_all =
         runs.iter().filter_map(own).all(|own| (own[0] - shift[0]).hypot(own[1] - shift[1]) < own[0].hypot(own[1]));
@@ -117,7 +117,7 @@ fn straight(seen: &SlipSeen, holds: &[usize]) -> Straight {
     Straight { grown: shifted.columns(0, without).into_owned(), shifted, runs: off }
 }
 
-/// What is too small to matter: as in comparisons, of the farthest way of a marker.
+/// Largest shift that does not matter \[m\]: as in comparisons, a share of the farthest way of a marker.
 fn tolerance(seen: &SlipSeen) -> f64 {
     let pairs = seen.points.iter().flat_map(|run| run.iter().flat_map(|points| points.iter().zip(&run[0])));
     let moved = pairs.map(|(point, first)| (point[0] - first[0]).hypot(point[1] - first[1]));

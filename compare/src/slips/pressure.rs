@@ -1,8 +1,8 @@
-//! Slips of a column: pressures in another unit than its name says, body and actuator exchanged, absolute for gauge; of a robot in space
+//! Slips of a column: pressures in another unit than its name gives, body and actuator exchanged, absolute for gauge; of a robot in space
 //! also supply channels and axes that are exchanged, and an axis that is turned over.
 //!
 //! Each is exact: a factor from a table of units, an exchange, the pressure of a room. It has no free number, which an effect that
-//! imitates it has. What numbers alone tell is here ([`by_numbers`]); whether a model fits once a slip is undone is asked by
+//! imitates it has. What numbers alone show is here ([`by_numbers`]); whether a model fits once a slip is undone is asked by
 //! `diagnosis::pressures`.
 
 use crate::policy;
@@ -24,7 +24,7 @@ pub enum PressureColumn {
 /// What may have happened to the columns of a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PressureSlip {
-    /// A column is in another unit than its name says.
+    /// A column is in another unit than its name gives.
     Unit(PressureColumn, WrongUnit),
     /// The columns of body and actuator pressure are exchanged.
     Exchanged,
@@ -43,7 +43,7 @@ pub enum PressureSlip {
 pub struct WrongUnit {
     /// What the numbers have to be multiplied by.
     pub factor: f64,
-    /// What they are and what the column says, each in words and as the suffix of a column's name.
+    /// The actual unit and the unit of the column's name, each in words and as the suffix of a column's name.
     units: [[&'static str; 2]; 2],
 }
 
@@ -114,7 +114,7 @@ impl PressureColumn {
 }
 
 impl PressureSlip {
-    /// Every slip that data may have of a robot whose body is told to have a pressure \[Pa\].
+    /// Every slip that data may have of a robot whose body has a known pressure \[Pa\].
     pub fn all(dataset: &Dataset, body_pa: f64) -> Vec<PressureSlip> {
         let units = COLUMNS.iter().flat_map(|column| wrong_units().map(|unit| PressureSlip::Unit(*column, unit)));
         let absolute = COLUMNS.iter().filter_map(|column| {
@@ -204,7 +204,7 @@ impl PressureSlip {
                 "the two columns exchanged".into()
             }
             PressureSlip::Turned(axis) => format!("-{name} in place of {name}", name = AXES[*axis]),
-            PressureSlip::Absolute(_, room_pa) => format!("{} kPa taken off", short(1e-3 * room_pa)),
+            PressureSlip::Absolute(_, room_pa) => format!("{} kPa subtracted", short(1e-3 * room_pa)),
         }
     }
 
@@ -328,8 +328,8 @@ mod tests {
                 let absolute = PressureSlip::Absolute(column, -ROOM_PA).undone(&right);
                 let [PressureSlip::Absolute(found, room_pa)] = by_numbers(&absolute)[..] else { panic!("{name}") };
                 assert!(found == column && (room_pa - ROOM_PA).abs() < 1.0, "{name} {room_pa}");
-                let told = pressure_words(&absolute).concat();
-                assert!(told.contains("subtract 10") && told.contains(column.name()), "{told}");
+                let words = pressure_words(&absolute).concat();
+                assert!(words.contains("subtract 10") && words.contains(column.name()), "{words}");
             }
         }
     }

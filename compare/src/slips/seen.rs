@@ -26,7 +26,7 @@ impl SlipSeen<'_> {
         (squares / (holds * self.body.stations_m.len()) as f64).sqrt()
     }
 
-    /// Half of the smallest distance of two markers: what is nearer to its place than that is nearer to it than to any other \[m\].
+    /// Half of the smallest distance of two markers: a point nearer to its place than that is nearer to it than to any other \[m\].
     pub(super) fn half_apart(&self) -> f64 {
         let mut sorted = self.body.stations_m.to_vec();
         sorted.sort_by(f64::total_cmp);

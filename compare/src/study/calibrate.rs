@@ -17,7 +17,7 @@ use models::Scenario;
 pub enum Knob {
     /// Effective bending stiffness B of the body \[N·m²\].
     Bending,
-    /// Body pressure \[kPa\]; in data of several, that of the scenario, the others as far away from it as they are told.
+    /// Body pressure \[kPa\]; in data of several, the scenario's; the others shift by the same amount.
     BodyPressure,
 }
 

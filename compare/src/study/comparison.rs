@@ -1,4 +1,4 @@
-//! Models held against one evidence: how far off, and where.
+//! Models compared with one evidence: how far off, and where.
 
 use crate::error::CompareError;
 use crate::evaluate::{EvaluateOptions, Evaluation, evaluate};
@@ -27,7 +27,7 @@ pub struct Contender {
 }
 
 impl Contender {
-    /// A scenario under the name `scenario`, known as its weakest value is.
+    /// A scenario under the name `scenario`, known as well as its weakest value.
     pub fn as_given(scenario: &Scenario) -> Contender {
         let own: Vec<&str> = scenario.effects.iter().map(|e| e.name.as_str()).collect();
         let why = if own.is_empty() { "no effect".to_string() } else { format!("with {}", own.join(", ")) };

@@ -1,6 +1,6 @@
 //! Synthetic marker data: a scenario's prediction with the scatter of a real test.
 //!
-//! Per run: one relative pressure error, one shift of the camera, one roll of the camera. Per hold, as [`HoldScatter`] says: the same
+//! Per run: one relative pressure error, one shift of the camera, one roll of the camera. Per hold, as [`HoldScatter`] states: the same
 //! three, and an error of every marker that lasts through the hold. Per sample: camera noise. The recorded pressure is the set one, as
 //! a regulator reports it. Seeded: the same call gives the same bytes, and scatter per hold changes no other draw.
 
@@ -41,7 +41,7 @@ impl Generator {
         Ok(Generator { protocol, more_act_pa: more.filter(|_| several).collect(), ..self })
     }
 
-    /// Pressures of a hold, those of the actuators times a factor.
+    /// Pressures of a hold, the actuators' times a factor.
     pub fn loads(&self, hold: usize, factor: f64) -> Loads {
         let [body_pa, act_pa] = self.protocol[hold];
         let more = self.more_act_pa.get(hold).map_or(&[][..], Vec::as_slice);
@@ -60,7 +60,7 @@ pub(super) fn in_channels(body_pa: f64, channels_pa: impl Iterator<Item = f64>) 
     Loads { body_pa, actuator_pa }
 }
 
-/// Body pressure and those of the channels, hold by hold \[Pa\].
+/// Body pressure and channel pressures, hold by hold \[Pa\].
 fn parse_channels(text: &str) -> Result<Vec<(f64, Vec<f64>)>, CompareError> {
     let bad = |problem: &str| CompareError::BadProtocol { text: text.to_string(), problem: problem.to_string() };
     let number = |word: &str, bounds: &Range| match word.trim().parse::<f64>() {
@@ -132,7 +132,7 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
 }
 
 /// Set pressure of every sample \[Pa\], and for how long it has been held \[s\]; the time between two holds belongs to the
-/// second, and a clock that jumps back starts anew, as in [`Model::follow`].
+/// second, and a clock that jumps back starts again, as in [`Model::follow`].
 pub fn held(holds: &[Hold]) -> Vec<(f64, Moment)> {
     let (mut end_s, mut before_pa, mut falling) = (0.0, 0.0, false);
     let mut all = Vec::new();

@@ -161,11 +161,11 @@ fn geometry_warnings(scenario: &Scenario, about: &About) -> Vec<String> {
     ];
     let differs = |(name, mine, theirs): (&str, f64, Option<f64>)| {
         let theirs = theirs.filter(|t| policy::is_other_length(*t, mine))?;
-        Some(format!("{name}: the scenario says {} mm, the data's about.toml {} mm", mine * 1e3, theirs * 1e3))
+        Some(format!("{name}: the scenario has {} mm, the data's about.toml {} mm", mine * 1e3, theirs * 1e3))
     };
     let mut warnings: Vec<String> = pairs.into_iter().filter_map(differs).collect();
     if let Some(count) = g.pouches.filter(|count| *count != scenario.actuator.count) {
-        warnings.push(format!("pouches: the scenario says {}, the data's about.toml {count}", scenario.actuator.count));
+        warnings.push(format!("pouches: the scenario has {}, the data's about.toml {count}", scenario.actuator.count));
     }
     warnings
 }
@@ -174,8 +174,8 @@ fn geometry_warnings(scenario: &Scenario, about: &About) -> Vec<String> {
 ///
 /// Every sample of a hold gets the same prediction, unless the model has history: then the holds are walked in order at
 /// their sample times ([`Model::follow`]). The robot starts at rest when the first hold's pressures are set, at time 0; a
-/// gap between two holds, of one session or of two, passes at the pressures of the second; a hold whose times lie before
-/// those of the hold before starts a new session at rest. Where too few runs saw a marker stands what stands in the data.
+/// gap between two holds, of one session or of two, passes at the pressures of the second; a hold whose times precede the
+/// hold before starts a new session at rest. Where too few runs saw a marker, the prediction gets the value of the data.
 ///
 /// # Errors
 /// What the model returns when a hold has no equilibrium.
@@ -186,7 +186,7 @@ pub fn predict_dataset(scenario: &Scenario, dataset: &Dataset) -> Result<Predict
     Ok(predicted)
 }
 
-/// Puts what stands in the data where too few runs saw a marker: the residual is zero there.
+/// Copies the value of the data where too few runs saw a marker: the residual is zero there.
 pub(crate) fn as_in_data(dataset: &Dataset, predicted_m: &mut [f64]) {
     dataset.unseen_values().for_each(|i| predicted_m[i] = dataset.coordinates_m[i]);
 }
@@ -235,7 +235,7 @@ pub(crate) fn first_slope(scenario: &Scenario, dataset: &Dataset) -> Result<Vec<
     }
 }
 
-/// Pressures of a hold, those of the actuators times `factor`; one actuator pressure is for all channels.
+/// Pressures of a hold, the actuators' times `factor`; one actuator pressure is for all channels.
 pub fn loads(hold: &Hold, factor: f64) -> Loads {
     in_channels(hold.p_body_pa, hold.channels_pa().map(|p| p * factor))
 }

@@ -1,6 +1,6 @@
 //! Marker data from finite element runs: what a camera would see of them, with the scatter of a real test.
 //!
-//! Every run of the data is one finite element run with imperfections of its own. Markers stick on the wall at the height of the
+//! Every run of the data is one finite element run with its own imperfections. Markers stick on the wall at the height of the
 //! axis, on the side that faces the camera. Between the pressures at which a run was read, and up to a tenth past the highest,
 //! they lie on straight lines over pressure:
 //!
@@ -8,7 +8,7 @@
 //! r(P) = r_k + (r_{k+1} − r_k) (P − P_k)/(P_{k+1} − P_k)       P = set pressure · (1 + ε), one ε per run
 //! ```
 //!
-//! What is added to that is what [`generate`](super::generate()) adds to a reduced model: pressure error, shift and roll of the
+//! The scatter is what [`generate`](super::generate()) adds to a reduced model: pressure error, shift and roll of the
 //! camera per run, camera noise per sample. Seeded: the same call gives the same bytes. **Validity**: first loading only.
 
 use super::engines::EngineRun;
@@ -18,7 +18,7 @@ use crate::error::CompareError;
 use crate::policy;
 use data::{Dataset, Marker};
 
-/// Makes a dataset from runs of one robot; their number is that of the runs, whatever the generator says.
+/// Makes a dataset from runs of one robot, one run of the dataset for each; the generator's number of runs is not used.
 ///
 /// # Errors
 /// No runs, runs without markers or of different robots, a pressure they do not reach.
@@ -33,7 +33,7 @@ use data::{Dataset, Marker};
 /// ```
 pub fn seen(runs: &[EngineRun], name: &str, generator: &Generator) -> Result<Dataset, CompareError> {
     let refuse = |problem: String| CompareError::NotSimulated { problem };
-    let first = runs.first().ok_or_else(|| refuse("there is no finite element run to look at".into()))?;
+    let first = runs.first().ok_or_else(|| refuse("no finite element run was given".into()))?;
     if first.stations_mm.is_empty() {
         return Err(refuse("the finite element runs kept no markers".into()));
     }
@@ -46,8 +46,8 @@ pub fn seen(runs: &[EngineRun], name: &str, generator: &Generator) -> Result<Dat
         let gains = eye.next_run();
         for ([body_pa, actuator_pa], gain) in generator.protocol.iter().zip(gains) {
             if (body_pa * 1e-3 - run.body_kpa).abs() > 1e-6 {
-                let (wanted, there) = (body_pa * 1e-3, run.body_kpa);
-                return Err(refuse(format!("a body at {wanted} kPa; the runs are at {there} kPa")));
+                let (target, there) = (body_pa * 1e-3, run.body_kpa);
+                return Err(refuse(format!("a body at {target} kPa; the runs are at {there} kPa")));
             }
             let markers = at(run, actuator_pa * 1e-3 * gain)?;
             (0..generator.samples).for_each(|_| eye.look(&markers, &mut coordinates_m));

@@ -12,7 +12,7 @@ pub(super) struct Law {
     number: Option<&'static Number>,
 }
 
-/// A number of a scenario that a bench tells.
+/// A number of a scenario that a bench test determines.
 struct Number {
     /// Kind of bench table in which the number acts.
     table: &'static str,
@@ -31,7 +31,7 @@ struct Number {
     set: fn(&mut Trial, f64),
 }
 
-/// The list: one entry a number. Bounds are those of a scenario's keys, as far as fabrics reach.
+/// The list: one entry a number. Bounds equal the bounds of a scenario's keys, as far as fabrics reach.
 const NUMBERS: &[Number] = &[
     Number {
         table: "load_deflection",
@@ -83,7 +83,7 @@ const NUMBERS: &[Number] = &[
         starts: &[0.1, 10.0, 100.0],
         group: Group::Body,
         words: [
-            "Something elastic beside the pressure holds the body: folds, glue, a liner.",
+            "Something elastic holds the body in addition to the pressure: folds, glue, a liner.",
             "Less deflection, most beyond the collapse load of the pressure.",
             "Load the body at two pressures: what does not grow with pressure is B.",
         ],
@@ -102,7 +102,7 @@ const NUMBERS: &[Number] = &[
         starts: &[20.0, 35.0, 45.0],
         group: Group::Actuator,
         words: [
-            "The yarns lie at another angle to the axis than the table or the scenario says.",
+            "The yarns lie at another angle to the axis than the table or the scenario gives.",
             "Force and stroke are both off: a smaller angle pulls harder and shortens more.",
             "Measure the angle on the muscle without pressure, on a photograph.",
         ],
@@ -133,16 +133,16 @@ impl Law {
     }
 }
 
-/// Every law that may act on a table, and which of them are fitted along: what no model can do without and nobody told, and with
-/// `refit` what the scenario has.
+/// Every law that may act on a table, and which of them are always fitted: numbers that every model needs and that neither table nor
+/// scenario gives, and with `refit` the scenario's own.
 pub(super) fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Law>, Vec<usize>) {
     let beam = bench.kind.name == "load_deflection";
     let has = |name: &str| scenario.effects.iter().any(|e| e.name == name);
-    // The machine's own load is no unknown; what a camera does to markers no dial gauge sees.
+    // The machine's load is known, and a dial gauge does not see what a camera does to markers.
     let may = |e: &Effect| {
         !["tip_load", "weak_place"].contains(&e.name)
             && e.stage != Stage::Camera
-            // A supply that changes in time does nothing to a row by itself.
+            // A supply that changes in time does not act on a single row.
             && !(e.stage == Stage::Supply && e.history)
             && scenario.actuator.takes(e)
             && (beam || e.needs_actuator())
@@ -153,7 +153,7 @@ pub(super) fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Law>
         catalogue.effects().filter(may).map(|e| candidate(&e, scenario.actuator.kind.name)).collect();
     let first = bench.rows[0].get("p_body");
     let body_pressures = bench.rows.iter().any(|row| row.get("p_body") != first);
-    // A testing machine is the test of its own that a design number waits for.
+    // A testing machine is the separate test that a design number waits for.
     effects.iter_mut().flat_map(|c| &mut c.parameters).filter(|p| p.fitted == Fitted::FromDesign).for_each(|p| {
         p.fitted = Fitted::Always;
     });

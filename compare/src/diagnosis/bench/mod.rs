@@ -5,8 +5,8 @@
 //!   (table)             (table)                         (laws)                               └─► left-out curves, places (story)
 //! ```
 //!
-//! The statistics are those of a diagnosis of markers: gains of the whitened sum of squares against the base, one p corrected for
-//! all laws tried, a set of what the data cannot tell apart ([`crate::diagnosis::order`]), intervals with what the law misses by
+//! The statistics are the same as for markers: gains of the whitened sum of squares against the base, one p corrected for
+//! all laws tried, a set of laws that the data cannot separate ([`crate::diagnosis::order`]), intervals with what the law misses by
 //! ([`crate::fit::interval`]). The unit of what was left out is a pressure or a specimen; with one of each, a fifth of the loads.
 
 mod laws;
@@ -140,13 +140,13 @@ fn sort(table: &Table, base: &Fit, fits: &mut [Fit]) -> f64 {
     allowance
 }
 
-/// Typical sizes of the catalogue are those of robots: on a bench they count for nothing.
+/// Typical sizes of the catalogue are typical of robots: on a bench they do not count.
 fn criterion(table: &Table, fit: &Fit, allowance: f64) -> f64 {
     let added = table.count(fit.law) - table.count(None);
     order::criterion_from(table.readings.len(), fit.minimum.cost, added, allowance)
 }
 
-/// Fits that cannot be told from the best one that no bound rejects; none where none of them gains.
+/// Fits that the data cannot separate from the best one that no bound rejects; none where none of them gains.
 fn set(table: &Table, base: &Fit, fits: &[Fit], allowance: f64) -> Vec<usize> {
     let acceptable = |i: &usize| !fits[*i].is_rejected() && policy::helps(fits[*i].gain_over(base));
     let c = |i: usize| criterion(table, &fits[i], allowance);
@@ -189,7 +189,7 @@ fn rms(values: &[f64]) -> f64 {
 /// Parts into which the loads of a single curve are divided.
 const LOAD_PARTS: usize = 5;
 
-/// Of every way to leave something out the base's errors and those of all fits.
+/// For every way to leave something out, the errors of the base and of all fits.
 fn left_out(table: &Table, base: &Fit, fits: &[Fit]) -> Vec<Vec<LeftOut>> {
     let readings = || table.readings.iter();
     let pressures = groups(readings().map(|r| r.pressure_pa.to_bits()));

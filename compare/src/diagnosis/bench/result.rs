@@ -1,4 +1,4 @@
-//! What a diagnosis of a table says.
+//! Result of a diagnosis of a table.
 
 use crate::diagnosis::result::{Group, ParameterValue, Verdict};
 use serde::Serialize;
@@ -52,7 +52,7 @@ pub struct BenchDiagnosis {
     pub table: String,
     /// Kind of the bench table, such as `load_deflection`.
     pub kind: &'static str,
-    /// Model that it was held against.
+    /// Model that it was compared with.
     pub scenario: String,
     /// Number of rows of the table.
     pub rows: usize,
@@ -78,7 +78,7 @@ pub struct BenchDiagnosis {
     pub ranked: Vec<BenchRanked>,
     /// Whether the best of them leaves noise, or less than a fifth of the error.
     pub explains: bool,
-    /// Effects that would act, by a size that neither table nor scenario tells.
+    /// Effects that would act, by a size that neither table nor scenario gives.
     pub unsized_laws: Vec<String>,
     /// The answer and its reasons, one sentence each.
     pub summary: Vec<String>,

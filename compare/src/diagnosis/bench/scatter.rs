@@ -1,4 +1,4 @@
-//! Standard deviations of a few tests each, steadied by those of the other rows.
+//! Standard deviations of a few tests each, steadied by the other rows' standard deviations.
 //!
 //! ```text
 //! s̃² = (d₀ s₀² + ν s²)/(d₀ + ν)  with d₀ + ν degrees of freedom        Var(ln s²) = ψ'(ν/2) + ψ'(d₀/2)
@@ -41,7 +41,7 @@ pub(super) fn steadied(rows: &[[f64; 3]]) -> Vec<[f64; 2]> {
     rows.iter().map(of).collect()
 }
 
-/// Mean of the unbiased ln s², and its variance beyond that of few tests.
+/// Mean of the unbiased ln s², and its variance beyond the variance of a few tests.
 fn common(rows: &[[f64; 3]], unit: &Unit) -> (f64, f64) {
     let of = |row: &[f64; 3]| 2.0 * (row[0] / unit(row)).ln() - digamma(0.5 * row[1]) + (0.5 * row[1]).ln();
     let n = rows.len() as f64;

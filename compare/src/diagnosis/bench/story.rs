@@ -9,7 +9,7 @@ use crate::diagnosis::result::words::{quantity, with_interval};
 use crate::policy;
 use crate::wording::{list, p_value, short};
 
-/// Levels that are told one by one; more are told by thirds.
+/// Levels that are described one by one; more are described by thirds.
 const MOST_LEVELS: usize = 4;
 
 /// The answer, a sentence or two per entry.
@@ -22,7 +22,7 @@ pub(super) fn story(d: &BenchDiagnosis) -> Vec<String> {
     told.extend(at_its_bound(d, best.map_or(d.off, |b| b.off)).filter(|_| d.verdict != Some(Verdict::None)));
     if !d.unsized_laws.is_empty() {
         told.push(format!(
-            "Not tried, because they act by the muscle's size, which neither table nor scenario tells: {}. Add # diameter_mm: and a \
+            "Not tried, because they act by the muscle's size, which neither table nor scenario gives: {}. Add # diameter_mm: and a \
              number above the header, or name a scenario.",
             list(&d.unsized_laws)
         ));
@@ -58,10 +58,10 @@ fn verdict(d: &BenchDiagnosis, best: Option<&BenchRanked>) -> String {
         }
         (Some(_), None) => format!("No single effect of the catalogue explains it{p}: none lowers the misfit."),
         (None, Some(to)) if d.explains => format!(
-            "{to}, less than a fifth. Whether the rest is noise the table cannot say; --sigma 3% says what a row scatters by."
+            "{to}, less than a fifth. The table does not show whether the rest is noise; --sigma 3% gives the scatter of a row."
         ),
         (None, Some(to)) => format!(
-            "No single effect of the catalogue takes four fifths of it: {to}. The table cannot say what is noise; --sigma 3% can."
+            "No single effect of the catalogue removes four fifths of it: {to}. The table does not show the noise; --sigma 3% gives it."
         ),
         (None, None) => "No single effect of the catalogue lowers it within its range.".into(),
     }

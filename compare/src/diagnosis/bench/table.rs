@@ -39,7 +39,7 @@ pub(super) struct Table<'a> {
     pub laws: Vec<Law>,
     pub always: Vec<usize>,
     trial: Trial,
-    /// Laws that act by a size which nobody told.
+    /// Laws that act by a size which neither table nor scenario gives.
     pub unsized_laws: Vec<String>,
     /// Whether every row has a standard error.
     pub known: bool,
@@ -114,7 +114,7 @@ impl<'a> Table<'a> {
         Ok(table)
     }
 
-    /// Every row has a specimen, the base's own number in it where nobody told it.
+    /// Every row has a specimen, with the base's own number where the table gives none.
     fn check(&self, bench: &Bench) -> Result<(), CompareError> {
         let theta: Vec<f64> = self.always.iter().flat_map(|i| self.laws[*i].candidate.at(1.0)).collect();
         let trial = self.tried(None, &theta);
@@ -140,7 +140,7 @@ impl<'a> Table<'a> {
         })
     }
 
-    /// Whether another width of the muscle makes another prediction with a law, where no table and no scenario tells it.
+    /// Whether a law's prediction depends on the muscle's width, where neither table nor scenario gives it.
     fn hangs_on_size(&self, law: usize, base: &[f64]) -> bool {
         let theta = [base, &self.laws[law].candidate.at(1.0)].concat();
         let [thin, thick] = [0.5, 2.0].map(|factor| {
@@ -175,7 +175,7 @@ impl<'a> Table<'a> {
         trial
     }
 
-    /// What the model says of every row, SI; `None` where it has no answer to one.
+    /// The model's value for every row, SI; `None` where it has no answer to one.
     pub(super) fn predicted(&self, law: Option<usize>, theta: &[f64]) -> Option<Vec<f64>> {
         self.predicted_by(&self.tried(law, theta))
     }

@@ -47,7 +47,7 @@ pub(crate) struct Free {
     pub lower: f64,
     pub upper: f64,
     pub possible: [f64; 2],
-    /// Where a fit starts beside neutral and typical: thresholds and time scales.
+    /// Where a fit starts in addition to neutral and typical: thresholds and time scales.
     pub starts: Vec<f64>,
     /// When a fit may change it.
     pub fitted: Fitted,
@@ -101,13 +101,13 @@ impl Free {
         if typical > 0.0 { typical } else { 0.1 * (self.upper - self.lower) }
     }
 
-    /// Whether physics, too, ends on the side of its range at which a value lies; a share of 0.8 is nearly all there is.
+    /// Whether physics, too, has a bound on the side of the range that is nearer to a value; a share of 0.8 is nearly all there is.
     pub(crate) fn is_forbidden_beyond(&self, value: f64) -> bool {
         let side = usize::from(self.upper - value < value - self.lower);
         self.possible[side].is_finite()
     }
 
-    /// Searched ten times as far from neutral on the side at which a value lies.
+    /// Moves the bound that is nearer to a value to ten times its distance from neutral.
     pub(crate) fn widen(&mut self, value: f64) {
         let further = |bound: f64| self.neutral + policy::WIDER * (bound - self.neutral);
         match self.upper - value < value - self.lower {
@@ -116,7 +116,7 @@ impl Free {
         }
     }
 
-    /// Whether it shapes the law and lies at an end of its range.
+    /// Whether it shapes the law and has a value at an end of its range.
     pub(crate) fn is_shape_at_end(&self, value: f64) -> bool {
         let at_end = [self.lower, self.upper].iter().any(|end| (value - end).abs() < NEAR * self.scale());
         self.is_free() && !self.is_shape() && self.typical == self.neutral && at_end
@@ -143,7 +143,7 @@ impl Candidate {
         }
     }
 
-    /// What is held stays at these values, those of the scenario that has the effect; of what is fitted they lie within the bounds.
+    /// Parameters that are held stay at these values of a scenario that has the effect; bounds widen to contain the values.
     pub(crate) fn as_given(&mut self, values: &[f64]) {
         for (p, value) in self.parameters.iter_mut().zip(values) {
             if p.is_held {

@@ -8,8 +8,8 @@ use crate::study::predict::{as_in_data, coordinates, loads, protocol};
 use data::Dataset;
 use models::{Model, Prediction, Scenario};
 
-/// Fills `out`, in run layout, at the given holds \[m\]; other values stay as they are. Where too few runs saw a marker stands what
-/// stands in the data.
+/// Fills `out`, in run layout, at the given holds \[m\]; other values stay as they are. Where too few runs saw a marker, `out` gets the
+/// value of the data.
 pub(crate) fn positions(
     scenario: &Scenario,
     dataset: &Dataset,
@@ -43,7 +43,7 @@ fn everywhere(scenario: &Scenario, dataset: &Dataset, holds: &[usize], out: &mut
     Ok(())
 }
 
-/// Walks the protocol of the dataset and keeps the holds wanted.
+/// Walks the protocol of the dataset and keeps the requested holds.
 fn walked(model: &Model, dataset: &Dataset, holds: &[usize], out: &mut [f64]) -> Result<(), CompareError> {
     let samples = dataset.samples_per_hold;
     let width = dataset.axes * dataset.markers.len();

@@ -1,11 +1,11 @@
-//! Error at what a fit has not seen of the first data: pressures left out, runs left out. Data beside them stay in the fit.
+//! Error at what a fit has not seen of the first data: pressures left out, runs left out. Further data stay in the fit.
 //!
 //! ```text
 //! E |f(θ̂) − y|² = |f − μ|² + noise of y + tr(D C Dᵀ)/n,    C = (JᵀJ)⁻¹
 //! ```
 //!
-//! The first term is the error; the second and third, what was left out scatters and what the fit took over of the scatter of the
-//! rest, are taken off. J is the whitened derivative at the data of the fit, D the plain one \[m\] at the n values left out.
+//! The first term is the error. The second is the scatter of the values left out, the third the scatter that the fit took over from the
+//! rest; both are subtracted. J is the whitened derivative at the data of the fit, D the plain one \[m\] at the n values left out.
 
 use crate::diagnosis::case::Case;
 use crate::diagnosis::problem::{Fit, Problem};
@@ -77,7 +77,7 @@ fn error_mm(folds: &[Fold], fit: &Fit) -> Option<f64> {
     (values > 0.0).then(|| 1e3 * (squares.max(0.0) / values).sqrt())
 }
 
-/// tr(D C Dᵀ)/n of the parameters that change anything \[m²\]; infinite if they cannot be told apart.
+/// tr(D C Dᵀ)/n of the parameters that change anything \[m²\]; infinite if the data cannot separate them.
 fn taken_over_m2(fold: &Fold, fit: &Fit, predicted_m: &[f64], rows: &[usize]) -> f64 {
     let ranges = fold.problem.ranges(&fit.effects);
     let free: Vec<usize> = (0..ranges.len()).filter(|k| square(&fit.minimum.jacobian[*k]) > 0.0).collect();
@@ -152,7 +152,7 @@ fn run_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
     (0..folds).map(fold).collect()
 }
 
-/// A fit to some holds of the first data, and what is predicted then.
+/// A fit to some holds of the first data, and the holds that it predicts.
 fn fold<'a>(
     case: &Case<'a>,
     (kept, target_m): (Vec<usize>, Vec<f64>),

@@ -1,7 +1,7 @@
 //! Quantities that were measured by themselves: parameters of effects, from a test of their own.
 //!
 //! A parameter p that a test found to be m ± s is one more value that every hypothesis has to meet: `(p − m)/s` where it has the
-//! effect. One without it lacks what is known to be there: it pays `(p₀ − m)/s` with the value p₀ at which the effect vanishes, but no
+//! effect. A hypothesis without it lacks a known effect: it pays `(p₀ − m)/s` with the value p₀ at which the effect vanishes, but no
 //! more than |W Δf|, what the effect of that size changes at the markers. A weave that locks beyond the muscle's stroke changes nothing.
 
 use crate::diagnosis::candidates::Candidate;
@@ -10,7 +10,7 @@ use crate::policy;
 use data::MeasuredValue;
 use models::Scenario;
 
-/// A parameter measured by itself, or the usual form of a law, in SI.
+/// A separately measured parameter, or the usual form of a law, in SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Known {
     /// Effect, as an index into the catalogue.
@@ -24,7 +24,7 @@ pub(crate) struct Known {
     pub usual: bool,
 }
 
-/// A test beside the markers, and what it measures.
+/// A test in addition to the markers, and what it measures.
 #[derive(Debug, PartialEq)]
 pub struct BenchTest {
     /// Short name of the test, such as `caliper`.
@@ -67,7 +67,7 @@ impl Known {
         Known { effect, parameter, value: 0.0, sd: 0.0, lacking: 0.0, usual: false }
     }
 
-    /// Difference of a hypothesis to it, in standard deviations; `values` are those of its effects, one after the other.
+    /// Difference of a hypothesis to it, in standard deviations; `values` lists the hypothesis's effects, one after the other.
     pub(crate) fn residual(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> f64 {
         self.of(candidates, effects, values).map_or(self.lacking, |value| (value - self.value) / self.sd)
     }
@@ -111,8 +111,8 @@ pub(crate) fn parameters_of(test: &BenchTest, candidates: &[Candidate]) -> Vec<(
 /// The values measured of effects that may be missing or are refitted.
 ///
 /// # Errors
-/// A name that neither the catalogue nor the scenario has, a value beyond its bounds. An effect that the actuator cannot have is no
-/// fault: a test of the fabric tells of all.
+/// A name that neither the catalogue nor the scenario has, a value beyond its bounds. An effect that the actuator cannot have is not a
+/// fault, because a test of the fabric covers all actuators.
 pub(crate) fn known<'m>(
     measured: impl IntoIterator<Item = &'m MeasuredValue>,
     candidates: &[Candidate],
@@ -122,7 +122,7 @@ pub(crate) fn known<'m>(
     for m in measured {
         check(scenario, m)?;
         let Some((effect, parameter)) = place(candidates, &m.effect, &m.key) else { continue };
-        // Of two tests of one quantity the first stands.
+        // Of two tests of one quantity the first counts.
         if all.iter().all(|k| (k.effect, k.parameter) != (effect, parameter)) {
             let si = candidates[effect].parameters[parameter].si;
             all.push(Known::planned(effect, parameter).at(candidates, m.value * si, m.sd * si));
@@ -171,7 +171,7 @@ pub(crate) fn unusual(measured: &[MeasuredValue], scenario: &Scenario) -> Vec<St
         let p = effect.parameters.iter().find(|p| p.key == m.key)?;
         (!policy::is_within([p.lower, p.upper], m.value, m.sd)).then(|| {
             format!(
-                "about.toml says that {} has {} = {}, and robots like these have {}: taken as it is, check its unit",
+                "about.toml gives {} with {} = {}, and robots like these have {}: used as given, check its unit",
                 m.effect,
                 m.key,
                 m.value,

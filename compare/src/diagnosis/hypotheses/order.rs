@@ -1,4 +1,4 @@
-//! In which order explanations are named, and which cannot be told apart.
+//! In which order explanations are named, and which of them the data cannot separate.
 //!
 //! ```text
 //! C = S/A + q ln(n/A) + Σ [(ln u / ln 3)² + 2 ln w + (1 − 1/A) v²],    A = 1 + cG,    u = |x − neutral| / |typical − neutral|
@@ -8,16 +8,16 @@
 //! |---|---|
 //! | S, G | whitened sum of squares; gain of the best explanation that no bound rejects |
 //! | c | allowance for the form of the law: 5 % of the gain counts as six units |
-//! | A | what that makes of the noise: the n values then tell as much as n/A; each parameter costs at least 1 |
+//! | A | factor by which that raises the noise: n values then count as n/A; each parameter costs at least 1 |
 //! | q, n | parameters added that do not shape a law, values fitted |
 //! | u | size over the catalogue's typical one, of every effect added that has one parameter |
 //! | v | a law's form: its shape over the width about the usual one ([`policy::SHAPE`]), which S contains too |
 //! | w | for a value on the other side of neutral than the typical one: how much further the bounds reach on the usual side |
 //!
-//! Real laws are never the textbook ones: what a formula misses grows with the effect, so differences are held against
+//! Real laws are never the textbook ones: what a formula misses grows with the effect, so differences are compared with
 //! the noise *and* a share of the effect. What then still ties is ordered by size: a curve met by an effect of its usual size
 //! is likelier than the same curve met by a rival of five times its own. The prior is weak (a factor of three is one standard
-//! deviation): it orders twins, and never excludes one from the set by itself unless its size is absurd.
+//! deviation): it orders twins, and alone never excludes one from the set unless its size is absurd.
 
 use crate::diagnosis::candidates::Free;
 use crate::diagnosis::case::Case;
@@ -111,7 +111,7 @@ fn price(values: f64, allowance: f64) -> f64 {
     (values / allowance).ln().max(policy::LEAST_PRICE)
 }
 
-/// Fits in order of C, and the allowance used: that of the best gain among those that no bound rejects.
+/// Fits in order of C, and the allowance used, from the best gain among fits that no bound rejects.
 pub(crate) fn sort(case: &Case, fits: &mut [Fit], over: &Fit) -> f64 {
     let gain = |fit: &&Fit| over.cost() - fit.cost();
     let allowance = allowance(fits.iter().filter(|f| !case.is_rejected(f)).map(|f| gain(&f)).fold(0.0, f64::max));

@@ -17,7 +17,7 @@ const REPORTED: usize = 12;
 /// What has more numbers than this mends anything next to another effect: it is an answer alone.
 const MOST_SIZES: usize = 2;
 
-/// The p that another effect is wanted on top of a fit, screened and corrected for all effects; 1 if none.
+/// p of the best further effect on top of a fit, screened and corrected for all effects; 1 if there is none.
 pub(crate) fn another_wanted(case: &Case, fit: &Fit) -> f64 {
     let free = Basis::of(&fit.minimum.jacobian);
     let others = case.tried.iter().filter(|e| !fit.effects.contains(e));
@@ -74,7 +74,7 @@ fn swapped(case: &Case, first: &Fit, second: &Fit) -> Option<Vec<f64>> {
     Some([base, &values, own].concat())
 }
 
-/// Indices of the pairs that cannot be told from the best one.
+/// Indices of the pairs that the data cannot separate from the best one.
 pub(crate) fn indistinguishable(case: &Case, pairs: &[Fit], allowance: f64) -> Vec<usize> {
     let Some(best) = pairs.first() else { return Vec::new() };
     let c = |fit: &Fit| criterion(case, fit, allowance);

@@ -33,7 +33,7 @@ pub(crate) struct Block<'a> {
     pub holds: Vec<usize>,
     /// Index of the bending stiffness of every hold of the dataset; 0 if B is kept.
     pub bending_of: Vec<usize>,
-    /// What is to be met \[m\], in run layout.
+    /// Positions to be met \[m\], in run layout.
     pub target_m: Vec<f64>,
     /// Whitens the values of the fitted holds.
     pub whitener: Whitener,
@@ -86,7 +86,7 @@ pub(crate) struct Problem<'a> {
     pub blocks: Vec<Block<'a>>,
     /// Bending stiffnesses that are fitted; 0 if B is kept as the scenarios say.
     pub bendings: usize,
-    /// The first of them as it was measured by itself, and its standard deviation: one more value that is fitted \[N·m²\].
+    /// The first of them as measured separately, and its standard deviation: one more value that is fitted \[N·m²\].
     pub known_bending: Option<[f64; 2]>,
     /// Parameters of effects measured by themselves, one more value each.
     pub known: Vec<Known>,
@@ -94,7 +94,7 @@ pub(crate) struct Problem<'a> {
     pub enough: f64,
 }
 
-/// A fitted hypothesis. Parameters: bending stiffnesses, then those of its effects one after the other.
+/// A fitted hypothesis. Parameters: bending stiffnesses, then each effect's parameters one after the other.
 #[derive(Debug, Clone)]
 pub(crate) struct Fit {
     /// Effects, as indices into the catalogue.
@@ -103,7 +103,7 @@ pub(crate) struct Fit {
     pub minimum: Minimum,
     /// Mean square of the whitened residuals of each block by which the fit allowed for its misfit; 1 where it did not.
     pub misfit: Vec<f64>,
-    /// Parameters on a bound against which the data push: physics forbids what lies beyond.
+    /// Parameters on a bound against which the data push: physics forbids values beyond it.
     pub binding: Vec<bool>,
     /// Parameters at the end of the range that is searched, against which the data push: physics goes on.
     pub open: Vec<bool>,
@@ -169,7 +169,7 @@ impl Problem<'_> {
         block.of_gauge.as_ref().map(whitened).unwrap_or_default()
     }
 
-    /// Whitened residuals of all blocks, prediction minus target, and of what was measured by itself.
+    /// Whitened residuals of all blocks, prediction minus target, and of quantities measured separately.
     pub(crate) fn residuals(&self, effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
         self.residuals_by(&|i| Cow::Borrowed(&self.blocks[i].whitener), effects, theta)
     }
@@ -216,7 +216,7 @@ impl Problem<'_> {
         let minimum = found.into_iter().find(|m| m.cost == least)?;
         let free: Vec<&Free> = self.parameters(effects).collect();
         let own = |k: usize| k.checked_sub(self.bendings).map(|own| free[own]);
-        // No end of a range says no to a form, its prior does; stiffnesses always act.
+        // The prior limits a form, not the end of its range; stiffnesses always act.
         let pushed = |m: &Minimum| -> Vec<bool> {
             let is_pushed = |k: usize| {
                 let neutral = own(k).map_or(f64::NAN, |p| p.neutral);
@@ -307,7 +307,7 @@ impl Problem<'_> {
     }
 }
 
-/// A scenario with those of the effects whose stage is open, at values in SI.
+/// A scenario with the effects whose stage is open, at values in SI.
 pub(crate) fn with(
     scenario: &Scenario,
     candidates: &[Candidate],

@@ -2,7 +2,7 @@
 //!
 //! With g the whitened change per unit of the effect and P the projection that fits everything already free out of it,
 //! `gain = (gᵀPr)²/(gᵀPg)` at the amount `−gᵀPr/(gᵀPg)`. Cheap and explainable, but local: an effect with a threshold
-//! shows nothing. It gives starts for the fits and asks whether another effect is wanted; it decides nothing alone.
+//! shows nothing. It gives starts for the fits and asks whether another effect is needed; it decides nothing alone.
 
 use crate::diagnosis::known::Known;
 use crate::diagnosis::problem::{Fit, Problem};
@@ -12,7 +12,7 @@ use crate::fit::least_squares::{dot, square};
 /// Share of the typical size at which an effect is tried.
 const FIRST_BIT: f64 = 0.02;
 
-/// What screening says of an effect.
+/// Result of screening an effect.
 #[derive(Debug, Clone)]
 pub(crate) struct Score {
     /// Expected fall of the whitened sum of squares along the typical direction, within the bounds.

@@ -1,4 +1,4 @@
-//! Every effect of the catalogue refitted together with the base, and the set that the data cannot tell apart.
+//! Every effect of the catalogue refitted together with the base, and the set that the data cannot separate.
 
 use crate::diagnosis::candidates::{Candidate, Free};
 use crate::diagnosis::case::Case;
@@ -79,7 +79,7 @@ fn is_shape_at_end(case: &Case, fit: &Fit) -> bool {
     parameters.iter().zip(own).any(|(p, value)| p.is_shape_at_end(*value))
 }
 
-/// Indices of the fits that cannot be told from the best acceptable one, best first; empty if none helps.
+/// Indices of the fits that the data cannot separate from the best acceptable one, best first; empty if none helps.
 pub(crate) fn indistinguishable(case: &Case, fits: &[Fit], allowance: f64) -> Vec<usize> {
     let acceptable = |i: &usize| !case.is_rejected(&fits[*i]) && case.gain(&fits[*i]) > 0.0;
     let Some(best) = (0..fits.len()).find(acceptable) else { return Vec::new() };

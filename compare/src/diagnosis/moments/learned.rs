@@ -87,7 +87,7 @@ fn learn(
     })
 }
 
-/// Whether the data hold every number of a law: an interval that reaches both ends of its range says nothing.
+/// Whether the data hold every number of a law: an interval that reaches both ends of its range shows that they do not.
 fn is_held_by_data(case: &Case, fit: &Fit) -> bool {
     let free = fit.effects.iter().flat_map(|e| &case.candidate(*e).parameters);
     let found = intervals(case, fit, false).into_iter().skip(case.problem.bendings);
@@ -102,7 +102,7 @@ struct Ground<'a> {
     name: &'a str,
 }
 
-/// What is made of a law that was fitted to the markers.
+/// Use of a law that was fitted to the markers.
 type Use<'u, T> = dyn FnMut(&Case, &Fit, &'static Form) -> Result<Option<T>, CompareError> + 'u;
 
 impl Ground<'_> {
@@ -153,7 +153,7 @@ fn material(case: &Case, seen: &[Seen]) -> Result<Material, CompareError> {
     Ok(Material { places, moments: DVector::from_vec(moments), covariance, stiffness })
 }
 
-/// The actuator's pull at the bends that were measured: what is missing where a share of it is taken away, over that share.
+/// The actuator's pull at the measured bends: the moment missing where a share of the pull is removed, over that share.
 fn pulls(block: &Block, seen: &Seen) -> Result<Vec<Vec<f64>>, CompareError> {
     let taken = |scenario: &Scenario| {
         let formula = PULL.formula("pull_share", scenario);
@@ -166,7 +166,7 @@ fn pulls(block: &Block, seen: &Seen) -> Result<Vec<Vec<f64>>, CompareError> {
     Ok(with.iter().zip(&without).map(each).collect())
 }
 
-/// Where the line of the markers lies, if the shapes say elsewhere than the scenario \[m\].
+/// Position of the markers' line, if the shapes find another one than the scenario's \[m\].
 fn line(case: &Case, seen: &[Seen]) -> Option<f64> {
     let is_there = case.first().scenario.effects.iter().any(|e| e.name == LINE);
     let shared = seen[0].shape.shared.first()?;

@@ -16,7 +16,7 @@ use models::Scenario;
 use models::effects::Stage;
 
 const MOST_CURVES: usize = 4;
-/// Others than those that are told, so that there is something to compare with.
+/// Curves of answers that are not stated, for comparison.
 const OTHERS: usize = 1;
 const PRESSURES: usize = 24;
 /// Least pressure of a curve, over the highest.
@@ -28,8 +28,8 @@ const NEAR: f64 = 0.7;
 /// Half-width of a 95 % band in standard deviations.
 const BAND: f64 = 1.96;
 
-/// What is missing in all data, relative to the scenario as given: with its own bending stiffness, or the one that was measured by
-/// itself. A fitted one would hide in the points whatever it takes the place of; it is a curve among the others.
+/// The moment missing in all data, relative to the scenario as given: with its own bending stiffness, or the separately measured one.
+/// A fitted stiffness would absorb part of the missing moment; it is a curve among the others.
 pub(crate) fn missing_moment(
     case: &Case,
     seen: &[Seen],
@@ -95,7 +95,7 @@ fn view<'a>(block: &'a Block, scenario: &'a Scenario) -> View<'a> {
     View { scenario, dataset: &source.dataset, direct: source.direct, target_m, whitener }
 }
 
-/// Parameters of the base with the bending stiffness as it was measured by itself, or as the scenario has it.
+/// Parameters of the base with the separately measured bending stiffness, or the scenario's.
 fn reference(case: &Case) -> Vec<f64> {
     let mut theta = case.base.theta().to_vec();
     theta[..case.problem.bendings].fill(own_bending(case));
@@ -143,7 +143,7 @@ pub(crate) fn curves_of(
     paths(case, points).iter().map(of_path).collect()
 }
 
-/// Whether a fit changes anything but what the camera sees: that is no moment.
+/// Whether a fit changes a moment; effects of the camera change none.
 fn has_moment(case: &Case, fit: &Fit) -> bool {
     let added = case.added(fit);
     added.is_empty() || added.iter().any(|e| case.candidate(*e).stage != Stage::Camera)

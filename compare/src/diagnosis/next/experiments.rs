@@ -16,26 +16,26 @@ pub const BENDING_TEST: f64 = 0.1;
 /// Name of the experiment that measures B alone.
 pub const BENDING_TEST_NAME: &str = "bending test";
 
-/// An experiment: one or more parts, each a protocol under loads, or a bending test of the body by itself.
+/// An experiment: one or more parts, each a protocol under loads, or a bending test of the body alone.
 pub(crate) struct Plan {
     pub name: String,
     pub sentence: String,
     /// Parts, each measured as often as the data at hand; none of a bending test.
     pub parts: Vec<Source>,
-    /// Tests of their own beside them.
+    /// Separate tests in addition to the parts.
     pub tests: Vec<&'static BenchTest>,
 }
 
-/// What may be measured beside the markers.
+/// What may be measured in addition to the markers.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Instruments {
-    /// What is measured directly in the same runs.
+    /// Quantities measured directly in the same runs.
     pub direct: Direct,
     /// Separate tests of robot or fabric.
     pub tests: Vec<&'static BenchTest>,
 }
 
-/// The bending stiffness measured by itself.
+/// A bending test of the body alone.
 pub(crate) fn bending_test() -> Plan {
     Plan { name: BENDING_TEST_NAME.into(), sentence: data::BENDING_TEST.into(), parts: Vec::new(), tests: Vec::new() }
 }
@@ -64,13 +64,13 @@ fn alone(tests: Vec<&'static BenchTest>) -> Plan {
     let all = |what: fn(&BenchTest) -> &'static str| tests.iter().map(|test| what(test)).collect::<Vec<_>>();
     Plan {
         name: all(|test| test.name).join(", "),
-        sentence: format!("measure by itself: {}", all(|test| test.sentence).join("; ")),
+        sentence: format!("measure separately: {}", all(|test| test.sentence).join("; ")),
         parts: Vec::new(),
         tests,
     }
 }
 
-/// Short and long, what is measured directly, or by a test of its own, for the first time.
+/// Words, short and long, for quantities measured directly or by a separate test for the first time.
 fn with_instruments(before: Direct, now: Direct, tests: &[&BenchTest]) -> (String, String) {
     let pressure = (now.pressure && !before.pressure)
         .then_some(("gauge", "with a gauge read at the actuator itself (column p_gauge_kpa)"));
@@ -119,7 +119,7 @@ fn protocols(scenario: &Scenario, dataset: &Dataset, direct: Direct) -> Vec<Plan
         plan("repeat", "repeat the same protocol as often again".into(), one(&standard, body, usual)),
     ];
     if scenario.is_spatial() {
-        // Which way across such a robot a load tells most is not searched for.
+        // The most informative direction of a load across such a robot is not searched for.
         plans.retain(|plan| !["tip force", "turned over"].contains(&plan.name.as_str()));
         plans.iter_mut().for_each(|plan| plan.sentence += ", with the same pressure in all supply channels");
     }
@@ -135,7 +135,7 @@ pub(crate) fn protocol_text(plan: &Plan) -> String {
     format!("{}@{}", list.join(","), kpa(holds[0].p_body_pa))
 }
 
-/// With a force on the tip beside the known one.
+/// With a force on the tip in addition to the known one.
 fn tipped(scenario: &Scenario, force_n: f64) -> Scenario {
     let known = scenario.effects.iter().find(|e| e.name == "tip_load");
     let [x, y, z] = known.map_or([0.0; 3], |e| [e.values[0], e.values[1], e.values[2]]);

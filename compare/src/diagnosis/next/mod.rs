@@ -1,7 +1,7 @@
-//! The experiment that would tell the indistinguishable apart.
+//! The experiment that would separate the remaining explanations.
 //!
-//! For the best explanation a and a rival b, the data at hand and those of a planned experiment are predicted by a, and b
-//! is fitted to them, its bending stiffnesses too. What b cannot meet, in units of the noise expected there, is the
+//! The best explanation a predicts the data at hand and the data of a planned experiment, and a rival b is fitted to
+//! them, its bending stiffnesses too. What b cannot meet, in units of the noise expected there, is the
 //! separation λ = min |f_a − f_b|²: the expected difference of the sums of squares.
 //! It is taken both ways round and the larger counts: a fit of the wrong explanation hides part of the difference.
 //!
@@ -41,7 +41,7 @@ const RIVALS: usize = 5;
 const LAMBDA_ERROR: f64 = 0.05;
 
 /// Looks for the experiment; `None` if there is nothing to separate or the noise is unknown. Where the answer is outside the
-/// catalogue the names at hand are wrong anyhow: nothing is computed to separate them, and `outside` says what to look at.
+/// catalogue the names at hand are wrong anyhow: nothing is computed to separate them, and `outside` names the place to look at.
 pub(super) fn next_experiment(
     case: &Case,
     decision: &Decision,
@@ -67,7 +67,7 @@ pub(super) fn next_experiment(
     let mut plans = plans(scenario, &set, *direct, instruments(case, &hypotheses));
     plans.extend((case.problem.bendings > 0 && case.problem.known_bending.is_none()).then(bending_test));
     for plan in plans {
-        // A planned pressure without equilibrium is no experiment to propose.
+        // A planned pressure without equilibrium cannot be proposed.
         if let Ok((separations, gain)) = separations(case, Some(&plan), best, rivals) {
             tried.push(experiment(case, &plan, separations, gain));
         }
@@ -85,7 +85,7 @@ pub(super) fn next_experiment(
     Ok(Some(NextExperiment { best, recommended, now, needed_now, tried, sentence }))
 }
 
-/// The explanations to be told apart, best first.
+/// The explanations to be separated, best first.
 fn hypotheses(decision: &Decision) -> Vec<&Fit> {
     match decision.verdict {
         Some(Verdict::None) => Vec::new(),
@@ -94,8 +94,8 @@ fn hypotheses(decision: &Decision) -> Vec<&Fit> {
     }
 }
 
-/// What would have to be measured directly so that none of the explanations is one of supply or camera, or one that a test of its
-/// own measures.
+/// What would have to be measured directly so that no remaining explanation belongs to supply or camera, or to a quantity that a
+/// separate test measures.
 fn instruments(case: &Case, hypotheses: &[&Fit]) -> Instruments {
     let tried: Vec<usize> = hypotheses.iter().flat_map(|fit| case.added(fit)).copied().collect();
     let has = |stage: Stage| tried.iter().any(|e| case.candidate(*e).stage == stage);
@@ -115,7 +115,7 @@ fn label(case: &Case, fit: &Fit) -> String {
     case.names(fit).join(" + ")
 }
 
-/// λ that tells two explanations apart in about nine of ten cases where the better one gains that much.
+/// λ that separates two explanations in about nine of ten cases where the better one gains that much.
 fn enough(gain: f64) -> f64 {
     (policy::Z_POWER + (policy::Z_POWER * policy::Z_POWER + policy::SAME_EVIDENCE * allowance(gain)).sqrt()).powi(2)
 }
@@ -181,7 +181,7 @@ impl<'a> Expected<'a> {
         let added = usize::from(case.problem.bendings > 0 && body.as_ref().is_some_and(is_new));
         levels.extend(body.filter(|_| added > 0));
         let theta = extended(truth, case.problem.bendings, added);
-        // As the hypothesis has it: what is expected of itself it meets.
+        // The hypothesis's own value: a hypothesis meets its own prediction.
         let tested = plan.is_some_and(|plan| plan.parts.is_empty() && plan.tests.is_empty());
         let sd_nm2 = |b: f64| case.problem.known_bending.map(|[_, sd]| sd).or(tested.then_some(BENDING_TEST * b));
         let known_bending = theta.first().and_then(|b| sd_nm2(*b).filter(|sd| *sd > 0.0).map(|sd| [*b, sd]));
@@ -209,7 +209,7 @@ impl<'a> Expected<'a> {
     }
 }
 
-/// What tests of their own found, and those of a plan, as a hypothesis has it.
+/// Results of separate tests, done and planned, as a hypothesis predicts them.
 fn expected_tests(case: &Case, plan: Option<&Plan>, truth: &Fit) -> Vec<Known> {
     let values = &truth.theta()[case.problem.bendings..];
     let candidates = case.problem.candidates;
@@ -292,11 +292,11 @@ fn sentence(best: &str, recommended: Option<&Experiment>) -> String {
     let results = if e.tests.is_empty() { "" } else { RESULTS };
     let parts = match (e.runs_needed, above(e.needed).is_empty()) {
         (Some(runs), _) => {
-            format!("About {runs} runs of it would tell {best} from {}.", names(&above(policy::WORTHLESS)))
+            format!("About {runs} runs of it would separate {best} from {}.", names(&above(policy::WORTHLESS)))
         }
-        (None, false) => format!("It would tell {best} from {}.", names(&above(e.needed))),
+        (None, false) => format!("It would separate {best} from {}.", names(&above(e.needed))),
         (None, true) => format!(
-            "It parts {best} from {} more than others do and will not decide: a twentieth of an effect is granted to the form of \
+            "It separates {best} from {} more than others do and will not decide: a twentieth of an effect is granted to the form of \
              its law, and more runs do not change that.",
             names(&above(policy::WORTHLESS))
         ),

@@ -1,14 +1,14 @@
-//! Answers to what is missing, as they are drawn and told: one effect or two, each at the values of its own fit.
+//! Answers to a diagnosis, as they are drawn and reported: one effect or two, each at the values of its fit.
 
 use crate::diagnosis::candidates::taken_away;
 use crate::diagnosis::result::{Combination, Diagnosis, ParameterValue, Ranked, Verdict};
 use crate::policy;
 use models::{Known, Scenario};
 
-/// What a diagnosis says of an answer.
+/// Status of an answer in a diagnosis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Standing {
-    /// One of those that the verdict names and the data do not tell apart.
+    /// The verdict names it, alone or among answers that the data cannot separate.
     Stated,
     /// The best that the catalogue can do, which is not enough.
     Attempt,
@@ -21,7 +21,7 @@ pub enum Standing {
 /// One effect or two, with the values and the bending stiffness that were fitted together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answer<'d> {
-    /// What is known of the effects, and their values.
+    /// The effects as ranked, and their values.
     pub effects: Vec<(&'d Ranked, &'d [ParameterValue])>,
     /// B that was fitted along, one per body pressure \[N·m²\].
     pub bending_nm2: &'d [f64],
@@ -51,7 +51,7 @@ impl<'d> Answer<'d> {
         with_fitted(scenario, &kept, self.bending_nm2.get(level).copied())
     }
 
-    /// It as changes of a scenario's text, for [`crate::ScenarioFile::with`]: each place and what is written there. `level` as in
+    /// The answer as changes of a scenario's text, for [`crate::ScenarioFile::with`]: each place and its new text. `level` as in
     /// [`Answer::on`].
     pub fn changes(&self, level: usize) -> Vec<(String, String)> {
         let mut changes = Vec::new();
@@ -89,8 +89,8 @@ impl Diagnosis {
         with_fitted(scenario, &[], self.base.bending.get(level).map(|b| b.value_nm2))
     }
 
-    /// Every effect and every reported pair: what is stated first and in that order, or the attempt and what comes as close; then
-    /// others by their gain; those on a bound last.
+    /// Every effect and every reported pair: stated ones first and in that order, or the attempt and answers that come as close; then
+    /// others by their gain; answers on a bound last.
     pub fn answers(&self) -> Vec<Answer<'_>> {
         let attempt = self.attempt.iter().map(|a| a.effect.as_str()).collect::<Vec<_>>().join(" + ");
         let standing = |name: &str, at_bound: bool| match () {
@@ -142,7 +142,7 @@ impl Diagnosis {
         (!names.is_empty()).then(|| (names.join(" "), word))
     }
 
-    /// What an attempt is called beside answers.
+    /// Label of an attempt in a list of answers.
     pub fn attempt_words(&self) -> &'static str {
         match &self.pattern {
             Some(pattern) if pattern.either => "attempt; one fault explains as much",

@@ -1,4 +1,4 @@
-//! Explanations as a diagnosis says them: effects, pairs, a learned law, their values, and experiments that tell them apart.
+//! Explanations as a diagnosis reports them: effects, pairs, a learned law, their values, and experiments that separate them.
 
 use data::Direct;
 use models::effects::Group;
@@ -59,7 +59,7 @@ pub struct Ranked {
     pub parameters: Vec<ParameterValue>,
     /// Fall of the whitened sum of squares against the calibrated base.
     pub gain: f64,
-    /// BIC minus that of the best effect, with an allowance for the form of the law and a weak prior of the size.
+    /// BIC minus the best effect's BIC, with an allowance for the form of the law and a weak prior of the size.
     pub bic_difference: f64,
     /// p of the gain, corrected for all effects tried; `None` with fewer than three runs.
     pub p_corrected: Option<f64>,
@@ -76,7 +76,7 @@ pub struct Ranked {
     pub bending_nm2: Vec<f64>,
     /// Cosine between this effect's and the best one's trace in the data, base fitted out; ±1: these data do not separate them.
     pub cosine_with_best: f64,
-    /// Whether the data cannot tell it from the best explanation.
+    /// Whether the data cannot separate it from the best explanation.
     pub in_set: bool,
     /// Different starts of the fit ended in different minima; the best one is given.
     pub several_minima: bool,
@@ -93,7 +93,7 @@ pub struct Combination {
     pub parameters: Vec<ParameterValue>,
     /// Fall of the whitened sum of squares against the calibrated base.
     pub gain: f64,
-    /// BIC minus that of the best combination, with the same allowance and prior.
+    /// BIC minus the best combination's BIC, with the same allowance and prior.
     pub bic_difference: f64,
     /// p of the gain over the best single effect, corrected for all combinations tried.
     pub p_corrected: Option<f64>,
@@ -169,7 +169,7 @@ pub struct LearnedLaw {
     pub formula: String,
     /// Numbers of the formula with values and intervals.
     pub parameters: Vec<ParameterValue>,
-    /// Where the line of the markers lies, where that was fitted along.
+    /// Position of the markers' line, where it was fitted too.
     pub line: Option<LearnedLine>,
     /// Error beyond noise without either, B fitted unless it is kept \[mm\].
     pub before_mm: f64,
@@ -194,7 +194,7 @@ pub struct LearnedLaw {
     pub toml: String,
 }
 
-/// The line of the markers, further from the taut side than the scenario says.
+/// Shift of the markers' line from the scenario's, away from the taut side.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LearnedLine {
     /// Fitted distance beyond the scenario's line \[mm\].
@@ -214,7 +214,7 @@ pub struct LearnedTried {
     pub words: String,
     /// How many numbers were fitted, bending stiffnesses included.
     pub numbers: usize,
-    /// Square of what it misses at pressures left out, over that of noise, in moments.
+    /// Squared error at pressures left out over squared noise, in moments.
     pub missed: f64,
     /// Error beyond noise at pressures left out \[mm\].
     pub heldout_mm: f64,
@@ -227,27 +227,27 @@ pub struct Experiment {
     pub name: String,
     /// Instructions for the experiment, in one sentence.
     pub sentence: String,
-    /// Protocol in the form of `ibr data generate --protocol`; empty of a test by itself.
+    /// Protocol in the form of `ibr data generate --protocol`; empty for a separate test.
     pub protocol: String,
-    /// What is to be measured directly.
+    /// Quantities to measure directly.
     pub direct: Direct,
     /// Separate tests, whose results go into `[measured]` of `about.toml`.
     pub tests: Vec<String>,
     /// Expected separation λ of the best explanation from each rival, same number of runs.
     pub separations: Vec<Separation>,
-    /// λ that tells two explanations apart in about nine of ten cases: 16, and more the more a law's form is granted, a
+    /// λ that separates two explanations in about nine of ten cases: 16, and more the more a law's form is granted, a
     /// twentieth of the best gain.
     pub needed: f64,
     /// How many rivals reach the needed λ.
     pub separated: usize,
-    /// Smallest λ of the rivals it can tell apart (λ ≥ 3 after up to four times the runs), else the largest of all.
+    /// Smallest λ of the rivals it can separate (λ ≥ 3 after up to four times the runs), else the largest of all.
     pub lambda: f64,
-    /// Runs needed for what suffices there; `None` if no number of runs does, or for a test by itself.
+    /// Runs needed for what suffices there; `None` if no number of runs does, or for a separate test.
     pub runs_needed: Option<usize>,
 }
 
 impl Experiment {
-    /// The protocol for a table: a dash of a test by itself.
+    /// The protocol for a table: a dash for a separate test.
     pub fn shown_protocol(&self) -> &str {
         if self.protocol.is_empty() { "–" } else { &self.protocol }
     }
@@ -269,7 +269,7 @@ pub struct NextExperiment {
     pub best: String,
     /// The recommended one; `None` if no listed experiment separates anything, and where no effect of the catalogue is the answer.
     pub recommended: Option<Experiment>,
-    /// λ with what is there already.
+    /// λ with the data at hand.
     pub now: Vec<Separation>,
     /// λ that would separate two explanations with the present data.
     pub needed_now: f64,

@@ -1,7 +1,7 @@
 //! What would show a fault that no effect of the catalogue explains: where to look, and what to take again.
 //!
-//! Separations λ are expected of laws, and the law of a fault is not known. So none is computed here; what is proposed goes
-//! by the pattern that the fault left, and tells robot, set-up and camera apart by what moves along when one of them is changed.
+//! Separations λ are expected of laws, and the law of a fault is not known. So none is computed here; the proposal follows
+//! the pattern that the fault left, and separates robot, set-up and camera by what moves along when one of them is changed.
 
 use crate::diagnosis::experiments::TIP_FORCE_N;
 use crate::diagnosis::result::{Diagnosis, Verdict};

@@ -1,4 +1,4 @@
-//! What a diagnosis says: plain structs, printed units, no NaN.
+//! Result of a diagnosis: plain structs, printed units, no NaN.
 
 pub(super) mod answers;
 pub(super) mod explained;
@@ -42,18 +42,18 @@ pub enum Confidence {
     IdentifiedInCatalog,
 }
 
-/// An answer that hangs on the bending stiffness.
+/// An answer that depends on the bending stiffness.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KeptBending {
     /// B of the scenario, which was kept \[N·m²\].
     pub value_nm2: f64,
-    /// Names that these data cannot tell apart with it, best first.
+    /// Names that these data cannot separate with it, best first.
     pub indistinguishable: Vec<String>,
     /// Error beyond noise with the best of them \[mm\].
     pub systematic_after_mm: f64,
 }
 
-/// An answer for a robot that is made otherwise than the scenario says.
+/// An answer for a robot that is made otherwise than the scenario describes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OtherDesign {
     /// Mechanisms of the shipped robot of this kind that were switched on, or off (`without NAME`); nothing of them was fitted.
@@ -62,7 +62,7 @@ pub struct OtherDesign {
     pub systematic_mm: f64,
     /// Verdict for the robot made otherwise; `None` without p-values.
     pub verdict: Option<Verdict>,
-    /// Names that these data cannot tell apart then, best first.
+    /// Names that these data cannot separate then, best first.
     pub indistinguishable: Vec<String>,
     /// Error beyond noise with the best of them, or with the best attempt \[mm\].
     pub systematic_after_mm: f64,
@@ -112,7 +112,7 @@ pub struct Bending {
     pub at_bound: bool,
 }
 
-/// Four tests of whether what is left is noise.
+/// Four tests of whether the remaining misfit is noise.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LackOfFit {
     /// p of all whitened values together.
@@ -143,18 +143,18 @@ pub struct LeftPattern {
     pub p_value: f64,
     /// It explains more of the whole misfit than the best of the catalogue does; else it is what that leaves.
     pub instead: bool,
-    /// It is a fault that says what effects of the catalogue say with more: the attempt explains the misfit too.
+    /// It is a fault that explains with one number what effects explain with more: the attempt explains the misfit too.
     pub simpler: bool,
-    /// Of these two the fault explains no more than the attempt, and is told first for its single number alone.
+    /// Of these two the fault explains no more than the attempt, and is reported first for its single number alone.
     pub either: bool,
 }
 
 /// A fitted stiffness that differs from the given one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BendingAlarm {
-    /// What the scenario or the bending test says \[N·m²\].
+    /// B of the scenario or of the bending test \[N·m²\].
     pub told_nm2: f64,
-    /// Standard deviation of the bending test; `None`: the scenario says it \[N·m²\].
+    /// Standard deviation of the bending test; `None`: the scenario gives B \[N·m²\].
     pub test_sd_nm2: Option<f64>,
     /// B fitted to the base, without an effect \[N·m²\].
     pub base_nm2: f64,
@@ -212,7 +212,7 @@ pub struct Diagnosis {
     /// The data, in the order that they were given in.
     #[serde(skip)]
     pub evidence: Vec<Used>,
-    /// Further data that were fitted along; the errors elsewhere are those of the first.
+    /// Further data in the same fit; errors elsewhere refer to the first data.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub beside: Vec<FittedBeside>,
     /// Gauges at the actuator that were read along.
@@ -234,13 +234,13 @@ pub struct Diagnosis {
     pub noise: NoiseSummary,
     /// The scenario with only its bending stiffness fitted.
     pub base: BaseFit,
-    /// Effects of actuator, body and loads and those of supply and measurement, best first.
+    /// Effects of actuator, body and loads, and effects of supply and measurement, best first.
     pub ranked: Vec<Ranked>,
-    /// Names that these data cannot tell apart, best first; for two added effects written `a + b`.
+    /// Names that these data cannot separate, best first; for two added effects written `a + b`.
     pub indistinguishable: Vec<String>,
     /// Share of such sets that held a true effect on `ibr bench discovery`; `None` in space, and where no effect is added.
     pub covered: Option<f64>,
-    /// Those of them (or of the ranking within reach of it) that belong to supply or measurement: rule out first.
+    /// Names among them (or in the ranking within reach of them) that belong to supply or measurement: rule out first.
     pub rule_out_first: Vec<String>,
     /// Pairs of effects, best first; empty if a single effect is enough.
     pub pairs: Vec<Combination>,
@@ -259,7 +259,7 @@ pub struct Diagnosis {
     pub kept_bending: Option<KeptBending>,
     /// The robot made otherwise, where that leaves a fifth less.
     pub other_design: Option<OtherDesign>,
-    /// The stiffness of the answer is not the one that was told.
+    /// The stiffness of the answer differs from the given one.
     pub bending_alarm: Option<BendingAlarm>,
     /// What was said not to be here.
     pub excluded: Vec<String>,

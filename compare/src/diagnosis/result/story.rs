@@ -21,7 +21,7 @@ const WITHHELD: &str = "No verdict on these pressures: any effect that was named
                         run the same again; if the pressures are right, add --not pressure_slip.";
 
 impl Diagnosis {
-    /// The answer that hangs on B, if there is one, in words.
+    /// The answer that depends on B, if there is one, in words.
     pub fn told_of_kept_bending(&self) -> Option<String> {
         self.kept_bending.as_ref().map(|kept| with_kept_bending(self, kept))
     }
@@ -35,7 +35,7 @@ impl LearnedLaw {
         let line = self.line.as_ref().map_or(String::new(), |line| {
             let side = if line.value_mm < 0.0 { "nearer to" } else { "further from" };
             let alone = mm(line.heldout_mm);
-            format!("; of that the line of the markers, {:.1} mm {side} the taut side than the scenario says, brings it to {alone} mm", line.value_mm.abs())
+            format!("; of that the line of the markers, {:.1} mm {side} the taut side than in the scenario, brings it to {alone} mm", line.value_mm.abs())
         });
         vec![
             format!("A law learned from the missing moment, {}: {}.", self.words, self.formula),
@@ -44,7 +44,7 @@ impl LearnedLaw {
                  figure: try it on other data."
             ),
             format!(
-                "A law of this shape is usually {}. To tell: {}. `ibr add SCENARIO learned DATA` writes it as a formula.",
+                "A law of this shape is usually {}. To check: {}. `ibr add SCENARIO learned DATA` writes it as a formula.",
                 self.usual, self.check
             ),
         ]
@@ -118,7 +118,7 @@ fn gauge(fit: &GaugeFit) -> Option<String> {
 fn other_design(d: &Diagnosis, other: &OtherDesign) -> String {
     let OtherDesign { switched, verdict, indistinguishable, systematic_after_mm: after, .. } = other;
     let then = match verdict {
-        Some(Verdict::Effect) => format!("; what is missing then: {}", indistinguishable.join(" or ")),
+        Some(Verdict::Effect) => format!("; then missing: {}", indistinguishable.join(" or ")),
         _ => String::new(),
     };
     format!(
@@ -189,7 +189,7 @@ fn effect(d: &Diagnosis) -> Vec<String> {
     told.extend(covered(d));
     if let Some(left) = d.lack_of_fit_after.filter(|left| left.p_value < d.alpha) {
         told.push(format!(
-            "What is left, {:.2} mm, is small but more than noise ({}): the real law is not quite the catalogue's, or a second, \
+            "The remaining misfit, {:.2} mm, is small but more than noise ({}): the real law is not quite the catalogue's, or a second, \
              smaller effect is there.",
             d.base.systematic_with_added_mm,
             p_value(left.p_value)
@@ -313,7 +313,7 @@ fn at_its_bound(d: &Diagnosis) -> Option<String> {
 
 fn with_kept_bending(d: &Diagnosis, kept: &KeptBending) -> String {
     let fitted: Vec<String> = d.base.bending.iter().map(|b| format!("{:.2}", b.value_nm2)).collect();
-    let alike = if kept.indistinguishable.len() > 1 { ", which these data do not tell apart" } else { "" };
+    let alike = if kept.indistinguishable.len() > 1 { ", which these data do not separate" } else { "" };
     format!(
         "With B kept at the scenario's {:.2} N·m² ({} fitted to the base) there is an answer: {}{alike}, down to {:.2} mm. It \
          holds if a bending test finds that B: then write it into the scenario and add --keep-bending.",
@@ -326,6 +326,7 @@ fn with_kept_bending(d: &Diagnosis, kept: &KeptBending) -> String {
 
 fn looks_like(pattern: &LeftPattern) -> String {
     let LeftPattern { words, share, p_value: p, instead, .. } = pattern;
-    let (what, percent, p) = (if *instead { "It looks" } else { "What is left looks" }, 100.0 * share, p_value(*p));
+    let (what, percent, p) =
+        (if *instead { "It looks" } else { "The remaining misfit looks" }, 100.0 * share, p_value(*p));
     format!("{what} as if {words}: that alone makes up {percent:.0} % of it ({p} among all such patterns).")
 }

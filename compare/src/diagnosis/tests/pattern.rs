@@ -66,7 +66,7 @@ fn one_of_sixty_markers_that_stands_alone_is_named() {
     let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
     let d = of_one(&told, &data, None, &options).unwrap();
     assert_eq!(d.verdict, Some(Verdict::OutOfCatalog), "{:?}", d.summary);
-    assert!(d.pattern.is_some_and(|p| p.words == "marker 41 stands alone in y" && p.p_value <= 1e-6));
+    assert!(d.pattern.is_some_and(|p| p.words == "marker 41 alone is off in y" && p.p_value <= 1e-6));
 }
 
 #[test]

@@ -27,7 +27,7 @@ fn another_unit_is_told_with_what_to_type_and_withholds_the_verdict() {
             ["look as if they were mbar under a name of kPa", "p_act_mbar in place of p_act_kpa"],
         ),
         ("fpam", |hold| hold.p_body_pa /= 6.894_757, ["the body pressures", "p_body_psi in place of p_body_kpa"]),
-        ("cpam", |hold| hold.p_act_pa += 101_325.0, ["look absolute: with 101.3 kPa taken off", "subtract 101.3 kPa"]),
+        ("cpam", |hold| hold.p_act_pa += 101_325.0, ["look absolute: with 101.3 kPa subtracted", "subtract 101.3 kPa"]),
     ];
     for (kind, spoil, words) in slips {
         let (plain, data) = (robot(kind), measured(&robot(kind), 5, 501));

@@ -83,7 +83,7 @@ fn a_bending_test_is_one_more_value_of_the_fit() {
     let (more, first, other) = (measured(&plain, 5, 306), of(6.0), of(9.0));
     let both = |second: &About| {
         let d = of_two(&plain, [(&data, Some(&first)), (&more, Some(second))]);
-        d.warnings.iter().any(|w| w.contains("says something else of [bending]"))
+        d.warnings.iter().any(|w| w.contains("contradicts [bending]"))
     };
     assert!(both(&other) && !both(&first));
 }

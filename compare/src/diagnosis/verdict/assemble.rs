@@ -38,7 +38,7 @@ pub(crate) struct Beside<'e> {
     pub warnings: Vec<String>,
 }
 
-/// Everything but what is asked of a finished verdict: the story, the next experiment, the missing moment.
+/// The whole diagnosis except the parts that need a finished verdict: the story, the next experiment, the missing moment.
 pub(crate) fn assemble(case: &Case, decision: &Decision, beside: Beside) -> Result<Diagnosis, CompareError> {
     let Beside { evidence, excluded, outliers, slips, pressure_slip, mut warnings } = beside;
     let held_out = HeldOut::new(case)?;

@@ -1,8 +1,8 @@
 //! What comes closest to the measurements in millimetres, where nothing explains them.
 //!
 //! The best by the whitened sum of squares may mend small differences of quiet holds and leave the robot far off where runs
-//! scatter. An answer that is not enough is judged by the distance that it leaves, and is no more a bare name than one that is:
-//! what leaves the same distance to a fifth is told beside it.
+//! scatter. So an answer that is not enough is judged by the distance that it leaves, and is not named alone:
+//! answers that leave the same distance to a fifth are reported with it.
 
 use crate::diagnosis::case::Case;
 use crate::diagnosis::problem::Fit;
@@ -24,7 +24,7 @@ pub(crate) fn closest(case: &Case, [singles, pairs]: [&[Fit]; 2], last: Fit) -> 
     }
 }
 
-/// The closest, then what leaves the same distance to a fifth and less than the base: single effects, and beside a pair the pairs of
+/// The closest, then answers that leave the same distance to a fifth and less than the base: single effects, and for a pair the pairs of
 /// which no member does so alone, nearest first.
 pub(crate) fn as_close(case: &Case, [singles, pairs]: [&[Fit]; 2], closest: &Fit) -> Vec<Fit> {
     let added = |fit: &Fit| case.added(fit).to_vec();

@@ -53,7 +53,7 @@ impl Decision {
     }
 }
 
-/// Tests fits of single effects, fits pairs where they are wanted, and decides.
+/// Tests fits of single effects, fits pairs where they are needed, and decides.
 pub(crate) fn decide(
     case: &Case,
     (singles, allowance): (Vec<Fit>, f64),
@@ -84,7 +84,7 @@ pub(crate) fn decide(
     Ok(decision)
 }
 
-/// Adds the best effect, a second one if it is wanted, and asks whether that explains the misfit.
+/// Adds the best effect, a second one if it is needed, and asks whether that explains the misfit.
 fn explain(
     case: &Case,
     options: &Options,
@@ -114,7 +114,7 @@ fn explain(
     if unexplained {
         let fits = [&decision.singles.fits[..], &decision.pairs.fits];
         let closest = closest(case, fits, last);
-        // What hardly moves the model is no attempt.
+        // A fit that hardly moves the model is not an attempt.
         if !policy::is_closer(case.error_in_all_mm(&closest), case.error_in_all_mm(&case.base)) {
             decision.after = decision.before;
             return Ok(());
@@ -141,7 +141,7 @@ fn is_unexplained(case: &Case, fit: &Fit, lof: Option<LackOfFit>, effects: usize
         || leaves_a_place(case, fit, level)
 }
 
-/// Whether a place stands out of what a fit leaves, at a level.
+/// Whether a fit leaves a significant place, at a level.
 fn leaves_a_place(case: &Case, fit: &Fit, level: f64) -> bool {
     let look = left_patterns(case, fit);
     look.first(false).is_some_and(|seen| is_a_place_left(case, fit, seen) && look.is_below(seen, level))
@@ -152,9 +152,9 @@ fn is_a_place_left(case: &Case, fit: &Fit, seen: &ClearPattern) -> bool {
     policy::is_a_place_left(seen.gain, case.gain(fit))
 }
 
-/// One fault with one amplitude that says what the effects say with more. Of two effects a fault that is as good is the simpler
-/// answer. One effect is as simple: a place must be clearly better, for a law that is not quite its formula leaves one now and
-/// then, and a hold says nothing against it, because three pressures and B leave every law one hold to miss.
+/// One fault whose single amplitude explains as much as the effects with more numbers. Compared with two effects, an equally good fault
+/// is the simpler answer. One effect is as simple: a place must be clearly better, for a law that is not quite its formula leaves one
+/// now and then, and a hold does not count against it, because three pressures and B leave every law one hold to miss.
 fn simpler(case: &Case, last: &Fit) -> Option<Simpler> {
     let (kinds, margin): (&[Fault], f64) = match case.added(last).len() {
         ..=1 => (&[Fault::Place], policy::SAME_EVIDENCE),
@@ -190,8 +190,8 @@ fn add_second(case: &Case, decision: &mut Decision, last: &mut Option<Fit>, prog
     }
 }
 
-/// Whether a fit leaves so much of the base's error by both measures: with what scatter between runs explains taken off, and as it
-/// is. By the first alone a misfit that looks like a run's pressure counts for little, and what is left of it for much.
+/// Whether a fit leaves so much of the base's error by both measures: without the part that scatter between runs explains, and with
+/// it. By the first alone a misfit that looks like a run's pressure counts for little, and its remainder for much.
 fn leaves(case: &Case, fit: &Fit, left: impl Fn(f64, f64) -> bool) -> bool {
     let error_mm = |fit: &Fit| case.error_in_all_mm(fit);
     left(case.beyond_noise_mm(fit), case.beyond_noise_mm(&case.base)) && left(error_mm(fit), error_mm(&case.base))

@@ -9,7 +9,7 @@
 //!
 //! Where a gauge was read at the actuator, its readings against the supply's laws are a fifth ([`with_supply`]).
 //!
-//! Each is a χ² of whitened functionals over its degrees of freedom, held against F because σ is estimated. The
+//! Each is a χ² of whitened functionals over its degrees of freedom, compared with F because σ is estimated. The
 //! smallest p times four is the p of the whole.
 
 use crate::beside_mean::BesideMean;
@@ -48,7 +48,7 @@ pub(crate) fn lack_of_fit(
     Ok(Some(LackOfFit { all, hold_means, drift, marker_means, supply: None, p_value }))
 }
 
-/// The same with what the gauge says of the supply; `white` are its readings minus the laws, whitened.
+/// The same with the gauge's test of the supply; `white` are its readings minus the laws, whitened.
 pub(crate) fn with_supply(lof: LackOfFit, gauge: &Gauge, white: &[f64]) -> LackOfFit {
     let chi2: f64 = white.iter().map(|w| w * w).sum();
     let p = f_tail(chi2 / white.len() as f64, white.len(), gauge.dof);

@@ -72,8 +72,8 @@ impl Look {
         if self.at_most(seen) <= SMALLEST_P { SMALLEST_P } else { reported_p(of_several(seen.p_alone, self.tests())) }
     }
 
-    /// Whether that p is below a level. The number of tests, which takes long with many markers, lies between one and that of the
-    /// patterns; most questions are answered by that.
+    /// Whether that p is below a level. The number of tests, which takes long with many markers, is between one and the number of
+    /// patterns; these bounds answer most questions.
     pub(crate) fn is_below(&self, seen: &ClearPattern, level: f64) -> bool {
         let p_value = || of_several(seen.p_alone, self.tests());
         of_several(seen.p_alone, 1.0) < level && (self.at_most(seen) < level || p_value() < level)
@@ -90,14 +90,14 @@ impl Look {
     }
 }
 
-/// What stands out in the residuals of a fit; nothing if p-values cannot be formed. Places are looked for beside any uniform
+/// Significant patterns in the residuals of a fit; none if p-values cannot be formed. Places are looked for on top of any uniform
 /// bending of the holds, which every law of a uniform robot may leave.
 pub(crate) fn left_patterns(case: &Case, fit: &Fit) -> Look {
     look(case, fit, true)
 }
 
-/// The clearest fault of some kinds that the calibrated base leaves, as if it were the only cause, with the p of it as
-/// reported: if that is below a level and it is wanted.
+/// The clearest fault of some kinds that the calibrated base leaves, as if it were the only cause, with its p as
+/// reported: if that is below a level and the caller accepts the fault.
 pub(crate) fn alone(
     case: &Case,
     kinds: &[Fault],
@@ -175,7 +175,7 @@ fn excess(case: &Case, white: &[f64]) -> f64 {
     square(white) - case.noise().seen(0..white.len()) as f64
 }
 
-/// Number of independent normals whose largest has the same 99 % quantile as that of normals so correlated.
+/// Number of independent normals whose largest has the same 99 % quantile as the largest of normals so correlated.
 fn independent(correlations: &DMatrix<f64>) -> Option<f64> {
     let m = correlations.nrows();
     let factor = factor(correlations);
@@ -191,8 +191,8 @@ fn independent(correlations: &DMatrix<f64>) -> Option<f64> {
     Some((QUANTILE.ln() / (-two_sided_p(quantile, 0)).ln_1p()).clamp(1.0, m as f64))
 }
 
-/// L of C = L Lᵀ, row by row to the diagonal, without what rounding leaves of patterns that the ones before them contain. Unlike
-/// that of eigenvectors, whose signs hang on the last bit, it moves as little as C does.
+/// L of C = L Lᵀ, row by row to the diagonal, without what rounding leaves of patterns that the ones before them contain. Eigenvectors
+/// have signs that depend on the last bit; L moves as little as C does.
 fn factor(correlations: &DMatrix<f64>) -> Vec<Vec<f64>> {
     let mut rows: Vec<Vec<f64>> = Vec::with_capacity(correlations.nrows());
     for i in 0..correlations.nrows() {

@@ -35,7 +35,9 @@ pub(crate) fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Ve
         limits.push("fewer than three samples per hold: what drifts in time (creep, leaks) cannot be seen".into());
     }
     if body_pressures(datasets.iter().copied()).len() < 2 {
-        limits.push("one body pressure only: what grows with it cannot be told from what does not".into());
+        limits.push(
+            "one body pressure only: effects that grow with it cannot be separated from effects that do not".into(),
+        );
     }
     let unseen: Vec<String> =
         undetectable.iter().filter(|u| u.smallest_detectable.is_none()).map(|u| u.effect.clone()).collect();
@@ -57,7 +59,7 @@ pub(crate) fn not_in_space(scenario: &Scenario) -> Vec<String> {
     if names.is_empty() { Vec::new() } else { vec![format!("{words}: {}", list(&names))] }
 }
 
-/// Says so if the markers, fitted without it, ask for another bending stiffness than the bending test found.
+/// A warning if the markers, fitted without it, ask for another bending stiffness than the bending test found.
 fn bending_test(case: &Case) -> Option<String> {
     let [found, sd] = case.problem.known_bending.filter(|_| case.problem.bendings > 0)?;
     let alone = Problem { known_bending: None, ..case.problem.clone() };
@@ -73,7 +75,7 @@ fn bending_test(case: &Case) -> Option<String> {
     })
 }
 
-/// Effects of the catalogue that a test of its own found and the scenario lacks.
+/// Effects of the catalogue that a separate test found and the scenario lacks.
 fn tests_of_their_own(case: &Case) -> Vec<String> {
     let found = case.problem.known.iter().filter(|known| !case.always.contains(&known.effect));
     let told = found.filter_map(|known| {
@@ -82,8 +84,8 @@ fn tests_of_their_own(case: &Case) -> Vec<String> {
         policy::disagree(known.lacking).then(|| {
             let [value, sd] = [known.value, known.sd].map(|v| crate::diagnosis::result::words::value(v / p.si));
             format!(
-                "about.toml says that {} was measured: {} = {value} ± {sd} {}, and the scenario lacks it; whether the markers \
-                 show it is a question of its own",
+                "about.toml gives {} as measured: {} = {value} ± {sd} {}, and the scenario lacks it; whether the markers \
+                 show it is a separate question",
                 effect.name, p.symbol, p.unit
             )
         })

@@ -1,8 +1,8 @@
 //! Shapes that a misfit may have whatever its cause: what a person looks for in residuals before thinking of physics.
 //!
 //! A pattern is a place times a time. Places are small rotations at one point of the robot (a kink, a stiffer stretch), one
-//! marker by itself, or all markers together; times are one hold by itself, all holds alike, in proportion to the bending or to
-//! its square, or from a pressure on. Displacements are first order: what lies beyond a rotated point turns about it and comes
+//! marker alone, or all markers together; times are one hold alone, all holds alike, in proportion to the bending or to
+//! its square, or from a pressure on. Displacements are first order: points beyond a rotated one turn about it and come
 //! nearer, because the far side of the body keeps its length,
 //!
 //! ```text
@@ -22,7 +22,7 @@ use data::{Hold, Phase};
 
 /// A simple pattern of residuals, as a direction in run layout.
 pub(crate) struct Pattern {
-    /// What it looks like, to follow "What is left looks as if".
+    /// Its appearance, to follow "The remaining misfit looks as if".
     pub words: String,
     /// What would show it, to follow "Next:".
     pub check: String,
@@ -34,10 +34,10 @@ pub(crate) struct Pattern {
     pub direction: Vec<f64>,
 }
 
-/// A fault that one pattern tells by itself.
+/// A fault that one pattern alone shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Fault {
-    /// A place of the robot or a marker, with the times of the bending or none of its own.
+    /// A place of the robot or a marker, with the times of the bending or without any.
     Place,
     /// One hold: a set point that was not reached.
     Hold,
@@ -126,9 +126,9 @@ pub(crate) fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
         for (axis, unit) in AXES {
             let look = format!(
                 "look at marker {name} in the images (what the tracking follows there, labels that are exchanged), glue it on \
-                 anew and take one run again: what is the marker's own moves with it"
+                 again and repeat one run: what is the marker's own moves with it"
             );
-            add(format!("marker {name} stands alone in {axis}"), look, &Place::Marker(m, unit), &always);
+            add(format!("marker {name} alone is off in {axis}"), look, &Place::Marker(m, unit), &always);
         }
     }
     let times = times(case, &bent);
@@ -162,7 +162,7 @@ pub(crate) fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
 
 const AXES: [(&str, [f64; 2]); 2] = [("x", [1.0, 0.0]), ("y", [0.0, 1.0])];
 
-/// Uniform bending of every hold by itself, what any law of a uniform robot may do: of the outline, and as the model bends with
+/// Uniform bending of every hold separately, what any law of a uniform robot may do: of the outline, and as the model bends with
 /// pressure, which knows stretches without actuator.
 pub(crate) fn uniform_bending(case: &Case, prediction_m: &[f64]) -> Vec<Vec<f64>> {
     let Some(layout) = planar(case) else { return Vec::new() };
@@ -200,7 +200,7 @@ fn alone(holds: usize, hold: usize) -> Vec<f64> {
     (0..holds).map(|i| f64::from(u8::from(i == hold))).collect()
 }
 
-/// Times that single out holds, with words; every hold by itself first.
+/// Times that single out holds, with words; every single hold first.
 fn times(case: &Case, bent: &[f64]) -> Vec<When> {
     let holds = &case.first().dataset.holds;
     let one = |(h, hold): (usize, &Hold)| {
@@ -219,7 +219,7 @@ fn times(case: &Case, bent: &[f64]) -> Vec<When> {
     all.push(When { words: "faster than its bending".into(), check: finer(""), time });
     let mut levels = pressure_levels(holds);
     levels.sort_by(f64::total_cmp);
-    // Above the last but one level there is one hold level left, which stands alone already.
+    // Above the last but one level there is one hold level left, which is in the list already.
     for from in levels.iter().take(levels.len().saturating_sub(2)) {
         let time = holds.iter().map(|h| (h.p_act_pa - from).max(0.0)).collect();
         let check = finer(&format!(" around and above {} kPa", short(1e-3 * from)));
@@ -289,7 +289,7 @@ fn displacement(outline: &Outline, place: &Place, marker: usize) -> [f64; 2] {
     }
 }
 
-/// A displacement and, on top, that of a point of the outline by a turn at point k before it.
+/// A displacement plus the displacement of a point of the outline by a turn at point k before it.
 fn turned(sum: [f64; 2], outline: &Outline, at: usize, k: usize, turn: f64) -> [f64; 2] {
     let Outline { xy, middle, along, shorter_m, .. } = outline;
     [

@@ -8,9 +8,9 @@
 //! |---|---|
 //! | S | whitened sum of squares of the base refitted to the data with the slip undone, or of an effect in the data as they are |
 //! | q, n, u | parameters added, values fitted, size over the typical one, as in `order`; a slip is exact and has none |
-//! | B, B₀, s | fitted and told stiffness; a factor of two is one standard deviation |
+//! | B, B₀, s | fitted and given stiffness; a factor of two is one standard deviation |
 //!
-//! A slip is told where its C is clearly below that of the base and of every effect and pair, and where it leaves less than half of
+//! A slip is reported where its C is clearly below the C of the base and of every effect and pair, and where it leaves less than half of
 //! their error, or nothing that matters. What the numbers alone look like needs to be as good only; a base that fits with its own
 //! stiffness is asked about nothing else. What the numbers alone prove, of absolute or exchanged columns, no model is asked about.
 //! Where the scenario's own model sees no slip, the same is asked of the robot with all mechanisms of the shipped one and with none.
@@ -37,7 +37,7 @@ use models::Scenario;
 struct Weighed {
     criterion: f64,
     left_mm: f64,
-    /// Every fitted stiffness may be the one that was told.
+    /// Every fitted stiffness may be the given one.
     has_its_stiffness: bool,
 }
 
@@ -103,7 +103,7 @@ impl Pressures<'_> {
             .enumerate()
             .find_map(|(of, source)| by_numbers(&source.dataset).into_iter().next().map(|slip| (of, slip)))?;
         let before_mm = Some(case.error_in_all_mm(&case.base));
-        // Bar under a name of kPa looks exchanged too, and the model says which.
+        // Bar under a name of kPa looks exchanged too, and the model decides which.
         let all = self.undone_slips(false);
         let moved_mm = 1e3 * moved_m(&self.sources[of].dataset);
         let proved = self.undone(of, &slip);
@@ -245,7 +245,7 @@ fn slip_of(
 }
 
 impl Undone {
-    /// Whether it is clearly better than something else. It must pay: in mm, or by a stiffness that is the told one again. What
+    /// Whether it is clearly better than something else. It must pay: in mm, or by a stiffness that equals the given one again. What
     /// the numbers alone look like needs no more than to be as good.
     fn beats(&self, rival: &Weighed, tolerance_mm: f64) -> bool {
         let Weighed { criterion, left_mm, has_its_stiffness } = self.weighed;

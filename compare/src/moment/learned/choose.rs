@@ -169,7 +169,7 @@ impl Law {
     }
 }
 
-/// Least squares with bounds: what leaves them is held there and the others are fitted anew.
+/// Least squares with bounds: values beyond a bound are held there and the others are fitted again.
 fn bounded(columns: &DMatrix<f64>, y: &DVector<f64>, bounds: &[[f64; 2]]) -> Option<DVector<f64>> {
     let count = columns.ncols();
     let mut held: Vec<Option<f64>> = vec![None; count];

@@ -4,7 +4,7 @@
 //! M₀ = π p_b R³        κ₀ = 1/R        the folded wall's moment, and a bend as sharp as the body
 //! ```
 //!
-//! M₀ tanh(κR/0.002) is the step at no bend that the wall itself has: a robot without pressure lies straight.
+//! M₀ tanh(κR/0.002) is the step at no bend that the wall itself has: a robot without pressure is straight.
 
 use models::{Formula, Scenario};
 use std::f64::consts::PI;
@@ -39,10 +39,10 @@ pub(crate) struct Number {
 #[derive(Debug)]
 pub(crate) struct Form {
     pub words: &'static str,
-    /// The moment; `TIP` stands for half of the length over the radius.
+    /// The moment; `TIP` is half of the length over the radius.
     pub moment: &'static str,
     pub numbers: &'static [Number],
-    /// What such a law usually is, and what tells.
+    /// What such a law usually is, and which check decides.
     pub usual: Usual,
 }
 
@@ -75,7 +75,7 @@ const STOP: Usual = Usual {
 };
 const ENDS: Usual = Usual {
     words: "ends that bend otherwise than the rest: a clamp, a cap, the closed end of a muscle",
-    check: "film both ends: compare their bend with that of the middle",
+    check: "film both ends: compare their bend with the bend of the middle",
 };
 const BODY: Usual = Usual {
     words: "gas of the body that is pressed out as it bends: pouches in the wall, a section that flattens",
@@ -212,7 +212,7 @@ impl Form {
         self.moment.contains("k*kappa") || self.moment.contains("^n")
     }
 
-    /// Whether it can be told from another only where the body's pressure changes.
+    /// Whether only a change of the body's pressure separates it from another.
     pub(crate) fn is_of_body(&self) -> bool {
         self.usual.words == BODY.words
     }
@@ -222,7 +222,7 @@ impl Form {
         self.usual.words == STIFFNESS.words
     }
 
-    /// The moment on a robot, whose tip lies so many diameters away.
+    /// The moment on a robot, whose tip is so many diameters away.
     pub(crate) fn moment_of(&self, robot: &Scenario) -> String {
         self.moment.replace("TIP", &tidy(0.5 * robot.length_m / robot.radius_m).to_string())
     }
@@ -233,7 +233,7 @@ impl Form {
         let moment = self.moment_of(robot);
         let mut out = format!(
             "[[formula]]\nname = \"{name}\"\nmoment = \"{moment}\"\n\
-             sentence = \"Learned from data: {words}. Usually {usual}.\"\nremedy = \"To tell: {check}.\"\n"
+             sentence = \"Learned from data: {words}. Usually {usual}.\"\nremedy = \"To check: {check}.\"\n"
         );
         for n in self.numbers {
             let scale = n.scale(robot);

@@ -9,12 +9,12 @@ use fem::session::{Job, Source, mesh_keys, rounded};
 use models::Scenario;
 use serde::Serialize;
 
-/// What is run of every robot.
+/// Runs to make for every robot.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Ranges {
-    /// Body pressures beside its own \[kPa\].
+    /// Body pressures in addition to its own \[kPa\].
     pub body_kpa: Vec<f64>,
-    /// Lengths of a pouch beside its own, at its own body pressure \[mm\].
+    /// Lengths of a pouch in addition to its own, at its own body pressure \[mm\].
     pub pouch_mm: Vec<f64>,
     /// Actuator pressures, of which those from the body's up are run \[kPa\].
     pub actuator_kpa: Vec<f64>,

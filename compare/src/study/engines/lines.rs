@@ -46,7 +46,7 @@ pub(super) fn exact(value: Option<f64>) -> String {
     value.map_or(String::new(), |v| v.to_string())
 }
 
-/// Lines of one robot at the printed pressures, or at those of its run.
+/// Lines of one robot at the printed pressures, or at the pressures of its run.
 pub fn lines(robot: &EngineRobot) -> Result<Vec<EngineLine>, CompareError> {
     let mut out = Vec::new();
     let pressures: Vec<f64> = match &robot.published {

@@ -119,7 +119,7 @@ pub struct EngineState {
     pub inflated_mm: Option<[f64; 3]>,
     /// Displacements of the sections at the markers in the plane of bending, x along the straight robot, y to the actuator \[mm\].
     pub moved_mm: Vec<[f64; 2]>,
-    /// Those of the wall where the markers stick, at the height of the axis, on the side that faces a camera \[mm\].
+    /// Displacements of the wall where the markers stick, at the height of the axis, on the side that faces a camera \[mm\].
     pub seen_mm: Vec<[f64; 2]>,
 }
 
@@ -270,7 +270,7 @@ pub(in crate::study) struct Listed<R> {
 /// Finite element runs that come with the program, made by its own commands (`ibr breakdown`, `ibr simulate`).
 ///
 /// # Errors
-/// Those of [`read_runs`], for a program whose runs were not made anew with its records.
+/// The errors of [`read_runs`], for a program whose runs were not made again with its records.
 pub fn stored() -> Result<Vec<EngineRun>, FemError> {
     read_runs("the runs that come with the program", include_str!("../../../assets/fem-runs.json"))
 }
@@ -280,7 +280,7 @@ pub fn stored() -> Result<Vec<EngineRun>, FemError> {
 /// # Errors
 /// [`FemError::Record`] with the line and the field.
 pub fn read_runs(file: &str, text: &str) -> Result<Vec<EngineRun>, FemError> {
-    let help = "make the file again: `ibr compare --engines --runs FOLDER` writes runs.json beside its report";
+    let help = "make the file again: `ibr compare --engines --runs FOLDER` writes runs.json next to its report";
     Ok(RUNS.read::<Listed<EngineRun>>(file, text, help)?.runs)
 }
 

@@ -101,7 +101,7 @@ pub fn seed_jobs(
     Ok(jobs)
 }
 
-/// Runs of robots, each problem once: read if they are there, made or gone on with if not. A run that a guard stopped is its
+/// Runs of robots, each problem once: read if they are there, else made or resumed. A run that a guard stopped is its
 /// error. Errors as for [`simulate_all`].
 pub fn runs_of(
     jobs: &[Job],
@@ -112,7 +112,7 @@ pub fn runs_of(
     Ok(runs.into_iter().filter_map(|run| run.map(|run| as_run(&run)).transpose()).collect())
 }
 
-/// All complete runs of robots in a folder, by name; those of the paper's own model are compared elsewhere.
+/// All complete runs of robots in a folder, by name; runs of the paper's own model are compared elsewhere.
 ///
 /// # Errors
 /// [`FemError::Record`] for one that is damaged.
@@ -121,7 +121,7 @@ pub fn all_runs(folder: &Path) -> Result<Vec<EngineRun>, FemError> {
     Ok(found.iter().filter(|run| !is_paper(&run.summary)).filter_map(as_run).collect())
 }
 
-/// Runs that come with the program, or those of a folder if one is named.
+/// Runs that come with the program, or the runs of a folder if one is named.
 ///
 /// # Errors
 /// [`FemError::Setting`] for a folder without any; else as [`all_runs`].
@@ -140,16 +140,16 @@ pub fn known_runs(folder: Option<&Path>) -> Result<Vec<EngineRun>, FemError> {
 /// Runs of a robot as it is that come with the program, one for every seed.
 ///
 /// # Errors
-/// [`FemError::Setting`] if there are fewer than wanted.
-pub fn of_the_program(scenario: &Scenario, wanted: usize) -> Result<Vec<EngineRun>, FemError> {
+/// [`FemError::Setting`] if there are fewer than `count`.
+pub fn of_the_program(scenario: &Scenario, count: usize) -> Result<Vec<EngineRun>, FemError> {
     let mut found = ensemble(&stored()?, scenario).runs;
-    found.truncate(wanted);
-    if found.len() == wanted {
+    found.truncate(count);
+    if found.len() == count {
         return Ok(found);
     }
     let (there, kind, body_kpa) = (found.len(), scenario.actuator.kind.name, scenario.p_body_pa * 1e-3);
     let message = format!(
-        "{there} finite element runs of {kind} at {body_kpa} kPa body pressure come with the program, not {wanted}"
+        "{there} finite element runs of {kind} at {body_kpa} kPa body pressure come with the program, not {count}"
     );
     Err(FemError::Setting { message, help: "lower --seeds, or leave --stored out to make them: minutes each".into() })
 }

@@ -1,4 +1,4 @@
-//! Robots with both engines: what is printed of them, their finite element runs, and where the models part.
+//! Robots with both engines: their published numbers, their finite element runs, and where the models differ.
 
 use super::{BodyVolumes, EnginePair, EngineRun, Ensemble, as_it_is, body_volumes, ensemble, pairs};
 use crate::error::CompareError;
@@ -12,13 +12,13 @@ use models::Scenario;
 pub struct EngineRobot {
     /// The robot as the reduced model has it.
     pub scenario: Scenario,
-    /// What is printed about it; `None` for a robot that is not one of the paper's.
+    /// Published numbers; `None` for a robot that is not one of the paper's.
     pub published: Option<PublishedActuator>,
     /// The reduced model with effects of which none is fitted.
     pub with_effects: Option<Rung>,
     /// Its finite element runs with the recommended settings.
     pub ensemble: Ensemble,
-    /// Hypercubes over what nobody measured that come with the program, one for every way that the robot may be made.
+    /// Hypercubes over unmeasured numbers that come with the program, one for every way that the robot may be made.
     pub uncertain: Vec<Uncertain>,
     /// Both engines at this run's pressures.
     pub pairs: Vec<EnginePair>,

@@ -1,7 +1,7 @@
 //! What the bodies of the finite elements lose in volume, and what the reduced model knows of it.
 //!
 //! A reduced body folds about its taut generator and loses `πR³θ` at a turn θ ([`models::body::BodyPressure`]). What the
-//! bodies of the finite elements lose beyond it is counted in volumes of the actuator, and the actuator's volume in that of
+//! bodies of the finite elements lose beyond it is counted in volumes of the actuator, and the actuator's volume in volumes of
 //! ideal lenses ([`models::actuators::pouch`]) that have contracted as much:
 //!
 //! ```text

@@ -13,7 +13,7 @@ pub fn facts(paper: &Published, runs: &[PaperRun]) -> Vec<FactRow> {
         let known = IN_PRINT.iter().chain(IN_RUNS).find(|(id, _)| *id == fact.id);
         let found = known.and_then(|(_, check)| check(&case));
         let unchecked = || {
-            let why = if known.is_some() { missing(&fact.id) } else { "there is no check of it" };
+            let why = if known.is_some() { missing(&fact.id) } else { "no check exists" };
             ("–".into(), FactVerdict::CannotBeChecked(why.into()))
         };
         let (found, verdict) = found.unwrap_or_else(unchecked);

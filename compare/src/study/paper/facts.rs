@@ -1,4 +1,4 @@
-//! Every sentence of the paper that can be checked, next to what the engine or the paper itself says.
+//! Every sentence of the paper that can be checked, next to the result of the engine or of the paper itself.
 
 use super::{MESHES_MM, PaperRun, find};
 use data::Published;
@@ -12,7 +12,7 @@ pub enum FactVerdict {
     Holds,
     /// The engine or the paper's own numbers say something else.
     Misses(String),
-    /// The paper says something else elsewhere.
+    /// The paper contradicts it elsewhere.
     ContradictsItself(String),
     /// Neither runs nor printed numbers decide it.
     CannotBeChecked(String),
@@ -39,7 +39,7 @@ pub struct FactRow {
     pub place: String,
     /// The sentence as the paper prints it, shortened.
     pub says: String,
-    /// What the engine says, or the paper elsewhere.
+    /// The result of the engine, or of the paper elsewhere.
     pub found: String,
     /// Whether the finding supports the sentence.
     pub verdict: FactVerdict,

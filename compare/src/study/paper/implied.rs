@@ -18,7 +18,7 @@ use serde::Serialize;
 
 const MM: f64 = 1e3;
 
-/// What an accuracy of the paper says about its finite elements' height of the outermost marker.
+/// What an accuracy of the paper implies about its finite elements' height of the outermost marker.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Implied {
     /// Root mean square of (y_FEA − y_EXP)/y_FEA.
@@ -51,7 +51,7 @@ impl Implied {
     }
 }
 
-/// A run beside what the paper implies.
+/// A run next to the height that the paper implies.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HeightRow {
     /// Robot of the paper: `spam`, `cpam`, `epam` or `fpam`.

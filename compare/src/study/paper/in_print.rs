@@ -35,7 +35,7 @@ pub(super) const IN_PRINT: &[FactCheck] = &[
     ("hold", |case| {
         let step_s = case.paper.simulation.step_s;
         let found = format!("Section III-A: the amplitude reaches 1 at t = {step_s} s, where the step ends");
-        contradicts_itself(found, "there is no time at full pressure; the preset has none")
+        contradicts_itself(found, "no time at full pressure is left; the preset has none")
     }),
     ("moduli", moduli),
     ("shear-angle", |case| {
@@ -48,7 +48,7 @@ pub(super) const IN_PRINT: &[FactCheck] = &[
     ("layers", layers),
     ("gravity", gravity),
 ];
-const EQUAL: &str = "not over but equal at 30 kPa, as the abstract's \"at least\" says";
+const EQUAL: &str = "not over but equal at 30 kPa, as the abstract's \"at least\" allows";
 
 /// Accuracies of a robot in Table III: pressure \[kPa\] and accuracy \[%\].
 fn accuracies(case: &FactCase, kind: &str) -> Vec<[f64; 2]> {
@@ -179,7 +179,7 @@ fn gravity(case: &FactCase) -> FactFound {
     let moment_nm = DENSITY_KG_M3 * thickness_m * area_m2 * GRAVITY_M_S2 * 0.5 * length_m;
     let share = 100.0 * moment_nm / (PI * case.paper.protocol.body_pa * radius_m.powi(3));
     let found = format!(
-        "the cPAM's own weight (1000 kg/m³, assumed) has {share:.0} % of the moment π p R³ that folds its body, if it lies level"
+        "the cPAM's own weight (1000 kg/m³, assumed) has {share:.0} % of the moment π p R³ that folds its body, if it is level"
     );
     cannot_be_checked(found, "whether it bends level or upright is not printed")
 }

@@ -194,8 +194,8 @@ fn kinetic(case: &FactCase, kept: fn(&Kinetic) -> u64) -> FactFound {
 }
 
 fn peak(run: &PaperRun) -> String {
-    let beside = if run.peak.on_seam { "beside a weld" } else { "off the welds" };
-    format!("{:.0} MPa {beside} in {} at {:.0} mm", stress(run), run.peak.part, run.peak.at_mm)
+    let place = if run.peak.on_seam { "next to a weld" } else { "off the welds" };
+    format!("{:.0} MPa {place} in {} at {:.0} mm", stress(run), run.peak.part, run.peak.at_mm)
 }
 
 fn stress_seams(case: &FactCase) -> FactFound {

@@ -19,7 +19,7 @@ const DEPTH: usize = 3;
 /// meshes of one size.
 ///
 /// # Errors
-/// [`FemError::Refused`] for a robot that is no sound problem.
+/// [`FemError::Refused`] for a robot that is not a sound problem.
 pub fn jobs(
     robots: &[(Source, Scenario)],
     meshes: &[[f64; 2]],

@@ -57,7 +57,7 @@ pub struct Peak {
     pub part: String,
     /// Place along the straight robot \[mm\].
     pub at_mm: f64,
-    /// Whether it lies beside a weld.
+    /// Whether it is next to a weld.
     pub on_seam: bool,
 }
 
@@ -66,7 +66,7 @@ const RUNS: RecordShape = RecordShape { schema: "ibr.paper_runs", version: 2 };
 /// Runs of the preset that come with the program, made by `ibr compare --paper --runs FOLDER`.
 ///
 /// # Errors
-/// Those of [`read_runs`], for a program whose runs were not made anew with its records.
+/// The errors of [`read_runs`], for a program whose runs were not made again with its records.
 pub fn stored() -> Result<Vec<PaperRun>, FemError> {
     read_runs("the paper's runs that come with the program", include_str!("../../../assets/paper-runs.json"))
 }

@@ -1,7 +1,7 @@
 //! The mechanics of a shipped actuator that its textbook model lacks, effect by effect, nothing fitted.
 //!
-//! Values follow from the geometry of the pattern and from the published fabric; what nobody printed is assumed as in the
-//! finite elements: welds of 3 mm, a bending stiffness of 0.2 of that of a solid sheet, ν₁₂ = 0.2.
+//! Values follow from the geometry of the pattern and from the published fabric; numbers that were not printed are assumed as in the
+//! finite elements: welds of 3 mm, a bending stiffness 0.2 times a solid sheet's, ν₁₂ = 0.2.
 
 use data::{Published, PublishedFabric};
 use models::actuators::Family;
@@ -20,7 +20,7 @@ pub(super) struct MechanicsPart {
 
 /// Width of a weld \[m\] and what it may be.
 const WELD_M: (f64, [f64; 2]) = (3e-3, [0.0, 8e-3]);
-/// Bending stiffness of a coated fabric over that of a solid sheet, and what it may be.
+/// Bending stiffness of a coated fabric over a solid sheet's, and what it may be.
 const BENDING: (f64, [f64; 2]) = (0.2, [0.1, 0.5]);
 /// Contraction along fill per stretch along warp.
 const NU12: f64 = 0.2;
@@ -56,7 +56,7 @@ fn pouch(fabric: &PublishedFabric) -> Vec<MechanicsPart> {
     vec![
         assumed("weld_width", WELD_M.0, WELD_M.1, "welds of 3 mm; a line to a wide impulse seal"),
         predicted("chord_arm", 1.0, "the weld lines are chords of the body, not arcs"),
-        predicted("displaced_gas", 0.5, "half of a lens in the wall lies in the body"),
+        predicted("displaced_gas", 0.5, "half of a lens in the wall is in the body"),
         predicted("gussets", 1.0, "side folds open as far as the diagonals allow which the ends hold"),
         predicted("sealed_sides", 1.0, "the sides are sealed as the ends are; with gussets it does nothing"),
         assumed(
@@ -83,7 +83,7 @@ fn muscle(fabric: &PublishedFabric) -> Vec<MechanicsPart> {
     let predicted = |effect, value, why| MechanicsPart { effect, value, range: None, known: Known::Predicted, why };
     let wall_n_per_m = 0.5 * (fabric.e0_pa + fabric.e90_pa) * fabric.thickness_m;
     let mut list = vec![
-        predicted("sunk_muscle", 1.0, "a tube glued over its flat width lies half in the wall"),
+        predicted("sunk_muscle", 1.0, "a tube glued over its flat width is half in the wall"),
         predicted("flat_ends", 2.0, "both ends stay flat"),
         MechanicsPart {
             effect: "yarn_stretch",

@@ -1,7 +1,7 @@
 //! The reduced models against the displacements that du Pasquier et al. 2023 print: one number per actuator.
 //!
 //! Four displacements cannot decide which effect is missing. The ladders show what each effect, with a value that comes
-//! from geometry, from a fabric test or from a formula (never from the measured displacement, unless the rung says
+//! from geometry, from a fabric test or from a formula (never from the measured displacement, unless the rung is marked
 //! *calibrated*), does to the prediction.
 
 mod mechanics;
@@ -91,7 +91,7 @@ fn ladder(paper: &Published, actuator: &PublishedActuator) -> Result<PublishedLa
         let y_m = height(&next, &loads)?;
         let last = rungs.len() - 1;
         if y_m == rungs[last].y_m && range_m.is_none_or(|[low, high]| low == high) {
-            // What does nothing in this actuator, as sealed sides do where gussets free them, is no rung.
+            // An effect that does nothing in this actuator, as sealed sides where gussets free them, gets no rung.
             rungs[last].scenario = next;
             continue;
         }

@@ -2,7 +2,7 @@
 //!
 //! A published displacement is one number. Each effect is given the value at which the model meets it, if any within
 //! its bounds does; all of these models are then equally good there, and differ at the pressures in between. Values are
-//! *calibrated* on that one number, so meeting it is no evidence for any of them.
+//! *calibrated* on that one number, so meeting it is not evidence for any of them.
 
 use super::{height, shipped_scenario};
 use crate::error::CompareError;
@@ -42,7 +42,7 @@ pub struct OneNumber {
     pub robot: String,
     /// Actuator kind of the robot, such as `epam`.
     pub actuator: String,
-    /// Pressures \[kPa\], the last is that of the displacement.
+    /// Pressures \[kPa\]; the displacement belongs to the last one.
     pub p_act_kpa: Vec<f64>,
     /// Displacement that the paper prints \[mm\].
     pub measured_mm: f64,

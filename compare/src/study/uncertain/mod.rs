@@ -1,6 +1,6 @@
 //! What finite elements say about a robot of which not everything was measured: quantiles over a hypercube of all assumed numbers.
 //!
-//! Every robot of the hypercube has another value of every assumed number (`hypercube` in `fem::robot`). The 80 % interval of a marker lies
+//! Every robot of the hypercube has another value of every assumed number (`hypercube` in `fem::robot`). The 80 % interval of a marker is
 //! between the 10 % and the 90 % quantile of what they say. It holds what the numbers may be, by the intervals that were assumed; it does
 //! not hold what the finite elements get wrong. Which number to measure first: the shares of the variance, Σ by least squares,
 //!
@@ -27,12 +27,12 @@ use nalgebra::{DMatrix, DVector};
 pub use of_run::Intervals;
 use serde::{Deserialize, Serialize};
 
-/// Ends of the interval that is told, and its middle.
+/// Ends of the reported interval, and its middle.
 pub const QUANTILES: [f64; 3] = [0.1, 0.5, 0.9];
 /// Runs beyond the numbers that a straight law needs to say anything.
 const SPARE: usize = 5;
 
-/// A number of the robot that has an interval because nobody measured it.
+/// A number of the robot that has an interval because it was not measured.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Varied {
     /// Key of `[fem]`, with its unit.
@@ -117,7 +117,7 @@ const STORED: &[&str] = &[
 /// Hypercubes that come with the program.
 ///
 /// # Errors
-/// Those of [`read`], for a program whose hypercubes were not made anew with its records.
+/// The errors of [`read`], for a program whose hypercubes were not made again with its records.
 pub fn stored() -> Result<Vec<Uncertain>, FemError> {
     STORED.iter().map(|text| read("a hypercube that comes with the program", text)).collect()
 }
@@ -251,7 +251,7 @@ mod tests {
     #[test]
     fn the_interval_is_that_of_the_law_and_robots_that_stopped_say_nothing() {
         let [low, middle, high] = robots(400).tip_mm(30.0).unwrap();
-        // The sum of two even numbers, of which a tenth of the area lies below this.
+        // The sum of two even numbers, of which a tenth of the area is below this.
         let exact = 90.0 + (0.1_f64 * 2.0 * 40.0 * 10.0).sqrt();
         assert!((low - exact).abs() < 0.5 && (high - (230.0 - exact)).abs() < 0.5, "{low} {exact} {high}");
         assert!((middle - 115.0).abs() < 0.5, "{middle}");

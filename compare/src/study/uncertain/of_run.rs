@@ -28,7 +28,7 @@ impl Varied {
 }
 
 impl Member {
-    /// A robot that cannot be run says so.
+    /// A robot that cannot be run keeps the error instead of states.
     fn of(run: &Result<FeRun, FemError>, shares: &[f64]) -> Member {
         // Five digits, as a camera will never see them.
         let short = |m: f64| format!("{:.4e}", m * 1e3).parse().unwrap_or(f64::NAN);
@@ -47,10 +47,10 @@ impl Member {
 }
 
 impl Uncertain {
-    /// Of a hypercube and its runs; `variant`: what was set beside it, as typed.
+    /// Of a hypercube and its runs; `variant`: what was set in addition, as typed.
     ///
     /// # Errors
-    /// [`FemError::Refused`] for a scenario that is no robot.
+    /// [`FemError::Refused`] for a scenario that is not a robot.
     pub fn of(cube: &Cube, many: &Many, variant: &[String]) -> Result<Uncertain, FemError> {
         let (scenario, run) = cube.base.robot_run()?;
         let runs = many.of.iter().map(|of| &many.runs[*of]);
