@@ -20,7 +20,7 @@ pub(super) fn run(args: &DesignArgs, context: &mut Context) -> Result<Outcome> {
             true => Err("left out".to_string()),
             false => checked(&wish, &rounds, &folder, context)?,
         };
-        rounds.tell(checked);
+        rounds.answer(checked);
     }
     let Round { design: found, checked, .. } = &rounds.all[rounds.best()];
     let mut files = design_files(&wish, found, checked.as_ref().ok().map(|checked| &checked.places_m[..]))?;
