@@ -110,7 +110,7 @@ fn phases_that_contradict_the_pressures_are_told_with_their_holds() {
         "{told:?}"
     );
     let report = check(&read(&table(3, 5).replace(",unload,", ",hold,")).unwrap(), None);
-    assert!(report.warnings.iter().any(|w| w.contains("says hold, not unload")), "{:?}", report.warnings);
+    assert!(report.warnings.iter().any(|w| w.contains("is marked hold, not unload")), "{:?}", report.warnings);
 }
 
 #[test]
