@@ -2,8 +2,8 @@
 //!
 //! What a user does, as functions: [`ScenarioFile::read`] and [`Evidence::read`], then [`compare`](fn@compare) (how far off, and
 //! where), [`diagnose`] (which physical effect is missing), [`extend`] (a new scenario with it), [`validate`] (does it help on
-//! other data). [`ladder`] repeats the middle; [`predict`] gives shapes at pressures, [`simulate`] runs finite elements. Every [`Error`] names the place and the fault
-//! and, by [`Error::help`], gives the remedy. Long work reports its [`Progress`].
+//! other data). [`ladder`] repeats the middle; [`predict`] gives shapes at pressures, [`simulate`] runs finite elements.
+//! Every [`Error`] names the place and the fault and, by [`Error::help`], gives the remedy. Long work reports its [`Progress`].
 //!
 //! Control ([`Predictor`]): the pressure that lifts the tip to 60 mm, and the slope that corrects it.
 //!
