@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Supply channels; every array of pressures has so many, those of channels that feed nothing are not read.
+// Supply channels; every array of pressures has so many; values for channels that feed nothing are ignored.
 #define IBR_CHANNELS 4
 
 // The call did what was asked; its results are written.
@@ -19,7 +19,7 @@
 // The robot has no equilibrium at these pressures.
 #define IBR_UNSOLVED 2
 
-// The tip cannot be where it is wanted; the error text has the range in reach.
+// The tip cannot reach its target; the error text has the range in reach.
 #define IBR_OUT_OF_REACH 3
 
 // A fault in the library: please report it with its text.
@@ -48,7 +48,7 @@ typedef struct ibr_slope {
   double angle_per_pa;
 } ibr_slope;
 
-// Pressures that bring the tip nearest to where it is wanted.
+// Pressures that bring the tip nearest to its target.
 typedef struct ibr_steered {
   // Pressure of each channel, Pa; 0 where one feeds nothing.
   double actuator_pa[IBR_CHANNELS];

@@ -1,4 +1,4 @@
-//! Tells cargo that a new folder under `sets/` means the crate must be built again; it generates nothing.
+//! Makes cargo rebuild the crate when a folder is added under `sets/`; it generates nothing.
 
 fn main() {
     println!("cargo::rerun-if-changed=sets");

@@ -14,7 +14,7 @@ cp -r --parents README.md ARCHITECTURE.md CHANGELOG.md CONTRIBUTING.md CITATION.
 cat > "$site/book.toml" << 'END'
 [book]
 title = "ibr"
-description = "Models of pneumatic bending actuators on inflated-beam robots, held against measurements"
+description = "Models of pneumatic bending actuators on inflated-beam robots, compared with measurements"
 src = "src"
 [output.html]
 preferred-dark-theme = "navy"

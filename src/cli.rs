@@ -58,11 +58,11 @@ pub(crate) enum Command {
     Pattern(PatternArgs),
     /// Hold a model against measurements: how far off, and where
     Compare(CompareArgs),
-    /// Which physical effect is missing, what cannot be told apart, what to measure next
+    /// Which physical effect is missing, which effects fit equally well, what to measure next
     Diagnose(DiagnoseArgs),
     /// Write a new scenario with one more effect, fitted on data or given
     Add(AddArgs),
-    /// Diagnose and add until what is left is noise, and show the fall of the error
+    /// Diagnose and add until only noise is left, and show the fall of the error
     Ladder(LadderArgs),
     /// Does an added effect help on data that it was not fitted to?
     Validate(ValidateArgs),
@@ -260,7 +260,7 @@ pub(crate) struct CompareArgs {
     /// Actuator pressures of the runs; default: the scenario's, and with --paper also 11, 12 and 13 kPa of the cPAM
     #[arg(long, allow_hyphen_values = true)]
     pub pressure: Option<String>,
-    /// Also fit the bending stiffness B to these data, or with =body-pressure that of the body, and show what that brings
+    /// Also fit the bending stiffness B to these data, or with =body-pressure the body's pressure, and show what that brings
     #[arg(long, value_name = "WHAT", num_args = 0..=1, require_equals = true, default_missing_value = "bending")]
     pub calibrate: Option<Knob>,
     /// Also hold the model with this effect against the data: name or name:key=value[,key=value]; repeatable, cumulative

@@ -33,7 +33,7 @@ impl Compared {
         let slip = pressure_slip(file, evidence, &Options { sigma_m, ..Options::default() })?;
         let mut found = compare_all(&models, evidence, &options, knob)?;
         found.tell_first(slip);
-        // Without an effect that was added there is no before and after; without it the robot may have no equilibrium.
+        // Before and after need an added effect; without this effect the robot may have no equilibrium.
         let added = BeforeAfter::of(file, &[]).ok();
         let added = added.and_then(|both| Some((both.effects.clone(), both.judge(evidence, sigma_m).ok()?)));
         Ok(Compared { found, added })

@@ -17,7 +17,7 @@ pub(crate) struct Context<'a> {
     pub json: bool,
     pub threads: usize,
     pub force: bool,
-    /// Takes what is being done, and which share of the whole is done if known.
+    /// Takes the current work, and the finished share of the whole if known.
     pub progress: &'a mut (dyn FnMut(&str, Option<f64>) + Send),
     /// Takes text for standard output before the command ends; nothing is printed where JSON is asked for.
     pub say: &'a mut (dyn FnMut(&str) + Send),
@@ -44,7 +44,7 @@ impl Context<'_> {
 /// Signals within this time are one.
 const ONE_REQUEST: Duration = Duration::from_secs(1);
 
-/// How Ctrl-C reaches a command that saves where it stands before it ends.
+/// How Ctrl-C reaches a command that saves its state before it ends.
 #[derive(Debug)]
 pub(crate) struct Interrupt {
     /// Runs that will end themselves when asked.
@@ -103,7 +103,7 @@ impl Outcome {
         self.notes.push(format!("report: {}", folder.join("report.html").display()));
     }
 
-    /// The result stands, and what failed after it is said below it.
+    /// Keeps the result, and adds the later failure below it.
     pub(crate) fn fail(&mut self, failure: &Failure) {
         self.notes.push(failure.render().trim_end().to_string());
         self.code = failure.code();

@@ -213,7 +213,7 @@ fn at_fault(fault: &Fault, shown: MietteDiagnostic) -> Report {
     Report::new(shown.with_label(LabeledSpan::at(start.min(end)..end, "here"))).with_source_code(source)
 }
 
-/// Most bytes of a line that are shown, and those of them before the fault.
+/// Most bytes of a line that are shown, and most of these before the fault.
 const SHOWN: [usize; 2] = [300, 60];
 
 /// The part of a very long line around its byte `at`, and where it begins.

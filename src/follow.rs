@@ -177,7 +177,7 @@ mod tests {
 
     fn answer(scenario: &Scenario, text: &[u8]) -> Answer {
         let mut out = Vec::new();
-        let told = follow(scenario, text, &mut out).map(|end| end.words()).map_err(|error| error.to_string());
+        let notes = follow(scenario, text, &mut out).map(|end| end.words()).map_err(|error| error.to_string());
         let text = String::from_utf8(out).unwrap();
         let (mut rows, mut marks) = (Vec::new(), Vec::new());
         for line in text.lines().skip(1) {
@@ -185,7 +185,7 @@ mod tests {
             rows.push(numbers.split(',').map(|cell| cell.parse().unwrap()).collect());
             marks.push(mark.to_string());
         }
-        (rows, marks, told)
+        (rows, marks, notes)
     }
 
     #[test]
@@ -199,8 +199,8 @@ mod tests {
             let pressures = [5e3, 20e3, 10e3, 0.0];
             let expected = predict(&scenario, &pressures.map(|p| Loads::uniform(2e3, p))).unwrap();
             let text = "# a log\nt_ms, p_Pa\n\n5000,5000\r\n10000,20000\n15000,10000\n20000,0\n";
-            let (rows, marks, told) = answer(&scenario, text.as_bytes());
-            assert_eq!((rows.len(), marks.concat(), told), (4, String::new(), Ok(Vec::new())));
+            let (rows, marks, notes) = answer(&scenario, text.as_bytes());
+            assert_eq!((rows.len(), marks.concat(), notes), (4, String::new(), Ok(Vec::new())));
             for (i, (row, state)) in rows.iter().zip(&expected).enumerate() {
                 assert_eq!(row[0], HOLD_S * (i + 1) as f64);
                 assert!((row[2] - 1e3 * state.prediction.tip.y_m).abs() < 1e-4, "{effect:?} {row:?}");
@@ -214,7 +214,7 @@ mod tests {
         let exact = |t: f64| 20.0 * (1.0 - (-t / 0.5_f64).exp());
         assert!((rows[1][4] - exact(0.5)).abs() < 1e-3 && (rows[2][4] - exact(1.0)).abs() < 1e-3, "{rows:?}");
         let (still, ..) = answer(&robot(""), format!("t_s,p_kpa\n0,{}\n", exact(1.0)).as_bytes());
-        assert!((still[0][2] - rows[2][2]).abs() < 1e-3, "the tip is that of the pressure that arrived");
+        assert!((still[0][2] - rows[2][2]).abs() < 1e-3, "the tip follows the pressure that arrived");
     }
 
     #[test]
@@ -238,11 +238,12 @@ mod tests {
             ("-1,20", "clock", 1.0, ten),
         ] {
             let text = format!("t_s,p_kpa\n0,5\n1,10\n{bad}\n3,30\n");
-            let (rows, marks, told) = answer(&robot(""), text.as_bytes());
+            let (rows, marks, notes) = answer(&robot(""), text.as_bytes());
             assert_eq!((rows[2][0], &rows[2][1..], marks.join(" ")), (t_s, as_of, format!("  {mark} ")), "{bad}");
             assert_eq!((&rows[0][1..], &rows[3][1..]), (five, thirty), "the stream goes on after {bad}");
             assert!(
-                told.unwrap()[0].starts_with(&format!("warning: 1 of 4 lines are marked {mark}, the first is line 4:"))
+                notes.unwrap()[0]
+                    .starts_with(&format!("warning: 1 of 4 lines are marked {mark}, the first is line 4:"))
             );
         }
         let long = [b"t_s,p_kpa\n0,5\n1,10\n".as_slice(), &[b'7'; 10_000], b"\n\xff,20\n3,30\n"].concat();
@@ -265,22 +266,22 @@ mod tests {
 
     #[test]
     fn pressures_and_poses_beyond_the_limits_are_warned_of_as_predict_does() {
-        let (_, marks, told) = answer(&robot(""), b"t_s,p_kpa\n0,5\n1,500\n2,600\n");
-        let told = told.unwrap().join("\n");
+        let (_, marks, notes) = answer(&robot(""), b"t_s,p_kpa\n0,5\n1,500\n2,600\n");
+        let notes = notes.unwrap().join("\n");
         assert!(marks[0].is_empty() && marks[1..].iter().all(|mark| mark.contains("limit")), "{marks:?}");
         assert!(
-            told.contains("warning: 600 kPa is above max_pressure_kpa = ") && told.contains("2 of 3 lines"),
-            "{told}"
+            notes.contains("warning: 600 kPa is above max_pressure_kpa = ") && notes.contains("2 of 3 lines"),
+            "{notes}"
         );
         let loaded = |robot: Scenario, newton: f64| {
             let heavy = robot.with_effect("tip_load", &[0.0, newton]);
-            let (rows, marks, told) = answer(&heavy, b"t_s,p_kpa\n0,0\n1,0\n");
-            (rows[1][2], marks.join(" "), told.unwrap().join("\n"))
+            let (rows, marks, notes) = answer(&heavy, b"t_s,p_kpa\n0,0\n1,0\n");
+            (rows[1][2], marks.join(" "), notes.unwrap().join("\n"))
         };
-        let (y_mm, marks, told) = loaded(robot("").with_bending(50.0), -2.0);
-        assert!(y_mm < 0.0 && marks == "beyond beyond" && told.contains("do not trust this pose"), "{marks}: {told}");
-        let (y_mm, marks, told) = loaded(robot(""), -40.0);
-        assert!(y_mm.is_nan() && marks == "unsolved unsolved" && told.contains("no equilibrium"), "{marks}: {told}");
+        let (y_mm, marks, notes) = loaded(robot("").with_bending(50.0), -2.0);
+        assert!(y_mm < 0.0 && marks == "beyond beyond" && notes.contains("do not trust this pose"), "{marks}: {notes}");
+        let (y_mm, marks, notes) = loaded(robot(""), -40.0);
+        assert!(y_mm.is_nan() && marks == "unsolved unsolved" && notes.contains("no equilibrium"), "{marks}: {notes}");
     }
 
     #[test]
@@ -291,12 +292,12 @@ mod tests {
             ("t_s,p_furlong", "unknown unit"),
             ("t_s,p2_kpa", "nothing is supplied by channel 2"),
             ("t_s,t_s", "comes twice"),
-            ("p_kpa", "there is no column t_s"),
-            ("t_s", "no pressure for each"),
+            ("p_kpa", "column t_s is missing"),
+            ("t_s", "has a pressure"),
             (&"t".repeat(5000), "longer than 4096"),
         ] {
-            let (rows, _, told) = answer(&robot(""), header.as_bytes());
-            assert!(rows.is_empty() && told.as_ref().unwrap_err().contains(words), "{header}: {told:?}");
+            let (rows, _, notes) = answer(&robot(""), header.as_bytes());
+            assert!(rows.is_empty() && notes.as_ref().unwrap_err().contains(words), "{header}: {notes:?}");
         }
     }
 }

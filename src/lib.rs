@@ -2,8 +2,8 @@
 //!
 //! What a user does, as functions: [`ScenarioFile::read`] and [`Evidence::read`], then [`compare`](fn@compare) (how far off, and
 //! where), [`diagnose`] (which physical effect is missing), [`extend`] (a new scenario with it), [`validate`] (does it help on
-//! other data). [`ladder`] repeats the middle; [`predict`] gives shapes at pressures, [`simulate`] runs finite elements. Every [`Error`] says where, what is wrong
-//! and, by [`Error::help`], what to type. Long work reports its [`Progress`].
+//! other data). [`ladder`] repeats the middle; [`predict`] gives shapes at pressures, [`simulate`] runs finite elements.
+//! Every [`Error`] names the place and the fault and, by [`Error::help`], gives the remedy. Long work reports its [`Progress`].
 //!
 //! Control ([`Predictor`]): the pressure that lifts the tip to 60 mm, and the slope that corrects it.
 //!
@@ -38,7 +38,7 @@
 //! | [`import`] | files of tracking programs and pressure logs become marker tables |
 //! | [`study`] | the only crate that knows both sides: accuracy, noise, diagnosis, extension |
 //! | [`report`] | charts and pages of plain structs; [`pages`] makes them of results |
-//! | [`compared`] | a comparison with all that the command tells of it |
+//! | [`compared`] | a comparison with all that the command prints of it |
 //! | [`shown`] | results as text and as the JSON of the command |
 //! | [`program`] | the command line as one call |
 //! | [`studies`] | robots in finite elements that come with the library by name |

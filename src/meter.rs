@@ -13,7 +13,7 @@ pub(crate) struct Meter {
     highest: AtomicU64,
 }
 
-/// What is said of the time left is worth nothing before \[s\].
+/// An estimate of the time left is worthless before \[s\].
 const KNOWN_AFTER_S: f64 = 1.5;
 
 impl Meter {
@@ -28,7 +28,7 @@ impl Meter {
         Meter { bar, start: Instant::now(), highest: AtomicU64::new(0) }
     }
 
-    /// What is being done, and which share of the whole is done.
+    /// Shows the current work, and the finished share of the whole.
     pub(crate) fn tell(&self, what: &str, share: Option<f64>) {
         let now = (1000.0 * share.unwrap_or(0.0)) as u64;
         let highest = self.highest.fetch_max(now, Ordering::Relaxed).max(now);

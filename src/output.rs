@@ -198,7 +198,7 @@ fn notes(inputs: &[Input]) -> Vec<(String, String)> {
     std::iter::once(("ibr.program".into(), program())).chain(hashes).collect()
 }
 
-/// Program, date, machine and command of what is written.
+/// Program, date, machine and command of the written files.
 pub fn maker() -> Maker {
     let command = std::env::args_os().map(|a| a.to_string_lossy().into_owned()).collect::<Vec<_>>().join(" ");
     Maker { program: program(), date: today(), machine: machine(), command }

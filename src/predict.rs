@@ -15,7 +15,7 @@ pub struct AtPressure {
 }
 
 /// Predicts a scenario at pressures. With an effect that has history they are one path in this order, each held for [`HOLD_S`],
-/// from rest; the slopes are then those of the first loading.
+/// from rest; the slopes then belong to the first loading.
 ///
 /// ```
 /// let robot = ibr::ScenarioFile::read("epam-textbook")?.scenario;
@@ -27,7 +27,7 @@ pub struct AtPressure {
 /// ```
 ///
 /// # Errors
-/// A pressure that means nothing, or at which there is no equilibrium.
+/// A pressure that means nothing, or without an equilibrium.
 pub fn predict(scenario: &Scenario, loads: &[Loads]) -> Result<Vec<AtPressure>, CompareError> {
     let model = Model::new(scenario);
     if !model.has_history() {
@@ -40,7 +40,7 @@ pub fn predict(scenario: &Scenario, loads: &[Loads]) -> Result<Vec<AtPressure>, 
     loads.iter().zip(predictions).map(|(loads, prediction)| state(&model, *loads, prediction)).collect()
 }
 
-/// A predicted state with the slopes of its tip, which are those of the first loading.
+/// A predicted state with the slopes of its tip on the first loading.
 pub(crate) fn state(model: &Model, loads: Loads, prediction: Prediction) -> Result<AtPressure, CompareError> {
     let slopes = model.jacobian(&loads, &mut model.prediction())?;
     Ok(AtPressure { loads, prediction, slopes })
@@ -65,7 +65,7 @@ pub fn predict_for(scenario: &Scenario, target: Target) -> Result<AtPressure, Co
 }
 
 /// The state, at the scenario's body pressure and up to its largest actuator pressure, in which the tip is nearest to a place
-/// x, y \[m\]; each supply channel has a pressure of its own.
+/// x, y \[m\]; each supply channel has its own pressure.
 ///
 /// ```
 /// let robot = ibr::ScenarioFile::read("epam")?.scenario;

@@ -47,7 +47,7 @@ impl Predictor {
         Ok(Loads::uniform(given_pa.unwrap_or(self.scenario.p_body_pa), 0.0).checked()?.body_pa)
     }
 
-    /// A state by itself, as [`Model::predict_held`], with the slopes of the tip.
+    /// A single state, as [`Model::predict_held`], with the slopes of the tip.
     /// Errors as for [`Model::predict`].
     pub fn state(&self, loads: &Loads) -> Result<AtPressure, CompareError> {
         let mut prediction = self.model.prediction();
@@ -55,7 +55,7 @@ impl Predictor {
         self.with_slopes(loads, prediction)
     }
 
-    /// A state that was predicted, with the slopes of the tip, which are those of the first loading.
+    /// A predicted state with the slopes of the tip on the first loading.
     /// Errors as for [`Model::predict`].
     pub fn with_slopes(&self, loads: &Loads, at: Prediction) -> Result<AtPressure, CompareError> {
         state(&self.model, *loads, at)

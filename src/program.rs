@@ -12,7 +12,7 @@ use std::sync::{Mutex, PoisonError};
 /// Held while files are written: an interrupt then waits, so that no result is left half written. True once results
 /// are written.
 static WRITTEN: Mutex<bool> = Mutex::new(false);
-/// For a command that saves where it stands before it ends.
+/// For a command that saves its state before it ends.
 static INTERRUPT: Interrupt = Interrupt::new();
 
 /// Runs what was typed, the name of the program first, prints, and returns the exit code. It takes over Ctrl-C and ends the
@@ -62,7 +62,7 @@ fn on_interrupt(_: fn()) -> Result<(), std::convert::Infallible> {
     Ok(())
 }
 
-/// A panic of the library that reads Parquet files is told as an error of the file, and not as one of this program.
+/// A panic of the library that reads Parquet files is reported as an error of the file, and not as one of this program.
 fn silence_parquet() {
     let loud = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {

@@ -16,7 +16,7 @@ pub(crate) const MARKS: [(&str, &str); 7] = [
     ("held", "a pressure is not a number or out of its bounds: the last good one is used"),
     ("line", "the line cannot be read: the last reading is used"),
     ("clock", "the time goes back or is not a number: the last reading is used"),
-    ("unsolved", "there is no equilibrium: the last pose is printed"),
+    ("unsolved", "no equilibrium exists: the last pose is printed"),
     ("limit", "a pressure is above max_pressure_kpa of the scenario"),
     ("beyond", "the pose is beyond a limit of the model: do not trust it"),
 ];
@@ -46,7 +46,7 @@ pub(crate) const HEADER: &str =
 const TABLE: &str =
     "the first line names the columns, for example p_kpa or p0_kpa,p1_kpa; then numbers, a line for each pose";
 
-/// Pressures of a file, a line for each pose: columns as those of [`crate::follow`], without a time.
+/// Pressures of a file, a line for each pose: columns as for [`crate::follow`], without a time.
 ///
 /// # Errors
 /// A file that cannot be read; a line that cannot be understood, by its number; more than `most` lines.
@@ -68,7 +68,7 @@ pub fn pressures_of(scenario: &Scenario, path: &Path, most: usize) -> Result<Vec
         }
         all.push(read(&line, &columns, scenario.p_body_pa).map_err(|what| lines.fault(&what))?);
     }
-    if all.is_empty() { Err(lines.fault("there is no line of pressures")) } else { Ok(all) }
+    if all.is_empty() { Err(lines.fault("the file has no line of pressures")) } else { Ok(all) }
 }
 
 /// Lines that are read one by one into one buffer.
@@ -115,7 +115,7 @@ impl<R: BufRead> Lines<R> {
                 }
                 return Ok(Some(Err(format!("it is longer than {MOST_LINE} bytes"))));
             }
-            let Ok(text) = std::str::from_utf8(&self.line) else { return Ok(Some(Err("it is no text".into()))) };
+            let Ok(text) = std::str::from_utf8(&self.line) else { return Ok(Some(Err("it is not text".into()))) };
             let text = text.trim_start_matches('\u{feff}').trim();
             match text {
                 _ if got == 0 => return Ok(None),
@@ -169,10 +169,10 @@ pub(crate) fn columns(header: &str, fed: &[usize], timed: bool) -> Result<Vec<(C
     let has = |column: Column| found.iter().any(|(known, _)| *known == column);
     let (some, every) = (fed.iter().any(|c| has(Column::Channel(*c))), fed.iter().all(|c| has(Column::Channel(*c))));
     match (has(Column::Time), has(Column::All), some) {
-        (false, ..) if timed => Err("there is no column t_s".into()),
+        (false, ..) if timed => Err("column t_s is missing".into()),
         (true, ..) if !timed => Err("it has times: give it to ibr predict --follow as standard input".into()),
-        (_, true, true) => Err("p for all channels and pressures of single ones say the same twice".into()),
-        (_, false, _) if !every => Err(format!("there is no pressure for each of the channels {fed:?}")),
+        (_, true, true) => Err("p for all channels and pressures of single ones give the same twice".into()),
+        (_, false, _) if !every => Err(format!("not every one of the channels {fed:?} has a pressure")),
         _ => Ok(found),
     }
 }
@@ -195,7 +195,7 @@ fn read(line: &str, columns: &[(Column, Unit)], body_pa: f64) -> Result<Loads, S
     }
     let mut loads = Loads { body_pa, actuator_pa: [0.0; CHANNELS] };
     for (cell, (column, unit)) in cells.into_iter().zip(columns) {
-        let number: f64 = cell.parse().map_err(|_| format!("`{cell}` is no number"))?;
+        let number: f64 = cell.parse().map_err(|_| format!("`{cell}` is not a number"))?;
         put(*column, unit.to_si(number), &mut loads);
     }
     loads.checked().map_err(|error| error.to_string())
@@ -211,7 +211,7 @@ const NEW_CLOCK: usize = 5;
 pub(crate) struct Reading {
     pub t_s: f64,
     pub loads: Loads,
-    /// What is added to the times, since a clock began again \[s\].
+    /// Shift added to the times, since a clock began again \[s\].
     ahead_s: f64,
     /// Late lines in a row, and the time of the last one \[s\].
     late: (usize, f64),
@@ -224,7 +224,7 @@ impl Reading {
         Reading { t_s: 0.0, loads, ahead_s: 0.0, late: (0, 0.0) }
     }
 
-    /// Takes what is good in a line, and marks what is not.
+    /// Takes the good values of a line, and marks the others.
     pub(crate) fn take(&mut self, line: &str, columns: &[(Column, Unit)], marked: &mut Marked) {
         let cells: Vec<&str> = line.split(',').map(str::trim).collect();
         if cells.len() != columns.len() {
@@ -288,13 +288,13 @@ mod tests {
         let found = read("p_bar,p_body_kpa\n0.1,2\n\n0.2,3\n").unwrap();
         assert_eq!(found, [Loads::uniform(2e3, 0.1e5), Loads::uniform(3e3, 0.2e5)]);
         for (text, words) in [
-            ("p_kpa\n", "there is no line of pressures"),
-            ("p_kpa\n1\nx\n", "line 3: `x` is no number"),
+            ("p_kpa\n", "the file has no line of pressures"),
+            ("p_kpa\n1\nx\n", "line 3: `x` is not a number"),
             ("t_s,p_kpa\n0,1\n", "line 1: it has times"),
             ("p_kpa\n1\n2\n3\n4\n", "line 5: more than 3 pressures"),
         ] {
-            let told = read(text).unwrap_err();
-            assert!(told.contains(words) && told.contains("p.csv"), "{text}: {told}");
+            let error = read(text).unwrap_err();
+            assert!(error.contains(words) && error.contains("p.csv"), "{text}: {error}");
         }
         std::fs::remove_file(&path).unwrap();
         assert!(pressures_of(&robot(), &path, 3).unwrap_err().to_string().contains("p.csv"));

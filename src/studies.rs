@@ -1,4 +1,4 @@
-//! What comes with the library by name beside the four robots: scenarios of finite element studies.
+//! Scenarios that come with the library by name, in addition to the four robots: finite element studies.
 
 use compare::{CompareError, ScenarioFile};
 use fem::case::{SHIPPED_CASES, shipped_case};
@@ -36,7 +36,7 @@ pub const STUDIES: &[(&str, &str, &str)] = &[
     study!("obstacle", "a cylinder in the way"),
 ];
 
-/// Those of robots with strips round the body.
+/// Studies of robots with strips round the body.
 pub const IN_SPACE: [&str; 2] = ["epam-two-strips", "epam-helix"];
 
 /// Keys of `[fem]` for a run that somebody waits for: a little coarse and fast.

@@ -88,7 +88,7 @@ function candidate(c) {
   };
   const rows = element('div', { className: 'bars' });
   const alike =
-    { stated: 'cannot be told apart from the best', attempt: 'not enough', other: 'fits worse' }[c.standing] ??
+    { stated: 'fits as well as the best', attempt: 'not enough', other: 'fits worse' }[c.standing] ??
     c.standing;
   bars(rows, [
     { name: 'before', value: c.before_mm, number: `${c.before_mm.toFixed(2)} mm`, className: 'gives' },

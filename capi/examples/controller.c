@@ -2,8 +2,8 @@
  *
  *   cc controller.c -I.. -L../../target/release -l:libibr_capi.a -lm -lpthread -ldl -o controller && ./controller
  *
- * Each cycle asks the model for the pressures of the next wanted place, within what the valves can change in a cycle, and
- * corrects the wanted place by what the tip missed so far (an integral), because no robot is its model. The robot here is
+ * Each cycle asks the model for the pressures of the next target, within what the valves can change in a cycle, and
+ * corrects the target by what the tip missed so far (an integral), because no robot is its model. The robot here is
  * played by the same model with a softer supply: a tenth of every pressure is lost on the way. */
 #include "ibr.h"
 #include <math.h>

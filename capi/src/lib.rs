@@ -13,7 +13,7 @@ use std::ffi::{CStr, c_char};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use text::Text;
 
-/// Supply channels; every array of pressures has so many, those of channels that feed nothing are not read.
+/// Supply channels; every array of pressures has so many; values for channels that feed nothing are ignored.
 pub const IBR_CHANNELS: usize = 4;
 /// The call did what was asked; its results are written.
 pub const IBR_OK: i32 = 0;
@@ -21,7 +21,7 @@ pub const IBR_OK: i32 = 0;
 pub const IBR_BAD_ARGUMENT: i32 = 1;
 /// The robot has no equilibrium at these pressures.
 pub const IBR_UNSOLVED: i32 = 2;
-/// The tip cannot be where it is wanted; the error text has the range in reach.
+/// The tip cannot reach its target; the error text has the range in reach.
 pub const IBR_OUT_OF_REACH: i32 = 3;
 /// A fault in the library: please report it with its text.
 pub const IBR_FAULT: i32 = 4;
@@ -70,7 +70,7 @@ pub struct ibr_slope {
     pub angle_per_pa: f64,
 }
 
-/// Pressures that bring the tip nearest to where it is wanted.
+/// Pressures that bring the tip nearest to its target.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ibr_steered {
@@ -321,10 +321,10 @@ fn tip_of(at: &Prediction) -> ibr_tip {
     ibr_tip { x_m, y_m, angle_rad }
 }
 
-/// What is said of a pointer that is null.
+/// The error for a null pointer.
 const NULL: Unsolved = Unsolved::BadAim { what: "a pointer for pressures or for the answer is null" };
 
-/// Works with a robot; its error text is that of this call afterwards.
+/// Works with a robot; its error text then belongs to this call.
 ///
 /// # Safety
 /// `robot` is null or comes from [`ibr_open`].

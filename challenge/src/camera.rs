@@ -9,7 +9,7 @@
 //! lens       about (½L, L/6) by 1 + k r²                                        barrel distortion
 //! by the second laws
 //! lens       about (½L, L/6) by 1 + k r⁴                                        a wide lens that was calibrated in its middle
-//! height     pins that lean by 20°: e sin20° along the body beside e cos20° across it
+//! height     pins that lean by 20°: e sin20° along the body, e cos20° across it
 //! mount      turned about the base by φ (u − ¼)₊/¾                              friction holds a gripped base
 //! scale      x (1 + c), y (1 + c/2)                                            pixels that are not square
 //! rotation   turned about (½L, 0) by δ                                         knocked after it was calibrated

@@ -1,6 +1,6 @@
 //! The actuator of one cell: its stroke, its push, and how far its line of action is from the taut generator.
 //!
-//! Base laws are those of the project (pouch lens, McKibben at 45°, linear lift of an external actuator); written again
+//! Base laws are the project's (pouch lens, McKibben at 45°, linear lift of an external actuator), but derived again
 //! from the geometry, so that a slip in `models` does not hide here. The other fields are hidden laws, off at 0:
 //!
 //! ```text
@@ -213,7 +213,7 @@ impl Drive {
     }
 }
 
-/// Push of fibres by the cube of their density, over that of the sheet at rest; nothing on the other side.
+/// Push of fibres by the cube of their density, relative to the sheet at rest; nothing on the other side.
 fn dense(shear: f64) -> f64 {
     (1.0 - shear.max(0.0) / DENSE_RAD).max(LEAST_ROOM).powi(-3) - 1.0
 }

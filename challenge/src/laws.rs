@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Laws {
-    /// Written beside the catalogue, each another one than its entry.
+    /// Written together with the catalogue, each different from its entry.
     #[default]
     First,
     /// Taken from the literature or derived, without the diagnosis in view.

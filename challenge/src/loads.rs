@@ -18,7 +18,7 @@ pub struct DeadLoads {
     pub cap_n: f64,
     /// Weight per length of a hose that hangs from the tip down to a table below the base \[N/m\].
     pub hose_n_per_m: f64,
-    /// Known force on the tip, as `about.toml` says \[N\].
+    /// Known force on the tip, as `about.toml` states \[N\].
     pub tip_n: [f64; 2],
     /// Stiffness of a soft obstacle in the tip's way \[N/m\].
     pub obstacle_n_per_m: f64,

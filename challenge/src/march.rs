@@ -13,7 +13,7 @@ const RAMP_STEPS: usize = 8;
 const LONGEST_STEP_S: f64 = 0.5;
 /// Rounds in which loads and shape must agree: where each takes only a fiftieth of the gap, 350 make it a thousand times smaller.
 const MAX_ROUNDS: usize = 2000;
-/// Agreement wanted \[N·m\]: a millionth of a hinge moment.
+/// Target agreement \[N·m\]: a millionth of a hinge moment.
 const AGREED_NM: f64 = 1e-7;
 
 /// State of a robot in time.

@@ -1,4 +1,4 @@
-//! A seal opened, and a diagnosis held against the truth that comes out.
+//! Opens a seal, and compares a diagnosis with the revealed truth.
 
 use super::seal::{FILE, SEALED, Seal, VERSION, hex};
 use super::truth::known;
@@ -17,7 +17,7 @@ struct Contents {
     truth: Truth,
 }
 
-/// Opens the seal of a challenge's folder and checks that its files are those of the truth: the truth, and the seal's hash.
+/// Opens the seal of a challenge's folder and checks that its files match the truth: returns the truth and the seal's hash.
 ///
 /// # Errors
 /// A seal that is broken or of another format, or a file that was changed.
@@ -121,7 +121,7 @@ impl Claim {
             return "The diagnosis gives no verdict: it is not scored. Three runs or more are needed for one.\n".into();
         };
         let right = if score.verdict_right { "which is right" } else { "which is wrong" };
-        let mut text = format!("The diagnosis says: {said}, {right}.\n");
+        let mut text = format!("The diagnosis states: {said}, {right}.\n");
         if truth.effects.is_empty() || score.rank.is_none() && !score.in_set {
             return text;
         }

@@ -14,10 +14,10 @@ use std::hash::{BuildHasher, Hasher};
 /// Accepted sizes of hidden effects as multiples of the typical size.
 const SIZES: std::ops::RangeInclusive<f64> = 0.05..=3.0;
 
-/// What a challenge shall be; what is left out is drawn.
+/// Choices for a challenge; choices left out are drawn.
 #[derive(Debug, Clone, Default)]
 pub struct Riddle {
-    /// Makes the same challenge again; without it nobody can guess what is hidden.
+    /// Makes the same challenge again; without it the hidden effect cannot be guessed.
     pub seed: Option<u64>,
     /// What to hide: nothing or `random`, `none`, or `NAME[=times its typical size]` each.
     pub effects: Vec<String>,
@@ -38,7 +38,7 @@ pub struct Riddle {
 pub struct Handout {
     /// Measured markers, which the files contain as `markers.csv`.
     pub dataset: Dataset,
-    /// Files by name: those of [`SEALED`], then [`FILE`].
+    /// Files by name: [`SEALED`] in its order, then [`FILE`].
     pub files: Vec<(String, Vec<u8>)>,
     /// The seal's hash; who keeps it can prove the truth unchanged.
     pub sha256: String,
@@ -79,8 +79,8 @@ impl Riddle {
 
     fn hide(&self, truth: &mut Truth, draw: &mut Draw) -> Result<(), CompareError> {
         if let Some(alone) = self.effects.iter().find(|text| ["none", "random"].contains(&text.as_str())) {
-            let message = format!("--effect {alone} stands alone: it cannot be given with others");
-            return Err(CompareError::refused(message, "name the effects to hide, or give none or random by itself"));
+            let message = format!("--effect {alone} cannot be given with others");
+            return Err(CompareError::refused(message, "name the effects to hide, or give none or random alone"));
         }
         for text in &self.effects {
             let (name, times) = effect(text, draw)?;
@@ -143,13 +143,13 @@ fn effect(text: &str, draw: &mut Draw) -> Result<(&'static str, f64), CompareErr
     Ok((effect.name, times))
 }
 
-/// A seed that nobody can guess: the keys of the standard library's hash maps are random.
+/// A seed that cannot be guessed: the keys of the standard library's hash maps are random.
 fn unpredictable() -> u64 {
     std::collections::hash_map::RandomState::new().build_hasher().finish()
 }
 
 fn about(scenario: &Scenario, dataset: &Dataset) -> About {
-    let notes = "Not a measurement. What is hidden is sealed in seal.toml; the recorded pressures are the set ones.";
+    let notes = "Not a measurement. The hidden effect is sealed in seal.toml; the recorded pressures are the set ones.";
     About {
         title: format!("Challenge: markers of {}", scenario.name),
         source: "ibr challenge new".into(),

@@ -3,7 +3,7 @@
 /// Steps: bisection alone needs 52 for a double.
 const MAX_STEPS: usize = 100;
 
-/// Root of `f` in `[a, b]`, to a few units in the last place; `None` if the ends have one sign or a value is no number.
+/// Root of `f` in `[a, b]`, to a few units in the last place; `None` if the ends have one sign or a value is not a number.
 ///
 /// Reference: T. R. Chandrupatla, Advances in Engineering Software 28(3), 1997.
 pub(super) fn root(mut f: impl FnMut(f64) -> f64, a: f64, b: f64) -> Option<f64> {

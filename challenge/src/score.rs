@@ -1,11 +1,11 @@
-//! A diagnosis held against the truth.
+//! A diagnosis compared with the truth.
 
 use super::effects::by_name;
 use super::truth::Truth;
 use compare::diagnosis::{Diagnosis, Verdict};
 use serde::{Deserialize, Serialize};
 
-/// What a diagnosis says, as far as it is scored.
+/// The scored part of a diagnosis.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Claim {
     /// `none`, `effect` or `out_of_catalog`; `None` if it gives no verdict.
@@ -21,9 +21,9 @@ pub struct Claim {
 /// How an answer compares with the truth.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ClaimScore {
-    /// It says that something is missing.
+    /// It reports that something is missing.
     pub alarm: bool,
-    /// It says that nothing in the catalogue explains the data.
+    /// It reports that nothing in the catalogue explains the data.
     pub out_of_catalog: bool,
     /// The verdict is the right one of the three.
     pub verdict_right: bool,

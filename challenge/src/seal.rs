@@ -1,11 +1,11 @@
-//! The seal of a truth: a hash that commits to it, and the truth itself in a form that nobody reads by accident.
+//! The seal of a truth: a hash that commits to it, and the truth itself, encoded against reading by accident.
 //!
 //! ```text
 //! sha256 = SHA-256(salt ‖ truth)          printed when the challenge is made; who keeps it can prove the truth unchanged
 //! truth  = hex(text XOR keystream)        keystream = SHA-256(salt ‖ 0), SHA-256(salt ‖ 1), …
 //! ```
 //!
-//! This keeps honest eyes out, not a determined reader: the salt stands beside it.
+//! This keeps honest eyes out, not a determined reader: the file also contains the salt.
 
 use sha2::{Digest, Sha256};
 

@@ -1,4 +1,4 @@
-//! What is hidden in a dataset, as data: drawn from a seed, written as TOML, made into a robot and measured.
+//! The hidden effects of a dataset, as data: drawn from a seed, written as TOML, made into a robot and measured.
 
 use super::effects::{ALSO, HIDDEN, HiddenEffect, Laws, OUTSIDE, by_name};
 use super::measure::{Measurement, measure};
@@ -68,7 +68,7 @@ pub struct Truth {
     pub effects: Vec<HiddenChoice>,
 }
 
-/// Random numbers of one dataset: a stream of its own for every (seed, index).
+/// Random numbers of one dataset: a separate stream for every (seed, index).
 pub struct Draw(Scatter);
 
 impl Draw {
@@ -113,7 +113,7 @@ impl Truth {
         })
     }
 
-    /// Hides effects of that kind, each of 0.8–1.5 typical sizes; sizes of what is outside the catalogue are typical.
+    /// Hides effects of that kind, each of 0.8–1.5 typical sizes; effects outside the catalogue have their typical size.
     ///
     /// # Errors
     /// The scenario is damaged.

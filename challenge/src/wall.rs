@@ -228,7 +228,7 @@ impl CellWall {
         [fresh, if power == 0.0 { 0.0 } else { self.kept(kappa.max(memory.largest)) }]
     }
 
-    /// Ramberg and Osgood's plastic part of a curvature: κ = κ_e + s κ_e²/κ_c, solved for what is not κ_e \[1/m\].
+    /// Ramberg and Osgood's plastic part of a curvature: κ = κ_e + s κ_e²/κ_c, solved for the plastic part κ − κ_e \[1/m\].
     fn kept(&self, largest: f64) -> f64 {
         let per_m = 2.0 * self.set[1] / self.scale_per_m;
         largest - ((1.0 + 2.0 * per_m * largest).sqrt() - 1.0) / per_m

@@ -79,7 +79,7 @@ impl Provenance {
 }
 
 /// How the bending stiffness is measured, as every part of the program asks for it.
-pub const BENDING_TEST: &str = "measure the bending stiffness by itself, to 10 %: hang a known force on the tip of the inflated body, \
+pub const BENDING_TEST: &str = "measure the bending stiffness separately, to 10 %: hang a known force on the tip of the inflated body, \
                                 actuator vented, and write B into [bending] of about.toml";
 
 /// Description of a dataset, in SI units.

@@ -125,7 +125,7 @@ impl<'a> Grid<'a> {
             let seen_by_none = |hold: &usize| matched.iter().all(|of: &Vec<Option<usize>>| of[*hold].is_none());
             if let Some(hold) = (0..reference.len()).find(seen_by_none) {
                 let [own, other] = [run[0], fullest].map(|stream| recorder.words(stream));
-                let message = format!("{own} has no hold like that of {other}: {}", describe(&reference[hold]));
+                let message = format!("{own} lacks a hold that {other} has: {}", describe(&reference[hold]));
                 return Err(recorder.fault(message, SAME_HOLDS, run[0].first_line));
             }
             check_not_run_together(recorder, run, &matched)?;
@@ -284,8 +284,7 @@ fn check_not_run_together(recorder: &Recorder, run: &[&Stream], matched: &[Vec<O
             if segment.last_t_s() > next {
                 let (own, hold) = (recorder.words(stream), describe(segment));
                 let message = format!("{own} was lost between two equal holds: {hold}");
-                let help =
-                    "rows before and after cannot be told apart there: delete those of this marker in one of the two";
+                let help = "rows before and after cannot be assigned to a hold: delete this marker's rows in one of the two holds";
                 return Err(recorder.fault(message, help, segment.first_line));
             }
         }

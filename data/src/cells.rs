@@ -3,11 +3,11 @@
 use crate::error::{DataError, Result};
 use crate::lines::{KeptLine, Line};
 
-/// What spreadsheets, pandas, R and C libraries write where there is no number.
+/// What spreadsheets, pandas, R and C libraries write for a missing number.
 const NOTHING: [&str; 13] =
     ["", "na", "n/a", "#n/a", "nan", "null", "none", "-", "nan(ind)", "nan(snan)", "1.#qnan", "1.#ind", "missing"];
 
-/// Whether a cell stands for a missing number.
+/// Whether a cell means a missing number.
 pub(crate) fn is_nothing(text: &str) -> bool {
     let plain = text.strip_prefix(['-', '+']).filter(|rest| !rest.is_empty()).unwrap_or(text);
     NOTHING.iter().any(|word| plain.eq_ignore_ascii_case(word))
@@ -105,7 +105,7 @@ pub(crate) fn is_certain(text: &str) -> bool {
     after.len() != 3 || before.starts_with('0') || before.is_empty() || before.len() > 3
 }
 
-/// Message and help for a cell that is no finite number; `expected` is the name of its column, `more` ends the help.
+/// Message and help for a cell that is not a finite number; `expected` is the name of its column, `more` ends the help.
 pub(crate) fn no_number(text: &str, expected: &str, more: &str) -> [String; 2] {
     let message = match text.parse::<f64>() {
         _ if text.is_empty() => "expected a number, the cell is empty".to_string(),

@@ -290,7 +290,7 @@ pub fn contradictions(dataset: &Dataset) -> Vec<String> {
         if change.abs() > least && hold.phase != right {
             let ([from, to], said, right) =
                 ([before, hold].map(|h| kpa(h.sum_act_pa())), hold.phase.word(), right.word());
-            wrong.push(format!("hold {} goes from {from:.1} to {to:.1} kPa and says {said}, not {right}", i + 2));
+            wrong.push(format!("hold {} goes from {from:.1} to {to:.1} kPa and is marked {said}, not {right}", i + 2));
         }
     }
     if !wrong.is_empty() {
@@ -328,7 +328,7 @@ fn warnings(report: &CheckReport, about: Option<&About>) -> Vec<String> {
     );
     let unknown = report.markers.iter().filter(|marker| marker.s_mm.is_none()).count();
     warn(unknown > 0, &format!("{unknown} markers without station: add [markers] names and s_mm to about.toml"));
-    warn(!report.unloading, "no unloading branch: friction, creep and set cannot be told from other effects");
+    warn(!report.unloading, "no unloading branch: friction, creep and set cannot be separated from other effects");
     let [body, act] = [&report.body_pressures_kpa, &report.actuator_pressures_kpa].map(Vec::len);
     warn(body < 2, "one body pressure: body stiffness and pouch effects are hard to separate");
     warn(act < 3, "fewer than three actuator pressures: no trend with pressure");

@@ -159,7 +159,7 @@ const FEW_MISSING: usize = 2;
 fn foreign(line: &Line, names: &[String], delimiter: u8, [missing, all]: [usize; 2]) -> DataError {
     let file = line.file;
     let (first, found) = (QUANTITIES[missing].expected, listed(names, delimiter));
-    let message = format!("column {first} is missing, and {} more: this is no marker table; found {found}", all - 1);
+    let message = format!("column {first} is missing, and {} more: this is not a marker table; found {found}", all - 1);
     let help = format!(
         "`ibr data import {file} --out FOLDER` reads the tables of tracking programs and wide tables; the columns are {}",
         wanted()
@@ -177,7 +177,7 @@ fn absent(line: &Line, names: &[String], delimiter: u8, missing: usize) -> DataE
     if let Some(near) = spelling::nearest(expected, unknown).filter(|near| !near.is_empty()) {
         let index = names.iter().position(|name| name == near).unwrap_or_default();
         let message = format!("column {expected} is missing; found {found}");
-        let help = format!("did you mean {expected} where it says {near}?");
+        let help = format!("did you mean {expected} instead of {near}?");
         return DataError::Column(columns::fault(line, names, index, message, help));
     }
     let message = format!("column {expected} is missing; found {found}");
@@ -231,7 +231,7 @@ mod tests {
     #[test]
     fn a_misspelt_column_gets_a_suggestion_and_a_caret() {
         let error = header(&GOOD.replace("p_act_kpa", "p_atc_kpa")).unwrap_err();
-        assert_eq!(error.help(), "did you mean p_act_kpa where it says p_atc_kpa?");
+        assert_eq!(error.help(), "did you mean p_act_kpa instead of p_atc_kpa?");
         let (start, end) = error.caret().unwrap();
         assert_eq!(&error.source_line().unwrap()[start..end], "p_atc_kpa");
     }

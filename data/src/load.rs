@@ -55,7 +55,7 @@ fn load_set(name: &str, actuator: Option<&str>, progress: Progress) -> Result<(D
 fn load_folder(folder: &Path, actuator: Option<&str>, progress: Progress) -> Result<(Dataset, Option<About>)> {
     let candidates = ["markers.csv", "markers.parquet"].map(|file| folder.join(file));
     let Some(file) = candidates.iter().find(|file| file.is_file()) else {
-        let help = "put the table there as markers.csv, with an about.toml beside it";
+        let help = "put the table there as markers.csv, together with an about.toml";
         return Err(DataError::file(&folder.display().to_string(), "the folder has no markers.csv", help));
     };
     let (mut dataset, about) = load_file(file, actuator, progress)?;

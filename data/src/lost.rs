@@ -207,7 +207,7 @@ pub fn losses(dataset: &Dataset) -> Vec<String> {
         Some(more) if more > 0 => format!("{}, and {more} more", places[..MOST_NAMED].join(", ")),
         _ => places.join(", "),
     };
-    let mut words: Vec<String> = dataset.told.iter().map(|told| format!("{name}: {told}")).collect();
+    let mut words: Vec<String> = dataset.told.iter().map(|note| format!("{name}: {note}")).collect();
     if *frames > 0 {
         words.push(format!("{name}: {frames} rows have no position and were passed over"));
     }

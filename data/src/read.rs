@@ -175,12 +175,12 @@ fn no_rows(file: &str, kind: &Kind, lost_frames: u64) -> DataError {
         let message = format!("none of the {lost_frames} rows has a position");
         return DataError::layout(file, message, help);
     }
-    let Some(wanted) = &kind.wanted else {
+    let Some(chosen) = &kind.wanted else {
         let help = "add one row per run, time and marker below the header";
         return DataError::layout(file, "the file has a header and no rows", help);
     };
     let seen: Vec<_> = kind.seen.iter().map(String::as_str).collect();
-    let message = format!("no rows of actuator {wanted}; found {}", seen.join(", "));
+    let message = format!("no rows of actuator {chosen}; found {}", seen.join(", "));
     DataError::runs(file, message, "choose one of the kinds found")
 }
 
@@ -189,7 +189,7 @@ fn check_kind(file: &str, kind: &str, about: Option<&About>) -> Result<()> {
     if said == kind {
         return Ok(());
     }
-    let message = format!("the table is of actuator {kind}, its about.toml says {said}");
+    let message = format!("the table is of actuator {kind}, its about.toml names {said}");
     Err(DataError::runs(file, message, format!("correct the actuator column or `actuator = \"{kind}\"`")))
 }
 

@@ -355,13 +355,13 @@ impl<'a> Cells<'a> {
         let room_pa = if quantity == P_BODY { ROOM_PA } else { 0.0 };
         if value > bounds.high * bounds.si + room_pa {
             let [better, ending] = if self.header.unit(quantity) == "kPa" { ["Pa", "pa"] } else { ["kPa", "kpa"] };
-            let told = bounds.check(value).err().map_or(String::new(), |(message, _)| message);
+            let why = bounds.check(value).err().map_or(String::new(), |(message, _)| message);
             let [message, help] = match bounds.contains(value * 1e-3) {
                 true => [
-                    format!("{told}; it looks like {better}"),
+                    format!("{why}; it looks like {better}"),
                     format!("name the column {}_{ending}", QUANTITIES[quantity].base),
                 ],
-                false => [told, "correct the number, or the unit in the name of the column".into()],
+                false => [why, "correct the number, or the unit in the name of the column".into()],
             };
             return Err(DataError::Unit(self.fault(quantity, message, help)));
         }

@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn an_unknown_set_names_the_known_ones() {
-        let error = set_file("nobody-1900", "about.toml").unwrap_err();
+        let error = set_file("unknown-1900", "about.toml").unwrap_err();
         assert!(error.help().contains("du-pasquier-2023"), "{error}");
     }
 }

@@ -11,7 +11,7 @@ Progress = Callable[[str, Optional[float]], None]
 Pressure = Union[float, Sequence[float]]
 
 class Error(ValueError):
-    """What is wrong, where, and what to write instead."""
+    """The fault, its place, and what to write instead."""
 
     where: Optional[str]
     """File and line or column; None where there is none."""

@@ -1,4 +1,4 @@
-//! What is found of scenarios and data: the text of the command, its JSON, a table, and the report page.
+//! Results for scenarios and data: the text of the command, its JSON, a table, and the report page.
 
 use crate::arrays::columns;
 use crate::errors::raised;
@@ -22,7 +22,7 @@ use pyo3::types::{PyBytes, PyDict};
 /// Makes the files of a report.
 type Page = Box<dyn Fn() -> Result<Files, PageError> + Send + Sync>;
 
-/// A result as the command tells it.
+/// A result as the command gives it.
 #[pyclass(frozen, module = "ibr")]
 pub struct Answer {
     /// Text of the answer, as the command prints it.
@@ -191,7 +191,8 @@ fn extended(file: &ScenarioFile, evidence: &[Evidence], found: Extension) -> PyR
 #[pyfunction]
 pub(crate) fn extend(py: Python<'_>, scenario: &Scenario, diagnosed: &Answer) -> PyResult<Answer> {
     let found = diagnosed.diagnosis.as_ref();
-    let found = found.ok_or_else(|| crate::errors::refused("this is no diagnosis", "give the result of diagnose()"))?;
+    let found =
+        found.ok_or_else(|| crate::errors::refused("this is not a diagnosis", "give the result of diagnose()"))?;
     let extension = py.detach(|| ibr::extend(&scenario.file, found)).map_err(raised)?;
     extended(&scenario.file, &[], extension)
 }

@@ -17,7 +17,7 @@ pub(crate) fn rows_mm<const AXES: usize>(py: Python<'_>, points_m: Vec<[f64; AXE
     matrix(py, count, AXES, flat)
 }
 
-/// x, y and z of points whose z stands apart.
+/// x, y and z of points whose z is in a separate list.
 pub(crate) fn with_z(xy: &[[f64; 2]], z: &[f64]) -> Vec<[f64; 3]> {
     xy.iter().zip(z).map(|([x, y], z)| [*x, *y, *z]).collect()
 }

@@ -10,7 +10,7 @@ create_exception!(
     ibr,
     Error,
     PyValueError,
-    "What is wrong, where, and what to write instead.\n\n`where` is the file and its line or column, `help` what to do; None where there is none."
+    "The fault, its place, and what to write instead.\n\n`where` is the file and its line or column, `help` what to do; None where there is none."
 );
 
 /// Message of an error, and where in a file it is.

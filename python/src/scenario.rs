@@ -194,7 +194,7 @@ impl Scenario {
         States::new(py, &tips, markers, z_m)
     }
 
-    /// The state in which the tip is where it is wanted.
+    /// The state in which the tip is on target.
     #[pyo3(signature = (*, tip_mm = None, angle_deg = None, body_pressure_kpa = None))]
     fn inverse(&self, tip_mm: Option<f64>, angle_deg: Option<f64>, body_pressure_kpa: Option<f64>) -> PyResult<State> {
         let target = match (tip_mm, angle_deg) {
@@ -207,7 +207,7 @@ impl Scenario {
         State::new(&self.robot, loads, &at)
     }
 
-    /// Pressures of all channels that bring tip or markers nearest to where they are wanted.
+    /// Pressures of all channels that bring tip or markers nearest to their targets.
     #[pyo3(signature = (*, tip_mm = None, markers_mm = None, now_kpa = None, change_kpa = None, body_pressure_kpa = None))]
     fn steer(
         &self,

@@ -102,7 +102,7 @@ fn round_step(rough: f64) -> f64 {
     factor * power
 }
 
-/// Decimals that tell multiples of `step` apart.
+/// Decimals that distinguish multiples of `step`.
 fn step_decimals(step: f64) -> usize {
     (0..12).find(|d| ((step * 10f64.powi(*d)).round() / 10f64.powi(*d) - step).abs() < 1e-6 * step).unwrap_or(12)
         as usize

@@ -49,16 +49,16 @@ pub struct ChartRow {
     pub place: RowPlace,
     /// Number of bars below each other in the row.
     pub lanes: usize,
-    /// What else is said of it, at the right.
+    /// A remark about it, at the right.
     pub aside: String,
     /// Colour of the text at the right of the row.
     pub ink: Ink,
 }
 
-/// Where the name of a [`ChartRow`] stands.
+/// Where the name of a [`ChartRow`] is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum RowPlace {
-    /// In a line of its own above the bars.
+    /// In a separate line above the bars.
     #[default]
     Above,
     /// At the left of the bars, in the margin.
@@ -88,7 +88,7 @@ pub struct ChartColumn {
     pub groups: [String; 2],
 }
 
-/// One mark of a [`Chart`]; numbers in the units of the axes. What is not finite is left out, and lifts the pen of a line.
+/// One mark of a [`Chart`]; numbers in the units of the axes. Values that are not finite are left out, and lift the pen of a line.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Mark {
     /// Solid line through points, broken where one is not finite.
@@ -97,13 +97,13 @@ pub enum Mark {
     Dashed(Vec<[f64; 2]>, Ink),
     /// Filled outline through points, in the soft colour.
     Band(Vec<[f64; 2]>),
-    /// A symbol with error bars and a label beside it.
+    /// A symbol with error bars and a label next to it.
     Point(Point),
     /// A label at the right edge, joined to its point.
     Tip([f64; 2], String, Ink),
     /// Horizontal bar in a lane of one row.
     Bar(Bar),
-    /// A cell: row, column, strength of its colour from −1 to 1 (not finite: nothing is known), what it says, and small words below.
+    /// A cell: row, column, strength of its colour from −1 to 1 (not finite: nothing is known), its text, and small words below.
     Cell([usize; 2], f64, String, String),
     /// A dashed line across all rows.
     Rule(f64),
@@ -141,9 +141,9 @@ pub struct Bar {
     pub alpha: f64,
     /// Lower and upper end of its range, if one is known.
     pub range: Option<[f64; 2]>,
-    /// What is said at its end, or in it.
+    /// The text at its end, or in it.
     pub text: String,
-    /// Whether that stands in it, where there is room.
+    /// Whether the text is drawn in the bar, where there is room.
     pub inside: bool,
 }
 

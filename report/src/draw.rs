@@ -1,4 +1,4 @@
-//! A chart as a drawing: what is around the marks. `plane` and `rows` draw the marks.
+//! A chart as a drawing: title, legend and caption. `plane` and `rows` draw the marks.
 
 use crate::axis::{Axis, extent};
 use crate::chart::{Chart, Key, KeyLook, Mark, Space};

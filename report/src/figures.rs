@@ -6,7 +6,7 @@ use crate::palette::{Ink, SERIES};
 use crate::scene::Symbol;
 use crate::{Drawn, ReportError, at_most, same_length};
 
-/// Most series, poses, bars and cases of a figure: more cannot be told apart.
+/// Most series, poses, bars and cases of a figure: a reader cannot distinguish more.
 const MOST_SERIES: usize = 24;
 const MOST_POSES: usize = 6;
 const MOST_BARS: usize = 120;
@@ -237,7 +237,7 @@ pub fn bars(
 /// One step of a [`ladder`]: its label, value and range.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LadderStep {
-    /// What is added, e.g. `+ sealed-edge loss, η = 0.60`.
+    /// The added effect, e.g. `+ sealed-edge loss, η = 0.60`.
     pub label: String,
     /// Value after this step, in the unit of the axis.
     pub value: f64,

@@ -57,7 +57,7 @@ pub enum ReportError {
     /// Two lists that belong together differ in length.
     #[error("the {chart} plot has {found} {what} where {expected} are needed: give one per entry")]
     Length { chart: &'static str, what: &'static str, expected: usize, found: usize },
-    /// More entries than can be told apart in one plot.
+    /// More entries than a reader can distinguish in one plot.
     #[error("the {chart} plot has {found} {what}, at most {most} fit: split it into several plots")]
     TooMany { chart: &'static str, what: &'static str, most: usize, found: usize },
     /// The template of the page cannot be filled in.

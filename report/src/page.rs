@@ -52,7 +52,7 @@ fn environment(figures: BTreeMap<String, String>) -> Result<Environment<'static>
     env.add_function("drawn", move |name: &str| names.iter().any(|n| n == name));
     env.add_function("picture", move |name: &str, alt: &str| match figures.get(name) {
         Some(svg) => Ok(Value::from_safe_string(inline(svg, alt))),
-        None => Err(Error::new(ErrorKind::InvalidOperation, format!("there is no figure {name}"))),
+        None => Err(Error::new(ErrorKind::InvalidOperation, format!("figure {name} does not exist"))),
     });
     Ok(env)
 }

@@ -23,7 +23,7 @@ struct Surface {
     by_letter: bool,
 }
 
-/// Draws the scene as SVG text and PNG bytes; in a browser, where nobody saves them, without the latter.
+/// Draws the scene as SVG text and PNG bytes; in a browser, which saves no files, without the PNG.
 pub(crate) fn paint(scene: &Scene) -> Result<Drawn, ReportError> {
     text::font()?;
     let png = if cfg!(target_family = "wasm") { Vec::new() } else { png(scene)? };

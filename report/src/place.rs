@@ -5,11 +5,11 @@ use crate::scene::Point;
 /// A rectangle: left, top, right, bottom [design px].
 pub(crate) type Rect = [f64; 4];
 
-/// Vertical positions as near as possible to `wanted`, at least `gap` apart and inside `[top, bottom]` if they fit.
-pub(crate) fn stack(wanted: &[f64], gap: f64, [top, bottom]: [f64; 2]) -> Vec<f64> {
-    let mut order: Vec<usize> = (0..wanted.len()).collect();
-    order.sort_by(|a, b| wanted[*a].total_cmp(&wanted[*b]));
-    let mut placed = wanted.to_vec();
+/// Vertical positions as near as possible to the targets, at least `gap` apart and inside `[top, bottom]` if they fit.
+pub(crate) fn stack(targets: &[f64], gap: f64, [top, bottom]: [f64; 2]) -> Vec<f64> {
+    let mut order: Vec<usize> = (0..targets.len()).collect();
+    order.sort_by(|a, b| targets[*a].total_cmp(&targets[*b]));
+    let mut placed = targets.to_vec();
     let mut floor = top;
     for i in &order {
         placed[*i] = placed[*i].max(floor);

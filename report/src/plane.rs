@@ -10,7 +10,7 @@ use crate::{WIDTH, chart, place, text};
 /// Widest label of a tip, and of a point [design px].
 const TIP: f64 = 130.0;
 const LABEL: f64 = 220.0;
-/// Heights of the plot area; that of two lengths lies between two bounds.
+/// Heights of the plot area; a plot of two lengths has a height between two bounds.
 const HEIGHT: f64 = 270.0;
 const BOUNDS: [f64; 2] = [110.0, 520.0];
 

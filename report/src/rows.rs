@@ -60,7 +60,7 @@ pub(crate) fn bars(scene: &mut Scene, chart: &Chart, rows: &[ChartRow], [mut x, 
     }
 }
 
-/// Name of a row, and what else is said of it at the right.
+/// Name of a row, and the remark about it at the right.
 fn name(scene: &mut Scene, row: &ChartRow, top: f64) {
     let right = WIDTH - RIM;
     let aside = text::width(&row.aside, TEXT);
@@ -80,7 +80,7 @@ fn name(scene: &mut Scene, row: &ChartRow, top: f64) {
     }
 }
 
-/// Bars beside each other, and what is said at their end.
+/// Bars next to each other, and the text at their end.
 fn lane(scene: &mut Scene, x: &Axis, bars: &[&Bar], top: f64) {
     let (bottom, middle) = (top + LANE - 2.0, top + 0.5 * (LANE - 2.0));
     let mut end = x.at(bars.first().map_or(0.0, |bar| bar.span[0]).max(x.range[0]));

@@ -12,7 +12,7 @@ const BYTES: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
 pub(crate) fn font() -> Result<&'static FontRef<'static>, ReportError> {
     static FONT: OnceLock<Option<FontRef<'static>>> = OnceLock::new();
     let load = || {
-        // A browser has fonts of its own, and paints no bitmap here.
+        // A browser has its own fonts, and paints no bitmap here.
         #[cfg(not(target_family = "wasm"))]
         plotters::style::register_font(FAMILY, plotters::style::FontStyle::Normal, BYTES).ok()?;
         FontRef::try_from_slice(BYTES).ok()

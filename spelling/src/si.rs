@@ -41,7 +41,7 @@ pub fn kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error
     value.converted(|pa| pa / 1e3).serialize(to)
 }
 
-/// What is per pascal, per kilopascal.
+/// Serialises a rate per pascal as a rate per kilopascal.
 pub fn per_kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
     value.converted(|per_pa| 1e3 * per_pa).serialize(to)
 }

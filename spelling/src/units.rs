@@ -29,7 +29,7 @@ impl Dimension {
         Dimension([part(0), part(1), part(2)])
     }
 
-    /// Whether it is that of another.
+    /// Whether the two dimensions are equal.
     pub fn is(self, other: Dimension) -> bool {
         self.0.iter().zip(other.0).all(|(a, b)| (a - b).abs() < 1e-9)
     }

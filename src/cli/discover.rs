@@ -130,7 +130,7 @@ pub(crate) struct ChallengeNewArgs {
     /// Folder for scenario.toml, markers.csv, about.toml and seal.toml
     #[arg(long)]
     pub out: PathBuf,
-    /// Makes the same challenge again; without it nobody can guess what is hidden
+    /// Makes the same challenge again; without it the hidden effect cannot be guessed
     #[arg(long)]
     pub seed: Option<u64>,
     /// What to hide: random (the default), none, or NAME[=times its typical size]; repeatable

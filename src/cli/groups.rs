@@ -9,7 +9,7 @@ const GROUPS: &[(&str, &[&str])] = &[
     ("Start here", &["demo", "new", "list", "studio"]),
     ("Predict", &["predict", "export", "simulate", "sweep", "design", "pattern"]),
     ("Measurements", &["data", "characterize"]),
-    ("What is missing?", &["compare", "diagnose", "add", "validate", "ladder"]),
+    ("Which effect is missing?", &["compare", "diagnose", "add", "validate", "ladder"]),
     ("Both engines", &["breakdown", "tradeoff"]),
     ("Trust it?", &["verify", "bench", "challenge"]),
     ("For your shell", &["completions", "man", "help"]),
@@ -50,6 +50,6 @@ mod tests {
         assert_eq!(there, grouped);
         let help = super::command().render_help().to_string();
         let wide: Vec<&str> = help.lines().filter(|line| line.chars().count() > 100).collect();
-        assert!(wide.is_empty() && help.contains("\nWhat is missing?\n  compare"), "{wide:?}\n{help}");
+        assert!(wide.is_empty() && help.contains("\nWhich effect is missing?\n  compare"), "{wide:?}\n{help}");
     }
 }

@@ -45,7 +45,7 @@ pub(crate) struct Import {
     /// Body pressure, where no log has it
     #[arg(long)]
     pub body_pressure: Option<String>,
-    /// Pressure of the room, to be taken off readings of absolute pressure
+    /// Pressure of the room, to subtract from readings of absolute pressure
     #[arg(long)]
     pub room: Option<String>,
     /// Unit of pressure columns that name none

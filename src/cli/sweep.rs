@@ -55,7 +55,7 @@ impl ShardArgs {
 pub(crate) struct SweepArgs {
     /// Study: a TOML file of what varies (docs/sweep.md)
     pub study: PathBuf,
-    /// Folder of the table, the pictures and of what is computed; what is there already is kept.
+    /// Folder of the table, the pictures and the computed parts; parts already there are kept.
     /// Default: ibr-report/sweep-<study>
     #[arg(long)]
     pub out: Option<PathBuf>,

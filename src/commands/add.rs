@@ -30,7 +30,7 @@ pub(super) fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome> {
     Ok(outcome)
 }
 
-/// Where the new scenario goes: never onto the old one, and onto another file only if told.
+/// Where the new scenario goes: never onto the old one, and onto another file only with --force.
 fn target(args: &AddArgs, names: &str, force: bool) -> Result<PathBuf> {
     let old = Path::new(&args.scenario);
     let stem = old.file_stem().map_or("scenario".into(), |s| s.to_string_lossy().into_owned());
@@ -61,7 +61,7 @@ fn words(args: &AddArgs, found: &Extension, target: &str) -> String {
     if let [.., before, after] = &found.steps[..] {
         out.push_str(&format!("\n{}", steps_text(&found.steps, found.noise_floor_mm)));
         if after.training_mm > before.training_mm {
-            out.push_str("The error does not fall with it: this is not what is missing, or not by that much.\n");
+            out.push_str("The error does not fall with it: this effect is not the missing one, or not by that much.\n");
         }
         // Only what was added can be judged by its own parameters.
         let verb = match found.additions.iter().all(|a| taken_away(&a.name).is_some()) {

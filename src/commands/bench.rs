@@ -1,4 +1,4 @@
-//! `ibr bench`: speed of the model, of the finite elements, and how often a diagnosis is right, beside what is wanted.
+//! `ibr bench`: speed of the model, of the finite elements, and how often a diagnosis is right, compared with their targets.
 
 use super::shards::{Work, in_shards};
 use super::verify::show;

@@ -59,9 +59,9 @@ pub(super) fn diagnosed(args: &DiagnoseArgs, context: &mut Context) -> Result<Op
         &[
             ("--also", !args.fit.also.is_empty(), "put the rows of all tests of one kind into one table"),
             ("--keep-bending", args.fit.keep_bending, "a table has nothing fitted that was not asked for"),
-            ("--not", !args.fit.not.is_empty(), "a table's ranking shows every effect by itself"),
+            ("--not", !args.fit.not.is_empty(), "a table's ranking shows every effect separately"),
             ("--tolerance", args.fit.tolerance.is_some(), "say what a row scatters by instead, --sigma 3%"),
-            ("--runs", args.runs.is_some(), "finite elements are held against robots"),
+            ("--runs", args.runs.is_some(), "finite elements are compared with robots"),
             ("--out", args.out.is_some(), "a table has no report; --json gives everything that was found"),
         ],
     )?;
@@ -74,7 +74,7 @@ pub(super) fn diagnosed(args: &DiagnoseArgs, context: &mut Context) -> Result<Op
     Ok(Some(Outcome::answer(diagnosis_text(&found, &table), "ibr.diagnose.bench", &answer)))
 }
 
-/// The scenario that was typed, or that of the table.
+/// The typed scenario, or the table's.
 fn scenario(typed: Option<&String>, spec: &str, bench: &Bench) -> Result<Option<Scenario>> {
     Ok(match (typed, &bench.scenario) {
         (Some(typed), _) => Some(ibr::studies::scenario(typed)?.planar()?.scenario),
@@ -109,7 +109,7 @@ fn needs_markers(spec: &str) -> Result<()> {
 fn share(text: &str) -> Result<f64> {
     let value = text.trim().strip_suffix('%').and_then(|number| number.trim().parse::<f64>().ok());
     value.filter(|v| *v > 0.0 && *v <= 100.0).map(|v| 0.01 * v).ok_or_else(|| {
-        let message = format!("--sigma {text} is no share of what a row measured");
+        let message = format!("--sigma {text} is not a share of the measured value");
         Failure::usage(message, "write what a row of the table scatters by in per cent, for example --sigma 3%")
     })
 }
@@ -130,7 +130,7 @@ fn diagnosis_text(d: &BenchDiagnosis, bench: &Bench) -> String {
         Some(Verdict::OutOfCatalog) => "something is missing that no single effect of the catalogue explains",
         None => "none: ranking only",
     };
-    let head = format!("{} held against {}, {} rows ({})", d.scenario, d.table, d.rows, bench.provenance.word());
+    let head = format!("{} compared with {}, {} rows ({})", d.scenario, d.table, d.rows, bench.provenance.word());
     let mut out = format!("{head}\n\nVerdict: {verdict}\n{}{}", lines("  - ", &d.summary), ranking(d));
     for r in d.set().filter(|_| d.verdict != Some(Verdict::None)) {
         let BenchRanked { effect, sentence, differs, remedy, .. } = r;
@@ -162,6 +162,6 @@ fn ranking(d: &BenchDiagnosis) -> String {
         rows.number("gain", 1, |r| r.gain).right("p corrected", |r| r.p_corrected.map_or("–".into(), p_text)).text();
     let percent = |share: f64| number(Some(100.0 * share), 1);
     let base: String = d.left_out.iter().map(|l| format!(", {} at left-out {}s", percent(l.off), l.what)).collect();
-    let legend = "= cannot be told from the best · ! on a physical bound, rejected";
+    let legend = "= fits as well as the best · ! on a physical bound, rejected";
     format!("\nEach effect alone (model as it is: {} % off{base}):\n{rows}{legend}\n", percent(d.off))
 }

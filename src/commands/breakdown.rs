@@ -32,7 +32,7 @@ pub(super) fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome
 
 type Made = (Vec<EngineRun>, Vec<Failure>);
 
-/// Runs that come with the program or those of the folder, which gets what is missing; or what is said of a shard of them.
+/// Runs that come with the program, or runs in the folder, completed there; for a shard the outcome to print.
 fn runs(args: &BreakdownArgs, context: &mut Context) -> Result<Result<Made, Outcome>> {
     if args.runs.stored {
         return Ok(Ok((stored()?.into_iter().filter(|run| run.seed == 1).collect(), Vec::new())));

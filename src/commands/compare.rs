@@ -20,7 +20,7 @@ pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome> 
     let limit_m = positive("--max-error", args.max_error.as_ref())?;
     let sigma_m = positive("--sigma", args.noise.sigma.as_ref())?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
-    // What is asked for is refused before data are read.
+    // Wrong options are refused before data are read.
     inputs::each_once("--effect", inputs::effect_names(&args.effect))?;
     contenders(&file, &args.effect)?;
     let evidence = inputs::evidence(data_spec, context)?;

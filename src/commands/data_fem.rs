@@ -67,7 +67,7 @@ fn robot(args: &DataFemArgs) -> Result<(Source, Scenario)> {
     Ok((robot, scenario))
 }
 
-/// One run for every seed in a folder, which gets what is missing.
+/// One run for every seed in a folder; missing runs are made there.
 fn made(
     args: &DataFemArgs,
     robot: &Source,

@@ -20,7 +20,7 @@ pub(super) fn run(args: &DesignArgs, context: &mut Context) -> Result<Outcome> {
             true => Err("left out".to_string()),
             false => checked(&wish, &rounds, &folder, context)?,
         };
-        rounds.tell(checked);
+        rounds.answer(checked);
     }
     let Round { design: found, checked, .. } = &rounds.all[rounds.best()];
     let mut files = design_files(&wish, found, checked.as_ref().ok().map(|checked| &checked.places_m[..]))?;
@@ -51,10 +51,10 @@ fn searched(rounds: &mut Rounds, wish: &Wish, context: &mut Context) -> Result<b
     })?)
 }
 
-/// One finite element run of the last design; or why there is none. With corrections it is kept in a folder below that of the design.
+/// One finite element run of the last design; or why there is none. With corrections it is kept in a folder below the design's.
 fn checked(wish: &Wish, rounds: &Rounds, folder: &Path, context: &mut Context) -> Result<Result<Checked, String>> {
     let number = rounds.all.len();
-    let Some(Round { design: found, .. }) = rounds.all.last() else { return Ok(Err("there is no design".into())) };
+    let Some(Round { design: found, .. }) = rounds.all.last() else { return Ok(Err("no design was found".into())) };
     let all = found.loads.actuator_pa;
     if all.iter().any(|pa| *pa != all[0]) {
         return Ok(Err("finite elements of a robot have one actuator pressure, and this design has several".into()));
@@ -135,7 +135,7 @@ fn design_text(wish: &Wish, rounds: &Rounds) -> String {
     let other = |miss: &&Miss| best.by_elements(&miss.what);
     text += &Table::of(&found.misses)
         .words("wish [mm]", |miss| &miss.what)
-        .right("wanted", |miss| shown(&miss.wanted))
+        .right("target", |miss| shown(&miss.wanted))
         .right("model, predicted", |miss| shown(&miss.found))
         .number("miss [mm]", 1, |miss| 1e3 * miss.miss_m)
         .when(checked.is_ok(), |table| {
@@ -150,7 +150,7 @@ fn design_text(wish: &Wish, rounds: &Rounds) -> String {
     text += &rounds_text(wish, rounds);
     text += &match (&found.spread, &best.corrected) {
         (None, _) => {
-            "No number is named as assumed, so there is no interval: add [[assumed]] with key, from and to.\n".into()
+            "No number is named as assumed, so no interval is given: add [[assumed]] with key, from and to.\n".into()
         }
         (Some(Spread { worst_m, .. }), Some(_)) => format!(
             "Over the assumed numbers the model, corrected by finite elements, misses the wish by up to {:.1} mm.\n",

@@ -31,7 +31,7 @@ pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome> 
     Ok(outcome)
 }
 
-/// Runs of the folder, which gets what is missing.
+/// Runs of the folder; missing runs are made there.
 fn made(args: &CompareArgs, robots: &[(Source, Scenario)], context: &mut Context) -> Result<Vec<EngineRun>> {
     let kpa = args.pressure.as_deref().map(pressures).transpose()?;
     let (jobs, folder) = (seed_jobs(robots, args.seeds, kpa.as_deref())?, args.runs.folder());

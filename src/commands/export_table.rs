@@ -53,7 +53,7 @@ fn library(files: &[(String, Vec<u8>)], name: &str) -> Option<(String, Vec<u8>)>
         let ran = cc.args(flags).args(sources).arg("-lm").current_dir(&folder).output().ok()?;
         if ran.status.success() { std::fs::read(folder.join("library")).ok() } else { None }
     });
-    // What is left in a folder for temporary files does no harm.
+    // A leftover in a folder for temporary files does no harm.
     drop(std::fs::remove_dir_all(&folder));
     Some((format!("binaries/{}-{system}/{name}.{ending}", std::env::consts::ARCH), made?))
 }
@@ -124,12 +124,12 @@ fn table(args: &ExportArgs) -> Result<(Scenario, Table, bool)> {
     Ok((scenario, table, has_history))
 }
 
-/// Pressures from:to; a number without unit has that of the other.
+/// Pressures from:to; a number without unit has the unit of the other.
 fn range(scenario: &Scenario, typed: Option<&str>) -> Result<[f64; 2]> {
     let Some(typed) = typed else { return Ok([0.0, scenario.p_max_pa]) };
     let Some((from, to)) = typed.split_once(':') else {
         let help = "write from:to, for example --pressure 0:40kPa";
-        return Err(Failure::usage(format!("--pressure {typed} is no range"), help));
+        return Err(Failure::usage(format!("--pressure {typed} is not a range"), help));
     };
     let high = quantity("--pressure", to, Quantity::Pressure)?;
     let unit = to.trim_start_matches(|c: char| !c.is_alphabetic());

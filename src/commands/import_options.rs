@@ -1,4 +1,4 @@
-//! What is typed for `ibr data import`, as the library takes it.
+//! Options of `ibr data import`, as the library takes them.
 
 use super::inputs::{bounded, positive, quantity};
 use crate::cli::Import;

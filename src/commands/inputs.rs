@@ -14,7 +14,7 @@ use spelling::units::Range;
 /// Splits `key=value` of an option `--set` at its first `=`.
 pub(super) fn setting<'t>(text: &'t str, help: &str) -> Result<(&'t str, &'t str)> {
     let both = text.split_once('=').map(|(key, value)| (key.trim(), value.trim()));
-    both.ok_or_else(|| Failure::usage(format!("--set {text}: there is no ="), help))
+    both.ok_or_else(|| Failure::usage(format!("--set {text}: the = is missing"), help))
 }
 
 /// Names that were typed for an option, each once.
@@ -141,7 +141,7 @@ pub(super) fn plain(name: &str) -> String {
     name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect()
 }
 
-/// A note on an effect whose share stands for mechanics that another has.
+/// A note on an effect whose share represents mechanics that another effect has.
 pub(super) fn superseded(scenario: &Scenario) -> Option<String> {
     let has = |name: &str| scenario.effects.iter().any(|e| e.name == name && e.values[0] > 0.0);
     let also = if has("sealed_sides") { ", and both together count it twice" } else { "" };

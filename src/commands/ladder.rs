@@ -43,7 +43,7 @@ pub(super) fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome> {
     Ok(outcome)
 }
 
-/// Writes report and scenarios, and says where they are.
+/// Writes report and scenarios, and names their places.
 fn report(folder: &Path, page: &Climbed, inputs: &[Input], context: &mut Context, outcome: &mut Outcome) -> Result<()> {
     write_files(folder, &ladder_page(page, &maker())?, inputs, context)?;
     let names: Vec<&str> = page.climb.files.iter().map(|(name, _)| name.as_str()).collect();

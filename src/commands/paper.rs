@@ -26,7 +26,7 @@ pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome> 
     Ok(outcome)
 }
 
-/// Stored runs, or all in the folder, which gets what is missing.
+/// Stored runs, or all in the folder; missing runs are made there.
 fn runs(args: &CompareArgs, context: &mut Context) -> Result<Vec<PaperRun>> {
     let Some(folder) = &args.runs.runs else {
         if !args.inputs.is_empty() || args.pressure.is_some() {
@@ -80,7 +80,7 @@ fn shown(against: &[HeightRow], rows: &[FactRow], runs: &[PaperRun]) -> String {
     out += &markers.text();
     out += "\nEvery sentence of the paper with something to check\n";
     out += &Table::of(rows)
-        .words("the paper says", |r| &r.says)
+        .words("the paper states", |r| &r.says)
         .words("in", |r| &r.place)
         .words("engine, or the paper elsewhere", |r| &r.found)
         .words("verdict", |r| r.verdict.words())
@@ -89,7 +89,7 @@ fn shown(against: &[HeightRow], rows: &[FactRow], runs: &[PaperRun]) -> String {
 }
 
 const READING: &str = "\
-Height of the outermost marker [mm] beside what the paper's accuracy a implies: e = √(1 − a) is the rms of
+Height of the outermost marker [mm] compared with what the paper's accuracy a implies: e = √(1 − a) is the rms of
 (y_FEA − y_EXP)/y_FEA over six markers. Assumed in reading it: the error is alike along the robot, its sign is
 unknown; then y_FEA = y_EXP/(1 + e), the low branch, or y_EXP/(1 − e), the high one. y_EXP is printed at 30 kPa
 only; it is nowhere more than there. A height within a tenth of a branch holds.

@@ -5,10 +5,10 @@ use ibr::pages::pattern_sheet;
 use models::cutting::{CuttingPlan, Making, PatternPiece};
 use report::sheet::{PAPERS, PatternSheet, dxf, pages, svg};
 
-/// Width of welds where neither the scenario nor the user says one, as in [`fem::robot::RobotSettings`] \[m\].
+/// Width of welds where neither the scenario nor the user gives one, as in [`fem::robot::RobotSettings`] \[m\].
 const WELD_M: f64 = 0.003;
 
-/// Fabric beyond welds and ends of a pattern that nobody says more about, as in the command \[m\].
+/// Default fabric beyond welds and ends of a pattern, as in the command \[m\].
 const ALLOWANCE: (f64, &str) = (0.01, "10 mm");
 
 /// More fabric than that around a piece is a slip of the unit \[m\].
@@ -19,7 +19,7 @@ const MOST_KERF_M: f64 = 0.005;
 pub(super) fn run(args: &PatternArgs, context: &mut Context) -> Result<Outcome> {
     let file = ibr::studies::scenario(&args.scenario)?.planar()?;
     let weld = match &args.weld {
-        Some(text) => (quantity("--weld", text, Quantity::Length)?, "as told".into()),
+        Some(text) => (quantity("--weld", text, Quantity::Length)?, "as given".into()),
         None => usual_weld(&file.scenario),
     };
     let allowance_m = quantity("--allowance", &args.allowance, Quantity::Length)?;
@@ -79,7 +79,7 @@ fn usual_weld(scenario: &Scenario) -> (f64, String) {
     effect.map_or((WELD_M, "assumed".into()), |e| (e.values[0], format!("the scenario's weld_width, {}", e.basis)))
 }
 
-/// Pieces, notes and drawing of a robot; `Err` says why there are none.
+/// Pieces, notes and drawing of a robot; `Err` gives the reason without them.
 fn laid_out(
     scenario: &Scenario,
     (weld_m, how): (f64, String),
@@ -96,12 +96,12 @@ fn laid_out(
     Ok((plan, notes, sheet))
 }
 
-/// The pattern of a robot as SVG with the usual welds and allowance; `Err` says why there is none.
+/// The pattern of a robot as SVG with the usual welds and allowance; `Err` gives the reason without one.
 pub(super) fn usual_pattern(scenario: &Scenario) -> Result<String, String> {
     Ok(svg(&laid_out(scenario, usual_weld(scenario), ALLOWANCE, 0.0)?.2))
 }
 
-/// Files to write: the drawing, and its pages beside it.
+/// Files to write: the drawing, and its pages next to it.
 fn files(args: &PatternArgs, sheet: &PatternSheet) -> Result<Vec<(PathBuf, String)>> {
     let is = |ending: &str| args.out.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
     match &args.page {

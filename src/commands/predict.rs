@@ -72,18 +72,18 @@ fn place((x, y): (&str, &str)) -> Result<[f64; 2]> {
 }
 
 /// Reads a height, an angle or a place from the text of `--inverse`.
-fn target(wanted: &str) -> Result<Target> {
-    match wanted.split_once('=') {
+fn target(text: &str) -> Result<Target> {
+    match text.split_once('=') {
         Some(("tip", value)) => Ok(Target::TipHeight(quantity("--inverse", value, Quantity::Length)?)),
         Some(("angle", value)) => Ok(Target::Angle(quantity("--inverse", value, Quantity::Angle)?)),
         _ => {
             let help = "write tip=100mm (height) or angle=60deg (total bend), or a place x,y: 300mm,120mm";
-            Err(Failure::usage(format!("--inverse {wanted} is not understood"), help))
+            Err(Failure::usage(format!("--inverse {text} is not understood"), help))
         }
     }
 }
 
-/// The pressures of a file, else those of [`wanted`].
+/// The pressures of a file, else of the command line or the scenario.
 fn asked(scenario: &Scenario, args: &PredictArgs) -> Result<Vec<Loads>> {
     let Some(file) = &args.pressures else { return wanted(scenario, args.pressure.as_deref()) };
     if !scenario.actuator.exists() {

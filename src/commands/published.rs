@@ -1,4 +1,4 @@
-//! `ibr diagnose SCENARIO --published`: what the one displacement that the paper prints can tell.
+//! `ibr diagnose SCENARIO --published`: conclusions from the one displacement that the paper prints.
 
 use crate::prelude::*;
 use compare::diagnosis::words::{three, with_unit};
@@ -67,7 +67,7 @@ fn told(one: &OneNumber) -> String {
     for k in 0..one.p_act_kpa.len() - 1 {
         if let Some([low, high]) = one.spread_mm(k) {
             out.push_str(&format!(
-                "At {:.0} kPa they differ: {low:.1} to {high:.1} mm. Marker positions there would tell most of them apart.\n",
+                "At {:.0} kPa they differ: {low:.1} to {high:.1} mm. Marker positions there would separate most of them.\n",
                 one.p_act_kpa[k]
             ));
         }

@@ -11,7 +11,7 @@ pub(super) fn shard(args: &ShardArgs) -> Result<Shard> {
     shard.map_err(|message| Failure::usage(message, "see --help"))
 }
 
-/// What is submitted: the command as it was typed, with a shard. Its files go below `folder`.
+/// The submitted job: the command as it was typed, with a shard. Its files go below `folder`.
 fn job(args: &ShardArgs, options: &str, folder: &Path, context: &Context) -> Result<schedule::Job> {
     let program = std::env::current_exe()
         .map_err(|cause| Failure::usage(format!("this program cannot be found: {cause}"), "run the shards by hand"))?;
@@ -87,8 +87,8 @@ struct ShardAnswer {
     runs: usize,
 }
 
-/// Makes one shard, or has a scheduler run all of them. `None`: the command goes on with all of the work, and makes what is not there;
-/// else what it has to say. `make` says how many parts it made, and why others stopped.
+/// Makes one shard, or has a scheduler run all of them. `None`: the command goes on with all of the work, and makes the missing parts;
+/// else the outcome to print. `make` returns the number of parts it made, and why others stopped.
 pub(super) fn in_shards(
     args: &ShardArgs,
     work: &Work,

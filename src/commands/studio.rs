@@ -15,9 +15,9 @@ pub(super) fn run(args: &StudioArgs, context: &mut Context) -> Result<Outcome> {
         None => std::iter::once(PathBuf::from(BUILT)).chain(beside).collect(),
     };
     let Some(page) = places.iter().find_map(|place| std::fs::read_to_string(place).ok()) else {
-        let told: Vec<String> = places.iter().map(|place| place.display().to_string()).collect();
+        let tried: Vec<String> = places.iter().map(|place| place.display().to_string()).collect();
         let help = "build it with web/build.sh in a checkout, or name it: ibr studio --page ibr.html";
-        return Err(Failure::usage(format!("there is no page at {}", told.join(" or ")), help));
+        return Err(Failure::usage(format!("no page at {}", tried.join(" or ")), help));
     };
     let studio = Studio::open(&page, args.port).map_err(|cause| {
         Failure::usage(

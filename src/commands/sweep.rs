@@ -22,7 +22,7 @@ pub(super) fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome> {
     let shard = shard(&args.shards)?;
     let keep_runs = args.keep_runs;
     let settings = Settings { folder: folder.clone(), shard, keep_runs, threads: context.threads, maker: maker() };
-    // Ctrl-C leaves what is complete.
+    // Ctrl-C leaves the complete parts.
     let found = match args.so_far {
         true => there(&study, &folder)?,
         false => context.fem(|progress| compute(&study, &settings, progress))?,
@@ -86,12 +86,12 @@ fn failures(table: &Table) -> Vec<(String, usize)> {
 }
 
 /// How far the engines are from each other where both have a case.
-fn agreement(table: &Table, (output, what): (&str, &str)) -> String {
+fn agreement(table: &Table, (output, quantity): (&str, &str)) -> String {
     let mut off: Vec<f64> = pairs(table, output).iter().map(|[model, fe]| model - fe).collect();
     off.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
     let (Some(middle), Some(worst)) = (off.get(off.len() / 2), off.last()) else { return String::new() };
     format!(
-        "\n{} cases by both: the model's {what} is {:.1} mm off in the median, {worst:+.1} mm at worst\n",
+        "\n{} cases by both: the model's {quantity} differs by {:.1} mm in the median, {worst:+.1} mm at worst\n",
         off.len(),
         middle.abs()
     )

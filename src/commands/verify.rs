@@ -35,7 +35,7 @@ impl From<Error> for Failure {
             Error::Compare(error) => error.into(),
             Error::Kept(error) => error.into(),
             Error::NoCheck { name, known } => {
-                Failure::usage(format!("there is no check `{name}`"), format!("write one of {known}"))
+                Failure::usage(format!("check `{name}` does not exist"), format!("write one of {known}"))
             }
         }
     }

@@ -11,7 +11,7 @@ pub fn compare_page(study: &Comparison, maker: &Maker) -> Result<Files> {
     let mut files = compare_files(study)?;
     let (first, dataset) = (&study.variants[0], &study.dataset);
     let values = Values::new()
-        .with("title", format!("{} held against {}", first.scenario.name, dataset.name))
+        .with("title", format!("{} compared with {}", first.scenario.name, dataset.name))
         .with("lead", lead(study))
         .with("found", CompareAnswer::of(&first.scenario.name, study, None))
         .with("provenance", provenance(study))

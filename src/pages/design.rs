@@ -3,7 +3,7 @@ use super::figures::{LINE_POINTS, mm};
 use crate::prelude::*;
 use ::sweep::design::{Design, Wish};
 
-/// The shape of a design, with the places that are wished for and, where there are, those of finite elements (tip last) \[m\].
+/// The shape of a design, with the target places and, where known, the places by finite elements (tip last) \[m\].
 pub(crate) fn design_files(wish: &Wish, found: &Design, elements_m: Option<&[[f64; 2]]>) -> Result<Files> {
     let model = Model::new(&found.file.scenario);
     let radius = 1e3 * found.file.radius_m;

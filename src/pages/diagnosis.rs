@@ -70,7 +70,7 @@ const PICTURES: [(&str, Picture); 9] = [
         residual_figure::map(title, &f.diagnosis.residuals_before, f.dataset).map(Some)
     }),
     ("residuals_after", |f, _| {
-        let title = "What is left with the best explanation";
+        let title = "The rest after the best explanation";
         let explained = !f.diagnosis.added.is_empty() || !f.diagnosis.attempt.is_empty();
         explained.then(|| residual_figure::map(title, &f.diagnosis.residuals_after, f.dataset)).transpose()
     }),
@@ -103,7 +103,7 @@ pub(crate) fn diagnosis_pictures() -> [&'static str; 9] {
     PICTURES.map(|(name, _)| name)
 }
 
-/// Adds those of the wanted pictures that there are, their names after a prefix.
+/// Adds the requested pictures that exist, their names after a prefix.
 pub(super) fn draw(
     found: &Diagnosed,
     prefix: &str,
@@ -135,8 +135,8 @@ pub(super) fn verdict(found: &Diagnosed) -> Values {
     let next = next.map(|next| Values::new().with("sentence", in_words(&next.sentence)).and(Values::of(next)));
     let summary = d.summary.iter().map(|s| in_words(s)).collect::<Vec<_>>();
     let d_in_words = Values::new().with("summary", summary).with("next_experiment", &next).and(Values::of(d));
-    let told = told(d).iter().map(|a| answer(d, a)).collect::<Vec<_>>();
-    Values::new().with("verdict", verdict).with("told", told).with("d", d_in_words).with("typed", found.typed)
+    let answers = told(d).iter().map(|a| answer(d, a)).collect::<Vec<_>>();
+    Values::new().with("verdict", verdict).with("answers", answers).with("d", d_in_words).with("typed", found.typed)
 }
 
 fn values(found: &Diagnosed) -> Values {
@@ -144,10 +144,10 @@ fn values(found: &Diagnosed) -> Values {
     let worst = largest(&d.residuals_before, |cell| cell.y).zip(largest(&d.residuals_before, |cell| cell.x));
     let looks = match d.indistinguishable.is_empty() {
         true => [d.attempt_words(), "others"],
-        false => ["cannot be told apart", "fits worse"],
+        false => ["fit equally well", "fits worse"],
     };
     Values::new()
-        .with("title", format!("{} held against {}: what is missing?", d.scenario, d.dataset))
+        .with("title", format!("{} compared with {}: which effect is missing?", d.scenario, d.dataset))
         .with("lead", d.summary.iter().take(2).map(|s| in_words(s)).collect::<Vec<_>>().join(" "))
         .with("evidence", evidence(d))
         .with("worst", worst)

@@ -14,14 +14,14 @@ const MM: f64 = 1e3;
 const POINTS: u32 = 48;
 /// Curves go this much beyond the highest measured pressure, where candidates part.
 const BEYOND: f64 = 1.3;
-/// Candidates drawn as curves: as many as have a colour of their own beside the measurement's.
+/// Candidates drawn as curves: as many as have a colour different from the measurement's.
 const MOST_CURVES: usize = 7;
 const MEASURED: usize = 5;
-/// Ledgers drawn beside that of finite elements: the base, those of the stated set, then the nearest.
+/// Ledgers drawn next to the ledger of finite elements: the base, the stated set, then the nearest.
 const MOST_LEDGERS: usize = 6;
 /// Of those the others than the base and the stated set, so that there is something to compare with.
 const OTHER_LEDGERS: usize = 2;
-/// Candidates drawn beside the stated set, for the same reason.
+/// Candidates drawn in addition to the stated set, for the same reason.
 const OTHER_CURVES: usize = 2;
 
 /// What others are called where colours do not say it.
@@ -69,14 +69,14 @@ pub(super) enum Rank {
 }
 
 const RANKS: [(Rank, &str, Ink); 5] = [
-    (Rank::Alike, "cannot be told apart", Ink::Series(2)),
+    (Rank::Alike, "fit equally well", Ink::Series(2)),
     (Rank::Attempt, "attempt", Ink::Series(1)),
     (Rank::Worse, FITS_WORSE, Ink::Muted),
     (Rank::Other, "others", Ink::Muted),
     (Rank::Rejected, "on a physical bound, rejected", Ink::Grid),
 ];
 
-/// Name, rank and gain of every answer over that of the best one \[%\]; stated ones, the attempt, worse and rejected ones, each by
+/// Name, rank and gain of every answer relative to the best one's \[%\]; stated ones, the attempt, worse and rejected ones, each by
 /// their bars. `None` where nothing helps.
 pub(super) fn ranking_rows(d: &Diagnosis) -> Option<Vec<(String, Rank, f64)>> {
     let answers = d.answers();
@@ -122,11 +122,11 @@ pub(super) fn shown(d: &Diagnosis) -> Vec<Answer<'_>> {
     kept
 }
 
-/// `12 of the 14 that cannot be told apart`, where not all of them are drawn.
+/// `12 of the 14 that fit equally well`, where not all of them are drawn.
 pub(super) fn left_out(d: &Diagnosis, drawn: &[Answer]) -> Option<String> {
     let stated = |answers: &[Answer]| answers.iter().filter(|a| a.standing == Standing::Stated).count();
     let (shown, all) = (stated(drawn), d.indistinguishable.len());
-    (shown < all).then(|| format!("Drawn are the first {shown} of the {all} that cannot be told apart."))
+    (shown < all).then(|| format!("Drawn are the first {shown} of the {all} that fit equally well."))
 }
 
 /// What the answers predict over pressure, as the difference from the calibrated base: height of the outermost marker on first
@@ -203,7 +203,7 @@ pub(super) fn ledger_cases(d: &Diagnosis, scenario: &Scenario, level: usize) -> 
     cases
 }
 
-/// Models of the ledgers beside finite elements: the base, the stated set or the attempt, then the nearest others.
+/// Models of the ledgers next to finite elements: the base, the stated set or the attempt, then the nearest others.
 pub(super) fn witness_cases(w: &Witness, d: &Diagnosis) -> Vec<plots::LedgerCase> {
     let Some((base, others)) = w.models.split_first() else { return Vec::new() };
     let named = others.iter().filter(|m| m.named);

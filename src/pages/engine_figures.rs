@@ -130,7 +130,7 @@ fn ledger_cases(robot: &EngineRobot) -> Vec<plots::LedgerCase> {
     cases
 }
 
-/// By how much the finite elements' muscle, which lies flat at first, has gained more than the reduced model's, which is round
+/// By how much the finite elements' muscle, which is flat at first, has gained more than the reduced model's, which is round
 /// from the start, at the first pressure; pouches are flat in both.
 fn ahead_cm3(robot: &EngineRobot) -> f64 {
     let is_muscle = !robot.scenario.actuator.kind.has_pouches();

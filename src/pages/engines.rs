@@ -85,7 +85,7 @@ fn lead(engines: &Engines) -> String {
         ));
     }
     match words.is_empty() {
-        true => "There is no finite element run of these robots yet.".into(),
+        true => "These robots have no finite element run yet.".into(),
         false => format!("Outermost marker at 30 kPa by finite elements: {}.", words.join("; ")),
     }
 }

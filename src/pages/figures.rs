@@ -8,7 +8,7 @@ use report as plots;
 
 const MM: f64 = 1e3;
 pub(super) const LINE_POINTS: usize = 80;
-/// Terms of a ledger that colours tell apart.
+/// Terms of a ledger that colours can distinguish.
 const MOST_TERMS: usize = 8;
 /// Markers on a centre line; of more, every few from the outermost one on.
 const MOST_DRAWN: usize = 24;

@@ -1,4 +1,4 @@
-//! The page of a climb: one effect after the other until what is left is noise.
+//! The page of a climb: one effect after the other until only noise is left.
 
 use super::diagnosis_figures::waterfall;
 use super::{Maker, Result, Values};
@@ -29,7 +29,7 @@ pub(crate) fn ladder_page(page: &Climbed, maker: &Maker) -> Result<Files> {
     let values = Values::new()
         .with("title", title)
         .with("lead", &climb.ending)
-        .with("told", &climb.told)
+        .with("notes", &climb.told)
         .with("rungs", rungs)
         .with("provenance", provenance);
     files.page("ladder.html", values, maker)?;

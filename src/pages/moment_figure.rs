@@ -10,7 +10,7 @@ use compare::wording::short;
 const SAME_KPA: f64 = 0.5;
 /// Pressures with a colour and a line in the legend of their own.
 const MOST_LEVELS: usize = 6;
-/// Symbol of finite elements; those of body pressures begin with others.
+/// Symbol of finite elements; symbols of body pressures begin with others.
 const FINITE_ELEMENTS: Symbol = Symbol::Triangle;
 /// The last colour of a series, and one below it, are left for curves.
 const FREE_SERIES: usize = 7;
@@ -90,9 +90,9 @@ fn line(curve: &MomentCurve, ink: Ink) -> Mark {
     kind(curve.points.iter().map(|p| [p[1], p[2]]).collect(), ink)
 }
 
-/// Colour of a curve: the answer that is told first is black, further ones have colours that no pressure has.
-fn ink(told: &[&str], curve: &MomentCurve) -> Ink {
-    match told.iter().position(|name| *name == curve.answer) {
+/// Colour of a curve: the first answer is black, further ones have colours that no pressure has.
+fn ink(answers: &[&str], curve: &MomentCurve) -> Ink {
+    match answers.iter().position(|name| *name == curve.answer) {
         Some(0) => Ink::Ink,
         Some(i) => Ink::Series(FREE_SERIES - i % 2),
         None => Ink::Muted,

@@ -170,8 +170,8 @@ mod tests {
             assert_eq!(cut.len(), plan.pieces.len());
             for (line, piece) in cut.iter().zip(plan.pieces.iter().rev()) {
                 let found = [line.points[2][0] - line.points[0][0], line.points[2][1] - line.points[0][1]];
-                let wanted = [piece.x_m, piece.y_m].map(|[a, b]| MM * (b - a) + 0.2);
-                assert!((0..2).all(|i| (found[i] - wanted[i]).abs() < 1e-9), "{name} {found:?} {wanted:?}");
+                let expected = [piece.x_m, piece.y_m].map(|[a, b]| MM * (b - a) + 0.2);
+                assert!((0..2).all(|i| (found[i] - expected[i]).abs() < 1e-9), "{name} {found:?} {expected:?}");
             }
             let inside = |p: &[f64; 2]| (0..2).all(|i| p[i] >= 0.0 && p[i] <= sheet.size[i]);
             assert!(sheet.lines.iter().flat_map(|l| &l.points).all(inside), "{name}");

@@ -15,16 +15,16 @@ const PANELS_IN_SPACE: [(&str, usize); 3] =
 const MM: f64 = 1e3;
 /// Rows that a page can show one under the other.
 const MOST_MARKERS: usize = 24;
-/// Columns that a page can show beside each other.
+/// Columns that a page can show next to each other.
 const MOST_HOLDS: usize = 40;
 /// Residuals are drawn to this many times the noise; more is more of the same colour.
 const MAP_LIMIT: f64 = 10.0;
 /// What the colours of a residual map mean.
 pub(super) const MAP_COLOURS: &str = "Across (y), blue: the robot bends more than the model; orange: less. Along (x), blue: the \
-    robot's marker lies farther out than the model's; orange: nearer to the base.";
+    robot's marker is farther out than the model's; orange: nearer to the base.";
 
 const MAP_COLOURS_IN_SPACE: &str =
-    "Blue: the robot's marker lies farther out along the axis than the model's; orange: less far.";
+    "Blue: the robot's marker is farther out along the axis than the model's; orange: less far.";
 
 /// What the colours of the map of these data mean.
 pub(super) fn colours(dataset: &Dataset) -> &'static str {

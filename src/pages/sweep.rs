@@ -53,7 +53,7 @@ fn map_of(map: &SweepMap, engine: Engine, what: &str) -> Result<Drawn> {
         let cell = |(c, mean): (usize, &f64)| Mark::Cell([r, c], mean / most, number(*mean, 0), String::new());
         row.iter().enumerate().map(cell).collect::<Vec<_>>()
     };
-    // Ranges are too wide to stand beside each other: each column begins where it says.
+    // Ranges are too wide for neighbouring columns: each column shows the start of its range.
     let start = |name: &String| name.split(" to ").next().unwrap_or_default().to_string();
     let columns = map.names[1].iter().map(|name| ChartColumn { name: start(name), ..ChartColumn::default() });
     let is_ranges = map.names[1].iter().any(|name| name.contains(" to "));

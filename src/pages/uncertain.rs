@@ -4,7 +4,7 @@ use crate::prelude::*;
 use compare::study::uncertain::{Uncertain, is_same_reading};
 use report::{ReportError, lines};
 
-/// Heights of all markers at all pressures, median and 80 % interval, beside measured ones.
+/// Heights of all markers at all pressures, median and 80 % interval, with measured ones.
 pub(crate) fn marker_intervals(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> Result<Drawn, ReportError> {
     let mut series = Vec::new();
     for (colour, kpa) in all.pressures_kpa().into_iter().filter(|kpa| *kpa > 0.0).enumerate() {
@@ -23,7 +23,7 @@ pub(crate) fn marker_intervals(all: &Uncertain, measured: &[(f64, [f64; 2])]) ->
             series.push(LineSeries::new(name, LineStyle::OpenPoints, points).coloured(colour));
         }
     }
-    let title = format!("{}: median and 80 % interval (dashed) over what nobody measured", all.scenario);
+    let title = format!("{}: median and 80 % interval (dashed) over the unmeasured numbers", all.scenario);
     let (x, y) = ("marker along the straight robot [mm]", "displacement towards the actuator [mm]");
     lines(&Lines::new(title, x, y, series))
 }

@@ -132,7 +132,7 @@ impl<'a> CompareAnswer<'a> {
 pub fn text(answer: &CompareAnswer) -> String {
     let CompareAnswer { found, added, sentence, .. } = answer;
     let first = &found.variants[0];
-    let mut out = format!("{} held against {}\n", first.scenario.name, found.dataset.name);
+    let mut out = format!("{} compared with {}\n", first.scenario.name, found.dataset.name);
     out += &format!("{}\n", first.evaluation.noise.sentence);
     for variant in &found.variants {
         out += &format!("\n{} ({}): {}\n{}", variant.label, variant.known.word(), variant.why, holds(variant));

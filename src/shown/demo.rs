@@ -202,7 +202,7 @@ const BREAKING_PICTURE: [&str; 2] = [
 /// `ibr.demo`: `ibr demo`
 #[derive(Serialize)]
 pub(crate) struct DemoAnswer<'a> {
-    /// The textbook model beside the data
+    /// The textbook model compared with the data
     pub where_it_fails: &'a [Statement],
     /// Mechanisms of the shipped robot, each alone in the textbook model, the nearest first
     pub candidates: &'a [Mechanism],

@@ -35,7 +35,7 @@ const TOLD: usize = 3;
 /// The page that a person reads: verdict, what it could be, what to check, what to do next, what could not be seen. `all` adds the
 /// tables.
 pub fn text(d: &Diagnosis, witness: Option<&Witness>, all: bool) -> String {
-    let mut out = format!("{} held against {}, {} runs\n{}\n\n", d.scenario, d.dataset, d.runs, d.noise.sentence);
+    let mut out = format!("{} compared with {}, {} runs\n{}\n\n", d.scenario, d.dataset, d.runs, d.noise.sentence);
     d.slips.iter().for_each(|slip| out.push_str(&format!("Before the verdict, look at the data. {slip}\n\n")));
     out.push_str(&format!("Verdict: {}\n", verdict(d)));
     d.summary.iter().for_each(|s| out.push_str(&wrapped(&format!("  - {s}"), 4)));
@@ -46,7 +46,7 @@ pub fn text(d: &Diagnosis, witness: Option<&Witness>, all: bool) -> String {
         return out + &tables(d, witness);
     }
     out.push_str(&closest(d));
-    // Where nothing that is known is enough, the story says where to look.
+    // Where nothing that is known is enough, the story names the place to look at.
     if d.verdict != Some(Verdict::OutOfCatalog) {
         out.push_str(&to_check(d));
         if let Some(first) = witness.and_then(|w| w.sentences.first()) {
@@ -55,7 +55,7 @@ pub fn text(d: &Diagnosis, witness: Option<&Witness>, all: bool) -> String {
         out.push_str(&not_seen(d));
     }
     out.push_str(
-        "\nEvery effect, pair and experiment: add --tables. The picture of what is missing: add --out FOLDER.\n",
+        "\nEvery effect, pair and experiment: add --tables. The picture of the missing moment: add --out FOLDER.\n",
     );
     out
 }
@@ -87,7 +87,7 @@ pub fn verdict(d: &Diagnosis) -> String {
     }
 }
 
-/// The explanations that leave least, those of the answer first.
+/// The explanations that leave least, the answer's first.
 fn closest(d: &Diagnosis) -> String {
     if d.is_quiet() {
         return String::new();
@@ -108,7 +108,7 @@ fn closest(d: &Diagnosis) -> String {
         .number("after mm", 2, |(.., after, _)| *after)
         .number("pressures left out mm", 2, |(.., left_out)| *left_out)
         .text();
-    format!("\nWhat it could be ({before}; = cannot be told apart):\n{rows}")
+    format!("\nWhat it could be ({before}; = fit equally well):\n{rows}")
 }
 
 /// What the answer means on the robot, and where the model fails with it.

@@ -21,7 +21,7 @@ pub(crate) fn tables(d: &Diagnosis, witness: Option<&Witness>) -> String {
 }
 
 /// What the first column of effects and pairs means.
-pub(crate) const MARKS: &str = "= cannot be told from the best · ! on a physical bound, rejected\n";
+pub(crate) const MARKS: &str = "= fits as well as the best · ! on a physical bound, rejected\n";
 
 /// Title of the table that [`unseen`] makes.
 pub(crate) const UNSEEN: &str = "Effects not found; smallest size that would have been seen (90 %)";
@@ -111,7 +111,7 @@ pub(crate) fn witness_heights(w: &Witness) -> Table<&Height> {
         .right("finite elements", |h| over_seeds(Some((h.fe_mm, h.fe_sd_mm)), 1))
 }
 
-/// Ledgers of the models, then that of the finite elements; none without the latter.
+/// Ledgers of the models, then of the finite elements; none without the latter.
 pub(crate) fn witness_ledgers(w: &Witness) -> Option<Table<(&str, &Energies, Option<f64>)>> {
     let fe = w.fe_mj.as_ref().map(|fe| ("finite elements", fe, None))?;
     let models = w.models.iter().map(|m| (m.name.as_str(), &m.energies_mj, Some(m.apart_mj)));

@@ -6,9 +6,9 @@ use compare::study::engines::{BodyVolumes, EngineLine, EngineRobot, MeanOverSeed
 use compare::study::published::heights_m;
 
 pub(crate) const LINES: &str = "All pressures that the paper prints";
-pub(crate) const SUMMARY: &str = "Outermost marker at 30 kPa; finite elements: median and 80 % interval over all numbers that nobody measured; as recommended: mean ± standard deviation over seeds";
+pub(crate) const SUMMARY: &str = "Outermost marker at 30 kPa; finite elements: median and 80 % interval over all unmeasured numbers; as recommended: mean ± standard deviation over seeds";
 pub(crate) const BRANCHES: &str = "Finite elements on the way up and down again, mean ± standard deviation over seeds";
-pub(crate) const LEDGERS: &str = "Ledgers at the highest pressure [mJ]: gas −P ΔV, what is stored, what was lost";
+pub(crate) const LEDGERS: &str = "Ledgers at the highest pressure [mJ]: gas −P ΔV, stored, lost";
 pub(crate) const VOLUMES: &str = "Volumes [cm³], mean over seeds: what the bodies of the finite elements lose, and what the \
     reduced model knows of it";
 

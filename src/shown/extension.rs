@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 /// Errors on the way as a text table.
 pub fn steps_text(steps: &[ErrorStep], noise_floor_mm: Option<f64>) -> String {
     let floor = noise_floor_mm.map_or("noise unknown with one run: root-mean-square errors".to_string(), |n| {
-        format!("noise of the mean {n:.2} mm, already taken off")
+        format!("noise of the mean {n:.2} mm, already subtracted")
     });
     let steps = Table::of(steps)
         .words("model", |step| &step.model)
@@ -29,7 +29,7 @@ pub fn climb_text(climb: &Climb) -> String {
     let mut out = steps_text(&climb.rungs, climb.noise_floor_mm);
     out += &lines("  - ", &climb.told);
     if climb.steps.len() > 1 {
-        out += "Effects of earlier steps keep the values of their step; B is fitted anew on each.\n";
+        out += "Effects of earlier steps keep the values of their step; B is fitted again on each.\n";
     }
     if !climb.steps.is_empty() {
         out += "A smaller error does not prove a name: `ibr validate` tries it on data it was not fitted to.\n";

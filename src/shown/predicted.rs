@@ -39,7 +39,7 @@ pub fn text(scenario: &Scenario, states: &[AtPressure]) -> String {
     out + &markers.text()
 }
 
-/// For other programs: a row per pressure, with columns named as those of a sweep.
+/// For other programs: a row per pressure, with columns named as in a sweep.
 pub fn columns(scenario: &Scenario, states: &[AtPressure]) -> data::Table {
     let axes = if scenario.is_spatial() { &["x", "y", "z"][..] } else { &["x", "y"] };
     let of = |value: &dyn Fn(&AtPressure) -> f64| Column::F64(states.iter().map(value).collect());
@@ -292,7 +292,6 @@ pub(crate) fn nearest_words(place_m: [f64; 2], found: &Steered) -> Option<String
         .collect();
     let why = if words.is_empty() { "no pressures bring it nearer".to_string() } else { words.join("; ") };
     let [x, y] = place_m.map(|m| m * 1e3);
-    (found.miss_m > MET_M).then(|| {
-        format!("warning: the tip stays {:.2} mm from the wanted place {x}, {y} mm: {why}", found.miss_m * 1e3)
-    })
+    (found.miss_m > MET_M)
+        .then(|| format!("warning: the tip stays {:.2} mm from the target {x}, {y} mm: {why}", found.miss_m * 1e3))
 }

@@ -10,7 +10,7 @@ pub fn text(s: &Summary) -> String {
     let mut out = format!("{name}\n{elements} elements, {steps} steps to t = {time_s:.6} s\n");
     if s.began_s > 0.0 {
         out.push_str(&format!(
-            "went on from the end of another run at t = {:.6} s; the energies below are those of both\n",
+            "went on from the end of another run at t = {:.6} s; the energies below include both\n",
             s.began_s
         ));
     }
@@ -119,7 +119,7 @@ fn robot_text(robot: &RobotSummary) -> String {
     let readings = &robot.readings;
     let Some(last) = readings.last() else { return String::new() };
     let title = match robot.is_spatial {
-        true => "Displacement of the sections [mm] along y and z; the turn is that of the tip's normal",
+        true => "Displacement of the sections [mm] along y and z; the turn is the turn of the tip's normal",
         false => "Displacement towards the actuator [mm]: section at the station; at the tip also the mean of its ring",
     };
     let axes = if robot.is_spatial { &[("y", 1), ("z", 2)][..] } else { &[("", 1)] };

@@ -47,7 +47,7 @@ impl Studio {
         format!("http://127.0.0.1:{}/{}/", self.port, self.token)
     }
 
-    /// Answers for ever, every visitor on a thread of its own.
+    /// Answers for ever, every visitor on a separate thread.
     pub(crate) fn serve(&self) {
         std::thread::scope(|scope| {
             for stream in self.listener.incoming().flatten() {
@@ -82,7 +82,7 @@ impl Studio {
             ("GET", "run") => Response::json(&self.bench.told()),
             ("POST", "run") => Response::json(&self.bench.start(&request.body)),
             ("POST", "stop") => Response::json(&self.bench.stop()),
-            _ => Response::words(404, "there is no such page"),
+            _ => Response::words(404, "this page does not exist"),
         }
     }
 
@@ -95,7 +95,7 @@ impl Studio {
     }
 }
 
-/// 128 bits that nobody can guess: the keys of a hash table come from the system's own source.
+/// 128 bits that cannot be guessed: the keys of a hash table come from the system's own source.
 fn token() -> String {
     let word = || RandomState::new().build_hasher().finish();
     format!("{:016x}{:016x}", word(), word())

@@ -23,12 +23,12 @@ impl Request {
         let mut lines = (&mut reader).take(MOST_HEAD);
         while !head.ends_with("\r\n\r\n") {
             if lines.read_line(&mut head).map_err(broken)? == 0 {
-                return Err(Response::words(400, "this is no request, or a very long one"));
+                return Err(Response::words(400, "this is not a request, or a very long one"));
             }
         }
-        let mut request = Request::of(&head).ok_or_else(|| Response::words(400, "this is no request"))?;
+        let mut request = Request::of(&head).ok_or_else(|| Response::words(400, "this is not a request"))?;
         let length = request.header("content-length").map_or(Ok(0), str::parse::<u64>);
-        let length = length.map_err(|_| Response::words(400, "this is no length"))?;
+        let length = length.map_err(|_| Response::words(400, "this is not a length"))?;
         if length > MOST_BODY {
             return Err(Response::words(413, "a robot of more than a megabyte is none"));
         }

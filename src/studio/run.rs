@@ -33,7 +33,7 @@ pub(super) struct Bench {
     stand: Arc<Mutex<Stand>>,
 }
 
-/// The stand; a thread that panicked has told that already.
+/// The stand; a thread that panicked has reported that already.
 fn of(stand: &Mutex<Stand>) -> std::sync::MutexGuard<'_, Stand> {
     stand.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -47,7 +47,7 @@ impl Bench {
     pub(super) fn start(&self, body: &[u8]) -> Value {
         let wish: Wish = match serde_json::from_slice(body) {
             Ok(wish) => wish,
-            Err(error) => return failed(&format!("this is no robot: {error}"), "send name, text and actuator_kpa"),
+            Err(error) => return failed(&format!("this is not a robot: {error}"), "send name, text and actuator_kpa"),
         };
         let mut stand = of(&self.stand);
         if stand.runs {
@@ -99,7 +99,7 @@ fn failed(message: &str, help: &str) -> Value {
 
 /// Where the sections of the robot are at its last hold \[m\], from the base.
 fn shape(run: &FeRun) -> Value {
-    let Some(last) = run.readings().last() else { return failed("this is no robot", "give a scenario with [body]") };
+    let Some(last) = run.readings().last() else { return failed("this is not a robot", "give a scenario with [body]") };
     let Reading { stations_m, moved_m, .. } = last;
     let moved = stations_m.iter().zip(moved_m).map(|(s, moved)| [s + moved[0], moved[1]]);
     let line: Vec<[f64; 2]> = std::iter::once([0.0, 0.0]).chain(moved).collect();

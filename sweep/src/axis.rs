@@ -130,7 +130,7 @@ pub(crate) struct RawAxis {
     log: bool,
 }
 
-/// An axis for every number that nobody measured and that the finite elements of this robot feel, but for those that vary anyway.
+/// An axis for every unmeasured number that affects the finite elements of this robot, except the numbers that vary anyway.
 pub(crate) fn assumed(base: &ScenarioFile, folder: &Path, axes: &[Axis]) -> Result<Vec<Axis>, FemError> {
     let known: Vec<&str> = axes.iter().filter_map(|axis| axis.key.strip_prefix("fem.")).collect();
     let of = |(number, key): Felt| {
@@ -152,14 +152,14 @@ pub(crate) fn channel(key: &str) -> Option<Option<usize>> {
     }
 }
 
-/// What is set in a scenario, and the pressures of its channels if they are among the keys \[kPa\].
+/// Values set in a scenario, and the pressures of its channels if they are among the keys \[kPa\].
 pub(crate) struct Changes {
     pub values: Vec<(String, String)>,
     pub pressures_kpa: Option<[f64; CHANNELS]>,
 }
 
 impl Changes {
-    /// Of keys with their values. A channel without a pressure beside others has none.
+    /// Of keys with their values. If only some channels have a pressure, the others get 0.
     pub(crate) fn of<'a>(all: impl Iterator<Item = (&'a Axis, Value)>) -> Changes {
         let mut changes = Changes { values: Vec::with_capacity(all.size_hint().0), pressures_kpa: None };
         for (axis, value) in all {
@@ -192,12 +192,15 @@ pub(crate) fn axes(raw: &[Spanned<RawAxis>], sampled: bool, base: &ScenarioFile)
             return wrong(format!("`{}` is a list of pressures", axis.key), "vary pressure_kpa");
         }
         if axis.key.starts_with(PRESSURE) && (channel(&axis.key).is_none() || !axis.is_pressure()) {
-            let message = format!("`{}` is no pressure, or has a value below zero", axis.key);
+            let message = format!("`{}` is not a pressure, or has a value below zero", axis.key);
             return wrong(message, "write pressure_kpa, or pressure_kpa.0 to pressure_kpa.3 for single channels");
         }
         let both = |a: &str, b: &str| channel(a) == Some(None) && matches!(channel(b), Some(Some(_)));
         if all.iter().any(|other| both(&axis.key, &other.key) || both(&other.key, &axis.key)) {
-            return wrong("a pressure for all channels beside one for a channel".into(), "leave one of them out");
+            return wrong(
+                "a pressure for all channels together with one for a channel".into(),
+                "leave one of them out",
+            );
         }
         all.push(axis);
     }

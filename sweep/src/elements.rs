@@ -1,4 +1,4 @@
-//! Parts by finite elements: one run per robot, read at all its pressures, and then forgotten unless its folder is wanted.
+//! Parts by finite elements: one run per robot, read at all its pressures. Its folder is kept only on request.
 
 use crate::columns::{ACCOUNTS, columns};
 use crate::part::{Part, Rows};

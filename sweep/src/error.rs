@@ -46,9 +46,7 @@ impl SweepError {
             SweepError::Run(_) => String::new(),
             SweepError::Write { .. } => "choose another folder with --out".into(),
             SweepError::Missing(_) => "run the other shards, or the command without a shard".into(),
-            SweepError::Damaged { .. } => {
-                "delete the file and give the command again: that part is computed anew".into()
-            }
+            SweepError::Damaged { .. } => "delete the file and give the command again: it recomputes that part".into(),
             SweepError::Cluster { help, .. } => help.clone(),
         }
     }

@@ -24,7 +24,7 @@ pub(crate) struct Form<Raw, T> {
 }
 
 impl<Raw: DeserializeOwned, T> Form<Raw, T> {
-    /// Reads a file; `scenario` reads the robot, first as a file beside it.
+    /// Reads a file; `scenario` reads the robot, first as a file in the same folder.
     pub(crate) fn read(&self, path: &Path, scenario: ReadRobot) -> Result<T, CompareError> {
         let name = path.display().to_string();
         let unread = |cause: String| {

@@ -35,7 +35,7 @@ pub struct SweepMap {
     pub keys: [String; 2],
     /// Names of the groups of each.
     pub names: [Vec<String>; 2],
-    /// Row by row; NaN where there is no case.
+    /// Row by row; NaN without a case.
     pub means: Vec<Vec<f64>>,
 }
 
@@ -98,7 +98,7 @@ impl Solved {
         Some(Solved { rows, values })
     }
 
-    /// Each value a group of its own, or groups of as many cases where there are more.
+    /// A group for each value, or groups of equally many cases if there are more values.
     fn grouped(&self, table: &Table, key: &str) -> Option<Grouped> {
         let numbers = match column(table, key)? {
             Column::F64(all) => self.rows.iter().map(|i| all[*i]).collect::<Vec<f64>>(),

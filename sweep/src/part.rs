@@ -90,7 +90,7 @@ impl Rows {
         self.row(width, |_| ());
     }
 
-    /// A row of what is put, NaN for what is not.
+    /// A row of the numbers that `put` adds, filled up with NaN.
     pub(crate) fn row(&mut self, width: usize, put: impl FnOnce(&mut Vec<f64>)) {
         let end = self.numbers.len() + width;
         put(&mut self.numbers);
@@ -107,7 +107,7 @@ impl Rows {
         pieces::keep(path, bytes)
     }
 
-    /// Reads them; `None` where there is no file.
+    /// Reads them; `None` without a file.
     pub(crate) fn read(path: &Path, count: usize) -> Result<Option<Rows>, SweepError> {
         let Some(bytes) = pieces::kept(path)? else { return Ok(None) };
         Rows::decode(&bytes, count).map(Some).ok_or_else(|| SweepError::damaged(path))

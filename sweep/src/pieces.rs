@@ -49,7 +49,7 @@ pub fn keep(path: &Path, bytes: Vec<u8>) -> Result<(), SweepError> {
     replace(path, &mut |out| out.write_all(&bytes)).map_err(|cause| SweepError::unwritable(path, &cause))
 }
 
-/// What [`keep`] wrote; `None` where there is no file.
+/// The bytes that [`keep`] wrote; `None` without a file.
 ///
 /// # Errors
 /// A file that cannot be read, or whose bytes are not those that were written.

@@ -1,4 +1,4 @@
-//! A sweep, or a shard of it: what is missing is computed.
+//! A sweep, or a shard of it: computes the missing parts.
 
 use crate::columns::columns;
 use crate::part::{Part, Rows, parts};
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 pub struct Settings {
     /// Folder of the parts.
     pub folder: PathBuf,
-    /// Whether every finite element run keeps a folder of its own below it, with summary and pictures.
+    /// Whether every finite element run keeps a folder below it, with summary and pictures.
     pub keep_runs: bool,
     /// Parts of the study that this call computes.
     pub shard: Shard,
@@ -41,7 +41,7 @@ pub fn parts_missing(study: &Study, folder: &std::path::Path) -> usize {
     parts(study).iter().filter(|part| !part.path(study, folder).exists()).count()
 }
 
-/// What is there of a study, without computing anything.
+/// The finished parts of a study, without computing anything.
 ///
 /// # Errors
 /// A part whose file is damaged.
@@ -53,10 +53,10 @@ pub fn there(study: &Study, folder: &std::path::Path) -> Result<Found, SweepErro
     Ok(Found { parts: all.len(), kept, missing: all.len() - kept, cpu_s })
 }
 
-/// Computes what is missing of a shard. `progress` is told how far it is and says whether to go on.
+/// Computes the missing parts of a shard. `progress` receives the finished share and answers whether to go on.
 ///
 /// # Errors
-/// A folder that cannot be written to; a part whose file is damaged; [`fem::FemError::Interrupted`] if `progress` asked to end: what is complete stays.
+/// A folder that cannot be written to; a part whose file is damaged; [`fem::FemError::Interrupted`] if `progress` asked to end: complete parts stay.
 pub fn run(study: &Study, settings: &Settings, progress: Progress) -> Result<Found, SweepError> {
     let width = columns(study).len();
     pieces::folder(&settings.folder.join("parts"))?;
@@ -79,7 +79,7 @@ pub fn run(study: &Study, settings: &Settings, progress: Progress) -> Result<Fou
     Ok(Found { parts: kept + quick.len() + long.len(), kept, missing, cpu_s })
 }
 
-/// Parts beside each other on threads; each is written as soon as it is complete.
+/// Computes parts in parallel on threads, and writes each as soon as it is complete.
 fn by_model(study: &Study, settings: &Settings, parts: &[Part], progress: Progress) -> Result<f64, SweepError> {
     let one = |part: usize| -> Result<f64, SweepError> {
         let rows = reduced::compute(study, &parts[part]);

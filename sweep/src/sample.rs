@@ -38,7 +38,7 @@ impl Points {
     }
 }
 
-/// The sequence has 2¹⁶ points in so many axes; further points and axes are the same net with a scrambling of its own.
+/// The sequence has 2¹⁶ points in so many axes; further points and axes repeat the net with another scrambling.
 fn sobol(case: usize, axis: usize, seed: u32) -> f64 {
     const NET: usize = 1 << 16;
     const AXES: usize = sobol_burley::NUM_DIMENSIONS as usize;

@@ -23,7 +23,7 @@ pub enum Cluster {
 pub struct Job {
     /// Path of the program that each shard calls.
     pub program: PathBuf,
-    /// What it is told beside threads and shard: a command and its options.
+    /// Its arguments other than threads and shard: a command and its options.
     pub words: Vec<String>,
     /// Folder that relative paths of the words count from.
     pub started_in: PathBuf,
@@ -57,9 +57,9 @@ impl Cluster {
 
     fn is_alive(self, id: &str) -> bool {
         match self {
-            Cluster::Slurm => asked("squeue", &["-h", "-j", id]).is_ok_and(|told| !told.trim().is_empty()),
+            Cluster::Slurm => asked("squeue", &["-h", "-j", id]).is_ok_and(|answer| !answer.trim().is_empty()),
             Cluster::HyperQueue => asked("hq", &["job", "info", id])
-                .is_ok_and(|told| ["WAITING", "RUNNING"].iter().any(|state| told.contains(state))),
+                .is_ok_and(|answer| ["WAITING", "RUNNING"].iter().any(|state| answer.contains(state))),
         }
     }
 }
@@ -97,9 +97,9 @@ impl Job {
         )
     }
 
-    /// Submits the job, or finds the one that an earlier call submitted, and waits until it has ended. `told` says how many parts are
-    /// missing and is asked whether to go on; a job goes on without whoever watches it. Submits again while that helps, and returns
-    /// how many parts are missing then.
+    /// Submits the job, or finds the one that an earlier call submitted, and waits until it has ended. `watch` receives the number
+    /// of missing parts and answers whether to go on; the job itself runs on without the watcher. Submits again while that helps, and
+    /// returns how many parts are missing then.
     ///
     /// # Errors
     /// No such scheduler, what it answered; [`SweepError::Run`] on an interrupt.
@@ -107,7 +107,7 @@ impl Job {
         &self,
         cluster: Cluster,
         missing: &dyn Fn() -> usize,
-        told: &mut dyn FnMut(usize) -> ControlFlow<()>,
+        watch: &mut dyn FnMut(usize) -> ControlFlow<()>,
     ) -> Result<usize, SweepError> {
         let mut before = usize::MAX;
         loop {
@@ -120,7 +120,7 @@ impl Job {
             };
             before = left;
             while cluster.is_alive(&id) {
-                if told(missing()).is_break() {
+                if watch(missing()).is_break() {
                     return Err(fem::FemError::interrupted(0, self.shards).into());
                 }
                 std::thread::sleep(LOOK);
@@ -143,13 +143,13 @@ impl Job {
         let script = self.folder.join("job.sh");
         std::fs::write(&script, self.script(cluster)).map_err(unmade)?;
         let script = script.display().to_string();
-        let told = match cluster {
+        let answer = match cluster {
             Cluster::Slurm => asked("sbatch", &["--parsable", &script]),
-            // It reads the directives of what it is given, and starts it as its first line says.
+            // It reads the directives in the script, and starts it with the program of its first line.
             Cluster::HyperQueue => asked("hq", &["submit", "--directives", "file", "--output-mode", "quiet", &script]),
         }?;
         // With several clusters Slurm adds the name of one.
-        let id = told.trim().split([';', '\n']).next().unwrap_or_default().to_string();
+        let id = answer.trim().split([';', '\n']).next().unwrap_or_default().to_string();
         let job = serde_json::to_vec(&Submitted { cluster, id: id.clone() }).unwrap_or_default();
         std::fs::write(self.folder.join(SUBMITTED), job).map_err(unmade)?;
         Ok(id)

@@ -1,4 +1,4 @@
-//! The TOML file of a sweep: what is varied, and what is asked of every case.
+//! The TOML file of a sweep: the keys to vary, and the outputs of every case.
 
 pub use crate::axis::{Axis, PRESSURE};
 use crate::axis::{Changes, Levels, RawAxis, as_number, assumed, axes, channel};
@@ -48,7 +48,7 @@ pub enum Output {
     Time,
 }
 
-/// A sweep as its file tells it.
+/// A sweep as read from its file.
 #[derive(Debug, Clone)]
 pub struct Study {
     /// Robot whose keys the study varies.
@@ -88,15 +88,15 @@ enum Kind {
     Sweep,
 }
 
-/// A list of the study, each entry once, or what stands for it.
-fn listed_once<T: Copy + PartialEq>(given: Option<&Spanned<Vec<T>>>, usual: &[T], what: &str) -> Result<Vec<T>, Wrong> {
+/// A list of the study, each entry once, or its default.
+fn listed_once<T: Copy + PartialEq>(given: Option<&Spanned<Vec<T>>>, usual: &[T], key: &str) -> Result<Vec<T>, Wrong> {
     let Some(given) = given else { return Ok(usual.to_vec()) };
     let all = given.get_ref();
     let twice = (1..all.len()).any(|i| all[..i].contains(&all[i]));
     match all.is_empty() || twice {
         true => Err((
             Some(given.span()),
-            format!("`{what}` is empty, or has an entry twice"),
+            format!("`{key}` is empty, or has an entry twice"),
             "leave it out, or name each once",
         )),
         false => Ok(all.clone()),
@@ -122,7 +122,7 @@ const FORM: Form<Raw, Study> =
     Form { what: "study", page: "docs/sweep.md", scenario: |raw| &raw.scenario, of: Study::of };
 
 impl Study {
-    /// Reads a study; `scenario` reads the robot that it names, first as a file beside it.
+    /// Reads a study; `scenario` reads the robot that it names, first as a file in the same folder.
     ///
     /// # Errors
     /// A file that cannot be read; a fault of the study or of the robot, with its line and what to write.
@@ -143,7 +143,7 @@ impl Study {
         FORM.parse(name, text, folder, scenario)?.checked()
     }
 
-    /// A key that the scenario has not is told before anything is computed.
+    /// Refuses a key that the scenario does not have before computing anything.
     fn checked(self) -> Result<Study, CompareError> {
         if self.robots > 0 {
             self.robot(0)?;
@@ -219,7 +219,7 @@ impl Study {
         robots * self.per_robot()
     }
 
-    /// Cases with the same robot, beside each other.
+    /// Number of consecutive cases with the same robot.
     pub fn per_robot(&self) -> usize {
         self.pressures_kpa.len().max(1)
     }
@@ -263,7 +263,7 @@ impl Study {
         own.chain((!self.has_channels()).then(|| PRESSURE.to_string()))
     }
 
-    /// What is set in the scenario of a robot, and its pressures.
+    /// Values set in the scenario of a robot, and its pressures.
     pub(crate) fn changes(&self, robot: usize) -> Changes {
         Changes::of(self.axes.iter().zip(self.values(robot)))
     }

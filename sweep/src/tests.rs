@@ -328,10 +328,10 @@ fn a_wrong_study_is_refused_with_its_line_and_what_to_write() {
         ("scenario = ", "engines = []\nscenario = ", "`engines` is empty"),
         ("scenario = ", "engines = [\"reduced\", \"reduced\"]\nscenario = ", "twice"),
         ("actuator.width_mm", "predict.pressures_kpa", "vary pressure_kpa"),
-        ("actuator.width_mm", "pressure_kpa.1", "a pressure for all channels beside one for a channel"),
+        ("actuator.width_mm", "pressure_kpa.1", "a pressure for all channels together with one for a channel"),
         ("key = \"pressure_kpa\"", "key = \"pressure_kpa.1\"", "nothing of epam is on supply channel 1"),
         ("actuator.width_mm", "pressure_kpa.4", "pressure_kpa.0 to pressure_kpa.3"),
-        ("from = 0", "from = -1", "no pressure, or has a value below zero"),
+        ("from = 0", "from = -1", "not a pressure, or has a value below zero"),
     ] {
         let told = with(old, new);
         assert!(told.contains(says), "{new}: {told}");

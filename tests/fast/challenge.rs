@@ -62,7 +62,7 @@ fn a_diagnosis_is_scored() {
     );
     let args = ["challenge", "reveal", "c", "--diagnosis", "answer.json"];
     let told = folder.run(&args).stdout;
-    assert!(told.contains("The diagnosis says: effect, which is right."), "{told}");
+    assert!(told.contains("The diagnosis states: effect, which is right."), "{told}");
     assert!(told.contains("place 1 of the ranking and in the stated set of 2 (leak, creep)"), "{told}");
     let json = folder.run(&[&args[..], &["--json"]].concat()).json("ibr.challenge.reveal");
     assert_eq!(json["diagnosis"]["score"]["rank"], 1);
@@ -119,7 +119,12 @@ fn what_cannot_be_hidden_is_refused_and_nothing_is_replaced_unasked() {
     let new = |more: &[&'static str]| [&["challenge", "new", "--out", "c"], more].concat();
     refuse(&folder, &new(&["--effect", "magic"]), 2, &["no hidden effect `magic`", "known: end_constraint"]);
     refuse(&folder, &new(&["--effect", "frction"]), 2, &["did you mean friction?"]);
-    refuse(&folder, &new(&["--effect", "none", "--effect", "friction"]), 2, &["--effect none stands alone"]);
+    refuse(
+        &folder,
+        &new(&["--effect", "none", "--effect", "friction"]),
+        2,
+        &["--effect none cannot be given with others"],
+    );
     refuse(&folder, &new(&["--effect", "creep=x"]), 2, &["`x` is not a size", "creep=1.2"]);
     refuse(&folder, &new(&["--effect", "creep=99"]), 2, &["not a size from 0.05 to 3"]);
     refuse(&folder, &new(&["--effect", "creep", "--effect", "creep"]), 2, &["given twice"]);

@@ -101,7 +101,7 @@ fn a_marker_missing_in_one_run_or_a_hold_missing_is_named() {
     let text = fewer(&|cells| cells[0] == "3" && cells[6] == "4");
     refused(text, &["marker 4 appears in run 1 but not in run 3", "column marker", "every run needs the same markers"]);
     let text = fewer(&|cells| cells[0] == "3" && cells[4] == "30.0000");
-    refused(text, &["run 3, marker 1 has no hold like that of run 1", "30.0 kPa", "every run needs the same holds"]);
+    refused(text, &["run 3, marker 1 lacks a hold that run 1", "30.0 kPa", "every run needs the same holds"]);
 }
 
 #[test]
@@ -157,7 +157,7 @@ fn a_wrong_description_beside_the_table_has_its_place() {
     let forces = format!("{measured}[[run]]\nid = \"1\"\ntip_force_n = [0, -0.3]");
     described(&forces, &["different known tip forces", "a separate dataset"]);
     let kind = format!("actuator = \"cpam\"\n{measured}");
-    described(&kind, &["the table is of actuator epam, its about.toml says cpam"]);
+    described(&kind, &["the table is of actuator epam, its about.toml names cpam"]);
 }
 
 #[test]

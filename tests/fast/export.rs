@@ -112,7 +112,7 @@ fn what_a_table_cannot_hold_is_refused_with_the_way_out() {
     let folder = with_report();
     let cases: [(&[&str], &[&str]); 5] = [
         (&["epam", "--effect", "friction", "--effect", "creep"], &["friction, creep", "--loading"]),
-        (&["epam", "--pressure", "40kPa"], &["no range", "0:40kPa"]),
+        (&["epam", "--pressure", "40kPa"], &["not a range", "0:40kPa"]),
         (&["epam", "--pressure", "0:1kPa"], &["flat up to", "0:40kPa"]),
         (&["epam", "--out", "robot.txt"], &["does not end with .c"]),
         (&["two.toml"], &["2 supply channels"]),

@@ -160,7 +160,7 @@ fn slips_of_the_command_line_say_what_to_write() {
         "epam",
     ]);
     assert!(
-        other.code == 3 && other.stderr.contains("d, which is no marker") && other.stderr.contains("a, b, c"),
+        other.code == 3 && other.stderr.contains("d, which is not a marker") && other.stderr.contains("a, b, c"),
         "{}",
         other.stderr
     );

@@ -221,7 +221,7 @@ fn values_of_the_scenario_can_be_typed() {
     for (set, code, words) in [
         ("body.radius_mn=45", 3, "unknown field `radius_mn`"),
         ("body.radius_mm=45mm", 2, "is not a TOML value"),
-        ("body.radius_mm", 2, "there is no ="),
+        ("body.radius_mm", 2, "the = is missing"),
         ("strip.1.azimuth_deg=9", 3, "expected a sequence"),
     ] {
         refuse(&with_report(), &["predict", "epam", "--set", set], code, &[words]);

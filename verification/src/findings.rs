@@ -2,14 +2,14 @@
 
 use serde_json::Value;
 
-/// Text, tables, the same as JSON, and whether all that is wanted was met.
+/// Text, tables, the same as JSON, and whether a target was missed.
 #[derive(Debug)]
 pub struct Findings {
     /// Texts and tables to print, in order.
     pub parts: Vec<Printed>,
     /// The same answer for programs, as JSON.
     pub json: Value,
-    /// Whether something that is wanted was not reached.
+    /// Whether a target was not reached.
     pub missed: bool,
 }
 
@@ -56,7 +56,7 @@ pub enum Error {
     #[error(transparent)]
     Kept(#[from] sweep::SweepError),
     /// A check that does not exist.
-    #[error("there is no check `{name}`; write one of {known}")]
+    #[error("check `{name}` does not exist; write one of {known}")]
     NoCheck {
         /// Name of the check as it was typed.
         name: String,

@@ -1,4 +1,4 @@
-//! What the product is held against.
+//! The references that the product is compared with.
 //!
 //! | module | holds |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! A robot held against measurements: how far off, and what it lacks.
+//! A robot compared with measurements: how far off, and what it lacks.
 
 use crate::data_of::Measured;
 use crate::robot::Robot;

@@ -1,7 +1,7 @@
 //! What the page in a browser calls: a question as JSON, an answer as JSON. All physics and all words are the library's.
 //!
-//! The page writes a question of `n` bytes to [`room`]`(n)`, calls [`ask`], and reads as many bytes at [`answer`]. Questions are those
-//! of [`question`].
+//! The page writes a question of `n` bytes to [`room`]`(n)`, calls [`ask`], and reads as many bytes at [`answer`]. [`question`]
+//! lists the questions.
 #![allow(unsafe_code, reason = "names that the page can call")]
 
 pub mod data_of;
@@ -27,7 +27,7 @@ pub extern "C" fn room(bytes: usize) -> *mut u8 {
     })
 }
 
-/// Answers the question in the room, and says how many bytes the answer has.
+/// Answers the question in the room, and returns the number of bytes of the answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn ask() -> usize {
     let told = QUESTION.with_borrow(|question| question::answer(&String::from_utf8_lossy(question)));

@@ -7,8 +7,8 @@ use compare::CompareError;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// A question: what there is; the five panels of the demonstration; what a robot is; its shape at one pressure \[kPa\] for all supply channels or one for each, and
-/// that of its bare model; it compared with measurements; what it lacks.
+/// A question: the shipped robots and data; the five panels of the demonstration; a robot; its shape and its bare model's at one pressure
+/// \[kPa\] for all supply channels or one for each; its comparison with measurements; its missing effects.
 #[derive(Debug, Deserialize)]
 #[serde(tag = "ask", rename_all = "snake_case", deny_unknown_fields)]
 enum Ask {
@@ -37,7 +37,7 @@ impl Ask {
 pub fn answer(question: &str) -> String {
     let told = match serde_json::from_str::<Ask>(question) {
         Ok(ask) => ask.answer(),
-        Err(error) => Err(CompareError::refused(format!("this is no question: {error}"), "see web/src/question.rs")),
+        Err(error) => Err(CompareError::refused(format!("this is not a question: {error}"), "see web/src/question.rs")),
     };
     let told = match told {
         Ok(value) => json!({"ok": value}),

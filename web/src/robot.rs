@@ -11,7 +11,7 @@ use models::{Known, Model, Scenario};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// Stations at which the sides are told.
+/// Stations at which the sides are given.
 const STATIONS: usize = 97;
 
 /// Robot of a question: a shipped one, or the text of a scenario.
@@ -59,7 +59,7 @@ impl Robot {
         Ok([given, changed])
     }
 
-    /// The scenario with the changes, for what is built for planar robots alone.
+    /// The scenario with the changes, for functions that take planar robots alone.
     /// Errors as for [`ScenarioFile::planar`].
     pub fn planar(&self) -> Result<ScenarioFile, CompareError> {
         let [_, changed] = self.files()?;
@@ -72,7 +72,7 @@ impl Robot {
     /// A scenario that cannot be read.
     pub fn told(&self) -> Result<Value, CompareError> {
         let [given, file] = self.files()?;
-        // Where a dial ends does not depend on where it stands.
+        // The ends of a dial do not depend on its position.
         let now = file.dials();
         let value = |place: &str| now.iter().find(|d| d.place == place).map(|d| d.value);
         let dials: Vec<Value> =
@@ -88,10 +88,10 @@ impl Robot {
         }))
     }
 
-    /// Its shape, and that of its bare model.
+    /// Its shape, and its bare model's.
     ///
     /// # Errors
-    /// A scenario that cannot be read, and those of [`Predictor::state`].
+    /// A scenario that cannot be read, and the errors of [`Predictor::state`].
     pub fn predicted(&self, actuator_kpa: &[f64]) -> Result<Value, CompareError> {
         let [_, file] = self.files()?;
         let pa: Vec<f64> = actuator_kpa.iter().map(|p| 1e3 * p).collect();
@@ -112,7 +112,7 @@ impl Robot {
     }
 }
 
-/// Where the units of the actuator lie, and whether they are welded into the wall.
+/// Where the units of the actuator are, and whether they are welded into the wall.
 fn units(scenario: &Scenario) -> Value {
     let a = &scenario.actuator;
     json!({
@@ -121,7 +121,7 @@ fn units(scenario: &Scenario) -> Value {
     })
 }
 
-/// A state as `ibr predict --json` tells it, with what is drawn \[m\].
+/// A state as `ibr predict --json` gives it, with the lines to draw \[m\].
 fn drawn(of: &Predictor, state: &AtPressure, with_units: bool) -> Value {
     let mut told = PredictedState::of(&of.model, &of.scenario, state).json();
     match views(of, state, STATIONS, with_units) {

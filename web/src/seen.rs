@@ -1,4 +1,4 @@
-//! A robot with strips round the body as it is seen from two sides, with what is drawn \[m\].
+//! A robot with strips round the body as it is seen from two sides, with the lines to draw \[m\].
 
 use ibr::{AtPressure, Predictor};
 use models::scenario::ActuatorChoice;
@@ -11,10 +11,10 @@ const PIECES: usize = 24;
 /// Points of a unit along and across it.
 const GRID: [usize; 2] = [9, 7];
 const RING: usize = 32;
-/// Of a unit vector: what is seen end-on.
+/// Of a unit vector: smaller components count as seen end-on.
 const END_ON: f64 = 1e-9;
 
-/// x to the right, and what is up.
+/// A view: x to the right, and the axis that is up.
 #[derive(Clone, Copy)]
 struct Side {
     axis: &'static str,
@@ -73,7 +73,7 @@ pub fn views(of: &Predictor, state: &AtPressure, stations: usize, with_units: bo
     Some(json!(SIDES.map(view)))
 }
 
-/// A point beside the centre line, at an azimuth.
+/// A point off the centre line, at an azimuth.
 fn on_wall(frame: &Frame, azimuth_rad: f64, from_axis_m: f64) -> [f64; 3] {
     let (sin, cos) = azimuth_rad.sin_cos();
     let [y, z] = frame.sides;
@@ -164,7 +164,7 @@ mod tests {
             let close = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12;
             assert!(wanted.iter().zip(&points(found)).all(close));
         }
-        // The strip faces who looks along z, and lies at the upper edge of the other side.
+        // The strip faces a viewer along z, and is at the upper edge of the other side.
         let units = |view: usize| views[view]["units"].as_array().unwrap();
         assert!(units(0).len() == 6 && units(0).iter().all(|unit| unit["is_near"] == true));
         let highest = |view: usize| points(&units(view)[0]["outline"]).iter().map(|p| p[1]).fold(f64::MIN, f64::max);

@@ -2,8 +2,8 @@
 //!
 //! Of every set the distance λ of the truth to the nearest explanation of a kind is known ([`compare::diagnosis::distances`]), so the
 //! power of the best test of a level is Φ(√λ − z). Its mean over the sets bounds a row of the table. Laws count as the
-//! catalogue's formulas here: how far the catalogue's own effects are from their formulas is given beside it, because a
-//! diagnosis must not call that "outside the catalogue".
+//! catalogue's formulas here: a separate number gives how far the catalogue's own effects are from their formulas,
+//! because a diagnosis must not call that "outside the catalogue".
 
 use super::outcome::{Lot, Named, SetOutcome, about, names};
 use crate::measure::ideal;

@@ -59,7 +59,7 @@ pub(super) fn draw(part: Lot, seed: u64, stream: u64, index: usize) -> Result<Tr
     Ok(truth)
 }
 
-/// Makes and diagnoses a set; `Err` says why it failed.
+/// Makes and diagnoses a set; `Err` gives the reason for a failure.
 pub(super) fn named(case: &PlannedSet, diagnose: Diagnoser) -> Result<Named, String> {
     let truth = &case.truth;
     let found = match case.part {
@@ -121,7 +121,7 @@ fn after(truth: &Truth, experiment: &Experiment, diagnose: Diagnoser) -> Result<
     Ok(After { experiment: experiment.name.clone(), score: score(truth, &answer), answer })
 }
 
-/// The same robot with a hundredth of the noise and scatter: what is missed then is missed because of the laws.
+/// The same robot with a hundredth of the noise and scatter: an effect missed even then is missed because of the laws.
 fn silent(truth: &Truth) -> Truth {
     Truth {
         camera_sd_m: 0.01 * truth.camera_sd_m,

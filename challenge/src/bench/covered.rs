@@ -1,8 +1,8 @@
 //! How often a stated set holds the truth: the figure that is printed with a set.
 //!
-//! Of all sets with a verdict that names, whatever is hidden. And left one law out, of single effects: the margin by which an effect may be behind
-//! the best and still be stated is taken so wide that it covers [`WANTED`] of the sets of all other laws; what does it cover of
-//! the law that was left out?
+//! First, over all sets with a verdict that names, whatever is hidden. Second, with one law left out, over single effects: the margin is
+//! how far an effect may be behind the best and still be stated. It is tuned to cover [`TARGET`] of the sets of all other laws; the figure
+//! is its coverage of the law left out.
 
 use super::outcome::{Lot, Named, SetOutcome, names};
 use super::row::{Goal, Rate};
@@ -12,7 +12,7 @@ use compare::policy;
 use compare::stats::quantile;
 
 /// Share of the sets that a margin covers.
-const WANTED: f64 = 0.95;
+const TARGET: f64 = 0.95;
 /// How well a printed figure must be met.
 const WITHIN: f64 = 0.03;
 
@@ -27,11 +27,11 @@ pub(super) fn rows(outcomes: &[SetOutcome], others: impl Iterator<Item = bool>) 
     let sure: Vec<bool> = hidden.filter(|n| n.identified).map(|n| n.score.in_set).collect();
     vec![
         Rate::share("every stated set", "it holds a true effect, as is printed", printed, &hits),
-        Rate::share("one name, called identified", "it is the truth", Goal::AtLeast(WANTED), &sure),
+        Rate::share("one name, called identified", "it is the truth", Goal::AtLeast(TARGET), &sure),
         Rate::share(
             "a margin for 95 % of all other laws' sets",
             "it covers the law that was left out",
-            Goal::Between(WANTED - WITHIN, WANTED + WITHIN),
+            Goal::Between(TARGET - WITHIN, TARGET + WITHIN),
             &left_out(&behind(&all)),
         ),
     ]
@@ -48,7 +48,7 @@ fn left_out(behind: &[(String, f64)]) -> Vec<bool> {
     let covered = |(law, own): &(String, f64)| {
         let mut others: Vec<f64> = behind.iter().filter(|(other, _)| other != law).map(|(_, b)| *b).collect();
         others.sort_by(f64::total_cmp);
-        quantile(&others, WANTED).is_some_and(|margin| *own <= margin)
+        quantile(&others, TARGET).is_some_and(|margin| *own <= margin)
     };
     behind.iter().map(covered).collect()
 }

@@ -78,7 +78,7 @@ fn knocked([x, y]: [f64; 2]) -> [f64; 2] {
 /// A set with one fault, and the diagnosis of it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct FaultSet {
-    /// The catalogue's name of what is wrong.
+    /// The catalogue's name of the fault.
     pub fault: String,
     /// Robot, noise and runs without the fault.
     pub truth: Truth,

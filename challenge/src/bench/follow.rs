@@ -1,11 +1,11 @@
 //! The recommended next experiment, done on the same robot.
 //!
-//! A test by itself (bending, fabric, scale, caliper) adds its result to the data at hand.
+//! A bench test (bending, fabric, scale, caliper) adds its result to the data at hand.
 //!
 //! What can be recorded in one table (other pressures, another body pressure, longer holds) is measured after the first
-//! protocol in the same runs; "repeat" doubles the runs. A tip force, gravity turned over, a gauge read at the actuator beside
-//! what is set, and positions from the base need a description of their own: these data are new runs, diagnosed together with
-//! the first.
+//! protocol in the same runs; "repeat" doubles the runs. A tip force, gravity turned over, a gauge at the actuator in addition
+//! to the set pressure, and positions from the base need a description of their own: these data are new runs, diagnosed together
+//! with the first.
 
 use super::outcome::about as description;
 use crate::Truth;
@@ -36,7 +36,7 @@ pub(super) fn follow_up(truth: &Truth, experiment: &Experiment) -> Result<Vec<(D
         let about = About { measured: bench_tests(truth, &experiment.tests)?, ..description(truth)? };
         return Ok(vec![(truth.dataset("hidden", &standard_protocol())?, about)]);
     }
-    // Its scatter is another one than that of the first data.
+    // Its scatter differs from the scatter of the first data.
     let mut again = Truth { seed: truth.seed ^ 0x5EED, ..truth.clone() };
     let (mut robot, mut about) = (truth.robot()?, description(truth)?);
     let first = holds(&again.measurement(&standard_protocol()).generator);
@@ -82,7 +82,7 @@ pub(super) fn follow_up(truth: &Truth, experiment: &Experiment) -> Result<Vec<(D
     Ok(all)
 }
 
-/// The description of a set with the robot's bending stiffness measured by itself.
+/// The description of a set, with the robot's bending stiffness from a separate test.
 ///
 /// # Errors
 /// Not an actuator of the bench.

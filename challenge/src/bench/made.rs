@@ -1,8 +1,8 @@
 //! Data that no generator made: markers of the finite element runs that come with the program.
 //!
 //! The diagnosing side is given the shipped robot without one of the mechanisms that its scenario describes. The finite elements
-//! have them all, so that one is what is missing. But the model beside it is not the finite elements either: what it misses with
-//! every mechanism switched on stays in the data, and may be called by any name.
+//! have them all, so that this one is missing. But even with every mechanism switched on, the model differs from the finite
+//! elements: this difference stays in the data, and a diagnosis may give it any name.
 
 use super::outcome::Diagnoser;
 use super::row::{Goal, Rate};
@@ -39,7 +39,7 @@ pub struct OneOff {
     pub kept: bool,
     /// What the mechanism does to the markers in the model \[mm\], rms.
     pub does_mm: f64,
-    /// More than the tolerance, and the model is a fifth nearer to the data with it: else nobody who looks at data would name it.
+    /// More than the tolerance, and the model is a fifth nearer to the data with it: otherwise the data do not show it.
     pub matters: bool,
     /// Verdict; `None` if the data do not allow one.
     pub verdict: Option<Verdict>,
@@ -51,9 +51,9 @@ pub struct OneOff {
     pub place: Option<usize>,
     /// It is in the stated set.
     pub in_set: bool,
-    /// It is told as what follows from the design.
+    /// The diagnosis states it as a consequence of the design.
     pub by_design: bool,
-    /// It is told so, or in the stated set, or among the attempts.
+    /// The diagnosis states it so, or in its set, or among the attempts.
     pub mentioned: bool,
     /// The diagnosis states it as identified, not as a hint.
     pub identified: bool,
@@ -193,8 +193,8 @@ pub(super) fn rows(made: &[OneOff]) -> Vec<Rate> {
             Rate::share(case, figure, Goal::AtLeast(0.8), &own.iter().map(|m| hit(m)).collect::<Vec<_>>())
         };
         [
-            share("it is told", |m| m.by_design || m.in_set),
-            share("the same, attempts that are said not to be enough counted too", |m| m.mentioned),
+            share("it is reported", |m| m.by_design || m.in_set),
+            share("the same, with attempts that are reported as not enough", |m| m.mentioned),
         ]
     };
     let case = "finite elements, all mechanisms off";

@@ -1,8 +1,8 @@
 //! How often a diagnosis is right, on data with hidden effects: the table of figures it must reach, row by row.
 //!
 //! Every set is drawn from (seed, part of the table, number), so that the same call gives the same numbers for any number
-//! of threads. Sizes, laws and seeds are not tuned: what is not reached is shown, with what was named instead and the
-//! separation λ of truth and name.
+//! of threads. Sizes, laws and seeds are not tuned: the table shows every missed goal, with the name that was
+//! given instead and the separation λ of truth and name.
 
 mod attainable;
 mod cases;
@@ -80,8 +80,8 @@ pub struct Discovery {
     pub attainable: Attainable,
     /// Sets whose truth is not on top after the recommended next experiment.
     pub missed_after: usize,
-    /// Those of them where it is not on top with a hundredth of the noise either: another formula of the catalogue meets the
-    /// robot's law as well as its own, or better.
+    /// Among these, sets whose truth is not on top with a hundredth of the noise either: another formula of the catalogue meets
+    /// the robot's law as well as its own, or better.
     pub missed_by_law: usize,
     /// Data made by finite elements, mechanism by mechanism.
     pub made: Vec<OneOff>,
@@ -154,7 +154,7 @@ impl Bench {
         Ok(Bench { options, pieces })
     }
 
-    /// What the answer to each piece depends on, beside the program.
+    /// What the answer to each piece depends on, in addition to the program.
     pub fn keys(&self) -> Vec<String> {
         self.pieces.iter().map(|piece| format!("{piece:?}")).collect()
     }

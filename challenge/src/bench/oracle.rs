@@ -156,7 +156,7 @@ impl Eyes {
     }
 }
 
-/// What is left of a vector without its part along a direction.
+/// The rest of a vector without its part along a direction.
 fn without(direction: &[f64], mut vector: Vec<f64>) -> Vec<f64> {
     let square = dot(direction, direction);
     if square > 0.0 {

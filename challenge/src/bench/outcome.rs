@@ -1,4 +1,4 @@
-//! Sets of the bench: what is planned, hidden, and found.
+//! Sets of the bench: planned, hidden and found effects.
 
 use crate::loads::in_plane;
 use crate::score::{Claim, ClaimScore};
@@ -67,7 +67,7 @@ pub struct Named {
     pub slip: bool,
     /// A column of pressures was, and the verdict withheld.
     pub pressure_slip: bool,
-    /// The stiffness of the answer was reported to differ from that of the scenario or of a bending test.
+    /// The diagnosis reported a stiffness that differs from the scenario or from a bending test.
     pub bending_alarm: bool,
     /// Error beyond noise of the calibrated base and of the final model \[mm\].
     pub systematic_mm: [f64; 2],
@@ -75,11 +75,11 @@ pub struct Named {
     pub tolerance_mm: f64,
     /// The same on runs left out, where the diagnosis gives both.
     pub heldout_mm: Option<[f64; 2]>,
-    /// Rms error of the calibrated base and of the final model under a protocol that nobody measured \[mm\], of verdicts that name.
+    /// Rms error of the calibrated base and of the final model under a protocol without measurements \[mm\], of verdicts that name.
     pub unseen_mm: Option<[f64; 2]>,
     /// The base's 95 % interval of B holds the true one.
     pub bending_held: Option<bool>,
-    /// The true value is inside the 95 % interval; `None` if another effect was chosen or there is no interval.
+    /// The true value is inside the 95 % interval; `None` if another effect was chosen or the interval is missing.
     pub covered: Option<bool>,
     /// λ between the best explanation and its rivals, by name.
     pub separations: Vec<(String, f64)>,

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// What becomes of a hold's pressures.
 type Spoil = fn(&mut Hold);
 
-/// The kinds, by what stands in the column of kilopascals of gauge pressure.
+/// The kinds, by the content of the column of kilopascals of gauge pressure.
 const KINDS: [(&str, Spoil); 10] = [
     ("p_act in psi", |hold| hold.p_act_pa /= 6.894_757),
     ("p_act in mbar", |hold| hold.p_act_pa *= 10.0),
@@ -34,7 +34,7 @@ const PLACEHOLDERS: [(&str, &str); 4] =
 
 /// Sets of a round: every kind on every robot.
 const SETS: usize = (KINDS.len() + PLACEHOLDERS.len()) * ROBOTS.len();
-/// Keeps their streams apart from those of the other parts.
+/// Keeps their streams apart from the streams of the other parts.
 const STREAM: u64 = 100 << 32;
 
 /// A set with a wrong column or placeholders, and the diagnosis of it.
@@ -46,7 +46,7 @@ pub struct SlippedSet {
     pub is_column: bool,
     /// Robot, noise and runs before the table was spoiled.
     pub truth: Truth,
-    /// It was told as a slip of the pressures.
+    /// The diagnosis reported it as a slip of the pressures.
     pub told: bool,
     /// The warning or the refusal in words; `None` without one.
     pub words: Option<String>,
@@ -59,7 +59,7 @@ pub(super) fn count(sets: usize) -> usize {
     SETS * sets.div_ceil(100)
 }
 
-/// Makes, spoils and diagnoses a set; `Err` says why it failed.
+/// Makes, spoils and diagnoses a set; `Err` gives the reason for a failure.
 pub(super) fn slipped(seed: u64, index: usize, diagnose: Diagnoser) -> Result<SlippedSet, String> {
     let kind = index / ROBOTS.len() % (SETS / ROBOTS.len());
     let name = KINDS.get(kind).map_or_else(|| PLACEHOLDERS[kind - KINDS.len()].0, |(name, _)| name);
@@ -125,9 +125,9 @@ pub(super) fn rows(sets: &[SlippedSet]) -> Vec<Rate> {
     let is_named = |set: &SlippedSet| !set.named.is_empty();
     let (column, place) = ("a column of pressures written wrongly", "placeholders for lost markers");
     vec![
-        share(column, "told as a slip", Goal::AtLeast(0.9), &columns, |set| set.told),
+        share(column, "reported as a slip", Goal::AtLeast(0.9), &columns, |set| set.told),
         share(column, "an effect named", Goal::AtMost(0.0), &columns, is_named),
-        share(place, "told as not seen", Goal::AtLeast(0.9), &placeholders, |set| set.told),
+        share(place, "reported as not seen", Goal::AtLeast(0.9), &placeholders, |set| set.told),
         share(place, "an effect named", Goal::AtMost(0.05), &placeholders, is_named),
     ]
 }

@@ -39,12 +39,12 @@ pub struct Slice {
     pub in_set: f64,
 }
 
-/// A share of sets: what is counted, the goal, and whether a set counts.
+/// A share of sets: its name, the goal, and whether a set counts.
 type Counted = (&'static str, Goal, fn(&Named) -> bool);
 
 const ALARM: Counted = ("alarm", AtLeast(0.95), |n| n.score.alarm);
 const FALSE_ALARM: Counted = ("false alarms", AtMost(0.05), |n| n.score.alarm);
-const STIFFNESS: Counted = ("told another stiffness", AtMost(0.05), |n| n.bending_alarm);
+const STIFFNESS: Counted = ("another stiffness reported", AtMost(0.05), |n| n.bending_alarm);
 const IN_SET: Counted = ("with an alarm: truth in the stated set", AtLeast(0.93), |n| n.score.in_set);
 const ALONE_IN_SET: Counted = (IN_SET.0, AtLeast(0.90), IN_SET.2);
 const OUTSIDE: Counted = ("with an alarm: called outside the catalogue", AtMost(0.05), |n| n.score.out_of_catalog);
@@ -80,12 +80,12 @@ pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
     let flagged: Counted = ("flagged as such", AtLeast(0.90), |n| n.score.out_of_catalog);
     rows.push(share(&outside, "outside the catalogue", flagged));
     rows.extend(quality(outcomes));
-    // Exchanged labels are the slip among what is hidden.
+    // Exchanged labels are the slip among the hidden effects.
     let is_slip = |outcome: &SetOutcome| outcome.truth.effects.iter().any(|choice| choice.name == "swapped_markers");
     let (slipped, right): (Sets, Sets) = all.iter().copied().partition(|(outcome, _)| is_slip(outcome));
-    rows.push(share(&slipped, "labels exchanged", ("told as a slip", AtLeast(0.90), |n| n.slip)));
-    rows.push(share(&right, "all other sets", ("told a slip that is none", AtMost(0.01), |n| n.slip)));
-    let pressures: Counted = ("told a slip of pressures", AtMost(0.01), |n| n.pressure_slip);
+    rows.push(share(&slipped, "labels exchanged", ("reported as a slip", AtLeast(0.90), |n| n.slip)));
+    rows.push(share(&right, "all other sets", ("a slip reported without one", AtMost(0.01), |n| n.slip)));
+    let pressures: Counted = ("a slip of pressures reported", AtMost(0.01), |n| n.pressure_slip);
     rows.push(share(&all, "sets with right pressures", pressures));
     rows
 }

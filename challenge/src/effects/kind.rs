@@ -27,7 +27,7 @@ pub struct HiddenEffect {
     pub sentence: &'static str,
     /// Contraction mechanism it needs; `None`: any.
     pub family: Option<Family>,
-    /// Its first law and its second; what is outside the catalogue has one.
+    /// Its first law and its second; effects outside the catalogue have one.
     pub(super) laws: &'static [Law],
 }
 

@@ -1,9 +1,9 @@
 //! The hidden effects: one entry each; the laws stand in `drive`, `wall`, `loads`, `supply` and `camera`.
 //!
-//! Names are those of the catalogue of `models`, so that a diagnosis can be scored; the laws are others on purpose. Each
-//! mechanism has two, and [`Laws`] says which of them a robot has. A *typical size* is set by what the effect does to the
-//! markers under the standard protocol; it was set before any diagnosis of these data and is not tuned on one. That of a
-//! second law follows from the first's: it moves the markers as far ([`HiddenEffect::typical`]).
+//! The catalogue of `models` gives the names, so that a diagnosis can be scored; the laws are others on purpose. Each
+//! mechanism has two, and [`Laws`] selects one for a robot. A *typical size* is set by what the effect does to the
+//! markers under the standard protocol; it was set before any diagnosis of these data and is not tuned on one. The typical
+//! size of a second law follows from the first's: it moves the markers as far ([`HiddenEffect::typical`]).
 
 mod actuator;
 mod body;
@@ -47,7 +47,7 @@ pub const HIDDEN: &[HiddenEffect] = &[
     setup::MARKER_HEIGHT,
 ];
 
-/// Effects that are hidden in sets of their own, beside those that the generator draws from [`HIDDEN`].
+/// Effects that are hidden in separate sets, in addition to the effects that the generator draws from [`HIDDEN`].
 pub const ALSO: &[HiddenEffect] =
     &[body::SOFTENING, places::WEAK_PLACE, places::TAPERED_WALL, places::CAMERA_LENS, places::TIP_SPRING];
 

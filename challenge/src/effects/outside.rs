@@ -24,7 +24,7 @@ pub(super) const KINK: HiddenEffect = HiddenEffect {
 
 pub(super) const OBSTACLE: HiddenEffect = HiddenEffect {
     name: "obstacle",
-    sentence: "Something soft stands in the tip's way.",
+    sentence: "Something soft is in the tip's way.",
     family: None,
     laws: &[Law {
         words: "force a (y − 0.3 κ_c L²)₊ on the tip",

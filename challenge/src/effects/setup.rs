@@ -46,7 +46,7 @@ pub(super) const TIP_LOAD: HiddenEffect = HiddenEffect {
             },
         },
         Law {
-            words: "w (h + 0.3 m)₊ down, h the tip's height: a hose hangs from the tip and lies on the table, and what is lifted weighs",
+            words: "w (h + 0.3 m)₊ down, h the tip's height: a hose hangs from the tip and rests on the table, and its lifted part weighs",
             unit: "N/m",
             size: |_| 1.0,
             put: |robot, amount| robot.loads.hose_n_per_m += amount,

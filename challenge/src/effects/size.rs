@@ -1,4 +1,4 @@
-//! Typical sizes: of a first law as its entry says, of a second law such that it moves the markers as far.
+//! Typical sizes: a first law's entry gives its size; a second law's size is such that it moves the markers as far.
 
 use super::kind::HiddenEffect;
 use crate::laws::Laws;
@@ -9,7 +9,7 @@ use compare::error::CompareError;
 use compare::study::generate::Generator;
 use std::sync::{Mutex, PoisonError};
 
-/// Agreement wanted of the logarithms of two movements.
+/// Target agreement of the logarithms of two movements.
 const AGREED: f64 = 0.005;
 const ROUNDS: usize = 40;
 /// Largest step of the logarithm of an amount.
@@ -19,7 +19,7 @@ const STEP: f64 = 1.5;
 static FOUND: Mutex<Vec<(String, &'static str, f64)>> = Mutex::new(Vec::new());
 
 impl HiddenEffect {
-    /// Amount of a typical size in a robot of that actuator, SI. That of a second law moves the markers of the usual robot
+    /// Amount of a typical size in a robot of that actuator, SI. The size of a second law moves the markers of the usual robot
     /// as far as the first one's does, root mean square, under the standard protocol.
     ///
     /// # Errors

@@ -34,7 +34,7 @@ impl Check<'_> {
     pub(super) fn filled(&self, key: &str, value: &Spanned<String>) -> Result<String> {
         let text = value.get_ref().trim();
         if text.is_empty() {
-            return Err(self.fault(key, value, "is empty", "write one line; every dataset says where it comes from"));
+            return Err(self.fault(key, value, "is empty", "write one line: every dataset states its source"));
         }
         Ok(text.to_string())
     }

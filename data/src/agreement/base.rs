@@ -29,7 +29,7 @@ pub(super) fn base(seen: &Seen) -> Option<Doubt> {
         _ => far[1].hypot(far[2]),
     };
     let message = format!(
-        "at rest the line through the markers passes {:.1} mm beside the base, and the farthest marker is {:.1} mm away",
+        "at rest the line through the markers misses the base by {:.1} mm, and the farthest marker is {:.1} mm away",
         mm(beside_m),
         mm(length_m)
     );
@@ -46,7 +46,7 @@ mod tests {
     #[test]
     fn a_base_in_another_unit_and_a_robot_of_another_size_are_refused() {
         let moved = |made: &mut Made| made.each(|_, _, _, place| *place = [place[0] + 0.046, place[1] - 0.118]);
-        refused(base, moved, &["passes 11", "beside the base", "--base", "pixels"]);
+        refused(base, moved, &["misses the base by 11", "--base", "pixels"]);
         let small = |made: &mut Made| made.each(|_, _, _, place| *place = place.map(|v| 1e-3 * v));
         refused(base, small, &["no robot has this size", "--scale"]);
         right(base);

@@ -46,7 +46,7 @@ pub(crate) fn stands_still(times_s: &[f64], places: &[Vec<[f64; 3]>]) -> Option<
         return None;
     }
     let message = format!(
-        "all markers stand still to the last digit from {begin:.1} to {end:.1} s, in {} frames",
+        "all markers are frozen to the last digit from {begin:.1} to {end:.1} s, in {} frames",
         longest.len() + 1
     );
     let help = "delete these frames, or record the run again: the picture did not change while the time went on";
@@ -73,7 +73,7 @@ mod tests {
 
     #[test]
     fn a_picture_that_stands_still_for_a_hold_is_refused() {
-        refused(frozen, |made: &mut Made| made.freeze(0, 250..450), &["run 1", "stand still", "from 10.0 to 18.0 s"]);
+        refused(frozen, |made: &mut Made| made.freeze(0, 250..450), &["run 1", "are frozen", "from 10.0 to 18.0 s"]);
         right(frozen);
         // Without noise all frames of a hold are equal.
         assert!(frozen(&Made { noise_mm: 0.0, ..Made::new(1) }.seen()).is_none());

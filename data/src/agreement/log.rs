@@ -29,8 +29,7 @@ fn still(log: &LogSeen) -> Option<Doubt> {
     let place = |(k, p): (usize, &f64)| if within(*p) { [*p, 0.0, 0.0] } else { [*p, k as f64 + 1.0, 0.0] };
     let places: Vec<[f64; 3]> = log.act_pa.iter().enumerate().map(place).collect();
     let Doubt { message, .. } = stands_still(&log.times_s, &[places])?;
-    let still =
-        message.replacen("all markers stand", "the actuator's pressure stands", 1).replacen("frames", "readings", 1);
+    let still = message.replacen("all markers are", "the actuator's pressure is", 1).replacen("frames", "readings", 1);
     let help =
         "export the log again, or leave these times out: the logger repeated its last reading while the time went on";
     Some(Doubt::new(format!("{}: {still}", log.file), help))
@@ -86,7 +85,7 @@ mod tests {
             let kept = made.log[200][1];
             made.log[200..340].iter_mut().for_each(|reading| reading[1] = kept);
         };
-        refused(log, stuck, &["log.csv: the actuator's pressure stands still", "from 10.0 to 16.9 s", "140 readings"]);
+        refused(log, stuck, &["log.csv: the actuator's pressure is frozen", "from 10.0 to 16.9 s", "140 readings"]);
         right(log);
     }
 }

@@ -22,7 +22,7 @@ pub(super) fn mirrored(seen: &Seen) -> Option<Doubt> {
             seen.runs[run].label,
             mm(size(ways[run]))
         );
-        Some(Doubt::new(message, "the picture was mirrored or turned: import this run by itself with its own --axes"))
+        Some(Doubt::new(message, "the picture was mirrored or turned: import this run separately, with its own --axes"))
     })
 }
 

@@ -50,7 +50,7 @@ fn turned(seen: &Seen) -> Option<Doubt> {
         seen.runs[farthest].label,
         by.to_degrees()
     );
-    let help = "import this run by itself with its own --turn, or leave it out";
+    let help = "import this run separately with its own --turn, or leave it out";
     (by.abs() > MOST_TURN).then(|| Doubt::new(message, help))
 }
 

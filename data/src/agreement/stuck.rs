@@ -1,4 +1,4 @@
-//! A marker whose place is repeated while the others are seen anew: the tracking program lost it and kept its last place.
+//! A marker that repeats its place while the others move: the tracking program lost it and kept its last place.
 
 use super::frozen::stands_still;
 use super::seen::{Doubt, Seen};
@@ -8,8 +8,7 @@ pub(super) fn stuck(seen: &Seen) -> Option<Doubt> {
     let markers = || (0..seen.markers.len()).flat_map(|marker| seen.runs.iter().map(move |run| (marker, run)));
     markers().find_map(|(marker, run)| {
         let Doubt { message, .. } = stands_still(&run.times_s, &run.places_m[marker..=marker])?;
-        let still =
-            message.replacen("all markers stand", &format!("marker {} alone stands", seen.markers[marker].0), 1);
+        let still = message.replacen("all markers are", &format!("only marker {} is", seen.markers[marker].0), 1);
         let help =
             "leave its positions blank there, or track it again: the program lost it and repeated its last place";
         Some(Doubt::new(format!("run {}: {still}", run.label), help))
@@ -30,7 +29,7 @@ mod tests {
                 }
             })
         };
-        refused(stuck, kept, &["run 2: marker a alone stands still", "from 10.0 to 18.0 s", "blank"]);
+        refused(stuck, kept, &["run 2: only marker a is frozen", "from 10.0 to 18.0 s", "blank"]);
         right(stuck);
     }
 }

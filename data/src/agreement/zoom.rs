@@ -31,7 +31,7 @@ pub(super) fn zoom(seen: &Seen) -> Option<Doubt> {
         mm(usual),
         100.0 * off(farthest) / usual
     );
-    Some(Doubt::new(message, "import this run by itself with its own --scale, or leave it out"))
+    Some(Doubt::new(message, "import this run separately with its own --scale, or leave it out"))
 }
 
 #[cfg(test)]

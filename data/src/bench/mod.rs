@@ -66,7 +66,7 @@ pub fn bench(spec: &str) -> Result<Option<Bench>> {
         let Some(text) = text else { continue };
         let found = read::parse(KINDS, &shown, &text)?.filter(|bench| bench.kind.name == kind.name);
         let wrong = || {
-            let message = format!("the columns are not those of a {} table", kind.name);
+            let message = format!("the columns do not fit a {} table", kind.name);
             DataError::Column(Box::new(Fault::of_file(&shown, message, format!("write {}", read::wanted(kind)))))
         };
         return found.map(|bench| Some(Bench { scenario, ..bench })).ok_or_else(wrong);

@@ -31,7 +31,7 @@ pub(super) const QUANTITIES: &[Field] = &[
     field("loaded_width", "loaded_width_mm", Length, false),
 ];
 
-const WANTED: &str = "strain_pct,stress_mpa or displacement_mm,force_n, and if you like specimen, direction_deg, \
+const EXPECTED: &str = "strain_pct,stress_mpa or displacement_mm,force_n, and if you like specimen, direction_deg, \
                       width_mm, length_mm, thickness_mm, loaded_width_mm";
 
 /// What the comments above the header give, in SI units.
@@ -51,7 +51,7 @@ pub(super) fn read(lines: &mut Lines, defaults: &CouponDefaults) -> Result<(Fact
     let (notes, line) = columns::notes(lines)?;
     let facts = facts(&notes)?;
     let Some(line) = line else {
-        let help = format!("the first line must name the columns: {WANTED}");
+        let help = format!("the first line must name the columns: {EXPECTED}");
         return Err(DataError::layout(lines.file(), "the file is empty", help));
     };
     Ok((facts, header(&line.line(), &defaults.columns)?))
@@ -117,7 +117,8 @@ fn complete(has: &[bool], names: &[String], line: &Line) -> Result<()> {
     };
     let expected = QUANTITIES[missing].expected;
     let near = spelling::nearest(expected, names.iter().map(String::as_str)).filter(|near| !near.is_empty());
-    let help = near.map_or(format!("the columns are {WANTED}"), |near| format!("did you mean {expected} for {near}?"));
+    let help =
+        near.map_or(format!("the columns are {EXPECTED}"), |near| format!("did you mean {expected} for {near}?"));
     let message = format!("column {expected} is missing; found {}", names.join(", "));
     Err(DataError::Column(line.fault(message, help)))
 }

@@ -15,7 +15,7 @@ pub(super) struct Specimens<'a> {
     found: Vec<Raw>,
 }
 
-/// Rows of a curve, the widths beside them, and how many rows were left out.
+/// Rows of a curve, the widths of these rows, and how many rows were left out.
 type Kept = (Vec<[f64; 2]>, Vec<f64>, usize);
 
 /// One specimen with its line numbers.
@@ -112,7 +112,7 @@ impl<'a> Specimens<'a> {
             && !agree(written, typed)
         {
             let message = format!(
-                "specimen {specimen}: the file says {expected} = {:.6}, --{base} says {:.6}",
+                "specimen {specimen}: the file gives {expected} = {:.6}, --{base} gives {:.6}",
                 written * unit.1,
                 typed * unit.1
             );
@@ -221,7 +221,7 @@ impl<'a> Specimens<'a> {
     }
 }
 
-/// Equal but for rounding; what is no number agrees with nothing.
+/// Equal but for rounding; NaN agrees with nothing.
 fn agree(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * b.abs()
 }

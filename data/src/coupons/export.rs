@@ -50,7 +50,7 @@ const SIZES: [(usize, &[&str]); 3] = [
 /// Rows looked at for the names of columns.
 const LOOKED_AT: usize = 200;
 
-/// A column of one specimen: where it stands and in which unit.
+/// A column of one specimen: its index and unit.
 type Found = [Option<(usize, Option<Unit>)>; TIME + 1];
 
 /// The export in a sheet; `None` if no row names a curve.

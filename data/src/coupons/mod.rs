@@ -4,16 +4,16 @@
 //! |---|---|
 //! | `strain_pct` and `stress_mpa` | nominal strain and stress (force over first cross-section), or |
 //! | `displacement_mm` and `force_n` | of the grip |
-//! | `specimen` | label; the name of the file if there is no such column |
+//! | `specimen` | label; the name of the file if this column is missing |
 //! | `direction_deg` | of the pull to the warp: 0 warp, 45 bias, 90 fill, or any angle between |
 //! | `width_mm`, `thickness_mm` | of the specimen |
 //! | `length_mm` | free length between the grips (gauge length) |
 //! | `loaded_width_mm` | width under load in its middle, row by row: for Poisson's ratio |
 //!
 //! Other units by suffix: `strain_ratio`; kPa, Pa, MPa, psi, bar; mm, cm, m; N, kN, lbf. Everything but the two curves may
-//! instead stand in a comment above the header, `# width_mm: 20`, or come from the caller. `# provenance: digitised` says
-//! how the numbers came to be (measured, digitised, synthetic, published; measured if nothing is said).
-//! Curves start at their first row: strain, stress, displacement and force of that row are taken off.
+//! instead stand in a comment above the header, `# width_mm: 20`, or come from the caller. `# provenance: digitised` states
+//! the origin of the numbers: measured (default), digitised, synthetic or published.
+//! Curves start at their first row: its strain, stress, displacement and force are subtracted.
 //! Exports of tensile machines are read too: rows about the test, names and units in rows, specimens side by side.
 
 mod columns;

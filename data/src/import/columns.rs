@@ -253,9 +253,8 @@ impl Roles {
             let message = format!("coordinates are in {first} and in {}", other.unwrap_or("no unit"));
             return Err(sheet.fault(line, message, "export all coordinates in one unit"));
         }
-        lengths(first).ok_or_else(|| {
-            sheet.fault(line, format!("{first} is no unit of length that is known"), "say it: --scale mm")
-        })
+        lengths(first)
+            .ok_or_else(|| sheet.fault(line, format!("{first} is not a known unit of length"), "give it: --scale mm"))
     }
 }
 

@@ -103,7 +103,7 @@ fn binned(file: &str, runs: Vec<PressedRun>, bin_pa: f64, told: &mut Vec<String>
     let least_pa = 1.1 * tolerance_act_pa(highest_pa);
     if bin_pa < least_pa {
         let message = format!(
-            "bins of {} kPa cannot be told apart at {:.1} kPa: holds nearer than 5 % are one",
+            "bins of {} kPa cannot be separated at {:.1} kPa: holds nearer than 5 % are one",
             kpa(bin_pa),
             kpa(highest_pa)
         );

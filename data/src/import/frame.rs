@@ -57,16 +57,16 @@ pub(crate) struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    /// Puts the runs into the robot's frame; `told` receives the assumptions.
-    pub(super) fn place(&self, told: &mut Vec<String>) -> Result<PlacedRuns> {
+    /// Puts the runs into the robot's frame; `assumed` receives the assumptions.
+    pub(super) fn place(&self, assumed: &mut Vec<String>) -> Result<PlacedRuns> {
         let (map, words) = self.map()?;
-        told.push(words);
-        let (bases, skipped) = self.bases(&map, told)?;
+        assumed.push(words);
+        let (bases, skipped) = self.bases(&map, assumed)?;
         let all = &self.runs[0].markers;
         let kept: Vec<usize> = (0..all.len()).filter(|marker| Some(*marker) != skipped).collect();
         let markers: Vec<String> = kept.iter().map(|marker| all[*marker].clone()).collect();
         let moved = Moved::of(self, &bases, &kept, &map);
-        let axes = self.axes(&markers, &moved, told)?;
+        let axes = self.axes(&markers, &moved, assumed)?;
         let (sin, cos) = self.options.turn_rad.sin_cos();
         let placed = |place: &[f64; 3], base: &[f64; 3]| {
             let from = map.metres(*place);
@@ -89,10 +89,11 @@ impl Scene<'_> {
     fn map(&self) -> Result<(Map, String)> {
         let (message, help) = match (&self.options.scale, self.runs[0].lengths) {
             (scale, Lengths::Metres(metres)) if [Scale::OfFile, Scale::Unit(metres)].contains(scale) => {
-                return Ok((Map::Factor(metres), format!("lengths are in {}, as the file says", unit(metres))));
+                return Ok((Map::Factor(metres), format!("lengths are in {}, as the file states", unit(metres))));
             }
             (_, Lengths::Metres(metres)) => {
-                let message = format!("the file says that its lengths are in {}, and a scale was given", unit(metres));
+                let message =
+                    format!("the file states that its lengths are in {}, and a scale was given", unit(metres));
                 return Err(self.fault(message, "leave the scale out, or export in pixels"));
             }
             (Scale::OfFile | Scale::Unit(_), Lengths::Pixels) => (
@@ -166,7 +167,7 @@ impl Scene<'_> {
     }
 
     /// The base of every run \[m\], and the marker at it.
-    fn bases(&self, map: &Map, told: &mut Vec<String>) -> Result<(Vec<[f64; 3]>, Option<usize>)> {
+    fn bases(&self, map: &Map, assumed: &mut Vec<String>) -> Result<(Vec<[f64; 3]>, Option<usize>)> {
         let Some(place) = &self.options.base else {
             if matches!(self.options.scale, Scale::PixelsPerMetre(_) | Scale::Known(..)) {
                 let message = "positions are pixels of the picture: where is the robot's base?";
@@ -174,17 +175,17 @@ impl Scene<'_> {
                     "give --base X,Y in pixels as the picture counts them, or --base MARKER for a marker at the clamp";
                 return Err(self.fault(message, help));
             }
-            told.push("the robot's base is the origin of the file's coordinates".to_string());
+            assumed.push("the robot's base is the origin of the file's coordinates".to_string());
             return Ok((vec![[0.0; 3]; self.runs.len()], None));
         };
         let found = (0..self.runs.len()).map(|run| self.where_is(run, place)).collect::<Result<Vec<_>, _>>()?;
-        told.push(match place {
+        assumed.push(match place {
             FilePlace::At(at) => {
                 let at: Vec<String> = at.iter().map(f64::to_string).collect();
                 format!("the robot's base is at {} of the file", at.join(", "))
             }
             FilePlace::Marker(name) => {
-                format!("the robot's base is marker {name} at rest, in every run anew; it is no marker of the table")
+                format!("the robot's base is marker {name} at rest, separately in every run; the table leaves this marker out")
             }
         });
         Ok((found.iter().map(|(at, _)| map.metres(*at)).collect(), found[0].1))
@@ -192,7 +193,7 @@ impl Scene<'_> {
 
     /// Directions in the file: the axes given, or along the robot at rest, and across it where the farthest marker moves as the pressure
     /// rises. Where the robot or its motion is out of the planes of the file's axes, both are in the plane of the motion.
-    fn axes(&self, labels: &[String], moved: &Moved, told: &mut Vec<String>) -> Result<[[f64; 3]; 2]> {
+    fn axes(&self, labels: &[String], moved: &Moved, assumed: &mut Vec<String>) -> Result<[[f64; 3]; 2]> {
         let words = |[along, towards]: [FileAxis; 2]| {
             format!("along the robot is the file's {}, towards the actuator its {}", along.word(), towards.word())
         };
@@ -203,7 +204,7 @@ impl Scene<'_> {
                 self.straight(axes[0], directions, moved, ends)?;
                 self.in_plane(axes, moved, ends)?;
             }
-            told.push(format!("{}, as given", words(axes)));
+            assumed.push(format!("{}, as given", words(axes)));
             return Ok(directions);
         }
         let index = moved.along();
@@ -235,7 +236,7 @@ impl Scene<'_> {
                 )
             }
         };
-        told.push(format!("{words}: marker {label} moves there by {by_mm:.1} mm as the pressure rises"));
+        assumed.push(format!("{words}: marker {label} moves there by {by_mm:.1} mm as the pressure rises"));
         Ok(directions)
     }
 
@@ -307,7 +308,7 @@ pub(crate) fn where_is(run: &Recording, ends: &RestAndTop, place: &FilePlace) ->
     let Some(marker) = run.markers.iter().position(|known| known == name) else {
         let meant = spelling::meant(name, run.markers.iter().map(String::as_str));
         let help = format!("{meant}the markers are {}", run.markers.join(", "));
-        return Err([format!("there is no marker {name}"), help]);
+        return Err([format!("marker {name} does not exist"), help]);
     };
     let seen = run.mean_place(marker, ends.rest.iter().copied());
     let unseen = || [format!("marker {name} was not seen at the lowest pressure"), "take another marker".into()];

@@ -62,7 +62,7 @@ pub(crate) fn recordings(files: &[PathBuf], options: &ImportOptions, progress: P
     let logs = logs(files.len(), options, &mut joined.told, &mut absent)?;
     for (k, path) in files.iter().enumerate() {
         if files[..k].contains(path) {
-            let help = "name every file once: each is a run of its own";
+            let help = "name every file once: each is a separate run";
             return Err(DataError::file(&path.display().to_string(), "the file is named twice", help));
         }
         progress(k as u64, files.len() as u64);
@@ -72,7 +72,7 @@ pub(crate) fn recordings(files: &[PathBuf], options: &ImportOptions, progress: P
         let added = joined.add(&sheet, logs.get(k.min(logs.len().saturating_sub(1))), options);
         // A name that is not in the last file either may be why it was not understood.
         if let Some((quantity, column)) = absent.first().filter(|_| added.is_err() || k + 1 == files.len()) {
-            let message = format!("--map says that {quantity} stands in column {column}, and no file has it");
+            let message = format!("--map reads {quantity} from column {column}, and no file has this column");
             return Err(sheet.fault(0, message, "write the name as in the file's first line"));
         }
         added?;
@@ -161,7 +161,7 @@ impl Joined {
 fn check_run(sheet: &CellText, run: &Recording) -> Result<()> {
     if let Some((marker, time)) = &run.twice {
         let message = format!("marker {marker} has two places at {time} of one run");
-        return Err(sheet.fault(0, message, "give every run a file of its own, or a column run"));
+        return Err(sheet.fault(0, message, "give every run its own file, or add a column run"));
     }
     if let Some((message, help)) = run.times.iter().find_map(|time| Range::TIME.check(time.abs()).err()) {
         return Err(sheet.fault(0, message, help));
@@ -229,7 +229,7 @@ fn pressures(sheet: &CellText, run: &mut Recording, log: Option<&Log>, options: 
     let mut told = Vec::new();
     if let Some(log) = log {
         if run.pressures.iter().any(Option::is_some) {
-            told.push("pressures are those of the log, not those of the tracking file".to_string());
+            told.push("pressures are read from the log, not from the tracking file".to_string());
         }
         told.extend(log.join(sheet.file, run, options)?);
     }
@@ -273,7 +273,7 @@ fn pressures(sheet: &CellText, run: &mut Recording, log: Option<&Log>, options: 
         ));
     }
     if room_pa != 0.0 {
-        told.push(format!("{} kPa of the room are taken off all pressures, as given", kpa(room_pa)));
+        told.push(format!("the room's {} kPa are subtracted from all pressures, as given", kpa(room_pa)));
         run.pressures.iter_mut().flatten().flatten().for_each(|p| *p -= room_pa);
     }
     Ok(told)

@@ -73,7 +73,7 @@ impl Layout {
             return Ok(());
         }
         let message = format!("two columns are {} of {}", PARTS[part], of(name));
-        Err(sheet.fault(line, message, "give every marker a name of its own: x_a, y_a, x_b, y_b"))
+        Err(sheet.fault(line, message, "give every marker a different name: x_a, y_a, x_b, y_b"))
     }
 
     /// Reads the rows that are left.
@@ -125,7 +125,7 @@ impl Layout {
         let time = cell(cells, self.time);
         let t = sheet.time(time, self.second.unwrap_or(1.0), number, "time")?;
         if self.rises && pivot.recording.times.last().is_some_and(|last| t <= *last) {
-            let help = "give every run a file of its own, or say which column tells the runs apart: --map run=Trial";
+            let help = "give every run its own file, or name the column that identifies the run: --map run=Trial";
             return Err(sheet.fault(number, format!("the time goes back here, to {time}"), help));
         }
         let frame = pivot.frame(t);

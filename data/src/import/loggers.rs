@@ -159,7 +159,7 @@ fn serial(text: &str, stamped: bool, named: bool) -> Plain {
             Some(found) => {
                 if table.names.is_empty() {
                     table.names = found.iter().map(Reading::column).collect();
-                    // The device's own time is better than that of arrival.
+                    // The device's own time is better than the time of arrival.
                     let own = found.iter().any(|reading| is_time(&ColumnName::of(&reading.name)));
                     table.names.splice(0..0, stamped.then(|| if own { "arrival" } else { "time" }.to_string()));
                 }

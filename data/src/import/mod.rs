@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Every kind of file is one entry of [`FORMATS`], known by its content. Anything else comes from the caller
-//! ([`ImportOptions`]); assumptions are listed ([`Imported::told`]); files that can be read in two ways are refused.
+//! ([`ImportOptions`]); it lists its assumptions, and refuses files that can be read in two ways.
 
 mod binary;
 mod board;
@@ -126,7 +126,7 @@ pub fn import(files: &[PathBuf], options: &ImportOptions, progress: Progress) ->
     let cut = cut(first, runs, options, &mut told)?;
     if let Some((unknown, _)) = options.stations_m.iter().find(|(name, _)| !markers.contains(name)) {
         let help = format!("the markers are {}", markers.join(", "));
-        return Err(DataError::runs(first, format!("--stations names {unknown}, which is no marker"), help));
+        return Err(DataError::runs(first, format!("--stations names {unknown}, which is not a marker"), help));
     }
     let stations = table::stations(&cut, &markers, options);
     if stations.iter().any(|(.., given)| !given) {
@@ -158,7 +158,7 @@ fn unusable(file: &str, cut: &Cut, error: &DataError) -> DataError {
     };
     let runs: Vec<String> = cut.iter().map(|(run, kept)| format!("run {}: {}", run.label, holds(kept))).collect();
     let message = format!("{}; holds found [kPa]: {}", error.message(), runs.join("; "));
-    let help = format!("{}; --hold, --frames, --settle and --bin change what is a hold", error.help());
+    let help = format!("{}; --hold, --frames, --settle and --bin change where holds begin and end", error.help());
     DataError::runs(file, message, help)
 }
 

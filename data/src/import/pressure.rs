@@ -79,7 +79,7 @@ fn unnamed(sheet: &CellText, (number, line): (u64, &str), options: &ImportOption
     let known: &[&str] = if cells.len() < 3 { &["t_s", "p_act_kpa"] } else { &["t_s", "p_body_kpa", "p_act_kpa"] };
     let names: Vec<&str> = (0..cells.len()).map(|k| known.get(k).copied().unwrap_or("-")).collect();
     let help = format!(
-        "name each of them with its unit, and - what is not used, for example --log-columns {}",
+        "name each of them with its unit, and write - for unused columns, for example --log-columns {}",
         names.join(",")
     );
     Err(sheet.fault(number, message, help))
@@ -185,7 +185,7 @@ impl Log {
         if outside == places.len() {
             let range = |times: &[f64]| format!("{:.1} to {:.1} s", times[0], times[times.len() - 1]);
             let message = format!(
-                "no frame lies within the pressure log: frames are at {}, its clock {} s ahead, and the log is at {}",
+                "no frame is within the pressure log: frames are at {}, its clock {} s ahead, and the log is at {}",
                 range(&recording.times),
                 clock.offset_s,
                 range(&self.times_s)

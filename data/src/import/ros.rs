@@ -16,7 +16,7 @@ pub(super) const FORMAT: Format = Format {
     read,
 };
 
-/// Whether the first column is that of a topic.
+/// Whether the first column belongs to a topic.
 pub(super) fn is_topic(name: &str) -> bool {
     name == "%time" || name.starts_with("field.")
 }

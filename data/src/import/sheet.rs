@@ -25,7 +25,7 @@ impl<'a> CellText<'a> {
     /// Finds the dialect of a text.
     pub(crate) fn new(file: &'a str, text: &'a str) -> Result<CellText<'a>> {
         if text.contains('\0') {
-            let (message, help) = ("the file is no text", "export it as text: CSV, TXT or XML");
+            let (message, help) = ("the file is not text", "export it as text: CSV, TXT or XML");
             return Err(DataError::layout(file, message, help));
         }
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);

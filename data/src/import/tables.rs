@@ -89,7 +89,7 @@ fn long_of(sheet: &CellText, (first, roles, mut layout): (u64, Roles, Layout)) -
     }
     roles.likelihoods.iter().try_for_each(|(column, ..)| layout.add(sheet, first, "", layout::LIKELIHOOD, *column))?;
     layout.y_down = roles.coordinates.iter().any(|(_, axis, name, _)| *axis == 1 && name == "down");
-    layout.twice = Some("say which column tells the runs apart: --map run=Trial");
+    layout.twice = Some("name the column that identifies the run: --map run=Trial");
     layout.read(sheet, first, 2, sheet.lines().skip(1))
 }
 

@@ -117,7 +117,7 @@ fn detections(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Resul
             "particle" => track += 1,
             "detection" if track == 0 => {
                 let help = "save the tracks again in TrackMate";
-                return Err(sheet.fault(0, "a <detection> stands before the first <particle>", help));
+                return Err(sheet.fault(0, "a <detection> precedes the first <particle>", help));
             }
             "detection" => {
                 let time = tag.number("t").map(|t| t * step);

@@ -36,7 +36,7 @@ fn vicon(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     let mut lines = sheet.lines().skip_while(|(_, line)| !is_title(sheet, line)).skip(1);
     let mut next = |what: &str| {
         let found = lines.next().map(|(number, line)| (number, sheet.split(line)));
-        found.ok_or_else(|| sheet.fault(0, format!("the row of {what} is missing"), "export the trial again as ASCII"))
+        found.ok_or_else(|| sheet.fault(0, format!("the file has no row of {what}"), "export the trial again as ASCII"))
     };
     let (line, rate) = next("frames per second")?;
     let fps = rate_of(sheet, line, rate[0])?;
@@ -61,7 +61,7 @@ fn trc(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     let mut lines = sheet.lines().skip(1);
     let mut next = |what: &str| {
         let found = lines.next().map(|(number, line)| (number, sheet.split(line)));
-        found.ok_or_else(|| sheet.fault(0, format!("the row of {what} is missing"), "export the file again"))
+        found.ok_or_else(|| sheet.fault(0, format!("the file has no row of {what}"), "export the file again"))
     };
     let ((_, keys), (line, values)) = (next("keys, DataRate and Units")?, next("values")?);
     let of = |key: &str| keys.iter().position(|known| *known == key).and_then(|at| values.get(at)).copied();

@@ -28,7 +28,8 @@ impl FromStr for FileAxis {
         let turned = text.starts_with('-');
         let letter = text.trim_start_matches(['-', '+']);
         let index = ["x", "y", "z"].iter().position(|known| known.eq_ignore_ascii_case(letter));
-        let index = index.ok_or_else(|| format!("`{text}` is no axis: write x, y or z, or -y where it is turned"))?;
+        let index =
+            index.ok_or_else(|| format!("`{text}` is not an axis: write x, y or z, or -y where it is turned"))?;
         Ok(FileAxis { index, turned })
     }
 }
@@ -112,7 +113,7 @@ impl FromStr for Offset {
 /// No equals sign, or a quantity that no table holds.
 pub fn column(text: &str) -> Result<(String, String), String> {
     let known = text.split_once('=').filter(|(what, _)| QUANTITIES.contains(&what.trim()));
-    let example = || format!("write WHAT=COLUMN, where WHAT is one of {}", QUANTITIES.join(", "));
+    let example = || format!("write QUANTITY=COLUMN, where QUANTITY is one of {}", QUANTITIES.join(", "));
     known
         .map(|(what, column)| (what.trim().to_string(), column.trim().to_string()))
         .ok_or_else(|| format!("`{text}` is not understood: {}", example()))

@@ -104,7 +104,7 @@ fn a_hold_missing_in_one_run_names_run_and_hold() {
     let without: Vec<_> = text.lines().filter(|row| !(row.starts_with("2,") && row.contains(",20,load"))).collect();
     let error = read(&without.join("\n")).unwrap_err();
     let said = error.message();
-    assert!(said.contains("run 2, marker 1 has no hold") && said.contains("load at 20.0 kPa"), "{said}");
+    assert!(said.contains("run 2, marker 1 lacks a hold") && said.contains("load at 20.0 kPa"), "{said}");
     let lines: Vec<String> = text
         .lines()
         .map(|r| if r.starts_with("2,") { r.replace(",20,load", ",17,load") } else { r.to_string() })
@@ -225,7 +225,7 @@ fn a_description_of_another_actuator_or_run_is_refused() {
     let (other, run) = (with("actuator='spam'"), with("[[run]]\nid='run1'"));
     let read_with =
         |about| read_bytes(table(2, 5).as_bytes(), ReadOptions { about: Some(about), ..ReadOptions::default() });
-    assert_eq!(read_with(&other).unwrap_err().message(), "the table is of actuator epam, its about.toml says spam");
+    assert_eq!(read_with(&other).unwrap_err().message(), "the table is of actuator epam, its about.toml names spam");
     assert_eq!(read_with(&run).unwrap_err().message(), "about.toml describes run run1, which has no rows");
 }
 

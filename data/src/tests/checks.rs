@@ -102,15 +102,15 @@ fn contradictions(change: impl Fn(String) -> String) -> Vec<String> {
 fn phases_that_contradict_the_pressures_are_told_with_their_holds() {
     let told = contradictions(|text| text.replace(",load,", ",unload,"));
     let words = "markers: the column phase contradicts the actuator's pressure in 3 of 5 holds: hold 2 goes from 0.0 to 10.0 kPa \
-                 and says unload, not load; hold 3 ";
+                 and is marked unload, not load; hold 3 ";
     assert!(told.len() == 1 && told[0].starts_with(words), "{told:?}");
     let told = contradictions(|text| text.replace(",unload,", ",load,"));
     assert!(
-        told[0].contains("in 1 of 5 holds: hold 5 goes from 30.0 to 0.0 kPa and says load, not unload."),
+        told[0].contains("in 1 of 5 holds: hold 5 goes from 30.0 to 0.0 kPa and is marked load, not unload."),
         "{told:?}"
     );
     let report = check(&read(&table(3, 5).replace(",unload,", ",hold,")).unwrap(), None);
-    assert!(report.warnings.iter().any(|w| w.contains("says hold, not unload")), "{:?}", report.warnings);
+    assert!(report.warnings.iter().any(|w| w.contains("is marked hold, not unload")), "{:?}", report.warnings);
 }
 
 #[test]

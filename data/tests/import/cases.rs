@@ -141,7 +141,7 @@ fn topics_of_ros_in_one_file_or_a_file_for_every_marker_equal_the_reference() {
     std::fs::write(&path, late).unwrap();
     let files = [case("cases/c25-ros-echo/marker_a.csv"), path];
     let found = data::import::import(&files, &options, &mut |_, _| ()).unwrap_err().to_string();
-    assert!(found.contains("no frame lies within the pressure log"), "files of other times are other runs: {found}");
+    assert!(found.contains("no frame is within the pressure log"), "files of other times are other runs: {found}");
 }
 
 #[test]
@@ -162,7 +162,7 @@ fn binary_files_are_named_by_their_first_bytes() {
         (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1".to_vec(), "Excel", "CSV UTF-8"),
         (b"\x02\x50\x03\0".to_vec(), "C3D", "TRC"),
         (b"\0\0\0\x20ftypisom".to_vec(), "video", "track the markers"),
-        (b"\0\x01\x02".to_vec(), "no text", "CSV"),
+        (b"\0\x01\x02".to_vec(), "not text", "CSV"),
     ] {
         let path = folder.path().join("file");
         std::fs::write(&path, bytes).unwrap();
@@ -176,5 +176,5 @@ fn binary_files_are_named_by_their_first_bytes() {
     super::refused_paths(&[path], &ImportOptions::default(), &["HDF5", "to_csv"]);
     let path = folder.path().join("zeros.csv");
     std::fs::File::create(&path).unwrap().set_len(1 << 41).unwrap();
-    super::refused_paths(&[path], &ImportOptions::default(), &["zeros.csv: the file is no text", "CSV"]);
+    super::refused_paths(&[path], &ImportOptions::default(), &["zeros.csv: the file is not text", "CSV"]);
 }

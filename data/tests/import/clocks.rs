@@ -153,7 +153,7 @@ fn a_log_that_ends_early_leaves_frames_out_and_one_of_another_day_is_refused() {
     refused_paths(
         std::slice::from_ref(&tracks),
         &ImportOptions { offset: Offset::Given(5000.0), ..options(&log) },
-        &["no frame lies within", "5000"],
+        &["no frame is within", "5000"],
     );
 }
 

@@ -184,9 +184,9 @@ type Slip = (&'static str, fn(&mut Recorded), &'static str);
 
 /// The slips of laboratories that were seen, then others of their kinds.
 const SLIPS: [Slip; 86] = [
-    ("camera frozen for two holds", |r| r.freeze(0, 0..3, [9.0, 19.9]), "stand still"),
-    ("camera frozen for 8 s", |r| r.freeze(0, 0..3, [11.0, 19.0]), "stand still"),
-    ("camera frozen within a hold", |r| r.freeze(0, 0..3, [11.5, 14.0]), "stand still"),
+    ("camera frozen for two holds", |r| r.freeze(0, 0..3, [9.0, 19.9]), "are frozen"),
+    ("camera frozen for 8 s", |r| r.freeze(0, 0..3, [11.0, 19.0]), "are frozen"),
+    ("camera frozen within a hold", |r| r.freeze(0, 0..3, [11.5, 14.0]), "are frozen"),
     (
         "outer marker on the background",
         |r| r.shift(1, 0.0, |m, p| if m == 2 { [1100.3, 310.0] } else { p }),
@@ -234,11 +234,11 @@ const SLIPS: [Slip; 86] = [
     ("a station twice", |r| stations(r, [90.0, 210.0, 210.0]), "one station"),
     ("a wrong station", |r| stations(r, [90.0, 150.0, 330.0]), "by their stations"),
     ("a copied run", |r| r.pixels[2] = r.pixels[0].clone(), "identical"),
-    ("camera frozen at the beginning", |r| r.freeze(1, 0..3, [0.0, 4.0]), "stand still"),
-    ("camera frozen at the end", |r| r.freeze(2, 0..3, [30.5, 35.0]), "stand still"),
-    ("one marker kept for 8 s", |r| r.freeze(0, 1..2, [11.0, 19.0]), "marker b alone stands still"),
-    ("the inner marker kept for two holds", |r| r.freeze(1, 0..1, [9.0, 19.9]), "marker a alone stands still"),
-    ("the outer marker kept within a hold", |r| r.freeze(2, 2..3, [16.0, 19.0]), "marker c alone stands still"),
+    ("camera frozen at the beginning", |r| r.freeze(1, 0..3, [0.0, 4.0]), "are frozen"),
+    ("camera frozen at the end", |r| r.freeze(2, 0..3, [30.5, 35.0]), "are frozen"),
+    ("one marker kept for 8 s", |r| r.freeze(0, 1..2, [11.0, 19.0]), "only marker b is frozen"),
+    ("the inner marker kept for two holds", |r| r.freeze(1, 0..1, [9.0, 19.9]), "only marker a is frozen"),
+    ("the outer marker kept within a hold", |r| r.freeze(2, 2..3, [16.0, 19.0]), "only marker c is frozen"),
     ("a spot for the outer marker", |r| r.spot(2, 2, 0.0, [1100.0, 310.0]), "background"),
     ("a spot for the middle marker", |r| r.spot(0, 1, 6.0, [850.0, 470.0]), "background"),
     ("a spot for the outer marker from half way", |r| r.spot(1, 2, 17.5, [1000.0, 250.0]), "background"),

@@ -14,10 +14,10 @@ const MARGIN: f64 = 10.0;
 const OVERLAP: f64 = 10.0;
 /// Thickness of the lines in the drawing \[mm\].
 const PEN: f64 = 0.3;
-/// Height of letters over that of capitals.
+/// Ratio of the letters' height to the capitals'.
 const FONT: f64 = 1.0 / 0.72;
 
-/// The whole drawing on one sheet of its own size.
+/// The whole drawing on one sheet of the drawing's size.
 pub fn svg(sheet: &PatternSheet) -> String {
     let window = [0.0, 0.0, sheet.size[0], sheet.size[1]];
     document(sheet, sheet.size, [0.0, 0.0], window, "")

@@ -14,7 +14,7 @@ pub(super) enum RunPlan {
     Single(Source),
     /// Runs that differ in seed, mesh or pressure from the scenario with the common options.
     Table(Source, Vec<Variation>),
-    /// A hypercube over what nobody measured.
+    /// A hypercube over the unmeasured numbers.
     Uncertain(Cube),
 }
 

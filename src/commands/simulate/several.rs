@@ -72,7 +72,7 @@ pub(super) fn uncertain(
     if weights.is_none() {
         let (robots, needed) = (all.members.iter().filter(|m| m.stopped.is_none()).count(), all.needed());
         outcome.notes.push(format!(
-            "note: {robots} finished robots do not tell which number to measure first, {needed} do: there is no tornado.png"
+            "note: {robots} finished robots cannot show which number to measure first, {needed} can: tornado.png was not written"
         ));
     }
     let record = ("written", "uncertain.json", all.record().into_bytes());

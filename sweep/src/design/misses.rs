@@ -12,7 +12,7 @@ pub struct Miss {
     /// Target: x, y \[m\], or one angle \[rad\]; written in mm or degrees.
     #[serde(serialize_with = "written")]
     pub wanted: Vec<f64>,
-    /// Value that the robot has, in the order of `wanted`.
+    /// Value that the robot has, in the order of the target.
     #[serde(serialize_with = "written")]
     pub found: Vec<f64>,
     /// Distance \[m\], or angle times length.

@@ -1,4 +1,4 @@
-//! The design that a wanted shape asks for: what may be chosen is varied until the reduced model has the wish.
+//! The design for a target shape: the search varies the free keys until the reduced model meets the wish.
 //!
 //! ```text
 //! min over the free keys x in their ranges:   Σ (rᵢ(x) / (t L))²  +  w_p (P / P_max)²  +  w_f A / A₀  +  w_r (ΔT / (t L))²
@@ -8,13 +8,13 @@
 //! |---|---|
 //! | rᵢ | a miss \[m\]: a distance, or an angle times L |
 //! | t, L | tolerance, and length of the body |
-//! | P, P_max | largest pressure of the design, and that of the scenario |
+//! | P, P_max | largest pressure of the design and of the scenario |
 //! | A, A₀ | flat area of the actuator, of the design and of the scenario |
 //! | ΔT | half of how far the tip moves over the assumed numbers \[m\] |
 //!
-//! What finite elements say of a design corrects the model for the next search ([`Rounds`]): space mapping with an additive term, as
-//! J. W. Bandler and others have it. With m the model's numbers, f those of finite elements and xₖ the last design, the search has
-//! m(x) + f(xₖ) − m(xₖ) in place of m(x), and Σ (xⱼ − xₖⱼ)² over shares of the ranges more to pay, because the term holds near xₖ only.
+//! Finite elements of a design correct the model for the next search ([`Rounds`]): space mapping with an additive term, as in
+//! J. W. Bandler and others. Let m be the model's numbers, f the finite element numbers and xₖ the last design. The search then uses
+//! m(x) + f(xₖ) − m(xₖ) in place of m(x). It adds the cost Σ (xⱼ − xₖⱼ)² over shares of the ranges, because the term is valid near xₖ only.
 //!
 //! Solved with the simplex of Nelder and Mead (argmin) from many Sobol points; lists stay at the entry of their point.
 

@@ -6,7 +6,7 @@ use super::wish::Wish;
 use crate::SweepError;
 use fem::session::Progress;
 
-/// What one finite element run says of a design.
+/// Result of one finite element run of a design.
 #[derive(Debug, Clone, Default, serde::Serialize)]
 pub struct Checked {
     /// Where the stations are, the last is the tip \[m\].
@@ -24,11 +24,11 @@ pub struct Checked {
 /// One round of a design: the design, and finite elements of it.
 #[derive(Debug, Clone)]
 pub struct Round {
-    /// The design; its misses are those of the model as it is.
+    /// The design; its misses are the uncorrected model's.
     pub design: Design,
     /// The wish by the model corrected by finite elements, which found the design; `None` for the first.
     pub corrected: Option<Vec<Miss>>,
-    /// What finite elements say, or why there is no run.
+    /// The finite element result, or why no run was made.
     pub checked: Result<Checked, String>,
 }
 
@@ -76,7 +76,7 @@ pub enum End {
     Unchecked,
 }
 
-/// All rounds so far: ask with [`Rounds::search`], answer with [`Rounds::tell`].
+/// All rounds so far: ask with [`Rounds::search`], answer with [`Rounds::answer`].
 #[derive(Debug, Clone)]
 pub struct Rounds {
     /// Rounds after the first, at most.
@@ -122,7 +122,7 @@ impl Rounds {
     }
 
     /// What finite elements say of the last design.
-    pub fn tell(&mut self, checked: Result<Checked, String>) {
+    pub fn answer(&mut self, checked: Result<Checked, String>) {
         if let Some(last) = self.all.last_mut() {
             last.checked = checked;
         }
@@ -142,7 +142,7 @@ impl Rounds {
         })
     }
 
-    /// Why there is no further one; `None` before the end.
+    /// Why the rounds ended; `None` before the end.
     pub fn end(&self, wish: &Wish) -> Option<End> {
         let last = self.all.last()?;
         match &last.checked {

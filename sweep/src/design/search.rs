@@ -1,4 +1,4 @@
-//! The search, and what is known of its end.
+//! The search, and its result.
 
 use super::misses::{Miss, parts, worst_m};
 use super::wish::Wish;
@@ -190,7 +190,7 @@ impl Wish {
 
 struct Problem<'a> {
     wish: &'a Wish,
-    /// All shares; those of ranges are replaced.
+    /// All shares; the search replaces the shares of ranges.
     fixed: Vec<f64>,
     ranges: &'a [usize],
     /// Shares of a design to stay near to.

@@ -173,7 +173,7 @@ fn checked(wish: &Wish, corrections: usize, offset: impl Fn(f64) -> [f64; 2]) ->
             Miss::new(miss.what.clone(), miss.wanted.clone(), found, design.file.length_m)
         };
         let misses = design.misses.iter().filter(|miss| !miss.what.starts_with("turn")).map(of).collect();
-        rounds.tell(Ok(Checked { misses, ..Checked::default() }));
+        rounds.answer(Ok(Checked { misses, ..Checked::default() }));
     }
     rounds
 }
@@ -271,7 +271,7 @@ fn the_end_is_told() {
     let mut rounds = Rounds::new(3);
     assert_eq!(rounds.end(&wish), None);
     rounds.search(&wish, &mut |_, _| ControlFlow::Continue(())).unwrap();
-    rounds.tell(Err("the run was stopped".into()));
+    rounds.answer(Err("the run was stopped".into()));
     assert!(rounds.search(&wish, &mut |_, _| ControlFlow::Continue(())).unwrap().is_none());
     assert_eq!((rounds.end(&wish), rounds.best(), rounds.all.len()), (Some(End::Unchecked), 0, 1));
 }

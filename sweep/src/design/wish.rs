@@ -8,10 +8,10 @@ use spelling::Exactly;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 
-/// Largest number of free keys: more than that nobody can choose, and no simplex finds.
+/// Largest number of free keys; the simplex search fails with more.
 const MOST_FREE: usize = 12;
 
-/// What is wanted of the shape; all of it at once.
+/// Targets of the shape; the design must meet all of them at once.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Wanted {
     /// Target place of the tip \[m\]; `None`: anywhere.
@@ -24,7 +24,7 @@ pub struct Wanted {
     pub turns: Vec<Turn>,
 }
 
-/// A station and where it is wanted.
+/// A station and its target position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
     /// Station along the undeformed body \[m\].
@@ -42,7 +42,7 @@ pub struct Turn {
     pub angle_rad: f64,
 }
 
-/// What a design costs beside its miss, in squares of the tolerance.
+/// What a design costs in addition to its miss, in squares of the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Cost {
@@ -61,7 +61,7 @@ impl Default for Cost {
     }
 }
 
-/// A wish as its file tells it.
+/// A wish as read from its file.
 #[derive(Debug, Clone)]
 pub struct Wish {
     /// The robot, with the force at its tip.
@@ -74,7 +74,7 @@ pub struct Wish {
     pub tolerance: f64,
     /// Keys that the search may choose, with their ranges.
     pub free: Vec<Axis>,
-    /// What is not known, and between which values it lies.
+    /// Unknown numbers, with their ranges.
     pub assumed: Vec<Axis>,
     /// Weights of pressure, size and sensitivity next to the miss.
     pub cost: Cost,
@@ -132,7 +132,7 @@ const FORM: Form<Raw, Wish> =
     Form { what: "wish", page: "docs/design.md", scenario: |raw| &raw.scenario, of: Wish::of };
 
 impl Wish {
-    /// Reads a wish; `scenario` reads the robot that it names, first as a file beside it.
+    /// Reads a wish; `scenario` reads the robot that it names, first as a file in the same folder.
     ///
     /// # Errors
     /// A file that cannot be read; a fault of the wish or of the robot, with its line and what to write.
@@ -152,7 +152,7 @@ impl Wish {
         FORM.parse(name, text, folder, scenario)?.checked()
     }
 
-    /// A key that the scenario has not is told before anything is searched.
+    /// Refuses a key that the scenario does not have before the search starts.
     fn checked(self) -> Result<Wish, CompareError> {
         let middle = |axes: &[Axis]| vec![0.5; axes.len()];
         let changes = self.changes(&middle(&self.free), &middle(&self.assumed));
@@ -222,7 +222,7 @@ impl Wish {
         wish
     }
 
-    /// What is set in the scenario at shares of the ranges of free and assumed keys.
+    /// Values for the scenario at shares of the ranges of free and assumed keys.
     pub(super) fn changes(&self, free: &[f64], assumed: &[f64]) -> Changes {
         let both = self.free.iter().zip(free).chain(self.assumed.iter().zip(assumed));
         Changes::of(both.map(|(axis, share)| (axis, axis.at(*share))))

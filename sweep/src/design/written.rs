@@ -2,7 +2,7 @@
 
 use crate::axis::channel;
 
-/// The text with a comment of its own at every chosen value: that of the robot it began with says where another value is from.
+/// The text with a comment at every chosen value. Other comments of the original robot stay: they name the sources of its values.
 pub(super) fn commented(text: &str, chosen: &[(String, String)]) -> String {
     let key = |place: &str| place.rsplit('.').next().unwrap_or(place).to_string();
     let is_chosen = |line: &str| {
@@ -15,6 +15,6 @@ pub(super) fn commented(text: &str, chosen: &[(String, String)]) -> String {
         let bare = line.split('#').next().unwrap_or_default().trim_end();
         if is_chosen(bare) { format!("{bare} # chosen\n") } else { format!("{line}\n") }
     };
-    let head = "# Chosen for a wish: the values marked so. Comments and notes about other values are those of the robot it began with.\n";
+    let head = "# Values marked `chosen` were chosen for a wish. Comments and notes about other values come from the original robot.\n";
     text.lines().map(line).fold(head.to_string(), |all, line| all + &line)
 }

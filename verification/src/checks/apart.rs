@@ -11,7 +11,7 @@ pub(super) fn triangles(part: &Part, x: &[V3]) -> Vec<[V3; 3]> {
     halves.chain(part.triangles.iter().copied()).map(|t| t.map(at)).collect()
 }
 
-/// Height of a point over each triangle that lies above or below it \[m\].
+/// Height of a point over each triangle above or below it \[m\].
 pub(super) fn heights(faces: &[[V3; 3]], p: V3) -> Vec<f64> {
     faces.iter().filter_map(|face| height(face, p)).collect()
 }

@@ -44,7 +44,7 @@ fn rigid() -> Found {
     problem.rigid = vec![Rigid { set: "all".into() }];
     problem.gravity = Some(Gravity { g_m_s2: [0.0, 0.0, -9.81], amplitude: Amplitude::Constant(1.0) });
     let mut run = Simulation::new(&problem)?;
-    // About the middle axis, and a little beside it: the plate tumbles.
+    // About the middle axis, with a small component off it: the plate tumbles.
     let (centre, omega) = ([0.03, 0.015, 0.0], [3.0, 300.0, 2.0]);
     let spin: Vec<V3> = mesh.points.iter().map(|p| cross(omega, sub(*p, centre))).collect();
     let start = angular(&mass, &mesh.points, &spin, centre);

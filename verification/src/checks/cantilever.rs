@@ -1,7 +1,7 @@
 //! Inflated cantilever: slope below the first wrinkle, wrinkling and collapse.
 //!
 //! The tip is moved and held, the force is read at the support: then every point of the curve is at rest, also where the
-//! force hardly grows any more. A thick cap keeps the tip round; it hangs on two opposite nodes, so that it turns freely.
+//! force hardly grows any more. A thick cap keeps the tip round; two opposite nodes hold it, so that it turns freely.
 //!
 //! The wall wrinkles ring against ring. Hourglass control resists that with a share of E t, so it must be small against the
 //! tension that wrinkles, here p R/(E t) = .0013; and the wrinkles must be short against the radius.

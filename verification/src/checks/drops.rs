@@ -1,4 +1,4 @@
-//! Things dropped on each other: nobody passes through, nothing is created, momentum stays.
+//! Things dropped on each other: no body passes through another, no energy is created, momentum stays.
 
 use super::apart::{clearance_m, heights, masses, momentum, nodes, triangles};
 use super::setup::*;

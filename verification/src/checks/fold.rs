@@ -1,4 +1,4 @@
-//! Folds beside stiff strips, and the pouch that folds along all of its edges.
+//! Folds next to stiff strips, and the pouch that folds along all of its edges.
 
 use super::setup::*;
 use crate::exact::fold::stiffened_moments_n;
@@ -102,7 +102,7 @@ fn split(mesh: &Mesh, half_m: f64) -> Vec<Part> {
     vec![part("soft", soft), part("stiff", stiff)]
 }
 
-/// A sheet that hardly stretches, with `factor` times the wanted D.
+/// A sheet that hardly stretches, with `factor` times the target D.
 fn sheet_of(factor: f64) -> Section {
     const THICKNESS_M: f64 = 5e-5;
     let plain = section(Arc::new(Orthotropic::isotropic(PULL_N_M / STRAIN / THICKNESS_M, 0.0, THICKNESS_M)), 1.0);

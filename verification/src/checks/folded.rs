@@ -78,12 +78,12 @@ fn part<'a>(mesh: &'a Mesh, name: &str) -> Option<&'a fem::Part> {
     mesh.parts.iter().find(|p| p.name == name)
 }
 
-/// Smallest signed distance between neighbouring layers \[m\], where one lies squarely over the other within 1.5 mm.
+/// Smallest signed distance between neighbouring layers \[m\], where they overlap squarely within 1.5 mm.
 fn least_distance_m(mesh: &Mesh, x: &[V3]) -> f64 {
     let mut least = f64::INFINITY;
     for (below, above) in STACK {
         let (Some(below), Some(above)) = (part(mesh, below), part(mesh, above)) else { continue };
-        // Fronts of bottom and upper gussets look down, those of top and lower gussets up.
+        // Fronts of bottom and upper gussets look down, fronts of top and lower gussets up.
         let up = |p: &fem::Part| if matches!(p.layer, 1 | 3 | 4) { 1.0 } else { -1.0 };
         for (of, from, sign) in [(above, below, up(below)), (below, above, -up(above))] {
             let faces = triangles(from, x);

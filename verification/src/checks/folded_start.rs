@@ -7,7 +7,7 @@ use models::fabrics::{Orthotropic, TensionField};
 pub(super) const CHECK: Check = Check::slow(
     "folded-start",
     "A cushion folded by 90 degrees, and a flat one whose sheets start 0.5 mm apart, end with the volume of the flat one.",
-    "the start shape is no property of the cushion",
+    "the start shape is not a property of the cushion",
     run,
 );
 
@@ -41,7 +41,7 @@ fn start(mesh: &Mesh, place: impl Fn(f64, f64) -> V3) -> Vec<V3> {
     mesh.points.iter().zip(&side).map(each).collect()
 }
 
-/// Along x the sheet turns by 15 degrees from element to element until it stands upright.
+/// Along x the sheet turns by 15 degrees from element to element until it is upright.
 fn bent(x: f64, height: f64) -> V3 {
     let size = SIDE_M / COUNT as f64;
     let turn = |i: usize| (15.0 * (i as f64 - 4.0)).clamp(0.0, 90.0).to_radians();

@@ -5,7 +5,7 @@ use models::fabrics::Orthotropic;
 
 pub(super) const INCLINE: Check = Check::quick(
     "incline",
-    "A sheet on an incline of 20 degrees slides as Coulomb's law says, and below the friction angle it stays where it is.",
+    "A sheet on an incline of 20 degrees slides by Coulomb's law, and below the friction angle it stays where it is.",
     "a = g (sin φ − μ cos φ) m/m_scaled; rest for μ > tan φ",
     incline,
 );
@@ -73,7 +73,7 @@ fn capstan() -> Found {
     Ok(lines.into())
 }
 
-/// A strip without bending stiffness that lies on a quarter of a cylinder; one end hangs, the other is drawn along x.
+/// A strip without bending stiffness on a quarter of a cylinder; one end hangs, the other is drawn along x.
 fn strip(friction: f64) -> Result<Problem, FemError> {
     let arc = RADIUS_M * std::f64::consts::FRAC_PI_2;
     let length = 2.0 * FREE_M + arc;

@@ -6,7 +6,7 @@ use models::fabrics::Orthotropic;
 pub(super) const CHECK: Check = Check::quick(
     "hanging",
     "A strip hangs from its upper edge under gravity that is there from the start: its support carries the true weight.",
-    "m g; the way of the lower edge is that of the true masses",
+    "m g; the lower edge moves as with the true masses",
     run,
 );
 

@@ -40,7 +40,7 @@ pub use run::{Choice, Figures, verify};
 pub struct Check {
     /// Short name, as in `ibr verify --only NAME`.
     pub name: &'static str,
-    /// One plain sentence: what is simulated and what it is held against.
+    /// One plain sentence: the simulation and its known answer.
     pub sentence: &'static str,
     /// Where the known answer comes from.
     pub source: &'static str,
@@ -70,7 +70,7 @@ pub struct Line {
     pub against: Against,
 }
 
-/// What a number is held against.
+/// The reference of a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Against {
     /// A known value and the largest relative error that passes.

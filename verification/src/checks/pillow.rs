@@ -1,6 +1,6 @@
 //! Square pillow airbag of the literature on wrinkling.
 //!
-//! Edge and sheet pleat at the scale of the mesh. The node in the middle of an edge therefore lies on a ridge or in a valley,
+//! Edge and sheet pleat at the scale of the mesh. The node in the middle of an edge is therefore on a ridge or in a valley,
 //! up to 14 mm apart and exchanged by n/2 even or odd: it measures the pleat, not the bag. The edge's place is the mean over
 //! one pleat, ¼ ½ ¼ over the node and its two neighbours.
 

@@ -1,7 +1,7 @@
 //! The four robots of du Pasquier, Jeong, Okamura 2023 as recommended: their books close, and the ePAM's folds resist.
 //!
-//! Whether they bend as far as measured is no check of the engine: most of what decides it was assumed. `ibr compare --engines` holds them
-//! against the published displacements, with the interval that the assumed numbers leave.
+//! Whether they bend as far as measured does not check the engine: it depends mostly on assumed numbers. `ibr compare --engines` compares
+//! them with the published displacements, with the interval that the assumed numbers leave.
 
 use super::setup::*;
 use fem::robot::{RobotSettings, sections, shipped};
@@ -55,7 +55,7 @@ fn run() -> Found {
 }
 
 fn folds() -> Found {
-    // Without wrinkles below the mesh, so that the tension beside a fold is that of the elements' shape.
+    // Without wrinkles below the mesh, so that the elements' shape gives the tension next to a fold.
     let low = RobotSettings { actuator_pa: 10e3, wrinkle_length: None, ..RobotSettings::default() };
     let stiff = RobotSettings { bending_factor: 10.0 * low.bending_factor, ..low.clone() };
     let [soft, stiff] = [bend("epam", &low)?, bend("epam", &stiff)?];

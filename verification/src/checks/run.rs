@@ -165,7 +165,7 @@ struct KnownNumber<'a> {
 struct EngineCheck<'a> {
     /// Name of the check, as `--only` takes it.
     check: &'a str,
-    /// What is simulated and compared, in one plain sentence.
+    /// The simulation and the comparison, in one plain sentence.
     sentence: &'a str,
     /// Who or what it comes from
     source: &'a str,

@@ -54,7 +54,7 @@ pub(super) fn name_all(mesh: &mut Mesh) {
     mesh.sets.insert("all".into(), (0..mesh.points.len() as u32).collect());
 }
 
-/// Nodes of a set; none if there is no such set, which makes every mean not a number and the check fail.
+/// Nodes of a set. An unknown set has none, which makes every mean NaN and the check fail.
 pub(super) fn nodes<'a>(mesh: &'a Mesh, set: &str) -> &'a [u32] {
     mesh.sets.get(set).map_or(&[], Vec::as_slice)
 }

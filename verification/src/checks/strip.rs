@@ -165,7 +165,7 @@ fn roll() -> Found {
     let held: f64 = run.ledger().rows.iter().filter(|r| r.kind == models::RowKind::Stored).map(|r| r.energy_j).sum();
     Ok(vec![
         Line::value("turn from clamp to tip [rad]", turn, made, 1e-4),
-        Line::at_most("energy left over that of the flat strip", held.abs() / flat, 1e-6),
+        Line::at_most("energy left over the flat strip's", held.abs() / flat, 1e-6),
     ]
     .into())
 }

@@ -18,7 +18,7 @@
 //! Reference: W. H. Paulsen, American Mathematical Monthly 101 (1994) 953–958, recalled; derived again here.
 //!
 //! **Elastic film.** The tension p r²/(2s) is infinite at the pole, and the energy of first order in p/(E t) diverges there as
-//! a logarithm: there is no first-order correction in closed form. [`elastic`] solves the balloon exactly for a linear film
+//! a logarithm: a first-order correction in closed form does not exist. [`elastic`] solves the balloon exactly for a linear film
 //! that carries no compression (tension field), taut in both directions around the pole and pleated outside:
 //!
 //! ```text

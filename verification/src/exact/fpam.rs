@@ -68,7 +68,7 @@ pub fn free_alpha(muscle: &Fpam, pressure_pa: f64) -> f64 {
 
 /// Lever of the muscle's force on a body of radius R whose far fibre is the hinge \[m\].
 ///
-/// The muscle lies outside the body, axis at d = R + r(α), so a shortening ε Lf turns the body by
+/// The muscle is outside the body, axis at d = R + r(α), so a shortening ε Lf turns the body by
 /// `Φ = ε Lf/(R + d)`. [`Lever::VirtualWork`]: `(R + d)/(1 − (ε/ε′) r′/(R + d))` with ε′ = √2 sin α, r′ = √2 r45 cos α.
 pub fn lever_m(muscle: &Fpam, body_radius_m: f64, alpha: f64, rule: Lever) -> f64 {
     let arm = 2.0 * body_radius_m + radius_m(muscle, alpha);

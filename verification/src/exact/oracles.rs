@@ -1,13 +1,13 @@
 //! Numbers computed independently of this code, each with the precision it is known to, and what this code gives.
 //!
-//! The expected ones stand in `known.txt` as text, so that the last printed digit sets the tolerance: nobody can widen it.
+//! The expected ones stand in `known.txt` as text, so that the last printed digit sets the tolerance, which no code can widen.
 
 /// Sections of `known.txt` with what this code gives for their lines, in order.
 pub(super) type Known = Vec<(&'static str, Vec<f64>)>;
 
 const PRINTED: &str = include_str!("known.txt");
 
-/// One number: what is expected, what is computed.
+/// One number: the expected and the computed value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OracleRow {
     /// Which exact solution, such as "pouch motor, linear".
@@ -37,7 +37,7 @@ pub(super) fn table(forms: &[fn() -> Known]) -> Vec<OracleRow> {
     all.flat_map(|(name, computed)| section(PRINTED, name, &computed)).collect()
 }
 
-/// Rows of one section; what is not computed, and what is computed without a line, agrees with nothing.
+/// Rows of one section. A line without a computed number does not agree; neither does a computed number without a line.
 fn section(printed: &'static str, name: &'static str, computed: &[f64]) -> Vec<OracleRow> {
     let from =
         printed.lines().skip_while(|line| line.strip_prefix('[').and_then(|l| l.strip_suffix(']')) != Some(name));

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use sweep::pieces;
 
-/// Time wanted for a full diagnosis on one core \[s\].
+/// Target time of a full diagnosis on one core \[s\].
 const TIME_S: f64 = 1.0;
 
 /// Largest size of a hidden effect, in typical sizes.
@@ -30,7 +30,7 @@ pub struct Work {
 }
 
 impl Work {
-    /// Plans a bench. Answers are kept in a folder if one is given, beside the fingerprint of the program: another one may answer otherwise.
+    /// Plans a bench. With a folder, it keeps the answers there under the fingerprint of the program: another program may answer otherwise.
     ///
     /// # Errors
     /// A shipped scenario is damaged; a folder that cannot be made.
@@ -79,7 +79,7 @@ impl Work {
         Ok(pieces::beside(own.len(), threads, "sets", progress, &answer)?)
     }
 
-    /// The table, of all answers; `machine` says where the time of a diagnosis is taken.
+    /// The table, of all answers; `machine` names the computer that times a diagnosis.
     ///
     /// # Errors
     /// A robot without an equilibrium, or a diagnosis that cannot be made.
@@ -124,7 +124,7 @@ fn seconds(seed: u64) -> Result<f64, Error> {
 
 fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
     let percent = |v: f64| format!("{:.0} %", 100.0 * v);
-    let head = &["sets of", "figure", "wanted", "measured", "95 % interval", "sets", "met"];
+    let head = &["sets of", "figure", "target", "measured", "95 % interval", "sets", "met"];
     let by_part = bench
         .breakdown
         .iter()
@@ -138,7 +138,7 @@ fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
     let made = bench.made.iter().map(|m| {
         let listed = |names: &[String]| if names.is_empty() { "–".into() } else { names.join(", ") };
         let [before, whole, after] = m.systematic_mm.map(|mm| number(Some(mm)));
-        let told = if m.by_design {
+        let reported = if m.by_design {
             "by design"
         } else if m.in_set {
             "in the set"
@@ -148,17 +148,17 @@ fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
         let place = m.place.map_or("–".into(), |place| place.to_string());
         let bending = if m.kept { "kept" } else { "fitted" };
         let asked = [&m.robot, &m.lacking, &m.bodies.to_string(), bending].map(String::from);
-        let told = [
+        let found = [
             number(Some(m.does_mm)),
             before,
             whole,
             after,
-            told.into(),
+            reported.into(),
             place,
             listed(&m.stated),
             listed(&m.attempted),
         ];
-        asked.into_iter().chain(told).collect::<Vec<String>>()
+        asked.into_iter().chain(found).collect::<Vec<String>>()
     });
     let made_head = &[
         "robot",
@@ -169,7 +169,7 @@ fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
         "misfit",
         "with it",
         "named",
-        "told",
+        "reported",
         "place",
         "stated",
         "closest",
@@ -196,7 +196,7 @@ fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
         Printed::Text("\nAmbiguous, after the next experiment: by what was hidden\n".into()),
         Printed::table(&["hidden", "sets", "truth on top"], 1, after),
         Printed::Text(
-            "\nMade by finite elements, the shipped model without one mechanism: what that does there, and what is named\n"
+            "\nMade by finite elements, the shipped model without one mechanism: its effect there, and the names given\n"
                 .into(),
         ),
         Printed::table(made_head, 4, made),
@@ -209,7 +209,7 @@ fn number(value: Option<f64>) -> String {
     value.map_or_else(|| "–".into(), |v| format!("{v:.1}"))
 }
 
-/// Of every hidden effect the ambiguous sets after the next experiment, and those of them with the truth on top.
+/// Of every hidden effect the ambiguous sets after the next experiment: all, and with the truth on top.
 fn after(bench: &Discovery) -> BTreeMap<String, [usize; 2]> {
     let mut counts = BTreeMap::new();
     for (seen, after) in bench.seen.iter().filter_map(|seen| Some((seen, seen.after.as_ref()?))) {
@@ -246,11 +246,11 @@ fn attainable(limits: &Attainable) -> String {
     let [one_of_two, both] = [limits.one_of_two, limits.both].map(percent);
     let [median, most] = limits.form.map_or(["–".into(), "–".into()], |f| f.map(|v| percent(Some(v))));
     format!(
-        "\nWhat no test could exceed, even told the noise and the truth's shape (mean power of the best test)\n\
+        "\nWhat no test could exceed, even if it knew the noise and the truth's shape (mean power of the best test)\n\
          One hidden effect, alarm, 3 % false alarms: {alarm} if it knows the effect, {any} if it looks for one of ten.\n\
          One hidden effect, name, given alarm, with every law as it is in these robots: {top} on top, {three} in the first \
          three.\n\
-         Two hidden effects, names, with every law as it is and told that there are two: one at least right in {one_of_two}, \
+         Two hidden effects, names, with every law as it is and the number of effects known: one at least right in {one_of_two}, \
          both in {both}.\n\
          Outside the catalogue, 5 % false flags, laws taken as the catalogue's formulas: {one} if one effect counts as an \
          explanation, {two} if two do.\n\

@@ -1,4 +1,4 @@
-//! Speed of the finite element engine on this machine, beside what it must reach.
+//! Speed of the finite element engine on this machine, compared with its targets.
 
 use super::plain_loop::Membrane;
 use super::workloads as speed;
@@ -12,7 +12,7 @@ use fem::robot::RobotSettings;
 use serde_json::json;
 use std::time::Instant;
 
-/// Repeats of every ratio: its median and range are told.
+/// Repeats of every ratio: the table gives its median and range.
 const REPEATS: usize = 7;
 /// Turns of a repeat, in which both sides of a ratio alternate and the best of each counts: a shared machine is disturbed for
 /// seconds on end, and both of its cores are rarely free, so many short ones.
@@ -29,7 +29,7 @@ struct Figure {
     unit: &'static str,
     /// Measured values, one per repeat, ascending.
     values: Vec<f64>,
-    /// What it must reach: a ratio of two things measured beside each other, or what no machine changes.
+    /// What it must reach: a ratio of two things measured at the same time, or a number that does not depend on the machine.
     wanted: Option<Against>,
     residual: f64,
 }
@@ -82,7 +82,7 @@ impl Figure {
     }
 }
 
-/// Ratios of speeds and memory, and with `all` whole runs too; `machine` says on what.
+/// Ratios of speeds and memory, and with `all` whole runs too; `machine` names the computer.
 ///
 /// # Errors
 /// A run that stops.
@@ -107,7 +107,7 @@ pub fn measure(all: bool, machine: &str, progress: &mut Progress) -> Result<Find
 }
 
 fn report(figures: &[Figure], machine: &str) -> Findings {
-    let head = &["what", "quads", "median (range)", "wanted", "met", "energy residual"];
+    let head = &["what", "quads", "median (range)", "target", "met", "energy residual"];
     let list: Vec<_> = figures.iter().map(Figure::json).collect();
     Findings {
         parts: vec![
@@ -128,7 +128,7 @@ fn pillow(n: usize, bending: bool, threads: usize) -> Result<Simulation, Error> 
     Ok(run)
 }
 
-/// Processor time per step, and per simulated second, of a pillow with bending and ledger over that of a plain loop over
+/// Processor time per step, and per simulated second, of a pillow with bending and ledger relative to a plain loop over
 /// membrane triangles on the same nodes.
 fn against_plain() -> Result<[Figure; 2], Error> {
     let mut plain = Membrane::new(&speed::pillow(72, true)?);
@@ -155,8 +155,8 @@ fn against_plain() -> Result<[Figure; 2], Error> {
     ])
 }
 
-/// What one run on two threads does over what two runs of one thread each do beside each other, which is all that the two
-/// cores give just then.
+/// Speed of one run on two threads relative to two simultaneous runs of one thread each, which get all that the two
+/// cores give at that moment.
 fn two_threads() -> Result<Figure, Error> {
     let (mut one, mut other, mut two) = (pillow(100, true, 1)?, pillow(100, true, 1)?, pillow(100, true, 2)?);
     let mut ratios = Vec::new();
@@ -176,12 +176,12 @@ fn two_threads() -> Result<Figure, Error> {
         }
         ratios.push(best[1] / best[0]);
     }
-    let what = "two threads against two runs of one thread beside each other";
+    let what = "two threads against two simultaneous runs of one thread";
     Ok(Figure::new(what, &two, "times", ratios, Some(Against::AtLeast(0.93))))
 }
 
-/// Element-steps per CPU-second with contact (folded, blown up, at rest) over those of a pillow with bending; the rates, and
-/// that of membranes alone. They alternate stretch by stretch, one ratio per whole run.
+/// Element-steps per CPU-second with contact (folded, blown up, at rest) relative to a pillow with bending; these
+/// rates, and the rate of membranes alone. They alternate stretch by stretch, one ratio per whole run.
 fn rates(progress: &mut Progress) -> Result<Vec<Figure>, Error> {
     let problem = speed::folded_cpam(2e-3, true)?;
     let mut touching = Simulation::new(&problem)?;

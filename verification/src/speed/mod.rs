@@ -1,4 +1,4 @@
-//! Speed of the model, of the finite elements and of a diagnosis on this machine, beside what is wanted.
+//! Speed of the model, of the finite elements and of a diagnosis on this machine, compared with their targets.
 
 pub mod discovery;
 pub mod engine;

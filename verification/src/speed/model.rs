@@ -1,4 +1,4 @@
-//! Speed of the model on this machine, beside what a controller needs.
+//! Speed of the model on this machine, compared with a controller's needs.
 
 use crate::{Error, Findings, Printed};
 use compare::Progress;
@@ -13,15 +13,15 @@ const BATCHES: usize = 31;
 /// Predictions in one batch, in an order without pattern.
 const BATCH: usize = 10_000;
 
-/// What mechanics may cost: over the textbook model beside it in the same run.
-const WANTED_RATIO: f64 = 1.5;
+/// Largest cost of the mechanics, relative to the textbook model in the same run.
+const TARGET_RATIO: f64 = 1.5;
 
 struct Figure {
     id: String,
     /// Textbook model, and the robot as it ships \[µs\].
     median_us: [f64; 2],
     wanted_us: f64,
-    /// Whether the ratio is wanted too.
+    /// Whether the ratio has a target too.
     compared: bool,
 }
 
@@ -31,11 +31,11 @@ impl Figure {
     }
 
     fn met(&self) -> bool {
-        self.median_us[0] <= self.wanted_us && (!self.compared || self.ratio() <= WANTED_RATIO)
+        self.median_us[0] <= self.wanted_us && (!self.compared || self.ratio() <= TARGET_RATIO)
     }
 
     fn row(&self) -> Vec<String> {
-        let wanted = if self.compared { format!("{WANTED_RATIO:.1}") } else { String::new() };
+        let wanted = if self.compared { format!("{TARGET_RATIO:.1}") } else { String::new() };
         let met = if self.met() { "yes" } else { "no" };
         let [textbook, shipped] = self.median_us.map(|us| format!("{us:.3}"));
         let limit = format!("{:.1}", self.wanted_us);
@@ -44,7 +44,7 @@ impl Figure {
 
     fn told(&self) -> BenchFigure<'_> {
         let [textbook_us, shipped_us] = self.median_us;
-        let target_ratio = self.compared.then_some(WANTED_RATIO);
+        let target_ratio = self.compared.then_some(TARGET_RATIO);
         let (id, target_us) = (&self.id, self.wanted_us);
         BenchFigure { id, textbook_us, target_us, shipped_us, ratio: self.ratio(), target_ratio, met: self.met() }
     }
@@ -69,7 +69,7 @@ struct BenchFigure<'a> {
     target_us: f64,
     /// Median time of a call, shipped robot.
     shipped_us: f64,
-    /// Time of the shipped robot over that of the textbook one.
+    /// Time of the shipped robot relative to the textbook one.
     ratio: f64,
     /// Largest ratio that is allowed; `None` where only the time counts.
     target_ratio: Option<f64>,
@@ -77,7 +77,7 @@ struct BenchFigure<'a> {
     met: bool,
 }
 
-/// Times every actuator's robot; `machine` says on what.
+/// Times every actuator's robot; `machine` names the computer.
 ///
 /// # Errors
 /// A shipped robot without an equilibrium.
@@ -87,7 +87,7 @@ pub fn measure(machine: &str, progress: &mut Progress) -> Result<Findings, Error
         progress(kind, None);
         figures.extend(of_kind(kind)?);
     }
-    let head = &["what", "textbook [µs]", "wanted [µs]", "shipped [µs]", "ratio", "wanted", "met"];
+    let head = &["what", "textbook [µs]", "target [µs]", "shipped [µs]", "ratio", "target", "met"];
     let answer = BenchAnswer { machine, figures: figures.iter().map(Figure::told).collect() };
     Ok(Findings {
         parts: vec![
@@ -99,10 +99,10 @@ pub fn measure(machine: &str, progress: &mut Progress) -> Result<Findings, Error
     })
 }
 
-/// A call of what is timed: which one, of how many.
+/// A timed call: which one, of how many.
 type Call = Box<dyn FnMut(usize, usize) -> Result<(), Unsolved>>;
 
-/// What is timed: name, time wanted of the textbook model \[µs\], whether the ratio is wanted, calls per batch, predictions per call.
+/// Timed calls: name, target time of the textbook model \[µs\], whether the ratio has a target, calls per batch, predictions per call.
 const TIMED: [(&str, f64, bool, usize, usize); 4] = [
     ("predict", 1.0, true, 500, 1),
     ("batch of 10 000, each", 0.4, true, 1, BATCH),

@@ -1,4 +1,4 @@
-//! A plain loop over membrane triangles, as one would write it in C: what the engine's speed is held against.
+//! A plain loop over membrane triangles, as one would write it in C: the reference for the engine's speed.
 //!
 //! ```text
 //! F = [x₁ − x₀, x₂ − x₀] B     E = ½(FᵀF − 1)     S = D E     f₁₂ = −A B F S + p/6 (x₁ − x₀)×(x₂ − x₀)

@@ -78,7 +78,7 @@ fn ends(times: &[f64]) -> [f64; 2] {
     [times[0], times[times.len() - 1]]
 }
 
-/// Changes of pressure and of movement, and the usual time between those of the pressure \[s\].
+/// Changes of pressure and of movement, and the usual time between pressure changes \[s\].
 fn changes(readings: &Readings, track: &Track, options: &ImportOptions) -> (Vec<Edge>, Vec<Edge>, f64) {
     let log = edges::of_log(readings.times_s, readings.values_pa, options);
     let gap_s = edges::usual_gap_s(&log, ends(readings.times_s));
