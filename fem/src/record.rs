@@ -55,8 +55,7 @@ impl RecordShape {
         let Stamp { schema, version } = parse(file, text, help)?;
         let RecordShape { schema: own, version: known } = self;
         if (schema.as_str(), version) != (own, known) {
-            let message =
-                format!("holds {schema}, version {version}, where this program reads {own}, version {known}");
+            let message = format!("holds {schema}, version {version}, where this program reads {own}, version {known}");
             return Err(Damage::error(file, None, message, help));
         }
         parse(file, text, help)

@@ -126,7 +126,7 @@ impl Earlier {
 /// The complete run in a folder as one that goes on to a later end; `None` if it ends there already.
 ///
 /// # Errors
-/// [`FemError::Setting`] for an end before that of the run, or where the run resumed an earlier one and depends on it.
+/// [`FemError::Setting`] for an end before the run's, or where the run resumed an earlier one and depends on it.
 pub(super) fn reopened(folder: &Path, loaded: &Loaded, settings: &Settings) -> Result<Option<Workplace>, FemError> {
     let Some(end_s) = settings.end_s else { return Ok(None) };
     let ended = FeRun::read(folder)?.summary;

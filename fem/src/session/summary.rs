@@ -244,10 +244,7 @@ impl Summary {
             ));
         }
         if policy::is_heavy(self.added_mass_share) {
-            found.push(
-                "more mass was added than the fabric has: speeds are too low, and slow motions are late"
-                    .into(),
-            );
+            found.push("more mass was added than the fabric has: speeds are too low, and slow motions are late".into());
         }
         if let Some(Through { nodes, share, first: Some(first) }) = &self.changed_sides {
             found.push(format!(

@@ -54,7 +54,9 @@ fn shape(mesh: &Mesh, part: &Part, i: usize) -> Result<(), FemError> {
     }
     if let Some(k) = (0..x.len()).find(|k| dot(corner(x, *k), normal) <= 0.0) {
         let (element, place, node) = (describe(part, i), millimetres(x[k]), nodes[k] + 1);
-        return fault(format!("{element} is inverted at node {node}, {place}: its corner there is 180 degrees or more"));
+        return fault(format!(
+            "{element} is inverted at node {node}, {place}: its corner there is 180 degrees or more"
+        ));
     }
     let bent = if mesh.membrane.is_empty() { &[] } else { &mesh.points[..] };
     for (shape, places) in [("at the start", &mesh.start[..]), ("as it bends", bent)] {

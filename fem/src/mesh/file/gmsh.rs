@@ -231,7 +231,11 @@ fn first_counts(scan: &mut Scan, what: &str) -> Result<[usize; 2], String> {
 }
 
 fn same(said: usize, found: usize, what: &str) -> Result<(), String> {
-    if said == found { Ok(()) } else { Err(format!("the section announces {said} {what}, and its blocks contain {found}")) }
+    if said == found {
+        Ok(())
+    } else {
+        Err(format!("the section announces {said} {what}, and its blocks contain {found}"))
+    }
 }
 
 fn block(row: &[&str]) -> String {
