@@ -14,13 +14,13 @@ pub enum FemError {
         path: PathBuf,
         /// Line of the mesh file, counted from 1.
         line: usize,
-        /// What is wrong and what to write.
+        /// The fault and its remedy.
         message: String,
     },
     /// A case file was refused; `span` is a byte range in its text.
     #[error("{message}")]
     Case {
-        /// What is wrong and, in further lines, what to write.
+        /// The fault and, in further lines, its remedy.
         message: String,
         span: Option<std::ops::Range<usize>>,
     },
@@ -44,7 +44,7 @@ pub enum FemError {
     /// The same, of a run in a folder.
     #[error("{error}")]
     StoppedIn { error: Box<FemError>, help: String },
-    /// Whoever was told the progress asked to end.
+    /// The progress callback asked to end.
     #[error("interrupted{}", so_far(*time_s, *step, *done, *of))]
     Interrupted {
         /// Simulated time that the last one reached \[s\].
@@ -56,7 +56,7 @@ pub enum FemError {
     #[error("checkpoint {}: {reason}", path.display())]
     Checkpoint {
         path: PathBuf,
-        /// What is wrong and what to do.
+        /// The fault and its remedy.
         reason: String,
     },
     /// A folder of a run that cannot be written to.
@@ -82,14 +82,14 @@ fn so_far(time_s: f64, step: u64, done: usize, of: usize) -> String {
     }
 }
 
-/// What is wrong with the text of a case or a scenario.
+/// A fault in the text of a case or a scenario.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refusal {
     /// File, or name of what comes with the program.
     pub file: String,
     /// Whole text of the file, which the message quotes.
     pub text: String,
-    /// The fault: the key, its value and what is allowed.
+    /// The fault: the key, its value and the allowed range.
     pub message: String,
     /// What to write; may be empty.
     pub help: String,
@@ -98,7 +98,7 @@ pub struct Refusal {
 }
 
 impl Refusal {
-    /// File, line and what is wrong.
+    /// File, line and fault.
     fn place(&self) -> String {
         let Refusal { file, message, .. } = self;
         self.line().map_or_else(|| message.clone(), |line| format!("{file}:{line}: {message}"))
@@ -110,7 +110,7 @@ impl Refusal {
     }
 }
 
-/// What is wrong with a record, and where.
+/// A fault in a record, and its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Damage {
     /// Path of the damaged file, as in the message.
@@ -128,13 +128,13 @@ impl Damage {
         FemError::Record(Box::new(Damage { file: file.into(), line, message, help: help.into() }))
     }
 
-    /// A file whose bytes are not those that its manifest lists.
+    /// A file whose checksum differs from its manifest.
     pub(crate) fn changed(file: &str, help: &str) -> FemError {
         let message = "is not the file that was written: its SHA-256 differs from that in manifest.json";
         Damage::error(file, None, message.into(), help)
     }
 
-    /// File, line and what is wrong.
+    /// File, line and fault.
     fn place(&self) -> String {
         let Damage { file, line, message, .. } = self;
         line.map_or_else(|| format!("{file}: {message}"), |line| format!("{file}:{line}: {message}"))
@@ -160,10 +160,10 @@ impl FemError {
             FemError::Refused(refusal) => Some(refusal.help.as_str()).filter(|help| !help.is_empty()),
             FemError::Record(damage) => Some(&damage.help),
             FemError::MeshFile { .. } => {
-                Some("correct that line, or write the mesh again; docs/case.md says which files are read, and how")
+                Some("correct that line, or write the mesh again; docs/case.md lists the file formats that are read")
             }
             FemError::Io { .. } => Some("check the path, and that the disk can be read and has room"),
-            FemError::Interrupted { .. } => Some("what is complete is kept, the same command goes on"),
+            FemError::Interrupted { .. } => Some("completed work is kept; the same command resumes"),
             _ => None,
         }
     }

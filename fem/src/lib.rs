@@ -1,6 +1,6 @@
 //! The explicit finite element engine of `ibr`: thin inflated fabric with buckling and contact.
 //!
-//! A [`Problem`] says what is simulated (mesh, fabrics, chambers, supports, loads, settings); a [`Simulation`] steps it
+//! A [`Problem`] describes the model (mesh, fabrics, chambers, supports, loads, settings); a [`Simulation`] steps it
 //! through time by central differences with lumped masses. A run is a list of [`Transient`] terms over the node positions
 //! `[x₀, y₀, z₀, 0, x₁, …]` ([`NODE`] numbers per node, the fourth is padding for the vector units), and keeps the same
 //! energy ledger as the reduced model: nothing is simulated that is not on the balance.

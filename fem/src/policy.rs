@@ -1,4 +1,4 @@
-//! The numbers that refuse a mesh, stop a run or say what to think of its end. Each says what it is and in which unit;
+//! The numbers that refuse a mesh, stop a run or judge its end. Each comment gives meaning and unit;
 //! `tests/policy.sh` moves every one of them and names the tests that fail then.
 
 /// Energy residual over external work that stops a run.
@@ -42,7 +42,7 @@ pub(crate) const BENT: f64 = 0.1;
 pub(crate) const OUT_OF_PLANE: f64 = 0.02;
 /// Pull on a weld over its strength beyond which it opens.
 pub(crate) const TORN: f64 = 1.0;
-/// A peak of the walls' kinetic energy stands out if the valleys beside it are below this share of it.
+/// A peak of the walls' kinetic energy counts if the valleys on both sides are below this share of it.
 pub(crate) const VALLEY: f64 = 0.5;
 /// Smallest drop of a snap, as a share of the largest stored energy of the run.
 pub(crate) const SMALLEST_DROP: f64 = 0.005;
@@ -83,7 +83,7 @@ pub(crate) fn is_huge(extent_m: f64) -> bool {
     extent_m > HUGE_M
 }
 
-/// Whether half of the elements are longer than those of a mesh in metres, of the median side \[m\].
+/// Whether half of the elements are longer than elements of a mesh in metres, of the median side \[m\].
 pub(crate) fn is_coarse(median_side_m: f64) -> bool {
     median_side_m > LONGEST_SIDE_M
 }
@@ -103,7 +103,7 @@ pub(crate) fn is_heavy(added_mass: f64) -> bool {
     added_mass > HEAVY
 }
 
-/// Whether hourglass control is no longer small, of its share of the stored energy.
+/// Whether hourglass control is too large for a result without a warning, of its share of the stored energy.
 pub(crate) fn is_warped(share: f64) -> bool {
     share > HOURGLASS_WARNED
 }
@@ -164,7 +164,7 @@ pub(crate) fn is_area(area: f64, longest_squared: f64) -> bool {
     area > NO_AREA * longest_squared && area.is_finite()
 }
 
-/// Whether a warp lies in its sheet, of the sine of its angle with the normal.
+/// Whether a warp is in its sheet, of the sine of its angle with the normal.
 pub(crate) fn is_in_sheet(sine: f64) -> bool {
     sine >= ACROSS
 }

@@ -77,7 +77,7 @@ pub struct Chamber {
     /// How its gauge pressure comes about.
     pub pressure: Pressure,
     /// Axes (x, y, z) along which the chamber is open: it ends at planes perpendicular to them that hold the fabric's edge
-    /// (planes of symmetry, plane strain between two). Its volume is that of the part in the model. `None`: the chamber is closed.
+    /// (planes of symmetry, plane strain between two). Its volume is the volume within the model. `None`: the chamber is closed.
     pub open_axis: Option<[bool; 3]>,
 }
 
@@ -105,7 +105,7 @@ pub enum Pressure {
 }
 
 impl Pressure {
-    /// What is set, until sealing if the chamber is sealed \[Pa\].
+    /// The set pressure, until sealing if the chamber is sealed \[Pa\].
     pub fn filling(&self) -> &Amplitude {
         let (Pressure::Set(filling) | Pressure::Sealed { filling, .. }) = self;
         filling

@@ -1,7 +1,7 @@
 //! Records: files that this program writes and reads again, JSON with the name of their shape and its version.
 //!
-//! Read in two goes: first shape and version, so that a record of another program is refused as that and not for the first
-//! key it lacks; then the rest, where a fault is told with its line and its path, `runs[3].states[0].tip_mm`.
+//! Read in two goes: first shape and version, so that a record of another program is refused as foreign and not for the first
+//! key it lacks; then the rest, where a fault is reported with its line and its path, `runs[3].states[0].tip_mm`.
 
 use crate::FemError;
 use crate::error::Damage;
@@ -47,16 +47,15 @@ impl RecordShape {
         format!("{{\"schema\":\"{schema}\",\"version\":{version},\"{key}\":[\n{}\n]}}\n", lines.join(",\n"))
     }
 
-    /// Reads the record in `text`, the content of `file`; `help` says what to do if it cannot be.
+    /// Reads the record in `text`, the content of `file`; `help` is the remedy if it cannot be.
     ///
     /// # Errors
     /// [`FemError::Record`]: another shape or version, a file cut short, a key missing or of another type.
     pub fn read<T: DeserializeOwned>(self, file: &str, text: &str, help: &str) -> Result<T, FemError> {
         let Stamp { schema, version } = parse(file, text, help)?;
-        let RecordShape { schema: wanted, version: known } = self;
-        if (schema.as_str(), version) != (wanted, known) {
-            let message =
-                format!("holds {schema}, version {version}, where this program reads {wanted}, version {known}");
+        let RecordShape { schema: own, version: known } = self;
+        if (schema.as_str(), version) != (own, known) {
+            let message = format!("holds {schema}, version {version}, where this program reads {own}, version {known}");
             return Err(Damage::error(file, None, message, help));
         }
         parse(file, text, help)
@@ -69,13 +68,13 @@ fn parse<T: DeserializeOwned>(file: &str, text: &str, help: &str) -> Result<T, F
         let path = Some(fault.path().to_string()).filter(|path| path != "." && path != "?");
         (path, fault.into_inner())
     });
-    // What stands behind a whole record is no record.
+    // Text after a whole record does not belong to it.
     let whole = found.is_ok();
     let found = found.and_then(|body| from.end().map(|()| body).map_err(|fault| (None, fault)));
     found.map_err(|(path, fault)| {
         let end = format!(" at line {} column {}", fault.line(), fault.column());
         let what = match fault.classify() {
-            // In the middle of a number it is no end for the parser.
+            // The parser does not report the end of a file within a number.
             kind if !whole && (kind == Category::Eof || !text.trim_end().ends_with('}')) => {
                 "the file is cut short".to_string()
             }

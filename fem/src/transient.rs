@@ -1,8 +1,8 @@
-//! What a term of the finite element engine is beside its energy: it steps through time and keeps its own memory.
+//! What a term of the finite element engine does in addition to its energy: it steps through time and keeps its own memory.
 
 use models::{Account, Pose, Row, RowKind, Term};
 
-/// Where the time integration stands when a term is advanced.
+/// Step and time at which a term is advanced.
 #[derive(Debug, Clone, Copy)]
 pub struct Tick {
     /// Number of steps done before this one.

@@ -330,7 +330,7 @@ fn rectangular_orientations_of_abaqus_are_the_warp_and_others_are_named() {
         assert!(abaqus(&oriented(&rows), "warp = \"y\"\n").is_ok());
     }
     assert!(refused("*ORIENTATION, NAME=LAY\nby_element\n3, 0.\n").contains("DISTRIBUTION"));
-    assert!(refused("").contains("there is no *ORIENTATION `LAY`"));
+    assert!(refused("").contains("unknown *ORIENTATION `LAY`"));
     assert!(refused("*ORIENTATION, NAME=LAY\n0., 1., 0., 0., 2., 0.\n").contains("are on one line"));
     assert!(refused("*ORIENTATION, NAME=LAY\n0., 1., 0.\n").contains("expected 6 or 9 numbers"));
     assert!(refused("*ORIENTATION, NAME=LAY\n0., 1., 0., -1., 0., 0.\n4, 0.\n").contains("an axis (1, 2 or 3)"));

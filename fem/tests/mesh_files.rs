@@ -224,13 +224,13 @@ fn what_is_not_understood_is_refused_with_its_line_and_what_to_do() {
         ("a.msh", format!("{gmsh}$Nodes\n1 1 1 1\n2 1 0 1\n1\n"), 7, "ends before the place of a node: it was cut off"),
         ("a.msh", format!("{gmsh}$Elements\n1 1 1 1\n2 1 9 1\n"), 6, "elements of type 9 are not read"),
         ("a.msh", format!("{gmsh}$Elements\n1 1 1 1\n3 1 4 1\n"), 6, "type 4 are solids"),
-        ("a.msh", format!("{gmsh}$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n"), 7, "there is no node 1"),
+        ("a.msh", format!("{gmsh}$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n"), 7, "node 1 is not defined"),
         ("a.msh", format!("{gmsh}$Nodes\n99999999999 1 1 1\n"), 5, "cannot follow in a file of"),
         ("a.inp", format!("{nodes}*TIE, NAME=x\n"), 5, "*TIE is not read: merge the nodes"),
         ("a.inp", format!("{nodes}*INCLUDE, INPUT=b.inp\n"), 5, "*INCLUDE is not read: put the text"),
         ("a.inp", format!("{nodes}*WIGGLE\n"), 5, "unknown keyword *WIGGLE"),
         ("a.inp", format!("{nodes}*ELEMENT, TYPE=C3D8\n"), 5, "elements of type C3D8 are not read"),
-        ("a.inp", format!("{nodes}*ELEMENT, TYPE=S3\n1, 1, 2, 4\n"), 6, "there is no node 4"),
+        ("a.inp", format!("{nodes}*ELEMENT, TYPE=S3\n1, 1, 2, 4\n"), 6, "node 4 does not exist"),
         (
             "a.inp",
             format!("{nodes}*ELEMENT, TYPE=S3\n1, 1, 2\n*ELSET, ELSET=a\n"),
@@ -239,10 +239,10 @@ fn what_is_not_understood_is_refused_with_its_line_and_what_to_do() {
         ),
         ("a.inp", format!("{nodes}1, 0, 0, 5\n"), 5, "node 1 is there twice"),
         ("a.inp", format!("{nodes}*NSET, NSET=a\n9\n"), 5, "set `a` has node 9, which does not exist"),
-        ("a.inp", format!("{nodes}*NSET, NSET=a\nb\n"), 5, "there is no node set `b` above"),
+        ("a.inp", format!("{nodes}*NSET, NSET=a\nb\n"), 5, "unknown node set `b`"),
         ("a.inp", format!("{nodes}*NSET, NSET=a, GENERATE\n1, 9, 0\n"), 6, "write first, last and step"),
         ("a.inp", format!("{nodes}*NODE, SYSTEM=C\n"), 5, "cylindrical"),
-        ("a.inp", format!("{nodes}*INSTANCE, NAME=a, PART=b\n"), 5, "there is no *PART `b` above"),
+        ("a.inp", format!("{nodes}*INSTANCE, NAME=a, PART=b\n"), 5, "unknown *PART `b`"),
         ("a.inp", "*KEYWORD\n*NODE\n".into(), 1, "this is LS-DYNA"),
         ("a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\n".into(), 4, "found `zero`"),
         (
@@ -257,7 +257,7 @@ fn what_is_not_understood_is_refused_with_its_line_and_what_to_do() {
         ("a.ply", "ply\nformat ascii 1.0\n".into(), 1, "this is PLY, which is not read; convert it"),
         ("a.vtu", "<VTKFile type=\"UnstructuredGrid\">\n".into(), 1, "this is VTK"),
         ("a.txt", "hello\n".into(), 1, "begins with `hello`. Gmsh (.msh)"),
-        ("a.inp", nodes.into(), 4, "no triangle and no quadrilateral"),
+        ("a.inp", nodes.into(), 4, "neither triangles nor quadrilaterals"),
     ] {
         let message = refused_text(name, &text);
         assert!(message.starts_with(&format!("{name}:{line}: ")) && message.contains(words), "{text}\n{message}");
@@ -277,7 +277,7 @@ fn units_and_chambers_that_nobody_named_are_asked_for() {
         (
             cubes.into(),
             "[chamber.a]\npressure_kPa = 1\n[chamber.b]\npressure_kPa = 1\n",
-            ["which parts enclose chamber `a`", "parts = [\"Left.Walls\", …]"],
+            ["the parts that enclose chamber `a` are not given", "parts = [\"Left.Walls\", …]"],
         ),
         (
             cubes.into(),
@@ -287,7 +287,7 @@ fn units_and_chambers_that_nobody_named_are_asked_for() {
         (
             "generator = \"sphere\"\ndiameter_mm = 100\nelements = 4".into(),
             "[chamber.air]\npressure_kPa = 1\nparts = [\"sphere\"]\n",
-            ["says itself", "remove parts"],
+            ["already names the parts", "remove parts"],
         ),
     ] {
         let message = refused(&mesh, rest);

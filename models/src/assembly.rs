@@ -131,7 +131,7 @@ impl Assembly {
         self.segments.iter().map(|segment| segment.length_m).sum()
     }
 
-    /// Length of body that each node stands for \[m\]: half of the segments on both sides.
+    /// Length of body that each node represents \[m\]: half of the segments on both sides.
     pub fn node_lengths(&self) -> Vec<f64> {
         let mut lengths = vec![0.0; self.segments.len() + 1];
         for (i, segment) in self.segments.iter().enumerate() {

@@ -21,7 +21,7 @@ use std::f64::consts::{LN_2, PI};
 /// | k₀ | curvature over which the hinge sets in (numerical; 0.05 1/m is 1 % of a bent robot) | 1/m |
 ///
 /// Validity: κ well above p_b/(Et), regulated body pressure. A body that is bent less has a wall: [`BodyWall`], or the
-/// effect `wrinkling`. Derived here; the collapse moment is that of Comer & Levy 1963.
+/// effect `wrinkling`. Derived here; the collapse moment follows Comer & Levy 1963.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyPressure {
     /// Radius R of the inflated body \[m\].
@@ -36,7 +36,7 @@ pub struct BodyPressure {
 ///
 /// Two limits are exact. The taut wall is elastic, dM/dκ = πEtR³. The folded body is a hinge, M = πp_bR³. In between the
 /// wall buckles and creases, one piece after the other. Where a new crease falls does not depend on those that are there,
-/// so equal bends take equal shares of what is still smooth: dn = −n dκ/κ₀. A smooth piece has the taut wall's stiffness, a
+/// so equal bends take equal shares of the smooth wall: dn = −n dκ/κ₀. A smooth piece has the taut wall's stiffness, a
 /// creased one carries its share of the hinge's moment and no more, so dM/dκ = n πEtR³:
 ///
 /// ```text
@@ -55,10 +55,10 @@ pub struct BodyPressure {
 /// Validity: first loading (creases do not heal at once; the law returns on its own path), κR ≪ 1 or hinge, a section that
 /// stays round until it creases. A wall without creases follows Comer & Levy, linear up to half of the collapse moment:
 /// measured beams do not (`verification::exact::inflated_cantilever` has that curve). The law of
-/// creases is derived here; limits: Comer & Levy 1963, Le van & Wielgosz 2005; a rate in proportion to what is left is
+/// creases is derived here; limits: Comer & Levy 1963, Le van & Wielgosz 2005; a rate in proportion to the rest is
 /// Iwan's (1966) of distributed elements; that a load–deflection curve of kite beams is close to an exponential was measured
 /// by Breukels (2011), see `tests/laws/beams.rs`. Of four laws between these limits, tried on those
-/// beams, this one came nearest: agreement with them is no independent evidence.
+/// beams, this one came nearest: agreement with them is not independent evidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyWall {
     /// Radius R of the inflated body \[m\].
@@ -109,7 +109,7 @@ impl BodyLaw {
         if let BodyLaw::Hinge(law) = self { law.hinge_curvature } else { 0.0 }
     }
 
-    /// The moment of the gas is another than that of a round section by a factor; a replaced law keeps its own.
+    /// Multiplies the moment of the gas, relative to a round section; a replaced law keeps its own moment.
     pub(crate) fn scale(&mut self, factor: f64) {
         match self {
             BodyLaw::Hinge(law) => law.share *= factor,

@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | N, R | thrust in the membrane, radius | N, m |
 //! | γ0 | half angle of the slack zone: 0 first wrinkle, π hinge | rad |
-//! | κ, κ_w | curvature, and that of the first wrinkle | 1/m |
+//! | κ, κ_w | curvature, and curvature of the first wrinkle | 1/m |
 //! | M | moment about the centroid of the tube | N m |
 //!
 //! Reference: Comer & Levy, AIAA J. 1 (1963) 1652–1655. The paper was not read: the closed form is derived here by

@@ -66,10 +66,10 @@ pub struct PatternPiece {
     pub marks: Vec<PatternMark>,
 }
 
-/// What is to be cut for a robot.
+/// Cutting plan of a robot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CuttingPlan {
-    /// Pieces of the body, then those of every stretch of the actuator.
+    /// Pieces of the body, then of every stretch of the actuator.
     pub pieces: Vec<PatternPiece>,
     /// What the plan leaves to its reader.
     pub notes: Vec<String>,
@@ -134,7 +134,7 @@ fn centred(middle_m: f64, width_m: f64) -> [f64; 2] {
     [middle_m - 0.5 * width_m, middle_m + 0.5 * width_m]
 }
 
-/// The wall of a stretch of equal radius, unrolled; its seam lies opposite the actuator.
+/// The wall of a stretch of equal radius, unrolled; its seam is opposite the actuator.
 fn body(scenario: &Scenario, span: &Span, of: usize, strips: &[Strip], making: &Making) -> PatternPiece {
     let (start_m, end_m) = (span.start_m, span.start_m + span.length_m);
     let here = |x_m: f64| start_m - making.weld_m <= x_m && x_m <= end_m + making.weld_m;
@@ -195,7 +195,7 @@ impl Strip {
         self.start_m + self.units as f64 * self.pattern.pitch_m
     }
 
-    /// Cut edges along the robot, not beyond those of the body.
+    /// Cut edges along the robot, not beyond the body's.
     fn x_m(&self) -> [f64; 2] {
         let Making { weld_m, allowance_m } = self.making;
         let beyond = 0.5 * weld_m + allowance_m;
@@ -288,7 +288,7 @@ impl Strip {
         PatternMark { kind, x_m: self.x_m(), y_m: [y_m; 2] }
     }
 
-    /// Folds between the panels. The face of a panel that runs back lies upside down.
+    /// Folds between the panels. The face of a panel that runs back is upside down.
     fn folds(&self) -> Vec<PatternMark> {
         let panels = &self.pattern.panels;
         let mut y_m = -0.5 * self.pattern.sheet_width_m();

@@ -18,12 +18,12 @@ pub struct ScenarioError {
 }
 
 impl ScenarioError {
-    /// Line, what is wrong there and what to type, in one line: for programs that show no text around it.
+    /// Line, fault and what to type, in one line: for programs that show no text around it.
     ///
     /// ```
     /// let text = "[body]\nradius_mm = 40\nlength_mm = 360\npressure = 2\n";
-    /// let told = models::Scenario::parse(text).unwrap_err().in_text(text);
-    /// assert!(told.starts_with("line 4: unknown field `pressure`"), "{told}");
+    /// let error = models::Scenario::parse(text).unwrap_err().in_text(text);
+    /// assert!(error.starts_with("line 4: unknown field `pressure`"), "{error}");
     /// ```
     pub fn in_text(&self, text: &str) -> String {
         let line = |(start, _): (usize, usize)| text.bytes().take(start).filter(|byte| *byte == b'\n').count() + 1;
@@ -40,14 +40,14 @@ pub enum Unsolved {
     /// A pressure out of its bounds.
     #[error("{}", bounds.refusal(*value_pa))]
     BadPressure { bounds: Range, value_pa: f64 },
-    /// A wanted place or limits that mean nothing.
+    /// A target place or limits that mean nothing.
     #[error("{what}")]
     BadAim { what: &'static str },
     /// The call covers planar robots only, and this robot has strips round the body.
     #[error(
-        "{what} is built for planar robots; this one has strips round the body, for which ibr predict gives the shape at pressures"
+        "{subject} is built for planar robots; this one has strips round the body, for which ibr predict gives the shape at pressures"
     )]
-    InSpace { what: &'static str },
+    InSpace { subject: &'static str },
     /// A time out of its bounds.
     #[error("{}", Range::TIME.refusal(*t_s))]
     BadTime { t_s: f64 },
@@ -76,19 +76,19 @@ pub enum Unsolved {
          residual {residual:.3e} N·m; the robot is close to collapse under its load"
     )]
     NotConverged { iterations: usize, p_act_kpa: f64, residual: f64 },
-    /// The wanted tip cannot be had.
+    /// The target tip is out of reach.
     #[error(
-        "{what} {wanted:.4} {unit} is out of reach: pressures from 0 to {p_max_kpa} kPa give {lowest:.4} to {highest:.4} {unit}"
+        "{what} {target:.4} {unit} is out of reach: pressures from 0 to {p_max_kpa} kPa give {lowest:.4} to {highest:.4} {unit}"
     )]
-    OutOfReach { what: &'static str, wanted: f64, lowest: f64, highest: f64, unit: &'static str, p_max_kpa: f64 },
-    /// The wanted tip lies where the robot jumps, or between stretches without equilibrium.
+    OutOfReach { what: &'static str, target: f64, lowest: f64, highest: f64, unit: &'static str, p_max_kpa: f64 },
+    /// The robot jumps past the target tip, or has no equilibrium there.
     #[error(
-        "{what} {wanted:.4} {unit} is passed over: it is {below:.4} {unit} at {low_kpa:.6} kPa and {above:.4} {unit} at {high_kpa:.6} kPa, \
+        "the robot snaps past {what} {target:.4} {unit}: {below:.4} {unit} at {low_kpa:.6} kPa and {above:.4} {unit} at {high_kpa:.6} kPa, \
          with {between} between"
     )]
     Jump {
         what: &'static str,
-        wanted: f64,
+        target: f64,
         unit: &'static str,
         low_kpa: f64,
         below: f64,

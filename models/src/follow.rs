@@ -26,7 +26,7 @@ const PATH_STEPS: usize = 8;
 pub const HOLD_S: f64 = 5.0;
 
 impl Model {
-    /// A state by itself: with history after a hold of [`HOLD_S`] from rest, else as [`Model::predict`].
+    /// A single state: with history after a hold of [`HOLD_S`] from rest, else as [`Model::predict`].
     pub fn predict_held(&self, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
         match self.has_history() {
             false => self.predict(loads, out),
@@ -67,7 +67,7 @@ impl Model {
         self.walk(steps, None, out, each)
     }
 
-    /// The same, where `held` says so at curvatures of every step.
+    /// The same; with `held`, at given curvatures in every step.
     pub(crate) fn walk(
         &self,
         steps: &[Step],
@@ -119,7 +119,7 @@ impl Model {
         }
         self.wait(step.t_s - last.map_or(0.0, |last| last.t_s), &step.loads, out)?;
         if held.is_some() && !is_new {
-            // What nothing changes by itself is not solved again, but it may be held elsewhere.
+            // `wait` solves only for memories that change in time; the robot may be held elsewhere by now.
             out.work.history.dt_s = 0.0;
             self.reach(&step.loads, out, true)?;
         }
@@ -179,7 +179,7 @@ impl Model {
         terms.any(|term| term.memory().values > 0)
     }
 
-    /// Shortest time over which any term's memory changes by itself \[s\].
+    /// Shortest time over which any term's memory changes under constant loads \[s\].
     fn time_scale_s(&self) -> f64 {
         let terms = self.assembly().sites.iter().flat_map(|site| &site.body_terms);
         terms.fold(f64::INFINITY, |least, term| least.min(term.memory().time_s))

@@ -103,7 +103,7 @@ impl Lens {
     }
 
     /// The integrals in parts: where the fold is held, halved, and where it is open, ever finer towards the place where it begins to
-    /// be held: there the half height of a shallow fold is no longer large compared with its depth.
+    /// be held: there the half height of a shallow fold is of the size of its depth.
     pub(crate) fn sums(&self, fold_m: f64) -> Sums {
         let open = self.open_to(fold_m);
         let cuts = OPEN_CUTS.map(|share| share * open).into_iter().chain([0.5 * (1.0 + open), 1.0]);

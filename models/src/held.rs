@@ -1,6 +1,6 @@
 //! A robot held in a shape: the moment that would have to join the model's own for it to rest there.
 //!
-//! At equilibrium the moments of all terms cancel at every place. At another curvature they do not, and what is left is
+//! At equilibrium the moments of all terms cancel at every place. At another curvature they do not, and their sum is
 //! the **missing moment**
 //!
 //! ```text
@@ -26,7 +26,7 @@ use crate::term::Loads;
 
 impl Model {
     /// A scenario put together with the body cut at stations \[m\] too: each piece between two cuts is one segment, which can be
-    /// held at a curvature of its own.
+    /// held at its own curvature.
     pub fn in_pieces(scenario: &Scenario, stations_m: &[f64]) -> Model {
         let spans = scenario.spans();
         Model::with_segments(scenario, &spans, Some(pieces(&spans, stations_m)))
@@ -50,7 +50,7 @@ impl Model {
     }
 
     /// Walks a protocol as [`Model::follow`] does, the robot held at given curvatures in every step \[1/m\], one per segment;
-    /// what remembers, remembers these. [`Prediction::missing_moments`] says what would have to be added.
+    /// what remembers, remembers these. [`Prediction::missing_moments`] gives the moments that would have to be added.
     ///
     /// ```
     /// use models::{Loads, Model, Scenario, Step, shipped};
@@ -84,7 +84,7 @@ impl Model {
 }
 
 impl Prediction {
-    /// Moment per segment that would have to be added to those of the model's terms for it to rest where it is held
+    /// Moment per segment that would have to be added to the moments of the model's terms for it to rest where it is held
     /// ([`Model::hold`]) \[N·m\]; positive bends towards the actuator. NaN where the actuator cannot have this curvature.
     pub fn missing_moments(&self) -> &[f64] {
         &self.work.held.missing

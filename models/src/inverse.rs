@@ -69,18 +69,18 @@ impl Target {
 
     fn missed(self, found: &Reach, p_max_pa: f64) -> Unsolved {
         let (what, unit, factor) = self.words();
-        let wanted = self.value() * factor;
+        let target = self.value() * factor;
         match found {
             Reach::Gap { low, high, between } => {
                 let (low_kpa, high_kpa) = (low.0 / 1e3, high.0 / 1e3);
                 let (below, above) = (low.1 * factor, high.1 * factor);
-                Unsolved::Jump { what, wanted, unit, low_kpa, below, high_kpa, above, between }
+                Unsolved::Jump { what, target, unit, low_kpa, below, high_kpa, above, between }
             }
             _ => {
                 let (least, most) = if let Reach::Beyond { least, most } = found { (*least, *most) } else { NOWHERE };
-                // A zero of either sign is told as zero.
+                // A zero of either sign is reported as zero.
                 let (lowest, highest) = (least * factor + 0.0, most * factor + 0.0);
-                Unsolved::OutOfReach { what, wanted, lowest, highest, unit, p_max_kpa: p_max_pa / 1e3 }
+                Unsolved::OutOfReach { what, target, lowest, highest, unit, p_max_kpa: p_max_pa / 1e3 }
             }
         }
     }
@@ -95,12 +95,12 @@ impl Target {
 }
 
 impl Model {
-    /// Actuator pressure \[Pa\], the same in every channel, at which the tip is where it is wanted, to 1e-9 of it; `out` is
+    /// Actuator pressure \[Pa\], the same in every channel, at which the tip is at its target, to 1e-9 of it; `out` is
     /// then that state, on the first loading from rest. Searches 0 to [`Model::p_max_pa`]; where several pressures do it, one
     /// of them.
     ///
     /// # Errors
-    /// [`Unsolved::OutOfReach`] with the reachable range, [`Unsolved::Jump`] with both sides of what lies in between, or what
+    /// [`Unsolved::OutOfReach`] with the reachable range, [`Unsolved::Jump`] with both sides of the gap, or what
     /// [`Model::predict`] returns.
     pub fn pressure_for(&self, target: Target, p_body_pa: f64, out: &mut Prediction) -> Result<f64, Unsolved> {
         let most = self.p_max_pa();
@@ -243,9 +243,9 @@ mod tests {
         let text = text.replace("count = 6 ", "count = 40 ");
         let model = Model::new(&Scenario::parse(&text).unwrap());
         let mut state = model.prediction();
-        for wanted in [0.5, 1.0, 1.5] {
-            model.pressure_for(Target::TipHeight(wanted), 2e3, &mut state).unwrap();
-            assert!((state.tip.y_m - wanted).abs() < 1e-9, "{wanted}");
+        for height in [0.5, 1.0, 1.5] {
+            model.pressure_for(Target::TipHeight(height), 2e3, &mut state).unwrap();
+            assert!((state.tip.y_m - height).abs() < 1e-9, "{height}");
         }
     }
 }

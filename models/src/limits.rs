@@ -112,7 +112,7 @@ impl Model {
         let mut found: Vec<Beyond> = Vec::new();
         for (i, segment) in self.assembly().segments.iter().enumerate() {
             let share = share(i);
-            // Written so that what is no number is no limit.
+            // Written so that NaN does not count as a limit.
             if share < 1.0 || share.is_nan() {
                 continue;
             }

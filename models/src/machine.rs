@@ -10,7 +10,7 @@
 //! | U, a, ε | energy per flat length of all terms of the actuator, its coordinate, its contraction | J/m, rad or –, – |
 //! | η, η_ε, c/W | active shares of volume and stroke, compliance of the fabric: the linkage's | –, –, 1/N |
 //!
-//! The terms are those of the robot, held straight, without a body: no arm, no wall to be glued to, no body pressure. Effects that
+//! The terms of the robot act, held straight, without a body: no arm, no wall to be glued to, no body pressure. Effects that
 //! act through these change nothing here. **Validity**: one unit, slow pull; pressures as set, after the supply's laws.
 
 use crate::actuators::Actuator;

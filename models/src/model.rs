@@ -65,7 +65,7 @@ impl Model {
         Model::with_segments(scenario, &spans, None)
     }
 
-    /// The same with segments of its own.
+    /// The same with given segments.
     pub(crate) fn with_segments(scenario: &Scenario, spans: &[Span], segments: Option<Vec<Segment>>) -> Model {
         let mut assembly = assemble(scenario, spans, scenario.segments);
         add_effects(scenario, &mut assembly);
@@ -168,7 +168,7 @@ impl Model {
         lines
     }
 
-    /// Energies of the loads at node positions, less those of the straight robot.
+    /// Energies of the loads at node positions, less the straight robot's.
     fn node_energies(&self, nodes: &[f64], body_pa: f64, lines: &mut Vec<Row>) {
         let (pose, rest) = (Pose::new(nodes, body_pa, 0.0), self.rest_nodes());
         for term in &self.assembly.node_terms {
@@ -277,7 +277,7 @@ impl Model {
             post(term.line(), term.add(&pose, &mut unused));
         }
         for term in &site.body_terms {
-            // At the memory of this very state and without time: what is stored.
+            // At the memory of this very state and without time: the stored energy.
             (pose.memory, rest) = rest.split_at(term.memory().values.min(rest.len()));
             post(term.line(), term.add(&pose, &mut unused));
         }

@@ -2,7 +2,7 @@
 //! flat ends. All that is inside it is eliminated in closed form but one number, so the balance still sees one coordinate.
 //!
 //! ```text
-//! fabric      xᵤ = y − κh,  xₗ = y + κh            lengths of the free and the glued half, y that of the axis, h = 2r/π
+//! fabric      xᵤ = y − κh,  xₗ = y + κh            lengths of the free and the glued half, y of the axis, h = 2r/π
 //! yarns       m = cos²α₀ (x² − 1)/2 + sin²α₀ e     Green strain of both families; hoop strain e = (s − 1)/2, s = hoop stretch²
 //! shear       + ½ G_t sin²2α₀ (e − (x² − 1)/2)² over each half
 //! halves      Fᵤ/W = m²/c − ½τ s                   τ = P r₀ y: pressure work of half the tube, −½P v
@@ -132,7 +132,7 @@ struct Held<'a> {
 }
 
 impl Held<'_> {
-    /// Length of the axis at a shortening of each end over r, and those of both halves.
+    /// Lengths of the axis and of both halves at a shortening of each end over r.
     #[inline]
     fn lengths(&self, d: f64) -> [f64; 3] {
         let (y, bend) = (1.0 - self.line + self.gain * d, self.lever * self.line);
@@ -166,7 +166,7 @@ impl Held<'_> {
             let slope = self.gain * pull[1] - self.drive * end[1];
             let bend = self.gain * self.gain * pull[2] - self.drive * end[2];
             let step = -excess * slope / (slope * slope - 0.5 * excess * bend);
-            // What the next step would be, and what is left out here, is some ten times the cube of this one.
+            // The next step, left out here, would be some ten times the cube of this one.
             if step.abs() < LAST_STEP {
                 let moved = self.gain * step;
                 let at = |[f, by, bend]: [f64; 3]| f + moved * (by + 0.5 * moved * bend);
@@ -222,7 +222,7 @@ impl Muscle {
         (width * bends * (tube - ends), width * (held.lever * more - pull))
     }
 
-    /// v − v₀ and dv/dε of the tube with stiff yarns, which the term stands in for.
+    /// v − v₀ and dv/dε of the tube with stiff yarns, which the term replaces.
     fn stiff(&self, contraction: f64) -> (f64, f64) {
         let area = self.volume_gain * PI * self.radius_m.powi(2);
         let ([c2, s2], length) = (self.bias, 1.0 - contraction);

@@ -1,4 +1,4 @@
-//! Where a response over one pressure is what is wanted, or why it is nowhere: for what a quick search does not find.
+//! Pressure at which a response meets its target, or why there is none: for targets that a quick search does not find.
 
 /// A target missed by no more than this is met \[m or rad\]: far below any camera, far above rounding.
 pub(crate) const MET: f64 = 1e-9;
@@ -32,7 +32,7 @@ pub(crate) enum Reach {
     Nowhere,
 }
 
-/// A pressure from 0 to `most` at which `f` is `wanted`: the lowest that so many samples show.
+/// A pressure from 0 to `most` at which `f` meets its target: the lowest that so many samples show.
 pub(crate) fn reach(f: &mut dyn FnMut(f64) -> f64, wanted: f64, most: f64, samples: usize) -> Reach {
     let place = |i: usize| most * (i as f64 / (samples - 1) as f64).powi(3);
     let mut seen = Seen { wanted, gap: None, last: None, least: f64::INFINITY, most: f64::NEG_INFINITY };

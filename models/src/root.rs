@@ -33,7 +33,7 @@ const LAST_STEP: f64 = 1e-7;
 const LAST_ERROR: f64 = 1e-14;
 /// Part of the bracket below which x counts as zero when steps are compared with it.
 const FLOOR: f64 = 1e-6;
-/// A value beyond this, found by narrowing to rounding, is that of a pole: no root, and no moment of a law (SI).
+/// A value beyond this, found by narrowing to rounding, belongs to a pole: neither a root nor a moment of a law (SI).
 pub(crate) const POLE: f64 = 1e9;
 /// Evaluations after which the bracket must have halved, else it is halved.
 const PATIENCE: usize = 8;

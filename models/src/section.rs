@@ -54,7 +54,7 @@ impl Section {
         (self.area_m2, self.area_m2 * (self.centroid_m - radius_m))
     }
 
-    /// Moment of the gas that the section takes over that of the round body, Aȳ/(πR³).
+    /// Moment of the gas that the section takes, relative to the round body, Aȳ/(πR³).
     pub(crate) fn moment_share(&self, radius_m: f64) -> f64 {
         self.area_m2 * self.centroid_m / (PI * radius_m.powi(3))
     }

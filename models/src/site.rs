@@ -36,7 +36,7 @@ use std::f64::consts::PI;
 pub struct Site {
     /// Radius R of the inflated body \[m\].
     pub radius_m: f64,
-    /// Centre line: R from the taut generator, or as far as the scenario says.
+    /// Centre line: R from the taut generator, or at the scenario's distance.
     pub centre_line: CentreLine,
     /// Actuator kind, `None` on a passive stretch.
     pub actuator: Option<&'static Actuator>,
@@ -50,7 +50,7 @@ pub struct Site {
     pub channel: usize,
     /// Relation between the contraction of the actuator and the curvature of the body.
     pub linkage: Linkage,
-    /// Share χ of the actuator's volume that lies in the body and works against its pressure.
+    /// Share χ of the actuator's volume that is in the body and works against its pressure.
     pub inner_share: f64,
     /// Share of the sides that are gussets which their ends hold.
     pub gusset_share: f64,
@@ -58,7 +58,7 @@ pub struct Site {
     pub area_m2: f64,
     /// First moment of that area about the body's axis, towards the actuator \[m³\]: 0 of a circle.
     pub(crate) first_m3: f64,
-    /// What its terms do beside their energy.
+    /// What its terms do in addition to their energy.
     pub(crate) side_effects: SideEffects,
     /// Starts in place of the actuator's guess.
     starts: Option<Starts>,
@@ -167,7 +167,7 @@ impl SiteState {
 }
 
 impl Balance {
-    /// What is known at a state of equilibrium.
+    /// The balance at a state of equilibrium.
     fn at_state(state: &SiteState) -> Balance {
         let SiteState { coordinate, curvature, tension, weight, .. } = *state;
         Balance { coordinate, curvature, tension, imbalance: 0.0, d_curvature: 0.0, weight }

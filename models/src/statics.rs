@@ -1,8 +1,8 @@
-//! What a section can carry by statics: wall tensions that are not negative, and a pull of at most what the gas leaves it.
+//! Loads that a section can carry by statics: wall tensions that are not negative, and a pull of at most what the gas leaves it.
 //!
 //! ```text
 //! wall and pulls   Σ T + Σ N = p_b A + F         all T ≥ 0, all N ≥ 0
-//! moment           M = p_b m − (p_b A + F) q      q, the mean place of T and N over the axis, lies in the convex section K
+//! moment           M = p_b m − (p_b A + F) q      q, the mean place of T and N over the axis, is in the convex section K
 //! ```
 //!
 //! | symbol | meaning | unit |
@@ -46,7 +46,7 @@ fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 impl Statics<'_> {
     /// Moment of the loads over the one that the section can carry in its direction \[-\]: above 1 it has folded. Compression along the
-    /// axis beyond that of the gas folds it too.
+    /// axis beyond the gas's tension folds it too.
     pub(crate) fn share(self) -> f64 {
         let size = self.moment_nm[0].hypot(self.moment_nm[1]);
         let away = self.moment_nm.map(|m| -m / size);

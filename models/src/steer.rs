@@ -1,4 +1,4 @@
-//! Several supply channels: the pressures that bring the tip, or all markers, nearest to where they are wanted.
+//! Several supply channels: the pressures that bring the tip, or all markers, nearest to their targets.
 //!
 //! ```text
 //! least Σ |x(P) − x_wanted|²   over P₀ … P₃, each within its limits
@@ -44,7 +44,7 @@ pub enum End {
 pub struct Steered {
     /// Pressures of body and channels; 0 in a channel that feeds nothing.
     pub loads: Loads,
-    /// Distance from what is wanted, the root mean square over markers \[m\].
+    /// Distance from the aim, the root mean square over markers \[m\].
     pub miss_m: f64,
     /// The limit of each channel that keeps the robot from coming nearer.
     pub held: [Option<End>; CHANNELS],
@@ -77,7 +77,7 @@ impl Limits {
         Limits { least_pa: [0.0; CHANNELS], most_pa: [most_pa; CHANNELS] }
     }
 
-    /// Those of them that are at most `change_pa` from present pressures: a rate times the time of a cycle.
+    /// The limits narrowed to at most `change_pa` from present pressures: a rate times the time of a cycle.
     ///
     /// ```
     /// let near = models::Limits::up_to(50e3).near(&[10e3, 0.0, 0.0, 49e3], 2e3);
@@ -271,7 +271,7 @@ impl Search<'_> {
                     damping *= 10.0;
                 }
             }
-            // At the bottom of what is out of reach the cost only falls by its rounding.
+            // At the minimum for an aim out of reach the cost only falls by its rounding.
             if before - cost <= SETTLED * before {
                 break;
             }
@@ -325,7 +325,7 @@ impl Model {
     /// ```
     ///
     /// # Errors
-    /// [`Unsolved::BadAim`], a limit that is no pressure, or what [`Model::predict`] returns if nothing balances anywhere.
+    /// [`Unsolved::BadAim`], a limit that is not a pressure, or what [`Model::predict`] returns if nothing balances anywhere.
     pub fn steer(&self, aim: Aim, body_pa: f64, limits: &Limits, work: &mut Steering) -> Result<Steered, Unsolved> {
         self.planar("steering to a place")?;
         self.check_aim(&aim, body_pa, limits)?;
@@ -363,9 +363,9 @@ impl Model {
                 "the least pressure of a channel is above its largest"
             }
             Aim::Markers(places) if places.len() != self.marker_count() || places.is_empty() => {
-                "there must be one wanted place for each marker of the scenario"
+                "there must be one target place for each marker of the scenario"
             }
-            _ if !finite => "a wanted place is not a finite number of metres",
+            _ if !finite => "a target place is not a finite number of metres",
             _ => return Ok(()),
         };
         Err(Unsolved::BadAim { what })

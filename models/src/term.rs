@@ -63,7 +63,7 @@ impl<'a> Pose<'a> {
 /// Where a term is evaluated: coordinates, the two pressures of the place, and what the term remembers there.
 #[derive(Debug, Clone, Copy)]
 pub struct Pose<'a> {
-    /// Generalised coordinates; their meaning is that of the list the term is in.
+    /// Generalised coordinates; their meaning depends on the list the term is in.
     pub q: &'a [f64],
     /// Gauge pressure p_b in the body \[Pa\].
     pub p_body_pa: f64,
@@ -101,7 +101,7 @@ pub struct Extreme {
     pub kappa: f64,
     /// Bend of one actuator unit \[rad\].
     pub theta: f64,
-    /// Size of its moment there \[N·m\]; infinite where it is no number.
+    /// Size of its moment there \[N·m\]; infinite in place of NaN.
     pub moment: f64,
 }
 
@@ -121,7 +121,7 @@ pub trait Term: Send + Sync {
     }
 }
 
-/// A term over `[κ]` of the reduced model, which may remember the states before; nothing unless it says so.
+/// A term over `[κ]` of the reduced model, which may remember the states before; by default it remembers nothing.
 ///
 /// One with history returns its **incremental potential**: what it stores now and loses on the way from the state it
 /// remembers. At its new memory and without time it returns what it stores.

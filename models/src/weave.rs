@@ -11,12 +11,12 @@ pub struct Weave {
     pub flat_ends: f64,
     /// Area ΔA that the body's section loses to the muscle \[m²\].
     pub drawn_in_m2: f64,
-    /// Shear stiffness G t of its fabric \[N/m\], where the cell takes it over from a term of its own.
+    /// Shear stiffness G t of its fabric \[N/m\], where the cell takes it over from a separate term.
     pub shear_n_per_m: f64,
 }
 
 impl Weave {
-    /// Whether the cell stands in for the tube with stiff yarns.
+    /// Whether the cell replaces the tube with stiff yarns.
     pub(crate) fn is_cell(&self) -> bool {
         [self.compliance_m_per_n, self.wall_n_per_m, self.flat_ends] != [0.0; 3]
     }

@@ -158,7 +158,7 @@ fn a_wrong_case_is_shown_with_its_place_and_what_to_type() {
     refused("nu = 0.4 ", "nu = 1.4 ", &["nu must be from 0 to 0.5", "neo-hookean"]);
     refused("thickness_mm = 0.6 ", "thickness_mm = -0.6 ", &["not -0.6", "a negative value means nothing"]);
     refused("\"mid_edge\"]", "\"mid_edgs\"]", &["unknown node set `mid_edgs`", "centre_bottom, centre_top, corners"]);
-    refused("[chamber.air]", "[chamber.iar]", &["nothing says its pressure", "add [chamber.air]"]);
+    refused("[chamber.air]", "[chamber.iar]", &["`air` without a pressure", "add [chamber.air]"]);
     refused("elements = 8 ", "elements = 7 ", &["even"]);
     refused("generator = \"pillow\"", "file = \"no.mesh\"", &["unknown key of a mesh from a file", "side_mm"]);
     refused("end_s = 0.01", "end_s = 0.01\ndt_s = 0.005", &["not stable", "mass_scaling"]);
@@ -175,7 +175,7 @@ fn a_case_is_exported_for_another_solver_once_and_runs_from_the_mesh_of_that_fil
     assert_eq!((ran.code, ran.stdout.as_str()), (0, "ccx.inp: 130 nodes, 128 elements\n"), "{}", ran.stderr);
     let help = ["CalculiX does not read a.vtu", "end it with .inp"];
     refuse(&folder, &["simulate", "my.toml", "--export", "a.vtu", "--for", "calculix"], 2, &help);
-    refuse(&folder, &["simulate", "my.toml", "--export", "a.foo"], 2, &["no ending", ".vtu"]);
+    refuse(&folder, &["simulate", "my.toml", "--export", "a.foo"], 2, &["names no known format", ".vtu"]);
     refuse(&folder, &["simulate", "epam", "--seeds", "2", "--export", "b.inp"], 2, &["one run", "--seeds"]);
     let start = small().find("generator").unwrap();
     let end = small().find("[fabric").unwrap();

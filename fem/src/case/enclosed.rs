@@ -16,13 +16,13 @@ pub(super) fn chambers(raw: &Raw, file: &mut MeshFile) -> Checked<()> {
             walls(name, table, tables.len() == 1, file)?;
         } else if let Some(parts) = &table.get_ref().parts {
             let help = "remove parts: they are for mesh files, which name no chambers";
-            return refuse("the generator says itself which parts face the chamber", help, parts.span());
+            return refuse("the generator already names the parts that face the chamber", help, parts.span());
         }
     }
     Ok(())
 }
 
-/// Gives the walls of one chamber their side: as the case says, as a surface of the file says, or all parts for a single chamber.
+/// Gives the walls of one chamber their side: the case lists them, a surface of the file does, or all parts enclose a single chamber.
 fn walls(name: &Text, table: &Spanned<RawChamber>, is_single: bool, file: &mut MeshFile) -> Checked<()> {
     let all: Vec<String> = file.mesh.parts.iter().map(|part| part.name.clone()).collect();
     let parts = match &table.get_ref().parts {
@@ -32,7 +32,7 @@ fn walls(name: &Text, table: &Spanned<RawChamber>, is_single: bool, file: &mut M
             None if is_single => all.clone(),
             None if all.contains(name.get_ref()) => vec![name.get_ref().clone()],
             None => {
-                let message = format!("nothing says which parts enclose chamber `{}`", name.get_ref());
+                let message = format!("the parts that enclose chamber `{}` are not given", name.get_ref());
                 let help = format!("add parts = [\"{}\", …] to it; the parts are {}", all[0], all.join(", "));
                 return refuse(message, help, name.span());
             }

@@ -16,7 +16,7 @@ use toml::{Spanned, Value};
 /// Fabrics made so far, by name.
 pub(super) type Fabrics = BTreeMap<String, Arc<dyn Fabric>>;
 
-/// Makes all `[fabric.NAME]`; those of plies after the ones they are made of.
+/// Makes all `[fabric.NAME]`; a laminate comes after the fabrics of its plies.
 pub(super) fn fabrics(tables: &BTreeMap<Text, Spanned<Free>>) -> Checked<Fabrics> {
     let mut made = Fabrics::new();
     let names: Vec<&str> = tables.keys().map(|name| name.get_ref().as_str()).collect();
@@ -97,7 +97,7 @@ fn fabric(table: &Spanned<Free>, plies: &[RawPly], made: &Fabrics) -> Checked<Ar
     (law.make)(&recipe).map_err(|message| FemError::case(message, table.span()))
 }
 
-/// The law, and the recipe to start from: empty, or that of a known material.
+/// The law, and the recipe to start from: empty, or the recipe of a known material.
 fn law(table: &Spanned<Free>) -> Checked<(&'static Law, Recipe)> {
     let laws: Vec<&str> = FABRICS.iter().map(|l| l.name).collect();
     let materials: Vec<&str> = MATERIALS.iter().map(|m| m.name).collect();

@@ -42,7 +42,7 @@ pub(super) fn chambers(raw: &Raw, mesh: &Mesh) -> Checked<Vec<Chamber>> {
     let known: BTreeSet<&str> = mesh.parts.iter().flat_map(|p| [&p.front, &p.back]).flatten().map(|c| &**c).collect();
     let list: Vec<&str> = known.iter().copied().collect();
     if let Some(name) = known.iter().find(|c| !raw.chamber.keys().any(|k| k.get_ref() == **c)) {
-        let message = format!("the mesh has a chamber `{name}`, and nothing says its pressure");
+        let message = format!("the mesh has a chamber `{name}` without a pressure");
         return refuse(message, format!("add [chamber.{name}] with pressure_kPa = 0 or more"), raw.mesh.span());
     }
     let build = |(name, table): (&Text, &Spanned<RawChamber>)| {
@@ -157,7 +157,7 @@ pub(super) fn vacuum(raw: &Raw, chambers: &[Chamber]) -> Option<String> {
     ))
 }
 
-/// Supports; an encastre one gets a node set of its own in the mesh.
+/// Supports; an encastre one gets its own node set in the mesh.
 pub(super) fn supports(raw: &Raw, mesh: &mut Mesh) -> Checked<Vec<Support>> {
     raw.support.iter().map(|s| support(s, mesh)).collect()
 }
@@ -192,7 +192,7 @@ fn axes(key: &str, text: &Text) -> Checked<[bool; 3]> {
 /// Adds the set of an edge that cannot turn, and names it.
 pub(crate) fn encastre(mesh: &mut Mesh, set: &str) -> String {
     let wider = with_next_row(mesh, &mesh.sets[set]);
-    let name = format!("{set} and the row beside it");
+    let name = format!("{set} and the row next to it");
     mesh.sets.insert(name.clone(), wider);
     name
 }

@@ -151,12 +151,12 @@ pub(super) fn mesh(table: &Spanned<Free>, read_mesh: ReadMesh) -> Checked<MeshFi
         (None, Some(file)) => from_file(table, &file, read_mesh),
         (Some(name), None) => generated(table, &name).map(MeshFile::from),
         (None, None) => {
-            refuse("[mesh] says no shape", "write generator = \"pillow\" or file = \"robot.inp\"", table.span())
+            refuse("[mesh] has no shape", "write generator = \"pillow\" or file = \"robot.inp\"", table.span())
         }
     }
 }
 
-/// What to do about a mesh that is no sheet, below what is wrong with it.
+/// Help below the fault of a mesh that is not a sheet.
 const CORRECT: &str = "\ncorrect the mesh: its file, or the values of its generator";
 
 /// Refuses a mesh that cannot be simulated: bad elements, chambers that leak.
@@ -202,11 +202,11 @@ fn open_axis<'a>(mesh: &Mesh, chambers: &[&'a str]) -> Option<(&'a str, &'static
 }
 
 /// A text of the table, if it is there.
-fn entry(table: &Spanned<Free>, wanted: &str) -> Checked<Option<Text>> {
-    let Some(value) = find(table.get_ref(), wanted) else { return Ok(None) };
+fn entry(table: &Spanned<Free>, key: &str) -> Checked<Option<Text>> {
+    let Some(value) = find(table.get_ref(), key) else { return Ok(None) };
     match value.get_ref() {
         Value::String(text) => Ok(Some(Spanned::new(value.span(), text.clone()))),
-        _ => refuse(format!("{wanted} must be a text"), format!("for example {wanted} = \"pillow\""), value.span()),
+        _ => refuse(format!("{key} must be a text"), format!("for example {key} = \"pillow\""), value.span()),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The TOML file that describes a finite element run.
 //!
 //! Kilopascals, megapascals, millimetres and degrees exist here only, with the unit in the key; what comes out is SI.
-//! Every fault is a [`FemError::Case`] with its place; the first line of its message says what is wrong, the second
+//! Every fault is a [`FemError::Case`] with its place; the first line of its message names the fault, the second
 //! what to type. All keys: `docs/case.md`.
 
 mod enclosed;
@@ -46,7 +46,7 @@ pub const SHIPPED_CASES: &[(&str, &str)] = &[
     ("blocked-pouch", include_str!("../../cases/blocked-pouch.toml")),
 ];
 
-/// True if the text says that it is a finite element case, whether or not it is a right one.
+/// True if the text has the tables of a finite element case, whether or not the case is valid.
 ///
 /// ```
 /// assert!(fem::case::is_case("kind = \"fem\"\n[mesh]\n") && !fem::case::is_case("[body]\nkind = \"fem\"\n"));
@@ -64,7 +64,7 @@ impl Case {
     /// Reads a case from TOML text. A mesh file is read through `read_mesh`; this function touches no file itself.
     ///
     /// # Errors
-    /// [`FemError::Case`] with the place of what is wrong; an error in the mesh file itself as `read_mesh` gives it.
+    /// [`FemError::Case`] with the place of the fault; an error in the mesh file itself as `read_mesh` gives it.
     pub fn parse(text: &str, read_mesh: ReadMesh) -> Result<Case, FemError> {
         let raw = raw::read(text)?;
         range::choice("kind", &raw.kind, &[("fem", ())])?;

@@ -54,7 +54,7 @@ pub(crate) const fn plain(low: f64, high: f64, usual: &'static str) -> Range {
     Range::plain(low, high, usual)
 }
 
-/// A refusal: what is wrong, what to type, where.
+/// A refusal: the fault, what to type, and where.
 pub(crate) fn refuse<T>(message: impl AsRef<str>, help: impl AsRef<str>, span: Span<usize>) -> Checked<T> {
     Err(FemError::case(format!("{}\n{}", message.as_ref(), help.as_ref()), span))
 }
@@ -63,7 +63,7 @@ pub(crate) fn si(key: &str, value: &Num, range: &Range) -> Checked<f64> {
     number(key, *value.get_ref(), value.span(), range)
 }
 
-/// A number in SI, whose place is that of a larger thing.
+/// A number in SI; an error points to `span`, the larger entry that contains it.
 pub(crate) fn number(key: &str, v: f64, span: Span<usize>, range: &Range) -> Checked<f64> {
     range.si(key, v).or_else(|(message, help)| refuse(message, help, span))
 }
@@ -184,13 +184,13 @@ pub(crate) fn find<'a>(table: &'a Free, wanted: &str) -> Option<&'a Spanned<Valu
     table.iter().find(|(key, _)| key.get_ref() == wanted).map(|(_, value)| value)
 }
 
-/// A switch; `without` says what happens without it.
+/// A switch; `without` describes what happens without it.
 pub(crate) fn switch(name: &str, value: &Spanned<Value>, without: &str) -> Checked<bool> {
     let refused = || refuse(format!("{name} must be true or false"), format!("leave it out: {without}"), value.span());
     value.get_ref().as_bool().map_or_else(refused, Ok)
 }
 
-/// Says that a name is not known, which are, and which was probably meant.
+/// Message for an unknown name: it lists the known names and the one probably meant.
 pub(crate) fn unknown(what: &str, wrong: &str, known: &[&str]) -> String {
     let list = known.join(", ");
     match nearest(wrong, known) {
@@ -209,7 +209,7 @@ pub struct Key<S: 'static> {
     pub si: f64,
     /// Accepted numbers, as in the file.
     pub bounds: [f64; 2],
-    /// What it is, and what is usual.
+    /// Meaning, and usual values.
     pub meaning: &'static str,
     /// Reads it \[SI\], if it is set.
     pub get: fn(&S) -> Option<f64>,

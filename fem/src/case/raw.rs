@@ -1,4 +1,4 @@
-//! The TOML text as it stands: keys with units, every value with its place.
+//! The TOML text as written: keys with units, every value with its place.
 
 use super::range::{Checked, Free, Num, Rows, Text, unknown};
 use crate::FemError;

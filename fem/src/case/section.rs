@@ -20,7 +20,7 @@ pub(super) fn forget_warps(raw: &Raw, mesh: &mut Mesh) {
     mesh.parts.iter_mut().filter(replaced).for_each(|part| part.warp.clear());
 }
 
-/// One section per part of the mesh, in its order; parts get their warp. `unread` is what a file says of the warp and is not understood.
+/// One section per part of the mesh, in its order; parts get their warp. `unread`: orientations of the mesh file that were not understood.
 pub(super) fn sections(raw: &Raw, mesh: &mut Mesh, unread: &[(String, String)]) -> Checked<Vec<Section>> {
     let fabrics = law::fabrics(&raw.fabric)?;
     let mut known: Vec<&str> = mesh.parts.iter().map(|p| p.name.as_str()).collect();
@@ -80,7 +80,7 @@ fn entry<'a>(raw: &'a Raw, part: &Part) -> Checked<&'a Spanned<RawPart>> {
     match named(&part.name).or_else(|| named(ALL)) {
         Some(table) => Ok(table),
         None => {
-            let message = format!("the mesh has a part `{}`, and nothing says how it is made", part.name);
+            let message = format!("the mesh has a part `{}` without a fabric", part.name);
             let help = format!("add [part.{}], or [part.all] for all parts without their own", part.name);
             refuse(message, help, raw.mesh.span())
         }
@@ -107,7 +107,7 @@ fn plies(table: &Spanned<RawPart>, fabrics: &Fabrics) -> Checked<Vec<Ply>> {
         }
         (None, Some(plies)) => {
             if let Some(angle) = &raw.angle_deg {
-                return refuse("angle_deg beside plies", "write the angle into each ply", angle.span());
+                return refuse("angle_deg together with plies", "write the angle into each ply", angle.span());
             }
             plies.get_ref().iter().map(|p| ply(&p.fabric, &p.angle_deg, fabrics)).collect()
         }

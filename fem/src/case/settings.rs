@@ -17,7 +17,7 @@ use toml::{Spanned, Value};
 pub(super) const NUMBERS: &[Key<Settings>] = &[
     key("end_s", 1.0, [1e-6, 1000.0], "a run needs some time, in seconds; 1.1 is the paper's", |s| Some(s.end_s), |s, v| s.end_s = v),
     key("cfl", 1.0, [0.01, 1.0], "0.9 is usual, 0.7 where fabric strains exceed 10 %", |s| Some(s.cfl), |s, v| s.cfl = v),
-    key("dt_s", 1.0, [1e-10, 0.01], "leave it out: the stable step is found by itself, usually some microseconds",
+    key("dt_s", 1.0, [1e-10, 0.01], "leave it out: the program finds the stable step, usually some microseconds",
         |s| s.dt_s, |s, v| s.dt_s = Some(v)),
     key("target_step_s", 1.0, [1e-10, 0.01], "the step for which masses are raised, usually some microseconds",
         |s| match s.mass_scaling { MassScaling::TargetStep(dt) => Some(dt), _ => None },
@@ -56,7 +56,7 @@ fn quasi_static() -> Settings {
     Settings { mass_scaling: MassScaling::Fixed(10.0), ..paper() }
 }
 
-/// Settings of a run; what is not given comes from the preset, or from [`Settings::default`].
+/// Settings of a run; missing keys come from the preset, or from [`Settings::default`].
 pub(super) fn settings(table: &Free) -> Checked<Settings> {
     type Preset = fn() -> Settings;
     let presets: [(&str, Preset); 2] = [("paper", paper), ("quasi-static", quasi_static)];
@@ -100,7 +100,7 @@ fn mass_scaling(value: &Spanned<Value>) -> Checked<MassScaling> {
         Value::Float(factor) => *factor,
         other => {
             let message = format!("mass_scaling = {other} is not understood");
-            let help = "write \"none\" or a factor such as 10; for a wanted step write target_step_s = 4e-6 instead";
+            let help = "write \"none\" or a factor such as 10; for a target step write target_step_s = 4e-6 instead";
             return refuse(message, help, value.span());
         }
     };

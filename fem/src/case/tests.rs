@@ -285,7 +285,7 @@ fn what_is_missing_or_said_twice_is_named() {
         ("fabric = \"stack\"\nangle_deg = 30\n", "", "part.all", &["without fabric"]),
         ("law = \"isotropic\"\n", "", "fabric.film", &["without law", "isotropic", "tpu-nylon"]),
         ("side_mm = 400\n", "", "[mesh]", &["lacks side_mm", "add side_mm"]),
-        ("generator = \"pillow\"\n", "", "[mesh]", &["says no shape", "generator ="]),
+        ("generator = \"pillow\"\n", "", "[mesh]", &["has no shape", "generator ="]),
         ("gap_mm = 0.01\n[fabric", "file = \"a.mesh\"\n[fabric", "a.mesh", &["at once"]),
         ("axes = \"xy\"", "axes = \"xq\"", "xq", &["not understood", "\"xyz\""]),
         ("axes = \"xy\"", "axes = \"\"", "\"\"", &["not understood"]),

@@ -77,14 +77,14 @@ fn to_side<S: Simd>(simd: S, r: [V<S>; 3], e: [V<S>; 3]) -> V<S> {
     inner(q, q)
 }
 
-/// Squared height over the triangle of e₁ and e₂, or `beside` where the point is not above its inside.
+/// Squared height over the triangle of e₁ and e₂, or `outside` where the point is not above its inside.
 #[inline(always)]
-fn above<S: Simd>(r: [V<S>; 3], e1: [V<S>; 3], e2: [V<S>; 3], beside: V<S>) -> V<S> {
+fn above<S: Simd>(r: [V<S>; 3], e1: [V<S>; 3], e2: [V<S>; 3], outside: V<S>) -> V<S> {
     let m = product(e1, e2);
     let square = inner(m, m);
     let (w1, w2) = (inner(product(r, e2), m), inner(product(e1, r), m));
     let height = inner(r, m);
-    w1.min(w2).min(square - w1 - w2).choose(height * height * square.inverse(), beside)
+    w1.min(w2).min(square - w1 - w2).choose(height * height * square.inverse(), outside)
 }
 
 #[cfg(test)]
@@ -115,8 +115,8 @@ mod tests {
         let questions = Questions { surface: &surface, x: &x, asked: &asked, square_m2: &mut square_m2 };
         pulp::Arch::new().dispatch(questions);
         for (q, got) in asked.iter().zip(square_m2.as_flattened()) {
-            let wanted = nearest(&surface, &x, node(&x, q.node as usize), q.element).square_m2;
-            assert!((got - wanted).abs() <= 1e-12 * wanted.max(1.0), "{got} {wanted}");
+            let expected = nearest(&surface, &x, node(&x, q.node as usize), q.element).square_m2;
+            assert!((got - expected).abs() <= 1e-12 * expected.max(1.0), "{got} {expected}");
         }
     }
 }

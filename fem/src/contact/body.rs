@@ -1,4 +1,4 @@
-//! Layers, what is remembered of pairs, and the search for those that may touch.
+//! Layers, the memory of pairs, and the search for pairs that may touch.
 
 use super::build::{self, Memory, Penalty};
 use super::chunk::Chunk;

@@ -21,7 +21,7 @@ pub(super) struct Penalty {
     pub damping_1_s: f64,
 }
 
-/// Chunks of records for `pairs` (those of a node together); `old` are the records so far. The second result is the energy
+/// Chunks of records for `pairs` (grouped by node); `old` are the records so far. The second result is the energy
 /// of elastic slides that were dropped \[J\].
 pub(super) fn chunks(surface: &Surface, pairs: &[(u32, u32)], old: &Memory, penalty: &Penalty) -> (Vec<Chunk>, f64) {
     let mut gone: Vec<bool> = vec![true; old.place.len()];
@@ -40,7 +40,7 @@ pub(super) fn chunks(surface: &Surface, pairs: &[(u32, u32)], old: &Memory, pena
 /// Pairs that one thread takes at once; fixed, so that chunks do not depend on the number of threads.
 const PIECE: usize = 16_384;
 
-/// About as many pairs each; those of a node stay together.
+/// About as many pairs each; the pairs of a node stay together.
 fn pieces(mut pairs: &[(u32, u32)]) -> Vec<&[(u32, u32)]> {
     let mut pieces = Vec::new();
     while pairs.len() > PIECE {
@@ -84,7 +84,7 @@ pub(super) struct Memory {
     chunks: Vec<Chunk>,
     /// Chunk, first record and number of records of every node.
     place: Vec<[u32; 3]>,
-    /// What was no candidate is no closer than this.
+    /// Least distance of a pair that was not a candidate.
     clear_m: f64,
 }
 

@@ -19,7 +19,7 @@ const EARLY: f64 = 0.3;
 #[derive(Debug, Clone, Copy, Default, serde::Serialize, serde::Deserialize)]
 pub(super) struct Candidate {
     pub element: u32,
-    /// Distance when it was measured, plus the way of the chunk then: it is no closer than this less the way now.
+    /// Distance when it was measured, plus the way of the chunk then; this less the way now is a lower bound.
     pub(crate) clear_m: f64,
 }
 

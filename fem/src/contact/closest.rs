@@ -3,7 +3,7 @@
 use super::surface::{NONE, Surface};
 use crate::vec3::{V3, add, along, cross, dot, node, norm, scale, sub, unit};
 
-/// Where on an element the closest point lies, and how the distance from it is measured until the next look.
+/// Where on an element the closest point is, and how the distance from it is measured until the next look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[repr(u8)]
 pub(super) enum Feature {
@@ -127,7 +127,7 @@ pub(super) fn describe(
     if free == 3 || aside <= flat_m * flat_m {
         return face;
     }
-    // The edge lies opposite the corner without weight.
+    // The edge is opposite the corner without weight.
     let first = (0..3).find(|k| if free == 2 { w[(k + 2) % 3] == 0.0 } else { w[*k] > 0.0 }).unwrap_or(2);
     let corners = [0, 1, 2].map(|k| triangle[(first + k) % 3]);
     let feature = if free == 2 { Feature::Edge } else { Feature::Corner };

@@ -22,8 +22,8 @@
 //! one, so a tube may fold onto itself. A run starts without contact force: see `start`.
 //!
 //! **Energy.** Changing from face to face, or a side judged wrongly in a crumple, must not create energy: at such a
-//! change the rest gap is lowered so that the depth stays; it grows back to what is wanted when the pair is apart. What
-//! that loses, and what a time step takes or gives that begins or ends within the gap, is in `contact damping`.
+//! change the rest gap is lowered so that the depth stays; it grows back to its target when the pair is apart. The energy
+//! that this loses, and the gain or loss of a time step that begins or ends within the gap, are in `contact damping`.
 //!
 //! **Cost.** Candidates are found by a search that is repeated only when nodes moved half the skin. A record is looked at
 //! when it may have moved far enough to matter, against what its chunk, a compact stretch of a layer, moved; candidates

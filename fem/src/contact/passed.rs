@@ -2,8 +2,8 @@
 //!
 //! A node remembers its side of another layer from when it came near until it is away again or has gone round the layer's
 //! rim. Where a look finds it behind the closest face by more than `thickness_m`, and so by far more than springs give way,
-//! it has come through: its spring pulls it back, or it goes on and is forgotten. Within one layer, whose own folds leave
-//! less to tell front from back, nothing is counted; nor with `edges`, where nothing passes.
+//! it has come through: its spring pulls it back, or it goes on and is forgotten. Within one layer, whose own folds hardly
+//! separate front from back, nothing is counted; nor with `edges`, where nothing passes.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;

@@ -43,15 +43,15 @@ pub(super) struct Record {
     pub count: u32,
     /// Sign that turns the measured distance into one that grows away from the layer on the remembered side.
     pub sign: f64,
-    /// Distance that is kept now, and the one that is wanted \[m\].
+    /// Distance that is kept now, and its target \[m\].
     pub(crate) rest_m: f64,
     pub wanted_m: f64,
     pub(crate) stiffness_n_m: f64,
     pub(crate) damping_n_s_m: f64,
     /// Distance at the last look \[m\].
     pub distance_m: f64,
-    /// Distance of the closest point at the last look, less the way of the chunk then: it is no farther off than this and
-    /// the way now.
+    /// Distance of the closest point at the last look, less the way of the chunk then; this plus the way now
+    /// is an upper bound.
     pub(crate) within_m: f64,
     /// Way of the chunk at which to look again.
     pub(crate) due_m: f64,
@@ -72,7 +72,7 @@ impl Record {
         self.damped_n != 0.0 || self.spring_m != [0.0; 3]
     }
 
-    /// Way to go until it touches, as far as the last look told; the distance of an undecided pair.
+    /// Way to go until it touches, by the last look; the distance of an undecided pair.
     pub(super) fn gap_m(&self) -> f64 {
         if self.side == 0 { self.distance_m } else { self.distance_m - self.rest_m }
     }
@@ -126,7 +126,7 @@ impl Record {
         self.sign = match self.feature {
             Feature::Face => side,
             _ if reach.solid => side.abs(),
-            // Around a sharp fold the mean normal says little: a node that was on its side is still there.
+            // Around a sharp fold the mean normal is unreliable: a node that was on its side is still there.
             _ if behind && found.cosine.abs() > 0.05 => -side.abs(),
             _ => side.abs(),
         };

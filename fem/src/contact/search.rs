@@ -69,7 +69,7 @@ fn ask(
     let limit = (far.sqrt() + radius_m).powi(2);
     let (low, high) = (low.map(|v| v - radius_m), high.map(|v| v + radius_m));
     for nodes in grid.rows(low, high) {
-        // Written without jumps: most nodes are missed, and nobody can tell which.
+        // Written without jumps: most nodes are missed, and branch prediction fails.
         let mut end = out.len();
         out.resize(end + nodes.len(), (NONE, NONE));
         for Placed { place: p, item: node } in nodes {
@@ -98,7 +98,7 @@ pub(super) struct Grid {
     points: Vec<Placed>,
 }
 
-/// A point, and what it stands for.
+/// A point, and its node or element.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Placed {
     pub place: V3,
@@ -142,8 +142,8 @@ impl Grid {
         i * self.count[1] + j
     }
 
-    /// Points of all columns that a box from `low` to `high` meets, row by row: columns hold few points and those of a row
-    /// lie together, so that looking at all of them is faster than looking for the first and the last.
+    /// Points of all columns that a box from `low` to `high` meets, row by row: columns hold few points, and the columns of a row
+    /// are consecutive, so that looking at all of them is faster than looking for the first and the last.
     pub(super) fn rows(&self, low: V3, high: V3) -> impl Iterator<Item = &[Placed]> {
         let (from, to) = (self.column_of(low), self.column_of(high));
         (from[0]..=to[0]).map(move |i| {

@@ -1,10 +1,10 @@
 //! Sides and rest gaps of layers that are close to each other when a run starts.
 //!
-//! The side is what the positions say, averaged over the neighbourhood so that small imperfections of coincident layers
+//! The side follows from the positions, averaged over the neighbourhood so that small imperfections of coincident layers
 //! do not matter. Where layers coincide (closer than `gap_m`) the side spreads from where they do not; if they coincide
 //! everywhere the declarations decide, in this order: two parts with a
-//! chamber between them (named by both) lie on that chamber's side of each other; otherwise the layer with the higher
-//! number lies in front of the one with the lower number; a layer that coincides with itself has its back inside.
+//! chamber between them (named by both) are on that chamber's side of each other; otherwise the layer with the higher
+//! number is in front of the one with the lower number; a layer that coincides with itself has its back inside.
 //! The rest gap is the initial distance or `gap_m`, whichever is smaller, so that nothing pushes at the start.
 
 use super::body::Contact;
@@ -65,7 +65,7 @@ pub(super) fn sides(
     crossings(contact, mesh, &entries, &of_node, &side)
 }
 
-/// Records within reach whose side can be told.
+/// Records within reach whose side is clear.
 fn entries(contact: &Contact, settings: &problem::Contact, x: &[[f64; 4]]) -> Vec<Entry> {
     let step = contact.step_of(x, 0.0);
     let cut = 4.0 * settings.gap_m.max(1e-9);
@@ -111,7 +111,7 @@ fn mean(contact: &Contact, entries: &[Entry], of_node: &Lists, entry: &Entry) ->
     sum / count
 }
 
-/// Gives undecided entries the side of decided ones beside them, ring after ring.
+/// Gives undecided entries the side of decided neighbours, ring after ring.
 fn spread(contact: &Contact, entries: &[Entry], of_node: &Lists, side: &mut [i8]) {
     let mut front: Vec<usize> = (0..entries.len()).filter(|i| side[*i] != 0).collect();
     while !front.is_empty() {

@@ -19,7 +19,7 @@ pub(super) struct Surface {
     pub around: Lists,
     /// Number of nodes that have some.
     pub nodes: usize,
-    /// Nodes of its own layer that never touch an element, ascending: two rings.
+    /// Nodes of an element's layer that never touch it, ascending: two rings.
     pub skip: Lists,
     /// Place of each node in an order that keeps neighbours of a layer together.
     pub rank: Vec<u32>,

@@ -15,7 +15,7 @@ type Neighbours = BTreeMap<usize, Vec<(usize, bool)>>;
 /// Makes parts the walls of a chamber with the gas inside; gives how many elements were turned over for it.
 ///
 /// A part whose elements all look inwards has the chamber in front. Where a part is at odds with itself, the fewer ones of its
-/// elements are turned. Whether the chamber is closed, [`super::check::check`] says.
+/// elements are turned. [`super::check::check`] finds out whether the chamber is closed.
 ///
 /// # Errors
 /// [`FemError::Mesh`] for a part that would have two chambers on one side, or that two chambers want turned in different ways.
@@ -79,7 +79,7 @@ fn outward(mesh: &Mesh, faces: &[Face], open: [bool; 3]) -> Vec<bool> {
         let signed = |(axes, origin): &(Vec<usize>, [f64; 3])| {
             signed_volume(mesh, sheet.iter().zip(&ways).map(way_of), axes, *origin)
         };
-        // A flat pouch has no inside yet: most of its elements look as the file says.
+        // A flat pouch has no inside yet: most of its elements keep the orientation of the file.
         let majority = 2 * ways.iter().filter(|way| **way).count() >= ways.len();
         let right = match counted.as_ref().map(signed) {
             Some((volume, true)) => volume > 0.0,

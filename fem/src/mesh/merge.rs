@@ -4,7 +4,7 @@ use super::Mesh;
 use crate::FemError;
 
 impl Mesh {
-    /// Adds another mesh beside this one. Part names must differ; sets of the same name unite, and a chamber named by both
+    /// Adds another mesh to this one. Part names must differ; sets of the same name unite, and a chamber named by both
     /// is one chamber. Nothing is welded.
     ///
     /// # Errors

@@ -61,7 +61,7 @@ pub struct Part {
 /// A node that follows a point of an element.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tie {
-    /// Node that follows, with no degrees of freedom of its own.
+    /// Node that follows, without degrees of freedom.
     pub node: u32,
     /// The nodes it follows and their weights (sum 1).
     pub to: Vec<(u32, f64)>,
@@ -120,7 +120,7 @@ impl Mesh {
             Some(_) => Err(FemError::Problem(format!("{what}: node set `{name}` is empty"))),
             None => {
                 let known = self.sets.keys().map(String::as_str).collect::<Vec<_>>().join(", ");
-                let message = format!("{what}: there is no node set `{name}`; the mesh has {known}");
+                let message = format!("{what}: unknown node set `{name}`; the mesh has {known}");
                 Err(FemError::Problem(message))
             }
         }

@@ -14,7 +14,7 @@
 //! | wᵢ | weight of node i | – |
 //!
 //! On a ring of nodes this is the mean weighted by arc length. **Validity**: exact for any affine motion of the section;
-//! sections are those of the parts named, so that pouches or folds beside a tube need not count. Derived here.
+//! sections cut the named parts only, so that pouches or folds next to a tube need not count. Derived here.
 //!
 //! [`CentreLine::seen`] follows one point of every section instead, where a marker sticks: a wall that an actuator draws in moves
 //! the centroid of its section, but not the markers on its side.
@@ -47,7 +47,7 @@ impl CentreLine {
     /// Sections of the parts named in `parts` (all if empty) at `stations_m` \[m\] along `axis` (any length, e.g. x).
     ///
     /// # Errors
-    /// [`FemError::Problem`] for an unknown part, an axis without direction, or a station beside the mesh.
+    /// [`FemError::Problem`] for an unknown part, an axis without direction, or a station outside the mesh.
     pub fn new(mesh: &Mesh, parts: &[String], axis: V3, stations_m: &[f64]) -> Result<CentreLine, FemError> {
         let sections = Sections::of(mesh, parts, axis)?;
         let [from, to] = sections.range.map(|m| m * 1e3);
@@ -68,7 +68,7 @@ impl CentreLine {
         CentreLine::made(mesh, stations_m, |s| sections.facing(s, eye, side), hidden)
     }
 
-    /// `missing` says of a station \[mm\] why it has no weights.
+    /// `missing` gives the reason why a station \[mm\] has no weights.
     fn made(
         mesh: &Mesh,
         stations_m: &[f64],
@@ -139,7 +139,7 @@ fn choose<'a>(mesh: &'a Mesh, names: &[String]) -> Result<Vec<&'a Part>, FemErro
     let find = |name: &String| {
         mesh.parts.iter().find(|part| part.name == *name).ok_or_else(|| {
             let known: Vec<&str> = mesh.parts.iter().map(|part| part.name.as_str()).collect();
-            FemError::Problem(format!("centre line: there is no part `{name}`; the mesh has: {}", known.join(", ")))
+            FemError::Problem(format!("centre line: unknown part `{name}`; the mesh has: {}", known.join(", ")))
         })
     };
     names.iter().map(find).collect()
@@ -165,7 +165,7 @@ impl<'a> Sections<'a> {
         let chosen = choose(mesh, parts)?;
         let length = norm(axis);
         if !(length > 0.0 && length.is_finite()) {
-            return Err(FemError::Problem(format!("centre line: {axis:?} is no direction, write [1, 0, 0] for x")));
+            return Err(FemError::Problem(format!("centre line: {axis:?} is not a direction, write [1, 0, 0] for x")));
         }
         let along = |p: &V3| dot(*p, axis) / length;
         let coordinates: Vec<f64> = mesh.points.iter().map(along).collect();
@@ -205,7 +205,7 @@ impl<'a> Sections<'a> {
         segments
     }
 
-    /// Weights of the section at `station`; `None` beside the mesh.
+    /// Weights of the section at `station`; `None` outside the mesh.
     fn weights(&self, station: f64) -> Option<Weights> {
         let mut sums: BTreeMap<u32, f64> = BTreeMap::new();
         let mut total = 0.0;
@@ -220,7 +220,7 @@ impl<'a> Sections<'a> {
         (total > 0.0).then(|| sums.into_iter().filter(|w| w.1 != 0.0).map(|(i, w)| (i, w / total)).collect())
     }
 
-    /// Weights of the point of the section at `station` that lies towards `eye`, where `side` (across both) changes sign.
+    /// Weights of the point of the section at `station` that faces `eye`, where `side` (across both) changes sign.
     fn facing(&self, station: f64, eye: [f64; 3], side: [f64; 3]) -> Option<Weights> {
         for segment in self.cuts(station) {
             let [a, b] = segment.map(|cut| self.point(cut));

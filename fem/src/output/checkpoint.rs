@@ -27,7 +27,7 @@ const END: &str = "checkpoint.end";
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Checkpoint {
-    /// Number that stands for the problem; a run of another problem must not go on from here.
+    /// Hash of the problem; a run of another problem must not resume from here.
     pub fingerprint: u64,
     pub step: u64,
     pub time_s: f64,
@@ -40,7 +40,7 @@ pub(crate) fn write_checkpoint(folder: &Path, checkpoint: &Checkpoint) -> Result
     write_through(folder, checkpoint, &mut |out, bytes| out.write_all(bytes))
 }
 
-/// A checkpoint; with what to tell the user if the newest one was not good, and this is the one before it.
+/// A checkpoint; with a notice for the user if the newest one was damaged, and this is the one before it.
 type Loaded = (Checkpoint, Option<String>);
 
 /// Reads the newest good checkpoint of the problem with this `fingerprint`; `None` if the folder has none.
@@ -69,7 +69,7 @@ pub(crate) fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<
     }
 }
 
-/// Writes the end of a complete run to `folder`; its `fingerprint` is that of the structure.
+/// Writes the end of a complete run to `folder`; its `fingerprint` is the structure's.
 pub(crate) fn write_end(folder: &Path, end: &Checkpoint) -> Result<(), FemError> {
     replace(&folder.join(END), &mut |out| out.write_all(&encode(end)))
 }
@@ -92,7 +92,7 @@ pub(crate) fn read_end(folder: &Path) -> Result<Option<(Checkpoint, Vec<u8>)>, F
 fn start_anew(path: PathBuf, reason: &str) -> FemError {
     FemError::Checkpoint {
         path,
-        reason: format!("the file {reason}, and there is no other good one. Start the run anew with --force"),
+        reason: format!("the file {reason}, and no other checkpoint is good. Restart the run with --force"),
     }
 }
 

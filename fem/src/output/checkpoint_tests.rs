@@ -85,7 +85,7 @@ fn a_damaged_newest_one_falls_back_to_the_one_before_and_says_so() {
     let notice = loaded.1.unwrap();
     assert!(notice.contains("cut off or damaged") && notice.contains("step 1"), "{notice}");
     std::fs::write(folder.path().join("checkpoint.previous"), b"").unwrap();
-    assert!(reason(folder.path()).contains("no other good one"));
+    assert!(reason(folder.path()).contains("no other checkpoint is good"));
 }
 
 #[test]

@@ -14,7 +14,7 @@ pub(crate) struct Frame {
     /// Contact pressure at every node \[Pa\]; empty without contact.
     pub contact_pressure_pa: Vec<f64>,
     pub chambers: Vec<ChamberState>,
-    /// Pressure of the hold that the moment leads to or lies in \[Pa\], of a robot that is read at holds.
+    /// Pressure of the present or next hold \[Pa\], of a robot that is read at holds.
     pub hold_pa: Option<f64>,
 }
 

@@ -145,7 +145,7 @@ fn find_probes(mesh: &Mesh, names: &[String]) -> Result<Vec<Probe>, FemError> {
         check_label(name, "the node set")?;
         let known = || mesh.sets.keys().map(String::as_str).collect::<Vec<_>>().join(", ");
         let nodes = mesh.sets.get(name).ok_or_else(|| {
-            FemError::Problem(format!("there is no node set `{name}` to probe; the mesh has: {}", known()))
+            FemError::Problem(format!("unknown node set `{name}` to probe; the mesh has: {}", known()))
         })?;
         let start = mean(nodes, |i| (i < mesh.points.len()).then(|| mesh.start_of(i))).ok_or_else(|| {
             FemError::Problem(format!("node set `{name}` is empty or names nodes that are not in the mesh"))

@@ -15,8 +15,8 @@ pub(crate) struct Series {
 }
 
 impl Series {
-    /// The series in `folder`, which is created, after the frames of `times_s` \[s\]: the list is written anew, and later frames as the
-    /// run reaches them.
+    /// The series in `folder`, which is created, after the frames of `times_s` \[s\]: the list is rewritten, and later frames follow as the
+    /// run reaches their times.
     pub(crate) fn open(folder: &Path, times_s: &[f64]) -> Result<Series, FemError> {
         let missing = (0..times_s.len()).map(|index| folder.join(file_name(index))).find(|path| !path.is_file());
         if let Some(path) = missing {
@@ -119,6 +119,6 @@ mod tests {
         std::fs::remove_file(folder.path().join(file_name(2))).unwrap();
         let error = Series::open(folder.path(), &TIMES).unwrap_err().to_string();
         assert!(error.contains("run_00002.vtu is missing") && error.contains("--force"), "{error}");
-        assert!(Series::open(folder.path(), &TIMES[..2]).is_ok(), "a later one is written anew");
+        assert!(Series::open(folder.path(), &TIMES[..2]).is_ok(), "a later one is rewritten");
     }
 }

@@ -147,7 +147,7 @@ mod tests {
         let path = folder.path().join("t.csv");
         let all = whole(0..6);
         for length in (0..=all.len()).rev().step_by(7) {
-            // What is on the disk has at least the rows up to the checkpoint; the last line may be half written.
+            // The file on the disk has at least the rows up to the checkpoint; the last line may be half written.
             for step in (0..6).filter(|&step| whole(0..step + 1).len() <= length) {
                 std::fs::write(&path, &all[..length]).unwrap();
                 let mut table = Table::open(&path, &times(step + 1), 2).unwrap();

@@ -17,7 +17,7 @@
 //! | `part_id` | element | number of its part, from 0 |
 //! | `part_id NAME` | frame | number of the part of this name |
 //! | `chamber_kPa NAME`, `chamber_cm3 NAME` | frame | gauge pressure and volume of the chamber of this name |
-//! | `hold_kPa` | frame | actuator pressure of the hold that the moment leads to or lies in; robots only |
+//! | `hold_kPa` | frame | actuator pressure of the present or next hold; robots only |
 //! | `TimeValue` | frame | time \[s\] |
 //!
 //! Numbers of the frame are f64, all others f32 without the digits that would be noise and not compress: places in steps of at most

@@ -42,7 +42,7 @@ impl Default for Gas {
 }
 
 impl Gas {
-    /// Gauge pressure \[Pa\] at sealing, and what is conserved from then on.
+    /// Gauge pressure \[Pa\] at sealing, and the content that is conserved from then on.
     pub(crate) fn sealed(&self, pressure_pa: f64, all_m3: f64, t: f64) -> (f64, Option<(f64, f64)>) {
         let content = (pressure_pa + self.atmosphere_pa) * all_m3.powf(self.exponent);
         (pressure_pa, Some((content, t)))

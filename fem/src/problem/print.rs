@@ -38,7 +38,7 @@ impl Problem {
         plain.fingerprint()
     }
 
-    /// A number that two problems share if a run of one can go on from the end of the other: mesh, sections, what is held, contact and
+    /// A number that two problems share if a run of one can go on from the end of the other: mesh, sections, supported nodes, contact and
     /// numerics agree. Pressures, forces, gravity, obstacles, amplitudes of supports, guards, patience, end time and outputs may differ.
     pub(crate) fn fingerprint_of_structure(&self) -> u64 {
         let mut plain = self.clone();

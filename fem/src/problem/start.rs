@@ -11,7 +11,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 pub(crate) const X: V3 = [1.0, 0.0, 0.0];
 
 impl Problem {
-    /// Edges of a chamber that is open between planes must stay in these planes: what is beyond them is not there.
+    /// Edges of a chamber that is open between planes must stay in these planes: the model has nothing beyond them.
     pub(super) fn check_rims(&self) -> Result<(), FemError> {
         for (chamber, open) in self.chambers.iter().filter_map(|c| Some((&c.name, c.open_axis?))) {
             let rim = rim(&self.mesh, chamber);
@@ -33,7 +33,7 @@ impl Problem {
                     }
                     (None, Some(k)) => self.free(chamber, *edge, k, &held),
                     (None, None) => format!(
-                        "{} in no plane perpendicular to an axis of open_axis. Try: a mesh whose edge there lies in one",
+                        "{} in no plane perpendicular to an axis of open_axis. Try: a mesh whose edge there is in one",
                         self.ends(chamber, *edge)
                     ),
                 }));
@@ -56,7 +56,7 @@ impl Problem {
         Ok(())
     }
 
-    /// A chamber that is sealed from the start must hold some gas; `volumes_m3` are those of the start.
+    /// A chamber that is sealed from the start must hold some gas; `volumes_m3` are the volumes at the start.
     pub(super) fn check_gas(&self, volumes_m3: &[(String, f64)]) -> Result<(), FemError> {
         for (chamber, (name, volume_m3)) in self.chambers.iter().zip(volumes_m3) {
             let Pressure::Sealed { sealed_at_s, gas, .. } = &chamber.pressure else { continue };
@@ -109,7 +109,7 @@ impl Problem {
         )
     }
 
-    /// A fabric with directions needs a warp that lies in every element.
+    /// A fabric with directions needs a warp in the plane of every element.
     pub(super) fn check_warps(&self) -> Result<(), FemError> {
         let parts = self.mesh.parts.iter().zip(&self.sections);
         let found = parts.map(|(part, section)| warp_fault(&self.mesh, part, section)).find_map(|fault| fault);
@@ -145,7 +145,7 @@ impl Problem {
     }
 }
 
-/// The first element of a part onto which its warp, or x where it has none, cannot be laid, and what to do. Without a warp of its own
+/// The first element of a part onto which its warp, or x where it has none, cannot be laid, and the remedy. Without its own warp
 /// only a section with directions has a fault.
 pub(crate) fn warp_fault(mesh: &Mesh, part: &Part, section: &Section) -> Option<(String, String)> {
     if part.warp.is_empty() && !has_directions(section) {

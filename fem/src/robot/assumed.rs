@@ -1,13 +1,13 @@
-//! What nobody measured about the published robots, and the numerical settings that their tips feel: numbers with intervals, and a
+//! Unmeasured numbers of the published robots, and numerical settings that move their tips: each with an interval, and a
 //! hypercube over all of them.
 //!
 //! A Latin hypercube of n robots cuts the interval of every number into n parts of equal probability and gives every robot one part of
-//! each, in an order that is drawn for every number anew; within its part a number is drawn, too. So n robots say about each number what n
-//! values say, whatever the others do. Reference: McKay, Beckman, Conover 1979.
+//! each, in a random order for every number; within its part a number is drawn, too. So n robots cover each number as n
+//! values of it would, whatever the others do. Reference: McKay, Beckman, Conover 1979.
 
 use crate::random::Draws;
 
-/// A number that nobody printed, and the interval it may lie in.
+/// A number that no publication gives, and its plausible interval.
 #[derive(Debug, Clone, Copy)]
 pub struct Assumed {
     /// Key of the number in [`super::KEYS`].
@@ -105,7 +105,7 @@ mod tests {
         let cube = hypercube(30, 5, 7);
         for number in 0..5 {
             let mut parts: Vec<usize> = cube.iter().map(|robot| (robot[number] * 30.0) as usize).collect();
-            assert!(parts.windows(2).any(|pair| pair[1] != pair[0] + 1), "in an order of its own");
+            assert!(parts.windows(2).any(|pair| pair[1] != pair[0] + 1), "each number has its own order");
             parts.sort_unstable();
             assert_eq!(parts, (0..30).collect::<Vec<_>>());
         }

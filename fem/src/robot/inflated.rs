@@ -6,7 +6,7 @@
 //! | width | the two ends of the sheet where it meets the wall, in the middle of a pouch | pouches between others |
 //! | height | sheet and wall in the middle of a pouch | pouches between others |
 //!
-//! The first and the last pouch sit beside the round base and the cap, which hold them; with three pouches or fewer all count.
+//! The first and the last pouch are next to the round base and the cap, which hold them; with three pouches or fewer all count.
 //! **Validity**: actuators of several units. Definitions derived here; the reduced model's are `models::PouchShape`.
 
 use models::Scenario;

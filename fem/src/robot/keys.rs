@@ -14,18 +14,18 @@ pub const KEYS: &[Key<RobotSettings>] = &[
         |s| Some(s.actuator_size_m), |s, v| s.actuator_size_m = v),
     key("ring_spacing", 1.0, [0.1, 10.0], "distance of the rings at the actuator over its element size",
         |s| s.ring_spacing, |s, v| s.ring_spacing = Some(v)),
-    key("seam_row_mm", 1e-3, [0.1, 100.0], "length of the rows beside welds, from which rows grow to the distance of the rings",
+    key("seam_row_mm", 1e-3, [0.1, 100.0], "length of the rows next to welds, from which rows grow to the distance of the rings",
         |s| s.seam_row_m, |s, v| s.seam_row_m = Some(v)),
     key("layer_gap_mm", 1e-3, [1e-4, 1.0], "distance between layers at the start",
         |s| Some(s.layer_gap_m), |s, v| s.layer_gap_m = v),
     key("layer_friction", 1.0, [0.0, 2.0], "Coulomb friction between layers that touch",
         |s| Some(s.layer_friction), |s, v| s.layer_friction = v),
     key("weld_mm", 1e-3, [0.0, 100.0], "width of the welds across the robot; 0: a line", |s| Some(s.weld_m), |s, v| s.weld_m = v),
-    key("bending_factor", 1.0, [0.0, 10.0], "bending stiffness of one sheet over that of a solid plate",
+    key("bending_factor", 1.0, [0.0, 10.0], "bending stiffness of one sheet relative to a solid plate",
         |s| Some(s.bending_factor), |s, v| s.bending_factor = v),
     key("bending_share", 1.0, [1e-3, 1.0], "share of all bending stiffness that is kept, for a study of what carries a difference",
         |s| Some(s.bending_share), |s, v| s.bending_share = v),
-    key("wrinkle_length", 1.0, [1e-3, 1e3], "length of wrinkles over that of the geometry; their load is inverse to it",
+    key("wrinkle_length", 1.0, [1e-3, 1e3], "length of wrinkles relative to the geometry's; their load is inverse to it",
         |s| s.wrinkle_length, |s, v| s.wrinkle_length = Some(v)),
     key("bond", 1.0, [0.0, 1.0], "how far taped and glued plies bend as one", |s| Some(s.bond), |s, v| s.bond = v),
     key("tape_mm", 1e-3, [1e-3, 5.0], "thickness of the transfer tape", |s| Some(s.tape_m), |s, v| s.tape_m = v),
@@ -102,12 +102,12 @@ impl RobotSettings {
     /// Refuses numbers that cannot be meant.
     ///
     /// # Errors
-    /// [`FemError::Problem`] with the name, the number and what is accepted.
+    /// [`FemError::Problem`] with the name, the number and the accepted range.
     pub fn check(&self) -> Result<(), FemError> {
         for key in KEYS {
             let Some(value) = (key.get)(self).map(|value| value / key.si) else { continue };
             let [low, high] = key.bounds;
-            // A number that is none lies outside too.
+            // NaN is outside, too.
             if !(low * (1.0 - 1e-12)..=high * (1.0 + 1e-12)).contains(&value) {
                 let message = format!("robot: {} is {value}; write a number from {low} to {high}", key.name);
                 return Err(FemError::Problem(message));

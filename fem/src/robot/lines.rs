@@ -205,7 +205,7 @@ pub(super) fn spacing(pattern: &Pattern, settings: &RobotSettings) -> f64 {
     settings.ring_spacing.unwrap_or(if pattern.is_taped() { TAPED_SPACING } else { 1.0 })
 }
 
-/// Lengths of the rows at the actuator \[m\]: away from welds, and beside them.
+/// Lengths of the rows at the actuator \[m\]: away from welds, and next to them.
 fn rows(pattern: &Pattern, settings: &RobotSettings) -> [f64; 2] {
     let row = spacing(pattern, settings) * settings.actuator_size_m;
     let folded = pattern.folds().then_some(FOLDED_ROW * weld_m(settings)).filter(|row| *row > 0.0);
@@ -265,7 +265,7 @@ fn divided(a: f64, b: f64, size: f64) -> impl Iterator<Item = f64> {
     (0..=n).map(move |i| if i == n { b } else { a + (b - a) * i as f64 / n as f64 })
 }
 
-/// Lines after `a` to `b`, with steps that grow from `from` beside a weld, at `a` or at `b`, to `to`.
+/// Lines after `a` to `b`, with steps that grow from `from` at a weld, at `a` or at `b`, to `to`.
 fn growing(a: f64, b: f64, [from, to]: [f64; 2], weld_at_b: bool) -> impl Iterator<Item = f64> {
     let (mut steps, mut sum) = (vec![from], from);
     while let Some(step) = steps.last().map(|last| to.min(last * GROWTH)).filter(|step| sum + 0.5 * step < b - a) {
@@ -282,7 +282,7 @@ fn growing(a: f64, b: f64, [from, to]: [f64; 2], weld_at_b: bool) -> impl Iterat
     })
 }
 
-/// Places across the strip: edges, the welds beside them, folds, and even steps between.
+/// Places across the strip: edges, the welds next to them, folds, and even steps between.
 fn across(pattern: &Pattern, settings: &RobotSettings) -> Vec<f64> {
     let half = 0.5 * pattern.width_m;
     let mut cuts = vec![-half, half];

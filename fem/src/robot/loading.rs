@@ -24,7 +24,7 @@ pub struct RobotRun {
     pub set: Vec<String>,
     /// Numbers of mesh, fabrication and integration for one run.
     pub settings: RobotSettings,
-    /// Whether every pressure is a run of its own.
+    /// Whether every pressure is a separate run.
     pub separate: bool,
     /// Pressures of the channels that are read, in this order \[Pa\].
     pub pressures_pa: Vec<[f64; CHANNELS]>,
@@ -38,7 +38,7 @@ pub struct RobotRun {
     pub obstacle_moves_m: Vec<[f64; 3]>,
     /// Where another run ended that this one goes on from.
     pub start: Option<RobotStart>,
-    /// Element sizes of body and actuator that a study of the mesh runs beside each other \[m\]; `settings` has those of one run.
+    /// Element sizes of body and actuator that a study of the mesh compares \[m\]; `settings` has the sizes of one run.
     pub meshes_m: Vec<[f64; 2]>,
 }
 
@@ -88,7 +88,7 @@ impl RobotRun {
         self.settings.actuator_ramp_s * (longest / whole).max(SHORTEST)
     }
 
-    /// (time \[s\], value) points of what is `before` at the first hold and has another value at each of those after it.
+    /// (time \[s\], value) points of a quantity that is `before` at the first hold and changes at each later hold.
     pub(super) fn stairs<T: Copy>(&self, before: T, each: impl IntoIterator<Item = T>) -> Vec<(f64, T)> {
         let holds = self.holds();
         let mut points = vec![(holds[0].time_s, before)];
@@ -107,7 +107,7 @@ impl RobotRun {
     /// As [`problem`]; several pressures that are to be runs of their own.
     pub fn problem(&self, scenario: &Scenario) -> Result<Problem, FemError> {
         if self.separate && self.pressures_pa.len() > 1 {
-            let message = "robot: every pressure is a run of its own here (`separate`, which model = \"paper\" sets); \
+            let message = "robot: every pressure is a separate run here (`separate`, which model = \"paper\" sets); \
                            name one pressure, or write separate = false for one ramp through all";
             return Err(FemError::Problem(message.into()));
         }

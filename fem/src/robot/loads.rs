@@ -48,13 +48,13 @@ pub(super) fn read(run: &mut RobotRun, name: &str, value: &Spanned<Value>) -> Ch
         _ if is_list => run.obstacle_moves_m = each(&POSITION)?,
         _ => {
             let help = "write how far it has moved at every pressure: [[0, 0, 0], [0, -20, 0]]";
-            return refuse(format!("{name} is no list of [x, y, z]"), help, value.span());
+            return refuse(format!("{name} is not a list of [x, y, z]"), help, value.span());
         }
     }
     Ok(())
 }
 
-/// Refuses lists of another length than that of the pressures, and a step in which nothing changes.
+/// Refuses lists whose length differs from the pressures', and a step in which nothing changes.
 pub(super) fn check(run: &RobotRun, table: &Free) -> Checked<()> {
     let span = |name: &str| find(table, name).map_or(0..0, Spanned::span);
     let of = |load: &Load| if let Load::AtPressures(list) = load { list.clone() } else { Vec::new() };
@@ -67,7 +67,7 @@ pub(super) fn check(run: &RobotRun, table: &Free) -> Checked<()> {
         }
         if run.separate {
             let help = "write separate = false, or one load for all";
-            let message = format!("{name} changes within a run, and every pressure is a run of its own");
+            let message = format!("{name} changes within a run, and every pressure is a separate run");
             return refuse(message, help, span(name));
         }
     }

@@ -1,21 +1,21 @@
 //! The robots: from a scenario of the reduced model and its actuator's sewing pattern to a finite element problem.
 //!
-//! The body is a cylinder along x, its base ring pinned at x = 0, a flat cap at the tip; the actuator lies on the side of
-//! +y, so that the robot bends towards +y, or where the scenario's strips say. The actuator's sheet is meshed panel by panel over the same grid lines, layers
-//! `layer_gap_m` apart; welds are shared nodes.
+//! The body is a cylinder along x, its base ring pinned at x = 0, a flat cap at the tip; the actuator is on the side of
+//! +y, so that the robot bends towards +y, or at the azimuths of the scenario's strips. The actuator's sheet is meshed panel by panel
+//! over the same grid lines, layers `layer_gap_m` apart; welds are shared nodes.
 //!
 //! | part | what | chambers (front, back) |
 //! |---|---|---|
 //! | `wall`, `tip_cap` | the body | –, body |
-//! | `face` | the wall under the pouches, with what is stuck to it | actuator, body |
+//! | `face` | the wall under the pouches, with the sheets stuck to it | actuator, body |
 //! | `margin` | the wall with the taped sheet beyond its welds stuck to it | –, body |
 //! | `seam_2`, `seam_4` … | welds with a width: so many layers | –, body |
 //! | by the pattern: `top`, `gusset_1_left` … | the sheet | –, actuator |
-//! | `face_2`, `top_2` … | those of the second strip | actuator_2, … |
+//! | `face_2`, `top_2` … | the parts of the second strip | actuator_2, … |
 //!
 //! | set | nodes |
 //! |---|---|
-//! | `base` | pinned ring; with `encastre` the row beside it is held too |
+//! | `base` | pinned ring; with `encastre` the row next to it is held too |
 //! | `tip`, `marker_1` … | rings of the body at its end and at (or next to) the scenario's stations |
 //! | `far_generator` | the taut line opposite the actuator of a robot with one strip along y |
 //!
@@ -70,7 +70,7 @@ use crate::{FemError, Mesh, Problem};
 use lines::Lines;
 use plies::Plies;
 
-/// Mass damping over ω of [`Settling`]: half of what is critical for the ePAM, whose tip then overshoots by a sixth.
+/// Mass damping over ω of [`Settling`]: half of the critical damping of the ePAM, whose tip then overshoots by a sixth.
 const DAMPING: f64 = 1.4;
 
 /// The robot of a scenario as a problem, ready to run.
@@ -106,7 +106,7 @@ pub fn problem(scenario: &Scenario, settings: &RobotSettings) -> Result<Problem,
 /// # Errors
 /// [`FemError::Problem`] for a name that `models::shipped` does not know; else like [`problem`].
 pub fn shipped(name: &str, settings: &RobotSettings) -> Result<(Scenario, Problem), FemError> {
-    let text = models::shipped(name).ok_or_else(|| FemError::Problem(format!("there is no scenario `{name}`")))?;
+    let text = models::shipped(name).ok_or_else(|| FemError::Problem(format!("unknown scenario `{name}`")))?;
     let scenario = Scenario::parse(text).map_err(|e| FemError::Problem(e.to_string()))?;
     let problem = problem(&scenario, settings)?;
     Ok((scenario, problem))
@@ -147,7 +147,7 @@ pub fn sections(mesh: &Mesh, stations_m: &[f64]) -> Result<CentreLine, FemError>
     CentreLine::new(mesh, &body_parts(mesh), [1.0, 0.0, 0.0], stations_m)
 }
 
-/// Points of the wall where markers stick at stations along it \[m\], at the height of the axis, where a camera beside the
+/// Points of the wall where markers stick at stations along it \[m\], at the height of the axis, where a camera at the side of the
 /// robot sees them.
 ///
 /// # Errors
@@ -274,7 +274,7 @@ fn numerics(problem: &Problem, settings: &RobotSettings, pace_1_s: f64) -> Setti
             longest_s: settings.longest_rest_s(),
             window_s: rest::WINDOW / pace_1_s,
         }),
-        // Crumpled gussets pass each other between nodes; how many is told with every run, and no robot is lost by it.
+        // Crumpled gussets pass each other between nodes; every run reports their number, and no robot is stopped for it.
         guards: Guards { sides: 1.0, hourglass: settings.guard_hourglass, ..Guards::default() },
         ..Settings::default()
     }

@@ -22,9 +22,9 @@
 //! The sheets of a pouch have a tension of this size where the load matters: P L/π of a full pouch is 1.2 p_b R at 2.5 p_b.
 //!
 //! **Sharp folds**: an adhesive of shear modulus G and thickness t_g lets two sheets at ±z slide over a length
-//! ℓ = √(A t_g/2G) beside a fold, so that a fold by θ cannot cost more than √(G A/2t_g) z² θ² per width (derived here: least
+//! ℓ = √(A t_g/2G) next to a fold, so that a fold by θ cannot cost more than √(G A/2t_g) z² θ² per width (derived here: least
 //! energy of stretch and slip). Soft acrylic, G = 0.3 MPa, t_g = 0.05 mm, gives 0.25 J/m and ℓ = 2.4 mm. This is not
-//! modelled; β = 1 − (ℓ/h)(1 − exp(−h/ℓ)) at element size h stands for it.
+//! modelled; β = 1 − (ℓ/h)(1 − exp(−h/ℓ)) at element size h approximates it.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -190,8 +190,8 @@ fn made(
     [thickness, modulus]: &[(&str, Option<f64>); 2],
 ) -> Result<Arc<dyn Fabric>, FemError> {
     let problem = |message: String| FemError::Problem(format!("robot: fabric `{name}`: {message}"));
-    let material = material(name).ok_or_else(|| problem("there is no such material".into()))?;
-    let law = material.law().ok_or_else(|| problem("there is no such law".into()))?;
+    let material = material(name).ok_or_else(|| problem("the material is unknown".into()))?;
+    let law = material.law().ok_or_else(|| problem("the law is unknown".into()))?;
     let mut recipe = material.recipe();
     if let (Some(value), Some(number)) = (nu12, recipe.numbers.get_mut("nu12")) {
         *number = value;

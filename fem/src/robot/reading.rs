@@ -78,7 +78,7 @@ pub struct Reading {
     pub von_mises_part: String,
     /// Its place along the straight robot \[m\].
     pub von_mises_at_m: f64,
-    /// Whether it lies beside a weld.
+    /// Whether this element is next to a weld.
     #[serde(default)]
     pub von_mises_on_seam: bool,
     /// Largest pull on a weld \[N/m\].
@@ -234,7 +234,7 @@ impl RobotGauge {
         (String::new(), f64::NAN)
     }
 
-    /// Name of the weld beside an element of a part at a place along the straight robot \[m\].
+    /// Name of the weld next to an element of a part at a place along the straight robot \[m\].
     fn weld(&self, is_across: bool, part: &str, at_m: f64) -> String {
         let strip = (1..self.pouches_m.len()).rev().find(|i| sew::of_strip(sew::plain(part), *i) == part).unwrap_or(0);
         let [start_m, pitch_m] = self.pouches_m[strip];
@@ -266,7 +266,7 @@ impl RobotGauge {
         cross.atan2(dot)
     }
 
-    /// Normal of the tip's ring, x at the start: that of its moments Σ (y₀ − ȳ₀) x and Σ (z₀ − z̄₀) x.
+    /// Normal of the tip's ring, x at the start, from its moments Σ (y₀ − ȳ₀) x and Σ (z₀ − z̄₀) x.
     fn normal(&self, positions: &[[f64; 3]]) -> [f64; 3] {
         let starts = || self.tip.iter().map(|node| self.mesh.start_of(*node as usize));
         let moment = |axis: usize| {

@@ -71,7 +71,7 @@ fn faults_of_the_table_are_refused_with_their_place() {
         ("tip_force_n = [1, 2]", "three numbers", "[1, 2]"),
         ("obstacle_friction = 0.2", "add obstacle_mm", "obstacle_friction"),
         ("obstacle_moves_mm = [[0, 0, 0]]", "obstacle_moves_mm without an obstacle", "obstacle_moves_mm"),
-        ("obstacle_mm = [200, 80, 25]\nobstacle_moves_mm = [0, 1, 0]", "is no list", "[0, 1, 0]"),
+        ("obstacle_mm = [200, 80, 25]\nobstacle_moves_mm = [0, 1, 0]", "is not a list", "[0, 1, 0]"),
         ("gravity_m_s2 = 9.81", "must be a list", "9.81"),
         ("tip_force_n = [[0, 0, 0], [0, 1, 0]]", "2 entries and pressures_kpa 3", "[[0, 0, 0], [0, 1, 0]]"),
         ("pressures_kpa = [20, 20]", "differ one by one, or loads that do", "[20, 20]"),

@@ -1,6 +1,6 @@
 //! Forces that pull on the welds.
 //!
-//! A weld edge is one where three or more elements meet. The largest principal tension of an element beside it,
+//! A weld edge is one where three or more elements meet. The largest principal tension of an element next to it,
 //!
 //! ```text
 //! N₁ = σ₁ t      [N/m]
@@ -18,7 +18,7 @@ use crate::run::ElementFields;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Seams {
     elements: Vec<usize>,
-    /// Those beside a weld across the robot.
+    /// Elements next to a weld across the robot.
     across: Vec<usize>,
 }
 
@@ -56,7 +56,7 @@ impl Seams {
         Seams { elements: listed(&|_| true), across: listed(&is_across) }
     }
 
-    /// Elements beside the welds, in mesh order.
+    /// Elements next to the welds, in mesh order.
     pub fn elements(&self) -> &[usize] {
         &self.elements
     }

@@ -6,8 +6,8 @@ use crate::problem::{Amplitude, Guards};
 /// Distance of the rings under a taped sheet over its element size: its margins of stuck plies fold across in the middle of every
 /// pouch, and with seven rows from weld to middle seams snap or hold from seed to seed.
 pub(super) const TAPED_SPACING: f64 = 0.8;
-/// Length of the rows beside the welds of a folded sheet over their width: its pouches fill so far that the welds between them stand
-/// on edge, and the wall beside them turns by a right angle within that width. With half of it, on elements twice as wide, gussets of
+/// Length of the rows next to the welds of a folded sheet over their width: its pouches fill so far that the welds between them stand
+/// on edge, and the adjacent wall turns by a right angle within that width. With half of it, on elements twice as wide, gussets of
 /// long pouches turn inside out.
 pub(super) const FOLDED_ROW: f64 = 2.0 / 3.0;
 /// Elements shorter than this \[m\] are much finer than what moves: their selective masses take six passes.
@@ -20,7 +20,7 @@ const TIE_M: f64 = 1e-6;
 
 /// Mesh, fabrication and loading of a robot: the numbers of [`super::KEYS`] in SI, and the words and lists.
 #[derive(Debug, Clone, PartialEq)]
-#[allow(missing_docs, reason = "`KEYS` says what the other numbers are, and `ASSUMED` which of them nobody measured")]
+#[allow(missing_docs, reason = "`KEYS` describes the other numbers, and `ASSUMED` lists the unmeasured ones")]
 pub struct RobotSettings {
     pub body_size_m: f64,
     pub actuator_size_m: f64,
@@ -55,13 +55,13 @@ pub struct RobotSettings {
     /// Contraction along fill per stretch along warp of an anisotropic fabric; `None` keeps the material's own.
     /// Assumed.
     pub nu12: Option<f64>,
-    /// Thickness of the actuator's sheet \[m\]; `None`: that of its fabric.
+    /// Thickness of the actuator's sheet \[m\]; `None`: its fabric's.
     pub sheet_m: Option<f64>,
-    /// Young's modulus of the actuator's sheet \[Pa\]; `None`: that of its fabric. Isotropic fabrics only.
+    /// Young's modulus of the actuator's sheet \[Pa\]; `None`: its fabric's. Isotropic fabrics only.
     pub sheet_e_pa: Option<f64>,
-    /// Thickness of the body's sheet \[m\]; `None`: that of its fabric.
+    /// Thickness of the body's sheet \[m\]; `None`: its fabric's.
     pub body_sheet_m: Option<f64>,
-    /// Young's modulus of the body's sheet \[Pa\]; `None`: that of its fabric. Isotropic fabrics only.
+    /// Young's modulus of the body's sheet \[Pa\]; `None`: its fabric's. Isotropic fabrics only.
     pub body_sheet_e_pa: Option<f64>,
     /// Force per length that a weld carries \[N/m\], from a peel or tensile test of a seam; `None`: not known. Changes no run.
     pub weld_strength_n_per_m: Option<f64>,
@@ -96,7 +96,7 @@ pub struct RobotSettings {
     pub guard_hourglass: f64,
     /// Whether layers touch; `None`: where the pattern folds.
     pub contact: Option<bool>,
-    /// Whether the base ring cannot turn either: the row beside it is held too. Published: no difference, so pinned.
+    /// Whether the base ring cannot turn either: the next row is held too. Published: no difference, so pinned.
     pub encastre: bool,
     /// Random offset of the nodes at the start, as a share of the element size: a push that breaks the symmetry.
     pub imperfection: f64,
@@ -114,7 +114,7 @@ impl RobotSettings {
     /// |---|---|
     /// | 8 mm on the body, 4 mm on the actuator | 3 mm and 2 mm change ePAM and cPAM by up to 5 % at every pressure: `docs/robots.md` |
     /// | rings under a taped sheet at 0.8 of that | seven rows from weld to middle of a pouch leave the sPAM's seams to snap or hold from seed to seed |
-    /// | rows of 2 mm beside the welds of a folded sheet | full pouches set these welds on edge, which longer rows cannot follow |
+    /// | rows of 2 mm next to the welds of a folded sheet | full pouches set these welds on edge, which longer rows cannot follow |
     /// | waviness 0.1 mm | assumed; without it all seeds of a robot take the folds that its mesh prefers |
     /// | welds 3 mm wide | assumed; of all numbers the one that decides most |
     /// | 0.04 + 0.12 s and holds until rest, masses raised | three times the ramp moves ePAM and cPAM by less than 0.8 % |
@@ -127,7 +127,7 @@ impl RobotSettings {
     /// | tape 0.05 mm over the whole face, no margin | assumed: the usual thickness, a sheet cut at its welds |
     /// | ν₁₂ = 0.2 | assumed: the middle of 0 to 0.4 |
     ///
-    /// Nothing is calibrated on a tip. What nobody measured is an interval: [`super::ASSUMED`].
+    /// Nothing is calibrated on a tip. Unmeasured numbers are intervals: [`super::ASSUMED`].
     pub fn compressed() -> RobotSettings {
         RobotSettings {
             body_size_m: 8e-3,

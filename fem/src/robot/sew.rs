@@ -13,7 +13,7 @@ pub(super) const BODY: &str = "body";
 pub(super) const ACTUATOR: &str = "actuator";
 /// The ring at the base, open there and held.
 pub(super) const BASE: &str = "base";
-/// Parts made of the wall: beside the actuator, and under it.
+/// Parts made of the wall: at the sides of the actuator, and under it.
 pub(super) const WALL: &str = "wall";
 pub(super) const FACE: &str = "face";
 /// The wall with the bottom sheet stuck to it beyond the welds.

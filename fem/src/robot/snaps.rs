@@ -8,13 +8,13 @@
 //! K_w = K Σ|v − v̄|² / Σ|v|²           released = max (U(t₁) − U(t₂)),   valley before ≤ t₁ < t₂ ≤ valley after
 //! ```
 //!
-//! that stands out from the valleys on both sides, between which the stored energy U falls. Its place is that of the nodes with
+//! well above the valleys on both sides, between which the stored energy U falls. Its place is the place of the nodes with
 //! the largest |v − v̄| at the peak. **Validity**: nodes of about equal mass; snaps closer together than their ringing are one.
 
 use crate::policy;
 use crate::{Mesh, Simulation};
 
-/// Stretches along the robot whose mean velocity is taken off \[m\].
+/// Stretches along the robot whose mean velocity is subtracted \[m\].
 const STRETCH_M: f64 = 0.01;
 /// Share of the fastest nodes whose mean is the place.
 const FASTEST: f64 = 0.005;
@@ -27,7 +27,7 @@ pub struct Sample {
     pub time_s: f64,
     /// Kinetic energy of the whole robot \[J\].
     pub kinetic_j: f64,
-    /// That of the walls against their sections \[J\].
+    /// Kinetic energy of the walls against their sections \[J\].
     pub walls_j: f64,
     /// Energy stored in all terms of the ledger \[J\].
     pub stored_j: f64,
@@ -126,7 +126,7 @@ pub fn snaps(samples: &[Sample], from_s: f64) -> Vec<Snap> {
     found
 }
 
-/// Valley, peak, valley of the walls' kinetic energy, each valley below a share of the peaks beside it.
+/// Valley, peak, valley of the walls' kinetic energy, each valley below a share of the peaks next to it.
 fn peaks(samples: &[Sample]) -> Vec<[usize; 3]> {
     let k = |i: usize| samples[i].walls_j;
     let mut turns: Vec<usize> = Vec::new();

@@ -39,7 +39,7 @@ struct File {
 }
 
 impl RobotRun {
-    /// From the text of a scenario and what it says.
+    /// Reads `[fem]` of a scenario's text; `scenario` is its parsed form.
     ///
     /// # Errors
     /// [`FemError::Case`] with its place in `[fem]`: an unknown key, a number out of bounds, a pressure below the body's.
@@ -170,8 +170,8 @@ fn above_body(run: &RobotRun, scenario: &Scenario, table: &Free) -> Checked<()> 
     Err(FemError::Case { message, span })
 }
 
-/// The scenario's text with keys of `[fem]` set to other values, which are written as in TOML; `None` if the table cannot be
-/// told from the text around it.
+/// The scenario's text with keys of `[fem]` set to other values, which are written as in TOML; `None` if the table
+/// cannot be separated from the text around it.
 ///
 /// ```
 /// let text = fem::robot::with_fem("name = \"a\"\n[fem]\nbond = 1 # glued\nhourglass = 0.01\n[body]\n", &[("bond", "0.5")]);

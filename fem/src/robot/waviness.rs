@@ -77,7 +77,7 @@ mod tests {
         let all: Vec<[f64; 3]> = (0..400).flat_map(|seed| moved(far.clone(), seed)).collect();
         for i in 0..3 {
             let rms = (all.iter().map(|u| u[i] * u[i]).sum::<f64>() / all.len() as f64).sqrt();
-            // 1200 draws of which those of one seed are alike: 400 free ones give 3.5 %.
+            // 1200 draws, alike within one seed: 400 free ones give 3.5 %.
             assert!((rms / 2e-4 - 1.0).abs() < 0.12, "axis {i}: {rms}");
         }
     }

@@ -3,7 +3,7 @@
 use crate::Mesh;
 use serde::{Deserialize, Serialize};
 
-/// Where a run stands in time \[s\].
+/// Times and steps of a run \[s\].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Clock {
     pub step: u64,
@@ -17,7 +17,7 @@ pub(super) struct Clock {
     pub(crate) before_s: f64,
     /// Longest step that the start allowed.
     pub(crate) longest_s: f64,
-    /// γ: the stable step of the whole mesh over that of the nodes' bounds.
+    /// γ: the stable step of the whole mesh over the step from the nodes' bounds.
     pub gain: f64,
 }
 

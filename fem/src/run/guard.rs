@@ -17,7 +17,7 @@ use crate::{FemError, Mesh, Problem, Transient};
 /// Steps between two estimates of the highest mode of the whole mesh: in the robots it changes by some hundredths in between.
 const WHOLE: u64 = 8192;
 
-/// Remedy for a shape that is that of hourglass control. A tenth of the coefficient alone makes a film with pleats as long as its
+/// Remedy for a shape set by hourglass control. A tenth of the coefficient alone makes a film with pleats as long as its
 /// elements worse: it carries compression, which no pleat does.
 pub(crate) const LESS_HOURGLASS: &str = "for a sheet that pleats, law = \"tension-field\" with the same moduli and a hundredth of \
     hourglass; else smaller elements or a tenth of hourglass";
@@ -51,7 +51,7 @@ impl Simulation {
         self.guard_speed()
     }
 
-    /// Judges a run that came to its end: is its shape that of the fabric, or of hourglass control?
+    /// Judges a run that came to its end: does the fabric set its shape, or hourglass control?
     ///
     /// # Errors
     /// [`FemError::Stopped`] with the share, the limit and what to type.
@@ -95,7 +95,7 @@ impl Simulation {
         format!("{place} not a number any more. Shorten the step (cfl .7 for soft fabric) or check loads and units")
     }
 
-    /// Estimates the stable step anew; looks for collapsed or inverted elements.
+    /// Estimates the stable step again; looks for collapsed or inverted elements.
     pub(super) fn recheck(&mut self) -> Result<(), FemError> {
         if self.settings.guards.inverted {
             self.guard_elements()?;

@@ -4,8 +4,8 @@
 //! Δt² λ(Δt)/4 = 1,   λ(Δt) = largest eigenvalue of M⁻¹ (K + 2 C/Δt)        γ = Δt/Δt(bounds) ≥ 1
 //! ```
 //! K: A Bᵀ D B of every element at its stiffest state, plus the nodes' bounds of everything else; C: viscosity. λ by Lanczos from
-//! a fixed start vector. A shorter step stands for Δt in λ, so C counts too much rather than too little: Δt(bounds), with selective masses
-//! what was found with it. Supports and
+//! a fixed start vector. λ takes a step below Δt, so C counts too much rather than too little: Δt(bounds), with selective masses
+//! the step found from it. Supports and
 //! rigid bodies only lower the mode and are left out.
 //!
 //! Between two estimates the bounds follow the shape, and γ stays; `cfl` covers what it changes.
@@ -26,7 +26,7 @@ const MOST: usize = 80;
 const LOOK: usize = 5;
 const ENOUGH: f64 = 5e-4;
 
-/// γ at positions `x`: the stable step of the whole mesh over that of the nodes' bounds, `nodes_s`; `others` are the bounds of
+/// γ at positions `x`: the stable step of the whole mesh over the step from the nodes' bounds, `nodes_s`; `others` are the bounds of
 /// all terms but the shells \[N/m\], `mass` the nodes' \[kg\], `selective` what smooths their velocities.
 pub(super) fn gain(
     sheet: &Sheet,

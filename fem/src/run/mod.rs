@@ -61,7 +61,7 @@ pub struct Simulation {
     /// Mass of each node, scaling included \[kg\].
     mass: Vec<f64>,
     fixed: Vec<(u32, [bool; 3])>,
-    /// Those of them that supports move or bodies and ties carry along.
+    /// The fixed nodes that supports move or bodies and ties carry along.
     moved: Vec<(u32, [bool; 3])>,
     /// Position and velocity of `moved` nodes during an update.
     held: Vec<([f64; 4], [f64; 4])>,
@@ -233,7 +233,7 @@ impl Simulation {
         self.clock.dt_s
     }
     /// Processor seconds that the steps took so far, callbacks included, on all threads of this run; setting up and
-    /// resuming count from 0. A callback is told what was spent a moment ago.
+    /// resuming count from 0. A callback sees a slightly older value.
     pub fn cpu_s(&self) -> f64 {
         self.cpu_s
     }
@@ -298,7 +298,7 @@ impl Simulation {
         Ledger::close(self.books.kinetic, rows, start, self.books.scale)
     }
 
-    /// The same with the energy of compressed sheets apart from that of the membranes; dearer, for what is read now and then.
+    /// The same with the energy of compressed sheets separate from the membranes'; costs more, for occasional reading.
     pub(crate) fn ledger_in_detail(&self) -> Ledger {
         let mut ledger = self.ledger();
         let compressed_j = self.sheet.compressed_j(self.x.as_flattened());

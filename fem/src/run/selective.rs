@@ -4,10 +4,10 @@
 //! M⁻¹ = (q² + ε) D⁻¹ / (1 + ε)      q = Π (1 − αₖ D⁻¹ L)      L = Σ wᵢⱼ (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ over the sides of the elements
 //! u(n+½) = [u(n−½)(1 − ½αΔt) + Δt f(n)/m] / (1 + ½αΔt)      v = D M⁻¹ u      kinetic(n) = ½ Σ m v(n−½)·u(n+½)
 //! ```
-//! D lumped masses; u = D⁻¹ M v momentum per lumped mass, which is what is stepped; wᵢⱼ = ½ s cᵢⱼ min(mᵢ/dᵢ, mⱼ/dⱼ) with the number
+//! D lumped masses; u = D⁻¹ M v momentum per lumped mass, which the run steps; wᵢⱼ = ½ s cᵢⱼ min(mᵢ/dᵢ, mⱼ/dⱼ) with the number
 //! cᵢⱼ of elements at a side, dᵢ = Σ cᵢⱼ and s [`SHARE`]. D⁻¹L is 0 for what moves as one, ½ s (sin²(θ/2) + sin²(φ/2)) for waves of a grid
 //! whose phase grows by θ and φ from element to element, and at most s. One factor, α = 1: two passes over the sides. A grid's membrane
-//! then allows 2.4 times the step, or the same step with a sixth of the mass. A wave of n elements is slower by 0.9 sin²(π/n), beside
+//! then allows 2.4 times the step, or the same step with a sixth of the mass. A wave of n elements is slower by 0.9 sin²(π/n), in addition to
 //! (π/n)²/6 of lumping.
 //!
 //! More passes, for meshes that are finer than what moves: y q(y²) is the Chebyshev polynomial (−1)ᴺ T₂ₙ₊₁(y)/(2N + 1) of

@@ -173,7 +173,7 @@ fn carried(problem: &Problem, mesh: &Mesh, driven: &[Driven]) -> Result<Vec<bool
     Ok(carried)
 }
 
-/// Axes whose velocities are set; `fixed` gets those of bodies and ties, too.
+/// Axes whose velocities are set; `fixed` gets the nodes of bodies and ties, too.
 fn moved(driven: &[Driven], bodies: &[Body], mesh: &Mesh, fixed: &mut [[bool; 3]]) -> Vec<[bool; 3]> {
     let mut moved = vec![[false; 3]; fixed.len()];
     for (node, axes) in driven.iter().flat_map(|d| d.nodes.iter().map(|n| (*n, d.axes))) {
@@ -204,7 +204,7 @@ fn contact(
     })
 }
 
-/// The terms beside shells and contact: what bends, then loads and obstacles.
+/// The terms in addition to shells and contact: bending first, then loads and obstacles.
 fn terms(
     problem: &Problem,
     mesh: &Mesh,
@@ -225,7 +225,7 @@ fn terms(
     Ok(terms)
 }
 
-/// What bending has beside the shells' constant matrix.
+/// Bending terms in addition to the shells' constant matrix.
 fn bent(problem: &Problem, mesh: &Mesh, sheet: &Sheet) -> Vec<Box<dyn Transient>> {
     let mut terms: Vec<Box<dyn Transient>> = Vec::new();
     let rest = RestCurvature::new(mesh, &problem.sections);

@@ -1,4 +1,4 @@
-//! Nodes that changed side of a layer: told, and a stop if there are many.
+//! Nodes that changed side of a layer: the run reports them, and stops if there are many.
 
 use super::Simulation;
 use crate::FemError;

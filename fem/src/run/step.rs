@@ -188,7 +188,7 @@ impl Simulation {
         }
     }
 
-    /// Takes the forces off prescribed axes, so that the update leaves what stands still at rest, and remembers the
+    /// Takes the forces off prescribed axes, so that the update leaves resting nodes at rest, and remembers the
     /// velocities that supports, bodies and ties set.
     fn hold_driven(&mut self) {
         for (node, axes) in &self.fixed {

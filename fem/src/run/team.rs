@@ -2,7 +2,7 @@
 //!
 //! Results do not depend on the number of threads, so it may change at any time. On a machine that is busy with other
 //! work a second thread is often not running when its share is due, and everybody waits for it; so stretches of steps
-//! are timed with one thread and with all, and the faster is used. Within a stretch nobody sleeps.
+//! are timed with one thread and with all, and the faster is used. Within a stretch no thread sleeps.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
@@ -26,7 +26,7 @@ pub(super) struct Team {
     cpu_s: f64,
 }
 
-/// What is known of the two ways to run a stretch: 0 with one thread, 1 with all.
+/// Timings of the two ways to run a stretch: 0 with one thread, 1 with all.
 struct Ways {
     /// Running mean of the seconds per step; 0 before the first try.
     seconds: [f64; 2],
@@ -116,7 +116,7 @@ impl Team {
 /// Runs `work` while the other threads of the pool look for their shares of it instead of falling asleep: a step is about as
 /// short as waking one. They let other programs go first.
 fn awake<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    /// Says that the work is over, also when it panics.
+    /// Marks the work as over, also when it panics.
     struct Over<'a>(&'a AtomicBool);
     impl Drop for Over<'_> {
         fn drop(&mut self) {
@@ -150,7 +150,7 @@ fn awake<T: Send>(work: impl FnOnce() -> T + Send) -> T {
 mod tests {
     use super::*;
 
-    /// How many of `count` stretches use all threads, where one takes 4 ms and all take 20 or 1, as `slow` says of their number.
+    /// How many of `count` stretches use all threads, where one takes 4 ms and all take 20 if `slow` is true of their number, else 1.
     fn with_all(count: usize, slow: impl Fn(usize) -> bool) -> usize {
         let mut ways = Ways::NEW;
         let mut with_all = 0;

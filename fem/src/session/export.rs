@@ -45,7 +45,7 @@ pub fn export(source: &Source, path: &Path, solver: Solver) -> Result<Export, Fe
             vtu::write_vtu(path, &problem.mesh, &Frame::of(&start))?;
         }
         _ => {
-            let message = format!("{} has no ending that says what to write", path.display());
+            let message = format!("the ending of {} names no known format", path.display());
             return Err(FemError::setting(message, "end it with .inp (Abaqus, CalculiX) or .vtu (ParaView)"));
         }
     }

@@ -103,7 +103,7 @@ impl Earlier {
         Ok(run)
     }
 
-    /// Loads that are not those of the end before.
+    /// Warnings for loads that differ from the end before.
     fn jumps(&self, now: &Loads) -> Vec<String> {
         let jump = |what: &String| {
             // A sealed chamber keeps its gas.
@@ -126,7 +126,7 @@ impl Earlier {
 /// The complete run in a folder as one that goes on to a later end; `None` if it ends there already.
 ///
 /// # Errors
-/// [`FemError::Setting`] for an end before that of the run, or where the run depends on one that it went on from.
+/// [`FemError::Setting`] for an end before the run's, or where the run resumed an earlier one and depends on it.
 pub(super) fn reopened(folder: &Path, loaded: &Loaded, settings: &Settings) -> Result<Option<Workplace>, FemError> {
     let Some(end_s) = settings.end_s else { return Ok(None) };
     let ended = FeRun::read(folder)?.summary;

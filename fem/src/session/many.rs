@@ -1,4 +1,4 @@
-//! Several runs beside each other, each in a folder of its own below one: by name, or by the hash of problem and engine, so that
+//! Several runs in parallel, each in its own folder below one: by name, or by the hash of problem and engine, so that
 //! asking twice costs nothing. A finished one is kept, an interrupted one goes on.
 
 use super::together::{shared, together};
@@ -28,7 +28,7 @@ pub struct Many {
     pub of: Vec<usize>,
 }
 
-/// Runs what is not there yet, below [`Settings::folder`] and those first that will take longest.
+/// Runs the jobs that are not complete yet, below [`Settings::folder`], the longest first.
 ///
 /// # Errors
 /// [`FemError::Refused`] and [`FemError::Folder`] before the first run costs time; [`FemError::Interrupted`].
@@ -57,10 +57,10 @@ pub fn simulate_all(jobs: &[Job], settings: &Settings, progress: Progress) -> Re
     Ok(Many { runs: runs.into_iter().map(|run| run.1).collect(), of })
 }
 
-/// Does work `0..count` beside each other on threads (0: one per core); `one` gets its number, its threads and whom to tell.
+/// Does work `0..count` in parallel on threads (0: one per core); `one` gets its number, its threads and the progress callback.
 ///
 /// # Errors
-/// That of the first work that failed; after it, or once `progress` asks to end, nothing new is begun.
+/// The error of the first work that failed; after it, or once `progress` asks to end, nothing new is begun.
 pub fn simulate_each<T: Send>(
     count: usize,
     threads: usize,
@@ -71,17 +71,17 @@ pub fn simulate_each<T: Send>(
     together(count, workers, progress, &|k, tell: Progress| one(k, threads, tell))
 }
 
-/// One run: in memory, or below [`Settings::folder`] in a folder of its own, where a finished one of the same problem is taken.
+/// One run: in memory, or below [`Settings::folder`] in its own folder, where a finished one of the same problem is taken.
 ///
 /// # Errors
-/// Those of [`simulate`].
+/// As [`simulate`].
 pub fn simulate_job(job: &Job, settings: &Settings, progress: Progress) -> Result<FeRun, FemError> {
     let Some(root) = &settings.folder else { return simulate(&job.source, settings, progress) };
     let task = Task::of(0, job, &job.source.load()?, root);
     task.run(job, settings, &mut |text, share| progress(&format!("{}: {text}", job.what), share))
 }
 
-/// One share of several runs, for machines beside each other that see one folder.
+/// One share of several runs, for several machines that see one folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
     /// Number of this shard, counted from 1.
@@ -94,12 +94,12 @@ impl Shard {
     /// The only shard of one: all runs.
     pub const WHOLE: Shard = Shard { which: 1, of: 1 };
 
-    /// `2/7`; `Err` says what to write.
+    /// Reads `2/7`; `Err` names the fault and the format.
     pub fn parse(text: &str) -> Result<Shard, String> {
         let read = text.split_once('/').and_then(|(which, of)| Some((which.parse().ok()?, of.parse().ok()?)));
         match read {
             Some((which, of)) if (1..=of).contains(&which) => Ok(Shard { which, of }),
-            _ => Err(format!("`{text}` is no shard: write K/N, for example 2/7, with K from 1 to N")),
+            _ => Err(format!("`{text}` is not a shard: write K/N, for example 2/7, with K from 1 to N")),
         }
     }
 
@@ -190,7 +190,7 @@ fn finished(folder: &Path) -> Result<Option<FeRun>, FemError> {
         engine: u32,
     }
     let text = std::fs::read(folder.join("summary.json")).unwrap_or_default();
-    // Runs of other engines may be records of another shape, and are nobody's fault.
+    // Runs of other engines may be records of another shape, which is not an error.
     let of_another = serde_json::from_slice(&text).is_ok_and(|Made { engine }| engine != crate::ENGINE);
     if of_another || !folder::is_finished(folder) {
         return Ok(None);

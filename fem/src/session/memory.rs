@@ -1,4 +1,4 @@
-//! Memory that a run takes: a mesh that cannot fit is told before the system ends the program.
+//! Memory that a run takes: a mesh that cannot fit is refused before the system ends the program.
 
 use crate::FemError;
 use crate::policy::LEAST_BYTES;
@@ -16,7 +16,7 @@ pub(super) fn check(problem: &Problem) -> Result<(), FemError> {
     system.refresh_memory();
     let group = system.cgroup_limits().map_or(u64::MAX, |limits| limits.free_memory);
     let left = match system.available_memory() {
-        // A system that does not tell.
+        // A system that does not report its memory.
         0 => return Ok(()),
         left => left.min(group),
     };
@@ -38,8 +38,8 @@ mod tests {
 
     #[test]
     fn what_cannot_fit_is_refused_with_both_numbers() {
-        let told = refused(30_000_000_000, 4_000_000_000).unwrap_err().to_string();
-        assert!(told.contains("30.0 GB") && told.contains("4.0 GB"), "{told}");
+        let error = refused(30_000_000_000, 4_000_000_000).unwrap_err().to_string();
+        assert!(error.contains("30.0 GB") && error.contains("4.0 GB"), "{error}");
         assert!(refused(4_000_000_000, 4_000_000_000).is_ok());
     }
 }

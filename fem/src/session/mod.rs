@@ -98,7 +98,7 @@ pub fn simulate(source: &Source, settings: &Settings, progress: Progress) -> Res
     finish(&loaded, running, place, settings, started, progress)
 }
 
-/// Marks the folder as that of this run. In memory energies are told at the start and at the end only.
+/// Marks the folder as this run's. In memory, energies are recorded at the start and at the end only.
 fn begin(
     loaded: &mut Loaded,
     place: Option<&Workplace>,
@@ -163,7 +163,7 @@ fn finish(
     started: Instant,
     progress: Progress,
 ) -> Result<FeRun, FemError> {
-    // What is nearly complete is not worth an interrupt.
+    // A nearly complete run is not worth an interrupt.
     let _ = progress("writing the summary", Some(1.0));
     let mut run = FeRun {
         summary: Summary::of(&loaded.case, &running, loaded.robot.as_ref()),

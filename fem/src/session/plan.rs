@@ -1,4 +1,4 @@
-//! Runs of one robot that differ in mesh, seed, pressure, or in the numbers that nobody measured.
+//! Runs of one robot that differ in mesh, seed, pressure, or in unmeasured numbers.
 
 use super::{Source, rounded};
 use crate::FemError;
@@ -74,7 +74,7 @@ pub fn product(run: &RobotRun, seeds: Option<u64>, separate: bool, meshes: &[[f6
 }
 
 /// The robot as it is, then with each of [`NUMERICAL`] a third and three times as large, and on elements of half the size. A setting
-/// that the program chooses by itself is varied from that value, or left out where there is none.
+/// that the program chooses is varied from that value, or left out where there is none.
 ///
 /// # Errors
 /// A robot that cannot be built.
@@ -121,7 +121,7 @@ fn extended(cases: &[Variation], ways: &[Way]) -> Vec<Variation> {
 /// Seed of the hypercube: the robots of a scenario are the same ones on every machine.
 const CUBE: u64 = 1;
 
-/// A number that nobody measured and that a robot feels, and the key that writes it.
+/// An unmeasured number that changes a robot, and the key that writes it.
 pub type Felt = (&'static Assumed, &'static Key<RobotSettings>);
 
 /// Robots that fill the intervals of assumed numbers as a Latin hypercube.
@@ -131,7 +131,7 @@ pub struct Cube {
     pub base: Source,
     /// Assumed numbers that change this robot, with their keys.
     pub numbers: Vec<Felt>,
-    /// A row for every robot: where each number lies in its interval, 0 to 1.
+    /// A row for every robot: the position of each number in its interval, 0 to 1.
     pub shares: Vec<Vec<f64>>,
     /// One run per row of `shares`.
     pub robots: Vec<Variation>,

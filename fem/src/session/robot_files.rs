@@ -1,4 +1,4 @@
-//! Files of a complete run beside those of every run: readings, markers as a dataset, buckling events, pictures.
+//! Files of a robot's complete run in addition to the common ones: readings, markers as a dataset, buckling events, pictures.
 
 use super::{FeRun, Further, Loaded, WatchedRobot, rounded};
 use crate::output::picture::{self, Image, PictureLook, Viewpoint};
@@ -6,11 +6,11 @@ use crate::robot::{Reading, Snap};
 use crate::{FemError, Mesh, Simulation};
 use std::fmt::Write;
 
-/// Share of the elements whose stress lies within the colour scale: a few at the ends of welds are far above all others.
+/// Share of the elements whose stress is within the colour scale: a few at the ends of welds are far above all others.
 const WITHIN: f64 = 0.99;
 const MM: f64 = 1e3;
 
-/// All of them, by name; further ones are made beside the pictures, which take as long.
+/// All of them, by name; further ones are made in parallel with the pictures, which take as long.
 pub(super) fn files(
     loaded: &Loaded,
     run: &FeRun,

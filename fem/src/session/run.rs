@@ -78,7 +78,7 @@ pub struct FeRun {
     pub notices: Vec<String>,
     /// Energies of a robot every few dozen steps; empty for a run that was complete before.
     pub energies: Vec<Sample>,
-    /// Files of the end by name, where there is no folder.
+    /// Files of the end by name, for a run without a folder.
     pub files: Vec<(String, Vec<u8>)>,
 }
 
@@ -99,7 +99,7 @@ impl FeRun {
             Ok::<_, FemError>((path.display().to_string(), text))
         };
         let help =
-            format!("delete {} and give the command again: that run is made anew, others are kept", folder.display());
+            format!("delete {} and give the command again: that run is repeated, others are kept", folder.display());
         let (file, summary_text) = text("summary.json")?;
         let summary = SUMMARY.read(&file, &summary_text, &help)?;
         let (listed, manifest) = text("manifest.json")?;
@@ -117,7 +117,7 @@ impl FeRun {
         self.summary.robot.as_ref().map_or(&[], |robot| &robot.readings)
     }
 
-    /// The deformed meshes of the outputs in its folder, by time; `run.pvd` there says when each is.
+    /// The deformed meshes of the outputs in its folder, by time; `run.pvd` there lists their times.
     pub fn frames(&self) -> Vec<PathBuf> {
         let entries = self.folder.iter().filter_map(|folder| std::fs::read_dir(folder.join("frames")).ok()).flatten();
         let mut found: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();

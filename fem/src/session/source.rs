@@ -1,4 +1,4 @@
-//! What is simulated: the text of a case or of a robot's scenario, and what it describes.
+//! Source of a simulation: the text of a case or of a robot's scenario, and the problem it describes.
 
 use super::watch::WatchedRobot;
 use crate::FemError;
@@ -32,7 +32,7 @@ pub struct Loaded {
 }
 
 impl Source {
-    /// A text without files beside it.
+    /// A text without files next to it.
     pub fn new(name: &str, text: &str) -> Source {
         Source { text: text.into(), name: name.into(), folder: PathBuf::new() }
     }
@@ -52,20 +52,20 @@ impl Source {
     /// The same with keys of `[fem]` set to other values, which are written as in TOML.
     ///
     /// # Errors
-    /// [`FemError::Setting`] if the table cannot be told from the text around it.
+    /// [`FemError::Setting`] if the table cannot be separated from the text around it.
     pub fn with(&self, changes: &[(String, String)]) -> Result<Source, FemError> {
         let changes: Vec<(&str, &str)> = changes.iter().map(|(key, value)| (key.as_str(), value.as_str())).collect();
         let text = with_fem(&self.text, &changes).ok_or_else(|| {
             let message = format!("the table [fem] of {} cannot be changed from the command line", self.name);
-            FemError::setting(message, "write `[fem]` on a line of its own, or set the keys in the file")
+            FemError::setting(message, "write `[fem]` on a separate line, or set the keys in the file")
         })?;
         Ok(Source { text, ..self.clone() })
     }
 
-    /// A robot's scenario at another body pressure and with as many pouches of another length as fit into the length of its own.
+    /// A robot's scenario at another body pressure and with as many pouches of another length as fit into the length of its actuator.
     ///
     /// # Errors
-    /// [`FemError::Setting`] for pouches longer than the actuator, and for a text that is no TOML.
+    /// [`FemError::Setting`] for pouches longer than the actuator, and for a text that is not TOML.
     pub fn varied(&self, body_kpa: f64, pouch_mm: Option<f64>) -> Result<Source, FemError> {
         let shape = self.robot_run()?.0.actuator;
         let unreadable =
@@ -93,7 +93,7 @@ impl Source {
     /// The case that it describes.
     ///
     /// # Errors
-    /// [`FemError::Refused`] with the place; what the mesh file says that it names.
+    /// [`FemError::Refused`] with the place; errors of the mesh file that it names.
     pub fn load(&self) -> Result<Loaded, FemError> {
         self.load_after(None)
     }

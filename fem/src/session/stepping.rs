@@ -37,11 +37,11 @@ pub(super) struct Running<'a> {
     /// Energies at all outputs so far.
     pub balances: Vec<Balance>,
     pub(crate) cpu_before_s: f64,
-    /// What to tell the user in the end.
+    /// Notices for the user, shown at the end.
     pub notices: Vec<String>,
     /// Where this session began: steps, and processor seconds.
     pub began: (u64, f64),
-    /// What is read of a robot.
+    /// Readings of a robot.
     pub robot: Option<Watched>,
     case: &'a Case,
     files: Option<Files>,
@@ -205,7 +205,7 @@ impl<'a> Running<'a> {
 }
 
 impl Files {
-    /// Files of a run after its outputs at `times_s`; what is lost is told before anything is cut.
+    /// Files of a run after its outputs at `times_s`; lost rows are refused before anything is cut.
     fn open(case: &Case, folder: &Path, times_s: &[f64]) -> Result<Files, FemError> {
         let (history, path, line) = (folder.join("history.csv"), folder.join("centre_line.csv"), centre_line(case)?);
         Table::check(&history, times_s, 1)?;

@@ -124,7 +124,7 @@ pub struct EnergyLine {
     pub energy_j: f64,
 }
 
-/// Kinetic energy over kinetic and stored energy at the outputs after the start, held against the two rules.
+/// Kinetic energy over kinetic and stored energy at the outputs after the start, compared with the two rules.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct KineticShares {
     /// Number of outputs after the start.
@@ -152,7 +152,7 @@ pub struct Rule {
     pub last_broken_s: Option<f64>,
 }
 
-/// What a run took; it stands in the manifest.
+/// Cost of a run; part of the manifest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Cost {
     /// Processor time of this session \[s\].
@@ -223,7 +223,7 @@ impl Summary {
     pub fn warnings(&self) -> Vec<String> {
         let mut found = self.robot.as_ref().map_or(Vec::new(), RobotSummary::warnings);
         if policy::is_warped(self.hourglass_share) {
-            found.push(format!("over 5 %, it is no longer small. Try: {}", LESS_HOURGLASS));
+            found.push(format!("over 5 %, hourglass control is not small. Try: {}", LESS_HOURGLASS));
         }
         let stored = |of: &dyn Fn(&str) -> bool| {
             let rows = self.ledger.iter().filter(|row| row.kind == "stored" && of(&row.name));
@@ -239,15 +239,12 @@ impl Summary {
         }
         if let Some(end) = self.kinetic_share.end.filter(|end| !policy::is_at_rest(*end)) {
             found.push(format!(
-                "{:.1} % of the energy still moves at the end: this is no state of rest. Simulate longer, load more slowly, or add mass_damping_1_s",
+                "{:.1} % of the energy still moves at the end: the state is not at rest. Simulate longer, load more slowly, or add mass_damping_1_s",
                 100.0 * end
             ));
         }
         if policy::is_heavy(self.added_mass_share) {
-            found.push(
-                "more mass was added than there is: speeds are not those of the fabric, and slow motions are late"
-                    .into(),
-            );
+            found.push("more mass was added than the fabric has: speeds are too low, and slow motions are late".into());
         }
         if let Some(Through { nodes, share, first: Some(first) }) = &self.changed_sides {
             found.push(format!(

@@ -24,9 +24,9 @@ pub struct RunRow {
     pub variation: Variation,
     /// Heights at the ends of the holds, by time.
     pub heights: Vec<Heights>,
-    /// Folder; empty if the run is that of another row.
+    /// Folder; empty if the row shares the run of another row.
     pub folder: String,
-    /// Processor time \[s\]; 0 if the run is that of another row.
+    /// Processor time \[s\]; 0 if the row shares the run of another row.
     pub cpu_s: f64,
 }
 
@@ -56,7 +56,7 @@ impl RunTable {
     /// Of variations and what [`super::simulate_all`] made of them.
     ///
     /// # Errors
-    /// That of the first run that was stopped.
+    /// The error of the first run that was stopped.
     pub fn of(variations: &[Variation], many: Many) -> Result<RunTable, FemError> {
         let runs = many.runs.into_iter().collect::<Result<Vec<FeRun>, FemError>>()?;
         let first = |index: usize| many.of.iter().position(|of| *of == many.of[index]) == Some(index);

@@ -1,4 +1,4 @@
-//! Several long jobs beside each other, with one line of progress.
+//! Several long jobs in parallel, with one line of progress.
 
 use super::Progress;
 use crate::FemError;
@@ -32,7 +32,7 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 /// `progress` asks to end, nothing new is begun.
 ///
 /// # Errors
-/// That of the first job in their order that failed; the jobs that run beside it are finished before. Of jobs that were
+/// The error of the first job in their order that failed; jobs that run at the same time are finished before. Of jobs that were
 /// interrupted [`FemError::Interrupted`] with the number that are complete.
 pub(super) fn together<T: Send>(
     count: usize,
@@ -94,7 +94,7 @@ mod tests {
         FemError::interrupted(0, 1)
     }
 
-    /// What came back, and the shares that were told.
+    /// The result, and the reported shares of progress.
     fn tried(
         count: usize,
         workers: usize,

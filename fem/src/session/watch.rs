@@ -1,4 +1,4 @@
-//! What is read of a robot while it runs.
+//! Readings of a robot while it runs.
 
 use super::rounded;
 use crate::case::Key;
@@ -31,7 +31,7 @@ impl WatchedRobot {
         Ok(WatchedRobot { scenario: scenario.clone(), run: run.clone(), gauge: RobotGauge::new(scenario, problem)? })
     }
 
-    /// What the scenario says to the reduced model alone.
+    /// Parts of the scenario that only the reduced model reads.
     pub(super) fn left_out(&self) -> Option<String> {
         let effects = self.scenario.effects.iter().map(|e| e.name.clone());
         let wall = self.scenario.wall != Wall::default();
@@ -82,7 +82,7 @@ impl Watched {
         self.holds.get(self.readings.len()).map(|hold| hold.time_s)
     }
 
-    /// Pressure of the hold that a moment leads to or lies in \[Pa\].
+    /// Pressure of the present or next hold \[Pa\].
     pub(super) fn hold_pa(&self, time_s: f64) -> Option<f64> {
         let ahead = self.holds.iter().find(|hold| time_s <= hold.time_s + NOW_S);
         ahead.or(self.holds.last()).map(HoldEnd::highest_pa)
@@ -166,7 +166,7 @@ pub struct RobotSummary {
     /// Whether strips lie round the body, so that it bends out of the x–y plane.
     #[serde(default)]
     pub is_spatial: bool,
-    /// Preset of `[fem]`, and the keys that were set beside it.
+    /// Preset of `[fem]`, and the keys set in addition.
     #[serde(default)]
     pub model: String,
     /// Keys of `[fem]` that were set, without `model`.

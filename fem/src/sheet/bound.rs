@@ -1,7 +1,7 @@
 //! An upper bound of every node's stiffness, for the stable step.
 //!
-//! The tangent of an element is A·(Bᵀ D B + geometric part). Its largest eigenvalue is bounded by that of D·BBᵀ, a 3×3
-//! matrix, through its largest row sum (exact for a square of isotropic fabric), plus the largest tension times that of
+//! The tangent of an element is A·(Bᵀ D B + geometric part). Its largest eigenvalue is bounded by the largest one of D·BBᵀ, a 3×3
+//! matrix, through its largest row sum (exact for a square of isotropic fabric), plus the largest tension times the largest eigenvalue of
 //! Σ B Bᵀ. Bending adds the row sums of K (Gershgorin).
 
 use models::Fabric;
@@ -39,7 +39,7 @@ impl At<'_> {
         element.reference.area * (0..3).map(|i| (0..3).map(|j| entry(i, j)).sum::<f64>()).fold(0.0, f64::max)
     }
 
-    /// Bound of that of the geometric part and of hourglass control \[N/m\].
+    /// Bound of the eigenvalues of the geometric part and of hourglass control \[N/m\].
     fn rest(&self, element: &Element) -> f64 {
         let g = element.reference.metric(element.corners);
         let s = self.fabric.tension(self.e, &self.past);
@@ -110,7 +110,7 @@ impl Sheet {
     pub(crate) fn tangents(&self, q: &[f64], bound: &mut [f64]) -> Vec<Tangent> {
         let mut all = Vec::with_capacity(self.elements.len());
         self.each_ahead(q, bound, |item, (at, _), f| {
-            // A film that comes taut is as long as its unfolded strain says.
+            // A film that comes taut has the length of its unfolded strain.
             let f = [0, 1].map(|k| f[k].map(|x| x * (at.c[k] / dot(f[k], f[k])).sqrt()));
             all.push(Tangent::new(item, f, at.d, self.viscosity_n_s_m(item)));
             at.rest(item)
@@ -118,7 +118,7 @@ impl Sheet {
         all
     }
 
-    /// Adds to the nodes what `of` says of every element at its stiffest state, and the bounds of bending and pressure.
+    /// Adds to the nodes each element's bound `of` at its stiffest state, and the bounds of bending and pressure.
     fn each_ahead(&self, q: &[f64], bound: &mut [f64], mut of: impl FnMut(&Element, (At, f64), [[f64; 3]; 2]) -> f64) {
         let q = q.as_chunks::<4>().0;
         let pressure = self.air.iter().map(|a| a.peak_pa()).fold(0.0, f64::max);

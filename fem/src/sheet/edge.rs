@@ -20,7 +20,7 @@ const LARGEST_TURN: f64 = 0.5;
 /// Turns below this are rounding \[rad\]; without them a row of a straight edge has three nodes.
 const SMALLEST_TURN: f64 = 1e-9;
 
-/// Weights of κ_s \[1/m²\] for the neighbours on the edge and, beside a curved edge, all nodes `around`; offsets are from
+/// Weights of κ_s \[1/m²\] for the neighbours on the edge and, at a curved edge, all nodes `around`; offsets are from
 /// the node \[m\]. `None` at a corner.
 pub fn weights(edge: [(u32, [f64; 3]); 2], around: &[(u32, [f64; 3])], normal: [f64; 3]) -> Option<Vec<(u32, f64)>> {
     let length = edge.map(|(_, x)| dot(x, x).sqrt());

@@ -97,12 +97,12 @@ impl RestShape {
         shape
     }
 
-    /// The same for shapes that are equal but for rounding, save where they lie just beside a step of it.
+    /// The same for shapes that are equal but for rounding, save where they are close to a step of it.
     pub(crate) fn key(&self) -> Vec<i64> {
         let steps = |value: f64| (value / ALIKE).round() as i64;
         let mut key = Vec::new();
         for lane in 0..LANES {
-            // Lengths may be zero but for rounding: they are told in sizes of the element.
+            // Lengths may be zero but for rounding: they are measured in sizes of the element.
             let size = self.area[lane].sqrt();
             key.extend(self.b.as_flattened().iter().map(|b| steps(b[lane] * size)));
             key.extend(self.s.iter().map(|s| steps(s[lane] / size)));

@@ -10,7 +10,7 @@
 //! ```
 //!
 //! Everything is the exact derivative of an energy (the hourglass form sees in-plane parts of q only, because F is
-//! tangent to the sheet), the pressure force that of −pV with V the volume under the bilinear surface.
+//! tangent to the sheet), the pressure force the derivative of −pV with V the volume under the bilinear surface.
 
 use models::fabrics::Past;
 use pulp::Simd;
@@ -65,7 +65,7 @@ pub(super) struct BatchInputs<'a> {
     pub past: &'a [[Past; LANES]],
 }
 
-/// Forces of quadrilaterals, with `BOOKS` also energies and fluxes; `ROWS` says that all groups are in regular rows.
+/// Forces of quadrilaterals, with `BOOKS` also energies and fluxes; `ROWS` promises that all groups are in regular rows.
 #[inline(always)]
 pub(super) fn quads<S: Simd, L: ShellLaw, const ROWS: bool, const BOOKS: bool>(
     simd: S,

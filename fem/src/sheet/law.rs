@@ -91,7 +91,7 @@ impl ShellLaw for WrinklingFilm {
         let (full, stored) = Rubber(1.0).at(simd, e, who);
         let (zero, half, one) = (V::all(simd, 0.0), V::all(simd, 0.5), V::all(simd, 1.0));
         let (mean, d, c) = (e[0] + e[1], e[0] - e[1], e[2]);
-        // Never 0, so that its inverse is a number; it is multiplied by what is 0 there.
+        // Never 0, so that its inverse is a number; its factor is 0 there.
         let r = (d * d + c * c).max(V::all(simd, f64::MIN_POSITIVE)).sqrt();
         // Where x < 0 the film is slack, and it is so with 0 in its place.
         let (x, y) = ((mean + r).max(zero), mean - r);

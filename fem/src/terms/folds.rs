@@ -20,7 +20,7 @@
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | φ | turn of an element from that of the other side: 2 sin ½φ = \|L x\|, L x the sum of the unit vectors across the edge | rad |
+//! | φ | turn between the elements of both sides: 2 sin ½φ = \|L x\|, L x the sum of the unit vectors across the edge | rad |
 //! | D | bending stiffness of a side | N m |
 //! | T | tension across the edge in the element of that side; 0 under compression | N/m |
 //! | h | length of that element across the edge | m |

@@ -13,7 +13,7 @@ pub use obstacles::Obstacles;
 pub use rest_curvature::RestCurvature;
 
 /// k Δt²/m of the penalty of obstacles. One spring of this stiffness adds as much to (ω Δt)², which central differences allow up
-/// to 4; a mesh stepped at 0.9 of its own limit leaves 4 (1 − .81) = .76 free.
+/// to 4; a mesh stepped at 0.9 of the mesh's limit leaves 4 (1 − .81) = .76 free.
 const SHARE: f64 = 0.1;
 
 /// Penalty stiffness of obstacles for every node, k = `SHARE` · m/Δt² \[N/m\], of its mass as it is stepped. The depth reached under a

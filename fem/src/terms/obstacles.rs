@@ -31,8 +31,8 @@ use crate::{FemError, Mesh};
 use crate::{Tick, Transient};
 
 const CHUNK: usize = 1024;
-/// c/(k Δt) = 2 ζ/√(k Δt²/m) with ζ = 0.4 and k Δt²/m = [`SHARE`](super::SHARE). Central differences bear 2 c Δt/m = 0.5 beside k
-/// and a mesh at 0.9 of its own limit.
+/// c/(k Δt) = 2 ζ/√(k Δt²/m) with ζ = 0.4 and k Δt²/m = [`SHARE`](super::SHARE). Central differences bear 2 c Δt/m = 0.5 in addition to k
+/// and a mesh at 0.9 of the mesh's limit.
 const DAMPING: f64 = 2.53;
 
 /// Obstacles of a run, with stiffness, friction and energies of their contact.
@@ -133,7 +133,7 @@ impl Term for Obstacles {
         for ((solid, grips), path) in self.solids.iter().zip(&self.grips).zip(&self.paths) {
             for (i, (f, (spring, _))) in force.iter_mut().zip(grips).enumerate() {
                 let at = from(&x[i], path.now_m);
-                // After a step the places before are those of this moment.
+                // After a step `before_m` holds the places of this moment.
                 let before = self.before_m.get(i).map_or(at, |before| from(before, path.now_m));
                 energy_j += solid.hold(&at, &before, self.stiffness_n_m[i], spring, f);
             }

@@ -14,7 +14,7 @@
 //! | H̄ | H·N/N·N of the reference shape | 1/m |
 //! | D, A | bending stiffness of the parts that keep their curvature; area of the node | N m, m² |
 //!
-//! **Validity**: that of the bending; where elements are so irregular that H and N are not parallel in the reference shape,
+//! **Validity**: as for the bending; where elements are so irregular that H and N are not parallel in the reference shape,
 //! it keeps a stress of the order of the element size. Derived here.
 
 use models::{Account, LedgerLine, Pose, Row, RowKind, Term};

@@ -1,4 +1,4 @@
-//! A beam without actuator: what a scenario without `[actuator]` is. No stretch of it is active, so none of its laws is asked.
+//! A beam without actuator, from a scenario without `[actuator]`. No stretch of it is active, so none of its laws is evaluated.
 
 use super::actuator::{Actuator, Family, Stroke};
 use super::pattern::{Joint, Pattern, flat};

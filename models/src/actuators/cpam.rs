@@ -8,7 +8,7 @@
 //! ```
 //!
 //! For L₀ = 60 mm, f = 24 mm it is 0: the ideal pouch. Derived here from the published inner-area factor 2.60 =
-//! (W + 4f)/W, which says that the folds are at the two lateral sides (inferred, not printed).
+//! (W + 4f)/W, so the folds are at the two lateral sides (inferred, not printed).
 
 use super::actuator::Actuator;
 use super::pattern::{Joint, Pattern, flat, panel};

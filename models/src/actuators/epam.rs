@@ -13,7 +13,7 @@ pub(super) const ENTRY: Actuator = Actuator {
     formula: "ε = 1 − sinθ/θ;  N = P W L₀ cosθ/θ;  arm = 2R",
     reference: "Niiyama et al. 2015 (pouch); Abrar et al. 2021 (ePAM; its model text was not available here)",
     validity: "Sealed side edges are not in the bare law, which bends too far: see sealed_sides.",
-    // Published: two cylinders welded in a pattern; that they are loose beside the pouches is assumed.
+    // Published: two cylinders welded in a pattern; that they are loose at the sides of the pouches is assumed.
     pattern: |shape| Pattern { body_sheets: 2, ..flat(shape, Joint::Wall) },
     ..POUCH
 };

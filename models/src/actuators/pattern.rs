@@ -1,6 +1,6 @@
 //! Sewing patterns: how an actuator is cut, folded, welded and joined to the body, as plain data.
 //!
-//! The sheet of one unit lies over a strip of the body and is described by its cross-section: panels from the edge at −W/2
+//! The sheet of one unit covers a strip of the body and is described by its cross-section: panels from the edge at −W/2
 //! to the edge at +W/2, each at a level above the wall (level 0). Where one panel ends the next begins: a fold. At both
 //! ends of a unit all panels are welded flat onto the wall, so as many layers meet there as lie over each other; its edges
 //! may be welded onto the wall too (`side_welds`).
@@ -24,7 +24,7 @@ pub struct Pattern {
     pub fabric: &'static str,
     /// Material of the body's wall, in [`crate::fabrics::MATERIALS`].
     pub body_fabric: &'static str,
-    /// Loose sheets that make the body's wall beside the pouches.
+    /// Loose sheets that make the body's wall at the sides of the pouches.
     pub body_sheets: usize,
     /// Distance from seam to seam along the body \[m\].
     pub pitch_m: f64,
@@ -105,7 +105,7 @@ impl Pattern {
         matches!(self.joint, Joint::Bonded { film: Film::Tape, .. })
     }
 
-    /// A taped pouch as a bag of its own that only its seams hold: the tape is a strip across every seam.
+    /// A taped pouch as a separate bag that only its seams hold: the tape is a strip across every seam.
     pub fn taped_at_seams(&self) -> Pattern {
         let half_m = 0.5 * self.width_m;
         let panel = |name, level, from_m, to_m| Panel { name, level, from_m, to_m, warp_rad: 0.0 };
@@ -118,8 +118,8 @@ impl Pattern {
         self.joint == Joint::Seams || self.panels.iter().any(|p| p.level > 1)
     }
 
-    /// The chamber's own pattern if the welds along its sides have a width: the pattern's edges are the middles of these welds, as
-    /// its ends are those of the seams, and folds keep their depth.
+    /// The chamber's own pattern if the welds along its sides have a width: the pattern's edges are the middles of these welds, as its
+    /// ends are the middles of the seams, and folds keep their depth.
     pub fn between_welds(&self, weld_m: f64) -> Pattern {
         let mut pattern = self.clone();
         if self.side_welds {
@@ -157,9 +157,9 @@ impl Pattern {
 
     fn sizes(&self, radius_m: f64, weld_m: f64) -> Result<(), String> {
         let half_m = std::f64::consts::PI * radius_m;
-        for (what, value) in [("radius", radius_m), ("pitch", self.pitch_m), ("width", self.width_m)] {
+        for (name, value) in [("radius", radius_m), ("pitch", self.pitch_m), ("width", self.width_m)] {
             if !(value > 0.0 && value.is_finite()) {
-                return Err(format!("the {what} is {} mm; write a positive length", mm(value)));
+                return Err(format!("the {name} is {} mm; write a positive length", mm(value)));
             }
         }
         if self.width_m > half_m {
@@ -206,11 +206,11 @@ impl Pattern {
             Joint::Seams => (last.to_m, last.to_m),
             _ => (-0.5 * self.width_m, 0.5 * self.width_m),
         };
-        for (panel, found, wanted) in [(first, first.from_m, begin), (last, last.to_m, end)] {
-            if (found - wanted).abs() > SAME_M {
-                let (found, wanted) = (mm(found), mm(wanted));
+        for (panel, found, end) in [(first, first.from_m, begin), (last, last.to_m, end)] {
+            if (found - end).abs() > SAME_M {
+                let (found, end) = (mm(found), mm(end));
                 return Err(format!(
-                    "the sheet does not close: the edge of `{}` is at {found} mm and must be joined at {wanted} mm",
+                    "the sheet does not close: the edge of `{}` is at {found} mm and must be joined at {end} mm",
                     panel.name
                 ));
             }
@@ -218,7 +218,7 @@ impl Pattern {
         Ok(())
     }
 
-    /// A panel has a length and lies on the strip.
+    /// A panel has a length and is on the strip.
     fn place(&self, panel: &Panel) -> Result<(), String> {
         let [low, high] = panel.range_m();
         let half = 0.5 * self.width_m;
@@ -237,7 +237,7 @@ impl Pattern {
         Ok(())
     }
 
-    /// No other layer lies in the way of the fold from `a` to `b`.
+    /// No other layer blocks the fold from `a` to `b`.
     fn fold(&self, a: &Panel, b: &Panel) -> Result<(), String> {
         let between = a.level.min(b.level) + 1..a.level.max(b.level);
         let over = |p: &&Panel| p.range_m()[0] + SAME_M < a.to_m && a.to_m < p.range_m()[1] - SAME_M;

@@ -142,7 +142,7 @@ fn area(shape: &ActuatorShape) -> f64 {
     shape.volume_gain * shape.width_m * shape.length_m
 }
 
-/// Pouch in or on the wall: its chord lies on the body surface, one diameter from the taut generator.
+/// Pouch in or on the wall: its chord is on the body surface, one diameter from the taut generator.
 fn arm(radius_m: f64, _shape: &ActuatorShape) -> f64 {
     2.0 * radius_m
 }

@@ -1,6 +1,6 @@
 //! sPAM / pouch motor: separate pouches taped onto the body.
 //!
-//! Law of [`super::pouch`]. Its line of action lies **outside** the body: the chord of the lens is lifted by the inner
+//! Law of [`super::pouch`]. Its line of action is **outside** the body: the chord of the lens is lifted by the inner
 //! bulge, h/2, so the arm grows with pressure. That is the effect `arm_growth` with β = 1, stated in the scenario, so
 //! that a user sees what it costs.
 

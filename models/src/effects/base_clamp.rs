@@ -1,4 +1,4 @@
-//! A stiffer base: the clamp holds the wall round and keeps the folds from forming beside it.
+//! A stiffer base: the clamp holds the wall round and keeps the folds from forming next to it.
 //!
 //! ```text
 //! B(s) = B (1 + b e^{−(s/λ)ᵐ})      E = ½ B b e^{−(s/λ)ᵐ} κ² per metre      λ = c R

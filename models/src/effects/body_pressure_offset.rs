@@ -8,7 +8,7 @@
 //! |---|---|---|
 //! | p₀ | set body pressure that does not arrive | kPa |
 //!
-//! At the moments of the hinge alone it is the constant moment πR³p₀ of `tail_tension`; beside a wall, gas displaced or loads
+//! At the moments of the hinge alone it is the constant moment πR³p₀ of `tail_tension`; with a wall, displaced gas or loads
 //! near collapse it is not. **Validity**: the same at all pressures. Supply stage: acts before the balance. Definition.
 
 use super::entry::*;
@@ -18,7 +18,7 @@ pub(super) const ENTRY: Effect = Effect {
     group: Group::Supply,
     stage: Stage::Supply,
     formula: "p_b = max(0, p_set − p₀)",
-    sentence: "The body holds another pressure than its gauge says.",
+    sentence: "The pressure in the body differs from its gauge's reading.",
     differs: "A steady moment is missing or too much, alike at all actuator pressures.",
     remedy: "Put a gauge on the body itself, not on its supply line.",
     validity: "the same at all pressures; like tail_tension where the hinge is all that resists",

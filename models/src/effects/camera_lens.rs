@@ -19,7 +19,7 @@ pub(super) const ENTRY: Effect = Effect {
     stage: Stage::Camera,
     formula: "(x, y) → (x, y) + k r² (x − c L, y − h L), r² = (x − c L)² + (y − h L)²",
     sentence: "The lens bends straight lines, so positions are off by more the farther they are from the middle of the image.",
-    differs: "Positions are off by the cube of their distance from the middle of the image, also those of the straight robot.",
+    differs: "Positions are off by the cube of their distance from the middle of the image, also on the straight robot.",
     remedy: "Calibrate the lens with a checkerboard, or photograph a ruler along the edge of the image.",
     validity: "one radial coefficient",
     reference: "Brown 1971, first radial term",

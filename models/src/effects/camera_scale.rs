@@ -18,7 +18,7 @@ pub(super) const ENTRY: Effect = Effect {
     stage: Stage::Camera,
     formula: "(x, y) → (1 + s)(x, y)",
     sentence: "The camera's millimetre is not a millimetre: all positions are off by the same percentage.",
-    differs: "All positions are off by the same percentage, also those of the straight robot.",
+    differs: "All positions are off by the same percentage, also on the straight robot.",
     remedy: "Photograph a checkerboard in the plane of the markers.",
     validity: "no lens distortion",
     reference: "geometry",

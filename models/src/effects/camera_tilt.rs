@@ -19,7 +19,7 @@ pub(super) const ENTRY: Effect = Effect {
     stage: Stage::Camera,
     formula: "(x, y) → (x cosα, y cosβ)/(1 + (x sinα + y sinβ)/d)",
     sentence: "The camera does not look at right angles onto the plane of the robot.",
-    differs: "What is farther from the camera looks smaller: positions are off by the square of their distance from the base.",
+    differs: "Parts farther from the camera look smaller: positions are off by the square of their distance from the base.",
     remedy: "Photograph a checkerboard in the plane of the robot: all its squares must have one size.",
     validity: "pinhole camera, scale right at the base",
     reference: "geometry",

@@ -9,7 +9,7 @@
 //! | τ | lag of the camera at the start | s |
 //! | ρ | how much slower its clock runs | - |
 //!
-//! Between two holds the pressures are those of the second. Acts on data with several samples in a hold. **Validity**: one lag and
+//! Between two holds the pressures of the second apply. Acts on data with several samples in a hold. **Validity**: one lag and
 //! one rate for all runs. Definition.
 
 use super::entry::*;

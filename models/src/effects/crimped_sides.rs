@@ -12,14 +12,14 @@
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | D_w b | bending stiffness of one side weld along the robot: that of its bonded plies, ½ E t · t² for two, times its width | N·m² |
+//! | D_w b | bending stiffness of one side weld along the robot: D_w of its bonded plies, ½ E t · t² for two, times its width b | N·m² |
 //! | F | compression that folds a beam on the foundation k P̄, and keeps folding it | N |
 //! | e | edge restraint of the actuator: 1 sealed, 0 freed by gussets | – |
 //! | ε | contraction of the pouch: how much a side must hide of its length | – |
 //!
-//! The foundation does not depend on a. **Validity**: folds that are short beside the pouch, 2π (D_w b/k P̄)^¼ ≪ L, and not yet
+//! The foundation does not depend on a. **Validity**: folds that are short compared with the pouch, 2π (D_w b/k P̄)^¼ ≪ L, and not yet
 //! steep, where F falls slowly; sheets at the sides with arcs of radius a. A way round in the plane of the wall, which spares up to a
-//! third of ε, is not taken off, nor is the bending of the sheets beside the weld added. Beam on a foundation: Hetényi 1946, §7; foundation derived
+//! third of ε, is not subtracted, nor is the bending of the sheets next to the weld added. Beam on a foundation: Hetényi 1946, §7; foundation derived
 //! here.
 
 use super::entry::*;
@@ -32,7 +32,7 @@ pub(super) const ENTRY: Effect = Effect {
     sentence: "The side welds are too long for a pouch that has shortened, so they fold, and bonded plies resist.",
     differs: "The bend comes late and less, most where the pull is weak: at low pressures.",
     remedy: "Look at the sides of a full pouch: one sharp fold each, in its middle. Cut the side welds narrower.",
-    validity: "folds short beside the pouch, two sheets that meet at a weld",
+    validity: "folds short compared with the pouch, two sheets that meet at a weld",
     reference: "Hetényi 1946, §7 (beam on a foundation); foundation derived here",
     parameters: &[Parameter {
         key: "bending_nm2",

@@ -22,7 +22,7 @@ pub(super) const ENTRY: Effect = Effect {
     group: Group::Actuator,
     formula: "E = χ p_b v per metre; flat for P ≤ χ p_b",
     sentence: "The actuator bulges into the body and pushes its gas aside, so it works against the body's pressure and not against the air.",
-    differs: "The bend comes late by a share of the body's pressure: the curve over pressure shifts with that of the body.",
+    differs: "The bend comes late by a share of the body's pressure: the curve over pressure shifts with the body's pressure.",
     remedy: "Measure at another body pressure, or the volume of gas that leaves the body while the actuator fills.",
     validity: "one share for all pressures; at one body pressure not separable from pressure_offset",
     reference: "derived here",

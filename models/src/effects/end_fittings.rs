@@ -11,7 +11,7 @@
 //! | L, r₀ | length and radius at rest | m |
 //!
 //! A **prior**: published of another muscle, the 10 mm Festo one. Its author's fit, made without dimension by its diameter;
-//! the single force printed at L/2r₀ = 5.4 (103 N) is half of what that fit says (220 N), so there it may claim too much. **Validity**: L/2r₀ from 4 to 60.
+//! the single force printed at L/2r₀ = 5.4 (103 N) is half of this fit (220 N), so there it may claim too much. **Validity**: L/2r₀ from 4 to 60.
 //! Reference: Bolen 2026 (Actuators); that it scales with the diameter is assumed.
 
 use super::entry::*;
@@ -44,7 +44,7 @@ const LOST_M: f64 = 0.0075;
 /// What a stub is left with.
 const LEAST: f64 = 0.05;
 
-/// Force over that of a long muscle, by length over diameter.
+/// Force over a long muscle's, by length over diameter.
 fn share_of_force(slenderness: f64) -> f64 {
     ((GROWTH_PER_M * (slenderness * FESTO_M - LOST_M)).atan() / FRAC_PI_2).max(LEAST)
 }

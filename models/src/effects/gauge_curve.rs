@@ -8,7 +8,7 @@
 //! |---|---|---|
 //! | c | error of the slope: −c of the reading near zero | - |
 //!
-//! **Validity**: the first term beyond a straight line; what is proportional to the pressure is `pressure_loss`. Definition.
+//! **Validity**: the first term beyond a straight line; an error in proportion to the pressure is `pressure_loss`. Definition.
 
 use super::entry::*;
 

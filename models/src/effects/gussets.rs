@@ -1,7 +1,7 @@
 //! Gussets: folded sides of a pouch open as far as the diagonals of their folds allow, which the welds across hold.
 //!
 //! Fold, wall and sheet are welded together at both ends of a pouch, where the fold keeps its depth f. In between the sides are round,
-//! half circles of radius a, as `sealed_sides`; what a fold has given by then, u, moves each of them outwards. What is left, f − u, is a
+//! half circles of radius a, as `sealed_sides`; what a fold has given by then, u, moves each of them outwards. The rest, f − u, is a
 //! flap of two layers with the pouch's gas on both sides: nothing holds it but its length. From a corner at an end to its root
 //! at the side the flap is flat fabric before and a straight line at most after:
 //!
@@ -20,7 +20,7 @@
 //! Without a fold it is the sealed pouch. A flat pouch opens a seventh of its half height, u = (π − 2) a/4, and a deep fold opens
 //! late: a shallow one can hold more. The wall's sheet reaches up the side by W/2, so its weld is the end of the chord.
 //! **Validity**: inextensible fabric; half circles are taken from sections of finite elements, where a free membrane would dent at the
-//! flap. The welds sit below the middle of the pouch, which displaces less of the body's gas than `displaced_gas` says; that is left
+//! flap. The welds sit below the middle of the pouch, which displaces less of the body's gas than `displaced_gas` assumes; this is left
 //! out. Derived here.
 
 use super::entry::*;

@@ -15,7 +15,7 @@
 //! Written over g, κ is an explicit, rising function of the stroke: an arm that shrinks as `D₀(1 − oκ²)`, the first order of the
 //! same law, lets κD fall again beyond `κ = 1/√(3o)` and has two equilibria there. Brazier's elastic tube under pressure has
 //! `o = E t R³/(4 p R²)` before it wrinkles, and next to none after: a fitted o is a number for a section that collapses between
-//! the pouches. **Validity**: o g² below about 1; the body's own pressure moment stays that of the round section. Reference:
+//! the pouches. **Validity**: o g² below about 1; the body's own pressure moment stays the round section's. Reference:
 //! Brazier 1927 for the squared curvature; this form is derived here.
 
 use super::entry::*;

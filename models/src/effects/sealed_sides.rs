@@ -16,7 +16,7 @@
 //! | e | edge restraint of the actuator: 1 sealed, 0 freed by gussets | – |
 //! | L, W | flat length and width of the pouch | m |
 //! | A(w), Q(w) | area and moment of area Aȳ of the body's section with a chord w (`section.rs`), derivatives at the strip's width | m², m³ |
-//! | χ | share of the pouch that lies in the body (`displaced_gas`) | – |
+//! | χ | share of the pouch inside the body (`displaced_gas`) | – |
 //!
 //! The wall pulls the sides apart with p_b R' cosα, so that their arcs have a radius of a + ρ₀, ρ₀ = p_b R' cosα/2P̄, and end before
 //! they are level: the section then loses ½(4 − π) ρ₀² more, 1 % at P = 5 p_b, which is left out. Without a body the volume is
@@ -59,7 +59,7 @@ pub(super) struct SealedSides {
 fn add(values: &[f64], assembly: &mut Assembly) {
     for site in assembly.active_sites(Family::Pouch) {
         let restraint = site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape));
-        // What `gussets` says of these sides it says better.
+        // `gussets` models these sides in more detail.
         let share = values[0] * restraint * (1.0 - site.gusset_share);
         if share > 0.0 {
             let term = SealedSides::new(share, site);
@@ -101,7 +101,7 @@ impl SealedSides {
         (-0.5 * share * self.area[0] / width_m).max(0.0)
     }
 
-    /// Length along the far side over that of the chord, 1/(1 − κD) without its pole, and its slope over κ.
+    /// Length along the far side over the chord's, 1/(1 − κD) without its pole, and its slope over κ.
     pub(super) fn stretch(&self, kappa: f64) -> [f64; 2] {
         let turn = kappa * self.arm_m;
         [1.0 + turn * (1.0 + turn), self.arm_m * (1.0 + 2.0 * turn)]

@@ -9,7 +9,7 @@
 //! | k | rotational stiffness of the folds of one pouch | N·m/rad |
 //! | θ | half arc angle | rad |
 //!
-//! For small θ the contraction goes as θ²/6, so this is a constant moment 3kD/L₀: there it cannot be told from
+//! For small θ the contraction goes as θ²/6, so this is a constant moment 3kD/L₀: there it cannot be distinguished from
 //! `tail_tension`. Validity: elastic folds. Derived here.
 
 use super::entry::*;

@@ -15,7 +15,7 @@
 //! | φ | angle at which neighbours touch; π without rim and gap | rad |
 //! | k | contact stiffness of one pouch; large k is a hard stop | N·m/rad |
 //!
-//! Under a muscle there are no pouches: the inner wall lies in folds, which have closed when a metre of body has turned by φ,
+//! Under a muscle there are no pouches: the inner wall is folded, and the folds have closed when a metre of body has turned by φ,
 //! `E = ½ k (κ₀ · 1 m − φ)₊² / 1 m` per metre, k of a metre of body.
 //!
 //! Validity: pouches or folds side by side; for pouches φ = π is derived here, another value is to be seen on the robot or fitted.

@@ -7,13 +7,13 @@
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | α, α₀ | yarn angle to the axis, at rest (45° unless `bias_deg` says otherwise) | rad |
+//! | α, α₀ | yarn angle to the axis, at rest (45° unless `bias_deg` gives another) | rad |
 //! | γ | shear angle | rad |
 //! | n | exponent of the shear force: below 1 the weave softens as it is sheared, above it stiffens | - |
 //! | G_t | shear modulus × thickness; 1/G = 4/E₄₅ − (1/E₀ + 1/E₉₀): 51.6 N/m for E₀, E₄₅, E₉₀ = 96.5, 4.05, 120 MPa, 50 µm | N/m |
 //!
 //! Makes the free stroke rise with pressure, which no ideal McKibben law does. Validity: below locking (about 35–45°).
-//! Beside stretching yarns the part with n = 1 turns with them, the rest with the tube of stiff yarns. Derived here; modulus
+//! With stretching yarns the part with n = 1 turns with them, the rest with the tube of stiff yarns. Derived here; modulus
 //! relation of an orthotropic sheet at 45° with ν₁₂ ≈ 0.
 
 use super::entry::*;

@@ -1,4 +1,4 @@
-//! Sunk muscle: a tube glued over its flat width draws the wall in and lies half in the body.
+//! Sunk muscle: a tube glued over its flat width draws the wall in and is half in the body.
 //!
 //! ```text
 //! wall     an arc s = 2πR − W closed by the chord w = 2r₀:  w/s = sinβ/(π − β),  R' = s/(2(π − β))
@@ -29,7 +29,7 @@ pub(super) const ENTRY: Effect = Effect {
     name: "sunk_muscle",
     group: Group::Actuator,
     formula: "D = R' (1 + cosβ), 2r₀/(2πR − W) = sinβ/(π − β); hinge p_b A_b ȳ_b",
-    sentence: "The muscle is glued over its whole width, draws the wall in and lies half inside the body, nearer to the far side.",
+    sentence: "The muscle is glued over its whole width, draws the wall in and is half inside the body, nearer to the far side.",
     differs: "More bend per stroke than an arm outside the body allows, and a body that resists less.",
     remedy: "Measure the distance from the far wall to the middle of the muscle at full pressure.",
     validity: "glued over the whole flat width; P above some 3 p_b",

@@ -15,8 +15,8 @@
 //! | ε₀ | strain at the axis | - |
 //!
 //! At the curvatures of a bent robot (κ/κ_w of 50–200) M is within 2–3 % of the hinge moment, so with a fabric's real
-//! compliance this effect is small; a large fitted c says that the wall folds gradually for another reason. The typical sizes
-//! are those of a wall that does: κ_w half of the curvature at which the robots work.
+//! compliance this effect is small; a large fitted c means that the wall folds gradually for another reason. The typical sizes
+//! belong to such a wall: κ_w half of the curvature at which the robots work.
 //! **Validity**: membrane without bending stiffness, circular section. Reference: Comer & Levy, AIAA Journal 1(7), 1963.
 
 use super::entry::*;

@@ -25,7 +25,7 @@ pub(super) const ENTRY: Effect = Effect {
     sentence: "The yarns of the muscle stretch under its pressure, so it widens and grows longer instead of pulling.",
     differs: "At high pressure the bend rises no further, or falls.",
     remedy: "Take E t along warp and fill from tensile tests, and ν from the width of a strip under load.",
-    validity: "yarns linear and alike in both families; nobody prints ν of a coated weave, and c is proportional to 1 − ν",
+    validity: "yarns linear and alike in both families; ν of a coated weave is unpublished, and c is proportional to 1 − ν",
     reference: "derived here",
     parameters: &[Parameter {
         key: "compliance_m_per_n",

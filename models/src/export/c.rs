@@ -86,7 +86,7 @@ impl Table {
             ("@EDGES@", floats(&self.edges)),
             ("@COEFFICIENTS@", floats(&self.coefficients)),
         ];
-        // Names first: what is filled in may hold anything.
+        // Names first: the filled-in values may contain anything.
         let text = text.replace("NAME", &name).replace("UPPER", &name.to_ascii_uppercase());
         filled.iter().fold(text, |text, (key, value)| text.replace(key, value))
     }

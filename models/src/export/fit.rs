@@ -121,7 +121,7 @@ impl Fitter<'_, '_> {
         Ok(row)
     }
 
-    /// Whether a piece is further from the model than wanted, at its ends and between its nodes.
+    /// Whether a piece is further from the model than the goal, at its ends and between its nodes.
     fn misses(&mut self, ends: [f32; 2], piece: &[f32]) -> Result<bool, Untabulated> {
         let count = 3 * (self.degree + 1);
         for k in 0..=count {

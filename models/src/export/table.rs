@@ -16,7 +16,7 @@ use spelling::si;
 const GOALS: [f64; 3] = [5e-5, 2e-4, 8e-4];
 /// Degrees tried; higher ones lose digits in single precision.
 const DEGREES: std::ops::RangeInclusive<usize> = 3..=7;
-/// Pressures at which the finished table is held against the model, and at which its slope is.
+/// Number of pressures at which the finished table, and its slope, are compared with the model.
 const CHECKED: [usize; 2] = [20_001, 1001];
 /// Slopes are compared from this share of the pressures above P₀ on: at P₀ a pouch rises with an infinite one.
 const SLOPE_FROM: f64 = 0.01;
@@ -157,7 +157,7 @@ impl Table {
         4 * (self.edges.len() + self.coefficients.len())
     }
 
-    /// Number of pieces of the range of pressures, each with polynomials of its own.
+    /// Number of pieces of the range of pressures, each with its own polynomials.
     pub fn pieces(&self) -> usize {
         self.edges.len() - 1
     }
@@ -175,7 +175,7 @@ impl Table {
     }
 
     /// Value of an output and its slope per pascal: 0, 1, 2 are x, y and angle of the tip, then x, y of each marker. Outside
-    /// the range it is that of the nearest end.
+    /// the range it is the nearest end's.
     pub fn at(&self, p_pa: f64, output: usize) -> [f64; 2] {
         let p = if p_pa > self.range_pa[0] { p_pa.min(self.range_pa[1]) } else { self.range_pa[0] };
         let span = self.range_pa[1] - self.open_pa;

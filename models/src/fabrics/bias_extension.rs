@@ -10,14 +10,14 @@
 //! |---|---|---|
 //! | H, W | free length and width of the strip, H ≥ 2W | m |
 //! | d, F | displacement and force of the clamp | m, N |
-//! | γ | shear angle in the middle zone; the zones beside it shear by γ/2 | rad |
+//! | γ | shear angle in the middle zone; the adjacent zones shear by γ/2 | rad |
 //! | F_sh | shear force per width of fabric | N/m |
 //! | T₁₂ | moment per reference volume: the shear curve of [`super::Woven`] | Pa |
 //!
 //! The first formula is the kinematics of unstretched yarns, the second the power balance F ḋ = Σ zones. F_sh(γ/2) comes from
 //! the rows before; where there are none it is on the straight line to this row.
 //!
-//! The paper's yarns do not stretch. Where the law of the yarns is given, what they stretch is taken off d first:
+//! The paper's yarns do not stretch. Where the law of the yarns is given, their stretch is subtracted from d first:
 //!
 //! ```text
 //! N₁ = F (λ₁ + λ₂ sin γ)/(2Wλ)     N₂ likewise     λ² = ½(λ₁² + λ₂²) + λ₁λ₂ sin γ     d = d(γ) + H (λ − √(1 + sin γ))
@@ -36,7 +36,7 @@ use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
 use super::fabric::Fabric;
 
-/// Iterations that more than suffice: the yarns' stretch is a contraction of its own small size.
+/// Iterations that more than suffice: the iteration for the yarns' small stretch is a contraction.
 const MOST: usize = 60;
 
 /// The strip of a bias-extension test.

@@ -14,7 +14,7 @@ pub struct Curve {
     rows: Vec<[f64; 2]>,
     /// Slopes before the first and after the last row.
     outer: [f64; 2],
-    /// Piece i lies between row i − 1 and row i.
+    /// Piece i is between row i − 1 and row i.
     pieces: Vec<Piece>,
 }
 
@@ -58,7 +58,7 @@ impl Curve {
         p.y + p.slope * (x - p.x)
     }
 
-    /// dy/dx; at a row that of the left piece.
+    /// dy/dx; at a row the left piece's.
     pub fn slope(&self, x: f64) -> f64 {
         self.piece(x).slope
     }
@@ -97,7 +97,7 @@ impl Curve {
         &self.rows
     }
 
-    /// Whether the table says something below zero.
+    /// Whether the table has rows below zero.
     pub fn has_negative_rows(&self) -> bool {
         self.rows[0][0] < 0.0
     }

@@ -87,15 +87,15 @@ impl Orthotropic {
         }
     }
 
-    /// Like [`Orthotropic::new`], for numbers that nobody has checked.
+    /// Like [`Orthotropic::new`], for unchecked numbers.
     ///
     /// # Errors
     /// A modulus or thickness that is not positive; ν₁₂² ≥ E₁/E₂, with which some strains would give energy away.
     pub fn checked(e1_pa: f64, e2_pa: f64, nu12: f64, g_pa: f64, thickness_m: f64) -> Result<Orthotropic, String> {
         let positive = [("modulus along warp", e1_pa), ("modulus along fill", e2_pa), ("shear modulus", g_pa)];
-        for (what, value) in positive.into_iter().chain([("thickness", thickness_m)]) {
+        for (name, value) in positive.into_iter().chain([("thickness", thickness_m)]) {
             if !(value > 0.0 && value.is_finite()) {
-                return Err(format!("the {what} is {value}; write a positive number"));
+                return Err(format!("the {name} is {value}; write a positive number"));
             }
         }
         coupling_fits(e1_pa, e2_pa, nu12)?;

@@ -58,7 +58,7 @@ pub enum Need {
     Required,
     /// It has this value (as written) otherwise.
     Default(f64),
-    /// It may be left out; `meaning` says what then holds, or which other key takes its place.
+    /// It may be left out; `meaning` gives the law without it, or the key that takes its place.
     Optional,
 }
 
@@ -97,7 +97,7 @@ pub struct Law {
     /// Makes the fabric.
     ///
     /// # Errors
-    /// A message that names the key and says what to write.
+    /// A message that names the key and the remedy.
     pub make: fn(&Recipe) -> Result<Arc<dyn Fabric>, String>,
 }
 
@@ -111,8 +111,8 @@ impl Law {
         let [least, most] = self.plies;
         let n = recipe.plies.len();
         if n < least || n > most {
-            let wanted = if most == usize::MAX { format!("{least} or more") } else { format!("{least}") };
-            return Err(format!("fabric `{}` got {n} plies; write {wanted}", self.name));
+            let count = if most == usize::MAX { format!("{least} or more") } else { format!("{least}") };
+            return Err(format!("fabric `{}` got {n} plies; write {count}", self.name));
         }
         let mut si = BTreeMap::new();
         for p in self.parameters {

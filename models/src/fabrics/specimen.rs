@@ -14,8 +14,8 @@
 //! | x_S | slack: where the line through the straight rows behind a soft toe meets zero force | – |
 //! | x, y | shear angle and shear force per length of a bias extension test | rad, N/m |
 //!
-//! C₁₀ is fitted over the *whole* curve, so 6 C₁₀ is not the modulus unless the curve has the law's shape. Two weights: that
-//! of the stress itself, and that of the share, Σ (1 − P_law/P)², which counts small strains as much as large ones.
+//! C₁₀ is fitted over the *whole* curve, so 6 C₁₀ is not the modulus unless the curve has the law's shape. Two weights: the
+//! stress itself, and its share, Σ (1 − P_law/P)², which counts small strains as much as large ones.
 //! Reference: Treloar, The Physics of Rubber Elasticity (law); the fits are linear least squares, derived here.
 
 use super::bias_extension::BiasExtension;
@@ -236,7 +236,7 @@ pub struct Locking {
 
 /// The two lines that miss the curve least; none if the second is not at least three times as steep as the first.
 ///
-/// Three is a convention: it tells the rise of jammed yarns from an even stiffening.
+/// Three is a convention: it separates the rise of jammed yarns from an even stiffening.
 pub fn locking(rows: &[[f64; 2]]) -> Option<Locking> {
     const STEEPER: f64 = 3.0;
     const PIECES: usize = 120;

@@ -13,7 +13,7 @@
 //!
 //! Isotropic: φ is the principal direction, e(φ) = ε₁ and W_r = ½ E t ε₁². Orthotropic: φ is found to machine precision; the
 //! mixed criterion is exact for both, since W is quadratic and positive. Nothing else is approximated *within* a linear sheet;
-//! what is left out is the wrinkle itself: its bending, wavelength and depth.
+//! the law leaves out the wrinkle itself: its bending, wavelength and depth.
 //! A share η of the sheet keeps its compressive stiffness: W = (1 − η) W_r + η ½ e·A e.
 //!
 //! **With mass damping alone it flutters and never settles**: a wrinkled or slack element has no stiffness across, and inertia

@@ -31,7 +31,7 @@
 //! **Validity**: wrinkles that the mesh cannot show. Where it can, it makes them with its own bending stiffness.
 //! Give N = 0 viscosity: with mass damping alone it flutters.
 //! References: Pipkin 1986, IMA J. Appl. Math. 36, 85 (relaxed energy); Cerda and Mahadevan 2003, Phys. Rev. Lett. 90, 074302 (wrinkles);
-//! the film is that of du Pasquier, Jeong, Okamura 2023.
+//! du Pasquier, Jeong, Okamura 2023 (the film).
 
 use std::f64::consts::PI;
 use std::sync::Arc;

@@ -90,7 +90,7 @@ impl Yarn {
 }
 
 /// u/T must not fall. Both are straight between their joint rows, so their ratio is monotone there: the rows and the slopes
-/// at both ends tell all.
+/// at both ends suffice.
 fn loses_energy(load: &Curve, back: &Curve) -> Result<(), String> {
     if back.has_negative_rows() {
         return Err(

@@ -8,7 +8,7 @@
 use super::program::{DEPTH, FUNCTIONS, Op, PAIRS, Two};
 use spelling::units::Dimension;
 
-/// What is wrong, what to type, and where: byte range in the formula.
+/// A fault, what to type, and where: byte range in the formula.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Slip {
     pub message: String,
@@ -117,7 +117,7 @@ impl<'a> Reader<'a> {
         self.nesting -= 1;
         if !exponent.dimension.is(Dimension::NONE) {
             let message = format!("an exponent must be a pure number, not {}", exponent.dimension.words());
-            return Err(slip(message, "divide it by a length, pressure or moment of its own kind", exponent.at));
+            return Err(slip(message, "divide it by a quantity of the same unit", exponent.at));
         }
         let at = (base.at.0, exponent.at.1);
         let dimension = match exponent.value {
@@ -217,7 +217,7 @@ impl<'a> Reader<'a> {
         }
         let Some((_, law)) = PAIRS.iter().find(|known| known.0 == name) else {
             let known: Vec<&str> = FUNCTIONS.iter().map(|f| f.0).chain(PAIRS.iter().map(|f| f.0)).collect();
-            return Err(slip(format!("there is no function `{name}`"), &spelling::known(name, &known), at));
+            return Err(slip(format!("unknown function `{name}`"), &spelling::known(name, &known), at));
         };
         if self.take(&[',']).is_none() {
             let help = format!("write {name}(a, b)");
@@ -294,5 +294,5 @@ fn alike(left: &Part, right: &Part, verb: &str) -> Result<(), Slip> {
     }
     let (a, b) = (right.dimension.words(), left.dimension.words());
     let message = format!("{a} cannot be {verb} {b}");
-    Err(slip(message, "both parts need the same unit; check those of the parameters", (left.at.0, right.at.1)))
+    Err(slip(message, "both parts need the same unit; check the units of the parameters", (left.at.0, right.at.1)))
 }

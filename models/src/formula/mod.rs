@@ -14,7 +14,7 @@
 //! | `pull` | moment of the gas in the actuator at this bend, P dv/dκ; a formula with it acts where an actuator is | N·m |
 //!
 //! Parameters enter in SI. The energy is integrated to rounding over the formula's own corners, so the force is its slope and
-//! the ledger stays true. **Validity**: whatever the author of the formula says; a moment that falls with κ may leave no
+//! the ledger stays true. **Validity**: up to the author of the formula; a moment that falls with κ may leave no
 //! equilibrium, or several.
 
 mod compile;
@@ -59,7 +59,7 @@ pub struct Formula {
     uses_pull: bool,
 }
 
-/// A parameter of a [`Formula`]; the fields are those of [`Parameter`].
+/// A parameter of a [`Formula`]; the fields are as in [`Parameter`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct FormulaParameter {
     /// Name in the formula and key in the scenario.
@@ -106,7 +106,7 @@ impl PartialEq for Formula {
 }
 
 impl Formula {
-    /// Compiles what the text says, its parameters checked: names, units, and values where it will be asked for.
+    /// Compiles the text and checks its parameters: names, units, and values where it will be asked for.
     pub(crate) fn new(
         [name, moment, sentence, differs, remedy]: [String; 5],
         parameters: Vec<FormulaParameter>,
@@ -140,7 +140,7 @@ impl Formula {
             sentence: &self.sentence,
             differs: &self.differs,
             remedy: &self.remedy,
-            validity: "what the author of the formula says",
+            validity: "up to the author of the formula",
             reference: "the scenario's own formula",
             parameters,
             needs: Needs::Body,

@@ -26,7 +26,7 @@ pub(super) struct PullTerm {
 const FLAT: f64 = 1e-9;
 
 impl PullTerm {
-    /// At a place; `None` where there is no actuator.
+    /// At a place; `None` without an actuator.
     pub(super) fn new(program: Arc<[Op]>, site: &Site, inputs: [f64; INPUTS]) -> Option<PullTerm> {
         let actuator = site.actuator?;
         Some(PullTerm { program, actuator, shape: site.shape, linkage: site.linkage, inputs })

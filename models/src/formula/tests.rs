@@ -76,7 +76,7 @@ fn each_slip_is_refused_with_its_place() {
         ("-k*(theta", "N m", "(", "not closed"),
         ("-k*phi", "N m", "phi", "not known"),
         ("-k*theta theta", "N m", "theta", "not expected"),
-        ("-k*sinus(theta)", "N m", "sinus", "no function"),
+        ("-k*sinus(theta)", "N m", "sinus", "unknown function"),
         ("-k**theta", "N m", "*", "not expected"),
         ("-k*1.2.3", "N m", "1.2.3", "not a number"),
         ("-k*theta^kappa", "N m", "kappa", "pure number"),

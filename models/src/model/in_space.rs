@@ -1,4 +1,4 @@
-//! What a [`Model`] says of a robot in space.
+//! Predictions of a [`Model`] for a robot in space.
 
 use super::{Model, Prediction, Tip, post};
 use crate::assembly::Segment;
@@ -8,14 +8,14 @@ use crate::space::{Bend, Section, SectionState, Stretch, StripState, place, stre
 use crate::term::{Row, RowKind};
 
 impl Model {
-    /// Whether strips lie round the body: see [`crate::space`].
+    /// Whether strips run round the body: see [`crate::space`].
     pub fn is_spatial(&self) -> bool {
         !self.assembly().around.is_empty()
     }
 
-    /// Refuses what is built for planar robots alone.
-    pub(crate) fn planar(&self, what: &'static str) -> Result<(), Unsolved> {
-        if self.is_spatial() { Err(Unsolved::InSpace { what }) } else { Ok(()) }
+    /// Refuses a call that covers planar robots only.
+    pub(crate) fn planar(&self, subject: &'static str) -> Result<(), Unsolved> {
+        if self.is_spatial() { Err(Unsolved::InSpace { subject }) } else { Ok(()) }
     }
 
     /// Sections of a robot in space, base to tip; none of a planar one.
@@ -66,7 +66,7 @@ impl Model {
         }
     }
 
-    /// Sets the strips' pressures from those of the channels.
+    /// Sets the strips' pressures from the channels'.
     pub(crate) fn supply_strips(&self, actuator_pa: &[f64], work: &mut Workspace) {
         let moment = work.history.moment;
         for (states, strips) in work.space.strips.iter_mut().zip(&self.assembly().around) {

@@ -5,7 +5,7 @@ use super::workspace::Workspace;
 use crate::assembly::Assembly;
 use crate::site::SiteState;
 
-/// Takes the curvatures that are held, and what is missing there for an equilibrium.
+/// Takes the held curvatures, and the moments missing there for an equilibrium.
 pub(crate) fn hold(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) {
     for i in 0..work.states.len() {
         let (site, loads) = place_of(assembly, work, i, p_body_pa, 0.0);

@@ -31,14 +31,14 @@ impl Scenario {
         if strip.start_m < beyond_m || last_m + beyond_m > end_m {
             let [beyond, last] = [beyond_m, last_m].map(|m| m * 1e3);
             return Err(format!(
-                "the ends of a strip that turns round the body reach {beyond:.1} mm beyond its middle, which lies from {:.1} to {last:.1} mm of {length} mm\nmove start_mm or make the body longer",
+                "the ends of a strip that turns round the body reach {beyond:.1} mm beyond its middle, which reaches from {:.1} to {last:.1} mm of {length} mm\nmove start_mm or make the body longer",
                 strip.start_m * 1e3
             ));
         }
         Ok(())
     }
 
-    /// The same for every stretch of the reduced model, whose welds are lines; and the actuator's line of action lies beyond
+    /// The same for every stretch of the reduced model, whose welds are lines; and the actuator's line of action is beyond
     /// the body's axis.
     pub(super) fn can_be_built(&self) -> Result<(), String> {
         for span in self.spans() {

@@ -65,7 +65,7 @@ impl PartialEq for ActuatorChoice {
 }
 
 impl ActuatorChoice {
-    /// Whether its strip lies along azimuth 0.
+    /// Whether its strip runs along azimuth 0.
     pub(super) fn is_planar(&self) -> bool {
         self.azimuth_rad == 0.0 && self.turns == 0.0
     }

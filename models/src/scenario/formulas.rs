@@ -39,7 +39,7 @@ fn compiled(raw: &RawFormula, text: &str) -> Checked<Formula> {
         name.clone(),
         raw.moment.get_ref().clone(),
         words(&raw.sentence, "The scenario's own formula."),
-        words(&raw.differs, "As its formula says."),
+        words(&raw.differs, "As the formula states."),
         words(&raw.remedy, "Measure the parameters of the formula on the robot."),
     ];
     Formula::new(texts, parameters(&raw.parameters, raw)?).map_err(|slip| placed(slip, &raw.moment, text))
@@ -54,7 +54,7 @@ fn parameters(raw: &BTreeMap<Spanned<String>, RawParameter>, of: &RawFormula) ->
     let mut sorted: Vec<_> = raw.iter().collect();
     sorted.sort_by_key(|(key, _)| key.span().start);
     let found = sorted.iter().map(|(key, parameter)| checked(key, parameter)).collect::<Checked<Vec<_>>>()?;
-    // A formula that does nothing at its typical values, and a parameter that is typically zero, are fitted by nobody.
+    // A formula that does nothing at its typical values, and a parameter that is typically zero, are not fitted.
     let still = |p: &FormulaParameter| p.typical == p.neutral;
     let all = found.iter().all(still);
     match found.iter().zip(&sorted).find(|(p, _)| still(p) && (all || p.typical == 0.0)) {

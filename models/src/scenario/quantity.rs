@@ -29,7 +29,7 @@ pub fn parse_pressures(text: &str) -> Result<Vec<[f64; crate::CHANNELS]>, String
 fn range(text: &str, most: usize) -> Result<Vec<f64>, String> {
     let wrong =
         |why: &str| format!("`{text}` {why}; write first:last:step with the unit at the end, for example 0:30:0.5kPa");
-    let [first, last, step] = text.split(':').collect::<Vec<_>>()[..] else { return Err(wrong("is no range")) };
+    let [first, last, step] = text.split(':').collect::<Vec<_>>()[..] else { return Err(wrong("is not a range")) };
     let unit = step.trim_start_matches(|c: char| c.is_ascii_digit() || ".+-eE ".contains(c));
     let value = |number: &str| match number.trim().parse::<f64>() {
         Ok(_) => parse(&format!("{}{unit}", number.trim()), Quantity::Pressure),

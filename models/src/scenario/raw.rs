@@ -1,4 +1,4 @@
-//! The TOML text as it stands: keys with units, every value with its place.
+//! The TOML text as written: keys with units, every value with its place.
 
 use crate::error::ScenarioError;
 use serde::Deserialize;

@@ -77,7 +77,7 @@ fn check_turns(given: &Given, choice: &ActuatorChoice, radius_m: f64) -> Checked
     refuse(message, "write fewer turns, or more or longer units", given.span_of("turns"))
 }
 
-/// `[[strip]]`: keys left out are those of `[actuator]`.
+/// `[[strip]]`: missing keys come from `[actuator]`.
 pub(super) fn more_strips(
     tables: &[Spanned<Entries>],
     model: Option<&Given>,
@@ -135,7 +135,7 @@ fn no_z(scenario: &Scenario, raw: &Raw) -> Checked<()> {
     }
 }
 
-/// Refuses what is not built for strips round the body.
+/// Refuses keys and effects that do not cover strips round the body.
 pub(super) fn check_space(scenario: &Scenario, raw: &Raw, body: &Given) -> Checked<()> {
     if !scenario.is_spatial() {
         return no_z(scenario, raw);

@@ -1,4 +1,4 @@
-//! A place that is held at a curvature, and what is missing there for an equilibrium.
+//! A place that is held at a curvature, and the moment missing there for an equilibrium.
 
 use super::{SLACK_BELOW_PA, Site, SiteLoads, SiteState};
 use crate::root::{Start, find_root};

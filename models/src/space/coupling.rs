@@ -22,7 +22,7 @@ pub(crate) struct Coupling {
     /// Loads of the shape less the assumed ones.
     pub(super) residual: Vector,
     pub(super) compliance: Matrix,
-    /// Turn of what is beyond, per change of q; one a row.
+    /// Turn of the body beyond, per change of q; one a row.
     pub(super) turn: Matrix,
     /// ∂G/∂φ of the segments before, times the length.
     pub(super) turned: Matrix,

@@ -62,7 +62,7 @@ impl Beyond {
         self.force.iter_mut().zip(force).for_each(|(sum, f)| *sum += f);
     }
 
-    /// The same about a point from which the end lies that far.
+    /// The same about a point at the distance `way` before the end.
     pub(super) fn about(&mut self, way: Vector) {
         self.tensor = of_each(|i, j| self.tensor[i][j] + self.force[i] * way[j]);
     }

@@ -21,9 +21,9 @@ use std::f64::consts::PI;
 const MAX_ITERATIONS: usize = 60;
 /// Halvings of a Newton step before it is given up.
 const HALVINGS: usize = 12;
-/// Agreement of moments at the end, relative to that of the pressure and the largest …
+/// Agreement of moments at the end, relative to the pressure's moment and the largest …
 const MOMENT_TOLERANCE: f64 = 1e-12;
-/// … and that from which on one step more without progress is rounding.
+/// … and the agreement from which on one step more without progress is rounding.
 const ROUNDING: f64 = 1e-10;
 
 /// Newton on the loads of all sections, from the bends without loads in `work`.

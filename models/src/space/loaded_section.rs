@@ -6,7 +6,7 @@ use super::section::{Acting, FLAT, STRAIGHT, Section, dot};
 use super::state::StripState;
 use crate::error::Unsolved;
 
-/// Moment across the plane of a strip that is rounding, relative to that of the pressure.
+/// Moment across the plane of a strip that is rounding, relative to the pressure's moment.
 const IN_PLANE: f64 = 1e-12;
 /// Largest contraction per axial force \[1/N\] that Newton's step sees: a strip at the end of its range has none.
 const MOST_GIVE: f64 = 1e3;
@@ -31,7 +31,7 @@ impl Section<'_> {
         Ok((bend, compliance))
     }
 
-    /// A strip alone whose load lies in its plane, and does not bend the body against it.
+    /// A strip alone whose load is in its plane, and does not bend the body against it.
     fn in_plane(&self, one: usize, strips: &mut [StripState]) -> Option<(Bend, Matrix)> {
         let e = direction(self.strips[one].azimuth_rad);
         let across = e[0] * self.outer[1] - e[1] * self.outer[0];

@@ -59,7 +59,7 @@ pub(crate) use section::Section;
 pub use state::{SectionState, StripState};
 pub(crate) use state::{SpaceWork, place, stretch};
 
-/// Strips of every segment; `spans` sites per strip, those of the first strip first.
+/// Strips of every segment; `spans` sites per strip, in the order of the strips.
 pub(crate) fn around(strips: &[ActuatorChoice], radius_m: f64, spans: usize, segments: &[Segment]) -> Vec<Vec<Strip>> {
     let strip = |segment: &Segment, (i, choice): (usize, &ActuatorChoice)| Strip {
         site: i * spans + segment.site,
@@ -105,7 +105,7 @@ fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Result
 
 /// Refuses parts of a model that the sections do not see.
 fn refuse_the_rest(assembly: &Assembly) -> Result<(), Unsolved> {
-    let what = match () {
+    let subject = match () {
         _ if assembly.springs => "a spring at the tip",
         _ if !assembly.camera.is_empty() => "an effect of the camera",
         _ if assembly.sites.iter().any(|site| !site.body_terms.is_empty()) => "an effect on the bend of the body",
@@ -115,7 +115,7 @@ fn refuse_the_rest(assembly: &Assembly) -> Result<(), Unsolved> {
         }
         _ => return Ok(()),
     };
-    Err(Unsolved::InSpace { what })
+    Err(Unsolved::InSpace { subject })
 }
 
 /// Whether a segment has the design, azimuths and pressures of the one before.

@@ -1,4 +1,4 @@
-//! A section whose strips are all flat: the wall alone resists, and its step at κ = 0 is as soft as that of a planar robot.
+//! A section whose strips are all flat: the wall alone resists, and its step at κ = 0 is as soft as a planar robot's.
 //!
 //! ```text
 //! U(κ) = h (p_b (A R + m·n) − f c) + ½ B|κ|² − M·κ        h = k₀ ln cosh(|κ|/k₀),  n = κ/|κ|
@@ -19,7 +19,7 @@ use super::state::StripState;
 use crate::body::soft_step;
 use crate::error::Unsolved;
 
-/// Share of the wall's moment up to which the first bend tried is that of the soft step.
+/// Share of the wall's moment up to which the first bend tried comes from the soft step.
 const SOFT_SHARE: f64 = 0.99;
 
 impl Section<'_> {

@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 /// Newton steps; a dozen are usual.
 const MAX_ITERATIONS: usize = 80;
-/// Moment left over, relative to that of the pressure.
+/// Moment left over, relative to the pressure's moment.
 const TOLERANCE: f64 = 1e-11;
 /// A step that is rounding \[1/m\].
 const LEAST_STEP: f64 = 1e-13;
@@ -212,7 +212,7 @@ impl<'a> Section<'a> {
         let is_slack = pulls.force > thrust;
         if is_slack {
             let mut excess = |e0: f64| self.pulls(strips, kappa, e0).force - thrust;
-            // No slope: that of flat pouches is infinite.
+            // No slope: for flat pouches it is infinite.
             let start = Start { x: floor + FIRST_CONTRACTION, f: None, slope: 0.0 };
             // A bend that is tried may be too sharp for any body.
             let root = find_root(&mut excess, (floor, f64::max(1.0, 2.0 * floor)), start)

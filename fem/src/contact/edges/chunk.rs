@@ -8,7 +8,7 @@ pub(super) const PAIRS: usize = 64;
 const STOP: f64 = 0.2;
 /// Share of the way to that distance that a meeting leaves.
 const LEFT: f64 = 0.3;
-/// Share of what is missing of the least distance by which a meeting parts the pair.
+/// Share of the deficit from the least distance by which a meeting separates the pair.
 const OUT: f64 = 0.1;
 
 /// Force of one pair, and how its four nodes share it.
@@ -28,7 +28,7 @@ pub(super) struct Look<'a> {
     pub by: &'a [V3],
     /// How far the fastest node will have come.
     pub(crate) path_m: f64,
-    /// What is closer than this is one.
+    /// Points closer than this count as one.
     pub one_m: f64,
     pub least_m: f64,
 }

@@ -89,7 +89,7 @@ impl Edges {
         }
     }
 
-    /// One motion for all nodes: their mean, or that of nodes that are driven.
+    /// One motion for all nodes: their mean, or the mean of the driven nodes if there are any.
     fn stick(&self, zone: &[u32], motion: &mut [V3]) {
         (0..3).for_each(|axis| {
             let mobility = |n: &u32| self.mobility_1_kg[*n as usize][axis];

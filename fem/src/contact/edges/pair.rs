@@ -19,7 +19,7 @@ pub(super) struct Pair {
     pub key: [u32; 2],
     #[serde(skip)]
     pub nodes: [u32; 4],
-    /// Distance that the spring keeps now, and the one that is wanted \[m\]; 0 if there is no spring.
+    /// Distance that the spring keeps now, and its target \[m\]; 0 without a spring.
     pub(crate) rest_m: f64,
     pub wanted_m: f64,
     #[serde(skip)]

@@ -66,7 +66,7 @@ impl Sides {
     }
 }
 
-/// `of` lists what is near an item, and returns what the item is called.
+/// `of` lists the neighbours of an item, and returns the item's number.
 fn gather(count: usize, of: impl Fn(u32, &mut Vec<u32>) -> u32 + Sync) -> Vec<[u32; 2]> {
     let piece = |p: usize| {
         let (mut near, mut out) = (Vec::new(), Vec::new());
@@ -83,7 +83,7 @@ fn gather(count: usize, of: impl Fn(u32, &mut Vec<u32>) -> u32 + Sync) -> Vec<[u
 
 type Bounds = [V3; 2];
 
-/// Items by the column in which their middle lies, with their boxes, which are larger by the radius.
+/// Items by the column of their middle, with their boxes, which are larger by the radius.
 struct Boxes {
     grid: Grid,
     boxes: Vec<Bounds>,

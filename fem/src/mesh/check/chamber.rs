@@ -7,10 +7,10 @@ use crate::vec3::{area, centre, extent, norm, scale, sub};
 
 /// Share of the area to the power 3/2 below which a volume is flat and has no sign.
 const FLAT: f64 = 1e-9;
-/// Share of the size of the mesh within which open edges count as lying in a plane.
+/// Share of the size of the mesh within which open edges count as in a plane.
 const IN_PLANE: f64 = 1e-6;
 
-/// What is known about closed chambers.
+/// Results of the check of closed chambers.
 pub(super) struct Closed {
     /// Volume at the start by chamber \[m³\].
     pub(super) volumes_m3: Vec<(String, f64)>,
@@ -141,7 +141,7 @@ fn openings(mesh: &Mesh, open: &[&str]) -> Result<Vec<Opening>, FemError> {
     for name in open {
         let Some(members) = mesh.sets.get(*name) else {
             let meant = meant(name, mesh.sets.keys().map(String::as_str));
-            return fault(format!("there is no set `{name}` to be open at{meant}"));
+            return fault(format!("unknown set `{name}` for an opening{meant}"));
         };
         let mut nodes = vec![false; mesh.points.len()];
         members.iter().for_each(|node| nodes[*node as usize] = true);
@@ -151,7 +151,7 @@ fn openings(mesh: &Mesh, open: &[&str]) -> Result<Vec<Opening>, FemError> {
     Ok(openings)
 }
 
-/// Axes perpendicular to the openings that an edge lies in, if it does.
+/// Axes perpendicular to the openings that contain an edge; `None` outside of them.
 fn opening(mesh: &Mesh, openings: &[Opening], edge: Use) -> Result<Option<[bool; 3]>, FemError> {
     let inside = |o: &&Opening| o.nodes[edge.low as usize] && o.nodes[edge.high as usize];
     let mut sets = openings.iter().filter(inside).peekable();
@@ -162,7 +162,7 @@ fn opening(mesh: &Mesh, openings: &[Opening], edge: Use) -> Result<Option<[bool;
     if flat == [false; 3] {
         let place = millimetres(centre(&[edge.low, edge.high].map(|n| mesh.start_of(n as usize))));
         return fault(format!(
-            "the open edge at {place} is not in a set that lies in a plane perpendicular to x, y or z"
+            "the open edge at {place} is not in a set whose nodes share a plane perpendicular to x, y or z"
         ));
     }
     Ok(Some(flat))

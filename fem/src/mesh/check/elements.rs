@@ -10,8 +10,8 @@ use crate::vec3::{area, centre, cross, dot, norm, sub};
 pub(super) fn check(mesh: &Mesh) -> Result<(), FemError> {
     for part in &mesh.parts {
         if !(part.warp.len() <= 1 || part.warp.len() == part.len()) {
-            let (name, found, wanted) = (&part.name, part.warp.len(), part.len());
-            return fault(format!("part `{name}` has {found} warp directions; give 1, or {wanted} (one per element)"));
+            let (name, found, count) = (&part.name, part.warp.len(), part.len());
+            return fault(format!("part `{name}` has {found} warp directions; give 1, or {count} (one per element)"));
         }
         for i in 0..part.len() {
             shape(mesh, part, i)?;
@@ -36,7 +36,7 @@ fn twins(part: &Part) -> Result<(), FemError> {
         None => Ok(()),
         Some(pair) => {
             let (what, first) = (describe(part, pair[1].1), pair[0].1 + 1);
-            fault(format!("{what} lies on element {first}; remove one (a second ply belongs in the section)"))
+            fault(format!("{what} has the nodes of element {first}; remove one (a second ply belongs in the section)"))
         }
     }
 }
@@ -53,8 +53,10 @@ fn shape(mesh: &Mesh, part: &Part, i: usize) -> Result<(), FemError> {
         return fault(format!("{} at {} has no area", describe(part, i), millimetres(centre(x))));
     }
     if let Some(k) = (0..x.len()).find(|k| dot(corner(x, *k), normal) <= 0.0) {
-        let (what, place, node) = (describe(part, i), millimetres(x[k]), nodes[k] + 1);
-        return fault(format!("{what} is inverted at node {node}, {place}: its corner there is 180 degrees or more"));
+        let (element, place, node) = (describe(part, i), millimetres(x[k]), nodes[k] + 1);
+        return fault(format!(
+            "{element} is inverted at node {node}, {place}: its corner there is 180 degrees or more"
+        ));
     }
     let bent = if mesh.membrane.is_empty() { &[] } else { &mesh.points[..] };
     for (shape, places) in [("at the start", &mesh.start[..]), ("as it bends", bent)] {
@@ -94,7 +96,7 @@ pub(super) fn corner(x: &[[f64; 3]], k: usize) -> [f64; 3] {
     cross(sub(x[next], x[k]), sub(x[last], x[k]))
 }
 
-/// False also for an area so large that it is no number.
+/// False also for an area that overflows.
 fn has_area(x: &[[f64; 3]]) -> bool {
     let side = |k: usize| sub(x[k], x[(k + 1) % x.len()]);
     let longest_squared = (0..x.len()).map(side).map(|e| dot(e, e)).fold(0.0, f64::max);

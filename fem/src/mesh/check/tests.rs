@@ -190,7 +190,7 @@ fn elements_without_shape_are_named() {
         ),
         (
             plate_with(|mesh| mesh.parts[0].quads.push([5, 4, 1, 2])),
-            "element 5 of part `plate` (nodes 6, 5, 2, 3) lies on element 2; remove one (a second ply belongs in the section)",
+            "element 5 of part `plate` (nodes 6, 5, 2, 3) has the nodes of element 2; remove one (a second ply belongs in the section)",
         ),
         (
             plate_with(|mesh| mesh.parts[0].quads[3][0] = u32::MAX),
@@ -249,7 +249,7 @@ fn nodes_parts_sets_and_chambers_that_do_not_fit_are_named() {
         assert_eq!(message, format!("mesh: {wanted}"));
     }
     let error = check_open(&sphere(0.1, 2).unwrap(), &["air"], &["topp"]).unwrap_err();
-    assert_eq!(error.to_string(), "mesh: there is no set `topp` to be open at; did you mean `top`?");
+    assert_eq!(error.to_string(), "mesh: unknown set `topp` for an opening; did you mean `top`?");
 }
 
 #[test]
@@ -276,7 +276,7 @@ fn an_opening_that_is_not_plane_is_refused() {
     let removed: Vec<[u32; 4]> = mesh.parts[0].quads.drain(0..3).collect();
     mesh.sets.insert("hole".into(), removed.into_iter().flatten().collect());
     let error = check_open(&mesh, &["air"], &["hole"]).unwrap_err().to_string();
-    assert!(error.ends_with("is not in a set that lies in a plane perpendicular to x, y or z"), "{error}");
+    assert!(error.ends_with("is not in a set whose nodes share a plane perpendicular to x, y or z"), "{error}");
 }
 
 #[test]

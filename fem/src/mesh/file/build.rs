@@ -37,7 +37,7 @@ impl Builder {
     pub(super) fn find(&self, words: &[&str]) -> Result<Vec<u32>, String> {
         let one = |word: &&str| {
             let number = super::scan::whole(word)?;
-            self.nodes.get(&number).copied().ok_or_else(|| format!("there is no node {number} in the file above"))
+            self.nodes.get(&number).copied().ok_or_else(|| format!("node {number} is not defined above this line"))
         };
         words.iter().map(one).collect()
     }
@@ -86,17 +86,17 @@ impl Builder {
         self.mesh.sets.entry(name.into()).or_default().extend(nodes);
     }
 
-    /// Notes what is left out, once by name.
+    /// Notes a keyword that is left out, once by name.
     pub(super) fn ignore(&mut self, what: &str, line: usize) {
         if !self.ignored.iter().any(|(known, _)| known == what) {
             self.ignored.push((what.into(), line));
         }
     }
 
-    /// The mesh without nodes that no element has, and what there is to tell.
+    /// The mesh without nodes that no element has, and the notices.
     pub(super) fn finish(mut self) -> Result<MeshFile, String> {
         if self.mesh.elements() == 0 {
-            return Err("there is no triangle and no quadrilateral in this file; export a mesh of surfaces".into());
+            return Err("this file has neither triangles nor quadrilaterals; export a mesh of surfaces".into());
         }
         let mut told = std::mem::take(&mut self.warps);
         let unused = drop_unused(&mut self.mesh);
@@ -105,7 +105,7 @@ impl Builder {
         }
         if !self.ignored.is_empty() {
             let list: Vec<String> = self.ignored.iter().map(|(what, line)| format!("{what} (line {line})")).collect();
-            told.push(format!("left out, because the case says it: {}", list.join(", ")));
+            told.push(format!("left out, because the case sets it: {}", list.join(", ")));
         }
         Ok(MeshFile { mesh: self.mesh, surfaces: self.surfaces, unread: self.unread, told, ..MeshFile::default() })
     }

@@ -11,7 +11,7 @@ pub struct MeshFile {
     pub format: &'static str,
     /// Named surfaces, of which a case may make chambers.
     pub surfaces: Vec<Surface>,
-    /// Parts, and what the file says of their warp that is not read.
+    /// Parts, and the orientations of the file that are not read.
     pub unread: Vec<(String, String)>,
     /// What was left out or changed.
     pub told: Vec<String>,

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   c ── b        a b c is an element of the upper and of the lower sheet: neither can leave the other.
-//!   │ ╲  │        With the other diagonal, c d, every element of a sheet has a node of its own.
+//!   │ ╲  │        With the other diagonal, c d, every element of a sheet has its own node.
 //!   a ── d
 //! ```
 
@@ -17,7 +17,7 @@ type At = (usize, usize);
 /// Edges by their nodes in the way they are run along.
 type Edges = HashMap<(u32, u32), Vec<At>>;
 
-/// Turns the diagonals at such corners in both sheets, and tells it.
+/// Turns the diagonals at such corners in both sheets; returns the notice for the user.
 pub(super) fn turn(mesh: &mut Mesh) -> Result<Option<String>, String> {
     let pairs = pairs(mesh);
     if pairs.is_empty() {

@@ -101,7 +101,7 @@ impl Gmsh {
                     return Err(format!("an entity of dimension {dimension} needs {} numbers", at + 1));
                 };
                 let tags = row.iter().skip(at + 1).take(scan.count(count)?);
-                // A minus sign tells the direction of a line, which a set does not have.
+                // A minus sign gives the direction of a line, which a set does not have.
                 let tags = tags.map(|t| whole(t.trim_start_matches('-'))).collect::<Result<_, String>>()?;
                 self.groups.insert((dimension as u64, whole(tag)?), tags);
             }
@@ -209,7 +209,7 @@ fn shape(kind: &str) -> Result<(usize, usize), String> {
         "2" => Ok((2, 3)),
         "3" => Ok((2, 4)),
         "4" | "5" | "6" | "7" => Err(format!(
-            "elements of type {kind} are solids; sheets are wanted: mesh surfaces only (gmsh -2), or save physical surfaces only"
+            "elements of type {kind} are solids, and only sheets are supported: mesh surfaces only (gmsh -2), or save physical surfaces only"
         )),
         _ => Err(format!(
             "elements of type {kind} are not read; write straight lines, triangles and quadrilaterals (Mesh.ElementOrder = 1)"
@@ -231,7 +231,11 @@ fn first_counts(scan: &mut Scan, what: &str) -> Result<[usize; 2], String> {
 }
 
 fn same(said: usize, found: usize, what: &str) -> Result<(), String> {
-    if said == found { Ok(()) } else { Err(format!("the section says {said} {what}, and its blocks hold {found}")) }
+    if said == found {
+        Ok(())
+    } else {
+        Err(format!("the section announces {said} {what}, and its blocks contain {found}"))
+    }
 }
 
 fn block(row: &[&str]) -> String {

@@ -18,7 +18,7 @@ pub(super) enum Read {
 
 struct Head<'a> {
     bytes: &'a [u8],
-    /// The first line that says something.
+    /// The first line that is neither blank nor a comment.
     line: &'a str,
     word: &'a str,
 }

@@ -16,7 +16,7 @@ use scan::Scan;
 use spelling::files::{MOST_DATA, read_whole};
 use std::path::Path;
 
-/// Reads a mesh file. Says nothing about its fitness: see [`crate::mesh::check::check`].
+/// Reads a mesh file without judging the mesh: see [`crate::mesh::check::check`].
 ///
 /// # Errors
 /// [`FemError::Io`] if it cannot be read, [`FemError::MeshFile`] with the line of the first fault.

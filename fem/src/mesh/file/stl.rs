@@ -21,7 +21,7 @@ struct Facet {
     solid: usize,
 }
 
-/// Whether the bytes have the length that a binary file says.
+/// Whether the bytes have the length that a binary file gives.
 pub(super) fn is_binary(bytes: &[u8]) -> bool {
     let count = bytes.get(..HEADER).and_then(|head| head.last_chunk()).map(|count| u32::from_le_bytes(*count) as usize);
     count.is_some_and(|count| bytes.len() == HEADER + FACET * count)
@@ -123,7 +123,7 @@ fn joined(facets: &[Facet], solids: &[String]) -> Result<MeshFile, String> {
     let mut file = builder.finish()?;
     if passing > 0 {
         file.told.push(format!(
-            "sheets lie on each other along {passing} sides; they are joined where one ends only: STL cannot tell a seam between \
+            "sheets lie on each other along {passing} sides; they are joined where one ends only: STL cannot mark a seam between \
              pouches, Gmsh and Abaqus can"
         ));
     }

@@ -130,7 +130,7 @@ pub fn flat_tube(
     Ok(mesh)
 }
 
-/// Parts `top` and `bottom` of `size` centred on the origin, with common nodes where `shared` says so.
+/// Parts `top` and `bottom` of `size` centred on the origin, with common nodes where `shared` is true.
 fn two_layers(size: [f64; 2], n: [usize; 2], shared: impl Fn(usize, usize) -> bool) -> (Mesh, Grid, Grid) {
     // Measured from the middle, so that mirrored nodes have mirrored bits.
     let at = |i: usize, n: usize, length: f64| (2.0 * i as f64 - n as f64) / (2.0 * n as f64) * length;

@@ -1,7 +1,7 @@
 //! Structured meshes of the standard shapes.
 //!
 //! Every generator names its node sets, winds its elements counter-clockwise seen from the front, and returns a mesh that
-//! passes [`super::check::check`] for the chambers it names. Shapes are stress free unless a start shape is said.
+//! passes [`super::check::check`] for the chambers it names. Shapes are stress free unless the generator names a start shape.
 //! Node sets of all: `docs/case.md`; of [`folded_pouch`], which is not a generator of cases, its own page.
 
 mod disc;
@@ -43,7 +43,7 @@ fn even(what: &str, name: &str, value: usize) -> Result<(), FemError> {
     if value >= 2 && value.is_multiple_of(2) {
         return Ok(());
     }
-    Err(FemError::Mesh(format!("{what}: {name} is {value}, and must be even so that a node lies in the middle")))
+    Err(FemError::Mesh(format!("{what}: {name} is {value}, and must be even so that a node is in the middle")))
 }
 
 fn few_enough(what: &str, a: usize, b: usize) -> Result<(), FemError> {

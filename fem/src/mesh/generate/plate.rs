@@ -55,7 +55,7 @@ pub fn plate(lx_m: f64, ly_m: f64, nx: usize, ny: usize, distortion: Option<Dist
 /// Two strips without chambers: `lower` along x in the plane z = 0, `upper` along y at z = `gap_m`, each `length_m` by
 /// `width_m`, both centred on the z axis. Both fronts are up, layers 0 and 1.
 ///
-/// The upper strip has one column of elements less, so that its nodes do not stand on those of the lower one. Sets
+/// The upper strip has one column of elements less, so that nodes of the two strips do not coincide. Sets
 /// `lower`, `upper` (all nodes), `lower_ends`, `upper_ends` (short edges).
 ///
 /// # Errors

@@ -274,10 +274,10 @@ fn sizes_that_make_no_mesh_are_refused_with_the_name_of_the_number() {
             plate(1.0, 1.0, 2, 2, Some(Distortion { share: 0.3, seed: 0 })),
             "plate: distortion is 0.3, and must be at least 0 and below 0.25",
         ),
-        (pillow(1.0, 3, 0.0), "pillow: n is 3, and must be even so that a node lies in the middle"),
+        (pillow(1.0, 3, 0.0), "pillow: n is 3, and must be even so that a node is in the middle"),
         (pillow(1.0, 4, -1.0), "gap_m is -1, and must be 0 or a positive length in metres"),
         (sphere(f64::INFINITY, 3), "sphere: radius_m is inf, and must be a positive length in metres"),
-        (disc_balloon(1.0, 0), "disc balloon: n is 0, and must be even so that a node lies in the middle"),
+        (disc_balloon(1.0, 0), "disc balloon: n is 0, and must be even so that a node is in the middle"),
         (
             flat_tube(0.06, 0.3, 4, 6, 0.0, 0.0),
             "flat tube: n_l must be a multiple of 4 (gauge rings at the quarters), the angle a number; found 6 and 0",

@@ -37,7 +37,7 @@ pub enum Around {
 /// Way in which one end of a tube is closed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cap {
-    /// Open; the check then needs to be told (`base`, `tip` in [`crate::mesh::check::check_open`]).
+    /// Open; pass the sets `base` and `tip` to [`crate::mesh::check::check_open`].
     Open,
     /// Quads that match the ring; needs `Around::Even` with a multiple of 4.
     Quads,

@@ -1,6 +1,6 @@
 //! What CalculiX 2.20 needs otherwise than Abaqus.
 //!
-//! CalculiX makes bricks and wedges of shells. Those of corner nodes alone are too stiff in bending: the pillow of
+//! CalculiX makes bricks and wedges of shells. Bricks and wedges of corner nodes alone are too stiff in bending: the pillow of
 //! `tests/foreign/pillow.toml` rises 54 % too little with S3, 3 % with S4, and 0.2 % too much with S8R. So every element
 //! gets nodes in the middles of its sides.
 //!
@@ -11,7 +11,7 @@
 //! ```
 //!
 //! Where shells of different directions or thicknesses share a node, CalculiX clamps them to each other. In the engine sheets hinge
-//! there, unless they are one piece ([`crate::sheet::bending`]). So every piece has nodes of its own, which follow those of the first
+//! there, unless they are one piece ([`crate::sheet::bending`]). So every piece has its own nodes, which follow the nodes of the first piece
 //! by `*EQUATION`. The step is an implicit dynamic one with the damping of the problem, because free bodies, folds and flat sheets
 //! without tension have no static answer. Transverse shear moduli and the modulus across the sheet are √(E₁E₂)/2 and √(E₁E₂):
 //! the engine's sheets do not shear across.
@@ -27,7 +27,7 @@ use crate::mesh::Part;
 use crate::problem::Section;
 use crate::sheet::reference::{Reference, bending_stiffness};
 
-/// Numerical damping of the Hilber-Hughes-Taylor method, the most it has: what is wanted is the state at rest.
+/// Numerical damping of the Hilber-Hughes-Taylor method, the largest allowed: the target is the state at rest.
 const ALPHA: f64 = -0.3;
 /// Largest increment: this share of the time, and of the shortest stretch of a curve.
 const LARGEST: [f64; 2] = [0.05, 0.1];
@@ -105,7 +105,7 @@ fn plain_names<'a>(names: impl Iterator<Item = &'a String>) -> BTreeMap<String, 
         .collect()
 }
 
-/// Elements with nodes in the middles of their sides; every piece has nodes of its own.
+/// Elements with nodes in the middles of their sides; every piece has its own nodes.
 #[derive(Default)]
 struct Quadratic {
     /// Lines of the nodes that are added.
@@ -113,7 +113,7 @@ struct Quadratic {
     elements: String,
     equations: String,
     count: u32,
-    /// Nodes in the middle of two others, a corner in that of itself and itself: those of the piece that had the place first.
+    /// First nodes by place: the two nodes around a middle node, or a corner twice; further pieces follow these nodes.
     first: BTreeMap<[u32; 2], u32>,
     /// The nodes of every piece at these places.
     known: BTreeMap<([u32; 2], usize), u32>,
@@ -174,7 +174,7 @@ impl Quadratic {
         node
     }
 
-    /// Nodes of a set with the middles of sides within it; `all`: those of further pieces as well.
+    /// Nodes of a set with the middles of sides within it; `all`: with the nodes of further pieces.
     fn within(&self, nodes: &[u32], all: bool) -> Vec<u32> {
         let set: BTreeSet<u32> = nodes.iter().copied().collect();
         let inside = |place: &[u32; 2]| place.iter().all(|node| set.contains(node));

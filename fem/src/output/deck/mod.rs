@@ -13,7 +13,7 @@
 //! | D | bending stiffness, as the shells have it | N m |
 //! | t | thickness of the plate | m |
 //!
-//! Without bending stiffness a part is a membrane of its own thickness for Abaqus, a shell of its own thickness for CalculiX.
+//! Without bending stiffness a part is a membrane of the sheet's thickness for Abaqus, a shell of this thickness for CalculiX.
 //! No number has more than 20 characters, because CalculiX reads no more. [`text`] lists what does not fit into the format.
 
 mod calculix;
@@ -76,7 +76,7 @@ fn material(out: &mut String, problem: &Problem, index: usize, part: &Part, sect
     put(out, format_args!("*{kind} SECTION, ELSET={name}, MATERIAL={name}, ORIENTATION=warp_{}\n{t},", index + 1));
 }
 
-/// The warp of a part: x unless it says another, for all of it or by element.
+/// The warp of a part: x unless the part gives another, for all of it or by element.
 fn orientation(out: &mut String, problem: &Problem, index: usize, part: &Part) {
     let name = format!("warp_{}", index + 1);
     let before: usize = problem.mesh.parts[..index].iter().map(Part::len).sum();

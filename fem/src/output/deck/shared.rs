@@ -77,7 +77,7 @@ pub(super) fn places(out: &mut String, problem: &Problem) {
     }
 }
 
-/// A node's translations as those of another.
+/// Ties a node's translations to another node.
 pub(super) fn follow(out: &mut String, node: u32, first: u32) {
     for axis in 1..=3 {
         put(out, format_args!("*EQUATION\n2\n{}, {axis}, -1.0, {}, {axis}, 1.0", node + 1, first + 1));

@@ -51,7 +51,7 @@ pub(crate) struct PictureLook {
     /// Draw the outlines of elements where they are large enough, the colour map with numbers at the right (≥ marks a value beyond
     /// the limits), the axes and a length at the bottom left.
     pub marks: bool,
-    /// Line at the top: what is shown, and in which unit the colours are.
+    /// Line at the top: name and unit of the quantity shown.
     pub title: String,
 }
 

@@ -50,7 +50,7 @@ pub(crate) fn render(
     }))
 }
 
-/// An image with room for what is seen, which `fill` draws in the colours of elements, and notes on it. Only the `shown` elements count
+/// An image with room for the points `seen`; `fill` draws the elements in their colours, with notes. Only the `shown` elements count
 /// for the end of the colour bar.
 fn drawn(
     look: &PictureLook,
@@ -71,7 +71,7 @@ fn drawn(
     image
 }
 
-/// The bytes of an image as PNG; empty if it cannot be encoded, which only an image of another size than it says can.
+/// The bytes of an image as PNG; empty if it cannot be encoded, which needs an image whose size contradicts its pixels.
 pub(crate) fn png_bytes(image: &Image) -> Vec<u8> {
     let mut bytes = Vec::new();
     if encode(image, &mut bytes).is_err() {
@@ -124,7 +124,7 @@ fn range(values: &[f64]) -> (f64, f64) {
     if low < high { (low, high) } else { (low, low + low.abs().max(1e-300) * 1e-3) }
 }
 
-/// Where a value lies between the limits, 0 to 1.
+/// Position of a value between the limits, 0 to 1.
 fn share(value: f64, (low, high): (f64, f64)) -> f64 {
     ((value - low) / (high - low)).clamp(0.0, 1.0)
 }

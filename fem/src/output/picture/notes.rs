@@ -69,7 +69,7 @@ fn draw_axes(image: &mut Image, [right, up, _]: [[f64; 3]; 3]) {
     }
 }
 
-/// A round length of about a fifth of the width, beside the axes.
+/// A round length of about a fifth of the width, next to the axes.
 fn draw_scale(image: &mut Image, pixels_per_m: f64) {
     let size = letter_size(image.height);
     let length_mm = round_below(0.2 * image.width as f64 / pixels_per_m * 1e3);
@@ -81,7 +81,7 @@ fn draw_scale(image: &mut Image, pixels_per_m: f64) {
     write(image, [0.5 * (left + right - width(size, &text)), row - 0.7 * size], size, &text);
 }
 
-/// The largest of 1, 2, 5 times a power of ten that is not above `value`; 1 for what is no length.
+/// The largest of 1, 2, 5 times a power of ten that is not above `value`; 1 for a value that is not a length.
 fn round_below(value: f64) -> f64 {
     let ten = power_of_ten(value);
     let step = [5.0, 2.0].into_iter().find(|step| step * ten <= value * (1.0 + 1e-9));
@@ -95,7 +95,7 @@ pub(crate) fn round_above(value: f64) -> f64 {
     steps.map(|step| step * ten).find(|round| *round >= value * (1.0 - 1e-9)).unwrap_or(10.0 * ten)
 }
 
-/// The power of ten below; 1 for what is not positive.
+/// The power of ten below; 1 for a value that is not positive.
 fn power_of_ten(value: f64) -> f64 {
     if value > 0.0 && value.is_finite() { 10_f64.powf(value.log10().floor()) } else { 1.0 }
 }

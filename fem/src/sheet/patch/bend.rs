@@ -112,7 +112,7 @@ impl Bend {
         self.stencils.is_empty() && self.single.is_empty()
     }
 
-    /// Places of `0..count` where [`Bend::apply`] writes nothing; none without bending, for then nobody reads them.
+    /// Places of `0..count` where [`Bend::apply`] writes nothing; none without bending, for then they are not read.
     pub(super) fn gaps(&self, count: usize) -> Gaps {
         if self.is_empty() {
             return Gaps::default();
@@ -123,8 +123,8 @@ impl Bend {
         Gaps::new(count, |i| written[i])
     }
 
-    /// Writes K x of the own nodes into `kx`; nodes without bending keep what is there. `x` are the positions of the patch,
-    /// `q` those of all places.
+    /// Writes K x of the own nodes into `kx`; nodes without bending keep their old values. `x` are the positions of the patch,
+    /// `q` the positions of all places.
     #[inline(always)]
     pub(super) fn apply<S: Simd>(&self, simd: S, x: [&[f64]; 3], q: &[[f64; 4]], kx: [&mut [f64]; 3]) {
         // All of one length, so that a place is checked once and not for every axis.
@@ -241,7 +241,7 @@ mod tests {
         }
     }
 
-    /// Rows of 13 nodes with neighbours within the row and in the rows beside it; every 17th node has a far one, too.
+    /// Rows of 13 nodes with neighbours within the row and in the adjacent rows; every 17th node has a far one, too.
     fn matrix(nodes: usize) -> BendingMatrix {
         let mut matrix = BendingMatrix { start: vec![0], column: Vec::new(), value: Vec::new() };
         for i in 0..nodes as i32 {
@@ -275,8 +275,8 @@ mod tests {
             pulp::Arch::new().dispatch(Apply(&bend, [&x[0], &x[1], &x[2]], &q, [a, b, c]));
             for (k, kx) in kx.iter().enumerate() {
                 for (i, got) in kx[..nodes].iter().enumerate() {
-                    let wanted: f64 = matrix.row(i).map(|(j, value)| value * q[j as usize][k]).sum();
-                    assert!((got - wanted).abs() < 1e-12, "row {i} of {nodes}: {got} and {wanted}");
+                    let expected: f64 = matrix.row(i).map(|(j, value)| value * q[j as usize][k]).sum();
+                    assert!((got - expected).abs() < 1e-12, "row {i} of {nodes}: {got} and {expected}");
                 }
             }
             assert!(nodes < 100 || (!bend.single.is_empty() && bend.stencils.len() > 5));

@@ -50,12 +50,12 @@ struct Run {
     scratch: usize,
 }
 
-/// Consecutive nodes and what their forces need. Within the patch, its own nodes and those of neighbours that its elements
+/// Consecutive nodes and the data for their forces. Within the patch, its own nodes and the neighbours' nodes that its elements
 /// and bending rows need are numbered in mesh order, so that rows of a structured mesh stay whole.
 #[derive(Debug, Clone)]
 pub(super) struct Patch {
     pub nodes: Range<usize>,
-    /// Nodes of the patch, its own and those of neighbours.
+    /// Nodes of the patch, its own and its neighbours'.
     count: usize,
     /// All of them, and their places.
     taken: Vec<Stretch>,
@@ -90,7 +90,7 @@ pub(super) struct PassShared<'a> {
     pub pressure_pa: &'a [f64],
     /// 1/Δt for viscosity, 0 for statics \[1/s\].
     pub rate: f64,
-    /// Whether energies and fluxes are wanted; without, only the heat of viscosity is summed up.
+    /// Whether to sum up energies and fluxes; if false, only the heat of viscosity is.
     pub books: bool,
     pub(crate) arch: pulp::Arch,
 }

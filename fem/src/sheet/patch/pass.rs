@@ -120,7 +120,7 @@ fn take_positions(patch: &Patch, room: &mut Room, q: &[[f64; 4]]) {
     }
 }
 
-/// With energies and fluxes where they are wanted.
+/// With energies and fluxes if `books` is set.
 #[inline(always)]
 fn counted<S: Simd>(simd: S, patch: &mut Patch, room: &mut Room, all: PassShared, index: usize, law: impl ShellLaw) {
     match all.books {
@@ -203,7 +203,7 @@ fn bending_energy<S: Simd>(simd: S, room: &Room, own: usize) -> f64 {
 fn give_forces<S: Simd>(simd: S, patch: &Patch, room: &mut Room, force: &mut [[f64; 4]]) {
     let padded = patch.count.next_multiple_of(LANES);
     for k in 0..3 {
-        // The sum takes the place of the positions, which nobody needs any more.
+        // The sum takes the place of the positions, which are not needed any more.
         let total = S::as_mut_simd_f64s(&mut room.x[k][..padded]).0;
         let kx = S::as_simd_f64s(&room.kx[k][..padded]).0;
         let [a, b, c, d] = [0, 1, 2, 3].map(|c: usize| S::as_simd_f64s(&room.corner[c][k][..padded]).0);

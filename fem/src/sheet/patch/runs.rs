@@ -18,7 +18,7 @@ pub(super) struct Eight {
     pub counted: usize,
 }
 
-/// Splits items into groups of regular stretches and a list of items left over. `follows(a, b)` tells whether item b is
+/// Splits items into groups of regular stretches and a list of items left over. `follows(a, b)` is true if item b is
 /// the next of the stretch that item a is in.
 pub(super) fn split(count: usize, follows: impl Fn(usize, usize) -> bool) -> (Vec<Eight>, Vec<usize>) {
     let (mut eights, mut rest) = (Vec::new(), Vec::new());
@@ -43,7 +43,7 @@ pub(super) fn split(count: usize, follows: impl Fn(usize, usize) -> bool) -> (Ve
     (eights, rest)
 }
 
-/// An order of items, sorted by first corner, in which the next of a row comes next, whatever lies between them.
+/// An order of items, sorted by first corner, in which the next of a row comes next, whatever items are between them.
 pub(super) fn rows(items: &[Item]) -> Vec<usize> {
     let mut left: BTreeMap<&[u32], VecDeque<usize>> = BTreeMap::new();
     for (i, item) in items.iter().enumerate() {
@@ -64,7 +64,7 @@ pub(super) fn rows(items: &[Item]) -> Vec<usize> {
     order
 }
 
-/// True if every corner of `b` is the node after that of `a`.
+/// True if every corner of `b` is the node after the same corner of `a`.
 pub(crate) fn next_in_row(a: &Item, b: &Item) -> bool {
     a.node.len() == 4 && b.node.len() == 4 && a.node.iter().zip(&b.node).all(|(a, b)| *b == a + 1)
 }

@@ -1,4 +1,4 @@
-//! From what an Abaqus file says to a mesh: instances where they stand, parts by section, sets, surfaces.
+//! Makes a mesh of an Abaqus file: instances at their places, parts by section, sets, surfaces.
 
 use std::collections::{HashMap, HashSet};
 
@@ -8,7 +8,7 @@ use super::super::scan::Scan;
 use super::model::{Group, Instance, Member, Model, Orientation, Section, Sides};
 use crate::vec3::{add, cross, dot, norm, scale, sub};
 
-/// What is wrong, and its line.
+/// A fault, and its line.
 type Fault = (usize, String);
 /// A node or an element: its instance and its number there.
 type Item = (usize, u64);
@@ -56,7 +56,7 @@ impl Assembly {
             }
         }
         self.numbers(model)?;
-        // Sets of the assembly may name those of its instances.
+        // Sets of the assembly may name sets of its instances.
         for i in (1..model.instances.len()).chain([0]) {
             for group in &model.bodies[model.instances[i].body].groups {
                 let found = self.members(model, i, group).map_err(|message| (group.line, message))?;
@@ -81,7 +81,7 @@ impl Assembly {
             for element in &model.bodies[instance.body].elements {
                 let corner = |n: &u64| {
                     let found = self.nodes.get(&(i, *n)).copied();
-                    found.ok_or_else(|| (element.line, format!("there is no node {n}")))
+                    found.ok_or_else(|| (element.line, format!("node {n} does not exist")))
                 };
                 let corners = element.nodes.iter().map(corner).collect::<Result<Vec<u32>, Fault>>()?;
                 if self.elements.insert((i, element.number), (corners, String::new())).is_some() {
@@ -148,7 +148,7 @@ impl Assembly {
             return self.named(model, inner, of_elements, after.trim_matches('"'));
         }
         let kind = if of_elements { "element" } else { "node" };
-        Err(format!("there is no {kind} set `{name}` above"))
+        Err(format!("unknown {kind} set `{name}`; define it above this line"))
     }
 
     /// Elements by section, else by the set of their keyword line, else by instance.
@@ -269,14 +269,14 @@ impl Assembly {
 /// Place of an instance by its name.
 fn instance(model: &Model, name: &str) -> Result<usize, String> {
     let found = model.instances.iter().skip(1).position(|instance| instance.name.eq_ignore_ascii_case(name));
-    found.map(|at| at + 1).ok_or_else(|| format!("there is no instance `{name}` above"))
+    found.map(|at| at + 1).ok_or_else(|| format!("unknown instance `{name}`; define it above this line"))
 }
 
 /// An orientation by its name: of the part, else of the assembly.
 fn orientation_of<'a>(model: &'a Model, inst: &Instance, name: &str) -> Result<&'a Orientation, String> {
     let bodies = [inst.body, 0].into_iter().flat_map(|body| &model.bodies[body].orientations);
     let mut named = bodies.filter(|it| it.name.eq_ignore_ascii_case(name));
-    named.next().ok_or_else(|| format!("there is no *ORIENTATION `{name}`; write it, or leave ORIENTATION out"))
+    named.next().ok_or_else(|| format!("unknown *ORIENTATION `{name}`; define it, or leave ORIENTATION out"))
 }
 
 /// The warp of a rectangular orientation. x' points from c to a, and y' to the side of b; about the axis that is most normal to the
@@ -305,7 +305,7 @@ fn warp(orientation: &Orientation) -> Result<[f64; 3], String> {
     Ok(add(scale(axes[about % 3], cos), scale(axes[(about + 1) % 3], sin)))
 }
 
-/// Where a point of a part stands: moved, then turned by Rodrigues' formula.
+/// Place of a point of a part in an instance: moved, then turned by Rodrigues' formula.
 fn stand(instance: &Instance, place: [f64; 3]) -> [f64; 3] {
     let moved = add(place, instance.moved);
     let Some((from, to, angle)) = instance.turned else { return moved };

@@ -126,7 +126,8 @@ impl Reader {
     fn instance(&mut self, keyword: &Keyword) -> Result<(), String> {
         let (name, part) = (keyword.needed("NAME")?, keyword.needed("PART")?);
         let found = self.model.bodies.iter().position(|body| body.name.eq_ignore_ascii_case(&part));
-        let body = found.filter(|at| *at > 0).ok_or_else(|| format!("there is no *PART `{part}` above"))?;
+        let body =
+            found.filter(|at| *at > 0).ok_or_else(|| format!("unknown *PART `{part}`; define it above this line"))?;
         self.model.instances.push(Instance { name, body, ..Instance::default() });
         // What an instance adds to its part has the numbers of the part.
         self.body = body;

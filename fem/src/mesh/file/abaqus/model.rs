@@ -1,6 +1,6 @@
-//! What an Abaqus file says, in the order of the file.
+//! Content of an Abaqus file.
 
-/// What a file says, in the order of the file.
+/// Content of a file, in its order.
 #[derive(Default)]
 pub(super) struct Model {
     /// The first one is the text outside of parts.
