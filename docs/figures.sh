@@ -26,4 +26,5 @@ done
 figure ladder/waterfall.png diagnosis/waterfall.png
 figure published/one_number_epam.png diagnosis/one_number_epam.png
 figure demo/breaking.png breaking.png
+figure demo/robot.svg robots/epam.svg
 [ -z "${check:-}" ] || exit "$changed"

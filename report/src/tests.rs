@@ -199,6 +199,16 @@ fn the_page_refers_to_nothing_outside_itself() {
 }
 
 #[test]
+fn a_picture_inside_a_figure_is_allowed_by_the_policy_of_the_page() {
+    let picture = labelled(b"\x89PNG", [96, 60], &[("tip", [1, 2], [3, 4])]);
+    assert!(picture.contains("href=\"data:image/png;base64,"));
+    let page = ladder_page();
+    let policy = page.split("Content-Security-Policy\" content=\"").nth(1).and_then(|rest| rest.split('"').next());
+    let policy = policy.unwrap();
+    assert!(policy.contains("default-src 'none'") && policy.contains("img-src data:"), "{policy}");
+}
+
+#[test]
 fn plots_take_the_colours_and_the_font_of_the_page() {
     let page = ladder_page();
     let figure = &page[page.find("<figure").unwrap()..page.find("</figure>").unwrap()];

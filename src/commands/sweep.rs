@@ -127,7 +127,10 @@ fn swept_text(study: &Study, found: &Found, table: &Table) -> String {
     }
     let rest: usize = failed.iter().skip(MOST_REASONS).map(|f| f.1).sum();
     let named = failed.iter().take(MOST_REASONS).map(|(why, n)| format!("{n}: {why}"));
-    text + &lines("  - ", named.chain((rest > 0).then(|| format!("{rest}: other reasons, in the column reason of the table"))))
+    text + &lines(
+        "  - ",
+        named.chain((rest > 0).then(|| format!("{rest}: other reasons, in the column reason of the table"))),
+    )
 }
 
 /// `ibr.sweep`: `ibr sweep STUDY`
