@@ -1,6 +1,6 @@
 //! `ibr diagnose`: what it promises to programs and to readers.
 
-use crate::support::Folder;
+use crate::support::{Folder, repository};
 
 #[test]
 fn a_diagnosis_as_json_holds_what_programs_build_on() {
@@ -171,4 +171,14 @@ fn markers_that_were_lost_are_told_and_the_answer_stays() {
     assert!(std::fs::read_to_string(folder.path("report/diagnosis.json")).unwrap().contains("\"seen\": false"));
     let compared = folder.run(&["compare", "epam-textbook", "lossy", "--calibrate"]);
     assert_eq!(compared.code, 0, "{}", compared.stderr);
+}
+
+/// Markers seen through a barrel lens, every mechanism known: a camera effect leads, and a board is proposed before new physics.
+#[test]
+fn an_uncorrected_lens_asks_for_a_board() {
+    let folder = Folder::new();
+    let case = |name: &str| repository().join("data/tests/cases/c38-lens-distortion").join(name).display().to_string();
+    let ran = folder.run(&["diagnose", &case("robot.toml"), &case("null")]);
+    let text = ran.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("Next: photograph a checkerboard") && text.contains("(ibr data import --board)"), "{text}");
 }

@@ -6,7 +6,8 @@
 use crate::diagnosis::experiments::TIP_FORCE_N;
 use crate::diagnosis::result::{Diagnosis, Verdict};
 use crate::residuals::ResidualCell;
-use crate::wording::{channels_word, list};
+use crate::wording::{channels_word, list, uncapitalised};
+use models::effects::Group;
 
 /// What to do next where nothing in the catalogue explains the misfit; `None` with another verdict.
 pub(crate) fn next(d: &Diagnosis) -> Option<String> {
@@ -22,6 +23,11 @@ pub(crate) fn next(d: &Diagnosis) -> Option<String> {
         let word = if runs.len() == 1 { "run" } else { "runs" };
         told.push(format!("take {word} {} again or leave it out, it is not like the others", list(&runs)));
     }
+    told.extend(d.attempt.iter().filter(|added| added.group == Group::Measurement).filter_map(|added| {
+        let ranked = d.ranked.iter().find(|ranked| ranked.effect == added.effect)?;
+        let board = if added.effect.starts_with("camera") { " (ibr data import --board)" } else { "" };
+        Some(format!("{}{board}", uncapitalised(ranked.remedy.trim_end_matches('.'))))
+    }));
     told.extend(d.pattern.as_ref().map(|pattern| pattern.check.clone()).or_else(|| where_most(d)));
     let rest = match d.pattern.as_ref().filter(|pattern| pattern.simpler) {
         Some(_) => "If nothing is found there, the effects named above remain.",
