@@ -52,6 +52,12 @@ impl Model {
         Model::of(scenario, scenario.spans())
     }
 
+    /// The same for a robot that is asked a few times: what a first prediction near a pressure needs is computed then. No bit of a
+    /// prediction differs.
+    pub fn for_few(scenario: &Scenario) -> Model {
+        Model::unsolved(scenario, &scenario.spans(), None)
+    }
+
     /// The same robot with all lengths along the body times a factor: more units, not longer ones.
     pub(crate) fn stretched(scenario: &Scenario, factor: f64) -> Model {
         let mut spans = scenario.spans();
@@ -67,6 +73,12 @@ impl Model {
 
     /// The same with segments of its own.
     pub(crate) fn with_segments(scenario: &Scenario, spans: &[Span], segments: Option<Vec<Segment>>) -> Model {
+        let model = Model::unsolved(scenario, spans, segments);
+        model.assembly.sites.iter().for_each(Site::solve_starts);
+        model
+    }
+
+    fn unsolved(scenario: &Scenario, spans: &[Span], segments: Option<Vec<Segment>>) -> Model {
         let mut assembly = assemble(scenario, spans, scenario.segments);
         add_effects(scenario, &mut assembly);
         for site in &mut assembly.sites {
