@@ -57,8 +57,8 @@ impl Section {
     }
 }
 
-/// β = π − α of sinβ/β = `ratio`, from 0 to below 1. Newton's iteration starts above the root, where the function is concave and falls:
-/// it comes down to the root and ends where rounding turns it back.
+/// β = π − α of sinβ/β = `ratio`, from 0 to below 1, by Halley's iteration from above the root, where sinβ − β·`ratio` falls and is
+/// concave: it comes down to the root and ends where rounding turns it back.
 fn beyond(ratio: f64) -> f64 {
     let less = 1.0 - ratio;
     let mut beta = match ratio > 0.5 {
@@ -67,7 +67,8 @@ fn beyond(ratio: f64) -> f64 {
     };
     for _ in 0..8 {
         let (sin, cos) = beta.sin_cos();
-        let next = beta - (sin - ratio * beta) / (cos - ratio);
+        let (value, slope) = (sin - ratio * beta, cos - ratio);
+        let next = beta - value / (slope + 0.5 * value * sin / slope);
         if !(next > 0.0 && next < beta) {
             break;
         }

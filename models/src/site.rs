@@ -20,7 +20,7 @@ mod tabulated;
 mod turn;
 mod wall;
 
-use crate::actuators::{Actuator, ActuatorShape, Stroke};
+use crate::actuators::{Actuator, ActuatorShape, Demand, Stroke};
 use crate::body::{Bending, BodyLaw, BodyPressure};
 use crate::linkage::line_tension;
 pub use crate::linkage::{Linkage, SectionLaw};
@@ -29,8 +29,8 @@ pub use crate::shape::CentreLine;
 use crate::term::{Extreme, Pose, Remembering, Term, actuator_q};
 use crate::weave::Weave;
 use gas::ActuatorPressure;
+use starts::Starts;
 use std::f64::consts::PI;
-use tabulated::Tabulated;
 
 /// One place of the robot while a model is put together; an effect changes what it owns.
 pub struct Site {
@@ -61,7 +61,7 @@ pub struct Site {
     /// What its terms do beside their energy.
     pub(crate) side_effects: SideEffects,
     /// Starts in place of the actuator's guess.
-    starts: Option<Tabulated>,
+    starts: Option<Starts>,
     /// Terms over [`actuator_q`], J per metre of body at η = 1; `act` adds one.
     pub actuator_terms: Vec<Box<dyn Term>>,
     /// Body pressure work; an effect may replace the law.
@@ -263,31 +263,19 @@ impl Site {
         near: Option<&SiteState>,
     ) -> Result<SiteState, NoRoot> {
         let near = near.filter(|state| state.slope < 0.0 && close(state.loads.p_act_pa, loads.p_act_pa));
-        // The table is nearer than a state at another pressure.
-        let moved = near.is_none_or(|state| state.loads.p_act_pa != loads.p_act_pa);
-        let start = match (near, moved.then(|| self.tabulated(actuator, loads, memory)).flatten()) {
-            (_, Some(start)) => start,
-            (Some(state), None) => state.start(self, loads, memory),
-            (None, None) => self.start(actuator, loads, memory),
-        };
-        self.solve_from(actuator, loads, memory, near, start)
-    }
-
-    /// The same from a start.
-    fn solve_from(
-        &self,
-        actuator: &Actuator,
-        loads: &SiteLoads,
-        memory: &[f64],
-        near: Option<&SiteState>,
-        start: Start,
-    ) -> Result<SiteState, NoRoot> {
         let mut before = Balance::at_state(near.unwrap_or(&SiteState::REST));
         let mut at = before;
         let mut imbalance = |a: f64| {
             before = at;
             at = self.balance(actuator, a, loads, memory);
             at.imbalance
+        };
+        // The table is nearer than a state at another pressure.
+        let moved = near.is_none_or(|state| state.loads.p_act_pa != loads.p_act_pa);
+        let start = match (near, moved.then(|| self.tabulated(loads, memory)).flatten()) {
+            (_, Some(start)) => start,
+            (Some(state), None) => state.start(self, loads, memory),
+            (None, None) => self.start(actuator, loads, memory),
         };
         let mut root = match find_root(&mut imbalance, actuator.range, start) {
             Ok(root) => root,
@@ -311,6 +299,26 @@ impl Site {
             }
         }
         Ok(self.settle(loads, &root, &at, &before))
+    }
+
+    /// Start from the actuator's own balance with the wall's moment linearised.
+    fn start(&self, actuator: &Actuator, loads: &SiteLoads, memory: &[f64]) -> Start {
+        let link = &self.linkage;
+        let (share, (low, high)) = (link.active_fraction / link.stroke_fraction, TYPICAL_STROKE);
+        let available = share * self.opening_pa(loads) * (actuator.area)(&self.shape) * link.arm_m;
+        let moment = |stroke: f64| {
+            let (curvature, gain) = link.bent(stroke * link.stroke_fraction / link.arm_m);
+            (self.body_moment(curvature, loads, memory) - loads.moment) * gain
+        };
+        let at_low = moment(low);
+        let rise = (moment(high) - at_low) / (high - low);
+        let demand = Demand {
+            constant: ((at_low - rise * low) / available).max(0.0),
+            per_contraction: (rise / available).max(0.0),
+            growth: link.arm_growth / link.arm_m,
+        };
+        let (x, slope) = (actuator.guess)(&self.shape, &demand);
+        Start { x, f: None, slope: slope * available }
     }
 
     /// State at the root: the last balance carried over the remaining step.
@@ -384,6 +392,8 @@ impl Site {
 const CARRIED: f64 = 1e-9;
 /// Actuator pressure up to which a pouch is slack \[Pa\]: far below any gauge, far above underflow.
 const SLACK_BELOW_PA: f64 = 1e-12;
+/// Contractions at which the wall's moment is sampled for the start value: in the working range of every actuator here.
+const TYPICAL_STROKE: (f64, f64) = (0.1, 0.3);
 
 #[cfg(test)]
 #[path = "site_tests.rs"]

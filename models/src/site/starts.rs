@@ -8,45 +8,40 @@
 //! scenario's body pressure; at others the folds of a pouch shift it a little, and the yarns of a muscle more.
 
 use crate::root::Start;
-use std::sync::OnceLock;
 
-/// Starts at equal distances of v. A node does not depend on the others, so it may be solved when it is first used.
+/// Starts at equal distances of v.
 pub(super) struct Starts {
-    moment: f64,
     first: f64,
-    step: f64,
-    /// Coordinate, and slope per pascal; `None` inside where nothing balances.
-    nodes: Vec<OnceLock<Option<[f64; 2]>>>,
+    per_step: f64,
+    /// Coordinate, and slope per pascal.
+    nodes: Vec<[f64; 2]>,
 }
 
-/// So many starts are within some 1e-6 of the root; each costs a microsecond.
+/// So many starts are within some 1e-6 of the root; each costs a microsecond at set-up.
 const NODES: usize = 41;
 
 impl Starts {
-    /// Between two pressures at a resisting moment; `None` without room between them.
-    pub(super) fn new(moment: f64, [low_pa, high_pa]: [f64; 2]) -> Option<Starts> {
+    /// From `solved`, coordinate and slope at an actuator pressure, between two pressures at a resisting moment; `None` if a
+    /// place in between has none.
+    pub(super) fn new(
+        moment: f64,
+        [low_pa, high_pa]: [f64; 2],
+        mut solved: impl FnMut(f64) -> Option<[f64; 2]>,
+    ) -> Option<Starts> {
         let (first, last) = ((moment / high_pa).sqrt(), (moment / low_pa).sqrt());
         let step = (last - first) / (NODES - 1) as f64;
-        (step > 0.0).then(|| Starts { moment, first, step, nodes: vec![OnceLock::new(); NODES] })
-    }
-
-    /// Solves all nodes now; `solved` gives coordinate and slope at an actuator pressure.
-    pub(super) fn fill(&self, solved: impl Fn(f64) -> Option<[f64; 2]>) {
-        (0..NODES).for_each(|i| _ = self.node(i, &solved));
-    }
-
-    #[inline]
-    fn node(&self, i: usize, solved: &impl Fn(f64) -> Option<[f64; 2]>) -> Option<[f64; 2]> {
-        *self.nodes[i].get_or_init(|| {
-            let pressure_pa = self.moment / (self.first + self.step * i as f64).powi(2);
+        let node = |i: usize| {
+            let pressure_pa = moment / (first + step * i as f64).powi(2);
             solved(pressure_pa).map(|[coordinate, slope]| [coordinate, slope / pressure_pa])
-        })
+        };
+        let nodes = (0..NODES).map(node).collect::<Option<Vec<_>>>()?;
+        (step > 0.0).then(|| Starts { first, per_step: 1.0 / step, nodes })
     }
 
-    /// The start at this resisting moment and pressure; `None` outside the table, and where a node has none.
+    /// The start at this resisting moment and pressure; `None` outside the table.
     #[inline]
-    pub(super) fn at(&self, moment: f64, pressure_pa: f64, solved: impl Fn(f64) -> Option<[f64; 2]>) -> Option<Start> {
-        let place = ((moment / pressure_pa).sqrt() - self.first) / self.step;
+    pub(super) fn at(&self, moment: f64, pressure_pa: f64) -> Option<Start> {
+        let place = ((moment / pressure_pa).sqrt() - self.first) * self.per_step;
         // Also refuses a NaN.
         if !(-0.5..=(NODES - 1) as f64 + 0.5).contains(&place) {
             return None;
@@ -55,12 +50,8 @@ impl Starts {
         let t = place - from as f64;
         let (a, b, c, d) = (t, t - 1.0, t - 2.0, t - 3.0);
         let weights = [-b * c * d / 6.0, a * c * d / 2.0, -a * b * d / 2.0, a * b * c / 6.0];
-        let (mut x, mut slope) = (0.0, 0.0);
-        for (k, weight) in weights.into_iter().enumerate() {
-            let [coordinate, per_pa] = self.node(from + k, &solved)?;
-            x += weight * coordinate;
-            slope += weight * per_pa;
-        }
+        let near = self.nodes[from..from + 4].iter().zip(weights);
+        let [x, slope] = near.fold([0.0; 2], |[x, s], (node, w)| [x + w * node[0], s + w * node[1]]);
         Some(Start { x, f: None, slope: slope * pressure_pa })
     }
 }
@@ -72,28 +63,13 @@ mod tests {
     #[test]
     fn a_smooth_answer_is_met_between_the_nodes() {
         let answer = |p: f64| [1.2 - 0.9 * (3.0 / p).sqrt() + 0.2 * 3.0 / p, -2.0 * p];
-        let starts = Starts::new(3.0, [5.0, 100.0]).unwrap();
-        let solved = |p: f64| Some(answer(p));
+        let starts = Starts::new(3.0, [5.0, 100.0], |p| Some(answer(p))).unwrap();
         for p in [5.0, 5.3, 17.0, 60.0, 99.0] {
-            let start = starts.at(3.0, p, solved).unwrap();
+            let start = starts.at(3.0, p).unwrap();
             let [x, slope] = answer(p);
             assert!((start.x - x).abs() < 1e-12 && (start.slope / slope - 1.0).abs() < 1e-12, "{p}: {start:?}");
         }
-        let outside = [(3.0, 2.0), (-1.0, 10.0), (3.0, 0.0)];
-        assert!(outside.iter().all(|(moment, p)| starts.at(*moment, *p, solved).is_none()));
-        let solved = |p: f64| (p > 6.0).then(|| answer(p));
-        let starts = Starts::new(3.0, [5.0, 100.0]).unwrap();
-        assert!(starts.at(3.0, 5.1, solved).is_none() && starts.at(3.0, 60.0, solved).is_some());
-        assert!(Starts::new(3.0, [100.0, 5.0]).is_none());
-    }
-
-    #[test]
-    fn a_start_is_the_same_whether_its_nodes_were_solved_before() {
-        let solved = |p: f64| Some([1.0 / p, -p]);
-        let [early, late] = [0, 1].map(|_| Starts::new(3.0, [5.0, 100.0]).unwrap());
-        early.fill(solved);
-        for p in [5.0, 17.3, 99.0] {
-            assert_eq!(early.at(3.0, p, |_| None), late.at(3.0, p, solved), "{p}");
-        }
+        assert!(starts.at(3.0, 2.0).is_none() && starts.at(-1.0, 10.0).is_none() && starts.at(3.0, 0.0).is_none());
+        assert!(Starts::new(3.0, [5.0, 100.0], |p| (p > 6.0).then(|| answer(p))).is_none());
     }
 }
