@@ -3,7 +3,7 @@
 use crate::actuators::ActuatorShape;
 use crate::assembly::{Assembly, Segment};
 use crate::body::{Bending, BodyLaw, BodyPressure, BodyWall};
-use crate::effects::by_name;
+use crate::effects::EFFECTS;
 use crate::scenario::{Scenario, Span};
 use crate::site::{CentreLine, Linkage, Site};
 use crate::term::CHANNELS;
@@ -53,8 +53,8 @@ pub(crate) fn locate(segments: &[Segment], station_m: f64) -> (usize, f64) {
 
 /// Adds the effects of a scenario to a model under construction, in the order of the catalogue: geometry before the terms that read it.
 pub(crate) fn add_effects(scenario: &Scenario, assembly: &mut Assembly) {
-    for chosen in scenario.effects_in_order() {
-        match (by_name(&chosen.name), scenario.formulas.iter().find(|formula| formula.name == chosen.name)) {
+    for (place, chosen) in scenario.effects_in_order() {
+        match (EFFECTS.get(place), scenario.formulas.get(place.saturating_sub(EFFECTS.len()))) {
             (Some(effect), _) => (effect.add)(&chosen.values, assembly),
             (None, Some(formula)) => formula.add(&chosen.values, assembly),
             (None, None) => {}

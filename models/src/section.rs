@@ -31,15 +31,10 @@ impl Section {
         if !(arc_m > 0.0 && chord_m >= 0.0 && chord_m < arc_m) {
             return None;
         }
-        // sinα/(π − α) rises from 0 to 1.
-        let (mut low, mut high) = (0.0, PI);
-        for _ in 0..60 {
-            let middle: f64 = 0.5 * (low + high);
-            if middle.sin() / (PI - middle) < chord_m / arc_m { low = middle } else { high = middle }
-        }
-        let (sin, cos) = low.sin_cos();
-        let radius_m = arc_m / (2.0 * (PI - low));
-        let area_m2 = radius_m.powi(2) * (PI - low + sin * cos);
+        let beta = beyond(chord_m / arc_m);
+        let (sin, cos) = (beta.sin(), -beta.cos());
+        let radius_m = arc_m / (2.0 * beta);
+        let area_m2 = radius_m.powi(2) * (beta + sin * cos);
         let centroid_m = radius_m - 2.0 * (radius_m * sin).powi(3) / (3.0 * area_m2);
         Some(Section { radius_m, cos, area_m2, centroid_m, chord_m: radius_m * (1.0 + cos) })
     }
@@ -60,6 +55,26 @@ impl Section {
     }
 }
 
+/// β = π − α of sinβ/β = `ratio`, from 0 to below 1, by Halley's iteration from above the root, where sinβ − β·`ratio` falls and is
+/// concave: it comes down to the root and ends where rounding turns it back.
+fn beyond(ratio: f64) -> f64 {
+    let less = 1.0 - ratio;
+    let mut beta = match ratio > 0.5 {
+        true => (120.0 * less / (10.0 + (100.0 - 120.0 * less).sqrt())).sqrt(),
+        false => PI / (1.0 + ratio),
+    };
+    for _ in 0..8 {
+        let (sin, cos) = beta.sin_cos();
+        let (value, slope) = (sin - ratio * beta, cos - ratio);
+        let next = beta - value / (slope + 0.5 * value * sin / slope);
+        if !(next > 0.0 && next < beta) {
+            break;
+        }
+        beta = next;
+    }
+    beta
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -75,6 +90,19 @@ mod tests {
         let sin = (1.0 - pouch.cos * pouch.cos).sqrt();
         assert!((2.0 * pouch.radius_m * sin - 0.06).abs() < 1e-12);
         assert!(Section::new(0.1, 0.1).is_none() && Section::new(0.1, -0.01).is_none());
+    }
+
+    #[test]
+    fn the_angle_closes_the_chord_from_none_to_all_of_the_arc() {
+        for i in 0..1000 {
+            let ratio = f64::from(i) / 1000.0;
+            let beta = beyond(ratio);
+            assert!((beta.sin() - ratio * beta).abs() < 4e-16 && beta > 0.0 && beta <= PI, "{ratio}: {beta}");
+        }
+        assert!(
+            beyond(1.0 - f64::EPSILON).is_finite()
+                && Section::new(0.1, 0.1 - 1e-16).is_some_and(|s| s.area_m2.is_finite())
+        );
     }
 
     #[test]

@@ -5,6 +5,11 @@ use super::stated::Scenario;
 use crate::actuators::pattern::Pattern;
 use std::f64::consts::PI;
 
+/// Whether a station is beyond the end of a body of this length, by more than rounding.
+pub(super) fn is_off(station_m: f64, length_m: f64) -> bool {
+    station_m > length_m * (1.0 + 1e-9)
+}
+
 impl Scenario {
     /// Refuses what this robot and the sewing pattern of one of its strips do not allow together, with welds `weld_m` wide and the
     /// sheet's edge `margin_m` beyond them.

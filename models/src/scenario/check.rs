@@ -1,5 +1,6 @@
 //! Raw values → SI: the tables together, with errors that name the probable slip.
 
+use super::built::is_off;
 use super::choice::ActuatorChoice;
 use super::formulas::formulas;
 use super::given::{Checked, Given, refuse, si, unit};
@@ -107,7 +108,7 @@ fn zone(table: &Spanned<Entries>, length_m: f64, actuator: &ActuatorChoice) -> C
         return refuse("a zone of an actuator that is not there".into(), "add [actuator]", zone.span);
     }
     let (from_m, to_m) = (zone.need("from_mm")?, zone.need("to_mm")?);
-    if from_m >= to_m || to_m > length_m * (1.0 + 1e-9) {
+    if from_m >= to_m || is_off(to_m, length_m) {
         let message = format!("a zone from {} to {} mm is not on the body", from_m * 1e3, to_m * 1e3);
         return refuse(message, format!("0 ≤ from_mm < to_mm ≤ {}", length_m * 1e3), zone.span_of("to_mm"));
     }
@@ -129,7 +130,7 @@ fn stations(raw: &[Spanned<f64>], length_m: f64) -> Checked<Vec<f64>> {
     let mut stations: Vec<f64> = Vec::with_capacity(raw.len());
     for value in raw {
         let s = si(value, &Range::STATION)?;
-        if s > length_m * (1.0 + 1e-9) {
+        if is_off(s, length_m) {
             let message = format!("marker at {} mm is off the body of {} mm", value.get_ref(), length_m * 1e3);
             return refuse(message, "stations are measured along the undeformed body from its base", value.span());
         }
@@ -139,12 +140,16 @@ fn stations(raw: &[Spanned<f64>], length_m: f64) -> Checked<Vec<f64>> {
         stations.push(s);
     }
     if let (Some(last), Some(value)) = (stations.last(), raw.last())
-        && *last < 0.002
-        && length_m > 0.05
+        && are_too_low(*last, length_m)
     {
         return refuse("marker stations are all below 2 mm".into(), Range::LENGTH.too_small, value.span());
     }
     Ok(stations)
+}
+
+/// Whether a body of this length has its last marker so near the base that the unit is probably wrong.
+pub(super) fn are_too_low(last_m: f64, length_m: f64) -> bool {
+    last_m < 0.002 && length_m > 0.05
 }
 
 fn segments(raw: &Raw) -> Checked<usize> {
@@ -152,8 +157,10 @@ fn segments(raw: &Raw) -> Checked<usize> {
     si(&Spanned::new(value.span(), *value.get_ref() as f64), &SEGMENTS).map(|count| count as usize)
 }
 
-/// Those with which a value may lie beyond the usual bounds.
-const KNOWN: &[&str] = &["measured", "published", "calibrated"];
+/// Whether a value with this basis may lie beyond the usual bounds.
+pub(super) fn is_known(basis: &str) -> bool {
+    ["measured", "published", "calibrated"].contains(&basis)
+}
 
 fn effects_of(raw: &Raw, actuator: &ActuatorChoice, formulas: &[Arc<Formula>]) -> Checked<Vec<EffectChoice>> {
     let (mut chosen, catalogue) = (Vec::new(), Catalogue::new(formulas));
@@ -170,7 +177,7 @@ fn effects_of(raw: &Raw, actuator: &ActuatorChoice, formulas: &[Arc<Formula>]) -
         let mut values = effect.neutral();
         let basis = table.iter().find(|(key, _)| key.get_ref() == "basis").map(|(_, value)| basis_of(value));
         let basis = basis.transpose()?.unwrap_or_default();
-        let is_known = KNOWN.contains(&basis.as_str());
+        let is_known = is_known(&basis);
         for (key, value) in table {
             match (key.get_ref().as_str(), effect.parameters.iter().position(|p| p.key == key.get_ref())) {
                 (_, Some(i)) => values[i] = parameter(&effect, i, value, is_known)?,

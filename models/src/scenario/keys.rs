@@ -19,14 +19,37 @@ pub struct Key {
     pub range: Option<Range>,
     /// Meaning in a few words, for documents, messages and sliders.
     pub meaning: &'static str,
-    /// Reads its number in SI, in the first of its tables.
-    get: Option<fn(&Scenario) -> f64>,
+    /// Its number in SI, in the first of its tables.
+    field: Option<Field>,
+}
+
+/// A number of a scenario, read and set.
+#[derive(Debug, Clone, Copy)]
+struct Field {
+    get: fn(&Scenario) -> f64,
+    set: fn(&mut Scenario, f64),
+    is_whole: bool,
+}
+
+/// The field of a number, and the field of a whole number.
+macro_rules! field {
+    ($($part:ident).+) => { Field { get: |s| s.$($part).+, set: |s, si| s.$($part).+ = si, is_whole: false } };
+    (whole $($part:ident).+) => {
+        Field { get: |s| s.$($part).+ as f64, set: |s, si| s.$($part).+ = si as usize, is_whole: true }
+    };
 }
 
 impl Key {
     /// Its number in the unit of the text; `None` without one.
     pub fn value(&self, scenario: &Scenario) -> Option<f64> {
-        Some(self.get?(scenario) * (1.0 / self.range?.si))
+        Some((self.field?.get)(scenario) * (1.0 / self.range?.si))
+    }
+
+    /// Sets its number, in the unit of the text; `None` without one, out of its range, or where it has to be a whole number.
+    pub(super) fn set(&self, scenario: &mut Scenario, number: f64, is_whole: bool) -> Option<()> {
+        let field = self.field.filter(|field| is_whole || !field.is_whole)?;
+        (field.set)(scenario, self.range?.si("", number).ok()?);
+        Some(())
     }
 
     /// Its place in the text, as `body.radius_mm`.
@@ -60,9 +83,9 @@ const fn number(
     name: &'static str,
     range: Range,
     meaning: &'static str,
-    get: fn(&Scenario) -> f64,
+    field: Field,
 ) -> Key {
-    Key { tables, name, range: Some(range), meaning, get: Some(get) }
+    Key { tables, name, range: Some(range), meaning, field: Some(field) }
 }
 
 const fn other(
@@ -71,7 +94,7 @@ const fn other(
     range: Option<Range>,
     meaning: &'static str,
 ) -> Key {
-    Key { tables, name, range, meaning, get: None }
+    Key { tables, name, range, meaning, field: None }
 }
 
 /// Accepted numbers with their factor to SI, and the advice below and above them.
@@ -96,18 +119,18 @@ const WALL: &str = "write N/m, for example 40000 for 200 MPa x 0.2 mm";
 /// All keys of the tables, in the order of the document.
 #[rustfmt::skip]
 pub const KEYS: &[Key] = &[
-    number(BODY_OR_ZONE, "radius_mm", Range { name: "radius", high: 1000.0, ..LENGTH }, "radius R of the inflated body", |s| s.radius_m),
-    number(BODY, "length_mm", LENGTH, "length L from clamp to tip", |s| s.length_m),
-    number(BODY, "pressure_kpa", Range::BODY_PRESSURE, "body pressure p_b", |s| s.p_body_pa),
+    number(BODY_OR_ZONE, "radius_mm", Range { name: "radius", high: 1000.0, ..LENGTH }, "radius R of the inflated body", field!(radius_m)),
+    number(BODY, "length_mm", LENGTH, "length L from clamp to tip", field!(length_m)),
+    number(BODY, "pressure_kpa", Range::BODY_PRESSURE, "body pressure p_b", field!(p_body_pa)),
     number(BODY_OR_ZONE, "bending_stiffness_nm2", range("bending stiffness", "N m²", 1.0, [0.0, 1e3], [
         "a stiffness is not negative", "write N·m²; 1 N·m² is 1e6 N·mm²",
-    ]), "effective bending stiffness B", |s| s.bending_stiffness),
+    ]), "effective bending stiffness B", field!(bending_stiffness)),
     number(BODY, "hinge_curvature_per_m", range("hinge curvature", "1/m", 1.0, [1e-6, 10.0], [
         "it must be positive; 0.05 is the usual value", "write 1/m; 0.05 is the usual value",
-    ]), "curvature over which the restoring moment sets in", |s| s.hinge_curvature),
+    ]), "curvature over which the restoring moment sets in", field!(hinge_curvature)),
     number(BODY, "hinge_moment_share", Range {
         name: "hinge moment share", ..Range::plain(0.0, 2.0, "1 is the collapse moment πp_bR³, 0.5 the first wrinkle")
-    }, "restoring moment of the base law over πp_bR³", |s| s.hinge_share),
+    }, "restoring moment of the base law over πp_bR³", field!(hinge_share)),
     other(BODY, "wall_stiffness_n_per_m", Some(range("wall stiffness", "N/m", 1.0, [100.0, 1e8], [
         "this looks like N/mm: write N/m, for example 40000 for 200 MPa x 0.2 mm", WALL,
     ])), "membrane stiffness E t of the wall"),
@@ -117,32 +140,32 @@ pub const KEYS: &[Key] = &[
     other(BODY, "centre_line_mm", Some(POSITION), "distance of the centre line from the taut generator"),
     other(BODY, "gravity", None, "direction of gravity in x–y, with strips round the body in x–y–z"),
     other(ACTUATOR, "kind", None, "kind of the actuator"),
-    number(UNIT, "length_mm", LENGTH, "flat length of one unit", |s| s.actuator.shape.length_m),
-    number(UNIT, "width_mm", LENGTH, "flat width of one unit", |s| s.actuator.shape.width_m),
+    number(UNIT, "length_mm", LENGTH, "flat length of one unit", field!(actuator.shape.length_m)),
+    number(UNIT, "width_mm", LENGTH, "flat width of one unit", field!(actuator.shape.width_m)),
     number(STRIP, "count", Range { name: "count", ..Range::plain(1.0, 10_000.0, "units in series") }, "units in series",
-        |s| s.actuator.count as f64),
-    number(STRIP, "start_mm", POSITION, "station of the first unit", |s| s.actuator.start_m),
+        field!(whole actuator.count)),
+    number(STRIP, "start_mm", POSITION, "station of the first unit", field!(actuator.start_m)),
     other(UNIT, "arm_mm", Some(LENGTH), "arm from the taut generator to the line of action"),
-    number(UNIT, "fold_mm", POSITION, "depth of a lateral gusset fold", |s| s.actuator.shape.fold_m),
+    number(UNIT, "fold_mm", POSITION, "depth of a lateral gusset fold", field!(actuator.shape.fold_m)),
     number(STRIP, "volume_gain", Range { name: "volume gain", ..Range::plain(0.05, 20.0, "1 is the plain pouch") },
-        "factor on the enclosed volume", |s| s.actuator.shape.volume_gain),
+        "factor on the enclosed volume", field!(actuator.shape.volume_gain)),
     number(ACTUATOR, "bias_deg", range("bias angle", "deg", DEGREE, [15.0, 75.0], [
         "write degrees from the axis; a bias cut has 45", "write degrees from the axis; a muscle with yarns beyond 54.7 lengthens",
-    ]), "angle of a muscle's yarns to its axis", |s| s.actuator.shape.bias_rad),
+    ]), "angle of a muscle's yarns to its axis", field!(actuator.shape.bias_rad)),
     number(UNIT, "channel", Range { name: "channel", ..Range::plain(0.0, (CHANNELS - 1) as f64, "number of the supply line") },
-        "supply line that feeds it", |s| s.actuator.channel as f64),
+        "supply line that feeds it", field!(whole actuator.channel)),
     number(ACTUATOR, "max_pressure_kpa", Range { low: 0.001, too_small: "the inverse looks up to it", ..Range::ACTUATOR_PRESSURE },
-        "largest pressure an inverse may ask for", |s| s.p_max_pa),
+        "largest pressure an inverse may ask for", field!(p_max_pa)),
     number(STRIP, "azimuth_deg", range("azimuth", "deg", DEGREE, [-360.0, 360.0], ["write degrees from y towards z: 90 is z"; 2]),
-        "azimuth of the strip's start", |s| s.actuator.azimuth_rad),
+        "azimuth of the strip's start", field!(actuator.azimuth_rad)),
     number(STRIP, "turns", Range { name: "turns", ..Range::plain(-20.0, 20.0, "write turns round the body from start to end") },
-        "turns round the body from start to end", |s| s.actuator.turns),
+        "turns round the body from start to end", field!(actuator.turns)),
     other(ZONE, "from_mm", Some(POSITION), "start of the stretch"),
     other(ZONE, "to_mm", Some(POSITION), "end of the stretch"),
     other(ZONE, "passive", None, "whether the stretch has no actuator"),
     other(&["markers"], "s_mm", Some(Range::STATION), "stations of the markers"),
     other(&["predict"], "pressures_kpa", Some(Range::ACTUATOR_PRESSURE), "actuator pressures of a prediction"),
-    number(&["predict"], "segments", SEGMENTS, "division of the body where something varies along it", |s| s.segments as f64),
+    number(&["predict"], "segments", SEGMENTS, "division of the body where something varies along it", field!(whole segments)),
     other(SUPPLY, "valve_time_s", Some(range("valve time", "s", 1.0, [0.0, 60.0], [
         "0 is a valve without lag", "write seconds: 0.05 for 50 ms",
     ])), "time constant of valve or regulator"),

@@ -27,6 +27,7 @@ mod given;
 mod keys;
 pub mod quantity;
 mod raw;
+mod set;
 mod spans;
 mod stated;
 mod strips;
@@ -35,6 +36,7 @@ mod supply;
 pub use choice::ActuatorChoice;
 pub use dials::Dial;
 pub use keys::{KEYS, Key, key, moves_nothing};
+pub use set::Setting;
 pub use spans::Span;
 pub use stated::{BASES, EffectChoice, Scenario, Wall, Zone};
 

@@ -133,10 +133,11 @@ impl Scenario {
         changed
     }
 
-    /// Its effects in the order of the catalogue, whatever order they were written or chosen in.
-    pub(crate) fn effects_in_order(&self) -> Vec<&EffectChoice> {
-        let mut chosen: Vec<&EffectChoice> = self.effects.iter().collect();
-        chosen.sort_by_key(|e| order(&e.name, &self.formulas));
+    /// Its effects with their places in the catalogue and in its order, whatever order they were written or chosen in.
+    pub(crate) fn effects_in_order(&self) -> Vec<(usize, &EffectChoice)> {
+        let placed = |chosen: &'_ EffectChoice| order(&chosen.name, &self.formulas);
+        let mut chosen: Vec<_> = self.effects.iter().map(|chosen| (placed(chosen), chosen)).collect();
+        chosen.sort_by_key(|(place, _)| *place);
         chosen
     }
 

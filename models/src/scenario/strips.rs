@@ -1,5 +1,6 @@
 //! The strips of actuators: `[actuator]`, and each `[[strip]]` round the body.
 
+use super::built::is_off;
 use super::choice::ActuatorChoice;
 use super::given::{Checked, Given, refuse};
 use super::raw::{Entries, Raw};
@@ -36,7 +37,7 @@ pub(super) fn actuator(given: &Given, radius_m: f64, length_m: f64) -> Checked<A
     };
     check_turns(given, &choice, radius_m)?;
     let end_m = choice.start_m + choice.covered_m(radius_m);
-    if end_m > length_m * (1.0 + 1e-9) {
+    if is_off(end_m, length_m) {
         let [unit, start, end, length] = [choice.shape.length_m, choice.start_m, end_m, length_m].map(|m| m * 1e3);
         let message = format!(
             "{} units of {unit} mm from {start} mm end at {end:.1} mm, beyond the body's {length:.1} mm",
