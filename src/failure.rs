@@ -1,6 +1,7 @@
 //! What can go wrong in the command, as the user sees it, with its exit code.
 
 use crate::printable::printable;
+use crate::shown::as_json;
 use compare::CompareError;
 use data::{Fault, Location};
 use fem::FemError;
@@ -11,6 +12,7 @@ use miette::{
     NamedSource, Report, SourceCode, SourceSpan, SpanContents,
 };
 use models::Unsolved;
+use serde::Serialize;
 
 pub(crate) type Result<T, E = Failure> = std::result::Result<T, E>;
 
@@ -36,6 +38,19 @@ pub(crate) enum Failure {
     Compare(#[from] CompareError),
     #[error(transparent)]
     Drawing(#[from] report::ReportError),
+}
+
+/// `ibr.error`: any command that fails with `--json`
+#[derive(Serialize)]
+struct ErrorAnswer<'a> {
+    /// The fault, with its place where the message names it
+    message: String,
+    /// File with line or column, or the key; null where the fault has no place
+    place: Option<String>,
+    /// Remedy as a sentence; null where the message contains it
+    help: Option<&'a str>,
+    /// Exit code of the program
+    exit_code: u8,
 }
 
 impl From<PageError> for Failure {
@@ -107,7 +122,18 @@ impl Failure {
         }
     }
 
-    fn help(&self) -> Option<&str> {
+    /// The same for programs.
+    pub(crate) fn json(&self) -> serde_json::Value {
+        let place = match self {
+            Failure::Fem(error) => error.place(),
+            Failure::Compare(error) => error.fault().map(|fault| fault.location.to_string()),
+            _ => None,
+        };
+        let answer = ErrorAnswer { message: self.to_string(), place, help: self.help(), exit_code: self.code() };
+        as_json("ibr.error", &answer)
+    }
+
+    pub(crate) fn help(&self) -> Option<&str> {
         match self {
             Failure::Write { help, .. } => Some(help.as_str()),
             Failure::Compare(error) => error.help(),

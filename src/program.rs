@@ -24,7 +24,7 @@ pub fn run(typed: impl IntoIterator<Item = OsString>) -> u8 {
     silence_parquet();
     let typed: Vec<OsString> = typed.into_iter().collect();
     let words = typed.iter().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
-    let cli = cli::parsed(typed);
+    let cli = cli::parsed(&typed);
     let bar = Meter::new(!cli.quiet && !cli.json);
     let mut context = Context {
         typed: words,
@@ -47,6 +47,9 @@ pub fn run(typed: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(outcome) => finish(&outcome, cli.json),
         Err(error) => {
             say(&error.render());
+            if cli.json {
+                let _ = writeln!(std::io::stdout(), "{:#}", error.json());
+            }
             error.code()
         }
     }

@@ -1,8 +1,10 @@
 //! `ibr --help`: the commands by what they are for.
 
 use super::Cli;
+use crate::failure::Failure;
 use clap::{CommandFactory, FromArgMatches};
 use std::ffi::OsString;
+use std::io::Write;
 
 /// Every command once, in the order of a session.
 const GROUPS: &[(&str, &[&str])] = &[
@@ -31,8 +33,17 @@ pub(crate) fn command() -> clap::Command {
 }
 
 /// What was typed, the name of the program first; ends the program with help or an error.
-pub(crate) fn parsed(typed: impl IntoIterator<Item = OsString>) -> Cli {
-    Cli::from_arg_matches(&command().get_matches_from(typed)).unwrap_or_else(|error| error.exit())
+pub(crate) fn parsed(typed: &[OsString]) -> Cli {
+    let matches = command().try_get_matches_from(typed);
+    matches.and_then(|matches| Cli::from_arg_matches(&matches)).unwrap_or_else(|error| {
+        if error.use_stderr() && typed.iter().any(|word| word == "--json") {
+            let text = error.to_string();
+            let (message, help) = text.split_once("\n\n").unwrap_or((&text, ""));
+            let failure = Failure::usage(message.trim_start_matches("error: "), help.trim());
+            let _ = writeln!(std::io::stdout(), "{:#}", failure.json());
+        }
+        error.exit()
+    })
 }
 
 #[cfg(test)]
