@@ -43,27 +43,6 @@ fn from_deeplabcut_to_the_named_effect() {
     assert!(again.code == 2 && again.stderr.contains("--force"), "{}", again.stderr);
 }
 
-/// Three trials of Vicon Nexus and a log of LabVIEW, in the four commands of the guide.
-#[test]
-fn from_vicon_and_labview_to_the_named_effect() {
-    let folder = Folder::new();
-    let trials = [1, 2, 3].map(|k| case(&format!("c21-vicon-nexus/trial{k}.csv")));
-    let log = case("c26-pressure-loggers/labview.lvm");
-    let mut import = vec!["data", "import", &trials[0], &trials[1], &trials[2], "--pressure", &log];
-    import.extend(["--pressure-unit", "kPa", "--clock-offset", "0s", "--actuator", "epam", "--out", "tracked"]);
-    let read = folder.run(&import);
-    assert!(
-        read.stdout.contains("Vicon Nexus: 3 runs, 45 frames") && read.stdout.contains("LabVIEW text"),
-        "{}",
-        read.stderr
-    );
-    assert_eq!(folder.run(&["data", "check", "tracked"]).code, 0);
-    let found = folder.run(&["diagnose", "epam-textbook", "tracked", "--json"]).json("ibr.diagnose");
-    assert_eq!(found["ranked"][0]["effect"], "end_constraint", "{found}");
-    let added = folder.run(&["add", "epam-textbook", "best", "tracked", "--out", "named.toml"]);
-    assert!(added.code == 0 && std::fs::read_to_string(folder.path("named.toml")).unwrap().contains("end_constraint"));
-}
-
 /// A camera whose frame rate varies: the refusal comes with the picture of both tracks, and a dataset stays as it was.
 #[test]
 fn a_refused_clock_leaves_its_picture_and_no_dataset() {
