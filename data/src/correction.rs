@@ -144,3 +144,35 @@ impl CorrectionTable {
         Ok([0, 1].map(|axis| a.d_m[axis] + share * (b.d_m[axis] - a.d_m[axis])))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = include_str!("../tests/made/correction.csv");
+
+    fn moved(hold: [f64; 2], phase: Phase) -> Result<[f64; 2], String> {
+        let table = parse_correction("c.csv", TEXT).unwrap();
+        let [p_body_pa, p_act_pa] = hold;
+        let hold = Hold { p_body_pa, p_act_pa, more_act_pa: Vec::new(), phase, occurrence: 0, t_s: vec![0.0] };
+        table.between(&hold, "1").map(|d| d.map(|m| (m * 1e6).round() * 1e-3)).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn displacements_are_linear_between_pressures_on_the_way_of_the_phase() {
+        assert_eq!(moved([2e3, 15e3], Phase::Load), Ok([3.0, -7.5]));
+        assert_eq!(moved([2e3, 0.0], Phase::Unload), Ok([0.0, -2.0]));
+        assert!(
+            moved([2e3, 30e3], Phase::Load).unwrap_err().contains("goes from 0.0 to 20.0 kPa, and a hold is at 30.0")
+        );
+        assert!(moved([4e3, 10e3], Phase::Load).unwrap_err().contains("no marker 1 at 4.0 kPa body pressure"));
+    }
+
+    #[test]
+    fn comments_name_the_effects_and_the_data() {
+        let table = parse_correction("c.csv", TEXT).unwrap();
+        assert_eq!((table.effects, table.data_sha256), (vec!["pressure_loss".into()], vec!["0123abcd".to_string()]));
+        let error = parse_correction("c.csv", &TEXT.replace("dx_mm,", "x_mm,")).unwrap_err();
+        assert_eq!(error.to_string(), "c.csv:4: column dx_mm is missing: this is not a correction");
+    }
+}

@@ -76,6 +76,8 @@ pub const READERS: &[Reader] = &[
         &["data/sets/breukels-2011-beams/load_deflection.csv", "data/sets/mckibben-free/force_contraction.csv"],
         bench,
     ),
+    of("base", &["data/sets/synthetic-epam/markers.csv"], base),
+    of("correction", &["data/tests/made/correction.csv"], correction),
     of("study", &["studies/epam-designs.toml"], study),
     of("wish", &["studies/epam-wish.toml"], wish),
     made("parquet", parquets, parquet),
@@ -211,6 +213,18 @@ fn formula(bytes: &[u8]) -> bool {
     let written = String::from_utf8_lossy(bytes).replace('\\', "\\\\").replace('"', "\\\"").replace(['\n', '\r'], " ");
     let textbook = models::shipped("epam-textbook").unwrap_or_default();
     predicts(&format!("{textbook}{}", FORMULA.replace("FORMULA", &written)))
+}
+
+/// Predictions of another simulator for an embedded set.
+fn base(bytes: &[u8]) -> bool {
+    static SET: LazyLock<Option<data::Dataset>> =
+        LazyLock::new(|| data::load("synthetic-epam", &mut |_, _| ()).ok().map(|(dataset, _)| dataset));
+    let text = String::from_utf8_lossy(bytes);
+    SET.as_ref().is_some_and(|set| data::parse_predictions("base.csv", &text, set).is_ok())
+}
+
+fn correction(bytes: &[u8]) -> bool {
+    data::parse_correction("correction.csv", &String::from_utf8_lossy(bytes)).is_ok()
 }
 
 fn markers(mut bytes: &[u8]) -> bool {
