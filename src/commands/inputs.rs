@@ -85,7 +85,10 @@ pub(super) fn all_evidence(
     let bases = bases(&fit.base, data.len())?;
     let on = |(spec, base): (&&str, Option<BaseTable>)| -> Result<Evidence> {
         let read = evidence(spec, context)?;
-        base.map_or(Ok(read.clone()), |base| Ok(on_base(scenario, &read, &base)?))
+        Ok(match base {
+            Some(base) => on_base(scenario, &read, &base)?,
+            None => read,
+        })
     };
     data.iter().zip(bases).map(on).collect()
 }

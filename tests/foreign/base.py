@@ -26,6 +26,7 @@ PRESSURES = [0, 7, 10, 12, 15, 20, 25, 30]
 BODY_KPA, RADIUS_MM, PIECES = 2.0, 40.0, 12
 STATIONS_MM = [30, 90, 150, 210, 270, 330]
 SHARE = 0.8
+SETTLED_S = 1.0
 
 
 def ibr(*typed, json_too=False):
@@ -50,10 +51,9 @@ def of_mujoco(robot):
         ibr("export", "mjcf", robot, "--pressure", f"{kpa}kPa", "--joints", str(PIECES), "--out", file)
         model = mujoco.MjModel.from_xml_path(file)
         data = mujoco.MjData(model)
-        # Control is the pressure in kPa, gravity is 0. Integrate to rest, starting at the exported angles.
-        mujoco.mj_resetDataKeyframe(model, data, 0)
+        # The control is the pressure in kPa. From the straight robot to rest.
         data.ctrl[:] = kpa
-        while data.time < 0.5:
+        while data.time < SETTLED_S:
             mujoco.mj_step(model, data)
         mujoco.mj_forward(model, data)
         # The mass of a link is at the end of its piece: every marker is the end of one.

@@ -122,7 +122,7 @@ fn rms_mm(dataset: &Dataset, one_m: &[f64], other_m: &[f64]) -> f64 {
     1e3 * (squares / (seen.max(1) / dataset.axes) as f64).sqrt()
 }
 
-/// Refuses exchanged axes, labels and units, and a base that bends away from the actuator. The line is that of the farthest marker.
+/// Refuses exchanged axes, labels and units, and a base that bends away from the actuator. Its line is where a marker is farthest from the scenario.
 fn check_axes(scenario: &Scenario, dataset: &Dataset, predictions: &Predictions) -> Result<(), CompareError> {
     let alone = Dataset {
         runs: vec!["base".into()],
