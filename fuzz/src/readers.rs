@@ -76,8 +76,7 @@ pub const READERS: &[Reader] = &[
         &["data/sets/breukels-2011-beams/load_deflection.csv", "data/sets/mckibben-free/force_contraction.csv"],
         bench,
     ),
-    of("base", &["data/sets/synthetic-epam/markers.csv"], base),
-    of("correction", &["data/tests/made/correction.csv"], correction),
+    of("base", &["data/sets/synthetic-epam/markers.csv", "data/tests/made/correction.csv"], base),
     of("study", &["studies/epam-designs.toml"], study),
     of("wish", &["studies/epam-wish.toml"], wish),
     made("parquet", parquets, parquet),
@@ -215,16 +214,13 @@ fn formula(bytes: &[u8]) -> bool {
     predicts(&format!("{textbook}{}", FORMULA.replace("FORMULA", &written)))
 }
 
-/// Predictions of another simulator for an embedded set.
+/// Predictions of another simulator for an embedded set, or a correction of them.
 fn base(bytes: &[u8]) -> bool {
     static SET: LazyLock<Option<data::Dataset>> =
         LazyLock::new(|| data::load("synthetic-epam", &mut |_, _| ()).ok().map(|(dataset, _)| dataset));
     let text = String::from_utf8_lossy(bytes);
-    SET.as_ref().is_some_and(|set| data::parse_predictions("base.csv", &text, set).is_ok())
-}
-
-fn correction(bytes: &[u8]) -> bool {
-    data::parse_correction("correction.csv", &String::from_utf8_lossy(bytes)).is_ok()
+    data::parse_correction("correction.csv", &text).is_ok()
+        || SET.as_ref().is_some_and(|set| data::parse_predictions("base.csv", &text, set).is_ok())
 }
 
 fn markers(mut bytes: &[u8]) -> bool {
