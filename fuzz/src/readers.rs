@@ -216,11 +216,9 @@ fn formula(bytes: &[u8]) -> bool {
 
 /// Predictions of another simulator for an embedded set, or a correction of them.
 fn base(bytes: &[u8]) -> bool {
-    static SET: LazyLock<Option<data::Dataset>> =
-        LazyLock::new(|| data::load("synthetic-epam", &mut |_, _| ()).ok().map(|(dataset, _)| dataset));
-    let text = String::from_utf8_lossy(bytes);
-    data::parse_correction("correction.csv", &text).is_ok()
-        || SET.as_ref().is_some_and(|set| data::parse_predictions("base.csv", &text, set).is_ok())
+    let (text, set) = (String::from_utf8_lossy(bytes), data::load("synthetic-epam", &mut |_, _| ()));
+    let is_base = set.is_ok_and(|(set, _)| data::parse_predictions("base.csv", &text, &set).is_ok());
+    is_base || data::parse_correction("correction.csv", &text).is_ok()
 }
 
 fn markers(mut bytes: &[u8]) -> bool {
