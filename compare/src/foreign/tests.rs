@@ -111,7 +111,7 @@ fn eight_hidden_effects_are_named_and_the_correction_helps_at_pressures_left_out
 #[test]
 fn a_base_that_lacks_nothing_gets_no_name() {
     let own = robot();
-    let foreign = own.scenario.with_bending(1.35 * 1.04).with_effect("end_constraint", &[0.4]);
+    let foreign = with(&own.scenario.with_bending(1.35 * 1.04), "end_constraint", 1.0);
     let alarms = [1, 2, 3, 4].map(|seed| {
         let evidence = measured(&foreign, seed, &UP_AND_DOWN);
         let base = BaseTable::of("base.csv", &predicted(&foreign, &evidence.dataset)).unwrap();
