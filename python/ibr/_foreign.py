@@ -49,7 +49,7 @@ def _called(predict: Callable[..., Any], data: Data) -> Dict[str, Any]:
         places = np.asarray(predict(*given), dtype=float)
         if places.shape != (len(markers), len(axes)):
             raise Error(
-                f"the base returns the shape {places.shape} at {act} kPa: return the places of the markers "
+                f"the base returns the shape {places.shape} at {[float(p) for p in act]} kPa: return the places of the markers "
                 f"{', '.join(markers)} in mm, shape ({len(markers)}, {len(axes)})"
             )
         for marker, place in zip(markers, places):
