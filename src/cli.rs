@@ -306,6 +306,10 @@ pub(crate) struct FitArgs {
     /// Further data of the same robot, each with its own protocol, loads and direct measurements (about.toml), fitted along; repeatable
     #[arg(long, value_name = "DATA")]
     pub also: Vec<String>,
+    /// Predictions of another simulator for the data (marker, p_act_kpa or t_s, x_mm, y_mm) take the place of the scenario's, whose
+    /// effects are then changes of them; one for the data and one for each --also
+    #[arg(long, value_name = "TABLE")]
+    pub base: Vec<String>,
     /// Keep the scenario's bending stiffness instead of fitting it: it was measured separately
     #[arg(long)]
     pub keep_bending: bool,

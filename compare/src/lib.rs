@@ -15,6 +15,7 @@ pub mod diagnosis;
 pub mod error;
 pub mod extension;
 mod fit;
+pub mod foreign;
 mod judge;
 pub mod moment;
 pub mod policy;

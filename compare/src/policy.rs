@@ -350,6 +350,11 @@ pub const FARTHEST_M: f64 = 1e3;
 /// Lengths within this fraction are the same.
 pub const SAME_LENGTH: f64 = 0.02;
 
+/// Whether two predictions of a marker bend to opposite sides \[m\].
+pub fn bend_apart(one_m: f64, other_m: f64) -> bool {
+    one_m * other_m < 0.0 && one_m.abs().min(other_m.abs()) > SMALL_DEFLECTION_M
+}
+
 /// Whether a number can be a place on a robot \[m\].
 pub fn is_a_length(value_m: f64) -> bool {
     value_m.is_finite() && value_m.abs() <= FARTHEST_M

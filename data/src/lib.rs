@@ -13,6 +13,7 @@ pub mod bench;
 mod cells;
 pub mod check;
 mod columns;
+mod correction;
 pub mod coupons;
 pub mod dataset;
 pub mod error;
@@ -23,6 +24,7 @@ pub mod load;
 mod lost;
 mod parquet;
 mod policy;
+mod predicted;
 pub mod published;
 mod ramps;
 pub mod read;
@@ -44,6 +46,7 @@ pub use about::{
 pub use atomic::write_atomically;
 pub use bench::{Bench, bench, parse_bench};
 pub use check::{CheckReport, check};
+pub use correction::{CorrectionTable, parse_correction};
 pub use coupons::{Coupon, CouponDefaults, Direction, Pulled, parse_coupons, read_coupons};
 pub use dataset::{Dataset, Hold, Lost, Marker, Phase};
 pub use error::{ClockTracks, DataError, Fault, Location, Result};
@@ -52,6 +55,7 @@ pub use load::load;
 pub use lost::losses;
 pub use parquet::read_parquet;
 pub use policy::is_a_room;
+pub use predicted::{Predictions, parse_predictions};
 pub use published::{
     Published, PublishedActuator, PublishedFabric, PublishedFact, PublishedProtocol, PublishedSimulation, published,
 };

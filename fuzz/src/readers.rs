@@ -69,6 +69,7 @@ pub const READERS: &[Reader] = &[
         &["data/sets/breukels-2011-beams/load_deflection.csv", "data/sets/mckibben-free/force_contraction.csv"],
         bench,
     ),
+    of("base", &["data/sets/synthetic-epam/markers.csv", "data/tests/made/correction.csv"], base),
     of("study", &["studies/epam-designs.toml"], study),
     of("wish", &["studies/epam-wish.toml"], wish),
     made("parquet", parquets, parquet),
@@ -202,6 +203,13 @@ fn formula(bytes: &[u8]) -> bool {
     let written = String::from_utf8_lossy(bytes).replace('\\', "\\\\").replace('"', "\\\"").replace(['\n', '\r'], " ");
     let textbook = models::shipped("epam-textbook").unwrap_or_default();
     predicts(&format!("{textbook}{}", FORMULA.replace("FORMULA", &written)))
+}
+
+/// Predictions of another simulator for an embedded set, or a correction of them.
+fn base(bytes: &[u8]) -> bool {
+    let (text, set) = (String::from_utf8_lossy(bytes), data::load("synthetic-epam", &mut |_, _| ()));
+    let is_base = set.is_ok_and(|(set, _)| data::parse_predictions("base.csv", &text, &set).is_ok());
+    is_base || data::parse_correction("correction.csv", &text).is_ok()
 }
 
 fn markers(mut bytes: &[u8]) -> bool {

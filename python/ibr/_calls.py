@@ -8,6 +8,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Union
 import numpy as np
 
 from . import _ibr
+from ._foreign import Predictions, bases_of
 from ._ibr import Data, Error, Scenario
 from ._results import Result, columns_of
 
@@ -29,8 +30,11 @@ def data(source: Measured, *, name: str = "frame", about: Union[str, os.PathLike
         return source
     if isinstance(source, (str, os.PathLike)):
         return Data.read(os.fspath(source))
-    columns = [(label, _column(label, source[label])) for label in _labels(source)]
-    return Data.of_columns(columns, name, None if about is None else os.fspath(about))
+    return Data.of_columns(_columns(source), name, None if about is None else os.fspath(about))
+
+
+def _columns(source: Any) -> List[Any]:
+    return [(label, _column(label, source[label])) for label in _labels(source)]
 
 
 def _labels(table: Any) -> List[str]:
@@ -128,6 +132,31 @@ class Diagnosis(Result):
     def table(self) -> Dict[str, np.ndarray]:
         """Every effect, best first."""
         return columns_of(self.ranked)
+
+    def correction(self, pressure_kpa, body_pressure_kpa: Optional[float] = None) -> np.ndarray:
+        """What the answer adds to the predictions of `base`: displacements of the markers (mm) at one actuator pressure (kPa),
+        shape (markers, 2), or at N, shape (N, markers, 2). `body_pressure_kpa`: the scenario's if left out."""
+        act = np.atleast_1d(np.asarray(pressure_kpa, dtype=float))
+        robot, _ = self._on()
+        body = np.full(act.shape, robot.body_pressure_kpa if body_pressure_kpa is None else body_pressure_kpa)
+        moved = self._correction().at(act, body)
+        return moved[0] if np.ndim(pressure_kpa) == 0 else moved
+
+    def save_correction(self, path: Union[str, os.PathLike]) -> None:
+        """Writes the correction as a table (p_body_kpa, p_act_kpa, marker, dx_mm, dy_mm) to a file that is not there yet."""
+        text = self._correction().text()
+        with open(path, "x", encoding="utf-8") as file:
+            file.write(text)
+
+    def _on(self) -> Any:
+        found = self.__dict__.get("_base")
+        if found is None:
+            raise Error("this diagnosis has no base of another simulator: diagnose(scenario, data, base=predictions)")
+        return found
+
+    def _correction(self) -> _ibr.Correction:
+        robot, measured = self._on()
+        return _ibr.Correction.of(robot, self._answer, measured)
 
     def plot(self, axes=None):
         """Error that is left with every effect, on axes of matplotlib."""
@@ -228,6 +257,7 @@ def diagnose(
     refit: bool = False,
     keep_bending: bool = False,
     without: Sequence[str] = (),
+    base: Optional[Predictions] = None,
     progress: Optional[Progress] = None,
 ) -> Diagnosis:
     """Which physical effect is missing, what cannot be told apart, what to measure next.
@@ -235,9 +265,19 @@ def diagnose(
     `also`: further data of the same robot, fitted along. `tolerance_mm`: differences up to this are good enough. `refit`: fit
     the scenario's own effects along. `keep_bending`: its bending stiffness was measured. `without`: effects that cannot be
     here. `progress`: told what is done and which share of all (0 to 1, or None).
+
+    `base`: predictions of another simulator, whose missing effect is then searched. A function of the actuator pressure (kPa), or
+    of actuator and body pressure, that returns the places of the markers (mm), shape (markers, 2); or a table or CSV file with
+    marker, p_act_kpa (or t_s), x_mm, y_mm; one for each set of data. Effects are changes, computed with the scenario.
     """
     asked = _asked(sigma_mm, tolerance_mm, refit, keep_bending, without)
-    return Diagnosis(_ibr.diagnose(_robot(scenario), _all(measured, also), asked, progress))
+    robot, sets = _robot(scenario), _all(measured, also)
+    if base is None:
+        return Diagnosis(_ibr.diagnose(robot, sets, asked, progress))
+    sets = [one.under(robot, measured) for one, measured in zip(bases_of(base, sets, _columns), sets)]
+    found = Diagnosis(_ibr.diagnose(robot, sets, asked, progress))
+    found._base = robot, sets
+    return found
 
 
 def extend(scenario: Robot, diagnosis: Diagnosis) -> Extension:
@@ -267,11 +307,19 @@ def add(
 
 
 def validate(
-    scenario: Robot, measured: Measured, *, also: Sequence[Measured] = (), without: Sequence[str] = (),
-    sigma_mm: Optional[float] = None,
+    scenario: Union[Robot, Diagnosis], measured: Measured, *, also: Sequence[Measured] = (), without: Sequence[str] = (),
+    sigma_mm: Optional[float] = None, base: Optional[Predictions] = None,
 ) -> Validation:
     """Does an added effect help on data that it was not fitted to?
 
-    `without`: effects to judge; those that an extension wrote if left out.
+    `without`: effects to judge; those that an extension wrote if left out. `base`: predictions of another simulator for these
+    data; `scenario` is then the diagnosis of its base, or the file of its correction.
     """
+    if base is not None:
+        sets = _all(measured, also)
+        if isinstance(scenario, Diagnosis):
+            name, text = "correction", scenario._correction().text()
+        else:
+            name, text = os.fspath(scenario), None
+        return Validation(_ibr.validate_correction(name, text, sets, bases_of(base, sets, _columns), sigma_mm))
     return Validation(_ibr.validate(_robot(scenario), _all(measured, also), list(without), sigma_mm))

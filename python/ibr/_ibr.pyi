@@ -170,6 +170,23 @@ class Data:
     def table(self) -> Dict[str, Any]:
         """The marker table as columns: `pandas.DataFrame(data.table)`."""
 
+class Base:
+    """Another simulator's predictions for data; `ibr.diagnose` makes them of what it gets as `base`."""
+
+    @staticmethod
+    def read(name: str) -> "Base": ...
+    @staticmethod
+    def of_columns(columns: List[Tuple[str, Any]], name: str) -> "Base": ...
+    def under(self, scenario: Scenario, data: Data) -> Data: ...
+
+class Correction:
+    """What a diagnosis adds to another simulator's predictions."""
+
+    @staticmethod
+    def of(scenario: Scenario, diagnosed: "Answer", data: List[Data]) -> "Correction": ...
+    def at(self, act_kpa: ArrayLike, body_kpa: ArrayLike) -> Array: ...
+    def text(self) -> str: ...
+
 class Answer:
     text: str
     json: str
@@ -195,6 +212,9 @@ def add(
     progress: Optional[Progress] = None,
 ) -> Answer: ...
 def validate(scenario: Scenario, data: List[Data], without: List[str], sigma_mm: Optional[float]) -> Answer: ...
+def validate_correction(
+    name: str, text: Optional[str], data: List[Data], bases: List[Base], sigma_mm: Optional[float]
+) -> Answer: ...
 def simulate(
     source: Union[Scenario, str],
     folder: Union[str, PathLike[str]],

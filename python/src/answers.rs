@@ -45,6 +45,11 @@ impl Answer {
         let (table, page, extended, diagnosis) = (Table::default(), None, None, None);
         Answer { text, json: json.to_string(), warnings, table, page, extended, diagnosis }
     }
+
+    /// The diagnosis that it is.
+    pub(crate) fn found(&self) -> Option<&Diagnosis> {
+        self.diagnosis.as_ref()
+    }
 }
 
 #[pymethods]
@@ -190,7 +195,7 @@ fn extended(file: &ScenarioFile, evidence: &[Evidence], found: Extension) -> PyR
 /// The scenario with what a diagnosis adds.
 #[pyfunction]
 pub(crate) fn extend(py: Python<'_>, scenario: &Scenario, diagnosed: &Answer) -> PyResult<Answer> {
-    let found = diagnosed.diagnosis.as_ref();
+    let found = diagnosed.found();
     let found =
         found.ok_or_else(|| crate::errors::refused("this is not a diagnosis", "give the result of diagnose()"))?;
     let extension = py.detach(|| ibr::extend(&scenario.file, found)).map_err(raised)?;
@@ -235,6 +240,6 @@ pub(crate) fn validate(
     });
     let (both, found) = judged.map_err(|error: ibr::Error| raised(error))?;
     let warnings = found.iter().flat_map(|v| v.warnings.iter().map(|w| format!("{}: {w}", v.data))).collect();
-    let json = as_json("ibr.validate", &validation::ValidateAnswer::of(&file.name, &both, &found));
-    Ok(Answer::of(validation::text(&file.name, &both, &found), &json, warnings))
+    let answer = validation::ValidateAnswer::of(&file.name, &both, &found);
+    Ok(Answer::of(validation::text(&answer), &as_json("ibr.validate", &answer), warnings))
 }

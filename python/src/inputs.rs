@@ -93,7 +93,7 @@ pub struct Data {
 }
 
 impl Data {
-    fn of(evidence: Evidence) -> Data {
+    pub(crate) fn of(evidence: Evidence) -> Data {
         Data { told: evidence.dataset.told.clone(), evidence, about_toml: None }
     }
 }

@@ -6,6 +6,7 @@
 mod answers;
 mod arrays;
 mod errors;
+mod foreign;
 mod inputs;
 mod progress;
 mod runs;
@@ -22,6 +23,8 @@ mod _ibr {
     use super::answers::{Answer, add, compare, diagnose, extend, validate};
     #[pymodule_export]
     use super::errors::Error;
+    #[pymodule_export]
+    use super::foreign::{Base, Correction, validate_correction};
     #[pymodule_export]
     use super::inputs::{Data, import_tracks};
     #[pymodule_export]

@@ -57,6 +57,33 @@ def test_a_diagnosis_and_an_effect_are_those_of_the_command(told, tmp_path):
     assert added.scenario.text == file.read_text()
 
 
+def test_a_model_of_another_simulator_is_diagnosed_and_corrected(tmp_path):
+    textbook = ibr.Scenario.named("epam-textbook")
+    simulator = textbook.replace(body_bending_stiffness_nm2=1.0)
+
+    def predict(kpa):
+        return simulator.predict(kpa).markers_mm
+
+    found = ibr.diagnose(textbook, "synthetic-epam", base=predict)
+    assert found.verdict == "effect" and "end_constraint" in found.names
+    assert found.foreign_bases[0]["from_scenario_mm"] > 1 and "The base is base" in found.summary[0]
+    assert found.correction(20).shape == (6, 2) and found.correction([10, 20]).shape == (2, 6, 2)
+    table = {name: column for name, column in ibr.data("synthetic-epam").table.items() if name != "p_gauge_kpa"}
+    places = np.array([predict(kpa)[int(marker) - 1] for kpa, marker in zip(table["p_act_kpa"], table["marker"])])
+    of_table = ibr.diagnose(textbook, "synthetic-epam", base={**table, "x_mm": places[:, 0], "y_mm": places[:, 1]})
+    assert of_table.names == found.names
+    file = tmp_path / "correction.csv"
+    found.save_correction(file)
+    judged = ibr.validate(str(file), "synthetic-epam", base=predict)
+    assert judged.to_dict()["datasets"] == ibr.validate(found, "synthetic-epam", base=predict).to_dict()["datasets"]
+    assert judged.verdict == "fitted_to_these"
+    assert judged.table["after_beyond_noise_mm"][0] < 0.3 * judged.table["before_beyond_noise_mm"][0]
+    with pytest.raises(ibr.Error, match="return the places of the markers"):
+        ibr.diagnose(textbook, "synthetic-epam", base=lambda kpa: predict(kpa)[:5])
+    with pytest.raises(ibr.Error, match="has no base of another simulator"):
+        ibr.diagnose(textbook, "synthetic-epam").correction(20)
+
+
 def test_an_effect_is_given_or_learned():
     given = ibr.add("epam-textbook", "sealed_sides:share=1")
     assert given.names == ["sealed_sides"] and "sealed_sides" in given.scenario.effects

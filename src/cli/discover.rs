@@ -12,7 +12,7 @@ pub(crate) struct DiagnoseArgs {
     /// Marker data, or a table of bench tests: load_deflection of a beam, force_contraction of a muscle
     pub data: Option<String>,
     /// Instead of data: which effects alone meet the one displacement that the paper printed of this robot
-    #[arg(long, conflicts_with_all = ["data", "refit", "also", "keep_bending", "not", "sigma", "tolerance"])]
+    #[arg(long, conflicts_with_all = ["data", "refit", "also", "base", "keep_bending", "not", "sigma", "tolerance"])]
     pub published: bool,
     /// Also fit the values of the effects that the scenario already has
     #[arg(long)]
@@ -53,7 +53,7 @@ pub(crate) struct AddArgs {
     pub effect: String,
     /// Marker data: the value is fitted on them, B with it, and the error is shown before and after
     pub data: Option<String>,
-    /// New scenario; default: <scenario>-<effect>.toml
+    /// New scenario; default: <scenario>-<effect>.toml. With --base also a .csv: what to add to the other simulator's predictions
     #[arg(long)]
     pub out: Option<PathBuf>,
     #[command(flatten)]
@@ -62,7 +62,7 @@ pub(crate) struct AddArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ValidateArgs {
-    /// Scenario file with the added effect
+    /// Scenario file with the added effect, or a correction (.csv) of another simulator's predictions
     pub scenario: String,
     /// Other data: another pressure, another size of actuator, another body pressure
     #[arg(required = true)]
@@ -70,6 +70,9 @@ pub(crate) struct ValidateArgs {
     /// Effect to judge; default: those written by ibr add; repeatable
     #[arg(long, value_name = "EFFECT")]
     pub without: Vec<String>,
+    /// Of a correction: the other simulator's predictions for the data; one for each
+    #[arg(long, value_name = "TABLE", conflicts_with = "without")]
+    pub base: Vec<String>,
     #[command(flatten)]
     pub noise: NoiseArgs,
 }

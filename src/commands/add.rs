@@ -4,6 +4,7 @@ use crate::prelude::*;
 use crate::shown::extension::{AddAnswer, steps_text};
 use compare::diagnosis::{Options, taken_away};
 use compare::extension::{Extension, Wish, add};
+use compare::foreign::Correction;
 use compare::progress::part;
 use compare::progress::shares::READ;
 use std::sync::PoisonError;
@@ -12,22 +13,28 @@ pub(super) fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome> {
     let file = ibr::studies::scenario(&args.scenario)?;
     let wish = Wish::read(&file, &args.effect, args.data.is_some())?;
     let evidence = match &args.data {
-        Some(data) => inputs::all_evidence(data, &args.fit.also, context)?,
-        None if args.fit.also.is_empty() => Vec::new(),
-        None => return Err(Failure::usage("--also without data", "name the first data before --also")),
+        Some(data) => inputs::all_evidence(&file, data, &args.fit, context)?,
+        None if args.fit.also.is_empty() && args.fit.base.is_empty() => Vec::new(),
+        None => return Err(Failure::usage("--also or --base without data", "name the first data before them")),
     };
     let options = Options { next_experiment: false, missing_moment: false, ..inputs::fit_options(&args.fit)? };
     let found = add(&file, &wish, &evidence, &options, &mut part(context.progress, [READ, 1.0]))?;
     let names: Vec<&str> = found.additions.iter().map(|a| a.name.as_str()).collect();
     let target = target(args, &names.join("-").replace(' ', "-"), context.force)?;
+    let correction = is_correction(&target).then(|| Correction::of(&file, &found, &evidence)?.text()).transpose()?;
     let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
-    data::write_atomically(&target, found.file.text.as_bytes())?;
+    data::write_atomically(&target, correction.as_ref().unwrap_or(&found.file.text).as_bytes())?;
     *written = true;
     let target = target.display().to_string();
     let answer = AddAnswer::of(&file, &evidence, &found, &target)?;
     let mut outcome = Outcome::answer(words(args, &found, &target), "ibr.add", &answer);
     outcome.warn(&found.warnings);
     Ok(outcome)
+}
+
+/// Whether a file is to hold what is added to another simulator's predictions, in place of a scenario.
+fn is_correction(target: &Path) -> bool {
+    target.extension().is_some_and(|end| end.eq_ignore_ascii_case("csv"))
 }
 
 /// Where the new scenario goes: never onto the old one, and onto another file only with --force.
@@ -69,9 +76,11 @@ fn words(args: &AddArgs, found: &Extension, target: &str) -> String {
             false => "validate",
         };
         out.push_str("A smaller error does not prove the name; data the effect was not fitted to do more: ");
-        out.push_str(&format!("`ibr {verb} {target} DATA`\n"));
+        let base = if is_correction(Path::new(target)) { " --base TABLE" } else { "" };
+        out.push_str(&format!("`ibr {verb} {target} DATA{base}`\n"));
     }
     out.push_str(&format!("\nwritten: {target}; {} is as it was\n", args.scenario));
-    args.data.iter().for_each(|data| out.push_str(&format!("see it: ibr compare {target} {data}\n")));
+    let own = args.data.iter().filter(|_| !is_correction(Path::new(target)));
+    own.for_each(|data| out.push_str(&format!("see it: ibr compare {target} {data}\n")));
     out
 }

@@ -58,6 +58,7 @@ pub(super) fn diagnosed(args: &DiagnoseArgs, context: &mut Context) -> Result<Op
         spec,
         &[
             ("--also", !args.fit.also.is_empty(), "put the rows of all tests of one kind into one table"),
+            ("--base", !args.fit.base.is_empty(), "a base predicts markers"),
             ("--keep-bending", args.fit.keep_bending, "a table has nothing fitted that was not asked for"),
             ("--not", !args.fit.not.is_empty(), "a table's ranking shows every effect separately"),
             ("--tolerance", args.fit.tolerance.is_some(), "say what a row scatters by instead, --sigma 3%"),

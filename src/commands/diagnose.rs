@@ -27,7 +27,7 @@ pub(super) fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome>
     let options = Options { refit_present: args.refit, ..inputs::fit_options(fit)? };
     let file = ibr::studies::scenario(&args.scenario)?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
-    let evidence = inputs::all_evidence(data, &fit.also, context)?;
+    let evidence = inputs::all_evidence(&file, data, fit, context)?;
     let end = args.out.as_ref().map_or(1.0, |_| DIAGNOSED);
     let diagnosis = diagnose(&file, &evidence, &options, &mut part(context.progress, [READ, end]))?;
     let runs = known_runs(args.runs.as_deref())?;
@@ -52,6 +52,7 @@ pub(super) fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome>
             witness: witness.as_ref(),
             typed: [&args.scenario, data],
             more: also
+                .chain(fit.base.iter().map(|base| format!(" --base {base}")))
                 .chain(fit.keep_bending.then(|| " --keep-bending".into()))
                 .chain(fit.not.iter().map(|not| format!(" --not {not}")))
                 .collect(),

@@ -3,6 +3,7 @@
 use crate::cli::{FitArgs, RobotArgs, ScatterArgs};
 use crate::prelude::*;
 use compare::diagnosis::Options;
+use compare::foreign::{BaseTable, on_base};
 use compare::progress::part;
 use compare::progress::shares::READ;
 use compare::study::{Generator, HoldScatter};
@@ -73,9 +74,35 @@ pub(super) fn evidence(spec: &str, context: &mut Context) -> Result<Evidence> {
     Ok(Evidence::read_with(spec, &mut part(context.progress, [0.0, READ]))?)
 }
 
-/// Loads the data of a diagnosis and those to be fitted along.
-pub(super) fn all_evidence(first: &str, also: &[String], context: &mut Context) -> Result<Vec<Evidence>> {
-    std::iter::once(first).chain(also.iter().map(String::as_str)).map(|spec| evidence(spec, context)).collect()
+/// Loads the data of a diagnosis and those to be fitted along, each on the base of another simulator if one is given.
+pub(super) fn all_evidence(
+    scenario: &Scenario,
+    first: &str,
+    fit: &FitArgs,
+    context: &mut Context,
+) -> Result<Vec<Evidence>> {
+    let data: Vec<&str> = std::iter::once(first).chain(fit.also.iter().map(String::as_str)).collect();
+    let bases = bases(&fit.base, data.len())?;
+    let on = |(spec, base): (&&str, Option<BaseTable>)| -> Result<Evidence> {
+        let read = evidence(spec, context)?;
+        Ok(match base {
+            Some(base) => on_base(scenario, &read, &base)?,
+            None => read,
+        })
+    };
+    data.iter().zip(bases).map(on).collect()
+}
+
+/// The tables of another simulator's predictions, one for each of the data or none at all.
+pub(super) fn bases(files: &[String], data: usize) -> Result<Vec<Option<BaseTable>>> {
+    match files.len() {
+        0 => Ok(vec![None; data]),
+        given if given == data => files.iter().map(|file| Ok(Some(BaseTable::read(file)?))).collect(),
+        given => {
+            let help = "give --base once for every set of data, in their order: each has its own pressures";
+            Err(Failure::usage(format!("--base is given {given} times for {data} sets of data"), help))
+        }
+    }
 }
 
 /// What a manifest names: the scenario, then the data.

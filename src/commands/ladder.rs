@@ -24,7 +24,7 @@ struct LadderAnswer<'a> {
 pub(super) fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let file = ibr::studies::scenario(&args.scenario)?;
-    let evidence = inputs::all_evidence(&args.data, &args.fit.also, context)?;
+    let evidence = inputs::all_evidence(&file, &args.data, &args.fit, context)?;
     let options = Options { next_experiment: false, missing_moment: false, ..inputs::fit_options(&args.fit)? };
     let climb = ladder(&file, &evidence, &options, MOST_EFFECTS, &mut part(context.progress, [READ, CLIMBED]))?;
     let (LadderArgs { scenario, data, .. }, also) = (args, &args.fit.also);

@@ -35,7 +35,8 @@ const TOLD: usize = 3;
 /// The page that a person reads: verdict, what it could be, what to check, what to do next, what could not be seen. `all` adds the
 /// tables.
 pub fn text(d: &Diagnosis, witness: Option<&Witness>, all: bool) -> String {
-    let mut out = format!("{} compared with {}, {} runs\n{}\n\n", d.scenario, d.dataset, d.runs, d.noise.sentence);
+    let model = d.foreign_bases.first().map_or(&d.scenario, |base| &base.table);
+    let mut out = format!("{model} compared with {}, {} runs\n{}\n\n", d.dataset, d.runs, d.noise.sentence);
     d.slips.iter().for_each(|slip| out.push_str(&format!("Before the verdict, look at the data. {slip}\n\n")));
     out.push_str(&format!("Verdict: {}\n", verdict(d)));
     d.summary.iter().for_each(|s| out.push_str(&wrapped(&format!("  - {s}"), 4)));
@@ -69,6 +70,7 @@ pub fn verdict(d: &Diagnosis) -> String {
             let tie = if names.len() > 1 { "; these data do not choose between them" } else { "" };
             let is_surplus = |name: &String| name.split(" + ").any(|part| taken_away(part).is_some());
             let what = match (names.iter().any(is_surplus), names.iter().all(is_surplus)) {
+                (false, _) if !d.foreign_bases.is_empty() => "the base lacks an effect",
                 (false, _) => "an effect is missing",
                 (true, true) => "the scenario has an effect too many",
                 (true, false) => "an effect is missing, or one is too many",

@@ -2,16 +2,17 @@
 
 use crate::prelude::*;
 use compare::validation::{BeforeAfter, Validation};
+use data::CorrectionTable;
 
 /// `ibr.validate`: `ibr validate SCENARIO DATA`
 #[derive(Serialize)]
 pub struct ValidateAnswer<'a> {
-    /// Path or name of the scenario as typed
+    /// Path or name of the scenario or of the correction as typed
     pub scenario_file: &'a str,
     /// Effects that `ibr add` wrote and the data judge
     pub added: &'a [String],
-    /// Bending stiffness without and with the effects
-    pub bending_nm2: TwoStiffnesses,
+    /// Bending stiffness without and with the effects; null for a correction of another simulator's predictions
+    pub bending_nm2: Option<TwoStiffnesses>,
     /// One for each of the data
     pub datasets: &'a [Validation],
 }
@@ -29,20 +30,24 @@ impl<'a> ValidateAnswer<'a> {
     /// Of a scenario, as typed, and what was found.
     pub fn of(scenario_file: &'a str, both: &'a BeforeAfter, datasets: &'a [Validation]) -> ValidateAnswer<'a> {
         let bending_nm2 = TwoStiffnesses { before: both.before.bending_stiffness, after: both.after.bending_stiffness };
-        ValidateAnswer { scenario_file, added: &both.effects, bending_nm2, datasets }
+        ValidateAnswer { scenario_file, added: &both.effects, bending_nm2: Some(bending_nm2), datasets }
+    }
+
+    /// Of a correction of another simulator's predictions.
+    pub fn of_correction(correction: &'a CorrectionTable, datasets: &'a [Validation]) -> ValidateAnswer<'a> {
+        ValidateAnswer { scenario_file: &correction.file, added: &correction.effects, bending_nm2: None, datasets }
     }
 }
 
 /// Text of a validation as the command prints it.
-pub fn text(file: &str, both: &BeforeAfter, found: &[Validation]) -> String {
-    let mut out = format!(
-        "{file}: {} on other data, nothing refitted (B {:.3} N m² with, {:.3} without)\n",
-        both.effects.join(" and "),
-        both.after.bending_stiffness,
-        both.before.bending_stiffness
-    );
+pub fn text(answer: &ValidateAnswer) -> String {
+    let ValidateAnswer { scenario_file: file, added, bending_nm2, datasets: found } = answer;
+    let stiffness = bending_nm2.as_ref().map_or(String::new(), |TwoStiffnesses { before, after }| {
+        format!(" (B {after:.3} N m² with, {before:.3} without)")
+    });
+    let mut out = format!("{file}: {} on other data, nothing refitted{stiffness}\n", added.join(" and "));
     let levels = |l: &[f64]| l.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
-    out += &Table::of(found)
+    out += &Table::of(*found)
         .words("data", |v| &v.data)
         .right("actuator kPa", |v| levels(&v.p_act_kpa))
         .right("body kPa", |v| levels(&v.p_body_kpa))
@@ -53,7 +58,7 @@ pub fn text(file: &str, both: &BeforeAfter, found: &[Validation]) -> String {
         .number("χ²/dof before", 1, |v| v.before.reduced_chi2)
         .number("after", 1, |v| v.after.reduced_chi2)
         .text();
-    for v in found {
+    for v in *found {
         out.push_str(&format!("  - {}: {}.\n", v.data, v.sentence));
         if !v.geometry_of_data.is_empty() {
             out.push_str(&format!("    size of the data's robot taken: {}\n", v.geometry_of_data.join("; ")));

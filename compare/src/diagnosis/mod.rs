@@ -79,6 +79,9 @@ pub fn diagnose(
     if evidence.is_empty() {
         return Err(CompareError::refused("no data to diagnose", "give measurements"));
     }
+    // Another simulator's design is not the scenario's.
+    let is_ours = evidence.iter().all(|one| one.base.is_none());
+    let options = &Options { other_design: options.other_design && is_ours, ..options.clone() };
     let (sources, mut warnings) = Source::all(scenario, evidence)?;
     warnings.extend(sources.iter().flat_map(|source| known::unusual(&source.measured, scenario)));
     let (candidates, own) = catalogue(&sources, options);

@@ -1,12 +1,12 @@
 //! Does an added effect help on data that it was not fitted to? Nothing is refitted.
 
 use crate::error::CompareError;
-use crate::evaluate::EvaluateOptions;
+use crate::evaluate::{EvaluateOptions, Evaluation};
 use crate::evidence::Evidence;
 use crate::extension::{Origin, origins};
 use crate::policy;
 use crate::scenario_file::ScenarioFile;
-use crate::study::comparison::{Comparison, Contender, compare_all};
+use crate::study::comparison::{Contender, compare_all};
 use data::Geometry;
 use models::{Known, Scenario};
 use serde::Serialize;
@@ -92,9 +92,24 @@ impl BeforeAfter {
         });
         let options = EvaluateOptions { sigma_m, bootstrap_samples: 0, ..EvaluateOptions::default() };
         let found = compare_all(&models, evidence, &options, None)?;
-        let [before, after] = [0, 1].map(|k| how_far(&found, k));
-        let all = &found.variants[1].evaluation.metrics.overall;
+        let [before, after] = [0, 1].map(|k| &found.variants[k].evaluation);
+        let found = Validation::of(evidence, [before, after], fitted_to_these, found.warnings.clone());
+        Ok(Validation { geometry_of_data, ..found })
+    }
+}
+
+impl Validation {
+    /// Of a model without and with effects, compared with data.
+    pub(crate) fn of(
+        evidence: &Evidence,
+        [before, after]: [&Evaluation; 2],
+        fitted_to_these: bool,
+        warnings: Vec<String>,
+    ) -> Validation {
+        let all = &after.metrics.overall;
         let tolerance_mm = 1e3 * policy::tolerance_m(1e-3 * all.d_max_mm);
+        let noise_floor_mm = all.noise_floor_mm;
+        let [before, after] = [before, after].map(HowFar::of);
         let (verdict, sentence) = judged(before.beyond_noise_mm, after.beyond_noise_mm, tolerance_mm, fitted_to_these);
         let levels = |of: fn(&data::Hold) -> f64| {
             let mut levels: Vec<f64> = evidence.dataset.holds.iter().map(|h| (of(h) * 1e-2).round() * 0.1).collect();
@@ -102,20 +117,20 @@ impl BeforeAfter {
             levels.dedup();
             levels
         };
-        Ok(Validation {
+        Validation {
             data: evidence.name.clone(),
             runs: evidence.dataset.runs.len(),
             p_body_kpa: levels(|h| h.p_body_pa),
             p_act_kpa: levels(|h| h.p_act_pa),
             fitted_to_these,
-            geometry_of_data,
-            noise_floor_mm: all.noise_floor_mm,
+            geometry_of_data: Vec::new(),
+            noise_floor_mm,
             before,
             after,
             verdict,
             sentence,
-            warnings: found.warnings,
-        })
+            warnings,
+        }
     }
 }
 
@@ -148,12 +163,14 @@ fn added(file: &ScenarioFile, named: &[String]) -> Result<Vec<Origin>, CompareEr
     Ok(found)
 }
 
-fn how_far(found: &Comparison, k: usize) -> HowFar {
-    let all = &found.variants[k].evaluation.metrics.overall;
-    HowFar {
-        beyond_noise_mm: found.variants[k].error_mm(),
-        reduced_chi2: all.reduced_chi2,
-        largest_tip_error_mm: all.largest_tip_error_mm,
+impl HowFar {
+    fn of(evaluation: &Evaluation) -> HowFar {
+        let all = &evaluation.metrics.overall;
+        HowFar {
+            beyond_noise_mm: all.systematic_mm.unwrap_or(all.rmse_mm),
+            reduced_chi2: all.reduced_chi2,
+            largest_tip_error_mm: all.largest_tip_error_mm,
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use crate::error::CompareError;
 use crate::progress::Progress;
 use data::{About, Dataset};
 use fem::session::sha256;
+use serde::Serialize;
 
 /// Measurements of one robot: the table, and what the table does not say.
 #[derive(Debug, Clone)]
@@ -14,12 +15,30 @@ pub struct Evidence {
     pub dataset: Dataset,
     /// How the robot lay, what was loaded, what was measured directly.
     pub about: Option<About>,
+    /// Predictions of another simulator that were subtracted from the positions ([`crate::foreign::on_base`]).
+    pub base: Option<ForeignBase>,
+}
+
+/// Predictions of another simulator, in place of the scenario's.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ForeignBase {
+    /// Table.
+    pub table: String,
+    /// Its SHA-256, in hex.
+    pub sha256: String,
+    /// Its distance from the measurements, root mean square over markers and holds \[mm\].
+    pub from_data_mm: f64,
+    /// Its distance from the scenario, whose effects are the candidates \[mm\].
+    pub from_scenario_mm: f64,
+    /// SHA-256 of the measurements as they were read.
+    #[serde(skip)]
+    pub(crate) data_sha256: String,
 }
 
 impl Evidence {
     /// Of data that are at hand.
     pub fn of(dataset: Dataset, about: Option<About>) -> Evidence {
-        Evidence { name: dataset.name.clone(), dataset, about }
+        Evidence { name: dataset.name.clone(), dataset, about, base: None }
     }
 
     /// Reads a CSV or Parquet file, a folder with `markers.csv` and `about.toml`, or an embedded set.
@@ -38,7 +57,7 @@ impl Evidence {
         let what = format!("reading {name}");
         let mut tell = |done: u64, total: u64| progress(&what, (total > 0).then(|| done as f64 / total as f64));
         let (dataset, about) = data::load(name, &mut tell)?;
-        Ok(Evidence { name: name.into(), dataset, about })
+        Ok(Evidence { name: name.into(), dataset, about, base: None })
     }
 
     /// SHA-256 of the table as it was read, in hex.
@@ -46,6 +65,9 @@ impl Evidence {
     /// # Errors
     /// A table that cannot be written.
     pub fn sha256(&self) -> Result<String, CompareError> {
+        if let Some(base) = &self.base {
+            return Ok(base.data_sha256.clone());
+        }
         let mut bytes = Vec::new();
         data::write_markers_csv(&self.dataset, &mut bytes)?;
         Ok(sha256(&bytes))

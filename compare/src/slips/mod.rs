@@ -26,16 +26,29 @@ const SLIPS: [fn(&mut SlipSeen) -> Vec<String>; 4] = [turned::turned, turned::up
 
 /// What looks like a slip, with the evidence and what to do.
 pub fn slips(dataset: &Dataset, stations_m: &[f64], radius_m: f64) -> Vec<String> {
+    let geometric = searched(&SLIPS, dataset, stations_m, radius_m).into_iter();
+    geometric.map(|words| format!("{}: {words}", dataset.name)).chain(pressure_words(dataset)).collect()
+}
+
+/// Axes, units and labels of one run that no measurement scatters: predictions of another simulator.
+pub(crate) fn slips_of_predictions(dataset: &Dataset, scenario: &Scenario) -> Vec<String> {
+    searched(&[turned::turned, labels::labels], dataset, &scenario.markers_m, scenario.radius_m)
+}
+
+fn searched(
+    searches: &[fn(&mut SlipSeen) -> Vec<String>],
+    dataset: &Dataset,
+    stations_m: &[f64],
+    radius_m: f64,
+) -> Vec<String> {
     let body = MarkedBody { stations_m, radius_m };
     let mut seen = SlipSeen { dataset, body, points: points(dataset) };
     for [hold, marker] in &dataset.lost.unseen {
         seen.points.iter_mut().for_each(|run| run[*hold][*marker] = body.beside(dataset, *hold, &run[*hold], *marker));
     }
     // Markers at the base alone do not show the shape of a body.
-    let searches = if stations_m.iter().any(|s| *s > 0.0) { &SLIPS[..] } else { &[] };
-    let geometric =
-        searches.iter().flat_map(|search| search(&mut seen)).map(|words| format!("{}: {words}", dataset.name));
-    geometric.chain(pressure_words(dataset)).collect()
+    let searches = if stations_m.iter().any(|s| *s > 0.0) { searches } else { &[] };
+    searches.iter().flat_map(|search| search(&mut seen)).collect()
 }
 
 /// The same for the robot of a scenario. A robot in space bends in any plane: of its table only the pressures are searched here, and its

@@ -7,7 +7,7 @@ pub(super) mod story;
 pub mod words;
 
 pub use crate::diagnosis::result::explained::*;
-use crate::evidence::Used;
+use crate::evidence::{ForeignBase, Used};
 use crate::moment::MissingMoment;
 use crate::noise_summary::NoiseSummary;
 use crate::prepare::Outliers;
@@ -212,6 +212,9 @@ pub struct Diagnosis {
     /// The data, in the order that they were given in.
     #[serde(skip)]
     pub evidence: Vec<Used>,
+    /// Predictions of another simulator that take the place of the scenario's, of every dataset that has them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub foreign_bases: Vec<ForeignBase>,
     /// Further data in the same fit; errors elsewhere refer to the first data.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub beside: Vec<FittedBeside>,

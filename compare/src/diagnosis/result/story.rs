@@ -9,6 +9,7 @@ use crate::diagnosis::result::{
     AsClose, Confidence, Diagnosis, FittedBeside, GaugeFit, Group, KeptBending, LearnedLaw, LeftPattern, OtherDesign,
     Ranked, Verdict, Worth, names_of,
 };
+use crate::evidence::ForeignBase;
 use crate::wording::{capitalised, list, p_value};
 
 /// What comes as close as an attempt is named up to that many; `diagnosis.json` has all.
@@ -53,7 +54,8 @@ impl LearnedLaw {
 
 /// The story, one sentence or two per entry.
 pub(crate) fn story(d: &Diagnosis) -> Vec<String> {
-    let mut told = vec![opening(d)];
+    let mut told: Vec<String> = d.foreign_bases.iter().map(ForeignBase::sentence).collect();
+    told.push(opening(d));
     told.extend(d.beside.iter().map(beside));
     told.extend(d.gauges.iter().filter_map(gauge));
     told.extend(d.other_design.as_ref().map(|other| other_design(d, other)));

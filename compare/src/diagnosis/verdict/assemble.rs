@@ -71,6 +71,7 @@ pub(crate) fn assemble(case: &Case, decision: &Decision, beside: Beside) -> Resu
         actuator: first.dataset.actuator.clone(),
         runs: first.dataset.runs.len(),
         evidence: evidence.iter().map(Used::of).collect::<Result<_, _>>()?,
+        foreign_bases: evidence.iter().filter_map(|one| one.base.clone()).collect(),
         beside: fitted_beside(case, last),
         gauges: case.problem.blocks.iter().filter_map(|block| gauge_fit(case, block, last)).collect(),
         verdict: decision.verdict,

@@ -1,0 +1,178 @@
+//! A correction of another simulator's predictions: a displacement of every marker over the pressure.
+//!
+//! | column | meaning |
+//! |---|---|
+//! | `p_body_kpa`, `p_act_kpa` | pressures |
+//! | `phase` (optional) | `load` or `unload`, where the two differ |
+//! | `marker` | label |
+//! | `dx_mm`, `dy_mm` | displacement that is added to the prediction |
+//!
+//! Comments above the header name the effects and the data of the fit.
+
+use crate::cells::label;
+use crate::columns::{self, Columns, Field, Meaning, field, plain};
+use crate::dataset::{Dataset, Hold, Phase};
+use crate::error::{DataError, Fault, Result};
+use crate::lines::Lines;
+use crate::policy;
+use crate::units::{Measured, kpa};
+
+const FIELDS: [Field; 6] = [
+    plain("marker", true),
+    field("p_body", "p_body_kpa", Measured::Pressure, true),
+    field("p_act", "p_act_kpa", Measured::Pressure, true),
+    field("dx", "dx_mm", Measured::Length, true),
+    field("dy", "dy_mm", Measured::Length, true),
+    plain("phase", false),
+];
+const MARKER: usize = 0;
+const P_BODY: usize = 1;
+const P_ACT: usize = 2;
+const DX: usize = 3;
+const DY: usize = 4;
+const PHASE: usize = 5;
+
+/// A row.
+#[derive(Debug, Clone, PartialEq)]
+struct Moved {
+    marker: String,
+    phase: String,
+    body_pa: f64,
+    act_pa: f64,
+    d_m: [f64; 2],
+}
+
+/// Displacements of markers over the pressure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CorrectionTable {
+    /// File, for messages.
+    pub file: String,
+    /// Effects, as its comments name them.
+    pub effects: Vec<String>,
+    /// SHA-256 of the data of the fit.
+    pub data_sha256: Vec<String>,
+    /// In order of pressure.
+    rows: Vec<Moved>,
+}
+
+/// Reads a correction.
+///
+/// # Errors
+/// A table of another kind, a cell that is not a number: with file, line and remedy.
+pub fn parse_correction(file: &str, text: &str) -> Result<CorrectionTable> {
+    let mut progress = |_, _| ();
+    let mut bytes = text.as_bytes();
+    let mut lines = Lines::new(file, &mut bytes, text.len() as u64, &mut progress);
+    let (notes, header) = columns::notes(&mut lines)?;
+    let names: Vec<&str> = FIELDS.iter().filter(|field| field.needed).map(|field| field.expected).collect();
+    let help = || format!("give a table that `ibr add … --base … --out correction.csv` wrote: {}", names.join(","));
+    let header = header.ok_or_else(|| DataError::layout(file, "the file is empty", help()))?;
+    let line = header.line();
+    let (named, delimiter) = columns::split(line.text, None);
+    let at = columns::find(&line, &named, &FIELDS, &|name| Meaning::of(name, &FIELDS))?;
+    let table = Columns { fields: &FIELDS, names: named, delimiter: delimiter.into(), comma: false, at };
+    if let Some(missing) = FIELDS.iter().enumerate().find(|(i, field)| field.needed && table.at[*i].is_none()) {
+        let message = format!("column {} is missing: this is not a correction", missing.1.expected);
+        return Err(DataError::Column(line.fault(message, help())));
+    }
+    let mut rows = Vec::new();
+    while let Some(line) = lines.next_filled()? {
+        if line.text.trim_start().starts_with('#') {
+            continue;
+        }
+        let row = table.row(line)?;
+        let number = |field: usize| row.number(field).map(Option::unwrap_or_default);
+        rows.push(Moved {
+            marker: label(row.text(MARKER)).to_string(),
+            phase: row.text(PHASE).to_lowercase(),
+            body_pa: number(P_BODY)?,
+            act_pa: number(P_ACT)?,
+            d_m: [number(DX)?, number(DY)?],
+        });
+    }
+    rows.sort_by(|a, b| a.act_pa.total_cmp(&b.act_pa));
+    let of = |key: &str| notes.iter().filter(|note| note.key == key).map(|note| note.text.clone()).collect::<Vec<_>>();
+    let effects = of("effects").iter().flat_map(|text| text.split(", ")).map(str::to_string).collect();
+    let hash = |text: &String| text.rsplit_once("SHA-256 ").map(|(_, hash)| hash.trim().to_string());
+    let data_sha256 = of("fitted on").iter().filter_map(hash).collect();
+    Ok(CorrectionTable { file: file.to_string(), effects, data_sha256, rows })
+}
+
+impl CorrectionTable {
+    /// Displacements at the holds of data in run layout \[m\], linear between the pressures of the table.
+    ///
+    /// # Errors
+    /// A marker, a body pressure or an actuator pressure that the table has not.
+    pub fn moved_m(&self, dataset: &Dataset) -> Result<Vec<f64>> {
+        let mut moved = Vec::with_capacity(dataset.values_per_run());
+        for hold in &dataset.holds {
+            let mut of_hold = Vec::new();
+            for marker in &dataset.markers {
+                of_hold.extend(self.between(hold, &marker.name)?.into_iter().chain([0.0]).take(dataset.axes));
+            }
+            moved.extend(of_hold.repeat(dataset.samples_per_hold));
+        }
+        Ok(moved)
+    }
+
+    fn between(&self, hold: &Hold, marker: &str) -> Result<[f64; 2]> {
+        let near = |row: &&Moved| (row.body_pa - hold.p_body_pa).abs() <= policy::tolerance_body_pa(hold.p_body_pa);
+        let phase = if hold.phase == Phase::Unload { Phase::Unload } else { Phase::Load }.word();
+        let in_phase = |row: &&Moved| row.phase.is_empty() || row.phase == phase;
+        let own: Vec<&Moved> = self.rows.iter().filter(|row| row.marker == marker).filter(near).collect();
+        let one_way: Vec<&Moved> = own.iter().copied().filter(in_phase).collect();
+        // The highest pressure of a way back is the end of the way there.
+        let own = if one_way.is_empty() { own } else { one_way };
+        let refused = |message: String| {
+            let help =
+                "fit it on data with this marker at these pressures, and write it again: `ibr add … --base … --also …`";
+            Err(DataError::Runs(Box::new(Fault::of_file(&self.file, message, help))))
+        };
+        let [Some(first), Some(last)] = [own.first(), own.last()] else {
+            let body = kpa(hold.p_body_pa);
+            return refused(format!("the correction has no marker {marker} at {body:.1} kPa body pressure"));
+        };
+        let p = hold.p_act_pa;
+        let reach = policy::tolerance_act_pa(last.act_pa);
+        if p > last.act_pa + reach || p < first.act_pa - reach {
+            let [p, low, high] = [p, first.act_pa, last.act_pa].map(kpa);
+            return refused(format!("the correction goes from {low:.1} to {high:.1} kPa, and a hold is at {p:.1} kPa"));
+        }
+        let above = own.iter().position(|row| row.act_pa >= p).unwrap_or(own.len() - 1);
+        let [a, b] = [own[above.saturating_sub(1)], own[above]];
+        let share = if b.act_pa > a.act_pa { ((p - a.act_pa) / (b.act_pa - a.act_pa)).clamp(0.0, 1.0) } else { 1.0 };
+        Ok([0, 1].map(|axis| a.d_m[axis] + share * (b.d_m[axis] - a.d_m[axis])))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = include_str!("../tests/made/correction.csv");
+
+    fn moved(hold: [f64; 2], phase: Phase) -> Result<[f64; 2], String> {
+        let table = parse_correction("c.csv", TEXT).unwrap();
+        let [p_body_pa, p_act_pa] = hold;
+        let hold = Hold { p_body_pa, p_act_pa, more_act_pa: Vec::new(), phase, occurrence: 0, t_s: vec![0.0] };
+        table.between(&hold, "1").map(|d| d.map(|m| (m * 1e6).round() * 1e-3)).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn displacements_are_linear_between_pressures_on_the_way_of_the_phase() {
+        assert_eq!(moved([2e3, 15e3], Phase::Load), Ok([3.0, -7.5]));
+        assert_eq!(moved([2e3, 0.0], Phase::Unload), Ok([0.0, -2.0]));
+        assert!(
+            moved([2e3, 30e3], Phase::Load).unwrap_err().contains("goes from 0.0 to 20.0 kPa, and a hold is at 30.0")
+        );
+        assert!(moved([4e3, 10e3], Phase::Load).unwrap_err().contains("no marker 1 at 4.0 kPa body pressure"));
+    }
+
+    #[test]
+    fn comments_name_the_effects_and_the_data() {
+        let table = parse_correction("c.csv", TEXT).unwrap();
+        assert_eq!((table.effects, table.data_sha256), (vec!["pressure_loss".into()], vec!["0123abcd".to_string()]));
+        let error = parse_correction("c.csv", &TEXT.replace("dx_mm,", "x_mm,")).unwrap_err();
+        assert_eq!(error.to_string(), "c.csv:4: column dx_mm is missing: this is not a correction");
+    }
+}

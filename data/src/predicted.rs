@@ -1,0 +1,286 @@
+//! Predictions of another simulator at the holds and markers of a dataset, as a table.
+//!
+//! | column | meaning |
+//! |---|---|
+//! | `marker`, `x_mm`, `y_mm`, `z_mm` (of data in space) | as in a marker table, in any of its units |
+//! | `p_body_kpa`, `p_act_kpa`, `p_act_1_kpa`, … | pressures of the hold; `p_body_kpa` only where the data have several |
+//! | `t_s` | time since the start of a run: in place of pressures, or to separate equal holds |
+//! | `phase`, `run`, and other columns of a marker table | optional |
+//!
+//! A row belongs to the hold with its pressures, and to all such holds where neither phase nor time separates them. Several rows of one
+//! hold and marker, of several runs or times, are averaged.
+
+use std::collections::HashMap;
+
+use crate::columns::{self, Columns, Field, Meaning, TableRow, field, plain};
+use crate::dataset::{Dataset, Hold};
+use crate::error::{DataError, Fault, Result};
+use crate::header::Pressures;
+use crate::lines::Lines;
+use crate::policy;
+use crate::streams::are_near;
+use crate::units::{Measured, kpa};
+
+const MARKER: usize = 0;
+const PLACE: [usize; 3] = [1, 2, 3];
+/// Body, actuator, and the supply channels from 1 on.
+const PRESSURES: [usize; 5] = [4, 5, 6, 7, 8];
+const TIME: usize = 9;
+const PHASE: usize = 10;
+const RUN: usize = 11;
+
+const FIELDS: [Field; 12] = [
+    plain("marker", true),
+    field("x", "x_mm", Measured::Length, true),
+    field("y", "y_mm", Measured::Length, true),
+    field("z", "z_mm", Measured::Length, false),
+    field("p_body", "p_body_kpa", Measured::Pressure, false),
+    field("p_act", "p_act_kpa", Measured::Pressure, false),
+    field("p_act_1", "p_act_1_kpa", Measured::Pressure, false),
+    field("p_act_2", "p_act_2_kpa", Measured::Pressure, false),
+    field("p_act_3", "p_act_3_kpa", Measured::Pressure, false),
+    field("t", "t_s", Measured::Time, false),
+    plain("phase", false),
+    plain("run", false),
+];
+
+/// Predictions of another simulator for every hold and marker of a dataset.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Predictions {
+    /// File, for messages.
+    pub file: String,
+    /// Places, laid out `[hold][marker][axis]` \[m\]; what too few runs saw may be 0.
+    pub places_m: Vec<f64>,
+    /// Line of the first row of every `[hold][marker]`; 0 without one.
+    lines: Vec<u64>,
+}
+
+impl Predictions {
+    /// A fault of the prediction of a marker in a hold, at its line.
+    pub fn fault(&self, cell: usize, message: impl Into<String>, help: impl Into<String>) -> DataError {
+        let fault = Fault::of_file(&self.file, message, help).at_line(self.lines.get(cell).copied().unwrap_or(0));
+        DataError::Runs(Box::new(fault))
+    }
+}
+
+/// Reads the table of predictions for a dataset.
+///
+/// # Errors
+/// A column that is missing, a row that belongs to no hold or marker of the data, two predictions of one place, a hold or marker without
+/// a prediction: with file, line and remedy.
+pub fn parse_predictions(file: &str, text: &str, dataset: &Dataset) -> Result<Predictions> {
+    let mut progress = |_, _| ();
+    let mut bytes = text.as_bytes();
+    let mut lines = Lines::new(file, &mut bytes, text.len() as u64, &mut progress);
+    let (_, header) = columns::notes(&mut lines)?;
+    let Some(header) = header else {
+        return Err(DataError::layout(file, "the file is empty", "write columns such as p_act_kpa,marker,x_mm,y_mm"));
+    };
+    let line = header.line();
+    let (names, delimiter) = columns::split(line.text, None);
+    let meaning = |name: &str| Meaning::of(name, &FIELDS);
+    if let Some(fault) = columns::without_unit(&line, &names, &FIELDS, &meaning, &|at| Some(FIELDS[at].needed)) {
+        return Err(DataError::Column(fault));
+    }
+    let at = columns::find(&line, &names, &FIELDS, &meaning)?;
+    let table = Columns { fields: &FIELDS, names, delimiter: delimiter.into(), comma: delimiter != b',', at };
+    if let Some([message, help]) = lacks(&table, dataset) {
+        return Err(DataError::Column(line.fault(message, help)));
+    }
+    let mut found = Collected::new(dataset, &table);
+    while let Some(line) = lines.next_filled()? {
+        if !line.text.trim_start().starts_with('#') {
+            found.take(&table.row(line)?)?;
+        }
+    }
+    found.complete(file)
+}
+
+/// A column that the data ask for and the table has not, and what to add.
+fn lacks(table: &Columns, dataset: &Dataset) -> Option<[String; 2]> {
+    let has = |field: usize| table.at[field].is_some();
+    let missing = |field: usize, why: &str| {
+        let name = FIELDS[field].expected;
+        Some([format!("column {name} is missing{why}"), format!("add {name} with a value in every row")])
+    };
+    let needed = |field: &usize| FIELDS[*field].needed || *field == PLACE[2] && dataset.has_z();
+    if let Some(field) = (0..FIELDS.len()).filter(needed).find(|field| !has(*field)) {
+        return missing(field, "");
+    }
+    if !has(PRESSURES[1]) {
+        let why = ", and so is t_s: a row has no hold";
+        return if has(TIME) { None } else { missing(PRESSURES[1], why) };
+    }
+    if dataset.channels_differ()
+        && let Some(field) = PRESSURES[2..2 + dataset.more_channels()].iter().find(|field| !has(**field))
+    {
+        return missing(*field, ": the data have pressures of this supply channel");
+    }
+    let first = dataset.holds.first().map_or(0.0, |hold| hold.p_body_pa);
+    let bodies_differ =
+        dataset.holds.iter().any(|hold| (hold.p_body_pa - first).abs() > policy::tolerance_body_pa(first));
+    if bodies_differ && !has(PRESSURES[0]) {
+        return missing(PRESSURES[0], ": the data have several body pressures");
+    }
+    None
+}
+
+/// Sums over the rows of every hold and marker.
+struct Collected<'d> {
+    dataset: &'d Dataset,
+    /// Whether rows have pressures.
+    pressed: bool,
+    sums: Vec<[f64; 3]>,
+    counts: Vec<u32>,
+    lines: Vec<u64>,
+    /// Place and line of every label of a row: run, time, pressures, phase, marker.
+    seen: HashMap<Vec<String>, ([f64; 3], u64)>,
+    last_line: u64,
+}
+
+impl<'d> Collected<'d> {
+    fn new(dataset: &'d Dataset, table: &Columns) -> Collected<'d> {
+        let cells = dataset.holds.len() * dataset.markers.len();
+        Collected {
+            dataset,
+            pressed: table.at[PRESSURES[1]].is_some(),
+            sums: vec![[0.0; 3]; cells],
+            counts: vec![0; cells],
+            lines: vec![0; cells],
+            seen: HashMap::new(),
+            last_line: 0,
+        }
+    }
+
+    fn take(&mut self, row: &TableRow) -> Result<()> {
+        let dataset = self.dataset;
+        self.last_line = row.line.number;
+        let name = crate::cells::label(row.text(MARKER));
+        let Some(marker) = dataset.markers.iter().position(|marker| marker.name == name) else {
+            let known: Vec<&str> = dataset.markers.iter().map(|marker| marker.name.as_str()).collect();
+            let message = format!("marker \"{name}\" is not in {}", dataset.name);
+            let help = format!("{}its markers are {}", spelling::meant(name, known.iter().copied()), known.join(", "));
+            return Err(DataError::Runs(row.fault(MARKER, message, help)));
+        };
+        let mut place = [0.0; 3];
+        for (axis, field) in PLACE.into_iter().take(dataset.axes).enumerate() {
+            let value = row.number(field)?.unwrap_or(0.0);
+            if value.abs() > policy::FARTHEST_M {
+                let message = format!("\"{}\" is farther than any robot reaches", row.text(field));
+                let help = "correct the unit in the name of the column: x_mm, x_cm or x_m".to_string();
+                return Err(DataError::Unit(row.fault(field, message, help)));
+            }
+            place[axis] = value;
+        }
+        let labels = [RUN, TIME, PHASE, MARKER].into_iter().chain(PRESSURES);
+        let labels: Vec<String> = labels.map(|field| row.text(field).to_string()).collect();
+        match self.seen.insert(labels, (place, row.line.number)) {
+            Some((before, line)) if before != place => {
+                let message = format!("marker {name} has another prediction for the same hold in line {line}");
+                return Err(DataError::Runs(row.line.fault(message, "keep one of the two rows")));
+            }
+            _ => (),
+        }
+        for hold in self.holds(row)? {
+            let cell = hold * dataset.markers.len() + marker;
+            if self.counts[cell] == 0 {
+                self.lines[cell] = row.line.number;
+            }
+            self.counts[cell] += 1;
+            (0..3).for_each(|axis| self.sums[cell][axis] += place[axis]);
+        }
+        Ok(())
+    }
+
+    /// The holds to which a row belongs.
+    fn holds(&self, row: &TableRow) -> Result<Vec<usize>> {
+        let holds = &self.dataset.holds;
+        let time = if row.text(TIME).is_empty() { None } else { row.number(TIME)? };
+        let mut found: Vec<usize> = (0..holds.len()).collect();
+        if self.pressed {
+            let mut given: [Option<f64>; PRESSURES.len()] = [None; PRESSURES.len()];
+            for (value, field) in given.iter_mut().zip(PRESSURES) {
+                *value = row.number(field)?;
+            }
+            found.retain(|hold| are_near(pressures(&holds[*hold]), filled(&holds[*hold], given), 1.0));
+            let gap = |hold: &usize| (holds[*hold].p_act_pa - given[1].unwrap_or(0.0)).abs();
+            let least = found.iter().map(gap).fold(f64::INFINITY, f64::min);
+            found.retain(|hold| gap(hold) <= least + policy::SAME_ACTUATOR_PA);
+        } else if let Some(t_s) = time {
+            let reach_s = reach_s(holds);
+            found.retain(|hold| away_s(&holds[*hold], t_s) <= reach_s);
+        }
+        let phase = row.text(PHASE);
+        if !phase.is_empty() {
+            found.retain(|hold| holds[*hold].phase.word().eq_ignore_ascii_case(phase));
+        }
+        if let Some(t_s) = time.filter(|_| found.len() > 1) {
+            let least = found.iter().map(|hold| away_s(&holds[*hold], t_s)).fold(f64::INFINITY, f64::min);
+            found.retain(|hold| away_s(&holds[*hold], t_s) <= least);
+        }
+        if found.is_empty() {
+            let name = &self.dataset.name;
+            let field = if self.pressed { PRESSURES[1] } else { TIME };
+            let message = format!("{name} has no hold of this row");
+            let help = format!("its holds are {}; predict at their pressures, or delete the row", listed(holds));
+            return Err(DataError::Runs(row.fault(field, message, help)));
+        }
+        Ok(found)
+    }
+
+    fn complete(self, file: &str) -> Result<Predictions> {
+        let markers = self.dataset.markers.len();
+        let is_missing = |cell: &usize| self.counts[*cell] == 0 && self.dataset.is_seen(cell / markers, cell % markers);
+        if let Some(cell) = (0..self.counts.len()).find(is_missing) {
+            let (hold, own) = (cell / markers, (cell / markers) * markers..(cell / markers + 1) * markers);
+            let line = self.lines[own].iter().copied().filter(|line| *line > 0).min();
+            let at = words(&self.dataset.holds[hold]);
+            let message = match line {
+                Some(_) => format!("marker {} has no prediction at {at}", self.dataset.markers[cell % markers].name),
+                None => format!("no row has the pressures of the hold at {at}"),
+            };
+            let help = "add a row for every marker at this pressure";
+            let fault = Fault::of_file(file, message, help).at_line(line.unwrap_or(self.last_line));
+            return Err(DataError::Runs(Box::new(fault)));
+        }
+        let axes = self.dataset.axes;
+        let mean = |(sums, count): (&[f64; 3], &u32)| sums.map(|sum| sum / f64::from((*count).max(1)));
+        let places_m = self.sums.iter().zip(&self.counts).flat_map(|cell| mean(cell).into_iter().take(axes)).collect();
+        Ok(Predictions { file: file.to_string(), places_m, lines: self.lines })
+    }
+}
+
+/// Pressures of a hold, 0 of channels that the data have not.
+fn pressures(hold: &Hold) -> Pressures {
+    let mut all = [hold.p_body_pa, hold.p_act_pa, 0.0, 0.0, 0.0];
+    all[2..].iter_mut().zip(&hold.more_act_pa).for_each(|(own, pa)| *own = *pa);
+    all
+}
+
+/// The pressures of a row; those that it has not, or the data have not, are the pressures of the hold.
+fn filled(hold: &Hold, given: [Option<f64>; PRESSURES.len()]) -> Pressures {
+    let own = pressures(hold);
+    let known = 2 + hold.more_act_pa.len();
+    std::array::from_fn(|k| given[k].filter(|_| k < known).unwrap_or(own[k]))
+}
+
+/// How far a time is from the samples of a hold \[s\].
+fn away_s(hold: &Hold, t_s: f64) -> f64 {
+    let [first, last] = [hold.t_s.first(), hold.t_s.last()].map(|t| t.copied().unwrap_or(0.0));
+    (first - t_s).max(t_s - last).max(0.0)
+}
+
+/// How far a time may be from the samples of its hold: half of the shortest way from one hold to the next \[s\].
+fn reach_s(holds: &[Hold]) -> f64 {
+    let starts = holds.windows(2).map(|pair| (pair[1].t_s[0] - pair[0].t_s[0]).abs());
+    0.5 * starts.fold(f64::INFINITY, f64::min)
+}
+
+fn words(hold: &Hold) -> String {
+    let act: Vec<String> = hold.channels_pa().map(|pa| format!("{:.1}", kpa(pa))).collect();
+    format!("{} kPa actuator, {:.1} kPa body ({})", act.join("/"), kpa(hold.p_body_pa), hold.phase.word())
+}
+
+fn listed(holds: &[Hold]) -> String {
+    holds.iter().map(words).collect::<Vec<_>>().join("; ")
+}
