@@ -107,7 +107,7 @@ impl Failure {
         }
     }
 
-    fn help(&self) -> Option<&str> {
+    pub(crate) fn help(&self) -> Option<&str> {
         match self {
             Failure::Write { help, .. } => Some(help.as_str()),
             Failure::Compare(error) => error.help(),
