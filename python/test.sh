@@ -10,8 +10,8 @@ skip() { echo "skipped: $*"; exit 0; }
 command -v python3 > /dev/null || skip "no python3"
 home=$PWD/target/python
 [ -x "$home/bin/pip" ] || python3 -m venv "$home" || skip "python3 has no venv"
-"$home/bin/python" -c 'import maturin, numpy, pandas, polars, matplotlib, pytest, nbclient, ipykernel' 2> /dev/null ||
-  "$home/bin/pip" install --quiet maturin numpy pandas polars matplotlib pytest nbclient ipykernel ||
+"$home/bin/python" -c 'import maturin, numpy, pandas, polars, pyarrow, matplotlib, pytest, nbclient, ipykernel, mypy, joblib, dask' 2> /dev/null ||
+  "$home/bin/pip" install --quiet maturin numpy pandas polars pyarrow matplotlib pytest nbclient ipykernel mypy pandas-stubs joblib dask ||
   skip "pip does not reach its registry"
 
 "$home/bin/pip" uninstall --quiet --yes ibr 2> /dev/null

@@ -14,7 +14,7 @@ pub(crate) use discover::{
     AddArgs, BreakdownArgs, ChallengeCommand, ChallengeNewArgs, DiagnoseArgs, LadderArgs, TradeoffArgs, ValidateArgs,
 };
 pub(crate) use export::{ExportArgs, ExportCommand, LinearArgs, RigidArgs};
-pub(crate) use groups::{command, parsed};
+pub(crate) use groups::{asked, command, parsed};
 pub(crate) use import::Import;
 use std::path::PathBuf;
 pub(crate) use sweep::{DesignArgs, ShardArgs, SweepArgs};

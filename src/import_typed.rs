@@ -12,13 +12,7 @@ use data::import::{Imported, import};
 /// # Errors
 /// An option that is not known or not understood; as [`import`].
 pub fn import_typed(typed: &[String]) -> Result<Imported, CompareError> {
-    let refused = |error: clap::Error| {
-        let text = error.to_string();
-        let (message, more) = text.trim_start_matches("error: ").split_once('\n').unwrap_or((&text, ""));
-        let hint =
-            more.lines().map(str::trim).find(|line| line.starts_with("tip")).unwrap_or("see ibr data import --help");
-        CompareError::refused(message.trim(), hint.trim_start_matches("tip: "))
-    };
+    let refused = |error| refused(&error, "see ibr data import --help");
     let command = Import::augment_args(Command::new("import").no_binary_name(true));
     let matches = command.try_get_matches_from(typed).map_err(refused)?;
     let args = Import::from_arg_matches(&matches).map_err(refused)?;
@@ -27,6 +21,14 @@ pub fn import_typed(typed: &[String]) -> Result<Imported, CompareError> {
         other => CompareError::refused(other.to_string(), "see ibr data import --help"),
     })?;
     Ok(import(&args.files, &options, &mut |_, _| ())?)
+}
+
+/// What is typed wrong, and what is probably meant.
+pub(crate) fn refused(error: &clap::Error, help: &str) -> CompareError {
+    let text = error.to_string();
+    let (message, more) = text.trim_start_matches("error: ").split_once('\n').unwrap_or((&text, ""));
+    let hint = more.lines().map(str::trim).find(|line| line.starts_with("tip")).unwrap_or(help);
+    CompareError::refused(message.trim(), hint.trim_start_matches("tip: "))
 }
 
 #[cfg(test)]

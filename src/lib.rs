@@ -48,6 +48,7 @@
 // The commands say `ibr::` as any program would.
 extern crate self as ibr;
 
+mod asked;
 mod cli;
 mod commands;
 pub mod compared;
@@ -78,6 +79,7 @@ pub use ::compare::ladder::{Climb, ladder};
 pub use ::compare::study::comparison::{Contender, Variant, compare_all};
 pub use ::compare::validation::{BeforeAfter, Validation, validate};
 pub use ::compare::{CompareError as Error, Comparison, Evidence, Extension, Progress, ScenarioFile, compare, extend};
+pub use asked::{Asked, ask};
 pub use data;
 pub use data::import;
 pub use fem;

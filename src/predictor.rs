@@ -18,6 +18,12 @@ impl Predictor {
         Predictor { scenario: scenario.clone(), model: Model::new(scenario) }
     }
 
+    /// The same for a few questions: as [`Model::for_few`].
+    pub fn for_few(scenario: Scenario) -> Predictor {
+        let model = Model::for_few(&scenario);
+        Predictor { scenario, model }
+    }
+
     /// Pressures \[Pa\]: one for all supply channels, or one for each; the body's is the scenario's unless given.
     ///
     /// ```

@@ -5,7 +5,7 @@ import sys
 from ibr import _ibr
 
 
-def main():
+def main() -> None:
     sys.exit(_ibr.program(["ibr", *sys.argv[1:]]))
 
 

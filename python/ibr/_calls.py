@@ -3,21 +3,28 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Union
+from decimal import Decimal
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, Optional, Sequence, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _ibr
 from ._foreign import Predictions, bases_of
 from ._ibr import Data, Error, Scenario
-from ._results import Result, columns_of
+from ._results import Column, Path, Result, columns_of, save_text
 
-Robot = Union[Scenario, str, os.PathLike]
+if TYPE_CHECKING:
+    from ._records import AddKeys, CompareKeys, DiagnoseKeys, LadderKeys, ValidateKeys
+else:
+    AddKeys = CompareKeys = DiagnoseKeys = LadderKeys = ValidateKeys = object
+
+Robot = Union[Scenario, Path]
 Measured = Any
-Progress = Callable[[str, Optional[float]], None]
+Progress = Callable[[str, Optional[float]], object]
 
 
-def data(source: Measured, *, name: str = "frame", about: Union[str, os.PathLike, None] = None) -> Data:
+def data(source: Measured, *, name: str = "frame", about: Optional[Path] = None) -> Data:
     """Measurements of one robot.
 
     `source`: an embedded set (`python -m ibr data list`), a CSV file, a folder with markers.csv and about.toml, or a table:
@@ -48,33 +55,37 @@ def _labels(table: Any) -> List[str]:
 
 def _column(label: str, values: Any) -> Any:
     """Numbers as an array of float64 or int64, everything else as texts; an empty cell is NaN or ""."""
-    array = np.atleast_1d(np.asarray(values))
+    array: NDArray[Any] = np.atleast_1d(np.asarray(values))
     if array.ndim > 1:
         raise Error(f"column {label} has the shape {array.shape}: a column is one value a row")
     if array.dtype.kind == "f":
         return array.astype(np.float64)
     if array.dtype.kind in "iu":
         return array.astype(np.int64)
-    return ["" if value is None or str(value) == "<NA>" else str(value) for value in array.tolist()]
+    cells = array.tolist()
+    empty = [value is None or str(value) in ("<NA>", "nan") for value in cells]
+    # Decimals, and numbers of pandas and polars with empty cells.
+    if all(is_empty or isinstance(value, (int, float, Decimal)) for value, is_empty in zip(cells, empty)) and not all(empty):
+        return np.array([np.nan if is_empty else float(value) for value, is_empty in zip(cells, empty)])
+    return ["" if is_empty else str(value) for value, is_empty in zip(cells, empty)]
 
 
-def import_tracks(files: Union[str, os.PathLike, Sequence[Union[str, os.PathLike]]], **options: Any) -> Data:
+def import_tracks(files: Union[Path, Sequence[Path]], **options: Any) -> Data:
     """Files of a tracking program (DeepLabCut, SLEAP, Motive, Tracker, Kinovea, TrackMate, plain tables) as measurements.
 
     `files`: one per run. `options`: those of `python -m ibr data import --help`, with units as there and `_` for `-`:
     `import_tracks(["run1.csv"], pressure="log.csv", fps=30, scale="3.1px/mm", base="212,540", actuator="epam")`.
     What was assumed stands in `told`, the beginning of a description in `about_toml`.
     """
-    files = [files] if isinstance(files, (str, os.PathLike)) else files
-    typed = [os.fspath(file) for file in files]
+    typed = [os.fspath(file) for file in ([files] if isinstance(files, (str, os.PathLike)) else files)]
     for option, value in options.items():
         for one in value if isinstance(value, (list, tuple)) else [value]:
             typed.append(f"--{option.replace('_', '-')}={one}")
     return _ibr.import_tracks(typed)
 
 
-class Comparison(Result):
-    """A scenario held against measurements.
+class Comparison(Result, CompareKeys):
+    """A scenario compared with measurements.
 
     `error_mm`: error beyond noise, root mean square over markers and holds (mm); of all, the noise being unknown, with one run.
     `noise_mm`: noise of the mean of the runs (mm), None if unknown. `where_it_fails`: in plain language.
@@ -104,17 +115,17 @@ class Comparison(Result):
         """Where the model fails first, in a sentence."""
         return self.where_it_fails[0]["sentence"]
 
-    def plot(self, axes=None):
+    def plot(self, axes: Any = None) -> Any:
         """Measured and predicted markers on axes of matplotlib; of data with z from two sides, on two axes."""
         from . import _plot
 
         return _plot.comparison(self, axes)
 
     def _headline(self) -> str:
-        return f"{self.scenario} held against {self.data}: {self.error_mm:.2f} mm beyond noise\n{self.verdict}"
+        return f"{self.scenario} compared with {self.data}: {self.error_mm:.2f} mm beyond noise\n{self.verdict}"
 
 
-class Diagnosis(Result):
+class Diagnosis(Result, DiagnoseKeys):
     """What is missing in a model.
 
     `verdict`: "none", "effect" or "out_of_catalog"; None where the data allow none. `names`: effects that
@@ -129,7 +140,7 @@ class Diagnosis(Result):
         return self.indistinguishable
 
     @property
-    def table(self) -> Dict[str, np.ndarray]:
+    def table(self) -> Mapping[str, Column]:
         """Every effect, best first."""
         return columns_of(self.ranked)
 
@@ -158,7 +169,7 @@ class Diagnosis(Result):
         robot, measured = self._on()
         return _ibr.Correction.of(robot, self._answer, measured)
 
-    def plot(self, axes=None):
+    def plot(self, axes: Any = None) -> Any:
         """Error that is left with every effect, on axes of matplotlib."""
         from . import _plot
 
@@ -167,14 +178,18 @@ class Diagnosis(Result):
     def _headline(self) -> str:
         return "\n".join(self.summary)
 
+    def _line(self) -> str:
+        return f"{self.dataset}: verdict {self.verdict}" + (f", {' or '.join(self.names)}" if self.names else "")
 
-class Extension(Result):
+
+class Extension(Result, AddKeys):
     """A scenario with one more effect: `scenario`, `effects`, errors on the way in `table`."""
 
     @property
     def scenario(self) -> Scenario:
         """The new scenario; comments of the old one stay."""
-        return self._answer.scenario()
+        made: Scenario = self._answer.scenarios()[0][1]
+        return made
 
     @property
     def names(self) -> List[str]:
@@ -182,17 +197,41 @@ class Extension(Result):
         return [effect["effect"] for effect in self.effects]
 
     @property
-    def table(self) -> Dict[str, np.ndarray]:
+    def table(self) -> Mapping[str, Column]:
         """Errors on the way, the scenario as given first."""
         return columns_of(self.rungs)
 
-    def save(self, path: Union[str, os.PathLike]) -> None:
-        """Writes the new scenario to a file that is not there yet."""
-        with open(path, "x", encoding="utf-8") as file:
-            file.write(self.scenario.text)
+    def save(self, path: Path, force: bool = False) -> None:
+        """Writes the new scenario, as `Scenario.save`."""
+        save_text(self.scenario.text, path, force)
+
+    def _line(self) -> str:
+        return f"{self.scenario_file} with {', '.join(self.names)}"
 
 
-class Validation(Result):
+class Ladder(Result, LadderKeys):
+    """One effect after the other, as long as a diagnosis finds one: `steps`, errors on the way in `table`, why it `stopped`."""
+
+    @property
+    def scenarios(self) -> Dict[str, Scenario]:
+        """The scenario after every step, by the name of its file."""
+        return dict(self._answer.scenarios())
+
+    @property
+    def names(self) -> List[str]:
+        """Effects that were added, in their order."""
+        return [effect["effect"] for step in self.steps for effect in step["added"]]
+
+    @property
+    def table(self) -> Mapping[str, Column]:
+        """Errors on the way, the scenario as given first."""
+        return columns_of(self.rungs)
+
+    def _line(self) -> str:
+        return f"{self.scenario_file} with {', '.join(self.names) or 'nothing more'}; {self.stopped}"
+
+
+class Validation(Result, ValidateKeys):
     """A scenario with and without what was added to it, on other data; `table` has a row for each."""
 
     @property
@@ -200,13 +239,16 @@ class Validation(Result):
         """Of the first data: see docs/json.md."""
         return self.datasets[0]["verdict"]
 
+    def _line(self) -> str:
+        return ", ".join(f"{one['data']}: {one['verdict']}" for one in self.datasets)
+
     @property
     def names(self) -> List[str]:
         """Effects that were judged."""
         return self.added
 
     @property
-    def table(self) -> Dict[str, np.ndarray]:
+    def table(self) -> Mapping[str, Column]:
         """A row for each of the data."""
         before = {f"before_{key}": column for key, column in columns_of([d["before"] for d in self.datasets]).items()}
         after = {f"after_{key}": column for key, column in columns_of([d["after"] for d in self.datasets]).items()}
@@ -221,7 +263,13 @@ def _all(source: Measured, also: Sequence[Measured]) -> List[Data]:
     return [data(one) for one in (source, *also)]
 
 
-def _asked(sigma_mm=None, tolerance_mm=None, refit=False, keep_bending=False, without=()) -> Mapping[str, Any]:
+def _asked(
+    sigma_mm: Optional[float] = None,
+    tolerance_mm: Optional[float] = None,
+    refit: bool = False,
+    keep_bending: bool = False,
+    without: Sequence[str] = (),
+) -> Mapping[str, Any]:
     return {
         "sigma_mm": sigma_mm,
         "tolerance_mm": tolerance_mm,
@@ -239,7 +287,7 @@ def compare(
     sigma_mm: Optional[float] = None,
     calibrate: Optional[str] = None,
 ) -> Comparison:
-    """Holds a scenario against measurements: how far off, and where.
+    """Compares a scenario with measurements: how far off, and where.
 
     `effects`: further models, each with one more effect, as `"name"` or `"name:key=value"`. `sigma_mm`: camera noise of one
     coordinate, for a single run. `calibrate`: also fit "bending" or "body-pressure".
@@ -282,6 +330,8 @@ def diagnose(
 
 def extend(scenario: Robot, diagnosis: Diagnosis) -> Extension:
     """The scenario with what its diagnosis adds: an effect, or the law that it learned."""
+    if not isinstance(diagnosis._answer, _ibr.Answer):
+        raise Error("this diagnosis came from another process\nhelp: extend there, and bring back the scenario, or use ibr.add()")
     return Extension(_ibr.extend(_robot(scenario), diagnosis._answer))
 
 
@@ -301,9 +351,25 @@ def add(
     `effect`: "best" (what a diagnosis adds), "learned" (a law learned from the data), a name (fitted on data; without data
     its typical value), "name=value" or "name:key=value". The other arguments are those of `diagnose`.
     """
-    measured = [] if measured is None else _all(measured, also)
+    all_data = [] if measured is None else _all(measured, also)
     asked = _asked(sigma_mm=sigma_mm, keep_bending=keep_bending, without=without)
-    return Extension(_ibr.add(_robot(scenario), effect, measured, asked, progress))
+    return Extension(_ibr.add(_robot(scenario), effect, all_data, asked, progress))
+
+
+def ladder(
+    scenario: Robot,
+    measured: Measured,
+    *,
+    also: Sequence[Measured] = (),
+    sigma_mm: Optional[float] = None,
+    tolerance_mm: Optional[float] = None,
+    keep_bending: bool = False,
+    without: Sequence[str] = (),
+    progress: Optional[Progress] = None,
+) -> Ladder:
+    """Diagnoses and extends until nothing more is found. The arguments are those of `diagnose`."""
+    asked = _asked(sigma_mm, tolerance_mm, False, keep_bending, without)
+    return Ladder(_ibr.ladder(_robot(scenario), _all(measured, also), asked, progress))
 
 
 def validate(

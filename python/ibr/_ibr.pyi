@@ -6,12 +6,18 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._records import PredictedState
+from ._states import States
+
 Array = NDArray[np.float64]
-Progress = Callable[[str, Optional[float]], None]
-Pressure = Union[float, Sequence[float]]
+Progress = Callable[[str, Optional[float]], object]
+Pressure = Union[float, Sequence[float], Array]
+
+VERSION: str
 
 class Error(ValueError):
-    """The fault, its place, and what to write instead."""
+    """What is wrong, where, and what to write instead. `where` is the file and its line or column, `help` what to do; None where
+    there is none."""
 
     where: Optional[str]
     """File and line or column; None where there is none."""
@@ -19,57 +25,48 @@ class Error(ValueError):
     """What to do."""
 
 class State:
-    """Shape of a robot at one pressure."""
+    """Shape of a robot at one pressure. It pickles, and is equal to a state of an equal robot at the same pressures."""
 
     @property
     def tip_mm(self) -> Array:
-        """Tip of the centre line, x along the undeformed body and y towards the actuator, shape (2,); with strips round the body
-        x, y and z, shape (3,)."""
+        """Tip of the centre line (mm), x along the undeformed body and y towards the actuator, shape (2,); with strips round the
+        body x, y and z, shape (3,)."""
     @property
     def angle_deg(self) -> float:
-        """Total bending angle."""
+        """Total bending angle (degrees)."""
     @property
     def markers_mm(self) -> Array:
-        """Markers as the camera sees them, shape (markers, 2); with strips round the body (markers, 3)."""
+        """Markers as the camera sees them (mm), shape (markers, 2); with strips round the body (markers, 3)."""
     @property
     def curve_mm(self) -> Array:
-        """Centre line from base to tip, shape (101, 2); with strips round the body (101, 3)."""
+        """Points of the centre line from base to tip (mm), shape (101, 2); with strips round the body (101, 3)."""
     @property
     def pressure_kpa(self) -> float:
-        """Actuator pressure of the first supply channel."""
+        """Actuator gauge pressure of the first supply channel (kPa)."""
     @property
     def channels_kpa(self) -> Array:
-        """Actuator pressure of every supply channel, shape (channels,)."""
+        """Actuator gauge pressure of every supply channel (kPa), shape (4,)."""
     @property
     def body_pressure_kpa(self) -> float:
-        """Body pressure."""
+        """Gauge pressure of the body (kPa)."""
     @property
     def warnings(self) -> List[str]:
         """What to know before believing it: beyond a limit of the actuator, a body that would fold."""
     def to_json(self) -> str:
         """One state of `ibr predict --json`: curvatures, slopes, energy ledger."""
-    def to_dict(self) -> Dict[str, Any]:
-        """The same as a dictionary (docs/json.md)."""
+    def to_dict(self) -> PredictedState:
+        """The same as a dictionary: keys and units are in docs/json.md."""
     def plot(self, axes: Any = None) -> Any:
         """The shape on axes of matplotlib; returns the axes. With strips round the body two axes, one for each side."""
     def _repr_html_(self) -> str: ...
-
-class States:
-    """Many states side by side, in the order of their pressures."""
-
-    @property
-    def tips_mm(self) -> Array:
-        """Tips of the centre line, shape (N, 2); with strips round the body (N, 3)."""
-    @property
-    def angles_deg(self) -> Array:
-        """Total bending angles, shape (N,)."""
-    @property
-    def markers_mm(self) -> Array:
-        """Markers as the camera sees them, shape (N, markers, 2); with strips round the body (N, markers, 3)."""
-    def __len__(self) -> int: ...
+    @staticmethod
+    def _again(robot: Tuple[str, str], pressures: Tuple[Sequence[float], float]) -> "State": ...
 
 class Scenario:
-    """A robot: its body, actuators and physical effects, as a text in TOML. It never changes."""
+    """A robot: its body, actuators and physical effects, as a text in TOML. It never changes.
+
+    Pressures are gauge pressures in kPa, lengths mm, angles degrees, times seconds. It pickles, compares and hashes by its text.
+    """
 
     @staticmethod
     def named(name: Union[str, PathLike[str]]) -> "Scenario":
@@ -77,9 +74,21 @@ class Scenario:
     @staticmethod
     def from_toml(source: Union[str, PathLike[str]]) -> "Scenario":
         """A TOML file, or its text."""
+    @staticmethod
+    def _parsed(name: str, text: str) -> "Scenario": ...
     def replace(self, **changes: Any) -> "Scenario":
         """The same with values of its text set: `body_radius_mm=45` and `body={"radius_mm": 45}` are both `radius_mm` of
-        `[body]`; `effects={"friction": {"moment_nm": 0.2}}` sets or adds an effect. Comments stay."""
+        `[body]`; `effects={"friction": {"moment_nm": 0.2}}` sets or adds an effect. Comments stay.
+
+        Numbers that the text has are set without reading it, in microseconds; predictions are then those of the new text to
+        rounding."""
+    def without(self, *effects: str) -> "Scenario":
+        """The same without these effects; `effects` lists what it has."""
+    def bare(self) -> "Scenario":
+        """The same without any effect and with a bending stiffness of 0 N m2: the textbook's balance."""
+    def save(self, path: Union[str, PathLike[str]], force: bool = False) -> None:
+        """Writes the text to a file. A file with another content that this process did not write is kept, with an `ExistsError`,
+        unless `force`."""
     @property
     def text(self) -> str:
         """The TOML text."""
@@ -97,23 +106,23 @@ class Scenario:
         """Names of its physical effects."""
     @property
     def stations_mm(self) -> List[float]:
-        """Stations of the markers along the undeformed body."""
+        """Stations of the markers along the undeformed body (mm)."""
     @property
     def body_pressure_kpa(self) -> float:
-        """Body pressure where none is given."""
+        """Gauge pressure of the body where none is given (kPa)."""
     @property
     def has_history(self) -> bool:
         """Whether a state depends on those before it or on time: friction, creep, leaks."""
     def predict(self, pressure_kpa: Pressure, body_pressure_kpa: Optional[float] = None) -> State:
-        """Shape at an actuator pressure, or at one pressure for every supply channel. A robot with history is held there for
-        5 s, from rest."""
+        """Shape at an actuator gauge pressure (kPa), or at one for every supply channel. A robot with history is held there for 5 s,
+        from rest."""
     def batch(self, pressure_kpa: ArrayLike, body_pressure_kpa: Optional[ArrayLike] = None, threads: int = 0) -> States:
-        """One state per pressure, shape (N,) or (N, channels), at one body pressure or N. Runs beside Python on so many
+        """One state per actuator gauge pressure (kPa), shape (N,) or (N, channels), at one body pressure or N. Runs beside Python on so many
         threads, 0 is one per core. A robot with history is refused: its states have an order."""
     def follow(
         self, t_s: ArrayLike, pressure_kpa: ArrayLike, body_pressure_kpa: Optional[ArrayLike] = None
     ) -> States:
-        """A protocol from rest at time 0: pressures change at once after the state before, then time passes until `t_s`, shape
+        """A protocol from rest at time 0: pressures change at once after the state before, then time passes until `t_s` (s), shape
         (N,), which does not fall. With `[supply]` in the scenario they arrive late."""
     def inverse(
         self,
@@ -122,7 +131,7 @@ class Scenario:
         angle_deg: Optional[float] = None,
         body_pressure_kpa: Optional[float] = None,
     ) -> State:
-        """The state in which the tip has this height or the robot this total bend; its `pressure_kpa` is the answer."""
+        """The state in which the tip has this height y (mm) or the robot this total bend (degrees); its `pressure_kpa` is the answer."""
     def steer(
         self,
         *,
@@ -193,9 +202,10 @@ class Answer:
     warnings: List[str]
     def columns(self) -> Dict[str, Any]: ...
     def files(self) -> Dict[str, bytes]: ...
-    def scenario(self) -> Scenario: ...
+    def scenarios(self) -> List[Tuple[str, Scenario]]: ...
 
 def program(typed: List[str]) -> int: ...
+def ask(typed: List[str], progress: Optional[Progress] = None) -> Answer: ...
 def import_tracks(typed: List[str]) -> Data: ...
 def compare(
     scenario: Scenario, data: Data, effects: List[str], sigma_mm: Optional[float], calibrate: Optional[str]
@@ -210,6 +220,9 @@ def add(
     data: List[Data],
     asked: Mapping[str, Any],
     progress: Optional[Progress] = None,
+) -> Answer: ...
+def ladder(
+    scenario: Scenario, data: List[Data], asked: Mapping[str, Any], progress: Optional[Progress] = None
 ) -> Answer: ...
 def validate(scenario: Scenario, data: List[Data], without: List[str], sigma_mm: Optional[float]) -> Answer: ...
 def validate_correction(

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 
-def _axes(axes):
+def _axes(axes: Any) -> Any:
     if axes is not None:
         return axes
     import matplotlib.pyplot as plt
@@ -13,7 +15,7 @@ def _axes(axes):
     return plt.subplots()[1]
 
 
-def _labelled(axes, x, y, title):
+def _labelled(axes: Any, x: Any, y: Any, title: Any) -> Any:
     axes.set(xlabel=x, ylabel=y, title=title)
     axes.spines[["top", "right"]].set_visible(False)
     if axes.get_legend_handles_labels()[0]:
@@ -21,12 +23,12 @@ def _labelled(axes, x, y, title):
     return axes
 
 
-def _plane(axes, title):
+def _plane(axes: Any, title: Any) -> Any:
     axes.set_aspect("equal", adjustable="datalim")
     return _labelled(axes, "x along the body [mm]", "y towards the actuator [mm]", title)
 
 
-def _two(axes):
+def _two(axes: Any) -> Any:
     if axes is not None:
         return axes
     import matplotlib.pyplot as plt
@@ -34,7 +36,7 @@ def _two(axes):
     return plt.subplots(2, layout="constrained")[1]
 
 
-def _sides(axes, draw, title):
+def _sides(axes: Any, draw: Any, title: Any) -> Any:
     """The same on two axes: seen along z, then along y."""
     for side, (one, label) in enumerate(zip(axes, ("y, azimuth 0° [mm]", "z, azimuth 90° [mm]")), 1):
         draw(one, side)
@@ -43,7 +45,7 @@ def _sides(axes, draw, title):
     return axes
 
 
-def state(state, axes=None):
+def state(state: Any, axes: Any = None) -> Any:
     """Centre line and markers of a predicted state; of a robot with strips round the body from two sides, on two axes."""
     if state.tip_mm.size == 3:
         return _state_in_space(state, _two(axes))
@@ -53,19 +55,19 @@ def state(state, axes=None):
     return _plane(axes, "Predicted shape")
 
 
-def _state_in_space(state, axes):
+def _state_in_space(state: Any, axes: Any) -> Any:
     channels = "/".join(f"{kpa:g}" for kpa in np.trim_zeros(state.channels_kpa, "b"))
     # Equal pressures are one.
     name = f"{state.pressure_kpa:g} kPa" if np.ptp(state.channels_kpa) == 0 else f"{channels} kPa"
 
-    def draw(one, side):
+    def draw(one: Any, side: int) -> None:
         (line,) = one.plot(state.curve_mm[:, 0], state.curve_mm[:, side], label=name)
         one.plot(state.markers_mm[:, 0], state.markers_mm[:, side], "o", color=line.get_color())
 
     return _sides(axes, draw, "Predicted shape")
 
 
-def comparison(found, axes=None):
+def comparison(found: Any, axes: Any = None) -> Any:
     """Measured and predicted markers of every hold; with z from two sides, on two axes."""
     table = found.table
     first = table["model"] == found.names[0]
@@ -74,7 +76,7 @@ def comparison(found, axes=None):
     holds = np.unique(pressures[first], axis=0)
     several = len(np.unique(holds[:, 0])) > 1
 
-    def draw(one, side):
+    def draw(one: Any, side: int) -> None:
         axis = "xyz"[side]
         for k, hold in enumerate(holds):
             at = first & (pressures == hold).all(axis=1)
@@ -90,7 +92,7 @@ def comparison(found, axes=None):
     return _plane(axes, title)
 
 
-def diagnosis(found, axes=None):
+def diagnosis(found: Any, axes: Any = None) -> Any:
     """Error that is left with every effect: blue where the data cannot tell them apart, pale where one sits on a bound."""
     axes, table = _axes(axes), found.table
     order = np.argsort(table["systematic_after_mm"], kind="stable")[:12][::-1]
@@ -101,8 +103,8 @@ def diagnosis(found, axes=None):
     return _labelled(axes, "error beyond noise [mm]", "", "What is left with each effect")
 
 
-def run(run, axes=None):
+def run(run: Any, axes: Any = None) -> Any:
     """Height of the tip at every hold."""
     axes, table = _axes(axes), run.table
-    axes.plot(table["p_act_kpa"], table["tip_y_mm"], "o-")
+    axes.plot(table["pressure_kpa"], table["tip_y_mm"], "o-")
     return _labelled(axes, "actuator pressure [kPa]", "height of the tip [mm]", run.name)

@@ -9,14 +9,20 @@ import re
 import tempfile
 import zlib
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _ibr
 from ._calls import Progress, Robot
 from ._ibr import Scenario
-from ._results import Result, columns_of
+from ._results import Column, Result, Table, columns_of
+
+if TYPE_CHECKING:
+    from ._records import Reading, SimulateKeys
+else:
+    SimulateKeys = object
 
 _TYPES = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "UInt8": "u1", "Int8": "i1"}
 
@@ -28,18 +34,17 @@ class Frame:
     matplotlib and meshes; `pressures_kpa` by chamber; `arrays`: everything in the file by its name there.
     """
 
-    def __init__(self, path: Union[str, os.PathLike]):
+    def __init__(self, path: Union[str, "os.PathLike[str]"]):
         self.path = Path(path)
         self.arrays = _arrays(self.path)
         self.time_s = float(self.arrays["TimeValue"][0])
         self.points = self.arrays["Points"]
         ends, corners = self.arrays["offsets"], self.arrays["connectivity"]
         sizes = np.diff(ends, prepend=0)
-        of = lambda size: corners[(ends[sizes == size, None] - size) + np.arange(size)]  # noqa: E731
-        self.triangles, self.quads = of(3), of(4)
+        self.triangles, self.quads = (corners[(ends[sizes == n, None] - n) + np.arange(n)] for n in (3, 4))
 
     @property
-    def faces(self) -> np.ndarray:
+    def faces(self) -> Column:
         """Every element as triangles, shape (m, 3); a quad is two."""
         return np.concatenate([self.triangles, self.quads[:, [0, 1, 2]], self.quads[:, [0, 2, 3]]])
 
@@ -54,7 +59,7 @@ class Frame:
         return f"Frame(t = {self.time_s:.4f} s: {len(self.points)} points, {cells} elements)"
 
 
-def _arrays(path: Path) -> Dict[str, np.ndarray]:
+def _arrays(path: Path) -> Dict[str, Column]:
     """The arrays of a frame as the engine writes it: XML with blocks in base64, compressed by zlib."""
     found = {}
     for tag, text in re.findall(r"<DataArray ([^>]*)>([^<]*)<", path.read_text("utf-8")):
@@ -66,7 +71,7 @@ def _arrays(path: Path) -> Dict[str, np.ndarray]:
     return found
 
 
-class Run(Result):
+class Run(Result, SimulateKeys):
     """A finite element run: the numbers of its summary.json are attributes, its files stand in `folder`."""
 
     def __init__(self, answer: _ibr.Answer, folder: Path, kept: Any = None):
@@ -75,7 +80,7 @@ class Run(Result):
         self._kept = kept
 
     @staticmethod
-    def read(folder: Union[str, os.PathLike]) -> "Run":
+    def read(folder: Union[str, "os.PathLike[str]"]) -> "Run":
         """The complete run in a folder."""
         return Run(_ibr.read_run(folder), Path(folder))
 
@@ -85,24 +90,18 @@ class Run(Result):
         return [Frame(path) for path in sorted((self.folder / "frames").glob("*.vtu"))]
 
     @property
-    def history(self) -> Dict[str, np.ndarray]:
+    def history(self) -> Dict[str, Column]:
         """Energies, pressures and volumes at every output: the columns of history.csv."""
         table = np.genfromtxt(self.folder / "history.csv", delimiter=",", names=True, deletechars="", ndmin=1)
-        return {name: table[name] for name in table.dtype.names}
+        return {name: table[name] for name in table.dtype.names or ()}
 
     @property
-    def table(self) -> Dict[str, np.ndarray]:
-        """Of a robot, a row per hold: pressures, height of the tip (mm) and its angle (degrees)."""
-        readings = [] if self.robot is None else self.robot["readings"]
-        row = lambda r: {  # noqa: E731
-            "p_act_kpa": r["actuator_pa"] * 1e-3,
-            "tip_x_mm": r["moved_m"][-1][0] * 1e3,
-            "tip_y_mm": r["moved_m"][-1][1] * 1e3,
-            "angle_deg": float(np.degrees(r["tip_angle_rad"])),
-        }
-        return columns_of([row(reading) for reading in readings])
+    def table(self) -> Mapping[str, Column]:
+        """Of a robot, a row per hold: `pressure_kpa`, place of the tip (mm) as in `State.tip_mm`, its angle (degrees)."""
+        readings: List[Reading] = [] if self.robot is None else self.robot["readings"]
+        return columns_of([_row(reading) for reading in readings])
 
-    def plot(self, axes=None):
+    def plot(self, axes: Any = None) -> Any:
         """Height of the tip over pressure, on axes of matplotlib."""
         from . import _plot
 
@@ -112,8 +111,6 @@ class Run(Result):
         picture = next((file for file in ("side.png", "picture.png") if (self.folder / file).exists()), None)
         if picture is None:
             return super()._repr_html_()
-        import base64
-
         png = base64.b64encode((self.folder / picture).read_bytes()).decode()
         return f'{super()._repr_html_()}<img style="max-width:640px" src="data:image/png;base64,{png}">'
 
@@ -121,9 +118,19 @@ class Run(Result):
         return str(self).split("\n\n")[0]
 
 
+def _row(reading: Reading) -> Dict[str, float]:
+    along_m, moved_m = reading["stations_m"][-1], reading["moved_m"][-1]
+    return {
+        "pressure_kpa": reading["actuator_pa"] * 1e-3,
+        "tip_x_mm": (along_m + moved_m[0]) * 1e3,
+        "tip_y_mm": moved_m[1] * 1e3,
+        "angle_deg": float(np.degrees(reading["tip_angle_rad"])),
+    }
+
+
 def simulate(
     source: Robot,
-    folder: Union[str, os.PathLike, None] = None,
+    folder: Union[str, "os.PathLike[str]", None] = None,
     *,
     changes: Optional[Mapping[str, Any]] = None,
     resume: bool = False,
@@ -141,26 +148,26 @@ def simulate(
 
     Ctrl-C ends it with a KeyboardInterrupt, and so does what `progress` raises; a checkpoint in `folder` is kept then.
     """
-    kept = None
+    kept: Optional[tempfile.TemporaryDirectory[str]] = None
     if folder is None:
         kept = tempfile.TemporaryDirectory(prefix="ibr-run-")
         folder = os.path.join(kept.name, "run")
-    source = source if isinstance(source, Scenario) else os.fspath(source)
-    answer = _ibr.simulate(source, folder, dict(changes or {}), resume, force, end_s, threads, progress)
+    given = source if isinstance(source, Scenario) else os.fspath(source)
+    answer = _ibr.simulate(given, folder, dict(changes or {}), resume, force, end_s, threads, progress)
     return Run(answer, Path(folder), kept)
 
 
 def sweep(
-    study: Union[str, os.PathLike],
-    folder: Union[str, os.PathLike, None] = None,
+    study: Union[str, "os.PathLike[str]"],
+    folder: Union[str, "os.PathLike[str]", None] = None,
     *,
     threads: int = 0,
     progress: Optional[Progress] = None,
-) -> Dict[str, Any]:
-    """Many cases of one robot (docs/sweep.md): a dict of columns, for `pandas.DataFrame`; a row per case and engine.
+) -> Table:
+    """Many cases of one robot (docs/sweep.md): a dict of columns, with `to_pandas()` and `to_polars()`; a row per case and engine.
 
     `study`: the path of a study, or its text in TOML. `folder`: where what is computed is kept, so that the same call goes on
     after Ctrl-C and computes nothing twice; left out, nothing is kept. `threads`: 0 is one per core.
     """
     with tempfile.TemporaryDirectory(prefix="ibr-sweep-") as kept:
-        return _ibr.sweep(os.fspath(study), os.fspath(folder or kept), threads, progress)
+        return Table(_ibr.sweep(os.fspath(study), os.fspath(folder or kept), threads, progress))

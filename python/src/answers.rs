@@ -7,10 +7,12 @@ use crate::progress::beside;
 use crate::scenario::Scenario;
 use ibr::compared::{Compared, unused_sigma};
 use ibr::data::Table;
-use ibr::pages::{Diagnosed, Files, PageError, compare_page, diagnosis_page, residuals};
+use ibr::pages::{Climbed, Diagnosed, Files, PageError, compare_page, diagnosis_page, ladder_page, residuals};
 use ibr::program::maker;
 use ibr::shown::comparison::{CompareAnswer, text};
+use ibr::shown::extension::LadderAnswer;
 use ibr::shown::{as_json, diagnosis, extension, validation};
+use ibr::study::ladder::MOST_EFFECTS;
 use ibr::study::study::Knob;
 use ibr::study::study::engines::known_runs;
 use ibr::study::validation::BeforeAfter;
@@ -36,13 +38,13 @@ pub struct Answer {
     warnings: Vec<String>,
     table: Table,
     page: Option<Page>,
-    extended: Option<ScenarioFile>,
+    extended: Vec<(String, ScenarioFile)>,
     diagnosis: Option<Diagnosis>,
 }
 
 impl Answer {
     pub fn of(text: String, json: &serde_json::Value, warnings: Vec<String>) -> Answer {
-        let (table, page, extended, diagnosis) = (Table::default(), None, None, None);
+        let (table, page, extended, diagnosis) = (Table::default(), None, Vec::new(), None);
         Answer { text, json: json.to_string(), warnings, table, page, extended, diagnosis }
     }
 
@@ -69,9 +71,9 @@ impl Answer {
         Ok(all)
     }
 
-    /// The new scenario of an extension.
-    fn scenario(&self) -> Option<Scenario> {
-        self.extended.clone().map(Scenario::of)
+    /// New scenarios by name.
+    fn scenarios(&self) -> Vec<(String, Scenario)> {
+        self.extended.iter().cloned().map(|(name, file)| (name, Scenario::of(file))).collect()
     }
 }
 
@@ -92,7 +94,7 @@ pub(crate) fn compare(
 ) -> PyResult<Answer> {
     let knob = calibrate.map(str::parse::<Knob>).transpose();
     let knob = knob.map_err(|known| crate::errors::refused(format!("calibrate={calibrate:?} is not known"), known))?;
-    let (file, evidence, sigma_m) = (&scenario.file, &data.evidence, metres(sigma_mm));
+    let (file, evidence, sigma_m) = (scenario.file()?, &data.evidence, metres(sigma_mm));
     let Compared { found, added } =
         py.detach(|| Compared::of(file, evidence, &effects, sigma_m, knob)).map_err(raised)?;
     let answer = CompareAnswer::of(&file.name, &found, added.as_ref());
@@ -163,7 +165,7 @@ pub(crate) fn diagnose(
     asked: Asked,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Answer> {
-    let (file, evidence, options) = (scenario.file.clone(), all_evidence(&data), asked.options());
+    let (file, evidence, options) = (ScenarioFile::clone(scenario.file()?), all_evidence(&data), asked.options());
     let made = beside(py, progress.as_ref(), |tell| {
         let diagnosis = ibr::diagnose(&file, &evidence, &options, &mut |what, share| _ = tell(what, share))?;
         let first = evidence.into_iter().next().ok_or_else(no_data)?;
@@ -189,7 +191,7 @@ fn extended(file: &ScenarioFile, evidence: &[Evidence], found: Extension) -> PyR
         text += &format!("\n{}", extension::steps_text(&found.steps, found.noise_floor_mm));
     }
     let told = Answer::of(text, &json, found.warnings);
-    Ok(Answer { extended: Some(found.file), ..told })
+    Ok(Answer { extended: vec![(found.file.name.clone(), found.file)], ..told })
 }
 
 /// The scenario with what a diagnosis adds.
@@ -198,8 +200,9 @@ pub(crate) fn extend(py: Python<'_>, scenario: &Scenario, diagnosed: &Answer) ->
     let found = diagnosed.found();
     let found =
         found.ok_or_else(|| crate::errors::refused("this is not a diagnosis", "give the result of diagnose()"))?;
-    let extension = py.detach(|| ibr::extend(&scenario.file, found)).map_err(raised)?;
-    extended(&scenario.file, &[], extension)
+    let file = scenario.file()?;
+    let extension = py.detach(|| ibr::extend(file, found)).map_err(raised)?;
+    extended(file, &[], extension)
 }
 
 /// Answer of `ibr add` for a scenario, an effect and data.
@@ -213,13 +216,53 @@ pub(crate) fn add(
     asked: Asked,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Answer> {
-    let (file, evidence) = (&scenario.file, all_evidence(&data));
+    let (file, evidence) = (scenario.file()?, all_evidence(&data));
     let options = DiagnosisOptions { next_experiment: false, missing_moment: false, ..asked.options() };
     let found = beside(py, progress.as_ref(), |tell| {
         let wish = Wish::read(file, effect, !evidence.is_empty())?;
         ibr::add(file, &wish, &evidence, &options, &mut |what, share| _ = tell(what, share))
     })?;
     extended(file, &evidence, found.map_err(raised)?)
+}
+
+/// `ibr ladder`.
+#[pyfunction]
+#[pyo3(signature = (scenario, data, asked, progress = None))]
+pub(crate) fn ladder(
+    py: Python<'_>,
+    scenario: &Scenario,
+    data: Vec<PyRef<'_, Data>>,
+    asked: Asked,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Answer> {
+    let (file, evidence) = (scenario.file()?, all_evidence(&data));
+    let options = DiagnosisOptions { next_experiment: false, missing_moment: false, ..asked.options() };
+    let climbed = beside(py, progress.as_ref(), |tell| {
+        ibr::ladder(file, &evidence, &options, MOST_EFFECTS, &mut |what, share| _ = tell(what, share))
+    })?;
+    let climb = climbed.map_err(raised)?;
+    let name = |one: &Evidence| one.name.clone();
+    let data = evidence.first().map_or_else(String::new, name);
+    let also: Vec<String> = evidence.iter().skip(1).map(name).collect();
+    let answer = LadderAnswer { climb: &climb, scenario_file: &file.name, data: &data, also: &also };
+    let told = Answer::of(extension::climb_text(&climb), &as_json("ibr.ladder", &answer), climb.warnings.clone());
+    let step = |(name, text): &(String, String)| Ok((name.clone(), ScenarioFile::parse(name, text).map_err(raised)?));
+    let extended = climb.files.iter().map(step).collect::<PyResult<_>>()?;
+    let names = [file.scenario.name.clone(), evidence[0].dataset.name.clone()];
+    let typed = [file.name.clone(), data];
+    let page = move || {
+        let (names, typed) = (names.each_ref().map(String::as_str), typed.each_ref().map(String::as_str));
+        ladder_page(&Climbed { climb: &climb, names, typed, also: &also }, &maker())
+    };
+    Ok(Answer { extended, page: Some(Box::new(page)), ..told })
+}
+
+/// A command with what is typed after the name of the program, as for [`ibr::ask`].
+#[pyfunction]
+#[pyo3(signature = (typed, progress = None))]
+pub(crate) fn ask(py: Python<'_>, typed: Vec<String>, progress: Option<Py<PyAny>>) -> PyResult<Answer> {
+    let found = beside(py, progress.as_ref(), |tell| ibr::ask(&typed, tell))?.map_err(raised)?;
+    Ok(Answer::of(found.text, &found.json, found.warnings))
 }
 
 /// Answer of `ibr validate` for a scenario and other data.
@@ -232,7 +275,7 @@ pub(crate) fn validate(
     without: Vec<String>,
     sigma_mm: Option<f64>,
 ) -> PyResult<Answer> {
-    let (file, evidence) = (&scenario.file, all_evidence(&data));
+    let (file, evidence) = (scenario.file()?, all_evidence(&data));
     let judged = py.detach(|| {
         let both = BeforeAfter::of(file, &without)?;
         let found = evidence.iter().map(|one| both.judge(one, metres(sigma_mm))).collect::<Result<Vec<_>, _>>()?;

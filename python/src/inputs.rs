@@ -3,11 +3,13 @@
 use crate::arrays::table;
 use crate::errors::{raised, refused};
 use ibr::Evidence;
-use ibr::data::{About, markers_of_table, parse_about, read_about};
+use ibr::data::{markers_of_table, parse_about, read_about};
 use ibr::models::CHANNELS;
+use ibr::models::scenario::Setting;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyString};
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString, PyTuple};
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
 
 /// One actuator pressure, or one for every supply channel \[Pa\].
@@ -53,6 +55,9 @@ pub(crate) fn toml_text(value: &Bound<'_, PyAny>) -> PyResult<String> {
     if let Ok(text) = value.cast::<PyString>() {
         return Ok(serde_json::Value::from(text.to_string()).to_string());
     }
+    if let Some((number, is_whole)) = plain_number(value) {
+        return Ok(number_text(number, is_whole));
+    }
     if value.len().is_ok() {
         let parts = value.try_iter()?.map(|part| toml_text(&part?)).collect::<PyResult<Vec<String>>>()?;
         return Ok(format!("[{}]", parts.join(", ")));
@@ -63,9 +68,40 @@ pub(crate) fn toml_text(value: &Bound<'_, PyAny>) -> PyResult<String> {
     }
 }
 
+/// A number of Python's own types, and whether it is whole by its type; one beyond 2⁵³ is left to its text.
+fn plain_number(value: &Bound<'_, PyAny>) -> Option<(f64, bool)> {
+    if value.is_instance_of::<PyFloat>() {
+        return Some((value.extract().ok()?, false));
+    }
+    let whole: i64 = value.is_exact_instance_of::<PyInt>().then(|| value.extract().ok()).flatten()?;
+    (whole.unsigned_abs() < 1 << 53).then_some((whole as f64, true))
+}
+
+fn number_text(number: f64, is_whole: bool) -> String {
+    if is_whole { format!("{number:.0}") } else { format!("{number:?}") }
+}
+
+/// A value to set in a scenario.
+pub(crate) struct Change {
+    /// Such as `body.radius_mm`.
+    pub place: String,
+    /// As in TOML.
+    pub text: String,
+    /// A number, and whether it is written as a whole one.
+    number: Option<(f64, bool)>,
+}
+
+impl Change {
+    /// As the model takes it, where it is a number.
+    pub(crate) fn setting(&self) -> Option<Setting<'_>> {
+        let ((table, key), (number, is_whole)) = (self.place.rsplit_once('.')?, self.number?);
+        Some(Setting { table, key, number, is_whole })
+    }
+}
+
 /// The places in a scenario's text of values that are given by table: `body={"radius_mm": 40}` and `body_radius_mm=40` are both
 /// `body.radius_mm`.
-pub(crate) fn places(table: &str, given: &Bound<'_, PyDict>, found: &mut Vec<(String, String)>) -> PyResult<()> {
+pub(crate) fn places(table: &str, given: &Bound<'_, PyDict>, found: &mut Vec<Change>) -> PyResult<()> {
     for (key, value) in given.iter() {
         let key: String = key.extract()?;
         let place = match table {
@@ -74,10 +110,17 @@ pub(crate) fn places(table: &str, given: &Bound<'_, PyDict>, found: &mut Vec<(St
         };
         match value.cast::<PyDict>() {
             Ok(inner) => places(&place, inner, found)?,
-            Err(_) => found.push((place, toml_text(&value)?)),
+            Err(_) => found.push(Change { place, text: toml_text(&value)?, number: plain_number(&value) }),
         }
     }
     Ok(())
+}
+
+/// Of equal values the same, in every process.
+pub(crate) fn hash_of(value: &impl Hash) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    value.hash(&mut hasher);
+    hasher.finish()
 }
 
 /// Measurements of one robot: a dataset by name, file or import.
@@ -90,11 +133,22 @@ pub struct Data {
     /// The beginning of an about.toml, of an import.
     #[pyo3(get)]
     about_toml: Option<String>,
+    made: Made,
+}
+
+/// How measurements were made, to make them again in another process.
+enum Made {
+    /// By name.
+    Read,
+    /// Of columns, with the text of an about.toml.
+    Columns(Option<String>),
+    /// By an import with these words.
+    Imported(Vec<String>),
 }
 
 impl Data {
-    pub(crate) fn of(evidence: Evidence) -> Data {
-        Data { told: evidence.dataset.told.clone(), evidence, about_toml: None }
+    pub(crate) fn of(evidence: Evidence, made: Made) -> Data {
+        Data { told: evidence.dataset.told.clone(), evidence, about_toml: None, made }
     }
 }
 
@@ -103,17 +157,19 @@ impl Data {
     /// A CSV file, a folder with markers.csv and about.toml, or an embedded set.
     #[staticmethod]
     fn read(py: Python<'_>, name: &str) -> PyResult<Data> {
-        py.detach(|| Evidence::read(name)).map(Data::of).map_err(raised)
+        py.detach(|| Evidence::read(name)).map(|read| Data::of(read, Made::Read)).map_err(raised)
     }
 
-    /// Columns of the marker table; `about` is the text or the path of an about.toml.
+    /// Columns of the marker table; `ibr.data` makes them of any frame.
     #[staticmethod]
     #[pyo3(signature = (columns, name, about = None))]
     fn of_columns(columns: Vec<(String, Bound<'_, PyAny>)>, name: &str, about: Option<&str>) -> PyResult<Data> {
-        let about = about.map(read_description).transpose()?;
+        let text = about.map(description).transpose()?;
+        let about = text.as_ref().map(|text| parse_about("about", text)).transpose();
+        let about = about.map_err(|error| raised(ibr::Error::from(error)))?;
         let read = markers_of_table(name, &table(columns)?, about.as_ref());
         let dataset = read.map_err(|error| raised(ibr::Error::from(error)))?;
-        Ok(Data::of(Evidence::of(dataset, about)))
+        Ok(Data::of(Evidence::of(dataset, about), Made::Columns(text)))
     }
 
     /// Name by which the data were asked for.
@@ -140,10 +196,44 @@ impl Data {
         &self.evidence.dataset.actuator
     }
 
-    /// The columns of its marker table, texts as lists.
+    /// The marker table as columns: `pandas.DataFrame(data.table)`.
     #[getter]
     fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         crate::arrays::columns(py, &self.evidence.dataset.to_table())
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Data>) -> PyResult<(Bound<'py, PyAny>, Py<PyTuple>)> {
+        let (py, data) = (slf.py(), slf.get());
+        let name = data.name();
+        let of_class = |method: &str| slf.get_type().getattr(method);
+        Ok(match &data.made {
+            Made::Read => {
+                // A file is found from any folder.
+                let path = std::path::absolute(name).ok().filter(|path| path.exists());
+                let name = path.map_or(name.to_string(), |path| path.to_string_lossy().into_owned());
+                (of_class("read")?, (name,).into_pyobject(py)?.unbind())
+            }
+            Made::Columns(about) => {
+                let columns = data.table(py)?.items();
+                (of_class("of_columns")?, (columns, name, about.as_deref()).into_pyobject(py)?.unbind())
+            }
+            Made::Imported(typed) => {
+                let made = py.import("ibr._ibr")?.getattr("import_tracks")?;
+                (made, (typed.clone(),).into_pyobject(py)?.unbind())
+            }
+        })
+    }
+
+    fn __eq__(&self, other: &Data) -> bool {
+        let (a, b) = (&self.evidence, &other.evidence);
+        // In words an empty cell is equal to another.
+        let table = |one: &Evidence| format!("{:?}", one.dataset.to_table());
+        a.name == b.name && a.about == b.about && table(a) == table(b)
+    }
+
+    fn __hash__(&self) -> u64 {
+        let set = &self.evidence.dataset;
+        hash_of(&(&self.evidence.name, &set.runs, set.holds.len()))
     }
 
     fn __repr__(&self) -> String {
@@ -161,13 +251,18 @@ impl Data {
 /// Files of a tracking program with the options of `ibr data import`.
 #[pyfunction]
 pub(crate) fn import_tracks(py: Python<'_>, typed: Vec<String>) -> PyResult<Data> {
-    let mut made = py.detach(|| ibr::import_typed(&typed)).map_err(raised)?;
-    made.dataset.name = "imported tracks".into();
-    let evidence = Evidence::of(made.dataset, Some(made.about));
-    Ok(Data { evidence, told: made.told, about_toml: Some(made.about_toml) })
+    let mut found = py.detach(|| ibr::import_typed(&typed)).map_err(raised)?;
+    found.dataset.name = "imported tracks".into();
+    let evidence = Evidence::of(found.dataset, Some(found.about));
+    Ok(Data { evidence, told: found.told, about_toml: Some(found.about_toml), made: Made::Imported(typed) })
 }
 
-fn read_description(about: &str) -> PyResult<About> {
-    let read = if about.contains('\n') { parse_about("about", about) } else { read_about(Path::new(about)) };
-    read.map_err(|error| raised(ibr::Error::from(error)))
+/// The text of a description; `about` is it, or its path.
+fn description(about: &str) -> PyResult<String> {
+    if about.contains('\n') {
+        return Ok(about.to_string());
+    }
+    // Faults of a file are those of its reader, with its name.
+    read_about(Path::new(about)).map_err(|error| raised(ibr::Error::from(error)))?;
+    Ok(std::fs::read_to_string(about)? + "\n")
 }

@@ -20,7 +20,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _ibr {
     #[pymodule_export]
-    use super::answers::{Answer, add, compare, diagnose, extend, validate};
+    use super::answers::{Answer, add, ask, compare, diagnose, extend, ladder, validate};
     #[pymodule_export]
     use super::errors::Error;
     #[pymodule_export]
@@ -30,11 +30,13 @@ mod _ibr {
     #[pymodule_export]
     use super::program;
     #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+    #[pymodule_export]
     use super::runs::{read_run, simulate};
     #[pymodule_export]
     use super::scenario::Scenario;
     #[pymodule_export]
-    use super::states::{State, States};
+    use super::states::State;
     #[pymodule_export]
     use super::sweeps::sweep;
 }

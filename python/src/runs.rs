@@ -21,7 +21,7 @@ pub(crate) enum Source<'py> {
 impl Source<'_> {
     fn load(&self) -> PyResult<FeSource> {
         match self {
-            Source::Robot(scenario) => Ok(FeSource::new(&scenario.file.name, &scenario.file.text)),
+            Source::Robot(scenario) => scenario.file().map(|file| FeSource::new(&file.name, &file.text)),
             Source::Named(path) => fe_source(&path.to_string_lossy()).map_err(raised),
         }
     }

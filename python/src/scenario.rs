@@ -2,27 +2,74 @@
 
 use crate::arrays::{Numbers, matrix, numbers};
 use crate::errors::{raised, refused};
-use crate::inputs::{Pressures, places};
-use crate::states::{State, States};
-use ibr::models::{Aim, CHANNELS, Limits, Loads, Target};
+use crate::inputs::{Change, Pressures, hash_of, places};
+use crate::states::{State, states};
+use ibr::models::{Aim, CHANNELS, Limits, Loads, Prediction, Target};
 use ibr::{Follower, Predictor, ScenarioFile};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-/// A robot: its body, actuators and physical effects, as a text in TOML.
+/// A robot: its body, actuators and physical effects, as a text in TOML. It never changes.
+///
+/// Pressures are gauge pressures in kPa, lengths mm, angles degrees, times seconds. It pickles, compares and hashes by its text.
 #[pyclass(frozen, module = "ibr")]
 pub struct Scenario {
-    pub file: ScenarioFile,
+    source: Arc<Source>,
     robot: Arc<Predictor>,
+    /// For many states, of a robot whose numbers were set without its text.
+    often: OnceLock<Arc<Predictor>>,
+}
+
+/// The text of a scenario, or the text that it comes from and what is set there.
+pub(crate) struct Source {
+    base: Arc<ScenarioFile>,
+    changes: Vec<(String, String)>,
+    file: OnceLock<Arc<ScenarioFile>>,
+}
+
+impl Source {
+    /// With its text, which is written at the first use.
+    pub(crate) fn file(&self) -> PyResult<&Arc<ScenarioFile>> {
+        if let Some(file) = self.file.get() {
+            return Ok(file);
+        }
+        let file = self.base.with_in_space(&self.changes).map_err(raised)?;
+        Ok(self.file.get_or_init(|| Arc::new(file)))
+    }
 }
 
 impl Scenario {
     pub fn of(file: ScenarioFile) -> Scenario {
-        let robot = Arc::new(Predictor::new(&file));
-        Scenario { file, robot }
+        let (robot, base) = (Arc::new(Predictor::new(&file)), Arc::new(file));
+        let source = Source { base: base.clone(), changes: Vec::new(), file: OnceLock::from(base) };
+        Scenario { source: Arc::new(source), robot: robot.clone(), often: OnceLock::from(robot) }
+    }
+
+    /// With its text.
+    pub(crate) fn file(&self) -> PyResult<&Arc<ScenarioFile>> {
+        self.source.file()
+    }
+
+    fn often(&self) -> &Arc<Predictor> {
+        self.often.get_or_init(|| Arc::new(Predictor::new(&self.robot.scenario)))
+    }
+
+    fn state(&self, loads: Loads, at: &Prediction) -> PyResult<State> {
+        State::new(&self.robot, &self.source, loads, at)
+    }
+
+    /// The same with numbers set, if none of them needs the text.
+    fn with_numbers(&self, set: &[Change]) -> Option<Scenario> {
+        let settings = set.iter().map(Change::setting).collect::<Option<Vec<_>>>()?;
+        let scenario = self.robot.scenario.with_numbers(&settings)?;
+        let new = set.iter().map(|change| (change.place.clone(), change.text.clone()));
+        let changes = self.source.changes.iter().cloned().chain(new).collect();
+        let source = Source { base: self.source.base.clone(), changes, file: OnceLock::new() };
+        let robot = Arc::new(Predictor::for_few(scenario));
+        Some(Scenario { source: Arc::new(source), robot, often: OnceLock::new() })
     }
 
     fn loads(&self, pressure: &Pressures, body_kpa: Option<f64>) -> PyResult<Loads> {
@@ -63,9 +110,14 @@ impl Scenario {
     }
 }
 
+/// How many channels pressures are given for.
+fn channels(pressure_kpa: &Numbers<'_>) -> usize {
+    pressure_kpa.as_array().shape().get(1).copied().unwrap_or(1)
+}
+
 #[pymethods]
 impl Scenario {
-    /// A robot or study that comes with the package, or a TOML file.
+    /// A robot or study that comes with the package (`python -m ibr list`), or a TOML file.
     #[staticmethod]
     fn named(name: PathBuf) -> PyResult<Scenario> {
         ibr::studies::scenario(&name.to_string_lossy()).map(Scenario::of).map_err(raised)
@@ -76,77 +128,113 @@ impl Scenario {
     fn from_toml(source: PathBuf) -> PyResult<Scenario> {
         let text = source.to_string_lossy();
         if text.contains('\n') {
-            return ScenarioFile::parse("scenario", &text).map(Scenario::of).map_err(raised);
+            return Scenario::_parsed("scenario", &text);
         }
         Scenario::named(source)
     }
 
-    /// The same scenario with values of its text set, comments kept.
+    /// A text, with the name for messages.
+    #[staticmethod]
+    fn _parsed(name: &str, text: &str) -> PyResult<Scenario> {
+        ScenarioFile::parse(name, text).map(Scenario::of).map_err(raised)
+    }
+
+    /// The same with values of its text set: `body_radius_mm=45` and `body={"radius_mm": 45}` are both `radius_mm` of
+    /// `[body]`; `effects={"friction": {"moment_nm": 0.2}}` sets or adds an effect. Comments stay.
+    ///
+    /// Numbers that the text has are set without reading it, in microseconds; predictions are then those of the new text to
+    /// rounding.
     #[pyo3(signature = (**changes))]
     fn replace(&self, changes: Option<&Bound<'_, PyDict>>) -> PyResult<Scenario> {
         let mut set = Vec::new();
         changes.map_or(Ok(()), |changes| places("", changes, &mut set))?;
-        self.file.with_in_space(&set).map(Scenario::of).map_err(raised)
+        if let Some(new) = self.with_numbers(&set) {
+            return Ok(new);
+        }
+        let set: Vec<_> = set.into_iter().map(|change| (change.place, change.text)).collect();
+        self.file()?.with_in_space(&set).map(Scenario::of).map_err(raised)
+    }
+
+    /// The same without these effects; `effects` lists what it has.
+    #[pyo3(signature = (*effects))]
+    fn without(&self, effects: Vec<String>) -> PyResult<Scenario> {
+        self.file()?.without(&effects).map(Scenario::of).map_err(raised)
+    }
+
+    /// The same without any effect and with a bending stiffness of 0 N m2: the textbook's balance.
+    fn bare(&self) -> PyResult<Scenario> {
+        let all: Vec<String> = self.effects().into_iter().map(String::from).collect();
+        let bare = self.file()?.without(&all).map_err(raised)?;
+        bare.with_in_space(&[("body.bending_stiffness_nm2".into(), "0".into())]).map(Scenario::of).map_err(raised)
+    }
+
+    /// Writes the text to a file. A file with another content that this process did not write is kept, with an `ExistsError`,
+    /// unless `force`.
+    #[pyo3(signature = (path, force = false))]
+    fn save(&self, py: Python<'_>, path: PathBuf, force: bool) -> PyResult<()> {
+        py.import("ibr._results")?.getattr("save_text")?.call1((&self.file()?.text, path, force)).map(drop)
     }
 
     /// Text of the scenario in TOML, comments kept.
     #[getter]
-    fn text(&self) -> &str {
-        &self.file.text
+    fn text(&self) -> PyResult<&str> {
+        Ok(&self.file()?.text)
     }
 
     /// File or name as it was asked for.
     #[getter]
     fn source(&self) -> &str {
-        &self.file.name
+        &self.source.base.name
     }
 
     /// Name of the robot in the text.
     #[getter]
     fn name(&self) -> &str {
-        &self.file.scenario.name
+        &self.robot.scenario.name
     }
 
     /// Kind of the actuator, for example `epam`.
     #[getter]
     fn actuator(&self) -> &str {
-        self.file.actuator.kind.name
+        self.robot.scenario.actuator.kind.name
     }
 
     /// Names of the physical effects in the scenario.
     #[getter]
     fn effects(&self) -> Vec<&str> {
-        self.file.effects.iter().map(|effect| effect.name.as_str()).collect()
+        self.robot.scenario.effects.iter().map(|effect| effect.name.as_str()).collect()
     }
 
     /// Stations of the markers along the undeformed body (mm).
     #[getter]
     fn stations_mm(&self) -> Vec<f64> {
-        self.file.markers_m.iter().map(|s| s * 1e3).collect()
+        self.robot.scenario.markers_m.iter().map(|s| s * 1e3).collect()
     }
 
-    /// Body pressure where none is given (kPa).
+    /// Gauge pressure of the body where none is given (kPa).
     #[getter]
     fn body_pressure_kpa(&self) -> f64 {
-        self.file.p_body_pa / 1e3
+        self.robot.scenario.p_body_pa / 1e3
     }
 
-    /// Whether a state depends on those before it or on time.
+    /// Whether a state depends on those before it or on time: friction, creep, leaks.
     #[getter]
     fn has_history(&self) -> bool {
         self.robot.model.has_history()
     }
 
-    /// Shape at one actuator pressure, or at one for every channel (kPa).
+    /// Shape at an actuator gauge pressure (kPa), or at one for every supply channel. A robot with history is held there for
+    /// 5 s, from rest.
     #[pyo3(signature = (pressure_kpa, body_pressure_kpa = None))]
     fn predict(&self, pressure_kpa: Pressures, body_pressure_kpa: Option<f64>) -> PyResult<State> {
         let loads = self.loads(&pressure_kpa, body_pressure_kpa)?;
         let mut at = self.robot.model.prediction();
         self.robot.model.predict_held(&loads, &mut at).map_err(|error| raised(ibr::Error::from(error)))?;
-        State::new(&self.robot, loads, &at)
+        self.state(loads, &at)
     }
 
-    /// One state per pressure, computed on several threads (kPa).
+    /// One state per actuator gauge pressure (kPa), shape (N,) or (N, channels), at one body pressure or N. Runs beside
+    /// Python on so many threads, 0 is one per core. A robot with history is refused: its states have an order.
     #[pyo3(signature = (pressure_kpa, body_pressure_kpa = None, threads = 0))]
     fn batch(
         &self,
@@ -154,14 +242,16 @@ impl Scenario {
         pressure_kpa: Numbers<'_>,
         body_pressure_kpa: Option<Numbers<'_>>,
         threads: usize,
-    ) -> PyResult<States> {
+    ) -> PyResult<Py<PyAny>> {
         let loads = self.all_loads(&pressure_kpa, body_pressure_kpa.as_ref())?;
-        let batch = py.detach(|| self.robot.batch(&loads, threads)).map_err(raised)?;
+        let batch = py.detach(|| self.often().batch(&loads, threads)).map_err(raised)?;
         let z_m = self.robot.model.is_spatial().then_some(&batch.markers_z_m[..]);
-        States::new(py, &batch.tips, batch.markers, z_m)
+        let channels = channels(&pressure_kpa);
+        states(py, &self.robot, (&loads, channels), (&batch.tips, batch.markers, z_m), None)
     }
 
-    /// States of a protocol in time, from rest at time 0.
+    /// A protocol from rest at time 0: pressures change at once after the state before, then time passes until `t_s` (s),
+    /// shape (N,), which does not fall. With `[supply]` in the scenario they arrive late.
     #[pyo3(signature = (t_s, pressure_kpa, body_pressure_kpa = None))]
     fn follow(
         &self,
@@ -169,7 +259,7 @@ impl Scenario {
         t_s: Numbers<'_>,
         pressure_kpa: Numbers<'_>,
         body_pressure_kpa: Option<Numbers<'_>>,
-    ) -> PyResult<States> {
+    ) -> PyResult<Py<PyAny>> {
         let loads = self.all_loads(&pressure_kpa, body_pressure_kpa.as_ref())?;
         let (times, _) = numbers(&t_s);
         if times.len() != loads.len() {
@@ -180,7 +270,7 @@ impl Scenario {
         }
         let (mut tips, mut markers, mut z_m) = (Vec::new(), Vec::new(), Vec::new());
         let walked = py.detach(|| {
-            let mut follower = Follower::new(&self.file);
+            let mut follower = Follower::new(&self.robot.scenario);
             times.iter().zip(&loads).try_for_each(|(t_s, loads)| {
                 let at = follower.next(*t_s, loads)?;
                 tips.push(at.tip);
@@ -191,10 +281,11 @@ impl Scenario {
         });
         walked.map_err(|error: ibr::Error| raised(error))?;
         let z_m = self.robot.model.is_spatial().then_some(&z_m[..]);
-        States::new(py, &tips, markers, z_m)
+        states(py, &self.robot, (&loads, channels(&pressure_kpa)), (&tips, markers, z_m), Some(times))
     }
 
-    /// The state in which the tip is on target.
+    /// The state in which the tip has this height y (mm) or the robot this total bend (degrees); its `pressure_kpa` is the
+    /// answer.
     #[pyo3(signature = (*, tip_mm = None, angle_deg = None, body_pressure_kpa = None))]
     fn inverse(&self, tip_mm: Option<f64>, angle_deg: Option<f64>, body_pressure_kpa: Option<f64>) -> PyResult<State> {
         let target = match (tip_mm, angle_deg) {
@@ -204,10 +295,12 @@ impl Scenario {
         };
         let body_pa = body_pressure_kpa.map(|kpa| kpa * 1e3);
         let (loads, at) = self.robot.inverse(target, body_pa).map_err(raised)?;
-        State::new(&self.robot, loads, &at)
+        self.state(loads, &at)
     }
 
-    /// Pressures of all channels that bring tip or markers nearest to their targets.
+    /// Several channels: the state nearest to a tip (x, y) or to places of all markers, and the distance that is left (mm,
+    /// root mean square over markers). `channels_kpa` of the state is the answer. With `now_kpa` no pressure changes by more
+    /// than `change_kpa`.
     #[pyo3(signature = (*, tip_mm = None, markers_mm = None, now_kpa = None, change_kpa = None, body_pressure_kpa = None))]
     fn steer(
         &self,
@@ -244,10 +337,11 @@ impl Scenario {
         };
         let body_pa = body_pressure_kpa.map(|kpa| kpa * 1e3);
         let (found, at) = self.robot.steer(aim, body_pa, limits).map_err(raised)?;
-        Ok((State::new(&self.robot, found.loads, &at)?, found.miss_m * 1e3))
+        Ok((self.state(found.loads, &at)?, found.miss_m * 1e3))
     }
 
-    /// Slopes of the tip, a row per channel: x and y (mm/kPa), angle (degrees/kPa).
+    /// Change of tip x, tip y (mm/kPa) and angle (deg/kPa) with the pressure of each channel, shape (channels, 3); NaN where
+    /// an actuator is flat.
     #[pyo3(signature = (pressure_kpa, body_pressure_kpa = None))]
     fn jacobian<'py>(
         &self,
@@ -261,8 +355,21 @@ impl Scenario {
         Ok(matrix(py, CHANNELS, 3, slopes.iter().flat_map(row).collect()))
     }
 
+    fn __reduce__<'py>(slf: &Bound<'py, Scenario>) -> PyResult<(Bound<'py, PyAny>, (String, String))> {
+        let file = slf.get().file()?;
+        Ok((slf.get_type().getattr("_parsed")?, (file.name.clone(), file.text.clone())))
+    }
+
+    fn __eq__(&self, other: &Scenario) -> PyResult<bool> {
+        Ok(self.file()?.text == other.file()?.text)
+    }
+
+    fn __hash__(&self) -> PyResult<u64> {
+        Ok(hash_of(&self.file()?.text))
+    }
+
     fn __repr__(&self) -> String {
         let effects = self.effects().join(", ");
-        format!("Scenario({}: {}, effects: {effects})", self.file.name, self.file.scenario.name)
+        format!("Scenario({}: {}, effects: {effects})", self.source.base.name, self.robot.scenario.name)
     }
 }

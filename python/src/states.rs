@@ -1,21 +1,25 @@
 use crate::arrays::{matrix, rows_mm, vector, with_z};
 use crate::errors::raised;
-use ibr::models::{Loads, Prediction, Tip};
+use crate::inputs::hash_of;
+use crate::scenario::Source;
+use ibr::models::{CHANNELS, Loads, Prediction, Tip};
 use ibr::pages::predicted_files;
 use ibr::shown::predicted::{PredictedState, above_limit, beyond_words, text};
 use ibr::{AtPressure, Predictor};
 use numpy::ndarray::Array3;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
+use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
 use std::sync::{Arc, OnceLock};
 
 /// Number of points along a centre line, base and tip included.
 const LINE_POINTS: usize = 101;
 
-/// Shape of a robot at one pressure.
+/// Shape of a robot at one pressure. It pickles, and is equal to a state of an equal robot at the same pressures.
 #[pyclass(frozen, module = "ibr")]
 pub struct State {
     robot: Arc<Predictor>,
+    source: Arc<Source>,
     loads: Loads,
     tip: Tip,
     markers_m: Vec<[f64; 2]>,
@@ -26,12 +30,13 @@ pub struct State {
 }
 
 impl State {
-    pub fn new(robot: &Arc<Predictor>, loads: Loads, at: &Prediction) -> PyResult<State> {
+    pub(crate) fn new(robot: &Arc<Predictor>, source: &Arc<Source>, loads: Loads, at: &Prediction) -> PyResult<State> {
         let (tip, markers_m) = (at.tip, at.markers.clone());
         let markers_z_m = robot.model.is_spatial().then(|| at.markers_z_m.clone());
-        let state = State { robot: robot.clone(), loads, tip, markers_m, markers_z_m, whole: OnceLock::new() };
-        if robot.model.has_history() {
-            state.keep(robot.with_slopes(&loads, at.clone()))?;
+        let (robot, source) = (robot.clone(), source.clone());
+        let state = State { robot, source, loads, tip, markers_m, markers_z_m, whole: OnceLock::new() };
+        if state.robot.model.has_history() {
+            state.keep(state.robot.with_slopes(&loads, at.clone()))?;
         }
         Ok(state)
     }
@@ -52,7 +57,7 @@ impl State {
 
 #[pymethods]
 impl State {
-    /// Tip of the centre line, x along the undeformed body and y towards the actuator (mm), shape (2,); with strips round the
+    /// Tip of the centre line (mm), x along the undeformed body and y towards the actuator, shape (2,); with strips round the
     /// body x, y and z, shape (3,).
     #[getter]
     fn tip_mm<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
@@ -75,19 +80,19 @@ impl State {
         }
     }
 
-    /// Actuator pressure of the first supply channel (kPa).
+    /// Actuator gauge pressure of the first supply channel (kPa).
     #[getter]
     fn pressure_kpa(&self) -> f64 {
         self.loads.actuator_pa[0] / 1e3
     }
 
-    /// Actuator pressure of every supply channel (kPa).
+    /// Actuator gauge pressure of every supply channel (kPa), shape (4,).
     #[getter]
     fn channels_kpa<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         vector(py, self.loads.actuator_pa.iter().map(|p| p / 1e3).collect())
     }
 
-    /// Body pressure at which the state is predicted (kPa).
+    /// Gauge pressure of the body (kPa).
     #[getter]
     fn body_pressure_kpa(&self) -> f64 {
         self.loads.body_pa / 1e3
@@ -103,7 +108,7 @@ impl State {
         })
     }
 
-    /// What to know before believing it.
+    /// What to know before believing it: beyond a limit of the actuator, a body that would fold.
     #[getter]
     fn warnings(&self) -> PyResult<Vec<String>> {
         let whole = self.whole()?;
@@ -111,18 +116,18 @@ impl State {
         Ok(high.into_iter().chain(beyond_words(&self.robot.model, &whole.loads, &whole.prediction)).collect())
     }
 
-    /// One state of `ibr predict --json`.
+    /// One state of `ibr predict --json`: curvatures, slopes, energy ledger.
     fn to_json(&self) -> PyResult<String> {
         let robot = &self.robot;
         Ok(PredictedState::of(&robot.model, &robot.scenario, self.whole()?).json().to_string())
     }
 
-    /// The JSON of the state as a dictionary.
+    /// The same as a dictionary: keys and units are in docs/json.md.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         py.import("json")?.call_method1("loads", (self.to_json()?,))
     }
 
-    /// The shape on axes of matplotlib.
+    /// The shape on axes of matplotlib; returns the axes. With strips round the body two axes, one for each side.
     #[pyo3(signature = (axes = None))]
     fn plot<'py>(slf: &Bound<'py, State>, axes: Option<Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("ibr._plot")?.call_method1("state", (slf, axes))
@@ -139,6 +144,30 @@ impl State {
         Ok(text(&self.robot.scenario, std::slice::from_ref(self.whole()?)))
     }
 
+    fn __reduce__<'py>(slf: &Bound<'py, State>) -> PyResult<(Bound<'py, PyAny>, Py<PyTuple>)> {
+        let (py, state) = (slf.py(), slf.get());
+        let file = state.source.file()?;
+        let pressures = (state.loads.actuator_pa.map(|pa| pa / 1e3), state.loads.body_pa / 1e3);
+        let given = ((&file.name, &file.text), pressures).into_pyobject(py)?;
+        Ok((slf.get_type().getattr("_again")?, given.unbind()))
+    }
+
+    /// A state of a robot by name and text, at pressures.
+    #[staticmethod]
+    fn _again(py: Python<'_>, robot: (String, String), pressures: ([f64; CHANNELS], f64)) -> PyResult<Py<PyAny>> {
+        let scenario = py.get_type::<crate::scenario::Scenario>().call_method1("_parsed", robot)?;
+        Ok(scenario.call_method1("predict", pressures)?.unbind())
+    }
+
+    fn __eq__(&self, other: &State) -> PyResult<bool> {
+        let is_same = self.loads == other.loads && self.tip == other.tip && self.markers_m == other.markers_m;
+        Ok(is_same && self.source.file()?.text == other.source.file()?.text)
+    }
+
+    fn __hash__(&self) -> u64 {
+        hash_of(&[self.tip.x_m, self.tip.y_m, self.loads.actuator_pa[0]].map(f64::to_bits))
+    }
+
     fn __repr__(&self) -> String {
         let Tip { x_m, y_m, z_m, angle_rad } = self.tip;
         let pressure = ibr::words::pressure_words(&self.loads);
@@ -148,50 +177,37 @@ impl State {
     }
 }
 
-/// Many states side by side, in the order of their pressures.
-#[pyclass(frozen, module = "ibr")]
-pub struct States {
-    /// Tips of the centre line, x and y (mm), shape (N, 2); with strips round the body x, y and z, shape (N, 3).
-    #[pyo3(get)]
-    tips_mm: Py<PyArray2<f64>>,
-    /// Total bending angles (degrees), shape (N,).
-    #[pyo3(get)]
-    angles_deg: Py<PyArray1<f64>>,
-    /// Markers as the camera sees them (mm), shape (N, markers, 2); with strips round the body (N, markers, 3).
-    #[pyo3(get)]
-    markers_mm: Py<PyArray3<f64>>,
-}
-
-impl States {
-    /// `markers_z_m` is there of a robot with strips round the body.
-    pub fn new(
-        py: Python<'_>,
-        tips: &[Tip],
-        markers_m: Vec<[f64; 2]>,
-        markers_z_m: Option<&[f64]>,
-    ) -> PyResult<States> {
-        let axes = if markers_z_m.is_some() { 3 } else { 2 };
-        let place = |tip: &Tip| [tip.x_m, tip.y_m, tip.z_m].into_iter().take(axes).map(|v| v * 1e3);
-        let places = tips.iter().flat_map(place).collect();
-        let angles = tips.iter().map(|tip| tip.angle_rad.to_degrees()).collect();
-        let each = markers_m.len() / tips.len().max(1);
-        let mut flat = match markers_z_m {
-            Some(z_m) => with_z(&markers_m, z_m).into_flattened(),
-            None => markers_m.into_flattened(),
-        };
-        flat.iter_mut().for_each(|v| *v *= 1e3);
-        let markers = Array3::from_shape_vec((tips.len(), each, axes), flat).unwrap_or_default();
-        Ok(States {
-            tips_mm: matrix(py, tips.len(), axes, places).unbind(),
-            angles_deg: vector(py, angles).unbind(),
-            markers_mm: markers.into_pyarray(py).unbind(),
-        })
-    }
-}
-
-#[pymethods]
-impl States {
-    fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
-        self.angles_deg.bind(py).len()
-    }
+/// Many states as `ibr.States`: pressures of so many channels, tips, markers with z of a robot with strips round the body, and times
+/// of a walk.
+pub(crate) fn states(
+    py: Python<'_>,
+    robot: &Predictor,
+    (loads, channels): (&[Loads], usize),
+    (tips, markers_m, markers_z_m): (&[Tip], Vec<[f64; 2]>, Option<&[f64]>),
+    times: Option<Vec<f64>>,
+) -> PyResult<Py<PyAny>> {
+    let axes = if markers_z_m.is_some() { 3 } else { 2 };
+    let place = |tip: &Tip| [tip.x_m, tip.y_m, tip.z_m].into_iter().take(axes).map(|v| v * 1e3);
+    let places = tips.iter().flat_map(place).collect();
+    let angles = tips.iter().map(|tip| tip.angle_rad.to_degrees()).collect();
+    let each = robot.scenario.markers_m.len();
+    let mut flat = match markers_z_m {
+        Some(z_m) => with_z(&markers_m, z_m).into_flattened(),
+        None => markers_m.into_flattened(),
+    };
+    flat.iter_mut().for_each(|v| *v *= 1e3);
+    let markers = Array3::from_shape_vec((tips.len(), each, axes), flat).unwrap_or_default();
+    let given = loads.iter().flat_map(|loads| &loads.actuator_pa[..channels]).map(|pa| pa / 1e3).collect();
+    let given = match channels {
+        1 => vector(py, given).into_any(),
+        _ => matrix(py, loads.len(), channels, given).into_any(),
+    };
+    let of_states = PyDict::new(py);
+    of_states.set_item("pressure_kpa", given)?;
+    of_states.set_item("body_pressure_kpa", vector(py, loads.iter().map(|loads| loads.body_pa / 1e3).collect()))?;
+    of_states.set_item("tips_mm", matrix(py, tips.len(), axes, places))?;
+    of_states.set_item("angles_deg", vector(py, angles))?;
+    of_states.set_item("markers_mm", markers.into_pyarray(py))?;
+    of_states.set_item("t_s", times.map(|times| vector(py, times)))?;
+    py.import("ibr._states")?.getattr("States")?.call((), Some(&of_states)).map(Bound::unbind)
 }

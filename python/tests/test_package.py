@@ -36,7 +36,8 @@ def test_stubs_say_what_there_is():
 
     stub = ast.parse((Path(ibr.__file__).parent / "_ibr.pyi").read_text())
     told = {node.name: node for node in stub.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
-    assert {name for name in dir(_ibr) if not name.startswith("_")} == {*told}
+    numbers = {node.target.id for node in stub.body if isinstance(node, ast.AnnAssign)}
+    assert {name for name in dir(_ibr) if not name.startswith("_")} == {*told} | numbers
     for name, node in told.items():
         if isinstance(node, ast.ClassDef) and name not in ("Error", "Answer"):
             members = {part.name for part in node.body if isinstance(part, ast.FunctionDef)}
@@ -53,6 +54,16 @@ def test_examples_of_the_documents_hold(tmp_path, monkeypatch):
         examples = doctest.DocTestParser().get_doctest(text, {}, document.name, str(document), 0)
         found = doctest.DocTestRunner(optionflags=options).run(examples)
         assert found.attempted > 0 and found.failed == 0, document
+
+
+def test_the_page_of_the_wheel_runs():
+    code = (ROOT / "python/README.md").read_text().split("```python\n")[1].split("```")[0]
+    names = {}
+    exec(code, names)
+    for line in code.splitlines():
+        call, comment, shown = line.partition("  # ")
+        if comment and shown.startswith(("State", "(")):
+            assert repr(eval(call, names)) == shown.strip(), line
 
 
 @pytest.mark.parametrize("notebook", sorted((ROOT / "python/notebooks").glob("*.ipynb")), ids=lambda path: path.stem)

@@ -1,25 +1,12 @@
 use super::inputs::{self, plain};
 use crate::cli::LadderArgs;
 use crate::prelude::*;
-use crate::shown::extension::climb_text;
+use crate::shown::extension::{LadderAnswer, climb_text};
 use compare::diagnosis::Options;
-use compare::ladder::{Climb, MOST_EFFECTS, ladder};
+use compare::ladder::{MOST_EFFECTS, ladder};
 use compare::progress::part;
 use compare::progress::shares::{CLIMBED, READ};
 use ibr::pages::{Climbed, ladder_page};
-
-/// `ibr.ladder`: `ibr ladder SCENARIO DATA`
-#[derive(Serialize)]
-struct LadderAnswer<'a> {
-    #[serde(flatten)]
-    climb: &'a Climb,
-    /// Path or name of the scenario as typed
-    scenario_file: &'a str,
-    /// Path or name of the data as typed
-    data: &'a str,
-    /// Data that were fitted along, as typed
-    also: &'a [String],
-}
 
 pub(super) fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;

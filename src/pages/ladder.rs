@@ -6,16 +6,22 @@ use crate::prelude::*;
 use ::compare::ladder::Climb;
 
 /// A climb from bare to extended, and what it was made of.
-pub(crate) struct Climbed<'a> {
+pub struct Climbed<'a> {
+    /// The climb.
     pub climb: &'a Climb,
+    /// Names of robot and data.
     pub names: [&'a str; 2],
+    /// Both as typed.
     pub typed: [&'a str; 2],
     /// Data that were fitted along, as typed.
     pub also: &'a [String],
 }
 
 /// The page of a ladder with its waterfall, and the scenario of every step.
-pub(crate) fn ladder_page(page: &Climbed, maker: &Maker) -> Result<Files> {
+///
+/// # Errors
+/// A chart that cannot be drawn.
+pub fn ladder_page(page: &Climbed, maker: &Maker) -> Result<Files> {
     let Climbed { climb, names: [robot, data], typed, also } = page;
     let mut files = Files::default();
     climb.files.iter().for_each(|(name, text)| files.text(name, text.clone()));

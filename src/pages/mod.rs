@@ -36,7 +36,7 @@ pub(crate) use engines::engines_page;
 use fem::session::Maker;
 pub use figures::measured;
 pub(crate) use figures::tradeoff as tradeoff_plot;
-pub(crate) use ladder::{Climbed, ladder_page};
+pub use ladder::{Climbed, ladder_page};
 pub(crate) use one_number::one_number_files;
 pub(crate) use pattern::pattern_sheet;
 pub use predicted::predicted_files;

@@ -37,6 +37,20 @@ pub fn climb_text(climb: &Climb) -> String {
     out
 }
 
+/// `ibr.ladder`: `ibr ladder SCENARIO DATA`
+#[derive(Serialize)]
+pub struct LadderAnswer<'a> {
+    /// What was found
+    #[serde(flatten)]
+    pub climb: &'a Climb,
+    /// Scenario as typed
+    pub scenario_file: &'a str,
+    /// Data as typed
+    pub data: &'a str,
+    /// Data that were fitted along, as typed
+    pub also: &'a [String],
+}
+
 /// `ibr.add`: `ibr add SCENARIO EFFECT [DATA]`
 #[derive(Serialize)]
 pub struct AddAnswer<'a> {

@@ -97,14 +97,35 @@ impl ScenarioFile {
         let refused = |message: String| {
             CompareError::refused(message, "write for example body.radius_mm = 40, and text in quotes")
         };
-        let mut document: DocumentMut =
-            self.text.parse().map_err(|error: toml_edit::TomlError| refused(error.message().into()))?;
+        let mut document = self.document()?;
         for (place, text) in changes {
             let value: Value = text.parse().map_err(|_| refused(format!("{place} = {text} is not a TOML value")))?;
             set(&mut document, place, value)
                 .ok_or_else(|| refused(format!("{place} is not in a table of {}", self.name)))?;
         }
         ScenarioFile::parse(&self.name, &document.to_string())
+    }
+
+    /// The same without these effects; the rest of the text stays.
+    ///
+    /// # Errors
+    /// An effect that it does not have.
+    pub fn without(&self, effects: &[String]) -> Result<ScenarioFile, CompareError> {
+        let mut document = self.document()?;
+        let mut tables = document.get_mut("effects").and_then(Item::as_table_like_mut);
+        for name in effects {
+            if tables.as_mut().and_then(|tables| tables.remove(name)).is_none() {
+                let known: Vec<&str> = self.effects.iter().map(|effect| effect.name.as_str()).collect();
+                let help = if known.is_empty() { "it has none".into() } else { spelling::known(name, &known) };
+                return Err(CompareError::refused(format!("{} has no effect \"{name}\"", self.name), help));
+            }
+        }
+        ScenarioFile::parse(&self.name, &document.to_string())
+    }
+
+    fn document(&self) -> Result<DocumentMut, CompareError> {
+        let refused = |error: toml_edit::TomlError| CompareError::refused(error.message(), "write it as TOML");
+        self.text.parse().map_err(refused)
     }
 
     /// The scenario that an embedded set or a folder of data brings along.
@@ -199,6 +220,17 @@ mod tests {
         assert!(told(&[("body.radius_mm", "45 mm")]).contains("not a TOML value"));
         assert!(told(&[("name.first", "45")]).contains("is not in a table"));
         assert!(told(&[("markers.s_mm.1", "45")]).contains("is not in a table"));
+    }
+
+    #[test]
+    fn effects_are_dropped_by_name_and_comments_stay() {
+        let robot = ScenarioFile::read("epam").unwrap();
+        let drop = |names: &[&str]| robot.without(&names.iter().map(ToString::to_string).collect::<Vec<_>>());
+        let new = drop(&["chord_arm", "fold_energy"]).unwrap();
+        assert_eq!(new.effects.len() + 2, robot.effects.len());
+        assert!(!new.text.contains("chord_arm") && new.text.contains("# published: D_IBR = 80 mm"));
+        let error = drop(&["chord_arms"]).unwrap_err();
+        assert!(error.to_string().contains("chord_arms") && error.help().unwrap().contains("chord_arm"), "{error:?}");
     }
 
     #[test]
