@@ -3,7 +3,7 @@
 use crate::answers::Answer;
 use crate::arrays::{Numbers, numbers, table};
 use crate::errors::{raised, refused};
-use crate::inputs::Data;
+use crate::inputs::{Data, Made};
 use crate::scenario::Scenario;
 use ibr::data::parse_correction;
 use ibr::shown::{as_json, validation};
@@ -34,7 +34,9 @@ impl Base {
 
     /// The data with this base in the place of the scenario's predictions.
     fn under(&self, py: Python<'_>, scenario: &Scenario, data: &Data) -> PyResult<Data> {
-        py.detach(|| on_base(&scenario.file, &data.evidence, &self.table)).map(Data::of).map_err(raised)
+        let file = scenario.file()?;
+        let under = py.detach(|| on_base(file, &data.evidence, &self.table)).map_err(raised)?;
+        Ok(Data::of(under, Made::OnBase))
     }
 }
 
@@ -51,10 +53,8 @@ impl Correction {
     fn of(py: Python<'_>, scenario: &Scenario, diagnosed: &Answer, data: Vec<PyRef<'_, Data>>) -> PyResult<Correction> {
         let found = diagnosed.found().ok_or_else(|| refused("not a diagnosis", "give the result of diagnose()"))?;
         let evidence: Vec<_> = data.iter().map(|data| data.evidence.clone()).collect();
-        let fitted = py.detach(|| {
-            let extension = ibr::extend(&scenario.file, found)?;
-            Fitted::of(&scenario.file, &extension, &evidence)
-        });
+        let file = scenario.file()?;
+        let fitted = py.detach(|| Fitted::of(file, &ibr::extend(file, found)?, &evidence));
         fitted.map(|fitted| Correction { fitted }).map_err(raised)
     }
 

@@ -137,13 +137,15 @@ pub struct Data {
 }
 
 /// How measurements were made, to make them again in another process.
-enum Made {
+pub(crate) enum Made {
     /// By name.
     Read,
     /// Of columns, with the text of an about.toml.
     Columns(Option<String>),
     /// By an import with these words.
     Imported(Vec<String>),
+    /// With another simulator's predictions in the place of the scenario's.
+    OnBase,
 }
 
 impl Data {
@@ -220,6 +222,10 @@ impl Data {
             Made::Imported(typed) => {
                 let made = py.import("ibr._ibr")?.getattr("import_tracks")?;
                 (made, (typed.clone(),).into_pyobject(py)?.unbind())
+            }
+            Made::OnBase => {
+                let message = "data with another simulator's predictions do not pickle";
+                return Err(refused(message, "pickle the data and the predictions, and give base= again"));
             }
         })
     }
