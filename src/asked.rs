@@ -20,7 +20,7 @@ pub struct Asked {
     pub warnings: Vec<String>,
 }
 
-/// Runs what is typed after the name of the program, `["pattern", "epam", "--out", "pattern.svg"]`. It prints nothing, leaves Ctrl-C
+/// Runs the words after the name of the program, `["pattern", "epam", "--out", "pattern.svg"]`. It prints nothing, leaves Ctrl-C
 /// alone and never ends the process. `progress` may end finite element runs.
 ///
 /// ```

@@ -58,7 +58,7 @@ pub(crate) enum Command {
     Pattern(PatternArgs),
     /// Hold a model against measurements: how far off, and where
     Compare(CompareArgs),
-    /// Which physical effect is missing, which effects fit equally well, what to measure next
+    /// Which physical effect is missing, which fit equally well, what to measure next
     Diagnose(DiagnoseArgs),
     /// Write a new scenario with one more effect, fitted on data or given
     Add(AddArgs),

@@ -23,7 +23,7 @@ pub fn import_typed(typed: &[String]) -> Result<Imported, CompareError> {
     Ok(import(&args.files, &options, &mut |_, _| ())?)
 }
 
-/// What is typed wrong, and what is probably meant.
+/// The wrong words, and the words that were probably meant.
 pub(crate) fn refused(error: &clap::Error, help: &str) -> CompareError {
     let text = error.to_string();
     let (message, more) = text.trim_start_matches("error: ").split_once('\n').unwrap_or((&text, ""));

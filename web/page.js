@@ -166,7 +166,7 @@ function controls() {
   );
 }
 
-/** After a change is complete: text and link, and what is held against data. */
+/** After a change is complete: text and link, and the data it is compared with. */
 function settled(rebuild) {
   try {
     const fresh = ok(ask({ ask: 'robot', robot: robot() }));

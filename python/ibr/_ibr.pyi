@@ -16,7 +16,7 @@ Pressure = Union[float, Sequence[float], Array]
 VERSION: str
 
 class Error(ValueError):
-    """What is wrong, where, and what to write instead. `where` is the file and its line or column, `help` what to do; None where
+    """The fault, its place, and what to write instead. `where` is the file and its line or column, `help` what to do; None where
     there is none."""
 
     where: Optional[str]
@@ -80,7 +80,7 @@ class Scenario:
         """The same with values of its text set: `body_radius_mm=45` and `body={"radius_mm": 45}` are both `radius_mm` of
         `[body]`; `effects={"friction": {"moment_nm": 0.2}}` sets or adds an effect. Comments stay.
 
-        Numbers that the text has are set without reading it, in microseconds; predictions are then those of the new text to
+        Numbers that the text has are set without reading it, in microseconds; predictions then equal the new text's to
         rounding."""
     def without(self, *effects: str) -> "Scenario":
         """The same without these effects; `effects` lists what it has."""
@@ -117,7 +117,7 @@ class Scenario:
         """Shape at an actuator gauge pressure (kPa), or at one for every supply channel. A robot with history is held there for 5 s,
         from rest."""
     def batch(self, pressure_kpa: ArrayLike, body_pressure_kpa: Optional[ArrayLike] = None, threads: int = 0) -> States:
-        """One state per actuator gauge pressure (kPa), shape (N,) or (N, channels), at one body pressure or N. Runs beside Python on so many
+        """One state per actuator gauge pressure (kPa), shape (N,) or (N, channels), at one body pressure or N. Runs next to Python on so many
         threads, 0 is one per core. A robot with history is refused: its states have an order."""
     def follow(
         self, t_s: ArrayLike, pressure_kpa: ArrayLike, body_pressure_kpa: Optional[ArrayLike] = None

@@ -257,7 +257,7 @@ pub(crate) fn ladder(
     Ok(Answer { extended, page: Some(Box::new(page)), ..told })
 }
 
-/// A command with what is typed after the name of the program, as for [`ibr::ask`].
+/// A command as the words after the name of the program, as for [`ibr::ask`].
 #[pyfunction]
 #[pyo3(signature = (typed, progress = None))]
 pub(crate) fn ask(py: Python<'_>, typed: Vec<String>, progress: Option<Py<PyAny>>) -> PyResult<Answer> {

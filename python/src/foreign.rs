@@ -1,4 +1,4 @@
-//! Another simulator's predictions as the base of a diagnosis, and what is added to them.
+//! Another simulator's predictions as the base of a diagnosis, and their correction.
 
 use crate::answers::Answer;
 use crate::arrays::{Numbers, numbers, table};

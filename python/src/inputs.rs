@@ -268,7 +268,7 @@ fn description(about: &str) -> PyResult<String> {
     if about.contains('\n') {
         return Ok(about.to_string());
     }
-    // Faults of a file are those of its reader, with its name.
+    // A fault of a file comes from its reader, with its name.
     read_about(Path::new(about)).map_err(|error| raised(ibr::Error::from(error)))?;
     Ok(std::fs::read_to_string(about)? + "\n")
 }

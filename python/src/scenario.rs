@@ -23,7 +23,7 @@ pub struct Scenario {
     often: OnceLock<Arc<Predictor>>,
 }
 
-/// The text of a scenario, or the text that it comes from and what is set there.
+/// The text of a scenario, or its source text with the numbers that were set.
 pub(crate) struct Source {
     base: Arc<ScenarioFile>,
     changes: Vec<(String, String)>,
@@ -142,7 +142,7 @@ impl Scenario {
     /// The same with values of its text set: `body_radius_mm=45` and `body={"radius_mm": 45}` are both `radius_mm` of
     /// `[body]`; `effects={"friction": {"moment_nm": 0.2}}` sets or adds an effect. Comments stay.
     ///
-    /// Numbers that the text has are set without reading it, in microseconds; predictions are then those of the new text to
+    /// Numbers that the text has are set without reading it, in microseconds; predictions then equal the new text's to
     /// rounding.
     #[pyo3(signature = (**changes))]
     fn replace(&self, changes: Option<&Bound<'_, PyDict>>) -> PyResult<Scenario> {
@@ -233,7 +233,7 @@ impl Scenario {
         self.state(loads, &at)
     }
 
-    /// One state per actuator gauge pressure (kPa), shape (N,) or (N, channels), at one body pressure or N. Runs beside
+    /// One state per actuator gauge pressure (kPa), shape (N,) or (N, channels), at one body pressure or N. Runs next to
     /// Python on so many threads, 0 is one per core. A robot with history is refused: its states have an order.
     #[pyo3(signature = (pressure_kpa, body_pressure_kpa = None, threads = 0))]
     fn batch(

@@ -1,4 +1,4 @@
-"""What the tests share: the command that the package is held against."""
+"""What the tests share: the command that the package is compared with."""
 
 import json
 import os

@@ -30,7 +30,7 @@ def test_frames_are_arrays(run):
     assert last.faces.max() < run.nodes and last.time_s == pytest.approx(run.time_s)
     assert np.abs(last.points - first.points).max() > 5, "nothing moved"
     assert max(last.pressures_kpa.values()) == pytest.approx(10, abs=0.5)
-    assert run.table["p_act_kpa"].tolist()[-1] == 10 and run.table["tip_y_mm"][-1] > 5
+    assert run.table["pressure_kpa"].tolist()[-1] == 10 and run.table["tip_y_mm"][-1] > 5
     assert len(run.history["time_s"]) == len(run.frames)
 
 

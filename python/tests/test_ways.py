@@ -3,6 +3,7 @@
 import concurrent.futures
 import copy
 import multiprocessing
+import pathlib
 import pickle
 
 import ibr
@@ -21,6 +22,9 @@ def tip_at(robot, kpa):
     return robot.predict(kpa).tip_mm.tolist()
 
 
+ABOUT = str(pathlib.Path(__file__).parents[2] / "data/sets/synthetic-epam/about.toml")
+
+
 def values():
     yield ROBOT
     yield ROBOT.replace(body_radius_mm=45)
@@ -29,7 +33,7 @@ def values():
     yield ROBOT.batch([10, 20])
     yield ROBOT.follow([1, 2], [10, 20])
     yield ibr.data("synthetic-epam")
-    yield ibr.data(ibr.data("synthetic-epam").table, name="mine", about="[markers]\ns_mm = [30, 90, 150, 210, 270, 330]\n")
+    yield ibr.data(ibr.data("synthetic-epam").table, name="mine", about=ABOUT)
     yield ibr.compare("epam", "synthetic-epam")
     yield ibr.add("epam-textbook", "sealed_sides:share=1")
 
@@ -127,10 +131,12 @@ def test_faults_are_those_of_python_too(tmp_path):
             wish()
         assert isinstance(fault.value, ibr.Error) and isinstance(fault.value, ValueError)
         assert again(fault.value).help == fault.value.help
+    before, after = ROBOT.text.split("radius_mm = 40", 1)
+    bad = f"{before}radius_mm = -4{after}"
     with pytest.raises(ibr.Error) as fault:
-        ibr.Scenario.from_toml("[body]\nradius_mm = -4\n")
+        ibr.Scenario.from_toml(bad)
     assert not isinstance(fault.value, FileNotFoundError)
-    assert again(fault.value).where == fault.value.where == "scenario:2"
+    assert again(fault.value).where == fault.value.where == f"scenario:{before.count(chr(10)) + 1}"
 
 
 @pytest.mark.parametrize("name", ["epam", "cpam", "spam", "fpam", "epam-textbook"])

@@ -46,7 +46,7 @@ pub(crate) fn parsed(typed: &[OsString]) -> Cli {
     })
 }
 
-/// The same without the name of the program; what is wrong is an error.
+/// The same without the name of the program; a wrong word is an error.
 pub(crate) fn asked(typed: &[String]) -> Result<Cli, clap::Error> {
     let matches = command().no_binary_name(true).try_get_matches_from(typed)?;
     Cli::from_arg_matches(&matches)

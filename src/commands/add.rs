@@ -32,7 +32,7 @@ pub(super) fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome> {
     Ok(outcome)
 }
 
-/// Whether a file is to hold what is added to another simulator's predictions, in place of a scenario.
+/// Whether a file is to hold a correction of another simulator's predictions, in place of a scenario.
 fn is_correction(target: &Path) -> bool {
     target.extension().is_some_and(|end| end.eq_ignore_ascii_case("csv"))
 }

@@ -58,7 +58,7 @@ fn what_it_writes_for_a_robot_is_read_by_a_diagnosis() {
     let answer = folder.run(&["diagnose", "fpam-textbook", "set", "--json"]).json("ibr.diagnose");
     let warnings = answer["warnings"].to_string();
     // Stretch and shear are there; that the weave locks far beyond a muscle's stroke is no lack of the model.
-    for word in ["fabric_stretch was measured", "shear_stiffness was measured: G_t = 49.6 ±"] {
+    for word in ["fabric_stretch as measured", "shear_stiffness as measured: G_t = 49.6 ±"] {
         assert!(warnings.contains(word), "{warnings}");
     }
     assert!(measured.contains("lock_rad = [0.78") && !warnings.contains("shear_lock"), "{measured} {warnings}");

@@ -88,7 +88,7 @@ fn a_quantity_measured_by_itself_is_read_and_one_that_no_effect_has_is_refused()
     };
     let ran = answer("fabric_stretch]\ncompliance_m_per_n = [8e-5, 4e-6]\n");
     let warnings = ran.json("ibr.diagnose")["warnings"].to_string();
-    assert!(warnings.contains("fabric_stretch was measured: c = 8.00e-5 ± 4.00e-6 m/N"), "{warnings}");
+    assert!(warnings.contains("fabric_stretch as measured: c = 8.00e-5 ± 4.00e-6 m/N"), "{warnings}");
     let place = format!("about.toml:{}: ", about.lines().count() + 3);
     for (line, words) in [
         ("fabric_strech]\ncompliance_m_per_n = [8e-5, 4e-6]\n", "fabric_stretch"),

@@ -117,7 +117,7 @@ fn slips_of_the_command_line_say_what_to_write() {
         ("--axes", "x,x", "x,-y"),
         ("--clock-offset", "soon", "write find"),
         ("--hold", "1", "units s, ms, min"),
-        ("--map", "marker", "WHAT=COLUMN"),
+        ("--map", "marker", "QUANTITY=COLUMN"),
         ("--map", "colour=Red", "run, actuator, marker"),
         ("--bin", "0kPa", "--bin 2kPa"),
         ("--stations", "a", "a=90mm"),

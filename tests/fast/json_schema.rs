@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Answers of commands that take long, and records that only come with data of a kind that these commands have not: two effects at
 /// once, a fault, a slip, a law that the catalogue lacks, a robot's run, lost nodes.
-const RARE: &str = "ibr.demo ibr.simulations ibr.uncertain AsClose BendingAlarm BestEffect Beyond Combination Diagnosis FirstThrough GaugeFit Heights \
+const RARE: &str = "ibr.demo ibr.simulations ibr.uncertain AsClose BendingAlarm BestEffect Beyond Combination Diagnosis FirstThrough ForeignBase GaugeFit Heights \
     Held InflatedPouch Intervals KeptBending LearnedLaw LearnedLine LearnedTried LeftPattern Mechanism OtherDesign Outlier OutlyingRun \
     PressureSlipFound Reading RobotSummary RunRecord Rung SeedGroup Snap Through Varied Weight";
 

@@ -82,7 +82,7 @@ pub fn read_correction(file: &str) -> Result<CorrectionTable, CompareError> {
     Ok(data::parse_correction(file, &text)?)
 }
 
-/// The measurements on another simulator's base: positions less its predictions, plus those of the scenario.
+/// The measurements on another simulator's base: positions less its predictions, plus the scenario's.
 ///
 /// # Errors
 /// Scenario and data that do not match; predictions that are not for these data, or whose axes, units or labels are exchanged.

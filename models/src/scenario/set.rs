@@ -84,7 +84,7 @@ mod tests {
     use super::*;
     use crate::scenario::{KEYS, SHIPPED};
 
-    /// The text with a number at a place, written as a line of its own behind the head of the table.
+    /// The text with a number at a place, written as a separate line behind the head of the table.
     fn written(text: &str, table: &str, key: &str, number: &str) -> String {
         let mut inside = false;
         let mut lines: Vec<String> = Vec::new();
