@@ -199,6 +199,12 @@ class FittedEffect(x.TypedDict):
     effect: str
     parameters: t.List[ParameterValue]
 
+class ForeignBase(x.TypedDict):
+    from_data_mm: float
+    from_scenario_mm: float
+    sha256: str
+    table: str
+
 class GaugeFit(x.TypedDict):
     after_kpa: float
     before_kpa: float
@@ -771,63 +777,63 @@ class Worth(x.TypedDict):
 
 class AddKeys:
     after: t.Optional[ErrorStep]
-    'With the effect'
+    'Errors with the effect on the same data'
     also: t.List[FileHash]
-    'Data that were fitted along'
+    'Further data to which the values were fitted'
     before: t.Optional[ErrorStep]
-    'Without it, B calibrated'
+    'Errors without the effect, with B calibrated'
     bending_nm2: t.Optional[float]
     'B that was written; null if it was kept'
     data: t.Optional[FileHash]
     'Data of the fit; null without'
     date: str
-    'Date'
+    'Date on which the scenario was written'
     effects: t.List[AddedEffect]
-    'What was added'
+    'Effects that were added, with values and source'
     noise_floor_mm: t.Optional[float]
-    'Noise of the mean'
+    'Noise of the mean over runs of the data'
     rungs: t.List[ErrorStep]
     'Errors on the way, as given first'
     scenario_file: str
-    'Scenario as typed'
+    'Path or name of the scenario as typed'
     scenario_sha256: str
-    'SHA-256 of the scenario'
+    'SHA-256 of the scenario that was extended'
     written: str
-    'File that was written'
+    'File to which the extended scenario was written'
 
 class CharacterizeKeys:
     fabric_toml: t.Optional[str]
-    'A table for cases'
+    'Text of a fabric table for finite element cases'
     fill_strain_pa: t.Optional[t.List[t.List[float]]]
     'Curve along the fill: strain, stress'
     measured_toml: t.Optional[str]
-    'Lines for about.toml'
+    'Lines that record the measured numbers in about.toml'
     notes: t.List[str]
-    'Remarks'
+    'Remarks on what was assumed and left out'
     provenance: str
     'How the tests came to be: `measured`, `digitised`, `synthetic`, `published`'
     quantities: t.List[FabricQuantity]
-    'Means over specimens'
+    'Means of the measured quantities over all specimens'
     replays: t.List[Replay]
-    'Tests computed with the law'
+    'Tests of the specimens recomputed with the fitted law'
     shear_rad_n_per_m: t.Optional[t.List[t.List[float]]]
-    'Shear curve: angle, tension'
+    'Shear curve: shear angle, shear force per length'
     shear_rad_pa: t.Optional[t.List[t.List[float]]]
-    'Shear curve: angle, stress'
+    'Shear curve: shear angle, shear stress'
     specimens: t.List[SpecimenRead]
-    'What was read of each'
+    'Numbers that were read from each specimen'
     thickness_m: t.Optional[float]
-    'Thickness'
+    'Thickness of the fabric in the tests'
     warp_strain_pa: t.Optional[t.List[t.List[float]]]
     'Curve along the warp: strain, stress'
 
 class CompareKeys:
     actuator: str
-    'Actuator kind'
+    'Kind of the actuator, `epam` for example'
     added: t.Optional[AddedOnData]
     'What effects that `ibr add` wrote bring here; null without any'
     data: str
-    'Data as typed'
+    'Path or name of the data as typed'
     holds: t.List[HoldMetrics]
     'Accuracy and its companions, hold by hold'
     models: t.List[ModelOnData]
@@ -835,15 +841,15 @@ class CompareKeys:
     noise: NoiseSummary
     'Noise of the mean over runs'
     overall: OverallMetrics
-    'The same over all holds'
+    'Accuracy and its companions over all holds'
     pairing: str
     'How prediction and measurement are paired'
     provenance: t.Optional[str]
     'How the data came to be; null without about.toml: `measured`, `digitised`, `synthetic`, `published`'
     residual_map: ResidualMap
-    'Residuals, marker by hold'
+    'Residuals of every marker in every hold'
     runs: float
-    'Runs'
+    'Number of runs in the data'
     scaling: ScalingCheck
     'Whether shapes depend on P/p only'
     scenario: str
@@ -853,7 +859,7 @@ class CompareKeys:
 
 class DesignKeys:
     chosen: t.List[ChosenValue]
-    'Values of the free keys'
+    'Values that were chosen for the free keys'
     designs: t.List[CheckedDesign]
     'With `--correct`: all that were checked, in their order'
     ended: str
@@ -867,13 +873,13 @@ class DesignKeys:
     misses: t.List[Miss]
     'The wish by the model as it is, part by part'
     p_act_channels_kpa: t.List[float]
-    'Actuator pressure of every channel'
+    'Actuator pressure of every channel at the design'
     p_body_kpa: float
-    'Body pressure'
+    'Body pressure of the best design found'
     reached: bool
     'Every part of the wish is within the tolerance by the model; with `--correct` by finite elements'
     starts: float
-    'Starts of the search'
+    'Number of starts of the search'
     starts_that_agree: float
     'Starts that ended at this design or an equal one'
     tolerance_mm: float
@@ -881,11 +887,11 @@ class DesignKeys:
     unchecked: t.Optional[str]
     'Reason why finite elements did not run'
     wish: str
-    'The wish as typed'
+    'Path or name of the wish as typed'
 
 class DiagnoseKeys:
     actuator: str
-    'Actuator kind'
+    'Actuator kind of the scenario, such as `epam`'
     added: t.List[Added]
     'What the verdict `effect` adds, else empty'
     alpha: float
@@ -895,11 +901,11 @@ class DiagnoseKeys:
     attempt_alike: t.List[AsClose]
     'The attempt, then what comes as close, its error over all data to a fifth: no more a bare name than an answer is. Empty where one fault does as well as the attempt'
     base: BaseFit
-    'The calibrated base'
+    'The scenario with only its bending stiffness fitted'
     bending_alarm: t.Optional[BendingAlarm]
-    'The stiffness of the answer is not the one that was told'
+    'The stiffness of the answer differs from the given one'
     beside: t.List[FittedBeside]
-    'Further data that were fitted along; the errors elsewhere are those of the first'
+    'Further data in the same fit; errors elsewhere refer to the first data'
     by_design: t.List[AsClose]
     'What follows from how such a robot is cut and joined, and takes a fifth of the error with nothing fitted: to be looked at first'
     confidence: t.Optional[str]
@@ -909,15 +915,17 @@ class DiagnoseKeys:
     data_sha256: t.List[str]
     'SHA-256 of every table as read'
     dataset: str
-    'Name of the dataset'
+    'Name of the first dataset that was fitted'
     excluded: t.List[str]
     'What was said not to be here'
     finite_elements: t.Optional[Witness]
     'The same robot in finite elements; null without runs'
+    foreign_bases: t.List[ForeignBase]
+    "Predictions of another simulator that take the place of the scenario's, of every dataset that has them"
     gauges: t.List[GaugeFit]
     'Gauges at the actuator that were read along'
     indistinguishable: t.List[str]
-    'Names that these data cannot tell apart, best first; for two added effects written `a + b`'
+    'Names that these data cannot separate, best first; for two added effects written `a + b`'
     kept_bending: t.Optional[KeptBending]
     "The answer with the scenario's B, where with a fitted one there is none"
     lack_of_fit_after: t.Optional[LackOfFit]
@@ -935,7 +943,7 @@ class DiagnoseKeys:
     next_experiment: t.Optional[NextExperiment]
     'What would separate the indistinguishable ones; null if there is nothing to separate'
     noise: NoiseSummary
-    'Noise of the data'
+    "Noise of the first dataset's mean, in printed units"
     other_design: t.Optional[OtherDesign]
     'The robot made otherwise, where that leaves a fifth less'
     outliers: Outliers
@@ -949,23 +957,23 @@ class DiagnoseKeys:
     pressure_slip: t.Optional[PressureSlipFound]
     'A slip of a pressure column that explains the data better than anything else: the verdict is withheld'
     ranked: t.List[Ranked]
-    'Effects of actuator, body and loads and those of supply and measurement, best first'
+    'Effects of actuator, body and loads, and effects of supply and measurement, best first'
     residuals_after: ResidualMap
     'Residuals of the final model, marker × hold'
     residuals_before: ResidualMap
     'Residuals of the calibrated base, marker × hold'
     rule_out_first: t.List[str]
-    'Those of them (or of the ranking within reach of it) that belong to supply or measurement: rule out first'
+    'Names among them (or in the ranking within reach of them) that belong to supply or measurement: rule out first'
     runs: float
-    'Runs used'
+    'Number of runs of the first dataset, without copies'
     scenario: str
-    'Name of the scenario'
+    'Name of the scenario that was diagnosed'
     scenario_file: str
-    'Scenario as typed'
+    'Path or name of the scenario as typed'
     slips: t.List[str]
     'Cautions that come before the verdict: slips in the data, that no effect of a robot is. They are in `warnings` too'
     summary: t.List[str]
-    'The story in sentences'
+    'The answer and its reasons, one sentence each'
     tolerance_mm: float
     'Differences up to this are good enough'
     undetectable: t.List[Undetectable]
@@ -981,92 +989,92 @@ class LadderKeys:
     data: str
     'Data as typed'
     ending: str
-    'The same for readers'
+    'Why the ladder ended, as a sentence'
     kept_bending: t.Optional[KeptBending]
     'The answer with the B of the last scenario, where with a fitted one there is none'
     noise_floor_mm: t.Optional[float]
-    'Noise of the mean'
+    'Noise of the mean over runs, of one coordinate'
     rungs: t.List[ErrorStep]
     'Errors, the scenario as given first'
     scenario_file: str
     'Scenario as typed'
     steps: t.List[ClimbStep]
-    'What each step added'
+    'Effects added by each step, in order'
     stopped: str
-    'Why it ended, for programs'
+    'Why the ladder ended, as a word such as `noise` or `no_p_values`'
 
 class PatternKeys:
     allowance_mm: float
-    'Fabric beyond welds and ends'
+    'Width of the fabric beyond welds and ends'
     notes: t.List[str]
     'What the plan leaves to its reader'
     pieces: t.List[PatternPiece]
-    'Pieces to cut'
+    'Pieces to cut, with the marks on each'
     scenario: str
-    'Scenario as typed'
+    'Path or name of the scenario as typed'
     weld_mm: float
-    'Width of the welds'
+    'Width of the welds between pieces'
     written: t.List[str]
-    'Files'
+    'Files of drawings that were written'
 
 class SimulateKeys:
     added_mass_share: float
-    'Over the true mass'
+    'Mass added by scaling, over the true mass'
     began_s: float
     'Time at which it went on from another run; 0 for a run from the start'
     chambers: t.List[ChamberEnd]
-    'Chambers at the end'
+    'Pressure and volume of every chamber at the end'
     changed_sides: t.Optional[Through]
     'Nodes that came through a layer; without contact null'
     cost: Cost
-    'What it took'
+    'Processor time, real time and speed of the run'
     dt_s: float
-    'Last step'
+    'Length of the last time step'
     elements: float
-    'Elements'
+    'Number of shell elements of the mesh'
     engine: float
     'Number of the engine that made it'
     external_work_j: float
-    'Work done from outside'
+    'Work done from outside since the start'
     hourglass_share: float
     'Energy of hourglass control over all that is stored'
     kinetic_j: float
     'Kinetic energy at the end'
     kinetic_share: KineticShares
-    'Kinetic energy while it moved'
+    'Kinetic energy over kinetic and stored energy, at the outputs'
     ledger: t.List[EnergyLine]
-    'Where the energy is'
+    'Energies of every term at the end'
     name: str
-    'Name of the case'
+    'Name of the case or scenario'
     nodes: float
-    'Nodes'
+    'Number of nodes of the mesh'
     probes: t.List[ProbeEnd]
     'Node sets that the case asks for'
     quality: t.Optional[MeshQuality]
-    'Shape of the elements'
+    'Shape of the elements: sides, and the worst ratios'
     reactions: t.List[ReactionEnd]
-    'Supports at the end'
+    'Force and moment of every support at the end'
     residual_j: float
-    'What the balance misses'
+    'Energy that the balance misses at the end'
     residual_share: float
     'The same over what it is judged against'
     residual_share_peak: float
-    'Its largest at the outputs'
+    'Largest value of that share at any output'
     robot: t.Optional[RobotSummary]
     'What was read of a robot'
     selective_mass: bool
     'Whether waves of a few elements are heavy in place of everything'
     steps: float
-    'Steps'
+    'Number of steps of the whole run'
     time_s: float
-    'Simulated time'
+    'Simulated time at the end of the run'
 
 class ValidateKeys:
     added: t.List[str]
-    'Effects that are judged'
-    bending_nm2: TwoStiffnesses
-    'Bending stiffness'
+    'Effects that `ibr add` wrote and the data judge'
+    bending_nm2: t.Optional[TwoStiffnesses]
+    "Bending stiffness without and with the effects; null for a correction of another simulator's predictions"
     datasets: t.List[Validation]
     'One for each of the data'
     scenario_file: str
-    'Scenario as typed'
+    'Path or name of the scenario or of the correction as typed'

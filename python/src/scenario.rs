@@ -3,6 +3,7 @@
 use crate::arrays::{Numbers, matrix, numbers};
 use crate::errors::{raised, refused};
 use crate::inputs::{Change, Pressures, hash_of, places};
+use crate::source::Source;
 use crate::states::{State, states};
 use ibr::models::{Aim, CHANNELS, Limits, Loads, Prediction, Target};
 use ibr::{Follower, Predictor, ScenarioFile};
@@ -21,24 +22,6 @@ pub struct Scenario {
     robot: Arc<Predictor>,
     /// For many states, of a robot whose numbers were set without its text.
     often: OnceLock<Arc<Predictor>>,
-}
-
-/// The text of a scenario, or its source text with the numbers that were set.
-pub(crate) struct Source {
-    base: Arc<ScenarioFile>,
-    changes: Vec<(String, String)>,
-    file: OnceLock<Arc<ScenarioFile>>,
-}
-
-impl Source {
-    /// With its text, which is written at the first use.
-    pub(crate) fn file(&self) -> PyResult<&Arc<ScenarioFile>> {
-        if let Some(file) = self.file.get() {
-            return Ok(file);
-        }
-        let file = self.base.with_in_space(&self.changes).map_err(raised)?;
-        Ok(self.file.get_or_init(|| Arc::new(file)))
-    }
 }
 
 impl Scenario {

@@ -1,7 +1,7 @@
 use crate::arrays::{matrix, rows_mm, vector, with_z};
 use crate::errors::raised;
 use crate::inputs::hash_of;
-use crate::scenario::Source;
+use crate::source::Source;
 use ibr::models::{CHANNELS, Loads, Prediction, Tip};
 use ibr::pages::predicted_files;
 use ibr::shown::predicted::{PredictedState, above_limit, beyond_words, text};
@@ -155,7 +155,7 @@ impl State {
     /// A state of a robot by name and text, at pressures.
     #[staticmethod]
     fn _again(py: Python<'_>, robot: (String, String), pressures: ([f64; CHANNELS], f64)) -> PyResult<Py<PyAny>> {
-        let scenario = py.get_type::<crate::scenario::Scenario>().call_method1("_parsed", robot)?;
+        let scenario = py.import("ibr._ibr")?.getattr("Scenario")?.call_method1("_parsed", robot)?;
         Ok(scenario.call_method1("predict", pressures)?.unbind())
     }
 

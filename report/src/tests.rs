@@ -170,7 +170,7 @@ fn ladder_page() -> String {
     let errors = BTreeMap::from([("training_mm", "1"), ("heldout_pressure_mm", "2"), ("heldout_run_mm", "")]);
     let rung = minijinja::context! { label => EVIL, of => minijinja::value::Serde(errors) };
     let values = minijinja::context! {
-        title => EVIL, lead => EVIL, program => EVIL, date => "today", rungs => vec![rung], told => vec![EVIL],
+        title => EVIL, lead => EVIL, program => EVIL, date => "today", rungs => vec![rung], notes => vec![EVIL],
         provenance => vec![vec![EVIL, EVIL]],
     };
     let series = LineSeries { name: label("a"), points: vec![[0.0, 1.0], [1.0, 2.0]], ..LineSeries::default() };

@@ -118,7 +118,7 @@ fn slips_of_the_command_line_say_what_to_write() {
         ("--clock-offset", "soon", "write find"),
         ("--hold", "1", "units s, ms, min"),
         ("--map", "marker", "QUANTITY=COLUMN"),
-        ("--map", "colour=Red", "run, actuator, marker"),
+        ("--map", "colour=Red", "QUANTITY is one of run"),
         ("--bin", "0kPa", "--bin 2kPa"),
         ("--stations", "a", "a=90mm"),
         ("--likelihood", "90", "0 to 1"),

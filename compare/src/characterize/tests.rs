@@ -394,8 +394,8 @@ fn a_wide_toe_is_taken_off_or_said_with_both_moduli() {
             text += "displacement_mm,force_n\n";
             for k in 0..=200 {
                 let x = 0.05 * f64::from(k);
-                let force =
-                    2.0 * soft * ((1.0 + ((x - slack_mm) / soft).exp()).ln() - (1.0 + (-slack_mm / soft).exp()).ln());
+                let beyond = |x: f64| if x > 30.0 * soft { x / soft } else { (x / soft).exp().ln_1p() };
+                let force = 2.0 * soft * (beyond(x - slack_mm) - beyond(-slack_mm));
                 text += &format!("{x:.3},{force:.5}\n");
             }
             let found = characterize(&read(&text, &CouponDefaults::default()), &Reduction::default()).unwrap();

@@ -105,7 +105,7 @@ fn only_the_parts_named_count_and_end_caps_in_the_plane_do_not() {
 fn mistakes_are_told_with_what_to_write() {
     let mesh = tube(&[0.0, 0.1], &circle(8, 0.04), false);
     let say = |parts: &[String], axis, s: f64| CentreLine::new(&mesh, parts, axis, &[s]).unwrap_err().to_string();
-    assert!(say(&["tub".into()], X, 0.0).contains("no part `tub`; the mesh has: tube"));
+    assert!(say(&["tub".into()], X, 0.0).contains("unknown part `tub`; the mesh has: tube"));
     assert!(say(&[], [0.0; 3], 0.0).contains("[1, 0, 0]"));
     for s in [-0.01, 0.101, f64::NAN] {
         assert!(say(&[], X, s).contains("reaches from 0 to 100 mm"), "{}", say(&[], X, s));

@@ -4,7 +4,6 @@ use super::built::is_off;
 use super::check::{are_too_low, is_known};
 use super::keys::key;
 use super::stated::Scenario;
-use crate::actuators::Family;
 use crate::effects::by_name;
 
 /// A number at its place in the text, such as `body.radius_mm` or `effects.friction.moment_nm`, in the unit of the text.
@@ -46,8 +45,8 @@ impl Scenario {
         }
         let refused = match (table, name) {
             ("body", "hinge_curvature_per_m") => self.wall.stiffness_n_per_m.is_some(),
-            ("actuator", "fold_mm") => self.actuator.kind.family != Family::Pouch,
-            ("actuator", "bias_deg") => self.actuator.kind.family != Family::Mckibben,
+            ("actuator", "fold_mm") => !self.actuator.kind.has_pouches(),
+            ("actuator", "bias_deg") => self.actuator.kind.has_pouches(),
             _ => false,
         };
         let is_there = !refused && (table != "actuator" || self.actuator.exists());
