@@ -42,7 +42,7 @@ impl Points {
 fn sobol(case: usize, axis: usize, seed: u32) -> f64 {
     const NET: usize = 1 << 16;
     const AXES: usize = sobol_burley::NUM_DIMENSIONS as usize;
-    let net = (case / NET + (axis / AXES << 16)) as u32;
+    let net = (case / NET + ((axis / AXES) << 16)) as u32;
     let scrambling = seed ^ net.wrapping_mul(0x9e37_79b9);
     f64::from(sobol_burley::sample((case % NET) as u32, (axis % AXES) as u32, scrambling))
 }
