@@ -33,7 +33,7 @@ class State:
         body x, y and z, shape (3,)."""
     @property
     def angle_deg(self) -> float:
-        """Total bending angle (degrees)."""
+        """Total bending angle from base to tip (degrees)."""
     @property
     def markers_mm(self) -> Array:
         """Markers as the camera sees them (mm), shape (markers, 2); with strips round the body (markers, 3)."""
@@ -91,19 +91,19 @@ class Scenario:
         unless `force`."""
     @property
     def text(self) -> str:
-        """The TOML text."""
+        """Text of the scenario in TOML, comments kept."""
     @property
     def source(self) -> str:
         """File or name as it was asked for."""
     @property
     def name(self) -> str:
-        """Name in the text."""
+        """Name of the robot in the text."""
     @property
     def actuator(self) -> str:
-        """Kind of the actuator."""
+        """Kind of the actuator, for example `epam`."""
     @property
     def effects(self) -> List[str]:
-        """Names of its physical effects."""
+        """Names of the physical effects in the scenario."""
     @property
     def stations_mm(self) -> List[float]:
         """Stations of the markers along the undeformed body (mm)."""
@@ -149,7 +149,7 @@ class Scenario:
         where an actuator is flat."""
 
 class Data:
-    """Measurements of one robot, made by `ibr.data` or `ibr.import_tracks`."""
+    """Measurements of one robot: a dataset by name, file or import."""
 
     @staticmethod
     def read(name: str) -> "Data":
@@ -159,22 +159,22 @@ class Data:
         """Columns of the marker table; `ibr.data` makes them of any frame."""
     @property
     def name(self) -> str:
-        """Name."""
+        """Name by which the data were asked for."""
     @property
     def actuator(self) -> str:
-        """Kind of the actuator."""
+        """Kind of the actuator, for example `epam`."""
     @property
     def runs(self) -> List[str]:
-        """Labels of the runs."""
+        """Labels of the runs, in the order of the table."""
     @property
     def markers(self) -> List[str]:
-        """Labels of the markers."""
+        """Labels of the markers, in the order of the table."""
     @property
     def told(self) -> List[str]:
         """What reading or import assumed, in words."""
     @property
     def about_toml(self) -> Optional[str]:
-        """The beginning of a description, of an import: fill it in."""
+        """The beginning of an about.toml, of an import."""
     @property
     def table(self) -> Dict[str, Any]:
         """The marker table as columns: `pandas.DataFrame(data.table)`."""
