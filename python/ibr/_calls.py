@@ -144,7 +144,7 @@ class Diagnosis(Result, DiagnoseKeys):
         """Every effect, best first."""
         return columns_of(self.ranked)
 
-    def correction(self, pressure_kpa, body_pressure_kpa: Optional[float] = None) -> np.ndarray:
+    def correction(self, pressure_kpa: Any, body_pressure_kpa: Optional[float] = None) -> np.ndarray:
         """What the answer adds to the predictions of `base`: displacements of the markers (mm) at one actuator pressure (kPa),
         shape (markers, 2), or at N, shape (N, markers, 2). `body_pressure_kpa`: the scenario's if left out."""
         act = np.atleast_1d(np.asarray(pressure_kpa, dtype=float))
@@ -153,7 +153,7 @@ class Diagnosis(Result, DiagnoseKeys):
         moved = self._correction().at(act, body)
         return moved[0] if np.ndim(pressure_kpa) == 0 else moved
 
-    def save_correction(self, path: Union[str, os.PathLike]) -> None:
+    def save_correction(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes the correction as a table (p_body_kpa, p_act_kpa, marker, dx_mm, dy_mm) to a file that is not there yet."""
         text = self._correction().text()
         with open(path, "x", encoding="utf-8") as file:
@@ -324,7 +324,7 @@ def diagnose(
         return Diagnosis(_ibr.diagnose(robot, sets, asked, progress))
     sets = [one.under(robot, measured) for one, measured in zip(bases_of(base, sets, _columns), sets)]
     found = Diagnosis(_ibr.diagnose(robot, sets, asked, progress))
-    found._base = robot, sets
+    found.__dict__["_base"] = robot, sets
     return found
 
 
@@ -385,7 +385,11 @@ def validate(
         sets = _all(measured, also)
         if isinstance(scenario, Diagnosis):
             name, text = "correction", scenario._correction().text()
+        elif isinstance(scenario, Scenario):
+            raise Error("with base= the first argument is the diagnosis of that base, or the file of its correction")
         else:
             name, text = os.fspath(scenario), None
         return Validation(_ibr.validate_correction(name, text, sets, bases_of(base, sets, _columns), sigma_mm))
+    if isinstance(scenario, Diagnosis):
+        raise Error("a diagnosis is validated with base=; otherwise give a scenario, such as ibr.extend(scenario, found).scenario")
     return Validation(_ibr.validate(_robot(scenario), _all(measured, also), list(without), sigma_mm))
