@@ -396,7 +396,5 @@ fn a_scheduler_gets_one_array_job_of_the_same_command() {
 fn whole_steps_of_a_range_are_whole_numbers() {
     let text = "scenario = \"epam\"\n[[vary]]\nkey = \"actuator.count\"\nfrom = 1\nto = 120\nsteps = 120\n[[vary]]\nkey = \"pressure_kpa\"\nvalues = [10]\n";
     let study = study(text).unwrap();
-    for robot in 0..120 {
-        assert_eq!(study.values(robot)[0], toml::Value::Integer(robot as i64 + 1));
-    }
+    assert!((0..120).all(|robot| study.values(robot)[0] == toml::Value::Integer(robot as i64 + 1)));
 }

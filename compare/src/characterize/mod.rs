@@ -14,6 +14,8 @@ pub mod scatter;
 pub mod specimen;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod toe_tests;
 mod warn;
 pub mod write;
 
