@@ -373,7 +373,9 @@ impl<'a> Cells<'a> {
 
     /// The fault of a pressure below its bounds.
     pub(crate) fn too_low(&self, quantity: usize, value_pa: f64) -> Box<Fault> {
-        let help = "give gauge pressure (0 is the air of the room); subtract the sensor's zero".to_string();
+        let zero = "give gauge pressure (0 is the air of the room); subtract the sensor's zero";
+        let exchanged = "; or the columns of body and actuator are exchanged";
+        let help = zero.to_string() + if quantity == P_BODY { exchanged } else { "" };
         let told = pressure_bounds(quantity).check(value_pa).err();
         self.fault(quantity, told.map_or(String::new(), |(message, _)| message), help)
     }

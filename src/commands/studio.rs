@@ -2,22 +2,26 @@ use crate::cli::StudioArgs;
 use crate::prelude::*;
 use crate::studio::Studio;
 
-/// Where the page is looked for, in the working folder.
-const BUILT: &str = "web/dist/ibr.html";
+/// `PAGE`: the page that `web/build.sh` had built when this program was built.
+mod built {
+    include!(concat!(env!("OUT_DIR"), "/page.rs"));
+}
+
+/// Where a checkout has the page, for a program without one.
+const CHECKOUT: &str = "web/dist/ibr.html";
 
 pub(super) fn run(args: &StudioArgs, context: &mut Context) -> Result<Outcome> {
     if context.json {
         return Err(Failure::usage("ibr studio serves a page and has no answer", "leave --json out"));
     }
-    let beside = std::env::current_exe().ok().and_then(|own| Some(own.parent()?.join("ibr.html")));
-    let places: Vec<PathBuf> = match &args.page {
-        Some(page) => vec![page.clone()],
-        None => std::iter::once(PathBuf::from(BUILT)).chain(beside).collect(),
-    };
-    let Some(page) = places.iter().find_map(|place| std::fs::read_to_string(place).ok()) else {
-        let tried: Vec<String> = places.iter().map(|place| place.display().to_string()).collect();
-        let help = "build it with web/build.sh in a checkout, or name it: ibr studio --page ibr.html";
-        return Err(Failure::usage(format!("no page at {}", tried.join(" or ")), help));
+    let page = match (&args.page, built::PAGE) {
+        (None, Some(page)) => page.to_string(),
+        (given, _) => {
+            let path = given.clone().unwrap_or_else(|| PathBuf::from(CHECKOUT));
+            let help = "this program was built without a page: build one with web/build.sh in a checkout, and name it with --page";
+            let absent = |cause| Failure::usage(format!("no page at {}: {cause}", path.display()), help);
+            std::fs::read_to_string(&path).map_err(absent)?
+        }
     };
     let studio = Studio::open(&page, args.port).map_err(|cause| {
         Failure::usage(

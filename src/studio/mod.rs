@@ -20,8 +20,10 @@ use std::io;
 use std::net::{TcpListener, TcpStream};
 use std::time::Duration;
 
-/// Who sends nothing for so long is not waited for.
+/// A request takes at most so long, and so does each write of an answer.
 const PATIENCE: Duration = Duration::from_secs(10);
+/// Without a free descriptor no visitor can be let in for so long.
+const FULL: Duration = Duration::from_millis(100);
 
 /// What a page has instead of this comment where finite elements are at hand.
 const MARK: &str = "<!--studio-->";
@@ -50,19 +52,21 @@ impl Studio {
     /// Answers for ever, every visitor on a separate thread.
     pub(crate) fn serve(&self) {
         std::thread::scope(|scope| {
-            for stream in self.listener.incoming().flatten() {
-                scope.spawn(move || self.visit(&stream));
+            for stream in self.listener.incoming() {
+                match stream {
+                    Ok(stream) => drop(scope.spawn(move || self.visit(&stream, PATIENCE))),
+                    Err(_) => std::thread::sleep(FULL),
+                }
             }
         });
     }
 
     /// One request; who has left does not hear the answer.
-    fn visit(&self, stream: &TcpStream) {
-        let waits = stream.set_read_timeout(Some(PATIENCE)).and_then(|()| stream.set_write_timeout(Some(PATIENCE)));
-        if waits.is_err() {
+    fn visit(&self, stream: &TcpStream, patience: Duration) {
+        if stream.set_write_timeout(Some(patience)).is_err() {
             return;
         }
-        let response = match Request::read(stream) {
+        let response = match Request::read(stream, patience) {
             Ok(request) => self.answer(&request),
             Err(refused) => refused,
         };

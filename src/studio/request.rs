@@ -3,10 +3,28 @@
 use serde_json::Value;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
+use std::time::{Duration, Instant};
 
 /// Bytes of a request line and its headers, and of a body.
 const MOST_HEAD: u64 = 16 << 10;
 const MOST_BODY: u64 = 1 << 20;
+
+/// A visitor who has to be done by a certain time, however slowly the bytes come.
+struct Until<'a> {
+    stream: &'a TcpStream,
+    end: Instant,
+}
+
+impl Read for Until<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let left = self.end.saturating_duration_since(Instant::now());
+        if left.is_zero() {
+            return Err(io::ErrorKind::TimedOut.into());
+        }
+        self.stream.set_read_timeout(Some(left))?;
+        self.stream.read(buffer)
+    }
+}
 
 pub(super) struct Request {
     pub method: String,
@@ -16,9 +34,10 @@ pub(super) struct Request {
 }
 
 impl Request {
-    pub(super) fn read(stream: &TcpStream) -> Result<Request, Response> {
+    /// A request that is whole within `patience`.
+    pub(super) fn read(stream: &TcpStream, patience: Duration) -> Result<Request, Response> {
         let broken = |_: io::Error| Response::words(400, "the request broke off");
-        let mut reader = BufReader::new(stream);
+        let mut reader = BufReader::new(Until { stream, end: Instant::now() + patience });
         let mut head = String::new();
         let mut lines = (&mut reader).take(MOST_HEAD);
         while !head.ends_with("\r\n\r\n") {

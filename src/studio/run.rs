@@ -51,7 +51,10 @@ impl Bench {
         };
         let mut stand = of(&self.stand);
         if stand.runs {
-            return failed("a run is under way", "stop it, or wait for its end");
+            return match stand.stop {
+                false => failed("a run is under way", "stop it, or wait for its end"),
+                true => failed("the run that was stopped still builds its mesh", "try again in a moment"),
+            };
         }
         let told = json!({"state": "runs", "what": "building the mesh", "share": 0.0});
         *stand = Stand { told: Some(told.clone()), runs: true, stop: false };
@@ -76,8 +79,13 @@ impl Bench {
         stand.told.clone().unwrap_or(told)
     }
 
+    /// The answer comes at once; a mesh that is being built is thrown away when it is there.
     pub(super) fn stop(&self) -> Value {
-        of(&self.stand).stop = true;
+        let mut stand = of(&self.stand);
+        if stand.runs {
+            (stand.stop, stand.told) = (true, Some(json!({"state": "stopped"})));
+        }
+        drop(stand);
         self.told()
     }
 }
@@ -88,8 +96,11 @@ fn run(wish: &Wish, stand: &Mutex<Stand>) -> Result<FeRun, FemError> {
     let source = Source::new(&wish.name, &wish.text).with(&[&coarse[..], &[pressure]].concat())?;
     simulate(&source, &Settings::default(), &mut |what, share| {
         let mut stand = of(stand);
+        if stand.stop {
+            return ControlFlow::Break(());
+        }
         stand.told = Some(json!({"state": "runs", "what": what, "share": share}));
-        if stand.stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        ControlFlow::Continue(())
     })
 }
 

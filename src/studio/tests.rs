@@ -67,6 +67,41 @@ fn a_wish_that_means_nothing_is_refused_with_a_remedy() {
 }
 
 #[test]
+fn a_run_whose_mesh_is_large_stops_at_once() {
+    let studio = opened();
+    let text = "[body]\nradius_mm = 200\nlength_mm = 10000\npressure_kpa = 2\n[actuator]\nkind = \"epam\"\nlength_mm = 60\nwidth_mm = 60\ncount = 150\n";
+    let body = serde_json::json!({"name": "long", "text": text, "actuator_kpa": 10}).to_string();
+    let run = |method: &str, what: &str| format!("{method} /{}/{what}", studio.token);
+    let told = asked(&studio, &run("POST", "run"), "Host: HERE\r\n", &body);
+    assert!(told.contains("building the mesh"), "{told}");
+    let told = asked(&studio, &run("POST", "stop"), "Host: HERE\r\n", "");
+    assert!(told.contains("\"stopped\""), "{told}");
+    let other = r#"{"name": "mine", "text": "[body]", "actuator_kpa": 10}"#;
+    let ended = |_: &u32| {
+        std::thread::sleep(Duration::from_millis(20));
+        !asked(&studio, &run("POST", "run"), "Host: HERE\r\n", other).contains("try again in a moment")
+    };
+    assert!((0..3000).find(ended).is_some(), "{}", studio.bench.told());
+}
+
+/// A byte now and then does not keep a thread for ever.
+#[test]
+fn a_slow_request_ends() {
+    let studio = opened();
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let mut slow = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
+    let (visitor, _) = listener.accept().unwrap();
+    let writes = std::thread::spawn(move || {
+        while slow.write_all(b"x").is_ok() {
+            std::thread::sleep(Duration::from_millis(10));
+        }
+    });
+    studio.visit(&visitor, Duration::from_millis(200));
+    drop(visitor);
+    writes.join().unwrap();
+}
+
+#[test]
 fn tokens_differ() {
     assert_eq!(token().len(), 32);
     assert_ne!(token(), token());

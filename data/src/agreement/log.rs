@@ -57,7 +57,7 @@ fn gap(seen: &Seen, log: &LogSeen) -> Option<Doubt> {
     };
     let k = (0..log.times_s.len() - 1).find(jumps)?;
     let [from_s, to_s] = [log.times_s[k], log.times_s[k + 1]];
-    let filmed = seen.runs.is_empty() || seen.runs.iter().any(|run| run.act_pa.iter().any(|p| p.is_finite()));
+    let filmed = seen.runs.is_empty() || seen.runs.iter().any(|run| run.pressures_pa[1].iter().any(|p| p.is_finite()));
     let message = format!(
         "{}: no readings from {from_s:.1} to {to_s:.1} s, and the pressure goes from {:.1} to {:.1} kPa",
         log.file,

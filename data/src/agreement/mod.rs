@@ -7,6 +7,7 @@ mod background;
 mod base;
 mod body;
 mod copies;
+mod exchanged;
 mod frozen;
 mod jump;
 mod knock;
@@ -30,8 +31,9 @@ pub(crate) use seen::{Doubt, LogSeen, Seen};
 type Check = fn(&Seen) -> Option<Doubt>;
 
 /// All checks; earlier ones explain what later ones would find.
-const CHECKS: [Check; 15] = [
+const CHECKS: [Check; 16] = [
     log::log,
+    exchanged::exchanged,
     base::base,
     copies::copies,
     frozen::frozen,

@@ -43,8 +43,8 @@ impl Level {
 pub(super) struct SeenRun {
     pub label: String,
     pub times_s: Vec<f64>,
-    /// Actuator pressure of every frame \[Pa\].
-    pub act_pa: Vec<f64>,
+    /// Body and actuator pressure of every frame \[Pa\].
+    pub pressures_pa: [Vec<f64>; 2],
     /// `[marker][frame]` \[m\]; NaN where not seen.
     pub places_m: Vec<Vec<[f64; 3]>>,
     pub levels: Vec<Level>,
@@ -136,20 +136,20 @@ impl Seen {
 fn seen_run(
     label: String,
     times_s: Vec<f64>,
-    [body_pa, act_pa]: [Vec<f64>; 2],
+    pressures_pa: [Vec<f64>; 2],
     places_m: Vec<Vec<[f64; 3]>>,
     holds: Vec<Vec<usize>>,
 ) -> SeenRun {
     let level = |frames: Vec<usize>| {
         let mean = |values: &[f64]| frames.iter().map(|k| values[*k]).sum::<f64>() / frames.len().max(1) as f64;
-        let pressures_pa = [mean(&body_pa), mean(&act_pa)];
+        let means_pa = [mean(&pressures_pa[0]), mean(&pressures_pa[1])];
         // The robot may be on its way at the beginning.
         let late = &frames[frames.len() / 2..];
         let places_m = places_m.iter().map(|column| middle(late.iter().map(|k| column[*k]))).collect();
-        Level { frames, pressures_pa, places_m }
+        Level { frames, pressures_pa: means_pa, places_m }
     };
     let levels = holds.into_iter().map(level).collect();
-    SeenRun { label, times_s, act_pa, places_m, levels }
+    SeenRun { label, times_s, pressures_pa, places_m, levels }
 }
 
 pub(super) fn middle(places: impl Iterator<Item = [f64; 3]>) -> Option<[f64; 3]> {

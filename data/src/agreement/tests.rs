@@ -22,6 +22,8 @@ pub(super) struct Made {
     pub copied: Vec<[usize; 2]>,
     /// The run and the time from which on the outer two markers have each other's places.
     pub swapped: Option<(usize, f64)>,
+    /// Whether each pressure is in the other one's column.
+    pub exchanged: bool,
     /// A run whose picture is cropped \[m\].
     pub shifted: Option<(usize, [f64; 2])>,
 }
@@ -44,6 +46,7 @@ impl Made {
             frozen: Vec::new(),
             copied: Vec::new(),
             swapped: None,
+            exchanged: false,
             shifted: None,
         }
     }
@@ -94,7 +97,8 @@ impl Made {
                 }
             }
             let label = (run + 1).to_string();
-            runs.push(PressedRun { label, times_s: times_s.clone(), pressures_pa: [body, act], xy_m });
+            let pressures_pa = if self.exchanged { [act, body] } else { [body, act] };
+            runs.push(PressedRun { label, times_s: times_s.clone(), pressures_pa, xy_m });
         }
         for [from, to] in &self.copied {
             runs[*to].xy_m = runs[*from].xy_m.clone();

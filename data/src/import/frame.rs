@@ -249,7 +249,10 @@ impl Scene<'_> {
         }
         let degrees = angle.to_degrees();
         let message = format!("at rest the robot is at {degrees:.0} degrees to the file's {}", axis.word());
-        Err(self.fault(message, format!("turn it: --turn {degrees:.1}deg; or correct --base or --axes")))
+        Err(self.fault(
+            message,
+            format!("turn it: --turn {degrees:.1}deg; or correct --base, --axes or the clocks (--clock-offset)"),
+        ))
     }
 
     /// Refuses a robot that is out of the plane of the axes given.

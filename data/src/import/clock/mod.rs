@@ -229,8 +229,7 @@ impl<'a> Judge<'a> {
                 self.words(best, recording),
                 self.words(rival, recording)
             );
-            let typed = [best, rival].map(|c| format!("--clock-offset {:.2}s", c.clock.offset_s));
-            return Err([message, format!("give the right one, for example {}", typed.join(" or "))]);
+            return Err([message, self.which([best, rival], recording)]);
         }
         let farthest_s = self.sides.farthest_s(best);
         if farthest_s > LATE_S {
@@ -239,6 +238,23 @@ impl<'a> Judge<'a> {
         }
         let r = self.follows(best.clock).unwrap_or_default();
         Ok((best.clock, format!("the pressure log's clock {}; r = {r:.2}", self.words(best, recording))))
+    }
+
+    /// What to type for each of two clocks; an offset alone is refused where the clocks do not run alike.
+    fn which(&self, clocks: [&Candidate; 2], recording: &Recording) -> String {
+        let typed = |Candidate { clock: Clock { offset_s, rate }, .. }: &Candidate| {
+            let offset = format!("--clock-offset {offset_s:.2}s");
+            match self.frames_per_s.filter(|_| !recording.in_seconds) {
+                _ if *rate == 1.0 => Some(offset),
+                Some(fps) => Some(format!("--fps {:.4} {offset}", fps / rate)),
+                None => None,
+            }
+        };
+        let typed: Vec<String> = clocks.into_iter().filter_map(typed).collect();
+        match &typed[..] {
+            [] => "correct the times in one of the files: the two clocks do not run alike".to_string(),
+            _ => format!("give the right one, for example {}", typed.join(" or ")),
+        }
     }
 
     /// `is 3.40 s ahead of the camera's (7 of 7 changes)`.
@@ -283,12 +299,11 @@ impl<'a> Judge<'a> {
         let words: Vec<String> = found.iter().take(2).map(|c| self.words(c, recording)).collect();
         let other = if words.is_empty() { String::new() } else { format!("; the log's clock {}", words.join(" or ")) };
         let help = match &found[..] {
-            [] => nothing(recording, "")[1].clone() + "; are log and video of one test, and is the column right?",
+            [] => "are log and video of one test, and is the pressure's column right? If so, give the offset that a flash or a knock \
+                   shows: --clock-offset, the log's time minus the camera's"
+                .to_string(),
             [_] => "add --clock-offset find to take the clock that movement and pressure show".to_string(),
-            [a, b, ..] => format!(
-                "give the right one, for example --clock-offset {:.2}s or --clock-offset {:.2}s",
-                a.clock.offset_s, b.clock.offset_s
-            ),
+            [a, b, ..] => self.which([a, b], recording),
         };
         Err([format!("{now} {why}{other}"), help])
     }

@@ -1,0 +1,12 @@
+//! Puts the page of `web/build.sh` into the program, where it was built before.
+
+use std::path::Path;
+
+fn main() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("web/dist/ibr.html");
+    println!("cargo::rerun-if-changed={}", page.display());
+    let value = if page.exists() { format!("Some(include_str!({page:?}))") } else { "None".to_string() };
+    let out = Path::new(&std::env::var("OUT_DIR").expect("cargo gives a folder")).join("page.rs");
+    std::fs::write(out, format!("pub(crate) const PAGE: Option<&str> = {value};\n"))
+        .expect("the folder can be written");
+}
