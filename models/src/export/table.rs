@@ -74,7 +74,7 @@ impl Table {
     /// ```
     /// let robot = models::Scenario::parse(models::shipped("epam").unwrap()).unwrap();
     /// let table = models::export::Table::new(&models::Model::new(&robot), 2e3, [0.0, 40e3]).unwrap();
-    /// assert!(table.bytes() <= 4096 && table.bound.tip_m < 1e-3 * 0.36);
+    /// assert!(table.bytes() <= 2048 && table.bound.tip_m < 1e-3 * 0.36);
     /// ```
     ///
     /// # Errors

@@ -4,7 +4,7 @@ use crate::error::Unsolved;
 use thiserror::Error;
 
 /// Most bytes of constants of a table that is given out.
-pub const MOST_BYTES: usize = 4096;
+pub const MOST_BYTES: usize = 2048;
 /// Its largest miss, as a share of the robot's length or in rad.
 pub const MOST_MISS: f64 = 1e-3;
 /// Reason for which a model cannot be written as a table over the pressure.
