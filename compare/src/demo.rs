@@ -1,4 +1,4 @@
-//! The demonstration in five panels: a robot, a model next to a camera, the missing effect, the fall of the error, the model's limits.
+//! The demonstration in five panels: a robot, a model next to markers, the missing effects, the fall of the error, the model's limits.
 //!
 //! The camera sees a robot of the finite element engine, which has every mechanism; the model is the textbook one. Mechanisms of the
 //! shipped robot are added one after the other, the one first that leaves least, and none of their numbers is fitted.
@@ -7,7 +7,8 @@ use crate::diagnosis::{Diagnosis, Options, diagnose};
 use crate::error::CompareError;
 use crate::evidence::Evidence;
 use crate::progress::{Progress, part};
-use crate::study::comparison::{Comparison, compare};
+use crate::study::calibrate::Knob;
+use crate::study::comparison::{Comparison, Contender, compare_all};
 use crate::study::engines::{EngineLine, Engines, engines, lines, of_the_program, stored};
 use crate::study::generate::about;
 use crate::study::published::{shipped_scenario, textbook_scenario};
@@ -37,6 +38,8 @@ pub struct Demo {
     pub diagnosis: Diagnosis,
     /// The textbook model, and one more mechanism in every step.
     pub steps: Vec<Mechanism>,
+    /// The textbook model with a stiffness fitted to the data in place of mechanisms.
+    pub stiffness: Mechanism,
     /// Reduced model and finite elements for the four published robots.
     pub engines: Engines,
     /// Their displacements and accuracies at every pressure that the paper prints.
@@ -62,19 +65,20 @@ pub struct Mechanism {
 /// Damaged embedded data or a model without equilibrium.
 pub fn demo(progress: &mut Progress) -> Result<Demo, CompareError> {
     let (robot, data) = (textbook_scenario(ROBOT[0])?, Evidence::read(ROBOT[1])?);
-    progress("a model next to a camera", Some(0.0));
-    let compared = compare(&robot, &data)?;
+    progress("a model next to markers", Some(0.0));
+    let compared = compare_all(&[Contender::as_given(&robot)], &data, &Default::default(), Some(Knob::Bending))?;
     let path = Path { shipped: shipped_scenario(ROBOT[0])?, data: &data, left_out: left_out(&robot)? };
     let candidates = path.candidates(&robot)?;
     let options = Options { keep_bending: true, next_experiment: false, ..Options::default() };
     let diagnosis = diagnose(&robot, std::slice::from_ref(&data), &options, &mut part(progress, [0.1, 0.7]))?;
     progress("mechanism by mechanism", Some(0.7));
     let steps = path.steps(&robot)?;
+    let stiffness = path.judged(&compared.variants[1].scenario, "", "")?;
     progress("both engines on four robots", Some(0.8));
     let scenarios = ROBOTS.iter().map(|kind| shipped_scenario(kind)).collect::<Result<Vec<_>, _>>()?;
     let engines = engines(&scenarios, &stored()?)?;
     let lines = engines.robots.iter().map(lines).collect::<Result<Vec<_>, _>>()?.concat();
-    Ok(Demo { robot, data, compared, candidates, diagnosis, steps, engines, lines })
+    Ok(Demo { robot, data, compared, candidates, diagnosis, steps, stiffness, engines, lines })
 }
 
 /// The same robot of the finite elements at another body pressure.
@@ -100,13 +104,13 @@ impl Path<'_> {
         let own = self.shipped.effects.iter().find(|e| e.name == effect);
         let model = own.map_or(base.clone(), |e| base.with_effect(&e.name, &e.values));
         let sentence = models::effects::by_name(effect).map_or("", |e| e.sentence);
-        let mechanism = Mechanism {
-            effect: effect.into(),
-            sentence: sentence.into(),
-            error_mm: error_mm(&model, self.data)?,
-            left_out_mm: error_mm(&model, &self.left_out)?,
-        };
+        let mechanism = self.judged(&model, effect, sentence)?;
         Ok((model, mechanism))
+    }
+
+    fn judged(&self, model: &Scenario, effect: &str, sentence: &str) -> Result<Mechanism, CompareError> {
+        let [error_mm, left_out_mm] = [error_mm(model, self.data)?, error_mm(model, &self.left_out)?];
+        Ok(Mechanism { effect: effect.into(), sentence: sentence.into(), error_mm, left_out_mm })
     }
 
     /// Every mechanism that the model lacks, added alone, the nearest first.
@@ -159,6 +163,8 @@ mod tests {
         let [first, last] = [&demo.steps[0], &demo.steps[demo.steps.len() - 1]];
         assert!(last.error_mm < 0.25 * first.error_mm && last.left_out_mm < 0.5 * first.left_out_mm, "{demo:?}");
         assert_eq!(demo.candidates[0].effect, demo.steps[1].effect);
+        // A stiffness follows the data that it was fitted to, and no others.
+        assert!(demo.stiffness.error_mm < last.error_mm && demo.stiffness.left_out_mm > 2.0 * last.left_out_mm, "{demo:?}");
         assert_eq!(demo.engines.robots.len(), ROBOTS.len());
     }
 }

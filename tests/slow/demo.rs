@@ -13,7 +13,7 @@ fn demo_tells_the_story_in_five_panels_and_the_error_falls() {
     let seconds = start.elapsed().as_secs_f64();
     assert_eq!(ran.code, 0, "{}", ran.stderr);
     assert!(ran.stdout.lines().count() <= 45, "{}", ran.stdout);
-    for panel in ["1. This is a vine robot", "2. A model", "3. Which effect", "4. Add it", "5. Where the analytic"] {
+    for panel in ["1. This is a vine robot", "2. A model", "3. Which effect", "4. Add them", "5. Where the analytic"] {
         assert!(ran.stdout.lines().any(|line| line.starts_with(panel)), "{panel}: {}", ran.stdout);
     }
 
