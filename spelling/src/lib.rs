@@ -47,18 +47,25 @@ impl<const N: usize> Deref for Exactly<N> {
     }
 }
 
-/// The name nearest to `wrong` by edit distance, if it is near enough to be a slip.
+/// Fewest letters of a word that is taken for the beginning of a name.
+const BEGUN: usize = 3;
+
+/// The name nearest to `wrong` by edit distance, if it is near enough to be a slip; else the shortest one that begins with it.
 ///
 /// ```
 /// assert_eq!(spelling::nearest("epan", ["spam", "epam"]), Some("epam"));
+/// assert_eq!(spelling::nearest("epam-text", ["epam", "epam-textbook"]), Some("epam-textbook"));
 /// assert_eq!(spelling::nearest("tube", ["spam", "epam"]), None);
 /// ```
 pub fn nearest<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let (wrong, letters) = (wrong.to_lowercase(), wrong.chars().count());
     let distance = |name: &str| strsim::damerau_levenshtein(&wrong, &name.to_lowercase());
-    let (found, edits) = known.into_iter().map(|name| (name, distance(name))).min_by_key(|(_, edits)| *edits)?;
+    let known: Vec<&str> = known.into_iter().collect();
+    let (found, edits) = known.iter().map(|name| (*name, distance(name))).min_by_key(|(_, edits)| *edits)?;
     // A word all of whose letters are changed is another word.
-    (edits <= 1 + letters / 4 && edits < letters).then_some(found)
+    let near = (edits <= 1 + letters / 4 && edits < letters).then_some(found);
+    let begun = || known.into_iter().filter(|name| letters >= BEGUN && name.starts_with(&wrong)).min_by_key(|n| n.len());
+    near.or_else(begun)
 }
 
 /// "did you mean friction? ", to put before the known names; empty if nothing is near.

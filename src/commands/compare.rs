@@ -68,6 +68,9 @@ fn both(args: &CompareArgs) -> Result<(ScenarioFile, &str)> {
         _ => None,
     }
     .ok_or_else(|| {
+        if let [scenario] = &args.inputs[..] {
+            return inputs::without_data("compare", scenario);
+        }
         let message = format!("ibr compare takes a scenario and data, not {} names", args.inputs.len());
         let help =
             "for example `ibr compare epam synthetic-epam`; `ibr compare spam epam --engines` takes scenarios only";

@@ -19,9 +19,7 @@ pub(super) fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome>
         return Ok(outcome);
     }
     let Some(data) = args.data.as_deref() else {
-        let message = format!("{} alone is not a table of bench tests, and markers need a scenario", args.scenario);
-        let help = "for example `ibr diagnose epam synthetic-epam`, `ibr diagnose festo-bolen-2026`, `ibr diagnose epam --published`";
-        return Err(Failure::usage(message, help));
+        return Err(inputs::without_data("diagnose", &args.scenario));
     };
     let fit = &args.fit;
     let options = Options { refit_present: args.refit, ..inputs::fit_options(fit)? };

@@ -32,6 +32,15 @@ pub(super) fn each_once<'t>(option: &str, names: impl IntoIterator<Item = &'t st
 }
 
 /// Names of effects that were typed as `name` or `name:key=value`.
+/// What is missing where a scenario, or data, stand alone.
+pub(super) fn without_data(verb: &str, name: &str) -> Failure {
+    let help = match scenario(name).is_ok() {
+        true => format!("name them after it: `ibr {verb} {name} DATA`, for example `ibr {verb} {name} synthetic-epam`"),
+        false => format!("a scenario comes first: `ibr {verb} epam {name}`; tables of beams and muscles stand alone"),
+    };
+    Failure::usage(format!("{name} alone: a scenario and data are needed"), help)
+}
+
 pub(super) fn effect_names(typed: &[String]) -> impl Iterator<Item = &str> {
     typed.iter().map(|text| text.split([':', '=']).next().unwrap_or_default())
 }

@@ -93,7 +93,7 @@ fn both_engines_stand_beside_the_published_numbers_from_stored_runs() {
     assert_opens_offline(&page);
     assert_hashes(&folder.path("page"));
     let wrong = folder.run(&["compare", "epam"]);
-    assert!(wrong.code == 2 && wrong.stderr.contains("a scenario and data, not 1 names"), "{}", wrong.stderr);
+    assert!(wrong.code == 2 && wrong.stderr.contains("alone: a scenario and data are needed"), "{}", wrong.stderr);
 }
 
 #[test]

@@ -6,6 +6,7 @@ use fem::session::{Source, sha256};
 use models::scenario::ROBOTS;
 use models::{Scenario, ScenarioError};
 use spelling::files::{MOST_TEXT, read_whole};
+use std::io::ErrorKind;
 use std::ops::Deref;
 use std::path::Path;
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
@@ -37,6 +38,7 @@ impl ScenarioFile {
     pub fn read(name: &str) -> Result<ScenarioFile, CompareError> {
         let cause = match (read_whole(Path::new(name), MOST_TEXT), models::shipped(name)) {
             (Err(_), Some(text)) if !Path::new(name).exists() => return ScenarioFile::parse(name, text),
+            (Err(cause), _) if cause.kind() == ErrorKind::NotFound => "no robot and no file has this name".to_string(),
             (Err(cause), _) => cause.to_string(),
             (Ok(bytes), _) => match String::from_utf8(bytes) {
                 Ok(text) if text.trim().is_empty() => "the file is empty".to_string(),
@@ -49,6 +51,9 @@ impl ScenarioFile {
 
     /// Help where a file of this name cannot be read, with the names of shipped ones.
     pub fn help(name: &str, shipped: &[&str]) -> String {
+        if data::sets().iter().any(|set| set.name == name) {
+            return format!("{name} is data, and the scenario comes first: for example `ibr compare epam {name}`");
+        }
         let (meant, names) = (spelling::meant(name, shipped.iter().copied()), shipped.join(", "));
         format!("{meant}give a TOML file, or a shipped robot: {names}; `ibr new epam > my.toml` makes a start")
     }

@@ -142,9 +142,10 @@ fn words(seen: &SlipSeen, alike: &[TurnFound]) -> String {
     }
     if way.factor != 1.0 {
         let unit = UNITS.iter().find(|(unit, _)| *unit == way.factor).map(|(_, words)| *words);
-        let looks = format!("positions look like {}", unit.unwrap_or("pixels, or a scale that was not set"));
+        let or = "or the stations are in another unit";
+        let looks = format!("positions look like {}, {or}", unit.unwrap_or("pixels, or a scale that was not set"));
         let with = format!("{} times the numbers", (1e4 * way.factor).round() / 1e4);
-        all.push([looks, with, "name the columns x and y by their unit, or convert them".into()]);
+        all.push([looks, with, "name the columns x and y by their unit, or convert them; stations are s_mm".into()]);
     }
     let joined = |k: usize, by: &str| all.iter().map(|words| words[k].as_str()).collect::<Vec<_>>().join(by);
     let next = format!("Look at it first: {}", joined(2, "; "));
