@@ -256,7 +256,7 @@ fn sentences(w: &Witness, d: &Diagnosis) -> Vec<String> {
     let sd = top.fe_sd_mm.map_or(String::new(), |sd| format!(" ± {sd:.1}"));
     let runs = if w.runs == 1 { "one run".to_string() } else { format!("{} runs", w.runs) };
     let mut out = vec![format!(
-        "Outermost marker at {at} kPa: measured {:.1} mm; model with calibrated B {:.1}, final model {:.1}, finite elements {:.1}{sd} mm ({runs}, {} mm elements, numbers {}).",
+        "Outermost marker at {at} kPa: data {:.1} mm; model with calibrated B {:.1}, final model {:.1}, finite elements {:.1}{sd} mm ({runs}, {} mm elements, numbers {}).",
         top.measured_mm,
         top.base_mm,
         top.best_mm,

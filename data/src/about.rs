@@ -80,7 +80,7 @@ impl Provenance {
 
 /// How the bending stiffness is measured, as every part of the program asks for it.
 pub const BENDING_TEST: &str = "measure the bending stiffness separately, to 10 %: hang a known force on the tip of the inflated body, \
-                                actuator vented, and write B into [bending] of about.toml";
+                                actuator vented, and write it as stiffness_nm2 into [bending] of the data's about.toml";
 
 /// Description of a dataset, in SI units.
 #[derive(Debug, Clone, PartialEq)]

@@ -103,14 +103,18 @@ fn closest(d: &Diagnosis) -> String {
     let singles = first.into_iter().chain(others);
     let singles = singles.map(|r| (r.effect.clone(), !stated(&r), &r.parameters, r.systematic_after_mm, r.heldout_mm));
     let before = format!("{:.2} mm beyond noise without any of them", d.base.systematic_mm);
-    let rows = Table::of(pairs.chain(singles).take(ROWS))
+    let rows: Vec<_> = pairs.chain(singles).take(ROWS).collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    let rows = Table::of(rows)
         .words("", |(_, alike, ..)| if *alike { "=" } else { "" })
         .words("with", |(name, ..)| name.clone())
         .words("value, 95 %", |(_, _, values, ..)| listed(values))
         .number("after mm", 2, |(.., after, _)| *after)
         .number("pressures left out mm", 2, |(.., left_out)| *left_out)
         .text();
-    format!("\nWhat it could be ({before}; = fit equally well):\n{rows}")
+    format!("\nWhat it could be ({before}; =: these data cannot rule it out):\n{rows}")
 }
 
 /// What the answer means on the robot, and where the model fails with it.

@@ -195,8 +195,11 @@ fn calibrated(
         Knob::BodyPressure => ("body pressure p_b", "kPa", "another body pressure"),
     };
     let short = symbol.rsplit(' ').next().unwrap_or(symbol);
-    let bound =
-        if fit.at_bound { format!("; at its bound: {what} does not explain these data") } else { String::new() };
+    let bound = match (fit.at_bound, fit.misses) {
+        (true, true) => format!("; at its bound: {what} does not explain these data"),
+        (true, false) => "; at its bound, and the model agrees there".to_string(),
+        _ => String::new(),
+    };
     Ok(Variant {
         label: format!("+ {symbol} = {:.3} {unit}", fit.value),
         known: Known::Calibrated,

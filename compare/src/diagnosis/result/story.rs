@@ -123,10 +123,12 @@ fn other_design(d: &Diagnosis, other: &OtherDesign) -> String {
         Some(Verdict::Effect) => format!("; then missing: {}", indistinguishable.join(" or ")),
         _ => String::new(),
     };
+    // A pair may leave less; other designs are asked for single effects.
+    let own = d.base.systematic_with_added_mm;
+    let instead = if *after < own { format!(" instead of {own:.2}") } else { String::new() };
     format!(
-        "First look at how the robot is made. {}, with nothing of it fitted, the best answer leaves {after:.2} mm instead of {:.2}{then}.",
+        "First look at how the robot is made. {}, with nothing of it fitted, the best single effect leaves {after:.2} mm{instead}{then}.",
         capitalised(&change(switched).replace("adding", "with").replace("leaving out", "without")),
-        d.base.systematic_with_added_mm
     )
 }
 
