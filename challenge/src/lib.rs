@@ -15,6 +15,7 @@ pub mod bench;
 pub mod camera;
 pub mod drive;
 pub mod effects;
+pub mod entry;
 mod laws;
 pub mod loads;
 pub mod march;

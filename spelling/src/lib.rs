@@ -64,7 +64,8 @@ pub fn nearest<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> Opt
     let (found, edits) = known.iter().map(|name| (*name, distance(name))).min_by_key(|(_, edits)| *edits)?;
     // A word all of whose letters are changed is another word.
     let near = (edits <= 1 + letters / 4 && edits < letters).then_some(found);
-    let begun = || known.into_iter().filter(|name| letters >= BEGUN && name.starts_with(&wrong)).min_by_key(|n| n.len());
+    let begun =
+        || known.into_iter().filter(|name| letters >= BEGUN && name.starts_with(&wrong)).min_by_key(|n| n.len());
     near.or_else(begun)
 }
 

@@ -124,6 +124,26 @@ pub(crate) enum ChallengeCommand {
         #[arg(long, value_name = "JSON")]
         diagnosis: Option<PathBuf>,
     },
+    /// Many blind cases with their rules, as plain files that any tool can enter
+    Export {
+        /// Folder for the cases, README.md, effects.csv, entry.csv and entry.py
+        #[arg(long)]
+        out: PathBuf,
+        /// Cases
+        #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=999))]
+        cases: u64,
+        /// Makes the same cases again; without it what is hidden cannot be guessed
+        #[arg(long)]
+        seed: Option<u64>,
+    },
+    /// Open the seals of exported cases and score an entry
+    Score {
+        /// Folder of the cases
+        folder: PathBuf,
+        /// Table case,verdict,names
+        #[arg(value_name = "ENTRY.csv")]
+        entry: PathBuf,
+    },
     /// Everything that can be hidden, with its law
     List,
 }

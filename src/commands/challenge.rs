@@ -1,15 +1,20 @@
-//! `ibr challenge new | reveal | list`: data with a hidden effect whose truth is sealed until someone asks for it.
+//! `ibr challenge new | reveal | export | score | list`: data with a hidden effect whose truth is sealed until someone asks for it.
 
 use super::inputs;
 use super::inputs::scatter;
 use crate::cli::{ChallengeCommand, ChallengeNewArgs};
 use crate::prelude::*;
+use challenge::entry::{self, EntryScore};
 use challenge::{ALSO, Claim, ClaimScore, HIDDEN, HiddenEffect, Laws, OUTSIDE, Riddle, Truth, score};
+use compare::CompareError;
+use spelling::files::{MOST_TEXT, read_whole};
 
 pub(super) fn run(command: &ChallengeCommand, context: &mut Context) -> Result<Outcome> {
     match command {
         ChallengeCommand::New(args) => make(args, context),
         ChallengeCommand::Reveal { folder, diagnosis } => reveal(folder, diagnosis.as_deref(), context),
+        ChallengeCommand::Export { out, cases, seed } => export(out, *cases as usize, *seed, context),
+        ChallengeCommand::Score { folder, entry } => scored(folder, entry),
         ChallengeCommand::List => Ok(list()),
     }
 }
@@ -50,6 +55,52 @@ fn reveal(folder: &Path, diagnosis: Option<&Path>, context: &mut Context) -> Res
     Ok(Outcome::answer(text, "ibr.challenge.reveal", &Revealed { sha256, truth, diagnosis: diagnosis_scored }))
 }
 
+fn export(folder: &Path, cases: usize, seed: Option<u64>, context: &mut Context) -> Result<Outcome> {
+    let own = |k: usize| folder.join(entry::case_name(k));
+    (1..=cases).try_for_each(|k| check_set_folder(&own(k), context.force))?;
+    if own(cases + 1).exists() {
+        let help = "choose another folder, or as many cases as it has";
+        return Err(Failure::usage(format!("{} has more cases than {cases}", folder.display()), help));
+    }
+    write_files(folder, &Files { files: entry::common_files(cases), ..Files::default() }, &[], context)?;
+    for k in 1..=cases {
+        (context.progress)("making cases", Some((k - 1) as f64 / cases as f64));
+        replace_files(&own(k), &Files { files: entry::case(k, seed)?, ..Files::default() }, &[], context)?;
+    }
+    let shown = folder.display();
+    let text = format!(
+        "{cases} sealed cases are in {shown}, with their rules in README.md.\n\
+         An entry by ibr:  (cd {shown} && python entry.py)\nIts score:        ibr challenge score {shown} {shown}/entry.csv\n"
+    );
+    Ok(Outcome::answer(text, "ibr.challenge.export", &ExportedCases { folder: shown.to_string(), cases }))
+}
+
+fn scored(folder: &Path, entry: &Path) -> Result<Outcome> {
+    let name = entry.display().to_string();
+    let bytes = read_whole(entry, MOST_TEXT).map_err(|cause| CompareError::Unread {
+        path: name.clone(),
+        cause: cause.to_string(),
+        help: "give a table case,verdict,names; README.md of the cases has the rules".into(),
+    })?;
+    let score = entry::score_entry(folder, &name, &String::from_utf8_lossy(&bytes))?;
+    let EntryScore { cases, verdicts_right, with_effect, first_true, among_names, mean_names, false_names } = &score;
+    let rows = Table::of(cases)
+        .words("case", |c| &c.case)
+        .words("hidden", |c| c.hidden.join(", "))
+        .words("verdict", |c| c.answer.verdict.clone().unwrap_or_default())
+        .words("names", |c| c.answer.set.join(", "))
+        .words("right", |c| if c.score.verdict_right { "yes" } else { "no" });
+    let all = cases.len();
+    let mean = mean_names.map_or("–".to_string(), |mean| format!("{mean:.1}"));
+    let text = format!(
+        "{}{verdicts_right} of {all} verdicts are right. Of {with_effect} cases with an effect of the catalogue the first name is true in {first_true}, \
+         and a true one is among all names in {among_names} ({mean} names on average). In {false_names} of the {} others an effect is named.\n",
+        rows.text(),
+        all - with_effect
+    );
+    Ok(Outcome::answer(text, "ibr.challenge.score", &score))
+}
+
 fn list() -> Outcome {
     let mut text = String::from(
         "What `ibr challenge new --effect NAME` can hide; the catalogue knows the first group by another law\n",
@@ -86,6 +137,15 @@ struct NewChallenge {
     sha256: String,
     /// Number of runs in the data
     runs: usize,
+}
+
+/// `ibr.challenge.export`: `ibr challenge export --out FOLDER`
+#[derive(Serialize)]
+struct ExportedCases {
+    /// Folder in which cases and rules were written
+    folder: String,
+    /// Number of cases
+    cases: usize,
 }
 
 /// `ibr.challenge.reveal`: `ibr challenge reveal FOLDER`

@@ -59,6 +59,8 @@ const COMMANDS: [(&str, &str); 52] = [
     ("new cpam", "ibr.new"),
     ("new tube", "ibr.new"),
     ("challenge new --seed 3 --out c", "ibr.challenge.new"),
+    ("challenge export --out cases --cases 2 --seed 5", "ibr.challenge.export"),
+    ("challenge score cases entry.csv", "ibr.challenge.score"),
     ("challenge list", "ibr.challenge.list"),
     ("challenge reveal c", "ibr.challenge.reveal"),
     ("diagnose c/scenario.toml c --out d", "ibr.diagnose"),
@@ -122,6 +124,7 @@ fn what_comes_out_is_what_the_types_say() {
     let folder = Folder::new();
     folder.write("study.toml", "scenario = \"epam\"\n[[vary]]\nkey = \"actuator.width_mm\"\nvalues = [60, 300]\n");
     let free = "[[free]]\nkey = \"pressure_kpa\"\nfrom = 5\nto = 30\n[[assumed]]\nkey = \"body.pressure_kpa\"\nfrom = 1.9\nto = 2.1\n";
+    folder.write("entry.csv", "case,verdict,names\ncase-001,none,\ncase-002,effect,gravity\n");
     folder.write("wish.toml", format!("scenario = \"epam\"\n[wish]\ntip_angle_deg = 36\n{free}"));
     let quick = crate::design::with_wish(0.5);
     std::fs::copy(quick.path("quick.toml"), folder.path("quick.toml")).unwrap();

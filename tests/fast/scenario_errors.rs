@@ -150,7 +150,12 @@ fn files_that_are_no_scenario_are_refused() {
     refused(b"\xff\xfe\x00[body]", &["not a text in UTF-8", start]);
     refused((0..=255).cycle().take(5000).collect::<Vec<u8>>(), &["not a text in UTF-8"]);
     let folder = with_report();
-    refuse(&folder, &["predict", "nothing.toml"], 3, &["cannot read nothing.toml: no robot and no file has this name", start]);
+    refuse(
+        &folder,
+        &["predict", "nothing.toml"],
+        3,
+        &["cannot read nothing.toml: no robot and no file has this name", start],
+    );
     refuse(&folder, &["predict", "report"], 3, &["cannot read report: Is a directory", start]);
     refuse(&folder, &["predict", "epma"], 3, &["cannot read epma", "shipped robot: spam, cpam, epam, fpam"]);
 }
