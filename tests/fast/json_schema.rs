@@ -12,7 +12,7 @@ const RARE: &str = "ibr.demo ibr.simulations ibr.uncertain AsClose BendingAlarm 
     PressureSlipFound Reading RobotSummary RunRecord Rung SeedGroup Snap Through Varied Weight";
 
 /// What runs, in this order in one folder, and the schema of its answer.
-const COMMANDS: [(&str, &str); 52] = [
+const COMMANDS: [(&str, &str); 54] = [
     ("predict no-such-robot", "ibr.error"),
     ("predict epam --set body.radius_mn=45", "ibr.error"),
     ("predict epam --no-such-option", "ibr.error"),
