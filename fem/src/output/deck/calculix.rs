@@ -19,7 +19,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::shared::{
-    Plate, Solver, follow, heading, left_out, loads, node_set, number, numbers, own, place, places, plate, put, row,
+    Plate, Solver, follow, heading, left_out, loads, node_set, number, numbers, own, place, places, plate, row,
     surfaces,
 };
 use crate::Problem;
@@ -53,18 +53,18 @@ pub(super) fn text(problem: &Problem) -> (String, Vec<String>) {
         material(&mut out, problem, index, part, section);
     }
     if problem.settings.mass_damping_1_s > 0.0 {
-        put(&mut out, format_args!("*DAMPING, ALPHA={}, BETA=0.0", number(problem.settings.mass_damping_1_s)));
+        out += &format!("*DAMPING, ALPHA={}, BETA=0.0\n", number(problem.settings.mass_damping_1_s));
     }
     let mut step = String::new();
     loads(&mut out, &mut step, problem, Solver::CalculiX);
-    put(&mut out, format_args!("*STEP, NLGEOM, INC=1000000\n*DYNAMIC, ALPHA={ALPHA:?}\n{}", increments(problem)));
+    out += &format!("*STEP, NLGEOM, INC=1000000\n*DYNAMIC, ALPHA={ALPHA:?}\n{}\n", increments(problem));
     out += &step;
-    sets.for_each(|(name, _)| put(&mut out, format_args!("*NODE PRINT, NSET={name}, {SELDOM}\nU")));
+    sets.for_each(|(name, _)| out += &format!("*NODE PRINT, NSET={name}, {SELDOM}\nU\n"));
     for index in 1..=problem.supports.len() {
         let set = own(&format!("reaction_{index}"));
-        put(&mut out, format_args!("*NODE PRINT, NSET={set}, TOTALS=ONLY, {SELDOM}\nRF"));
+        out += &format!("*NODE PRINT, NSET={set}, TOTALS=ONLY, {SELDOM}\nRF\n");
     }
-    put(&mut out, format_args!("*NODE FILE, OUTPUT=2D, {SELDOM}\nU\n*EL FILE, {SELDOM}\nS, E\n*END STEP"));
+    out += &format!("*NODE FILE, OUTPUT=2D, {SELDOM}\nU\n*EL FILE, {SELDOM}\nS, E\n*END STEP\n");
     (out, left_out(problem, Solver::CalculiX))
 }
 
@@ -133,7 +133,7 @@ impl Quadratic {
             }
             for (kind, elements) in [("S8R", 0..part.quads.len()), ("S6", part.quads.len()..part.len())] {
                 if !elements.is_empty() {
-                    put(&mut made.elements, format_args!("*ELEMENT, TYPE={kind}, ELSET={}", part.name));
+                    made.elements += &format!("*ELEMENT, TYPE={kind}, ELSET={}\n", part.name);
                 }
                 elements.for_each(|i| made.element(problem, first + i, part.nodes(i), piece));
             }
@@ -146,7 +146,7 @@ impl Quadratic {
         let sides = corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| [*a.min(b), *a.max(b)]);
         let places = corners.iter().map(|node| [*node; 2]).chain(sides);
         let nodes: Vec<u32> = places.map(|place| self.node(problem, place, piece)).collect();
-        put(&mut self.elements, format_args!("{name}, {}", numbers(&nodes)));
+        self.elements += &format!("{name}, {}\n", numbers(&nodes));
     }
 
     /// The node of a piece in the middle of two nodes, counted from 0.
@@ -160,10 +160,7 @@ impl Quadratic {
         } else {
             let [a, b] = between.map(|node| place(problem, node));
             self.count += 1;
-            put(
-                &mut self.nodes,
-                format_args!("{}, {}", self.count, row(&[0, 1, 2].map(|axis| 0.5 * (a[axis] + b[axis])))),
-            );
+            self.nodes += &format!("{}, {}\n", self.count, row(&[0, 1, 2].map(|axis| 0.5 * (a[axis] + b[axis]))));
             self.count - 1
         };
         match first {
@@ -201,9 +198,9 @@ fn held_sets(out: &mut String, problem: &Problem, mesh: &Quadratic) {
     for (index, rigid) in problem.rigid.iter().enumerate() {
         let (set, nodes) = (own(&format!("rigid_{}", index + 1)), mesh.within(nodes(&rigid.set), false));
         let at = row(&nodes.first().map_or([0.0; 3], |node| place(problem, *node)));
-        put(out, format_args!("*NODE\n{}, {at}\n{}, {at}", next + 1, next + 2));
+        *out += &format!("*NODE\n{}, {at}\n{}, {at}\n", next + 1, next + 2);
         node_set(out, &set, &nodes);
-        put(out, format_args!("*RIGID BODY, NSET={set}, REF NODE={}, ROT NODE={}", next + 1, next + 2));
+        *out += &format!("*RIGID BODY, NSET={set}, REF NODE={}, ROT NODE={}\n", next + 1, next + 2);
         next += 2;
     }
 }
@@ -213,24 +210,21 @@ fn material(out: &mut String, problem: &Problem, index: usize, part: &Part, sect
     let (name, thickness, density) = (&part.name, number(thickness_m), number(density_kg_m3));
     // CalculiX refuses an isotropic ν of ½, which incompressible films have.
     let is_isotropic = nu12 < 0.499 && (e1 / e2 - 1.0).abs() < 1e-9 && (2.0 * g * (1.0 + nu12) / e1 - 1.0).abs() < 1e-9;
-    let elastic = if is_isotropic {
-        row(&[e1, nu12])
-    } else {
-        let across = (e1 * e2).sqrt();
-        let constants = row(&[e1, e2, across, nu12, 0.0, 0.0, g, 0.5 * across]);
-        format!("{constants}\n{}", number(0.5 * across))
+    let across = (e1 * e2).sqrt();
+    let constants = [e1, e2, across, nu12, 0.0, 0.0, g, 0.5 * across];
+    let (kind, elastic) = match is_isotropic {
+        true => ("", row(&[e1, nu12])),
+        false => (", TYPE=ENGINEERING CONSTANTS", row(&constants) + "\n" + &number(0.5 * across)),
     };
-    let kind = if is_isotropic { "" } else { ", TYPE=ENGINEERING CONSTANTS" };
-    put(out, format_args!("*MATERIAL, NAME={name}\n*ELASTIC{kind}\n{elastic}\n*DENSITY\n{density}"));
+    *out += &format!("*MATERIAL, NAME={name}\n*ELASTIC{kind}\n{elastic}\n*DENSITY\n{density}\n");
     if is_isotropic {
-        put(out, format_args!("*SHELL SECTION, ELSET={name}, MATERIAL={name}\n{thickness}"));
+        return *out += &format!("*SHELL SECTION, ELSET={name}, MATERIAL={name}\n{thickness}\n");
     }
-    let directions = if is_isotropic { BTreeMap::new() } else { directions(problem, index, part) };
-    for (number, (axes, elements)) in directions.iter().enumerate() {
+    for (number, (axes, elements)) in directions(problem, index, part).iter().enumerate() {
         let warp = own(&format!("warp_{}_{}", index + 1, number + 1));
-        put(out, format_args!("*ORIENTATION, NAME={warp}\n{axes}\n*ELSET, ELSET={warp}"));
-        elements.chunks(16).for_each(|elements| put(out, format_args!("{},", numbers(elements))));
-        put(out, format_args!("*SHELL SECTION, ELSET={warp}, MATERIAL={name}, ORIENTATION={warp}\n{thickness}"));
+        *out += &format!("*ORIENTATION, NAME={warp}\n{axes}\n*ELSET, ELSET={warp}\n");
+        elements.chunks(16).for_each(|elements| *out += &format!("{},\n", numbers(elements)));
+        *out += &format!("*SHELL SECTION, ELSET={warp}, MATERIAL={name}, ORIENTATION={warp}\n{thickness}\n");
     }
 }
 

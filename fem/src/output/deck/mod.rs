@@ -25,7 +25,7 @@ use crate::problem::{MassScaling, Section};
 use crate::sheet::reference::bending_stiffness;
 use crate::vec3::{area, cross, direction};
 pub use shared::Solver;
-use shared::{Plate, heading, label, left_out, loads, node_set, number, numbers, places, plate, put, row, surfaces};
+use shared::{Plate, heading, label, left_out, loads, node_set, number, numbers, places, plate, row, surfaces};
 
 /// The text, and what it does not say.
 pub(crate) fn text(problem: &Problem, solver: Solver) -> (String, Vec<String>) {
@@ -42,7 +42,7 @@ pub(crate) fn text(problem: &Problem, solver: Solver) -> (String, Vec<String>) {
     contact(&mut out, problem);
     numerics(&mut out, problem);
     out += &step;
-    put(&mut out, "*OUTPUT, FIELD, NUMBER INTERVAL=20\n*NODE OUTPUT\nU, V\n*ELEMENT OUTPUT\nS, LE\n*END STEP");
+    out += "*OUTPUT, FIELD, NUMBER INTERVAL=20\n*NODE OUTPUT\nU, V\n*ELEMENT OUTPUT\nS, LE\n*END STEP\n";
     (out, left_out(problem, Solver::Abaqus))
 }
 
@@ -53,9 +53,9 @@ fn nodes_and_elements(out: &mut String, problem: &Problem) {
         let kinds = if bending_stiffness(section) > 0.0 { ["S4R", "S3R"] } else { ["M3D4R", "M3D3"] };
         for (kind, elements) in kinds.into_iter().zip([0..part.quads.len(), part.quads.len()..part.len()]) {
             if !elements.is_empty() {
-                put(out, format_args!("*ELEMENT, TYPE={kind}, ELSET={}", label(&part.name)));
+                *out += &format!("*ELEMENT, TYPE={kind}, ELSET={}\n", label(&part.name));
             }
-            elements.for_each(|i| put(out, format_args!("{}, {}", first + i, numbers(part.nodes(i)))));
+            elements.for_each(|i| *out += &format!("{}, {}\n", first + i, numbers(part.nodes(i))));
         }
         first += part.len();
     }
@@ -73,7 +73,7 @@ fn material(out: &mut String, problem: &Problem, index: usize, part: &Part, sect
     *out += &format!("*MATERIAL, NAME={name}\n*ELASTIC, TYPE=LAMINA\n{moduli}\n*DENSITY\n{density},\n{damping}");
     orientation(out, problem, index, part);
     let (kind, t) = (if bends { "SHELL" } else { "MEMBRANE" }, number(thickness_m));
-    put(out, format_args!("*{kind} SECTION, ELSET={name}, MATERIAL={name}, ORIENTATION=warp_{}\n{t},", index + 1));
+    *out += &format!("*{kind} SECTION, ELSET={name}, MATERIAL={name}, ORIENTATION=warp_{}\n{t},\n", index + 1);
 }
 
 /// The warp of a part: x unless the part gives another, for all of it or by element.
@@ -88,29 +88,29 @@ fn orientation(out: &mut String, problem: &Problem, index: usize, part: &Part) {
     };
     let first = axes(0);
     if part.warp.len() < 2 {
-        return put(out, format_args!("*ORIENTATION, NAME={name}\n{first}\n3, 0."));
+        return *out += &format!("*ORIENTATION, NAME={name}\n{first}\n3, 0.\n");
     }
     let table =
         format!("*DISTRIBUTION TABLE, NAME={name}_table\nCOORD3D, COORD3D\n*DISTRIBUTION, NAME={name}_by_element");
-    put(out, format_args!("{table}, LOCATION=ELEMENT, TABLE={name}_table\n, {first}"));
-    (0..part.len()).for_each(|i| put(out, format_args!("{}, {}", before + i + 1, axes(i))));
-    put(out, format_args!("*ORIENTATION, NAME={name}\n{name}_by_element\n3, 0."));
+    *out += &format!("{table}, LOCATION=ELEMENT, TABLE={name}_table\n, {first}\n");
+    (0..part.len()).for_each(|i| *out += &format!("{}, {}\n", before + i + 1, axes(i)));
+    *out += &format!("*ORIENTATION, NAME={name}\n{name}_by_element\n3, 0.\n");
 }
 
 fn contact(out: &mut String, problem: &Problem) {
     let Some(contact) = &problem.contact else { return };
     let friction = number(contact.friction);
-    put(out, format_args!("*SURFACE INTERACTION, NAME=layers\n*FRICTION\n{friction},\n*CONTACT"));
-    put(out, "*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT PROPERTY ASSIGNMENT\n, , layers");
+    *out += &format!("*SURFACE INTERACTION, NAME=layers\n*FRICTION\n{friction},\n*CONTACT\n");
+    *out += "*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT PROPERTY ASSIGNMENT\n, , layers\n";
 }
 
 fn numerics(out: &mut String, problem: &Problem) {
     let end_s = number(problem.settings.end_s);
-    put(out, format_args!("*STEP, NAME=run, NLGEOM=YES\n*DYNAMIC, EXPLICIT\n, {end_s}"));
+    *out += &format!("*STEP, NAME=run, NLGEOM=YES\n*DYNAMIC, EXPLICIT\n, {end_s}\n");
     let scaling = match problem.settings.mass_scaling {
         MassScaling::None => return,
         MassScaling::Fixed(factor) => format!("FACTOR={}", number(factor)),
         MassScaling::TargetStep(dt) => format!("DT={}, TYPE=BELOW MIN", number(dt)),
     };
-    put(out, format_args!("*FIXED MASS SCALING, {scaling}"));
+    *out += &format!("*FIXED MASS SCALING, {scaling}\n");
 }

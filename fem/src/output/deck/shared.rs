@@ -1,7 +1,5 @@
 //! What both decks have in common: numbers, names, nodes, plates, loads.
 
-use std::fmt::Write;
-
 use crate::Problem;
 use crate::amplitude::Amplitude;
 use crate::mesh::{Mesh, Part};
@@ -36,11 +34,6 @@ pub(super) fn heading(problem: &Problem) -> String {
     )
 }
 
-pub(super) fn put(out: &mut String, line: impl std::fmt::Display) {
-    // Writing to a string cannot fail.
-    let _ = writeln!(out, "{line}");
-}
-
 pub(super) fn label(name: &str) -> String {
     let plain = name.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c));
     if plain { name.into() } else { format!("\"{}\"", name.replace('"', "'")) }
@@ -70,32 +63,32 @@ pub(super) fn place(problem: &Problem, node: u32) -> [f64; 3] {
 pub(super) fn places(out: &mut String, problem: &Problem) {
     let points = &problem.mesh.points;
     let size = points.as_flattened().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-    put(out, "*NODE");
+    *out += "*NODE\n";
     for i in 0..points.len() as u32 {
         let place = place(problem, i).map(|x| if x.abs() < ROUNDING * size { 0.0 } else { x });
-        put(out, format_args!("{}, {}", i + 1, row(&place)));
+        *out += &format!("{}, {}\n", i + 1, row(&place));
     }
 }
 
 /// Ties a node's translations to another node.
 pub(super) fn follow(out: &mut String, node: u32, first: u32) {
     for axis in 1..=3 {
-        put(out, format_args!("*EQUATION\n2\n{}, {axis}, -1.0, {}, {axis}, 1.0", node + 1, first + 1));
+        *out += &format!("*EQUATION\n2\n{}, {axis}, -1.0, {}, {axis}, 1.0\n", node + 1, first + 1);
     }
 }
 
 pub(super) fn node_set(out: &mut String, name: &str, nodes: &[u32]) {
-    put(out, format_args!("*NSET, NSET={name}"));
-    nodes.chunks(16).for_each(|nodes| put(out, format_args!("{},", numbers(nodes))));
+    *out += &format!("*NSET, NSET={name}\n");
+    nodes.chunks(16).for_each(|nodes| *out += &format!("{},\n", numbers(nodes)));
 }
 
 pub(super) fn surfaces(out: &mut String, problem: &Problem) {
     for chamber in &problem.chambers {
-        put(out, format_args!("*SURFACE, TYPE=ELEMENT, NAME={}", label(&chamber.name)));
+        *out += &format!("*SURFACE, TYPE=ELEMENT, NAME={}\n", label(&chamber.name));
         for part in &problem.mesh.parts {
             let [front, back] = [&part.front, &part.back].map(|name| name.as_deref() == Some(&chamber.name));
             if front != back {
-                put(out, format_args!("{}, {}", label(&part.name), if back { "SNEG" } else { "SPOS" }));
+                *out += &format!("{}, {}\n", label(&part.name), if back { "SNEG" } else { "SPOS" });
             }
         }
     }
@@ -163,8 +156,8 @@ fn curve(out: &mut String, name: &str, amplitude: &Amplitude, problem: &Problem,
         (Solver::Abaqus, _) => (", DEFINITION=TABULAR", table(amplitude, problem.settings.end_s)),
         (Solver::CalculiX, _) => ("", table(amplitude, problem.settings.end_s)),
     };
-    put(out, format_args!("*AMPLITUDE, NAME={name}{kind}"));
-    points.iter().for_each(|(t, value)| put(out, row(&[*t, *value])));
+    *out += &format!("*AMPLITUDE, NAME={name}{kind}\n");
+    points.iter().for_each(|(t, value)| *out += &(row(&[*t, *value]) + "\n"));
 }
 
 /// Supports and curves before the step, what they act on in it.
@@ -174,34 +167,34 @@ pub(super) fn loads(out: &mut String, step: &mut String, problem: &Problem, solv
             let (name, dof) = (format!("support_{}", index + 1), axis + 1);
             let set = if solver == Solver::Abaqus { label(&support.set) } else { own(&name) };
             let Some(motion) = &support.motion else {
-                put(out, format_args!("*BOUNDARY\n{set}, {dof}, {dof}"));
+                *out += &format!("*BOUNDARY\n{set}, {dof}, {dof}\n");
                 continue;
             };
             curve(out, &format!("{name}_{dof}"), &motion[axis], problem, solver);
-            put(step, format_args!("*BOUNDARY, AMPLITUDE={name}_{dof}\n{set}, {dof}, {dof}, 1."));
+            *step += &format!("*BOUNDARY, AMPLITUDE={name}_{dof}\n{set}, {dof}, {dof}, 1.\n");
         }
     }
     for (number, chamber) in (1..).zip(&problem.chambers) {
         let (name, walls) = (format!("pressure_{number}"), label(&chamber.name));
         curve(out, &name, chamber.pressure.filling(), problem, solver);
-        put(step, format_args!("*DSLOAD, AMPLITUDE={name}\n{walls}, P, 1."));
+        *step += &format!("*DSLOAD, AMPLITUDE={name}\n{walls}, P, 1.\n");
     }
     for (index, force) in (1..).zip(&problem.forces) {
         let (name, set) = (format!("force_{index}"), label(&force.set));
         curve(out, &name, &force.amplitude, problem, solver);
-        put(step, format_args!("*CLOAD, AMPLITUDE={name}"));
+        *step += &format!("*CLOAD, AMPLITUDE={name}\n");
         let nodes = problem.mesh.sets.get(&force.set).map_or(1, Vec::len) as f64;
         for (dof, n) in (1..).zip(force.total_n).filter(|(_, n)| *n != 0.0) {
-            put(step, format_args!("{set}, {dof}, {}", number(n / nodes)));
+            *step += &format!("{set}, {dof}, {}\n", number(n / nodes));
         }
     }
     if let Some(gravity) = &problem.gravity {
         let size = gravity.g_m_s2.iter().map(|g| g * g).sum::<f64>().sqrt();
         curve(out, "gravity", &gravity.amplitude, problem, solver);
-        put(step, "*DLOAD, AMPLITUDE=gravity");
+        *step += "*DLOAD, AMPLITUDE=gravity\n";
         let [x, y, z] = gravity.g_m_s2.map(|g| g / size);
         let pull = row(&[size, x, y, z]);
-        problem.mesh.parts.iter().for_each(|part| put(step, format_args!("{}, GRAV, {pull}", label(&part.name))));
+        problem.mesh.parts.iter().for_each(|part| *step += &format!("{}, GRAV, {pull}\n", label(&part.name)));
     }
 }
 
