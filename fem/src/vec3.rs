@@ -9,6 +9,10 @@ pub fn node(q: &[[f64; 4]], i: usize) -> V3 {
     let [x, y, z, _] = q[i];
     [x, y, z]
 }
+/// x, y, z with the fourth number of a node, 0.
+pub(crate) fn padded([x, y, z]: V3) -> [f64; 4] {
+    [x, y, z, 0.0]
+}
 /// Sum a + b of two vectors.
 #[inline(always)]
 pub fn add(a: V3, b: V3) -> V3 {

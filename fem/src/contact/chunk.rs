@@ -133,6 +133,23 @@ impl Chunk {
         }
     }
 
+    /// What a checkpoint held of a chunk, if it is of so many nodes and elements.
+    pub(super) fn fitting(mut self, nodes: u32, elements: u32) -> Option<Chunk> {
+        let Chunk { near, candidates, records, .. } = &self;
+        let fits = |r: &Record| {
+            let last = u64::from(r.first) + u64::from(r.count);
+            let known = r.node < nodes && r.element < elements && r.corners.iter().all(|n| *n < nodes);
+            known && (-1..=1).contains(&r.side) && last <= candidates.len() as u64
+        };
+        let good = records.iter().all(fits)
+            && candidates.iter().all(|c| c.element < elements)
+            && near.iter().all(|at| (*at as usize) < records.len());
+        good.then_some(())?;
+        let on_face = |at: &&u32| records[**at as usize].feature == Feature::Face;
+        self.faces = near.iter().take_while(on_face).count() as u32;
+        Some(self)
+    }
+
     /// Packs the near records that touch faces.
     pub(super) fn load(&mut self) {
         let faces = &self.near[..self.faces as usize];

@@ -1,6 +1,7 @@
 //! How far nodes moved in a step, and where they were.
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::sheet::group::{LANES, Lane};
 
@@ -59,8 +60,37 @@ fn square(x: &[f64; 4], y: &[f64; 4]) -> f64 {
     r[0] * r[0] + r[1] * r[1] + r[2] * r[2]
 }
 
+/// The last search for pairs: how often there was one, and where the nodes were then.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(super) struct Searched {
+    pub times: u64,
+    pub placed_m: Vec<[f64; 4]>,
+    /// Way of the fastest node since the start, summed over steps, and the way at which to look again.
+    pub(crate) path_m: f64,
+    due_m: f64,
+}
+
+impl Searched {
+    /// True if some node may have moved more than half the skin since.
+    pub(super) fn is_due(&mut self, x: &[[f64; 4]], skin_m: f64) -> bool {
+        if self.path_m < self.due_m {
+            return false;
+        }
+        let left = 0.5 * skin_m - farthest_m(x, &self.placed_m);
+        self.due_m = self.path_m + left;
+        left <= 0.05 * skin_m
+    }
+
+    pub(super) fn note(&mut self, x: &[[f64; 4]], skin_m: f64) {
+        self.placed_m.clear();
+        self.placed_m.extend_from_slice(x);
+        self.due_m = self.path_m + 0.5 * skin_m;
+        self.times += 1;
+    }
+}
+
 /// Largest distance between two sets of positions.
-pub(super) fn farthest_m(x: &[[f64; 4]], y: &[[f64; 4]]) -> f64 {
+fn farthest_m(x: &[[f64; 4]], y: &[[f64; 4]]) -> f64 {
     x.iter().zip(y).map(|(x, y)| square(x, y)).fold(0.0, f64::max).sqrt()
 }
 

@@ -45,7 +45,6 @@ mod pack;
 mod passed;
 mod press;
 mod record;
-mod save;
 mod search;
 mod start;
 mod surface;
@@ -56,7 +55,7 @@ use rayon::prelude::*;
 use crate::problem;
 use crate::terms::slide;
 use crate::transient::row;
-use crate::vec3::{dot, norm, scale};
+use crate::vec3::{dot, norm, padded, scale};
 use crate::{FemError, Mesh};
 use crate::{Tick, Transient};
 pub use body::Contact;
@@ -91,16 +90,14 @@ impl Contact {
         let light_kg = surface.lightest(mass_kg);
         let stiffness_1_s2 = SHARE / (dt_s * dt_s);
         let damping_1_s = 2.0 * DAMPING * stiffness_1_s2.sqrt();
-        let placed_m = (0..mesh.points.len()).map(|i| mesh.start_of(i)).map(|[x, y, z]| [x, y, z, 0.0]).collect();
+        let start: Vec<[f64; 4]> = mesh.starts().into_iter().map(padded).collect();
         let mut contact = Contact {
             surface,
             penalty: Penalty { mass_kg: mass_kg.to_vec(), light_kg, stiffness_1_s2, damping_1_s },
             reach,
             friction: settings.friction,
-            placed_m,
             ..Contact::default()
         };
-        let start = std::mem::take(&mut contact.placed_m);
         contact.search(&start);
         start::sides(&mut contact, mesh, settings, &start)?;
         let (mut chunks, step) = (std::mem::take(&mut contact.chunks), contact.step_of(&start, 0.0));
@@ -171,8 +168,10 @@ impl Transient for Contact {
             self.before_m = x.to_vec();
         }
         self.now_m.resize(x.len(), [0.0; 4]);
-        self.path_m += follow(self.arch, x, &self.before_m, &mut self.now_m);
-        self.search_if_due(x);
+        self.searched.path_m += follow(self.arch, x, &self.before_m, &mut self.now_m);
+        if self.searched.is_due(x, self.reach.skin_m) {
+            self.search(x);
+        }
         let mut chunks = std::mem::take(&mut self.chunks);
         let step = self.step_of(x, tick.dt_s);
         chunks.par_iter_mut().for_each(|chunk| chunk.step(&step));
@@ -223,11 +222,11 @@ impl Transient for Contact {
     }
 
     fn save(&self) -> Vec<u8> {
-        save::write(self)
+        self.saved()
     }
 
     fn restore(&mut self, saved: &[u8]) -> bool {
-        save::read(self, saved).is_some()
+        self.take_saved(saved).is_some()
     }
 }
 

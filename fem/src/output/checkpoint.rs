@@ -19,7 +19,7 @@ use spelling::files::{sealed, sync_folder, unsealed, write_new};
 
 const MAGIC: &[u8; 8] = b"ibr-fem\n";
 /// Raised whenever the meaning of the bytes changes.
-const VERSION: u64 = 7;
+const VERSION: u64 = 8;
 /// Where a checkpoint is written before it takes its place: a kill leaves it, and the next one overwrites it.
 const PARTIAL: &str = "checkpoint.partial";
 /// The end of a complete run, from which another one may go on.

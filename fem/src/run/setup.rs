@@ -17,7 +17,7 @@ use crate::sheet::Sheet;
 use crate::sheet::order::{Order, renumber};
 use crate::sheet::reference::bending_stiffness;
 use crate::terms::{DeadLoads, Folds, Obstacles, RestCurvature, penalty_stiffness_n_m};
-use crate::vec3::{area, norm};
+use crate::vec3::{area, norm, padded};
 use crate::{FemError, Mesh, Problem, Transient};
 
 impl Simulation {
@@ -44,7 +44,7 @@ impl Simulation {
         let mut fixed = vec![[false; 3]; count];
         let driven = driven(problem, &mesh, &mut fixed)?;
         sheet.air.iter_mut().for_each(|air| air.cut(&mesh, &fixed));
-        let mut x: Vec<[f64; 4]> = (0..count).map(|i| mesh.start_of(i)).map(|p| [p[0], p[1], p[2], 0.0]).collect();
+        let mut x: Vec<[f64; 4]> = mesh.starts().into_iter().map(padded).collect();
         imperfect(&mut x, &mesh, &order, &fixed, settings.imperfection, settings.seed);
         let bent = bent(problem, &mesh, &sheet);
         let still = Still { fixed: listed(&fixed), carried: carried(problem, &mesh, &driven)? };

@@ -24,7 +24,7 @@ use crate::mesh::Mesh;
 use crate::problem::Section;
 use crate::sheet::bending::{CurvatureRow, curvature_rows};
 use crate::sheet::reference::bending_stiffness;
-use crate::vec3::{V3, add, along, cross, dot, node, norm, scale, sub};
+use crate::vec3::{V3, add, along, cross, dot, node, norm, padded, scale, sub};
 use crate::{Tick, Transient};
 
 /// Rest curvature of all nodes that have one.
@@ -51,7 +51,7 @@ impl RestCurvature {
             return RestCurvature { nodes: Vec::new(), stored_j: None };
         }
         let stiffness: Vec<f64> = sections.iter().map(bending_stiffness).collect();
-        let x: Vec<[f64; 4]> = mesh.points.iter().map(|p| [p[0], p[1], p[2], 0.0]).collect();
+        let x: Vec<[f64; 4]> = mesh.points.iter().copied().map(padded).collect();
         let rows = curvature_rows(mesh, &stiffness).into_iter();
         let nodes = rows.filter_map(|row| Rest::new(row, sections, &stiffness, &x)).collect();
         RestCurvature { nodes, stored_j: None }

@@ -1,11 +1,12 @@
 //! Pairs that can meet, and the search for them.
 
-use super::super::follow::farthest_m;
+use super::super::follow::Searched;
 use super::super::surface::Surface;
 use super::chunk::{Chunk, PAIRS};
 use super::pair::Pair;
 use super::sides::Sides;
-use crate::vec3::V3;
+use crate::bytes::{pack, unpack};
+use crate::vec3::{V3, padded};
 use crate::{FemError, Mesh, problem};
 
 /// (ω dt)² of one pair on its lightest node.
@@ -14,8 +15,11 @@ const SHARE: f64 = 0.05;
 /// Share of critical damping of a pair.
 const DAMPING: f64 = 0.1;
 
+/// What edges cannot find again from positions, after the number of sides.
+type Saved = (usize, Searched, [f64; 2], Held, Vec<Chunk>);
+
 /// Forces that changed the last step.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
 pub(super) struct Held {
     pub forces: Vec<(u32, V3)>,
     pub before_m: Vec<[f64; 4]>,
@@ -36,10 +40,7 @@ pub struct Edges {
     pub(super) reach_m: f64,
     pub(super) skin_m: f64,
     pub(super) chunks: Vec<Chunk>,
-    pub(super) placed_m: Vec<[f64; 4]>,
-    pub(super) path_m: f64,
-    pub(super) search_due_m: f64,
-    pub(super) searches: u64,
+    pub(super) searched: Searched,
     pub(super) stored_j: f64,
     pub(super) lost_j: f64,
     pub(super) held: Held,
@@ -60,8 +61,7 @@ impl Edges {
     ) -> Result<Edges, FemError> {
         let surface = Surface::new(mesh, &settings.parts)?;
         let stiffness_1_s2 = SHARE / (dt_s * dt_s);
-        let x: Vec<[f64; 4]> =
-            (0..mesh.points.len()).map(|i| mesh.start_of(i)).map(|[x, y, z]| [x, y, z, 0.0]).collect();
+        let x: Vec<[f64; 4]> = mesh.starts().into_iter().map(padded).collect();
         let mobility = |(m, axes): (&f64, &[bool; 3])| axes.map(|a| if a || *m <= 0.0 { 0.0 } else { 1.0 / m });
         let mut edges = Edges {
             sides: Sides::new(&surface),
@@ -95,40 +95,22 @@ impl Edges {
         self.chunks.iter().flat_map(|chunk| &chunk.pairs).filter(|pair| pair.on)
     }
 
-    /// Searches again when some node may have moved more than half the skin.
-    pub(super) fn search_if_due(&mut self, x: &[[f64; 4]]) {
-        if self.path_m < self.search_due_m {
-            return;
-        }
-        let left = 0.5 * self.skin_m - farthest_m(x, &self.placed_m);
-        self.search_due_m = self.path_m + left;
-        if left <= 0.05 * self.skin_m {
-            self.search(x);
-        }
-    }
-
-    fn search(&mut self, x: &[[f64; 4]]) {
+    pub(super) fn search(&mut self, x: &[[f64; 4]]) {
         let mut old: Vec<Pair> = self.chunks.iter().flat_map(|c| &c.pairs).filter(|p| !p.face).copied().collect();
         old.sort_unstable_by_key(|p| p.key);
         let [sides, faces] = self.sides.pairs(x, self.reach_m + self.skin_m);
         let kept = |key: &[u32; 2]| old.binary_search_by(|p| p.key.cmp(key)).map(|at| old[at]);
         let fresh = |key: &[u32; 2]| kept(key).unwrap_or_else(|_| self.fresh(*key, false));
-        let mut pairs: Vec<Pair> = sides.iter().map(fresh).collect();
+        let pairs: Vec<Pair> = sides.iter().map(fresh).collect();
         let dropped = old.iter().filter(|p| p.deep_m > 0.0 && sides.binary_search(&p.key).is_err());
         self.lost_j += dropped.map(|p| 0.5 * p.stiffness_n_m * p.deep_m * p.deep_m).sum::<f64>();
-        let sides = pairs.chunks(PAIRS).map(|pairs| Chunk::new(pairs.to_vec()));
-        let mut chunks: Vec<Chunk> = sides.collect();
-        pairs.clear();
-        pairs.extend(faces.iter().map(|key| self.fresh(*key, true)));
-        chunks.extend(pairs.chunks(PAIRS).map(|pairs| Chunk::new(pairs.to_vec())));
-        self.chunks = chunks;
-        self.placed_m.clear();
-        self.placed_m.extend_from_slice(x);
-        self.search_due_m = self.path_m + 0.5 * self.skin_m;
-        self.searches += 1;
+        let faces: Vec<Pair> = faces.iter().map(|key| self.fresh(*key, true)).collect();
+        let chunks = pairs.chunks(PAIRS).chain(faces.chunks(PAIRS));
+        self.chunks = chunks.map(|pairs| Chunk::new(pairs.to_vec())).collect();
+        self.searched.note(x, self.skin_m);
     }
 
-    pub(super) fn fresh(&self, key: [u32; 2], face: bool) -> Pair {
+    fn fresh(&self, key: [u32; 2], face: bool) -> Pair {
         if face {
             let [a, b, c] = self.sides.triangles[key[1] as usize];
             return Pair { face, key, nodes: [key[0], a, b, c], ..Pair::default() };
@@ -147,5 +129,41 @@ impl Edges {
             damping_n_s_m: self.damping_1_s * mass,
             ..Pair::default()
         }
+    }
+
+    pub(super) fn saved(&self) -> Vec<u8> {
+        let lost_j = [self.stored_j, self.lost_j];
+        pack(&(self.sides.list.len(), &self.searched, lost_j, &self.held, &self.chunks))
+    }
+
+    pub(super) fn take_saved(&mut self, saved: &[u8]) -> Option<()> {
+        let (sides, searched, [stored_j, lost_j], held, chunks): Saved = unpack(saved)?;
+        let count = self.searched.placed_m.len();
+        let fits = sides == self.sides.list.len()
+            && searched.placed_m.len() == count
+            && (held.before_m.is_empty() || held.before_m.len() == count)
+            && held.forces.iter().all(|(node, _)| (*node as usize) < count);
+        fits.then_some(())?;
+        self.chunks = chunks.into_iter().map(|saved| self.fitting(saved)).collect::<Option<_>>()?;
+        (self.searched, self.stored_j, self.lost_j, self.held) = (searched, stored_j, lost_j, held);
+        Some(())
+    }
+
+    /// What a checkpoint held of a chunk, with what its keys give again; `None` if it does not fit.
+    fn fitting(&self, saved: Chunk) -> Option<Chunk> {
+        let most = |face: bool| match face {
+            true => [self.mass_kg.len(), self.sides.triangles.len()],
+            false => [self.sides.list.len(); 2],
+        };
+        let pair = |saved: &Pair| {
+            let known = std::iter::zip(saved.key, most(saved.face)).all(|(key, most)| (key as usize) < most);
+            let Pair { nodes, stiffness_n_m, damping_n_s_m, .. } = known.then(|| self.fresh(saved.key, saved.face))?;
+            Some(Pair { nodes, stiffness_n_m, damping_n_s_m, ..*saved })
+        };
+        let pairs: Vec<Pair> = saved.pairs.iter().map(pair).collect::<Option<_>>()?;
+        let nodes = Chunk::new(pairs.clone()).nodes;
+        let fits = [saved.press_at_m.len(), saved.cross_at_m.len()] == [pairs.len(); 2]
+            && (saved.seen_m.is_empty() || saved.seen_m.len() == nodes.len());
+        fits.then_some(Chunk { pairs, nodes, ..saved })
     }
 }

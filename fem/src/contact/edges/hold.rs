@@ -31,13 +31,13 @@ impl Edges {
     pub(crate) fn hold(&mut self, step: &Step, force: &mut [[f64; 4]]) {
         let gap_m = self.gap_m.min(self.thickness_m);
         let mut motion: Vec<V3> = (0..step.x.len()).map(|i| self.motion(step, force, i)).collect();
-        let start_m = self.path_m;
-        self.path_m += furthest_m(&motion);
+        let start_m = self.searched.path_m;
+        self.searched.path_m += furthest_m(&motion);
         // Nodes that the last round moved; empty: all.
         let mut moved: Vec<bool> = Vec::new();
         let (mut changed, mut zones) = (BTreeSet::new(), Zones::default());
         for round in 0..MOST_ROUNDS {
-            let look = Look { x: step.x, by: &motion, path_m: self.path_m, one_m: ONE * gap_m, least_m: LEAST * gap_m };
+            let look = Look { x: step.x, by: &motion, path_m: self.searched.path_m, one_m: ONE * gap_m, least_m: LEAST * gap_m };
             let hits = meetings(&mut self.chunks, &look, &moved);
             if hits.is_empty() {
                 break;
@@ -56,7 +56,7 @@ impl Edges {
             }
             touched.iter().for_each(|n| moved[*n as usize] = true);
             changed.extend(touched);
-            self.path_m = self.path_m.max(start_m + furthest_m(&motion));
+            self.searched.path_m = self.searched.path_m.max(start_m + furthest_m(&motion));
         }
         self.book(step, &changed, &motion, force);
     }

@@ -39,7 +39,6 @@ mod body;
 mod chunk;
 pub(crate) mod hold;
 mod pair;
-mod save;
 mod sides;
 #[cfg(test)]
 mod tests;
@@ -77,8 +76,10 @@ impl Term for Edges {
 impl Transient for Edges {
     fn advance(&mut self, at: &Pose, tick: &Tick, force: &mut [f64]) -> f64 {
         let (x, force) = (at.q.as_chunks::<4>().0, force.as_chunks_mut::<4>().0);
-        self.search_if_due(x);
-        let (path_m, floor_m) = (self.path_m, 0.5 * self.gap_m.min(self.thickness_m));
+        if self.searched.is_due(x, self.skin_m) {
+            self.search(x);
+        }
+        let (path_m, floor_m) = (self.searched.path_m, 0.5 * self.gap_m.min(self.thickness_m));
         self.chunks.par_iter_mut().for_each(|chunk| chunk.press(x, path_m, tick.dt_s, floor_m));
         self.stored_j = 0.0;
         for chunk in &self.chunks {
@@ -116,10 +117,10 @@ impl Transient for Edges {
     }
 
     fn save(&self) -> Vec<u8> {
-        save::write(self)
+        self.saved()
     }
 
     fn restore(&mut self, saved: &[u8]) -> bool {
-        save::read(self, saved).is_some()
+        self.take_saved(saved).is_some()
     }
 }
