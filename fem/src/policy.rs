@@ -63,12 +63,10 @@ pub(crate) const NO_AREA: f64 = 1e-9;
 /// Sine of the smallest angle between warp and normal: 1 degree, below which its projection is arbitrary.
 pub(crate) const ACROSS: f64 = 0.0175;
 
-/// Whether an element has lost its area, of its share of that at rest.
 pub(crate) fn is_collapsed(share: f64) -> bool {
     share.is_nan() || share < COLLAPSED
 }
 
-/// Whether a chamber is inside out, of its volume over (wall area)^(3/2).
 pub(crate) fn is_inside_out(share: f64) -> bool {
     share < -INSIDE_OUT
 }
@@ -78,7 +76,6 @@ pub(crate) fn holds_gas(share: f64) -> bool {
     share >= NO_GAS
 }
 
-/// Whether a mesh is as long as no robot \[m\].
 pub(crate) fn is_huge(extent_m: f64) -> bool {
     extent_m > HUGE_M
 }
@@ -88,7 +85,6 @@ pub(crate) fn is_coarse(median_side_m: f64) -> bool {
     median_side_m > LONGEST_SIDE_M
 }
 
-/// Whether contact is a likely cause of a stop, of its share of the stored energy.
 pub(crate) fn is_pressed(share: f64) -> bool {
     share > PRESSED
 }
@@ -98,7 +94,6 @@ pub(crate) fn is_caught(share: f64) -> bool {
     share > CAUGHT
 }
 
-/// Whether more mass was added than there is.
 pub(crate) fn is_heavy(added_mass: f64) -> bool {
     added_mass > HEAVY
 }
@@ -113,12 +108,10 @@ pub(crate) fn leaves_plane(share: f64) -> bool {
     share > OUT_OF_PLANE
 }
 
-/// Whether a weld opens, of the pull on it over its strength.
 pub(crate) fn is_torn(share: f64) -> bool {
     share > TORN
 }
 
-/// Whether a run is at rest, of its kinetic over its total energy.
 pub(crate) fn is_at_rest(kinetic_share: f64) -> bool {
     kinetic_share < KINETIC_OF_TOTAL
 }
@@ -144,7 +137,6 @@ pub(crate) fn is_a_drop(released_j: f64, most_j: f64) -> bool {
     released_j > SMALLEST_DROP * most_j
 }
 
-/// Whether a pouch has enough elements between its welds.
 pub(crate) fn is_fine(rows: usize) -> bool {
     rows >= FEWEST_ROWS
 }
@@ -154,12 +146,10 @@ pub(crate) fn is_too_short(steps: f64) -> bool {
     steps < FEWEST_STEPS
 }
 
-/// Whether a node starts inside an obstacle \[m\].
 pub(crate) fn is_inside(depth_m: f64) -> bool {
     depth_m > TOUCHING_M
 }
 
-/// Whether three or four corners span an area, of it and the square of the longest side.
 pub(crate) fn is_area(area: f64, longest_squared: f64) -> bool {
     area > NO_AREA * longest_squared && area.is_finite()
 }

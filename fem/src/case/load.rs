@@ -70,17 +70,15 @@ fn pressure(table: &Spanned<RawChamber>) -> Checked<Pressure> {
     }
     let Some(at) = &raw.sealed_at_s else {
         // The room's pressure also bounds a vacuum.
+        let atmosphere = span(&raw.atmosphere_kpa).filter(|_| lowest(&filling) >= Some(0.0));
         let keys: [(&str, Option<Span>); 7] = [
-            (
-                "atmosphere_kPa",
-                raw.atmosphere_kpa.as_ref().filter(|_| lowest(&filling) >= Some(0.0)).map(Spanned::span),
-            ),
-            ("dead_volume_cm3", raw.dead_volume_cm3.as_ref().map(Spanned::span)),
-            ("polytropic_exponent", raw.polytropic_exponent.as_ref().map(Spanned::span)),
-            ("leak_l_min_kPa", raw.leak_l_min_kpa.as_ref().map(Spanned::span)),
-            ("inflow_l_min", raw.inflow_l_min.as_ref().map(Spanned::span)),
-            ("inflow_smooth_s_l_min", raw.inflow_smooth_s_l_min.as_ref().map(Spanned::span)),
-            ("inflow_linear_s_l_min", raw.inflow_linear_s_l_min.as_ref().map(Spanned::span)),
+            ("atmosphere_kPa", atmosphere),
+            ("dead_volume_cm3", span(&raw.dead_volume_cm3)),
+            ("polytropic_exponent", span(&raw.polytropic_exponent)),
+            ("leak_l_min_kPa", span(&raw.leak_l_min_kpa)),
+            ("inflow_l_min", span(&raw.inflow_l_min)),
+            ("inflow_smooth_s_l_min", span(&raw.inflow_smooth_s_l_min)),
+            ("inflow_linear_s_l_min", span(&raw.inflow_linear_s_l_min)),
         ];
         return match keys.into_iter().find_map(|(key, span)| Some((key, span?))) {
             Some((key, span)) => refuse(
@@ -105,6 +103,10 @@ fn pressure(table: &Spanned<RawChamber>) -> Checked<Pressure> {
     })
 }
 
+fn span<T>(value: &Option<Spanned<T>>) -> Option<Span> {
+    value.as_ref().map(Spanned::span)
+}
+
 /// Flow over time, as a constant or a curve.
 fn inflow(raw: &RawChamber) -> Checked<Option<Amplitude>> {
     let curve = amplitude(&raw.inflow_smooth_s_l_min, &raw.inflow_linear_s_l_min, &FLOW)?;
@@ -121,9 +123,7 @@ fn inflow(raw: &RawChamber) -> Checked<Option<Amplitude>> {
 pub(super) fn lowest(filling: &Amplitude) -> Option<f64> {
     match filling {
         Amplitude::Constant(value) => Some(*value),
-        Amplitude::Smooth(points) | Amplitude::Linear(points) | Amplitude::Growing { points, .. } => {
-            points.iter().map(|p| p.1).min_by(f64::total_cmp)
-        }
+        curve => curve.points().iter().map(|p| p.1).min_by(f64::total_cmp),
     }
 }
 

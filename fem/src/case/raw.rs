@@ -140,13 +140,10 @@ pub(super) struct RawContact {
 }
 
 #[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub(super) struct RawOutput {
-    #[serde(default)]
     pub probes: Vec<Text>,
-    #[serde(default)]
     pub stations_mm: Vec<Num>,
-    #[serde(default)]
     pub(crate) station_parts: Vec<Text>,
     pub(crate) station_axis: Option<Spanned<Exactly<3>>>,
     pub frames: Option<bool>,

@@ -14,6 +14,7 @@ use super::surface::Lists;
 use crate::problem;
 use crate::vec3::dot;
 use crate::{FemError, Mesh};
+use std::cmp::Ordering;
 
 /// Averaging passes: noise of single nodes falls to a fifth or less.
 const PASSES: usize = 3;
@@ -29,40 +30,50 @@ struct Entry {
     vote_m: f64,
 }
 
+/// Records within reach whose side is clear, and the entries of every node.
+struct Start<'a> {
+    contact: &'a Contact,
+    mesh: &'a Mesh,
+    x: &'a [[f64; 4]],
+    entries: Vec<Entry>,
+    of_node: Lists,
+}
+
 pub(super) fn sides(
     contact: &mut Contact,
     mesh: &Mesh,
     settings: &problem::Contact,
     x: &[[f64; 4]],
 ) -> Result<(), FemError> {
-    let mut entries = entries(contact, settings, x);
+    let entries = entries(contact, settings, x);
     let pairs: Vec<(u32, u32)> = entries.iter().enumerate().map(|(i, e)| (e.node, i as u32)).collect();
-    let of_node = Lists::new(x.len(), &pairs);
+    let mut start = Start { contact, mesh, x, entries, of_node: Lists::new(x.len(), &pairs) };
     for _ in 0..PASSES {
-        let means: Vec<f64> = entries.iter().map(|e| mean(contact, &entries, &of_node, e)).collect();
-        entries.iter_mut().zip(means).for_each(|(e, mean)| e.vote_m = mean);
+        let means: Vec<f64> = start.entries.iter().map(|e| start.mean(e)).collect();
+        start.entries.iter_mut().zip(means).for_each(|(e, mean)| e.vote_m = mean);
     }
     let tolerance_m = settings.gap_m.max(0.02 * contact.surface.size_m);
     let apart = |e: &Entry| if e.vote_m.abs() > settings.gap_m { e.vote_m.signum() as i8 } else { 0 };
-    let mut side: Vec<i8> = entries.iter().map(apart).collect();
-    spread(contact, &entries, &of_node, &mut side);
-    for (side, entry) in side.iter_mut().zip(&entries).filter(|(s, _)| **s == 0) {
-        *side = declared(contact, mesh, x, entry);
+    let mut side: Vec<i8> = start.entries.iter().map(apart).collect();
+    start.spread(&mut side);
+    for (side, entry) in side.iter_mut().zip(&start.entries).filter(|(s, _)| **s == 0) {
+        *side = start.declared(entry);
     }
     let above = |(entry, side): (&Entry, &i8)| f64::from(*side) * entry.found.height_m;
-    let heights: Vec<f64> = entries.iter().zip(&side).map(above).collect();
-    if let Some((entry, height)) = entries.iter().zip(&heights).min_by(|a, b| a.1.total_cmp(b.1))
-        && *height < -tolerance_m
-    {
-        return Err(through(contact, mesh, entry, -height));
+    let heights: Vec<f64> = start.entries.iter().zip(&side).map(above).collect();
+    let deepest = start.entries.iter().zip(&heights).min_by(|a, b| a.1.total_cmp(b.1));
+    if let Some((entry, height)) = deepest.filter(|(_, height)| **height < -tolerance_m) {
+        return Err(start.through(entry, -height));
     }
+    start.crossings(&side)?;
+    let entries = start.entries;
     for ((entry, side), height_m) in entries.iter().zip(&side).zip(&heights) {
         let record = &mut contact.chunks[entry.chunk].records[entry.at];
         record.side = *side;
         let wanted_m = if settings.edges { settings.thickness_m } else { settings.gap_m };
         (record.wanted_m, record.rest_m) = (wanted_m, height_m.min(settings.gap_m));
     }
-    crossings(contact, mesh, &entries, &of_node, &side)
+    Ok(())
 }
 
 /// Records within reach whose side is clear.
@@ -83,100 +94,93 @@ fn entries(contact: &Contact, settings: &problem::Contact, x: &[[f64; 4]]) -> Ve
     entries
 }
 
-/// Other entries of neighbouring nodes that face the same stretch of the same layer.
-fn beside<'a>(
-    contact: &'a Contact,
-    entries: &'a [Entry],
-    of_node: &'a Lists,
-    entry: &'a Entry,
-) -> impl Iterator<Item = usize> + 'a {
-    let surface = &contact.surface;
-    surface
-        .around
-        .of(entry.node as usize)
-        .iter()
-        .flat_map(|e| surface.corners(*e as usize))
-        .filter(|n| **n != entry.node)
-        .flat_map(|n| of_node.of(*n as usize))
-        .map(|i| *i as usize)
-        .filter(|i| entries[*i].layer == entry.layer && dot(entries[*i].found.normal, entry.found.normal) > 0.5)
-}
-
-fn mean(contact: &Contact, entries: &[Entry], of_node: &Lists, entry: &Entry) -> f64 {
-    let (mut sum, mut count) = (entry.vote_m, 1.0);
-    for other in beside(contact, entries, of_node, entry) {
-        sum += entries[other].vote_m;
-        count += 1.0;
+impl Start<'_> {
+    /// Other entries of neighbouring nodes that face the same stretch of the same layer.
+    fn beside(&self, entry: &Entry) -> impl Iterator<Item = usize> {
+        let (surface, entries) = (&self.contact.surface, &self.entries);
+        let (node, layer, normal) = (entry.node, entry.layer, entry.found.normal);
+        let around = surface.around.of(node as usize).iter().flat_map(|e| surface.corners(*e as usize));
+        let others = around.filter(move |n| **n != node).flat_map(|n| self.of_node.of(*n as usize));
+        let faces = move |e: &Entry| e.layer == layer && dot(e.found.normal, normal) > 0.5;
+        others.map(|i| *i as usize).filter(move |i| faces(&entries[*i]))
     }
-    sum / count
-}
 
-/// Gives undecided entries the side of decided neighbours, ring after ring.
-fn spread(contact: &Contact, entries: &[Entry], of_node: &Lists, side: &mut [i8]) {
-    let mut front: Vec<usize> = (0..entries.len()).filter(|i| side[*i] != 0).collect();
-    while !front.is_empty() {
-        let mut next = Vec::new();
-        for from in front {
-            for to in beside(contact, entries, of_node, &entries[from]) {
-                if side[to] == 0 {
-                    side[to] = side[from];
-                    next.push(to);
+    fn mean(&self, entry: &Entry) -> f64 {
+        let (mut sum, mut count) = (entry.vote_m, 1.0);
+        for other in self.beside(entry) {
+            sum += self.entries[other].vote_m;
+            count += 1.0;
+        }
+        sum / count
+    }
+
+    /// Gives undecided entries the side of decided neighbours, ring after ring.
+    fn spread(&self, side: &mut [i8]) {
+        let mut front: Vec<usize> = (0..side.len()).filter(|i| side[*i] != 0).collect();
+        while !front.is_empty() {
+            let mut next = Vec::new();
+            for from in front {
+                for to in self.beside(&self.entries[from]) {
+                    if side[to] == 0 {
+                        side[to] = side[from];
+                        next.push(to);
+                    }
                 }
             }
-        }
-        front = next;
-    }
-}
-
-/// The side that the parts declare for layers that coincide.
-fn declared(contact: &Contact, mesh: &Mesh, x: &[[f64; 4]], entry: &Entry) -> i8 {
-    let surface = &contact.surface;
-    let around = surface.around.of(entry.node as usize);
-    let Some(&own) = around.iter().find(|e| surface.layer[**e as usize] != entry.layer).or(around.first()) else {
-        return 0;
-    };
-    let part = |e: u32| &mesh.parts[surface.origin[e as usize].0 as usize];
-    let (a, b) = (part(own), part(entry.found.element));
-    let same = |p: &Option<String>, q: &Option<String>| p.is_some() && p == q;
-    let opposed = dot(element_normal(surface, x, own), entry.found.normal) < 0.0;
-    let (behind, front) = if opposed {
-        (same(&a.back, &b.back), same(&a.front, &b.front))
-    } else {
-        (same(&a.front, &b.back), same(&a.back, &b.front))
-    };
-    match (behind, front, a.layer.cmp(&b.layer)) {
-        (true, false, _) => -1,
-        (false, true, _) => 1,
-        (_, _, std::cmp::Ordering::Greater) => 1,
-        (_, _, std::cmp::Ordering::Less) if opposed => 1,
-        (_, _, std::cmp::Ordering::Less) => -1,
-        (_, _, std::cmp::Ordering::Equal) if opposed => -1,
-        (_, _, std::cmp::Ordering::Equal) => 0,
-    }
-}
-
-/// Neighbouring nodes on both sides of one stretch of a layer: the layers cross.
-fn crossings(contact: &Contact, mesh: &Mesh, entries: &[Entry], of_node: &Lists, side: &[i8]) -> Result<(), FemError> {
-    for (i, entry) in entries.iter().enumerate().filter(|(i, _)| side[*i] == 1) {
-        if let Some(other) = beside(contact, entries, of_node, entry).find(|o| side[*o] == -side[i]) {
-            let height = |e: &Entry| e.found.height_m.abs();
-            let other = &entries[other];
-            let shallow = if height(other) < height(entry) { other } else { entry };
-            return Err(through(contact, mesh, shallow, height(shallow)));
+            front = next;
         }
     }
-    Ok(())
-}
 
-fn through(contact: &Contact, mesh: &Mesh, entry: &Entry, depth_m: f64) -> FemError {
-    FemError::Mesh(format!(
-        "node {} starts {:.4} mm deep behind {} (layer {}) while its neighbours are on the other side: move it, or \
-         order the layers so that they do not pass through each other",
-        entry.node + 1,
-        depth_m * 1e3,
-        contact.surface.name(mesh, entry.found.element as usize),
-        entry.layer
-    ))
+    /// The side that the parts declare for layers that coincide.
+    fn declared(&self, entry: &Entry) -> i8 {
+        let surface = &self.contact.surface;
+        let around = surface.around.of(entry.node as usize);
+        let other = around.iter().find(|e| surface.layer[**e as usize] != entry.layer);
+        let Some(&own) = other.or(around.first()) else { return 0 };
+        let part = |e: u32| &self.mesh.parts[surface.origin[e as usize].0 as usize];
+        let (a, b) = (part(own), part(entry.found.element));
+        let same = |p: &Option<String>, q: &Option<String>| p.is_some() && p == q;
+        let opposed = dot(element_normal(surface, self.x, own), entry.found.normal) < 0.0;
+        let (behind, front) = match opposed {
+            true => (same(&a.back, &b.back), same(&a.front, &b.front)),
+            false => (same(&a.front, &b.back), same(&a.back, &b.front)),
+        };
+        match (behind, front, a.layer.cmp(&b.layer)) {
+            (true, false, _) => -1,
+            (false, true, _) => 1,
+            (_, _, Ordering::Greater) => 1,
+            (_, _, Ordering::Less) => {
+                if opposed {
+                    1
+                } else {
+                    -1
+                }
+            }
+            (_, _, Ordering::Equal) => -i8::from(opposed),
+        }
+    }
+
+    /// Neighbouring nodes on both sides of one stretch of a layer: the layers cross.
+    fn crossings(&self, side: &[i8]) -> Result<(), FemError> {
+        let height = |e: &Entry| e.found.height_m.abs();
+        for (i, entry) in self.entries.iter().enumerate().filter(|(i, _)| side[*i] == 1) {
+            if let Some(other) = self.beside(entry).find(|o| side[*o] == -side[i]) {
+                let other = &self.entries[other];
+                let shallow = if height(other) < height(entry) { other } else { entry };
+                return Err(self.through(shallow, height(shallow)));
+            }
+        }
+        Ok(())
+    }
+
+    fn through(&self, entry: &Entry, depth_m: f64) -> FemError {
+        let element = self.contact.surface.name(self.mesh, entry.found.element as usize);
+        let (node, depth_mm, layer) = (entry.node + 1, depth_m * 1e3, entry.layer);
+        FemError::Mesh(format!(
+            "node {node} starts {depth_mm:.4} mm deep behind {element} (layer {layer}) while its neighbours are on the other \
+             side: move it, or order the layers so that they do not pass through each other"
+        ))
+    }
 }
 
 /// Lowers rest gaps to the distance as a step measures it, so that the first force is exactly zero.

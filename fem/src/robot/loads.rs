@@ -4,8 +4,7 @@
 //! `pressures_kpa = [30, 30]` with `tip_force_n = [[0, 0, 0], [0, -0.5, 0]]`, loads the robot at pressure. All steps are of fifth
 //! order ([`Amplitude::Smooth`]).
 
-use super::load::Load;
-use super::loading::RobotRun;
+use super::loading::{Load, RobotRun};
 use crate::case::range::{Checked, Free, POSITION, Range, find, number, plain, plain_number, refuse};
 use crate::problem::{Amplitude, Gravity, NodalForce};
 use crate::{FemError, Problem};

@@ -4,11 +4,12 @@ use super::{FeRun, Further, Loaded, WatchedRobot, rounded};
 use crate::output::picture::{self, Image, PictureLook, Viewpoint};
 use crate::robot::{Reading, Snap};
 use crate::{FemError, Mesh, Simulation};
-use std::fmt::Write;
+use std::fmt::{Display, Write};
 
 /// Share of the elements whose stress is within the colour scale: a few at the ends of welds are far above all others.
 const WITHIN: f64 = 0.99;
 const MM: f64 = 1e3;
+const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// All of them, by name; further ones are made in parallel with the pictures, which take as long.
 pub(super) fn files(
@@ -58,51 +59,49 @@ fn end(loaded: &Loaded, state: &Simulation) -> Result<(&'static str, Image), Fem
 fn readings_csv(readings: &[Reading]) -> String {
     let mut out = String::from("p_act_kpa,time_s,quantity,place,value,unit\n");
     for r in readings {
-        let mut line = |quantity: &str, place: String, value: f64, unit: &str| {
-            // Writing to a string cannot fail.
-            let _ = writeln!(out, "{},{},{quantity},{place},{value},{unit}", r.actuator_pa * 1e-3, r.time_s);
+        let mut line = |quantity: &str, place: &dyn Display, value: f64, unit: &str| {
+            let (kpa, time_s) = (r.actuator_pa * 1e-3, r.time_s);
+            out += &format!("{kpa},{time_s},{quantity},{place},{value},{unit}\n");
         };
         for ((station, moved), ring) in r.stations_m.iter().zip(&r.moved_m).zip(&r.ring_moved_m) {
-            for (k, axis) in ["dx", "dy", "dz"].into_iter().enumerate() {
-                line(axis, rounded(station * MM).to_string(), moved[k] * MM, "mm");
-                line(&format!("ring_{axis}"), rounded(station * MM).to_string(), ring[k] * MM, "mm");
+            let place = rounded(station * MM);
+            for (k, axis) in AXES.into_iter().enumerate() {
+                line(&format!("d{axis}"), &place, moved[k] * MM, "mm");
+                line(&format!("ring_d{axis}"), &place, ring[k] * MM, "mm");
             }
         }
         for (station, moved) in r.stations_m.iter().zip(&r.seen_moved_m) {
-            for (k, axis) in ["dx", "dy", "dz"].into_iter().enumerate() {
-                line(&format!("seen_{axis}"), rounded(station * MM).to_string(), moved[k] * MM, "mm");
+            for (k, axis) in AXES.into_iter().enumerate() {
+                line(&format!("seen_d{axis}"), &rounded(station * MM), moved[k] * MM, "mm");
             }
         }
-        line("tip_turn", String::new(), r.tip_angle_rad.to_degrees(), "deg");
-        line("volume", "body".into(), r.body_m3 * 1e6, "cm3");
-        line("volume", "actuator".into(), r.actuator_m3 * 1e6, "cm3");
-        line(
-            "von_mises_max",
-            format!("{} at {:.0} mm", r.von_mises_part, r.von_mises_at_m * MM),
-            r.von_mises_pa * 1e-6,
-            "MPa",
-        );
-        line("weld_force_max", format!("{} at {:.0} mm", r.seam_part, r.seam_at_m * MM), r.seam_n_per_m, "N/m");
+        line("tip_turn", &"", r.tip_angle_rad.to_degrees(), "deg");
+        line("volume", &"body", r.body_m3 * 1e6, "cm3");
+        line("volume", &"actuator", r.actuator_m3 * 1e6, "cm3");
+        let at = |part: &str, at_m: f64| format!("{part} at {:.0} mm", at_m * MM);
+        let (hottest, seam) = (at(&r.von_mises_part, r.von_mises_at_m), at(&r.seam_part, r.seam_at_m));
+        line("von_mises_max", &hottest, r.von_mises_pa * 1e-6, "MPa");
+        line("weld_force_max", &seam, r.seam_n_per_m, "N/m");
         if let Some(share) = r.seam_share {
-            line("weld_force_over_strength", r.seam.clone(), share, "1");
+            line("weld_force_over_strength", &r.seam, share, "1");
         }
         let [tip_m, most_m] = r.out_of_plane_m();
-        line("out_of_plane", "tip".into(), tip_m * MM, "mm");
-        line("out_of_plane", "most".into(), most_m * MM, "mm");
+        line("out_of_plane", &"tip", tip_m * MM, "mm");
+        line("out_of_plane", &"most", most_m * MM, "mm");
         if let Some(i) = r.inflated {
             for (name, m) in [("arm", i.arm_m), ("pouch_width", i.width_m), ("pouch_height", i.height_m)] {
-                line(name, "inner".into(), m * MM, "mm");
+                line(name, &"inner", m * MM, "mm");
             }
         }
-        for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
-            line(&format!("reaction_{axis}"), "base".into(), r.base_n[k], "N");
-            line(&format!("reaction_m{axis}"), "base".into(), r.base_nm[k], "N m");
+        for (k, axis) in AXES.into_iter().enumerate() {
+            line(&format!("reaction_{axis}"), &"base", r.base_n[k], "N");
+            line(&format!("reaction_m{axis}"), &"base", r.base_nm[k], "N m");
         }
-        line("kinetic_share", String::new(), r.kinetic_share, "1");
-        line("waited", String::new(), r.waited_s, "s");
-        line("at_rest", String::new(), f64::from(u8::from(r.is_at_rest)), "1");
+        line("kinetic_share", &"", r.kinetic_share, "1");
+        line("waited", &"", r.waited_s, "s");
+        line("at_rest", &"", f64::from(u8::from(r.is_at_rest)), "1");
         for (name, kind, energy) in &r.ledger {
-            line(&format!("energy {kind}"), name.clone(), *energy, "J");
+            line(&format!("energy {kind}"), name, *energy, "J");
         }
     }
     out

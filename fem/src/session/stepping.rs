@@ -32,11 +32,17 @@ pub(super) struct Balance {
     pub residual_share: f64,
 }
 
+/// What a run has done so far: the number of its next output, processor seconds of the sessions before, energies at its outputs.
+#[derive(Default, Serialize, Deserialize)]
+pub(super) struct Done {
+    next: u64,
+    pub cpu_s: f64,
+    pub balances: Vec<Balance>,
+}
+
 pub(super) struct Running<'a> {
     pub run: Simulation,
-    /// Energies at all outputs so far.
-    pub balances: Vec<Balance>,
-    pub(crate) cpu_before_s: f64,
+    pub done: Done,
     /// Notices for the user, shown at the end.
     pub notices: Vec<String>,
     /// Where this session began: steps, and processor seconds.
@@ -45,7 +51,6 @@ pub(super) struct Running<'a> {
     pub robot: Option<Watched>,
     case: &'a Case,
     files: Option<Files>,
-    next: u64,
 }
 
 struct Files {
@@ -66,9 +71,9 @@ impl<'a> Running<'a> {
     ) -> Result<Running<'a>, FemError> {
         let files = folder.map(|folder| Files::open(case, folder, &[])).transpose()?;
         let began = (run.step(), thread_seconds());
-        let (balances, notices) = (Vec::new(), Vec::new());
         let next = number_at(run.time_s(), case.problem.settings.output_every_s);
-        Ok(Running { run, balances, cpu_before_s: 0.0, notices, began, robot, case, files, next })
+        let done = Done { next, ..Done::default() };
+        Ok(Running { run, done, notices: Vec::new(), began, robot, case, files })
     }
 
     /// Goes on from the last checkpoint of a folder; from the beginning if there is none yet.
@@ -94,20 +99,11 @@ impl<'a> Running<'a> {
         }
         let run = Simulation::resume(&case.problem, &saved.run)?;
         // Outputs of the same step are one row and one frame.
-        let mut times_s: Vec<f64> = saved.balances.iter().map(|b| b.time_s).collect();
+        let mut times_s: Vec<f64> = saved.done.balances.iter().map(|b| b.time_s).collect();
         times_s.dedup();
         let files = Some(Files::open(case, folder, &times_s)?);
-        Ok(Running {
-            began: (run.step(), thread_seconds()),
-            run,
-            balances: saved.balances,
-            cpu_before_s: saved.cpu_s,
-            notices: notice.into_iter().collect(),
-            robot,
-            case,
-            files,
-            next: saved.next,
-        })
+        let (began, notices) = ((run.step(), thread_seconds()), notice.into_iter().collect());
+        Ok(Running { run, done: saved.done, notices, began, robot, case, files })
     }
 
     /// Steps to the end of the case, or until `progress` asks to end, which is [`FemError::Interrupted`].
@@ -119,8 +115,8 @@ impl<'a> Running<'a> {
         let (now, from_s) = (Instant::now(), self.run.time_s());
         let (every, saving) = (checkpoint_every, Duration::ZERO);
         let mut pace = Pace { progress, began: now, from_s, end_s, told: None, every, saved_at: now, saving };
-        while self.next <= last {
-            let output_s = if self.next == last { end_s } else { self.next as f64 * every_s };
+        while self.done.next <= last {
+            let output_s = if self.done.next == last { end_s } else { self.done.next as f64 * every_s };
             let hold_s = self.robot.as_ref().and_then(Watched::next_s).filter(|hold_s| *hold_s <= output_s);
             self.advance(Goal::Time(hold_s.unwrap_or(output_s)), &mut pace)?;
             match hold_s {
@@ -144,15 +140,15 @@ impl<'a> Running<'a> {
 
     /// Steps to a moment, with checkpoints on the way; [`FemError::Interrupted`] once `progress` asks to end.
     fn advance(&mut self, goal: Goal, pace: &mut Pace) -> Result<(), FemError> {
-        let (next, balances, files, robot) = (self.next, &self.balances, &self.files, &mut self.robot);
-        let outside_s = self.cpu_before_s + thread_seconds() - self.began.1;
+        let (done, files, robot) = (&self.done, &self.files, &mut self.robot);
+        let outside_s = done.cpu_s + thread_seconds() - self.began.1;
         let mut fault = None;
         let mut each = |run: &Simulation| {
             let flow = pace.tell(run);
             robot.iter_mut().for_each(|robot| robot.watch.sample(run));
             if let Some(files) = files.as_ref().filter(|_| pace.is_due()) {
                 let cpu_s = outside_s + run.cpu_s();
-                fault = pace.keep(|| files.save(run, next, balances, robot.as_ref(), cpu_s)).err();
+                fault = pace.keep(|| files.save(run, Saved::pack(run, done, robot.as_ref(), cpu_s))).err();
             }
             fault.is_none() && flow.is_continue()
         };
@@ -162,25 +158,25 @@ impl<'a> Running<'a> {
         };
         fault.map_or(Ok(()), Err)?;
         if advanced == Advance::Interrupted {
-            self.save(self.cpu_before_s + self.cpu_s())?;
+            let saved = |files: &Files| files.save(&self.run, self.saved(self.done.cpu_s + self.cpu_s()));
+            self.files.iter().try_for_each(saved)?;
             return Err(FemError::Interrupted { time_s: self.run.time_s(), step: self.run.step(), done: 0, of: 1 });
         }
         Ok(())
     }
 
-    fn save(&self, cpu_s: f64) -> Result<(), FemError> {
-        let mut files = self.files.iter();
-        files.try_for_each(|files| files.save(&self.run, self.next, &self.balances, self.robot.as_ref(), cpu_s))
+    fn saved(&self, cpu_s: f64) -> Vec<u8> {
+        Saved::pack(&self.run, &self.done, self.robot.as_ref(), cpu_s)
     }
 
     fn output(&mut self) -> Result<(), FemError> {
         let record = Record::of(&self.run);
-        self.balances.push(Balance {
+        self.done.balances.push(Balance {
             time_s: record.time_s,
             kinetic_share: record.ledger.kinetic_share(),
             residual_share: record.ledger.residual_share(),
         });
-        self.next += 1;
+        self.done.next += 1;
         let Some(files) = &mut self.files else { return Ok(()) };
         files.history.append(&record)?;
         if let Some(line) = &mut files.centre_line {
@@ -195,7 +191,7 @@ impl<'a> Running<'a> {
 
     /// The end of the run, the same to the bit however often it was interrupted.
     pub(super) fn end(&self) -> Vec<u8> {
-        Saved::pack(&self.run, self.next, &self.balances, self.robot.as_ref(), 0.0)
+        self.saved(0.0)
     }
 
     /// Processor seconds of this session: of the steps, and of this thread, which writes.
@@ -219,17 +215,9 @@ impl Files {
         })
     }
 
-    fn save(
-        &self,
-        run: &Simulation,
-        next: u64,
-        balances: &[Balance],
-        robot: Option<&Watched>,
-        cpu_s: f64,
-    ) -> Result<(), FemError> {
+    fn save(&self, run: &Simulation, payload: Vec<u8>) -> Result<(), FemError> {
         self.history.table.sync()?;
         self.centre_line.iter().try_for_each(|line| line.table.sync())?;
-        let payload = Saved::pack(run, next, balances, robot, cpu_s);
         let (step, time_s) = (run.step(), run.time_s());
         let checkpoint = Checkpoint { fingerprint: self.fingerprint, step, time_s, payload };
         write_checkpoint(&self.folder, &checkpoint).map(|_| ())
@@ -239,17 +227,15 @@ impl Files {
 /// What a checkpoint of a session holds.
 #[derive(Serialize, Deserialize)]
 struct Saved {
-    next: u64,
-    cpu_s: f64,
-    balances: Vec<Balance>,
+    done: Done,
     robot: Option<WatchedState>,
     run: Vec<u8>,
 }
 
 impl Saved {
-    fn pack(run: &Simulation, next: u64, balances: &[Balance], robot: Option<&Watched>, cpu_s: f64) -> Vec<u8> {
-        let robot = robot.map(Watched::save);
-        pack(&Saved { next, cpu_s, balances: balances.to_vec(), robot, run: run.save() })
+    fn pack(run: &Simulation, done: &Done, robot: Option<&Watched>, cpu_s: f64) -> Vec<u8> {
+        let done = Done { cpu_s, next: done.next, balances: done.balances.clone() };
+        pack(&Saved { done, robot: robot.map(Watched::save), run: run.save() })
     }
 }
 
@@ -265,8 +251,9 @@ pub(super) fn run_of(session: &[u8]) -> Option<Vec<u8>> {
 
 /// What [`Running::end`] gave as a checkpoint of the same run that goes on: its last output counts as one on the way.
 pub(super) fn extended(session: &[u8], time_s: f64, every_s: f64) -> Option<Vec<u8>> {
-    let saved: Saved = unpack(session)?;
-    Some(pack(&Saved { next: number_at(time_s, every_s) + 1, ..saved }))
+    let mut saved: Saved = unpack(session)?;
+    saved.done.next = number_at(time_s, every_s) + 1;
+    Some(pack(&saved))
 }
 
 fn centre_line(case: &Case) -> Result<Option<CentreLine>, FemError> {

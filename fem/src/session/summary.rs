@@ -195,7 +195,7 @@ impl Summary {
             name: case.problem.name.clone(),
             engine: crate::ENGINE,
             robot: robot.zip(running.robot.as_ref()).map(|(robot, seen)| seen.summary(robot)),
-            began_s: running.balances.first().map_or(0.0, |first| first.time_s),
+            began_s: running.done.balances.first().map_or(0.0, |first| first.time_s),
             time_s: run.time_s(),
             steps: run.step(),
             dt_s: run.dt_s(),
@@ -212,9 +212,9 @@ impl Summary {
             external_work_j: ledger.external_work_j,
             residual_j: ledger.residual_j,
             residual_share: ledger.residual_share(),
-            residual_share_peak: running.balances.iter().fold(0.0, |most, b| b.residual_share.max(most)),
+            residual_share_peak: running.done.balances.iter().fold(0.0, |most, b| b.residual_share.max(most)),
             hourglass_share: ledger.hourglass_share(),
-            kinetic_share: kinetic(&running.balances),
+            kinetic_share: kinetic(&running.done.balances),
             changed_sides: run.changed_sides(),
         }
     }
@@ -298,7 +298,7 @@ impl Cost {
         let element_steps = (run.step() - running.began.0) as f64 * run.elements() as f64;
         Cost {
             cpu_s,
-            cpu_s_of_all_sessions: running.cpu_before_s + cpu_s,
+            cpu_s_of_all_sessions: running.done.cpu_s + cpu_s,
             wall_s: wall.as_secs_f64(),
             threads: case.problem.settings.threads,
             resumed_at_step: running.began.0,

@@ -280,14 +280,11 @@ fn fabric_of(section: &Section) -> Result<Arc<dyn Fabric>, FemError> {
 }
 
 fn key_of(fabric: usize, part: &crate::mesh::Part, chambers: &[Chamber]) -> Result<LoopKey, FemError> {
-    let find = |name: &Option<String>| match name {
-        None => Ok(None),
-        Some(name) => match chambers.iter().position(|c| c.name == *name) {
-            Some(place) => Ok(Some(place)),
-            None => {
-                Err(FemError::Problem(format!("part `{}` faces chamber `{name}`, which is not defined", part.name)))
-            }
-        },
+    let find = |name: &Option<String>| {
+        let Some(name) = name else { return Ok(None) };
+        let place = chambers.iter().position(|c| c.name == *name).map(Some);
+        let message = || format!("part `{}` faces chamber `{name}`, which is not defined", part.name);
+        place.ok_or_else(|| FemError::Problem(message()))
     };
     Ok(LoopKey { corners: 4, fabric, front: find(&part.front)?, back: find(&part.back)? })
 }

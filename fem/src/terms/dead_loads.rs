@@ -111,21 +111,11 @@ impl Transient for DeadLoads {
         vec![self.line.row(RowKind::Supplied, self.work_j)]
     }
     fn save(&self) -> Vec<u8> {
-        match &self.loads[..] {
-            [Load { on: On::Masses(_), vector, last, .. }] => pack(&(self.time_s, self.work_j, last, vector)),
-            loads => {
-                let loads: Vec<_> = loads.iter().map(|load| (load.last, load.vector, load.nodes())).collect();
-                pack(&(self.time_s, self.work_j, loads))
-            }
-        }
+        let loads: Vec<_> = self.loads.iter().map(|load| (load.last, load.vector, load.nodes())).collect();
+        pack(&(self.time_s, self.work_j, loads))
     }
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let saved: Option<(f64, f64, Vec<SavedLoad>)> = match &self.loads[..] {
-            [Load { on: On::Masses(_), .. }] => {
-                unpack(saved).map(|(time_s, work_j, last, g)| (time_s, work_j, vec![(last, g, Vec::new())]))
-            }
-            _ => unpack(saved),
-        };
+        let saved: Option<(f64, f64, Vec<SavedLoad>)> = unpack(saved);
         let same = |(own, (_, vector, nodes)): (&Load, &SavedLoad)| own.vector == *vector && own.nodes() == *nodes;
         let fits = |loads: &[SavedLoad]| loads.len() == self.loads.len() && self.loads.iter().zip(loads).all(same);
         let Some((time_s, work_j, loads)) = saved.filter(|(_, _, loads)| fits(loads)) else { return false };

@@ -37,7 +37,13 @@ impl Edges {
         let mut moved: Vec<bool> = Vec::new();
         let (mut changed, mut zones) = (BTreeSet::new(), Zones::default());
         for round in 0..MOST_ROUNDS {
-            let look = Look { x: step.x, by: &motion, path_m: self.searched.path_m, one_m: ONE * gap_m, least_m: LEAST * gap_m };
+            let look = Look {
+                x: step.x,
+                by: &motion,
+                path_m: self.searched.path_m,
+                one_m: ONE * gap_m,
+                least_m: LEAST * gap_m,
+            };
             let hits = meetings(&mut self.chunks, &look, &moved);
             if hits.is_empty() {
                 break;

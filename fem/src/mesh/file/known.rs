@@ -1,6 +1,6 @@
 //! Which format a file has, by its content.
 
-use super::content::MeshFile;
+use super::build::MeshFile;
 use super::scan::Scan;
 use super::{abaqus, gmsh, stl};
 

@@ -2,7 +2,6 @@
 
 mod abaqus;
 mod build;
-mod content;
 mod corners;
 mod gmsh;
 mod known;
@@ -10,7 +9,7 @@ mod scan;
 mod stl;
 
 use crate::FemError;
-pub use content::{MeshFile, Surface};
+pub use build::{MeshFile, Surface};
 use known::Read;
 use scan::Scan;
 use spelling::files::{MOST_DATA, read_whole};

@@ -5,8 +5,7 @@
 
 use std::collections::HashMap;
 
-use super::build::Builder;
-use super::content::MeshFile;
+use super::build::{Builder, MeshFile};
 use super::scan::{Scan, cut_off, place};
 use crate::vec3::{area, dot, norm};
 

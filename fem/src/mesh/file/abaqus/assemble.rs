@@ -2,8 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::super::build::Builder;
-use super::super::content::{MeshFile, Surface};
+use super::super::build::{Builder, MeshFile, Surface};
 use super::super::scan::Scan;
 use super::model::{Group, Instance, Member, Model, Orientation, Section, Sides};
 use crate::vec3::{add, cross, dot, norm, scale, sub};
@@ -12,6 +11,10 @@ use crate::vec3::{add, cross, dot, norm, scale, sub};
 type Fault = (usize, String);
 /// A node or an element: its instance and its number there.
 type Item = (usize, u64);
+
+fn at(line: usize) -> impl Fn(String) -> Fault {
+    move |message| (line, message)
+}
 
 /// Sets by instance, kind and name in capitals.
 type Sets = HashMap<(usize, bool, String), Vec<Item>>;
@@ -49,7 +52,7 @@ impl Assembly {
             for (number, place, line) in &model.bodies[instance.body].nodes {
                 let next = self.items.len() as u64;
                 self.items.push((i, *number));
-                let node = self.builder.node(next, stand(instance, *place)).map_err(|message| (*line, message))?;
+                let node = self.builder.node(next, stand(instance, *place)).map_err(at(*line))?;
                 if self.nodes.insert((i, *number), node).is_some() {
                     return Err((*line, format!("node {number} is there twice; renumber one of them")));
                 }
@@ -59,7 +62,7 @@ impl Assembly {
         // Sets of the assembly may name sets of its instances.
         for i in (1..model.instances.len()).chain([0]) {
             for group in &model.bodies[model.instances[i].body].groups {
-                let found = self.members(model, i, group).map_err(|message| (group.line, message))?;
+                let found = self.members(model, i, group).map_err(at(group.line))?;
                 let all = self.sets.entry((i, group.of_elements, group.name.to_ascii_uppercase())).or_default();
                 let known: HashSet<Item> = all.iter().copied().collect();
                 all.extend(found.into_iter().filter(|item| !known.contains(item)));
@@ -69,7 +72,7 @@ impl Assembly {
         self.node_sets(model);
         for (i, instance) in model.instances.iter().enumerate() {
             for sides in &model.bodies[instance.body].surfaces {
-                let surface = self.surface(model, i, sides).map_err(|message| (sides.line, message))?;
+                let surface = self.surface(model, i, sides).map_err(at(sides.line))?;
                 self.builder.surfaces.push(surface);
             }
         }
@@ -156,7 +159,7 @@ impl Assembly {
         let mut turned = Vec::new();
         for (i, inst) in model.instances.iter().enumerate() {
             for Section { set, orientation, line } in &model.bodies[inst.body].sections {
-                let items = self.named(model, i, true, set).map_err(|message| (*line, message))?;
+                let items = self.named(model, i, true, set).map_err(at(*line))?;
                 for item in items {
                     let name = self.prefixed(model, item.0, set);
                     if let Some((_, part)) = self.elements.get_mut(&item).filter(|(_, part)| part.is_empty()) {
@@ -164,7 +167,7 @@ impl Assembly {
                     }
                 }
                 if let Some(name) = orientation {
-                    let orientation = orientation_of(model, inst, name).map_err(|message| (*line, message))?;
+                    let orientation = orientation_of(model, inst, name).map_err(at(*line))?;
                     turned.push((self.prefixed(model, i, set), orientation, inst));
                 }
             }
@@ -179,7 +182,7 @@ impl Assembly {
                     (None, name) => name.to_string(),
                 };
                 let part = if part.is_empty() { other } else { part };
-                self.builder.element(&part, &corners).map_err(|message| (element.line, message))?;
+                self.builder.element(&part, &corners).map_err(at(element.line))?;
                 self.elements.insert((i, element.number), (corners, part));
             }
         }
@@ -189,7 +192,7 @@ impl Assembly {
                 self.builder.unread.push((part, what));
                 continue;
             }
-            let warp = warp(orientation).map_err(|message| (orientation.line, message))?;
+            let warp = warp(orientation).map_err(at(orientation.line))?;
             let turned = sub(stand(inst, warp), stand(inst, [0.0; 3]));
             self.builder.warp(&part, turned, &format!("*ORIENTATION `{}`", orientation.name));
         }

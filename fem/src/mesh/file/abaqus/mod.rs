@@ -8,7 +8,7 @@ mod assemble;
 mod keywords;
 mod model;
 
-use super::content::MeshFile;
+use super::build::MeshFile;
 use super::scan::{Scan, number, numbers, whole};
 use keywords::{IGNORED, Keyword, REFUSED, SHAPES};
 use model::{Body, Element, Group, Instance, Member, Model, Orientation, Section, Sides};
