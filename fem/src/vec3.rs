@@ -13,6 +13,11 @@ pub fn node(q: &[[f64; 4]], i: usize) -> V3 {
 pub(crate) fn padded([x, y, z]: V3) -> [f64; 4] {
     [x, y, z, 0.0]
 }
+/// a/b, 0 unless b is above 0.
+#[inline]
+pub(crate) fn share(a: f64, b: f64) -> f64 {
+    if b > 0.0 { a / b } else { 0.0 }
+}
 /// Sum a + b of two vectors.
 #[inline(always)]
 pub fn add(a: V3, b: V3) -> V3 {

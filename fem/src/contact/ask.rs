@@ -60,7 +60,9 @@ impl pulp::WithSimd for Questions<'_> {
 #[inline(always)]
 fn squares<S: Simd>(simd: S, x: &[[f64; 4]], ids: [&[u32; LANES]; 5], part: usize) -> V<S> {
     let (p, a) = (rows(simd, x, ids[0], part), rows(simd, x, ids[1], part));
-    let (b, c, d) = (rows(simd, x, ids[2], part), rows(simd, x, ids[3], part), rows(simd, x, ids[4], part));
+    let b = rows(simd, x, ids[2], part);
+    let c = rows(simd, x, ids[3], part);
+    let d = rows(simd, x, ids[4], part);
     let (r, e1) = (axes!(k => p[k] - a[k]), axes!(k => b[k] - a[k]));
     let (e2, e3) = (axes!(k => c[k] - a[k]), axes!(k => d[k] - a[k]));
     let (rb, rc) = (axes!(k => p[k] - b[k]), axes!(k => p[k] - c[k]));

@@ -296,7 +296,8 @@ pub(super) fn touch(record: &Record, x: &[[f64; 4]]) -> Touch {
     if record.feature != Feature::Face {
         return round_touch(record, p, a, node(x, record.corners[1] as usize));
     }
-    let (b, c) = (node(x, record.corners[1] as usize), node(x, record.corners[2] as usize));
+    let b = node(x, record.corners[1] as usize);
+    let c = node(x, record.corners[2] as usize);
     let (e1, e2, r) = (sub(b, a), sub(c, a), sub(p, a));
     let n = cross(e1, e2);
     let inverse = 1.0 / dot(n, n);

@@ -31,7 +31,8 @@ impl pulp::WithSimd for Piece<'_> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) -> f64 {
-        let ((x, last_x), (before, last_before)) = (self.x.as_chunks::<LANES>(), self.before.as_chunks::<LANES>());
+        let (x, last_x) = self.x.as_chunks::<LANES>();
+        let (before, last_before) = self.before.as_chunks::<LANES>();
         let (copy, last_copy) = self.copy.as_chunks_mut::<LANES>();
         let mut far: Lane = [0.0; LANES];
         for ((x, before), copy) in x.iter().zip(before).zip(copy) {

@@ -55,7 +55,7 @@ use rayon::prelude::*;
 use crate::problem;
 use crate::terms::slide;
 use crate::transient::row;
-use crate::vec3::{dot, norm, padded, scale};
+use crate::vec3::{dot, norm, padded, scale, share};
 use crate::{FemError, Mesh};
 use crate::{Tick, Transient};
 pub use body::Contact;
@@ -100,7 +100,8 @@ impl Contact {
         };
         contact.search(&start);
         start::sides(&mut contact, mesh, settings, &start)?;
-        let (mut chunks, step) = (std::mem::take(&mut contact.chunks), contact.step_of(&start, 0.0));
+        let mut chunks = std::mem::take(&mut contact.chunks);
+        let step = contact.step_of(&start, 0.0);
         chunks.iter_mut().for_each(|chunk| chunk.look(&step));
         contact.chunks = chunks;
         start::relax(&mut contact, &start);
@@ -118,8 +119,7 @@ impl Contact {
                 pressure[*n as usize] += w.abs() * force;
             }
         }
-        let over = |(p, area): (&mut f64, &f64)| *p = if *area > 0.0 { *p / area } else { 0.0 };
-        pressure.iter_mut().zip(&self.surface.area_m2).for_each(over);
+        pressure.iter_mut().zip(&self.surface.area_m2).for_each(|(p, area)| *p = share(*p, *area));
         pressure
     }
     /// Nodes that changed side of a layer so far, nodes that could, and the first that did with the part that it came through.

@@ -87,9 +87,13 @@ impl Pack {
     pub(super) fn measure<S: Simd>(&self, simd: S, x: &[[f64; 4]], touches: &mut Touches) -> bool {
         let mut any = false;
         for part in 0..LANES / S::F64_LANES {
-            let (p, a) = (rows(simd, x, &self.node[0], part), rows(simd, x, &self.node[1], part));
-            let (b, c) = (rows(simd, x, &self.node[2], part), rows(simd, x, &self.node[3], part));
-            let (e1, e2, r) = (axes!(k => b[k] - a[k]), axes!(k => c[k] - a[k]), axes!(k => p[k] - a[k]));
+            let p = rows(simd, x, &self.node[0], part);
+            let a = rows(simd, x, &self.node[1], part);
+            let b = rows(simd, x, &self.node[2], part);
+            let c = rows(simd, x, &self.node[3], part);
+            let e1 = axes!(k => b[k] - a[k]);
+            let e2 = axes!(k => c[k] - a[k]);
+            let r = axes!(k => p[k] - a[k]);
             let m = product(e1, e2);
             let inverse = inner(m, m).inverse();
             let per = V::load(simd, &self.sign, part) * inverse.sqrt();

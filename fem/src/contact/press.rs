@@ -39,7 +39,9 @@ pub(super) fn press_lane(
     let grown = grow(pack.stiffness_n_m[lane], pack.rest_m[lane], &mut touch, pack.last_m[lane], step, sums);
     pack.rest_m[lane] += grown;
     pack.last_m[lane] += grown;
-    let (k, c, last_m) = (pack.stiffness_n_m[lane], pack.damping_n_s_m[lane], pack.last_m[lane]);
+    let k = pack.stiffness_n_m[lane];
+    let c = pack.damping_n_s_m[lane];
+    let last_m = pack.last_m[lane];
     let spring = Spring { k, c_dt: c / step.dt_s, last_m };
     let normal_n = spring.press(touch.depth_m, &mut pack.damped_n[lane], sums);
     let mut force = scale(touch.normal, normal_n);

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::vec3::{V3, area, norm, sub};
+use crate::vec3::{V3, area, norm, share, sub};
 use crate::{FemError, Mesh};
 
 pub(super) const NONE: u32 = u32::MAX;
@@ -186,6 +186,6 @@ impl Surface {
             let share = norm(area(&x)) / x.len() as f64;
             nodes.iter().for_each(|n| self.area_m2[*n as usize] += share);
         }
-        self.size_m = if edges > 0 { length / edges as f64 } else { 0.0 };
+        self.size_m = share(length, edges as f64);
     }
 }

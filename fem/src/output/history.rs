@@ -20,6 +20,7 @@ use models::{Row, RowKind};
 
 use super::table::{Table, check_label, number};
 use crate::run::{ChamberState, Ledger, Reaction};
+use crate::vec3::share;
 use crate::{FemError, Mesh, Simulation};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -89,7 +90,6 @@ impl History {
     /// Names and values of a row, without the step.
     fn cells(&self, record: &Record) -> Result<Vec<(String, f64)>, FemError> {
         let Ledger { kinetic_j, rows, residual_j, external_work_j, scale_j } = &record.ledger;
-        let share = |energy: f64| if *scale_j > 0.0 { energy / scale_j } else { 0.0 };
         let mut cells = vec![
             ("time_s".to_string(), record.time_s),
             ("dt_s".to_string(), record.dt_s),
@@ -98,8 +98,8 @@ impl History {
         cells.extend(merged(rows));
         cells.push(("external_work_J".to_string(), *external_work_j));
         cells.push(("residual_J".to_string(), *residual_j));
-        cells.push(("residual_share".to_string(), share(*residual_j)));
-        cells.push(("kinetic_share".to_string(), share(*kinetic_j)));
+        cells.push(("residual_share".to_string(), share(*residual_j, *scale_j)));
+        cells.push(("kinetic_share".to_string(), share(*kinetic_j, *scale_j)));
         for chamber in &record.chambers {
             check_label(&chamber.name, "the name of the chamber")?;
             cells.push((format!("{}_kPa", chamber.name), chamber.pressure_pa * 1e-3));

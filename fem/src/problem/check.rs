@@ -20,7 +20,8 @@ impl Problem {
             return refuse(format!("{} parts but {} sections", self.mesh.parts.len(), self.sections.len()));
         }
         for (section, part) in self.sections.iter().zip(&self.mesh.parts) {
-            let (bad, density) = (|what: &str| refuse(format!("part `{}`{what}", part.name)), section.density_kg_m3);
+            let bad = |what: &str| refuse(format!("part `{}`{what}", part.name));
+            let density = section.density_kg_m3;
             if section.plies.is_empty() {
                 return bad(" has no ply");
             }

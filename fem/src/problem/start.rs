@@ -16,7 +16,8 @@ impl Problem {
         for (chamber, open) in self.chambers.iter().filter_map(|c| Some((&c.name, c.open_axis?))) {
             let rim = rim(&self.mesh, chamber);
             let held = self.held();
-            let (near, at) = (near(&self.mesh, &rim), |n: u32| self.mesh.start_of(n as usize));
+            let near = near(&self.mesh, &rim);
+            let at = |n: u32| self.mesh.start_of(n as usize);
             let lies = |[a, b]: &[u32; 2], k: usize| (at(*a)[k] - at(*b)[k]).abs() <= near;
             let rests = |edge: &[u32; 2], k: usize| lies(edge, k) && edge.iter().all(|n| held[*n as usize][k]);
             if let Some(edge) = rim.iter().find(|edge| !(0..3).any(|k| open[k] && rests(edge, k))) {
@@ -202,7 +203,8 @@ fn is_isotropic(fabric: &dyn models::Fabric) -> bool {
     states.iter().all(|e| {
         let s = fabric.tension(*e, &[0.0; 2]);
         [0.4, 1.1, std::f64::consts::FRAC_PI_2].iter().all(|angle| {
-            let (wanted, found) = (turned(s, 1.0, *angle), fabric.tension(turned(*e, 2.0, *angle), &[0.0; 2]));
+            let wanted = turned(s, 1.0, *angle);
+            let found = fabric.tension(turned(*e, 2.0, *angle), &[0.0; 2]);
             norm(sub(wanted, found)) <= 1e-9 * norm(s)
         })
     })

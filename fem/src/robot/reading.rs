@@ -8,7 +8,7 @@ use super::rest::Rest;
 use super::seams::Seams;
 use super::{marker_points, sections, sew};
 use crate::output::centre_line::CentreLine;
-use crate::vec3::{along, cross};
+use crate::vec3::{along, cross, share};
 use crate::{FemError, Mesh, Problem, Simulation};
 
 impl Reading {
@@ -22,8 +22,7 @@ impl Reading {
     /// The displacement of the tip along z over its whole displacement; 0 where it did not move.
     pub(crate) fn out_of_plane_share(&self) -> f64 {
         let [x, y, z] = self.moved_m.last().copied().unwrap_or_default();
-        let way = x.hypot(y).hypot(z);
-        if way > 0.0 { z.abs() / way } else { 0.0 }
+        share(z.abs(), x.hypot(y).hypot(z))
     }
 }
 
@@ -262,7 +261,8 @@ impl RobotGauge {
                 before[k] += height * start(*node)[k];
             }
         }
-        let (cross, dot) = (before[0] * now[1] - before[1] * now[0], before[0] * now[0] + before[1] * now[1]);
+        let cross = before[0] * now[1] - before[1] * now[0];
+        let dot = before[0] * now[0] + before[1] * now[1];
         cross.atan2(dot)
     }
 

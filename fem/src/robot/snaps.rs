@@ -12,6 +12,7 @@
 //! the largest |v − v̄| at the peak. **Validity**: nodes of about equal mass; snaps closer together than their ringing are one.
 
 use crate::policy;
+use crate::vec3::share;
 use crate::{Mesh, Simulation};
 
 /// Stretches along the robot whose mean velocity is subtracted \[m\].
@@ -70,7 +71,7 @@ impl Watch {
         let squares = self.against_stretch(&run.velocities());
         let all: f64 = squares.iter().map(|s| s[1]).sum();
         let own: f64 = squares.iter().map(|s| s[0]).sum();
-        let walls_j = if all > 0.0 { ledger.kinetic_j * own / all } else { 0.0 };
+        let walls_j = share(ledger.kinetic_j * own, all);
         let place_m = if walls_j > QUIET * stored_j { self.place(&squares) } else { f64::NAN };
         let (time_s, kinetic_j) = (run.time_s(), ledger.kinetic_j);
         self.samples.push(Sample { time_s, kinetic_j, walls_j, stored_j, place_m });

@@ -127,7 +127,8 @@ impl Body {
             (0..3).for_each(|k| moment[k] += m[k]);
         }
         let total: f64 = self.mass.iter().sum();
-        let (keep, gain) = ((1.0 - 0.5 * damping * dv) / (1.0 + 0.5 * damping * dv), 1.0 / (1.0 + 0.5 * damping * dv));
+        let keep = (1.0 - 0.5 * damping * dv) / (1.0 + 0.5 * damping * dv);
+        let gain = 1.0 / (1.0 + 0.5 * damping * dv);
         for k in 0..3 {
             self.now.velocity[k] = self.now.velocity[k] * keep + gain * dv * push[k] / total;
             self.now.spin[k] = self.now.spin[k] * keep + gain * dv * moment[k];
@@ -192,7 +193,8 @@ fn rotate_by(turn: [f64; 4], omega: [f64; 3], dt: f64) -> [f64; 4] {
     let speed = (omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2]).sqrt();
     let half = 0.5 * speed * dt;
     let scale = if speed > 0.0 { half.sin() / speed } else { 0.0 };
-    let (a, b) = ([half.cos(), omega[0] * scale, omega[1] * scale, omega[2] * scale], turn);
+    let a = [half.cos(), omega[0] * scale, omega[1] * scale, omega[2] * scale];
+    let b = turn;
     let mut q = [
         a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
         a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],

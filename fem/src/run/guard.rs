@@ -56,7 +56,8 @@ impl Simulation {
     /// # Errors
     /// [`FemError::Stopped`] with the share, the limit and what to type.
     pub fn judge_end(&self) -> Result<(), FemError> {
-        let (share, limit) = (self.ledger().hourglass_share(), self.settings.guards.hourglass);
+        let share = self.ledger().hourglass_share();
+        let limit = self.settings.guards.hourglass;
         if !is_its_own(&self.settings.guards, share) {
             return Ok(());
         }

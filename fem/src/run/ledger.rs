@@ -1,5 +1,6 @@
 //! The energy balance of a run.
 
+use crate::vec3::share;
 use models::{Account, Row, RowKind};
 
 /// The energy balance at one moment: kinetic + Σ stored + Σ dissipated = Σ supplied + residual.
@@ -31,13 +32,12 @@ impl Ledger {
 
     /// |residual| over what it is judged against; 0 while nothing happened.
     pub fn residual_share(&self) -> f64 {
-        if self.scale_j > 0.0 { self.residual_j.abs() / self.scale_j } else { 0.0 }
+        share(self.residual_j.abs(), self.scale_j)
     }
 
     /// Kinetic energy over kinetic and stored energy; 0 while there is none.
     pub fn kinetic_share(&self) -> f64 {
-        let all = self.stored_j(|_| true) + self.kinetic_j;
-        if all > 0.0 { self.kinetic_j / all } else { 0.0 }
+        share(self.kinetic_j, self.stored_j(|_| true) + self.kinetic_j)
     }
 
     /// Energy of hourglass control over all stored energy; 0 while nothing is stored.
@@ -47,8 +47,7 @@ impl Ledger {
 
     /// Stored energy on an account over all stored energy; 0 while nothing is stored.
     pub(super) fn share_of(&self, account: Account) -> f64 {
-        let all = self.stored_j(|_| true);
-        if all > 0.0 { self.stored_j(|row| row.account == account) / all } else { 0.0 }
+        share(self.stored_j(|row| row.account == account), self.stored_j(|_| true))
     }
 
     pub(crate) fn stored_j(&self, wanted: impl Fn(&Row) -> bool) -> f64 {

@@ -93,7 +93,10 @@ impl Selective {
         let shared = shared(mesh, |node| mass[node as usize] > 0.0 && !carried[node as usize]);
         let count: Vec<f64> = shared.iter().map(|row| row.iter().map(|(_, c)| c).sum()).collect();
         let light = |i: usize| mass[i] / count[i];
-        let (mut first, mut ends, mut weights, mut rows) = (vec![0], Vec::new(), Vec::new(), Vec::new());
+        let mut first = vec![0];
+        let mut ends = Vec::new();
+        let mut weights = Vec::new();
+        let mut rows = Vec::new();
         for (i, row) in shared.iter().enumerate() {
             let from = weights.len();
             ends.extend(row.iter().map(|(node, _)| *node));
@@ -367,8 +370,10 @@ impl pulp::WithSimd for Place<'_> {
         let (dt, last, mut now) = (self.update.dt, self.all.passes[0], [0.0; 4]);
         for (i, (v, x)) in self.v.iter_mut().zip(self.x).enumerate() {
             let i = self.begin + i;
-            let (mut new, u, mut place, mass) =
-                (self.all.row(last, self.half, i), self.u[i], *x, self.all.rows[i].mass);
+            let mut new = self.all.row(last, self.half, i);
+            let u = self.u[i];
+            let mut place = *x;
+            let mass = self.all.rows[i].mass;
             for k in 0..4 {
                 new[k] = mixed(new[k], u[k]);
             }

@@ -35,8 +35,8 @@ impl Simulation {
     pub fn changed_sides(&self) -> Option<Through> {
         let (nodes, could, first) = self.contact.as_ref()?.passed();
         let first = first.map(|(passage, part)| {
-            let (node, part) =
-                (self.order.old[passage.node as usize] as usize + 1, &self.mesh.parts[part as usize].name);
+            let node = self.order.old[passage.node as usize] as usize + 1;
+            let part = &self.mesh.parts[part as usize].name;
             let (place_mm, time_s) = (passage.place_m.map(|c| c * 1e3), passage.time_s);
             let [x, y, z] = place_mm;
             let text = format!("node {node} through part `{part}` at ({x:.2}, {y:.2}, {z:.2}) mm, t = {time_s:.6} s");

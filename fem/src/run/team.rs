@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
 use crate::FemError;
-use crate::cost::thread_seconds;
+use crate::cost::{self, thread_seconds};
 
 /// Stretches after a change until the way that is not in use is tried again, since one bad stretch may have misled; twice as
 /// many each time it stays the slower one.
@@ -69,12 +69,12 @@ impl Team {
     /// # Errors
     /// [`FemError::Problem`] when the system gives no threads.
     pub(super) fn new(threads: usize) -> Result<Team, FemError> {
-        let threads = if threads == 0 { std::thread::available_parallelism().map_or(1, usize::from) } else { threads };
+        let threads = cost::threads(threads);
         let pool = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
             pool.map_err(|e| FemError::Problem(format!("cannot start {threads} threads: {e}")))
         };
-        let all = if threads > 1 { Some(pool(threads)?) } else { None };
+        let all = (threads > 1).then(|| pool(threads)).transpose()?;
         Ok(Team { one: pool(1)?, all, ways: Ways::NEW, cpu_s: 0.0 })
     }
 
@@ -123,7 +123,9 @@ fn awake<T: Send>(work: impl FnOnce() -> T + Send) -> T {
             self.0.store(true, Ordering::Release);
         }
     }
-    let (over, ready, me) = (AtomicBool::new(false), AtomicUsize::new(1), rayon::current_thread_index());
+    let over = AtomicBool::new(false);
+    let ready = AtomicUsize::new(1);
+    let me = rayon::current_thread_index();
     rayon::scope(|scope| {
         scope.spawn_broadcast(|_, thread| {
             // The thread that works must not wait for itself.

@@ -192,7 +192,7 @@ fn finish(
 
 /// Threads beyond the cores wait for each other.
 fn too_many(threads: usize) -> Option<String> {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let cores = crate::cost::threads(0);
     let message = format!("{threads} threads share {cores} cores: more threads than cores make a run slower");
     (threads > cores).then_some(message)
 }

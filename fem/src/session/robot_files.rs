@@ -79,7 +79,8 @@ fn readings_csv(readings: &[Reading]) -> String {
         line("volume", &"body", r.body_m3 * 1e6, "cm3");
         line("volume", &"actuator", r.actuator_m3 * 1e6, "cm3");
         let at = |part: &str, at_m: f64| format!("{part} at {:.0} mm", at_m * MM);
-        let (hottest, seam) = (at(&r.von_mises_part, r.von_mises_at_m), at(&r.seam_part, r.seam_at_m));
+        let hottest = at(&r.von_mises_part, r.von_mises_at_m);
+        let seam = at(&r.seam_part, r.seam_at_m);
         line("von_mises_max", &hottest, r.von_mises_pa * 1e-6, "MPa");
         line("weld_force_max", &seam, r.seam_n_per_m, "N/m");
         if let Some(share) = r.seam_share {
@@ -130,7 +131,9 @@ fn markers_csv(robot: &WatchedRobot, readings: &[Reading]) -> String {
         for (k, station) in scenario.markers_m.iter().enumerate() {
             let Some(moved) = r.seen_moved_m.get(k) else { continue };
             let place = [station + moved[0], moved[1], moved[2]].map(|m| (m * MM).to_string());
-            let (pressures, place, s) = (pressures.join(","), place[..axes].join(","), rounded(station * MM));
+            let pressures = pressures.join(",");
+            let place = place[..axes].join(",");
+            let s = rounded(station * MM);
             let _ = writeln!(out, "fem,{kind},{},{pressures},{phase},{},{place},{s}", r.time_s, k + 1);
         }
     }

@@ -203,7 +203,9 @@ impl<'a> Running<'a> {
 impl Files {
     /// Files of a run after its outputs at `times_s`; lost rows are refused before anything is cut.
     fn open(case: &Case, folder: &Path, times_s: &[f64]) -> Result<Files, FemError> {
-        let (history, path, line) = (folder.join("history.csv"), folder.join("centre_line.csv"), centre_line(case)?);
+        let history = folder.join("history.csv");
+        let path = folder.join("centre_line.csv");
+        let line = centre_line(case)?;
         Table::check(&history, times_s, 1)?;
         line.iter().try_for_each(|line| Table::check(&path, times_s, line.stations_m().len()))?;
         Ok(Files {

@@ -6,6 +6,7 @@ use crate::case::Case;
 use crate::policy;
 use crate::record::RecordShape;
 use crate::run::{LESS_HOURGLASS, Through};
+use crate::vec3::share;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
@@ -302,7 +303,7 @@ impl Cost {
             wall_s: wall.as_secs_f64(),
             threads: case.problem.settings.threads,
             resumed_at_step: running.began.0,
-            element_steps_per_cpu_s: if cpu_s > 0.0 { element_steps / cpu_s } else { 0.0 },
+            element_steps_per_cpu_s: share(element_steps, cpu_s),
         }
     }
 }

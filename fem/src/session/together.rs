@@ -79,7 +79,7 @@ pub(super) fn together<T: Send>(
 /// Jobs at a time, and threads of each, for so many threads (0: one per core). Two runs on a core each are done sooner
 /// than one after the other on both: a step is too short to be shared without loss.
 pub(super) fn shared(threads: usize, jobs: usize) -> (usize, usize) {
-    let threads = if threads == 0 { std::thread::available_parallelism().map_or(1, usize::from) } else { threads };
+    let threads = crate::cost::threads(threads);
     let workers = threads.min(jobs).max(1);
     (workers, threads / workers)
 }

@@ -11,7 +11,7 @@ use super::chamber::Air;
 use super::reference::mean_stiffness;
 use super::tangent::Tangent;
 use super::{Element, Sheet};
-use crate::vec3::dot;
+use crate::vec3::{dot, share};
 
 /// A state of an element at which its stiffness is asked for.
 #[derive(Clone, Copy)]
@@ -83,7 +83,7 @@ impl Sheet {
         let stiffness = At { fabric, e, past, c: [1.0, 1.0, 0.0], d: fabric.tangent(e, &past) }.all(element);
         let mass = self.areal_density[element.part] * area / element.corners as f64;
         let rate = (stiffness / mass).sqrt();
-        if rate > 0.0 { 2.0 * self.viscosity * mean_stiffness(fabric) / rate } else { 0.0 }
+        share(2.0 * self.viscosity * mean_stiffness(fabric), rate)
     }
 
     /// True if some fabric may stiffen faster than linear and neo-Hookean ones do, or some gas.

@@ -2,6 +2,7 @@
 
 use models::fabrics::{Kind, WrinklingFilm};
 
+use super::reference::strain;
 use super::{Element, Sheet};
 use crate::vec3::{along, cross, direction, dot};
 
@@ -28,12 +29,8 @@ impl Sheet {
         let mut fields = ElementFields::default();
         let past = self.past();
         for (index, element) in self.elements.iter().enumerate() {
-            self.push(
-                &mut fields,
-                element,
-                element.deformation(q.as_chunks().0),
-                &past.get(index).copied().unwrap_or_default(),
-            );
+            let past = past.get(index).copied().unwrap_or_default();
+            self.push(&mut fields, element, element.deformation(q.as_chunks().0), &past);
         }
         fields
     }
@@ -48,8 +45,7 @@ impl Sheet {
                 _ => return 0.0,
             };
             let f = element.deformation(q.as_chunks().0);
-            let e = [0.5 * (dot(f[0], f[0]) - 1.0), 0.5 * (dot(f[1], f[1]) - 1.0), dot(f[0], f[1])];
-            element.reference.area * film.compressed_j_per_m2(e)
+            element.reference.area * film.compressed_j_per_m2(strain(f))
         };
         self.elements.iter().map(of).sum()
     }
@@ -57,7 +53,7 @@ impl Sheet {
     fn push(&self, fields: &mut ElementFields, element: &Element, f: [[f64; 3]; 2], past: &[f64; 2]) {
         let fabric = &*self.fabrics[element.part];
         let c = [dot(f[0], f[0]), dot(f[1], f[1]), dot(f[0], f[1])];
-        let e = [0.5 * (c[0] - 1.0), 0.5 * (c[1] - 1.0), c[2]];
+        let e = strain(f);
         let s = fabric.tension(e, past);
         let area_ratio = (c[0] * c[1] - c[2] * c[2]).max(0.0).sqrt();
         // Cauchy tension σt = F S Fᵀ / det F per current length; over the current thickness t/det F it is F S Fᵀ / t.

@@ -136,23 +136,17 @@ fn quad<S: Simd, L: ShellLaw, const ROWS: bool, const BOOKS: bool>(
     let even = axes!(k => x[1][k] + x[3][k]);
     let h = axes!(k => odd[k] - even[k]);
 
-    let b = [
-        [V::load(simd, &shape.b[0][0], part), V::load(simd, &shape.b[0][1], part)],
-        [V::load(simd, &shape.b[1][0], part), V::load(simd, &shape.b[1][1], part)],
-    ];
+    let b = gradients(simd, shape, part);
     let f1 = axes!(k => b[0][0] * d13[k] + b[1][0] * d24[k]);
     let f2 = axes!(k => b[0][1] * d13[k] + b[1][1] * d24[k]);
-    let e = [
-        V::all(simd, 0.5) * (inner(f1, f1) - V::all(simd, 1.0)),
-        V::all(simd, 0.5) * (inner(f2, f2) - V::all(simd, 1.0)),
-        inner(f1, f2),
-    ];
+    let e = strain_of(simd, f1, f2);
     let (s, w) = law.at(simd, e, Who { stock, past, part });
     let amount = V::load(simd, &shape.area, part) * V::load(simd, &stock.per, part);
     let own = V::load(simd, &stock.own, part);
     let t = with_viscosity(simd, batch.rate, (shape, stock), part, e, s, strain, tally);
 
-    let (s1, s2) = (V::load(simd, &shape.s[0], part), V::load(simd, &shape.s[1], part));
+    let s1 = V::load(simd, &shape.s[0], part);
+    let s2 = V::load(simd, &shape.s[1], part);
     let warp = axes!(k => V::all(simd, 0.25) * h[k]);
     let q = axes!(k => warp[k] - s1 * f1[k] - s2 * f2[k]);
     let (g1, g2) = (inner(f1, q), inner(f2, q));
@@ -224,21 +218,15 @@ fn triangle<S: Simd, L: ShellLaw>(
     out: &mut CornerForces,
     tally: &mut Tally,
 ) {
-    let (shape, stock) = (&batch.shapes[group.shape as usize], &batch.stocks[group.stock as usize]);
+    let shape = &batch.shapes[group.shape as usize];
+    let stock = &batch.stocks[group.stock as usize];
     let x = axes!(c => V::gather(simd, batch.x, &group.node, c, part));
     let u = axes!(k => x[1][k] - x[0][k]);
     let v = axes!(k => x[2][k] - x[0][k]);
-    let b = [
-        [V::load(simd, &shape.b[0][0], part), V::load(simd, &shape.b[0][1], part)],
-        [V::load(simd, &shape.b[1][0], part), V::load(simd, &shape.b[1][1], part)],
-    ];
+    let b = gradients(simd, shape, part);
     let f1 = axes!(k => b[0][0] * u[k] + b[1][0] * v[k]);
     let f2 = axes!(k => b[0][1] * u[k] + b[1][1] * v[k]);
-    let e = [
-        V::all(simd, 0.5) * (inner(f1, f1) - V::all(simd, 1.0)),
-        V::all(simd, 0.5) * (inner(f2, f2) - V::all(simd, 1.0)),
-        inner(f1, f2),
-    ];
+    let e = strain_of(simd, f1, f2);
     let (s, w) = law.at(simd, e, Who { stock, past, part });
     let amount = V::load(simd, &shape.area, part) * V::load(simd, &stock.per, part);
     let own = V::load(simd, &stock.own, part);
@@ -258,6 +246,20 @@ fn triangle<S: Simd, L: ShellLaw>(
         let flux = V::all(simd, 1.0 / 6.0) * (x[0][k] + x[1][k] + x[2][k]) * normal[k];
         (V::load(simd, &tally.flux[k], part) + own * flux).store(&mut tally.flux[k], part);
     }
+}
+
+/// Gradients of the shape functions, by corner and axis.
+#[inline(always)]
+fn gradients<S: Simd>(simd: S, shape: &RestShape, part: usize) -> [[V<S>; 2]; 2] {
+    let [[b11, b12], [b21, b22]] = &shape.b;
+    [[V::load(simd, b11, part), V::load(simd, b12, part)], [V::load(simd, b21, part), V::load(simd, b22, part)]]
+}
+
+/// E = ½(FᵀF − 1) as (11, 22, 2·12).
+#[inline(always)]
+fn strain_of<S: Simd>(simd: S, f1: [V<S>; 3], f2: [V<S>; 3]) -> [V<S>; 3] {
+    let (half, one) = (V::all(simd, 0.5), V::all(simd, 1.0));
+    [half * (inner(f1, f1) - one), half * (inner(f2, f2) - one), inner(f1, f2)]
 }
 
 /// A·(S + viscous part) as (11, 22, 12); keeps the strains and books the heat.

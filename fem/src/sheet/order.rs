@@ -66,7 +66,8 @@ fn split(mesh: &Mesh, nodes: &mut [u32], at: usize) {
     let axis = (0..3).fold(0, |best, k| if size[k] > size[best] { k } else { best });
     // The node number breaks ties, so that the order is a function of the mesh alone.
     nodes.select_nth_unstable_by(at, |a, b| {
-        let (xa, xb) = (mesh.points[*a as usize][axis], mesh.points[*b as usize][axis]);
+        let xa = mesh.points[*a as usize][axis];
+        let xb = mesh.points[*b as usize][axis];
         xa.total_cmp(&xb).then(a.cmp(b))
     });
 }

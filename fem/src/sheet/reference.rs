@@ -75,7 +75,8 @@ fn axes(normal: [f64; 3], warp: Option<[f64; 3]>, angle_rad: f64) -> [[f64; 3]; 
 }
 
 fn quad(x: &[[f64; 2]], axes: [[f64; 3]; 3]) -> Reference {
-    let (d13, d24) = ([x[2][0] - x[0][0], x[2][1] - x[0][1]], [x[3][0] - x[1][0], x[3][1] - x[1][1]]);
+    let d13 = [x[2][0] - x[0][0], x[2][1] - x[0][1]];
+    let d24 = [x[3][0] - x[1][0], x[3][1] - x[1][1]];
     let twice = d13[0] * d24[1] - d13[1] * d24[0];
     let h = |k: usize| x[0][k] - x[1][k] + x[2][k] - x[3][k];
     Reference {
@@ -87,7 +88,8 @@ fn quad(x: &[[f64; 2]], axes: [[f64; 3]; 3]) -> Reference {
 }
 
 fn triangle(x: &[[f64; 2]], axes: [[f64; 3]; 3]) -> Reference {
-    let (p, q) = ([x[1][0] - x[0][0], x[1][1] - x[0][1]], [x[2][0] - x[0][0], x[2][1] - x[0][1]]);
+    let p = [x[1][0] - x[0][0], x[1][1] - x[0][1]];
+    let q = [x[2][0] - x[0][0], x[2][1] - x[0][1]];
     let twice = p[0] * q[1] - p[1] * q[0];
     Reference {
         b: [[q[1] / twice, -q[0] / twice], [-p[1] / twice, p[0] / twice]],
@@ -95,6 +97,11 @@ fn triangle(x: &[[f64; 2]], axes: [[f64; 3]; 3]) -> Reference {
         area: 0.5 * twice,
         axes,
     }
+}
+
+/// Strain (E₁₁, E₂₂, 2E₁₂) of the columns of a deformation gradient, E = ½(FᵀF − 1).
+pub(crate) fn strain([f1, f2]: [[f64; 3]; 2]) -> [f64; 3] {
+    [0.5 * (dot(f1, f1) - 1.0), 0.5 * (dot(f2, f2) - 1.0), dot(f1, f2)]
 }
 
 /// Mean in-plane stiffness ½(A₁₁ + A₂₂) of an unstrained fabric \[N/m\]; scales hourglass and bending stiffness.

@@ -38,6 +38,7 @@ use models::{Account, Fabric, LedgerLine, Pose, Row, RowKind, Term};
 
 use crate::Mesh;
 use crate::bytes::{pack, unpack};
+use crate::sheet::reference::strain;
 use crate::sheet::{Element, Sheet};
 use crate::transient::row;
 use crate::vec3::{V3, add, along, dot, node, norm, scale, sub};
@@ -176,9 +177,7 @@ impl Side {
 
     /// T at positions `x`, memory of the fabric left out.
     fn pull(&self, fabric: &dyn Fabric, x: &[[f64; 4]]) -> f64 {
-        let f = self.element.deformation(x);
-        let e = [0.5 * (dot(f[0], f[0]) - 1.0), 0.5 * (dot(f[1], f[1]) - 1.0), dot(f[0], f[1])];
-        let s = fabric.tension(e, &[0.0; 2]);
+        let s = fabric.tension(strain(self.element.deformation(x)), &[0.0; 2]);
         let [a, b] = self.across;
         (a * a * s[0] + b * b * s[1] + 2.0 * a * b * s[2]).max(0.0)
     }

@@ -226,7 +226,9 @@ impl Solid {
         }
         let (spring, damped_n) = grip;
         let last_m = self.touch(before).depth_m;
-        let (deep, was, closed) = (touch.depth_m.max(0.0), last_m.max(0.0), touch.depth_m - last_m);
+        let deep = touch.depth_m.max(0.0);
+        let was = last_m.max(0.0);
+        let closed = touch.depth_m - last_m;
         let damped_before_n = *damped_n;
         // The solid does not pull: damping takes no more than the penalty gives.
         *damped_n = if deep > 0.0 { k * (DAMPING * closed).max(-deep) } else { 0.0 };

@@ -1,7 +1,7 @@
 //! Two sides of elements, or a node and a triangle, that are near each other.
 
 use super::super::closest::{blend, on_triangle};
-use crate::vec3::{V3, add, along, cross, dot, node, norm, scale, sub};
+use crate::vec3::{V3, add, along, cross, dot, node, norm, scale, share, sub};
 
 /// Sines below this are parallel: nodes and faces take care.
 const SINE: f64 = 0.1;
@@ -64,17 +64,20 @@ pub(super) fn touch(face: bool, [a, b, c, d]: [V3; 4]) -> Touch {
 /// (Ericson, Real-Time Collision Detection, 2005, 5.1.9).
 fn segments([p, q]: [V3; 2], [r, s]: [V3; 2]) -> ([f64; 4], V3, bool) {
     let (e1, e2, w) = (sub(q, p), sub(s, r), sub(p, r));
-    let (a, b, c, d, e) = (dot(e1, e1), dot(e1, e2), dot(e2, e2), dot(e1, w), dot(e2, w));
+    let a = dot(e1, e1);
+    let b = dot(e1, e2);
+    let c = dot(e2, e2);
+    let d = dot(e1, w);
+    let e = dot(e2, w);
     let m = cross(e1, e2);
     let square = dot(m, m);
-    let over = |x: f64, y: f64| if y > 0.0 { x / y } else { 0.0 };
-    let free = if square > 1e-12 * a * c { over(b * e - c * d, square) } else { 0.5 };
+    let free = if square > 1e-12 * a * c { share(b * e - c * d, square) } else { 0.5 };
     let mut u = free.clamp(0.0, 1.0);
-    let reach = over(b * u + e, c);
+    let reach = share(b * u + e, c);
     let v = reach.clamp(0.0, 1.0);
     let inside = u == free && v == reach && square > SINE * SINE * a * c;
     if v != reach {
-        u = over(b * v - d, a).clamp(0.0, 1.0);
+        u = share(b * v - d, a).clamp(0.0, 1.0);
     }
     if inside {
         // Along the common normal, without the cancellation of two close points.

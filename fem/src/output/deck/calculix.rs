@@ -196,7 +196,8 @@ fn held_sets(out: &mut String, problem: &Problem, mesh: &Quadratic) {
     }
     let mut next = mesh.count;
     for (index, rigid) in problem.rigid.iter().enumerate() {
-        let (set, nodes) = (own(&format!("rigid_{}", index + 1)), mesh.within(nodes(&rigid.set), false));
+        let set = own(&format!("rigid_{}", index + 1));
+        let nodes = mesh.within(nodes(&rigid.set), false);
         let at = row(&nodes.first().map_or([0.0; 3], |node| place(problem, *node)));
         *out += &format!("*NODE\n{}, {at}\n{}, {at}\n", next + 1, next + 2);
         node_set(out, &set, &nodes);

@@ -72,7 +72,8 @@ fn material(out: &mut String, problem: &Problem, index: usize, part: &Part, sect
     let [moduli, density] = [row(&[e1, e2, nu12, g, g, g]), number(density_kg_m3)];
     *out += &format!("*MATERIAL, NAME={name}\n*ELASTIC, TYPE=LAMINA\n{moduli}\n*DENSITY\n{density},\n{damping}");
     orientation(out, problem, index, part);
-    let (kind, t) = (if bends { "SHELL" } else { "MEMBRANE" }, number(thickness_m));
+    let kind = if bends { "SHELL" } else { "MEMBRANE" };
+    let t = number(thickness_m);
     *out += &format!("*{kind} SECTION, ELSET={name}, MATERIAL={name}, ORIENTATION=warp_{}\n{t},\n", index + 1);
 }
 

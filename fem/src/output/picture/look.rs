@@ -28,7 +28,9 @@ pub enum Viewpoint {
 impl Viewpoint {
     /// Unit vectors to the right, up, and towards the viewer.
     pub fn axes(self) -> [[f64; 3]; 3] {
-        let (a, b, c) = (0.5_f64.sqrt(), (1.0_f64 / 6.0).sqrt(), (1.0_f64 / 3.0).sqrt());
+        let a = 0.5_f64.sqrt();
+        let b = (1.0_f64 / 6.0).sqrt();
+        let c = (1.0_f64 / 3.0).sqrt();
         match self {
             Viewpoint::Side => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             Viewpoint::Top => [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],

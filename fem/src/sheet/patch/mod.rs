@@ -253,7 +253,8 @@ impl Build {
         };
         self.element.push(std::array::from_fn(reported));
         let (shape, stock) = (RestShape::pack(chunk), Stock::pack(chunk, counted));
-        let (shape, stock) = (self.shapes.place(shape.key(), shape), self.stocks.place(stock.key(), stock));
+        let shape = self.shapes.place(shape.key(), shape);
+        let stock = self.stocks.place(stock.key(), stock);
         self.groups.push(ElementGroup::pack(chunk, shape, stock));
     }
 

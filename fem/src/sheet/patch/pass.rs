@@ -33,7 +33,8 @@ impl Patch {
             for g in run.regular.clone().chain(run.other.clone()) {
                 let [e1, e2, e3] = &self.strains[g].0;
                 let group = &self.groups[g];
-                let (shape, stock) = (&self.shapes[group.shape as usize], &self.stocks[group.stock as usize]);
+                let shape = &self.shapes[group.shape as usize];
+                let stock = &self.stocks[group.stock as usize];
                 for (l, past) in self.past[g].iter_mut().enumerate() {
                     fabric.remember([e1[l], e2[l], e3[l]], past);
                     let weight = stock.own[l] * shape.area[l];
