@@ -51,6 +51,9 @@ pub use problem::Problem;
 pub use run::Simulation;
 pub use transient::{Tick, Transient};
 
+/// What a call gives, or why it was refused.
+pub type Result<T, E = FemError> = std::result::Result<T, E>;
+
 /// Raised whenever the same problem gives other numbers than before: stored results of an older engine are then not used.
 pub const ENGINE: u32 = 11;
 

@@ -9,6 +9,7 @@ pub(crate) mod start;
 pub use crate::amplitude::Amplitude;
 use crate::mesh::Mesh;
 use crate::policy;
+use crate::vec3::V3;
 pub use gas::Gas;
 use models::Fabric;
 pub use models::fabrics::Ply;
@@ -164,7 +165,7 @@ pub struct Obstacle {
 
 impl Obstacle {
     /// Displacement from the start at a time \[m\]; 0 without a motion.
-    pub fn moved_m(&self, time_s: f64) -> [f64; 3] {
+    pub fn moved_m(&self, time_s: f64) -> V3 {
         self.motion.as_ref().map_or([0.0; 3], |motion| [0, 1, 2].map(|k| motion[k].at(time_s)))
     }
 }

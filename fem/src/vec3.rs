@@ -3,9 +3,12 @@
 /// Three coordinates x, y and z of a point or vector.
 pub type V3 = [f64; 3];
 
+/// Four numbers for every node: x, y, z and [`crate::NODE`]'s padding.
+pub type Nodes = [[f64; 4]];
+
 /// x, y, z of node `i` of an array of stride [`crate::NODE`].
 #[inline(always)]
-pub fn node(q: &[[f64; 4]], i: usize) -> V3 {
+pub fn node(q: &Nodes, i: usize) -> V3 {
     let [x, y, z, _] = q[i];
     [x, y, z]
 }

@@ -10,12 +10,12 @@ use crate::mesh::generate::{self, Around, Cap, Tube};
 use crate::policy;
 use crate::problem::Chamber;
 use crate::vec3::{bounds, extent, norm, sub};
-use crate::{FemError, Mesh};
+use crate::{FemError, Mesh, Result};
 use std::path::Path;
 use toml::{Spanned, Value};
 
 /// Reads the mesh file that a case names in `[mesh] file`; the path is as written there.
-pub(crate) type ReadMesh<'a> = &'a mut dyn FnMut(&Path) -> Result<MeshFile, FemError>;
+pub(crate) type ReadMesh<'a> = &'a mut dyn FnMut(&Path) -> Result<MeshFile>;
 
 /// A generator of meshes as cases name it.
 #[derive(Debug, Clone, Copy, serde::Serialize)]
@@ -27,7 +27,7 @@ pub struct MeshGenerator {
     /// Values that the generator takes, in their order.
     pub keys: &'static [GeneratorKey],
     #[serde(skip)]
-    make: fn(&[f64]) -> Result<Mesh, FemError>,
+    make: fn(&[f64]) -> Result<Mesh>,
 }
 
 /// One value that a generator of meshes takes.

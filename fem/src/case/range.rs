@@ -1,14 +1,15 @@
 //! Values as typed: numbers → SI, texts, switches; refused where they cannot be meant, with the words for it.
 
-use crate::FemError;
 use crate::problem::Amplitude;
+use crate::vec3::V3;
+use crate::{FemError, Result};
 use spelling::Exactly;
 pub(crate) use spelling::units::Range;
 use std::collections::BTreeMap;
 use std::ops::Range as Span;
 use toml::{Spanned, Value};
 
-pub(crate) type Checked<T> = Result<T, FemError>;
+pub(crate) type Checked<T> = Result<T>;
 pub(crate) type Num = Spanned<f64>;
 pub(crate) type Text = Spanned<String>;
 /// Rows of time \[s\] and values, if they are there.
@@ -73,14 +74,14 @@ pub(crate) fn optional(key: &str, value: &Option<Num>, range: &Range) -> Checked
     value.as_ref().map(|v| si(key, v, range)).transpose()
 }
 
-pub(crate) fn vector(key: &str, value: &Spanned<Exactly<3>>, range: &Range) -> Checked<[f64; 3]> {
+pub(crate) fn vector(key: &str, value: &Spanned<Exactly<3>>, range: &Range) -> Checked<V3> {
     let Exactly([x, y, z]) = *value.get_ref();
     let one = |v: f64| number(key, v, value.span(), range);
     Ok([one(x)?, one(y)?, one(z)?])
 }
 
 /// A direction: three numbers, not all zero.
-pub(crate) fn direction(key: &str, value: &Spanned<Exactly<3>>) -> Checked<[f64; 3]> {
+pub(crate) fn direction(key: &str, value: &Spanned<Exactly<3>>) -> Checked<V3> {
     let v = vector(key, value, &plain(-1e6, 1e6, "for example [0, 0, 1]"))?;
     match v.iter().all(|x| x.abs() < 1e-9) {
         true => refuse(format!("{key} has no direction: {v:?}"), "write for example [0, 0, 1]", value.span()),

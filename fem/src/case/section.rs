@@ -6,6 +6,7 @@ use super::raw::{Raw, RawPart};
 use crate::mesh::{Mesh, Part};
 use crate::problem::start::{has_directions, warp_fault};
 use crate::problem::{Ply, Section};
+use crate::vec3::V3;
 use spelling::Exactly;
 use std::sync::Arc;
 use toml::{Spanned, Value};
@@ -55,7 +56,7 @@ pub(super) fn sections(raw: &Raw, mesh: &mut Mesh, unread: &[(String, String)]) 
 }
 
 /// An axis by its letter, or a vector.
-fn direction_of(value: &Spanned<Value>) -> Checked<[f64; 3]> {
+fn direction_of(value: &Spanned<Value>) -> Checked<V3> {
     let numbers = |list: &[Value]| {
         let number = |v: &Value| v.as_float().or_else(|| v.as_integer().map(|i| i as f64));
         list.iter().map(number).collect::<Option<Vec<f64>>>()

@@ -10,6 +10,7 @@ use super::pack::rows;
 use super::surface::{NONE, Surface};
 use crate::sheet::group::{LANES, Lane};
 use crate::sheet::lanes::{V, axes, inner, product};
+use crate::vec3::Nodes;
 
 /// A question: how far is this node from this element?
 #[derive(Debug, Clone, Copy)]
@@ -58,7 +59,7 @@ impl pulp::WithSimd for Questions<'_> {
 
 /// Squared distances of nodes from the two triangles of quadrilaterals.
 #[inline(always)]
-fn squares<S: Simd>(simd: S, x: &[[f64; 4]], ids: [&[u32; LANES]; 5], part: usize) -> V<S> {
+fn squares<S: Simd>(simd: S, x: &Nodes, ids: [&[u32; LANES]; 5], part: usize) -> V<S> {
     let (p, a) = (rows(simd, x, ids[0], part), rows(simd, x, ids[1], part));
     let b = rows(simd, x, ids[2], part);
     let c = rows(simd, x, ids[3], part);

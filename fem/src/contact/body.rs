@@ -9,6 +9,7 @@ use super::record::{Reach, Record, Step};
 use super::search;
 use super::surface::{self, Surface};
 use crate::bytes::{pack, unpack};
+use crate::vec3::Nodes;
 use rayon::prelude::*;
 
 /// What contact cannot find again from positions, after the number of elements.
@@ -36,7 +37,7 @@ impl Contact {
         self.chunks.iter().flat_map(|chunk| chunk.near.iter().map(|at| &chunk.records[*at as usize]))
     }
 
-    pub(super) fn step_of<'a>(&'a self, x: &'a [[f64; 4]], dt_s: f64) -> Step<'a> {
+    pub(super) fn step_of<'a>(&'a self, x: &'a Nodes, dt_s: f64) -> Step<'a> {
         let before = if self.before_m.is_empty() { x } else { &self.before_m };
         Step {
             arch: self.arch,
@@ -50,7 +51,7 @@ impl Contact {
         }
     }
 
-    pub(super) fn search(&mut self, x: &[[f64; 4]]) {
+    pub(super) fn search(&mut self, x: &Nodes) {
         let pairs = search::pairs(&self.surface, x, self.reach.side_m + self.reach.skin_m);
         let arch = self.arch;
         self.chunks.par_iter_mut().for_each(|chunk| {

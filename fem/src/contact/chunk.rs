@@ -9,7 +9,7 @@ use super::press::{Push, Sums, press_lane, press_round, push};
 use super::record::{Record, Step, Touch};
 use super::surface::Surface;
 use crate::sheet::group::{LANES, Lane};
-use crate::vec3::{V3, along, cross, dot, node, norm, scale, sub};
+use crate::vec3::{Nodes, V3, along, cross, dot, node, norm, scale, sub};
 
 pub(super) const RECORDS: usize = 64;
 
@@ -63,7 +63,7 @@ pub(super) struct Chunk {
 
 impl Chunk {
     /// Starts the way at zero again, at positions `x`.
-    pub(super) fn close(&mut self, arch: pulp::Arch, x: &[[f64; 4]]) {
+    pub(super) fn close(&mut self, arch: pulp::Arch, x: &Nodes) {
         let way_m = if self.seen_m.is_empty() { f64::INFINITY } else { self.way_m + self.parted_m(arch, x) };
         for record in &mut self.records {
             record.due_m -= way_m;
@@ -111,7 +111,7 @@ impl Chunk {
     }
 
     /// Adds the forces of the step to those on the nodes from `first` on.
-    pub(crate) fn hand_over(&self, first: u32, force: &mut [[f64; 4]]) {
+    pub(crate) fn hand_over(&self, first: u32, force: &mut Nodes) {
         let last = first + force.len() as u32;
         if self.span.end <= first || last <= self.span.start {
             return;
@@ -171,7 +171,7 @@ impl Chunk {
     }
 
     /// No two nodes moved more than this against each other since the last look: diagonal of the box of all motions.
-    fn parted_m(&self, arch: pulp::Arch, x: &[[f64; 4]]) -> f64 {
+    fn parted_m(&self, arch: pulp::Arch, x: &Nodes) -> f64 {
         arch.dispatch(Parted { chunk: self, x })
     }
 
@@ -290,7 +290,7 @@ fn look_at(record: &mut Record, element: u32, step: &Step, sums: &mut Sums) -> b
 
 /// Distance of a record's node from its feature.
 #[inline(always)]
-pub(super) fn touch(record: &Record, x: &[[f64; 4]]) -> Touch {
+pub(super) fn touch(record: &Record, x: &Nodes) -> Touch {
     let p = node(x, record.node as usize);
     let a = node(x, record.corners[0] as usize);
     if record.feature != Feature::Face {

@@ -1,7 +1,7 @@
 //! Closest points on elements, and which feature (face, edge, corner) they lie on.
 
 use super::surface::{NONE, Surface};
-use crate::vec3::{V3, add, along, cross, dot, node, norm, scale, sub, unit};
+use crate::vec3::{Nodes, V3, add, along, cross, dot, node, norm, scale, sub, unit};
 
 /// Where on an element the closest point is, and how the distance from it is measured until the next look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
@@ -36,7 +36,7 @@ pub(super) struct Closest {
 pub(super) const TRIANGLES: [[u8; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
 /// Closest point of one triangle as weights of its corners (Ericson, Real-Time Collision Detection, 2005, 5.1.5).
-pub(super) fn on_triangle(p: V3, a: V3, b: V3, c: V3) -> [f64; 3] {
+pub(super) fn on_triangle(p: V3, a: V3, b: V3, c: V3) -> V3 {
     let (ab, ac, ap) = (sub(b, a), sub(c, a), sub(p, a));
     let (d1, d2) = (dot(ab, ap), dot(ac, ap));
     if d1 <= 0.0 && d2 <= 0.0 {
@@ -81,7 +81,7 @@ pub(super) struct Nearest {
 
 /// Nearest point of an element; the first half of a quad wins a tie.
 #[inline]
-pub(super) fn nearest(surface: &Surface, x: &[[f64; 4]], p: V3, element: u32) -> Nearest {
+pub(super) fn nearest(surface: &Surface, x: &Nodes, p: V3, element: u32) -> Nearest {
     let nodes = &surface.elements[element as usize];
     let halves = if nodes[3] == NONE { 1 } else { 2 };
     let mut best = Nearest { square_m2: f64::INFINITY, half: 0, weights: [0.0; 3] };
@@ -98,14 +98,7 @@ pub(super) fn nearest(surface: &Surface, x: &[[f64; 4]], p: V3, element: u32) ->
 }
 
 /// Turns a nearest point into a feature. Within `flat_m` of a face its plane is used: there the surface is nearly flat.
-pub(super) fn describe(
-    surface: &Surface,
-    x: &[[f64; 4]],
-    p: V3,
-    element: u32,
-    nearest: &Nearest,
-    flat_m: f64,
-) -> Closest {
+pub(super) fn describe(surface: &Surface, x: &Nodes, p: V3, element: u32, nearest: &Nearest, flat_m: f64) -> Closest {
     let Nearest { square_m2, half, weights: w } = *nearest;
     let nodes = &surface.elements[element as usize];
     let triangle = TRIANGLES[half];
@@ -142,7 +135,7 @@ pub(super) fn describe(
 }
 
 /// Unit normal of an element at its middle.
-pub(super) fn element_normal(surface: &Surface, x: &[[f64; 4]], element: u32) -> V3 {
+pub(super) fn element_normal(surface: &Surface, x: &Nodes, element: u32) -> V3 {
     let nodes = &surface.elements[element as usize];
     let at = |k: usize| node(x, nodes[k] as usize);
     let (d, e) =
@@ -151,12 +144,12 @@ pub(super) fn element_normal(surface: &Surface, x: &[[f64; 4]], element: u32) ->
 }
 
 #[inline(always)]
-pub(super) fn blend(w: [f64; 3], a: V3, b: V3, c: V3) -> V3 {
+pub(super) fn blend(w: V3, a: V3, b: V3, c: V3) -> V3 {
     along(along(scale(a, w[0]), w[1], b), w[2], c)
 }
 
 /// Sum of the normals on both sides of an edge, and whether there is only one side.
-fn edge_normal(surface: &Surface, x: &[[f64; 4]], element: u32, edge: [u8; 2], own: V3) -> (V3, bool) {
+fn edge_normal(surface: &Surface, x: &Nodes, element: u32, edge: [u8; 2], own: V3) -> (V3, bool) {
     let count = surface.corners(element as usize).len() as u8;
     let side = if (edge[0] + 1) % count == edge[1] {
         edge[0]
@@ -172,7 +165,7 @@ fn edge_normal(surface: &Surface, x: &[[f64; 4]], element: u32, edge: [u8; 2], o
 }
 
 /// Sum of the normals around a corner within the layer, and whether the layer ends there.
-fn corner_normal(surface: &Surface, x: &[[f64; 4]], element: u32, corner: u8) -> (V3, bool) {
+fn corner_normal(surface: &Surface, x: &Nodes, element: u32, corner: u8) -> (V3, bool) {
     let layer = surface.layer[element as usize];
     let centre = surface.elements[element as usize][corner as usize];
     let (mut sum, mut rim) = ([0.0; 3], false);

@@ -4,12 +4,13 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::sheet::group::{LANES, Lane};
+use crate::vec3::Nodes;
 
 /// Most nodes per piece of a pass over all nodes.
 const PIECE: usize = 4096;
 
 /// Largest distance between positions and those one step before; `copy` becomes the positions.
-pub(super) fn follow(arch: pulp::Arch, x: &[[f64; 4]], before: &[[f64; 4]], copy: &mut [[f64; 4]]) -> f64 {
+pub(super) fn follow(arch: pulp::Arch, x: &Nodes, before: &Nodes, copy: &mut Nodes) -> f64 {
     let square = if x.len() <= PIECE {
         arch.dispatch(Piece { x, before, copy })
     } else {
@@ -73,7 +74,7 @@ pub(super) struct Searched {
 
 impl Searched {
     /// True if some node may have moved more than half the skin since.
-    pub(super) fn is_due(&mut self, x: &[[f64; 4]], skin_m: f64) -> bool {
+    pub(super) fn is_due(&mut self, x: &Nodes, skin_m: f64) -> bool {
         if self.path_m < self.due_m {
             return false;
         }
@@ -82,7 +83,7 @@ impl Searched {
         left <= 0.05 * skin_m
     }
 
-    pub(super) fn note(&mut self, x: &[[f64; 4]], skin_m: f64) {
+    pub(super) fn note(&mut self, x: &Nodes, skin_m: f64) {
         self.placed_m.clear();
         self.placed_m.extend_from_slice(x);
         self.due_m = self.path_m + 0.5 * skin_m;
@@ -91,7 +92,7 @@ impl Searched {
 }
 
 /// Largest distance between two sets of positions.
-fn farthest_m(x: &[[f64; 4]], y: &[[f64; 4]]) -> f64 {
+fn farthest_m(x: &Nodes, y: &Nodes) -> f64 {
     x.iter().zip(y).map(|(x, y)| square(x, y)).fold(0.0, f64::max).sqrt()
 }
 

@@ -55,8 +55,8 @@ use rayon::prelude::*;
 use crate::problem;
 use crate::terms::slide;
 use crate::transient::row;
-use crate::vec3::{dot, norm, padded, scale, share};
-use crate::{FemError, Mesh};
+use crate::vec3::{Nodes, dot, norm, padded, scale, share};
+use crate::{FemError, Mesh, Result};
 use crate::{Tick, Transient};
 pub use body::Contact;
 use build::Penalty;
@@ -83,7 +83,7 @@ impl Contact {
     /// # Errors
     /// [`FemError::Problem`] for unknown parts or parameters out of range; [`FemError::Mesh`] naming node, element and
     /// depth where layers pass through each other at the start.
-    pub fn new(mesh: &Mesh, settings: &problem::Contact, mass_kg: &[f64], dt_s: f64) -> Result<Contact, FemError> {
+    pub fn new(mesh: &Mesh, settings: &problem::Contact, mass_kg: &[f64], dt_s: f64) -> Result<Contact> {
         check(settings, mesh, mass_kg, dt_s)?;
         let surface = Surface::new(mesh, &settings.parts)?;
         let reach = reaches(settings, surface.size_m);
@@ -232,7 +232,7 @@ impl Transient for Contact {
 
 /// Adds the forces of chunks to those on the nodes from `first` on; every node gets its own in the order of chunks, whatever
 /// the number of threads.
-fn hand_over(chunks: &[&Chunk], first: u32, force: &mut [[f64; 4]], most: usize) {
+fn hand_over(chunks: &[&Chunk], first: u32, force: &mut Nodes, most: usize) {
     if force.len() <= most {
         return chunks.iter().for_each(|chunk| chunk.hand_over(first, force));
     }
@@ -255,7 +255,7 @@ fn reaches(settings: &problem::Contact, size_m: f64) -> Reach {
     }
 }
 
-fn check(settings: &problem::Contact, mesh: &Mesh, mass_kg: &[f64], dt_s: f64) -> Result<(), FemError> {
+fn check(settings: &problem::Contact, mesh: &Mesh, mass_kg: &[f64], dt_s: f64) -> Result<()> {
     let bad = |what: String| Err(FemError::Problem(format!("contact: {what}")));
     if mass_kg.len() != mesh.points.len() {
         return bad(format!("{} masses for {} nodes", mass_kg.len(), mesh.points.len()));

@@ -9,6 +9,7 @@ use pulp::Simd;
 use super::record::{Record, Touch};
 use crate::sheet::group::{LANES, Lane};
 use crate::sheet::lanes::{V, axes, inner, product};
+use crate::vec3::Nodes;
 
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
@@ -84,7 +85,7 @@ impl Pack {
 
     /// Depth, normal and weights of all lanes; false if none of them touches or did in the step before.
     #[inline(always)]
-    pub(super) fn measure<S: Simd>(&self, simd: S, x: &[[f64; 4]], touches: &mut Touches) -> bool {
+    pub(super) fn measure<S: Simd>(&self, simd: S, x: &Nodes, touches: &mut Touches) -> bool {
         let mut any = false;
         for part in 0..LANES / S::F64_LANES {
             let p = rows(simd, x, &self.node[0], part);
@@ -113,7 +114,7 @@ impl Pack {
 
 /// Positions of one of the nodes of every lane.
 #[inline(always)]
-pub(super) fn rows<S: Simd>(simd: S, x: &[[f64; 4]], node: &[u32; LANES], part: usize) -> [V<S>; 3] {
+pub(super) fn rows<S: Simd>(simd: S, x: &Nodes, node: &[u32; LANES], part: usize) -> [V<S>; 3] {
     let mut out = [[0.0; LANES]; 3];
     for lane in 0..S::F64_LANES {
         let p = &x[node[part * S::F64_LANES + lane] as usize];

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use super::chunk::Chunk;
 use super::closest::{Closest, Feature};
 use super::record::{Reach, Record};
-use crate::vec3::V3;
+use crate::vec3::{Nodes, V3};
 
 /// A node and a face that it came through.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -39,7 +39,7 @@ impl Record {
 
 impl Passed {
     /// Takes over what the looks of a step found.
-    pub(super) fn take(&mut self, chunks: &mut [Chunk], time_s: f64, x: &[[f64; 4]]) {
+    pub(super) fn take(&mut self, chunks: &mut [Chunk], time_s: f64, x: &Nodes) {
         for (node, element) in chunks.iter_mut().flat_map(|chunk| chunk.passed.drain(..)) {
             let place_m = crate::vec3::node(x, node as usize);
             self.first.get_or_insert(Passage { node, element, time_s, place_m });

@@ -3,7 +3,7 @@
 use super::pack::{Pack, Touches};
 use super::record::{Record, Step, Touch};
 use crate::terms::slide;
-use crate::vec3::{V3, add, along, node, scale, sub};
+use crate::vec3::{Nodes, V3, add, along, node, scale, sub};
 
 /// Share of what a pair is too close by which its rest gap grows in a step.
 const GROWTH: f64 = 0.02;
@@ -130,7 +130,7 @@ fn rub(record: &mut Record, touch: &Touch, normal_n: f64, step: &Step, sums: &mu
 
 /// Motion of the node against the touched point since the step before.
 #[inline(always)]
-pub(super) fn motion(record: &Record, touch: &Touch, x: &[[f64; 4]], before: &[[f64; 4]]) -> V3 {
+pub(super) fn motion(record: &Record, touch: &Touch, x: &Nodes, before: &Nodes) -> V3 {
     let one = |n: u32| sub(node(x, n as usize), node(before, n as usize));
     let mut moved = one(record.node);
     for (n, w) in record.corners.iter().zip(touch.weights) {

@@ -4,14 +4,14 @@
 use rayon::prelude::*;
 
 use super::surface::{NONE, Surface};
-use crate::vec3::{V3, bounds, dot, node, sub};
+use crate::vec3::{Nodes, V3, bounds, dot, node, sub};
 
 const PIECE: usize = 1024;
 
 /// All (node, element) with the node within `radius_m` of the element (and some beyond), sorted by rank of the node, then
 /// element.
 /// Elements that a node must not touch are left out.
-pub(super) fn pairs(surface: &Surface, x: &[[f64; 4]], radius_m: f64) -> Vec<(u32, u32)> {
+pub(super) fn pairs(surface: &Surface, x: &Nodes, radius_m: f64) -> Vec<(u32, u32)> {
     let used = (0..x.len() as u32).filter(|n| !surface.around.of(*n as usize).is_empty());
     let places = used.map(|n| Placed { place: node(x, n as usize), item: n }).collect();
     let grid = Grid::new(places, radius_m.max(surface.size_m));
@@ -47,7 +47,7 @@ fn by_rank(rank: &[u32], found: &[Vec<(u32, u32)>]) -> Vec<(u32, u32)> {
 /// `own` marks the nodes that must not touch an element with its number.
 fn ask(
     surface: &Surface,
-    x: &[[f64; 4]],
+    x: &Nodes,
     grid: &Grid,
     element: usize,
     radius_m: f64,

@@ -12,8 +12,8 @@ use super::chunk::touch;
 use super::closest::{Closest, element_normal};
 use super::surface::Lists;
 use crate::problem;
-use crate::vec3::dot;
-use crate::{FemError, Mesh};
+use crate::vec3::{Nodes, dot};
+use crate::{FemError, Mesh, Result};
 use std::cmp::Ordering;
 
 /// Averaging passes: noise of single nodes falls to a fifth or less.
@@ -39,12 +39,7 @@ struct Start<'a> {
     of_node: Lists,
 }
 
-pub(super) fn sides(
-    contact: &mut Contact,
-    mesh: &Mesh,
-    settings: &problem::Contact,
-    x: &[[f64; 4]],
-) -> Result<(), FemError> {
+pub(super) fn sides(contact: &mut Contact, mesh: &Mesh, settings: &problem::Contact, x: &Nodes) -> Result<()> {
     let entries = entries(contact, settings, x);
     let pairs: Vec<(u32, u32)> = entries.iter().enumerate().map(|(i, e)| (e.node, i as u32)).collect();
     let mut start = Start { contact, mesh, x, entries, of_node: Lists::new(x.len(), &pairs) };
@@ -77,7 +72,7 @@ pub(super) fn sides(
 }
 
 /// Records within reach whose side is clear.
-fn entries(contact: &Contact, settings: &problem::Contact, x: &[[f64; 4]]) -> Vec<Entry> {
+fn entries(contact: &Contact, settings: &problem::Contact, x: &Nodes) -> Vec<Entry> {
     let step = contact.step_of(x, 0.0);
     let cut = 4.0 * settings.gap_m.max(1e-9);
     let mut entries = Vec::new();
@@ -161,7 +156,7 @@ impl Start<'_> {
     }
 
     /// Neighbouring nodes on both sides of one stretch of a layer: the layers cross.
-    fn crossings(&self, side: &[i8]) -> Result<(), FemError> {
+    fn crossings(&self, side: &[i8]) -> Result<()> {
         let height = |e: &Entry| e.found.height_m.abs();
         for (i, entry) in self.entries.iter().enumerate().filter(|(i, _)| side[*i] == 1) {
             if let Some(other) = self.beside(entry).find(|o| side[*o] == -side[i]) {
@@ -184,7 +179,7 @@ impl Start<'_> {
 }
 
 /// Lowers rest gaps to the distance as a step measures it, so that the first force is exactly zero.
-pub(super) fn relax(contact: &mut Contact, x: &[[f64; 4]]) {
+pub(super) fn relax(contact: &mut Contact, x: &Nodes) {
     for chunk in &mut contact.chunks {
         for record in chunk.records.iter_mut().filter(|r| r.side != 0) {
             record.rest_m -= touch(record, x).depth_m.max(0.0);

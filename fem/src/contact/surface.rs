@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::vec3::{V3, area, norm, share, sub};
-use crate::{FemError, Mesh};
+use crate::{FemError, Mesh, Result};
 
 pub(super) const NONE: u32 = u32::MAX;
 
@@ -59,7 +59,7 @@ impl Lists {
 type Edge = (u32, u32, u32);
 
 impl Surface {
-    pub(super) fn new(mesh: &Mesh, parts: &[String]) -> Result<Surface, FemError> {
+    pub(super) fn new(mesh: &Mesh, parts: &[String]) -> Result<Surface> {
         let mut surface = Surface::default();
         if let Some(name) = parts.iter().find(|name| mesh.parts.iter().all(|part| part.name != **name)) {
             let known: Vec<_> = mesh.parts.iter().map(|part| part.name.as_str()).collect();
@@ -107,7 +107,7 @@ impl Surface {
     }
 
     /// Finds the element across each edge; the fronts of neighbours in one layer must be on the same side.
-    fn border(&mut self, mesh: &Mesh) -> Result<(), FemError> {
+    fn border(&mut self, mesh: &Mesh) -> Result<()> {
         let mut open: HashMap<Edge, Vec<(u32, u8, bool)>> = HashMap::new();
         for e in 0..self.elements.len() {
             let nodes = self.corners(e);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::check::{counted, near, planes, signed_volume};
 use super::{Mesh, Part};
-use crate::FemError;
+use crate::{FemError, Result};
 
 /// A face: its part and its place there.
 type Face = (usize, usize);
@@ -19,7 +19,7 @@ type Neighbours = BTreeMap<usize, Vec<(usize, bool)>>;
 ///
 /// # Errors
 /// [`FemError::Mesh`] for a part that would have two chambers on one side, or that two chambers want turned in different ways.
-pub fn enclose(mesh: &mut Mesh, chamber: &str, parts: &[usize], open: [bool; 3]) -> Result<usize, FemError> {
+pub fn enclose(mesh: &mut Mesh, chamber: &str, parts: &[usize], open: [bool; 3]) -> Result<usize> {
     let faces: Vec<Face> = parts.iter().flat_map(|p| (0..mesh.parts[*p].len()).map(move |i| (*p, i))).collect();
     let outward = outward(mesh, &faces, open);
     let mut turned = 0;

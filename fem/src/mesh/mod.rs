@@ -16,7 +16,8 @@ pub use enclose::enclose;
 
 use std::collections::BTreeMap;
 
-use crate::FemError;
+use crate::vec3::V3;
+use crate::{FemError, Result};
 
 /// Nodes and elements in their stress-free shape. Node numbers count from 0 here and from 1 in files and messages.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -91,7 +92,7 @@ impl Part {
         self.quads.iter().map(|quad| &quad[..]).chain(self.triangles.iter().map(|triangle| &triangle[..]))
     }
     /// Warp direction given for element `i`, if any.
-    pub(crate) fn warp_of(&self, i: usize) -> Option<[f64; 3]> {
+    pub(crate) fn warp_of(&self, i: usize) -> Option<V3> {
         match self.warp.len() {
             0 => None,
             1 => Some(self.warp[0]),
@@ -113,7 +114,7 @@ impl Mesh {
     ///
     /// # Errors
     /// Unknown or empty set, with the names there are.
-    pub(crate) fn set(&self, name: &str, what: &str) -> Result<&[u32], FemError> {
+    pub(crate) fn set(&self, name: &str, what: &str) -> Result<&[u32]> {
         match self.sets.get(name) {
             Some(nodes) if !nodes.is_empty() => Ok(nodes),
             Some(_) => Err(FemError::Problem(format!("{what}: node set `{name}` is empty"))),
@@ -125,7 +126,7 @@ impl Mesh {
         }
     }
     /// Mean displacement of nodes from where they start \[m\], for node positions in mesh order.
-    pub(crate) fn mean_moved(&self, nodes: &[u32], positions: &[[f64; 3]]) -> [f64; 3] {
+    pub(crate) fn mean_moved(&self, nodes: &[u32], positions: &[V3]) -> V3 {
         let mut sum = [0.0; 3];
         for node in nodes {
             let (now, start) = (positions[*node as usize], self.start_of(*node as usize));
@@ -133,15 +134,15 @@ impl Mesh {
         }
         sum
     }
-    pub(crate) fn starts(&self) -> Vec<[f64; 3]> {
+    pub(crate) fn starts(&self) -> Vec<V3> {
         (0..self.points.len()).map(|node| self.start_of(node)).collect()
     }
     /// Where the membrane at node `i` is free of stress.
-    pub(crate) fn free_of(&self, i: usize) -> [f64; 3] {
+    pub(crate) fn free_of(&self, i: usize) -> V3 {
         if self.membrane.is_empty() { self.points[i] } else { self.membrane[i] }
     }
     /// Position in which node `i` starts \[m\].
-    pub fn start_of(&self, i: usize) -> [f64; 3] {
+    pub fn start_of(&self, i: usize) -> V3 {
         if self.start.is_empty() { self.free_of(i) } else { self.start[i] }
     }
     /// Adds another mesh to this one. Part names must differ; sets of the same name unite, and a chamber named by both
@@ -149,7 +150,7 @@ impl Mesh {
     ///
     /// # Errors
     /// [`FemError::Mesh`] naming a part that both have.
-    pub fn append(&mut self, mut other: Mesh) -> Result<(), FemError> {
+    pub fn append(&mut self, mut other: Mesh) -> Result<()> {
         if let Some(part) = other.parts.iter().find(|part| self.parts.iter().any(|own| own.name == part.name)) {
             return Err(FemError::Mesh(format!("both meshes have a part `{}`; rename one", part.name)));
         }

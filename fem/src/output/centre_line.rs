@@ -30,7 +30,7 @@ use std::path::Path;
 
 use super::table::{Table, number};
 use crate::vec3::{V3, along, cross, dot, norm, sub};
-use crate::{FemError, Mesh, Part};
+use crate::{FemError, Mesh, Part, Result};
 
 /// Nodes nearer to a station than this share of the mesh's length lie on it: far above rounding, far below an element.
 const ON_STATION: f64 = 1e-9;
@@ -48,7 +48,7 @@ impl CentreLine {
     ///
     /// # Errors
     /// [`FemError::Problem`] for an unknown part, an axis without direction, or a station outside the mesh.
-    pub fn new(mesh: &Mesh, parts: &[String], axis: V3, stations_m: &[f64]) -> Result<CentreLine, FemError> {
+    pub fn new(mesh: &Mesh, parts: &[String], axis: V3, stations_m: &[f64]) -> Result<CentreLine> {
         let sections = Sections::of(mesh, parts, axis)?;
         let [from, to] = sections.range.map(|m| m * 1e3);
         let outside =
@@ -61,7 +61,7 @@ impl CentreLine {
     ///
     /// # Errors
     /// As [`CentreLine::new`]; also for a section that is open to that side.
-    pub fn seen(mesh: &Mesh, parts: &[String], axis: V3, eye: V3, stations_m: &[f64]) -> Result<CentreLine, FemError> {
+    pub fn seen(mesh: &Mesh, parts: &[String], axis: V3, eye: V3, stations_m: &[f64]) -> Result<CentreLine> {
         let sections = Sections::of(mesh, parts, axis)?;
         let side = cross(axis, eye);
         let hidden = |s: f64| format!("markers: no wall at {s} mm on the side {eye:?}");
@@ -74,7 +74,7 @@ impl CentreLine {
         stations_m: &[f64],
         of: impl Fn(f64) -> Option<Weights>,
         missing: impl Fn(f64) -> String,
-    ) -> Result<CentreLine, FemError> {
+    ) -> Result<CentreLine> {
         let weights = stations_m.iter().map(|s| of(*s).ok_or_else(|| FemError::Problem(missing(s * 1e3))));
         let weights = weights.collect::<Result<_, _>>()?;
         Ok(CentreLine { stations_m: stations_m.to_vec(), weights, nodes: mesh.points.len() })
@@ -89,7 +89,7 @@ impl CentreLine {
     ///
     /// # Errors
     /// [`FemError::Problem`] if there are not as many positions as the mesh has nodes.
-    pub fn at(&self, positions: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, FemError> {
+    pub fn at(&self, positions: &[V3]) -> Result<Vec<V3>> {
         if positions.len() != self.nodes {
             return Err(FemError::Problem("centre line: these positions belong to another mesh".into()));
         }
@@ -112,13 +112,13 @@ pub(crate) struct CentreLineFile {
 
 impl CentreLineFile {
     /// The file after the rows of `times_s` \[s\], which a checkpoint knows of; later ones are dropped.
-    pub(crate) fn open(path: &Path, line: CentreLine, times_s: &[f64]) -> Result<CentreLineFile, FemError> {
+    pub(crate) fn open(path: &Path, line: CentreLine, times_s: &[f64]) -> Result<CentreLineFile> {
         let table = Table::open(path, times_s, line.stations_m.len())?;
         Ok(CentreLineFile { line, table })
     }
 
     /// Adds one row per station; a step that is in the file already is not written again.
-    pub(crate) fn append(&mut self, step: u64, time_s: f64, positions: &[[f64; 3]]) -> Result<(), FemError> {
+    pub(crate) fn append(&mut self, step: u64, time_s: f64, positions: &[V3]) -> Result<()> {
         let mut rows = String::new();
         for (point, station) in self.line.at(positions)?.iter().zip(&self.line.stations_m) {
             if !point.iter().all(|x| x.is_finite()) {
@@ -132,7 +132,7 @@ impl CentreLineFile {
     }
 }
 
-fn choose<'a>(mesh: &'a Mesh, names: &[String]) -> Result<Vec<&'a Part>, FemError> {
+fn choose<'a>(mesh: &'a Mesh, names: &[String]) -> Result<Vec<&'a Part>> {
     if names.is_empty() {
         return Ok(mesh.parts.iter().collect());
     }
@@ -161,7 +161,7 @@ struct Sections<'a> {
 }
 
 impl<'a> Sections<'a> {
-    fn of(mesh: &'a Mesh, parts: &[String], axis: [f64; 3]) -> Result<Sections<'a>, FemError> {
+    fn of(mesh: &'a Mesh, parts: &[String], axis: V3) -> Result<Sections<'a>> {
         let chosen = choose(mesh, parts)?;
         let length = norm(axis);
         if !(length > 0.0 && length.is_finite()) {
@@ -221,7 +221,7 @@ impl<'a> Sections<'a> {
     }
 
     /// Weights of the point of the section at `station` that faces `eye`, where `side` (across both) changes sign.
-    fn facing(&self, station: f64, eye: [f64; 3], side: [f64; 3]) -> Option<Weights> {
+    fn facing(&self, station: f64, eye: V3, side: V3) -> Option<Weights> {
         for segment in self.cuts(station) {
             let [a, b] = segment.map(|cut| self.point(cut));
             let (sa, sb) = (dot(a, side), dot(b, side));
@@ -242,7 +242,7 @@ impl<'a> Sections<'a> {
         None
     }
 
-    fn point(&self, (i, j, t): Cut) -> [f64; 3] {
+    fn point(&self, (i, j, t): Cut) -> V3 {
         let (p, q) = (self.mesh.points[i as usize], self.mesh.points[j as usize]);
         along(p, t, sub(q, p))
     }

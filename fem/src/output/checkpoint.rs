@@ -11,9 +11,9 @@
 use std::io::{Error, Write};
 use std::path::{Path, PathBuf};
 
-use crate::FemError;
 use crate::bytes::{pack, unpack};
 use crate::output::replace;
+use crate::{FemError, Result};
 use serde::{Deserialize, Serialize};
 use spelling::files::{sealed, sync_folder, unsealed, write_new};
 
@@ -36,7 +36,7 @@ pub(crate) struct Checkpoint {
 }
 
 /// Writes `checkpoint` to `folder`, which is created; the one before it is kept.
-pub(crate) fn write_checkpoint(folder: &Path, checkpoint: &Checkpoint) -> Result<PathBuf, FemError> {
+pub(crate) fn write_checkpoint(folder: &Path, checkpoint: &Checkpoint) -> Result<PathBuf> {
     write_through(folder, checkpoint, &mut |out, bytes| out.write_all(bytes))
 }
 
@@ -44,7 +44,7 @@ pub(crate) fn write_checkpoint(folder: &Path, checkpoint: &Checkpoint) -> Result
 type Loaded = (Checkpoint, Option<String>);
 
 /// Reads the newest good checkpoint of the problem with this `fingerprint`; `None` if the folder has none.
-pub(crate) fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<Loaded>, FemError> {
+pub(crate) fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<Loaded>> {
     let (newest, previous) = names(folder);
     let fault = match read_file(&newest, fingerprint)? {
         Found::Good(checkpoint) => return Ok(Some((checkpoint, None))),
@@ -70,12 +70,12 @@ pub(crate) fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<
 }
 
 /// Writes the end of a complete run to `folder`; its `fingerprint` is the structure's.
-pub(crate) fn write_end(folder: &Path, end: &Checkpoint) -> Result<(), FemError> {
+pub(crate) fn write_end(folder: &Path, end: &Checkpoint) -> Result<()> {
     replace(&folder.join(END), &mut |out| out.write_all(&encode(end)))
 }
 
 /// Reads the end of the complete run in a folder, with the bytes of the file; `None` if it keeps none.
-pub(crate) fn read_end(folder: &Path) -> Result<Option<(Checkpoint, Vec<u8>)>, FemError> {
+pub(crate) fn read_end(folder: &Path) -> Result<Option<(Checkpoint, Vec<u8>)>> {
     let path = folder.join(END);
     let bytes = match std::fs::read(&path) {
         Err(source) if source.kind() == std::io::ErrorKind::NotFound => return Ok(None),
@@ -103,7 +103,7 @@ fn names(folder: &Path) -> (PathBuf, PathBuf) {
 /// How bytes get to the file; tests put a full disk here.
 type Put<'a> = &'a mut dyn FnMut(&mut dyn Write, &[u8]) -> Result<(), Error>;
 
-fn write_through(folder: &Path, checkpoint: &Checkpoint, put: Put) -> Result<PathBuf, FemError> {
+fn write_through(folder: &Path, checkpoint: &Checkpoint, put: Put) -> Result<PathBuf> {
     let (newest, previous) = names(folder);
     let (partial, bytes) = (folder.join(PARTIAL), encode(checkpoint));
     let written = std::fs::create_dir_all(folder).and_then(|()| write_new(&partial, &mut |out| put(out, &bytes)));
@@ -135,7 +135,7 @@ enum Found {
     Nothing,
 }
 
-fn read_file(path: &Path, fingerprint: u64) -> Result<Found, FemError> {
+fn read_file(path: &Path, fingerprint: u64) -> Result<Found> {
     match std::fs::read(path) {
         Ok(bytes) => Ok(decode(&bytes, Some(fingerprint))),
         Err(source) if source.kind() == std::io::ErrorKind::NotFound => Ok(Found::Nothing),

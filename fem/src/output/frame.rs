@@ -1,7 +1,7 @@
 //! The state of all nodes and elements at one moment, checked before it is written.
 
 use crate::run::{ChamberState, ElementFields};
-use crate::{FemError, Mesh, Simulation};
+use crate::{FemError, Mesh, Result, Simulation};
 
 /// The state of all nodes and elements at one moment, in mesh order.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -33,7 +33,7 @@ impl Frame {
     }
 
     /// Checks that the frame fits the mesh and that every number is finite.
-    pub(crate) fn check(&self, mesh: &Mesh) -> Result<(), FemError> {
+    pub(crate) fn check(&self, mesh: &Mesh) -> Result<()> {
         let (nodes, elements) = (mesh.points.len(), mesh.elements());
         let Frame { fields, .. } = self;
         self.finite("time", "run", 1, [self.time_s].iter().map(std::slice::from_ref))?;
@@ -67,7 +67,7 @@ impl Frame {
         of: &str,
         expected: usize,
         values: impl ExactSizeIterator<Item = &'a [f64]>,
-    ) -> Result<(), FemError> {
+    ) -> Result<()> {
         if values.len() != expected {
             return Err(self.length(name, of, values.len(), expected));
         }

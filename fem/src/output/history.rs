@@ -20,8 +20,8 @@ use models::{Row, RowKind};
 
 use super::table::{Table, check_label, number};
 use crate::run::{ChamberState, Ledger, Reaction};
-use crate::vec3::share;
-use crate::{FemError, Mesh, Simulation};
+use crate::vec3::{V3, share};
+use crate::{FemError, Mesh, Result, Simulation};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -68,13 +68,13 @@ struct Probe {
 impl History {
     /// The history after the rows of `times_s` \[s\], which a checkpoint knows of, with the node sets of `mesh` named in `probes`;
     /// later rows are dropped.
-    pub(crate) fn open(path: &Path, mesh: &Mesh, probes: &[String], times_s: &[f64]) -> Result<History, FemError> {
+    pub(crate) fn open(path: &Path, mesh: &Mesh, probes: &[String], times_s: &[f64]) -> Result<History> {
         let probes = find_probes(mesh, probes)?;
         Ok(History { table: Table::open(path, times_s, 1)?, probes })
     }
 
     /// Adds a row; a step that has a row already is not written again.
-    pub(crate) fn append(&mut self, record: &Record) -> Result<(), FemError> {
+    pub(crate) fn append(&mut self, record: &Record) -> Result<()> {
         let cells = self.cells(record)?;
         if let Some((name, value)) = cells.iter().find(|(_, value)| !value.is_finite()) {
             let reason = format!("{name} is {value}: try a smaller cfl or slower loading");
@@ -88,7 +88,7 @@ impl History {
     }
 
     /// Names and values of a row, without the step.
-    fn cells(&self, record: &Record) -> Result<Vec<(String, f64)>, FemError> {
+    fn cells(&self, record: &Record) -> Result<Vec<(String, f64)>> {
         let Ledger { kinetic_j, rows, residual_j, external_work_j, scale_j } = &record.ledger;
         let mut cells = vec![
             ("time_s".to_string(), record.time_s),
@@ -121,7 +121,7 @@ impl History {
 }
 
 /// Columns of a support: forces along held axes, moments where all are.
-fn of_support(reaction: &Reaction) -> Result<Vec<(String, f64)>, FemError> {
+fn of_support(reaction: &Reaction) -> Result<Vec<(String, f64)>> {
     check_label(&reaction.set, "the node set of the support")?;
     let set = reaction.set.replace(' ', "_");
     let forces = (0..3).filter(|k| reaction.axes[*k]).map(|k| (format!("{set}_{}_N", AXES[k]), reaction.force_n[k]));
@@ -131,7 +131,7 @@ fn of_support(reaction: &Reaction) -> Result<Vec<(String, f64)>, FemError> {
 }
 
 /// Mean of a property of some nodes; `None` without nodes or if one has none.
-fn mean(nodes: &[u32], of: impl Fn(usize) -> Option<[f64; 3]>) -> Option<[f64; 3]> {
+fn mean(nodes: &[u32], of: impl Fn(usize) -> Option<V3>) -> Option<V3> {
     let mut sum = [0.0; 3];
     for &node in nodes {
         let point = of(node as usize)?;
@@ -140,7 +140,7 @@ fn mean(nodes: &[u32], of: impl Fn(usize) -> Option<[f64; 3]>) -> Option<[f64; 3
     (!nodes.is_empty()).then(|| sum.map(|total| total / nodes.len() as f64))
 }
 
-fn find_probes(mesh: &Mesh, names: &[String]) -> Result<Vec<Probe>, FemError> {
+fn find_probes(mesh: &Mesh, names: &[String]) -> Result<Vec<Probe>> {
     let find = |name: &String| {
         check_label(name, "the node set")?;
         let known = || mesh.sets.keys().map(String::as_str).collect::<Vec<_>>().join(", ");

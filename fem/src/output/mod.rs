@@ -16,11 +16,11 @@ pub(crate) mod vtu;
 
 pub(crate) use frame::Frame;
 
-use crate::FemError;
+use crate::{FemError, Result};
 use std::io::{Error, Write};
 use std::path::Path;
 
 /// Writes `path` whole or not at all.
-pub(crate) fn replace(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> Result<(), Error>) -> Result<(), FemError> {
+pub(crate) fn replace(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> Result<(), Error>) -> Result<()> {
     spelling::files::replace(path, write).map_err(FemError::io(path))
 }

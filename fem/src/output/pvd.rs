@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::frame::Frame;
 use super::vtu::write_vtu;
 use crate::output::replace;
-use crate::{FemError, Mesh};
+use crate::{FemError, Mesh, Result};
 
 /// A growing series of frames in one folder.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,7 +17,7 @@ pub(crate) struct Series {
 impl Series {
     /// The series in `folder`, which is created, after the frames of `times_s` \[s\]: the list is rewritten, and later frames follow as the
     /// run reaches their times.
-    pub(crate) fn open(folder: &Path, times_s: &[f64]) -> Result<Series, FemError> {
+    pub(crate) fn open(folder: &Path, times_s: &[f64]) -> Result<Series> {
         let missing = (0..times_s.len()).map(|index| folder.join(file_name(index))).find(|path| !path.is_file());
         if let Some(path) = missing {
             return Err(FemError::Problem(format!(
@@ -33,7 +33,7 @@ impl Series {
     }
 
     /// Adds a frame: its file first, then the list that names it. A frame of the time of the last one replaces it.
-    pub(crate) fn push(&mut self, mesh: &Mesh, frame: &Frame) -> Result<PathBuf, FemError> {
+    pub(crate) fn push(&mut self, mesh: &Mesh, frame: &Frame) -> Result<PathBuf> {
         let last = self.times_s.last().copied();
         if last.is_some_and(|last| frame.time_s < last) {
             let reason = format!("a frame of {} s is in the list already", last.unwrap_or_default());
@@ -48,7 +48,7 @@ impl Series {
         Ok(path)
     }
 
-    fn write_list(&self) -> Result<(), FemError> {
+    fn write_list(&self) -> Result<()> {
         let mut text = String::from(
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n",
         );

@@ -4,8 +4,8 @@ use std::fs::{File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::FemError;
 use crate::output::replace;
+use crate::{FemError, Result};
 
 /// A growing table with a column `step`. Rows of one step are written in one go and handed to the system at once.
 #[derive(Debug)]
@@ -19,7 +19,7 @@ pub(crate) struct Table {
 impl Table {
     /// The table after the outputs at `times_s` \[s\], of so many rows each, which must be there: later rows, and a last line that a
     /// kill cut short, are dropped. Without any output it is empty, whatever was there.
-    pub(crate) fn open(path: &Path, times_s: &[f64], rows_each: usize) -> Result<Table, FemError> {
+    pub(crate) fn open(path: &Path, times_s: &[f64], rows_each: usize) -> Result<Table> {
         let text = content(path)?;
         let (header, last_step, kept) = kept(path, &text, times_s, rows_each)?;
         if kept.len() < text.len() || !path.exists() {
@@ -30,12 +30,12 @@ impl Table {
     }
 
     /// Refuses what [`Table::open`] refuses, and touches nothing.
-    pub(crate) fn check(path: &Path, times_s: &[f64], rows_each: usize) -> Result<(), FemError> {
+    pub(crate) fn check(path: &Path, times_s: &[f64], rows_each: usize) -> Result<()> {
         kept(path, &content(path)?, times_s, rows_each).map(|_| ())
     }
 
     /// Adds the rows (each ending in a newline) of one step. A step that is in the table already is not written again.
-    pub(crate) fn append(&mut self, step: u64, header: &str, rows: &str) -> Result<(), FemError> {
+    pub(crate) fn append(&mut self, step: u64, header: &str, rows: &str) -> Result<()> {
         if self.last_step == Some(step) || rows.is_empty() {
             return Ok(());
         }
@@ -61,18 +61,13 @@ impl Table {
     }
 
     /// Waits until the disk has all rows; to be called before a checkpoint is written.
-    pub(crate) fn sync(&self) -> Result<(), FemError> {
+    pub(crate) fn sync(&self) -> Result<()> {
         self.file.sync_all().map_err(FemError::io(&self.path))
     }
 }
 
 /// Header, last step and rows that an interrupted run goes on after.
-fn kept<'t>(
-    path: &Path,
-    text: &'t str,
-    times_s: &[f64],
-    rows_each: usize,
-) -> Result<(&'t str, Option<u64>, &'t str), FemError> {
+fn kept<'t>(path: &Path, text: &'t str, times_s: &[f64], rows_each: usize) -> Result<(&'t str, Option<u64>, &'t str)> {
     let foreign = |line: usize| {
         let message = "not a row as this program writes it, so it cannot go on in this file: move it away".into();
         FemError::MeshFile { path: path.to_path_buf(), line, message }
@@ -110,7 +105,7 @@ pub(crate) fn number(value: f64) -> String {
 }
 
 /// Refuses text that would break a cell.
-pub(crate) fn check_label(label: &str, what: &str) -> Result<(), FemError> {
+pub(crate) fn check_label(label: &str, what: &str) -> Result<()> {
     if label.is_empty() || label.contains([',', ';', '"', '\t', '\n', '\r']) {
         return Err(FemError::Problem(format!(
             "{what} `{label}` cannot be a cell of a table: use letters, digits, - and _ only"
@@ -119,7 +114,7 @@ pub(crate) fn check_label(label: &str, what: &str) -> Result<(), FemError> {
     Ok(())
 }
 
-fn content(path: &Path) -> Result<String, FemError> {
+fn content(path: &Path) -> Result<String> {
     if path.exists() { std::fs::read_to_string(path).map_err(FemError::io(path)) } else { Ok(String::new()) }
 }
 

@@ -35,7 +35,8 @@ use base64::engine::general_purpose::STANDARD;
 use super::frame::Frame;
 use crate::mesh::Part;
 use crate::output::replace;
-use crate::{FemError, Mesh};
+use crate::vec3::V3;
+use crate::{Mesh, Result};
 
 const TRIANGLE: u8 = 5;
 const QUAD: u8 = 9;
@@ -48,7 +49,7 @@ const PLACE_BITS: i32 = 17;
 const DIRECTION: f64 = 127.0;
 
 /// Writes one frame to `path`, whole or not at all.
-pub(crate) fn write_vtu(path: &Path, mesh: &Mesh, frame: &Frame) -> Result<(), FemError> {
+pub(crate) fn write_vtu(path: &Path, mesh: &Mesh, frame: &Frame) -> Result<()> {
     frame.check(mesh)?;
     let bytes = Grid::of(mesh, frame);
     replace(path, &mut |out| bytes.write(out))
@@ -143,7 +144,7 @@ impl Grid {
         self.tags += &format!("</{}>\n", element.split(' ').next().unwrap_or(element));
     }
 
-    fn directions(&mut self, name: &str, values: impl Iterator<Item = [f64; 3]>) {
+    fn directions(&mut self, name: &str, values: impl Iterator<Item = V3>) {
         let bytes: Vec<u8> = values.flatten().flat_map(|v| ((v * DIRECTION).round() as i8).to_le_bytes()).collect();
         self.array(&format!("type=\"Int8\" Name=\"{name}\" NumberOfComponents=\"3\""), &bytes);
     }

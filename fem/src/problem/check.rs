@@ -1,20 +1,20 @@
 //! What of a problem cannot be simulated.
 
 use super::{Problem, Settings, solid};
-use crate::FemError;
+use crate::{FemError, Result};
 
 impl Problem {
     /// Refuses what cannot be simulated.
     ///
     /// # Errors
     /// [`FemError::Problem`] saying which value is wrong and what to write.
-    pub fn check(&self) -> Result<(), FemError> {
+    pub fn check(&self) -> Result<()> {
         self.check_but_obstacles()?;
         solid::check(&self.mesh.starts(), &self.obstacles, 0.0)
     }
 
     /// The same where the run goes on from a later shape.
-    pub(crate) fn check_but_obstacles(&self) -> Result<(), FemError> {
+    pub(crate) fn check_but_obstacles(&self) -> Result<()> {
         let refuse = |message: String| Err(FemError::Problem(message));
         if self.sections.len() != self.mesh.parts.len() {
             return refuse(format!("{} parts but {} sections", self.mesh.parts.len(), self.sections.len()));
@@ -62,7 +62,7 @@ fn stiff(fabric: &dyn models::Fabric) -> bool {
 }
 
 impl Settings {
-    fn check(&self) -> Result<(), FemError> {
+    fn check(&self) -> Result<()> {
         let refuse = |message: String| Err(FemError::Problem(format!("settings: {message}")));
         let positive = [("end_s", self.end_s), ("cfl", self.cfl), ("output_every_s", self.output_every_s)];
         if let Some((name, value)) = positive.iter().find(|(_, v)| !(*v > 0.0 && v.is_finite())) {

@@ -1,9 +1,9 @@
 //! The solid of an obstacle: where a node is with respect to it.
 
 use super::{Obstacle, ObstacleShape};
-use crate::FemError;
 use crate::policy;
 use crate::vec3::{V3, along, cross, dot, scale, sub, unit};
+use crate::{FemError, Result};
 
 #[derive(Debug, Clone)]
 pub(crate) struct Solid {
@@ -22,7 +22,7 @@ pub(crate) struct Touch {
 
 impl Solid {
     /// The solid of obstacle `index` (from 0).
-    pub(crate) fn new(index: usize, obstacle: &Obstacle) -> Result<Solid, FemError> {
+    pub(crate) fn new(index: usize, obstacle: &Obstacle) -> Result<Solid> {
         let bad = |what: &str| FemError::Problem(format!("obstacle {}: {what}", index + 1));
         if !(obstacle.friction >= 0.0 && obstacle.friction.is_finite()) {
             return Err(bad("friction must be 0 or more"));
@@ -55,7 +55,7 @@ impl Solid {
 ///
 /// # Errors
 /// [`FemError::Problem`] with the deepest node (from 1), its place, the obstacle (from 1) and what to do.
-pub(crate) fn check(places_m: &[V3], obstacles: &[Obstacle], time_s: f64) -> Result<(), FemError> {
+pub(crate) fn check(places_m: &[V3], obstacles: &[Obstacle], time_s: f64) -> Result<()> {
     for (number, obstacle) in obstacles.iter().enumerate() {
         let solid = Solid::new(number, obstacle)?;
         let depth = |node: usize| {

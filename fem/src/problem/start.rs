@@ -4,7 +4,7 @@ use super::{Pressure, Problem, Section, Support};
 use crate::mesh::check::{near, planes, rim};
 use crate::mesh::{Mesh, Part};
 use crate::vec3::{V3, area, centre, cross, norm, sub};
-use crate::{FemError, policy};
+use crate::{FemError, Result, policy};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 /// The warp of a part that has none.
@@ -12,7 +12,7 @@ pub(crate) const X: V3 = [1.0, 0.0, 0.0];
 
 impl Problem {
     /// Edges of a chamber that is open between planes must stay in these planes: the model has nothing beyond them.
-    pub(super) fn check_rims(&self) -> Result<(), FemError> {
+    pub(super) fn check_rims(&self) -> Result<()> {
         for (chamber, open) in self.chambers.iter().filter_map(|c| Some((&c.name, c.open_axis?))) {
             let rim = rim(&self.mesh, chamber);
             let held = self.held();
@@ -58,7 +58,7 @@ impl Problem {
     }
 
     /// A chamber that is sealed from the start must hold some gas; `volumes_m3` are the volumes at the start.
-    pub(super) fn check_gas(&self, volumes_m3: &[(String, f64)]) -> Result<(), FemError> {
+    pub(super) fn check_gas(&self, volumes_m3: &[(String, f64)]) -> Result<()> {
         for (chamber, (name, volume_m3)) in self.chambers.iter().zip(volumes_m3) {
             let Pressure::Sealed { sealed_at_s, gas, .. } = &chamber.pressure else { continue };
             let faces =
@@ -111,14 +111,14 @@ impl Problem {
     }
 
     /// A fabric with directions needs a warp in the plane of every element.
-    pub(super) fn check_warps(&self) -> Result<(), FemError> {
+    pub(super) fn check_warps(&self) -> Result<()> {
         let parts = self.mesh.parts.iter().zip(&self.sections);
         let found = parts.map(|(part, section)| warp_fault(&self.mesh, part, section)).find_map(|fault| fault);
         found.map_or(Ok(()), |(message, help)| Err(FemError::Problem(format!("{message}. Try: {help}"))))
     }
 
     /// Two supports that move one node along one axis must agree.
-    pub(super) fn check_supports(&self) -> Result<(), FemError> {
+    pub(super) fn check_supports(&self) -> Result<()> {
         let mut first: std::collections::BTreeMap<(u32, usize), &Support> = std::collections::BTreeMap::new();
         for support in &self.supports {
             let Some(nodes) = self.mesh.sets.get(&support.set) else { continue };

@@ -63,7 +63,7 @@ impl Tape {
         Some(Tape { welds, far, sides, sheets })
     }
 
-    pub(super) fn read(&self, positions: &[[f64; 3]]) -> InflatedPouch {
+    pub(super) fn read(&self, positions: &[V3]) -> InflatedPouch {
         let place = |node: &u32| positions[*node as usize];
         let apart = |pair: &[u32; 2]| distance(place(&pair[0]), place(&pair[1]));
         let line: Vec<[f64; 3]> = self.far.iter().map(place).collect();
@@ -77,7 +77,7 @@ impl Tape {
     }
 }
 
-fn nearest(mesh: &Mesh, nodes: &[u32], place: [f64; 3]) -> Option<u32> {
+fn nearest(mesh: &Mesh, nodes: &[u32], place: V3) -> Option<u32> {
     let far = |node: &u32| distance(mesh.points[*node as usize], place);
     nodes.iter().copied().min_by(|a, b| far(a).total_cmp(&far(b)))
 }
@@ -87,7 +87,7 @@ fn distance(a: V3, b: V3) -> f64 {
 }
 
 /// Distance of a point from a straight piece.
-fn from_piece(p: [f64; 3], piece: &[[f64; 3]]) -> f64 {
+fn from_piece(p: V3, piece: &[V3]) -> f64 {
     let [a, b] = [piece[0], piece[1]];
     let way = sub(b, a);
     let square = dot(way, way);

@@ -1,8 +1,8 @@
 //! The numbers of the table `[fem]`: every setting of a robot that is one.
 
 use super::RobotSettings;
-use crate::FemError;
 use crate::case::range::{Key, key};
+use crate::{FemError, Result};
 
 /// Numbers of the table `[fem]`, each with unit, bounds and meaning.
 #[rustfmt::skip]
@@ -103,7 +103,7 @@ impl RobotSettings {
     ///
     /// # Errors
     /// [`FemError::Problem`] with the name, the number and the accepted range.
-    pub fn check(&self) -> Result<(), FemError> {
+    pub fn check(&self) -> Result<()> {
         for key in KEYS {
             let Some(value) = (key.get)(self).map(|value| value / key.si) else { continue };
             let [low, high] = key.bounds;

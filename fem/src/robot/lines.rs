@@ -17,7 +17,8 @@ use models::scenario::ActuatorChoice;
 
 use super::RobotSettings;
 use super::settings::{FOLDED_ROW, TAPED_SPACING};
-use crate::FemError;
+use crate::vec3::V3;
+use crate::{FemError, Result};
 
 /// Largest ratio of neighbouring elements where the size changes.
 const GROWTH: f64 = 1.25;
@@ -63,7 +64,7 @@ struct Turn {
 impl Lines {
     /// # Errors
     /// [`FemError::Problem`] for strips of several slants, or so close that elements between them are slivers.
-    pub(super) fn of(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Result<Lines, FemError> {
+    pub(super) fn of(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Result<Lines> {
         let radius_m = scenario.radius_m;
         let [cos, sin] = [scenario.actuator.cos_slant(radius_m), scenario.actuator.sin_slant(radius_m)];
         if scenario.strips().any(|strip| (strip.sin_slant(radius_m) - sin).abs() > 1e-9) {
@@ -100,7 +101,7 @@ impl Lines {
     }
 
     /// Place of the node of a ring and a generator at a radius \[m\].
-    pub(super) fn place(&self, ring: usize, column: usize, radius_m: f64) -> [f64; 3] {
+    pub(super) fn place(&self, ring: usize, column: usize, radius_m: f64) -> V3 {
         let (mut x, mut angle) = (self.x_m[ring], self.angles[column]);
         if let Some(turn) = &self.turn {
             angle += turn.angle(x);
@@ -304,7 +305,7 @@ fn around(
     centres: &[f64],
     strips: &mut [StripLines],
     settings: &RobotSettings,
-) -> Result<Vec<f64>, FemError> {
+) -> Result<Vec<f64>> {
     let turned = |i: usize| (centres[i] - centres[0]).rem_euclid(TAU);
     let mut order: Vec<usize> = (0..centres.len()).collect();
     order.sort_by(|a, b| turned(*a).total_cmp(&turned(*b)));

@@ -8,7 +8,7 @@ use models::{CHANNELS, Scenario};
 
 use super::{Preset, RobotSettings, problem, sew};
 use crate::problem::{Amplitude, GRAVITY, Loads, Obstacle, Pressure, force_on, motion_of, pressure_of};
-use crate::{FemError, Problem};
+use crate::{FemError, Problem, Result};
 
 /// Shortest way between two pressures, as a share of the ramp: a robot that is stopped faster swings past its place, and stays
 /// there in other folds.
@@ -104,7 +104,7 @@ impl RobotRun {
     ///
     /// # Errors
     /// As [`problem`]; several pressures that are to be runs of their own.
-    pub fn problem(&self, scenario: &Scenario) -> Result<Problem, FemError> {
+    pub fn problem(&self, scenario: &Scenario) -> Result<Problem> {
         if self.separate && self.pressures_pa.len() > 1 {
             let message = "robot: every pressure is a separate run here (`separate`, which model = \"paper\" sets); \
                            name one pressure, or write separate = false for one ramp through all";

@@ -7,7 +7,8 @@
 use super::loading::{Load, RobotRun};
 use crate::case::range::{Checked, Free, POSITION, Range, find, number, plain, plain_number, refuse};
 use crate::problem::{Amplitude, Gravity, NodalForce};
-use crate::{FemError, Problem};
+use crate::vec3::V3;
+use crate::{FemError, Problem, Result};
 use toml::{Spanned, Value};
 
 pub(super) fn numbers(name: &str, value: &Spanned<Value>, range: &Range) -> Checked<Vec<f64>> {
@@ -19,7 +20,7 @@ pub(super) fn numbers(name: &str, value: &Spanned<Value>, range: &Range) -> Chec
     list.iter().map(one).collect()
 }
 
-pub(super) fn triple(name: &str, value: &Spanned<Value>, range: &Range) -> Checked<[f64; 3]> {
+pub(super) fn triple(name: &str, value: &Spanned<Value>, range: &Range) -> Checked<V3> {
     let found = numbers(name, value, range)?;
     found.try_into().or_else(|_| refuse(format!("{name} needs three numbers"), range.too_large, value.span()))
 }
@@ -83,7 +84,7 @@ pub(super) fn check(run: &RobotRun, table: &Free) -> Checked<()> {
 }
 
 impl RobotRun {
-    pub(super) fn load(&self, made: &mut Problem) -> Result<(), FemError> {
+    pub(super) fn load(&self, made: &mut Problem) -> Result<()> {
         let start = self.start.clone().unwrap_or_default();
         let force = self.steps(&self.tip_force_n, start.tip_force_n);
         let forces = match along(&force) {
@@ -112,7 +113,7 @@ impl RobotRun {
     }
 
     /// A load through (time \[s\], vector) points.
-    fn steps(&self, load: &Load, before: [f64; 3]) -> Vec<(f64, [f64; 3])> {
+    fn steps(&self, load: &Load, before: V3) -> Vec<(f64, V3)> {
         match load {
             Load::Always(value) if self.start.is_none() => vec![(0.0, before), (self.holds()[0].time_s, *value)],
             Load::Always(value) => self.stairs(before, std::iter::repeat(*value)),
@@ -121,12 +122,12 @@ impl RobotRun {
     }
 }
 
-fn only(points: &[(f64, [f64; 3])], axis: usize) -> Vec<(f64, [f64; 3])> {
+fn only(points: &[(f64, V3)], axis: usize) -> Vec<(f64, V3)> {
     points.iter().map(|(t, v)| (*t, std::array::from_fn(|k| if k == axis { v[k] } else { 0.0 }))).collect()
 }
 
 /// Vectors of one direction as the largest of them and its multiplier over time; `None` where they turn.
-fn along(points: &[(f64, [f64; 3])]) -> Option<([f64; 3], Amplitude)> {
+fn along(points: &[(f64, V3)]) -> Option<(V3, Amplitude)> {
     use crate::vec3::{dot, norm, scale, sub};
     let largest = points.iter().map(|p| p.1).max_by(|a, b| norm(*a).total_cmp(&norm(*b)))?;
     let square = dot(largest, largest).max(f64::MIN_POSITIVE);

@@ -64,7 +64,7 @@ use crate::problem::{Amplitude, Chamber, Contact, Guards, MassScaling, Patience,
 use crate::run;
 use crate::sheet::reference::mean_stiffness;
 use crate::vec3::{area, norm};
-use crate::{FemError, Mesh, Problem};
+use crate::{FemError, Mesh, Problem, Result};
 use lines::Lines;
 use plies::Plies;
 
@@ -83,7 +83,7 @@ const DAMPING: f64 = 1.4;
 /// assert_eq!(problem.chambers.len(), 2);
 /// # Ok::<(), fem::FemError>(())
 /// ```
-pub fn problem(scenario: &Scenario, settings: &RobotSettings) -> Result<Problem, FemError> {
+pub fn problem(scenario: &Scenario, settings: &RobotSettings) -> Result<Problem> {
     let bias = scenario.actuator.shape.bias_rad;
     if bias != models::actuators::BIAS {
         let message = format!(
@@ -103,7 +103,7 @@ pub fn problem(scenario: &Scenario, settings: &RobotSettings) -> Result<Problem,
 ///
 /// # Errors
 /// [`FemError::Problem`] for a name that `models::shipped` does not know; else like [`problem`].
-pub fn shipped(name: &str, settings: &RobotSettings) -> Result<(Scenario, Problem), FemError> {
+pub fn shipped(name: &str, settings: &RobotSettings) -> Result<(Scenario, Problem)> {
     let text = models::shipped(name).ok_or_else(|| FemError::Problem(format!("unknown scenario `{name}`")))?;
     let scenario = Scenario::parse(text).map_err(|e| FemError::Problem(e.to_string()))?;
     let problem = problem(&scenario, settings)?;
@@ -111,7 +111,7 @@ pub fn shipped(name: &str, settings: &RobotSettings) -> Result<(Scenario, Proble
 }
 
 /// The robot with a pattern for each of its strips.
-fn sewn(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Result<Problem, FemError> {
+fn sewn(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Result<Problem> {
     settings.check()?;
     fits(scenario, patterns, settings)?;
     let weld_m = lines::weld_m(settings);
@@ -141,7 +141,7 @@ fn sewn(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> 
 ///
 /// # Errors
 /// [`FemError::Problem`] for a station off the robot.
-pub fn sections(mesh: &Mesh, stations_m: &[f64]) -> Result<CentreLine, FemError> {
+pub fn sections(mesh: &Mesh, stations_m: &[f64]) -> Result<CentreLine> {
     CentreLine::new(mesh, &body_parts(mesh), [1.0, 0.0, 0.0], stations_m)
 }
 
@@ -150,7 +150,7 @@ pub fn sections(mesh: &Mesh, stations_m: &[f64]) -> Result<CentreLine, FemError>
 ///
 /// # Errors
 /// [`FemError::Problem`] for a station off the robot.
-pub(crate) fn marker_points(mesh: &Mesh, stations_m: &[f64]) -> Result<CentreLine, FemError> {
+pub(crate) fn marker_points(mesh: &Mesh, stations_m: &[f64]) -> Result<CentreLine> {
     CentreLine::seen(mesh, &body_parts(mesh), [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], stations_m)
 }
 
@@ -178,7 +178,7 @@ fn body_parts(mesh: &Mesh) -> Vec<String> {
 }
 
 /// Refuses what the scenario and the pattern do not allow together.
-fn fits(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Result<(), FemError> {
+fn fits(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Result<()> {
     let refuse = |message: String| Err(FemError::Problem(format!("robot: {message}")));
     for (strip, pattern) in scenario.strips().zip(patterns) {
         let taped_m = if pattern.is_taped() { settings.tape_margin_m } else { 0.0 };
@@ -196,7 +196,7 @@ fn fits(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> 
     Ok(())
 }
 
-fn rows(lines: &Lines, pattern: &Pattern, settings: &RobotSettings) -> Result<(), FemError> {
+fn rows(lines: &Lines, pattern: &Pattern, settings: &RobotSettings) -> Result<()> {
     let along = lines.strips.iter().flat_map(|strip| strip.welds.windows(2)).map(|w| w[1][0].saturating_sub(w[0][1]));
     let across = lines.strips.iter().map(|strip| strip.s_m.len() - 1);
     let fewest = along.chain(across).min().unwrap_or(0);

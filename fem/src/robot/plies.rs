@@ -35,9 +35,9 @@ use models::{Fabric, Scenario};
 
 use super::RobotSettings;
 use super::sew::{FACE, MARGIN, SEAM, WALL};
-use crate::FemError;
 use crate::problem::Section;
 use crate::sheet::reference::{bending_stiffness, mean_stiffness};
+use crate::{FemError, Result};
 
 pub(super) struct Plies<'a> {
     pattern: &'a Pattern,
@@ -79,7 +79,7 @@ impl Plies<'_> {
         slant_rad: f64,
         settings: &'a RobotSettings,
         wrinkles: Option<Wrinkles>,
-    ) -> Result<Plies<'a>, FemError> {
+    ) -> Result<Plies<'a>> {
         let s = settings;
         let body = made(
             pattern.body_fabric,
@@ -184,11 +184,7 @@ fn ply(fabric: &Arc<dyn Fabric>, angle_rad: f64) -> Ply {
 
 /// A fabric of the list, with another biaxial coupling if it has one, and another thickness \[m\] and Young's modulus \[Pa\]
 /// where these are set, each with its key.
-fn made(
-    name: &str,
-    nu12: Option<f64>,
-    [thickness, modulus]: &[(&str, Option<f64>); 2],
-) -> Result<Arc<dyn Fabric>, FemError> {
+fn made(name: &str, nu12: Option<f64>, [thickness, modulus]: &[(&str, Option<f64>); 2]) -> Result<Arc<dyn Fabric>> {
     let problem = |message: String| FemError::Problem(format!("robot: fabric `{name}`: {message}"));
     let material = material(name).ok_or_else(|| problem("the material is unknown".into()))?;
     let law = material.law().ok_or_else(|| problem("the law is unknown".into()))?;

@@ -8,7 +8,7 @@ use super::rest::Rest;
 use super::seams::Seams;
 use super::{marker_points, sections, sew};
 use crate::output::centre_line::CentreLine;
-use crate::vec3::{along, cross, share};
+use crate::vec3::{V3, along, cross, share};
 use crate::{FemError, Mesh, Problem, Simulation};
 
 impl Reading {
@@ -215,7 +215,7 @@ impl RobotGauge {
     }
 
     /// Displacement of the mean of the tip's ring \[m\].
-    pub(crate) fn tip_moved_m(&self, run: &Simulation) -> [f64; 3] {
+    pub(crate) fn tip_moved_m(&self, run: &Simulation) -> V3 {
         self.mesh.mean_moved(&self.tip, &run.positions())
     }
 
@@ -246,7 +246,7 @@ impl RobotGauge {
     }
 
     /// Turn of the tip's ring for node positions in mesh order \[rad\]: its height vector Σ (y₀ − ȳ₀) x turns with the tip.
-    pub(super) fn turn_rad(&self, positions: &[[f64; 3]]) -> f64 {
+    pub(super) fn turn_rad(&self, positions: &[V3]) -> f64 {
         if self.is_spatial {
             let normal = self.normal(positions);
             return normal[1].hypot(normal[2]).atan2(normal[0]);
@@ -267,7 +267,7 @@ impl RobotGauge {
     }
 
     /// Normal of the tip's ring, x at the start, from its moments Σ (y₀ − ȳ₀) x and Σ (z₀ − z̄₀) x.
-    fn normal(&self, positions: &[[f64; 3]]) -> [f64; 3] {
+    fn normal(&self, positions: &[V3]) -> V3 {
         let starts = || self.tip.iter().map(|node| self.mesh.start_of(*node as usize));
         let moment = |axis: usize| {
             let middle = starts().map(|p| p[axis]).sum::<f64>() / self.tip.len() as f64;

@@ -20,7 +20,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::problem::Patience;
-use crate::vec3::{dot, norm, sub};
+use crate::vec3::{V3, dot, norm, sub};
 
 /// Length of a window times ω.
 pub(super) const WINDOW: f64 = 0.64;
@@ -59,7 +59,7 @@ impl Settling {
     }
 
     /// Judges the tip's displacement \[m\], of which so much may be ahead \[m\], after so much waiting of the run \[s\].
-    pub(crate) fn look(&mut self, tip_m: [f64; 3], allowed_m: f64, waited_s: f64, patience: Patience) -> Rest {
+    pub(crate) fn look(&mut self, tip_m: V3, allowed_m: f64, waited_s: f64, patience: Patience) -> Rest {
         if self.tip_m.is_empty() {
             (self.from_s, self.window_s) = (waited_s, patience.window_s);
         }

@@ -5,9 +5,10 @@ use models::actuators::pattern::{Joint, Panel, Pattern};
 
 use super::RobotSettings;
 use super::lines::{Lines, StripLines, weld_m};
-use crate::FemError;
+use crate::Result;
 use crate::mesh::generate::{Around, Cap, Tube, tube};
 use crate::mesh::{Mesh, Part};
+use crate::vec3::V3;
 
 pub(super) const BODY: &str = "body";
 pub(super) const ACTUATOR: &str = "actuator";
@@ -35,12 +36,7 @@ pub(super) fn plain(name: &str) -> &str {
 }
 
 /// The mesh of a robot; a pattern for every strip.
-pub(super) fn sew(
-    scenario: &Scenario,
-    patterns: &[Pattern],
-    settings: &RobotSettings,
-    lines: &Lines,
-) -> Result<Mesh, FemError> {
+pub(super) fn sew(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings, lines: &Lines) -> Result<Mesh> {
     let mut mesh = body(scenario, lines)?;
     mesh.sets.remove("middle");
     let wall = std::mem::take(&mut mesh.parts[0]);
@@ -80,7 +76,7 @@ pub(super) fn sew(
 }
 
 /// The body as a tube with its nodes on the lines.
-fn body(scenario: &Scenario, lines: &Lines) -> Result<Mesh, FemError> {
+fn body(scenario: &Scenario, lines: &Lines) -> Result<Mesh> {
     let (n, rings) = (lines.angles.len(), lines.x_m.len());
     let mut mesh = tube(&Tube {
         radius_m: scenario.radius_m,
@@ -125,7 +121,7 @@ fn sorted(sewers: &[Sewer], lines: &Lines, quads: &[[u32; 4]]) -> Vec<Part> {
 }
 
 /// The warp of a slanted strip, one for every element: cos β e_x + sin β e_θ.
-fn along_strip(scenario: &Scenario, points: &[[f64; 3]], part: &Part) -> Vec<[f64; 3]> {
+fn along_strip(scenario: &Scenario, points: &[V3], part: &Part) -> Vec<V3> {
     let [cos, sin] = [scenario.actuator.cos_slant(scenario.radius_m), scenario.actuator.sin_slant(scenario.radius_m)];
     let warp = |quad: &[u32; 4]| {
         let [y, z] = [1, 2].map(|k| quad.iter().map(|node| points[*node as usize][k]).sum::<f64>());
@@ -168,7 +164,7 @@ impl Sewer<'_> {
     }
 
     /// The panels of all units; nodes of the sheet are added to `points`.
-    fn sheet(&self, points: &mut Vec<[f64; 3]>) -> Vec<Part> {
+    fn sheet(&self, points: &mut Vec<V3>) -> Vec<Part> {
         let part = |(layer, panel)| part(layer, panel, self.strip);
         let mut parts: Vec<Part> = self.pattern.panels.iter().enumerate().map(part).collect();
         for pair in self.own.welds.windows(2) {
@@ -177,7 +173,7 @@ impl Sewer<'_> {
         parts
     }
 
-    fn unit(&self, points: &mut Vec<[f64; 3]>, parts: &mut [Part], [first, last]: [usize; 2]) {
+    fn unit(&self, points: &mut Vec<V3>, parts: &mut [Part], [first, last]: [usize; 2]) {
         let path = self.path();
         let mut rows: Vec<Vec<u32>> = Vec::with_capacity(last - first + 1);
         for ring in first..=last {
@@ -220,7 +216,7 @@ impl Sewer<'_> {
     }
 
     /// The wall's node at a weld or joined edge, or a new one above it.
-    fn node(&self, points: &mut Vec<[f64; 3]>, ring: usize, stop: &Stop, inside: bool) -> u32 {
+    fn node(&self, points: &mut Vec<V3>, ring: usize, stop: &Stop, inside: bool) -> u32 {
         if !inside || stop.level == 0.0 {
             return (ring * self.lines.angles.len() + stop.column) as u32;
         }

@@ -12,7 +12,7 @@
 //! the largest |v − v̄| at the peak. **Validity**: nodes of about equal mass; snaps closer together than their ringing are one.
 
 use crate::policy;
-use crate::vec3::share;
+use crate::vec3::{V3, share};
 use crate::{Mesh, Simulation};
 
 /// Stretches along the robot whose mean velocity is subtracted \[m\].
@@ -78,7 +78,7 @@ impl Watch {
     }
 
     /// |v − v̄|² and |v|² of every node.
-    fn against_stretch(&self, velocities: &[[f64; 3]]) -> Vec<[f64; 2]> {
+    fn against_stretch(&self, velocities: &[V3]) -> Vec<[f64; 2]> {
         let stretches = self.stretch.iter().max().map_or(0, |most| *most as usize + 1);
         let mut means = vec![[0.0; 4]; stretches];
         for (v, stretch) in velocities.iter().zip(&self.stretch) {

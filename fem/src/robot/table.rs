@@ -19,13 +19,13 @@ use super::keys::{KEYS, OTHERS};
 use super::loading::highest_pa;
 use super::loads::{self, PRESSURES, numbers, triple};
 use super::{Preset, RobotRun, RobotSettings};
-use crate::FemError;
 use crate::case::range::named;
 use crate::case::range::{
     Checked, Free, LENGTH, POSITION, PRESSURE, Range, choice, find, number, plain, plain_number, refuse, switch, text,
     unknown_name,
 };
 use crate::problem::{Obstacle, ObstacleShape};
+use crate::{FemError, Result};
 
 const MESHES: &str = "write the element sizes of body and actuator of every run: [[8, 4], [8, 3]]";
 const ELEMENT: Range = Range { si: 1e-3, ..plain(0.5, 50.0, MESHES) };
@@ -43,7 +43,7 @@ impl RobotRun {
     ///
     /// # Errors
     /// [`FemError::Case`] with its place in `[fem]`: an unknown key, a number out of bounds, a pressure below the body's.
-    pub fn parse(text: &str, scenario: &Scenario) -> Result<RobotRun, FemError> {
+    pub fn parse(text: &str, scenario: &Scenario) -> Result<RobotRun> {
         let file: File = toml::from_str(text)
             .map_err(|error| FemError::Case { message: format!("{}\n", error.message()), span: error.span() })?;
         let empty = Free::new();

@@ -7,6 +7,7 @@ use std::array::from_fn;
 use std::f64::consts::TAU;
 
 use crate::random::gaussian;
+use crate::vec3::V3;
 
 /// Shortest and longest wave \[m\]: from half a pouch to two.
 const WAVES_M: [f64; 2] = [0.03, 0.12];
@@ -18,7 +19,7 @@ const COUNT: usize = 64;
 ///
 /// Layers 0.01 mm apart move together: waves of 30 mm change their gap by 2π rms/30 mm, 4 % for 0.2 mm, which is also the order of
 /// the strains between this shape and the pattern.
-pub(super) fn wavy(points: &[[f64; 3]], rms_m: f64, seed: u64) -> Vec<[f64; 3]> {
+pub(super) fn wavy(points: &[V3], rms_m: f64, seed: u64) -> Vec<V3> {
     if rms_m == 0.0 {
         return Vec::new();
     }

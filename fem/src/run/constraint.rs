@@ -1,7 +1,8 @@
 //! Prescribed motion, ties and rigid bodies.
 
 use crate::problem::{Amplitude, Problem};
-use crate::{FemError, Mesh};
+use crate::vec3::{Nodes, V3};
+use crate::{FemError, Mesh, Result};
 use serde::{Deserialize, Serialize};
 
 /// Nodes whose motion is prescribed along some axes.
@@ -37,7 +38,7 @@ pub(super) struct BodyNow {
 }
 
 /// Prescribed nodes of a problem; axes that hold still are only masked.
-pub(super) fn driven(problem: &Problem, mesh: &Mesh, fixed: &mut [[bool; 3]]) -> Result<Vec<Driven>, FemError> {
+pub(super) fn driven(problem: &Problem, mesh: &Mesh, fixed: &mut [[bool; 3]]) -> Result<Vec<Driven>> {
     let mut all = Vec::new();
     for support in &problem.supports {
         let nodes = mesh.set(&support.set, "support")?;
@@ -55,15 +56,7 @@ pub(super) fn driven(problem: &Problem, mesh: &Mesh, fixed: &mut [[bool; 3]]) ->
 impl Driven {
     /// Gives the nodes the velocity that brings them to where they must be at `t`, and returns the work done on the
     /// structure over the step: (m Δv/Δt − f)·v̄ Δt.
-    pub(super) fn step(
-        &self,
-        t: f64,
-        dt: f64,
-        mass: &[f64],
-        force: &[[f64; 4]],
-        x: &[[f64; 4]],
-        v: &mut [[f64; 4]],
-    ) -> f64 {
+    pub(super) fn step(&self, t: f64, dt: f64, mass: &[f64], force: &Nodes, x: &Nodes, v: &mut Nodes) -> f64 {
         let mut work = 0.0;
         let shift = [0, 1, 2].map(|k| self.motion[k].at(t));
         for (node, start) in self.nodes.iter().zip(&self.start) {
@@ -80,7 +73,7 @@ impl Driven {
     }
 }
 
-pub(super) fn bodies(problem: &Problem, mesh: &Mesh, mass: &[f64]) -> Result<Vec<Body>, FemError> {
+pub(super) fn bodies(problem: &Problem, mesh: &Mesh, mass: &[f64]) -> Result<Vec<Body>> {
     let make = |rigid: &crate::problem::Rigid| {
         let nodes = mesh.set(&rigid.set, "rigid")?;
         if nodes.len() < 3 {
@@ -92,7 +85,7 @@ pub(super) fn bodies(problem: &Problem, mesh: &Mesh, mass: &[f64]) -> Result<Vec
 }
 
 impl Body {
-    fn new(nodes: &[u32], mass: &[f64], at: impl Fn(usize) -> [f64; 3]) -> Body {
+    fn new(nodes: &[u32], mass: &[f64], at: impl Fn(usize) -> V3) -> Body {
         let own: Vec<f64> = nodes.iter().map(|n| mass[*n as usize]).collect();
         let total: f64 = own.iter().sum();
         let mut centre = [0.0; 3];
@@ -107,15 +100,7 @@ impl Body {
 
     /// One step of the body under the forces on its nodes; sets the velocities that bring them to their places.
     /// Leapfrog in momentum and angular momentum; the orientation turns by the mid-step angular velocity.
-    pub(super) fn step(
-        &mut self,
-        dv: f64,
-        dt: f64,
-        damping: f64,
-        force: &[[f64; 4]],
-        x: &[[f64; 4]],
-        v: &mut [[f64; 4]],
-    ) {
+    pub(super) fn step(&mut self, dv: f64, dt: f64, damping: f64, force: &Nodes, x: &Nodes, v: &mut Nodes) {
         let mut push = [0.0; 3];
         let mut moment = [0.0; 3];
         for node in &self.nodes {
@@ -150,7 +135,7 @@ impl Body {
     }
 
     /// Takes momentum and angular momentum from the velocities of the nodes.
-    pub(crate) fn take_velocities(&mut self, x: &[[f64; 4]], v: &[[f64; 4]]) {
+    pub(crate) fn take_velocities(&mut self, x: &Nodes, v: &Nodes) {
         (self.now.velocity, self.now.spin) = ([0.0; 3], [0.0; 3]);
         let total: f64 = self.mass.iter().sum();
         for (node, m) in self.nodes.iter().zip(&self.mass) {
@@ -163,7 +148,7 @@ impl Body {
     }
 
     /// Angular velocity at an orientation \[rad/s\].
-    fn omega(&self, turn: [f64; 4]) -> [f64; 3] {
+    fn omega(&self, turn: [f64; 4]) -> V3 {
         let r = matrix(turn);
         let mut inertia = [[0.0; 3]; 3];
         for (m, arm) in self.mass.iter().zip(&self.arm) {
@@ -180,7 +165,7 @@ impl Body {
 }
 
 /// Rotation matrix of a unit quaternion.
-fn matrix([w, x, y, z]: [f64; 4]) -> [[f64; 3]; 3] {
+fn matrix([w, x, y, z]: [f64; 4]) -> [V3; 3] {
     [
         [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
         [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
@@ -189,7 +174,7 @@ fn matrix([w, x, y, z]: [f64; 4]) -> [[f64; 3]; 3] {
 }
 
 /// `turn` after rotating with angular velocity `omega` for `dt`.
-fn rotate_by(turn: [f64; 4], omega: [f64; 3], dt: f64) -> [f64; 4] {
+fn rotate_by(turn: [f64; 4], omega: V3, dt: f64) -> [f64; 4] {
     let speed = (omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2]).sqrt();
     let half = 0.5 * speed * dt;
     let scale = if speed > 0.0 { half.sin() / speed } else { 0.0 };
@@ -207,7 +192,7 @@ fn rotate_by(turn: [f64; 4], omega: [f64; 3], dt: f64) -> [f64; 4] {
 }
 
 /// Solves a symmetric 3×3 system by Cramer's rule; a body on one line spins about it without inertia, so 0 there.
-fn solve(a: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
+fn solve(a: [V3; 3], b: V3) -> V3 {
     let cross = crate::vec3::cross;
     let dot = crate::vec3::dot;
     let determinant = dot(a[0], cross(a[1], a[2]));
@@ -220,7 +205,7 @@ fn solve(a: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 /// Hands the forces on tied nodes to the nodes they follow.
-pub(crate) fn hand_over(ties: &[crate::mesh::Tie], force: &mut [[f64; 4]]) {
+pub(crate) fn hand_over(ties: &[crate::mesh::Tie], force: &mut Nodes) {
     for tie in ties {
         let own = std::mem::take(&mut force[tie.node as usize]);
         for (node, weight) in &tie.to {
@@ -230,7 +215,7 @@ pub(crate) fn hand_over(ties: &[crate::mesh::Tie], force: &mut [[f64; 4]]) {
 }
 
 /// Puts tied nodes where the nodes they follow have gone; `offset` is their distance from there at the start.
-pub(super) fn follow(ties: &[crate::mesh::Tie], offset: &[[f64; 3]], x: &mut [[f64; 4]], v: &mut [[f64; 4]]) {
+pub(super) fn follow(ties: &[crate::mesh::Tie], offset: &[V3], x: &mut Nodes, v: &mut Nodes) {
     for (tie, offset) in ties.iter().zip(offset) {
         let mut place = *offset;
         let mut speed = [0.0; 3];

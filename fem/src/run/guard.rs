@@ -12,7 +12,7 @@ use crate::sheet::bound::largest;
 use crate::sheet::chamber::Air;
 use crate::sheet::reference::mean_stiffness;
 use crate::vec3::{cross, dot, norm};
-use crate::{FemError, Mesh, Problem, Transient};
+use crate::{FemError, Mesh, Problem, Result, Transient};
 
 /// Steps between two estimates of the highest mode of the whole mesh: in the robots it changes by some hundredths in between.
 const WHOLE: u64 = 8192;
@@ -23,7 +23,7 @@ pub(crate) const LESS_HOURGLASS: &str = "for a sheet that pleats, law = \"tensio
     hourglass; else smaller elements or a tenth of hourglass";
 
 impl Simulation {
-    pub(super) fn guard(&mut self) -> Result<(), FemError> {
+    pub(super) fn guard(&mut self) -> Result<()> {
         let books = self.books;
         if !(books.kinetic.is_finite() && books.stored.is_finite()) {
             return Err(self.stopped(self.not_a_number()));
@@ -55,7 +55,7 @@ impl Simulation {
     ///
     /// # Errors
     /// [`FemError::Stopped`] with the share, the limit and what to type.
-    pub fn judge_end(&self) -> Result<(), FemError> {
+    pub fn judge_end(&self) -> Result<()> {
         let share = self.ledger().hourglass_share();
         let limit = self.settings.guards.hourglass;
         if !is_its_own(&self.settings.guards, share) {
@@ -70,7 +70,7 @@ impl Simulation {
         )))
     }
 
-    fn guard_speed(&self) -> Result<(), FemError> {
+    fn guard_speed(&self) -> Result<()> {
         let square = |v: &[f64; 4]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
         let fastest =
             (0..self.v.len()).fold(0, |best, i| if square(&self.v[i]) > square(&self.v[best]) { i } else { best });
@@ -97,7 +97,7 @@ impl Simulation {
     }
 
     /// Estimates the stable step again; looks for collapsed or inverted elements.
-    pub(super) fn recheck(&mut self) -> Result<(), FemError> {
+    pub(super) fn recheck(&mut self) -> Result<()> {
         if self.settings.guards.inverted {
             self.guard_elements()?;
         }
@@ -136,7 +136,7 @@ impl Simulation {
         Ok(())
     }
 
-    fn guard_elements(&self) -> Result<(), FemError> {
+    fn guard_elements(&self) -> Result<()> {
         for (index, element) in self.sheet.elements.iter().enumerate() {
             let at = |n: usize| {
                 let p = self.x[element.node[n] as usize];

@@ -17,7 +17,7 @@ use crate::mesh::Tie;
 use crate::random::gaussian;
 use crate::sheet::Sheet;
 use crate::sheet::tangent::Tangent;
-use crate::vec3::cross;
+use crate::vec3::{Nodes, cross};
 
 /// Factor on the estimated frequency: Lanczos comes from below. 80 steps find up to a thousandth more.
 const SURE: f64 = 1.01;
@@ -31,7 +31,7 @@ const ENOUGH: f64 = 5e-4;
 pub(super) fn gain(
     sheet: &Sheet,
     ties: &[Tie],
-    x: &[[f64; 4]],
+    x: &Nodes,
     mut others: Vec<f64>,
     mass: &[f64],
     nodes_s: f64,
@@ -65,7 +65,7 @@ struct Whole<'a> {
 
 impl Whole<'_> {
     /// Stiffness of one step with its viscosity, (K + 2 C/Δt) v.
-    fn stiff(&self, v: &[[f64; 4]]) -> Vec<[f64; 4]> {
+    fn stiff(&self, v: &Nodes) -> Vec<[f64; 4]> {
         let mut u = v.to_vec();
         for tie in self.ties {
             let follow = |k: usize| tie.to.iter().map(|(n, w)| w * u[*n as usize][k]).sum::<f64>();
@@ -78,14 +78,14 @@ impl Whole<'_> {
     }
 
     /// Accelerations of the forces, M⁻¹ f, with selective masses where they are used.
-    fn light(&self, force: &[[f64; 4]]) -> Vec<[f64; 4]> {
+    fn light(&self, force: &Nodes) -> Vec<[f64; 4]> {
         let u: Vec<[f64; 4]> = force.iter().zip(&self.inverse).map(|(f, w)| f.map(|f| w * f)).collect();
         self.selective.map_or(u.clone(), |selective| selective.smoothed(&u))
     }
 
     /// Random forces with a part along every mode, drawn in the axes of the elements: they turn with the mesh, and so do all
     /// digits of γ but the last.
-    fn start(&self, sheet: &Sheet, x: &[[f64; 4]]) -> Vec<[f64; 4]> {
+    fn start(&self, sheet: &Sheet, x: &Nodes) -> Vec<[f64; 4]> {
         let mut force = vec![[0.0; 4]; x.len()];
         for (i, item) in sheet.elements.iter().enumerate() {
             let [f1, f2] = item.deformation(x);
@@ -100,7 +100,7 @@ impl Whole<'_> {
         force
     }
 
-    fn highest_1_s2(&self, start: &[[f64; 4]]) -> f64 {
+    fn highest_1_s2(&self, start: &Nodes) -> f64 {
         let mut v = self.light(start);
         let mut pull = self.stiff(&v);
         let mut before = vec![[0.0; 4]; v.len()];
@@ -136,7 +136,7 @@ impl Whole<'_> {
     }
 }
 
-fn inner(a: &[[f64; 4]], b: &[[f64; 4]]) -> f64 {
+fn inner(a: &Nodes, b: &Nodes) -> f64 {
     a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| a * b).sum()
 }
 

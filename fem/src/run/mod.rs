@@ -37,7 +37,8 @@ use crate::problem::Settings;
 use crate::sheet::Sheet;
 use crate::sheet::order::Order;
 use crate::transient::row;
-use crate::{FemError, Mesh, Problem, Transient};
+use crate::vec3::{Nodes, V3};
+use crate::{FemError, Mesh, Problem, Result, Transient};
 use clock::{Books, Clock};
 use constraint::{Body, BodyNow, Driven};
 pub(crate) use guard::LESS_HOURGLASS;
@@ -141,7 +142,7 @@ impl Simulation {
     ///
     /// # Errors
     /// [`FemError::Problem`] if it belongs to another problem or is damaged.
-    pub fn resume(problem: &Problem, saved: &[u8]) -> Result<Simulation, FemError> {
+    pub fn resume(problem: &Problem, saved: &[u8]) -> Result<Simulation> {
         let misfit = || FemError::Problem("the saved state does not fit this problem: start the run afresh".into());
         let state: State = unpack(saved).ok_or_else(misfit)?;
         let mut run = Simulation::prepared(problem, Some(&state.masses))?;
@@ -154,7 +155,7 @@ impl Simulation {
     ///
     /// # Errors
     /// [`FemError::Problem`] if the state does not fit, or a new obstacle is where the structure is.
-    pub fn go_on(problem: &Problem, saved: &[u8]) -> Result<Simulation, FemError> {
+    pub fn go_on(problem: &Problem, saved: &[u8]) -> Result<Simulation> {
         let misfit = || FemError::Problem("the saved state does not fit this problem".into());
         let state: State = unpack(saved).ok_or_else(misfit)?;
         let mut run = Simulation::prepared(problem, Some(&state.masses))?;
@@ -251,21 +252,21 @@ impl Simulation {
         self.added_mass
     }
     /// Node positions in mesh order \[m\].
-    pub fn positions(&self) -> Vec<[f64; 3]> {
+    pub fn positions(&self) -> Vec<V3> {
         self.in_mesh_order(&self.x)
     }
     /// Node velocities in mesh order \[m/s\].
-    pub fn velocities(&self) -> Vec<[f64; 3]> {
+    pub fn velocities(&self) -> Vec<V3> {
         self.in_mesh_order(&self.v)
     }
 
-    fn in_mesh_order(&self, values: &[[f64; 4]]) -> Vec<[f64; 3]> {
+    fn in_mesh_order(&self, values: &Nodes) -> Vec<V3> {
         self.order.new.iter().map(|place| values[*place as usize]).map(|p| [p[0], p[1], p[2]]).collect()
     }
 
     /// Sets node velocities in mesh order \[m/s\]; before the first step. A rigid body takes their momentum and angular
     /// momentum. With selective mass scaling they are smoothed, momentum kept.
-    pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) {
+    pub fn set_velocities(&mut self, velocities: &[V3]) {
         for (place, v) in self.order.new.iter().zip(velocities) {
             self.v[*place as usize][..3].copy_from_slice(v);
         }
@@ -332,7 +333,7 @@ impl Simulation {
     }
 
     /// The force of [`Simulation::reactions`] at a node set \[N\]; `None` for a set that no support names.
-    pub fn reaction_n(&self, set: &str) -> Option<[f64; 3]> {
+    pub fn reaction_n(&self, set: &str) -> Option<V3> {
         self.reactions().iter().find(|r| r.set == set).map(|r| r.force_n)
     }
 

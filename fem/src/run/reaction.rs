@@ -8,7 +8,8 @@
 //! them, so that sums over all supports are right. Nodes that a rigid body or a tie carries along are not held by a support.
 
 use crate::problem::Problem;
-use crate::{FemError, Mesh};
+use crate::vec3::{Nodes, V3};
+use crate::{Mesh, Result};
 
 /// Force and moment that the supports of one node set exert on the structure.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,7 +34,7 @@ pub(super) struct Reactions {
 
 impl Reactions {
     /// One for every node set that supports name, in their order.
-    pub(super) fn new(problem: &Problem, mesh: &Mesh) -> Result<Reactions, FemError> {
+    pub(super) fn new(problem: &Problem, mesh: &Mesh) -> Result<Reactions> {
         let mut free = vec![[true; 3]; mesh.points.len()];
         for rigid in &problem.rigid {
             mesh.set(&rigid.set, "rigid")?.iter().for_each(|node| free[*node as usize] = [false; 3]);
@@ -68,7 +69,7 @@ impl Reactions {
     }
 
     /// Adds a share of the nodes' forces \[N\], their places being `x` \[m\].
-    pub(super) fn add(&mut self, x: &[[f64; 4]], share: impl Fn(usize) -> [f64; 3]) {
+    pub(super) fn add(&mut self, x: &Nodes, share: impl Fn(usize) -> V3) {
         for (reaction, nodes) in self.all.iter_mut().zip(&self.nodes) {
             let count = nodes.len() as f64;
             let mut mean = [0.0; 3];

@@ -25,6 +25,7 @@ use std::f64::consts::PI;
 
 use super::update::{PIECE, Update};
 use crate::mesh::Mesh;
+use crate::vec3::Nodes;
 
 /// s: waves of two elements along one side of a grid have D⁻¹L = 0.9.
 const SHARE: f64 = 1.8;
@@ -122,7 +123,7 @@ impl Selective {
     }
 
     /// D M⁻¹ u, with prescribed axes at rest.
-    pub(crate) fn smoothed(&self, u: &[[f64; 4]]) -> Vec<[f64; 4]> {
+    pub(crate) fn smoothed(&self, u: &Nodes) -> Vec<[f64; 4]> {
         let mut first = u.to_vec();
         self.rest(&mut first);
         let (mut from, mut to) = (first.clone(), first.clone());
@@ -138,14 +139,14 @@ impl Selective {
     }
 
     /// Begins with velocities, which become smooth.
-    pub(super) fn begin(&mut self, v: &mut [[f64; 4]]) {
+    pub(super) fn begin(&mut self, v: &mut Nodes) {
         self.u.copy_from_slice(v);
         v.copy_from_slice(&self.smoothed(&self.u));
         self.twice_j = self.rows.iter().zip(&self.u).zip(&*v).map(|((row, u), v)| row.mass * dot(u, v)).sum();
     }
 
     /// Takes over velocities that others have set.
-    pub(super) fn carry(&mut self, moved: &[(u32, [bool; 3])], v: &[[f64; 4]]) {
+    pub(super) fn carry(&mut self, moved: &[(u32, [bool; 3])], v: &Nodes) {
         for (node, axes) in moved {
             let i = *node as usize;
             (0..3).filter(|k| axes[*k]).for_each(|k| self.u[i][k] = v[i][k]);
@@ -153,13 +154,7 @@ impl Selective {
     }
 
     /// Updates velocities and positions and leaves the forces at zero; returns kinetic energy and Σ m ū·v̄.
-    pub(super) fn step(
-        &mut self,
-        update: Update,
-        force: &mut [[f64; 4]],
-        v: &mut [[f64; 4]],
-        x: &mut [[f64; 4]],
-    ) -> [f64; 2] {
+    pub(super) fn step(&mut self, update: Update, force: &mut Nodes, v: &mut Nodes, x: &mut Nodes) -> [f64; 2] {
         let (mut u, mut half) = (std::mem::take(&mut self.u), std::mem::take(&mut self.half));
         let across = push(Push { update, rows: &self.rows, force, u: &mut u, v });
         let mut next = std::mem::take(&mut self.next);
@@ -196,7 +191,7 @@ impl Selective {
         Some(())
     }
 
-    fn rest(&self, v: &mut [[f64; 4]]) {
+    fn rest(&self, v: &mut Nodes) {
         for (node, axes) in &self.fixed {
             (0..3).filter(|k| axes[*k]).for_each(|k| v[*node as usize][k] = 0.0);
         }
@@ -204,7 +199,7 @@ impl Selective {
 
     /// (1 − α D⁻¹ L) `from` at one node.
     #[inline(always)]
-    fn row(&self, alpha: f64, from: &[[f64; 4]], i: usize) -> [f64; 4] {
+    fn row(&self, alpha: f64, from: &Nodes, i: usize) -> [f64; 4] {
         let links = self.first[i] as usize..self.first[i + 1] as usize;
         let mut sum = [0.0; 4];
         for (end, w) in self.ends[links.clone()].iter().zip(&self.weights[links]) {

@@ -17,20 +17,20 @@ use crate::sheet::Sheet;
 use crate::sheet::order::{Order, renumber};
 use crate::sheet::reference::bending_stiffness;
 use crate::terms::{DeadLoads, Folds, Obstacles, RestCurvature, penalty_stiffness_n_m};
-use crate::vec3::{area, norm, padded};
-use crate::{FemError, Mesh, Problem, Transient};
+use crate::vec3::{Nodes, V3, area, norm, padded};
+use crate::{FemError, Mesh, Problem, Result, Transient};
 
 impl Simulation {
     /// Prepares a run.
     ///
     /// # Errors
     /// [`FemError::Mesh`] or [`FemError::Problem`] naming what cannot be simulated.
-    pub fn new(problem: &Problem) -> Result<Simulation, FemError> {
+    pub fn new(problem: &Problem) -> Result<Simulation> {
         Simulation::prepared(problem, None)
     }
 
     /// The same with the masses, their added share and the first step \[s\] of an earlier run.
-    pub(super) fn prepared(problem: &Problem, earlier: Option<&(Vec<f64>, f64, f64)>) -> Result<Simulation, FemError> {
+    pub(super) fn prepared(problem: &Problem, earlier: Option<&(Vec<f64>, f64, f64)>) -> Result<Simulation> {
         if earlier.is_none() {
             problem.check()?
         } else {
@@ -107,9 +107,9 @@ fn masses_and_step(
     mesh: &Mesh,
     sheet: &Sheet,
     bent: &[Box<dyn Transient>],
-    x: &[[f64; 4]],
+    x: &Nodes,
     still: &Still,
-) -> Result<Masses, FemError> {
+) -> Result<Masses> {
     let mut true_mass = sheet.masses(x.len());
     give_tied_masses(mesh, &mut true_mass);
     let pose = Pose::nodes(x.as_flattened());
@@ -163,7 +163,7 @@ impl Still {
 }
 
 /// Nodes of bodies, ties and moving supports.
-fn carried(problem: &Problem, mesh: &Mesh, driven: &[Driven]) -> Result<Vec<bool>, FemError> {
+fn carried(problem: &Problem, mesh: &Mesh, driven: &[Driven]) -> Result<Vec<bool>> {
     let mut carried = vec![false; mesh.points.len()];
     for rigid in &problem.rigid {
         mesh.set(&rigid.set, "rigid")?.iter().for_each(|node| carried[*node as usize] = true);
@@ -195,7 +195,7 @@ fn contact(
     order: &Order,
     mass: &[f64],
     dt_s: f64,
-) -> Result<Contact, FemError> {
+) -> Result<Contact> {
     Contact::new(mesh, settings, mass, dt_s).map_err(|fault| {
         let mass: Vec<f64> = order.new.iter().map(|place| mass[*place as usize]).collect();
         let start = order.new.iter().map(|place| mesh.start[*place as usize]).collect();
@@ -211,7 +211,7 @@ fn terms(
     [true_mass, mass]: [&[f64]; 2],
     dt_s: f64,
     mut terms: Vec<Box<dyn Transient>>,
-) -> Result<Vec<Box<dyn Transient>>, FemError> {
+) -> Result<Vec<Box<dyn Transient>>> {
     if !problem.forces.is_empty() {
         terms.push(Box::new(DeadLoads::forces(mesh, &problem.forces)?));
     }
@@ -240,7 +240,7 @@ fn bent(problem: &Problem, mesh: &Mesh, sheet: &Sheet) -> Vec<Box<dyn Transient>
     terms
 }
 
-fn choose_step(stable_s: f64, settings: &Settings) -> Result<f64, FemError> {
+fn choose_step(stable_s: f64, settings: &Settings) -> Result<f64> {
     let dt = settings.dt_s.unwrap_or(settings.cfl * stable_s);
     if dt > stable_s {
         return Err(FemError::Problem(format!(
@@ -275,7 +275,7 @@ fn scale_masses(settings: &Settings, bound: &[f64], gain: f64, mass: &mut [f64])
     }
 }
 
-fn tie_offsets(mesh: &Mesh, x: &[[f64; 4]]) -> Vec<[f64; 3]> {
+fn tie_offsets(mesh: &Mesh, x: &Nodes) -> Vec<V3> {
     let offset = |tie: &crate::mesh::Tie| {
         let own = x[tie.node as usize];
         [0, 1, 2].map(|k| own[k] - tie.to.iter().map(|(n, w)| w * x[*n as usize][k]).sum::<f64>())
@@ -298,7 +298,7 @@ fn sound_speed(sheet: &Sheet) -> f64 {
 
 /// Moves free nodes off the start shape along the sheet's normal by normal-distributed offsets; the standard deviation
 /// is `share` of the local element size. The draw of a node depends on its mesh number and the seed alone.
-fn imperfect(x: &mut [[f64; 4]], mesh: &Mesh, order: &Order, fixed: &[[bool; 3]], share: f64, seed: u64) {
+fn imperfect(x: &mut Nodes, mesh: &Mesh, order: &Order, fixed: &[[bool; 3]], share: f64, seed: u64) {
     if share <= 0.0 {
         return;
     }

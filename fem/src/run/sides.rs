@@ -1,7 +1,7 @@
 //! Nodes that changed side of a layer: the run reports them, and stops if there are many.
 
 use super::Simulation;
-use crate::FemError;
+use crate::Result;
 use serde::{Deserialize, Serialize};
 
 /// Nodes that came through a layer.
@@ -46,7 +46,7 @@ impl Simulation {
     }
 
     /// Stops a run in which more nodes changed side than are allowed.
-    pub(super) fn guard_sides(&self) -> Result<(), FemError> {
+    pub(super) fn guard_sides(&self) -> Result<()> {
         let Some(Through { nodes, share, first: Some(first) }) = self.changed_sides() else { return Ok(()) };
         let limit = self.settings.guards.sides;
         if !super::guard::passes_through(&self.settings.guards, share) {

@@ -7,8 +7,8 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
-use crate::FemError;
 use crate::cost::{self, thread_seconds};
+use crate::{FemError, Result};
 
 /// Stretches after a change until the way that is not in use is tried again, since one bad stretch may have misled; twice as
 /// many each time it stays the slower one.
@@ -68,7 +68,7 @@ impl Team {
     ///
     /// # Errors
     /// [`FemError::Problem`] when the system gives no threads.
-    pub(super) fn new(threads: usize) -> Result<Team, FemError> {
+    pub(super) fn new(threads: usize) -> Result<Team> {
         let threads = cost::threads(threads);
         let pool = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();

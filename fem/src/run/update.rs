@@ -2,6 +2,7 @@
 
 use crate::sheet::group::{LANES, Lane};
 use crate::sheet::lanes::{V, sum};
+use crate::vec3::Nodes;
 
 /// Most nodes per piece of the update; fixed, so that sums have one order. Handing a piece to another thread takes as long as
 /// some hundred nodes.
@@ -18,7 +19,7 @@ pub(super) struct Update {
 
 impl Update {
     /// Updates everything; returns kinetic energy and Σ m |v̄|².
-    pub(super) fn all(self, mass: &[f64], force: &mut [[f64; 4]], v: &mut [[f64; 4]], x: &mut [[f64; 4]]) -> [f64; 2] {
+    pub(super) fn all(self, mass: &[f64], force: &mut Nodes, v: &mut Nodes, x: &mut Nodes) -> [f64; 2] {
         if mass.len() <= PIECE {
             return self.arch.dispatch(Piece { update: self, mass, force, v, x });
         }

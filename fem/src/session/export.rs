@@ -3,7 +3,7 @@
 use super::Source;
 pub use crate::output::deck::Solver;
 use crate::output::{Frame, deck, vtu};
-use crate::{FemError, Simulation};
+use crate::{FemError, Result, Simulation};
 use std::path::Path;
 
 /// Size of an exported mesh, and what its file does not contain.
@@ -24,7 +24,7 @@ pub struct Export {
 ///
 /// # Errors
 /// [`FemError::Setting`] for another ending, and for a solver that does not read the format; as [`super::simulate`] for the text; [`FemError::Io`].
-pub fn export(source: &Source, path: &Path, solver: Solver) -> Result<Export, FemError> {
+pub fn export(source: &Source, path: &Path, solver: Solver) -> Result<Export> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
     if solver != Solver::Abaqus && ending.as_deref() != Some("inp") {
         let message = format!("CalculiX does not read {}", path.display());

@@ -1,9 +1,9 @@
 //! The folder of a run: what it holds, who may write to it, and how a complete run takes the place of an older one.
 
 use super::manifest::{Manifest, sha256};
-use crate::FemError;
 use crate::output::replace;
 use crate::record::RecordShape;
+use crate::{FemError, Result};
 use serde::{Deserialize, Serialize};
 use spelling::files::is_partial;
 use spelling::folders::{self, exchange, mend};
@@ -79,7 +79,7 @@ pub fn is_finished(folder: &Path) -> bool {
 }
 
 /// Whether the run in the folder, complete or not, is of this case; `None` if there is none.
-pub(super) fn is_of(folder: &Path, text: &str) -> Result<Option<bool>, FemError> {
+pub(super) fn is_of(folder: &Path, text: &str) -> Result<Option<bool>> {
     Ok(match look(folder)? {
         Found::Unfinished(marker) => Some(marker.case_sha256 == sha256(text.as_bytes())),
         Found::Finished => Some(case_sha256(folder).is_some_and(|of| of == sha256(text.as_bytes()))),
@@ -92,7 +92,7 @@ pub(super) fn is_of(folder: &Path, text: &str) -> Result<Option<bool>, FemError>
 ///
 /// # Errors
 /// The folder holds another run, or files that are none of ours, or another process writes to it.
-pub(super) fn open(folder: &Path, text: &str, resume: bool, force: bool) -> Result<Option<Workplace>, FemError> {
+pub(super) fn open(folder: &Path, text: &str, resume: bool, force: bool) -> Result<Option<Workplace>> {
     let refuse = |cause: &str, help: &str| Err(FemError::folder(folder, cause, help));
     if matches!(look(&aside(folder))?, Found::Finished) {
         mend(folder, &aside(folder)).map_err(|cause| unwritable(folder, &cause))?;
@@ -123,11 +123,7 @@ pub(super) fn open(folder: &Path, text: &str, resume: bool, force: bool) -> Resu
 }
 
 /// Makes a complete run an unfinished one again, with the checkpoint that `keep` writes. Killed at any point it is one of the two.
-pub(crate) fn reopen(
-    folder: &Path,
-    marker: RunIdentity,
-    keep: &dyn Fn() -> Result<(), FemError>,
-) -> Result<Workplace, FemError> {
+pub(crate) fn reopen(folder: &Path, marker: RunIdentity, keep: &dyn Fn() -> Result<()>) -> Result<Workplace> {
     let place = take(folder, folder, Some(marker.clone()))?;
     keep()?;
     place.mark(&marker)?;
@@ -136,7 +132,7 @@ pub(crate) fn reopen(
 }
 
 /// The new run is made next to the finished one, which stays until then.
-fn open_beside(folder: &Path, text: &str, resume: bool) -> Result<Workplace, FemError> {
+fn open_beside(folder: &Path, text: &str, resume: bool) -> Result<Workplace> {
     let beside = named_like(folder, ".new");
     match look(&beside)? {
         Found::Unfinished(marker) if resume => {
@@ -162,7 +158,7 @@ fn aside(folder: &Path) -> PathBuf {
 }
 
 /// Writes a file, whole or not at all.
-pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), FemError> {
+pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     replace(path, &mut |out| out.write_all(bytes))
 }
 
@@ -171,7 +167,7 @@ pub(super) fn unwritable(path: &Path, cause: &std::io::Error) -> FemError {
     FemError::folder(path, cause.to_string(), "choose another folder with --out")
 }
 
-fn same_case(folder: &Path, text: &str, case_sha256: &str) -> Result<(), FemError> {
+fn same_case(folder: &Path, text: &str, case_sha256: &str) -> Result<()> {
     if case_sha256 == sha256(text.as_bytes()) {
         return Ok(());
     }
@@ -180,7 +176,7 @@ fn same_case(folder: &Path, text: &str, case_sha256: &str) -> Result<(), FemErro
     Err(FemError::folder(folder, "the run in it is of another case, or the case has changed", help))
 }
 
-fn look(folder: &Path) -> Result<Found, FemError> {
+fn look(folder: &Path) -> Result<Found> {
     if !folder.exists() {
         return Ok(Found::Nothing);
     }
@@ -202,7 +198,7 @@ fn look(folder: &Path) -> Result<Found, FemError> {
 }
 
 /// A file that no run wrote, in the folder or among its frames.
-fn foreign(folder: &Path, names: &[String]) -> Result<Option<String>, FemError> {
+fn foreign(folder: &Path, names: &[String]) -> Result<Option<String>> {
     let ours = |n: &String| OWN.contains(&n.as_str()) || n == LAST || n == MARKER;
     if let Some(name) = names.iter().find(|n| !ours(n)) {
         return Ok(Some(name.clone()));
@@ -226,7 +222,7 @@ fn read_marker(folder: &Path) -> Option<RunIdentity> {
     UNFINISHED.read(MARKER, &std::fs::read_to_string(folder.join(MARKER)).ok()?, "").ok()
 }
 
-fn take(folder: &Path, target: &Path, interrupted: Option<RunIdentity>) -> Result<Workplace, FemError> {
+fn take(folder: &Path, target: &Path, interrupted: Option<RunIdentity>) -> Result<Workplace> {
     std::fs::create_dir_all(folder).map_err(|cause| unwritable(folder, &cause))?;
     let lock = File::create(folder.join(LOCK)).map_err(|cause| unwritable(folder, &cause))?;
     if let Err(std::fs::TryLockError::WouldBlock) = lock.try_lock() {
@@ -239,21 +235,16 @@ fn take(folder: &Path, target: &Path, interrupted: Option<RunIdentity>) -> Resul
     Ok(Workplace { folder: folder.to_path_buf(), interrupted, target, _lock: lock })
 }
 
-type Step<'a> = &'a dyn Fn() -> Result<(), FemError>;
+type Step<'a> = &'a dyn Fn() -> Result<()>;
 
 impl Workplace {
     /// Clears away an earlier run and marks the folder as a run in progress. Killed at any point, the folder is known as
     /// an unfinished run: of the earlier case until its files are gone, then of this one.
-    pub(super) fn start(&self, marker: &RunIdentity, text: &str) -> Result<(), FemError> {
+    pub(super) fn start(&self, marker: &RunIdentity, text: &str) -> Result<()> {
         self.begin(marker, text, &mut |step| step())
     }
 
-    fn begin(
-        &self,
-        marker: &RunIdentity,
-        text: &str,
-        take: &mut dyn FnMut(Step) -> Result<(), FemError>,
-    ) -> Result<(), FemError> {
+    fn begin(&self, marker: &RunIdentity, text: &str, take: &mut dyn FnMut(Step) -> Result<()>) -> Result<()> {
         if let (Some(case_sha256), false) = (case_sha256(&self.folder), self.folder.join(MARKER).exists()) {
             take(&|| self.mark(&RunIdentity { case_sha256: case_sha256.clone(), ..marker.clone() }))?;
         }
@@ -265,18 +256,18 @@ impl Workplace {
         take(&|| self.keep_case(text))
     }
 
-    fn mark(&self, marker: &RunIdentity) -> Result<(), FemError> {
+    fn mark(&self, marker: &RunIdentity) -> Result<()> {
         let text = format!("{:#}\n", UNFINISHED.stamped(marker));
         write(&self.folder.join(MARKER), text.as_bytes())
     }
 
     /// Writes the case, which a kill right after the mark leaves out.
-    pub(crate) fn keep_case(&self, text: &str) -> Result<(), FemError> {
+    pub(crate) fn keep_case(&self, text: &str) -> Result<()> {
         write(&self.folder.join(CASE), text.as_bytes())
     }
 
     /// The files of the run, for its manifest.
-    pub(super) fn files(&self) -> Result<Vec<(String, Vec<u8>)>, FemError> {
+    pub(super) fn files(&self) -> Result<Vec<(String, Vec<u8>)>> {
         let mut found = Vec::new();
         for name in OWN.iter().filter(|name| !name.starts_with("checkpoint")) {
             let path = self.folder.join(name);
@@ -294,7 +285,7 @@ impl Workplace {
     }
 
     /// Writes the manifest, and lets the complete run take its place; returns a notice on an older one that was there.
-    pub(super) fn complete(self, manifest: &Manifest) -> Result<Option<String>, FemError> {
+    pub(super) fn complete(self, manifest: &Manifest) -> Result<Option<String>> {
         write(&self.folder.join(LAST), manifest.text().as_bytes())?;
         for name in [MARKER, "checkpoint", "checkpoint.previous", LOCK] {
             remove(&self.folder.join(name))?;
@@ -312,17 +303,17 @@ impl Workplace {
 }
 
 /// Removes what a kill left behind; whoever holds the lock is alone.
-fn sweep(folder: &Path) -> Result<(), FemError> {
+fn sweep(folder: &Path) -> Result<()> {
     let leftovers = folders::names(folder).unwrap_or_default().into_iter().filter(|name| is_partial(name));
     leftovers.map(|name| folder.join(name)).try_for_each(|path| remove(&path))
 }
 
-fn sorted(folder: &Path) -> Result<Vec<String>, FemError> {
+fn sorted(folder: &Path) -> Result<Vec<String>> {
     folders::names(folder).map_err(|cause| unwritable(folder, &cause))
 }
 
 /// Removes a file or a folder that a run made, if it is there.
-fn remove(path: &Path) -> Result<(), FemError> {
+fn remove(path: &Path) -> Result<()> {
     folders::remove(path).map_err(|cause| unwritable(path, &cause))
 }
 

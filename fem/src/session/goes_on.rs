@@ -9,7 +9,7 @@ use super::{FeRun, Loaded, Settings, sha256};
 use crate::bytes::{pack, unpack};
 use crate::output::checkpoint::{Checkpoint, read_end, write_checkpoint, write_end};
 use crate::problem::{Loads, pressure_of};
-use crate::{FemError, Simulation};
+use crate::{FemError, Result, Simulation};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -36,7 +36,7 @@ pub(super) struct Earlier {
 }
 
 /// Keeps the end of a run in its folder.
-pub(super) fn keep(folder: &Path, loaded: &Loaded, running: &Running) -> Result<(), FemError> {
+pub(super) fn keep(folder: &Path, loaded: &Loaded, running: &Running) -> Result<()> {
     let (problem, run) = (&loaded.case.problem, &running.run);
     let mut loads = problem.loads_at(run.time_s());
     for sealed in run.chambers() {
@@ -53,7 +53,7 @@ impl Earlier {
     ///
     /// # Errors
     /// [`FemError::Setting`] for a folder without the end of a run, [`FemError::Checkpoint`] for a damaged one.
-    pub(super) fn read(folder: &Path) -> Result<Earlier, FemError> {
+    pub(super) fn read(folder: &Path) -> Result<Earlier> {
         let refused = |cause: &str, help: &str| {
             FemError::setting(format!("cannot go on from {}: {cause}", folder.display()), help)
         };
@@ -75,7 +75,7 @@ impl Earlier {
     }
 
     /// The run of another problem from here on, and what to know about it.
-    pub(super) fn go_on(&self, loaded: &mut Loaded) -> Result<Simulation, FemError> {
+    pub(super) fn go_on(&self, loaded: &mut Loaded) -> Result<Simulation> {
         let (problem, from) = (&loaded.case.problem, self.folder.display());
         if problem.fingerprint_of_structure() != self.structure {
             let message = format!(
@@ -127,7 +127,7 @@ impl Earlier {
 ///
 /// # Errors
 /// [`FemError::Setting`] for an end before the run's, or where the run resumed an earlier one and depends on it.
-pub(super) fn reopened(folder: &Path, loaded: &Loaded, settings: &Settings) -> Result<Option<Workplace>, FemError> {
+pub(super) fn reopened(folder: &Path, loaded: &Loaded, settings: &Settings) -> Result<Option<Workplace>> {
     let Some(end_s) = settings.end_s else { return Ok(None) };
     let ended = FeRun::read(folder)?.summary;
     if (end_s - ended.time_s).abs() <= ended.dt_s {

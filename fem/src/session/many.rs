@@ -3,7 +3,7 @@
 
 use super::together::{shared, together};
 use super::{FeRun, Loaded, Progress, Settings, Source, folder, simulate};
-use crate::FemError;
+use crate::{FemError, Result};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,7 @@ pub struct Job {
 #[derive(Debug)]
 pub struct Many {
     /// Each problem once, in the order of the first jobs: the run, or the error of the guard that stopped it.
-    pub runs: Vec<Result<FeRun, FemError>>,
+    pub runs: Vec<Result<FeRun>>,
     /// Which of them each job has.
     pub of: Vec<usize>,
 }
@@ -32,7 +32,7 @@ pub struct Many {
 ///
 /// # Errors
 /// [`FemError::Refused`] and [`FemError::Folder`] before the first run costs time; [`FemError::Interrupted`].
-pub fn simulate_all(jobs: &[Job], settings: &Settings, progress: Progress) -> Result<Many, FemError> {
+pub fn simulate_all(jobs: &[Job], settings: &Settings, progress: Progress) -> Result<Many> {
     let root = settings.folder.clone().unwrap_or_default();
     if jobs.iter().any(|job| job.folder.is_some()) && root.join("case.toml").exists() {
         let help = "choose another folder with --out; several runs get a folder each inside it";
@@ -52,7 +52,7 @@ pub fn simulate_all(jobs: &[Job], settings: &Settings, progress: Progress) -> Re
             other => other.map(Ok),
         }
     })?;
-    let mut runs: Vec<(usize, Result<FeRun, FemError>)> = order.into_iter().zip(found).collect();
+    let mut runs: Vec<(usize, Result<FeRun>)> = order.into_iter().zip(found).collect();
     runs.sort_by_key(|run| run.0);
     Ok(Many { runs: runs.into_iter().map(|run| run.1).collect(), of })
 }
@@ -65,8 +65,8 @@ pub fn simulate_each<T: Send>(
     count: usize,
     threads: usize,
     progress: Progress,
-    one: &(dyn Fn(usize, usize, Progress) -> Result<T, FemError> + Sync),
-) -> Result<Vec<T>, FemError> {
+    one: &(dyn Fn(usize, usize, Progress) -> Result<T> + Sync),
+) -> Result<Vec<T>> {
     let (workers, threads) = shared(threads, count);
     together(count, workers, progress, &|k, tell: Progress| one(k, threads, tell))
 }
@@ -75,7 +75,7 @@ pub fn simulate_each<T: Send>(
 ///
 /// # Errors
 /// As [`simulate`].
-pub fn simulate_job(job: &Job, settings: &Settings, progress: Progress) -> Result<FeRun, FemError> {
+pub fn simulate_job(job: &Job, settings: &Settings, progress: Progress) -> Result<FeRun> {
     let Some(root) = &settings.folder else { return simulate(&job.source, settings, progress) };
     let task = Task::of(0, job, &job.source.load()?, root);
     task.run(job, settings, &mut |text, share| progress(&format!("{}: {text}", job.what), share))
@@ -119,12 +119,12 @@ impl Shard {
 ///
 /// # Errors
 /// [`FemError::Refused`] for a job that cannot be run.
-pub fn problems<'a>(jobs: &'a [Job], root: &Path) -> Result<Vec<(&'a Job, PathBuf)>, FemError> {
+pub fn problems<'a>(jobs: &'a [Job], root: &Path) -> Result<Vec<(&'a Job, PathBuf)>> {
     Ok(tasks(jobs, root)?.0.into_iter().map(|task| (&jobs[task.at], task.folder)).collect())
 }
 
 /// Each problem once, and which of them each job has.
-fn tasks(jobs: &[Job], root: &Path) -> Result<(Vec<Task>, Vec<usize>), FemError> {
+fn tasks(jobs: &[Job], root: &Path) -> Result<(Vec<Task>, Vec<usize>)> {
     let (mut tasks, mut of) = (Vec::<Task>::new(), Vec::new());
     for (at, job) in jobs.iter().enumerate() {
         let task = Task::of(at, job, &job.source.load()?, root);
@@ -162,7 +162,7 @@ impl Task {
     }
 
     /// Refuses a folder with a run of another case.
-    fn check(&self, jobs: &[Job]) -> Result<(), FemError> {
+    fn check(&self, jobs: &[Job]) -> Result<()> {
         if folder::is_of(&self.folder, &jobs[self.at].source.text)? != Some(false) {
             return Ok(());
         }
@@ -170,7 +170,7 @@ impl Task {
         Err(FemError::folder(&self.folder, cause, "choose another folder with --out, or add --force to run it again"))
     }
 
-    fn run(&self, job: &Job, settings: &Settings, tell: Progress) -> Result<FeRun, FemError> {
+    fn run(&self, job: &Job, settings: &Settings, tell: Progress) -> Result<FeRun> {
         if job.folder.is_none()
             && let Some(run) = finished(&self.folder)?
         {
@@ -184,7 +184,7 @@ impl Task {
 }
 
 /// The complete run in a folder, if it is one of the present engine.
-fn finished(folder: &Path) -> Result<Option<FeRun>, FemError> {
+fn finished(folder: &Path) -> Result<Option<FeRun>> {
     #[derive(Deserialize)]
     struct Made {
         engine: u32,
@@ -202,7 +202,7 @@ fn finished(folder: &Path) -> Result<Option<FeRun>, FemError> {
 ///
 /// # Errors
 /// [`FemError::Record`] for one that is damaged.
-pub fn finished_below(folder: &Path, depth: usize) -> Result<Vec<FeRun>, FemError> {
+pub fn finished_below(folder: &Path, depth: usize) -> Result<Vec<FeRun>> {
     let mut found: Vec<FeRun> = finished(folder)?.into_iter().collect();
     if depth > 0 {
         let entries = std::fs::read_dir(folder).into_iter().flatten();

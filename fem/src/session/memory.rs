@@ -1,8 +1,8 @@
 //! Memory that a run takes: a mesh that cannot fit is refused before the system ends the program.
 
-use crate::FemError;
 use crate::policy::LEAST_BYTES;
 use crate::problem::Problem;
+use crate::{FemError, Result};
 
 /// Memory that a run of a problem takes at least \[bytes\]. Contacts add to it, up to as much again for a robot of many layers.
 pub fn least_bytes(problem: &Problem) -> u64 {
@@ -11,7 +11,7 @@ pub fn least_bytes(problem: &Problem) -> u64 {
 
 /// # Errors
 /// More than this machine, or the group of processes that this one belongs to, has left.
-pub(super) fn check(problem: &Problem) -> Result<(), FemError> {
+pub(super) fn check(problem: &Problem) -> Result<()> {
     let mut system = sysinfo::System::new();
     system.refresh_memory();
     let group = system.cgroup_limits().map_or(u64::MAX, |limits| limits.free_memory);
@@ -23,7 +23,7 @@ pub(super) fn check(problem: &Problem) -> Result<(), FemError> {
     refused(least_bytes(problem), left)
 }
 
-fn refused(least: u64, left: u64) -> Result<(), FemError> {
+fn refused(least: u64, left: u64) -> Result<()> {
     if least <= left {
         return Ok(());
     }

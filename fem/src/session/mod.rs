@@ -53,7 +53,7 @@ pub use watch::{RobotSummary, WatchedRobot};
 
 use crate::robot::Reading;
 pub use crate::run::{FirstThrough, Through};
-use crate::{FemError, Simulation};
+use crate::{FemError, Result, Simulation};
 use folder::{RunIdentity, Workplace};
 use goes_on::Earlier;
 use std::time::Instant;
@@ -65,7 +65,7 @@ use stepping::Running;
 /// [`FemError::Refused`] for a text that describes no sound problem, before a folder is touched; [`FemError::Folder`] for a
 /// folder that holds something else; [`FemError::StoppedIn`] by a guard; [`FemError::Interrupted`] if `progress` asked to
 /// end: a checkpoint is written then.
-pub fn simulate(source: &Source, settings: &Settings, progress: Progress) -> Result<FeRun, FemError> {
+pub fn simulate(source: &Source, settings: &Settings, progress: Progress) -> Result<FeRun> {
     let started = Instant::now();
     let earlier = settings.from.as_deref().map(Earlier::read).transpose()?;
     let mut loaded = source.load_after(earlier.as_ref().map(|earlier| (earlier.time_s, &earlier.end.loads)))?;
@@ -99,12 +99,7 @@ pub fn simulate(source: &Source, settings: &Settings, progress: Progress) -> Res
 }
 
 /// Marks the folder as this run's. In memory, energies are recorded at the start and at the end only.
-fn begin(
-    loaded: &mut Loaded,
-    place: Option<&Workplace>,
-    settings: &Settings,
-    earlier: Option<&Earlier>,
-) -> Result<(), FemError> {
+fn begin(loaded: &mut Loaded, place: Option<&Workplace>, settings: &Settings, earlier: Option<&Earlier>) -> Result<()> {
     let Some(place) = place else {
         loaded.case.problem.settings.output_every_s = loaded.case.problem.settings.end_s;
         return Ok(());
@@ -119,12 +114,7 @@ fn begin(
 }
 
 /// The run that was asked for, or the interrupted one if the settings agree with it.
-fn same_run(
-    place: &Workplace,
-    loaded: &Loaded,
-    settings: &Settings,
-    earlier: Option<&Earlier>,
-) -> Result<RunIdentity, FemError> {
+fn same_run(place: &Workplace, loaded: &Loaded, settings: &Settings, earlier: Option<&Earlier>) -> Result<RunIdentity> {
     let asked = RunIdentity {
         case_sha256: sha256(loaded.source.text.as_bytes()),
         end_s: loaded.case.problem.settings.end_s,
@@ -162,7 +152,7 @@ fn finish(
     settings: &Settings,
     started: Instant,
     progress: Progress,
-) -> Result<FeRun, FemError> {
+) -> Result<FeRun> {
     // A nearly complete run is not worth an interrupt.
     let _ = progress("writing the summary", Some(1.0));
     let mut run = FeRun {
@@ -204,7 +194,7 @@ fn complete(
     files: Vec<(String, Vec<u8>)>,
     place: Workplace,
     settings: &Settings,
-) -> Result<(), FemError> {
+) -> Result<()> {
     files.iter().try_for_each(|(name, bytes)| folder::write(&place.folder.join(name), bytes))?;
     let manifest = Manifest {
         maker: settings.maker.clone(),

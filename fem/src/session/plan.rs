@@ -1,9 +1,9 @@
 //! Runs of one robot that differ in mesh, seed, pressure, or in unmeasured numbers.
 
 use super::{Source, rounded};
-use crate::FemError;
 use crate::case::range::{Key, named};
 use crate::robot::{ASSUMED, Assumed, KEYS, NUMERICAL, RobotRun, RobotSettings, hypercube};
+use crate::{FemError, Result};
 use models::{CHANNELS, Scenario};
 
 /// Label of a robot of which nothing is varied.
@@ -40,7 +40,7 @@ pub fn pressures_in_toml(channels_pa: &[f64; CHANNELS]) -> String {
 
 impl Source {
     /// A robot of one mesh, so that a run's own `case.toml` is that run and no study of several.
-    pub(super) fn of_one_mesh(self) -> Result<Source, FemError> {
+    pub(super) fn of_one_mesh(self) -> Result<Source> {
         let (_, run) = self.robot_run()?;
         let sizes_mm = [run.settings.body_size_m, run.settings.actuator_size_m].map(|m| rounded(m * 1e3));
         if run.meshes_m.is_empty() { Ok(self) } else { self.with(&mesh_keys(&sizes_mm)) }
@@ -78,7 +78,7 @@ pub fn product(run: &RobotRun, seeds: Option<u64>, separate: bool, meshes: &[[f6
 ///
 /// # Errors
 /// A robot that cannot be built.
-pub fn numerics(scenario: &Scenario, run: &RobotRun) -> Result<Vec<Variation>, FemError> {
+pub fn numerics(scenario: &Scenario, run: &RobotRun) -> Result<Vec<Variation>> {
     let mut all = vec![Variation { label: AS_IT_IS.into(), ..Variation::default() }];
     let mut add = |label: String, changes: Changes| all.push(Variation { label, changes, ..Variation::default() });
     let problem = run.problem(scenario)?;
@@ -141,7 +141,7 @@ pub struct Cube {
 ///
 /// # Errors
 /// A scenario that is refused with one of the numbers at an end of its interval.
-pub fn cube(base: Source, known: &[&str], robots: usize) -> Result<Cube, FemError> {
+pub fn cube(base: Source, known: &[&str], robots: usize) -> Result<Cube> {
     let base = base.of_one_mesh()?;
     let numbers = felt(&base, known)?;
     let shares = hypercube(robots, numbers.len(), CUBE);
@@ -153,7 +153,7 @@ pub fn cube(base: Source, known: &[&str], robots: usize) -> Result<Cube, FemErro
 ///
 /// # Errors
 /// As [`cube`].
-pub fn felt(base: &Source, known: &[&str]) -> Result<Vec<Felt>, FemError> {
+pub fn felt(base: &Source, known: &[&str]) -> Result<Vec<Felt>> {
     let mut numbers = Vec::new();
     for unknown in ASSUMED {
         let Some(key) = named(KEYS, unknown.key).filter(|key| !known.contains(&key.name)) else { continue };

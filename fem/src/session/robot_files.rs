@@ -3,7 +3,7 @@
 use super::{FeRun, Further, Loaded, WatchedRobot, rounded};
 use crate::output::picture::{self, Image, PictureLook, Viewpoint};
 use crate::robot::{Reading, Snap};
-use crate::{FemError, Mesh, Simulation};
+use crate::{FemError, Mesh, Result, Simulation};
 use std::fmt::{Display, Write};
 
 /// Share of the elements whose stress is within the colour scale: a few at the ends of welds are far above all others.
@@ -17,7 +17,7 @@ pub(super) fn files(
     run: &FeRun,
     state: &Simulation,
     further: Option<Further>,
-) -> Result<Vec<(String, Vec<u8>)>, FemError> {
+) -> Result<Vec<(String, Vec<u8>)>> {
     std::thread::scope(|scope| {
         let making = further.map(|make| scope.spawn(move || make(loaded, run)));
         let mut found = own(loaded, run, state)?;
@@ -29,7 +29,7 @@ pub(super) fn files(
     })
 }
 
-fn own(loaded: &Loaded, run: &FeRun, state: &Simulation) -> Result<Vec<(String, Vec<u8>)>, FemError> {
+fn own(loaded: &Loaded, run: &FeRun, state: &Simulation) -> Result<Vec<(String, Vec<u8>)>> {
     let mesh = &loaded.case.problem.mesh;
     let (mut found, pictures) = match (&loaded.robot, &run.summary.robot) {
         (Some(robot), Some(read)) => {
@@ -49,7 +49,7 @@ fn own(loaded: &Loaded, run: &FeRun, state: &Simulation) -> Result<Vec<(String, 
 }
 
 /// The end state of a case, coloured by von Mises stress.
-fn end(loaded: &Loaded, state: &Simulation) -> Result<(&'static str, Image), FemError> {
+fn end(loaded: &Loaded, state: &Simulation) -> Result<(&'static str, Image)> {
     let problem = &loaded.case.problem;
     let title = format!("{}, von Mises stress [MPa] at {:.4} s", problem.name, state.time_s());
     let look = PictureLook { view: loaded.case.outputs.view, title, ..PictureLook::default() };
@@ -154,7 +154,7 @@ fn pictures(
     mesh: &Mesh,
     run: &Simulation,
     is_at_rest: bool,
-) -> Result<Vec<(&'static str, Image)>, FemError> {
+) -> Result<Vec<(&'static str, Image)>> {
     let (stress_mpa, positions) = (stress_mpa(run), run.positions());
     let actuator = &robot.scenario.actuator;
     let unit = actuator.shape.length_m;

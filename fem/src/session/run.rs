@@ -4,9 +4,9 @@ use super::folder;
 use super::manifest::{FileHash, MANIFEST, Maker};
 use super::source::Loaded;
 use super::summary::{Cost, SUMMARY, Summary};
-use crate::FemError;
 use crate::error::Damage;
 use crate::robot::{Reading, Sample};
+use crate::{FemError, Result};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -87,7 +87,7 @@ impl FeRun {
     ///
     /// # Errors
     /// [`FemError::Folder`] if it cannot be read, [`FemError::Record`] with the place if it is damaged.
-    pub fn read(folder: &Path) -> Result<FeRun, FemError> {
+    pub fn read(folder: &Path) -> Result<FeRun> {
         #[derive(Deserialize)]
         struct Made {
             cost: Cost,

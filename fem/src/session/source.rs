@@ -1,11 +1,11 @@
 //! Source of a simulation: the text of a case or of a robot's scenario, and the problem it describes.
 
 use super::watch::WatchedRobot;
-use crate::FemError;
 use crate::case::{Case, Outputs, is_case};
 use crate::error::Refusal;
 use crate::problem::Loads;
 use crate::robot::{RobotRun, RobotStart, outputs, with_fem};
+use crate::{FemError, Result};
 use models::{Scenario, ScenarioError};
 use std::path::{Path, PathBuf};
 
@@ -53,7 +53,7 @@ impl Source {
     ///
     /// # Errors
     /// [`FemError::Setting`] if the table cannot be separated from the text around it.
-    pub fn with(&self, changes: &[(String, String)]) -> Result<Source, FemError> {
+    pub fn with(&self, changes: &[(String, String)]) -> Result<Source> {
         let changes: Vec<(&str, &str)> = changes.iter().map(|(key, value)| (key.as_str(), value.as_str())).collect();
         let text = with_fem(&self.text, &changes).ok_or_else(|| {
             let message = format!("the table [fem] of {} cannot be changed from the command line", self.name);
@@ -66,7 +66,7 @@ impl Source {
     ///
     /// # Errors
     /// [`FemError::Setting`] for pouches longer than the actuator, and for a text that is not TOML.
-    pub fn varied(&self, body_kpa: f64, pouch_mm: Option<f64>) -> Result<Source, FemError> {
+    pub fn varied(&self, body_kpa: f64, pouch_mm: Option<f64>) -> Result<Source> {
         let shape = self.robot_run()?.0.actuator;
         let unreadable =
             |_| FemError::setting(format!("{} cannot be changed", self.name), "check the file with ibr predict");
@@ -94,12 +94,12 @@ impl Source {
     ///
     /// # Errors
     /// [`FemError::Refused`] with the place; errors of the mesh file that it names.
-    pub fn load(&self) -> Result<Loaded, FemError> {
+    pub fn load(&self) -> Result<Loaded> {
         self.load_after(None)
     }
 
     /// The same; a robot's loads go on from those at a time \[s\] of an earlier run.
-    pub(super) fn load_after(&self, earlier: Option<(f64, &Loads)>) -> Result<Loaded, FemError> {
+    pub(super) fn load_after(&self, earlier: Option<(f64, &Loads)>) -> Result<Loaded> {
         let mut read_mesh = |path: &Path| crate::mesh::file::read(&self.folder.join(path));
         let made = match self.is_robot() {
             true => self.robot(earlier).map(|(case, robot)| (case, Some(robot))),
@@ -109,7 +109,7 @@ impl Source {
         Ok(Loaded { source: self.clone(), case, robot })
     }
 
-    fn robot(&self, earlier: Option<(f64, &Loads)>) -> Result<(Case, WatchedRobot), FemError> {
+    fn robot(&self, earlier: Option<(f64, &Loads)>) -> Result<(Case, WatchedRobot)> {
         let scenario = self.scenario()?;
         let mut run = RobotRun::parse(&self.text, &scenario)?;
         run.start = earlier.map(|(time_s, loads)| RobotStart::of(&scenario, time_s, loads));
@@ -120,7 +120,7 @@ impl Source {
         Ok((Case { problem, outputs, notices: Vec::new() }, robot))
     }
 
-    fn scenario(&self) -> Result<Scenario, FemError> {
+    fn scenario(&self) -> Result<Scenario> {
         let fault = |ScenarioError { message, help, span }: ScenarioError| FemError::Case {
             message: help.map_or(message.clone(), |help| format!("{message}\n{help}")),
             span: span.map(|(start, end)| start..end),
@@ -132,7 +132,7 @@ impl Source {
     ///
     /// # Errors
     /// [`FemError::Refused`] with the place.
-    pub fn robot_run(&self) -> Result<(Scenario, RobotRun), FemError> {
+    pub fn robot_run(&self) -> Result<(Scenario, RobotRun)> {
         let both = self.scenario().and_then(|scenario| {
             let run = RobotRun::parse(&self.text, &scenario)?;
             Ok((scenario, run))

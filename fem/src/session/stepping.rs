@@ -13,7 +13,7 @@ use crate::output::pvd::Series;
 use crate::output::table::Table;
 use crate::robot::Rest;
 use crate::run::Advance;
-use crate::{FemError, Simulation};
+use crate::{FemError, Result, Simulation};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -68,7 +68,7 @@ impl<'a> Running<'a> {
         run: Simulation,
         folder: Option<&Path>,
         robot: Option<Watched>,
-    ) -> Result<Running<'a>, FemError> {
+    ) -> Result<Running<'a>> {
         let files = folder.map(|folder| Files::open(case, folder, &[])).transpose()?;
         let began = (run.step(), thread_seconds());
         let next = number_at(run.time_s(), case.problem.settings.output_every_s);
@@ -82,7 +82,7 @@ impl<'a> Running<'a> {
         fresh: Simulation,
         folder: &Path,
         mut robot: Option<Watched>,
-    ) -> Result<Running<'a>, FemError> {
+    ) -> Result<Running<'a>> {
         let fingerprint = case.problem.fingerprint();
         let Some((Checkpoint { payload, .. }, notice)) = read_checkpoint(folder, fingerprint)? else {
             return Running::start(case, fresh, Some(folder), robot);
@@ -107,7 +107,7 @@ impl<'a> Running<'a> {
     }
 
     /// Steps to the end of the case, or until `progress` asks to end, which is [`FemError::Interrupted`].
-    pub(crate) fn step_on(&mut self, checkpoint_every: Duration, progress: Progress) -> Result<(), FemError> {
+    pub(crate) fn step_on(&mut self, checkpoint_every: Duration, progress: Progress) -> Result<()> {
         let settings = &self.case.problem.settings;
         let (end_s, every_s) = (settings.end_s, settings.output_every_s);
         // The last output is the end itself; a whole number of intervals shall not get a second one just before it.
@@ -128,7 +128,7 @@ impl<'a> Running<'a> {
     }
 
     /// Waits at the end of a hold until the robot is at rest, then reads it.
-    fn rest(&mut self, hold_s: f64, pace: &mut Pace) -> Result<(), FemError> {
+    fn rest(&mut self, hold_s: f64, pace: &mut Pace) -> Result<()> {
         while let Some(robot) = &mut self.robot {
             match robot.rest(&self.run) {
                 Rest::Until(waited_s) => self.advance(Goal::Waited(waited_s, hold_s), pace)?,
@@ -139,7 +139,7 @@ impl<'a> Running<'a> {
     }
 
     /// Steps to a moment, with checkpoints on the way; [`FemError::Interrupted`] once `progress` asks to end.
-    fn advance(&mut self, goal: Goal, pace: &mut Pace) -> Result<(), FemError> {
+    fn advance(&mut self, goal: Goal, pace: &mut Pace) -> Result<()> {
         let (done, files, robot) = (&self.done, &self.files, &mut self.robot);
         let outside_s = done.cpu_s + thread_seconds() - self.began.1;
         let mut fault = None;
@@ -169,7 +169,7 @@ impl<'a> Running<'a> {
         Saved::pack(&self.run, &self.done, self.robot.as_ref(), cpu_s)
     }
 
-    fn output(&mut self) -> Result<(), FemError> {
+    fn output(&mut self) -> Result<()> {
         let record = Record::of(&self.run);
         self.done.balances.push(Balance {
             time_s: record.time_s,
@@ -202,7 +202,7 @@ impl<'a> Running<'a> {
 
 impl Files {
     /// Files of a run after its outputs at `times_s`; lost rows are refused before anything is cut.
-    fn open(case: &Case, folder: &Path, times_s: &[f64]) -> Result<Files, FemError> {
+    fn open(case: &Case, folder: &Path, times_s: &[f64]) -> Result<Files> {
         let history = folder.join("history.csv");
         let path = folder.join("centre_line.csv");
         let line = centre_line(case)?;
@@ -217,7 +217,7 @@ impl Files {
         })
     }
 
-    fn save(&self, run: &Simulation, payload: Vec<u8>) -> Result<(), FemError> {
+    fn save(&self, run: &Simulation, payload: Vec<u8>) -> Result<()> {
         self.history.table.sync()?;
         self.centre_line.iter().try_for_each(|line| line.table.sync())?;
         let (step, time_s) = (run.step(), run.time_s());
@@ -258,7 +258,7 @@ pub(super) fn extended(session: &[u8], time_s: f64, every_s: f64) -> Option<Vec<
     Some(pack(&saved))
 }
 
-fn centre_line(case: &Case) -> Result<Option<CentreLine>, FemError> {
+fn centre_line(case: &Case) -> Result<Option<CentreLine>> {
     let wanted = &case.outputs;
     let make = || CentreLine::new(&case.problem.mesh, &wanted.station_parts, wanted.station_axis, &wanted.stations_m);
     (!wanted.stations_m.is_empty()).then(make).transpose()
@@ -290,7 +290,7 @@ impl Pace<'_> {
         self.saved_at.elapsed() >= self.every.max(50 * self.saving)
     }
 
-    fn keep(&mut self, save: impl FnOnce() -> Result<(), FemError>) -> Result<(), FemError> {
+    fn keep(&mut self, save: impl FnOnce() -> Result<()>) -> Result<()> {
         let began = Instant::now();
         let saved = save();
         self.saved_at = Instant::now();

@@ -1,7 +1,7 @@
 //! What several runs of a robot gave: heights of each, mean and spread of those that differ in their seed only.
 
 use super::{FeRun, Many, Variation, heights_mm, rounded};
-use crate::FemError;
+use crate::Result;
 use serde::Serialize;
 
 /// A robot's heights at one pressure.
@@ -57,8 +57,8 @@ impl RunTable {
     ///
     /// # Errors
     /// The error of the first run that was stopped.
-    pub fn of(variations: &[Variation], many: Many) -> Result<RunTable, FemError> {
-        let runs = many.runs.into_iter().collect::<Result<Vec<FeRun>, FemError>>()?;
+    pub fn of(variations: &[Variation], many: Many) -> Result<RunTable> {
+        let runs = many.runs.into_iter().collect::<Result<Vec<FeRun>>>()?;
         let first = |index: usize| many.of.iter().position(|of| *of == many.of[index]) == Some(index);
         let row = |(index, variation): (usize, &Variation)| {
             let run = &runs[many.of[index]];

@@ -1,7 +1,7 @@
 //! Several long jobs in parallel, with one line of progress.
 
 use super::Progress;
-use crate::FemError;
+use crate::{FemError, Result};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -38,8 +38,8 @@ pub(super) fn together<T: Send>(
     count: usize,
     workers: usize,
     progress: Progress,
-    job: &(impl Fn(usize, Progress) -> Result<T, FemError> + Sync),
-) -> Result<Vec<T>, FemError> {
+    job: &(impl Fn(usize, Progress) -> Result<T> + Sync),
+) -> Result<Vec<T>> {
     let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
     let standing = Mutex::new(Standing { progress, running: BTreeMap::new(), complete: 0 });
     let found = Mutex::new(BTreeMap::new());

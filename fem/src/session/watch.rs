@@ -7,7 +7,7 @@ use crate::robot::{
     HoldEnd, KEYS, Reading, Rest, RobotGauge, RobotRun, RobotSettings, Sample, Settling, Snap, Watch, snaps,
 };
 use crate::vec3::norm;
-use crate::{FemError, Problem, Simulation, policy};
+use crate::{Problem, Result, Simulation, policy};
 use models::Scenario;
 use models::scenario::Wall;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -27,7 +27,7 @@ pub struct WatchedRobot {
 }
 
 impl WatchedRobot {
-    pub(super) fn new(scenario: &Scenario, run: &RobotRun, problem: &Problem) -> Result<WatchedRobot, FemError> {
+    pub(super) fn new(scenario: &Scenario, run: &RobotRun, problem: &Problem) -> Result<WatchedRobot> {
         Ok(WatchedRobot { scenario: scenario.clone(), run: run.clone(), gauge: RobotGauge::new(scenario, problem)? })
     }
 
@@ -102,7 +102,7 @@ impl Watched {
         self.settling.look(tip_m, allowed_m, run.waited_s(), patience)
     }
 
-    pub(super) fn read(&mut self, run: &Simulation, rest: Rest) -> Result<(), FemError> {
+    pub(super) fn read(&mut self, run: &Simulation, rest: Rest) -> Result<()> {
         let mut reading = self.gauge.read(run, rest)?;
         reading.seam_share = self.weld_strength_n_per_m.map(|strength| reading.seam_n_per_m / strength);
         self.readings.push(reading);

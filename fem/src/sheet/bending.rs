@@ -27,7 +27,7 @@ use std::collections::BTreeMap;
 
 use super::edge;
 use crate::mesh::Mesh;
-use crate::vec3::{along, cross, direction, dot, sub};
+use crate::vec3::{Nodes, V3, along, cross, direction, dot, sub};
 
 /// Row of the curvature operator at one node: H_i A_i = Σ_j w_ij x_j (the diagonal is in the list, first).
 #[derive(Debug, Clone, PartialEq)]
@@ -124,7 +124,7 @@ impl Fan {
 
 impl Facet {
     /// Area vector with the nodes at these places \[m²\].
-    pub(crate) fn area_vector(&self, at: impl Fn(u32) -> [f64; 3]) -> [f64; 3] {
+    pub(crate) fn area_vector(&self, at: impl Fn(u32) -> V3) -> V3 {
         let [a, b, c, d] = self.nodes.map(at);
         cross(sub(b, a), sub(d, c)).map(|v| self.share * v)
     }
@@ -205,7 +205,7 @@ impl BendingMatrix {
     }
 
     /// Adds −K x to `force` (stride 4) and returns ½ xᵀKx.
-    pub fn add(&self, q: &[[f64; 4]], force: &mut [[f64; 4]]) -> f64 {
+    pub fn add(&self, q: &Nodes, force: &mut Nodes) -> f64 {
         let mut energy = 0.0;
         for i in 0..q.len() {
             let mut kx = [0.0; 3];

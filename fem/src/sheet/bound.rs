@@ -11,7 +11,7 @@ use super::chamber::Air;
 use super::reference::mean_stiffness;
 use super::tangent::Tangent;
 use super::{Element, Sheet};
-use crate::vec3::{dot, share};
+use crate::vec3::{V3, dot, share};
 
 /// A state of an element at which its stiffness is asked for.
 #[derive(Clone, Copy)]
@@ -119,7 +119,7 @@ impl Sheet {
     }
 
     /// Adds to the nodes each element's bound `of` at its stiffest state, and the bounds of bending and pressure.
-    fn each_ahead(&self, q: &[f64], bound: &mut [f64], mut of: impl FnMut(&Element, (At, f64), [[f64; 3]; 2]) -> f64) {
+    fn each_ahead(&self, q: &[f64], bound: &mut [f64], mut of: impl FnMut(&Element, (At, f64), [V3; 2]) -> f64) {
         let q = q.as_chunks::<4>().0;
         let pressure = self.air.iter().map(|a| a.peak_pa()).fold(0.0, f64::max);
         let past = self.past();

@@ -7,7 +7,7 @@ use crate::mesh::Mesh;
 use crate::mesh::check::{planes, rim};
 use crate::policy;
 use crate::problem::{Chamber, Pressure};
-use crate::vec3::{add, cross, node, scale, sub};
+use crate::vec3::{Nodes, V3, add, cross, node, scale, sub};
 
 /// A chamber while a run goes on.
 #[derive(Debug, Clone)]
@@ -102,7 +102,7 @@ impl Air {
     }
 
     /// Sets the pressure for a step at time `t`; books the work of a chamber that follows its volume.
-    pub fn advance(&mut self, t: f64, elements: &[Element], q: &[[f64; 4]]) {
+    pub fn advance(&mut self, t: f64, elements: &[Element], q: &Nodes) {
         let volume = self.follows().then(|| self.volume_at(elements, q));
         self.now.pressure_pa = match (&self.chamber.pressure, volume) {
             (Pressure::Sealed { sealed_at_s, gas, .. }, Some(volume)) if t >= *sealed_at_s => {
@@ -134,7 +134,7 @@ impl Air {
 
     /// Volume from the fluxes ∫ x n_x, ∫ y n_y, ∫ z n_z of the wall: their mean over the axes along which it is not open. Where it is
     /// along all, ∫ (x − c) n_x from the one plane at c, with ∫ n dA = ½ ∮ x × dx.
-    pub(crate) fn volume_of(&self, flux: [f64; 3], q: &[[f64; 4]]) -> f64 {
+    pub(crate) fn volume_of(&self, flux: V3, q: &Nodes) -> f64 {
         if let Some(Cut { axis, at_m, rim }) = &self.cut {
             let area = |[a, b]: &[u32; 2]| 0.5 * cross(node(q, *a as usize), node(q, *b as usize))[*axis];
             return flux[*axis] - at_m * rim.iter().map(area).sum::<f64>();
@@ -146,7 +146,7 @@ impl Air {
 
     /// Volume at positions `q`, of the wall with its quadrilaterals as the pressure sees them: with x = m + ξ a + η b + ξη c,
     /// ∫ x n dA = 4 m (a × b) + ⁴⁄₃ [a (a × c) + b (c × b)], axis by axis.
-    fn volume_at(&self, elements: &[Element], q: &[[f64; 4]]) -> f64 {
+    fn volume_at(&self, elements: &[Element], q: &Nodes) -> f64 {
         let mut flux = [0.0; 3];
         for (index, side) in &self.wall {
             let element = &elements[*index as usize];
@@ -171,7 +171,7 @@ impl Air {
 
     /// Adds to the nodes the stiffness of the gas at positions `q`, |∂V/∂xᵢ| Σ|∂V/∂xⱼ| n P/(V + V_d), where it decides the pressure
     /// before `until_s` \[N/m\]. Row sums of the matrix: no mode is stiffer.
-    pub(crate) fn add_bound(&self, until_s: f64, elements: &[Element], q: &[[f64; 4]], bound: &mut [f64]) {
+    pub(crate) fn add_bound(&self, until_s: f64, elements: &[Element], q: &Nodes, bound: &mut [f64]) {
         let Pressure::Sealed { sealed_at_s, gas, .. } = &self.chamber.pressure else { return };
         let all = self.volume_at(elements, q) + gas.dead_m3;
         if until_s < *sealed_at_s || all <= 0.0 {

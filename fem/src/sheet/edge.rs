@@ -13,7 +13,7 @@
 //! A straight edge bends as a beam; a curved one does not pay for the curve that it was cut along. No moment acts about
 //! the edge. Derived here.
 
-use crate::vec3::{along, cross, direction, dot};
+use crate::vec3::{V3, along, cross, direction, dot};
 
 /// An edge that turns by more than this within the sheet \[rad\] is a corner.
 const LARGEST_TURN: f64 = 0.5;
@@ -22,7 +22,7 @@ const SMALLEST_TURN: f64 = 1e-9;
 
 /// Weights of κ_s \[1/m²\] for the neighbours on the edge and, at a curved edge, all nodes `around`; offsets are from
 /// the node \[m\]. `None` at a corner.
-pub fn weights(edge: [(u32, [f64; 3]); 2], around: &[(u32, [f64; 3])], normal: [f64; 3]) -> Option<Vec<(u32, f64)>> {
+pub fn weights(edge: [(u32, V3); 2], around: &[(u32, V3)], normal: V3) -> Option<Vec<(u32, f64)>> {
     let length = edge.map(|(_, x)| dot(x, x).sqrt());
     let own = [0, 1].map(|k| 2.0 / ((length[0] + length[1]) * length[k]));
     let second = along(edge[0].1.map(|c| own[0] * c), own[1], edge[1].1);

@@ -4,7 +4,7 @@ use models::fabrics::{Kind, WrinklingFilm};
 
 use super::reference::strain;
 use super::{Element, Sheet};
-use crate::vec3::{along, cross, direction, dot};
+use crate::vec3::{V3, along, cross, direction, dot};
 
 /// Element results in mesh order (parts one after the other, quads before triangles), averaged over plies.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -50,7 +50,7 @@ impl Sheet {
         self.elements.iter().map(of).sum()
     }
 
-    fn push(&self, fields: &mut ElementFields, element: &Element, f: [[f64; 3]; 2], past: &[f64; 2]) {
+    fn push(&self, fields: &mut ElementFields, element: &Element, f: [V3; 2], past: &[f64; 2]) {
         let fabric = &*self.fabrics[element.part];
         let c = [dot(f[0], f[0]), dot(f[1], f[1]), dot(f[0], f[1])];
         let e = strain(f);
@@ -82,7 +82,7 @@ impl Sheet {
 }
 
 /// Principal values of F S Fᵀ, larger first: the eigenvalues of S C, invariant under rotation.
-fn cauchy(s: [f64; 3], c: [f64; 3]) -> [f64; 2] {
+fn cauchy(s: V3, c: V3) -> [f64; 2] {
     let trace = s[0] * c[0] + s[1] * c[1] + 2.0 * s[2] * c[2];
     let determinant = (s[0] * s[1] - s[2] * s[2]) * (c[0] * c[1] - c[2] * c[2]);
     let root = (0.25 * trace * trace - determinant).max(0.0).sqrt();
@@ -91,7 +91,7 @@ fn cauchy(s: [f64; 3], c: [f64; 3]) -> [f64; 2] {
 
 /// Unit vectors along the principal stresses: F α with (S C) α = λ₁ α, and across it. Along the warp where all directions are equal,
 /// and 0 for an element that has collapsed.
-fn directions(s: [f64; 3], c: [f64; 3], f: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
+fn directions(s: V3, c: V3, f: [V3; 2]) -> [V3; 2] {
     let a = [
         [s[0] * c[0] + s[2] * c[2], s[0] * c[2] + s[2] * c[1]],
         [s[2] * c[0] + s[1] * c[2], s[2] * c[2] + s[1] * c[1]],
@@ -107,7 +107,7 @@ fn directions(s: [f64; 3], c: [f64; 3], f: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
 }
 
 /// Eigenvalues of the symmetric matrix (a, b; off-diagonal c), larger first.
-fn principal([a, b, c]: [f64; 3]) -> [f64; 2] {
+fn principal([a, b, c]: V3) -> [f64; 2] {
     let root = (0.25 * (a - b) * (a - b) + c * c).sqrt();
     [0.5 * (a + b) + root, 0.5 * (a + b) - root]
 }

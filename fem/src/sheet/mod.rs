@@ -27,7 +27,8 @@ use crate::bytes::{pack, unpack};
 use crate::mesh::Mesh;
 use crate::problem::{Chamber, Section, Settings};
 use crate::transient::row;
-use crate::{FemError, NODE, Tick, Transient};
+use crate::vec3::V3;
+use crate::{FemError, NODE, Result, Tick, Transient};
 pub use reference::Element;
 
 use bending::BendingMatrix;
@@ -69,8 +70,8 @@ impl Sheet {
         sections: &[Section],
         chambers: &[Chamber],
         settings: &Settings,
-    ) -> Result<Sheet, FemError> {
-        let fabrics = sections.iter().map(fabric_of).collect::<Result<Vec<Arc<dyn Fabric>>, FemError>>()?;
+    ) -> Result<Sheet> {
+        let fabrics = sections.iter().map(fabric_of).collect::<Result<Vec<Arc<dyn Fabric>>>>()?;
         let weight = |s: &Section| s.density_kg_m3 * s.plies.iter().map(|p| p.fabric.thickness_m()).sum::<f64>();
         let areal_density: Vec<f64> = sections.iter().map(weight).collect();
         let elements = elements(mesh, sections, &fabrics, settings);
@@ -98,14 +99,14 @@ impl Sheet {
         order: &order::Order,
         bending: &BendingMatrix,
         chambers: &[Chamber],
-    ) -> Result<Vec<Patch>, FemError> {
+    ) -> Result<Vec<Patch>> {
         let mut patch_of = vec![0_u32; mesh.points.len()];
         for (p, nodes) in order.patches.iter().enumerate() {
             patch_of[nodes.clone()].fill(p as u32);
         }
         let keys =
             mesh.parts.iter().zip(law::loops(&self.fabrics)).map(|(part, fabric)| key_of(fabric, part, chambers));
-        let keys = keys.collect::<Result<Vec<LoopKey>, FemError>>()?;
+        let keys = keys.collect::<Result<Vec<LoopKey>>>()?;
         let mut items: Vec<BTreeMap<LoopKey, Vec<Item>>> = vec![BTreeMap::new(); order.patches.len()];
         for (index, element) in self.elements.iter().enumerate() {
             let mut touched: Vec<u32> = element.nodes().iter().map(|n| patch_of[*n as usize]).collect();
@@ -157,7 +158,7 @@ impl Sheet {
     }
 
     /// Energy held in membrane, bending and hourglass control at the last step \[J\].
-    fn stored(&self) -> [f64; 3] {
+    fn stored(&self) -> V3 {
         let mut sum = [0.0; 3];
         for patch in &self.patches {
             sum[0] += patch.sums.membrane;
@@ -269,7 +270,7 @@ impl Transient for Sheet {
 type Saved = (f64, Vec<AirNow>, Vec<SavedPatch>);
 type SavedPatch = (patch::Sums, Vec<kernel::Strain>, Vec<[Past; group::LANES]>);
 
-fn fabric_of(section: &Section) -> Result<Arc<dyn Fabric>, FemError> {
+fn fabric_of(section: &Section) -> Result<Arc<dyn Fabric>> {
     match section.plies.as_slice() {
         [one] => Ok(one.fabric.clone()),
         plies => {
@@ -279,7 +280,7 @@ fn fabric_of(section: &Section) -> Result<Arc<dyn Fabric>, FemError> {
     }
 }
 
-fn key_of(fabric: usize, part: &crate::mesh::Part, chambers: &[Chamber]) -> Result<LoopKey, FemError> {
+fn key_of(fabric: usize, part: &crate::mesh::Part, chambers: &[Chamber]) -> Result<LoopKey> {
     let find = |name: &Option<String>| {
         let Some(name) = name else { return Ok(None) };
         let place = chambers.iter().position(|c| c.name == *name).map(Some);

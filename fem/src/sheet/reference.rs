@@ -10,7 +10,7 @@
 use crate::policy;
 use crate::problem::Section;
 use crate::problem::start::X;
-use crate::vec3::{along, area, cross, direction, dot, norm, sub};
+use crate::vec3::{Nodes, V3, along, area, cross, direction, dot, norm, sub};
 use models::Fabric;
 
 /// Geometry of one element in its stress-free shape: gradients, area and axes.
@@ -29,7 +29,7 @@ pub struct Reference {
 
 impl Reference {
     /// From the reference corners (3 or 4), the warp direction of the part and the ply's angle to it.
-    pub fn new(corner: &[[f64; 3]], warp: Option<[f64; 3]>, angle_rad: f64) -> Reference {
+    pub fn new(corner: &[V3], warp: Option<V3>, angle_rad: f64) -> Reference {
         let axes = axes(direction(area(corner)), warp, angle_rad);
         let flat: Vec<[f64; 2]> =
             corner.iter().map(|x| sub(*x, corner[0])).map(|x| [dot(x, axes[0]), dot(x, axes[1])]).collect();
@@ -51,7 +51,7 @@ impl Reference {
     }
 
     /// Σ_n B_na B_nb, the 2×2 matrix (11, 22, 12) that sets the element's highest frequency \[1/m²\].
-    pub fn metric(&self, corners: usize) -> [f64; 3] {
+    pub fn metric(&self, corners: usize) -> V3 {
         let mut g = [0.0; 3];
         for n in 0..corners {
             let b = self.gradient(corners, n);
@@ -63,7 +63,7 @@ impl Reference {
     }
 }
 
-fn axes(normal: [f64; 3], warp: Option<[f64; 3]>, angle_rad: f64) -> [[f64; 3]; 3] {
+fn axes(normal: V3, warp: Option<V3>, angle_rad: f64) -> [V3; 3] {
     // Any direction will do across x: a sheet with directions is refused without a warp there.
     let any = if policy::is_in_sheet(norm(cross(X, normal))) { X } else { [0.0, 1.0, 0.0] };
     let wanted = warp.unwrap_or(any);
@@ -74,7 +74,7 @@ fn axes(normal: [f64; 3], warp: Option<[f64; 3]>, angle_rad: f64) -> [[f64; 3]; 
     [first, cross(normal, first), normal]
 }
 
-fn quad(x: &[[f64; 2]], axes: [[f64; 3]; 3]) -> Reference {
+fn quad(x: &[[f64; 2]], axes: [V3; 3]) -> Reference {
     let d13 = [x[2][0] - x[0][0], x[2][1] - x[0][1]];
     let d24 = [x[3][0] - x[1][0], x[3][1] - x[1][1]];
     let twice = d13[0] * d24[1] - d13[1] * d24[0];
@@ -87,7 +87,7 @@ fn quad(x: &[[f64; 2]], axes: [[f64; 3]; 3]) -> Reference {
     }
 }
 
-fn triangle(x: &[[f64; 2]], axes: [[f64; 3]; 3]) -> Reference {
+fn triangle(x: &[[f64; 2]], axes: [V3; 3]) -> Reference {
     let p = [x[1][0] - x[0][0], x[1][1] - x[0][1]];
     let q = [x[2][0] - x[0][0], x[2][1] - x[0][1]];
     let twice = p[0] * q[1] - p[1] * q[0];
@@ -100,7 +100,7 @@ fn triangle(x: &[[f64; 2]], axes: [[f64; 3]; 3]) -> Reference {
 }
 
 /// Strain (E₁₁, E₂₂, 2E₁₂) of the columns of a deformation gradient, E = ½(FᵀF − 1).
-pub(crate) fn strain([f1, f2]: [[f64; 3]; 2]) -> [f64; 3] {
+pub(crate) fn strain([f1, f2]: [V3; 2]) -> V3 {
     [0.5 * (dot(f1, f1) - 1.0), 0.5 * (dot(f2, f2) - 1.0), dot(f1, f2)]
 }
 
@@ -143,7 +143,7 @@ impl Element {
     }
 
     /// Columns F₁, F₂ of the deformation gradient at the element's centre.
-    pub fn deformation(&self, q: &[[f64; 4]]) -> [[f64; 3]; 2] {
+    pub fn deformation(&self, q: &Nodes) -> [V3; 2] {
         let mut f = [[0.0; 3]; 2];
         for (n, node) in self.nodes().iter().enumerate() {
             let b = self.reference.gradient(self.corners, n);

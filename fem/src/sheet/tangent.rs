@@ -1,7 +1,7 @@
 //! The material tangent of the elements as an operator, for the highest frequency of a whole mesh.
 
 use super::Element;
-use crate::vec3::dot;
+use crate::vec3::{Nodes, V3, dot};
 
 /// What an element adds to the tangent: A Bᵀ D B, and viscosity.
 pub struct Tangent {
@@ -19,7 +19,7 @@ pub struct Tangent {
 
 impl Tangent {
     /// From the columns of the deformation gradient, the fabric's tangent \[N/m\] and its viscosity \[N s/m\].
-    pub fn new(item: &Element, f: [[f64; 3]; 2], d: [[f64; 3]; 3], viscosity: f64) -> Tangent {
+    pub fn new(item: &Element, f: [V3; 2], d: [V3; 3], viscosity: f64) -> Tangent {
         let area = item.reference.area;
         let [a, b, c, last] = item.node;
         // The first corner of a triangle has minus the gradients of both others.
@@ -29,7 +29,7 @@ impl Tangent {
     }
 
     /// Adds (K + s C) u to `force`, both by nodes.
-    pub fn add(&self, s: f64, u: &[[f64; 4]], force: &mut [[f64; 4]]) {
+    pub fn add(&self, s: f64, u: &Nodes, force: &mut Nodes) {
         let mut g = [[0.0; 3]; 2];
         for (b, [plus, minus]) in self.b.iter().zip(self.pairs) {
             let (plus, minus) = (&u[plus as usize], &u[minus as usize]);

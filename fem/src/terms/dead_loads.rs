@@ -19,7 +19,7 @@ use models::{Account, LedgerLine, Pose, Row, RowKind, Term};
 use crate::bytes::{pack, unpack};
 use crate::problem::{Amplitude, Gravity, NodalForce};
 use crate::vec3::{V3, add, dot, node};
-use crate::{FemError, Mesh, Tick, Transient};
+use crate::{FemError, Mesh, Result, Tick, Transient};
 
 /// All nodal forces of a run, or its gravity.
 #[derive(Debug, Clone)]
@@ -54,7 +54,7 @@ impl DeadLoads {
     ///
     /// # Errors
     /// [`FemError::Problem`] naming a set that does not exist or is empty, or a force that is not finite.
-    pub fn forces(mesh: &Mesh, forces: &[NodalForce]) -> Result<DeadLoads, FemError> {
+    pub fn forces(mesh: &Mesh, forces: &[NodalForce]) -> Result<DeadLoads> {
         let load = |NodalForce { set, total_n, amplitude }: &NodalForce| {
             let nodes = mesh.set(set, "force")?;
             if total_n.iter().any(|f| !f.is_finite()) {
@@ -70,7 +70,7 @@ impl DeadLoads {
     ///
     /// # Errors
     /// [`FemError::Problem`] for an acceleration that is not finite.
-    pub fn gravity(gravity: &Gravity, mass_kg: &[f64]) -> Result<DeadLoads, FemError> {
+    pub fn gravity(gravity: &Gravity, mass_kg: &[f64]) -> Result<DeadLoads> {
         if gravity.g_m_s2.iter().any(|g| !g.is_finite()) {
             return Err(FemError::Problem("gravity: the acceleration is not a finite number".into()));
         }

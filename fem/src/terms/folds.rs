@@ -41,7 +41,7 @@ use crate::bytes::{pack, unpack};
 use crate::sheet::reference::strain;
 use crate::sheet::{Element, Sheet};
 use crate::transient::row;
-use crate::vec3::{V3, add, along, dot, node, norm, scale, sub};
+use crate::vec3::{Nodes, V3, add, along, dot, node, norm, scale, sub};
 use crate::{Tick, Transient};
 
 /// Steps between two looks at the tensions.
@@ -137,7 +137,7 @@ impl Folds {
     }
 
     /// Lets the tensions follow the membrane; books what this does to the energy.
-    fn follow(&mut self, x: &[[f64; 4]]) {
+    fn follow(&mut self, x: &Nodes) {
         for (edge, sides) in self.edges.iter_mut().zip(&mut self.sides) {
             for side in sides.iter_mut() {
                 let now = side.pull(&*self.fabrics[side.element.part], x);
@@ -176,7 +176,7 @@ impl Side {
     }
 
     /// T at positions `x`, memory of the fabric left out.
-    fn pull(&self, fabric: &dyn Fabric, x: &[[f64; 4]]) -> f64 {
+    fn pull(&self, fabric: &dyn Fabric, x: &Nodes) -> f64 {
         let s = fabric.tension(strain(self.element.deformation(x)), &[0.0; 2]);
         let [a, b] = self.across;
         (a * a * s[0] + b * b * s[1] + 2.0 * a * b * s[2]).max(0.0)
@@ -203,7 +203,7 @@ fn in_series(sides: &[Side; 2]) -> f64 {
 
 impl Edge {
     /// Turn across the edge, L x: of length 2 sin ½φ.
-    fn turn(&self, x: &[[f64; 4]]) -> V3 {
+    fn turn(&self, x: &Nodes) -> V3 {
         let own = node(x, self.nodes[0] as usize);
         (1..6).fold([0.0; 3], |sum, k| along(sum, self.weights[k], sub(node(x, self.nodes[k] as usize), own)))
     }
@@ -216,7 +216,7 @@ impl Edge {
         [4.0 * near / (1.0 + cosine) + 2.0 * (square - near) / cosine, 1.0 / cosine]
     }
 
-    fn energy_j(&self, x: &[[f64; 4]]) -> f64 {
+    fn energy_j(&self, x: &Nodes) -> f64 {
         self.length_m * self.stiffness_n * self.shape(self.turn(x))[0]
     }
 }

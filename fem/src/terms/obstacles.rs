@@ -26,8 +26,8 @@ use crate::bytes::{pack, unpack};
 use crate::problem::Obstacle;
 use crate::problem::solid::Solid;
 use crate::transient::row;
-use crate::vec3::{V3, add, dot, sub};
-use crate::{FemError, Mesh};
+use crate::vec3::{Nodes, V3, add, dot, sub};
+use crate::{FemError, Mesh, Result};
 use crate::{Tick, Transient};
 
 const CHUNK: usize = 1024;
@@ -78,7 +78,7 @@ impl Obstacles {
     ///
     /// # Errors
     /// [`FemError::Problem`] naming an obstacle (from 1) with a zero direction, a radius or a friction out of range.
-    pub fn new(mesh: &Mesh, obstacles: &[Obstacle], stiffness_n_m: &[f64]) -> Result<Obstacles, FemError> {
+    pub fn new(mesh: &Mesh, obstacles: &[Obstacle], stiffness_n_m: &[f64]) -> Result<Obstacles> {
         let nodes = mesh.points.len();
         if stiffness_n_m.len() != nodes {
             return Err(FemError::Problem(format!("{} stiffnesses for {nodes} nodes", stiffness_n_m.len())));
@@ -97,7 +97,7 @@ impl Obstacles {
         format!("{:?}", self.solids)
     }
     /// Energy stored and lost by friction and by damping, in this step, and force on all nodes.
-    fn rub(&mut self, solid: usize, x: &[[f64; 4]], force: &mut [[f64; 4]]) -> [f64; 6] {
+    fn rub(&mut self, solid: usize, x: &Nodes, force: &mut Nodes) -> [f64; 6] {
         let Path { now_m, before_m, .. } = self.paths[solid];
         let (body, before, stiffness) = (&self.solids[solid], &self.before_m, &self.stiffness_n_m);
         let grips = &mut self.grips[solid];
@@ -219,7 +219,7 @@ impl Solid {
     /// One step: force, energy stored and lost by friction and by damping; the memory is updated. Damping has what the normal
     /// force did in the step less what the penalty stores: with it what a step takes or gives that begins or ends outside.
     #[inline]
-    fn step(&self, x: &[f64; 4], before: &[f64; 4], k: f64, grip: &mut Grip, force: &mut [f64; 4]) -> [f64; 3] {
+    fn step(&self, x: &[f64; 4], before: &[f64; 4], k: f64, grip: &mut Grip, force: &mut [f64; 4]) -> V3 {
         let touch = self.touch(x);
         if touch.depth_m <= 0.0 && *grip == Grip::default() {
             return [0.0; 3];

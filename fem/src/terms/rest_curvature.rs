@@ -24,7 +24,7 @@ use crate::mesh::Mesh;
 use crate::problem::Section;
 use crate::sheet::bending::{CurvatureRow, curvature_rows};
 use crate::sheet::reference::bending_stiffness;
-use crate::vec3::{V3, add, along, cross, dot, node, norm, padded, scale, sub};
+use crate::vec3::{Nodes, V3, add, along, cross, dot, node, norm, padded, scale, sub};
 use crate::{Tick, Transient};
 
 /// Rest curvature of all nodes that have one.
@@ -64,7 +64,7 @@ impl RestCurvature {
 
 impl Rest {
     /// `None` where nothing asks for it or the reference is flat.
-    fn new(row: CurvatureRow, sections: &[Section], stiffness: &[f64], x: &[[f64; 4]]) -> Option<Rest> {
+    fn new(row: CurvatureRow, sections: &[Section], stiffness: &[f64], x: &Nodes) -> Option<Rest> {
         let weight = |asked: bool| {
             let own = row.facets.iter().filter(|f| !asked || sections[f.part].rest_curvature);
             own.map(|f| stiffness[f.part] * norm(f.area_vector(|n| node(x, n as usize)))).sum::<f64>()
@@ -79,13 +79,13 @@ impl Rest {
         (share > 0.0 && !flat).then_some(rest)
     }
 
-    fn curvature_vector(&self, x: &[[f64; 4]]) -> V3 {
+    fn curvature_vector(&self, x: &Nodes) -> V3 {
         let own = node(x, self.row.node as usize);
         let step = |sum, (n, w): &(u32, f64)| along(sum, *w, sub(node(x, *n as usize), own));
         scale(self.row.weights.iter().fold([0.0; 3], step), 1.0 / self.row.area)
     }
 
-    fn normal(&self, x: &[[f64; 4]]) -> V3 {
+    fn normal(&self, x: &Nodes) -> V3 {
         let step = |sum, f: &crate::sheet::bending::Facet| add(sum, f.area_vector(|n| node(x, n as usize)));
         scale(self.row.facets.iter().fold([0.0; 3], step), 1.0 / self.row.area)
     }
@@ -95,7 +95,7 @@ impl Rest {
         scale(sub(scale(n, self.curvature), h), self.stiffness * self.curvature)
     }
 
-    fn add(&self, x: &[[f64; 4]], force: &mut [[f64; 4]]) -> f64 {
+    fn add(&self, x: &Nodes, force: &mut Nodes) -> f64 {
         let (h, n) = (self.curvature_vector(x), self.normal(x));
         let mut push = |i: u32, f: V3| (0..3).for_each(|k| force[i as usize][k] += f[k]);
         for (i, w) in &self.row.weights {
@@ -115,7 +115,7 @@ impl Rest {
         self.energy_of(h, n)
     }
 
-    fn energy(&self, x: &[[f64; 4]]) -> f64 {
+    fn energy(&self, x: &Nodes) -> f64 {
         self.energy_of(self.curvature_vector(x), self.normal(x))
     }
 
@@ -125,7 +125,7 @@ impl Rest {
     }
 
     /// Cauchy–Schwarz on 2 |δH||δN| H̄ + |δN|² H̄² and on g·δ²N, with |δH| ≤ Σ a_j |u_j| and |δN| ≤ Σ b_j |u_j|.
-    fn bound(&self, x: &[[f64; 4]], bound: &mut [f64]) {
+    fn bound(&self, x: &Nodes, bound: &mut [f64]) {
         let (h, n) = (self.curvature_vector(x), self.normal(x));
         let by_weight = self.row.weights.iter().map(|(i, w)| (*i, w.abs() / self.row.area));
         let by_weight: Vec<(u32, f64)> = by_weight.collect();

@@ -6,7 +6,7 @@ use super::chunk::{Chunk, PAIRS};
 use super::pair::Pair;
 use super::sides::Sides;
 use crate::bytes::{pack, unpack};
-use crate::vec3::{V3, padded};
+use crate::vec3::{Nodes, V3, padded};
 use crate::{FemError, Mesh, problem};
 
 /// (ω dt)² of one pair on its lightest node.
@@ -82,7 +82,7 @@ impl Edges {
     }
 
     /// Pairs that start close keep the distance they have.
-    fn start_gaps(&mut self, x: &[[f64; 4]]) {
+    fn start_gaps(&mut self, x: &Nodes) {
         for pair in self.chunks.iter_mut().flat_map(|c| &mut c.pairs).filter(|p| !p.face) {
             let distance_m = pair.touch(x).distance_m;
             if distance_m < self.thickness_m {
@@ -95,7 +95,7 @@ impl Edges {
         self.chunks.iter().flat_map(|chunk| &chunk.pairs).filter(|pair| pair.on)
     }
 
-    pub(super) fn search(&mut self, x: &[[f64; 4]]) {
+    pub(super) fn search(&mut self, x: &Nodes) {
         let mut old: Vec<Pair> = self.chunks.iter().flat_map(|c| &c.pairs).filter(|p| !p.face).copied().collect();
         old.sort_unstable_by_key(|p| p.key);
         let [sides, faces] = self.sides.pairs(x, self.reach_m + self.skin_m);

@@ -1,7 +1,7 @@
 //! Some dozens of pairs that are looked at and stepped together.
 
 use super::pair::{Pair, Touch};
-use crate::vec3::{V3, add, dot, node, scale, sub};
+use crate::vec3::{Nodes, V3, add, dot, node, scale, sub};
 
 pub(super) const PAIRS: usize = 64;
 /// A meeting is a distance below this share of the present one.
@@ -70,7 +70,7 @@ impl Chunk {
         Chunk { pairs, press_at_m, cross_at_m, nodes, press_due_m: due, cross_due_m: due, ..Chunk::default() }
     }
 
-    pub(super) fn press(&mut self, x: &[[f64; 4]], path_m: f64, dt_s: f64, floor_m: f64) {
+    pub(super) fn press(&mut self, x: &Nodes, path_m: f64, dt_s: f64, floor_m: f64) {
         self.sums = [0.0; 2];
         self.pushes.clear();
         if path_m < self.press_due_m {
@@ -146,7 +146,7 @@ impl Chunk {
     }
 
     /// Measures the way from here on.
-    fn rebase(&mut self, x: &[[f64; 4]], moved_m: f64) {
+    fn rebase(&mut self, x: &Nodes, moved_m: f64) {
         self.way_m += moved_m;
         self.seen_m.clear();
         self.seen_m.extend(self.nodes.iter().map(|n| x[*n as usize]));

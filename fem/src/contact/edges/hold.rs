@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::body::Edges;
 use super::chunk::{Chunk, Hit, Look};
 use crate::contact::push;
-use crate::vec3::{V3, along, dot, node, sub};
+use crate::vec3::{Nodes, V3, along, dot, node, sub};
 
 /// Distance that meetings leave, as a share of the gap.
 const LEAST: f64 = 0.2;
@@ -28,7 +28,7 @@ pub(crate) struct Step<'a> {
 
 impl Edges {
     /// Adds the forces that keep pairs from meeting in the step; all other forces are in `force`.
-    pub(crate) fn hold(&mut self, step: &Step, force: &mut [[f64; 4]]) {
+    pub(crate) fn hold(&mut self, step: &Step, force: &mut Nodes) {
         let gap_m = self.gap_m.min(self.thickness_m);
         let mut motion: Vec<V3> = (0..step.x.len()).map(|i| self.motion(step, force, i)).collect();
         let start_m = self.searched.path_m;
@@ -68,7 +68,7 @@ impl Edges {
     }
 
     /// Motion of a node in the step under these forces.
-    fn motion(&self, step: &Step, force: &[[f64; 4]], i: usize) -> V3 {
+    fn motion(&self, step: &Step, force: &Nodes, i: usize) -> V3 {
         let half = 0.5 * step.damping_1_s * step.dv_s;
         let (keep, gain) = ((1.0 - half) / (1.0 + half), step.dv_s / (1.0 + half));
         let (v, f, w) = (step.v[i], force[i], self.mobility_1_kg[i]);
@@ -117,7 +117,7 @@ impl Edges {
     }
 
     /// Turns changed motions into forces, and adds up their work.
-    fn book(&mut self, step: &Step, changed: &BTreeSet<u32>, motion: &[V3], force: &mut [[f64; 4]]) {
+    fn book(&mut self, step: &Step, changed: &BTreeSet<u32>, motion: &[V3], force: &mut Nodes) {
         if self.held.before_m.is_empty() {
             self.held.before_m = step.x.to_vec();
         }

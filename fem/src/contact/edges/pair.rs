@@ -1,7 +1,7 @@
 //! Two sides of elements, or a node and a triangle, that are near each other.
 
 use super::super::closest::{blend, on_triangle};
-use crate::vec3::{V3, add, along, cross, dot, node, norm, scale, share, sub};
+use crate::vec3::{Nodes, V3, add, along, cross, dot, node, norm, scale, share, sub};
 
 /// Sines below this are parallel: nodes and faces take care.
 const SINE: f64 = 0.1;
@@ -88,12 +88,12 @@ fn segments([p, q]: [V3; 2], [r, s]: [V3; 2]) -> ([f64; 4], V3, bool) {
 
 impl Pair {
     #[inline]
-    pub(super) fn corners(&self, x: &[[f64; 4]]) -> [V3; 4] {
+    pub(super) fn corners(&self, x: &Nodes) -> [V3; 4] {
         self.nodes.map(|n| node(x, n as usize))
     }
 
     #[inline]
-    pub(super) fn touch(&self, x: &[[f64; 4]]) -> Touch {
+    pub(super) fn touch(&self, x: &Nodes) -> Touch {
         touch(self.face, self.corners(x))
     }
 
@@ -150,7 +150,7 @@ impl Pair {
 
     /// Touch when the distance falls to `stop` within the motion `by` (additive continuous collision
     /// detection: Li et al., ACM Trans. Graph. 40 (2021), algorithm 1).
-    pub(super) fn meets(&self, now: &Touch, x: &[[f64; 4]], by: &[V3], stop: f64) -> Option<Touch> {
+    pub(super) fn meets(&self, now: &Touch, x: &Nodes, by: &[V3], stop: f64) -> Option<Touch> {
         let mut motion = self.nodes.map(|n| by[n as usize]);
         let mean = scale(motion.iter().fold([0.0; 3], |sum, m| add(sum, *m)), 0.25);
         motion.iter_mut().for_each(|m| *m = sub(*m, mean));

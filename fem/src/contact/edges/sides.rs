@@ -6,7 +6,7 @@ use super::super::closest::TRIANGLES;
 use super::super::search::{Grid, Placed};
 use super::super::surface::{NONE, Surface};
 use super::pair::touch;
-use crate::vec3::{self, V3, add, node, scale};
+use crate::vec3::{self, Nodes, V3, add, node, scale};
 
 const PIECE: usize = 256;
 
@@ -39,7 +39,7 @@ impl Sides {
     }
 
     /// Pairs of sides (lower, higher number) within `radius_m`, and of nodes and triangles, both sorted.
-    pub(super) fn pairs(&self, x: &[[f64; 4]], radius_m: f64) -> [Vec<[u32; 2]>; 2] {
+    pub(super) fn pairs(&self, x: &Nodes, radius_m: f64) -> [Vec<[u32; 2]>; 2] {
         let place = |n: u32| node(x, n as usize);
         let sides = Boxes::new(self.list.iter().map(|s| s.as_slice()), x, radius_m);
         let side = |i: u32, near: &mut Vec<u32>| {
@@ -95,12 +95,12 @@ fn touch_each_other(a: Bounds, b: Bounds) -> bool {
     (0..3).all(|k| a[0][k] <= b[1][k] && b[0][k] <= a[1][k])
 }
 
-fn bounds(x: &[[f64; 4]], nodes: &[u32]) -> Bounds {
+fn bounds(x: &Nodes, nodes: &[u32]) -> Bounds {
     vec3::bounds(nodes.iter().map(|n| node(x, *n as usize)))
 }
 
 impl Boxes {
-    fn new<'a>(items: impl Iterator<Item = &'a [u32]>, x: &[[f64; 4]], radius_m: f64) -> Boxes {
+    fn new<'a>(items: impl Iterator<Item = &'a [u32]>, x: &Nodes, radius_m: f64) -> Boxes {
         let larger = |[low, high]: Bounds| [low.map(|v| v - radius_m), high.map(|v| v + radius_m)];
         let boxes: Vec<Bounds> = items.map(|nodes| larger(bounds(x, nodes))).collect();
         let mut half_m = [0.0_f64; 3];

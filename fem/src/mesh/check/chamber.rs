@@ -1,9 +1,9 @@
 //! Chambers: closed, bounded by one consistently oriented surface, with the gas inside.
 
 use super::words::{describe, fault, meant, millimetres};
-use crate::FemError;
 use crate::mesh::{Mesh, Part};
-use crate::vec3::{area, centre, extent, norm, scale, sub};
+use crate::vec3::{V3, area, centre, extent, norm, scale, sub};
+use crate::{FemError, Result};
 
 /// Share of the area to the power 3/2 below which a volume is flat and has no sign.
 const FLAT: f64 = 1e-9;
@@ -27,7 +27,7 @@ struct Use {
     ascending: bool,
 }
 
-pub(super) fn check(mesh: &Mesh, chambers: &[&str], open: &[&str]) -> Result<Closed, FemError> {
+pub(super) fn check(mesh: &Mesh, chambers: &[&str], open: &[&str]) -> Result<Closed> {
     let openings = openings(mesh, open)?;
     let tied = tied(mesh);
     let mut closed = Closed { volumes_m3: Vec::new(), seams: 0 };
@@ -95,7 +95,7 @@ fn distinct(mut places: Vec<f64>, near: f64) -> Vec<f64> {
 
 /// The axes along which a chamber's volume is counted and the point that it is counted from: those without a plane at which it ends,
 /// or else one with one plane, from there.
-pub(in crate::mesh) fn counted(mesh: &Mesh, planes: &[Vec<f64>; 3]) -> Option<(Vec<usize>, [f64; 3])> {
+pub(in crate::mesh) fn counted(mesh: &Mesh, planes: &[Vec<f64>; 3]) -> Option<(Vec<usize>, V3)> {
     let mut origin = mesh.start_of(0);
     let closed: Vec<usize> = (0..3).filter(|k| planes[*k].is_empty()).collect();
     if !closed.is_empty() {
@@ -136,7 +136,7 @@ struct Opening {
     flat: [bool; 3],
 }
 
-fn openings(mesh: &Mesh, open: &[&str]) -> Result<Vec<Opening>, FemError> {
+fn openings(mesh: &Mesh, open: &[&str]) -> Result<Vec<Opening>> {
     let mut openings = Vec::with_capacity(open.len());
     for name in open {
         let Some(members) = mesh.sets.get(*name) else {
@@ -152,7 +152,7 @@ fn openings(mesh: &Mesh, open: &[&str]) -> Result<Vec<Opening>, FemError> {
 }
 
 /// Axes perpendicular to the openings that contain an edge; `None` outside of them.
-fn opening(mesh: &Mesh, openings: &[Opening], edge: Use) -> Result<Option<[bool; 3]>, FemError> {
+fn opening(mesh: &Mesh, openings: &[Opening], edge: Use) -> Result<Option<[bool; 3]>> {
     let inside = |o: &&Opening| o.nodes[edge.low as usize] && o.nodes[edge.high as usize];
     let mut sets = openings.iter().filter(inside).peekable();
     if sets.peek().is_none() {
@@ -224,7 +224,7 @@ fn flipped(mesh: &Mesh, chamber: &str, turned: &[(Use, Use)]) -> FemError {
 }
 
 /// V = Σ x·A over the axes along which it is [`counted`], divided by their number; refused if clearly negative.
-fn volume(mesh: &Mesh, chamber: &str, cuts: [Vec<f64>; 3]) -> Result<f64, FemError> {
+fn volume(mesh: &Mesh, chamber: &str, cuts: [Vec<f64>; 3]) -> Result<f64> {
     let all: Vec<f64> = cuts.iter().flatten().copied().collect();
     let near = IN_PLANE * (all.iter().fold(0.0_f64, |m, x| m.max(x.abs())));
     let Some((axes, origin)) = counted(mesh, &cuts.map(|places| distinct(places, near))) else {
@@ -250,7 +250,7 @@ pub(in crate::mesh) fn signed_volume<'a>(
     mesh: &Mesh,
     faces: impl Iterator<Item = (&'a [u32], f64)>,
     axes: &[usize],
-    origin: [f64; 3],
+    origin: V3,
 ) -> (f64, bool) {
     let (mut sum, mut surface) = (0.0, 0.0);
     for (nodes, side) in faces {

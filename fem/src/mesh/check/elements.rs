@@ -1,13 +1,13 @@
 //! Elements one by one: different nodes, an area, no corner turned inside out, a warp direction in the plane.
 
 use super::words::{describe, fault, millimetres};
-use crate::FemError;
+use crate::Result;
 use crate::mesh::{Mesh, Part};
 use crate::policy;
-use crate::vec3::{area, centre, cross, dot, norm, sub};
+use crate::vec3::{V3, area, centre, cross, dot, norm, sub};
 
 /// Checks every element in its stress-free shape, and its area at the start.
-pub(super) fn check(mesh: &Mesh) -> Result<(), FemError> {
+pub(super) fn check(mesh: &Mesh) -> Result<()> {
     for part in &mesh.parts {
         if !(part.warp.len() <= 1 || part.warp.len() == part.len()) {
             let (name, found, count) = (&part.name, part.warp.len(), part.len());
@@ -23,7 +23,7 @@ pub(super) fn check(mesh: &Mesh) -> Result<(), FemError> {
 }
 
 /// Two elements of a part on the same nodes would count their fabric twice.
-fn twins(part: &Part) -> Result<(), FemError> {
+fn twins(part: &Part) -> Result<()> {
     let corners = |i: usize| {
         let mut corners = [u32::MAX; 4];
         corners[..part.nodes(i).len()].copy_from_slice(part.nodes(i));
@@ -41,7 +41,7 @@ fn twins(part: &Part) -> Result<(), FemError> {
     }
 }
 
-fn shape(mesh: &Mesh, part: &Part, i: usize) -> Result<(), FemError> {
+fn shape(mesh: &Mesh, part: &Part, i: usize) -> Result<()> {
     let nodes = part.nodes(i);
     if let Some(k) = (1..nodes.len()).find(|k| nodes[..*k].contains(&nodes[*k])) {
         return fault(format!("{} has node {} twice", describe(part, i), nodes[k] + 1));
@@ -70,7 +70,7 @@ fn shape(mesh: &Mesh, part: &Part, i: usize) -> Result<(), FemError> {
     Ok(())
 }
 
-fn warp(mesh: &Mesh, part: &Part, i: usize) -> Result<(), FemError> {
+fn warp(mesh: &Mesh, part: &Part, i: usize) -> Result<()> {
     let Some(warp) = part.warp_of(i) else { return Ok(()) };
     if !(norm(warp) > 0.0 && norm(warp).is_finite()) {
         return fault(format!("{}: warp direction {warp:?} has no direction", describe(part, i)));
@@ -85,19 +85,19 @@ fn warp(mesh: &Mesh, part: &Part, i: usize) -> Result<(), FemError> {
 }
 
 /// Stress-free places of the nodes of one element.
-pub(super) fn stress_free<'a>(mesh: &Mesh, nodes: &[u32], into: &'a mut [[f64; 3]; 4]) -> &'a [[f64; 3]] {
+pub(super) fn stress_free<'a>(mesh: &Mesh, nodes: &[u32], into: &'a mut [V3; 4]) -> &'a [V3] {
     nodes.iter().zip(into.iter_mut()).for_each(|(n, x)| *x = mesh.free_of(*n as usize));
     &into[..nodes.len()]
 }
 
 /// Area vector spanned by the two sides that meet in corner `k`.
-pub(super) fn corner(x: &[[f64; 3]], k: usize) -> [f64; 3] {
+pub(super) fn corner(x: &[V3], k: usize) -> V3 {
     let (next, last) = ((k + 1) % x.len(), (k + x.len() - 1) % x.len());
     cross(sub(x[next], x[k]), sub(x[last], x[k]))
 }
 
 /// False also for an area that overflows.
-fn has_area(x: &[[f64; 3]]) -> bool {
+fn has_area(x: &[V3]) -> bool {
     let side = |k: usize| sub(x[k], x[(k + 1) % x.len()]);
     let longest_squared = (0..x.len()).map(side).map(|e| dot(e, e)).fold(0.0, f64::max);
     let area = norm(area(x));

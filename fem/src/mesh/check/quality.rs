@@ -3,7 +3,7 @@
 use super::chamber::Closed;
 use super::elements::{corner, stress_free};
 use crate::mesh::Mesh;
-use crate::vec3::{area, dot, norm, sub};
+use crate::vec3::{V3, area, dot, norm, sub};
 
 /// Of a mesh that passed [`super::check`].
 #[derive(Debug, Clone, PartialEq)]
@@ -44,7 +44,7 @@ pub(super) fn measure(mesh: &Mesh, closed: Closed) -> Quality {
 }
 
 /// Aspect ratio, Jacobian ratio and warpage of one element; notes the lengths of its sides.
-fn measures(x: &[[f64; 3]], sides: &mut Vec<f64>) -> [f64; 3] {
+fn measures(x: &[V3], sides: &mut Vec<f64>) -> V3 {
     let normal = area(x);
     let (mut shortest, mut longest) = (f64::INFINITY, 0.0f64);
     let (mut smallest, mut largest) = (f64::INFINITY, 0.0f64);

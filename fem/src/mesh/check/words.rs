@@ -1,7 +1,8 @@
 //! How messages about meshes name things.
 
-use crate::FemError;
 use crate::mesh::Part;
+use crate::vec3::V3;
+use crate::{FemError, Result};
 
 /// Element `i` of a part, as messages name it.
 pub(crate) fn describe(part: &Part, i: usize) -> String {
@@ -10,13 +11,13 @@ pub(crate) fn describe(part: &Part, i: usize) -> String {
 }
 
 /// A place, as messages give it.
-pub(super) fn millimetres(x: [f64; 3]) -> String {
+pub(super) fn millimetres(x: V3) -> String {
     // Adding 0 turns −0 into 0.
     let [x, y, z] = x.map(|v| (v * 1e4).round() / 10.0 + 0.0);
     format!("({x:.1}, {y:.1}, {z:.1}) mm")
 }
 
-pub(super) fn fault<T>(message: String) -> Result<T, FemError> {
+pub(super) fn fault<T>(message: String) -> Result<T> {
     Err(FemError::Mesh(message))
 }
 

@@ -4,6 +4,7 @@ use std::collections::hash_map::Entry;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 use crate::mesh::{Mesh, Part};
+use crate::vec3::V3;
 
 /// Mesh of a file in its unit, with named surfaces and notices.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -55,7 +56,7 @@ pub(super) struct Builder {
 
 impl Builder {
     /// A node with its number in the file.
-    pub(super) fn node(&mut self, number: u64, place: [f64; 3]) -> Result<u32, String> {
+    pub(super) fn node(&mut self, number: u64, place: V3) -> Result<u32, String> {
         let next = u32::try_from(self.mesh.points.len()).map_err(|_| "more nodes than can be numbered".to_string())?;
         match self.nodes.entry(number) {
             Entry::Occupied(_) => Err(format!("node {number} is there twice; renumber one of them")),
@@ -106,7 +107,7 @@ impl Builder {
     }
 
     /// Gives the warp of a part, if there is one of that name.
-    pub(super) fn warp(&mut self, part: &str, [x, y, z]: [f64; 3], source: &str) {
+    pub(super) fn warp(&mut self, part: &str, [x, y, z]: V3, source: &str) {
         if self.parts.contains_key(part) {
             self.part(part).warp = vec![[x, y, z]];
             // Adding 0 turns −0 into 0.

@@ -8,7 +8,7 @@ mod known;
 mod scan;
 mod stl;
 
-use crate::FemError;
+use crate::{FemError, Result};
 pub use build::{MeshFile, Surface};
 use known::Read;
 use scan::Scan;
@@ -19,7 +19,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// [`FemError::Io`] if it cannot be read, [`FemError::MeshFile`] with the line of the first fault.
-pub fn read(path: &Path) -> Result<MeshFile, FemError> {
+pub fn read(path: &Path) -> Result<MeshFile> {
     let bytes = read_whole(path, MOST_DATA).map_err(FemError::io(path))?;
     let mut file = understood(&bytes, path)?;
     file.told.extend(corners::turn(&mut file.mesh).map_err(|message| FemError::MeshFile {
@@ -30,7 +30,7 @@ pub fn read(path: &Path) -> Result<MeshFile, FemError> {
     Ok(file)
 }
 
-fn understood(bytes: &[u8], path: &Path) -> Result<MeshFile, FemError> {
+fn understood(bytes: &[u8], path: &Path) -> Result<MeshFile> {
     let fault = |line: usize, message: String| FemError::MeshFile { path: path.to_path_buf(), line, message };
     let format = known::format(bytes).map_err(|message| fault(1, message))?;
     let file = match format.read {

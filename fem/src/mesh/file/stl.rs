@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use super::build::{Builder, MeshFile};
 use super::scan::{Scan, cut_off, place};
-use crate::vec3::{area, dot, norm};
+use crate::vec3::{V3, area, dot, norm};
 
 /// Cosine from which two facets lie in one plane.
 const FLAT: f64 = 0.999;
@@ -82,7 +82,7 @@ struct Side {
 }
 
 /// Bits of a place, in which −0 is 0.
-fn bits(place: [f64; 3]) -> [u64; 3] {
+fn bits(place: V3) -> [u64; 3] {
     place.map(|x| (x + 0.0).to_bits())
 }
 

@@ -12,8 +12,8 @@ use std::collections::HashMap;
 
 use super::grid::{Grid, union};
 use super::{at_least, few_enough, positive};
-use crate::FemError;
 use crate::mesh::{Mesh, Part};
+use crate::{FemError, Result};
 
 /// Long pouch welded at both ends, with a gusset fold along each side.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,7 +52,7 @@ const PANELS: [Panel; 6] = [
 ///
 /// # Errors
 /// [`FemError::Mesh`] for a length or count out of range, or folds that would meet.
-pub fn folded_pouch(pouch: &FoldedPouch) -> Result<Mesh, FemError> {
+pub fn folded_pouch(pouch: &FoldedPouch) -> Result<Mesh> {
     let what = "folded pouch";
     for (name, value) in [("length_m", pouch.length_m), ("fold_m", pouch.fold_m), ("gap_m", pouch.gap_m)] {
         positive(what, name, value)?;

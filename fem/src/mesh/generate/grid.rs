@@ -1,6 +1,7 @@
 //! Rectangular block of quads, by columns and rows.
 
 use crate::mesh::Mesh;
+use crate::vec3::V3;
 
 /// Node numbers of a block of `nu` by `nv` quads; the front is e_u × e_v.
 pub(super) struct Grid {
@@ -11,7 +12,7 @@ pub(super) struct Grid {
 
 impl Grid {
     /// Adds the nodes of a block to the mesh.
-    pub(super) fn add(mesh: &mut Mesh, nu: usize, nv: usize, place: impl Fn(usize, usize) -> [f64; 3]) -> Grid {
+    pub(super) fn add(mesh: &mut Mesh, nu: usize, nv: usize, place: impl Fn(usize, usize) -> V3) -> Grid {
         Grid::sharing(mesh, nu, nv, place, |_, _| None)
     }
 
@@ -20,7 +21,7 @@ impl Grid {
         mesh: &mut Mesh,
         nu: usize,
         nv: usize,
-        place: impl Fn(usize, usize) -> [f64; 3],
+        place: impl Fn(usize, usize) -> V3,
         shared: impl Fn(usize, usize) -> Option<u32>,
     ) -> Grid {
         let mut nodes = Vec::with_capacity((nu + 1) * (nv + 1));
@@ -73,7 +74,7 @@ impl Grid {
 }
 
 /// Appends a node and gives its number.
-pub(super) fn new_node(mesh: &mut Mesh, at: [f64; 3]) -> u32 {
+pub(super) fn new_node(mesh: &mut Mesh, at: V3) -> u32 {
     mesh.points.push(at);
     (mesh.points.len() - 1) as u32
 }

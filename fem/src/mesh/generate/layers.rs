@@ -8,8 +8,8 @@
 
 use super::grid::{Grid, union};
 use super::{at_least, even, few_enough, positive};
-use crate::FemError;
 use crate::mesh::{Mesh, Part};
+use crate::{FemError, Result};
 
 /// Square pillow: two layers `side_m` by `side_m` of `n` by `n` quads, welded along all four edges, centred on the z axis.
 ///
@@ -26,7 +26,7 @@ use crate::mesh::{Mesh, Part};
 ///
 /// # Errors
 /// [`FemError::Mesh`] for a length out of range, or `n` odd or below 2.
-pub fn pillow(side_m: f64, n: usize, gap_m: f64) -> Result<Mesh, FemError> {
+pub fn pillow(side_m: f64, n: usize, gap_m: f64) -> Result<Mesh> {
     positive("pillow", "side_m", side_m)?;
     even("pillow", "n", n)?;
     few_enough("pillow", n, n.saturating_mul(2))?;
@@ -58,7 +58,7 @@ pub fn pillow(side_m: f64, n: usize, gap_m: f64) -> Result<Mesh, FemError> {
 ///
 /// # Errors
 /// [`FemError::Mesh`] for a length out of range, `n` (along x) or `m` (along y) odd or below 2.
-pub fn long_pouch(length_flat_m: f64, width_m: f64, n: usize, m: usize, gap_m: f64) -> Result<Mesh, FemError> {
+pub fn long_pouch(length_flat_m: f64, width_m: f64, n: usize, m: usize, gap_m: f64) -> Result<Mesh> {
     positive("long pouch", "length_flat_m", length_flat_m)?;
     positive("long pouch", "width_m", width_m)?;
     even("long pouch", "n", n)?;
@@ -89,14 +89,7 @@ pub fn long_pouch(length_flat_m: f64, width_m: f64, n: usize, m: usize, gap_m: f
 ///
 /// # Errors
 /// [`FemError::Mesh`] for a length out of range, `n_w` (across) odd or below 2, `n_l` (along) not a multiple of 4.
-pub fn flat_tube(
-    flat_width_m: f64,
-    length_m: f64,
-    n_w: usize,
-    n_l: usize,
-    warp_rad: f64,
-    gap_m: f64,
-) -> Result<Mesh, FemError> {
+pub fn flat_tube(flat_width_m: f64, length_m: f64, n_w: usize, n_l: usize, warp_rad: f64, gap_m: f64) -> Result<Mesh> {
     positive("flat tube", "flat_width_m", flat_width_m)?;
     positive("flat tube", "length_m", length_m)?;
     even("flat tube", "n_w", n_w)?;
@@ -151,7 +144,7 @@ fn name_centres(mesh: &mut Mesh, top: &Grid, bottom: &Grid) {
 }
 
 /// Starts the nodes that the layers do not share half the gap above and below.
-fn open_gap(mesh: &mut Mesh, top: &Grid, bottom: &Grid, gap_m: f64) -> Result<(), FemError> {
+fn open_gap(mesh: &mut Mesh, top: &Grid, bottom: &Grid, gap_m: f64) -> Result<()> {
     if !(gap_m.is_finite() && gap_m >= 0.0) {
         return Err(FemError::Mesh(format!("gap_m is {gap_m}, and must be 0 or a positive length in metres")));
     }

@@ -19,11 +19,11 @@ pub use plate::{Distortion, crossed_sheets, plate};
 pub use sphere::sphere;
 pub use tube::{Around, Cap, Tube, tube};
 
-use crate::FemError;
 use crate::policy;
+use crate::{FemError, Result};
 
 /// Refuses a length that is not a positive number.
-fn positive(what: &str, name: &str, value: f64) -> Result<(), FemError> {
+fn positive(what: &str, name: &str, value: f64) -> Result<()> {
     if value.is_finite() && value > 0.0 {
         return Ok(());
     }
@@ -31,7 +31,7 @@ fn positive(what: &str, name: &str, value: f64) -> Result<(), FemError> {
 }
 
 /// Refuses a count of elements below `least`.
-fn at_least(what: &str, name: &str, value: usize, least: usize) -> Result<(), FemError> {
+fn at_least(what: &str, name: &str, value: usize, least: usize) -> Result<()> {
     if value >= least {
         return Ok(());
     }
@@ -39,14 +39,14 @@ fn at_least(what: &str, name: &str, value: usize, least: usize) -> Result<(), Fe
 }
 
 /// Refuses odd counts, because a named point would fall between nodes.
-fn even(what: &str, name: &str, value: usize) -> Result<(), FemError> {
+fn even(what: &str, name: &str, value: usize) -> Result<()> {
     if value >= 2 && value.is_multiple_of(2) {
         return Ok(());
     }
     Err(FemError::Mesh(format!("{what}: {name} is {value}, and must be even so that a node is in the middle")))
 }
 
-fn few_enough(what: &str, a: usize, b: usize) -> Result<(), FemError> {
+fn few_enough(what: &str, a: usize, b: usize) -> Result<()> {
     if a.saturating_add(1).saturating_mul(b.saturating_add(1)) <= policy::MOST_NODES {
         return Ok(());
     }

@@ -2,9 +2,9 @@
 
 use super::grid::{Grid, union};
 use super::{at_least, few_enough, positive};
-use crate::FemError;
 use crate::mesh::{Mesh, Part};
 use crate::random::Draws;
+use crate::{FemError, Result};
 
 /// Random in-plane shift of the inner nodes, for patch tests.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +26,7 @@ pub struct Distortion {
 ///
 /// # Errors
 /// [`FemError::Mesh`] for a length, count or distortion out of range.
-pub fn plate(lx_m: f64, ly_m: f64, nx: usize, ny: usize, distortion: Option<Distortion>) -> Result<Mesh, FemError> {
+pub fn plate(lx_m: f64, ly_m: f64, nx: usize, ny: usize, distortion: Option<Distortion>) -> Result<Mesh> {
     positive("plate", "lx_m", lx_m)?;
     positive("plate", "ly_m", ly_m)?;
     at_least("plate", "nx", nx, 1)?;
@@ -60,7 +60,7 @@ pub fn plate(lx_m: f64, ly_m: f64, nx: usize, ny: usize, distortion: Option<Dist
 ///
 /// # Errors
 /// [`FemError::Mesh`] for a length or count (`n` elements over the width, at least 2) out of range.
-pub fn crossed_sheets(length_m: f64, width_m: f64, n: usize, gap_m: f64) -> Result<Mesh, FemError> {
+pub fn crossed_sheets(length_m: f64, width_m: f64, n: usize, gap_m: f64) -> Result<Mesh> {
     positive("crossed sheets", "length_m", length_m)?;
     positive("crossed sheets", "width_m", width_m)?;
     positive("crossed sheets", "gap_m", gap_m)?;
@@ -83,7 +83,7 @@ pub fn crossed_sheets(length_m: f64, width_m: f64, n: usize, gap_m: f64) -> Resu
 }
 
 /// Shifts the inner nodes in the plane.
-fn distort(mesh: &mut Mesh, grid: &Grid, distortion: Distortion, side: [f64; 2]) -> Result<(), FemError> {
+fn distort(mesh: &mut Mesh, grid: &Grid, distortion: Distortion, side: [f64; 2]) -> Result<()> {
     let share = distortion.share;
     if !(0.0..0.25).contains(&share) {
         return Err(FemError::Mesh(format!("plate: distortion is {share}, and must be at least 0 and below 0.25")));

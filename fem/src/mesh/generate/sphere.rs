@@ -6,6 +6,7 @@ use std::f64::consts::FRAC_PI_4;
 use super::{at_least, few_enough, positive};
 use crate::FemError;
 use crate::mesh::{Mesh, Part};
+use crate::vec3::V3;
 
 /// Sphere around the origin, `n` elements along each edge of the cube, 6n² quads; part `sphere`, front outward, chamber
 /// `air` inside. Sets `top` (highest nodes, 1 or 4), `bottom`.
@@ -49,7 +50,7 @@ pub fn sphere(radius_m: f64, n: usize) -> Result<Mesh, FemError> {
 }
 
 /// Node (i, j, k) of the cube's surface, pushed onto the sphere.
-fn on_sphere(key: [usize; 3], n: usize, radius: f64) -> [f64; 3] {
+fn on_sphere(key: [usize; 3], n: usize, radius: f64) -> V3 {
     let cube = key.map(|k| ((2.0 * k as f64 - n as f64) / n as f64 * FRAC_PI_4).tan());
     let length = (cube[0] * cube[0] + cube[1] * cube[1] + cube[2] * cube[2]).sqrt();
     cube.map(|c| c / length * radius)

@@ -5,8 +5,9 @@ use std::f64::consts::{FRAC_PI_3, TAU};
 use super::disc::Disc;
 use super::grid::new_node;
 use super::{at_least, few_enough, positive};
-use crate::FemError;
 use crate::mesh::{Mesh, Part};
+use crate::vec3::V3;
+use crate::{FemError, Result};
 
 /// Dimensions, divisions and caps of the cylinder that [`tube`] makes.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,7 +56,7 @@ pub enum Cap {
 ///
 /// # Errors
 /// [`FemError::Mesh`] for a length, count or angle out of range.
-pub fn tube(tube: &Tube) -> Result<Mesh, FemError> {
+pub fn tube(tube: &Tube) -> Result<Mesh> {
     positive("tube", "radius_m", tube.radius_m)?;
     positive("tube", "length_m", tube.length_m)?;
     at_least("tube", "along", tube.along, 2)?;
@@ -69,7 +70,7 @@ pub fn tube(tube: &Tube) -> Result<Mesh, FemError> {
 }
 
 /// The angles of the generator lines, if they go round.
-fn angles_of(tube: &Tube) -> Result<Vec<f64>, FemError> {
+fn angles_of(tube: &Tube) -> Result<Vec<f64>> {
     if !tube.warp_rad.is_finite() {
         return Err(FemError::Mesh(format!("tube: warp_rad is {}, and must be a number", tube.warp_rad)));
     }
@@ -121,11 +122,11 @@ fn wall(tube: &Tube, angles: &[f64]) -> Mesh {
 }
 
 /// The axis turned by `turn` counter-clockwise seen from outside, on the facet facing `angle`: cos e_x + sin (n × e_x).
-fn warp(angle: f64, turn: f64) -> [f64; 3] {
+fn warp(angle: f64, turn: f64) -> V3 {
     [turn.cos(), turn.sin() * angle.sin(), -turn.sin() * angle.cos()]
 }
 
-fn add_cap(mesh: &mut Mesh, tube: &Tube, angles: &[f64], end: usize, cap: Cap) -> Result<(), FemError> {
+fn add_cap(mesh: &mut Mesh, tube: &Tube, angles: &[f64], end: usize, cap: Cap) -> Result<()> {
     let n = angles.len();
     let (name, x) = [("base", 0.0), ("tip", tube.length_m)][end];
     let first = (end * tube.along * n) as u32;

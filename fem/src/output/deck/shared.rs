@@ -5,7 +5,7 @@ use crate::amplitude::Amplitude;
 use crate::mesh::{Mesh, Part};
 use crate::problem::{MassScaling, Pressure, Section};
 use crate::sheet::reference::bending_stiffness;
-use crate::vec3::{area, direction, dot};
+use crate::vec3::{V3, area, direction, dot};
 
 /// Rows that stand for one stretch of a curve that the format does not know.
 const ROWS: usize = 40;
@@ -55,7 +55,7 @@ pub(super) fn numbers(nodes: &[u32]) -> String {
     nodes.iter().map(|n| (u64::from(*n) + 1).to_string()).collect::<Vec<_>>().join(", ")
 }
 
-pub(super) fn place(problem: &Problem, node: u32) -> [f64; 3] {
+pub(super) fn place(problem: &Problem, node: u32) -> V3 {
     problem.mesh.start_of(node as usize)
 }
 

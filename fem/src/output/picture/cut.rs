@@ -4,8 +4,8 @@
 //! present positions. What a plane through a bent robot would cut elsewhere does not come in.
 
 use super::{Corner, FINE, Image, PictureLook, check, drawn};
-use crate::vec3::{dot, sub};
-use crate::{FemError, Mesh};
+use crate::vec3::{V3, dot, sub};
+use crate::{FemError, Mesh, Result};
 
 const LINE: f64 = 3.0;
 
@@ -17,13 +17,7 @@ pub(crate) struct Cut {
 }
 
 /// Draws a cut. Across the view (its normal along the view's depth at the start) the section is turned to face the viewer.
-pub(crate) fn section(
-    mesh: &Mesh,
-    positions: &[[f64; 3]],
-    values: &[f64],
-    cut: &Cut,
-    look: &PictureLook,
-) -> Result<Image, FemError> {
+pub(crate) fn section(mesh: &Mesh, positions: &[V3], values: &[f64], cut: &Cut, look: &PictureLook) -> Result<Image> {
     check(mesh, positions, values, look)?;
     let pieces = pieces(mesh, positions, cut);
     if pieces.is_empty() {
@@ -57,7 +51,7 @@ pub(crate) fn section(
 /// A cut element, and where it is cut now.
 type Piece = (usize, [[f64; 3]; 2]);
 
-fn pieces(mesh: &Mesh, positions: &[[f64; 3]], cut: &Cut) -> Vec<Piece> {
+fn pieces(mesh: &Mesh, positions: &[V3], cut: &Cut) -> Vec<Piece> {
     let height: Vec<f64> = (0..mesh.points.len()).map(|n| dot(cut.normal, mesh.start_of(n)) - cut.at_m).collect();
     // A node in the plane counts as behind it: a ring of nodes is then drawn once, by the elements on one side.
     let before = |node: u32| height[node as usize] > 1e-9;
@@ -80,7 +74,7 @@ fn pieces(mesh: &Mesh, positions: &[[f64; 3]], cut: &Cut) -> Vec<Piece> {
 }
 
 /// The view's axes, turned about its right so that it looks along the normal of the points' mean plane.
-fn facing(pieces: &[Piece], axes: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+fn facing(pieces: &[Piece], axes: [V3; 3]) -> [V3; 3] {
     let [right, up, towards] = axes;
     let all = || pieces.iter().flat_map(|piece| piece.1);
     let count = all().count() as f64;

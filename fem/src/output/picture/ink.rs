@@ -3,6 +3,7 @@
 use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
 
 use super::raster::Image;
+use crate::vec3::V3;
 
 /// DejaVu Sans, as in the plots: Latin, Greek, signs of mathematics.
 const FONT: &[u8] = include_bytes!("../../../../assets/DejaVuSans-subset.ttf");
@@ -49,7 +50,7 @@ fn lay_out(size: f64, text: &str) -> Option<(FontRef<'static>, Vec<Glyph>, f64)>
 }
 
 /// Draws a line between two points, some pixels wide.
-pub(super) fn line(image: &mut Image, a: [f64; 2], b: [f64; 2], width: f64, rgb: [f64; 3]) {
+pub(super) fn line(image: &mut Image, a: [f64; 2], b: [f64; 2], width: f64, rgb: V3) {
     let way = [b[0] - a[0], b[1] - a[1]];
     let square = (way[0] * way[0] + way[1] * way[1]).max(f64::MIN_POSITIVE);
     let span = |k: usize| {
@@ -71,7 +72,7 @@ pub(super) fn stroke(image: &mut Image, a: [f64; 2], b: [f64; 2], width: f64) {
     line(image, a, b, width, INK);
 }
 
-fn blend(image: &mut Image, column: f32, row: f32, cover: f64, rgb: [f64; 3]) {
+fn blend(image: &mut Image, column: f32, row: f32, cover: f64, rgb: V3) {
     if column < 0.0 || row < 0.0 || column as usize >= image.width || row as usize >= image.height {
         return;
     }

@@ -2,7 +2,7 @@
 
 use super::ink::letter_size;
 use super::raster::Corner;
-use crate::vec3::bounds;
+use crate::vec3::{V3, bounds};
 
 /// Pixels are drawn this many times finer in both directions, then averaged: smooth outlines.
 pub(super) const FINE: usize = 2;
@@ -27,7 +27,7 @@ pub enum Viewpoint {
 
 impl Viewpoint {
     /// Unit vectors to the right, up, and towards the viewer.
-    pub fn axes(self) -> [[f64; 3]; 3] {
+    pub fn axes(self) -> [V3; 3] {
         let a = 0.5_f64.sqrt();
         let b = (1.0_f64 / 6.0).sqrt();
         let c = (1.0_f64 / 3.0).sqrt();
@@ -72,7 +72,7 @@ pub(super) struct Placing {
 }
 
 impl Placing {
-    pub(super) fn of(seen: &[[f64; 3]], look: &PictureLook, with_bar: bool) -> Placing {
+    pub(super) fn of(seen: &[V3], look: &PictureLook, with_bar: bool) -> Placing {
         let [low, high] = bounds(seen.iter().copied());
         let margin = 0.04 * look.width.min(look.height) as f64;
         let [top, right, bottom] = room(look, with_bar);
@@ -90,7 +90,7 @@ impl Placing {
         self.scale / FINE as f64
     }
 
-    pub(super) fn on_canvas(&self, p: [f64; 3]) -> Corner {
+    pub(super) fn on_canvas(&self, p: V3) -> Corner {
         Corner {
             x: self.centre[0] + (p[0] - self.middle[0]) * self.scale,
             y: self.centre[1] - (p[1] - self.middle[1]) * self.scale,
@@ -100,7 +100,7 @@ impl Placing {
 }
 
 /// Room that the notes take \[pixels\]: at the top, at the right, at the bottom.
-fn room(look: &PictureLook, with_bar: bool) -> [f64; 3] {
+fn room(look: &PictureLook, with_bar: bool) -> V3 {
     let size = letter_size(look.height);
     let top = if look.title.is_empty() { 0.0 } else { 2.0 * size };
     let right = if with_bar { (1.8 + 0.62 * LONGEST) * size } else { 0.0 };

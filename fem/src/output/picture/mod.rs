@@ -15,8 +15,8 @@ pub use look::Viewpoint;
 pub(crate) use notes::round_above;
 pub(crate) use raster::{Image, viridis};
 
-use crate::vec3::{cross, dot, norm, sub};
-use crate::{FemError, Mesh};
+use crate::vec3::{V3, cross, dot, norm, sub};
+use crate::{FemError, Mesh, Result};
 use look::{FINE, Placing};
 use raster::{Canvas, Corner};
 
@@ -29,12 +29,7 @@ const SHORTEST_EDGE: f64 = 5.0;
 const PLAIN: [f64; 3] = [0.62, 0.68, 0.76];
 
 /// Draws the mesh with its nodes at `positions` \[m\], elements coloured by `values` (mesh order, any unit; empty: grey).
-pub(crate) fn render(
-    mesh: &Mesh,
-    positions: &[[f64; 3]],
-    values: &[f64],
-    look: &PictureLook,
-) -> Result<Image, FemError> {
+pub(crate) fn render(mesh: &Mesh, positions: &[V3], values: &[f64], look: &PictureLook) -> Result<Image> {
     check(mesh, positions, values, look)?;
     let axes = look.view.axes();
     let seen: Vec<[f64; 3]> = positions.iter().map(|p| axes.map(|axis| dot(axis, *p))).collect();
@@ -54,11 +49,11 @@ pub(crate) fn render(
 /// for the end of the colour bar.
 fn drawn(
     look: &PictureLook,
-    axes: [[f64; 3]; 3],
-    seen: &[[f64; 3]],
+    axes: [V3; 3],
+    seen: &[V3],
     values: &[f64],
     shown: &[usize],
-    fill: impl FnOnce(&mut Canvas, &Placing, &dyn Fn(usize) -> [f64; 3]),
+    fill: impl FnOnce(&mut Canvas, &Placing, &dyn Fn(usize) -> V3),
 ) -> Image {
     let limits = look.limits.unwrap_or_else(|| range(values));
     let with_bar = look.marks && !values.is_empty();
@@ -89,7 +84,7 @@ fn encode(image: &Image, out: &mut dyn std::io::Write) -> std::io::Result<()> {
     Ok(writer.finish()?)
 }
 
-fn check(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &PictureLook) -> Result<(), FemError> {
+fn check(mesh: &Mesh, positions: &[V3], values: &[f64], look: &PictureLook) -> Result<()> {
     let refuse = |message: String| Err(FemError::Problem(format!("picture: {message}")));
     let (nodes, elements) = (mesh.points.len(), mesh.elements());
     let sizes = FEWEST_PIXELS..=MOST_PIXELS;
@@ -130,7 +125,7 @@ fn share(value: f64, (low, high): (f64, f64)) -> f64 {
 }
 
 /// Brightness of an element whose corners are given to the right, up and towards the viewer; both sides are lit.
-fn shade(corners: &[[f64; 3]]) -> f64 {
+fn shade(corners: &[V3]) -> f64 {
     // From above and the left, mostly from the viewer; half of it also reaches round, so that colours stay readable.
     const LIGHT: [f64; 3] = [-0.36, 0.48, 0.8];
     let last = corners.len() - 1;

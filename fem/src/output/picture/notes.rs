@@ -3,6 +3,7 @@
 use super::ink::{letter_size, line, stroke, width, write};
 use super::look::{LONGEST, PictureLook, Placing};
 use super::raster::{Image, bytes, viridis};
+use crate::vec3::V3;
 
 /// Colours of the axes x, y, z.
 const AXES: [(&str, [f64; 3]); 3] = [("x", [0.78, 0.16, 0.16]), ("y", [0.13, 0.53, 0.2]), ("z", [0.15, 0.35, 0.75])];
@@ -12,7 +13,7 @@ pub(super) fn draw(
     image: &mut Image,
     look: &PictureLook,
     place: &Placing,
-    axes: [[f64; 3]; 3],
+    axes: [V3; 3],
     bar: Option<((f64, f64), bool)>,
 ) {
     let size = letter_size(image.height);
@@ -48,7 +49,7 @@ fn draw_bar(image: &mut Image, (low, high): (f64, f64), beyond: bool) {
 }
 
 /// The axes that are not seen end-on, at the bottom left.
-fn draw_axes(image: &mut Image, [right, up, _]: [[f64; 3]; 3]) {
+fn draw_axes(image: &mut Image, [right, up, _]: [V3; 3]) {
     let size = letter_size(image.height);
     let (origin, length) = ([2.6 * size, image.height as f64 - 2.4 * size], 1.5 * size);
     for (k, (name, colour)) in AXES.iter().enumerate() {

@@ -9,6 +9,7 @@ use super::super::bending::BendingMatrix;
 use super::super::group::{LANES, Lane, leading_bits};
 use super::super::lanes::V;
 use super::room::Gaps;
+use crate::vec3::Nodes;
 
 /// Weights that differ by less than this share are rounding of the same weight.
 const ALIKE: f64 = 1e-12;
@@ -126,7 +127,7 @@ impl Bend {
     /// Writes K x of the own nodes into `kx`; nodes without bending keep their old values. `x` are the positions of the patch,
     /// `q` the positions of all places.
     #[inline(always)]
-    pub(super) fn apply<S: Simd>(&self, simd: S, x: [&[f64]; 3], q: &[[f64; 4]], kx: [&mut [f64]; 3]) {
+    pub(super) fn apply<S: Simd>(&self, simd: S, x: [&[f64]; 3], q: &Nodes, kx: [&mut [f64]; 3]) {
         // All of one length, so that a place is checked once and not for every axis.
         let [kx0, kx1, kx2] = kx;
         let nodes = x[0].len();
@@ -183,7 +184,7 @@ fn weigh<S: Simd, const OWN: bool>(
 
 /// Σ value · q of one row; even and odd entries apart, so that they need not wait for each other.
 #[inline(always)]
-fn alone<S: Simd>(simd: S, q: &[[f64; 4]], column: &[u32], value: &[f64]) -> [f64; 4] {
+fn alone<S: Simd>(simd: S, q: &Nodes, column: &[u32], value: &[f64]) -> [f64; 4] {
     let (pairs, last) = column.as_chunks::<2>();
     let (values, last_value) = value.as_chunks::<2>();
     if S::F64_LANES == 4 {

@@ -12,11 +12,12 @@ use super::super::lanes::{V, sum};
 use super::super::law::{Called, Rubber, ShellLaw, WrinklingFilm};
 use super::room::Room;
 use super::{PassShared, Patch, Run, Sums};
+use crate::vec3::Nodes;
 
 impl Patch {
     /// Adds the shell forces of the own nodes to `force` (their slice) and keeps the sums. With `keep`, strains and
     /// fabric memory move on by this step.
-    pub(in crate::sheet) fn pass(&mut self, shared: PassShared, force: &mut [[f64; 4]], keep: bool) {
+    pub(in crate::sheet) fn pass(&mut self, shared: PassShared, force: &mut Nodes, keep: bool) {
         let strains = if keep { Vec::new() } else { self.strains.clone() };
         self.dispatch(shared, force);
         if !keep {
@@ -50,7 +51,7 @@ impl Patch {
         self.dispatch(shared, &mut unused);
     }
 
-    fn dispatch(&mut self, shared: PassShared, force: &mut [[f64; 4]]) {
+    fn dispatch(&mut self, shared: PassShared, force: &mut Nodes) {
         let needs = std::mem::take(&mut self.needs);
         Room::with(&needs, |room| shared.arch.dispatch(Pass { patch: self, room, shared, force }));
         self.needs = needs;
@@ -110,7 +111,7 @@ fn corner_slices<'a>([a, b, c, d]: &'a mut [[&mut [f64]; 3]; 4]) -> [[&'a mut [f
 
 /// Positions of the patch's nodes, axis by axis.
 #[inline(always)]
-fn take_positions(patch: &Patch, room: &mut Room, q: &[[f64; 4]]) {
+fn take_positions(patch: &Patch, room: &mut Room, q: &Nodes) {
     let [x, y, z] = &mut room.x;
     for stretch in &patch.taken {
         let local = stretch.local.clone();
@@ -201,7 +202,7 @@ fn bending_energy<S: Simd>(simd: S, room: &Room, own: usize) -> f64 {
 
 /// Adds up the corners and bending of every own node.
 #[inline(always)]
-fn give_forces<S: Simd>(simd: S, patch: &Patch, room: &mut Room, force: &mut [[f64; 4]]) {
+fn give_forces<S: Simd>(simd: S, patch: &Patch, room: &mut Room, force: &mut Nodes) {
     let padded = patch.count.next_multiple_of(LANES);
     for k in 0..3 {
         // The sum takes the place of the positions, which are not needed any more.

@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use super::super::build::{Builder, MeshFile, Surface};
 use super::super::scan::Scan;
 use super::model::{Group, Instance, Member, Model, Orientation, Section, Sides};
-use crate::vec3::{add, cross, dot, norm, scale, sub};
+use crate::vec3::{V3, add, cross, dot, norm, scale, sub};
 
 /// A fault, and its line.
 type Fault = (usize, String);
@@ -284,7 +284,7 @@ fn orientation_of<'a>(model: &'a Model, inst: &Instance, name: &str) -> Result<&
 
 /// The warp of a rectangular orientation. x' points from c to a, and y' to the side of b; about the axis that is most normal to the
 /// sheet, the two others are turned, and the first that follows it (x' after z') is laid onto the sheet.
-fn warp(orientation: &Orientation) -> Result<[f64; 3], String> {
+fn warp(orientation: &Orientation) -> Result<V3, String> {
     let rows = &orientation.rows;
     let points = rows.first().map_or(&[][..], Vec::as_slice);
     let c = match points.len() {
@@ -309,7 +309,7 @@ fn warp(orientation: &Orientation) -> Result<[f64; 3], String> {
 }
 
 /// Place of a point of a part in an instance: moved, then turned by Rodrigues' formula.
-fn stand(instance: &Instance, place: [f64; 3]) -> [f64; 3] {
+fn stand(instance: &Instance, place: V3) -> V3 {
     let moved = add(place, instance.moved);
     let Some((from, to, angle)) = instance.turned else { return moved };
     let axis = sub(to, from);

@@ -10,6 +10,7 @@ mod model;
 
 use super::build::MeshFile;
 use super::scan::{Scan, number, numbers, whole};
+use crate::vec3::V3;
 use keywords::{IGNORED, Keyword, REFUSED, SHAPES};
 use model::{Body, Element, Group, Instance, Member, Model, Orientation, Section, Sides};
 
@@ -284,7 +285,7 @@ impl Reader {
 }
 
 /// Coordinates, of which the last may be left out.
-fn padded(cells: &[&str]) -> Result<[f64; 3], String> {
+fn padded(cells: &[&str]) -> Result<V3, String> {
     let cell = |k: usize| cells.get(k).filter(|cell| !cell.is_empty()).map_or(Ok(0.0), |cell| number(cell));
     Ok([cell(0)?, cell(1)?, cell(2)?])
 }
