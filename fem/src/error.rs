@@ -179,6 +179,15 @@ impl FemError {
         |source| FemError::Io { path, source }
     }
 
+    /// A run whose result cannot be trusted.
+    pub(crate) fn stopped(step: u64, time_s: f64, reason: String) -> FemError {
+        FemError::Stopped { step, time_s, reason }
+    }
+
+    pub(crate) fn checkpoint(path: PathBuf, reason: impl Into<String>) -> FemError {
+        FemError::Checkpoint { path, reason: reason.into() }
+    }
+
     /// A fault of a case at a place in its text; further lines of the message say what to write.
     pub(crate) fn case(message: String, span: std::ops::Range<usize>) -> FemError {
         FemError::Case { message, span: Some(span) }

@@ -1,6 +1,5 @@
 //! What a run needs besides the mesh: sections, chambers, supports, loads, contact, settings.
 
-mod check;
 mod gas;
 mod print;
 pub(crate) mod solid;

@@ -59,6 +59,9 @@ pub(super) struct Chunk {
     pub asked: Vec<Question>,
     #[serde(skip)]
     pub(crate) square_m2: Vec<Lane>,
+    /// Records that were asked about, and the closest element of each.
+    #[serde(skip)]
+    pub chosen: Vec<(u32, u32)>,
 }
 
 impl Chunk {
@@ -179,17 +182,13 @@ impl Chunk {
     pub(super) fn look(&mut self, step: &Step) {
         self.unload();
         self.ask(step, self.way_m + EARLY * step.reach.slack_m);
-        let mut first = 0;
-        for own in self.asked.chunk_by(|a, b| a.record == b.record) {
-            let record = &mut self.records[own[0].record as usize];
-            let squares = &self.square_m2.as_flattened()[first..first + own.len()];
-            let element = choose(own, squares, &mut self.candidates, self.way_m);
+        for &(at, element) in &self.chosen {
+            let record = &mut self.records[at as usize];
             if look_at(record, element, step, &mut self.sums) {
                 self.passed.push((record.node, element));
             }
             record.within_m -= self.way_m;
             record.due_m = self.way_m + record.free_m(&step.reach);
-            first += own.len();
         }
         self.next_m = f64::INFINITY;
         self.near.clear();
@@ -230,20 +229,23 @@ impl Chunk {
         let questions =
             Questions { surface: step.surface, x: step.x, asked: &self.asked, square_m2: &mut self.square_m2 };
         step.arch.dispatch(questions);
+        self.chosen.clear();
+        let mut first = 0;
+        for own in self.asked.chunk_by(|a, b| a.record == b.record) {
+            let squares = &self.square_m2.as_flattened()[first..first + own.len()];
+            self.chosen.push((own[0].record, choose(own, squares, &mut self.candidates, self.way_m)));
+            first += own.len();
+        }
     }
 
     /// The closest feature of every record at the positions of a step: its position in the chunk, and the feature.
     pub(super) fn all(&mut self, step: &Step) -> Vec<(usize, Closest)> {
         self.ask(step, f64::INFINITY);
-        let mut found = Vec::with_capacity(self.records.len());
-        let mut first = 0;
-        for own in self.asked.chunk_by(|a, b| a.record == b.record) {
-            let squares = &self.square_m2.as_flattened()[first..first + own.len()];
-            let element = choose(own, squares, &mut self.candidates, self.way_m);
-            found.push((own[0].record as usize, closest(step, own[0].node, element)));
-            first += own.len();
-        }
-        found
+        let found = |&(at, element): &(u32, u32)| {
+            let node = self.records[at as usize].node;
+            (at as usize, closest(step, node, element))
+        };
+        self.chosen.iter().map(found).collect()
     }
 }
 

@@ -36,14 +36,9 @@ pub(super) fn press_lane(
     pushes: &mut Vec<Push>,
 ) {
     let mut touch = touches.of(lane);
-    let grown = grow(pack.stiffness_n_m[lane], pack.rest_m[lane], &mut touch, pack.last_m[lane], step, sums);
-    pack.rest_m[lane] += grown;
-    pack.last_m[lane] += grown;
-    let k = pack.stiffness_n_m[lane];
-    let c = pack.damping_n_s_m[lane];
-    let last_m = pack.last_m[lane];
-    let spring = Spring { k, c_dt: c / step.dt_s, last_m };
-    let normal_n = spring.press(touch.depth_m, &mut pack.damped_n[lane], sums);
+    let (k, c) = (pack.stiffness_n_m[lane], pack.damping_n_s_m[lane]);
+    let kept = [&mut pack.rest_m[lane], &mut pack.last_m[lane], &mut pack.damped_n[lane]];
+    let normal_n = press(k, c, kept, &mut touch, step, sums);
     let mut force = scale(touch.normal, normal_n);
     if step.friction > 0.0 {
         force = add(force, rub(&mut records[pack.record[lane] as usize], &touch, normal_n, step, sums));
@@ -55,17 +50,13 @@ pub(super) fn press_lane(
 /// The same for an edge or corner.
 pub(super) fn press_round(record: &mut Record, touch: &Touch, step: &Step, sums: &mut Sums, pushes: &mut Vec<Push>) {
     let mut touch = *touch;
-    let grown = grow(record.stiffness_n_m, record.rest_m, &mut touch, record.last_m, step, sums);
-    record.rest_m += grown;
+    let (k, c) = (record.stiffness_n_m, record.damping_n_s_m);
+    let kept = [&mut record.rest_m, &mut record.last_m, &mut record.damped_n];
+    let normal_n = press(k, c, kept, &mut touch, step, sums);
     record.wanted_m = record.wanted_m.max(record.rest_m);
-    record.last_m += grown;
-    let touch = &touch;
-    let c_dt = record.damping_n_s_m / step.dt_s;
-    let spring = Spring { k: record.stiffness_n_m, c_dt, last_m: record.last_m };
-    let normal_n = spring.press(touch.depth_m, &mut record.damped_n, sums);
     let mut force = scale(touch.normal, normal_n);
     if step.friction > 0.0 {
-        force = add(force, rub(record, touch, normal_n, step, sums));
+        force = add(force, rub(record, &touch, normal_n, step, sums));
     }
     let [a, b, c] = record.corners;
     pushes.push(Push { nodes: [record.node, a, b, c], weights: touch.weights, force_n: force });
@@ -86,30 +77,26 @@ fn grow(k: f64, rest_m: f64, touch: &mut Touch, last_m: f64, step: &Step, sums: 
     by_m
 }
 
-struct Spring {
-    k: f64,
-    c_dt: f64,
-    last_m: f64,
-}
-
-impl Spring {
-    /// Normal force; `damped_n` goes from the step before to this one. The loss is the work of the step less what the
-    /// spring stores: damping, and what a step that ends or begins within the gap takes or gives.
-    #[inline(always)]
-    fn press(&self, depth_m: f64, damped_n: &mut f64, sums: &mut Sums) -> f64 {
-        let closed = depth_m - self.last_m;
-        let (deep, was) = (positive(depth_m), positive(self.last_m));
-        let elastic = self.k * deep;
-        let pull = self.c_dt * closed;
-        // The layers do not stick to each other: damping never pulls more than the spring pushes.
-        let damped = if depth_m > 0.0 { if pull > -elastic { pull } else { -elastic } } else { 0.0 };
-        let work = 0.5 * (damped + *damped_n + self.k * (deep + was)) * closed;
-        let stored = 0.5 * elastic * deep;
-        sums.damping += work - (stored - 0.5 * self.k * was * was);
-        sums.stored += stored;
-        *damped_n = damped;
-        elastic + damped
-    }
+/// Normal force of a pair; its rest gap, and depth and damping force of the step before, move on. The loss is the work of the step
+/// less what the spring stores: damping, and what a step that ends or begins within the gap takes or gives.
+#[inline(always)]
+fn press(k: f64, c: f64, kept: [&mut f64; 3], touch: &mut Touch, step: &Step, sums: &mut Sums) -> f64 {
+    let [rest_m, last_m, damped_n] = kept;
+    let grown_m = grow(k, *rest_m, touch, *last_m, step, sums);
+    *rest_m += grown_m;
+    *last_m += grown_m;
+    let (depth_m, closed) = (touch.depth_m, touch.depth_m - *last_m);
+    let (deep, was) = (positive(depth_m), positive(*last_m));
+    let elastic = k * deep;
+    let pull = c / step.dt_s * closed;
+    // The layers do not stick to each other: damping never pulls more than the spring pushes.
+    let damped = if depth_m > 0.0 { if pull > -elastic { pull } else { -elastic } } else { 0.0 };
+    let work = 0.5 * (damped + *damped_n + k * (deep + was)) * closed;
+    let stored = 0.5 * elastic * deep;
+    sums.damping += work - (stored - 0.5 * k * was * was);
+    sums.stored += stored;
+    *damped_n = damped;
+    elastic + damped
 }
 
 #[inline(always)]

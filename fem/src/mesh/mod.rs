@@ -72,6 +72,10 @@ impl Part {
     pub(crate) fn of(name: &str, quads: Vec<[u32; 4]>) -> Part {
         Part { name: name.into(), quads, ..Part::default() }
     }
+    /// The wall of a chamber at its back.
+    pub(crate) fn round(chamber: &str, name: &str, quads: Vec<[u32; 4]>) -> Part {
+        Part { back: Some(chamber.into()), ..Part::of(name, quads) }
+    }
     /// Number of elements, quads and triangles.
     pub fn len(&self) -> usize {
         self.quads.len() + self.triangles.len()

@@ -41,6 +41,7 @@ pub struct CentreLine {
     stations_m: Vec<f64>,
     weights: Vec<Weights>,
     nodes: usize,
+    start_m: Vec<V3>,
 }
 
 impl CentreLine {
@@ -77,7 +78,10 @@ impl CentreLine {
     ) -> Result<CentreLine> {
         let weights = stations_m.iter().map(|s| of(*s).ok_or_else(|| FemError::Problem(missing(s * 1e3))));
         let weights = weights.collect::<Result<_, _>>()?;
-        Ok(CentreLine { stations_m: stations_m.to_vec(), weights, nodes: mesh.points.len() })
+        let nodes = mesh.points.len();
+        let mut line = CentreLine { stations_m: stations_m.to_vec(), weights, nodes, start_m: Vec::new() };
+        line.start_m = line.at(&mesh.starts())?;
+        Ok(line)
     }
 
     /// Stations along the axis of the reference shape \[m\], as the case has them.
@@ -102,6 +106,11 @@ impl CentreLine {
         };
         Ok(self.weights.iter().map(centroid).collect())
     }
+
+    /// Displacement of every section from where it started \[m\].
+    pub(crate) fn moved_m(&self, positions: &[V3]) -> Result<Vec<V3>> {
+        Ok(self.at(positions)?.into_iter().zip(&self.start_m).map(|(now, start)| sub(now, *start)).collect())
+    }
 }
 
 #[derive(Debug)]
@@ -123,7 +132,7 @@ impl CentreLineFile {
         for (point, station) in self.line.at(positions)?.iter().zip(&self.line.stations_m) {
             if !point.iter().all(|x| x.is_finite()) {
                 let reason = format!("the section at {} mm is at {point:?}", station * 1e3);
-                return Err(FemError::Stopped { step, time_s, reason });
+                return Err(FemError::stopped(step, time_s, reason));
             }
             let [s, x, y, z] = [*station, point[0], point[1], point[2]].map(|length| number(length * 1e3));
             rows += &format!("{},{step},{s},{x},{y},{z}\n", number(time_s));

@@ -48,7 +48,7 @@ pub(crate) fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<
     let (newest, previous) = names(folder);
     let fault = match read_file(&newest, fingerprint)? {
         Found::Good(checkpoint) => return Ok(Some((checkpoint, None))),
-        Found::Foreign(reason) => return Err(FemError::Checkpoint { path: newest, reason }),
+        Found::Foreign(reason) => return Err(FemError::checkpoint(newest, reason)),
         Found::Damaged(reason) => Some(reason),
         Found::Nothing => None,
     };
@@ -62,7 +62,7 @@ pub(crate) fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<
             );
             Ok(Some((checkpoint, Some(notice))))
         }
-        (Found::Foreign(reason), _) => Err(FemError::Checkpoint { path: previous, reason }),
+        (Found::Foreign(reason), _) => Err(FemError::checkpoint(previous, reason)),
         (Found::Nothing, None) => Ok(None),
         (Found::Damaged(reason), None) => Err(start_anew(previous, &reason)),
         (_, Some(reason)) => Err(start_anew(newest, &reason)),
@@ -83,17 +83,15 @@ pub(crate) fn read_end(folder: &Path) -> Result<Option<(Checkpoint, Vec<u8>)>> {
     };
     match decode(&bytes, None) {
         Found::Good(end) => Ok(Some((end, bytes))),
-        Found::Foreign(reason) => Err(FemError::Checkpoint { path, reason }),
+        Found::Foreign(reason) => Err(FemError::checkpoint(path, reason)),
         Found::Damaged(reason) => Err(start_anew(path, &reason)),
         Found::Nothing => Ok(None),
     }
 }
 
 fn start_anew(path: PathBuf, reason: &str) -> FemError {
-    FemError::Checkpoint {
-        path,
-        reason: format!("the file {reason}, and no other checkpoint is good. Restart the run with --force"),
-    }
+    let reason = format!("the file {reason}, and no other checkpoint is good. Restart the run with --force");
+    FemError::checkpoint(path, reason)
 }
 
 fn names(folder: &Path) -> (PathBuf, PathBuf) {

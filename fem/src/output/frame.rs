@@ -35,60 +35,45 @@ impl Frame {
     /// Checks that the frame fits the mesh and that every number is finite.
     pub(crate) fn check(&self, mesh: &Mesh) -> Result<()> {
         let (nodes, elements) = (mesh.points.len(), mesh.elements());
-        let Frame { fields, .. } = self;
-        self.finite("time", "run", 1, [self.time_s].iter().map(std::slice::from_ref))?;
-        self.finite("position", "node", nodes, self.positions.iter().map(<[f64; 3]>::as_slice))?;
-        self.finite("velocity", "node", nodes, self.velocities.iter().map(<[f64; 3]>::as_slice))?;
-        if !self.contact_pressure_pa.is_empty() {
-            let pressures = self.contact_pressure_pa.iter().map(std::slice::from_ref);
-            self.finite("contact pressure", "node", nodes, pressures)?;
-        }
-        let scalars = [("von Mises stress", &fields.von_mises_pa), ("thickness", &fields.thickness_m)];
-        for (name, values) in scalars {
-            self.finite(name, "element", elements, values.iter().map(std::slice::from_ref))?;
-        }
-        let chambers: Vec<[f64; 2]> = self.chambers.iter().map(|c| [c.pressure_pa, c.volume_m3]).collect();
-        self.finite("pressure or volume", "chamber", chambers.len(), chambers.iter().map(<[f64; 2]>::as_slice))?;
-        let directions = fields.principal_direction.iter().map(|d| d.as_flattened());
-        self.finite("principal direction", "element", elements, directions)?;
-        let pairs = [("principal stress", &fields.principal_stress_pa), ("strain", &fields.principal_strain)];
-        for (name, values) in pairs {
-            self.finite(name, "element", elements, values.iter().map(<[f64; 2]>::as_slice))?;
-        }
-        match fields.wrinkle_state.len() {
-            count if count == elements => Ok(()),
-            count => Err(self.length("wrinkle state", "element", count, elements)),
-        }
+        let Frame { fields, positions, velocities, contact_pressure_pa: contact, .. } = self;
+        let pressed = if contact.is_empty() { 0 } else { nodes };
+        let chambers: Vec<f64> = self.chambers.iter().flat_map(|c| [c.pressure_pa, c.volume_m3]).collect();
+        let wrinkles: Vec<f64> = fields.wrinkle_state.iter().map(|state| f64::from(*state)).collect();
+        let directions = fields.principal_direction.as_flattened().as_flattened();
+        let [stress, strain] = [&fields.principal_stress_pa, &fields.principal_strain].map(|f| f.as_flattened());
+        self.finite("time", "run", [1, 1], &[self.time_s])?;
+        self.finite("position", "node", [nodes, 3], positions.as_flattened())?;
+        self.finite("velocity", "node", [nodes, 3], velocities.as_flattened())?;
+        self.finite("contact pressure", "node", [pressed, 1], contact)?;
+        self.finite("pressure or volume", "chamber", [self.chambers.len(), 2], &chambers)?;
+        let lists: [(&str, usize, &[f64]); 6] = [
+            ("von Mises stress", 1, &fields.von_mises_pa),
+            ("thickness", 1, &fields.thickness_m),
+            ("principal direction", 6, directions),
+            ("principal stress", 2, stress),
+            ("strain", 2, strain),
+            ("wrinkle state", 1, &wrinkles),
+        ];
+        lists.iter().try_for_each(|(name, each, values)| self.finite(name, "element", [elements, *each], values))
     }
 
-    fn finite<'a>(
-        &self,
-        name: &str,
-        of: &str,
-        expected: usize,
-        values: impl ExactSizeIterator<Item = &'a [f64]>,
-    ) -> Result<()> {
-        if values.len() != expected {
-            return Err(self.length(name, of, values.len(), expected));
+    /// Checks that there are so many values of so many numbers each, all finite.
+    fn finite(&self, name: &str, of: &str, [count, each]: [usize; 2], numbers: &[f64]) -> Result<()> {
+        if numbers.len() != count * each {
+            let found = numbers.len() / each;
+            return Err(self
+                .refused(format!("{found} values of {name} for {count} {of}s: these results belong to another mesh")));
         }
-        for (index, entry) in values.enumerate() {
-            if let Some(bad) = entry.iter().find(|value| !value.is_finite()) {
-                return Err(self.refused(format!(
-                    "{name} of {of} {} is {bad}: nothing of this moment was written. PictureLook at the last frame before it, \
-                     then try a smaller cfl or slower loading",
-                    index + 1
-                )));
-            }
-        }
-        Ok(())
-    }
-
-    fn length(&self, name: &str, of: &str, found: usize, expected: usize) -> FemError {
-        self.refused(format!("{found} values of {name} for {expected} {of}s: these results belong to another mesh"))
+        let Some(at) = numbers.iter().position(|number| !number.is_finite()) else { return Ok(()) };
+        let (number, bad) = (at / each + 1, numbers[at]);
+        Err(self.refused(format!(
+            "{name} of {of} {number} is {bad}: nothing of this moment was written. Look at the last frame before it, then try a \
+             smaller cfl or slower loading"
+        )))
     }
 
     fn refused(&self, reason: String) -> FemError {
-        FemError::Stopped { step: self.step, time_s: self.time_s, reason }
+        FemError::stopped(self.step, self.time_s, reason)
     }
 }
 

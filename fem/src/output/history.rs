@@ -78,7 +78,7 @@ impl History {
         let cells = self.cells(record)?;
         if let Some((name, value)) = cells.iter().find(|(_, value)| !value.is_finite()) {
             let reason = format!("{name} is {value}: try a smaller cfl or slower loading");
-            return Err(FemError::Stopped { step: record.step, time_s: record.time_s, reason });
+            return Err(FemError::stopped(record.step, record.time_s, reason));
         }
         let mut names: Vec<&str> = cells.iter().map(|(name, _)| name.as_str()).collect();
         let mut values: Vec<String> = cells.iter().map(|(_, value)| number(*value)).collect();

@@ -37,7 +37,7 @@ impl Series {
         let last = self.times_s.last().copied();
         if last.is_some_and(|last| frame.time_s < last) {
             let reason = format!("a frame of {} s is in the list already", last.unwrap_or_default());
-            return Err(FemError::Stopped { step: frame.step, time_s: frame.time_s, reason });
+            return Err(FemError::stopped(frame.step, frame.time_s, reason));
         }
         let index = if last == Some(frame.time_s) { self.times_s.len() - 1 } else { self.times_s.len() };
         let path = self.folder.join(file_name(index));

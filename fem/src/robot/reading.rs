@@ -30,9 +30,7 @@ impl Reading {
 #[derive(Debug, Clone)]
 pub(crate) struct RobotGauge {
     line: CentreLine,
-    start_m: Vec<[f64; 3]>,
     seen: CentreLine,
-    seen_start_m: Vec<[f64; 3]>,
     rings: Vec<Vec<u32>>,
     tip: Vec<u32>,
     seams: Seams,
@@ -128,18 +126,13 @@ impl RobotGauge {
         stations_m.push(scenario.length_m);
         rings.push(tip.clone());
         let line = sections(&mesh, &stations_m)?;
-        let start = mesh.starts();
-        let start_m = line.at(&start)?;
         let seen = match scenario.is_spatial() {
             true => sections(&mesh, &scenario.markers_m)?,
             false => marker_points(&mesh, &scenario.markers_m)?,
         };
-        let seen_start_m = seen.at(&start)?;
         Ok(RobotGauge {
             line,
-            start_m,
             seen,
-            seen_start_m,
             rings,
             tip,
             seams: Seams::of(&mesh),
@@ -165,10 +158,6 @@ impl RobotGauge {
             }
             Rest::Until(_) => (0.0, None, false),
         };
-        let moved = |line: &CentreLine, start: &[[f64; 3]]| -> Result<Vec<[f64; 3]>, FemError> {
-            let now = line.at(&positions)?;
-            Ok(now.iter().zip(start).map(|(a, b)| [0, 1, 2].map(|k| a[k] - b[k])).collect())
-        };
         let peak = |values: &[f64]| (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b])).unwrap_or(0);
         let hottest = peak(&fields.von_mises_pa);
         let seam = self.seams.largest(&fields);
@@ -188,8 +177,8 @@ impl RobotGauge {
             strips_pa,
             body_pa: body.first().map_or(0.0, |c| c.pressure_pa),
             stations_m: self.line.stations_m().to_vec(),
-            moved_m: moved(&self.line, &self.start_m)?,
-            seen_moved_m: moved(&self.seen, &self.seen_start_m)?,
+            moved_m: self.line.moved_m(&positions)?,
+            seen_moved_m: self.seen.moved_m(&positions)?,
             ring_moved_m: self.rings.iter().map(|ring| self.mesh.mean_moved(ring, &positions)).collect(),
             tip_angle_rad: self.turn_rad(&positions),
             body_m3: body.first().map_or(0.0, |c| c.volume_m3),

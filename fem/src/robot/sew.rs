@@ -97,8 +97,7 @@ fn body(scenario: &Scenario, lines: &Lines) -> Result<Mesh> {
 
 fn sorted(sewers: &[Sewer], lines: &Lines, quads: &[[u32; 4]]) -> Vec<Part> {
     let n = lines.angles.len();
-    let back = || Some(BODY.into());
-    let mut parts = vec![Part { name: WALL.into(), back: back(), ..Part::default() }];
+    let mut parts = vec![Part::round(BODY, WALL, Vec::new())];
     for (e, quad) in quads.iter().enumerate() {
         let (row, column) = (e / n, e % n);
         let placed = sewers.iter().map(|sewer| (sewer, sewer.place(row, column)));
@@ -110,7 +109,7 @@ fn sorted(sewers: &[Sewer], lines: &Lines, quads: &[[u32; 4]]) -> Vec<Part> {
             Some((sewer, Place::Under)) => (of_strip(FACE, sewer.strip), Some(of_strip(ACTUATOR, sewer.strip))),
         };
         let at = parts.iter().position(|p| p.name == name).unwrap_or_else(|| {
-            parts.push(Part { name, front, back: back(), ..Part::default() });
+            parts.push(Part { front, ..Part::round(BODY, &name, Vec::new()) });
             parts.len() - 1
         });
         parts[at].quads.push(*quad);

@@ -16,7 +16,7 @@ use super::selective::Selective;
 use crate::mesh::Tie;
 use crate::random::gaussian;
 use crate::sheet::Sheet;
-use crate::sheet::tangent::Tangent;
+use crate::sheet::bound::Tangent;
 use crate::vec3::{Nodes, cross};
 
 /// Factor on the estimated frequency: Lanczos comes from below. 80 steps find up to a thousandth more.

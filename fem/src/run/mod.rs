@@ -13,19 +13,17 @@ mod clock;
 mod constraint;
 mod guard;
 mod highest;
-mod ledger;
 mod reaction;
 mod selective;
 mod setup;
-mod sides;
 mod step;
 mod team;
 mod update;
 
 pub use crate::sheet::fields::ElementFields;
-pub use ledger::Ledger;
+pub use clock::Ledger;
+pub use guard::{FirstThrough, Through};
 pub use reaction::Reaction;
-pub use sides::{FirstThrough, Through};
 
 use models::{Account, Pose, RowKind};
 use serde::{Deserialize, Serialize};

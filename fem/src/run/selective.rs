@@ -23,6 +23,8 @@
 
 use std::f64::consts::PI;
 
+use rayon::prelude::*;
+
 use super::update::{PIECE, Update};
 use crate::mesh::Mesh;
 use crate::vec3::Nodes;
@@ -129,7 +131,7 @@ impl Selective {
         let (mut from, mut to) = (first.clone(), first.clone());
         for &alpha in &self.passes {
             self.rest(&mut from);
-            smooth(Smooth { all: self, alpha, from: &from, begin: 0, to: &mut to }, pulp::Arch::Scalar);
+            self.smooth(pulp::Arch::Scalar, alpha, &from, &mut to);
             std::mem::swap(&mut from, &mut to);
         }
         let mixed = |(smooth, u): (&[f64; 4], &[f64; 4])| [0, 1, 2, 3].map(|k| mixed(smooth[k], u[k]));
@@ -159,10 +161,10 @@ impl Selective {
         let across = push(Push { update, rows: &self.rows, force, u: &mut u, v });
         let mut next = std::mem::take(&mut self.next);
         let (first, between) = (self.passes[0], &self.passes[1..self.passes.len() - 1]);
-        smooth(Smooth { all: self, alpha: first, from: &u, begin: 0, to: &mut half }, update.arch);
+        self.smooth(update.arch, first, &u, &mut half);
         self.rest(&mut half);
         for &alpha in between {
-            smooth(Smooth { all: self, alpha, from: &half, begin: 0, to: &mut next }, update.arch);
+            self.smooth(update.arch, alpha, &half, &mut next);
             self.rest(&mut next);
             std::mem::swap(&mut half, &mut next);
         }
@@ -195,6 +197,16 @@ impl Selective {
         for (node, axes) in &self.fixed {
             (0..3).filter(|k| axes[*k]).for_each(|k| v[*node as usize][k] = 0.0);
         }
+    }
+
+    /// (1 − α D⁻¹ L) `from` at all nodes, in pieces of about one size.
+    fn smooth(&self, arch: pulp::Arch, alpha: f64, from: &Nodes, to: &mut Nodes) {
+        let piece = |begin: usize, to| arch.dispatch(Smooth { all: self, alpha, from, begin, to });
+        if to.len() <= PIECE {
+            return piece(0, to);
+        }
+        let size = to.len().div_ceil(to.len().div_ceil(PIECE));
+        to.par_chunks_mut(size).enumerate().for_each(|(i, to)| piece(i * size, to));
     }
 
     /// (1 − α D⁻¹ L) `from` at one node.
@@ -306,18 +318,6 @@ struct Smooth<'a> {
     from: &'a [[f64; 4]],
     begin: usize,
     to: &'a mut [[f64; 4]],
-}
-
-fn smooth(piece: Smooth, arch: pulp::Arch) {
-    let count = piece.to.len();
-    if count <= PIECE {
-        return arch.dispatch(piece);
-    }
-    let Smooth { all, alpha, from, begin, to } = piece;
-    let (low, high) = to.split_at_mut(count / 2);
-    let low = Smooth { all, alpha, from, begin, to: low };
-    let high = Smooth { all, alpha, from, begin: begin + count / 2, to: high };
-    rayon::join(|| smooth(low, arch), || smooth(high, arch));
 }
 
 impl pulp::WithSimd for Smooth<'_> {

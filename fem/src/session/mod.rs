@@ -171,9 +171,18 @@ fn finish(
     if settings.files {
         files.extend(robot_files::files(loaded, &run, &running.run, settings.further)?);
     }
-    match place {
-        Some(place) => complete(loaded, &mut run, files, place, settings)?,
-        None => run.files = files,
+    if let Some(place) = place {
+        files.iter().try_for_each(|(name, bytes)| folder::write(&place.folder.join(name), bytes))?;
+        let manifest = Manifest {
+            maker: settings.maker.clone(),
+            inputs: vec![FileHash::of(&loaded.source.name, loaded.source.text.as_bytes())],
+            outputs: place.files()?.iter().map(|(name, bytes)| FileHash::of(name, bytes)).collect(),
+            cost: Some(run.cost.clone()),
+        };
+        run.folder = Some(place.target.clone());
+        run.notices.extend(place.complete(&manifest)?);
+    } else {
+        run.files = files;
     }
     run.notices.extend(loaded.robot.as_ref().and_then(WatchedRobot::left_out));
     run.notices.extend(too_many(settings.threads));
@@ -185,26 +194,6 @@ fn too_many(threads: usize) -> Option<String> {
     let cores = crate::cost::threads(0);
     let message = format!("{threads} threads share {cores} cores: more threads than cores make a run slower");
     (threads > cores).then_some(message)
-}
-
-/// Writes the last files of a run.
-fn complete(
-    loaded: &Loaded,
-    run: &mut FeRun,
-    files: Vec<(String, Vec<u8>)>,
-    place: Workplace,
-    settings: &Settings,
-) -> Result<()> {
-    files.iter().try_for_each(|(name, bytes)| folder::write(&place.folder.join(name), bytes))?;
-    let manifest = Manifest {
-        maker: settings.maker.clone(),
-        inputs: vec![FileHash::of(&loaded.source.name, loaded.source.text.as_bytes())],
-        outputs: place.files()?.iter().map(|(name, bytes)| FileHash::of(name, bytes)).collect(),
-        cost: Some(run.cost.clone()),
-    };
-    run.folder = Some(place.target.clone());
-    run.notices.extend(place.complete(&manifest)?);
-    Ok(())
 }
 
 /// Height of the outermost marker and of the tip of a reading \[mm\].

@@ -4,7 +4,7 @@ use super::{FeRun, Further, Loaded, WatchedRobot, rounded};
 use crate::output::picture::{self, Image, PictureLook, Viewpoint};
 use crate::robot::{Reading, Snap};
 use crate::{FemError, Mesh, Result, Simulation};
-use std::fmt::{Display, Write};
+use std::fmt::Display;
 
 /// Share of the elements whose stress is within the colour scale: a few at the ends of welds are far above all others.
 const WITHIN: f64 = 0.99;
@@ -134,7 +134,8 @@ fn markers_csv(robot: &WatchedRobot, readings: &[Reading]) -> String {
             let pressures = pressures.join(",");
             let place = place[..axes].join(",");
             let s = rounded(station * MM);
-            let _ = writeln!(out, "fem,{kind},{},{pressures},{phase},{},{place},{s}", r.time_s, k + 1);
+            let (time_s, number) = (r.time_s, k + 1);
+            out += &format!("fem,{kind},{time_s},{pressures},{phase},{number},{place},{s}\n");
         }
     }
     out
@@ -143,7 +144,8 @@ fn markers_csv(robot: &WatchedRobot, readings: &[Reading]) -> String {
 fn snaps_csv(found: &[Snap]) -> String {
     let mut out = String::from("time_s,place_mm,released_mJ,kinetic_mJ\n");
     for s in found {
-        let _ = writeln!(out, "{},{},{},{}", s.time_s, s.place_m * MM, s.released_j * 1e3, s.kinetic_j * 1e3);
+        let row = [s.time_s, s.place_m * MM, s.released_j * 1e3, s.kinetic_j * 1e3].map(|x| x.to_string());
+        out += &(row.join(",") + "\n");
     }
     out
 }

@@ -87,10 +87,8 @@ impl<'a> Running<'a> {
         let Some((Checkpoint { payload, .. }, notice)) = read_checkpoint(folder, fingerprint)? else {
             return Running::start(case, fresh, Some(folder), robot);
         };
-        let foreign = || FemError::Checkpoint {
-            path: folder.join("checkpoint"),
-            reason: "it holds something else than this program writes; start again with --force".into(),
-        };
+        let what = "it holds something else than this program writes; start again with --force";
+        let foreign = || FemError::checkpoint(folder.join("checkpoint"), what);
         let saved: Saved = unpack(&payload).ok_or_else(foreign)?;
         match (&mut robot, saved.robot) {
             (Some(robot), Some(state)) => robot.restore(state),

@@ -15,7 +15,6 @@ mod law;
 pub mod order;
 mod patch;
 pub mod reference;
-pub mod tangent;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -1,6 +1,6 @@
 //! Chambers: closed, bounded by one consistently oriented surface, with the gas inside.
 
-use super::words::{describe, fault, meant, millimetres};
+use super::elements::{describe, fault, meant, millimetres};
 use crate::mesh::{Mesh, Part};
 use crate::vec3::{V3, area, centre, extent, norm, scale, sub};
 use crate::{FemError, Result};

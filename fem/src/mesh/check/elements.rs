@@ -1,7 +1,6 @@
 //! Elements one by one: different nodes, an area, no corner turned inside out, a warp direction in the plane.
 
-use super::words::{describe, fault, millimetres};
-use crate::Result;
+use crate::{FemError, Result};
 use crate::mesh::{Mesh, Part};
 use crate::policy;
 use crate::vec3::{V3, area, centre, cross, dot, norm, sub};
@@ -102,4 +101,26 @@ fn has_area(x: &[V3]) -> bool {
     let longest_squared = (0..x.len()).map(side).map(|e| dot(e, e)).fold(0.0, f64::max);
     let area = norm(area(x));
     policy::is_area(area, longest_squared)
+}
+
+/// Element `i` of a part, as messages name it.
+pub(crate) fn describe(part: &Part, i: usize) -> String {
+    let nodes: Vec<String> = part.nodes(i).iter().map(|n| (u64::from(*n) + 1).to_string()).collect();
+    format!("element {} of part `{}` (nodes {})", i + 1, part.name, nodes.join(", "))
+}
+
+/// A place, as messages give it.
+pub(super) fn millimetres(x: V3) -> String {
+    // Adding 0 turns −0 into 0.
+    let [x, y, z] = x.map(|v| (v * 1e4).round() / 10.0 + 0.0);
+    format!("({x:.1}, {y:.1}, {z:.1}) mm")
+}
+
+pub(super) fn fault<T>(message: String) -> Result<T> {
+    Err(FemError::Mesh(message))
+}
+
+/// "; did you mean `x`?", or nothing.
+pub(super) fn meant<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    spelling::nearest(wrong, known).map_or(String::new(), |name| format!("; did you mean `{name}`?"))
 }

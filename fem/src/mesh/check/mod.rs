@@ -14,16 +14,15 @@
 mod chamber;
 mod elements;
 mod quality;
-mod words;
 
 pub(super) use chamber::{counted, signed_volume};
 pub use chamber::{near, planes, rim};
+pub(crate) use elements::describe;
 pub use quality::{LowMidHigh, Quality};
-pub(crate) use words::describe;
 
 use crate::FemError;
 use crate::mesh::Mesh;
-use words::{fault, meant, millimetres};
+use elements::{fault, meant, millimetres};
 
 /// Checks a mesh whose chambers are all closed. `chambers` are the names that parts may use.
 ///
@@ -63,17 +62,18 @@ pub(super) fn numbers(mesh: &Mesh) -> Result<(), FemError> {
             return fault(format!("node {} has a {kind} that is not a number: {:?}", i + 1, places[i]));
         }
     }
+    let beyond = |nodes: &[u32]| nodes.iter().map(|n| u64::from(*n) + 1).find(|n| *n > count as u64);
     for part in &mesh.parts {
         for i in 0..part.len() {
-            if let Some(node) = part.nodes(i).iter().find(|n| **n as usize >= count) {
+            if let Some(node) = beyond(part.nodes(i)) {
                 let what = describe(part, i);
-                return fault(format!("{what} has node {}, but there are only {count} nodes", *node as u64 + 1));
+                return fault(format!("{what} has node {node}, but there are only {count} nodes"));
             }
         }
     }
     for (name, nodes) in &mesh.sets {
-        if let Some(node) = nodes.iter().find(|n| **n as usize >= count) {
-            return fault(format!("set `{name}` has node {}, but there are only {count} nodes", *node as u64 + 1));
+        if let Some(node) = beyond(nodes) {
+            return fault(format!("set `{name}` has node {node}, but there are only {count} nodes"));
         }
     }
     for tie in &mesh.ties {

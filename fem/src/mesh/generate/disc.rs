@@ -37,7 +37,7 @@ pub fn disc_balloon(radius_m: f64, n: usize) -> Result<Mesh, FemError> {
     for (name, nodes, layer) in [("top", &top, 0), ("bottom", &bottom, 1)] {
         mesh.sets.insert(format!("centre_{name}"), disc.centre.iter().map(|i| nodes[*i]).collect());
         let quads = disc.quads(nodes, layer == 1);
-        mesh.parts.push(Part { back: Some("air".into()), layer, ..Part::of(name, quads) });
+        mesh.parts.push(Part { layer, ..Part::round("air", name, quads) });
     }
     Ok(mesh)
 }

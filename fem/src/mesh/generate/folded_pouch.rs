@@ -76,8 +76,7 @@ pub fn folded_pouch(pouch: &FoldedPouch) -> Result<Mesh> {
         name_nodes(&mut mesh, panel, &grid, &mut creases);
         let turned = matches!(panel.0, "bottom" | "right_upper" | "left_upper");
         let quads = if turned { grid.quads_turned() } else { grid.quads() };
-        let back = Some("air".into());
-        mesh.parts.push(Part { layer: panel.1, back, ..Part::of(panel.0, quads) });
+        mesh.parts.push(Part { layer: panel.1, ..Part::round("air", panel.0, quads) });
     }
     for ((joint, ..), node) in known {
         heights[node as usize] = joint.height() * pouch.gap_m;

@@ -131,10 +131,10 @@ fn two_layers(size: [f64; 2], n: [usize; 2], shared: impl Fn(usize, usize) -> bo
     let mut mesh = Mesh::default();
     let top = Grid::add(&mut mesh, n[0], n[1], place);
     let bottom = Grid::sharing(&mut mesh, n[0], n[1], place, |i, j| shared(i, j).then(|| top.at(i, j)));
-    let air = Some("air".to_string());
-    let part = Part { back: air, ..Part::of("top", top.quads()) };
-    let turned = Part { name: "bottom".into(), quads: bottom.quads_turned(), layer: 1, ..part.clone() };
-    mesh.parts = vec![part, turned];
+    mesh.parts = vec![
+        Part::round("air", "top", top.quads()),
+        Part { layer: 1, ..Part::round("air", "bottom", bottom.quads_turned()) },
+    ];
     (mesh, top, bottom)
 }
 

@@ -45,7 +45,7 @@ pub fn sphere(radius_m: f64, n: usize) -> Result<Mesh, FemError> {
         let nodes = near.iter().flat_map(|j| near.iter().map(|i| known[&[*i, *j, side]])).collect();
         mesh.sets.insert(name.into(), nodes);
     }
-    mesh.parts.push(Part { back: Some("air".into()), ..Part::of("sphere", quads) });
+    mesh.parts.push(Part::round("air", "sphere", quads));
     Ok(mesh)
 }
 

@@ -102,7 +102,7 @@ fn wall(tube: &Tube, angles: &[f64]) -> Mesh {
         let x = tube.length_m * j as f64 / tube.along as f64;
         mesh.points.extend(angles.iter().map(|a| [x, tube.radius_m * a.cos(), tube.radius_m * a.sin()]));
     }
-    let mut part = Part { name: "wall".into(), back: Some("body".into()), ..Part::default() };
+    let mut part = Part::round("body", "wall", Vec::new());
     let node = |j: usize, i: usize| (j * n + i % n) as u32;
     for (j, i) in (0..tube.along).flat_map(|j| (0..n).map(move |i| (j, i))) {
         part.quads.push([node(j, i), node(j, i + 1), node(j + 1, i + 1), node(j + 1, i)]);
@@ -132,7 +132,7 @@ fn add_cap(mesh: &mut Mesh, tube: &Tube, angles: &[f64], end: usize, cap: Cap) -
     let first = (end * tube.along * n) as u32;
     let ring: Vec<u32> = (first..first + n as u32).collect();
     let own = mesh.points.len() as u32;
-    let mut part = Part { name: format!("{name}_cap"), back: Some("body".into()), ..Part::default() };
+    let mut part = Part::round("body", &format!("{name}_cap"), Vec::new());
     part.warp = vec![[0.0, 1.0, 0.0]];
     let centre = match cap {
         Cap::Open => return Ok(()),

@@ -80,9 +80,10 @@ fn renamed(problem: &Problem) -> Problem {
         }
     };
     problem.mesh.sets = problem.mesh.sets.into_iter().map(|(name, nodes)| (sets[&name].clone(), nodes)).collect();
-    problem.supports.iter_mut().for_each(|support| change(&sets, &mut support.set));
-    problem.forces.iter_mut().for_each(|force| change(&sets, &mut force.set));
-    problem.rigid.iter_mut().for_each(|rigid| change(&sets, &mut rigid.set));
+    let supports = problem.supports.iter_mut().map(|support| &mut support.set);
+    let forces = problem.forces.iter_mut().map(|force| &mut force.set);
+    let rigid = problem.rigid.iter_mut().map(|rigid| &mut rigid.set);
+    supports.chain(forces).chain(rigid).for_each(|set| change(&sets, set));
     for part in &mut problem.mesh.parts {
         change(&parts, &mut part.name);
         [&mut part.front, &mut part.back].into_iter().flatten().for_each(|chamber| change(&chambers, chamber));

@@ -209,12 +209,14 @@ pub(super) fn left_out(problem: &Problem, solver: Solver) -> Vec<String> {
     let bends = |section: &Section| bending_stiffness(section) > 0.0;
     let flattens =
         |(part, section): (&Part, &Section)| bends(section) && !section.rest_curvature && !is_flat(mesh, part.layer);
+    let flat = mesh.parts.iter().zip(&problem.sections).any(flattens);
+    let membranes = is_calculix && !problem.sections.iter().all(bends);
     let sealed = problem.chambers.iter().any(|c| matches!(c.pressure, Pressure::Sealed { .. }));
     let cases = [
         (true, "curves, wrinkling and memory of fabrics: they are linear in it"),
         (problem.sections.iter().any(coupled), "shear that comes with stretch in plies at an angle"),
         (
-            mesh.parts.iter().zip(&problem.sections).any(flattens),
+            flat,
             "that curved sheets and corners want to be flat: in it they are free of bending as they are (rest_curvature = true)",
         ),
         (!mesh.start.is_empty(), "that the fabric is free of stress in another shape than it starts in"),
@@ -226,10 +228,7 @@ pub(super) fn left_out(problem: &Problem, solver: Solver) -> Vec<String> {
         (settings.imperfection > 0.0, "random offsets of nodes"),
         (is_calculix && problem.contact.is_some(), "contact: layers pass through each other"),
         (is_calculix && settings.mass_scaling != MassScaling::None, "scaled masses: it has the true ones"),
-        (
-            is_calculix && !problem.sections.iter().all(bends),
-            "that membranes do not bend: they bend as films of their thickness",
-        ),
+        (membranes, "that membranes do not bend: they bend as films of their thickness"),
     ];
     cases.iter().filter(|(is, _)| *is).map(|(_, what)| (*what).to_string()).collect()
 }
