@@ -13,8 +13,16 @@ pub struct Tick {
     pub dt_s: f64,
 }
 
-pub(crate) fn row(name: &'static str, account: Account, kind: RowKind, energy_j: f64) -> Row {
-    Row { name, account, kind, energy_j }
+pub(crate) fn stored(name: &'static str, account: Account, energy_j: f64) -> Row {
+    Row { name, account, kind: RowKind::Stored, energy_j }
+}
+
+pub(crate) fn dissipated(name: &'static str, account: Account, energy_j: f64) -> Row {
+    Row { name, account, kind: RowKind::Dissipated, energy_j }
+}
+
+pub(crate) fn supplied(name: &'static str, account: Account, energy_j: f64) -> Row {
+    Row { name, account, kind: RowKind::Supplied, energy_j }
 }
 
 /// A term over the nodes of a mesh, stepped in time.

@@ -16,7 +16,8 @@ pub(super) fn chambers(raw: &Raw, file: &mut MeshFile) -> Checked<()> {
             walls(name, table, tables.len() == 1, file)?;
         } else if let Some(parts) = &table.get_ref().parts {
             let help = "remove parts: they are for mesh files, which name no chambers";
-            return refuse("the generator already names the parts that face the chamber", help, parts.span());
+            let message = "the generator already names the parts that face the chamber";
+            return refuse(message, help, parts.span());
         }
     }
     Ok(())
@@ -62,7 +63,8 @@ fn surface<'a>(name: &Text, is_single: bool, file: &'a MeshFile) -> Checked<Opti
         _ => {
             let names: Vec<&str> = pressed.iter().map(|surface| surface.name.as_str()).collect();
             let message = format!("pressures act on {} surfaces of the file: {}", names.len(), names.join(", "));
-            refuse(message, "write a [chamber.NAME] for each, or parts = [\"…\"] into this one", name.span())
+            let help = "write a [chamber.NAME] for each, or parts = [\"…\"] into this one";
+            refuse(message, help, name.span())
         }
     }
 }
@@ -70,7 +72,8 @@ fn surface<'a>(name: &Text, is_single: bool, file: &'a MeshFile) -> Checked<Opti
 /// Gives the parts of a surface the chamber on its side.
 fn faced(name: &Text, surface: &Surface, file: &mut MeshFile) -> Checked<()> {
     if let Some(fault) = &surface.fault {
-        return refuse(fault, "or write parts = [\"…\"] into the chamber", name.span());
+        let help = "or write parts = [\"…\"] into the chamber";
+        return refuse(fault, help, name.span());
     }
     for part in &mut file.mesh.parts {
         for (_, back) in surface.faces.iter().filter(|(face, _)| *face == part.name) {

@@ -1,7 +1,7 @@
 //! Fabrics: the numbers and tables of one law, read by the catalogue of `models::fabrics`.
 
 use super::range::{
-    ANGLE, Checked, Free, Range, THICKNESS, Text, find, number, optional, plain, plain_number, refuse, text,
+    ANGLE, Checked, Free, Range, THICKNESS, Text, at_once, find, number, optional, plain, plain_number, refuse, text,
     unknown_name,
 };
 use super::raw::RawPly;
@@ -48,7 +48,9 @@ fn known_parts(plies: &[RawPly], names: &[&str]) -> Checked<()> {
 fn circular<T>(tables: &BTreeMap<Text, Spanned<Free>>, made: &Fabrics) -> Checked<T> {
     let left = tables.keys().find(|name| !made.contains_key(name.get_ref()));
     let (name, span) = left.map_or(("", 0..0), |name| (name.get_ref().as_str(), name.span()));
-    refuse(format!("the fabric `{name}` is made of itself"), "name plies that are other fabrics", span)
+    let message = format!("the fabric `{name}` is made of itself");
+    let help = "name plies that are other fabrics";
+    refuse(message, help, span)
 }
 
 /// One sheet of a fabric that is made of others. Places inside a value that was read before are not known.
@@ -65,7 +67,8 @@ fn plies(table: &Spanned<Free>) -> Checked<Vec<RawPly>> {
     let read: Result<Vec<Sheet>, toml::de::Error> = value.get_ref().clone().try_into();
     let sheets = read.or_else(|error| {
         let message = format!("plies: {}", error.message().lines().next().unwrap_or_default());
-        refuse(message, "write for example plies = [{ fabric = \"film\", angle_deg = 45 }]", value.span())
+        let help = "write for example plies = [{ fabric = \"film\", angle_deg = 45 }]";
+        refuse(message, help, value.span())
     })?;
     let placed = |sheet: Sheet| RawPly {
         fabric: Spanned::new(value.span(), sheet.fabric),
@@ -112,7 +115,7 @@ fn law(table: &Spanned<Free>) -> Checked<(&'static Law, Recipe)> {
             let found = fabrics::material(name.get_ref()).and_then(|m| Some((m.law()?, m.recipe())));
             found.ok_or_else(|| unknown_name("material", &name, &materials))
         }
-        (Some(_), Some(material)) => refuse("law and material at once", "keep one of the two", material.span()),
+        (Some(_), Some(material)) => at_once("law and material", material.span()),
         (None, None) => {
             let help = format!("add law = one of {}; or material = one of {}", laws.join(", "), materials.join(", "));
             refuse("a fabric without law", help, table.span())

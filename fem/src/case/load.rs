@@ -1,7 +1,7 @@
 //! Chambers, supports, rigid bodies, forces, gravity, obstacles and contact of a case.
 
 use super::range::{
-    ATMOSPHERE, Checked, GAP, GAUGE, LENGTH, POSITION, Range, Rows, TIME, Text, amplitude, amplitudes, choice,
+    ATMOSPHERE, Checked, GAP, GAUGE, LENGTH, POSITION, Range, Rows, TIME, Text, amplitude, amplitudes, at_once, choice,
     direction, optional, plain, refuse, si, unknown_name, vector,
 };
 use super::raw::{Raw, RawChamber, RawForce, RawObstacle, RawSupport};
@@ -43,7 +43,8 @@ pub(super) fn chambers(raw: &Raw, mesh: &Mesh) -> Checked<Vec<Chamber>> {
     let list: Vec<&str> = known.iter().copied().collect();
     if let Some(name) = known.iter().find(|c| !raw.chamber.keys().any(|k| k.get_ref() == **c)) {
         let message = format!("the mesh has a chamber `{name}` without a pressure");
-        return refuse(message, format!("add [chamber.{name}] with pressure_kPa = 0 or more"), raw.mesh.span());
+        let help = format!("add [chamber.{name}] with pressure_kPa = 0 or more");
+        return refuse(message, help, raw.mesh.span());
     }
     let build = |(name, table): (&Text, &Spanned<RawChamber>)| {
         if !known.contains(name.get_ref().as_str()) {
@@ -66,7 +67,8 @@ fn pressure(table: &Spanned<RawChamber>) -> Checked<Pressure> {
     let atmosphere_pa = optional("atmosphere_kPa", &raw.atmosphere_kpa, &ATMOSPHERE)?.unwrap_or(101_325.0);
     if let Some(low) = lowest(&filling).filter(|low| *low < -atmosphere_pa) {
         let message = format!("cannot fill to {} kPa: a vacuum is {} kPa", low * 1e-3, -atmosphere_pa * 1e-3);
-        return refuse(message, "write gauge pressures, from minus atmosphere_kPa on", table.span());
+        let help = "write gauge pressures, from minus atmosphere_kPa on";
+        return refuse(message, help, table.span());
     }
     let Some(at) = &raw.sealed_at_s else {
         // The room's pressure also bounds a vacuum.
@@ -111,9 +113,7 @@ fn span<T>(value: &Option<Spanned<T>>) -> Option<Span> {
 fn inflow(raw: &RawChamber) -> Checked<Option<Amplitude>> {
     let curve = amplitude(&raw.inflow_smooth_s_l_min, &raw.inflow_linear_s_l_min, &FLOW)?;
     match (&raw.inflow_l_min, curve) {
-        (Some(constant), Some(_)) => {
-            refuse("a constant inflow and a curve at once", "keep one of the two", constant.span())
-        }
+        (Some(constant), Some(_)) => at_once("a constant inflow and a curve", constant.span()),
         (Some(constant), None) => Ok(Some(Amplitude::Constant(si("inflow_l_min", constant, &FLOW)?))),
         (None, curve) => Ok(curve),
     }
@@ -140,7 +140,9 @@ fn filling(table: &Spanned<RawChamber>) -> Checked<Amplitude> {
         }
         (None, Some(curve), None) => Ok(curve),
         (None, _, Some(preset)) => {
-            refuse("a preset needs the pressure it leads to", "add pressure_kPa = 2, and no curve", preset.span())
+            let message = "a preset needs the pressure it leads to";
+            let help = "add pressure_kPa = 2, and no curve";
+            refuse(message, help, preset.span())
         }
         (Some(_), Some(_), _) => refuse("a constant pressure and a curve at once", help, table.span()),
         (None, None, None) => refuse("a chamber without a pressure", help, table.span()),
@@ -171,7 +173,9 @@ fn support(table: &Spanned<RawSupport>, mesh: &mut Mesh) -> Checked<Support> {
     };
     if raw.encastre == Some(true) {
         if axes != [true; 3] {
-            return refuse("an encastre edge holds all three axes", "remove axes or encastre", table.span());
+            let message = "an encastre edge holds all three axes";
+            let help = "remove axes or encastre";
+            return refuse(message, help, table.span());
         }
         set = encastre(mesh, &set);
     }
@@ -184,7 +188,8 @@ fn axes(key: &str, text: &Text) -> Checked<[bool; 3]> {
     let letters = text.get_ref().chars().count();
     if letters == 0 || letters != held.iter().filter(|h| **h).count() {
         let message = format!("{key} = \"{}\" is not understood", text.get_ref());
-        return refuse(message, "write some of x, y and z, each once, for example \"xyz\" or \"z\"", text.span());
+        let help = "write some of x, y and z, each once, for example \"xyz\" or \"z\"";
+        return refuse(message, help, text.span());
     }
     Ok(held)
 }
@@ -218,7 +223,9 @@ pub(super) fn set_name(name: &Text, mesh: &Mesh) -> Checked<String> {
     match mesh.sets.get(name.get_ref()) {
         None => Err(unknown_name("node set", name, &known)),
         Some(nodes) if nodes.is_empty() => {
-            refuse(format!("the node set `{}` is empty", name.get_ref()), "choose another set", name.span())
+            let message = format!("the node set `{}` is empty", name.get_ref());
+            let help = "choose another set";
+            refuse(message, help, name.span())
         }
         Some(_) => Ok(name.get_ref().clone()),
     }
@@ -272,7 +279,9 @@ fn obstacle(table: &Spanned<RawObstacle>) -> Checked<Obstacle> {
             radius_m: si("radius_mm", radius, &LENGTH)?,
         },
         (true, ..) => {
-            return refuse("a cylinder has point_mm, axis and radius_mm", "axis = [0, 1, 0]", table.span());
+            let message = "a cylinder has point_mm, axis and radius_mm";
+            let help = "axis = [0, 1, 0]";
+            return refuse(message, help, table.span());
         }
     };
     let friction = optional("friction", &raw.friction, &FRICTION)?.unwrap_or(0.0);

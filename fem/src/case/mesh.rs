@@ -1,7 +1,7 @@
 //! `[mesh]`: a generator with its parameters, or a mesh file.
 
 use super::range::{
-    Checked, Free, LENGTH, Range, Text, choice, find, number, plain, plain_number, refuse, unknown_name,
+    Checked, Free, LENGTH, Range, Text, at_once, choice, find, number, plain, plain_number, refuse, unknown_name,
 };
 use crate::mesh::Part;
 use crate::mesh::check::{check_open, near, rim};
@@ -147,11 +147,13 @@ pub const GENERATORS: &[MeshGenerator] = &[
 
 pub(super) fn mesh(table: &Spanned<Free>, read_mesh: ReadMesh) -> Checked<MeshFile> {
     match (entry(table, "generator")?, entry(table, "file")?) {
-        (Some(_), Some(file)) => refuse("a generator and a file at once", "keep one of the two", file.span()),
+        (Some(_), Some(file)) => at_once("a generator and a file", file.span()),
         (None, Some(file)) => from_file(table, &file, read_mesh),
         (Some(name), None) => generated(table, &name).map(MeshFile::from),
         (None, None) => {
-            refuse("[mesh] has no shape", "write generator = \"pillow\" or file = \"robot.inp\"", table.span())
+            let message = "[mesh] has no shape";
+            let help = "write generator = \"pillow\" or file = \"robot.inp\"";
+            refuse(message, help, table.span())
         }
     }
 }
@@ -218,7 +220,8 @@ fn from_file(table: &Spanned<Free>, file: &Text, read_mesh: ReadMesh) -> Checked
     match read_mesh(Path::new(file.get_ref())) {
         Err(FemError::Io { path, source }) => {
             let message = format!("the mesh file {} cannot be read: {source}", path.display());
-            refuse(message, "the path counts from the folder of the case file", file.span())
+            let help = "the path counts from the folder of the case file";
+            refuse(message, help, file.span())
         }
         Err(FemError::Mesh(message)) => Err(FemError::case(message, file.span())),
         Ok(read) => in_metres(read, file, entry(table, "unit")?),
@@ -305,7 +308,8 @@ fn value(table: &Spanned<Free>, key: &GeneratorKey) -> Checked<f64> {
         (None, Some(default)) => (default, table.span()),
         (None, None) => {
             let message = format!("[mesh] lacks {}", key.key);
-            return refuse(message, format!("add {} = …: {}", key.key, key.meaning), table.span());
+            let help = format!("add {} = …: {}", key.key, key.meaning);
+            return refuse(message, help, table.span());
         }
     };
     match key.kind {

@@ -60,6 +60,11 @@ pub(crate) fn refuse<T>(message: impl AsRef<str>, help: impl AsRef<str>, span: S
     Err(FemError::case(format!("{}\n{}", message.as_ref(), help.as_ref()), span))
 }
 
+/// Refuses two ways to say one thing.
+pub(crate) fn at_once<T>(what: &str, span: Span<usize>) -> Checked<T> {
+    refuse(format!("{what} at once"), "keep one of the two", span)
+}
+
 pub(crate) fn si(key: &str, value: &Num, range: &Range) -> Checked<f64> {
     number(key, *value.get_ref(), value.span(), range)
 }
@@ -102,7 +107,7 @@ pub(crate) fn amplitudes<const N: usize>(
 ) -> Checked<Option<Vec<Amplitude>>> {
     let (rows, kind): (_, fn(_) -> Amplitude) = match (smooth, linear) {
         (Some(_), Some(second)) => {
-            return refuse("a smooth and a linear curve at once", "keep one of the two", second.span());
+            return at_once("a smooth and a linear curve", second.span());
         }
         (Some(rows), None) => (rows, Amplitude::Smooth),
         (None, Some(rows)) => (rows, Amplitude::Linear),
@@ -151,7 +156,9 @@ pub(crate) fn text(key: &str, value: &Spanned<Value>) -> Checked<Text> {
     match value.get_ref() {
         Value::String(text) => Ok(Spanned::new(value.span(), text.clone())),
         other => {
-            refuse(format!("{key} must be a text, not {}", kind(other)), "write it in quotation marks", value.span())
+            let message = format!("{key} must be a text, not {}", kind(other));
+            let help = "write it in quotation marks";
+            refuse(message, help, value.span())
         }
     }
 }
@@ -235,10 +242,14 @@ impl<S> Key<S> {
         let range = Range { si: self.si, ..plain(low, high, self.meaning) };
         let si = number(self.name, plain_number(self.name, value)?, value.span(), &range)?;
         if self.name == "seed" && si.fract() != 0.0 {
-            return refuse(format!("seed must be a whole number, not {si}"), "write for example 1", value.span());
+            let message = format!("seed must be a whole number, not {si}");
+            let help = "write for example 1";
+            return refuse(message, help, value.span());
         }
         if self.name == "mass_passes" && ![2.0, 4.0, 6.0].contains(&si) {
-            return refuse(format!("mass_passes cannot be {si}"), "write 2, 4 or 6", value.span());
+            let message = format!("mass_passes cannot be {si}");
+            let help = "write 2, 4 or 6";
+            return refuse(message, help, value.span());
         }
         (self.set)(to, si);
         Ok(())

@@ -1,7 +1,9 @@
 //! `[part]` tables: parts of the mesh and the plies of their sections.
 
 use super::law::{self, Fabrics};
-use super::range::{ANGLE, Checked, DENSITY, Num, Range, Text, direction, optional, plain, refuse, si, unknown_name};
+use super::range::{
+    ANGLE, Checked, DENSITY, Num, Range, Text, at_once, direction, optional, plain, refuse, si, unknown_name,
+};
 use super::raw::{Raw, RawPart};
 use crate::mesh::{Mesh, Part};
 use crate::problem::start::{has_directions, warp_fault};
@@ -39,7 +41,8 @@ pub(super) fn sections(raw: &Raw, mesh: &mut Mesh, unread: &[(String, String)]) 
         }
         let part = &mesh.parts[i];
         if let Some((message, help)) = warp_fault(mesh, part, &section) {
-            return refuse(message, format!("try {help}"), warp.map_or(table.span(), Spanned::span));
+            let help = format!("try {help}");
+            return refuse(message, help, warp.map_or(table.span(), Spanned::span));
         }
         let foreign = unread.iter().find(|(name, _)| warp.is_none() && *name == part.name);
         if let Some((name, what)) = foreign.filter(|_| has_directions(&section)) {
@@ -73,7 +76,8 @@ fn direction_of(value: &Spanned<Value>) -> Checked<V3> {
         _ => {}
     }
     let message = format!("warp = {} is not understood", value.get_ref());
-    refuse(message, "write warp = \"x\", \"y\" or \"z\", or a vector such as [0, 1, 0.5]", value.span())
+    let help = "write warp = \"x\", \"y\" or \"z\", or a vector such as [0, 1, 0.5]";
+    refuse(message, help, value.span())
 }
 
 fn entry<'a>(raw: &'a Raw, part: &Part) -> Checked<&'a Spanned<RawPart>> {
@@ -104,15 +108,19 @@ fn plies(table: &Spanned<RawPart>, fabrics: &Fabrics) -> Checked<Vec<Ply>> {
     match (&raw.fabric, &raw.plies) {
         (Some(name), None) => Ok(vec![ply(name, &raw.angle_deg, fabrics)?]),
         (None, Some(plies)) if plies.get_ref().is_empty() => {
-            refuse("a part without a ply", "write for example plies = [{ fabric = \"film\" }]", plies.span())
+            let message = "a part without a ply";
+            let help = "write for example plies = [{ fabric = \"film\" }]";
+            refuse(message, help, plies.span())
         }
         (None, Some(plies)) => {
             if let Some(angle) = &raw.angle_deg {
-                return refuse("angle_deg together with plies", "write the angle into each ply", angle.span());
+                let message = "angle_deg together with plies";
+                let help = "write the angle into each ply";
+                return refuse(message, help, angle.span());
             }
             plies.get_ref().iter().map(|p| ply(&p.fabric, &p.angle_deg, fabrics)).collect()
         }
-        (Some(_), Some(plies)) => refuse("fabric and plies at once", "keep one of the two", plies.span()),
+        (Some(_), Some(plies)) => at_once("fabric and plies", plies.span()),
         (None, None) => refuse("a part without fabric", "write fabric = \"NAME\" of a [fabric.NAME]", table.span()),
     }
 }

@@ -2,7 +2,8 @@
 
 use super::load::{part_names, set_name};
 use super::range::{
-    Checked, Free, POSITION, Range, choice, direction, find, number, plain, refuse, si, switch, text, unknown_name,
+    Checked, Free, POSITION, Range, at_once, choice, direction, find, number, plain, refuse, si, switch, text,
+    unknown_name,
 };
 use super::range::{Key, key, named};
 use super::raw::RawOutput;
@@ -68,7 +69,7 @@ pub(super) fn settings(table: &Free) -> Checked<Settings> {
         match key.get_ref().as_str() {
             "preset" => {}
             "mass_scaling" if find(table, "target_step_s").is_some() => {
-                return refuse("mass_scaling and target_step_s at once", "keep one of the two", value.span());
+                return at_once("mass_scaling and target_step_s", value.span());
             }
             "mass_scaling" => settings.mass_scaling = mass_scaling(value)?,
             name @ "selective_mass" => settings.selective_mass = switch(name, value, "all waves keep their mass")?,

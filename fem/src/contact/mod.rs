@@ -49,12 +49,12 @@ mod search;
 mod start;
 mod surface;
 
-use models::{Account, LedgerLine, Pose, Row, RowKind, Term};
+use models::{Account, LedgerLine, Pose, Row, Term};
 use rayon::prelude::*;
 
 use crate::problem;
 use crate::terms::slide;
-use crate::transient::row;
+use crate::transient::{dissipated, stored};
 use crate::vec3::{Nodes, dot, norm, padded, scale, share};
 use crate::{FemError, Mesh, Result};
 use crate::{Tick, Transient};
@@ -198,11 +198,11 @@ impl Transient for Contact {
     /// Lines at the positions of the last step (at `at` before the first).
     fn ledger(&self, at: &Pose) -> Vec<Row> {
         let first = self.before_m.is_empty();
-        let stored = if first { self.add(at, &mut vec![0.0; at.q.len()]) } else { self.sums.stored };
+        let stored_j = if first { self.add(at, &mut vec![0.0; at.q.len()]) } else { self.sums.stored };
         vec![
-            row("contact", Account::Contact, RowKind::Stored, stored),
-            row("friction", Account::Contact, RowKind::Dissipated, self.sums.friction),
-            row("contact damping", Account::Contact, RowKind::Dissipated, self.sums.damping),
+            stored("contact", Account::Contact, stored_j),
+            dissipated("friction", Account::Contact, self.sums.friction),
+            dissipated("contact damping", Account::Contact, self.sums.damping),
         ]
     }
 

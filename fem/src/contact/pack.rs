@@ -120,5 +120,5 @@ pub(super) fn rows<S: Simd>(simd: S, x: &Nodes, node: &[u32; LANES], part: usize
         let p = &x[node[part * S::F64_LANES + lane] as usize];
         (out[0][lane], out[1][lane], out[2][lane]) = (p[0], p[1], p[2]);
     }
-    [V::load(simd, &out[0], 0), V::load(simd, &out[1], 0), V::load(simd, &out[2], 0)]
+    V::load_all(simd, &out, 0)
 }

@@ -106,6 +106,9 @@ impl Part {
 }
 
 impl Mesh {
+    pub(crate) fn name(&mut self, set: impl Into<String>, nodes: Vec<u32>) {
+        self.sets.insert(set.into(), nodes);
+    }
     /// Number of elements of all parts, quads and triangles.
     pub fn elements(&self) -> usize {
         self.parts.iter().map(Part::len).sum()

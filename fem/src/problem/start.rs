@@ -24,7 +24,8 @@ impl Problem {
     pub(crate) fn check_but_obstacles(&self) -> Result<()> {
         let refuse = |message: String| Err(FemError::Problem(message));
         if self.sections.len() != self.mesh.parts.len() {
-            return refuse(format!("{} parts but {} sections", self.mesh.parts.len(), self.sections.len()));
+            let message = format!("{} parts but {} sections", self.mesh.parts.len(), self.sections.len());
+            return refuse(message);
         }
         for (section, part) in self.sections.iter().zip(&self.mesh.parts) {
             let bad = |what: &str| refuse(format!("part `{}`{what}", part.name));
@@ -76,7 +77,8 @@ impl Settings {
             return refuse(format!("{name} must be positive, not {value}"));
         }
         if let Some(dt) = self.dt_s.filter(|dt| !(*dt > 0.0 && dt.is_finite())) {
-            return refuse(format!("the time step must be positive, not {dt}; leave it out"));
+            let message = format!("the time step must be positive, not {dt}; leave it out");
+            return refuse(message);
         }
         let not_negative = [
             ("mass_damping_1_s", self.mass_damping_1_s),
@@ -92,7 +94,8 @@ impl Settings {
             return refuse(format!("mass_passes must be 2, 4 or 6, not {passes}"));
         }
         if self.cfl > 1.0 {
-            return refuse(format!("cfl {} is over 1, the limit of stability", self.cfl));
+            let message = format!("cfl {} is over 1, the limit of stability", self.cfl);
+            return refuse(message);
         }
         Ok(())
     }

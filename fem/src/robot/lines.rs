@@ -66,7 +66,8 @@ impl Lines {
     /// [`FemError::Problem`] for strips of several slants, or so close that elements between them are slivers.
     pub(super) fn of(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Result<Lines> {
         let radius_m = scenario.radius_m;
-        let [cos, sin] = [scenario.actuator.cos_slant(radius_m), scenario.actuator.sin_slant(radius_m)];
+        let cos = scenario.actuator.cos_slant(radius_m);
+        let sin = scenario.actuator.sin_slant(radius_m);
         if scenario.strips().any(|strip| (strip.sin_slant(radius_m) - sin).abs() > 1e-9) {
             return Err(refused("strips of different slant\ngive all of them the same turns, count and length_mm"));
         }

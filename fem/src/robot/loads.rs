@@ -13,7 +13,9 @@ use toml::{Spanned, Value};
 
 pub(super) fn numbers(name: &str, value: &Spanned<Value>, range: &Range) -> Checked<Vec<f64>> {
     let Some(list) = value.get_ref().as_array() else {
-        return refuse(format!("{name} must be a list"), "write numbers in brackets: [10, 20, 30]", value.span());
+        let message = format!("{name} must be a list");
+        let help = "write numbers in brackets: [10, 20, 30]";
+        return refuse(message, help, value.span());
     };
     let one =
         |v: &Value| number(name, plain_number(name, &Spanned::new(value.span(), v.clone()))?, value.span(), range);
@@ -48,7 +50,8 @@ pub(super) fn read(run: &mut RobotRun, name: &str, value: &Spanned<Value>) -> Ch
         _ if is_list => run.obstacle_moves_m = each(&POSITION)?,
         _ => {
             let help = "write how far it has moved at every pressure: [[0, 0, 0], [0, -20, 0]]";
-            return refuse(format!("{name} is not a list of [x, y, z]"), help, value.span());
+            let message = format!("{name} is not a list of [x, y, z]");
+            return refuse(message, help, value.span());
         }
     }
     Ok(())
@@ -63,7 +66,8 @@ pub(super) fn check(run: &RobotRun, table: &Free) -> Checked<()> {
         let (entries, pressures) = (list.len(), run.pressures_pa.len());
         if entries != pressures {
             let help = "write one entry for every pressure; a pressure may appear twice: pressures_kpa = [30, 30]";
-            return refuse(format!("{name} has {entries} entries and pressures_kpa {pressures}"), help, span(name));
+            let message = format!("{name} has {entries} entries and pressures_kpa {pressures}");
+            return refuse(message, help, span(name));
         }
         if run.separate {
             let help = "write separate = false, or one load for all";

@@ -64,13 +64,13 @@ pub(super) fn sew(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSet
     let n = lines.angles.len() as u32;
     for (k, ring) in lines.markers.iter().enumerate() {
         let first = *ring as u32 * n;
-        mesh.sets.insert(format!("marker_{}", k + 1), (first..first + n).collect());
+        mesh.name(format!("marker_{}", k + 1), (first..first + n).collect());
     }
     if !scenario.is_spatial() {
         // The taut generator runs opposite the middle of the strip.
         let far = (lines.strips[0].s_m.len() - 1 + lines.angles.len()) / 2;
         let generator = (0..lines.x_m.len()).map(|i| i as u32 * n + far as u32).collect();
-        mesh.sets.insert("far_generator".into(), generator);
+        mesh.name("far_generator", generator);
     }
     Ok(mesh)
 }
@@ -121,7 +121,8 @@ fn sorted(sewers: &[Sewer], lines: &Lines, quads: &[[u32; 4]]) -> Vec<Part> {
 
 /// The warp of a slanted strip, one for every element: cos β e_x + sin β e_θ.
 fn along_strip(scenario: &Scenario, points: &[V3], part: &Part) -> Vec<V3> {
-    let [cos, sin] = [scenario.actuator.cos_slant(scenario.radius_m), scenario.actuator.sin_slant(scenario.radius_m)];
+    let cos = scenario.actuator.cos_slant(scenario.radius_m);
+    let sin = scenario.actuator.sin_slant(scenario.radius_m);
     let warp = |quad: &[u32; 4]| {
         let [y, z] = [1, 2].map(|k| quad.iter().map(|node| points[*node as usize][k]).sum::<f64>());
         [cos, -sin * z / y.hypot(z), sin * y / y.hypot(z)]

@@ -11,7 +11,7 @@ use crate::sheet::Sheet;
 use crate::sheet::bound::largest;
 use crate::sheet::chamber::Air;
 use crate::sheet::reference::mean_stiffness;
-use crate::vec3::{cross, dot, norm};
+use crate::vec3::{cross, dot, norm, sub};
 use crate::{FemError, Mesh, Problem, Result, Transient};
 use serde::{Deserialize, Serialize};
 
@@ -161,7 +161,7 @@ impl Simulation {
             if element.corners == 4 && !wrinkles && largest(c[0], c[1], c[2]) > 1.0 {
                 let against = (0..4).filter(|n| {
                     let (here, next, last) = (at(*n), at((n + 1) % 4), at((n + 3) % 4));
-                    let corner = cross([0, 1, 2].map(|k| next[k] - here[k]), [0, 1, 2].map(|k| last[k] - here[k]));
+                    let corner = cross(sub(next, here), sub(last, here));
                     dot(corner, normal) < 0.0
                 });
                 if against.count() > 1 {

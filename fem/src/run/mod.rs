@@ -34,7 +34,7 @@ use crate::contact::edges::Edges;
 use crate::problem::Settings;
 use crate::sheet::Sheet;
 use crate::sheet::order::Order;
-use crate::transient::row;
+use crate::transient::{dissipated, stored, supplied};
 use crate::vec3::{Nodes, V3};
 use crate::{FemError, Mesh, Problem, Result, Transient};
 use clock::{Books, Clock};
@@ -282,14 +282,14 @@ impl Simulation {
         let pose = Pose::nodes(self.x.as_flattened());
         let mut rows = self.sheet.ledger(&pose);
         rows.extend(self.others().flat_map(|term| term.ledger(&pose)));
-        rows.push(row("mass damping", Account::Numerical, RowKind::Dissipated, self.books.damping.sum));
-        let [supplied, dissipated] = self.books.earlier;
+        rows.push(dissipated("mass damping", Account::Numerical, self.books.damping.sum));
+        let [given, lost] = self.books.earlier;
         if self.books.earlier != [0.0; 2] {
-            rows.push(row("earlier loads", Account::Load, RowKind::Supplied, supplied));
-            rows.push(row("earlier loads", Account::Load, RowKind::Dissipated, dissipated));
+            rows.push(supplied("earlier loads", Account::Load, given));
+            rows.push(dissipated("earlier loads", Account::Load, lost));
         }
         if !self.driven.is_empty() {
-            rows.push(row("supports", Account::Load, RowKind::Supplied, self.books.support.sum));
+            rows.push(supplied("supports", Account::Load, self.books.support.sum));
         }
         // Before the first step, what terms store already is the energy of the start.
         let stored = rows.iter().filter(|r| r.kind == RowKind::Stored).map(|r| r.energy_j);
@@ -303,8 +303,7 @@ impl Simulation {
         let compressed_j = self.sheet.compressed_j(self.x.as_flattened());
         if let Some(membrane) = ledger.rows.iter_mut().find(|row| row.name == "membrane") {
             membrane.energy_j -= compressed_j;
-            let kind = membrane.kind;
-            ledger.rows.push(row("compressed sheets", Account::Compression, kind, compressed_j));
+            ledger.rows.push(stored("compressed sheets", Account::Compression, compressed_j));
         }
         ledger
     }

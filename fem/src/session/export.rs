@@ -46,7 +46,8 @@ pub fn export(source: &Source, path: &Path, solver: Solver) -> Result<Export> {
         }
         _ => {
             let message = format!("the ending of {} names no known format", path.display());
-            return Err(FemError::setting(message, "end it with .inp (Abaqus, CalculiX) or .vtu (ParaView)"));
+            let help = "end it with .inp (Abaqus, CalculiX) or .vtu (ParaView)";
+            return Err(FemError::setting(message, help));
         }
     }
     let (nodes, elements) = (problem.mesh.points.len(), problem.mesh.elements());

@@ -104,7 +104,9 @@ pub(super) fn open(folder: &Path, text: &str, resume: bool, force: bool) -> Resu
             take(folder, folder, Some(marker)).map(Some)
         }
         (Found::Unfinished(_), false, false) => {
-            refuse("it holds an interrupted run", "add --resume to go on with it, or --force to start again")
+            let message = "it holds an interrupted run";
+            let help = "add --resume to go on with it, or --force to start again";
+            refuse(message, help)
         }
         (Found::Finished, _, true) => open_beside(folder, text, resume).map(Some),
         (Found::Finished, true, false) => {
@@ -114,10 +116,14 @@ pub(super) fn open(folder: &Path, text: &str, resume: bool, force: bool) -> Resu
             Ok(None)
         }
         (Found::Finished, false, false) => {
-            refuse("it holds a finished run", "choose another folder with --out, or add --force to replace it")
+            let message = "it holds a finished run";
+            let help = "choose another folder with --out, or add --force to replace it";
+            refuse(message, help)
         }
         (Found::Foreign(name), ..) => {
-            refuse(&format!("it holds other files ({name})"), "choose a new or empty folder with --out")
+            let message = &format!("it holds other files ({name})");
+            let help = "choose a new or empty folder with --out";
+            refuse(message, help)
         }
     }
 }
@@ -140,7 +146,9 @@ fn open_beside(folder: &Path, text: &str, resume: bool) -> Result<Workplace> {
             take(&beside, folder, Some(marker))
         }
         Found::Foreign(name) => {
-            Err(FemError::folder(&beside, format!("it holds other files ({name})"), "move that folder away"))
+            let cause = format!("it holds other files ({name})");
+            let help = "move that folder away";
+            Err(FemError::folder(&beside, cause, help))
         }
         _ => take(&beside, folder, None),
     }
@@ -173,7 +181,8 @@ fn same_case(folder: &Path, text: &str, case_sha256: &str) -> Result<()> {
     }
     let own = folder.join("case.toml");
     let help = format!("give the case it was started with: {}; or start again with --force", own.display());
-    Err(FemError::folder(folder, "the run in it is of another case, or the case has changed", help))
+    let cause = "the run in it is of another case, or the case has changed";
+    Err(FemError::folder(folder, cause, help))
 }
 
 fn look(folder: &Path) -> Result<Found> {

@@ -96,7 +96,8 @@ impl Earlier {
                 "cannot end at {} s: the run in {from} ended at {:.6} s, and time goes on from there",
                 problem.settings.end_s, self.time_s
             );
-            return Err(FemError::setting(message, "give a later end with --end, or as end_s of the case"));
+            let help = "give a later end with --end, or as end_s of the case";
+            return Err(FemError::setting(message, help));
         }
         let jumps = self.jumps(&problem.loads_at(self.time_s));
         loaded.case.notices.extend(jumps);
@@ -135,7 +136,8 @@ pub(super) fn reopened(folder: &Path, loaded: &Loaded, settings: &Settings) -> R
     }
     if end_s < ended.time_s {
         let message = format!("the run in {} ended at {:.6} s, after --end {end_s} s", folder.display(), ended.time_s);
-        return Err(FemError::setting(message, "leave --end out, give a later one, or run it again with --force"));
+        let help = "leave --end out, give a later one, or run it again with --force";
+        return Err(FemError::setting(message, help));
     }
     let earlier = Earlier::read(folder)?;
     let problem = &loaded.case.problem;

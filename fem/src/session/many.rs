@@ -167,7 +167,8 @@ impl Task {
             return Ok(());
         }
         let cause = "it holds a run of another case, or the case has changed";
-        Err(FemError::folder(&self.folder, cause, "choose another folder with --out, or add --force to run it again"))
+        let help = "choose another folder with --out, or add --force to run it again";
+        Err(FemError::folder(&self.folder, cause, help))
     }
 
     fn run(&self, job: &Job, settings: &Settings, tell: Progress) -> Result<FeRun> {

@@ -29,7 +29,8 @@ fn refused(least: u64, left: u64) -> Result<()> {
     }
     let gb = |bytes: u64| bytes as f64 * 1e-9;
     let message = format!("this mesh needs at least {:.1} GB of memory, and {:.1} GB are free", gb(least), gb(left));
-    Err(FemError::setting(message, "take larger elements: twice the size needs a quarter of the memory"))
+    let help = "take larger elements: twice the size needs a quarter of the memory";
+    Err(FemError::setting(message, help))
 }
 
 #[cfg(test)]

@@ -82,7 +82,8 @@ impl Source {
             let count = (whole / mm + 1e-6).floor();
             if count < 1.0 {
                 let message = format!("--pouch {mm}mm is longer than the actuator of {}, {whole:.0} mm", self.name);
-                return Err(FemError::setting(message, "write shorter pouches, for example --pouch 45mm,90mm"));
+                let help = "write shorter pouches, for example --pouch 45mm,90mm";
+                return Err(FemError::setting(message, help));
             }
             set("actuator", "length_mm", mm.into());
             set("actuator", "count", (count as i64).into());

@@ -104,6 +104,12 @@ impl<S: Simd> V<S> {
         V(simd, S::as_simd_f64s(from).0[part])
     }
 
+    /// The same of a vector for each lane.
+    #[inline(always)]
+    pub(crate) fn load_all(simd: S, [x, y, z]: &[Lane; 3], part: usize) -> [V<S>; 3] {
+        [V::load(simd, x, part), V::load(simd, y, part), V::load(simd, z, part)]
+    }
+
     /// Writes part number `part` of eight lanes.
     #[inline(always)]
     pub(crate) fn store(self, to: &mut Lane, part: usize) {
@@ -130,7 +136,7 @@ impl<S: Simd> V<S> {
                 out[lane] = x[k][node[part * width + lane][c] as usize];
             }
         }
-        [V::load(simd, &out[0], 0), V::load(simd, &out[1], 0), V::load(simd, &out[2], 0)]
+        V::load_all(simd, &out, 0)
     }
 
     /// The lanes as numbers, the first `S::F64_LANES` of them meaningful.

@@ -155,6 +155,6 @@ impl ShellLaw for Called<'_> {
             }
             w[l] = self.0.energy(e, &past);
         }
-        ([V::load(simd, &s[0], 0), V::load(simd, &s[1], 0), V::load(simd, &s[2], 0)], V::load(simd, &w, 0))
+        (V::load_all(simd, &s, 0), V::load(simd, &w, 0))
     }
 }

@@ -20,12 +20,12 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use models::fabrics::Past;
-use models::{Account, Fabric, LedgerLine, Pose, Row, RowKind, Term};
+use models::{Account, Fabric, LedgerLine, Pose, Row, Term};
 
 use crate::bytes::{pack, unpack};
 use crate::mesh::Mesh;
 use crate::problem::{Chamber, Section, Settings};
-use crate::transient::row;
+use crate::transient::{dissipated, stored, supplied};
 use crate::vec3::V3;
 use crate::{FemError, NODE, Result, Tick, Transient};
 pub use reference::Element;
@@ -220,18 +220,18 @@ impl Transient for Sheet {
     fn ledger(&self, _at: &Pose) -> Vec<Row> {
         let [membrane, bending, hourglass] = self.stored();
         let mut rows = vec![
-            row("membrane", Account::Stretch, RowKind::Stored, membrane),
-            row("bending", Account::Wall, RowKind::Stored, bending),
-            row("hourglass", Account::Numerical, RowKind::Stored, hourglass),
-            row("viscosity", Account::Numerical, RowKind::Dissipated, self.viscous_j),
+            stored("membrane", Account::Stretch, membrane),
+            stored("bending", Account::Wall, bending),
+            stored("hourglass", Account::Numerical, hourglass),
+            dissipated("viscosity", Account::Numerical, self.viscous_j),
         ];
         if self.fabrics.iter().any(|f| f.has_memory()) {
             let lost = self.patches.iter().map(|p| p.sums.hysteresis).sum();
-            rows.push(row("fabric hysteresis", Account::Stretch, RowKind::Dissipated, lost));
+            rows.push(dissipated("fabric hysteresis", Account::Stretch, lost));
         }
         if !self.air.is_empty() {
             let work = self.air.iter().map(|a| a.now.work_j).sum();
-            rows.push(row("pressure", Account::ActuatorGas, RowKind::Supplied, work));
+            rows.push(supplied("pressure", Account::ActuatorGas, work));
         }
         rows
     }

@@ -40,7 +40,7 @@ use crate::Mesh;
 use crate::bytes::{pack, unpack};
 use crate::sheet::reference::strain;
 use crate::sheet::{Element, Sheet};
-use crate::transient::row;
+use crate::transient::supplied;
 use crate::vec3::{Nodes, V3, add, along, dot, node, norm, scale, sub};
 use crate::{Tick, Transient};
 
@@ -260,7 +260,7 @@ impl Transient for Folds {
         let energy_j = self.stored_j.unwrap_or_else(|| self.edges.iter().map(|e| e.energy_j(x)).sum());
         vec![
             self.line().row(RowKind::Stored, energy_j),
-            row("tension of folds", Account::Wall, RowKind::Supplied, self.tension_work_j),
+            supplied("tension of folds", Account::Wall, self.tension_work_j),
         ]
     }
 

@@ -18,14 +18,14 @@
 //! **Validity**: depths well below the radius; nodes do not touch the solid between them, so elements must be smaller
 //! than its curvature. Friction: see the return map in `coulomb`.
 
-use models::{Account, LedgerLine, Pose, Row, RowKind, Term};
+use models::{Account, LedgerLine, Pose, Row, Term};
 use rayon::prelude::*;
 
 use super::coulomb::slide;
 use crate::bytes::{pack, unpack};
 use crate::problem::Obstacle;
 use crate::problem::solid::Solid;
-use crate::transient::row;
+use crate::transient::{self, dissipated, supplied};
 use crate::vec3::{Nodes, V3, add, dot, sub};
 use crate::{FemError, Mesh, Result};
 use crate::{Tick, Transient};
@@ -170,14 +170,13 @@ impl Transient for Obstacles {
     fn ledger(&self, at: &Pose) -> Vec<Row> {
         let first = self.before_m.is_empty();
         let stored = if first { self.add(at, &mut vec![0.0; at.q.len()]) } else { self.stored_j };
-        let of = |name, kind, energy_j| row(name, Account::Load, kind, energy_j);
         let mut rows = vec![
-            of("obstacles", RowKind::Stored, stored),
-            of("obstacle friction", RowKind::Dissipated, self.lost_j[0]),
-            of("obstacle damping", RowKind::Dissipated, self.lost_j[1]),
+            transient::stored("obstacles", Account::Load, stored),
+            dissipated("obstacle friction", Account::Load, self.lost_j[0]),
+            dissipated("obstacle damping", Account::Load, self.lost_j[1]),
         ];
         let moves = self.paths.iter().any(|path| path.obstacle.motion.is_some());
-        rows.extend(moves.then(|| of("obstacle motion", RowKind::Supplied, self.work_j)));
+        rows.extend(moves.then(|| supplied("obstacle motion", Account::Load, self.work_j)));
         rows
     }
     fn stiffness_bound(&self, at: &Pose, bound: &mut [f64]) {

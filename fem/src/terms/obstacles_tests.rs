@@ -1,4 +1,5 @@
 use super::*;
+use models::RowKind;
 use crate::problem::{Amplitude, ObstacleShape};
 
 const G: f64 = 9.81;

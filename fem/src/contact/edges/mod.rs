@@ -43,11 +43,11 @@ mod sides;
 #[cfg(test)]
 mod tests;
 
-use models::{Account, LedgerLine, Pose, Row, RowKind, Term};
+use models::{Account, LedgerLine, Pose, Row, Term};
 use rayon::prelude::*;
 
 use super::push;
-use crate::transient::row;
+use crate::transient::{dissipated, stored};
 use crate::{Tick, Transient};
 pub use body::Edges;
 
@@ -95,9 +95,9 @@ impl Transient for Edges {
     /// Lines at the positions of the last step.
     fn ledger(&self, _at: &Pose) -> Vec<Row> {
         vec![
-            row("edge contact", Account::Contact, RowKind::Stored, self.stored_j),
-            row("edge damping", Account::Contact, RowKind::Dissipated, self.lost_j),
-            row("collisions", Account::Contact, RowKind::Dissipated, self.held.lost_j),
+            stored("edge contact", Account::Contact, self.stored_j),
+            dissipated("edge damping", Account::Contact, self.lost_j),
+            dissipated("collisions", Account::Contact, self.held.lost_j),
         ]
     }
 

@@ -1,9 +1,9 @@
 //! Elements one by one: different nodes, an area, no corner turned inside out, a warp direction in the plane.
 
-use crate::{FemError, Result};
 use crate::mesh::{Mesh, Part};
 use crate::policy;
 use crate::vec3::{V3, area, centre, cross, dot, norm, sub};
+use crate::{FemError, Result};
 
 /// Checks every element in its stress-free shape, and its area at the start.
 pub(super) fn check(mesh: &Mesh) -> Result<()> {

@@ -33,9 +33,9 @@ pub fn disc_balloon(radius_m: f64, n: usize) -> Result<Mesh, FemError> {
     for (i, point) in disc.points.iter().enumerate() {
         bottom.push(if i >= disc.rim { top[i] } else { new_node(&mut mesh, place(*point)) });
     }
-    mesh.sets.insert("rim".into(), top[disc.rim..].to_vec());
+    mesh.name("rim", top[disc.rim..].to_vec());
     for (name, nodes, layer) in [("top", &top, 0), ("bottom", &bottom, 1)] {
-        mesh.sets.insert(format!("centre_{name}"), disc.centre.iter().map(|i| nodes[*i]).collect());
+        mesh.name(format!("centre_{name}"), disc.centre.iter().map(|i| nodes[*i]).collect());
         let quads = disc.quads(nodes, layer == 1);
         mesh.parts.push(Part { layer, ..Part::round("air", name, quads) });
     }

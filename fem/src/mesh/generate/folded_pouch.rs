@@ -82,7 +82,7 @@ pub fn folded_pouch(pouch: &FoldedPouch) -> Result<Mesh> {
         heights[node as usize] = joint.height() * pouch.gap_m;
     }
     mesh.start = mesh.points.iter().zip(heights).map(|(p, z)| [p[0], p[1], z]).collect();
-    mesh.sets.insert("creases".into(), union(creases));
+    mesh.name("creases", union(creases));
     Ok(mesh)
 }
 
@@ -165,7 +165,7 @@ fn name_nodes(mesh: &mut Mesh, panel: &Panel, grid: &Grid, creases: &mut Vec<Vec
         creases.extend([grid.row(0), grid.row(grid.nv)]);
         return;
     }
-    mesh.sets.insert(format!("middle_{}", panel.0), vec![grid.at(grid.nu / 2, grid.nv / 2)]);
+    mesh.name(format!("middle_{}", panel.0), vec![grid.at(grid.nu / 2, grid.nv / 2)]);
     let ends = mesh.sets.entry("ends".into()).or_default();
     *ends = union([std::mem::take(ends), grid.column(0), grid.column(grid.nu)]);
 }

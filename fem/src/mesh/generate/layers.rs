@@ -33,11 +33,11 @@ pub fn pillow(side_m: f64, n: usize, gap_m: f64) -> Result<Mesh> {
     let size = [side_m, side_m];
     let (mut mesh, top, bottom) = two_layers(size, [n, n], |i, j| i == 0 || j == 0 || i == n || j == n);
     name_centres(&mut mesh, &top, &bottom);
-    mesh.sets.insert("rim".into(), top.rim());
-    mesh.sets.insert("corners".into(), top.corners());
+    mesh.name("rim", top.rim());
+    mesh.name("corners", top.corners());
     let middles = vec![top.at(n / 2, 0), top.at(n, n / 2), top.at(n / 2, n), top.at(0, n / 2)];
-    mesh.sets.insert("mid_edge".into(), vec![middles[1]]);
-    mesh.sets.insert("mid_edges".into(), middles);
+    mesh.name("mid_edge", vec![middles[1]]);
+    mesh.name("mid_edges", middles);
     open_gap(&mut mesh, &top, &bottom, gap_m)?;
     Ok(mesh)
 }
@@ -66,11 +66,11 @@ pub fn long_pouch(length_flat_m: f64, width_m: f64, n: usize, m: usize, gap_m: f
     few_enough("long pouch", n, m.saturating_mul(2))?;
     let (mut mesh, top, bottom) = two_layers([length_flat_m, width_m], [n, m], |i, _| i == 0 || i == n);
     name_centres(&mut mesh, &top, &bottom);
-    mesh.sets.insert("left".into(), top.column(0));
-    mesh.sets.insert("right".into(), top.column(n));
-    mesh.sets.insert("open_0".into(), union([top.row(0), bottom.row(0)]));
-    mesh.sets.insert("open_1".into(), union([top.row(m), bottom.row(m)]));
-    mesh.sets.insert("middle".into(), union([top.row(m / 2), bottom.row(m / 2)]));
+    mesh.name("left", top.column(0));
+    mesh.name("right", top.column(n));
+    mesh.name("open_0", union([top.row(0), bottom.row(0)]));
+    mesh.name("open_1", union([top.row(m), bottom.row(m)]));
+    mesh.name("middle", union([top.row(m / 2), bottom.row(m / 2)]));
     open_gap(&mut mesh, &top, &bottom, gap_m)?;
     Ok(mesh)
 }
@@ -114,7 +114,7 @@ pub fn flat_tube(flat_width_m: f64, length_m: f64, n_w: usize, n_l: usize, warp_
         ("gauge_0", union([top.column(n_l / 4), bottom.column(n_l / 4)])),
         ("gauge_1", union([top.column(n_l / 4 * 3), bottom.column(n_l / 4 * 3)])),
     ] {
-        mesh.sets.insert(name.into(), nodes);
+        mesh.name(name, nodes);
     }
     // Seen from below, the same turn from the axis has the other sign in y.
     mesh.parts[0].warp = vec![[warp_rad.cos(), warp_rad.sin(), 0.0]];
@@ -139,8 +139,8 @@ fn two_layers(size: [f64; 2], n: [usize; 2], shared: impl Fn(usize, usize) -> bo
 }
 
 fn name_centres(mesh: &mut Mesh, top: &Grid, bottom: &Grid) {
-    mesh.sets.insert("centre_top".into(), top.middle());
-    mesh.sets.insert("centre_bottom".into(), bottom.middle());
+    mesh.name("centre_top", top.middle());
+    mesh.name("centre_bottom", bottom.middle());
 }
 
 /// Starts the nodes that the layers do not share half the gap above and below.

@@ -43,7 +43,7 @@ pub fn plate(lx_m: f64, ly_m: f64, nx: usize, ny: usize, distortion: Option<Dist
         ("corners", grid.corners()),
         ("centre", grid.middle()),
     ] {
-        mesh.sets.insert(name.into(), nodes);
+        mesh.name(name, nodes);
     }
     if let Some(distortion) = distortion {
         distort(&mut mesh, &grid, distortion, [dx, dy])?;
@@ -73,10 +73,10 @@ pub fn crossed_sheets(length_m: f64, width_m: f64, n: usize, gap_m: f64) -> Resu
     let upper =
         Grid::add(&mut mesh, n - 1, along - 1, |i, j| [at(i, n - 1, width_m), at(j, along - 1, length_m), gap_m]);
     let count = (along + 1) * (n + 1);
-    mesh.sets.insert("lower".into(), (0..count as u32).collect());
-    mesh.sets.insert("upper".into(), (count as u32..mesh.points.len() as u32).collect());
-    mesh.sets.insert("lower_ends".into(), union([lower.column(0), lower.column(along)]));
-    mesh.sets.insert("upper_ends".into(), union([upper.row(0), upper.row(along - 1)]));
+    mesh.name("lower", (0..count as u32).collect());
+    mesh.name("upper", (count as u32..mesh.points.len() as u32).collect());
+    mesh.name("lower_ends", union([lower.column(0), lower.column(along)]));
+    mesh.name("upper_ends", union([upper.row(0), upper.row(along - 1)]));
     mesh.parts.push(Part::of("lower", lower.quads()));
     mesh.parts.push(Part { layer: 1, ..Part::of("upper", upper.quads()) });
     Ok(mesh)

@@ -43,7 +43,7 @@ pub fn sphere(radius_m: f64, n: usize) -> Result<Mesh, FemError> {
     let near: &[usize] = if n.is_multiple_of(2) { &[n / 2] } else { &[n / 2, n / 2 + 1] };
     for (name, side) in [("top", n), ("bottom", 0)] {
         let nodes = near.iter().flat_map(|j| near.iter().map(|i| known[&[*i, *j, side]])).collect();
-        mesh.sets.insert(name.into(), nodes);
+        mesh.name(name, nodes);
     }
     mesh.parts.push(Part::round("air", "sphere", quads));
     Ok(mesh)

@@ -115,7 +115,7 @@ fn wall(tube: &Tube, angles: &[f64]) -> Mesh {
     let rings =
         [("base", 0), ("base_2", 1), ("middle", tube.along / 2), ("tip_2", tube.along - 1), ("tip", tube.along)];
     for (name, j) in rings {
-        mesh.sets.insert(name.into(), (node(j, 0)..=node(j, n - 1)).collect());
+        mesh.name(name, (node(j, 0)..=node(j, n - 1)).collect());
     }
     mesh.parts.push(part);
     mesh
@@ -147,8 +147,8 @@ fn add_cap(mesh: &mut Mesh, tube: &Tube, angles: &[f64], end: usize, cap: Cap) -
         Cap::Triangles => triangle_cap(mesh, &mut part, &ring, angles, x, tube.radius_m, end == 0),
     };
     let nodes = ring.into_iter().chain(own..mesh.points.len() as u32).collect();
-    mesh.sets.insert(format!("{name}_cap"), nodes);
-    mesh.sets.insert(format!("{name}_centre"), centre);
+    mesh.name(format!("{name}_cap"), nodes);
+    mesh.name(format!("{name}_centre"), centre);
     mesh.parts.push(part);
     Ok(())
 }

@@ -90,24 +90,29 @@ fn check(mesh: &Mesh, positions: &[V3], values: &[f64], look: &PictureLook) -> R
     let sizes = FEWEST_PIXELS..=MOST_PIXELS;
     if !sizes.contains(&look.width) || !sizes.contains(&look.height) {
         let (width, height) = (look.width, look.height);
-        return refuse(format!("{width} x {height} pixels; give {FEWEST_PIXELS} to {MOST_PIXELS} each"));
+        let message = format!("{width} x {height} pixels; give {FEWEST_PIXELS} to {MOST_PIXELS} each");
+        return refuse(message);
     }
     if positions.len() != nodes || !(values.is_empty() || values.len() == elements) {
         let (p, v) = (positions.len(), values.len());
-        return refuse(format!("{p} positions and {v} values for {nodes} nodes and {elements} elements"));
+        let message = format!("{p} positions and {v} values for {nodes} nodes and {elements} elements");
+        return refuse(message);
     }
     if let Some(node) = positions.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
         return refuse(format!("node {} is at {:?}", node + 1, positions[node]));
     }
     if let Some(element) = values.iter().position(|value| !value.is_finite()) {
-        return refuse(format!("the value of element {} is {}", element + 1, values[element]));
+        let message = format!("the value of element {} is {}", element + 1, values[element]);
+        return refuse(message);
     }
     if let Some(node) = mesh.faces().flatten().find(|&&node| node as usize >= nodes) {
-        return refuse(format!("an element has node {}, the mesh has {nodes}", node + 1));
+        let message = format!("an element has node {}, the mesh has {nodes}", node + 1);
+        return refuse(message);
     }
     match look.limits {
         Some((low, high)) if !(low < high && (high - low).is_finite()) => {
-            refuse(format!("the colour limits {low} and {high} must be finite and rising"))
+            let message = format!("the colour limits {low} and {high} must be finite and rising");
+            refuse(message)
         }
         _ => Ok(()),
     }
