@@ -13,6 +13,11 @@ pub struct Tick {
     pub dt_s: f64,
 }
 
+/// Energy of the rows of a kind \[J\].
+pub(crate) fn sum_of(rows: &[Row], kind: RowKind) -> f64 {
+    rows.iter().filter(|row| row.kind == kind).map(|row| row.energy_j).sum()
+}
+
 pub(crate) fn stored(name: &'static str, account: Account, energy_j: f64) -> Row {
     Row { name, account, kind: RowKind::Stored, energy_j }
 }

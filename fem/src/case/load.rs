@@ -232,7 +232,7 @@ pub(super) fn set_name(name: &Text, mesh: &Mesh) -> Checked<String> {
 }
 
 pub(super) fn part_names(names: &[Text], mesh: &Mesh) -> Checked<Vec<String>> {
-    let known: Vec<&str> = mesh.parts.iter().map(|p| p.name.as_str()).collect();
+    let known: Vec<&str> = mesh.part_names();
     match names.iter().find(|name| !known.contains(&name.get_ref().as_str())) {
         Some(name) => Err(unknown_name("part", name, &known)),
         None => Ok(names.iter().map(|name| name.get_ref().clone()).collect()),

@@ -243,7 +243,9 @@ fn in_metres(mut file: MeshFile, named: &Text, unit: Option<Text>) -> Checked<Me
         return refuse(message, help, named.span());
     };
     let per_m = choice("unit", &unit, &UNITS)?;
-    file.mesh.points.iter_mut().flatten().for_each(|x| *x /= per_m);
+    for x in file.mesh.points.iter_mut().flatten() {
+        *x /= per_m;
+    }
     let side = median_side_m(&file.mesh);
     let largest = extent(file.mesh.points.iter().copied()).into_iter().fold(0.0, f64::max);
     if policy::is_coarse(side) {

@@ -20,13 +20,15 @@ const BENDING: Range = plain(0.0, 10.0, "1 is a solid film, 0.1 coated woven fab
 /// Forgets the warp that the mesh has where the case has another.
 pub(super) fn forget_warps(raw: &Raw, mesh: &mut Mesh) {
     let replaced = |part: &&mut Part| entry(raw, part).is_ok_and(|table| table.get_ref().warp.is_some());
-    mesh.parts.iter_mut().filter(replaced).for_each(|part| part.warp.clear());
+    for part in mesh.parts.iter_mut().filter(replaced) {
+        part.warp.clear();
+    }
 }
 
 /// One section per part of the mesh, in its order; parts get their warp. `unread`: orientations of the mesh file that were not understood.
 pub(super) fn sections(raw: &Raw, mesh: &mut Mesh, unread: &[(String, String)]) -> Checked<Vec<Section>> {
     let fabrics = law::fabrics(&raw.fabric)?;
-    let mut known: Vec<&str> = mesh.parts.iter().map(|p| p.name.as_str()).collect();
+    let mut known: Vec<&str> = mesh.part_names();
     known.push(ALL);
     if let Some(name) = raw.part.keys().find(|name| !known.contains(&name.get_ref().as_str())) {
         return Err(unknown_name("part", name, &known));

@@ -170,7 +170,9 @@ impl Work {
             }
             self.open.clear();
             self.pieces += 1;
-            self.left.iter_mut().filter(|(l, _)| *l == layer).for_each(|(_, count)| *count = left);
+            for (_, count) in self.left.iter_mut().filter(|(l, _)| *l == layer) {
+                *count = left;
+            }
         }
     }
 

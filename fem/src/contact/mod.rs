@@ -119,7 +119,9 @@ impl Contact {
                 pressure[*n as usize] += w.abs() * force;
             }
         }
-        pressure.iter_mut().zip(&self.surface.area_m2).for_each(|(p, area)| *p = share(*p, *area));
+        for (p, area) in pressure.iter_mut().zip(&self.surface.area_m2) {
+            *p = share(*p, *area);
+        }
         pressure
     }
     /// Nodes that changed side of a layer so far, nodes that could, and the first that did with the part that it came through.

@@ -33,7 +33,9 @@ pub(super) fn pairs(surface: &Surface, x: &Nodes, radius_m: f64) -> Vec<(u32, u3
 /// Counting sort by rank; elements stay ascending.
 fn by_rank(rank: &[u32], found: &[Vec<(u32, u32)>]) -> Vec<(u32, u32)> {
     let mut place = vec![0_u32; rank.len() + 1];
-    found.iter().flatten().for_each(|(n, _)| place[rank[*n as usize] as usize + 1] += 1);
+    for (n, _) in found.iter().flatten() {
+        place[rank[*n as usize] as usize + 1] += 1;
+    }
     (0..rank.len()).for_each(|i| place[i + 1] += place[i]);
     let mut out = vec![(0, 0); place[rank.len()] as usize];
     for pair in found.iter().flatten() {
@@ -54,7 +56,9 @@ fn ask(
     own: &mut [u32],
     out: &mut Vec<(u32, u32)>,
 ) {
-    surface.skip.of(element).iter().for_each(|n| own[*n as usize] = element as u32);
+    for n in surface.skip.of(element).iter() {
+        own[*n as usize] = element as u32;
+    }
     let corners = surface.corners(element);
     let (mut low, mut high, mut middle) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3], [0.0; 3]);
     for n in corners {
@@ -121,7 +125,9 @@ impl Grid {
             Grid { low, per_m: 1.0 / size_m, across, count, start, points: vec![Placed::default(); places.len()] };
         let columns: Vec<usize> = places.iter().map(|p| grid.number(grid.column_of(p.place))).collect();
         columns.iter().for_each(|c| grid.start[c + 1] += 1);
-        (1..grid.start.len()).for_each(|i| grid.start[i] += grid.start[i - 1]);
+        for i in 1..grid.start.len() {
+            grid.start[i] += grid.start[i - 1];
+        }
         let mut next = grid.start.clone();
         for (place, column) in places.into_iter().zip(columns) {
             grid.points[next[column] as usize] = place;

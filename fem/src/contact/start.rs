@@ -45,7 +45,9 @@ pub(super) fn sides(contact: &mut Contact, mesh: &Mesh, settings: &problem::Cont
     let mut start = Start { contact, mesh, x, entries, of_node: Lists::new(x.len(), &pairs) };
     for _ in 0..PASSES {
         let means: Vec<f64> = start.entries.iter().map(|e| start.mean(e)).collect();
-        start.entries.iter_mut().zip(means).for_each(|(e, mean)| e.vote_m = mean);
+        for (e, mean) in start.entries.iter_mut().zip(means) {
+            e.vote_m = mean;
+        }
     }
     let tolerance_m = settings.gap_m.max(0.02 * contact.surface.size_m);
     let apart = |e: &Entry| if e.vote_m.abs() > settings.gap_m { e.vote_m.signum() as i8 } else { 0 };

@@ -62,8 +62,7 @@ impl Surface {
     pub(super) fn new(mesh: &Mesh, parts: &[String]) -> Result<Surface> {
         let mut surface = Surface::default();
         if let Some(name) = parts.iter().find(|name| mesh.parts.iter().all(|part| part.name != **name)) {
-            let known: Vec<_> = mesh.parts.iter().map(|part| part.name.as_str()).collect();
-            let known = known.join(", ");
+            let known = mesh.part_names().join(", ");
             return Err(FemError::Problem(format!("contact names part {name:?}; the mesh has: {known}")));
         }
         for (p, part) in mesh.parts.iter().enumerate().filter(|(_, p)| parts.is_empty() || parts.contains(&p.name)) {
@@ -169,7 +168,9 @@ impl Surface {
             points.iter().enumerate().map(|(n, p)| (layer(n), place(p), n as u32)).collect();
         order.sort_unstable();
         let mut rank = vec![0; points.len()];
-        order.iter().enumerate().for_each(|(at, (_, _, n))| rank[*n as usize] = at as u32);
+        for (at, (_, _, n)) in order.iter().enumerate() {
+            rank[*n as usize] = at as u32;
+        }
         rank
     }
 

@@ -127,7 +127,9 @@ fn ends(mesh: &Mesh, edges: &Edges, open: [bool; 3]) -> [Vec<f64>; 3] {
         edges.keys().any(|(a, b)| [a, b].iter().any(|n| sign * (mesh.start_of(**n as usize)[k] - at) > near))
     };
     let mut all = planes(mesh, &rim, |_, k| open[k]);
-    (0..3).for_each(|k| all[k].retain(|at| !beyond(k, *at, 1.0) || !beyond(k, *at, -1.0)));
+    for (k, places) in all.iter_mut().enumerate() {
+        places.retain(|at| !beyond(k, *at, 1.0) || !beyond(k, *at, -1.0));
+    }
     // An opening without such an edge is open all the same: along this axis nothing is counted.
     let uncounted = |places: Vec<f64>, open| match open && places.is_empty() {
         true => vec![f64::NEG_INFINITY, f64::INFINITY],

@@ -106,6 +106,13 @@ impl Part {
 }
 
 impl Mesh {
+    pub(crate) fn part_names(&self) -> Vec<&str> {
+        self.parts.iter().map(|part| part.name.as_str()).collect()
+    }
+    /// Reference positions of nodes.
+    pub(crate) fn places(&self, nodes: &[u32]) -> Vec<[f64; 3]> {
+        nodes.iter().map(|node| self.points[*node as usize]).collect()
+    }
     pub(crate) fn name(&mut self, set: impl Into<String>, nodes: Vec<u32>) {
         self.sets.insert(set.into(), nodes);
     }
@@ -137,7 +144,9 @@ impl Mesh {
         let mut sum = [0.0; 3];
         for node in nodes {
             let (now, start) = (positions[*node as usize], self.start_of(*node as usize));
-            (0..3).for_each(|k| sum[k] += (now[k] - start[k]) / nodes.len() as f64);
+            for k in 0..3 {
+                sum[k] += (now[k] - start[k]) / nodes.len() as f64;
+            }
         }
         sum
     }
@@ -171,7 +180,9 @@ impl Mesh {
         self.points.append(&mut other.points);
         other.each_node(|n| *n = n.saturating_add(offset));
         self.parts.append(&mut other.parts);
-        other.sets.into_iter().for_each(|(name, nodes)| self.sets.entry(name).or_default().extend(nodes));
+        for (name, nodes) in other.sets.into_iter() {
+            self.sets.entry(name).or_default().extend(nodes);
+        }
         self.ties.append(&mut other.ties);
         Ok(())
     }

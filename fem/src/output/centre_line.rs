@@ -100,7 +100,9 @@ impl CentreLine {
         let centroid = |weights: &Weights| {
             let mut sum = [0.0; 3];
             for &(node, weight) in weights {
-                (0..3).for_each(|k| sum[k] += weight * positions[node as usize][k]);
+                for k in 0..3 {
+                    sum[k] += weight * positions[node as usize][k];
+                }
             }
             sum
         };
@@ -147,8 +149,8 @@ fn choose<'a>(mesh: &'a Mesh, names: &[String]) -> Result<Vec<&'a Part>> {
     }
     let find = |name: &String| {
         mesh.parts.iter().find(|part| part.name == *name).ok_or_else(|| {
-            let known: Vec<&str> = mesh.parts.iter().map(|part| part.name.as_str()).collect();
-            FemError::Problem(format!("centre line: unknown part `{name}`; the mesh has: {}", known.join(", ")))
+            let known = mesh.part_names().join(", ");
+            FemError::Problem(format!("centre line: unknown part `{name}`; the mesh has: {known}"))
         })
     };
     names.iter().map(find).collect()

@@ -44,9 +44,13 @@ impl Problem {
         let mut plain = self.clone();
         plain.name.clear();
         (plain.forces, plain.gravity, plain.obstacles) = (Vec::new(), None, Vec::new());
-        plain.chambers.iter_mut().for_each(|chamber| chamber.pressure = Pressure::Set(Amplitude::Constant(0.0)));
+        for chamber in plain.chambers.iter_mut() {
+            chamber.pressure = Pressure::Set(Amplitude::Constant(0.0));
+        }
         let still = || [0; 3].map(|_| Amplitude::Constant(0.0));
-        plain.supports.iter_mut().for_each(|support| support.motion = support.motion.as_ref().map(|_| still()));
+        for support in plain.supports.iter_mut() {
+            support.motion = support.motion.as_ref().map(|_| still());
+        }
         let s = &mut plain.settings;
         (s.output_every_s, s.patience, s.guards) = (0.0, None, Guards::default());
         plain.fingerprint_of_any_length()
@@ -56,7 +60,9 @@ impl Problem {
         struct Fnv(u64);
         impl std::fmt::Write for Fnv {
             fn write_str(&mut self, text: &str) -> std::fmt::Result {
-                text.bytes().for_each(|b| self.0 = (self.0 ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3));
+                for b in text.bytes() {
+                    self.0 = (self.0 ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3);
+                }
                 Ok(())
             }
         }
@@ -79,7 +85,9 @@ impl Problem {
         }
         for force in &self.forces {
             let sum = loads.entry(force_on(&force.set)).or_default();
-            (0..3).for_each(|k| sum[k] += force.total_n[k] * force.amplitude.at(time_s));
+            for (sum, total) in sum.iter_mut().zip(force.total_n) {
+                *sum += total * force.amplitude.at(time_s);
+            }
         }
         if let Some(gravity) = &self.gravity {
             loads.insert(GRAVITY.into(), gravity.g_m_s2.map(|g| g * gravity.amplitude.at(time_s)));

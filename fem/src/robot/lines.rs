@@ -224,13 +224,17 @@ fn along(
     let [row, beside] = rows(&patterns[0], settings).map(|row| cos * row);
     let length = scenario.length_m;
     let mut cuts = vec![0.0, length];
-    bands.iter().flatten().flatten().for_each(|place| add(&mut cuts, *place, 1e-9));
+    for place in bands.iter().flatten().flatten() {
+        add(&mut cuts, *place, 1e-9);
+    }
     let pouch = |place: f64| {
         let over = |strip: &ActuatorChoice| seam(strip, 0, cos) < place && place < seam(strip, strip.count, cos);
         scenario.strips().any(over)
     };
     let size = |place: f64| if pouch(place) { row } else { settings.body_size_m };
-    scenario.markers_m.iter().for_each(|place| add(&mut cuts, *place, MERGE * size(*place)));
+    for place in scenario.markers_m.iter() {
+        add(&mut cuts, *place, MERGE * size(*place));
+    }
     if beside < row {
         let middle = |pair: &[[f64; 2]]| 0.5 * (pair[0][1] + pair[1][0]);
         bands
@@ -293,7 +297,9 @@ fn across(pattern: &Pattern, settings: &RobotSettings) -> Vec<f64> {
     for edge in [half + weld, half + weld + margin] {
         [-edge, edge].iter().for_each(|place| add(&mut cuts, *place, 1e-9));
     }
-    pattern.panels.iter().flat_map(|p| p.range_m()).for_each(|place| add(&mut cuts, place, 1e-9));
+    for place in pattern.panels.iter().flat_map(|p| p.range_m()) {
+        add(&mut cuts, place, 1e-9);
+    }
     cuts.sort_by(f64::total_cmp);
     let steps = |pair: &[f64]| divided(pair[0], pair[1], settings.actuator_size_m).skip(1).collect::<Vec<_>>();
     std::iter::once(cuts[0]).chain(cuts.windows(2).flat_map(steps)).collect()

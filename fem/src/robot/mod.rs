@@ -236,8 +236,7 @@ fn contact(mesh: &Mesh, pattern: &Pattern, settings: &RobotSettings) -> Option<C
 fn pace_1_s(scenario: &Scenario, problem: &Problem) -> f64 {
     let parts = problem.mesh.parts.iter().zip(&problem.sections);
     let mass_kg = parts.map(|(part, section)| {
-        let corners = |i| part.nodes(i).iter().map(|n| problem.mesh.points[*n as usize]).collect::<Vec<_>>();
-        let area_m2: f64 = (0..part.len()).map(|i| norm(area(&corners(i)))).sum();
+        let area_m2: f64 = (0..part.len()).map(|i| norm(area(&problem.mesh.places(part.nodes(i))))).sum();
         area_m2 * section.density_kg_m3 * section.plies.iter().map(|ply| ply.fabric.thickness_m()).sum::<f64>()
     });
     let pull_n = scenario.p_body_pa * std::f64::consts::PI * scenario.radius_m.powi(2);

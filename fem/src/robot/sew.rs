@@ -87,7 +87,9 @@ fn body(scenario: &Scenario, lines: &Lines) -> Result<Mesh> {
         warp_rad: 0.0,
     })?;
     let (wall, cap) = mesh.points.split_at_mut(rings * n);
-    wall.iter_mut().enumerate().for_each(|(i, p)| *p = lines.place(i / n, i % n, scenario.radius_m));
+    for (i, p) in wall.iter_mut().enumerate() {
+        *p = lines.place(i / n, i % n, scenario.radius_m);
+    }
     if lines.turned_rad() != 0.0 {
         let (sin, cos) = lines.turned_rad().sin_cos();
         cap.iter_mut().for_each(|p| *p = [p[0], cos * p[1] - sin * p[2], sin * p[1] + cos * p[2]]);

@@ -105,7 +105,9 @@ fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Ch
         "obstacle_moves_mm" => loads::read(run, name, value)?,
         "obstacle_friction" => {
             let friction = number(name, plain_number(name, value)?, value.span(), &plain(0.0, 2.0, "Coulomb"))?;
-            run.obstacle.iter_mut().for_each(|obstacle| obstacle.friction = friction);
+            for obstacle in run.obstacle.iter_mut() {
+                obstacle.friction = friction;
+            }
         }
         _ => {
             let known: Vec<&str> = OTHERS.into_iter().chain(KEYS.iter().map(|k| k.name)).collect();

@@ -29,7 +29,9 @@ pub(super) fn wavy(points: &[V3], rms_m: f64, seed: u64) -> Vec<V3> {
         let beyond_base = 1.0 - (-(x[0] / WAVES_M[0]).powi(2)).exp();
         for wave in &waves {
             let (sin, cos) = (wave.k[0] * x[0] + wave.k[1] * x[1] + wave.k[2] * x[2]).sin_cos();
-            (0..3).for_each(|i| point[i] += beyond_base * (wave.a[i] * cos + wave.b[i] * sin));
+            for (i, at) in point.iter_mut().enumerate() {
+                *at += beyond_base * (wave.a[i] * cos + wave.b[i] * sin);
+            }
         }
         point
     };

@@ -1,6 +1,7 @@
 //! Time of a run, energies that only stepping can add up, and the energy balance.
 
 use crate::Mesh;
+use crate::transient::sum_of;
 use crate::vec3::share;
 use models::{Account, Row, RowKind};
 use serde::{Deserialize, Serialize};
@@ -71,7 +72,9 @@ pub(super) fn damped(viscosity: f64) -> f64 {
 pub(super) fn give_tied_masses(mesh: &Mesh, mass: &mut [f64]) {
     for tie in &mesh.ties {
         let own = std::mem::take(&mut mass[tie.node as usize]);
-        tie.to.iter().for_each(|(node, weight)| mass[*node as usize] += weight * own);
+        for (node, weight) in tie.to.iter() {
+            mass[*node as usize] += weight * own;
+        }
     }
 }
 
@@ -80,7 +83,9 @@ pub(super) fn give_tied_bounds(mesh: &Mesh, bound: &mut [f64]) {
     for tie in &mesh.ties {
         let own = std::mem::take(&mut bound[tie.node as usize]);
         let sum: f64 = tie.to.iter().map(|(_, weight)| weight.abs()).sum();
-        tie.to.iter().for_each(|(node, weight)| bound[*node as usize] += sum * weight.abs() * own);
+        for (node, weight) in tie.to.iter() {
+            bound[*node as usize] += sum * weight.abs() * own;
+        }
     }
 }
 
@@ -103,7 +108,7 @@ pub struct Ledger {
 impl Ledger {
     /// Closes the balance. `start_j` is the energy stored before the first step.
     pub fn close(kinetic_j: f64, rows: Vec<Row>, start_j: f64, scale_before_j: f64) -> Ledger {
-        let sum = |kind: RowKind| rows.iter().filter(|r| r.kind == kind).map(|r| r.energy_j).sum::<f64>();
+        let sum = |kind: RowKind| sum_of(&rows, kind);
         let external_work_j = sum(RowKind::Supplied);
         let held = kinetic_j + sum(RowKind::Stored) + sum(RowKind::Dissipated);
         let residual_j = held - external_work_j - start_j;

@@ -43,7 +43,9 @@ pub(super) fn driven(problem: &Problem, mesh: &Mesh, fixed: &mut [[bool; 3]]) ->
     for support in &problem.supports {
         let nodes = mesh.set(&support.set, "support")?;
         for node in nodes {
-            (0..3).for_each(|k| fixed[*node as usize][k] |= support.axes[k]);
+            for (fixed, axis) in fixed[*node as usize].iter_mut().zip(support.axes) {
+                *fixed |= axis;
+            }
         }
         if let Some(motion) = &support.motion {
             let start = nodes.iter().map(|n| mesh.start_of(*n as usize)).collect();
@@ -209,7 +211,9 @@ pub(crate) fn hand_over(ties: &[crate::mesh::Tie], force: &mut Nodes) {
     for tie in ties {
         let own = std::mem::take(&mut force[tie.node as usize]);
         for (node, weight) in &tie.to {
-            (0..3).for_each(|k| force[*node as usize][k] += weight * own[k]);
+            for k in 0..3 {
+                force[*node as usize][k] += weight * own[k];
+            }
         }
     }
 }

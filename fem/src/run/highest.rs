@@ -72,7 +72,9 @@ impl Whole<'_> {
             u[tie.node as usize] = [follow(0), follow(1), follow(2), 0.0];
         }
         let mut force: Vec<[f64; 4]> = u.iter().zip(&self.rest).map(|(u, k)| u.map(|u| k * u)).collect();
-        self.tangents.iter().for_each(|t| t.add(self.rate_1_s, &u, &mut force));
+        for t in self.tangents.iter() {
+            t.add(self.rate_1_s, &u, &mut force);
+        }
         constraint::hand_over(self.ties, &mut force);
         force
     }
@@ -93,7 +95,9 @@ impl Whole<'_> {
             for (corner, node) in item.nodes().iter().enumerate().filter(|(_, n)| self.inverse[**n as usize] > 0.0) {
                 for (k, axis) in axes.iter().enumerate() {
                     let draw = gaussian(0, (12 * i + 3 * corner + k) as u64) / self.inverse[*node as usize];
-                    (0..3).for_each(|c| force[*node as usize][c] += draw * axis[c]);
+                    for c in 0..3 {
+                        force[*node as usize][c] += draw * axis[c];
+                    }
                 }
             }
         }
@@ -107,12 +111,16 @@ impl Whole<'_> {
         let (mut diagonal, mut beside, mut largest) = (Vec::new(), Vec::new(), 0.0);
         let mut length = inner(&v, &pull).sqrt();
         for step in 1..=MOST {
-            v.iter_mut().chain(&mut pull).for_each(|v| *v = v.map(|v| v / length));
+            for v in v.iter_mut().chain(&mut pull) {
+                *v = v.map(|v| v / length);
+            }
             let mut next = self.light(&pull);
             let own = inner(&next, &pull);
             let last = if step == 1 { 0.0 } else { length };
             for ((next, v), before) in next.iter_mut().zip(&v).zip(&before) {
-                (0..4).for_each(|k| next[k] -= own * v[k] + last * before[k]);
+                for k in 0..4 {
+                    next[k] -= own * v[k] + last * before[k];
+                }
             }
             diagonal.push(own);
             before = std::mem::replace(&mut v, next);

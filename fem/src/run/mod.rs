@@ -34,7 +34,7 @@ use crate::contact::edges::Edges;
 use crate::problem::Settings;
 use crate::sheet::Sheet;
 use crate::sheet::order::Order;
-use crate::transient::{dissipated, stored, supplied};
+use crate::transient::{dissipated, stored, sum_of, supplied};
 use crate::vec3::{Nodes, V3};
 use crate::{FemError, Mesh, Problem, Result, Transient};
 use clock::{Books, Clock};
@@ -109,8 +109,9 @@ struct SavedTerm {
 impl SavedTerm {
     fn of(term: &dyn Transient, pose: &Pose) -> SavedTerm {
         let rows = if term.line().account == Account::Load { term.ledger(pose) } else { Vec::new() };
-        let sum = |kind: RowKind| rows.iter().filter(|r| r.kind == kind).map(|r| r.energy_j).sum::<f64>();
-        let gone = [sum(RowKind::Supplied) - sum(RowKind::Stored), sum(RowKind::Dissipated)];
+        let [stored, dissipated, supplied] =
+            [RowKind::Stored, RowKind::Dissipated, RowKind::Supplied].map(|kind| sum_of(&rows, kind));
+        let gone = [supplied - stored, dissipated];
         SavedTerm { name: term.line().name.into(), state: term.save(), gone }
     }
 }
@@ -209,7 +210,9 @@ impl Simulation {
             (None, None) => {}
             _ => return None,
         }
-        self.bodies.iter_mut().zip(&state.bodies).for_each(|(body, saved)| body.now = *saved);
+        for (body, saved) in self.bodies.iter_mut().zip(&state.bodies) {
+            body.now = *saved;
+        }
         self.reactions.restore(&state.reactions)?;
         (self.clock, self.books, self.x, self.v) = (state.clock, state.books, state.x, state.v);
         Some(begin)
@@ -268,9 +271,13 @@ impl Simulation {
         for (place, v) in self.order.new.iter().zip(velocities) {
             self.v[*place as usize][..3].copy_from_slice(v);
         }
-        self.bodies.iter_mut().for_each(|body| body.take_velocities(&self.x, &self.v));
+        for body in self.bodies.iter_mut() {
+            body.take_velocities(&self.x, &self.v);
+        }
         for (node, axes) in &self.fixed {
-            (0..3).filter(|k| axes[*k]).for_each(|k| self.v[*node as usize][k] = 0.0);
+            for k in (0..3).filter(|k| axes[*k]) {
+                self.v[*node as usize][k] = 0.0;
+            }
         }
         if let Some(selective) = &mut self.selective {
             selective.begin(&mut self.v);
@@ -292,8 +299,7 @@ impl Simulation {
             rows.push(supplied("supports", Account::Load, self.books.support.sum));
         }
         // Before the first step, what terms store already is the energy of the start.
-        let stored = rows.iter().filter(|r| r.kind == RowKind::Stored).map(|r| r.energy_j);
-        let start = if self.clock.step == 0 { stored.sum() } else { self.books.start };
+        let start = if self.clock.step == 0 { sum_of(&rows, RowKind::Stored) } else { self.books.start };
         Ledger::close(self.books.kinetic, rows, start, self.books.scale)
     }
 

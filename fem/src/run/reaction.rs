@@ -37,9 +37,13 @@ impl Reactions {
     pub(super) fn new(problem: &Problem, mesh: &Mesh) -> Result<Reactions> {
         let mut free = vec![[true; 3]; mesh.points.len()];
         for rigid in &problem.rigid {
-            mesh.set(&rigid.set, "rigid")?.iter().for_each(|node| free[*node as usize] = [false; 3]);
+            for node in mesh.set(&rigid.set, "rigid")?.iter() {
+                free[*node as usize] = [false; 3];
+            }
         }
-        mesh.ties.iter().for_each(|tie| free[tie.node as usize] = [false; 3]);
+        for tie in mesh.ties.iter() {
+            free[tie.node as usize] = [false; 3];
+        }
         let mut reactions = Reactions::default();
         for support in &problem.supports {
             let place = reactions.place_of(&support.set);
@@ -65,7 +69,9 @@ impl Reactions {
     }
 
     pub(super) fn clear(&mut self) {
-        self.all.iter_mut().for_each(|r| (r.force_n, r.moment_nm) = ([0.0; 3], [0.0; 3]));
+        for r in self.all.iter_mut() {
+            (r.force_n, r.moment_nm) = ([0.0; 3], [0.0; 3]);
+        }
     }
 
     /// Adds a share of the nodes' forces \[N\], their places being `x` \[m\].

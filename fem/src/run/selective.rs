@@ -151,7 +151,9 @@ impl Selective {
     pub(super) fn carry(&mut self, moved: &[(u32, [bool; 3])], v: &Nodes) {
         for (node, axes) in moved {
             let i = *node as usize;
-            (0..3).filter(|k| axes[*k]).for_each(|k| self.u[i][k] = v[i][k]);
+            for k in (0..3).filter(|k| axes[*k]) {
+                self.u[i][k] = v[i][k];
+            }
         }
     }
 
@@ -173,7 +175,9 @@ impl Selective {
         let now = place(Place { update, all: self, half: &half, u: &u, begin: 0, v, x });
         self.rest(v);
         for ((node, axes), held) in self.fixed.iter().zip(&self.held) {
-            (0..3).filter(|k| axes[*k]).for_each(|k| x[*node as usize][k] = held[k]);
+            for k in (0..3).filter(|k| axes[*k]) {
+                x[*node as usize][k] = held[k];
+            }
         }
         (self.u, self.half, self.next) = (u, half, next);
         // ū·v̄ of means over the step; M⁻¹ is symmetric, so both mixed products are one.
@@ -195,7 +199,9 @@ impl Selective {
 
     fn rest(&self, v: &mut Nodes) {
         for (node, axes) in &self.fixed {
-            (0..3).filter(|k| axes[*k]).for_each(|k| v[*node as usize][k] = 0.0);
+            for k in (0..3).filter(|k| axes[*k]) {
+                v[*node as usize][k] = 0.0;
+            }
         }
     }
 

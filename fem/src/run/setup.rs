@@ -166,7 +166,9 @@ impl Still {
 fn carried(problem: &Problem, mesh: &Mesh, driven: &[Driven]) -> Result<Vec<bool>> {
     let mut carried = vec![false; mesh.points.len()];
     for rigid in &problem.rigid {
-        mesh.set(&rigid.set, "rigid")?.iter().for_each(|node| carried[*node as usize] = true);
+        for node in mesh.set(&rigid.set, "rigid")?.iter() {
+            carried[*node as usize] = true;
+        }
     }
     let others = driven.iter().flat_map(|d| &d.nodes).chain(mesh.ties.iter().map(|t| &t.node));
     others.for_each(|node| carried[*node as usize] = true);
@@ -307,7 +309,9 @@ fn imperfect(x: &mut Nodes, mesh: &Mesh, order: &Order, fixed: &[[bool; 3]], sha
         let corner: Vec<[f64; 3]> = nodes.iter().map(|n| mesh.start_of(*n as usize)).collect();
         let area = area(&corner);
         for node in nodes {
-            (0..3).for_each(|k| normal[*node as usize][k] += area[k] / corner.len() as f64);
+            for k in 0..3 {
+                normal[*node as usize][k] += area[k] / corner.len() as f64;
+            }
         }
     }
     for (place, (x, n)) in x.iter_mut().zip(&normal).enumerate().filter(|(place, _)| fixed[*place] == [false; 3]) {

@@ -97,8 +97,8 @@ impl Update {
             V::all(simd, 0.0).store(force, part);
             new.store(v, part);
             (V::load(simd, x, part) + V::all(simd, self.dt) * new).store(x, part);
-            (V::load(simd, &tally[0], part) + m * (old * new)).store(&mut tally[0], part);
-            (V::load(simd, &tally[1], part) + m * (mean * mean)).store(&mut tally[1], part);
+            (m * (old * new)).add_to(&mut tally[0], part);
+            (m * (mean * mean)).add_to(&mut tally[1], part);
         }
     }
 }

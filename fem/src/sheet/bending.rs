@@ -210,7 +210,9 @@ impl BendingMatrix {
         for i in 0..q.len() {
             let mut kx = [0.0; 3];
             for (j, value) in self.row(i) {
-                (0..3).for_each(|k| kx[k] += value * (q[j as usize][k] - q[i][k]));
+                for k in 0..3 {
+                    kx[k] += value * (q[j as usize][k] - q[i][k]);
+                }
             }
             (0..3).for_each(|k| force[i][k] -= kx[k]);
             energy += 0.5 * (0..3).map(|k| kx[k] * q[i][k]).sum::<f64>();

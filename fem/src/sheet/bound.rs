@@ -93,7 +93,9 @@ impl Sheet {
 
     /// Adds the bound of the gas in chambers that are sealed, or will be before `until_s` \[N/m\].
     pub(crate) fn add_gas_bound(&self, until_s: f64, q: &[f64], bound: &mut [f64]) {
-        self.air.iter().for_each(|air| air.add_bound(until_s, &self.elements, q.as_chunks().0, bound));
+        for air in self.air.iter() {
+            air.add_bound(until_s, &self.elements, q.as_chunks().0, bound);
+        }
     }
 
     /// Adds each node's stiffness bound at positions `q` (stride 4) \[N/m\].
@@ -103,7 +105,9 @@ impl Sheet {
 
     /// Adds each node's part of the bound that is bending's \[N/m\].
     pub(crate) fn add_bending_bound(&self, bound: &mut [f64]) {
-        bound.iter_mut().zip(&self.bending_bound).for_each(|(bound, bending)| *bound += bending);
+        for (bound, bending) in bound.iter_mut().zip(&self.bending_bound) {
+            *bound += bending;
+        }
     }
 
     /// The material part of the tangent that the bound is of, element by element; adds the bounds of everything else.
@@ -134,7 +138,7 @@ impl Sheet {
             let k = of(item, ahead(item, here), f) + pressure * item.reference.area.sqrt();
             item.nodes().iter().for_each(|n| bound[*n as usize] += k);
         }
-        bound.iter_mut().zip(&self.bending_bound).for_each(|(bound, bending)| *bound += bending);
+        self.add_bending_bound(bound);
     }
 }
 

@@ -180,7 +180,9 @@ impl Air {
         let spring = gas.exponent * (self.now.pressure_pa + gas.atmosphere_pa) / all * self.area_m2;
         for element in self.wall.iter().map(|(index, _)| &elements[*index as usize]) {
             let share = element.reference.area / element.corners as f64;
-            element.nodes().iter().for_each(|n| bound[*n as usize] += spring * share);
+            for n in element.nodes().iter() {
+                bound[*n as usize] += spring * share;
+            }
         }
     }
 }

@@ -153,9 +153,8 @@ fn quad<S: Simd, L: ShellLaw, const ROWS: bool, const BOOKS: bool>(
     let stiffness = V::load(simd, &shape.hourglass, part);
     let (k1, k2) = (stiffness * g1, stiffness * g2);
     if BOOKS {
-        (V::load(simd, &tally.membrane, part) + own * amount * w).store(&mut tally.membrane, part);
-        (V::load(simd, &tally.hourglass, part) + V::all(simd, 0.5) * own * (k1 * g1 + k2 * g2))
-            .store(&mut tally.hourglass, part);
+        (own * amount * w).add_to(&mut tally.membrane, part);
+        (V::all(simd, 0.5) * own * (k1 * g1 + k2 * g2)).add_to(&mut tally.hourglass, part);
     }
 
     let a = axes!(k => V::all(simd, 0.25) * (d24[k] - d13[k]));
@@ -182,7 +181,7 @@ fn quad<S: Simd, L: ShellLaw, const ROWS: bool, const BOOKS: bool>(
         force[3][k] = high - difference;
         if BOOKS {
             let flux = (odd[k] + even[k]) * n0[k] + V::all(simd, 4.0 / 3.0) * (a[k] * n1[k] + c[k] * n2[k]);
-            (V::load(simd, &tally.flux[k], part) + own * flux).store(&mut tally.flux[k], part);
+            (own * flux).add_to(&mut tally.flux[k], part);
         }
     }
     force
@@ -231,7 +230,7 @@ fn triangle<S: Simd, L: ShellLaw>(
     let amount = V::load(simd, &shape.area, part) * V::load(simd, &stock.per, part);
     let own = V::load(simd, &stock.own, part);
     let t = with_viscosity(simd, batch.rate, (shape, stock), part, e, s, strain, tally);
-    (V::load(simd, &tally.membrane, part) + own * amount * w).store(&mut tally.membrane, part);
+    (own * amount * w).add_to(&mut tally.membrane, part);
 
     let normal = product(u, v);
     let p = V::all(simd, batch.pressure / 6.0) * V::load(simd, &stock.real, part);
@@ -244,7 +243,7 @@ fn triangle<S: Simd, L: ShellLaw>(
         (push - p2).store(&mut out[1][k], part);
         (push - p3).store(&mut out[2][k], part);
         let flux = V::all(simd, 1.0 / 6.0) * (x[0][k] + x[1][k] + x[2][k]) * normal[k];
-        (V::load(simd, &tally.flux[k], part) + own * flux).store(&mut tally.flux[k], part);
+        (own * flux).add_to(&mut tally.flux[k], part);
     }
 }
 
@@ -284,6 +283,6 @@ fn with_viscosity<S: Simd>(
     }
     let drag = [eta * d[0], eta * d[1], half * eta * d[2]];
     let heat = V::load(simd, &stock.own, part) * (drag[0] * d[0] + drag[1] * d[1] + drag[2] * d[2]);
-    (V::load(simd, &tally.viscous, part) + heat).store(&mut tally.viscous, part);
+    heat.add_to(&mut tally.viscous, part);
     axes!(k => amount * s[k] + drag[k])
 }

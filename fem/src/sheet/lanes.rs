@@ -117,6 +117,11 @@ impl<S: Simd> V<S> {
     }
 
     #[inline(always)]
+    pub(crate) fn add_to(self, to: &mut Lane, part: usize) {
+        (V::load(self.0, to, part) + self).store(to, part);
+    }
+
+    #[inline(always)]
     pub(crate) fn load_from(simd: S, from: &[f64], at: usize) -> V<S> {
         V(simd, S::as_simd_f64s(&from[at..at + S::F64_LANES]).0[0])
     }

@@ -143,7 +143,9 @@ impl Sheet {
         let mut mass = vec![0.0; nodes];
         for element in &self.elements {
             let share = self.areal_density[element.part] * element.reference.area / element.corners as f64;
-            element.nodes().iter().for_each(|n| mass[*n as usize] += share);
+            for n in element.nodes().iter() {
+                mass[*n as usize] += share;
+            }
         }
         mass
     }
@@ -153,7 +155,9 @@ impl Sheet {
         let pressure: Vec<f64> = self.air.iter().map(|a| a.now.pressure_pa).collect();
         let (q, fabrics, arch) = (q.as_chunks().0, &self.fabrics[..], self.arch);
         let shared = PassShared { q, fabrics, pressure_pa: &pressure, rate: 0.0, books: false, arch };
-        self.patches.iter_mut().for_each(|p| p.start_strains(shared));
+        for p in self.patches.iter_mut() {
+            p.start_strains(shared);
+        }
     }
 
     /// Energy held in membrane, bending and hourglass control at the last step \[J\].
@@ -205,7 +209,9 @@ impl Term for Sheet {
 impl Transient for Sheet {
     fn advance(&mut self, at: &Pose, tick: &Tick, force: &mut [f64]) -> f64 {
         let elements = &self.elements;
-        self.air.iter_mut().for_each(|air| air.advance(tick.time_s, elements, at.q.as_chunks().0));
+        for air in self.air.iter_mut() {
+            air.advance(tick.time_s, elements, at.q.as_chunks().0);
+        }
         let books = self.measure || tick.step.is_multiple_of(BOOKS_EVERY) || self.air.iter().any(Air::wants_volume);
         self.pass(at.q, force, 1.0 / tick.dt_s, books, true);
         self.viscous_j += self.patches.iter().map(|p| p.sums.viscous).sum::<f64>();
@@ -257,7 +263,9 @@ impl Transient for Sheet {
             return false;
         }
         self.viscous_j = viscous_j;
-        self.air.iter_mut().zip(air).for_each(|(own, now)| own.now = now);
+        for (own, now) in self.air.iter_mut().zip(air) {
+            own.now = now;
+        }
         for (own, (sums, strains, past)) in self.patches.iter_mut().zip(patches) {
             (own.sums, own.strains, own.past) = (sums, strains, past);
         }

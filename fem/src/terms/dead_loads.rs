@@ -120,7 +120,9 @@ impl Transient for DeadLoads {
         let fits = |loads: &[SavedLoad]| loads.len() == self.loads.len() && self.loads.iter().zip(loads).all(same);
         let Some((time_s, work_j, loads)) = saved.filter(|(_, _, loads)| fits(loads)) else { return false };
         (self.time_s, self.work_j) = (time_s, work_j);
-        self.loads.iter_mut().zip(loads).for_each(|(load, (last, ..))| load.last = last);
+        for (load, (last, ..)) in self.loads.iter_mut().zip(loads) {
+            load.last = last;
+        }
         true
     }
 }

@@ -236,7 +236,9 @@ impl Term for Folds {
             stored += stiff * energy;
             for (node, weight) in edge.nodes.iter().zip(&edge.weights) {
                 let pull = -stiff * slope * weight;
-                (0..3).for_each(|k| force[*node as usize][k] += pull * turn[k]);
+                for k in 0..3 {
+                    force[*node as usize][k] += pull * turn[k];
+                }
             }
         }
         stored
@@ -271,7 +273,9 @@ impl Transient for Folds {
             let [_, slope] = edge.shape(edge.turn(x));
             let sum: f64 = edge.weights.iter().map(|w| w.abs()).sum();
             let stiff = edge.length_m * edge.stiffness_n * slope.powi(3) * sum;
-            edge.nodes.iter().zip(&edge.weights).for_each(|(n, w)| bound[*n as usize] += stiff * w.abs());
+            for (n, w) in edge.nodes.iter().zip(&edge.weights) {
+                bound[*n as usize] += stiff * w.abs();
+            }
         }
     }
 
@@ -286,8 +290,12 @@ impl Transient for Folds {
         if tensions.len() != sides.len() {
             return false;
         }
-        sides.iter_mut().zip(tensions).for_each(|(side, tension)| side.tension_n_m = tension);
-        self.edges.iter_mut().zip(&self.sides).for_each(|(edge, sides)| edge.stiffness_n = in_series(sides));
+        for (side, tension) in sides.iter_mut().zip(tensions) {
+            side.tension_n_m = tension;
+        }
+        for (edge, sides) in self.edges.iter_mut().zip(&self.sides) {
+            edge.stiffness_n = in_series(sides);
+        }
         (self.tension_work_j, self.stored_j) = (work_j, stored_j);
         true
     }

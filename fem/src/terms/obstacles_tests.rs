@@ -1,6 +1,6 @@
 use super::*;
-use models::RowKind;
 use crate::problem::{Amplitude, ObstacleShape};
+use models::RowKind;
 
 const G: f64 = 9.81;
 

@@ -148,7 +148,9 @@ impl Rest {
         }
         let g = norm(self.slope(h, n));
         for facet in &self.row.facets {
-            facet.nodes.iter().for_each(|i| bound[*i as usize] += 2.0 * facet.share * g);
+            for i in facet.nodes.iter() {
+                bound[*i as usize] += 2.0 * facet.share * g;
+            }
         }
     }
 }
@@ -176,7 +178,9 @@ impl Transient for RestCurvature {
         vec![self.line().row(RowKind::Stored, energy_j)]
     }
     fn stiffness_bound(&self, at: &Pose, bound: &mut [f64]) {
-        self.nodes.iter().for_each(|rest| rest.bound(at.q.as_chunks::<4>().0, bound));
+        for rest in self.nodes.iter() {
+            rest.bound(at.q.as_chunks::<4>().0, bound);
+        }
     }
     fn save(&self) -> Vec<u8> {
         pack(&self.stored_j)

@@ -180,7 +180,9 @@ impl Zones {
 
     fn all(&self) -> Vec<Vec<u32>> {
         let mut zones: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        self.of.keys().for_each(|n| zones.entry(self.root(*n)).or_default().push(*n));
+        for n in self.of.keys() {
+            zones.entry(self.root(*n)).or_default().push(*n);
+        }
         zones.into_values().collect()
     }
 }

@@ -67,7 +67,9 @@ impl Term for Edges {
             }
             energy_j += 0.5 * pair.stiffness_n_m * depth_m * depth_m;
             let push_n = crate::vec3::scale(touch.normal, pair.stiffness_n_m * depth_m);
-            pair.nodes.iter().zip(touch.weights).for_each(|(n, w)| push(&mut force[*n as usize], w, push_n));
+            for (n, w) in pair.nodes.iter().zip(touch.weights) {
+                push(&mut force[*n as usize], w, push_n);
+            }
         }
         energy_j
     }
@@ -86,7 +88,9 @@ impl Transient for Edges {
             self.stored_j += chunk.sums[0];
             self.lost_j += chunk.sums[1];
             for (nodes, weights, push_n) in &chunk.pushes {
-                nodes.iter().zip(weights).for_each(|(n, w)| push(&mut force[*n as usize], *w, *push_n));
+                for (n, w) in nodes.iter().zip(weights) {
+                    push(&mut force[*n as usize], *w, *push_n);
+                }
             }
         }
         self.stored_j

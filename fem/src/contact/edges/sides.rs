@@ -105,7 +105,9 @@ impl Boxes {
         let boxes: Vec<Bounds> = items.map(|nodes| larger(bounds(x, nodes))).collect();
         let mut half_m = [0.0_f64; 3];
         for [low, high] in &boxes {
-            (0..3).for_each(|k| half_m[k] = half_m[k].max(0.5 * (high[k] - low[k])));
+            for k in 0..3 {
+                half_m[k] = half_m[k].max(0.5 * (high[k] - low[k]));
+            }
         }
         let middle =
             |(i, [low, high]): (usize, &Bounds)| Placed { place: scale(add(*low, *high), 0.5), item: i as u32 };

@@ -255,7 +255,9 @@ pub(in crate::mesh) fn signed_volume<'a>(
     let (mut sum, mut surface) = (0.0, 0.0);
     for (nodes, side) in faces {
         let mut corners = [origin; 4];
-        nodes.iter().zip(&mut corners).for_each(|(n, x)| *x = sub(mesh.start_of(*n as usize), origin));
+        for (n, x) in nodes.iter().zip(&mut corners) {
+            *x = sub(mesh.start_of(*n as usize), origin);
+        }
         for k in 2..nodes.len() {
             let triangle = [corners[0], corners[k - 1], corners[k]];
             let (middle, outward) = (centre(&triangle), scale(area(&triangle), side));

@@ -60,7 +60,9 @@ fn shape(mesh: &Mesh, part: &Part, i: usize) -> Result<()> {
     let bent = if mesh.membrane.is_empty() { &[] } else { &mesh.points[..] };
     for (shape, places) in [("at the start", &mesh.start[..]), ("as it bends", bent)] {
         let mut corners = [[0.0; 3]; 4];
-        nodes.iter().zip(&mut corners).for_each(|(n, x)| *x = *places.get(*n as usize).unwrap_or(x));
+        for (n, x) in nodes.iter().zip(&mut corners) {
+            *x = *places.get(*n as usize).unwrap_or(x);
+        }
         let x = &corners[..nodes.len()];
         if !places.is_empty() && !has_area(x) {
             return fault(format!("{} at {} has no area {shape}", describe(part, i), millimetres(centre(x))));
@@ -85,7 +87,9 @@ fn warp(mesh: &Mesh, part: &Part, i: usize) -> Result<()> {
 
 /// Stress-free places of the nodes of one element.
 pub(super) fn stress_free<'a>(mesh: &Mesh, nodes: &[u32], into: &'a mut [V3; 4]) -> &'a [V3] {
-    nodes.iter().zip(into.iter_mut()).for_each(|(n, x)| *x = mesh.free_of(*n as usize));
+    for (n, x) in nodes.iter().zip(into.iter_mut()) {
+        *x = mesh.free_of(*n as usize);
+    }
     &into[..nodes.len()]
 }
 

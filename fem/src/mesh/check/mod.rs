@@ -115,7 +115,9 @@ fn names(mesh: &Mesh, chambers: &[&str]) -> Result<(), FemError> {
 /// A node without elements would have no mass.
 fn every_node_used(mesh: &Mesh) -> Result<(), FemError> {
     let mut used = vec![false; mesh.points.len()];
-    mesh.faces().flatten().for_each(|n| used[*n as usize] = true);
+    for n in mesh.faces().flatten() {
+        used[*n as usize] = true;
+    }
     let unused = used.iter().filter(|used| !**used).count();
     match used.iter().position(|used| !used) {
         None => Ok(()),

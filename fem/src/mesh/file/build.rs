@@ -148,7 +148,9 @@ impl Builder {
 /// Removes nodes without elements, also from sets, each of which keeps a node once.
 fn drop_unused(mesh: &mut Mesh) -> usize {
     let mut used = vec![false; mesh.points.len()];
-    mesh.faces().flatten().for_each(|node| used[*node as usize] = true);
+    for node in mesh.faces().flatten() {
+        used[*node as usize] = true;
+    }
     let mut next = 0;
     let number: Vec<Option<u32>> = used
         .iter()

@@ -94,8 +94,12 @@ fn edges(mesh: &Mesh) -> Edges {
         }
     };
     for (part, Part { triangles, quads, .. }) in mesh.parts.iter().enumerate() {
-        triangles.iter().enumerate().for_each(|(i, nodes)| note(part, i, nodes));
-        quads.iter().enumerate().for_each(|(i, nodes)| note(part, triangles.len() + i, nodes));
+        for (i, nodes) in triangles.iter().enumerate() {
+            note(part, i, nodes);
+        }
+        for (i, nodes) in quads.iter().enumerate() {
+            note(part, triangles.len() + i, nodes);
+        }
     }
     edges
 }

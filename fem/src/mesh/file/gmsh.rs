@@ -195,7 +195,9 @@ impl Gmsh {
             Some(first) if dimension == 2 => usize::from(self.builder.element(first, &nodes)?),
             _ => 0,
         };
-        names[as_part..].iter().for_each(|name| self.builder.set(name, nodes.iter().copied()));
+        for name in names[as_part..].iter() {
+            self.builder.set(name, nodes.iter().copied());
+        }
         Ok(())
     }
 }

@@ -83,12 +83,18 @@ fn renamed(problem: &Problem) -> Problem {
     let supports = problem.supports.iter_mut().map(|support| &mut support.set);
     let forces = problem.forces.iter_mut().map(|force| &mut force.set);
     let rigid = problem.rigid.iter_mut().map(|rigid| &mut rigid.set);
-    supports.chain(forces).chain(rigid).for_each(|set| change(&sets, set));
+    for set in supports.chain(forces).chain(rigid) {
+        change(&sets, set);
+    }
     for part in &mut problem.mesh.parts {
         change(&parts, &mut part.name);
-        [&mut part.front, &mut part.back].into_iter().flatten().for_each(|chamber| change(&chambers, chamber));
+        for chamber in [&mut part.front, &mut part.back].into_iter().flatten() {
+            change(&chambers, chamber);
+        }
     }
-    problem.chambers.iter_mut().for_each(|chamber| change(&chambers, &mut chamber.name));
+    for chamber in problem.chambers.iter_mut() {
+        change(&chambers, &mut chamber.name);
+    }
     problem
 }
 

@@ -82,7 +82,7 @@ fn orientation(out: &mut String, problem: &Problem, index: usize, part: &Part) {
     let name = format!("warp_{}", index + 1);
     let before: usize = problem.mesh.parts[..index].iter().map(Part::len).sum();
     let axes = |i: usize| {
-        let corners: Vec<[f64; 3]> = part.nodes(i).iter().map(|n| problem.mesh.points[*n as usize]).collect();
+        let corners = problem.mesh.places(part.nodes(i));
         let warp = part.warp_of(i).unwrap_or([1.0, 0.0, 0.0]);
         let across = cross(direction(area(&corners)), warp);
         row(&[warp, if across == [0.0; 3] { [0.0, 1.0, 0.0] } else { direction(across) }].concat())
@@ -94,7 +94,9 @@ fn orientation(out: &mut String, problem: &Problem, index: usize, part: &Part) {
     let table =
         format!("*DISTRIBUTION TABLE, NAME={name}_table\nCOORD3D, COORD3D\n*DISTRIBUTION, NAME={name}_by_element");
     *out += &format!("{table}, LOCATION=ELEMENT, TABLE={name}_table\n, {first}\n");
-    (0..part.len()).for_each(|i| *out += &format!("{}, {}\n", before + i + 1, axes(i)));
+    for i in 0..part.len() {
+        *out += &format!("{}, {}\n", before + i + 1, axes(i));
+    }
     *out += &format!("*ORIENTATION, NAME={name}\n{name}_by_element\n3, 0.\n");
 }
 

@@ -194,7 +194,9 @@ pub(super) fn loads(out: &mut String, step: &mut String, problem: &Problem, solv
         *step += "*DLOAD, AMPLITUDE=gravity\n";
         let [x, y, z] = gravity.g_m_s2.map(|g| g / size);
         let pull = row(&[size, x, y, z]);
-        problem.mesh.parts.iter().for_each(|part| *step += &format!("{}, GRAV, {pull}\n", label(&part.name)));
+        for part in problem.mesh.parts.iter() {
+            *step += &format!("{}, GRAV, {pull}\n", label(&part.name));
+        }
     }
 }
 
@@ -236,8 +238,7 @@ pub(super) fn left_out(problem: &Problem, solver: Solver) -> Vec<String> {
 /// True if all elements of a layer have one normal.
 fn is_flat(mesh: &Mesh, layer: u32) -> bool {
     let parts = mesh.parts.iter().filter(|part| part.layer == layer);
-    let corners = |nodes: &[u32]| nodes.iter().map(|n| mesh.points[*n as usize]).collect::<Vec<[f64; 3]>>();
-    let mut normals = parts.flat_map(|part| (0..part.len()).map(|i| direction(area(&corners(part.nodes(i))))));
+    let mut normals = parts.flat_map(|part| (0..part.len()).map(|i| direction(area(&mesh.places(part.nodes(i))))));
     let first = normals.next().unwrap_or_default();
     normals.all(|normal| dot(normal, first) > 1.0 - ROUNDING)
 }

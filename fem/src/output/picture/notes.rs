@@ -77,7 +77,9 @@ fn draw_scale(image: &mut Image, pixels_per_m: f64) {
     let (left, row) = (6.5 * size, image.height as f64 - 1.6 * size);
     let right = left + length_mm * 1e-3 * pixels_per_m;
     stroke(image, [left, row], [right, row], 2.0);
-    [left, right].into_iter().for_each(|x| stroke(image, [x, row - 0.35 * size], [x, row + 0.35 * size], 1.5));
+    for x in [left, right].into_iter() {
+        stroke(image, [x, row - 0.35 * size], [x, row + 0.35 * size], 1.5);
+    }
     let text = format!("{} mm", short(length_mm));
     write(image, [0.5 * (left + right - width(size, &text)), row - 0.7 * size], size, &text);
 }

@@ -120,7 +120,9 @@ impl Bend {
         }
         let mut written = vec![false; count];
         self.single.iter().for_each(|i| written[*i as usize] = true);
-        self.stencils.iter().for_each(|s| written[s.first as usize..s.first as usize + LANES].fill(true));
+        for s in self.stencils.iter() {
+            written[s.first as usize..s.first as usize + LANES].fill(true);
+        }
         Gaps::new(count, |i| written[i])
     }
 

@@ -176,7 +176,9 @@ fn run<S: Simd, L: ShellLaw, const BOOKS: bool>(
     patch.sums.viscous += sum(&tally.viscous);
     for (chamber, sign) in [(key.back, 1.0), (key.front, -1.0)] {
         if let Some(chamber) = chamber {
-            (0..3).for_each(|k| patch.flux[chamber][k] += sign * sum(&tally.flux[k]));
+            for k in 0..3 {
+                patch.flux[chamber][k] += sign * sum(&tally.flux[k]);
+            }
         }
     }
 }

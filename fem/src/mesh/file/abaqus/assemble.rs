@@ -47,7 +47,9 @@ pub(super) fn mesh(model: &Model, scan: &mut Scan) -> Result<MeshFile, String> {
 
 impl Assembly {
     fn all(&mut self, model: &Model) -> Result<(), Fault> {
-        model.ignored.iter().for_each(|(what, line)| self.builder.ignore(what, *line));
+        for (what, line) in model.ignored.iter() {
+            self.builder.ignore(what, *line);
+        }
         for (i, instance) in model.instances.iter().enumerate() {
             for (number, place, line) in &model.bodies[instance.body].nodes {
                 let next = self.items.len() as u64;
