@@ -46,6 +46,6 @@ pub trait Transient: Term {
     /// What a checkpoint must keep, so that a resumed run ends bit-identical.
     fn save(&self) -> Vec<u8>;
 
-    /// Takes back what [`Transient::save`] gave; false if it does not fit this term.
-    fn restore(&mut self, saved: &[u8]) -> bool;
+    /// Takes back what [`Transient::save`] gave; `None` if it does not fit this term.
+    fn restore(&mut self, saved: &[u8]) -> Option<()>;
 }

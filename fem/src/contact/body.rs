@@ -8,12 +8,8 @@ use super::press::Sums;
 use super::record::{Reach, Record, Step};
 use super::search;
 use super::surface::{self, Surface};
-use crate::bytes::{pack, unpack};
 use crate::vec3::Nodes;
 use rayon::prelude::*;
-
-/// What contact cannot find again from positions, after the number of elements.
-type Saved = (usize, Searched, Sums, Vec<[f64; 4]>, Passed, Vec<Chunk>);
 
 /// Contact between the layers of a mesh.
 #[derive(Debug, Clone, Default)]
@@ -67,41 +63,10 @@ impl Contact {
         self.arrange();
     }
 
-    fn arrange(&mut self) {
+    pub(super) fn arrange(&mut self) {
         let (surface, nodes) = (&self.surface, self.searched.placed_m.len());
         let mark = || vec![surface::NONE; nodes];
         let chunks = self.chunks.par_iter_mut().enumerate();
         chunks.for_each_init(mark, |mark, (i, chunk)| chunk.list(surface, i as u32, mark));
-    }
-
-    pub(super) fn saved(&self) -> Vec<u8> {
-        let mut chunks = self.chunks.clone();
-        chunks.iter_mut().for_each(Chunk::unload);
-        let elements = self.surface.elements.len();
-        pack(&(elements, &self.searched, self.sums, &self.before_m, &self.passed, chunks))
-    }
-
-    pub(super) fn take_saved(&mut self, saved: &[u8]) -> Option<()> {
-        let (elements, searched, sums, before_m, passed, chunks): Saved = unpack(saved)?;
-        let nodes = self.searched.placed_m.len();
-        let fits = elements == self.surface.elements.len()
-            && searched.placed_m.len() == nodes
-            && (before_m.is_empty() || before_m.len() == nodes)
-            && passed.fits(nodes as u32, elements as u32);
-        fits.then_some(())?;
-        let fitting = |chunk: Chunk| chunk.fitting(nodes as u32, elements as u32);
-        let chunks = chunks.into_iter().map(fitting).collect::<Option<Vec<_>>>()?;
-        (self.searched, self.sums, self.before_m, self.passed) = (searched, sums, before_m, passed);
-        self.chunks = chunks.clone();
-        self.arrange();
-        for (chunk, kept) in self.chunks.iter_mut().zip(chunks) {
-            (chunk.way_m, chunk.next_m, chunk.due_m) = (kept.way_m, kept.next_m, kept.due_m);
-            chunk.seen_m = kept.seen_m;
-            if !chunk.seen_m.is_empty() && chunk.seen_m.len() != chunk.nodes.len() {
-                return None;
-            }
-            chunk.load();
-        }
-        Some(())
     }
 }

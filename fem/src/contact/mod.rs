@@ -52,6 +52,7 @@ mod surface;
 use models::{Account, LedgerLine, Pose, Row, Term};
 use rayon::prelude::*;
 
+use crate::bytes::{pack, unpack};
 use crate::problem;
 use crate::terms::slide;
 use crate::transient::{dissipated, stored};
@@ -61,9 +62,10 @@ use crate::{Tick, Transient};
 pub use body::Contact;
 use build::Penalty;
 use chunk::{Chunk, touch};
-use follow::follow;
+use follow::{Searched, follow};
 pub(crate) use passed::Passage;
-use press::{motion, push};
+use passed::Passed;
+use press::{Sums, motion, push};
 use record::Reach;
 use surface::Surface;
 
@@ -130,6 +132,9 @@ impl Contact {
         (self.passed.nodes.len(), self.surface.nodes, self.passed.first.map(part))
     }
 }
+
+/// What contact cannot find again from positions, after the number of elements.
+type Saved = (usize, Searched, Sums, Vec<[f64; 4]>, Passed, Vec<Chunk>);
 
 impl Term for Contact {
     fn line(&self) -> LedgerLine {
@@ -224,11 +229,34 @@ impl Transient for Contact {
     }
 
     fn save(&self) -> Vec<u8> {
-        self.saved()
+        let mut chunks = self.chunks.clone();
+        chunks.iter_mut().for_each(Chunk::unload);
+        let elements = self.surface.elements.len();
+        pack(&(elements, &self.searched, self.sums, &self.before_m, &self.passed, chunks))
     }
 
-    fn restore(&mut self, saved: &[u8]) -> bool {
-        self.take_saved(saved).is_some()
+    fn restore(&mut self, saved: &[u8]) -> Option<()> {
+        let (elements, searched, sums, before_m, passed, chunks): Saved = unpack(saved)?;
+        let nodes = self.searched.placed_m.len();
+        let fits = elements == self.surface.elements.len()
+            && searched.placed_m.len() == nodes
+            && (before_m.is_empty() || before_m.len() == nodes)
+            && passed.fits(nodes as u32, elements as u32);
+        fits.then_some(())?;
+        let fitting = |chunk: Chunk| chunk.fitting(nodes as u32, elements as u32);
+        let chunks = chunks.into_iter().map(fitting).collect::<Option<Vec<_>>>()?;
+        (self.searched, self.sums, self.before_m, self.passed) = (searched, sums, before_m, passed);
+        self.chunks = chunks.clone();
+        self.arrange();
+        for (chunk, kept) in self.chunks.iter_mut().zip(chunks) {
+            (chunk.way_m, chunk.next_m, chunk.due_m) = (kept.way_m, kept.next_m, kept.due_m);
+            chunk.seen_m = kept.seen_m;
+            if !chunk.seen_m.is_empty() && chunk.seen_m.len() != chunk.nodes.len() {
+                return None;
+            }
+            chunk.load();
+        }
+        Some(())
     }
 }
 

@@ -62,7 +62,6 @@ impl Gas {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)] // a test that cannot be set up must fail
 mod tests {
     use super::*;
 

@@ -24,6 +24,7 @@ pub use crate::sheet::fields::ElementFields;
 pub use clock::Ledger;
 pub use guard::{FirstThrough, Through};
 pub use reaction::Reaction;
+pub use step::GoOn;
 
 use models::{Account, Pose, RowKind};
 use serde::{Deserialize, Serialize};
@@ -92,7 +93,7 @@ struct State {
     sheet: Vec<u8>,
     terms: Vec<SavedTerm>,
     bodies: Vec<BodyNow>,
-    reactions: Vec<f64>,
+    reactions: Vec<[V3; 2]>,
     /// Masses, what scaling added over the true mass, and the first step, which other loads would choose otherwise.
     masses: (Vec<f64>, f64, f64),
 }
@@ -192,16 +193,15 @@ impl Simulation {
         for term in self.terms.iter_mut().map(|t| &mut **t as &mut dyn Transient).chain(contact) {
             let (name, account) = (term.line().name, term.line().account);
             let own = state.terms.iter().position(|saved| saved.name == name);
-            match own.filter(|at| term.restore(&state.terms[*at].state)) {
+            match own.filter(|at| term.restore(&state.terms[*at].state).is_some()) {
                 Some(at) => drop(state.terms.remove(at)),
                 None => begin.push((goes_on && account == Account::Load).then(|| name.to_string())?),
             }
         }
         let fits = [state.x.len(), state.v.len()] == [self.x.len(), self.v.len()]
             && (goes_on || state.terms.is_empty())
-            && state.bodies.len() == self.bodies.len()
-            && self.sheet.restore(&state.sheet);
-        fits.then_some(())?;
+            && state.bodies.len() == self.bodies.len();
+        fits.then(|| self.sheet.restore(&state.sheet))??;
         for saved in &state.terms {
             (0..2).for_each(|k| state.books.earlier[k] += saved.gone[k]);
         }

@@ -90,15 +90,14 @@ impl Reactions {
         }
     }
 
-    pub(super) fn save(&self) -> Vec<f64> {
-        self.all.iter().flat_map(|r| [r.force_n, r.moment_nm]).flatten().collect()
+    pub(super) fn save(&self) -> Vec<[V3; 2]> {
+        self.all.iter().map(|r| [r.force_n, r.moment_nm]).collect()
     }
 
-    pub(super) fn restore(&mut self, from: &[f64]) -> Option<()> {
-        let (rows, rest) = from.as_chunks::<6>();
-        (rest.is_empty() && rows.len() == self.all.len()).then_some(())?;
-        for (reaction, [fx, fy, fz, mx, my, mz]) in self.all.iter_mut().zip(rows) {
-            (reaction.force_n, reaction.moment_nm) = ([*fx, *fy, *fz], [*mx, *my, *mz]);
+    pub(super) fn restore(&mut self, from: &[[V3; 2]]) -> Option<()> {
+        (from.len() == self.all.len()).then_some(())?;
+        for (reaction, saved) in self.all.iter_mut().zip(from) {
+            [reaction.force_n, reaction.moment_nm] = *saved;
         }
         Some(())
     }

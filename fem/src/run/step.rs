@@ -7,7 +7,7 @@ use models::Pose;
 use super::update::Update;
 use super::{Advance, Simulation, constraint};
 use crate::contact::edges::hold;
-use crate::{FemError, Tick, Transient};
+use crate::{Result, Tick, Transient};
 
 /// Wall time that the threads of a run stay together: waking them costs 0.1 ms.
 const STRETCH: Duration = Duration::from_millis(50);
@@ -18,16 +18,15 @@ const RECHECK: u64 = 512;
 /// The same for fabrics whose curves stiffen.
 const RECHECK_STIFFENING: u64 = 128;
 
+/// Whether a run goes on, called every few dozen steps on one of its threads.
+pub type GoOn<'a> = &'a mut (dyn FnMut(&Simulation) -> bool + Send);
+
 impl Simulation {
-    /// Steps until the time is reached or `go_on` (called every few dozen steps, on a thread of the run) returns false.
+    /// Steps until the time is reached or `go_on` returns false.
     ///
     /// # Errors
     /// [`FemError::Stopped`] when a guard fires.
-    pub fn advance_until(
-        &mut self,
-        time_s: f64,
-        go_on: &mut (dyn FnMut(&Simulation) -> bool + Send),
-    ) -> Result<Advance, FemError> {
+    pub fn advance_until(&mut self, time_s: f64, go_on: GoOn) -> Result<Advance> {
         self.clock.waits = false;
         self.advance(time_s, go_on)
     }
@@ -37,12 +36,7 @@ impl Simulation {
     ///
     /// # Errors
     /// As [`Simulation::advance_until`].
-    pub fn wait_until(
-        &mut self,
-        waited_s: f64,
-        at_s: f64,
-        go_on: &mut (dyn FnMut(&Simulation) -> bool + Send),
-    ) -> Result<Advance, FemError> {
+    pub fn wait_until(&mut self, waited_s: f64, at_s: f64, go_on: GoOn) -> Result<Advance> {
         // A run reaches a time within half a step; loads that then stand still would have begun with what comes next.
         self.clock.time_s = at_s;
         self.clock.waits = true;
@@ -50,11 +44,7 @@ impl Simulation {
     }
 
     /// To a time of the clock that runs.
-    fn advance(
-        &mut self,
-        time_s: f64,
-        go_on: &mut (dyn FnMut(&Simulation) -> bool + Send),
-    ) -> Result<Advance, FemError> {
+    fn advance(&mut self, time_s: f64, go_on: GoOn) -> Result<Advance> {
         let mut advance = None;
         while self.is_before(time_s) && advance.is_none() {
             // The team is moved out for the call, so that the steps may borrow the rest.
@@ -76,11 +66,7 @@ impl Simulation {
     }
 
     /// Steps for [`STRETCH`], or until the time is reached or the callback asks to stop.
-    fn stretch(
-        &mut self,
-        time_s: f64,
-        go_on: &mut (dyn FnMut(&Simulation) -> bool + Send),
-    ) -> Result<Option<Advance>, FemError> {
+    fn stretch(&mut self, time_s: f64, go_on: GoOn) -> Result<Option<Advance>> {
         let began = Instant::now();
         let recheck = match (&self.edges, self.sheet.stiffens()) {
             (Some(_), _) => LOOK,

@@ -252,16 +252,14 @@ impl Transient for Sheet {
         pack(&(self.viscous_j, air, patches))
     }
 
-    fn restore(&mut self, saved: &[u8]) -> bool {
-        let Some((viscous_j, air, patches)) = unpack::<Saved>(saved) else { return false };
+    fn restore(&mut self, saved: &[u8]) -> Option<()> {
+        let (viscous_j, air, patches): Saved = unpack(saved)?;
         let alike = |(own, (_, strains, past)): (&Patch, &SavedPatch)| {
             [own.strains.len(), own.past.len()] == [strains.len(), past.len()]
         };
         let fits = [air.len(), patches.len()] == [self.air.len(), self.patches.len()]
             && self.patches.iter().zip(&patches).all(alike);
-        if !fits {
-            return false;
-        }
+        fits.then_some(())?;
         self.viscous_j = viscous_j;
         for (own, now) in self.air.iter_mut().zip(air) {
             own.now = now;
@@ -269,7 +267,7 @@ impl Transient for Sheet {
         for (own, (sums, strains, past)) in self.patches.iter_mut().zip(patches) {
             (own.sums, own.strains, own.past) = (sums, strains, past);
         }
-        true
+        Some(())
     }
 }
 

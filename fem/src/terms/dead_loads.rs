@@ -114,16 +114,15 @@ impl Transient for DeadLoads {
         let loads: Vec<_> = self.loads.iter().map(|load| (load.last, load.vector, load.nodes())).collect();
         pack(&(self.time_s, self.work_j, loads))
     }
-    fn restore(&mut self, saved: &[u8]) -> bool {
-        let saved: Option<(f64, f64, Vec<SavedLoad>)> = unpack(saved);
+    fn restore(&mut self, saved: &[u8]) -> Option<()> {
+        let (time_s, work_j, loads): (f64, f64, Vec<SavedLoad>) = unpack(saved)?;
         let same = |(own, (_, vector, nodes)): (&Load, &SavedLoad)| own.vector == *vector && own.nodes() == *nodes;
-        let fits = |loads: &[SavedLoad]| loads.len() == self.loads.len() && self.loads.iter().zip(loads).all(same);
-        let Some((time_s, work_j, loads)) = saved.filter(|(_, _, loads)| fits(loads)) else { return false };
+        (loads.len() == self.loads.len() && self.loads.iter().zip(&loads).all(same)).then_some(())?;
         (self.time_s, self.work_j) = (time_s, work_j);
         for (load, (last, ..)) in self.loads.iter_mut().zip(loads) {
             load.last = last;
         }
-        true
+        Some(())
     }
 }
 
@@ -204,7 +203,8 @@ mod tests {
             step(&mut term, i, 0.01, &at(i));
         }
         let saved = term.save();
-        assert!(other.restore(&saved) && !other.restore(&saved[1..]) && !other.restore(&[]));
+        assert!(other.restore(&saved).is_some());
+        assert!(other.restore(&saved[1..]).is_none() && other.restore(&[]).is_none());
         for i in 10..20 {
             assert_eq!(step(&mut term, i, 0.01, &at(i)), step(&mut other, i, 0.01, &at(i)));
         }
@@ -258,7 +258,7 @@ mod tests {
         let q = vec![0.3; 8];
         term.advance(&Pose::nodes(&q), &Tick { step: 0, time_s: 0.0, dt_s: 0.1 }, &mut [0.0; 8]);
         let mut other = earth();
-        assert!(other.restore(&term.save()) && !other.restore(&[1, 2]));
+        assert!(other.restore(&term.save()).is_some() && other.restore(&[1, 2]).is_none());
         for term in [&mut term, &mut other] {
             let tick = Tick { step: 1, time_s: 0.1, dt_s: 0.1 };
             term.advance(&Pose::nodes(&[-0.7; 8]), &tick, &mut [0.0; 8]);

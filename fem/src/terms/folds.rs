@@ -284,12 +284,10 @@ impl Transient for Folds {
         pack(&(self.tension_work_j, self.stored_j, tensions))
     }
 
-    fn restore(&mut self, saved: &[u8]) -> bool {
-        let Some((work_j, stored_j, tensions)) = unpack::<(f64, Option<f64>, Vec<f64>)>(saved) else { return false };
+    fn restore(&mut self, saved: &[u8]) -> Option<()> {
+        let (work_j, stored_j, tensions): (f64, Option<f64>, Vec<f64>) = unpack(saved)?;
         let sides = self.sides.as_flattened_mut();
-        if tensions.len() != sides.len() {
-            return false;
-        }
+        (tensions.len() == sides.len()).then_some(())?;
         for (side, tension) in sides.iter_mut().zip(tensions) {
             side.tension_n_m = tension;
         }
@@ -297,7 +295,7 @@ impl Transient for Folds {
             edge.stiffness_n = in_series(sides);
         }
         (self.tension_work_j, self.stored_j) = (work_j, stored_j);
-        true
+        Some(())
     }
 }
 

@@ -193,21 +193,18 @@ impl Transient for Obstacles {
         let paths: Vec<_> = self.paths.iter().map(|p| [p.now_m, p.before_m, p.force_n]).collect();
         pack(&(self.solids_as_text(), [self.stored_j, self.work_j], self.lost_j, &self.before_m, &self.grips, paths))
     }
-    fn restore(&mut self, saved: &[u8]) -> bool {
-        let Some((solids, [stored_j, work_j], lost_j, before_m, grips, paths)) = unpack::<Saved>(saved) else {
-            return false;
-        };
+    fn restore(&mut self, saved: &[u8]) -> Option<()> {
+        let (solids, [stored_j, work_j], lost_j, before_m, grips, paths): Saved = unpack(saved)?;
         let lengths = |grips: &[Vec<Grip>]| grips.iter().map(Vec::len).collect::<Vec<_>>();
         let fits = before_m.is_empty() || before_m.len() == self.stiffness_n_m.len();
-        if !fits || solids != self.solids_as_text() || lengths(&grips) != lengths(&self.grips) {
-            return false;
-        }
+        let known = solids == self.solids_as_text() && lengths(&grips) == lengths(&self.grips);
+        (fits && known).then_some(())?;
         (self.stored_j, self.work_j, self.lost_j) = (stored_j, work_j, lost_j);
         (self.before_m, self.grips) = (before_m, grips);
         for (path, saved) in self.paths.iter_mut().zip(paths) {
             [path.now_m, path.before_m, path.force_n] = saved;
         }
-        true
+        Some(())
     }
 }
 

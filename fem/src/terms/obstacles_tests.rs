@@ -133,7 +133,8 @@ fn a_restored_obstacle_goes_on_to_the_bit_and_refuses_what_does_not_fit() {
     }
     let saved = one.term.save();
     let mut two = incline(0.5, 0.3);
-    assert!(two.term.restore(&saved) && !two.term.restore(&saved[..8]) && !two.term.restore(&[]));
+    assert!(two.term.restore(&saved).is_some());
+    assert!(two.term.restore(&saved[..8]).is_none() && two.term.restore(&[]).is_none());
     (two.x, two.v, two.step) = (one.x.clone(), one.v.clone(), one.step);
     for _ in 0..100 {
         one.step();

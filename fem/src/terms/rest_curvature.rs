@@ -185,8 +185,9 @@ impl Transient for RestCurvature {
     fn save(&self) -> Vec<u8> {
         pack(&self.stored_j)
     }
-    fn restore(&mut self, saved: &[u8]) -> bool {
-        unpack(saved).map(|stored_j| self.stored_j = stored_j).is_some()
+    fn restore(&mut self, saved: &[u8]) -> Option<()> {
+        self.stored_j = unpack(saved)?;
+        Some(())
     }
 }
 

@@ -5,7 +5,6 @@ use super::super::surface::Surface;
 use super::chunk::{Chunk, PAIRS};
 use super::pair::Pair;
 use super::sides::Sides;
-use crate::bytes::{pack, unpack};
 use crate::vec3::{Nodes, V3, padded};
 use crate::{FemError, Mesh, problem};
 
@@ -14,9 +13,6 @@ const SHARE: f64 = 0.05;
 
 /// Share of critical damping of a pair.
 const DAMPING: f64 = 0.1;
-
-/// What edges cannot find again from positions, after the number of sides.
-type Saved = (usize, Searched, [f64; 2], Held, Vec<Chunk>);
 
 /// Forces that changed the last step.
 #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
@@ -131,26 +127,8 @@ impl Edges {
         }
     }
 
-    pub(super) fn saved(&self) -> Vec<u8> {
-        let lost_j = [self.stored_j, self.lost_j];
-        pack(&(self.sides.list.len(), &self.searched, lost_j, &self.held, &self.chunks))
-    }
-
-    pub(super) fn take_saved(&mut self, saved: &[u8]) -> Option<()> {
-        let (sides, searched, [stored_j, lost_j], held, chunks): Saved = unpack(saved)?;
-        let count = self.searched.placed_m.len();
-        let fits = sides == self.sides.list.len()
-            && searched.placed_m.len() == count
-            && (held.before_m.is_empty() || held.before_m.len() == count)
-            && held.forces.iter().all(|(node, _)| (*node as usize) < count);
-        fits.then_some(())?;
-        self.chunks = chunks.into_iter().map(|saved| self.fitting(saved)).collect::<Option<_>>()?;
-        (self.searched, self.stored_j, self.lost_j, self.held) = (searched, stored_j, lost_j, held);
-        Some(())
-    }
-
     /// What a checkpoint held of a chunk, with what its keys give again; `None` if it does not fit.
-    fn fitting(&self, saved: Chunk) -> Option<Chunk> {
+    pub(super) fn fitting(&self, saved: Chunk) -> Option<Chunk> {
         let most = |face: bool| match face {
             true => [self.mass_kg.len(), self.sides.triangles.len()],
             false => [self.sides.list.len(); 2],

@@ -46,10 +46,17 @@ mod tests;
 use models::{Account, LedgerLine, Pose, Row, Term};
 use rayon::prelude::*;
 
+use super::follow::Searched;
 use super::push;
+use crate::bytes::{pack, unpack};
 use crate::transient::{dissipated, stored};
 use crate::{Tick, Transient};
 pub use body::Edges;
+use body::Held;
+use chunk::Chunk;
+
+/// What edges cannot find again from positions, after the number of sides.
+type Saved = (usize, Searched, [f64; 2], Held, Vec<Chunk>);
 
 impl Term for Edges {
     fn line(&self) -> LedgerLine {
@@ -121,10 +128,20 @@ impl Transient for Edges {
     }
 
     fn save(&self) -> Vec<u8> {
-        self.saved()
+        let lost_j = [self.stored_j, self.lost_j];
+        pack(&(self.sides.list.len(), &self.searched, lost_j, &self.held, &self.chunks))
     }
 
-    fn restore(&mut self, saved: &[u8]) -> bool {
-        self.take_saved(saved).is_some()
+    fn restore(&mut self, saved: &[u8]) -> Option<()> {
+        let (sides, searched, [stored_j, lost_j], held, chunks): Saved = unpack(saved)?;
+        let count = self.searched.placed_m.len();
+        let fits = sides == self.sides.list.len()
+            && searched.placed_m.len() == count
+            && (held.before_m.is_empty() || held.before_m.len() == count)
+            && held.forces.iter().all(|(node, _)| (*node as usize) < count);
+        fits.then_some(())?;
+        self.chunks = chunks.into_iter().map(|saved| self.fitting(saved)).collect::<Option<_>>()?;
+        (self.searched, self.stored_j, self.lost_j, self.held) = (searched, stored_j, lost_j, held);
+        Some(())
     }
 }

@@ -19,8 +19,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::shared::{
-    Plate, Solver, follow, heading, left_out, loads, node_set, number, numbers, own, place, places, plate, row,
-    surfaces,
+    Plate, Solver, follow, heading, in_rows, left_out, loads, node_set, number, numbers, own, place, places, plate,
+    row, surfaces,
 };
 use crate::Problem;
 use crate::mesh::Part;
@@ -231,7 +231,7 @@ fn material(out: &mut String, problem: &Problem, index: usize, part: &Part, sect
     for (number, (axes, elements)) in directions(problem, index, part).iter().enumerate() {
         let warp = own(&format!("warp_{}_{}", index + 1, number + 1));
         *out += &format!("*ORIENTATION, NAME={warp}\n{axes}\n*ELSET, ELSET={warp}\n");
-        elements.chunks(16).for_each(|elements| *out += &format!("{},\n", numbers(elements)));
+        in_rows(out, elements);
         *out += &format!("*SHELL SECTION, ELSET={warp}, MATERIAL={name}, ORIENTATION={warp}\n{thickness}\n");
     }
 }

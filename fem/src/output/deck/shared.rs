@@ -79,7 +79,12 @@ pub(super) fn follow(out: &mut String, node: u32, first: u32) {
 
 pub(super) fn node_set(out: &mut String, name: &str, nodes: &[u32]) {
     *out += &format!("*NSET, NSET={name}\n");
-    nodes.chunks(16).for_each(|nodes| *out += &format!("{},\n", numbers(nodes)));
+    in_rows(out, nodes);
+}
+
+/// Numbers of a set, 16 a row.
+pub(super) fn in_rows(out: &mut String, members: &[u32]) {
+    members.chunks(16).for_each(|row| *out += &format!("{},\n", numbers(row)));
 }
 
 pub(super) fn surfaces(out: &mut String, problem: &Problem) {
