@@ -21,6 +21,10 @@ pub(crate) fn padded([x, y, z]: V3) -> [f64; 4] {
 pub(crate) fn share(a: f64, b: f64) -> f64 {
     if b > 0.0 { a / b } else { 0.0 }
 }
+/// The value where it counts, 0 elsewhere.
+pub(crate) fn where_so(counts: bool, value: f64) -> f64 {
+    if counts { value } else { 0.0 }
+}
 /// Sum a + b of two vectors.
 #[inline(always)]
 pub fn add(a: V3, b: V3) -> V3 {

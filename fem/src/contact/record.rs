@@ -130,14 +130,11 @@ impl Record {
             _ if behind && found.cosine.abs() > 0.05 => -side.abs(),
             _ => side.abs(),
         };
-        self.distance_m = if self.side == 0 { distance } else { signed(self, found, distance) };
-    }
-}
-
-fn signed(record: &Record, found: &Closest, distance: f64) -> f64 {
-    match record.feature {
-        Feature::Face => record.sign * found.height_m,
-        _ => record.sign * distance,
+        self.distance_m = match self.feature {
+            _ if self.side == 0 => distance,
+            Feature::Face => self.sign * found.height_m,
+            _ => self.sign * distance,
+        };
     }
 }
 

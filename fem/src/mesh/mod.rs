@@ -155,11 +155,11 @@ impl Mesh {
     }
     /// Where the membrane at node `i` is free of stress.
     pub(crate) fn free_of(&self, i: usize) -> V3 {
-        if self.membrane.is_empty() { self.points[i] } else { self.membrane[i] }
+        *self.membrane.get(i).unwrap_or(&self.points[i])
     }
     /// Position in which node `i` starts \[m\].
     pub fn start_of(&self, i: usize) -> V3 {
-        if self.start.is_empty() { self.free_of(i) } else { self.start[i] }
+        self.start.get(i).copied().unwrap_or_else(|| self.free_of(i))
     }
     /// Adds another mesh to this one. Part names must differ; sets of the same name unite, and a chamber named by both
     /// is one chamber. Nothing is welded.

@@ -39,7 +39,7 @@ impl Series {
             let reason = format!("a frame of {} s is in the list already", last.unwrap_or_default());
             return Err(FemError::stopped(frame.step, frame.time_s, reason));
         }
-        let index = if last == Some(frame.time_s) { self.times_s.len() - 1 } else { self.times_s.len() };
+        let index = self.times_s.len() - usize::from(last == Some(frame.time_s));
         let path = self.folder.join(file_name(index));
         write_vtu(&path, mesh, frame)?;
         self.times_s.truncate(index);

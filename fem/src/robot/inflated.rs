@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use super::body_parts;
 use crate::Mesh;
-use crate::vec3::{V3, along, dot, norm, sub};
+use crate::vec3::{V3, along, dot, norm, share, sub};
 
 /// Mean shape of a robot's pouches \[m\].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -91,8 +91,7 @@ fn from_piece(p: V3, piece: &[V3]) -> f64 {
     let [a, b] = [piece[0], piece[1]];
     let way = sub(b, a);
     let square = dot(way, way);
-    let share = if square > 0.0 { (dot(sub(p, a), way) / square).clamp(0.0, 1.0) } else { 0.0 };
-    distance(p, along(a, share, way))
+    distance(p, along(a, share(dot(sub(p, a), way), square).clamp(0.0, 1.0), way))
 }
 
 fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {

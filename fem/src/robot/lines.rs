@@ -17,7 +17,7 @@ use models::scenario::ActuatorChoice;
 
 use super::RobotSettings;
 use super::settings::{FOLDED_ROW, TAPED_SPACING};
-use crate::vec3::V3;
+use crate::vec3::{V3, where_so};
 use crate::{FemError, Result};
 
 /// Largest ratio of neighbouring elements where the size changes.
@@ -93,7 +93,7 @@ impl Lines {
         // Azimuths where the grid begins to turn.
         let centres: Vec<f64> = scenario
             .strips()
-            .map(|strip| strip.azimuth_rad + rad_per_m * if sin == 0.0 { 0.0 } else { zone_m[0] - strip.start_m })
+            .map(|strip| strip.azimuth_rad + rad_per_m * where_so(sin != 0.0, zone_m[0] - strip.start_m))
             .collect();
         let angles = around(radius_m, cos, &centres, &mut strips, settings)?;
         let ahead = || Turn { zone_m, length_m: scenario.length_m, rad_per_m, ahead_m: ahead(&angles, &strips, sin) };
@@ -178,7 +178,7 @@ fn ahead(angles: &[f64], strips: &[StripLines], sin: f64) -> Vec<f64> {
         .collect();
     known.sort_by_key(|(column, _)| *column);
     known.push((angles.len(), known[0].1));
-    let angle = |column: usize| if column == angles.len() { angles[0] + TAU } else { angles[column] };
+    let angle = |column: usize| angles.get(column).copied().unwrap_or(angles[0] + TAU);
     let mut found = Vec::with_capacity(angles.len());
     for pair in known.windows(2) {
         let [(from, a), (to, b)] = [pair[0], pair[1]];
@@ -199,7 +199,7 @@ pub(super) fn weld_m(settings: &RobotSettings) -> f64 {
 }
 
 fn strip(width_m: f64, settings: &RobotSettings) -> f64 {
-    if width_m >= LEAST_STRIP * settings.actuator_size_m { width_m } else { 0.0 }
+    where_so(width_m >= LEAST_STRIP * settings.actuator_size_m, width_m)
 }
 
 /// Distance of the rings at the actuator over the element size there.
@@ -292,8 +292,8 @@ fn growing(a: f64, b: f64, [from, to]: [f64; 2], weld_at_b: bool) -> impl Iterat
 fn across(pattern: &Pattern, settings: &RobotSettings) -> Vec<f64> {
     let half = 0.5 * pattern.width_m;
     let mut cuts = vec![-half, half];
-    let weld = if pattern.side_welds { weld_m(settings) } else { 0.0 };
-    let margin = if pattern.is_taped() { strip(settings.tape_margin_m, settings) } else { 0.0 };
+    let weld = where_so(pattern.side_welds, weld_m(settings));
+    let margin = where_so(pattern.is_taped(), strip(settings.tape_margin_m, settings));
     for edge in [half + weld, half + weld + margin] {
         [-edge, edge].iter().for_each(|place| add(&mut cuts, *place, 1e-9));
     }

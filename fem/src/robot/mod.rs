@@ -63,7 +63,7 @@ use crate::policy;
 use crate::problem::{Amplitude, Chamber, Contact, Guards, MassScaling, Patience, Settings, Support};
 use crate::run;
 use crate::sheet::reference::mean_stiffness;
-use crate::vec3::{area, norm};
+use crate::vec3::{area, norm, where_so};
 use crate::{FemError, Mesh, Problem, Result};
 use lines::Lines;
 use plies::Plies;
@@ -181,7 +181,7 @@ fn body_parts(mesh: &Mesh) -> Vec<String> {
 fn fits(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Result<()> {
     let refuse = |message: String| Err(FemError::Problem(format!("robot: {message}")));
     for (strip, pattern) in scenario.strips().zip(patterns) {
-        let taped_m = if pattern.is_taped() { settings.tape_margin_m } else { 0.0 };
+        let taped_m = where_so(pattern.is_taped(), settings.tape_margin_m);
         if let Err(fault) = scenario.fits(strip, pattern, settings.weld_m, taped_m) {
             return refuse(fault);
         }

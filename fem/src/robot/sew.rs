@@ -8,7 +8,7 @@ use super::lines::{Lines, StripLines, weld_m};
 use crate::Result;
 use crate::mesh::generate::{Around, Cap, Tube, tube};
 use crate::mesh::{Mesh, Part};
-use crate::vec3::V3;
+use crate::vec3::{V3, where_so};
 
 pub(super) const BODY: &str = "body";
 pub(super) const ACTUATOR: &str = "actuator";
@@ -151,7 +151,7 @@ impl Sewer<'_> {
         }
         let column = column - self.own.first;
         let middle = 0.5 * (s[column] + s[column + 1]);
-        let side_weld_m = if self.pattern.side_welds { self.weld_m } else { 0.0 };
+        let side_weld_m = where_so(self.pattern.side_welds, self.weld_m);
         if middle.abs() > 0.5 * self.pattern.width_m + side_weld_m {
             return Place::Margin;
         }

@@ -286,7 +286,7 @@ pub(super) fn least_scale_j(problem: &Problem, mesh: &Mesh, sheet: &Sheet, mass_
     let blown = |air: &Air| {
         let faces =
             |part: usize| [&mesh.parts[part].front, &mesh.parts[part].back].map(|c| c.as_deref() == Some(air.name()));
-        let around = area(&|part| if faces(part).contains(&true) { 1.0 } else { 0.0 });
+        let around = area(&|part| f64::from(u8::from(faces(part).contains(&true))));
         air.peak_pa() * around.powf(1.5) / (6.0 * std::f64::consts::PI.sqrt())
     };
     let pressed: f64 = sheet.air.iter().map(blown).sum();

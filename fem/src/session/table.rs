@@ -2,6 +2,7 @@
 
 use super::{FeRun, Many, Variation, heights_mm, rounded};
 use crate::Result;
+use crate::vec3::{share, where_so};
 use serde::Serialize;
 
 /// A robot's heights at one pressure.
@@ -63,7 +64,7 @@ impl RunTable {
         let row = |(index, variation): (usize, &Variation)| {
             let run = &runs[many.of[index]];
             let folder = if first(index) { variation.label.clone() } else { String::new() };
-            let cpu_s = if first(index) { run.cost.cpu_s_of_all_sessions } else { 0.0 };
+            let cpu_s = where_so(first(index), run.cost.cpu_s_of_all_sessions);
             RunRow { variation: variation.clone(), heights: heights(run), folder, cpu_s }
         };
         Ok(RunTable { rows: variations.iter().enumerate().map(row).collect() })
@@ -84,7 +85,7 @@ impl RunTable {
             let runs = tips.len();
             let tip_mean_mm = tips.iter().sum::<f64>() / runs as f64;
             let sum: f64 = tips.iter().map(|t| (t - tip_mean_mm).powi(2)).sum();
-            let tip_sd_mm = if runs > 1 { (sum / (runs as f64 - 1.0)).sqrt() } else { 0.0 };
+            let tip_sd_mm = share(sum, runs as f64 - 1.0).sqrt();
             SeedGroup { group: group.into(), actuator_kpa, runs, tip_mean_mm, tip_sd_mm }
         };
         tips.into_iter().map(group).collect()

@@ -77,7 +77,7 @@ impl Disc {
         for (r, t) in (0..rings).flat_map(|r| (0..4 * n).map(move |t| (r, t))) {
             corners.push([at(r, t), at(r + 1, t), at(r + 1, t + 1), at(r, t + 1)]);
         }
-        let near = if n.is_multiple_of(2) { n / 2..=n / 2 } else { n / 2..=n / 2 + 1 };
+        let near = n / 2..=n.div_ceil(2);
         let centre = near.clone().flat_map(|j| near.clone().map(move |i| core(i, j))).collect();
         Disc { rim: at(rings, 0), points, corners, centre }
     }

@@ -55,8 +55,8 @@ impl Grid {
 
     /// The node in the middle, or the two or four around it.
     pub(super) fn middle(&self) -> Vec<u32> {
-        let near = |n: usize| if n.is_multiple_of(2) { vec![n / 2] } else { vec![n / 2, n / 2 + 1] };
-        near(self.nv).iter().flat_map(|j| near(self.nu).into_iter().map(|i| self.at(i, *j))).collect()
+        let near = |n: usize| n / 2..=n.div_ceil(2);
+        near(self.nv).flat_map(|j| near(self.nu).map(move |i| self.at(i, j))).collect()
     }
 
     /// Elements row by row, front along e_u × e_v.

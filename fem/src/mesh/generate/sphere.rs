@@ -40,9 +40,9 @@ pub fn sphere(radius_m: f64, n: usize) -> Result<Mesh, FemError> {
             quads.push(if side == n { [a, b, c, d] } else { [a, d, c, b] });
         }
     }
-    let near: &[usize] = if n.is_multiple_of(2) { &[n / 2] } else { &[n / 2, n / 2 + 1] };
+    let near = || n / 2..=n.div_ceil(2);
     for (name, side) in [("top", n), ("bottom", 0)] {
-        let nodes = near.iter().flat_map(|j| near.iter().map(|i| known[&[*i, *j, side]])).collect();
+        let nodes = near().flat_map(|j| near().map(move |i| [i, j, side])).map(|place| known[&place]).collect();
         mesh.name(name, nodes);
     }
     mesh.parts.push(Part::round("air", "sphere", quads));

@@ -106,7 +106,7 @@ fn wall(tube: &Tube, angles: &[f64]) -> Mesh {
     let node = |j: usize, i: usize| (j * n + i % n) as u32;
     for (j, i) in (0..tube.along).flat_map(|j| (0..n).map(move |i| (j, i))) {
         part.quads.push([node(j, i), node(j, i + 1), node(j + 1, i + 1), node(j + 1, i)]);
-        let next = if i + 1 == n { angles[0] + TAU } else { angles[i + 1] };
+        let next = angles.get(i + 1).copied().unwrap_or(angles[0] + TAU);
         part.warp.push(warp(0.5 * (angles[i] + next), tube.warp_rad));
     }
     if tube.warp_rad == 0.0 {

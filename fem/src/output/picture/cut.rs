@@ -4,7 +4,7 @@
 //! present positions. What a plane through a bent robot would cut elsewhere does not come in.
 
 use super::{Corner, FINE, Image, PictureLook, check, drawn};
-use crate::vec3::{V3, dot, sub};
+use crate::vec3::{V3, dot, share, sub};
 use crate::{FemError, Mesh, Result};
 
 const LINE: f64 = 3.0;
@@ -86,8 +86,7 @@ fn facing(pieces: &[Piece], axes: [V3; 3]) -> [V3; 3] {
         high += dot(d, up) * dot(d, up);
         deep += dot(d, up) * dot(d, towards);
     }
-    let tilt = if high > 0.0 { (deep / high).atan() } else { 0.0 };
-    let (s, c) = tilt.sin_cos();
+    let (s, c) = share(deep, high).atan().sin_cos();
     let mix = |a: [f64; 3], x: f64, b: [f64; 3], y: f64| [0, 1, 2].map(|k| a[k] * x + b[k] * y);
     [right, mix(up, c, towards, s), mix(towards, c, up, -s)]
 }

@@ -2,7 +2,7 @@
 
 use super::ink::letter_size;
 use super::raster::Corner;
-use crate::vec3::{V3, bounds};
+use crate::vec3::{V3, bounds, where_so};
 
 /// Pixels are drawn this many times finer in both directions, then averaged: smooth outlines.
 pub(super) const FINE: usize = 2;
@@ -102,7 +102,7 @@ impl Placing {
 /// Room that the notes take \[pixels\]: at the top, at the right, at the bottom.
 fn room(look: &PictureLook, with_bar: bool) -> V3 {
     let size = letter_size(look.height);
-    let top = if look.title.is_empty() { 0.0 } else { 2.0 * size };
-    let right = if with_bar { (1.8 + 0.62 * LONGEST) * size } else { 0.0 };
-    [top, right, if look.marks { 5.0 * size } else { 0.0 }]
+    let top = where_so(!look.title.is_empty(), 2.0 * size);
+    let right = where_so(with_bar, (1.8 + 0.62 * LONGEST) * size);
+    [top, right, where_so(look.marks, 5.0 * size)]
 }
