@@ -40,7 +40,7 @@ impl pulp::WithSimd for Questions<'_> {
             let (mut node, mut corner) = ([0; LANES], [[0; LANES]; 4]);
             for lane in 0..LANES {
                 // Empty lanes repeat the last question.
-                let question = &eight[if lane < eight.len() { lane } else { eight.len() - 1 }];
+                let question = &eight[lane.min(eight.len() - 1)];
                 let [a, b, c, d] = self.surface.elements[question.element as usize];
                 node[lane] = question.node;
                 // A triangle is its own second half, turned over.

@@ -190,7 +190,7 @@ impl Problem {
 
     /// Words for an edge that may leave its plane.
     fn free(&self, chamber: &str, edge: [u32; 2], axis: usize, held: &[[bool; 3]]) -> String {
-        let node = if held[edge[0] as usize][axis] { edge[1] } else { edge[0] };
+        let node = edge.into_iter().find(|n| !held[*n as usize][axis]).unwrap_or(edge[1]);
         let sets = self.mesh.sets.iter().filter(|(_, nodes)| nodes.contains(&node)).map(|(name, _)| name.as_str());
         let (letter, sets) = (AXES[axis], sets.collect::<Vec<_>>().join(", "));
         format!(

@@ -98,7 +98,7 @@ impl Plies<'_> {
         let free = |length_m: f64| ply(&self.wrinkling(&self.body, length_m), 0.0);
         if let Some(panel) = self.pattern.panels.iter().find(|p| p.name == part) {
             // A panel that runs back shows its front to the body, and is seen from there.
-            let seen = if panel.to_m < panel.from_m { -panel.warp_rad } else { panel.warp_rad };
+            let seen = panel.warp_rad * (panel.to_m - panel.from_m).signum();
             return self.loose(vec![ply(&self.wrinkling(&self.sheet, sheet_m), seen)]);
         }
         match (part, part.strip_prefix(SEAM).and_then(|n| n.parse::<usize>().ok())) {

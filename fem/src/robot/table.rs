@@ -73,7 +73,10 @@ impl RobotRun {
 
 fn usual_pressures(scenario: &Scenario) -> Vec<[f64; CHANNELS]> {
     let above: Vec<f64> = scenario.pressures_pa.iter().copied().filter(|p| *p >= scenario.p_body_pa).collect();
-    let usual = if above.is_empty() { vec![RobotSettings::default().actuator_pa] } else { above };
+    let usual = match above[..] {
+        [] => vec![RobotSettings::default().actuator_pa],
+        _ => above,
+    };
     usual.into_iter().map(|pa| [pa; CHANNELS]).collect()
 }
 

@@ -31,10 +31,9 @@ impl Simulation {
 
     /// The same with the masses, their added share and the first step \[s\] of an earlier run.
     pub(super) fn prepared(problem: &Problem, earlier: Option<&(Vec<f64>, f64, f64)>) -> Result<Simulation> {
-        if earlier.is_none() {
-            problem.check()?
-        } else {
-            problem.check_but_obstacles()?
+        match earlier {
+            None => problem.check()?,
+            Some(_) => problem.check_but_obstacles()?,
         }
         let order = Order::of(&problem.mesh);
         let mut mesh = renumber(&problem.mesh, &order);

@@ -212,8 +212,8 @@ fn foreign(folder: &Path, names: &[String]) -> Result<Option<String>> {
     if let Some(name) = names.iter().find(|n| !ours(n)) {
         return Ok(Some(name.clone()));
     }
-    let frames = folder.join("frames");
-    let frames = if frames.is_dir() { sorted(&frames)? } else { Vec::new() };
+    let frames = Some(folder.join("frames")).filter(|frames| frames.is_dir());
+    let frames = frames.map_or(Ok(Vec::new()), |frames| sorted(&frames))?;
     let is_frame = |n: &String| n.starts_with("run_") && n.ends_with(".vtu") || is_partial(n);
     Ok(frames.iter().find(|n| !is_frame(n)).map(|n| format!("frames/{n}")))
 }

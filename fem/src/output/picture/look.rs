@@ -80,7 +80,7 @@ impl Placing {
         let room = [width - 2.0 * margin, height - 2.0 * margin];
         let scale = (room[0] / (high[0] - low[0])).min(room[1] / (high[1] - low[1]));
         // A mesh without extent, or without nodes, is drawn at any scale.
-        let scale = if scale.is_finite() && scale > 0.0 { scale } else { 1.0 };
+        let scale = Some(scale).filter(|scale| scale.is_finite() && *scale > 0.0).unwrap_or(1.0);
         let fine = FINE as f64;
         let middle = [0, 1].map(|k| 0.5 * (low[k] + high[k]));
         Placing { scale: scale * fine, middle, centre: [0.5 * width * fine, (top + 0.5 * height) * fine] }
