@@ -44,14 +44,17 @@ pub fn simulate_all(jobs: &[Job], settings: &Settings, progress: Progress) -> Re
     }
     let mut order: Vec<usize> = (0..tasks.len()).collect();
     order.sort_by(|a, b| tasks[*b].effort.total_cmp(&tasks[*a].effort));
-    let found = simulate_each(tasks.len(), settings.threads, progress, &|k, threads, tell| {
-        let (task, each) = (&tasks[order[k]], Settings { threads, ..settings.clone() });
-        let what = format!("{} of {}, {}", task.at + 1, jobs.len(), jobs[task.at].what);
-        match task.run(&jobs[task.at], &each, &mut |text, share| tell(&format!("{what}: {text}"), share)) {
+    let one = |k: usize, threads: usize, tell: Progress| {
+        let task = &tasks[order[k]];
+        let (job, each) = (&jobs[task.at], Settings { threads, ..settings.clone() });
+        let what = format!("{} of {}, {}", task.at + 1, jobs.len(), job.what);
+        let run = task.run(job, &each, &mut |text, share| tell(&format!("{what}: {text}"), share));
+        match run {
             Err(stopped) if stopped.is_stop() => Ok(Err(stopped)),
             other => other.map(Ok),
         }
-    })?;
+    };
+    let found = simulate_each(tasks.len(), settings.threads, progress, &one)?;
     let mut runs: Vec<(usize, Result<FeRun>)> = order.into_iter().zip(found).collect();
     runs.sort_by_key(|run| run.0);
     Ok(Many { runs: runs.into_iter().map(|run| run.1).collect(), of })

@@ -59,14 +59,18 @@ pub fn product(run: &RobotRun, seeds: Option<u64>, separate: bool, meshes: &[[f6
         cases = extended(&cases, &meshes.iter().map(of).collect::<Vec<_>>());
     }
     if let Some(count) = seeds {
-        let of = |seed: u64| (format!("seed-{seed}"), vec![("seed".into(), seed.to_string())], false);
+        let of = |seed: u64| {
+            let keys = vec![("seed".into(), seed.to_string())];
+            (format!("seed-{seed}"), keys, false)
+        };
         cases = extended(&cases, &(1..=count).map(of).collect::<Vec<_>>());
     }
     if separate {
         let of = |pa: &[f64; CHANNELS]| {
             let entry = pressures_in_toml(pa);
             let label = entry.trim_matches(['[', ']']).replace(", ", "-");
-            (format!("{label}kPa"), vec![("pressures_kpa".into(), format!("[{entry}]"))], false)
+            let keys = vec![("pressures_kpa".into(), format!("[{entry}]"))];
+            (format!("{label}kPa"), keys, false)
         };
         cases = extended(&cases, &run.pressures_pa.iter().map(of).collect::<Vec<_>>());
     }
@@ -96,7 +100,8 @@ pub fn numerics(scenario: &Scenario, run: &RobotRun) -> Result<Vec<Variation>> {
             let [low, high] = key.bounds;
             let value = (own * factor).clamp(low * key.si, high * key.si);
             if (value / own - 1.0).abs() > 0.2 {
-                add(format!("{}-{label}", key.name), vec![(key.name.into(), number(value, key))]);
+                let changes = vec![(key.name.into(), number(value, key))];
+                add(format!("{}-{label}", key.name), changes);
             }
         }
     }
@@ -169,8 +174,10 @@ pub fn felt(base: &Source, known: &[&str]) -> Result<Vec<Felt>> {
 }
 
 fn robot(number: usize, numbers: &[Felt], shares: &[f64]) -> Variation {
-    let value =
-        |((unknown, key), share): (&Felt, &f64)| (key.name.to_string(), format!("{:.4e}", unknown.at(*share) / key.si));
+    let value = |((unknown, key), share): (&Felt, &f64)| {
+        let value = unknown.at(*share) / key.si;
+        (key.name.to_string(), format!("{value:.4e}"))
+    };
     let mut changes: Changes = numbers.iter().zip(shares).map(value).collect();
     changes.push(("seed".into(), number.to_string()));
     Variation { label: format!("robot-{number}"), changes, group: String::new() }

@@ -117,7 +117,8 @@ impl Fan {
         let around: Vec<(u32, [f64; 3])> = self.weights.keys().map(|n| (*n, offset(*n))).collect();
         let normal =
             self.facets.iter().fold([0.0; 3], |sum, f| along(sum, 1.0, f.area_vector(|n| mesh.points[n as usize])));
-        let weights = edge::weights([(before, offset(before)), (after, offset(after))], &around, direction(normal))?;
+        let ends = [before, after].map(|n| (n, offset(n)));
+        let weights = edge::weights(ends, &around, direction(normal))?;
         Some(weights.into_iter().map(|(n, w)| (n, w * self.area)).collect())
     }
 }
@@ -134,8 +135,9 @@ fn add_element(mesh: &Mesh, nodes: &[u32], part: usize, fans: &mut BTreeMap<u32,
     let count = nodes.len();
     for k in 0..count {
         let fan = fans.entry(nodes[k]).or_default();
-        *fan.spokes.entry(nodes[(k + 1) % count]).or_default() += 1;
-        *fan.spokes.entry(nodes[(k + count - 1) % count]).or_default() += 1;
+        for beside in [k + 1, k + count - 1] {
+            *fan.spokes.entry(nodes[beside % count]).or_default() += 1;
+        }
         fan.facets.push(facet(nodes, part));
     }
     if count == 3 {
@@ -162,8 +164,10 @@ fn add_triangle(mesh: &Mesh, nodes: [u32; 3], share: f64, fans: &mut BTreeMap<u3
         let (i, j, apex) = (k, (k + 1) % 3, (k + 2) % 3);
         let (to_i, to_j) = (sub(x[i], x[apex]), sub(x[j], x[apex]));
         let weight = 0.5 * share * dot(to_i, to_j) / twice_area;
-        *fans.entry(nodes[i]).or_default().weights.entry(nodes[j]).or_default() += weight;
-        *fans.entry(nodes[j]).or_default().weights.entry(nodes[i]).or_default() += weight;
+        for [from, to] in [[i, j], [j, i]] {
+            let fan = fans.entry(nodes[from]).or_default();
+            *fan.weights.entry(nodes[to]).or_default() += weight;
+        }
         fans.entry(nodes[i]).or_default().area += share * twice_area / 6.0;
     }
 }
@@ -184,7 +188,8 @@ impl BendingMatrix {
         let mut last = None;
         for (i, j, value) in entries {
             if last == Some((i, j)) {
-                *matrix.value.last_mut().expect("an entry was pushed for this place") += value;
+                let sum = matrix.value.last_mut();
+                *sum.expect("an entry was pushed for this place") += value;
             } else {
                 matrix.column.push(j);
                 matrix.value.push(value);

@@ -65,6 +65,13 @@ pub(super) struct BatchInputs<'a> {
     pub past: &'a [[Past; LANES]],
 }
 
+impl<'a> BatchInputs<'a> {
+    #[inline(always)]
+    fn who(&self, index: usize, part: usize) -> Who<'a> {
+        Who { stock: &self.stocks[self.groups[index].stock as usize], past: self.past.get(index), part }
+    }
+}
+
 /// Forces of quadrilaterals, with `BOOKS` also energies and fluxes; `ROWS` promises that all groups are in regular rows.
 #[inline(always)]
 pub(super) fn quads<S: Simd, L: ShellLaw, const ROWS: bool, const BOOKS: bool>(
@@ -84,7 +91,7 @@ pub(super) fn quads<S: Simd, L: ShellLaw, const ROWS: bool, const BOOKS: bool>(
         }
     }
     for (index, (group, strain)) in batch.groups.iter().zip(strains).enumerate() {
-        let of = (&batch.shapes[group.shape as usize], &batch.stocks[group.stock as usize]);
+        let shape = &batch.shapes[group.shape as usize];
         for part in 0..LANES / S::F64_LANES {
             let mut first = [0; 4];
             let mut x = [[V::all(simd, 0.0); 3]; 4];
@@ -96,7 +103,8 @@ pub(super) fn quads<S: Simd, L: ShellLaw, const ROWS: bool, const BOOKS: bool>(
                     x[c] = V::gather(simd, batch.x, &group.node, c, part);
                 }
             }
-            let force = quad::<S, L, ROWS, BOOKS>(simd, batch, law, of, batch.past.get(index), part, x, strain, tally);
+            let who = batch.who(index, part);
+            let force = quad::<S, L, ROWS, BOOKS>(simd, batch, law, shape, who, x, strain, tally);
             match &mut out {
                 Corners::Rows(rows) => {
                     for c in 0..4 {
@@ -123,13 +131,13 @@ fn quad<S: Simd, L: ShellLaw, const ROWS: bool, const BOOKS: bool>(
     simd: S,
     batch: BatchInputs,
     law: L,
-    (shape, stock): (&RestShape, &Stock),
-    past: Option<&[Past; LANES]>,
-    part: usize,
+    shape: &RestShape,
+    who: Who,
     x: [[V<S>; 3]; 4],
     strain: &mut Strain,
     tally: &mut Tally,
 ) -> [[V<S>; 3]; 4] {
+    let Who { stock, part, .. } = who;
     let d13 = axes!(k => x[0][k] - x[2][k]);
     let d24 = axes!(k => x[1][k] - x[3][k]);
     let odd = axes!(k => x[0][k] + x[2][k]);
@@ -139,11 +147,8 @@ fn quad<S: Simd, L: ShellLaw, const ROWS: bool, const BOOKS: bool>(
     let b = gradients(simd, shape, part);
     let f1 = axes!(k => b[0][0] * d13[k] + b[1][0] * d24[k]);
     let f2 = axes!(k => b[0][1] * d13[k] + b[1][1] * d24[k]);
-    let e = strain_of(simd, f1, f2);
-    let (s, w) = law.at(simd, e, Who { stock, past, part });
-    let amount = V::load(simd, &shape.area, part) * V::load(simd, &stock.per, part);
+    let t = tension::<S, L, BOOKS>(simd, batch.rate, law, shape, who, [f1, f2], strain, tally);
     let own = V::load(simd, &stock.own, part);
-    let t = with_viscosity(simd, batch.rate, (shape, stock), part, e, s, strain, tally);
 
     let s1 = V::load(simd, &shape.s[0], part);
     let s2 = V::load(simd, &shape.s[1], part);
@@ -153,7 +158,6 @@ fn quad<S: Simd, L: ShellLaw, const ROWS: bool, const BOOKS: bool>(
     let stiffness = V::load(simd, &shape.hourglass, part);
     let (k1, k2) = (stiffness * g1, stiffness * g2);
     if BOOKS {
-        (own * amount * w).add_to(&mut tally.membrane, part);
         (V::all(simd, 0.5) * own * (k1 * g1 + k2 * g2)).add_to(&mut tally.hourglass, part);
     }
 
@@ -199,51 +203,30 @@ pub(super) fn triangles<S: Simd, L: ShellLaw>(
 ) {
     for (index, ((group, strain), out)) in batch.groups.iter().zip(strains).zip(out).enumerate() {
         for part in 0..LANES / S::F64_LANES {
-            triangle(simd, batch, law, group, batch.past.get(index), part, strain, out, tally);
+            let (shape, who) = (&batch.shapes[group.shape as usize], batch.who(index, part));
+            let x = axes!(c => V::gather(simd, batch.x, &group.node, c, part));
+            let u = axes!(k => x[1][k] - x[0][k]);
+            let v = axes!(k => x[2][k] - x[0][k]);
+            let b = gradients(simd, shape, part);
+            let f1 = axes!(k => b[0][0] * u[k] + b[1][0] * v[k]);
+            let f2 = axes!(k => b[0][1] * u[k] + b[1][1] * v[k]);
+            let t = tension::<S, L, true>(simd, batch.rate, law, shape, who, [f1, f2], strain, tally);
+            let own = V::load(simd, &who.stock.own, part);
+
+            let normal = product(u, v);
+            let p = V::all(simd, batch.pressure / 6.0) * V::load(simd, &who.stock.real, part);
+            for k in 0..3 {
+                let r1 = t[0] * f1[k] + t[2] * f2[k];
+                let r2 = t[2] * f1[k] + t[1] * f2[k];
+                let (p2, p3) = (b[0][0] * r1 + b[0][1] * r2, b[1][0] * r1 + b[1][1] * r2);
+                let push = p * normal[k];
+                (push + (p2 + p3)).store(&mut out[0][k], part);
+                (push - p2).store(&mut out[1][k], part);
+                (push - p3).store(&mut out[2][k], part);
+                let flux = V::all(simd, 1.0 / 6.0) * (x[0][k] + x[1][k] + x[2][k]) * normal[k];
+                (own * flux).add_to(&mut tally.flux[k], part);
+            }
         }
-    }
-}
-
-#[inline(always)]
-#[allow(clippy::too_many_arguments)] // one call, inlined: a struct would only rename the list
-fn triangle<S: Simd, L: ShellLaw>(
-    simd: S,
-    batch: BatchInputs,
-    law: L,
-    group: &ElementGroup,
-    past: Option<&[Past; LANES]>,
-    part: usize,
-    strain: &mut Strain,
-    out: &mut CornerForces,
-    tally: &mut Tally,
-) {
-    let shape = &batch.shapes[group.shape as usize];
-    let stock = &batch.stocks[group.stock as usize];
-    let x = axes!(c => V::gather(simd, batch.x, &group.node, c, part));
-    let u = axes!(k => x[1][k] - x[0][k]);
-    let v = axes!(k => x[2][k] - x[0][k]);
-    let b = gradients(simd, shape, part);
-    let f1 = axes!(k => b[0][0] * u[k] + b[1][0] * v[k]);
-    let f2 = axes!(k => b[0][1] * u[k] + b[1][1] * v[k]);
-    let e = strain_of(simd, f1, f2);
-    let (s, w) = law.at(simd, e, Who { stock, past, part });
-    let amount = V::load(simd, &shape.area, part) * V::load(simd, &stock.per, part);
-    let own = V::load(simd, &stock.own, part);
-    let t = with_viscosity(simd, batch.rate, (shape, stock), part, e, s, strain, tally);
-    (own * amount * w).add_to(&mut tally.membrane, part);
-
-    let normal = product(u, v);
-    let p = V::all(simd, batch.pressure / 6.0) * V::load(simd, &stock.real, part);
-    for k in 0..3 {
-        let r1 = t[0] * f1[k] + t[2] * f2[k];
-        let r2 = t[2] * f1[k] + t[1] * f2[k];
-        let (p2, p3) = (b[0][0] * r1 + b[0][1] * r2, b[1][0] * r1 + b[1][1] * r2);
-        let push = p * normal[k];
-        (push + (p2 + p3)).store(&mut out[0][k], part);
-        (push - p2).store(&mut out[1][k], part);
-        (push - p3).store(&mut out[2][k], part);
-        let flux = V::all(simd, 1.0 / 6.0) * (x[0][k] + x[1][k] + x[2][k]) * normal[k];
-        (own * flux).add_to(&mut tally.flux[k], part);
     }
 }
 
@@ -254,27 +237,25 @@ fn gradients<S: Simd>(simd: S, shape: &RestShape, part: usize) -> [[V<S>; 2]; 2]
     [[V::load(simd, b11, part), V::load(simd, b12, part)], [V::load(simd, b21, part), V::load(simd, b22, part)]]
 }
 
-/// E = ½(FᵀF − 1) as (11, 22, 2·12).
+/// A·(S + viscous part) as (11, 22, 12) for F = (f₁, f₂); keeps the strains and books the heat, with `BOOKS` the energy too.
 #[inline(always)]
-fn strain_of<S: Simd>(simd: S, f1: [V<S>; 3], f2: [V<S>; 3]) -> [V<S>; 3] {
-    let (half, one) = (V::all(simd, 0.5), V::all(simd, 1.0));
-    [half * (inner(f1, f1) - one), half * (inner(f2, f2) - one), inner(f1, f2)]
-}
-
-/// A·(S + viscous part) as (11, 22, 12); keeps the strains and books the heat.
-#[inline(always)]
-#[allow(clippy::too_many_arguments)] // shared tail of the two kernels, inlined
-fn with_viscosity<S: Simd>(
+#[allow(clippy::too_many_arguments)] // shared part of the two kernels, inlined
+fn tension<S: Simd, L: ShellLaw, const BOOKS: bool>(
     simd: S,
     rate: f64,
-    (shape, stock): (&RestShape, &Stock),
-    part: usize,
-    e: [V<S>; 3],
-    s: [V<S>; 3],
+    law: L,
+    shape: &RestShape,
+    who: Who,
+    [f1, f2]: [[V<S>; 3]; 2],
     strain: &mut Strain,
     tally: &mut Tally,
 ) -> [V<S>; 3] {
-    let half = V::all(simd, 0.5);
+    let Who { stock, part, .. } = who;
+    let (half, one) = (V::all(simd, 0.5), V::all(simd, 1.0));
+    // E = ½(FᵀF − 1) as (11, 22, 2·12).
+    let e = [half * (inner(f1, f1) - one), half * (inner(f2, f2) - one), inner(f1, f2)];
+    let (s, w) = law.at(simd, e, who);
+    let own = V::load(simd, &stock.own, part);
     let amount = V::load(simd, &shape.area, part) * V::load(simd, &stock.per, part);
     let eta = V::load(simd, &shape.viscosity, part) * V::all(simd, rate);
     let d = axes!(k => e[k] - V::load(simd, &strain.0[k], part));
@@ -282,7 +263,9 @@ fn with_viscosity<S: Simd>(
         e.store(kept, part);
     }
     let drag = [eta * d[0], eta * d[1], half * eta * d[2]];
-    let heat = V::load(simd, &stock.own, part) * (drag[0] * d[0] + drag[1] * d[1] + drag[2] * d[2]);
-    heat.add_to(&mut tally.viscous, part);
+    (own * inner(drag, d)).add_to(&mut tally.viscous, part);
+    if BOOKS {
+        (own * amount * w).add_to(&mut tally.membrane, part);
+    }
     axes!(k => amount * s[k] + drag[k])
 }

@@ -50,14 +50,12 @@ impl Assembly {
         for (what, line) in model.ignored.iter() {
             self.builder.ignore(what, *line);
         }
-        for (i, instance) in model.instances.iter().enumerate() {
-            for (number, place, line) in &model.bodies[instance.body].nodes {
-                let next = self.items.len() as u64;
-                self.items.push((i, *number));
-                let node = self.builder.node(next, stand(instance, *place)).map_err(at(*line))?;
-                if self.nodes.insert((i, *number), node).is_some() {
-                    return Err((*line, format!("node {number} is there twice; renumber one of them")));
-                }
+        for (i, instance, (number, place, line)) in model.each(|body| &body.nodes) {
+            let next = self.items.len() as u64;
+            self.items.push((i, *number));
+            let node = self.builder.node(next, stand(instance, *place)).map_err(at(*line))?;
+            if self.nodes.insert((i, *number), node).is_some() {
+                return Err((*line, format!("node {number} is there twice; renumber one of them")));
             }
         }
         self.numbers(model)?;
@@ -72,26 +70,22 @@ impl Assembly {
         }
         self.parts(model)?;
         self.node_sets(model);
-        for (i, instance) in model.instances.iter().enumerate() {
-            for sides in &model.bodies[instance.body].surfaces {
-                let surface = self.surface(model, i, sides).map_err(at(sides.line))?;
-                self.builder.surfaces.push(surface);
-            }
+        for (i, _, sides) in model.each(|body| &body.surfaces) {
+            let surface = self.surface(model, i, sides).map_err(at(sides.line))?;
+            self.builder.surfaces.push(surface);
         }
         Ok(())
     }
 
     fn numbers(&mut self, model: &Model) -> Result<(), Fault> {
-        for (i, instance) in model.instances.iter().enumerate() {
-            for element in &model.bodies[instance.body].elements {
-                let corner = |n: &u64| {
-                    let found = self.nodes.get(&(i, *n)).copied();
-                    found.ok_or_else(|| (element.line, format!("node {n} does not exist")))
-                };
-                let corners = element.nodes.iter().map(corner).collect::<Result<Vec<u32>, Fault>>()?;
-                if self.elements.insert((i, element.number), (corners, String::new())).is_some() {
-                    return Err((element.line, format!("element {} is there twice; renumber one", element.number)));
-                }
+        for (i, _, element) in model.each(|body| &body.elements) {
+            let corner = |n: &u64| {
+                let found = self.nodes.get(&(i, *n)).copied();
+                found.ok_or_else(|| (element.line, format!("node {n} does not exist")))
+            };
+            let corners = element.nodes.iter().map(corner).collect::<Result<Vec<u32>, Fault>>()?;
+            if self.elements.insert((i, element.number), (corners, String::new())).is_some() {
+                return Err((element.line, format!("element {} is there twice; renumber one", element.number)));
             }
         }
         Ok(())
@@ -159,34 +153,30 @@ impl Assembly {
     /// Elements by section, else by the set of their keyword line, else by instance.
     fn parts(&mut self, model: &Model) -> Result<(), Fault> {
         let mut turned = Vec::new();
-        for (i, inst) in model.instances.iter().enumerate() {
-            for Section { set, orientation, line } in &model.bodies[inst.body].sections {
-                let items = self.named(model, i, true, set).map_err(at(*line))?;
-                for item in items {
-                    let name = self.prefixed(model, item.0, set);
-                    if let Some((_, part)) = self.elements.get_mut(&item).filter(|(_, part)| part.is_empty()) {
-                        *part = name;
-                    }
+        for (i, inst, Section { set, orientation, line }) in model.each(|body| &body.sections) {
+            let items = self.named(model, i, true, set).map_err(at(*line))?;
+            for item in items {
+                let name = self.prefixed(model, item.0, set);
+                if let Some((_, part)) = self.elements.get_mut(&item).filter(|(_, part)| part.is_empty()) {
+                    *part = name;
                 }
-                if let Some(name) = orientation {
-                    let orientation = orientation_of(model, inst, name).map_err(at(*line))?;
-                    turned.push((self.prefixed(model, i, set), orientation, inst));
-                }
+            }
+            if let Some(name) = orientation {
+                let orientation = orientation_of(model, inst, name).map_err(at(*line))?;
+                turned.push((self.prefixed(model, i, set), orientation, inst));
             }
         }
-        for (i, inst) in model.instances.iter().enumerate() {
-            for element in &model.bodies[inst.body].elements {
-                let given = &self.elements[&(i, element.number)];
-                let (corners, part) = (given.0.clone(), given.1.clone());
-                let other = match (&element.set, inst.name.as_str()) {
-                    (Some(set), _) => self.prefixed(model, i, set),
-                    (None, "") => "sheet".to_string(),
-                    (None, name) => name.to_string(),
-                };
-                let part = if part.is_empty() { other } else { part };
-                self.builder.element(&part, &corners).map_err(at(element.line))?;
-                self.elements.insert((i, element.number), (corners, part));
-            }
+        for (i, inst, element) in model.each(|body| &body.elements) {
+            let given = &self.elements[&(i, element.number)];
+            let (corners, part) = (given.0.clone(), given.1.clone());
+            let other = match (&element.set, inst.name.as_str()) {
+                (Some(set), _) => self.prefixed(model, i, set),
+                (None, "") => "sheet".to_string(),
+                (None, name) => name.to_string(),
+            };
+            let part = if part.is_empty() { other } else { part };
+            self.builder.element(&part, &corners).map_err(at(element.line))?;
+            self.elements.insert((i, element.number), (corners, part));
         }
         for (part, orientation, inst) in turned {
             if let Some(fault) = &orientation.other {
@@ -212,21 +202,18 @@ impl Assembly {
     /// Node sets, and element sets that are no part.
     fn node_sets(&mut self, model: &Model) {
         for of_elements in [false, true] {
-            for (i, inst) in model.instances.iter().enumerate() {
-                let named =
-                    model.bodies[inst.body].groups.iter().filter(|g| g.of_elements == of_elements && !g.internal);
-                for group in named {
-                    let name = self.prefixed(model, i, &group.name);
-                    let parts = &self.builder.mesh.parts;
-                    let is_part = of_elements && parts.iter().any(|part| part.name.eq_ignore_ascii_case(&name));
-                    let key = (i, of_elements, group.name.to_ascii_uppercase());
-                    let Some(items) = self.sets.get(&key).filter(|_| !is_part) else { continue };
-                    let nodes: Vec<u32> = match of_elements {
-                        false => items.iter().map(|item| self.nodes[item]).collect(),
-                        true => items.iter().flat_map(|item| self.elements[item].0.clone()).collect(),
-                    };
-                    self.builder.set(&name, nodes);
-                }
+            let named = model.each(|body| &body.groups).map(|(i, _, group)| (i, group));
+            for (i, group) in named.filter(|(_, g)| g.of_elements == of_elements && !g.internal) {
+                let name = self.prefixed(model, i, &group.name);
+                let parts = &self.builder.mesh.parts;
+                let is_part = of_elements && parts.iter().any(|part| part.name.eq_ignore_ascii_case(&name));
+                let key = (i, of_elements, group.name.to_ascii_uppercase());
+                let Some(items) = self.sets.get(&key).filter(|_| !is_part) else { continue };
+                let nodes: Vec<u32> = match of_elements {
+                    false => items.iter().map(|item| self.nodes[item]).collect(),
+                    true => items.iter().flat_map(|item| self.elements[item].0.clone()).collect(),
+                };
+                self.builder.set(&name, nodes);
             }
         }
     }

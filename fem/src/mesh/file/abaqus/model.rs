@@ -12,6 +12,14 @@ pub(super) struct Model {
     pub(super) ignored: Vec<(String, usize)>,
 }
 
+impl Model {
+    /// All items of a kind, instance by instance, with the instance and its number.
+    pub(super) fn each<T: 'static>(&self, of: fn(&Body) -> &Vec<T>) -> impl Iterator<Item = (usize, &Instance, &T)> {
+        let all = self.instances.iter().enumerate();
+        all.flat_map(move |(i, at)| of(&self.bodies[at.body]).iter().map(move |item| (i, at, item)))
+    }
+}
+
 /// Nodes and elements with numbers of their own.
 #[derive(Default)]
 pub(super) struct Body {
