@@ -1,6 +1,6 @@
 //! A folder of challenges that any tool can enter: the rules, what may be named, and the scores of an entry.
 //!
-//! An entry is a table `case,verdict,names`. Names are those of the catalogue, best first, separated by spaces; `a+b` are two effects
+//! An entry is a table `case,verdict,names`. Names are from the catalogue, best first, separated by spaces; `a+b` are two effects
 //! that act together.
 
 use super::effects::ALSO;
@@ -24,7 +24,7 @@ pub fn case_name(case: usize) -> String {
     format!("case-{case:03}")
 }
 
-/// The files of one case; with a seed the same ones again, without it nobody can guess what is hidden.
+/// The files of one case; with a seed the same ones again, without it the hidden effects cannot be guessed.
 ///
 /// # Errors
 /// A robot that does not balance.
@@ -75,7 +75,7 @@ pub struct CaseScore {
     pub case: String,
     /// Effects that are hidden
     pub hidden: Vec<String>,
-    /// What the entry says
+    /// Answer of the entry
     pub answer: Claim,
     /// Its score
     pub score: ClaimScore,
@@ -84,7 +84,7 @@ pub struct CaseScore {
 /// Opens the seals of all cases in a folder and scores an entry, given as text with its name for messages.
 ///
 /// # Errors
-/// A row that is no answer, with its line; a case without a row; a seal that is broken.
+/// A row that is not an answer, with its line; a case without a row; a seal that is broken.
 pub fn score_entry(folder: &Path, name: &str, text: &str) -> Result<EntryScore, CompareError> {
     let mut answers = answers(name, text)?;
     let mut cases = Vec::new();
@@ -102,7 +102,7 @@ pub fn score_entry(folder: &Path, name: &str, text: &str) -> Result<EntryScore, 
     }
     if let Some((case, (line, _))) = answers.into_iter().next() {
         let help = format!("cases are {} to {}", case_name(1), case_name(cases.len()));
-        return Err(refused(name, Some(line), format!("{case} is no case of {}", folder.display()), &help));
+        return Err(refused(name, Some(line), format!("{case} is not a case of {}", folder.display()), &help));
     }
     let knows = |hidden: &str| HIDDEN.iter().chain(ALSO).any(|effect| effect.name == hidden);
     let (inside, others): (Vec<&CaseScore>, Vec<&CaseScore>) =
@@ -138,7 +138,7 @@ fn answers(name: &str, text: &str) -> Result<BTreeMap<String, (usize, Claim)>, C
         };
         if !VERDICTS.contains(&verdict) {
             let help = spelling::known(verdict, &VERDICTS);
-            return fault(format!("`{verdict}` is no verdict"), &help);
+            return fault(format!("`{verdict}` is not a verdict"), &help);
         }
         let set: Vec<&str> = names.split_whitespace().collect();
         let parts: Vec<&str> = set.iter().flat_map(|entry| entry.split('+')).collect();
@@ -146,7 +146,7 @@ fn answers(name: &str, text: &str) -> Result<BTreeMap<String, (usize, Claim)>, C
         if let Some(unknown) = parts.iter().find(|part| !known.contains(part)) {
             let meant = spelling::meant(unknown, known.iter().copied());
             return fault(
-                format!("`{unknown}` is no effect"),
+                format!("`{unknown}` is not an effect"),
                 &format!("{meant}names are in effects.csv, separated by spaces"),
             );
         }
@@ -216,13 +216,13 @@ mod tests {
     fn rows_that_are_no_answers_are_refused_with_their_line() {
         let folder = exported(1);
         for (rows, words) in [
-            ("case-001,efect,gravity", "entry.csv:2: `efect` is no verdict"),
-            ("case-001,effect,gravitty", "entry.csv:2: `gravitty` is no effect"),
+            ("case-001,efect,gravity", "entry.csv:2: `efect` is not a verdict"),
+            ("case-001,effect,gravitty", "entry.csv:2: `gravitty` is not an effect"),
             ("case-001,effect,", "contradict"),
             ("case-001,none,gravity", "contradict"),
             ("case-001,effect", "has not three columns"),
             ("case-001,none,\ncase-001,none,", "entry.csv:3: case-001 is there twice"),
-            ("case-001,none,\ncase-002,none,", "entry.csv:3: case-002 is no case"),
+            ("case-001,none,\ncase-002,none,", "entry.csv:3: case-002 is not a case"),
             ("", "case-001 has no row"),
         ] {
             let error = score_entry(folder.path(), "entry.csv", &format!("{HEAD}\n{rows}\n")).unwrap_err();

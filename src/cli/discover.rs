@@ -132,7 +132,7 @@ pub(crate) enum ChallengeCommand {
         /// Cases
         #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=999))]
         cases: u64,
-        /// Makes the same cases again; without it what is hidden cannot be guessed
+        /// Makes the same cases again; without it the hidden effects cannot be guessed
         #[arg(long)]
         seed: Option<u64>,
     },

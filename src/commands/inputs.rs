@@ -32,7 +32,7 @@ pub(super) fn each_once<'t>(option: &str, names: impl IntoIterator<Item = &'t st
 }
 
 /// Names of effects that were typed as `name` or `name:key=value`.
-/// What is missing where a scenario, or data, stand alone.
+/// The missing part where a scenario, or data, are alone.
 pub(super) fn without_data(verb: &str, name: &str) -> Failure {
     let help = match scenario(name).is_ok() {
         true => format!("name them after it: `ibr {verb} {name} DATA`, for example `ibr {verb} {name} synthetic-epam`"),
