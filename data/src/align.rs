@@ -1,7 +1,7 @@
 //! From streams of holds to the dense tensor: the same holds in every run, the same markers, the same sample count.
 
 use crate::dataset::{Dataset, Hold, Lost, Marker};
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 use crate::header::Pressures;
 use crate::lost::fill;
 use crate::policy;
@@ -82,7 +82,7 @@ fn check_seen(file: &str, dataset: &Dataset) -> Result<()> {
         ),
         _ => return Ok(()),
     };
-    Err(DataError::runs(file, message, help))
+    Err(DataError::of(file, message, help))
 }
 
 /// By station where all are known, else by first appearance.
@@ -223,10 +223,7 @@ fn absent_marker(recorder: &Recorder, run: usize, marker: usize) -> DataError {
     let message = format!("marker {name} appears in run {other} but not in run {}", runs[run]);
     let help = "every run needs the same markers: correct the label if it is misspelt, add the marker to that run, \
                 or delete it from all runs";
-    let mut fault = Fault::of_file(&recorder.file, message, help).at_line(line);
-    fault.location.column_name = Some("marker".to_string());
-    fault.location.cell = Some(name.clone());
-    DataError::Runs(Box::new(fault))
+    recorder.fault(message, help, line).in_column("marker", Some(name))
 }
 
 /// Which segment of `stream` is which of `reference`: in order if they agree in order, else each by pressures (nearest

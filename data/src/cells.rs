@@ -128,9 +128,7 @@ fn thousands(line: &Line, text: &str) -> DataError {
         text.replace(',', "."),
         text.replace(',', "")
     );
-    DataError::Layout(
-        line.fault(message, "write decimals with a point, or at least one number with another count of decimals"),
-    )
+    line.fault(message, "write decimals with a point, or at least one number with another count of decimals")
 }
 
 fn both(line: &Line, text: &str) -> DataError {
@@ -139,7 +137,7 @@ fn both(line: &Line, text: &str) -> DataError {
         text.replace(',', "."),
         text.replace([',', '.'], "")
     );
-    DataError::Layout(line.fault(message, "write all decimals alike, and no commas of thousands"))
+    line.fault(message, "write all decimals alike, and no commas of thousands")
 }
 
 /// A label as a CSV cell.

@@ -10,9 +10,9 @@
 //! Comments above the header name the effects and the data of the fit.
 
 use crate::cells::label;
-use crate::columns::{self, Columns, Field, Meaning, field, plain};
+use crate::columns::{Field, Head, field, plain};
 use crate::dataset::{Dataset, Hold, Phase};
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 use crate::lines::Lines;
 use crate::policy;
 use crate::units::{Measured, kpa};
@@ -60,36 +60,23 @@ pub struct CorrectionTable {
 /// # Errors
 /// A table of another kind, a cell that is not a number: with file, line and remedy.
 pub fn parse_correction(file: &str, text: &str) -> Result<CorrectionTable> {
-    let mut progress = |_, _| ();
-    let mut bytes = text.as_bytes();
-    let mut lines = Lines::new(file, &mut bytes, text.len() as u64, &mut progress);
-    let (notes, header) = columns::notes(&mut lines)?;
+    let mut lines = Lines::of_text(file, text);
+    let (notes, head) = Head::read(&mut lines)?;
     let names: Vec<&str> = FIELDS.iter().filter(|field| field.needed).map(|field| field.expected).collect();
     let help = || format!("give a table that `ibr add … --base … --out correction.csv` wrote: {}", names.join(","));
-    let header = header.ok_or_else(|| DataError::layout(file, "the file is empty", help()))?;
-    let line = header.line();
-    let (named, delimiter) = columns::split(line.text, None);
-    let at = columns::find(&line, &named, &FIELDS, &|name| Meaning::of(name, &FIELDS))?;
-    let table = Columns { fields: &FIELDS, names: named, delimiter: delimiter.into(), comma: false, at };
-    if let Some(missing) = FIELDS.iter().enumerate().find(|(i, field)| field.needed && table.at[*i].is_none()) {
-        let message = format!("column {} is missing: this is not a correction", missing.1.expected);
-        return Err(DataError::Column(line.fault(message, help())));
+    let sheet = head.ok_or_else(|| DataError::of(file, "the file is empty", help()))?.sheet(&FIELDS)?;
+    if let Some(missing) = (0..FIELDS.len()).find(|field| FIELDS[*field].needed && !sheet.has(*field)) {
+        let message = format!("column {} is missing: this is not a correction", FIELDS[missing].expected);
+        return Err(sheet.head.line.line().fault(message, help()));
     }
     let mut rows = Vec::new();
-    while let Some(line) = lines.next_filled()? {
-        if line.text.trim_start().starts_with('#') {
-            continue;
-        }
-        let row = table.row(line)?;
+    sheet.each_row(&mut lines, |row| {
         let number = |field: usize| row.number(field).map(Option::unwrap_or_default);
-        rows.push(Moved {
-            marker: label(row.text(MARKER)).to_string(),
-            phase: row.text(PHASE).to_lowercase(),
-            body_pa: number(P_BODY)?,
-            act_pa: number(P_ACT)?,
-            d_m: [number(DX)?, number(DY)?],
-        });
-    }
+        let (marker, phase) = (label(row.text(MARKER)).to_string(), row.text(PHASE).to_lowercase());
+        let (body_pa, act_pa, d_m) = (number(P_BODY)?, number(P_ACT)?, [number(DX)?, number(DY)?]);
+        rows.push(Moved { marker, phase, body_pa, act_pa, d_m });
+        Ok(())
+    })?;
     rows.sort_by(|a, b| a.act_pa.total_cmp(&b.act_pa));
     let of = |key: &str| notes.iter().filter(|note| note.key == key).map(|note| note.text.clone()).collect::<Vec<_>>();
     let effects = of("effects").iter().flat_map(|text| text.split(", ")).map(str::to_string).collect();
@@ -126,7 +113,7 @@ impl CorrectionTable {
         let refused = |message: String| {
             let help =
                 "fit it on data with this marker at these pressures, and write it again: `ibr add … --base … --also …`";
-            Err(DataError::Runs(Box::new(Fault::of_file(&self.file, message, help))))
+            Err(DataError::of(&self.file, message, help))
         };
         let [Some(first), Some(last)] = [own.first(), own.last()] else {
             let body = kpa(hold.p_body_pa);

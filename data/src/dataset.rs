@@ -195,7 +195,7 @@ impl Dataset {
         let readings = self.runs.len() * self.holds.len() * self.samples_per_hold;
         let wrong = |message: String| {
             let help = "lay coordinates_m out as [run][hold][sample][marker][axis] with 2 or 3 axes, and samples_per_hold times in every hold";
-            Err(DataError::runs(&self.name, message, help))
+            Err(DataError::of(&self.name, message, help))
         };
         match (empty, timed, finite) {
             (true, ..) => wrong("the dataset has no values".to_string()),

@@ -12,9 +12,9 @@
 
 use std::collections::HashMap;
 
-use crate::columns::{self, Columns, Field, Meaning, TableRow, field, plain};
+use crate::columns::{Field, Head, Sheet, TableRow, field, plain};
 use crate::dataset::{Dataset, Hold};
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 use crate::header::Pressures;
 use crate::lines::Lines;
 use crate::policy;
@@ -58,8 +58,7 @@ pub struct Predictions {
 impl Predictions {
     /// A fault of the prediction of a marker in a hold, at its line.
     pub fn fault(&self, cell: usize, message: impl Into<String>, help: impl Into<String>) -> DataError {
-        let fault = Fault::of_file(&self.file, message, help).at_line(self.lines.get(cell).copied().unwrap_or(0));
-        DataError::Runs(Box::new(fault))
+        DataError::of(&self.file, message, help).at_line(self.lines.get(cell).copied().unwrap_or(0))
     }
 }
 
@@ -69,57 +68,44 @@ impl Predictions {
 /// A column that is missing, a row that belongs to no hold or marker of the data, two predictions of one place, a hold or marker without
 /// a prediction: with file, line and remedy.
 pub fn parse_predictions(file: &str, text: &str, dataset: &Dataset) -> Result<Predictions> {
-    let mut progress = |_, _| ();
-    let mut bytes = text.as_bytes();
-    let mut lines = Lines::new(file, &mut bytes, text.len() as u64, &mut progress);
-    let (_, header) = columns::notes(&mut lines)?;
-    let Some(header) = header else {
-        return Err(DataError::layout(file, "the file is empty", "write columns such as p_act_kpa,marker,x_mm,y_mm"));
+    let mut lines = Lines::of_text(file, text);
+    let (_, Some(head)) = Head::read(&mut lines)? else {
+        return Err(DataError::of(file, "the file is empty", "write columns such as p_act_kpa,marker,x_mm,y_mm"));
     };
-    let line = header.line();
-    let (names, delimiter) = columns::split(line.text, None);
-    let meaning = |name: &str| Meaning::of(name, &FIELDS);
-    if let Some(fault) = columns::without_unit(&line, &names, &FIELDS, &meaning, &|at| Some(FIELDS[at].needed)) {
-        return Err(DataError::Column(fault));
+    head.without_unit(&FIELDS, |at| Some(FIELDS[at].needed))?;
+    let sheet = head.sheet(&FIELDS)?;
+    let sheet = Sheet { comma: sheet.head.delimiter != ',', ..sheet };
+    if let Some([message, help]) = lacks(&sheet, dataset) {
+        return Err(sheet.head.line.line().fault(message, help));
     }
-    let at = columns::find(&line, &names, &FIELDS, &meaning)?;
-    let table = Columns { fields: &FIELDS, names, delimiter: delimiter.into(), comma: delimiter != b',', at };
-    if let Some([message, help]) = lacks(&table, dataset) {
-        return Err(DataError::Column(line.fault(message, help)));
-    }
-    let mut found = Collected::new(dataset, &table);
-    while let Some(line) = lines.next_filled()? {
-        if !line.text.trim_start().starts_with('#') {
-            found.take(&table.row(line)?)?;
-        }
-    }
+    let mut found = Collected::new(dataset, &sheet);
+    sheet.each_row(&mut lines, |row| found.take(row))?;
     found.complete(file)
 }
 
 /// A column that the data ask for and the table has not, and what to add.
-fn lacks(table: &Columns, dataset: &Dataset) -> Option<[String; 2]> {
-    let has = |field: usize| table.at[field].is_some();
+fn lacks(sheet: &Sheet, dataset: &Dataset) -> Option<[String; 2]> {
     let missing = |field: usize, why: &str| {
         let name = FIELDS[field].expected;
         Some([format!("column {name} is missing{why}"), format!("add {name} with a value in every row")])
     };
     let needed = |field: &usize| FIELDS[*field].needed || *field == PLACE[2] && dataset.has_z();
-    if let Some(field) = (0..FIELDS.len()).filter(needed).find(|field| !has(*field)) {
+    if let Some(field) = (0..FIELDS.len()).filter(needed).find(|field| !sheet.has(*field)) {
         return missing(field, "");
     }
-    if !has(PRESSURES[1]) {
+    if !sheet.has(PRESSURES[1]) {
         let why = ", and so is t_s: a row has no hold";
-        return if has(TIME) { None } else { missing(PRESSURES[1], why) };
+        return if sheet.has(TIME) { None } else { missing(PRESSURES[1], why) };
     }
     if dataset.channels_differ()
-        && let Some(field) = PRESSURES[2..2 + dataset.more_channels()].iter().find(|field| !has(**field))
+        && let Some(field) = PRESSURES[2..2 + dataset.more_channels()].iter().find(|field| !sheet.has(**field))
     {
         return missing(*field, ": the data have pressures of this supply channel");
     }
     let first = dataset.holds.first().map_or(0.0, |hold| hold.p_body_pa);
     let bodies_differ =
         dataset.holds.iter().any(|hold| (hold.p_body_pa - first).abs() > policy::tolerance_body_pa(first));
-    if bodies_differ && !has(PRESSURES[0]) {
+    if bodies_differ && !sheet.has(PRESSURES[0]) {
         return missing(PRESSURES[0], ": the data have several body pressures");
     }
     None
@@ -139,11 +125,11 @@ struct Collected<'d> {
 }
 
 impl<'d> Collected<'d> {
-    fn new(dataset: &'d Dataset, table: &Columns) -> Collected<'d> {
+    fn new(dataset: &'d Dataset, sheet: &Sheet) -> Collected<'d> {
         let cells = dataset.holds.len() * dataset.markers.len();
         Collected {
             dataset,
-            pressed: table.at[PRESSURES[1]].is_some(),
+            pressed: sheet.has(PRESSURES[1]),
             sums: vec![[0.0; 3]; cells],
             counts: vec![0; cells],
             lines: vec![0; cells],
@@ -160,15 +146,14 @@ impl<'d> Collected<'d> {
             let known: Vec<&str> = dataset.markers.iter().map(|marker| marker.name.as_str()).collect();
             let message = format!("marker \"{name}\" is not in {}", dataset.name);
             let help = format!("{}its markers are {}", spelling::meant(name, known.iter().copied()), known.join(", "));
-            return Err(DataError::Runs(row.fault(MARKER, message, help)));
+            return Err(row.fault(MARKER, message, help));
         };
         let mut place = [0.0; 3];
         for (axis, field) in PLACE.into_iter().take(dataset.axes).enumerate() {
             let value = row.number(field)?.unwrap_or(0.0);
             if value.abs() > policy::FARTHEST_M {
                 let message = format!("\"{}\" is farther than any robot reaches", row.text(field));
-                let help = "correct the unit in the name of the column: x_mm, x_cm or x_m".to_string();
-                return Err(DataError::Unit(row.fault(field, message, help)));
+                return Err(row.fault(field, message, "correct the unit in the name of the column: x_mm, x_cm or x_m"));
             }
             place[axis] = value;
         }
@@ -177,7 +162,7 @@ impl<'d> Collected<'d> {
         match self.seen.insert(labels, (place, row.line.number)) {
             Some((before, line)) if before != place => {
                 let message = format!("marker {name} has another prediction for the same hold in line {line}");
-                return Err(DataError::Runs(row.line.fault(message, "keep one of the two rows")));
+                return Err(row.line.fault(message, "keep one of the two rows"));
             }
             _ => (),
         }
@@ -223,7 +208,7 @@ impl<'d> Collected<'d> {
             let field = if self.pressed { PRESSURES[1] } else { TIME };
             let message = format!("{name} has no hold of this row");
             let help = format!("its holds are {}; predict at their pressures, or delete the row", listed(holds));
-            return Err(DataError::Runs(row.fault(field, message, help)));
+            return Err(row.fault(field, message, help));
         }
         Ok(found)
     }
@@ -240,8 +225,7 @@ impl<'d> Collected<'d> {
                 None => format!("no row has the pressures of the hold at {at}"),
             };
             let help = "add a row for every marker at this pressure";
-            let fault = Fault::of_file(file, message, help).at_line(line.unwrap_or(self.last_line));
-            return Err(DataError::Runs(Box::new(fault)));
+            return Err(DataError::of(file, message, help).at_line(line.unwrap_or(self.last_line)));
         }
         let axes = self.dataset.axes;
         let mean = |(sums, count): (&[f64; 3], &u32)| sums.map(|sum| sum / f64::from((*count).max(1)));

@@ -23,7 +23,7 @@ pub(crate) fn check_kept(recorder: &Recorder) -> Result<()> {
         means.find(|((_, mean), quantity)| *mean < lowest_mean_pa(*quantity)).and_then(|((fault, _), _)| fault.clone())
     };
     if let Some(fault) = segments().find_map(too_low) {
-        return Err(DataError::Cell(fault));
+        return Err(fault);
     }
     let fullest = recorder.streams.iter().max_by_key(|stream| stream.segments.len());
     if let Some(stream) = fullest.filter(|stream| is_ramp(&stream.segments)) {

@@ -24,7 +24,7 @@ use std::path::Path;
 use crate::about::About;
 use crate::align::align;
 use crate::dataset::Dataset;
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 use crate::header::{ACTUATOR, read_header};
 use crate::lines::{Lines, Progress};
 use crate::policy;
@@ -78,7 +78,7 @@ pub fn parse_markers(file: &str, reader: &mut dyn Read, options: ReadOptions, pr
     let mut lines = Lines::new(file, reader, options.bytes_total, progress);
     let mut reader = RowReader::new(read_header(&mut lines)?);
     let mut kind = Kind { wanted: options.actuator.map(str::to_lowercase), ..Kind::default() };
-    let mut recorder = Recorder::of(&reader.header);
+    let mut recorder = Recorder::of(&reader.sheet);
     while let Some(line) = lines.next_filled()? {
         reader.split(&line)?;
         let cells = Cells { reader: &reader, line: &line };
@@ -97,7 +97,7 @@ pub fn parse_markers(file: &str, reader: &mut dyn Read, options: ReadOptions, pr
     recorder.placeholders.take_out_shared(&mut recorder.streams);
     let mut told = reader.told()?;
     told.extend(recorder.placeholders.told());
-    check_units(&reader, &recorder.largest)?;
+    check_units(&reader.sheet, &recorder.largest)?;
     check_kept(&recorder)?;
     check_about_runs(file, &recorder, options.about)?;
     let stations_m = stations(file, &recorder, options.about)?;
@@ -107,7 +107,7 @@ pub fn parse_markers(file: &str, reader: &mut dyn Read, options: ReadOptions, pr
     dataset.told = told;
     check_kind(file, &dataset.actuator, options.about)?;
     if !dataset.is_spatial() {
-        check_y_up(Some(&reader.header), &dataset)?;
+        check_y_up(Some(&reader.sheet), &dataset)?;
     }
     Ok(dataset)
 }
@@ -120,9 +120,8 @@ pub fn markers_of_table(name: &str, table: &Table, about: Option<&About>) -> Res
     let rows = table.columns.iter().map(|(_, column)| column.len()).max().unwrap_or(0);
     if let Some((label, column)) = table.columns.iter().find(|(_, column)| column.len() != rows) {
         let message = format!("column {label} has {} of {rows} rows", column.len());
-        let mut fault = Fault::of_file(name, message, "give every column a value in every row");
-        fault.location.column_name = Some(label.clone());
-        return Err(DataError::Layout(Box::new(fault)));
+        let error = DataError::of(name, message, "give every column a value in every row");
+        return Err(error.in_column(label, None));
     }
     let options = ReadOptions { about, ..ReadOptions::default() };
     parse_markers(name, &mut TableReader::new(table), options, &mut |_, _| ())
@@ -163,7 +162,7 @@ impl Kind {
         if *found != kind {
             let help = format!("choose one by adding #{found} or #{kind} to the file name, or split the file");
             let message = format!("several actuators in one file: {found} and {kind}");
-            return Err(DataError::Runs(cells.fault(ACTUATOR, message, help)));
+            return Err(cells.fault(ACTUATOR, message, help));
         }
         Ok(true)
     }
@@ -173,15 +172,15 @@ fn no_rows(file: &str, kind: &Kind, lost_frames: u64) -> DataError {
     if lost_frames > 0 {
         let help = "fill in x and y where the marker was seen";
         let message = format!("none of the {lost_frames} rows has a position");
-        return DataError::layout(file, message, help);
+        return DataError::of(file, message, help);
     }
     let Some(chosen) = &kind.wanted else {
         let help = "add one row per run, time and marker below the header";
-        return DataError::layout(file, "the file has a header and no rows", help);
+        return DataError::of(file, "the file has a header and no rows", help);
     };
     let seen: Vec<_> = kind.seen.iter().map(String::as_str).collect();
     let message = format!("no rows of actuator {chosen}; found {}", seen.join(", "));
-    DataError::runs(file, message, "choose one of the kinds found")
+    DataError::of(file, message, "choose one of the kinds found")
 }
 
 fn check_kind(file: &str, kind: &str, about: Option<&About>) -> Result<()> {
@@ -190,7 +189,7 @@ fn check_kind(file: &str, kind: &str, about: Option<&About>) -> Result<()> {
         return Ok(());
     }
     let message = format!("the table is of actuator {kind}, its about.toml names {said}");
-    Err(DataError::runs(file, message, format!("correct the actuator column or `actuator = \"{kind}\"`")))
+    Err(DataError::of(file, message, format!("correct the actuator column or `actuator = \"{kind}\"`")))
 }
 
 fn check_about_runs(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<()> {
@@ -201,7 +200,7 @@ fn check_about_runs(file: &str, recorder: &Recorder, about: Option<&About>) -> R
     let help =
         format!("{meant}correct `id = \"{unknown}\"` in about.toml; a [[run]] without rows would lose its tip force");
     let message = format!("about.toml describes run {unknown}, which has no rows");
-    Err(DataError::runs(file, message, help))
+    Err(DataError::of(file, message, help))
 }
 
 /// Stations in order of `recorder.markers`, from the `s_mm` column or from `about.toml`.
@@ -209,7 +208,7 @@ fn stations(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<Ve
     let Some(about) = about.filter(|about| !about.markers.is_empty()) else {
         let all: Option<Vec<f64>> = recorder.stations_m.iter().copied().collect();
         return match all.and_then(|all| policy::one_station(&all)) {
-            Some(message) => Err(DataError::runs(file, message, policy::SAME_STATION)),
+            Some(message) => Err(DataError::of(file, message, policy::SAME_STATION)),
             None => Ok(recorder.stations_m.clone()),
         };
     };
@@ -221,7 +220,7 @@ fn stations(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<Ve
         if column_m.is_some_and(|s| (s - marker.station_m).abs() > policy::ROUNDED_STATION_M) {
             let message =
                 format!("the station of marker {name} is not the one in about.toml ({} mm)", marker.station_m * 1e3);
-            return Err(DataError::runs(file, message, "correct the s_mm column or [markers] s_mm in about.toml"));
+            return Err(DataError::of(file, message, "correct the s_mm column or [markers] s_mm in about.toml"));
         }
         stations.push(Some(marker.station_m));
     }
@@ -232,9 +231,6 @@ fn unknown_marker(file: &str, recorder: &Recorder, name: &str, about: &About) ->
     let known: Vec<&str> = about.markers.iter().map(|marker| marker.name.as_str()).collect();
     let line = recorder.streams.iter().find(|s| recorder.markers.names[s.marker] == name).map_or(0, |s| s.first_line);
     let message = format!("marker {name} is not in about.toml, which names {}", known.join(", "));
-    let mut fault =
-        Fault::of_file(file, message, "correct the label, or add it to [markers] names and s_mm").at_line(line);
-    fault.location.column_name = Some("marker".to_string());
-    fault.location.cell = Some(name.to_string());
-    DataError::Runs(Box::new(fault))
+    let help = "correct the label, or add it to [markers] names and s_mm";
+    DataError::of(file, message, help).at_line(line).in_column("marker", Some(name))
 }

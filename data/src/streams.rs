@@ -9,8 +9,9 @@ mod segments;
 
 use std::collections::HashMap;
 
-use crate::error::{DataError, Fault, Result};
-use crate::header::{GAUGE, Header, MARKER, PRESSURES, QUANTITIES, RUN, STATION, TIME, X, Y, Z};
+use crate::columns::Sheet;
+use crate::error::{DataError, Result};
+use crate::header::{GAUGE, MARKER, PRESSURES, QUANTITIES, RUN, STATION, TIME, X, Y, Z, more_channels};
 use crate::lines::Line;
 use crate::policy;
 use crate::rows::{Cells, Row, lowest_mean_pa};
@@ -65,19 +66,19 @@ pub(crate) struct Recorder {
 
 impl Recorder {
     /// Nothing yet, of a table with this header.
-    pub(crate) fn of(header: &Header) -> Recorder {
+    pub(crate) fn of(sheet: &Sheet) -> Recorder {
         Recorder {
-            file: header.line.file.clone(),
-            more_channels: header.more_channels(),
-            has_z: header.has_z(),
-            has_gauge: header.columns[GAUGE].is_some(),
+            file: sheet.head.line.file.clone(),
+            more_channels: more_channels(sheet),
+            has_z: sheet.has(Z),
+            has_gauge: sheet.has(GAUGE),
             ..Recorder::default()
         }
     }
 
     /// Runs, holds or markers that do not fit together, first seen in a line.
     pub(crate) fn fault(&self, message: String, help: &str, line: u64) -> DataError {
-        DataError::Runs(Box::new(Fault::of_file(&self.file, message, help).at_line(line)))
+        DataError::of(&self.file, message, help).at_line(line)
     }
 
     pub(crate) fn words(&self, stream: &Stream) -> String {
@@ -87,15 +88,10 @@ impl Recorder {
     pub(crate) fn add(&mut self, cells: Cells) -> Result<()> {
         let row = cells.row()?;
         let (run, marker) = (self.runs.number(row.run), self.markers.number(row.marker));
-        let limit = |quantity, what: &str, most| {
+        let limits = [(RUN, "run", run, policy::MOST_RUNS), (MARKER, "marker", marker, policy::MOST_MARKERS)];
+        if let Some((quantity, what, _, most)) = limits.into_iter().find(|(.., found, most)| found >= most) {
             let help = format!("split the file: at most {most} {what}s are read at once; is the {what} column right?");
-            DataError::Layout(cells.fault(quantity, format!("more than {most} {what}s"), help))
-        };
-        if run >= policy::MOST_RUNS {
-            return Err(limit(RUN, "run", policy::MOST_RUNS));
-        }
-        if marker >= policy::MOST_MARKERS {
-            return Err(limit(MARKER, "marker", policy::MOST_MARKERS));
+            return Err(cells.fault(quantity, format!("more than {most} {what}s"), help));
         }
         let places = [(X, row.x_m), (Y, row.y_m), (Z, row.z_m.unwrap_or(0.0)), (STATION, row.station_m.unwrap_or(0.0))];
         for (quantity, value) in places.into_iter().chain(PRESSURES.into_iter().zip(row.pressures_pa)) {
@@ -149,8 +145,8 @@ impl Recorder {
             return Ok(());
         }
         let message = format!("marker {} has two stations: {} mm and {} mm", row.marker, old * 1e3, new * 1e3);
-        let help = "the station is the place on the undeformed robot: write the same number in every row".to_string();
-        Err(DataError::Cell(cells.fault(STATION, message, help)))
+        let help = "the station is the place on the undeformed robot: write the same number in every row";
+        Err(cells.fault(STATION, message, help))
     }
 }
 
@@ -160,18 +156,18 @@ fn check_time(stream: &Stream, row: &Row, cells: Cells) -> Result<()> {
     }
     let of = format!("run {}, marker {}", row.run, row.marker);
     let (message, help) = if row.t_s == stream.last_t_s {
-        (format!("{of} is there twice at this time"), "delete the duplicate row".to_string())
+        (format!("{of} is there twice at this time"), "delete the duplicate row")
     } else {
         let help = "t_s counts from the start of the run and grows row by row for each marker; \
                     sort the rows, give repeated tests their own run label, and look for rows copied twice";
-        (format!("time goes backwards in {of}: {} s after {} s", row.t_s, stream.last_t_s), help.to_string())
+        (format!("time goes backwards in {of}: {} s after {} s", row.t_s, stream.last_t_s), help)
     };
-    Err(DataError::Cell(cells.fault(TIME, message, help)))
+    Err(cells.fault(TIME, message, help))
 }
 
 fn too_many_holds(line: &Line) -> DataError {
     let message = format!("more than {} holds in one run, or {} in all", policy::MOST_HOLDS, policy::MOST_SERIES);
     let help = "keep only rows recorded while the pressures are steady; a new hold begins when the phase changes or a \
                 pressure moves by more than 5 %";
-    DataError::Layout(line.fault(message, help))
+    line.fault(message, help)
 }

@@ -4,7 +4,7 @@ use super::result::{Characterized, MeanCurve, ShearCurve, Specimen, directions};
 use super::scatter::Scatter;
 use super::{PAPER_LIMIT_RAD, Reduction, replay, specimen, warn};
 use crate::CompareError;
-use data::{Coupon, DataError, Direction, Fault, Provenance};
+use data::{Coupon, DataError, Direction, Provenance};
 use models::fabrics::{Fabric, shear_modulus, specimen as fit};
 
 const YARNS: [Direction; 2] = [Direction::Warp, Direction::Fill];
@@ -69,8 +69,7 @@ fn strips(found: &mut Characterized, taut: &[Coupon], settings: &Reduction) -> R
 
 fn different(coupons: &[Coupon]) -> Result<(), DataError> {
     if coupons.is_empty() {
-        let fault = Fault::of_file("characterize", "no specimen was given", "give at least one file");
-        return Err(DataError::Runs(Box::new(fault)));
+        return Err(DataError::of("characterize", "no specimen was given", "give at least one file"));
     }
     for (i, c) in coupons.iter().enumerate() {
         let same = |other: &&Coupon| (other.direction, &other.specimen) == (c.direction, &c.specimen);

@@ -3,7 +3,7 @@
 use super::Reduction;
 use super::result::{BiasStrip, Specimen};
 use crate::policy;
-use data::{Coupon, DataError, Direction, Fault, Pulled};
+use data::{Coupon, DataError, Direction, Pulled};
 use models::fabrics::{BiasExtension, Fabric, specimen as fit};
 
 /// Most rows that go into a reduction: far finer than any law's table, and the noise is averaged.
@@ -81,7 +81,7 @@ fn poisson(coupon: &Coupon, stress: &[[f64; 2]], up_to: f64) -> Option<f64> {
 
 pub(super) fn fault(coupon: &Coupon, message: String, help: impl Into<String>) -> DataError {
     let message = format!("specimen {} ({}°): {message}", coupon.specimen, coupon.direction.degrees());
-    DataError::Runs(Box::new(Fault::of_file(&coupon.file, message, help).at_line(coupon.line)))
+    DataError::of(&coupon.file, message, help).at_line(coupon.line)
 }
 
 /// Nominal strain and stress; none for a bias test without thickness.

@@ -28,7 +28,7 @@ impl Check<'_> {
         let mut fault = Fault::of_text(self.file, self.text, at, format!("{key}: {message}"), help.to_string());
         let cell = self.text.get(span).map(str::to_string);
         fault.location = Location { cell, ..fault.location };
-        DataError::About(Box::new(fault))
+        fault.into()
     }
 
     pub(super) fn filled(&self, key: &str, value: &Spanned<String>) -> Result<String> {

@@ -14,7 +14,7 @@ use std::io::Read;
 use std::path::Path;
 
 pub use crate::columns::Field;
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 use crate::sets;
 use spelling::files::{MOST_DATA, read_whole};
 
@@ -67,7 +67,7 @@ pub fn bench(spec: &str) -> Result<Option<Bench>> {
         let found = read::parse(KINDS, &shown, &text)?.filter(|bench| bench.kind.name == kind.name);
         let wrong = || {
             let message = format!("the columns do not fit a {} table", kind.name);
-            DataError::Column(Box::new(Fault::of_file(&shown, message, format!("write {}", read::wanted(kind)))))
+            DataError::of(&shown, message, format!("write {}", read::wanted(kind)))
         };
         return found.map(|bench| Some(Bench { scenario, ..bench })).ok_or_else(wrong);
     }

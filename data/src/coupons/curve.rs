@@ -1,18 +1,23 @@
 //! Rows become the curves of specimens, each checked as a whole.
 
-use super::columns::{DIRECTION, Facts, LENGTH, LOADED_WIDTH, QUANTITIES, SPECIMEN, STRAIN, THICKNESS, WIDTH, curve};
+use super::columns::{DIRECTION, Facts, LENGTH, LOADED_WIDTH, QUANTITIES, SPECIMEN, STRAIN, THICKNESS, WIDTH};
 use super::coupon::{Coupon, CouponDefaults, Direction, Pulled};
-use crate::columns::{Columns, Field, TableRow};
-use crate::error::{DataError, Fault};
+use crate::columns::{Field, TableRow};
+use crate::error::DataError;
 use crate::policy;
 use std::path::Path;
 
 /// All specimens of a file, as far as it has been read.
 pub(super) struct Specimens<'a> {
-    file: String,
-    header: &'a Columns,
-    facts: Facts,
-    found: Vec<Raw>,
+    pub file: &'a str,
+    /// x and y of the curve.
+    pub curve: [usize; 2],
+    /// Their columns as the file names them.
+    pub columns: [String; 2],
+    pub facts: Facts,
+    /// What was assumed about the file.
+    pub told: Vec<String>,
+    pub found: Vec<Raw>,
 }
 
 /// Rows of a curve, the widths of these rows, and how many rows were left out.
@@ -20,7 +25,7 @@ type Kept = (Vec<[f64; 2]>, Vec<f64>, usize);
 
 /// One specimen with its line numbers.
 #[derive(Default)]
-struct Raw {
+pub(super) struct Raw {
     name: String,
     rows: Vec<([f64; 2], u64)>,
     /// One for every row, or none at all.
@@ -29,25 +34,17 @@ struct Raw {
     numbers: [Option<f64>; QUANTITIES.len()],
 }
 
-impl<'a> Specimens<'a> {
-    pub(super) fn new(file: &str, header: &'a Columns, facts: Facts) -> Specimens<'a> {
-        Specimens { file: file.to_string(), header, facts, found: Vec::new() }
-    }
-
+impl Specimens<'_> {
     /// Adds a row to its specimen.
     pub(super) fn add(&mut self, cells: &TableRow) -> Result<(), DataError> {
-        let [x, y] = curve(self.header);
+        let [x, y] = self.curve;
         let row = [cells.number(x)?.unwrap_or_default(), cells.number(y)?.unwrap_or_default()];
         let name = cells.text(SPECIMEN);
-        if name.is_empty() && self.header.at[SPECIMEN].is_some() {
-            let help = "write the specimen in every row, or leave the column out".to_string();
-            return Err(DataError::Cell(cells.fault(SPECIMEN, "the cell is empty".into(), help)));
+        if name.is_empty() && cells.sheet.has(SPECIMEN) {
+            let help = "write the specimen in every row, or leave the column out";
+            return Err(cells.fault(SPECIMEN, "the cell is empty", help));
         }
-        let index = self.found.iter().rposition(|raw| raw.name == name).unwrap_or_else(|| {
-            self.found.push(Raw { name: name.to_string(), ..Raw::default() });
-            self.found.len() - 1
-        });
-        let raw = &mut self.found[index];
+        let raw = self.push(name, row, cells.line.number);
         for quantity in [DIRECTION, WIDTH, LENGTH, THICKNESS] {
             let Some(value) = cells.number(quantity)? else { continue };
             let first = *raw.numbers[quantity].get_or_insert(value);
@@ -56,37 +53,46 @@ impl<'a> Specimens<'a> {
                 let message =
                     format!("the {what} of a specimen changes within its rows, here to {}", cells.text(quantity));
                 let help = "a specimen has one direction and one size: give the rows of another specimen another label";
-                return Err(DataError::Cell(cells.fault(quantity, message, help.to_string())));
+                return Err(cells.fault(quantity, message, help));
             }
         }
         raw.widths_m.extend(cells.number(LOADED_WIDTH)?);
-        raw.rows.push((row, cells.line.number));
         Ok(())
     }
 
-    /// The specimens, complete and checked; the first has what was assumed about the file.
-    pub(super) fn finish(self, defaults: &CouponDefaults, told: &[String]) -> Result<Vec<Coupon>, DataError> {
-        if self.found.is_empty() {
-            let message = "the file has a header and no rows";
-            return Err(DataError::layout(&self.file, message, "add the rows of a specimen"));
-        }
-        let told_of = |k: usize| if k == 0 { told } else { &[] };
-        self.found.iter().enumerate().map(|(k, raw)| self.coupon(raw, defaults, told_of(k))).collect()
+    /// A row of a specimen, new or known, in a line of the file.
+    pub(super) fn push(&mut self, name: &str, row: [f64; 2], line: u64) -> &mut Raw {
+        let index = self.found.iter().rposition(|raw| raw.name == name).unwrap_or_else(|| {
+            self.found.push(Raw { name: name.to_string(), ..Raw::default() });
+            self.found.len() - 1
+        });
+        self.found[index].rows.push((row, line));
+        &mut self.found[index]
     }
 
-    fn coupon(&self, raw: &Raw, defaults: &CouponDefaults, told: &[String]) -> Result<Coupon, DataError> {
+    /// The specimens, complete and checked; the first has what was assumed about the file.
+    pub(super) fn finish(self, defaults: &CouponDefaults) -> Result<Vec<Coupon>, DataError> {
+        if self.found.is_empty() {
+            let message = "the file has a header and no rows";
+            return Err(DataError::of(self.file, message, "add the rows of a specimen"));
+        }
+        let mut coupons = self.found.iter().map(|raw| self.coupon(raw, defaults)).collect::<Result<Vec<_>, _>>()?;
+        coupons[0].told.splice(0..0, self.told);
+        Ok(coupons)
+    }
+
+    fn coupon(&self, raw: &Raw, defaults: &CouponDefaults) -> Result<Coupon, DataError> {
         let specimen = self.specimen(raw);
         let said = |quantity: usize, typed: Option<f64>| self.number(raw, &specimen, quantity, typed);
         let direction = self.direction(&specimen, said(DIRECTION, defaults.direction_deg)?, raw)?;
-        let mut told = told.to_vec();
+        let mut told = Vec::new();
         let (rows, loaded_width_m, jitter) = self.rows(raw, &specimen, &mut told)?;
-        let [x, y] = curve(self.header);
         Ok(Coupon {
-            file: self.file.clone(),
+            file: self.file.to_string(),
             line: raw.rows[0].1,
             direction,
-            pulled: if x == STRAIN { Pulled::Stress(rows) } else { Pulled::Force(rows) },
-            columns: [x, y].map(|quantity| self.header.name(quantity).to_string()),
+            pulled: if self.curve[0] == STRAIN { Pulled::Stress(rows) } else { Pulled::Force(rows) },
+            columns: self.columns.clone(),
             loaded_width_m,
             width_m: said(WIDTH, defaults.width_m)?,
             length_m: said(LENGTH, defaults.length_m)?,
@@ -99,7 +105,7 @@ impl<'a> Specimens<'a> {
     }
 
     fn specimen(&self, raw: &Raw) -> String {
-        let stem = || Path::new(&self.file).file_stem().map_or(self.file.clone(), |s| s.to_string_lossy().into_owned());
+        let stem = || Path::new(self.file).file_stem().map_or(self.file.into(), |s| s.to_string_lossy().into_owned());
         if raw.name.is_empty() { self.facts.specimen.clone().unwrap_or_else(stem) } else { raw.name.clone() }
     }
 
@@ -141,8 +147,7 @@ impl<'a> Specimens<'a> {
 
     /// The first loading, zeroed on the first row: rows that rise above all before. Steps back that are noise are left out and counted.
     fn rows(&self, raw: &Raw, specimen: &str, told: &mut Vec<String>) -> Result<Kept, DataError> {
-        let [x, _] = curve(self.header);
-        let (column, first) = (self.header.name(x), raw.rows[0].0);
+        let ([x, _], column, first) = (self.curve, &self.columns[0], raw.rows[0].0);
         let range = raw.rows.iter().map(|(row, _)| (row[0] - first[0]).abs()).fold(0.0, f64::max);
         let strain = range / if x == STRAIN { 1.0 } else { self.facts.numbers[LENGTH].unwrap_or(f64::INFINITY) };
         if strain > policy::LARGEST_STRAIN {
@@ -176,9 +181,7 @@ impl<'a> Specimens<'a> {
                 let message =
                     format!("specimen {specimen}: {column} goes back in one step, after having been larger above");
                 let help = "keep the rows of loading only (delete what follows the turn), in the order they were taken";
-                let mut fault = Fault::of_file(&self.file, message, help).at_line(*line);
-                fault.location.column_name = Some(column.to_string());
-                return Err(DataError::Cell(Box::new(fault)));
+                return Err(DataError::of(self.file, message, help).at_line(*line).in_column(column, None));
             }
         }
         if unloading > 0 {
@@ -209,15 +212,14 @@ impl<'a> Specimens<'a> {
             return [1.0; 2];
         }
         let turned = [farthest[0] < first[0], largest(1, -1.0) > 2.0 * largest(1, 1.0)];
-        for (quantity, _) in curve(self.header).into_iter().zip(turned).filter(|(_, turned)| *turned) {
-            let column = self.header.name(quantity);
+        for (column, _) in self.columns.iter().zip(turned).filter(|(_, turned)| *turned) {
             told.push(format!("{column} falls as the specimen is pulled: its sign is turned"));
         }
         turned.map(|turned| if turned { -1.0 } else { 1.0 })
     }
 
     fn fault(&self, raw: &Raw, message: String, help: impl Into<String>) -> DataError {
-        DataError::Runs(Box::new(Fault::of_file(&self.file, message, help).at_line(raw.rows[0].1)))
+        DataError::of(self.file, message, help).at_line(raw.rows[0].1)
     }
 }
 

@@ -42,7 +42,7 @@ fn held(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut V
                 options.least_frames
             );
             let help = "for a ramp add --bin 2kPa; for short holds --hold 0.2s or --frames 1";
-            return Err(DataError::runs(file, message, help));
+            return Err(DataError::of(file, message, help));
         }
         let length_m = length_m(&run);
         for hold in &mut holds {
@@ -108,7 +108,7 @@ fn binned(file: &str, runs: Vec<PressedRun>, bin_pa: f64, told: &mut Vec<String>
             kpa(highest_pa)
         );
         let help = format!("give --bin {}kPa", kpa(least_pa).ceil());
-        return Err(DataError::runs(file, message, help));
+        return Err(DataError::of(file, message, help));
     }
     let all_have = |bin: &(usize, i64, Kept)| {
         found.iter().all(|run| run.iter().any(|(branch, k, _)| (*branch, *k) == (bin.0, bin.1)))
@@ -118,7 +118,7 @@ fn binned(file: &str, runs: Vec<PressedRun>, bin_pa: f64, told: &mut Vec<String>
     let left_out = found.iter().map(Vec::len).sum::<usize>() - common.iter().map(Vec::len).sum::<usize>();
     if common[0].len() < 2 {
         let help = "give larger bins, or import the runs one by one";
-        return Err(DataError::runs(file, "the runs have fewer than two bins in common", help));
+        return Err(DataError::of(file, "the runs have fewer than two bins in common", help));
     }
     told.push(format!(
         "binned by actuator pressure in steps of {} kPa, rising and falling apart: {} bins with the mean of their frames; {left_out} are left out, which not every run has or which only touch a bin",

@@ -4,7 +4,7 @@ use super::lens::View;
 use super::options::{FileAxis, FilePlace, ImportOptions, Scale};
 use super::recording::{LOST, Lengths, Recording};
 use super::vectors::{along, cross, towards, unit_vector};
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 use crate::units::mm;
 
 /// A marker that moves less than this does not show where the actuator is \[m\].
@@ -82,7 +82,7 @@ impl Scene<'_> {
     }
 
     fn fault(&self, message: impl Into<String>, help: impl Into<String>) -> DataError {
-        DataError::Unit(Box::new(Fault::of_file(self.file, message, help)))
+        DataError::of(self.file, message, help)
     }
 
     /// How coordinates become metres, and how that is known.

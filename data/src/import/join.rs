@@ -54,7 +54,7 @@ pub(crate) fn recordings(files: &[PathBuf], options: &ImportOptions, progress: P
         if let Some((other, _)) = earlier.filter(|(other, _)| other != quantity) {
             let message = format!("--map gives column {column} to {other} and to {quantity}");
             let file = files.first().map_or(String::new(), |file| file.display().to_string());
-            return Err(DataError::runs(&file, message, "name another column for one of them"));
+            return Err(DataError::of(&file, message, "name another column for one of them"));
         }
     }
     let mut absent: Vec<&(String, String)> = options.columns.iter().collect();
@@ -192,7 +192,7 @@ fn logs(
             format!("{count} pressure logs for {files} tracking files"),
         );
         let help = "give one log for all runs, or one for every file in the same order";
-        return Err(DataError::runs(&file, message, help));
+        return Err(DataError::of(&file, message, help));
     }
     let mut logs = Vec::new();
     for path in &options.pressure_logs {

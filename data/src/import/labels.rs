@@ -73,7 +73,7 @@ pub(crate) fn same_markers(file: &str, runs: &mut [(String, Recording)]) -> Resu
                 markers.join(", ")
             );
             let help = "export the same markers of every run, under the same names";
-            return Err(DataError::runs(file, message, help));
+            return Err(DataError::of(file, message, help));
         }
         if run.named {
             let place = |name: &String| run.markers.iter().position(|own| own == name).unwrap_or_default();
@@ -95,8 +95,7 @@ pub(crate) fn rename(
 ) -> Result<()> {
     for (run, ends) in runs.iter_mut().zip(ends).filter(|(run, _)| !run.named) {
         let found = options.base.as_ref().map(|base| where_is(run, ends, base)).transpose();
-        let base =
-            found.map_err(|[message, help]| DataError::runs(file, message, help))?.map_or([0.0; 3], |(at, _)| at);
+        let base = found.map_err(|[message, help]| DataError::of(file, message, help))?.map_or([0.0; 3], |(at, _)| at);
         let rest = |marker: usize| run.mean_place(marker, ends.rest.iter().copied());
         let away = |marker: usize| {
             rest(marker).map_or(f64::INFINITY, |at| (0..3).map(|axis| (at[axis] - base[axis]).powi(2)).sum())
@@ -115,7 +114,7 @@ pub(crate) fn rename(
     }
     if given.len() != known.len() {
         let message = format!("--markers names {}, the file has {}: {}", given.len(), known.len(), known.join(", "));
-        return Err(DataError::runs(file, message, "name every marker, in this order"));
+        return Err(DataError::of(file, message, "name every marker, in this order"));
     }
     told.push(format!("markers {} are called {}", known.join(", "), given.join(", ")));
     runs.iter_mut().for_each(|run| run.markers.clone_from(given));

@@ -3,7 +3,7 @@
 use super::columns::{ColumnName, is_time, is_unit};
 use super::ros;
 use crate::cells::clock_s;
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 
 /// A log as rows of cells. A line of `text` that is not a row is empty, so its lines keep their numbers.
 #[derive(Default)]
@@ -37,9 +37,7 @@ const END_OF_HEADER: &str = "***End_of_Header***";
 /// their units, names, and rows of the time in seconds and values.
 fn labview(file: &str, text: &str) -> Result<Plain> {
     let lines: Vec<&str> = text.lines().collect();
-    let fault = |line: usize, message: &str, help: &str| {
-        Err(DataError::Layout(Box::new(Fault::of_file(file, message, help).at_line(line as u64))))
-    };
+    let fault = |line: usize, message: &str, help: &str| Err(DataError::of(file, message, help).at_line(line as u64));
     let sign = if lines.iter().any(|line| line.starts_with("Separator,")) { ',' } else { '\t' };
     let first = |k: usize| lines[k].split(sign).next().unwrap_or_default().trim();
     let Some(end) = lines.iter().rposition(|line| line.starts_with(END_OF_HEADER)) else {

@@ -120,13 +120,13 @@ pub fn import(files: &[PathBuf], options: &ImportOptions, progress: Progress) ->
     let stations = markers.iter().map(|name| (name.clone(), measured(name))).collect();
     let seen = Seen::of_import(&runs, stations, options, logs);
     if let Some(Doubt { message, help }) = doubts(&seen).into_iter().next() {
-        return Err(DataError::runs(first, message, help));
+        return Err(DataError::of(first, message, help));
     }
     told.extend(still_inside(&seen));
     let cut = cut(first, runs, options, &mut told)?;
     if let Some((unknown, _)) = options.stations_m.iter().find(|(name, _)| !markers.contains(name)) {
         let help = format!("the markers are {}", markers.join(", "));
-        return Err(DataError::runs(first, format!("--stations names {unknown}, which is not a marker"), help));
+        return Err(DataError::of(first, format!("--stations names {unknown}, which is not a marker"), help));
     }
     let stations = table::stations(&cut, &markers, options);
     if stations.iter().any(|(.., given)| !given) {
@@ -159,7 +159,7 @@ fn unusable(file: &str, cut: &Cut, error: &DataError) -> DataError {
     let runs: Vec<String> = cut.iter().map(|(run, kept)| format!("run {}: {}", run.label, holds(kept))).collect();
     let message = format!("{}; holds found [kPa]: {}", error.message(), runs.join("; "));
     let help = format!("{}; --hold, --frames, --settle and --bin change where holds begin and end", error.help());
-    DataError::runs(file, message, help)
+    DataError::of(file, message, help)
 }
 
 fn track(run: &holds::PressedRun, kept: &[holds::Kept], markers: &[String]) -> RunTrack {
@@ -189,7 +189,7 @@ fn ends(file: &str, run: &Recording) -> Result<RestAndTop> {
     if high - low <= 2.0 * tolerance_act_pa(low) {
         let message =
             format!("the actuator's pressure stays between {:.1} and {:.1} kPa in a run", kpa(low), kpa(high));
-        return Err(DataError::runs(file, message, "check the column, its unit and the clock of the pressure log"));
+        return Err(DataError::of(file, message, "check the column, its unit and the clock of the pressure log"));
     }
     let near = |level: f64| (0..act.len()).filter(|k| (act[*k] - level).abs() <= tolerance_act_pa(level)).collect();
     Ok(RestAndTop { rest: near(low), top: near(high) })
@@ -203,6 +203,6 @@ fn actuator(file: &str, runs: &[Recording], options: &ImportOptions) -> Result<S
         .or_else(|| runs.iter().find_map(|run| run.actuator.clone()));
     known.ok_or_else(|| {
         let help = "add --actuator epam, or the kind that your scenario has";
-        DataError::runs(file, "the kind of the actuator is not known", help)
+        DataError::of(file, "the kind of the actuator is not known", help)
     })
 }

@@ -176,7 +176,7 @@ impl Log {
             let fault = Box::new(Fault::of_file(video, message, help));
             match tracks(&readings, recording, options) {
                 Some(tracks) => DataError::Clock(fault, Box::new(tracks)),
-                None => DataError::Runs(fault),
+                None => DataError::Content(fault),
             }
         })?;
         let mut told = vec![words];
@@ -190,7 +190,7 @@ impl Log {
                 clock.offset_s,
                 range(&self.times_s)
             );
-            return Err(DataError::runs(
+            return Err(DataError::of(
                 &self.file,
                 message,
                 "give --clock-offset: the log's time minus the camera's, or find",

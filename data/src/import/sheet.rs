@@ -1,7 +1,7 @@
 //! A text of cells whatever its dialect: separator, decimal sign and line ends are found, not asked for.
 
 use crate::cells::{Decimals, clock_s, day_s, is_nothing, with_comma};
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 use crate::lines::Line;
 use spelling::units::Range;
 
@@ -26,7 +26,7 @@ impl<'a> CellText<'a> {
     pub(crate) fn new(file: &'a str, text: &'a str) -> Result<CellText<'a>> {
         if text.contains('\0') {
             let (message, help) = ("the file is not text", "export it as text: CSV, TXT or XML");
-            return Err(DataError::layout(file, message, help));
+            return Err(DataError::of(file, message, help));
         }
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let said = text.lines().next().and_then(|line| line.trim().strip_prefix("sep="));
@@ -121,15 +121,12 @@ impl<'a> CellText<'a> {
     }
 
     fn bad_cell(&self, text: &str, number: u64, column: &str, help: &str) -> DataError {
-        let mut fault = Fault::of_file(self.file, format!("expected a number, found \"{text}\""), help).at_line(number);
-        fault.location.column_name = Some(column.to_string());
-        fault.location.cell = Some(text.to_string());
-        DataError::Cell(Box::new(fault))
+        self.fault(number, format!("expected a number, found \"{text}\""), help).in_column(column, Some(text))
     }
 
     /// A fault of a line, or of the whole file for line 0.
     pub(crate) fn fault(&self, number: u64, message: impl Into<String>, help: impl Into<String>) -> DataError {
-        DataError::Layout(Box::new(Fault::of_file(self.file, message, help).at_line(number)))
+        DataError::of(self.file, message, help).at_line(number)
     }
 
     fn has_decimal_comma(&self) -> Result<bool> {

@@ -1,7 +1,7 @@
 //! Streams of (run, marker), cut into holds.
 
 use crate::dataset::Phase;
-use crate::error::Fault;
+use crate::error::DataError;
 use crate::header::{PRESSURES, Pressures};
 use crate::policy::{tolerance_act_pa, tolerance_body_pa};
 use crate::rows::Row;
@@ -57,7 +57,7 @@ pub(crate) struct Segment {
     /// The first actuator pressure and the last \[Pa\].
     pub ends_pa: [f64; 2],
     /// The first reading below its bounds, in the order of [`PRESSURES`], to be judged by the mean.
-    pub too_low: [Option<Box<Fault>>; PRESSURES.len()],
+    pub too_low: [Option<DataError>; PRESSURES.len()],
     /// Observations per sample; doubles whenever neighbours are merged.
     pub(super) stride: u64,
     sums_pa: Pressures,
