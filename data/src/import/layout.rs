@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 
+use super::options::ImportOptions;
 use super::recording::{Lengths, Pivot, Recording, counted};
 use super::sheet::CellText;
 use crate::cells::{is_nothing, label};
@@ -12,6 +13,14 @@ use crate::error::Result;
 pub(super) const PARTS: [&str; 4] = ["x", "y", "z", "likelihood"];
 
 pub(super) const LIKELIHOOD: usize = 3;
+
+/// Likelihood below which DeepLabCut's network itself marks a point as not seen.
+pub(super) const NOT_SEEN: f64 = 0.9;
+
+/// The part that a word names, in small letters or large ones.
+pub(super) fn part(word: &str) -> Option<usize> {
+    PARTS.iter().position(|part| part.eq_ignore_ascii_case(word))
+}
 
 /// The columns of one marker, in the order of [`PARTS`].
 struct Track {
@@ -23,6 +32,8 @@ struct Track {
 /// The columns of a table with a row for every frame, or for every frame and marker.
 #[derive(Default)]
 pub(super) struct Layout {
+    /// The line that names the columns.
+    pub line: u64,
     pub time: usize,
     /// Seconds of its unit; `None` for numbers of frames.
     pub second: Option<f64>,
@@ -50,9 +61,10 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// No marker yet; times of this unit in this column.
-    pub(super) fn new(time: usize, second: Option<f64>, lengths: Lengths) -> Layout {
+    /// No marker yet; times of this unit in this column, which a line names with the others.
+    pub(super) fn new(line: u64, time: usize, second: Option<f64>, lengths: Lengths) -> Layout {
         Layout {
+            line,
             time,
             second,
             lengths,
@@ -63,35 +75,50 @@ impl Layout {
         }
     }
 
-    /// A column of a marker, new or known.
-    pub(super) fn add(&mut self, sheet: &CellText, line: u64, name: &str, part: usize, column: usize) -> Result<()> {
-        let at = self.tracks.iter().position(|track| track.name == name).unwrap_or_else(|| {
-            self.tracks.push(Track { name: name.to_string(), columns: [None; PARTS.len()] });
-            self.tracks.len() - 1
-        });
-        if self.tracks[at].columns[part].replace(column).is_none() {
-            return Ok(());
-        }
-        let message = format!("two columns are {} of {}", PARTS[part], of(name));
-        Err(sheet.fault(line, message, "give every marker a different name: x_a, y_a, x_b, y_b"))
+    /// Positions below a likelihood, the caller's or the usual one, are lost; likelihoods go up to `most`.
+    pub(super) fn unlikely(&mut self, options: &ImportOptions, usual: f64, most: f64, below: &str) {
+        let limit = options.likelihood.unwrap_or(usual);
+        self.likely = [limit, most];
+        self.told.push(format!("positions {below} {limit} are lost markers (--likelihood)"));
     }
 
-    /// Reads the rows that are left.
+    /// Columns of markers, new or known: the column, its marker, and which of [`PARTS`] it holds.
+    pub(super) fn columns<N: AsRef<str>>(
+        &mut self,
+        sheet: &CellText,
+        columns: impl IntoIterator<Item = (usize, N, usize)>,
+    ) -> Result<()> {
+        for (column, name, part) in columns {
+            let name = name.as_ref();
+            let at = self.tracks.iter().position(|track| track.name == name).unwrap_or_else(|| {
+                self.tracks.push(Track { name: name.to_string(), columns: [None; PARTS.len()] });
+                self.tracks.len() - 1
+            });
+            if self.tracks[at].columns[part].replace(column).is_some() {
+                let message = format!("two columns are {} of {}", PARTS[part], of(name));
+                let help = "give every marker a different name: x_a, y_a, x_b, y_b";
+                return Err(sheet.fault(self.line, message, help));
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads the rows that are left; every marker has so many coordinates at least.
     pub(super) fn read<'s>(
         self,
         sheet: &CellText<'s>,
-        header: u64,
-        parts: usize,
+        axes: usize,
         rows: impl Iterator<Item = (u64, &'s str)>,
     ) -> Result<Vec<Recording>> {
         for track in &self.tracks {
-            if let Some(part) = (0..parts).find(|part| track.columns[*part].is_none()) {
+            if let Some(part) = (0..axes).find(|part| track.columns[*part].is_none()) {
                 let message = format!("{} has no column of {}", of(&track.name), PARTS[part]);
-                return Err(sheet.fault(header, message, "every marker needs its coordinates: export it again"));
+                return Err(sheet.fault(self.line, message, "every marker needs its coordinates: export it again"));
             }
         }
         if self.tracks.is_empty() {
-            return Err(sheet.fault(header, "no column is the position of a marker", "export the places of markers"));
+            let help = "export the places of markers";
+            return Err(sheet.fault(self.line, "no column is the position of a marker", help));
         }
         let mut runs = Runs::default();
         let (mut cells, mut nameless) = (Vec::new(), 0);

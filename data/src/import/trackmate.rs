@@ -2,21 +2,14 @@
 
 use std::collections::HashMap;
 
-use super::columns::{ColumnName, is_frame, lengths, si};
-use super::format::Format;
-use super::layout::Layout;
-use super::options::ImportOptions;
-use super::recording::{Lengths, Pivot, Recording, counted};
-use super::sheet::CellText;
-use crate::error::Result;
-use crate::units::Measured;
+use super::format::*;
 
 pub(super) const SPOTS: Format = Format {
     name: "TrackMate, spots",
     known_by: "columns TRACK_ID and POSITION_X",
     fixture: "made/trackmate_spots.csv",
     likelihood: None,
-    recognise: |_, head, _| head.first().is_some_and(|row| row.contains(&"TRACK_ID") && row.contains(&"POSITION_X")),
+    recognise: |begin| begin.has(&["TRACK_ID", "POSITION_X"]),
     read: spots,
 };
 
@@ -25,37 +18,29 @@ pub(super) const XML: Format = Format {
     known_by: "a <TrackMate> or <Tracks> element",
     fixture: "made/trackmate_tracks.xml",
     likelihood: None,
-    recognise: |sheet, _, _| tags(sheet.text).take(4).any(|tag| matches!(tag.name, "TrackMate" | "Tracks")),
+    recognise: |begin| tags(begin.sheet.text).take(4).any(|tag| matches!(tag.name, "TrackMate" | "Tracks")),
     read: xml,
 };
 
-fn spots(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
+fn spots<'s>(sheet: &CellText<'s>, _options: &ImportOptions) -> Result<Vec<Recording>> {
     let header = sheet.head(1).pop().unwrap_or_default();
     let column = |name: &str| header.iter().position(|known| *known == name);
     let [track, x, y, z, t, frame] =
         ["TRACK_ID", "POSITION_X", "POSITION_Y", "POSITION_Z", "POSITION_T", "FRAME"].map(column);
     // Up to three more rows of names and units.
-    let cell = |cells: &[&str], index: Option<usize>| -> String {
-        index.and_then(|index| cells.get(index)).map_or(String::new(), ToString::to_string)
-    };
-    let is_head = |line: &str| sheet.number(&cell(&sheet.split(line), x)).is_none();
-    let heads: Vec<Vec<&str>> = sheet
-        .lines()
-        .skip(1)
-        .map(|(_, line)| line)
-        .take_while(|line| is_head(line))
-        .map(|line| sheet.split(line))
-        .collect();
-    let unit = |index| heads.iter().rev().find_map(|cells| ColumnName::of(&format!("x {}", cell(cells, index))).unit);
+    let cell = |line: &'s str, index: Option<usize>| index.and_then(|index| sheet.split(line).get(index).copied());
+    let is_head = |line: &&'s str| sheet.number(cell(line, x).unwrap_or_default()).is_none();
+    let heads: Vec<&str> = sheet.lines().skip(1).map(|(_, line)| line).take_while(is_head).collect();
+    let unit_in = |line: &'s str, index| ColumnName::of(&format!("x {}", cell(line, index).unwrap_or_default())).unit;
+    let unit = |index| heads.iter().rev().find_map(|line| unit_in(line, index));
     let second = unit(t).filter(|unit| !is_frame(unit)).and_then(|unit| si(&unit, Measured::Time));
     let time = if second.is_some() { t } else { frame.or(t) };
     let lengths = unit(x).and_then(|unit| lengths(&unit)).unwrap_or(Lengths::Pixels);
-    let mut layout = Layout::new(time.unwrap_or_default(), second, lengths);
+    let mut layout = Layout::new(1, time.unwrap_or_default(), second, lengths);
     (layout.marker, layout.named, layout.row_of) = (track, false, ["spot", "track"]);
-    for (part, index) in [x, y, z].into_iter().enumerate() {
-        index.map_or(Ok(()), |index| layout.add(sheet, 1, "", part, index))?;
-    }
-    layout.read(sheet, 1, 2, sheet.lines().skip(1 + heads.len()))
+    let places = [x, y, z].into_iter().enumerate();
+    layout.columns(sheet, places.filter_map(|(part, index)| Some((index?, "", part))))?;
+    layout.read(sheet, 2, sheet.lines().skip(1 + heads.len()))
 }
 
 /// One XML element as far as it is needed here.
