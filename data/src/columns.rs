@@ -226,7 +226,8 @@ pub(crate) fn shared(fields: &[Field], notes: &[Note]) -> Result<Vec<Option<f64>
             }
         };
         if values[at].replace(value).is_some_and(|before| before != value) {
-            return Err(note.wrong(format!("{key} is there twice, here as {text}"), "keep one of the comments"));
+            let help = "keep one of the comments";
+            return Err(note.wrong(format!("{key} is there twice, here as {text}"), help));
         }
     }
     Ok(values)

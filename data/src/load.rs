@@ -56,7 +56,8 @@ fn load_folder(folder: &Path, actuator: Option<&str>, progress: Progress) -> Res
     let candidates = ["markers.csv", "markers.parquet"].map(|file| folder.join(file));
     let Some(file) = candidates.iter().find(|file| file.is_file()) else {
         let help = "put the table there as markers.csv, together with an about.toml";
-        return Err(DataError::file(&folder.display().to_string(), "the folder has no markers.csv", help));
+        let message = "the folder has no markers.csv";
+        return Err(DataError::file(&folder.display().to_string(), message, help));
     };
     let (mut dataset, about) = load_file(file, actuator, progress)?;
     let full = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());

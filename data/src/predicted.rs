@@ -70,7 +70,8 @@ impl Predictions {
 pub fn parse_predictions(file: &str, text: &str, dataset: &Dataset) -> Result<Predictions> {
     let mut lines = Lines::of_text(file, text);
     let (_, Some(head)) = Head::read(&mut lines)? else {
-        return Err(DataError::of(file, "the file is empty", "write columns such as p_act_kpa,marker,x_mm,y_mm"));
+        let help = "write columns such as p_act_kpa,marker,x_mm,y_mm";
+        return Err(DataError::of(file, "the file is empty", help));
     };
     head.without_unit(&FIELDS, |at| Some(FIELDS[at].needed))?;
     let sheet = head.sheet(&FIELDS)?;
@@ -153,7 +154,8 @@ impl<'d> Collected<'d> {
             let value = row.number(field)?.unwrap_or(0.0);
             if value.abs() > policy::FARTHEST_M {
                 let message = format!("\"{}\" is farther than any robot reaches", row.text(field));
-                return Err(row.fault(field, message, "correct the unit in the name of the column: x_mm, x_cm or x_m"));
+                let help = "correct the unit in the name of the column: x_mm, x_cm or x_m";
+                return Err(row.fault(field, message, help));
             }
             place[axis] = value;
         }

@@ -189,7 +189,8 @@ fn check_kind(file: &str, kind: &str, about: Option<&About>) -> Result<()> {
         return Ok(());
     }
     let message = format!("the table is of actuator {kind}, its about.toml names {said}");
-    Err(DataError::of(file, message, format!("correct the actuator column or `actuator = \"{kind}\"`")))
+    let help = format!("correct the actuator column or `actuator = \"{kind}\"`");
+    Err(DataError::of(file, message, help))
 }
 
 fn check_about_runs(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<()> {
@@ -220,7 +221,8 @@ fn stations(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<Ve
         if column_m.is_some_and(|s| (s - marker.station_m).abs() > policy::ROUNDED_STATION_M) {
             let message =
                 format!("the station of marker {name} is not the one in about.toml ({} mm)", marker.station_m * 1e3);
-            return Err(DataError::of(file, message, "correct the s_mm column or [markers] s_mm in about.toml"));
+            let help = "correct the s_mm column or [markers] s_mm in about.toml";
+            return Err(DataError::of(file, message, help));
         }
         stations.push(Some(marker.station_m));
     }

@@ -100,7 +100,8 @@ impl RowReader {
         }
         if self.shift == 1 && longer && !self.counts_on(line) {
             let message = "the rows have one cell more than the header, and their first cells are no running numbers";
-            return Err(line.fault(message, "write decimals with a point, or give the first column a name"));
+            let help = "write decimals with a point, or give the first column a name";
+            return Err(line.fault(message, help));
         }
         if count == self.sheet.head.names.len() + self.shift {
             self.listen(line)

@@ -69,7 +69,8 @@ fn strips(found: &mut Characterized, taut: &[Coupon], settings: &Reduction) -> R
 
 fn different(coupons: &[Coupon]) -> Result<(), DataError> {
     if coupons.is_empty() {
-        return Err(DataError::of("characterize", "no specimen was given", "give at least one file"));
+        let help = "give at least one file";
+        return Err(DataError::of("characterize", "no specimen was given", help));
     }
     for (i, c) in coupons.iter().enumerate() {
         let same = |other: &&Coupon| (other.direction, &other.specimen) == (c.direction, &c.specimen);

@@ -93,14 +93,16 @@ fn stresses(coupon: &Coupon) -> Result<Option<Vec<[f64; 2]>>, DataError> {
     if let Some((name, _, typical)) = sizes.iter().find(|s| s.1.is_none() && !(bias && s.0 == "thickness")) {
         let what = if *name == "length" { "length (free, between the grips)" } else { name };
         let help = format!("write # {name}_mm: {typical} above the header, or --{name} {typical}mm for all files");
-        return Err(fault(coupon, format!("force and displacement need the {what}, which is missing"), help));
+        let message = format!("force and displacement need the {what}, which is missing");
+        return Err(fault(coupon, message, help));
     }
     let [length, width, thickness] = sizes.map(|s| s.1);
     let farthest = rows.last().map_or(0.0, |row| row[0]);
     if let Some(length) = length.filter(|length| farthest > 3.0 * length) {
         let (far, free) = (1e3 * farthest, 1e3 * length);
         let message = format!("a displacement of {far:.3} mm on a free length of {free:.3} mm");
-        return Err(fault(coupon, message, format!("check the unit of {} and of the length", coupon.columns[0])));
+        let help = format!("check the unit of {} and of the length", coupon.columns[0]);
+        return Err(fault(coupon, message, help));
     }
     let (Some(length), Some(area)) = (length, width.zip(thickness).map(|(w, t)| w * t)) else { return Ok(None) };
     Ok(Some(rows.iter().map(|[d, f]| [d / length, f / area]).collect()))
@@ -191,7 +193,8 @@ fn plausible(coupon: &Coupon, modulus_pa: f64) -> Result<(), DataError> {
         Pulled::Stress(_) => stress_advice(coupon, modulus_pa, fits),
         Pulled::Force(_) => format!("check the units of {y}, {x}, and width, length and thickness ({thickness} mm)"),
     };
-    Err(fault(coupon, message, format!("{advice}; if the number is right, add --any-modulus")))
+    let help = format!("{advice}; if the number is right, add --any-modulus");
+    Err(fault(coupon, message, help))
 }
 
 fn stress_advice(coupon: &Coupon, modulus_pa: f64, fits: impl Fn(f64) -> bool) -> String {

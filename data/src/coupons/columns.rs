@@ -52,7 +52,8 @@ pub(super) fn read(lines: &mut Lines, defaults: &CouponDefaults) -> Result<(Fact
     let (written, replaced) = (head.names.len(), defaults.columns.len());
     if ![0, written].contains(&replaced) {
         let message = format!("the header has {written} columns, --columns names {replaced}");
-        return Err(head.line.line().fault(message, "name every column, for example displacement_mm,force_n"));
+        let help = "name every column, for example displacement_mm,force_n";
+        return Err(head.line.line().fault(message, help));
     }
     if replaced > 0 {
         head.names.clone_from(&defaults.columns);

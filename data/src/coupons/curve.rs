@@ -122,13 +122,15 @@ impl Specimens<'_> {
                 written * unit.1,
                 typed * unit.1
             );
-            return Err(self.fault(raw, message, format!("leave --{base} out, or correct the file")));
+            let help = format!("leave --{base} out, or correct the file");
+            return Err(self.fault(raw, message, help));
         }
         let value = written.or(typed);
         match value.filter(|v| quantity != DIRECTION && (*v <= 0.0 || *v > policy::largest_m(base))) {
             Some(v) => {
                 let message = format!("specimen {specimen}: the {base} is {} {}", v * unit.1, unit.0);
-                Err(self.fault(raw, message, format!("write a positive {base} of a specimen, as in {expected}")))
+                let help = format!("write a positive {base} of a specimen, as in {expected}");
+                Err(self.fault(raw, message, help))
             }
             None => Ok(value),
         }
@@ -139,7 +141,8 @@ impl Specimens<'_> {
                     is the same): as a column direction_deg, as a comment # direction_deg: 0 above the header, or as \
                     --direction 0 for all files without one";
         let Some(degrees) = degrees else {
-            return Err(self.fault(raw, format!("specimen {specimen}: the direction of the pull is not known"), help));
+            let message = format!("specimen {specimen}: the direction of the pull is not known");
+            return Err(self.fault(raw, message, help));
         };
         let wrong = || self.fault(raw, format!("specimen {specimen}: it is pulled at {degrees} degrees"), help);
         Direction::of(degrees).ok_or_else(wrong)
@@ -191,11 +194,8 @@ impl Specimens<'_> {
         }
         if rows.len() < policy::FEWEST_ROWS {
             let message = format!("specimen {specimen} has {} rows that rise in {column}", rows.len());
-            return Err(self.fault(
-                raw,
-                message,
-                format!("give at least {}, from the start of the pull", policy::FEWEST_ROWS),
-            ));
+            let help = format!("give at least {}, from the start of the pull", policy::FEWEST_ROWS);
+            return Err(self.fault(raw, message, help));
         }
         Ok((rows, widths, jitter))
     }

@@ -187,11 +187,8 @@ fn curve(sheet: &CellText, number: u64, block: &Found, facts: &Facts) -> Result<
         () if has([STRAIN, FORCE]) && sized => Ok([STRAIN, FORCE]),
         () if has([STRAIN, FORCE]) => {
             let help = "give the free length between the grips: --length 150mm";
-            Err(sheet.fault(
-                number,
-                "the curve is a strain and a force, and the length of the specimen is not known",
-                help,
-            ))
+            let message = "the curve is a strain and a force, and the length of the specimen is not known";
+            Err(sheet.fault(number, message, help))
         }
         () => Err(sheet.fault(
             number,

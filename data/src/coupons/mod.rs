@@ -78,7 +78,8 @@ pub fn parse_coupons(
     })?;
     if bytes.len() as u64 == MOST_BYTES {
         let help = "give fewer rows, or fewer specimens in a file";
-        return Err(DataError::of(file, "the file is larger than any tensile test: 256 MiB", help));
+        let message = "the file is larger than any tensile test: 256 MiB";
+        return Err(DataError::of(file, message, help));
     }
     let sheet = std::str::from_utf8(&bytes).ok().map(|text| CellText::new(file, text)).transpose()?;
     let comma = sheet.as_ref().is_some_and(|sheet| sheet.comma);

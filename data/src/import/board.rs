@@ -33,14 +33,16 @@ pub fn read_board(path: &Path) -> Result<Vec<[f64; 4]>> {
                 if let Some([.., px, py]) = other {
                     let message =
                         format!("corner {column},{row} is at {x:.1}, {y:.1} px here and at {px:.1}, {py:.1} px above");
-                    return Err(sheet.fault(number, message, "delete the wrong row, or correct its column and row"));
+                    let help = "delete the wrong row, or correct its column and row";
+                    return Err(sheet.fault(number, message, help));
                 }
                 corners.push(corner);
             }
             None if k == 0 && cells.len() == 4 => {}
             None => {
                 let help = "every row is column,row,x,y of a corner: its place on the board, counted from 0, and in the picture";
-                return Err(sheet.fault(number, format!("expected four numbers, found {}", cells.len()), help));
+                let message = format!("expected four numbers, found {}", cells.len());
+                return Err(sheet.fault(number, message, help));
             }
         }
     }

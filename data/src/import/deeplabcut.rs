@@ -20,7 +20,8 @@ fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> {
     let first = sheet.lines().nth(heads.len()).map_or(0, |(number, _)| number);
     let row = |name: &str| heads.iter().find(|row| row[0] == name);
     let (Some(parts), Some(coords)) = (row("bodyparts"), row("coords")) else {
-        return Err(sheet.fault(first, "the row coords is missing", "export the analysed video again as CSV"));
+        let help = "export the analysed video again as CSV";
+        return Err(sheet.fault(first, "the row coords is missing", help));
     };
     let animals = row("individuals");
     let several = animals.is_some_and(|row| row.iter().skip(1).any(|name| *name != row[1] && *name != "single"));

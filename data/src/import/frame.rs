@@ -249,10 +249,8 @@ impl Scene<'_> {
         }
         let degrees = angle.to_degrees();
         let message = format!("at rest the robot is at {degrees:.0} degrees to the file's {}", axis.word());
-        Err(self.fault(
-            message,
-            format!("turn it: --turn {degrees:.1}deg; or correct --base, --axes or the clocks (--clock-offset)"),
-        ))
+        let help = format!("turn it: --turn {degrees:.1}deg; or correct --base or --axes");
+        Err(self.fault(message, help))
     }
 
     /// Refuses a robot that is out of the plane of the axes given.
@@ -263,7 +261,8 @@ impl Scene<'_> {
             return Ok(());
         }
         let message = format!("at rest the robot is {:.0} degrees out of the plane of --axes", angle.to_degrees());
-        Err(self.fault(message, "leave --axes out: the plane of the motion is found; or correct --axes"))
+        let help = "leave --axes out: the plane of the motion is found; or correct --axes";
+        Err(self.fault(message, help))
     }
 }
 

@@ -131,7 +131,8 @@ impl Joined {
         self.program = format.name;
         let found = (format.read)(sheet, options)?;
         if found.is_empty() {
-            return Err(sheet.fault(0, "the file has names of columns and no rows", "export it again"));
+            let help = "export it again";
+            return Err(sheet.fault(0, "the file has names of columns and no rows", help));
         }
         for mut run in found {
             check_run(sheet, &run)?;
@@ -161,7 +162,8 @@ impl Joined {
 fn check_run(sheet: &CellText, run: &Recording) -> Result<()> {
     if let Some((marker, time)) = &run.twice {
         let message = format!("marker {marker} has two places at {time} of one run");
-        return Err(sheet.fault(0, message, "give every run its own file, or add a column run"));
+        let help = "give every run its own file, or add a column run";
+        return Err(sheet.fault(0, message, help));
     }
     if let Some((message, help)) = run.times.iter().find_map(|time| Range::TIME.check(time.abs()).err()) {
         return Err(sheet.fault(0, message, help));
@@ -211,7 +213,8 @@ fn seconds(sheet: &CellText, run: &mut Recording, options: &ImportOptions) -> Re
     match (run.in_seconds, options.frames_per_s) {
         (false, None) => {
             let help = "add --fps with the camera's frames per second, for example --fps 30";
-            Err(sheet.fault(0, "the file counts frames and does not say how many there are in a second", help))
+            let message = "the file counts frames and does not say how many there are in a second";
+            Err(sheet.fault(0, message, help))
         }
         (false, Some(fps)) => {
             let checked = Range::FRAME_RATE.check(fps);
@@ -241,21 +244,16 @@ fn pressures(sheet: &CellText, run: &mut Recording, log: Option<&Log>, options: 
         let checked = Range::BODY_PRESSURE.check(body_pa);
         checked.map_err(|(message, help)| sheet.fault(0, format!("--body-pressure: {message}"), help))?;
         if run.pressures[0].is_some() {
-            return Err(sheet.fault(
-                0,
-                "the body's pressure is given, and the files have it too",
-                "leave --body-pressure out",
-            ));
+            let message = "the body's pressure is given, and the files have it too";
+            let help = "leave --body-pressure out";
+            return Err(sheet.fault(0, message, help));
         }
         told.push(format!("the body was kept at {} kPa, as given", kpa(body_pa)));
         run.pressures[0] = Some(vec![body_pa; run.times.len()]);
     }
     if run.pressures[0].is_none() {
-        return Err(sheet.fault(
-            0,
-            "the body's pressure is not known",
-            "add --body-pressure 2kPa, or a column p_body_kpa in the pressure log",
-        ));
+        let help = "add --body-pressure 2kPa, or a column p_body_kpa in the pressure log";
+        return Err(sheet.fault(0, "the body's pressure is not known", help));
     }
     let room_pa = options.room_pa.unwrap_or(0.0);
     let lowest = |which: usize| {
@@ -266,11 +264,8 @@ fn pressures(sheet: &CellText, run: &mut Recording, log: Option<&Log>, options: 
             "pressures are never below {:.1} kPa: they look absolute, or the robot was never vented",
             kpa(lowest(1))
         );
-        return Err(sheet.fault(
-            0,
-            message,
-            "take the room's off with --room 101.3kPa; if they are gauge pressures, say --room 0kPa",
-        ));
+        let help = "take the room's off with --room 101.3kPa; if they are gauge pressures, say --room 0kPa";
+        return Err(sheet.fault(0, message, help));
     }
     if room_pa != 0.0 {
         told.push(format!("the room's {} kPa are subtracted from all pressures, as given", kpa(room_pa)));

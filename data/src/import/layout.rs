@@ -113,7 +113,8 @@ impl Layout {
         for track in &self.tracks {
             if let Some(part) = (0..axes).find(|part| track.columns[*part].is_none()) {
                 let message = format!("{} has no column of {}", of(&track.name), PARTS[part]);
-                return Err(sheet.fault(self.line, message, "every marker needs its coordinates: export it again"));
+                let help = "every marker needs its coordinates: export it again";
+                return Err(sheet.fault(self.line, message, help));
             }
         }
         if self.tracks.is_empty() {
@@ -180,7 +181,8 @@ impl Layout {
             if !pivot.put(frame, marker, place, likelihood.is_nan() || likelihood >= least)
                 && let Some(help) = self.twice
             {
-                return Err(sheet.fault(number, format!("marker {name} is there twice at {time} of one run"), help));
+                let message = format!("marker {name} is there twice at {time} of one run");
+                return Err(sheet.fault(number, message, help));
             }
         }
         for (which, (column, pa)) in self.pressures.iter().enumerate().filter_map(|(k, p)| p.map(|p| (k, p))) {

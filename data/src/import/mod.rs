@@ -126,7 +126,8 @@ pub fn import(files: &[PathBuf], options: &ImportOptions, progress: Progress) ->
     let cut = cut(first, runs, options, &mut told)?;
     if let Some((unknown, _)) = options.stations_m.iter().find(|(name, _)| !markers.contains(name)) {
         let help = format!("the markers are {}", markers.join(", "));
-        return Err(DataError::of(first, format!("--stations names {unknown}, which is not a marker"), help));
+        let message = format!("--stations names {unknown}, which is not a marker");
+        return Err(DataError::of(first, message, help));
     }
     let stations = table::stations(&cut, &markers, options);
     if stations.iter().any(|(.., given)| !given) {
@@ -189,7 +190,8 @@ fn ends(file: &str, run: &Recording) -> Result<RestAndTop> {
     if high - low <= 2.0 * tolerance_act_pa(low) {
         let message =
             format!("the actuator's pressure stays between {:.1} and {:.1} kPa in a run", kpa(low), kpa(high));
-        return Err(DataError::of(file, message, "check the column, its unit and the clock of the pressure log"));
+        let help = "check the column, its unit and the clock of the pressure log";
+        return Err(DataError::of(file, message, help));
     }
     let near = |level: f64| (0..act.len()).filter(|k| (act[*k] - level).abs() <= tolerance_act_pa(level)).collect();
     Ok(RestAndTop { rest: near(low), top: near(high) })

@@ -127,11 +127,8 @@ impl Log {
                 (midnights, t_s) = (midnights + DAY_S, t_s + DAY_S);
             }
             if log.times_s.last().is_some_and(|last| t_s < *last) {
-                return Err(sheet.fault(
-                    number,
-                    "the time of the pressure log goes back",
-                    "sort its rows, or give one log per run",
-                ));
+                let help = "sort its rows, or give one log per run";
+                return Err(sheet.fault(number, "the time of the pressure log goes back", help));
             }
             let at_once = log.times_s.last().is_some_and(|last| t_s - last < SAME_TIME_S);
             log.times_s.push(t_s);
@@ -142,7 +139,8 @@ impl Log {
                     if pressure_pa.abs() > HIGHEST_GAUGE_PA + ROOM_PA[1] {
                         let told = Range::ACTUATOR_PRESSURE.check(pressure_pa.abs()).err();
                         let message = told.map_or(String::new(), |(message, _)| message);
-                        return Err(sheet.fault(number, message, "check the reading and the unit of the column"));
+                        let help = "check the reading and the unit of the column";
+                        return Err(sheet.fault(number, message, help));
                     }
                     if at_once {
                         one_reading([values[values.len() - 1], pressure_pa], options)
@@ -190,11 +188,8 @@ impl Log {
                 clock.offset_s,
                 range(&self.times_s)
             );
-            return Err(DataError::of(
-                &self.file,
-                message,
-                "give --clock-offset: the log's time minus the camera's, or find",
-            ));
+            let help = "give --clock-offset: the log's time minus the camera's, or find";
+            return Err(DataError::of(&self.file, message, help));
         }
         if outside > 0 {
             told.push(format!("left out: {} outside the pressure log", counted(outside as u64, "frame")));
@@ -222,7 +217,8 @@ impl Log {
             _ => ("the time", "say which: --map t=NAME (a log counts seconds, not frames)"),
         };
         let names = names.join(", ");
-        Err(sheet.fault(line, format!("no column of the pressure log is {message}; there are {names}"), help))
+        let message = format!("no column of the pressure log is {message}; there are {names}");
+        Err(sheet.fault(line, message, help))
     }
 
     /// The last reading at or before every frame; none before the first, or later after the last than readings are apart.

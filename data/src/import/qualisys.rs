@@ -17,14 +17,16 @@ fn read(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     let help = "export again with column names, frame numbers and times (Export, TSV, Include time data)";
     let (header, names) = loop {
         let Some((number, line)) = lines.next() else {
-            return Err(sheet.fault(0, "the row Frame, Time and the columns of markers is missing", help));
+            let message = "the row Frame, Time and the columns of markers is missing";
+            return Err(sheet.fault(0, message, help));
         };
         let cells = sheet.split(line);
         match cells[0] {
             "Frame" | "Time" => break (number, cells),
             "FREQUENCY" => rate = cells.get(1).map(|cell| rate_of(sheet, number, cell)),
             first if sheet.number(first).is_some() => {
-                return Err(sheet.fault(number, "the numbers begin without names of their columns", help));
+                let message = "the numbers begin without names of their columns";
+                return Err(sheet.fault(number, message, help));
             }
             _ => {}
         }

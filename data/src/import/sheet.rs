@@ -103,7 +103,8 @@ impl<'a> CellText<'a> {
             return Ok(());
         }
         let message = format!("the row has {} cells, the header {names}", cells.len());
-        Err(self.fault(number, message, "export it again, or complete or delete the row"))
+        let help = "export it again, or complete or delete the row";
+        Err(self.fault(number, message, help))
     }
 
     /// Seconds of a number of `second` each, a clock time, or a number of seconds with its unit (`1 sec`). Larger numbers than a time can

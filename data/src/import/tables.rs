@@ -73,7 +73,8 @@ fn long_of(sheet: &CellText, roles: &Roles, mut layout: Layout) -> Result<Vec<Re
     layout.marker = roles.marker;
     let column = |axis: usize| Some((roles.coordinates.iter().find(|c| c.1 == axis)?.0, "", axis));
     if column(0).is_none() || column(1).is_none() {
-        return Err(sheet.fault(layout.line, "no columns of x and y", "say which: --map x=PosX,y=PosY"));
+        let help = "say which: --map x=PosX,y=PosY";
+        return Err(sheet.fault(layout.line, "no columns of x and y", help));
     }
     layout.columns(sheet, (0..LIKELIHOOD).filter_map(column))?;
     layout.columns(sheet, roles.likelihoods.iter().map(|(column, ..)| (*column, "", LIKELIHOOD)))?;
@@ -98,7 +99,8 @@ fn begin(sheet: &CellText, options: &ImportOptions) -> Result<(Roles, Layout)> {
     let (first, header) = sheet.lines().next().unwrap_or_default();
     let roles = Roles::of(sheet, first, &sheet.split(header), options)?;
     let Some((time, second)) = roles.time else {
-        return Err(sheet.fault(first, "no column is the time", "say which: --map t=Time, or frame=Frame"));
+        let help = "say which: --map t=Time, or frame=Frame";
+        return Err(sheet.fault(first, "no column is the time", help));
     };
     let mut layout = Layout::new(first, time, second, roles.lengths(sheet, first)?);
     (layout.run, layout.actuator, layout.pressures) = (roles.run, roles.actuator, roles.pressures);

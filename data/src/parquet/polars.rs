@@ -76,11 +76,8 @@ pub(super) fn read(path: &Path) -> Result<Table> {
             gb(bytes_needed),
             gb(MOST_TABLE_BYTES)
         );
-        return Err(fault(
-            path,
-            message,
-            "Try: one file for every run, fewer frames, or CSV, which is read row by row",
-        ));
+        let help = "Try: one file for every run, fewer frames, or CSV, which is read row by row";
+        return Err(fault(path, message, help));
     }
     let bytes = std::fs::read(path).map_err(unread)?;
     on_reader(move || table(&said, bytes)).map_err(|cause| unreadable(path, &cause))
