@@ -30,7 +30,6 @@ pub(crate) const fn plain(name: &'static str, needed: bool) -> Field {
 }
 
 impl Field {
-    /// Whether its name has a unit.
     pub(crate) fn has_unit(&self) -> bool {
         self.dimension.is_some()
     }
@@ -47,15 +46,12 @@ impl Field {
     }
 }
 
-/// What a name means among some fields.
-pub(crate) enum Meaning {
-    /// A field, and its unit if it has one.
-    Known(usize, Option<Unit>),
-    /// A field whose unit is missing.
-    NoUnit(usize),
-    /// A field with an unknown unit.
-    OtherUnit(usize),
-    Extra,
+/// What the end of a name says of the unit of its field.
+pub(crate) enum Ending {
+    /// A unit, or none of a field without.
+    Known(Option<Unit>),
+    Missing,
+    Unknown,
 }
 
 /// Beginning of the name of a y that points down.
@@ -65,40 +61,35 @@ fn is_down(name: &str) -> bool {
     name.strip_prefix(Y_DOWN).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
 }
 
-impl Meaning {
-    /// What a name means; upper and lower case are one.
-    pub(crate) fn of(name: &str, fields: &[Field]) -> Meaning {
-        let mut name = name.to_lowercase();
-        if is_down(&name) {
-            name.replace_range(1..Y_DOWN.len(), "");
-        }
-        let by_base = |base: &str| fields.iter().position(|field| field.base == base);
-        if let Some(at) = by_base(&name) {
-            return if fields[at].has_unit() { Meaning::NoUnit(at) } else { Meaning::Known(at, None) };
-        }
-        let Some((base, suffix)) = name.rsplit_once('_') else { return Meaning::Extra };
-        match by_base(base).filter(|at| fields[*at].has_unit()).map(|at| (at, fields[at].unit(suffix))) {
-            Some((at, Some(unit))) => Meaning::Known(at, Some(unit)),
-            Some((at, None)) => Meaning::OtherUnit(at),
-            None => Meaning::Extra,
-        }
+/// The field that a name means, and what it says of its unit; upper and lower case are one.
+pub(crate) fn meaning(name: &str, fields: &[Field]) -> Option<(usize, Ending)> {
+    let mut name = name.to_lowercase();
+    if is_down(&name) {
+        name.replace_range(1..Y_DOWN.len(), "");
     }
-
-    pub(crate) fn field(&self) -> Option<usize> {
-        match self {
-            Meaning::Known(at, _) | Meaning::NoUnit(at) | Meaning::OtherUnit(at) => Some(*at),
-            Meaning::Extra => None,
-        }
+    let by_base = |base: &str| fields.iter().position(|field| field.base == base);
+    if let Some(at) = by_base(&name) {
+        return Some((at, if fields[at].has_unit() { Ending::Missing } else { Ending::Known(None) }));
     }
+    let (base, suffix) = name.rsplit_once('_')?;
+    let at = by_base(base).filter(|at| fields[*at].has_unit())?;
+    Some((at, fields[at].unit(suffix).map_or(Ending::Unknown, |unit| Ending::Known(Some(unit)))))
 }
 
-/// A column that holds a field.
 #[derive(Debug, Clone)]
 pub(crate) struct Column {
     pub index: usize,
     pub unit: Option<Unit>,
     /// It is called `y_down_…`: the sign of its numbers is turned on reading.
     pub turned: bool,
+}
+
+impl Column {
+    /// A number of the column, with its unit converted by `si` and its sign turned; `None` if it is not finite.
+    pub(crate) fn si(&self, value: f64, si: impl Fn(Unit, f64) -> f64) -> Option<f64> {
+        let si = self.unit.map_or(value, |unit| si(unit, value));
+        Some(if self.turned { -si } else { si }).filter(|si| si.is_finite())
+    }
 }
 
 /// A comment above the header, `# key: value` or `# key = value`.
@@ -174,15 +165,14 @@ impl Head {
     /// unknown unit is a fault too; `None` if none is.
     pub(crate) fn without_unit(&self, fields: &[Field], is_asked: impl Fn(usize) -> Option<bool>) -> Result<()> {
         for (index, name) in self.names.iter().enumerate() {
-            let (at, trouble, convert) = match Meaning::of(name, fields) {
-                Meaning::NoUnit(at) => (at, "has no unit in its name", ""),
-                Meaning::OtherUnit(at) if is_asked(at) == Some(true) => (at, "has an unknown unit", "convert it and "),
+            let Some((at, ending)) = meaning(name, fields) else { continue };
+            let (trouble, convert) = match (ending, is_asked(at)) {
+                (Ending::Missing, Some(_)) => ("has no unit in its name", ""),
+                (Ending::Unknown, Some(true)) => ("has an unknown unit", "convert it and "),
                 _ => continue,
             };
-            if is_asked(at).is_some() {
-                let help = format!("{convert}{}", fields[at].naming());
-                return Err(self.fault(index, format!("column {name} {trouble}"), help));
-            }
+            let help = format!("{convert}{}", fields[at].naming());
+            return Err(self.fault(index, format!("column {name} {trouble}"), help));
         }
         Ok(())
     }
@@ -191,7 +181,7 @@ impl Head {
     pub(crate) fn sheet(self, fields: &'static [Field]) -> Result<Sheet> {
         let mut at: Vec<Option<Column>> = vec![None; fields.len()];
         for (index, name) in self.names.iter().enumerate() {
-            let Meaning::Known(field, unit) = Meaning::of(name, fields) else { continue };
+            let Some((field, Ending::Known(unit))) = meaning(name, fields) else { continue };
             let turned = is_down(&name.to_lowercase());
             if let Some(first) = at[field].replace(Column { index, unit, turned }) {
                 let first = &self.names[first.index];
@@ -212,22 +202,23 @@ impl Head {
 pub(crate) fn shared(fields: &[Field], notes: &[Note]) -> Result<Vec<Option<f64>>> {
     let mut values = vec![None; fields.len()];
     for note in notes {
-        let (meaning, Note { key, text, .. }) = (Meaning::of(&note.key, fields), note);
-        let Some(at) = meaning.field() else { continue };
-        let value = match (meaning, text.parse::<f64>().ok().filter(|value| value.is_finite())) {
-            (Meaning::Known(_, unit), Some(value)) => unit.map_or(value, |unit| unit.to_si(value)),
-            (Meaning::NoUnit(_), _) => {
-                let help = format!("write # {}: {text}", fields[at].expected);
-                return Err(note.wrong(format!("{key} has no unit in its name"), help));
+        let Note { key, text, .. } = note;
+        let Some((at, ending)) = meaning(key, fields) else { continue };
+        let expected = fields[at].expected;
+        let value = match (ending, text.parse::<f64>().ok().filter(|value| value.is_finite())) {
+            (Ending::Known(unit), Some(value)) => unit.map_or(value, |unit| unit.to_si(value)),
+            (Ending::Missing, _) => {
+                let message = format!("{key} has no unit in its name");
+                return Err(note.wrong(message, format!("write # {expected}: {text}")));
             }
             _ => {
-                let help = format!("write # {}: and a number", fields[at].expected);
-                return Err(note.wrong(format!("{key} must be a number with a known unit, found \"{text}\""), help));
+                let message = format!("{key} must be a number with a known unit, found \"{text}\"");
+                return Err(note.wrong(message, format!("write # {expected}: and a number")));
             }
         };
         if values[at].replace(value).is_some_and(|before| before != value) {
-            let help = "keep one of the comments";
-            return Err(note.wrong(format!("{key} is there twice, here as {text}"), help));
+            let message = format!("{key} is there twice, here as {text}");
+            return Err(note.wrong(message, "keep one of the comments"));
         }
     }
     Ok(values)
@@ -244,7 +235,6 @@ pub(crate) fn provenance(notes: &[Note]) -> Result<Provenance> {
     Provenance::of(&note.text).ok_or_else(|| note.wrong(format!("unknown provenance \"{}\"", note.text), help))
 }
 
-/// A table whose header is understood.
 #[derive(Debug, Clone)]
 pub(crate) struct Sheet {
     pub fields: &'static [Field],
@@ -325,9 +315,8 @@ impl TableRow<'_> {
         let Some(column) = &self.sheet.at[field] else { return Ok(None) };
         let text = self.text(field);
         let comma = || self.sheet.comma.then(|| with_comma(text)).flatten();
-        let value = text.parse::<f64>().ok().or_else(comma).map(|value| if column.turned { -value } else { value });
-        let in_si = value.map(|value| column.unit.map_or(value, |unit| si(unit, value)));
-        in_si.filter(|value| value.is_finite()).map(Some).ok_or_else(|| {
+        let value = text.parse::<f64>().ok().or_else(comma);
+        value.and_then(|value| column.si(value, si)).map(Some).ok_or_else(|| {
             let [message, help] = no_number(text, self.sheet.fields[field].expected, "");
             self.fault(field, message, help)
         })

@@ -1,6 +1,6 @@
 //! The header line: which column holds which quantity, in which unit.
 
-use crate::columns::{Field, Head, Meaning, Sheet, field, plain};
+use crate::columns::{Field, Head, Sheet, field, meaning, plain};
 use crate::error::{DataError, Result};
 use crate::lines::Lines;
 use crate::units::Measured;
@@ -100,8 +100,8 @@ fn absent(head: &Head, missing: usize, all: usize) -> DataError {
         return fault;
     }
     let message = format!("column {expected} is missing; found {found}");
-    let is_unknown = |name: &&String| matches!(Meaning::of(name, &QUANTITIES), Meaning::Extra);
-    let unknown = head.names.iter().filter(is_unknown).map(String::as_str);
+    let is_unknown = |name: &&str| meaning(name, &QUANTITIES).is_none();
+    let unknown = head.names.iter().map(String::as_str).filter(is_unknown);
     match spelling::nearest(expected, unknown).filter(|near| !near.is_empty()) {
         Some(near) => {
             let index = head.names.iter().position(|name| name == near).unwrap_or_default();

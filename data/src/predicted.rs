@@ -189,7 +189,7 @@ impl<'d> Collected<'d> {
             for (value, field) in given.iter_mut().zip(PRESSURES) {
                 *value = row.number(field)?;
             }
-            found.retain(|hold| are_near(pressures(&holds[*hold]), filled(&holds[*hold], given), 1.0));
+            found.retain(|hold| are_near(holds[*hold].pressures_pa(), filled(&holds[*hold], given), 1.0));
             let gap = |hold: &usize| (holds[*hold].p_act_pa - given[1].unwrap_or(0.0)).abs();
             let least = found.iter().map(gap).fold(f64::INFINITY, f64::min);
             found.retain(|hold| gap(hold) <= least + policy::SAME_ACTUATOR_PA);
@@ -236,16 +236,9 @@ impl<'d> Collected<'d> {
     }
 }
 
-/// Pressures of a hold, 0 of channels that the data have not.
-fn pressures(hold: &Hold) -> Pressures {
-    let mut all = [hold.p_body_pa, hold.p_act_pa, 0.0, 0.0, 0.0];
-    all[2..].iter_mut().zip(&hold.more_act_pa).for_each(|(own, pa)| *own = *pa);
-    all
-}
-
 /// The pressures of a row; those that it has not, or the data have not, are the pressures of the hold.
 fn filled(hold: &Hold, given: [Option<f64>; PRESSURES.len()]) -> Pressures {
-    let own = pressures(hold);
+    let own = hold.pressures_pa();
     let known = 2 + hold.more_act_pa.len();
     std::array::from_fn(|k| given[k].filter(|_| k < known).unwrap_or(own[k]))
 }

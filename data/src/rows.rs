@@ -9,7 +9,7 @@ use crate::header::{
 };
 use crate::lines::Line;
 use crate::policy;
-use spelling::units::Range;
+use spelling::units::{Range, Unit};
 use std::ops::Deref;
 
 /// One observation; texts borrow from the reader.
@@ -56,7 +56,6 @@ const PLACEHOLDERS: [(f64, &str); 9] = [
     (65535.0, "65535, 65535"),
 ];
 
-/// Words for seconds behind a time.
 const SECONDS: [&str; 4] = ["seconds", "secs", "sec", "s"];
 
 /// The highest pressure of a room \[Pa\].
@@ -131,34 +130,31 @@ impl RowReader {
             }
             self.decimals = decimals;
         }
-        let long = |text: &&str| label(text) != *text;
-        let seen = [RUN, MARKER].map(|quantity| self.text(quantity)).into_iter().find(long).map(str::to_string);
-        self.label = self.label.take().or(seen);
-        let time = self.text(TIME);
-        let seen = time.ends_with(|c: char| c.is_alphabetic()).then(|| time.to_string());
-        self.duration = self.duration.take().or(seen);
+        let is_long = |text: &&str| label(text) != *text;
+        let label = [self.text(RUN), self.text(MARKER)].into_iter().find(is_long).map(str::to_string);
+        let time = Some(self.text(TIME)).filter(|time| time.ends_with(|c: char| c.is_alphabetic()));
+        let duration = time.map(str::to_string);
+        self.label = self.label.take().or(label);
+        self.duration = self.duration.take().or(duration);
         Ok(())
     }
 
     pub(crate) fn told(&self) -> Result<Vec<String>> {
         let comma = self.decimals.finish()?;
-        let mut told = Vec::new();
-        if self.sheet.head.named {
-            told.push(format!("a first line names the separator: {}", self.sheet.head.delimiter));
-        }
-        if comma {
-            told.push("decimals are written with a comma".into());
-        }
-        if self.shift > 0 {
-            told.push("every row begins with a name that the header has not, as R writes it: left out".into());
-        }
-        let as_label = |text: &String| format!("labels such as {text} are read as {}", label(text));
-        told.extend(self.label.as_ref().map(as_label));
-        told.extend(self.duration.as_ref().map(|text| format!("times such as \"{text}\" are read as seconds")));
-        Ok(told)
+        let r_names = "every row begins with a name that the header has not, as R writes it: left out";
+        let separator = || format!("a first line names the separator: {}", self.sheet.head.delimiter);
+        let labels = |text: &String| format!("labels such as {text} are read as {}", label(text));
+        let times = |text: &String| format!("times such as \"{text}\" are read as seconds");
+        let told = [
+            self.sheet.head.named.then(separator),
+            comma.then(|| "decimals are written with a comma".into()),
+            (self.shift > 0).then(|| r_names.into()),
+            self.label.as_ref().map(labels),
+            self.duration.as_ref().map(times),
+        ];
+        Ok(told.into_iter().flatten().collect())
     }
 
-    /// Whether the table has a column.
     fn has(&self, quantity: usize) -> bool {
         self.sheet.has(quantity)
     }
@@ -173,20 +169,16 @@ impl RowReader {
 
     fn wrong_count(&self, line: &Line, count: usize) -> DataError {
         let expected = self.sheet.head.names.len() + self.shift;
-        let found = if count > expected { format!("more than {expected}") } else { count.to_string() };
-        let message = if line.ended {
-            format!("expected {expected} cells, found {found}")
-        } else {
-            format!("the file ends in the middle of a row: expected {expected} cells, found {found}")
-        };
+        let more = if count > expected { format!("more than {expected}") } else { count.to_string() };
+        let begin = if line.ended { "" } else { "the file ends in the middle of a row: " };
         let help = match line.text.matches('"').count() % 2 {
-            1 => "close the quotation mark on the same line".to_string(),
+            1 => "close the quotation mark on the same line",
             _ if count > expected && line.text.contains(',') => {
-                "write decimals with a point, and put cells that contain the separator in quotation marks".to_string()
+                "write decimals with a point, and put cells that contain the separator in quotation marks"
             }
-            _ => "complete the row or delete it; if the copy was cut short, copy the file again".to_string(),
+            _ => "complete the row or delete it; if the copy was cut short, copy the file again",
         };
-        line.fault(message, help)
+        line.fault(format!("{begin}expected {expected} cells, found {more}"), help)
     }
 }
 
@@ -205,7 +197,6 @@ impl Deref for Cells<'_> {
 }
 
 impl<'a> Cells<'a> {
-    /// The cell of the `actuator` column.
     pub(crate) fn actuator(&self) -> Result<&'a str> {
         self.word(ACTUATOR)
     }
@@ -230,7 +221,6 @@ impl<'a> Cells<'a> {
         PLACEHOLDERS.iter().find(|(value, _)| x == *value && y == *value).map(|(_, words)| *words)
     }
 
-    /// The cell of the `marker` column.
     pub(crate) fn marker(&self) -> &'a str {
         label(self.reader.text(MARKER))
     }
@@ -241,7 +231,6 @@ impl<'a> Cells<'a> {
         self.text(STATION).parse().ok().map(|value| unit.to_si(value))
     }
 
-    /// The observation of the line split last.
     pub(crate) fn row(&self) -> Result<Row<'a>> {
         Ok(Row {
             run: label(self.word(RUN)?),
@@ -259,8 +248,8 @@ impl<'a> Cells<'a> {
 
     fn pressures(&self) -> Result<Pressures> {
         let mut pressures_pa = Pressures::default();
-        for (pressure_pa, quantity) in pressures_pa.iter_mut().zip(PRESSURES).filter(|(_, q)| self.has(*q)) {
-            *pressure_pa = self.pressure(quantity)?;
+        for (k, quantity) in PRESSURES.into_iter().enumerate().filter(|(_, q)| self.has(*q)) {
+            pressures_pa[k] = self.pressure(quantity)?;
         }
         Ok(pressures_pa)
     }
@@ -292,11 +281,8 @@ impl<'a> Cells<'a> {
 
     fn phase(&self) -> Result<Phase> {
         let text = self.word(PHASE)?;
-        let is = |phase: &Phase| text.eq_ignore_ascii_case(phase.word());
-        [Phase::Load, Phase::Hold, Phase::Unload].into_iter().find(is).ok_or_else(|| {
-            let message = format!("unknown phase \"{text}\"");
-            self.fault(PHASE, message, "write load (actuator pressure raised), hold (unchanged) or unload (lowered)")
-        })
+        let help = "write load (actuator pressure raised), hold (unchanged) or unload (lowered)";
+        Phase::of(text).ok_or_else(|| self.fault(PHASE, format!("unknown phase \"{text}\""), help))
     }
 
     fn number(&self, quantity: usize) -> Result<f64> {
@@ -304,12 +290,10 @@ impl<'a> Cells<'a> {
         let seconds = self.sheet.unit(quantity) == "s";
         let suffix = SECONDS.iter().filter(|_| seconds).find_map(|word| text.strip_suffix(word));
         let plain = suffix.unwrap_or(text).trim_end();
-        let comma = || (self.sheet.head.delimiter != ',').then(|| with_comma(plain)).flatten();
-        let value = plain.parse::<f64>().ok().or_else(comma).filter(|value| value.is_finite());
-        let column = self.sheet.at[quantity].as_ref();
-        let turned = column.is_some_and(|column| column.turned);
-        let si = value.zip(column.and_then(|column| column.unit)).map(|(value, unit)| unit.to_si(value));
-        let si = si.map(|si| if turned { -si } else { si }).filter(|si| si.is_finite());
+        let comma = || if self.sheet.head.delimiter == ',' { None } else { with_comma(plain) };
+        let value = plain.parse::<f64>().ok().or_else(comma);
+        let column = self.sheet.at[quantity].as_ref().filter(|column| column.unit.is_some());
+        let si = value.zip(column).and_then(|(value, column)| column.si(value, Unit::to_si));
         si.ok_or_else(|| {
             let lost = match quantity {
                 X | Y | Z if self.has(Z) => "; of a marker that was not seen leave x, y and z empty",
@@ -345,13 +329,11 @@ impl<'a> Cells<'a> {
         let bounds = pressure_bounds(quantity);
         let room_pa = if quantity == P_BODY { ROOM_PA } else { 0.0 };
         if value > bounds.high * bounds.si + room_pa {
-            let [better, ending] = if self.sheet.unit(quantity) == "kPa" { ["Pa", "pa"] } else { ["kPa", "kpa"] };
-            let why = bounds.check(value).err().map_or(String::new(), |(message, _)| message);
+            let better = if self.sheet.unit(quantity) == "kPa" { "Pa" } else { "kPa" };
+            let name = format!("{}_{}", QUANTITIES[quantity].base, better.to_lowercase());
+            let why = bounds.mistake(value);
             let [message, help] = match bounds.contains(value * 1e-3) {
-                true => [
-                    format!("{why}; it looks like {better}"),
-                    format!("name the column {}_{ending}", QUANTITIES[quantity].base),
-                ],
+                true => [format!("{why}; it looks like {better}"), format!("name the column {name}")],
                 false => [why, "correct the number, or the unit in the name of the column".into()],
             };
             return Err(self.fault(quantity, message, help));
@@ -365,7 +347,6 @@ impl<'a> Cells<'a> {
     /// The fault of a pressure below its bounds.
     pub(crate) fn too_low(&self, quantity: usize, value_pa: f64) -> DataError {
         let help = "give gauge pressure (0 is the air of the room); subtract the sensor's zero";
-        let told = pressure_bounds(quantity).check(value_pa).err();
-        self.fault(quantity, told.map_or(String::new(), |(message, _)| message), help)
+        self.fault(quantity, pressure_bounds(quantity).mistake(value_pa), help)
     }
 }

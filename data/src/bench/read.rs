@@ -1,7 +1,7 @@
 //! Text to rows, for every kind.
 
 use super::kind::{Bench, BenchKind, BenchRow};
-use crate::columns::{self, Head, Meaning, Note, TableRow};
+use crate::columns::{self, Head, Note, TableRow, meaning};
 use crate::error::{DataError, Result};
 use crate::lines::Lines;
 
@@ -35,11 +35,12 @@ pub(super) fn wanted(kind: &BenchKind) -> String {
 
 /// Every column of the table means something in this kind, and the table or its comments have what the kind is about.
 fn is_of(kind: &BenchKind, names: &[String], notes: &[Note]) -> bool {
-    let fields = |name: &str| Meaning::of(name, kind.columns).field();
-    let is_there = |at: usize| names.iter().chain(notes.iter().map(|note| &note.key)).any(|n| fields(n) == Some(at));
+    let field = |name: &String| meaning(name, kind.columns).map(|(at, _)| at);
+    let is_there =
+        |at: usize| names.iter().chain(notes.iter().map(|note| &note.key)).any(|name| field(name) == Some(at));
     // A fabric's weight may be forgotten; what makes the kind may not.
     let makes_it = |at: &usize| kind.columns[*at].needed && kind.columns[*at].has_unit();
-    names.iter().all(|name| fields(name).is_some()) && (0..kind.columns.len()).filter(makes_it).all(is_there)
+    names.iter().all(|name| field(name).is_some()) && (0..kind.columns.len()).filter(makes_it).all(is_there)
 }
 
 fn row(kind: &'static BenchKind, shared: &[Option<f64>], row: &TableRow) -> Result<BenchRow> {

@@ -2,7 +2,7 @@
 
 use super::coupon::CouponDefaults;
 use crate::about::Provenance;
-use crate::columns::{self, Field, Head, Meaning, Note, Sheet, field, plain};
+use crate::columns::{self, Field, Head, Note, Sheet, field, meaning, plain};
 use crate::error::{DataError, Result};
 use crate::lines::Lines;
 use crate::units::Measured::{Angle, Force, Length, Pressure, Ratio};
@@ -77,7 +77,7 @@ fn facts(notes: &[Note]) -> Result<Facts> {
 fn misspelt(note: &Note, numbers: &[Field]) -> Result<()> {
     let Note { key, text, .. } = note;
     let keys = numbers.iter().map(|field| field.expected).chain(["specimen", "provenance"]);
-    let is_key = Meaning::of(key, numbers).field().is_some();
+    let is_key = meaning(key, numbers).is_some();
     let near = spelling::nearest(key, keys).filter(|_| !is_key && key.contains('_') && !key.contains(' '));
     let Some(near) = near else { return Ok(()) };
     let help = format!("did you mean # {near}: {text}? any other comment is fine without `_` before the colon");
