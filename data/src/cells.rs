@@ -2,6 +2,7 @@
 
 use crate::error::{DataError, Result};
 use crate::lines::{KeptLine, Line};
+use std::path::Path;
 
 /// What spreadsheets, pandas, R and C libraries write for a missing number.
 const NOTHING: [&str; 13] =
@@ -56,7 +57,6 @@ pub(crate) fn day_s(text: &str) -> Option<f64> {
 /// How a file writes decimals; found while it is read.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Decimals {
-    /// A number with a point was read.
     point: bool,
     /// A comma was read that can only be a decimal one.
     comma: bool,
@@ -84,7 +84,6 @@ impl Decimals {
         Ok(Some(value))
     }
 
-    /// Whether decimals are written with a comma.
     pub(crate) fn finish(&self) -> Result<bool> {
         match &self.doubtful {
             Some((line, text)) if self.point => Err(both(&line.line(), text)),
@@ -94,7 +93,6 @@ impl Decimals {
     }
 }
 
-/// A number with a decimal comma.
 pub(crate) fn with_comma(text: &str) -> Option<f64> {
     (text.matches(',').count() == 1 && !text.contains('.')).then(|| text.replace(',', ".").parse().ok()).flatten()
 }
@@ -140,7 +138,11 @@ fn both(line: &Line, text: &str) -> DataError {
     line.fault(message, "write all decimals alike, and no commas of thousands")
 }
 
-/// A label as a CSV cell.
+/// The name of a file without its folder and its end.
+pub(crate) fn stem(file: &str) -> String {
+    Path::new(file).file_stem().map_or(file.into(), |stem| stem.to_string_lossy().into_owned())
+}
+
 pub(crate) fn quoted(label: &str) -> String {
     if label.contains([',', '"', ';', '\t', '\n', '\r']) {
         format!("\"{}\"", label.replace('"', "\"\""))

@@ -23,6 +23,7 @@ use std::path::Path;
 
 use crate::about::About;
 use crate::align::align;
+use crate::cells::stem;
 use crate::dataset::Dataset;
 use crate::error::{DataError, Result};
 use crate::header::{ACTUATOR, read_header};
@@ -101,8 +102,7 @@ pub fn parse_markers(file: &str, reader: &mut dyn Read, options: ReadOptions, pr
     check_kept(&recorder)?;
     check_about_runs(file, &recorder, options.about)?;
     let stations_m = stations(file, &recorder, options.about)?;
-    let stem = Path::new(file).file_stem().map_or(file.to_string(), |stem| stem.to_string_lossy().into_owned());
-    let mut dataset = align(stem, kind.found.unwrap_or_default(), &recorder, &stations_m)?;
+    let mut dataset = align(stem(file), kind.found.unwrap_or_default(), &recorder, &stations_m)?;
     dataset.lost.frames = recorder.lost_frames;
     dataset.told = told;
     check_kind(file, &dataset.actuator, options.about)?;

@@ -2,10 +2,10 @@
 
 use super::columns::{DIRECTION, Facts, LENGTH, LOADED_WIDTH, QUANTITIES, SPECIMEN, STRAIN, THICKNESS, WIDTH};
 use super::coupon::{Coupon, CouponDefaults, Direction, Pulled};
+use crate::cells::stem;
 use crate::columns::{Field, TableRow};
 use crate::error::DataError;
 use crate::policy;
-use std::path::Path;
 
 /// All specimens of a file, as far as it has been read.
 pub(super) struct Specimens<'a> {
@@ -105,8 +105,11 @@ impl Specimens<'_> {
     }
 
     fn specimen(&self, raw: &Raw) -> String {
-        let stem = || Path::new(self.file).file_stem().map_or(self.file.into(), |s| s.to_string_lossy().into_owned());
-        if raw.name.is_empty() { self.facts.specimen.clone().unwrap_or_else(stem) } else { raw.name.clone() }
+        if raw.name.is_empty() {
+            self.facts.specimen.clone().unwrap_or_else(|| stem(self.file))
+        } else {
+            raw.name.clone()
+        }
     }
 
     /// What the rows, the comments or the caller say; they must not contradict each other.

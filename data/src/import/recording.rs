@@ -41,6 +41,9 @@ pub(crate) struct Recording {
     pub told: Vec<String>,
 }
 
+/// Times above this are stamps since 1970 \[s\].
+const SINCE_1970_S: f64 = 1e9;
+
 /// A marker that was not seen.
 pub(crate) const LOST: [f64; 3] = [f64::NAN; 3];
 
@@ -174,6 +177,11 @@ impl Recording {
         self.dropped.iter_mut().zip(other.dropped).for_each(|(all, more)| *all += more);
     }
 
+    /// Whether its times are stamps since 1970.
+    pub(super) fn is_stamped(&self) -> bool {
+        self.times.first().is_some_and(|t| *t >= SINCE_1970_S)
+    }
+
     /// Puts the first frame at 0 s.
     pub(super) fn zeroed(&mut self) {
         let first = self.times.first().copied().unwrap_or(0.0);
@@ -181,9 +189,10 @@ impl Recording {
     }
 
     /// Where a marker was in the mean over some frames in which it was seen.
-    pub(crate) fn mean_place(&self, marker: usize, frames: impl Iterator<Item = usize>) -> Option<[f64; 3]> {
+    pub(crate) fn mean_place(&self, marker: usize, frames: &[usize]) -> Option<[f64; 3]> {
         let (mut sum, mut count) = ([0.0; 3], 0.0);
-        for place in frames.map(|frame| self.places[marker][frame]).filter(|place| place[0].is_finite()) {
+        let places = frames.iter().map(|frame| self.places[marker][*frame]);
+        for place in places.filter(|place| place[0].is_finite()) {
             (0..3).for_each(|axis| sum[axis] += place[axis]);
             count += 1.0;
         }
