@@ -94,7 +94,8 @@ impl Decimals {
 }
 
 pub(crate) fn with_comma(text: &str) -> Option<f64> {
-    (text.matches(',').count() == 1 && !text.contains('.')).then(|| text.replace(',', ".").parse().ok()).flatten()
+    let is_one = text.matches(',').count() == 1 && !text.contains('.');
+    if is_one { text.replace(',', ".").parse().ok() } else { None }
 }
 
 /// Whether a comma cannot be one of thousands: not three digits after it, or a leading zero or more than three digits before it.
@@ -111,30 +112,24 @@ pub(crate) fn no_number(text: &str, expected: &str, more: &str) -> [String; 2] {
         Err(_) => format!("expected a number, found \"{text}\""),
     };
     let with_point = text.replace(',', ".");
-    let help = match with_point.parse::<f64>().is_ok_and(f64::is_finite) {
-        true => format!("write decimals with a point: {with_point}"),
-        false => format!(
-            "type a plain number such as 12.5 (the unit belongs to the column name, as in {expected}), or delete the row{more}"
-        ),
-    };
-    [message, help]
+    if with_point.parse::<f64>().is_ok_and(f64::is_finite) {
+        return [message, format!("write decimals with a point: {with_point}")];
+    }
+    let unit = format!("the unit belongs to the column name, as in {expected}");
+    [message, format!("type a plain number such as 12.5 ({unit}), or delete the row{more}")]
 }
 
 fn thousands(line: &Line, text: &str) -> DataError {
+    let (point, whole) = (text.replace(',', "."), text.replace(',', ""));
     let message = format!(
-        "\"{text}\" can be read as {} (decimal comma) or as {} (comma of thousands), and so can every number with a comma here",
-        text.replace(',', "."),
-        text.replace(',', "")
+        "\"{text}\" can be read as {point} (decimal comma) or as {whole} (comma of thousands), and so can every number with a comma here"
     );
     line.fault(message, "write decimals with a point, or at least one number with another count of decimals")
 }
 
 fn both(line: &Line, text: &str) -> DataError {
-    let message = format!(
-        "points and commas both stand in numbers: \"{text}\" can be read as {} or as {}",
-        text.replace(',', "."),
-        text.replace([',', '.'], "")
-    );
+    let (point, whole) = (text.replace(',', "."), text.replace([',', '.'], ""));
+    let message = format!("points and commas both stand in numbers: \"{text}\" can be read as {point} or as {whole}");
     line.fault(message, "write all decimals alike, and no commas of thousands")
 }
 

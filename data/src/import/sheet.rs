@@ -22,16 +22,14 @@ pub(crate) struct CellText<'a> {
 }
 
 impl<'a> CellText<'a> {
-    /// Finds the dialect of a text.
     pub(crate) fn new(file: &'a str, text: &'a str) -> Result<CellText<'a>> {
         if text.contains('\0') {
-            let (message, help) = ("the file is not text", "export it as text: CSV, TXT or XML");
-            return Err(DataError::of(file, message, help));
+            return Err(DataError::of(file, "the file is not text", "export it as text: CSV, TXT or XML"));
         }
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let said = text.lines().next().and_then(|line| line.trim().strip_prefix("sep="));
-        let named = said.and_then(|sign| sign.chars().next());
-        let text = if named.is_some() { text.split_once('\n').map_or("", |(_, rest)| rest) } else { text };
+        let (first, rest) = text.split_once('\n').unwrap_or((text, ""));
+        let named = first.trim().strip_prefix("sep=").and_then(|sign| sign.chars().next());
+        let text = if named.is_some() { rest } else { text };
         let delimiter = named.unwrap_or_else(|| delimiter(text));
         let mut sheet = CellText { file, text, delimiter, comma: false, before: u64::from(named.is_some()) };
         sheet.comma = delimiter != ',' && sheet.has_decimal_comma()?;
@@ -110,15 +108,14 @@ impl<'a> CellText<'a> {
     /// Seconds of a number of `second` each, a clock time, or a number of seconds with its unit (`1 sec`). Larger numbers than a time can
     /// be are milli-, micro- or nanoseconds since 1970.
     pub(crate) fn time(&self, text: &str, second: f64, number: u64, column: &str) -> Result<f64> {
-        let plain = || ["seconds", "secs", "sec", "s"].iter().find_map(|unit| text.strip_suffix(unit));
         let finite = |text: &str| self.number(text).filter(|t| t.is_finite());
+        let plain = || ["seconds", "secs", "sec", "s"].iter().find_map(|unit| text.strip_suffix(unit));
         let counted = finite(text).map(|t| second * t);
         let found = counted.or_else(|| finite(plain()?.trim())).or_else(|| clock_s(text)).or_else(|| day_s(text));
         let help = "a time is a number, or hours:minutes:seconds, with a date before it or without";
         let t = found.ok_or_else(|| self.bad_cell(text, number, column, help))?;
-        let since_1970 =
-            [1.0, 1e-3, 1e-6, 1e-9].map(|unit| unit * t).into_iter().find(|t| Range::TIME.check(t.abs()).is_ok());
-        Ok(since_1970.unwrap_or(t))
+        let mut since_1970 = [1.0, 1e-3, 1e-6, 1e-9].into_iter().map(|unit| unit * t);
+        Ok(since_1970.find(|t| Range::TIME.contains(t.abs())).unwrap_or(t))
     }
 
     fn bad_cell(&self, text: &str, number: u64, column: &str, help: &str) -> DataError {
@@ -134,7 +131,7 @@ impl<'a> CellText<'a> {
         let mut decimals = Decimals::default();
         for (number, text) in self.lines().take(LOOKED_AT) {
             let line = Line { file: self.file, number, start: 0, text, ended: true };
-            for cell in self.split(text).into_iter().filter(|cell| cell.contains(',') && with_comma(cell).is_some()) {
+            for cell in self.split(text).into_iter().filter(|cell| with_comma(cell).is_some()) {
                 decimals.number(cell, true, &line)?;
             }
         }
