@@ -46,6 +46,12 @@ impl Field {
     }
 }
 
+/// The names of fields that a table always has, as they are usual.
+pub(crate) fn needed(fields: &[Field]) -> String {
+    let names: Vec<&str> = fields.iter().filter(|field| field.needed).map(|field| field.expected).collect();
+    names.join(",")
+}
+
 /// What the end of a name says of the unit of its field.
 pub(crate) enum Ending {
     /// A unit, or none of a field without.
@@ -248,6 +254,11 @@ pub(crate) struct Sheet {
 impl Sheet {
     pub(crate) fn has(&self, field: usize) -> bool {
         self.at[field].is_some()
+    }
+
+    /// A needed field without a column.
+    pub(crate) fn missing(&self) -> Option<usize> {
+        (0..self.fields.len()).find(|field| self.fields[*field].needed && !self.has(*field))
     }
 
     /// The column of a field as the file names it.

@@ -10,7 +10,7 @@
 //! Comments above the header name the effects and the data of the fit.
 
 use crate::cells::label;
-use crate::columns::{Field, Head, field, plain};
+use crate::columns::{Field, Head, Note, field, needed, plain};
 use crate::dataset::{Dataset, Hold, Phase};
 use crate::error::{DataError, Result};
 use crate::lines::Lines;
@@ -32,7 +32,6 @@ const DX: usize = 3;
 const DY: usize = 4;
 const PHASE: usize = 5;
 
-/// A row.
 #[derive(Debug, Clone, PartialEq)]
 struct Moved {
     marker: String,
@@ -62,12 +61,12 @@ pub struct CorrectionTable {
 pub fn parse_correction(file: &str, text: &str) -> Result<CorrectionTable> {
     let mut lines = Lines::of_text(file, text);
     let (notes, head) = Head::read(&mut lines)?;
-    let names: Vec<&str> = FIELDS.iter().filter(|field| field.needed).map(|field| field.expected).collect();
-    let help = || format!("give a table that `ibr add … --base … --out correction.csv` wrote: {}", names.join(","));
-    let sheet = head.ok_or_else(|| DataError::of(file, "the file is empty", help()))?.sheet(&FIELDS)?;
-    if let Some(missing) = (0..FIELDS.len()).find(|field| FIELDS[*field].needed && !sheet.has(*field)) {
+    let help = format!("give a table that `ibr add … --base … --out correction.csv` wrote: {}", needed(&FIELDS));
+    let Some(head) = head else { return Err(DataError::of(file, "the file is empty", help)) };
+    let sheet = head.sheet(&FIELDS)?;
+    if let Some(missing) = sheet.missing() {
         let message = format!("column {} is missing: this is not a correction", FIELDS[missing].expected);
-        return Err(sheet.head.line.line().fault(message, help()));
+        return Err(sheet.head.line.line().fault(message, help));
     }
     let mut rows = Vec::new();
     sheet.each_row(&mut lines, |row| {
@@ -78,10 +77,10 @@ pub fn parse_correction(file: &str, text: &str) -> Result<CorrectionTable> {
         Ok(())
     })?;
     rows.sort_by(|a, b| a.act_pa.total_cmp(&b.act_pa));
-    let of = |key: &str| notes.iter().filter(|note| note.key == key).map(|note| note.text.clone()).collect::<Vec<_>>();
-    let effects = of("effects").iter().flat_map(|text| text.split(", ")).map(str::to_string).collect();
-    let hash = |text: &String| text.rsplit_once("SHA-256 ").map(|(_, hash)| hash.trim().to_string());
-    let data_sha256 = of("fitted on").iter().filter_map(hash).collect();
+    let of = |key: &'static str| notes.iter().filter(move |note| note.key == key);
+    let effects = of("effects").flat_map(|note| note.text.split(", ")).map(str::to_string).collect();
+    let hash = |note: &Note| Some(note.text.rsplit_once("SHA-256 ")?.1.trim().to_string());
+    let data_sha256 = of("fitted on").filter_map(hash).collect();
     Ok(CorrectionTable { file: file.to_string(), effects, data_sha256, rows })
 }
 
@@ -103,10 +102,12 @@ impl CorrectionTable {
     }
 
     fn between(&self, hold: &Hold, marker: &str) -> Result<[f64; 2]> {
-        let near = |row: &&Moved| (row.body_pa - hold.p_body_pa).abs() <= policy::tolerance_body_pa(hold.p_body_pa);
-        let phase = if hold.phase == Phase::Unload { Phase::Unload } else { Phase::Load }.word();
+        let body_pa = hold.p_body_pa;
+        let near = |row: &&Moved| (row.body_pa - body_pa).abs() <= policy::tolerance_body_pa(body_pa);
+        let phase = if hold.phase == Phase::Unload { "unload" } else { "load" };
         let in_phase = |row: &&Moved| row.phase.is_empty() || row.phase == phase;
-        let own: Vec<&Moved> = self.rows.iter().filter(|row| row.marker == marker).filter(near).collect();
+        let of_marker = self.rows.iter().filter(|row| row.marker == marker);
+        let own: Vec<&Moved> = of_marker.filter(near).collect();
         let one_way: Vec<&Moved> = own.iter().copied().filter(in_phase).collect();
         // The highest pressure of a way back is the end of the way there.
         let own = if one_way.is_empty() { own } else { one_way };
@@ -116,7 +117,7 @@ impl CorrectionTable {
             Err(DataError::of(&self.file, message, help))
         };
         let [Some(first), Some(last)] = [own.first(), own.last()] else {
-            let body = kpa(hold.p_body_pa);
+            let body = kpa(body_pa);
             return refused(format!("the correction has no marker {marker} at {body:.1} kPa body pressure"));
         };
         let p = hold.p_act_pa;
@@ -127,7 +128,8 @@ impl CorrectionTable {
         }
         let above = own.iter().position(|row| row.act_pa >= p).unwrap_or(own.len() - 1);
         let [a, b] = [own[above.saturating_sub(1)], own[above]];
-        let share = if b.act_pa > a.act_pa { ((p - a.act_pa) / (b.act_pa - a.act_pa)).clamp(0.0, 1.0) } else { 1.0 };
+        let width = b.act_pa - a.act_pa;
+        let share = if width > 0.0 { ((p - a.act_pa) / width).clamp(0.0, 1.0) } else { 1.0 };
         Ok([0, 1].map(|axis| a.d_m[axis] + share * (b.d_m[axis] - a.d_m[axis])))
     }
 }

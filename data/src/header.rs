@@ -1,6 +1,6 @@
 //! The header line: which column holds which quantity, in which unit.
 
-use crate::columns::{Field, Head, Sheet, field, meaning, plain};
+use crate::columns::{Field, Head, Sheet, field, meaning, needed, plain};
 use crate::error::{DataError, Result};
 use crate::lines::Lines;
 use crate::units::Measured;
@@ -53,13 +53,13 @@ pub(crate) fn more_channels(sheet: &Sheet) -> usize {
 /// Reads comment lines and the header line of a marker table.
 pub(crate) fn read_header(lines: &mut Lines) -> Result<Sheet> {
     let Some(head) = Head::read(lines)?.1 else {
-        let help = format!("the first line must name the columns: {}", wanted());
+        let help = format!("the first line must name the columns: {}", needed(&QUANTITIES));
         return Err(DataError::of(lines.file(), "the file is empty", help));
     };
     let sheet = head.sheet(&QUANTITIES)?;
-    let lacks = |quantity: &usize| QUANTITIES[*quantity].needed && !sheet.has(*quantity);
-    if let Some(missing) = (0..QUANTITIES.len()).find(lacks) {
-        return Err(absent(&sheet.head, missing, (0..QUANTITIES.len()).filter(lacks).count()));
+    if let Some(missing) = sheet.missing() {
+        let all = (0..QUANTITIES.len()).filter(|quantity| QUANTITIES[*quantity].needed && !sheet.has(*quantity));
+        return Err(absent(&sheet.head, missing, all.count()));
     }
     for quantity in [GAUGE, Z].into_iter().chain(P_MORE).filter(|q| !sheet.has(*q)) {
         // Another program's z_score or z_px is not a coordinate.
@@ -72,11 +72,6 @@ pub(crate) fn read_header(lines: &mut Lines) -> Result<Sheet> {
         return Err(sheet.fault(P_MORE[gap], message, help));
     }
     Ok(sheet)
-}
-
-fn wanted() -> String {
-    let names: Vec<_> = QUANTITIES.iter().filter(|q| q.needed).map(|q| q.expected).collect();
-    names.join(",")
 }
 
 /// Columns that a table of this kind may lack by a slip.
@@ -92,7 +87,7 @@ fn absent(head: &Head, missing: usize, all: usize) -> DataError {
         let help = format!(
             "`ibr data import {} --out FOLDER` reads the tables of tracking programs and wide tables; the columns are {}",
             line.file,
-            wanted()
+            needed(&QUANTITIES)
         );
         return line.fault(format!("column {expected} is missing, {others}"), help);
     }
@@ -107,7 +102,7 @@ fn absent(head: &Head, missing: usize, all: usize) -> DataError {
             let index = head.names.iter().position(|name| name == near).unwrap_or_default();
             head.fault(index, message, format!("did you mean {expected} instead of {near}?"))
         }
-        None => line.fault(message, format!("add it; the columns are {}", wanted())),
+        None => line.fault(message, format!("add it; the columns are {}", needed(&QUANTITIES))),
     }
 }
 

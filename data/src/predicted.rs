@@ -90,8 +90,8 @@ fn lacks(sheet: &Sheet, dataset: &Dataset) -> Option<[String; 2]> {
         let name = FIELDS[field].expected;
         Some([format!("column {name} is missing{why}"), format!("add {name} with a value in every row")])
     };
-    let needed = |field: &usize| FIELDS[*field].needed || *field == PLACE[2] && dataset.has_z();
-    if let Some(field) = (0..FIELDS.len()).filter(needed).find(|field| !sheet.has(*field)) {
+    let z = Some(PLACE[2]).filter(|z| dataset.has_z() && !sheet.has(*z));
+    if let Some(field) = sheet.missing().or(z) {
         return missing(field, "");
     }
     if !sheet.has(PRESSURES[1]) {

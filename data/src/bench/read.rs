@@ -1,7 +1,7 @@
 //! Text to rows, for every kind.
 
 use super::kind::{Bench, BenchKind, BenchRow};
-use crate::columns::{self, Head, Note, TableRow, meaning};
+use crate::columns::{self, Head, Note, TableRow, meaning, needed};
 use crate::error::{DataError, Result};
 use crate::lines::Lines;
 
@@ -28,9 +28,8 @@ pub(super) fn parse(kinds: &'static [BenchKind], file: &str, text: &str) -> Resu
 
 /// The columns of a kind, as a sentence of an error.
 pub(super) fn wanted(kind: &BenchKind) -> String {
-    let names = |needed: bool| kind.columns.iter().filter(move |f| f.needed == needed).map(|f| f.expected);
-    let [needed, others] = [true, false].map(|needed| names(needed).collect::<Vec<_>>());
-    format!("{}; if you like {}", needed.join(","), others.join(", "))
+    let others = kind.columns.iter().filter(|field| !field.needed).map(|field| field.expected);
+    format!("{}; if you like {}", needed(kind.columns), others.collect::<Vec<_>>().join(", "))
 }
 
 /// Every column of the table means something in this kind, and the table or its comments have what the kind is about.

@@ -137,9 +137,9 @@ pub fn import(files: &[PathBuf], options: &ImportOptions, progress: Progress) ->
     let names: Vec<String> = files.iter().map(name).collect();
     let about_toml = table::about_toml(program, &names, &stations, &actuator, &told);
     let about = parse_about("about.toml as imported", &about_toml)?;
-    let read = ReadOptions { about: Some(&about), ..ReadOptions::default() };
-    let dataset = parse_markers("the table made", &mut markers_csv.as_bytes(), read, &mut |_, _| ())
-        .map_err(|error| unusable(file, &cut, &error))?;
+    let read = ReadOptions::of(Some(&about));
+    let dataset = parse_markers("the table made", &mut markers_csv.as_bytes(), read, &mut |_, _| ());
+    let dataset = dataset.map_err(|error| unusable(file, &cut, &error))?;
     let tracks = cut.iter().map(|(run, holds)| track(run, holds, &markers)).collect();
     Ok(Imported { program, told, markers_csv, about_toml, dataset, about, tracks })
 }
