@@ -10,7 +10,12 @@ use models::fabrics::{BiasExtension, Fabric, specimen as fit};
 const MOST_ROWS: usize = 400;
 
 /// Reduces one specimen, but for the shear of a bias test; adds to `warnings` what a user should look at.
-pub(super) fn reduce(coupon: &Coupon, settings: &Reduction, warnings: &mut Vec<String>) -> Result<Specimen, DataError> {
+pub(super) fn reduce(
+    coupon: &Coupon,
+    slack: f64,
+    settings: &Reduction,
+    warnings: &mut Vec<String>,
+) -> Result<Specimen, DataError> {
     let along = coupon.direction.along_yarn();
     let whole = stresses(coupon)?;
     let mut used = up_to_peak(whole.as_deref().unwrap_or(coupon.pulled.rows()));
@@ -38,7 +43,7 @@ pub(super) fn reduce(coupon: &Coupon, settings: &Reduction, warnings: &mut Vec<S
         file: coupon.file.clone(),
         direction: coupon.direction,
         c10_pa: along.then(|| c10_pa(&stress)).flatten(),
-        slack: 0.0,
+        slack,
         poisson,
         strip: None,
         thickness_m: coupon.thickness_m,
@@ -80,23 +85,27 @@ fn poisson(coupon: &Coupon, stress: &[[f64; 2]], up_to: f64) -> Option<f64> {
 }
 
 pub(super) fn fault(coupon: &Coupon, message: String, help: impl Into<String>) -> DataError {
-    let message = format!("specimen {} ({}°): {message}", coupon.specimen, coupon.direction.degrees());
-    DataError::of(&coupon.file, message, help).at_line(coupon.line)
+    DataError::of(&coupon.file, format!("{}: {message}", who(coupon)), help).at_line(coupon.line)
+}
+
+/// Label and direction, for messages.
+pub(super) fn who(coupon: &Coupon) -> String {
+    format!("specimen {} ({}°)", coupon.specimen, coupon.direction.degrees())
 }
 
 /// Nominal strain and stress; none for a bias test without thickness.
 fn stresses(coupon: &Coupon) -> Result<Option<Vec<[f64; 2]>>, DataError> {
     let Pulled::Force(rows) = &coupon.pulled else { return Ok(Some(coupon.pulled.rows().to_vec())) };
-    let sizes =
-        [("length", coupon.length_m, 250.0), ("width", coupon.width_m, 20.0), ("thickness", coupon.thickness_m, 0.05)];
-    let bias = coupon.direction == Direction::Bias;
-    if let Some((name, _, typical)) = sizes.iter().find(|s| s.1.is_none() && !(bias && s.0 == "thickness")) {
-        let what = if *name == "length" { "length (free, between the grips)" } else { name };
+    let Coupon { length_m: length, width_m: width, thickness_m: thickness, .. } = *coupon;
+    let sizes = [("length", length, 250.0), ("width", width, 20.0), ("thickness", thickness, 0.05)];
+    let is_needed = |name: &str| coupon.direction != Direction::Bias || name != "thickness";
+    let missing = sizes.iter().find(|(name, size, _)| size.is_none() && is_needed(name));
+    if let Some((name, _, typical)) = missing {
+        let free = if *name == "length" { " (free, between the grips)" } else { "" };
         let help = format!("write # {name}_mm: {typical} above the header, or --{name} {typical}mm for all files");
-        let message = format!("force and displacement need the {what}, which is missing");
+        let message = format!("force and displacement need the {name}{free}, which is missing");
         return Err(fault(coupon, message, help));
     }
-    let [length, width, thickness] = sizes.map(|s| s.1);
     let farthest = rows.last().map_or(0.0, |row| row[0]);
     if let Some(length) = length.filter(|length| farthest > 3.0 * length) {
         let (far, free) = (1e3 * farthest, 1e3 * length);
@@ -160,11 +169,10 @@ fn sheared(
     let last_m = size.displacement_m(policy::SURELY_SLIP_RAD);
     let kept = rows.partition_point(|row| row[0] <= last_m);
     if kept < rows.len() {
-        let (who, degrees, more) = (&coupon.specimen, coupon.direction.degrees(), rows.len() - kept);
-        let (last_mm, most) = (1e3 * last_m, policy::SURELY_SLIP_RAD.to_degrees());
+        let (who, more, last_mm) = (who(coupon), rows.len() - kept, 1e3 * last_m);
+        let most = policy::SURELY_SLIP_RAD.to_degrees();
         warnings.push(format!(
-            "specimen {who} ({degrees}°): {more} rows beyond {last_mm:.1} mm left out: the shear angle would be above \
-             {most:.0}°, where yarns slip"
+            "{who}: {more} rows beyond {last_mm:.1} mm left out: the shear angle would be above {most:.0}°, where yarns slip"
         ));
         rows.truncate(kept);
     }
@@ -208,10 +216,11 @@ fn stress_advice(coupon: &Coupon, modulus_pa: f64, fits: impl Fn(f64) -> bool) -
         (name != *unit && fits(pa)).then_some(words)
     };
     let mut found: Vec<String> = STRESSES.iter().filter_map(renamed).collect();
-    let other = if strain.to_lowercase().ends_with("ratio") { ("pct", 100.0) } else { ("ratio", 0.01) };
-    if fits(modulus_pa * other.1) {
-        let pa = short(modulus_pa * other.1 * 1e-6);
-        found.push(format!("if {strain} is in another unit, name it strain_{} (modulus {pa} MPa)", other.0));
+    let is_ratio = strain.to_lowercase().ends_with("ratio");
+    let (unit, factor) = if is_ratio { ("pct", 100.0) } else { ("ratio", 0.01) };
+    if fits(modulus_pa * factor) {
+        let mpa = short(modulus_pa * factor * 1e-6);
+        found.push(format!("if {strain} is in another unit, name it strain_{unit} (modulus {mpa} MPa)"));
     }
     if found.is_empty() { format!("check the units of {strain} and {stress}") } else { found.join("; ") }
 }
