@@ -6,6 +6,7 @@ use crate::cells::stem;
 use crate::columns::{Field, TableRow};
 use crate::error::DataError;
 use crate::policy;
+use std::fmt::Display;
 
 /// All specimens of a file, as far as it has been read.
 pub(super) struct Specimens<'a> {
@@ -71,99 +72,87 @@ impl Specimens<'_> {
     }
 
     /// The specimens, complete and checked; the first has what was assumed about the file.
-    pub(super) fn finish(self, defaults: &CouponDefaults) -> Result<Vec<Coupon>, DataError> {
+    pub(super) fn finish(mut self, defaults: &CouponDefaults) -> Result<Vec<Coupon>, DataError> {
         if self.found.is_empty() {
             let message = "the file has a header and no rows";
             return Err(DataError::of(self.file, message, "add the rows of a specimen"));
         }
-        let mut coupons = self.found.iter().map(|raw| self.coupon(raw, defaults)).collect::<Result<Vec<_>, _>>()?;
+        for raw in self.found.iter_mut().filter(|raw| raw.name.is_empty()) {
+            raw.name = self.facts.specimen.clone().unwrap_or_else(|| stem(self.file));
+        }
+        let coupons = self.found.iter().map(|raw| self.coupon(raw, defaults));
+        let mut coupons = coupons.collect::<Result<Vec<_>, _>>()?;
         coupons[0].told.splice(0..0, self.told);
         Ok(coupons)
     }
 
     fn coupon(&self, raw: &Raw, defaults: &CouponDefaults) -> Result<Coupon, DataError> {
-        let specimen = self.specimen(raw);
-        let said = |quantity: usize, typed: Option<f64>| self.number(raw, &specimen, quantity, typed);
-        let direction = self.direction(&specimen, said(DIRECTION, defaults.direction_deg)?, raw)?;
+        let said = |quantity: usize, typed: Option<f64>| self.number(raw, quantity, typed);
+        let direction = self.direction(said(DIRECTION, defaults.direction_deg)?, raw)?;
         let mut told = Vec::new();
-        let (rows, loaded_width_m, jitter) = self.rows(raw, &specimen, &mut told)?;
+        let (rows, loaded_width_m, jitter) = self.rows(raw, &mut told)?;
+        let pulled = if self.curve[0] == STRAIN { Pulled::Stress(rows) } else { Pulled::Force(rows) };
         Ok(Coupon {
             file: self.file.to_string(),
+            specimen: raw.name.clone(),
             line: raw.rows[0].1,
             direction,
-            pulled: if self.curve[0] == STRAIN { Pulled::Stress(rows) } else { Pulled::Force(rows) },
+            pulled,
             columns: self.columns.clone(),
             loaded_width_m,
             width_m: said(WIDTH, defaults.width_m)?,
             length_m: said(LENGTH, defaults.length_m)?,
             thickness_m: said(THICKNESS, defaults.thickness_m)?,
             provenance: self.facts.provenance,
-            specimen,
             jitter,
             told,
         })
     }
 
-    fn specimen(&self, raw: &Raw) -> String {
-        if raw.name.is_empty() {
-            self.facts.specimen.clone().unwrap_or_else(|| stem(self.file))
-        } else {
-            raw.name.clone()
-        }
-    }
-
     /// What the rows, the comments or the caller say; they must not contradict each other.
-    fn number(&self, raw: &Raw, specimen: &str, quantity: usize, typed: Option<f64>) -> Result<Option<f64>, DataError> {
+    fn number(&self, raw: &Raw, quantity: usize, typed: Option<f64>) -> Result<Option<f64>, DataError> {
         let Field { base, expected, .. } = &QUANTITIES[quantity];
         let written = raw.numbers[quantity].or(self.facts.numbers[quantity]);
-        let unit = if quantity == DIRECTION { ("deg", 1.0) } else { ("mm", 1e3) };
-        if let (Some(written), Some(typed)) = (written, typed)
-            && !agree(written, typed)
-        {
-            let message = format!(
-                "specimen {specimen}: the file gives {expected} = {:.6}, --{base} gives {:.6}",
-                written * unit.1,
-                typed * unit.1
-            );
-            let help = format!("leave --{base} out, or correct the file");
-            return Err(self.fault(raw, message, help));
+        let (unit, per_si) = if quantity == DIRECTION { ("deg", 1.0) } else { ("mm", 1e3) };
+        let other = written.zip(typed).filter(|(written, typed)| !agree(*written, *typed));
+        if let Some((written, typed)) = other {
+            let [written, typed] = [written, typed].map(|value| value * per_si);
+            let message = format!("the file gives {expected} = {written:.6}, --{base} gives {typed:.6}");
+            return Err(self.fault(raw, message, format!("leave --{base} out, or correct the file")));
         }
         let value = written.or(typed);
-        match value.filter(|v| quantity != DIRECTION && (*v <= 0.0 || *v > policy::largest_m(base))) {
-            Some(v) => {
-                let message = format!("specimen {specimen}: the {base} is {} {}", v * unit.1, unit.0);
-                let help = format!("write a positive {base} of a specimen, as in {expected}");
-                Err(self.fault(raw, message, help))
-            }
-            None => Ok(value),
+        let is_size = |v: &f64| quantity == DIRECTION || *v > 0.0 && *v <= policy::largest_m(base) || v.is_nan();
+        if let Some(wrong) = value.filter(|v| !is_size(v)) {
+            let message = format!("the {base} is {} {unit}", wrong * per_si);
+            let help = format!("write a positive {base} of a specimen, as in {expected}");
+            return Err(self.fault(raw, message, help));
         }
+        Ok(value)
     }
 
-    fn direction(&self, specimen: &str, degrees: Option<f64>, raw: &Raw) -> Result<Direction, DataError> {
+    fn direction(&self, degrees: Option<f64>, raw: &Raw) -> Result<Direction, DataError> {
         let help = "write 0 (pulled along the warp), 45 (bias), 90 (along the fill) or an angle between (60 for 120, the weave \
                     is the same): as a column direction_deg, as a comment # direction_deg: 0 above the header, or as \
                     --direction 0 for all files without one";
         let Some(degrees) = degrees else {
-            let message = format!("specimen {specimen}: the direction of the pull is not known");
-            return Err(self.fault(raw, message, help));
+            return Err(self.fault(raw, "the direction of the pull is not known", help));
         };
-        let wrong = || self.fault(raw, format!("specimen {specimen}: it is pulled at {degrees} degrees"), help);
+        let wrong = || self.fault(raw, format!("it is pulled at {degrees} degrees"), help);
         Direction::of(degrees).ok_or_else(wrong)
     }
 
     /// The first loading, zeroed on the first row: rows that rise above all before. Steps back that are noise are left out and counted.
-    fn rows(&self, raw: &Raw, specimen: &str, told: &mut Vec<String>) -> Result<Kept, DataError> {
+    fn rows(&self, raw: &Raw, told: &mut Vec<String>) -> Result<Kept, DataError> {
         let ([x, _], column, first) = (self.curve, &self.columns[0], raw.rows[0].0);
         let range = raw.rows.iter().map(|(row, _)| (row[0] - first[0]).abs()).fold(0.0, f64::max);
-        let strain = range / if x == STRAIN { 1.0 } else { self.facts.numbers[LENGTH].unwrap_or(f64::INFINITY) };
-        if strain > policy::LARGEST_STRAIN {
-            let message = format!("specimen {specimen}: {column} reaches a strain of {:.4} %", 100.0 * strain);
-            let help = if x == STRAIN {
-                "name the column strain_pct if it is in per cent"
-            } else {
-                "check the units of displacement and length"
-            };
-            return Err(self.fault(raw, message, help));
+        let (length, unit) = match x {
+            STRAIN => (1.0, "name the column strain_pct if it is in per cent"),
+            _ => (self.facts.numbers[LENGTH].unwrap_or(f64::INFINITY), "check the units of displacement and length"),
+        };
+        if range / length > policy::LARGEST_STRAIN {
+            let percent = 100.0 * (range / length);
+            let message = format!("{column} reaches a strain of {percent:.4} %");
+            return Err(self.fault(raw, message, unit));
         }
         let signs = self.signs(raw, told);
         let mut rows = vec![[0.0, 0.0]];
@@ -184,21 +173,19 @@ impl Specimens<'_> {
             } else if back <= policy::LARGEST_STEP * range {
                 unloading += 1;
             } else {
-                let message =
-                    format!("specimen {specimen}: {column} goes back in one step, after having been larger above");
+                let message = format!("{column} goes back in one step, after having been larger above");
                 let help = "keep the rows of loading only (delete what follows the turn), in the order they were taken";
-                return Err(DataError::of(self.file, message, help).at_line(*line).in_column(column, None));
+                return Err(self.fault(raw, message, help).at_line(*line).in_column(column, None));
             }
         }
         if unloading > 0 {
-            told.push(format!(
-                "{column} comes back: the first loading is used, without {unloading} rows below earlier ones"
-            ));
+            let left_out = format!("without {unloading} rows below earlier ones");
+            told.push(format!("{column} comes back: the first loading is used, {left_out}"));
         }
-        if rows.len() < policy::FEWEST_ROWS {
-            let message = format!("specimen {specimen} has {} rows that rise in {column}", rows.len());
-            let help = format!("give at least {}, from the start of the pull", policy::FEWEST_ROWS);
-            return Err(self.fault(raw, message, help));
+        let (count, fewest) = (rows.len(), policy::FEWEST_ROWS);
+        if count < fewest {
+            let message = format!("it has {count} rows that rise in {column}");
+            return Err(self.fault(raw, message, format!("give at least {fewest}, from the start of the pull")));
         }
         Ok((rows, widths, jitter))
     }
@@ -210,7 +197,8 @@ impl Specimens<'_> {
         let of = |k: usize| raw.rows.iter().map(move |(row, _)| row[k] - first[k]);
         let largest = |k: usize, sign: f64| of(k).map(|v| sign * v).fold(0.0, f64::max);
         let away = |row: &[f64; 2]| (row[0] - first[0]).abs();
-        let farthest = raw.rows.iter().map(|(row, _)| *row).max_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(first);
+        let rows = raw.rows.iter().map(|(row, _)| *row);
+        let farthest = rows.max_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(first);
         if farthest[1].abs() <= first[1].abs() {
             return [1.0; 2];
         }
@@ -221,7 +209,8 @@ impl Specimens<'_> {
         turned.map(|turned| if turned { -1.0 } else { 1.0 })
     }
 
-    fn fault(&self, raw: &Raw, message: String, help: impl Into<String>) -> DataError {
+    fn fault(&self, raw: &Raw, message: impl Display, help: impl Into<String>) -> DataError {
+        let message = format!("specimen {}: {message}", raw.name);
         DataError::of(self.file, message, help).at_line(raw.rows[0].1)
     }
 }

@@ -10,25 +10,12 @@ use crate::units::Measured;
 use spelling::units::Unit;
 
 /// Words of machines for what they measure; times are known so that they begin a specimen.
-const WORDS: [(usize, &[&str]); 5] = [
-    (
-        DISPLACEMENT,
-        &[
-            "extension",
-            "displacement",
-            "elongation",
-            "stroke",
-            "crosshead",
-            "standardweg",
-            "weg",
-            "traversenweg",
-            "verlängerung",
-        ],
-    ),
-    (STRAIN, &["strain", "dehnung"]),
-    (FORCE, &["load", "force", "kraft", "standardkraft", "zugkraft"]),
-    (STRESS, &["stress", "spannung"]),
-    (TIME, &["time", "zeit", "prüfzeit"]),
+const WORDS: [(usize, &str); 5] = [
+    (DISPLACEMENT, "extension displacement elongation stroke crosshead standardweg weg traversenweg verlängerung"),
+    (STRAIN, "strain dehnung"),
+    (FORCE, "load force kraft standardkraft zugkraft"),
+    (STRESS, "stress spannung"),
+    (TIME, "time zeit prüfzeit"),
 ];
 const TIME: usize = QUANTITIES.len();
 /// Words for the sizes of a specimen.
@@ -111,8 +98,8 @@ fn parts(text: &str) -> (String, Option<String>) {
 fn quantity(text: &str) -> Option<usize> {
     let (name, _) = parts(text);
     let words: Vec<&str> = name.split_whitespace().collect();
-    let has = |known: &&[&str]| words.len() <= 3 && words.iter().any(|word| known.contains(word));
-    WORDS.iter().find(|(_, known)| has(known)).map(|(quantity, _)| *quantity)
+    let has = |known: &str| known.split(' ').any(|known| words.contains(&known));
+    WORDS.iter().find(|(_, known)| words.len() <= 3 && has(known)).map(|(quantity, _)| *quantity)
 }
 
 fn unit(quantity: usize, word: &str) -> Option<Unit> {
@@ -130,9 +117,10 @@ fn sizes(sheet: &CellText, rows: &[(u64, Vec<&str>)]) -> Result<Facts, DataError
     for (number, cells) in rows {
         let (name, own) = parts(cells[0]);
         let Some((size, _)) = SIZES.iter().find(|(_, words)| words.contains(&name.as_str())) else { continue };
-        let Some(value) = cells.get(1).and_then(|cell| sheet.number(cell)).filter(|v| v.is_finite()) else { continue };
-        let word =
-            cells.get(2).map(|cell| cell.to_lowercase()).filter(|cell| !cell.is_empty()).or(own).unwrap_or_default();
+        let value = cells.get(1).and_then(|cell| sheet.number(cell));
+        let Some(value) = value.filter(|v| v.is_finite()) else { continue };
+        let behind = cells.get(2).map(|cell| cell.to_lowercase()).filter(|cell| !cell.is_empty());
+        let word = behind.or(own).unwrap_or_default();
         let unit = unit(*size, &word).ok_or_else(|| no_unit(sheet, *number, &name, &word))?;
         facts.numbers[*size] = Some(unit.to_si(value));
     }
@@ -140,16 +128,13 @@ fn sizes(sheet: &CellText, rows: &[(u64, Vec<&str>)]) -> Result<Facts, DataError
 }
 
 fn no_unit(sheet: &CellText, number: u64, name: &str, word: &str) -> DataError {
-    let message = if word.is_empty() {
-        format!("{name} has no unit")
-    } else {
-        format!("{name} has the unit {word}, which is not known")
+    let message = match word {
+        "" => format!("{name} has no unit"),
+        word => format!("{name} has the unit {word}, which is not known"),
     };
-    sheet.fault(
-        number,
-        message,
-        format!("write it behind the name, for example {name} (mm); {}", Measured::Length.sentence()),
-    )
+    let units = Measured::Length.sentence();
+    let help = format!("write it behind the name, for example {name} (mm); {units}");
+    sheet.fault(number, message, help)
 }
 
 /// The columns of every specimen: a new one begins where a quantity comes again.
@@ -178,24 +163,20 @@ fn blocks(
 
 /// Displacement and force where the length between the grips is known, else strain and stress, else strain over force.
 fn curve(sheet: &CellText, number: u64, block: &Found, facts: &Facts) -> Result<[usize; 2], DataError> {
-    let has = |[x, y]: [usize; 2]| block[x].is_some() && block[y].is_some();
-    let sized = facts.numbers[LENGTH].is_some();
-    let whole = [DISPLACEMENT, FORCE];
-    match () {
-        () if has(whole) && (sized || !has([STRAIN, STRESS])) => Ok(whole),
-        () if has([STRAIN, STRESS]) => Ok([STRAIN, STRESS]),
-        () if has([STRAIN, FORCE]) && sized => Ok([STRAIN, FORCE]),
-        () if has([STRAIN, FORCE]) => {
-            let help = "give the free length between the grips: --length 150mm";
-            let message = "the curve is a strain and a force, and the length of the specimen is not known";
-            Err(sheet.fault(number, message, help))
+    let has = |curve: &[usize; 2]| curve.iter().all(|quantity| block[*quantity].is_some());
+    let [whole, strained, mixed] = [[DISPLACEMENT, FORCE], [STRAIN, STRESS], [STRAIN, FORCE]];
+    if facts.numbers[LENGTH].is_some() {
+        if let Some(found) = [whole, strained, mixed].into_iter().find(has) {
+            return Ok(found);
         }
-        () => Err(sheet.fault(
-            number,
-            "the columns are no displacement with force and no strain with stress",
-            "export one of these pairs",
-        )),
+    } else if let Some(found) = [strained, whole].into_iter().find(has) {
+        return Ok(found);
+    } else if has(&mixed) {
+        let message = "the curve is a strain and a force, and the length of the specimen is not known";
+        return Err(sheet.fault(number, message, "give the free length between the grips: --length 150mm"));
     }
+    let message = "the columns are no displacement with force and no strain with stress";
+    Err(sheet.fault(number, message, "export one of these pairs"))
 }
 
 /// The label of every specimen: the cell above its names, where each has one, else its number; none for a single one.
