@@ -104,14 +104,8 @@ impl Recorder {
     fn add_to_stream(&mut self, [run, marker]: [usize; 2], row: &Row, cells: Cells) -> Result<()> {
         let index = *self.by_pair.entry((run, marker)).or_insert(self.streams.len());
         if index == self.streams.len() {
-            self.streams.push(Stream {
-                run,
-                marker,
-                first_line: cells.line.number,
-                first_t_s: row.t_s,
-                segments: Vec::new(),
-                last_t_s: f64::NEG_INFINITY,
-            });
+            let (first_line, first_t_s, last_t_s) = (cells.line.number, row.t_s, f64::NEG_INFINITY);
+            self.streams.push(Stream { run, marker, first_line, first_t_s, segments: Vec::new(), last_t_s });
         }
         let stream = &mut self.streams[index];
         check_time(stream, row, cells)?;
@@ -144,7 +138,8 @@ impl Recorder {
         if (new - old).abs() <= policy::SAME_STATION_M {
             return Ok(());
         }
-        let message = format!("marker {} has two stations: {} mm and {} mm", row.marker, old * 1e3, new * 1e3);
+        let (marker, [old, new]) = (row.marker, [old, new].map(|station_m| station_m * 1e3));
+        let message = format!("marker {marker} has two stations: {old} mm and {new} mm");
         let help = "the station is the place on the undeformed robot: write the same number in every row";
         Err(cells.fault(STATION, message, help))
     }
@@ -166,7 +161,8 @@ fn check_time(stream: &Stream, row: &Row, cells: Cells) -> Result<()> {
 }
 
 fn too_many_holds(line: &Line) -> DataError {
-    let message = format!("more than {} holds in one run, or {} in all", policy::MOST_HOLDS, policy::MOST_SERIES);
+    let [own, all] = [policy::MOST_HOLDS, policy::MOST_SERIES];
+    let message = format!("more than {own} holds in one run, or {all} in all");
     let help = "keep only rows recorded while the pressures are steady; a new hold begins when the phase changes or a \
                 pressure moves by more than 5 %";
     line.fault(message, help)

@@ -100,17 +100,10 @@ fn wrong_y(dataset: &Dataset) -> Option<(bool, String)> {
         places.clone().fold(f64::NEG_INFINITY, f64::max) - places.fold(f64::INFINITY, f64::min)
     };
     if length_m(1) > length_m(0) {
-        let [along_x, along_y] = [0, 1].map(|axis| mm(length_m(axis)));
-        let message = format!(
-            "x and y look exchanged: in the first hold the markers take up {along_y:.1} mm of y and {along_x:.1} mm of x"
-        );
-        return Some((true, message));
+        let [x, y] = [0, 1].map(|axis| mm(length_m(axis)));
+        let taken = format!("the markers take up {y:.1} mm of y and {x:.1} mm of x");
+        return Some((true, format!("x and y look exchanged: in the first hold {taken}")));
     }
-    let message = format!(
-        "y points down: at {:.1} kPa marker {} has moved by {:.1} mm",
-        holds[highest].p_act_pa * 1e-3,
-        dataset.markers[last].name,
-        mm(moved_m)
-    );
-    Some((false, message))
+    let (p, name, moved) = (holds[highest].p_act_pa * 1e-3, &dataset.markers[last].name, mm(moved_m));
+    Some((false, format!("y points down: at {p:.1} kPa marker {name} has moved by {moved:.1} mm")))
 }
