@@ -70,7 +70,8 @@ fn check_seen(file: &str, dataset: &Dataset) -> Result<()> {
     if let Some(blind) = markers.clone().find(|m| holds.clone().all(|h| !dataset.is_seen(h, *m))) {
         let name = &dataset.markers[blind].name;
         let message = format!("marker {name} was seen by fewer than two thirds of the runs in every hold");
-        return Err(DataError::of(file, message, "delete its rows, or look for a misspelt label"));
+        let help = "delete its rows, or look for a misspelt label";
+        return Err(DataError::of(file, message, help));
     }
     if let Some(dark) = holds.clone().find(|h| markers.clone().all(|m| !dataset.is_seen(*h, m))) {
         let p = kpa(dataset.holds[dark].p_act_pa);

@@ -2,6 +2,7 @@
 
 use crate::error::{DataError, Result};
 use crate::lines::{KeptLine, Line};
+use std::collections::HashMap;
 use std::path::Path;
 
 /// What spreadsheets, pandas, R and C libraries write for a missing number.
@@ -124,13 +125,15 @@ fn thousands(line: &Line, text: &str) -> DataError {
     let message = format!(
         "\"{text}\" can be read as {point} (decimal comma) or as {whole} (comma of thousands), and so can every number with a comma here"
     );
-    line.fault(message, "write decimals with a point, or at least one number with another count of decimals")
+    let help = "write decimals with a point, or at least one number with another count of decimals";
+    line.fault(message, help)
 }
 
 fn both(line: &Line, text: &str) -> DataError {
     let (point, whole) = (text.replace(',', "."), text.replace([',', '.'], ""));
     let message = format!("points and commas both stand in numbers: \"{text}\" can be read as {point} or as {whole}");
-    line.fault(message, "write all decimals alike, and no commas of thousands")
+    let help = "write all decimals alike, and no commas of thousands";
+    line.fault(message, help)
 }
 
 /// The name of a file without its folder and its end.
@@ -143,6 +146,32 @@ pub(crate) fn quoted(label: &str) -> String {
         format!("\"{}\"", label.replace('"', "\"\""))
     } else {
         label.to_string()
+    }
+}
+
+/// Labels numbered in order of first appearance.
+#[derive(Debug, Default)]
+pub(crate) struct Labels {
+    pub names: Vec<String>,
+    numbers: HashMap<String, usize>,
+    last: usize,
+}
+
+impl Labels {
+    /// The number of a label, new or known.
+    pub(crate) fn number(&mut self, name: &str) -> usize {
+        // Rows come sorted, or their labels come in the same order again and again.
+        let next = (self.last + 1) % self.names.len().max(1);
+        let is_here = |at: &usize| self.names.get(*at).is_some_and(|known| known == name);
+        self.last = match [self.last, next].into_iter().find(is_here) {
+            Some(at) => at,
+            None => self.numbers.get(name).copied().unwrap_or(self.names.len()),
+        };
+        if self.last == self.names.len() {
+            self.names.push(name.to_string());
+            self.numbers.insert(name.to_string(), self.last);
+        }
+        self.last
     }
 }
 

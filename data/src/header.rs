@@ -100,7 +100,8 @@ fn absent(head: &Head, missing: usize, all: usize) -> DataError {
     match spelling::nearest(expected, unknown).filter(|near| !near.is_empty()) {
         Some(near) => {
             let index = head.names.iter().position(|name| name == near).unwrap_or_default();
-            head.fault(index, message, format!("did you mean {expected} instead of {near}?"))
+            let help = format!("did you mean {expected} instead of {near}?");
+            head.fault(index, message, help)
         }
         None => line.fault(message, format!("add it; the columns are {}", needed(&QUANTITIES))),
     }

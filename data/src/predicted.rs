@@ -145,7 +145,8 @@ impl<'d> Collected<'d> {
         let Some(marker) = names.clone().position(|known| known == name) else {
             let meant = spelling::meant(name, names.clone());
             let help = format!("{meant}its markers are {}", names.collect::<Vec<_>>().join(", "));
-            return Err(row.fault(MARKER, format!("marker \"{name}\" is not in {}", dataset.name), help));
+            let message = format!("marker \"{name}\" is not in {}", dataset.name);
+            return Err(row.fault(MARKER, message, help));
         };
         let mut place = [0.0; 3];
         for (axis, field) in PLACE.into_iter().take(dataset.axes).enumerate() {

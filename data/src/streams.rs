@@ -9,6 +9,7 @@ mod segments;
 
 use std::collections::HashMap;
 
+use crate::cells::Labels;
 use crate::columns::Sheet;
 use crate::error::{DataError, Result};
 use crate::header::{GAUGE, MARKER, PRESSURES, QUANTITIES, RUN, STATION, TIME, X, Y, Z, more_channels};
@@ -17,28 +18,6 @@ use crate::policy;
 use crate::rows::{Cells, Row, lowest_mean_pa};
 use placeholders::Placeholders;
 pub(crate) use segments::{Sample, Segment, Stream, are_near, merged};
-
-/// Labels numbered in order of first appearance.
-#[derive(Debug, Default)]
-pub(crate) struct Labels {
-    pub names: Vec<String>,
-    numbers: HashMap<String, usize>,
-    last: usize,
-}
-
-impl Labels {
-    /// The number of a label, new or known.
-    fn number(&mut self, name: &str) -> usize {
-        if self.names.get(self.last).is_none_or(|last| last != name) {
-            self.last = self.numbers.get(name).copied().unwrap_or(self.names.len());
-            if self.last == self.names.len() {
-                self.names.push(name.to_string());
-                self.numbers.insert(name.to_string(), self.last);
-            }
-        }
-        self.last
-    }
-}
 
 /// Everything kept of a file while it is read.
 #[derive(Debug, Default)]

@@ -118,7 +118,8 @@ impl Specimens<'_> {
         if let Some((written, typed)) = other {
             let [written, typed] = [written, typed].map(|value| value * per_si);
             let message = format!("the file gives {expected} = {written:.6}, --{base} gives {typed:.6}");
-            return Err(self.fault(raw, message, format!("leave --{base} out, or correct the file")));
+            let help = format!("leave --{base} out, or correct the file");
+            return Err(self.fault(raw, message, help));
         }
         let value = written.or(typed);
         let is_size = |v: &f64| quantity == DIRECTION || *v > 0.0 && *v <= policy::largest_m(base) || v.is_nan();
@@ -185,7 +186,8 @@ impl Specimens<'_> {
         let (count, fewest) = (rows.len(), policy::FEWEST_ROWS);
         if count < fewest {
             let message = format!("it has {count} rows that rise in {column}");
-            return Err(self.fault(raw, message, format!("give at least {fewest}, from the start of the pull")));
+            let help = format!("give at least {fewest}, from the start of the pull");
+            return Err(self.fault(raw, message, help));
         }
         Ok((rows, widths, jitter))
     }

@@ -173,7 +173,8 @@ fn curve(sheet: &CellText, number: u64, block: &Found, facts: &Facts) -> Result<
         return Ok(found);
     } else if has(&mixed) {
         let message = "the curve is a strain and a force, and the length of the specimen is not known";
-        return Err(sheet.fault(number, message, "give the free length between the grips: --length 150mm"));
+        let help = "give the free length between the grips: --length 150mm";
+        return Err(sheet.fault(number, message, help));
     }
     let message = "the columns are no displacement with force and no strain with stress";
     Err(sheet.fault(number, message, "export one of these pairs"))

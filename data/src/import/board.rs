@@ -48,7 +48,8 @@ pub fn read_board(path: &Path) -> Result<Vec<[f64; 4]>> {
     }
     // Whether they make a plane is known before the tracks are read; the side of a square does not matter for it.
     Homography::of_board(&corners, 1.0).map_err(|message| {
-        sheet.fault(0, message, "give at least four corners, no three on a line: a table column,row,x,y")
+        let help = "give at least four corners, no three on a line: a table column,row,x,y";
+        sheet.fault(0, message, help)
     })?;
     Ok(corners)
 }

@@ -229,7 +229,8 @@ impl Roles {
             return Ok(());
         }
         let message = format!("two columns hold the {quantity}, the second is {text}");
-        Err(sheet.fault(line, message, format!("say which one: --map {quantity}={text}")))
+        let help = format!("say which one: --map {quantity}={text}");
+        Err(sheet.fault(line, message, help))
     }
 
     pub(super) fn lengths(&self, sheet: &CellText, line: u64) -> Result<Lengths> {

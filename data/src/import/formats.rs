@@ -45,6 +45,7 @@ pub(crate) fn recognised(sheet: &CellText, options: &ImportOptions) -> Result<&'
             "understood are {}. For a table with other names of columns say which is which: --map t=Time,marker=Point,x=PosX,y=PosY",
             kinds.join("; ")
         );
-        sheet.fault(1, format!("no program is known that writes such a file; it begins with \"{shown}\""), help)
+        let message = format!("no program is known that writes such a file; it begins with \"{shown}\"");
+        sheet.fault(1, message, help)
     })
 }

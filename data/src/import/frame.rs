@@ -155,7 +155,8 @@ impl Scene<'_> {
         if apart > 0.0 {
             return Ok(apart);
         }
-        Err(self.fault("the two places of --known-distance are one", "name two different ones"))
+        let help = "name two different ones";
+        Err(self.fault("the two places of --known-distance are one", help))
     }
 
     fn where_is(&self, run: usize, place: &FilePlace) -> Result<Found> {

@@ -1,12 +1,11 @@
 //! What the columns of a tracking table hold. Every kind of file declares it; one loop reads the rows.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
 
 use super::options::ImportOptions;
 use super::recording::{Lengths, Pivot, Recording, counted};
 use super::sheet::CellText;
-use crate::cells::{is_nothing, label};
+use crate::cells::{Labels, is_nothing, label};
 use crate::error::Result;
 
 /// What a column of a marker holds.
@@ -204,26 +203,21 @@ fn of(name: &str) -> String {
 #[derive(Default)]
 struct Runs {
     pivots: Vec<Pivot>,
-    numbers: HashMap<String, usize>,
-    last: usize,
+    labels: Labels,
 }
 
 impl Runs {
     /// The recording of the run of a row.
     fn of(&mut self, layout: &Layout, cells: &[&str]) -> &mut Pivot {
-        let [run, actuator] = [layout.run, layout.actuator].map(|column| column.map(|column| cell(cells, column)));
-        let run = run.map(label).unwrap_or_default();
-        let is_last = |pivot: &Pivot| pivot.recording.run.as_deref().unwrap_or_default() == run;
-        if !self.pivots.get(self.last).is_some_and(is_last) {
-            self.last = self.numbers.get(run).copied().unwrap_or(self.pivots.len());
-            if self.last == self.pivots.len() {
-                let mut pivot = Pivot::new(layout.lengths, layout.second.is_some());
-                pivot.recording.run = Some(run.to_string()).filter(|run| !run.is_empty());
-                pivot.recording.actuator = actuator.map(str::to_lowercase).filter(|kind| !kind.is_empty());
-                self.numbers.insert(run.to_string(), self.last);
-                self.pivots.push(pivot);
-            }
+        let run = layout.run.map_or("", |column| label(cell(cells, column)));
+        let number = self.labels.number(run);
+        if number == self.pivots.len() {
+            let actuator = layout.actuator.map(|column| cell(cells, column).to_lowercase());
+            let mut pivot = Pivot::new(layout.lengths, layout.second.is_some());
+            pivot.recording.run = Some(run.to_string()).filter(|run| !run.is_empty());
+            pivot.recording.actuator = actuator.filter(|kind| !kind.is_empty());
+            self.pivots.push(pivot);
         }
-        &mut self.pivots[self.last]
+        &mut self.pivots[number]
     }
 }

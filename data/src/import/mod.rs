@@ -124,7 +124,8 @@ pub fn import(files: &[PathBuf], options: &ImportOptions, progress: Progress) ->
     let cut = cut(file, runs, options, &mut told)?;
     if let Some((unknown, _)) = options.stations_m.iter().find(|(name, _)| !markers.contains(name)) {
         let message = format!("--stations names {unknown}, which is not a marker");
-        return Err(DataError::of(file, message, format!("the markers are {}", markers.join(", "))));
+        let help = format!("the markers are {}", markers.join(", "));
+        return Err(DataError::of(file, message, help));
     }
     let stations = table::stations(&cut, &markers, options);
     if stations.iter().any(|(.., given)| !given) {

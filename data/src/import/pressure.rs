@@ -124,7 +124,8 @@ impl Log {
                 // Absolute pressures include the room's.
                 if now_pa.abs() > HIGHEST_GAUGE_PA + ROOM_PA[1] {
                     let message = Range::ACTUATOR_PRESSURE.mistake(now_pa.abs());
-                    return Err(sheet.fault(number, message, "check the reading and the unit of the column"));
+                    let help = "check the reading and the unit of the column";
+                    return Err(sheet.fault(number, message, help));
                 }
                 let before_pa = values.last().copied().filter(|_| t_s - last_s < SAME_TIME_S);
                 let gauge_pa = before_pa.unwrap_or(now_pa) - options.room_pa.unwrap_or(0.0);

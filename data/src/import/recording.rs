@@ -1,5 +1,6 @@
 //! What a tracking file holds, whatever program wrote it: places of markers over time, in the file's own units and axes.
 
+use crate::cells::Labels;
 use std::collections::HashMap;
 
 /// What the numbers of positions are.
@@ -51,11 +52,10 @@ pub(crate) const LOST: [f64; 3] = [f64::NAN; 3];
 #[derive(Debug, Default)]
 pub(crate) struct Pivot {
     pub recording: Recording,
-    numbers: HashMap<String, usize>,
+    markers: Labels,
     frames: HashMap<u64, usize>,
     /// Sum and count of readings in a frame, by pressure.
     readings: [Vec<[f64; 2]>; 2],
-    last_marker: Option<usize>,
     /// Bits of the last time, and its frame.
     last: Option<(u64, usize)>,
 }
@@ -68,20 +68,8 @@ impl Pivot {
 
     /// The number of a marker, new or known.
     pub(super) fn marker(&mut self, name: &str) -> usize {
-        // Markers come in the same order in every frame.
-        let next = self.last_marker.map_or(0, |last| last + 1) % self.recording.markers.len().max(1);
-        if self.recording.markers.get(next).is_some_and(|known| known == name) {
-            self.last_marker = Some(next);
-            return next;
-        }
-        if let Some(&number) = self.numbers.get(name) {
-            self.last_marker = Some(number);
-            return number;
-        }
-        let number = self.recording.markers.len();
-        self.numbers.insert(name.to_string(), number);
-        self.recording.markers.push(name.to_string());
-        self.recording.places.push(Vec::new());
+        let number = self.markers.number(name);
+        self.recording.places.resize_with(self.markers.names.len(), Vec::new);
         number
     }
 
@@ -102,7 +90,7 @@ impl Pivot {
 
     /// Puts a marker; false if it has a place in this frame already. Placeholders are counted.
     pub(super) fn put(&mut self, frame: usize, marker: usize, place: [f64; 3], likely: bool) -> bool {
-        let Recording { places, dropped, twice, markers, times, .. } = &mut self.recording;
+        let Recording { places, dropped, twice, times, .. } = &mut self.recording;
         let zero = place == [0.0; 3];
         let why = [!(place[0].is_finite() && place[1].is_finite()), !likely && !zero, zero];
         if let Some(why) = why.into_iter().position(|is| is) {
@@ -115,7 +103,7 @@ impl Pivot {
         }
         let free = column[frame][0].is_nan();
         if !free && twice.is_none() {
-            *twice = Some((markers[marker].clone(), times[frame]));
+            *twice = Some((self.markers.names[marker].clone(), times[frame]));
         }
         column[frame] = place;
         free
@@ -135,7 +123,8 @@ impl Pivot {
 
     /// Frames by rising time; markers never seen are left out.
     pub(super) fn finish(self) -> Recording {
-        let Pivot { mut recording, readings, .. } = self;
+        let Pivot { mut recording, markers, readings, .. } = self;
+        recording.markers = markers.names;
         let count = recording.times.len();
         recording.places.iter_mut().for_each(|column| column.resize(count, LOST));
         recording.pressures = readings.map(|sums| {

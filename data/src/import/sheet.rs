@@ -24,7 +24,8 @@ pub(crate) struct CellText<'a> {
 impl<'a> CellText<'a> {
     pub(crate) fn new(file: &'a str, text: &'a str) -> Result<CellText<'a>> {
         if text.contains('\0') {
-            return Err(DataError::of(file, "the file is not text", "export it as text: CSV, TXT or XML"));
+            let help = "export it as text: CSV, TXT or XML";
+            return Err(DataError::of(file, "the file is not text", help));
         }
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let (first, rest) = text.split_once('\n').unwrap_or((text, ""));

@@ -81,7 +81,8 @@ pub(super) fn rate_of(sheet: &CellText, line: u64, cell: &str) -> Result<f64> {
     let rate = sheet.number(cell).filter(|rate| spelling::units::Range::FRAME_RATE.check(*rate).is_ok());
     rate.ok_or_else(|| {
         let help = "export the file again with its frames per second";
-        sheet.fault(line, format!("\"{cell}\" is not a number of frames per second"), help)
+        let message = format!("\"{cell}\" is not a number of frames per second");
+        sheet.fault(line, message, help)
     })
 }
 

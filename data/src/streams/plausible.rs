@@ -36,7 +36,8 @@ pub(crate) fn check_units(sheet: &Sheet, largest: &[f64; QUANTITIES.len()]) -> R
 fn unit_error(sheet: &Sheet, quantity: usize, largest: f64, word: &str) -> DataError {
     let (base, suffix) = (QUANTITIES[quantity].base, if word == "metres" { "m" } else { "mm" });
     let message = format!("the largest value of this column is {largest:.4}: it looks like {word}");
-    sheet.fault(quantity, message, format!("name the column {base}_{suffix}"))
+    let help = format!("name the column {base}_{suffix}");
+    sheet.fault(quantity, message, help)
 }
 
 fn check_small_pressures(sheet: &Sheet, p_body: f64, p_act: f64) -> Result<()> {
