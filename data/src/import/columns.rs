@@ -133,10 +133,12 @@ pub(crate) struct Roles {
     pub marker: Option<usize>,
     /// Body's and actuator's pressure, with their pascals.
     pub pressures: [Option<(usize, f64)>; 2],
-    /// Column, axis, marker and unit of every coordinate.
-    pub coordinates: Vec<(usize, usize, String, Option<String>)>,
-    /// Column and marker of likelihoods, and the largest that there is.
-    pub likelihoods: Vec<(usize, String, f64)>,
+    /// Column, marker and part of every coordinate and likelihood, the part as in [`PARTS`].
+    pub columns: Vec<(usize, String, usize)>,
+    /// Units of the coordinates.
+    pub units: Vec<Option<String>>,
+    /// The largest likelihood that there is.
+    pub most_likely: Option<f64>,
     pub told: Vec<String>,
 }
 
@@ -215,13 +217,15 @@ impl Roles {
             "likelihood" => {
                 // Scores of peaks may be above one.
                 let most = if name.has(&["score"]) { f64::INFINITY } else { 1.0 };
-                self.likelihoods.push((index, name.marker(), most));
+                self.most_likely = Some(self.most_likely.map_or(most, |before| before.max(most)));
+                self.columns.push((index, name.marker(), LIKELIHOOD));
                 false
             }
             _ => {
                 let named = PARTS[..LIKELIHOOD].iter().position(|axis| *axis == quantity);
                 let axis = named.or(name.coordinate().map(|(part, _)| part)).unwrap_or(0);
-                self.coordinates.push((index, axis, name.marker(), name.unit.clone()));
+                self.columns.push((index, name.marker(), axis));
+                self.units.push(name.unit.clone());
                 false
             }
         };
@@ -234,7 +238,7 @@ impl Roles {
     }
 
     pub(super) fn lengths(&self, sheet: &CellText, line: u64) -> Result<Lengths> {
-        let mut units = self.coordinates.iter().map(|(.., unit)| unit.as_deref());
+        let mut units = self.units.iter().map(Option::as_deref);
         let Some(first) = units.next().flatten() else { return Ok(Lengths::Unsaid) };
         if let Some(other) = units.find(|unit| *unit != Some(first)) {
             let message = format!("coordinates are in {first} and in {}", other.unwrap_or("no unit"));

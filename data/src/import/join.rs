@@ -7,7 +7,7 @@ use super::options::ImportOptions;
 use super::pressure::Log;
 use super::recording::{Recording, counted};
 use super::sheet::CellText;
-use super::{binary, formats, labels, loggers};
+use super::{binary, formats, labels, loggers, tables};
 use crate::agreement::{Doubt, LogSeen, stands_still};
 use crate::cells::stem;
 use crate::error::{DataError, Result};
@@ -144,7 +144,7 @@ impl Joined {
                 return Err(sheet.fault(0, message, help));
             }
             if options.likelihood.is_some() && format.likelihood.is_none() {
-                words.push("the files have no likelihood: --likelihood was not used".to_string());
+                words.push(tables::NOT_USED.to_string());
             }
             words.extend(pressures(sheet, &mut run, log, options)?);
             words.into_iter().for_each(|word| self.tell(word));

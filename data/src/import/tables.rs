@@ -53,7 +53,7 @@ pub(super) const TRACKPY: Format = Format {
 /// What the columns of a table with a time and coordinates are.
 fn of_roles(begin: &Beginning) -> Option<Roles> {
     let roles = Roles::of(begin.sheet, 1, begin.head.first()?, begin.options).ok()?;
-    Some(roles).filter(|roles| roles.time.is_some() && roles.coordinates.len() >= 2)
+    Some(roles).filter(|roles| roles.time.is_some() && roles.units.len() >= 2)
 }
 
 /// A row for every time and marker.
@@ -71,14 +71,15 @@ fn trackpy(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> 
 
 fn long_of(sheet: &CellText, roles: &Roles, mut layout: Layout) -> Result<Vec<Recording>> {
     layout.marker = roles.marker;
-    let column = |axis: usize| Some((roles.coordinates.iter().find(|c| c.1 == axis)?.0, "", axis));
-    if column(0).is_none() || column(1).is_none() {
+    let of_part = |part: usize| roles.columns.iter().filter(move |column| column.2 == part);
+    let first = |axis: usize| Some((of_part(axis).next()?.0, "", axis));
+    if first(0).is_none() || first(1).is_none() {
         let help = "say which: --map x=PosX,y=PosY";
         return Err(sheet.fault(layout.line, "no columns of x and y", help));
     }
-    layout.columns(sheet, (0..LIKELIHOOD).filter_map(column))?;
-    layout.columns(sheet, roles.likelihoods.iter().map(|(column, ..)| (*column, "", LIKELIHOOD)))?;
-    layout.y_down = roles.coordinates.iter().any(|(_, axis, name, _)| *axis == 1 && name == "down");
+    layout.columns(sheet, (0..LIKELIHOOD).filter_map(first))?;
+    layout.columns(sheet, of_part(LIKELIHOOD).map(|column| (column.0, "", LIKELIHOOD)))?;
+    layout.y_down = of_part(1).any(|(_, name, _)| name == "down");
     layout.twice = Some("name the column that identifies the run: --map run=Trial");
     layout.read(sheet, 2, sheet.lines().skip(1))
 }
@@ -86,13 +87,16 @@ fn long_of(sheet: &CellText, roles: &Roles, mut layout: Layout) -> Result<Vec<Re
 /// A row for every time and two columns or three for every marker: `t, x1, y1, x2, y2, …`.
 fn wide(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> {
     let (roles, mut layout) = begin(sheet, options)?;
-    layout.columns(sheet, roles.coordinates.iter().map(|(column, axis, name, _)| (*column, name, *axis)))?;
-    let has = |marker: &String| roles.coordinates.iter().any(|(_, _, known, _)| known == marker);
-    let likelihoods = roles.likelihoods.iter().filter(|(_, marker, _)| has(marker));
-    layout.columns(sheet, likelihoods.map(|(column, name, _)| (*column, name, LIKELIHOOD)))?;
+    let (mut likelihoods, places): (Vec<_>, Vec<_>) =
+        roles.columns.into_iter().partition(|(.., part)| *part == LIKELIHOOD);
+    likelihoods.retain(|(_, name, _)| places.iter().any(|(_, known, _)| known == name));
+    layout.columns(sheet, places.into_iter().chain(likelihoods))?;
     layout.rises = true;
     layout.read(sheet, 2, sheet.lines().skip(1))
 }
+
+/// What an import says where no file of it has a likelihood.
+pub(super) const NOT_USED: &str = "the files have no likelihood: --likelihood was not used";
 
 /// What the columns of a table are, and what both kinds have.
 fn begin(sheet: &CellText, options: &ImportOptions) -> Result<(Roles, Layout)> {
@@ -105,10 +109,10 @@ fn begin(sheet: &CellText, options: &ImportOptions) -> Result<(Roles, Layout)> {
     let mut layout = Layout::new(first, time, second, roles.lengths(sheet, first)?);
     (layout.run, layout.actuator, layout.pressures) = (roles.run, roles.actuator, roles.pressures);
     layout.told.clone_from(&roles.told);
-    if let Some(most) = roles.likelihoods.iter().map(|(.., most)| *most).reduce(f64::max) {
+    if let Some(most) = roles.most_likely {
         layout.unlikely(options, NOT_SEEN, most, "less likely than");
     } else if options.likelihood.is_some() {
-        layout.told.push("the files have no likelihood: --likelihood was not used".to_string());
+        layout.told.push(NOT_USED.to_string());
     }
     Ok((roles, layout))
 }

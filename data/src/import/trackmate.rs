@@ -22,11 +22,15 @@ pub(super) const XML: Format = Format {
     read: xml,
 };
 
+/// Where a spot has its place.
+const PLACES: [&str; 3] = ["POSITION_X", "POSITION_Y", "POSITION_Z"];
+
 fn spots<'s>(sheet: &CellText<'s>, _options: &ImportOptions) -> Result<Vec<Recording>> {
     let header = sheet.head(1).pop().unwrap_or_default();
     let column = |name: &str| header.iter().position(|known| *known == name);
-    let [track, x, y, z, t, frame] =
-        ["TRACK_ID", "POSITION_X", "POSITION_Y", "POSITION_Z", "POSITION_T", "FRAME"].map(column);
+    let [track, t, frame] = ["TRACK_ID", "POSITION_T", "FRAME"].map(column);
+    let places = PLACES.map(column);
+    let [x, ..] = places;
     // Up to three more rows of names and units.
     let cell = |line: &'s str, index: Option<usize>| index.and_then(|index| sheet.split(line).get(index).copied());
     let is_head = |line: &&'s str| sheet.number(cell(line, x).unwrap_or_default()).is_none();
@@ -38,8 +42,8 @@ fn spots<'s>(sheet: &CellText<'s>, _options: &ImportOptions) -> Result<Vec<Recor
     let lengths = unit(x).and_then(|unit| lengths(&unit)).unwrap_or(Lengths::Pixels);
     let mut layout = Layout::new(1, time.unwrap_or_default(), second, lengths);
     (layout.marker, layout.named, layout.row_of) = (track, false, ["spot", "track"]);
-    let places = [x, y, z].into_iter().enumerate();
-    layout.columns(sheet, places.filter_map(|(part, index)| Some((index?, "", part))))?;
+    let places = places.into_iter().enumerate().filter_map(|(part, index)| Some((index?, "", part)));
+    layout.columns(sheet, places)?;
     layout.read(sheet, 2, sheet.lines().skip(1 + heads.len()))
 }
 
@@ -53,9 +57,9 @@ impl<'a> Tag<'a> {
     fn get(&self, key: &str) -> Option<&'a str> {
         let mut rest = self.attributes;
         while let Some((before, after)) = rest.split_once('=') {
-            let quote = after.trim_start().chars().next().filter(|c| matches!(c, '"' | '\''))?;
-            let inside = &after.trim_start()[1..];
-            let (value, tail) = inside.split_once(quote)?;
+            let after = after.trim_start();
+            let quote = after.chars().next().filter(|c| matches!(c, '"' | '\''))?;
+            let (value, tail) = after[1..].split_once(quote)?;
             if before.trim() == key {
                 return Some(value);
             }
@@ -71,22 +75,29 @@ impl<'a> Tag<'a> {
 
 fn tags(text: &str) -> impl Iterator<Item = Tag<'_>> {
     text.split('<').skip(1).filter_map(|part| {
-        let inside = part.split_once('>').map_or(part, |(inside, _)| inside).trim_end_matches('/');
-        let (name, attributes) = inside.split_once(|c: char| c.is_ascii_whitespace()).unwrap_or((inside, ""));
-        name.starts_with(|c: char| c.is_ascii_alphabetic()).then_some(Tag { name, attributes })
+        let inside = part.split('>').next()?.trim_end_matches('/');
+        let space = inside.find(|c: char| c.is_ascii_whitespace()).unwrap_or(inside.len());
+        let (name, attributes) = inside.split_at(space);
+        let is_tag = name.starts_with(|c: char| c.is_ascii_alphabetic());
+        is_tag.then_some(Tag { name, attributes })
     })
 }
 
 fn xml(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
-    let said = |key: &str| tags(sheet.text).take(8).find_map(|tag| tag.get(key));
-    let unit = said("spaceUnits").or_else(|| said("spatialunits")).and_then(|unit| lengths(&unit.to_lowercase()));
-    let time = said("timeUnits").or_else(|| said("timeunits")).map(str::to_lowercase).unwrap_or_default();
+    let said = |keys: [&str; 2]| {
+        let of = |key: &str| tags(sheet.text).take(8).find_map(|tag| tag.get(key));
+        of(keys[0]).or_else(|| of(keys[1])).map(str::to_lowercase)
+    };
+    let unit = said(["spaceUnits", "spatialunits"]).and_then(|unit| lengths(&unit));
+    let time = said(["timeUnits", "timeunits"]).unwrap_or_default();
     let second = si(&time, Measured::Time).filter(|_| !is_frame(&time));
     let mut pivot = Pivot::new(unit.unwrap_or(Lengths::Pixels), second.is_some());
     let exported = tags(sheet.text).any(|tag| tag.name == "particle");
-    let single = if exported { detections(sheet, second, &mut pivot)? } else { model(sheet, second, &mut pivot)? };
+    let read = if exported { detections } else { model };
+    let single = read(sheet, second, &mut pivot)?;
     if single > 0 {
-        pivot.recording.told.push(format!("left out: {} of no track", counted(single, "spot")));
+        let spots = counted(single, "spot");
+        pivot.recording.told.push(format!("left out: {spots} of no track"));
     }
     pivot.recording.named = false;
     Ok(vec![pivot.finish()])
@@ -107,7 +118,8 @@ fn detections(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Resul
             "detection" => {
                 let time = tag.number("t").map(|t| t * step);
                 let what = || format!("a detection of track {track}");
-                put(sheet, pivot, (time, &track.to_string()), ["x", "y", "z"].map(|axis| tag.number(axis)), what)?;
+                let place = ["x", "y", "z"].map(|axis| tag.number(axis));
+                put(sheet, pivot, (time, &track.to_string()), place, what)?;
             }
             _ => {}
         }
@@ -123,11 +135,11 @@ fn model(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<u64
         match tag.name {
             "Track" => {
                 count += 1;
-                track = tag.get("name").map_or_else(|| count.to_string(), str::to_string);
+                track = tag.get("name").map_or(count.to_string(), str::to_string);
             }
             "Edge" => {
-                let ends = ["SPOT_SOURCE_ID", "SPOT_TARGET_ID"].into_iter().filter_map(|key| tag.get(key));
-                ends.for_each(|spot| drop(track_of.insert(spot, track.clone())));
+                let ends = ["SPOT_SOURCE_ID", "SPOT_TARGET_ID"].map(|key| tag.get(key));
+                track_of.extend(ends.into_iter().flatten().map(|spot| (spot, track.clone())));
             }
             _ => {}
         }
@@ -138,9 +150,13 @@ fn model(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<u64
             single += 1;
             continue;
         };
-        let time = second.map_or_else(|| tag.number("FRAME"), |second| tag.number("POSITION_T").map(|t| t * second));
-        let place = ["POSITION_X", "POSITION_Y", "POSITION_Z"].map(|axis| tag.number(axis));
-        put(sheet, pivot, (time, track), place, || format!("spot {}", tag.get("ID").unwrap_or_default()))?;
+        let time = match second {
+            Some(second) => tag.number("POSITION_T").map(|t| t * second),
+            None => tag.number("FRAME"),
+        };
+        let place = PLACES.map(|axis| tag.number(axis));
+        let what = || format!("spot {}", tag.get("ID").unwrap_or_default());
+        put(sheet, pivot, (time, track), place, what)?;
     }
     Ok(single)
 }
