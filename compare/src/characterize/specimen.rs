@@ -2,6 +2,7 @@
 
 use super::Reduction;
 use super::result::{BiasStrip, Specimen};
+use super::warn::{self, who};
 use crate::policy;
 use data::{Coupon, DataError, Direction, Pulled};
 use models::fabrics::{BiasExtension, Fabric, specimen as fit};
@@ -25,7 +26,7 @@ pub(super) fn reduce(
         let help = format!("give at least {least} rows of loading, tension as a positive {column}");
         return Err(fault(coupon, message, help));
     }
-    super::warn::slips(coupon, &used, warnings);
+    warn::slips(coupon, &used, warnings);
     let up_to = settings.modulus_strain * if along { 1.0 } else { 2.0 };
     let poisson = poisson(coupon, whole.as_deref().unwrap_or_default(), up_to);
     used = fit::thinned(&used, MOST_ROWS);
@@ -36,7 +37,7 @@ pub(super) fn reduce(
     if let Some(modulus_pa) = modulus_pa.filter(|_| !settings.any_modulus) {
         plausible(coupon, modulus_pa)?;
     }
-    super::warn::stiffens(coupon, &stress, modulus_pa.map(|modulus_pa| [modulus_strain, modulus_pa]), warnings);
+    warn::stiffens(coupon, &stress, modulus_pa.map(|modulus_pa| [modulus_strain, modulus_pa]), warnings);
     let c10_pa = |rows: &[[f64; 2]]| Some([fit::c10_pa(rows)?, fit::c10_by_share_pa(rows)?]);
     Ok(Specimen {
         name: coupon.specimen.clone(),
@@ -86,11 +87,6 @@ fn poisson(coupon: &Coupon, stress: &[[f64; 2]], up_to: f64) -> Option<f64> {
 
 pub(super) fn fault(coupon: &Coupon, message: String, help: impl Into<String>) -> DataError {
     DataError::of(&coupon.file, format!("{}: {message}", who(coupon)), help).at_line(coupon.line)
-}
-
-/// Label and direction, for messages.
-pub(super) fn who(coupon: &Coupon) -> String {
-    format!("specimen {} ({}°)", coupon.specimen, coupon.direction.degrees())
 }
 
 /// Nominal strain and stress; none for a bias test without thickness.

@@ -2,10 +2,14 @@
 
 use super::result::{Replay, Specimen, directions};
 use super::scatter::{Scatter, deviating};
-use super::specimen::who;
 use crate::policy;
 use data::{Coupon, Direction, Pulled};
 use models::fabrics::specimen::{self as fit, Slip};
+
+/// Label and direction, for messages.
+pub(super) fn who(coupon: &Coupon) -> String {
+    format!("specimen {} ({}°)", coupon.specimen, coupon.direction.degrees())
+}
 
 /// A specimen that slipped in its grips, and rows that were left out. Rows: strain or displacement, and stress or force.
 pub(super) fn slips(coupon: &Coupon, rows: &[[f64; 2]], warnings: &mut Vec<String>) {

@@ -124,7 +124,9 @@ impl Layout {
         let (mut cells, mut nameless) = (Vec::new(), 0);
         for (number, line) in rows {
             sheet.split_into(line, &mut cells);
-            self.width.map_or(Ok(()), |width| sheet.whole_row(&cells, width, number))?;
+            if let Some(width) = self.width {
+                sheet.whole_row(&cells, width, number)?;
+            }
             let marker = self.marker.map(|column| label(cell(&cells, column)));
             if marker.is_some_and(is_nothing) && self.tracks[0].name.is_empty() {
                 nameless += 1;
@@ -157,11 +159,10 @@ impl Layout {
         }
         let frame = pivot.frame(t);
         for Track { name, columns } in &self.tracks {
-            let value = |part: usize, absent: f64| match columns[part] {
-                Some(column) => sheet.finite(cell(cells, column)).ok_or_else(|| {
-                    sheet.no_number(cell(cells, column), number, &format!("{} of {}", PARTS[part], of(name)))
-                }),
-                None => Ok(absent),
+            let value = |part: usize, absent: f64| {
+                let Some(text) = columns[part].map(|column| cell(cells, column)) else { return Ok(absent) };
+                let what = || format!("{} of {}", PARTS[part], of(name));
+                sheet.finite(text).ok_or_else(|| sheet.no_number(text, number, &what()))
             };
             let likelihood = value(LIKELIHOOD, f64::NAN)?;
             let [least, most] = self.likely;
@@ -176,16 +177,17 @@ impl Layout {
                 None => name.into(),
             };
             let place = [x, if self.y_down { -y } else { y }, z];
-            let marker = pivot.marker(&name);
-            if !pivot.put(frame, marker, place, likelihood.is_nan() || likelihood >= least)
-                && let Some(help) = self.twice
-            {
+            let (marker, likely) = (pivot.marker(&name), likelihood.is_nan() || likelihood >= least);
+            let is_new = pivot.put(frame, marker, place, likely);
+            if let Some(help) = self.twice.filter(|_| !is_new) {
                 let message = format!("marker {name} is there twice at {time} of one run");
                 return Err(sheet.fault(number, message, help));
             }
         }
-        for (which, (column, pa)) in self.pressures.iter().enumerate().filter_map(|(k, p)| p.map(|p| (k, p))) {
-            pivot.read(frame, which, pa * sheet.expect(cell(cells, column), number, "pressure")?);
+        for (which, pressure) in self.pressures.into_iter().enumerate() {
+            let Some((column, pa)) = pressure else { continue };
+            let value = sheet.expect(cell(cells, column), number, "pressure")?;
+            pivot.read(frame, which, pa * value);
         }
         Ok(())
     }

@@ -128,7 +128,10 @@ impl Pivot {
         let count = recording.times.len();
         recording.places.iter_mut().for_each(|column| column.resize(count, LOST));
         recording.pressures = readings.map(|sums| {
-            let mean = |k: usize| sums.get(k).filter(|sum| sum[1] > 0.0).map_or(f64::NAN, |sum| sum[0] / sum[1]);
+            let mean = |k: usize| match sums.get(k) {
+                Some([sum, count]) if *count > 0.0 => sum / count,
+                _ => f64::NAN,
+            };
             (!sums.is_empty()).then(|| (0..count).map(mean).collect())
         });
         recording.sort();
