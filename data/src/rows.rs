@@ -346,7 +346,9 @@ impl<'a> Cells<'a> {
 
     /// The fault of a pressure below its bounds.
     pub(crate) fn too_low(&self, quantity: usize, value_pa: f64) -> DataError {
-        let help = "give gauge pressure (0 is the air of the room); subtract the sensor's zero";
+        let zero = "give gauge pressure (0 is the air of the room); subtract the sensor's zero";
+        let exchanged = "; or the columns of body and actuator are exchanged";
+        let help = zero.to_string() + if quantity == P_BODY { exchanged } else { "" };
         self.fault(quantity, pressure_bounds(quantity).mistake(value_pa), help)
     }
 }

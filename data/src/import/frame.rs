@@ -249,7 +249,7 @@ impl Scene<'_> {
         }
         let degrees = angle.to_degrees();
         let message = format!("at rest the robot is at {degrees:.0} degrees to the file's {}", axis.word());
-        let help = format!("turn it: --turn {degrees:.1}deg; or correct --base or --axes");
+        let help = format!("turn it: --turn {degrees:.1}deg; or correct --base, --axes or the clocks (--clock-offset)");
         Err(self.fault(message, help))
     }
 
