@@ -9,7 +9,6 @@ use std::path::Path;
 const NOTHING: [&str; 13] =
     ["", "na", "n/a", "#n/a", "nan", "null", "none", "-", "nan(ind)", "nan(snan)", "1.#qnan", "1.#ind", "missing"];
 
-/// Whether a cell means a missing number.
 pub(crate) fn is_nothing(text: &str) -> bool {
     let plain = text.strip_prefix(['-', '+']).filter(|rest| !rest.is_empty()).unwrap_or(text);
     NOTHING.iter().any(|word| plain.eq_ignore_ascii_case(word))

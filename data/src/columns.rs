@@ -52,7 +52,7 @@ pub(crate) fn needed(fields: &[Field]) -> String {
     names.join(",")
 }
 
-/// What the end of a name says of the unit of its field.
+/// The end of a name as the unit of its field.
 pub(crate) enum Ending {
     /// A unit, or none of a field without.
     Known(Option<Unit>),
@@ -67,7 +67,7 @@ fn is_down(name: &str) -> bool {
     name.strip_prefix(Y_DOWN).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
 }
 
-/// The field that a name means, and what it says of its unit; upper and lower case are one.
+/// The field that a name means, and its unit; upper and lower case are one.
 pub(crate) fn meaning(name: &str, fields: &[Field]) -> Option<(usize, Ending)> {
     let mut name = name.to_lowercase();
     if is_down(&name) {
@@ -321,7 +321,6 @@ impl TableRow<'_> {
         self.read(field, Unit::to_si)
     }
 
-    /// The same, with units converted by `si`.
     pub(crate) fn read(&self, field: usize, si: impl Fn(Unit, f64) -> f64) -> Result<Option<f64>> {
         let Some(column) = &self.sheet.at[field] else { return Ok(None) };
         let text = self.text(field);

@@ -28,7 +28,6 @@ pub(crate) struct Line<'a> {
 }
 
 impl Line<'_> {
-    /// A fault of the whole line.
     pub(crate) fn fault(&self, message: impl Into<String>, help: impl Into<String>) -> DataError {
         let mut error = DataError::of(self.file, message, help).at_line(self.number);
         let fault = error.fault_mut();
@@ -44,7 +43,6 @@ impl Line<'_> {
     }
 }
 
-/// A [`Line`] that owns its text.
 #[derive(Debug, Clone)]
 pub(crate) struct KeptLine {
     pub file: String,
@@ -94,7 +92,6 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// The name of the file in errors.
     pub(crate) fn file(&self) -> &str {
         &self.file
     }

@@ -121,7 +121,6 @@ struct Sum {
 /// What was read so far.
 struct Collected<'d> {
     dataset: &'d Dataset,
-    /// Whether rows have pressures.
     pressed: bool,
     /// `[hold][marker]`
     sums: Vec<Sum>,

@@ -58,7 +58,6 @@ const PLACEHOLDERS: [(f64, &str); 9] = [
 
 const SECONDS: [&str; 4] = ["seconds", "secs", "sec", "s"];
 
-/// The highest pressure of a room \[Pa\].
 const ROOM_PA: f64 = 1.15e5;
 
 pub(crate) fn pressure_bounds(quantity: usize) -> &'static Range {

@@ -50,7 +50,7 @@ pub fn about_toml(about: &About) -> String {
     let pair = |[a, b]: [f64; 2]| format!("[{a:?}, {b:?}]");
     let (mut text, mut open) = (String::new(), String::new());
     let mut line = |table: &str, key: &str, value: String| {
-        // Every run has a table of its own, which begins with its label.
+        // Every run has a separate table, which begins with its label.
         if open != table || key == "id" {
             open = table.to_string();
             text.push_str(&format!("\n[{table}]\n"));

@@ -12,7 +12,6 @@ use crate::error::{DataError, Fault, Location, Result};
 use crate::policy::{LARGEST_TIP_FORCE_N, SAME_STATION, one_station};
 use spelling::units::Range;
 
-/// As many as a scenario takes.
 const MOST_POUCHES: usize = 10_000;
 
 /// The text being checked, for the place of faults.

@@ -24,7 +24,6 @@ pub(super) struct Specimens<'a> {
 /// Rows of a curve, the widths of these rows, and how many rows were left out.
 type Kept = (Vec<[f64; 2]>, Vec<f64>, usize);
 
-/// One specimen with its line numbers.
 #[derive(Default)]
 pub(super) struct Raw {
     name: String,

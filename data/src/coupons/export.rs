@@ -18,7 +18,6 @@ const WORDS: [(usize, &str); 5] = [
     (TIME, "time zeit prüfzeit"),
 ];
 const TIME: usize = QUANTITIES.len();
-/// Words for the sizes of a specimen.
 const SIZES: [(usize, &[&str]); 3] = [
     (WIDTH, &["width", "breite", "probenbreite"]),
     (THICKNESS, &["thickness", "dicke", "probendicke"]),

@@ -1,4 +1,4 @@
-//! A kind of tracking file: its name, how it is recognised, and its reader. A page of a kind uses what is named here.
+//! A kind of tracking file: its name, how it is recognised, and its reader. A page of a kind imports these names.
 
 pub(super) use super::columns::{ColumnName, Roles, is_frame, lengths, si};
 pub(super) use super::labels::without_subject;
@@ -34,7 +34,6 @@ pub(crate) struct Beginning<'a> {
 }
 
 impl Beginning<'_> {
-    /// The first cell.
     pub(super) fn first(&self) -> &str {
         self.head.first().map_or("", |row| row[0])
     }

@@ -31,7 +31,6 @@ pub const LOGS: [(&str, &str); 4] = [
     ("a log without names", "cases/c26-pressure-loggers/arduino_noheader.csv"),
 ];
 
-/// Lines that a kind is known by.
 const LOOKED_AT: usize = 8;
 
 pub(crate) fn recognised(sheet: &CellText, options: &ImportOptions) -> Result<&'static Format> {

@@ -16,7 +16,6 @@ const TILTED: f64 = 0.05;
 
 const LARGER_BOARD: &str = "film a board that fills the part of the picture in which the robot moves";
 
-/// How a file's coordinates become metres.
 #[derive(Debug, Clone)]
 enum Map {
     Factor(f64),

@@ -131,7 +131,6 @@ fn topic(text: &str) -> Plain {
 /// Lines looked at to know the text of a serial monitor, and the share of them that has its form.
 const LOOKED_AT: usize = 40;
 const MOSTLY: f64 = 0.6;
-/// What a serial monitor writes between the time of arrival and the line.
 const ARROW: &str = "->";
 
 /// A line without the time of its arrival, and that time.
@@ -196,7 +195,6 @@ fn serial(text: &str, stamped: bool, named: bool) -> Plain {
     table
 }
 
-/// A name, a number and a unit.
 struct Reading {
     name: String,
     value: String,

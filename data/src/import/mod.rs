@@ -170,7 +170,6 @@ fn track(run: &PressedRun, kept: &[Kept], markers: &[String]) -> RunTrack {
     RunTrack { run, lines: lines.collect(), holds }
 }
 
-/// What was dropped on reading, in words.
 fn losses(runs: &[Recording]) -> Vec<String> {
     let count = |why: usize| runs.iter().map(|run| run.dropped[why]).sum::<u64>();
     let dropped = (0..DROPPED.len()).filter(|why| count(*why) > 0);

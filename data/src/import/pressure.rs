@@ -194,7 +194,6 @@ impl Log {
         Ok(told)
     }
 
-    /// Column of the time and its seconds.
     fn columns(sheet: &CellText, line: u64, names: &[&str], roles: &Roles) -> Result<(usize, f64)> {
         let is_pressed = roles.pressures.iter().any(Option::is_some);
         let (what, help) = match roles.time {

@@ -45,7 +45,6 @@ pub(crate) struct Recording {
 /// Times above this are stamps since 1970 \[s\].
 const SINCE_1970_S: f64 = 1e9;
 
-/// A marker that was not seen.
 pub(crate) const LOST: [f64; 3] = [f64::NAN; 3];
 
 /// Collects observations in any order and makes frames of the observations at one time: the pivot from long to wide.
@@ -174,7 +173,6 @@ impl Recording {
         self.times.first().is_some_and(|t| *t >= SINCE_1970_S)
     }
 
-    /// Puts the first frame at 0 s.
     pub(super) fn zeroed(&mut self) {
         let first = self.times.first().copied().unwrap_or(0.0);
         self.times.iter_mut().for_each(|t| *t -= first);

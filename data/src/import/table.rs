@@ -12,7 +12,6 @@ use crate::units::{kpa, mm};
 /// Rows of a hold and marker; consecutive frames are averaged where there are more.
 const MOST_ROWS: usize = 20;
 
-/// The table of runs with their holds.
 pub(crate) fn markers_csv(
     runs: &[(PressedRun, Vec<Kept>)],
     markers: &[String],

@@ -56,7 +56,6 @@ fn of_roles(begin: &Beginning) -> Option<Roles> {
     Some(roles).filter(|roles| roles.time.is_some() && roles.units.len() >= 2)
 }
 
-/// A row for every time and marker.
 fn long(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> {
     let (roles, layout) = begin(sheet, options)?;
     long_of(sheet, &roles, layout)
@@ -95,7 +94,7 @@ fn wide(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> {
     layout.read(sheet, 2, sheet.lines().skip(1))
 }
 
-/// What an import says where no file of it has a likelihood.
+/// Note of an import whose files have no likelihood.
 pub(super) const NOT_USED: &str = "the files have no likelihood: --likelihood was not used";
 
 /// What the columns of a table are, and what both kinds have.

@@ -24,7 +24,7 @@ fn is_title(sheet: &CellText, line: &str) -> bool {
     line.split(sheet.delimiter).next().is_some_and(|cell| cell.trim().trim_matches('"') == "Trajectories")
 }
 
-/// Number and cells of the next row, of what stands above the frames.
+/// Number and cells of the next row above the frames.
 fn next<'s>(
     sheet: &CellText<'s>,
     lines: &mut impl Iterator<Item = (u64, &'s str)>,
@@ -76,7 +76,6 @@ fn trc(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     layout.read(sheet, 3, lines)
 }
 
-/// Frames per second in a cell.
 pub(super) fn rate_of(sheet: &CellText, line: u64, cell: &str) -> Result<f64> {
     let rate = sheet.number(cell).filter(|rate| spelling::units::Range::FRAME_RATE.check(*rate).is_ok());
     rate.ok_or_else(|| {

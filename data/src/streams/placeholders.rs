@@ -7,7 +7,6 @@ use super::segments::{Segment, Stream};
 use crate::policy;
 use crate::units::mm;
 
-/// A place, to the last digit.
 type Place = [u64; 3];
 
 /// Rows that were taken as not seen, and the line of the first, by their position in words.

@@ -36,7 +36,6 @@ impl Sample {
         [1, 2, 3].map(|which| self.mean(which))
     }
 
-    /// Mean reading of the gauge \[Pa\].
     pub(crate) fn gauge_pa(&self) -> f64 {
         self.mean(4)
     }
@@ -86,12 +85,10 @@ impl Segment {
         self.sums_pa.map(|sum| sum / self.rows.max(1) as f64)
     }
 
-    /// Time of the first sample \[s\].
     pub(crate) fn first_t_s(&self) -> f64 {
         self.samples.first().map_or(f64::INFINITY, Sample::t_s)
     }
 
-    /// Time of the last sample \[s\].
     pub(crate) fn last_t_s(&self) -> f64 {
         self.samples.last().map_or(f64::NEG_INFINITY, Sample::t_s)
     }
