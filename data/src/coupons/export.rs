@@ -184,10 +184,12 @@ fn labels(above: Option<&Vec<&str>>, blocks: &[Found]) -> Vec<String> {
     if blocks.len() == 1 {
         return vec![String::new()];
     }
-    let begin = |block: &Found| block.iter().flatten().map(|(index, _)| *index).min().unwrap_or(0);
-    let label = |block: &Found| above.and_then(|row| row.get(begin(block))).map(|cell| cell.replace(',', " "));
-    let found: Option<Vec<String>> =
-        blocks.iter().map(|block| label(block).filter(|label| !label.is_empty())).collect();
+    let label = |block: &Found| {
+        let begin = block.iter().flatten().map(|(index, _)| *index).min()?;
+        let label = above?.get(begin)?.replace(',', " ");
+        (!label.is_empty()).then_some(label)
+    };
+    let found: Option<Vec<String>> = blocks.iter().map(label).collect();
     found.unwrap_or_else(|| (1..=blocks.len()).map(|k| k.to_string()).collect())
 }
 
@@ -199,7 +201,7 @@ fn row(
     block: &Found,
     curve: [usize; 2],
 ) -> Result<Option<[f64; 2]>, DataError> {
-    let cell = |quantity: usize| block[quantity].and_then(|(index, _)| cells.get(index)).copied().unwrap_or_default();
+    let cell = |quantity: usize| block[quantity].map_or("", |(index, _)| cells.get(index).copied().unwrap_or_default());
     if curve.iter().all(|quantity| is_nothing(cell(*quantity))) {
         return Ok(None);
     }

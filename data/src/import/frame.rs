@@ -62,7 +62,8 @@ impl Scene<'_> {
         assumed.push(words);
         let (bases, skipped) = self.bases(&map, assumed)?;
         let all = &self.runs[0].markers;
-        let kept: Vec<usize> = (0..all.len()).filter(|marker| Some(*marker) != skipped).collect();
+        let is_kept = |marker: &usize| Some(*marker) != skipped;
+        let kept: Vec<usize> = (0..all.len()).filter(is_kept).collect();
         let markers: Vec<String> = kept.iter().map(|marker| all[*marker].clone()).collect();
         let moved = Moved::of(self, &bases, &kept, &map);
         let axes = self.axes(&markers, &moved, assumed)?;
@@ -72,11 +73,11 @@ impl Scene<'_> {
             let [x, y] = axes.map(|axis| along(axis, from) - along(axis, *base));
             [cos * x + sin * y, cos * y - sin * x]
         };
-        let mut xy_m = Vec::new();
-        for (run, base) in self.runs.iter().zip(&bases) {
+        let of_run = |(run, base): (&Recording, &[f64; 3])| {
             let column = |marker: &usize| run.places[*marker].iter().map(|place| placed(place, base)).collect();
-            xy_m.push(kept.iter().map(column).collect());
-        }
+            kept.iter().map(column).collect()
+        };
+        let xy_m = self.runs.iter().zip(&bases).map(of_run).collect();
         Ok(PlacedRuns { xy_m, markers })
     }
 
@@ -247,7 +248,8 @@ impl Scene<'_> {
             return Ok(());
         }
         let degrees = angle.to_degrees();
-        let message = format!("at rest the robot is at {degrees:.0} degrees to the file's {}", axis.word());
+        let axis = axis.word();
+        let message = format!("at rest the robot is at {degrees:.0} degrees to the file's {axis}");
         let help = format!("turn it: --turn {degrees:.1}deg; or correct --base, --axes or the clocks (--clock-offset)");
         Err(self.fault(message, help))
     }
@@ -259,7 +261,8 @@ impl Scene<'_> {
         if angle.is_nan() || angle <= TILTED || ends[0] == ends[1] {
             return Ok(());
         }
-        let message = format!("at rest the robot is {:.0} degrees out of the plane of --axes", angle.to_degrees());
+        let degrees = angle.to_degrees();
+        let message = format!("at rest the robot is {degrees:.0} degrees out of the plane of --axes");
         let help = "leave --axes out: the plane of the motion is found; or correct --axes";
         Err(self.fault(message, help))
     }
@@ -285,8 +288,10 @@ impl FileAxis {
 
 fn unit(metres: f64) -> String {
     let known = [(1e-3, "mm"), (1e-2, "cm"), (1.0, "m"), (1e-6, "µm")];
-    let found = known.iter().find(|(value, _)| *value == metres).map(|(_, word)| (*word).to_string());
-    found.unwrap_or_else(|| format!("{} mm", short(metres * 1e3)))
+    match known.iter().find(|(value, _)| *value == metres) {
+        Some((_, word)) => (*word).to_string(),
+        None => format!("{} mm", short(metres * 1e3)),
+    }
 }
 
 fn short(value: f64) -> String {
@@ -311,9 +316,11 @@ pub(crate) fn where_is(run: &Recording, ends: &RestAndTop, place: &FilePlace) ->
         let help = format!("{meant}the markers are {}", run.markers.join(", "));
         return Err([format!("marker {name} does not exist"), help]);
     };
-    let seen = run.mean_place(marker, &ends.rest);
-    let unseen = || [format!("marker {name} was not seen at the lowest pressure"), "take another marker".into()];
-    seen.map(|at| (at, Some(marker))).ok_or_else(unseen)
+    let Some(at) = run.mean_place(marker, &ends.rest) else {
+        let message = format!("marker {name} was not seen at the lowest pressure");
+        return Err([message, "take another marker".into()]);
+    };
+    Ok((at, Some(marker)))
 }
 
 /// Where markers are at rest from the base, and how they move to the highest pressure, means over runs \[m\].
@@ -348,8 +355,11 @@ impl Moved {
             let values = seen.iter().map(|at| at[axis]);
             values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
         };
-        let size =
-            |axis: usize| if seen.len() > 1 { spread(axis) } else { seen.first().map_or(0.0, |at| at[axis].abs()) };
+        let size = |axis: usize| match seen[..] {
+            [] => 0.0,
+            [only] => only[axis].abs(),
+            _ => spread(axis),
+        };
         (0..3).max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap_or(0)
     }
 

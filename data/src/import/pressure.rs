@@ -37,24 +37,25 @@ fn named(sheet: &CellText, lines: &[(u64, &str)], options: &ImportOptions) -> Re
         let mut filled = cells.iter().filter(|cell| !cell.is_empty()).peekable();
         filled.peek().is_some() && filled.all(|cell| is_value(cell))
     };
-    let Some(row) = lines.iter().take(MOST_HEAD).position(|(_, line)| is_row(line)) else {
-        return Ok((1, owned(sheet.split(lines[0].1))));
-    };
+    let first = owned(sheet.split(lines[0].1));
+    let mut head = lines.iter().take(MOST_HEAD);
+    let Some(row) = head.position(|(_, line)| is_row(line)) else { return Ok((1, first)) };
     if row == 0 {
         return unnamed(sheet, lines[0], options).map(|names| (0, names));
     }
     let above = sheet.split(lines[row - 1].1);
-    let are_units = row > 1 && above.iter().all(|cell| cell.is_empty() || is_unit(&bare(cell).to_lowercase()));
-    if !are_units {
+    let may_be_unit = |cell: &&str| cell.is_empty() || is_unit(&bare(cell).to_lowercase());
+    if row < 2 || !above.iter().all(may_be_unit) {
         // A word among the numbers is a fault of its row, not of the names.
-        let first = owned(sheet.split(lines[0].1));
         let is_header = first.len() == above.len() && first.iter().any(|name| is_time(&ColumnName::of(name)));
         return Ok(if is_header { (1, first) } else { (row, owned(above)) });
     }
-    let with_unit = |(name, unit): (&&str, &&str)| {
-        if unit.is_empty() { (*name).into() } else { format!("{name} ({})", bare(unit)) }
+    let with_unit = |(name, unit): (&&str, &&str)| match bare(unit) {
+        "" => (*name).to_string(),
+        unit => format!("{name} ({unit})"),
     };
-    Ok((row, sheet.split(lines[row - 2].1).iter().zip(&above).map(with_unit).collect()))
+    let names = sheet.split(lines[row - 2].1);
+    Ok((row, names.iter().zip(&above).map(with_unit).collect()))
 }
 
 fn owned(cells: Vec<&str>) -> Vec<String> {
@@ -147,8 +148,9 @@ impl Log {
     }
 
     pub(super) fn seen(self) -> LogSeen {
-        let [_, act] = self.values_pa;
-        LogSeen { file: self.file, act_pa: act.unwrap_or_else(|| vec![0.0; self.times_s.len()]), times_s: self.times_s }
+        let Log { file, times_s, values_pa: [_, act], .. } = self;
+        let act_pa = act.unwrap_or_else(|| vec![0.0; times_s.len()]);
+        LogSeen { file, act_pa, times_s }
     }
 
     /// Puts the log's pressures into the frames of a recording (times in seconds); on a ramp readings are joined by lines.
@@ -222,8 +224,8 @@ impl Log {
 
     fn between(&self, values: &[f64], k: usize, t_s: f64) -> f64 {
         let Some(next) = values.get(k + 1) else { return values[k] };
-        let width = self.times_s[k + 1] - self.times_s[k];
-        let part = if width > 0.0 { ((t_s - self.times_s[k]) / width).clamp(0.0, 1.0) } else { 0.0 };
+        let (gone, width) = (t_s - self.times_s[k], self.times_s[k + 1] - self.times_s[k]);
+        let part = if width > 0.0 { (gone / width).clamp(0.0, 1.0) } else { 0.0 };
         values[k] + part * (next - values[k])
     }
 }
