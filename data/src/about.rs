@@ -186,6 +186,11 @@ pub struct AboutRun {
 }
 
 impl About {
+    /// The marker of a label.
+    pub(crate) fn marker(&self, name: &str) -> Option<&MarkerStation> {
+        self.markers.iter().find(|marker| marker.name == name)
+    }
+
     /// Known tip force of a run \[N\]; zero if `about.toml` does not name it.
     pub fn tip_force_n(&self, run: &str) -> [f64; 2] {
         self.runs.iter().find(|about| about.id == run).map_or([0.0; 2], |about| about.tip_force_n)

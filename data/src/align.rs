@@ -1,7 +1,7 @@
 //! From streams of holds to the dense tensor: the same holds in every run, the same markers, the same sample count.
 
 use crate::dataset::{Dataset, Hold, Lost, Marker};
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 use crate::header::Pressures;
 use crate::lost::fill;
 use crate::policy;
@@ -27,9 +27,10 @@ pub(crate) fn align(
     let (mut gauge_pa, mut lost) = (Vec::new(), Vec::new());
     for run in 0..recorder.runs.names.len() {
         for hold in 0..holds.len() {
-            let seen = |m: &usize| grid.segment(run, *m, hold).map(|segment| bins(&segment.samples, samples));
+            let seen = |m: &usize| Some(bins(&grid.segments[run][*m][hold]?.samples, samples));
             let bins: Vec<_> = order.iter().map(seen).collect();
-            lost.extend((0..order.len()).filter(|m| bins[*m].is_none()).map(|marker| [run, hold, marker]));
+            let is_lost = |marker: &usize| bins[*marker].is_none();
+            lost.extend((0..order.len()).filter(is_lost).map(|marker| [run, hold, marker]));
             for sample in 0..samples {
                 let place = |bins: &Vec<Sample>| bins[sample].place();
                 let places = bins.iter().map(|bins| bins.as_ref().map_or([0.0; 3], place));
@@ -66,23 +67,19 @@ pub(crate) fn align(
 
 fn check_seen(file: &str, dataset: &Dataset) -> Result<()> {
     let (holds, markers) = (0..dataset.holds.len(), 0..dataset.markers.len());
-    let blind = markers.clone().find(|m| holds.clone().all(|h| !dataset.is_seen(h, *m)));
-    let dark = holds.clone().find(|h| markers.clone().all(|m| !dataset.is_seen(*h, m)));
-    let (message, help) = match (blind, dark) {
-        (Some(marker), _) => (
-            format!(
-                "marker {} was seen by fewer than two thirds of the runs in every hold",
-                dataset.markers[marker].name
-            ),
-            "delete its rows, or look for a misspelt label",
-        ),
-        (_, Some(hold)) => (
-            format!("at {:.1} kPa no marker was seen by two thirds of the runs", kpa(dataset.holds[hold].p_act_pa)),
-            "delete the rows of this hold, or the runs that lost the markers",
-        ),
-        _ => return Ok(()),
-    };
-    Err(DataError::runs(file, message, help))
+    if let Some(blind) = markers.clone().find(|m| holds.clone().all(|h| !dataset.is_seen(h, *m))) {
+        let name = &dataset.markers[blind].name;
+        let message = format!("marker {name} was seen by fewer than two thirds of the runs in every hold");
+        let help = "delete its rows, or look for a misspelt label";
+        return Err(DataError::of(file, message, help));
+    }
+    if let Some(dark) = holds.clone().find(|h| markers.clone().all(|m| !dataset.is_seen(*h, m))) {
+        let p = kpa(dataset.holds[dark].p_act_pa);
+        let message = format!("at {p:.1} kPa no marker was seen by two thirds of the runs");
+        let help = "delete the rows of this hold, or the runs that lost the markers";
+        return Err(DataError::of(file, message, help));
+    }
+    Ok(())
 }
 
 /// By station where all are known, else by first appearance.
@@ -96,10 +93,10 @@ fn marker_order(stations_m: &[Option<f64>]) -> Vec<usize> {
 
 /// Every stream, and which of its segments is which hold of the protocol.
 struct Grid<'a> {
-    /// Streams by run and marker, `[run][marker]`.
+    /// `[run][marker]`
     streams: Vec<Vec<&'a Stream>>,
-    /// `[run][marker][hold]` → segment; `None` where the marker was lost
-    segments: Vec<Vec<Vec<Option<usize>>>>,
+    /// `[run][marker][hold]`; `None` where the marker was lost.
+    segments: Vec<Vec<Vec<Option<&'a Segment>>>>,
     /// The stream with the most holds: the holds of the protocol.
     reference: &'a [Segment],
 }
@@ -107,23 +104,23 @@ struct Grid<'a> {
 impl<'a> Grid<'a> {
     fn new(recorder: &'a Recorder) -> Result<Grid<'a>> {
         let streams = by_run_and_marker(recorder)?;
-        let more = |best: &'a Stream, of: &&'a Stream| if of.segments.len() > best.segments.len() { of } else { best };
-        let fullest: &Stream = streams.iter().flatten().fold(streams[0][0], |best, of| more(best, of));
+        let held = |stream: &&&Stream| stream.segments.len();
+        // The first of the fullest.
+        let fullest: &Stream = streams.iter().flatten().rev().max_by_key(held).unwrap_or(&streams[0][0]);
         let reference: &[Segment] = &fullest.segments;
         let mut segments = Vec::with_capacity(streams.len());
         for run in &streams {
             let mut matched = Vec::with_capacity(run.len());
             for stream in run {
-                let unlike = |surplus: usize| {
-                    let segment = &stream.segments[surplus];
+                let unlike = |surplus: &Segment| {
                     let [own, other] = [stream, fullest].map(|stream| recorder.words(stream));
-                    let message = format!("{own} has a hold that {other} has not: {}", describe(segment));
-                    recorder.fault(message, SAME_HOLDS, segment.first_line)
+                    let message = format!("{own} has a hold that {other} has not: {}", describe(surplus));
+                    recorder.fault(message, SAME_HOLDS, surplus.first_line)
                 };
                 matched.push(match_holds(reference, &stream.segments).map_err(unlike)?);
             }
-            let seen_by_none = |hold: &usize| matched.iter().all(|of: &Vec<Option<usize>>| of[*hold].is_none());
-            if let Some(hold) = (0..reference.len()).find(seen_by_none) {
+            let is_unseen = |hold: &usize| matched.iter().all(|of: &Vec<Option<&Segment>>| of[*hold].is_none());
+            if let Some(hold) = (0..reference.len()).find(is_unseen) {
                 let [own, other] = [run[0], fullest].map(|stream| recorder.words(stream));
                 let message = format!("{own} lacks a hold that {other} has: {}", describe(&reference[hold]));
                 return Err(recorder.fault(message, SAME_HOLDS, run[0].first_line));
@@ -136,16 +133,10 @@ impl<'a> Grid<'a> {
         Ok(grid)
     }
 
-    fn segment(&self, run: usize, marker: usize, hold: usize) -> Option<&'a Segment> {
-        Some(&self.streams[run][marker].segments[self.segments[run][marker][hold]?])
-    }
-
     /// Segments of one hold in all runs and markers.
     fn of_hold(&self, hold: usize) -> impl Iterator<Item = (usize, &'a Segment)> + '_ {
-        let of_run = move |run: usize| {
-            (0..self.streams[run].len()).filter_map(move |marker| Some((run, self.segment(run, marker, hold)?)))
-        };
-        (0..self.streams.len()).flat_map(of_run)
+        let runs = self.segments.iter().enumerate();
+        runs.flat_map(move |(run, markers)| markers.iter().filter_map(move |holds| Some((run, holds[hold]?))))
     }
 
     /// A marker that was seen in few frames of a hold would leave few samples of every hold.
@@ -154,19 +145,15 @@ impl<'a> Grid<'a> {
             let mut rows: Vec<u64> = self.of_hold(hold).map(|(_, segment)| segment.rows).collect();
             rows.sort_unstable();
             let enough = policy::SEEN_ENOUGH * rows[rows.len() / 2] as f64;
-            for run in 0..self.streams.len() {
-                for marker in 0..self.streams[run].len() {
-                    if self.segment(run, marker, hold).is_some_and(|segment| (segment.rows as f64) < enough) {
-                        self.segments[run][marker][hold] = None;
-                    }
-                }
+            for seen in self.segments.iter_mut().flatten().map(|holds| &mut holds[hold]) {
+                *seen = seen.filter(|segment| segment.rows as f64 >= enough);
             }
         }
     }
 
     fn common_samples(&self) -> usize {
-        let segments = (0..self.reference.len()).flat_map(|hold| self.of_hold(hold));
-        segments.map(|(_, segment)| segment.samples.len()).min().unwrap_or(1).min(MOST_SAMPLES_PER_HOLD)
+        let segments = self.segments.iter().flatten().flatten().flatten();
+        segments.map(|segment| segment.samples.len()).min().unwrap_or(1).min(MOST_SAMPLES_PER_HOLD)
     }
 
     /// Pressures and times as means over runs and markers; a gauge that reads just below zero counts as zero.
@@ -183,7 +170,7 @@ impl<'a> Grid<'a> {
             let series = self.of_hold(index).count() as f64;
             t_s.iter_mut().for_each(|t| *t /= series);
             let means_pa = sums_pa.map(|sum| (sum / series).max(0.0));
-            let same = |hold: &&Hold| hold.phase == first.phase && are_near(hold_pa(hold), means_pa, 1.0);
+            let same = |hold: &&Hold| hold.phase == first.phase && are_near(hold.pressures_pa(), means_pa, 1.0);
             let occurrence = holds.iter().filter(same).count();
             let [p_body_pa, p_act_pa, ref more @ ..] = means_pa;
             let more_act_pa = more[..more_channels].to_vec();
@@ -219,29 +206,26 @@ fn by_run_and_marker(recorder: &Recorder) -> Result<Vec<Vec<&Stream>>> {
 fn absent_marker(recorder: &Recorder, run: usize, marker: usize) -> DataError {
     let (runs, name) = (&recorder.runs.names, &recorder.markers.names[marker]);
     let seen = recorder.streams.iter().find(|stream| stream.marker == marker);
-    let (other, line) = seen.map_or(("", 0), |stream| (runs[stream.run].as_str(), stream.first_line));
+    let (other, line) = seen.map_or(("", 0), |seen| (runs[seen.run].as_str(), seen.first_line));
     let message = format!("marker {name} appears in run {other} but not in run {}", runs[run]);
     let help = "every run needs the same markers: correct the label if it is misspelt, add the marker to that run, \
                 or delete it from all runs";
-    let mut fault = Fault::of_file(&recorder.file, message, help).at_line(line);
-    fault.location.column_name = Some("marker".to_string());
-    fault.location.cell = Some(name.clone());
-    DataError::Runs(Box::new(fault))
+    recorder.fault(message, help, line).in_column("marker", Some(name))
 }
 
 /// Which segment of `stream` is which of `reference`: in order if they agree in order, else each by pressures (nearest
-/// within tolerance), phase and occurrence; `None` where the stream has none. An error is the index of a segment too many.
-fn match_holds(reference: &[Segment], stream: &[Segment]) -> Result<Vec<Option<usize>>, usize> {
+/// within tolerance), phase and occurrence; `None` where the stream has none. An error is a segment too many.
+fn match_holds<'s>(reference: &[Segment], stream: &'s [Segment]) -> Result<Vec<Option<&'s Segment>>, &'s Segment> {
     let in_order = reference.len() == stream.len() && reference.iter().zip(stream).all(|(a, b)| alike(a, b));
     if in_order {
-        return Ok((0..reference.len()).map(Some).collect());
+        return Ok(stream.iter().map(Some).collect());
     }
-    let mut found: Vec<Option<usize>> = vec![None; reference.len()];
-    for (index, segment) in stream.iter().enumerate() {
+    let mut found = vec![None; reference.len()];
+    for segment in stream {
         let free = |&hold: &usize| found[hold].is_none() && alike(&reference[hold], segment);
         let gap = |hold: usize| (reference[hold].p_act_pa() - segment.p_act_pa()).abs();
         let hold = (0..reference.len()).filter(free).min_by(|&a, &b| gap(a).total_cmp(&gap(b)));
-        found[hold.ok_or(index)?] = Some(index);
+        found[hold.ok_or(segment)?] = Some(segment);
     }
     Ok(found)
 }
@@ -251,37 +235,28 @@ fn alike(a: &Segment, b: &Segment) -> bool {
     a.phase == b.phase && are_near(a.means_pa(), b.means_pa(), 2.0)
 }
 
-fn hold_pa(hold: &Hold) -> Pressures {
-    let more = |channel: usize| hold.more_act_pa.get(channel).copied().unwrap_or(0.0);
-    [hold.p_body_pa, hold.p_act_pa, more(0), more(1), more(2)]
-}
-
 fn describe(segment: &Segment) -> String {
     let [body, act, ref more @ ..] = segment.means_pa().map(kpa);
     let used = more.iter().rposition(|p| *p != 0.0).map_or(0, |last| last + 1);
-    let act: Vec<String> = std::iter::once(&act).chain(&more[..used]).map(|p| format!("{p:.1}")).collect();
-    let act = act.join("/");
-    format!("{} at {act} kPa actuator, {body:.1} kPa body (line {})", segment.phase.word(), segment.first_line)
+    let act = more[..used].iter().fold(format!("{act:.1}"), |all, p| format!("{all}/{p:.1}"));
+    let (phase, line) = (segment.phase.word(), segment.first_line);
+    format!("{phase} at {act} kPa actuator, {body:.1} kPa body (line {line})")
 }
 
 const SAME_HOLDS: &str = "every run needs the same holds (pressures, phase, number of repetitions): keep only rows recorded while \
                           the pressures are steady, and put other protocols into files of their own";
 
 /// A marker that was lost in a hold between two equal ones has one long hold in place of both.
-fn check_not_run_together(recorder: &Recorder, run: &[&Stream], matched: &[Vec<Option<usize>>]) -> Result<()> {
-    if matched.iter().flatten().all(Option::is_some) {
-        return Ok(());
-    }
-    let begin_s = |hold: usize| -> f64 {
-        let seen = run.iter().zip(matched).filter_map(|(stream, of)| Some(&stream.segments[of[hold]?]));
+fn check_not_run_together(recorder: &Recorder, run: &[&Stream], matched: &[Vec<Option<&Segment>>]) -> Result<()> {
+    let begin_s = |hold: usize| {
+        let seen = matched.iter().filter_map(|holds| holds[hold]);
         seen.map(Segment::first_t_s).fold(f64::INFINITY, f64::min)
     };
     let begins_s: Vec<f64> = (0..matched[0].len()).map(begin_s).collect();
-    for (stream, of) in run.iter().zip(matched).filter(|(_, of)| of.iter().any(Option::is_none)) {
-        for (hold, index) in of.iter().enumerate() {
-            let Some(segment) = index.map(|index| &stream.segments[index]) else { continue };
-            let next = begins_s.iter().copied().filter(|t| *t > begins_s[hold]).fold(f64::INFINITY, f64::min);
-            if segment.last_t_s() > next {
+    for (stream, holds) in run.iter().zip(matched).filter(|(_, holds)| holds.iter().any(Option::is_none)) {
+        for (hold, segment) in holds.iter().enumerate().filter_map(|(hold, segment)| Some((hold, (*segment)?))) {
+            let later = begins_s.iter().copied().filter(|t| *t > begins_s[hold]);
+            if segment.last_t_s() > later.fold(f64::INFINITY, f64::min) {
                 let (own, hold) = (recorder.words(stream), describe(segment));
                 let message = format!("{own} was lost between two equal holds: {hold}");
                 let help = "rows before and after cannot be assigned to a hold: delete this marker's rows in one of the two holds";

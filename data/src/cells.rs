@@ -2,12 +2,13 @@
 
 use crate::error::{DataError, Result};
 use crate::lines::{KeptLine, Line};
+use std::collections::HashMap;
+use std::path::Path;
 
 /// What spreadsheets, pandas, R and C libraries write for a missing number.
 const NOTHING: [&str; 13] =
     ["", "na", "n/a", "#n/a", "nan", "null", "none", "-", "nan(ind)", "nan(snan)", "1.#qnan", "1.#ind", "missing"];
 
-/// Whether a cell means a missing number.
 pub(crate) fn is_nothing(text: &str) -> bool {
     let plain = text.strip_prefix(['-', '+']).filter(|rest| !rest.is_empty()).unwrap_or(text);
     NOTHING.iter().any(|word| plain.eq_ignore_ascii_case(word))
@@ -56,7 +57,6 @@ pub(crate) fn day_s(text: &str) -> Option<f64> {
 /// How a file writes decimals; found while it is read.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Decimals {
-    /// A number with a point was read.
     point: bool,
     /// A comma was read that can only be a decimal one.
     comma: bool,
@@ -84,7 +84,6 @@ impl Decimals {
         Ok(Some(value))
     }
 
-    /// Whether decimals are written with a comma.
     pub(crate) fn finish(&self) -> Result<bool> {
         match &self.doubtful {
             Some((line, text)) if self.point => Err(both(&line.line(), text)),
@@ -94,9 +93,9 @@ impl Decimals {
     }
 }
 
-/// A number with a decimal comma.
 pub(crate) fn with_comma(text: &str) -> Option<f64> {
-    (text.matches(',').count() == 1 && !text.contains('.')).then(|| text.replace(',', ".").parse().ok()).flatten()
+    let is_one = text.matches(',').count() == 1 && !text.contains('.');
+    if is_one { text.replace(',', ".").parse().ok() } else { None }
 }
 
 /// Whether a comma cannot be one of thousands: not three digits after it, or a leading zero or more than three digits before it.
@@ -113,41 +112,65 @@ pub(crate) fn no_number(text: &str, expected: &str, more: &str) -> [String; 2] {
         Err(_) => format!("expected a number, found \"{text}\""),
     };
     let with_point = text.replace(',', ".");
-    let help = match with_point.parse::<f64>().is_ok_and(f64::is_finite) {
-        true => format!("write decimals with a point: {with_point}"),
-        false => format!(
-            "type a plain number such as 12.5 (the unit belongs to the column name, as in {expected}), or delete the row{more}"
-        ),
-    };
-    [message, help]
+    if with_point.parse::<f64>().is_ok_and(f64::is_finite) {
+        return [message, format!("write decimals with a point: {with_point}")];
+    }
+    let unit = format!("the unit belongs to the column name, as in {expected}");
+    [message, format!("type a plain number such as 12.5 ({unit}), or delete the row{more}")]
 }
 
 fn thousands(line: &Line, text: &str) -> DataError {
+    let (point, whole) = (text.replace(',', "."), text.replace(',', ""));
     let message = format!(
-        "\"{text}\" can be read as {} (decimal comma) or as {} (comma of thousands), and so can every number with a comma here",
-        text.replace(',', "."),
-        text.replace(',', "")
+        "\"{text}\" can be read as {point} (decimal comma) or as {whole} (comma of thousands), and so can every number with a comma here"
     );
-    DataError::Layout(
-        line.fault(message, "write decimals with a point, or at least one number with another count of decimals"),
-    )
+    let help = "write decimals with a point, or at least one number with another count of decimals";
+    line.fault(message, help)
 }
 
 fn both(line: &Line, text: &str) -> DataError {
-    let message = format!(
-        "points and commas both stand in numbers: \"{text}\" can be read as {} or as {}",
-        text.replace(',', "."),
-        text.replace([',', '.'], "")
-    );
-    DataError::Layout(line.fault(message, "write all decimals alike, and no commas of thousands"))
+    let (point, whole) = (text.replace(',', "."), text.replace([',', '.'], ""));
+    let message = format!("points and commas both stand in numbers: \"{text}\" can be read as {point} or as {whole}");
+    let help = "write all decimals alike, and no commas of thousands";
+    line.fault(message, help)
 }
 
-/// A label as a CSV cell.
+/// The name of a file without its folder and its end.
+pub(crate) fn stem(file: &str) -> String {
+    Path::new(file).file_stem().map_or(file.into(), |stem| stem.to_string_lossy().into_owned())
+}
+
 pub(crate) fn quoted(label: &str) -> String {
     if label.contains([',', '"', ';', '\t', '\n', '\r']) {
         format!("\"{}\"", label.replace('"', "\"\""))
     } else {
         label.to_string()
+    }
+}
+
+/// Labels numbered in order of first appearance.
+#[derive(Debug, Default)]
+pub(crate) struct Labels {
+    pub names: Vec<String>,
+    numbers: HashMap<String, usize>,
+    last: usize,
+}
+
+impl Labels {
+    /// The number of a label, new or known.
+    pub(crate) fn number(&mut self, name: &str) -> usize {
+        // Rows come sorted, or their labels come in the same order again and again.
+        let next = (self.last + 1) % self.names.len().max(1);
+        let is_here = |at: &usize| self.names.get(*at).is_some_and(|known| known == name);
+        self.last = match [self.last, next].into_iter().find(is_here) {
+            Some(at) => at,
+            None => self.numbers.get(name).copied().unwrap_or(self.names.len()),
+        };
+        if self.last == self.names.len() {
+            self.names.push(name.to_string());
+            self.numbers.insert(name.to_string(), self.last);
+        }
+        self.last
     }
 }
 

@@ -10,9 +10,9 @@
 //! Comments above the header name the effects and the data of the fit.
 
 use crate::cells::label;
-use crate::columns::{self, Columns, Field, Meaning, field, plain};
+use crate::columns::{Field, Head, Note, field, needed, plain};
 use crate::dataset::{Dataset, Hold, Phase};
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 use crate::lines::Lines;
 use crate::policy;
 use crate::units::{Measured, kpa};
@@ -32,7 +32,6 @@ const DX: usize = 3;
 const DY: usize = 4;
 const PHASE: usize = 5;
 
-/// A row.
 #[derive(Debug, Clone, PartialEq)]
 struct Moved {
     marker: String,
@@ -60,41 +59,28 @@ pub struct CorrectionTable {
 /// # Errors
 /// A table of another kind, a cell that is not a number: with file, line and remedy.
 pub fn parse_correction(file: &str, text: &str) -> Result<CorrectionTable> {
-    let mut progress = |_, _| ();
-    let mut bytes = text.as_bytes();
-    let mut lines = Lines::new(file, &mut bytes, text.len() as u64, &mut progress);
-    let (notes, header) = columns::notes(&mut lines)?;
-    let names: Vec<&str> = FIELDS.iter().filter(|field| field.needed).map(|field| field.expected).collect();
-    let help = || format!("give a table that `ibr add … --base … --out correction.csv` wrote: {}", names.join(","));
-    let header = header.ok_or_else(|| DataError::layout(file, "the file is empty", help()))?;
-    let line = header.line();
-    let (named, delimiter) = columns::split(line.text, None);
-    let at = columns::find(&line, &named, &FIELDS, &|name| Meaning::of(name, &FIELDS))?;
-    let table = Columns { fields: &FIELDS, names: named, delimiter: delimiter.into(), comma: false, at };
-    if let Some(missing) = FIELDS.iter().enumerate().find(|(i, field)| field.needed && table.at[*i].is_none()) {
-        let message = format!("column {} is missing: this is not a correction", missing.1.expected);
-        return Err(DataError::Column(line.fault(message, help())));
+    let mut lines = Lines::of_text(file, text);
+    let (notes, head) = Head::read(&mut lines)?;
+    let help = format!("give a table that `ibr add … --base … --out correction.csv` wrote: {}", needed(&FIELDS));
+    let Some(head) = head else { return Err(DataError::of(file, "the file is empty", help)) };
+    let sheet = head.sheet(&FIELDS)?;
+    if let Some(missing) = sheet.missing() {
+        let message = format!("column {} is missing: this is not a correction", FIELDS[missing].expected);
+        return Err(sheet.head.line.line().fault(message, help));
     }
     let mut rows = Vec::new();
-    while let Some(line) = lines.next_filled()? {
-        if line.text.trim_start().starts_with('#') {
-            continue;
-        }
-        let row = table.row(line)?;
+    sheet.each_row(&mut lines, |row| {
         let number = |field: usize| row.number(field).map(Option::unwrap_or_default);
-        rows.push(Moved {
-            marker: label(row.text(MARKER)).to_string(),
-            phase: row.text(PHASE).to_lowercase(),
-            body_pa: number(P_BODY)?,
-            act_pa: number(P_ACT)?,
-            d_m: [number(DX)?, number(DY)?],
-        });
-    }
+        let (marker, phase) = (label(row.text(MARKER)).to_string(), row.text(PHASE).to_lowercase());
+        let (body_pa, act_pa, d_m) = (number(P_BODY)?, number(P_ACT)?, [number(DX)?, number(DY)?]);
+        rows.push(Moved { marker, phase, body_pa, act_pa, d_m });
+        Ok(())
+    })?;
     rows.sort_by(|a, b| a.act_pa.total_cmp(&b.act_pa));
-    let of = |key: &str| notes.iter().filter(|note| note.key == key).map(|note| note.text.clone()).collect::<Vec<_>>();
-    let effects = of("effects").iter().flat_map(|text| text.split(", ")).map(str::to_string).collect();
-    let hash = |text: &String| text.rsplit_once("SHA-256 ").map(|(_, hash)| hash.trim().to_string());
-    let data_sha256 = of("fitted on").iter().filter_map(hash).collect();
+    let of = |key: &'static str| notes.iter().filter(move |note| note.key == key);
+    let effects = of("effects").flat_map(|note| note.text.split(", ")).map(str::to_string).collect();
+    let hash = |note: &Note| Some(note.text.rsplit_once("SHA-256 ")?.1.trim().to_string());
+    let data_sha256 = of("fitted on").filter_map(hash).collect();
     Ok(CorrectionTable { file: file.to_string(), effects, data_sha256, rows })
 }
 
@@ -116,20 +102,22 @@ impl CorrectionTable {
     }
 
     fn between(&self, hold: &Hold, marker: &str) -> Result<[f64; 2]> {
-        let near = |row: &&Moved| (row.body_pa - hold.p_body_pa).abs() <= policy::tolerance_body_pa(hold.p_body_pa);
-        let phase = if hold.phase == Phase::Unload { Phase::Unload } else { Phase::Load }.word();
+        let body_pa = hold.p_body_pa;
+        let near = |row: &&Moved| (row.body_pa - body_pa).abs() <= policy::tolerance_body_pa(body_pa);
+        let phase = if hold.phase == Phase::Unload { "unload" } else { "load" };
         let in_phase = |row: &&Moved| row.phase.is_empty() || row.phase == phase;
-        let own: Vec<&Moved> = self.rows.iter().filter(|row| row.marker == marker).filter(near).collect();
+        let of_marker = self.rows.iter().filter(|row| row.marker == marker);
+        let own: Vec<&Moved> = of_marker.filter(near).collect();
         let one_way: Vec<&Moved> = own.iter().copied().filter(in_phase).collect();
         // The highest pressure of a way back is the end of the way there.
         let own = if one_way.is_empty() { own } else { one_way };
         let refused = |message: String| {
             let help =
                 "fit it on data with this marker at these pressures, and write it again: `ibr add … --base … --also …`";
-            Err(DataError::Runs(Box::new(Fault::of_file(&self.file, message, help))))
+            Err(DataError::of(&self.file, message, help))
         };
         let [Some(first), Some(last)] = [own.first(), own.last()] else {
-            let body = kpa(hold.p_body_pa);
+            let body = kpa(body_pa);
             return refused(format!("the correction has no marker {marker} at {body:.1} kPa body pressure"));
         };
         let p = hold.p_act_pa;
@@ -140,7 +128,8 @@ impl CorrectionTable {
         }
         let above = own.iter().position(|row| row.act_pa >= p).unwrap_or(own.len() - 1);
         let [a, b] = [own[above.saturating_sub(1)], own[above]];
-        let share = if b.act_pa > a.act_pa { ((p - a.act_pa) / (b.act_pa - a.act_pa)).clamp(0.0, 1.0) } else { 1.0 };
+        let width = b.act_pa - a.act_pa;
+        let share = if width > 0.0 { ((p - a.act_pa) / width).clamp(0.0, 1.0) } else { 1.0 };
         Ok([0, 1].map(|axis| a.d_m[axis] + share * (b.d_m[axis] - a.d_m[axis])))
     }
 }

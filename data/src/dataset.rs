@@ -5,6 +5,7 @@
 //! pressures pascals, all times seconds; units are converted where the file is read and nowhere else.
 
 use crate::error::{DataError, Result};
+use crate::header::Pressures;
 
 /// Whether a hold was reached by raising the actuator pressure, by lowering it, or without changing it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -26,6 +27,12 @@ impl Phase {
             Phase::Unload => "unload",
         }
     }
+
+    /// The phase of a word, in upper or lower case.
+    pub(crate) fn of(word: &str) -> Option<Phase> {
+        let all = [Phase::Load, Phase::Hold, Phase::Unload];
+        all.into_iter().find(|phase| word.eq_ignore_ascii_case(phase.word()))
+    }
 }
 
 /// One step of the protocol: constant pressures, the same in every run.
@@ -46,6 +53,12 @@ pub struct Hold {
 }
 
 impl Hold {
+    /// Pressures of the body, of channel 0 and of the channels from 1 on, 0 of channels that the table has not.
+    pub(crate) fn pressures_pa(&self) -> Pressures {
+        let more = |channel: usize| self.more_act_pa.get(channel).copied().unwrap_or(0.0);
+        [self.p_body_pa, self.p_act_pa, more(0), more(1), more(2)]
+    }
+
     /// Pressures of all channels that the table has, channel 0 first \[Pa\].
     pub fn channels_pa(&self) -> impl Iterator<Item = f64> + '_ {
         std::iter::once(self.p_act_pa).chain(self.more_act_pa.iter().copied())
@@ -195,7 +208,7 @@ impl Dataset {
         let readings = self.runs.len() * self.holds.len() * self.samples_per_hold;
         let wrong = |message: String| {
             let help = "lay coordinates_m out as [run][hold][sample][marker][axis] with 2 or 3 axes, and samples_per_hold times in every hold";
-            Err(DataError::runs(&self.name, message, help))
+            Err(DataError::of(&self.name, message, help))
         };
         match (empty, timed, finite) {
             (true, ..) => wrong("the dataset has no values".to_string()),

@@ -1,6 +1,6 @@
 //! What can be wrong with a user's file, said once, with the place and with what to type instead.
 //!
-//! Every error carries the same [`Fault`]; the variant is only its kind. The binary shows the offending
+//! Every error carries the same [`Fault`]. The binary shows the offending
 //! line with a caret from [`DataError::source_line`] and [`DataError::caret`], without opening the file again.
 
 use std::fmt;
@@ -84,12 +84,6 @@ impl Fault {
         let inside = |at: usize| at.saturating_sub(self.source_start).min(length);
         Some((inside(start), inside(end)))
     }
-
-    /// The same fault, placed in line `line` of its file (where the text of the line is gone).
-    pub fn at_line(mut self, line: u64) -> Fault {
-        self.location.line = line;
-        self
-    }
 }
 
 fn floor_boundary(text: &str, at: usize) -> usize {
@@ -122,30 +116,18 @@ pub enum DataError {
     /// No such file, folder or embedded set, or it cannot be opened or written.
     #[error("{0}")]
     File(Box<Fault>),
-    /// The file is not a table: empty, header only, not UTF-8, a row cut short, too large.
+    /// A file does not hold what it should, or this build cannot read it.
     #[error("{0}")]
-    Layout(Box<Fault>),
-    /// A column is missing, there twice, misspelt or has no unit.
-    #[error("{0}")]
-    Column(Box<Fault>),
-    /// A cell is not what its column holds.
-    #[error("{0}")]
-    Cell(Box<Fault>),
-    /// The numbers are of a plausible robot only in another unit or with another axis.
-    #[error("{0}")]
-    Unit(Box<Fault>),
-    /// Runs, holds and markers do not fit together.
-    #[error("{0}")]
-    Runs(Box<Fault>),
+    Content(Box<Fault>),
     /// The clocks of camera and pressure log do not agree.
     #[error("{0}")]
     Clock(Box<Fault>, Box<ClockTracks>),
-    /// A TOML description has a fault, at a line of its text.
-    #[error("{0}")]
-    About(Box<Fault>),
-    /// The crate was built without the feature this needs.
-    #[error("{0}")]
-    Feature(Box<Fault>),
+}
+
+impl From<Fault> for DataError {
+    fn from(fault: Fault) -> DataError {
+        DataError::Content(Box::new(fault))
+    }
 }
 
 impl DataError {
@@ -154,38 +136,41 @@ impl DataError {
         DataError::File(Box::new(Fault::of_file(file, message, help)))
     }
 
-    /// A file that is not a table as a whole.
-    pub fn layout(file: &str, message: impl Into<String>, help: impl Into<String>) -> DataError {
-        DataError::Layout(Box::new(Fault::of_file(file, message, help)))
-    }
-
-    /// Runs, holds or markers of a file that do not fit together.
-    pub fn runs(file: &str, message: impl Into<String>, help: impl Into<String>) -> DataError {
-        DataError::Runs(Box::new(Fault::of_file(file, message, help)))
-    }
-
-    /// A description that is wrong as a whole.
-    pub fn about(file: &str, message: impl Into<String>, help: impl Into<String>) -> DataError {
-        DataError::About(Box::new(Fault::of_file(file, message, help)))
+    /// A file that does not hold what it should, as a whole.
+    pub fn of(file: &str, message: impl Into<String>, help: impl Into<String>) -> DataError {
+        Fault::of_file(file, message, help).into()
     }
 
     /// The fault inside, with place, message and remedy.
     pub fn fault(&self) -> &Fault {
-        use DataError::{About, Cell, Clock, Column, Feature, File, Layout, Runs, Unit};
-        match self {
-            File(f) | Layout(f) | Column(f) | Cell(f) | Unit(f) | Runs(f) | Clock(f, _) | About(f) | Feature(f) => f,
-        }
+        let (DataError::File(fault) | DataError::Content(fault) | DataError::Clock(fault, _)) = self;
+        fault
+    }
+
+    pub(crate) fn fault_mut(&mut self) -> &mut Fault {
+        let (DataError::File(fault) | DataError::Content(fault) | DataError::Clock(fault, _)) = self;
+        fault
+    }
+
+    /// The same, placed in a line of its file (where the text of the line is gone).
+    #[must_use]
+    pub fn at_line(mut self, line: u64) -> DataError {
+        self.fault_mut().location.line = line;
+        self
+    }
+
+    /// The same, placed in a column, and in the text of a cell there.
+    pub(crate) fn in_column(mut self, name: &str, cell: Option<&str>) -> DataError {
+        let location = &mut self.fault_mut().location;
+        location.column_name = Some(name.to_string());
+        location.cell = cell.map(str::to_string);
+        self
     }
 
     /// The same with more to do or type.
     #[must_use]
     pub fn with_help(mut self, more: &str) -> DataError {
-        use DataError::{About, Cell, Clock, Column, Feature, File, Layout, Runs, Unit};
-        match &mut self {
-            File(f) | Layout(f) | Column(f) | Cell(f) | Unit(f) | Runs(f) | Clock(f, _) | About(f) | Feature(f) => {
-                f.help += more;
-            }
-        }
+        self.fault_mut().help += more;
         self
     }
 
@@ -226,9 +211,8 @@ mod tests {
 
     #[test]
     fn display_names_file_line_and_column() {
-        let mut fault = Fault::of_file("markers.csv", "expected a number, found \"abc\"", "type a number").at_line(17);
-        fault.location.column_name = Some("x_mm".to_string());
-        let error = DataError::Cell(Box::new(fault));
+        let error = DataError::of("markers.csv", "expected a number, found \"abc\"", "type a number");
+        let error = error.at_line(17).in_column("x_mm", None);
         assert_eq!(error.to_string(), "markers.csv:17, column x_mm: expected a number, found \"abc\"");
         assert_eq!(error.help(), "type a number");
     }
@@ -236,7 +220,7 @@ mod tests {
     #[test]
     fn a_span_in_a_text_finds_its_line_and_caret() {
         let fault = Fault::of_text("a.toml", "a = 1\nbé = 2\nc = 3", Some((6, 9)), "m".into(), "h".into());
-        let error = DataError::About(Box::new(fault));
+        let error = DataError::from(fault);
         assert_eq!((error.location().line, error.source_line(), error.caret()), (2, Some("bé = 2"), Some((0, 3))));
     }
 

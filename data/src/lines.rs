@@ -5,7 +5,7 @@
 
 use std::io::{BufRead, BufReader, Read};
 
-use crate::error::{DataError, Fault, Location, Result};
+use crate::error::{DataError, Result};
 
 /// Longest line accepted: far above any row of markers; without a bound a binary file would be read whole.
 const LONGEST_LINE: u64 = 1 << 20;
@@ -28,18 +28,13 @@ pub(crate) struct Line<'a> {
 }
 
 impl Line<'_> {
-    /// A fault of the whole line.
-    pub(crate) fn fault(&self, message: impl Into<String>, help: impl Into<String>) -> Box<Fault> {
-        let location = Location { file: self.file.to_string(), line: self.number, column_name: None, cell: None };
-        Box::new(Fault {
-            location,
-            message: message.into(),
-            help: help.into(),
-            span: Some((self.start, self.start + self.text.len())),
-            source_line: Some(self.text.to_string()),
-            source_start: self.start,
-            ..Fault::default()
-        })
+    pub(crate) fn fault(&self, message: impl Into<String>, help: impl Into<String>) -> DataError {
+        let mut error = DataError::of(self.file, message, help).at_line(self.number);
+        let fault = error.fault_mut();
+        fault.span = Some((self.start, self.start + self.text.len()));
+        fault.source_line = Some(self.text.to_string());
+        fault.source_start = self.start;
+        error
     }
 
     /// An owned copy of place and text, for faults found only when the whole file has been read.
@@ -48,7 +43,6 @@ impl Line<'_> {
     }
 }
 
-/// A [`Line`] that owns its text.
 #[derive(Debug, Clone)]
 pub(crate) struct KeptLine {
     pub file: String,
@@ -64,8 +58,8 @@ impl KeptLine {
 }
 
 pub(crate) struct Lines<'a> {
-    reader: BufReader<&'a mut dyn Read>,
-    progress: Progress<'a>,
+    reader: BufReader<Box<dyn Read + 'a>>,
+    progress: Option<Progress<'a>>,
     file: String,
     buffer: Vec<u8>,
     number: u64,
@@ -77,19 +71,27 @@ pub(crate) struct Lines<'a> {
 impl<'a> Lines<'a> {
     /// Lines of `reader`; `bytes_total` (0 if unknown) is handed on to `progress` with the bytes read so far.
     pub(crate) fn new(file: &str, reader: &'a mut dyn Read, bytes_total: u64, progress: Progress<'a>) -> Lines<'a> {
+        Lines { progress: Some(progress), bytes_total, ..Lines::of(file, Box::new(reader)) }
+    }
+
+    /// Lines of a text that is at hand.
+    pub(crate) fn of_text(file: &str, text: &'a str) -> Lines<'a> {
+        Lines::of(file, Box::new(text.as_bytes()))
+    }
+
+    fn of(file: &str, reader: Box<dyn Read + 'a>) -> Lines<'a> {
         Lines {
             reader: BufReader::with_capacity(1 << 16, reader),
-            progress,
+            progress: None,
             file: file.to_string(),
             buffer: Vec::new(),
             number: 0,
             next_byte: 0,
-            bytes_total,
+            bytes_total: 0,
             next_report: PROGRESS_STEP,
         }
     }
 
-    /// The name of the file in errors.
     pub(crate) fn file(&self) -> &str {
         &self.file
     }
@@ -99,7 +101,7 @@ impl<'a> Lines<'a> {
         loop {
             let read = self.read_raw()?;
             if read == 0 {
-                (self.progress)(self.next_byte, self.bytes_total.max(self.next_byte));
+                self.report();
                 return Ok(None);
             }
             // A spreadsheet ends with rows of separators where cells were emptied.
@@ -108,6 +110,12 @@ impl<'a> Lines<'a> {
             }
         }
         self.current().map(Some)
+    }
+
+    fn report(&mut self) {
+        if let Some(progress) = &mut self.progress {
+            progress(self.next_byte, self.bytes_total.max(self.next_byte));
+        }
     }
 
     fn read_raw(&mut self) -> Result<usize> {
@@ -121,7 +129,7 @@ impl<'a> Lines<'a> {
         }
         if self.next_byte >= self.next_report {
             self.next_report = self.next_byte + PROGRESS_STEP;
-            (self.progress)(self.next_byte, self.bytes_total.max(self.next_byte));
+            self.report();
         }
         Ok(read)
     }
@@ -140,15 +148,14 @@ impl<'a> Lines<'a> {
     }
 
     fn unreadable(&self, cause: &str) -> DataError {
-        let fault =
-            Fault::of_file(&self.file, format!("cannot read the file: {cause}"), "check the disk and try again");
-        DataError::File(Box::new(fault.at_line(self.number + 1)))
+        let message = format!("cannot read the file: {cause}");
+        DataError::file(&self.file, message, "check the disk and try again").at_line(self.number + 1)
     }
 
     fn cr_only(&self) -> DataError {
         let help = "save the table again as CSV (UTF-8), or convert the line ends: tr '\\r' '\\n' < old.csv > new.csv";
         let message = "the line ends are CR only, as old Macintosh programs write them: the whole file is one line";
-        DataError::layout(&self.file, message, help)
+        DataError::of(&self.file, message, help)
     }
 
     fn too_long(&self) -> DataError {
@@ -156,8 +163,8 @@ impl<'a> Lines<'a> {
             return self.cr_only();
         }
         let help = "save the table as CSV (UTF-8) with one row per line";
-        let fault = Fault::of_file(&self.file, "a line is longer than 1 MiB: this is not a marker table", help);
-        DataError::Layout(Box::new(fault.at_line(self.number)))
+        let message = "a line is longer than 1 MiB: this is not a marker table";
+        DataError::of(&self.file, message, help).at_line(self.number)
     }
 
     fn not_utf8(&self, at: usize, bytes: &[u8]) -> DataError {
@@ -166,9 +173,9 @@ impl<'a> Lines<'a> {
             [b'P', b'K', 3, 4, ..] => "it looks like an Excel workbook: export the sheet as \"CSV UTF-8\"",
             _ => "save the file as \"CSV UTF-8\"; µ, ° and accented letters are the usual culprits",
         };
-        let mut fault = Fault::of_file(&self.file, "the text is not UTF-8", help).at_line(self.number);
-        fault.span = Some((at, at + 1));
-        DataError::Layout(Box::new(fault))
+        let mut error = DataError::of(&self.file, "the text is not UTF-8", help).at_line(self.number);
+        error.fault_mut().span = Some((at, at + 1));
+        error
     }
 }
 
@@ -200,6 +207,7 @@ mod tests {
         let mut reader = bytes.as_slice();
         let mut lines = Lines::new("f", &mut reader, bytes.len() as u64, &mut progress);
         while lines.next_filled().unwrap().is_some() {}
+        drop(lines);
         let total = bytes.len() as u64;
         assert_eq!(calls, [(1 << 20, total), (2 << 20, total), (3 << 20, total), (total, total)]);
     }

@@ -11,6 +11,9 @@ use crate::read::{ReadOptions, parse_markers, read_markers_of};
 use crate::sets::{names, set_about, set_file, shown};
 use crate::table::TableReader;
 
+/// A dataset, and its description where it has one.
+type Loaded = (Dataset, Option<About>);
+
 /// Loads the dataset that `spec` names: an embedded set, a folder with `markers.csv` (or `.parquet`) and `about.toml`,
 /// a `.csv` or a `.parquet` file (an `about.toml` next to it is used). `#kind` at the end chooses one actuator.
 ///
@@ -39,12 +42,13 @@ fn split_kind(spec: &str) -> (&str, Option<&str>) {
     }
 }
 
-fn load_set(name: &str, actuator: Option<&str>, progress: Progress) -> Result<(Dataset, Option<About>)> {
+fn load_set(name: &str, actuator: Option<&str>, progress: Progress) -> Result<Loaded> {
     let about = set_about(name)?;
     let file = shown(name, "markers.csv");
     let text = set_file(name, "markers.csv").map_err(|_| {
+        let message = format!("the set {name} has no marker positions");
         let help = "it holds published tables only; `ibr data list` shows the sets with marker positions";
-        DataError::file(&file, format!("the set {name} has no marker positions"), help)
+        DataError::file(&file, message, help)
     })?;
     let options = ReadOptions { about: Some(&about), actuator, bytes_total: text.len() as u64 };
     let mut dataset = parse_markers(&file, &mut text.as_bytes(), options, progress)?;
@@ -52,11 +56,12 @@ fn load_set(name: &str, actuator: Option<&str>, progress: Progress) -> Result<(D
     Ok((dataset, Some(about)))
 }
 
-fn load_folder(folder: &Path, actuator: Option<&str>, progress: Progress) -> Result<(Dataset, Option<About>)> {
+fn load_folder(folder: &Path, actuator: Option<&str>, progress: Progress) -> Result<Loaded> {
     let candidates = ["markers.csv", "markers.parquet"].map(|file| folder.join(file));
     let Some(file) = candidates.iter().find(|file| file.is_file()) else {
+        let (shown, message) = (folder.display().to_string(), "the folder has no markers.csv");
         let help = "put the table there as markers.csv, together with an about.toml";
-        return Err(DataError::file(&folder.display().to_string(), "the folder has no markers.csv", help));
+        return Err(DataError::file(&shown, message, help));
     };
     let (mut dataset, about) = load_file(file, actuator, progress)?;
     let full = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
@@ -66,14 +71,16 @@ fn load_folder(folder: &Path, actuator: Option<&str>, progress: Progress) -> Res
     Ok((dataset, about))
 }
 
-fn load_file(file: &Path, actuator: Option<&str>, progress: Progress) -> Result<(Dataset, Option<About>)> {
+fn load_file(file: &Path, actuator: Option<&str>, progress: Progress) -> Result<Loaded> {
     let beside = file.with_file_name("about.toml");
     // A link that leads nowhere was meant to be read.
-    let about = beside.symlink_metadata().is_ok().then(|| read_about(&beside)).transpose()?;
-    let options = ReadOptions { about: about.as_ref(), actuator, bytes_total: 0 };
-    let dataset = if file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("parquet")) {
-        let table = read_parquet(file)?;
-        parse_markers(&file.display().to_string(), &mut TableReader::new(&table), options, progress)?
+    let is_there = beside.symlink_metadata().is_ok();
+    let about = is_there.then(|| read_about(&beside)).transpose()?;
+    let options = ReadOptions { actuator, ..ReadOptions::of(about.as_ref()) };
+    let is_parquet = file.extension().is_some_and(|end| end.eq_ignore_ascii_case("parquet"));
+    let dataset = if is_parquet {
+        let (shown, table) = (file.display().to_string(), read_parquet(file)?);
+        parse_markers(&shown, &mut TableReader::new(&table), options, progress)?
     } else {
         read_markers_of(file, options, progress)?
     };
@@ -83,7 +90,7 @@ fn load_file(file: &Path, actuator: Option<&str>, progress: Progress) -> Result<
 fn nothing(place: &str) -> DataError {
     let known = names();
     let meant = spelling::meant(place, known.iter().copied());
-    let help =
-        format!("{meant}give a .csv or .parquet file, a folder with markers.csv, or one of {}", known.join(", "));
+    let sets = known.join(", ");
+    let help = format!("{meant}give a .csv or .parquet file, a folder with markers.csv, or one of {sets}");
     DataError::file(place, "no such file, folder or embedded set", help)
 }

@@ -49,20 +49,21 @@ impl Dataset {
 /// Fills the cells (run, hold, marker), in order, that were lost, and lists which are filled and which left out.
 pub(crate) fn fill(dataset: &mut Dataset, cells: &[[usize; 3]]) {
     let runs = dataset.runs.len();
-    let is_lost = |cell: [usize; 3]| cells.binary_search(&cell).is_ok();
-    let lost_by = |hold: usize, marker: usize| (0..runs).filter(|run| is_lost([*run, hold, marker])).count();
+    let seen_by = |hold: usize, marker: usize| seen(runs, cells, hold, marker).count();
     let mut lost = Lost::default();
     for hold in 0..dataset.holds.len() {
-        for marker in 0..dataset.markers.len() {
-            if runs - lost_by(hold, marker) < needed(runs) {
-                lost.unseen.push([hold, marker]);
-            }
-        }
+        let is_unseen = |marker: &usize| seen_by(hold, *marker) < needed(runs);
+        lost.unseen.extend((0..dataset.markers.len()).filter(is_unseen).map(|marker| [hold, marker]));
     }
-    let is_left_out = |[_, hold, marker]: &[usize; 3]| lost.unseen.contains(&[*hold, *marker]);
-    lost.filled = cells.iter().filter(|cell| !is_left_out(cell)).copied().collect();
+    let is_kept = |[_, hold, marker]: &&[usize; 3]| !lost.unseen.contains(&[*hold, *marker]);
+    lost.filled = cells.iter().filter(is_kept).copied().collect();
     dataset.lost = lost;
     dataset.coordinates_m = filled(dataset, cells);
+}
+
+/// Runs that saw a marker in a hold.
+fn seen(runs: usize, cells: &[[usize; 3]], hold: usize, marker: usize) -> impl Iterator<Item = usize> + '_ {
+    (0..runs).filter(move |run| cells.binary_search(&[*run, hold, marker]).is_err())
 }
 
 /// Indices of a cell in run layout, all samples.
@@ -76,9 +77,9 @@ fn filled(dataset: &Dataset, cells: &[[usize; 3]]) -> Vec<f64> {
     let mean = mean_of_seen(dataset, cells);
     let made = made(dataset, &mean, cells);
     let (n, mut all) = (mean.len(), dataset.coordinates_m.clone());
-    for (run, values) in made.iter().enumerate() {
-        for [r, hold, marker] in dataset.lost.filled.iter().filter(|cell| cell[0] == run) {
-            of_cell(dataset, *hold, *marker).into_iter().for_each(|i| all[r * n + i] = values[i]);
+    for [run, hold, marker] in &dataset.lost.filled {
+        for i in of_cell(dataset, *hold, *marker) {
+            all[run * n + i] = made[*run][i];
         }
     }
     for [hold, marker] in &dataset.lost.unseen {
@@ -92,20 +93,17 @@ fn filled(dataset: &Dataset, cells: &[[usize; 3]]) -> Vec<f64> {
 /// Mean over the runs that saw each value; where none did, the marker's mean in the nearest hold by pressure that one saw, or zero.
 fn mean_of_seen(dataset: &Dataset, cells: &[[usize; 3]]) -> Vec<f64> {
     let mut mean = vec![0.0; dataset.values_per_run()];
-    let holds = 0..dataset.holds.len();
-    let seen = |hold: usize, marker: usize| -> Vec<usize> {
-        (0..dataset.runs.len()).filter(|run| cells.binary_search(&[*run, hold, marker]).is_err()).collect()
-    };
+    let holds = &dataset.holds;
     for marker in 0..dataset.markers.len() {
-        let is_seen = |hold: &usize| !seen(*hold, marker).is_empty();
-        for hold in holds.clone() {
-            let gap = |h: usize| (dataset.holds[h].p_act_pa - dataset.holds[hold].p_act_pa).abs();
-            let nearest = holds.clone().filter(is_seen).min_by(|a, b| gap(*a).total_cmp(&gap(*b)));
-            let from = if is_seen(&hold) { Some(hold) } else { nearest };
-            let Some(from) = from else { continue };
-            let runs = seen(from, marker);
-            for (to, at) in of_cell(dataset, hold, marker).into_iter().zip(of_cell(dataset, from, marker)) {
-                mean[to] = runs.iter().map(|run| dataset.run(*run)[at]).sum::<f64>() / runs.len() as f64;
+        let seen = |hold: usize| seen(dataset.runs.len(), cells, hold, marker);
+        for (hold, own) in holds.iter().enumerate() {
+            // The hold itself, if a run saw the marker there.
+            let gap = |h: &usize| if *h == hold { -1.0 } else { (holds[*h].p_act_pa - own.p_act_pa).abs() };
+            let known = (0..holds.len()).filter(|h| seen(*h).next().is_some());
+            let Some(from) = known.min_by(|a, b| gap(a).total_cmp(&gap(b))) else { continue };
+            let places = of_cell(dataset, from, marker).into_iter();
+            for (to, at) in of_cell(dataset, hold, marker).into_iter().zip(places) {
+                mean[to] = seen(from).map(|run| dataset.run(run)[at]).sum::<f64>() / seen(from).count() as f64;
             }
         }
     }
@@ -118,20 +116,18 @@ fn made(dataset: &Dataset, mean: &[f64], cells: &[[usize; 3]]) -> Vec<Vec<f64>> 
     let runs = dataset.runs.len();
     let share = runs as f64 / (runs as f64 - 1.0);
     let of_run = |run: usize| {
-        let is_lost = |i: &usize| {
-            let (hold, marker) = (
-                i / (dataset.axes * dataset.markers.len() * dataset.samples_per_hold),
-                i / dataset.axes % dataset.markers.len(),
-            );
-            cells.binary_search(&[run, hold, marker]).is_ok() || !dataset.is_seen(hold, marker)
-        };
         if dataset.lost.filled.iter().all(|cell| cell[0] != run) {
             return Vec::new();
         }
-        let used: Vec<usize> = (0..mean.len()).filter(|i| !is_lost(i)).collect();
-        let deviation: Vec<f64> = used.iter().map(|i| dataset.run(run)[*i] - mean[*i]).collect();
-        let here: Vec<Vec<f64>> = columns.iter().map(|c| used.iter().map(|i| c[*i]).collect()).collect();
-        let found = least_squares(&here, deviation);
+        let (of_marker, of_hold) = (dataset.axes, dataset.axes * dataset.markers.len() * dataset.samples_per_hold);
+        let is_used = |i: &usize| {
+            let (hold, marker) = (i / of_hold, i / of_marker % dataset.markers.len());
+            cells.binary_search(&[run, hold, marker]).is_err() && dataset.is_seen(hold, marker)
+        };
+        let used: Vec<usize> = (0..mean.len()).filter(is_used).collect();
+        let deviation = used.iter().map(|i| dataset.run(run)[*i] - mean[*i]).collect();
+        let here = |column: &Vec<f64>| used.iter().map(|i| column[*i]).collect();
+        let found = least_squares(&columns.iter().map(here).collect::<Vec<_>>(), deviation);
         let moved = |i: usize| columns.iter().zip(&found).map(|(c, f)| f * c[i]).sum::<f64>();
         (0..mean.len()).map(|i| mean[i] + share * moved(i)).collect()
     };
@@ -148,13 +144,13 @@ fn columns(dataset: &Dataset, mean: &[f64]) -> Vec<Vec<f64>> {
     let column = |value: &dyn Fn(usize, usize) -> f64| (0..mean.len()).map(|i| value(i, i % axes)).collect();
     let mut columns: Vec<Vec<f64>> = vec![column(&|i, axis| mean[i] - mean[first(i / axes % markers) + axis])];
     columns.extend((0..axes).map(|own| column(&|_, axis| f64::from(u8::from(axis == own)))));
-    columns.extend([[0, 1], [0, 2], [1, 2]].into_iter().filter(|plane| plane[1] < axes).map(|[from, to]| {
-        column(&|i, axis| match axis {
+    for [from, to] in [[0, 1], [0, 2], [1, 2]].into_iter().filter(|plane| plane[1] < axes) {
+        columns.push(column(&|i, axis| match axis {
             axis if axis == from => -mean[i - from + to],
             axis if axis == to => mean[i - to + from],
             _ => 0.0,
-        })
-    }));
+        }));
+    }
     columns
 }
 
@@ -199,9 +195,8 @@ pub fn losses(dataset: &Dataset) -> Vec<String> {
     let Lost { unseen, filled, frames } = &dataset.lost;
     let name = &dataset.name;
     let place = |hold: usize, marker: usize| {
-        let h = &dataset.holds[hold];
-        let (kpa, phase) = (h.p_act_pa / 1e3, h.phase.word());
-        format!("marker {} at {kpa:.1} kPa ({phase})", dataset.markers[marker].name)
+        let (marker, hold) = (&dataset.markers[marker].name, &dataset.holds[hold]);
+        format!("marker {marker} at {:.1} kPa ({})", hold.p_act_pa / 1e3, hold.phase.word())
     };
     let list = |places: Vec<String>| match places.len().checked_sub(MOST_NAMED) {
         Some(more) if more > 0 => format!("{}, and {more} more", places[..MOST_NAMED].join(", ")),
@@ -212,19 +207,18 @@ pub fn losses(dataset: &Dataset) -> Vec<String> {
         words.push(format!("{name}: {frames} rows have no position and were passed over"));
     }
     if !filled.is_empty() {
-        let places =
-            filled.iter().map(|[run, hold, marker]| format!("run {}, {}", dataset.runs[*run], place(*hold, *marker)));
-        words.push(format!(
-            "{name}: {} lost in single runs for a whole hold, and put there as the other runs saw it, moved as the run is: {}",
-            if filled.len() == 1 { "a marker was".into() } else { format!("{} times a marker was", filled.len()) },
-            list(places.collect())
-        ));
+        let one = |[run, hold, marker]: &[usize; 3]| format!("run {}, {}", dataset.runs[*run], place(*hold, *marker));
+        let places = list(filled.iter().map(one).collect());
+        let what = match filled.len() {
+            1 => "a marker was".into(),
+            count => format!("{count} times a marker was"),
+        };
+        let how = "lost in single runs for a whole hold, and put there as the other runs saw it, moved as the run is";
+        words.push(format!("{name}: {what} {how}: {places}"));
     }
     if !unseen.is_empty() {
-        words.push(format!(
-            "{name}: seen by fewer than two thirds of the runs and left out: {}",
-            list(unseen.iter().map(|[hold, marker]| place(*hold, *marker)).collect())
-        ));
+        let places = list(unseen.iter().map(|[hold, marker]| place(*hold, *marker)).collect());
+        words.push(format!("{name}: seen by fewer than two thirds of the runs and left out: {places}"));
     }
     words
 }

@@ -34,7 +34,7 @@ pub fn read_parquet(path: &Path) -> Result<Table> {
 #[cfg(not(feature = "parquet"))]
 mod files {
     use super::{Path, Result, Table};
-    use crate::error::{DataError, Fault};
+    use crate::error::DataError;
 
     pub(super) fn write(_table: &Table, path: &Path, _notes: &[(String, String)]) -> Result<()> {
         Err(absent(path))
@@ -47,6 +47,6 @@ mod files {
     fn absent(path: &Path) -> DataError {
         let help = "use CSV, or build with the crate feature: cargo build --features parquet";
         let message = "this build has no Parquet support";
-        DataError::Feature(Box::new(Fault::of_file(&path.display().to_string(), message, help)))
+        DataError::of(&path.display().to_string(), message, help)
     }
 }

@@ -12,9 +12,9 @@
 
 use std::collections::HashMap;
 
-use crate::columns::{self, Columns, Field, Meaning, TableRow, field, plain};
+use crate::columns::{Field, Head, Sheet, TableRow, field, plain};
 use crate::dataset::{Dataset, Hold};
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 use crate::header::Pressures;
 use crate::lines::Lines;
 use crate::policy;
@@ -58,8 +58,7 @@ pub struct Predictions {
 impl Predictions {
     /// A fault of the prediction of a marker in a hold, at its line.
     pub fn fault(&self, cell: usize, message: impl Into<String>, help: impl Into<String>) -> DataError {
-        let fault = Fault::of_file(&self.file, message, help).at_line(self.lines.get(cell).copied().unwrap_or(0));
-        DataError::Runs(Box::new(fault))
+        DataError::of(&self.file, message, help).at_line(self.lines.get(cell).copied().unwrap_or(0))
     }
 }
 
@@ -69,125 +68,109 @@ impl Predictions {
 /// A column that is missing, a row that belongs to no hold or marker of the data, two predictions of one place, a hold or marker without
 /// a prediction: with file, line and remedy.
 pub fn parse_predictions(file: &str, text: &str, dataset: &Dataset) -> Result<Predictions> {
-    let mut progress = |_, _| ();
-    let mut bytes = text.as_bytes();
-    let mut lines = Lines::new(file, &mut bytes, text.len() as u64, &mut progress);
-    let (_, header) = columns::notes(&mut lines)?;
-    let Some(header) = header else {
-        return Err(DataError::layout(file, "the file is empty", "write columns such as p_act_kpa,marker,x_mm,y_mm"));
+    let mut lines = Lines::of_text(file, text);
+    let (_, Some(head)) = Head::read(&mut lines)? else {
+        let help = "write columns such as p_act_kpa,marker,x_mm,y_mm";
+        return Err(DataError::of(file, "the file is empty", help));
     };
-    let line = header.line();
-    let (names, delimiter) = columns::split(line.text, None);
-    let meaning = |name: &str| Meaning::of(name, &FIELDS);
-    if let Some(fault) = columns::without_unit(&line, &names, &FIELDS, &meaning, &|at| Some(FIELDS[at].needed)) {
-        return Err(DataError::Column(fault));
+    head.without_unit(&FIELDS, |at| Some(FIELDS[at].needed))?;
+    let sheet = head.sheet(&FIELDS)?;
+    let sheet = Sheet { comma: sheet.head.delimiter != ',', ..sheet };
+    if let Some([message, help]) = lacks(&sheet, dataset) {
+        return Err(sheet.head.line.line().fault(message, help));
     }
-    let at = columns::find(&line, &names, &FIELDS, &meaning)?;
-    let table = Columns { fields: &FIELDS, names, delimiter: delimiter.into(), comma: delimiter != b',', at };
-    if let Some([message, help]) = lacks(&table, dataset) {
-        return Err(DataError::Column(line.fault(message, help)));
-    }
-    let mut found = Collected::new(dataset, &table);
-    while let Some(line) = lines.next_filled()? {
-        if !line.text.trim_start().starts_with('#') {
-            found.take(&table.row(line)?)?;
-        }
-    }
+    let mut found = Collected::new(dataset, &sheet);
+    sheet.each_row(&mut lines, |row| found.take(row))?;
     found.complete(file)
 }
 
 /// A column that the data ask for and the table has not, and what to add.
-fn lacks(table: &Columns, dataset: &Dataset) -> Option<[String; 2]> {
-    let has = |field: usize| table.at[field].is_some();
+fn lacks(sheet: &Sheet, dataset: &Dataset) -> Option<[String; 2]> {
     let missing = |field: usize, why: &str| {
         let name = FIELDS[field].expected;
         Some([format!("column {name} is missing{why}"), format!("add {name} with a value in every row")])
     };
-    let needed = |field: &usize| FIELDS[*field].needed || *field == PLACE[2] && dataset.has_z();
-    if let Some(field) = (0..FIELDS.len()).filter(needed).find(|field| !has(*field)) {
+    let z = Some(PLACE[2]).filter(|z| dataset.has_z() && !sheet.has(*z));
+    if let Some(field) = sheet.missing().or(z) {
         return missing(field, "");
     }
-    if !has(PRESSURES[1]) {
-        let why = ", and so is t_s: a row has no hold";
-        return if has(TIME) { None } else { missing(PRESSURES[1], why) };
+    if !sheet.has(PRESSURES[1]) {
+        let hold = || missing(PRESSURES[1], ", and so is t_s: a row has no hold");
+        return if sheet.has(TIME) { None } else { hold() };
     }
-    if dataset.channels_differ()
-        && let Some(field) = PRESSURES[2..2 + dataset.more_channels()].iter().find(|field| !has(**field))
-    {
+    let more = &PRESSURES[2..2 + dataset.more_channels()];
+    if let Some(field) = more.iter().find(|field| dataset.channels_differ() && !sheet.has(**field)) {
         return missing(*field, ": the data have pressures of this supply channel");
     }
     let first = dataset.holds.first().map_or(0.0, |hold| hold.p_body_pa);
-    let bodies_differ =
-        dataset.holds.iter().any(|hold| (hold.p_body_pa - first).abs() > policy::tolerance_body_pa(first));
-    if bodies_differ && !has(PRESSURES[0]) {
+    let is_other = |hold: &Hold| (hold.p_body_pa - first).abs() > policy::tolerance_body_pa(first);
+    if dataset.holds.iter().any(is_other) && !sheet.has(PRESSURES[0]) {
         return missing(PRESSURES[0], ": the data have several body pressures");
     }
     None
 }
 
-/// Sums over the rows of every hold and marker.
+/// Sum over the rows of a hold and marker, their count, and the line of the first.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sum {
+    place_m: [f64; 3],
+    count: u32,
+    line: u64,
+}
+
+/// What was read so far.
 struct Collected<'d> {
     dataset: &'d Dataset,
-    /// Whether rows have pressures.
     pressed: bool,
-    sums: Vec<[f64; 3]>,
-    counts: Vec<u32>,
-    lines: Vec<u64>,
+    /// `[hold][marker]`
+    sums: Vec<Sum>,
     /// Place and line of every label of a row: run, time, pressures, phase, marker.
     seen: HashMap<Vec<String>, ([f64; 3], u64)>,
     last_line: u64,
 }
 
 impl<'d> Collected<'d> {
-    fn new(dataset: &'d Dataset, table: &Columns) -> Collected<'d> {
-        let cells = dataset.holds.len() * dataset.markers.len();
-        Collected {
-            dataset,
-            pressed: table.at[PRESSURES[1]].is_some(),
-            sums: vec![[0.0; 3]; cells],
-            counts: vec![0; cells],
-            lines: vec![0; cells],
-            seen: HashMap::new(),
-            last_line: 0,
-        }
+    fn new(dataset: &'d Dataset, sheet: &Sheet) -> Collected<'d> {
+        let sums = vec![Sum::default(); dataset.holds.len() * dataset.markers.len()];
+        let pressed = sheet.has(PRESSURES[1]);
+        Collected { dataset, pressed, sums, seen: HashMap::new(), last_line: 0 }
     }
 
     fn take(&mut self, row: &TableRow) -> Result<()> {
         let dataset = self.dataset;
         self.last_line = row.line.number;
         let name = crate::cells::label(row.text(MARKER));
-        let Some(marker) = dataset.markers.iter().position(|marker| marker.name == name) else {
-            let known: Vec<&str> = dataset.markers.iter().map(|marker| marker.name.as_str()).collect();
+        let names = dataset.markers.iter().map(|marker| marker.name.as_str());
+        let Some(marker) = names.clone().position(|known| known == name) else {
+            let meant = spelling::meant(name, names.clone());
+            let help = format!("{meant}its markers are {}", names.collect::<Vec<_>>().join(", "));
             let message = format!("marker \"{name}\" is not in {}", dataset.name);
-            let help = format!("{}its markers are {}", spelling::meant(name, known.iter().copied()), known.join(", "));
-            return Err(DataError::Runs(row.fault(MARKER, message, help)));
+            return Err(row.fault(MARKER, message, help));
         };
         let mut place = [0.0; 3];
         for (axis, field) in PLACE.into_iter().take(dataset.axes).enumerate() {
             let value = row.number(field)?.unwrap_or(0.0);
             if value.abs() > policy::FARTHEST_M {
                 let message = format!("\"{}\" is farther than any robot reaches", row.text(field));
-                let help = "correct the unit in the name of the column: x_mm, x_cm or x_m".to_string();
-                return Err(DataError::Unit(row.fault(field, message, help)));
+                let help = "correct the unit in the name of the column: x_mm, x_cm or x_m";
+                return Err(row.fault(field, message, help));
             }
             place[axis] = value;
         }
         let labels = [RUN, TIME, PHASE, MARKER].into_iter().chain(PRESSURES);
         let labels: Vec<String> = labels.map(|field| row.text(field).to_string()).collect();
-        match self.seen.insert(labels, (place, row.line.number)) {
-            Some((before, line)) if before != place => {
-                let message = format!("marker {name} has another prediction for the same hold in line {line}");
-                return Err(DataError::Runs(row.line.fault(message, "keep one of the two rows")));
-            }
-            _ => (),
+        let before = self.seen.insert(labels, (place, row.line.number));
+        if let Some((_, line)) = before.filter(|(before, _)| *before != place) {
+            let message = format!("marker {name} has another prediction for the same hold in line {line}");
+            return Err(row.line.fault(message, "keep one of the two rows"));
         }
         for hold in self.holds(row)? {
-            let cell = hold * dataset.markers.len() + marker;
-            if self.counts[cell] == 0 {
-                self.lines[cell] = row.line.number;
+            let sum = &mut self.sums[hold * dataset.markers.len() + marker];
+            if sum.count == 0 {
+                sum.line = row.line.number;
             }
-            self.counts[cell] += 1;
-            (0..3).for_each(|axis| self.sums[cell][axis] += place[axis]);
+            sum.count += 1;
+            (0..3).for_each(|axis| sum.place_m[axis] += place[axis]);
         }
         Ok(())
     }
@@ -202,7 +185,8 @@ impl<'d> Collected<'d> {
             for (value, field) in given.iter_mut().zip(PRESSURES) {
                 *value = row.number(field)?;
             }
-            found.retain(|hold| are_near(pressures(&holds[*hold]), filled(&holds[*hold], given), 1.0));
+            let is_near = |hold: &Hold| are_near(hold.pressures_pa(), filled(hold, given), 1.0);
+            found.retain(|hold| is_near(&holds[*hold]));
             let gap = |hold: &usize| (holds[*hold].p_act_pa - given[1].unwrap_or(0.0)).abs();
             let least = found.iter().map(gap).fold(f64::INFINITY, f64::min);
             found.retain(|hold| gap(hold) <= least + policy::SAME_ACTUATOR_PA);
@@ -219,47 +203,41 @@ impl<'d> Collected<'d> {
             found.retain(|hold| away_s(&holds[*hold], t_s) <= least);
         }
         if found.is_empty() {
-            let name = &self.dataset.name;
             let field = if self.pressed { PRESSURES[1] } else { TIME };
-            let message = format!("{name} has no hold of this row");
-            let help = format!("its holds are {}; predict at their pressures, or delete the row", listed(holds));
-            return Err(DataError::Runs(row.fault(field, message, help)));
+            let message = format!("{} has no hold of this row", self.dataset.name);
+            let listed = holds.iter().map(words).collect::<Vec<_>>().join("; ");
+            let help = format!("its holds are {listed}; predict at their pressures, or delete the row");
+            return Err(row.fault(field, message, help));
         }
         Ok(found)
     }
 
     fn complete(self, file: &str) -> Result<Predictions> {
-        let markers = self.dataset.markers.len();
-        let is_missing = |cell: &usize| self.counts[*cell] == 0 && self.dataset.is_seen(cell / markers, cell % markers);
-        if let Some(cell) = (0..self.counts.len()).find(is_missing) {
-            let (hold, own) = (cell / markers, (cell / markers) * markers..(cell / markers + 1) * markers);
-            let line = self.lines[own].iter().copied().filter(|line| *line > 0).min();
-            let at = words(&self.dataset.holds[hold]);
+        let Dataset { markers, holds, axes, .. } = self.dataset;
+        let count = markers.len();
+        let is_seen = |cell: usize| self.dataset.is_seen(cell / count, cell % count);
+        let is_missing = |cell: &usize| self.sums[*cell].count == 0 && is_seen(*cell);
+        if let Some(cell) = (0..self.sums.len()).find(is_missing) {
+            let (hold, marker) = (cell / count, &markers[cell % count].name);
+            let own = self.sums[hold * count..(hold + 1) * count].iter().map(|sum| sum.line);
+            let (line, at) = (own.filter(|line| *line > 0).min(), words(&holds[hold]));
             let message = match line {
-                Some(_) => format!("marker {} has no prediction at {at}", self.dataset.markers[cell % markers].name),
+                Some(_) => format!("marker {marker} has no prediction at {at}"),
                 None => format!("no row has the pressures of the hold at {at}"),
             };
-            let help = "add a row for every marker at this pressure";
-            let fault = Fault::of_file(file, message, help).at_line(line.unwrap_or(self.last_line));
-            return Err(DataError::Runs(Box::new(fault)));
+            let error = DataError::of(file, message, "add a row for every marker at this pressure");
+            return Err(error.at_line(line.unwrap_or(self.last_line)));
         }
-        let axes = self.dataset.axes;
-        let mean = |(sums, count): (&[f64; 3], &u32)| sums.map(|sum| sum / f64::from((*count).max(1)));
-        let places_m = self.sums.iter().zip(&self.counts).flat_map(|cell| mean(cell).into_iter().take(axes)).collect();
-        Ok(Predictions { file: file.to_string(), places_m, lines: self.lines })
+        let mean = |sum: &Sum| sum.place_m.map(|total| total / f64::from(sum.count.max(1)));
+        let places_m = self.sums.iter().flat_map(|sum| mean(sum).into_iter().take(*axes)).collect();
+        let lines = self.sums.iter().map(|sum| sum.line).collect();
+        Ok(Predictions { file: file.to_string(), places_m, lines })
     }
-}
-
-/// Pressures of a hold, 0 of channels that the data have not.
-fn pressures(hold: &Hold) -> Pressures {
-    let mut all = [hold.p_body_pa, hold.p_act_pa, 0.0, 0.0, 0.0];
-    all[2..].iter_mut().zip(&hold.more_act_pa).for_each(|(own, pa)| *own = *pa);
-    all
 }
 
 /// The pressures of a row; those that it has not, or the data have not, are the pressures of the hold.
 fn filled(hold: &Hold, given: [Option<f64>; PRESSURES.len()]) -> Pressures {
-    let own = pressures(hold);
+    let own = hold.pressures_pa();
     let known = 2 + hold.more_act_pa.len();
     std::array::from_fn(|k| given[k].filter(|_| k < known).unwrap_or(own[k]))
 }
@@ -278,9 +256,6 @@ fn reach_s(holds: &[Hold]) -> f64 {
 
 fn words(hold: &Hold) -> String {
     let act: Vec<String> = hold.channels_pa().map(|pa| format!("{:.1}", kpa(pa))).collect();
-    format!("{} kPa actuator, {:.1} kPa body ({})", act.join("/"), kpa(hold.p_body_pa), hold.phase.word())
-}
-
-fn listed(holds: &[Hold]) -> String {
-    holds.iter().map(words).collect::<Vec<_>>().join("; ")
+    let (act, body, phase) = (act.join("/"), kpa(hold.p_body_pa), hold.phase.word());
+    format!("{act} kPa actuator, {body:.1} kPa body ({phase})")
 }

@@ -168,7 +168,7 @@ fn parse_published(file: &str, text: &str) -> Result<Published> {
     for own in &mut paper.actuators {
         if own.accuracy.len() != pressures_pa.len() {
             let message = format!("{} has not one accuracy per pressure", own.kind);
-            return Err(DataError::about(file, message, "give one accuracy_pct per pressure"));
+            return Err(DataError::of(file, message, "give one accuracy_pct per pressure"));
         }
         own.accuracy.iter_mut().zip(pressures_pa).for_each(|(pair, pressure_pa)| pair.0 = *pressure_pa);
         own.d_max_pressure_pa = highest_pa;

@@ -23,15 +23,13 @@ pub(crate) fn check_kept(recorder: &Recorder) -> Result<()> {
         means.find(|((_, mean), quantity)| *mean < lowest_mean_pa(*quantity)).and_then(|((fault, _), _)| fault.clone())
     };
     if let Some(fault) = segments().find_map(too_low) {
-        return Err(DataError::Cell(fault));
+        return Err(fault);
     }
     let fullest = recorder.streams.iter().max_by_key(|stream| stream.segments.len());
     if let Some(stream) = fullest.filter(|stream| is_ramp(&stream.segments)) {
-        let message = format!(
-            "run {} looks like a ramp: it falls into {} holds within which the pressure moves on",
-            recorder.runs.names[stream.run],
-            stream.segments.len()
-        );
+        let (run, count) = (&recorder.runs.names[stream.run], stream.segments.len());
+        let message =
+            format!("run {run} looks like a ramp: it falls into {count} holds within which the pressure moves on");
         return Err(remedy(recorder, message, stream.first_line));
     }
     (0..recorder.runs.names.len()).try_for_each(|run| no_pieces(recorder, run))
@@ -48,12 +46,10 @@ fn no_pieces(recorder: &Recorder, run: usize) -> Result<()> {
     let streams = || recorder.streams.iter().filter(move |stream| stream.run == run);
     let Some(first) = streams().min_by_key(|stream| pieces(stream).count()) else { return Ok(()) };
     let Some(piece) = pieces(first).next() else { return Ok(()) };
+    let (run, p, rows) = (&recorder.runs.names[run], kpa(piece.p_act_pa()), piece.rows);
+    let lasts = piece.last_t_s() - piece.first_t_s();
     let message = format!(
-        "run {} has a hold at {:.1} kPa of {} rows in {:.2} s, and others of many more: a hold lasts at least {LEAST_HOLD_S} s",
-        recorder.runs.names[run],
-        kpa(piece.p_act_pa()),
-        piece.rows,
-        piece.last_t_s() - piece.first_t_s()
+        "run {run} has a hold at {p:.1} kPa of {rows} rows in {lasts:.2} s, and others of many more: a hold lasts at least {LEAST_HOLD_S} s"
     );
     Err(remedy(recorder, message, piece.first_line))
 }

@@ -23,15 +23,16 @@ use std::path::Path;
 
 use crate::about::About;
 use crate::align::align;
+use crate::cells::stem;
 use crate::dataset::Dataset;
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 use crate::header::{ACTUATOR, read_header};
 use crate::lines::{Lines, Progress};
 use crate::policy;
 use crate::ramps::check_kept;
 use crate::rows::{Cells, RowReader};
-use crate::streams::Recorder;
 use crate::streams::plausible::{check_units, check_y_up};
+use crate::streams::{Recorder, Stream};
 use crate::table::{Table, TableReader};
 
 /// Actuator kinds remembered for the error message that lists them.
@@ -48,12 +49,19 @@ pub struct ReadOptions<'a> {
     pub bytes_total: u64,
 }
 
+impl<'a> ReadOptions<'a> {
+    /// All kinds of actuators, with a description.
+    pub(crate) fn of(about: Option<&'a About>) -> ReadOptions<'a> {
+        ReadOptions { about, ..ReadOptions::default() }
+    }
+}
+
 /// Reads the marker table at `path`; `progress(bytes_done, bytes_total)` is called about every MiB and at the end.
 ///
 /// # Errors
 /// Every fault of the file as one [`DataError`] with line, column and cell.
 pub fn read_markers(path: &Path, about: Option<&About>, progress: Progress) -> Result<Dataset> {
-    read_markers_of(path, ReadOptions { about, ..ReadOptions::default() }, progress)
+    read_markers_of(path, ReadOptions::of(about), progress)
 }
 
 pub(crate) fn read_markers_of(path: &Path, options: ReadOptions, progress: Progress) -> Result<Dataset> {
@@ -77,37 +85,40 @@ pub(crate) fn read_markers_of(path: &Path, options: ReadOptions, progress: Progr
 pub fn parse_markers(file: &str, reader: &mut dyn Read, options: ReadOptions, progress: Progress) -> Result<Dataset> {
     let mut lines = Lines::new(file, reader, options.bytes_total, progress);
     let mut reader = RowReader::new(read_header(&mut lines)?);
-    let mut kind = Kind { wanted: options.actuator.map(str::to_lowercase), ..Kind::default() };
-    let mut recorder = Recorder::of(&reader.header);
+    let (mut kind, mut recorder) = (Kind::default(), Recorder::of(&reader.sheet));
+    kind.wanted = options.actuator.map(str::to_lowercase);
     while let Some(line) = lines.next_filled()? {
         reader.split(&line)?;
         let cells = Cells { reader: &reader, line: &line };
         if !kind.takes(cells)? {
             continue;
         }
-        match cells.placeholder().filter(|_| !sits_at_base(cells, options.about)) {
+        match cells.placeholder() {
             _ if cells.is_lost() => recorder.lost_frames += 1,
-            Some(words) => recorder.placeholders.note(words, 1, line.number),
-            None => recorder.add(cells)?,
+            Some(words) if !sits_at_base(cells, options.about) => {
+                recorder.placeholders.note(words, 1, line.number);
+            }
+            _ => recorder.add(cells)?,
         }
     }
     if recorder.streams.is_empty() {
-        return Err(no_rows(file, &kind, recorder.lost_frames + recorder.placeholders.rows()));
+        let unseen = recorder.lost_frames + recorder.placeholders.rows();
+        return Err(no_rows(file, &kind, unseen));
     }
     recorder.placeholders.take_out_shared(&mut recorder.streams);
     let mut told = reader.told()?;
     told.extend(recorder.placeholders.told());
-    check_units(&reader, &recorder.largest)?;
+    check_units(&reader.sheet, &recorder.largest)?;
     check_kept(&recorder)?;
     check_about_runs(file, &recorder, options.about)?;
     let stations_m = stations(file, &recorder, options.about)?;
-    let stem = Path::new(file).file_stem().map_or(file.to_string(), |stem| stem.to_string_lossy().into_owned());
-    let mut dataset = align(stem, kind.found.unwrap_or_default(), &recorder, &stations_m)?;
+    let actuator = kind.found.unwrap_or_default();
+    let mut dataset = align(stem(file), actuator, &recorder, &stations_m)?;
     dataset.lost.frames = recorder.lost_frames;
     dataset.told = told;
     check_kind(file, &dataset.actuator, options.about)?;
     if !dataset.is_spatial() {
-        check_y_up(Some(&reader.header), &dataset)?;
+        check_y_up(Some(&reader.sheet), &dataset)?;
     }
     Ok(dataset)
 }
@@ -120,12 +131,10 @@ pub fn markers_of_table(name: &str, table: &Table, about: Option<&About>) -> Res
     let rows = table.columns.iter().map(|(_, column)| column.len()).max().unwrap_or(0);
     if let Some((label, column)) = table.columns.iter().find(|(_, column)| column.len() != rows) {
         let message = format!("column {label} has {} of {rows} rows", column.len());
-        let mut fault = Fault::of_file(name, message, "give every column a value in every row");
-        fault.location.column_name = Some(label.clone());
-        return Err(DataError::Layout(Box::new(fault)));
+        let error = DataError::of(name, message, "give every column a value in every row");
+        return Err(error.in_column(label, None));
     }
-    let options = ReadOptions { about, ..ReadOptions::default() };
-    parse_markers(name, &mut TableReader::new(table), options, &mut |_, _| ())
+    parse_markers(name, &mut TableReader::new(table), ReadOptions::of(about), &mut |_, _| ())
 }
 
 /// Markers nearer to the base than this may be seen at 0, 0 \[m\].
@@ -133,8 +142,8 @@ const AT_BASE_M: f64 = 5e-3;
 
 /// Whether the row's marker has its station at the base.
 fn sits_at_base(cells: Cells, about: Option<&About>) -> bool {
-    let described = about.into_iter().flat_map(|about| &about.markers).find(|marker| marker.name == cells.marker());
-    described.map(|marker| marker.station_m).or(cells.station_m()).is_some_and(|s| s < AT_BASE_M)
+    let described = about.and_then(|about| about.marker(cells.marker())).map(|marker| marker.station_m);
+    described.or(cells.station_m()).is_some_and(|s| s < AT_BASE_M)
 }
 
 /// Which actuator kind is read, and which others were seen.
@@ -163,7 +172,7 @@ impl Kind {
         if *found != kind {
             let help = format!("choose one by adding #{found} or #{kind} to the file name, or split the file");
             let message = format!("several actuators in one file: {found} and {kind}");
-            return Err(DataError::Runs(cells.fault(ACTUATOR, message, help)));
+            return Err(cells.fault(ACTUATOR, message, help));
         }
         Ok(true)
     }
@@ -173,24 +182,26 @@ fn no_rows(file: &str, kind: &Kind, lost_frames: u64) -> DataError {
     if lost_frames > 0 {
         let help = "fill in x and y where the marker was seen";
         let message = format!("none of the {lost_frames} rows has a position");
-        return DataError::layout(file, message, help);
+        return DataError::of(file, message, help);
     }
     let Some(chosen) = &kind.wanted else {
         let help = "add one row per run, time and marker below the header";
-        return DataError::layout(file, "the file has a header and no rows", help);
+        return DataError::of(file, "the file has a header and no rows", help);
     };
     let seen: Vec<_> = kind.seen.iter().map(String::as_str).collect();
     let message = format!("no rows of actuator {chosen}; found {}", seen.join(", "));
-    DataError::runs(file, message, "choose one of the kinds found")
+    DataError::of(file, message, "choose one of the kinds found")
 }
 
 fn check_kind(file: &str, kind: &str, about: Option<&About>) -> Result<()> {
-    let Some(said) = about.and_then(|about| about.actuator.as_deref()) else { return Ok(()) };
-    if said == kind {
-        return Ok(());
+    match about.and_then(|about| about.actuator.as_deref()) {
+        Some(said) if said != kind => {
+            let message = format!("the table is of actuator {kind}, its about.toml names {said}");
+            let help = format!("correct the actuator column or `actuator = \"{kind}\"`");
+            Err(DataError::of(file, message, help))
+        }
+        _ => Ok(()),
     }
-    let message = format!("the table is of actuator {kind}, its about.toml names {said}");
-    Err(DataError::runs(file, message, format!("correct the actuator column or `actuator = \"{kind}\"`")))
 }
 
 fn check_about_runs(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<()> {
@@ -201,7 +212,7 @@ fn check_about_runs(file: &str, recorder: &Recorder, about: Option<&About>) -> R
     let help =
         format!("{meant}correct `id = \"{unknown}\"` in about.toml; a [[run]] without rows would lose its tip force");
     let message = format!("about.toml describes run {unknown}, which has no rows");
-    Err(DataError::runs(file, message, help))
+    Err(DataError::of(file, message, help))
 }
 
 /// Stations in order of `recorder.markers`, from the `s_mm` column or from `about.toml`.
@@ -209,32 +220,30 @@ fn stations(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<Ve
     let Some(about) = about.filter(|about| !about.markers.is_empty()) else {
         let all: Option<Vec<f64>> = recorder.stations_m.iter().copied().collect();
         return match all.and_then(|all| policy::one_station(&all)) {
-            Some(message) => Err(DataError::runs(file, message, policy::SAME_STATION)),
+            Some(message) => Err(DataError::of(file, message, policy::SAME_STATION)),
             None => Ok(recorder.stations_m.clone()),
         };
     };
-    let mut stations = Vec::with_capacity(recorder.stations_m.len());
-    for (name, column_m) in recorder.markers.names.iter().zip(&recorder.stations_m) {
-        let Some(marker) = about.markers.iter().find(|marker| marker.name == *name) else {
-            return Err(unknown_marker(file, recorder, name, about));
+    let station = |(name, column_m): (&String, &Option<f64>)| {
+        let Some(station_m) = about.marker(name).map(|marker| marker.station_m) else {
+            return Err(unknown_marker(recorder, name, about));
         };
-        if column_m.is_some_and(|s| (s - marker.station_m).abs() > policy::ROUNDED_STATION_M) {
-            let message =
-                format!("the station of marker {name} is not the one in about.toml ({} mm)", marker.station_m * 1e3);
-            return Err(DataError::runs(file, message, "correct the s_mm column or [markers] s_mm in about.toml"));
+        if column_m.is_some_and(|s| (s - station_m).abs() > policy::ROUNDED_STATION_M) {
+            let mm = station_m * 1e3;
+            let message = format!("the station of marker {name} is not the one in about.toml ({mm} mm)");
+            let help = "correct the s_mm column or [markers] s_mm in about.toml";
+            return Err(DataError::of(file, message, help));
         }
-        stations.push(Some(marker.station_m));
-    }
-    Ok(stations)
+        Ok(Some(station_m))
+    };
+    recorder.markers.names.iter().zip(&recorder.stations_m).map(station).collect()
 }
 
-fn unknown_marker(file: &str, recorder: &Recorder, name: &str, about: &About) -> DataError {
+fn unknown_marker(recorder: &Recorder, name: &str, about: &About) -> DataError {
     let known: Vec<&str> = about.markers.iter().map(|marker| marker.name.as_str()).collect();
-    let line = recorder.streams.iter().find(|s| recorder.markers.names[s.marker] == name).map_or(0, |s| s.first_line);
+    let is_own = |stream: &&Stream| recorder.markers.names[stream.marker] == name;
+    let line = recorder.streams.iter().find(is_own).map_or(0, |stream| stream.first_line);
     let message = format!("marker {name} is not in about.toml, which names {}", known.join(", "));
-    let mut fault =
-        Fault::of_file(file, message, "correct the label, or add it to [markers] names and s_mm").at_line(line);
-    fault.location.column_name = Some("marker".to_string());
-    fault.location.cell = Some(name.to_string());
-    DataError::Runs(Box::new(fault))
+    let help = "correct the label, or add it to [markers] names and s_mm";
+    recorder.fault(message, help, line).in_column("marker", Some(name))
 }

@@ -1,14 +1,15 @@
 //! One line of the table as one checked observation in SI units.
 
 use crate::cells::{Decimals, is_nothing, label, no_number, with_comma};
+use crate::columns::Sheet;
 use crate::dataset::Phase;
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 use crate::header::{
-    ACTUATOR, GAUGE, Header, MARKER, P_BODY, PHASE, PRESSURES, Pressures, QUANTITIES, RUN, STATION, TIME, X, Y, Z,
+    ACTUATOR, GAUGE, MARKER, P_BODY, PHASE, PRESSURES, Pressures, QUANTITIES, RUN, STATION, TIME, X, Y, Z,
 };
 use crate::lines::Line;
 use crate::policy;
-use spelling::units::Range;
+use spelling::units::{Range, Unit};
 use std::ops::Deref;
 
 /// One observation; texts borrow from the reader.
@@ -29,7 +30,7 @@ pub(crate) struct Row<'a> {
 
 /// Splits lines into cells and cells into observations.
 pub(crate) struct RowReader {
-    pub header: Header,
+    pub sheet: Sheet,
     splitter: csv_core::Reader,
     cells: Vec<u8>,
     ends: Vec<usize>,
@@ -55,10 +56,8 @@ const PLACEHOLDERS: [(f64, &str); 9] = [
     (65535.0, "65535, 65535"),
 ];
 
-/// Words for seconds behind a time.
 const SECONDS: [&str; 4] = ["seconds", "secs", "sec", "s"];
 
-/// The highest pressure of a room \[Pa\].
 const ROOM_PA: f64 = 1.15e5;
 
 pub(crate) fn pressure_bounds(quantity: usize) -> &'static Range {
@@ -71,14 +70,14 @@ pub(crate) fn lowest_mean_pa(quantity: usize) -> f64 {
 }
 
 impl RowReader {
-    pub(crate) fn new(header: Header) -> RowReader {
+    pub(crate) fn new(sheet: Sheet) -> RowReader {
         // The line end is already gone; a lone carriage return is then an ordinary character.
         let end = csv_core::Terminator::Any(b'\n');
-        let splitter = csv_core::ReaderBuilder::new().delimiter(header.delimiter).terminator(end).build();
+        let splitter = csv_core::ReaderBuilder::new().delimiter(sheet.head.delimiter as u8).terminator(end).build();
         // Two places more than columns, so that names of rows and a row with too many cells are noticed.
-        let ends = vec![0; header.names.len() + 2];
+        let ends = vec![0; sheet.head.names.len() + 2];
         let (cells, decimals) = (Vec::new(), Decimals::default());
-        RowReader { header, splitter, cells, ends, decimals, shift: 0, rows: 0, label: None, duration: None }
+        RowReader { sheet, splitter, cells, ends, decimals, shift: 0, rows: 0, label: None, duration: None }
     }
 
     /// Splits one line into cells, to be read as [`Cells`].
@@ -93,17 +92,16 @@ impl RowReader {
             count += more;
         }
         self.rows += 1;
-        let longer = count == self.header.names.len() + 1;
+        let longer = count == self.sheet.head.names.len() + 1;
         if self.rows == 1 && longer {
             self.shift = usize::from(self.has_row_name(line));
         }
         if self.shift == 1 && longer && !self.counts_on(line) {
             let message = "the rows have one cell more than the header, and their first cells are no running numbers";
-            return Err(DataError::Layout(
-                line.fault(message, "write decimals with a point, or give the first column a name"),
-            ));
+            let help = "write decimals with a point, or give the first column a name";
+            return Err(line.fault(message, help));
         }
-        if count == self.header.names.len() + self.shift {
+        if count == self.sheet.head.names.len() + self.shift {
             self.listen(line)
         } else {
             Err(self.wrong_count(line, count))
@@ -124,49 +122,44 @@ impl RowReader {
 
     /// Notes how numbers and labels of a line are written.
     fn listen(&mut self, line: &Line) -> Result<()> {
-        if self.header.delimiter != b',' && line.text.contains([',', '.']) {
+        if self.sheet.head.delimiter != ',' && line.text.contains([',', '.']) {
             let mut decimals = std::mem::take(&mut self.decimals);
-            for quantity in
-                (0..QUANTITIES.len()).filter(|q| self.header.columns[*q].as_ref().is_some_and(|c| c.unit.is_some()))
-            {
+            for quantity in (0..QUANTITIES.len()).filter(|quantity| !self.sheet.unit(*quantity).is_empty()) {
                 decimals.number(self.text(quantity), true, line)?;
             }
             self.decimals = decimals;
         }
-        let long = |text: &&str| label(text) != *text;
-        let seen = [RUN, MARKER].map(|quantity| self.text(quantity)).into_iter().find(long).map(str::to_string);
-        self.label = self.label.take().or(seen);
-        let time = self.text(TIME);
-        let seen = time.ends_with(|c: char| c.is_alphabetic()).then(|| time.to_string());
-        self.duration = self.duration.take().or(seen);
+        let is_long = |text: &&str| label(text) != *text;
+        let label = [self.text(RUN), self.text(MARKER)].into_iter().find(is_long).map(str::to_string);
+        let time = Some(self.text(TIME)).filter(|time| time.ends_with(|c: char| c.is_alphabetic()));
+        let duration = time.map(str::to_string);
+        self.label = self.label.take().or(label);
+        self.duration = self.duration.take().or(duration);
         Ok(())
     }
 
     pub(crate) fn told(&self) -> Result<Vec<String>> {
         let comma = self.decimals.finish()?;
-        let mut told = Vec::new();
-        if self.header.named {
-            told.push(format!("a first line names the separator: {}", self.header.delimiter as char));
-        }
-        if comma {
-            told.push("decimals are written with a comma".into());
-        }
-        if self.shift > 0 {
-            told.push("every row begins with a name that the header has not, as R writes it: left out".into());
-        }
-        let as_label = |text: &String| format!("labels such as {text} are read as {}", label(text));
-        told.extend(self.label.as_ref().map(as_label));
-        told.extend(self.duration.as_ref().map(|text| format!("times such as \"{text}\" are read as seconds")));
-        Ok(told)
+        let r_names = "every row begins with a name that the header has not, as R writes it: left out";
+        let separator = || format!("a first line names the separator: {}", self.sheet.head.delimiter);
+        let labels = |text: &String| format!("labels such as {text} are read as {}", label(text));
+        let times = |text: &String| format!("times such as \"{text}\" are read as seconds");
+        let told = [
+            self.sheet.head.named.then(separator),
+            comma.then(|| "decimals are written with a comma".into()),
+            (self.shift > 0).then(|| r_names.into()),
+            self.label.as_ref().map(labels),
+            self.duration.as_ref().map(times),
+        ];
+        Ok(told.into_iter().flatten().collect())
     }
 
-    /// Whether the table has a column.
     fn has(&self, quantity: usize) -> bool {
-        self.header.columns[quantity].is_some()
+        self.sheet.has(quantity)
     }
 
     fn text(&self, quantity: usize) -> &str {
-        let Some(column) = &self.header.columns[quantity] else { return "" };
+        let Some(column) = &self.sheet.at[quantity] else { return "" };
         let index = column.index + self.shift;
         let start = if index == 0 { 0 } else { self.ends[index - 1] };
         let bytes = self.cells.get(start..self.ends[index]).unwrap_or_default();
@@ -174,21 +167,17 @@ impl RowReader {
     }
 
     fn wrong_count(&self, line: &Line, count: usize) -> DataError {
-        let expected = self.header.names.len() + self.shift;
-        let found = if count > expected { format!("more than {expected}") } else { count.to_string() };
-        let message = if line.ended {
-            format!("expected {expected} cells, found {found}")
-        } else {
-            format!("the file ends in the middle of a row: expected {expected} cells, found {found}")
-        };
+        let expected = self.sheet.head.names.len() + self.shift;
+        let more = if count > expected { format!("more than {expected}") } else { count.to_string() };
+        let begin = if line.ended { "" } else { "the file ends in the middle of a row: " };
         let help = match line.text.matches('"').count() % 2 {
-            1 => "close the quotation mark on the same line".to_string(),
+            1 => "close the quotation mark on the same line",
             _ if count > expected && line.text.contains(',') => {
-                "write decimals with a point, and put cells that contain the separator in quotation marks".to_string()
+                "write decimals with a point, and put cells that contain the separator in quotation marks"
             }
-            _ => "complete the row or delete it; if the copy was cut short, copy the file again".to_string(),
+            _ => "complete the row or delete it; if the copy was cut short, copy the file again",
         };
-        DataError::Layout(line.fault(message, help))
+        line.fault(format!("{begin}expected {expected} cells, found {more}"), help)
     }
 }
 
@@ -207,7 +196,6 @@ impl Deref for Cells<'_> {
 }
 
 impl<'a> Cells<'a> {
-    /// The cell of the `actuator` column.
     pub(crate) fn actuator(&self) -> Result<&'a str> {
         self.word(ACTUATOR)
     }
@@ -232,20 +220,17 @@ impl<'a> Cells<'a> {
         PLACEHOLDERS.iter().find(|(value, _)| x == *value && y == *value).map(|(_, words)| *words)
     }
 
-    /// The cell of the `marker` column.
     pub(crate) fn marker(&self) -> &'a str {
         label(self.reader.text(MARKER))
     }
 
     /// The cell of the station, if it is a number \[m\].
     pub(crate) fn station_m(&self) -> Option<f64> {
-        let unit = self.header.columns[STATION].as_ref()?.unit?;
+        let unit = self.sheet.at[STATION].as_ref()?.unit?;
         self.text(STATION).parse().ok().map(|value| unit.to_si(value))
     }
 
-    /// The observation of the line split last.
     pub(crate) fn row(&self) -> Result<Row<'a>> {
-        let y_m = self.length(Y)?;
         Ok(Row {
             run: label(self.word(RUN)?),
             marker: label(self.word(MARKER)?),
@@ -253,7 +238,7 @@ impl<'a> Cells<'a> {
             t_s: self.bounded(TIME, &Range::TIME)?,
             pressures_pa: self.pressures()?,
             x_m: self.length(X)?,
-            y_m: if self.header.y_down { -y_m } else { y_m },
+            y_m: self.length(Y)?,
             z_m: self.has(Z).then(|| self.length(Z)).transpose()?,
             station_m: self.has(STATION).then(|| self.bounded(STATION, &Range::STATION)).transpose()?,
             gauge_pa: self.has(GAUGE).then(|| self.pressure(GAUGE)).transpose()?,
@@ -262,72 +247,61 @@ impl<'a> Cells<'a> {
 
     fn pressures(&self) -> Result<Pressures> {
         let mut pressures_pa = Pressures::default();
-        for (pressure_pa, quantity) in pressures_pa.iter_mut().zip(PRESSURES).filter(|(_, q)| self.has(*q)) {
-            *pressure_pa = self.pressure(quantity)?;
+        for (k, quantity) in PRESSURES.into_iter().enumerate().filter(|(_, q)| self.has(*q)) {
+            pressures_pa[k] = self.pressure(quantity)?;
         }
         Ok(pressures_pa)
     }
 
     /// The fault of one cell, with its column, text and span.
-    pub(crate) fn fault(&self, quantity: usize, message: String, help: String) -> Box<Fault> {
+    pub(crate) fn fault(&self, quantity: usize, message: impl Into<String>, help: impl Into<String>) -> DataError {
         let Cells { line, reader } = self;
-        let mut fault = line.fault(message, help);
-        let Some(column) = &self.header.columns[quantity] else { return fault };
-        fault.location.column_name = self.header.names.get(column.index).cloned();
-        fault.location.cell = Some(self.text(quantity).to_string());
+        let error = line.fault(message, help);
+        let Some(column) = &self.sheet.at[quantity] else { return error };
+        let mut error = error.in_column(self.sheet.name(quantity), Some(self.text(quantity)));
         if !line.text.contains('"') {
-            let before: usize = line
-                .text
-                .split(self.header.delimiter as char)
-                .take(column.index + reader.shift)
-                .map(|c| c.len() + 1)
-                .sum();
-            let cell = line.text[before.min(line.text.len())..].split(self.header.delimiter as char).next();
-            fault.span = Some((line.start + before, line.start + before + cell.unwrap_or_default().len()));
+            let cells = || line.text.split(self.sheet.head.delimiter);
+            let index = column.index + reader.shift;
+            let start = line.start + cells().take(index).map(|cell| cell.len() + 1).sum::<usize>();
+            let length = cells().nth(index).unwrap_or_default().len();
+            error.fault_mut().span = Some((start, start + length));
         }
-        fault
+        error
     }
 
     fn word(&self, quantity: usize) -> Result<&'a str> {
         let text = self.reader.text(quantity);
         if text.is_empty() {
             let help = format!("write the {} in every row", QUANTITIES[quantity].base);
-            return Err(DataError::Cell(self.fault(quantity, "the cell is empty".to_string(), help)));
+            return Err(self.fault(quantity, "the cell is empty", help));
         }
         Ok(text)
     }
 
     fn phase(&self) -> Result<Phase> {
         let text = self.word(PHASE)?;
-        let is = |phase: &Phase| text.eq_ignore_ascii_case(phase.word());
-        [Phase::Load, Phase::Hold, Phase::Unload].into_iter().find(is).ok_or_else(|| {
-            let message = format!("unknown phase \"{text}\"");
-            let help = "write load (actuator pressure raised), hold (unchanged) or unload (lowered)".to_string();
-            DataError::Cell(self.fault(PHASE, message, help))
-        })
+        let help = "write load (actuator pressure raised), hold (unchanged) or unload (lowered)";
+        Phase::of(text).ok_or_else(|| self.fault(PHASE, format!("unknown phase \"{text}\""), help))
     }
 
     fn number(&self, quantity: usize) -> Result<f64> {
         let text = self.text(quantity);
-        let unit = self.header.columns[quantity].as_ref().and_then(|column| column.unit);
-        let seconds = quantity == TIME && self.header.unit(TIME) == "s";
+        let seconds = self.sheet.unit(quantity) == "s";
         let suffix = SECONDS.iter().filter(|_| seconds).find_map(|word| text.strip_suffix(word));
         let plain = suffix.unwrap_or(text).trim_end();
-        let comma = || (self.header.delimiter != b',').then(|| with_comma(plain)).flatten();
-        match (plain.parse::<f64>().ok().or_else(comma), unit) {
-            (Some(value), Some(unit)) if value.is_finite() && unit.to_si(value).is_finite() => Ok(unit.to_si(value)),
-            _ => Err(DataError::Cell(self.not_a_number(quantity, text))),
-        }
-    }
-
-    fn not_a_number(&self, quantity: usize, text: &str) -> Box<Fault> {
-        let lost = match quantity {
-            X | Y | Z if self.has(Z) => "; of a marker that was not seen leave x, y and z empty",
-            X | Y => "; of a marker that was not seen leave x and y empty",
-            _ => "",
-        };
-        let [message, help] = no_number(text, QUANTITIES[quantity].expected, lost);
-        self.fault(quantity, message, help)
+        let comma = || if self.sheet.head.delimiter == ',' { None } else { with_comma(plain) };
+        let value = plain.parse::<f64>().ok().or_else(comma);
+        let column = self.sheet.at[quantity].as_ref().filter(|column| column.unit.is_some());
+        let si = value.zip(column).and_then(|(value, column)| column.si(value, Unit::to_si));
+        si.ok_or_else(|| {
+            let lost = match quantity {
+                X | Y | Z if self.has(Z) => "; of a marker that was not seen leave x, y and z empty",
+                X | Y => "; of a marker that was not seen leave x and y empty",
+                _ => "",
+            };
+            let [message, help] = no_number(text, QUANTITIES[quantity].expected, lost);
+            self.fault(quantity, message, help)
+        })
     }
 
     fn length(&self, quantity: usize) -> Result<f64> {
@@ -336,7 +310,7 @@ impl<'a> Cells<'a> {
             let name = QUANTITIES[quantity].expected;
             let message = format!("\"{}\" is farther than any robot reaches", self.text(quantity));
             let help = format!("correct or delete the row; {name} is the name of a column in millimetres");
-            return Err(DataError::Unit(self.fault(quantity, message, help)));
+            return Err(self.fault(quantity, message, help));
         }
         Ok(value)
     }
@@ -344,7 +318,7 @@ impl<'a> Cells<'a> {
     /// A number of a quantity within its bounds.
     fn bounded(&self, quantity: usize, bounds: &Range) -> Result<f64> {
         let value = self.number(quantity)?;
-        bounds.check(value).map_err(|(message, help)| DataError::Cell(self.fault(quantity, message, help.into())))
+        bounds.check(value).map_err(|(message, help)| self.fault(quantity, message, help))
     }
 
     /// Readings below zero are judged by the mean of their hold, but for a gauge, which belongs to no hold.
@@ -354,29 +328,26 @@ impl<'a> Cells<'a> {
         let bounds = pressure_bounds(quantity);
         let room_pa = if quantity == P_BODY { ROOM_PA } else { 0.0 };
         if value > bounds.high * bounds.si + room_pa {
-            let [better, ending] = if self.header.unit(quantity) == "kPa" { ["Pa", "pa"] } else { ["kPa", "kpa"] };
-            let why = bounds.check(value).err().map_or(String::new(), |(message, _)| message);
+            let better = if self.sheet.unit(quantity) == "kPa" { "Pa" } else { "kPa" };
+            let name = format!("{}_{}", QUANTITIES[quantity].base, better.to_lowercase());
+            let why = bounds.mistake(value);
             let [message, help] = match bounds.contains(value * 1e-3) {
-                true => [
-                    format!("{why}; it looks like {better}"),
-                    format!("name the column {}_{ending}", QUANTITIES[quantity].base),
-                ],
+                true => [format!("{why}; it looks like {better}"), format!("name the column {name}")],
                 false => [why, "correct the number, or the unit in the name of the column".into()],
             };
-            return Err(DataError::Unit(self.fault(quantity, message, help)));
+            return Err(self.fault(quantity, message, help));
         }
         if quantity == GAUGE && value < policy::LOWEST_GAUGE_PA {
-            return Err(DataError::Cell(self.too_low(quantity, value)));
+            return Err(self.too_low(quantity, value));
         }
         Ok(value)
     }
 
     /// The fault of a pressure below its bounds.
-    pub(crate) fn too_low(&self, quantity: usize, value_pa: f64) -> Box<Fault> {
+    pub(crate) fn too_low(&self, quantity: usize, value_pa: f64) -> DataError {
         let zero = "give gauge pressure (0 is the air of the room); subtract the sensor's zero";
         let exchanged = "; or the columns of body and actuator are exchanged";
         let help = zero.to_string() + if quantity == P_BODY { exchanged } else { "" };
-        let told = pressure_bounds(quantity).check(value_pa).err();
-        self.fault(quantity, told.map_or(String::new(), |(message, _)| message), help)
+        self.fault(quantity, pressure_bounds(quantity).mistake(value_pa), help)
     }
 }

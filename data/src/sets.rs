@@ -50,7 +50,7 @@ pub fn set_file(set: &str, file: &str) -> Result<&'static str> {
         DataError::file(&shown, "no such file among the embedded sets", help)
     };
     let found = SETS.get_file(format!("{set}/{file}")).ok_or_else(missing)?;
-    found.contents_utf8().ok_or_else(|| DataError::layout(&shown, "the text is not UTF-8", "save the file as UTF-8"))
+    found.contents_utf8().ok_or_else(|| DataError::of(&shown, "the text is not UTF-8", "save the file as UTF-8"))
 }
 
 /// The description of an embedded set.

@@ -56,7 +56,7 @@ impl Dataset {
     /// Markers that move towards z more than towards y; y that points down, which is not asked before of
     /// a table with z or several channels.
     pub fn left_aside(&self) -> Result<Option<String>> {
-        let refused = |message: String, help: &str| Err(DataError::runs(&self.name, message, help));
+        let refused = |message: String, help: &str| Err(DataError::of(&self.name, message, help));
         if !self.is_spatial() {
             return Ok(None);
         }

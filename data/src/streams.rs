@@ -9,35 +9,15 @@ mod segments;
 
 use std::collections::HashMap;
 
-use crate::error::{DataError, Fault, Result};
-use crate::header::{GAUGE, Header, MARKER, PRESSURES, QUANTITIES, RUN, STATION, TIME, X, Y, Z};
+use crate::cells::Labels;
+use crate::columns::Sheet;
+use crate::error::{DataError, Result};
+use crate::header::{GAUGE, MARKER, PRESSURES, QUANTITIES, RUN, STATION, TIME, X, Y, Z, more_channels};
 use crate::lines::Line;
 use crate::policy;
 use crate::rows::{Cells, Row, lowest_mean_pa};
 use placeholders::Placeholders;
 pub(crate) use segments::{Sample, Segment, Stream, are_near, merged};
-
-/// Labels numbered in order of first appearance.
-#[derive(Debug, Default)]
-pub(crate) struct Labels {
-    pub names: Vec<String>,
-    numbers: HashMap<String, usize>,
-    last: usize,
-}
-
-impl Labels {
-    /// The number of a label, new or known.
-    fn number(&mut self, name: &str) -> usize {
-        if self.names.get(self.last).is_none_or(|last| last != name) {
-            self.last = self.numbers.get(name).copied().unwrap_or(self.names.len());
-            if self.last == self.names.len() {
-                self.names.push(name.to_string());
-                self.numbers.insert(name.to_string(), self.last);
-            }
-        }
-        self.last
-    }
-}
 
 /// Everything kept of a file while it is read.
 #[derive(Debug, Default)]
@@ -65,19 +45,19 @@ pub(crate) struct Recorder {
 
 impl Recorder {
     /// Nothing yet, of a table with this header.
-    pub(crate) fn of(header: &Header) -> Recorder {
+    pub(crate) fn of(sheet: &Sheet) -> Recorder {
         Recorder {
-            file: header.line.file.clone(),
-            more_channels: header.more_channels(),
-            has_z: header.has_z(),
-            has_gauge: header.columns[GAUGE].is_some(),
+            file: sheet.head.line.file.clone(),
+            more_channels: more_channels(sheet),
+            has_z: sheet.has(Z),
+            has_gauge: sheet.has(GAUGE),
             ..Recorder::default()
         }
     }
 
     /// Runs, holds or markers that do not fit together, first seen in a line.
     pub(crate) fn fault(&self, message: String, help: &str, line: u64) -> DataError {
-        DataError::Runs(Box::new(Fault::of_file(&self.file, message, help).at_line(line)))
+        DataError::of(&self.file, message, help).at_line(line)
     }
 
     pub(crate) fn words(&self, stream: &Stream) -> String {
@@ -87,15 +67,10 @@ impl Recorder {
     pub(crate) fn add(&mut self, cells: Cells) -> Result<()> {
         let row = cells.row()?;
         let (run, marker) = (self.runs.number(row.run), self.markers.number(row.marker));
-        let limit = |quantity, what: &str, most| {
+        let limits = [(RUN, "run", run, policy::MOST_RUNS), (MARKER, "marker", marker, policy::MOST_MARKERS)];
+        if let Some((quantity, what, _, most)) = limits.into_iter().find(|(.., found, most)| found >= most) {
             let help = format!("split the file: at most {most} {what}s are read at once; is the {what} column right?");
-            DataError::Layout(cells.fault(quantity, format!("more than {most} {what}s"), help))
-        };
-        if run >= policy::MOST_RUNS {
-            return Err(limit(RUN, "run", policy::MOST_RUNS));
-        }
-        if marker >= policy::MOST_MARKERS {
-            return Err(limit(MARKER, "marker", policy::MOST_MARKERS));
+            return Err(cells.fault(quantity, format!("more than {most} {what}s"), help));
         }
         let places = [(X, row.x_m), (Y, row.y_m), (Z, row.z_m.unwrap_or(0.0)), (STATION, row.station_m.unwrap_or(0.0))];
         for (quantity, value) in places.into_iter().chain(PRESSURES.into_iter().zip(row.pressures_pa)) {
@@ -108,14 +83,8 @@ impl Recorder {
     fn add_to_stream(&mut self, [run, marker]: [usize; 2], row: &Row, cells: Cells) -> Result<()> {
         let index = *self.by_pair.entry((run, marker)).or_insert(self.streams.len());
         if index == self.streams.len() {
-            self.streams.push(Stream {
-                run,
-                marker,
-                first_line: cells.line.number,
-                first_t_s: row.t_s,
-                segments: Vec::new(),
-                last_t_s: f64::NEG_INFINITY,
-            });
+            let (first_line, first_t_s, last_t_s) = (cells.line.number, row.t_s, f64::NEG_INFINITY);
+            self.streams.push(Stream { run, marker, first_line, first_t_s, segments: Vec::new(), last_t_s });
         }
         let stream = &mut self.streams[index];
         check_time(stream, row, cells)?;
@@ -148,9 +117,10 @@ impl Recorder {
         if (new - old).abs() <= policy::SAME_STATION_M {
             return Ok(());
         }
-        let message = format!("marker {} has two stations: {} mm and {} mm", row.marker, old * 1e3, new * 1e3);
-        let help = "the station is the place on the undeformed robot: write the same number in every row".to_string();
-        Err(DataError::Cell(cells.fault(STATION, message, help)))
+        let (marker, [old, new]) = (row.marker, [old, new].map(|station_m| station_m * 1e3));
+        let message = format!("marker {marker} has two stations: {old} mm and {new} mm");
+        let help = "the station is the place on the undeformed robot: write the same number in every row";
+        Err(cells.fault(STATION, message, help))
     }
 }
 
@@ -160,18 +130,19 @@ fn check_time(stream: &Stream, row: &Row, cells: Cells) -> Result<()> {
     }
     let of = format!("run {}, marker {}", row.run, row.marker);
     let (message, help) = if row.t_s == stream.last_t_s {
-        (format!("{of} is there twice at this time"), "delete the duplicate row".to_string())
+        (format!("{of} is there twice at this time"), "delete the duplicate row")
     } else {
         let help = "t_s counts from the start of the run and grows row by row for each marker; \
                     sort the rows, give repeated tests their own run label, and look for rows copied twice";
-        (format!("time goes backwards in {of}: {} s after {} s", row.t_s, stream.last_t_s), help.to_string())
+        (format!("time goes backwards in {of}: {} s after {} s", row.t_s, stream.last_t_s), help)
     };
-    Err(DataError::Cell(cells.fault(TIME, message, help)))
+    Err(cells.fault(TIME, message, help))
 }
 
 fn too_many_holds(line: &Line) -> DataError {
-    let message = format!("more than {} holds in one run, or {} in all", policy::MOST_HOLDS, policy::MOST_SERIES);
+    let [own, all] = [policy::MOST_HOLDS, policy::MOST_SERIES];
+    let message = format!("more than {own} holds in one run, or {all} in all");
     let help = "keep only rows recorded while the pressures are steady; a new hold begins when the phase changes or a \
                 pressure moves by more than 5 %";
-    DataError::Layout(line.fault(message, help))
+    line.fault(message, help)
 }

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use crate::about::{About, Direct, MeasuredValue};
+use crate::about::{About, Direct};
 use crate::atomic::cannot_write;
 use crate::dataset::Dataset;
 use crate::error::Result;
@@ -46,16 +46,25 @@ fn fixed(value: f64) -> String {
 /// The text of an `about.toml` that reads back as `about`.
 pub fn about_toml(about: &About) -> String {
     let string = |value: &str| toml::Value::from(value).to_string();
-    let mut text = String::new();
-    let mut line = |key: &str, value: String| text.push_str(&format!("{key} = {value}\n"));
-    line("title", string(&about.title));
-    line("provenance", string(about.provenance.word()));
-    line("source", string(&about.source));
-    line("licence", string(&about.licence));
-    about.actuator.iter().for_each(|kind| line("actuator", string(kind)));
-    about.notes.iter().for_each(|notes| line("notes", string(notes)));
+    let list = |values: Vec<String>| format!("[{}]", values.join(", "));
+    let pair = |[a, b]: [f64; 2]| format!("[{a:?}, {b:?}]");
+    let (mut text, mut open) = (String::new(), String::new());
+    let mut line = |table: &str, key: &str, value: String| {
+        // Every run has a separate table, which begins with its label.
+        if open != table || key == "id" {
+            open = table.to_string();
+            text.push_str(&format!("\n[{table}]\n"));
+        }
+        text.push_str(&format!("{key} = {value}\n"));
+    };
+    line("", "title", string(&about.title));
+    line("", "provenance", string(about.provenance.word()));
+    line("", "source", string(&about.source));
+    line("", "licence", string(&about.licence));
+    for (key, value) in [("actuator", &about.actuator), ("notes", &about.notes)] {
+        value.iter().for_each(|value| line("", key, string(value)));
+    }
     if let Some(geometry) = &about.geometry {
-        text.push_str("\n[geometry]\n");
         let lengths = [
             ("body_radius_mm", Some(geometry.body_radius_m)),
             ("body_length_mm", Some(geometry.body_length_m)),
@@ -65,37 +74,31 @@ pub fn about_toml(about: &About) -> String {
             ("arm_mm", geometry.arm_m),
         ];
         for (key, length) in lengths {
-            length.iter().for_each(|&length| text.push_str(&format!("{key} = {}\n", tidy_mm(length))));
+            length.iter().for_each(|length| line("geometry", key, tidy_mm(*length)));
         }
-        geometry.pouches.iter().for_each(|count| text.push_str(&format!("pouches = {count}\n")));
+        geometry.pouches.iter().for_each(|count| line("geometry", "pouches", count.to_string()));
     }
     if !about.markers.is_empty() {
-        let names: Vec<_> = about.markers.iter().map(|marker| string(&marker.name)).collect();
-        let stations: Vec<_> = about.markers.iter().map(|marker| tidy_mm(marker.station_m)).collect();
-        text.push_str(&format!("\n[markers]\nnames = [{}]\ns_mm = [{}]\n", names.join(", "), stations.join(", ")));
+        let markers = about.markers.iter();
+        line("markers", "names", list(markers.clone().map(|marker| string(&marker.name)).collect()));
+        line("markers", "s_mm", list(markers.map(|marker| tidy_mm(marker.station_m)).collect()));
     }
     if about.direct != Direct::default() {
-        let Direct { pressure, frame } = about.direct;
-        text.push_str(&format!("\n[direct]\npressure = {pressure}\nframe = {frame}\n"));
+        line("direct", "pressure", about.direct.pressure.to_string());
+        line("direct", "frame", about.direct.frame.to_string());
     }
     if let Some([stiffness, sd]) = about.bending_nm2 {
-        text.push_str(&format!("\n[bending]\nstiffness_nm2 = {stiffness:?}\nsd_nm2 = {sd:?}\n"));
+        line("bending", "stiffness_nm2", format!("{stiffness:?}"));
+        line("bending", "sd_nm2", format!("{sd:?}"));
     }
-    for MeasuredValue { effect, key, value, sd, .. } in &about.measured {
-        // A table is opened once; its parameters follow each other.
-        let header = format!("\n[measured.{effect}]\n");
-        if !text.contains(&header) {
-            text.push_str(&header);
-        }
-        text.push_str(&format!("{key} = [{value:?}, {sd:?}]\n"));
+    for found in &about.measured {
+        line(&format!("measured.{}", found.effect), &found.key, pair([found.value, found.sd]));
     }
-    if let Some([x, y]) = about.gravity_direction {
-        text.push_str(&format!("\n[gravity]\ndirection = [{x:?}, {y:?}]\n"));
-    }
+    about.gravity_direction.iter().for_each(|way| line("gravity", "direction", pair(*way)));
     for run in &about.runs {
-        let [x, y] = run.tip_force_n;
-        text.push_str(&format!("\n[[run]]\nid = {}\ntip_force_n = [{x:?}, {y:?}]\n", string(&run.id)));
-        run.session.iter().for_each(|session| text.push_str(&format!("session = {}\n", string(session))));
+        line("[run]", "id", string(&run.id));
+        line("[run]", "tip_force_n", pair(run.tip_force_n));
+        run.session.iter().for_each(|session| line("[run]", "session", string(session)));
     }
     text
 }

@@ -207,6 +207,11 @@ impl Range {
         Refusal { bounds: self, name: self.name, value: value_si / self.si }
     }
 
+    /// The mistake alone, without what to type.
+    pub fn mistake(&self, value_si: f64) -> String {
+        self.refusal(value_si).mistake().to_string()
+    }
+
     /// A number in SI.
     ///
     /// # Errors

@@ -35,21 +35,25 @@ impl FabricTests {
     }
 
     fn add(&mut self, file: &str, defaults: &CouponDefaults) -> Result<(), CompareError> {
+        let path = Path::new(file);
         let table = bench(file)?;
-        if let Some(table) = table.as_ref().filter(|table| table.kind.name != "bending_length") {
-            let message = format!("{file} is a {} table, not a test of a fabric", table.kind.name);
-            return Err(CompareError::refused(message, format!("`ibr compare {file}` holds it against its model")));
-        }
-        let bytes = read_whole(Path::new(file), MOST_DATA);
-        self.files.extend(bytes.as_ref().ok().map(|bytes| FileHash::of(file, bytes)));
+        // A pipe can be read only once.
+        let bytes = read_whole(path, MOST_DATA);
+        self.files.extend(bytes.iter().map(|bytes| FileHash::of(file, bytes)));
+        let progress = &mut |_, _| ();
         match (table, bytes) {
-            (Some(table), _) => self.bent.push(table),
+            (Some(table), _) if table.kind.name == "bending_length" => self.bent.push(table),
+            (Some(table), _) => {
+                let message = format!("{file} is a {} table, not a test of a fabric", table.kind.name);
+                let help = format!("`ibr compare {file}` holds it against its model");
+                return Err(CompareError::refused(message, help));
+            }
             (None, Ok(bytes)) => {
                 let (mut text, size) = (bytes.as_slice(), bytes.len() as u64);
-                self.coupons.extend(parse_coupons(file, &mut text, size, defaults, &mut |_, _| ())?);
+                self.coupons.extend(parse_coupons(file, &mut text, size, defaults, progress)?);
             }
             // `read_coupons` reports why the file cannot be read.
-            (None, Err(_)) => self.coupons.extend(read_coupons(Path::new(file), defaults, &mut |_, _| ())?),
+            (None, Err(_)) => self.coupons.extend(read_coupons(path, defaults, progress)?),
         }
         Ok(())
     }
@@ -57,7 +61,9 @@ impl FabricTests {
     /// Numbers and curves of the fabric. Errors as for [`characterize`].
     pub fn reduce(&self, settings: &Reduction) -> Result<Characterized, CompareError> {
         let mut found = characterize(&self.coupons, settings)?;
-        self.bent.iter().for_each(|table| found.bend(&bending_lengths_m(table), table.provenance.word()));
+        for table in &self.bent {
+            found.bend(&bending_lengths_m(table), table.provenance.word());
+        }
         Ok(found)
     }
 }

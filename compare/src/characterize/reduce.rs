@@ -1,10 +1,10 @@
 //! Over specimens: the numbers with their scatter, the mean curves, the shear curve.
 
-use super::result::{Characterized, MeanCurve, ShearCurve, Specimen, directions};
+use super::result::{BiasStrip, Characterized, MeanCurve, ShearCurve, Specimen, directions};
 use super::scatter::Scatter;
 use super::{PAPER_LIMIT_RAD, Reduction, replay, specimen, warn};
 use crate::CompareError;
-use data::{Coupon, DataError, Direction, Fault, Provenance};
+use data::{Coupon, DataError, Direction, Provenance};
 use models::fabrics::{Fabric, shear_modulus, specimen as fit};
 
 const YARNS: [Direction; 2] = [Direction::Warp, Direction::Fill];
@@ -21,11 +21,12 @@ pub fn characterize(coupons: &[Coupon], settings: &Reduction) -> Result<Characte
     let (taut, slacks): (Vec<Coupon>, Vec<f64>) = coupons.iter().map(|c| specimen::taut(c, settings)).unzip();
     let mut specimens = Vec::new();
     for (coupon, slack) in taut.iter().zip(slacks) {
-        specimens.push(Specimen { slack, ..specimen::reduce(coupon, settings, &mut warnings)? });
+        specimens.push(specimen::reduce(coupon, slack, settings, &mut warnings)?);
     }
     warn::deviations(&specimens, &mut warnings);
     let thickness_m = thickness(&specimens, &mut warnings);
-    let provenance = coupons.iter().map(|c| c.provenance).find(|p| *p != Provenance::Measured);
+    let mut provenances = coupons.iter().map(|coupon| coupon.provenance);
+    let provenance = provenances.find(|provenance| *provenance != Provenance::Measured);
     let mut found = Characterized {
         yarns: YARNS.into_iter().filter_map(|d| mean_curve(&specimens, d)).collect(),
         shear: None,
@@ -57,11 +58,9 @@ fn strips(found: &mut Characterized, taut: &[Coupon], settings: &Reduction) -> R
         found.specimens[i].strip = specimen::strip(coupon, yarns, settings, &mut found.warnings)?;
     }
     if yarns.is_none() && found.strips().next().is_some() {
-        found.notes.push(
-            "the shear curve assumes that yarns do not stretch: to measure their stretch, give specimens of 0° and 90° and \
-             the thickness"
-                .into(),
-        );
+        let note = "the shear curve assumes that yarns do not stretch: to measure their stretch, give specimens of 0° and 90° and \
+                    the thickness";
+        found.notes.push(note.into());
     }
     found.shear = shear_curve(&found.specimens, found.thickness_m);
     Ok(())
@@ -69,8 +68,8 @@ fn strips(found: &mut Characterized, taut: &[Coupon], settings: &Reduction) -> R
 
 fn different(coupons: &[Coupon]) -> Result<(), DataError> {
     if coupons.is_empty() {
-        let fault = Fault::of_file("characterize", "no specimen was given", "give at least one file");
-        return Err(DataError::Runs(Box::new(fault)));
+        let help = "give at least one file";
+        return Err(DataError::of("characterize", "no specimen was given", help));
     }
     for (i, c) in coupons.iter().enumerate() {
         let same = |other: &&Coupon| (other.direction, &other.specimen) == (c.direction, &c.specimen);
@@ -84,14 +83,15 @@ fn different(coupons: &[Coupon]) -> Result<(), DataError> {
 }
 
 fn thickness(specimens: &[Specimen], warnings: &mut Vec<String>) -> Option<f64> {
-    let all = || specimens.iter().filter_map(|s| s.thickness_m).map(|t| 1e3 * t);
-    let (low, high) = (all().reduce(f64::min)?, all().reduce(f64::max)?);
+    let all = || specimens.iter().filter_map(|s| s.thickness_m);
+    let all_mm = || all().map(|t| 1e3 * t);
+    let (low, high) = (all_mm().reduce(f64::min)?, all_mm().reduce(f64::max)?);
     if high > 1.1 * low {
         warnings.push(format!(
             "the thickness is {low:.4} to {high:.4} mm, the mean is used: are all specimens of one fabric?"
         ));
     }
-    Some(Scatter::of(specimens.iter().filter_map(|s| s.thickness_m))?.mean)
+    Some(Scatter::of(all())?.mean)
 }
 
 /// Rows of a mean, and the standard deviation at each.
@@ -114,8 +114,8 @@ fn mean_curve(specimens: &[Specimen], direction: Direction) -> Option<MeanCurve>
     let same = specimens.iter().filter(|s| s.direction == direction);
     let (mean, sd) = mean(same.map(|s| &s.stress))?;
     let rows = fit::rising(&mean);
-    let spread = mean.iter().zip(&sd).map(|(row, sd)| [row[0], sd.unwrap_or(f64::NAN)]);
-    let spread: Vec<[f64; 2]> = spread.collect();
+    let row = |(row, sd): (&[f64; 2], &Option<f64>)| [row[0], sd.unwrap_or(f64::NAN)];
+    let spread: Vec<[f64; 2]> = mean.iter().zip(&sd).map(row).collect();
     let sd_at = |row: &[f64; 2]| Some(fit::at(&spread, row[0])).filter(|sd| sd.is_finite());
     let sd_pa = rows.iter().map(sd_at).collect();
     (rows.len() > 1).then_some(MeanCurve { direction, rows, sd_pa })
@@ -124,7 +124,7 @@ fn mean_curve(specimens: &[Specimen], direction: Direction) -> Option<MeanCurve>
 fn shear_curve(specimens: &[Specimen], thickness_m: Option<f64>) -> Option<ShearCurve> {
     let strips = specimens.iter().filter_map(|s| s.strip.as_ref());
     let (rows, sd_n_per_m) = mean(strips.map(|strip| &strip.shear))?;
-    let moment = |t: f64| rows.iter().map(|[x, f]| [*x, f * x.cos() / t]).collect::<Vec<_>>();
+    let moment = |t: f64| -> Vec<[f64; 2]> { rows.iter().map(|[x, f]| [*x, f * x.cos() / t]).collect() };
     let moment_pa = thickness_m.map(|t| fit::rising(&moment(t))).filter(|rows| rows.len() > 1);
     Some(ShearCurve { rows, sd_n_per_m, moment_pa })
 }
@@ -132,15 +132,16 @@ fn shear_curve(specimens: &[Specimen], thickness_m: Option<f64>) -> Option<Shear
 fn moduli(found: &mut Characterized) {
     for direction in directions(&found.specimens) {
         let degrees = direction.degrees();
-        let how = match direction {
-            Direction::Warp | Direction::Fill => format!("along {}", direction.word()),
-            Direction::Bias | Direction::Between(_) => format!("at {degrees}°"),
+        let how = match direction.along_yarn() {
+            true => format!("along {}", direction.word()),
+            false => format!("at {degrees}°"),
         };
-        let to = found.of(direction).map(|s| 100.0 * s.modulus_strain).fold(0.0, f64::max);
+        let strains = found.of(direction).map(|s| 100.0 * s.modulus_strain);
+        let to = strains.fold(0.0, f64::max);
         let known = format!("{}: slope to {to:.1} % strain", found.provenance.word());
         let scatter = found.modulus(direction).map(|s| s.scaled(1e-6));
-        let name = format!("modulus E{degrees}, pulled {how}");
-        found.add([&format!("e{degrees}"), &name], "MPa", scatter, known);
+        let names = [format!("e{degrees}"), format!("modulus E{degrees}, pulled {how}")];
+        found.add(names, "MPa", scatter, known);
     }
 }
 
@@ -150,22 +151,25 @@ fn poisson(found: &mut Characterized) {
     let [e0, e90] = YARNS.map(|direction| found.modulus(direction));
     let ratio = e0.zip(e90).map(|(a, b)| a.mean / b.mean);
     let turned = fill.zip(ratio).map(|(nu21, ratio)| nu21.scaled(ratio));
-    if let (Some(Scatter { mean: a, .. }), Some(Scatter { mean: b, .. })) = (warp, turned)
-        && (a - b).abs() > 0.1
-    {
+    let both = warp.zip(turned).map(|(a, b)| (a.mean, b.mean));
+    if let Some((a, b)) = both.filter(|(a, b)| (a - b).abs() > 0.1) {
         found.warnings.push(format!(
             "nu12 is {a:.3} pulled along warp and {b:.3} along fill (nu21 E0/E90): they should agree; the first is used"
         ));
     }
-    let along = if warp.is_some() { "warp" } else { "fill, times E0/E90" };
-    let known = format!("{}: width under load, pulled along {along}", found.provenance.word());
-    found.add(["nu12", "Poisson's ratio nu12"], "–", warp.or(turned), known);
+    let (word, along) = (found.provenance.word(), if warp.is_some() { "warp" } else { "fill, times E0/E90" });
+    let known = format!("{word}: width under load, pulled along {along}");
+    let nu12 = warp.or(turned);
+    found.add(["nu12", "Poisson's ratio nu12"], "–", nu12, known);
 }
 
 /// C₁₀ of warp and fill together: the mean of the two directions' means.
 fn rubber(found: &mut Characterized) {
-    let numbers = [["c10", "C10, warp and fill together"], ["c10_by_share", "C10, another weight"]];
-    for (k, (number, weight)) in numbers.into_iter().zip(["stress", "share of stress"]).enumerate() {
+    let numbers = [
+        ("stress", ["c10", "C10, warp and fill together"]),
+        ("share of stress", ["c10_by_share", "C10, another weight"]),
+    ];
+    for (k, (weight, number)) in numbers.into_iter().enumerate() {
         let parts = YARNS.map(|direction| found.over(direction, |s| Some(s.c10_pa?[k])));
         let total = match parts {
             [Some(warp), Some(fill)] => {
@@ -182,8 +186,9 @@ fn rubber(found: &mut Characterized) {
         let word = direction.word();
         let miss = |s: &Specimen| 100.0 * fit::misfit(&s.stress, |e| fit::neo_hookean_pa(c10_pa, e));
         let misses = found.over(direction, |s| (!s.stress.is_empty()).then(|| miss(s)));
-        let number = [format!("c10_misfit_{word}"), format!("what that C10 misses along {word}, rms")];
-        found.add(number.each_ref().map(String::as_str), "%", misses, "calibrated: share of the largest stress");
+        let name = format!("what that C10 misses along {word}, rms");
+        let known = "calibrated: share of the largest stress";
+        found.add([format!("c10_misfit_{word}"), name], "%", misses, known);
     }
     let modulus_mpa = 6e-6 * c10_pa;
     found.notes.push(format!("6 C10 = {modulus_mpa:.1} MPa would be the modulus if the curves had the law's shape"));
@@ -192,7 +197,8 @@ fn rubber(found: &mut Characterized) {
 fn shear(found: &mut Characterized) {
     let zones = "calibrated: bias extension, zones";
     let slope = found.over_strips(|s| s.slope_n_per_m);
-    found.add(["gt", "shear stiffness at small angle, G12 t"], "N/m", slope, zones);
+    let names = ["gt", "shear stiffness at small angle, G12 t"];
+    found.add(names, "N/m", slope, zones);
     let g12 = found.thickness_m.and_then(|t| Some(slope?.scaled(1e-6 / t)));
     found.add(["g12", "shear modulus G12"], "MPa", g12, zones);
     link(found);
@@ -200,11 +206,14 @@ fn shear(found: &mut Characterized) {
     let (lock, all) = (locked.map_or(0, |s| s.n), found.strips().count());
     let known = format!("calibrated: two lines, {lock} of {all} specimens lock");
     found.add(["locking", "locking angle"], "°", locked, known);
-    let limit = found.over_strips(|s| Some(100.0 * s.size.displacement_m(PAPER_LIMIT_RAD) / s.size.length_m));
-    let known = format!("published: its strain at {:.1}°, in a strip of this size", PAPER_LIMIT_RAD.to_degrees());
+    let limit = |s: &BiasStrip| 100.0 * s.size.displacement_m(PAPER_LIMIT_RAD) / s.size.length_m;
+    let limit = found.over_strips(|s| Some(limit(s)));
+    let angle = PAPER_LIMIT_RAD.to_degrees();
+    let known = format!("published: its strain at {angle:.1}°, in a strip of this size");
     // A number of the strip's size, not of its fabric: it has no interval.
-    let limit = limit.map(|s| Scatter { sd: None, half: None, ..s });
-    found.add(["limit_strain", "validity limit of the reduction"], "%", limit, known);
+    let limit = limit.map(Scatter::without_interval);
+    let names = ["limit_strain", "validity limit of the reduction"];
+    found.add(names, "%", limit, known);
     let first = found.strips().next().map(|(_, strip)| strip.size);
     if let Some(size) = first {
         let (ratio, factor) = (size.length_m / size.width_m, fit::bias_grip_factor(&size));
@@ -229,24 +238,27 @@ fn link(found: &mut Characterized) {
     };
     let slope = |e: Scatter, factor: f64| (e, factor * (g / e.mean).powi(2));
     let scatter = Scatter::carried(g, &[slope(e45, 4.0), slope(e0, -1.0), slope(e90, -1.0)]);
-    let nu12 = if found.quantity("nu12").is_some() { " + 2 nu12/E0" } else { "; nu12 = 0 assumed" };
+    let nu12 = found.quantity("nu12").map_or("; nu12 = 0 assumed", |_| " + 2 nu12/E0");
     if let Some(zones) = found.quantity("g12").map(|q| q.scatter.mean) {
         warn::two_shear_moduli([zones, 1e-6 * g], &mut found.warnings);
     }
     let known = format!("calibrated: 1/G = 4/E45 − 1/E0 − 1/E90{nu12}");
-    found.add(["g12_link", "G12 from the moduli, free edges"], "MPa", Some(scatter.scaled(1e-6)), known);
+    let names = ["g12_link", "G12 from the moduli, free edges"];
+    found.add(names, "MPa", Some(scatter.scaled(1e-6)), known);
 }
 
 fn reach(found: &mut Characterized) {
     for direction in YARNS {
         let (word, known) = (direction.word(), found.provenance.word());
         let ends = found.over(direction, |s| Some(100.0 * s.stress.last()?[0]));
-        let number = [format!("reach_{word}"), format!("strain at the largest stress, {word}")];
-        found.add(number.each_ref().map(String::as_str), "%", ends, known);
+        let name = format!("strain at the largest stress, {word}");
+        found.add([format!("reach_{word}"), name], "%", ends, known);
     }
-    let alone = directions(&found.specimens).into_iter().filter(|d| found.of(*d).count() == 1);
+    let all = directions(&found.specimens).into_iter();
+    let alone = all.filter(|direction| found.of(*direction).count() == 1);
     let single: Vec<String> = alone.map(|d| format!("{}°", d.degrees())).collect();
     if !single.is_empty() {
-        found.notes.push(format!("one specimen only at {}: no interval can be given", single.join(", ")));
+        let single = single.join(", ");
+        found.notes.push(format!("one specimen only at {single}: no interval can be given"));
     }
 }

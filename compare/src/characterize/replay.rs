@@ -25,9 +25,9 @@ pub(super) fn laws(found: &Characterized, settings: &Reduction) -> Vec<(String, 
     let text = fabric_toml(found, settings, "").unwrap_or_default();
     let table: toml::Table = text.parse().unwrap_or_default();
     let fabrics = table.get("fabric").and_then(toml::Value::as_table).into_iter().flatten();
-    let order = |name: &str| ["-linear", "-film"].iter().position(|suffix| name.ends_with(suffix)).map_or(0, |i| i + 1);
-    let mut made: Vec<_> = fabrics.filter_map(|(name, law)| Some((name.clone(), make(law.as_table()?)?))).collect();
-    made.sort_by_key(|(name, _)| order(name));
+    let fabric = |(name, law): (&String, &toml::Value)| Some((name.clone(), make(law.as_table()?)?));
+    let mut made: Vec<(String, Arc<dyn Fabric>)> = fabrics.filter_map(fabric).collect();
+    made.sort_by_key(|(name, _)| if name.ends_with("-film") { 2 } else { u8::from(name.ends_with("-linear")) });
     made
 }
 
@@ -37,7 +37,8 @@ fn make(table: &toml::Table) -> Option<Arc<dyn Fabric>> {
     for (key, value) in table {
         if let Some(rows) = value.as_array() {
             let row = |r: &toml::Value| Some([number(r.get(0)?)?, number(r.get(1)?)?]);
-            recipe.curves.insert(key.clone(), rows.iter().filter_map(row).collect());
+            let rows = rows.iter().filter_map(row).collect();
+            recipe.curves.insert(key.clone(), rows);
         } else if let Some(value) = number(value) {
             recipe.numbers.insert(key.clone(), value);
         }
@@ -52,9 +53,11 @@ fn replayed(test: &Specimen, law: &str, fabric: &Arc<dyn Fabric>) -> Option<Repl
         _ => free(test, end, fabric)?,
     };
     let [x, y] = *rows.last()?;
-    let largest = test.stress.iter().map(|row| row[1]).fold(f64::MIN_POSITIVE, f64::max);
-    let squares: f64 = rows.iter().map(|[x, y]| (y - fit::at(&test.stress, *x)).powi(2)).sum();
-    let (at_end, rms) = (y / fit::at(&test.stress, x) - 1.0, (squares / rows.len() as f64).sqrt() / largest);
+    let largest = test.stress.iter().fold(f64::MIN_POSITIVE, |most, row| most.max(row[1]));
+    let square = |[x, y]: &[f64; 2]| (y - fit::at(&test.stress, *x)).powi(2);
+    let squares: f64 = rows.iter().map(square).sum();
+    let at_end = y / fit::at(&test.stress, x) - 1.0;
+    let rms = (squares / rows.len() as f64).sqrt() / largest;
     let used = test.direction.along_yarn() || test.direction == data::Direction::Bias;
     let (specimen, direction_deg) = (test.name.clone(), test.direction.degrees());
     Some(Replay { law: law.to_string(), specimen, used, direction_deg, at_end, rms, rows })
@@ -62,15 +65,15 @@ fn replayed(test: &Specimen, law: &str, fabric: &Arc<dyn Fabric>) -> Option<Repl
 
 fn free(test: &Specimen, end: f64, fabric: &Arc<dyn Fabric>) -> Option<Vec<[f64; 2]>> {
     let mut pull = Pull::new(fabric.clone(), test.direction.degrees().to_radians()).ok()?;
-    let strain = |i: usize| end * i as f64 / PLACES as f64;
-    (0..=PLACES).map(strain).map(|e| Some([e, pull.stress_pa(e)?])).collect()
+    let mut row = |strain: f64| Some([strain, pull.stress_pa(strain)?]);
+    (0..=PLACES).map(|i| row(end * i as f64 / PLACES as f64)).collect()
 }
 
 /// By shear angle, as far as the test went and the reduction holds: F_sh is the law's S₁₂ where its yarns have not stretched.
 fn zones(strip: &BiasStrip, thickness_m: f64, end: f64, fabric: &Arc<dyn Fabric>) -> Option<Vec<[f64; 2]>> {
     let size: &BiasExtension = &strip.size;
     let shear = |angle: f64| fabric.tension([0.0, 0.0, angle.sin()], &[0.0; 2])[2];
-    let last = size.angle(end * size.length_m).unwrap_or(PAPER_LIMIT_RAD).min(PAPER_LIMIT_RAD);
+    let last = size.angle(end * size.length_m).map_or(PAPER_LIMIT_RAD, |angle| angle.min(PAPER_LIMIT_RAD));
     let row = |i: usize| {
         let [d, f] = size.pulled(last * i as f64 / PLACES as f64, shear, Some(&**fabric));
         [d / size.length_m, f / (size.width_m * thickness_m)]

@@ -118,9 +118,9 @@ impl Characterized {
     pub fn bend(&mut self, lengths: &[[f64; 2]], word: &str) {
         let c = Scatter::of(lengths.iter().map(|[c, _]| 1e3 * c));
         let d = Scatter::of(lengths.iter().map(|[c, w]| 1e6 * w * c.powi(3)));
-        let stiffness = ["bending_stiffness", "bending stiffness D, per width"];
-        self.add(["bending_length", "bending length c"], "mm", c, format!("{word}: cantilever test, Peirce"));
-        self.add(stiffness, "µN·m", d, format!("{word}: D = w c³"));
+        let [length, stiffness] = ["cantilever test, Peirce", "D = w c³"].map(|how| format!("{word}: {how}"));
+        self.add(["bending_length", "bending length c"], "mm", c, length);
+        self.add(["bending_stiffness", "bending stiffness D, per width"], "µN·m", d, stiffness);
     }
 
     /// Specimens that were pulled in this direction.
@@ -153,15 +153,16 @@ impl Characterized {
         Woven::new(yarns, Curve::linear(1e6), self.nu12(), self.thickness_m?).ok()
     }
 
-    pub(super) fn add(
+    /// Adds a number by its key and name, if there is one.
+    pub(super) fn add<S: Into<String>>(
         &mut self,
-        [key, name]: [&str; 2],
+        names: [S; 2],
         unit: &'static str,
         scatter: Option<Scatter>,
         known: impl Into<String>,
     ) {
         let Some(scatter) = scatter else { return };
-        let (key, name, known) = (key.into(), name.into(), known.into());
+        let ([key, name], known) = (names.map(Into::into), known.into());
         self.quantities.push(FabricNumber { key, name, unit, scatter, known });
     }
 

@@ -54,13 +54,17 @@ impl Scatter {
     pub fn carried(mean: f64, parts: &[(Scatter, f64)]) -> Scatter {
         let n = parts.iter().map(|(scatter, _)| scatter.n).sum();
         let variance = |(s, slope): &(Scatter, f64)| s.sd.map(|sd| (slope * sd).powi(2) / s.n as f64);
-        let Some(each) = parts.iter().map(variance).collect::<Option<Vec<f64>>>() else {
-            return Scatter { n, mean, sd: None, half: None };
-        };
+        let none = Scatter { n, mean, sd: None, half: None };
+        let Some(each) = parts.iter().map(variance).collect::<Option<Vec<f64>>>() else { return none };
         let total: f64 = each.iter().sum();
         let spread: f64 = each.iter().zip(parts).map(|(v, (s, _))| v * v / (s.n - 1) as f64).sum();
         let dof = if spread > 0.0 { (total * total / spread).floor().max(1.0) as usize } else { 1 };
-        Scatter { n, mean, sd: None, half: Some(t_975(dof) * total.sqrt()) }
+        Scatter { half: Some(t_975(dof) * total.sqrt()), ..none }
+    }
+
+    /// The mean alone.
+    pub(super) fn without_interval(self) -> Scatter {
+        Scatter { sd: None, half: None, ..self }
     }
 
     /// Mean and scatter times a factor, as for another unit.

@@ -2,15 +2,21 @@
 
 use super::Reduction;
 use super::result::{BiasStrip, Specimen};
+use super::warn::{self, who};
 use crate::policy;
-use data::{Coupon, DataError, Direction, Fault, Pulled};
+use data::{Coupon, DataError, Direction, Pulled};
 use models::fabrics::{BiasExtension, Fabric, specimen as fit};
 
 /// Most rows that go into a reduction: far finer than any law's table, and the noise is averaged.
 const MOST_ROWS: usize = 400;
 
 /// Reduces one specimen, but for the shear of a bias test; adds to `warnings` what a user should look at.
-pub(super) fn reduce(coupon: &Coupon, settings: &Reduction, warnings: &mut Vec<String>) -> Result<Specimen, DataError> {
+pub(super) fn reduce(
+    coupon: &Coupon,
+    slack: f64,
+    settings: &Reduction,
+    warnings: &mut Vec<String>,
+) -> Result<Specimen, DataError> {
     let along = coupon.direction.along_yarn();
     let whole = stresses(coupon)?;
     let mut used = up_to_peak(whole.as_deref().unwrap_or(coupon.pulled.rows()));
@@ -20,7 +26,7 @@ pub(super) fn reduce(coupon: &Coupon, settings: &Reduction, warnings: &mut Vec<S
         let help = format!("give at least {least} rows of loading, tension as a positive {column}");
         return Err(fault(coupon, message, help));
     }
-    super::warn::slips(coupon, &used, warnings);
+    warn::slips(coupon, &used, warnings);
     let up_to = settings.modulus_strain * if along { 1.0 } else { 2.0 };
     let poisson = poisson(coupon, whole.as_deref().unwrap_or_default(), up_to);
     used = fit::thinned(&used, MOST_ROWS);
@@ -31,14 +37,14 @@ pub(super) fn reduce(coupon: &Coupon, settings: &Reduction, warnings: &mut Vec<S
     if let Some(modulus_pa) = modulus_pa.filter(|_| !settings.any_modulus) {
         plausible(coupon, modulus_pa)?;
     }
-    super::warn::stiffens(coupon, &stress, modulus_pa.map(|modulus_pa| [modulus_strain, modulus_pa]), warnings);
+    warn::stiffens(coupon, &stress, modulus_pa.map(|modulus_pa| [modulus_strain, modulus_pa]), warnings);
     let c10_pa = |rows: &[[f64; 2]]| Some([fit::c10_pa(rows)?, fit::c10_by_share_pa(rows)?]);
     Ok(Specimen {
         name: coupon.specimen.clone(),
         file: coupon.file.clone(),
         direction: coupon.direction,
         c10_pa: along.then(|| c10_pa(&stress)).flatten(),
-        slack: 0.0,
+        slack,
         poisson,
         strip: None,
         thickness_m: coupon.thickness_m,
@@ -80,27 +86,28 @@ fn poisson(coupon: &Coupon, stress: &[[f64; 2]], up_to: f64) -> Option<f64> {
 }
 
 pub(super) fn fault(coupon: &Coupon, message: String, help: impl Into<String>) -> DataError {
-    let message = format!("specimen {} ({}°): {message}", coupon.specimen, coupon.direction.degrees());
-    DataError::Runs(Box::new(Fault::of_file(&coupon.file, message, help).at_line(coupon.line)))
+    DataError::of(&coupon.file, format!("{}: {message}", who(coupon)), help).at_line(coupon.line)
 }
 
 /// Nominal strain and stress; none for a bias test without thickness.
 fn stresses(coupon: &Coupon) -> Result<Option<Vec<[f64; 2]>>, DataError> {
     let Pulled::Force(rows) = &coupon.pulled else { return Ok(Some(coupon.pulled.rows().to_vec())) };
-    let sizes =
-        [("length", coupon.length_m, 250.0), ("width", coupon.width_m, 20.0), ("thickness", coupon.thickness_m, 0.05)];
-    let bias = coupon.direction == Direction::Bias;
-    if let Some((name, _, typical)) = sizes.iter().find(|s| s.1.is_none() && !(bias && s.0 == "thickness")) {
-        let what = if *name == "length" { "length (free, between the grips)" } else { name };
+    let Coupon { length_m: length, width_m: width, thickness_m: thickness, .. } = *coupon;
+    let sizes = [("length", length, 250.0), ("width", width, 20.0), ("thickness", thickness, 0.05)];
+    let is_needed = |name: &str| coupon.direction != Direction::Bias || name != "thickness";
+    let missing = sizes.iter().find(|(name, size, _)| size.is_none() && is_needed(name));
+    if let Some((name, _, typical)) = missing {
+        let free = if *name == "length" { " (free, between the grips)" } else { "" };
         let help = format!("write # {name}_mm: {typical} above the header, or --{name} {typical}mm for all files");
-        return Err(fault(coupon, format!("force and displacement need the {what}, which is missing"), help));
+        let message = format!("force and displacement need the {name}{free}, which is missing");
+        return Err(fault(coupon, message, help));
     }
-    let [length, width, thickness] = sizes.map(|s| s.1);
     let farthest = rows.last().map_or(0.0, |row| row[0]);
     if let Some(length) = length.filter(|length| farthest > 3.0 * length) {
         let (far, free) = (1e3 * farthest, 1e3 * length);
         let message = format!("a displacement of {far:.3} mm on a free length of {free:.3} mm");
-        return Err(fault(coupon, message, format!("check the unit of {} and of the length", coupon.columns[0])));
+        let help = format!("check the unit of {} and of the length", coupon.columns[0]);
+        return Err(fault(coupon, message, help));
     }
     let (Some(length), Some(area)) = (length, width.zip(thickness).map(|(w, t)| w * t)) else { return Ok(None) };
     Ok(Some(rows.iter().map(|[d, f]| [d / length, f / area]).collect()))
@@ -158,11 +165,10 @@ fn sheared(
     let last_m = size.displacement_m(policy::SURELY_SLIP_RAD);
     let kept = rows.partition_point(|row| row[0] <= last_m);
     if kept < rows.len() {
-        let (who, degrees, more) = (&coupon.specimen, coupon.direction.degrees(), rows.len() - kept);
-        let (last_mm, most) = (1e3 * last_m, policy::SURELY_SLIP_RAD.to_degrees());
+        let (who, more, last_mm) = (who(coupon), rows.len() - kept, 1e3 * last_m);
+        let most = policy::SURELY_SLIP_RAD.to_degrees();
         warnings.push(format!(
-            "specimen {who} ({degrees}°): {more} rows beyond {last_mm:.1} mm left out: the shear angle would be above \
-             {most:.0}°, where yarns slip"
+            "{who}: {more} rows beyond {last_mm:.1} mm left out: the shear angle would be above {most:.0}°, where yarns slip"
         ));
         rows.truncate(kept);
     }
@@ -191,7 +197,8 @@ fn plausible(coupon: &Coupon, modulus_pa: f64) -> Result<(), DataError> {
         Pulled::Stress(_) => stress_advice(coupon, modulus_pa, fits),
         Pulled::Force(_) => format!("check the units of {y}, {x}, and width, length and thickness ({thickness} mm)"),
     };
-    Err(fault(coupon, message, format!("{advice}; if the number is right, add --any-modulus")))
+    let help = format!("{advice}; if the number is right, add --any-modulus");
+    Err(fault(coupon, message, help))
 }
 
 fn stress_advice(coupon: &Coupon, modulus_pa: f64, fits: impl Fn(f64) -> bool) -> String {
@@ -205,10 +212,11 @@ fn stress_advice(coupon: &Coupon, modulus_pa: f64, fits: impl Fn(f64) -> bool) -
         (name != *unit && fits(pa)).then_some(words)
     };
     let mut found: Vec<String> = STRESSES.iter().filter_map(renamed).collect();
-    let other = if strain.to_lowercase().ends_with("ratio") { ("pct", 100.0) } else { ("ratio", 0.01) };
-    if fits(modulus_pa * other.1) {
-        let pa = short(modulus_pa * other.1 * 1e-6);
-        found.push(format!("if {strain} is in another unit, name it strain_{} (modulus {pa} MPa)", other.0));
+    let is_ratio = strain.to_lowercase().ends_with("ratio");
+    let (unit, factor) = if is_ratio { ("pct", 100.0) } else { ("ratio", 0.01) };
+    if fits(modulus_pa * factor) {
+        let mpa = short(modulus_pa * factor * 1e-6);
+        found.push(format!("if {strain} is in another unit, name it strain_{unit} (modulus {mpa} MPa)"));
     }
     if found.is_empty() { format!("check the units of {strain} and {stress}") } else { found.join("; ") }
 }

@@ -6,24 +6,29 @@ use crate::policy;
 use data::{Coupon, Direction, Pulled};
 use models::fabrics::specimen::{self as fit, Slip};
 
+/// Label and direction, for messages.
+pub(super) fn who(coupon: &Coupon) -> String {
+    format!("specimen {} ({}°)", coupon.specimen, coupon.direction.degrees())
+}
+
 /// A specimen that slipped in its grips, and rows that were left out. Rows: strain or displacement, and stress or force.
 pub(super) fn slips(coupon: &Coupon, rows: &[[f64; 2]], warnings: &mut Vec<String>) {
-    let who = format!("specimen {} ({}°)", coupon.specimen, coupon.direction.degrees());
+    let who = who(coupon);
     warnings.extend(coupon.told.iter().map(|warning| format!("{who}: {warning}")));
     if coupon.jitter > 0 {
-        warnings.push(format!(
-            "{who}: {} rows in which {} went back a little are left out",
-            coupon.jitter, coupon.columns[0]
-        ));
+        let (rows, column) = (coupon.jitter, &coupon.columns[0]);
+        warnings.push(format!("{who}: {rows} rows in which {column} went back a little are left out"));
     }
     // A bias test without thickness comes as displacement.
     let displaced = matches!(coupon.pulled, Pulled::Force(_)) && coupon.thickness_m.is_none();
-    let length_m = if displaced { coupon.length_m.unwrap_or(1.0) } else { 1.0 };
+    let length_m = coupon.length_m.filter(|_| displaced).unwrap_or(1.0);
     let even = fit::thinned(rows, 2000);
-    let plateau = || coupon.direction.along_yarn().then(|| fit::plateau(&even)).flatten();
+    let plateau = || if coupon.direction.along_yarn() { fit::plateau(&even) } else { None };
     if let Some(Slip { at, until, lost }) = fit::drop(&even).or_else(plateau) {
-        let drops = format!("the force drops by {:.0} %", 100.0 * lost);
-        let how = if lost > 0.0 { &drops } else { "the force stays constant" };
+        let how = match lost > 0.0 {
+            true => format!("the force drops by {:.0} %", 100.0 * lost),
+            false => "the force stays constant".into(),
+        };
         let [at, until] = [at, until].map(|x| 100.0 * x / length_m);
         warnings.push(format!(
             "{who}: {how} from {at:.2} % strain on and is back at {until:.2} %: it probably slipped in its grips; its modulus \
@@ -36,21 +41,23 @@ pub(super) fn slips(coupon: &Coupon, rows: &[[f64; 2]], warnings: &mut Vec<Strin
 pub(super) fn stiffens(coupon: &Coupon, stress: &[[f64; 2]], modulus: Option<[f64; 2]>, warnings: &mut Vec<String>) {
     let Some([up_to, soft_pa]) = modulus.filter(|_| coupon.direction.along_yarn()) else { return };
     let Some([at, steep_pa]) = fit::stiffening(stress, up_to) else { return };
-    let (who, degrees) = (&coupon.specimen, coupon.direction.degrees());
+    let who = who(coupon);
     let [soft_mpa, steep_mpa] = [soft_pa, steep_pa].map(|pa| 1e-6 * pa);
     let [up_to, at] = [up_to, at].map(|strain| 100.0 * strain);
     warnings.push(format!(
-        "specimen {who} ({degrees}°): its modulus is {soft_mpa:.1} MPa up to {up_to:.1} % strain, and the curve rises to \
+        "{who}: its modulus is {soft_mpa:.1} MPa up to {up_to:.1} % strain, and the curve rises to \
          {steep_mpa:.1} MPa at {at:.1} %: crimp of the yarns, where the first number holds, or slack in the grips, where the second \
          does; for slack leave out the rows before the specimen is taut"
     ));
 }
 
 pub(super) fn slack(specimens: &[Specimen]) -> Option<String> {
-    let one = |s: &Specimen| format!("{} ({}°) {:.3} %", s.name, s.direction.degrees(), 100.0 * s.slack);
+    let one = |Specimen { name, direction, slack, .. }: &Specimen| {
+        format!("{name} ({}°) {:.3} %", direction.degrees(), 100.0 * slack)
+    };
     let all: Vec<String> = specimens.iter().filter(|s| s.slack > 0.0).map(one).collect();
-    let text = format!("slack subtracted, a soft start before the specimen is taut: {}", all.join(", "));
-    (!all.is_empty()).then_some(text)
+    let text = "slack subtracted, a soft start before the specimen is taut";
+    (!all.is_empty()).then(|| format!("{text}: {}", all.join(", ")))
 }
 
 /// Specimens that deviate from the others of their direction; directions that look confused.
@@ -67,8 +74,8 @@ pub(super) fn deviations(specimens: &[Specimen], warnings: &mut Vec<String>) {
                 100.0 * off
             ));
         }
-        for (Specimen { name, modulus_strain, .. }, _) in same.iter().filter(|(s, _)| s.modulus_strain > 0.03) {
-            let percent = 100.0 * modulus_strain;
+        for specimen in same.iter().map(|(s, _)| s).filter(|s| s.modulus_strain > 0.03) {
+            let (name, percent) = (&specimen.name, 100.0 * specimen.modulus_strain);
             warnings.push(format!(
                 "specimen {name} ({degrees}°): few rows at small strain: its modulus is the slope up to {percent:.1} %"
             ));
@@ -84,7 +91,8 @@ fn with_modulus(specimens: &[Specimen], direction: Direction) -> Vec<(&Specimen,
 /// Another direction whose mean is within a fifth of a value that is off in its own.
 fn nearest_direction(specimens: &[Specimen], own: Direction, value: f64) -> Option<Direction> {
     let near = |d: &Direction| {
-        let mean = Scatter::of(with_modulus(specimens, *d).into_iter().map(|(_, modulus)| modulus));
+        let moduli = with_modulus(specimens, *d).into_iter().map(|(_, modulus)| modulus);
+        let mean = Scatter::of(moduli);
         *d != own && mean.is_some_and(|s| policy::is_like_another(value, s.mean))
     };
     directions(specimens).into_iter().find(near)
@@ -92,8 +100,8 @@ fn nearest_direction(specimens: &[Specimen], own: Direction, value: f64) -> Opti
 
 /// Tests at other angles than a law was made from.
 pub(super) fn checks(replays: &[Replay], law: &str, warnings: &mut Vec<String>) {
-    let off = replays.iter().filter(|r| r.law == law && !r.used).map(|r| r.at_end);
-    let [low, high] = off.fold([0.0_f64, 0.0_f64], |[a, b], o| [a.min(o), b.max(o)]);
+    let others = replays.iter().filter(|r| r.law == law && !r.used);
+    let [low, high] = others.map(|r| r.at_end).fold([0.0_f64, 0.0_f64], |[a, b], o| [a.min(o), b.max(o)]);
     if !policy::meets(low) || !policy::meets(high) {
         let [low, high] = [low, high].map(|off| 100.0 * off);
         warnings.push(format!(

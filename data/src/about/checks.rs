@@ -12,7 +12,6 @@ use crate::error::{DataError, Fault, Location, Result};
 use crate::policy::{LARGEST_TIP_FORCE_N, SAME_STATION, one_station};
 use spelling::units::Range;
 
-/// As many as a scenario takes.
 const MOST_POUCHES: usize = 10_000;
 
 /// The text being checked, for the place of faults.
@@ -28,13 +27,14 @@ impl Check<'_> {
         let mut fault = Fault::of_text(self.file, self.text, at, format!("{key}: {message}"), help.to_string());
         let cell = self.text.get(span).map(str::to_string);
         fault.location = Location { cell, ..fault.location };
-        DataError::About(Box::new(fault))
+        fault.into()
     }
 
     pub(super) fn filled(&self, key: &str, value: &Spanned<String>) -> Result<String> {
         let text = value.get_ref().trim();
         if text.is_empty() {
-            return Err(self.fault(key, value, "is empty", "write one line: every dataset states its source"));
+            let help = "write one line: every dataset states its source";
+            return Err(self.fault(key, value, "is empty", help));
         }
         Ok(text.to_string())
     }
@@ -43,10 +43,12 @@ impl Check<'_> {
     fn length_m(&self, key: &str, value: &Spanned<f64>) -> Result<f64> {
         let length_mm = *value.get_ref();
         if !(length_mm.is_finite() && length_mm > 0.0) {
-            return Err(self.fault(key, value, "must be a positive length", "give it in millimetres, for example 60"));
+            let help = "give it in millimetres, for example 60";
+            return Err(self.fault(key, value, "must be a positive length", help));
         }
         if key.starts_with("body") && length_mm < 2.0 {
-            return Err(self.fault(key, value, "looks like metres", "give it in millimetres: multiply by 1000"));
+            let help = "give it in millimetres: multiply by 1000";
+            return Err(self.fault(key, value, "looks like metres", help));
         }
         Ok(length_mm / 1e3)
     }
@@ -69,7 +71,8 @@ impl Check<'_> {
             found @ 1..=MOST_POUCHES => Ok(found),
             found => {
                 let message = format!("must be from 1 to {MOST_POUCHES}, not {found}");
-                Err(self.fault("pouches", count, &message, "write how many pouches are in a row, for example 6"))
+                let help = "write how many pouches are in a row, for example 6";
+                Err(self.fault("pouches", count, &message, help))
             }
         }
     }
@@ -78,7 +81,8 @@ impl Check<'_> {
         let (names, s_mm) = (raw.names.get_ref(), raw.s_mm.get_ref());
         if names.len() != s_mm.len() {
             let message = format!("has {} values, names has {}", s_mm.len(), names.len());
-            return Err(self.fault("s_mm", &raw.s_mm, &message, "give one station per marker, in the same order"));
+            let help = "give one station per marker, in the same order";
+            return Err(self.fault("s_mm", &raw.s_mm, &message, help));
         }
         if let Some(twice) = (1..names.len()).find(|&i| names[..i].contains(&names[i])) {
             let message = format!("marker {} is there twice", names[twice]);
@@ -86,7 +90,8 @@ impl Check<'_> {
         }
         let farthest = s_mm.iter().copied().fold(0.0, f64::max);
         if farthest > 0.0 && farthest < 2.0 {
-            return Err(self.fault("s_mm", &raw.s_mm, "looks like metres", "give millimetres: multiply by 1000"));
+            let help = "give millimetres: multiply by 1000";
+            return Err(self.fault("s_mm", &raw.s_mm, "looks like metres", help));
         }
         let bounds = Range::STATION;
         let stations_m = s_mm.iter().map(|s| bounds.si(bounds.name, *s)).collect::<Result<Vec<f64>, _>>();
@@ -112,12 +117,14 @@ impl Check<'_> {
         let (stiffness, sd) = (*raw.stiffness_nm2.get_ref(), *raw.sd_nm2.get_ref());
         if !(stiffness >= 0.0 && stiffness.is_finite()) {
             let help = "give it in N·m², for example 1.35";
-            return Err(self.fault("stiffness_nm2", &raw.stiffness_nm2, "must not be negative", help));
+            let message = "must not be negative";
+            return Err(self.fault("stiffness_nm2", &raw.stiffness_nm2, message, help));
         }
         // Nothing is measured better than to a thousandth: such a number would overrule all markers.
         if !(sd >= 1e-3 * stiffness && sd > 0.0 && sd.is_finite()) {
             let help = "give its standard deviation in N·m², from repeats of the bending test";
-            return Err(self.fault("sd_nm2", &raw.sd_nm2, "must be above a thousandth of the stiffness", help));
+            let message = "must be above a thousandth of the stiffness";
+            return Err(self.fault("sd_nm2", &raw.sd_nm2, message, help));
         }
         Ok([stiffness, sd])
     }
@@ -148,19 +155,16 @@ impl Check<'_> {
         let mut runs: Vec<AboutRun> = Vec::with_capacity(raw.len());
         for run in raw {
             if runs.iter().any(|known| known.id == *run.id.get_ref()) {
-                return Err(self.fault("id", &run.id, "this run is there twice", "describe every run once"));
+                let help = "describe every run once";
+                return Err(self.fault("id", &run.id, "this run is there twice", help));
             }
             let tip_force_n = run.tip_force_n.as_ref().map_or([0.0; 2], |force| **force.get_ref());
             if let Some(force) =
                 run.tip_force_n.as_ref().filter(|_| !tip_force_n.iter().all(|f| f.abs() <= LARGEST_TIP_FORCE_N))
             {
                 let message = format!("must be two finite numbers up to {LARGEST_TIP_FORCE_N} N");
-                return Err(self.fault(
-                    "tip_force_n",
-                    force,
-                    &message,
-                    "give [fx, fy] in newton, for example [0, -0.3]",
-                ));
+                let help = "give [fx, fy] in newton, for example [0, -0.3]";
+                return Err(self.fault("tip_force_n", force, &message, help));
             }
             runs.push(AboutRun { id: label(run.id.get_ref()).to_string(), tip_force_n, session: run.session });
         }

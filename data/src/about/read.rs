@@ -57,6 +57,6 @@ pub(crate) fn parse_toml<T: serde::de::DeserializeOwned>(file: &str, text: &str)
         let span = cause.span().map(|span| (span.start, span.end));
         let message = cause.message().trim().replace('\n', "; ");
         let help = "the keys and an example are in docs/scenario.md, under about.toml".to_string();
-        DataError::About(Box::new(Fault::of_text(file, text, span, message, help)))
+        Fault::of_text(file, text, span, message, help).into()
     })
 }

@@ -14,7 +14,7 @@ use std::io::Read;
 use std::path::Path;
 
 pub use crate::columns::Field;
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 use crate::sets;
 use spelling::files::{MOST_DATA, read_whole};
 
@@ -31,13 +31,10 @@ pub const KINDS: &[BenchKind] = &[load_deflection::ENTRY, force_contraction::ENT
 pub fn bench(spec: &str) -> Result<Option<Bench>> {
     let path = Path::new(spec);
     if path.is_file() {
-        let first = |most: u64| {
-            let mut bytes = Vec::new();
-            std::fs::File::open(path).ok()?.take(most).read_to_end(&mut bytes).ok().map(|_| bytes)
-        };
         // A table of markers may be of gigabytes: its beginning shows that it is not a bench table.
-        let start = first(HEADER).unwrap_or_default();
-        if start.len() as u64 == HEADER {
+        let mut start = Vec::new();
+        let opened = std::fs::File::open(path).and_then(|file| file.take(HEADER).read_to_end(&mut start));
+        if opened.is_ok_and(|count| count as u64 == HEADER) {
             let lines = String::from_utf8_lossy(&start);
             let end = lines.rfind('\n').map_or(lines.len(), |end| end + 1);
             if matches!(read::parse(KINDS, spec, &lines[..end]), Ok(None)) {
@@ -47,31 +44,29 @@ pub fn bench(spec: &str) -> Result<Option<Bench>> {
         let Some(text) = read_whole(path, MOST_DATA).ok().and_then(|bytes| String::from_utf8(bytes).ok()) else {
             return Ok(None);
         };
-        let beside = path.parent().and_then(|folder| std::fs::read_to_string(folder.join("scenario.toml")).ok());
-        return read::parse(KINDS, spec, &text).map(|found| found.map(|bench| Bench { scenario: beside, ..bench }));
+        let scenario = path.parent().and_then(|folder| std::fs::read_to_string(folder.join("scenario.toml")).ok());
+        return read::parse(KINDS, spec, &text).map(|found| found.map(|bench| Bench { scenario, ..bench }));
     }
     for kind in KINDS {
-        let name = format!("{}.csv", kind.name);
-        let (shown, text, scenario) = if path.is_dir() {
-            let file = path.join(&name);
-            (
-                file.display().to_string(),
-                std::fs::read_to_string(&file).ok(),
-                std::fs::read_to_string(path.join("scenario.toml")).ok(),
-            )
-        } else {
-            let of_set = |file: &str| sets::set_file(spec, file).ok().map(str::to_string);
-            (sets::shown(spec, &name), of_set(&name), of_set("scenario.toml"))
-        };
-        let Some(text) = text else { continue };
+        let Some((shown, text)) = part(spec, &format!("{}.csv", kind.name)) else { continue };
         let found = read::parse(KINDS, &shown, &text)?.filter(|bench| bench.kind.name == kind.name);
-        let wrong = || {
+        let Some(bench) = found else {
             let message = format!("the columns do not fit a {} table", kind.name);
-            DataError::Column(Box::new(Fault::of_file(&shown, message, format!("write {}", read::wanted(kind)))))
+            return Err(DataError::of(&shown, message, format!("write {}", read::wanted(kind))));
         };
-        return found.map(|bench| Some(Bench { scenario, ..bench })).ok_or_else(wrong);
+        let scenario = part(spec, "scenario.toml").map(|(_, text)| text);
+        return Ok(Some(Bench { scenario, ..bench }));
     }
     Ok(None)
+}
+
+/// A file of a folder or of an embedded set: its name in errors, and its text.
+fn part(spec: &str, name: &str) -> Option<(String, String)> {
+    if !Path::new(spec).is_dir() {
+        return Some((sets::shown(spec, name), sets::set_file(spec, name).ok()?.to_string()));
+    }
+    let file = Path::new(spec).join(name);
+    Some((file.display().to_string(), std::fs::read_to_string(&file).ok()?))
 }
 
 /// Bytes that hold the header of any table, comments included.

@@ -1,36 +1,26 @@
 //! Text to rows, for every kind.
 
 use super::kind::{Bench, BenchKind, BenchRow};
-use crate::columns::{self, Columns, Meaning, Note, TableRow};
+use crate::columns::{self, Head, Note, TableRow, meaning, needed};
 use crate::error::{DataError, Result};
 use crate::lines::Lines;
 
 /// Reads a table; `None` if its header is of no kind.
 pub(super) fn parse(kinds: &'static [BenchKind], file: &str, text: &str) -> Result<Option<Bench>> {
-    let mut progress = |_, _| ();
-    let mut bytes = text.as_bytes();
-    let mut lines = Lines::new(file, &mut bytes, text.len() as u64, &mut progress);
-    let (notes, header) = columns::notes(&mut lines)?;
-    let Some(header) = header else { return Ok(None) };
-    let line = header.line();
-    let (names, delimiter) = columns::split(line.text, None);
-    let Some(kind) = kinds.iter().find(|kind| is_of(kind, &names, &notes)) else { return Ok(None) };
-    let fields = kind.columns;
-    let meaning = |name: &str| Meaning::of(name, fields);
-    if let Some(fault) = columns::without_unit(&line, &names, fields, &meaning, &|_| Some(true)) {
-        return Err(DataError::Column(fault));
-    }
-    let at = columns::find(&line, &names, fields, &meaning)?;
-    let table = Columns { fields, names, delimiter: delimiter.into(), comma: false, at };
-    let shared = columns::shared(fields, &notes)?;
+    let mut lines = Lines::of_text(file, text);
+    let (notes, head) = Head::read(&mut lines)?;
+    let Some(head) = head else { return Ok(None) };
+    let Some(kind) = kinds.iter().find(|kind| is_of(kind, &head.names, &notes)) else { return Ok(None) };
+    head.without_unit(kind.columns, |_| Some(true))?;
+    let sheet = head.sheet(kind.columns)?;
+    let shared = columns::shared(kind.columns, &notes)?;
     let mut rows = Vec::new();
-    while let Some(line) = lines.next_filled()? {
-        if !line.text.trim_start().starts_with('#') {
-            rows.push(row(kind, &shared, &table.row(line)?)?);
-        }
-    }
+    sheet.each_row(&mut lines, |found| {
+        rows.push(row(kind, &shared, found)?);
+        Ok(())
+    })?;
     if rows.is_empty() {
-        return Err(DataError::layout(file, "the table has no rows", wanted(kind)));
+        return Err(DataError::of(file, "the table has no rows", wanted(kind)));
     }
     let provenance = columns::provenance(&notes)?;
     Ok(Some(Bench { kind, file: file.to_string(), provenance, rows, scenario: None }))
@@ -38,18 +28,18 @@ pub(super) fn parse(kinds: &'static [BenchKind], file: &str, text: &str) -> Resu
 
 /// The columns of a kind, as a sentence of an error.
 pub(super) fn wanted(kind: &BenchKind) -> String {
-    let names = |needed: bool| kind.columns.iter().filter(move |f| f.needed == needed).map(|f| f.expected);
-    let [needed, others] = [true, false].map(|needed| names(needed).collect::<Vec<_>>());
-    format!("{}; if you like {}", needed.join(","), others.join(", "))
+    let others = kind.columns.iter().filter(|field| !field.needed).map(|field| field.expected);
+    format!("{}; if you like {}", needed(kind.columns), others.collect::<Vec<_>>().join(", "))
 }
 
 /// Every column of the table means something in this kind, and the table or its comments have what the kind is about.
 fn is_of(kind: &BenchKind, names: &[String], notes: &[Note]) -> bool {
-    let fields = |name: &str| Meaning::of(name, kind.columns).field();
-    let is_there = |at: usize| names.iter().chain(notes.iter().map(|note| &note.key)).any(|n| fields(n) == Some(at));
+    let field = |name: &String| meaning(name, kind.columns).map(|(at, _)| at);
+    let is_there =
+        |at: usize| names.iter().chain(notes.iter().map(|note| &note.key)).any(|name| field(name) == Some(at));
     // A fabric's weight may be forgotten; what makes the kind may not.
     let makes_it = |at: &usize| kind.columns[*at].needed && kind.columns[*at].has_unit();
-    names.iter().all(|name| fields(name).is_some()) && (0..kind.columns.len()).filter(makes_it).all(is_there)
+    names.iter().all(|name| field(name).is_some()) && (0..kind.columns.len()).filter(makes_it).all(is_there)
 }
 
 fn row(kind: &'static BenchKind, shared: &[Option<f64>], row: &TableRow) -> Result<BenchRow> {
@@ -61,10 +51,10 @@ fn row(kind: &'static BenchKind, shared: &[Option<f64>], row: &TableRow) -> Resu
         }
         if field.needed && values[at].is_none() {
             let help = format!("add the column, or # {}: 155 above the header", field.expected);
-            return Err(DataError::Column(row.line.fault(format!("{} is missing", field.expected), help)));
+            return Err(row.line.fault(format!("{} is missing", field.expected), help));
         }
     }
     let found = BenchRow { kind, values, line: row.line.number };
-    (kind.check)(&found).map_err(|[message, help]| DataError::Cell(row.line.fault(message, help)))?;
+    (kind.check)(&found).map_err(|[message, help]| row.line.fault(message, help))?;
     Ok(found)
 }

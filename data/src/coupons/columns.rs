@@ -2,9 +2,9 @@
 
 use super::coupon::CouponDefaults;
 use crate::about::Provenance;
-use crate::columns::{self, Columns, Field, Meaning, Note, field, plain};
-use crate::error::{DataError, Fault, Result};
-use crate::lines::{Line, Lines};
+use crate::columns::{self, Field, Head, Note, Sheet, field, meaning, plain};
+use crate::error::{DataError, Result};
+use crate::lines::Lines;
 use crate::units::Measured::{Angle, Force, Length, Pressure, Ratio};
 
 pub(super) const STRAIN: usize = 0;
@@ -42,19 +42,25 @@ pub(super) struct Facts {
     pub provenance: Provenance,
 }
 
-/// x and y of the curve.
-pub(super) fn curve(header: &Columns) -> [usize; 2] {
-    if header.at[STRAIN].is_some() { [STRAIN, STRESS] } else { [DISPLACEMENT, FORCE] }
-}
-
-pub(super) fn read(lines: &mut Lines, defaults: &CouponDefaults) -> Result<(Facts, Columns)> {
-    let (notes, line) = columns::notes(lines)?;
+pub(super) fn read(lines: &mut Lines, defaults: &CouponDefaults) -> Result<(Facts, Sheet)> {
+    let (notes, head) = Head::read(lines)?;
     let facts = facts(&notes)?;
-    let Some(line) = line else {
+    let Some(mut head) = head else {
         let help = format!("the first line must name the columns: {EXPECTED}");
-        return Err(DataError::layout(lines.file(), "the file is empty", help));
+        return Err(DataError::of(lines.file(), "the file is empty", help));
     };
-    Ok((facts, header(&line.line(), &defaults.columns)?))
+    let (written, replaced) = (head.names.len(), defaults.columns.len());
+    if ![0, written].contains(&replaced) {
+        let message = format!("the header has {written} columns, --columns names {replaced}");
+        let help = "name every column, for example displacement_mm,force_n";
+        return Err(head.line.line().fault(message, help));
+    }
+    if replaced > 0 {
+        head.names.clone_from(&defaults.columns);
+    }
+    let sheet = head.sheet(QUANTITIES)?;
+    complete(&sheet)?;
+    Ok((facts, sheet))
 }
 
 fn facts(notes: &[Note]) -> Result<Facts> {
@@ -71,54 +77,37 @@ fn facts(notes: &[Note]) -> Result<Facts> {
 fn misspelt(note: &Note, numbers: &[Field]) -> Result<()> {
     let Note { key, text, .. } = note;
     let keys = numbers.iter().map(|field| field.expected).chain(["specimen", "provenance"]);
-    let is_key = Meaning::of(key, numbers).field().is_some();
+    let is_key = meaning(key, numbers).is_some();
     let near = spelling::nearest(key, keys).filter(|_| !is_key && key.contains('_') && !key.contains(' '));
     let Some(near) = near else { return Ok(()) };
     let help = format!("did you mean # {near}: {text}? any other comment is fine without `_` before the colon");
     Err(note.wrong(format!("`{key}` is not known"), help))
 }
 
-pub(super) fn header(line: &Line, replaced: &[String]) -> Result<Columns> {
-    let (written, delimiter) = columns::split(line.text, None);
-    if !replaced.is_empty() && replaced.len() != written.len() {
-        let message = format!("the header has {} columns, --columns names {}", written.len(), replaced.len());
-        return Err(DataError::Column(line.fault(message, "name every column, for example displacement_mm,force_n")));
-    }
-    let names = if replaced.is_empty() { written } else { replaced.to_vec() };
-    let at = columns::find(line, &names, QUANTITIES, &meaning)?;
-    complete(&at.iter().map(Option::is_some).collect::<Vec<_>>(), &names, line)?;
-    Ok(Columns { fields: QUANTITIES, names, delimiter: delimiter.into(), comma: false, at })
-}
-
-fn meaning(name: &str) -> Meaning {
-    Meaning::of(name, QUANTITIES)
-}
-
 /// Exactly one whole curve must be there.
-fn complete(has: &[bool], names: &[String], line: &Line) -> Result<()> {
-    match ([has[STRAIN], has[STRESS]], [has[DISPLACEMENT], has[FORCE]]) {
-        ([true, true], [false, false]) | ([false, false], [true, true]) => return Ok(()),
-        ([true, true], _) | (_, [true, true]) => {
+fn complete(sheet: &Sheet) -> Result<()> {
+    let (line, has) = (sheet.head.line.line(), [STRAIN, STRESS, DISPLACEMENT, FORCE].map(|field| sheet.has(field)));
+    match has {
+        [true, true, false, false] | [false, false, true, true] => return Ok(()),
+        [true, true, ..] | [.., true, true] => {
             let help = "keep strain and stress, or displacement and force; rename the others, for example raw_force";
-            return Err(DataError::Column(line.fault("the columns give more than one curve", help)));
+            return Err(line.fault("the columns give more than one curve", help));
         }
         _ => {}
     }
-    if let Some(fault) = columns::without_unit(line, names, QUANTITIES, &meaning, &|_| Some(true)) {
-        let help =
-            format!("{}. Without touching the file: --columns displacement_mm,force_n names all columns", fault.help);
-        return Err(DataError::Column(Box::new(Fault { help, ..*fault })));
-    }
-    let missing = match has[..=FORCE] {
+    let named = sheet.head.without_unit(QUANTITIES, |_| Some(true));
+    let more = ". Without touching the file: --columns displacement_mm,force_n names all columns";
+    named.map_err(|error| error.with_help(more))?;
+    let missing = match has {
         [true, ..] => STRESS,
         [_, true, ..] => STRAIN,
         [.., true] => DISPLACEMENT,
         _ => FORCE,
     };
     let expected = QUANTITIES[missing].expected;
-    let near = spelling::nearest(expected, names.iter().map(String::as_str)).filter(|near| !near.is_empty());
+    let near = spelling::nearest(expected, sheet.head.names.iter().map(String::as_str)).filter(|near| !near.is_empty());
     let help =
         near.map_or(format!("the columns are {EXPECTED}"), |near| format!("did you mean {expected} for {near}?"));
-    let message = format!("column {expected} is missing; found {}", names.join(", "));
-    Err(DataError::Column(line.fault(message, help)))
+    let message = format!("column {expected} is missing; found {}", sheet.head.names.join(", "));
+    Err(line.fault(message, help))
 }

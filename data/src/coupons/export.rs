@@ -2,46 +2,22 @@
 
 use super::columns::{DISPLACEMENT, FORCE, Facts, LENGTH, QUANTITIES, STRAIN, STRESS, THICKNESS, WIDTH};
 use super::coupon::CouponDefaults;
+use super::curve::Specimens;
 use crate::cells::is_nothing;
 use crate::error::DataError;
 use crate::import::sheet::CellText;
 use crate::units::Measured;
 use spelling::units::Unit;
 
-/// The rows of an export under this program's names.
-pub(super) struct Export {
-    /// Sizes that the rows about the test give.
-    pub facts: Facts,
-    /// The header line that it would have.
-    pub header: String,
-    /// Line number and text of every row, specimen after specimen.
-    pub rows: Vec<(u64, String)>,
-    pub told: Vec<String>,
-}
-
 /// Words of machines for what they measure; times are known so that they begin a specimen.
-const WORDS: [(usize, &[&str]); 5] = [
-    (
-        DISPLACEMENT,
-        &[
-            "extension",
-            "displacement",
-            "elongation",
-            "stroke",
-            "crosshead",
-            "standardweg",
-            "weg",
-            "traversenweg",
-            "verlängerung",
-        ],
-    ),
-    (STRAIN, &["strain", "dehnung"]),
-    (FORCE, &["load", "force", "kraft", "standardkraft", "zugkraft"]),
-    (STRESS, &["stress", "spannung"]),
-    (TIME, &["time", "zeit", "prüfzeit"]),
+const WORDS: [(usize, &str); 5] = [
+    (DISPLACEMENT, "extension displacement elongation stroke crosshead standardweg weg traversenweg verlängerung"),
+    (STRAIN, "strain dehnung"),
+    (FORCE, "load force kraft standardkraft zugkraft"),
+    (STRESS, "stress spannung"),
+    (TIME, "time zeit prüfzeit"),
 ];
 const TIME: usize = QUANTITIES.len();
-/// Words for the sizes of a specimen.
 const SIZES: [(usize, &[&str]); 3] = [
     (WIDTH, &["width", "breite", "probenbreite"]),
     (THICKNESS, &["thickness", "dicke", "probendicke"]),
@@ -53,48 +29,56 @@ const LOOKED_AT: usize = 200;
 /// A column of one specimen: its index and unit.
 type Found = [Option<(usize, Option<Unit>)>; TIME + 1];
 
-/// The export in a sheet; `None` if no row names a curve.
-pub(super) fn read(sheet: &CellText, defaults: &CouponDefaults) -> Result<Option<Export>, DataError> {
+/// The specimens of an export, under this program's names; `None` if no row names a curve.
+pub(super) fn read<'a>(sheet: &CellText<'a>, defaults: &CouponDefaults) -> Result<Option<Specimens<'a>>, DataError> {
     let lines: Vec<(u64, Vec<&str>)> = sheet.lines().map(|(number, line)| (number, sheet.split(line))).collect();
-    let names = |cells: &Vec<&str>| cells.iter().filter_map(|cell| quantity(cell)).collect::<Vec<_>>();
     let is_curve = |cells: &Vec<&str>| {
-        let found = names(cells);
+        let found: Vec<usize> = cells.iter().filter_map(|cell| quantity(cell)).collect();
         let has = |any: [usize; 2]| any.iter().any(|q| found.contains(q));
         has([DISPLACEMENT, STRAIN]) && has([FORCE, STRESS])
     };
     let Some(at) = lines.iter().take(LOOKED_AT).position(|(_, cells)| is_curve(cells)) else { return Ok(None) };
     let mut facts = sizes(sheet, &lines[..at])?;
-    let units = lines
-        .get(at + 1)
-        .filter(|(_, cells)| cells.iter().all(|cell| sheet.number(cell).is_none() || is_nothing(cell)));
+    let is_unit = |cells: &[&str]| cells.iter().all(|cell| sheet.number(cell).is_none() || is_nothing(cell));
+    let units = lines.get(at + 1).map(|(_, cells)| cells).filter(|cells| is_unit(cells));
     // A first line of names without any unit is this program's own header with a slip, which its reader explains.
     if at == 0 && units.is_none() && lines[at].1.iter().all(|cell| parts(cell).1.is_none()) {
         return Ok(None);
     }
-    let blocks = blocks(sheet, &lines[at], units.map(|(_, cells)| cells))?;
-    let first_row = at + 1 + usize::from(units.is_some());
+    let blocks = blocks(sheet, &lines[at], units)?;
     facts.numbers[LENGTH] = facts.numbers[LENGTH].or(defaults.length_m);
     let [x, y] = curve(sheet, lines[at].0, &blocks[0], &facts)?;
-    let labels = labels(lines[..at].last().map(|(_, cells)| cells), &blocks);
-    let [x_name, y_name] =
-        [if x == STRAIN && y == FORCE { DISPLACEMENT } else { x }, y].map(|q| QUANTITIES[q].expected);
-    let mut told = vec![format!(
-        "line {} names the columns {}; used are {x_name} and {y_name}",
-        lines[at].0,
-        lines[at].1.join(", ")
-    )];
+    // A strain over a force is stretched to a displacement.
+    let length_m = facts.numbers[LENGTH].filter(|_| [x, y] == [STRAIN, FORCE]);
+    let curve = [if length_m.is_some() { DISPLACEMENT } else { x }, y];
+    let columns = curve.map(|quantity| QUANTITIES[quantity].expected.to_string());
+    let names = lines[at].1.join(", ");
+    let mut told =
+        vec![format!("line {} names the columns {names}; used are {} and {}", lines[at].0, columns[0], columns[1])];
     told.extend((blocks.len() > 1).then(|| format!("{} specimens stand side by side", blocks.len())));
     told.extend(sheet.comma.then(|| "decimals are written with a comma".to_string()));
-    let mut rows = Vec::new();
+    let labels = labels(lines[..at].last().map(|(_, cells)| cells), &blocks);
+    let mut specimens = Specimens { file: sheet.file, curve, columns, facts, told, found: Vec::new() };
     for (block, label) in blocks.iter().zip(&labels) {
-        for (number, cells) in &lines[first_row..] {
-            if let Some([a, b]) = row(sheet, *number, cells, block, [x, y], &facts)? {
-                rows.push((*number, format!("{label}{a:?},{b:?}")));
+        for (number, cells) in &lines[at + 1 + usize::from(units.is_some())..] {
+            if let Some([a, b]) = row(sheet, *number, cells, block, [x, y])? {
+                let a = length_m.map_or(a, |length_m| a * length_m);
+                specimens.push(label, [through_usual(curve[0], a), through_usual(y, b)], *number);
             }
         }
     }
-    let first = if blocks.len() > 1 { "specimen," } else { "" };
-    Ok(Some(Export { facts, header: format!("{first}{x_name},{y_name}"), rows, told }))
+    Ok(Some(specimens))
+}
+
+/// A number in SI by way of the usual unit of its quantity, whose digits stored results rest on.
+fn through_usual(quantity: usize, value: f64) -> f64 {
+    let (usual, shown) = match quantity {
+        STRAIN => ("pct", value * 1e2),
+        STRESS => ("mpa", value * 1e-6),
+        DISPLACEMENT => ("mm", value * 1e3),
+        _ => return value,
+    };
+    QUANTITIES[quantity].unit(usual).map_or(value, |unit| unit.to_si(shown))
 }
 
 /// A name without its unit, and the unit: `Load (kN)`, `Dehnung %`, `"Extension"`.
@@ -113,8 +97,8 @@ fn parts(text: &str) -> (String, Option<String>) {
 fn quantity(text: &str) -> Option<usize> {
     let (name, _) = parts(text);
     let words: Vec<&str> = name.split_whitespace().collect();
-    let has = |known: &&[&str]| words.len() <= 3 && words.iter().any(|word| known.contains(word));
-    WORDS.iter().find(|(_, known)| has(known)).map(|(quantity, _)| *quantity)
+    let has = |known: &str| known.split(' ').any(|known| words.contains(&known));
+    WORDS.iter().find(|(_, known)| words.len() <= 3 && has(known)).map(|(quantity, _)| *quantity)
 }
 
 fn unit(quantity: usize, word: &str) -> Option<Unit> {
@@ -132,9 +116,10 @@ fn sizes(sheet: &CellText, rows: &[(u64, Vec<&str>)]) -> Result<Facts, DataError
     for (number, cells) in rows {
         let (name, own) = parts(cells[0]);
         let Some((size, _)) = SIZES.iter().find(|(_, words)| words.contains(&name.as_str())) else { continue };
-        let Some(value) = cells.get(1).and_then(|cell| sheet.number(cell)).filter(|v| v.is_finite()) else { continue };
-        let word =
-            cells.get(2).map(|cell| cell.to_lowercase()).filter(|cell| !cell.is_empty()).or(own).unwrap_or_default();
+        let value = cells.get(1).and_then(|cell| sheet.number(cell));
+        let Some(value) = value.filter(|v| v.is_finite()) else { continue };
+        let behind = cells.get(2).map(|cell| cell.to_lowercase()).filter(|cell| !cell.is_empty());
+        let word = behind.or(own).unwrap_or_default();
         let unit = unit(*size, &word).ok_or_else(|| no_unit(sheet, *number, &name, &word))?;
         facts.numbers[*size] = Some(unit.to_si(value));
     }
@@ -142,16 +127,13 @@ fn sizes(sheet: &CellText, rows: &[(u64, Vec<&str>)]) -> Result<Facts, DataError
 }
 
 fn no_unit(sheet: &CellText, number: u64, name: &str, word: &str) -> DataError {
-    let message = if word.is_empty() {
-        format!("{name} has no unit")
-    } else {
-        format!("{name} has the unit {word}, which is not known")
+    let message = match word {
+        "" => format!("{name} has no unit"),
+        word => format!("{name} has the unit {word}, which is not known"),
     };
-    sheet.fault(
-        number,
-        message,
-        format!("write it behind the name, for example {name} (mm); {}", Measured::Length.sentence()),
-    )
+    let units = Measured::Length.sentence();
+    let help = format!("write it behind the name, for example {name} (mm); {units}");
+    sheet.fault(number, message, help)
 }
 
 /// The columns of every specimen: a new one begins where a quantity comes again.
@@ -180,65 +162,53 @@ fn blocks(
 
 /// Displacement and force where the length between the grips is known, else strain and stress, else strain over force.
 fn curve(sheet: &CellText, number: u64, block: &Found, facts: &Facts) -> Result<[usize; 2], DataError> {
-    let has = |[x, y]: [usize; 2]| block[x].is_some() && block[y].is_some();
-    let sized = facts.numbers[LENGTH].is_some();
-    let whole = [DISPLACEMENT, FORCE];
-    match () {
-        () if has(whole) && (sized || !has([STRAIN, STRESS])) => Ok(whole),
-        () if has([STRAIN, STRESS]) => Ok([STRAIN, STRESS]),
-        () if has([STRAIN, FORCE]) && sized => Ok([STRAIN, FORCE]),
-        () if has([STRAIN, FORCE]) => {
-            let help = "give the free length between the grips: --length 150mm";
-            Err(sheet.fault(
-                number,
-                "the curve is a strain and a force, and the length of the specimen is not known",
-                help,
-            ))
+    let has = |curve: &[usize; 2]| curve.iter().all(|quantity| block[*quantity].is_some());
+    let [whole, strained, mixed] = [[DISPLACEMENT, FORCE], [STRAIN, STRESS], [STRAIN, FORCE]];
+    if facts.numbers[LENGTH].is_some() {
+        if let Some(found) = [whole, strained, mixed].into_iter().find(has) {
+            return Ok(found);
         }
-        () => Err(sheet.fault(
-            number,
-            "the columns are no displacement with force and no strain with stress",
-            "export one of these pairs",
-        )),
+    } else if let Some(found) = [strained, whole].into_iter().find(has) {
+        return Ok(found);
+    } else if has(&mixed) {
+        let message = "the curve is a strain and a force, and the length of the specimen is not known";
+        let help = "give the free length between the grips: --length 150mm";
+        return Err(sheet.fault(number, message, help));
     }
+    let message = "the columns are no displacement with force and no strain with stress";
+    Err(sheet.fault(number, message, "export one of these pairs"))
 }
 
-/// The first cell of every specimen's rows: its label above the names, where each has one, else its number; none for a single one.
+/// The label of every specimen: the cell above its names, where each has one, else its number; none for a single one.
 fn labels(above: Option<&Vec<&str>>, blocks: &[Found]) -> Vec<String> {
     if blocks.len() == 1 {
         return vec![String::new()];
     }
-    let begin = |block: &Found| block.iter().flatten().map(|(index, _)| *index).min().unwrap_or(0);
-    let label = |block: &Found| above.and_then(|row| row.get(begin(block))).map(|cell| cell.replace(',', " "));
-    let found: Option<Vec<String>> =
-        blocks.iter().map(|block| label(block).filter(|label| !label.is_empty())).collect();
-    let found = found.unwrap_or_else(|| (1..=blocks.len()).map(|k| k.to_string()).collect());
-    found.into_iter().map(|label| label + ",").collect()
+    let label = |block: &Found| {
+        let begin = block.iter().flatten().map(|(index, _)| *index).min()?;
+        let label = above?.get(begin)?.replace(',', " ");
+        (!label.is_empty()).then_some(label)
+    };
+    let found: Option<Vec<String>> = blocks.iter().map(label).collect();
+    found.unwrap_or_else(|| (1..=blocks.len()).map(|k| k.to_string()).collect())
 }
 
-/// A row of a specimen in the units of the header; `None` where this specimen has ended.
+/// A row of a specimen in SI units; `None` where this specimen has ended.
 fn row(
     sheet: &CellText,
     number: u64,
     cells: &[&str],
     block: &Found,
-    [x, y]: [usize; 2],
-    facts: &Facts,
+    curve: [usize; 2],
 ) -> Result<Option<[f64; 2]>, DataError> {
-    let cell = |quantity: usize| block[quantity].and_then(|(index, _)| cells.get(index)).copied().unwrap_or_default();
-    if [x, y].iter().all(|quantity| is_nothing(cell(*quantity))) {
+    let cell = |quantity: usize| block[quantity].map_or("", |(index, _)| cells.get(index).copied().unwrap_or_default());
+    if curve.iter().all(|quantity| is_nothing(cell(*quantity))) {
         return Ok(None);
     }
     let si = |quantity: usize| -> Result<f64, DataError> {
-        let value = sheet.expect(cell(quantity), number, QUANTITIES[quantity].base)?;
+        let value = sheet.number(cell(quantity)).filter(|value| value.is_finite());
+        let value = value.ok_or_else(|| sheet.no_number(cell(quantity), number, QUANTITIES[quantity].base))?;
         Ok(block[quantity].and_then(|(_, unit)| unit).map_or(value, |unit| unit.to_si(value)))
     };
-    let (a, b) = (si(x)?, si(y)?);
-    let length_m = facts.numbers[LENGTH].filter(|_| x == STRAIN && y == FORCE);
-    let first = match (x, length_m) {
-        (_, Some(length_m)) => a * length_m * 1e3,
-        (STRAIN, None) => a * 1e2,
-        _ => a * 1e3,
-    };
-    Ok(Some([first, if y == STRESS { b * 1e-6 } else { b }]))
+    Ok(Some([si(curve[0])?, si(curve[1])?]))
 }

@@ -26,13 +26,13 @@ mod tests;
 use std::io::Read;
 use std::path::Path;
 
-use crate::columns::Columns;
+use crate::columns::Sheet;
 use crate::error::DataError;
 use crate::import::sheet::CellText;
-use crate::lines::{Line, Lines};
+use crate::lines::Lines;
+use columns::{DISPLACEMENT, FORCE, STRAIN, STRESS};
 pub use coupon::{Coupon, CouponDefaults, Direction, Pulled};
 use curve::Specimens;
-use export::Export;
 use spelling::files::read_whole;
 
 /// Largest file that is read \[bytes\], 256 MiB.
@@ -78,38 +78,25 @@ pub fn parse_coupons(
     })?;
     if bytes.len() as u64 == MOST_BYTES {
         let help = "give fewer rows, or fewer specimens in a file";
-        return Err(DataError::layout(file, "the file is larger than any tensile test: 256 MiB", help));
+        let message = "the file is larger than any tensile test: 256 MiB";
+        return Err(DataError::of(file, message, help));
     }
     let sheet = std::str::from_utf8(&bytes).ok().map(|text| CellText::new(file, text)).transpose()?;
     let comma = sheet.as_ref().is_some_and(|sheet| sheet.comma);
     let mut own = bytes.as_slice();
     let mut lines = Lines::new(file, &mut own, bytes_total, progress);
     let (facts, header) = match columns::read(&mut lines, defaults) {
-        Ok(read) => read,
+        Ok((facts, header)) => (facts, Sheet { comma, ..header }),
         Err(refused) => {
-            let export =
-                sheet.as_ref().filter(|_| defaults.columns.is_empty()).map(|sheet| export::read(sheet, defaults));
-            return exported(file, export.transpose()?.flatten().ok_or(refused)?, defaults);
+            let export = sheet.as_ref().filter(|_| defaults.columns.is_empty());
+            let export = export.map(|sheet| export::read(sheet, defaults)).transpose()?.flatten();
+            return export.ok_or(refused)?.finish(defaults);
         }
     };
-    let header = Columns { comma, ..header };
-    let mut found = Specimens::new(file, &header, facts);
-    while let Some(line) = lines.next_filled()? {
-        if !line.text.trim_start().starts_with('#') {
-            found.add(&header.row(line)?)?;
-        }
-    }
+    let curve = if header.has(STRAIN) { [STRAIN, STRESS] } else { [DISPLACEMENT, FORCE] };
+    let columns = curve.map(|quantity| header.name(quantity).to_string());
     let told = if comma { vec!["decimals are written with a comma".to_string()] } else { Vec::new() };
-    found.finish(defaults, &told)
-}
-
-/// The specimens of a machine's export.
-fn exported(file: &str, export: Export, defaults: &CouponDefaults) -> Result<Vec<Coupon>, DataError> {
-    let line = |number, text| Line { file, number, start: 0, text, ended: true };
-    let header = columns::header(&line(0, &export.header), &[])?;
-    let mut found = Specimens::new(file, &header, export.facts);
-    for (number, text) in &export.rows {
-        found.add(&header.row(line(*number, text))?)?;
-    }
-    found.finish(defaults, &export.told)
+    let mut found = Specimens { file, curve, columns, facts, told, found: Vec::new() };
+    header.each_row(&mut lines, |row| found.add(row))?;
+    found.finish(defaults)
 }

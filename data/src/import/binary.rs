@@ -102,11 +102,13 @@ const KINDS: [Binary; 15] = [
 /// The name of its format, and the export that gives a table.
 pub(super) fn refuse(file: &str, head: &[u8]) -> Result<()> {
     if let Some(kind) = KINDS.iter().find(|kind| (kind.is)(head)) {
-        return Err(DataError::layout(file, format!("the file is not text: its format is {}", kind.name), kind.export));
+        let message = format!("the file is not text: its format is {}", kind.name);
+        return Err(DataError::of(file, message, kind.export));
     }
     // Text in UTF-16 has zeros too, and begins with its byte order mark.
     if head.contains(&0) && !head.starts_with(b"\xff\xfe") {
-        return Err(DataError::layout(file, "the file is not text", "export it as text: CSV, TXT or XML"));
+        let help = "export it as text: CSV, TXT or XML";
+        return Err(DataError::of(file, "the file is not text", help));
     }
     Ok(())
 }

@@ -18,35 +18,35 @@ pub fn read_board(path: &Path) -> Result<Vec<[f64; 4]>> {
     let (shown, text) = (path.display().to_string(), text_of(path)?);
     let sheet = CellText::new(&shown, &text)?;
     let mut corners: Vec<[f64; 4]> = Vec::new();
-    for (k, (number, line)) in sheet.lines().filter(|(_, line)| !line.starts_with('#')).enumerate() {
+    let rows = sheet.lines().filter(|(_, line)| !line.starts_with('#'));
+    for (k, (number, line)) in rows.enumerate() {
         let cells = sheet.split(line);
-        let numbers: Option<Vec<f64>> = cells.iter().map(|cell| sheet.number(cell)).collect();
-        match numbers
-            .and_then(|numbers| <[f64; 4]>::try_from(numbers).ok())
-            .filter(|row| row.iter().all(|v| v.is_finite()))
-        {
-            Some(corner) => {
-                let [column, row, x, y] = corner;
-                let other = corners
-                    .iter()
-                    .find(|other| other[..2] == corner[..2] && (other[2] - x).hypot(other[3] - y) > SAME_CORNER_PX);
-                if let Some([.., px, py]) = other {
-                    let message =
-                        format!("corner {column},{row} is at {x:.1}, {y:.1} px here and at {px:.1}, {py:.1} px above");
-                    return Err(sheet.fault(number, message, "delete the wrong row, or correct its column and row"));
-                }
-                corners.push(corner);
+        let numbers = cells.iter().map(|cell| sheet.number(cell).filter(|v| v.is_finite()));
+        let numbers = numbers.collect::<Option<Vec<f64>>>().unwrap_or_default();
+        let Ok(corner) = <[f64; 4]>::try_from(numbers) else {
+            if k == 0 && cells.len() == 4 {
+                continue;
             }
-            None if k == 0 && cells.len() == 4 => {}
-            None => {
-                let help = "every row is column,row,x,y of a corner: its place on the board, counted from 0, and in the picture";
-                return Err(sheet.fault(number, format!("expected four numbers, found {}", cells.len()), help));
-            }
+            let message = format!("expected four numbers, found {}", cells.len());
+            let help =
+                "every row is column,row,x,y of a corner: its place on the board, counted from 0, and in the picture";
+            return Err(sheet.fault(number, message, help));
+        };
+        let [column, row, x, y] = corner;
+        let is_far = |[.., px, py]: &[f64; 4]| (px - x).hypot(py - y) > SAME_CORNER_PX;
+        let other = corners.iter().find(|other| other[..2] == corner[..2] && is_far(other));
+        if let Some([.., px, py]) = other {
+            let message =
+                format!("corner {column},{row} is at {x:.1}, {y:.1} px here and at {px:.1}, {py:.1} px above");
+            let help = "delete the wrong row, or correct its column and row";
+            return Err(sheet.fault(number, message, help));
         }
+        corners.push(corner);
     }
     // Whether they make a plane is known before the tracks are read; the side of a square does not matter for it.
     Homography::of_board(&corners, 1.0).map_err(|message| {
-        sheet.fault(0, message, "give at least four corners, no three on a line: a table column,row,x,y")
+        let help = "give at least four corners, no three on a line: a table column,row,x,y";
+        sheet.fault(0, message, help)
     })?;
     Ok(corners)
 }

@@ -18,38 +18,26 @@ pub(crate) struct ColumnName {
     pub unit: Option<String>,
 }
 
-/// Units of one dimension by other names, with their SI value; frames and pixels have none.
-const OTHER_NAMES: [(&str, Measured, f64); 21] = [
-    ("sec", Measured::Time, 1.0),
-    ("secs", Measured::Time, 1.0),
-    ("second", Measured::Time, 1.0),
-    ("seconds", Measured::Time, 1.0),
-    ("msec", Measured::Time, 1e-3),
-    ("milliseconds", Measured::Time, 1e-3),
-    ("millis", Measured::Time, 1e-3),
-    ("micros", Measured::Time, 1e-6),
-    ("µs", Measured::Time, 1e-6),
-    ("millimeters", Measured::Length, 1e-3),
-    ("millimetres", Measured::Length, 1e-3),
-    ("centimeters", Measured::Length, 1e-2),
-    ("centimetres", Measured::Length, 1e-2),
-    ("meters", Measured::Length, 1.0),
-    ("metres", Measured::Length, 1.0),
-    ("micron", Measured::Length, 1e-6),
-    ("µm", Measured::Length, 1e-6),
-    ("um", Measured::Length, 1e-6),
-    ("in", Measured::Length, 0.0254),
-    ("mbar", Measured::Pressure, 1e2),
-    ("hpa", Measured::Pressure, 1e2),
+/// Units by other names, with their SI value; frames and pixels have none.
+const OTHER_NAMES: [(Measured, f64, &[&str]); 9] = [
+    (Measured::Time, 1.0, &["sec", "secs", "second", "seconds"]),
+    (Measured::Time, 1e-3, &["msec", "milliseconds", "millis"]),
+    (Measured::Time, 1e-6, &["micros", "µs"]),
+    (Measured::Length, 1e-3, &["millimeters", "millimetres"]),
+    (Measured::Length, 1e-2, &["centimeters", "centimetres"]),
+    (Measured::Length, 1.0, &["meters", "metres"]),
+    (Measured::Length, 1e-6, &["micron", "µm", "um"]),
+    (Measured::Length, 0.0254, &["in"]),
+    (Measured::Pressure, 1e2, &["mbar", "hpa"]),
 ];
 
 /// SI value of a unit, if it is one of this dimension.
 pub(crate) fn si(unit: &str, dimension: Measured) -> Option<f64> {
-    let named = OTHER_NAMES.iter().find(|(name, measured, _)| *name == unit && *measured == dimension);
-    dimension.unit(unit).map(|unit| unit.factor()).or_else(|| named.map(|(.., factor)| *factor))
+    let is_named = |(of, _, names): &&(Measured, f64, &[&str])| *of == dimension && names.contains(&unit);
+    let named = || OTHER_NAMES.iter().find(is_named).map(|(_, factor, _)| *factor);
+    dimension.unit(unit).map(|unit| unit.factor()).or_else(named)
 }
 
-/// Whether a unit is the picture's.
 pub(crate) fn is_pixel(unit: &str) -> bool {
     matches!(unit, "px" | "pixel" | "pixels")
 }
@@ -73,18 +61,12 @@ impl ColumnName {
             _ => (text, None),
         };
         let mut words = words(base);
-        let last = words
-            .last()
-            .map(|(word, _)| word.clone())
-            .filter(|word| bracket.is_none() && words.len() > 1 && is_unit(word));
-        if last.is_some() {
-            words.pop();
-        }
+        let ends_with_unit = words.len() > 1 && words.last().is_some_and(|(word, _)| is_unit(word));
+        let last = words.pop_if(|_| bracket.is_none() && ends_with_unit).map(|(word, _)| word);
         let end = words.last().map_or(0, |(_, at)| at.end);
         ColumnName { base: base[..end].to_string(), words, unit: bracket.or(last) }
     }
 
-    /// Whether all its words make this name.
     pub(super) fn is(&self, name: &str) -> bool {
         self.words.iter().map(|(word, _)| word.as_str()).eq(name.split('_'))
     }
@@ -93,26 +75,31 @@ impl ColumnName {
         Some(self.words.as_slice()).filter(|words| words.len() == 1).map(|words| words[0].0.as_str())
     }
 
-    /// Whether it is one of these names.
     pub(super) fn is_any(&self, names: &[&str]) -> bool {
         names.iter().any(|name| self.is(name))
     }
 
-    /// Whether it has one of these words.
     pub(super) fn has(&self, any: &[&str]) -> bool {
         self.words.iter().any(|(word, _)| any.contains(&word.as_str()))
     }
 
     /// The part of [`PARTS`] and the name of the marker of a column such as `x_tip`, `tip.x`, `x1` or `tip_score`.
     pub(super) fn coordinate(&self) -> Option<(usize, String)> {
-        let likelihood = |word: &str| ["score", "confidence"].contains(&word).then_some(LIKELIHOOD);
-        let axis = |word: &str| PARTS.iter().position(|part| *part == word).or_else(|| likelihood(word));
-        let mut found = self.words.iter().filter_map(|(word, at)| Some((axis(word)?, at)));
-        let (Some((axis, at)), None) = (found.next(), found.next()) else { return None };
-        let (before, after) = (&self.base[..at.start], &self.base[at.end..]);
-        let plain = |part: &str| part.trim_matches(|c: char| !c.is_alphanumeric()).to_string();
-        let marker = [plain(before), plain(after)].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>();
-        Some((axis, marker.join("_")))
+        let part = |word: &str| match word {
+            "score" | "confidence" => Some(LIKELIHOOD),
+            _ => PARTS.iter().position(|part| *part == word),
+        };
+        let mut found = self.words.iter().filter_map(|(word, at)| Some((part(word)?, at)));
+        let (part, at) = found.next().filter(|_| found.next().is_none())?;
+        let around = [&self.base[..at.start], &self.base[at.end..]];
+        let around = around.map(|part| part.trim_matches(|c: char| !c.is_alphanumeric()));
+        let marker: Vec<&str> = around.into_iter().filter(|part| !part.is_empty()).collect();
+        Some((part, marker.join("_")))
+    }
+
+    /// The name of the marker of a coordinate or likelihood; empty without one.
+    fn marker(&self) -> String {
+        self.coordinate().map_or(String::new(), |(_, marker)| marker)
     }
 }
 
@@ -146,10 +133,12 @@ pub(crate) struct Roles {
     pub marker: Option<usize>,
     /// Body's and actuator's pressure, with their pascals.
     pub pressures: [Option<(usize, f64)>; 2],
-    /// Column, axis, marker and unit of every coordinate.
-    pub coordinates: Vec<(usize, usize, String, Option<String>)>,
-    /// Column and marker of likelihoods, and the largest that there is.
-    pub likelihoods: Vec<(usize, String, f64)>,
+    /// Column, marker and part of every coordinate and likelihood, the part as in [`PARTS`].
+    pub columns: Vec<(usize, String, usize)>,
+    /// Units of the coordinates.
+    pub units: Vec<Option<String>>,
+    /// The largest likelihood that there is.
+    pub most_likely: Option<f64>,
     pub told: Vec<String>,
 }
 
@@ -166,20 +155,19 @@ impl Roles {
             column.is_some_and(|column| header.iter().any(|name| name.eq_ignore_ascii_case(column)))
         };
         let mut unused = Vec::new();
-        for (index, text) in header.iter().enumerate() {
-            let said =
-                options.columns.iter().find(|(_, column)| column.eq_ignore_ascii_case(text)).map(|(q, _)| q.as_str());
+        for (index, text) in header.iter().copied().enumerate() {
             let name = ColumnName::of(text);
-            let Some(quantity) = said.map_or_else(
-                || meaning(&name).filter(|quantity| !is_named(quantity)),
-                |said| QUANTITIES.into_iter().find(|q| *q == said),
-            ) else {
-                unused.push(*text);
-                continue;
+            let said = options.columns.iter().find(|(_, column)| column.eq_ignore_ascii_case(text));
+            let quantity = match said {
+                Some((said, _)) => QUANTITIES.into_iter().find(|quantity| quantity == said),
+                None => meaning(&name).filter(|quantity| !is_named(quantity)),
             };
-            roles.take(sheet, line, [quantity, text], index, &name, options)?;
+            match quantity {
+                Some(quantity) => roles.take(sheet, line, [quantity, text], index, &name, options)?,
+                None if text.is_empty() => {}
+                None => unused.push(text),
+            }
         }
-        unused.retain(|text| !text.is_empty());
         if !unused.is_empty() {
             roles.told.push(format!("columns that are not used: {}", unused.join(", ")));
         }
@@ -207,87 +195,86 @@ impl Roles {
                 if !frames && seconds.is_none() {
                     self.told.push(format!("column {text} names no unit of time: taken as seconds"));
                 }
-                let only_frames = self.time.is_some_and(|(_, seconds)| seconds.is_none());
-                let before = self.time.replace((index, (!frames).then_some(seconds.unwrap_or(1.0))));
-                before.is_some() && !only_frames
+                let second = (!frames).then_some(seconds.unwrap_or(1.0));
+                // Seconds are better than numbers of frames.
+                self.time.replace((index, second)).is_some_and(|(_, before)| before.is_some())
             }
             "run" => self.run.replace(index).is_some(),
             "actuator" => self.actuator.replace(index).is_some(),
             "marker" => self.marker.replace(index).is_some(),
             "p_body" | "p_act" => {
-                let named = unit.and_then(|unit| si(unit, Measured::Pressure));
-                if named.zip(options.pressure_unit_pa).is_some_and(|(named, given)| named != given) {
+                let (named, given) = (unit.and_then(|unit| si(unit, Measured::Pressure)), options.pressure_unit_pa);
+                if named.is_some() && given.is_some() && named != given {
                     self.told.push(format!("column {text} names its unit: --pressure-unit was not used for it"));
                 }
-                let pa = named.or(options.pressure_unit_pa);
-                let pa = pa.ok_or_else(|| {
+                let Some(pa) = named.or(given) else {
+                    let message = format!("the pressure column {text} names no unit");
                     let help = "say it: --pressure-unit kPa (or Pa, MPa, bar, mbar, psi)";
-                    sheet.fault(line, format!("the pressure column {text} names no unit"), help)
-                })?;
+                    return Err(sheet.fault(line, message, help));
+                };
                 self.pressures[usize::from(quantity == "p_act")].replace((index, pa)).is_some()
             }
             "likelihood" => {
                 // Scores of peaks may be above one.
                 let most = if name.has(&["score"]) { f64::INFINITY } else { 1.0 };
-                self.likelihoods.push((index, name.coordinate().map_or(String::new(), |(_, marker)| marker), most));
+                self.most_likely = Some(self.most_likely.map_or(most, |before| before.max(most)));
+                self.columns.push((index, name.marker(), LIKELIHOOD));
                 false
             }
             _ => {
-                let axis = ["x", "y", "z"].iter().position(|axis| *axis == quantity).or(name.coordinate().map(|c| c.0));
-                let marker = name.coordinate().map_or(String::new(), |(_, marker)| marker);
-                self.coordinates.push((index, axis.unwrap_or(0), marker, name.unit.clone()));
+                let named = PARTS[..LIKELIHOOD].iter().position(|axis| *axis == quantity);
+                let axis = named.or(name.coordinate().map(|(part, _)| part)).unwrap_or(0);
+                self.columns.push((index, name.marker(), axis));
+                self.units.push(name.unit.clone());
                 false
             }
         };
-        let twice = || {
-            let help = format!("say which one: --map {quantity}={text}");
-            sheet.fault(line, format!("two columns hold the {quantity}, the second is {text}"), help)
-        };
-        if taken { Err(twice()) } else { Ok(()) }
+        if !taken {
+            return Ok(());
+        }
+        let message = format!("two columns hold the {quantity}, the second is {text}");
+        let help = format!("say which one: --map {quantity}={text}");
+        Err(sheet.fault(line, message, help))
     }
 
     pub(super) fn lengths(&self, sheet: &CellText, line: u64) -> Result<Lengths> {
-        let units: Vec<_> = self.coordinates.iter().map(|(.., unit)| unit.as_deref()).collect();
-        let Some(first) = units.first().copied().flatten() else { return Ok(Lengths::Unsaid) };
-        if let Some(other) = units.iter().find(|unit| **unit != Some(first)) {
+        let mut units = self.units.iter().map(Option::as_deref);
+        let Some(first) = units.next().flatten() else { return Ok(Lengths::Unsaid) };
+        if let Some(other) = units.find(|unit| *unit != Some(first)) {
             let message = format!("coordinates are in {first} and in {}", other.unwrap_or("no unit"));
             return Err(sheet.fault(line, message, "export all coordinates in one unit"));
         }
-        lengths(first)
-            .ok_or_else(|| sheet.fault(line, format!("{first} is not a known unit of length"), "give it: --scale mm"))
+        let message = format!("{first} is not a known unit of length");
+        lengths(first).ok_or_else(|| sheet.fault(line, message, "give it: --scale mm"))
     }
 }
 
-/// Lengths of a unit as written.
 pub(crate) fn lengths(unit: &str) -> Option<Lengths> {
     if is_pixel(unit) { Some(Lengths::Pixels) } else { si(unit, Measured::Length).map(Lengths::Metres) }
 }
 
-/// Whether a column holds the time.
+/// Names of a column of times.
+const TIMES: &str = "t time timestamp ms millis micros date_time datetime date_and_time time_stamp arrival_time";
+
 pub(super) fn is_time(name: &ColumnName) -> bool {
-    let clocks = ["date_time", "datetime", "date_and_time", "time_stamp", "arrival_time"];
-    name.is_any(&["t", "time", "timestamp", "ms", "millis", "micros"]) || name.is_any(&clocks)
+    TIMES.split(' ').any(|time| name.is(time))
 }
 
 /// What a column with a telling name holds.
 fn meaning(name: &ColumnName) -> Option<&'static str> {
-    let pressure =
-        name.has(&["p", "pressure"]) || name.unit.as_deref().is_some_and(|unit| si(unit, Measured::Pressure).is_some());
-    let coordinate = name.coordinate();
-    if name.has(&["gauge"]) {
-        return None;
+    let in_pressure = name.unit.as_deref().is_some_and(|unit| si(unit, Measured::Pressure).is_some());
+    let (pressure, coordinate) = (in_pressure || name.has(&["p", "pressure"]), name.coordinate());
+    match name {
+        _ if name.has(&["gauge"]) => None,
+        _ if is_time(name) => Some("t"),
+        _ if name.is_any(&["frame", "frame_idx", "frame_number", "fnum"]) => Some("frame"),
+        _ if name.is_any(&["run", "trial"]) => Some("run"),
+        _ if name.is("actuator") => Some("actuator"),
+        _ if name.is_any(&["marker", "marker_name", "bodypart", "particle"]) => Some("marker"),
+        _ if name.is("pb") || pressure && name.has(&["body", "base", "tube"]) => Some("p_body"),
+        _ if name.is("pa") || pressure && coordinate.is_none() => Some("p_act"),
+        _ => coordinate.map(|(part, _)| PARTS[part]),
     }
-    let named = [
-        ("t", is_time(name)),
-        ("frame", name.is_any(&["frame", "frame_idx", "frame_number", "fnum"])),
-        ("run", name.is_any(&["run", "trial"])),
-        ("actuator", name.is("actuator")),
-        ("marker", name.is_any(&["marker", "marker_name", "bodypart", "particle"])),
-        ("p_body", name.is("pb") || pressure && name.has(&["body", "base", "tube"])),
-        ("p_act", name.is("pa") || pressure && coordinate.is_none()),
-    ];
-    let found = named.iter().find(|(_, is)| *is).map(|(quantity, _)| *quantity);
-    found.or_else(|| coordinate.map(|(part, _)| PARTS[part]))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Runs cut into holds or bins, cleaned, and compared with each other.
 
-use super::holds::{Kept, PressedRun, bins, clean, plateaus};
+use super::holds::{Kept, PressedRun, bins, clean, median, plateaus};
 use super::options::ImportOptions;
 use super::recording::{Recording, counted};
 use crate::error::{DataError, Result};
@@ -31,18 +31,14 @@ pub(crate) fn cut(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, to
 fn held(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut Vec<String>) -> Result<Cut> {
     let (mut cut, mut used, mut taken) = (Vec::new(), 0, [0, 0]);
     let frames: usize = runs.iter().map(|run| run.times_s.len()).sum();
+    let least = format!("{} s and {} frames", options.least_hold_s, options.least_frames);
     for mut run in runs {
         let mut holds = plateaus(&run, options);
         if holds.len() < 2 {
-            let message = format!(
-                "run {} has {} holds in which the pressures are kept for {} s and {} frames",
-                run.label,
-                holds.len(),
-                options.least_hold_s,
-                options.least_frames
-            );
+            let (label, count) = (&run.label, holds.len());
+            let message = format!("run {label} has {count} holds in which the pressures are kept for {least}");
             let help = "for a ramp add --bin 2kPa; for short holds --hold 0.2s or --frames 1";
-            return Err(DataError::runs(file, message, help));
+            return Err(DataError::of(file, message, help));
         }
         let length_m = length_m(&run);
         for hold in &mut holds {
@@ -53,77 +49,68 @@ fn held(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut V
         cut.push((run, holds));
     }
     let counts: Vec<String> = cut.iter().map(|(_, holds)| holds.len().to_string()).collect();
-    told.push(format!(
-        "holds of at least {} s and {} frames: {} in the runs; {} of {frames} frames are in none",
-        options.least_hold_s,
-        options.least_frames,
-        counts.join(", "),
-        frames - used
-    ));
+    let (counts, rest) = (counts.join(", "), frames - used);
+    told.push(format!("holds of at least {least}: {counts} in the runs; {rest} of {frames} frames are in none"));
+    let [moving, wild] = [counted(taken[0], "frame"), counted(taken[1], "position")];
     if taken[0] > 0 {
-        told.push(format!(
-            "left out: {} at the start of holds, in which the robot still moves",
-            counted(taken[0], "frame")
-        ));
+        told.push(format!("left out: {moving} at the start of holds, in which the robot still moves"));
     }
     if taken[1] > 0 {
-        told.push(format!("lost markers: {} far from the others of their hold", counted(taken[1], "position")));
+        told.push(format!("lost markers: {wild} far from the others of their hold"));
     }
     Ok(cut)
 }
 
 /// The farthest that a marker is seen from the base.
 fn length_m(run: &PressedRun) -> f64 {
-    let distances = run.xy_m.iter().map(|column| {
-        let seen: Vec<f64> = column.iter().map(|[x, y]| (x * x + y * y).sqrt()).filter(|d| d.is_finite()).collect();
-        super::holds::median(seen).unwrap_or(0.0)
-    });
-    distances.fold(0.0, f64::max)
+    let distance = |column: &Vec<[f64; 2]>| {
+        let all = column.iter().map(|[x, y]| (x * x + y * y).sqrt());
+        median(all.filter(|d| d.is_finite()).collect()).unwrap_or(0.0)
+    };
+    run.xy_m.iter().map(distance).fold(0.0, f64::max)
 }
+
+/// A bin of a branch, by the numbers of branch and bin.
+type Bin = (usize, i64, Kept);
 
 /// Without bins at the ends of a branch that the pressure only touches, so that their mean is too near to the next bin's to be
 /// separated.
-fn apart(bins: Vec<(usize, i64, Kept)>) -> Vec<(usize, i64, Kept)> {
-    let of =
-        |branch: usize, k: i64| bins.iter().find(|(b, j, _)| (*b, *j) == (branch, k)).map(|(.., kept)| kept.act_pa);
-    let crowded = |(branch, k, kept): &(usize, i64, Kept)| match (of(*branch, k - 1), of(*branch, k + 1)) {
+fn apart(bins: Vec<Bin>) -> Vec<Bin> {
+    let of = |branch: usize, k: i64| bins.iter().find(|bin| (bin.0, bin.1) == (branch, k)).map(|bin| bin.2.act_pa);
+    let is_apart = |(branch, k, kept): &&Bin| match (of(*branch, k - 1), of(*branch, k + 1)) {
         (Some(next), None) | (None, Some(next)) => {
-            (kept.act_pa - next).abs() < 1.1 * tolerance_act_pa(kept.act_pa.max(next))
+            (kept.act_pa - next).abs() >= 1.1 * tolerance_act_pa(kept.act_pa.max(next))
         }
-        _ => false,
+        _ => true,
     };
-    let crowded: Vec<bool> = bins.iter().map(crowded).collect();
-    bins.into_iter().zip(crowded).filter(|(_, crowded)| !crowded).map(|(bin, _)| bin).collect()
+    bins.iter().filter(is_apart).cloned().collect()
 }
 
 /// Runs by bins of pressure, those bins that all of them have.
 fn binned(file: &str, runs: Vec<PressedRun>, bin_pa: f64, told: &mut Vec<String>) -> Result<Cut> {
-    let found: Vec<_> = runs.iter().map(|run| apart(bins(run, bin_pa))).collect();
-    let highest_pa = found.iter().flatten().map(|(.., kept)| kept.act_pa).fold(0.0, f64::max);
+    let found: Vec<Vec<Bin>> = runs.iter().map(|run| apart(bins(run, bin_pa))).collect();
+    let highest_pa = found.iter().flatten().map(|bin| bin.2.act_pa).fold(0.0, f64::max);
     let least_pa = 1.1 * tolerance_act_pa(highest_pa);
+    let bin_kpa = kpa(bin_pa);
     if bin_pa < least_pa {
-        let message = format!(
-            "bins of {} kPa cannot be separated at {:.1} kPa: holds nearer than 5 % are one",
-            kpa(bin_pa),
-            kpa(highest_pa)
-        );
+        let highest = kpa(highest_pa);
+        let message =
+            format!("bins of {bin_kpa} kPa cannot be separated at {highest:.1} kPa: holds nearer than 5 % are one");
         let help = format!("give --bin {}kPa", kpa(least_pa).ceil());
-        return Err(DataError::runs(file, message, help));
+        return Err(DataError::of(file, message, help));
     }
-    let all_have = |bin: &(usize, i64, Kept)| {
-        found.iter().all(|run| run.iter().any(|(branch, k, _)| (*branch, *k) == (bin.0, bin.1)))
-    };
-    let common: Vec<Vec<Kept>> =
-        found.iter().map(|run| run.iter().filter(|bin| all_have(bin)).map(|bin| bin.2.clone()).collect()).collect();
-    let left_out = found.iter().map(Vec::len).sum::<usize>() - common.iter().map(Vec::len).sum::<usize>();
-    if common[0].len() < 2 {
+    let has = |run: &Vec<Bin>, bin: &Bin| run.iter().any(|own| (own.0, own.1) == (bin.0, bin.1));
+    let all_have = |bin: &&Bin| found.iter().all(|run| has(run, bin));
+    let common = |run: &Vec<Bin>| run.iter().filter(all_have).map(|bin| bin.2.clone()).collect();
+    let common: Vec<Vec<Kept>> = found.iter().map(common).collect();
+    let (all, count) = (found.iter().map(Vec::len).sum::<usize>(), common[0].len());
+    let left_out = all - common.iter().map(Vec::len).sum::<usize>();
+    if count < 2 {
         let help = "give larger bins, or import the runs one by one";
-        return Err(DataError::runs(file, "the runs have fewer than two bins in common", help));
+        return Err(DataError::of(file, "the runs have fewer than two bins in common", help));
     }
     told.push(format!(
-        "binned by actuator pressure in steps of {} kPa, rising and falling apart: {} bins with the mean of their frames; {left_out} are left out, which not every run has or which only touch a bin",
-        kpa(bin_pa),
-        common[0].len()
+        "binned by actuator pressure in steps of {bin_kpa} kPa, rising and falling apart: {count} bins with the mean of their frames; {left_out} are left out, which not every run has or which only touch a bin"
     ));
     Ok(runs.into_iter().zip(common).collect())
 }

@@ -1,25 +1,16 @@
 //! DeepLabCut: rows `scorer`, `individuals` (with several animals), `bodyparts`, `coords`, then a row for every frame.
 
-use super::format::Format;
-use super::layout::{Layout, PARTS};
-use super::options::ImportOptions;
-use super::recording::{Lengths, Recording};
-use super::sheet::CellText;
-use crate::error::Result;
+use super::format::*;
 
 pub(super) const FORMAT: Format = Format {
     name: "DeepLabCut",
     known_by: "rows scorer, bodyparts, coords",
     fixture: "cases/c01-deeplabcut/run1.csv",
-    likelihood: Some(LIKELIHOOD),
-    recognise: |_, head, _| {
-        head.first().is_some_and(|row| row[0] == "scorer") && head.iter().any(|row| row[0] == "bodyparts")
-    },
+    likelihood: Some(NOT_SEEN),
+    recognise: |begin| begin.first() == "scorer" && begin.head.iter().any(|row| row[0] == "bodyparts"),
     read,
 };
 
-/// Likelihood below which the network itself marks a point as not seen.
-pub(super) const LIKELIHOOD: f64 = 0.9;
 /// Names of the rows above the frames.
 const HEADS: [&str; 4] = ["scorer", "individuals", "bodyparts", "coords"];
 
@@ -29,21 +20,20 @@ fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> {
     let first = sheet.lines().nth(heads.len()).map_or(0, |(number, _)| number);
     let row = |name: &str| heads.iter().find(|row| row[0] == name);
     let (Some(parts), Some(coords)) = (row("bodyparts"), row("coords")) else {
-        return Err(sheet.fault(first, "the row coords is missing", "export the analysed video again as CSV"));
+        let help = "export the analysed video again as CSV";
+        return Err(sheet.fault(first, "the row coords is missing", help));
     };
     let animals = row("individuals");
     let several = animals.is_some_and(|row| row.iter().skip(1).any(|name| *name != row[1] && *name != "single"));
-    let limit = options.likelihood.unwrap_or(LIKELIHOOD);
     let lengths = if coords.contains(&"z") { Lengths::Unsaid } else { Lengths::Pixels };
-    let mut layout = Layout::new(0, None, lengths);
-    layout.likely = [limit, 1.0];
+    let mut layout = Layout::new(first, 0, None, lengths);
     layout.width = Some(heads[0].len());
-    layout.told.push(format!("positions less likely than {limit} are lost markers (--likelihood)"));
-    for column in 1..coords.len().min(parts.len()) {
+    layout.unlikely(options, NOT_SEEN, 1.0, "less likely than");
+    let column = |column: usize| {
         let animal = animals.and_then(|row| row.get(column)).filter(|name| several && **name != "single");
         let name = animal.map_or(parts[column].to_string(), |animal| format!("{animal}_{}", parts[column]));
-        let part = PARTS.iter().position(|known| *known == coords[column]);
-        part.map_or(Ok(()), |part| layout.add(sheet, first, &name, part, column))?;
-    }
-    layout.read(sheet, first, 2, sheet.lines().skip(heads.len()))
+        Some((column, name, part(coords[column])?))
+    };
+    layout.columns(sheet, (1..coords.len().min(parts.len())).filter_map(column))?;
+    layout.read(sheet, 2, sheet.lines().skip(heads.len()))
 }

@@ -1,10 +1,7 @@
 //! The programs whose files are understood, the most particular first.
 
-use super::format::Format;
-use super::options::ImportOptions;
-use super::sheet::CellText;
+use super::format::{Beginning, CellText, Format, ImportOptions, Result};
 use super::{deeplabcut, kinovea, motive, qualisys, ros, sleap, tables, tracker, trackmate, triples};
-use crate::error::Result;
 
 /// Kinds of tracking files, in the order in which they are tried.
 pub const FORMATS: [&Format; 16] = [
@@ -34,12 +31,11 @@ pub const LOGS: [(&str, &str); 4] = [
     ("a log without names", "cases/c26-pressure-loggers/arduino_noheader.csv"),
 ];
 
-/// Lines that a kind is known by.
 const LOOKED_AT: usize = 8;
 
 pub(crate) fn recognised(sheet: &CellText, options: &ImportOptions) -> Result<&'static Format> {
-    let head = sheet.head(LOOKED_AT);
-    let found = FORMATS.into_iter().find(|format| (format.recognise)(sheet, &head, options));
+    let beginning = Beginning { sheet, head: sheet.head(LOOKED_AT), options };
+    let found = FORMATS.into_iter().find(|format| (format.recognise)(&beginning));
     found.ok_or_else(|| {
         let first = sheet.lines().next();
         let shown: String = first.map_or(String::new(), |(_, line)| line.chars().take(80).collect());
@@ -48,6 +44,7 @@ pub(crate) fn recognised(sheet: &CellText, options: &ImportOptions) -> Result<&'
             "understood are {}. For a table with other names of columns say which is which: --map t=Time,marker=Point,x=PosX,y=PosY",
             kinds.join("; ")
         );
-        sheet.fault(1, format!("no program is known that writes such a file; it begins with \"{shown}\""), help)
+        let message = format!("no program is known that writes such a file; it begins with \"{shown}\"");
+        sheet.fault(1, message, help)
     })
 }

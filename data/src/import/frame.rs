@@ -4,7 +4,7 @@ use super::lens::View;
 use super::options::{FileAxis, FilePlace, ImportOptions, Scale};
 use super::recording::{LOST, Lengths, Recording};
 use super::vectors::{along, cross, towards, unit_vector};
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 use crate::units::mm;
 
 /// A marker that moves less than this does not show where the actuator is \[m\].
@@ -16,7 +16,6 @@ const TILTED: f64 = 0.05;
 
 const LARGER_BOARD: &str = "film a board that fills the part of the picture in which the robot moves";
 
-/// How a file's coordinates become metres.
 #[derive(Debug, Clone)]
 enum Map {
     Factor(f64),
@@ -63,7 +62,8 @@ impl Scene<'_> {
         assumed.push(words);
         let (bases, skipped) = self.bases(&map, assumed)?;
         let all = &self.runs[0].markers;
-        let kept: Vec<usize> = (0..all.len()).filter(|marker| Some(*marker) != skipped).collect();
+        let is_kept = |marker: &usize| Some(*marker) != skipped;
+        let kept: Vec<usize> = (0..all.len()).filter(is_kept).collect();
         let markers: Vec<String> = kept.iter().map(|marker| all[*marker].clone()).collect();
         let moved = Moved::of(self, &bases, &kept, &map);
         let axes = self.axes(&markers, &moved, assumed)?;
@@ -73,46 +73,43 @@ impl Scene<'_> {
             let [x, y] = axes.map(|axis| along(axis, from) - along(axis, *base));
             [cos * x + sin * y, cos * y - sin * x]
         };
-        let mut xy_m = Vec::new();
-        for (run, base) in self.runs.iter().zip(&bases) {
+        let of_run = |(run, base): (&Recording, &[f64; 3])| {
             let column = |marker: &usize| run.places[*marker].iter().map(|place| placed(place, base)).collect();
-            xy_m.push(kept.iter().map(column).collect());
-        }
+            kept.iter().map(column).collect()
+        };
+        let xy_m = self.runs.iter().zip(&bases).map(of_run).collect();
         Ok(PlacedRuns { xy_m, markers })
     }
 
     fn fault(&self, message: impl Into<String>, help: impl Into<String>) -> DataError {
-        DataError::Unit(Box::new(Fault::of_file(self.file, message, help)))
+        DataError::of(self.file, message, help)
     }
 
     /// How coordinates become metres, and how that is known.
     fn map(&self) -> Result<(Map, String)> {
-        let (message, help) = match (&self.options.scale, self.runs[0].lengths) {
-            (scale, Lengths::Metres(metres)) if [Scale::OfFile, Scale::Unit(metres)].contains(scale) => {
-                return Ok((Map::Factor(metres), format!("lengths are in {}, as the file states", unit(metres))));
+        let (scale, of_file) = (&self.options.scale, self.runs[0].lengths);
+        if let Lengths::Metres(metres) = of_file {
+            let unit = unit(metres);
+            if [Scale::OfFile, Scale::Unit(metres)].contains(scale) {
+                return Ok((Map::Factor(metres), format!("lengths are in {unit}, as the file states")));
             }
-            (_, Lengths::Metres(metres)) => {
-                let message =
-                    format!("the file states that its lengths are in {}, and a scale was given", unit(metres));
-                return Err(self.fault(message, "leave the scale out, or export in pixels"));
+            let message = format!("the file states that its lengths are in {unit}, and a scale was given");
+            return Err(self.fault(message, "leave the scale out, or export in pixels"));
+        }
+        let (map, words) = match scale {
+            Scale::OfFile | Scale::Unit(_) if of_file == Lengths::Pixels => {
+                let message = "positions are pixels of the picture, and their scale is not known";
+                let help = "give --scale 3.1px/mm, or --known-distance MARKER:MARKER=40mm, or --board corners.csv --square 25mm";
+                return Err(self.fault(message, help));
             }
-            (Scale::OfFile | Scale::Unit(_), Lengths::Pixels) => (
-                "positions are pixels of the picture, and their scale is not known",
-                "give --scale 3.1px/mm, or --known-distance MARKER:MARKER=40mm, or --board corners.csv --square 25mm",
-            ),
-            (Scale::OfFile, Lengths::Unsaid) => {
-                ("the file does not say the unit of its positions", "give it: --scale mm, cm, m or 3.1px/mm")
+            Scale::OfFile => {
+                let message = "the file does not say the unit of its positions";
+                return Err(self.fault(message, "give it: --scale mm, cm, m or 3.1px/mm"));
             }
-            (scale, _) => return self.given(scale),
-        };
-        Err(self.fault(message, help))
-    }
-
-    /// The scale that the caller knows, or from a distance or a board.
-    fn given(&self, scale: &Scale) -> Result<(Map, String)> {
-        Ok(match scale {
+            Scale::Unit(metres) => (Map::Factor(*metres), format!("lengths are in {}, as given", unit(*metres))),
             Scale::PixelsPerMetre(pixels) => {
-                (Map::Factor(1.0 / pixels), format!("{} px are a millimetre, as given", short(pixels * 1e-3)))
+                let per = short(pixels * 1e-3);
+                (Map::Factor(1.0 / pixels), format!("{per} px are a millimetre, as given"))
             }
             Scale::Known(places, length_m) => {
                 let apart = (0..self.runs.len()).map(|run| self.distance(run, places));
@@ -127,38 +124,39 @@ impl Scene<'_> {
                 let words = board.words(corners.len()) + &self.outside(&board)?;
                 (Map::Board(board), words)
             }
-            Scale::Unit(metres) => (Map::Factor(*metres), format!("lengths are in {}, as given", unit(*metres))),
-            Scale::OfFile => (Map::Factor(1.0), String::new()),
-        })
+        };
+        Ok((map, words))
     }
 
     /// How many of the places are outside of the board, where lens and plane are extrapolated.
     fn outside(&self, board: &View) -> Result<String> {
-        let pixels = || self.runs.iter().flat_map(|run| run.places.iter().flatten()).filter(|at| at[0].is_finite());
-        let pixels = || pixels().map(|at| [at[0], at[1]]);
-        if let Some([x, y]) = pixels().find(|pixel| !board.knows(*pixel)) {
+        let places = self.runs.iter().flat_map(|run| run.places.iter().flatten());
+        let pixels: Vec<[f64; 2]> = places.map(|at| [at[0], at[1]]).filter(|at| at[0].is_finite()).collect();
+        if let Some([x, y]) = pixels.iter().find(|pixel| !board.knows(**pixel)) {
             let message = format!(
                 "a marker at {x:.0}, {y:.0} px is so far outside of the board that its lens is not known there"
             );
             return Err(self.fault(message, LARGER_BOARD));
         }
-        let count = pixels().filter(|pixel| board.is_outside(*pixel)).count();
-        let percent = (100.0 * count as f64 / pixels().count().max(1) as f64).ceil();
-        Ok(if count == 0 {
-            String::new()
-        } else {
-            format!(
-                "; warning: {percent:.0} % of the positions are outside of the board, where its plane is extrapolated: {LARGER_BOARD}"
-            )
-        })
+        let count = pixels.iter().filter(|pixel| board.is_outside(**pixel)).count();
+        if count == 0 {
+            return Ok(String::new());
+        }
+        let percent = (100.0 * count as f64 / pixels.len() as f64).ceil();
+        let where_to = "outside of the board, where its plane is extrapolated";
+        Ok(format!("; warning: {percent:.0} % of the positions are {where_to}: {LARGER_BOARD}"))
     }
 
     /// Distance of two places in the file's units.
     fn distance(&self, run: usize, places: &[FilePlace; 2]) -> Result<f64> {
-        let (a, b) = (self.where_is(run, &places[0])?.0, self.where_is(run, &places[1])?.0);
+        let [a, b] = places.each_ref().map(|place| self.where_is(run, place).map(|(at, _)| at));
+        let (a, b) = (a?, b?);
         let apart = (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt();
-        let one = || self.fault("the two places of --known-distance are one", "name two different ones");
-        Some(apart).filter(|apart| *apart > 0.0).ok_or_else(one)
+        if apart > 0.0 {
+            return Ok(apart);
+        }
+        let help = "name two different ones";
+        Err(self.fault("the two places of --known-distance are one", help))
     }
 
     fn where_is(&self, run: usize, place: &FilePlace) -> Result<Found> {
@@ -178,7 +176,8 @@ impl Scene<'_> {
             assumed.push("the robot's base is the origin of the file's coordinates".to_string());
             return Ok((vec![[0.0; 3]; self.runs.len()], None));
         };
-        let found = (0..self.runs.len()).map(|run| self.where_is(run, place)).collect::<Result<Vec<_>, _>>()?;
+        let found = (0..self.runs.len()).map(|run| self.where_is(run, place));
+        let found: Vec<Found> = found.collect::<Result<_>>()?;
         assumed.push(match place {
             FilePlace::At(at) => {
                 let at: Vec<String> = at.iter().map(f64::to_string).collect();
@@ -194,8 +193,9 @@ impl Scene<'_> {
     /// Directions in the file: the axes given, or along the robot at rest, and across it where the farthest marker moves as the pressure
     /// rises. Where the robot or its motion is out of the planes of the file's axes, both are in the plane of the motion.
     fn axes(&self, labels: &[String], moved: &Moved, assumed: &mut Vec<String>) -> Result<[[f64; 3]; 2]> {
-        let words = |[along, towards]: [FileAxis; 2]| {
-            format!("along the robot is the file's {}, towards the actuator its {}", along.word(), towards.word())
+        let words = |axes: [FileAxis; 2]| {
+            let [along, towards] = axes.map(FileAxis::word);
+            format!("along the robot is the file's {along}, towards the actuator its {towards}")
         };
         let help = "give --axes ALONG,TOWARDS, for example --axes x,-y where y of the picture points down";
         if let Some(axes) = self.options.axes {
@@ -215,8 +215,8 @@ impl Scene<'_> {
         let (rest, by) = (moved.rest[far], moved.by[far]);
         let most = |a: &usize, b: &usize| by[*a].abs().total_cmp(&by[*b].abs());
         let across = (0..3).filter(|axis| *axis != index).max_by(most).unwrap_or(1);
-        let axes = [(index, rest[index]), (across, by[across])];
-        let axes = axes.map(|(index, way)| FileAxis { index, turned: way < 0.0 });
+        let axis = |index: usize, way: [f64; 3]| FileAxis { index, turned: way[index] < 0.0 };
+        let axes = [axis(index, rest), axis(across, by)];
         let tilted = moved.tilted(axes, [near, far]);
         let directions = tilted.unwrap_or(axes.map(FileAxis::direction));
         let by_mm = mm(along(directions[1], by).abs());
@@ -248,11 +248,10 @@ impl Scene<'_> {
             return Ok(());
         }
         let degrees = angle.to_degrees();
-        let message = format!("at rest the robot is at {degrees:.0} degrees to the file's {}", axis.word());
-        Err(self.fault(
-            message,
-            format!("turn it: --turn {degrees:.1}deg; or correct --base, --axes or the clocks (--clock-offset)"),
-        ))
+        let axis = axis.word();
+        let message = format!("at rest the robot is at {degrees:.0} degrees to the file's {axis}");
+        let help = format!("turn it: --turn {degrees:.1}deg; or correct --base, --axes or the clocks (--clock-offset)");
+        Err(self.fault(message, help))
     }
 
     /// Refuses a robot that is out of the plane of the axes given.
@@ -262,8 +261,10 @@ impl Scene<'_> {
         if angle.is_nan() || angle <= TILTED || ends[0] == ends[1] {
             return Ok(());
         }
-        let message = format!("at rest the robot is {:.0} degrees out of the plane of --axes", angle.to_degrees());
-        Err(self.fault(message, "leave --axes out: the plane of the motion is found; or correct --axes"))
+        let degrees = angle.to_degrees();
+        let message = format!("at rest the robot is {degrees:.0} degrees out of the plane of --axes");
+        let help = "leave --axes out: the plane of the motion is found; or correct --axes";
+        Err(self.fault(message, help))
     }
 }
 
@@ -287,8 +288,10 @@ impl FileAxis {
 
 fn unit(metres: f64) -> String {
     let known = [(1e-3, "mm"), (1e-2, "cm"), (1.0, "m"), (1e-6, "µm")];
-    let found = known.iter().find(|(value, _)| *value == metres).map(|(_, word)| (*word).to_string());
-    found.unwrap_or_else(|| format!("{} mm", short(metres * 1e3)))
+    match known.iter().find(|(value, _)| *value == metres) {
+        Some((_, word)) => (*word).to_string(),
+        None => format!("{} mm", short(metres * 1e3)),
+    }
 }
 
 fn short(value: f64) -> String {
@@ -313,9 +316,11 @@ pub(crate) fn where_is(run: &Recording, ends: &RestAndTop, place: &FilePlace) ->
         let help = format!("{meant}the markers are {}", run.markers.join(", "));
         return Err([format!("marker {name} does not exist"), help]);
     };
-    let seen = run.mean_place(marker, ends.rest.iter().copied());
-    let unseen = || [format!("marker {name} was not seen at the lowest pressure"), "take another marker".into()];
-    seen.map(|at| (at, Some(marker))).ok_or_else(unseen)
+    let Some(at) = run.mean_place(marker, &ends.rest) else {
+        let message = format!("marker {name} was not seen at the lowest pressure");
+        return Err([message, "take another marker".into()]);
+    };
+    Ok((at, Some(marker)))
 }
 
 /// Where markers are at rest from the base, and how they move to the highest pressure, means over runs \[m\].
@@ -330,8 +335,7 @@ impl Moved {
         for &marker in markers {
             let (mut sums, mut count) = ([[0.0; 3]; 2], 0.0);
             for ((run, ends), base) in scene.runs.iter().zip(scene.ends).zip(bases) {
-                let mean =
-                    |frames: &[usize]| run.mean_place(marker, frames.iter().copied()).map(|place| map.metres(place));
+                let mean = |frames: &[usize]| run.mean_place(marker, frames).map(|place| map.metres(place));
                 let (Some(low), Some(high)) = (mean(&ends.rest), mean(&ends.top)) else { continue };
                 (0..3).for_each(|axis| sums[0][axis] += low[axis] - base[axis]);
                 (0..3).for_each(|axis| sums[1][axis] += high[axis] - low[axis]);
@@ -351,8 +355,11 @@ impl Moved {
             let values = seen.iter().map(|at| at[axis]);
             values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
         };
-        let size =
-            |axis: usize| if seen.len() > 1 { spread(axis) } else { seen.first().map_or(0.0, |at| at[axis].abs()) };
+        let size = |axis: usize| match seen[..] {
+            [] => 0.0,
+            [only] => only[axis].abs(),
+            _ => spread(axis),
+        };
         (0..3).max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap_or(0)
     }
 

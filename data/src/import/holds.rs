@@ -76,30 +76,30 @@ fn plateau(run: &PressedRun, frames: Range<usize>, options: &ImportOptions) -> O
     let third = readings.len() / 3;
     let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
     let level = median(readings.clone())?;
-    if third > 0
-        && (mean(&readings[readings.len() - third..]) - mean(&readings[..third])).abs() > tolerance_act_pa(level)
-    {
+    let tolerance = tolerance_act_pa(level);
+    let drift = mean(&readings[readings.len() - third..]) - mean(&readings[..third]);
+    if drift.abs() > tolerance {
         return None;
     }
-    let steps: Vec<f64> = readings.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    let steps = readings.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     let noise_pa = SD_PER_STEP * median(steps).unwrap_or(0.0);
-    let reach = (NOISE * noise_pa).max(SURELY_ON_PA).min(tolerance_act_pa(level));
-    let on = |frame: &usize| (act[*frame] - level).abs() <= reach;
-    let (begin, end) = (frames.clone().find(on)?, frames.rev().find(on)?);
+    let reach = (NOISE * noise_pa).max(SURELY_ON_PA).min(tolerance);
+    let is_within = |frame: &usize, reach: f64| (act[*frame] - level).abs() <= reach;
+    let is_on = |frame: &usize| is_within(frame, reach);
+    let (begin, end) = (frames.clone().find(is_on)?, frames.rev().find(is_on)?);
     let start_s = run.times_s[begin] + options.settle_s;
-    let kept: Vec<usize> =
-        (begin..=end).filter(|frame| run.times_s[*frame] >= start_s && near_level(run, *frame, level)).collect();
-    let lasts = run.times_s[*kept.last()?] - run.times_s[kept[0]];
-    let act_pa = kept.iter().map(|frame| act[*frame]).sum::<f64>() / kept.len() as f64;
-    (kept.len() >= options.least_frames && lasts >= options.least_hold_s).then_some(Kept {
-        frames: kept,
-        act_pa,
-        rising: None,
-    })
+    let is_kept = |frame: &usize| run.times_s[*frame] >= start_s && is_within(frame, tolerance);
+    let frames: Vec<usize> = (begin..=end).filter(is_kept).collect();
+    let lasts = run.times_s[*frames.last()?] - run.times_s[frames[0]];
+    let is_hold = frames.len() >= options.least_frames && lasts >= options.least_hold_s;
+    is_hold.then(|| Kept::of(act, frames, None))
 }
 
-fn near_level(run: &PressedRun, frame: usize, level_pa: f64) -> bool {
-    (run.pressures_pa[1][frame] - level_pa).abs() <= tolerance_act_pa(level_pa)
+impl Kept {
+    fn of(act: &[f64], frames: Vec<usize>, rising: Option<bool>) -> Kept {
+        let act_pa = frames.iter().map(|frame| act[*frame]).sum::<f64>() / frames.len() as f64;
+        Kept { frames, act_pa, rising }
+    }
 }
 
 pub(crate) fn median(mut values: Vec<f64>) -> Option<f64> {
@@ -110,23 +110,20 @@ pub(crate) fn median(mut values: Vec<f64>) -> Option<f64> {
 /// The frames of every branch, up or down, by bins of the actuator's pressure: bin k holds pressures around k·`bin_pa`.
 pub(crate) fn bins(run: &PressedRun, bin_pa: f64) -> Vec<(usize, i64, Kept)> {
     let act = &run.pressures_pa[1];
-    let mut found: Vec<(usize, i64, Vec<usize>)> = Vec::new();
-    let mut rises = Vec::new();
+    let mut all = Vec::new();
     for (branch, (frames, rising)) in branches(act, 0.5 * bin_pa).into_iter().enumerate() {
-        rises.push(rising);
+        let mut found: Vec<(i64, Vec<usize>)> = Vec::new();
         for frame in frames.filter(|frame| act[*frame].is_finite()) {
             let bin = (act[frame] / bin_pa).round() as i64;
-            match found.iter_mut().rev().find(|(b, k, _)| (*b, *k) == (branch, bin)) {
-                Some((.., frames)) => frames.push(frame),
-                None => found.push((branch, bin, vec![frame])),
+            match found.iter_mut().rev().find(|(known, _)| *known == bin) {
+                Some((_, frames)) => frames.push(frame),
+                None => found.push((bin, vec![frame])),
             }
         }
+        let kept = |(bin, frames)| (branch, bin, Kept::of(act, frames, Some(rising)));
+        all.extend(found.into_iter().map(kept));
     }
-    let kept = |(branch, bin, frames): (usize, i64, Vec<usize>)| {
-        let act_pa = frames.iter().map(|frame| act[*frame]).sum::<f64>() / frames.len() as f64;
-        (branch, bin, Kept { frames, act_pa, rising: Some(rises[branch]) })
-    };
-    found.into_iter().map(kept).collect()
+    all
 }
 
 /// Parts of a run in which the pressure rises (true) or falls: it turns where it comes back by more than `back_pa`.
@@ -167,22 +164,21 @@ const FEW: usize = 6;
 /// Takes frames off the start of a hold in which the robot was still moving, then places that are wild off the rest; returns
 /// how many of each. `length_m` is the robot's.
 pub(crate) fn clean(run: &mut PressedRun, kept: &mut Kept, length_m: f64) -> [u64; 2] {
-    let middle: Vec<Option<([f64; 2], f64)>> = run.xy_m.iter().map(|column| centre(column, &kept.frames)).collect();
+    let centres = run.xy_m.iter().map(|column| centre(column, &kept.frames));
+    let middle: Vec<Option<([f64; 2], f64)>> = centres.collect();
     let is_wild = |run: &PressedRun, marker: usize, frame: usize| {
-        let place = run.xy_m[marker][frame];
-        middle[marker].is_some_and(|(centre, sd)| apart(place, centre) > (WILD_SD * sd).max(WILD_SHARE * length_m))
+        let far = |(centre, sd): ([f64; 2], f64)| {
+            apart(run.xy_m[marker][frame], centre) > (WILD_SD * sd).max(WILD_SHARE * length_m)
+        };
+        middle[marker].is_some_and(far)
     };
     let moving = |frame: &&usize| {
         let seen = (0..run.xy_m.len()).filter(|marker| run.xy_m[*marker][**frame][0].is_finite());
-        let (wild, all) =
-            seen.fold((0, 0), |(wild, all), marker| (wild + usize::from(is_wild(run, marker, **frame)), all + 1));
-        wild > 0 && 2 * wild >= all
+        let wild = seen.clone().filter(|marker| is_wild(run, *marker, **frame)).count();
+        wild > 0 && 2 * wild >= seen.count()
     };
-    let start = if kept.frames.len() >= FEW {
-        kept.frames[..kept.frames.len() / 2].iter().take_while(moving).count()
-    } else {
-        0
-    };
+    let half = if kept.frames.len() >= FEW { kept.frames.len() / 2 } else { 0 };
+    let start = kept.frames[..half].iter().take_while(moving).count();
     kept.frames.drain(..start);
     let mut wild = 0;
     for &frame in &kept.frames {
@@ -203,12 +199,13 @@ fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 /// Median place of a marker over frames, and its robust standard deviation; `None` where it was seen less than three times.
 fn centre(column: &[[f64; 2]], frames: &[usize]) -> Option<([f64; 2], f64)> {
-    let seen: Vec<[f64; 2]> = frames.iter().map(|frame| column[*frame]).filter(|place| place[0].is_finite()).collect();
+    let places = frames.iter().map(|frame| column[*frame]);
+    let seen: Vec<[f64; 2]> = places.filter(|place| place[0].is_finite()).collect();
     if seen.len() < 3 {
         return None;
     }
-    let over = |axis: usize| median(seen.iter().map(|place| place[axis]).collect()).unwrap_or_default();
-    let centre = [over(0), over(1)];
+    let over = |axis: usize| median(seen.iter().map(|place| place[axis]).collect());
+    let centre = [over(0)?, over(1)?];
     let off = median(seen.iter().map(|place| apart(*place, centre)).collect());
     Some((centre, off.unwrap_or_default()))
 }

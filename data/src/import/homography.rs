@@ -50,7 +50,6 @@ impl Homography {
         }
     }
 
-    /// A pixel on the board \[m\].
     pub(super) fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let h = &self.0;
         let depth = h[6] * x + h[7] * y + 1.0;

@@ -1,18 +1,14 @@
 //! Kinovea: trajectories as a text, blocks separated by blank lines, with clock times. Its kinematics are a wide table.
 
-use super::format::Format;
-use super::options::ImportOptions;
-use super::recording::{Lengths, Pivot, Recording};
-use super::sheet::CellText;
+use super::format::*;
 use crate::cells::clock_s;
-use crate::error::Result;
 
 pub(super) const TRAJECTORIES: Format = Format {
     name: "Kinovea, trajectories",
     known_by: "first line #Kinovea Trajectory",
     fixture: "made/kinovea_trajectory.txt",
     likelihood: None,
-    recognise: |sheet, _, _| sheet.text.trim_start().starts_with("#Kinovea"),
+    recognise: |begin| begin.sheet.text.trim_start().starts_with("#Kinovea"),
     read: trajectories,
 };
 

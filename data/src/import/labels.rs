@@ -1,16 +1,10 @@
 //! Labels of runs and markers: of the files, of the caller, or found.
 
-use std::path::Path;
-
 use super::frame::{RestAndTop, where_is};
 use super::options::ImportOptions;
 use super::recording::Recording;
+use crate::cells::stem;
 use crate::error::{DataError, Result};
-
-/// The name of a file without its end.
-pub(super) fn stem(file: &String) -> String {
-    Path::new(file).file_stem().map_or(file.clone(), |stem| stem.to_string_lossy().into_owned())
-}
 
 /// Labels of runs that have none: what the names of their files do not have in common.
 pub(crate) fn number_runs(runs: &mut [(String, Recording)]) {
@@ -33,23 +27,20 @@ pub(crate) fn number_runs(runs: &mut [(String, Recording)]) {
 pub(super) fn distinct(names: &[String]) -> Vec<String> {
     let numbered = || (1..=names.len()).map(|k| k.to_string()).collect();
     let Some((first, rest)) = names.split_first().filter(|(_, rest)| !rest.is_empty()) else { return numbered() };
-    let same = |a: &str, b: &str| {
-        a.chars().zip(b.chars()).take_while(|(a, b)| a == b).map(|(a, _)| a.len_utf8()).sum::<usize>()
-    };
-    let back = |text: &str| text.chars().rev().collect::<String>();
-    let mut begin = rest.iter().map(|name| same(first, name)).min().unwrap_or(0);
-    while begin > 0 && first.as_bytes()[begin - 1].is_ascii_digit() {
+    let (bytes, shortest) = (first.as_bytes(), names.iter().map(String::len).min().unwrap_or(0));
+    let shared = |same: &dyn Fn(&[u8]) -> usize| rest.iter().map(|name| same(name.as_bytes())).min().unwrap_or(0);
+    let mut begin = shared(&|name| bytes.iter().zip(name).take_while(|(a, b)| a == b).count());
+    while begin > 0 && (bytes[begin - 1].is_ascii_digit() || !first.is_char_boundary(begin)) {
         begin -= 1;
     }
-    let shortest = names.iter().map(String::len).min().unwrap_or(0);
-    let mut end =
-        rest.iter().map(|name| same(&back(first), &back(name))).min().unwrap_or(0).min(shortest.saturating_sub(begin));
-    while end > 0 && first.as_bytes()[first.len() - end].is_ascii_digit() {
+    let back = |name: &[u8]| bytes.iter().rev().zip(name.iter().rev()).take_while(|(a, b)| a == b).count();
+    let mut end = shared(&back).min(shortest.saturating_sub(begin));
+    while end > 0 && (bytes[bytes.len() - end].is_ascii_digit() || !first.is_char_boundary(bytes.len() - end)) {
         end -= 1;
     }
-    let cut = |name: &String| name.get(begin..name.len() - end).unwrap_or_default().to_string();
-    let cut: Vec<String> = names.iter().map(cut).collect();
-    if cut.iter().any(String::is_empty) { names.to_vec() } else { cut }
+    let cut: Option<Vec<&str>> = names.iter().map(|name| name.get(begin..name.len() - end)).collect();
+    let cut = cut.filter(|cut| cut.iter().all(|name| !name.is_empty()));
+    cut.map_or(names.to_vec(), |cut| cut.into_iter().map(str::to_string).collect())
 }
 
 /// Names without the subject or asset before a colon, where all have the same one.
@@ -66,14 +57,12 @@ pub(crate) fn same_markers(file: &str, runs: &mut [(String, Recording)]) -> Resu
     let markers = &first.markers;
     for (_, run) in rest {
         let label = run.run.clone().unwrap_or_default();
-        if run.named && run.markers.iter().any(|name| !markers.contains(name)) || run.markers.len() != markers.len() {
-            let message = format!(
-                "run {label} has the markers {}, the first run has {}",
-                run.markers.join(", "),
-                markers.join(", ")
-            );
+        let is_other = run.named && run.markers.iter().any(|name| !markers.contains(name));
+        if is_other || run.markers.len() != markers.len() {
+            let [own, first] = [&run.markers, markers].map(|names| names.join(", "));
+            let message = format!("run {label} has the markers {own}, the first run has {first}");
             let help = "export the same markers of every run, under the same names";
-            return Err(DataError::runs(file, message, help));
+            return Err(DataError::of(file, message, help));
         }
         if run.named {
             let place = |name: &String| run.markers.iter().position(|own| own == name).unwrap_or_default();
@@ -95,11 +84,11 @@ pub(crate) fn rename(
 ) -> Result<()> {
     for (run, ends) in runs.iter_mut().zip(ends).filter(|(run, _)| !run.named) {
         let found = options.base.as_ref().map(|base| where_is(run, ends, base)).transpose();
-        let base =
-            found.map_err(|[message, help]| DataError::runs(file, message, help))?.map_or([0.0; 3], |(at, _)| at);
-        let rest = |marker: usize| run.mean_place(marker, ends.rest.iter().copied());
-        let away = |marker: usize| {
-            rest(marker).map_or(f64::INFINITY, |at| (0..3).map(|axis| (at[axis] - base[axis]).powi(2)).sum())
+        let found = found.map_err(|[message, help]| DataError::of(file, message, help))?;
+        let base = found.map_or([0.0; 3], |(at, _)| at);
+        let away = |marker: usize| match run.mean_place(marker, &ends.rest) {
+            Some(at) => (0..3).map(|axis| (at[axis] - base[axis]).powi(2)).sum(),
+            None => f64::INFINITY,
         };
         let mut order: Vec<usize> = (0..run.markers.len()).collect();
         order.sort_by(|a, b| away(*a).total_cmp(&away(*b)));
@@ -115,7 +104,7 @@ pub(crate) fn rename(
     }
     if given.len() != known.len() {
         let message = format!("--markers names {}, the file has {}: {}", given.len(), known.len(), known.join(", "));
-        return Err(DataError::runs(file, message, "name every marker, in this order"));
+        return Err(DataError::of(file, message, "name every marker, in this order"));
     }
     told.push(format!("markers {} are called {}", known.join(", "), given.join(", ")));
     runs.iter_mut().for_each(|run| run.markers.clone_from(given));

@@ -1,17 +1,25 @@
 //! What the columns of a tracking table hold. Every kind of file declares it; one loop reads the rows.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
 
+use super::options::ImportOptions;
 use super::recording::{Lengths, Pivot, Recording, counted};
 use super::sheet::CellText;
-use crate::cells::{is_nothing, label};
+use crate::cells::{Labels, is_nothing, label};
 use crate::error::Result;
 
 /// What a column of a marker holds.
 pub(super) const PARTS: [&str; 4] = ["x", "y", "z", "likelihood"];
 
 pub(super) const LIKELIHOOD: usize = 3;
+
+/// Likelihood below which DeepLabCut's network itself marks a point as not seen.
+pub(super) const NOT_SEEN: f64 = 0.9;
+
+/// The part that a word names, in small letters or large ones.
+pub(super) fn part(word: &str) -> Option<usize> {
+    PARTS.iter().position(|part| part.eq_ignore_ascii_case(word))
+}
 
 /// The columns of one marker, in the order of [`PARTS`].
 struct Track {
@@ -23,6 +31,8 @@ struct Track {
 /// The columns of a table with a row for every frame, or for every frame and marker.
 #[derive(Default)]
 pub(super) struct Layout {
+    /// The line that names the columns.
+    pub line: u64,
     pub time: usize,
     /// Seconds of its unit; `None` for numbers of frames.
     pub second: Option<f64>,
@@ -50,9 +60,10 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// No marker yet; times of this unit in this column.
-    pub(super) fn new(time: usize, second: Option<f64>, lengths: Lengths) -> Layout {
+    /// No marker yet; times of this unit in this column, which a line names with the others.
+    pub(super) fn new(line: u64, time: usize, second: Option<f64>, lengths: Lengths) -> Layout {
         Layout {
+            line,
             time,
             second,
             lengths,
@@ -63,41 +74,59 @@ impl Layout {
         }
     }
 
-    /// A column of a marker, new or known.
-    pub(super) fn add(&mut self, sheet: &CellText, line: u64, name: &str, part: usize, column: usize) -> Result<()> {
-        let at = self.tracks.iter().position(|track| track.name == name).unwrap_or_else(|| {
-            self.tracks.push(Track { name: name.to_string(), columns: [None; PARTS.len()] });
-            self.tracks.len() - 1
-        });
-        if self.tracks[at].columns[part].replace(column).is_none() {
-            return Ok(());
-        }
-        let message = format!("two columns are {} of {}", PARTS[part], of(name));
-        Err(sheet.fault(line, message, "give every marker a different name: x_a, y_a, x_b, y_b"))
+    /// Positions below a likelihood, the caller's or the usual one, are lost; likelihoods go up to `most`.
+    pub(super) fn unlikely(&mut self, options: &ImportOptions, usual: f64, most: f64, below: &str) {
+        let limit = options.likelihood.unwrap_or(usual);
+        self.likely = [limit, most];
+        self.told.push(format!("positions {below} {limit} are lost markers (--likelihood)"));
     }
 
-    /// Reads the rows that are left.
+    /// Columns of markers, new or known: the column, its marker, and which of [`PARTS`] it holds.
+    pub(super) fn columns<N: AsRef<str>>(
+        &mut self,
+        sheet: &CellText,
+        columns: impl IntoIterator<Item = (usize, N, usize)>,
+    ) -> Result<()> {
+        for (column, name, part) in columns {
+            let name = name.as_ref();
+            let at = self.tracks.iter().position(|track| track.name == name).unwrap_or_else(|| {
+                self.tracks.push(Track { name: name.to_string(), columns: [None; PARTS.len()] });
+                self.tracks.len() - 1
+            });
+            if self.tracks[at].columns[part].replace(column).is_some() {
+                let message = format!("two columns are {} of {}", PARTS[part], of(name));
+                let help = "give every marker a different name: x_a, y_a, x_b, y_b";
+                return Err(sheet.fault(self.line, message, help));
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads the rows that are left; every marker has so many coordinates at least.
     pub(super) fn read<'s>(
         self,
         sheet: &CellText<'s>,
-        header: u64,
-        parts: usize,
+        axes: usize,
         rows: impl Iterator<Item = (u64, &'s str)>,
     ) -> Result<Vec<Recording>> {
         for track in &self.tracks {
-            if let Some(part) = (0..parts).find(|part| track.columns[*part].is_none()) {
+            if let Some(part) = (0..axes).find(|part| track.columns[*part].is_none()) {
                 let message = format!("{} has no column of {}", of(&track.name), PARTS[part]);
-                return Err(sheet.fault(header, message, "every marker needs its coordinates: export it again"));
+                let help = "every marker needs its coordinates: export it again";
+                return Err(sheet.fault(self.line, message, help));
             }
         }
         if self.tracks.is_empty() {
-            return Err(sheet.fault(header, "no column is the position of a marker", "export the places of markers"));
+            let help = "export the places of markers";
+            return Err(sheet.fault(self.line, "no column is the position of a marker", help));
         }
         let mut runs = Runs::default();
         let (mut cells, mut nameless) = (Vec::new(), 0);
         for (number, line) in rows {
             sheet.split_into(line, &mut cells);
-            self.width.map_or(Ok(()), |width| sheet.whole_row(&cells, width, number))?;
+            if let Some(width) = self.width {
+                sheet.whole_row(&cells, width, number)?;
+            }
             let marker = self.marker.map(|column| label(cell(&cells, column)));
             if marker.is_some_and(is_nothing) && self.tracks[0].name.is_empty() {
                 nameless += 1;
@@ -130,11 +159,10 @@ impl Layout {
         }
         let frame = pivot.frame(t);
         for Track { name, columns } in &self.tracks {
-            let value = |part: usize, absent: f64| match columns[part] {
-                Some(column) => sheet.finite(cell(cells, column)).ok_or_else(|| {
-                    sheet.no_number(cell(cells, column), number, &format!("{} of {}", PARTS[part], of(name)))
-                }),
-                None => Ok(absent),
+            let value = |part: usize, absent: f64| {
+                let Some(text) = columns[part].map(|column| cell(cells, column)) else { return Ok(absent) };
+                let what = || format!("{} of {}", PARTS[part], of(name));
+                sheet.finite(text).ok_or_else(|| sheet.no_number(text, number, &what()))
             };
             let likelihood = value(LIKELIHOOD, f64::NAN)?;
             let [least, most] = self.likely;
@@ -149,15 +177,17 @@ impl Layout {
                 None => name.into(),
             };
             let place = [x, if self.y_down { -y } else { y }, z];
-            let marker = pivot.marker(&name);
-            if !pivot.put(frame, marker, place, likelihood.is_nan() || likelihood >= least)
-                && let Some(help) = self.twice
-            {
-                return Err(sheet.fault(number, format!("marker {name} is there twice at {time} of one run"), help));
+            let (marker, likely) = (pivot.marker(&name), likelihood.is_nan() || likelihood >= least);
+            let is_new = pivot.put(frame, marker, place, likely);
+            if let Some(help) = self.twice.filter(|_| !is_new) {
+                let message = format!("marker {name} is there twice at {time} of one run");
+                return Err(sheet.fault(number, message, help));
             }
         }
-        for (which, (column, pa)) in self.pressures.iter().enumerate().filter_map(|(k, p)| p.map(|p| (k, p))) {
-            pivot.read(frame, which, pa * sheet.expect(cell(cells, column), number, "pressure")?);
+        for (which, pressure) in self.pressures.into_iter().enumerate() {
+            let Some((column, pa)) = pressure else { continue };
+            let value = sheet.expect(cell(cells, column), number, "pressure")?;
+            pivot.read(frame, which, pa * value);
         }
         Ok(())
     }
@@ -175,26 +205,21 @@ fn of(name: &str) -> String {
 #[derive(Default)]
 struct Runs {
     pivots: Vec<Pivot>,
-    numbers: HashMap<String, usize>,
-    last: usize,
+    labels: Labels,
 }
 
 impl Runs {
     /// The recording of the run of a row.
     fn of(&mut self, layout: &Layout, cells: &[&str]) -> &mut Pivot {
-        let [run, actuator] = [layout.run, layout.actuator].map(|column| column.map(|column| cell(cells, column)));
-        let run = run.map(label).unwrap_or_default();
-        let is_last = |pivot: &Pivot| pivot.recording.run.as_deref().unwrap_or_default() == run;
-        if !self.pivots.get(self.last).is_some_and(is_last) {
-            self.last = self.numbers.get(run).copied().unwrap_or(self.pivots.len());
-            if self.last == self.pivots.len() {
-                let mut pivot = Pivot::new(layout.lengths, layout.second.is_some());
-                pivot.recording.run = Some(run.to_string()).filter(|run| !run.is_empty());
-                pivot.recording.actuator = actuator.map(str::to_lowercase).filter(|kind| !kind.is_empty());
-                self.numbers.insert(run.to_string(), self.last);
-                self.pivots.push(pivot);
-            }
+        let run = layout.run.map_or("", |column| label(cell(cells, column)));
+        let number = self.labels.number(run);
+        if number == self.pivots.len() {
+            let actuator = layout.actuator.map(|column| cell(cells, column).to_lowercase());
+            let mut pivot = Pivot::new(layout.lengths, layout.second.is_some());
+            pivot.recording.run = Some(run.to_string()).filter(|run| !run.is_empty());
+            pivot.recording.actuator = actuator.filter(|kind| !kind.is_empty());
+            self.pivots.push(pivot);
         }
-        &mut self.pivots[self.last]
+        &mut self.pivots[number]
     }
 }

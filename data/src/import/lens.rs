@@ -25,7 +25,6 @@ impl Lens {
     }
 }
 
-/// Fewest corners that show a lens.
 const FEWEST: usize = 12;
 /// The lens is bent back where it stretches a picture by less than this.
 const LEAST_SLOPE: f64 = 0.2;
@@ -143,7 +142,6 @@ impl View {
         Some(best)
     }
 
-    /// A pixel on the board \[m\].
     pub(super) fn at(&self, pixel: [f64; 2]) -> [f64; 2] {
         self.plane.at(self.lens.map_or(pixel, |lens| lens.straight(pixel)))
     }

@@ -3,7 +3,7 @@
 use super::columns::{ColumnName, is_time, is_unit};
 use super::ros;
 use crate::cells::clock_s;
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 
 /// A log as rows of cells. A line of `text` that is not a row is empty, so its lines keep their numbers.
 #[derive(Default)]
@@ -37,18 +37,18 @@ const END_OF_HEADER: &str = "***End_of_Header***";
 /// their units, names, and rows of the time in seconds and values.
 fn labview(file: &str, text: &str) -> Result<Plain> {
     let lines: Vec<&str> = text.lines().collect();
-    let fault = |line: usize, message: &str, help: &str| {
-        Err(DataError::Layout(Box::new(Fault::of_file(file, message, help).at_line(line as u64))))
-    };
+    let fault = |line: usize, message: &str, help: &str| Err(DataError::of(file, message, help).at_line(line as u64));
     let sign = if lines.iter().any(|line| line.starts_with("Separator,")) { ',' } else { '\t' };
     let first = |k: usize| lines[k].split(sign).next().unwrap_or_default().trim();
     let Some(end) = lines.iter().rposition(|line| line.starts_with(END_OF_HEADER)) else {
-        return fault(1, "the line ***End_of_Header*** is missing", "write the file again with its headers");
+        let help = "write the file again with its headers";
+        return fault(1, "the line ***End_of_Header*** is missing", help);
     };
     let heads: Vec<usize> = (0..lines.len()).filter(|k| first(*k) == "X_Value").collect();
     if heads.last().is_none_or(|at| *at < end) {
         let help = "write the file again with a header for every segment and one column of times";
-        return fault(end + 2, "the line X_Value with the names of the channels is missing", help);
+        let message = "the line X_Value with the names of the channels is missing";
+        return fault(end + 2, message, help);
     }
     let mut plain = Plain::default();
     let mut from = 0;
@@ -85,8 +85,8 @@ fn keyed<'t>(header: &[&'t str], key: &str, sign: char) -> Option<Vec<&'t str>> 
 fn channels(header: &[&str], line: &str, sign: char) -> Vec<String> {
     let mut names: Vec<String> = line.split(sign).map(|cell| cell.trim().to_string()).collect();
     let units = keyed(header, "Y_Unit_Label", sign).unwrap_or_default();
-    for (name, unit) in names.iter_mut().zip(&units).skip(1).filter(|(_, unit)| !unit.is_empty()) {
-        if ColumnName::of(name).unit.is_none() {
+    for (name, unit) in names.iter_mut().zip(&units).skip(1) {
+        if !unit.is_empty() && ColumnName::of(name).unit.is_none() {
             *name = format!("{name} ({unit})");
         }
     }
@@ -97,8 +97,9 @@ fn channels(header: &[&str], line: &str, sign: char) -> Vec<String> {
 
 /// The rows of a LabVIEW segment; without a column of times they are apart by Delta_X.
 fn rows(header: &[&str], lines: &[&str], sign: char, text: &mut String) {
-    let number = |name: &str| keyed(header, name, sign)?.get(1)?.replace(',', ".").parse::<f64>().ok();
-    let [start, step] = [number("X0").unwrap_or(0.0), number("Delta_X").unwrap_or(f64::NAN)];
+    let cell = |name: &str| Some(keyed(header, name, sign)?.get(1)?.replace(',', "."));
+    let number = |name: &str| cell(name)?.parse::<f64>().ok();
+    let (start, step) = (number("X0").unwrap_or(0.0), number("Delta_X").unwrap_or(f64::NAN));
     let mut count = 0;
     for line in lines {
         if !line.trim().is_empty() {
@@ -130,61 +131,70 @@ fn topic(text: &str) -> Plain {
 /// Lines looked at to know the text of a serial monitor, and the share of them that has its form.
 const LOOKED_AT: usize = 40;
 const MOSTLY: f64 = 0.6;
-/// What a serial monitor writes between the time of arrival and the line.
 const ARROW: &str = "->";
 
 /// A line without the time of its arrival, and that time.
 fn arrival(line: &str) -> (Option<&str>, &str) {
-    let parted = line.split_once(ARROW).map(|(stamp, rest)| (stamp.trim(), rest.trim()));
-    parted
-        .filter(|(stamp, _)| clock_s(stamp).is_some())
-        .map_or((None, line.trim()), |(stamp, rest)| (Some(stamp), rest))
+    match line.split_once(ARROW) {
+        Some((stamp, rest)) if clock_s(stamp.trim()).is_some() => (Some(stamp.trim()), rest.trim()),
+        _ => (None, line.trim()),
+    }
 }
 
 /// Shares of the first lines that have a time of arrival, and that are readings with names.
 fn serial_shares(text: &str) -> [f64; 2] {
-    let lines: Vec<_> = text.lines().filter(|line| !line.trim().is_empty()).take(LOOKED_AT).map(arrival).collect();
-    let stamped = lines.iter().filter(|(stamp, _)| stamp.is_some()).count();
-    let named = lines.iter().filter(|(_, rest)| readings(rest).is_some()).count();
-    [stamped, named].map(|count| count as f64 / lines.len().max(1) as f64)
+    let filled = text.lines().filter(|line| !line.trim().is_empty());
+    let lines: Vec<(Option<&str>, &str)> = filled.take(LOOKED_AT).map(arrival).collect();
+    let share =
+        |has: fn(&&(Option<&str>, &str)) -> bool| lines.iter().filter(has).count() as f64 / lines.len().max(1) as f64;
+    [share(|(stamp, _)| stamp.is_some()), share(|(_, rest)| readings(rest).is_some())]
+}
+
+/// What separates the cells of a line of a serial monitor.
+const BETWEEN: [char; 4] = [',', ';', '\t', ' '];
+
+fn tokens(line: &str) -> impl Iterator<Item = &str> {
+    line.split(BETWEEN).filter(|token| !token.is_empty())
 }
 
 /// A serial monitor: `10:11:13.000 -> pb:2.00 pa:0.00`, `t: 12.3 p: 4.5 kPa`, or bare numbers after the time of arrival.
 fn serial(text: &str, stamped: bool, named: bool) -> Plain {
-    let mut table = Plain { told: vec!["read as the text of a serial monitor".into()], ..Plain::default() };
-    let mut left_out = 0;
+    let (mut table, mut left_out) = (Plain::default(), 0);
+    table.told.push("read as the text of a serial monitor".into());
     for line in text.lines() {
         let (stamp, rest) = arrival(line.trim_start_matches('\u{feff}'));
         let row: Option<Vec<String>> = match readings(rest).filter(|_| named) {
             Some(found) => {
+                let columns: Vec<String> = found.iter().map(Reading::column).collect();
                 if table.names.is_empty() {
-                    table.names = found.iter().map(Reading::column).collect();
                     // The device's own time is better than the time of arrival.
                     let own = found.iter().any(|reading| is_time(&ColumnName::of(&reading.name)));
-                    table.names.splice(0..0, stamped.then(|| if own { "arrival" } else { "time" }.to_string()));
+                    let arrival = if own { "arrival" } else { "time" };
+                    let arrival = stamped.then(|| arrival.to_string());
+                    table.names = arrival.into_iter().chain(columns.clone()).collect();
                 }
-                let same = found.iter().map(Reading::column).eq(table.names.iter().skip(stamped.into()).cloned());
+                let same = columns == table.names[usize::from(stamped)..];
                 same.then(|| found.into_iter().map(|reading| reading.value).collect())
             }
             None if named || rest.is_empty() => None,
-            None => Some(rest.split([',', ';', '\t', ' ']).filter(|c| !c.is_empty()).map(str::to_string).collect()),
+            None => Some(tokens(rest).map(str::to_string).collect()),
         };
         match row.filter(|_| stamp.is_some() == stamped) {
             Some(row) => {
-                let stamp = stamp.map(str::to_string).into_iter();
-                table.text.push_str(&stamp.chain(row).collect::<Vec<_>>().join(","));
+                let cells: Vec<String> = stamp.map(str::to_string).into_iter().chain(row).collect();
+                table.text.push_str(&cells.join(","));
             }
             None => left_out += usize::from(!line.trim().is_empty()),
         }
         table.text.push('\n');
     }
     if left_out > 0 {
-        table.told.push(format!("left out: {left_out} lines without the readings of the others"));
+        let told = format!("left out: {left_out} lines without the readings of the others");
+        table.told.push(told);
     }
     table
 }
 
-/// A name, a number and a unit.
 struct Reading {
     name: String,
     value: String,
@@ -193,7 +203,8 @@ struct Reading {
 
 impl Reading {
     fn column(&self) -> String {
-        self.unit.as_ref().map_or(self.name.clone(), |unit| format!("{} ({unit})", self.name))
+        let Reading { name, unit, .. } = self;
+        unit.as_ref().map_or(name.clone(), |unit| format!("{name} ({unit})"))
     }
 }
 
@@ -206,26 +217,29 @@ fn readings(line: &str) -> Option<Vec<Reading>> {
         if !name.starts_with(char::is_alphabetic) || name.contains([',', ';']) {
             return None;
         }
-        let mut tokens = part.split([',', ';', '\t', ' ']).filter(|token| !token.is_empty());
+        let mut tokens = tokens(part);
         let (value, glued) = number(tokens.next()?)?;
         let mut rest: Vec<&str> = tokens.collect();
         let last = parts.peek().is_none();
-        let is_parted = rest.first().is_some_and(|word| is_unit(&word.to_lowercase())) && (last || rest.len() > 1);
-        let unit = if !glued.is_empty() { Some(glued) } else { is_parted.then(|| rest.remove(0)) };
-        found.push(Reading { name, value: value.to_string(), unit: unit.map(str::to_string) });
+        let is_unit = |word: &&str| is_unit(&word.to_lowercase()) && (last || rest.len() > 1);
+        let unit = Some(glued).filter(|glued| !glued.is_empty());
+        let parted = rest.first().copied().filter(|word| unit.is_none() && is_unit(word));
+        rest.drain(..usize::from(parted.is_some()));
+        let (value, unit) = (value.to_string(), unit.or(parted).map(str::to_string));
+        found.push(Reading { name, value, unit });
         name = rest.join(" ");
         if last != name.is_empty() {
             return None;
         }
     }
-    Some(found).filter(|found| !found.is_empty())
+    (!found.is_empty()).then_some(found)
 }
 
 /// A number and the unit glued to it.
 fn number(token: &str) -> Option<(&str, &str)> {
-    let ends = token.char_indices().map(|(at, _)| at).chain([token.len()]).rev();
-    let mut parts = ends.map(|end| token.split_at(end));
-    parts.find(|(value, unit)| value.parse::<f64>().is_ok() && (unit.is_empty() || is_unit(&unit.to_lowercase())))
+    let mut parts = (0..=token.len()).rev().filter_map(|end| token.split_at_checked(end));
+    let is_unit = |unit: &str| unit.is_empty() || is_unit(&unit.to_lowercase());
+    parts.find(|(value, unit)| value.parse::<f64>().is_ok() && is_unit(unit))
 }
 
 #[cfg(test)]

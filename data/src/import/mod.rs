@@ -40,7 +40,7 @@ mod triples;
 pub mod typed;
 mod vectors;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::about::{About, parse_about};
 use crate::agreement::{Doubt, Seen, doubts, still_inside};
@@ -56,7 +56,7 @@ use cut::{Cut, cut, pressed};
 pub use format::Format;
 pub use formats::{FORMATS, LOGS};
 use frame::{PlacedRuns, RestAndTop, Scene};
-pub(crate) use holds::{PressedRun, median, plateaus};
+pub(crate) use holds::{Kept, PressedRun, median, plateaus};
 use join::Joined;
 pub use options::{FileAxis, FilePlace, ImportOptions, Offset, Scale};
 use recording::{DROPPED, Recording, counted};
@@ -91,9 +91,7 @@ pub struct RunTrack {
     pub holds: Vec<[f64; 3]>,
 }
 
-/// Holds of a run in a message.
 const MOST_HOLDS: usize = 30;
-/// Points of a line in a picture.
 const MOST_POINTS: usize = 1_500;
 
 /// Reads tracking files, each a run or several, joins the pressures, and makes the marker table.
@@ -102,83 +100,81 @@ const MOST_POINTS: usize = 1_500;
 /// A file that is not understood; scale, base, axes, frame rate or pressures that are not known; clocks that disagree; no holds;
 /// runs that do not fit together; a recording that contradicts itself. Every message names the option to add.
 pub fn import(files: &[PathBuf], options: &ImportOptions, progress: Progress) -> Result<Imported> {
-    let shown: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
-    let Some(first) = shown.first() else {
+    let Some(first) = files.first().map(|file| file.display().to_string()) else {
         return Err(DataError::file("import", "no file was given", "name the tracking files"));
     };
-    let Joined { program, mut runs, mut told, logs } = join::recordings(files, options, progress)?;
+    let (file, joined) = (first.as_str(), join::recordings(files, options, progress)?);
+    let Joined { program, mut runs, mut told, logs } = joined;
     labels::number_runs(&mut runs);
-    labels::same_markers(first, &mut runs)?;
+    labels::same_markers(file, &mut runs)?;
     let mut runs: Vec<Recording> = runs.into_iter().map(|(_, run)| run).collect();
     told.extend(losses(&runs));
-    let ends: Vec<RestAndTop> = runs.iter().map(|run| ends(first, run)).collect::<Result<_, _>>()?;
-    labels::rename(first, &mut runs, &ends, options, &mut told)?;
-    let actuator = actuator(first, &runs, options)?;
-    let PlacedRuns { xy_m, markers } = Scene { file: first, runs: &runs, ends: &ends, options }.place(&mut told)?;
+    let ends = runs.iter().map(|run| ends(file, run)).collect::<Result<Vec<_>>>()?;
+    labels::rename(file, &mut runs, &ends, options, &mut told)?;
+    let actuator = actuator(file, &runs, options)?;
+    let scene = Scene { file, runs: &runs, ends: &ends, options };
+    let PlacedRuns { xy_m, markers } = scene.place(&mut told)?;
     let runs = pressed(runs, xy_m);
-    let measured = |name: &String| options.stations_m.iter().find(|(known, _)| known == name).map(|(_, s)| *s);
-    let stations = markers.iter().map(|name| (name.clone(), measured(name))).collect();
-    let seen = Seen::of_import(&runs, stations, options, logs);
+    let given = markers.iter().map(|name| (name.clone(), options.station_m(name))).collect();
+    let seen = Seen::of_import(&runs, given, options, logs);
     if let Some(Doubt { message, help }) = doubts(&seen).into_iter().next() {
-        return Err(DataError::runs(first, message, help));
+        return Err(DataError::of(file, message, help));
     }
     told.extend(still_inside(&seen));
-    let cut = cut(first, runs, options, &mut told)?;
+    let cut = cut(file, runs, options, &mut told)?;
     if let Some((unknown, _)) = options.stations_m.iter().find(|(name, _)| !markers.contains(name)) {
+        let message = format!("--stations names {unknown}, which is not a marker");
         let help = format!("the markers are {}", markers.join(", "));
-        return Err(DataError::runs(first, format!("--stations names {unknown}, which is not a marker"), help));
+        return Err(DataError::of(file, message, help));
     }
     let stations = table::stations(&cut, &markers, options);
     if stations.iter().any(|(.., given)| !given) {
-        let list: Vec<String> = stations.iter().map(|(name, s, _)| format!("{name} {:.0} mm", s * 1e3)).collect();
-        told.push(format!(
-            "stations of markers are estimated from the robot at rest: {} (--stations)",
-            list.join(", ")
-        ));
+        let shown = |(name, s, _): &(String, f64, bool)| format!("{name} {:.0} mm", s * 1e3);
+        let list = stations.iter().map(shown).collect::<Vec<_>>().join(", ");
+        told.push(format!("stations of markers are estimated from the robot at rest: {list} (--stations)"));
     }
     let markers_csv = table::markers_csv(&cut, &markers, &actuator, options.bin_pa.is_some());
-    let name =
-        |file: &String| Path::new(file).file_name().map_or(file.clone(), |name| name.to_string_lossy().into_owned());
-    let names: Vec<String> = shown.iter().map(name).collect();
+    let name = |file: &PathBuf| file.file_name().unwrap_or(file.as_os_str()).to_string_lossy().into_owned();
+    let names: Vec<String> = files.iter().map(name).collect();
     let about_toml = table::about_toml(program, &names, &stations, &actuator, &told);
     let about = parse_about("about.toml as imported", &about_toml)?;
-    let read = ReadOptions { about: Some(&about), ..ReadOptions::default() };
-    let read = parse_markers("the table made", &mut markers_csv.as_bytes(), read, &mut |_, _| ());
-    let dataset = read.map_err(|error| unusable(first, &cut, &error))?;
+    let read = ReadOptions::of(Some(&about));
+    let dataset = parse_markers("the table made", &mut markers_csv.as_bytes(), read, &mut |_, _| ());
+    let dataset = dataset.map_err(|error| unusable(file, &cut, &error))?;
     let tracks = cut.iter().map(|(run, holds)| track(run, holds, &markers)).collect();
     Ok(Imported { program, told, markers_csv, about_toml, dataset, about, tracks })
 }
 
 /// What the reader refuses in the table, with the holds of every run.
 fn unusable(file: &str, cut: &Cut, error: &DataError) -> DataError {
-    let shown = |hold: &holds::Kept| format!("{:.0}", kpa(hold.act_pa)).replace("-0", "0");
-    let holds = |kept: &[holds::Kept]| {
+    let shown = |hold: &Kept| format!("{:.0}", kpa(hold.act_pa)).replace("-0", "0");
+    let of_run = |(run, kept): &(PressedRun, Vec<Kept>)| {
+        let first: Vec<String> = kept.iter().take(MOST_HOLDS).map(shown).collect();
         let more = if kept.len() > MOST_HOLDS { ", …" } else { "" };
-        kept.iter().take(MOST_HOLDS).map(shown).collect::<Vec<_>>().join(", ") + more
+        format!("run {}: {}{more}", run.label, first.join(", "))
     };
-    let runs: Vec<String> = cut.iter().map(|(run, kept)| format!("run {}: {}", run.label, holds(kept))).collect();
-    let message = format!("{}; holds found [kPa]: {}", error.message(), runs.join("; "));
-    let help = format!("{}; --hold, --frames, --settle and --bin change where holds begin and end", error.help());
-    DataError::runs(file, message, help)
+    let runs = cut.iter().map(of_run).collect::<Vec<_>>().join("; ");
+    let message = format!("{}; holds found [kPa]: {runs}", error.message());
+    let more = "--hold, --frames, --settle and --bin change where holds begin and end";
+    DataError::of(file, message, format!("{}; {more}", error.help()))
 }
 
-fn track(run: &holds::PressedRun, kept: &[holds::Kept], markers: &[String]) -> RunTrack {
+fn track(run: &PressedRun, kept: &[Kept], markers: &[String]) -> RunTrack {
     let step = run.times_s.len().div_ceil(MOST_POINTS).max(1);
-    let points =
-        |column: &Vec<[f64; 2]>| (0..column.len()).step_by(step).map(|k| [run.times_s[k], column[k][1]]).collect();
-    let lines = markers.iter().zip(&run.xy_m).map(|(name, column)| (name.clone(), points(column))).collect();
-    let ends = |hold: &holds::Kept| {
-        let [begin, end] = [hold.frames.first(), hold.frames.last()].map(|k| k.map_or(f64::NAN, |k| run.times_s[*k]));
-        [begin, end, hold.act_pa]
-    };
-    RunTrack { run: run.label.clone(), lines, holds: kept.iter().map(ends).collect() }
+    let thinned = (0..run.times_s.len()).step_by(step);
+    let points = |column: &Vec<[f64; 2]>| thinned.clone().map(|k| [run.times_s[k], column[k][1]]).collect();
+    let lines = markers.iter().zip(&run.xy_m).map(|(name, column)| (name.clone(), points(column)));
+    let time = |frame: Option<&usize>| frame.map_or(f64::NAN, |frame| run.times_s[*frame]);
+    let hold = |hold: &Kept| [time(hold.frames.first()), time(hold.frames.last()), hold.act_pa];
+    let (run, holds) = (run.label.clone(), kept.iter().map(hold).collect());
+    RunTrack { run, lines: lines.collect(), holds }
 }
 
-/// What was dropped on reading, in words.
 fn losses(runs: &[Recording]) -> Vec<String> {
-    let all = DROPPED.iter().enumerate().map(|(k, why)| (runs.iter().map(|run| run.dropped[k]).sum::<u64>(), why));
-    let lost = |(count, why)| format!("lost markers: {} {why}", counted(count, "position"));
-    all.filter(|(count, _)| *count > 0).map(lost).collect()
+    let count = |why: usize| runs.iter().map(|run| run.dropped[why]).sum::<u64>();
+    let dropped = (0..DROPPED.len()).filter(|why| count(*why) > 0);
+    let words = |why: usize| format!("lost markers: {} {}", counted(count(why), "position"), DROPPED[why]);
+    dropped.map(words).collect()
 }
 
 /// Frames at the lowest and at the highest pressure.
@@ -187,22 +183,19 @@ fn ends(file: &str, run: &Recording) -> Result<RestAndTop> {
     let known = || act.iter().copied().filter(|p| p.is_finite());
     let (low, high) = (known().fold(f64::INFINITY, f64::min), known().fold(f64::NEG_INFINITY, f64::max));
     if high - low <= 2.0 * tolerance_act_pa(low) {
-        let message =
-            format!("the actuator's pressure stays between {:.1} and {:.1} kPa in a run", kpa(low), kpa(high));
-        return Err(DataError::runs(file, message, "check the column, its unit and the clock of the pressure log"));
+        let [low, high] = [low, high].map(kpa);
+        let message = format!("the actuator's pressure stays between {low:.1} and {high:.1} kPa in a run");
+        let help = "check the column, its unit and the clock of the pressure log";
+        return Err(DataError::of(file, message, help));
     }
-    let near = |level: f64| (0..act.len()).filter(|k| (act[*k] - level).abs() <= tolerance_act_pa(level)).collect();
+    let is_near = |level: f64, k: &usize| (act[*k] - level).abs() <= tolerance_act_pa(level);
+    let near = |level: f64| (0..act.len()).filter(|k| is_near(level, k)).collect();
     Ok(RestAndTop { rest: near(low), top: near(high) })
 }
 
 fn actuator(file: &str, runs: &[Recording], options: &ImportOptions) -> Result<String> {
-    let known = options
-        .actuator
-        .clone()
-        .map(|kind| kind.to_lowercase())
-        .or_else(|| runs.iter().find_map(|run| run.actuator.clone()));
-    known.ok_or_else(|| {
-        let help = "add --actuator epam, or the kind that your scenario has";
-        DataError::runs(file, "the kind of the actuator is not known", help)
-    })
+    let given = options.actuator.as_ref().map(|kind| kind.to_lowercase());
+    let known = given.or_else(|| runs.iter().find_map(|run| run.actuator.clone()));
+    let help = "add --actuator epam, or the kind that your scenario has";
+    known.ok_or_else(|| DataError::of(file, "the kind of the actuator is not known", help))
 }

@@ -123,4 +123,9 @@ impl ImportOptions {
     pub(crate) fn column(&self, quantity: &str) -> Option<&str> {
         self.columns.iter().find(|(known, _)| known == quantity).map(|(_, column)| column.as_str())
     }
+
+    /// The station that the caller gives a marker \[m\].
+    pub(crate) fn station_m(&self, marker: &str) -> Option<f64> {
+        self.stations_m.iter().find(|(known, _)| known == marker).map(|(_, s)| *s)
+    }
 }

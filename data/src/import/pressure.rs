@@ -37,24 +37,25 @@ fn named(sheet: &CellText, lines: &[(u64, &str)], options: &ImportOptions) -> Re
         let mut filled = cells.iter().filter(|cell| !cell.is_empty()).peekable();
         filled.peek().is_some() && filled.all(|cell| is_value(cell))
     };
-    let Some(row) = lines.iter().take(MOST_HEAD).position(|(_, line)| is_row(line)) else {
-        return Ok((1, owned(sheet.split(lines[0].1))));
-    };
+    let first = owned(sheet.split(lines[0].1));
+    let mut head = lines.iter().take(MOST_HEAD);
+    let Some(row) = head.position(|(_, line)| is_row(line)) else { return Ok((1, first)) };
     if row == 0 {
         return unnamed(sheet, lines[0], options).map(|names| (0, names));
     }
     let above = sheet.split(lines[row - 1].1);
-    let are_units = row > 1 && above.iter().all(|cell| cell.is_empty() || is_unit(&bare(cell).to_lowercase()));
-    if !are_units {
+    let may_be_unit = |cell: &&str| cell.is_empty() || is_unit(&bare(cell).to_lowercase());
+    if row < 2 || !above.iter().all(may_be_unit) {
         // A word among the numbers is a fault of its row, not of the names.
-        let first = owned(sheet.split(lines[0].1));
         let is_header = first.len() == above.len() && first.iter().any(|name| is_time(&ColumnName::of(name)));
         return Ok(if is_header { (1, first) } else { (row, owned(above)) });
     }
-    let with_unit = |(name, unit): (&&str, &&str)| {
-        if unit.is_empty() { (*name).into() } else { format!("{name} ({})", bare(unit)) }
+    let with_unit = |(name, unit): (&&str, &&str)| match bare(unit) {
+        "" => (*name).to_string(),
+        unit => format!("{name} ({unit})"),
     };
-    Ok((row, sheet.split(lines[row - 2].1).iter().zip(&above).map(with_unit).collect()))
+    let names = sheet.split(lines[row - 2].1);
+    Ok((row, names.iter().zip(&above).map(with_unit).collect()))
 }
 
 fn owned(cells: Vec<&str>) -> Vec<String> {
@@ -72,28 +73,16 @@ fn unnamed(sheet: &CellText, (number, line): (u64, &str), options: &ImportOption
     if given.len() == cells.len() {
         return Ok(given.clone());
     }
-    let message = match given.len() {
-        0 => format!("the pressure log has no names of columns; its first row is {}", cells.join(", ")),
-        count => format!("--log-columns names {count} columns, the row has {}: {}", cells.len(), cells.join(", ")),
+    let row = cells.join(", ");
+    let message = match (given.len(), cells.len()) {
+        (0, _) => format!("the pressure log has no names of columns; its first row is {row}"),
+        (count, found) => format!("--log-columns names {count} columns, the row has {found}: {row}"),
     };
-    let known: &[&str] = if cells.len() < 3 { &["t_s", "p_act_kpa"] } else { &["t_s", "p_body_kpa", "p_act_kpa"] };
-    let names: Vec<&str> = (0..cells.len()).map(|k| known.get(k).copied().unwrap_or("-")).collect();
-    let help = format!(
-        "name each of them with its unit, and write - for unused columns, for example --log-columns {}",
-        names.join(",")
-    );
-    Err(sheet.fault(number, message, help))
-}
-
-/// Refuses two readings at one time that differ by more than readings of one hold \[Pa\].
-fn one_reading([before_pa, now_pa]: [f64; 2], options: &ImportOptions) -> std::result::Result<(), [String; 2]> {
-    let gauge_pa = before_pa - options.room_pa.unwrap_or(0.0);
-    if (now_pa - before_pa).abs() > tolerance_act_pa(gauge_pa) {
-        let message = format!("the pressure log has both {:.1} and {:.1} kPa", kpa(before_pa), kpa(now_pa));
-        let help = "delete the wrong row; where the clock is too coarse, export the times with their decimals";
-        return Err([message, help.into()]);
-    }
-    Ok(())
+    let body = (cells.len() > 2).then_some("p_body_kpa");
+    let known = ["t_s"].into_iter().chain(body).chain(["p_act_kpa"]).chain(std::iter::repeat("-"));
+    let names = known.take(cells.len()).collect::<Vec<_>>().join(",");
+    let help = "name each of them with its unit, and write - for unused columns, for example --log-columns";
+    Err(sheet.fault(number, message, format!("{help} {names}")))
 }
 
 impl Log {
@@ -111,45 +100,45 @@ impl Log {
         let roles = Roles::of(sheet, first, &shown, options)?;
         let (time, second) = Log::columns(sheet, first, &shown, &roles)?;
         let values_pa = roles.pressures.map(|column| column.map(|_| Vec::new()));
-        let mut log =
-            Log { file: sheet.file.to_string(), times_s: Vec::new(), values_pa, names, told: plain.told.clone() };
-        log.told.extend(roles.told.iter().cloned());
-        if has_names && !options.log_columns.is_empty() {
-            log.told.push("its columns have names: --log-columns was not used".into());
-        }
+        let unused = "its columns have names: --log-columns was not used";
+        let unused = (has_names && !options.log_columns.is_empty()).then(|| unused.to_string());
+        let told = plain.told.iter().chain(&roles.told).cloned().chain(unused).collect();
+        let mut log = Log { file: sheet.file.to_string(), times_s: Vec::new(), values_pa, names, told };
         let (mut cells, mut midnights) = (Vec::new(), 0.0);
         for (number, line) in lines.into_iter().skip(at) {
             sheet.split_into(line, &mut cells);
             let cell = |index: usize| cells.get(index).copied().unwrap_or_default();
+            let last_s = log.times_s.last().copied().unwrap_or(f64::NEG_INFINITY);
             let mut t_s = midnights + sheet.time(cell(time), second, number, "time")?;
             // A clock begins again at midnight.
-            if cell(time).contains(':') && log.times_s.last().is_some_and(|last| t_s < *last - 0.5 * DAY_S) {
+            if cell(time).contains(':') && t_s < last_s - 0.5 * DAY_S {
                 (midnights, t_s) = (midnights + DAY_S, t_s + DAY_S);
             }
-            if log.times_s.last().is_some_and(|last| t_s < *last) {
-                return Err(sheet.fault(
-                    number,
-                    "the time of the pressure log goes back",
-                    "sort its rows, or give one log per run",
-                ));
+            if t_s < last_s {
+                let help = "sort its rows, or give one log per run";
+                return Err(sheet.fault(number, "the time of the pressure log goes back", help));
             }
-            let at_once = log.times_s.last().is_some_and(|last| t_s - last < SAME_TIME_S);
             log.times_s.push(t_s);
             for (column, values) in roles.pressures.iter().zip(&mut log.values_pa) {
-                if let (Some((index, pa)), Some(values)) = (column, values) {
-                    let pressure_pa = pa * sheet.expect(cell(*index), number, "pressure")?;
-                    // Absolute pressures include the room's.
-                    if pressure_pa.abs() > HIGHEST_GAUGE_PA + ROOM_PA[1] {
-                        let told = Range::ACTUATOR_PRESSURE.check(pressure_pa.abs()).err();
-                        let message = told.map_or(String::new(), |(message, _)| message);
-                        return Err(sheet.fault(number, message, "check the reading and the unit of the column"));
-                    }
-                    if at_once {
-                        one_reading([values[values.len() - 1], pressure_pa], options)
-                            .map_err(|[message, help]| sheet.fault(number, format!("{message} at {t_s} s"), help))?;
-                    }
-                    values.push(pressure_pa);
+                let (Some((index, pa)), Some(values)) = (column, values) else { continue };
+                let now_pa = pa * sheet.expect(cell(*index), number, "pressure")?;
+                // Absolute pressures include the room's.
+                if now_pa.abs() > HIGHEST_GAUGE_PA + ROOM_PA[1] {
+                    let message = Range::ACTUATOR_PRESSURE.mistake(now_pa.abs());
+                    let help = "check the reading and the unit of the column";
+                    return Err(sheet.fault(number, message, help));
                 }
+                let before_pa = values.last().copied().filter(|_| t_s - last_s < SAME_TIME_S);
+                let gauge_pa = before_pa.unwrap_or(now_pa) - options.room_pa.unwrap_or(0.0);
+                // Two readings at one time do not differ by more than readings of one hold.
+                if let Some(before_pa) = before_pa.filter(|p| (now_pa - p).abs() > tolerance_act_pa(gauge_pa)) {
+                    let [before, now] = [before_pa, now_pa].map(kpa);
+                    let message = format!("the pressure log has both {before:.1} and {now:.1} kPa at {t_s} s");
+                    let help =
+                        "delete the wrong row; where the clock is too coarse, export the times with their decimals";
+                    return Err(sheet.fault(number, message, help));
+                }
+                values.push(now_pa);
             }
         }
         if log.times_s.is_empty() {
@@ -159,12 +148,9 @@ impl Log {
     }
 
     pub(super) fn seen(self) -> LogSeen {
-        let [_, act] = self.values_pa;
-        LogSeen { file: self.file, act_pa: act.unwrap_or_else(|| vec![0.0; self.times_s.len()]), times_s: self.times_s }
-    }
-
-    fn longest_gap_s(&self) -> f64 {
-        self.times_s.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
+        let Log { file, times_s, values_pa: [_, act], .. } = self;
+        let act_pa = act.unwrap_or_else(|| vec![0.0; times_s.len()]);
+        LogSeen { file, act_pa, times_s }
     }
 
     /// Puts the log's pressures into the frames of a recording (times in seconds); on a ramp readings are joined by lines.
@@ -176,7 +162,7 @@ impl Log {
             let fault = Box::new(Fault::of_file(video, message, help));
             match tracks(&readings, recording, options) {
                 Some(tracks) => DataError::Clock(fault, Box::new(tracks)),
-                None => DataError::Runs(fault),
+                None => DataError::Content(fault),
             }
         })?;
         let mut told = vec![words];
@@ -184,20 +170,16 @@ impl Log {
         let outside = places.iter().filter(|place| place.is_none()).count();
         if outside == places.len() {
             let range = |times: &[f64]| format!("{:.1} to {:.1} s", times[0], times[times.len() - 1]);
+            let (frames, log, ahead) = (range(&recording.times), range(&self.times_s), clock.offset_s);
             let message = format!(
-                "no frame is within the pressure log: frames are at {}, its clock {} s ahead, and the log is at {}",
-                range(&recording.times),
-                clock.offset_s,
-                range(&self.times_s)
+                "no frame is within the pressure log: frames are at {frames}, its clock {ahead} s ahead, and the log is at {log}"
             );
-            return Err(DataError::runs(
-                &self.file,
-                message,
-                "give --clock-offset: the log's time minus the camera's, or find",
-            ));
+            let help = "give --clock-offset: the log's time minus the camera's, or find";
+            return Err(DataError::of(&self.file, message, help));
         }
         if outside > 0 {
-            told.push(format!("left out: {} outside the pressure log", counted(outside as u64, "frame")));
+            let frames = counted(outside as u64, "frame");
+            told.push(format!("left out: {frames} outside the pressure log"));
         }
         for (which, values) in self.values_pa.iter().enumerate() {
             let Some(values) = values else { continue };
@@ -214,20 +196,21 @@ impl Log {
         Ok(told)
     }
 
-    /// Column of the time and its seconds.
     fn columns(sheet: &CellText, line: u64, names: &[&str], roles: &Roles) -> Result<(usize, f64)> {
-        let (message, help) = match roles.time {
-            Some((time, Some(second))) if roles.pressures.iter().any(Option::is_some) => return Ok((time, second)),
-            Some((_, Some(_))) => ("a pressure", "say which: --map p_act=NAME, and p_body=NAME if there is one"),
-            _ => ("the time", "say which: --map t=NAME (a log counts seconds, not frames)"),
+        let is_pressed = roles.pressures.iter().any(Option::is_some);
+        let (what, help) = match roles.time {
+            Some((time, Some(second))) if is_pressed => return Ok((time, second)),
+            Some((_, Some(_))) => ("a pressure", "p_act=NAME, and p_body=NAME if there is one"),
+            _ => ("the time", "t=NAME (a log counts seconds, not frames)"),
         };
-        let names = names.join(", ");
-        Err(sheet.fault(line, format!("no column of the pressure log is {message}; there are {names}"), help))
+        let message = format!("no column of the pressure log is {what}; there are {}", names.join(", "));
+        Err(sheet.fault(line, message, format!("say which: --map {help}")))
     }
 
     /// The last reading at or before every frame; none before the first, or later after the last than readings are apart.
     fn readings_at(&self, times: &[f64], clock: Clock) -> Vec<Option<usize>> {
-        let end = self.times_s[self.times_s.len() - 1] + self.longest_gap_s().max(SAME_TIME_S);
+        let gaps = self.times_s.windows(2).map(|pair| pair[1] - pair[0]);
+        let end = self.times_s[self.times_s.len() - 1] + gaps.fold(SAME_TIME_S, f64::max);
         let mut next = 0;
         let reading = |t: &f64| {
             let t_s = clock.at(*t);
@@ -241,8 +224,8 @@ impl Log {
 
     fn between(&self, values: &[f64], k: usize, t_s: f64) -> f64 {
         let Some(next) = values.get(k + 1) else { return values[k] };
-        let width = self.times_s[k + 1] - self.times_s[k];
-        let part = if width > 0.0 { ((t_s - self.times_s[k]) / width).clamp(0.0, 1.0) } else { 0.0 };
+        let (gone, width) = (t_s - self.times_s[k], self.times_s[k + 1] - self.times_s[k]);
+        let part = if width > 0.0 { (gone / width).clamp(0.0, 1.0) } else { 0.0 };
         values[k] + part * (next - values[k])
     }
 }

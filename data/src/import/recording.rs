@@ -1,5 +1,6 @@
 //! What a tracking file holds, whatever program wrote it: places of markers over time, in the file's own units and axes.
 
+use crate::cells::Labels;
 use std::collections::HashMap;
 
 /// What the numbers of positions are.
@@ -41,18 +42,19 @@ pub(crate) struct Recording {
     pub told: Vec<String>,
 }
 
-/// A marker that was not seen.
+/// Times above this are stamps since 1970 \[s\].
+const SINCE_1970_S: f64 = 1e9;
+
 pub(crate) const LOST: [f64; 3] = [f64::NAN; 3];
 
 /// Collects observations in any order and makes frames of the observations at one time: the pivot from long to wide.
 #[derive(Debug, Default)]
 pub(crate) struct Pivot {
     pub recording: Recording,
-    numbers: HashMap<String, usize>,
+    markers: Labels,
     frames: HashMap<u64, usize>,
     /// Sum and count of readings in a frame, by pressure.
     readings: [Vec<[f64; 2]>; 2],
-    last_marker: Option<usize>,
     /// Bits of the last time, and its frame.
     last: Option<(u64, usize)>,
 }
@@ -65,20 +67,8 @@ impl Pivot {
 
     /// The number of a marker, new or known.
     pub(super) fn marker(&mut self, name: &str) -> usize {
-        // Markers come in the same order in every frame.
-        let next = self.last_marker.map_or(0, |last| last + 1) % self.recording.markers.len().max(1);
-        if self.recording.markers.get(next).is_some_and(|known| known == name) {
-            self.last_marker = Some(next);
-            return next;
-        }
-        if let Some(&number) = self.numbers.get(name) {
-            self.last_marker = Some(number);
-            return number;
-        }
-        let number = self.recording.markers.len();
-        self.numbers.insert(name.to_string(), number);
-        self.recording.markers.push(name.to_string());
-        self.recording.places.push(Vec::new());
+        let number = self.markers.number(name);
+        self.recording.places.resize_with(self.markers.names.len(), Vec::new);
         number
     }
 
@@ -99,7 +89,7 @@ impl Pivot {
 
     /// Puts a marker; false if it has a place in this frame already. Placeholders are counted.
     pub(super) fn put(&mut self, frame: usize, marker: usize, place: [f64; 3], likely: bool) -> bool {
-        let Recording { places, dropped, twice, markers, times, .. } = &mut self.recording;
+        let Recording { places, dropped, twice, times, .. } = &mut self.recording;
         let zero = place == [0.0; 3];
         let why = [!(place[0].is_finite() && place[1].is_finite()), !likely && !zero, zero];
         if let Some(why) = why.into_iter().position(|is| is) {
@@ -112,7 +102,7 @@ impl Pivot {
         }
         let free = column[frame][0].is_nan();
         if !free && twice.is_none() {
-            *twice = Some((markers[marker].clone(), times[frame]));
+            *twice = Some((self.markers.names[marker].clone(), times[frame]));
         }
         column[frame] = place;
         free
@@ -132,11 +122,15 @@ impl Pivot {
 
     /// Frames by rising time; markers never seen are left out.
     pub(super) fn finish(self) -> Recording {
-        let Pivot { mut recording, readings, .. } = self;
+        let Pivot { mut recording, markers, readings, .. } = self;
+        recording.markers = markers.names;
         let count = recording.times.len();
         recording.places.iter_mut().for_each(|column| column.resize(count, LOST));
         recording.pressures = readings.map(|sums| {
-            let mean = |k: usize| sums.get(k).filter(|sum| sum[1] > 0.0).map_or(f64::NAN, |sum| sum[0] / sum[1]);
+            let mean = |k: usize| match sums.get(k) {
+                Some([sum, count]) if *count > 0.0 => sum / count,
+                _ => f64::NAN,
+            };
             (!sums.is_empty()).then(|| (0..count).map(mean).collect())
         });
         recording.sort();
@@ -174,16 +168,21 @@ impl Recording {
         self.dropped.iter_mut().zip(other.dropped).for_each(|(all, more)| *all += more);
     }
 
-    /// Puts the first frame at 0 s.
+    /// Whether its times are stamps since 1970.
+    pub(super) fn is_stamped(&self) -> bool {
+        self.times.first().is_some_and(|t| *t >= SINCE_1970_S)
+    }
+
     pub(super) fn zeroed(&mut self) {
         let first = self.times.first().copied().unwrap_or(0.0);
         self.times.iter_mut().for_each(|t| *t -= first);
     }
 
     /// Where a marker was in the mean over some frames in which it was seen.
-    pub(crate) fn mean_place(&self, marker: usize, frames: impl Iterator<Item = usize>) -> Option<[f64; 3]> {
+    pub(crate) fn mean_place(&self, marker: usize, frames: &[usize]) -> Option<[f64; 3]> {
         let (mut sum, mut count) = ([0.0; 3], 0.0);
-        for place in frames.map(|frame| self.places[marker][frame]).filter(|place| place[0].is_finite()) {
+        let places = frames.iter().map(|frame| self.places[marker][*frame]);
+        for place in places.filter(|place| place[0].is_finite()) {
             (0..3).for_each(|axis| sum[axis] += place[axis]);
             count += 1.0;
         }

@@ -1,25 +1,15 @@
 //! Topics of ROS as `rostopic echo -p` prints them: stamps in nanoseconds since 1970, and places in metres.
 
-use super::format::Format;
-use super::layout::{Layout, PARTS};
-use super::options::ImportOptions;
-use super::recording::{Lengths, Recording};
-use super::sheet::CellText;
-use crate::error::Result;
+use super::format::*;
 
 pub(super) const FORMAT: Format = Format {
     name: "ROS (topic print)",
     known_by: "columns %time and field.NAME.x",
     fixture: "cases/c25-ros-echo/all_markers.csv",
     likelihood: None,
-    recognise: |_, head, _| head.first().is_some_and(|row| is_topic(row[0])),
+    recognise: |begin| begin.first() == "%time" || begin.first().starts_with("field."),
     read,
 };
-
-/// Whether the first column belongs to a topic.
-pub(super) fn is_topic(name: &str) -> bool {
-    name == "%time" || name.starts_with("field.")
-}
 
 /// The column of the time: of the message, else of its arrival.
 pub(super) fn stamp(names: &[&str]) -> usize {
@@ -33,15 +23,16 @@ const NO_PLACE: [&str; 5] = ["orientation", "rotation", "linear", "angular", "si
 
 fn read(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     let names = sheet.head(1).pop().unwrap_or_default();
-    let mut layout = Layout::new(stamp(&names), Some(1.0), Lengths::Metres(1.0));
+    let mut layout = Layout::new(1, stamp(&names), Some(1.0), Lengths::Metres(1.0));
     layout.width = Some(names.len());
-    for (column, name) in names.iter().enumerate() {
+    let columns = names.iter().enumerate().filter_map(|(column, name)| {
         let mut words: Vec<&str> = name.split('.').collect();
-        let part = PARTS[..3].iter().position(|part| words.last() == Some(part));
-        let Some(part) = part.filter(|_| !words.iter().any(|word| NO_PLACE.contains(word))) else { continue };
+        let axis = PARTS[..LIKELIHOOD].iter().position(|part| words.last() == Some(part))?;
         words.pop();
+        let is_place = !words.iter().any(|word| NO_PLACE.contains(word));
         words.retain(|word| !FRAME.contains(word));
-        layout.add(sheet, 1, &words.join("_"), part, column)?;
-    }
-    layout.read(sheet, 1, 2, sheet.lines().skip(1))
+        is_place.then(|| (column, words.join("_"), axis))
+    });
+    layout.columns(sheet, columns)?;
+    layout.read(sheet, 2, sheet.lines().skip(1))
 }

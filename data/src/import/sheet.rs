@@ -1,7 +1,7 @@
 //! A text of cells whatever its dialect: separator, decimal sign and line ends are found, not asked for.
 
 use crate::cells::{Decimals, clock_s, day_s, is_nothing, with_comma};
-use crate::error::{DataError, Fault, Result};
+use crate::error::{DataError, Result};
 use crate::lines::Line;
 use spelling::units::Range;
 
@@ -22,16 +22,15 @@ pub(crate) struct CellText<'a> {
 }
 
 impl<'a> CellText<'a> {
-    /// Finds the dialect of a text.
     pub(crate) fn new(file: &'a str, text: &'a str) -> Result<CellText<'a>> {
         if text.contains('\0') {
-            let (message, help) = ("the file is not text", "export it as text: CSV, TXT or XML");
-            return Err(DataError::layout(file, message, help));
+            let help = "export it as text: CSV, TXT or XML";
+            return Err(DataError::of(file, "the file is not text", help));
         }
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let said = text.lines().next().and_then(|line| line.trim().strip_prefix("sep="));
-        let named = said.and_then(|sign| sign.chars().next());
-        let text = if named.is_some() { text.split_once('\n').map_or("", |(_, rest)| rest) } else { text };
+        let (first, rest) = text.split_once('\n').unwrap_or((text, ""));
+        let named = first.trim().strip_prefix("sep=").and_then(|sign| sign.chars().next());
+        let text = if named.is_some() { rest } else { text };
         let delimiter = named.unwrap_or_else(|| delimiter(text));
         let mut sheet = CellText { file, text, delimiter, comma: false, before: u64::from(named.is_some()) };
         sheet.comma = delimiter != ',' && sheet.has_decimal_comma()?;
@@ -103,40 +102,37 @@ impl<'a> CellText<'a> {
             return Ok(());
         }
         let message = format!("the row has {} cells, the header {names}", cells.len());
-        Err(self.fault(number, message, "export it again, or complete or delete the row"))
+        let help = "export it again, or complete or delete the row";
+        Err(self.fault(number, message, help))
     }
 
     /// Seconds of a number of `second` each, a clock time, or a number of seconds with its unit (`1 sec`). Larger numbers than a time can
     /// be are milli-, micro- or nanoseconds since 1970.
     pub(crate) fn time(&self, text: &str, second: f64, number: u64, column: &str) -> Result<f64> {
-        let plain = || ["seconds", "secs", "sec", "s"].iter().find_map(|unit| text.strip_suffix(unit));
         let finite = |text: &str| self.number(text).filter(|t| t.is_finite());
+        let plain = || ["seconds", "secs", "sec", "s"].iter().find_map(|unit| text.strip_suffix(unit));
         let counted = finite(text).map(|t| second * t);
         let found = counted.or_else(|| finite(plain()?.trim())).or_else(|| clock_s(text)).or_else(|| day_s(text));
         let help = "a time is a number, or hours:minutes:seconds, with a date before it or without";
         let t = found.ok_or_else(|| self.bad_cell(text, number, column, help))?;
-        let since_1970 =
-            [1.0, 1e-3, 1e-6, 1e-9].map(|unit| unit * t).into_iter().find(|t| Range::TIME.check(t.abs()).is_ok());
-        Ok(since_1970.unwrap_or(t))
+        let mut since_1970 = [1.0, 1e-3, 1e-6, 1e-9].into_iter().map(|unit| unit * t);
+        Ok(since_1970.find(|t| Range::TIME.contains(t.abs())).unwrap_or(t))
     }
 
     fn bad_cell(&self, text: &str, number: u64, column: &str, help: &str) -> DataError {
-        let mut fault = Fault::of_file(self.file, format!("expected a number, found \"{text}\""), help).at_line(number);
-        fault.location.column_name = Some(column.to_string());
-        fault.location.cell = Some(text.to_string());
-        DataError::Cell(Box::new(fault))
+        self.fault(number, format!("expected a number, found \"{text}\""), help).in_column(column, Some(text))
     }
 
     /// A fault of a line, or of the whole file for line 0.
     pub(crate) fn fault(&self, number: u64, message: impl Into<String>, help: impl Into<String>) -> DataError {
-        DataError::Layout(Box::new(Fault::of_file(self.file, message, help).at_line(number)))
+        DataError::of(self.file, message, help).at_line(number)
     }
 
     fn has_decimal_comma(&self) -> Result<bool> {
         let mut decimals = Decimals::default();
         for (number, text) in self.lines().take(LOOKED_AT) {
             let line = Line { file: self.file, number, start: 0, text, ended: true };
-            for cell in self.split(text).into_iter().filter(|cell| cell.contains(',') && with_comma(cell).is_some()) {
+            for cell in self.split(text).into_iter().filter(|cell| with_comma(cell).is_some()) {
                 decimals.number(cell, true, &line)?;
             }
         }

@@ -12,7 +12,6 @@ use crate::units::{kpa, mm};
 /// Rows of a hold and marker; consecutive frames are averaged where there are more.
 const MOST_ROWS: usize = 20;
 
-/// The table of runs with their holds.
 pub(crate) fn markers_csv(
     runs: &[(PressedRun, Vec<Kept>)],
     markers: &[String],
@@ -35,21 +34,15 @@ pub(crate) fn markers_csv(
 fn add_rows(text: &mut String, run: &PressedRun, frames: &[usize], phase: Phase, markers: &[String], actuator: &str) {
     let mean = |values: &[f64]| frames.iter().map(|frame| values[*frame]).sum::<f64>() / frames.len() as f64;
     let [body, act] = [0, 1].map(|which| kpa(mean(&run.pressures_pa[which])));
-    let state = format!(
-        "{},{},{:.4},{body:.4},{act:.4},{}",
-        quoted(&run.label),
-        quoted(actuator),
-        mean(&run.times_s),
-        phase.word()
-    );
+    let (label, actuator, t, phase) = (quoted(&run.label), quoted(actuator), mean(&run.times_s), phase.word());
     for (marker, column) in markers.iter().zip(&run.xy_m) {
-        let seen: Vec<[f64; 2]> =
-            frames.iter().map(|frame| column[*frame]).filter(|place| place[0].is_finite()).collect();
-        let over =
-            |axis: usize| format!("{:.4}", mm(seen.iter().map(|place| place[axis]).sum::<f64>() / seen.len() as f64));
-        let [x, y] = if seen.is_empty() { [String::new(), String::new()] } else { [over(0), over(1)] };
+        let places = frames.iter().map(|frame| column[*frame]);
+        let seen: Vec<[f64; 2]> = places.filter(|place| place[0].is_finite()).collect();
+        let mean_mm = |axis: usize| mm(seen.iter().map(|place| place[axis]).sum::<f64>() / seen.len() as f64);
+        let place = if seen.is_empty() { ",".into() } else { format!("{:.4},{:.4}", mean_mm(0), mean_mm(1)) };
+        let marker = quoted(marker);
         // Writing into a String cannot fail.
-        let _ = writeln!(text, "{state},{},{x},{y}", quoted(marker));
+        let _ = writeln!(text, "{label},{actuator},{t:.4},{body:.4},{act:.4},{phase},{marker},{place}");
     }
 }
 
@@ -80,22 +73,22 @@ pub(crate) fn about_toml(
     told: &[String],
 ) -> String {
     let string = |value: &str| toml::Value::from(value).to_string();
-    let list = |values: Vec<String>| values.join(", ");
-    let names = list(markers.iter().map(|(name, ..)| string(name)).collect());
-    let stations = list(markers.iter().map(|(_, s, _)| format!("{:?}", mm(*s).round())).collect());
-    let estimated = markers.iter().any(|(.., given)| !given);
-    let question = if estimated {
-        "   # QUESTION: estimated from the robot at rest; measure them along the undeformed body"
-    } else {
-        ""
+    let names = markers.iter().map(|(name, ..)| string(name)).collect::<Vec<_>>().join(", ");
+    let stations = markers.iter().map(|(_, s, _)| format!("{:?}", mm(*s).round())).collect::<Vec<_>>().join(", ");
+    let question = match markers.iter().all(|(.., given)| *given) {
+        true => "",
+        false => "   # QUESTION: estimated from the robot at rest; measure them along the undeformed body",
     };
+    let title = string(&format!("Imported from {}", files.first().map_or("", String::as_str)));
+    let source = string(&format!("{program}: {}", files.join(", ")));
+    let actuator = string(actuator);
     let mut text = format!(
         "# Half filled by `ibr data import`. Answer the QUESTIONs, then delete them; `ibr data check` reads the rest.\n\
-         title = {}\n\
+         title = {title}\n\
          provenance = \"measured\"\n\
-         source = {}   # QUESTION: which laboratory, bench and camera?\n\
+         source = {source}   # QUESTION: which laboratory, bench and camera?\n\
          licence = \"not stated\"   # QUESTION: under which terms may others use these data?\n\
-         actuator = {}\n\n\
+         actuator = {actuator}\n\n\
          # QUESTION: how large is the robot? Fill in and take off the #.\n\
          # [geometry]\n# body_radius_mm = 40\n# body_length_mm = 360\n# pouch_length_mm = 60\n# pouch_width_mm = 60\n# pouches = 6\n\n\
          [markers]\nnames = [{names}]\ns_mm = [{stations}]{question}\n\n\
@@ -103,10 +96,7 @@ pub(crate) fn about_toml(
          # [gravity]\n# direction = [0, -1]\n\n\
          # QUESTION: was p_act read by a gauge at the actuator? Were positions taken from fiducials on the clamp?\n\
          # [direct]\n# pressure = true\n# frame = true\n\n\
-         # What the import assumed:\n",
-        string(&format!("Imported from {}", files.first().map_or("", String::as_str))),
-        string(&format!("{program}: {}", files.join(", "))),
-        string(actuator),
+         # What the import assumed:\n"
     );
     told.iter().for_each(|line| text.push_str(&format!("# - {}\n", line.replace(['\n', '\r'], " "))));
     text
@@ -121,19 +111,19 @@ pub(crate) fn stations(
     markers: &[String],
     options: &ImportOptions,
 ) -> Vec<(String, f64, bool)> {
+    let of_run = |marker: usize, (run, holds): &(PressedRun, Vec<Kept>)| {
+        let rest = holds.iter().min_by(|a, b| a.act_pa.total_cmp(&b.act_pa))?;
+        let along = rest.frames.iter().map(|frame| run.xy_m[marker][*frame][0]);
+        let seen: Vec<f64> = along.filter(|x| x.is_finite()).collect();
+        (!seen.is_empty()).then(|| seen.iter().sum::<f64>() / seen.len() as f64)
+    };
     let estimate = |marker: usize| {
-        let of_run = |(run, holds): &(PressedRun, Vec<Kept>)| {
-            let rest = holds.iter().min_by(|a, b| a.act_pa.total_cmp(&b.act_pa))?;
-            let seen: Vec<f64> =
-                rest.frames.iter().map(|frame| run.xy_m[marker][*frame][0]).filter(|x| x.is_finite()).collect();
-            (!seen.is_empty()).then(|| seen.iter().sum::<f64>() / seen.len() as f64)
-        };
-        let found: Vec<f64> = runs.iter().filter_map(of_run).collect();
+        let found: Vec<f64> = runs.iter().filter_map(|run| of_run(marker, run)).collect();
         (found.iter().sum::<f64>() / found.len().max(1) as f64).max(LEAST_STATION_M)
     };
-    let given = |name: &String| options.stations_m.iter().find(|(known, _)| known == name).map(|(_, s)| *s);
     let station = |(marker, name): (usize, &String)| {
-        (name.clone(), given(name).unwrap_or_else(|| estimate(marker)), given(name).is_some())
+        let given = options.station_m(name);
+        (name.clone(), given.unwrap_or_else(|| estimate(marker)), given.is_some())
     };
     markers.iter().enumerate().map(station).collect()
 }

@@ -1,20 +1,13 @@
 //! Tables whose names no program fixes: this program's own, other people's, and Kinovea's kinematics.
 
-use super::columns::{ColumnName, Roles};
-use super::deeplabcut::LIKELIHOOD;
-use super::format::Format;
-use super::layout::{self, Layout};
-use super::options::ImportOptions;
-use super::recording::{Lengths, Recording};
-use super::sheet::CellText;
-use crate::error::Result;
+use super::format::*;
 
 pub(super) const LONG: Format = Format {
     name: "a long table",
     known_by: "columns of time, marker, x and y",
     fixture: "made/long_foreign.tsv",
-    likelihood: Some(LIKELIHOOD),
-    recognise: |sheet, head, options| of_roles(sheet, head, options, |roles| roles.marker.is_some()),
+    likelihood: Some(NOT_SEEN),
+    recognise: |begin| of_roles(begin).is_some_and(|roles| roles.marker.is_some()),
     read: long,
 };
 
@@ -22,8 +15,8 @@ pub(super) const WIDE: Format = Format {
     name: "a wide table",
     known_by: "a time and columns like x1, y1, x2, y2",
     fixture: "made/wide_pixels.csv",
-    likelihood: Some(LIKELIHOOD),
-    recognise: |sheet, head, options| of_roles(sheet, head, options, |_| true),
+    likelihood: Some(NOT_SEEN),
+    recognise: |begin| of_roles(begin).is_some(),
     read: wide,
 };
 
@@ -32,9 +25,9 @@ pub(super) const KINEMATICS: Format = Format {
     known_by: "columns Time (ms) and NAME - X (cm)",
     fixture: "made/kinovea_seconds.csv",
     likelihood: None,
-    recognise: |_, head, _| {
+    recognise: |begin| {
         let is_x = |name: &str| name.contains(" - X") || name.contains("/X");
-        head.first().is_some_and(|row| ColumnName::of(row[0]).is("time") && row.iter().any(|name| is_x(name)))
+        ColumnName::of(begin.first()).is("time") && begin.any(is_x)
     },
     read: wide,
 };
@@ -43,10 +36,8 @@ pub(super) const ANIPOSE: Format = Format {
     name: "Anipose (3D)",
     known_by: "columns fnum and NAME_x, NAME_ncams",
     fixture: "made/anipose.csv",
-    likelihood: Some(LIKELIHOOD),
-    recognise: |_, head, _| {
-        head.first().is_some_and(|row| row.contains(&"fnum") && row.iter().any(|name| name.ends_with("_ncams")))
-    },
+    likelihood: Some(NOT_SEEN),
+    recognise: |begin| begin.has(&["fnum"]) && begin.any(|name| name.ends_with("_ncams")),
     read: wide,
 };
 
@@ -55,71 +46,72 @@ pub(super) const TRACKPY: Format = Format {
     known_by: "columns frame, particle, mass, x and y",
     fixture: "made/trackpy.csv",
     likelihood: None,
-    recognise: |_, head, _| {
-        head.first().is_some_and(|row| ["frame", "particle", "mass", "x", "y"].iter().all(|name| row.contains(name)))
-    },
+    recognise: |begin| begin.has(&["frame", "particle", "mass", "x", "y"]),
     read: trackpy,
 };
 
-fn of_roles(sheet: &CellText, head: &[Vec<&str>], options: &ImportOptions, also: fn(&Roles) -> bool) -> bool {
-    let roles = head.first().and_then(|header| Roles::of(sheet, 1, header, options).ok());
-    roles.is_some_and(|roles| roles.time.is_some() && roles.coordinates.len() >= 2 && also(&roles))
+/// What the columns of a table with a time and coordinates are.
+fn of_roles(begin: &Beginning) -> Option<Roles> {
+    let roles = Roles::of(begin.sheet, 1, begin.head.first()?, begin.options).ok()?;
+    Some(roles).filter(|roles| roles.time.is_some() && roles.units.len() >= 2)
 }
 
-/// A row for every time and marker.
 fn long(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> {
-    long_of(sheet, begin(sheet, options)?)
+    let (roles, layout) = begin(sheet, options)?;
+    long_of(sheet, &roles, layout)
 }
 
 /// The same in pixels; particles have numbers.
 fn trackpy(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> {
-    let (first, roles, mut layout) = begin(sheet, options)?;
+    let (roles, mut layout) = begin(sheet, options)?;
     (layout.lengths, layout.named) = (Lengths::Pixels, false);
-    long_of(sheet, (first, roles, layout))
+    long_of(sheet, &roles, layout)
 }
 
-fn long_of(sheet: &CellText, (first, roles, mut layout): (u64, Roles, Layout)) -> Result<Vec<Recording>> {
+fn long_of(sheet: &CellText, roles: &Roles, mut layout: Layout) -> Result<Vec<Recording>> {
     layout.marker = roles.marker;
-    for axis in 0..3 {
-        let column = roles.coordinates.iter().find(|(_, known, ..)| *known == axis);
-        column.map_or(Ok(()), |(column, ..)| layout.add(sheet, first, "", axis, *column))?;
+    let of_part = |part: usize| roles.columns.iter().filter(move |column| column.2 == part);
+    let first = |axis: usize| Some((of_part(axis).next()?.0, "", axis));
+    if first(0).is_none() || first(1).is_none() {
+        let help = "say which: --map x=PosX,y=PosY";
+        return Err(sheet.fault(layout.line, "no columns of x and y", help));
     }
-    if ![0, 1].iter().all(|axis| roles.coordinates.iter().any(|(_, known, ..)| known == axis)) {
-        return Err(sheet.fault(first, "no columns of x and y", "say which: --map x=PosX,y=PosY"));
-    }
-    roles.likelihoods.iter().try_for_each(|(column, ..)| layout.add(sheet, first, "", layout::LIKELIHOOD, *column))?;
-    layout.y_down = roles.coordinates.iter().any(|(_, axis, name, _)| *axis == 1 && name == "down");
+    layout.columns(sheet, (0..LIKELIHOOD).filter_map(first))?;
+    layout.columns(sheet, of_part(LIKELIHOOD).map(|column| (column.0, "", LIKELIHOOD)))?;
+    layout.y_down = of_part(1).any(|(_, name, _)| name == "down");
     layout.twice = Some("name the column that identifies the run: --map run=Trial");
-    layout.read(sheet, first, 2, sheet.lines().skip(1))
+    layout.read(sheet, 2, sheet.lines().skip(1))
 }
 
 /// A row for every time and two columns or three for every marker: `t, x1, y1, x2, y2, …`.
 fn wide(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>> {
-    let (first, roles, mut layout) = begin(sheet, options)?;
-    roles.coordinates.iter().try_for_each(|(column, axis, name, _)| layout.add(sheet, first, name, *axis, *column))?;
-    let has = |marker: &String| roles.coordinates.iter().any(|(_, _, known, _)| known == marker);
-    let mut likelihoods = roles.likelihoods.iter().filter(|(_, marker, _)| has(marker));
-    likelihoods.try_for_each(|(column, name, _)| layout.add(sheet, first, name, layout::LIKELIHOOD, *column))?;
+    let (roles, mut layout) = begin(sheet, options)?;
+    let (mut likelihoods, places): (Vec<_>, Vec<_>) =
+        roles.columns.into_iter().partition(|(.., part)| *part == LIKELIHOOD);
+    likelihoods.retain(|(_, name, _)| places.iter().any(|(_, known, _)| known == name));
+    layout.columns(sheet, places.into_iter().chain(likelihoods))?;
     layout.rises = true;
-    layout.read(sheet, first, 2, sheet.lines().skip(1))
+    layout.read(sheet, 2, sheet.lines().skip(1))
 }
 
-/// The header of a table, and what both kinds have.
-fn begin(sheet: &CellText, options: &ImportOptions) -> Result<(u64, Roles, Layout)> {
+/// Note of an import whose files have no likelihood.
+pub(super) const NOT_USED: &str = "the files have no likelihood: --likelihood was not used";
+
+/// What the columns of a table are, and what both kinds have.
+fn begin(sheet: &CellText, options: &ImportOptions) -> Result<(Roles, Layout)> {
     let (first, header) = sheet.lines().next().unwrap_or_default();
     let roles = Roles::of(sheet, first, &sheet.split(header), options)?;
     let Some((time, second)) = roles.time else {
-        return Err(sheet.fault(first, "no column is the time", "say which: --map t=Time, or frame=Frame"));
+        let help = "say which: --map t=Time, or frame=Frame";
+        return Err(sheet.fault(first, "no column is the time", help));
     };
-    let mut layout = Layout::new(time, second, roles.lengths(sheet, first)?);
+    let mut layout = Layout::new(first, time, second, roles.lengths(sheet, first)?);
     (layout.run, layout.actuator, layout.pressures) = (roles.run, roles.actuator, roles.pressures);
     layout.told.clone_from(&roles.told);
-    if let Some(most) = roles.likelihoods.iter().map(|(.., most)| *most).reduce(f64::max) {
-        let limit = options.likelihood.unwrap_or(LIKELIHOOD);
-        layout.likely = [limit, most];
-        layout.told.push(format!("positions less likely than {limit} are lost markers (--likelihood)"));
+    if let Some(most) = roles.most_likely {
+        layout.unlikely(options, NOT_SEEN, most, "less likely than");
     } else if options.likelihood.is_some() {
-        layout.told.push("the files have no likelihood: --likelihood was not used".to_string());
+        layout.told.push(NOT_USED.to_string());
     }
-    Ok((first, roles, layout))
+    Ok((roles, layout))
 }

@@ -1,20 +1,13 @@
 //! Tracker (physlets.org): a row with the names of the tracks, a row `t, x, y, …`, then a row for every step.
 
-use super::columns::{ColumnName, lengths, si};
-use super::format::Format;
-use super::layout::Layout;
-use super::options::ImportOptions;
-use super::recording::{Lengths, Recording};
-use super::sheet::CellText;
-use crate::error::Result;
-use crate::units::Measured;
+use super::format::*;
 
 pub(super) const FORMAT: Format = Format {
     name: "Tracker (physlets.org)",
     known_by: "a row of track names, then a row t, x, y",
     fixture: "made/tracker_multi.txt",
     likelihood: None,
-    recognise: |_, head, _| rows(head).is_some(),
+    recognise: |begin| rows(&begin.head).is_some(),
     read,
 };
 
@@ -33,22 +26,22 @@ fn read(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
     let head = sheet.head(3);
     let first = rows(&head).unwrap_or_default();
     let columns: Vec<ColumnName> = head[first + 1].iter().map(|cell| ColumnName::of(cell)).collect();
-    let unit = columns.iter().find(|name| name.is("x")).and_then(|name| name.unit.clone());
+    let unit = columns.iter().find(|name| name.is("x")).and_then(|name| name.unit.as_deref());
     let second = columns[0].unit.as_deref().and_then(|unit| si(unit, Measured::Time)).unwrap_or(1.0);
-    let lengths = unit.and_then(|unit| lengths(&unit)).unwrap_or(Lengths::Unsaid);
-    let mut layout = Layout::new(0, Some(second), lengths);
-    // A track begins where x comes again.
+    let mut layout = Layout::new(2, 0, Some(second), unit.and_then(lengths).unwrap_or(Lengths::Unsaid));
     let names: Vec<&str> = head[first].iter().copied().filter(|name| !name.is_empty()).collect();
     let pairs = columns.iter().filter(|name| name.is("x")).count();
     if names.len() != pairs {
         let message = format!("{} names stand above {pairs} pairs of x and y", names.len());
         return Err(sheet.fault(1, message, "export the tracks again with names, x and y"));
     }
-    let mut track = 0;
-    for (index, name) in columns.iter().enumerate() {
-        track += usize::from(name.is("x"));
-        let part = ["x", "y"].iter().position(|axis| name.is(axis)).filter(|_| track > 0);
-        part.map_or(Ok(()), |part| layout.add(sheet, 2, names[track - 1], part, index))?;
-    }
-    layout.read(sheet, 2, 2, sheet.lines().skip(first + 2))
+    // A track begins where x comes again.
+    let mut begun = 0;
+    let of_track = columns.iter().enumerate().filter_map(|(index, name)| {
+        begun += usize::from(name.is("x"));
+        let axis = ["x", "y"].iter().position(|axis| name.is(axis))?;
+        Some((index, *names.get(begun.checked_sub(1)?)?, axis))
+    });
+    layout.columns(sheet, of_track)?;
+    layout.read(sheet, 2, sheet.lines().skip(first + 2))
 }

@@ -2,21 +2,14 @@
 
 use std::collections::HashMap;
 
-use super::columns::{ColumnName, is_frame, lengths, si};
-use super::format::Format;
-use super::layout::Layout;
-use super::options::ImportOptions;
-use super::recording::{Lengths, Pivot, Recording, counted};
-use super::sheet::CellText;
-use crate::error::Result;
-use crate::units::Measured;
+use super::format::*;
 
 pub(super) const SPOTS: Format = Format {
     name: "TrackMate, spots",
     known_by: "columns TRACK_ID and POSITION_X",
     fixture: "made/trackmate_spots.csv",
     likelihood: None,
-    recognise: |_, head, _| head.first().is_some_and(|row| row.contains(&"TRACK_ID") && row.contains(&"POSITION_X")),
+    recognise: |begin| begin.has(&["TRACK_ID", "POSITION_X"]),
     read: spots,
 };
 
@@ -25,37 +18,33 @@ pub(super) const XML: Format = Format {
     known_by: "a <TrackMate> or <Tracks> element",
     fixture: "made/trackmate_tracks.xml",
     likelihood: None,
-    recognise: |sheet, _, _| tags(sheet.text).take(4).any(|tag| matches!(tag.name, "TrackMate" | "Tracks")),
+    recognise: |begin| tags(begin.sheet.text).take(4).any(|tag| matches!(tag.name, "TrackMate" | "Tracks")),
     read: xml,
 };
 
-fn spots(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
+/// Where a spot has its place.
+const PLACES: [&str; 3] = ["POSITION_X", "POSITION_Y", "POSITION_Z"];
+
+fn spots<'s>(sheet: &CellText<'s>, _options: &ImportOptions) -> Result<Vec<Recording>> {
     let header = sheet.head(1).pop().unwrap_or_default();
     let column = |name: &str| header.iter().position(|known| *known == name);
-    let [track, x, y, z, t, frame] =
-        ["TRACK_ID", "POSITION_X", "POSITION_Y", "POSITION_Z", "POSITION_T", "FRAME"].map(column);
+    let [track, t, frame] = ["TRACK_ID", "POSITION_T", "FRAME"].map(column);
+    let places = PLACES.map(column);
+    let [x, ..] = places;
     // Up to three more rows of names and units.
-    let cell = |cells: &[&str], index: Option<usize>| -> String {
-        index.and_then(|index| cells.get(index)).map_or(String::new(), ToString::to_string)
-    };
-    let is_head = |line: &str| sheet.number(&cell(&sheet.split(line), x)).is_none();
-    let heads: Vec<Vec<&str>> = sheet
-        .lines()
-        .skip(1)
-        .map(|(_, line)| line)
-        .take_while(|line| is_head(line))
-        .map(|line| sheet.split(line))
-        .collect();
-    let unit = |index| heads.iter().rev().find_map(|cells| ColumnName::of(&format!("x {}", cell(cells, index))).unit);
+    let cell = |line: &'s str, index: Option<usize>| index.and_then(|index| sheet.split(line).get(index).copied());
+    let is_head = |line: &&'s str| sheet.number(cell(line, x).unwrap_or_default()).is_none();
+    let heads: Vec<&str> = sheet.lines().skip(1).map(|(_, line)| line).take_while(is_head).collect();
+    let unit_in = |line: &'s str, index| ColumnName::of(&format!("x {}", cell(line, index).unwrap_or_default())).unit;
+    let unit = |index| heads.iter().rev().find_map(|line| unit_in(line, index));
     let second = unit(t).filter(|unit| !is_frame(unit)).and_then(|unit| si(&unit, Measured::Time));
     let time = if second.is_some() { t } else { frame.or(t) };
     let lengths = unit(x).and_then(|unit| lengths(&unit)).unwrap_or(Lengths::Pixels);
-    let mut layout = Layout::new(time.unwrap_or_default(), second, lengths);
+    let mut layout = Layout::new(1, time.unwrap_or_default(), second, lengths);
     (layout.marker, layout.named, layout.row_of) = (track, false, ["spot", "track"]);
-    for (part, index) in [x, y, z].into_iter().enumerate() {
-        index.map_or(Ok(()), |index| layout.add(sheet, 1, "", part, index))?;
-    }
-    layout.read(sheet, 1, 2, sheet.lines().skip(1 + heads.len()))
+    let places = places.into_iter().enumerate().filter_map(|(part, index)| Some((index?, "", part)));
+    layout.columns(sheet, places)?;
+    layout.read(sheet, 2, sheet.lines().skip(1 + heads.len()))
 }
 
 /// One XML element as far as it is needed here.
@@ -68,9 +57,9 @@ impl<'a> Tag<'a> {
     fn get(&self, key: &str) -> Option<&'a str> {
         let mut rest = self.attributes;
         while let Some((before, after)) = rest.split_once('=') {
-            let quote = after.trim_start().chars().next().filter(|c| matches!(c, '"' | '\''))?;
-            let inside = &after.trim_start()[1..];
-            let (value, tail) = inside.split_once(quote)?;
+            let after = after.trim_start();
+            let quote = after.chars().next().filter(|c| matches!(c, '"' | '\''))?;
+            let (value, tail) = after[1..].split_once(quote)?;
             if before.trim() == key {
                 return Some(value);
             }
@@ -86,22 +75,29 @@ impl<'a> Tag<'a> {
 
 fn tags(text: &str) -> impl Iterator<Item = Tag<'_>> {
     text.split('<').skip(1).filter_map(|part| {
-        let inside = part.split_once('>').map_or(part, |(inside, _)| inside).trim_end_matches('/');
-        let (name, attributes) = inside.split_once(|c: char| c.is_ascii_whitespace()).unwrap_or((inside, ""));
-        name.starts_with(|c: char| c.is_ascii_alphabetic()).then_some(Tag { name, attributes })
+        let inside = part.split('>').next()?.trim_end_matches('/');
+        let space = inside.find(|c: char| c.is_ascii_whitespace()).unwrap_or(inside.len());
+        let (name, attributes) = inside.split_at(space);
+        let is_tag = name.starts_with(|c: char| c.is_ascii_alphabetic());
+        is_tag.then_some(Tag { name, attributes })
     })
 }
 
 fn xml(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>> {
-    let said = |key: &str| tags(sheet.text).take(8).find_map(|tag| tag.get(key));
-    let unit = said("spaceUnits").or_else(|| said("spatialunits")).and_then(|unit| lengths(&unit.to_lowercase()));
-    let time = said("timeUnits").or_else(|| said("timeunits")).map(str::to_lowercase).unwrap_or_default();
+    let said = |keys: [&str; 2]| {
+        let of = |key: &str| tags(sheet.text).take(8).find_map(|tag| tag.get(key));
+        of(keys[0]).or_else(|| of(keys[1])).map(str::to_lowercase)
+    };
+    let unit = said(["spaceUnits", "spatialunits"]).and_then(|unit| lengths(&unit));
+    let time = said(["timeUnits", "timeunits"]).unwrap_or_default();
     let second = si(&time, Measured::Time).filter(|_| !is_frame(&time));
     let mut pivot = Pivot::new(unit.unwrap_or(Lengths::Pixels), second.is_some());
     let exported = tags(sheet.text).any(|tag| tag.name == "particle");
-    let single = if exported { detections(sheet, second, &mut pivot)? } else { model(sheet, second, &mut pivot)? };
+    let read = if exported { detections } else { model };
+    let single = read(sheet, second, &mut pivot)?;
     if single > 0 {
-        pivot.recording.told.push(format!("left out: {} of no track", counted(single, "spot")));
+        let spots = counted(single, "spot");
+        pivot.recording.told.push(format!("left out: {spots} of no track"));
     }
     pivot.recording.named = false;
     Ok(vec![pivot.finish()])
@@ -122,7 +118,8 @@ fn detections(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Resul
             "detection" => {
                 let time = tag.number("t").map(|t| t * step);
                 let what = || format!("a detection of track {track}");
-                put(sheet, pivot, (time, &track.to_string()), ["x", "y", "z"].map(|axis| tag.number(axis)), what)?;
+                let place = ["x", "y", "z"].map(|axis| tag.number(axis));
+                put(sheet, pivot, (time, &track.to_string()), place, what)?;
             }
             _ => {}
         }
@@ -138,11 +135,11 @@ fn model(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<u64
         match tag.name {
             "Track" => {
                 count += 1;
-                track = tag.get("name").map_or_else(|| count.to_string(), str::to_string);
+                track = tag.get("name").map_or(count.to_string(), str::to_string);
             }
             "Edge" => {
-                let ends = ["SPOT_SOURCE_ID", "SPOT_TARGET_ID"].into_iter().filter_map(|key| tag.get(key));
-                ends.for_each(|spot| drop(track_of.insert(spot, track.clone())));
+                let ends = ["SPOT_SOURCE_ID", "SPOT_TARGET_ID"].map(|key| tag.get(key));
+                track_of.extend(ends.into_iter().flatten().map(|spot| (spot, track.clone())));
             }
             _ => {}
         }
@@ -153,9 +150,13 @@ fn model(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<u64
             single += 1;
             continue;
         };
-        let time = second.map_or_else(|| tag.number("FRAME"), |second| tag.number("POSITION_T").map(|t| t * second));
-        let place = ["POSITION_X", "POSITION_Y", "POSITION_Z"].map(|axis| tag.number(axis));
-        put(sheet, pivot, (time, track), place, || format!("spot {}", tag.get("ID").unwrap_or_default()))?;
+        let time = match second {
+            Some(second) => tag.number("POSITION_T").map(|t| t * second),
+            None => tag.number("FRAME"),
+        };
+        let place = PLACES.map(|axis| tag.number(axis));
+        let what = || format!("spot {}", tag.get("ID").unwrap_or_default());
+        put(sheet, pivot, (time, track), place, what)?;
     }
     Ok(single)
 }

@@ -11,11 +11,10 @@ impl FromStr for FilePlace {
     type Err = std::convert::Infallible;
 
     fn from_str(text: &str) -> Result<FilePlace, Self::Err> {
-        let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
-        Ok(match numbers.filter(|numbers| matches!(numbers.len(), 2 | 3) && numbers.iter().all(|v| v.is_finite())) {
-            Some(numbers) => FilePlace::At(numbers),
-            None => FilePlace::Marker(text.trim().to_string()),
-        })
+        let numbers = text.split(',').map(|part| part.trim().parse().ok());
+        let numbers = numbers.collect::<Option<Vec<f64>>>().unwrap_or_default();
+        let is_place = matches!(numbers.len(), 2 | 3) && numbers.iter().all(|v| v.is_finite());
+        Ok(if is_place { FilePlace::At(numbers) } else { FilePlace::Marker(text.trim().to_string()) })
     }
 }
 
@@ -27,10 +26,11 @@ impl FromStr for FileAxis {
         let text = text.trim();
         let turned = text.starts_with('-');
         let letter = text.trim_start_matches(['-', '+']);
-        let index = ["x", "y", "z"].iter().position(|known| known.eq_ignore_ascii_case(letter));
-        let index =
-            index.ok_or_else(|| format!("`{text}` is not an axis: write x, y or z, or -y where it is turned"))?;
-        Ok(FileAxis { index, turned })
+        let mut axes = ["x", "y", "z"].iter();
+        match axes.position(|known| known.eq_ignore_ascii_case(letter)) {
+            Some(index) => Ok(FileAxis { index, turned }),
+            None => Err(format!("`{text}` is not an axis: write x, y or z, or -y where it is turned")),
+        }
     }
 }
 
@@ -46,7 +46,7 @@ impl FromStr for FileAxis {
 /// Not two axes, or one twice.
 pub fn axes(text: &str) -> Result<[FileAxis; 2], String> {
     let example = "write the file's axis along the robot and the one towards the actuator, for example x,-y";
-    let wrong = || format!("`{text}` is not understood: {example}");
+    let wrong = || not_understood(text, example);
     let (along, towards) = text.split_once(',').ok_or_else(wrong)?;
     let both = [along.parse::<FileAxis>()?, towards.parse()?];
     if both[0].index == both[1].index { Err(wrong()) } else { Ok(both) }
@@ -59,26 +59,35 @@ impl FromStr for Scale {
     fn from_str(text: &str) -> Result<Scale, String> {
         let text = text.trim();
         let metres = |word: &str| {
-            let at = word.rfind(|c: char| c.is_ascii_digit() || c == '.').map_or(0, |last| last + 1);
-            let (number, unit) = (word[..at].trim(), word[at..].trim());
-            let number = if number.is_empty() { Some(1.0) } else { above_zero(number) };
-            let unit = units_of(Dimension::LENGTH).find(|known| known.symbol == unit);
-            number.zip(unit).map(|(number, unit)| number * unit.factor())
+            let digit = word.rfind(|c: char| c.is_ascii_digit() || c == '.');
+            let (number, unit) = word.split_at(digit.map_or(0, |last| last + 1));
+            let number = if number.trim().is_empty() { Some(1.0) } else { above_zero(number) };
+            let unit = units_of(Dimension::LENGTH).find(|known| known.symbol == unit.trim());
+            Some(number? * unit?.factor())
         };
         let pixels = |word: &str| above_zero(word.trim().strip_suffix("px")?);
         let is_whole = |scale: &Scale| match scale {
             Scale::PixelsPerMetre(value) | Scale::Unit(value) => value.is_normal(),
             _ => true,
         };
+        let per_metre = |left: &str, right: &str| Some(pixels(left)? / metres(right)?);
         let found = match text.split_once('/') {
-            None => text.starts_with(char::is_alphabetic).then(|| metres(text).map(Scale::Unit)).flatten(),
+            None if !text.starts_with(char::is_alphabetic) => None,
+            None => metres(text).map(Scale::Unit),
             Some((left, "px")) => metres(left).map(|metres| Scale::PixelsPerMetre(1.0 / metres)),
-            Some((left, right)) => pixels(left).zip(metres(right)).map(|(px, m)| Scale::PixelsPerMetre(px / m)),
+            Some((left, right)) => per_metre(left, right).map(Scale::PixelsPerMetre),
         };
         let example = "write 3.1px/mm, 0.32mm/px, or the unit of the file's numbers: mm, cm, m";
-        let scale = found.ok_or_else(|| format!("`{text}` is not understood: {example}"))?;
-        Some(scale).filter(is_whole).ok_or_else(|| format!("`{text}` rounds to 0: {example}"))
+        match found {
+            Some(scale) if is_whole(&scale) => Ok(scale),
+            Some(_) => Err(format!("`{text}` rounds to 0: {example}")),
+            None => Err(not_understood(text, example)),
+        }
     }
+}
+
+fn not_understood(text: &str, example: &str) -> String {
+    format!("`{text}` is not understood: {example}")
 }
 
 /// Two markers or places and how far they are apart: `a:b=40mm`, `10,20:300,25=90mm`.
@@ -87,7 +96,7 @@ impl FromStr for Scale {
 /// Not two places and a length above zero.
 pub fn known_distance(text: &str) -> Result<Scale, String> {
     let example = "write two markers or places and their distance: a:b=40mm or 10,20:300,25=90mm";
-    let wrong = || format!("`{text}` is not understood: {example}");
+    let wrong = || not_understood(text, example);
     let (places, length) = text.rsplit_once('=').ok_or_else(wrong)?;
     let (a, b) = places.split_once(':').ok_or_else(wrong)?;
     let length_m = parse(length, Quantity::Length)?;
@@ -103,7 +112,8 @@ impl FromStr for Offset {
         if text.trim() == "find" {
             return Ok(Offset::Find);
         }
-        parse(text, Quantity::Time).map(Offset::Given).map_err(|message| format!("{message}; or write find"))
+        let time = parse(text, Quantity::Time).map(Offset::Given);
+        time.map_err(|message| format!("{message}; or write find"))
     }
 }
 
@@ -112,11 +122,13 @@ impl FromStr for Offset {
 /// # Errors
 /// No equals sign, or a quantity that no table holds.
 pub fn column(text: &str) -> Result<(String, String), String> {
-    let known = text.split_once('=').filter(|(what, _)| QUANTITIES.contains(&what.trim()));
-    let example = || format!("write QUANTITY=COLUMN, where QUANTITY is one of {}", QUANTITIES.join(", "));
-    known
-        .map(|(what, column)| (what.trim().to_string(), column.trim().to_string()))
-        .ok_or_else(|| format!("`{text}` is not understood: {}", example()))
+    match text.split_once('=').map(|(what, column)| (what.trim(), column.trim())) {
+        Some((what, column)) if QUANTITIES.contains(&what) => Ok((what.to_string(), column.to_string())),
+        _ => {
+            let example = format!("write QUANTITY=COLUMN, where QUANTITY is one of {}", QUANTITIES.join(", "));
+            Err(not_understood(text, &example))
+        }
+    }
 }
 
 /// A marker and its station \[m\]: `a=90mm`.
@@ -130,7 +142,7 @@ pub fn column(text: &str) -> Result<(String, String), String> {
 /// No equals sign, or a length out of the bounds of a station.
 pub fn station(text: &str) -> Result<(String, f64), String> {
     let example = "write MARKER=LENGTH for every marker, for example a=90mm,b=210mm";
-    let wrong = || format!("`{text}` is not understood: {example}");
+    let wrong = || not_understood(text, example);
     let (name, length) = text.rsplit_once('=').ok_or_else(wrong)?;
     let length_m = parse(length, Quantity::Length)?;
     Range::STATION.check(length_m).map_err(|(message, help)| format!("`{text}`: {message}; {help}"))?;

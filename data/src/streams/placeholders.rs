@@ -7,40 +7,29 @@ use super::segments::{Segment, Stream};
 use crate::policy;
 use crate::units::mm;
 
-/// A place, to the last digit.
 type Place = [u64; 3];
 
-/// Rows that were taken as not seen.
+/// Rows that were taken as not seen, and the line of the first, by their position in words.
 #[derive(Debug, Default)]
-pub(crate) struct Placeholders(Vec<Placeholder>);
-
-#[derive(Debug)]
-struct Placeholder {
-    words: String,
-    rows: u64,
-    first_line: u64,
-}
+pub(crate) struct Placeholders(Vec<(String, u64, u64)>);
 
 impl Placeholders {
     /// Counts rows that have the position in words.
     pub(crate) fn note(&mut self, words: &str, rows: u64, line: u64) {
-        match self.0.iter_mut().find(|known| known.words == words) {
-            Some(known) => {
-                known.rows += rows;
-                known.first_line = known.first_line.min(line);
-            }
-            None => self.0.push(Placeholder { words: words.into(), rows, first_line: line }),
+        match self.0.iter_mut().find(|(known, ..)| known == words) {
+            Some((_, count, first)) => (*count, *first) = (*count + rows, line.min(*first)),
+            None => self.0.push((words.into(), rows, line)),
         }
     }
 
     pub(crate) fn rows(&self) -> u64 {
-        self.0.iter().map(|known| known.rows).sum()
+        self.0.iter().map(|(_, rows, _)| rows).sum()
     }
 
     pub(crate) fn told(&self) -> Vec<String> {
-        let told = |Placeholder { words, rows, first_line }: &Placeholder| {
+        let told = |(words, rows, line): &(String, u64, u64)| {
             format!(
-                "{rows} rows have a marker at exactly {words}, first in line {first_line}: taken as not seen (a marker at the base \
+                "{rows} rows have a marker at exactly {words}, first in line {line}: taken as not seen (a marker at the base \
                  needs its station there in about.toml)"
             )
         };

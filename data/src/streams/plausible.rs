@@ -2,19 +2,19 @@
 //!
 //! These checks look at the whole file and say which column to rename; they never convert anything themselves.
 
+use crate::columns::Sheet;
 use crate::dataset::Dataset;
-use crate::error::{DataError, Fault, Result};
-use crate::header::{Header, P_ACT, P_BODY, P_MORE, QUANTITIES, STATION, X, Y, Z};
+use crate::error::{DataError, Result};
+use crate::header::{P_ACT, P_BODY, P_MORE, QUANTITIES, STATION, X, Y, Z};
 use crate::policy;
-use crate::rows::RowReader;
 use crate::units::mm;
 
 /// Refuses lengths and pressures that look like another unit.
-pub(crate) fn check_units(cells: &RowReader, largest: &[f64; QUANTITIES.len()]) -> Result<()> {
-    let unit = |quantity: usize| cells.header.unit(quantity);
+pub(crate) fn check_units(sheet: &Sheet, largest: &[f64; QUANTITIES.len()]) -> Result<()> {
+    let unit = |quantity: usize| sheet.unit(quantity);
     let p_act_pa = P_MORE.iter().fold(largest[P_ACT], |most, more| most.max(largest[*more]));
     let known_robot = p_act_pa > 0.0 || largest[STATION] > 0.0;
-    let looks = |quantity, value, word: &str| Err(unit_error(&cells.header, quantity, value, word));
+    let looks = |quantity, value, word: &str| Err(unit_error(sheet, quantity, value, word));
     let is_short = |quantity: usize| largest[quantity] < policy::SHORTEST_ROBOT_M;
     if unit(X) == "mm" && known_robot && is_short(X) && is_short(Y) {
         return looks(X, mm(largest[X]), "metres");
@@ -28,18 +28,19 @@ pub(crate) fn check_units(cells: &RowReader, largest: &[f64; QUANTITIES.len()]) 
         }
     }
     if unit(P_ACT) == "kPa" && unit(P_BODY) == "kPa" {
-        return check_small_pressures(cells, largest[P_BODY] * 1e-3, p_act_pa * 1e-3);
+        return check_small_pressures(sheet, largest[P_BODY] * 1e-3, p_act_pa * 1e-3);
     }
     Ok(())
 }
 
-fn unit_error(header: &Header, quantity: usize, largest: f64, word: &str) -> DataError {
+fn unit_error(sheet: &Sheet, quantity: usize, largest: f64, word: &str) -> DataError {
     let (base, suffix) = (QUANTITIES[quantity].base, if word == "metres" { "m" } else { "mm" });
     let message = format!("the largest value of this column is {largest:.4}: it looks like {word}");
-    DataError::Unit(header.fault(quantity, message, format!("name the column {base}_{suffix}")))
+    let help = format!("name the column {base}_{suffix}");
+    sheet.fault(quantity, message, help)
 }
 
-fn check_small_pressures(cells: &RowReader, p_body: f64, p_act: f64) -> Result<()> {
+fn check_small_pressures(sheet: &Sheet, p_body: f64, p_act: f64) -> Result<()> {
     let fits = |([body, act], _): &([f64; 2], &str)| p_body > 0.0 && p_act > 0.0 && p_body < *body && p_act < *act;
     // Smallest unit last.
     let units = [(policy::LIKE_PSI, "psi"), (policy::LIKE_BAR, "bar"), (policy::LIKE_MPA, "MPa")];
@@ -50,14 +51,15 @@ fn check_small_pressures(cells: &RowReader, p_body: f64, p_act: f64) -> Result<(
         "name the columns p_act_{suffix}, p_body_{suffix}; if they really are that small, give them in Pa as p_act_pa, \
          p_body_pa"
     );
-    Err(DataError::Unit(cells.header.fault(P_ACT, message, help)))
+    Err(sheet.fault(P_ACT, message, help))
 }
 
 /// Refuses a table whose last marker moves to negative y when the actuator is inflated; without a header, one that was
 /// read before and is now of a planar robot.
-pub(crate) fn check_y_up(header: Option<&Header>, dataset: &Dataset) -> Result<()> {
+pub(crate) fn check_y_up(sheet: Option<&Sheet>, dataset: &Dataset) -> Result<()> {
     let Some((exchanged, message)) = wrong_y(dataset) else { return Ok(()) };
-    let (unit, down) = header.map_or(("mm", false), |header| (header.unit(Y), header.y_down));
+    let down = sheet.and_then(|sheet| sheet.at[Y].as_ref()).is_some_and(|column| column.turned);
+    let unit = sheet.map_or("mm", |sheet| sheet.unit(Y));
     let help = match (exchanged, down) {
         (true, _) => {
             "x runs from the base along the straight robot, y towards the actuator: exchange the names of the two columns".into()
@@ -67,10 +69,10 @@ pub(crate) fn check_y_up(header: Option<&Header>, dataset: &Dataset) -> Result<(
         }
         _ => format!("y is positive towards the actuator: multiply it by -1, or name the column y_down_{unit}"),
     };
-    Err(DataError::Unit(match header {
-        Some(header) => header.fault(Y, message, help),
-        None => Box::new(Fault::of_file(&dataset.name, message, help)),
-    }))
+    Err(match sheet {
+        Some(sheet) => sheet.fault(Y, message, help),
+        None => DataError::of(&dataset.name, message, help),
+    })
 }
 
 /// Whether the last marker is, at the highest actuator pressure, more than 5 mm below its place in the first hold (mean over runs).
@@ -99,17 +101,10 @@ fn wrong_y(dataset: &Dataset) -> Option<(bool, String)> {
         places.clone().fold(f64::NEG_INFINITY, f64::max) - places.fold(f64::INFINITY, f64::min)
     };
     if length_m(1) > length_m(0) {
-        let [along_x, along_y] = [0, 1].map(|axis| mm(length_m(axis)));
-        let message = format!(
-            "x and y look exchanged: in the first hold the markers take up {along_y:.1} mm of y and {along_x:.1} mm of x"
-        );
-        return Some((true, message));
+        let [x, y] = [0, 1].map(|axis| mm(length_m(axis)));
+        let taken = format!("the markers take up {y:.1} mm of y and {x:.1} mm of x");
+        return Some((true, format!("x and y look exchanged: in the first hold {taken}")));
     }
-    let message = format!(
-        "y points down: at {:.1} kPa marker {} has moved by {:.1} mm",
-        holds[highest].p_act_pa * 1e-3,
-        dataset.markers[last].name,
-        mm(moved_m)
-    );
-    Some((false, message))
+    let (p, name, moved) = (holds[highest].p_act_pa * 1e-3, &dataset.markers[last].name, mm(moved_m));
+    Some((false, format!("y points down: at {p:.1} kPa marker {name} has moved by {moved:.1} mm")))
 }

@@ -1,7 +1,7 @@
 //! Streams of (run, marker), cut into holds.
 
 use crate::dataset::Phase;
-use crate::error::Fault;
+use crate::error::DataError;
 use crate::header::{PRESSURES, Pressures};
 use crate::policy::{tolerance_act_pa, tolerance_body_pa};
 use crate::rows::Row;
@@ -36,7 +36,6 @@ impl Sample {
         [1, 2, 3].map(|which| self.mean(which))
     }
 
-    /// Mean reading of the gauge \[Pa\].
     pub(crate) fn gauge_pa(&self) -> f64 {
         self.mean(4)
     }
@@ -57,7 +56,7 @@ pub(crate) struct Segment {
     /// The first actuator pressure and the last \[Pa\].
     pub ends_pa: [f64; 2],
     /// The first reading below its bounds, in the order of [`PRESSURES`], to be judged by the mean.
-    pub too_low: [Option<Box<Fault>>; PRESSURES.len()],
+    pub too_low: [Option<DataError>; PRESSURES.len()],
     /// Observations per sample; doubles whenever neighbours are merged.
     pub(super) stride: u64,
     sums_pa: Pressures,
@@ -86,12 +85,10 @@ impl Segment {
         self.sums_pa.map(|sum| sum / self.rows.max(1) as f64)
     }
 
-    /// Time of the first sample \[s\].
     pub(crate) fn first_t_s(&self) -> f64 {
         self.samples.first().map_or(f64::INFINITY, Sample::t_s)
     }
 
-    /// Time of the last sample \[s\].
     pub(crate) fn last_t_s(&self) -> f64 {
         self.samples.last().map_or(f64::NEG_INFINITY, Sample::t_s)
     }

@@ -102,7 +102,7 @@ fn a_dataset_whose_parts_do_not_fit_is_refused() {
     times.holds[1].t_s.pop();
     let empty = Dataset { runs: Vec::new(), coordinates_m: Vec::new(), ..good };
     for bad in [short, nan, times, empty] {
-        assert!(matches!(bad.checked(), Err(DataError::Runs(_))));
+        assert!(matches!(bad.checked(), Err(DataError::Content(_))));
     }
 }
 
@@ -137,7 +137,7 @@ fn without_parquet_support_the_error_says_how_to_get_it() {
         read_parquet(&path).unwrap_err(),
         load(&path.display().to_string(), &mut |_, _| ()).unwrap_err(),
     ] {
-        assert!(matches!(error, DataError::Feature(_)) && error.help().contains("--features"), "{error}");
+        assert!(matches!(error, DataError::Content(_)) && error.help().contains("--features"), "{error}");
     }
 }
 
