@@ -6,6 +6,7 @@
 use crate::diagnosis::{Diagnosis, Options, diagnose};
 use crate::error::CompareError;
 use crate::evidence::Evidence;
+use crate::fit::numbers::{sort_by, squared_distance};
 use crate::progress::{Progress, part};
 use crate::study::calibrate::Knob;
 use crate::study::comparison::{Comparison, Contender, compare_all};
@@ -117,7 +118,7 @@ impl Path<'_> {
     fn tried(&self, base: &Scenario) -> Result<Vec<(Scenario, Mechanism)>, CompareError> {
         let lacking = self.shipped.effects.iter().filter(|e| base.effects.iter().all(|own| own.name != e.name));
         let mut tried = lacking.map(|e| self.with(base, &e.name)).collect::<Result<Vec<_>, _>>()?;
-        tried.sort_by(|a, b| a.1.error_mm.total_cmp(&b.1.error_mm));
+        sort_by(&mut tried, |(_, mechanism)| mechanism.error_mm);
         Ok(tried)
     }
 
@@ -147,8 +148,7 @@ fn error_mm(model: &Scenario, evidence: &Evidence) -> Result<f64, CompareError> 
     let (model, _) = crate::study::fit_scenario(&model, &evidence.dataset, evidence.about.as_ref())?;
     let predicted = predict_dataset(&model, &evidence.dataset)?.coordinates_m;
     let mean = evidence.dataset.mean_over_runs();
-    let squares: f64 = predicted.iter().zip(&mean).map(|(a, b)| (a - b).powi(2)).sum();
-    Ok(1e3 * (squares / mean.len() as f64).sqrt())
+    Ok(1e3 * (squared_distance(&predicted, &mean) / mean.len() as f64).sqrt())
 }
 
 #[cfg(test)]

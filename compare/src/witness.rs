@@ -14,6 +14,7 @@
 
 use crate::diagnosis::{Answer, Diagnosis, ParameterValue, Ranked, Standing, with_fitted};
 use crate::error::CompareError;
+use crate::fit::numbers::{largest, least, mean, sort_by};
 use crate::moment::{CurvePoint, at_turn, degrees};
 use crate::policy;
 use crate::study::engines::{Energies, EngineRun, Ensemble, TERMS, between, ensemble, over_seeds};
@@ -125,7 +126,7 @@ pub fn witness(
         .iter()
         .filter_map(|(name, s, named)| Some(beside(name, s, &ensemble, (kpa, *named))?.0))
         .collect();
-    models.sort_by(|a, b| a.apart_mj.total_cmp(&b.apart_mj));
+    sort_by(&mut models, |model| model.apart_mj);
     let own = beside("base", &cases.base, &ensemble, (kpa, false));
     let fe_mj = own.as_ref().map(|o| o.1);
     match own {
@@ -189,7 +190,7 @@ fn heights(models: [&Scenario; 2], dataset: &Dataset, ensemble: &Ensemble) -> Re
     for (h, hold) in dataset.holds.iter().enumerate() {
         let kpa = hold.p_act_pa * 1e-3;
         let body = policy::is_same_pressure(hold.p_body_pa, 1e3 * run.body_kpa);
-        let nearest = pressures().min_by(|a, b| (a - kpa).abs().total_cmp(&(b - kpa).abs()));
+        let nearest = least(pressures(), |p| (p - kpa).abs());
         let Some(shared) = nearest.filter(|p| policy::is_same_set_point(*p, kpa)) else { continue };
         let Some((fe_mm, fe_sd_mm)) = ensemble.marker_at(stations[marker], shared) else { continue };
         let unseen = !dataset.is_seen(h, marker);
@@ -198,15 +199,14 @@ fn heights(models: [&Scenario; 2], dataset: &Dataset, ensemble: &Ensemble) -> Re
         }
         let samples = dataset.samples_per_hold;
         let y_mm = |xy: &[f64], s: usize| 1e3 * xy[dataset.offset(h, s, marker) + 1];
-        let of = |xy: &[f64]| (0..samples).map(|s| y_mm(xy, s)).sum::<f64>() / samples as f64;
-        let runs = dataset.runs.len();
-        let measured_mm = (0..runs).map(|r| of(dataset.run(r))).sum::<f64>() / runs as f64;
+        let of = |xy: &[f64]| mean((0..samples).map(|s| y_mm(xy, s)));
+        let measured_mm = mean((0..dataset.runs.len()).map(|r| of(dataset.run(r))));
         let [base_mm, best_mm] = [of(&base.coordinates_m), of(&best.coordinates_m)];
         let meets =
             policy::meets(fe_mm / measured_mm - 1.0) || (fe_mm - measured_mm).abs() <= 2.0 * fe_sd_mm.unwrap_or(0.0);
         found.push(Height { actuator_kpa: shared, measured_mm, base_mm, best_mm, fe_mm, fe_sd_mm, meets });
     }
-    found.sort_by(|a, b| a.actuator_kpa.total_cmp(&b.actuator_kpa));
+    sort_by(&mut found, |height| height.actuator_kpa);
     Ok(found)
 }
 
@@ -243,9 +243,7 @@ fn beside(
 ) -> Option<(WitnessRow, Energies)> {
     let ledgers: Vec<[Energies; 2]> =
         ensemble.runs.iter().map(|run| between(scenario, run, kpa)).collect::<Option<_>>()?;
-    let mean =
-        |which: usize| std::array::from_fn(|k| ledgers.iter().map(|l| l[which][k]).sum::<f64>() / ledgers.len() as f64);
-    let (fe, own): (Energies, Energies) = (mean(0), mean(1));
+    let [fe, own]: [Energies; 2] = [0, 1].map(|i| std::array::from_fn(|k| mean(ledgers.iter().map(|l| l[i][k]))));
     let apart_mj = (0..PHYSICAL).map(|k| (fe[k] - own[k]).abs()).sum();
     Some((WitnessRow { name: name.into(), energies_mj: own, apart_mj, named }, fe))
 }
@@ -307,19 +305,16 @@ fn stiffness(base: &WitnessRow, fe: &Energies) -> Option<String> {
 
 fn nearest(base: &WitnessRow, others: &[WitnessRow], fe: &Energies, d: &Diagnosis) -> String {
     let off = |m: &WitnessRow, k: usize| (fe[k] - m.energies_mj[k]).abs();
-    let widest = (0..PHYSICAL).max_by(|a, b| off(base, *a).total_cmp(&off(base, *b))).unwrap_or(GAS);
+    let widest = largest(0..PHYSICAL, |k| off(base, *k)).unwrap_or(GAS);
     let where_ = format!("{} ({:.0} mJ, theirs {:.0} mJ)", TERMS[widest], base.energies_mj[widest], fe[widest]);
     match others.first().filter(|m| policy::falls(m.apart_mj, base.apart_mj)) {
         Some(m) => {
             let named = d.indistinguishable.iter().chain(d.added.iter().map(|a| &a.effect));
             let named = named.map(|n| format!("+ {n}")).any(|n| n == m.name);
             let by = if named { "which the data name too" } else { "which the data alone do not put first" };
-            let rivals: Vec<String> = others[1..]
-                .iter()
-                .filter(|o| !policy::falls(m.apart_mj, o.apart_mj))
-                .map(|o| o.name.trim_start_matches("+ ").to_string())
-                .collect();
-            let rivals = if rivals.is_empty() { String::new() } else { format!("; {} hardly less so", list(&rivals)) };
+            let rivals = others[1..].iter().filter(|o| !policy::falls(m.apart_mj, o.apart_mj));
+            let rivals = list(rivals.map(|o| o.name.trim_start_matches("+ ")));
+            let rivals = if rivals.is_empty() { String::new() } else { format!("; {rivals} hardly less so") };
             format!(
                 "Their ledger points at {}, {by}: at the same bends {:.0} mJ apart from theirs instead of {:.0}{rivals}. The model without it differs most in {where_}.",
                 m.name.trim_start_matches("+ "),

@@ -10,6 +10,7 @@ use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
 use crate::fit::basis::{Basis, cosine};
 use crate::fit::least_squares::square;
+use crate::fit::numbers::squared_distance;
 use crate::layout::Layout;
 use crate::noise::NoiseModel;
 use crate::policy;
@@ -282,8 +283,7 @@ fn independent_tests(problem: &Problem, base: &Fit, tried: std::ops::Range<usize
 
 /// Root-mean-square error of a prediction beyond the noise of the mean \[mm\].
 fn error_mm(prediction_m: &[f64], mean_m: &[f64], noise: &NoiseModel) -> f64 {
-    let squares = prediction_m.iter().zip(mean_m).map(|(f, y)| (f - y).powi(2)).sum::<f64>();
-    let squares = squares / noise.seen(0..mean_m.len()) as f64;
+    let squares = squared_distance(prediction_m, mean_m) / noise.seen(0..mean_m.len()) as f64;
     let expected = noise.mean_square(0..mean_m.len()).unwrap_or(0.0);
     1e3 * (squares - expected).max(0.0).sqrt()
 }

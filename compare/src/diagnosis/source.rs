@@ -2,6 +2,7 @@
 
 use crate::error::CompareError;
 use crate::evidence::Evidence;
+use crate::fit::numbers::{groups, least};
 use crate::gauge::Gauge;
 use crate::layout::Layout;
 use crate::noise::NoiseModel;
@@ -43,18 +44,13 @@ pub(super) fn pressure_levels(holds: &[Hold]) -> Vec<f64> {
 }
 
 fn levels(pressures_pa: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut levels: Vec<f64> = Vec::new();
-    for p in pressures_pa {
-        if !levels.iter().any(|l| policy::is_same_pressure(*l, p)) {
-            levels.push(p);
-        }
-    }
-    levels
+    let all: Vec<f64> = pressures_pa.collect();
+    groups(&all, |a, b| policy::is_same_pressure(**a, **b)).iter().map(|own| all[own[0]]).collect()
 }
 
 /// Index of the nearest level; 0 without levels.
 pub(super) fn nearest(levels: &[f64], p: f64) -> usize {
-    (0..levels.len()).min_by(|a, b| (levels[*a] - p).abs().total_cmp(&(levels[*b] - p).abs())).unwrap_or(0)
+    least(0..levels.len(), |level| (levels[*level] - p).abs()).unwrap_or(0)
 }
 
 /// A dataset, its base as measured there, and further measurements of the same robot.

@@ -16,7 +16,7 @@ use crate::evidence::Evidence;
 use crate::policy;
 use crate::progress::Progress;
 use crate::scenario_file::ScenarioFile;
-use crate::typed_effect::{Values, typed, values_of};
+use crate::typed_effect::{Values, typed, values_of, with_values};
 use models::{Known, Scenario};
 pub(crate) use steps::Ground;
 pub use steps::{ErrorStep, error_steps};
@@ -120,7 +120,7 @@ pub fn add(
         Wish::Learned => learned::learned(file, &found),
         Wish::Fitted(name) => fitted(file, &Ground::new(&found, file), name),
         Wish::Given(name, values) => {
-            let with = with_values(file, name, values);
+            let with = with_values(file, name, |wanted| values.iter().find(|(k, _)| k == wanted).map(|(_, v)| *v));
             let after = diagnose(&with, evidence, &options, progress)?;
             given(file, &Ground::new(&found, file), &Ground::new(&after, &with), (name, values))
         }
@@ -197,13 +197,6 @@ fn climbed(
 ) -> Result<Extension, CompareError> {
     let bending = ground.new_bending(step.bending_nm2);
     Ok(Extension::written(file, bending, additions, told)?.climbed(ground, step))
-}
-
-fn with_values(scenario: &Scenario, name: &str, values: &Values) -> Scenario {
-    let catalogue = scenario.catalogue();
-    let value_of = |key: &str| values.iter().find(|(k, _)| k == key).map_or(0.0, |(_, v)| *v);
-    let si = catalogue.by_name(name).map(|e| e.parameters.iter().map(|p| value_of(p.key) * p.si).collect::<Vec<_>>());
-    si.map_or_else(|| scenario.clone(), |si| scenario.with_effect(name, &si))
 }
 
 fn with_values_told(a: &Addition) -> String {

@@ -4,6 +4,7 @@
 use crate::diagnosis::taken_away;
 use crate::error::CompareError;
 use crate::scenario_file::ScenarioFile;
+use crate::typed_effect::with_values;
 use models::Scenario;
 use toml_edit::{Decor, DocumentMut, Item, Table, Value, value};
 
@@ -137,17 +138,10 @@ fn with_body(file: &ScenarioFile, body: Option<&BodyValue>) -> Result<DocumentMu
 fn meant(scenario: &Scenario, bending: Option<&BodyValue>, additions: &[Addition]) -> Scenario {
     let mut wanted = scenario.clone();
     for a in additions {
-        if let Some(gone) = taken_away(&a.name) {
-            wanted.effects.retain(|e| e.name != gone);
-        }
-        let catalogue = scenario.catalogue();
-        let Some(effect) = catalogue.by_name(&a.name) else { continue };
-        let value = |p: &models::effects::Parameter| {
-            let written = a.values.iter().find(|(key, _)| key == p.key);
-            written.map_or(p.neutral, |(_, v)| rounded(*v)) * p.si
-        };
-        let values: Vec<f64> = effect.parameters.iter().map(value).collect();
-        wanted = wanted.with_effect(&a.name, &values);
+        wanted.effects.retain(|e| taken_away(&a.name) != Some(&e.name));
+        wanted = with_values(&wanted, &a.name, |wanted| {
+            a.values.iter().find(|(key, _)| key == wanted).map(|(_, v)| rounded(*v))
+        });
     }
     if let Some(b) = bending {
         wanted.bending_stiffness = rounded(b.value);

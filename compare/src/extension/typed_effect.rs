@@ -94,6 +94,14 @@ pub fn typed(scenario: &Scenario, text: &str) -> Result<(String, Option<Values>)
     Ok((name.to_string(), (!rest.is_empty()).then(|| values_of(&with, name))))
 }
 
+/// A scenario with an effect at values in the units of its keys, neutral where there is none; unchanged where no effect has that name.
+pub(crate) fn with_values(scenario: &Scenario, name: &str, value: impl Fn(&str) -> Option<f64>) -> Scenario {
+    let catalogue = scenario.catalogue();
+    let Some(effect) = catalogue.by_name(name) else { return scenario.clone() };
+    let values: Vec<f64> = effect.parameters.iter().map(|p| value(p.key).unwrap_or(p.neutral) * p.si).collect();
+    scenario.with_effect(name, &values)
+}
+
 /// The values that an effect has in a scenario; its typical values where the scenario lacks it.
 pub fn values_of(scenario: &Scenario, name: &str) -> Values {
     let catalogue = scenario.catalogue();

@@ -8,6 +8,7 @@
 use crate::accuracy::{Band, accuracy_band, paper_accuracy, relative_pct};
 use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
+use crate::fit::numbers::mean;
 use crate::policy;
 use crate::residuals::{HoldLabel, label};
 use crate::stats::{f_tail, reported_p};
@@ -177,7 +178,7 @@ fn overall_metrics(c: &BesideMean, holds: &[HoldMetrics], band: &Band, fitted: u
     let counted = || (0..holds.len()).filter(|&h| c.is_pressurised_loading(h)).map(|h| &holds[h]);
     let accuracies: Vec<f64> = counted().filter_map(|h| h.paper_accuracy).collect();
     let ceilings: Vec<f64> = counted().filter_map(|h| h.noise_ceiling).collect();
-    let accuracy = mean(&accuracies);
+    let accuracy = mean_of(&accuracies);
     let size = Size::of(c, 0..c.residual_m.len());
     let values = c.noise.seen(0..c.residual_m.len());
     let fit = Goodness::of(c, &c.noise.whiten(&c.residual_m), values, fitted);
@@ -185,7 +186,7 @@ fn overall_metrics(c: &BesideMean, holds: &[HoldMetrics], band: &Band, fitted: u
     OverallMetrics {
         paper_accuracy: accuracy,
         holds_in_accuracy: accuracies.len(),
-        noise_ceiling: mean(&ceilings),
+        noise_ceiling: mean_of(&ceilings),
         accuracy_interval: band.overall,
         rms_relative_pct: accuracy.map(relative_pct),
         rmse_mm: size.rmse_mm,
@@ -255,6 +256,6 @@ impl Goodness {
     }
 }
 
-fn mean(values: &[f64]) -> Option<f64> {
-    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+fn mean_of(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| mean(values.iter().copied()))
 }

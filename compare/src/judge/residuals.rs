@@ -6,6 +6,7 @@
 //! model one is called significant at level α in about a fraction α of all datasets.
 
 use crate::beside_mean::BesideMean;
+use crate::fit::numbers::largest;
 use crate::layout::{Layout, Weights, apply};
 use crate::policy;
 use crate::stats::{holm, reported_p, two_sided_p};
@@ -191,7 +192,7 @@ fn bending_weights(c: &BesideMean, hold: usize) -> Vec<[f64; 2]> {
     };
     let shapes = holds.map(|h| (0..c.layout.markers).map(|m| across(h, m)).collect::<Vec<[f64; 2]>>());
     let size = |shape: &Vec<[f64; 2]>| shape.iter().map(|[y, z]| y.hypot(*z)).sum::<f64>();
-    let shape = shapes.max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or_default();
+    let shape = largest(shapes, size).unwrap_or_default();
     match size(&shape) {
         total if total > 1e-9 => shape.iter().map(|across| across.map(|v| v / total)).collect(),
         _ => vec![[1.0 / shape.len().max(1) as f64, 0.0]; shape.len()],

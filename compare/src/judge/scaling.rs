@@ -6,6 +6,7 @@
 //! friction, tail tension, a regulator offset); collapse speaks for geometry alone.
 
 use crate::error::CompareError;
+use crate::fit::numbers::sort_by;
 use crate::fit::whiten::Whitener;
 use crate::layout::{Layout, Weights, apply};
 use crate::noise::NoiseModel;
@@ -179,8 +180,7 @@ fn chi_square(
 
 fn data_sentence(verdict: ScalingVerdict, pairs: &[ScalingPair], differing: usize) -> String {
     let worst = largest(pairs);
-    let ratios: Vec<String> = pairs.iter().map(|p| short(p.ratio)).collect();
-    let at = format!("P/p = {}", list(&ratios));
+    let at = format!("P/p = {}", list(pairs.iter().map(|p| short(p.ratio))));
     match verdict {
         ScalingVerdict::Collapses => format!(
             "Shapes at the same P/p collapse to within noise ({at}; largest difference {worst:.1} mm): these data \
@@ -211,7 +211,7 @@ fn cannot_be_checked(holds: &[Hold]) -> ScalingCheck {
             let same_body =
                 pressurised.filter(|h| h.phase != Phase::Unload && !policy::bodies_differ(h.p_body_pa, body));
             let mut actuator: Vec<&Hold> = same_body.collect();
-            actuator.sort_by(|a, b| a.sum_act_pa().total_cmp(&b.sum_act_pa()));
+            sort_by(&mut actuator, |hold| hold.sum_act_pa());
             let scaled = |by: f64| {
                 let word =
                     |hold: &&Hold| hold.channels_pa().map(|p| short(by * (1e-3 * p))).collect::<Vec<_>>().join("/");

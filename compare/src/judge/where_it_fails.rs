@@ -5,6 +5,7 @@
 //! which pressures, which markers, loading or unloading, x or y, or drift during holds; they do not name physics.
 
 use crate::beside_mean::BesideMean;
+use crate::fit::numbers::largest;
 use crate::residuals::{Deviation, ResidualCell, ResidualMap};
 use crate::wording::{evidence, list, markers, p_value, pressures, times_the_noise};
 use data::Phase;
@@ -163,10 +164,8 @@ impl<'a> Judge<'a> {
     /// The tip at its worst hold if it fails at all, else the worst cell.
     fn worst(&self, cells: &[(usize, usize)], of: impl Fn(&ResidualCell) -> Deviation) -> Option<(usize, usize)> {
         let size = |at: &(usize, usize)| of(self.cell(*at)).mm.abs();
-        let largest =
-            |cells: &mut dyn Iterator<Item = (usize, usize)>| cells.max_by(|a, b| size(a).total_cmp(&size(b)));
-        let tip = self.c.tip;
-        largest(&mut cells.iter().copied().filter(|at| at.1 == tip)).or_else(|| largest(&mut cells.iter().copied()))
+        let at_tip = cells.iter().copied().filter(|at| at.1 == self.c.tip);
+        largest(at_tip, size).or_else(|| largest(cells.iter().copied(), size))
     }
 
     /// How the error runs along the body at one hold.
@@ -212,7 +211,7 @@ impl<'a> Judge<'a> {
     fn loops(&self, told: &[usize]) -> Option<Statement> {
         let news = |l: &&crate::residuals::LoopGap| !told.contains(&l.unload_hold) || told.contains(&l.load_hold);
         let gaps: Vec<_> = self.map.loops.iter().filter(|l| self.fails(&l.deviation)).filter(news).collect();
-        let worst = gaps.iter().max_by(|a, b| a.deviation.mm.abs().total_cmp(&b.deviation.mm.abs()))?;
+        let worst = largest(&gaps, |gap| gap.deviation.mm.abs())?;
         let d = worst.deviation;
         let more = if d.mm < 0.0 { "more" } else { "less" };
         let sentence = format!(
@@ -260,7 +259,7 @@ impl<'a> Judge<'a> {
 
     fn drifts(&self) -> Option<Statement> {
         let drifts: Vec<_> = self.map.drifts.iter().filter(|d| self.fails(&d.deviation)).collect();
-        let worst = drifts.iter().max_by(|a, b| a.deviation.mm.abs().total_cmp(&b.deviation.mm.abs()))?;
+        let worst = largest(&drifts, |drift| drift.deviation.mm.abs())?;
         let holds: Vec<usize> = drifts.iter().map(|d| d.hold).collect();
         let way = if worst.deviation.mm < 0.0 { "in" } else { "against" };
         let sentence = format!(
@@ -275,9 +274,8 @@ impl<'a> Judge<'a> {
 
     fn nothing_stands_out(&self, chi2_p: Option<f64>, options: &FailureOptions) -> Statement {
         let entries = || self.map.cells.iter().flatten().flat_map(ResidualCell::axes);
-        let by = |of: fn(&Deviation) -> f64| entries().max_by(|a, b| of(a).total_cmp(&of(b)));
-        let largest = by(|d| d.in_noise.unwrap_or(d.mm).abs());
-        let size = largest.map_or(String::new(), |d| format!("{:.2} mm{}", d.mm.abs(), times_the_noise(&d)));
+        let most = largest(entries(), |d| d.in_noise.unwrap_or(d.mm).abs());
+        let size = most.map_or(String::new(), |d| format!("{:.2} mm{}", d.mm.abs(), times_the_noise(&d)));
         let (finding, sentence) = if !self.c.noise.is_known() {
             let least = self.least_mm;
             (Finding::WithinTolerance, format!("No difference above {least:.2} mm was found (largest {size})."))
@@ -296,7 +294,7 @@ impl<'a> Judge<'a> {
             let nothing = format!("Nothing rises above the noise (largest {size}); no significance can be given.");
             (Finding::Agrees, nothing)
         };
-        Statement { largest, ..Statement::of(finding, sentence) }
+        Statement { largest: most, ..Statement::of(finding, sentence) }
     }
 }
 

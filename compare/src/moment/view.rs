@@ -1,5 +1,6 @@
 //! One dataset as the missing moment sees it, and the pieces of the body that may bend each in its own way.
 
+use crate::fit::numbers::mean;
 use crate::fit::whiten::Whitener;
 use data::{Dataset, Direct};
 use models::{Loads, Model, Scenario, Step};
@@ -29,6 +30,11 @@ pub struct Place {
 impl Place {
     pub fn length_m(&self) -> f64 {
         self.to_m - self.from_m
+    }
+
+    /// Where it begins and ends \[mm\].
+    pub(crate) fn ends_mm(&self) -> [f64; 2] {
+        [1e3 * self.from_m, 1e3 * self.to_m]
     }
 }
 
@@ -91,11 +97,8 @@ impl Division {
         };
         let samples = view.dataset.samples_per_hold;
         let moment = |hold: usize, group: usize| {
-            let own: Vec<f64> = (0..samples)
-                .filter(|t| t * groups / samples == group)
-                .map(|t| view.dataset.holds[hold].t_s[t])
-                .collect();
-            Moment { hold, group, t_s: own.iter().sum::<f64>() / own.len() as f64 }
+            let own = (0..samples).filter(|t| t * groups / samples == group);
+            Moment { hold, group, t_s: mean(own.map(|t| view.dataset.holds[hold].t_s[t])) }
         };
         Division {
             places: ends.windows(2).map(place).collect(),

@@ -13,6 +13,7 @@ use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 
 use crate::CompareError;
+use crate::fit::numbers::{largest, least, mean};
 use crate::stats::t_975;
 use models::Known;
 
@@ -69,7 +70,7 @@ impl Held {
     /// Root mean square of the shares by which the model is off, of rows it was not fitted to.
     pub fn rms(&self) -> Option<f64> {
         let all: Vec<f64> = self.rows.iter().filter(|r| !r.fitted).filter_map(HeldRow::off).collect();
-        (!all.is_empty()).then(|| (all.iter().map(|o| o * o).sum::<f64>() / all.len() as f64).sqrt())
+        (!all.is_empty()).then(|| mean(all.iter().map(|o| o * o)).sqrt())
     }
 }
 
@@ -235,13 +236,9 @@ impl Trial {
 /// The row on which the number of a specimen is calibrated: the least load of a beam, the largest contraction of a free muscle.
 fn calibrated_on(group: &[BenchRow]) -> Option<&BenchRow> {
     let loaded = group.iter().filter(|r| r.get("load").is_some_and(|load| load > 0.0) && r.value("deflection") > 0.0);
-    let contraction = |r: &&BenchRow| r.value("contraction");
     match group[0].get("load") {
-        Some(_) => loaded.min_by(|a, b| a.value("load").total_cmp(&b.value("load"))),
-        None => group
-            .iter()
-            .max_by(|a, b| contraction(a).total_cmp(&contraction(b)))
-            .filter(|row| is_free(row) && row.get("bias").is_none()),
+        Some(_) => least(loaded, |row| row.value("load")),
+        None => largest(group, |row| row.value("contraction")).filter(|row| is_free(row) && row.get("bias").is_none()),
     }
 }
 

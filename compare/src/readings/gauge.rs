@@ -23,6 +23,7 @@
 
 use crate::directions::Row;
 use crate::error::CompareError;
+use crate::fit::numbers::mean;
 use crate::fit::whiten::Whitener;
 use crate::policy;
 use crate::stats::t_inflation;
@@ -67,8 +68,7 @@ impl Gauge {
         let runs: Vec<&[f64]> = (0..dataset.runs.len()).map(|r| dataset.gauge(r)).collect::<Option<_>>()?;
         let set: Vec<f64> = dataset.holds.iter().flat_map(|h| vec![h.p_act_pa; dataset.samples_per_hold]).collect();
         let used: Vec<usize> = (0..set.len()).filter(|i| set[*i] > policy::ZERO_PRESSURE_PA).collect();
-        let mean: Vec<f64> =
-            (0..set.len()).map(|i| runs.iter().map(|r| r[i]).sum::<f64>() / runs.len() as f64).collect();
+        let mean: Vec<f64> = (0..set.len()).map(|i| mean(runs.iter().map(|r| r[i]))).collect();
         let squares: f64 = used.iter().map(|i| set[*i] * set[*i]).sum();
         if used.is_empty() {
             return None;

@@ -26,6 +26,7 @@
 //! Validity: errors of the holds of a run are independent of each other; three runs and three holds at least.
 
 use crate::directions::{ROTATIONS, Row, SHIFTS};
+use crate::fit::numbers::least;
 use crate::layout::Layout;
 use crate::policy;
 use crate::stats::f_tail;
@@ -161,9 +162,7 @@ impl Means {
         let u: Vec<Vec<f64>> = (0..Row::default().len()).map(of).collect();
         let seen: Vec<bool> = (0..layout.holds * width).map(|i| u.iter().any(|column| column[i] != 0.0)).collect();
         let mean = layout.hold_means(&dataset.mean_over_runs());
-        let straight =
-            (0..layout.holds).min_by(|a, b| dataset.holds[*a].sum_act_pa().total_cmp(&dataset.holds[*b].sum_act_pa()));
-        let straight = straight.unwrap_or(0) * width;
+        let straight = least(0..layout.holds, |h| dataset.holds[*h].sum_act_pa()).unwrap_or(0) * width;
         let bend: Vec<f64> =
             (0..mean.len()).map(|i| if seen[i] { mean[i] - mean[straight + i % width] } else { 0.0 }).collect();
         let kinds = [vec![&u[0]], vec![&bend], SHIFTS.map(|j| &u[j]).to_vec(), ROTATIONS.map(|j| &u[j]).to_vec()];
@@ -317,8 +316,8 @@ fn nonnegative(f: &DMatrix<f64>, right: &DVector<f64>) -> (DVector<f64>, DMatrix
         let side = DVector::from_fn(used.len(), |i, _| right[used[i]] / scale(i));
         let inverse = part.clone().try_inverse().unwrap_or_else(|| DMatrix::zeros(used.len(), used.len()));
         let scaled = &inverse * side;
-        let least = (0..used.len()).filter(|i| used[*i] != 0).min_by(|a, b| scaled[*a].total_cmp(&scaled[*b]));
-        match least.filter(|i| scaled[*i] < 0.0) {
+        let lowest = least((0..used.len()).filter(|i| used[*i] != 0), |i| scaled[*i]);
+        match lowest.filter(|i| scaled[*i] < 0.0) {
             Some(i) => {
                 used.remove(i);
             }

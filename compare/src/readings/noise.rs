@@ -36,6 +36,7 @@
 use crate::data_slope::data_slope;
 use crate::directions::{DirectionFit, ROTATIONS, Row, SHIFTS, directions_of};
 use crate::error::CompareError;
+use crate::fit::numbers::{largest, least};
 use crate::fit::whiten::Whitener;
 use crate::hold_scatter::{HoldNoise, hold_scatter};
 use crate::layout::{Layout, Weights};
@@ -264,8 +265,7 @@ impl NoiseModel {
     pub fn uneven_holds(&self) -> Option<(usize, usize)> {
         let sigma = |h: &usize| self.hold_sigma_m[*h];
         let holds = self.hold_sigma_m.len();
-        let noisiest = (0..holds).max_by(|a, b| sigma(a).total_cmp(&sigma(b)))?;
-        let quietest = (0..holds).min_by(|a, b| sigma(a).total_cmp(&sigma(b)))?;
+        let (noisiest, quietest) = (largest(0..holds, sigma)?, least(0..holds, sigma)?);
         let quotient = sigma(&noisiest) / sigma(&quietest).max(SMALLEST_SIGMA_M);
         let dof = self.pure_error_dof / holds;
         let p = (holds * (holds - 1)) as f64 * f_tail(quotient * quotient, dof, dof);

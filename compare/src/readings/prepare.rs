@@ -1,6 +1,7 @@
 //! The data as every comparison and every fit see them: copies of runs left out, stray samples replaced, sessions named.
 
 use crate::directions::DirectionFit;
+use crate::fit::numbers::{differences, groups};
 use crate::noise::NoiseModel;
 use crate::policy;
 use crate::stats::f_tail;
@@ -53,12 +54,8 @@ pub(crate) fn outlying_runs(dataset: &Dataset, noise: &NoiseModel) -> Vec<Outlyi
     }
     let fit = DirectionFit::new(&noise.directions);
     let mean = dataset.mean_over_runs();
-    let squares: Vec<f64> = (0..runs)
-        .map(|run| {
-            let deviation: Vec<f64> = dataset.run(run).iter().zip(&mean).map(|(y, m)| y - m).collect();
-            fit.solve(&deviation).1.iter().map(|r| r * r).sum()
-        })
-        .collect();
+    let rest = |run: usize| fit.solve(&differences(dataset.run(run), &mean)).1;
+    let squares: Vec<f64> = (0..runs).map(|run| rest(run).iter().map(|r| r * r).sum()).collect();
     let total: f64 = squares.iter().sum();
     let dof = noise.seen(0..mean.len()) - fit.count();
     let outlying = |(run, s): (usize, &f64)| {
@@ -106,12 +103,7 @@ fn sessions(dataset: &Dataset, about: Option<&About>, warnings: &mut Vec<String>
     let Some(about) = about else { return Vec::new() };
     let label = |run: &String| about.runs.iter().find(|a| a.id == *run).and_then(|a| a.session.clone());
     let labels: Vec<Option<String>> = dataset.runs.iter().map(label).collect();
-    let mut names: Vec<&Option<String>> = Vec::new();
-    for label in &labels {
-        if !names.contains(&label) {
-            names.push(label);
-        }
-    }
+    let names = groups(&labels, |a, b| a == b);
     match names.len() {
         0 | 1 => Vec::new(),
         n if n == labels.len() => {
@@ -121,7 +113,7 @@ fn sessions(dataset: &Dataset, about: Option<&About>, warnings: &mut Vec<String>
             );
             Vec::new()
         }
-        _ => labels.iter().filter_map(|l| names.iter().position(|n| *n == l)).collect(),
+        _ => (0..labels.len()).filter_map(|run| names.iter().position(|own| own.contains(&run))).collect(),
     }
 }
 

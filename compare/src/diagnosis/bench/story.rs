@@ -85,8 +85,8 @@ fn at_its_bound(d: &BenchDiagnosis, off: f64) -> Option<String> {
     let closer = d.ranked.iter().filter(|r| r.at_bound && r.off < off);
     let r = closer.min_by(|a, b| a.off.total_cmp(&b.off))?;
     let bounds = r.parameters.iter().filter(|p| p.at_bound);
-    let at: Vec<String> = bounds.map(|p| format!("{} = {}", p.symbol, quantity(p.value, &p.unit))).collect();
-    let (effect, to, at) = (&r.effect, percent(r.off), list(&at));
+    let at = list(bounds.map(|p| format!("{} = {}", p.symbol, quantity(p.value, &p.unit))));
+    let (effect, to) = (&r.effect, percent(r.off));
     Some(format!("{effect} would bring it to {to}, but at the end of its range, {at}, and the data push beyond it."))
 }
 
@@ -156,10 +156,9 @@ fn told(off: &[f64], levels: &[(String, Vec<usize>)]) -> Option<String> {
     let squares: f64 = off.iter().map(|o| (o - all).powi(2)).sum();
     let between: f64 = levels.iter().map(|(_, rows)| rows.len() as f64 * (mean(off, rows) - all).powi(2)).sum();
     let share = between / squares.max(f64::MIN_POSITIVE);
-    let words: Vec<String> =
-        levels.iter().map(|(w, rows)| format!("{:+.1} % at {w}", 100.0 * mean(off, rows).exp_m1())).collect();
+    let words = levels.iter().map(|(w, rows)| format!("{:+.1} % at {w}", 100.0 * mean(off, rows).exp_m1()));
     (levels.len() > 1 && share > policy::PATTERN_TELLS)
-        .then(|| format!("{} ({:.0} % of the scatter about the mean)", list(&words), 100.0 * share))
+        .then(|| format!("{} ({:.0} % of the scatter about the mean)", list(words), 100.0 * share))
 }
 
 fn by_level(table: &Table, off: &[f64], of: &dyn Fn(&Reading) -> f64, word: &dyn Fn(f64) -> String) -> Option<String> {

@@ -11,6 +11,7 @@ use crate::diagnosis::case::Case;
 use crate::diagnosis::problem::{Fit, Problem};
 use crate::error::CompareError;
 use crate::fit::least_squares::{dot, products, square};
+use crate::fit::numbers::groups;
 use crate::policy;
 use data::Hold;
 
@@ -102,20 +103,16 @@ fn taken_over_m2(fold: &Fold, fit: &Fit, predicted_m: &[f64], rows: &[usize]) ->
 
 fn pressure_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
     let dataset = &case.first().dataset;
-    let pressed = (0..dataset.holds.len()).filter(|h| dataset.holds[*h].sum_act_pa() > policy::ZERO_PRESSURE_PA);
-    let mut levels: Vec<&Hold> = Vec::new();
-    for hold in pressed.map(|h| &dataset.holds[h]) {
-        if !levels.iter().any(|level| policy::same_channels(level, hold)) {
-            levels.push(hold);
-        }
-    }
+    let pressed = dataset.holds.iter().filter(|hold| hold.sum_act_pa() > policy::ZERO_PRESSURE_PA);
+    let pressed: Vec<&Hold> = pressed.collect();
+    let levels = groups(&pressed, |a, b| policy::same_channels(a, b));
     if levels.len() < 2 {
         return Ok(Vec::new());
     }
     let (mean, noise) = (dataset.mean_over_runs(), case.noise());
     let width = mean.len() / dataset.holds.len();
-    let fold = |level: &&Hold| {
-        let is_out = |h: &usize| policy::same_channels(level, &dataset.holds[*h]);
+    let fold = |own: &Vec<usize>| {
+        let is_out = |h: &usize| policy::same_channels(pressed[own[0]], &dataset.holds[*h]);
         let (out, kept): (Vec<usize>, Vec<usize>) = (0..dataset.holds.len()).partition(is_out);
         let count = |h: &usize| noise.seen(h * width..(h + 1) * width) as f64;
         let of_hold = |h: &usize| noise.mean_square(h * width..(h + 1) * width).unwrap_or(0.0) * count(h);

@@ -22,6 +22,7 @@
 use crate::diagnosis::candidates::Free;
 use crate::diagnosis::case::Case;
 use crate::diagnosis::problem::Fit;
+use crate::fit::numbers::sort_by;
 use crate::policy;
 
 /// Explanations of as many effects, best first.
@@ -113,9 +114,9 @@ fn price(values: f64, allowance: f64) -> f64 {
 
 /// Fits in order of C, and the allowance used, from the best gain among fits that no bound rejects.
 pub(crate) fn sort(case: &Case, fits: &mut [Fit], over: &Fit) -> f64 {
-    let gain = |fit: &&Fit| over.cost() - fit.cost();
-    let allowance = allowance(fits.iter().filter(|f| !case.is_rejected(f)).map(|f| gain(&f)).fold(0.0, f64::max));
-    fits.sort_by(|a, b| criterion(case, a, allowance).total_cmp(&criterion(case, b, allowance)));
+    let gains = fits.iter().filter(|f| !case.is_rejected(f)).map(|f| over.cost() - f.cost());
+    let allowance = allowance(gains.fold(0.0, f64::max));
+    sort_by(fits, |fit| criterion(case, fit, allowance));
     allowance
 }
 

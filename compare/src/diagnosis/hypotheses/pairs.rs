@@ -7,6 +7,7 @@ use crate::diagnosis::result::Combination;
 use crate::diagnosis::screen::{score, starts};
 use crate::diagnosis::singles::parameter_values;
 use crate::fit::basis::{Basis, cosine};
+use crate::fit::numbers::{differences, sort_by};
 use crate::policy;
 use crate::progress::{Progress, each};
 use crate::stats::reported_p;
@@ -55,7 +56,7 @@ fn promising(case: &Case, singles: &[Fit]) -> Vec<(usize, usize)> {
         }
     }
     let mut order: Vec<usize> = (0..n * n).filter(|i| expected[*i].is_finite()).collect();
-    order.sort_by(|i, j| expected[*i].total_cmp(&expected[*j]));
+    sort_by(&mut order, |i| expected[*i]);
     order.iter().take(REFITTED).map(|i| (i / n, i % n)).collect()
 }
 
@@ -119,8 +120,7 @@ fn cancels(case: &Case, fit: &Fit) -> bool {
             }
             at += neutral.len();
         }
-        let residual = case.problem.residuals(&fit.effects, &theta)?;
-        Some(residual.iter().zip(&fit.minimum.residual).map(|(a, b)| b - a).collect())
+        Some(differences(&fit.minimum.residual, &case.problem.residuals(&fit.effects, &theta)?))
     };
     match (without(lead), without(lead + 1)) {
         (Some(a), Some(b)) => policy::cancel(cosine(&a, &b)),

@@ -7,6 +7,7 @@ use crate::diagnosis::source::{Source, nearest};
 use crate::error::CompareError;
 use crate::fit::basis::own_part;
 use crate::fit::least_squares::{Minimum, Range, dot, jacobian, minimise, square};
+use crate::fit::numbers::{differences, least};
 use crate::fit::whiten::{MISFIT_ROUNDS, Whitener};
 use crate::layout::Weights;
 use crate::noise::NoiseModel;
@@ -127,7 +128,7 @@ impl Fit {
 
     /// Change of the whitened residuals from another fit.
     pub(crate) fn change_from(&self, other: &Fit) -> Vec<f64> {
-        self.minimum.residual.iter().zip(&other.minimum.residual).map(|(a, b)| a - b).collect()
+        differences(&self.minimum.residual, &other.minimum.residual)
     }
 }
 
@@ -211,9 +212,9 @@ impl Problem<'_> {
         let from =
             |start: &Vec<f64>| minimise(start, &ranges, self.enough, &mut |theta| self.residuals(effects, theta));
         let found: Vec<Minimum> = starts.iter().filter_map(from).collect();
-        let least = found.iter().map(|m| m.cost).fold(f64::INFINITY, f64::min);
-        let several_minima = found.iter().any(|m| policy::is_another_minimum(m.cost, least));
-        let minimum = found.into_iter().find(|m| m.cost == least)?;
+        let lowest = found.iter().map(|m| m.cost).fold(f64::INFINITY, f64::min);
+        let several_minima = found.iter().any(|m| policy::is_another_minimum(m.cost, lowest));
+        let minimum = found.into_iter().find(|m| m.cost == lowest)?;
         let free: Vec<&Free> = self.parameters(effects).collect();
         let own = |k: usize| k.checked_sub(self.bendings).map(|own| free[own]);
         // The prior limits a form, not the end of its range; stiffnesses always act.
@@ -235,14 +236,14 @@ impl Problem<'_> {
     }
 
     /// The fit of a law that misses the data, and by how much: to it, its misfit is noise ([`crate::policy::MISFIT`]). `None` where none misses.
-    fn allowing(&self, effects: &[usize], ranges: &[Range], least: &Minimum) -> Option<(Minimum, Vec<f64>)> {
-        let mut factors = self.factors(&least.residual);
+    fn allowing(&self, effects: &[usize], ranges: &[Range], found: &Minimum) -> Option<(Minimum, Vec<f64>)> {
+        let mut factors = self.factors(&found.residual);
         if !factors.iter().any(|f| policy::is_a_misfit(*f)) {
             return None;
         }
         let mut wide: Option<Minimum> = None;
         for _ in 0..MISFIT_ROUNDS {
-            let start = wide.as_ref().map_or(&least.at, |w| &w.at);
+            let start = wide.as_ref().map_or(&found.at, |w| &w.at);
             let residuals = &mut |theta: &[f64]| self.residuals_allowing(&factors, effects, theta);
             let found = minimise(start, ranges, self.enough / factors.iter().copied().fold(1.0, f64::max), residuals)?;
             factors = self.factors(&self.residuals(effects, &found.at)?);
@@ -299,11 +300,10 @@ impl Problem<'_> {
             let bending = policy::MOST_BENDING * (f64::from(i) / f64::from(BENDINGS_TRIED)).powi(2);
             [&vec![bending; self.bendings], own_values].concat()
         };
-        let scan: Vec<Vec<f64>> = (0..=if self.bendings == 0 { 0 } else { BENDINGS_TRIED }).map(start).collect();
-        let cost = |theta: &Vec<f64>| self.residuals(always, theta).map_or(f64::INFINITY, |r| square(&r));
-        let costs: Vec<f64> = scan.iter().map(cost).collect();
-        let best = (0..scan.len()).min_by(|a, b| costs[*a].total_cmp(&costs[*b]))?;
-        self.fit(always, &scan[best..=best])
+        let scan = (0..=if self.bendings == 0 { 0 } else { BENDINGS_TRIED }).map(start);
+        let cost = |theta: Vec<f64>| (self.residuals(always, &theta).map_or(f64::INFINITY, |r| square(&r)), theta);
+        let (_, best) = least(scan.map(cost).collect::<Vec<_>>(), |(cost, _)| *cost)?;
+        self.fit(always, &[best])
     }
 }
 

@@ -9,10 +9,11 @@ use crate::diagnosis::missing::{Seen, curves_of, missing_moment, seen};
 use crate::diagnosis::options::Options;
 use crate::diagnosis::problem::{Block, Fit};
 use crate::diagnosis::result::words::with_interval;
-use crate::diagnosis::result::{Diagnosis, LearnedLaw, LearnedLine, LearnedTried, ParameterValue, Verdict};
+use crate::diagnosis::result::{Diagnosis, LearnedLaw, LearnedLine, LearnedTried, Verdict};
 use crate::diagnosis::singles::parameter_values;
 use crate::diagnosis::source::Source;
 use crate::error::CompareError;
+use crate::fit::numbers::{mean, sort_by};
 use crate::moment::learned::{Form, Material, PULL, Tried, rank, taken};
 use crate::moment::{MissingMoment, MomentCurve, MomentPoint};
 use models::Scenario;
@@ -80,7 +81,7 @@ fn learn(
         kept.push(law);
     }
     let Some(which) = taken(&laws).and_then(|i| i.checked_sub(1)) else { return Ok(None) };
-    tried.sort_by(|a, b| a.heldout_mm.total_cmp(&b.heldout_mm));
+    sort_by(&mut tried, |law| law.heldout_mm);
     ground.with(kept[which], &mut |case, fit, form| {
         let law = LearnedLaw { tried: tried.clone(), ..told(case, fit, form, &name, found)? };
         Ok(Some((law, curves_of(case, fit, (CURVE, true), points)?)))
@@ -130,16 +131,17 @@ fn material(case: &Case, seen: &[Seen]) -> Result<Material, CompareError> {
         let pulls = pulls(block, seen)?;
         let groups = seen.shape.division.groups;
         let robot = seen.robot();
-        let own = seen.moments.points.iter().enumerate().filter(|(_, p)| p.since_first.is_none());
+        let own = seen.moments.points.iter().enumerate().filter(|(_, p)| !p.is_change);
         let rows: Vec<usize> = own.clone().map(|(i, _)| i).collect();
         for (_, p) in own {
             let place = p.place.unwrap_or(0);
-            let pull = (0..groups).map(|g| pulls[p.hold * groups + g][place]).sum::<f64>() / groups as f64;
-            let at = seen.shape.division.places[place];
+            let pull = mean((0..groups).map(|g| pulls[(p.hold - 1) * groups + g][place]));
+            let (at, hold) = (seen.shape.division.places[place], &block.source.dataset.holds[p.hold - 1]);
             let theta = p.kappa * robot.actuator.shape.length_m;
             let s = 0.5 * (at.from_m + at.to_m);
-            places.push([p.kappa, theta, p.p_act_pa, p.p_body_pa, s, robot.radius_m, robot.bending_stiffness, pull]);
-            moments.push(p.moment);
+            let (radius, stiffness) = (robot.radius_m, robot.bending_stiffness);
+            places.push([p.kappa, theta, hold.p_act_pa, hold.p_body_pa, s, radius, stiffness, pull]);
+            moments.push(p.moment_nm);
         }
         parts.push(DMatrix::from_fn(rows.len(), rows.len(), |i, j| seen.moments.covariance[(rows[i], rows[j])]));
     }
@@ -213,6 +215,7 @@ fn told(case: &Case, fit: &Fit, form: &Form, name: &str, found: &Diagnosis) -> R
     let held_out = HeldOut::new(case)?;
     let mut values = parameter_values(case, fit, false);
     let own = values.split_off(values.len() - form.numbers.len());
+    let numbers: Vec<String> = own.iter().map(with_interval).collect();
     let line = values.first().map(|line| LearnedLine {
         value_mm: line.value,
         interval_mm: line.lo.zip(line.hi).map(|(lo, hi)| [lo, hi]),
@@ -222,7 +225,7 @@ fn told(case: &Case, fit: &Fit, form: &Form, name: &str, found: &Diagnosis) -> R
     Ok(LearnedLaw {
         name: name.into(),
         words: form.words.into(),
-        formula: printed(&form.moment_of(&case.first().scenario), &own),
+        formula: format!("M = {}; {}", form.moment_of(&case.first().scenario), numbers.join(", ")),
         parameters: own,
         line,
         before_mm: found.base.systematic_mm,
@@ -236,10 +239,4 @@ fn told(case: &Case, fit: &Fit, form: &Form, name: &str, found: &Diagnosis) -> R
         tried: Vec::new(),
         toml: form.toml(name, &case.first().scenario),
     })
-}
-
-/// A formula with numbers for its letters.
-fn printed(moment: &str, values: &[ParameterValue]) -> String {
-    let numbers: Vec<String> = values.iter().map(with_interval).collect();
-    format!("M = {moment}; {}", numbers.join(", "))
 }

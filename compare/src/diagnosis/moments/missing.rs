@@ -5,12 +5,12 @@ use crate::diagnosis::decide::Decision;
 use crate::diagnosis::problem::{Block, Fit};
 use crate::diagnosis::result::Diagnosis;
 use crate::diagnosis::result::answers::{Answer, Standing};
-use crate::diagnosis::source::{Source, nearest};
+use crate::diagnosis::source::nearest;
 use crate::error::CompareError;
 use crate::fit::least_squares::{products, square};
 use crate::moment::{
     MeasuredShape, MissingMoment, MomentCurve, MomentPoint, Moments, Path, Robot, Shape, View, band, curve, degrees,
-    missing, moments, sentences, shape, shape_sentences, told,
+    missing, moments, sentences, shape, shape_sentences,
 };
 use models::Scenario;
 use models::effects::Stage;
@@ -38,9 +38,8 @@ pub(crate) fn missing_moment(
 ) -> Result<MissingMoment, CompareError> {
     let (mut shapes, mut points) = (Vec::new(), Vec::new());
     for (block, seen) in case.problem.blocks.iter().zip(seen) {
-        let Source { scenario, dataset, .. } = &*block.source;
-        shapes.push(MeasuredShape::of(dataset, &seen.shape));
-        points.extend(told(dataset, &seen.shape, &seen.moments, scenario.length_m));
+        shapes.push(MeasuredShape::of(&block.source.dataset, &seen.shape));
+        points.extend(seen.moments.of_holds.iter().chain(&seen.moments.points).cloned());
     }
     let curves = curves(case, decision, found, &points)?;
     let mut told = sentences(&points);

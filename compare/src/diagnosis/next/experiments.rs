@@ -26,24 +26,19 @@ pub(crate) struct Plan {
     pub tests: Vec<&'static BenchTest>,
 }
 
-/// What may be measured in addition to the markers.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Instruments {
-    /// Quantities measured directly in the same runs.
-    pub direct: Direct,
-    /// Separate tests of robot or fabric.
-    pub tests: Vec<&'static BenchTest>,
-}
-
 /// A bending test of the body alone.
 pub(crate) fn bending_test() -> Plan {
     Plan { name: BENDING_TEST_NAME.into(), sentence: data::BENDING_TEST.into(), parts: Vec::new(), tests: Vec::new() }
 }
 
-/// All experiments for the robot and the protocol of the data at hand; then the same with what `instruments` measure directly,
-/// if that is more than in those data.
-pub(crate) fn plans(scenario: &Scenario, dataset: &Dataset, at_hand: Direct, instruments: Instruments) -> Vec<Plan> {
-    let Instruments { direct, tests } = instruments;
+/// All experiments for the robot and the protocol of the data at hand; then the same with what may be measured directly and by separate
+/// tests, if that is more than in those data.
+pub(crate) fn plans(
+    scenario: &Scenario,
+    dataset: &Dataset,
+    at_hand: Direct,
+    (direct, tests): (Direct, Vec<&'static BenchTest>),
+) -> Vec<Plan> {
     let all = Direct { pressure: at_hand.pressure || direct.pressure, frame: at_hand.frame || direct.frame };
     let mut plans = protocols(scenario, dataset, at_hand);
     if all != at_hand || !tests.is_empty() {

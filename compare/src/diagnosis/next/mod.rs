@@ -16,7 +16,7 @@ pub(super) mod worth;
 
 use crate::diagnosis::case::Case;
 use crate::diagnosis::decide::Decision;
-use crate::diagnosis::experiments::{BENDING_TEST, Instruments, Plan, bending_test, plans, protocol_text};
+use crate::diagnosis::experiments::{BENDING_TEST, Plan, bending_test, plans, protocol_text};
 use crate::diagnosis::known::{BENCH_TEST, BENCH_TESTS, BenchTest, Known, parameters_of};
 use crate::diagnosis::order::allowance;
 use crate::diagnosis::problem::{Block, Fit, Problem, with};
@@ -29,6 +29,7 @@ use crate::gauge::Gauge;
 use crate::policy;
 use crate::study::predict::without_settled;
 use crate::study::predict_dataset;
+use crate::wording::list;
 use data::Direct;
 use models::Supply;
 use models::effects::Stage;
@@ -96,7 +97,7 @@ fn hypotheses(decision: &Decision) -> Vec<&Fit> {
 
 /// What would have to be measured directly so that no remaining explanation belongs to supply or camera, or to a quantity that a
 /// separate test measures.
-fn instruments(case: &Case, hypotheses: &[&Fit]) -> Instruments {
+fn instruments(case: &Case, hypotheses: &[&Fit]) -> (Direct, Vec<&'static BenchTest>) {
     let tried: Vec<usize> = hypotheses.iter().flat_map(|fit| case.added(fit)).copied().collect();
     let has = |stage: Stage| tried.iter().any(|e| case.candidate(*e).stage == stage);
     let is_open = |test: &&BenchTest| {
@@ -105,10 +106,8 @@ fn instruments(case: &Case, hypotheses: &[&Fit]) -> Instruments {
             tried.contains(&e) && case.problem.known.iter().all(|known| (known.effect, known.parameter) != (e, k))
         })
     };
-    Instruments {
-        direct: Direct { pressure: has(Stage::Supply), frame: has(Stage::Camera) },
-        tests: BENCH_TESTS.iter().filter(is_open).collect(),
-    }
+    let direct = Direct { pressure: has(Stage::Supply), frame: has(Stage::Camera) };
+    (direct, BENCH_TESTS.iter().filter(is_open).collect())
 }
 
 fn label(case: &Case, fit: &Fit) -> String {
@@ -286,8 +285,7 @@ fn sentence(best: &str, recommended: Option<&Experiment>) -> String {
         );
     };
     let above = |least: f64| -> Vec<&Separation> { e.separations.iter().filter(|s| s.lambda >= least).collect() };
-    let names =
-        |found: &[&Separation]| crate::wording::list(&found.iter().map(|s| s.rival.clone()).collect::<Vec<_>>());
+    let names = |found: &[&Separation]| list(found.iter().map(|s| &s.rival));
     let protocol = if e.protocol.is_empty() { String::new() } else { format!(" ({})", e.protocol) };
     let results = if e.tests.is_empty() { "" } else { RESULTS };
     let parts = match (e.runs_needed, above(e.needed).is_empty()) {

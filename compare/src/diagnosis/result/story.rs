@@ -10,6 +10,7 @@ use crate::diagnosis::result::{
     Ranked, Verdict, Worth, names_of,
 };
 use crate::evidence::ForeignBase;
+use crate::fit::numbers::{largest, least, sort_by};
 use crate::wording::{capitalised, list, p_value};
 
 /// What comes as close as an attempt is named up to that many; `diagnosis.json` has all.
@@ -108,7 +109,7 @@ fn beside(part: &FittedBeside) -> String {
 }
 
 fn gauge(fit: &GaugeFit) -> Option<String> {
-    let (read, set) = (fit.read_kpa.iter().zip(&fit.set_kpa)).max_by(|a, b| a.1.total_cmp(b.1))?;
+    let (read, set) = largest(fit.read_kpa.iter().zip(&fit.set_kpa), |(_, set)| **set)?;
     let GaugeFit { dataset, before_kpa, after_kpa, .. } = fit;
     Some(format!(
         "The gauge in {dataset} read {read:.1} kPa at the actuator where {set:.1} were set. The supply's laws are off by \
@@ -144,7 +145,7 @@ fn by_design(d: &Diagnosis, entry: &AsClose) -> String {
 
 fn ranking_only(d: &Diagnosis) -> Vec<String> {
     let helps = d.ranked.iter().filter(|r| policy::helps(r.gain) && !r.at_bound);
-    let names: Vec<String> = helps.take(5).map(|r| r.effect.clone()).collect();
+    let names: Vec<&String> = helps.take(5).map(|r| &r.effect).collect();
     let why = format!("{} usable runs: at least three are needed for p-values", d.runs);
     let order = if names.is_empty() {
         "No effect lowers the misfit.".to_string()
@@ -159,11 +160,10 @@ fn nothing(d: &Diagnosis) -> Vec<String> {
         vec![format!("No missing effect detectable ({} after correcting for {} effects).", p_of(d), d.ranked.len())];
     let mut seen: Vec<_> =
         d.undetectable.iter().filter_map(|u| Some((u, u.smallest_detectable?, u.times_typical?))).collect();
-    seen.sort_by(|a, b| b.2.total_cmp(&a.2));
-    let parts: Vec<String> =
-        seen.iter().take(4).map(|(u, size, _)| format!("{} {}", u.effect, quantity(*size, &u.unit))).collect();
-    if !parts.is_empty() {
-        told.push(format!("To be seen, the effects that hide best would have to exceed: {}.", list(&parts)));
+    sort_by(&mut seen, |(.., times)| -times);
+    if !seen.is_empty() {
+        let parts = seen.iter().take(4).map(|(u, size, _)| format!("{} {}", u.effect, quantity(*size, &u.unit)));
+        told.push(format!("To be seen, the effects that hide best would have to exceed: {}.", list(parts)));
     }
     told
 }
@@ -302,8 +302,7 @@ fn as_close(d: &Diagnosis) -> Option<String> {
 
 /// What comes closer than the attempt, but only at the end of its range.
 fn at_its_bound(d: &Diagnosis) -> Option<String> {
-    let left = |r: &&Ranked| r.systematic_after_mm;
-    let nearest = d.ranked.iter().filter(|r| r.at_bound).min_by(|a, b| left(a).total_cmp(&left(b)))?;
+    let nearest = least(d.ranked.iter().filter(|r| r.at_bound), |r| r.systematic_after_mm)?;
     policy::is_closer(nearest.systematic_after_mm, d.base.systematic_with_added_mm).then(|| {
         format!(
             "{} would leave {:.2} mm, but at the end of its range, {}, and the data push beyond it: more of it than was thought \
@@ -316,13 +315,12 @@ fn at_its_bound(d: &Diagnosis) -> Option<String> {
 }
 
 fn with_kept_bending(d: &Diagnosis, kept: &KeptBending) -> String {
-    let fitted: Vec<String> = d.base.bending.iter().map(|b| format!("{:.2}", b.value_nm2)).collect();
+    let fitted = list(d.base.bending.iter().map(|b| format!("{:.2}", b.value_nm2)));
     let alike = if kept.indistinguishable.len() > 1 { ", which these data do not separate" } else { "" };
     format!(
-        "With B kept at the scenario's {:.2} N·m² ({} fitted to the base) there is an answer: {}{alike}, down to {:.2} mm. It \
+        "With B kept at the scenario's {:.2} N·m² ({fitted} fitted to the base) there is an answer: {}{alike}, down to {:.2} mm. It \
          holds if a bending test finds that B: then write it into the scenario and add --keep-bending.",
         kept.value_nm2,
-        list(&fitted),
         list(&kept.indistinguishable),
         kept.systematic_after_mm
     )

@@ -7,6 +7,7 @@ use crate::diagnosis::case::Case;
 use crate::diagnosis::experiments::bending_test;
 use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::BendingAlarm;
+use crate::fit::numbers::largest;
 use crate::policy;
 
 /// The alarm, where the stiffness is fitted and has a given value.
@@ -20,8 +21,7 @@ pub(crate) fn bending_alarm(case: &Case, last: &Fit) -> Option<BendingAlarm> {
     // A bending test is of the first body pressure.
     let count = if test.is_some() { 1.min(case.problem.bendings) } else { case.problem.bendings };
     let off = |k: &usize| is_off(last.theta()[*k]);
-    let far = |k: &usize| (last.theta()[*k] - given).abs();
-    let worst = (0..count).filter(off).max_by(|a, b| far(a).total_cmp(&far(b)))?;
+    let worst = largest((0..count).filter(off), |k| (last.theta()[*k] - given).abs())?;
     let alarm = BendingAlarm {
         told_nm2: given,
         test_sd_nm2: test.map(|[_, sd]| sd),

@@ -13,6 +13,7 @@ use crate::diagnosis::result::{LackOfFit, Verdict};
 use crate::diagnosis::singles::indistinguishable;
 use crate::diagnosis::source::Source;
 use crate::error::CompareError;
+use crate::fit::numbers::least;
 use crate::policy;
 use crate::progress::Progress;
 use crate::stats::reported_p;
@@ -214,8 +215,7 @@ fn test(case: &Case, fit: &Fit) -> Result<Option<LackOfFit>, CompareError> {
         tests.push(positions.map(|lof| supply.map_or(lof, |(gauge, white)| with_supply(lof, gauge, &white))));
     }
     let count = tests.len() as f64;
-    let clearest = tests.into_iter().collect::<Option<Vec<_>>>();
-    let clearest = clearest.and_then(|all| all.into_iter().min_by(|a, b| a.p_value.total_cmp(&b.p_value)));
+    let clearest = tests.into_iter().collect::<Option<Vec<_>>>().and_then(|all| least(all, |lof| lof.p_value));
     Ok(clearest.map(|lof| LackOfFit { p_value: (count * lof.p_value).min(1.0), ..lof }))
 }
 

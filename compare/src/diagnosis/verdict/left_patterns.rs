@@ -10,6 +10,7 @@ use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::LeftPattern;
 use crate::fit::basis::Basis;
 use crate::fit::least_squares::{dot, square};
+use crate::fit::numbers::{largest, sort_by};
 use crate::policy;
 use crate::stats::{SMALLEST_P, quantile, reported_p, two_sided_p};
 use crate::study::generate::Scatter;
@@ -125,7 +126,7 @@ pub(crate) fn left_pattern(case: &Case, last: Option<&Fit>, fault: Option<&Simpl
     if let Some(Simpler { fault, p_value, .. }) = fault {
         return Some(told(&case.base, fault, *p_value, true));
     }
-    let clearest = |look: &Look| look.seen.iter().max_by(|a, b| a.gain.total_cmp(&b.gain)).cloned();
+    let clearest = |look: &Look| largest(&look.seen, |seen| seen.gain).cloned();
     let of_base = look(case, &case.base, false);
     let alone = clearest(&of_base)?;
     let (fit, look, instead) = match last {
@@ -161,7 +162,7 @@ fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Look {
             units.push(unit);
         }
     }
-    seen.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    sort_by(&mut seen, |pattern: &ClearPattern| -pattern.gain);
     Look { seen, units, tests: OnceCell::new() }
 }
 
@@ -180,14 +181,14 @@ fn independent(correlations: &DMatrix<f64>) -> Option<f64> {
     let m = correlations.nrows();
     let factor = factor(correlations);
     let mut scatter = Scatter::new(SEED);
-    let mut largest: Vec<f64> = Vec::with_capacity(SIMULATED);
+    let mut most: Vec<f64> = Vec::with_capacity(SIMULATED);
     for _ in 0..SIMULATED / TOGETHER {
         let mut noise = vec![[0.0; TOGETHER]; m];
         (0..TOGETHER).for_each(|set| noise.iter_mut().for_each(|noise| noise[set] = scatter.normal()));
-        largest.extend(largest_of(&factor, &noise));
+        most.extend(largest_of(&factor, &noise));
     }
-    largest.sort_by(f64::total_cmp);
-    let quantile = quantile(&largest, QUANTILE)?;
+    most.sort_by(f64::total_cmp);
+    let quantile = quantile(&most, QUANTILE)?;
     Some((QUANTILE.ln() / (-two_sided_p(quantile, 0)).ln_1p()).clamp(1.0, m as f64))
 }
 

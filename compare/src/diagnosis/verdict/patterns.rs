@@ -16,6 +16,7 @@
 use crate::diagnosis::case::Case;
 use crate::diagnosis::experiments::TIP_FORCE_N;
 use crate::diagnosis::source::pressure_levels;
+use crate::fit::numbers::sort_by;
 use crate::layout::Layout;
 use crate::wording::short;
 use data::{Hold, Phase};
@@ -230,7 +231,7 @@ fn times(case: &Case, bent: &[f64]) -> Vec<When> {
 
 fn order(stations_m: &[f64]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..stations_m.len()).collect();
-    order.sort_by(|a, b| stations_m[*a].total_cmp(&stations_m[*b]));
+    sort_by(&mut order, |marker| stations_m[*marker]);
     order
 }
 

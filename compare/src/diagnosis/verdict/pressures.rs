@@ -27,6 +27,7 @@ use crate::diagnosis::singles::fit_all;
 use crate::diagnosis::source::Source;
 use crate::error::CompareError;
 use crate::evidence::Evidence;
+use crate::fit::numbers::{least, mean, sort_by};
 use crate::policy;
 use crate::slips::pressure::{BestEffect, PressureSlip, PressureSlipFound, by_numbers, pressure_words};
 use data::Dataset;
@@ -78,7 +79,7 @@ impl Pressures<'_> {
         if !rivals.iter().all(|(rival, _)| best.beats(rival, tolerance_mm)) {
             return Ok(None);
         }
-        let nearest = rivals.iter().min_by(|a, b| a.0.left_mm.total_cmp(&b.0.left_mm));
+        let nearest = least(&rivals, |(rival, _)| rival.left_mm);
         let best_effect = nearest.map(|(rival, fit)| BestEffect { effects: case.names(fit), left_mm: rival.left_mm });
         Ok(Some(self.told(&all, Some(own.left_mm), best_effect)))
     }
@@ -97,11 +98,8 @@ impl Pressures<'_> {
 
     /// A slip that the numbers alone prove, whatever a model leaves.
     fn proved(&self, case: &Case) -> Option<PressureSlipFound> {
-        let (of, slip) = self
-            .sources
-            .iter()
-            .enumerate()
-            .find_map(|(of, source)| by_numbers(&source.dataset).into_iter().next().map(|slip| (of, slip)))?;
+        let mut seen = self.sources.iter().map(|source| by_numbers(&source.dataset)).enumerate();
+        let (of, slip) = seen.find_map(|(of, seen)| Some((of, *seen.first()?)))?;
         let before_mm = Some(case.error_in_all_mm(&case.base));
         // Bar under a name of kPa looks exchanged too, and the model decides which.
         let all = self.undone_slips(false);
@@ -156,7 +154,7 @@ impl Pressures<'_> {
             Some(Undone { of, slip, weighed, in_numbers: seen })
         };
         let mut undone: Vec<Undone> = all.filter_map(undone).collect();
-        undone.sort_by(|a, b| a.weighed.criterion.total_cmp(&b.weighed.criterion));
+        sort_by(&mut undone, |slip| slip.weighed.criterion);
         undone
     }
 
@@ -180,16 +178,12 @@ impl Pressures<'_> {
             format!(" (the best of the catalogue, {}, leaves {left_mm:.2} mm)", effects.join(" + "))
         });
         let is_alike = |other: &&Undone| policy::is_as_good(other.weighed.criterion, weighed.criterion);
-        let alike = all[1..].iter().filter(is_alike);
-        let alike =
-            alike.map(|other| format!(". As good with these data: {}; {}", other.slip.looks(), other.slip.help()));
-        let words = format!(
-            "{name}: {}: with {} {brings}{effect}. Look at it first: {}{}",
-            slip.looks(),
-            slip.with(),
-            slip.help(),
-            alike.collect::<String>()
-        );
+        let alike = all[1..].iter().filter(is_alike).map(|other| {
+            let [looks, _, help] = other.slip.words();
+            format!(". As good with these data: {looks}; {help}")
+        });
+        let ([looks, with, help], alike) = (slip.words(), alike.collect::<String>());
+        let words = format!("{name}: {looks}: with {with} {brings}{effect}. Look at it first: {help}{alike}");
         PressureSlipFound { dataset: name, words, before_mm, after_mm: Some(after_mm), best_effect }
     }
 }
@@ -223,7 +217,7 @@ pub(crate) fn slip_of_another_design(
         let words = format!("{} (seen by the same robot {}).", found.words.trim_end_matches('.'), change(&switched));
         Some(PressureSlipFound { words, ..found })
     });
-    Ok(found.min_by(|a, b| a.after_mm.unwrap_or(f64::MAX).total_cmp(&b.after_mm.unwrap_or(f64::MAX))))
+    Ok(least(found, |found| found.after_mm.unwrap_or(f64::MAX)))
 }
 
 fn slip_of(
@@ -271,8 +265,7 @@ fn weighed(case: &Case, fit: &Fit) -> Weighed {
 
 /// Root mean square of how far the markers moved \[m\].
 fn moved_m(dataset: &Dataset) -> f64 {
-    let mean = dataset.mean_over_runs();
-    let hold = mean.len() / dataset.holds.len();
-    let squares: f64 = mean.iter().enumerate().map(|(i, v)| (v - mean[i % hold]).powi(2)).sum();
-    (squares / mean.len() as f64).sqrt()
+    let at = dataset.mean_over_runs();
+    let hold = at.len() / dataset.holds.len();
+    mean((0..at.len()).map(|i| (at[i] - at[i % hold]).powi(2))).sqrt()
 }

@@ -1,6 +1,7 @@
 //! Which law of the library the points ask for.
 
 use super::library::{Form, LIBRARY};
+use crate::fit::numbers::{groups, mean, sort_by};
 use crate::policy;
 use models::{Formula, Scenario};
 use nalgebra::{DMatrix, DVector};
@@ -31,7 +32,7 @@ pub(crate) struct Tried {
 impl Tried {
     /// What it misses at levels left out, in units of noise: root mean square over the levels.
     pub(crate) fn score(&self) -> f64 {
-        (self.of_levels.iter().sum::<f64>() / self.of_levels.len() as f64).sqrt()
+        mean(self.of_levels.iter().copied()).sqrt()
     }
 }
 
@@ -53,7 +54,7 @@ pub(crate) fn rank(material: &Material, robot: &Scenario) -> Vec<Tried> {
     };
     let mut tried: Vec<Tried> = std::iter::once(None).chain(open.map(Some)).filter_map(tried).collect();
     tried.retain(|t| t.score().is_finite());
-    tried.sort_by(|a, b| a.score().total_cmp(&b.score()));
+    sort_by(&mut tried, Tried::score);
     tried
 }
 
@@ -68,14 +69,10 @@ pub(crate) fn taken(laws: &[(usize, f64)]) -> Option<usize> {
 impl Material {
     /// Level of actuator pressure of every point.
     fn levels(&self) -> Vec<usize> {
-        let mut known: Vec<f64> = Vec::new();
-        let level = |at: &[f64; 8]| {
-            known.iter().position(|p| policy::is_same_pressure(*p, at[2])).unwrap_or_else(|| {
-                known.push(at[2]);
-                known.len() - 1
-            })
-        };
-        self.places.iter().map(level).collect()
+        let mut levels = vec![0; self.places.len()];
+        let alike = groups(&self.places, |a, b| policy::is_same_pressure(a[2], b[2]));
+        alike.iter().enumerate().for_each(|(level, own)| own.iter().for_each(|i| levels[*i] = level));
+        levels
     }
 
     fn part(&self, rows: &[usize]) -> Option<nalgebra::Cholesky<f64, nalgebra::Dyn>> {
