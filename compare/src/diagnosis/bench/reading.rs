@@ -64,15 +64,3 @@ pub(super) fn steady<'r, 'a: 'r>(readings: impl Iterator<Item = &'r mut Reading<
         r.error = Some([sd / (own + 1.0).sqrt(), dof]);
     }
 }
-
-/// Indices of equal keys, in the order in which these come.
-pub(super) fn groups<K: PartialEq>(keys: impl Iterator<Item = K>) -> Vec<Vec<usize>> {
-    let mut found: Vec<(K, Vec<usize>)> = Vec::new();
-    for (i, key) in keys.enumerate() {
-        match found.iter_mut().find(|(known, _)| *known == key) {
-            Some((_, rows)) => rows.push(i),
-            None => found.push((key, vec![i])),
-        }
-    }
-    found.into_iter().map(|(_, rows)| rows).collect()
-}
