@@ -21,7 +21,6 @@ use serde::Serialize;
 /// Robot and data of the demonstration.
 pub const ROBOT: [&str; 2] = ["epam", "fem-epam"];
 const ROBOTS: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
-/// Body pressure of the data that are left out \[Pa\].
 const LEFT_OUT_PA: f64 = 4e3;
 
 /// Results of the five panels, from a textbook model to both engines.
@@ -93,7 +92,6 @@ fn left_out(robot: &Scenario) -> Result<Evidence, CompareError> {
     Ok(Evidence::of(dataset, Some(about)))
 }
 
-/// From the textbook model to the shipped one.
 struct Path<'d> {
     shipped: Scenario,
     data: &'d Evidence,
@@ -141,7 +139,6 @@ impl Path<'_> {
     }
 }
 
-/// Root mean square of prediction minus mean over runs \[mm\].
 fn error_mm(model: &Scenario, evidence: &Evidence) -> Result<f64, CompareError> {
     let body_pa = evidence.dataset.holds.first().map_or(model.p_body_pa, |hold| hold.p_body_pa);
     let model = Scenario { p_body_pa: body_pa, ..model.clone() };

@@ -93,7 +93,6 @@ impl CompareError {
         CompareError::Refused { message: message.into(), help: help.into() }
     }
 
-    /// What does not fit, and what to do.
     pub(crate) fn told(message: impl Into<String>) -> CompareError {
         CompareError::Unfit(message.into())
     }

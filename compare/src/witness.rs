@@ -26,9 +26,7 @@ use serde::Serialize;
 
 /// Terms that are physics: all but hourglass control.
 const PHYSICAL: usize = TERMS.len() - 1;
-/// Candidates whose ledger is compared, the stated set first.
 const MOST: usize = 6;
-/// Places of two terms in [`TERMS`].
 const GAS: usize = 0;
 const BENDING: usize = 2;
 
@@ -151,7 +149,6 @@ pub fn witness(
     Ok(Some(found))
 }
 
-/// Models of a diagnosis, each with the B fitted with it.
 struct Cases {
     base: Scenario,
     /// With everything that is added, supply and camera too.
@@ -210,7 +207,6 @@ fn heights(models: [&Scenario; 2], dataset: &Dataset, ensemble: &Ensemble) -> Re
     Ok(found)
 }
 
-/// What a model misses at the bends of the runs, pressure by pressure.
 fn moments(scenario: &Scenario, ensemble: &Ensemble) -> Vec<FeMoment> {
     let states = ensemble.runs.first().map_or(&[][..], |run| &run.states);
     let at = |kpa: f64| -> Option<FeMoment> {
@@ -234,7 +230,6 @@ fn moments(scenario: &Scenario, ensemble: &Ensemble) -> Vec<FeMoment> {
     states.iter().map(|s| s.actuator_kpa).filter(|kpa| *kpa > 0.0).filter_map(at).collect()
 }
 
-/// The ledgers of a model and of the finite elements, means over seeds.
 fn beside(
     name: &str,
     scenario: &Scenario,

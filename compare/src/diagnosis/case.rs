@@ -21,13 +21,11 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 /// Fits end when a round lowers the whitened sum of squares by less.
 const ENOUGH: f64 = 1e-4;
-/// Rounds of the eigenvalue iteration; a handful suffice.
 const EIGEN_ROUNDS: usize = 1000;
 
 /// Noise of a source, given its ∂f/∂ln p.
 type NoiseOf<'n> = dyn Fn(&Source, &[f64]) -> Result<NoiseModel, CompareError> + 'n;
 
-/// What every hypothesis is compared with.
 pub(crate) struct Case<'a> {
     /// All data; errors in millimetres, places and held-out parts refer to the first.
     pub sources: &'a [Source],
@@ -93,7 +91,6 @@ impl<'a> Case<'a> {
         Case::with_noise(sources, &estimate, (candidates, own), options)
     }
 
-    /// The same with noise from elsewhere.
     pub(crate) fn with_noise(
         sources: &'a [Source],
         noise: &NoiseOf,
@@ -149,7 +146,6 @@ impl<'a> Case<'a> {
         &self.sources[0]
     }
 
-    /// Noise of the mean of the first data.
     pub(crate) fn noise(&self) -> &NoiseModel {
         &self.noises[0]
     }
@@ -158,7 +154,6 @@ impl<'a> Case<'a> {
         &self.problem.candidates[effect]
     }
 
-    /// Effects that a fit adds to the base.
     pub(crate) fn added<'f>(&self, fit: &'f Fit) -> &'f [usize] {
         &fit.effects[self.always.len()..]
     }
@@ -167,12 +162,10 @@ impl<'a> Case<'a> {
         self.added(fit).iter().map(|e| self.candidate(*e).name.clone()).collect()
     }
 
-    /// Effects of every hypothesis and one more.
     pub(crate) fn with(&self, effect: usize) -> Vec<usize> {
         self.always.iter().copied().chain([effect]).collect()
     }
 
-    /// Stiffnesses of a fit, one per body pressure \[N·m²\].
     pub(crate) fn bendings(&self, fit: &Fit) -> Vec<f64> {
         fit.theta()[..self.problem.bendings].to_vec()
     }
@@ -188,7 +181,6 @@ impl<'a> Case<'a> {
         predicted.unwrap_or_else(|| block.target_m.clone())
     }
 
-    /// The part of whitened values that belongs to the first data.
     pub(crate) fn of_first<'v>(&self, white: &'v [f64]) -> &'v [f64] {
         &white[..self.noise().directions.len()]
     }
@@ -206,7 +198,6 @@ impl<'a> Case<'a> {
         error_mm(prediction_m, &self.problem.blocks[0].target_m, self.noise())
     }
 
-    /// The same of a fit in each of the data \[mm\].
     pub(crate) fn errors_mm(&self, fit: &Fit) -> Vec<f64> {
         let blocks = self.problem.blocks.iter().zip(&self.noises);
         blocks.map(|(block, noise)| error_mm(&self.prediction_of(block, fit), &block.target_m, noise)).collect()
@@ -239,7 +230,6 @@ impl<'a> Case<'a> {
         (self.seen_cost(&self.base) - self.seen_cost(fit)).max(0.0)
     }
 
-    /// Fall of the whitened sum of squares against the calibrated base.
     pub(crate) fn gain(&self, fit: &Fit) -> f64 {
         (self.base.cost() - fit.cost()).max(0.0)
     }

@@ -123,7 +123,6 @@ impl Source {
         Ok((Source { sessions, gauge, outliers, slips, ..source }, warnings))
     }
 
-    /// Every evidence made ready, without copies, and cautions.
     pub(crate) fn all(scenario: &Scenario, evidence: &[Evidence]) -> Result<(Vec<Source>, Vec<String>), CompareError> {
         let (mut sources, mut warnings) = (Vec::<Source>::new(), Vec::new());
         for (i, measured) in evidence.iter().enumerate() {
@@ -160,13 +159,11 @@ impl Source {
         other.measured.iter().find(differs).map(|m| m.effect.as_str())
     }
 
-    /// Whether the first bending test before it found something else.
     fn contradicts_bending(&self, before: &[Source]) -> bool {
         let tested = before.iter().find_map(|known| known.bending_nm2).zip(self.bending_nm2);
         tested.is_some_and(|(known, own)| known != own)
     }
 
-    /// Whether anything is left to be seen of effects of a stage.
     pub(crate) fn shows(&self, stage: Stage) -> bool {
         is_open(stage, self.direct) || stage == Stage::Supply && self.gauge.is_some()
     }

@@ -114,7 +114,6 @@ impl Climb {
     }
 }
 
-/// Why not another step, for programs and for readers.
 fn end(d: &Diagnosis, left: f64, (count, most): (usize, usize)) -> Option<(&'static str, String)> {
     let sentence = match d.verdict {
         None if d.pressure_slip.is_some() => ("pressure_slip", d.slips.join(" ")),

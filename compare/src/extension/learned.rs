@@ -8,10 +8,8 @@ use crate::error::CompareError;
 use crate::policy;
 use crate::scenario_file::ScenarioFile;
 
-/// Key of the line's distance from the taut generator in `[body]`.
 const CENTRE_LINE: &str = "centre_line_mm";
 
-/// The scenario with the law that a diagnosis learned.
 pub(super) fn learned(file: &ScenarioFile, found: &Diagnosis) -> Result<Extension, CompareError> {
     let Some(law) = &found.learned else {
         let message = "no law of the library predicts pressures left out better than the model as it is";

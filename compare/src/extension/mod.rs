@@ -24,7 +24,6 @@ pub use text::{Addition, BodyValue, today};
 pub(crate) use text::{Origin, extended, origins};
 pub use written::{Extension, FittedEffect};
 
-/// What asks for a learned law; the name of the first one too.
 const LEARNED: &str = "learned";
 
 /// The effect to add, as a user types it.
@@ -129,7 +128,6 @@ pub fn add(
     Ok(extension)
 }
 
-/// An effect at a value that was not fitted.
 fn assumed(file: &ScenarioFile, name: &str, values: &Values) -> Result<Extension, CompareError> {
     let sentence = file.catalogue().by_name(name).map(|e| e.sentence.to_string());
     let addition = Addition {
@@ -187,7 +185,6 @@ fn given(
     climbed(file, before, vec![addition], after.base_step(&format!("+ {name}"), Known::Assumed), told)
 }
 
-/// The part that is the same for all ways to a value.
 fn climbed(
     file: &ScenarioFile,
     ground: &Ground,
@@ -210,7 +207,6 @@ fn rivals(d: &Diagnosis) -> Option<String> {
     (d.indistinguishable.len() > 1).then(told)
 }
 
-/// What to say of data without enough runs.
 fn too_few_runs(evidence: &Evidence) -> Option<String> {
     let runs = evidence.dataset.runs.len();
     (runs < 3).then(|| format!("{runs} runs: at least three are needed for p-values, so this is a ranking only"))

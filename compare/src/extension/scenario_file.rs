@@ -187,7 +187,6 @@ pub fn fault(name: &str, text: &str, error: &ScenarioError) -> CompareError {
     CompareError::Scenario(Box::new(fault))
 }
 
-/// Help for TOML errors that bring none.
 fn what_to_type(message: &str) -> &'static str {
     match message {
         m if m.contains("expected f64") => {

@@ -50,15 +50,10 @@ pub(crate) struct Origin {
     pub bending_without_nm2: Option<f64>,
 }
 
-/// Significant digits of the written numbers.
 const DIGITS: i32 = 6;
-/// How the note of an added effect begins.
 const ADDED: &str = "added by ibr";
-/// What comes before the stiffness in that note.
 const WITHOUT: &str = "calibrated without it B = ";
-/// What comes before the hash of the data.
 const HASH: &str = "SHA-256 ";
-/// Key of the bending stiffness in `[body]`.
 pub(super) const BENDING: &str = "bending_stiffness_nm2";
 
 /// The scenario with B replaced and the effects appended; it keeps its name.
@@ -100,7 +95,6 @@ pub(super) fn with_formula(
     Ok(ScenarioFile { name: file.name.clone(), text, scenario })
 }
 
-/// The effects that were added to a scenario, in the order of its text.
 pub(crate) fn origins(text: &str) -> Vec<Origin> {
     let document: DocumentMut = text.parse().unwrap_or_default();
     let effects = document.get("effects").and_then(Item::as_table_like).map(|table| table.iter());
@@ -114,7 +108,6 @@ pub(crate) fn origins(text: &str) -> Vec<Origin> {
     effects.into_iter().flatten().filter_map(origin).collect()
 }
 
-/// Every SHA-256 in a remark about the data.
 fn hashes(text: &str) -> Vec<String> {
     let hash = |part: &str| part.chars().take_while(char::is_ascii_alphanumeric).collect();
     text.split(HASH).skip(1).map(hash).collect()
@@ -128,7 +121,6 @@ pub(super) fn rounded(v: f64) -> f64 {
     format!("{v:.digits$}").parse().unwrap_or(v)
 }
 
-/// The text with a value of its body replaced.
 fn with_body(file: &ScenarioFile, body: Option<&BodyValue>) -> Result<DocumentMut, CompareError> {
     let mut document: DocumentMut = file.text.parse().map_err(|e: toml_edit::TomlError| refused(e.message()))?;
     let set = body.map_or(Some(()), |new| set_body(&mut document, new));

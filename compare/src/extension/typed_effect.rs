@@ -51,7 +51,6 @@ pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, &'stati
     }
 }
 
-/// A value within its usual bounds.
 fn number_of(p: &models::effects::Parameter, key: &str, text: &str, help: String) -> Result<f64, CompareError> {
     match text.trim().parse::<f64>() {
         Ok(v) if p.is_usual(v) => Ok(v),

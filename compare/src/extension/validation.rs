@@ -99,7 +99,6 @@ impl BeforeAfter {
 }
 
 impl Validation {
-    /// Of a model without and with effects, compared with data.
     pub(crate) fn of(
         evidence: &Evidence,
         [before, after]: [&Evaluation; 2],
@@ -142,7 +141,6 @@ pub fn validate(file: &ScenarioFile, evidence: &Evidence) -> Result<Validation, 
     BeforeAfter::of(file, &[])?.judge(evidence, None)
 }
 
-/// Effects to judge: those named, else those that were written.
 fn added(file: &ScenarioFile, named: &[String]) -> Result<Vec<Origin>, CompareError> {
     let has = |name: &str| file.effects.iter().any(|e| e.name == name);
     let written: Vec<Origin> = origins(&file.text).into_iter().filter(|o| has(&o.effect)).collect();

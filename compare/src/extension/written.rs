@@ -40,7 +40,6 @@ impl Extension {
         Ok(Extension { file, additions, fitted, bending, steps, noise_floor_mm: None, told, warnings })
     }
 
-    /// The same with the last step of a diagnosis.
     pub(super) fn climbed(self, ground: &Ground, step: ErrorStep) -> Extension {
         let steps = ground.first_steps().into_iter().chain([step]).collect();
         Extension { steps, noise_floor_mm: ground.d.base.noise_floor_mm, warnings: ground.warnings(), ..self }

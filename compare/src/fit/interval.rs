@@ -37,13 +37,11 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 const LEAST_OWN: f64 = 1e-9;
 /// A round of a profile's fit that lowers the sum of squares by less is the last one.
 const ENOUGH: f64 = 1e-2;
-/// Halvings of the bracket of a profile's end.
 const HALVINGS: usize = 10;
 /// Degrees of freedom beyond which t is normal to three digits. The quantile of `statrs` is 1.83 in place of 1.96 at 1e7, and at
 /// 1e8 it does not return.
 const MOST_DOF: f64 = 1e4;
 
-/// Data that a fit was compared with.
 pub(crate) struct FittedData<'a> {
     pub dataset: &'a Dataset,
     /// Noise of the mean over runs of this dataset.
@@ -144,7 +142,6 @@ impl FittedData<'_> {
     }
 }
 
-/// What a misfit adds to the variance, and its degrees of freedom.
 pub(crate) fn misfit(pressures: &[[f64; 2]], (each, cells): (f64, usize), parameters: usize) -> (f64, f64) {
     let all: f64 = pressures.iter().map(|[squares, _]| squares).sum();
     let count = pressures.iter().filter(|[squares, _]| *squares > policy::PRESSURE_TELLS * all).count();
@@ -200,7 +197,6 @@ pub(crate) fn of_parameter(
     Some(interval(linear, bounds, Some(&mut rise)))
 }
 
-/// Where `is_inside` ends, or the bound.
 fn profile_end(value: f64, step: f64, bound: f64, is_inside: &mut dyn FnMut(f64) -> bool) -> f64 {
     let beyond = |x: f64| if step > 0.0 { x >= bound } else { x <= bound };
     let (mut inside, mut outside) = (value, value + 0.5 * step);

@@ -36,7 +36,6 @@ impl Range {
         Range { lower: at, upper: at, scale }
     }
 
-    /// Whether it has more than one value.
     pub(crate) fn is_free(&self) -> bool {
         self.lower < self.upper
     }
@@ -62,7 +61,6 @@ pub(crate) fn minimise(start: &[f64], ranges: &[Range], enough: f64, residuals: 
     minimise_by(start, ranges, enough, residuals, &mut |at, residuals| jacobian(at, ranges, residuals))
 }
 
-/// The same with derivatives from elsewhere.
 pub(crate) fn minimise_by(
     start: &[f64],
     ranges: &[Range],

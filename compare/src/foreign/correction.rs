@@ -69,7 +69,6 @@ impl Correction {
         self.dataset.markers.iter().map(|marker| marker.name.as_str())
     }
 
-    /// Whether loading and unloading differ.
     fn has_history(&self) -> bool {
         [&self.before, &self.after].iter().any(|scenario| Model::new(scenario).has_history())
     }
@@ -127,7 +126,6 @@ impl Correction {
     }
 }
 
-/// Without the noise of its last digits.
 fn tidy(value: f64) -> f64 {
     (value * 1e4).round() / 1e4
 }

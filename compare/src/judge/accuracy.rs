@@ -26,7 +26,6 @@ pub(crate) fn relative_pct(accuracy: f64) -> f64 {
     100.0 * (1.0 - accuracy).max(0.0).sqrt()
 }
 
-/// 95 % intervals of the accuracy, from resampling whole runs.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Band {
     pub holds: Vec<Option<[f64; 2]>>,

@@ -95,7 +95,6 @@ impl<'a> BesideMean<'a> {
     }
 }
 
-/// x, y and z of a hold mean; z is 0 in the plane.
 fn place(means_m: &[f64], layout: &Layout, hold: usize, marker: usize) -> [f64; 3] {
     let at = (hold * layout.markers + marker) * layout.axes;
     std::array::from_fn(|axis| if axis < layout.axes { means_m[at + axis] } else { 0.0 })

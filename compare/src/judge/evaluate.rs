@@ -102,7 +102,6 @@ pub fn evaluate(
     })
 }
 
-/// Refuses a level or a tolerance that is none.
 pub(crate) fn check_level(alpha: f64, tolerance_m: Option<f64>) -> Result<(), CompareError> {
     let tolerance = tolerance_m.unwrap_or(0.0);
     let (name, value, expected) = match () {

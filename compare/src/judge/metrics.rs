@@ -217,7 +217,6 @@ fn far_markers(c: &BesideMean, model: &[f64], measured: &[f64]) -> (Vec<f64>, Ve
     model.iter().zip(measured).filter(|(_, y)| policy::has_moved(**y, sd)).unzip()
 }
 
-/// Error sizes over a range of values.
 struct Size {
     rmse_mm: f64,
     noise_floor_mm: Option<f64>,

@@ -140,7 +140,6 @@ fn pair(dataset: &Dataset, layout: &Layout, means: &[f64], ends: [usize; 2]) -> 
     })
 }
 
-/// Markers that were seen in both holds.
 fn seen_in_both(dataset: &Dataset, holds: [usize; 2]) -> impl Iterator<Item = usize> + '_ {
     (0..dataset.markers.len()).filter(move |marker| holds.iter().all(|hold| dataset.is_seen(*hold, *marker)))
 }
@@ -232,18 +231,15 @@ fn cannot_be_checked(holds: &[Hold]) -> ScalingCheck {
     ScalingCheck { verdict: ScalingVerdict::CannotBeChecked, sentence, pairs: Vec::new() }
 }
 
-/// Sum of the channels over the body's pressure.
 fn ratio(hold: &Hold) -> f64 {
     hold.sum_act_pa() / hold.p_body_pa
 }
 
-/// Whether every channel has the same share of the sum.
 fn same_shares(a: &Hold, b: &Hold) -> bool {
     let share = |hold: &Hold, p: f64| p / hold.sum_act_pa();
     a.channels_pa().zip(b.channels_pa()).all(|(p, q)| policy::is_same_ratio(1.0 + share(a, p), 1.0 + share(b, q)))
 }
 
-/// ln of the two ratios' quotient.
 fn mismatch(holds: &[Hold], pair: &ScalingPair) -> f64 {
     (ratio(&holds[pair.high_hold]) / ratio(&holds[pair.low_hold])).ln()
 }

@@ -168,7 +168,6 @@ impl<'a> Judge<'a> {
         largest(at_tip, size).or_else(|| largest(cells.iter().copied(), size))
     }
 
-    /// How the error runs along the body at one hold.
     fn growth(&self, hold: usize, markers: &[usize]) -> &'static str {
         let sizes: Vec<f64> = markers.iter().map(|&m| self.cell((hold, m)).y.mm.abs()).collect();
         let steps = || sizes.windows(2).map(|w| w[1] - w[0]);
@@ -298,7 +297,6 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// The holds and markers of a set of cells.
 struct CellGroup {
     holds: Vec<usize>,
     markers: Vec<usize>,

@@ -43,7 +43,6 @@ const COMPLETE: f64 = 3.0;
 /// A weighted sum over (moment, place).
 type Sum = Vec<(f64, usize, usize)>;
 
-/// What a robot misses at a shape.
 pub(crate) fn moments(view: &View, shape: &Shape, robot: &Robot) -> Result<Moments, CompareError> {
     let field = Field::of(view, shape, robot)?;
     let layout = Layout::of(&shape.division);
@@ -129,7 +128,6 @@ impl Field {
         Ok(Field { slope: slope.collect(), kappa, missing })
     }
 
-    /// Places with a moment in a hold.
     fn usable(&self, view: &View, shape: &Shape, layout: &Layout, hold: usize) -> Vec<usize> {
         let groups = shape.division.groups;
         let mut active: Vec<usize> = (0..shape.division.places.len()).collect();

@@ -254,7 +254,6 @@ impl Fit<'_> {
     }
 }
 
-/// Bends of all places in a group of samples \[1/m\].
 pub(super) fn bends(layout: &Layout, numbers: &[f64], hold: usize, group: usize) -> Vec<f64> {
     let drift: f64 = layout.drifts(hold, group).iter().map(|(k, sign)| sign * numbers[*k]).sum();
     (0..layout.places).map(|place| numbers[layout.bend(hold, place)] + drift).collect()

@@ -6,7 +6,6 @@ use super::view::Place;
 use crate::fit::numbers::sort_by;
 use data::Dataset;
 
-/// Degrees of the whole body per curvature.
 pub(crate) fn degrees(length_m: f64) -> f64 {
     length_m.to_degrees()
 }
@@ -49,7 +48,6 @@ const LEAST_LEFT_MM: f64 = 0.1;
 /// Standard deviations within which a moment counts as none.
 const NONE_WITHIN: f64 = 2.0;
 
-/// What points of whole holds say.
 pub(crate) fn sentences(points: &[MomentPoint]) -> Vec<String> {
     let mut holds: Vec<&MomentPoint> = points.iter().filter(|p| p.is_of_hold()).collect();
     sort_by(&mut holds, |p| p.bend_deg);

@@ -244,7 +244,6 @@ fn calibrated_on(group: &[BenchRow]) -> Option<&BenchRow> {
 
 /// Flat width of a free muscle of unknown size \[m\].
 pub(crate) const ANY_WIDTH_M: f64 = 0.02;
-/// Length over width of a muscle whose ends are not described.
 const LONG: f64 = 1e4;
 
 /// The scenario for a table without one: for a muscle the ideal braid, whose size and angle the table must give.

@@ -32,7 +32,6 @@ use data::{Dataset, Hold, Lost};
 use models::{Moment, Scenario, Supply};
 use std::collections::BTreeSet;
 
-/// Mean over runs of the gauge's reading at one sample.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Reading {
     /// Hold of the positions that belong to it ([`Gauge::positions`]).
@@ -43,7 +42,6 @@ pub(crate) struct Reading {
     pub read_pa: f64,
 }
 
-/// The readings of a dataset, and their errors.
 #[derive(Debug, Clone)]
 pub(crate) struct Gauge {
     /// Readings at set pressures above zero.
@@ -185,7 +183,6 @@ impl Gauge {
         shared.into_iter().chain(read.iter().map(own)).collect()
     }
 
-    /// Whitens the differences between laws and readings.
     pub(crate) fn whitener(&self) -> Result<Whitener, CompareError> {
         let column = |of: &dyn Fn(&Reading) -> f64| self.readings.iter().map(of).collect::<Vec<f64>>();
         let columns = [
@@ -203,7 +200,6 @@ impl Gauge {
     }
 }
 
-/// The lost values, where every sample is a separate hold.
 fn of_samples(lost: &Lost, samples: usize) -> Lost {
     let holds = |hold: usize| hold * samples..(hold + 1) * samples;
     let unseen = lost.unseen.iter().flat_map(|[hold, marker]| holds(*hold).map(move |h| [h, *marker]));

@@ -33,7 +33,6 @@ use crate::stats::f_tail;
 use data::Dataset;
 use nalgebra::{DMatrix, DVector};
 
-/// Kinds of errors: four that differ from hold to hold, and the error of a marker in a run.
 pub(crate) const KINDS: usize = 5;
 
 /// Scatter of single holds of one run.
@@ -145,7 +144,6 @@ pub(crate) fn hold_scatter(
     scatter
 }
 
-/// Readings of the holds of one run and the directions of their errors.
 struct Means {
     /// Z, one column per entry of `columns`.
     z: DMatrix<f64>,
@@ -282,7 +280,6 @@ impl Means {
     }
 }
 
-/// Orthonormal basis of the columns that are there.
 fn basis(columns: DMatrix<f64>) -> DMatrix<f64> {
     let mut kept: Vec<DVector<f64>> = Vec::new();
     for column in columns.column_iter() {

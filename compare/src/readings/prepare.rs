@@ -8,7 +8,6 @@ use crate::stats::f_tail;
 use data::{About, Dataset};
 use serde::Serialize;
 
-/// A dataset without copies of runs, with stray samples replaced.
 pub(crate) struct Prepared {
     pub dataset: Dataset,
     /// Session of every run; empty if there is one.

@@ -5,7 +5,6 @@ use crate::error::CompareError;
 use crate::fit::numbers::{differences, groups, mean};
 use data::Dataset;
 
-/// What the repeats inside sessions say.
 pub(crate) struct Within {
     /// Variance of one camera coordinate of one sample \[m²\].
     pub sigma2: f64,
@@ -16,7 +15,6 @@ pub(crate) struct Within {
     pub coefficient_variance: Row,
 }
 
-/// Scatter of the runs about the mean of their session.
 pub(crate) fn within_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit) -> Within {
     let holds = dataset.holds.len();
     let mut within =
@@ -92,7 +90,6 @@ fn mean_of(dataset: &Dataset, runs: &[usize]) -> Vec<f64> {
     mean
 }
 
-/// Runs of each session, in order of first appearance.
 pub(crate) fn session_groups(sessions: &[usize], runs: usize) -> Result<Vec<Vec<usize>>, CompareError> {
     if sessions.is_empty() {
         return Ok(vec![(0..runs).collect()]);

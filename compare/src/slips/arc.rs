@@ -24,7 +24,6 @@ const REFINED: usize = 28;
 const MOST_SHORTENED: f64 = 0.9;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// A robot's markers and radius \[m\].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MarkedBody<'a> {
     pub stations_m: &'a [f64],

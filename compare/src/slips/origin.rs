@@ -40,7 +40,6 @@ pub(super) fn origin(seen: &mut SlipSeen) -> Vec<String> {
     )]
 }
 
-/// Nearly straight holds at the lowest pressure of the actuator.
 fn lowest(seen: &SlipSeen) -> Vec<usize> {
     let pressure = |hold: &usize| seen.dataset.holds[*hold].p_act_pa;
     let all = 0..seen.dataset.holds.len();

@@ -51,7 +51,6 @@ pub struct WrongUnit {
 const UNITS: [[&str; 3]; 4] =
     [["psi", "psi", "psi"], ["mbar", "mbar", "mbar"], ["bar", "bar", "bar"], ["inH2O", "inches of water", "inh2o"]];
 
-/// All of them, taken for kilopascals and the other way round.
 fn wrong_units() -> impl Iterator<Item = WrongUnit> {
     UNITS.into_iter().flat_map(|[symbol, words, suffix]| {
         let known = units_of(Dimension::PRESSURE).find(|unit| unit.symbol == symbol);
@@ -73,11 +72,9 @@ fn pairs(count: usize) -> impl Iterator<Item = [usize; 2]> {
     (0..count).flat_map(move |one| (one + 1..count).map(move |other| [one, other]))
 }
 
-/// Air of a room at sea level \[Pa\].
 const ROOM_PA: f64 = 101_325.0;
 
 impl PressureColumn {
-    /// In words, and in names of columns.
     fn words(self) -> [&'static str; 2] {
         match self {
             PressureColumn::Actuator => ["actuator", "p_act"],
@@ -96,7 +93,6 @@ impl PressureColumn {
         self.pressures(hold).into_iter().fold(f64::INFINITY, f64::min)
     }
 
-    /// The highest pressure of a table.
     fn top(self, dataset: &Dataset) -> f64 {
         dataset.holds.iter().flat_map(|hold| self.pressures(hold)).fold(0.0, f64::max)
     }
@@ -210,7 +206,6 @@ impl PressureSlip {
     }
 }
 
-/// The words of two columns that are exchanged.
 fn exchanged(what: &str, [one, other]: [&str; 2]) -> [String; 3] {
     let help = format!("if they are, exchange the names of the columns {one} and {other}");
     [format!("{what} look exchanged"), "the two columns exchanged".into(), help]

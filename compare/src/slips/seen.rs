@@ -4,7 +4,6 @@ use super::arc::MarkedBody;
 use crate::wording::{list, short};
 use data::Dataset;
 
-/// The data as these tests see them.
 pub(super) struct SlipSeen<'a> {
     pub(super) dataset: &'a Dataset,
     pub(super) body: MarkedBody<'a>,

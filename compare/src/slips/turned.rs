@@ -19,7 +19,6 @@ const UNITS: [(f64, &str); 7] = [
     (0.001, "mm under a header of m"),
 ];
 
-/// A way in which a run may be written.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct TurnWay {
     /// x and y are exchanged, before signs.

@@ -6,7 +6,6 @@ use data::Bench;
 use models::Scenario;
 use models::effects::{Effect, Fitted, Group, Stage};
 
-/// A number of a scenario that a bench test determines.
 struct Number {
     /// Kind of bench table in which the number acts.
     table: &'static str,

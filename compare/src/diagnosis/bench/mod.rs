@@ -132,7 +132,6 @@ fn judge(table: &Table, base: &Fit, best: Option<&Fit>, alpha: f64) -> (Option<V
     (Some(verdict), Some(reported_p(p)), explains && verdict == Verdict::Effect)
 }
 
-/// p of a gain, corrected for all laws tried.
 fn p_of(table: &Table, base: &Fit, fit: &Fit) -> f64 {
     let tests = table.tried_laws().count() as f64;
     (tests * chi2_tail(fit.gain_over(base), fit.free - base.free)).min(1.0)

@@ -30,7 +30,6 @@ impl<'a> Reading<'a> {
         Some(if dof.is_finite() { error / self.measured.hypot(self.small) } else { error })
     }
 
-    /// A row of a scenario's table.
     pub(super) fn new(row: &'a BenchRow, trial: &Trial, small: f64, sigma: Option<f64>) -> Reading<'a> {
         let beam = row.get("load").is_some();
         let sized = trial.specimen(row).unwrap_or_else(|_| trial.scenario.clone());

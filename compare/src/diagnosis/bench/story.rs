@@ -13,7 +13,6 @@ use crate::wording::{list, p_value, short};
 /// Levels that are described one by one; more are described by thirds.
 const MOST_LEVELS: usize = 4;
 
-/// The answer, a sentence or two per entry.
 pub(super) fn story(d: &BenchDiagnosis) -> Vec<String> {
     let mut told = vec![opening(d)];
     told.extend(d.base.iter().map(|p| format!("Fitted along: {}.", with_interval(p))));
@@ -81,7 +80,6 @@ fn of_best(d: &BenchDiagnosis, best: &BenchRanked) -> Vec<String> {
     told
 }
 
-/// What would come closer, but only at the end of its range.
 fn at_its_bound(d: &BenchDiagnosis, off: f64) -> Option<String> {
     let closer = d.ranked.iter().filter(|r| r.at_bound && r.off < off);
     let r = least(closer, |r| r.off)?;

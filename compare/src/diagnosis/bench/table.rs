@@ -37,7 +37,6 @@ const STARTS: usize = 3;
 /// Segments of a beam, at most: its deflection is then within a thousandth.
 const SEGMENTS: usize = 60;
 
-/// A table and everything that may be tried on it.
 pub(super) struct Table<'a> {
     pub readings: Vec<Reading<'a>>,
     pub laws: Vec<Candidate>,
@@ -52,7 +51,6 @@ pub(super) struct Table<'a> {
     sigma: f64,
 }
 
-/// The base, or the base with one law.
 pub(super) struct Fit {
     pub law: Option<usize>,
     pub minimum: Minimum,
@@ -64,7 +62,6 @@ pub(super) struct Fit {
 }
 
 impl Fit {
-    /// Whether the data push against a bound.
     pub(super) fn is_rejected(&self) -> bool {
         self.binding.contains(&true)
     }
@@ -74,12 +71,10 @@ impl Fit {
         base.minimum.cost - self.minimum.cost
     }
 
-    /// Typical factor by which it is off, less one.
     pub(super) fn rms_off(&self) -> f64 {
         mean(self.off.iter().map(|off| off * off)).sqrt().exp_m1()
     }
 
-    /// Degrees of freedom of what it leaves.
     pub(super) fn spare(&self) -> f64 {
         self.off.len().saturating_sub(self.free).max(1) as f64
     }
@@ -160,7 +155,6 @@ impl<'a> Table<'a> {
         thin.zip(thick).is_none_or(differ)
     }
 
-    /// Laws that are tried, and not fitted along anyhow.
     pub(super) fn tried_laws(&self) -> impl Iterator<Item = usize> {
         (0..self.laws.len()).filter(|i| !self.always.contains(i))
     }

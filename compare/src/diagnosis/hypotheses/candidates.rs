@@ -63,7 +63,6 @@ impl Free {
         !self.is_held && (self.typical != 0.0 || self.neutral != 0.0 || self.is_shape())
     }
 
-    /// Whether it shapes the law about its usual form.
     pub(crate) fn is_shape(&self) -> bool {
         self.fitted == Fitted::Shape
     }
@@ -81,7 +80,6 @@ impl Free {
         }
     }
 
-    /// As a fit found it, in SI.
     pub(crate) fn found(&self, value: f64, interval: Option<[f64; 2]>, at_bound: bool) -> ParameterValue {
         ParameterValue {
             key: self.key.clone(),
@@ -95,7 +93,6 @@ impl Free {
         }
     }
 
-    /// Length of one step of the fit.
     pub(crate) fn scale(&self) -> f64 {
         let typical = (self.typical - self.neutral).abs();
         if typical > 0.0 { typical } else { 0.1 * (self.upper - self.lower) }
@@ -153,7 +150,6 @@ impl Candidate {
         }
     }
 
-    /// Values `share` of the way from neutral to typical.
     pub(crate) fn at(&self, share: f64) -> Vec<f64> {
         self.parameters.iter().map(|p| p.neutral + share * (p.typical - p.neutral)).collect()
     }
@@ -179,7 +175,6 @@ impl Candidate {
         own.map_or_else(|| self.at(0.0), |e| e.values.clone())
     }
 
-    /// Number of parameters that are fitted.
     pub(crate) fn count(&self) -> usize {
         self.parameters.iter().filter(|p| p.is_free()).count()
     }
@@ -259,7 +254,6 @@ pub(crate) fn hold(
     }
 }
 
-/// Lags that are tried, in samples.
 const LAGS: usize = 5;
 
 /// Times of the protocol are tried in the middle between two holds, lags between two samples: nothing changes elsewhere.
@@ -281,7 +275,6 @@ pub(crate) fn tried_between(candidates: &mut [Candidate], holds: &[Hold]) {
     }
 }
 
-/// Gives all laws their usual forms.
 pub(crate) fn hold_shapes(candidates: &mut [Candidate]) {
     let all = candidates.iter_mut().flat_map(|c| &mut c.parameters);
     all.filter(|p| p.is_shape()).for_each(|p| p.is_held = true);

@@ -9,9 +9,7 @@ use crate::fit::numbers::differences;
 use crate::policy;
 use statrs::distribution::{ContinuousCDF, Normal};
 
-/// Rounds of the search for the size.
 const ROUNDS: usize = 12;
-/// Relative difference of the trace at which it ends.
 const CLOSE: f64 = 0.02;
 
 /// Smallest detectable size of an effect: where its trace, base fitted out, reaches (z_{α/2m} + z_0.9)² in units of noise.

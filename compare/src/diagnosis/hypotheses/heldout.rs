@@ -15,7 +15,6 @@ use crate::fit::numbers::groups;
 use crate::policy;
 use data::Hold;
 
-/// Parts into which many runs are divided.
 const MOST_FOLDS: usize = 5;
 /// Step of the differences in units of a parameter's scale.
 const DIFFERENCE: f64 = 1e-4;
@@ -36,7 +35,6 @@ struct Fold<'a> {
     unseen: Vec<usize>,
 }
 
-/// The parts of a dataset, made once for all effects.
 pub(crate) struct HeldOut<'a> {
     pressures: Vec<Fold<'a>>,
     runs: Vec<Fold<'a>>,

@@ -62,7 +62,6 @@ pub const BENCH_TESTS: [BenchTest; 3] = [
 pub const BENCH_TEST: f64 = 0.1;
 
 impl Known {
-    /// A test whose result is not known yet.
     pub(crate) fn planned(effect: usize, parameter: usize) -> Known {
         Known { effect, parameter, value: 0.0, sd: 0.0, lacking: 0.0, usual: false }
     }
@@ -72,7 +71,6 @@ impl Known {
         self.of(candidates, effects, values).map_or(self.lacking, |value| (value - self.value) / self.sd)
     }
 
-    /// The parameter as a hypothesis has it; `None` without the effect.
     pub(crate) fn of(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Option<f64> {
         let mut from = 0;
         for effect in effects {
@@ -91,7 +89,6 @@ impl Known {
     }
 }
 
-/// Adds the usual forms of all laws to what was measured.
 pub(crate) fn add_shapes(known: &mut Vec<Known>, candidates: &[Candidate]) {
     for (effect, candidate) in candidates.iter().enumerate() {
         for (parameter, p) in candidate.parameters.iter().enumerate().filter(|(_, p)| p.is_shape() && p.is_free()) {
@@ -136,7 +133,6 @@ fn place(candidates: &[Candidate], effect: &str, key: &str) -> Option<(usize, us
     Some((index, candidates[index].parameters.iter().position(|p| p.key == key)?))
 }
 
-/// Whether what was measured exists, and can have that value.
 fn check(scenario: &Scenario, m: &MeasuredValue) -> Result<(), CompareError> {
     let MeasuredValue { effect: name, key, value, sd, .. } = m;
     let wrong = |problem: String| {

@@ -38,7 +38,6 @@ pub(crate) struct Ordered {
 }
 
 impl Ordered {
-    /// Candidates that these data do not separate.
     pub(crate) fn stated(&self) -> impl Iterator<Item = &Fit> {
         self.set.iter().map(|i| &self.fits[*i])
     }
@@ -49,7 +48,6 @@ pub(crate) fn allowance(best_gain: f64) -> f64 {
     1.0 + policy::FORM * best_gain.max(0.0) / policy::SAME_EVIDENCE
 }
 
-/// C of an explanation, up to a constant.
 pub(crate) fn criterion(case: &Case, fit: &Fit, allowance: f64) -> f64 {
     criterion_of(case, fit.cost(), case.extra(fit), allowance) + oddness(case, fit) + odd_forms(case, fit, allowance)
 }
@@ -102,7 +100,6 @@ pub(crate) fn criterion_of(case: &Case, cost: f64, added: usize, allowance: f64)
     criterion_from(values, cost, added, allowance)
 }
 
-/// The same of so many values.
 pub(crate) fn criterion_from(values: usize, cost: f64, added: usize, allowance: f64) -> f64 {
     cost / allowance + added as f64 * price(values as f64, allowance)
 }

@@ -75,7 +75,6 @@ fn swapped(case: &Case, first: &Fit, second: &Fit) -> Option<Vec<f64>> {
     Some([base, &values, own].concat())
 }
 
-/// Indices of the pairs that the data cannot separate from the best one.
 pub(crate) fn indistinguishable(case: &Case, pairs: &[Fit], allowance: f64) -> Vec<usize> {
     let Some(best) = pairs.first() else { return Vec::new() };
     let c = |fit: &Fit| criterion(case, fit, allowance);
@@ -83,7 +82,6 @@ pub(crate) fn indistinguishable(case: &Case, pairs: &[Fit], allowance: f64) -> V
     (0..pairs.len()).filter(is_alike).collect()
 }
 
-/// What a reader needs of the best pairs.
 pub(crate) fn describe(case: &Case, pairs: &Ordered, single: &Fit) -> Vec<Combination> {
     let Ordered { fits, allowance, set, tried } = pairs;
     let c = |fit: &Fit| criterion(case, fit, *allowance);
@@ -107,7 +105,6 @@ pub(crate) fn p_over(case: &Case, pair: &Fit, single: &Fit, tried: usize) -> Opt
     case.p_of_gain((single.cost() - pair.cost()).max(0.0), more, tried as f64)
 }
 
-/// Whether the two last effects contribute nearly the same with opposite signs.
 fn cancels(case: &Case, fit: &Fit) -> bool {
     let lead = fit.effects.len().saturating_sub(2);
     let without = |dropped: usize| -> Option<Vec<f64>> {

@@ -68,19 +68,16 @@ impl<'a> Block<'a> {
         Ok(Block { whitener, holds, target_m, ..self.clone() })
     }
 
-    /// How many values a hold has in run layout.
     fn width(&self) -> usize {
         self.source.dataset.values_per_run() / self.source.dataset.holds.len()
     }
 }
 
-/// Unit weights on every value of the given holds.
 fn values_of(dataset: &Dataset, holds: &[usize]) -> Vec<Weights> {
     let width = dataset.values_per_run() / dataset.holds.len();
     holds.iter().flat_map(|h| h * width..(h + 1) * width).map(|i| vec![(i, 1.0)]).collect()
 }
 
-/// A list of blocks with shared parameters.
 #[derive(Clone)]
 pub(crate) struct Problem<'a> {
     pub candidates: &'a [Candidate],
@@ -121,12 +118,10 @@ impl Fit {
         &self.minimum.at
     }
 
-    /// Parameters of the hypothesis with one more effect.
     pub(crate) fn theta_with(&self, values: &[f64]) -> Vec<f64> {
         [self.theta(), values].concat()
     }
 
-    /// Change of the whitened residuals from another fit.
     pub(crate) fn change_from(&self, other: &Fit) -> Vec<f64> {
         differences(&self.minimum.residual, &other.minimum.residual)
     }
@@ -195,7 +190,6 @@ impl Problem<'_> {
         effects.iter().flat_map(|e| &self.candidates[*e].parameters)
     }
 
-    /// Ranges of the parameters of a hypothesis.
     pub(crate) fn ranges(&self, effects: &[usize]) -> Vec<Range> {
         let bending = Range { lower: 0.0, upper: policy::MOST_BENDING, scale: BENDING_SCALE };
         std::iter::repeat_n(bending, self.bendings).chain(self.parameters(effects).map(Free::range)).collect()
@@ -252,7 +246,6 @@ impl Problem<'_> {
         Some((wide?, factors))
     }
 
-    /// Whitened residuals in units of noise and misfit.
     pub(crate) fn residuals_allowing(&self, misfit: &[f64], effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
         let whitener = |i: usize| match &self.blocks[i].whitener {
             own if misfit[i] > 1.0 => Cow::Owned(own.wider(misfit[i])),
@@ -286,7 +279,6 @@ impl Problem<'_> {
         self.blocks.iter().map(&mut factor).collect()
     }
 
-    /// Residuals and derivatives at a place.
     fn at(&self, effects: &[usize], ranges: &[Range], at: Vec<f64>) -> Option<Minimum> {
         let residual = self.residuals(effects, &at)?;
         let mut there = Minimum { cost: square(&residual), at, residual, jacobian: Vec::new() };

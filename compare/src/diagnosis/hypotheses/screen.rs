@@ -10,10 +10,8 @@ use crate::fit::basis::Basis;
 use crate::fit::least_squares::{dot, square};
 use crate::fit::numbers::differences;
 
-/// Share of the typical size at which an effect is tried.
 const FIRST_BIT: f64 = 0.02;
 
-/// Result of screening an effect.
 #[derive(Debug, Clone)]
 pub(crate) struct Score {
     /// Expected fall of the whitened sum of squares along the typical direction, within the bounds.

@@ -53,7 +53,6 @@ fn widened(case: &Case, fits: &[Fit]) -> Vec<Candidate> {
     candidates
 }
 
-/// The effect of a fit of one.
 fn added(fit: &Fit) -> usize {
     fit.effects[fit.effects.len() - 1]
 }
@@ -95,7 +94,6 @@ pub(crate) fn indistinguishable(case: &Case, fits: &[Fit], allowance: f64) -> Ve
 /// Beyond the set, the error at left-out data is computed for so many fits that lead the order, and for so many that leave least.
 const LEFT_OUT_OF: usize = 8;
 
-/// What a reader needs of every fit.
 pub(crate) fn rank(case: &Case, singles: &Ordered, held_out: &HeldOut) -> Vec<Ranked> {
     let Ordered { fits, allowance, set, .. } = singles;
     let c = |fit: &Fit| criterion(case, fit, *allowance);

@@ -19,10 +19,8 @@ use crate::moment::{MissingMoment, MomentCurve, MomentPoint};
 use models::Scenario;
 use nalgebra::{DMatrix, DVector};
 
-/// Name that a learned law gets as an effect of a scenario.
 const NAME: &str = "learned";
 const CURVE: &str = "learned law";
-/// The effect that moves the line of the markers.
 const LINE: &str = "marker_height";
 /// Share of the pull by which it is found.
 const SHARE: f64 = 0.5;
@@ -95,7 +93,6 @@ fn is_held_by_data(case: &Case, fit: &Fit) -> bool {
     free.zip(found).all(|(p, interval)| interval.is_none_or(|[lo, hi]| lo > p.lower || hi < p.upper))
 }
 
-/// What all laws are fitted on.
 struct Ground<'a> {
     sources: &'a [Source],
     options: &'a Options,
@@ -103,7 +100,6 @@ struct Ground<'a> {
     name: &'a str,
 }
 
-/// Use of a law that was fitted to the markers.
 type Use<'u, T> = dyn FnMut(&Case, &Fit, &'static Form) -> Result<Option<T>, CompareError> + 'u;
 
 impl Ground<'_> {
@@ -124,7 +120,6 @@ impl Ground<'_> {
     }
 }
 
-/// Points of all data as the library wants them.
 fn material(case: &Case, seen: &[Seen]) -> Result<Material, CompareError> {
     let (mut places, mut moments, mut parts) = (Vec::new(), Vec::new(), Vec::new());
     for (block, seen) in case.problem.blocks.iter().zip(seen) {
@@ -186,7 +181,6 @@ fn extended(scenario: &Scenario, form: &Form, name: &str, line: Option<f64>) -> 
     line.map_or(other.clone(), |line| other.with_effect(LINE, &[line]))
 }
 
-/// The line, if it is fitted along, and the law.
 fn candidates(scenario: &Scenario, name: &str, line: Option<f64>) -> Vec<Candidate> {
     let catalogue = scenario.catalogue();
     let names = line.map(|_| LINE).into_iter().chain([name]);
@@ -199,7 +193,6 @@ fn candidates(scenario: &Scenario, name: &str, line: Option<f64>) -> Vec<Candida
 /// Shares of what the moments say from which a law is fitted to the markers: the whole may leave no equilibrium.
 const STARTS: [f64; 3] = [1.0, 0.5, 0.1];
 
-/// The law fitted to the markers.
 fn fitted(case: &Case, values: &[f64]) -> Option<Fit> {
     let effects: Vec<usize> = (0..case.problem.candidates.len()).collect();
     let own = &case.problem.candidates[effects.len() - 1].parameters;

@@ -16,12 +16,10 @@ use models::Scenario;
 use models::effects::Stage;
 
 const MOST_CURVES: usize = 4;
-/// Curves of answers that are not stated, for comparison.
 const OTHERS: usize = 1;
 const PRESSURES: usize = 24;
 /// Least pressure of a curve, over the highest.
 const LEAST: f64 = 0.15;
-/// The curve of the fitted base.
 const STIFFNESS: &str = "stiffness alone";
 /// Curves begin at this share of the least bend that was measured.
 const NEAR: f64 = 0.7;
@@ -47,7 +45,6 @@ pub(crate) fn missing_moment(
     Ok(MissingMoment { shapes, sentences: told, points, curves, bending_nm2: own_bending(case) })
 }
 
-/// A dataset's shape, and what the base misses there.
 pub(crate) struct Seen {
     base: Vec<Scenario>,
     of_hold: Vec<usize>,

@@ -6,9 +6,7 @@ use crate::policy;
 use data::{Dataset, Direct, Hold, Lost, Phase};
 use models::Scenario;
 
-/// Known force hung on the tip \[N\].
 pub(crate) const TIP_FORCE_N: f64 = 0.3;
-/// Length of a long hold \[s\].
 const LONG_HOLD_S: f64 = 60.0;
 
 /// Standard deviation that is expected of a bending test, as a share of the stiffness. Assumed.
@@ -26,7 +24,6 @@ pub(crate) struct Plan {
     pub tests: Vec<&'static BenchTest>,
 }
 
-/// A bending test of the body alone.
 pub(crate) fn bending_test() -> Plan {
     Plan { name: BENDING_TEST_NAME.into(), sentence: data::BENDING_TEST.into(), parts: Vec::new(), tests: Vec::new() }
 }
@@ -54,7 +51,6 @@ pub(crate) fn plans(
     plans
 }
 
-/// Tests of their own and nothing else.
 fn alone(tests: Vec<&'static BenchTest>) -> Plan {
     let all = |what: fn(&BenchTest) -> &'static str| tests.iter().map(|test| what(test)).collect::<Vec<_>>();
     Plan {
@@ -130,7 +126,6 @@ pub(crate) fn protocol_text(plan: &Plan) -> String {
     format!("{}@{}", list.join(","), kpa(holds[0].p_body_pa))
 }
 
-/// With a force on the tip in addition to the known one.
 fn tipped(scenario: &Scenario, force_n: f64) -> Scenario {
     let known = scenario.effects.iter().find(|e| e.name == "tip_load");
     let [x, y, z] = known.map_or([0.0; 3], |e| [e.values[0], e.values[1], e.values[2]]);
@@ -143,7 +138,6 @@ fn second_body(dataset: &Dataset, body: f64) -> f64 {
     other.map_or(2.0 * body, |other| 0.5 * (other + body))
 }
 
-/// Usual length of a hold \[s\].
 fn hold_length_s(dataset: &Dataset) -> f64 {
     let starts: Vec<f64> = dataset.holds.iter().filter_map(|h| h.t_s.first().copied()).collect();
     let mut gaps: Vec<f64> = starts.windows(2).map(|w| w[1] - w[0]).filter(|g| *g > 0.0).collect();

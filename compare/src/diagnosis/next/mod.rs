@@ -35,7 +35,6 @@ use models::Supply;
 use models::effects::Stage;
 use std::borrow::Cow;
 
-/// Most times the runs at hand that are proposed.
 const MOST_REPEATS: usize = 20;
 const RIVALS: usize = 5;
 /// Relative error at which the fits for λ may stop.
@@ -86,7 +85,6 @@ pub(super) fn next_experiment(
     Ok(Some(NextExperiment { best, recommended, now, needed_now, tried, sentence }))
 }
 
-/// The explanations to be separated, best first.
 fn hypotheses(decision: &Decision) -> Vec<&Fit> {
     match decision.verdict {
         Some(Verdict::None) => Vec::new(),
@@ -200,7 +198,6 @@ impl<'a> Expected<'a> {
         Ok(Expected { problem, added })
     }
 
-    /// What another hypothesis cannot meet of it.
     fn misfit(&self, other: &Fit) -> f64 {
         let start = extended(other, self.problem.bendings - self.added, self.added);
         // Without an equilibrium there the rival could not even be measured: nothing is promised.
@@ -273,7 +270,6 @@ fn planned<'a>(
     Ok(block)
 }
 
-/// Where the results of tests of their own go.
 const RESULTS: &str =
     " What tests of their own find goes into [measured] of about.toml; ibr characterize writes it for a fabric.";
 

@@ -28,7 +28,6 @@ pub(crate) fn worth(case: &Case, fit: &Fit) -> Worth {
     Worth { here_mm, elsewhere_mm: most.as_ref().map(|(mm, _)| *mm), elsewhere: most.map(|(_, words)| words) }
 }
 
-/// Sum of squared differences \[m²\] and their number.
 fn squares(a: &[f64], b: &[f64]) -> [f64; 2] {
     [squared_distance(a, b), a.len() as f64]
 }

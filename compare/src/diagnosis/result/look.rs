@@ -37,7 +37,6 @@ pub(crate) fn next(d: &Diagnosis) -> Option<String> {
     Some(format!("Next: {}. {none} {rest}", told.join("; ")).trim_end().to_string())
 }
 
-/// The marker and the hold where the final model fails most.
 fn where_most(d: &Diagnosis) -> Option<String> {
     let map = &d.residuals_after;
     let cells = map.cells.iter().enumerate().flat_map(|(m, row)| row.iter().enumerate().map(move |(h, c)| (m, h, c)));

@@ -53,7 +53,6 @@ impl LearnedLaw {
     }
 }
 
-/// The story, one sentence or two per entry.
 pub(crate) fn story(d: &Diagnosis) -> Vec<String> {
     let mut told: Vec<String> = d.foreign_bases.iter().map(ForeignBase::sentence).collect();
     told.push(opening(d));
@@ -227,7 +226,6 @@ fn worth(d: &Diagnosis) -> Option<String> {
     Some(format!("It moves the markers by {here_mm:.2} mm (rms) in these data{tolerance}{most}."))
 }
 
-/// How often a stated set held a true effect where that was known.
 fn covered(d: &Diagnosis) -> Option<String> {
     let share = 100.0 * d.covered?;
     Some(format!("Of 100 such answers on synthetic data, whatever was hidden, {share:.0} contain a true effect."))
@@ -300,7 +298,6 @@ fn as_close(d: &Diagnosis) -> Option<String> {
     Some(format!("{as_close}, to a fifth: {}. These data do not choose between them.", list(&names)))
 }
 
-/// What comes closer than the attempt, but only at the end of its range.
 fn at_its_bound(d: &Diagnosis) -> Option<String> {
     let nearest = least(d.ranked.iter().filter(|r| r.at_bound), |r| r.systematic_after_mm)?;
     policy::is_closer(nearest.systematic_after_mm, d.base.systematic_with_added_mm).then(|| {

@@ -28,7 +28,6 @@ use crate::slips::pressure::PressureSlipFound;
 use crate::study::predict_dataset;
 use crate::where_it_fails::{FailureOptions, Statement, where_it_fails};
 
-/// The parts of a diagnosis in addition to the decision.
 pub(crate) struct Beside<'e> {
     pub evidence: &'e [Evidence],
     pub excluded: Vec<String>,
@@ -119,7 +118,6 @@ fn is_covered(case: &Case, added: &[Added]) -> bool {
     !added.is_empty() && !case.first().scenario.is_spatial()
 }
 
-/// Errors in all data after the first, with the base and with the last fit.
 fn fitted_beside(case: &Case, last: &Fit) -> Vec<FittedBeside> {
     let errors = case.errors_mm(&case.base).into_iter().zip(case.errors_mm(last));
     let all = case.sources.iter().zip(errors).map(|(source, (systematic_mm, systematic_with_added_mm))| FittedBeside {
@@ -132,7 +130,6 @@ fn fitted_beside(case: &Case, last: &Fit) -> Vec<FittedBeside> {
     all.skip(1).collect()
 }
 
-/// Of a block with a gauge.
 fn gauge_fit(case: &Case, block: &Block, last: &Fit) -> Option<GaugeFit> {
     let rms = |d: &[f64]| 1e-3 * (d.iter().map(|d| d * d).sum::<f64>() / d.len().max(1) as f64).sqrt();
     let readings = &block.source.gauge.as_ref()?.readings;
@@ -149,7 +146,6 @@ fn gauge_fit(case: &Case, block: &Block, last: &Fit) -> Option<GaugeFit> {
     })
 }
 
-/// Residual map of a fit, and where it fails in plain language.
 fn fails(case: &Case, fit: &Fit, lof: Option<LackOfFit>) -> Result<(ResidualMap, Vec<Statement>), CompareError> {
     let prediction = case.prediction(fit);
     let c = BesideMean::new(&case.first().dataset, case.noise(), &prediction)?;

@@ -10,7 +10,6 @@ use crate::diagnosis::result::BendingAlarm;
 use crate::fit::numbers::largest;
 use crate::policy;
 
-/// The alarm, where the stiffness is fitted and has a given value.
 pub(crate) fn bending_alarm(case: &Case, last: &Fit) -> Option<BendingAlarm> {
     let test = case.problem.known_bending;
     let given = test.map_or(case.first().scenario.bending_stiffness, |[found, _]| found);

@@ -56,7 +56,6 @@ pub(crate) fn by_design<'d>(
     pay.into_iter().map(|(_, fit)| fit)
 }
 
-/// Fits that no bound rejects and their errors in mm, nearest first.
 fn by_distance<'f>(case: &Case, fits: &'f [Fit]) -> Vec<(f64, &'f Fit)> {
     let accepted = fits.iter().filter(|fit| !case.is_rejected(fit));
     let mut errors: Vec<(f64, &Fit)> = accepted.map(|fit| (case.error_in_all_mm(fit), fit)).collect();

@@ -18,7 +18,6 @@ use crate::policy;
 use crate::progress::Progress;
 use crate::stats::reported_p;
 
-/// Everything that was fitted, and what follows.
 pub(crate) struct Decision {
     pub singles: Ordered,
     /// Empty if one effect is enough.
@@ -54,7 +53,6 @@ impl Decision {
     }
 }
 
-/// Tests fits of single effects, fits pairs where they are needed, and decides.
 pub(crate) fn decide(
     case: &Case,
     (singles, allowance): (Vec<Fit>, f64),
@@ -142,7 +140,6 @@ fn is_unexplained(case: &Case, fit: &Fit, lof: Option<LackOfFit>, effects: usize
         || leaves_a_place(case, fit, level)
 }
 
-/// Whether a fit leaves a significant place, at a level.
 fn leaves_a_place(case: &Case, fit: &Fit, level: f64) -> bool {
     let look = left_patterns(case, fit);
     look.first(false).is_some_and(|seen| is_a_place_left(case, fit, seen) && look.is_below(seen, level))
@@ -223,7 +220,6 @@ fn p_of(case: &Case, fit: &Fit) -> Option<f64> {
     case.p_of_gain(case.seen_gain(fit), case.extra(fit), case.tests)
 }
 
-/// Weighted Bonferroni over the two kinds of tests.
 pub(crate) fn combined(p_effect: f64, p_lack_of_fit: f64) -> f64 {
     (p_effect / policy::SHARE_OF_EFFECTS).min(p_lack_of_fit / (1.0 - policy::SHARE_OF_EFFECTS)).min(1.0)
 }

@@ -22,7 +22,6 @@ use std::cell::OnceCell;
 const SIMULATED: usize = 4000;
 /// Of these, side by side; no matter for the result.
 const TOGETHER: usize = 8;
-/// Quantile that sets the number of independent patterns.
 const QUANTILE: f64 = 0.99;
 const SEED: u64 = 20_261_121;
 /// Fits that leave less than this share of a pattern can imitate it.
@@ -30,7 +29,6 @@ const LEFT: f64 = 0.02;
 /// Share of a pattern's variance below which the patterns before it contain it.
 const NEW: f64 = 1e-6;
 
-/// The clearest pattern of a kind.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ClearPattern {
     pub words: String,
@@ -45,7 +43,6 @@ pub(crate) struct ClearPattern {
     pub p_alone: f64,
 }
 
-/// A fault that is a simpler answer than effects.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Simpler {
     pub fault: ClearPattern,
@@ -54,7 +51,6 @@ pub(crate) struct Simpler {
     pub either: bool,
 }
 
-/// Everything that may be seen in the residuals of a fit.
 pub(crate) struct Look {
     /// Patterns found in the residuals, the clearest first.
     pub seen: Vec<ClearPattern>,
@@ -68,7 +64,6 @@ impl Look {
         self.seen.iter().find(|seen| seen.is_uniform == uniform)
     }
 
-    /// p of the largest of all patterns, as reported.
     pub(crate) fn p_value(&self, seen: &ClearPattern) -> f64 {
         if self.at_most(seen) <= SMALLEST_P { SMALLEST_P } else { reported_p(of_several(seen.p_alone, self.tests())) }
     }
@@ -166,12 +161,10 @@ fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Look {
     Look { seen, units, tests: OnceCell::new() }
 }
 
-/// p of the clearest of several independent ones.
 fn of_several(p: f64, tests: f64) -> f64 {
     -(tests * (-p).ln_1p()).exp_m1()
 }
 
-/// What whitened residuals have beyond noise.
 fn excess(case: &Case, white: &[f64]) -> f64 {
     square(white) - case.noise().seen(0..white.len()) as f64
 }
@@ -210,7 +203,6 @@ fn factor(correlations: &DMatrix<f64>) -> Vec<Vec<f64>> {
     rows
 }
 
-/// The largest |normal| of some sets of noise.
 fn largest_of(factor: &[Vec<f64>], noise: &[[f64; TOGETHER]]) -> [f64; TOGETHER] {
     let mut largest = [0.0_f64; TOGETHER];
     for row in factor {

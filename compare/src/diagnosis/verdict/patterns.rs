@@ -21,7 +21,6 @@ use crate::layout::Layout;
 use crate::wording::short;
 use data::{Hold, Phase};
 
-/// A simple pattern of residuals, as a direction in run layout.
 pub(crate) struct Pattern {
     /// Its appearance, to follow "The remaining misfit looks as if".
     pub words: String,
@@ -35,7 +34,6 @@ pub(crate) struct Pattern {
     pub direction: Vec<f64>,
 }
 
-/// A fault that one pattern alone shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Fault {
     /// A place of the robot or a marker, with the times of the bending or without any.
@@ -44,7 +42,6 @@ pub(crate) enum Fault {
     Hold,
 }
 
-/// Where a pattern acts on the markers.
 enum Place {
     /// A rotation halfway between neighbouring markers, 0 between base and first marker.
     Bend(usize),
@@ -58,7 +55,6 @@ enum Place {
     All([f64; 2]),
 }
 
-/// A time that singles out holds.
 struct When {
     /// Clause on the time that follows the description of the pattern.
     words: String,
@@ -67,7 +63,6 @@ struct When {
     time: Vec<f64>,
 }
 
-/// The robot seen in one sample: base and markers in the order of their stations.
 struct Outline {
     xy: Vec<[f64; 2]>,
     /// Halfway from every one of them to the next.
@@ -201,7 +196,6 @@ fn alone(holds: usize, hold: usize) -> Vec<f64> {
     (0..holds).map(|i| f64::from(u8::from(i == hold))).collect()
 }
 
-/// Times that single out holds, with words; every single hold first.
 fn times(case: &Case, bent: &[f64]) -> Vec<When> {
     let holds = &case.first().dataset.holds;
     let one = |(h, hold): (usize, &Hold)| {
@@ -299,7 +293,6 @@ fn turned(sum: [f64; 2], outline: &Outline, at: usize, k: usize, turn: f64) -> [
     ]
 }
 
-/// Unit vector from one point to another; zero if they are one.
 fn towards(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
     let chord = [0, 1].map(|axis| to[axis] - from[axis]);
     let length = chord[0].hypot(chord[1]);

@@ -33,7 +33,6 @@ use crate::slips::pressure::{BestEffect, PressureSlip, PressureSlipFound, by_num
 use data::Dataset;
 use models::Scenario;
 
-/// What a hypothesis leaves, and what it costs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Weighed {
     criterion: f64,
@@ -47,7 +46,6 @@ pub(crate) struct Pressures<'p> {
     pub options: &'p Options,
 }
 
-/// A slip undone, and the base then.
 struct Undone {
     /// Source whose table was corrected, as an index.
     of: usize,
@@ -58,7 +56,6 @@ struct Undone {
 }
 
 impl Pressures<'_> {
-    /// The slip that beats the base and all `rivals`, if there is one.
     pub(crate) fn found(
         &self,
         case: &Case,
@@ -158,7 +155,6 @@ impl Pressures<'_> {
         undone
     }
 
-    /// The base refitted with a slip of one of the data undone; `None` without equilibrium.
     fn undone(&self, of: usize, slip: &PressureSlip) -> Option<Weighed> {
         let mut sources = self.sources.to_vec();
         sources[of].dataset = slip.undone(&sources[of].dataset);
@@ -263,7 +259,6 @@ fn weighed(case: &Case, fit: &Fit) -> Weighed {
     }
 }
 
-/// Root mean square of how far the markers moved \[m\].
 fn moved_m(dataset: &Dataset) -> f64 {
     let at = dataset.mean_over_runs();
     let hold = at.len() / dataset.holds.len();

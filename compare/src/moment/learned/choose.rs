@@ -7,7 +7,6 @@ use models::{Formula, Scenario};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
-/// Missing moments, and where they were measured.
 #[derive(Debug, Clone)]
 pub(crate) struct Material {
     /// κ, θ, P, p_b, s, R, B and pull of each, SI ([`Formula::moment_at`]).
@@ -18,7 +17,6 @@ pub(crate) struct Material {
     pub stiffness: Option<f64>,
 }
 
-/// A law of the library and how well it predicts.
 #[derive(Debug, Clone)]
 pub(crate) struct Tried {
     /// The law; `None`: nothing is missing.
