@@ -55,11 +55,11 @@ pub(super) fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate
     let mut list = if options.refit_present { present(scenario) } else { Vec::new() };
     list.retain(open);
     let own = list.len();
-    let is_measured =
-        |c: &Candidate| sources.iter().flat_map(|s| &s.measured).any(|m| taken_away(&c.name) == Some(&m.effect));
-    let tried = [candidates(scenario), surplus(scenario, &list)].concat();
-    list.extend(tried.into_iter().filter(open).filter(|c| !options.excludes(&c.name) && !is_measured(c)));
     let measured: Vec<&MeasuredValue> = sources.iter().flat_map(|source| &source.measured).collect();
+    let is_measured = |c: &Candidate| measured.iter().any(|m| taken_away(&c.name) == Some(&m.effect));
+    let mut tried = [candidates(scenario), surplus(scenario, &list)].concat();
+    tried.retain(|c| open(c) && !options.excludes(&c.name) && !is_measured(c));
+    list.append(&mut tried);
     let bodies = body_pressures(sources.iter().map(|source| &source.dataset)).len();
     hold(&mut list, options.keep_bending, bodies > 1, &measured);
     tried_between(&mut list, &sources[0].dataset.holds);
@@ -86,7 +86,8 @@ impl<'a> Case<'a> {
             )));
         }
         let estimate = |source: &Source, slope: &[f64]| {
-            source.at_readings(NoiseModel::estimate(&source.dataset, slope, &source.sessions, options.sigma_m)?, slope)
+            let noise = NoiseModel::estimate(&source.dataset, slope, &source.sessions, options.sigma_m)?;
+            source.at_readings(noise, slope)
         };
         Case::with_noise(sources, &estimate, (candidates, own), options)
     }
@@ -205,8 +206,12 @@ impl<'a> Case<'a> {
 
     /// Root mean square of a fit's errors over all values of all data \[mm\].
     pub(crate) fn error_in_all_mm(&self, fit: &Fit) -> f64 {
-        let errors = self.errors_mm(fit).into_iter().zip(&self.noises).map(|(mm, noise)| (mm, noise.all_seen() as f64));
-        let (squares, count) = errors.fold((0.0, 0.0), |(s, n), (mm, k)| (s + k * mm * mm, n + k));
+        let (mut squares, mut count) = (0.0, 0.0);
+        for (mm, noise) in self.errors_mm(fit).into_iter().zip(&self.noises) {
+            let seen = noise.all_seen() as f64;
+            squares += seen * mm * mm;
+            count += seen;
+        }
         (squares / count).sqrt()
     }
 
@@ -215,8 +220,8 @@ impl<'a> Case<'a> {
     pub(crate) fn beyond_noise_mm(&self, fit: &Fit) -> f64 {
         let unseen: usize = self.noises.iter().map(|noise| noise.directions.len() - noise.all_seen()).sum();
         let seen = fit.minimum.residual.len() - self.problem.known.len() - unseen;
-        let (cost, dof) = (self.seen_cost(fit), seen.saturating_sub(fit.theta().len()).max(1) as f64);
-        1e3 * self.noise().unit_m() * (cost / dof - 1.0).max(0.0).sqrt()
+        let dof = seen.saturating_sub(fit.theta().len()).max(1) as f64;
+        1e3 * self.noise().unit_m() * (self.seen_cost(fit) / dof - 1.0).max(0.0).sqrt()
     }
 
     /// Whitened sum of squares without what tests of their own found of effects, which no marker shows.
@@ -242,7 +247,8 @@ impl<'a> Case<'a> {
     /// p of a gain by `parameters`, the best of `tests`; `None` if no p-values can be formed. Of several data σ² has the fewest
     /// degrees of freedom.
     pub(crate) fn p_of_gain(&self, gain: f64, parameters: usize, tests: f64) -> Option<f64> {
-        let (q, dof) = (parameters.max(1), self.noises.iter().map(|noise| noise.pure_error_dof).min().unwrap_or(0));
+        let dof = self.noises.iter().map(|noise| noise.pure_error_dof).min().unwrap_or(0);
+        let q = parameters.max(1);
         let p = tests * f_tail(gain / q as f64, q, dof);
         self.gives_p_values().then_some(p.min(1.0))
     }
@@ -264,10 +270,9 @@ fn independent_tests(problem: &Problem, base: &Fit, tried: std::ops::Range<usize
         return count.max(1) as f64;
     }
     let correlations = DMatrix::from_fn(n, n, |i, j| if i == j { 1.0 } else { cosine(&traces[i], &traces[j]) });
-    let apart = match SymmetricEigen::try_new(correlations, f64::EPSILON, EIGEN_ROUNDS) {
-        Some(eigen) => eigen.eigenvalues.iter().map(|l| l.max(0.0).sqrt()).sum::<f64>().powi(2) / n as f64,
-        _ => n as f64,
-    };
+    let eigen = SymmetricEigen::try_new(correlations, f64::EPSILON, EIGEN_ROUNDS);
+    let roots = eigen.map(|eigen| eigen.eigenvalues.iter().map(|l| l.max(0.0).sqrt()).sum::<f64>());
+    let apart = roots.map_or(n as f64, |roots| roots.powi(2) / n as f64);
     (apart + (count - n) as f64).max(1.0)
 }
 
@@ -282,11 +287,12 @@ fn error_mm(prediction_m: &[f64], mean_m: &[f64], noise: &NoiseModel) -> f64 {
 fn derivative(problem: &Problem, block: &Block, fit: &Fit) -> Result<Vec<f64>, CompareError> {
     let mut slope = vec![0.0; block.target_m.len()];
     let width = slope.len() / block.source.dataset.holds.len();
-    for (group, scenario) in problem.scenarios(block, &fit.effects, fit.theta()).iter().enumerate() {
-        let predicted = predict_dataset(scenario, &block.source.dataset)?;
-        for (hold, _) in block.bending_of.iter().enumerate().filter(|(_, own)| **own == group) {
+    let scenarios = problem.scenarios(block, &fit.effects, fit.theta());
+    for (group, scenario) in scenarios.iter().enumerate() {
+        let predicted = predict_dataset(scenario, &block.source.dataset)?.d_ln_pressure_m;
+        for hold in (0..block.bending_of.len()).filter(|hold| block.bending_of[*hold] == group) {
             let rows = hold * width..(hold + 1) * width;
-            slope[rows.clone()].copy_from_slice(&predicted.d_ln_pressure_m[rows]);
+            slope[rows.clone()].copy_from_slice(&predicted[rows]);
         }
     }
     Ok(slope)

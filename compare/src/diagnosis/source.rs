@@ -173,6 +173,11 @@ impl Source {
         self.gauge.as_ref().map_or(&self.scenario, |gauge| &gauge.scenario)
     }
 
+    /// The dataset at its set pressures.
+    pub(crate) fn as_set(&self) -> Dataset {
+        self.gauge.as_ref().map_or_else(|| self.dataset.clone(), |gauge| gauge.as_set(&self.dataset))
+    }
+
     /// Noise at the readings of the gauge, if there is one, given ∂f/∂ln p.
     pub(crate) fn at_readings(&self, noise: NoiseModel, slope: &[f64]) -> Result<NoiseModel, CompareError> {
         match &self.gauge {

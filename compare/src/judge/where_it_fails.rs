@@ -10,6 +10,7 @@ use crate::residuals::{Deviation, ResidualCell, ResidualMap};
 use crate::wording::{evidence, list, markers, p_value, pressures, times_the_noise};
 use data::Phase;
 use serde::Serialize;
+use std::collections::BTreeSet;
 
 /// Where or when the difference of a statement is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -77,12 +78,9 @@ pub fn where_it_fails(
     let judge = Judge::new(c, map, options);
     let mut found = Vec::new();
     let signs = [1.0, -1.0];
-    match c.is_spatial() {
-        true => found.extend([1, 2].iter().flat_map(|axis| signs.map(|sign| judge.along(*axis, sign))).flatten()),
-        false => {
-            let phases = [Finding::Loading, Finding::Unloading];
-            found.extend(phases.iter().flat_map(|phase| signs.map(|sign| judge.bending(*phase, sign))).flatten());
-        }
+    for (axis, phase) in [(1, Finding::Loading), (2, Finding::Unloading)] {
+        let one = |sign| if c.is_spatial() { judge.along(axis, sign) } else { judge.bending(phase, sign) };
+        found.extend(signs.into_iter().filter_map(one));
     }
     let told: Vec<usize> = found.iter().flat_map(|s: &Statement| s.holds.clone()).collect();
     found.extend(judge.loops(&told));
@@ -107,7 +105,7 @@ struct Judge<'a> {
 
 impl<'a> Judge<'a> {
     fn new(c: &'a BesideMean<'a>, map: &'a ResidualMap, options: &FailureOptions) -> Judge<'a> {
-        let largest = map.cells.iter().flatten().fold(0.0, |l: f64, cell| l.max(cell.norm_mm));
+        let largest = map.cells.iter().flatten().map(|cell| cell.norm_mm).fold(0.0, f64::max);
         // Without noise only the coarse pattern is described: what reaches a quarter of the largest difference.
         let pattern_mm = if c.noise.is_known() { 0.0 } else { 0.25 * largest };
         let least_mm = (1e3 * options.tolerance_m).max(pattern_mm);
@@ -135,30 +133,45 @@ impl<'a> Judge<'a> {
     ) -> Vec<(usize, usize)> {
         let holds = (0..self.c.layout.holds).filter(|&h| unloading.is_none_or(|u| u == self.is_unloading(h)));
         let cells = holds.flat_map(|h| (0..self.c.layout.markers).map(move |m| (h, m)));
-        cells.filter(|&at| Some(signed(self.cell(at))).is_some_and(|d| self.fails(&d) && d.mm * sign > 0.0)).collect()
+        let fails = |d: Deviation| self.fails(&d) && d.mm * sign > 0.0;
+        cells.filter(|at| fails(signed(self.cell(*at)))).collect()
     }
 
     /// Too far (`sign` = +1) or too little bending in one phase.
     fn bending(&self, finding: Finding, sign: f64) -> Option<Statement> {
         let unloading = finding == Finding::Unloading;
-        let cells = self.failing(Some(unloading), |c| c.y, sign * self.bend);
-        let worst = self.worst(&cells, |c| c.y)?;
-        let group = CellGroup::of(&cells);
         let way = if sign > 0.0 { "too far" } else { "too little" };
-        let at = pressures(self.map, &group.holds);
-        let start = match unloading {
-            true => format!("After unloading, at {at}, the model is bent {way}"),
-            false => format!("The model bends {way} at {at}"),
-        };
-        let largest = self.cell(worst).y;
-        let sentence = format!(
-            "{start} ({}){}{}{}.",
-            evidence(self.map, worst, &group.holds, &largest),
-            markers(self.map, &group.markers),
-            self.growth(worst.0, &group.markers),
-            self.contrast(&group.holds, unloading),
-        );
-        Some(Statement { finding, sentence, holds: group.holds, markers: group.markers, largest: Some(largest) })
+        let cells = self.failing(Some(unloading), |c| c.y, sign * self.bend);
+        self.on_cells(
+            finding,
+            &cells,
+            |c| c.y,
+            |at, holds, markers| {
+                let pressures = pressures(self.map, holds);
+                let start = match unloading {
+                    true => format!("After unloading, at {pressures}, the model is bent {way}"),
+                    false => format!("The model bends {way} at {pressures}"),
+                };
+                [start, self.growth(at.0, markers).to_string() + &self.contrast(holds, unloading)]
+            },
+        )
+    }
+
+    /// A statement on failing cells, from its words before and after the evidence: of the worst cell, of all holds and markers.
+    fn on_cells(
+        &self,
+        finding: Finding,
+        cells: &[(usize, usize)],
+        of: impl Fn(&ResidualCell) -> Deviation,
+        words: impl Fn((usize, usize), &[usize], &[usize]) -> [String; 2],
+    ) -> Option<Statement> {
+        let worst = self.worst(cells, &of)?;
+        let holds: Vec<usize> = cells.iter().map(|at| at.0).collect::<BTreeSet<_>>().into_iter().collect();
+        let failing: Vec<usize> = cells.iter().map(|at| at.1).collect::<BTreeSet<_>>().into_iter().collect();
+        let largest = of(self.cell(worst));
+        let ([start, end], evidence) = (words(worst, &holds, &failing), evidence(self.map, worst, &holds, &largest));
+        let sentence = format!("{start} ({evidence}){}{end}.", markers(self.map, &failing));
+        Some(Statement { finding, sentence, holds, markers: failing, largest: Some(largest) })
     }
 
     /// The tip at its worst hold if it fails at all, else the worst cell.
@@ -186,11 +199,8 @@ impl<'a> Judge<'a> {
         let loading: Vec<usize> = there.into_iter().filter(right).collect();
         let mut places = Vec::new();
         if !loading.is_empty() {
-            places.push(format!(
-                "at {}{}",
-                pressures(self.map, &loading),
-                if unloading { " while loading" } else { "" }
-            ));
+            let while_loading = if unloading { " while loading" } else { "" };
+            places.push(format!("at {}{while_loading}", pressures(self.map, &loading)));
         }
         if !unloading && !back.is_empty() && back.iter().all(right) {
             places.push("after unloading".to_string());
@@ -227,33 +237,22 @@ impl<'a> Judge<'a> {
     /// One coordinate too large (`sign` = +1) or too small: x in the plane, all of them in space.
     fn along(&self, axis: usize, sign: f64) -> Option<Statement> {
         let of = |cell: &ResidualCell| cell.axes()[axis];
-        let cells = self.failing(None, of, sign);
-        let worst = self.worst(&cells, of)?;
-        let group = CellGroup::of(&cells);
-        let largest = of(self.cell(worst));
         let way = if sign > 0.0 { "too large" } else { "too small" };
-        let with_y = if self.c.is_spatial() {
-            ""
-        } else if self.cell(worst).y.mm.abs() > largest.mm.abs() && self.fails(&self.cell(worst).y) {
-            "; the error in y is larger there"
-        } else if !(0..self.c.layout.holds).any(|h| !self.bending_is_right(h)) {
-            "; y is right to within noise"
-        } else {
-            ""
-        };
         let (finding, place) = match axis {
             0 => (Finding::Lengthwise, "Along the body, x"),
             1 => (Finding::Across, "Across the body, y"),
             _ => (Finding::Across, "Across the body, z"),
         };
-        let sentence = format!(
-            "{place} of the model is {way} at {} ({}){}{with_y}.",
-            pressures(self.map, &group.holds),
-            evidence(self.map, worst, &group.holds, &largest),
-            markers(self.map, &group.markers),
-        );
-        let CellGroup { holds, markers } = group;
-        Some(Statement { finding, sentence, holds, markers, largest: Some(largest) })
+        self.on_cells(finding, &self.failing(None, of, sign), of, |at, holds, _| {
+            let y = self.cell(at).y;
+            let with_y = match () {
+                () if self.c.is_spatial() => "",
+                () if y.mm.abs() > of(self.cell(at)).mm.abs() && self.fails(&y) => "; the error in y is larger there",
+                () if (0..self.c.layout.holds).all(|h| self.bending_is_right(h)) => "; y is right to within noise",
+                () => "",
+            };
+            [format!("{place} of the model is {way} at {}", pressures(self.map, holds)), with_y.into()]
+        })
     }
 
     fn drifts(&self) -> Option<Statement> {
@@ -294,25 +293,6 @@ impl<'a> Judge<'a> {
             (Finding::Agrees, nothing)
         };
         Statement { largest: most, ..Statement::of(finding, sentence) }
-    }
-}
-
-struct CellGroup {
-    holds: Vec<usize>,
-    markers: Vec<usize>,
-}
-
-impl CellGroup {
-    fn of(cells: &[(usize, usize)]) -> CellGroup {
-        let unique = |mut v: Vec<usize>| {
-            v.sort_unstable();
-            v.dedup();
-            v
-        };
-        CellGroup {
-            holds: unique(cells.iter().map(|c| c.0).collect()),
-            markers: unique(cells.iter().map(|c| c.1).collect()),
-        }
     }
 }
 

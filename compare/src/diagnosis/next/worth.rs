@@ -10,8 +10,7 @@ use crate::fit::numbers::{largest, squared_distance};
 /// Root-mean-square distance over all marker coordinates between the calibrated base and a fit.
 pub(crate) fn worth(case: &Case, fit: &Fit) -> Worth {
     let first = case.first();
-    let set = first.gauge.as_ref().map_or_else(|| first.dataset.clone(), |gauge| gauge.as_set(&first.dataset));
-    let plans = plans(&first.scenario, &set, first.direct, (first.direct, Vec::new()));
+    let plans = plans(&first.scenario, &first.as_set(), first.direct, (first.direct, Vec::new()));
     let elsewhere = plans.into_iter().filter_map(|plan| {
         let expected = Expected::of(case, Some(&plan), fit).ok()?;
         let base = super::extended(&case.base, case.problem.bendings, expected.added);
