@@ -97,6 +97,10 @@ impl CompareError {
         CompareError::Unfit(message.into())
     }
 
+    pub(crate) fn bad_option(name: &'static str, value: f64, expected: &'static str) -> CompareError {
+        CompareError::BadOption { name, value, expected }
+    }
+
     /// What to do, where the message does not say it.
     pub fn help(&self) -> Option<&str> {
         use CompareError::{Fem, Refused, Unread};

@@ -11,7 +11,7 @@ use crate::error::CompareError;
 use crate::fit::basis::{Basis, cosine};
 use crate::fit::least_squares::square;
 use crate::fit::numbers::squared_distance;
-use crate::layout::Layout;
+use crate::layout::{Layout, values_of};
 use crate::noise::NoiseModel;
 use crate::policy;
 use crate::stats::f_tail;
@@ -286,14 +286,11 @@ fn error_mm(prediction_m: &[f64], mean_m: &[f64], noise: &NoiseModel) -> f64 {
 /// ∂f/∂ln p of a fit in a block \[m\].
 fn derivative(problem: &Problem, block: &Block, fit: &Fit) -> Result<Vec<f64>, CompareError> {
     let mut slope = vec![0.0; block.target_m.len()];
-    let width = slope.len() / block.source.dataset.holds.len();
     let scenarios = problem.scenarios(block, &fit.effects, fit.theta());
     for (group, scenario) in scenarios.iter().enumerate() {
         let predicted = predict_dataset(scenario, &block.source.dataset)?.d_ln_pressure_m;
-        for hold in (0..block.bending_of.len()).filter(|hold| block.bending_of[*hold] == group) {
-            let rows = hold * width..(hold + 1) * width;
-            slope[rows.clone()].copy_from_slice(&predicted[rows]);
-        }
+        let own: Vec<usize> = (0..block.bending_of.len()).filter(|hold| block.bending_of[*hold] == group).collect();
+        values_of(&block.source.dataset, &own).for_each(|i| slope[i] = predicted[i]);
     }
     Ok(slope)
 }

@@ -104,10 +104,8 @@ impl Source {
         let dataset_seen = seen_by(&scenario, prepared.dataset);
         let mut source = Source::of(scenario, dataset_seen, about);
         if source.direct.pressure && dataset.gauge_pa.is_some() {
-            warnings.push(
-                "about.toml has [direct] pressure, so p_act is the actuator's own and the column p_gauge was not used"
-                    .into(),
-            );
+            let own = "about.toml has [direct] pressure, so p_act is the actuator's own";
+            warnings.push(format!("{own} and the column p_gauge was not used"));
         }
         let several = source.dataset.channels_differ();
         if several && dataset.gauge_pa.is_some() {
@@ -128,9 +126,8 @@ impl Source {
         for (i, measured) in evidence.iter().enumerate() {
             let name = &measured.dataset.name;
             if evidence[..i].iter().any(|seen| seen.dataset.coordinates_m == measured.dataset.coordinates_m) {
-                warnings.push(format!(
-                    "{name} is a copy of data that are there already and was left out: copies are not repeats"
-                ));
+                let copy = "is a copy of data that are there already and was left out";
+                warnings.push(format!("{name} {copy}: copies are not repeats"));
                 continue;
             }
             let own = measured.about.as_ref().and_then(|a| a.gravity_direction);
@@ -141,8 +138,8 @@ impl Source {
             let bending = source.contradicts_bending(&sources).then(|| "bending".to_string());
             let effect = sources.iter().find_map(|known| known.contradicts(&source));
             for what in bending.into_iter().chain(effect.map(|effect| format!("measured.{effect}"))) {
-                warnings
-                    .push(format!("{name} contradicts [{what}] in the about.toml of data before it, which is used"));
+                let before = "in the about.toml of data before it, which is used";
+                warnings.push(format!("{name} contradicts [{what}] {before}"));
             }
             let of = if i > 0 { format!("{name}: ") } else { String::new() };
             warnings.extend(source.slips.iter().cloned());

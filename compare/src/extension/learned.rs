@@ -26,7 +26,7 @@ pub(super) fn learned(file: &ScenarioFile, found: &Diagnosis) -> Result<Extensio
     let remarks = vec![format!("{} (learned); its formula is below", law.words)];
     let addition = Addition { remarks, ..ground.calibrated(&law.name, &law.parameters) };
     let bending = (!law.bending_nm2.is_empty()).then(|| ground.new_bending(ground.bending(&law.bending_nm2))).flatten();
-    let fitted = vec![FittedEffect { effect: law.name.clone(), parameters: law.parameters.clone() }];
+    let fitted = vec![FittedEffect::of(&law.name, &law.parameters)];
     let written = Extension::written(&with, bending, vec![addition], law.sentences())?;
     let mut extension = Extension { fitted, ..written.climbed(&ground, ground.learned_step(law)) };
     if !law.heldout_after_mm.zip(law.heldout_before_mm).is_some_and(|(after, before)| policy::falls(after, before)) {

@@ -26,7 +26,7 @@ pub struct ErrorStep {
 impl ErrorStep {
     /// The model and how its newest value is known.
     pub fn label(&self) -> String {
-        let ErrorStep { model, how_known, .. } = self;
+        let (model, how_known) = (&self.model, self.how_known);
         if model.ends_with(how_known) { model.clone() } else { format!("{model} ({how_known})") }
     }
 }
@@ -65,16 +65,10 @@ impl<'a> Ground<'a> {
 
     /// An effect to write, with the data that a fit used and today's date.
     pub(crate) fn addition(&self, name: &str, values: Vec<(String, f64)>, known: Known) -> Addition {
-        let ranked = self.d.ranked(name);
         Addition {
-            name: name.into(),
-            values,
-            basis: known.word(),
-            interval: String::new(),
             data: self.d.evidence.iter().map(|used| [used.words.clone(), used.sha256.clone()]).collect(),
-            date: today(),
             bending_without_nm2: self.fits_bending().then(|| self.base_bending()),
-            remarks: ranked.map(|r| r.sentence.clone()).into_iter().collect(),
+            ..Addition::of(name, values, known, self.d.ranked(name).map(|r| r.sentence.clone()))
         }
     }
 
@@ -116,9 +110,8 @@ impl<'a> Ground<'a> {
     }
 
     pub(crate) fn ranked_step(&self, r: &Ranked) -> ErrorStep {
-        let (model, bending_nm2) = (in_step(&r.effect), self.bending(&r.bending_nm2));
-        let held_out = [r.heldout_mm, r.heldout_run_mm];
-        step(&model, Known::Calibrated.word(), r.systematic_after_mm, held_out, bending_nm2)
+        let (bending_nm2, held_out) = (self.bending(&r.bending_nm2), [r.heldout_mm, r.heldout_run_mm]);
+        step(&in_step(&r.effect), Known::Calibrated.word(), r.systematic_after_mm, held_out, bending_nm2)
     }
 
     pub(crate) fn learned_step(&self, law: &LearnedLaw) -> ErrorStep {

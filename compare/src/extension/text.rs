@@ -4,8 +4,8 @@
 use crate::diagnosis::taken_away;
 use crate::error::CompareError;
 use crate::scenario_file::ScenarioFile;
-use crate::typed_effect::with_values;
-use models::Scenario;
+use crate::typed_effect::{Values, with_values};
+use models::{Known, Scenario};
 use toml_edit::{Decor, DocumentMut, Item, Table, Value, value};
 
 /// An effect as it is to be written.
@@ -27,6 +27,22 @@ pub struct Addition {
     pub bending_without_nm2: Option<f64>,
     /// Lines of the comment above it.
     pub remarks: Vec<String>,
+}
+
+impl Addition {
+    /// An effect without data, written today.
+    pub(super) fn of(name: &str, values: Values, known: Known, remark: Option<String>) -> Addition {
+        Addition {
+            name: name.into(),
+            values,
+            basis: known.word(),
+            interval: String::new(),
+            data: Vec::new(),
+            date: today(),
+            bending_without_nm2: None,
+            remarks: remark.into_iter().collect(),
+        }
+    }
 }
 
 /// A value of `[body]` that replaces the scenario's.

@@ -54,3 +54,9 @@ pub struct FittedEffect {
     /// Fitted or held values of its parameters.
     pub parameters: Vec<ParameterValue>,
 }
+
+impl FittedEffect {
+    pub(super) fn of(effect: &str, parameters: &[ParameterValue]) -> FittedEffect {
+        FittedEffect { effect: effect.into(), parameters: parameters.to_vec() }
+    }
+}

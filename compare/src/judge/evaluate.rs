@@ -104,12 +104,11 @@ pub fn evaluate(
 
 pub(crate) fn check_level(alpha: f64, tolerance_m: Option<f64>) -> Result<(), CompareError> {
     let tolerance = tolerance_m.unwrap_or(0.0);
-    let (name, value, expected) = match () {
-        () if !(alpha > 0.0 && alpha < 1.0) => ("alpha", alpha, "the significance level is between 0 and 1"),
-        () if !(tolerance >= 0.0 && tolerance.is_finite()) => {
-            ("tolerance_m", tolerance, "a length in metres, not negative")
-        }
-        () => return Ok(()),
-    };
-    Err(CompareError::BadOption { name, value, expected })
+    if !(alpha > 0.0 && alpha < 1.0) {
+        return Err(CompareError::bad_option("alpha", alpha, "the significance level is between 0 and 1"));
+    }
+    if !(tolerance >= 0.0 && tolerance.is_finite()) {
+        return Err(CompareError::bad_option("tolerance_m", tolerance, "a length in metres, not negative"));
+    }
+    Ok(())
 }

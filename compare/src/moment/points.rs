@@ -53,18 +53,19 @@ pub(crate) fn moments(view: &View, shape: &Shape, robot: &Robot) -> Result<Momen
         if places.is_empty() {
             continue;
         }
-        let own =
-            |place: usize| -> Sum { (0..groups).map(|g| (1.0 / groups as f64, hold * groups + g, place)).collect() };
-        let length: f64 = places.iter().map(|p| shape.division.places[*p].length_m()).sum();
-        let weight = |place: usize| shape.division.places[place].length_m() / length;
+        let first = hold * groups;
+        let own = |p: &usize| (0..groups).map(|g| (1.0 / groups as f64, first + g, *p)).collect::<Sum>();
+        let length = |p: usize| shape.division.places[p].length_m();
+        let all: f64 = places.iter().map(|p| length(*p)).sum();
+        let weight = |p: usize| length(p) / all;
         for place in &places {
-            sums.push(own(*place));
+            sums.push(own(place));
             labels.push((hold, Some(*place), None));
         }
-        let whole = places.iter().flat_map(|p| own(*p).into_iter().map(|(w, m, p)| (w * weight(p), m, p)));
+        let whole = places.iter().flat_map(own).map(|(w, m, p)| (w * weight(p), m, p));
         wholes.push((whole.collect::<Sum>(), (hold, None, None)));
         for group in 1..groups {
-            let pair = |p: &usize| [(weight(*p), hold * groups + group, *p), (-weight(*p), hold * groups, *p)];
+            let pair = |p: &usize| [(weight(*p), first + group, *p), (-weight(*p), first, *p)];
             sums.push(places.iter().flat_map(pair).collect());
             labels.push((hold, None, Some(group)));
         }
@@ -133,7 +134,10 @@ impl Field {
         let mut active: Vec<usize> = (0..shape.division.places.len()).collect();
         active.retain(|p| shape.division.places[*p].is_active);
         let bend = |place: usize| shape.numbers[layout.bend(hold, place)].abs();
-        let sd = |place: usize| shape.covariance[(layout.bend(hold, place), layout.bend(hold, place))].sqrt();
+        let sd = |place: usize| {
+            let number = layout.bend(hold, place);
+            shape.covariance[(number, number)].sqrt()
+        };
         // A slack actuator on a straight body: the hinge of the folded wall has not set in, so the hold shows nothing.
         let complete = COMPLETE * view.scenario.hinge_curvature;
         let is_slack = |p: &usize| bend(*p) < complete + COMPLETE * sd(*p);

@@ -25,6 +25,7 @@ use crate::directions::Row;
 use crate::error::CompareError;
 use crate::fit::numbers::mean;
 use crate::fit::whiten::Whitener;
+use crate::layout::values_of;
 use crate::policy;
 use crate::stats::t_inflation;
 use crate::study::generate::held;
@@ -135,13 +136,10 @@ impl Gauge {
             read.samples_per_hold = 1;
             read.lost = of_samples(&dataset.lost, dataset.samples_per_hold);
         }
-        for hold in read.holds.iter_mut().filter(|hold| hold.p_act_pa <= policy::ZERO_PRESSURE_PA) {
-            hold.p_act_pa = 0.0;
-        }
-        for (h, hold) in read.holds.iter_mut().enumerate().filter(|(_, hold)| hold.p_act_pa > policy::ZERO_PRESSURE_PA)
-        {
+        for (h, hold) in read.holds.iter_mut().enumerate() {
             let own = || self.of_hold(h).map(|r| r.read_pa);
-            hold.p_act_pa = (own().sum::<f64>() / own().count().max(1) as f64).max(0.0);
+            let mean_pa = (own().sum::<f64>() / own().count().max(1) as f64).max(0.0);
+            hold.p_act_pa = if hold.p_act_pa > policy::ZERO_PRESSURE_PA { mean_pa } else { 0.0 };
         }
         read
     }
@@ -166,15 +164,13 @@ impl Gauge {
     /// What one standard deviation of each error of the gauge does to positions predicted at its readings \[m\], from
     /// ∂f/∂ln p there.
     pub(crate) fn errors_m(&self, positions: &Dataset, d_ln_pressure_m: &[f64]) -> Vec<Vec<f64>> {
-        let width = positions.values_per_run() / positions.holds.len();
         let read: Vec<usize> = (0..positions.holds.len()).filter(|h| self.of_hold(*h).next().is_some()).collect();
         // What an error of `sd` pascal at some holds does.
         let along = |holds: &[usize], sd: &dyn Fn(f64) -> f64| {
             let mut column = vec![0.0; d_ln_pressure_m.len()];
             for &h in holds.iter().filter(|h| positions.holds[**h].p_act_pa > 0.0) {
                 let p = positions.holds[h].p_act_pa;
-                let rows = h * width..(h + 1) * width;
-                column[rows.clone()].iter_mut().zip(&d_ln_pressure_m[rows]).for_each(|(c, d)| *c = sd(p) / p * d);
+                values_of(positions, &[h]).for_each(|i| column[i] = sd(p) / p * d_ln_pressure_m[i]);
             }
             column
         };

@@ -98,6 +98,22 @@ impl Layout {
     }
 }
 
+/// Unit weights, one each.
+pub(crate) fn single(values: impl IntoIterator<Item = usize>) -> Vec<Weights> {
+    values.into_iter().map(|i| vec![(i, 1.0)]).collect()
+}
+
+/// Values of one hold in run layout.
+pub(crate) fn width(dataset: &Dataset) -> usize {
+    dataset.values_per_run() / dataset.holds.len()
+}
+
+/// Places of the values of some holds in run layout.
+pub(crate) fn values_of(dataset: &Dataset, holds: &[usize]) -> impl Iterator<Item = usize> {
+    let width = width(dataset);
+    holds.iter().flat_map(move |hold| hold * width..(hold + 1) * width)
+}
+
 /// Σ wᵢ vᵢ over sparse weights (i, wᵢ).
 pub(crate) fn apply(weights: &[(usize, f64)], values: &[f64]) -> f64 {
     weights.iter().map(|&(i, w)| w * values[i]).sum()

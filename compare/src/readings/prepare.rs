@@ -28,18 +28,14 @@ pub(crate) fn prepare(dataset: &Dataset, about: Option<&About>) -> Prepared {
     }
     let samples = report.outliers;
     let share = samples.len() as f64 / (dataset.coordinates_m.len() as f64 / dataset.axes as f64);
-    if samples.is_empty() {
-    } else if policy::are_strays(share, clean.runs.len()) {
+    let (count, percent, are) = (samples.len(), 100.0 * share, "are far from the other runs");
+    if count > 0 && policy::are_strays(share, clean.runs.len()) {
         replace(&mut clean, &samples);
         let words = "replaced by the mean of the other runs there";
-        warnings.push(format!(
-            "{} samples ({:.1} %) are far from the other runs: {words}",
-            samples.len(),
-            100.0 * share
-        ));
-    } else {
+        warnings.push(format!("{count} samples ({percent:.1} %) {are}: {words}"));
+    } else if count > 0 {
         let words = "too many to be strays, so they were kept and count as noise";
-        warnings.push(format!("{:.1} % of the samples are far from the other runs: {words}", 100.0 * share));
+        warnings.push(format!("{percent:.1} % of the samples {are}: {words}"));
     }
     let sessions = sessions(&clean, about, &mut warnings);
     Prepared { dataset: clean, sessions, outliers: Outliers { samples, share, runs: Vec::new(), copies }, warnings }
@@ -106,10 +102,8 @@ fn sessions(dataset: &Dataset, about: Option<&About>, warnings: &mut Vec<String>
     match names.len() {
         0 | 1 => Vec::new(),
         n if n == labels.len() => {
-            warnings.push(
-                "every session of about.toml has a single run, so nothing repeats within one: taken as one session"
-                    .into(),
-            );
+            let single = "every session of about.toml has a single run, so nothing repeats within one";
+            warnings.push(format!("{single}: taken as one session"));
             Vec::new()
         }
         _ => (0..labels.len()).filter_map(|run| names.iter().position(|own| own.contains(&run))).collect(),
@@ -143,9 +137,7 @@ pub struct OutlyingRun {
 impl OutlyingRun {
     /// A sentence that names the run and its excess scatter.
     pub fn words(&self) -> String {
-        let OutlyingRun { run, scatter_ratio, .. } = self;
-        format!(
-            "run {run} scatters {scatter_ratio:.1} times as much as the others: look at it before believing anything"
-        )
+        let (run, times) = (&self.run, self.scatter_ratio);
+        format!("run {run} scatters {times:.1} times as much as the others: look at it before believing anything")
     }
 }

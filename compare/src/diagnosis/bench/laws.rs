@@ -1,7 +1,7 @@
 //! What may be missing on a bench: effects of the catalogue, and numbers of the scenario that are usually not known.
 
 use crate::bench::Trial;
-use crate::diagnosis::candidates::{Candidate, Free, candidate, hold, hold_shapes};
+use crate::diagnosis::candidates::{Candidate, Free, has, hold, hold_shapes, of_catalogue};
 use data::Bench;
 use models::Scenario;
 use models::effects::{Effect, Fitted, Group, Stage};
@@ -128,7 +128,6 @@ pub(super) fn apply(law: &Candidate, trial: &mut Trial, values: &[f64]) {
 /// scenario gives, and with `refit` the scenario's own.
 pub(super) fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Candidate>, Vec<usize>) {
     let beam = bench.kind.name == "load_deflection";
-    let has = |name: &str| scenario.effects.iter().any(|e| e.name == name);
     // The machine's load is known, and a dial gauge does not see what a camera does to markers.
     let may = |e: &Effect| {
         !["tip_load", "weak_place"].contains(&e.name)
@@ -137,11 +136,9 @@ pub(super) fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Cand
             && !(e.stage == Stage::Supply && e.history)
             && scenario.actuator.takes(e)
             && (beam || e.needs_actuator())
-            && (refit || !has(e.name))
+            && (refit || !has(scenario, e.name))
     };
-    let catalogue = scenario.catalogue();
-    let mut laws: Vec<Candidate> =
-        catalogue.effects().filter(may).map(|e| candidate(&e, scenario.actuator.kind.name)).collect();
+    let mut laws = of_catalogue(scenario, may);
     let first = bench.rows[0].get("p_body");
     let body_pressures = bench.rows.iter().any(|row| row.get("p_body") != first);
     // A testing machine is the separate test that a design number waits for.
@@ -154,7 +151,7 @@ pub(super) fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Cand
         laws.iter_mut().filter(|c| c.name == chosen.name).for_each(|c| c.as_given(&chosen.values));
     }
     laws.retain(|candidate| candidate.count() > 0);
-    let mut always: Vec<usize> = (0..laws.len()).filter(|i| has(&laws[*i].name)).collect();
+    let mut always: Vec<usize> = (0..laws.len()).filter(|i| has(scenario, &laws[*i].name)).collect();
     for number in NUMBERS.iter().filter(|n| n.table == bench.kind.name) {
         let given = (number.given)(scenario);
         let angle_untold =

@@ -12,6 +12,7 @@ use crate::diagnosis::problem::{Fit, Problem};
 use crate::error::CompareError;
 use crate::fit::least_squares::{dot, products, square};
 use crate::fit::numbers::groups;
+use crate::layout::{values_of, width};
 use crate::policy;
 use data::Hold;
 
@@ -66,9 +67,8 @@ fn error_mm(folds: &[Fold], fit: &Fit) -> Option<f64> {
         let refit = fold.problem.fit(&fit.effects, &[fit.theta().to_vec()])?;
         let block = &fold.problem.blocks[0];
         let predicted = fold.problem.predict(block, &fold.holds, &fit.effects, refit.theta())?;
-        let width = predicted.len() / block.source.dataset.holds.len();
-        let seen = |i: &usize| !fold.unseen.contains(i);
-        let rows: Vec<usize> = fold.holds.iter().flat_map(|h| h * width..(h + 1) * width).filter(seen).collect();
+        let rows = values_of(&block.source.dataset, &fold.holds);
+        let rows: Vec<usize> = rows.filter(|i| !fold.unseen.contains(i)).collect();
         let noise_m2 = fold.noise_m2 + taken_over_m2(fold, &refit, &predicted, &rows).min(fold.fitted_m2);
         squares += rows.iter().map(|i| (predicted[*i] - fold.truth_m[*i]).powi(2) - noise_m2).sum::<f64>();
         values += rows.len() as f64;
@@ -108,7 +108,7 @@ fn pressure_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
         return Ok(Vec::new());
     }
     let (mean, noise) = (dataset.mean_over_runs(), case.noise());
-    let width = mean.len() / dataset.holds.len();
+    let width = width(dataset);
     let fold = |own: &Vec<usize>| {
         let is_out = |h: &usize| policy::same_channels(pressed[own[0]], &dataset.holds[*h]);
         let (out, kept): (Vec<usize>, Vec<usize>) = (0..dataset.holds.len()).partition(is_out);

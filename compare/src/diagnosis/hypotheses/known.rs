@@ -134,7 +134,7 @@ fn place(candidates: &[Candidate], effect: &str, key: &str) -> Option<(usize, us
 }
 
 fn check(scenario: &Scenario, m: &MeasuredValue) -> Result<(), CompareError> {
-    let MeasuredValue { effect: name, key, value, sd, .. } = m;
+    let (name, key, value, sd) = (&m.effect, &m.key, m.value, m.sd);
     let wrong = |problem: String| {
         let place = if m.place.is_empty() { "about.toml".to_string() } else { m.place.clone() };
         Err(CompareError::told(format!("{place}: [measured] {problem}")))
@@ -148,7 +148,7 @@ fn check(scenario: &Scenario, m: &MeasuredValue) -> Result<(), CompareError> {
         let keys: Vec<&str> = effect.parameters.iter().map(|p| p.key).collect();
         return wrong(format!("names an unknown parameter `{key}` of {name}; {}", spelling::known(key, &keys)));
     };
-    if value.is_finite() && policy::is_within(p.possible, *value, *sd) {
+    if value.is_finite() && policy::is_within(p.possible, value, sd) {
         return Ok(());
     }
     wrong(format!(
@@ -165,15 +165,9 @@ pub(crate) fn unusual(measured: &[MeasuredValue], scenario: &Scenario) -> Vec<St
     let told = measured.iter().filter_map(|m| {
         let effect = catalogue.by_name(&m.effect)?;
         let p = effect.parameters.iter().find(|p| p.key == m.key)?;
-        (!policy::is_within([p.lower, p.upper], m.value, m.sd)).then(|| {
-            format!(
-                "about.toml gives {} with {} = {}, and robots like these have {}: used as given, check its unit",
-                m.effect,
-                m.key,
-                m.value,
-                p.usual_words()
-            )
-        })
+        let given = format!("about.toml gives {} with {} = {}", m.effect, m.key, m.value);
+        (!policy::is_within([p.lower, p.upper], m.value, m.sd))
+            .then(|| format!("{given}, and robots like these have {}: used as given, check its unit", p.usual_words()))
     });
     told.collect()
 }
@@ -184,10 +178,10 @@ pub(crate) fn make_room(candidates: &mut [Candidate], measured: &[&MeasuredValue
     for m in measured {
         let Some((effect, parameter)) = place(candidates, &m.effect, &m.key) else { continue };
         let Some(entry) = catalogue.by_name(&m.effect) else { continue };
-        let ([lower, upper], free) =
-            (entry.parameters[parameter].possible, &mut candidates[effect].parameters[parameter]);
-        let [low, high] =
-            [-1.0, 1.0].map(|side| (m.value + side * policy::BEYOND_BOUNDS * m.sd).clamp(lower, upper) * free.si);
+        let [lower, upper] = entry.parameters[parameter].possible;
+        let free = &mut candidates[effect].parameters[parameter];
+        let far = policy::BEYOND_BOUNDS * m.sd;
+        let [low, high] = [m.value - far, m.value + far].map(|v| v.clamp(lower, upper) * free.si);
         if m.value * free.si < free.lower {
             free.lower = free.lower.min(low);
         }

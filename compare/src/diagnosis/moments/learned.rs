@@ -1,6 +1,6 @@
 //! A learned law: chosen by the missing moments of pressures left out, then fitted to the markers by the full model.
 
-use crate::diagnosis::candidates::{Candidate, candidate, hold_shapes};
+use crate::diagnosis::candidates::{Candidate, candidate, has, hold_shapes};
 use crate::diagnosis::case::Case;
 use crate::diagnosis::decide::Decision;
 use crate::diagnosis::heldout::HeldOut;
@@ -165,9 +165,9 @@ fn pulls(block: &Block, seen: &Seen) -> Result<Vec<Vec<f64>>, CompareError> {
 
 /// Position of the markers' line, if the shapes find another one than the scenario's \[m\].
 fn line(case: &Case, seen: &[Seen]) -> Option<f64> {
-    let is_there = case.first().scenario.effects.iter().any(|e| e.name == LINE);
     let shared = seen[0].shape.shared.first()?;
-    (!is_there && !case.first().direct.frame && shared.is_told()).then_some(1e-3 * shared.value)
+    (!has(&case.first().scenario, LINE) && !case.first().direct.frame && shared.is_told())
+        .then_some(1e-3 * shared.value)
 }
 
 fn free_name(scenario: &Scenario) -> String {

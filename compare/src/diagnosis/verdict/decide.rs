@@ -44,6 +44,11 @@ impl Decision {
         [&self.singles.fits[..], &self.pairs.fits].concat()
     }
 
+    /// The final model where the verdict names effects.
+    pub(crate) fn answer(&self) -> Option<&Fit> {
+        self.last.as_ref().filter(|_| self.verdict == Some(Verdict::Effect))
+    }
+
     /// The same without an answer: the data are not what they say.
     pub(crate) fn withheld(self) -> Decision {
         let singles = Ordered { set: Vec::new(), ..self.singles };

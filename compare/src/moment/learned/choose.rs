@@ -1,7 +1,7 @@
 //! Which law of the library the points ask for.
 
 use super::library::{Form, LIBRARY};
-use crate::fit::numbers::{groups, mean, sort_by};
+use crate::fit::numbers::{groups, least, mean, sort_by};
 use crate::policy;
 use models::{Formula, Scenario};
 use nalgebra::{DMatrix, DVector};
@@ -59,9 +59,12 @@ pub(crate) fn rank(material: &Material, robot: &Scenario) -> Vec<Tried> {
 /// Of laws with their numbers and what they miss at pressures left out, in units of noise, the one to take: the fewest numbers
 /// where no other is closer by a fifth, one noise added to each.
 pub(crate) fn taken(laws: &[(usize, f64)]) -> Option<usize> {
-    let best = laws.iter().map(|(_, missed)| *missed).min_by(f64::total_cmp)?;
-    let alike = (0..laws.len()).filter(|i| !policy::is_closer(1.0_f64.hypot(best), 1.0_f64.hypot(laws[*i].1)));
-    alike.min_by(|a, b| laws[*a].0.cmp(&laws[*b].0).then(laws[*a].1.total_cmp(&laws[*b].1)))
+    let with_noise = |i: usize| 1.0_f64.hypot(laws[i].1);
+    let best = least(0..laws.len(), |i| laws[*i].1)?;
+    let mut alike: Vec<usize> = (0..laws.len()).collect();
+    alike.retain(|i| !policy::is_closer(with_noise(best), with_noise(*i)));
+    sort_by(&mut alike, |i| laws[*i].1);
+    alike.into_iter().min_by_key(|i| laws[*i].0)
 }
 
 impl Material {
@@ -113,10 +116,11 @@ impl Law {
             values[k] = scales[k];
             material.places.iter().map(|at| formula.moment_at(at, &values) / scales[k]).collect()
         };
+        let bends: Vec<f64> = material.places.iter().map(|at| -at[0]).collect();
         let columns = |set: Vec<f64>| {
             let own = (0..numbers.len()).filter(|k| numbers[*k].is_linear());
             let mut all: Vec<Vec<f64>> = own.filter_map(|k| Some(column(&set, formula.as_ref()?, k))).collect();
-            all.extend(spring.map(|_| material.places.iter().map(|at| -at[0]).collect::<Vec<f64>>()));
+            all.extend(spring.map(|_| bends.clone()));
             let rows = material.places.len();
             let columns = DMatrix::from_fn(rows, all.len(), |i, j| all[j][i]);
             (set, columns)
