@@ -6,7 +6,7 @@ use crate::diagnosis::{
 };
 use crate::error::CompareError;
 use crate::evidence::Evidence;
-use crate::extension::{ErrorStep, Extension, FittedEffect, Ground, extend, extended};
+use crate::extension::{ErrorStep, FittedEffect, Ground, extend, extended};
 use crate::progress::{Progress, part};
 use crate::scenario_file::ScenarioFile;
 use serde::Serialize;
@@ -97,14 +97,15 @@ impl Climb {
     }
 
     fn step(&mut self, file: &ScenarioFile, d: &Diagnosis) -> Result<ScenarioFile, CompareError> {
-        let Extension { file, steps, fitted, .. } = extend(file, d)?;
+        let extension = extend(file, d)?;
+        let file = extension.file;
         let number = self.steps.len() + 1;
         let written = format!("step-{number}-{}.toml", names_of(&d.added).join("-").replace(' ', "-"));
         self.told.push(told(number, d));
-        self.rungs.extend(steps.into_iter().last());
+        self.rungs.extend(extension.steps.into_iter().last());
         self.files.push((written.clone(), file.text.clone()));
         self.steps.push(ClimbStep {
-            added: fitted,
+            added: extension.fitted,
             indistinguishable: d.indistinguishable.clone(),
             p_value: d.p_value,
             confidence: d.confidence,
@@ -157,7 +158,8 @@ fn told(number: usize, d: &Diagnosis) -> String {
         None => format!("{}, {}", a.effect, listed(&a.parameters)),
     };
     let names: Vec<String> = d.added.iter().map(values).collect();
-    let (names, before, after) = (names.join("; "), d.base.systematic_mm, d.base.systematic_with_added_mm);
+    let names = names.join("; ");
+    let (before, after) = (d.base.systematic_mm, d.base.systematic_with_added_mm);
     let mut told = format!("Step {number}: {names}. {before:.2} → {after:.2} mm.");
     if d.indistinguishable.len() > 1 {
         let all = d.indistinguishable.join(", ");

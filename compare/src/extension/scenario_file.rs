@@ -54,7 +54,8 @@ impl ScenarioFile {
         if data::sets().iter().any(|set| set.name == name) {
             return format!("{name} is data, and the scenario comes first: for example `ibr compare epam {name}`");
         }
-        let (meant, names) = (spelling::meant(name, shipped.iter().copied()), shipped.join(", "));
+        let meant = spelling::meant(name, shipped.iter().copied());
+        let names = shipped.join(", ");
         format!("{meant}give a TOML file, or a shipped robot: {names}; `ibr new epam > my.toml` makes a start")
     }
 

@@ -110,14 +110,17 @@ impl<'a> Ground<'a> {
     }
 
     pub(crate) fn ranked_step(&self, r: &Ranked) -> ErrorStep {
-        let (bending_nm2, held_out) = (self.bending(&r.bending_nm2), [r.heldout_mm, r.heldout_run_mm]);
-        step(&in_step(&r.effect), Known::Calibrated.word(), r.systematic_after_mm, held_out, bending_nm2)
+        let bending_nm2 = self.bending(&r.bending_nm2);
+        let (model, known) = (in_step(&r.effect), Known::Calibrated.word());
+        let held_out = [r.heldout_mm, r.heldout_run_mm];
+        step(&model, known, r.systematic_after_mm, held_out, bending_nm2)
     }
 
     pub(crate) fn learned_step(&self, law: &LearnedLaw) -> ErrorStep {
-        let (model, bending_nm2) = (format!("+ {}", law.name), self.bending(&law.bending_nm2));
+        let bending_nm2 = self.bending(&law.bending_nm2);
+        let (model, known) = (format!("+ {}", law.name), Known::Calibrated.word());
         let held_out = [law.heldout_after_mm, law.heldout_run_after_mm];
-        step(&model, Known::Calibrated.word(), law.after_mm, held_out, bending_nm2)
+        step(&model, known, law.after_mm, held_out, bending_nm2)
     }
 
     /// The final model of the diagnosis, or the one that it attempted.

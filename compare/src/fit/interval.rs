@@ -135,7 +135,8 @@ impl FittedData<'_> {
     /// Of every coordinate of every marker at every pressure Σ w.
     fn by_cell(&self, weights: &[f64]) -> Vec<f64> {
         let first = self.first();
-        let (cells, width) = (self.dataset.axes * self.dataset.markers.len(), weights.len() / first.len());
+        let cells = self.dataset.axes * self.dataset.markers.len();
+        let width = weights.len() / first.len();
         let mut sums = vec![0.0; cells * first.len()];
         weights.iter().enumerate().for_each(|(i, w)| sums[cells * first[i / width] + i % cells] += w);
         sums
@@ -157,7 +158,7 @@ pub(crate) fn interval(
     [lower, upper]: [f64; 2],
     rise: Option<&mut dyn FnMut(f64) -> f64>,
 ) -> [f64; 2] {
-    let Half { width: half, misses } = half;
+    let (half, misses) = (half.width, half.misses);
     let is_free = value - half >= lower && value + half <= upper;
     match rise.filter(|_| !(misses || is_free && half <= policy::WIDE * value.abs())) {
         None => [(value - half).max(lower), (value + half).min(upper)],

@@ -159,10 +159,10 @@ fn check_axes(scenario: &Scenario, dataset: &Dataset, predictions: &Predictions)
 impl ForeignBase {
     /// What the candidates are changes of.
     pub fn sentence(&self) -> String {
-        let ForeignBase { table, from_data_mm, from_scenario_mm, .. } = self;
         format!(
-            "The base is {table}, {from_data_mm:.2} mm from the markers (rms) and {from_scenario_mm:.2} mm from the scenario. \
-             Effects and B are changes of it, computed with the scenario."
+            "The base is {}, {:.2} mm from the markers (rms) and {:.2} mm from the scenario. Effects and B are changes of it, \
+             computed with the scenario.",
+            self.table, self.from_data_mm, self.from_scenario_mm
         )
     }
 }

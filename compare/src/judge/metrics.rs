@@ -10,7 +10,7 @@ use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
 use crate::fit::numbers::mean;
 use crate::policy;
-use crate::residuals::{HoldLabel, label};
+use crate::residuals::label;
 use crate::stats::{f_tail, reported_p};
 use serde::Serialize;
 
@@ -114,25 +114,15 @@ pub struct Metrics {
     pub pairing: &'static str,
 }
 
-/// Degrees of freedom and bootstrap of [`metrics`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MetricsOptions {
-    /// Parameters of the model fitted to these data; they cost degrees of freedom of the overall χ².
-    pub fitted_parameters: usize,
-    /// Bootstrap resamples; 0 for no interval.
-    pub bootstrap_samples: usize,
-    /// Seed of the bootstrap: same seed, same interval.
-    pub seed: u64,
-}
-
-/// Compute every metric of a comparison.
+/// Compute every metric of a comparison. Parameters of the model `fitted` to these data cost degrees of freedom of the overall χ²;
+/// the bootstrap has a number of resamples, 0 for no interval, and a seed: same seed, same interval.
 ///
 /// # Errors
 /// Only if the noise covariance of a hold cannot be decomposed.
-pub fn metrics(c: &BesideMean, options: &MetricsOptions) -> Result<Metrics, CompareError> {
-    let band = accuracy_band(c, options.bootstrap_samples, options.seed);
+pub fn metrics(c: &BesideMean, fitted: usize, bootstrap: (usize, u64)) -> Result<Metrics, CompareError> {
+    let band = accuracy_band(c, bootstrap);
     let holds = (0..c.layout.holds).map(|h| hold_metrics(c, h, &band)).collect::<Result<Vec<_>, _>>()?;
-    let overall = overall_metrics(c, &holds, &band, options.fitted_parameters);
+    let overall = overall_metrics(c, &holds, &band, fitted);
     Ok(Metrics { holds, overall, tip_marker: c.dataset.markers[c.tip].name.clone(), pairing: PAIRING })
 }
 
@@ -145,13 +135,13 @@ fn hold_metrics(c: &BesideMean, hold: usize, band: &Band) -> Result<HoldMetrics,
     let [tip_x, tip_y, tip_z] = c.error(hold, c.tips[hold]);
     let values = c.noise.seen(range.clone());
     let fit = Goodness::of(c, &c.noise.whiten_range(&c.residual_m, range)?, values, 0);
-    let HoldLabel { p_act_kpa, p_act_channels_kpa, p_body_kpa, phase, occurrence } = label(&c.dataset.holds[hold]);
+    let label = label(&c.dataset.holds[hold]);
     Ok(HoldMetrics {
-        p_act_kpa,
-        p_act_channels_kpa,
-        p_body_kpa,
-        phase,
-        occurrence,
+        p_act_kpa: label.p_act_kpa,
+        p_act_channels_kpa: label.p_act_channels_kpa,
+        p_body_kpa: label.p_body_kpa,
+        phase: label.phase,
+        occurrence: label.occurrence,
         paper_accuracy: accuracy,
         noise_ceiling: noise_ceiling(c, hold, &model),
         accuracy_interval: band.holds[hold],

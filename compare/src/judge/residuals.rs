@@ -7,7 +7,7 @@
 
 use crate::beside_mean::BesideMean;
 use crate::fit::numbers::largest;
-use crate::layout::{Layout, Weights, apply};
+use crate::layout::{Weights, apply};
 use crate::policy;
 use crate::stats::{holm, reported_p, two_sided_p};
 use serde::Serialize;
@@ -117,8 +117,8 @@ pub struct ResidualMap {
 
 /// Compute the residual map of a comparison.
 pub fn residual_map(c: &BesideMean) -> ResidualMap {
-    let Layout { holds, markers, axes, .. } = c.layout;
-    let cells = (0..markers)
+    let (holds, axes) = (c.layout.holds, c.layout.axes);
+    let cells = (0..c.layout.markers)
         .flat_map(|m| (0..holds).flat_map(move |h| (0..axes).map(move |axis| c.layout.mean_weights(h, m, axis))));
     let pairs = loop_pairs(c);
     let mut contrasts: Vec<Weights> = cells.collect();

@@ -59,23 +59,16 @@ impl Statement {
     }
 }
 
-/// Significance level and tolerance of [`where_it_fails`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FailureOptions {
-    /// Significance level over all statements together.
-    pub alpha: f64,
-    /// Differences up to this are not called failures \[m\].
-    pub tolerance_m: f64,
-}
-
-/// Describe where a model fails; never empty. `chi2_p` is the p-value of the overall χ².
+/// Describe where a model fails; never empty. `chi2_p` is the p-value of the overall χ², `alpha` the significance level over all
+/// statements together; differences up to the tolerance are not called failures.
 pub fn where_it_fails(
     c: &BesideMean,
     map: &ResidualMap,
     chi2_p: Option<f64>,
-    options: &FailureOptions,
+    alpha: f64,
+    tolerance_m: f64,
 ) -> Vec<Statement> {
-    let judge = Judge::new(c, map, options);
+    let judge = Judge::new(c, map, alpha, tolerance_m);
     let mut found = Vec::new();
     let signs = [1.0, -1.0];
     for (axis, phase) in [(1, Finding::Loading), (2, Finding::Unloading)] {
@@ -87,7 +80,7 @@ pub fn where_it_fails(
     found.extend(signs.iter().filter_map(|sign| judge.along(0, *sign)));
     found.extend(judge.drifts());
     if found.is_empty() {
-        found.push(judge.nothing_stands_out(chi2_p, options));
+        found.push(judge.nothing_stands_out(chi2_p));
     }
     if !c.noise.is_known() {
         found.insert(0, unknown_noise());
@@ -104,12 +97,12 @@ struct Judge<'a> {
 }
 
 impl<'a> Judge<'a> {
-    fn new(c: &'a BesideMean<'a>, map: &'a ResidualMap, options: &FailureOptions) -> Judge<'a> {
+    fn new(c: &'a BesideMean<'a>, map: &'a ResidualMap, alpha: f64, tolerance_m: f64) -> Judge<'a> {
         let largest = map.cells.iter().flatten().map(|cell| cell.norm_mm).fold(0.0, f64::max);
         // Without noise only the coarse pattern is described: what reaches a quarter of the largest difference.
         let pattern_mm = if c.noise.is_known() { 0.0 } else { 0.25 * largest };
-        let least_mm = (1e3 * options.tolerance_m).max(pattern_mm);
-        Judge { c, map, alpha: options.alpha, least_mm, bend: c.bend_sign() }
+        let least_mm = (1e3 * tolerance_m).max(pattern_mm);
+        Judge { c, map, alpha, least_mm, bend: c.bend_sign() }
     }
 
     fn fails(&self, d: &Deviation) -> bool {
@@ -270,16 +263,15 @@ impl<'a> Judge<'a> {
         Some(Statement { holds, largest: Some(worst.deviation), ..Statement::of(Finding::Drift, sentence) })
     }
 
-    fn nothing_stands_out(&self, chi2_p: Option<f64>, options: &FailureOptions) -> Statement {
+    fn nothing_stands_out(&self, chi2_p: Option<f64>) -> Statement {
         let entries = || self.map.cells.iter().flatten().flat_map(ResidualCell::axes);
         let most = largest(entries(), |d| d.in_noise.unwrap_or(d.mm).abs());
         let size = most.map_or(String::new(), |d| format!("{:.2} mm{}", d.mm.abs(), times_the_noise(&d)));
+        let least = self.least_mm;
         let (finding, sentence) = if !self.c.noise.is_known() {
-            let least = self.least_mm;
             (Finding::WithinTolerance, format!("No difference above {least:.2} mm was found (largest {size})."))
         } else if entries().any(|d| d.is_significant(self.alpha) == Some(true)) {
-            let tolerance = 1e3 * options.tolerance_m;
-            let below = format!("Every difference is below the tolerance of {tolerance:.2} mm");
+            let below = format!("Every difference is below the tolerance of {least:.2} mm");
             (Finding::WithinTolerance, format!("{below}, though not all are noise (most significant {size})."))
         } else if let Some(p) = chi2_p.filter(|p| *p < self.alpha) {
             let more =

@@ -69,11 +69,11 @@ const BEND_ERROR: f64 = 2.45;
 impl Division {
     /// Of a dataset, whose largest bend is about `bend_per_m`.
     pub fn of(view: &View, bend_per_m: f64) -> Division {
-        let Dataset { samples_per_hold, holds, .. } = view.dataset;
-        let sigma_m = view.whitener.unit_m() / (*samples_per_hold as f64).sqrt();
+        let (samples, holds) = (view.dataset.samples_per_hold, &view.dataset.holds);
+        let sigma_m = view.whitener.unit_m() / (samples as f64).sqrt();
         let least_m = (BEND_ERROR * sigma_m / (KNOWN_TO * bend_per_m.max(1e-3))).sqrt();
         let mut cuts = cuts(view, least_m);
-        let mut groups = MOST_GROUPS.min(*samples_per_hold);
+        let mut groups = MOST_GROUPS.min(samples);
         if holds.len() * (cuts.len() + groups) > MOST_NUMBERS {
             groups = 1;
         }

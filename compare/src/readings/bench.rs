@@ -92,7 +92,8 @@ pub fn held(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Resu
             notes.push(if beam { trial.calibrate_wall(row, &specimen?) } else { trial.calibrate_angle(row) });
         }
         for row in group {
-            let (specimen, sd) = (trial.specimen_of(bench, row)?, if beam { "deflection_sd" } else { "force_sd" });
+            let specimen = trial.specimen_of(bench, row)?;
+            let sd = if beam { "deflection_sd" } else { "force_sd" };
             let unit = match (beam, is_free(row)) {
                 (true, _) => 1e3,
                 (false, true) => 100.0,
@@ -102,7 +103,7 @@ pub fn held(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Resu
                 at: place(row, &specimen),
                 measured: unit * measured(row),
                 model: modelled(row, &specimen).map(|v| unit * v),
-                half: if is_free(row) { None } else { half(row, sd, unit) },
+                half: half(row, sd, unit).filter(|_| !is_free(row)),
                 fitted: fitted.is_some_and(|f| f.line == row.line),
             });
         }
@@ -171,21 +172,25 @@ pub(crate) struct Trial {
 impl Trial {
     /// The scenario in the size and at the pressure of a row; the error is the missing number and the remedy.
     pub(crate) fn specimen(&self, row: &BenchRow) -> Result<Scenario, [&'static str; 2]> {
-        let Trial { scenario, bias_rad } = self;
+        let scenario = &self.scenario;
         if row.get("load").is_some() {
             let radius_m = row.get("radius").unwrap_or(scenario.radius_m);
             return Ok(Scenario { p_body_pa: row.value("p_body"), radius_m, ..scenario.clone() });
         }
         let ActuatorChoice { kind, shape, .. } = scenario.actuator;
-        let (diameter, bias) = (row.get("diameter"), bias_rad.or(row.get("bias").map(f64::to_radians)));
+        let diameter = row.get("diameter");
+        let bias = self.bias_rad.or(row.get("bias").map(f64::to_radians));
         if !scenario.actuator.exists() {
             return Err(["the scenario has no actuator", "name one with [actuator], or none"]);
         }
         if kind.has_pouches() && diameter.or(bias).is_some() {
-            let help = "name a scenario with kind = \"fpam\", or none";
-            return Err(["the table describes a tube of yarns, and the scenario's actuator is a pouch", help]);
+            return Err([
+                "the table describes a tube of yarns, and the scenario's actuator is a pouch",
+                "name a scenario with kind = \"fpam\", or none",
+            ]);
         }
-        let (bias_rad, width_m) = (bias.unwrap_or(shape.bias_rad), diameter.map_or(shape.width_m, |d| FRAC_PI_2 * d));
+        let bias_rad = bias.unwrap_or(shape.bias_rad);
+        let width_m = diameter.map_or(shape.width_m, |d| FRAC_PI_2 * d);
         // What pulls nothing may have any size.
         let width_m = if width_m.is_nan() && is_free(row) { ANY_WIDTH_M } else { width_m };
         if bias_rad.is_nan() || width_m.is_nan() {

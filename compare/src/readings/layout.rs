@@ -89,7 +89,8 @@ impl Layout {
     }
 
     fn wrong_length(&self, what: &'static str, found: usize) -> CompareError {
-        let Layout { holds, samples, markers, axes } = *self;
+        let (holds, samples) = (self.holds, self.samples);
+        let (markers, axes) = (self.markers, self.axes);
         CompareError::told(format!(
             "{what} has {found} values, one run of the data has {} ({holds} holds x {samples} samples x {markers} markers x {axes}): \
              predict at the holds, sample times and markers of the dataset",

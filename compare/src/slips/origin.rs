@@ -71,7 +71,8 @@ fn shift(seen: &SlipSeen, holds: &[usize]) -> Option<[f64; 2]> {
     let of_mean = [squares(&mean, &grown, &least_grown), squares(&mean, &shifted, &least)];
     let [before, after] = [of_mean[0] / (values - without) as f64, of_mean[1] / (values - with) as f64];
     let of_runs = runs.iter().map(|run| squares(run, &shifted, &least)).sum::<f64>();
-    let (fall, dof) = (runs.len() as f64 * (of_mean[0] - of_mean[1]), runs.len() * values - with);
+    let fall = runs.len() as f64 * (of_mean[0] - of_mean[1]);
+    let dof = runs.len() * values - with;
     let p = f_tail(fall / 2.0 / (of_runs / dof as f64).max(f64::MIN_POSITIVE), 2, dof);
     let taken = |solved: &DVector<f64>| [solved[without], solved[without + 1]];
     let shift = taken(&least);

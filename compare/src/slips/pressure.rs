@@ -54,7 +54,8 @@ const UNITS: [[&str; 3]; 4] =
 fn wrong_units() -> impl Iterator<Item = WrongUnit> {
     UNITS.into_iter().flat_map(|[symbol, words, suffix]| {
         let known = units_of(Dimension::PRESSURE).find(|unit| unit.symbol == symbol);
-        let (factor, own, kpa) = (known.map_or(f64::NAN, |unit| 1e-3 * unit.factor()), [words, suffix], ["kPa", "kpa"]);
+        let factor = known.map_or(f64::NAN, |unit| 1e-3 * unit.factor());
+        let (own, kpa) = ([words, suffix], ["kPa", "kpa"]);
         [WrongUnit { factor, units: [own, kpa] }, WrongUnit { factor: 1.0 / factor, units: [kpa, own] }]
     })
 }
@@ -140,8 +141,8 @@ impl PressureSlip {
     /// The data with the slip undone.
     pub fn undone(&self, dataset: &Dataset) -> Dataset {
         let mut mended = dataset.clone();
-        let Dataset { holds, coordinates_m, axes, .. } = &mut mended;
-        let places = coordinates_m.chunks_exact_mut(*axes);
+        let holds = &mut mended.holds;
+        let places = mended.coordinates_m.chunks_exact_mut(mended.axes);
         match self {
             PressureSlip::Unit(column, unit) => {
                 holds.iter_mut().for_each(|hold| column.change(hold, |pa| pa * unit.factor))

@@ -81,7 +81,8 @@ pub fn diagnose_bench(
     let in_set: Vec<bool> = laws.iter().map(is_in_set).collect();
     let (verdict, p_value, explains) = judge(&table, base, best, options.alpha);
     let noise = || mean(table.readings.iter().filter_map(|r| r.noise()).map(|share| share * share)).sqrt().exp_m1();
-    let (where_it_fails, leftover) = (story::places(&table, base), best.map(|best| story::places(&table, best)));
+    let where_it_fails = story::places(&table, base);
+    let leftover = best.map(|best| story::places(&table, best));
     let mut left_out = left_out(&table, &all).into_iter();
     let (base, laws) = (&all[0], &all[1..]);
     let found = BenchDiagnosis {

@@ -270,15 +270,15 @@ impl<'a> Table<'a> {
     /// Noise and, where the law misses by more or the noise is not known, what it misses by, with curves as the unit: rows of one specimen
     /// at one pressure.
     fn interval(&self, fit: &Fit, k: usize) -> Option<[f64; 2]> {
-        let Minimum { at, residual, cost, jacobian } = &fit.minimum;
-        let (weights, squares) = weights(jacobian, k)?;
-        let missed = cost / residual.len() as f64;
+        let found = &fit.minimum;
+        let (weights, squares) = weights(&found.jacobian, k)?;
+        let missed = found.cost / found.residual.len() as f64;
         let misses = !self.known || policy::misses(missed);
         let key = |r: &Reading| (r.specimen.clone(), r.pressure_pa.to_bits());
         let curves = groups(&self.readings, |a, b| key(a) == key(b));
         let of_curve = |rows: &Vec<usize>| {
             let sum = |of: &dyn Fn(usize) -> f64| rows.iter().map(|i| weights[*i] * of(*i)).sum();
-            [sum(&|i| weights[i]), sum(&|i| residual[i])]
+            [sum(&|i| weights[i]), sum(&|i| found.residual[i])]
         };
         let curves: Vec<[f64; 2]> = curves.iter().map(of_curve).collect();
         let each = if self.known { (missed - 1.0).max(0.0) * square(&weights) } else { 0.0 };
@@ -292,7 +292,7 @@ impl<'a> Table<'a> {
         let dof = total * total / (more * more / dof + of_noise);
         let half = Half { width: t_975(if dof < 1e4 { dof.max(1.0) as usize } else { 0 }) * total.sqrt(), misses };
         let mut residuals = |at: &[f64]| self.residuals(fit.law, at);
-        of_parameter(k, at, &self.ranges(fit.law), (half, squares), Some(&mut residuals))
+        of_parameter(k, &found.at, &self.ranges(fit.law), (half, squares), Some(&mut residuals))
     }
 
     /// How much more a fit scatters than its slopes say, because it leans on rows that showed a small deviation by chance:

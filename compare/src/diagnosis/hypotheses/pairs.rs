@@ -83,14 +83,14 @@ pub(crate) fn indistinguishable(case: &Case, pairs: &[Fit], allowance: f64) -> V
 }
 
 pub(crate) fn describe(case: &Case, pairs: &Ordered, single: &Fit) -> Vec<Combination> {
-    let Ordered { fits, allowance, set, tried } = pairs;
-    let c = |fit: &Fit| criterion(case, fit, *allowance);
+    let (fits, set) = (&pairs.fits, &pairs.set);
+    let c = |fit: &Fit| criterion(case, fit, pairs.allowance);
     let entry = |(i, fit): (usize, &Fit)| Combination {
         effects: case.names(fit),
         parameters: parameter_values(case, fit, false),
         gain: case.gain(fit),
         bic_difference: c(fit) - c(&fits[0]),
-        p_corrected: p_over(case, fit, single, *tried).map(reported_p),
+        p_corrected: p_over(case, fit, single, pairs.tried).map(reported_p),
         systematic_after_mm: case.error_mm(&case.prediction(fit)),
         bending_nm2: case.bendings(fit),
         in_set: set.contains(&i),

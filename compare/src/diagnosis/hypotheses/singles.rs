@@ -95,8 +95,8 @@ pub(crate) fn indistinguishable(case: &Case, fits: &[Fit], allowance: f64) -> Ve
 const LEFT_OUT_OF: usize = 8;
 
 pub(crate) fn rank(case: &Case, singles: &Ordered, held_out: &HeldOut) -> Vec<Ranked> {
-    let Ordered { fits, allowance, set, .. } = singles;
-    let c = |fit: &Fit| criterion(case, fit, *allowance);
+    let (fits, set) = (&singles.fits, &singles.set);
+    let c = |fit: &Fit| criterion(case, fit, singles.allowance);
     let before = case.error_mm(&case.prediction(&case.base));
     let best = set.first().copied().unwrap_or(0);
     let trace = |fit: &Fit| Basis::of(&case.base.minimum.jacobian).rest(&fit.change_from(&case.base));

@@ -64,8 +64,8 @@ fn learn(
     let name = free_name(&case.first().scenario);
     let noise_mm = found.base.noise_floor_mm.unwrap_or(0.0).max(found.tolerance_mm);
     let ground = Ground { sources: case.sources, options, line: line(case, seen), name: &name };
-    let (mut laws, mut tried) = (vec![(case.problem.bendings, nothing_mm / noise_mm)], Vec::new());
-    let mut kept = Vec::new();
+    let mut laws = vec![(case.problem.bendings, nothing_mm / noise_mm)];
+    let (mut tried, mut kept) = (Vec::new(), Vec::new());
     for law in ranked.iter().filter(|t| t.form.is_some()).take(SHORT_LIST) {
         let Some((form, heldout_mm, numbers)) = ground.with(law, &mut |case, fit, form| {
             let heldout_mm = HeldOut::new(case)?.pressure_mm(fit).filter(|_| is_held_by_data(case, fit));
@@ -131,7 +131,8 @@ fn material(case: &Case, seen: &[Seen]) -> Result<Material, CompareError> {
         for (_, p) in own {
             let place = p.place.unwrap_or(0);
             let pull = mean((0..groups).map(|g| pulls[(p.hold - 1) * groups + g][place]));
-            let (at, hold) = (seen.shape.division.places[place], &block.source.dataset.holds[p.hold - 1]);
+            let at = seen.shape.division.places[place];
+            let hold = &block.source.dataset.holds[p.hold - 1];
             let theta = p.kappa * robot.actuator.shape.length_m;
             let s = 0.5 * (at.from_m + at.to_m);
             let (radius, stiffness) = (robot.radius_m, robot.bending_stiffness);
@@ -158,7 +159,8 @@ fn pulls(block: &Block, seen: &Seen) -> Result<Vec<Vec<f64>>, CompareError> {
         other.formulas.extend(formula);
         other.with_effect("pull_share", &[SHARE])
     };
-    let (with, without) = (seen.missing(block, &taken)?, seen.missing(block, &Scenario::clone)?);
+    let with = seen.missing(block, &taken)?;
+    let without = seen.missing(block, &Scenario::clone)?;
     let each = |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| (a - b) / SHARE).collect();
     Ok(with.iter().zip(&without).map(each).collect())
 }

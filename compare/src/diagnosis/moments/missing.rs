@@ -87,8 +87,13 @@ pub(crate) fn seen(case: &Case) -> Result<Vec<Seen>, CompareError> {
 }
 
 fn view<'a>(block: &'a Block, scenario: &'a Scenario) -> View<'a> {
-    let Block { source, target_m, whitener, .. } = block;
-    View { scenario, dataset: &source.dataset, direct: source.direct, target_m, whitener }
+    View {
+        scenario,
+        dataset: &block.source.dataset,
+        direct: block.source.direct,
+        target_m: &block.target_m,
+        whitener: &block.whitener,
+    }
 }
 
 /// Parameters of the base with the separately measured bending stiffness, or the scenario's.
@@ -146,8 +151,8 @@ fn has_moment(case: &Case, fit: &Fit) -> bool {
 }
 
 fn fit_of<'a>(case: &Case, decision: &'a Decision, name: &str) -> Option<&'a Fit> {
-    let Decision { singles, pairs, as_close, last, .. } = decision;
-    let mut all = singles.fits.iter().chain(&pairs.fits).chain(as_close).chain(last);
+    let stated = decision.singles.fits.iter().chain(&decision.pairs.fits);
+    let mut all = stated.chain(&decision.as_close).chain(&decision.last);
     all.find(|fit| case.names(fit).join(" + ") == name)
 }
 

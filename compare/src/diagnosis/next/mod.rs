@@ -53,7 +53,8 @@ pub(super) fn next_experiment(
     if hypotheses.len() < 2 || !case.noise().is_known() {
         return Ok(outside.map(|sentence| NextExperiment { needed_now: enough(0.0), sentence, ..Default::default() }));
     }
-    let (best, rivals) = (hypotheses[0], &hypotheses[1..hypotheses.len().min(RIVALS + 1)]);
+    let best = hypotheses[0];
+    let rivals = &hypotheses[1..hypotheses.len().min(RIVALS + 1)];
     let (now, gain_now) = separations(case, None, best, rivals)?;
     let next = NextExperiment { best: label(case, best), now, needed_now: enough(gain_now), ..Default::default() };
     if let Some(sentence) = outside {

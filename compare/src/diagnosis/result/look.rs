@@ -19,8 +19,8 @@ pub(crate) fn next(d: &Diagnosis) -> Option<String> {
         told.push(format!("do a bending test, for the answer with B = {:.2} N·m²", kept.value_nm2));
     }
     if !d.outliers.runs.is_empty() {
-        let (runs, word) = (&d.outliers.runs, if d.outliers.runs.len() == 1 { "run" } else { "runs" });
-        let runs = list(runs.iter().map(|r| &r.run));
+        let word = if d.outliers.runs.len() == 1 { "run" } else { "runs" };
+        let runs = list(d.outliers.runs.iter().map(|r| &r.run));
         told.push(format!("take {word} {runs} again or leave it out, it is not like the others"));
     }
     told.extend(d.attempt.iter().filter(|added| added.group == Group::Measurement).filter_map(|added| {

@@ -125,7 +125,8 @@ fn other_design(d: &Diagnosis, other: &OtherDesign) -> String {
     // A pair may leave less; other designs are asked for single effects.
     let (after, own) = (other.systematic_after_mm, d.base.systematic_with_added_mm);
     let instead = if after < own { format!(" instead of {own:.2}") } else { String::new() };
-    let made = capitalised(&change(&other.switched).replace("adding", "with").replace("leaving out", "without"));
+    let made = change(&other.switched).replace("adding", "with").replace("leaving out", "without");
+    let made = capitalised(&made);
     format!(
         "First look at how the robot is made. {made}, with nothing of it fitted, the best single effect leaves {after:.2} mm{instead}{then}."
     )
@@ -209,7 +210,8 @@ fn effect(d: &Diagnosis) -> Vec<String> {
 /// Size of the answer in millimetres, after its name, where it is small here or much larger elsewhere.
 fn worth(d: &Diagnosis) -> Option<String> {
     let worth = d.worth.as_ref()?;
-    let (here_mm, elsewhere) = (worth.here_mm, worth.elsewhere_mm.zip(worth.elsewhere.as_ref()));
+    let here_mm = worth.here_mm;
+    let elsewhere = worth.elsewhere_mm.zip(worth.elsewhere.as_ref());
     let small = policy::is_good_enough(here_mm, d.tolerance_mm);
     if !small && elsewhere.is_none_or(|(mm, _)| !policy::is_far_less(here_mm, mm)) {
         return None;
@@ -320,6 +322,7 @@ fn with_kept_bending(d: &Diagnosis, kept: &KeptBending) -> String {
 
 fn looks_like(pattern: &LeftPattern) -> String {
     let what = if pattern.instead { "It" } else { "The remaining misfit" };
-    let (words, percent, p) = (&pattern.words, 100.0 * pattern.share, p_value(pattern.p_value));
+    let (words, percent) = (&pattern.words, 100.0 * pattern.share);
+    let p = p_value(pattern.p_value);
     format!("{what} looks as if {words}: that alone makes up {percent:.0} % of it ({p} among all such patterns).")
 }

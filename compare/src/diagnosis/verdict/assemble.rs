@@ -28,7 +28,7 @@ use crate::prepare::Outliers;
 use crate::residuals::{ResidualMap, residual_map};
 use crate::slips::pressure::PressureSlipFound;
 use crate::study::predict_dataset;
-use crate::where_it_fails::{FailureOptions, Statement, where_it_fails};
+use crate::where_it_fails::{Statement, where_it_fails};
 
 pub(crate) struct Beside<'e> {
     pub evidence: &'e [Evidence],
@@ -154,8 +154,7 @@ fn fails(case: &Case, fit: &Fit, lof: Option<LackOfFit>) -> Result<(ResidualMap,
     let prediction = case.prediction(fit);
     let c = BesideMean::new(&case.first().dataset, case.noise(), &prediction)?;
     let map = residual_map(&c);
-    let options = FailureOptions { alpha: case.alpha, tolerance_m: case.tolerance_m };
-    let statements = where_it_fails(&c, &map, lof.map(|lof| lof.p_value), &options);
+    let statements = where_it_fails(&c, &map, lof.map(|lof| lof.p_value), case.alpha, case.tolerance_m);
     Ok((map, statements))
 }
 

@@ -32,9 +32,9 @@ pub(crate) fn bending_alarm(case: &Case, last: &Fit) -> Option<BendingAlarm> {
 }
 
 fn words(alarm: &BendingAlarm, has_answer: bool) -> String {
-    let BendingAlarm { told_nm2: given, test_sd_nm2, answer_nm2: answer, .. } = alarm;
+    let (given, answer) = (alarm.told_nm2, alarm.answer_nm2);
     let of = if has_answer { "This answer has" } else { "The fit has" };
-    match test_sd_nm2 {
+    match alarm.test_sd_nm2 {
         Some(sd) => format!(
             "{of} B = {answer:.2} N·m², and the bending test found {given:.2} ± {sd:.2}: they contradict each other. Look at the test \
              again, and do not believe the answer before."

@@ -143,10 +143,10 @@ impl Pressures<'_> {
             PressureSlip::all(dataset, scenario.p_body_pa).into_iter().map(move |slip| (of, slip))
         });
         let undone = |(of, slip): (usize, PressureSlip)| {
-            let Source { scenario, dataset, gauge, .. } = &self.sources[of];
-            let seen = slip.is_in_numbers(dataset, scenario);
+            let source = &self.sources[of];
+            let seen = slip.is_in_numbers(&source.dataset, &source.scenario);
             // A body's slip shows in numbers; readings of a gauge are the actuator's own.
-            let possible = if slip.is_of_body() { seen } else { gauge.is_none() && (seen || !in_numbers) };
+            let possible = if slip.is_of_body() { seen } else { source.gauge.is_none() && (seen || !in_numbers) };
             let weighed = possible.then(|| self.undone(of, &slip))??;
             Some(Undone { of, slip, weighed, in_numbers: seen })
         };
@@ -164,8 +164,8 @@ impl Pressures<'_> {
     }
 
     fn told(&self, all: &[Undone], before_mm: Option<f64>, best_effect: Option<BestEffect>) -> PressureSlipFound {
-        let Undone { of, slip, weighed, .. } = &all[0];
-        let (name, after_mm) = (self.sources[*of].dataset.name.clone(), weighed.left_mm);
+        let found = &all[0];
+        let after_mm = found.weighed.left_mm;
         let brings = match before_mm {
             Some(before_mm) => format!("the error beyond noise goes from {before_mm:.1} to {after_mm:.2} mm"),
             None => format!("{after_mm:.2} mm are left, and as they are written the robot has no equilibrium"),
@@ -173,14 +173,15 @@ impl Pressures<'_> {
         let effect = best_effect.as_ref().map_or(String::new(), |BestEffect { effects, left_mm }| {
             format!(" (the best of the catalogue, {}, leaves {left_mm:.2} mm)", effects.join(" + "))
         });
-        let is_alike = |other: &&Undone| policy::is_as_good(other.weighed.criterion, weighed.criterion);
+        let is_alike = |other: &&Undone| policy::is_as_good(other.weighed.criterion, found.weighed.criterion);
         let alike = all[1..].iter().filter(is_alike).map(|other| {
             let [looks, _, help] = other.slip.words();
             format!(". As good with these data: {looks}; {help}")
         });
-        let ([looks, with, help], alike) = (slip.words(), alike.collect::<String>());
-        let words = format!("{name}: {looks}: with {with} {brings}{effect}. Look at it first: {help}{alike}");
-        PressureSlipFound { dataset: name, words, before_mm, after_mm: Some(after_mm), best_effect }
+        let ([looks, with, help], alike) = (found.slip.words(), alike.collect::<String>());
+        let dataset = self.sources[found.of].dataset.name.clone();
+        let words = format!("{dataset}: {looks}: with {with} {brings}{effect}. Look at it first: {help}{alike}");
+        PressureSlipFound { dataset, words, before_mm, after_mm: Some(after_mm), best_effect }
     }
 }
 
@@ -238,10 +239,10 @@ impl Undone {
     /// Whether it is clearly better than something else. It must pay: in mm, or by a stiffness that equals the given one again. What
     /// the numbers alone look like needs no more than to be as good.
     fn beats(&self, rival: &Weighed, tolerance_mm: f64) -> bool {
-        let Weighed { criterion, left_mm, has_its_stiffness } = self.weighed;
+        let (criterion, left_mm) = (self.weighed.criterion, self.weighed.left_mm);
         let is_as_near = left_mm <= rival.left_mm.max(tolerance_mm);
         let pays = policy::is_far_less(left_mm, rival.left_mm)
-            || is_as_near && (left_mm <= tolerance_mm || has_its_stiffness && !rival.has_its_stiffness);
+            || is_as_near && (left_mm <= tolerance_mm || self.weighed.has_its_stiffness && !rival.has_its_stiffness);
         match self.in_numbers {
             true => is_as_near && policy::is_as_good(criterion, rival.criterion),
             false => pays && policy::is_clearly_better(criterion, rival.criterion),
