@@ -10,7 +10,7 @@ use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
 use crate::fit::numbers::mean;
 use crate::policy;
-use crate::residuals::label;
+use crate::residuals::{HoldLabel, label};
 use crate::stats::{f_tail, reported_p};
 use serde::Serialize;
 
@@ -21,17 +21,9 @@ pub const PAIRING: &str = "same marker label, y from the base line (not from the
 /// Metrics of one hold. Printed units; `None` where a number does not exist or the noise is unknown.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HoldMetrics {
-    /// Actuator pressure, of supply channel 0 where there are several \[kPa\].
-    pub p_act_kpa: f64,
-    /// Pressures of all supply channels, where there are several \[kPa\].
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub p_act_channels_kpa: Vec<f64>,
-    /// Body pressure of the hold \[kPa\].
-    pub p_body_kpa: f64,
-    /// How the hold was reached: `load`, `hold` or `unload`.
-    pub phase: &'static str,
-    /// 0 for the first hold with these pressures and this phase, 1 for the second, …
-    pub occurrence: usize,
+    /// Its pressures, and how it was reached.
+    #[serde(flatten)]
+    pub label: HoldLabel,
     /// The paper's accuracy a; `None` if the model's |y| is below 1e-9 m at a marker, and of
     /// markers with z.
     pub paper_accuracy: Option<f64>,
@@ -135,13 +127,8 @@ fn hold_metrics(c: &BesideMean, hold: usize, band: &Band) -> Result<HoldMetrics,
     let [tip_x, tip_y, tip_z] = c.error(hold, c.tips[hold]);
     let values = c.noise.seen(range.clone());
     let fit = Goodness::of(c, &c.noise.whiten_range(&c.residual_m, range)?, values, 0);
-    let label = label(&c.dataset.holds[hold]);
     Ok(HoldMetrics {
-        p_act_kpa: label.p_act_kpa,
-        p_act_channels_kpa: label.p_act_channels_kpa,
-        p_body_kpa: label.p_body_kpa,
-        phase: label.phase,
-        occurrence: label.occurrence,
+        label: label(&c.dataset.holds[hold]),
         paper_accuracy: accuracy,
         noise_ceiling: noise_ceiling(c, hold, &model),
         accuracy_interval: band.holds[hold],
