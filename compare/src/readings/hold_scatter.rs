@@ -62,7 +62,8 @@ impl HoldNoise {
 
     /// Columns and their standard deviations in a mean over `runs`, for tests.
     pub fn of_mean(&self, runs: usize) -> impl Iterator<Item = (&Column, f64)> {
-        self.columns.iter().map(move |column| (column, (self.test_variance[column.kind] / runs as f64).sqrt()))
+        let sd = move |column: &Column| (self.test_variance[column.kind] / runs as f64).sqrt();
+        self.columns.iter().map(move |column| (column, sd(column)))
     }
 
     /// Variance that the columns give a weighted sum of the mean over `runs`.
@@ -222,8 +223,10 @@ impl Means {
         };
         let kinds: Vec<Vec<usize>> =
             (0..KINDS).map(|kind| Some(self.of_kind(kind)).filter(is_new).unwrap_or_default()).collect();
-        let block = |a: usize, b: usize| -> f64 {
-            kinds[a].iter().flat_map(|i| kinds[b].iter().map(move |j| (*i, *j))).map(|ij| g[ij].powi(2)).sum()
+        let trace = |of: &DMatrix<f64>, kind: usize| -> f64 { kinds[kind].iter().map(|i| of[(*i, *i)]).sum() };
+        let squares = |of: &DMatrix<f64>, a: usize, b: usize| -> f64 {
+            let places = kinds[a].iter().flat_map(|i| kinds[b].iter().map(move |j| (*i, *j)));
+            places.map(|place| of[place].powi(2)).sum()
         };
         let readings = self.seen.iter().filter(|seen| **seen).count() as f64 - self.q.ncols() as f64;
         // Equations of τ² and of the kinds, and their right sides.
@@ -233,18 +236,16 @@ impl Means {
         right[0] = deviations.iter().map(DVector::norm_squared).sum::<f64>() / dof;
         let projected: Vec<DVector<f64>> = deviations.iter().map(|d| self.z.tr_mul(d)).collect();
         for k in 0..KINDS {
-            let trace: f64 = kinds[k].iter().map(|i| g[(*i, *i)]).sum();
-            (f[(0, k + 1)], f[(k + 1, 0)]) = (trace, trace);
-            (0..KINDS).for_each(|j| f[(k + 1, j + 1)] = block(k, j));
-            right[k + 1] =
-                projected.iter().flat_map(|p| kinds[k].iter().map(move |i| p[*i].powi(2))).sum::<f64>() / dof;
+            f[(0, k + 1)] = trace(&g, k);
+            f[(k + 1, 0)] = f[(0, k + 1)];
+            (0..KINDS).for_each(|j| f[(k + 1, j + 1)] = squares(&g, k, j));
+            let along = projected.iter().flat_map(|p| kinds[k].iter().map(move |i| p[*i].powi(2)));
+            right[k + 1] = along.sum::<f64>() / dof;
         }
         let (theta, inverse, used) = nonnegative(&f, &right);
         // Variance of the quadratic forms at θ: 2/dof |Z_jᵀ C Z_k|², C = M(τ² I + Σ v Z Zᵀ)M.
-        let v = DMatrix::from_diagonal(&DVector::from_iterator(
-            self.columns.len(),
-            self.columns.iter().map(|c| theta[c.kind + 1]),
-        ));
+        let v: Vec<f64> = self.columns.iter().map(|c| theta[c.kind + 1]).collect();
+        let v = DMatrix::from_diagonal(&DVector::from_vec(v));
         let (gv, gvg) = (&g * &v, &g * &v * &g);
         let c = &g * theta[0] + &gvg;
         // Zᵀ C C Z and the trace of C C.
@@ -253,12 +254,8 @@ impl Means {
         let form = |a: usize, b: usize| -> f64 {
             match (a, b) {
                 (0, 0) => whole,
-                (0, k) | (k, 0) => kinds[k - 1].iter().map(|i| twice[(*i, *i)]).sum(),
-                (a, b) => kinds[a - 1]
-                    .iter()
-                    .flat_map(|i| kinds[b - 1].iter().map(move |j| (*i, *j)))
-                    .map(|ij| c[ij].powi(2))
-                    .sum(),
+                (0, k) | (k, 0) => trace(&twice, k - 1),
+                (a, b) => squares(&c, a - 1, b - 1),
             }
         };
         let forms = DMatrix::from_fn(used.len(), used.len(), |i, j| 2.0 / dof * form(used[i], used[j]));

@@ -152,11 +152,10 @@ impl NoiseModel {
         dprediction_dlnp: &[f64],
         runs: usize,
         sigma_m: f64,
-        run_sd: [f64; 4],
+        [pressure, x, y, turn]: [f64; 4],
     ) -> Result<NoiseModel, CompareError> {
         Layout::of(dataset)?.check("the derivative with respect to ln p", dprediction_dlnp)?;
         let directions = directions_of(dataset, dprediction_dlnp);
-        let [pressure, x, y, turn] = run_sd;
         let run_sd = [pressure, x, y, turn, y, turn, turn];
         let variance = run_sd.map(|sd| sd * sd / runs.max(1) as f64);
         let whitener = Whitener::new(&directions, sigma_m / (runs.max(1) as f64).sqrt(), &variance)?;
@@ -335,7 +334,8 @@ impl NoiseModel {
         }
         let unit_m = (sigma2 / runs as f64).sqrt();
         let held = per_hold.of_mean(runs).map(|(column, sd)| column.spread(directions.len(), sd));
-        let whitener = Whitener::with_columns(&directions, unit_m, &test_variance, &held.collect::<Vec<_>>())?;
+        let held: Vec<Vec<f64>> = held.collect();
+        let whitener = Whitener::with_columns(&directions, unit_m, &test_variance, &held)?;
         Ok(NoiseModel {
             status: NoiseStatus::Measured,
             runs,

@@ -92,9 +92,7 @@ fn taken_over_m2(fold: &Fold, fit: &Fit, predicted_m: &[f64], rows: &[usize]) ->
     let Some(columns) = free.iter().map(column).collect::<Option<Vec<_>>>() else { return f64::INFINITY };
     let mut sum = 0.0;
     for (i, a) in columns.iter().enumerate() {
-        for (j, b) in columns.iter().enumerate() {
-            sum += covariance[(i, j)] * dot(a, b);
-        }
+        columns.iter().enumerate().for_each(|(j, b)| sum += covariance[(i, j)] * dot(a, b));
     }
     sum.max(0.0) / rows.len().max(1) as f64
 }

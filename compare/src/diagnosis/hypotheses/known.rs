@@ -94,7 +94,8 @@ pub(crate) fn add_shapes(known: &mut Vec<Known>, candidates: &[Candidate]) {
         for (parameter, p) in candidate.parameters.iter().enumerate().filter(|(_, p)| p.is_shape() && p.is_free()) {
             if known.iter().all(|k| (k.effect, k.parameter) != (effect, parameter)) {
                 let sd = policy::shape_sd(p.lower, p.upper);
-                known.push(Known { effect, parameter, value: p.neutral, sd, lacking: 0.0, usual: true });
+                let planned = Known::planned(effect, parameter);
+                known.push(Known { value: p.neutral, sd, usual: true, ..planned });
             }
         }
     }
@@ -176,8 +177,8 @@ pub(crate) fn unusual(measured: &[MeasuredValue], scenario: &Scenario) -> Vec<St
 pub(crate) fn make_room(candidates: &mut [Candidate], measured: &[&MeasuredValue], scenario: &Scenario) {
     let catalogue = scenario.catalogue();
     for m in measured {
-        let Some((effect, parameter)) = place(candidates, &m.effect, &m.key) else { continue };
-        let Some(entry) = catalogue.by_name(&m.effect) else { continue };
+        let entry = catalogue.by_name(&m.effect);
+        let Some(((effect, parameter), entry)) = place(candidates, &m.effect, &m.key).zip(entry) else { continue };
         let [lower, upper] = entry.parameters[parameter].possible;
         let free = &mut candidates[effect].parameters[parameter];
         let far = policy::BEYOND_BOUNDS * m.sd;

@@ -121,8 +121,9 @@ fn curves(
     let stiffness = (case.problem.bendings > 0).then_some((STIFFNESS.into(), first == 0, Some(&case.base)));
     let mut curves = Vec::new();
     for (answer, is_told, fit) in told.chain(stiffness) {
-        let Some(fit) = fit.filter(|fit| has_moment(case, fit)) else { continue };
-        curves.extend(curves_of(case, fit, (&answer, is_told), points)?);
+        if let Some(fit) = fit.filter(|fit| has_moment(case, fit)) {
+            curves.extend(curves_of(case, fit, (&answer, is_told), points)?);
+        }
     }
     Ok(curves)
 }

@@ -31,12 +31,7 @@ const NEW: f64 = 1e-6;
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ClearPattern {
-    pub words: String,
-    pub check: String,
-    /// The whole robot bends otherwise at some time.
-    pub is_uniform: bool,
-    /// The fault that looks like it.
-    pub fault: Option<Fault>,
+    pub pattern: Pattern,
     /// Fall of the whitened sum of squares along it.
     pub gain: f64,
     /// p of it as if it were the only one.
@@ -61,7 +56,7 @@ pub(crate) struct Look {
 impl Look {
     /// The clearest place or the clearest time.
     pub(crate) fn first(&self, uniform: bool) -> Option<&ClearPattern> {
-        self.seen.iter().find(|seen| seen.is_uniform == uniform)
+        self.seen.iter().find(|seen| seen.pattern.is_uniform == uniform)
     }
 
     pub(crate) fn p_value(&self, seen: &ClearPattern) -> f64 {
@@ -101,7 +96,8 @@ pub(crate) fn alone(
     is_wanted: &dyn Fn(&ClearPattern) -> bool,
 ) -> Option<(ClearPattern, f64)> {
     let look = look(case, &case.base, false);
-    let clearest = look.seen.iter().find(|seen| seen.fault.is_some_and(|fault| kinds.contains(&fault)))?;
+    let is_wanted_kind = |seen: &&ClearPattern| seen.pattern.fault.is_some_and(|fault| kinds.contains(&fault));
+    let clearest = look.seen.iter().find(is_wanted_kind)?;
     let told = is_wanted(clearest) && look.is_below(clearest, level);
     told.then(|| (clearest.clone(), look.p_value(clearest)))
 }
@@ -109,10 +105,10 @@ pub(crate) fn alone(
 /// In words: the fault that is a simpler answer than `last`; else what the calibrated base leaves if one pattern alone explains
 /// more of it than `last` does, else what `last` leaves.
 pub(crate) fn left_pattern(case: &Case, last: Option<&Fit>, fault: Option<&Simpler>) -> Option<LeftPattern> {
-    let told = |fit: &Fit, seen: &ClearPattern, p_value: f64, instead: bool| LeftPattern {
+    let told = |fit: &Fit, seen: &ClearPattern, p_value, instead| LeftPattern {
         share: seen.gain / excess(case, case.of_first(&fit.minimum.residual)).max(seen.gain),
-        words: seen.words.clone(),
-        check: seen.check.clone(),
+        words: seen.pattern.words.clone(),
+        check: seen.pattern.check.clone(),
         p_value,
         instead,
         simpler: fault.is_some(),
@@ -145,19 +141,19 @@ fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Look {
     }
     let residual = case.of_first(&fit.minimum.residual);
     let (mut seen, mut units) = (Vec::new(), Vec::new());
-    for Pattern { words, check, is_uniform, fault, direction } in patterns {
-        let white = whitener.whiten(&direction);
-        let mut unit = if is_uniform { &fitted } else { &of_places }.rest(&white);
+    for pattern in patterns {
+        let white = whitener.whiten(&pattern.direction);
+        let mut unit = if pattern.is_uniform { &fitted } else { &of_places }.rest(&white);
         let left = square(&unit);
         if left > LEFT * LEFT * square(&white) && left > 0.0 {
             unit.iter_mut().for_each(|v| *v /= left.sqrt());
             let t = dot(&unit, residual);
             let (gain, p_alone) = (t * t, two_sided_p(t, case.noise().pure_error_dof));
-            seen.push(ClearPattern { words, check, is_uniform, fault, gain, p_alone });
+            seen.push(ClearPattern { pattern, gain, p_alone });
             units.push(unit);
         }
     }
-    sort_by(&mut seen, |pattern: &ClearPattern| -pattern.gain);
+    sort_by(&mut seen, |seen: &ClearPattern| -seen.gain);
     Look { seen, units, tests: OnceCell::new() }
 }
 

@@ -21,6 +21,7 @@ use crate::layout::Layout;
 use crate::wording::short;
 use data::{Hold, Phase};
 
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Pattern {
     /// Its appearance, to follow "The remaining misfit looks as if".
     pub words: String,
