@@ -46,8 +46,8 @@ impl TurnWay {
     }
 
     fn is_like(&self, other: &TurnWay) -> bool {
-        let same = !policy::is_no_scale(self.factor / other.factor);
-        same && TurnWay { factor: 1.0, ..*self } == TurnWay { factor: 1.0, ..*other }
+        let way = |way: &TurnWay| (way.exchanged, way.signs, way.from_tip);
+        !policy::is_no_scale(self.factor / other.factor) && way(self) == way(other)
     }
 }
 

@@ -139,9 +139,11 @@ impl Pressures<'_> {
 
     /// All slips, the best first; `in_numbers`: those that the numbers alone look like.
     fn undone_slips(&self, in_numbers: bool) -> Vec<Undone> {
-        let all = self.sources.iter().enumerate().flat_map(|(of, Source { scenario, dataset, .. })| {
-            PressureSlip::all(dataset, scenario.p_body_pa).into_iter().map(move |slip| (of, slip))
-        });
+        let of_source = |(of, source): (usize, &Source)| {
+            let all = PressureSlip::all(&source.dataset, source.scenario.p_body_pa);
+            all.into_iter().map(move |slip| (of, slip))
+        };
+        let all = self.sources.iter().enumerate().flat_map(of_source);
         let undone = |(of, slip): (usize, PressureSlip)| {
             let source = &self.sources[of];
             let seen = slip.is_in_numbers(&source.dataset, &source.scenario);
