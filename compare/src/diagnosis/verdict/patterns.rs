@@ -112,13 +112,9 @@ pub(crate) fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
     let look = "hang a known force on the inflated body with the actuator vented, first on its middle and then on its tip: a wall \
                 that is not the same all along gives two stiffnesses, one that is the same leaves the actuator, whose widths and \
                 seams are measured from base to tip";
-    let shapes: [(&str, fn(f64) -> f64); 2] = [
-        ("stiffness changes steadily along the robot", |s| 1.0 - 2.0 * s),
-        ("the robot's middle bends otherwise than its ends", |s| 1.0 - 6.0 * s + 6.0 * s * s),
-    ];
-    for (words, shape) in shapes {
-        add(words.into(), look.into(), &all_along(shape), &bent);
-    }
+    let mut varies = |words: &str, shape| add(words.into(), look.into(), &all_along(shape), &bent);
+    varies("stiffness changes steadily along the robot", |s| 1.0 - 2.0 * s);
+    varies("the robot's middle bends otherwise than its ends", |s| 1.0 - 6.0 * s + 6.0 * s * s);
     for (m, marker) in markers.iter().enumerate() {
         let name = &marker.name;
         let look = format!(
