@@ -1,6 +1,6 @@
 //! Numbers, pressures and names in words, the same in texts and on pages.
 
-use compare::metrics::HoldMetrics;
+use compare::residuals::HoldLabel;
 use models::Loads;
 
 /// A number with `digits` decimals, or a dash where there is none.
@@ -33,7 +33,7 @@ pub(crate) fn in_words(sentence: &str) -> String {
 }
 
 /// Name of a hold in tables, for example `20/10 kPa load (body 2)`.
-pub(crate) fn hold_name(hold: &HoldMetrics) -> String {
+pub(crate) fn hold_name(hold: &HoldLabel) -> String {
     let [act, body] = [kpa(hold.p_act_kpa, &hold.p_act_channels_kpa), format!("{:.0}", hold.p_body_kpa)];
     format!("{act} kPa {} (body {body})", hold.phase)
 }

@@ -6,6 +6,7 @@
 use crate::diagnosis::{Diagnosis, Options, diagnose};
 use crate::error::CompareError;
 use crate::evidence::Evidence;
+use crate::fit::numbers::{sort_by, squared_distance};
 use crate::progress::{Progress, part};
 use crate::study::calibrate::Knob;
 use crate::study::comparison::{Comparison, Contender, compare_all};
@@ -20,7 +21,6 @@ use serde::Serialize;
 /// Robot and data of the demonstration.
 pub const ROBOT: [&str; 2] = ["epam", "fem-epam"];
 const ROBOTS: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
-/// Body pressure of the data that are left out \[Pa\].
 const LEFT_OUT_PA: f64 = 4e3;
 
 /// Results of the five panels, from a textbook model to both engines.
@@ -92,7 +92,6 @@ fn left_out(robot: &Scenario) -> Result<Evidence, CompareError> {
     Ok(Evidence::of(dataset, Some(about)))
 }
 
-/// From the textbook model to the shipped one.
 struct Path<'d> {
     shipped: Scenario,
     data: &'d Evidence,
@@ -117,7 +116,7 @@ impl Path<'_> {
     fn tried(&self, base: &Scenario) -> Result<Vec<(Scenario, Mechanism)>, CompareError> {
         let lacking = self.shipped.effects.iter().filter(|e| base.effects.iter().all(|own| own.name != e.name));
         let mut tried = lacking.map(|e| self.with(base, &e.name)).collect::<Result<Vec<_>, _>>()?;
-        tried.sort_by(|a, b| a.1.error_mm.total_cmp(&b.1.error_mm));
+        sort_by(&mut tried, |(_, mechanism)| mechanism.error_mm);
         Ok(tried)
     }
 
@@ -140,15 +139,13 @@ impl Path<'_> {
     }
 }
 
-/// Root mean square of prediction minus mean over runs \[mm\].
 fn error_mm(model: &Scenario, evidence: &Evidence) -> Result<f64, CompareError> {
     let body_pa = evidence.dataset.holds.first().map_or(model.p_body_pa, |hold| hold.p_body_pa);
     let model = Scenario { p_body_pa: body_pa, ..model.clone() };
     let (model, _) = crate::study::fit_scenario(&model, &evidence.dataset, evidence.about.as_ref())?;
     let predicted = predict_dataset(&model, &evidence.dataset)?.coordinates_m;
     let mean = evidence.dataset.mean_over_runs();
-    let squares: f64 = predicted.iter().zip(&mean).map(|(a, b)| (a - b).powi(2)).sum();
-    Ok(1e3 * (squares / mean.len() as f64).sqrt())
+    Ok(1e3 * (squared_distance(&predicted, &mean) / mean.len() as f64).sqrt())
 }
 
 #[cfg(test)]

@@ -93,9 +93,12 @@ impl CompareError {
         CompareError::Refused { message: message.into(), help: help.into() }
     }
 
-    /// What does not fit, and what to do.
     pub(crate) fn told(message: impl Into<String>) -> CompareError {
         CompareError::Unfit(message.into())
+    }
+
+    pub(crate) fn bad_option(name: &'static str, value: f64, expected: &'static str) -> CompareError {
+        CompareError::BadOption { name, value, expected }
     }
 
     /// What to do, where the message does not say it.

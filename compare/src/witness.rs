@@ -14,6 +14,7 @@
 
 use crate::diagnosis::{Answer, Diagnosis, ParameterValue, Ranked, Standing, with_fitted};
 use crate::error::CompareError;
+use crate::fit::numbers::{largest, least, mean, sort_by};
 use crate::moment::{CurvePoint, at_turn, degrees};
 use crate::policy;
 use crate::study::engines::{Energies, EngineRun, Ensemble, TERMS, between, ensemble, over_seeds};
@@ -25,9 +26,7 @@ use serde::Serialize;
 
 /// Terms that are physics: all but hourglass control.
 const PHYSICAL: usize = TERMS.len() - 1;
-/// Candidates whose ledger is compared, the stated set first.
 const MOST: usize = 6;
-/// Places of two terms in [`TERMS`].
 const GAS: usize = 0;
 const BENDING: usize = 2;
 
@@ -116,17 +115,14 @@ pub fn witness(
     }
     let (scenario, _) = fit_scenario(scenario, dataset, about)?;
     let ensemble = ensemble(runs, &scenario);
-    let cases = cases(d, &scenario);
-    let heights = heights([&cases.base, &cases.best], dataset, &ensemble)?;
+    let (both, candidates) = cases(d, &scenario);
+    let heights = heights(&both, dataset, &ensemble)?;
     let (Some(top), Some(first)) = (heights.last(), ensemble.runs.first()) else { return Ok(None) };
     let kpa = top.actuator_kpa;
-    let mut models: Vec<WitnessRow> = cases
-        .candidates
-        .iter()
-        .filter_map(|(name, s, named)| Some(beside(name, s, &ensemble, (kpa, *named))?.0))
-        .collect();
-    models.sort_by(|a, b| a.apart_mj.total_cmp(&b.apart_mj));
-    let own = beside("base", &cases.base, &ensemble, (kpa, false));
+    let row = |(name, s, named): &(String, Scenario, bool)| Some(beside(name, s, &ensemble, (kpa, *named))?.0);
+    let mut models: Vec<WitnessRow> = candidates.iter().filter_map(row).collect();
+    sort_by(&mut models, |model| model.apart_mj);
+    let own = beside("base", &both[0], &ensemble, (kpa, false));
     let fe_mj = own.as_ref().map(|o| o.1);
     match own {
         Some((own, _)) => models.insert(0, own),
@@ -150,16 +146,8 @@ pub fn witness(
     Ok(Some(found))
 }
 
-/// Models of a diagnosis, each with the B fitted with it.
-struct Cases {
-    base: Scenario,
-    /// With everything that is added, supply and camera too.
-    best: Scenario,
-    /// With what has a ledger, and whether the diagnosis names it.
-    candidates: Vec<(String, Scenario, bool)>,
-}
-
-fn cases(d: &Diagnosis, scenario: &Scenario) -> Cases {
+/// Base and final model, and every candidate with a ledger, with its name and whether the diagnosis names it.
+fn cases(d: &Diagnosis, scenario: &Scenario) -> ([Scenario; 2], Vec<(String, Scenario, bool)>) {
     let level = d.level(scenario.p_body_pa * 1e-3);
     let added = if d.added.is_empty() { &d.attempt } else { &d.added };
     let all: Vec<(&str, &[ParameterValue])> = added.iter().map(|a| (&*a.effect, &*a.parameters)).collect();
@@ -172,24 +160,25 @@ fn cases(d: &Diagnosis, scenario: &Scenario) -> Cases {
         let name = a.effects.iter().map(|(r, _)| format!("+ {}", r.effect)).collect::<Vec<_>>().join(" ");
         (name, a.on_with(scenario, level, has_ledger), a.standing != Standing::Other)
     };
-    let candidates = answers.take(MOST).map(candidate).collect();
-    Cases { base: d.calibrated(scenario, level), best: with_fitted(scenario, &all, b), candidates }
+    let models = [d.calibrated(scenario, level), with_fitted(scenario, &all, b)];
+    (models, answers.take(MOST).map(candidate).collect())
 }
 
 /// The outermost marker that data and runs share, on first loading at the body pressure of the runs, where both have the same
 /// actuator pressure.
-fn heights(models: [&Scenario; 2], dataset: &Dataset, ensemble: &Ensemble) -> Result<Vec<Height>, CompareError> {
+fn heights(models: &[Scenario; 2], dataset: &Dataset, ensemble: &Ensemble) -> Result<Vec<Height>, CompareError> {
     let Some(run) = ensemble.runs.first() else { return Ok(Vec::new()) };
     let stations = &models[0].markers_m;
-    let pressures = || run.states.iter().map(|s| s.actuator_kpa).filter(|p| *p > 0.0);
+    let pressures = || pressures(run);
     let shared = |m: &usize| pressures().any(|p| ensemble.marker_at(stations[*m], p).is_some());
     let Some(marker) = (0..stations.len()).rev().find(shared) else { return Ok(Vec::new()) };
-    let [base, best] = [predict_dataset(models[0], dataset)?, predict_dataset(models[1], dataset)?];
+    let [base, best] = models.each_ref().map(|model| predict_dataset(model, dataset));
+    let (base, best) = (base?, best?);
     let mut found: Vec<Height> = Vec::new();
     for (h, hold) in dataset.holds.iter().enumerate() {
         let kpa = hold.p_act_pa * 1e-3;
         let body = policy::is_same_pressure(hold.p_body_pa, 1e3 * run.body_kpa);
-        let nearest = pressures().min_by(|a, b| (a - kpa).abs().total_cmp(&(b - kpa).abs()));
+        let nearest = least(pressures(), |p| (p - kpa).abs());
         let Some(shared) = nearest.filter(|p| policy::is_same_set_point(*p, kpa)) else { continue };
         let Some((fe_mm, fe_sd_mm)) = ensemble.marker_at(stations[marker], shared) else { continue };
         let unseen = !dataset.is_seen(h, marker);
@@ -198,27 +187,25 @@ fn heights(models: [&Scenario; 2], dataset: &Dataset, ensemble: &Ensemble) -> Re
         }
         let samples = dataset.samples_per_hold;
         let y_mm = |xy: &[f64], s: usize| 1e3 * xy[dataset.offset(h, s, marker) + 1];
-        let of = |xy: &[f64]| (0..samples).map(|s| y_mm(xy, s)).sum::<f64>() / samples as f64;
-        let runs = dataset.runs.len();
-        let measured_mm = (0..runs).map(|r| of(dataset.run(r))).sum::<f64>() / runs as f64;
+        let of = |xy: &[f64]| mean((0..samples).map(|s| y_mm(xy, s)));
+        let measured_mm = mean((0..dataset.runs.len()).map(|r| of(dataset.run(r))));
         let [base_mm, best_mm] = [of(&base.coordinates_m), of(&best.coordinates_m)];
         let meets =
             policy::meets(fe_mm / measured_mm - 1.0) || (fe_mm - measured_mm).abs() <= 2.0 * fe_sd_mm.unwrap_or(0.0);
         found.push(Height { actuator_kpa: shared, measured_mm, base_mm, best_mm, fe_mm, fe_sd_mm, meets });
     }
-    found.sort_by(|a, b| a.actuator_kpa.total_cmp(&b.actuator_kpa));
+    sort_by(&mut found, |height| height.actuator_kpa);
     Ok(found)
 }
 
-/// What a model misses at the bends of the runs, pressure by pressure.
 fn moments(scenario: &Scenario, ensemble: &Ensemble) -> Vec<FeMoment> {
-    let states = ensemble.runs.first().map_or(&[][..], |run| &run.states);
     let at = |kpa: f64| -> Option<FeMoment> {
         let of = |run: &EngineRun| {
             let state = run.states.iter().find(|s| policy::is_same_reading(s.actuator_kpa, kpa))?;
             // The pull of a nearly straight actuator has no bound.
             let bent = policy::is_bent(state.turn_rad, run.states.last()?.turn_rad);
-            at_turn(scenario, &Loads::uniform(1e3 * run.body_kpa, 1e3 * kpa), state.turn_rad).filter(|_| bent)
+            let loads = Loads::uniform(1e3 * run.body_kpa, 1e3 * kpa);
+            at_turn(scenario, &loads, state.turn_rad).filter(|_| bent)
         };
         let found: Vec<CurvePoint> = ensemble.runs.iter().filter_map(of).collect();
         let [bend, moment] = [0, 1].map(|k| over_seeds(found.iter().map(|p| p[k])));
@@ -231,10 +218,14 @@ fn moments(scenario: &Scenario, ensemble: &Ensemble) -> Vec<FeMoment> {
             moment_sd_nm: moment.1.unwrap_or(0.0),
         })
     };
-    states.iter().map(|s| s.actuator_kpa).filter(|kpa| *kpa > 0.0).filter_map(at).collect()
+    ensemble.runs.first().into_iter().flat_map(pressures).filter_map(at).collect()
 }
 
-/// The ledgers of a model and of the finite elements, means over seeds.
+/// Actuator pressures of a run above zero \[kPa\].
+fn pressures(run: &EngineRun) -> impl Iterator<Item = f64> {
+    run.states.iter().map(|s| s.actuator_kpa).filter(|kpa| *kpa > 0.0)
+}
+
 fn beside(
     name: &str,
     scenario: &Scenario,
@@ -243,9 +234,7 @@ fn beside(
 ) -> Option<(WitnessRow, Energies)> {
     let ledgers: Vec<[Energies; 2]> =
         ensemble.runs.iter().map(|run| between(scenario, run, kpa)).collect::<Option<_>>()?;
-    let mean =
-        |which: usize| std::array::from_fn(|k| ledgers.iter().map(|l| l[which][k]).sum::<f64>() / ledgers.len() as f64);
-    let (fe, own): (Energies, Energies) = (mean(0), mean(1));
+    let [fe, own]: [Energies; 2] = [0, 1].map(|i| std::array::from_fn(|k| mean(ledgers.iter().map(|l| l[i][k]))));
     let apart_mj = (0..PHYSICAL).map(|k| (fe[k] - own[k]).abs()).sum();
     Some((WitnessRow { name: name.into(), energies_mj: own, apart_mj, named }, fe))
 }
@@ -254,7 +243,10 @@ fn sentences(w: &Witness, d: &Diagnosis) -> Vec<String> {
     let Some(top) = w.heights.last() else { return Vec::new() };
     let at = short(top.actuator_kpa);
     let sd = top.fe_sd_mm.map_or(String::new(), |sd| format!(" ± {sd:.1}"));
-    let runs = if w.runs == 1 { "one run".to_string() } else { format!("{} runs", w.runs) };
+    let runs = match w.runs {
+        1 => "one run".to_string(),
+        runs => format!("{runs} runs"),
+    };
     let mut out = vec![format!(
         "Outermost marker at {at} kPa: data {:.1} mm; model with calibrated B {:.1}, final model {:.1}, finite elements {:.1}{sd} mm ({runs}, {} mm elements, numbers {}).",
         top.measured_mm,
@@ -279,10 +271,8 @@ fn sentences(w: &Witness, d: &Diagnosis) -> Vec<String> {
 
 /// Whether they are where the robot is, and what follows for the effect that is missing.
 fn meeting(w: &Witness) -> String {
-    let of = |meets: bool| -> Vec<String> {
-        w.heights.iter().filter(|h| h.meets == meets).map(|h| short(h.actuator_kpa)).collect()
-    };
-    let (met, missed) = (of(true), of(false));
+    let (met, missed): (Vec<&Height>, Vec<&Height>) = w.heights.iter().partition(|h| h.meets);
+    let kpa = |of: &[&Height]| list(of.iter().map(|h| short(h.actuator_kpa)));
     let contain = "They contain sealed edges, folds, contact, stretch and shear of the fabric, but no supply, no camera and no memory.";
     let first = match (&met[..], &missed[..]) {
         ([_], []) => "They meet the measurement at the one shared pressure, which decides little.".into(),
@@ -290,8 +280,8 @@ fn meeting(w: &Witness) -> String {
         ([], _) => "They miss it everywhere: the robot is not the one they were given, one of their assumed numbers is wrong (`ibr simulate ROBOT --uncertain`), or they lack the missing effect too.".into(),
         _ => format!(
             "They meet the measurement at {} kPa and miss it at {} kPa: they lack something too, or one of their assumed numbers is wrong (`ibr simulate ROBOT --uncertain`).",
-            list(&met),
-            list(&missed)
+            kpa(&met),
+            kpa(&missed)
         ),
     };
     format!("{first} {contain}")
@@ -307,19 +297,16 @@ fn stiffness(base: &WitnessRow, fe: &Energies) -> Option<String> {
 
 fn nearest(base: &WitnessRow, others: &[WitnessRow], fe: &Energies, d: &Diagnosis) -> String {
     let off = |m: &WitnessRow, k: usize| (fe[k] - m.energies_mj[k]).abs();
-    let widest = (0..PHYSICAL).max_by(|a, b| off(base, *a).total_cmp(&off(base, *b))).unwrap_or(GAS);
+    let widest = largest(0..PHYSICAL, |k| off(base, *k)).unwrap_or(GAS);
     let where_ = format!("{} ({:.0} mJ, theirs {:.0} mJ)", TERMS[widest], base.energies_mj[widest], fe[widest]);
     match others.first().filter(|m| policy::falls(m.apart_mj, base.apart_mj)) {
         Some(m) => {
             let named = d.indistinguishable.iter().chain(d.added.iter().map(|a| &a.effect));
             let named = named.map(|n| format!("+ {n}")).any(|n| n == m.name);
             let by = if named { "which the data name too" } else { "which the data alone do not put first" };
-            let rivals: Vec<String> = others[1..]
-                .iter()
-                .filter(|o| !policy::falls(m.apart_mj, o.apart_mj))
-                .map(|o| o.name.trim_start_matches("+ ").to_string())
-                .collect();
-            let rivals = if rivals.is_empty() { String::new() } else { format!("; {} hardly less so", list(&rivals)) };
+            let rivals = others[1..].iter().filter(|o| !policy::falls(m.apart_mj, o.apart_mj));
+            let rivals = list(rivals.map(|o| o.name.trim_start_matches("+ ")));
+            let rivals = if rivals.is_empty() { String::new() } else { format!("; {rivals} hardly less so") };
             format!(
                 "Their ledger points at {}, {by}: at the same bends {:.0} mJ apart from theirs instead of {:.0}{rivals}. The model without it differs most in {where_}.",
                 m.name.trim_start_matches("+ "),

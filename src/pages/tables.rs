@@ -18,9 +18,9 @@ pub(super) fn holds(variants: &[Variant]) -> data::Table {
         columns: vec![
             text("model", |v, _| v.label.clone()),
             text("how_known", |v, _| v.known.word().to_string()),
-            numbers("p_act_kpa", |h| Some(h.p_act_kpa)),
-            numbers("p_body_kpa", |h| Some(h.p_body_kpa)),
-            text("phase", |_, h| h.phase.to_string()),
+            numbers("p_act_kpa", |h| Some(h.label.p_act_kpa)),
+            numbers("p_body_kpa", |h| Some(h.label.p_body_kpa)),
+            text("phase", |_, h| h.label.phase.to_string()),
             numbers("paper_accuracy", |h| h.paper_accuracy),
             numbers("noise_ceiling", |h| h.noise_ceiling),
             numbers("rms_relative_pct", |h| h.rms_relative_pct),

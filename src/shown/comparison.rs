@@ -150,7 +150,7 @@ fn holds(variant: &Variant) -> String {
     let holds = &variant.evaluation.metrics.holds;
     let has_z = holds.iter().any(|h| h.tip_error_z_mm.is_some());
     Table::of(holds)
-        .words("hold", |h| hold_name(h))
+        .words("hold", |h| hold_name(&h.label))
         .when(!has_z, |table| {
             table
                 .number("paper accuracy %", 1, |h| percent(h.paper_accuracy))

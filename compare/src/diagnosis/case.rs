@@ -10,7 +10,8 @@ use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
 use crate::fit::basis::{Basis, cosine};
 use crate::fit::least_squares::square;
-use crate::layout::Layout;
+use crate::fit::numbers::squared_distance;
+use crate::layout::{Layout, values_of};
 use crate::noise::NoiseModel;
 use crate::policy;
 use crate::stats::f_tail;
@@ -20,13 +21,11 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 /// Fits end when a round lowers the whitened sum of squares by less.
 const ENOUGH: f64 = 1e-4;
-/// Rounds of the eigenvalue iteration; a handful suffice.
 const EIGEN_ROUNDS: usize = 1000;
 
 /// Noise of a source, given its ∂f/∂ln p.
 type NoiseOf<'n> = dyn Fn(&Source, &[f64]) -> Result<NoiseModel, CompareError> + 'n;
 
-/// What every hypothesis is compared with.
 pub(crate) struct Case<'a> {
     /// All data; errors in millimetres, places and held-out parts refer to the first.
     pub sources: &'a [Source],
@@ -56,11 +55,11 @@ pub(super) fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate
     let mut list = if options.refit_present { present(scenario) } else { Vec::new() };
     list.retain(open);
     let own = list.len();
-    let is_measured =
-        |c: &Candidate| sources.iter().flat_map(|s| &s.measured).any(|m| taken_away(&c.name) == Some(&m.effect));
-    let tried = [candidates(scenario), surplus(scenario, &list)].concat();
-    list.extend(tried.into_iter().filter(open).filter(|c| !options.excludes(&c.name) && !is_measured(c)));
     let measured: Vec<&MeasuredValue> = sources.iter().flat_map(|source| &source.measured).collect();
+    let is_measured = |c: &Candidate| measured.iter().any(|m| taken_away(&c.name) == Some(&m.effect));
+    let mut tried = [candidates(scenario), surplus(scenario, &list)].concat();
+    tried.retain(|c| open(c) && !options.excludes(&c.name) && !is_measured(c));
+    list.append(&mut tried);
     let bodies = body_pressures(sources.iter().map(|source| &source.dataset)).len();
     hold(&mut list, options.keep_bending, bodies > 1, &measured);
     tried_between(&mut list, &sources[0].dataset.holds);
@@ -87,12 +86,12 @@ impl<'a> Case<'a> {
             )));
         }
         let estimate = |source: &Source, slope: &[f64]| {
-            source.at_readings(NoiseModel::estimate(&source.dataset, slope, &source.sessions, options.sigma_m)?, slope)
+            let noise = NoiseModel::estimate(&source.dataset, slope, &source.sessions, options.sigma_m)?;
+            source.at_readings(noise, slope)
         };
         Case::with_noise(sources, &estimate, (candidates, own), options)
     }
 
-    /// The same with noise from elsewhere.
     pub(crate) fn with_noise(
         sources: &'a [Source],
         noise: &NoiseOf,
@@ -148,7 +147,6 @@ impl<'a> Case<'a> {
         &self.sources[0]
     }
 
-    /// Noise of the mean of the first data.
     pub(crate) fn noise(&self) -> &NoiseModel {
         &self.noises[0]
     }
@@ -157,7 +155,6 @@ impl<'a> Case<'a> {
         &self.problem.candidates[effect]
     }
 
-    /// Effects that a fit adds to the base.
     pub(crate) fn added<'f>(&self, fit: &'f Fit) -> &'f [usize] {
         &fit.effects[self.always.len()..]
     }
@@ -166,12 +163,10 @@ impl<'a> Case<'a> {
         self.added(fit).iter().map(|e| self.candidate(*e).name.clone()).collect()
     }
 
-    /// Effects of every hypothesis and one more.
     pub(crate) fn with(&self, effect: usize) -> Vec<usize> {
         self.always.iter().copied().chain([effect]).collect()
     }
 
-    /// Stiffnesses of a fit, one per body pressure \[N·m²\].
     pub(crate) fn bendings(&self, fit: &Fit) -> Vec<f64> {
         fit.theta()[..self.problem.bendings].to_vec()
     }
@@ -187,7 +182,6 @@ impl<'a> Case<'a> {
         predicted.unwrap_or_else(|| block.target_m.clone())
     }
 
-    /// The part of whitened values that belongs to the first data.
     pub(crate) fn of_first<'v>(&self, white: &'v [f64]) -> &'v [f64] {
         &white[..self.noise().directions.len()]
     }
@@ -205,7 +199,6 @@ impl<'a> Case<'a> {
         error_mm(prediction_m, &self.problem.blocks[0].target_m, self.noise())
     }
 
-    /// The same of a fit in each of the data \[mm\].
     pub(crate) fn errors_mm(&self, fit: &Fit) -> Vec<f64> {
         let blocks = self.problem.blocks.iter().zip(&self.noises);
         blocks.map(|(block, noise)| error_mm(&self.prediction_of(block, fit), &block.target_m, noise)).collect()
@@ -213,8 +206,12 @@ impl<'a> Case<'a> {
 
     /// Root mean square of a fit's errors over all values of all data \[mm\].
     pub(crate) fn error_in_all_mm(&self, fit: &Fit) -> f64 {
-        let errors = self.errors_mm(fit).into_iter().zip(&self.noises).map(|(mm, noise)| (mm, noise.all_seen() as f64));
-        let (squares, count) = errors.fold((0.0, 0.0), |(s, n), (mm, k)| (s + k * mm * mm, n + k));
+        let (mut squares, mut count) = (0.0, 0.0);
+        for (mm, noise) in self.errors_mm(fit).into_iter().zip(&self.noises) {
+            let seen = noise.all_seen() as f64;
+            squares += seen * mm * mm;
+            count += seen;
+        }
         (squares / count).sqrt()
     }
 
@@ -223,8 +220,8 @@ impl<'a> Case<'a> {
     pub(crate) fn beyond_noise_mm(&self, fit: &Fit) -> f64 {
         let unseen: usize = self.noises.iter().map(|noise| noise.directions.len() - noise.all_seen()).sum();
         let seen = fit.minimum.residual.len() - self.problem.known.len() - unseen;
-        let (cost, dof) = (self.seen_cost(fit), seen.saturating_sub(fit.theta().len()).max(1) as f64);
-        1e3 * self.noise().unit_m() * (cost / dof - 1.0).max(0.0).sqrt()
+        let dof = seen.saturating_sub(fit.theta().len()).max(1) as f64;
+        1e3 * self.noise().unit_m() * (self.seen_cost(fit) / dof - 1.0).max(0.0).sqrt()
     }
 
     /// Whitened sum of squares without what tests of their own found of effects, which no marker shows.
@@ -238,7 +235,6 @@ impl<'a> Case<'a> {
         (self.seen_cost(&self.base) - self.seen_cost(fit)).max(0.0)
     }
 
-    /// Fall of the whitened sum of squares against the calibrated base.
     pub(crate) fn gain(&self, fit: &Fit) -> f64 {
         (self.base.cost() - fit.cost()).max(0.0)
     }
@@ -251,7 +247,8 @@ impl<'a> Case<'a> {
     /// p of a gain by `parameters`, the best of `tests`; `None` if no p-values can be formed. Of several data σ² has the fewest
     /// degrees of freedom.
     pub(crate) fn p_of_gain(&self, gain: f64, parameters: usize, tests: f64) -> Option<f64> {
-        let (q, dof) = (parameters.max(1), self.noises.iter().map(|noise| noise.pure_error_dof).min().unwrap_or(0));
+        let dof = self.noises.iter().map(|noise| noise.pure_error_dof).min().unwrap_or(0);
+        let q = parameters.max(1);
         let p = tests * f_tail(gain / q as f64, q, dof);
         self.gives_p_values().then_some(p.min(1.0))
     }
@@ -273,17 +270,15 @@ fn independent_tests(problem: &Problem, base: &Fit, tried: std::ops::Range<usize
         return count.max(1) as f64;
     }
     let correlations = DMatrix::from_fn(n, n, |i, j| if i == j { 1.0 } else { cosine(&traces[i], &traces[j]) });
-    let apart = match SymmetricEigen::try_new(correlations, f64::EPSILON, EIGEN_ROUNDS) {
-        Some(eigen) => eigen.eigenvalues.iter().map(|l| l.max(0.0).sqrt()).sum::<f64>().powi(2) / n as f64,
-        _ => n as f64,
-    };
+    let eigen = SymmetricEigen::try_new(correlations, f64::EPSILON, EIGEN_ROUNDS);
+    let roots = eigen.map(|eigen| eigen.eigenvalues.iter().map(|l| l.max(0.0).sqrt()).sum::<f64>());
+    let apart = roots.map_or(n as f64, |roots| roots.powi(2) / n as f64);
     (apart + (count - n) as f64).max(1.0)
 }
 
 /// Root-mean-square error of a prediction beyond the noise of the mean \[mm\].
 fn error_mm(prediction_m: &[f64], mean_m: &[f64], noise: &NoiseModel) -> f64 {
-    let squares = prediction_m.iter().zip(mean_m).map(|(f, y)| (f - y).powi(2)).sum::<f64>();
-    let squares = squares / noise.seen(0..mean_m.len()) as f64;
+    let squares = squared_distance(prediction_m, mean_m) / noise.seen(0..mean_m.len()) as f64;
     let expected = noise.mean_square(0..mean_m.len()).unwrap_or(0.0);
     1e3 * (squares - expected).max(0.0).sqrt()
 }
@@ -291,13 +286,11 @@ fn error_mm(prediction_m: &[f64], mean_m: &[f64], noise: &NoiseModel) -> f64 {
 /// ∂f/∂ln p of a fit in a block \[m\].
 fn derivative(problem: &Problem, block: &Block, fit: &Fit) -> Result<Vec<f64>, CompareError> {
     let mut slope = vec![0.0; block.target_m.len()];
-    let width = slope.len() / block.source.dataset.holds.len();
-    for (group, scenario) in problem.scenarios(block, &fit.effects, fit.theta()).iter().enumerate() {
-        let predicted = predict_dataset(scenario, &block.source.dataset)?;
-        for (hold, _) in block.bending_of.iter().enumerate().filter(|(_, own)| **own == group) {
-            let rows = hold * width..(hold + 1) * width;
-            slope[rows.clone()].copy_from_slice(&predicted.d_ln_pressure_m[rows]);
-        }
+    let scenarios = problem.scenarios(block, &fit.effects, fit.theta());
+    for (group, scenario) in scenarios.iter().enumerate() {
+        let predicted = predict_dataset(scenario, &block.source.dataset)?.d_ln_pressure_m;
+        let own: Vec<usize> = (0..block.bending_of.len()).filter(|hold| block.bending_of[*hold] == group).collect();
+        values_of(&block.source.dataset, &own).for_each(|i| slope[i] = predicted[i]);
     }
     Ok(slope)
 }

@@ -2,6 +2,7 @@
 
 use crate::error::CompareError;
 use crate::evidence::Evidence;
+use crate::fit::numbers::{groups, least};
 use crate::gauge::Gauge;
 use crate::layout::Layout;
 use crate::noise::NoiseModel;
@@ -43,18 +44,13 @@ pub(super) fn pressure_levels(holds: &[Hold]) -> Vec<f64> {
 }
 
 fn levels(pressures_pa: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut levels: Vec<f64> = Vec::new();
-    for p in pressures_pa {
-        if !levels.iter().any(|l| policy::is_same_pressure(*l, p)) {
-            levels.push(p);
-        }
-    }
-    levels
+    let all: Vec<f64> = pressures_pa.collect();
+    groups(&all, |a, b| policy::is_same_pressure(**a, **b)).iter().map(|own| all[own[0]]).collect()
 }
 
 /// Index of the nearest level; 0 without levels.
 pub(super) fn nearest(levels: &[f64], p: f64) -> usize {
-    (0..levels.len()).min_by(|a, b| (levels[*a] - p).abs().total_cmp(&(levels[*b] - p).abs())).unwrap_or(0)
+    least(0..levels.len(), |level| (levels[*level] - p).abs()).unwrap_or(0)
 }
 
 /// A dataset, its base as measured there, and further measurements of the same robot.
@@ -108,10 +104,8 @@ impl Source {
         let dataset_seen = seen_by(&scenario, prepared.dataset);
         let mut source = Source::of(scenario, dataset_seen, about);
         if source.direct.pressure && dataset.gauge_pa.is_some() {
-            warnings.push(
-                "about.toml has [direct] pressure, so p_act is the actuator's own and the column p_gauge was not used"
-                    .into(),
-            );
+            let own = "about.toml has [direct] pressure, so p_act is the actuator's own";
+            warnings.push(format!("{own} and the column p_gauge was not used"));
         }
         let several = source.dataset.channels_differ();
         if several && dataset.gauge_pa.is_some() {
@@ -127,15 +121,13 @@ impl Source {
         Ok((Source { sessions, gauge, outliers, slips, ..source }, warnings))
     }
 
-    /// Every evidence made ready, without copies, and cautions.
     pub(crate) fn all(scenario: &Scenario, evidence: &[Evidence]) -> Result<(Vec<Source>, Vec<String>), CompareError> {
         let (mut sources, mut warnings) = (Vec::<Source>::new(), Vec::new());
         for (i, measured) in evidence.iter().enumerate() {
             let name = &measured.dataset.name;
             if evidence[..i].iter().any(|seen| seen.dataset.coordinates_m == measured.dataset.coordinates_m) {
-                warnings.push(format!(
-                    "{name} is a copy of data that are there already and was left out: copies are not repeats"
-                ));
+                let copy = "is a copy of data that are there already and was left out";
+                warnings.push(format!("{name} {copy}: copies are not repeats"));
                 continue;
             }
             let own = measured.about.as_ref().and_then(|a| a.gravity_direction);
@@ -146,8 +138,8 @@ impl Source {
             let bending = source.contradicts_bending(&sources).then(|| "bending".to_string());
             let effect = sources.iter().find_map(|known| known.contradicts(&source));
             for what in bending.into_iter().chain(effect.map(|effect| format!("measured.{effect}"))) {
-                warnings
-                    .push(format!("{name} contradicts [{what}] in the about.toml of data before it, which is used"));
+                let before = "in the about.toml of data before it, which is used";
+                warnings.push(format!("{name} contradicts [{what}] {before}"));
             }
             let of = if i > 0 { format!("{name}: ") } else { String::new() };
             warnings.extend(source.slips.iter().cloned());
@@ -164,13 +156,11 @@ impl Source {
         other.measured.iter().find(differs).map(|m| m.effect.as_str())
     }
 
-    /// Whether the first bending test before it found something else.
     fn contradicts_bending(&self, before: &[Source]) -> bool {
         let tested = before.iter().find_map(|known| known.bending_nm2).zip(self.bending_nm2);
         tested.is_some_and(|(known, own)| known != own)
     }
 
-    /// Whether anything is left to be seen of effects of a stage.
     pub(crate) fn shows(&self, stage: Stage) -> bool {
         is_open(stage, self.direct) || stage == Stage::Supply && self.gauge.is_some()
     }
@@ -178,6 +168,11 @@ impl Source {
     /// The base with all its effects.
     pub(crate) fn as_given(&self) -> &Scenario {
         self.gauge.as_ref().map_or(&self.scenario, |gauge| &gauge.scenario)
+    }
+
+    /// The dataset at its set pressures.
+    pub(crate) fn as_set(&self) -> Dataset {
+        self.gauge.as_ref().map_or_else(|| self.dataset.clone(), |gauge| gauge.as_set(&self.dataset))
     }
 
     /// Noise at the readings of the gauge, if there is one, given ∂f/∂ln p.

@@ -6,7 +6,7 @@ use crate::diagnosis::{
 };
 use crate::error::CompareError;
 use crate::evidence::Evidence;
-use crate::extension::{ErrorStep, Extension, FittedEffect, Ground, extend, extended};
+use crate::extension::{ErrorStep, FittedEffect, Ground, extend, extended};
 use crate::progress::{Progress, part};
 use crate::scenario_file::ScenarioFile;
 use serde::Serialize;
@@ -97,14 +97,15 @@ impl Climb {
     }
 
     fn step(&mut self, file: &ScenarioFile, d: &Diagnosis) -> Result<ScenarioFile, CompareError> {
-        let Extension { file, steps, fitted, .. } = extend(file, d)?;
+        let extension = extend(file, d)?;
+        let file = extension.file;
         let number = self.steps.len() + 1;
         let written = format!("step-{number}-{}.toml", names_of(&d.added).join("-").replace(' ', "-"));
         self.told.push(told(number, d));
-        self.rungs.extend(steps.into_iter().last());
+        self.rungs.extend(extension.steps.into_iter().last());
         self.files.push((written.clone(), file.text.clone()));
         self.steps.push(ClimbStep {
-            added: fitted,
+            added: extension.fitted,
             indistinguishable: d.indistinguishable.clone(),
             p_value: d.p_value,
             confidence: d.confidence,
@@ -114,7 +115,6 @@ impl Climb {
     }
 }
 
-/// Why not another step, for programs and for readers.
 fn end(d: &Diagnosis, left: f64, (count, most): (usize, usize)) -> Option<(&'static str, String)> {
     let sentence = match d.verdict {
         None if d.pressure_slip.is_some() => ("pressure_slip", d.slips.join(" ")),
@@ -126,32 +126,21 @@ fn end(d: &Diagnosis, left: f64, (count, most): (usize, usize)) -> Option<(&'sta
             ("noise", format!("The remaining misfit, {left:.2} mm beyond noise, is not significant: noise."))
         }
         Some(_) if left <= d.tolerance_mm && !is_of_supply(d) => {
-            let limit = d.tolerance_mm;
-            (
-                "tolerance",
-                format!(
-                    "The remaining misfit, {left:.2} mm, is more than noise but within the tolerance of {limit:.2} mm."
-                ),
-            )
+            let within = format!("more than noise but within the tolerance of {:.2} mm", d.tolerance_mm);
+            ("tolerance", format!("The remaining misfit, {left:.2} mm, is {within}."))
         }
         Some(Verdict::OutOfCatalog) => {
             let places: Vec<&str> = d.leftover.iter().map(|s| s.sentence.as_str()).collect();
             let places = places.join(" ");
             let of = if count > 0 { " Of the last step's scenario:" } else { "" };
             let kept = d.told_of_kept_bending().map_or(String::new(), |words| format!("{of} {words}"));
-            (
-                "out_of_catalog",
-                format!("Nothing in the catalogue explains the remaining misfit, {left:.2} mm. {places}{kept}"),
-            )
+            let nothing = "Nothing in the catalogue explains the remaining misfit";
+            ("out_of_catalog", format!("{nothing}, {left:.2} mm. {places}{kept}"))
         }
         Some(Verdict::Effect) if count + d.added.len() > most => {
-            let next = change(&names_of(&d.added));
-            (
-                "most_effects",
-                format!(
-                    "{left:.2} mm are left and {next} would come next, but {most} effects are the most that is added."
-                ),
-            )
+            let next = format!("{} would come next", change(&names_of(&d.added)));
+            let ending = format!("{left:.2} mm are left and {next}, but {most} effects are the most that is added.");
+            ("most_effects", ending)
         }
         Some(Verdict::Effect) => return None,
     };
@@ -169,17 +158,12 @@ fn told(number: usize, d: &Diagnosis) -> String {
         None => format!("{}, {}", a.effect, listed(&a.parameters)),
     };
     let names: Vec<String> = d.added.iter().map(values).collect();
-    let mut told = format!(
-        "Step {number}: {}. {:.2} → {:.2} mm.",
-        names.join("; "),
-        d.base.systematic_mm,
-        d.base.systematic_with_added_mm
-    );
+    let names = names.join("; ");
+    let (before, after) = (d.base.systematic_mm, d.base.systematic_with_added_mm);
+    let mut told = format!("Step {number}: {names}. {before:.2} → {after:.2} mm.");
     if d.indistinguishable.len() > 1 {
-        told.push_str(&format!(
-            " The name is one of several that these data cannot separate: {}.",
-            d.indistinguishable.join(", ")
-        ));
+        let all = d.indistinguishable.join(", ");
+        told += &format!(" The name is one of several that these data cannot separate: {all}.");
     }
     if d.confidence == Some(Confidence::Hint) {
         told.push_str(" A hint only: the evidence is weak.");

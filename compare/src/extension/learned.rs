@@ -8,10 +8,8 @@ use crate::error::CompareError;
 use crate::policy;
 use crate::scenario_file::ScenarioFile;
 
-/// Key of the line's distance from the taut generator in `[body]`.
 const CENTRE_LINE: &str = "centre_line_mm";
 
-/// The scenario with the law that a diagnosis learned.
 pub(super) fn learned(file: &ScenarioFile, found: &Diagnosis) -> Result<Extension, CompareError> {
     let Some(law) = &found.learned else {
         let message = "no law of the library predicts pressures left out better than the model as it is";
@@ -28,7 +26,7 @@ pub(super) fn learned(file: &ScenarioFile, found: &Diagnosis) -> Result<Extensio
     let remarks = vec![format!("{} (learned); its formula is below", law.words)];
     let addition = Addition { remarks, ..ground.calibrated(&law.name, &law.parameters) };
     let bending = (!law.bending_nm2.is_empty()).then(|| ground.new_bending(ground.bending(&law.bending_nm2))).flatten();
-    let fitted = vec![FittedEffect { effect: law.name.clone(), parameters: law.parameters.clone() }];
+    let fitted = vec![FittedEffect::of(&law.name, &law.parameters)];
     let written = Extension::written(&with, bending, vec![addition], law.sentences())?;
     let mut extension = Extension { fitted, ..written.climbed(&ground, ground.learned_step(law)) };
     if !law.heldout_after_mm.zip(law.heldout_before_mm).is_some_and(|(after, before)| policy::falls(after, before)) {

@@ -10,13 +10,13 @@ pub mod validation;
 mod written;
 
 use crate::diagnosis::words::{named, step, three};
-use crate::diagnosis::{Added, Diagnosis, Options, Ranked, diagnose, taken_away};
+use crate::diagnosis::{Diagnosis, Options, Ranked, diagnose, taken_away};
 use crate::error::CompareError;
 use crate::evidence::Evidence;
 use crate::policy;
 use crate::progress::Progress;
 use crate::scenario_file::ScenarioFile;
-use crate::typed_effect::{Values, typed, values_of};
+use crate::typed_effect::{Values, typed, values_of, with_values};
 use models::{Known, Scenario};
 pub(crate) use steps::Ground;
 pub use steps::{ErrorStep, error_steps};
@@ -24,7 +24,6 @@ pub use text::{Addition, BodyValue, today};
 pub(crate) use text::{Origin, extended, origins};
 pub use written::{Extension, FittedEffect};
 
-/// What asks for a learned law; the name of the first one too.
 const LEARNED: &str = "learned";
 
 /// The effect to add, as a user types it.
@@ -46,35 +45,35 @@ impl Wish {
     /// # Errors
     /// An effect that is not possible or is there already; `best` without data.
     pub fn read(scenario: &Scenario, text: &str, has_data: bool) -> Result<Wish, CompareError> {
-        let needs = |what: &str| {
-            CompareError::refused(format!("`{text}` needs data to {what}"), format!("ibr add SCENARIO {text} DATA"))
+        let of_data = |wish: Wish, what: &str| match has_data {
+            true => Ok(wish),
+            false => {
+                let message = format!("`{text}` needs data to {what}");
+                Err(CompareError::refused(message, format!("ibr add SCENARIO {text} DATA")))
+            }
         };
         if text == "best" {
-            return has_data.then_some(Wish::Best).ok_or_else(|| needs("find the best effect"));
+            return of_data(Wish::Best, "find the best effect");
         }
         if let Some(name) = taken_away(text) {
             let own: Vec<&str> = scenario.effects.iter().map(|e| e.name.as_str()).collect();
             if !own.contains(&name) {
                 return Err(CompareError::refused(format!("the scenario has no {name}"), spelling::known(name, &own)));
             }
-            let by_hand = || {
-                CompareError::refused(
-                    format!("`{text}` without data: delete the table [effects.{name}]"),
-                    format!("to try it on data: ibr add SCENARIO \"{text}\" DATA"),
-                )
-            };
-            return has_data.then(|| Wish::Fitted(text.into())).ok_or_else(by_hand);
+            if !has_data {
+                let message = format!("`{text}` without data: delete the table [effects.{name}]");
+                let help = format!("to try it on data: ibr add SCENARIO \"{text}\" DATA");
+                return Err(CompareError::refused(message, help));
+            }
+            return Ok(Wish::Fitted(text.into()));
         }
         if text == LEARNED && !scenario.formulas.iter().any(|f| f.name == LEARNED) {
-            return has_data.then_some(Wish::Learned).ok_or_else(|| needs("learn from"));
+            return of_data(Wish::Learned, "learn from");
         }
-        Ok(match typed(scenario, text)? {
-            (name, Some(values)) => Wish::Given(name, values),
-            (name, None) if has_data => Wish::Fitted(name),
-            (name, None) => {
-                let values = values_of(scenario, &name);
-                Wish::Given(name, values)
-            }
+        let (name, values) = typed(scenario, text)?;
+        Ok(match values {
+            None if has_data => Wish::Fitted(name),
+            values => Wish::Given(name.clone(), values.unwrap_or_else(|| values_of(scenario, &name))),
         })
     }
 }
@@ -89,13 +88,13 @@ pub fn extend(file: &ScenarioFile, found: &Diagnosis) -> Result<Extension, Compa
     }
     if found.added.is_empty() {
         let message = format!("the diagnosis adds nothing: {}", found.summary.join(" "));
-        return Err(CompareError::refused(message, "to add an effect all the same name it instead of `best`"));
+        let help = "to add an effect all the same name it instead of `best`";
+        return Err(CompareError::refused(message, help));
     }
     let ground = Ground::new(found, file);
     let mut told: Vec<String> = found.added.iter().map(|a| step(&a.effect, &a.parameters)).collect();
     told.extend(rivals(found));
-    let fitted = |a: &Added| FittedEffect { effect: a.effect.clone(), parameters: a.parameters.clone() };
-    let fitted = found.added.iter().map(fitted).collect();
+    let fitted = found.added.iter().map(|a| FittedEffect::of(&a.effect, &a.parameters)).collect();
     calibrated(file, &ground, fitted, ground.verdict_step(), told)
 }
 
@@ -120,7 +119,7 @@ pub fn add(
         Wish::Learned => learned::learned(file, &found),
         Wish::Fitted(name) => fitted(file, &Ground::new(&found, file), name),
         Wish::Given(name, values) => {
-            let with = with_values(file, name, values);
+            let with = with_values(file, name, |wanted| values.iter().find(|(k, _)| k == wanted).map(|(_, v)| *v));
             let after = diagnose(&with, evidence, &options, progress)?;
             given(file, &Ground::new(&found, file), &Ground::new(&after, &with), (name, values))
         }
@@ -129,19 +128,9 @@ pub fn add(
     Ok(extension)
 }
 
-/// An effect at a value that was not fitted.
 fn assumed(file: &ScenarioFile, name: &str, values: &Values) -> Result<Extension, CompareError> {
     let sentence = file.catalogue().by_name(name).map(|e| e.sentence.to_string());
-    let addition = Addition {
-        name: name.into(),
-        values: values.clone(),
-        basis: Known::Assumed.word(),
-        interval: String::new(),
-        data: Vec::new(),
-        date: today(),
-        bending_without_nm2: None,
-        remarks: sentence.into_iter().collect(),
-    };
+    let addition = Addition::of(name, values.clone(), Known::Assumed, sentence);
     let told = vec![format!("Assumed: {}. Nothing was fitted; name data to fit it.", with_values_told(&addition))];
     Extension::written(file, None, vec![addition], told)
 }
@@ -154,7 +143,7 @@ fn fitted(file: &ScenarioFile, ground: &Ground, name: &str) -> Result<Extension,
         Some(first) if !r.in_set => told.push(format!("These data prefer {first}: look at `ibr diagnose`.")),
         _ => told.extend(rivals(d)),
     }
-    let values = vec![FittedEffect { effect: name.into(), parameters: r.parameters.clone() }];
+    let values = vec![FittedEffect::of(name, &r.parameters)];
     let mut extension = calibrated(file, ground, values, ground.ranked_step(r), told)?;
     if let Some(p) = r.p_corrected.filter(|p| *p >= d.alpha) {
         let chance = format!("{name} is not significant here (p = {p:.2} after correction): the fall may be chance");
@@ -187,7 +176,6 @@ fn given(
     climbed(file, before, vec![addition], after.base_step(&format!("+ {name}"), Known::Assumed), told)
 }
 
-/// The part that is the same for all ways to a value.
 fn climbed(
     file: &ScenarioFile,
     ground: &Ground,
@@ -199,16 +187,9 @@ fn climbed(
     Ok(Extension::written(file, bending, additions, told)?.climbed(ground, step))
 }
 
-fn with_values(scenario: &Scenario, name: &str, values: &Values) -> Scenario {
-    let catalogue = scenario.catalogue();
-    let value_of = |key: &str| values.iter().find(|(k, _)| k == key).map_or(0.0, |(_, v)| *v);
-    let si = catalogue.by_name(name).map(|e| e.parameters.iter().map(|p| value_of(p.key) * p.si).collect::<Vec<_>>());
-    si.map_or_else(|| scenario.clone(), |si| scenario.with_effect(name, &si))
-}
-
 fn with_values_told(a: &Addition) -> String {
-    let values: Vec<String> = a.values.iter().map(|(key, v)| format!("{key} = {}", three(*v))).collect();
-    format!("{}, {}", a.name, values.join(", "))
+    let values = a.values.iter().map(|(key, v)| format!(", {key} = {}", three(*v)));
+    format!("{}{}", a.name, values.collect::<String>())
 }
 
 fn rivals(d: &Diagnosis) -> Option<String> {
@@ -217,7 +198,6 @@ fn rivals(d: &Diagnosis) -> Option<String> {
     (d.indistinguishable.len() > 1).then(told)
 }
 
-/// What to say of data without enough runs.
 fn too_few_runs(evidence: &Evidence) -> Option<String> {
     let runs = evidence.dataset.runs.len();
     (runs < 3).then(|| format!("{runs} runs: at least three are needed for p-values, so this is a ranking only"))
@@ -225,22 +205,19 @@ fn too_few_runs(evidence: &Evidence) -> Option<String> {
 
 /// The effect as the diagnosis ranks it, or why it cannot be added.
 fn ranked<'a>(d: &'a Diagnosis, name: &str) -> Result<&'a Ranked, CompareError> {
-    let Some(r) = d.ranked(name) else {
-        let message = format!("{name} is not a candidate on these data");
-        return Err(CompareError::refused(message, "`ibr diagnose` prints the candidates"));
-    };
+    let message = format!("{name} is not a candidate on these data");
+    let no_candidate = || CompareError::refused(message, "`ibr diagnose` prints the candidates");
+    let r = d.ranked(name).ok_or_else(no_candidate)?;
     let by_hand = format!("to add it all the same give its value, {name}=VALUE: it is then called assumed");
     if r.at_bound {
-        let values: Vec<String> = r.parameters.iter().filter(|p| p.at_bound).map(named).collect();
-        let values = values.join(", ");
+        let values = r.parameters.iter().filter(|p| p.at_bound).map(named);
+        let values = values.collect::<Vec<_>>().join(", ");
         let message = format!("the best value of {name} on these data sits on a physical bound ({values}): rejected");
         return Err(CompareError::refused(message, by_hand));
     }
     if !policy::helps(r.gain) {
-        let message = format!(
-            "these data do not ask for {name}: the error stays at {:.2} mm whatever its value",
-            r.systematic_after_mm
-        );
+        let left = r.systematic_after_mm;
+        let message = format!("these data do not ask for {name}: the error stays at {left:.2} mm whatever its value");
         return Err(CompareError::refused(message, by_hand));
     }
     Ok(r)

@@ -54,7 +54,8 @@ impl ScenarioFile {
         if data::sets().iter().any(|set| set.name == name) {
             return format!("{name} is data, and the scenario comes first: for example `ibr compare epam {name}`");
         }
-        let (meant, names) = (spelling::meant(name, shipped.iter().copied()), shipped.join(", "));
+        let meant = spelling::meant(name, shipped.iter().copied());
+        let names = shipped.join(", ");
         format!("{meant}give a TOML file, or a shipped robot: {names}; `ibr new epam > my.toml` makes a start")
     }
 
@@ -187,7 +188,6 @@ pub fn fault(name: &str, text: &str, error: &ScenarioError) -> CompareError {
     CompareError::Scenario(Box::new(fault))
 }
 
-/// Help for TOML errors that bring none.
 fn what_to_type(message: &str) -> &'static str {
     match message {
         m if m.contains("expected f64") => {

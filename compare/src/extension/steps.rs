@@ -26,7 +26,7 @@ pub struct ErrorStep {
 impl ErrorStep {
     /// The model and how its newest value is known.
     pub fn label(&self) -> String {
-        let ErrorStep { model, how_known, .. } = self;
+        let (model, how_known) = (&self.model, self.how_known);
         if model.ends_with(how_known) { model.clone() } else { format!("{model} ({how_known})") }
     }
 }
@@ -38,7 +38,6 @@ pub fn error_steps(d: &Diagnosis, scenario: &Scenario) -> Vec<ErrorStep> {
     ground.first_steps().into_iter().chain(last).collect()
 }
 
-/// A diagnosis, for one scenario.
 pub(crate) struct Ground<'a> {
     pub d: &'a Diagnosis,
     /// Which of the fitted stiffnesses is the scenario's.
@@ -46,7 +45,6 @@ pub(crate) struct Ground<'a> {
 }
 
 impl<'a> Ground<'a> {
-    /// Of a diagnosis of this scenario.
     pub(crate) fn new(d: &'a Diagnosis, scenario: &Scenario) -> Ground<'a> {
         Ground { d, level: d.level(1e-3 * scenario.p_body_pa) }
     }
@@ -67,20 +65,13 @@ impl<'a> Ground<'a> {
 
     /// An effect to write, with the data that a fit used and today's date.
     pub(crate) fn addition(&self, name: &str, values: Vec<(String, f64)>, known: Known) -> Addition {
-        let ranked = self.d.ranked(name);
         Addition {
-            name: name.into(),
-            values,
-            basis: known.word(),
-            interval: String::new(),
             data: self.d.evidence.iter().map(|used| [used.words.clone(), used.sha256.clone()]).collect(),
-            date: today(),
             bending_without_nm2: self.fits_bending().then(|| self.base_bending()),
-            remarks: ranked.map(|r| r.sentence.clone()).into_iter().collect(),
+            ..Addition::of(name, values, known, self.d.ranked(name).map(|r| r.sentence.clone()))
         }
     }
 
-    /// An effect whose values were fitted.
     pub(crate) fn calibrated(&self, name: &str, values: &[ParameterValue]) -> Addition {
         let interval = |p: &ParameterValue| match p.held {
             true => Some(format!("{} held, not fitted", p.key)),
@@ -96,13 +87,11 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// B with the effect, if it was fitted.
     pub(crate) fn new_bending(&self, value: f64) -> Option<BodyValue> {
         let remark = format!("calibrated on {} ({})", self.d.dataset, today());
         self.fits_bending().then_some(BodyValue { key: BENDING, value, remark })
     }
 
-    /// The scenario as given and with B calibrated.
     pub(crate) fn first_steps(&self) -> Vec<ErrorStep> {
         let base = &self.d.base;
         let (model, known) = ("scenario as given", Known::Assumed);
@@ -120,18 +109,18 @@ impl<'a> Ground<'a> {
         step(model, known.word(), base.systematic_mm, held_out, self.base_bending())
     }
 
-    /// The base with one effect fitted.
     pub(crate) fn ranked_step(&self, r: &Ranked) -> ErrorStep {
-        let (model, bending_nm2) = (in_step(&r.effect), self.bending(&r.bending_nm2));
+        let bending_nm2 = self.bending(&r.bending_nm2);
+        let (model, known) = (in_step(&r.effect), Known::Calibrated.word());
         let held_out = [r.heldout_mm, r.heldout_run_mm];
-        step(&model, Known::Calibrated.word(), r.systematic_after_mm, held_out, bending_nm2)
+        step(&model, known, r.systematic_after_mm, held_out, bending_nm2)
     }
 
-    /// The base with a learned law.
     pub(crate) fn learned_step(&self, law: &LearnedLaw) -> ErrorStep {
-        let (model, bending_nm2) = (format!("+ {}", law.name), self.bending(&law.bending_nm2));
+        let bending_nm2 = self.bending(&law.bending_nm2);
+        let (model, known) = (format!("+ {}", law.name), Known::Calibrated.word());
         let held_out = [law.heldout_after_mm, law.heldout_run_after_mm];
-        step(&model, Known::Calibrated.word(), law.after_mm, held_out, bending_nm2)
+        step(&model, known, law.after_mm, held_out, bending_nm2)
     }
 
     /// The final model of the diagnosis, or the one that it attempted.
@@ -142,7 +131,6 @@ impl<'a> Ground<'a> {
         step(&model, how_known, base.systematic_with_added_mm, held_out, self.bending(&base.bending_with_added_nm2))
     }
 
-    /// What a reader of the new scenario should know.
     pub(crate) fn warnings(&self) -> Vec<String> {
         let mut warnings = self.d.warnings.clone();
         if self.d.base.bending.len() > 1 {

@@ -4,7 +4,8 @@
 use crate::diagnosis::taken_away;
 use crate::error::CompareError;
 use crate::scenario_file::ScenarioFile;
-use models::Scenario;
+use crate::typed_effect::{Values, with_values};
+use models::{Known, Scenario};
 use toml_edit::{Decor, DocumentMut, Item, Table, Value, value};
 
 /// An effect as it is to be written.
@@ -28,6 +29,22 @@ pub struct Addition {
     pub remarks: Vec<String>,
 }
 
+impl Addition {
+    /// An effect without data, written today.
+    pub(super) fn of(name: &str, values: Values, known: Known, remark: Option<String>) -> Addition {
+        Addition {
+            name: name.into(),
+            values,
+            basis: known.word(),
+            interval: String::new(),
+            data: Vec::new(),
+            date: today(),
+            bending_without_nm2: None,
+            remarks: remark.into_iter().collect(),
+        }
+    }
+}
+
 /// A value of `[body]` that replaces the scenario's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyValue {
@@ -49,15 +66,10 @@ pub(crate) struct Origin {
     pub bending_without_nm2: Option<f64>,
 }
 
-/// Significant digits of the written numbers.
 const DIGITS: i32 = 6;
-/// How the note of an added effect begins.
 const ADDED: &str = "added by ibr";
-/// What comes before the stiffness in that note.
 const WITHOUT: &str = "calibrated without it B = ";
-/// What comes before the hash of the data.
 const HASH: &str = "SHA-256 ";
-/// Key of the bending stiffness in `[body]`.
 pub(super) const BENDING: &str = "bending_stiffness_nm2";
 
 /// The scenario with B replaced and the effects appended; it keeps its name.
@@ -99,7 +111,6 @@ pub(super) fn with_formula(
     Ok(ScenarioFile { name: file.name.clone(), text, scenario })
 }
 
-/// The effects that were added to a scenario, in the order of its text.
 pub(crate) fn origins(text: &str) -> Vec<Origin> {
     let document: DocumentMut = text.parse().unwrap_or_default();
     let effects = document.get("effects").and_then(Item::as_table_like).map(|table| table.iter());
@@ -113,7 +124,6 @@ pub(crate) fn origins(text: &str) -> Vec<Origin> {
     effects.into_iter().flatten().filter_map(origin).collect()
 }
 
-/// Every SHA-256 in a remark about the data.
 fn hashes(text: &str) -> Vec<String> {
     let hash = |part: &str| part.chars().take_while(char::is_ascii_alphanumeric).collect();
     text.split(HASH).skip(1).map(hash).collect()
@@ -127,7 +137,6 @@ pub(super) fn rounded(v: f64) -> f64 {
     format!("{v:.digits$}").parse().unwrap_or(v)
 }
 
-/// The text with a value of its body replaced.
 fn with_body(file: &ScenarioFile, body: Option<&BodyValue>) -> Result<DocumentMut, CompareError> {
     let mut document: DocumentMut = file.text.parse().map_err(|e: toml_edit::TomlError| refused(e.message()))?;
     let set = body.map_or(Some(()), |new| set_body(&mut document, new));
@@ -137,17 +146,10 @@ fn with_body(file: &ScenarioFile, body: Option<&BodyValue>) -> Result<DocumentMu
 fn meant(scenario: &Scenario, bending: Option<&BodyValue>, additions: &[Addition]) -> Scenario {
     let mut wanted = scenario.clone();
     for a in additions {
-        if let Some(gone) = taken_away(&a.name) {
-            wanted.effects.retain(|e| e.name != gone);
-        }
-        let catalogue = scenario.catalogue();
-        let Some(effect) = catalogue.by_name(&a.name) else { continue };
-        let value = |p: &models::effects::Parameter| {
-            let written = a.values.iter().find(|(key, _)| key == p.key);
-            written.map_or(p.neutral, |(_, v)| rounded(*v)) * p.si
-        };
-        let values: Vec<f64> = effect.parameters.iter().map(value).collect();
-        wanted = wanted.with_effect(&a.name, &values);
+        wanted.effects.retain(|e| taken_away(&a.name) != Some(&e.name));
+        wanted = with_values(&wanted, &a.name, |wanted| {
+            a.values.iter().find(|(key, _)| key == wanted).map(|(_, v)| rounded(*v))
+        });
     }
     if let Some(b) = bending {
         wanted.bending_stiffness = rounded(b.value);

@@ -24,14 +24,10 @@ pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, &'stati
     for pair in values.split(',').filter(|pair| !pair.is_empty()) {
         let (key, number) = pair.split_once('=').unwrap_or((pair, ""));
         let keys: Vec<&str> = effect.parameters.iter().map(|p| p.key).collect();
-        let help = format!(
-            "{}parameters of {name}: {}; for example {name}:{}={}",
-            if keys.contains(&key.trim()) { String::new() } else { spelling::meant(key, keys.iter().copied()) },
-            keys.join(", "),
-            effect.parameters[0].key,
-            effect.parameters[0].typical
-        );
+        let (first, all) = (&effect.parameters[0], keys.join(", "));
+        let help = format!("parameters of {name}: {all}; for example {name}:{}={}", first.key, first.typical);
         let Some(index) = keys.iter().position(|own| *own == key.trim()) else {
+            let help = spelling::meant(key, keys.iter().copied()) + &help;
             return Err(CompareError::refused(format!("{name} has no parameter `{key}`"), help));
         };
         let p = &effect.parameters[index];
@@ -42,30 +38,24 @@ pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, &'stati
     }
     let origin = if values.is_empty() { "typical value of the catalogue" } else { "value given on the command line" };
     let with = scenario.with_effect(name, &chosen);
-    match with.idle_force_n() {
-        Some(force) => {
-            let message = format!("force_z_n = {force}, and this robot bends in the x–y plane alone");
-            Err(CompareError::refused(message, "remove it, or give the robot a [[strip]]"))
-        }
-        None => Ok((with, origin)),
+    if let Some(force) = with.idle_force_n() {
+        let message = format!("force_z_n = {force}, and this robot bends in the x–y plane alone");
+        return Err(CompareError::refused(message, "remove it, or give the robot a [[strip]]"));
     }
+    Ok((with, origin))
 }
 
-/// A value within its usual bounds.
 fn number_of(p: &models::effects::Parameter, key: &str, text: &str, help: String) -> Result<f64, CompareError> {
-    match text.trim().parse::<f64>() {
-        Ok(v) if p.is_usual(v) => Ok(v),
+    let found = "one that was found on the robot goes into the scenario, with basis = \"measured\"";
+    let (message, help) = match text.trim().parse::<f64>() {
+        Ok(v) if p.is_usual(v) => return Ok(v),
         Ok(v) if p.is_possible(v) => {
-            let message = format!("{key} = {v} is outside its usual bounds {}", p.usual_words());
-            let found = "one that was found on the robot goes into the scenario, with basis = \"measured\"";
-            Err(CompareError::refused(message, format!("{help}; {found}")))
+            (format!("{key} = {v} is outside its usual bounds {}", p.usual_words()), format!("{help}; {found}"))
         }
-        Ok(v) => {
-            let message = format!("{key} = {v} is outside its physical bounds {}", p.possible_words());
-            Err(CompareError::refused(message, help))
-        }
-        Err(_) => Err(CompareError::refused(format!("{key} = `{text}` is not a number"), help)),
-    }
+        Ok(v) => (format!("{key} = {v} is outside its physical bounds {}", p.possible_words()), help),
+        Err(_) => (format!("{key} = `{text}` is not a number"), help),
+    };
+    Err(CompareError::refused(message, help))
 }
 
 /// Keys and values of an effect, in the units of the scenario.
@@ -92,6 +82,14 @@ pub fn typed(scenario: &Scenario, text: &str) -> Result<(String, Option<Values>)
         return Err(CompareError::refused(format!("the scenario has {name} already"), help));
     }
     Ok((name.to_string(), (!rest.is_empty()).then(|| values_of(&with, name))))
+}
+
+/// A scenario with an effect at values in the units of its keys, neutral where there is none; unchanged where no effect has that name.
+pub(crate) fn with_values(scenario: &Scenario, name: &str, value: impl Fn(&str) -> Option<f64>) -> Scenario {
+    let catalogue = scenario.catalogue();
+    let Some(effect) = catalogue.by_name(name) else { return scenario.clone() };
+    let values: Vec<f64> = effect.parameters.iter().map(|p| value(p.key).unwrap_or(p.neutral) * p.si).collect();
+    scenario.with_effect(name, &values)
 }
 
 /// The values that an effect has in a scenario; its typical values where the scenario lacks it.

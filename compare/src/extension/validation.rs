@@ -99,7 +99,6 @@ impl BeforeAfter {
 }
 
 impl Validation {
-    /// Of a model without and with effects, compared with data.
     pub(crate) fn of(
         evidence: &Evidence,
         [before, after]: [&Evaluation; 2],
@@ -142,16 +141,13 @@ pub fn validate(file: &ScenarioFile, evidence: &Evidence) -> Result<Validation, 
     BeforeAfter::of(file, &[])?.judge(evidence, None)
 }
 
-/// Effects to judge: those named, else those that were written.
 fn added(file: &ScenarioFile, named: &[String]) -> Result<Vec<Origin>, CompareError> {
     let has = |name: &str| file.effects.iter().any(|e| e.name == name);
     let written: Vec<Origin> = origins(&file.text).into_iter().filter(|o| has(&o.effect)).collect();
     if let Some(unknown) = named.iter().find(|name| !has(name)) {
         let own: Vec<&str> = file.effects.iter().map(|e| e.name.as_str()).collect();
-        return Err(CompareError::refused(
-            format!("the scenario has no effect `{unknown}`"),
-            format!("{}its effects: {}", spelling::meant(unknown, own.iter().copied()), own.join(", ")),
-        ));
+        let help = format!("{}its effects: {}", spelling::meant(unknown, own.iter().copied()), own.join(", "));
+        return Err(CompareError::refused(format!("the scenario has no effect `{unknown}`"), help));
     }
     let by_hand = |name: &String| Origin { effect: name.clone(), data_sha256: Vec::new(), bending_without_nm2: None };
     let of = |name: &String| written.iter().find(|o| o.effect == *name).cloned().unwrap_or_else(|| by_hand(name));
@@ -175,21 +171,17 @@ impl HowFar {
 }
 
 fn judged(before: f64, after: f64, tolerance_mm: f64, fitted_to_these: bool) -> (&'static str, String) {
-    let fall = format!("{before:.2} → {after:.2} mm");
-    match () {
-        () if fitted_to_these => {
-            ("fitted_to_these", format!("{fall}: no test, the effect was fitted to these very data"))
-        }
-        () if before.max(after) <= tolerance_mm => (
-            "no_argument",
-            format!("{fall}: both within the tolerance of {tolerance_mm:.2} mm, no argument either way"),
-        ),
-        () if policy::falls(after, before) => ("helps", format!("{fall}: the effect helps where it was not fitted")),
+    let both = format!("both within the tolerance of {tolerance_mm:.2} mm, no argument either way");
+    let (verdict, why) = match () {
+        () if fitted_to_these => ("fitted_to_these", "no test, the effect was fitted to these very data"),
+        () if before.max(after) <= tolerance_mm => ("no_argument", &both[..]),
+        () if policy::falls(after, before) => ("helps", "the effect helps where it was not fitted"),
         () if policy::falls(before, after) => {
-            ("worse", format!("{fall}: worse with the effect; its name or its value does not hold here"))
+            ("worse", "worse with the effect; its name or its value does not hold here")
         }
-        () => ("no_difference", format!("{fall}: hardly a difference; these data do not support the effect")),
-    }
+        () => ("no_difference", "hardly a difference; these data do not support the effect"),
+    };
+    (verdict, format!("{before:.2} → {after:.2} mm: {why}"))
 }
 
 /// A model in the size that the data's `about.toml` states, and what was changed; `None`: half a robot of the data and half of the

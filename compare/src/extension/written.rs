@@ -40,7 +40,6 @@ impl Extension {
         Ok(Extension { file, additions, fitted, bending, steps, noise_floor_mm: None, told, warnings })
     }
 
-    /// The same with the last step of a diagnosis.
     pub(super) fn climbed(self, ground: &Ground, step: ErrorStep) -> Extension {
         let steps = ground.first_steps().into_iter().chain([step]).collect();
         Extension { steps, noise_floor_mm: ground.d.base.noise_floor_mm, warnings: ground.warnings(), ..self }
@@ -54,4 +53,10 @@ pub struct FittedEffect {
     pub effect: String,
     /// Fitted or held values of its parameters.
     pub parameters: Vec<ParameterValue>,
+}
+
+impl FittedEffect {
+    pub(super) fn of(effect: &str, parameters: &[ParameterValue]) -> FittedEffect {
+        FittedEffect { effect: effect.into(), parameters: parameters.to_vec() }
+    }
 }

@@ -50,7 +50,6 @@ pub(crate) fn own_part(columns: &[Vec<f64>], k: usize) -> Vec<f64> {
     Basis::of(&others).rest(&columns[k])
 }
 
-/// Cosine of the angle between two vectors; 0 if one vanishes.
 pub(crate) fn cosine(a: &[f64], b: &[f64]) -> f64 {
     let lengths = (square(a) * square(b)).sqrt();
     if lengths > 0.0 { dot(a, b) / lengths } else { 0.0 }

@@ -37,13 +37,11 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 const LEAST_OWN: f64 = 1e-9;
 /// A round of a profile's fit that lowers the sum of squares by less is the last one.
 const ENOUGH: f64 = 1e-2;
-/// Halvings of the bracket of a profile's end.
 const HALVINGS: usize = 10;
 /// Degrees of freedom beyond which t is normal to three digits. The quantile of `statrs` is 1.83 in place of 1.96 at 1e7, and at
 /// 1e8 it does not return.
 const MOST_DOF: f64 = 1e4;
 
-/// Data that a fit was compared with.
 pub(crate) struct FittedData<'a> {
     pub dataset: &'a Dataset,
     /// Noise of the mean over runs of this dataset.
@@ -137,14 +135,14 @@ impl FittedData<'_> {
     /// Of every coordinate of every marker at every pressure Σ w.
     fn by_cell(&self, weights: &[f64]) -> Vec<f64> {
         let first = self.first();
-        let (cells, width) = (self.dataset.axes * self.dataset.markers.len(), weights.len() / first.len());
+        let cells = self.dataset.axes * self.dataset.markers.len();
+        let width = weights.len() / first.len();
         let mut sums = vec![0.0; cells * first.len()];
         weights.iter().enumerate().for_each(|(i, w)| sums[cells * first[i / width] + i % cells] += w);
         sums
     }
 }
 
-/// What a misfit adds to the variance, and its degrees of freedom.
 pub(crate) fn misfit(pressures: &[[f64; 2]], (each, cells): (f64, usize), parameters: usize) -> (f64, f64) {
     let all: f64 = pressures.iter().map(|[squares, _]| squares).sum();
     let count = pressures.iter().filter(|[squares, _]| *squares > policy::PRESSURE_TELLS * all).count();
@@ -160,7 +158,7 @@ pub(crate) fn interval(
     [lower, upper]: [f64; 2],
     rise: Option<&mut dyn FnMut(f64) -> f64>,
 ) -> [f64; 2] {
-    let Half { width: half, misses } = half;
+    let (half, misses) = (half.width, half.misses);
     let is_free = value - half >= lower && value + half <= upper;
     match rise.filter(|_| !(misses || is_free && half <= policy::WIDE * value.abs())) {
         None => [(value - half).max(lower), (value + half).min(upper)],
@@ -200,7 +198,6 @@ pub(crate) fn of_parameter(
     Some(interval(linear, bounds, Some(&mut rise)))
 }
 
-/// Where `is_inside` ends, or the bound.
 fn profile_end(value: f64, step: f64, bound: f64, is_inside: &mut dyn FnMut(f64) -> bool) -> f64 {
     let beyond = |x: f64| if step > 0.0 { x >= bound } else { x <= bound };
     let (mut inside, mut outside) = (value, value + 0.5 * step);

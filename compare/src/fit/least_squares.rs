@@ -26,6 +26,14 @@ pub(crate) struct Minimum {
     pub jacobian: Vec<Vec<f64>>,
 }
 
+impl Minimum {
+    /// A place with its residuals, without derivatives; `None` where the residuals do not exist.
+    pub(crate) fn there(at: Vec<f64>, residuals: &mut Residuals) -> Option<Minimum> {
+        let residual = residuals(&at)?;
+        Some(Minimum { cost: square(&residual), at, residual, jacobian: Vec::new() })
+    }
+}
+
 impl Range {
     /// A range without bounds, for a parameter of this typical size.
     pub(crate) fn endless(scale: f64) -> Range {
@@ -36,7 +44,6 @@ impl Range {
         Range { lower: at, upper: at, scale }
     }
 
-    /// Whether it has more than one value.
     pub(crate) fn is_free(&self) -> bool {
         self.lower < self.upper
     }
@@ -62,7 +69,6 @@ pub(crate) fn minimise(start: &[f64], ranges: &[Range], enough: f64, residuals: 
     minimise_by(start, ranges, enough, residuals, &mut |at, residuals| jacobian(at, ranges, residuals))
 }
 
-/// The same with derivatives from elsewhere.
 pub(crate) fn minimise_by(
     start: &[f64],
     ranges: &[Range],
@@ -71,8 +77,7 @@ pub(crate) fn minimise_by(
     slopes: &mut Slopes,
 ) -> Option<Minimum> {
     let at: Vec<f64> = start.iter().zip(ranges).map(|(x, r)| x.clamp(r.lower, r.upper)).collect();
-    let residual = residuals(&at)?;
-    let mut best = Minimum { cost: square(&residual), at, residual, jacobian: Vec::new() };
+    let mut best = Minimum::there(at, residuals)?;
     best.jacobian = slopes(&best, residuals);
     let mut damping = DAMPING[0];
     for _ in 0..ROUNDS {
@@ -106,10 +111,10 @@ fn improve(from: &Minimum, ranges: &[Range], damping: &mut f64, residuals: &mut 
         if at == from.at {
             return None;
         }
-        match residuals(&at).map(|r| (square(&r), r)) {
-            Some((cost, residual)) if cost < from.cost => {
+        match Minimum::there(at, residuals) {
+            Some(next) if next.cost < from.cost => {
                 *damping = (*damping * 0.1).max(1e-9);
-                return Some(Minimum { at, residual, cost, jacobian: Vec::new() });
+                return Some(next);
             }
             _ if tiny(&step, &free, ranges) => return None,
             _ => *damping *= 8.0,

@@ -3,4 +3,5 @@
 pub(crate) mod basis;
 pub(crate) mod interval;
 pub(crate) mod least_squares;
+pub(crate) mod numbers;
 pub(crate) mod whiten;

@@ -10,7 +10,6 @@ use nalgebra::{DMatrix, SymmetricEigen};
 /// Rounds of the eigenvalue iteration over the directions; a handful suffice.
 const EIGEN_ROUNDS: usize = 500;
 
-/// Rounds in which fit and misfit settle.
 pub(crate) const MISFIT_ROUNDS: usize = 3;
 
 /// Eigenvalues and basis that whiten a residual, computed once for many residuals.

@@ -3,6 +3,7 @@
 use crate::error::CompareError;
 use crate::evidence::Evidence;
 use crate::extension::{Extension, today};
+use crate::fit::numbers::{differences, groups};
 use crate::policy;
 use crate::study::predict::{fit_scenario, predict_dataset};
 use data::{Column, Dataset, Hold, Lost, Phase, Table};
@@ -60,7 +61,7 @@ impl Correction {
     pub fn at(&self, pressures_pa: &[[f64; 2]]) -> Result<Vec<f64>, CompareError> {
         let walked = walked(&self.dataset, pressures_pa);
         let [before, after] = [&self.before, &self.after].map(|scenario| predict_dataset(scenario, &walked));
-        Ok(after?.coordinates_m.iter().zip(&before?.coordinates_m).map(|(after, before)| after - before).collect())
+        Ok(differences(&after?.coordinates_m, &before?.coordinates_m))
     }
 
     /// Labels of the markers.
@@ -68,7 +69,6 @@ impl Correction {
         self.dataset.markers.iter().map(|marker| marker.name.as_str())
     }
 
-    /// Whether loading and unloading differ.
     fn has_history(&self) -> bool {
         [&self.before, &self.after].iter().any(|scenario| Model::new(scenario).has_history())
     }
@@ -81,12 +81,7 @@ impl Correction {
         let holds = &self.dataset.holds;
         let most = holds.iter().map(|hold| hold.p_act_pa).fold(0.0, f64::max);
         let grid = (0..=STEPS).map(|i| most * i as f64 / STEPS as f64);
-        let mut bodies: Vec<f64> = Vec::new();
-        for hold in holds {
-            if !bodies.iter().any(|body| policy::is_same_pressure(*body, hold.p_body_pa)) {
-                bodies.push(hold.p_body_pa);
-            }
-        }
+        let bodies = groups(holds, |a, b| policy::is_same_pressure(a.p_body_pa, b.p_body_pa));
         let with_phase = self.has_history();
         let mut path: Vec<f64> = grid.clone().collect();
         if with_phase {
@@ -94,7 +89,7 @@ impl Correction {
         }
         let markers = self.dataset.markers.len();
         let (mut numbers, mut texts): ([Vec<f64>; 5], [Vec<String>; 2]) = Default::default();
-        for body_pa in bodies {
+        for body_pa in bodies.iter().map(|own| holds[own[0]].p_body_pa) {
             let pressures: Vec<[f64; 2]> = path.iter().map(|act_pa| [body_pa, *act_pa]).collect();
             let moved = self.at(&pressures)?;
             for (row, d) in moved.chunks_exact(2).enumerate() {
@@ -131,7 +126,6 @@ impl Correction {
     }
 }
 
-/// Without the noise of its last digits.
 fn tidy(value: f64) -> f64 {
     (value * 1e4).round() / 1e4
 }

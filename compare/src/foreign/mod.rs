@@ -17,6 +17,7 @@ pub use judged::judge;
 
 use crate::error::CompareError;
 use crate::evidence::{Evidence, ForeignBase};
+use crate::fit::numbers::{largest, squared_distance};
 use crate::policy;
 use crate::slips::slips_of_predictions;
 use crate::study::predict::{fit_scenario, predict_dataset, seen_by};
@@ -117,9 +118,8 @@ pub(crate) fn in_run_layout(dataset: &Dataset, predictions: &Predictions) -> Vec
 }
 
 fn rms_mm(dataset: &Dataset, one_m: &[f64], other_m: &[f64]) -> f64 {
-    let squares: f64 = one_m.iter().zip(other_m).map(|(a, b)| (a - b).powi(2)).sum();
     let seen = one_m.len() - dataset.unseen_values().count();
-    1e3 * (squares / (seen.max(1) / dataset.axes) as f64).sqrt()
+    1e3 * (squared_distance(one_m, other_m) / (seen.max(1) / dataset.axes) as f64).sqrt()
 }
 
 /// Refuses exchanged axes, labels and units, and a base that bends away from the actuator. Its line is where a marker is farthest from the scenario.
@@ -138,7 +138,7 @@ fn check_axes(scenario: &Scenario, dataset: &Dataset, predictions: &Predictions)
         (own_m[at] - alone.coordinates_m[at]).hypot(own_m[at + 1] - alone.coordinates_m[at + 1])
     };
     let cells = 0..dataset.holds.len() * dataset.markers.len();
-    let farthest = cells.clone().max_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0);
+    let farthest = largest(cells.clone(), away).unwrap_or(0);
     let refused = |cell: usize, message: String, help: String| -> Result<(), CompareError> {
         Err(CompareError::from(predictions.fault(cell, message, help)))
     };
@@ -147,7 +147,7 @@ fn check_axes(scenario: &Scenario, dataset: &Dataset, predictions: &Predictions)
         return refused(farthest, message.replace(" in the only run", ""), help.into());
     }
     let [own_y, y] = [&own_m, &alone.coordinates_m].map(|of_m| move |cell: usize| of_m[place(cell) + 1]);
-    let most = cells.max_by(|a, b| own_y(*a).abs().total_cmp(&own_y(*b).abs())).unwrap_or(0);
+    let most = largest(cells, |cell| own_y(*cell).abs()).unwrap_or(0);
     if policy::bend_apart(own_y(most), y(most)) {
         let [own_mm, mm] = [own_y(most), y(most)].map(|m| 1e3 * m);
         let message = format!("y = {mm:.1} mm here, and {own_mm:.1} mm in the scenario: the base bends the other way");
@@ -159,10 +159,10 @@ fn check_axes(scenario: &Scenario, dataset: &Dataset, predictions: &Predictions)
 impl ForeignBase {
     /// What the candidates are changes of.
     pub fn sentence(&self) -> String {
-        let ForeignBase { table, from_data_mm, from_scenario_mm, .. } = self;
         format!(
-            "The base is {table}, {from_data_mm:.2} mm from the markers (rms) and {from_scenario_mm:.2} mm from the scenario. \
-             Effects and B are changes of it, computed with the scenario."
+            "The base is {}, {:.2} mm from the markers (rms) and {:.2} mm from the scenario. Effects and B are changes of it, \
+             computed with the scenario.",
+            self.table, self.from_data_mm, self.from_scenario_mm
         )
     }
 }

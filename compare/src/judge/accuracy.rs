@@ -26,7 +26,6 @@ pub(crate) fn relative_pct(accuracy: f64) -> f64 {
     100.0 * (1.0 - accuracy).max(0.0).sqrt()
 }
 
-/// 95 % intervals of the accuracy, from resampling whole runs.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Band {
     pub holds: Vec<Option<[f64; 2]>>,
@@ -36,7 +35,7 @@ pub(crate) struct Band {
 
 /// Bootstrap over runs: runs are drawn with replacement, the mean is formed, a computed; 2.5 % and 97.5 % quantiles.
 /// Deterministic for a given seed. No interval for fewer than 3 runs, no samples, or where the accuracy is undefined.
-pub(crate) fn accuracy_band(c: &BesideMean, samples: usize, seed: u64) -> Band {
+pub(crate) fn accuracy_band(c: &BesideMean, (samples, seed): (usize, u64)) -> Band {
     let holds = c.layout.holds;
     let runs = c.dataset.runs.len();
     if runs < policy::FEWEST_RUNS || samples == 0 {

@@ -1,6 +1,7 @@
 //! A prediction next to the mean measurement: what every metric starts from.
 
 use crate::error::CompareError;
+use crate::fit::numbers::{differences, largest};
 use crate::layout::Layout;
 use crate::noise::NoiseModel;
 use crate::policy;
@@ -44,7 +45,7 @@ impl<'a> BesideMean<'a> {
             dataset,
             noise,
             layout,
-            residual_m: prediction_m.iter().zip(&mean).map(|(f, y)| f - y).collect(),
+            residual_m: differences(prediction_m, &mean),
             model_means_m: layout.hold_means(prediction_m),
             d_max_m: heights.fold(0.0, f64::max),
             tip: outermost(dataset, &|_| true),
@@ -94,7 +95,6 @@ impl<'a> BesideMean<'a> {
     }
 }
 
-/// x, y and z of a hold mean; z is 0 in the plane.
 fn place(means_m: &[f64], layout: &Layout, hold: usize, marker: usize) -> [f64; 3] {
     let at = (hold * layout.markers + marker) * layout.axes;
     std::array::from_fn(|axis| if axis < layout.axes { means_m[at + axis] } else { 0.0 })
@@ -103,6 +103,6 @@ fn place(means_m: &[f64], layout: &Layout, hold: usize, marker: usize) -> [f64; 
 fn outermost(dataset: &Dataset, is_seen: &dyn Fn(usize) -> bool) -> usize {
     let seen = || (0..dataset.markers.len()).filter(|m| is_seen(*m));
     let stations: Option<Vec<f64>> = dataset.markers.iter().map(|m| m.station_m).collect();
-    let by_station = stations.and_then(|s| seen().max_by(|&a, &b| s[a].total_cmp(&s[b])));
+    let by_station = stations.and_then(|s| largest(seen(), |marker| s[*marker]));
     by_station.or_else(|| seen().last()).unwrap_or(dataset.markers.len() - 1)
 }

@@ -2,13 +2,13 @@
 
 use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
-use crate::metrics::{Metrics, MetricsOptions, metrics};
+use crate::metrics::{Metrics, metrics};
 use crate::noise::NoiseModel;
 use crate::noise_summary::NoiseSummary;
 use crate::policy;
 use crate::residuals::{ResidualMap, residual_map};
 use crate::scaling::{ScalingCheck, scaling_of_data};
-use crate::where_it_fails::{FailureOptions, Statement, where_it_fails};
+use crate::where_it_fails::{Statement, where_it_fails};
 use data::Dataset;
 use serde::Serialize;
 
@@ -84,12 +84,12 @@ pub fn evaluate(
     check_level(options.alpha, options.tolerance_m)?;
     let noise = NoiseModel::estimate(dataset, dprediction_dlnp, &options.sessions, options.sigma_m)?;
     let c = BesideMean::new(dataset, &noise, prediction_m)?;
-    let EvaluateOptions { fitted_parameters, bootstrap_samples, seed, alpha, .. } = *options;
-    let metrics = metrics(&c, &MetricsOptions { fitted_parameters, bootstrap_samples, seed })?;
+    let alpha = options.alpha;
+    let metrics = metrics(&c, options.fitted_parameters, (options.bootstrap_samples, options.seed))?;
     let residual_map = residual_map(&c);
     let tolerance_m = options.tolerance_m.unwrap_or_else(|| policy::tolerance_m(c.d_max_m));
-    let where_it_fails =
-        where_it_fails(&c, &residual_map, metrics.overall.p_value, &FailureOptions { alpha, tolerance_m });
+    let p_value = metrics.overall.p_value;
+    let where_it_fails = where_it_fails(&c, &residual_map, p_value, alpha, tolerance_m);
     Ok(Evaluation {
         dataset: dataset.name.clone(),
         actuator: dataset.actuator.clone(),
@@ -102,15 +102,13 @@ pub fn evaluate(
     })
 }
 
-/// Refuses a level or a tolerance that is none.
 pub(crate) fn check_level(alpha: f64, tolerance_m: Option<f64>) -> Result<(), CompareError> {
     let tolerance = tolerance_m.unwrap_or(0.0);
-    let (name, value, expected) = match () {
-        () if !(alpha > 0.0 && alpha < 1.0) => ("alpha", alpha, "the significance level is between 0 and 1"),
-        () if !(tolerance >= 0.0 && tolerance.is_finite()) => {
-            ("tolerance_m", tolerance, "a length in metres, not negative")
-        }
-        () => return Ok(()),
-    };
-    Err(CompareError::BadOption { name, value, expected })
+    if !(alpha > 0.0 && alpha < 1.0) {
+        return Err(CompareError::bad_option("alpha", alpha, "the significance level is between 0 and 1"));
+    }
+    if !(tolerance >= 0.0 && tolerance.is_finite()) {
+        return Err(CompareError::bad_option("tolerance_m", tolerance, "a length in metres, not negative"));
+    }
+    Ok(())
 }

@@ -8,6 +8,7 @@
 use crate::accuracy::{Band, accuracy_band, paper_accuracy, relative_pct};
 use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
+use crate::fit::numbers::mean;
 use crate::policy;
 use crate::residuals::{HoldLabel, label};
 use crate::stats::{f_tail, reported_p};
@@ -20,17 +21,9 @@ pub const PAIRING: &str = "same marker label, y from the base line (not from the
 /// Metrics of one hold. Printed units; `None` where a number does not exist or the noise is unknown.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HoldMetrics {
-    /// Actuator pressure, of supply channel 0 where there are several \[kPa\].
-    pub p_act_kpa: f64,
-    /// Pressures of all supply channels, where there are several \[kPa\].
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub p_act_channels_kpa: Vec<f64>,
-    /// Body pressure of the hold \[kPa\].
-    pub p_body_kpa: f64,
-    /// How the hold was reached: `load`, `hold` or `unload`.
-    pub phase: &'static str,
-    /// 0 for the first hold with these pressures and this phase, 1 for the second, …
-    pub occurrence: usize,
+    /// Its pressures, and how it was reached.
+    #[serde(flatten)]
+    pub label: HoldLabel,
     /// The paper's accuracy a; `None` if the model's |y| is below 1e-9 m at a marker, and of
     /// markers with z.
     pub paper_accuracy: Option<f64>,
@@ -113,25 +106,15 @@ pub struct Metrics {
     pub pairing: &'static str,
 }
 
-/// Degrees of freedom and bootstrap of [`metrics`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MetricsOptions {
-    /// Parameters of the model fitted to these data; they cost degrees of freedom of the overall χ².
-    pub fitted_parameters: usize,
-    /// Bootstrap resamples; 0 for no interval.
-    pub bootstrap_samples: usize,
-    /// Seed of the bootstrap: same seed, same interval.
-    pub seed: u64,
-}
-
-/// Compute every metric of a comparison.
+/// Compute every metric of a comparison. Parameters of the model `fitted` to these data cost degrees of freedom of the overall χ²;
+/// the bootstrap has a number of resamples, 0 for no interval, and a seed: same seed, same interval.
 ///
 /// # Errors
 /// Only if the noise covariance of a hold cannot be decomposed.
-pub fn metrics(c: &BesideMean, options: &MetricsOptions) -> Result<Metrics, CompareError> {
-    let band = accuracy_band(c, options.bootstrap_samples, options.seed);
+pub fn metrics(c: &BesideMean, fitted: usize, bootstrap: (usize, u64)) -> Result<Metrics, CompareError> {
+    let band = accuracy_band(c, bootstrap);
     let holds = (0..c.layout.holds).map(|h| hold_metrics(c, h, &band)).collect::<Result<Vec<_>, _>>()?;
-    let overall = overall_metrics(c, &holds, &band, options.fitted_parameters);
+    let overall = overall_metrics(c, &holds, &band, fitted);
     Ok(Metrics { holds, overall, tip_marker: c.dataset.markers[c.tip].name.clone(), pairing: PAIRING })
 }
 
@@ -144,13 +127,8 @@ fn hold_metrics(c: &BesideMean, hold: usize, band: &Band) -> Result<HoldMetrics,
     let [tip_x, tip_y, tip_z] = c.error(hold, c.tips[hold]);
     let values = c.noise.seen(range.clone());
     let fit = Goodness::of(c, &c.noise.whiten_range(&c.residual_m, range)?, values, 0);
-    let HoldLabel { p_act_kpa, p_act_channels_kpa, p_body_kpa, phase, occurrence } = label(&c.dataset.holds[hold]);
     Ok(HoldMetrics {
-        p_act_kpa,
-        p_act_channels_kpa,
-        p_body_kpa,
-        phase,
-        occurrence,
+        label: label(&c.dataset.holds[hold]),
         paper_accuracy: accuracy,
         noise_ceiling: noise_ceiling(c, hold, &model),
         accuracy_interval: band.holds[hold],
@@ -177,7 +155,7 @@ fn overall_metrics(c: &BesideMean, holds: &[HoldMetrics], band: &Band, fitted: u
     let counted = || (0..holds.len()).filter(|&h| c.is_pressurised_loading(h)).map(|h| &holds[h]);
     let accuracies: Vec<f64> = counted().filter_map(|h| h.paper_accuracy).collect();
     let ceilings: Vec<f64> = counted().filter_map(|h| h.noise_ceiling).collect();
-    let accuracy = mean(&accuracies);
+    let accuracy = mean_of(&accuracies);
     let size = Size::of(c, 0..c.residual_m.len());
     let values = c.noise.seen(0..c.residual_m.len());
     let fit = Goodness::of(c, &c.noise.whiten(&c.residual_m), values, fitted);
@@ -185,7 +163,7 @@ fn overall_metrics(c: &BesideMean, holds: &[HoldMetrics], band: &Band, fitted: u
     OverallMetrics {
         paper_accuracy: accuracy,
         holds_in_accuracy: accuracies.len(),
-        noise_ceiling: mean(&ceilings),
+        noise_ceiling: mean_of(&ceilings),
         accuracy_interval: band.overall,
         rms_relative_pct: accuracy.map(relative_pct),
         rmse_mm: size.rmse_mm,
@@ -216,7 +194,6 @@ fn far_markers(c: &BesideMean, model: &[f64], measured: &[f64]) -> (Vec<f64>, Ve
     model.iter().zip(measured).filter(|(_, y)| policy::has_moved(**y, sd)).unzip()
 }
 
-/// Error sizes over a range of values.
 struct Size {
     rmse_mm: f64,
     noise_floor_mm: Option<f64>,
@@ -255,6 +232,6 @@ impl Goodness {
     }
 }
 
-fn mean(values: &[f64]) -> Option<f64> {
-    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+fn mean_of(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| mean(values.iter().copied()))
 }

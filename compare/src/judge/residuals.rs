@@ -6,7 +6,8 @@
 //! model one is called significant at level α in about a fraction α of all datasets.
 
 use crate::beside_mean::BesideMean;
-use crate::layout::{Layout, Weights, apply};
+use crate::fit::numbers::largest;
+use crate::layout::{Weights, apply};
 use crate::policy;
 use crate::stats::{holm, reported_p, two_sided_p};
 use serde::Serialize;
@@ -116,8 +117,8 @@ pub struct ResidualMap {
 
 /// Compute the residual map of a comparison.
 pub fn residual_map(c: &BesideMean) -> ResidualMap {
-    let Layout { holds, markers, axes, .. } = c.layout;
-    let cells = (0..markers)
+    let (holds, axes) = (c.layout.holds, c.layout.axes);
+    let cells = (0..c.layout.markers)
         .flat_map(|m| (0..holds).flat_map(move |h| (0..axes).map(move |axis| c.layout.mean_weights(h, m, axis))));
     let pairs = loop_pairs(c);
     let mut contrasts: Vec<Weights> = cells.collect();
@@ -191,7 +192,7 @@ fn bending_weights(c: &BesideMean, hold: usize) -> Vec<[f64; 2]> {
     };
     let shapes = holds.map(|h| (0..c.layout.markers).map(|m| across(h, m)).collect::<Vec<[f64; 2]>>());
     let size = |shape: &Vec<[f64; 2]>| shape.iter().map(|[y, z]| y.hypot(*z)).sum::<f64>();
-    let shape = shapes.max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or_default();
+    let shape = largest(shapes, size).unwrap_or_default();
     match size(&shape) {
         total if total > 1e-9 => shape.iter().map(|across| across.map(|v| v / total)).collect(),
         _ => vec![[1.0 / shape.len().max(1) as f64, 0.0]; shape.len()],

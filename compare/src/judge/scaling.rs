@@ -6,6 +6,7 @@
 //! friction, tail tension, a regulator offset); collapse speaks for geometry alone.
 
 use crate::error::CompareError;
+use crate::fit::numbers::sort_by;
 use crate::fit::whiten::Whitener;
 use crate::layout::{Layout, Weights, apply};
 use crate::noise::NoiseModel;
@@ -99,13 +100,12 @@ pub(crate) fn scaling_of_data(dataset: &Dataset, noise: &NoiseModel, alpha: f64)
 /// Pairs of holds that show one marker at least.
 fn matching_pairs(dataset: &Dataset, layout: &Layout, mean: &[f64]) -> Vec<ScalingPair> {
     let holds = &dataset.holds;
-    let usable = |h: &Hold| h.sum_act_pa() > policy::ZERO_PRESSURE_PA && h.p_body_pa > policy::ZERO_PRESSURE_PA;
     let unloading = |h: &Hold| h.phase == Phase::Unload;
     let means = layout.hold_means(mean);
     let mut pairs = Vec::new();
     for (i, a) in holds.iter().enumerate() {
         for (j, b) in holds.iter().enumerate().skip(i + 1) {
-            let comparable = usable(a) && usable(b) && unloading(a) == unloading(b);
+            let comparable = is_usable(a) && is_usable(b) && unloading(a) == unloading(b);
             let apart = comparable && policy::bodies_differ(a.p_body_pa, b.p_body_pa);
             if apart && policy::is_same_ratio(ratio(a), ratio(b)) && same_shares(a, b) {
                 let ends = if a.p_body_pa < b.p_body_pa { [i, j] } else { [j, i] };
@@ -139,7 +139,6 @@ fn pair(dataset: &Dataset, layout: &Layout, means: &[f64], ends: [usize; 2]) -> 
     })
 }
 
-/// Markers that were seen in both holds.
 fn seen_in_both(dataset: &Dataset, holds: [usize; 2]) -> impl Iterator<Item = usize> + '_ {
     (0..dataset.markers.len()).filter(move |marker| holds.iter().all(|hold| dataset.is_seen(*hold, *marker)))
 }
@@ -170,17 +169,17 @@ fn chi_square(
     let [pressure, _, _, rotation, _, about_x, about_y] = noise.test_variance;
     // Two holds are two settings of the regulator: each adds its own error, whatever the run-to-run scatter.
     let regulator = 2.0 * policy::SENSOR_SD[0].powi(2) / noise.runs as f64;
-    let variances =
-        [pressure, mismatch(&dataset.holds, pair).powi(2) + regulator, 0.0, rotation, 0.0, about_x, about_y];
+    let [low, high] = [pair.low_hold, pair.high_hold].map(|hold| ratio(&dataset.holds[hold]));
+    let mismatch = (high / low).ln().powi(2) + regulator;
+    let variances = [pressure, mismatch, 0.0, rotation, 0.0, about_x, about_y];
     let unit_m = (2.0 / layout.samples as f64).sqrt() * noise.unit_m();
     let white = Whitener::new(&rows, unit_m, &variances)?.whiten(&difference);
     Ok(white.iter().map(|w| w * w).sum())
 }
 
 fn data_sentence(verdict: ScalingVerdict, pairs: &[ScalingPair], differing: usize) -> String {
-    let worst = largest(pairs);
-    let ratios: Vec<String> = pairs.iter().map(|p| short(p.ratio)).collect();
-    let at = format!("P/p = {}", list(&ratios));
+    let worst = pairs.iter().fold(0.0, |l: f64, p| l.max(p.largest_mm));
+    let at = format!("P/p = {}", list(pairs.iter().map(|p| short(p.ratio))));
     match verdict {
         ScalingVerdict::Collapses => format!(
             "Shapes at the same P/p collapse to within noise ({at}; largest difference {worst:.1} mm): these data \
@@ -202,8 +201,7 @@ fn data_sentence(verdict: ScalingVerdict, pairs: &[ScalingPair], differing: usiz
 fn cannot_be_checked(holds: &[Hold]) -> ScalingCheck {
     let start = "The P/p scaling law cannot be checked with these data: no two holds have the same P/p at different \
     body pressures";
-    let pressurised =
-        holds.iter().filter(|h| h.sum_act_pa() > policy::ZERO_PRESSURE_PA && h.p_body_pa > policy::ZERO_PRESSURE_PA);
+    let pressurised = holds.iter().filter(|hold| is_usable(hold));
     let reference = pressurised.clone().map(|h| h.p_body_pa).next();
     let sentence = match reference {
         None => format!("{start}; record holds with both pressures above zero."),
@@ -211,7 +209,7 @@ fn cannot_be_checked(holds: &[Hold]) -> ScalingCheck {
             let same_body =
                 pressurised.filter(|h| h.phase != Phase::Unload && !policy::bodies_differ(h.p_body_pa, body));
             let mut actuator: Vec<&Hold> = same_body.collect();
-            actuator.sort_by(|a, b| a.sum_act_pa().total_cmp(&b.sum_act_pa()));
+            sort_by(&mut actuator, |hold| hold.sum_act_pa());
             let scaled = |by: f64| {
                 let word =
                     |hold: &&Hold| hold.channels_pa().map(|p| short(by * (1e-3 * p))).collect::<Vec<_>>().join("/");
@@ -232,22 +230,16 @@ fn cannot_be_checked(holds: &[Hold]) -> ScalingCheck {
     ScalingCheck { verdict: ScalingVerdict::CannotBeChecked, sentence, pairs: Vec::new() }
 }
 
-/// Sum of the channels over the body's pressure.
+/// Whether both pressures are above zero.
+fn is_usable(hold: &Hold) -> bool {
+    hold.sum_act_pa() > policy::ZERO_PRESSURE_PA && hold.p_body_pa > policy::ZERO_PRESSURE_PA
+}
+
 fn ratio(hold: &Hold) -> f64 {
     hold.sum_act_pa() / hold.p_body_pa
 }
 
-/// Whether every channel has the same share of the sum.
 fn same_shares(a: &Hold, b: &Hold) -> bool {
     let share = |hold: &Hold, p: f64| p / hold.sum_act_pa();
     a.channels_pa().zip(b.channels_pa()).all(|(p, q)| policy::is_same_ratio(1.0 + share(a, p), 1.0 + share(b, q)))
-}
-
-/// ln of the two ratios' quotient.
-fn mismatch(holds: &[Hold], pair: &ScalingPair) -> f64 {
-    (ratio(&holds[pair.high_hold]) / ratio(&holds[pair.low_hold])).ln()
-}
-
-fn largest(pairs: &[ScalingPair]) -> f64 {
-    pairs.iter().fold(0.0, |l: f64, p| l.max(p.largest_mm))
 }

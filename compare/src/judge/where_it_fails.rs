@@ -5,10 +5,12 @@
 //! which pressures, which markers, loading or unloading, x or y, or drift during holds; they do not name physics.
 
 use crate::beside_mean::BesideMean;
+use crate::fit::numbers::largest;
 use crate::residuals::{Deviation, ResidualCell, ResidualMap};
 use crate::wording::{evidence, list, markers, p_value, pressures, times_the_noise};
 use data::Phase;
 use serde::Serialize;
+use std::collections::BTreeSet;
 
 /// Where or when the difference of a statement is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -57,38 +59,28 @@ impl Statement {
     }
 }
 
-/// Significance level and tolerance of [`where_it_fails`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FailureOptions {
-    /// Significance level over all statements together.
-    pub alpha: f64,
-    /// Differences up to this are not called failures \[m\].
-    pub tolerance_m: f64,
-}
-
-/// Describe where a model fails; never empty. `chi2_p` is the p-value of the overall χ².
+/// Describe where a model fails; never empty. `chi2_p` is the p-value of the overall χ², `alpha` the significance level over all
+/// statements together; differences up to the tolerance are not called failures.
 pub fn where_it_fails(
     c: &BesideMean,
     map: &ResidualMap,
     chi2_p: Option<f64>,
-    options: &FailureOptions,
+    alpha: f64,
+    tolerance_m: f64,
 ) -> Vec<Statement> {
-    let judge = Judge::new(c, map, options);
+    let judge = Judge::new(c, map, alpha, tolerance_m);
     let mut found = Vec::new();
     let signs = [1.0, -1.0];
-    match c.is_spatial() {
-        true => found.extend([1, 2].iter().flat_map(|axis| signs.map(|sign| judge.along(*axis, sign))).flatten()),
-        false => {
-            let phases = [Finding::Loading, Finding::Unloading];
-            found.extend(phases.iter().flat_map(|phase| signs.map(|sign| judge.bending(*phase, sign))).flatten());
-        }
+    for (axis, phase) in [(1, Finding::Loading), (2, Finding::Unloading)] {
+        let one = |sign| if c.is_spatial() { judge.along(axis, sign) } else { judge.bending(phase, sign) };
+        found.extend(signs.into_iter().filter_map(one));
     }
     let told: Vec<usize> = found.iter().flat_map(|s: &Statement| s.holds.clone()).collect();
     found.extend(judge.loops(&told));
     found.extend(signs.iter().filter_map(|sign| judge.along(0, *sign)));
     found.extend(judge.drifts());
     if found.is_empty() {
-        found.push(judge.nothing_stands_out(chi2_p, options));
+        found.push(judge.nothing_stands_out(chi2_p));
     }
     if !c.noise.is_known() {
         found.insert(0, unknown_noise());
@@ -105,12 +97,12 @@ struct Judge<'a> {
 }
 
 impl<'a> Judge<'a> {
-    fn new(c: &'a BesideMean<'a>, map: &'a ResidualMap, options: &FailureOptions) -> Judge<'a> {
-        let largest = map.cells.iter().flatten().fold(0.0, |l: f64, cell| l.max(cell.norm_mm));
+    fn new(c: &'a BesideMean<'a>, map: &'a ResidualMap, alpha: f64, tolerance_m: f64) -> Judge<'a> {
+        let largest = map.cells.iter().flatten().map(|cell| cell.norm_mm).fold(0.0, f64::max);
         // Without noise only the coarse pattern is described: what reaches a quarter of the largest difference.
         let pattern_mm = if c.noise.is_known() { 0.0 } else { 0.25 * largest };
-        let least_mm = (1e3 * options.tolerance_m).max(pattern_mm);
-        Judge { c, map, alpha: options.alpha, least_mm, bend: c.bend_sign() }
+        let least_mm = (1e3 * tolerance_m).max(pattern_mm);
+        Judge { c, map, alpha, least_mm, bend: c.bend_sign() }
     }
 
     fn fails(&self, d: &Deviation) -> bool {
@@ -134,42 +126,54 @@ impl<'a> Judge<'a> {
     ) -> Vec<(usize, usize)> {
         let holds = (0..self.c.layout.holds).filter(|&h| unloading.is_none_or(|u| u == self.is_unloading(h)));
         let cells = holds.flat_map(|h| (0..self.c.layout.markers).map(move |m| (h, m)));
-        cells.filter(|&at| Some(signed(self.cell(at))).is_some_and(|d| self.fails(&d) && d.mm * sign > 0.0)).collect()
+        let fails = |d: Deviation| self.fails(&d) && d.mm * sign > 0.0;
+        cells.filter(|at| fails(signed(self.cell(*at)))).collect()
     }
 
     /// Too far (`sign` = +1) or too little bending in one phase.
     fn bending(&self, finding: Finding, sign: f64) -> Option<Statement> {
         let unloading = finding == Finding::Unloading;
-        let cells = self.failing(Some(unloading), |c| c.y, sign * self.bend);
-        let worst = self.worst(&cells, |c| c.y)?;
-        let group = CellGroup::of(&cells);
         let way = if sign > 0.0 { "too far" } else { "too little" };
-        let at = pressures(self.map, &group.holds);
-        let start = match unloading {
-            true => format!("After unloading, at {at}, the model is bent {way}"),
-            false => format!("The model bends {way} at {at}"),
-        };
-        let largest = self.cell(worst).y;
-        let sentence = format!(
-            "{start} ({}){}{}{}.",
-            evidence(self.map, worst, &group.holds, &largest),
-            markers(self.map, &group.markers),
-            self.growth(worst.0, &group.markers),
-            self.contrast(&group.holds, unloading),
-        );
-        Some(Statement { finding, sentence, holds: group.holds, markers: group.markers, largest: Some(largest) })
+        let cells = self.failing(Some(unloading), |c| c.y, sign * self.bend);
+        self.on_cells(
+            finding,
+            &cells,
+            |c| c.y,
+            |at, holds, markers| {
+                let pressures = pressures(self.map, holds);
+                let start = match unloading {
+                    true => format!("After unloading, at {pressures}, the model is bent {way}"),
+                    false => format!("The model bends {way} at {pressures}"),
+                };
+                [start, self.growth(at.0, markers).to_string() + &self.contrast(holds, unloading)]
+            },
+        )
+    }
+
+    /// A statement on failing cells, from its words before and after the evidence: of the worst cell, of all holds and markers.
+    fn on_cells(
+        &self,
+        finding: Finding,
+        cells: &[(usize, usize)],
+        of: impl Fn(&ResidualCell) -> Deviation,
+        words: impl Fn((usize, usize), &[usize], &[usize]) -> [String; 2],
+    ) -> Option<Statement> {
+        let worst = self.worst(cells, &of)?;
+        let holds: Vec<usize> = cells.iter().map(|at| at.0).collect::<BTreeSet<_>>().into_iter().collect();
+        let failing: Vec<usize> = cells.iter().map(|at| at.1).collect::<BTreeSet<_>>().into_iter().collect();
+        let largest = of(self.cell(worst));
+        let ([start, end], evidence) = (words(worst, &holds, &failing), evidence(self.map, worst, &holds, &largest));
+        let sentence = format!("{start} ({evidence}){}{end}.", markers(self.map, &failing));
+        Some(Statement { finding, sentence, holds, markers: failing, largest: Some(largest) })
     }
 
     /// The tip at its worst hold if it fails at all, else the worst cell.
     fn worst(&self, cells: &[(usize, usize)], of: impl Fn(&ResidualCell) -> Deviation) -> Option<(usize, usize)> {
         let size = |at: &(usize, usize)| of(self.cell(*at)).mm.abs();
-        let largest =
-            |cells: &mut dyn Iterator<Item = (usize, usize)>| cells.max_by(|a, b| size(a).total_cmp(&size(b)));
-        let tip = self.c.tip;
-        largest(&mut cells.iter().copied().filter(|at| at.1 == tip)).or_else(|| largest(&mut cells.iter().copied()))
+        let at_tip = cells.iter().copied().filter(|at| at.1 == self.c.tip);
+        largest(at_tip, size).or_else(|| largest(cells.iter().copied(), size))
     }
 
-    /// How the error runs along the body at one hold.
     fn growth(&self, hold: usize, markers: &[usize]) -> &'static str {
         let sizes: Vec<f64> = markers.iter().map(|&m| self.cell((hold, m)).y.mm.abs()).collect();
         let steps = || sizes.windows(2).map(|w| w[1] - w[0]);
@@ -188,11 +192,8 @@ impl<'a> Judge<'a> {
         let loading: Vec<usize> = there.into_iter().filter(right).collect();
         let mut places = Vec::new();
         if !loading.is_empty() {
-            places.push(format!(
-                "at {}{}",
-                pressures(self.map, &loading),
-                if unloading { " while loading" } else { "" }
-            ));
+            let while_loading = if unloading { " while loading" } else { "" };
+            places.push(format!("at {}{while_loading}", pressures(self.map, &loading)));
         }
         if !unloading && !back.is_empty() && back.iter().all(right) {
             places.push("after unloading".to_string());
@@ -212,7 +213,7 @@ impl<'a> Judge<'a> {
     fn loops(&self, told: &[usize]) -> Option<Statement> {
         let news = |l: &&crate::residuals::LoopGap| !told.contains(&l.unload_hold) || told.contains(&l.load_hold);
         let gaps: Vec<_> = self.map.loops.iter().filter(|l| self.fails(&l.deviation)).filter(news).collect();
-        let worst = gaps.iter().max_by(|a, b| a.deviation.mm.abs().total_cmp(&b.deviation.mm.abs()))?;
+        let worst = largest(&gaps, |gap| gap.deviation.mm.abs())?;
         let d = worst.deviation;
         let more = if d.mm < 0.0 { "more" } else { "less" };
         let sentence = format!(
@@ -229,38 +230,27 @@ impl<'a> Judge<'a> {
     /// One coordinate too large (`sign` = +1) or too small: x in the plane, all of them in space.
     fn along(&self, axis: usize, sign: f64) -> Option<Statement> {
         let of = |cell: &ResidualCell| cell.axes()[axis];
-        let cells = self.failing(None, of, sign);
-        let worst = self.worst(&cells, of)?;
-        let group = CellGroup::of(&cells);
-        let largest = of(self.cell(worst));
         let way = if sign > 0.0 { "too large" } else { "too small" };
-        let with_y = if self.c.is_spatial() {
-            ""
-        } else if self.cell(worst).y.mm.abs() > largest.mm.abs() && self.fails(&self.cell(worst).y) {
-            "; the error in y is larger there"
-        } else if !(0..self.c.layout.holds).any(|h| !self.bending_is_right(h)) {
-            "; y is right to within noise"
-        } else {
-            ""
-        };
         let (finding, place) = match axis {
             0 => (Finding::Lengthwise, "Along the body, x"),
             1 => (Finding::Across, "Across the body, y"),
             _ => (Finding::Across, "Across the body, z"),
         };
-        let sentence = format!(
-            "{place} of the model is {way} at {} ({}){}{with_y}.",
-            pressures(self.map, &group.holds),
-            evidence(self.map, worst, &group.holds, &largest),
-            markers(self.map, &group.markers),
-        );
-        let CellGroup { holds, markers } = group;
-        Some(Statement { finding, sentence, holds, markers, largest: Some(largest) })
+        self.on_cells(finding, &self.failing(None, of, sign), of, |at, holds, _| {
+            let y = self.cell(at).y;
+            let with_y = match () {
+                () if self.c.is_spatial() => "",
+                () if y.mm.abs() > of(self.cell(at)).mm.abs() && self.fails(&y) => "; the error in y is larger there",
+                () if (0..self.c.layout.holds).all(|h| self.bending_is_right(h)) => "; y is right to within noise",
+                () => "",
+            };
+            [format!("{place} of the model is {way} at {}", pressures(self.map, holds)), with_y.into()]
+        })
     }
 
     fn drifts(&self) -> Option<Statement> {
         let drifts: Vec<_> = self.map.drifts.iter().filter(|d| self.fails(&d.deviation)).collect();
-        let worst = drifts.iter().max_by(|a, b| a.deviation.mm.abs().total_cmp(&b.deviation.mm.abs()))?;
+        let worst = largest(&drifts, |drift| drift.deviation.mm.abs())?;
         let holds: Vec<usize> = drifts.iter().map(|d| d.hold).collect();
         let way = if worst.deviation.mm < 0.0 { "in" } else { "against" };
         let sentence = format!(
@@ -273,17 +263,15 @@ impl<'a> Judge<'a> {
         Some(Statement { holds, largest: Some(worst.deviation), ..Statement::of(Finding::Drift, sentence) })
     }
 
-    fn nothing_stands_out(&self, chi2_p: Option<f64>, options: &FailureOptions) -> Statement {
+    fn nothing_stands_out(&self, chi2_p: Option<f64>) -> Statement {
         let entries = || self.map.cells.iter().flatten().flat_map(ResidualCell::axes);
-        let by = |of: fn(&Deviation) -> f64| entries().max_by(|a, b| of(a).total_cmp(&of(b)));
-        let largest = by(|d| d.in_noise.unwrap_or(d.mm).abs());
-        let size = largest.map_or(String::new(), |d| format!("{:.2} mm{}", d.mm.abs(), times_the_noise(&d)));
+        let most = largest(entries(), |d| d.in_noise.unwrap_or(d.mm).abs());
+        let size = most.map_or(String::new(), |d| format!("{:.2} mm{}", d.mm.abs(), times_the_noise(&d)));
+        let least = self.least_mm;
         let (finding, sentence) = if !self.c.noise.is_known() {
-            let least = self.least_mm;
             (Finding::WithinTolerance, format!("No difference above {least:.2} mm was found (largest {size})."))
         } else if entries().any(|d| d.is_significant(self.alpha) == Some(true)) {
-            let tolerance = 1e3 * options.tolerance_m;
-            let below = format!("Every difference is below the tolerance of {tolerance:.2} mm");
+            let below = format!("Every difference is below the tolerance of {least:.2} mm");
             (Finding::WithinTolerance, format!("{below}, though not all are noise (most significant {size})."))
         } else if let Some(p) = chi2_p.filter(|p| *p < self.alpha) {
             let more =
@@ -296,27 +284,7 @@ impl<'a> Judge<'a> {
             let nothing = format!("Nothing rises above the noise (largest {size}); no significance can be given.");
             (Finding::Agrees, nothing)
         };
-        Statement { largest, ..Statement::of(finding, sentence) }
-    }
-}
-
-/// The holds and markers of a set of cells.
-struct CellGroup {
-    holds: Vec<usize>,
-    markers: Vec<usize>,
-}
-
-impl CellGroup {
-    fn of(cells: &[(usize, usize)]) -> CellGroup {
-        let unique = |mut v: Vec<usize>| {
-            v.sort_unstable();
-            v.dedup();
-            v
-        };
-        CellGroup {
-            holds: unique(cells.iter().map(|c| c.0).collect()),
-            markers: unique(cells.iter().map(|c| c.1).collect()),
-        }
+        Statement { largest: most, ..Statement::of(finding, sentence) }
     }
 }
 

@@ -1,14 +1,16 @@
 //! Plain-language pieces: lists, pressures, markers, signed lengths.
 
+use crate::fit::numbers::groups;
 use crate::residuals::{Deviation, HoldLabel, ResidualMap};
 use crate::stats::SMALLEST_P;
 
 /// `a`, `a and b`, `a, b and c`.
-pub fn list(words: &[String]) -> String {
-    match words {
-        [] => String::new(),
-        [one] => one.clone(),
-        [head @ .., last] => format!("{} and {last}", head.join(", ")),
+pub fn list(words: impl IntoIterator<Item: ToString>) -> String {
+    let mut words: Vec<String> = words.into_iter().map(|word| word.to_string()).collect();
+    match (words.pop(), words.is_empty()) {
+        (None, _) => String::new(),
+        (Some(one), true) => one,
+        (Some(last), false) => format!("{} and {last}", words.join(", ")),
     }
 }
 
@@ -18,7 +20,6 @@ pub fn capitalised(text: &str) -> String {
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// A sentence that goes on within another.
 pub(crate) fn uncapitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or(String::new(), |first| first.to_lowercase().chain(letters).collect())
@@ -50,15 +51,9 @@ pub fn pressures(map: &ResidualMap, holds: &[usize]) -> String {
     let body = &map.holds[0].p_body_kpa;
     let several = map.holds.iter().any(|h| (h.p_body_kpa - body).abs() > 0.03 * body.abs().max(0.1));
     let same_body = |a: usize, b: usize| map.holds[a].p_body_kpa == map.holds[b].p_body_kpa;
-    let mut groups: Vec<Vec<usize>> = Vec::new();
-    for &h in holds {
-        match groups.iter_mut().find(|group| same_body(group[0], h)) {
-            Some(group) => group.push(h),
-            None => groups.push(vec![h]),
-        }
-    }
-    let words: Vec<String> = groups.iter().map(|group| group_words(map, group, several)).collect();
-    list(&words)
+    let own = |group: Vec<usize>| group.into_iter().map(|i| holds[i]).collect::<Vec<usize>>();
+    let groups = groups(holds, |a, b| same_body(**a, **b)).into_iter().map(own);
+    list(groups.map(|group| group_words(map, &group, several)))
 }
 
 /// The actuator pressures of holds at one body pressure: `10, 20 and 30 kPa at 2 kPa body pressure`.
@@ -108,7 +103,7 @@ pub fn p_value(p: f64) -> String {
 
 /// Which markers, in words: `, on every marker`, `, from marker P3 to the tip`, `, only at marker P4`, …
 pub fn markers(map: &ResidualMap, chosen: &[usize]) -> String {
-    let names: Vec<String> = chosen.iter().map(|&m| map.markers[m].clone()).collect();
+    let names: Vec<&String> = chosen.iter().map(|m| &map.markers[*m]).collect();
     let all = map.markers.len();
     let to_tip = chosen.first().is_some_and(|&first| chosen.len() == all - first && chosen.len() > 1);
     match chosen {

@@ -20,5 +20,5 @@ pub(crate) use curve::{CurvePoint, Path, at_turn, band, curve};
 pub(crate) use points::{Moments, Robot, missing, moments};
 pub use result::{MeasuredShape, MissingMoment, MomentCurve, MomentPoint, SharedNumber};
 pub(crate) use shape::{Shape, shape};
-pub(crate) use told::{degrees, sentences, shape_sentences, told};
+pub(crate) use told::{degrees, sentences, shape_sentences};
 pub(crate) use view::View;

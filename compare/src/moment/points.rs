@@ -6,10 +6,12 @@
 //!
 //! Positive: something is missing that bends the robot further; negative: something holds it back; zero: nothing is missing.
 
+use super::result::MomentPoint;
 use super::shape::{Layout, Shape};
+use super::told::degrees;
 use super::view::{Pieces, View};
 use crate::error::CompareError;
-use data::Phase;
+use crate::fit::numbers::mean;
 use models::Scenario;
 use nalgebra::{DMatrix, RowDVector};
 
@@ -21,36 +23,14 @@ pub(crate) struct Robot<'a> {
     pub of_hold: &'a [usize],
 }
 
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Point {
-    pub hold: usize,
-    /// Place, base first; `None`: mean over the places.
-    pub place: Option<usize>,
-    /// Group of samples, of which the change since the first is given; `None`: mean over the hold.
-    pub since_first: Option<usize>,
-    pub p_act_pa: f64,
-    pub p_body_pa: f64,
-    pub phase: Phase,
-    /// Mean time of the samples \[s\].
-    pub t_s: f64,
-    /// Curvature of the place, or its change \[1/m\].
-    pub kappa: f64,
-    pub kappa_sd: f64,
-    /// Moment that bends the robot further if positive \[N·m\].
-    pub moment: f64,
-    pub moment_sd: f64,
-    /// Correlation of the errors of bend and moment.
-    pub correlation: f64,
-}
-
 /// Missing moments at all places and holds of a dataset.
 #[derive(Debug, Clone)]
 pub(crate) struct Moments {
     /// Places of every hold, then changes within the holds.
-    pub points: Vec<Point>,
+    pub points: Vec<MomentPoint>,
     pub covariance: DMatrix<f64>,
     /// Mean over the places of every hold.
-    pub of_holds: Vec<Point>,
+    pub of_holds: Vec<MomentPoint>,
 }
 
 /// Step of the slope by bend \[1/m\].
@@ -63,7 +43,6 @@ const COMPLETE: f64 = 3.0;
 /// A weighted sum over (moment, place).
 type Sum = Vec<(f64, usize, usize)>;
 
-/// What a robot misses at a shape.
 pub(crate) fn moments(view: &View, shape: &Shape, robot: &Robot) -> Result<Moments, CompareError> {
     let field = Field::of(view, shape, robot)?;
     let layout = Layout::of(&shape.division);
@@ -74,42 +53,47 @@ pub(crate) fn moments(view: &View, shape: &Shape, robot: &Robot) -> Result<Momen
         if places.is_empty() {
             continue;
         }
-        let own =
-            |place: usize| -> Sum { (0..groups).map(|g| (1.0 / groups as f64, hold * groups + g, place)).collect() };
-        let length: f64 = places.iter().map(|p| shape.division.places[*p].length_m()).sum();
-        let weight = |place: usize| shape.division.places[place].length_m() / length;
+        let first = hold * groups;
+        let own = |p: &usize| (0..groups).map(|g| (1.0 / groups as f64, first + g, *p)).collect::<Sum>();
+        let length = |p: usize| shape.division.places[p].length_m();
+        let all: f64 = places.iter().map(|p| length(*p)).sum();
+        let weight = |p: usize| length(p) / all;
         for place in &places {
-            sums.push(own(*place));
+            sums.push(own(place));
             labels.push((hold, Some(*place), None));
         }
-        let whole = places.iter().flat_map(|p| own(*p).into_iter().map(|(w, m, p)| (w * weight(p), m, p)));
+        let whole = places.iter().flat_map(own).map(|(w, m, p)| (w * weight(p), m, p));
         wholes.push((whole.collect::<Sum>(), (hold, None, None)));
         for group in 1..groups {
-            let pair = |p: &usize| [(weight(*p), hold * groups + group, *p), (-weight(*p), hold * groups, *p)];
+            let pair = |p: &usize| [(weight(*p), first + group, *p), (-weight(*p), first, *p)];
             sums.push(places.iter().flat_map(pair).collect());
             labels.push((hold, None, Some(group)));
         }
     }
+    let per = degrees(view.scenario.length_m);
     let told = |(sum, (hold, place, since_first)): (&Sum, &(usize, Option<usize>, Option<usize>))| {
         let at = &view.dataset.holds[*hold];
-        let [kappa, moment] = field.value(sum);
-        let [kappa_sd, moment_sd, correlation] = field.errors(sum, shape, &layout);
+        let [kappa, moment_nm] = field.value(sum);
+        let [kappa_sd, moment_sd_nm, correlation] = field.errors(sum, shape, &layout);
         let t_s = match since_first {
             Some(group) => shape.division.moments[hold * groups + group].t_s,
-            None => at.t_s.iter().sum::<f64>() / at.t_s.len() as f64,
+            None => mean(at.t_s.iter().copied()),
         };
-        Point {
-            hold: *hold,
+        MomentPoint {
+            dataset: view.dataset.name.clone(),
+            hold: hold + 1,
+            p_body_kpa: 1e-3 * at.p_body_pa,
+            p_act_kpa: 1e-3 * at.p_act_pa,
+            phase: at.phase.word(),
+            place_mm: place.map(|place| shape.division.places[place].ends_mm()),
             place: *place,
-            since_first: *since_first,
-            p_act_pa: at.p_act_pa,
-            p_body_pa: at.p_body_pa,
-            phase: at.phase,
+            is_change: since_first.is_some(),
             t_s,
             kappa,
-            kappa_sd,
-            moment,
-            moment_sd,
+            bend_deg: per * kappa,
+            bend_sd_deg: per * kappa_sd,
+            moment_nm,
+            moment_sd_nm,
             correlation,
         }
     };
@@ -145,13 +129,15 @@ impl Field {
         Ok(Field { slope: slope.collect(), kappa, missing })
     }
 
-    /// Places with a moment in a hold.
     fn usable(&self, view: &View, shape: &Shape, layout: &Layout, hold: usize) -> Vec<usize> {
         let groups = shape.division.groups;
         let mut active: Vec<usize> = (0..shape.division.places.len()).collect();
         active.retain(|p| shape.division.places[*p].is_active);
         let bend = |place: usize| shape.numbers[layout.bend(hold, place)].abs();
-        let sd = |place: usize| shape.covariance[(layout.bend(hold, place), layout.bend(hold, place))].sqrt();
+        let sd = |place: usize| {
+            let number = layout.bend(hold, place);
+            shape.covariance[(number, number)].sqrt()
+        };
         // A slack actuator on a straight body: the hinge of the folded wall has not set in, so the hold shows nothing.
         let complete = COMPLETE * view.scenario.hinge_curvature;
         let is_slack = |p: &usize| bend(*p) < complete + COMPLETE * sd(*p);

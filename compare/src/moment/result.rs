@@ -61,10 +61,16 @@ pub struct MomentPoint {
     pub phase: &'static str,
     /// Stretch of the body \[mm\]; `None`: mean over the body.
     pub place_mm: Option<[f64; 2]>,
+    /// Number of that stretch, base first.
+    #[serde(skip)]
+    pub(crate) place: Option<usize>,
     /// It is the change since the first samples of the hold.
     pub is_change: bool,
     /// Mean time of the samples \[s\].
     pub t_s: f64,
+    /// Curvature, or its change \[1/m\].
+    #[serde(skip)]
+    pub(crate) kappa: f64,
     /// Bend, as the turn of the whole body at this curvature \[°\].
     pub bend_deg: f64,
     /// Standard deviation of the bend \[°\].

@@ -10,9 +10,10 @@
 //! bends (a marker's height is the same number), and the camera's scale and roll. Each is held near nothing by a wide prior.
 
 use super::result::SharedNumber;
-use super::view::{Division, Pieces, View};
+use super::view::{Division, Moment, Pieces, View};
 use crate::error::CompareError;
 use crate::fit::least_squares::{Range, minimise_by, products, square};
+use crate::fit::numbers::differences;
 use models::{Prediction, Scenario, Step};
 use nalgebra::DMatrix;
 
@@ -47,8 +48,8 @@ pub(super) struct Layout {
 
 impl Layout {
     pub(super) fn of(division: &Division) -> Layout {
-        let Division { places, groups, moments } = division;
-        Layout { holds: moments.len() / groups, places: places.len(), groups: *groups }
+        let groups = division.groups;
+        Layout { holds: division.moments.len() / groups, places: division.places.len(), groups }
     }
 
     /// Bend of a hold at a place.
@@ -157,11 +158,13 @@ impl Fit<'_> {
         // A misfit of the shape itself makes every number of it less certain.
         let wider = (square(white) / dof as f64).max(1.0);
         let covariance = inverse.inverse() * wider;
-        let shared = SHARED.iter().zip(self.layout.shared()..numbers.len()).enumerate();
-        let shared = shared.map(|(which, ((name, unit, factor), k))| {
-            let factor = factor * if which == 0 { self.view.scenario.radius_m } else { 1.0 };
-            let (name, unit) = (name.to_string(), unit.to_string());
-            SharedNumber { name, unit, value: factor * numbers[k], sd: factor * covariance[(k, k)].sqrt() }
+        let scales = [self.view.scenario.radius_m, 1.0, 1.0];
+        let shared = SHARED.iter().zip(scales).zip(self.layout.shared()..numbers.len());
+        let shared = shared.map(|(((name, unit, factor), scale), k)| SharedNumber {
+            name: name.to_string(),
+            unit: unit.to_string(),
+            value: factor * scale * numbers[k],
+            sd: factor * scale * covariance[(k, k)].sqrt(),
         });
         Ok(Shape {
             division: self.division.clone(),
@@ -180,7 +183,7 @@ impl Fit<'_> {
     /// Whitened differences of the markers, then of every number from its prior.
     fn residuals(&self, numbers: &[f64]) -> Vec<f64> {
         let predicted = self.predicted(numbers, None);
-        let mut residual: Vec<f64> = predicted.iter().zip(self.view.target_m).map(|(f, y)| f - y).collect();
+        let mut residual = differences(&predicted, self.view.target_m);
         self.view.dataset.unseen_values().for_each(|i| residual[i] = 0.0);
         let mut white = self.view.whitener.whiten(&residual);
         white.extend(numbers.iter().enumerate().map(|(k, x)| x / self.prior(k)));
@@ -194,21 +197,14 @@ impl Fit<'_> {
         let mut state = pieces.model.prediction();
         let samples = self.view.dataset.samples_per_hold;
         let mut out = Vec::with_capacity(self.view.target_m.len());
-        for (moments, steps) in
-            self.division.moments.chunks(self.division.groups).zip(self.steps.chunks(self.division.groups))
-        {
-            let rows: Vec<Vec<f64>> = moments
-                .iter()
-                .zip(steps)
-                .map(|(moment, step)| {
-                    let mut bends = bends(&self.layout, numbers, moment.hold, moment.group);
-                    if let Some(place) = moved {
-                        bends[place] += STEP;
-                    }
-                    pieces.model.bend(&step.loads, &pieces.curvatures(&bends), &mut state);
-                    seen(&state, &shared[1..])
-                })
-                .collect();
+        let mut positions = |(moment, step): (&Moment, &Step)| {
+            let mut bends = bends(&self.layout, numbers, moment.hold, moment.group);
+            moved.iter().for_each(|place| bends[*place] += STEP);
+            pieces.model.bend(&step.loads, &pieces.curvatures(&bends), &mut state);
+            seen(&state, &shared[1..])
+        };
+        let all: Vec<Vec<f64>> = self.division.moments.iter().zip(&self.steps).map(&mut positions).collect();
+        for rows in all.chunks(self.division.groups) {
             out.extend((0..samples).flat_map(|t| rows[self.division.group(t, samples)].iter().copied()));
         }
         out
@@ -218,13 +214,13 @@ impl Fit<'_> {
     fn jacobian(&self, numbers: &[f64]) -> Vec<Vec<f64>> {
         let here = self.predicted(numbers, None);
         let unseen: Vec<usize> = self.view.dataset.unseen_values().collect();
-        let column = |there: &[f64], step: f64| {
-            let mut column: Vec<f64> = there.iter().zip(&here).map(|(b, a)| (b - a) / step).collect();
+        let column = |there: Vec<f64>| {
+            let mut column: Vec<f64> = there.iter().zip(&here).map(|(b, a)| (b - a) / STEP).collect();
             unseen.iter().for_each(|i| column[*i] = 0.0);
             column
         };
-        let places = self.division.places.len();
-        let of_places: Vec<Vec<f64>> = (0..places).map(|p| column(&self.predicted(numbers, Some(p)), STEP)).collect();
+        let of_place = |place| column(self.predicted(numbers, Some(place)));
+        let of_places: Vec<Vec<f64>> = (0..self.division.places.len()).map(of_place).collect();
         let mut all = vec![vec![0.0; here.len()]; numbers.len()];
         let holds = self.layout.holds;
         let samples = self.view.dataset.samples_per_hold;
@@ -244,17 +240,14 @@ impl Fit<'_> {
         for k in self.layout.shared()..numbers.len() {
             let mut there = numbers.to_vec();
             there[k] += STEP;
-            all[k] = column(&self.predicted(&there, None), STEP);
+            all[k] = column(self.predicted(&there, None));
         }
         let of_prior = |own: usize| (0..all.len()).map(move |k| if k == own { 1.0 / self.prior(k) } else { 0.0 });
-        let white = |(k, column): (usize, &Vec<f64>)| {
-            self.view.whitener.whiten(column).into_iter().chain(of_prior(k)).collect()
-        };
-        all.iter().enumerate().map(white).collect()
+        let white = |column: &Vec<f64>| self.view.whitener.whiten(column).into_iter();
+        all.iter().enumerate().map(|(k, column)| white(column).chain(of_prior(k)).collect()).collect()
     }
 }
 
-/// Bends of all places in a group of samples \[1/m\].
 pub(super) fn bends(layout: &Layout, numbers: &[f64], hold: usize, group: usize) -> Vec<f64> {
     let drift: f64 = layout.drifts(hold, group).iter().map(|(k, sign)| sign * numbers[*k]).sum();
     (0..layout.places).map(|place| numbers[layout.bend(hold, place)] + drift).collect()

@@ -61,10 +61,10 @@ fn a_constant_and_a_spring_come_back_exactly() {
             assert_eq!(told.of_holds.len(), 4, "{kind} {name}");
             for point in &told.of_holds {
                 let truth = law(point.kappa);
-                assert!((point.moment - truth).abs() < 2e-4, "{kind} {name}: {} and not {truth}", point.moment);
+                assert!((point.moment_nm - truth).abs() < 2e-4, "{kind} {name}: {} and not {truth}", point.moment_nm);
             }
-            for point in told.points.iter().filter(|p| p.since_first.is_some()) {
-                assert!(point.moment.abs() < 2e-4, "{kind} {name}: {} in a hold", point.moment);
+            for point in told.points.iter().filter(|p| p.is_change) {
+                assert!(point.moment_nm.abs() < 2e-4, "{kind} {name}: {} in a hold", point.moment_nm);
             }
         }
     }
@@ -81,7 +81,7 @@ fn a_line_that_lies_elsewhere_a_scale_and_a_roll_are_found_and_no_moment_is() {
     // Printed: mm, per cent, degrees.
     assert!((found[0] + 300.0 * plain.radius_m).abs() < 1e-2, "{found:?}");
     assert!((found[1] - 2.0).abs() < 1e-3 && (found[2].abs() - 0.01_f64.to_degrees()).abs() < 1e-3, "{found:?}");
-    assert!(told.of_holds.iter().all(|p| p.moment.abs() < 2e-4), "{:?}", told.of_holds);
+    assert!(told.of_holds.iter().all(|p| p.moment_nm.abs() < 2e-4), "{:?}", told.of_holds);
 }
 
 /// Mean of the quadratic form over its degrees of freedom, over many seeds: one where the covariance is that of the scatter.
@@ -94,7 +94,7 @@ fn noise_alone_gives_no_moment_beyond_its_covariance() {
             let noise = Generator { seed, ..Generator::default() };
             let data = generate(&plain, "made", &noise).unwrap();
             let (_, told) = seen(&plain, &data, &noise);
-            let moments = nalgebra::DVector::from_iterator(told.points.len(), told.points.iter().map(|p| p.moment));
+            let moments = nalgebra::DVector::from_iterator(told.points.len(), told.points.iter().map(|p| p.moment_nm));
             let solved = told.covariance.clone().cholesky().unwrap().solve(&moments);
             squares += moments.dot(&solved);
             count += moments.len() as f64;

@@ -1,11 +1,11 @@
 //! The missing moment in printed units, and in sentences.
 
-use super::points::{Moments, Point};
 use super::result::{MeasuredShape, MomentPoint};
 use super::shape::Shape;
+use super::view::Place;
+use crate::fit::numbers::sort_by;
 use data::Dataset;
 
-/// Degrees of the whole body per curvature.
 pub(crate) fn degrees(length_m: f64) -> f64 {
     length_m.to_degrees()
 }
@@ -15,32 +15,11 @@ impl MeasuredShape {
     pub fn of(dataset: &Dataset, shape: &Shape) -> MeasuredShape {
         MeasuredShape {
             dataset: dataset.name.clone(),
-            places_mm: shape.division.places.iter().map(|p| [1e3 * p.from_m, 1e3 * p.to_m]).collect(),
+            places_mm: shape.division.places.iter().map(Place::ends_mm).collect(),
             floor_mm: shape.floor_mm,
             shared: shape.shared.clone(),
         }
     }
-}
-
-/// All points of a dataset, points of whole holds first.
-pub(crate) fn told(dataset: &Dataset, shape: &Shape, moments: &Moments, length_m: f64) -> Vec<MomentPoint> {
-    let per = degrees(length_m);
-    let point = |p: &Point| MomentPoint {
-        dataset: dataset.name.clone(),
-        hold: p.hold + 1,
-        p_body_kpa: 1e-3 * p.p_body_pa,
-        p_act_kpa: 1e-3 * p.p_act_pa,
-        phase: p.phase.word(),
-        place_mm: p.place.map(|place| shape.division.places[place]).map(|p| [1e3 * p.from_m, 1e3 * p.to_m]),
-        is_change: p.since_first.is_some(),
-        t_s: p.t_s,
-        bend_deg: per * p.kappa,
-        bend_sd_deg: per * p.kappa_sd,
-        moment_nm: p.moment,
-        moment_sd_nm: p.moment_sd,
-        correlation: p.correlation,
-    };
-    moments.of_holds.iter().chain(&moments.points).map(point).collect()
 }
 
 /// Findings of the shapes: another position of the tracked line than the scenario's, and the error that no bending explains.
@@ -69,10 +48,9 @@ const LEAST_LEFT_MM: f64 = 0.1;
 /// Standard deviations within which a moment counts as none.
 const NONE_WITHIN: f64 = 2.0;
 
-/// What points of whole holds say.
 pub(crate) fn sentences(points: &[MomentPoint]) -> Vec<String> {
     let mut holds: Vec<&MomentPoint> = points.iter().filter(|p| p.is_of_hold()).collect();
-    holds.sort_by(|a, b| a.bend_deg.total_cmp(&b.bend_deg));
+    sort_by(&mut holds, |p| p.bend_deg);
     let (Some(first), Some(last)) = (holds.first(), holds.last()) else {
         return vec!["No pressurised hold bends enough to show a missing moment.".into()];
     };

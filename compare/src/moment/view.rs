@@ -1,5 +1,6 @@
 //! One dataset as the missing moment sees it, and the pieces of the body that may bend each in its own way.
 
+use crate::fit::numbers::mean;
 use crate::fit::whiten::Whitener;
 use data::{Dataset, Direct};
 use models::{Loads, Model, Scenario, Step};
@@ -29,6 +30,11 @@ pub struct Place {
 impl Place {
     pub fn length_m(&self) -> f64 {
         self.to_m - self.from_m
+    }
+
+    /// Where it begins and ends \[mm\].
+    pub(crate) fn ends_mm(&self) -> [f64; 2] {
+        [1e3 * self.from_m, 1e3 * self.to_m]
     }
 }
 
@@ -63,11 +69,11 @@ const BEND_ERROR: f64 = 2.45;
 impl Division {
     /// Of a dataset, whose largest bend is about `bend_per_m`.
     pub fn of(view: &View, bend_per_m: f64) -> Division {
-        let Dataset { samples_per_hold, holds, .. } = view.dataset;
-        let sigma_m = view.whitener.unit_m() / (*samples_per_hold as f64).sqrt();
+        let (samples, holds) = (view.dataset.samples_per_hold, &view.dataset.holds);
+        let sigma_m = view.whitener.unit_m() / (samples as f64).sqrt();
         let least_m = (BEND_ERROR * sigma_m / (KNOWN_TO * bend_per_m.max(1e-3))).sqrt();
         let mut cuts = cuts(view, least_m);
-        let mut groups = MOST_GROUPS.min(*samples_per_hold);
+        let mut groups = MOST_GROUPS.min(samples);
         if holds.len() * (cuts.len() + groups) > MOST_NUMBERS {
             groups = 1;
         }
@@ -91,11 +97,8 @@ impl Division {
         };
         let samples = view.dataset.samples_per_hold;
         let moment = |hold: usize, group: usize| {
-            let own: Vec<f64> = (0..samples)
-                .filter(|t| t * groups / samples == group)
-                .map(|t| view.dataset.holds[hold].t_s[t])
-                .collect();
-            Moment { hold, group, t_s: own.iter().sum::<f64>() / own.len() as f64 }
+            let own = (0..samples).filter(|t| t * groups / samples == group);
+            Moment { hold, group, t_s: mean(own.map(|t| view.dataset.holds[hold].t_s[t])) }
         };
         Division {
             places: ends.windows(2).map(place).collect(),

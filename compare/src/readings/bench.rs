@@ -13,6 +13,7 @@ use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 
 use crate::CompareError;
+use crate::fit::numbers::{largest, least, mean};
 use crate::stats::t_975;
 use models::Known;
 
@@ -69,7 +70,7 @@ impl Held {
     /// Root mean square of the shares by which the model is off, of rows it was not fitted to.
     pub fn rms(&self) -> Option<f64> {
         let all: Vec<f64> = self.rows.iter().filter(|r| !r.fitted).filter_map(HeldRow::off).collect();
-        (!all.is_empty()).then(|| (all.iter().map(|o| o * o).sum::<f64>() / all.len() as f64).sqrt())
+        (!all.is_empty()).then(|| mean(all.iter().map(|o| o * o)).sqrt())
     }
 }
 
@@ -91,7 +92,8 @@ pub fn held(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Resu
             notes.push(if beam { trial.calibrate_wall(row, &specimen?) } else { trial.calibrate_angle(row) });
         }
         for row in group {
-            let (specimen, sd) = (trial.specimen_of(bench, row)?, if beam { "deflection_sd" } else { "force_sd" });
+            let specimen = trial.specimen_of(bench, row)?;
+            let sd = if beam { "deflection_sd" } else { "force_sd" };
             let unit = match (beam, is_free(row)) {
                 (true, _) => 1e3,
                 (false, true) => 100.0,
@@ -101,7 +103,7 @@ pub fn held(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Resu
                 at: place(row, &specimen),
                 measured: unit * measured(row),
                 model: modelled(row, &specimen).map(|v| unit * v),
-                half: if is_free(row) { None } else { half(row, sd, unit) },
+                half: half(row, sd, unit).filter(|_| !is_free(row)),
                 fitted: fitted.is_some_and(|f| f.line == row.line),
             });
         }
@@ -170,21 +172,25 @@ pub(crate) struct Trial {
 impl Trial {
     /// The scenario in the size and at the pressure of a row; the error is the missing number and the remedy.
     pub(crate) fn specimen(&self, row: &BenchRow) -> Result<Scenario, [&'static str; 2]> {
-        let Trial { scenario, bias_rad } = self;
+        let scenario = &self.scenario;
         if row.get("load").is_some() {
             let radius_m = row.get("radius").unwrap_or(scenario.radius_m);
             return Ok(Scenario { p_body_pa: row.value("p_body"), radius_m, ..scenario.clone() });
         }
         let ActuatorChoice { kind, shape, .. } = scenario.actuator;
-        let (diameter, bias) = (row.get("diameter"), bias_rad.or(row.get("bias").map(f64::to_radians)));
+        let diameter = row.get("diameter");
+        let bias = self.bias_rad.or(row.get("bias").map(f64::to_radians));
         if !scenario.actuator.exists() {
             return Err(["the scenario has no actuator", "name one with [actuator], or none"]);
         }
         if kind.has_pouches() && diameter.or(bias).is_some() {
-            let help = "name a scenario with kind = \"fpam\", or none";
-            return Err(["the table describes a tube of yarns, and the scenario's actuator is a pouch", help]);
+            return Err([
+                "the table describes a tube of yarns, and the scenario's actuator is a pouch",
+                "name a scenario with kind = \"fpam\", or none",
+            ]);
         }
-        let (bias_rad, width_m) = (bias.unwrap_or(shape.bias_rad), diameter.map_or(shape.width_m, |d| FRAC_PI_2 * d));
+        let bias_rad = bias.unwrap_or(shape.bias_rad);
+        let width_m = diameter.map_or(shape.width_m, |d| FRAC_PI_2 * d);
         // What pulls nothing may have any size.
         let width_m = if width_m.is_nan() && is_free(row) { ANY_WIDTH_M } else { width_m };
         if bias_rad.is_nan() || width_m.is_nan() {
@@ -235,19 +241,14 @@ impl Trial {
 /// The row on which the number of a specimen is calibrated: the least load of a beam, the largest contraction of a free muscle.
 fn calibrated_on(group: &[BenchRow]) -> Option<&BenchRow> {
     let loaded = group.iter().filter(|r| r.get("load").is_some_and(|load| load > 0.0) && r.value("deflection") > 0.0);
-    let contraction = |r: &&BenchRow| r.value("contraction");
     match group[0].get("load") {
-        Some(_) => loaded.min_by(|a, b| a.value("load").total_cmp(&b.value("load"))),
-        None => group
-            .iter()
-            .max_by(|a, b| contraction(a).total_cmp(&contraction(b)))
-            .filter(|row| is_free(row) && row.get("bias").is_none()),
+        Some(_) => least(loaded, |row| row.value("load")),
+        None => largest(group, |row| row.value("contraction")).filter(|row| is_free(row) && row.get("bias").is_none()),
     }
 }
 
 /// Flat width of a free muscle of unknown size \[m\].
 pub(crate) const ANY_WIDTH_M: f64 = 0.02;
-/// Length over width of a muscle whose ends are not described.
 const LONG: f64 = 1e4;
 
 /// The scenario for a table without one: for a muscle the ideal braid, whose size and angle the table must give.

@@ -16,6 +16,7 @@
 //! Validity: one actuator pressure; two pressures on a branch at least, and crude with three. A model that fits knows better, one that does not fit knows
 //! less.
 
+use crate::fit::numbers::mean;
 use crate::layout::Layout;
 use data::Dataset;
 
@@ -28,13 +29,12 @@ const SAME: f64 = 1e-6;
 /// pressures, or supply channels have different ones.
 pub(crate) fn data_slope(dataset: &Dataset) -> Option<Vec<f64>> {
     let layout = Layout::of(dataset).ok().filter(|_| !dataset.channels_differ())?;
-    let mean = dataset.mean_over_runs();
-    let means = layout.hold_means(&mean);
+    let means = layout.hold_means(&dataset.mean_over_runs());
     let width = layout.axes * layout.markers;
     let top = dataset.holds.iter().fold(0.0, |most: f64, hold| most.max(hold.p_act_pa));
     let shift = |h: usize| dataset.holds[h].p_body_pa.max(LEAST_SHIFT * top);
     let u: Vec<f64> = (0..layout.holds).map(|h| (dataset.holds[h].p_act_pa + shift(h)).ln()).collect();
-    let mut slope = vec![0.0; mean.len()];
+    let mut slope = vec![0.0; layout.values()];
     let mut known = vec![false; layout.holds];
     for branch in branches(dataset, &u).into_iter().filter(|branch| branch.len() > 1) {
         for k in 0..width {
@@ -45,8 +45,7 @@ pub(crate) fn data_slope(dataset: &Dataset) -> Option<Vec<f64>> {
                 continue;
             }
             let at: Vec<f64> = nodes.iter().map(|same| u[same[0]]).collect();
-            let mean = |same: &Vec<usize>| same.iter().map(|h| means[h * width + k]).sum::<f64>() / same.len() as f64;
-            let values: Vec<f64> = nodes.iter().map(mean).collect();
+            let values: Vec<f64> = nodes.iter().map(|same| mean(same.iter().map(|h| means[h * width + k]))).collect();
             for (same, d) in nodes.iter().zip(slopes(&at, &values)) {
                 for &h in same.iter().filter(|h| !known[**h]) {
                     let p = dataset.holds[h].p_act_pa;

@@ -23,7 +23,9 @@
 
 use crate::directions::Row;
 use crate::error::CompareError;
+use crate::fit::numbers::mean;
 use crate::fit::whiten::Whitener;
+use crate::layout::values_of;
 use crate::policy;
 use crate::stats::t_inflation;
 use crate::study::generate::held;
@@ -31,7 +33,6 @@ use data::{Dataset, Hold, Lost};
 use models::{Moment, Scenario, Supply};
 use std::collections::BTreeSet;
 
-/// Mean over runs of the gauge's reading at one sample.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Reading {
     /// Hold of the positions that belong to it ([`Gauge::positions`]).
@@ -42,7 +43,6 @@ pub(crate) struct Reading {
     pub read_pa: f64,
 }
 
-/// The readings of a dataset, and their errors.
 #[derive(Debug, Clone)]
 pub(crate) struct Gauge {
     /// Readings at set pressures above zero.
@@ -67,8 +67,7 @@ impl Gauge {
         let runs: Vec<&[f64]> = (0..dataset.runs.len()).map(|r| dataset.gauge(r)).collect::<Option<_>>()?;
         let set: Vec<f64> = dataset.holds.iter().flat_map(|h| vec![h.p_act_pa; dataset.samples_per_hold]).collect();
         let used: Vec<usize> = (0..set.len()).filter(|i| set[*i] > policy::ZERO_PRESSURE_PA).collect();
-        let mean: Vec<f64> =
-            (0..set.len()).map(|i| runs.iter().map(|r| r[i]).sum::<f64>() / runs.len() as f64).collect();
+        let mean: Vec<f64> = (0..set.len()).map(|i| mean(runs.iter().map(|r| r[i]))).collect();
         let squares: f64 = used.iter().map(|i| set[*i] * set[*i]).sum();
         if used.is_empty() {
             return None;
@@ -137,13 +136,10 @@ impl Gauge {
             read.samples_per_hold = 1;
             read.lost = of_samples(&dataset.lost, dataset.samples_per_hold);
         }
-        for hold in read.holds.iter_mut().filter(|hold| hold.p_act_pa <= policy::ZERO_PRESSURE_PA) {
-            hold.p_act_pa = 0.0;
-        }
-        for (h, hold) in read.holds.iter_mut().enumerate().filter(|(_, hold)| hold.p_act_pa > policy::ZERO_PRESSURE_PA)
-        {
+        for (h, hold) in read.holds.iter_mut().enumerate() {
             let own = || self.of_hold(h).map(|r| r.read_pa);
-            hold.p_act_pa = (own().sum::<f64>() / own().count().max(1) as f64).max(0.0);
+            let mean_pa = (own().sum::<f64>() / own().count().max(1) as f64).max(0.0);
+            hold.p_act_pa = if hold.p_act_pa > policy::ZERO_PRESSURE_PA { mean_pa } else { 0.0 };
         }
         read
     }
@@ -168,15 +164,13 @@ impl Gauge {
     /// What one standard deviation of each error of the gauge does to positions predicted at its readings \[m\], from
     /// ∂f/∂ln p there.
     pub(crate) fn errors_m(&self, positions: &Dataset, d_ln_pressure_m: &[f64]) -> Vec<Vec<f64>> {
-        let width = positions.values_per_run() / positions.holds.len();
         let read: Vec<usize> = (0..positions.holds.len()).filter(|h| self.of_hold(*h).next().is_some()).collect();
         // What an error of `sd` pascal at some holds does.
         let along = |holds: &[usize], sd: &dyn Fn(f64) -> f64| {
             let mut column = vec![0.0; d_ln_pressure_m.len()];
             for &h in holds.iter().filter(|h| positions.holds[**h].p_act_pa > 0.0) {
                 let p = positions.holds[h].p_act_pa;
-                let rows = h * width..(h + 1) * width;
-                column[rows.clone()].iter_mut().zip(&d_ln_pressure_m[rows]).for_each(|(c, d)| *c = sd(p) / p * d);
+                values_of(positions, &[h]).for_each(|i| column[i] = sd(p) / p * d_ln_pressure_m[i]);
             }
             column
         };
@@ -185,7 +179,6 @@ impl Gauge {
         shared.into_iter().chain(read.iter().map(own)).collect()
     }
 
-    /// Whitens the differences between laws and readings.
     pub(crate) fn whitener(&self) -> Result<Whitener, CompareError> {
         let column = |of: &dyn Fn(&Reading) -> f64| self.readings.iter().map(of).collect::<Vec<f64>>();
         let columns = [
@@ -203,7 +196,6 @@ impl Gauge {
     }
 }
 
-/// The lost values, where every sample is a separate hold.
 fn of_samples(lost: &Lost, samples: usize) -> Lost {
     let holds = |hold: usize| hold * samples..(hold + 1) * samples;
     let unseen = lost.unseen.iter().flat_map(|[hold, marker]| holds(*hold).map(move |h| [h, *marker]));

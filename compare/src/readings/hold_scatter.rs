@@ -26,13 +26,13 @@
 //! Validity: errors of the holds of a run are independent of each other; three runs and three holds at least.
 
 use crate::directions::{ROTATIONS, Row, SHIFTS};
+use crate::fit::numbers::least;
 use crate::layout::Layout;
 use crate::policy;
 use crate::stats::f_tail;
 use data::Dataset;
 use nalgebra::{DMatrix, DVector};
 
-/// Kinds of errors: four that differ from hold to hold, and the error of a marker in a run.
 pub(crate) const KINDS: usize = 5;
 
 /// Scatter of single holds of one run.
@@ -62,7 +62,8 @@ impl HoldNoise {
 
     /// Columns and their standard deviations in a mean over `runs`, for tests.
     pub fn of_mean(&self, runs: usize) -> impl Iterator<Item = (&Column, f64)> {
-        self.columns.iter().map(move |column| (column, (self.test_variance[column.kind] / runs as f64).sqrt()))
+        let sd = move |column: &Column| (self.test_variance[column.kind] / runs as f64).sqrt();
+        self.columns.iter().map(move |column| (column, sd(column)))
     }
 
     /// Variance that the columns give a weighted sum of the mean over `runs`.
@@ -144,7 +145,6 @@ pub(crate) fn hold_scatter(
     scatter
 }
 
-/// Readings of the holds of one run and the directions of their errors.
 struct Means {
     /// Z, one column per entry of `columns`.
     z: DMatrix<f64>,
@@ -161,9 +161,7 @@ impl Means {
         let u: Vec<Vec<f64>> = (0..Row::default().len()).map(of).collect();
         let seen: Vec<bool> = (0..layout.holds * width).map(|i| u.iter().any(|column| column[i] != 0.0)).collect();
         let mean = layout.hold_means(&dataset.mean_over_runs());
-        let straight =
-            (0..layout.holds).min_by(|a, b| dataset.holds[*a].sum_act_pa().total_cmp(&dataset.holds[*b].sum_act_pa()));
-        let straight = straight.unwrap_or(0) * width;
+        let straight = least(0..layout.holds, |h| dataset.holds[*h].sum_act_pa()).unwrap_or(0) * width;
         let bend: Vec<f64> =
             (0..mean.len()).map(|i| if seen[i] { mean[i] - mean[straight + i % width] } else { 0.0 }).collect();
         let kinds = [vec![&u[0]], vec![&bend], SHIFTS.map(|j| &u[j]).to_vec(), ROTATIONS.map(|j| &u[j]).to_vec()];
@@ -225,8 +223,10 @@ impl Means {
         };
         let kinds: Vec<Vec<usize>> =
             (0..KINDS).map(|kind| Some(self.of_kind(kind)).filter(is_new).unwrap_or_default()).collect();
-        let block = |a: usize, b: usize| -> f64 {
-            kinds[a].iter().flat_map(|i| kinds[b].iter().map(move |j| (*i, *j))).map(|ij| g[ij].powi(2)).sum()
+        let trace = |of: &DMatrix<f64>, kind: usize| -> f64 { kinds[kind].iter().map(|i| of[(*i, *i)]).sum() };
+        let squares = |of: &DMatrix<f64>, a: usize, b: usize| -> f64 {
+            let places = kinds[a].iter().flat_map(|i| kinds[b].iter().map(move |j| (*i, *j)));
+            places.map(|place| of[place].powi(2)).sum()
         };
         let readings = self.seen.iter().filter(|seen| **seen).count() as f64 - self.q.ncols() as f64;
         // Equations of τ² and of the kinds, and their right sides.
@@ -236,18 +236,16 @@ impl Means {
         right[0] = deviations.iter().map(DVector::norm_squared).sum::<f64>() / dof;
         let projected: Vec<DVector<f64>> = deviations.iter().map(|d| self.z.tr_mul(d)).collect();
         for k in 0..KINDS {
-            let trace: f64 = kinds[k].iter().map(|i| g[(*i, *i)]).sum();
-            (f[(0, k + 1)], f[(k + 1, 0)]) = (trace, trace);
-            (0..KINDS).for_each(|j| f[(k + 1, j + 1)] = block(k, j));
-            right[k + 1] =
-                projected.iter().flat_map(|p| kinds[k].iter().map(move |i| p[*i].powi(2))).sum::<f64>() / dof;
+            f[(0, k + 1)] = trace(&g, k);
+            f[(k + 1, 0)] = f[(0, k + 1)];
+            (0..KINDS).for_each(|j| f[(k + 1, j + 1)] = squares(&g, k, j));
+            let along = projected.iter().flat_map(|p| kinds[k].iter().map(move |i| p[*i].powi(2)));
+            right[k + 1] = along.sum::<f64>() / dof;
         }
         let (theta, inverse, used) = nonnegative(&f, &right);
         // Variance of the quadratic forms at θ: 2/dof |Z_jᵀ C Z_k|², C = M(τ² I + Σ v Z Zᵀ)M.
-        let v = DMatrix::from_diagonal(&DVector::from_iterator(
-            self.columns.len(),
-            self.columns.iter().map(|c| theta[c.kind + 1]),
-        ));
+        let v: Vec<f64> = self.columns.iter().map(|c| theta[c.kind + 1]).collect();
+        let v = DMatrix::from_diagonal(&DVector::from_vec(v));
         let (gv, gvg) = (&g * &v, &g * &v * &g);
         let c = &g * theta[0] + &gvg;
         // Zᵀ C C Z and the trace of C C.
@@ -256,12 +254,8 @@ impl Means {
         let form = |a: usize, b: usize| -> f64 {
             match (a, b) {
                 (0, 0) => whole,
-                (0, k) | (k, 0) => kinds[k - 1].iter().map(|i| twice[(*i, *i)]).sum(),
-                (a, b) => kinds[a - 1]
-                    .iter()
-                    .flat_map(|i| kinds[b - 1].iter().map(move |j| (*i, *j)))
-                    .map(|ij| c[ij].powi(2))
-                    .sum(),
+                (0, k) | (k, 0) => trace(&twice, k - 1),
+                (a, b) => squares(&c, a - 1, b - 1),
             }
         };
         let forms = DMatrix::from_fn(used.len(), used.len(), |i, j| 2.0 / dof * form(used[i], used[j]));
@@ -283,7 +277,6 @@ impl Means {
     }
 }
 
-/// Orthonormal basis of the columns that are there.
 fn basis(columns: DMatrix<f64>) -> DMatrix<f64> {
     let mut kept: Vec<DVector<f64>> = Vec::new();
     for column in columns.column_iter() {
@@ -317,8 +310,8 @@ fn nonnegative(f: &DMatrix<f64>, right: &DVector<f64>) -> (DVector<f64>, DMatrix
         let side = DVector::from_fn(used.len(), |i, _| right[used[i]] / scale(i));
         let inverse = part.clone().try_inverse().unwrap_or_else(|| DMatrix::zeros(used.len(), used.len()));
         let scaled = &inverse * side;
-        let least = (0..used.len()).filter(|i| used[*i] != 0).min_by(|a, b| scaled[*a].total_cmp(&scaled[*b]));
-        match least.filter(|i| scaled[*i] < 0.0) {
+        let lowest = least((0..used.len()).filter(|i| used[*i] != 0), |i| scaled[*i]);
+        match lowest.filter(|i| scaled[*i] < 0.0) {
             Some(i) => {
                 used.remove(i);
             }

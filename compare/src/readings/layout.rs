@@ -89,13 +89,30 @@ impl Layout {
     }
 
     fn wrong_length(&self, what: &'static str, found: usize) -> CompareError {
-        let Layout { holds, samples, markers, axes } = *self;
+        let (holds, samples) = (self.holds, self.samples);
+        let (markers, axes) = (self.markers, self.axes);
         CompareError::told(format!(
             "{what} has {found} values, one run of the data has {} ({holds} holds x {samples} samples x {markers} markers x {axes}): \
              predict at the holds, sample times and markers of the dataset",
             self.values()
         ))
     }
+}
+
+/// Unit weights, one each.
+pub(crate) fn single(values: impl IntoIterator<Item = usize>) -> Vec<Weights> {
+    values.into_iter().map(|i| vec![(i, 1.0)]).collect()
+}
+
+/// Values of one hold in run layout.
+pub(crate) fn width(dataset: &Dataset) -> usize {
+    dataset.values_per_run() / dataset.holds.len()
+}
+
+/// Places of the values of some holds in run layout.
+pub(crate) fn values_of(dataset: &Dataset, holds: &[usize]) -> impl Iterator<Item = usize> {
+    let width = width(dataset);
+    holds.iter().flat_map(move |hold| hold * width..(hold + 1) * width)
 }
 
 /// Σ wᵢ vᵢ over sparse weights (i, wᵢ).

@@ -36,9 +36,10 @@
 use crate::data_slope::data_slope;
 use crate::directions::{DirectionFit, ROTATIONS, Row, SHIFTS, directions_of};
 use crate::error::CompareError;
+use crate::fit::numbers::{largest, least};
 use crate::fit::whiten::Whitener;
 use crate::hold_scatter::{HoldNoise, hold_scatter};
-use crate::layout::{Layout, Weights};
+use crate::layout::{Layout, Weights, apply, single};
 use crate::policy;
 use crate::run_scatter::{between_sessions, pooled, rotations, session_groups, within_sessions};
 use crate::stats::{f_tail, t_inflation};
@@ -129,8 +130,7 @@ impl NoiseModel {
                 Self::without_scatter(NoiseStatus::Supplied, Some(sigma), directions)
             }
             (1, Some(value)) => {
-                let expected = "the camera noise must be a positive length in metres";
-                Err(CompareError::BadOption { name: "sigma_m", value, expected })
+                Err(CompareError::bad_option("sigma_m", value, "the camera noise must be a positive length in metres"))
             }
             _ => {
                 let modelled = Self::measured(dataset, &groups, directions)?;
@@ -152,11 +152,10 @@ impl NoiseModel {
         dprediction_dlnp: &[f64],
         runs: usize,
         sigma_m: f64,
-        run_sd: [f64; 4],
+        [pressure, x, y, turn]: [f64; 4],
     ) -> Result<NoiseModel, CompareError> {
         Layout::of(dataset)?.check("the derivative with respect to ln p", dprediction_dlnp)?;
         let directions = directions_of(dataset, dprediction_dlnp);
-        let [pressure, x, y, turn] = run_sd;
         let run_sd = [pressure, x, y, turn, y, turn, turn];
         let variance = run_sd.map(|sd| sd * sd / runs.max(1) as f64);
         let whitener = Whitener::new(&directions, sigma_m / (runs.max(1) as f64).sqrt(), &variance)?;
@@ -174,8 +173,7 @@ impl NoiseModel {
         self.gauge_errors = gauge_errors;
         self.per_hold.drop_pressure();
         (self.mean_variance[0], self.test_variance[0]) = (0.0, 0.0);
-        let each: Vec<Weights> = (0..self.directions.len()).map(|i| vec![(i, 1.0)]).collect();
-        self.whitener = self.whitener_of(&each)?;
+        self.whitener = self.whitener_of(&single(0..self.directions.len()))?;
         Ok(self)
     }
 
@@ -192,8 +190,7 @@ impl NoiseModel {
         let direction = |w: &Weights| -> Row {
             std::array::from_fn(|j| w.iter().map(|(i, share)| share * self.directions[*i][j]).sum())
         };
-        let along =
-            |column: &Vec<f64>| sums.iter().map(|w| w.iter().map(|(i, share)| share * column[*i]).sum()).collect();
+        let along = |column: &Vec<f64>| sums.iter().map(|w| apply(w, column)).collect();
         let rows: Vec<Row> = sums.iter().map(direction).collect();
         let mut columns: Vec<Vec<f64>> = self.gauge_errors.iter().map(along).collect();
         for (column, sd) in self.per_hold.of_mean(self.runs) {
@@ -224,8 +221,7 @@ impl NoiseModel {
     /// # Errors
     /// If the eigenproblem does not converge.
     pub fn whiten_range(&self, residual_m: &[f64], range: std::ops::Range<usize>) -> Result<Vec<f64>, CompareError> {
-        let each: Vec<Weights> = range.clone().map(|i| vec![(i, 1.0)]).collect();
-        Ok(self.whitener_of(&each)?.whiten(&residual_m[range]))
+        Ok(self.whitener_of(&single(range.clone()))?.whiten(&residual_m[range]))
     }
 
     /// Standard deviation \[unit of the functional\] of wᵀȳ for tests; `None` if unknown.
@@ -264,8 +260,7 @@ impl NoiseModel {
     pub fn uneven_holds(&self) -> Option<(usize, usize)> {
         let sigma = |h: &usize| self.hold_sigma_m[*h];
         let holds = self.hold_sigma_m.len();
-        let noisiest = (0..holds).max_by(|a, b| sigma(a).total_cmp(&sigma(b)))?;
-        let quietest = (0..holds).min_by(|a, b| sigma(a).total_cmp(&sigma(b)))?;
+        let (noisiest, quietest) = (largest(0..holds, sigma)?, least(0..holds, sigma)?);
         let quotient = sigma(&noisiest) / sigma(&quietest).max(SMALLEST_SIGMA_M);
         let dof = self.pure_error_dof / holds;
         let p = (holds * (holds - 1)) as f64 * f_tail(quotient * quotient, dof, dof);
@@ -285,8 +280,7 @@ impl NoiseModel {
             }
         }
         let squares: f64 = weights.iter().map(|(_, w)| w * w).sum();
-        let along = |column: &Vec<f64>| weights.iter().map(|&(i, w)| w * column[i]).sum::<f64>();
-        let read: f64 = self.gauge_errors.iter().map(|column| along(column).powi(2)).sum();
+        let read: f64 = self.gauge_errors.iter().map(|column| apply(weights, column).powi(2)).sum();
         Some(self.sigma_m?.powi(2) / self.runs as f64 * squares + quadratic(&projected, variances) + read)
     }
 
@@ -340,7 +334,8 @@ impl NoiseModel {
         }
         let unit_m = (sigma2 / runs as f64).sqrt();
         let held = per_hold.of_mean(runs).map(|(column, sd)| column.spread(directions.len(), sd));
-        let whitener = Whitener::with_columns(&directions, unit_m, &test_variance, &held.collect::<Vec<_>>())?;
+        let held: Vec<Vec<f64>> = held.collect();
+        let whitener = Whitener::with_columns(&directions, unit_m, &test_variance, &held)?;
         Ok(NoiseModel {
             status: NoiseStatus::Measured,
             runs,

@@ -72,13 +72,12 @@ impl NoiseSummary {
             p_values: noise.gives_p_values(),
             sentence: String::new(),
             warning: noise.uneven_holds().map(|(loud, quiet)| {
-                let part = |h: usize| {
-                    format!("{:.1} mm at {} kPa", mm(noise.hold_sigma_m[h]), channels_word(&label(&holds[h])))
-                };
-                let (loud, quiet) = (part(loud), part(quiet));
-                format!(
-                    "the scatter differs between holds ({loud}, {quiet}): significance is overstated where it is large"
-                )
+                let [loud, quiet] = [loud, quiet].map(|h| {
+                    let kpa = channels_word(&label(&holds[h]));
+                    format!("{:.1} mm at {kpa} kPa", mm(noise.hold_sigma_m[h]))
+                });
+                let overstated = "significance is overstated where it is large";
+                format!("the scatter differs between holds ({loud}, {quiet}): {overstated}")
             }),
         };
         summary.sentence = sentence(noise, &summary);
@@ -115,16 +114,14 @@ fn sentence(noise: &NoiseModel, s: &NoiseSummary) -> String {
 
 fn hold_to_hold(s: &NoiseSummary) -> String {
     let part = |value: Option<f64>, name: &str, unit: &str| value.map(|v| format!("{name} {v:.1} {unit}"));
-    let parts: Vec<String> = [
+    let parts = [
         part(s.hold_pressure_pct, "pressure", "%"),
         part(s.hold_bend_pct, "bend", "%"),
         part(s.hold_alignment_mm, "alignment", "mm"),
         part(s.hold_rotation_mrad, "rotation", "mrad"),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
-    let held = if parts.is_empty() { String::new() } else { format!("; hold-to-hold {}", parts.join(", ")) };
+    ];
+    let parts = parts.into_iter().flatten().collect::<Vec<_>>().join(", ");
+    let held = if parts.is_empty() { parts } else { format!("; hold-to-hold {parts}") };
     let last = |value: Option<f64>, what: &str| {
         value.map_or(String::new(), |v| format!("; marker errors of {v:.1} mm last through a {what}"))
     };

@@ -1,13 +1,13 @@
 //! The data as every comparison and every fit see them: copies of runs left out, stray samples replaced, sessions named.
 
 use crate::directions::DirectionFit;
+use crate::fit::numbers::{differences, groups};
 use crate::noise::NoiseModel;
 use crate::policy;
 use crate::stats::f_tail;
 use data::{About, Dataset};
 use serde::Serialize;
 
-/// A dataset without copies of runs, with stray samples replaced.
 pub(crate) struct Prepared {
     pub dataset: Dataset,
     /// Session of every run; empty if there is one.
@@ -28,18 +28,14 @@ pub(crate) fn prepare(dataset: &Dataset, about: Option<&About>) -> Prepared {
     }
     let samples = report.outliers;
     let share = samples.len() as f64 / (dataset.coordinates_m.len() as f64 / dataset.axes as f64);
-    if samples.is_empty() {
-    } else if policy::are_strays(share, clean.runs.len()) {
+    let (count, percent, are) = (samples.len(), 100.0 * share, "are far from the other runs");
+    if count > 0 && policy::are_strays(share, clean.runs.len()) {
         replace(&mut clean, &samples);
         let words = "replaced by the mean of the other runs there";
-        warnings.push(format!(
-            "{} samples ({:.1} %) are far from the other runs: {words}",
-            samples.len(),
-            100.0 * share
-        ));
-    } else {
+        warnings.push(format!("{count} samples ({percent:.1} %) {are}: {words}"));
+    } else if count > 0 {
         let words = "too many to be strays, so they were kept and count as noise";
-        warnings.push(format!("{:.1} % of the samples are far from the other runs: {words}", 100.0 * share));
+        warnings.push(format!("{percent:.1} % of the samples {are}: {words}"));
     }
     let sessions = sessions(&clean, about, &mut warnings);
     Prepared { dataset: clean, sessions, outliers: Outliers { samples, share, runs: Vec::new(), copies }, warnings }
@@ -53,12 +49,8 @@ pub(crate) fn outlying_runs(dataset: &Dataset, noise: &NoiseModel) -> Vec<Outlyi
     }
     let fit = DirectionFit::new(&noise.directions);
     let mean = dataset.mean_over_runs();
-    let squares: Vec<f64> = (0..runs)
-        .map(|run| {
-            let deviation: Vec<f64> = dataset.run(run).iter().zip(&mean).map(|(y, m)| y - m).collect();
-            fit.solve(&deviation).1.iter().map(|r| r * r).sum()
-        })
-        .collect();
+    let rest = |run: usize| fit.solve(&differences(dataset.run(run), &mean)).1;
+    let squares: Vec<f64> = (0..runs).map(|run| rest(run).iter().map(|r| r * r).sum()).collect();
     let total: f64 = squares.iter().sum();
     let dof = noise.seen(0..mean.len()) - fit.count();
     let outlying = |(run, s): (usize, &f64)| {
@@ -106,22 +98,15 @@ fn sessions(dataset: &Dataset, about: Option<&About>, warnings: &mut Vec<String>
     let Some(about) = about else { return Vec::new() };
     let label = |run: &String| about.runs.iter().find(|a| a.id == *run).and_then(|a| a.session.clone());
     let labels: Vec<Option<String>> = dataset.runs.iter().map(label).collect();
-    let mut names: Vec<&Option<String>> = Vec::new();
-    for label in &labels {
-        if !names.contains(&label) {
-            names.push(label);
-        }
-    }
+    let names = groups(&labels, |a, b| a == b);
     match names.len() {
         0 | 1 => Vec::new(),
         n if n == labels.len() => {
-            warnings.push(
-                "every session of about.toml has a single run, so nothing repeats within one: taken as one session"
-                    .into(),
-            );
+            let single = "every session of about.toml has a single run, so nothing repeats within one";
+            warnings.push(format!("{single}: taken as one session"));
             Vec::new()
         }
-        _ => labels.iter().filter_map(|l| names.iter().position(|n| *n == l)).collect(),
+        _ => (0..labels.len()).filter_map(|run| names.iter().position(|own| own.contains(&run))).collect(),
     }
 }
 
@@ -152,9 +137,7 @@ pub struct OutlyingRun {
 impl OutlyingRun {
     /// A sentence that names the run and its excess scatter.
     pub fn words(&self) -> String {
-        let OutlyingRun { run, scatter_ratio, .. } = self;
-        format!(
-            "run {run} scatters {scatter_ratio:.1} times as much as the others: look at it before believing anything"
-        )
+        let (run, times) = (&self.run, self.scatter_ratio);
+        format!("run {run} scatters {times:.1} times as much as the others: look at it before believing anything")
     }
 }

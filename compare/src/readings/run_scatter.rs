@@ -2,9 +2,9 @@
 
 use crate::directions::{DirectionFit, ROTATIONS, Row, SHIFTS};
 use crate::error::CompareError;
+use crate::fit::numbers::{differences, groups, mean};
 use data::Dataset;
 
-/// What the repeats inside sessions say.
 pub(crate) struct Within {
     /// Variance of one camera coordinate of one sample \[m²\].
     pub sigma2: f64,
@@ -15,7 +15,6 @@ pub(crate) struct Within {
     pub coefficient_variance: Row,
 }
 
-/// Scatter of the runs about the mean of their session.
 pub(crate) fn within_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit) -> Within {
     let holds = dataset.holds.len();
     let mut within =
@@ -28,8 +27,7 @@ pub(crate) fn within_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &Di
     for group in groups.iter().filter(|g| g.len() > 1) {
         let mean = mean_of(dataset, group);
         for &run in group {
-            let deviation: Vec<f64> = dataset.run(run).iter().zip(&mean).map(|(y, m)| y - m).collect();
-            let (coefficients, rest) = fit.solve(&deviation);
+            let (coefficients, rest) = fit.solve(&differences(dataset.run(run), &mean));
             for (square, part) in within.hold_sigma2.iter_mut().zip(rest.chunks(rest.len() / holds)) {
                 *square += part.iter().map(|r| r * r).sum::<f64>();
             }
@@ -59,12 +57,11 @@ pub(crate) fn between_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &D
     let overall = dataset.mean_over_runs();
     let mut variance = Row::default();
     for group in groups {
-        let deviation: Vec<f64> = mean_of(dataset, group).iter().zip(&overall).map(|(y, m)| y - m).collect();
-        for (v, c) in variance.iter_mut().zip(fit.solve(&deviation).0) {
+        for (v, c) in variance.iter_mut().zip(fit.solve(&differences(&mean_of(dataset, group), &overall)).0) {
             *v += c * c / (groups.len() - 1) as f64;
         }
     }
-    let repeats = groups.iter().map(|g| 1.0 / g.len() as f64).sum::<f64>() / groups.len() as f64;
+    let repeats = mean(groups.iter().map(|g| 1.0 / g.len() as f64));
     let share: f64 = groups.iter().map(|g| (g.len() as f64 / runs).powi(2)).sum();
     fit.noise_free(variance, sigma2 * repeats).map(|v| v * share)
 }
@@ -72,7 +69,7 @@ pub(crate) fn between_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &D
 /// Shifts along all axes are the same kind of error, and so are rotations: one variance for each kind.
 pub(crate) fn pooled(mut variance: Row, axes: usize) -> Row {
     for kind in [&SHIFTS[..axes], rotations(axes)] {
-        let mean = kind.iter().map(|j| variance[*j]).sum::<f64>() / kind.len() as f64;
+        let mean = mean(kind.iter().map(|j| variance[*j]));
         kind.iter().for_each(|j| variance[*j] = mean);
     }
     variance
@@ -93,7 +90,6 @@ fn mean_of(dataset: &Dataset, runs: &[usize]) -> Vec<f64> {
     mean
 }
 
-/// Runs of each session, in order of first appearance.
 pub(crate) fn session_groups(sessions: &[usize], runs: usize) -> Result<Vec<Vec<usize>>, CompareError> {
     if sessions.is_empty() {
         return Ok(vec![(0..runs).collect()]);
@@ -104,17 +100,7 @@ pub(crate) fn session_groups(sessions: &[usize], runs: usize) -> Result<Vec<Vec<
             "{found} session labels for {runs} runs: give one label per run, or none if all runs are one session"
         )));
     }
-    let mut labels: Vec<usize> = Vec::new();
-    let mut groups: Vec<Vec<usize>> = Vec::new();
-    for (run, label) in sessions.iter().enumerate() {
-        match labels.iter().position(|l| l == label) {
-            Some(i) => groups[i].push(run),
-            None => {
-                labels.push(*label);
-                groups.push(vec![run]);
-            }
-        }
-    }
+    let groups = groups(sessions, |a, b| a == b);
     if runs > 1 && groups.len() == runs {
         return Err(CompareError::told(
             "every session has one run only, so run-to-run scatter cannot be separated from session differences: repeat at least \

@@ -13,6 +13,7 @@
 //! No stiffness, no actuator, no pressure: it is what every robot of this length looks like to a millimetre or a few, and what
 //! one with two labels exchanged does not by the distance of the two.
 
+use crate::fit::numbers::least;
 use data::Dataset;
 
 /// Steps of the search for κ between its bounds, before it is refined.
@@ -23,7 +24,6 @@ const REFINED: usize = 28;
 const MOST_SHORTENED: f64 = 0.9;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// A robot's markers and radius \[m\].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MarkedBody<'a> {
     pub stations_m: &'a [f64],
@@ -47,8 +47,8 @@ impl MarkedBody<'_> {
         let left = |curvature: f64| self.squares(points, curvature, loose);
         let step = 2.0 * most / STEPS as f64;
         let at = |i: usize| i as f64 * step - most;
-        let best = (0..=STEPS).map(|i| (at(i), left(at(i)))).min_by(|a, b| a.1.total_cmp(&b.1));
-        let (mut low, mut high) = best.map_or((-step, step), |(k, _)| ((k - step).max(-most), (k + step).min(most)));
+        let best = least((0..=STEPS).map(|i| (at(i), left(at(i)))), |(_, squares)| *squares).map_or(0.0, |(k, _)| k);
+        let (mut low, mut high) = ((best - step).max(-most), (best + step).min(most));
         for _ in 0..REFINED {
             let (a, b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
             if left(a) < left(b) { high = b } else { low = a }

@@ -1,6 +1,7 @@
 //! Labels of two markers exchanged, in every hold or where a tracker lost them.
 
 use super::seen::{ANY_BASE, SlipSeen, told};
+use crate::fit::numbers::least;
 use crate::policy;
 use crate::stats::quantile;
 use crate::wording::list;
@@ -56,8 +57,8 @@ fn exchanged(seen: &SlipSeen, points: &[[f64; 2]]) -> (Vec<[usize; 2]>, [f64; 2]
 fn best(seen: &SlipSeen, points: &[[f64; 2]], left: f64) -> Option<([usize; 2], f64)> {
     let count = points.len();
     // Wherever a body is laid, two markers that are exchanged are off by half of their distance each, or more.
-    let least = |apart: f64| 2.0 * (0.5 * policy::FAR_LESS * apart).powi(2);
-    if count < 3 || left < least(2.0 * seen.half_apart()) {
+    let enough = |apart: f64| 2.0 * (0.5 * policy::FAR_LESS * apart).powi(2);
+    if count < 3 || left < enough(2.0 * seen.half_apart()) {
         return None;
     }
     let off = seen.body.off(points);
@@ -73,8 +74,8 @@ fn best(seen: &SlipSeen, points: &[[f64; 2]], left: f64) -> Option<([usize; 2], 
         other.swap(pair[0], pair[1]);
         (pair, seen.body.lay(&other, true).squares)
     };
-    let (pair, after) = pairs.map(with).min_by(|a, b| a.1.total_cmp(&b.1))?;
-    (left - after > least(apart(pair)).max(f64::MIN_POSITIVE)).then_some((pair, after))
+    let (pair, after) = least(pairs.map(with), |(_, squares)| *squares)?;
+    (left - after > enough(apart(pair)).max(f64::MIN_POSITIVE)).then_some((pair, after))
 }
 
 fn median(values: &[f64]) -> f64 {
@@ -91,8 +92,7 @@ fn words(seen: &SlipSeen, Exchange { pair, cells, squares }: &Exchange) -> Strin
     let of = |run: usize| cells.iter().filter(|(r, _)| *r == run).map(|(_, hold)| *hold).collect::<Vec<_>>();
     let which = of(runs[0]);
     let place = if runs.iter().any(|run| of(*run) != which) {
-        let each = runs.iter().map(|run| format!("{} ({})", seen.in_runs(&[*run]), ranges(&of(*run))));
-        list(&each.collect::<Vec<_>>())
+        list(runs.iter().map(|run| format!("{} ({})", seen.in_runs(&[*run]), ranges(&of(*run)))))
     } else {
         let at = if which.len() == holds { String::new() } else { format!(", {}", ranges(&which)) };
         format!("{}{at}", seen.in_runs(&runs))
@@ -112,6 +112,6 @@ fn ranges(holds: &[usize]) -> String {
         [only] => format!("{}", only + 1),
         _ => format!("{} to {}", range[0] + 1, range[range.len() - 1] + 1),
     };
-    let words: Vec<String> = holds.chunk_by(|a, b| a + 1 == *b).map(word).collect();
-    format!("{} {}", if holds.len() == 1 { "hold" } else { "holds" }, list(&words))
+    let words = list(holds.chunk_by(|a, b| a + 1 == *b).map(word));
+    format!("{} {words}", if holds.len() == 1 { "hold" } else { "holds" })
 }

@@ -15,6 +15,7 @@ mod seen;
 mod tests;
 mod turned;
 
+use crate::fit::numbers::mean;
 use arc::MarkedBody;
 use data::Dataset;
 use models::Scenario;
@@ -62,9 +63,9 @@ pub fn slips_of(dataset: &Dataset, scenario: &Scenario) -> Vec<String> {
 
 fn points(dataset: &Dataset) -> Vec<Vec<Vec<[f64; 2]>>> {
     let samples = dataset.samples_per_hold;
-    let mean = |run: usize, hold: usize, marker: usize| {
-        [0, 1].map(|k| (0..samples).map(|s| dataset.xy(run, hold, s, marker)[k]).sum::<f64>() / samples as f64)
+    let of = |run: usize, hold: usize, marker: usize| {
+        [0, 1].map(|k| mean((0..samples).map(|s| dataset.xy(run, hold, s, marker)[k])))
     };
-    let hold = |run, hold| (0..dataset.markers.len()).map(|marker| mean(run, hold, marker)).collect();
+    let hold = |run, hold| (0..dataset.markers.len()).map(|marker| of(run, hold, marker)).collect();
     (0..dataset.runs.len()).map(|run| (0..dataset.holds.len()).map(|h| hold(run, h)).collect()).collect()
 }

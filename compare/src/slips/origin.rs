@@ -11,6 +11,7 @@
 //! (`marker_height` is nothing in a straight robot).
 
 use super::seen::{SlipSeen, become_mm};
+use crate::fit::numbers::mean;
 use crate::policy;
 use crate::stats::f_tail;
 use crate::wording::{list, short};
@@ -26,8 +27,8 @@ pub(super) fn origin(seen: &mut SlipSeen) -> Vec<String> {
     }
     let (runs, tolerance) = (seen.points.len(), tolerance(seen));
     let large = ["x", "y"].into_iter().zip(shift).filter(|(_, value)| value.abs() > tolerance);
-    let columns: Vec<String> = large.map(|(name, m)| format!("{:.1} mm from column {name}", 1e3 * m)).collect();
-    let (columns, [x, y]) = (list(&columns), shift.map(|m| 1e3 * m));
+    let columns = list(large.map(|(name, m)| format!("{:.1} mm from column {name}", 1e3 * m)));
+    let [x, y] = shift.map(|m| 1e3 * m);
     let at = short(1e-3 * seen.dataset.holds[holds[0]].p_act_pa);
     let in_runs = seen.in_runs(&(0..runs).collect::<Vec<_>>());
     let become_mm = become_mm([before, after].map(|squares| seen.rms(squares, runs * seen.dataset.holds.len())));
@@ -39,7 +40,6 @@ pub(super) fn origin(seen: &mut SlipSeen) -> Vec<String> {
     )]
 }
 
-/// Nearly straight holds at the lowest pressure of the actuator.
 fn lowest(seen: &SlipSeen) -> Vec<usize> {
     let pressure = |hold: &usize| seen.dataset.holds[*hold].p_act_pa;
     let all = 0..seen.dataset.holds.len();
@@ -71,7 +71,8 @@ fn shift(seen: &SlipSeen, holds: &[usize]) -> Option<[f64; 2]> {
     let of_mean = [squares(&mean, &grown, &least_grown), squares(&mean, &shifted, &least)];
     let [before, after] = [of_mean[0] / (values - without) as f64, of_mean[1] / (values - with) as f64];
     let of_runs = runs.iter().map(|run| squares(run, &shifted, &least)).sum::<f64>();
-    let (fall, dof) = (runs.len() as f64 * (of_mean[0] - of_mean[1]), runs.len() * values - with);
+    let fall = runs.len() as f64 * (of_mean[0] - of_mean[1]);
+    let dof = runs.len() * values - with;
     let p = f_tail(fall / 2.0 / (of_runs / dof as f64).max(f64::MIN_POSITIVE), 2, dof);
     let taken = |solved: &DVector<f64>| [solved[without], solved[without + 1]];
     let shift = taken(&least);
@@ -99,9 +100,8 @@ fn straight(seen: &SlipSeen, holds: &[usize]) -> Straight {
     let mut shifted = DMatrix::zeros(values, without + 2);
     let mut off = vec![DVector::zeros(values); runs];
     for (h, hold) in holds.iter().enumerate() {
-        let mean = (0..markers)
-            .map(|m| [0, 1].map(|axis| seen.points.iter().map(|run| run[*hold][m][axis]).sum::<f64>() / runs as f64));
-        let curvature = seen.body.lay(&mean.collect::<Vec<_>>(), true).curvature;
+        let of = |m: usize| [0, 1].map(|axis| mean(seen.points.iter().map(|run| run[*hold][m][axis])));
+        let curvature = seen.body.lay(&(0..markers).map(of).collect::<Vec<_>>(), true).curvature;
         for (m, s) in seen.body.stations_m.iter().enumerate() {
             let place = seen.body.place(*s, curvature);
             let [x, y] = place;

@@ -51,11 +51,11 @@ pub struct WrongUnit {
 const UNITS: [[&str; 3]; 4] =
     [["psi", "psi", "psi"], ["mbar", "mbar", "mbar"], ["bar", "bar", "bar"], ["inH2O", "inches of water", "inh2o"]];
 
-/// All of them, taken for kilopascals and the other way round.
 fn wrong_units() -> impl Iterator<Item = WrongUnit> {
     UNITS.into_iter().flat_map(|[symbol, words, suffix]| {
         let known = units_of(Dimension::PRESSURE).find(|unit| unit.symbol == symbol);
-        let (factor, own, kpa) = (known.map_or(f64::NAN, |unit| 1e-3 * unit.factor()), [words, suffix], ["kPa", "kpa"]);
+        let factor = known.map_or(f64::NAN, |unit| 1e-3 * unit.factor());
+        let (own, kpa) = ([words, suffix], ["kPa", "kpa"]);
         [WrongUnit { factor, units: [own, kpa] }, WrongUnit { factor: 1.0 / factor, units: [kpa, own] }]
     })
 }
@@ -73,11 +73,9 @@ fn pairs(count: usize) -> impl Iterator<Item = [usize; 2]> {
     (0..count).flat_map(move |one| (one + 1..count).map(move |other| [one, other]))
 }
 
-/// Air of a room at sea level \[Pa\].
 const ROOM_PA: f64 = 101_325.0;
 
 impl PressureColumn {
-    /// In words, and in names of columns.
     fn words(self) -> [&'static str; 2] {
         match self {
             PressureColumn::Actuator => ["actuator", "p_act"],
@@ -85,22 +83,19 @@ impl PressureColumn {
         }
     }
 
-    fn name(self) -> &'static str {
-        self.words()[1]
-    }
-
-    fn of(self, hold: &Hold) -> f64 {
+    fn pressures(self, hold: &Hold) -> Vec<f64> {
         match self {
-            PressureColumn::Actuator => hold.channels_pa().fold(f64::INFINITY, f64::min),
-            PressureColumn::Body => hold.p_body_pa,
+            PressureColumn::Actuator => hold.channels_pa().collect(),
+            PressureColumn::Body => vec![hold.p_body_pa],
         }
     }
 
-    fn highest(self, hold: &Hold) -> f64 {
-        match self {
-            PressureColumn::Actuator => hold.channels_pa().fold(0.0, f64::max),
-            PressureColumn::Body => hold.p_body_pa,
-        }
+    fn lowest(self, hold: &Hold) -> f64 {
+        self.pressures(hold).into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    fn top(self, dataset: &Dataset) -> f64 {
+        dataset.holds.iter().flat_map(|hold| self.pressures(hold)).fold(0.0, f64::max)
     }
 
     fn change(self, hold: &mut Hold, by: impl Fn(f64) -> f64) {
@@ -118,7 +113,7 @@ impl PressureSlip {
     pub fn all(dataset: &Dataset, body_pa: f64) -> Vec<PressureSlip> {
         let units = COLUMNS.iter().flat_map(|column| wrong_units().map(|unit| PressureSlip::Unit(*column, unit)));
         let absolute = COLUMNS.iter().filter_map(|column| {
-            let lowest = dataset.holds.iter().map(|hold| column.of(hold)).fold(f64::INFINITY, f64::min);
+            let lowest = dataset.holds.iter().map(|hold| column.lowest(hold)).fold(f64::INFINITY, f64::min);
             // An actuator is vented now and then, a body hardly ever.
             let room_pa = if *column == PressureColumn::Body { lowest - body_pa } else { lowest };
             is_a_room(room_pa).then_some(PressureSlip::Absolute(*column, room_pa))
@@ -138,8 +133,7 @@ impl PressureSlip {
             return !dataset.holds.iter().any(is_told) && self.undone(dataset).holds.iter().any(is_told);
         }
         if let PressureSlip::Unit(column, _) = self {
-            let top = |data: &Dataset| data.holds.iter().map(|hold| column.highest(hold)).fold(0.0, f64::max);
-            return top(dataset) > scenario.p_max_pa && top(&self.undone(dataset)) <= scenario.p_max_pa;
+            return column.top(dataset) > scenario.p_max_pa && column.top(&self.undone(dataset)) <= scenario.p_max_pa;
         }
         by_numbers(dataset).iter().any(|seen| std::mem::discriminant(seen) == std::mem::discriminant(self))
     }
@@ -147,8 +141,8 @@ impl PressureSlip {
     /// The data with the slip undone.
     pub fn undone(&self, dataset: &Dataset) -> Dataset {
         let mut mended = dataset.clone();
-        let Dataset { holds, coordinates_m, axes, .. } = &mut mended;
-        let places = coordinates_m.chunks_exact_mut(*axes);
+        let holds = &mut mended.holds;
+        let places = mended.coordinates_m.chunks_exact_mut(mended.axes);
         match self {
             PressureSlip::Unit(column, unit) => {
                 holds.iter_mut().for_each(|hold| column.change(hold, |pa| pa * unit.factor))
@@ -159,12 +153,12 @@ impl PressureSlip {
             PressureSlip::Absolute(column, room_pa) => {
                 holds.iter_mut().for_each(|hold| column.change(hold, |pa| pa - room_pa));
             }
-            PressureSlip::Channels([0, other]) => {
-                holds.iter_mut().for_each(|hold| std::mem::swap(&mut hold.p_act_pa, &mut hold.more_act_pa[other - 1]));
-            }
-            PressureSlip::Channels([one, other]) => {
-                holds.iter_mut().for_each(|hold| hold.more_act_pa.swap(one - 1, other - 1));
-            }
+            PressureSlip::Channels([one, other]) => holds.iter_mut().for_each(|hold| {
+                let mut all: Vec<f64> = hold.channels_pa().collect();
+                all.swap(*one, *other);
+                hold.more_act_pa = all.split_off(1);
+                hold.p_act_pa = all[0];
+            }),
             PressureSlip::Axes([one, other]) => places.for_each(|place| place.swap(*one, *other)),
             PressureSlip::Turned(axis) => places.for_each(|place| place[*axis] = -place[*axis]),
         }
@@ -176,61 +170,46 @@ impl PressureSlip {
         matches!(self, PressureSlip::Unit(PressureColumn::Body, _) | PressureSlip::Absolute(PressureColumn::Body, _))
     }
 
-    /// `the actuator pressures look as if they were psi under a name of kPa`.
-    pub fn looks(&self) -> String {
+    /// How the columns look, how they were corrected to try this slip, and how to correct the table if they are as suspected.
+    pub fn words(&self) -> [String; 3] {
         match self {
-            PressureSlip::Unit(column, unit) => {
-                let ([word, _], [[right, _], [wrong, _]]) = (column.words(), unit.units);
-                format!("the {word} pressures look as if they were {right} under a name of {wrong}")
+            PressureSlip::Unit(column, WrongUnit { factor, units: [[right, suffix], [wrong, own]] }) => {
+                let [word, name] = column.words();
+                [
+                    format!("the {word} pressures look as if they were {right} under a name of {wrong}"),
+                    format!("{} times the numbers", (1e4 * factor).round() / 1e4),
+                    format!("if they are, name the column {name}_{suffix} in place of {name}_{own}"),
+                ]
             }
-            PressureSlip::Exchanged => "the pressures of body and actuator look exchanged".into(),
-            PressureSlip::Absolute(column, _) => format!("the {} pressures look absolute", column.words()[0]),
-            PressureSlip::Channels([one, other]) => {
-                format!("the pressures of the supply channels {one} and {other} look exchanged")
-            }
-            PressureSlip::Axes(pair) => {
-                let [one, other] = pair.map(|axis| AXES[axis]);
-                format!("{one} and {other} look exchanged")
-            }
-            PressureSlip::Turned(axis) => format!("{} looks turned over", AXES[*axis]),
-        }
-    }
-
-    /// How the table was corrected to try this slip, such as `6.895 times the numbers`.
-    pub fn with(&self) -> String {
-        match self {
-            PressureSlip::Unit(_, unit) => format!("{} times the numbers", (1e4 * unit.factor).round() / 1e4),
-            PressureSlip::Exchanged | PressureSlip::Channels(_) | PressureSlip::Axes(_) => {
-                "the two columns exchanged".into()
-            }
-            PressureSlip::Turned(axis) => format!("-{name} in place of {name}", name = AXES[*axis]),
-            PressureSlip::Absolute(_, room_pa) => format!("{} kPa subtracted", short(1e-3 * room_pa)),
-        }
-    }
-
-    /// How to correct the table if the pressures are as suspected.
-    pub fn help(&self) -> String {
-        match self {
-            PressureSlip::Unit(column, WrongUnit { units: [[_, right], [_, wrong]], .. }) => {
-                let name = column.name();
-                format!("if they are, name the column {name}_{right} in place of {name}_{wrong}")
-            }
-            PressureSlip::Exchanged => "if they are, exchange the names of the columns p_act and p_body".into(),
+            PressureSlip::Exchanged => exchanged("the pressures of body and actuator", ["p_act", "p_body"]),
             PressureSlip::Absolute(column, room_pa) => {
-                format!("if they are, subtract {} kPa from the column {}", short(1e-3 * room_pa), column.name())
+                let ([word, name], kpa) = (column.words(), short(1e-3 * room_pa));
+                let help = format!("if they are, subtract {kpa} kPa from the column {name}");
+                [format!("the {word} pressures look absolute"), format!("{kpa} kPa subtracted"), help]
             }
             PressureSlip::Channels(pair) => {
-                let [one, other] =
-                    pair.map(|channel| if channel == 0 { "p_act".into() } else { format!("p_act_{channel}") });
-                format!("if they are, exchange the names of the columns {one} and {other}")
+                let name = |channel| if channel == 0 { "p_act".into() } else { format!("p_act_{channel}") };
+                let ([one, other], names) = (pair, pair.map(name));
+                let what = format!("the pressures of the supply channels {one} and {other}");
+                exchanged(&what, names.each_ref().map(String::as_str))
             }
             PressureSlip::Axes(pair) => {
-                let [one, other] = pair.map(|axis| AXES[axis]);
-                format!("{FRAME}; if they are, exchange the names of the columns {one} and {other}")
+                let names = pair.map(|axis| AXES[axis]);
+                let [looks, with, help] = exchanged(&names.join(" and "), names);
+                [looks, with, format!("{FRAME}; {help}")]
             }
-            PressureSlip::Turned(axis) => format!("{FRAME}; if it is, change the sign of the column {}", AXES[*axis]),
+            PressureSlip::Turned(axis) => {
+                let name = AXES[*axis];
+                let help = format!("{FRAME}; if it is, change the sign of the column {name}");
+                [format!("{name} looks turned over"), format!("-{name} in place of {name}"), help]
+            }
         }
     }
+}
+
+fn exchanged(what: &str, [one, other]: [&str; 2]) -> [String; 3] {
+    let help = format!("if they are, exchange the names of the columns {one} and {other}");
+    [format!("{what} look exchanged"), "the two columns exchanged".into(), help]
 }
 
 /// What the numbers alone look like: a column that begins at the pressure of a room and never goes below it, an actuator that
@@ -238,13 +217,12 @@ impl PressureSlip {
 pub fn by_numbers(dataset: &Dataset) -> Vec<PressureSlip> {
     let Some(first) = dataset.holds.first() else { return Vec::new() };
     let absolute = |column: &PressureColumn| {
-        let begins = column.of(first);
-        let above = dataset.holds.iter().all(|hold| policy::is_not_below(column.of(hold), begins));
+        let begins = column.lowest(first);
+        let above = dataset.holds.iter().all(|hold| policy::is_not_below(column.lowest(hold), begins));
         let room_pa = if *column == PressureColumn::Body { begins.min(ROOM_PA) } else { begins };
         (is_a_room(begins) && above).then_some(PressureSlip::Absolute(*column, room_pa))
     };
-    let highest = |column: PressureColumn| dataset.holds.iter().map(|hold| column.highest(hold)).fold(0.0, f64::max);
-    let [act, body] = COLUMNS.map(highest);
+    let [act, body] = COLUMNS.map(|column| column.top(dataset));
     let found: Vec<PressureSlip> = COLUMNS.iter().filter_map(absolute).collect();
     match found.is_empty() && dataset.more_channels() == 0 && policy::is_never_above(act, body) {
         true => vec![PressureSlip::Exchanged],
@@ -257,12 +235,13 @@ pub fn pressure_words(dataset: &Dataset) -> Vec<String> {
     let told = |slip: &PressureSlip| {
         let why = match slip {
             PressureSlip::Absolute(column, _) => {
-                let begins = column.of(&dataset.holds[0]);
+                let begins = column.lowest(&dataset.holds[0]);
                 format!("they begin at {} kPa, the air of a room, and are never below it", short(1e-3 * begins))
             }
             _ => "the actuator never has more than the body".into(),
         };
-        format!("{}: {}: {why}. Look at it first: {}", dataset.name, slip.looks(), slip.help())
+        let [looks, _, help] = slip.words();
+        format!("{}: {looks}: {why}. Look at it first: {help}", dataset.name)
     };
     by_numbers(dataset).iter().map(told).collect()
 }
@@ -329,7 +308,7 @@ mod tests {
                 let [PressureSlip::Absolute(found, room_pa)] = by_numbers(&absolute)[..] else { panic!("{name}") };
                 assert!(found == column && (room_pa - ROOM_PA).abs() < 1.0, "{name} {room_pa}");
                 let words = pressure_words(&absolute).concat();
-                assert!(words.contains("subtract 10") && words.contains(column.name()), "{words}");
+                assert!(words.contains("subtract 10") && words.contains(column.words()[1]), "{words}");
             }
         }
     }
@@ -342,7 +321,7 @@ mod tests {
             let mended = slip.undone(&right);
             assert_eq!(mended.coordinates_m, right.coordinates_m);
             for (hold, before) in mended.holds.iter().zip(&right.holds) {
-                assert_eq!(column.of(hold), unit.factor * column.of(before));
+                assert_eq!(column.lowest(hold), unit.factor * column.lowest(before));
             }
             assert!(wrong_units().any(|other| (other.factor * unit.factor - 1.0).abs() < 1e-12), "{unit:?}");
         }

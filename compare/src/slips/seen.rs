@@ -1,10 +1,9 @@
 //! The data as searches of slips see them, and how they state what they find.
 
 use super::arc::MarkedBody;
-use crate::wording::short;
+use crate::wording::{list, short};
 use data::Dataset;
 
-/// The data as these tests see them.
 pub(super) struct SlipSeen<'a> {
     pub(super) dataset: &'a Dataset,
     pub(super) body: MarkedBody<'a>,
@@ -44,12 +43,12 @@ impl SlipSeen<'_> {
 
     /// `in all 5 runs`, `in run 2`, `in runs 2 and 4`.
     pub(super) fn in_runs(&self, runs: &[usize]) -> String {
-        let labels: Vec<String> = runs.iter().map(|run| self.dataset.runs[*run].clone()).collect();
+        let labels: Vec<&String> = runs.iter().map(|run| &self.dataset.runs[*run]).collect();
         match (runs.len(), self.dataset.runs.len()) {
             (1, 1) => "in the only run".into(),
             (some, all) if some == all => format!("in all {all} runs"),
             (1, _) => format!("in run {}", labels[0]),
-            _ => format!("in runs {}", crate::wording::list(&labels)),
+            _ => format!("in runs {}", list(labels)),
         }
     }
 }

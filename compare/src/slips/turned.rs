@@ -5,6 +5,7 @@
 //! y turned over in all runs is refused where the table is read; in some runs it is seen by the others.
 
 use super::seen::{ANY_BASE, SlipSeen, told};
+use crate::fit::numbers::{groups, least, mean};
 use crate::policy;
 
 /// Factor on the numbers, if they are as the words say.
@@ -18,7 +19,6 @@ const UNITS: [(f64, &str); 7] = [
     (0.001, "mm under a header of m"),
 ];
 
-/// A way in which a run may be written.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct TurnWay {
     /// x and y are exchanged, before signs.
@@ -46,8 +46,8 @@ impl TurnWay {
     }
 
     fn is_like(&self, other: &TurnWay) -> bool {
-        let same = !policy::is_no_scale(self.factor / other.factor);
-        same && TurnWay { factor: 1.0, ..*self } == TurnWay { factor: 1.0, ..*other }
+        let way = |way: &TurnWay| (way.exchanged, way.signs, way.from_tip);
+        !policy::is_no_scale(self.factor / other.factor) && way(self) == way(other)
     }
 }
 
@@ -58,15 +58,12 @@ struct TurnFound {
 }
 
 pub(super) fn turned(seen: &mut SlipSeen) -> Vec<String> {
-    let mut groups: Vec<Vec<TurnFound>> = Vec::new();
-    for found in (0..seen.points.len()).filter_map(|run| in_run(seen, run)).collect::<Vec<_>>() {
-        seen.points[found.run] = found.way.undo_run(&seen.points[found.run]);
-        match groups.iter_mut().find(|group| group[0].way.is_like(&found.way)) {
-            Some(group) => group.push(found),
-            None => groups.push(vec![found]),
-        }
+    let all: Vec<TurnFound> = (0..seen.points.len()).filter_map(|run| in_run(seen, run)).collect();
+    for TurnFound { run, way, .. } in &all {
+        seen.points[*run] = way.undo_run(&seen.points[*run]);
     }
-    groups.iter().map(|alike| words(seen, alike)).collect()
+    let alike = groups(&all, |a, b| a.way.is_like(&b.way)).into_iter();
+    alike.map(|own| words(seen, &own.iter().map(|i| &all[*i]).collect::<Vec<_>>())).collect()
 }
 
 fn in_run(seen: &SlipSeen, run: usize) -> Option<TurnFound> {
@@ -81,13 +78,13 @@ fn in_run(seen: &SlipSeen, run: usize) -> Option<TurnFound> {
         return None;
     }
     let ways: Vec<(TurnWay, f64)> = ways(seen, points).into_iter().map(|way| (way, left(&way, loose))).collect();
-    let least = ways.iter().fold(f64::INFINITY, |least, (_, squares)| least.min(*squares));
-    if !policy::is_far_less(rms(least), rms(before)) {
+    let best = ways.iter().fold(f64::INFINITY, |least, (_, squares)| least.min(*squares));
+    if !policy::is_far_less(rms(best), rms(before)) {
         return None;
     }
     // Alike but for the place of the base.
-    let alike = ways.into_iter().filter(|(_, squares)| !policy::is_far_less(rms(least), rms(*squares)));
-    let (mut way, after) = alike.min_by(|a, b| left(&a.0, false).total_cmp(&left(&b.0, false)))?;
+    let alike = ways.into_iter().filter(|(_, squares)| !policy::is_far_less(rms(best), rms(*squares)));
+    let (mut way, after) = least(alike, |(way, _)| left(way, false))?;
     if !seen.bends_up(&way.undo_run(points)) {
         way.signs[1] = -1.0;
     }
@@ -114,17 +111,17 @@ fn ways(seen: &SlipSeen, run: &[Vec<[f64; 2]>]) -> Vec<TurnWay> {
 /// How much farther apart the stations are than the markers at the lowest pressure, where they are farthest.
 fn factor(seen: &SlipSeen, run: &[Vec<[f64; 2]>]) -> f64 {
     let size = |points: &[[f64; 2]]| {
-        let mean = [0, 1].map(|axis| points.iter().map(|p| p[axis]).sum::<f64>() / points.len() as f64);
+        let mean = [0, 1].map(|axis| mean(points.iter().map(|p| p[axis])));
         points.iter().map(|p| (p[0] - mean[0]).powi(2) + (p[1] - mean[1]).powi(2)).sum::<f64>().sqrt()
     };
     let straight: Vec<[f64; 2]> = seen.body.stations_m.iter().map(|s| [*s, 0.0]).collect();
     size(&straight) / run.iter().map(|points| size(points)).fold(0.0, f64::max)
 }
 
-fn words(seen: &SlipSeen, alike: &[TurnFound]) -> String {
+fn words(seen: &SlipSeen, alike: &[&TurnFound]) -> String {
     let way = alike[0].way;
     let runs: Vec<usize> = alike.iter().map(|found| found.run).collect();
-    let mean = |i: usize| (alike.iter().map(|f| f.rms_m[i].powi(2)).sum::<f64>() / alike.len() as f64).sqrt();
+    let rms_m = [0, 1].map(|i| mean(alike.iter().map(|found| found.rms_m[i].powi(2))).sqrt());
     // How it looks, what undoes it, what to do.
     let mut all: Vec<[String; 3]> = Vec::new();
     if way.exchanged || way.signs != [1.0; 2] {
@@ -150,7 +147,7 @@ fn words(seen: &SlipSeen, alike: &[TurnFound]) -> String {
     let joined = |k: usize, by: &str| all.iter().map(|words| words[k].as_str()).collect::<Vec<_>>().join(by);
     let next = format!("Look at it first: {}", joined(2, "; "));
     let looks = format!("{} {}", joined(0, ", and "), seen.in_runs(&runs));
-    told(looks, [mean(0), mean(1)], ANY_BASE, &joined(1, " and "), &next)
+    told(looks, rms_m, ANY_BASE, &joined(1, " and "), &next)
 }
 
 /// y turned over in some runs.
@@ -179,8 +176,7 @@ fn from_others(seen: &SlipSeen, run: usize, others: &[usize], sign: f64) -> f64 
     let mut squares = 0.0;
     for (hold, points) in seen.points[run].iter().enumerate() {
         for (marker, [x, y]) in points.iter().enumerate() {
-            let of_others = |axis: usize| others.iter().map(move |other| seen.points[*other][hold][marker][axis]);
-            let mean = [0, 1].map(|axis| of_others(axis).sum::<f64>() / others.len() as f64);
+            let mean = [0, 1].map(|axis| mean(others.iter().map(|other| seen.points[*other][hold][marker][axis])));
             squares += (x - mean[0]).powi(2) + (sign * y - mean[1]).powi(2);
         }
     }

@@ -37,7 +37,7 @@ fn a_right_robot_agrees_and_a_wrong_one_does_not() {
         assert!((evaluation.noise.camera_mm.unwrap() - 1.0).abs() < 0.1, "{:?}", evaluation.noise);
         assert_eq!(evaluation.where_it_fails.len(), 1, "{seed}: {:?}", evaluation.where_it_fails);
         let [hold, cell] = [&evaluation.metrics.holds[2], &evaluation.metrics.holds[0]];
-        assert_eq!((hold.p_act_channels_kpa.as_slice(), cell.paper_accuracy), (&[20.0, 10.0][..], None));
+        assert_eq!((hold.label.p_act_channels_kpa.as_slice(), cell.paper_accuracy), (&[20.0, 10.0][..], None));
         assert!(hold.tip_error_z_mm.is_some() && evaluation.residual_map.cells[0][0].z.is_some());
         let wrong = alone(&other, found.dataset.clone());
         let evaluation = &wrong.variants[0].evaluation;

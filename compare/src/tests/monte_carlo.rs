@@ -3,15 +3,15 @@
 use crate::accuracy::paper_accuracy;
 use crate::beside_mean::BesideMean;
 use crate::evaluate::{EvaluateOptions, evaluate};
-use crate::metrics::{MetricsOptions, metrics};
+use crate::metrics::metrics;
 use crate::noise::NoiseModel;
 use crate::residuals::residual_map;
 use crate::stats::{f_tail, two_sided_p};
 use crate::tests::synthetic::{CAMERA, SyntheticNoise, SyntheticRobot, TYPICAL};
-use crate::where_it_fails::{FailureOptions, Finding, where_it_fails};
+use crate::where_it_fails::{Finding, where_it_fails};
 use data::Dataset;
 
-const NO_BOOTSTRAP: MetricsOptions = MetricsOptions { fitted_parameters: 0, bootstrap_samples: 0, seed: 0 };
+const NO_BOOTSTRAP: (usize, u64) = (0, 0);
 
 /// Mean and standard error of the mean.
 fn mean_and_error(values: &[f64]) -> (f64, f64) {
@@ -61,7 +61,7 @@ fn the_noise_ceiling_is_that_of_the_handbook() {
             noise.sigma_m = Some(1e-3);
             noise.mean_variance = Default::default();
             let c = BesideMean::new(&data, &noise, &robot.shape(1.0)).unwrap();
-            let ceiling = metrics(&c, &NO_BOOTSTRAP).unwrap().holds[0].noise_ceiling.unwrap();
+            let ceiling = metrics(&c, 0, NO_BOOTSTRAP).unwrap().holds[0].noise_ceiling.unwrap();
             println!("tip {tip_mm} mm, {runs} runs: ceiling {ceiling:.4}, handbook {expected}");
             assert!((ceiling - expected).abs() < 0.005 * (2.0 - expected), "{ceiling} {expected}");
         }
@@ -76,7 +76,7 @@ fn a_perfect_model_meets_its_noise_ceiling_on_average() {
     for seed in 0..250 {
         let data = robot.measured(5, SyntheticNoise { alignment_m: 2e-4, ..TYPICAL }, 2000 + seed);
         let noise = NoiseModel::estimate(&data, &slope, &[], None).unwrap();
-        let holds = metrics(&BesideMean::new(&data, &noise, &truth).unwrap(), &NO_BOOTSTRAP).unwrap().holds;
+        let holds = metrics(&BesideMean::new(&data, &noise, &truth).unwrap(), 0, NO_BOOTSTRAP).unwrap().holds;
         for (gap, hold) in gaps.iter_mut().zip(&holds[1..4]) {
             gap.push(hold.paper_accuracy.unwrap() - hold.noise_ceiling.unwrap());
         }
@@ -105,7 +105,7 @@ fn the_error_beyond_noise_and_the_noise_floor_are_unbiased() {
     for seed in 0..150 {
         let data = robot.measured(5, TYPICAL, 1000 + seed);
         let noise = NoiseModel::estimate(&data, &slope, &[], None).unwrap();
-        let overall = metrics(&BesideMean::new(&data, &noise, &truth).unwrap(), &NO_BOOTSTRAP).unwrap().overall;
+        let overall = metrics(&BesideMean::new(&data, &noise, &truth).unwrap(), 0, NO_BOOTSTRAP).unwrap().overall;
         excess.push(overall.rmse_mm.powi(2) - overall.noise_floor_mm.unwrap().powi(2));
     }
     assert_mean("mean square error of the truth minus noise floor^2 [mm^2]", &excess, 0.0);
@@ -147,8 +147,7 @@ fn null_dataset(data: &Dataset, truth: &[f64], slope: &[f64]) -> NullDataset {
     let directions: Vec<Vec<f64>> = (0..4).map(|j| noise.directions.iter().map(|u| u[j]).collect()).collect();
     let whitened: Vec<Vec<f64>> = directions.iter().map(|g| noise.whiten(g)).collect();
     let run_as_unit = NullTest::of(&noise.whiten(&c.residual_m), &whitened, noise.pure_error_dof);
-    let strict = FailureOptions { alpha: 0.01, tolerance_m: 0.0 };
-    let failure_named = where_it_fails(&c, &residual_map(&c), None, &strict)[0].finding != Finding::Agrees;
+    let failure_named = where_it_fails(&c, &residual_map(&c), None, 0.01, 0.0)[0].finding != Finding::Agrees;
     let (n, runs) = (truth.len(), data.runs.len());
     let mean = data.mean_over_runs();
     let scatter: f64 = data.coordinates_m.iter().enumerate().map(|(i, y)| (y - mean[i % n]).powi(2)).sum();

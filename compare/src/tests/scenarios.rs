@@ -65,7 +65,7 @@ fn hysteresis_is_seen_on_unloading_only() {
     assert!(s.sentence.contains("at 0, 10, 20 and 30 kPa while loading it is right to within noise"), "{}", s.sentence);
     assert_eq!(e.where_it_fails.len(), 1, "{:#?}", e.where_it_fails);
     assert!(e.residual_map.loops[0].deviation.mm < -4.0);
-    assert_eq!(e.metrics.holds[4].phase, "unload");
+    assert_eq!(e.metrics.holds[4].label.phase, "unload");
 }
 
 #[test]

@@ -1,18 +1,11 @@
 //! What may be missing on a bench: effects of the catalogue, and numbers of the scenario that are usually not known.
 
 use crate::bench::Trial;
-use crate::diagnosis::candidates::{Candidate, Free, candidate, hold, hold_shapes};
+use crate::diagnosis::candidates::{Candidate, Free, has, hold, hold_shapes, of_catalogue};
 use data::Bench;
 use models::Scenario;
 use models::effects::{Effect, Fitted, Group, Stage};
 
-/// An effect, or a number of the scenario.
-pub(super) struct Law {
-    pub candidate: Candidate,
-    number: Option<&'static Number>,
-}
-
-/// A number of a scenario that a bench test determines.
 struct Number {
     /// Kind of bench table in which the number acts.
     table: &'static str,
@@ -111,33 +104,30 @@ const NUMBERS: &[Number] = &[
     },
 ];
 
-impl Law {
-    /// Where fits start: as of markers, and at the bounds: where a beam has folded no slope leads back.
-    pub(super) fn starts(&self) -> Vec<Vec<f64>> {
-        let mut starts = self.candidate.starts();
-        let k = self.candidate.lead();
-        for bound in [self.candidate.parameters[k].lower, self.candidate.parameters[k].upper] {
-            let mut start = self.candidate.at(1.0);
-            start[k] = bound;
-            starts.push(start);
-        }
-        starts
+/// Where fits of a law start: as of markers, and at the bounds: where a beam has folded no slope leads back.
+pub(super) fn starts(law: &Candidate) -> Vec<Vec<f64>> {
+    let (mut starts, lead) = (law.starts(), law.lead());
+    for bound in [law.parameters[lead].lower, law.parameters[lead].upper] {
+        let mut start = law.at(1.0);
+        start[lead] = bound;
+        starts.push(start);
     }
+    starts
+}
 
-    /// The trial with this law at these values, SI.
-    pub(super) fn apply(&self, trial: &mut Trial, values: &[f64]) {
-        match self.number {
-            Some(number) => (number.set)(trial, values[0]),
-            None => trial.scenario = self.candidate.apply(&trial.scenario, values),
-        }
+/// The trial with a law at these values, SI.
+pub(super) fn apply(law: &Candidate, trial: &mut Trial, values: &[f64]) {
+    let is_own = |number: &&Number| law.name == number.name && law.parameters[0].key == number.key;
+    match NUMBERS.iter().find(is_own) {
+        Some(number) => (number.set)(trial, values[0]),
+        None => trial.scenario = law.apply(&trial.scenario, values),
     }
 }
 
 /// Every law that may act on a table, and which of them are always fitted: numbers that every model needs and that neither table nor
 /// scenario gives, and with `refit` the scenario's own.
-pub(super) fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Law>, Vec<usize>) {
+pub(super) fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Candidate>, Vec<usize>) {
     let beam = bench.kind.name == "load_deflection";
-    let has = |name: &str| scenario.effects.iter().any(|e| e.name == name);
     // The machine's load is known, and a dial gauge does not see what a camera does to markers.
     let may = |e: &Effect| {
         !["tip_load", "weak_place"].contains(&e.name)
@@ -146,26 +136,22 @@ pub(super) fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Law>
             && !(e.stage == Stage::Supply && e.history)
             && scenario.actuator.takes(e)
             && (beam || e.needs_actuator())
-            && (refit || !has(e.name))
+            && (refit || !has(scenario, e.name))
     };
-    let catalogue = scenario.catalogue();
-    let mut effects: Vec<Candidate> =
-        catalogue.effects().filter(may).map(|e| candidate(&e, scenario.actuator.kind.name)).collect();
+    let mut laws = of_catalogue(scenario, may);
     let first = bench.rows[0].get("p_body");
     let body_pressures = bench.rows.iter().any(|row| row.get("p_body") != first);
     // A testing machine is the separate test that a design number waits for.
-    effects.iter_mut().flat_map(|c| &mut c.parameters).filter(|p| p.fitted == Fitted::FromDesign).for_each(|p| {
-        p.fitted = Fitted::Always;
-    });
-    hold(&mut effects, true, body_pressures, &[]);
+    let parameters = laws.iter_mut().flat_map(|c| &mut c.parameters);
+    parameters.filter(|p| p.fitted == Fitted::FromDesign).for_each(|p| p.fitted = Fitted::Always);
+    hold(&mut laws, true, body_pressures, &[]);
     // Laws have their usual forms in a table of one quantity.
-    hold_shapes(&mut effects);
+    hold_shapes(&mut laws);
     for chosen in &scenario.effects {
-        effects.iter_mut().filter(|c| c.name == chosen.name).for_each(|c| c.as_given(&chosen.values));
+        laws.iter_mut().filter(|c| c.name == chosen.name).for_each(|c| c.as_given(&chosen.values));
     }
-    effects.retain(|candidate| candidate.count() > 0);
-    let mut laws: Vec<Law> = effects.into_iter().map(|candidate| Law { candidate, number: None }).collect();
-    let mut always: Vec<usize> = (0..laws.len()).filter(|i| has(&laws[*i].candidate.name)).collect();
+    laws.retain(|candidate| candidate.count() > 0);
+    let mut always: Vec<usize> = (0..laws.len()).filter(|i| has(scenario, &laws[*i].name)).collect();
     for number in NUMBERS.iter().filter(|n| n.table == bench.kind.name) {
         let given = (number.given)(scenario);
         let angle_untold =
@@ -173,7 +159,7 @@ pub(super) fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Law>
         if angle_untold || refit && given.is_some() {
             always.push(laws.len());
         }
-        laws.push(Law { candidate: number.candidate(given), number: Some(number) });
+        laws.push(number.candidate(given));
     }
     (laws, always)
 }

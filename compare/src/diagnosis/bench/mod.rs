@@ -25,11 +25,11 @@ use crate::bench::refuse;
 use crate::diagnosis::decide::combined;
 use crate::diagnosis::order;
 use crate::diagnosis::result::Verdict;
+use crate::fit::numbers::{groups, least, mean, sort_by};
 use crate::policy;
 use crate::stats::{chi2_tail, reported_p};
 use data::Bench;
 use models::Scenario;
-use reading::groups;
 use table::{Fit, Table};
 
 /// Level, assumed scatter and refit of the scenario's own numbers in [`diagnose_bench`].
@@ -58,59 +58,67 @@ pub fn diagnose_bench(
     scenario: Option<&Scenario>,
     options: &BenchOptions,
 ) -> Result<BenchDiagnosis, CompareError> {
-    let mut table = Table::new(bench, scenario, options.sigma, options.refit)?;
+    let mut table = Table::new(bench, scenario, options)?;
     let Some(base) = table.fit(None, None) else {
-        return refuse(
-            bench,
-            "the model has no answer to a row of it",
-            "look for a contraction beyond the muscle's range",
-        );
+        let help = "look for a contraction beyond the muscle's range";
+        return refuse(bench, "the model has no answer to a row of it", help);
     };
-    let mut fits: Vec<Fit> = table.tried_laws().filter_map(|law| table.fit(Some(law), Some(&base))).collect();
-    fits.push(base);
-    table.take_for_noise(&mut fits);
-    let Some(base) = fits.pop() else { return refuse(bench, "nothing was fitted", "add rows") };
-    let allowance = sort(&table, &base, &mut fits);
-    let set = set(&table, &base, &fits, allowance);
-    let best = set.first().map(|i| &fits[*i]);
-    let (verdict, p_value, explains) = judge(&table, &base, best, options.alpha);
-    let left_out = left_out(&table, &base, &fits);
-    // The base comes first there.
-    let left_out = |i: usize| left_out.iter().map(|parts| parts[i].clone()).collect::<Vec<_>>();
-    let ranked = |(i, fit): (usize, &Fit)| ranked(&table, &base, fit, (left_out(i + 1), set.contains(&i)));
-    let places = |fit: &Fit| off(&table, fit).map(|off| story::places(&table, &off)).unwrap_or_default();
-    let shares: Vec<f64> = table.readings.iter().filter_map(|r| r.noise()).collect();
-    let spare = table.readings.len().saturating_sub(table.count(None)).max(1) as f64;
+    let laws: Vec<Fit> = table.tried_laws().filter_map(|law| table.fit(Some(law), Some(&base))).collect();
+    let mut all = vec![base];
+    all.extend(laws);
+    table.take_for_noise(&mut all);
+    let (base, laws) = all.split_at_mut(1);
+    let base = &base[0];
+    let gains = laws.iter().filter(|fit| !fit.is_rejected()).map(|fit| fit.gain_over(base));
+    let allowance = order::allowance(gains.fold(0.0, f64::max));
+    // Typical sizes of the catalogue are typical of robots: on a bench they do not count.
+    let rows = table.readings.len();
+    let c = |fit: &Fit| order::criterion_from(rows, fit.minimum.cost, fit.free - base.free, allowance);
+    sort_by(laws, c);
+    let is_acceptable = |fit: &&Fit| !fit.is_rejected() && policy::helps(fit.gain_over(base));
+    let best = laws.iter().find(is_acceptable);
+    let is_in_set = |fit: &Fit| is_acceptable(&fit) && best.is_some_and(|best| policy::is_alike(c(fit), c(best)));
+    let in_set: Vec<bool> = laws.iter().map(is_in_set).collect();
+    let (verdict, p_value, explains) = judge(&table, base, best, options.alpha);
+    let noise = || mean(table.readings.iter().filter_map(|r| r.noise()).map(|share| share * share)).sqrt().exp_m1();
+    let where_it_fails = story::places(&table, base);
+    let leftover = best.map(|best| story::places(&table, best));
+    let mut left_out = left_out(&table, &all).into_iter();
+    let (base, laws) = (&all[0], &all[1..]);
     let found = BenchDiagnosis {
         table: bench.file.clone(),
         kind: bench.kind.name,
-        scenario: table.name().to_string(),
-        rows: table.readings.len(),
+        scenario: table.trial.scenario.name.clone(),
+        rows,
         noise_known: table.known,
         verdict,
         p_value,
         alpha: options.alpha,
-        off: rms_off(&table, &base),
-        noise: table.known.then(|| rms(&shares).exp_m1()),
-        reduced_chi2: table.known.then(|| base.minimum.cost / spare),
-        base: table.values(&base),
-        left_out: left_out(0),
-        ranked: fits.iter().enumerate().map(ranked).collect(),
+        off: base.rms_off(),
+        noise: table.known.then(noise),
+        reduced_chi2: table.known.then(|| base.minimum.cost / base.spare()),
+        base: table.values(base),
+        left_out: left_out.next().unwrap_or_default(),
+        ranked: laws
+            .iter()
+            .zip(in_set)
+            .zip(left_out)
+            .map(|(of, left_out)| ranked(&table, base, of, left_out))
+            .collect(),
         explains,
         unsized_laws: table.unsized_laws.clone(),
         summary: Vec::new(),
-        where_it_fails: places(&base),
-        leftover: best.map(places).unwrap_or_default(),
+        where_it_fails,
+        leftover: leftover.unwrap_or_default(),
     };
     Ok(BenchDiagnosis { summary: story::story(&found), ..found })
 }
 
 /// Verdict, its p, and whether the best law explains the table.
 fn judge(table: &Table, base: &Fit, best: Option<&Fit>, alpha: f64) -> (Option<Verdict>, Option<f64>, bool) {
-    let lack = |fit: &Fit| chi2_tail(fit.minimum.cost, table.readings.len().saturating_sub(table.count(fit.law)));
-    let left =
-        best.map_or(1.0, |fit| rms_off(table, fit).ln_1p() / rms_off(table, base).ln_1p().max(f64::MIN_POSITIVE));
-    let little = left <= policy::LEFT_BY_ONE;
+    let lack = |fit: &Fit| chi2_tail(fit.minimum.cost, table.readings.len().saturating_sub(fit.free));
+    let before = base.rms_off().ln_1p().max(f64::MIN_POSITIVE);
+    let little = best.map_or(1.0, |fit| fit.rms_off().ln_1p() / before) <= policy::LEFT_BY_ONE;
     if !table.known {
         return (None, None, little);
     }
@@ -125,48 +133,23 @@ fn judge(table: &Table, base: &Fit, best: Option<&Fit>, alpha: f64) -> (Option<V
     (Some(verdict), Some(reported_p(p)), explains && verdict == Verdict::Effect)
 }
 
-/// p of a gain, corrected for all laws tried.
 fn p_of(table: &Table, base: &Fit, fit: &Fit) -> f64 {
-    let added = table.count(fit.law) - table.count(None);
     let tests = table.tried_laws().count() as f64;
-    (tests * chi2_tail(fit.gain_over(base), added)).min(1.0)
+    (tests * chi2_tail(fit.gain_over(base), fit.free - base.free)).min(1.0)
 }
 
-/// Sorts fits, and returns the allowance for the form of laws.
-fn sort(table: &Table, base: &Fit, fits: &mut [Fit]) -> f64 {
-    let gains = fits.iter().filter(|f| !f.is_rejected()).map(|f| f.gain_over(base));
-    let allowance = order::allowance(gains.fold(0.0, f64::max));
-    fits.sort_by(|a, b| criterion(table, a, allowance).total_cmp(&criterion(table, b, allowance)));
-    allowance
-}
-
-/// Typical sizes of the catalogue are typical of robots: on a bench they do not count.
-fn criterion(table: &Table, fit: &Fit, allowance: f64) -> f64 {
-    let added = table.count(fit.law) - table.count(None);
-    order::criterion_from(table.readings.len(), fit.minimum.cost, added, allowance)
-}
-
-/// Fits that the data cannot separate from the best one that no bound rejects; none where none of them gains.
-fn set(table: &Table, base: &Fit, fits: &[Fit], allowance: f64) -> Vec<usize> {
-    let acceptable = |i: &usize| !fits[*i].is_rejected() && policy::helps(fits[*i].gain_over(base));
-    let c = |i: usize| criterion(table, &fits[i], allowance);
-    let Some(best) = (0..fits.len()).find(acceptable) else { return Vec::new() };
-    (0..fits.len()).filter(acceptable).filter(|i| policy::is_alike(c(*i), c(best))).collect()
-}
-
-fn ranked(table: &Table, base: &Fit, fit: &Fit, (left_out, in_set): (Vec<LeftOut>, bool)) -> BenchRanked {
-    let candidate = &table.laws[fit.law.unwrap_or_default()].candidate;
-    let values = table.values(fit);
-    let parameters = values[values.len() - candidate.parameters.len()..].to_vec();
+fn ranked(table: &Table, base: &Fit, (fit, in_set): (&Fit, bool), left_out: Vec<LeftOut>) -> BenchRanked {
+    let candidate = &table.laws[fit.law.unwrap_or_default()];
+    let mut values = table.values(fit);
     BenchRanked {
         effect: candidate.name.clone(),
         group: candidate.group,
         sentence: candidate.sentence.clone(),
         differs: candidate.differs.clone(),
         remedy: candidate.remedy.clone(),
+        parameters: values.split_off(values.len() - candidate.parameters.len()),
         at_bound: fit.is_rejected(),
-        parameters,
-        off: rms_off(table, fit),
+        off: fit.rms_off(),
         gain: fit.gain_over(base),
         p_corrected: table.known.then(|| reported_p(p_of(table, base, fit))),
         left_out,
@@ -174,52 +157,39 @@ fn ranked(table: &Table, base: &Fit, fit: &Fit, (left_out, in_set): (Vec<LeftOut
     }
 }
 
-fn off(table: &Table, fit: &Fit) -> Option<Vec<f64>> {
-    table.off(fit.law, &fit.minimum.at)
-}
-
-fn rms_off(table: &Table, fit: &Fit) -> f64 {
-    off(table, fit).map_or(f64::INFINITY, |off| rms(&off).exp_m1())
-}
-
-fn rms(values: &[f64]) -> f64 {
-    (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
-}
-
 /// Parts into which the loads of a single curve are divided.
 const LOAD_PARTS: usize = 5;
 
-/// For every way to leave something out, the errors of the base and of all fits.
-fn left_out(table: &Table, base: &Fit, fits: &[Fit]) -> Vec<Vec<LeftOut>> {
-    let readings = || table.readings.iter();
-    let pressures = groups(readings().map(|r| r.pressure_pa.to_bits()));
-    let mut ways = vec![("pressure", pressures), ("specimen", groups(readings().map(|r| r.specimen.clone())))];
+/// Of every fit, its errors at what was left out, one for every way to leave something out.
+fn left_out(table: &Table, fits: &[Fit]) -> Vec<Vec<LeftOut>> {
+    let pressures = groups(&table.readings, |a, b| a.pressure_pa.to_bits() == b.pressure_pa.to_bits());
+    let mut ways =
+        vec![("pressure", pressures), ("specimen", groups(&table.readings, |a, b| a.specimen == b.specimen))];
     ways.retain(|(_, parts)| parts.len() > 1);
     if ways.is_empty() {
         let mut order: Vec<usize> = (0..table.readings.len()).collect();
-        order.sort_by(|a, b| table.readings[*a].drive.total_cmp(&table.readings[*b].drive));
+        sort_by(&mut order, |i| table.readings[*i].drive);
         let size = order.len().div_ceil(LOAD_PARTS).max(1);
         ways.push(("load", order.chunks(size).map(<[usize]>::to_vec).collect()));
     }
-    ways.iter().map(|(what, parts)| left_out_by(table, base, fits, what, parts)).collect()
-}
-
-fn left_out_by(table: &Table, base: &Fit, fits: &[Fit], what: &'static str, parts: &[Vec<usize>]) -> Vec<LeftOut> {
-    let all: Vec<&Fit> = std::iter::once(base).chain(fits).collect();
-    let (mut squares, mut first_in) = (vec![0.0; all.len()], vec![0; all.len()]);
-    for part in parts {
-        let kept: Vec<usize> = (0..table.readings.len()).filter(|i| !part.contains(i)).collect();
-        let mut costs = vec![f64::INFINITY; all.len()];
-        for (i, fit) in all.iter().enumerate() {
-            let refitted = table.refit(fit.law, &fit.minimum.at, &kept);
-            let off = refitted.as_ref().and_then(|m| table.off(fit.law, &m.at));
-            squares[i] += off.map_or(f64::INFINITY, |off| part.iter().map(|k| off[*k].powi(2)).sum());
-            costs[i] = refitted.filter(|_| !fit.is_rejected()).map_or(f64::INFINITY, |m| m.cost);
+    let mut of_fits = vec![Vec::new(); fits.len()];
+    for (what, parts) in ways {
+        let (mut squares, mut first_in) = (vec![0.0; fits.len()], vec![0; fits.len()]);
+        for part in &parts {
+            let kept: Vec<usize> = (0..table.readings.len()).filter(|i| !part.contains(i)).collect();
+            let mut costs = vec![f64::INFINITY; fits.len()];
+            for (i, fit) in fits.iter().enumerate() {
+                let refitted = table.search(fit.law, &fit.minimum.at, Some(&kept));
+                let off = refitted.as_ref().and_then(|m| table.off(fit.law, &m.at));
+                squares[i] += off.map_or(f64::INFINITY, |off| part.iter().map(|k| off[*k].powi(2)).sum());
+                costs[i] = refitted.filter(|_| !fit.is_rejected()).map_or(f64::INFINITY, |m| m.cost);
+            }
+            first_in[least(0..fits.len(), |i| costs[*i]).unwrap_or_default()] += 1;
         }
-        let best = (0..all.len()).min_by(|a, b| costs[*a].total_cmp(&costs[*b])).unwrap_or_default();
-        first_in[best] += 1;
+        for (i, own) in of_fits.iter_mut().enumerate() {
+            let off = (squares[i] / table.readings.len() as f64).sqrt().exp_m1();
+            own.push(LeftOut { what, off, first_in: first_in[i], parts: parts.len() });
+        }
     }
-    let rows = table.readings.len() as f64;
-    let of = |(s, n): (f64, usize)| LeftOut { what, off: (s / rows).sqrt().exp_m1(), first_in: n, parts: parts.len() };
-    squares.into_iter().zip(first_in).map(of).collect()
+    of_fits
 }

@@ -30,7 +30,6 @@ impl<'a> Reading<'a> {
         Some(if dof.is_finite() { error / self.measured.hypot(self.small) } else { error })
     }
 
-    /// A row of a scenario's table.
     pub(super) fn new(row: &'a BenchRow, trial: &Trial, small: f64, sigma: Option<f64>) -> Reading<'a> {
         let beam = row.get("load").is_some();
         let sized = trial.specimen(row).unwrap_or_else(|_| trial.scenario.clone());
@@ -63,16 +62,4 @@ pub(super) fn steady<'r, 'a: 'r>(readings: impl Iterator<Item = &'r mut Reading<
     for ((r, [sd, dof]), [_, own, _]) in told.iter_mut().zip(steadied(&rows)).zip(&rows) {
         r.error = Some([sd / (own + 1.0).sqrt(), dof]);
     }
-}
-
-/// Indices of equal keys, in the order in which these come.
-pub(super) fn groups<K: PartialEq>(keys: impl Iterator<Item = K>) -> Vec<Vec<usize>> {
-    let mut found: Vec<(K, Vec<usize>)> = Vec::new();
-    for (i, key) in keys.enumerate() {
-        match found.iter_mut().find(|(known, _)| *known == key) {
-            Some((_, rows)) => rows.push(i),
-            None => found.push((key, vec![i])),
-        }
-    }
-    found.into_iter().map(|(_, rows)| rows).collect()
 }

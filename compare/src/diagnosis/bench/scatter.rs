@@ -15,7 +15,6 @@
 
 use statrs::function::gamma::digamma;
 
-/// Fewest rows that say what they have in common.
 const FEWEST: usize = 4;
 /// d₀ from which on all rows are alike.
 const ALIKE: f64 = 1e4;

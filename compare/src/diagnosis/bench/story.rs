@@ -1,18 +1,18 @@
 //! The diagnosis of a table in sentences, and where a model fails.
 
-use super::reading::{Reading, groups};
+use super::reading::Reading;
 use super::result::{BenchDiagnosis, BenchRanked, LeftOut};
-use super::table::Table;
+use super::table::{Fit, Table};
 use crate::bench::is_free;
 use crate::diagnosis::result::Verdict;
 use crate::diagnosis::result::words::{quantity, with_interval};
+use crate::fit::numbers::{groups, largest, least, mean, sort_by};
 use crate::policy;
 use crate::wording::{list, p_value, short};
 
 /// Levels that are described one by one; more are described by thirds.
 const MOST_LEVELS: usize = 4;
 
-/// The answer, a sentence or two per entry.
 pub(super) fn story(d: &BenchDiagnosis) -> Vec<String> {
     let mut told = vec![opening(d)];
     told.extend(d.base.iter().map(|p| format!("Fitted along: {}.", with_interval(p))));
@@ -71,22 +71,21 @@ fn of_best(d: &BenchDiagnosis, best: &BenchRanked) -> Vec<String> {
     let values: Vec<String> = best.parameters.iter().map(with_interval).collect();
     let mut told = vec![format!("{}: {}. {}", best.effect, values.join(", "), best.sentence)];
     told.extend(d.left_out.iter().zip(&best.left_out).map(|(before, after)| holds(before, after, &best.effect)));
-    let others: Vec<String> = d.set().map(|r| format!("{} ({})", r.effect, percent(r.off))).collect();
-    told.push(match (others.len(), d.explains) {
+    let others = list(d.set().map(|r| format!("{} ({})", r.effect, percent(r.off))));
+    told.push(match (d.set().count(), d.explains) {
         (0 | 1, true) => "Best explanation in this catalogue, without a rival in it. Another effect that is not listed may look the same.".into(),
         (0 | 1, false) => "It is the best of the catalogue, and not enough: another law, several effects, or the table.".into(),
-        _ => format!("Equally good with this table: {}. The data do not choose between them.", list(&others)),
+        _ => format!("Equally good with this table: {others}. The data do not choose between them."),
     });
     told
 }
 
-/// What would come closer, but only at the end of its range.
 fn at_its_bound(d: &BenchDiagnosis, off: f64) -> Option<String> {
     let closer = d.ranked.iter().filter(|r| r.at_bound && r.off < off);
-    let r = closer.min_by(|a, b| a.off.total_cmp(&b.off))?;
+    let r = least(closer, |r| r.off)?;
     let bounds = r.parameters.iter().filter(|p| p.at_bound);
-    let at: Vec<String> = bounds.map(|p| format!("{} = {}", p.symbol, quantity(p.value, &p.unit))).collect();
-    let (effect, to, at) = (&r.effect, percent(r.off), list(&at));
+    let at = list(bounds.map(|p| format!("{} = {}", p.symbol, quantity(p.value, &p.unit))));
+    let (effect, to) = (&r.effect, percent(r.off));
     Some(format!("{effect} would bring it to {to}, but at the end of its range, {at}, and the data push beyond it."))
 }
 
@@ -107,10 +106,11 @@ fn holds(before: &LeftOut, after: &LeftOut, effect: &str) -> String {
 }
 
 /// Where errors d ([`super::table`]) are: on the whole, by load, pressure and specimen, and the largest.
-pub(super) fn places(table: &Table, off: &[f64]) -> Vec<String> {
+pub(super) fn places(table: &Table, fit: &Fit) -> Vec<String> {
+    let off = &fit.off[..];
     let beam = table.readings[0].row.get("load").is_some();
     let free = table.readings.iter().any(|r| is_free(r.row));
-    let mean = mean(off, &(0..off.len()).collect::<Vec<_>>());
+    let mean = mean(off.iter().copied());
     let below = off.iter().filter(|o| **o < 0.0).count();
     let most = below.max(off.len() - below);
     let (word, why) = match (beam, mean < 0.0) {
@@ -119,14 +119,11 @@ pub(super) fn places(table: &Table, off: &[f64]) -> Vec<String> {
         (false, true) => ("below", "too weak"),
         (false, false) => ("above", "too strong"),
     };
-    let mut told = vec![format!("mean {:+.1} %", 100.0 * mean.exp_m1())];
-    if 4 * most >= 3 * off.len() {
-        told[0] = format!(
-            "the model is {word} the table in {most} of {} rows, mean {:+.1} %: {why}",
-            off.len(),
-            100.0 * mean.exp_m1()
-        );
-    }
+    let (rows, percent) = (off.len(), format!("mean {:+.1} %", 100.0 * mean.exp_m1()));
+    let mut told = vec![match 4 * most >= 3 * rows {
+        true => format!("the model is {word} the table in {most} of {rows} rows, {percent}: {why}"),
+        false => percent,
+    }];
     let of_drive = |v: f64| {
         if beam { format!("{v:.2} of the collapse load") } else { format!("{} % contraction", short(100.0 * v)) }
     };
@@ -139,34 +136,30 @@ pub(super) fn places(table: &Table, off: &[f64]) -> Vec<String> {
         by_specimen(table, off).map(|s| format!("by specimen: {s}")),
     ];
     told.extend(ordered.into_iter().flatten());
-    if let Some((r, o)) = table.readings.iter().zip(off).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())) {
+    if let Some((r, o)) = largest(table.readings.iter().zip(off), |(_, off)| off.abs()) {
         let share = if beam { format!(", {}", of_drive(r.drive)) } else { String::new() };
         told.push(format!("largest in line {} ({}{share}): {:+.1} %", r.row.line, r.at, 100.0 * o.exp_m1()));
     }
     told
 }
 
-fn mean(off: &[f64], rows: &[usize]) -> f64 {
-    rows.iter().map(|i| off[*i]).sum::<f64>() / rows.len().max(1) as f64
-}
-
 /// Means of levels, if they hold enough of the squares about the mean of all.
 fn told(off: &[f64], levels: &[(String, Vec<usize>)]) -> Option<String> {
-    let all = mean(off, &(0..off.len()).collect::<Vec<_>>());
+    let all = mean(off.iter().copied());
+    let of = |rows: &Vec<usize>| mean(rows.iter().map(|i| off[*i]));
     let squares: f64 = off.iter().map(|o| (o - all).powi(2)).sum();
-    let between: f64 = levels.iter().map(|(_, rows)| rows.len() as f64 * (mean(off, rows) - all).powi(2)).sum();
+    let between: f64 = levels.iter().map(|(_, rows)| rows.len() as f64 * (of(rows) - all).powi(2)).sum();
     let share = between / squares.max(f64::MIN_POSITIVE);
-    let words: Vec<String> =
-        levels.iter().map(|(w, rows)| format!("{:+.1} % at {w}", 100.0 * mean(off, rows).exp_m1())).collect();
+    let words = levels.iter().map(|(w, rows)| format!("{:+.1} % at {w}", 100.0 * of(rows).exp_m1()));
     (levels.len() > 1 && share > policy::PATTERN_TELLS)
-        .then(|| format!("{} ({:.0} % of the scatter about the mean)", list(&words), 100.0 * share))
+        .then(|| format!("{} ({:.0} % of the scatter about the mean)", list(words), 100.0 * share))
 }
 
 fn by_level(table: &Table, off: &[f64], of: &dyn Fn(&Reading) -> f64, word: &dyn Fn(f64) -> String) -> Option<String> {
     let values: Vec<f64> = table.readings.iter().map(of).collect();
     let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
-    let distinct = groups(order.iter().map(|i| values[*i].to_bits()));
+    sort_by(&mut order, |i| values[*i]);
+    let distinct = groups(&order, |a, b| values[**a].to_bits() == values[**b].to_bits());
     let parts: Vec<Vec<usize>> = match distinct.len() {
         n if n <= MOST_LEVELS => distinct.iter().map(|d| d.iter().map(|k| order[*k]).collect()).collect(),
         _ => order.chunks(order.len().div_ceil(3)).map(<[usize]>::to_vec).collect(),
@@ -180,7 +173,7 @@ fn by_level(table: &Table, off: &[f64], of: &dyn Fn(&Reading) -> f64, word: &dyn
 }
 
 fn by_specimen(table: &Table, off: &[f64]) -> Option<String> {
-    let parts = groups(table.readings.iter().map(|r| r.specimen.clone()));
+    let parts = groups(&table.readings, |a, b| a.specimen == b.specimen);
     let label = |rows: &Vec<usize>| match table.readings[rows[0]].specimen.as_str() {
         "" => "the one without a size".to_string(),
         words => words.to_string(),

@@ -63,7 +63,6 @@ impl Free {
         !self.is_held && (self.typical != 0.0 || self.neutral != 0.0 || self.is_shape())
     }
 
-    /// Whether it shapes the law about its usual form.
     pub(crate) fn is_shape(&self) -> bool {
         self.fitted == Fitted::Shape
     }
@@ -81,7 +80,6 @@ impl Free {
         }
     }
 
-    /// As a fit found it, in SI.
     pub(crate) fn found(&self, value: f64, interval: Option<[f64; 2]>, at_bound: bool) -> ParameterValue {
         ParameterValue {
             key: self.key.clone(),
@@ -95,7 +93,6 @@ impl Free {
         }
     }
 
-    /// Length of one step of the fit.
     pub(crate) fn scale(&self) -> f64 {
         let typical = (self.typical - self.neutral).abs();
         if typical > 0.0 { typical } else { 0.1 * (self.upper - self.lower) }
@@ -129,17 +126,15 @@ pub(crate) const NEAR: f64 = 1e-6;
 impl Candidate {
     /// The scenario with this effect at these values (SI), or without it. Known forces on the tip add up.
     pub(crate) fn apply(&self, scenario: &Scenario, values: &[f64]) -> Scenario {
-        if let Some(name) = taken_away(&self.name) {
-            let is_there = scenario.effects.iter().any(|e| e.name == name);
-            return if is_there { scenario.with_effect(name, values) } else { scenario.clone() };
-        }
-        let known = scenario.effects.iter().find(|e| e.name == self.name && self.name == "tip_load");
-        match known {
-            Some(known) => {
+        let name = taken_away(&self.name).unwrap_or(&self.name);
+        let own = scenario.effects.iter().find(|e| e.name == name);
+        match own {
+            None if self.removes.is_some() => scenario.clone(),
+            Some(known) if name == "tip_load" => {
                 let sum: Vec<f64> = values.iter().zip(&known.values).map(|(a, b)| a + b).collect();
-                scenario.with_effect(&self.name, &sum)
+                scenario.with_effect(name, &sum)
             }
-            None => scenario.with_effect(&self.name, values),
+            _ => scenario.with_effect(name, values),
         }
     }
 
@@ -153,7 +148,6 @@ impl Candidate {
         }
     }
 
-    /// Values `share` of the way from neutral to typical.
     pub(crate) fn at(&self, share: f64) -> Vec<f64> {
         self.parameters.iter().map(|p| p.neutral + share * (p.typical - p.neutral)).collect()
     }
@@ -179,7 +173,6 @@ impl Candidate {
         own.map_or_else(|| self.at(0.0), |e| e.values.clone())
     }
 
-    /// Number of parameters that are fitted.
     pub(crate) fn count(&self) -> usize {
         self.parameters.iter().filter(|p| p.is_free()).count()
     }
@@ -226,12 +219,12 @@ impl Candidate {
         if clamped(-1.0) != clamped(0.0) {
             starts.push(clamped(-1.0));
         }
-        for (k, p) in self.parameters.iter().enumerate().filter(|(_, p)| !p.is_held) {
-            starts.extend(p.starts.iter().map(|value| {
+        for (k, p) in self.parameters.iter().enumerate() {
+            for value in p.starts.iter().filter(|_| !p.is_held) {
                 let mut start = clamped(1.0);
                 start[k] = *value;
-                start
-            }));
+                starts.push(start);
+            }
         }
         starts.dedup();
         starts
@@ -246,20 +239,19 @@ pub(crate) fn hold(
     body_pressures: bool,
     measured: &[&MeasuredValue],
 ) {
-    for Candidate { name, parameters, .. } in candidates {
-        for p in parameters {
-            let is_measured = measured.iter().any(|m| m.effect == *name && m.key == p.key);
+    for candidate in candidates {
+        for p in &mut candidate.parameters {
+            let is_measured = measured.iter().any(|m| m.effect == candidate.name && m.key == p.key);
             p.is_held = match p.fitted {
-                Fitted::Always | Fitted::Shape | Fitted::BetweenHolds | Fitted::BetweenSamples => false,
                 Fitted::WithKeptBending => !kept_bending,
                 Fitted::WithBodyPressures => !body_pressures && !is_measured,
                 Fitted::FromDesign => true,
+                _ => false,
             };
         }
     }
 }
 
-/// Lags that are tried, in samples.
 const LAGS: usize = 5;
 
 /// Times of the protocol are tried in the middle between two holds, lags between two samples: nothing changes elsewhere.
@@ -281,7 +273,6 @@ pub(crate) fn tried_between(candidates: &mut [Candidate], holds: &[Hold]) {
     }
 }
 
-/// Gives all laws their usual forms.
 pub(crate) fn hold_shapes(candidates: &mut [Candidate]) {
     let all = candidates.iter_mut().flat_map(|c| &mut c.parameters);
     all.filter(|p| p.is_shape()).for_each(|p| p.is_held = true);
@@ -290,18 +281,25 @@ pub(crate) fn hold_shapes(candidates: &mut [Candidate]) {
 /// Effects of the catalogue and formulas of the scenario that exist for this actuator and are not in the scenario yet. What follows
 /// from how the robot is cut and joined is there or not, with nothing to fit: it may be missing where a scenario describes that.
 pub(crate) fn candidates(scenario: &Scenario) -> Vec<Candidate> {
-    let absent = |effect: &Effect| !scenario.effects.iter().any(|e| e.name == effect.name);
-    let (catalogue, actuator) = (scenario.catalogue(), scenario.actuator.kind.name);
+    let catalogue = scenario.catalogue();
     let is_described = scenario.effects.iter().any(|e| catalogue.by_name(&e.name).is_some_and(|e| !e.is_fitted()));
-    let fits = |e: &Effect| scenario.takes(e) && (e.is_fitted() || is_described);
-    catalogue.effects().filter(fits).filter(absent).map(|e| candidate(&e, actuator)).collect()
+    of_catalogue(scenario, |e| scenario.takes(e) && (e.is_fitted() || is_described) && !has(scenario, e.name))
+}
+
+/// Whether a scenario has an effect.
+pub(crate) fn has(scenario: &Scenario, name: &str) -> bool {
+    scenario.effects.iter().any(|e| e.name == name)
+}
+
+/// Effects of the catalogue and formulas of a scenario, as candidates.
+pub(crate) fn of_catalogue(scenario: &Scenario, is_wanted: impl Fn(&Effect) -> bool) -> Vec<Candidate> {
+    let (catalogue, actuator) = (scenario.catalogue(), scenario.actuator.kind.name);
+    catalogue.effects().filter(is_wanted).map(|e| candidate(&e, actuator)).collect()
 }
 
 /// The scenario's own effects, to be fitted along with the base; known forces stay known.
 pub(crate) fn present(scenario: &Scenario) -> Vec<Candidate> {
-    let own = |effect: &Effect| effect.name != "tip_load" && scenario.effects.iter().any(|e| e.name == effect.name);
-    let (catalogue, actuator) = (scenario.catalogue(), scenario.actuator.kind.name);
-    catalogue.effects().filter(own).map(|e| candidate(&e, actuator)).collect()
+    of_catalogue(scenario, |effect| effect.name != "tip_load" && has(scenario, effect.name))
 }
 
 /// The scenario's own effects, each taken away; those in `refitted` can go to zero anyway. Known forces stay.
@@ -309,8 +307,10 @@ pub(crate) fn surplus(scenario: &Scenario, refitted: &[Candidate]) -> Vec<Candid
     let is_refitted = |own: &Candidate| own.count() > 0 && refitted.iter().any(|c| c.name == own.name);
     let mut all = present(scenario);
     hold(&mut all, true, true, &[]);
-    let acts = |away: &Candidate| away.parameters.iter().any(|p| p.typical != p.neutral);
-    all.into_iter().filter(|own| !is_refitted(own)).map(|own| own.away(scenario)).filter(acts).collect()
+    all.retain(|own| !is_refitted(own));
+    let mut away: Vec<Candidate> = all.into_iter().map(|own| own.away(scenario)).collect();
+    away.retain(|away| away.parameters.iter().any(|p| p.typical != p.neutral));
+    away
 }
 
 pub(crate) fn candidate(effect: &Effect, actuator: &str) -> Candidate {

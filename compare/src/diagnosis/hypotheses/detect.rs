@@ -5,12 +5,11 @@ use crate::diagnosis::case::Case;
 use crate::diagnosis::result::{Added, Undetectable};
 use crate::fit::basis::Basis;
 use crate::fit::least_squares::square;
+use crate::fit::numbers::differences;
 use crate::policy;
 use statrs::distribution::{ContinuousCDF, Normal};
 
-/// Rounds of the search for the size.
 const ROUNDS: usize = 12;
-/// Relative difference of the trace at which it ends.
 const CLOSE: f64 = 0.02;
 
 /// Smallest detectable size of an effect: where its trace, base fitted out, reaches (z_{α/2m} + z_0.9)² in units of noise.
@@ -65,11 +64,9 @@ fn smallest_share(case: &Case, effect: usize) -> Option<f64> {
 
 /// Squared whitened trace of an effect, the base's own parameters fitted out.
 fn trace(case: &Case, base: &Basis, effect: usize, share: f64) -> f64 {
-    let effects: Vec<usize> = case.always.iter().copied().chain([effect]).collect();
     let theta = case.base.theta_with(&case.candidate(effect).at(share));
-    let Some(moved) = case.problem.residuals(&effects, &theta) else { return 0.0 };
-    let change: Vec<f64> = moved.iter().zip(&case.base.minimum.residual).map(|(a, b)| a - b).collect();
-    square(&base.rest(&change))
+    let Some(moved) = case.problem.residuals(&case.with(effect), &theta) else { return 0.0 };
+    square(&base.rest(&differences(&moved, &case.base.minimum.residual)))
 }
 
 /// The multiple of the typical size at which the first parameter meets its bound.

@@ -43,7 +43,6 @@ fn everywhere(scenario: &Scenario, dataset: &Dataset, holds: &[usize], out: &mut
     Ok(())
 }
 
-/// Walks the protocol of the dataset and keeps the requested holds.
 fn walked(model: &Model, dataset: &Dataset, holds: &[usize], out: &mut [f64]) -> Result<(), CompareError> {
     let samples = dataset.samples_per_hold;
     let width = dataset.axes * dataset.markers.len();

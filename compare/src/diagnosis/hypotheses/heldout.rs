@@ -11,10 +11,11 @@ use crate::diagnosis::case::Case;
 use crate::diagnosis::problem::{Fit, Problem};
 use crate::error::CompareError;
 use crate::fit::least_squares::{dot, products, square};
+use crate::fit::numbers::groups;
+use crate::layout::{values_of, width};
 use crate::policy;
 use data::Hold;
 
-/// Parts into which many runs are divided.
 const MOST_FOLDS: usize = 5;
 /// Step of the differences in units of a parameter's scale.
 const DIFFERENCE: f64 = 1e-4;
@@ -35,7 +36,6 @@ struct Fold<'a> {
     unseen: Vec<usize>,
 }
 
-/// The parts of a dataset, made once for all effects.
 pub(crate) struct HeldOut<'a> {
     pressures: Vec<Fold<'a>>,
     runs: Vec<Fold<'a>>,
@@ -67,9 +67,8 @@ fn error_mm(folds: &[Fold], fit: &Fit) -> Option<f64> {
         let refit = fold.problem.fit(&fit.effects, &[fit.theta().to_vec()])?;
         let block = &fold.problem.blocks[0];
         let predicted = fold.problem.predict(block, &fold.holds, &fit.effects, refit.theta())?;
-        let width = predicted.len() / block.source.dataset.holds.len();
-        let seen = |i: &usize| !fold.unseen.contains(i);
-        let rows: Vec<usize> = fold.holds.iter().flat_map(|h| h * width..(h + 1) * width).filter(seen).collect();
+        let rows = values_of(&block.source.dataset, &fold.holds);
+        let rows: Vec<usize> = rows.filter(|i| !fold.unseen.contains(i)).collect();
         let noise_m2 = fold.noise_m2 + taken_over_m2(fold, &refit, &predicted, &rows).min(fold.fitted_m2);
         squares += rows.iter().map(|i| (predicted[*i] - fold.truth_m[*i]).powi(2) - noise_m2).sum::<f64>();
         values += rows.len() as f64;
@@ -93,29 +92,23 @@ fn taken_over_m2(fold: &Fold, fit: &Fit, predicted_m: &[f64], rows: &[usize]) ->
     let Some(columns) = free.iter().map(column).collect::<Option<Vec<_>>>() else { return f64::INFINITY };
     let mut sum = 0.0;
     for (i, a) in columns.iter().enumerate() {
-        for (j, b) in columns.iter().enumerate() {
-            sum += covariance[(i, j)] * dot(a, b);
-        }
+        columns.iter().enumerate().for_each(|(j, b)| sum += covariance[(i, j)] * dot(a, b));
     }
     sum.max(0.0) / rows.len().max(1) as f64
 }
 
 fn pressure_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
     let dataset = &case.first().dataset;
-    let pressed = (0..dataset.holds.len()).filter(|h| dataset.holds[*h].sum_act_pa() > policy::ZERO_PRESSURE_PA);
-    let mut levels: Vec<&Hold> = Vec::new();
-    for hold in pressed.map(|h| &dataset.holds[h]) {
-        if !levels.iter().any(|level| policy::same_channels(level, hold)) {
-            levels.push(hold);
-        }
-    }
+    let pressed = dataset.holds.iter().filter(|hold| hold.sum_act_pa() > policy::ZERO_PRESSURE_PA);
+    let pressed: Vec<&Hold> = pressed.collect();
+    let levels = groups(&pressed, |a, b| policy::same_channels(a, b));
     if levels.len() < 2 {
         return Ok(Vec::new());
     }
     let (mean, noise) = (dataset.mean_over_runs(), case.noise());
-    let width = mean.len() / dataset.holds.len();
-    let fold = |level: &&Hold| {
-        let is_out = |h: &usize| policy::same_channels(level, &dataset.holds[*h]);
+    let width = width(dataset);
+    let fold = |own: &Vec<usize>| {
+        let is_out = |h: &usize| policy::same_channels(pressed[own[0]], &dataset.holds[*h]);
         let (out, kept): (Vec<usize>, Vec<usize>) = (0..dataset.holds.len()).partition(is_out);
         let count = |h: &usize| noise.seen(h * width..(h + 1) * width) as f64;
         let of_hold = |h: &usize| noise.mean_square(h * width..(h + 1) * width).unwrap_or(0.0) * count(h);

@@ -5,12 +5,13 @@ use crate::diagnosis::problem::Fit;
 use crate::diagnosis::source::Source;
 use crate::fit::interval::{FittedData, half_width, of_parameter, weights};
 use crate::fit::least_squares::Residuals;
+use crate::fit::numbers::differences;
 
 /// Intervals of all parameters of a fit, SI; `None` if the noise is unknown or the data do not hold the parameter.
 pub(crate) fn intervals<'c>(case: &'c Case<'c>, fit: &Fit, profiled: bool) -> Vec<Option<[f64; 2]>> {
     let part = |(i, source): (usize, &'c Source)| -> FittedData<'c> {
         let block = &case.problem.blocks[i];
-        let residual_m = case.prediction_of(block, fit).iter().zip(&block.target_m).map(|(f, y)| f - y).collect();
+        let residual_m = differences(&case.prediction_of(block, fit), &block.target_m);
         let readings = source.gauge.as_ref().map_or(0, |gauge| gauge.readings.len());
         FittedData { dataset: &source.dataset, noise: &case.noises[i], residual_m, misfit: fit.misfit[i], readings }
     };

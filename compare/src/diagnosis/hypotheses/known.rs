@@ -62,7 +62,6 @@ pub const BENCH_TESTS: [BenchTest; 3] = [
 pub const BENCH_TEST: f64 = 0.1;
 
 impl Known {
-    /// A test whose result is not known yet.
     pub(crate) fn planned(effect: usize, parameter: usize) -> Known {
         Known { effect, parameter, value: 0.0, sd: 0.0, lacking: 0.0, usual: false }
     }
@@ -72,7 +71,6 @@ impl Known {
         self.of(candidates, effects, values).map_or(self.lacking, |value| (value - self.value) / self.sd)
     }
 
-    /// The parameter as a hypothesis has it; `None` without the effect.
     pub(crate) fn of(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Option<f64> {
         let mut from = 0;
         for effect in effects {
@@ -91,13 +89,13 @@ impl Known {
     }
 }
 
-/// Adds the usual forms of all laws to what was measured.
 pub(crate) fn add_shapes(known: &mut Vec<Known>, candidates: &[Candidate]) {
     for (effect, candidate) in candidates.iter().enumerate() {
         for (parameter, p) in candidate.parameters.iter().enumerate().filter(|(_, p)| p.is_shape() && p.is_free()) {
             if known.iter().all(|k| (k.effect, k.parameter) != (effect, parameter)) {
                 let sd = policy::shape_sd(p.lower, p.upper);
-                known.push(Known { effect, parameter, value: p.neutral, sd, lacking: 0.0, usual: true });
+                let planned = Known::planned(effect, parameter);
+                known.push(Known { value: p.neutral, sd, usual: true, ..planned });
             }
         }
     }
@@ -136,9 +134,8 @@ fn place(candidates: &[Candidate], effect: &str, key: &str) -> Option<(usize, us
     Some((index, candidates[index].parameters.iter().position(|p| p.key == key)?))
 }
 
-/// Whether what was measured exists, and can have that value.
 fn check(scenario: &Scenario, m: &MeasuredValue) -> Result<(), CompareError> {
-    let MeasuredValue { effect: name, key, value, sd, .. } = m;
+    let (name, key, value, sd) = (&m.effect, &m.key, m.value, m.sd);
     let wrong = |problem: String| {
         let place = if m.place.is_empty() { "about.toml".to_string() } else { m.place.clone() };
         Err(CompareError::told(format!("{place}: [measured] {problem}")))
@@ -152,7 +149,7 @@ fn check(scenario: &Scenario, m: &MeasuredValue) -> Result<(), CompareError> {
         let keys: Vec<&str> = effect.parameters.iter().map(|p| p.key).collect();
         return wrong(format!("names an unknown parameter `{key}` of {name}; {}", spelling::known(key, &keys)));
     };
-    if value.is_finite() && policy::is_within(p.possible, *value, *sd) {
+    if value.is_finite() && policy::is_within(p.possible, value, sd) {
         return Ok(());
     }
     wrong(format!(
@@ -169,15 +166,9 @@ pub(crate) fn unusual(measured: &[MeasuredValue], scenario: &Scenario) -> Vec<St
     let told = measured.iter().filter_map(|m| {
         let effect = catalogue.by_name(&m.effect)?;
         let p = effect.parameters.iter().find(|p| p.key == m.key)?;
-        (!policy::is_within([p.lower, p.upper], m.value, m.sd)).then(|| {
-            format!(
-                "about.toml gives {} with {} = {}, and robots like these have {}: used as given, check its unit",
-                m.effect,
-                m.key,
-                m.value,
-                p.usual_words()
-            )
-        })
+        let given = format!("about.toml gives {} with {} = {}", m.effect, m.key, m.value);
+        (!policy::is_within([p.lower, p.upper], m.value, m.sd))
+            .then(|| format!("{given}, and robots like these have {}: used as given, check its unit", p.usual_words()))
     });
     told.collect()
 }
@@ -186,12 +177,12 @@ pub(crate) fn unusual(measured: &[MeasuredValue], scenario: &Scenario) -> Vec<St
 pub(crate) fn make_room(candidates: &mut [Candidate], measured: &[&MeasuredValue], scenario: &Scenario) {
     let catalogue = scenario.catalogue();
     for m in measured {
-        let Some((effect, parameter)) = place(candidates, &m.effect, &m.key) else { continue };
-        let Some(entry) = catalogue.by_name(&m.effect) else { continue };
-        let ([lower, upper], free) =
-            (entry.parameters[parameter].possible, &mut candidates[effect].parameters[parameter]);
-        let [low, high] =
-            [-1.0, 1.0].map(|side| (m.value + side * policy::BEYOND_BOUNDS * m.sd).clamp(lower, upper) * free.si);
+        let entry = catalogue.by_name(&m.effect);
+        let Some(((effect, parameter), entry)) = place(candidates, &m.effect, &m.key).zip(entry) else { continue };
+        let [lower, upper] = entry.parameters[parameter].possible;
+        let free = &mut candidates[effect].parameters[parameter];
+        let far = policy::BEYOND_BOUNDS * m.sd;
+        let [low, high] = [m.value - far, m.value + far].map(|v| v.clamp(lower, upper) * free.si);
         if m.value * free.si < free.lower {
             free.lower = free.lower.min(low);
         }

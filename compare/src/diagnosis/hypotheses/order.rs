@@ -22,6 +22,7 @@
 use crate::diagnosis::candidates::Free;
 use crate::diagnosis::case::Case;
 use crate::diagnosis::problem::Fit;
+use crate::fit::numbers::sort_by;
 use crate::policy;
 
 /// Explanations of as many effects, best first.
@@ -37,7 +38,6 @@ pub(crate) struct Ordered {
 }
 
 impl Ordered {
-    /// Candidates that these data do not separate.
     pub(crate) fn stated(&self) -> impl Iterator<Item = &Fit> {
         self.set.iter().map(|i| &self.fits[*i])
     }
@@ -48,7 +48,6 @@ pub(crate) fn allowance(best_gain: f64) -> f64 {
     1.0 + policy::FORM * best_gain.max(0.0) / policy::SAME_EVIDENCE
 }
 
-/// C of an explanation, up to a constant.
 pub(crate) fn criterion(case: &Case, fit: &Fit, allowance: f64) -> f64 {
     criterion_of(case, fit.cost(), case.extra(fit), allowance) + oddness(case, fit) + odd_forms(case, fit, allowance)
 }
@@ -101,7 +100,6 @@ pub(crate) fn criterion_of(case: &Case, cost: f64, added: usize, allowance: f64)
     criterion_from(values, cost, added, allowance)
 }
 
-/// The same of so many values.
 pub(crate) fn criterion_from(values: usize, cost: f64, added: usize, allowance: f64) -> f64 {
     cost / allowance + added as f64 * price(values as f64, allowance)
 }
@@ -113,9 +111,9 @@ fn price(values: f64, allowance: f64) -> f64 {
 
 /// Fits in order of C, and the allowance used, from the best gain among fits that no bound rejects.
 pub(crate) fn sort(case: &Case, fits: &mut [Fit], over: &Fit) -> f64 {
-    let gain = |fit: &&Fit| over.cost() - fit.cost();
-    let allowance = allowance(fits.iter().filter(|f| !case.is_rejected(f)).map(|f| gain(&f)).fold(0.0, f64::max));
-    fits.sort_by(|a, b| criterion(case, a, allowance).total_cmp(&criterion(case, b, allowance)));
+    let gains = fits.iter().filter(|f| !case.is_rejected(f)).map(|f| over.cost() - f.cost());
+    let allowance = allowance(gains.fold(0.0, f64::max));
+    sort_by(fits, |fit| criterion(case, fit, allowance));
     allowance
 }
 

@@ -7,6 +7,7 @@ use crate::diagnosis::result::Combination;
 use crate::diagnosis::screen::{score, starts};
 use crate::diagnosis::singles::parameter_values;
 use crate::fit::basis::{Basis, cosine};
+use crate::fit::numbers::{differences, sort_by};
 use crate::policy;
 use crate::progress::{Progress, each};
 use crate::stats::reported_p;
@@ -55,7 +56,7 @@ fn promising(case: &Case, singles: &[Fit]) -> Vec<(usize, usize)> {
         }
     }
     let mut order: Vec<usize> = (0..n * n).filter(|i| expected[*i].is_finite()).collect();
-    order.sort_by(|i, j| expected[*i].total_cmp(&expected[*j]));
+    sort_by(&mut order, |i| expected[*i]);
     order.iter().take(REFITTED).map(|i| (i / n, i % n)).collect()
 }
 
@@ -74,7 +75,6 @@ fn swapped(case: &Case, first: &Fit, second: &Fit) -> Option<Vec<f64>> {
     Some([base, &values, own].concat())
 }
 
-/// Indices of the pairs that the data cannot separate from the best one.
 pub(crate) fn indistinguishable(case: &Case, pairs: &[Fit], allowance: f64) -> Vec<usize> {
     let Some(best) = pairs.first() else { return Vec::new() };
     let c = |fit: &Fit| criterion(case, fit, allowance);
@@ -82,16 +82,15 @@ pub(crate) fn indistinguishable(case: &Case, pairs: &[Fit], allowance: f64) -> V
     (0..pairs.len()).filter(is_alike).collect()
 }
 
-/// What a reader needs of the best pairs.
 pub(crate) fn describe(case: &Case, pairs: &Ordered, single: &Fit) -> Vec<Combination> {
-    let Ordered { fits, allowance, set, tried } = pairs;
-    let c = |fit: &Fit| criterion(case, fit, *allowance);
+    let (fits, set) = (&pairs.fits, &pairs.set);
+    let c = |fit: &Fit| criterion(case, fit, pairs.allowance);
     let entry = |(i, fit): (usize, &Fit)| Combination {
         effects: case.names(fit),
         parameters: parameter_values(case, fit, false),
         gain: case.gain(fit),
         bic_difference: c(fit) - c(&fits[0]),
-        p_corrected: p_over(case, fit, single, *tried).map(reported_p),
+        p_corrected: p_over(case, fit, single, pairs.tried).map(reported_p),
         systematic_after_mm: case.error_mm(&case.prediction(fit)),
         bending_nm2: case.bendings(fit),
         in_set: set.contains(&i),
@@ -106,7 +105,6 @@ pub(crate) fn p_over(case: &Case, pair: &Fit, single: &Fit, tried: usize) -> Opt
     case.p_of_gain((single.cost() - pair.cost()).max(0.0), more, tried as f64)
 }
 
-/// Whether the two last effects contribute nearly the same with opposite signs.
 fn cancels(case: &Case, fit: &Fit) -> bool {
     let lead = fit.effects.len().saturating_sub(2);
     let without = |dropped: usize| -> Option<Vec<f64>> {
@@ -119,8 +117,7 @@ fn cancels(case: &Case, fit: &Fit) -> bool {
             }
             at += neutral.len();
         }
-        let residual = case.problem.residuals(&fit.effects, &theta)?;
-        Some(residual.iter().zip(&fit.minimum.residual).map(|(a, b)| b - a).collect())
+        Some(differences(&fit.minimum.residual, &case.problem.residuals(&fit.effects, &theta)?))
     };
     match (without(lead), without(lead + 1)) {
         (Some(a), Some(b)) => policy::cancel(cosine(&a, &b)),

@@ -7,8 +7,9 @@ use crate::diagnosis::source::{Source, nearest};
 use crate::error::CompareError;
 use crate::fit::basis::own_part;
 use crate::fit::least_squares::{Minimum, Range, dot, jacobian, minimise, square};
+use crate::fit::numbers::{differences, least};
 use crate::fit::whiten::{MISFIT_ROUNDS, Whitener};
-use crate::layout::Weights;
+use crate::layout::{single, values_of};
 use crate::noise::NoiseModel;
 use crate::policy;
 use crate::study::predict::is_open;
@@ -50,7 +51,7 @@ impl<'a> Block<'a> {
             source: Cow::Borrowed(source),
             bending_of: dataset.holds.iter().map(|h| nearest(levels, h.p_body_pa)).collect(),
             target_m: dataset.mean_over_runs(),
-            whitener: noise.whitener_of(&values_of(dataset, &all))?,
+            whitener: whitener(dataset, &all, noise)?,
             of_gauge: source.gauge.as_ref().map(|gauge| gauge.whitener()).transpose()?,
             holds: all,
         })
@@ -63,23 +64,21 @@ impl<'a> Block<'a> {
         target_m: Vec<f64>,
         noise: &NoiseModel,
     ) -> Result<Block<'a>, CompareError> {
-        let whitener = noise.whitener_of(&values_of(&self.source.dataset, &holds))?;
+        let whitener = whitener(&self.source.dataset, &holds, noise)?;
         Ok(Block { whitener, holds, target_m, ..self.clone() })
     }
 
-    /// How many values a hold has in run layout.
-    fn width(&self) -> usize {
-        self.source.dataset.values_per_run() / self.source.dataset.holds.len()
+    /// Places of the fitted values in run layout.
+    fn values(&self) -> impl Iterator<Item = usize> {
+        values_of(&self.source.dataset, &self.holds)
     }
 }
 
-/// Unit weights on every value of the given holds.
-fn values_of(dataset: &Dataset, holds: &[usize]) -> Vec<Weights> {
-    let width = dataset.values_per_run() / dataset.holds.len();
-    holds.iter().flat_map(|h| h * width..(h + 1) * width).map(|i| vec![(i, 1.0)]).collect()
+/// Whitens the values of some holds.
+fn whitener(dataset: &Dataset, holds: &[usize], noise: &NoiseModel) -> Result<Whitener, CompareError> {
+    noise.whitener_of(&single(values_of(dataset, holds)))
 }
 
-/// A list of blocks with shared parameters.
 #[derive(Clone)]
 pub(crate) struct Problem<'a> {
     pub candidates: &'a [Candidate],
@@ -120,26 +119,27 @@ impl Fit {
         &self.minimum.at
     }
 
-    /// Parameters of the hypothesis with one more effect.
     pub(crate) fn theta_with(&self, values: &[f64]) -> Vec<f64> {
         [self.theta(), values].concat()
     }
 
-    /// Change of the whitened residuals from another fit.
     pub(crate) fn change_from(&self, other: &Fit) -> Vec<f64> {
-        self.minimum.residual.iter().zip(&other.minimum.residual).map(|(a, b)| a - b).collect()
+        differences(&self.minimum.residual, &other.minimum.residual)
     }
 }
 
 impl Problem<'_> {
     /// The base of a block with effects at values in SI: one scenario per bending stiffness, one alone if B is kept.
     pub(crate) fn scenarios(&self, block: &Block, effects: &[usize], theta: &[f64]) -> Vec<Scenario> {
-        let Source { scenario, direct, rolled, .. } = &*block.source;
-        let (bendings, values) = theta.split_at(self.bendings);
-        let in_room = effects.iter().flat_map(|e| &self.candidates[*e].parameters).map(|p| p.in_room && *rolled);
-        let values: Vec<f64> = in_room.zip(values).map(|(turned, v)| if turned { -v } else { *v }).collect();
-        let model = with(scenario, self.candidates, effects, &values, &|stage| is_open(stage, *direct));
-        if bendings.is_empty() { vec![model] } else { bendings.iter().map(|b| model.with_bending(*b)).collect() }
+        let (source, (bendings, values)) = (&block.source, theta.split_at(self.bendings));
+        let seen = |(p, v): (&Free, &f64)| if p.in_room && source.rolled { -v } else { *v };
+        let values: Vec<f64> = self.parameters(effects).zip(values).map(seen).collect();
+        let is_open = |stage| is_open(stage, source.direct);
+        let model = with(&source.scenario, self.candidates, effects, &values, &is_open);
+        match bendings.is_empty() {
+            true => vec![model],
+            false => bendings.iter().map(|b| model.with_bending(*b)).collect(),
+        }
     }
 
     /// Positions at some holds of a block in run layout \[m\], others zero; `None` without equilibrium.
@@ -156,11 +156,9 @@ impl Problem<'_> {
 
     /// Differences of the supply's laws to the readings of a block's gauge \[Pa\]; none without one.
     pub(crate) fn supply_pa(&self, block: &Block, effects: &[usize], theta: &[f64]) -> Vec<f64> {
-        block.source.gauge.as_ref().map_or(Vec::new(), |gauge| {
-            let is_supply = |stage| stage == Stage::Supply;
-            let laws = with(&gauge.scenario, self.candidates, effects, &theta[self.bendings..], &is_supply);
-            gauge.differences_pa(&laws)
-        })
+        let Some(gauge) = &block.source.gauge else { return Vec::new() };
+        let (values, is_supply) = (&theta[self.bendings..], |stage| stage == Stage::Supply);
+        gauge.differences_pa(&with(&gauge.scenario, self.candidates, effects, values, &is_supply))
     }
 
     /// The same in standard deviations of the gauge; empty without one.
@@ -177,9 +175,8 @@ impl Problem<'_> {
     fn residuals_by(&self, whitener: &WhitenerOf, effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
         let mut all = Vec::new();
         for (i, block) in self.blocks.iter().enumerate() {
-            let (predicted, width) = (self.predict(block, &block.holds, effects, theta)?, block.width());
-            let rows = block.holds.iter().flat_map(|h| h * width..(h + 1) * width);
-            let residual: Vec<f64> = rows.map(|i| predicted[i] - block.target_m[i]).collect();
+            let predicted = self.predict(block, &block.holds, effects, theta)?;
+            let residual: Vec<f64> = block.values().map(|i| predicted[i] - block.target_m[i]).collect();
             all.append(&mut whitener(i).whiten(&residual));
             all.append(&mut self.supply(block, effects, theta));
         }
@@ -194,7 +191,6 @@ impl Problem<'_> {
         effects.iter().flat_map(|e| &self.candidates[*e].parameters)
     }
 
-    /// Ranges of the parameters of a hypothesis.
     pub(crate) fn ranges(&self, effects: &[usize]) -> Vec<Range> {
         let bending = Range { lower: 0.0, upper: policy::MOST_BENDING, scale: BENDING_SCALE };
         std::iter::repeat_n(bending, self.bendings).chain(self.parameters(effects).map(Free::range)).collect()
@@ -211,9 +207,9 @@ impl Problem<'_> {
         let from =
             |start: &Vec<f64>| minimise(start, &ranges, self.enough, &mut |theta| self.residuals(effects, theta));
         let found: Vec<Minimum> = starts.iter().filter_map(from).collect();
-        let least = found.iter().map(|m| m.cost).fold(f64::INFINITY, f64::min);
-        let several_minima = found.iter().any(|m| policy::is_another_minimum(m.cost, least));
-        let minimum = found.into_iter().find(|m| m.cost == least)?;
+        let lowest = found.iter().map(|m| m.cost).fold(f64::INFINITY, f64::min);
+        let several_minima = found.iter().any(|m| policy::is_another_minimum(m.cost, lowest));
+        let minimum = found.into_iter().find(|m| m.cost == lowest)?;
         let free: Vec<&Free> = self.parameters(effects).collect();
         let own = |k: usize| k.checked_sub(self.bendings).map(|own| free[own]);
         // The prior limits a form, not the end of its range; stiffnesses always act.
@@ -235,14 +231,14 @@ impl Problem<'_> {
     }
 
     /// The fit of a law that misses the data, and by how much: to it, its misfit is noise ([`crate::policy::MISFIT`]). `None` where none misses.
-    fn allowing(&self, effects: &[usize], ranges: &[Range], least: &Minimum) -> Option<(Minimum, Vec<f64>)> {
-        let mut factors = self.factors(&least.residual);
+    fn allowing(&self, effects: &[usize], ranges: &[Range], found: &Minimum) -> Option<(Minimum, Vec<f64>)> {
+        let mut factors = self.factors(&found.residual);
         if !factors.iter().any(|f| policy::is_a_misfit(*f)) {
             return None;
         }
         let mut wide: Option<Minimum> = None;
         for _ in 0..MISFIT_ROUNDS {
-            let start = wide.as_ref().map_or(&least.at, |w| &w.at);
+            let start = wide.as_ref().map_or(&found.at, |w| &w.at);
             let residuals = &mut |theta: &[f64]| self.residuals_allowing(&factors, effects, theta);
             let found = minimise(start, ranges, self.enough / factors.iter().copied().fold(1.0, f64::max), residuals)?;
             factors = self.factors(&self.residuals(effects, &found.at)?);
@@ -251,7 +247,6 @@ impl Problem<'_> {
         Some((wide?, factors))
     }
 
-    /// Whitened residuals in units of noise and misfit.
     pub(crate) fn residuals_allowing(&self, misfit: &[f64], effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
         let whitener = |i: usize| match &self.blocks[i].whitener {
             own if misfit[i] > 1.0 => Cow::Owned(own.wider(misfit[i])),
@@ -266,8 +261,7 @@ impl Problem<'_> {
             return Some(fit.minimum.jacobian.clone());
         }
         let residuals = &mut |theta: &[f64]| self.residuals_allowing(&fit.misfit, &fit.effects, theta);
-        let residual = residuals(fit.theta())?;
-        let there = Minimum { cost: square(&residual), at: fit.theta().to_vec(), residual, jacobian: Vec::new() };
+        let there = Minimum::there(fit.theta().to_vec(), residuals)?;
         Some(jacobian(&there, &self.ranges(&fit.effects), residuals))
     }
 
@@ -275,22 +269,19 @@ impl Problem<'_> {
     fn factors(&self, residual: &[f64]) -> Vec<f64> {
         let mut from = 0;
         let mut factor = |block: &Block| {
-            let Source { dataset, gauge, .. } = &*block.source;
-            let width = block.width() * block.holds.len();
-            let own = &residual[from..from + width];
+            let (dataset, values) = (&block.source.dataset, block.values().count());
+            let own = &residual[from..from + values];
             let unseen = dataset.lost.unseen.iter().filter(|[hold, _]| block.holds.contains(hold)).count();
-            from += width + gauge.as_ref().map_or(0, |gauge| gauge.readings.len());
-            (square(own) / (width - unseen * dataset.axes * dataset.samples_per_hold) as f64).max(1.0)
+            from += values + block.source.gauge.as_ref().map_or(0, |gauge| gauge.readings.len());
+            (square(own) / (values - unseen * dataset.axes * dataset.samples_per_hold) as f64).max(1.0)
         };
         self.blocks.iter().map(&mut factor).collect()
     }
 
-    /// Residuals and derivatives at a place.
     fn at(&self, effects: &[usize], ranges: &[Range], at: Vec<f64>) -> Option<Minimum> {
-        let residual = self.residuals(effects, &at)?;
-        let mut there = Minimum { cost: square(&residual), at, residual, jacobian: Vec::new() };
-        there.jacobian = jacobian(&there, ranges, &mut |theta| self.residuals(effects, theta));
-        Some(there)
+        let residuals = &mut |theta: &[f64]| self.residuals(effects, theta);
+        let there = Minimum::there(at, residuals)?;
+        Some(Minimum { jacobian: jacobian(&there, ranges, residuals), ..there })
     }
 
     /// Fit of the base: B scanned from zero up, evenly in √B, then refined.
@@ -299,11 +290,10 @@ impl Problem<'_> {
             let bending = policy::MOST_BENDING * (f64::from(i) / f64::from(BENDINGS_TRIED)).powi(2);
             [&vec![bending; self.bendings], own_values].concat()
         };
-        let scan: Vec<Vec<f64>> = (0..=if self.bendings == 0 { 0 } else { BENDINGS_TRIED }).map(start).collect();
+        let last = if self.bendings == 0 { 0 } else { BENDINGS_TRIED };
         let cost = |theta: &Vec<f64>| self.residuals(always, theta).map_or(f64::INFINITY, |r| square(&r));
-        let costs: Vec<f64> = scan.iter().map(cost).collect();
-        let best = (0..scan.len()).min_by(|a, b| costs[*a].total_cmp(&costs[*b]))?;
-        self.fit(always, &scan[best..=best])
+        let scan: Vec<_> = (0..=last).map(start).map(|theta| (cost(&theta), theta)).collect();
+        self.fit(always, &[least(scan, |(cost, _)| *cost)?.1])
     }
 }
 

@@ -8,11 +8,10 @@ use crate::diagnosis::known::Known;
 use crate::diagnosis::problem::{Fit, Problem};
 use crate::fit::basis::Basis;
 use crate::fit::least_squares::{dot, square};
+use crate::fit::numbers::differences;
 
-/// Share of the typical size at which an effect is tried.
 const FIRST_BIT: f64 = 0.02;
 
-/// Result of screening an effect.
 #[derive(Debug, Clone)]
 pub(crate) struct Score {
     /// Expected fall of the whitened sum of squares along the typical direction, within the bounds.
@@ -75,8 +74,7 @@ pub(crate) fn bound(problem: &Problem, base: &Fit, known: &mut [Known]) {
         let own = with.theta().len() - problem.candidates[effect].parameters.len();
         let Some(without) = problem.residuals(&base.effects, &with.theta()[..own]) else { continue };
         let seen = without.len() - problem.known.len();
-        let change: Vec<f64> = with.minimum.residual.iter().zip(&without).take(seen).map(|(a, b)| a - b).collect();
-        let most = square(&change).sqrt();
+        let most = square(&differences(&with.minimum.residual[..seen], &without)).sqrt();
         known[i].lacking = known[i].lacking.clamp(-most, most);
     }
 }

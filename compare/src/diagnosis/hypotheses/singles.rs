@@ -6,9 +6,11 @@ use crate::diagnosis::heldout::HeldOut;
 use crate::diagnosis::interval::intervals;
 use crate::diagnosis::order::{Ordered, criterion, sort, unusual};
 use crate::diagnosis::problem::Fit;
+use crate::diagnosis::result::words::quantity;
 use crate::diagnosis::result::{ParameterValue, Ranked};
 use crate::diagnosis::screen::starts;
 use crate::fit::basis::{Basis, cosine};
+use crate::fit::numbers::sort_by;
 use crate::policy;
 use crate::progress::{Progress, each};
 use crate::stats::reported_p;
@@ -51,7 +53,6 @@ fn widened(case: &Case, fits: &[Fit]) -> Vec<Candidate> {
     candidates
 }
 
-/// The effect of a fit of one.
 fn added(fit: &Fit) -> usize {
     fit.effects[fit.effects.len() - 1]
 }
@@ -93,10 +94,9 @@ pub(crate) fn indistinguishable(case: &Case, fits: &[Fit], allowance: f64) -> Ve
 /// Beyond the set, the error at left-out data is computed for so many fits that lead the order, and for so many that leave least.
 const LEFT_OUT_OF: usize = 8;
 
-/// What a reader needs of every fit.
 pub(crate) fn rank(case: &Case, singles: &Ordered, held_out: &HeldOut) -> Vec<Ranked> {
-    let Ordered { fits, allowance, set, .. } = singles;
-    let c = |fit: &Fit| criterion(case, fit, *allowance);
+    let (fits, set) = (&singles.fits, &singles.set);
+    let c = |fit: &Fit| criterion(case, fit, singles.allowance);
     let before = case.error_mm(&case.prediction(&case.base));
     let best = set.first().copied().unwrap_or(0);
     let trace = |fit: &Fit| Basis::of(&case.base.minimum.jacobian).rest(&fit.change_from(&case.base));
@@ -104,7 +104,7 @@ pub(crate) fn rank(case: &Case, singles: &Ordered, held_out: &HeldOut) -> Vec<Ra
     let least = fits.get(best).map_or(0.0, c);
     let after: Vec<f64> = fits.iter().map(|fit| case.error_mm(&case.prediction(fit))).collect();
     let mut nearest: Vec<usize> = (0..fits.len()).collect();
-    nearest.sort_by(|a, b| after[*a].total_cmp(&after[*b]));
+    sort_by(&mut nearest, |i| after[*i]);
     nearest.truncate(LEFT_OUT_OF);
     let is_left_out = |i: usize| set.contains(&i) || i < LEFT_OUT_OF || nearest.contains(&i);
     let entry = |(i, fit): (usize, &Fit)| {
@@ -151,31 +151,25 @@ pub(crate) fn parameter_values(case: &Case, fit: &Fit, profiled: bool) -> Vec<Pa
 }
 
 fn notes(case: &Case, fit: &Fit, own: &[ParameterValue]) -> Vec<String> {
-    let mut notes = Vec::new();
-    for p in own.iter().filter(|p| p.at_bound) {
-        notes.push(format!(
-            "rejected: the best {} sits on its physical bound {}, and the data push beyond it",
-            p.symbol,
-            crate::diagnosis::result::words::quantity(p.value, &p.unit)
-        ));
-    }
+    let rejected = |p: &ParameterValue| {
+        let (symbol, value) = (&p.symbol, quantity(p.value, &p.unit));
+        format!("rejected: the best {symbol} sits on its physical bound {value}, and the data push beyond it")
+    };
+    let mut notes: Vec<String> = own.iter().filter(|p| p.at_bound).map(rejected).collect();
     let effect = case.candidate(added(fit));
     let from = fit.theta().len() - own.len();
     for (k, p) in own.iter().enumerate() {
         let free = &effect.parameters[k];
         if fit.open[from + k] {
             let at_least = if fit.theta()[from + k] >= free.upper { "at least" } else { "at most" };
-            let value = crate::diagnosis::result::words::quantity(p.value, &p.unit);
+            let value = quantity(p.value, &p.unit);
             notes.push(format!("{} is {at_least} {value}: the data push beyond the range that is searched", p.symbol));
         }
     }
     for (group, (with, without)) in fit.theta().iter().zip(case.base.theta()).take(case.problem.bendings).enumerate() {
         if policy::bending_moves(*without, *with) && policy::helps(case.gain(fit)) {
-            let body = if case.body_pa.len() > 1 {
-                format!(" at {:.0} kPa body pressure", case.body_pa[group] / 1e3)
-            } else {
-                String::new()
-            };
+            let several = case.body_pa.get(group).filter(|_| case.body_pa.len() > 1);
+            let body = several.map_or(String::new(), |pa| format!(" at {:.0} kPa body pressure", pa / 1e3));
             notes.push(format!("with it, B moves from {without:.2} to {with:.2} N·m²{body}: the two compensate"));
         }
     }

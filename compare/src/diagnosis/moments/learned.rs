@@ -1,6 +1,6 @@
 //! A learned law: chosen by the missing moments of pressures left out, then fitted to the markers by the full model.
 
-use crate::diagnosis::candidates::{Candidate, candidate, hold_shapes};
+use crate::diagnosis::candidates::{Candidate, candidate, has, hold_shapes};
 use crate::diagnosis::case::Case;
 use crate::diagnosis::decide::Decision;
 use crate::diagnosis::heldout::HeldOut;
@@ -9,19 +9,18 @@ use crate::diagnosis::missing::{Seen, curves_of, missing_moment, seen};
 use crate::diagnosis::options::Options;
 use crate::diagnosis::problem::{Block, Fit};
 use crate::diagnosis::result::words::with_interval;
-use crate::diagnosis::result::{Diagnosis, LearnedLaw, LearnedLine, LearnedTried, ParameterValue, Verdict};
+use crate::diagnosis::result::{Diagnosis, LearnedLaw, LearnedLine, LearnedTried, Verdict};
 use crate::diagnosis::singles::parameter_values;
 use crate::diagnosis::source::Source;
 use crate::error::CompareError;
+use crate::fit::numbers::{mean, sort_by};
 use crate::moment::learned::{Form, Material, PULL, Tried, rank, taken};
 use crate::moment::{MissingMoment, MomentCurve, MomentPoint};
 use models::Scenario;
 use nalgebra::{DMatrix, DVector};
 
-/// Name that a learned law gets as an effect of a scenario.
 const NAME: &str = "learned";
 const CURVE: &str = "learned law";
-/// The effect that moves the line of the markers.
 const LINE: &str = "marker_height";
 /// Share of the pull by which it is found.
 const SHARE: f64 = 0.5;
@@ -65,8 +64,8 @@ fn learn(
     let name = free_name(&case.first().scenario);
     let noise_mm = found.base.noise_floor_mm.unwrap_or(0.0).max(found.tolerance_mm);
     let ground = Ground { sources: case.sources, options, line: line(case, seen), name: &name };
-    let (mut laws, mut tried) = (vec![(case.problem.bendings, nothing_mm / noise_mm)], Vec::new());
-    let mut kept = Vec::new();
+    let mut laws = vec![(case.problem.bendings, nothing_mm / noise_mm)];
+    let (mut tried, mut kept) = (Vec::new(), Vec::new());
     for law in ranked.iter().filter(|t| t.form.is_some()).take(SHORT_LIST) {
         let Some((form, heldout_mm, numbers)) = ground.with(law, &mut |case, fit, form| {
             let heldout_mm = HeldOut::new(case)?.pressure_mm(fit).filter(|_| is_held_by_data(case, fit));
@@ -80,7 +79,7 @@ fn learn(
         kept.push(law);
     }
     let Some(which) = taken(&laws).and_then(|i| i.checked_sub(1)) else { return Ok(None) };
-    tried.sort_by(|a, b| a.heldout_mm.total_cmp(&b.heldout_mm));
+    sort_by(&mut tried, |law| law.heldout_mm);
     ground.with(kept[which], &mut |case, fit, form| {
         let law = LearnedLaw { tried: tried.clone(), ..told(case, fit, form, &name, found)? };
         Ok(Some((law, curves_of(case, fit, (CURVE, true), points)?)))
@@ -94,7 +93,6 @@ fn is_held_by_data(case: &Case, fit: &Fit) -> bool {
     free.zip(found).all(|(p, interval)| interval.is_none_or(|[lo, hi]| lo > p.lower || hi < p.upper))
 }
 
-/// What all laws are fitted on.
 struct Ground<'a> {
     sources: &'a [Source],
     options: &'a Options,
@@ -102,7 +100,6 @@ struct Ground<'a> {
     name: &'a str,
 }
 
-/// Use of a law that was fitted to the markers.
 type Use<'u, T> = dyn FnMut(&Case, &Fit, &'static Form) -> Result<Option<T>, CompareError> + 'u;
 
 impl Ground<'_> {
@@ -123,23 +120,24 @@ impl Ground<'_> {
     }
 }
 
-/// Points of all data as the library wants them.
 fn material(case: &Case, seen: &[Seen]) -> Result<Material, CompareError> {
     let (mut places, mut moments, mut parts) = (Vec::new(), Vec::new(), Vec::new());
     for (block, seen) in case.problem.blocks.iter().zip(seen) {
         let pulls = pulls(block, seen)?;
         let groups = seen.shape.division.groups;
         let robot = seen.robot();
-        let own = seen.moments.points.iter().enumerate().filter(|(_, p)| p.since_first.is_none());
+        let own = seen.moments.points.iter().enumerate().filter(|(_, p)| !p.is_change);
         let rows: Vec<usize> = own.clone().map(|(i, _)| i).collect();
         for (_, p) in own {
             let place = p.place.unwrap_or(0);
-            let pull = (0..groups).map(|g| pulls[p.hold * groups + g][place]).sum::<f64>() / groups as f64;
+            let pull = mean((0..groups).map(|g| pulls[(p.hold - 1) * groups + g][place]));
             let at = seen.shape.division.places[place];
+            let hold = &block.source.dataset.holds[p.hold - 1];
             let theta = p.kappa * robot.actuator.shape.length_m;
             let s = 0.5 * (at.from_m + at.to_m);
-            places.push([p.kappa, theta, p.p_act_pa, p.p_body_pa, s, robot.radius_m, robot.bending_stiffness, pull]);
-            moments.push(p.moment);
+            let (radius, stiffness) = (robot.radius_m, robot.bending_stiffness);
+            places.push([p.kappa, theta, hold.p_act_pa, hold.p_body_pa, s, radius, stiffness, pull]);
+            moments.push(p.moment_nm);
         }
         parts.push(DMatrix::from_fn(rows.len(), rows.len(), |i, j| seen.moments.covariance[(rows[i], rows[j])]));
     }
@@ -161,16 +159,17 @@ fn pulls(block: &Block, seen: &Seen) -> Result<Vec<Vec<f64>>, CompareError> {
         other.formulas.extend(formula);
         other.with_effect("pull_share", &[SHARE])
     };
-    let (with, without) = (seen.missing(block, &taken)?, seen.missing(block, &Scenario::clone)?);
+    let with = seen.missing(block, &taken)?;
+    let without = seen.missing(block, &Scenario::clone)?;
     let each = |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| (a - b) / SHARE).collect();
     Ok(with.iter().zip(&without).map(each).collect())
 }
 
 /// Position of the markers' line, if the shapes find another one than the scenario's \[m\].
 fn line(case: &Case, seen: &[Seen]) -> Option<f64> {
-    let is_there = case.first().scenario.effects.iter().any(|e| e.name == LINE);
     let shared = seen[0].shape.shared.first()?;
-    (!is_there && !case.first().direct.frame && shared.is_told()).then_some(1e-3 * shared.value)
+    (!has(&case.first().scenario, LINE) && !case.first().direct.frame && shared.is_told())
+        .then_some(1e-3 * shared.value)
 }
 
 fn free_name(scenario: &Scenario) -> String {
@@ -184,7 +183,6 @@ fn extended(scenario: &Scenario, form: &Form, name: &str, line: Option<f64>) -> 
     line.map_or(other.clone(), |line| other.with_effect(LINE, &[line]))
 }
 
-/// The line, if it is fitted along, and the law.
 fn candidates(scenario: &Scenario, name: &str, line: Option<f64>) -> Vec<Candidate> {
     let catalogue = scenario.catalogue();
     let names = line.map(|_| LINE).into_iter().chain([name]);
@@ -197,7 +195,6 @@ fn candidates(scenario: &Scenario, name: &str, line: Option<f64>) -> Vec<Candida
 /// Shares of what the moments say from which a law is fitted to the markers: the whole may leave no equilibrium.
 const STARTS: [f64; 3] = [1.0, 0.5, 0.1];
 
-/// The law fitted to the markers.
 fn fitted(case: &Case, values: &[f64]) -> Option<Fit> {
     let effects: Vec<usize> = (0..case.problem.candidates.len()).collect();
     let own = &case.problem.candidates[effects.len() - 1].parameters;
@@ -213,6 +210,7 @@ fn told(case: &Case, fit: &Fit, form: &Form, name: &str, found: &Diagnosis) -> R
     let held_out = HeldOut::new(case)?;
     let mut values = parameter_values(case, fit, false);
     let own = values.split_off(values.len() - form.numbers.len());
+    let numbers: Vec<String> = own.iter().map(with_interval).collect();
     let line = values.first().map(|line| LearnedLine {
         value_mm: line.value,
         interval_mm: line.lo.zip(line.hi).map(|(lo, hi)| [lo, hi]),
@@ -222,7 +220,7 @@ fn told(case: &Case, fit: &Fit, form: &Form, name: &str, found: &Diagnosis) -> R
     Ok(LearnedLaw {
         name: name.into(),
         words: form.words.into(),
-        formula: printed(&form.moment_of(&case.first().scenario), &own),
+        formula: format!("M = {}; {}", form.moment_of(&case.first().scenario), numbers.join(", ")),
         parameters: own,
         line,
         before_mm: found.base.systematic_mm,
@@ -236,10 +234,4 @@ fn told(case: &Case, fit: &Fit, form: &Form, name: &str, found: &Diagnosis) -> R
         tried: Vec::new(),
         toml: form.toml(name, &case.first().scenario),
     })
-}
-
-/// A formula with numbers for its letters.
-fn printed(moment: &str, values: &[ParameterValue]) -> String {
-    let numbers: Vec<String> = values.iter().map(with_interval).collect();
-    format!("M = {moment}; {}", numbers.join(", "))
 }

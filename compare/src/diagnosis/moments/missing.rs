@@ -5,23 +5,21 @@ use crate::diagnosis::decide::Decision;
 use crate::diagnosis::problem::{Block, Fit};
 use crate::diagnosis::result::Diagnosis;
 use crate::diagnosis::result::answers::{Answer, Standing};
-use crate::diagnosis::source::{Source, nearest};
+use crate::diagnosis::source::nearest;
 use crate::error::CompareError;
 use crate::fit::least_squares::{products, square};
 use crate::moment::{
     MeasuredShape, MissingMoment, MomentCurve, MomentPoint, Moments, Path, Robot, Shape, View, band, curve, degrees,
-    missing, moments, sentences, shape, shape_sentences, told,
+    missing, moments, sentences, shape, shape_sentences,
 };
 use models::Scenario;
 use models::effects::Stage;
 
 const MOST_CURVES: usize = 4;
-/// Curves of answers that are not stated, for comparison.
 const OTHERS: usize = 1;
 const PRESSURES: usize = 24;
 /// Least pressure of a curve, over the highest.
 const LEAST: f64 = 0.15;
-/// The curve of the fitted base.
 const STIFFNESS: &str = "stiffness alone";
 /// Curves begin at this share of the least bend that was measured.
 const NEAR: f64 = 0.7;
@@ -38,9 +36,8 @@ pub(crate) fn missing_moment(
 ) -> Result<MissingMoment, CompareError> {
     let (mut shapes, mut points) = (Vec::new(), Vec::new());
     for (block, seen) in case.problem.blocks.iter().zip(seen) {
-        let Source { scenario, dataset, .. } = &*block.source;
-        shapes.push(MeasuredShape::of(dataset, &seen.shape));
-        points.extend(told(dataset, &seen.shape, &seen.moments, scenario.length_m));
+        shapes.push(MeasuredShape::of(&block.source.dataset, &seen.shape));
+        points.extend(seen.moments.of_holds.iter().chain(&seen.moments.points).cloned());
     }
     let curves = curves(case, decision, found, &points)?;
     let mut told = sentences(&points);
@@ -48,7 +45,6 @@ pub(crate) fn missing_moment(
     Ok(MissingMoment { shapes, sentences: told, points, curves, bending_nm2: own_bending(case) })
 }
 
-/// A dataset's shape, and what the base misses there.
 pub(crate) struct Seen {
     base: Vec<Scenario>,
     of_hold: Vec<usize>,
@@ -91,8 +87,13 @@ pub(crate) fn seen(case: &Case) -> Result<Vec<Seen>, CompareError> {
 }
 
 fn view<'a>(block: &'a Block, scenario: &'a Scenario) -> View<'a> {
-    let Block { source, target_m, whitener, .. } = block;
-    View { scenario, dataset: &source.dataset, direct: source.direct, target_m, whitener }
+    View {
+        scenario,
+        dataset: &block.source.dataset,
+        direct: block.source.direct,
+        target_m: &block.target_m,
+        whitener: &block.whitener,
+    }
 }
 
 /// Parameters of the base with the separately measured bending stiffness, or the scenario's.
@@ -120,8 +121,9 @@ fn curves(
     let stiffness = (case.problem.bendings > 0).then_some((STIFFNESS.into(), first == 0, Some(&case.base)));
     let mut curves = Vec::new();
     for (answer, is_told, fit) in told.chain(stiffness) {
-        let Some(fit) = fit.filter(|fit| has_moment(case, fit)) else { continue };
-        curves.extend(curves_of(case, fit, (&answer, is_told), points)?);
+        if let Some(fit) = fit.filter(|fit| has_moment(case, fit)) {
+            curves.extend(curves_of(case, fit, (&answer, is_told), points)?);
+        }
     }
     Ok(curves)
 }
@@ -150,8 +152,8 @@ fn has_moment(case: &Case, fit: &Fit) -> bool {
 }
 
 fn fit_of<'a>(case: &Case, decision: &'a Decision, name: &str) -> Option<&'a Fit> {
-    let Decision { singles, pairs, as_close, last, .. } = decision;
-    let mut all = singles.fits.iter().chain(&pairs.fits).chain(as_close).chain(last);
+    let stated = decision.singles.fits.iter().chain(&decision.pairs.fits);
+    let mut all = stated.chain(&decision.as_close).chain(&decision.last);
     all.find(|fit| case.names(fit).join(" + ") == name)
 }
 

@@ -6,9 +6,7 @@ use crate::policy;
 use data::{Dataset, Direct, Hold, Lost, Phase};
 use models::Scenario;
 
-/// Known force hung on the tip \[N\].
 pub(crate) const TIP_FORCE_N: f64 = 0.3;
-/// Length of a long hold \[s\].
 const LONG_HOLD_S: f64 = 60.0;
 
 /// Standard deviation that is expected of a bending test, as a share of the stiffness. Assumed.
@@ -26,24 +24,18 @@ pub(crate) struct Plan {
     pub tests: Vec<&'static BenchTest>,
 }
 
-/// What may be measured in addition to the markers.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Instruments {
-    /// Quantities measured directly in the same runs.
-    pub direct: Direct,
-    /// Separate tests of robot or fabric.
-    pub tests: Vec<&'static BenchTest>,
-}
-
-/// A bending test of the body alone.
 pub(crate) fn bending_test() -> Plan {
     Plan { name: BENDING_TEST_NAME.into(), sentence: data::BENDING_TEST.into(), parts: Vec::new(), tests: Vec::new() }
 }
 
-/// All experiments for the robot and the protocol of the data at hand; then the same with what `instruments` measure directly,
-/// if that is more than in those data.
-pub(crate) fn plans(scenario: &Scenario, dataset: &Dataset, at_hand: Direct, instruments: Instruments) -> Vec<Plan> {
-    let Instruments { direct, tests } = instruments;
+/// All experiments for the robot and the protocol of the data at hand; then the same with what may be measured directly and by separate
+/// tests, if that is more than in those data.
+pub(crate) fn plans(
+    scenario: &Scenario,
+    dataset: &Dataset,
+    at_hand: Direct,
+    (direct, tests): (Direct, Vec<&'static BenchTest>),
+) -> Vec<Plan> {
     let all = Direct { pressure: at_hand.pressure || direct.pressure, frame: at_hand.frame || direct.frame };
     let mut plans = protocols(scenario, dataset, at_hand);
     if all != at_hand || !tests.is_empty() {
@@ -59,7 +51,6 @@ pub(crate) fn plans(scenario: &Scenario, dataset: &Dataset, at_hand: Direct, ins
     plans
 }
 
-/// Tests of their own and nothing else.
 fn alone(tests: Vec<&'static BenchTest>) -> Plan {
     let all = |what: fn(&BenchTest) -> &'static str| tests.iter().map(|test| what(test)).collect::<Vec<_>>();
     Plan {
@@ -135,7 +126,6 @@ pub(crate) fn protocol_text(plan: &Plan) -> String {
     format!("{}@{}", list.join(","), kpa(holds[0].p_body_pa))
 }
 
-/// With a force on the tip in addition to the known one.
 fn tipped(scenario: &Scenario, force_n: f64) -> Scenario {
     let known = scenario.effects.iter().find(|e| e.name == "tip_load");
     let [x, y, z] = known.map_or([0.0; 3], |e| [e.values[0], e.values[1], e.values[2]]);
@@ -148,7 +138,6 @@ fn second_body(dataset: &Dataset, body: f64) -> f64 {
     other.map_or(2.0 * body, |other| 0.5 * (other + body))
 }
 
-/// Usual length of a hold \[s\].
 fn hold_length_s(dataset: &Dataset) -> f64 {
     let starts: Vec<f64> = dataset.holds.iter().filter_map(|h| h.t_s.first().copied()).collect();
     let mut gaps: Vec<f64> = starts.windows(2).map(|w| w[1] - w[0]).filter(|g| *g > 0.0).collect();

@@ -16,7 +16,7 @@ pub(super) mod worth;
 
 use crate::diagnosis::case::Case;
 use crate::diagnosis::decide::Decision;
-use crate::diagnosis::experiments::{BENDING_TEST, Instruments, Plan, bending_test, plans, protocol_text};
+use crate::diagnosis::experiments::{BENDING_TEST, Plan, bending_test, plans, protocol_text};
 use crate::diagnosis::known::{BENCH_TEST, BENCH_TESTS, BenchTest, Known, parameters_of};
 use crate::diagnosis::order::allowance;
 use crate::diagnosis::problem::{Block, Fit, Problem, with};
@@ -24,17 +24,19 @@ use crate::diagnosis::result::{Experiment, NextExperiment, Separation, Verdict};
 use crate::diagnosis::source::{Source, is_rolled, nearest};
 use crate::directions::nuisance_directions;
 use crate::error::CompareError;
+use crate::fit::numbers::sort_by;
 use crate::fit::whiten::Whitener;
 use crate::gauge::Gauge;
 use crate::policy;
 use crate::study::predict::without_settled;
 use crate::study::predict_dataset;
+use crate::wording::list;
 use data::Direct;
 use models::Supply;
 use models::effects::Stage;
 use std::borrow::Cow;
+use std::cmp::Reverse;
 
-/// Most times the runs at hand that are proposed.
 const MOST_REPEATS: usize = 20;
 const RIVALS: usize = 5;
 /// Relative error at which the fits for λ may stop.
@@ -48,23 +50,19 @@ pub(super) fn next_experiment(
     outside: Option<String>,
 ) -> Result<Option<NextExperiment>, CompareError> {
     let hypotheses = hypotheses(decision);
-    let is_separable = hypotheses.len() > 1 && case.noise().is_known();
-    if !is_separable {
-        let only =
-            |sentence| NextExperiment { best: String::new(), needed_now: enough(0.0), sentence, ..Default::default() };
-        return Ok(outside.map(only));
+    if hypotheses.len() < 2 || !case.noise().is_known() {
+        return Ok(outside.map(|sentence| NextExperiment { needed_now: enough(0.0), sentence, ..Default::default() }));
     }
-    let (best, rivals) = (hypotheses[0], &hypotheses[1..hypotheses.len().min(RIVALS + 1)]);
+    let best = hypotheses[0];
+    let rivals = &hypotheses[1..hypotheses.len().min(RIVALS + 1)];
     let (now, gain_now) = separations(case, None, best, rivals)?;
-    let needed_now = enough(gain_now);
+    let next = NextExperiment { best: label(case, best), now, needed_now: enough(gain_now), ..Default::default() };
     if let Some(sentence) = outside {
-        let best = label(case, best);
-        return Ok(Some(NextExperiment { best, now, needed_now, sentence, ..Default::default() }));
+        return Ok(Some(NextExperiment { sentence, ..next }));
     }
     let mut tried = Vec::new();
-    let Source { scenario, dataset, direct, gauge, .. } = case.first();
-    let set = gauge.as_ref().map_or_else(|| dataset.clone(), |gauge| gauge.as_set(dataset));
-    let mut plans = plans(scenario, &set, *direct, instruments(case, &hypotheses));
+    let first = case.first();
+    let mut plans = plans(&first.scenario, &first.as_set(), first.direct, instruments(case, &hypotheses));
     plans.extend((case.problem.bendings > 0 && case.problem.known_bending.is_none()).then(bending_test));
     for plan in plans {
         // A planned pressure without equilibrium cannot be proposed.
@@ -73,19 +71,14 @@ pub(super) fn next_experiment(
         }
     }
     // Beyond enough more is still better, because real laws are not the catalogue's.
-    let worth = |e: &Experiment| (e.separated, e.separations.iter().map(|s| s.lambda.ln_1p()).sum::<f64>());
-    tried.sort_by(|a, b| {
-        let (a, b) = (worth(a), worth(b));
-        b.0.cmp(&a.0).then(b.1.total_cmp(&a.1))
-    });
-    let recommended =
-        tried.first().filter(|e| e.separations.iter().any(|s| policy::is_worth_its_time(s.lambda))).cloned();
-    let best = label(case, best);
-    let sentence = sentence(&best, recommended.as_ref());
-    Ok(Some(NextExperiment { best, recommended, now, needed_now, tried, sentence }))
+    sort_by(&mut tried, |e| -e.separations.iter().map(|s| s.lambda.ln_1p()).sum::<f64>());
+    tried.sort_by_key(|e| Reverse(e.separated));
+    let is_worth_it = |e: &&Experiment| e.separations.iter().any(|s| policy::is_worth_its_time(s.lambda));
+    let recommended = tried.first().filter(is_worth_it).cloned();
+    let sentence = sentence(&next.best, recommended.as_ref());
+    Ok(Some(NextExperiment { recommended, tried, sentence, ..next }))
 }
 
-/// The explanations to be separated, best first.
 fn hypotheses(decision: &Decision) -> Vec<&Fit> {
     match decision.verdict {
         Some(Verdict::None) => Vec::new(),
@@ -96,19 +89,15 @@ fn hypotheses(decision: &Decision) -> Vec<&Fit> {
 
 /// What would have to be measured directly so that no remaining explanation belongs to supply or camera, or to a quantity that a
 /// separate test measures.
-fn instruments(case: &Case, hypotheses: &[&Fit]) -> Instruments {
+fn instruments(case: &Case, hypotheses: &[&Fit]) -> (Direct, Vec<&'static BenchTest>) {
     let tried: Vec<usize> = hypotheses.iter().flat_map(|fit| case.added(fit)).copied().collect();
     let has = |stage: Stage| tried.iter().any(|e| case.candidate(*e).stage == stage);
     let is_open = |test: &&BenchTest| {
-        let mut measures = parameters_of(test, case.problem.candidates).into_iter();
-        measures.any(|(e, k)| {
-            tried.contains(&e) && case.problem.known.iter().all(|known| (known.effect, known.parameter) != (e, k))
-        })
+        let is_known = |at| case.problem.known.iter().any(|known| (known.effect, known.parameter) == at);
+        parameters_of(test, case.problem.candidates).iter().any(|at| tried.contains(&at.0) && !is_known(*at))
     };
-    Instruments {
-        direct: Direct { pressure: has(Stage::Supply), frame: has(Stage::Camera) },
-        tests: BENCH_TESTS.iter().filter(is_open).collect(),
-    }
+    let direct = Direct { pressure: has(Stage::Supply), frame: has(Stage::Camera) };
+    (direct, BENCH_TESTS.iter().filter(is_open).collect())
 }
 
 fn label(case: &Case, fit: &Fit) -> String {
@@ -117,14 +106,15 @@ fn label(case: &Case, fit: &Fit) -> String {
 
 /// λ that separates two explanations in about nine of ten cases where the better one gains that much.
 fn enough(gain: f64) -> f64 {
-    (policy::Z_POWER + (policy::Z_POWER * policy::Z_POWER + policy::SAME_EVIDENCE * allowance(gain)).sqrt()).powi(2)
+    let z = policy::Z_POWER;
+    (z + (z * z + policy::SAME_EVIDENCE * allowance(gain)).sqrt()).powi(2)
 }
 
 fn experiment(case: &Case, plan: &Plan, separations: Vec<Separation>, gain: f64) -> Experiment {
     let needed = enough(gain);
-    let separated = separations.iter().filter(|s| s.lambda >= needed).count();
-    let within_reach = separations.iter().map(|s| s.lambda).filter(|l| policy::is_worth_its_time(*l)).reduce(f64::min);
-    let largest = separations.iter().map(|s| s.lambda).fold(0.0, f64::max);
+    let lambdas = || separations.iter().map(|s| s.lambda);
+    let within_reach = lambdas().filter(|l| policy::is_worth_its_time(*l)).reduce(f64::min);
+    let largest = lambdas().fold(0.0, f64::max);
     // More runs make more of λ and of what a law's form shows, which may never be enough.
     let at_hand = case.noise().runs.max(1);
     let suffices = |runs: usize, lambda: f64| {
@@ -140,7 +130,7 @@ fn experiment(case: &Case, plan: &Plan, separations: Vec<Separation>, gain: f64)
         direct: plan.parts.first().map_or(case.first().direct, |part| part.direct),
         tests: plan.tests.iter().map(|test| test.name.to_string()).collect(),
         needed,
-        separated,
+        separated: lambdas().filter(|l| *l >= needed).count(),
         lambda: within_reach.unwrap_or(largest),
         runs_needed: repeated.and_then(runs),
         separations,
@@ -201,7 +191,6 @@ impl<'a> Expected<'a> {
         Ok(Expected { problem, added })
     }
 
-    /// What another hypothesis cannot meet of it.
     fn misfit(&self, other: &Fit) -> f64 {
         let start = extended(other, self.problem.bendings - self.added, self.added);
         // Without an equilibrium there the rival could not even be measured: nothing is promised.
@@ -231,8 +220,8 @@ fn expected_tests(case: &Case, plan: Option<&Plan>, truth: &Fit) -> Vec<Known> {
 /// Parameters with the stiffness of a new body pressure, the same as at the first.
 fn extended(fit: &Fit, bendings: usize, added: usize) -> Vec<f64> {
     let (bending, effects) = fit.theta().split_at(bendings);
-    let new = bending.first().copied().filter(|_| added > 0);
-    bending.iter().copied().chain(new).chain(effects.iter().copied()).collect()
+    let new = &bending[..added.min(bending.len())];
+    [bending, new, effects].concat()
 }
 
 /// A planned part as the hypothesis `truth` predicts it, with the noise of as many runs as at hand.
@@ -246,7 +235,8 @@ fn planned<'a>(
     let (noise, own) = (case.noise(), case.first());
     let gauge = part.direct.pressure.then(|| {
         let is_supply = |stage| stage == Stage::Supply;
-        let laws = with(&part.scenario, problem.candidates, &truth.effects, &theta[problem.bendings..], &is_supply);
+        let values = &theta[problem.bendings..];
+        let laws = with(&part.scenario, problem.candidates, &truth.effects, values, &is_supply);
         let run_sd = noise.run_sd[0].unwrap_or(policy::SENSOR_SD[0]);
         Gauge::planned(&part.dataset, &part.scenario, &Supply::of(&laws), noise.runs, run_sd)
     });
@@ -274,7 +264,6 @@ fn planned<'a>(
     Ok(block)
 }
 
-/// Where the results of tests of their own go.
 const RESULTS: &str =
     " What tests of their own find goes into [measured] of about.toml; ibr characterize writes it for a fabric.";
 
@@ -285,20 +274,16 @@ fn sentence(best: &str, recommended: Option<&Experiment>) -> String {
              gauge on the actuator, photograph a checkerboard)."
         );
     };
-    let above = |least: f64| -> Vec<&Separation> { e.separations.iter().filter(|s| s.lambda >= least).collect() };
-    let names =
-        |found: &[&Separation]| crate::wording::list(&found.iter().map(|s| s.rival.clone()).collect::<Vec<_>>());
     let protocol = if e.protocol.is_empty() { String::new() } else { format!(" ({})", e.protocol) };
     let results = if e.tests.is_empty() { "" } else { RESULTS };
-    let parts = match (e.runs_needed, above(e.needed).is_empty()) {
-        (Some(runs), _) => {
-            format!("About {runs} runs of it would separate {best} from {}.", names(&above(policy::WORTHLESS)))
-        }
-        (None, false) => format!("It would separate {best} from {}.", names(&above(e.needed))),
+    let names = |least: f64| list(e.separations.iter().filter(|s| s.lambda >= least).map(|s| &s.rival));
+    let (some, separated) = (names(policy::WORTHLESS), names(e.needed));
+    let parts = match (e.runs_needed, separated.is_empty()) {
+        (Some(runs), _) => format!("About {runs} runs of it would separate {best} from {some}."),
+        (None, false) => format!("It would separate {best} from {separated}."),
         (None, true) => format!(
-            "It separates {best} from {} more than others do and will not decide: a twentieth of an effect is granted to the form of \
-             its law, and more runs do not change that.",
-            names(&above(policy::WORTHLESS))
+            "It separates {best} from {some} more than others do and will not decide: a twentieth of an effect is granted to the form \
+             of its law, and more runs do not change that."
         ),
     };
     format!("Next: {}{protocol}. {parts}{results}", e.sentence)

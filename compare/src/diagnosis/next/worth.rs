@@ -1,17 +1,17 @@
 //! What an answer changes in millimetres: in the data at hand, and in the protocol of the experiment list where it changes most.
 
 use super::Expected;
-use super::experiments::{Instruments, plans};
+use super::experiments::plans;
 use crate::diagnosis::case::Case;
 use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::Worth;
+use crate::fit::numbers::{largest, squared_distance};
 
 /// Root-mean-square distance over all marker coordinates between the calibrated base and a fit.
 pub(crate) fn worth(case: &Case, fit: &Fit) -> Worth {
     let first = case.first();
-    let set = first.gauge.as_ref().map_or_else(|| first.dataset.clone(), |gauge| gauge.as_set(&first.dataset));
-    let instruments = Instruments { direct: first.direct, tests: Vec::new() };
-    let elsewhere = plans(&first.scenario, &set, first.direct, instruments).into_iter().filter_map(|plan| {
+    let plans = plans(&first.scenario, &first.as_set(), first.direct, (first.direct, Vec::new()));
+    let elsewhere = plans.into_iter().filter_map(|plan| {
         let expected = Expected::of(case, Some(&plan), fit).ok()?;
         let base = super::extended(&case.base, case.problem.bendings, expected.added);
         let planned = &expected.problem.blocks[case.problem.blocks.len()..];
@@ -22,14 +22,13 @@ pub(crate) fn worth(case: &Case, fit: &Fit) -> Worth {
         let apart: Vec<[f64; 2]> = apart.collect::<Option<_>>()?;
         Some((root_mm(&apart), plan.sentence))
     });
-    let most = elsewhere.filter(|(mm, _)| mm.is_finite()).max_by(|a, b| a.0.total_cmp(&b.0));
+    let most = largest(elsewhere.filter(|(mm, _)| mm.is_finite()), |(mm, _)| *mm);
     let here_mm = root_mm(&[squares(&case.prediction(&case.base), &case.prediction(fit))]);
     Worth { here_mm, elsewhere_mm: most.as_ref().map(|(mm, _)| *mm), elsewhere: most.map(|(_, words)| words) }
 }
 
-/// Sum of squared differences \[m²\] and their number.
 fn squares(a: &[f64], b: &[f64]) -> [f64; 2] {
-    [a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum(), a.len() as f64]
+    [squared_distance(a, b), a.len() as f64]
 }
 
 fn root_mm(parts: &[[f64; 2]]) -> f64 {

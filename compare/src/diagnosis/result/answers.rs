@@ -2,7 +2,9 @@
 
 use crate::diagnosis::candidates::taken_away;
 use crate::diagnosis::result::{Combination, Diagnosis, ParameterValue, Ranked, Verdict};
+use crate::fit::numbers::least;
 use crate::policy;
+use crate::typed_effect::with_values;
 use models::{Known, Scenario};
 
 /// Status of an answer in a diagnosis.
@@ -80,8 +82,8 @@ impl<'d> Answer<'d> {
 impl Diagnosis {
     /// Which of the fitted bending stiffnesses, one per body pressure, belongs to a body pressure \[kPa\]: the nearest.
     pub fn level(&self, p_body_kpa: f64) -> usize {
-        let away = |k: &usize| (self.base.bending[*k].p_body_kpa - p_body_kpa).abs();
-        (0..self.base.bending.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
+        let bending = &self.base.bending;
+        least(0..bending.len(), |k| (bending[*k].p_body_kpa - p_body_kpa).abs()).unwrap_or(0)
     }
 
     /// The scenario with the calibrated B of a level; its own if B was kept.
@@ -196,18 +198,11 @@ pub(crate) fn in_step(name: &str) -> String {
 
 /// The scenario with effects at their fitted values, and a B if one is given. Names that the scenario does not know are left out.
 pub fn with_fitted(scenario: &Scenario, added: &[(&str, &[ParameterValue])], bending_nm2: Option<f64>) -> Scenario {
-    let catalogue = scenario.catalogue();
     let mut with = scenario.clone();
     for (name, fitted) in added {
-        if let Some(gone) = taken_away(name) {
-            with.effects.retain(|e| e.name != gone);
-        }
-        let Some(effect) = catalogue.by_name(name) else { continue };
-        let value = |p: &models::effects::Parameter| {
-            fitted.iter().find(|v| v.key == p.key).map_or(p.neutral, |v| v.value) * p.si
-        };
-        let values: Vec<f64> = effect.parameters.iter().map(value).collect();
-        with = with.with_effect(name, &values);
+        with.effects.retain(|e| taken_away(name) != Some(&e.name));
+        let value = |key: &str| fitted.iter().find(|v| v.key == key).map(|v| v.value);
+        with = with_values(&with, name, value);
     }
     bending_nm2.map_or(with.clone(), |b| with.with_bending(b))
 }

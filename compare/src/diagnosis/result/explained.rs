@@ -127,7 +127,6 @@ pub struct Worth {
     pub elsewhere: Option<String>,
 }
 
-/// Names of effects that are added.
 pub(crate) fn names_of(added: &[Added]) -> Vec<String> {
     added.iter().map(|a| a.effect.clone()).collect()
 }

@@ -5,7 +5,7 @@
 
 use crate::diagnosis::experiments::TIP_FORCE_N;
 use crate::diagnosis::result::{Diagnosis, Verdict};
-use crate::residuals::ResidualCell;
+use crate::fit::numbers::largest;
 use crate::wording::{channels_word, list, uncapitalised};
 use models::effects::Group;
 
@@ -19,12 +19,12 @@ pub(crate) fn next(d: &Diagnosis) -> Option<String> {
         told.push(format!("do a bending test, for the answer with B = {:.2} N·m²", kept.value_nm2));
     }
     if !d.outliers.runs.is_empty() {
-        let runs: Vec<String> = d.outliers.runs.iter().map(|r| r.run.clone()).collect();
-        let word = if runs.len() == 1 { "run" } else { "runs" };
-        told.push(format!("take {word} {} again or leave it out, it is not like the others", list(&runs)));
+        let word = if d.outliers.runs.len() == 1 { "run" } else { "runs" };
+        let runs = list(d.outliers.runs.iter().map(|r| &r.run));
+        told.push(format!("take {word} {runs} again or leave it out, it is not like the others"));
     }
     told.extend(d.attempt.iter().filter(|added| added.group == Group::Measurement).filter_map(|added| {
-        let ranked = d.ranked.iter().find(|ranked| ranked.effect == added.effect)?;
+        let ranked = d.ranked(&added.effect)?;
         let board = if added.effect.starts_with("camera") { " (ibr data import --board)" } else { "" };
         Some(format!("{}{board}", uncapitalised(ranked.remedy.trim_end_matches('.'))))
     }));
@@ -37,12 +37,10 @@ pub(crate) fn next(d: &Diagnosis) -> Option<String> {
     Some(format!("Next: {}. {none} {rest}", told.join("; ")).trim_end().to_string())
 }
 
-/// The marker and the hold where the final model fails most.
 fn where_most(d: &Diagnosis) -> Option<String> {
     let map = &d.residuals_after;
-    let size = |cell: &ResidualCell| cell.norm_in_noise.unwrap_or(cell.norm_mm);
     let cells = map.cells.iter().enumerate().flat_map(|(m, row)| row.iter().enumerate().map(move |(h, c)| (m, h, c)));
-    let (marker, hold, _) = cells.max_by(|a, b| size(a.2).total_cmp(&size(b.2)))?;
+    let (marker, hold, _) = largest(cells, |(_, _, cell)| cell.norm_in_noise.unwrap_or(cell.norm_mm))?;
     let at = &map.holds[hold];
     Some(format!(
         "look at marker {} at {} kPa ({}), where the model fails most, and take that hold again, also with ±{TIP_FORCE_N} N on \

@@ -1,15 +1,15 @@
 //! Sentences that report a diagnosis: the verdict first, then its reasons.
 
 use crate::policy;
-use data::Direct;
 
 use crate::diagnosis::candidates::taken_away;
 use crate::diagnosis::result::words::{change, quantity, with_interval};
 use crate::diagnosis::result::{
-    AsClose, Confidence, Diagnosis, FittedBeside, GaugeFit, Group, KeptBending, LearnedLaw, LeftPattern, OtherDesign,
-    Ranked, Verdict, Worth, names_of,
+    Added, AsClose, Confidence, Diagnosis, FittedBeside, GaugeFit, Group, KeptBending, LearnedLaw, LeftPattern,
+    OtherDesign, Ranked, Verdict, names_of,
 };
 use crate::evidence::ForeignBase;
+use crate::fit::numbers::{largest, least, sort_by};
 use crate::wording::{capitalised, list, p_value};
 
 /// What comes as close as an attempt is named up to that many; `diagnosis.json` has all.
@@ -52,7 +52,6 @@ impl LearnedLaw {
     }
 }
 
-/// The story, one sentence or two per entry.
 pub(crate) fn story(d: &Diagnosis) -> Vec<String> {
     let mut told: Vec<String> = d.foreign_bases.iter().map(ForeignBase::sentence).collect();
     told.push(opening(d));
@@ -95,21 +94,22 @@ fn opening(d: &Diagnosis) -> String {
 }
 
 fn beside(part: &FittedBeside) -> String {
-    let direct = match part.direct {
-        Direct { pressure: false, frame: false } => "",
-        Direct { pressure: true, frame: false } => ", pressure measured at the actuator",
-        Direct { pressure: false, frame: true } => ", positions measured from the base",
-        Direct { pressure: true, frame: true } => ", pressure measured at the actuator and positions from the base",
+    let direct = match (part.direct.pressure, part.direct.frame) {
+        (false, false) => "",
+        (true, false) => ", pressure measured at the actuator",
+        (false, true) => ", positions measured from the base",
+        (true, true) => ", pressure measured at the actuator and positions from the base",
     };
-    let FittedBeside { dataset, runs, systematic_mm: before, systematic_with_added_mm: after, .. } = part;
+    let (dataset, runs) = (&part.dataset, part.runs);
+    let (before, after) = (part.systematic_mm, part.systematic_with_added_mm);
     format!(
         "Fitted along: {dataset} ({runs} runs{direct}), {before:.2} mm beyond noise with the base, {after:.2} mm with this answer."
     )
 }
 
 fn gauge(fit: &GaugeFit) -> Option<String> {
-    let (read, set) = (fit.read_kpa.iter().zip(&fit.set_kpa)).max_by(|a, b| a.1.total_cmp(b.1))?;
-    let GaugeFit { dataset, before_kpa, after_kpa, .. } = fit;
+    let (read, set) = largest(fit.read_kpa.iter().zip(&fit.set_kpa), |(_, set)| **set)?;
+    let (dataset, before_kpa, after_kpa) = (&fit.dataset, fit.before_kpa, fit.after_kpa);
     Some(format!(
         "The gauge in {dataset} read {read:.1} kPa at the actuator where {set:.1} were set. The supply's laws are off by \
          {before_kpa:.2} kPa (rms) as the scenario has them, by {after_kpa:.2} kPa with this answer; positions are predicted at \
@@ -118,17 +118,17 @@ fn gauge(fit: &GaugeFit) -> Option<String> {
 }
 
 fn other_design(d: &Diagnosis, other: &OtherDesign) -> String {
-    let OtherDesign { switched, verdict, indistinguishable, systematic_after_mm: after, .. } = other;
-    let then = match verdict {
-        Some(Verdict::Effect) => format!("; then missing: {}", indistinguishable.join(" or ")),
+    let then = match other.verdict {
+        Some(Verdict::Effect) => format!("; then missing: {}", other.indistinguishable.join(" or ")),
         _ => String::new(),
     };
     // A pair may leave less; other designs are asked for single effects.
-    let own = d.base.systematic_with_added_mm;
-    let instead = if *after < own { format!(" instead of {own:.2}") } else { String::new() };
+    let (after, own) = (other.systematic_after_mm, d.base.systematic_with_added_mm);
+    let instead = if after < own { format!(" instead of {own:.2}") } else { String::new() };
+    let made = change(&other.switched).replace("adding", "with").replace("leaving out", "without");
+    let made = capitalised(&made);
     format!(
-        "First look at how the robot is made. {}, with nothing of it fitted, the best single effect leaves {after:.2} mm{instead}{then}.",
-        capitalised(&change(switched).replace("adding", "with").replace("leaving out", "without")),
+        "First look at how the robot is made. {made}, with nothing of it fitted, the best single effect leaves {after:.2} mm{instead}{then}."
     )
 }
 
@@ -144,14 +144,12 @@ fn by_design(d: &Diagnosis, entry: &AsClose) -> String {
 
 fn ranking_only(d: &Diagnosis) -> Vec<String> {
     let helps = d.ranked.iter().filter(|r| policy::helps(r.gain) && !r.at_bound);
-    let names: Vec<String> = helps.take(5).map(|r| r.effect.clone()).collect();
-    let why = format!("{} usable runs: at least three are needed for p-values", d.runs);
-    let order = if names.is_empty() {
-        "No effect lowers the misfit.".to_string()
-    } else {
-        format!("In order of how much they lower the misfit, uncalibrated: {}.", list(&names))
+    let names: Vec<&String> = helps.take(5).map(|r| &r.effect).collect();
+    let order = match names.is_empty() {
+        true => "No effect lowers the misfit.".to_string(),
+        false => format!("In order of how much they lower the misfit, uncalibrated: {}.", list(&names)),
     };
-    vec![format!("No verdict ({why})."), order]
+    vec![format!("No verdict ({} usable runs: at least three are needed for p-values).", d.runs), order]
 }
 
 fn nothing(d: &Diagnosis) -> Vec<String> {
@@ -159,11 +157,10 @@ fn nothing(d: &Diagnosis) -> Vec<String> {
         vec![format!("No missing effect detectable ({} after correcting for {} effects).", p_of(d), d.ranked.len())];
     let mut seen: Vec<_> =
         d.undetectable.iter().filter_map(|u| Some((u, u.smallest_detectable?, u.times_typical?))).collect();
-    seen.sort_by(|a, b| b.2.total_cmp(&a.2));
-    let parts: Vec<String> =
-        seen.iter().take(4).map(|(u, size, _)| format!("{} {}", u.effect, quantity(*size, &u.unit))).collect();
-    if !parts.is_empty() {
-        told.push(format!("To be seen, the effects that hide best would have to exceed: {}.", list(&parts)));
+    sort_by(&mut seen, |(.., times)| -times);
+    if !seen.is_empty() {
+        let parts = seen.iter().take(4).map(|(u, size, _)| format!("{} {}", u.effect, quantity(*size, &u.unit)));
+        told.push(format!("To be seen, the effects that hide best would have to exceed: {}.", list(parts)));
     }
     told
 }
@@ -182,13 +179,14 @@ fn effect(d: &Diagnosis) -> Vec<String> {
         d.ranked.len()
     )];
     told.extend(worth(d));
-    for added in d.added.iter().filter(|added| taken_away(&added.effect).is_none()) {
+    let values = |added: &Added| {
         let values: Vec<String> = added.parameters.iter().map(with_interval).collect();
         let sentence = d.ranked(&added.effect).map_or("", |r| &r.sentence);
-        told.push(format!("{}: {}. {sentence}", added.effect, values.join(", ")));
-    }
-    if let Some(r) = d.ranked.iter().find(|r| names.len() == 1 && r.effect == names[0] && supply.is_none()) {
-        told.extend(held_out(d, r));
+        format!("{}: {}. {sentence}", added.effect, values.join(", "))
+    };
+    told.extend(d.added.iter().filter(|added| taken_away(&added.effect).is_none()).map(values));
+    if let ([name], None) = (&names[..], supply) {
+        told.extend(d.ranked(name).and_then(|r| held_out(d, r)));
     }
     told.extend(covered(d));
     if let Some(left) = d.lack_of_fit_after.filter(|left| left.p_value < d.alpha) {
@@ -199,35 +197,33 @@ fn effect(d: &Diagnosis) -> Vec<String> {
             p_value(left.p_value)
         ));
     }
+    let rival = if d.confidence == Some(Confidence::IdentifiedInCatalog) { ", without a rival in it" } else { "" };
     told.push(match d.confidence {
         Some(Confidence::Hint) => {
             "A hint only: evidence this weak often points to a neighbour of the true effect.".into()
         }
-        Some(Confidence::IdentifiedInCatalog) => {
-            "Best explanation in this catalogue, without a rival in it. Another effect that is not listed may look the \
-             same."
-                .into()
-        }
-        _ => "Best explanation in this catalogue. Another effect that is not listed may look the same.".to_string(),
+        _ => format!("Best explanation in this catalogue{rival}. Another effect that is not listed may look the same."),
     });
     told
 }
 
 /// Size of the answer in millimetres, after its name, where it is small here or much larger elsewhere.
 fn worth(d: &Diagnosis) -> Option<String> {
-    let Worth { here_mm, elsewhere_mm, elsewhere } = d.worth.as_ref()?;
-    let small = policy::is_good_enough(*here_mm, d.tolerance_mm);
-    if !small && elsewhere_mm.is_none_or(|mm| !policy::is_far_less(*here_mm, mm)) {
+    let worth = d.worth.as_ref()?;
+    let here_mm = worth.here_mm;
+    let elsewhere = worth.elsewhere_mm.zip(worth.elsewhere.as_ref());
+    let small = policy::is_good_enough(here_mm, d.tolerance_mm);
+    if !small && elsewhere.is_none_or(|(mm, _)| !policy::is_far_less(here_mm, mm)) {
         return None;
     }
-    let tolerance = if small { format!(", below the tolerance of {:.2} mm", d.tolerance_mm) } else { String::new() };
-    let most = elsewhere_mm
-        .zip(elsewhere.as_ref())
-        .map_or(String::new(), |(mm, words)| format!("; {mm:.2} mm if you {words}"));
+    let tolerance = match small {
+        true => format!(", below the tolerance of {:.2} mm", d.tolerance_mm),
+        false => String::new(),
+    };
+    let most = elsewhere.map_or(String::new(), |(mm, words)| format!("; {mm:.2} mm if you {words}"));
     Some(format!("It moves the markers by {here_mm:.2} mm (rms) in these data{tolerance}{most}."))
 }
 
-/// How often a stated set held a true effect where that was known.
 fn covered(d: &Diagnosis) -> Option<String> {
     let share = 100.0 * d.covered?;
     Some(format!("Of 100 such answers on synthetic data, whatever was hidden, {share:.0} contain a true effect."))
@@ -288,49 +284,45 @@ fn outside(d: &Diagnosis) -> Vec<String> {
 fn as_close(d: &Diagnosis) -> Option<String> {
     let (attempt, others) = d.attempt_alike.split_first().filter(|(_, others)| !others.is_empty())?;
     let (first, rest) = others.split_at(others.len().min(MOST_AS_CLOSE));
-    let mut names: Vec<String> =
-        first.iter().map(|a| format!("{} ({:.2} mm)", a.effects.join(" + "), a.systematic_after_mm)).collect();
-    if !rest.is_empty() {
-        names.push(format!("{} more", rest.len()));
-    }
+    let name = |a: &AsClose| format!("{} ({:.2} mm)", a.effects.join(" + "), a.systematic_after_mm);
+    let more = (!rest.is_empty()).then(|| format!("{} more", rest.len()));
+    let names = list(first.iter().map(name).chain(more));
     let as_close = match d.beside.is_empty() {
         true => "As close".into(),
         false => format!("Over all data it leaves {:.2} mm; as close", attempt.systematic_after_mm),
     };
-    Some(format!("{as_close}, to a fifth: {}. These data do not choose between them.", list(&names)))
+    Some(format!("{as_close}, to a fifth: {names}. These data do not choose between them."))
 }
 
-/// What comes closer than the attempt, but only at the end of its range.
 fn at_its_bound(d: &Diagnosis) -> Option<String> {
-    let left = |r: &&Ranked| r.systematic_after_mm;
-    let nearest = d.ranked.iter().filter(|r| r.at_bound).min_by(|a, b| left(a).total_cmp(&left(b)))?;
+    let nearest = least(d.ranked.iter().filter(|r| r.at_bound), |r| r.systematic_after_mm)?;
     policy::is_closer(nearest.systematic_after_mm, d.base.systematic_with_added_mm).then(|| {
+        let (effect, left) = (&nearest.effect, nearest.systematic_after_mm);
+        let values = nearest.parameters.iter().filter(|p| !p.held);
+        let values = values.map(|p| format!("{} = {}", p.symbol, quantity(p.value, &p.unit)));
+        let values = values.collect::<Vec<_>>().join(", ");
         format!(
-            "{} would leave {:.2} mm, but at the end of its range, {}, and the data push beyond it: more of it than was thought \
-             possible, or something that looks like it.",
-            nearest.effect,
-            nearest.systematic_after_mm,
-            nearest.parameters.iter().filter(|p| !p.held).map(|p| format!("{} = {}", p.symbol, quantity(p.value, &p.unit))).collect::<Vec<_>>().join(", ")
+            "{effect} would leave {left:.2} mm, but at the end of its range, {values}, and the data push beyond it: more of it than was \
+             thought possible, or something that looks like it."
         )
     })
 }
 
 fn with_kept_bending(d: &Diagnosis, kept: &KeptBending) -> String {
-    let fitted: Vec<String> = d.base.bending.iter().map(|b| format!("{:.2}", b.value_nm2)).collect();
+    let fitted = list(d.base.bending.iter().map(|b| format!("{:.2}", b.value_nm2)));
     let alike = if kept.indistinguishable.len() > 1 { ", which these data do not separate" } else { "" };
     format!(
-        "With B kept at the scenario's {:.2} N·m² ({} fitted to the base) there is an answer: {}{alike}, down to {:.2} mm. It \
+        "With B kept at the scenario's {:.2} N·m² ({fitted} fitted to the base) there is an answer: {}{alike}, down to {:.2} mm. It \
          holds if a bending test finds that B: then write it into the scenario and add --keep-bending.",
         kept.value_nm2,
-        list(&fitted),
         list(&kept.indistinguishable),
         kept.systematic_after_mm
     )
 }
 
 fn looks_like(pattern: &LeftPattern) -> String {
-    let LeftPattern { words, share, p_value: p, instead, .. } = pattern;
-    let (what, percent, p) =
-        (if *instead { "It looks" } else { "The remaining misfit looks" }, 100.0 * share, p_value(*p));
-    format!("{what} as if {words}: that alone makes up {percent:.0} % of it ({p} among all such patterns).")
+    let what = if pattern.instead { "It" } else { "The remaining misfit" };
+    let (words, percent) = (&pattern.words, 100.0 * pattern.share);
+    let p = p_value(pattern.p_value);
+    format!("{what} looks as if {words}: that alone makes up {percent:.0} % of it ({p} among all such patterns).")
 }

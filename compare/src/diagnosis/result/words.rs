@@ -8,11 +8,10 @@ pub use crate::wording::value;
 
 /// `adding a and b`, `leaving out c`, `adding a and leaving out c`.
 pub fn change(names: &[String]) -> String {
-    let (gone, new): (Vec<String>, Vec<String>) = names.iter().cloned().partition(|name| taken_away(name).is_some());
-    let gone: Vec<String> = gone.iter().filter_map(|name| taken_away(name)).map(str::to_string).collect();
-    let parts = [("adding", new), ("leaving out", gone)]
-        .map(|(verb, names)| (!names.is_empty()).then(|| format!("{verb} {}", list(&names))));
-    parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")
+    let gone: Vec<&str> = names.iter().filter_map(|name| taken_away(name)).collect();
+    let new: Vec<&str> = names.iter().map(String::as_str).filter(|name| taken_away(name).is_none()).collect();
+    let parts = [("adding", new), ("leaving out", gone)].into_iter().filter(|(_, names)| !names.is_empty());
+    parts.map(|(verb, names)| format!("{verb} {}", list(names))).collect::<Vec<_>>().join(" and ")
 }
 
 /// `Calibrated: a, k = 2 (1…3).`, or `Taken away: a.`

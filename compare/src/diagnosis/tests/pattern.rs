@@ -74,7 +74,7 @@ fn a_wrong_law_of_a_uniform_robot_leaves_a_time_and_no_place() {
     let plain = robot("spam", 6.0);
     for (effect, value, seed) in [("tail_tension", 0.9, 52), ("pressure_offset", 3e3, 53), ("friction", 0.4, 54)] {
         let [place, time] = left_by_base(&plain, &measured(&plain.with_effect(effect, &[value]), 5, seed));
-        assert!(!place.0.is_uniform && time.0.is_uniform);
+        assert!(!place.0.pattern.is_uniform && time.0.pattern.is_uniform);
         assert!(time.1 <= 1e-6 && place.1 > 0.01, "{effect}: {place:?} {time:?}");
     }
 }
@@ -83,7 +83,7 @@ fn a_wrong_law_of_a_uniform_robot_leaves_a_time_and_no_place() {
 fn a_stiffness_that_falls_along_the_robot_is_a_place() {
     let plain = robot("epam", 1.35);
     let [(place, p_value), _] = left_by_base(&plain, &measured(&plain.with_effect("base_clamp", &[3.0, 1.5]), 5, 55));
-    assert!(p_value <= 1e-6 && place.words.contains("stiffness changes steadily"), "{place:?}");
+    assert!(p_value <= 1e-6 && place.pattern.words.contains("stiffness changes steadily"), "{place:?}");
 }
 
 #[test]

@@ -16,9 +16,11 @@ use crate::diagnosis::pairs::describe;
 use crate::diagnosis::problem::{Block, Fit};
 use crate::diagnosis::result::*;
 use crate::diagnosis::singles::{parameter_values, rank};
+use crate::diagnosis::source::Source;
 use crate::diagnosis::worth::worth;
 use crate::error::CompareError;
 use crate::evidence::{Evidence, Used};
+use crate::fit::numbers::mean;
 use crate::gauge::Reading;
 use crate::noise_summary::NoiseSummary;
 use crate::policy;
@@ -26,9 +28,8 @@ use crate::prepare::Outliers;
 use crate::residuals::{ResidualMap, residual_map};
 use crate::slips::pressure::PressureSlipFound;
 use crate::study::predict_dataset;
-use crate::where_it_fails::{FailureOptions, Statement, where_it_fails};
+use crate::where_it_fails::{Statement, where_it_fails};
 
-/// The parts of a diagnosis in addition to the decision.
 pub(crate) struct Beside<'e> {
     pub evidence: &'e [Evidence],
     pub excluded: Vec<String>,
@@ -39,16 +40,18 @@ pub(crate) struct Beside<'e> {
 }
 
 /// The whole diagnosis except the parts that need a finished verdict: the story, the next experiment, the missing moment.
-pub(crate) fn assemble(case: &Case, decision: &Decision, beside: Beside) -> Result<Diagnosis, CompareError> {
-    let Beside { evidence, excluded, outliers, slips, pressure_slip, mut warnings } = beside;
+pub(crate) fn assemble(case: &Case, decision: &Decision, mut beside: Beside) -> Result<Diagnosis, CompareError> {
+    let evidence = beside.evidence;
     let held_out = HeldOut::new(case)?;
     let mut ranked = rank(case, &decision.singles, &held_out);
-    if evidence[0].about.as_ref().is_some_and(|a| a.gravity_direction.is_none()) {
+    let is_untold = evidence[0].about.as_ref().is_some_and(|a| a.gravity_direction.is_none());
+    for gravity in ranked.iter_mut().filter(|r| is_untold && r.effect == "gravity") {
         let words =
             "about.toml names no [gravity] direction: out of the question if the robot bends in a horizontal plane";
-        ranked.iter_mut().filter(|r| r.effect == "gravity").for_each(|r| r.notes.push(words.into()));
+        gravity.notes.push(words.into());
     }
-    let pairs = describe(case, &decision.pairs, decision.singles.stated().next().unwrap_or(&case.base));
+    let single = decision.singles.stated().next().unwrap_or(&case.base);
+    let pairs = describe(case, &decision.pairs, single);
     let last = decision.last.as_ref().unwrap_or(&case.base);
     let (added, attempt) = match decision.verdict {
         Some(Verdict::Effect) => (added(case, decision), Vec::new()),
@@ -58,7 +61,7 @@ pub(crate) fn assemble(case: &Case, decision: &Decision, beside: Beside) -> Resu
     let undetectable = undetectable(case, &indistinguishable, &added);
     let first = case.first();
     let noise = NoiseSummary::of(case.noise(), &first.dataset.holds);
-    warnings.extend(noise.warning.clone());
+    beside.warnings.extend(noise.warning.clone());
     let (residuals_before, _) = fails(case, &case.base, decision.before)?;
     let (residuals_after, leftover) = fails(case, last, decision.after)?;
     let outside = decision.verdict == Some(Verdict::OutOfCatalog);
@@ -83,14 +86,14 @@ pub(crate) fn assemble(case: &Case, decision: &Decision, beside: Beside) -> Resu
         base: base(case, last, &held_out, &noise)?,
         noise,
         rule_out_first: rule_out_first(case, &ranked, decision),
-        limits: [limits(&datasets, &undetectable), not_in_space(&case.first().scenario)].concat(),
+        limits: [limits(&datasets, &undetectable), not_in_space(&first.scenario)].concat(),
         by_design: by_design(case, decision.verdict, &decision.singles.fits).map(as_close).collect(),
         ranked,
         covered: is_covered(case, &added).then_some(policy::COVERED),
         indistinguishable,
         pairs,
         added,
-        worth: decision.last.as_ref().filter(|_| decision.verdict == Some(Verdict::Effect)).map(|fit| worth(case, fit)),
+        worth: decision.answer().map(|fit| worth(case, fit)),
         attempt,
         attempt_alike: decision.as_close.iter().map(as_close).collect(),
         lack_of_fit_before: decision.before,
@@ -99,18 +102,18 @@ pub(crate) fn assemble(case: &Case, decision: &Decision, beside: Beside) -> Resu
         leftover,
         residuals_before,
         residuals_after,
-        outliers,
+        outliers: beside.outliers,
         undetectable,
         kept_bending: None,
         other_design: None,
-        bending_alarm: bending_alarm(case, last).filter(|_| pressure_slip.is_none()),
-        excluded,
+        bending_alarm: bending_alarm(case, last).filter(|_| beside.pressure_slip.is_none()),
+        excluded: beside.excluded,
         next_experiment: None,
         missing_moment: None,
         learned: None,
-        pressure_slip,
-        slips,
-        warnings,
+        pressure_slip: beside.pressure_slip,
+        slips: beside.slips,
+        warnings: beside.warnings,
     })
 }
 
@@ -119,22 +122,20 @@ fn is_covered(case: &Case, added: &[Added]) -> bool {
     !added.is_empty() && !case.first().scenario.is_spatial()
 }
 
-/// Errors in all data after the first, with the base and with the last fit.
 fn fitted_beside(case: &Case, last: &Fit) -> Vec<FittedBeside> {
-    let errors = case.errors_mm(&case.base).into_iter().zip(case.errors_mm(last));
-    let all = case.sources.iter().zip(errors).map(|(source, (systematic_mm, systematic_with_added_mm))| FittedBeside {
+    let [before, after] = [&case.base, last].map(|fit| case.errors_mm(fit));
+    let of = |(i, source): (usize, &Source)| FittedBeside {
         dataset: source.dataset.name.clone(),
         runs: source.dataset.runs.len(),
         direct: source.direct,
-        systematic_mm,
-        systematic_with_added_mm,
-    });
-    all.skip(1).collect()
+        systematic_mm: before[i],
+        systematic_with_added_mm: after[i],
+    };
+    case.sources.iter().enumerate().skip(1).map(of).collect()
 }
 
-/// Of a block with a gauge.
 fn gauge_fit(case: &Case, block: &Block, last: &Fit) -> Option<GaugeFit> {
-    let rms = |d: &[f64]| 1e-3 * (d.iter().map(|d| d * d).sum::<f64>() / d.len().max(1) as f64).sqrt();
+    let rms = |d: &[f64]| 1e-3 * mean(d.iter().map(|d| d * d)).sqrt();
     let readings = &block.source.gauge.as_ref()?.readings;
     let [before, after] = [&case.base, last].map(|fit| case.problem.supply_pa(block, &fit.effects, fit.theta()));
     let kpa = |of: fn(&Reading) -> f64| readings.iter().map(|r| 1e-3 * of(r)).collect();
@@ -149,13 +150,11 @@ fn gauge_fit(case: &Case, block: &Block, last: &Fit) -> Option<GaugeFit> {
     })
 }
 
-/// Residual map of a fit, and where it fails in plain language.
 fn fails(case: &Case, fit: &Fit, lof: Option<LackOfFit>) -> Result<(ResidualMap, Vec<Statement>), CompareError> {
     let prediction = case.prediction(fit);
     let c = BesideMean::new(&case.first().dataset, case.noise(), &prediction)?;
     let map = residual_map(&c);
-    let options = FailureOptions { alpha: case.alpha, tolerance_m: case.tolerance_m };
-    let statements = where_it_fails(&c, &map, lof.map(|lof| lof.p_value), &options);
+    let statements = where_it_fails(&c, &map, lof.map(|lof| lof.p_value), case.alpha, case.tolerance_m);
     Ok((map, statements))
 }
 
@@ -189,10 +188,11 @@ fn base(case: &Case, last: &Fit, held_out: &HeldOut, noise: &NoiseSummary) -> Re
 }
 
 fn confidence(case: &Case, decision: &Decision) -> Option<Confidence> {
-    let last = decision.last.as_ref().filter(|_| decision.verdict == Some(Verdict::Effect))?;
+    let last = decision.answer()?;
     let stated = if decision.pairs.fits.is_empty() { &decision.singles } else { &decision.pairs };
     let sure = confidence_of(case.gain(last), stated.set.len());
-    Some(if order::is_unusual(case, last) { sure.min(Confidence::LikelyOneOf) } else { sure })
+    let most = if order::is_unusual(case, last) { Confidence::LikelyOneOf } else { sure };
+    Some(sure.min(most))
 }
 
 /// By the gain of an answer and the number of answers that fit as well, itself included.
@@ -207,11 +207,10 @@ pub(crate) fn confidence_of(gain: f64, rivals: usize) -> Confidence {
 fn added(case: &Case, decision: &Decision) -> Vec<Added> {
     let Some(last) = &decision.last else { return Vec::new() };
     let own: usize = case.always.iter().map(|e| case.candidate(*e).parameters.len()).sum();
-    let mut values = parameter_values(case, last, true).split_off(own);
+    let mut values = parameter_values(case, last, true).into_iter().skip(own);
     let entry = |effect: &usize| {
         let candidate = case.candidate(*effect);
-        let rest = values.split_off(candidate.parameters.len());
-        let parameters = std::mem::replace(&mut values, rest);
+        let parameters = values.by_ref().take(candidate.parameters.len()).collect();
         Added { effect: candidate.name.clone(), group: candidate.group, parameters }
     };
     case.added(last).iter().map(entry).collect()

@@ -7,9 +7,9 @@ use crate::diagnosis::case::Case;
 use crate::diagnosis::experiments::bending_test;
 use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::BendingAlarm;
+use crate::fit::numbers::largest;
 use crate::policy;
 
-/// The alarm, where the stiffness is fitted and has a given value.
 pub(crate) fn bending_alarm(case: &Case, last: &Fit) -> Option<BendingAlarm> {
     let test = case.problem.known_bending;
     let given = test.map_or(case.first().scenario.bending_stiffness, |[found, _]| found);
@@ -20,8 +20,7 @@ pub(crate) fn bending_alarm(case: &Case, last: &Fit) -> Option<BendingAlarm> {
     // A bending test is of the first body pressure.
     let count = if test.is_some() { 1.min(case.problem.bendings) } else { case.problem.bendings };
     let off = |k: &usize| is_off(last.theta()[*k]);
-    let far = |k: &usize| (last.theta()[*k] - given).abs();
-    let worst = (0..count).filter(off).max_by(|a, b| far(a).total_cmp(&far(b)))?;
+    let worst = largest((0..count).filter(off), |k| (last.theta()[*k] - given).abs())?;
     let alarm = BendingAlarm {
         told_nm2: given,
         test_sd_nm2: test.map(|[_, sd]| sd),
@@ -33,9 +32,9 @@ pub(crate) fn bending_alarm(case: &Case, last: &Fit) -> Option<BendingAlarm> {
 }
 
 fn words(alarm: &BendingAlarm, has_answer: bool) -> String {
-    let BendingAlarm { told_nm2: given, test_sd_nm2, answer_nm2: answer, .. } = alarm;
+    let (given, answer) = (alarm.told_nm2, alarm.answer_nm2);
     let of = if has_answer { "This answer has" } else { "The fit has" };
-    match test_sd_nm2 {
+    match alarm.test_sd_nm2 {
         Some(sd) => format!(
             "{of} B = {answer:.2} N·m², and the bending test found {given:.2} ± {sd:.2}: they contradict each other. Look at the test \
              again, and do not believe the answer before."

@@ -7,6 +7,7 @@
 use crate::diagnosis::case::Case;
 use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::Verdict;
+use crate::fit::numbers::sort_by;
 use crate::policy;
 
 /// Two effects if a pair comes closer by a fifth than any single one, else one: the final model if it has as many and none of them
@@ -55,10 +56,9 @@ pub(crate) fn by_design<'d>(
     pay.into_iter().map(|(_, fit)| fit)
 }
 
-/// Fits that no bound rejects and their errors in mm, nearest first.
 fn by_distance<'f>(case: &Case, fits: &'f [Fit]) -> Vec<(f64, &'f Fit)> {
     let accepted = fits.iter().filter(|fit| !case.is_rejected(fit));
     let mut errors: Vec<(f64, &Fit)> = accepted.map(|fit| (case.error_in_all_mm(fit), fit)).collect();
-    errors.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by(&mut errors, |(mm, _)| *mm);
     errors
 }

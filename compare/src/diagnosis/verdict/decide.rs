@@ -13,11 +13,11 @@ use crate::diagnosis::result::{LackOfFit, Verdict};
 use crate::diagnosis::singles::indistinguishable;
 use crate::diagnosis::source::Source;
 use crate::error::CompareError;
+use crate::fit::numbers::least;
 use crate::policy;
 use crate::progress::Progress;
 use crate::stats::reported_p;
 
-/// Everything that was fitted, and what follows.
 pub(crate) struct Decision {
     pub singles: Ordered,
     /// Empty if one effect is enough.
@@ -44,6 +44,11 @@ impl Decision {
         [&self.singles.fits[..], &self.pairs.fits].concat()
     }
 
+    /// The final model where the verdict names effects.
+    pub(crate) fn answer(&self) -> Option<&Fit> {
+        self.last.as_ref().filter(|_| self.verdict == Some(Verdict::Effect))
+    }
+
     /// The same without an answer: the data are not what they say.
     pub(crate) fn withheld(self) -> Decision {
         let singles = Ordered { set: Vec::new(), ..self.singles };
@@ -53,7 +58,6 @@ impl Decision {
     }
 }
 
-/// Tests fits of single effects, fits pairs where they are needed, and decides.
 pub(crate) fn decide(
     case: &Case,
     (singles, allowance): (Vec<Fit>, f64),
@@ -141,7 +145,6 @@ fn is_unexplained(case: &Case, fit: &Fit, lof: Option<LackOfFit>, effects: usize
         || leaves_a_place(case, fit, level)
 }
 
-/// Whether a fit leaves a significant place, at a level.
 fn leaves_a_place(case: &Case, fit: &Fit, level: f64) -> bool {
     let look = left_patterns(case, fit);
     look.first(false).is_some_and(|seen| is_a_place_left(case, fit, seen) && look.is_below(seen, level))
@@ -214,8 +217,7 @@ fn test(case: &Case, fit: &Fit) -> Result<Option<LackOfFit>, CompareError> {
         tests.push(positions.map(|lof| supply.map_or(lof, |(gauge, white)| with_supply(lof, gauge, &white))));
     }
     let count = tests.len() as f64;
-    let clearest = tests.into_iter().collect::<Option<Vec<_>>>();
-    let clearest = clearest.and_then(|all| all.into_iter().min_by(|a, b| a.p_value.total_cmp(&b.p_value)));
+    let clearest = tests.into_iter().collect::<Option<Vec<_>>>().and_then(|all| least(all, |lof| lof.p_value));
     Ok(clearest.map(|lof| LackOfFit { p_value: (count * lof.p_value).min(1.0), ..lof }))
 }
 
@@ -223,7 +225,6 @@ fn p_of(case: &Case, fit: &Fit) -> Option<f64> {
     case.p_of_gain(case.seen_gain(fit), case.extra(fit), case.tests)
 }
 
-/// Weighted Bonferroni over the two kinds of tests.
 pub(crate) fn combined(p_effect: f64, p_lack_of_fit: f64) -> f64 {
     (p_effect / policy::SHARE_OF_EFFECTS).min(p_lack_of_fit / (1.0 - policy::SHARE_OF_EFFECTS)).min(1.0)
 }

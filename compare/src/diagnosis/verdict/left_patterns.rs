@@ -10,6 +10,7 @@ use crate::diagnosis::problem::Fit;
 use crate::diagnosis::result::LeftPattern;
 use crate::fit::basis::Basis;
 use crate::fit::least_squares::{dot, square};
+use crate::fit::numbers::{largest, sort_by};
 use crate::policy;
 use crate::stats::{SMALLEST_P, quantile, reported_p, two_sided_p};
 use crate::study::generate::Scatter;
@@ -21,7 +22,6 @@ use std::cell::OnceCell;
 const SIMULATED: usize = 4000;
 /// Of these, side by side; no matter for the result.
 const TOGETHER: usize = 8;
-/// Quantile that sets the number of independent patterns.
 const QUANTILE: f64 = 0.99;
 const SEED: u64 = 20_261_121;
 /// Fits that leave less than this share of a pattern can imitate it.
@@ -29,22 +29,15 @@ const LEFT: f64 = 0.02;
 /// Share of a pattern's variance below which the patterns before it contain it.
 const NEW: f64 = 1e-6;
 
-/// The clearest pattern of a kind.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ClearPattern {
-    pub words: String,
-    pub check: String,
-    /// The whole robot bends otherwise at some time.
-    pub is_uniform: bool,
-    /// The fault that looks like it.
-    pub fault: Option<Fault>,
+    pub pattern: Pattern,
     /// Fall of the whitened sum of squares along it.
     pub gain: f64,
     /// p of it as if it were the only one.
     pub p_alone: f64,
 }
 
-/// A fault that is a simpler answer than effects.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Simpler {
     pub fault: ClearPattern,
@@ -53,7 +46,6 @@ pub(crate) struct Simpler {
     pub either: bool,
 }
 
-/// Everything that may be seen in the residuals of a fit.
 pub(crate) struct Look {
     /// Patterns found in the residuals, the clearest first.
     pub seen: Vec<ClearPattern>,
@@ -64,10 +56,9 @@ pub(crate) struct Look {
 impl Look {
     /// The clearest place or the clearest time.
     pub(crate) fn first(&self, uniform: bool) -> Option<&ClearPattern> {
-        self.seen.iter().find(|seen| seen.is_uniform == uniform)
+        self.seen.iter().find(|seen| seen.pattern.is_uniform == uniform)
     }
 
-    /// p of the largest of all patterns, as reported.
     pub(crate) fn p_value(&self, seen: &ClearPattern) -> f64 {
         if self.at_most(seen) <= SMALLEST_P { SMALLEST_P } else { reported_p(of_several(seen.p_alone, self.tests())) }
     }
@@ -105,7 +96,8 @@ pub(crate) fn alone(
     is_wanted: &dyn Fn(&ClearPattern) -> bool,
 ) -> Option<(ClearPattern, f64)> {
     let look = look(case, &case.base, false);
-    let clearest = look.seen.iter().find(|seen| seen.fault.is_some_and(|fault| kinds.contains(&fault)))?;
+    let is_wanted_kind = |seen: &&ClearPattern| seen.pattern.fault.is_some_and(|fault| kinds.contains(&fault));
+    let clearest = look.seen.iter().find(is_wanted_kind)?;
     let told = is_wanted(clearest) && look.is_below(clearest, level);
     told.then(|| (clearest.clone(), look.p_value(clearest)))
 }
@@ -113,10 +105,10 @@ pub(crate) fn alone(
 /// In words: the fault that is a simpler answer than `last`; else what the calibrated base leaves if one pattern alone explains
 /// more of it than `last` does, else what `last` leaves.
 pub(crate) fn left_pattern(case: &Case, last: Option<&Fit>, fault: Option<&Simpler>) -> Option<LeftPattern> {
-    let told = |fit: &Fit, seen: &ClearPattern, p_value: f64, instead: bool| LeftPattern {
+    let told = |fit: &Fit, seen: &ClearPattern, p_value, instead| LeftPattern {
         share: seen.gain / excess(case, case.of_first(&fit.minimum.residual)).max(seen.gain),
-        words: seen.words.clone(),
-        check: seen.check.clone(),
+        words: seen.pattern.words.clone(),
+        check: seen.pattern.check.clone(),
         p_value,
         instead,
         simpler: fault.is_some(),
@@ -125,7 +117,7 @@ pub(crate) fn left_pattern(case: &Case, last: Option<&Fit>, fault: Option<&Simpl
     if let Some(Simpler { fault, p_value, .. }) = fault {
         return Some(told(&case.base, fault, *p_value, true));
     }
-    let clearest = |look: &Look| look.seen.iter().max_by(|a, b| a.gain.total_cmp(&b.gain)).cloned();
+    let clearest = |look: &Look| largest(&look.seen, |seen| seen.gain).cloned();
     let of_base = look(case, &case.base, false);
     let alone = clearest(&of_base)?;
     let (fit, look, instead) = match last {
@@ -149,28 +141,26 @@ fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Look {
     }
     let residual = case.of_first(&fit.minimum.residual);
     let (mut seen, mut units) = (Vec::new(), Vec::new());
-    for Pattern { words, check, is_uniform, fault, direction } in patterns {
-        let white = whitener.whiten(&direction);
-        let mut unit = if is_uniform { &fitted } else { &of_places }.rest(&white);
+    for pattern in patterns {
+        let white = whitener.whiten(&pattern.direction);
+        let mut unit = if pattern.is_uniform { &fitted } else { &of_places }.rest(&white);
         let left = square(&unit);
         if left > LEFT * LEFT * square(&white) && left > 0.0 {
             unit.iter_mut().for_each(|v| *v /= left.sqrt());
             let t = dot(&unit, residual);
             let (gain, p_alone) = (t * t, two_sided_p(t, case.noise().pure_error_dof));
-            seen.push(ClearPattern { words, check, is_uniform, fault, gain, p_alone });
+            seen.push(ClearPattern { pattern, gain, p_alone });
             units.push(unit);
         }
     }
-    seen.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    sort_by(&mut seen, |seen: &ClearPattern| -seen.gain);
     Look { seen, units, tests: OnceCell::new() }
 }
 
-/// p of the clearest of several independent ones.
 fn of_several(p: f64, tests: f64) -> f64 {
     -(tests * (-p).ln_1p()).exp_m1()
 }
 
-/// What whitened residuals have beyond noise.
 fn excess(case: &Case, white: &[f64]) -> f64 {
     square(white) - case.noise().seen(0..white.len()) as f64
 }
@@ -180,14 +170,14 @@ fn independent(correlations: &DMatrix<f64>) -> Option<f64> {
     let m = correlations.nrows();
     let factor = factor(correlations);
     let mut scatter = Scatter::new(SEED);
-    let mut largest: Vec<f64> = Vec::with_capacity(SIMULATED);
+    let mut most: Vec<f64> = Vec::with_capacity(SIMULATED);
     for _ in 0..SIMULATED / TOGETHER {
         let mut noise = vec![[0.0; TOGETHER]; m];
         (0..TOGETHER).for_each(|set| noise.iter_mut().for_each(|noise| noise[set] = scatter.normal()));
-        largest.extend(largest_of(&factor, &noise));
+        most.extend(largest_of(&factor, &noise));
     }
-    largest.sort_by(f64::total_cmp);
-    let quantile = quantile(&largest, QUANTILE)?;
+    most.sort_by(f64::total_cmp);
+    let quantile = quantile(&most, QUANTILE)?;
     Some((QUANTILE.ln() / (-two_sided_p(quantile, 0)).ln_1p()).clamp(1.0, m as f64))
 }
 
@@ -209,7 +199,6 @@ fn factor(correlations: &DMatrix<f64>) -> Vec<Vec<f64>> {
     rows
 }
 
-/// The largest |normal| of some sets of noise.
 fn largest_of(factor: &[Vec<f64>], noise: &[[f64; TOGETHER]]) -> [f64; TOGETHER] {
     let mut largest = [0.0_f64; TOGETHER];
     for row in factor {

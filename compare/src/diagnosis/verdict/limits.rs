@@ -39,12 +39,11 @@ pub(crate) fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Ve
             "one body pressure only: effects that grow with it cannot be separated from effects that do not".into(),
         );
     }
-    let unseen: Vec<String> =
-        undetectable.iter().filter(|u| u.smallest_detectable.is_none()).map(|u| u.effect.clone()).collect();
+    let unseen: Vec<&Undetectable> = undetectable.iter().filter(|u| u.smallest_detectable.is_none()).collect();
     if datasets.iter().all(|dataset| dataset.runs.len() < 2) && unseen.len() == undetectable.len() {
         limits.push("what could have been seen is not known: one run shows no noise; add runs, or give --sigma".into());
     } else if !unseen.is_empty() {
-        limits.push(format!("no size within its bounds would be seen: {}", list(&unseen)));
+        limits.push(format!("no size within its bounds would be seen: {}", list(unseen.iter().map(|u| &u.effect))));
     }
     limits
 }
@@ -54,7 +53,7 @@ pub(crate) fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Ve
 pub(crate) fn not_in_space(scenario: &Scenario) -> Vec<String> {
     let catalogue = scenario.catalogue();
     let left_out = catalogue.effects().filter(|e| scenario.actuator.takes(e) && !scenario.takes(e));
-    let names: Vec<String> = left_out.map(|e| e.name.to_string()).collect();
+    let names: Vec<&str> = left_out.map(|e| e.name).collect();
     let words = "not built for strips round the body and left out, as is the missing moment";
     if names.is_empty() { Vec::new() } else { vec![format!("{words}: {}", list(&names))] }
 }

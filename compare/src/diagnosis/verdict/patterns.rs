@@ -16,11 +16,12 @@
 use crate::diagnosis::case::Case;
 use crate::diagnosis::experiments::TIP_FORCE_N;
 use crate::diagnosis::source::pressure_levels;
+use crate::fit::numbers::sort_by;
 use crate::layout::Layout;
 use crate::wording::short;
 use data::{Hold, Phase};
 
-/// A simple pattern of residuals, as a direction in run layout.
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Pattern {
     /// Its appearance, to follow "The remaining misfit looks as if".
     pub words: String,
@@ -34,7 +35,6 @@ pub(crate) struct Pattern {
     pub direction: Vec<f64>,
 }
 
-/// A fault that one pattern alone shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Fault {
     /// A place of the robot or a marker, with the times of the bending or without any.
@@ -43,7 +43,6 @@ pub(crate) enum Fault {
     Hold,
 }
 
-/// Where a pattern acts on the markers.
 enum Place {
     /// A rotation halfway between neighbouring markers, 0 between base and first marker.
     Bend(usize),
@@ -57,7 +56,6 @@ enum Place {
     All([f64; 2]),
 }
 
-/// A time that singles out holds.
 struct When {
     /// Clause on the time that follows the description of the pattern.
     words: String,
@@ -66,7 +64,6 @@ struct When {
     time: Vec<f64>,
 }
 
-/// The robot seen in one sample: base and markers in the order of their stations.
 struct Outline {
     xy: Vec<[f64; 2]>,
     /// Halfway from every one of them to the next.
@@ -82,7 +79,8 @@ struct Outline {
 /// All patterns for a prediction in run layout \[m\]; none for data of another shape, and none in space.
 pub(crate) fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
     let Some(layout) = planar(case) else { return Vec::new() };
-    let (markers, outlines) = (&case.first().dataset.markers, outlines(case, &layout, prediction_m));
+    let markers = &case.first().dataset.markers;
+    let outlines = outlines(case, &layout, prediction_m);
     let bent = bending(&layout, prediction_m);
     let stations = order(&case.first().scenario.markers_m);
     let always = vec![1.0; layout.holds];
@@ -101,34 +99,37 @@ pub(crate) fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
              the tip with the actuator vented: a wall that is stiffer there bends less there then too, an actuator that pulls less \
              does not"
         );
-        add(format!("the robot bends otherwise {at} in proportion to its bending"), look, &Place::Bend(k), &bent);
+        let words = format!("the robot bends otherwise {at} in proportion to its bending");
+        add(words, look, &Place::Bend(k), &bent);
         let look = format!(
             "photograph the inflated body with the actuator vented, and once more rolled by 180°: a kink {at} is there without \
              actuator and rolls along, an error of camera or markers does not"
         );
-        add(format!("the robot has a fixed kink {at}"), look, &Place::Bend(k), &always);
+        let words = format!("the robot has a fixed kink {at}");
+        add(words, look, &Place::Bend(k), &always);
     }
     let all_along = |f: fn(f64) -> f64| Place::Bends(stretches(case).iter().map(|[s, ds]| f(*s) * ds).collect());
     let look = "hang a known force on the inflated body with the actuator vented, first on its middle and then on its tip: a wall \
                 that is not the same all along gives two stiffnesses, one that is the same leaves the actuator, whose widths and \
                 seams are measured from base to tip";
-    let steady = all_along(|s| 1.0 - 2.0 * s);
-    add("stiffness changes steadily along the robot".into(), look.into(), &steady, &bent);
-    let middle = all_along(|s| 1.0 - 6.0 * s + 6.0 * s * s);
-    add("the robot's middle bends otherwise than its ends".into(), look.into(), &middle, &bent);
+    let mut varies = |words: &str, shape| add(words.into(), look.into(), &all_along(shape), &bent);
+    varies("stiffness changes steadily along the robot", |s| 1.0 - 2.0 * s);
+    varies("the robot's middle bends otherwise than its ends", |s| 1.0 - 6.0 * s + 6.0 * s * s);
     for (m, marker) in markers.iter().enumerate() {
         let name = &marker.name;
         let look = format!(
             "measure the station of marker {name} along the straight robot with a tape, and correct s_mm in about.toml if it is \
              another one"
         );
-        add(format!("marker {name} sits elsewhere along the robot"), look, &Place::Along(m), &always);
+        let words = format!("marker {name} sits elsewhere along the robot");
+        add(words, look, &Place::Along(m), &always);
         for (axis, unit) in AXES {
             let look = format!(
                 "look at marker {name} in the images (what the tracking follows there, labels that are exchanged), glue it on \
                  again and repeat one run: what is the marker's own moves with it"
             );
-            add(format!("marker {name} alone is off in {axis}"), look, &Place::Marker(m, unit), &always);
+            let words = format!("marker {name} alone is off in {axis}");
+            add(words, look, &Place::Marker(m, unit), &always);
         }
     }
     let times = times(case, &bent);
@@ -137,12 +138,14 @@ pub(crate) fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
         let look = format!(
             "look for what touches or pulls the tip (a hose, a cable, the floor), and {check}, also with ±{TIP_FORCE_N} N on the tip"
         );
-        add(format!("something bends the robot from its tip {words}"), look, &tip, time);
+        let pulled = format!("something bends the robot from its tip {words}");
+        add(pulled, look, &tip, time);
         for (axis, unit) in AXES {
             let look = format!(
                 "put fiducials on the clamp and in the room and {check}: camera and mount move them too, the robot does not"
             );
-            add(format!("the image shifts in {axis} {words}"), look, &Place::All(unit), time);
+            let shifted = format!("the image shifts in {axis} {words}");
+            add(shifted, look, &Place::All(unit), time);
         }
     }
     let whole = all_along(|_| 1.0);
@@ -200,7 +203,6 @@ fn alone(holds: usize, hold: usize) -> Vec<f64> {
     (0..holds).map(|i| f64::from(u8::from(i == hold))).collect()
 }
 
-/// Times that single out holds, with words; every single hold first.
 fn times(case: &Case, bent: &[f64]) -> Vec<When> {
     let holds = &case.first().dataset.holds;
     let one = |(h, hold): (usize, &Hold)| {
@@ -230,7 +232,7 @@ fn times(case: &Case, bent: &[f64]) -> Vec<When> {
 
 fn order(stations_m: &[f64]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..stations_m.len()).collect();
-    order.sort_by(|a, b| stations_m[*a].total_cmp(&stations_m[*b]));
+    sort_by(&mut order, |marker| stations_m[*marker]);
     order
 }
 
@@ -291,14 +293,11 @@ fn displacement(outline: &Outline, place: &Place, marker: usize) -> [f64; 2] {
 
 /// A displacement plus the displacement of a point of the outline by a turn at point k before it.
 fn turned(sum: [f64; 2], outline: &Outline, at: usize, k: usize, turn: f64) -> [f64; 2] {
-    let Outline { xy, middle, along, shorter_m, .. } = outline;
-    [
-        sum[0] - turn * (xy[at][1] - middle[k][1] + shorter_m * along[k][0]),
-        sum[1] + turn * (xy[at][0] - middle[k][0] - shorter_m * along[k][1]),
-    ]
+    let ([x, y], [x0, y0], [tx, ty]) = (outline.xy[at], outline.middle[k], outline.along[k]);
+    let shorter_m = outline.shorter_m;
+    [sum[0] - turn * (y - y0 + shorter_m * tx), sum[1] + turn * (x - x0 - shorter_m * ty)]
 }
 
-/// Unit vector from one point to another; zero if they are one.
 fn towards(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
     let chord = [0, 1].map(|axis| to[axis] - from[axis]);
     let length = chord[0].hypot(chord[1]);

@@ -27,12 +27,12 @@ use crate::diagnosis::singles::fit_all;
 use crate::diagnosis::source::Source;
 use crate::error::CompareError;
 use crate::evidence::Evidence;
+use crate::fit::numbers::{least, mean, sort_by};
 use crate::policy;
 use crate::slips::pressure::{BestEffect, PressureSlip, PressureSlipFound, by_numbers, pressure_words};
 use data::Dataset;
 use models::Scenario;
 
-/// What a hypothesis leaves, and what it costs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Weighed {
     criterion: f64,
@@ -46,7 +46,6 @@ pub(crate) struct Pressures<'p> {
     pub options: &'p Options,
 }
 
-/// A slip undone, and the base then.
 struct Undone {
     /// Source whose table was corrected, as an index.
     of: usize,
@@ -57,7 +56,6 @@ struct Undone {
 }
 
 impl Pressures<'_> {
-    /// The slip that beats the base and all `rivals`, if there is one.
     pub(crate) fn found(
         &self,
         case: &Case,
@@ -78,7 +76,7 @@ impl Pressures<'_> {
         if !rivals.iter().all(|(rival, _)| best.beats(rival, tolerance_mm)) {
             return Ok(None);
         }
-        let nearest = rivals.iter().min_by(|a, b| a.0.left_mm.total_cmp(&b.0.left_mm));
+        let nearest = least(&rivals, |(rival, _)| rival.left_mm);
         let best_effect = nearest.map(|(rival, fit)| BestEffect { effects: case.names(fit), left_mm: rival.left_mm });
         Ok(Some(self.told(&all, Some(own.left_mm), best_effect)))
     }
@@ -97,11 +95,8 @@ impl Pressures<'_> {
 
     /// A slip that the numbers alone prove, whatever a model leaves.
     fn proved(&self, case: &Case) -> Option<PressureSlipFound> {
-        let (of, slip) = self
-            .sources
-            .iter()
-            .enumerate()
-            .find_map(|(of, source)| by_numbers(&source.dataset).into_iter().next().map(|slip| (of, slip)))?;
+        let mut seen = self.sources.iter().map(|source| by_numbers(&source.dataset)).enumerate();
+        let (of, slip) = seen.find_map(|(of, seen)| Some((of, *seen.first()?)))?;
         let before_mm = Some(case.error_in_all_mm(&case.base));
         // Bar under a name of kPa looks exchanged too, and the model decides which.
         let all = self.undone_slips(false);
@@ -144,23 +139,24 @@ impl Pressures<'_> {
 
     /// All slips, the best first; `in_numbers`: those that the numbers alone look like.
     fn undone_slips(&self, in_numbers: bool) -> Vec<Undone> {
-        let all = self.sources.iter().enumerate().flat_map(|(of, Source { scenario, dataset, .. })| {
-            PressureSlip::all(dataset, scenario.p_body_pa).into_iter().map(move |slip| (of, slip))
-        });
+        let of_source = |(of, source): (usize, &Source)| {
+            let all = PressureSlip::all(&source.dataset, source.scenario.p_body_pa);
+            all.into_iter().map(move |slip| (of, slip))
+        };
+        let all = self.sources.iter().enumerate().flat_map(of_source);
         let undone = |(of, slip): (usize, PressureSlip)| {
-            let Source { scenario, dataset, gauge, .. } = &self.sources[of];
-            let seen = slip.is_in_numbers(dataset, scenario);
+            let source = &self.sources[of];
+            let seen = slip.is_in_numbers(&source.dataset, &source.scenario);
             // A body's slip shows in numbers; readings of a gauge are the actuator's own.
-            let possible = if slip.is_of_body() { seen } else { gauge.is_none() && (seen || !in_numbers) };
+            let possible = if slip.is_of_body() { seen } else { source.gauge.is_none() && (seen || !in_numbers) };
             let weighed = possible.then(|| self.undone(of, &slip))??;
             Some(Undone { of, slip, weighed, in_numbers: seen })
         };
         let mut undone: Vec<Undone> = all.filter_map(undone).collect();
-        undone.sort_by(|a, b| a.weighed.criterion.total_cmp(&b.weighed.criterion));
+        sort_by(&mut undone, |slip| slip.weighed.criterion);
         undone
     }
 
-    /// The base refitted with a slip of one of the data undone; `None` without equilibrium.
     fn undone(&self, of: usize, slip: &PressureSlip) -> Option<Weighed> {
         let mut sources = self.sources.to_vec();
         sources[of].dataset = slip.undone(&sources[of].dataset);
@@ -170,8 +166,8 @@ impl Pressures<'_> {
     }
 
     fn told(&self, all: &[Undone], before_mm: Option<f64>, best_effect: Option<BestEffect>) -> PressureSlipFound {
-        let Undone { of, slip, weighed, .. } = &all[0];
-        let (name, after_mm) = (self.sources[*of].dataset.name.clone(), weighed.left_mm);
+        let found = &all[0];
+        let after_mm = found.weighed.left_mm;
         let brings = match before_mm {
             Some(before_mm) => format!("the error beyond noise goes from {before_mm:.1} to {after_mm:.2} mm"),
             None => format!("{after_mm:.2} mm are left, and as they are written the robot has no equilibrium"),
@@ -179,18 +175,15 @@ impl Pressures<'_> {
         let effect = best_effect.as_ref().map_or(String::new(), |BestEffect { effects, left_mm }| {
             format!(" (the best of the catalogue, {}, leaves {left_mm:.2} mm)", effects.join(" + "))
         });
-        let is_alike = |other: &&Undone| policy::is_as_good(other.weighed.criterion, weighed.criterion);
-        let alike = all[1..].iter().filter(is_alike);
-        let alike =
-            alike.map(|other| format!(". As good with these data: {}; {}", other.slip.looks(), other.slip.help()));
-        let words = format!(
-            "{name}: {}: with {} {brings}{effect}. Look at it first: {}{}",
-            slip.looks(),
-            slip.with(),
-            slip.help(),
-            alike.collect::<String>()
-        );
-        PressureSlipFound { dataset: name, words, before_mm, after_mm: Some(after_mm), best_effect }
+        let is_alike = |other: &&Undone| policy::is_as_good(other.weighed.criterion, found.weighed.criterion);
+        let alike = all[1..].iter().filter(is_alike).map(|other| {
+            let [looks, _, help] = other.slip.words();
+            format!(". As good with these data: {looks}; {help}")
+        });
+        let ([looks, with, help], alike) = (found.slip.words(), alike.collect::<String>());
+        let dataset = self.sources[found.of].dataset.name.clone();
+        let words = format!("{dataset}: {looks}: with {with} {brings}{effect}. Look at it first: {help}{alike}");
+        PressureSlipFound { dataset, words, before_mm, after_mm: Some(after_mm), best_effect }
     }
 }
 
@@ -223,7 +216,7 @@ pub(crate) fn slip_of_another_design(
         let words = format!("{} (seen by the same robot {}).", found.words.trim_end_matches('.'), change(&switched));
         Some(PressureSlipFound { words, ..found })
     });
-    Ok(found.min_by(|a, b| a.after_mm.unwrap_or(f64::MAX).total_cmp(&b.after_mm.unwrap_or(f64::MAX))))
+    Ok(least(found, |found| found.after_mm.unwrap_or(f64::MAX)))
 }
 
 fn slip_of(
@@ -248,10 +241,10 @@ impl Undone {
     /// Whether it is clearly better than something else. It must pay: in mm, or by a stiffness that equals the given one again. What
     /// the numbers alone look like needs no more than to be as good.
     fn beats(&self, rival: &Weighed, tolerance_mm: f64) -> bool {
-        let Weighed { criterion, left_mm, has_its_stiffness } = self.weighed;
+        let (criterion, left_mm) = (self.weighed.criterion, self.weighed.left_mm);
         let is_as_near = left_mm <= rival.left_mm.max(tolerance_mm);
         let pays = policy::is_far_less(left_mm, rival.left_mm)
-            || is_as_near && (left_mm <= tolerance_mm || has_its_stiffness && !rival.has_its_stiffness);
+            || is_as_near && (left_mm <= tolerance_mm || self.weighed.has_its_stiffness && !rival.has_its_stiffness);
         match self.in_numbers {
             true => is_as_near && policy::is_as_good(criterion, rival.criterion),
             false => pays && policy::is_clearly_better(criterion, rival.criterion),
@@ -269,10 +262,8 @@ fn weighed(case: &Case, fit: &Fit) -> Weighed {
     }
 }
 
-/// Root mean square of how far the markers moved \[m\].
 fn moved_m(dataset: &Dataset) -> f64 {
-    let mean = dataset.mean_over_runs();
-    let hold = mean.len() / dataset.holds.len();
-    let squares: f64 = mean.iter().enumerate().map(|(i, v)| (v - mean[i % hold]).powi(2)).sum();
-    (squares / mean.len() as f64).sqrt()
+    let at = dataset.mean_over_runs();
+    let hold = at.len() / dataset.holds.len();
+    mean((0..at.len()).map(|i| (at[i] - at[i % hold]).powi(2))).sqrt()
 }

@@ -1,12 +1,12 @@
 //! Which law of the library the points ask for.
 
 use super::library::{Form, LIBRARY};
+use crate::fit::numbers::{groups, least, mean, sort_by};
 use crate::policy;
 use models::{Formula, Scenario};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
-/// Missing moments, and where they were measured.
 #[derive(Debug, Clone)]
 pub(crate) struct Material {
     /// κ, θ, P, p_b, s, R, B and pull of each, SI ([`Formula::moment_at`]).
@@ -17,7 +17,6 @@ pub(crate) struct Material {
     pub stiffness: Option<f64>,
 }
 
-/// A law of the library and how well it predicts.
 #[derive(Debug, Clone)]
 pub(crate) struct Tried {
     /// The law; `None`: nothing is missing.
@@ -31,7 +30,7 @@ pub(crate) struct Tried {
 impl Tried {
     /// What it misses at levels left out, in units of noise: root mean square over the levels.
     pub(crate) fn score(&self) -> f64 {
-        (self.of_levels.iter().sum::<f64>() / self.of_levels.len() as f64).sqrt()
+        mean(self.of_levels.iter().copied()).sqrt()
     }
 }
 
@@ -53,29 +52,28 @@ pub(crate) fn rank(material: &Material, robot: &Scenario) -> Vec<Tried> {
     };
     let mut tried: Vec<Tried> = std::iter::once(None).chain(open.map(Some)).filter_map(tried).collect();
     tried.retain(|t| t.score().is_finite());
-    tried.sort_by(|a, b| a.score().total_cmp(&b.score()));
+    sort_by(&mut tried, Tried::score);
     tried
 }
 
 /// Of laws with their numbers and what they miss at pressures left out, in units of noise, the one to take: the fewest numbers
 /// where no other is closer by a fifth, one noise added to each.
 pub(crate) fn taken(laws: &[(usize, f64)]) -> Option<usize> {
-    let best = laws.iter().map(|(_, missed)| *missed).min_by(f64::total_cmp)?;
-    let alike = (0..laws.len()).filter(|i| !policy::is_closer(1.0_f64.hypot(best), 1.0_f64.hypot(laws[*i].1)));
-    alike.min_by(|a, b| laws[*a].0.cmp(&laws[*b].0).then(laws[*a].1.total_cmp(&laws[*b].1)))
+    let with_noise = |i: usize| 1.0_f64.hypot(laws[i].1);
+    let best = least(0..laws.len(), |i| laws[*i].1)?;
+    let mut alike: Vec<usize> = (0..laws.len()).collect();
+    alike.retain(|i| !policy::is_closer(with_noise(best), with_noise(*i)));
+    sort_by(&mut alike, |i| laws[*i].1);
+    alike.into_iter().min_by_key(|i| laws[*i].0)
 }
 
 impl Material {
     /// Level of actuator pressure of every point.
     fn levels(&self) -> Vec<usize> {
-        let mut known: Vec<f64> = Vec::new();
-        let level = |at: &[f64; 8]| {
-            known.iter().position(|p| policy::is_same_pressure(*p, at[2])).unwrap_or_else(|| {
-                known.push(at[2]);
-                known.len() - 1
-            })
-        };
-        self.places.iter().map(level).collect()
+        let mut levels = vec![0; self.places.len()];
+        let alike = groups(&self.places, |a, b| policy::is_same_pressure(a[2], b[2]));
+        alike.iter().enumerate().for_each(|(level, own)| own.iter().for_each(|i| levels[*i] = level));
+        levels
     }
 
     fn part(&self, rows: &[usize]) -> Option<nalgebra::Cholesky<f64, nalgebra::Dyn>> {
@@ -118,10 +116,11 @@ impl Law {
             values[k] = scales[k];
             material.places.iter().map(|at| formula.moment_at(at, &values) / scales[k]).collect()
         };
+        let bends: Vec<f64> = material.places.iter().map(|at| -at[0]).collect();
         let columns = |set: Vec<f64>| {
             let own = (0..numbers.len()).filter(|k| numbers[*k].is_linear());
             let mut all: Vec<Vec<f64>> = own.filter_map(|k| Some(column(&set, formula.as_ref()?, k))).collect();
-            all.extend(spring.map(|_| material.places.iter().map(|at| -at[0]).collect::<Vec<f64>>()));
+            all.extend(spring.map(|_| bends.clone()));
             let rows = material.places.len();
             let columns = DMatrix::from_fn(rows, all.len(), |i, j| all[j][i]);
             (set, columns)

@@ -182,7 +182,8 @@ pub(crate) const LIBRARY: &[Form] = &[
 impl Number {
     /// Its unit in SI, on a robot.
     pub(crate) fn scale(&self, robot: &Scenario) -> f64 {
-        let (r, moment) = (robot.radius_m, PI * robot.p_body_pa * robot.radius_m.powi(3));
+        let r = robot.radius_m;
+        let moment = PI * robot.p_body_pa * r.powi(3);
         match self.unit {
             Unit::Moment => moment,
             Unit::Stiffness => 10.0 * moment * r,
@@ -229,8 +230,8 @@ impl Form {
 
     /// As a `[[formula]]` of a scenario.
     pub(crate) fn toml(&self, name: &str, robot: &Scenario) -> String {
-        let Form { words, usual: Usual { words: usual, check }, .. } = self;
-        let moment = self.moment_of(robot);
+        let (words, moment) = (&self.words, self.moment_of(robot));
+        let (usual, check) = (&self.usual.words, &self.usual.check);
         let mut out = format!(
             "[[formula]]\nname = \"{name}\"\nmoment = \"{moment}\"\n\
              sentence = \"Learned from data: {words}. Usually {usual}.\"\nremedy = \"To check: {check}.\"\n"
