@@ -27,23 +27,16 @@ use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "crimped_sides",
-    group: Group::Actuator,
     formula: "E = 2 F ε per metre, F = 2 √(4/(4 − π) · (P − χ p_b) D_w b)",
     sentence: "The side welds are too long for a pouch that has shortened, so they fold, and bonded plies resist.",
     differs: "The bend comes late and less, most where the pull is weak: at low pressures.",
     remedy: "Look at the sides of a full pouch: one sharp fold each, in its middle. Cut the side welds narrower.",
     validity: "folds short compared with the pouch, two sheets that meet at a weld",
     reference: "Hetényi 1946, §7 (beam on a foundation); foundation derived here",
-    parameters: &[Parameter {
-        key: "bending_nm2",
-        symbol: "D_w b",
-        unit: "N m2",
-        typical: 5e-6,
-        upper: 1e-3,
-        fitted: Fitted::FromDesign,
-        meaning: "bending stiffness of one side weld along the robot",
-        ..PLAIN
-    }],
+    parameters: &[parameter("bending_nm2", "D_w b", "N m2", 1.0)
+        .usual(5e-6, [0.0, 1e-3])
+        .fitted(Fitted::FromDesign)
+        .means("bending stiffness of one side weld along the robot")],
     needs: Needs::Family(Family::Pouch),
     add,
     ..BALANCE

@@ -118,6 +118,12 @@ pub(super) const BALANCE: Effect<'static> = Effect {
     add: |_, _| {},
 };
 
+/// The same for the air on its way to the actuator.
+pub(super) const SUPPLY: Effect<'static> = Effect { group: Group::Supply, stage: Stage::Supply, ..BALANCE };
+
+/// The same for camera, markers and mount.
+pub(super) const CAMERA: Effect<'static> = Effect { group: Group::Measurement, stage: Stage::Camera, ..BALANCE };
+
 /// What most parameters are; entries say how they differ.
 pub(crate) const PLAIN: Parameter<'static> = Parameter {
     key: "",
@@ -135,6 +141,62 @@ pub(crate) const PLAIN: Parameter<'static> = Parameter {
     in_room: false,
     meaning: "",
 };
+
+/// A parameter: key, symbol, unit and its factor to SI. By itself it is neutral at 0, usually 1 of 0 to 1, and not negative.
+pub(super) const fn parameter(
+    key: &'static str,
+    symbol: &'static str,
+    unit: &'static str,
+    si: f64,
+) -> Parameter<'static> {
+    Parameter { key, symbol, unit, si, ..PLAIN }
+}
+
+/// A number that shapes a law, neutral where the law has its usual form.
+pub(super) const fn shape(key: &'static str, symbol: &'static str, unit: &'static str, si: f64) -> Parameter<'static> {
+    Parameter { typical: 0.0, fitted: Fitted::Shape, ..parameter(key, symbol, unit, si) }
+}
+
+impl Parameter<'static> {
+    /// Its typical size, and the bounds of a fit.
+    pub(super) const fn usual(self, typical: f64, [lower, upper]: [f64; 2]) -> Self {
+        Parameter { typical, lower, upper, ..self }
+    }
+
+    /// The same where the typical size is neutral: another parameter decides whether the effect acts.
+    pub(super) const fn around(self, neutral: f64, bounds: [f64; 2]) -> Self {
+        self.usual(neutral, bounds).neutral(neutral)
+    }
+
+    pub(super) const fn neutral(self, neutral: f64) -> Self {
+        Parameter { neutral, ..self }
+    }
+
+    pub(super) const fn possible(self, possible: [f64; 2]) -> Self {
+        Parameter { possible, ..self }
+    }
+
+    pub(super) const fn starts(self, starts: &'static [f64]) -> Self {
+        Parameter { starts, ..self }
+    }
+
+    pub(super) const fn by_actuator(self, by_actuator: &'static [(&'static str, f64)]) -> Self {
+        Parameter { by_actuator, ..self }
+    }
+
+    pub(super) const fn fitted(self, fitted: Fitted) -> Self {
+        Parameter { fitted, ..self }
+    }
+
+    pub(super) const fn in_room(self) -> Self {
+        Parameter { in_room: true, ..self }
+    }
+
+    pub(super) const fn means(self, meaning: &'static str) -> Self {
+        Parameter { meaning, ..self }
+    }
+}
+
 /// Whether a mechanism is there, from 0 to 1, by design.
 pub(super) const SHARE: Parameter<'static> =
     Parameter { key: "share", symbol: "σ", possible: [0.0, 1.0], fitted: Fitted::FromDesign, ..PLAIN };
@@ -145,9 +207,6 @@ pub(super) const POSITIVE: [f64; 2] = [0.0, f64::INFINITY];
 pub(super) const ABOVE_ZERO: [f64; 2] = [f64::MIN_POSITIVE, f64::INFINITY];
 /// Possible values of a quantity that has a direction or a sign.
 pub(super) const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-
-/// A number that shapes a law, neutral where the law has its usual form.
-pub(super) const SHAPE: Parameter<'static> = Parameter { typical: 0.0, fitted: Fitted::Shape, ..PLAIN };
 
 /// Which data can determine a parameter, and so whether a diagnosis fits it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -25,23 +25,16 @@ use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "fold_energy",
-    group: Group::Actuator,
     formula: "U = 4 √(D T)(1 − cos ½φ) per width of each fold; ends φ = θ, T = P r and (P − p_b) r; sides φ = ψ₀, T = P̄ρ",
     sentence: "The sheets must be folded at the welds, and a fabric that is stiff in bending resists.",
     differs: "The bend comes late and less, more so at low pressures and with stiff fabrics.",
     remedy: "Measure the bending length of the fabric: let a strip droop over an edge.",
     validity: "stiff welds, folds farther apart than √(D/T)",
     reference: "Love 1927, §262 (elastica); derived here",
-    parameters: &[Parameter {
-        key: "bending_nm",
-        symbol: "D",
-        unit: "N m",
-        typical: 1e-4,
-        upper: 1e-2,
-        fitted: Fitted::FromDesign,
-        meaning: "bending stiffness of one sheet",
-        ..PLAIN
-    }],
+    parameters: &[parameter("bending_nm", "D", "N m", 1.0)
+        .usual(1e-4, [0.0, 1e-2])
+        .fitted(Fitted::FromDesign)
+        .means("bending stiffness of one sheet")],
     needs: Needs::Family(Family::Pouch),
     add,
     ..BALANCE

@@ -1,17 +1,8 @@
 //! Weight of the robot.
 //!
-//! ```text
-//! E = −Σ w hᵢ ĝ·xᵢ      w [N/m] per length, ĝ unit vector of gravity
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | w | weight per length of body | N/m |
-//! | ĝ | direction: −y unless scenario or data set state another; z acts with strips round the body | - |
-//! | xᵢ, hᵢ | node position and its share of the length | m |
-//!
-//! Validity: needs a fine enough division (12 segments give 0.1 % of the droop of a 360 mm robot). Vanishes when the
-//! robot bends in a horizontal plane. Derived here; kept as dead load on the deformed shape.
+//! xᵢ and hᵢ are the place of a node and its share of the length, ĝ the direction of gravity: −y unless scenario or data set state another;
+//! z acts with strips round the body. Needs a fine enough division (12 segments give 0.1 % of the droop of a 360 mm robot); kept as dead load
+//! on the deformed shape.
 
 use super::entry::*;
 
@@ -24,16 +15,7 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Weigh the robot; repeat the test with the robot rolled by 180°.",
     validity: "bending plane vertical, or strips round the body; dead load",
     reference: "statics",
-    parameters: &[Parameter {
-        key: "weight_n_per_m",
-        symbol: "w",
-        unit: "N/m",
-        typical: 1.5,
-        upper: 8.0,
-        meaning: "weight per length",
-        ..PLAIN
-    }],
-    needs: Needs::Body,
+    parameters: &[parameter("weight_n_per_m", "w", "N/m", 1.0).usual(1.5, [0.0, 8.0]).means("weight per length")],
     add,
     ..BALANCE
 };

@@ -30,7 +30,6 @@ use crate::gusset_table::GussetTable;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "gussets",
-    group: Group::Actuator,
     formula: "sealed_sides with 4 a u more of section, u = min(f, f − (B² − M²)/(2B)), B = 2f − (½π − 1) a, M² = r²[(θ − φ)² − (sinθ − sinφ)²]",
     sentence: "Side gussets are welded shut at both ends of a pouch, so they open only as far as their diagonals allow.",
     differs: "Folded pouches hold less than free ones and bend less, most at low pressures and where they are short.",

@@ -31,7 +31,6 @@ use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "sealed_sides",
-    group: Group::Actuator,
     formula: "E = (P − χ p_b) π∫a²dx − p_b ∫(ΔA − κΔQ)dx(1 + κD + κ²D²) per pitch, a = r(cosφ − cosθ), w = W − (π − 2)a",
     sentence: "The sealed sides of a pouch are round as well, so it cannot become a free lens: it contracts less and holds less.",
     differs: "Much of the bend is missing at high pressures, where the free lens would still contract.",

@@ -27,7 +27,6 @@ use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "sunk_muscle",
-    group: Group::Actuator,
     formula: "D = R' (1 + cosβ), 2r₀/(2πR − W) = sinβ/(π − β); hinge p_b A_b ȳ_b",
     sentence: "The muscle is glued over its whole width, draws the wall in and is half inside the body, nearer to the far side.",
     differs: "More bend per stroke than an arm outside the body allows, and a body that resists less.",
