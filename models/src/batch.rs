@@ -17,7 +17,6 @@ pub struct Batch {
     states: Vec<Prediction>,
 }
 
-/// A contiguous part of a batch.
 struct Part<'a> {
     first: usize,
     loads: &'a [Loads],
@@ -69,7 +68,6 @@ impl Model {
         Err(error)
     }
 
-    /// Values of z in a state.
     fn heights_each(&self) -> usize {
         if self.is_spatial() { self.marker_count() } else { 0 }
     }

@@ -127,7 +127,6 @@ impl Model {
         Ok(())
     }
 
-    /// From one pair of pressures to another, at once.
     fn change(&self, from: Option<Loads>, to: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
         let start = from.unwrap_or(Loads::uniform(to.body_pa, 0.0));
         let one_way = self.assembly().node_terms.is_empty() && start.leads_one_way(to);
@@ -145,7 +144,6 @@ impl Model {
         Ok(())
     }
 
-    /// Lets time pass at constant set pressures.
     fn wait(&self, time_s: f64, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
         let scale = self.time_scale_s();
         let mut left = time_s;
@@ -206,7 +204,6 @@ impl Loads {
         !(up && down) && !(body && (up || down))
     }
 
-    /// A share of the way to other pressures.
     fn towards(&self, to: &Loads, share: f64) -> Loads {
         let part = |a: f64, b: f64| a + share * (b - a);
         let mut between = Loads { body_pa: part(self.body_pa, to.body_pa), ..*self };

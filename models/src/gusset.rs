@@ -30,7 +30,6 @@ fn times([x, dx]: Sloped, [y, dy]: Sloped) -> Sloped {
     [x * y, dx * y + x * dy]
 }
 
-/// A lens of half angle θ.
 pub(crate) struct Lens {
     theta: f64,
     length_m: f64,

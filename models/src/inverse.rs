@@ -85,7 +85,6 @@ impl Target {
         }
     }
 
-    /// Name, unit and factor for messages.
     fn words(self) -> (&'static str, &'static str, f64) {
         match self {
             Target::TipHeight(_) => ("tip height", "mm", 1e3),

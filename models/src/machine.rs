@@ -91,7 +91,6 @@ impl Machine {
     }
 }
 
-/// Contractions closer than this are one.
 const CLOSE: f64 = 1e-9;
 
 #[cfg(test)]

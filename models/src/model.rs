@@ -83,7 +83,6 @@ impl Model {
         Model::with_segments(scenario, &spans, None)
     }
 
-    /// The same with given segments.
     pub(crate) fn with_segments(scenario: &Scenario, spans: &[Span], segments: Option<Vec<Segment>>) -> Model {
         let mut model = Model::without_starts(scenario, spans, segments);
         for site in &mut model.assembly.sites {
@@ -141,13 +140,11 @@ impl Model {
         Ok(())
     }
 
-    /// The equilibrium with what `out` remembers.
     pub(crate) fn solve(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Result<(), Unsolved> {
         self.supply(loads, &mut out.work);
         equilibrium(&self.assembly, self.body_pa(loads, &out.work), &mut out.work, warm)
     }
 
-    /// Tip and markers of the equilibrium in `out`.
     pub(crate) fn show(&self, out: &mut Prediction) {
         self.place_tip(out);
         self.see(out);
@@ -221,7 +218,6 @@ impl Model {
         &self.assembly
     }
 
-    /// Body pressure after the supply stage \[Pa\].
     #[inline]
     pub(crate) fn body_pa(&self, loads: &Loads, work: &Workspace) -> f64 {
         if self.assembly.body.is_empty() {
@@ -256,7 +252,6 @@ impl Model {
         Stretch::new(from, direction, work.headings[segment], work.states[segment].curvature, centre)
     }
 
-    /// The markers as the camera sees them.
     pub(crate) fn sight(&self, work: &Workspace, markers: &mut [[f64; 2]]) {
         let Some(&(mut current, _)) = self.markers.first() else { return };
         let mut stretch = self.stretch(work, current);

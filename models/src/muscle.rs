@@ -88,7 +88,6 @@ struct Slopes {
 }
 
 impl Half {
-    /// A half glued to a wall of stiffness K.
     fn new(weave: &Weave, [c2, s2]: [f64; 2], wall: f64) -> Half {
         let c = weave.compliance_m_per_n;
         let per = 1.0 / (2.0 * s2 * s2 + wall * c);

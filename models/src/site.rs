@@ -137,7 +137,6 @@ impl SiteLoads {
     }
 }
 
-/// Everything that follows from a coordinate.
 #[derive(Clone, Copy)]
 struct Balance {
     coordinate: f64,
@@ -167,7 +166,6 @@ impl SiteState {
 }
 
 impl Balance {
-    /// The balance at a state of equilibrium.
     fn at_state(state: &SiteState) -> Balance {
         let SiteState { coordinate, curvature, tension, weight, .. } = *state;
         Balance { coordinate, curvature, tension, imbalance: 0.0, d_curvature: 0.0, weight }

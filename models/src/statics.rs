@@ -28,7 +28,6 @@ pub(crate) struct Pull {
     pub first_m3: f64,
 }
 
-/// A section and the loads on it from outside.
 pub(crate) struct Statics<'a> {
     pub p_body_pa: f64,
     pub radius_m: f64,
@@ -37,7 +36,6 @@ pub(crate) struct Statics<'a> {
     pub pulls: &'a mut dyn Iterator<Item = Pull>,
 }
 
-/// Halvings of a share: to rounding.
 const HALVINGS: usize = 60;
 
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {

@@ -181,7 +181,6 @@ impl Search<'_> {
         }
     }
 
-    /// The best points of the grid, best first.
     fn starts(&mut self) -> [(f64, Roots); STARTS] {
         let mut best = [(f64::INFINITY, [0.0; CHANNELS]); STARTS];
         let count = GRID[self.channels().count()];
@@ -241,7 +240,6 @@ impl Search<'_> {
         }
     }
 
-    /// From a start to the bottom.
     fn descend(&mut self, start: (f64, Roots)) -> (f64, Roots) {
         let (mut cost, mut roots) = start;
         let mut damping = 1e-3;

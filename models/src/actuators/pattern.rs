@@ -255,7 +255,6 @@ impl Pattern {
     }
 }
 
-/// Flat unit: one panel from edge to edge.
 pub(super) fn flat(shape: &ActuatorShape, joint: Joint) -> Pattern {
     let half = 0.5 * shape.width_m;
     Pattern {
@@ -270,7 +269,6 @@ pub(super) fn flat(shape: &ActuatorShape, joint: Joint) -> Pattern {
     }
 }
 
-/// A panel with its warp along the body.
 pub(super) fn panel(name: &'static str, level: usize, from_m: f64, to_m: f64) -> Panel {
     Panel { name, level, from_m, to_m, warp_rad: 0.0 }
 }

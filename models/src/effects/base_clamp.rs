@@ -19,12 +19,10 @@ pub(super) const ENTRY: Effect = Effect {
     ..BALANCE
 };
 
-/// How much stiffer either end is.
 pub(super) const fn share(meaning: &'static str) -> Parameter<'static> {
     parameter("share", "b", "-", 1.0).usual(2.0, [0.0, 8.0]).means(meaning)
 }
 
-/// How far the stiffer stretch reaches, of either end.
 pub(super) const REACH: Parameter = parameter("reach_radii", "c", "-", 1.0)
     .around(1.5, [0.5, 3.0])
     .possible([0.5, 3.0])

@@ -30,7 +30,6 @@ pub(super) const ENTRY: Effect = Effect {
 const FESTO_M: f64 = 0.01;
 const GROWTH_PER_M: f64 = 19.03;
 const LOST_M: f64 = 0.0075;
-/// What a stub is left with.
 const LEAST: f64 = 0.05;
 
 /// Force over a long muscle's, by length over diameter.

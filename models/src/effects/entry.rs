@@ -158,7 +158,6 @@ pub(super) const fn shape(key: &'static str, symbol: &'static str, unit: &'stati
 }
 
 impl Parameter<'static> {
-    /// Its typical size, and the bounds of a fit.
     pub(super) const fn usual(self, typical: f64, [lower, upper]: [f64; 2]) -> Self {
         Parameter { typical, lower, upper, ..self }
     }
@@ -314,7 +313,6 @@ impl Parameter<'_> {
 }
 
 impl Effect<'static> {
-    /// Line of its term in the energy ledger.
     pub(super) const fn line(&self, account: Account) -> LedgerLine {
         LedgerLine::new(self.name, account)
     }

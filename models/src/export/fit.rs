@@ -6,7 +6,6 @@ use crate::model::{Model, Prediction};
 use crate::term::Loads;
 use std::f64::consts::PI;
 
-/// Pressures sampled to find where actuators open.
 const OPENING_SAMPLES: usize = 256;
 
 /// What the pieces are made of: the model's answers over u.
@@ -40,13 +39,11 @@ impl Sampler<'_> {
         self.open_pa + u * u * (self.high_pa - self.open_pa)
     }
 
-    /// How many places have an open actuator.
     pub(super) fn open(&mut self, p: f64) -> Result<usize, Unsolved> {
         self.model.predict(&self.loads(p), &mut self.state)?;
         Ok(self.model.states(&self.state).iter().filter(|state| state.coordinate != 0.0).count())
     }
 
-    /// Pressures at which actuators open, rising.
     pub(super) fn openings(&mut self, range_pa: [f64; 2]) -> Result<Vec<f64>, Unsolved> {
         let (mut found, mut before) = (Vec::new(), (range_pa[0], self.open(range_pa[0])?));
         for i in 1..=OPENING_SAMPLES {
@@ -81,7 +78,6 @@ pub(super) struct Fitter<'a, 'm> {
 }
 
 impl Fitter<'_, '_> {
-    /// Adds the pieces from the last edge to `high`.
     pub(super) fn cover(&mut self, high: f32) -> Result<(), Untabulated> {
         let low = self.edges[self.edges.len() - 1];
         let piece = self.piece([low, high])?;
@@ -98,7 +94,6 @@ impl Fitter<'_, '_> {
         Ok(())
     }
 
-    /// Where the pieces are narrowest \[Pa\].
     fn narrowest_pa(&self) -> f64 {
         let width = |pair: &&[f32]| pair[1] - pair[0];
         let narrowest = self.edges.windows(2).min_by(|a, b| width(a).total_cmp(&width(b)));

@@ -67,7 +67,6 @@ pub struct Linear {
     pub joints: Vec<Joint>,
 }
 
-/// Effects that load the body across.
 const ACROSS: [&str; 2] = ["gravity", "tip_load"];
 /// Step of the differences over the value, and over the least value that counts \[1/m, Pa\].
 const NUDGE: f64 = 1e-4;
@@ -103,7 +102,6 @@ impl Linear {
     }
 }
 
-/// The chain held at its working point.
 struct Held {
     model: Model,
     state: Prediction,

@@ -168,7 +168,6 @@ impl Values<'_> {
         Ok(Some(typed.scaled(input.x_si, input.y_si)))
     }
 
-    /// The plies, as many as the law wants.
     pub(super) fn plies(&self) -> &[Ply] {
         &self.recipe.plies
     }

@@ -102,7 +102,6 @@ impl TensionField {
         State::Wrinkled { along, x }
     }
 
-    /// Energy and tension of the wrinkling part.
     fn relaxed(&self, e: [f64; 3]) -> (f64, [f64; 3]) {
         match self.state(e) {
             State::Taut => (self.sheet.energy(e, &[0.0; 2]), self.sheet.tension(e, &[0.0; 2])),
@@ -215,7 +214,6 @@ impl Fabric for TensionField {
     }
 }
 
-/// What a point of the sheet does.
 enum State {
     Taut,
     Slack,

@@ -22,7 +22,6 @@ pub(crate) struct Name<'a> {
     pub dimension: Dimension,
 }
 
-/// A compiled formula and the inputs it uses.
 #[derive(Debug, Clone)]
 pub(crate) struct Compiled {
     pub program: Vec<Op>,
@@ -68,7 +67,6 @@ struct Reader<'a> {
     nesting: usize,
 }
 
-/// Deepest nesting of parentheses, signs and powers.
 const NESTING: usize = 64;
 
 impl<'a> Reader<'a> {
@@ -200,7 +198,6 @@ impl<'a> Reader<'a> {
         Ok(Part { dimension: self.names[place].dimension, value: None, at })
     }
 
-    /// A function, from its opening parenthesis.
     fn call(&mut self, name: &str, at: (usize, usize)) -> Result<Part, Slip> {
         let open = self.at;
         self.at += 1;

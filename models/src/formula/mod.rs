@@ -281,7 +281,6 @@ impl Remembering for FormulaTerm {
 
 /// How much farther a pole is looked for: before it a moment grows too.
 const BEYOND: f64 = 1.5;
-/// Points among which the largest value is looked for.
 const POINTS: u32 = 400;
 /// Thirds cut off around the best of them: a pole is found to rounding.
 const THIRDS: u32 = 200;

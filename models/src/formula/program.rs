@@ -1,6 +1,5 @@
 //! A formula as a short list of instructions over a stack: compiled once, evaluated without allocation.
 
-/// Functions of one number and of two.
 type One = fn(f64) -> f64;
 pub(crate) type Two = fn(f64, f64) -> f64;
 

@@ -20,7 +20,6 @@ pub(super) const PULL: usize = 7;
 pub(crate) const MOST_PARAMETERS: usize = 8;
 pub(super) const INPUTS: usize = VARIABLES.len() + MOST_PARAMETERS;
 
-/// Whether a name means something in every formula.
 pub(crate) fn is_variable(name: &str) -> bool {
     VARIABLES.iter().any(|(known, _)| *known == name)
 }

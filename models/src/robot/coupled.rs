@@ -134,7 +134,6 @@ pub(super) fn solve_segment(
     solved.map_err(|error| unsolved(error, site, assembly.segments[index].start_m, &loads))
 }
 
-/// A place, and what acts there.
 pub(super) fn place_of<'a>(
     assembly: &'a Assembly,
     work: &Workspace,
@@ -167,7 +166,6 @@ fn unsolved(error: NoRoot, site: &Site, start_m: f64, loads: &SiteLoads) -> Unso
     }
 }
 
-/// Integrates the heading along the arc.
 pub(super) fn place_nodes(assembly: &Assembly, work: &mut Workspace) {
     let (mut heading, mut xy) = (0.0, [0.0; 2]);
     let mut direction = [1.0, 0.0];

@@ -90,7 +90,6 @@ impl Workspace {
         self.coupled.shear.get(index).copied().unwrap_or(0.0)
     }
 
-    /// Whether transverse loads shear the body.
     pub(crate) fn is_sheared(&self) -> bool {
         !self.coupled.shear.is_empty()
     }

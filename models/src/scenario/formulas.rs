@@ -10,7 +10,6 @@ use std::ops::Range;
 use std::sync::Arc;
 use toml::Spanned;
 
-/// All formulas of a scenario, compiled.
 pub(super) fn formulas(raw: &Raw, text: &str) -> Checked<Vec<Arc<Formula>>> {
     let mut found: Vec<Arc<Formula>> = Vec::new();
     for entry in &raw.formula {

@@ -23,7 +23,6 @@ pub(super) fn unit(name: &str) -> String {
     if name == "-" { String::new() } else { format!(" {name}") }
 }
 
-/// The entries of one table of the text.
 pub(super) struct Given<'a> {
     /// Where it is in the text.
     pub span: Range<usize>,
@@ -59,7 +58,6 @@ impl<'a> Given<'a> {
         self.entries.iter().find(|(key, _)| key.name == name)
     }
 
-    /// Whether one of these keys is there.
     pub(super) fn has_any(&self, names: &[&str]) -> bool {
         names.iter().any(|name| self.at(name).is_some())
     }

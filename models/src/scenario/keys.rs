@@ -63,7 +63,6 @@ pub fn key(table: &str, name: &str) -> Option<&'static Key> {
     KEYS.iter().find(|key| key.name == name && key.tables.contains(&table))
 }
 
-/// Names of the keys of a table.
 pub(super) fn names(table: &str) -> Vec<&'static str> {
     KEYS.iter().filter(|key| key.tables.contains(&table)).map(|key| key.name).collect()
 }

@@ -10,7 +10,6 @@ use crate::effects::IN_SPACE;
 use std::f64::consts::TAU;
 use toml::Spanned;
 
-/// A strip of units on a body.
 pub(super) fn actuator(given: &Given, radius_m: f64, length_m: f64) -> Checked<ActuatorChoice> {
     let name: String = given.needed("kind", given.read("kind")?)?;
     let Some(kind) = actuators::by_name(&name) else {

@@ -8,7 +8,6 @@ use toml::Spanned;
 /// b where the data sheet has none: between a tube and a sharp orifice.
 const USUAL_RATIO: f64 = 0.3;
 
-/// The line; conductance and volume belong together.
 pub(super) fn line(table: &Spanned<Entries>) -> Checked<Line> {
     let supply = Given::new("supply", table)?;
     let [valve, conductance, ratio, volume] =

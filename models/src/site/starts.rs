@@ -9,7 +9,6 @@
 
 use crate::root::Start;
 
-/// Starts at equal distances of v.
 pub(super) struct Starts {
     first: f64,
     per_step: f64,

@@ -5,7 +5,6 @@ use super::lever::{Matrix, Vector};
 /// Generalised forces of outer loads per length of body: on κ_y and κ_z \[N·m\] and on the contraction of the centre line \[N\].
 pub(crate) type Outer = [f64; 3];
 
-/// Buffers of the loads; empty without them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Loaded {
     pub(super) sections: Vec<Coupling>,

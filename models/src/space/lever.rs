@@ -57,7 +57,6 @@ pub(super) struct Beyond {
 }
 
 impl Beyond {
-    /// Adds a force at the end itself.
     pub(super) fn add(&mut self, force: &[f64]) {
         self.force.iter_mut().zip(force).for_each(|(sum, f)| *sum += f);
     }

@@ -26,7 +26,6 @@ const FIRST_CONTRACTION: f64 = 1e-2;
 pub(super) const FLAT: f64 = 1e-8;
 const HALVINGS: usize = 40;
 
-/// One section of the body and what acts there.
 pub(crate) struct Section<'a> {
     pub(super) sites: &'a [Site],
     pub(super) strips: &'a [Strip],
@@ -57,7 +56,6 @@ pub(super) struct Fit {
     pub tension: f64,
 }
 
-/// All strips at one bend and contraction.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Pulls {
     pub force: f64,
@@ -69,9 +67,7 @@ pub(super) struct Pulls {
     bend: [[f64; 2]; 2],
 }
 
-/// Which strips of a section are open.
 pub(super) enum Acting {
-    /// No strip is open: the wall alone resists.
     Nothing,
     /// One upright strip in a section that no other strip draws in.
     One(usize),
@@ -126,7 +122,6 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// The same under loads from outside.
     pub(super) fn under(self, outer: Outer) -> Section<'a> {
         Section { outer, ..self }
     }
@@ -135,7 +130,6 @@ impl<'a> Section<'a> {
         SiteLoads { p_body_pa: self.p_body_pa, p_act_pa, moment, s_m: self.segment.middle_m(), dt_s: 0.0, stamp: 0 }
     }
 
-    /// Its actuator, if the pressure opens it.
     fn open(&self, strip: &Strip, state: &StripState) -> Option<&'static Actuator> {
         let site = &self.sites[strip.site];
         let actuator = site.actuator.filter(|_| site.is_open(self.p_body_pa, state.p_act_pa))?;

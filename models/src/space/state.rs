@@ -63,7 +63,6 @@ pub(crate) fn stretch(assembly: &Assembly, work: &SpaceWork, segment: usize) -> 
     Stretch { from: work.frames[segment], bend, contraction }
 }
 
-/// Places the frames along the arc.
 pub(crate) fn place(assembly: &Assembly, work: &mut SpaceWork) {
     for (i, segment) in assembly.segments.iter().enumerate() {
         work.frames[i + 1] = stretch(assembly, work, i).at(segment.length_m);
