@@ -16,19 +16,18 @@
 use std::sync::Arc;
 
 use super::fabric::{Fabric, Kind, NeoHookean, Past};
-use super::recipe::{Law, Need, Recipe, THICKNESS, modulus};
+use super::recipe::*;
 
 pub(super) const ENTRY: Law = Law {
     name: "neo-hookean",
-    parameters: &[modulus("c10_MPa", Need::Required, "neo-Hookean constant, a sixth of Young's modulus"), THICKNESS],
-    curves: &[],
-    plies: [0, 0],
+    parameters: &[modulus("c10_MPa", "neo-Hookean constant, a sixth of Young's modulus"), THICKNESS],
     strain_limit: 0.4,
     example: || Recipe::of(&[("c10_MPa", 50.3), ("thickness_mm", 0.2)]),
     make: |recipe| {
         let v = ENTRY.read(recipe)?;
         Ok(Arc::new(NeoHookean::new(v.get("c10_MPa")?, v.get("thickness_mm")?)))
     },
+    ..SHEET
 };
 
 impl Fabric for NeoHookean {

@@ -203,20 +203,52 @@ fn known<'a>(law: &str, what: &str, given: impl Iterator<Item = &'a String>, key
     Ok(())
 }
 
-pub(super) const THICKNESS: Parameter = Parameter {
-    key: "thickness_mm",
-    unit: "mm",
-    si: 1e-3,
-    lower: 1e-4,
-    upper: 100.0,
-    need: Need::Required,
-    meaning: "thickness of the sheet",
+pub(super) const THICKNESS: Parameter =
+    number("thickness_mm", "mm", 1e-3, [1e-4, 100.0]).means("thickness of the sheet");
+
+/// A number that a recipe must have, with its factor to SI and its bounds as written.
+pub(super) const fn number(key: &'static str, unit: &'static str, si: f64, [lower, upper]: [f64; 2]) -> Parameter {
+    Parameter { key, unit, si, lower, upper, need: Need::Required, meaning: "" }
+}
+
+pub(super) const fn modulus(key: &'static str, meaning: &'static str) -> Parameter {
+    number(key, "MPa", 1e6, [1e-6, 1e6]).means(meaning)
+}
+
+pub(super) const fn ratio(key: &'static str, bounds: [f64; 2], meaning: &'static str) -> Parameter {
+    number(key, "-", 1.0, bounds).means(meaning)
+}
+
+impl Parameter {
+    pub(super) const fn means(self, meaning: &'static str) -> Parameter {
+        Parameter { meaning, ..self }
+    }
+
+    pub(super) const fn optional(self) -> Parameter {
+        Parameter { need: Need::Optional, ..self }
+    }
+
+    pub(super) const fn or(self, value: f64) -> Parameter {
+        Parameter { need: Need::Default(value), ..self }
+    }
+}
+
+/// Columns of a table with their factors to SI.
+pub(super) const fn table(
+    key: &'static str,
+    [(x_unit, x_si), (y_unit, y_si)]: [(&'static str, f64); 2],
+    meaning: &'static str,
+) -> CurveInput {
+    CurveInput { key, x_unit, x_si, y_unit, y_si, meaning }
+}
+
+/// What most laws are: one sheet described by numbers; entries say how they differ.
+pub(super) const SHEET: Law = Law {
+    name: "",
+    parameters: &[],
+    curves: &[],
+    plies: [0, 0],
+    strain_limit: 0.05,
+    example: Recipe::default,
+    make: |_| Err(String::new()),
 };
-
-pub(super) const fn modulus(key: &'static str, need: Need, meaning: &'static str) -> Parameter {
-    Parameter { key, unit: "MPa", si: 1e6, lower: 1e-6, upper: 1e6, need, meaning }
-}
-
-pub(super) const fn ratio(key: &'static str, bounds: [f64; 2], need: Need, meaning: &'static str) -> Parameter {
-    Parameter { key, unit: "-", si: 1.0, lower: bounds[0], upper: bounds[1], need, meaning }
-}

@@ -25,26 +25,24 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::fabric::{Fabric, Orthotropic, Past};
-use super::recipe::{Law, Need, Recipe, THICKNESS, modulus, ratio};
+use super::recipe::*;
 
 pub(super) const ENTRY: Law = Law {
     name: "tension-field",
     parameters: &[
-        modulus("e0_MPa", Need::Required, "modulus pulled along warp"),
-        modulus("e90_MPa", Need::Optional, "modulus pulled along fill; else isotropic"),
-        modulus("e45_MPa", Need::Optional, "modulus pulled at 45 degrees to the yarns; with e90_MPa"),
-        modulus("g_MPa", Need::Optional, "shear modulus between warp and fill, in place of e45_MPa; with e90_MPa"),
-        ratio("nu12", [0.0, 2.0], Need::Default(0.0), "contraction along fill per stretch along warp"),
-        ratio("compression_share", [0.0, 1.0], Need::Default(0.01), "share of the sheet that carries compression"),
+        modulus("e0_MPa", "modulus pulled along warp"),
+        modulus("e90_MPa", "modulus pulled along fill; else isotropic").optional(),
+        modulus("e45_MPa", "modulus pulled at 45 degrees to the yarns; with e90_MPa").optional(),
+        modulus("g_MPa", "shear modulus between warp and fill, in place of e45_MPa; with e90_MPa").optional(),
+        ratio("nu12", [0.0, 2.0], "contraction along fill per stretch along warp").or(0.0),
+        ratio("compression_share", [0.0, 1.0], "share of the sheet that carries compression").or(0.01),
         THICKNESS,
     ],
-    curves: &[],
-    plies: [0, 0],
-    strain_limit: 0.05,
     example: || {
         Recipe::of(&[("e0_MPa", 96.5), ("e90_MPa", 120.0), ("e45_MPa", 4.05), ("nu12", 0.3), ("thickness_mm", 0.05)])
     },
     make,
+    ..SHEET
 };
 
 /// A linear sheet without (or with a share of) compressive stiffness.
