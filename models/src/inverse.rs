@@ -112,7 +112,7 @@ impl Model {
         // The response rises steeply from zero and flattens, so start low, with half the slope of the chord from zero.
         let x = START * most;
         let known = short(x);
-        let start = Start { x, f: Some(known), slope: -0.5 * (target.value() - known) / x };
+        let start = Start::known(x, known, -0.5 * (target.value() - known) / x);
         let quick = find_root(&mut short, (0.0, most), start).ok().map(|root| root.x + root.step);
         // What was found from state to state counts if it is met from rest.
         let quick = quick.filter(|p| *p <= most * (1.0 + 1e-12)).map(|p| p.clamp(0.0, most));

@@ -69,7 +69,7 @@ impl Machine {
 
     fn loads(&self, set_pa: f64) -> SiteLoads {
         let p_act_pa = self.assembly.supply.iter().fold(set_pa, |p, law| law(p, &Default::default()));
-        SiteLoads { p_body_pa: 0.0, p_act_pa, moment: 0.0, s_m: 0.0, dt_s: 0.0, stamp: 0 }
+        SiteLoads::new(0.0, p_act_pa)
     }
 
     /// Contraction and pull at a coordinate.

@@ -63,7 +63,7 @@ pub(crate) fn complete(site: &mut Site) {
     if let Some(actuator) = site.actuator.filter(|_| site.weave.is_cell()) {
         let tabulated_from = site.weave.drawn_in_m2 / (actuator.area)(&site.shape);
         let cell = Muscle::of(&site.weave, &site.shape, site.linkage.arm_m);
-        site.act(cell, SideEffects { shifts_balance: true, tabulated_from, ..SideEffects::default() });
+        site.act(cell, SideEffects { tabulated_from, ..SideEffects::SHIFT });
     }
 }
 

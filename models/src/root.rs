@@ -16,6 +16,17 @@ pub(crate) struct Start {
     pub slope: f64,
 }
 
+impl Start {
+    /// Where the function is not known yet.
+    pub(crate) fn guess(x: f64, slope: f64) -> Start {
+        Start { x, f: None, slope }
+    }
+
+    pub(crate) fn known(x: f64, f: f64, slope: f64) -> Start {
+        Start { x, f: Some(f), slope }
+    }
+}
+
 /// The root is `x + step`: `x` is the last point evaluated, so that a caller can keep what it computed there and carry
 /// it over the tiny remaining step along its tangent.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -56,7 +56,7 @@ fn add(values: &[f64], assembly: &mut Assembly) {
                 force[actuator_q::CONTRACTION] -= push;
                 push * at.q[actuator_q::CONTRACTION]
             });
-            site.act(*law, SideEffects { shifts_balance: true, ..SideEffects::default() });
+            site.act(*law, SideEffects::SHIFT);
         }
     }
 }

@@ -21,11 +21,7 @@ pub enum Stage {
 impl Stage {
     /// Lower-case word for tables and JSON.
     pub fn word(self) -> &'static str {
-        match self {
-            Stage::Supply => "supply",
-            Stage::Balance => "balance",
-            Stage::Camera => "camera",
-        }
+        ["supply", "balance", "camera"][self as usize]
     }
 }
 
@@ -53,13 +49,7 @@ impl Group {
 
     /// Lower-case word for tables and JSON.
     pub fn word(self) -> &'static str {
-        match self {
-            Group::Actuator => "actuator",
-            Group::Body => "body",
-            Group::Load => "load",
-            Group::Supply => "supply",
-            Group::Measurement => "measurement",
-        }
+        ["actuator", "body", "load", "supply", "measurement"][self as usize]
     }
 }
 

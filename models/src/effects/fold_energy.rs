@@ -65,7 +65,7 @@ fn add(values: &[f64], assembly: &mut Assembly) {
             inner: site.inner_share,
             wall_m: site.drawn_in(site.strip_m).map_or(0.0, |flat| 0.5 * flat.radius_m * flat.cos),
         };
-        site.act(term, SideEffects { shifts_balance: true, ..SideEffects::default() });
+        site.act(term, SideEffects::SHIFT);
     }
 }
 

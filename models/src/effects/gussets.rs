@@ -55,7 +55,7 @@ fn add(values: &[f64], assembly: &mut Assembly) {
             // As with sealed sides; a flat pouch narrows by less.
             let closes = sealed.closes(values[0], site.shape.width_m) * narrowed(1.0, 0.5 * GATHERED);
             let table = GussetTable::new(sealed.length_m, site.shape.fold_m);
-            site.act(Gussets { sealed, table }, SideEffects { closes, shifts_balance: true, ..SideEffects::default() });
+            site.act(Gussets { sealed, table }, SideEffects { closes, ..SideEffects::SHIFT });
         }
     }
 }

@@ -63,8 +63,7 @@ fn add(values: &[f64], assembly: &mut Assembly) {
         if share > 0.0 {
             let term = SealedSides::new(share, site);
             let closes = term.closes(share, site.shape.width_m);
-            let effects =
-                SideEffects { closes, narrows: share * NARROWED, shifts_balance: true, ..SideEffects::default() };
+            let effects = SideEffects { closes, narrows: share * NARROWED, ..SideEffects::SHIFT };
             site.act(term, effects);
         }
     }

@@ -1,6 +1,6 @@
 //! Fitting a table: the model's answers over u, and pieces halved until polynomials follow them.
 
-use super::untabulated::{MOST_BYTES, Untabulated};
+use super::table::{MOST_BYTES, Untabulated};
 use crate::error::Unsolved;
 use crate::model::{Model, Prediction};
 use crate::term::Loads;

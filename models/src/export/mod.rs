@@ -7,11 +7,9 @@ mod linear;
 mod mjcf;
 mod rigid;
 mod table;
-mod untabulated;
 mod urdf;
 
 pub use c::Origin;
 pub use linear::{Joint, Linear};
 pub use rigid::Surroundings;
-pub use table::{Bound, Table};
-pub use untabulated::{MOST_BYTES, MOST_MISS, Untabulated};
+pub use table::{Bound, MOST_BYTES, MOST_MISS, Table, Untabulated};

@@ -21,7 +21,6 @@ mod compile;
 mod integral;
 mod program;
 mod pull;
-mod variables;
 
 use crate::assembly::Assembly;
 use crate::effects::{Effect, Group, Needs, PLAIN, Parameter, Stage};
@@ -30,14 +29,13 @@ use crate::site::SideEffects;
 use crate::term::{Account, Extreme, LedgerLine, Pose, Remembering, Term};
 use compile::{Compiled, Name, compile};
 use integral::integral;
-use program::{Op, run};
+use program::{INPUTS, KAPPA, Op, PULL, STATION, VARIABLES, run};
 use pull::PullTerm;
 use spelling::units::{self, Dimension};
 use std::sync::Arc;
-use variables::{INPUTS, KAPPA, PULL, STATION, VARIABLES};
 
 pub(crate) use compile::Slip;
-pub(crate) use variables::{MOST_PARAMETERS, is_variable};
+pub(crate) use program::{MOST_PARAMETERS, is_variable};
 
 /// An effect of the scenario's own.
 #[derive(Debug, Clone)]
@@ -171,7 +169,7 @@ impl Formula {
             let (name, program, unit_m) = (Arc::clone(&name), Arc::clone(&self.program), site.shape.length_m);
             if self.uses_pull {
                 if let Some(term) = PullTerm::new(program, site, inputs) {
-                    site.act(term, SideEffects { shifts_balance: true, ..SideEffects::default() });
+                    site.act(term, SideEffects::SHIFT);
                 }
                 continue;
             }

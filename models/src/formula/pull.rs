@@ -5,9 +5,8 @@
 //! ```
 
 use super::integral::integral;
-use super::variables::{INPUTS, KAPPA, PULL};
+use super::program::{INPUTS, KAPPA, Op, PULL, run};
 use crate::actuators::{Actuator, ActuatorShape};
-use crate::formula::program::{Op, run};
 use crate::linkage::Linkage;
 use crate::site::Site;
 use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};

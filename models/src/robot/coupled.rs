@@ -5,7 +5,7 @@ use crate::assembly::Assembly;
 use crate::error::Unsolved;
 use crate::history::History;
 use crate::root::NoRoot;
-use crate::shape::{advance, arc, slid, turned};
+use crate::shape::{Arc, advance, arc, slid, turned};
 use crate::site::{Site, SiteLoads, SiteState};
 use crate::term::Pose;
 
@@ -172,20 +172,17 @@ pub(super) fn place_nodes(assembly: &Assembly, work: &mut Workspace) {
     for (i, segment) in assembly.segments.iter().enumerate() {
         let kappa = work.states[i].curvature;
         let centre = assembly.sites[segment.site].centre_line;
-        let [along, across, sin, cos] = match work.coupled.arcs.get_mut(i) {
+        // Without transverse loads the derivatives are not needed, and the compiler drops them.
+        let Arc { chord, turn, .. } = match work.coupled.arcs.get_mut(i) {
             Some(kept) => {
                 *kept = arc(kappa, segment.length_m, centre);
-                [kept.along, kept.across, kept.turn[0], kept.turn[1]]
+                *kept
             }
-            // Without transverse loads the derivatives are not needed, and the compiler drops them here.
-            None => {
-                let step = arc(kappa, segment.length_m, centre);
-                [step.along, step.across, step.turn[0], step.turn[1]]
-            }
+            None => arc(kappa, segment.length_m, centre),
         };
-        xy = advance(xy, slid(direction, work.shear(i)), along, across);
+        xy = advance(xy, slid(direction, work.shear(i)), chord);
         heading += kappa * segment.length_m;
-        direction = turned(direction, [sin, cos]);
+        direction = turned(direction, turn);
         work.nodes[2 * i + 2] = xy[0];
         work.nodes[2 * i + 3] = xy[1];
         work.headings[i + 1] = heading;
@@ -200,7 +197,7 @@ fn shear(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) {
     for (i, segment) in assembly.segments.iter().enumerate().rev() {
         let (node, own) = (2 * (i + 1), &work.coupled.arcs[i]);
         beyond = [beyond[0] + work.coupled.forces[node], beyond[1] + work.coupled.forces[node + 1]];
-        let chord = advance([0.0; 2], work.directions[i], own.along, own.across).map(|d| d / segment.length_m);
+        let chord = advance([0.0; 2], work.directions[i], own.chord).map(|d| d / segment.length_m);
         let across = chord[0] * beyond[1] - chord[1] * beyond[0];
         let along = chord[0] * beyond[0] + chord[1] * beyond[1];
         let stiffness = assembly.sites[segment.site].shear_stiffness_n(p_body_pa);
@@ -231,8 +228,8 @@ fn load_moments(assembly: &Assembly, work: &mut Workspace) {
         let per_h = 1.0 / assembly.segments[i].length_m;
         let own = &load.arcs[i];
         let direction = slid(work.directions[i], load.shear.get(i).copied().unwrap_or(0.0));
-        let change = advance([0.0; 2], direction, own.d_along, own.d_across);
-        let second = advance([0.0; 2], direction, own.dd_along, own.dd_across);
+        let change = advance([0.0; 2], direction, own.slope);
+        let second = advance([0.0; 2], direction, own.bend);
         load.residual[i] = (sum[0] * change[0] + sum[1] * change[1]) * per_h + turn - load.moments[i];
         load.coupling[i] = (sum[1] * change[0] - sum[0] * change[1]) * per_h - reach;
         load.diagonal[i] = (sum[0] * second[0] + sum[1] * second[1]) * per_h - reach * assembly.segments[i].length_m;

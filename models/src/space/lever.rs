@@ -8,7 +8,7 @@
 //! ε is the contraction of the centre line, x the end of the segment, x_k a node beyond it.
 
 use super::frame::Stretch;
-use crate::shape::{SERIES_BELOW, alternating, sinc_pair};
+use crate::shape::{SERIES_BELOW, alternating, inverse_of, sinc_pair};
 
 pub(super) type Vector = [f64; 3];
 /// Matrix by its rows: the first index is the row.
@@ -159,8 +159,8 @@ fn even(u: f64) -> [f64; 5] {
     let z = u * u;
     let (b, a1) = if u > 0.0 { (across / u, d_along / u) } else { (0.5, -1.0 / 3.0) };
     if u < SERIES_BELOW {
-        let b1 = -alternating(z, [1.0 / 12.0, 1.0 / 180.0, 1.0 / 6720.0, 1.0 / 453_600.0, 1.0 / 47_900_160.0]);
-        let c = alternating(z, [1.0 / 6.0, 1.0 / 120.0, 1.0 / 5040.0, 1.0 / 362_880.0, 1.0 / 39_916_800.0]);
+        let b1 = -alternating(z, const { inverse_of([12.0, 180.0, 6720.0, 453_600.0, 4.790_016e7]) });
+        let c = alternating(z, const { inverse_of([6.0, 120.0, 5040.0, 362_880.0, 3.991_68e7]) });
         return [a, b, a1, b1, c];
     }
     [a, b, a1, (a - 2.0 * b) / z, (1.0 - a) / z]

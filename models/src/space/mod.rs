@@ -31,7 +31,6 @@
 //! those with one upright strip alone, loaded in its plane; in others the step is sharp. A section with such a strip has the planar
 //! balance, in which the generator opposite stays taut even where the strip pulls harder than p_b A. Derived here.
 
-mod coupling;
 mod energies;
 mod frame;
 mod lever;

@@ -1,7 +1,7 @@
 //! Equilibrium of one section: the minimum of a convex energy over κ, the contraction ε₀ found inside.
 
-use super::coupling::Outer;
 use super::frame::{Bend, direction};
+use super::loaded::Outer;
 use super::state::StripState;
 use crate::actuators::Actuator;
 use crate::assembly::{Assembly, Segment, Strip};
@@ -127,7 +127,8 @@ impl<'a> Section<'a> {
     }
 
     fn loads(&self, p_act_pa: f64, moment: f64) -> SiteLoads {
-        SiteLoads { p_body_pa: self.p_body_pa, p_act_pa, moment, s_m: self.segment.middle_m(), dt_s: 0.0, stamp: 0 }
+        let s_m = self.segment.middle_m();
+        SiteLoads { moment, s_m, ..SiteLoads::new(self.p_body_pa, p_act_pa) }
     }
 
     fn open(&self, strip: &Strip, state: &StripState) -> Option<&'static Actuator> {
@@ -160,7 +161,7 @@ impl<'a> Section<'a> {
         let x = if state.coordinate > low && state.coordinate < high { state.coordinate } else { 0.5 * (low + high) };
         let step = STEP * (high - low);
         let slope = (of(x) - of(x + step)) / step;
-        match find_root(&mut |a| contraction - of(a), actuator.range, Start { x, f: None, slope }) {
+        match find_root(&mut |a| contraction - of(a), actuator.range, Start::guess(x, slope)) {
             Ok(root) => root.x + root.step,
             Err(_) if contraction < of(0.5 * (low + high)) => low,
             Err(_) => high,
@@ -207,7 +208,7 @@ impl<'a> Section<'a> {
         if is_slack {
             let mut excess = |e0: f64| self.pulls(strips, kappa, e0).force - thrust;
             // No slope: for flat pouches it is infinite.
-            let start = Start { x: floor + FIRST_CONTRACTION, f: None, slope: 0.0 };
+            let start = Start::guess(floor + FIRST_CONTRACTION, 0.0);
             // A bend that is tried may be too sharp for any body.
             let root = find_root(&mut excess, (floor, f64::max(1.0, 2.0 * floor)), start)
                 .map_err(|_| self.unsolved(strips, pulls.force))?;
