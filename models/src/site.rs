@@ -15,18 +15,18 @@
 mod energies;
 mod held;
 mod starts;
+mod tabulated;
 mod turn;
 mod wall;
 
 use crate::actuators::{Actuator, ActuatorShape, Demand, Stroke};
 use crate::body::{Bending, BodyLaw, BodyPressure};
-use crate::linkage::line_tension;
+use crate::linkage::{ActuatorPressure, line_tension};
 pub use crate::linkage::{Linkage, SectionLaw};
 use crate::root::{NoRoot, Root, Start, find_root};
 pub use crate::shape::CentreLine;
 use crate::term::{Extreme, Pose, Remembering, Term, actuator_q};
 use crate::weave::Weave;
-use energies::ActuatorPressure;
 use starts::Starts;
 use std::f64::consts::PI;
 

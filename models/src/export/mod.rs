@@ -10,6 +10,7 @@ mod table;
 mod urdf;
 
 pub use c::Origin;
+pub use fit::{MOST_BYTES, MOST_MISS, Untabulated};
 pub use linear::{Joint, Linear};
 pub use rigid::Surroundings;
-pub use table::{Bound, MOST_BYTES, MOST_MISS, Table, Untabulated};
+pub use table::{Bound, Table};

@@ -1,9 +1,9 @@
-//! The work of the gas of an actuator, and the energies of an actuator in a state.
+//! Energies of the actuator of a place in a state.
 
 use super::{Site, SiteLoads};
 use crate::actuators::Stroke;
 use crate::linkage::FABRIC_STRETCH;
-use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
+use crate::term::{LedgerLine, Pose, Term, actuator_q};
 
 /// Coordinates of an actuator at which its laws are evaluated for one without a value.
 const EVALUATED: usize = 64;
@@ -46,19 +46,5 @@ impl Site {
         if stretch != 0.0 {
             post(FABRIC_STRETCH, stretch);
         }
-    }
-}
-
-/// The pressure work of the actuator, `E = −P v`.
-pub(super) struct ActuatorPressure;
-
-impl Term for ActuatorPressure {
-    fn line(&self) -> LedgerLine {
-        LedgerLine::new("actuator_pressure", Account::ActuatorGas)
-    }
-
-    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        force[actuator_q::VOLUME] += at.p_act_pa;
-        -at.p_act_pa * at.q[actuator_q::VOLUME]
     }
 }

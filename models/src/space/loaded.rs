@@ -8,7 +8,7 @@
 //!
 //! Equilibrium is G(q(g)) = g: every section at its own minimum under the loads g, as in the plane (`robot/coupled.rs`).
 
-use super::lever::{Beyond, Lever, Matrix, Vector, apply, dot, inverse, of_each, times, transposed};
+use super::lever::{Beyond, Coupling, Lever, apply, dot, inverse, of_each, times, transposed};
 use super::section::Section;
 use super::state::{SpaceWork, place, stretch};
 use crate::assembly::Assembly;
@@ -24,46 +24,6 @@ const HALVINGS: usize = 12;
 const MOMENT_TOLERANCE: f64 = 1e-12;
 /// … and the agreement from which on one step more without progress is rounding.
 const ROUNDING: f64 = 1e-10;
-
-/// Generalised forces of outer loads per length of body: on κ_y and κ_z \[N·m\] and on the contraction of the centre line \[N\].
-pub(crate) type Outer = [f64; 3];
-
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Loaded {
-    pub(super) sections: Vec<Coupling>,
-    pub(super) nodes: Vec<f64>,
-    pub(super) forces: Vec<f64>,
-}
-
-/// Loads of a section that the rest of the robot decides, and their slopes.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Coupling {
-    /// Loads assumed, and their Newton step.
-    pub(super) outer: Outer,
-    pub(super) step: Outer,
-    /// Loads of the shape less the assumed ones.
-    pub(super) residual: Vector,
-    pub(super) compliance: Matrix,
-    /// Turn of the body beyond, per change of q; one a row.
-    pub(super) turn: Matrix,
-    /// ∂G/∂φ of the segments before, times the length.
-    pub(super) turned: Matrix,
-    /// ∂G/∂q of itself, times the length.
-    pub(super) own: Matrix,
-    pub(super) slope: Matrix,
-}
-
-impl Loaded {
-    pub(super) fn new(segments: usize) -> Loaded {
-        let nodes = if segments == 0 { 0 } else { 3 * (segments + 1) };
-        Loaded { sections: vec![Coupling::default(); segments], nodes: vec![0.0; nodes], forces: vec![0.0; nodes] }
-    }
-
-    /// Loads on a section: moments on κ_y and κ_z \[N·m\], and the force that shortens the centre line \[N\].
-    pub(crate) fn outer(&self, section: usize) -> Outer {
-        self.sections[section].outer
-    }
-}
 
 /// Newton on the loads of all sections, from the bends without loads in `work`.
 pub(super) fn equilibrium(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Result<(), Unsolved> {

@@ -1,7 +1,7 @@
 //! Equilibrium of one section: the minimum of a convex energy over κ, the contraction ε₀ found inside.
 
 use super::frame::{Bend, direction};
-use super::loaded::Outer;
+use super::lever::Outer;
 use super::state::StripState;
 use crate::actuators::Actuator;
 use crate::assembly::{Assembly, Segment, Strip};

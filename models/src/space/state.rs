@@ -1,7 +1,7 @@
 //! What a robot in space is at equilibrium: its sections and strips.
 
 use super::frame::{Bend, Frame, Stretch};
-use super::loaded::Loaded;
+use super::lever::Loaded;
 use crate::assembly::{Assembly, Segment};
 
 /// Bend, contraction and strips of one section at equilibrium.
