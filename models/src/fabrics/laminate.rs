@@ -37,9 +37,9 @@ pub(super) const LAMINATE: Law = Law {
 pub(super) const GLUED: Law = Law {
     name: "glued",
     parameters: &[
-        number("glue_thickness_mm", "mm", 1e-3, [1e-4, 100.0]).means("thickness of the glue film"),
-        modulus("glue_e_MPa", "Young's modulus of the glue"),
-        ratio("glue_nu", [0.0, 0.5], "Poisson's ratio of the glue; 0.5: rubber").or(0.5),
+        number("glue_thickness_mm", "mm", 1e-3, [1e-4, 100.0]).required("thickness of the glue film"),
+        modulus("glue_e_MPa").required("Young's modulus of the glue"),
+        ratio("glue_nu", [0.0, 0.5]).or(0.5, "Poisson's ratio of the glue; 0.5: rubber"),
     ],
     plies: [2, 2],
     example: || Recipe { plies: example_plies(), ..Recipe::of(&[("glue_thickness_mm", 0.1), ("glue_e_MPa", 1.0)]) },

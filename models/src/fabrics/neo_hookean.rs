@@ -20,7 +20,7 @@ use super::recipe::*;
 
 pub(super) const ENTRY: Law = Law {
     name: "neo-hookean",
-    parameters: &[modulus("c10_MPa", "neo-Hookean constant, a sixth of Young's modulus"), THICKNESS],
+    parameters: &[modulus("c10_MPa").required("neo-Hookean constant, a sixth of Young's modulus"), THICKNESS],
     strain_limit: 0.4,
     example: || Recipe::of(&[("c10_MPa", 50.3), ("thickness_mm", 0.2)]),
     make: |recipe| {

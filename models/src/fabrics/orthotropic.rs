@@ -36,7 +36,11 @@ pub(super) const ORTHOTROPIC: Law = Law {
 /// A linear film that is equally stiff in every direction.
 pub(super) const ISOTROPIC: Law = Law {
     name: "isotropic",
-    parameters: &[modulus("e_MPa", "Young's modulus"), ratio("nu", [0.0, 0.5], "Poisson's ratio"), THICKNESS],
+    parameters: &[
+        modulus("e_MPa").required("Young's modulus"),
+        ratio("nu", [0.0, 0.5]).required("Poisson's ratio"),
+        THICKNESS,
+    ],
     example: || Recipe::of(&[("e_MPa", 588.0), ("nu", 0.4), ("thickness_mm", 0.6)]),
     make: |recipe| {
         let v = ISOTROPIC.read(recipe)?;
@@ -47,11 +51,11 @@ pub(super) const ISOTROPIC: Law = Law {
 
 /// Keys of a linear fabric: moduli, contraction ratio and thickness.
 pub(super) const MODULI: [Parameter; 6] = [
-    modulus("e0_MPa", "modulus pulled along warp"),
-    modulus("e90_MPa", "modulus pulled along fill"),
-    modulus("e45_MPa", "modulus pulled at 45 degrees to the yarns; in place of g_MPa").optional(),
-    modulus("g_MPa", "shear modulus between warp and fill; in place of e45_MPa").optional(),
-    ratio("nu12", [0.0, 2.0], "contraction along fill per stretch along warp, pulled along warp").or(0.0),
+    modulus("e0_MPa").required("modulus pulled along warp"),
+    modulus("e90_MPa").required("modulus pulled along fill"),
+    modulus("e45_MPa").optional("modulus pulled at 45 degrees to the yarns; in place of g_MPa"),
+    modulus("g_MPa").optional("shear modulus between warp and fill; in place of e45_MPa"),
+    ratio("nu12", [0.0, 2.0]).or(0.0, "contraction along fill per stretch along warp, pulled along warp"),
     THICKNESS,
 ];
 

@@ -204,42 +204,48 @@ fn known<'a>(law: &str, what: &str, given: impl Iterator<Item = &'a String>, key
 }
 
 pub(super) const THICKNESS: Parameter =
-    number("thickness_mm", "mm", 1e-3, [1e-4, 100.0]).means("thickness of the sheet");
+    number("thickness_mm", "mm", 1e-3, [1e-4, 100.0]).required("thickness of the sheet");
 
-/// A number that a recipe must have, with its factor to SI and its bounds as written.
+/// A number with its factor to SI, and its bounds as written.
 pub(super) const fn number(key: &'static str, unit: &'static str, si: f64, [lower, upper]: [f64; 2]) -> Parameter {
     Parameter { key, unit, si, lower, upper, need: Need::Required, meaning: "" }
 }
 
-pub(super) const fn modulus(key: &'static str, meaning: &'static str) -> Parameter {
-    number(key, "MPa", 1e6, [1e-6, 1e6]).means(meaning)
+pub(super) const fn modulus(key: &'static str) -> Parameter {
+    number(key, "MPa", 1e6, [1e-6, 1e6])
 }
 
-pub(super) const fn ratio(key: &'static str, bounds: [f64; 2], meaning: &'static str) -> Parameter {
-    number(key, "-", 1.0, bounds).means(meaning)
+pub(super) const fn ratio(key: &'static str, bounds: [f64; 2]) -> Parameter {
+    number(key, "-", 1.0, bounds)
 }
 
 impl Parameter {
-    pub(super) const fn means(self, meaning: &'static str) -> Parameter {
+    pub(super) const fn required(self, meaning: &'static str) -> Parameter {
         Parameter { meaning, ..self }
     }
 
-    pub(super) const fn optional(self) -> Parameter {
-        Parameter { need: Need::Optional, ..self }
+    pub(super) const fn optional(self, meaning: &'static str) -> Parameter {
+        let need = Need::Optional;
+        Parameter { need, meaning, ..self }
     }
 
-    pub(super) const fn or(self, value: f64) -> Parameter {
-        Parameter { need: Need::Default(value), ..self }
+    pub(super) const fn or(self, value: f64, meaning: &'static str) -> Parameter {
+        let need = Need::Default(value);
+        Parameter { need, meaning, ..self }
     }
 }
 
-/// Columns of a table with their factors to SI.
-pub(super) const fn table(
-    key: &'static str,
-    [(x_unit, x_si), (y_unit, y_si)]: [(&'static str, f64); 2],
-    meaning: &'static str,
-) -> CurveInput {
-    CurveInput { key, x_unit, x_si, y_unit, y_si, meaning }
+type Column = (&'static str, f64);
+
+/// Columns of a table, each a unit with its factor to SI.
+pub(super) const fn table(key: &'static str, (x_unit, x_si): Column, (y_unit, y_si): Column) -> CurveInput {
+    CurveInput { key, x_unit, x_si, y_unit, y_si, meaning: "" }
+}
+
+impl CurveInput {
+    pub(super) const fn means(self, meaning: &'static str) -> CurveInput {
+        CurveInput { meaning, ..self }
+    }
 }
 
 /// What most laws are: one sheet described by numbers; entries say how they differ.

@@ -30,12 +30,12 @@ use super::recipe::*;
 pub(super) const ENTRY: Law = Law {
     name: "tension-field",
     parameters: &[
-        modulus("e0_MPa", "modulus pulled along warp"),
-        modulus("e90_MPa", "modulus pulled along fill; else isotropic").optional(),
-        modulus("e45_MPa", "modulus pulled at 45 degrees to the yarns; with e90_MPa").optional(),
-        modulus("g_MPa", "shear modulus between warp and fill, in place of e45_MPa; with e90_MPa").optional(),
-        ratio("nu12", [0.0, 2.0], "contraction along fill per stretch along warp").or(0.0),
-        ratio("compression_share", [0.0, 1.0], "share of the sheet that carries compression").or(0.01),
+        modulus("e0_MPa").required("modulus pulled along warp"),
+        modulus("e90_MPa").optional("modulus pulled along fill; else isotropic"),
+        modulus("e45_MPa").optional("modulus pulled at 45 degrees to the yarns; with e90_MPa"),
+        modulus("g_MPa").optional("shear modulus between warp and fill, in place of e45_MPa; with e90_MPa"),
+        ratio("nu12", [0.0, 2.0]).or(0.0, "contraction along fill per stretch along warp"),
+        ratio("compression_share", [0.0, 1.0]).or(0.01, "share of the sheet that carries compression"),
         THICKNESS,
     ],
     example: || {

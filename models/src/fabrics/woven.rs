@@ -42,35 +42,28 @@ use super::yarn::Yarn;
 pub(super) const ENTRY: Law = Law {
     name: "woven",
     parameters: &[
-        modulus("e0_MPa", "modulus pulled along warp; in place of the curve warp").optional(),
-        modulus("e90_MPa", "modulus pulled along fill; in place of the curve fill").optional(),
-        modulus("e45_MPa", "modulus pulled at 45 degrees; in place of g_MPa and the curve shear").optional(),
-        modulus("g_MPa", "stress per shear angle [rad]; in place of e45_MPa and the curve shear").optional(),
-        ratio("nu12", [0.0, 2.0], "contraction along fill per stretch along warp").or(0.0),
-        ratio("compression_share", [1e-6, 1.0], "slope below zero strain over initial slope; else 1").optional(),
+        modulus("e0_MPa").optional("modulus pulled along warp; in place of the curve warp"),
+        modulus("e90_MPa").optional("modulus pulled along fill; in place of the curve fill"),
+        modulus("e45_MPa").optional("modulus pulled at 45 degrees; in place of g_MPa and the curve shear"),
+        modulus("g_MPa").optional("stress per shear angle [rad]; in place of e45_MPa and the curve shear"),
+        ratio("nu12", [0.0, 2.0]).or(0.0, "contraction along fill per stretch along warp"),
+        ratio("compression_share", [1e-6, 1.0]).optional("slope below zero strain over initial slope; else 1"),
         number("locking_deg", "deg", std::f64::consts::PI / 180.0, [1.0, 89.0])
-            .means("shear angle at which the yarns jam; else they never do")
-            .optional(),
-        modulus("locking_MPa", "slope added beyond locking_deg; else 10 times the steepest of shear").optional(),
+            .optional("shear angle at which the yarns jam; else they never do"),
+        modulus("locking_MPa").optional("slope added beyond locking_deg; else 10 times the steepest of shear"),
         strip("bias_length_mm", "free length of the strip"),
         strip("bias_width_mm", "width of the strip"),
         THICKNESS,
     ],
     curves: &[
-        tensile("warp", "stress over nominal strain, pulled along warp; in place of e0_MPa"),
-        tensile("fill", "stress over nominal strain, pulled along fill; in place of e90_MPa"),
-        tensile("warp_unloading", "shape of the way back along warp; else as loading"),
-        tensile("fill_unloading", "shape of the way back along fill; else as loading"),
-        table(
-            "shear",
-            [("deg", std::f64::consts::PI / 180.0), ("MPa", 1e6)],
-            "moment per volume over shear angle; in place of g_MPa and e45_MPa",
-        ),
-        table(
-            "bias_extension",
-            [("mm", 1e-3), ("N", 1.0)],
-            "clamp force over displacement of a strip pulled at 45 degrees; in place of the curve shear",
-        ),
+        tensile("warp").means("stress over nominal strain, pulled along warp; in place of e0_MPa"),
+        tensile("fill").means("stress over nominal strain, pulled along fill; in place of e90_MPa"),
+        tensile("warp_unloading").means("shape of the way back along warp; else as loading"),
+        tensile("fill_unloading").means("shape of the way back along fill; else as loading"),
+        table("shear", ("deg", std::f64::consts::PI / 180.0), ("MPa", 1e6))
+            .means("moment per volume over shear angle; in place of g_MPa and e45_MPa"),
+        table("bias_extension", ("mm", 1e-3), ("N", 1.0))
+            .means("clamp force over displacement of a strip pulled at 45 degrees; in place of the curve shear"),
     ],
     strain_limit: 0.3,
     example,
@@ -272,11 +265,11 @@ fn locked(v: &Values, shear: Curve) -> Result<Curve, String> {
 }
 
 const fn strip(key: &'static str, meaning: &'static str) -> Parameter {
-    number(key, "mm", 1e-3, [1.0, 1e4]).means(meaning).optional()
+    number(key, "mm", 1e-3, [1.0, 1e4]).optional(meaning)
 }
 
-const fn tensile(key: &'static str, meaning: &'static str) -> CurveInput {
-    table(key, [("-", 1.0), ("MPa", 1e6)], meaning)
+const fn tensile(key: &'static str) -> CurveInput {
+    table(key, ("-", 1.0), ("MPa", 1e6))
 }
 
 fn example() -> Recipe {

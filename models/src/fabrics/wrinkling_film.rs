@@ -42,9 +42,9 @@ use super::recipe::*;
 pub(super) const ENTRY: Law = Law {
     name: "wrinkling-film",
     parameters: &[
-        modulus("c10_MPa", "neo-Hookean constant, a sixth of Young's modulus"),
+        modulus("c10_MPa").required("neo-Hookean constant, a sixth of Young's modulus"),
         number("wrinkling_load_n_per_m", "N/m", 1.0, [0.0, 1e6])
-            .means("compressive load of the wrinkled film, 2π √(D T)/ℓ"),
+            .required("compressive load of the wrinkled film, 2π √(D T)/ℓ"),
         THICKNESS,
     ],
     strain_limit: 0.4,
