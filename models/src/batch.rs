@@ -55,7 +55,7 @@ impl Model {
     pub fn predict_batch(&self, loads: &[Loads], out: &mut Batch) -> Result<(), Unsolved> {
         out.markers.resize(loads.len() * self.marker_count(), [0.0; 2]);
         out.markers_z_m.resize(loads.len() * self.heights_each(), 0.0);
-        out.tips.resize(loads.len(), Tip { x_m: 0.0, y_m: 0.0, z_m: 0.0, angle_rad: 0.0 });
+        out.tips.resize(loads.len(), Tip::default());
         let whole = Part { first: 0, loads, markers: &mut out.markers, z_m: &mut out.markers_z_m, tips: &mut out.tips };
         let failed = match out.states.as_mut_slice() {
             [state] => self.predict_part(whole, state),

@@ -42,9 +42,8 @@ impl Model {
     /// Stretches of a predicted pose that are beyond a limit, base to tip; none of a pose that can be trusted.
     pub fn beyond(&self, loads: &Loads, at: &Prediction) -> Vec<Beyond> {
         let collapse = self.stretches(Limit::Collapse, &|i| self.collapse_share(loads, at, i));
-        let fold = self.stretches(Limit::Fold, &|i| {
-            at.work.states[i].curvature.abs() * self.assembly().sites[self.assembly().segments[i].site].radius_m
-        });
+        let fold = |i: usize| at.work.states[i].curvature.abs() * self.assembly().site(i).radius_m;
+        let fold = self.stretches(Limit::Fold, &fold);
         collapse.into_iter().chain(fold).chain(self.crossing(at)).collect()
     }
 
@@ -57,17 +56,13 @@ impl Model {
         }
         let (mut places, mut turned): (Vec<Place>, f64) = (Vec::new(), 0.0);
         for (i, segment) in segments.iter().enumerate() {
-            let (radius_m, kappa) = (self.assembly().sites[segment.site].radius_m, at.work.states[i].curvature.abs());
+            let (radius_m, kappa) = (self.assembly().site(i).radius_m, at.work.states[i].curvature.abs());
             let count = (segment.length_m / (SPACING * radius_m)).ceil();
             for k in 0..=count as usize {
                 let offset_m = segment.length_m * k as f64 / count;
                 let turned = turned + kappa * offset_m;
-                places.push(Place {
-                    s_m: segment.start_m + offset_m,
-                    at: self.point(&at.work, i, offset_m),
-                    turned,
-                    radius_m,
-                });
+                let (s_m, at) = (segment.start_m + offset_m, self.point(&at.work, i, offset_m));
+                places.push(Place { s_m, at, turned, radius_m });
             }
             turned += kappa * segment.length_m;
         }
@@ -91,8 +86,7 @@ impl Model {
         if assembly.node_terms.is_empty() {
             return 0.0;
         }
-        let segment = &assembly.segments[index];
-        let (site, state) = (&assembly.sites[segment.site], &work.states[index]);
+        let (site, state) = (assembly.site(index), &work.states[index]);
         let (p_body_pa, radius_m) = (self.body_pa(loads, work), site.radius_m);
         if self.is_spatial() {
             let [y, z, shortening] = work.space.loaded.outer(index);

@@ -3,12 +3,12 @@
 mod in_space;
 
 use crate::assemble::{add_effects, assemble, divide, locate};
-use crate::assembly::{Assembly, Moment, Segment, Sighting};
+use crate::assembly::{Assembly, Segment, Sighting};
 use crate::error::Unsolved;
 use crate::robot::{Workspace, equilibrium, place};
 use crate::scenario::{ActuatorChoice, Scenario, Span};
 use crate::shape::{Stretch, slid};
-use crate::site::{Site, SiteState};
+use crate::site::SiteState;
 use crate::space::around;
 use crate::term::{Account, LedgerLine, Loads, Pose, Row, RowKind, Term};
 use spelling::units::Range;
@@ -22,7 +22,7 @@ pub struct Model {
 }
 
 /// Pose of the end of the centre line in the coordinates of the clamp.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Tip {
     /// Coordinate along the axis of the undeformed body \[m\].
     pub x_m: f64,
@@ -49,7 +49,7 @@ pub struct Prediction {
 impl Model {
     /// Builds sites, segments, terms and laws of a scenario and locates its markers.
     pub fn new(scenario: &Scenario) -> Model {
-        Model::of(scenario, scenario.spans())
+        Model::with_segments(scenario, &scenario.spans(), None)
     }
 
     /// The same for a robot that is asked a few times: without the starts that [`Model::new`] solves for all pressures, so that it
@@ -76,10 +76,6 @@ impl Model {
         for span in &mut spans {
             (span.start_m, span.length_m) = (span.start_m * factor, span.length_m * factor);
         }
-        Model::of(scenario, spans)
-    }
-
-    fn of(scenario: &Scenario, spans: Vec<Span>) -> Model {
         Model::with_segments(scenario, &spans, None)
     }
 
@@ -115,7 +111,7 @@ impl Model {
         Prediction {
             markers: vec![[0.0; 2]; self.markers.len()],
             markers_z_m: vec![0.0; self.markers.len()],
-            tip: Tip { x_m: 0.0, y_m: 0.0, z_m: 0.0, angle_rad: 0.0 },
+            tip: Tip::default(),
             work: Workspace::new(&self.assembly),
         }
     }
@@ -163,8 +159,8 @@ impl Model {
         }
         place(&self.assembly, &mut out.work);
         let (work, last) = (&out.work, self.assembly.segments.len());
-        out.tip =
-            Tip { x_m: work.nodes[2 * last], y_m: work.nodes[2 * last + 1], z_m: 0.0, angle_rad: work.headings[last] };
+        let (x_m, y_m, angle_rad) = (work.nodes[2 * last], work.nodes[2 * last + 1], work.headings[last]);
+        out.tip = Tip { x_m, y_m, z_m: 0.0, angle_rad };
     }
 
     /// Potential energy of every term at a predicted state \[J\], in the order in which terms were added. In a state of
@@ -176,9 +172,8 @@ impl Model {
             self.ledger_in_space(body_pa, at, &mut lines);
             return lines;
         }
-        for (i, segment) in self.assembly.segments.iter().enumerate() {
-            let site = &self.assembly.sites[segment.site];
-            self.site_energies(site, segment, [body_pa, at.work.p_act_pa[i]], &at.work, i, &mut lines);
+        for (i, p_act_pa) in at.work.p_act_pa.iter().enumerate() {
+            self.site_energies(i, [body_pa, *p_act_pa], &at.work, &mut lines);
         }
         self.lost_energies(&at.work, &mut lines);
         if at.work.is_sheared() {
@@ -235,18 +230,16 @@ impl Model {
         if self.is_spatial() {
             return self.supply_strips(&loads.actuator_pa, work);
         }
-        let moment = work.history.moment;
+        let mut at = work.history.moment;
         for (p, segment) in work.p_act_pa.iter_mut().zip(&self.assembly.segments) {
-            let site = &self.assembly.sites[segment.site];
-            let set = if site.actuator.is_some() { loads.actuator_pa[site.channel] } else { 0.0 };
-            let moment = Moment { s_m: segment.middle_m(), ..moment };
-            *p = self.assembly.supply.iter().fold(set, |p, law| law(p, &moment));
+            at.s_m = segment.middle_m();
+            *p = self.assembly.supplied(&self.assembly.sites[segment.site], &loads.actuator_pa, &at);
         }
     }
 
     #[inline]
     pub(crate) fn stretch(&self, work: &Workspace, segment: usize) -> Stretch {
-        let centre = self.assembly.sites[self.assembly.segments[segment].site].centre_line;
+        let centre = self.assembly.site(segment).centre_line;
         let from = [work.nodes[2 * segment], work.nodes[2 * segment + 1]];
         let direction = slid(work.directions[segment], work.shear(segment));
         Stretch::new(from, direction, work.headings[segment], work.states[segment].curvature, centre)
@@ -274,13 +267,12 @@ impl Model {
     /// Energies of a segment in its state, at the pressures of body and actuator.
     pub(crate) fn site_energies(
         &self,
-        site: &Site,
-        segment: &Segment,
+        index: usize,
         [p_body_pa, p_act_pa]: [f64; 2],
         work: &Workspace,
-        index: usize,
         lines: &mut Vec<Row>,
     ) {
+        let (site, segment) = (self.assembly.site(index), &self.assembly.segments[index]);
         let (state, h) = (&work.states[index], segment.length_m);
         let mut post = |line, energy: f64| post(lines, line, RowKind::Stored, energy * h);
         let at = Pose { s_m: segment.middle_m(), ..Pose::new(&[], p_body_pa, p_act_pa) };

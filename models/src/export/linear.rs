@@ -121,7 +121,7 @@ impl Held {
 
     fn joint(&mut self, index: usize, creeping_s: Option<f64>) -> Result<Joint, Unsolved> {
         let segment = self.model.segments()[index];
-        let site = &self.model.assembly().sites[segment.site];
+        let site = self.model.assembly().site(index);
         let (h, channel, bending) = (segment.length_m, site.channel, site.bending.stiffness);
         let [_, line_offset_m, _] = site.centre_line.shortening(self.bent[index]);
         let (is_active, bent, loads) = (self.model.is_active(index), self.bent[index], self.loads);

@@ -5,7 +5,7 @@ use crate::assembly::Segment;
 use crate::error::Unsolved;
 use crate::robot::Workspace;
 use crate::space::{Bend, Section, SectionState, Stretch, StripState, place, stretch};
-use crate::term::{Row, RowKind};
+use crate::term::{CHANNELS, Row, RowKind};
 
 impl Model {
     /// Whether strips run round the body: see [`crate::space`].
@@ -63,13 +63,11 @@ impl Model {
         }
     }
 
-    pub(crate) fn supply_strips(&self, actuator_pa: &[f64], work: &mut Workspace) {
-        let moment = work.history.moment;
-        for (states, strips) in work.space.strips.iter_mut().zip(&self.assembly().around) {
+    pub(crate) fn supply_strips(&self, actuator_pa: &[f64; CHANNELS], work: &mut Workspace) {
+        let assembly = self.assembly();
+        for (states, strips) in work.space.strips.iter_mut().zip(&assembly.around) {
             for (state, strip) in states.iter_mut().zip(strips) {
-                let site = &self.assembly().sites[strip.site];
-                let set = if site.actuator.is_some() { actuator_pa[site.channel] } else { 0.0 };
-                state.p_act_pa = self.assembly().supply.iter().fold(set, |p, law| law(p, &moment));
+                state.p_act_pa = assembly.supplied(&assembly.sites[strip.site], actuator_pa, &work.history.moment);
             }
         }
     }

@@ -171,7 +171,7 @@ pub(super) fn place_nodes(assembly: &Assembly, work: &mut Workspace) {
     let mut direction = [1.0, 0.0];
     for (i, segment) in assembly.segments.iter().enumerate() {
         let kappa = work.states[i].curvature;
-        let centre = assembly.sites[segment.site].centre_line;
+        let centre = assembly.site(i).centre_line;
         // Without transverse loads the derivatives are not needed, and the compiler drops them.
         let Arc { chord, turn, .. } = match work.coupled.arcs.get_mut(i) {
             Some(kept) => {
@@ -200,7 +200,7 @@ fn shear(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) {
         let chord = advance([0.0; 2], work.directions[i], own.chord).map(|d| d / segment.length_m);
         let across = chord[0] * beyond[1] - chord[1] * beyond[0];
         let along = chord[0] * beyond[0] + chord[1] * beyond[1];
-        let stiffness = assembly.sites[segment.site].shear_stiffness_n(p_body_pa);
+        let stiffness = assembly.site(i).shear_stiffness_n(p_body_pa);
         let step = |angle: f64| {
             let (sin, cos) = angle.sin_cos();
             angle - (stiffness * angle - across * cos + along * sin) / (stiffness + across * sin + along * cos)

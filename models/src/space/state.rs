@@ -57,7 +57,7 @@ impl SpaceWork {
 }
 
 pub(crate) fn stretch(assembly: &Assembly, work: &SpaceWork, segment: usize) -> Stretch {
-    let site = &assembly.sites[assembly.segments[segment].site];
+    let site = assembly.site(segment);
     let bend = work.bends[segment];
     let contraction = bend.contraction + (site.centre_line.from_taut_m - site.radius_m) * bend.size();
     Stretch { from: work.frames[segment], bend, contraction }
