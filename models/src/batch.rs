@@ -1,6 +1,6 @@
 //! Many predictions in one call, results side by side.
 
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::model::{Model, Prediction, Tip};
 use crate::term::Loads;
 
@@ -52,7 +52,7 @@ impl Model {
     ///
     /// # Errors
     /// The first [`Unsolved`]; the states before it are in `out`, so `out.tips.len()` is the index of the culprit.
-    pub fn predict_batch(&self, loads: &[Loads], out: &mut Batch) -> Result<(), Unsolved> {
+    pub fn predict_batch(&self, loads: &[Loads], out: &mut Batch) -> Solved {
         out.markers.resize(loads.len() * self.marker_count(), [0.0; 2]);
         out.markers_z_m.resize(loads.len() * self.heights_each(), 0.0);
         out.tips.resize(loads.len(), Tip::default());

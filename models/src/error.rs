@@ -98,6 +98,9 @@ pub enum Unsolved {
     },
 }
 
+/// What a model answers, or why it cannot.
+pub type Solved<T = ()> = Result<T, Unsolved>;
+
 fn moment(size: f64) -> String {
     if size < POLE { format!("{size:.3e} N·m") } else { "no finite moment".into() }
 }

@@ -1,6 +1,6 @@
 //! A protocol in time: loading, holding and unloading, with what the robot remembers.
 
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::model::{Model, Prediction, check};
 use crate::term::Loads;
 use spelling::units::Range;
@@ -27,7 +27,7 @@ pub const HOLD_S: f64 = 5.0;
 
 impl Model {
     /// A single state: with history after a hold of [`HOLD_S`] from rest, else as [`Model::predict`].
-    pub fn predict_held(&self, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
+    pub fn predict_held(&self, loads: &Loads, out: &mut Prediction) -> Solved {
         match self.has_history() {
             false => self.predict(loads, out),
             true => self.follow(&[Step { t_s: HOLD_S, loads: *loads }], out, &mut |_, _| ()),
@@ -58,12 +58,7 @@ impl Model {
     ///
     /// # Errors
     /// What [`Model::predict`] returns, or a time that is not finite.
-    pub fn follow(
-        &self,
-        steps: &[Step],
-        out: &mut Prediction,
-        each: &mut dyn FnMut(usize, &Prediction),
-    ) -> Result<(), Unsolved> {
+    pub fn follow(&self, steps: &[Step], out: &mut Prediction, each: &mut dyn FnMut(usize, &Prediction)) -> Solved {
         self.walk(steps, None, out, each)
     }
 
@@ -74,7 +69,7 @@ impl Model {
         held: Option<&[Vec<f64>]>,
         out: &mut Prediction,
         each: &mut dyn FnMut(usize, &Prediction),
-    ) -> Result<(), Unsolved> {
+    ) -> Solved {
         let mut before: Option<Step> = None;
         for index in 0..steps.len() {
             let step = match self.assembly().clock {
@@ -91,17 +86,11 @@ impl Model {
 
     /// The next state of a protocol after `last`; without one the robot is at rest at time 0. What `out` holds has to be the
     /// state of `last`: a stream that never ends is walked with one buffer.
-    pub fn follow_on(&self, last: Option<Step>, step: &Step, out: &mut Prediction) -> Result<(), Unsolved> {
+    pub fn follow_on(&self, last: Option<Step>, step: &Step, out: &mut Prediction) -> Solved {
         self.pass(last.filter(|last| last.t_s <= step.t_s), step, None, out)
     }
 
-    fn pass(
-        &self,
-        last: Option<Step>,
-        step: &Step,
-        held: Option<&[f64]>,
-        out: &mut Prediction,
-    ) -> Result<(), Unsolved> {
+    fn pass(&self, last: Option<Step>, step: &Step, held: Option<&[f64]>, out: &mut Prediction) -> Solved {
         check(&step.loads)?;
         if !Range::TIME.contains(step.t_s) {
             return Err(Unsolved::BadTime { t_s: step.t_s });
@@ -127,7 +116,7 @@ impl Model {
         Ok(())
     }
 
-    fn change(&self, from: Option<Loads>, to: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
+    fn change(&self, from: Option<Loads>, to: &Loads, out: &mut Prediction) -> Solved {
         let start = from.unwrap_or(Loads::uniform(to.body_pa, 0.0));
         let one_way = self.assembly().node_terms.is_empty() && start.leads_one_way(to);
         let count = if one_way { 1 } else { PATH_STEPS };
@@ -144,7 +133,7 @@ impl Model {
         Ok(())
     }
 
-    fn wait(&self, time_s: f64, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
+    fn wait(&self, time_s: f64, loads: &Loads, out: &mut Prediction) -> Solved {
         let scale = self.time_scale_s();
         let mut left = time_s;
         while left > 0.0 {
@@ -164,7 +153,7 @@ impl Model {
     }
 
     /// The next state, from the one before, and its memory.
-    fn reach(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Result<(), Unsolved> {
+    fn reach(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Solved {
         self.solve(loads, out, warm)?;
         let work = &mut out.work;
         let body_pa = self.body_pa(loads, work);

@@ -17,7 +17,7 @@
 //! no such moment: it is NaN there.
 
 use crate::assembly::Segment;
-use crate::error::Unsolved;
+use crate::error::Solved;
 use crate::follow::Step;
 use crate::model::{Model, Prediction};
 use crate::robot::{Held, bend};
@@ -74,7 +74,7 @@ impl Model {
         curvatures: &[Vec<f64>],
         out: &mut Prediction,
         each: &mut dyn FnMut(usize, &Prediction),
-    ) -> Result<(), Unsolved> {
+    ) -> Solved {
         self.planar("holding a robot at curvatures")?;
         out.work.held.missing = vec![0.0; self.segments().len()];
         let walked = self.walk(steps, Some(curvatures), out, each);

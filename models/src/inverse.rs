@@ -1,6 +1,6 @@
 //! Inverse and Jacobian: what a controller asks.
 
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::model::{MOST_ACTUATOR_PA, Model, Prediction};
 use crate::reach::{MET, Reach, SAMPLES, reach};
 use crate::root::{Start, find_root};
@@ -101,7 +101,7 @@ impl Model {
     /// # Errors
     /// [`Unsolved::OutOfReach`] with the reachable range, [`Unsolved::Jump`] with both sides of the gap, or what
     /// [`Model::predict`] returns.
-    pub fn pressure_for(&self, target: Target, p_body_pa: f64, out: &mut Prediction) -> Result<f64, Unsolved> {
+    pub fn pressure_for(&self, target: Target, p_body_pa: f64, out: &mut Prediction) -> Solved<f64> {
         let most = self.p_max_pa();
         let mut warm = false;
         let mut short = |p: f64| {
@@ -143,7 +143,7 @@ impl Model {
     }
 
     /// Zero where the target is met by flat actuators: all pressures up to `p` that leave them flat do the same.
-    fn at_rest_too(&self, target: Target, p_body_pa: f64, p: f64, out: &mut Prediction) -> Result<f64, Unsolved> {
+    fn at_rest_too(&self, target: Target, p_body_pa: f64, p: f64, out: &mut Prediction) -> Solved<f64> {
         if self.states(out).iter().any(|state| state.coordinate != 0.0) {
             return Ok(p);
         }
@@ -156,7 +156,7 @@ impl Model {
 
     /// Slopes of the tip pose by each channel's pressure, by Richardson-extrapolated differences, central but at the bound of
     /// the pressure; [`TipSlope::NONE`] where an actuator of the channel is flat. `out` is overwritten.
-    pub fn jacobian(&self, loads: &Loads, out: &mut Prediction) -> Result<[TipSlope; CHANNELS], Unsolved> {
+    pub fn jacobian(&self, loads: &Loads, out: &mut Prediction) -> Solved<[TipSlope; CHANNELS]> {
         let mut slopes = [TipSlope { x_per_pa: 0.0, y_per_pa: 0.0, angle_per_pa: 0.0 }; CHANNELS];
         self.settle(loads, out, false)?;
         let flat = self.flat(loads, out);
@@ -178,7 +178,7 @@ impl Model {
     }
 
     /// Mean slopes of x, y and angle between P − step (not below 0) and P + step, or P where the wider step crosses the bound.
-    fn chord(&self, loads: &Loads, channel: usize, step: f64, out: &mut Prediction) -> Result<[f64; 3], Unsolved> {
+    fn chord(&self, loads: &Loads, channel: usize, step: f64, out: &mut Prediction) -> Solved<[f64; 3]> {
         let (mut up, mut down) = (*loads, *loads);
         up.actuator_pa[channel] += if is_bounded(loads.actuator_pa[channel]) { 0.0 } else { step };
         down.actuator_pa[channel] = (down.actuator_pa[channel] - step).max(0.0);

@@ -1,7 +1,7 @@
 //! Poses that the model gives but a robot does not hold: collapse under load, a body folded onto itself; and how long a robot
 //! may be.
 
-use crate::error::Unsolved;
+use crate::error::Solved;
 use crate::model::{Model, Prediction};
 use crate::scenario::Scenario;
 use crate::statics::Statics;
@@ -149,7 +149,7 @@ const SEGMENTS: usize = 60;
 /// A straight robot across gravity folds at its base when w L²/2 + F L = πp_bR³; a steered one has a shorter lever.
 pub fn collapse_length_m(scenario: &Scenario, loads: &Loads) -> Option<f64> {
     let fine = Scenario { segments: scenario.segments.max(SEGMENTS), markers_m: Vec::new(), ..scenario.clone() };
-    let holds = |factor: f64| -> Result<bool, Unsolved> {
+    let holds = |factor: f64| -> Solved<bool> {
         let model = Model::stretched(&fine, factor);
         let mut at = model.prediction();
         model.predict(loads, &mut at)?;

@@ -4,7 +4,7 @@ mod in_space;
 
 use crate::assemble::{add_effects, assemble, divide, locate};
 use crate::assembly::{Assembly, Segment, Sighting};
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::robot::{Workspace, equilibrium, place};
 use crate::scenario::{ActuatorChoice, Scenario, Span};
 use crate::shape::{Stretch, slid};
@@ -121,14 +121,14 @@ impl Model {
     ///
     /// # Errors
     /// [`Unsolved`] with pressures and place when a pressure is negative or not finite, or nothing balances.
-    pub fn predict(&self, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
+    pub fn predict(&self, loads: &Loads, out: &mut Prediction) -> Solved {
         self.settle(loads, out, false)?;
         self.see(out);
         Ok(())
     }
 
     /// Like [`Model::predict`], without the markers: all that an inverse needs. `warm` starts from what `out` holds.
-    pub(crate) fn settle(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Result<(), Unsolved> {
+    pub(crate) fn settle(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Solved {
         check(loads)?;
         out.work.history.sleep();
         self.solve(loads, out, warm)?;
@@ -136,7 +136,7 @@ impl Model {
         Ok(())
     }
 
-    pub(crate) fn solve(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Result<(), Unsolved> {
+    pub(crate) fn solve(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Solved {
         self.supply(loads, &mut out.work);
         equilibrium(&self.assembly, self.body_pa(loads, &out.work), &mut out.work, warm)
     }
@@ -328,7 +328,7 @@ const ANY_BODY_PRESSURE: Range = Range { low: 0.0, high: 1000.0, ..Range::BODY_P
 pub(crate) const MOST_ACTUATOR_PA: f64 = Range::ACTUATOR_PRESSURE.high * Range::ACTUATOR_PRESSURE.si;
 
 #[inline]
-fn bounded(loads: &Loads, body: &Range) -> Result<(), Unsolved> {
+fn bounded(loads: &Loads, body: &Range) -> Solved {
     let pressures = loads.actuator_pa.iter().map(|p| (*p, &Range::ACTUATOR_PRESSURE));
     match std::iter::once((loads.body_pa, body)).chain(pressures).find(|(p, bounds)| !bounds.contains(*p)) {
         Some((value_pa, bounds)) => Err(Unsolved::BadPressure { bounds: *bounds, value_pa }),
@@ -341,13 +341,13 @@ impl Loads {
     ///
     /// # Errors
     /// A pressure out of its bounds.
-    pub fn checked(self) -> Result<Loads, Unsolved> {
+    pub fn checked(self) -> Solved<Loads> {
         bounded(&self, &Range::BODY_PRESSURE).map(|()| self)
     }
 }
 
 #[inline]
-pub(crate) fn check(loads: &Loads) -> Result<(), Unsolved> {
+pub(crate) fn check(loads: &Loads) -> Solved {
     bounded(loads, &ANY_BODY_PRESSURE)
 }
 

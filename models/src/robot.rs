@@ -4,7 +4,7 @@ mod coupled;
 mod workspace;
 
 use crate::assembly::Assembly;
-use crate::error::Unsolved;
+use crate::error::Solved;
 use crate::site::SiteState;
 use crate::space;
 use coupled::{coupled, disagreement, place_nodes, place_of, solve_segment};
@@ -19,12 +19,7 @@ pub(crate) fn place(assembly: &Assembly, work: &mut Workspace) {
 
 /// Fills `work` with the equilibrium at body pressure `p_body_pa` and the actuator pressures already in it; `warm` starts
 /// from the equilibrium that `work` holds.
-pub(crate) fn equilibrium(
-    assembly: &Assembly,
-    p_body_pa: f64,
-    work: &mut Workspace,
-    warm: bool,
-) -> Result<(), Unsolved> {
+pub(crate) fn equilibrium(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace, warm: bool) -> Solved {
     if !assembly.around.is_empty() {
         return space::equilibrium(assembly, p_body_pa, &mut work.space, &mut work.states);
     }

@@ -19,7 +19,7 @@ pub(super) const ENTRY: Effect = Effect {
     ..BALANCE
 };
 
-pub(super) const fn share(meaning: &'static str) -> Parameter<'static> {
+pub(super) const fn share(meaning: Text) -> Parameter<'static> {
     parameter("share", "b", "-", 1.0).usual(2.0, [0.0, 8.0]).means(meaning)
 }
 

@@ -27,7 +27,7 @@ pub(super) const ENTRY: Effect = Effect {
     ..CAMERA
 };
 
-const fn shift(key: &'static str, symbol: &'static str) -> Parameter<'static> {
+const fn shift(key: Text, symbol: Text) -> Parameter<'static> {
     parameter(key, symbol, "mm", 1e-3).usual(2.0, [-30.0, 30.0]).possible(ANY).means("shift of the image")
 }
 

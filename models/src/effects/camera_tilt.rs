@@ -22,7 +22,7 @@ pub(super) const ENTRY: Effect = Effect {
     ..CAMERA
 };
 
-const fn tilt(key: &'static str, symbol: &'static str, meaning: &'static str) -> Parameter<'static> {
+const fn tilt(key: Text, symbol: Text, meaning: Text) -> Parameter<'static> {
     parameter(key, symbol, "deg", std::f64::consts::PI / 180.0)
         .usual(5.0, [-25.0, 25.0])
         .possible([-89.0, 89.0])

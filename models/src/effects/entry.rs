@@ -132,18 +132,15 @@ pub(crate) const PLAIN: Parameter<'static> = Parameter {
     meaning: "",
 };
 
+pub(super) type Text = &'static str;
+
 /// A parameter: key, symbol, unit and its factor to SI. By itself it is neutral at 0, usually 1 of 0 to 1, and not negative.
-pub(super) const fn parameter(
-    key: &'static str,
-    symbol: &'static str,
-    unit: &'static str,
-    si: f64,
-) -> Parameter<'static> {
+pub(super) const fn parameter(key: Text, symbol: Text, unit: Text, si: f64) -> Parameter<'static> {
     Parameter { key, symbol, unit, si, ..PLAIN }
 }
 
 /// A number that shapes a law, neutral where the law has its usual form.
-pub(super) const fn shape(key: &'static str, symbol: &'static str, unit: &'static str, si: f64) -> Parameter<'static> {
+pub(super) const fn shape(key: Text, symbol: Text, unit: Text, si: f64) -> Parameter<'static> {
     Parameter { typical: 0.0, fitted: Fitted::Shape, ..parameter(key, symbol, unit, si) }
 }
 
@@ -181,7 +178,7 @@ impl Parameter<'static> {
         Parameter { in_room: true, ..self }
     }
 
-    pub(super) const fn means(self, meaning: &'static str) -> Self {
+    pub(super) const fn means(self, meaning: Text) -> Self {
         Parameter { meaning, ..self }
     }
 }

@@ -32,7 +32,7 @@ pub(super) const ENTRY: Effect = Effect {
     ..BALANCE
 };
 
-const fn force(key: &'static str, symbol: &'static str, typical: f64, in_room: bool) -> Parameter<'static> {
+const fn force(key: Text, symbol: Text, typical: f64, in_room: bool) -> Parameter<'static> {
     Parameter {
         in_room,
         ..parameter(key, symbol, "N", 1.0).usual(typical, [-5.0, 5.0]).possible(ANY).means("force on the tip")

@@ -1,6 +1,6 @@
 //! Fitting a table: the model's answers over u, and pieces halved until polynomials follow them.
 
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::model::{Model, Prediction};
 use crate::term::Loads;
 use std::f64::consts::PI;
@@ -55,7 +55,7 @@ impl Sampler<'_> {
     }
 
     /// Tip and markers at a pressure.
-    pub(super) fn at(&mut self, p: f64, row: &mut Vec<f64>) -> Result<(), Unsolved> {
+    pub(super) fn at(&mut self, p: f64, row: &mut Vec<f64>) -> Solved {
         self.model.predict(&self.loads(p), &mut self.state)?;
         let tip = self.state.tip;
         row.clear();
@@ -69,12 +69,12 @@ impl Sampler<'_> {
         self.open_pa + u * u * (self.high_pa - self.open_pa)
     }
 
-    pub(super) fn open(&mut self, p: f64) -> Result<usize, Unsolved> {
+    pub(super) fn open(&mut self, p: f64) -> Solved<usize> {
         self.model.predict(&self.loads(p), &mut self.state)?;
         Ok(self.model.states(&self.state).iter().filter(|state| state.coordinate != 0.0).count())
     }
 
-    pub(super) fn openings(&mut self, range_pa: [f64; 2]) -> Result<Vec<f64>, Unsolved> {
+    pub(super) fn openings(&mut self, range_pa: [f64; 2]) -> Solved<Vec<f64>> {
         let (mut found, mut before) = (Vec::new(), (range_pa[0], self.open(range_pa[0])?));
         for i in 1..=OPENING_SAMPLES {
             let p = range_pa[0] + (range_pa[1] - range_pa[0]) * (i as f64 / OPENING_SAMPLES as f64).powi(3);

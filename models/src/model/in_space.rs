@@ -2,7 +2,7 @@
 
 use super::{Model, Prediction, Tip, post};
 use crate::assembly::Segment;
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::robot::Workspace;
 use crate::space::{Bend, Section, SectionState, Stretch, StripState, place, stretch};
 use crate::term::{CHANNELS, Row, RowKind};
@@ -13,7 +13,7 @@ impl Model {
         !self.assembly().around.is_empty()
     }
 
-    pub(crate) fn planar(&self, subject: &'static str) -> Result<(), Unsolved> {
+    pub(crate) fn planar(&self, subject: &'static str) -> Solved {
         if self.is_spatial() { Err(Unsolved::InSpace { subject }) } else { Ok(()) }
     }
 

@@ -2,7 +2,7 @@
 
 use super::workspace::Workspace;
 use crate::assembly::Assembly;
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::history::History;
 use crate::root::NoRoot;
 use crate::shape::{Arc, advance, arc, slid, turned};
@@ -22,7 +22,7 @@ const SPRING_ROUNDS: usize = 4;
 const SLIDE_STEPS: usize = 4;
 
 /// Newton on the moments m of the transverse loads: `G(κ(m)) − m = 0`, each κ(m) by the bracketed solve of its place.
-pub(super) fn coupled(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace, warm: bool) -> Result<(), Unsolved> {
+pub(super) fn coupled(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace, warm: bool) -> Solved {
     let mut worst = if warm {
         update(assembly, p_body_pa, work)?
     } else {
@@ -54,7 +54,7 @@ fn damped_step(
     work: &mut Workspace,
     before: f64,
     iterations: usize,
-) -> Result<f64, Unsolved> {
+) -> Solved<f64> {
     let mut share = 1.0;
     let mut taken = 0.0;
     let mut failed = None;
@@ -74,7 +74,7 @@ fn damped_step(
 }
 
 /// Solves every place without moment; neighbours of equal design and pressure are solved once.
-fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Result<(), Unsolved> {
+fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Solved {
     work.coupled.moments.fill(0.0);
     for i in 0..work.states.len() {
         let alike = i > 0 && assembly.segments[i - 1].site == assembly.segments[i].site;
@@ -86,7 +86,7 @@ fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Result
 }
 
 /// Solves every place for its moment from where it is; returns the largest disagreement of moments.
-fn update(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Result<f64, Unsolved> {
+fn update(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Solved<f64> {
     for i in 0..work.states.len() {
         let moment = work.coupled.moments[i];
         work.states[i] = solve_segment(assembly, work, i, p_body_pa, moment, Some(&work.states[i]))?;
@@ -128,7 +128,7 @@ pub(super) fn solve_segment(
     p_body_pa: f64,
     moment: f64,
     near: Option<&SiteState>,
-) -> Result<SiteState, Unsolved> {
+) -> Solved<SiteState> {
     let (site, loads) = place_of(assembly, work, index, p_body_pa, moment);
     let solved = site.solve(&loads, work.history.of_segment(index), near);
     solved.map_err(|error| unsolved(error, site, assembly.segments[index].start_m, &loads))

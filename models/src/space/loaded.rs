@@ -12,7 +12,7 @@ use super::lever::{Beyond, Coupling, Lever, apply, dot, inverse, of_each, times,
 use super::section::Section;
 use super::state::{SpaceWork, place, stretch};
 use crate::assembly::Assembly;
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::term::Pose;
 use std::f64::consts::PI;
 
@@ -26,7 +26,7 @@ const MOMENT_TOLERANCE: f64 = 1e-12;
 const ROUNDING: f64 = 1e-10;
 
 /// Newton on the loads of all sections, from the bends without loads in `work`.
-pub(super) fn equilibrium(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Result<(), Unsolved> {
+pub(super) fn equilibrium(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Solved {
     work.loaded.sections.fill(Coupling::default());
     let radius_m = assembly.sites[0].radius_m;
     let of_pressure = PI * p_body_pa * radius_m.powi(3);
@@ -83,7 +83,7 @@ fn damped_step(
 }
 
 /// Every section at its minimum under the assumed loads; returns the largest disagreement of moments \[N·m\], NaN if any is.
-fn update(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Result<f64, Unsolved> {
+fn update(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Solved<f64> {
     for i in 0..assembly.segments.len() {
         let section = Section::new(assembly, i, p_body_pa).under(work.loaded.sections[i].outer);
         let (bend, compliance) = section.solve_under(&mut work.strips[i], work.bends[i])?;

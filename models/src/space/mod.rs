@@ -47,7 +47,7 @@ mod tests;
 use crate::assembly::{Assembly, Segment, Strip};
 use crate::body::BodyLaw;
 pub use crate::effects::IN_SPACE;
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::scenario::ActuatorChoice;
 #[cfg(doc)]
 use crate::site::Site;
@@ -74,7 +74,7 @@ pub(crate) fn equilibrium(
     p_body_pa: f64,
     work: &mut SpaceWork,
     states: &mut [SiteState],
-) -> Result<(), Unsolved> {
+) -> Solved {
     refuse_the_rest(assembly)?;
     unloaded(assembly, p_body_pa, work)?;
     if !assembly.node_terms.is_empty() {
@@ -87,7 +87,7 @@ pub(crate) fn equilibrium(
 }
 
 /// Equilibrium of every section without loads.
-fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Result<(), Unsolved> {
+fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Solved {
     for i in 0..assembly.segments.len() {
         let alike = i > 0 && same_section(assembly, work, i);
         if alike {
@@ -103,7 +103,7 @@ fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Result
 }
 
 /// Refuses parts of a model that the sections do not see.
-fn refuse_the_rest(assembly: &Assembly) -> Result<(), Unsolved> {
+fn refuse_the_rest(assembly: &Assembly) -> Solved {
     let subject = match () {
         _ if assembly.springs => "a spring at the tip",
         _ if !assembly.camera.is_empty() => "an effect of the camera",

@@ -5,7 +5,7 @@ use super::lever::Outer;
 use super::state::StripState;
 use crate::actuators::Actuator;
 use crate::assembly::{Assembly, Segment, Strip};
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::root::{Start, find_root};
 use crate::site::{Site, SiteLoads, SiteState};
 use std::f64::consts::PI;
@@ -195,7 +195,7 @@ impl<'a> Section<'a> {
     }
 
     /// Slope of the energy by κ where ε₀ is at its best: R|κ|, or more where the strips pull harder than the gas.
-    pub(super) fn balance(&self, strips: &mut [StripState], kappa: [f64; 2]) -> Result<Balance, Unsolved> {
+    pub(super) fn balance(&self, strips: &mut [StripState], kappa: [f64; 2]) -> Solved<Balance> {
         if self.is_passive(strips) {
             return Ok(self.passive_balance(kappa));
         }
@@ -247,7 +247,7 @@ impl<'a> Section<'a> {
     }
 
     /// The equilibrium; `strips` has the pressures, and gets the rest.
-    pub(crate) fn solve(&self, strips: &mut [StripState]) -> Result<Bend, Unsolved> {
+    pub(crate) fn solve(&self, strips: &mut [StripState]) -> Solved<Bend> {
         for state in &mut *strips {
             (state.coordinate, state.tension) = (0.0, 0.0);
         }
@@ -276,7 +276,7 @@ impl<'a> Section<'a> {
     }
 
     /// The planar balance of one strip, turned, with its compliance.
-    pub(super) fn alone(&self, one: usize, state: &mut StripState) -> Result<(Bend, f64), Unsolved> {
+    pub(super) fn alone(&self, one: usize, state: &mut StripState) -> Solved<(Bend, f64)> {
         let (strip, [y, z, axial]) = (&self.strips[one], self.outer);
         let moment = dot([y, z], direction(strip.azimuth_rad)) + (self.radius_m + self.offset_m) * axial;
         let loads = self.loads(state.p_act_pa, moment);
@@ -299,7 +299,7 @@ impl<'a> Section<'a> {
         if sum[0].hypot(sum[1]) < 1e-9 { [0.0; 2] } else { sum }
     }
 
-    pub(super) fn minimum(&self, strips: &mut [StripState], start: [f64; 2]) -> Result<Bend, Unsolved> {
+    pub(super) fn minimum(&self, strips: &mut [StripState], start: [f64; 2]) -> Solved<Bend> {
         let scale = self.p_body_pa * self.area_m2 * self.radius_m;
         let mut kappa = start;
         let mut at = self.balance(strips, kappa)?;
