@@ -74,3 +74,6 @@ pub use scenario::{EffectChoice, Scenario, shipped};
 pub use steer::{Aim, End, Limits, Steered, Steering};
 pub use supply::Supply;
 pub use term::{Account, CHANNELS, LedgerLine, Loads, Memory, Pose, Remembering, Row, RowKind, Term};
+
+/// Words of a catalogue.
+pub(crate) type Text = &'static str;

@@ -1,5 +1,6 @@
 //! An effect as plain data: its words, its parameters, and the function that adds it. Each effect sees this through `use super::entry::*`.
 
+pub(super) use crate::Text;
 pub(super) use crate::actuators::Family;
 pub(super) use crate::assembly::Assembly;
 pub(super) use crate::section::Section;
@@ -131,8 +132,6 @@ pub(crate) const PLAIN: Parameter<'static> = Parameter {
     in_room: false,
     meaning: "",
 };
-
-pub(super) type Text = &'static str;
 
 /// A parameter: key, symbol, unit and its factor to SI. By itself it is neutral at 0, usually 1 of 0 to 1, and not negative.
 pub(super) const fn parameter(key: Text, symbol: Text, unit: Text, si: f64) -> Parameter<'static> {

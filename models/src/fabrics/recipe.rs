@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::curve::Curve;
 use super::fabric::{Fabric, Ply};
+use crate::Text;
 
 /// What a user wrote about one fabric, in the units of the keys.
 #[derive(Debug, Clone, Default)]
@@ -207,43 +208,43 @@ pub(super) const THICKNESS: Parameter =
     number("thickness_mm", "mm", 1e-3, [1e-4, 100.0]).required("thickness of the sheet");
 
 /// A number with its factor to SI, and its bounds as written.
-pub(super) const fn number(key: &'static str, unit: &'static str, si: f64, [lower, upper]: [f64; 2]) -> Parameter {
+pub(super) const fn number(key: Text, unit: Text, si: f64, [lower, upper]: [f64; 2]) -> Parameter {
     Parameter { key, unit, si, lower, upper, need: Need::Required, meaning: "" }
 }
 
-pub(super) const fn modulus(key: &'static str) -> Parameter {
+pub(super) const fn modulus(key: Text) -> Parameter {
     number(key, "MPa", 1e6, [1e-6, 1e6])
 }
 
-pub(super) const fn ratio(key: &'static str, bounds: [f64; 2]) -> Parameter {
+pub(super) const fn ratio(key: Text, bounds: [f64; 2]) -> Parameter {
     number(key, "-", 1.0, bounds)
 }
 
 impl Parameter {
-    pub(super) const fn required(self, meaning: &'static str) -> Parameter {
+    pub(super) const fn required(self, meaning: Text) -> Parameter {
         Parameter { meaning, ..self }
     }
 
-    pub(super) const fn optional(self, meaning: &'static str) -> Parameter {
+    pub(super) const fn optional(self, meaning: Text) -> Parameter {
         let need = Need::Optional;
         Parameter { need, meaning, ..self }
     }
 
-    pub(super) const fn or(self, value: f64, meaning: &'static str) -> Parameter {
+    pub(super) const fn or(self, value: f64, meaning: Text) -> Parameter {
         let need = Need::Default(value);
         Parameter { need, meaning, ..self }
     }
 }
 
-type Column = (&'static str, f64);
+type Column = (Text, f64);
 
 /// Columns of a table, each a unit with its factor to SI.
-pub(super) const fn table(key: &'static str, (x_unit, x_si): Column, (y_unit, y_si): Column) -> CurveInput {
+pub(super) const fn table(key: Text, (x_unit, x_si): Column, (y_unit, y_si): Column) -> CurveInput {
     CurveInput { key, x_unit, x_si, y_unit, y_si, meaning: "" }
 }
 
 impl CurveInput {
-    pub(super) const fn means(self, meaning: &'static str) -> CurveInput {
+    pub(super) const fn means(self, meaning: Text) -> CurveInput {
         CurveInput { meaning, ..self }
     }
 }
