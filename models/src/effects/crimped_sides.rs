@@ -10,17 +10,10 @@
 //! F = 2 √(k P̄ D_w b)     E = 2 e F ε per metre     P̄ = P − χ p_b
 //! ```
 //!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | D_w b | bending stiffness of one side weld along the robot: D_w of its bonded plies, ½ E t · t² for two, times its width b | N·m² |
-//! | F | compression that folds a beam on the foundation k P̄, and keeps folding it | N |
-//! | e | edge restraint of the actuator: 1 sealed, 0 freed by gussets | – |
-//! | ε | contraction of the pouch: how much a side must hide of its length | – |
-//!
-//! The foundation does not depend on a. **Validity**: folds that are short compared with the pouch, 2π (D_w b/k P̄)^¼ ≪ L, and not yet
-//! steep, where F falls slowly; sheets at the sides with arcs of radius a. A way round in the plane of the wall, which spares up to a
-//! third of ε, is not subtracted, nor is the bending of the sheets next to the weld added. Beam on a foundation: Hetényi 1946, §7; foundation derived
-//! here.
+//! F is the compression that folds a beam on the foundation k P̄, and keeps folding it; e the edge restraint of the actuator (1 sealed, 0
+//! freed by gussets). D_w of bonded plies is ½ E t · t² for two. The foundation does not depend on a. Folds are short compared with the
+//! pouch, 2π (D_w b/k P̄)^¼ ≪ L, and not yet steep, where F falls slowly. A way round in the plane of the wall, which spares up to a third of
+//! ε, is not subtracted, nor is the bending of the sheets next to the weld added.
 
 use super::entry::*;
 use std::f64::consts::PI;

@@ -7,17 +7,10 @@
 //!        ρ = a₀ + ρ₀,  cosψ₀ = ρ₀/ρ,  a₀ = r (1 − cosθ),  ρ₀ = p_b R' cosα/2P̄
 //! ```
 //!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | D | bending stiffness of one sheet | N·m |
-//! | T | tension across the fold | N/m |
-//! | a₀ | half height of the lens in its middle | m |
-//! | ρ, ψ₀ | radius and angle of the arcs at the sides there; where ρ₀ is small, ½π, and the sum over the sides is exact to θ⁶ | m, rad |
-//! | R', α | radius and half chord angle of the wall's section (`section.rs`) | m, rad |
-//!
-//! Includes the work of T on the way that the round of the fold cuts short; the tension follows the pressure. **Validity**: folds
-//! farther apart than √(D/T), a fraction of a millimetre at high pressures; stiff welds; 0 < θ < π. Elastica: Love 1927, §262, in
-//! `verification::exact::fold`; the sum derived here.
+//! T is the tension across the fold, a₀ the half height of the lens in its middle, ρ and ψ₀ are radius and angle of the arcs at the sides
+//! there (where ρ₀ is small, ½π, and the sum over the sides is exact to θ⁶), R' and α radius and half chord angle of the wall's section
+//! (`section.rs`). Includes the work of T on the way that the round of the fold cuts short; the tension follows the pressure. Folds are a
+//! fraction of a millimetre at high pressures; 0 < θ < π. The elastica is in `verification::exact::fold`, the sum derived here.
 
 use super::entry::*;
 use crate::trig::sin_cos;

@@ -11,17 +11,11 @@
 //! section  sealed + 4 a u     chord  W − (π − 2) a + 2a (u/a − 1 + cos(u/a))
 //! ```
 //!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | σ | 1: folds with these diagonals, 0: sides that open freely | – |
-//! | f, u | depth of a fold, how much of it has opened | m |
-//! | a, r, θ, φ | half height, radius, half angle, place of the lens (`sealed_sides`) | m, m, –, – |
-//!
-//! Without a fold it is the sealed pouch. A flat pouch opens a seventh of its half height, u = (π − 2) a/4, and a deep fold opens
-//! late: a shallow one can hold more. The wall's sheet reaches up the side by W/2, so its weld is the end of the chord.
-//! **Validity**: inextensible fabric; half circles are taken from sections of finite elements, where a free membrane would dent at the
-//! flap. The welds sit below the middle of the pouch, which displaces less of the body's gas than `displaced_gas` assumes; this is left
-//! out. Derived here.
+//! a, r, θ and φ are half height, radius, half angle and place of the lens. Without a fold it is the sealed pouch. A flat pouch opens a
+//! seventh of its half height, u = (π − 2) a/4, and a deep fold opens late: a shallow one can hold more. The wall's sheet reaches up the side
+//! by W/2, so its weld is the end of the chord. Half circles are taken from sections of finite elements, where a free membrane would dent at
+//! the flap. The welds sit below the middle of the pouch, which displaces less of the body's gas than `displaced_gas` assumes; this is left
+//! out.
 
 use super::entry::*;
 use super::sealed_sides::SealedSides;

@@ -10,19 +10,12 @@
 //! I₁ = ∫ a dx = r² (θ − sinθ cosθ)     I₂ = ∫ a² dx = 2r³ (sinθ − ⅓sin³θ − θ cosθ)
 //! ```
 //!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | σ | 1: sealed sides, 0: sides that open freely | – |
-//! | e | edge restraint of the actuator: 1 sealed, 0 freed by gussets | – |
-//! | L, W | flat length and width of the pouch | m |
-//! | A(w), Q(w) | area and moment of area Aȳ of the body's section with a chord w (`section.rs`), derivatives at the strip's width | m², m³ |
-//! | χ | share of the pouch inside the body (`displaced_gas`) | – |
-//!
-//! The wall pulls the sides apart with p_b R' cosα, so that their arcs have a radius of a + ρ₀, ρ₀ = p_b R' cosα/2P̄, and end before
-//! they are level: the section then loses ½(4 − π) ρ₀² more, 1 % at P = 5 p_b, which is left out. Without a body the volume is
-//! largest at 21.9 % of contraction for W = L (36.3 % with free sides): sealed sides cost *stroke* more than volume.
-//! Below P = p_b (χ + (π − 2) A'/2W), A' = R' cosα, the body's gas at the sides keeps the pouch flat.
-//! **Validity**: inextensible fabric; a ≤ W/π, so W ≥ ⅔L. Derived here; `verification::exact::pouch::sealed_volume_m3` is its volume.
+//! e is the edge restraint of the actuator (1 sealed, 0 freed by gussets), χ the share of the pouch inside the body (`displaced_gas`), A(w)
+//! and Q(w) area and moment of area Aȳ of the body's section with a chord w (`section.rs`), with derivatives at the strip's width. The wall
+//! pulls the sides apart with p_b R' cosα, so that their arcs have a radius of a + ρ₀, ρ₀ = p_b R' cosα/2P̄, and end before they are level:
+//! the section then loses ½(4 − π) ρ₀² more, 1 % at P = 5 p_b, which is left out. Without a body the volume is largest at 21.9 % of
+//! contraction for W = L (36.3 % with free sides): sealed sides cost *stroke* more than volume. Below P = p_b (χ + (π − 2) A'/2W),
+//! A' = R' cosα, the body's gas at the sides keeps the pouch flat. a ≤ W/π. `verification::exact::pouch::sealed_volume_m3` is its volume.
 
 use super::entry::*;
 use crate::gusset::NARROWED;

@@ -1,26 +1,17 @@
 //! Sunk muscle: a tube glued over its flat width draws the wall in and is half in the body.
 //!
 //! ```text
-//! wall     an arc s = 2πR − W closed by the chord w = 2r₀:  w/s = sinβ/(π − β),  R' = s/(2(π − β))
-//!          A = R'² (π − β + sinβ cosβ)      ȳ = R' − 2R'³ sin³β/(3A)      D = R' (1 + cosβ)
+//! wall     an arc 2πR − W closed by the chord 2r₀ (`section.rs`): A, ȳ, D
 //! body     A_b = A − πr₀²/2,  A_b ȳ_b = Aȳ − (πr₀²/2)(D − 4r₀/3π)         hinge p_b A_b ȳ_b in place of p_b πR³
 //! arm      D alone: the axis stays in the chord, nothing is left of `arm_growth`
 //! gas      ΔA = πR² − A_b        what a flat end must push aside (`flat_ends`)
 //! ```
 //!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | R, W, r₀ | radius of the body, flat width and radius W/π of the muscle | m |
-//! | β | half of the angle that the chord takes from the wall's circle of radius R' | rad |
-//! | D | distance of the chord, and the muscle's axis, from the far side: 68.3 mm for R = 40, W = 60, not 2R + r₀ = 99 | m |
-//! | ȳ, ȳ_b | centroids of the section and of the body's part of it, from the far side | m |
-//! | σ | 1: in the wall; 0: on it | – |
-//!
-//! At either edge three tensions meet: P r above, (P − p_b) r below, p_b R' from the wall. The upper two pull up and down
-//! and cancel but for p_b r; the wall pulls outwards, and up by p_b R' cosβ, at most p_b R. Against P r both are small once P is a few p_b:
-//! the tube is round, its widest place is the wall's chord, and nothing is left that could lift it. **Validity**: P above some
-//! 3 p_b; glued over the whole flat width; an arm that the scenario gives is replaced. Finite elements of the shipped robot at
-//! 30 kPa: axis 70 mm from the far side. Derived here.
+//! R, W and r₀ = W/π are the radius of the body, flat width and radius of the muscle; D is 68.3 mm for R = 40, W = 60, not 2R + r₀ = 99. At
+//! either edge three tensions meet: P r above, (P − p_b) r below, p_b R' from the wall. The upper two pull up and down and cancel but for
+//! p_b r; the wall pulls outwards, and up by p_b R' cosβ, at most p_b R. Against P r both are small once P is a few p_b: the tube is round,
+//! its widest place is the wall's chord, and nothing is left that could lift it. An arm that the scenario gives is replaced. Finite elements
+//! of the shipped robot at 30 kPa: axis 70 mm from the far side.
 
 use super::entry::*;
 use std::f64::consts::PI;
