@@ -17,7 +17,27 @@ pub struct ScenarioError {
     pub span: Option<(usize, usize)>,
 }
 
+/// What a text gives, or why it is refused.
+pub(crate) type Checked<T> = Result<T, ScenarioError>;
+
+pub(crate) fn fault(message: impl Into<String>) -> ScenarioError {
+    ScenarioError { message: message.into(), help: None, span: None }
+}
+
 impl ScenarioError {
+    pub(crate) fn help(self, help: impl Into<String>) -> ScenarioError {
+        ScenarioError { help: Some(help.into()), ..self }
+    }
+
+    /// Refuses a place of the text for it.
+    pub(crate) fn at<T>(self, span: std::ops::Range<usize>) -> Checked<T> {
+        self.within((span.start, span.end))
+    }
+
+    pub(crate) fn within<T>(self, span: (usize, usize)) -> Checked<T> {
+        Err(ScenarioError { span: Some(span), ..self })
+    }
+
     /// Line, fault and what to type, in one line: for programs that show no text around it.
     ///
     /// ```

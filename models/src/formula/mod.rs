@@ -24,6 +24,7 @@ mod pull;
 
 use crate::assembly::Assembly;
 use crate::effects::{Effect, Group, Needs, PLAIN, Parameter, Stage};
+use crate::error::{Checked, fault};
 use crate::root::POLE;
 use crate::site::SideEffects;
 use crate::term::{Account, Extreme, LedgerLine, Pose, Remembering, Term};
@@ -34,7 +35,6 @@ use pull::PullTerm;
 use spelling::units::{self, Dimension};
 use std::sync::Arc;
 
-pub(crate) use compile::Slip;
 pub(crate) use program::{MOST_PARAMETERS, is_variable};
 
 /// An effect of the scenario's own.
@@ -108,10 +108,10 @@ impl Formula {
     pub(crate) fn new(
         [name, moment, sentence, differs, remedy]: [String; 5],
         parameters: Vec<FormulaParameter>,
-    ) -> Result<Formula, Slip> {
+    ) -> Checked<Formula> {
         let Compiled { program, dimension, used } = compile(&moment, &names(&parameters))?;
         let whole = (0, moment.len());
-        let slip = |message: String, help: &str| Err(Slip { message, help: help.into(), at: whole });
+        let slip = |message: String, help: &str| fault(message).help(help).within(whole);
         if !dimension.is(Dimension::MOMENT) {
             let message = format!("the moment comes out in {}, not in N m", dimension.words());
             return slip(message, &units_help(&parameters));

@@ -97,7 +97,7 @@ fn update(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Solved<f
 }
 
 /// Loads of the shape in `work`, and how they change with it.
-fn couple(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) {
+pub(super) fn couple(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) {
     let mut loaded = std::mem::take(&mut work.loaded);
     for (node, frame) in loaded.nodes.chunks_exact_mut(3).zip(&work.frames) {
         node.copy_from_slice(&frame.at);
@@ -152,13 +152,4 @@ fn newton_step(assembly: &Assembly, sections: &mut [Coupling]) -> bool {
         before = std::array::from_fn(|s| before[s] + turn[s]);
     }
     before.iter().all(|x: &f64| x.is_finite())
-}
-
-/// Generalised forces per length at the bends in `work`; for tests.
-#[cfg(test)]
-pub(super) fn forces(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Vec<Outer> {
-    place(assembly, work);
-    couple(assembly, p_body_pa, work);
-    let sum = |c: &Coupling| std::array::from_fn(|q| c.residual[q] + c.outer[q]);
-    work.loaded.sections.iter().map(sum).collect()
 }
