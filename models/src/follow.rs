@@ -14,6 +14,9 @@ pub struct Step {
     pub loads: Loads,
 }
 
+/// What sees every state of a protocol, with its index.
+pub type Each<'a> = &'a mut dyn FnMut(usize, &Prediction);
+
 /// Longest step in time: this share of the time scale, plus one of the time since the pressures changed, because what relaxes
 /// does so ever more slowly. The tip is then within 1e-3 of its creep of where short steps take it (tested).
 const SCALE_SHARE: f64 = 0.35;
@@ -58,18 +61,12 @@ impl Model {
     ///
     /// # Errors
     /// What [`Model::predict`] returns, or a time that is not finite.
-    pub fn follow(&self, steps: &[Step], out: &mut Prediction, each: &mut dyn FnMut(usize, &Prediction)) -> Solved {
+    pub fn follow(&self, steps: &[Step], out: &mut Prediction, each: Each) -> Solved {
         self.walk(steps, None, out, each)
     }
 
     /// The same; with `held`, at given curvatures in every step.
-    pub(crate) fn walk(
-        &self,
-        steps: &[Step],
-        held: Option<&[Vec<f64>]>,
-        out: &mut Prediction,
-        each: &mut dyn FnMut(usize, &Prediction),
-    ) -> Solved {
+    pub(crate) fn walk(&self, steps: &[Step], held: Option<&[Vec<f64>]>, out: &mut Prediction, each: Each) -> Solved {
         let mut before: Option<Step> = None;
         for index in 0..steps.len() {
             let step = match self.assembly().clock {
@@ -120,10 +117,9 @@ impl Model {
         let start = from.unwrap_or(Loads::uniform(to.body_pa, 0.0));
         let one_way = self.assembly().node_terms.is_empty() && start.leads_one_way(to);
         let count = if one_way { 1 } else { PATH_STEPS };
-        let changes = || start.actuator_pa.iter().zip(&to.actuator_pa).map(|(a, b)| b - a);
         let history = &mut out.work.history;
         (history.moment.held_s, history.dt_s) = (0.0, 0.0);
-        if let Some(change) = changes().find(|d| *d != 0.0) {
+        if let Some(change) = start.changes(to).find(|d| *d != 0.0) {
             history.moment.falling = change < 0.0;
         }
         for k in 1..=count {
@@ -185,10 +181,13 @@ fn seen_late(steps: &[Step], i: usize, [lag_s, rate]: [f64; 2]) -> Step {
 }
 
 impl Loads {
+    fn changes(&self, to: &Loads) -> impl Iterator<Item = f64> {
+        self.actuator_pa.iter().zip(&to.actuator_pa).map(|(a, b)| b - a)
+    }
+
     /// Whether only the body's or only the actuators' pressures change, and all of them in the same direction.
     fn leads_one_way(&self, to: &Loads) -> bool {
-        let changes = || self.actuator_pa.iter().zip(&to.actuator_pa).map(|(a, b)| b - a);
-        let (up, down) = (changes().any(|d| d > 0.0), changes().any(|d| d < 0.0));
+        let (up, down) = (self.changes(to).any(|d| d > 0.0), self.changes(to).any(|d| d < 0.0));
         let body = self.body_pa != to.body_pa;
         !(up && down) && !(body && (up || down))
     }

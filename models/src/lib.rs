@@ -61,7 +61,7 @@ pub use batch::Batch;
 pub use catalogue::Catalogue;
 pub use error::{ScenarioError, Unsolved};
 pub use fabrics::Fabric;
-pub use follow::{HOLD_S, Step};
+pub use follow::{Each, HOLD_S, Step};
 pub use formula::Formula;
 pub use inverse::{Target, TipSlope};
 pub use known::Known;

@@ -16,6 +16,7 @@
 use crate::actuators::Actuator;
 use crate::assemble::{add_effects, assemble};
 use crate::assembly::Assembly;
+use crate::root::halved;
 use crate::scenario::Scenario;
 use crate::site::{Site, SiteLoads};
 
@@ -82,11 +83,7 @@ impl Machine {
 
     /// Coordinate from which on something holds.
     fn root(&self, holds: &dyn Fn(f64) -> bool) -> f64 {
-        let (mut low, mut high) = self.actuator.range;
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            *(if holds(middle) { &mut high } else { &mut low }) = middle;
-        }
+        let [low, high] = halved(self.actuator.range.into(), HALVINGS, |a| !holds(a));
         0.5 * (low + high)
     }
 }

@@ -17,7 +17,7 @@
 
 use std::sync::Arc;
 
-use super::fabric::{Fabric, Kind, Mixed, NeoHookean, Orthotropic, Past, Ply, WrinklingFilm};
+use super::fabric::{Fabric, Kind, Mixed, NeoHookean, Orthotropic, Past, Ply, WrinklingFilm, matrix};
 use super::recipe::*;
 
 /// Several fabrics bonded face to face, each at its own angle: they share one strain and add their tensions.
@@ -93,7 +93,7 @@ impl Laminate {
         let mut sum = [[0.0; 3]; 3];
         for (fabric, turn) in &self.plies {
             let turned = turn.tangent(&of(&**fabric, turn.strain(e)));
-            sum = std::array::from_fn(|i| std::array::from_fn(|j| sum[i][j] + turned[i][j]));
+            sum = matrix(|i, j| sum[i][j] + turned[i][j]);
         }
         sum
     }
@@ -133,7 +133,7 @@ impl Mixed {
                 Kind::WrinklingFilm(_) | Kind::Other => return None,
             };
             let turned = turn.tangent(&linear);
-            sum.linear = std::array::from_fn(|i| std::array::from_fn(|j| sum.linear[i][j] + turned[i][j]));
+            sum.linear = matrix(|i, j| sum.linear[i][j] + turned[i][j]);
         }
         Some(sum)
     }
@@ -238,7 +238,7 @@ impl Turn {
             let unit = self.strain(std::array::from_fn(|k| f64::from(k == j)));
             self.back(std::array::from_fn(|i| (0..3).map(|k| own[i][k] * unit[k]).sum()))
         });
-        std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i]))
+        matrix(|i, j| columns[j][i])
     }
 }
 

@@ -15,7 +15,7 @@
 
 use std::sync::Arc;
 
-use super::fabric::{Fabric, Kind, NeoHookean, Past};
+use super::fabric::{Fabric, Kind, NeoHookean, Past, matrix};
 use super::recipe::*;
 
 pub(super) const ENTRY: Law = Law {
@@ -60,7 +60,7 @@ impl Fabric for NeoHookean {
         let k = 2.0 * self.thickness_m * self.c10_pa * inverse * inverse;
         let a = [1.0 + 2.0 * e[1], 1.0 + 2.0 * e[0], -e[2]];
         let slopes = [[0.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, -1.0]];
-        std::array::from_fn(|i| std::array::from_fn(|j| k * (4.0 * a[i] * a[j] * inverse - slopes[i][j])))
+        matrix(|i, j| k * (4.0 * a[i] * a[j] * inverse - slopes[i][j]))
     }
 
     fn kind(&self) -> Kind<'_> {

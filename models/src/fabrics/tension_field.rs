@@ -24,7 +24,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use super::fabric::{Fabric, Orthotropic, Past};
+use super::fabric::{Fabric, Orthotropic, Past, matrix};
 use super::recipe::*;
 
 pub(super) const ENTRY: Law = Law {
@@ -122,7 +122,7 @@ impl TensionField {
         let (w, w1) = ([0.5 * (1.0 + cos), 0.5 * (1.0 - cos), 0.5 * sin], [-0.5 * sin, 0.5 * sin, 0.5 * cos]);
         let mixed: [f64; 3] = std::array::from_fn(|i| (e1 - sigma * s1) / s * w[i] + sigma * w1[i]);
         let bent = 0.5 * e * self.slope(along, x).1 / (s * s);
-        std::array::from_fn(|i| std::array::from_fn(|j| w[i] * w[j] / s - mixed[i] * mixed[j] / bent))
+        matrix(|i, j| w[i] * w[j] / s - mixed[i] * mixed[j] / bent)
     }
 
     /// x = 2φ with the most energy ½tE(φ)e(φ)².
@@ -204,7 +204,7 @@ impl Fabric for TensionField {
             State::Slack => [[0.0; 3]; 3],
             State::Wrinkled { along, x } => self.wrinkled_tangent(&along, x),
         };
-        std::array::from_fn(|i| std::array::from_fn(|j| (1.0 - self.share) * own[i][j] + self.share * full[i][j]))
+        matrix(|i, j| (1.0 - self.share) * own[i][j] + self.share * full[i][j])
     }
 
     fn steepest(&self, e: [f64; 3], past: &Past, _reach: f64) -> [[f64; 3]; 3] {

@@ -34,7 +34,7 @@ use std::sync::Arc;
 
 use super::bias_extension::BiasExtension;
 use super::curve::Curve;
-use super::fabric::{Fabric, Past};
+use super::fabric::{Fabric, Past, matrix};
 use super::orthotropic::{coupling_fits, shear_modulus};
 use super::recipe::*;
 use super::yarn::Yarn;
@@ -112,8 +112,7 @@ impl Woven {
     fn stiffness(&self, yarns: &Stretch, past: &Past, slopes: [f64; 2], steep: f64) -> [[f64; 3]; 3] {
         let t12 = self.shear.value(yarns.gamma);
         let (turn, turns) = yarns.turn();
-        let mut k: [[f64; 3]; 3] =
-            std::array::from_fn(|i| std::array::from_fn(|j| steep * turn[i] * turn[j] + t12 * turns[i][j]));
+        let mut k = matrix(|i, j| steep * turn[i] * turn[j] + t12 * turns[i][j]);
         for (i, (yarn, l)) in self.yarns.iter().zip(yarns.lambda).enumerate() {
             let (own, other) = (yarns.nominal[i], yarns.nominal[1 - i]);
             let stress = yarn.stress(own, past[i]) + self.coupling_pa * other;

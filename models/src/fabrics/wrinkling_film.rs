@@ -36,7 +36,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use super::fabric::{Fabric, Kind, NeoHookean, Past, WrinklingFilm};
+use super::fabric::{Fabric, Kind, NeoHookean, Past, WrinklingFilm, matrix};
 use super::recipe::*;
 
 pub(super) const ENTRY: Law = Law {
@@ -168,9 +168,7 @@ impl Fabric for WrinklingFilm {
         let (carried, tension) = (flat / root, self.film.tension(e, past));
         let excess: [f64; 3] = std::array::from_fn(|i| tension[i] - sigma * n[i]);
         let fall = 0.5 * carried / (root * root);
-        std::array::from_fn(|i| {
-            std::array::from_fn(|j| own(i, j) + carried * (full[i][j] - own(i, j)) - fall * excess[i] * excess[j])
-        })
+        matrix(|i, j| own(i, j) + carried * (full[i][j] - own(i, j)) - fall * excess[i] * excess[j])
     }
 
     fn kind(&self) -> Kind<'_> {

@@ -61,8 +61,12 @@ impl<'a> Reader<'a> {
         let mut left = self.product()?;
         while let Some(sign) = self.take(&['+', '-']) {
             let right = self.product()?;
-            alike(&left, &right, if sign == '+' { "added to" } else { "subtracted from" })?;
-            left = self.joined(left, right, if sign == '+' { |a, b| a + b } else { |a, b| a - b });
+            let (verb, law): (_, Two) = match sign {
+                '+' => ("added to", |a, b| a + b),
+                _ => ("subtracted from", |a, b| a - b),
+            };
+            alike(&left, &right, verb)?;
+            left = self.joined(left, right, law);
         }
         Ok(left)
     }
@@ -71,9 +75,12 @@ impl<'a> Reader<'a> {
         let mut left = self.sign()?;
         while let Some(sign) = self.take(&['*', '/']) {
             let right = self.sign()?;
-            let dimension = left.dimension.times(right.dimension, if sign == '*' { 1.0 } else { -1.0 });
-            left = self.joined(left, right, if sign == '*' { |a, b| a * b } else { |a, b| a / b });
-            left.dimension = dimension;
+            let (power, law): (_, Two) = match sign {
+                '*' => (1.0, |a, b| a * b),
+                _ => (-1.0, |a, b| a / b),
+            };
+            let dimension = left.dimension.times(right.dimension, power);
+            left = Part { dimension, ..self.joined(left, right, law) };
         }
         Ok(left)
     }

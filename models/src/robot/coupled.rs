@@ -2,7 +2,7 @@
 
 use super::workspace::Workspace;
 use crate::assembly::Assembly;
-use crate::error::{Solved, Unsolved};
+use crate::error::{Place, Solved, Unsolved};
 use crate::history::History;
 use crate::root::NoRoot;
 use crate::shape::{Arc, advance, arc, slid, turned};
@@ -155,14 +155,15 @@ fn unsolved(error: NoRoot, site: &Site, start_m: f64, loads: &SiteLoads) -> Unso
         NoRoot::SameSign { at_low, at_high } => (at_low, at_high),
         NoRoot::Stalled { f } => (f, f),
     };
-    let (s_mm, p_act_kpa, p_body_kpa) = (start_m * 1e3, loads.p_act_pa / 1e3, loads.p_body_pa / 1e3);
+    let [s_mm, p_act_kpa, p_body_kpa] = [start_m * 1e3, loads.p_act_pa / 1e3, loads.p_body_pa / 1e3];
+    let place = Place { s_mm, p_act_kpa, p_body_kpa };
     let imbalance = low.abs().max(high.abs());
     let extreme = site.extreme(loads).filter(|extreme| extreme.moment > TO_BLAME * imbalance || !imbalance.is_finite());
     let law = if imbalance.is_finite() { None } else { site.without_value(loads) };
     match (extreme, law) {
-        (Some(extreme), _) => Unsolved::Formula { extreme, s_mm, p_act_kpa, p_body_kpa },
-        (None, Some(law)) => Unsolved::NoValue { law, s_mm, p_act_kpa, p_body_kpa },
-        (None, None) => Unsolved::NoEquilibrium { s_mm, p_act_kpa, p_body_kpa, low, high },
+        (Some(extreme), _) => Unsolved::Formula { extreme, place },
+        (None, Some(law)) => Unsolved::NoValue { law, place },
+        (None, None) => Unsolved::NoEquilibrium { place, low, high },
     }
 }
 
