@@ -23,7 +23,7 @@ mod program;
 mod pull;
 
 use crate::assembly::Assembly;
-use crate::effects::{Effect, Group, Needs, PLAIN, Parameter, Stage};
+use crate::effects::{Effect, Group, Needs, Parameter, Stage};
 use crate::error::{Checked, fault};
 use crate::root::POLE;
 use crate::site::SideEffects;
@@ -57,42 +57,22 @@ pub struct Formula {
     uses_pull: bool,
 }
 
-/// A parameter of a [`Formula`]; the fields are as in [`Parameter`].
+/// A parameter of a [`Formula`]: its words, and its numbers as in [`Parameter`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct FormulaParameter {
     /// Name in the formula and key in the scenario.
     pub key: String,
     /// Unit of the value in the scenario; the formula has it in SI.
     pub unit: String,
-    /// Factor from the value in the scenario to SI.
-    pub si: f64,
-    /// Value at which the effect vanishes.
-    pub neutral: f64,
-    /// Size that the effect typically has, in the unit of the scenario.
-    pub typical: f64,
-    /// Smallest value that is physically possible, in the unit of the scenario.
-    pub lower: f64,
-    /// Largest value that is physically possible, in the unit of the scenario.
-    pub upper: f64,
     /// Meaning in a few words, for reports and messages.
     pub meaning: String,
+    /// Its numbers; the words there are empty.
+    pub numbers: Parameter<'static>,
 }
 
 impl FormulaParameter {
     fn entry(&self) -> Parameter<'_> {
-        Parameter {
-            key: &self.key,
-            symbol: &self.key,
-            unit: &self.unit,
-            si: self.si,
-            neutral: self.neutral,
-            typical: self.typical,
-            lower: self.lower,
-            upper: self.upper,
-            possible: [self.lower, self.upper],
-            meaning: &self.meaning,
-            ..PLAIN
-        }
+        Parameter { key: &self.key, symbol: &self.key, unit: &self.unit, meaning: &self.meaning, ..self.numbers }
     }
 }
 
@@ -182,6 +162,7 @@ impl Formula {
         for (k, set) in ["neutral", "typical", "lower", "upper"].into_iter().enumerate() {
             let mut inputs = [0.0; INPUTS];
             for (input, p) in inputs[VARIABLES.len()..].iter_mut().zip(&self.parameters) {
+                let p = p.numbers;
                 *input = [p.neutral, p.typical, p.lower, p.upper][k] * p.si;
             }
             for place in PLACES {

@@ -1,12 +1,13 @@
 //! What a formula may say, what is refused and where.
 
 use super::*;
+use crate::effects::PLAIN;
 use crate::{Loads, Model, Scenario, shipped};
 
 fn parameter(key: &str, unit: &str, typical: f64) -> FormulaParameter {
     let (si, _) = units::parse(unit).unwrap();
     let (key, unit, meaning) = (key.to_string(), unit.to_string(), String::new());
-    FormulaParameter { key, unit, si, neutral: 0.0, typical, lower: 0.0, upper: 10.0 * typical, meaning }
+    FormulaParameter { key, unit, meaning, numbers: Parameter { si, typical, upper: 10.0 * typical, ..PLAIN } }
 }
 
 fn made(moment: &str, parameters: &[(&str, &str)]) -> Checked<Formula> {

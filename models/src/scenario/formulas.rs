@@ -2,7 +2,7 @@
 
 use super::given::{Checked, fault, unit};
 use super::raw::{Raw, RawFormula, RawParameter};
-use crate::effects::EFFECTS;
+use crate::effects::{EFFECTS, PLAIN, Parameter};
 use crate::error::ScenarioError;
 use crate::formula::{self, Formula, FormulaParameter, MOST_PARAMETERS};
 use std::collections::BTreeMap;
@@ -57,12 +57,12 @@ fn parameters(raw: &BTreeMap<Spanned<String>, RawParameter>, of: &RawFormula) ->
     sorted.sort_by_key(|(key, _)| key.span().start);
     let found = sorted.iter().map(|(key, parameter)| checked(key, parameter)).collect::<Checked<Vec<_>>>()?;
     // A formula that does nothing at its typical values, and a parameter that is typically zero, are not fitted.
-    let still = |p: &FormulaParameter| p.typical == p.neutral;
+    let still = |p: &FormulaParameter| p.numbers.typical == p.numbers.neutral;
     let all = found.iter().all(still);
-    match found.iter().zip(&sorted).find(|(p, _)| still(p) && (all || p.typical == 0.0)) {
+    match found.iter().zip(&sorted).find(|(p, _)| still(p) && (all || p.numbers.typical == 0.0)) {
         Some((p, (_, parameter))) => fault(format!(
             "typical = {} of {} is its neutral value: the diagnosis would leave it out",
-            p.typical, p.key
+            p.numbers.typical, p.key
         ))
         .help("write its usual size as typical, or another neutral value")
         .at(parameter.typical.span()),
@@ -104,16 +104,8 @@ fn checked(key: &Spanned<String>, raw: &RawParameter) -> Checked<FormulaParamete
         None => within("neutral", 0.0, key.span())?,
     };
     let meaning = raw.meaning.clone().unwrap_or_else(|| "parameter of the formula".into());
-    Ok(FormulaParameter {
-        key: name.clone(),
-        unit: raw.unit.get_ref().clone(),
-        si,
-        neutral,
-        typical,
-        lower,
-        upper,
-        meaning,
-    })
+    let numbers = Parameter { si, neutral, typical, lower, upper, possible: [lower, upper], ..PLAIN };
+    Ok(FormulaParameter { key: name.clone(), unit: raw.unit.get_ref().clone(), meaning, numbers })
 }
 
 fn is_name(text: &str) -> bool {
