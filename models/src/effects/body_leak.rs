@@ -14,14 +14,12 @@ pub(super) const ENTRY: Effect = Effect {
     parameters: &[parameter("rate_per_min", "r", "1/min", 1.0 / 60.0)
         .usual(0.2, [0.0, 5.0])
         .means("share of the body's pressure lost per time")],
-    add,
+    add: |values, assembly| {
+        let rate = values[0];
+        if rate != 0.0 {
+            assembly.timed = true;
+            assembly.body.push(Box::new(move |p, _, at| p * (-rate * at.t_s).exp()));
+        }
+    },
     ..SUPPLY
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let rate = values[0];
-    if rate != 0.0 {
-        assembly.timed = true;
-        assembly.body.push(Box::new(move |p, _, at| p * (-rate * at.t_s).exp()));
-    }
-}

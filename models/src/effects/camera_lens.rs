@@ -24,16 +24,14 @@ pub(super) const ENTRY: Effect = Effect {
             .possible(ANY)
             .means("how far the optical axis is from the straight robot, as a share of its length"),
     ],
-    add,
+    add: |values, assembly| {
+        let length_m = assembly.length_m();
+        let (k, axis) = (values[0], [values[1] * length_m, values[2] * length_m]);
+        assembly.camera.push(Box::new(move |seen| {
+            let [x, y] = [seen.xy[0] - axis[0], seen.xy[1] - axis[1]];
+            let grows = k * (x * x + y * y);
+            seen.xy = [seen.xy[0] + grows * x, seen.xy[1] + grows * y];
+        }));
+    },
     ..CAMERA
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let length_m = assembly.length_m();
-    let (k, axis) = (values[0], [values[1] * length_m, values[2] * length_m]);
-    assembly.camera.push(Box::new(move |seen| {
-        let [x, y] = [seen.xy[0] - axis[0], seen.xy[1] - axis[1]];
-        let grows = k * (x * x + y * y);
-        seen.xy = [seen.xy[0] + grows * x, seen.xy[1] + grows * y];
-    }));
-}

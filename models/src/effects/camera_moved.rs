@@ -23,25 +23,23 @@ pub(super) const ENTRY: Effect = Effect {
             .possible([-180.0, 180.0])
             .means("turn of the image about the base"),
     ],
-    add,
+    add: |values, assembly| {
+        let [from_s, dx_m, dy_m, turn_rad] = [values[0], values[1], values[2], values[3]];
+        if [dx_m, dy_m, turn_rad] == [0.0; 3] {
+            return;
+        }
+        let (sin, cos) = turn_rad.sin_cos();
+        assembly.timed = true;
+        assembly.camera.push(Box::new(move |seen| {
+            if seen.t_s >= from_s {
+                let [x, y] = seen.xy;
+                seen.xy = [x * cos - y * sin + dx_m, x * sin + y * cos + dy_m];
+            }
+        }));
+    },
     ..CAMERA
 };
 
 const fn shift(key: Text, symbol: Text) -> Parameter<'static> {
     parameter(key, symbol, "mm", 1e-3).usual(2.0, [-30.0, 30.0]).possible(ANY).means("shift of the image")
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let [from_s, dx_m, dy_m, turn_rad] = [values[0], values[1], values[2], values[3]];
-    if [dx_m, dy_m, turn_rad] == [0.0; 3] {
-        return;
-    }
-    let (sin, cos) = turn_rad.sin_cos();
-    assembly.timed = true;
-    assembly.camera.push(Box::new(move |seen| {
-        if seen.t_s >= from_s {
-            let [x, y] = seen.xy;
-            seen.xy = [x * cos - y * sin + dx_m, x * sin + y * cos + dy_m];
-        }
-    }));
 }

@@ -18,7 +18,15 @@ pub(super) const ENTRY: Effect = Effect {
             .possible(ABOVE_ZERO)
             .means("distance from the camera to the base"),
     ],
-    add,
+    add: |values, assembly| {
+        let [(sin_a, cos_a), (sin_b, cos_b)] = [values[0].sin_cos(), values[1].sin_cos()];
+        let distance_m = values[2];
+        assembly.camera.push(Box::new(move |seen| {
+            let [x, y] = seen.xy;
+            let farther = 1.0 + (x * sin_a + y * sin_b) / distance_m;
+            seen.xy = [x * cos_a / farther, y * cos_b / farther];
+        }));
+    },
     ..CAMERA
 };
 
@@ -27,14 +35,4 @@ const fn tilt(key: Text, symbol: Text, meaning: Text) -> Parameter<'static> {
         .usual(5.0, [-25.0, 25.0])
         .possible([-89.0, 89.0])
         .means(meaning)
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let [(sin_a, cos_a), (sin_b, cos_b)] = [values[0].sin_cos(), values[1].sin_cos()];
-    let distance_m = values[2];
-    assembly.camera.push(Box::new(move |seen| {
-        let [x, y] = seen.xy;
-        let farther = 1.0 + (x * sin_a + y * sin_b) / distance_m;
-        seen.xy = [x * cos_a / farther, y * cos_b / farther];
-    }));
 }

@@ -24,11 +24,9 @@ pub(super) const ENTRY: Effect = Effect {
             .possible([-0.5, 0.5])
             .means("how much slower the camera's clock runs"),
     ],
-    add,
+    add: |values, assembly| {
+        assembly.clock = [values[0], values[1]];
+        assembly.timed |= assembly.clock != [0.0; 2];
+    },
     ..CAMERA
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    assembly.clock = [values[0], values[1]];
-    assembly.timed |= assembly.clock != [0.0; 2];
-}

@@ -32,23 +32,21 @@ pub(super) const ENTRY: Effect = Effect {
             .starts(&[0.7, 2.0, 6.0, 18.0])
             .means("relaxation time"),
     ],
-    add,
+    add: |values, assembly| {
+        if values[0] == 0.0 {
+            return;
+        }
+        for site in &mut assembly.sites {
+            let stiffness = values[0] * site.bending.stiffness;
+            site.body_terms.push(Box::new(Creep { stiffness, time_s: values[1] }));
+        }
+    },
     ..BALANCE
 };
 
 struct Creep {
     stiffness: f64,
     time_s: f64,
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    if values[0] == 0.0 {
-        return;
-    }
-    for site in &mut assembly.sites {
-        let stiffness = values[0] * site.bending.stiffness;
-        site.body_terms.push(Box::new(Creep { stiffness, time_s: values[1] }));
-    }
 }
 
 /// What it remembers: κ and κ − q.

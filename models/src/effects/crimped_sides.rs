@@ -31,25 +31,23 @@ pub(super) const ENTRY: Effect = Effect {
         .fitted(Fitted::FromDesign)
         .means("bending stiffness of one side weld along the robot")],
     needs: Needs::Family(Family::Pouch),
-    add,
+    add: |values, assembly| {
+        for site in assembly.active_sites(Family::Pouch) {
+            let restraint = site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape));
+            if values[0] * restraint > 0.0 {
+                // Compression of both sides over √P̄ [m √(N)], and χ.
+                let (sides, inner) = (4.0 * restraint * (FOUNDATION * values[0]).sqrt(), site.inner_share);
+                let law = ENTRY.law(Account::Wall, move |at, force| {
+                    let push = sides * (at.p_act_pa - inner * at.p_body_pa).max(0.0).sqrt();
+                    force[actuator_q::CONTRACTION] -= push;
+                    push * at.q[actuator_q::CONTRACTION]
+                });
+                site.act(*law, SideEffects::SHIFT);
+            }
+        }
+    },
     ..BALANCE
 };
 
 /// Curvature of the lost area over the weld's displacement.
 const FOUNDATION: f64 = 4.0 / (4.0 - PI);
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in assembly.active_sites(Family::Pouch) {
-        let restraint = site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape));
-        if values[0] * restraint > 0.0 {
-            // Compression of both sides over √P̄ [m √(N)], and χ.
-            let (sides, inner) = (4.0 * restraint * (FOUNDATION * values[0]).sqrt(), site.inner_share);
-            let law = ENTRY.law(Account::Wall, move |at, force| {
-                let push = sides * (at.p_act_pa - inner * at.p_body_pa).max(0.0).sqrt();
-                force[actuator_q::CONTRACTION] -= push;
-                push * at.q[actuator_q::CONTRACTION]
-            });
-            site.act(*law, SideEffects::SHIFT);
-        }
-    }
-}

@@ -15,7 +15,7 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Pull muscles of two lengths at the same pressure.",
     validity: "L/2r₀ from 4 to 60; ends on plugs; a prior from another muscle",
     reference: "Bolen 2026 (Festo muscle of 10 mm); scaling with the diameter assumed",
-    parameters: &[Parameter { meaning: "share of the loss of plugs", ..SHARE }],
+    parameters: &[SHARE.means("share of the loss of plugs")],
     needs: Needs::Family(Family::Mckibben),
     add: |values, assembly| {
         for site in assembly.active_sites(Family::Mckibben) {

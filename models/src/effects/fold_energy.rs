@@ -29,7 +29,22 @@ pub(super) const ENTRY: Effect = Effect {
         .fitted(Fitted::FromDesign)
         .means("bending stiffness of one sheet")],
     needs: Needs::Family(Family::Pouch),
-    add,
+    add: |values, assembly| {
+        if values[0] == 0.0 {
+            return;
+        }
+        for site in assembly.active_sites(Family::Pouch) {
+            let term = FoldEnergy {
+                root: values[0].sqrt(),
+                length_m: site.shape.length_m,
+                width_m: site.shape.width_m,
+                sealed: site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape)),
+                inner: site.inner_share,
+                wall_m: site.drawn_in(site.strip_m).map_or(0.0, |flat| 0.5 * flat.radius_m * flat.cos),
+            };
+            site.act(term, SideEffects::SHIFT);
+        }
+    },
     ..BALANCE
 };
 
@@ -43,23 +58,6 @@ struct FoldEnergy {
     inner: f64,
     /// ½ R' cosα of the wall's section \[m\], which gives ρ₀.
     wall_m: f64,
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    if values[0] == 0.0 {
-        return;
-    }
-    for site in assembly.active_sites(Family::Pouch) {
-        let term = FoldEnergy {
-            root: values[0].sqrt(),
-            length_m: site.shape.length_m,
-            width_m: site.shape.width_m,
-            sealed: site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape)),
-            inner: site.inner_share,
-            wall_m: site.drawn_in(site.strip_m).map_or(0.0, |flat| 0.5 * flat.radius_m * flat.cos),
-        };
-        site.act(term, SideEffects::SHIFT);
-    }
 }
 
 impl FoldEnergy {

@@ -27,7 +27,14 @@ pub(super) const ENTRY: Effect = Effect {
         .starts(&[0.05, 0.2, 0.6, 1.5])
         .by_actuator(&[("spam", 1.15), ("epam", 0.58), ("cpam", 0.52), ("fpam", 0.07)])
         .means("moment at which it slides")],
-    add,
+    add: |values, assembly| {
+        if values[0] == 0.0 {
+            return;
+        }
+        for site in &mut assembly.sites {
+            site.body_terms.push(Box::new(Friction { moment: values[0] }));
+        }
+    },
     ..BALANCE
 };
 
@@ -36,15 +43,6 @@ const SLIDE: f64 = 0.02;
 
 struct Friction {
     moment: f64,
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    if values[0] == 0.0 {
-        return;
-    }
-    for site in &mut assembly.sites {
-        site.body_terms.push(Box::new(Friction { moment: values[0] }));
-    }
 }
 
 impl Friction {

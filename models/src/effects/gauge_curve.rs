@@ -20,11 +20,9 @@ pub(super) const ENTRY: Effect = Effect {
         .possible([-1.0, 1.0])
         .means("share by which the pressure is off at twice the reference")],
     needs: Needs::Actuator,
-    add,
+    add: |values, assembly| {
+        let curve = values[0];
+        assembly.supply.push(Box::new(move |p, _| (p * (1.0 + curve * (p / REFERENCE_PA - 1.0))).max(0.0)));
+    },
     ..SUPPLY
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let curve = values[0];
-    assembly.supply.push(Box::new(move |p, _| (p * (1.0 + curve * (p / REFERENCE_PA - 1.0))).max(0.0)));
-}

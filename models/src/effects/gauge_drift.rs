@@ -16,14 +16,12 @@ pub(super) const ENTRY: Effect = Effect {
         .possible(ANY)
         .means("pressure that is read and not there, per time")],
     needs: Needs::Actuator,
-    add,
+    add: |values, assembly| {
+        let rate = values[0];
+        if rate != 0.0 {
+            assembly.timed = true;
+            assembly.supply.push(Box::new(move |p, at| if p > 0.0 { (p - rate * at.t_s).max(0.0) } else { p }));
+        }
+    },
     ..SUPPLY
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let rate = values[0];
-    if rate != 0.0 {
-        assembly.timed = true;
-        assembly.supply.push(Box::new(move |p, at| if p > 0.0 { (p - rate * at.t_s).max(0.0) } else { p }));
-    }
-}

@@ -16,24 +16,22 @@ pub(super) const ENTRY: Effect = Effect {
     validity: "bending plane vertical, or strips round the body; dead load",
     reference: "statics",
     parameters: &[parameter("weight_n_per_m", "w", "N/m", 1.0).usual(1.5, [0.0, 8.0]).means("weight per length")],
-    add,
+    add: |values, assembly| {
+        if values[0] == 0.0 {
+            return;
+        }
+        let direction = &assembly.gravity_direction[..assembly.axes];
+        // Of each node, x, y and in space z [N].
+        let weights: Vec<f64> =
+            assembly.node_lengths().iter().flat_map(|h| direction.iter().map(move |g| values[0] * h * g)).collect();
+        assembly.node_terms.push(ENTRY.law(Account::Load, move |at, force| {
+            let mut energy = 0.0;
+            for ((f, q), w) in force.iter_mut().zip(at.q).zip(&weights) {
+                *f += w;
+                energy -= w * q;
+            }
+            energy
+        }));
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    if values[0] == 0.0 {
-        return;
-    }
-    let direction = &assembly.gravity_direction[..assembly.axes];
-    // Of each node, x, y and in space z [N].
-    let weights: Vec<f64> =
-        assembly.node_lengths().iter().flat_map(|h| direction.iter().map(move |g| values[0] * h * g)).collect();
-    assembly.node_terms.push(ENTRY.law(Account::Load, move |at, force| {
-        let mut energy = 0.0;
-        for ((f, q), w) in force.iter_mut().zip(at.q).zip(&weights) {
-            *f += w;
-            energy -= w * q;
-        }
-        energy
-    }));
-}

@@ -30,28 +30,26 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Try another depth of the folds: a shallower one opens earlier.",
     validity: "inextensible fabric, round sides; pouches with side folds",
     reference: "derived here",
-    parameters: &[Parameter { meaning: "1: folds that their ends hold, 0: sides that open freely", ..SHARE }],
+    parameters: &[SHARE.means("1: folds that their ends hold, 0: sides that open freely")],
     needs: Needs::Family(Family::Pouch),
-    add,
+    add: |values, assembly| {
+        for site in assembly.active_sites(Family::Pouch) {
+            if values[0] * site.shape.fold_m > 0.0 {
+                site.gusset_share = values[0];
+                let sealed = SealedSides::new(values[0], site);
+                // As with sealed sides; a flat pouch narrows by less.
+                let closes = sealed.closes(values[0], site.shape.width_m) * narrowed(1.0, 0.5 * GATHERED);
+                let table = GussetTable::new(sealed.length_m, site.shape.fold_m);
+                site.act(Gussets { sealed, table }, SideEffects { closes, ..SideEffects::SHIFT });
+            }
+        }
+    },
     ..BALANCE
 };
 
 struct Gussets {
     sealed: SealedSides,
     table: GussetTable,
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in assembly.active_sites(Family::Pouch) {
-        if values[0] * site.shape.fold_m > 0.0 {
-            site.gusset_share = values[0];
-            let sealed = SealedSides::new(values[0], site);
-            // As with sealed sides; a flat pouch narrows by less.
-            let closes = sealed.closes(values[0], site.shape.width_m) * narrowed(1.0, 0.5 * GATHERED);
-            let table = GussetTable::new(sealed.length_m, site.shape.fold_m);
-            site.act(Gussets { sealed, table }, SideEffects { closes, ..SideEffects::SHIFT });
-        }
-    }
 }
 
 impl Term for Gussets {

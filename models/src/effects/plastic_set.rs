@@ -20,23 +20,21 @@ pub(super) const ENTRY: Effect = Effect {
         .usual(0.12, [0.0, 0.5])
         .possible([0.0, 1.0])
         .means("share of the largest bend that stays")],
-    add,
+    add: |values, assembly| {
+        if values[0] == 0.0 {
+            return;
+        }
+        for site in &mut assembly.sites {
+            let stiffness = site.bending.stiffness;
+            site.body_terms.push(Box::new(PlasticSet { stiffness, share: values[0] }));
+        }
+    },
     ..BALANCE
 };
 
 struct PlasticSet {
     stiffness: f64,
     share: f64,
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    if values[0] == 0.0 {
-        return;
-    }
-    for site in &mut assembly.sites {
-        let stiffness = site.bending.stiffness;
-        site.body_terms.push(Box::new(PlasticSet { stiffness, share: values[0] }));
-    }
 }
 
 impl Term for PlasticSet {

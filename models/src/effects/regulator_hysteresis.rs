@@ -16,15 +16,13 @@ pub(super) const ENTRY: Effect = Effect {
         .possible(ANY)
         .means("pressure that stays when the set point is lowered")],
     needs: Needs::Actuator,
-    add,
+    add: |values, assembly| {
+        let stays_pa = values[0];
+        if stays_pa != 0.0 {
+            assembly.timed = true;
+            let law = move |p: f64, falling: bool| if p > 0.0 && falling { (p + stays_pa).max(0.0) } else { p };
+            assembly.supply.push(Box::new(move |p, at| law(p, at.falling)));
+        }
+    },
     ..SUPPLY
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let stays_pa = values[0];
-    if stays_pa != 0.0 {
-        assembly.timed = true;
-        let law = move |p: f64, falling: bool| if p > 0.0 && falling { (p + stays_pa).max(0.0) } else { p };
-        assembly.supply.push(Box::new(move |p, at| law(p, at.falling)));
-    }
-}

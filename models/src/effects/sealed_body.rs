@@ -18,13 +18,11 @@ pub(super) const ENTRY: Effect = Effect {
         .possible(ANY)
         .means("rise of the body's pressure per actuator pressure")],
     needs: Needs::Actuator,
-    add,
+    add: |values, assembly| {
+        let rise = values[0];
+        if rise != 0.0 {
+            assembly.body.push(Box::new(move |p, actuator_pa, _| p + rise * actuator_pa));
+        }
+    },
     ..SUPPLY
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let rise = values[0];
-    if rise != 0.0 {
-        assembly.body.push(Box::new(move |p, actuator_pa, _| p + rise * actuator_pa));
-    }
-}

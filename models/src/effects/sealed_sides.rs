@@ -30,9 +30,21 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Compare with pouches whose sides are freed by gussets, or that are wider.",
     validity: "inextensible fabric; at least two thirds as wide as long",
     reference: "derived here",
-    parameters: &[Parameter { meaning: "1: sealed sides, 0: sides that open freely", ..SHARE }],
+    parameters: &[SHARE.means("1: sealed sides, 0: sides that open freely")],
     needs: Needs::Family(Family::Pouch),
-    add,
+    add: |values, assembly| {
+        for site in assembly.active_sites(Family::Pouch) {
+            let restraint = site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape));
+            // `gussets` models these sides in more detail.
+            let share = values[0] * restraint * (1.0 - site.gusset_share);
+            if share > 0.0 {
+                let term = SealedSides::new(share, site);
+                let closes = term.closes(share, site.shape.width_m);
+                let effects = SideEffects { closes, narrows: share * NARROWED, ..SideEffects::SHIFT };
+                site.act(term, effects);
+            }
+        }
+    },
     ..BALANCE
 };
 
@@ -46,20 +58,6 @@ pub(super) struct SealedSides {
     /// ΔA and ΔQ as factors of a and a².
     pub area: [f64; 2],
     pub moment: [f64; 2],
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in assembly.active_sites(Family::Pouch) {
-        let restraint = site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape));
-        // `gussets` models these sides in more detail.
-        let share = values[0] * restraint * (1.0 - site.gusset_share);
-        if share > 0.0 {
-            let term = SealedSides::new(share, site);
-            let closes = term.closes(share, site.shape.width_m);
-            let effects = SideEffects { closes, narrows: share * NARROWED, ..SideEffects::SHIFT };
-            site.act(term, effects);
-        }
-    }
 }
 
 impl SealedSides {

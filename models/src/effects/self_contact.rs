@@ -28,26 +28,24 @@ pub(super) const ENTRY: Effect = Effect {
             .means("angle at which neighbours touch; fPAM: turn of a metre of body"),
     ],
     needs: Needs::Actuator,
-    add,
+    add: |values, assembly| {
+        let [stiffness, touch] = [values[0], values[1]];
+        for site in &mut assembly.sites {
+            let Some(actuator) = site.actuator else { continue };
+            // Turn per half arc angle: two arcs of pouches, none of a muscle.
+            let (length_m, arcs) = match actuator.family {
+                Family::Pouch => (site.shape.length_m, 2.0),
+                Family::Mckibben => (1.0, 0.0),
+            };
+            site.actuator_terms.push(ENTRY.law(Account::Contact, move |at, force| {
+                let turned = arcs * at.q[actuator_q::COORDINATE] + at.q[actuator_q::CURVATURE] * length_m;
+                let overlap = (turned - touch).max(0.0);
+                let moment = stiffness * overlap / length_m;
+                force[actuator_q::COORDINATE] -= arcs * moment;
+                force[actuator_q::CURVATURE] -= length_m * moment;
+                0.5 * moment * overlap
+            }));
+        }
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let [stiffness, touch] = [values[0], values[1]];
-    for site in &mut assembly.sites {
-        let Some(actuator) = site.actuator else { continue };
-        // Turn per half arc angle: two arcs of pouches, none of a muscle.
-        let (length_m, arcs) = match actuator.family {
-            Family::Pouch => (site.shape.length_m, 2.0),
-            Family::Mckibben => (1.0, 0.0),
-        };
-        site.actuator_terms.push(ENTRY.law(Account::Contact, move |at, force| {
-            let turned = arcs * at.q[actuator_q::COORDINATE] + at.q[actuator_q::CURVATURE] * length_m;
-            let overlap = (turned - touch).max(0.0);
-            let moment = stiffness * overlap / length_m;
-            force[actuator_q::COORDINATE] -= arcs * moment;
-            force[actuator_q::CURVATURE] -= length_m * moment;
-            0.5 * moment * overlap
-        }));
-    }
-}

@@ -30,23 +30,21 @@ pub(super) const ENTRY: Effect = Effect {
             .means("stiffness of the jammed weave"),
     ],
     needs: Needs::Family(Family::Mckibben),
-    add,
+    add: |values, assembly| {
+        let [lock, stiffness] = [values[0], values[1]];
+        for site in assembly.active_sites(Family::Mckibben) {
+            let shape = site.shape;
+            site.actuator_terms.push(ENTRY.law(Account::Wall, move |at, force| {
+                let [shear, d_shear] = shape.yarn_shear(at.q[actuator_q::CONTRACTION]);
+                let beyond = (shear - lock).max(0.0);
+                let moment = 2.0 * stiffness * shape.width_m * beyond;
+                force[actuator_q::CONTRACTION] -= moment * d_shear;
+                0.5 * moment * beyond
+            }));
+        }
+    },
     ..BALANCE
 };
 
 /// Usual stiffness of the jammed weave \[N/m\].
 const JAMMED: f64 = 2000.0;
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let [lock, stiffness] = [values[0], values[1]];
-    for site in assembly.active_sites(Family::Mckibben) {
-        let shape = site.shape;
-        site.actuator_terms.push(ENTRY.law(Account::Wall, move |at, force| {
-            let [shear, d_shear] = shape.yarn_shear(at.q[actuator_q::CONTRACTION]);
-            let beyond = (shear - lock).max(0.0);
-            let moment = 2.0 * stiffness * shape.width_m * beyond;
-            force[actuator_q::CONTRACTION] -= moment * d_shear;
-            0.5 * moment * beyond
-        }));
-    }
-}

@@ -28,34 +28,32 @@ pub(super) const ENTRY: Effect = Effect {
             .means("exponent of the shear force"),
     ],
     needs: Needs::Family(Family::Mckibben),
-    add,
+    add: |values, assembly| {
+        let [shear_n_per_m, exponent] = [values[0], values[1]];
+        for site in assembly.active_sites(Family::Mckibben) {
+            // The part with n = 1 is in the muscle's cell.
+            let beyond = site.weave.is_cell();
+            if beyond {
+                site.weave.shear_n_per_m = shear_n_per_m;
+            }
+            if !beyond || exponent != 1.0 {
+                let shape = site.shape;
+                site.actuator_terms.push(ENTRY.law(Account::Stretch, move |at, force| {
+                    let [shear, d_shear] = shape.yarn_shear(at.q[actuator_q::CONTRACTION]);
+                    let linear = 2.0 * shear_n_per_m * shape.width_m * shear;
+                    let (moment, energy) = match exponent == 1.0 {
+                        true => (linear, 0.5 * linear * shear),
+                        false => of_power(2.0 * shear_n_per_m * shape.width_m * REFERENCE_RAD, exponent, shear),
+                    };
+                    let of_cell = if beyond { linear } else { 0.0 };
+                    force[actuator_q::CONTRACTION] -= (moment - of_cell) * d_shear;
+                    energy - 0.5 * of_cell * shear
+                }));
+            }
+        }
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let [shear_n_per_m, exponent] = [values[0], values[1]];
-    for site in assembly.active_sites(Family::Mckibben) {
-        // The part with n = 1 is in the muscle's cell.
-        let beyond = site.weave.is_cell();
-        if beyond {
-            site.weave.shear_n_per_m = shear_n_per_m;
-        }
-        if !beyond || exponent != 1.0 {
-            let shape = site.shape;
-            site.actuator_terms.push(ENTRY.law(Account::Stretch, move |at, force| {
-                let [shear, d_shear] = shape.yarn_shear(at.q[actuator_q::CONTRACTION]);
-                let linear = 2.0 * shear_n_per_m * shape.width_m * shear;
-                let (moment, energy) = match exponent == 1.0 {
-                    true => (linear, 0.5 * linear * shear),
-                    false => of_power(2.0 * shear_n_per_m * shape.width_m * REFERENCE_RAD, exponent, shear),
-                };
-                let of_cell = if beyond { linear } else { 0.0 };
-                force[actuator_q::CONTRACTION] -= (moment - of_cell) * d_shear;
-                energy - 0.5 * of_cell * shear
-            }));
-        }
-    }
-}
 
 /// Moment and energy per metre with n ≠ 1; `size` is the linear moment at the reference shear.
 fn of_power(size: f64, exponent: f64, shear: f64) -> (f64, f64) {

@@ -17,24 +17,22 @@ pub(super) const ENTRY: Effect = Effect {
     parameters: &[parameter("softening_m", "a", "m", 1.0)
         .usual(0.3, [0.0, 3.0])
         .means("inverse of the curvature at which half of the stiffness is gone")],
-    add,
+    add: |values, assembly| {
+        let a = values[0];
+        if a == 0.0 {
+            return;
+        }
+        for site in &mut assembly.sites {
+            let stiffness = site.bending.stiffness;
+            site.body_terms.push(ENTRY.law(Account::Wall, move |at, force| {
+                let kappa = at.q[0].abs();
+                force[0] += stiffness * a * kappa * at.q[0] / (1.0 + a * kappa);
+                stiffness / (a * a) * lost(a * kappa)
+            }));
+        }
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let a = values[0];
-    if a == 0.0 {
-        return;
-    }
-    for site in &mut assembly.sites {
-        let stiffness = site.bending.stiffness;
-        site.body_terms.push(ENTRY.law(Account::Wall, move |at, force| {
-            let kappa = at.q[0].abs();
-            force[0] += stiffness * a * kappa * at.q[0] / (1.0 + a * kappa);
-            stiffness / (a * a) * lost(a * kappa)
-        }));
-    }
-}
 
 /// x − ln(1 + x) − x²/2; near zero by its series, where the three cancel.
 fn lost(x: f64) -> f64 {

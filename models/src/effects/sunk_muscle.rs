@@ -24,30 +24,28 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Measure the distance from the far wall to the middle of the muscle at full pressure.",
     validity: "glued over the whole flat width; P above some 3 p_b",
     reference: "derived here",
-    parameters: &[Parameter { meaning: "1: half in the wall, 0: on it", ..SHARE }],
+    parameters: &[SHARE.means("1: half in the wall, 0: on it")],
     needs: Needs::Family(Family::Mckibben),
-    add,
+    add: |values, assembly| {
+        if values[0] == 0.0 {
+            return;
+        }
+        for site in assembly.active_sites(Family::Mckibben) {
+            let (radius_m, width_m) = (site.radius_m, site.shape.width_m);
+            let Some(body) = drawn_in(radius_m, width_m) else { continue };
+            let part = |on: f64, sunk: f64| on + values[0] * (sunk - on);
+            let lost_m2 = PI * radius_m.powi(2) - body.area_m2;
+            site.linkage.arm_m = part(site.linkage.arm_m, body.chord_m);
+            // The axis stays in the wall's chord however wide the tube is.
+            site.linkage.arm_growth = part(site.linkage.arm_growth, 0.0);
+            site.weave.drawn_in_m2 = values[0] * lost_m2;
+            let (area_m2, first_m3) = body.about_axis(radius_m);
+            (site.area_m2, site.first_m3) = (part(site.area_m2, area_m2), values[0] * first_m3);
+            site.body_pressure.scale(part(1.0, body.moment_share(radius_m)));
+        }
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    if values[0] == 0.0 {
-        return;
-    }
-    for site in assembly.active_sites(Family::Mckibben) {
-        let (radius_m, width_m) = (site.radius_m, site.shape.width_m);
-        let Some(body) = drawn_in(radius_m, width_m) else { continue };
-        let part = |on: f64, sunk: f64| on + values[0] * (sunk - on);
-        let lost_m2 = PI * radius_m.powi(2) - body.area_m2;
-        site.linkage.arm_m = part(site.linkage.arm_m, body.chord_m);
-        // The axis stays in the wall's chord however wide the tube is.
-        site.linkage.arm_growth = part(site.linkage.arm_growth, 0.0);
-        site.weave.drawn_in_m2 = values[0] * lost_m2;
-        let (area_m2, first_m3) = body.about_axis(radius_m);
-        (site.area_m2, site.first_m3) = (part(site.area_m2, area_m2), values[0] * first_m3);
-        site.body_pressure.scale(part(1.0, body.moment_share(radius_m)));
-    }
-}
 
 /// The body's part of the section with a muscle half in its wall; `None` where the muscle is too wide for the body.
 fn drawn_in(radius_m: f64, width_m: f64) -> Option<Section> {

@@ -32,17 +32,15 @@ pub(super) const ENTRY: Effect = Effect {
             .means("pressure above which it is missing"),
     ],
     needs: Needs::Actuator,
-    add,
+    add: |values, assembly| {
+        let [share, station, reach, from_pa] = [values[0], values[1], values[2], values[3]];
+        let Some(radius_m) = assembly.sites.first().map(|site| site.radius_m).filter(|_| share != 0.0) else { return };
+        let (middle_m, half_m) = (station * assembly.length_m(), reach * radius_m);
+        assembly.varies = true;
+        assembly.supply.push(Box::new(move |p, at| {
+            let weight = (-((at.s_m - middle_m) / half_m).powi(4)).exp();
+            p - share * weight * (p - from_pa).max(0.0)
+        }));
+    },
     ..SUPPLY
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let [share, station, reach, from_pa] = [values[0], values[1], values[2], values[3]];
-    let Some(radius_m) = assembly.sites.first().map(|site| site.radius_m).filter(|_| share != 0.0) else { return };
-    let (middle_m, half_m) = (station * assembly.length_m(), reach * radius_m);
-    assembly.varies = true;
-    assembly.supply.push(Box::new(move |p, at| {
-        let weight = (-((at.s_m - middle_m) / half_m).powi(4)).exp();
-        p - share * weight * (p - from_pa).max(0.0)
-    }));
-}

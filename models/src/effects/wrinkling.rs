@@ -31,33 +31,31 @@ pub(super) const ENTRY: Effect = Effect {
         .starts(&[2.3e-5, 1e-4, 4e-4, 1.5e-3])
         .by_actuator(&[("spam", 8e-4), ("epam", 1.8e-3), ("cpam", 2.4e-3), ("fpam", 9.5e-4)])
         .means("compliance 1/(E t) of the body fabric")],
-    add,
+    add: |values, assembly| {
+        let c = values[0];
+        if c == 0.0 {
+            return;
+        }
+        for site in &mut assembly.sites {
+            let r = site.radius_m;
+            let law = Law(BODY_PRESSURE, move |at: &Pose, force: &mut [f64]| {
+                let kappa = at.q[0].abs();
+                let thrust = PI * r * r * at.p_body_pa;
+                let wrinkling = 0.5 * at.p_body_pa * c;
+                let (moment, energy) = if kappa <= wrinkling {
+                    let moment = PI * r.powi(3) / c * kappa;
+                    (moment, 0.5 * moment * kappa)
+                } else {
+                    wrinkled(thrust, r, c, kappa, gamma0_from_curvature_ratio(kappa / wrinkling))
+                };
+                force[0] -= moment * at.q[0].signum();
+                energy
+            });
+            site.body_pressure = BodyLaw::Replaced(Box::new(law));
+        }
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let c = values[0];
-    if c == 0.0 {
-        return;
-    }
-    for site in &mut assembly.sites {
-        let r = site.radius_m;
-        let law = Law(BODY_PRESSURE, move |at: &Pose, force: &mut [f64]| {
-            let kappa = at.q[0].abs();
-            let thrust = PI * r * r * at.p_body_pa;
-            let wrinkling = 0.5 * at.p_body_pa * c;
-            let (moment, energy) = if kappa <= wrinkling {
-                let moment = PI * r.powi(3) / c * kappa;
-                (moment, 0.5 * moment * kappa)
-            } else {
-                wrinkled(thrust, r, c, kappa, gamma0_from_curvature_ratio(kappa / wrinkling))
-            };
-            force[0] -= moment * at.q[0].signum();
-            energy
-        });
-        site.body_pressure = BodyLaw::Replaced(Box::new(law));
-    }
-}
 
 /// Moment and energy with a slack zone of half angle `gamma`.
 fn wrinkled(thrust: f64, r: f64, c: f64, kappa: f64, gamma: f64) -> (f64, f64) {

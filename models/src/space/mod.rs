@@ -49,9 +49,7 @@ use crate::body::BodyLaw;
 pub use crate::effects::IN_SPACE;
 use crate::error::{Solved, Unsolved};
 use crate::scenario::ActuatorChoice;
-#[cfg(doc)]
-use crate::site::Site;
-use crate::site::SiteState;
+use crate::site::{Site, SiteState};
 pub use frame::Frame;
 pub(crate) use frame::{Bend, Stretch, direction};
 pub(crate) use section::Section;
@@ -104,17 +102,18 @@ fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Solved
 
 /// Refuses parts of a model that the sections do not see.
 fn refuse_the_rest(assembly: &Assembly) -> Solved {
-    let subject = match () {
-        _ if assembly.springs => "a spring at the tip",
-        _ if !assembly.camera.is_empty() => "an effect of the camera",
-        _ if assembly.sites.iter().any(|site| !site.body_terms.is_empty()) => "an effect on the bend of the body",
-        _ if assembly.sites.iter().any(|site| site.linkage.section.is_some()) => "a section that changes as it bends",
-        _ if assembly.sites.iter().any(|site| !matches!(site.body_pressure, BodyLaw::Hinge(_))) => {
-            "a wall that stretches"
-        }
-        _ => return Ok(()),
-    };
-    Err(Unsolved::InSpace { subject })
+    let any = |has: fn(&Site) -> bool| assembly.sites.iter().any(has);
+    let refused = [
+        (assembly.springs, "a spring at the tip"),
+        (!assembly.camera.is_empty(), "an effect of the camera"),
+        (any(|site| !site.body_terms.is_empty()), "an effect on the bend of the body"),
+        (any(|site| site.linkage.section.is_some()), "a section that changes as it bends"),
+        (any(|site| !matches!(site.body_pressure, BodyLaw::Hinge(_))), "a wall that stretches"),
+    ];
+    refused.iter().try_for_each(|(is_there, subject)| match is_there {
+        true => Err(Unsolved::InSpace { subject }),
+        false => Ok(()),
+    })
 }
 
 /// Whether a segment has the design, azimuths and pressures of the one before.
