@@ -50,10 +50,8 @@ impl TipSlope {
 
 impl Target {
     fn value(self) -> f64 {
-        match self {
-            Target::TipHeight(y) => y,
-            Target::Angle(angle) => angle,
-        }
+        let (Target::TipHeight(value) | Target::Angle(value)) = self;
+        value
     }
 
     fn of(self, at: &Prediction) -> f64 {
