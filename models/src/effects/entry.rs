@@ -133,7 +133,7 @@ pub(crate) const PLAIN: Parameter<'static> = Parameter {
     meaning: "",
 };
 
-/// A parameter: key, symbol, unit and its factor to SI. By itself it is neutral at 0, usually 1 of 0 to 1, and not negative.
+/// A parameter: key, symbol, unit and its factor to SI. Unless stated it is neutral at 0, usually 1 of 0 to 1, and not negative.
 pub(super) const fn parameter(key: Text, symbol: Text, unit: Text, si: f64) -> Parameter<'static> {
     Parameter { key, symbol, unit, si, ..PLAIN }
 }

@@ -7,8 +7,8 @@
 //! ```
 //!
 //! q is the curvature at which the friction is free, which it remembers; κ_s the elastic slide before it gives way. The same bend needs more
-//! pressure going up than coming down; after unloading the robot stays bent if M_f exceeds the wall's restoring moment there. There is no
-//! gradual onset.
+//! pressure going up than coming down; after unloading the robot stays bent if M_f exceeds the wall's restoring moment there. Nothing gives way
+//! gradually.
 
 use super::entry::*;
 

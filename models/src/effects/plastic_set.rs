@@ -2,7 +2,7 @@
 //!
 //! κ_max is the largest κ so far, towards the actuator. Stored is ½B(κ − sκ_max)², lost B s (1 − s) κ_max κ_max' per time. The incremental
 //! potential from the remembered κ_max = m, less the ½Bκ² of the base, is `−Bsmκ + ½Bs²m²` below m and `−½Bsκ² − ½Bs(1 − s)m²` beyond, where
-//! the largest bend goes along. There is no threshold.
+//! the largest bend goes along, without a threshold.
 
 use super::entry::*;
 
