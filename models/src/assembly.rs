@@ -2,7 +2,7 @@
 
 use crate::actuators::Family;
 use crate::site::Site;
-use crate::term::Term;
+use crate::term::{CHANNELS, Term};
 use serde::Serialize;
 use spelling::si;
 
@@ -124,6 +124,19 @@ impl Assembly {
     /// Sites whose actuator is of that family.
     pub fn active_sites(&mut self, family: Family) -> impl Iterator<Item = &mut Site> {
         self.sites.iter_mut().filter(move |site| site.actuator.is_some_and(|a| a.family == family))
+    }
+
+    /// Site of a segment.
+    #[inline]
+    pub(crate) fn site(&self, segment: usize) -> &Site {
+        &self.sites[self.segments[segment].site]
+    }
+
+    /// Pressure in the actuator of a site at the channels' set pressures \[Pa\].
+    #[inline]
+    pub(crate) fn supplied(&self, site: &Site, set_pa: &[f64; CHANNELS], at: &Moment) -> f64 {
+        let set = if site.actuator.is_some() { set_pa[site.channel] } else { 0.0 };
+        self.supply.iter().fold(set, |p, law| law(p, at))
     }
 
     /// Length of the taut generator \[m\].

@@ -1,6 +1,6 @@
 //! Many predictions in one call, results side by side.
 
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::model::{Model, Prediction, Tip};
 use crate::term::Loads;
 
@@ -17,7 +17,6 @@ pub struct Batch {
     states: Vec<Prediction>,
 }
 
-/// A contiguous part of a batch.
 struct Part<'a> {
     first: usize,
     loads: &'a [Loads],
@@ -53,10 +52,10 @@ impl Model {
     ///
     /// # Errors
     /// The first [`Unsolved`]; the states before it are in `out`, so `out.tips.len()` is the index of the culprit.
-    pub fn predict_batch(&self, loads: &[Loads], out: &mut Batch) -> Result<(), Unsolved> {
+    pub fn predict_batch(&self, loads: &[Loads], out: &mut Batch) -> Solved {
         out.markers.resize(loads.len() * self.marker_count(), [0.0; 2]);
         out.markers_z_m.resize(loads.len() * self.heights_each(), 0.0);
-        out.tips.resize(loads.len(), Tip { x_m: 0.0, y_m: 0.0, z_m: 0.0, angle_rad: 0.0 });
+        out.tips.resize(loads.len(), Tip::default());
         let whole = Part { first: 0, loads, markers: &mut out.markers, z_m: &mut out.markers_z_m, tips: &mut out.tips };
         let failed = match out.states.as_mut_slice() {
             [state] => self.predict_part(whole, state),
@@ -69,7 +68,6 @@ impl Model {
         Err(error)
     }
 
-    /// Values of z in a state.
     fn heights_each(&self) -> usize {
         if self.is_spatial() { self.marker_count() } else { 0 }
     }

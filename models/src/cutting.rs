@@ -118,7 +118,6 @@ impl CuttingPlan {
     }
 }
 
-/// Neighbours that are alike as one stretch.
 fn joined(spans: &[Span], alike: impl Fn(&Span, &Span) -> bool) -> Vec<Span> {
     let mut all: Vec<Span> = Vec::new();
     for span in spans {
@@ -216,7 +215,6 @@ impl Strip {
         welds
     }
 
-    /// What of it is drawn on the body.
     fn on_body(&self) -> Vec<PatternMark> {
         let Pattern { width_m, body_sheets, joint, side_welds, .. } = self.pattern;
         let edge_m = if side_welds { self.making.weld_m + 2.0 * self.making.allowance_m } else { 0.0 };

@@ -27,7 +27,7 @@ impl Model {
     pub fn outline(&self, at: &Prediction, count: usize) -> [Vec<[f64; 2]>; 2] {
         let mut sides = [Vec::with_capacity(count), Vec::with_capacity(count)];
         for (segment, offset) in self.stations(count) {
-            let radius = self.assembly().sites[self.assembly().segments[segment].site].radius_m;
+            let radius = self.assembly().site(segment).radius_m;
             let ([x, y], across) = match self.is_spatial() {
                 true => self.side_in_space(&at.work, segment, offset),
                 false => {

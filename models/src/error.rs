@@ -17,7 +17,27 @@ pub struct ScenarioError {
     pub span: Option<(usize, usize)>,
 }
 
+/// What a text gives, or why it is refused.
+pub(crate) type Checked<T> = Result<T, ScenarioError>;
+
+pub(crate) fn fault(message: impl Into<String>) -> ScenarioError {
+    ScenarioError { message: message.into(), help: None, span: None }
+}
+
 impl ScenarioError {
+    pub(crate) fn help(self, help: impl Into<String>) -> ScenarioError {
+        ScenarioError { help: Some(help.into()), ..self }
+    }
+
+    /// Refuses a place of the text for it.
+    pub(crate) fn at<T>(self, span: std::ops::Range<usize>) -> Checked<T> {
+        self.within((span.start, span.end))
+    }
+
+    pub(crate) fn within<T>(self, span: (usize, usize)) -> Checked<T> {
+        Err(ScenarioError { span: Some(span), ..self })
+    }
+
     /// Line, fault and what to type, in one line: for programs that show no text around it.
     ///
     /// ```
@@ -31,6 +51,16 @@ impl ScenarioError {
         let help = self.help.as_ref().map_or(String::new(), |help| format!("; {help}"));
         format!("{place}{}{help}", self.message)
     }
+}
+
+/// Station \[mm\] and pressures \[kPa\] at which nothing balances.
+#[expect(missing_docs, reason = "fields have the words and units of the message")]
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error("s = {s_mm:.1} mm for P = {p_act_kpa:.3} kPa, p_b = {p_body_kpa:.3} kPa")]
+pub struct Place {
+    pub s_mm: f64,
+    pub p_act_kpa: f64,
+    pub p_body_kpa: f64,
 }
 
 /// Reason for which a model has no prediction, inverse or pressures.
@@ -53,23 +83,23 @@ pub enum Unsolved {
     BadTime { t_s: f64 },
     /// The moment balance of a stretch has no root.
     #[error(
-        "no equilibrium at s = {s_mm:.1} mm for P = {p_act_kpa:.3} kPa, p_b = {p_body_kpa:.3} kPa: \
+        "no equilibrium at {place}: \
          the imbalance goes from {low:.3e} to {high:.3e} N·m; the outer loads exceed what wall and actuator can carry"
     )]
-    NoEquilibrium { s_mm: f64, p_act_kpa: f64, p_body_kpa: f64, low: f64, high: f64 },
+    NoEquilibrium { place: Place, low: f64, high: f64 },
     /// The same, because of a formula of the scenario.
     #[error(
-        "no equilibrium at s = {s_mm:.1} mm for P = {p_act_kpa:.3} kPa, p_b = {p_body_kpa:.3} kPa: the formula {} gives {} at \
+        "no equilibrium at {place}: the formula {} gives {} at \
          kappa = {:.2} 1/m (theta = {:.3}); it must stay finite, and within what wall and actuator can carry, at all pressures and bends",
         extreme.formula, moment(extreme.moment), extreme.kappa, extreme.theta
     )]
-    Formula { extreme: Extreme, s_mm: f64, p_act_kpa: f64, p_body_kpa: f64 },
+    Formula { extreme: Extreme, place: Place },
     /// A law of a place has no value at the geometry of the scenario.
     #[error(
-        "cannot balance the robot at s = {s_mm:.1} mm for P = {p_act_kpa:.3} kPa, p_b = {p_body_kpa:.3} kPa: {law} has no value at this \
+        "cannot balance the robot at {place}: {law} has no value at this \
          geometry. Try: a larger body.radius_mm, a smaller actuator.width_mm, or the robot without {law}"
     )]
-    NoValue { law: &'static str, s_mm: f64, p_act_kpa: f64, p_body_kpa: f64 },
+    NoValue { law: &'static str, place: Place },
     /// Moments and shape did not settle.
     #[error(
         "moments and shape did not agree after {iterations} iterations at P = {p_act_kpa:.3} kPa: \
@@ -97,6 +127,9 @@ pub enum Unsolved {
         between: &'static str,
     },
 }
+
+/// What a model answers, or why it cannot.
+pub type Solved<T = ()> = Result<T, Unsolved>;
 
 fn moment(size: f64) -> String {
     if size < POLE { format!("{size:.3e} N·m") } else { "no finite moment".into() }

@@ -1,6 +1,6 @@
 //! A protocol in time: loading, holding and unloading, with what the robot remembers.
 
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::model::{Model, Prediction, check};
 use crate::term::Loads;
 use spelling::units::Range;
@@ -13,6 +13,9 @@ pub struct Step {
     /// Gauge pressures that are set after the previous step.
     pub loads: Loads,
 }
+
+/// What sees every state of a protocol, with its index.
+pub type Each<'a> = &'a mut dyn FnMut(usize, &Prediction);
 
 /// Longest step in time: this share of the time scale, plus one of the time since the pressures changed, because what relaxes
 /// does so ever more slowly. The tip is then within 1e-3 of its creep of where short steps take it (tested).
@@ -27,7 +30,7 @@ pub const HOLD_S: f64 = 5.0;
 
 impl Model {
     /// A single state: with history after a hold of [`HOLD_S`] from rest, else as [`Model::predict`].
-    pub fn predict_held(&self, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
+    pub fn predict_held(&self, loads: &Loads, out: &mut Prediction) -> Solved {
         match self.has_history() {
             false => self.predict(loads, out),
             true => self.follow(&[Step { t_s: HOLD_S, loads: *loads }], out, &mut |_, _| ()),
@@ -58,23 +61,12 @@ impl Model {
     ///
     /// # Errors
     /// What [`Model::predict`] returns, or a time that is not finite.
-    pub fn follow(
-        &self,
-        steps: &[Step],
-        out: &mut Prediction,
-        each: &mut dyn FnMut(usize, &Prediction),
-    ) -> Result<(), Unsolved> {
+    pub fn follow(&self, steps: &[Step], out: &mut Prediction, each: Each) -> Solved {
         self.walk(steps, None, out, each)
     }
 
     /// The same; with `held`, at given curvatures in every step.
-    pub(crate) fn walk(
-        &self,
-        steps: &[Step],
-        held: Option<&[Vec<f64>]>,
-        out: &mut Prediction,
-        each: &mut dyn FnMut(usize, &Prediction),
-    ) -> Result<(), Unsolved> {
+    pub(crate) fn walk(&self, steps: &[Step], held: Option<&[Vec<f64>]>, out: &mut Prediction, each: Each) -> Solved {
         let mut before: Option<Step> = None;
         for index in 0..steps.len() {
             let step = match self.assembly().clock {
@@ -91,17 +83,11 @@ impl Model {
 
     /// The next state of a protocol after `last`; without one the robot is at rest at time 0. What `out` holds has to be the
     /// state of `last`: a stream that never ends is walked with one buffer.
-    pub fn follow_on(&self, last: Option<Step>, step: &Step, out: &mut Prediction) -> Result<(), Unsolved> {
+    pub fn follow_on(&self, last: Option<Step>, step: &Step, out: &mut Prediction) -> Solved {
         self.pass(last.filter(|last| last.t_s <= step.t_s), step, None, out)
     }
 
-    fn pass(
-        &self,
-        last: Option<Step>,
-        step: &Step,
-        held: Option<&[f64]>,
-        out: &mut Prediction,
-    ) -> Result<(), Unsolved> {
+    fn pass(&self, last: Option<Step>, step: &Step, held: Option<&[f64]>, out: &mut Prediction) -> Solved {
         check(&step.loads)?;
         if !Range::TIME.contains(step.t_s) {
             return Err(Unsolved::BadTime { t_s: step.t_s });
@@ -127,15 +113,13 @@ impl Model {
         Ok(())
     }
 
-    /// From one pair of pressures to another, at once.
-    fn change(&self, from: Option<Loads>, to: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
+    fn change(&self, from: Option<Loads>, to: &Loads, out: &mut Prediction) -> Solved {
         let start = from.unwrap_or(Loads::uniform(to.body_pa, 0.0));
         let one_way = self.assembly().node_terms.is_empty() && start.leads_one_way(to);
         let count = if one_way { 1 } else { PATH_STEPS };
-        let changes = || start.actuator_pa.iter().zip(&to.actuator_pa).map(|(a, b)| b - a);
         let history = &mut out.work.history;
         (history.moment.held_s, history.dt_s) = (0.0, 0.0);
-        if let Some(change) = changes().find(|d| *d != 0.0) {
+        if let Some(change) = start.changes(to).find(|d| *d != 0.0) {
             history.moment.falling = change < 0.0;
         }
         for k in 1..=count {
@@ -145,8 +129,7 @@ impl Model {
         Ok(())
     }
 
-    /// Lets time pass at constant set pressures.
-    fn wait(&self, time_s: f64, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
+    fn wait(&self, time_s: f64, loads: &Loads, out: &mut Prediction) -> Solved {
         let scale = self.time_scale_s();
         let mut left = time_s;
         while left > 0.0 {
@@ -166,7 +149,7 @@ impl Model {
     }
 
     /// The next state, from the one before, and its memory.
-    fn reach(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Result<(), Unsolved> {
+    fn reach(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Solved {
         self.solve(loads, out, warm)?;
         let work = &mut out.work;
         let body_pa = self.body_pa(loads, work);
@@ -198,15 +181,17 @@ fn seen_late(steps: &[Step], i: usize, [lag_s, rate]: [f64; 2]) -> Step {
 }
 
 impl Loads {
+    fn changes(&self, to: &Loads) -> impl Iterator<Item = f64> {
+        self.actuator_pa.iter().zip(&to.actuator_pa).map(|(a, b)| b - a)
+    }
+
     /// Whether only the body's or only the actuators' pressures change, and all of them in the same direction.
     fn leads_one_way(&self, to: &Loads) -> bool {
-        let changes = || self.actuator_pa.iter().zip(&to.actuator_pa).map(|(a, b)| b - a);
-        let (up, down) = (changes().any(|d| d > 0.0), changes().any(|d| d < 0.0));
+        let (up, down) = (self.changes(to).any(|d| d > 0.0), self.changes(to).any(|d| d < 0.0));
         let body = self.body_pa != to.body_pa;
         !(up && down) && !(body && (up || down))
     }
 
-    /// A share of the way to other pressures.
     fn towards(&self, to: &Loads, share: f64) -> Loads {
         let part = |a: f64, b: f64| a + share * (b - a);
         let mut between = Loads { body_pa: part(self.body_pa, to.body_pa), ..*self };

@@ -1,6 +1,7 @@
 //! Geometry of a lens with gussets: how far its side folds open, and what that adds to its section (law and symbols: the
 //! effect `gussets`).
 
+use crate::root::halved;
 use crate::trig::sin_cos;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -30,7 +31,6 @@ fn times([x, dx]: Sloped, [y, dy]: Sloped) -> Sloped {
     [x * y, dx * y + x * dy]
 }
 
-/// A lens of half angle θ.
 pub(crate) struct Lens {
     theta: f64,
     length_m: f64,
@@ -81,12 +81,7 @@ impl Lens {
 
     /// Half angle θ₀ at which the fold is open to its bottom in the middle of the pouch; π where it stays held.
     pub(crate) fn opens(length_m: f64, fold_m: f64) -> f64 {
-        let (mut held, mut open) = (0.0, PI);
-        for _ in 0..HALVINGS {
-            let theta = 0.5 * (held + open);
-            *(if Lens::new(length_m, theta).side(fold_m, 0.0).spare < 0.0 { &mut held } else { &mut open }) = theta;
-        }
-        open
+        halved([0.0, PI], HALVINGS, |theta| Lens::new(length_m, theta).side(fold_m, 0.0).spare < 0.0)[1]
     }
 
     /// Up to which t the fold is open to its bottom.
@@ -94,12 +89,8 @@ impl Lens {
         if self.side(fold_m, 0.0).spare < 0.0 {
             return 0.0;
         }
-        let (mut open, mut held) = (0.0, 1.0);
-        for _ in 0..HALVINGS {
-            let t = 0.5 * (open + held);
-            if self.side(fold_m, t).spare < 0.0 { held = t } else { open = t }
-        }
-        open
+        let is_held = |t: f64| self.side(fold_m, t).spare < 0.0;
+        halved([0.0, 1.0], HALVINGS, |t| !is_held(t))[0]
     }
 
     /// The integrals in parts: where the fold is held, halved, and where it is open, ever finer towards the place where it begins to

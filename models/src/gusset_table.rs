@@ -59,7 +59,6 @@ impl GussetTable {
         GussetTable { opens, held, open }
     }
 
-    /// The integrals at a half angle.
     pub(crate) fn sums(&self, theta: f64) -> Sums {
         if theta <= self.opens {
             return self.held.at(theta);

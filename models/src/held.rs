@@ -17,8 +17,8 @@
 //! no such moment: it is NaN there.
 
 use crate::assembly::Segment;
-use crate::error::Unsolved;
-use crate::follow::Step;
+use crate::error::Solved;
+use crate::follow::{Each, Step};
 use crate::model::{Model, Prediction};
 use crate::robot::{Held, bend};
 use crate::scenario::{Scenario, Span};
@@ -68,13 +68,7 @@ impl Model {
     ///
     /// # Errors
     /// A pressure or a time that is negative or not finite.
-    pub fn hold(
-        &self,
-        steps: &[Step],
-        curvatures: &[Vec<f64>],
-        out: &mut Prediction,
-        each: &mut dyn FnMut(usize, &Prediction),
-    ) -> Result<(), Unsolved> {
+    pub fn hold(&self, steps: &[Step], curvatures: &[Vec<f64>], out: &mut Prediction, each: Each) -> Solved {
         self.planar("holding a robot at curvatures")?;
         out.work.held.missing = vec![0.0; self.segments().len()];
         let walked = self.walk(steps, Some(curvatures), out, each);

@@ -57,7 +57,6 @@ impl History {
         self.values.is_empty()
     }
 
-    /// What the terms of a segment remember.
     pub(crate) fn of_segment(&self, index: usize) -> &[f64] {
         if self.awake { &self.values[self.offsets[index]..self.offsets[index + 1]] } else { &[] }
     }

@@ -1,6 +1,6 @@
 //! Inverse and Jacobian: what a controller asks.
 
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::model::{MOST_ACTUATOR_PA, Model, Prediction};
 use crate::reach::{MET, Reach, SAMPLES, reach};
 use crate::root::{Start, find_root};
@@ -50,10 +50,8 @@ impl TipSlope {
 
 impl Target {
     fn value(self) -> f64 {
-        match self {
-            Target::TipHeight(y) => y,
-            Target::Angle(angle) => angle,
-        }
+        let (Target::TipHeight(value) | Target::Angle(value)) = self;
+        value
     }
 
     fn of(self, at: &Prediction) -> f64 {
@@ -85,7 +83,6 @@ impl Target {
         }
     }
 
-    /// Name, unit and factor for messages.
     fn words(self) -> (&'static str, &'static str, f64) {
         match self {
             Target::TipHeight(_) => ("tip height", "mm", 1e3),
@@ -102,7 +99,7 @@ impl Model {
     /// # Errors
     /// [`Unsolved::OutOfReach`] with the reachable range, [`Unsolved::Jump`] with both sides of the gap, or what
     /// [`Model::predict`] returns.
-    pub fn pressure_for(&self, target: Target, p_body_pa: f64, out: &mut Prediction) -> Result<f64, Unsolved> {
+    pub fn pressure_for(&self, target: Target, p_body_pa: f64, out: &mut Prediction) -> Solved<f64> {
         let most = self.p_max_pa();
         let mut warm = false;
         let mut short = |p: f64| {
@@ -113,7 +110,7 @@ impl Model {
         // The response rises steeply from zero and flattens, so start low, with half the slope of the chord from zero.
         let x = START * most;
         let known = short(x);
-        let start = Start { x, f: Some(known), slope: -0.5 * (target.value() - known) / x };
+        let start = Start::known(x, known, -0.5 * (target.value() - known) / x);
         let quick = find_root(&mut short, (0.0, most), start).ok().map(|root| root.x + root.step);
         // What was found from state to state counts if it is met from rest.
         let quick = quick.filter(|p| *p <= most * (1.0 + 1e-12)).map(|p| p.clamp(0.0, most));
@@ -144,7 +141,7 @@ impl Model {
     }
 
     /// Zero where the target is met by flat actuators: all pressures up to `p` that leave them flat do the same.
-    fn at_rest_too(&self, target: Target, p_body_pa: f64, p: f64, out: &mut Prediction) -> Result<f64, Unsolved> {
+    fn at_rest_too(&self, target: Target, p_body_pa: f64, p: f64, out: &mut Prediction) -> Solved<f64> {
         if self.states(out).iter().any(|state| state.coordinate != 0.0) {
             return Ok(p);
         }
@@ -157,7 +154,7 @@ impl Model {
 
     /// Slopes of the tip pose by each channel's pressure, by Richardson-extrapolated differences, central but at the bound of
     /// the pressure; [`TipSlope::NONE`] where an actuator of the channel is flat. `out` is overwritten.
-    pub fn jacobian(&self, loads: &Loads, out: &mut Prediction) -> Result<[TipSlope; CHANNELS], Unsolved> {
+    pub fn jacobian(&self, loads: &Loads, out: &mut Prediction) -> Solved<[TipSlope; CHANNELS]> {
         let mut slopes = [TipSlope { x_per_pa: 0.0, y_per_pa: 0.0, angle_per_pa: 0.0 }; CHANNELS];
         self.settle(loads, out, false)?;
         let flat = self.flat(loads, out);
@@ -179,7 +176,7 @@ impl Model {
     }
 
     /// Mean slopes of x, y and angle between P − step (not below 0) and P + step, or P where the wider step crosses the bound.
-    fn chord(&self, loads: &Loads, channel: usize, step: f64, out: &mut Prediction) -> Result<[f64; 3], Unsolved> {
+    fn chord(&self, loads: &Loads, channel: usize, step: f64, out: &mut Prediction) -> Solved<[f64; 3]> {
         let (mut up, mut down) = (*loads, *loads);
         up.actuator_pa[channel] += if is_bounded(loads.actuator_pa[channel]) { 0.0 } else { step };
         down.actuator_pa[channel] = (down.actuator_pa[channel] - step).max(0.0);

@@ -19,12 +19,6 @@ pub enum Known {
 impl Known {
     /// The word used in tables and plots.
     pub fn word(self) -> &'static str {
-        match self {
-            Known::Measured => "measured",
-            Known::Published => "published",
-            Known::Assumed => "assumed",
-            Known::Calibrated => "calibrated",
-            Known::Predicted => "predicted",
-        }
+        ["measured", "published", "assumed", "calibrated", "predicted"][self as usize]
     }
 }

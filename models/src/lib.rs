@@ -61,7 +61,7 @@ pub use batch::Batch;
 pub use catalogue::Catalogue;
 pub use error::{ScenarioError, Unsolved};
 pub use fabrics::Fabric;
-pub use follow::{HOLD_S, Step};
+pub use follow::{Each, HOLD_S, Step};
 pub use formula::Formula;
 pub use inverse::{Target, TipSlope};
 pub use known::Known;
@@ -74,3 +74,6 @@ pub use scenario::{EffectChoice, Scenario, shipped};
 pub use steer::{Aim, End, Limits, Steered, Steering};
 pub use supply::Supply;
 pub use term::{Account, CHANNELS, LedgerLine, Loads, Memory, Pose, Remembering, Row, RowKind, Term};
+
+/// Words of a catalogue.
+pub(crate) type Text = &'static str;

@@ -1,7 +1,7 @@
 //! Poses that the model gives but a robot does not hold: collapse under load, a body folded onto itself; and how long a robot
 //! may be.
 
-use crate::error::Unsolved;
+use crate::error::Solved;
 use crate::model::{Model, Prediction};
 use crate::scenario::Scenario;
 use crate::statics::Statics;
@@ -42,9 +42,8 @@ impl Model {
     /// Stretches of a predicted pose that are beyond a limit, base to tip; none of a pose that can be trusted.
     pub fn beyond(&self, loads: &Loads, at: &Prediction) -> Vec<Beyond> {
         let collapse = self.stretches(Limit::Collapse, &|i| self.collapse_share(loads, at, i));
-        let fold = self.stretches(Limit::Fold, &|i| {
-            at.work.states[i].curvature.abs() * self.assembly().sites[self.assembly().segments[i].site].radius_m
-        });
+        let fold = |i: usize| at.work.states[i].curvature.abs() * self.assembly().site(i).radius_m;
+        let fold = self.stretches(Limit::Fold, &fold);
         collapse.into_iter().chain(fold).chain(self.crossing(at)).collect()
     }
 
@@ -57,17 +56,13 @@ impl Model {
         }
         let (mut places, mut turned): (Vec<Place>, f64) = (Vec::new(), 0.0);
         for (i, segment) in segments.iter().enumerate() {
-            let (radius_m, kappa) = (self.assembly().sites[segment.site].radius_m, at.work.states[i].curvature.abs());
+            let (radius_m, kappa) = (self.assembly().site(i).radius_m, at.work.states[i].curvature.abs());
             let count = (segment.length_m / (SPACING * radius_m)).ceil();
             for k in 0..=count as usize {
                 let offset_m = segment.length_m * k as f64 / count;
                 let turned = turned + kappa * offset_m;
-                places.push(Place {
-                    s_m: segment.start_m + offset_m,
-                    at: self.point(&at.work, i, offset_m),
-                    turned,
-                    radius_m,
-                });
+                let (s_m, at) = (segment.start_m + offset_m, self.point(&at.work, i, offset_m));
+                places.push(Place { s_m, at, turned, radius_m });
             }
             turned += kappa * segment.length_m;
         }
@@ -91,8 +86,7 @@ impl Model {
         if assembly.node_terms.is_empty() {
             return 0.0;
         }
-        let segment = &assembly.segments[index];
-        let (site, state) = (&assembly.sites[segment.site], &work.states[index]);
+        let (site, state) = (assembly.site(index), &work.states[index]);
         let (p_body_pa, radius_m) = (self.body_pa(loads, work), site.radius_m);
         if self.is_spatial() {
             let [y, z, shortening] = work.space.loaded.outer(index);
@@ -155,7 +149,7 @@ const SEGMENTS: usize = 60;
 /// A straight robot across gravity folds at its base when w L²/2 + F L = πp_bR³; a steered one has a shorter lever.
 pub fn collapse_length_m(scenario: &Scenario, loads: &Loads) -> Option<f64> {
     let fine = Scenario { segments: scenario.segments.max(SEGMENTS), markers_m: Vec::new(), ..scenario.clone() };
-    let holds = |factor: f64| -> Result<bool, Unsolved> {
+    let holds = |factor: f64| -> Solved<bool> {
         let model = Model::stretched(&fine, factor);
         let mut at = model.prediction();
         model.predict(loads, &mut at)?;

@@ -1,6 +1,6 @@
-//! The linkage between an actuator and the body: arm, active share, compliance, law of the section.
+//! The linkage between an actuator and the body: arm, active share, compliance, law of the section; and the work of the gas.
 
-use crate::term::{Account, LedgerLine};
+use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 
 /// How the actuator's contraction becomes curvature of the body.
 #[derive(Debug, Clone, Copy)]
@@ -44,3 +44,17 @@ pub(crate) fn line_tension(y: f64, x: f64, q: f64) -> f64 {
 
 /// Ledger line of the fabric along the line of action, which has no term: its energy follows from the equilibrium.
 pub(crate) const FABRIC_STRETCH: LedgerLine = LedgerLine::new("fabric_stretch", Account::Stretch);
+
+/// The pressure work of the actuator, `E = −P v`.
+pub(crate) struct ActuatorPressure;
+
+impl Term for ActuatorPressure {
+    fn line(&self) -> LedgerLine {
+        LedgerLine::new("actuator_pressure", Account::ActuatorGas)
+    }
+
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        force[actuator_q::VOLUME] += at.p_act_pa;
+        -at.p_act_pa * at.q[actuator_q::VOLUME]
+    }
+}

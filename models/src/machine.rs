@@ -16,6 +16,7 @@
 use crate::actuators::Actuator;
 use crate::assemble::{add_effects, assemble};
 use crate::assembly::Assembly;
+use crate::root::halved;
 use crate::scenario::Scenario;
 use crate::site::{Site, SiteLoads};
 
@@ -69,7 +70,7 @@ impl Machine {
 
     fn loads(&self, set_pa: f64) -> SiteLoads {
         let p_act_pa = self.assembly.supply.iter().fold(set_pa, |p, law| law(p, &Default::default()));
-        SiteLoads { p_body_pa: 0.0, p_act_pa, moment: 0.0, s_m: 0.0, dt_s: 0.0, stamp: 0 }
+        SiteLoads::new(0.0, p_act_pa)
     }
 
     /// Contraction and pull at a coordinate.
@@ -82,16 +83,11 @@ impl Machine {
 
     /// Coordinate from which on something holds.
     fn root(&self, holds: &dyn Fn(f64) -> bool) -> f64 {
-        let (mut low, mut high) = self.actuator.range;
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            *(if holds(middle) { &mut high } else { &mut low }) = middle;
-        }
+        let [low, high] = halved(self.actuator.range.into(), HALVINGS, |a| !holds(a));
         0.5 * (low + high)
     }
 }
 
-/// Contractions closer than this are one.
 const CLOSE: f64 = 1e-9;
 
 #[cfg(test)]

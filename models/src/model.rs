@@ -3,12 +3,12 @@
 mod in_space;
 
 use crate::assemble::{add_effects, assemble, divide, locate};
-use crate::assembly::{Assembly, Moment, Segment, Sighting};
-use crate::error::Unsolved;
+use crate::assembly::{Assembly, Segment, Sighting};
+use crate::error::{Solved, Unsolved};
 use crate::robot::{Workspace, equilibrium, place};
 use crate::scenario::{ActuatorChoice, Scenario, Span};
 use crate::shape::{Stretch, slid};
-use crate::site::{Site, SiteState};
+use crate::site::SiteState;
 use crate::space::around;
 use crate::term::{Account, LedgerLine, Loads, Pose, Row, RowKind, Term};
 use spelling::units::Range;
@@ -22,7 +22,7 @@ pub struct Model {
 }
 
 /// Pose of the end of the centre line in the coordinates of the clamp.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Tip {
     /// Coordinate along the axis of the undeformed body \[m\].
     pub x_m: f64,
@@ -49,7 +49,7 @@ pub struct Prediction {
 impl Model {
     /// Builds sites, segments, terms and laws of a scenario and locates its markers.
     pub fn new(scenario: &Scenario) -> Model {
-        Model::of(scenario, scenario.spans())
+        Model::with_segments(scenario, &scenario.spans(), None)
     }
 
     /// The same for a robot that is asked a few times: without the starts that [`Model::new`] solves for all pressures, so that it
@@ -76,14 +76,9 @@ impl Model {
         for span in &mut spans {
             (span.start_m, span.length_m) = (span.start_m * factor, span.length_m * factor);
         }
-        Model::of(scenario, spans)
-    }
-
-    fn of(scenario: &Scenario, spans: Vec<Span>) -> Model {
         Model::with_segments(scenario, &spans, None)
     }
 
-    /// The same with given segments.
     pub(crate) fn with_segments(scenario: &Scenario, spans: &[Span], segments: Option<Vec<Segment>>) -> Model {
         let mut model = Model::without_starts(scenario, spans, segments);
         for site in &mut model.assembly.sites {
@@ -116,7 +111,7 @@ impl Model {
         Prediction {
             markers: vec![[0.0; 2]; self.markers.len()],
             markers_z_m: vec![0.0; self.markers.len()],
-            tip: Tip { x_m: 0.0, y_m: 0.0, z_m: 0.0, angle_rad: 0.0 },
+            tip: Tip::default(),
             work: Workspace::new(&self.assembly),
         }
     }
@@ -126,14 +121,14 @@ impl Model {
     ///
     /// # Errors
     /// [`Unsolved`] with pressures and place when a pressure is negative or not finite, or nothing balances.
-    pub fn predict(&self, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
+    pub fn predict(&self, loads: &Loads, out: &mut Prediction) -> Solved {
         self.settle(loads, out, false)?;
         self.see(out);
         Ok(())
     }
 
     /// Like [`Model::predict`], without the markers: all that an inverse needs. `warm` starts from what `out` holds.
-    pub(crate) fn settle(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Result<(), Unsolved> {
+    pub(crate) fn settle(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Solved {
         check(loads)?;
         out.work.history.sleep();
         self.solve(loads, out, warm)?;
@@ -141,13 +136,11 @@ impl Model {
         Ok(())
     }
 
-    /// The equilibrium with what `out` remembers.
-    pub(crate) fn solve(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Result<(), Unsolved> {
+    pub(crate) fn solve(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Solved {
         self.supply(loads, &mut out.work);
         equilibrium(&self.assembly, self.body_pa(loads, &out.work), &mut out.work, warm)
     }
 
-    /// Tip and markers of the equilibrium in `out`.
     pub(crate) fn show(&self, out: &mut Prediction) {
         self.place_tip(out);
         self.see(out);
@@ -166,8 +159,8 @@ impl Model {
         }
         place(&self.assembly, &mut out.work);
         let (work, last) = (&out.work, self.assembly.segments.len());
-        out.tip =
-            Tip { x_m: work.nodes[2 * last], y_m: work.nodes[2 * last + 1], z_m: 0.0, angle_rad: work.headings[last] };
+        let (x_m, y_m, angle_rad) = (work.nodes[2 * last], work.nodes[2 * last + 1], work.headings[last]);
+        out.tip = Tip { x_m, y_m, z_m: 0.0, angle_rad };
     }
 
     /// Potential energy of every term at a predicted state \[J\], in the order in which terms were added. In a state of
@@ -179,9 +172,8 @@ impl Model {
             self.ledger_in_space(body_pa, at, &mut lines);
             return lines;
         }
-        for (i, segment) in self.assembly.segments.iter().enumerate() {
-            let site = &self.assembly.sites[segment.site];
-            self.site_energies(site, segment, [body_pa, at.work.p_act_pa[i]], &at.work, i, &mut lines);
+        for (i, p_act_pa) in at.work.p_act_pa.iter().enumerate() {
+            self.site_energies(i, [body_pa, *p_act_pa], &at.work, &mut lines);
         }
         self.lost_energies(&at.work, &mut lines);
         if at.work.is_sheared() {
@@ -221,7 +213,6 @@ impl Model {
         &self.assembly
     }
 
-    /// Body pressure after the supply stage \[Pa\].
     #[inline]
     pub(crate) fn body_pa(&self, loads: &Loads, work: &Workspace) -> f64 {
         if self.assembly.body.is_empty() {
@@ -239,24 +230,21 @@ impl Model {
         if self.is_spatial() {
             return self.supply_strips(&loads.actuator_pa, work);
         }
-        let moment = work.history.moment;
+        let mut at = work.history.moment;
         for (p, segment) in work.p_act_pa.iter_mut().zip(&self.assembly.segments) {
-            let site = &self.assembly.sites[segment.site];
-            let set = if site.actuator.is_some() { loads.actuator_pa[site.channel] } else { 0.0 };
-            let moment = Moment { s_m: segment.middle_m(), ..moment };
-            *p = self.assembly.supply.iter().fold(set, |p, law| law(p, &moment));
+            at.s_m = segment.middle_m();
+            *p = self.assembly.supplied(&self.assembly.sites[segment.site], &loads.actuator_pa, &at);
         }
     }
 
     #[inline]
     pub(crate) fn stretch(&self, work: &Workspace, segment: usize) -> Stretch {
-        let centre = self.assembly.sites[self.assembly.segments[segment].site].centre_line;
+        let centre = self.assembly.site(segment).centre_line;
         let from = [work.nodes[2 * segment], work.nodes[2 * segment + 1]];
         let direction = slid(work.directions[segment], work.shear(segment));
         Stretch::new(from, direction, work.headings[segment], work.states[segment].curvature, centre)
     }
 
-    /// The markers as the camera sees them.
     pub(crate) fn sight(&self, work: &Workspace, markers: &mut [[f64; 2]]) {
         let Some(&(mut current, _)) = self.markers.first() else { return };
         let mut stretch = self.stretch(work, current);
@@ -279,13 +267,12 @@ impl Model {
     /// Energies of a segment in its state, at the pressures of body and actuator.
     pub(crate) fn site_energies(
         &self,
-        site: &Site,
-        segment: &Segment,
+        index: usize,
         [p_body_pa, p_act_pa]: [f64; 2],
         work: &Workspace,
-        index: usize,
         lines: &mut Vec<Row>,
     ) {
+        let (site, segment) = (self.assembly.site(index), &self.assembly.segments[index]);
         let (state, h) = (&work.states[index], segment.length_m);
         let mut post = |line, energy: f64| post(lines, line, RowKind::Stored, energy * h);
         let at = Pose { s_m: segment.middle_m(), ..Pose::new(&[], p_body_pa, p_act_pa) };
@@ -341,7 +328,7 @@ const ANY_BODY_PRESSURE: Range = Range { low: 0.0, high: 1000.0, ..Range::BODY_P
 pub(crate) const MOST_ACTUATOR_PA: f64 = Range::ACTUATOR_PRESSURE.high * Range::ACTUATOR_PRESSURE.si;
 
 #[inline]
-fn bounded(loads: &Loads, body: &Range) -> Result<(), Unsolved> {
+fn bounded(loads: &Loads, body: &Range) -> Solved {
     let pressures = loads.actuator_pa.iter().map(|p| (*p, &Range::ACTUATOR_PRESSURE));
     match std::iter::once((loads.body_pa, body)).chain(pressures).find(|(p, bounds)| !bounds.contains(*p)) {
         Some((value_pa, bounds)) => Err(Unsolved::BadPressure { bounds: *bounds, value_pa }),
@@ -354,13 +341,13 @@ impl Loads {
     ///
     /// # Errors
     /// A pressure out of its bounds.
-    pub fn checked(self) -> Result<Loads, Unsolved> {
+    pub fn checked(self) -> Solved<Loads> {
         bounded(&self, &Range::BODY_PRESSURE).map(|()| self)
     }
 }
 
 #[inline]
-pub(crate) fn check(loads: &Loads) -> Result<(), Unsolved> {
+pub(crate) fn check(loads: &Loads) -> Solved {
     bounded(loads, &ANY_BODY_PRESSURE)
 }
 

@@ -63,7 +63,7 @@ pub(crate) fn complete(site: &mut Site) {
     if let Some(actuator) = site.actuator.filter(|_| site.weave.is_cell()) {
         let tabulated_from = site.weave.drawn_in_m2 / (actuator.area)(&site.shape);
         let cell = Muscle::of(&site.weave, &site.shape, site.linkage.arm_m);
-        site.act(cell, SideEffects { shifts_balance: true, tabulated_from, ..SideEffects::default() });
+        site.act(cell, SideEffects { tabulated_from, ..SideEffects::SHIFT });
     }
 }
 
@@ -88,7 +88,6 @@ struct Slopes {
 }
 
 impl Half {
-    /// A half glued to a wall of stiffness K.
     fn new(weave: &Weave, [c2, s2]: [f64; 2], wall: f64) -> Half {
         let c = weave.compliance_m_per_n;
         let per = 1.0 / (2.0 * s2 * s2 + wall * c);

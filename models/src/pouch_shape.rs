@@ -18,10 +18,8 @@
 //! **Validity**: regulated pressures. Volumes of folds that round off are in it, as their tension follows the pressure. Derived here
 //! (the envelope theorem); the finite elements measure the same on their mesh, `fem::robot::Inflated`.
 
-use crate::assembly::Segment;
 use crate::gusset;
 use crate::model::{Model, Prediction};
-use crate::site::Site;
 use crate::term::Loads;
 
 /// Shape of a predicted pose; lengths are means over the robot's active stretches.
@@ -49,8 +47,8 @@ impl Model {
         let (mut shape, mut active_m) = (PouchShape::default(), 0.0);
         let body_pa = self.body_pa(loads, &at.work);
         for (index, segment) in self.assembly().segments.iter().enumerate() {
-            let site = &self.assembly().sites[segment.site];
-            let [actuator_m3, lost_m3] = self.volumes(site, segment, body_pa, at, index);
+            let site = self.assembly().site(index);
+            let [actuator_m3, lost_m3] = self.volumes(body_pa, at, index);
             shape.actuator_m3 += actuator_m3;
             shape.body_m3 += site.area_m2 * segment.length_m - lost_m3;
             let Some(actuator) = site.actuator.filter(|a| a.has_pouches()) else { continue };
@@ -70,11 +68,11 @@ impl Model {
     }
 
     /// What the actuator of a segment holds, and what the body has lost there \[m³\].
-    fn volumes(&self, site: &Site, segment: &Segment, body_pa: f64, at: &Prediction, index: usize) -> [f64; 2] {
+    fn volumes(&self, body_pa: f64, at: &Prediction, index: usize) -> [f64; 2] {
         let own = [body_pa, at.work.p_act_pa[index]];
         let energy = |pressures: [f64; 2]| {
             let mut lines = Vec::new();
-            self.site_energies(site, segment, pressures, &at.work, index, &mut lines);
+            self.site_energies(index, pressures, &at.work, &mut lines);
             lines.iter().map(|line| line.energy_j).sum::<f64>()
         };
         let slope = |k: usize| {

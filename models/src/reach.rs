@@ -14,7 +14,6 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// A pressure and the response there; NaN without equilibrium.
 type Point = (f64, f64);
 
-/// What a search has to say.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Reach {
     At(f64),

@@ -1,5 +1,14 @@
 //! A bracketed secant iteration with the bend of three points: never leaves the bracket, halves it when it stalls.
 
+/// An interval halved so many times; `is_low` says which half goes.
+pub(crate) fn halved([mut low, mut high]: [f64; 2], count: usize, is_low: impl Fn(f64) -> bool) -> [f64; 2] {
+    for _ in 0..count {
+        let middle = 0.5 * (low + high);
+        *(if is_low(middle) { &mut low } else { &mut high }) = middle;
+    }
+    [low, high]
+}
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum NoRoot {
     /// The function has the same sign at both ends: values there.
@@ -14,6 +23,17 @@ pub(crate) struct Start {
     pub x: f64,
     pub f: Option<f64>,
     pub slope: f64,
+}
+
+impl Start {
+    /// Where the function is not known yet.
+    pub(crate) fn guess(x: f64, slope: f64) -> Start {
+        Start { x, f: None, slope }
+    }
+
+    pub(crate) fn known(x: f64, f: f64, slope: f64) -> Start {
+        Start { x, f: Some(f), slope }
+    }
 }
 
 /// The root is `x + step`: `x` is the last point evaluated, so that a caller can keep what it computed there and carry

@@ -14,29 +14,32 @@ use crate::body::soft_step;
 use crate::trig::sin_cos;
 
 /// Displacement over a stretch, in the frame of its start, with first and second derivatives by κ.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Arc {
-    pub along: f64,
-    pub across: f64,
-    pub d_along: f64,
-    pub d_across: f64,
-    pub dd_along: f64,
-    pub dd_across: f64,
+    /// Along and across, and their derivatives.
+    pub chord: [f64; 2],
+    pub slope: [f64; 2],
+    pub bend: [f64; 2],
     /// Sine and cosine of the turn.
     pub turn: [f64; 2],
-}
-
-impl Arc {
-    pub(crate) const NONE: Arc =
-        Arc { along: 0.0, across: 0.0, d_along: 0.0, d_across: 0.0, dd_along: 0.0, dd_across: 0.0, turn: [0.0, 1.0] };
 }
 
 /// Below this turn the closed forms lose digits, and the series are exact to rounding and cheaper.
 pub(crate) const SERIES_BELOW: f64 = 0.25;
 
 /// Coefficients of `sin u/u` and `(1 − cos u)/u²` in u², signs alternating.
-const SIN_SERIES: [f64; 6] = [1.0, 1.0 / 6.0, 1.0 / 120.0, 1.0 / 5040.0, 1.0 / 362_880.0, 1.0 / 39_916_800.0];
-const COS_SERIES: [f64; 6] = [0.5, 1.0 / 24.0, 1.0 / 720.0, 1.0 / 40320.0, 1.0 / 3_628_800.0, 1.0 / 479_001_600.0];
+const SIN_SERIES: [f64; 6] = inverse_of([1.0, 6.0, 120.0, 5040.0, 362_880.0, 3.991_68e7]);
+const COS_SERIES: [f64; 6] = inverse_of([2.0, 24.0, 720.0, 40320.0, 3_628_800.0, 4.790_016e8]);
+
+/// Coefficients of a series from their inverses.
+pub(crate) const fn inverse_of<const N: usize>(mut of: [f64; N]) -> [f64; N] {
+    let mut i = 0;
+    while i < N {
+        of[i] = 1.0 / of[i];
+        i += 1;
+    }
+    of
+}
 
 /// `c₀ − z (c₁ − z (c₂ − …))`
 #[inline(always)]
@@ -50,10 +53,10 @@ pub(crate) fn sinc_pair(u: f64) -> [f64; 8] {
     if u.abs() < SERIES_BELOW {
         let z = u * u;
         let (a, b) = (alternating(z, SIN_SERIES), alternating(z, COS_SERIES));
-        let da = alternating(z, [1.0 / 3.0, 1.0 / 30.0, 1.0 / 840.0, 1.0 / 45360.0, 1.0 / 3_991_680.0]);
-        let db = alternating(z, [0.5, 0.125, 1.0 / 144.0, 1.0 / 5760.0, 1.0 / 403_200.0, 1.0 / 43_545_600.0]);
-        let dda = alternating(z, [1.0 / 3.0, 0.1, 1.0 / 168.0, 1.0 / 6480.0]);
-        let ddb = alternating(z, [0.25, 1.0 / 36.0, 1.0 / 960.0, 1.0 / 50400.0]);
+        let da = alternating(z, const { inverse_of([3.0, 30.0, 840.0, 45360.0, 3.991_68e6]) });
+        let db = alternating(z, const { inverse_of([2.0, 8.0, 144.0, 5760.0, 403_200.0, 4.354_56e7]) });
+        let dda = alternating(z, const { inverse_of([3.0, 10.0, 168.0, 6480.0]) });
+        let ddb = alternating(z, const { inverse_of([4.0, 36.0, 960.0, 50400.0]) });
         return [a, u * b, -u * da, db, -dda, -u * ddb, u * a, 1.0 - z * b];
     }
     let (sin, cos) = sin_cos(u);
@@ -103,12 +106,9 @@ pub(crate) fn arc(kappa: f64, h: f64, centre: CentreLine) -> Arc {
     let [shorter, d_shorter, dd_shorter] = centre.shortening(kappa);
     let (line, lost, more) = ((1.0 - shorter) * h, d_shorter * h, dd_shorter * h);
     Arc {
-        along: line * a,
-        across: line * b,
-        d_along: line * h * da - lost * a,
-        d_across: line * h * db - lost * b,
-        dd_along: h * (line * h * dda - 2.0 * lost * da) - more * a,
-        dd_across: h * (line * h * ddb - 2.0 * lost * db) - more * b,
+        chord: [line * a, line * b],
+        slope: [line * h * da - lost * a, line * h * db - lost * b],
+        bend: [(a, da, dda), (b, db, ddb)].map(|(f, d, dd)| h * (line * h * dd - 2.0 * lost * d) - more * f),
         turn: [sin, cos],
     }
 }
@@ -137,21 +137,20 @@ impl Stretch {
     #[inline(always)]
     pub(crate) fn at(&self, offset: f64) -> ([f64; 2], f64) {
         let u = self.kappa * offset;
-        let (along, across) = if u.abs() < SERIES_BELOW {
+        let chord = if u.abs() < SERIES_BELOW {
             let (length, z) = (self.line * offset, u * u);
-            (length * alternating(z, SIN_SERIES), length * u * alternating(z, COS_SERIES))
+            [length * alternating(z, SIN_SERIES), length * u * alternating(z, COS_SERIES)]
         } else {
             let (sin, cos) = sin_cos(u);
-            (self.line_radius * sin, self.line_radius * (1.0 - cos))
+            [self.line_radius * sin, self.line_radius * (1.0 - cos)]
         };
-        (advance(self.from, self.direction, along, across), self.heading + u)
+        (advance(self.from, self.direction, chord), self.heading + u)
     }
 }
 
 /// Direction (cos ψ, sin ψ) after an arc.
 #[inline]
-pub(crate) fn turned(direction: [f64; 2], [sin, cos]: [f64; 2]) -> [f64; 2] {
-    let [c, s] = direction;
+pub(crate) fn turned([c, s]: [f64; 2], [sin, cos]: [f64; 2]) -> [f64; 2] {
     [c * cos - s * sin, s * cos + c * sin]
 }
 
@@ -163,8 +162,7 @@ pub(crate) fn slid(direction: [f64; 2], shear: f64) -> [f64; 2] {
 
 /// End of an arc that starts at `from` with direction (cos ψ, sin ψ).
 #[inline]
-pub(crate) fn advance(from: [f64; 2], direction: [f64; 2], along: f64, across: f64) -> [f64; 2] {
-    let [c, s] = direction;
+pub(crate) fn advance(from: [f64; 2], [c, s]: [f64; 2], [along, across]: [f64; 2]) -> [f64; 2] {
     [from[0] + c * along - s * across, from[1] + s * along + c * across]
 }
 
@@ -190,7 +188,7 @@ mod tests {
             let stretch = Stretch::new(from, direction, heading, kappa, LINE);
             for h in [0.0, 0.03, 0.07, 0.31, 1.5] {
                 let (part, ([x, y], at)) = (arc(kappa, h, LINE), stretch.at(h));
-                let end = advance(from, direction, part.along, part.across);
+                let end = advance(from, direction, part.chord);
                 assert!((x - end[0]).abs() < 1e-15 && (y - end[1]).abs() < 1e-15, "{kappa} {h}");
                 assert_eq!(at, heading + kappa * h);
             }
@@ -202,10 +200,10 @@ mod tests {
         for kappa in [-3.0, -0.02, -1e-3, 0.2, 4.6] {
             let (h, d) = (0.07, 1e-6);
             let (m, p, at) = (arc(kappa - d, h, LINE), arc(kappa + d, h, LINE), arc(kappa, h, LINE));
-            assert!(((p.along - m.along) / (2.0 * d) - at.d_along).abs() < 1e-10);
-            assert!(((p.across - m.across) / (2.0 * d) - at.d_across).abs() < 1e-10);
-            assert!(((p.d_along - m.d_along) / (2.0 * d) - at.dd_along).abs() < 1e-10);
-            assert!(((p.d_across - m.d_across) / (2.0 * d) - at.dd_across).abs() < 1e-10);
+            for i in [0, 1] {
+                assert!(((p.chord[i] - m.chord[i]) / (2.0 * d) - at.slope[i]).abs() < 1e-10);
+                assert!(((p.slope[i] - m.slope[i]) / (2.0 * d) - at.bend[i]).abs() < 1e-10);
+            }
         }
     }
 
@@ -216,10 +214,10 @@ mod tests {
         let (mut xy, mut heading) = ([0.0; 2], 0.0_f64);
         for _ in 0..n {
             let step = arc(kappa, length / f64::from(n), LINE);
-            xy = advance(xy, [heading.cos(), heading.sin()], step.along, step.across);
+            xy = advance(xy, [heading.cos(), heading.sin()], step.chord);
             heading += kappa * length / f64::from(n);
         }
-        assert!((xy[0] - one.along).abs() < 1e-13 && (xy[1] - one.across).abs() < 1e-13);
+        assert!((xy[0] - one.chord[0]).abs() < 1e-13 && (xy[1] - one.chord[1]).abs() < 1e-13);
     }
 
     #[test]

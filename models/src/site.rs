@@ -13,7 +13,6 @@
 //! explicit in it; the balance is one scalar equation per place.
 
 mod energies;
-mod gas;
 mod held;
 mod starts;
 mod tabulated;
@@ -22,13 +21,12 @@ mod wall;
 
 use crate::actuators::{Actuator, ActuatorShape, Demand, Stroke};
 use crate::body::{Bending, BodyLaw, BodyPressure};
-use crate::linkage::line_tension;
+use crate::linkage::{ActuatorPressure, line_tension};
 pub use crate::linkage::{Linkage, SectionLaw};
 use crate::root::{NoRoot, Root, Start, find_root};
 pub use crate::shape::CentreLine;
 use crate::term::{Extreme, Pose, Remembering, Term, actuator_q};
 use crate::weave::Weave;
-use gas::ActuatorPressure;
 use starts::Starts;
 use std::f64::consts::PI;
 
@@ -87,6 +85,12 @@ pub(crate) struct SideEffects {
     pub tabulated_from: f64,
 }
 
+impl SideEffects {
+    /// Of a term that shifts the balance.
+    pub(crate) const SHIFT: SideEffects =
+        SideEffects { closes: 0.0, narrows: 0.0, shifts_balance: true, tabulated_from: 0.0 };
+}
+
 /// Equilibrium of one place, with the loads at which it was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SiteState {
@@ -110,7 +114,7 @@ impl SiteState {
         curvature: 0.0,
         tension: 0.0,
         compliance: 0.0,
-        loads: SiteLoads { p_body_pa: 0.0, p_act_pa: 0.0, moment: 0.0, s_m: 0.0, dt_s: 0.0, stamp: 0 },
+        loads: SiteLoads::new(0.0, 0.0),
         slope: 0.0,
         weight: 0.0,
     };
@@ -131,13 +135,17 @@ pub(crate) struct SiteLoads {
 }
 
 impl SiteLoads {
+    /// Pressures alone.
+    pub(crate) const fn new(p_body_pa: f64, p_act_pa: f64) -> SiteLoads {
+        SiteLoads { p_body_pa, p_act_pa, moment: 0.0, s_m: 0.0, dt_s: 0.0, stamp: 0 }
+    }
+
     fn pose<'a>(&self, q: &'a [f64]) -> Pose<'a> {
         let SiteLoads { p_body_pa, p_act_pa, s_m, dt_s, .. } = *self;
         Pose { q, p_body_pa, p_act_pa, s_m, dt_s, memory: &[] }
     }
 }
 
-/// Everything that follows from a coordinate.
 #[derive(Clone, Copy)]
 struct Balance {
     coordinate: f64,
@@ -167,7 +175,6 @@ impl SiteState {
 }
 
 impl Balance {
-    /// The balance at a state of equilibrium.
     fn at_state(state: &SiteState) -> Balance {
         let SiteState { coordinate, curvature, tension, weight, .. } = *state;
         Balance { coordinate, curvature, tension, imbalance: 0.0, d_curvature: 0.0, weight }
@@ -315,7 +322,7 @@ impl Site {
             growth: link.arm_growth / link.arm_m,
         };
         let (x, slope) = (actuator.guess)(&self.shape, &demand);
-        Start { x, f: None, slope: slope * available }
+        Start::guess(x, slope * available)
     }
 
     /// State at the root: the last balance carried over the remaining step.

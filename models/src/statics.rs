@@ -14,6 +14,7 @@
 //! In the plane, with one pull at D from the far side and F = 0, the bounds are `p_b A (D − ȳ)` against the bend and `π p_b R³` with it:
 //! a load that helps the pull leaves it slack, and a slack strip does not draw the wall in. Valid for membranes. Derived here.
 
+use crate::root::halved;
 use crate::space::direction;
 use std::f64::consts::PI;
 
@@ -28,7 +29,6 @@ pub(crate) struct Pull {
     pub first_m3: f64,
 }
 
-/// A section and the loads on it from outside.
 pub(crate) struct Statics<'a> {
     pub p_body_pa: f64,
     pub radius_m: f64,
@@ -37,7 +37,6 @@ pub(crate) struct Statics<'a> {
     pub pulls: &'a mut dyn Iterator<Item = Pull>,
 }
 
-/// Halvings of a share: to rounding.
 const HALVINGS: usize = 60;
 
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
@@ -66,12 +65,9 @@ impl Statics<'_> {
             return (-self.tension_n / (self.p_body_pa * round_m2)).max(0.0);
         }
         let place = |moment: f64| [0, 1].map(|i| (self.p_body_pa * first_m3[i] + moment * away[i]) / thrust);
-        let (mut low, mut high) = (0.0, self.radius_m.max(ends.iter().fold(0.0, |most, end| most.max(end.1))));
-        high = 2.0 * (high * thrust + self.p_body_pa * first_m3[0].hypot(first_m3[1]));
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            *(if gauge(place(middle), self.radius_m, &ends) < 1.0 { &mut low } else { &mut high }) = middle;
-        }
+        let high = self.radius_m.max(ends.iter().fold(0.0, |most, end| most.max(end.1)));
+        let high = 2.0 * (high * thrust + self.p_body_pa * first_m3[0].hypot(first_m3[1]));
+        let high = halved([0.0, high], HALVINGS, |moment| gauge(place(moment), self.radius_m, &ends) < 1.0)[1];
         size / high
     }
 }

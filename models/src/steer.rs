@@ -7,7 +7,7 @@
 //! A grid over the limits finds the basins, Levenberg and Marquardt's steps in √P the bottom of the best ones; a pressure at
 //! its limit is left there while the sum would fall beyond it. In √P the steep start of a pouch is a slope like others.
 
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::model::{MOST_ACTUATOR_PA, Model, Prediction};
 use crate::reach::MET;
 use crate::term::{CHANNELS, Loads};
@@ -181,7 +181,6 @@ impl Search<'_> {
         }
     }
 
-    /// The best points of the grid, best first.
     fn starts(&mut self) -> [(f64, Roots); STARTS] {
         let mut best = [(f64::INFINITY, [0.0; CHANNELS]); STARTS];
         let count = GRID[self.channels().count()];
@@ -241,7 +240,6 @@ impl Search<'_> {
         }
     }
 
-    /// From a start to the bottom.
     fn descend(&mut self, start: (f64, Roots)) -> (f64, Roots) {
         let (mut cost, mut roots) = start;
         let mut damping = 1e-3;
@@ -326,7 +324,7 @@ impl Model {
     ///
     /// # Errors
     /// [`Unsolved::BadAim`], a limit that is not a pressure, or what [`Model::predict`] returns if nothing balances anywhere.
-    pub fn steer(&self, aim: Aim, body_pa: f64, limits: &Limits, work: &mut Steering) -> Result<Steered, Unsolved> {
+    pub fn steer(&self, aim: Aim, body_pa: f64, limits: &Limits, work: &mut Steering) -> Solved<Steered> {
         self.planar("steering to a place")?;
         self.check_aim(&aim, body_pa, limits)?;
         let mut used = [false; CHANNELS];
@@ -353,7 +351,7 @@ impl Model {
         Ok(Steered { loads: search.loads(&roots), miss_m, held })
     }
 
-    fn check_aim(&self, aim: &Aim, body_pa: f64, limits: &Limits) -> Result<(), Unsolved> {
+    fn check_aim(&self, aim: &Aim, body_pa: f64, limits: &Limits) -> Solved {
         for actuator_pa in [limits.least_pa, limits.most_pa] {
             crate::model::check(&Loads { body_pa, actuator_pa })?;
         }

@@ -202,11 +202,7 @@ pub enum RowKind {
 impl RowKind {
     /// Its word in files and tables.
     pub fn word(self) -> &'static str {
-        match self {
-            RowKind::Stored => "stored",
-            RowKind::Dissipated => "dissipated",
-            RowKind::Supplied => "supplied",
-        }
+        ["stored", "dissipated", "supplied"][self as usize]
     }
 }
 

@@ -16,7 +16,6 @@ pub struct Weave {
 }
 
 impl Weave {
-    /// Whether the cell replaces the tube with stiff yarns.
     pub(crate) fn is_cell(&self) -> bool {
         [self.compliance_m_per_n, self.wall_n_per_m, self.flat_ends] != [0.0; 3]
     }

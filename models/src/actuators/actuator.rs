@@ -55,6 +55,13 @@ pub struct Actuator {
     pub pattern: fn(&ActuatorShape) -> Pattern,
 }
 
+/// A kind is known by its name.
+impl PartialEq for Actuator {
+    fn eq(&self, other: &Actuator) -> bool {
+        self.name == other.name
+    }
+}
+
 impl Actuator {
     /// Whether it is a row of pouches, flat without pressure; a muscle is one tube of yarns, round from the start.
     pub fn has_pouches(&self) -> bool {

@@ -108,7 +108,6 @@ impl Pattern {
     /// A taped pouch as a separate bag that only its seams hold: the tape is a strip across every seam.
     pub fn taped_at_seams(&self) -> Pattern {
         let half_m = 0.5 * self.width_m;
-        let panel = |name, level, from_m, to_m| Panel { name, level, from_m, to_m, warp_rad: 0.0 };
         let panels = vec![panel("bottom", 1, half_m, -half_m), panel("top", 2, -half_m, half_m)];
         Pattern { joint: Joint::Seams, side_welds: false, panels, ..self.clone() }
     }
@@ -152,7 +151,7 @@ impl Pattern {
                 ));
             }
         }
-        self.panels.iter().zip(self.panels.iter().skip(1)).try_for_each(|(a, b)| self.fold(a, b))
+        self.panels.windows(2).try_for_each(|pair| self.fold(&pair[0], &pair[1]))
     }
 
     fn sizes(&self, radius_m: f64, weld_m: f64) -> Result<(), String> {
@@ -255,7 +254,6 @@ impl Pattern {
     }
 }
 
-/// Flat unit: one panel from edge to edge.
 pub(super) fn flat(shape: &ActuatorShape, joint: Joint) -> Pattern {
     let half = 0.5 * shape.width_m;
     Pattern {
@@ -270,7 +268,6 @@ pub(super) fn flat(shape: &ActuatorShape, joint: Joint) -> Pattern {
     }
 }
 
-/// A panel with its warp along the body.
 pub(super) fn panel(name: &'static str, level: usize, from_m: f64, to_m: f64) -> Panel {
     Panel { name, level, from_m, to_m, warp_rad: 0.0 }
 }

@@ -22,6 +22,7 @@
 use super::actuator::{Actuator, Demand, Family, Stroke, converged};
 use super::pattern::{Joint, flat};
 use super::shape::ActuatorShape;
+use crate::root::halved;
 use crate::trig::sin_cos;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -88,12 +89,7 @@ fn stroke_series(shape: &ActuatorShape, theta: f64) -> Stroke {
 
 /// Half angle in \[0, π\] of a lens that has contracted by `contraction`: `sinθ/θ = 1 − ε`, by bisection to the last digit.
 pub fn half_angle(contraction: f64) -> f64 {
-    let (mut flat, mut round) = (0.0, PI);
-    for _ in 0..64 {
-        let middle = 0.5 * (flat + round);
-        *(if middle.sin() / middle > 1.0 - contraction { &mut flat } else { &mut round }) = middle;
-    }
-    round
+    halved([0.0, PI], 64, |theta| theta.sin() / theta > 1.0 - contraction)[1]
 }
 
 /// Root of `cosθ − θ m` by Newton, m the need at θ.

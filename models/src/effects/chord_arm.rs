@@ -1,24 +1,14 @@
 //! Chord arm: a taut weld line is a chord of the wall, not its arc, so the actuator sits nearer to the far side.
 //!
-//! ```text
-//! D = D₀ − 2R + R' (1 + cosα)     hinge p_b A ȳ in place of p_b πR³     α, R', A, ȳ of an arc 2πR − w closed by a chord w
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | w | width of wall that is pulled straight: a share of the pouch's, all of it where the weld line is taut | m |
-//! | D₀, D | arm of a round body, arm of the drawn-in one; 80 and 69.3 mm for R = 40, w = 60 | m |
-//!
-//! The pull of the actuator along the body leaves its line no reason to stay on the arc: the wall's hoop tension at both of its
-//! ends, p_b R', pulls it straight, and the line carries it. **Validity**: actuators whose welds run across the wall and stay
-//! taut; finite elements of the shipped robots have 69 to 70 mm (ePAM) and 68 to 69 mm (cPAM). Derived here, geometry in
-//! `section.rs`.
+//! R', α, A and ȳ are of an arc 2πR − w closed by a chord w (`section.rs`); its hinge p_b A ȳ replaces p_b πR³. D falls from 80 to 69.3 mm
+//! for R = 40, w = 60; finite elements of the shipped robots have 69 to 70 mm (ePAM) and 68 to 69 mm (cPAM). The pull of the actuator along
+//! the body leaves its line no reason to stay on the arc: the wall's hoop tension at both of its ends, p_b R', pulls it straight, and the
+//! line carries it.
 
 use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "chord_arm",
-    group: Group::Actuator,
     formula: "D = D₀ − 2R + R' (1 + cosα), w/(2πR − w) = sinα/(π − α), w = share × width; hinge p_b A ȳ",
     sentence: "The weld lines are pulled straight across the body, so the actuator sits nearer to the far side than a diameter.",
     differs: "More bend per stroke and a weaker pull than a round body gives.",

@@ -1,27 +1,16 @@
 //! Creep: a part of the wall's stiffness relaxes with time (standard linear solid).
 //!
-//! ```text
-//! M = −a B (κ − q)      q' = (κ − q)/τ      stored ½ a B (κ − q)²      lost at the rate a B (κ − q)²/τ
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | a | relaxing stiffness as a share of B: at once the wall has (1 + a) B, in the end B | - |
-//! | τ | time in which a kept bend relaxes to 1/e | s |
-//! | κ, q | curvature; curvature to which the relaxing part has flowed | 1/m |
-//! | B | effective bending stiffness of the place | N·m² |
-//!
-//! Over a step of length Δt the solution is exact for a κ that runs from κ₀ as what relaxes does, κ' ~ e^{−t/τ}. With x = Δt/τ
-//! and e₀ = κ₀ − q₀
+//! q is the curvature to which the relaxing part has flowed: at once the wall has (1 + a) B, in the end B. It stores ½ a B (κ − q)² and
+//! loses a B (κ − q)²/τ per time. Over a step of length Δt the solution is exact for a κ that runs from κ₀ as what relaxes does,
+//! κ' ~ e^{−t/τ}. With x = Δt/τ and e₀ = κ₀ − q₀
 //!
 //! ```text
 //! κ − q = e₀ e^{−x} + (κ − κ₀) φ      φ = x/(e^x − 1)
 //! ```
 //!
 //! so a kept bend relaxes exactly and a moving one is integrated to second order in Δt, with a small error as long as the rest of
-//! the wall is not much softer than the relaxing part. The potential at fixed memory is `aB [½e₀² + e₀ e^{−x}(κ − κ₀) + ½φ(κ − κ₀)²]`. Acts only where B > 0. **Validity**: linear, one relaxation time; real
-//! fabrics creep over several decades of time, of which a test sees the one it lasts. Reference: standard linear solid
-//! (Zener 1948); the form over a step is derived here.
+//! the wall is not much softer than the relaxing part. The potential at fixed memory is `aB [½e₀² + e₀ e^{−x}(κ − κ₀) + ½φ(κ − κ₀)²]`. Real
+//! fabrics creep over several decades of time, of which a test sees the one it lasts. The form over a step is derived here.
 
 use super::entry::*;
 
@@ -36,46 +25,28 @@ pub(super) const ENTRY: Effect = Effect {
     validity: "linear, one relaxation time; needs B > 0",
     reference: "standard linear solid (Zener 1948)",
     parameters: &[
-        Parameter {
-            key: "share",
-            symbol: "a",
-            typical: 0.25,
-            upper: 2.0,
-            meaning: "relaxing stiffness as a share of B",
-            ..PLAIN
-        },
-        Parameter {
-            key: "time_s",
-            symbol: "τ",
-            unit: "s",
-            neutral: 2.0,
-            typical: 2.0,
-            lower: 0.4,
-            upper: 30.0,
-            possible: ABOVE_ZERO,
-            starts: &[0.7, 2.0, 6.0, 18.0],
-            meaning: "relaxation time",
-            ..PLAIN
-        },
+        parameter("share", "a", "-", 1.0).usual(0.25, [0.0, 2.0]).means("relaxing stiffness as a share of B"),
+        parameter("time_s", "τ", "s", 1.0)
+            .around(2.0, [0.4, 30.0])
+            .possible(ABOVE_ZERO)
+            .starts(&[0.7, 2.0, 6.0, 18.0])
+            .means("relaxation time"),
     ],
-    needs: Needs::Body,
-    add,
+    add: |values, assembly| {
+        if values[0] == 0.0 {
+            return;
+        }
+        for site in &mut assembly.sites {
+            let stiffness = values[0] * site.bending.stiffness;
+            site.body_terms.push(Box::new(Creep { stiffness, time_s: values[1] }));
+        }
+    },
     ..BALANCE
 };
 
 struct Creep {
     stiffness: f64,
     time_s: f64,
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    if values[0] == 0.0 {
-        return;
-    }
-    for site in &mut assembly.sites {
-        let stiffness = values[0] * site.bending.stiffness;
-        site.body_terms.push(Box::new(Creep { stiffness, time_s: values[1] }));
-    }
 }
 
 /// What it remembers: κ and κ − q.

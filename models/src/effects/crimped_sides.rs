@@ -10,60 +10,44 @@
 //! F = 2 √(k P̄ D_w b)     E = 2 e F ε per metre     P̄ = P − χ p_b
 //! ```
 //!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | D_w b | bending stiffness of one side weld along the robot: D_w of its bonded plies, ½ E t · t² for two, times its width b | N·m² |
-//! | F | compression that folds a beam on the foundation k P̄, and keeps folding it | N |
-//! | e | edge restraint of the actuator: 1 sealed, 0 freed by gussets | – |
-//! | ε | contraction of the pouch: how much a side must hide of its length | – |
-//!
-//! The foundation does not depend on a. **Validity**: folds that are short compared with the pouch, 2π (D_w b/k P̄)^¼ ≪ L, and not yet
-//! steep, where F falls slowly; sheets at the sides with arcs of radius a. A way round in the plane of the wall, which spares up to a
-//! third of ε, is not subtracted, nor is the bending of the sheets next to the weld added. Beam on a foundation: Hetényi 1946, §7; foundation derived
-//! here.
+//! F is the compression that folds a beam on the foundation k P̄, and keeps folding it; e the edge restraint of the actuator (1 sealed, 0
+//! freed by gussets). D_w of bonded plies is ½ E t · t² for two. The foundation does not depend on a. Folds are short compared with the
+//! pouch, 2π (D_w b/k P̄)^¼ ≪ L, and not yet steep, where F falls slowly. A way round in the plane of the wall, which spares up to a third of
+//! ε, is not subtracted, nor is the bending of the sheets next to the weld added.
 
 use super::entry::*;
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "crimped_sides",
-    group: Group::Actuator,
     formula: "E = 2 F ε per metre, F = 2 √(4/(4 − π) · (P − χ p_b) D_w b)",
     sentence: "The side welds are too long for a pouch that has shortened, so they fold, and bonded plies resist.",
     differs: "The bend comes late and less, most where the pull is weak: at low pressures.",
     remedy: "Look at the sides of a full pouch: one sharp fold each, in its middle. Cut the side welds narrower.",
     validity: "folds short compared with the pouch, two sheets that meet at a weld",
     reference: "Hetényi 1946, §7 (beam on a foundation); foundation derived here",
-    parameters: &[Parameter {
-        key: "bending_nm2",
-        symbol: "D_w b",
-        unit: "N m2",
-        typical: 5e-6,
-        upper: 1e-3,
-        fitted: Fitted::FromDesign,
-        meaning: "bending stiffness of one side weld along the robot",
-        ..PLAIN
-    }],
+    parameters: &[parameter("bending_nm2", "D_w b", "N m2", 1.0)
+        .usual(5e-6, [0.0, 1e-3])
+        .fitted(Fitted::FromDesign)
+        .means("bending stiffness of one side weld along the robot")],
     needs: Needs::Family(Family::Pouch),
-    add,
+    add: |values, assembly| {
+        for site in assembly.active_sites(Family::Pouch) {
+            let restraint = site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape));
+            if values[0] * restraint > 0.0 {
+                // Compression of both sides over √P̄ [m √(N)], and χ.
+                let (sides, inner) = (4.0 * restraint * (FOUNDATION * values[0]).sqrt(), site.inner_share);
+                let law = ENTRY.law(Account::Wall, move |at, force| {
+                    let push = sides * (at.p_act_pa - inner * at.p_body_pa).max(0.0).sqrt();
+                    force[actuator_q::CONTRACTION] -= push;
+                    push * at.q[actuator_q::CONTRACTION]
+                });
+                site.act(*law, SideEffects::SHIFT);
+            }
+        }
+    },
     ..BALANCE
 };
 
 /// Curvature of the lost area over the weld's displacement.
 const FOUNDATION: f64 = 4.0 / (4.0 - PI);
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in assembly.active_sites(Family::Pouch) {
-        let restraint = site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape));
-        if values[0] * restraint > 0.0 {
-            // Compression of both sides over √P̄ [m √(N)], and χ.
-            let (sides, inner) = (4.0 * restraint * (FOUNDATION * values[0]).sqrt(), site.inner_share);
-            let law = ENTRY.law(Account::Wall, move |at, force| {
-                let push = sides * (at.p_act_pa - inner * at.p_body_pa).max(0.0).sqrt();
-                force[actuator_q::CONTRACTION] -= push;
-                push * at.q[actuator_q::CONTRACTION]
-            });
-            site.act(*law, SideEffects { shifts_balance: true, ..SideEffects::default() });
-        }
-    }
-}

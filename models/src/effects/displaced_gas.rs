@@ -1,40 +1,28 @@
 //! Gas of the body that the actuator pushes aside: what bulges into the body fills against its pressure, not against the air.
 //!
 //! ```text
-//! V_b = πR²L − πR³φ − χ V_a      E = χ p_b v per metre of body       v = 0 for P ≤ χ p_b
+//! V_b = πR²L − πR³φ − χ V_a      v: actuator volume per metre of body
 //! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | χ | body volume lost per actuator volume gained, beyond πR³ times the turn φ | – |
-//! | p_b, P | gauge pressures of body and actuator | Pa |
-//! | v | actuator volume per metre of body | m² |
 //!
 //! The actuator works as if its pressure were χ p_b lower, and below χ p_b it stays flat. At one body pressure this is
 //! `pressure_offset` with P₀ = χ p_b. A pouch that bulges inwards as far as outwards has χ = ½; where sealed edges also draw
-//! the wall in, χ is larger (finite elements at 2 kPa: 0.5 cPAM, 0.9 fPAM, 1.1 ePAM, 1.3 sPAM; `docs/robots.md`).
-//! **Validity**: one χ for all pressures; a body that is kept at its pressure. Derived here.
+//! the wall in, χ is larger (finite elements at 2 kPa: 0.5 cPAM, 0.9 fPAM, 1.1 ePAM, 1.3 sPAM; `docs/robots.md`). The body is kept at its
+//! pressure.
 
 use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "displaced_gas",
-    group: Group::Actuator,
     formula: "E = χ p_b v per metre; flat for P ≤ χ p_b",
     sentence: "The actuator bulges into the body and pushes its gas aside, so it works against the body's pressure and not against the air.",
     differs: "The bend comes late by a share of the body's pressure: the curve over pressure shifts with the body's pressure.",
     remedy: "Measure at another body pressure, or the volume of gas that leaves the body while the actuator fills.",
     validity: "one share for all pressures; at one body pressure not separable from pressure_offset",
     reference: "derived here",
-    parameters: &[Parameter {
-        key: "share",
-        symbol: "χ",
-        typical: 1.0,
-        upper: 2.5,
-        fitted: Fitted::WithBodyPressures,
-        meaning: "body volume lost per actuator volume gained",
-        ..PLAIN
-    }],
+    parameters: &[parameter("share", "χ", "-", 1.0)
+        .usual(1.0, [0.0, 2.5])
+        .fitted(Fitted::WithBodyPressures)
+        .means("body volume lost per actuator volume gained")],
     needs: Needs::Actuator,
     add: |values, assembly| {
         let share = values[0];

@@ -1,22 +1,9 @@
 //! Sealed-edge ("pillow") loss: the closed side seams hold the pouch back.
 //!
-//! A sealed bag cannot take the volume of an open-ended one. Its volume is scaled by the active fraction η, its stroke by η_ε,
-//!
-//! ```text
-//! pouch:  η = 1 − β e (L₀/W)(1 − 10^(−W/L₀))      fPAM:  η = 1 − 2β (2r₀)/L      η_ε = 1 − σ (1 − η)
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | β | edge-loss coefficient; Robin's paper-bag volume gives 0.142π = 0.446, Kepert's bounds 0.354–0.394 at W = L₀ | - |
-//! | σ | share of the loss that stroke has too, 1 assumed | - |
-//! | e | edge restraint of the actuator: 1 sealed, 0 freed by gussets | - |
-//! | L₀, W | flat pouch length and width | m |
-//! | L, r₀ | fPAM length and rest radius | m |
-//!
-//! **Validity**: W ≥ L₀ (the bag formula's short side is L₀). Using a *volume* ratio as a *stroke* ratio (σ = 1) is an
-//! assumption of this project. For pouches `sealed_sides` derives both from mechanics; the two together count it twice.
-//! Reference: A. Robin 2004 (paper bag problem), volume formula; the end factor is derived here.
+//! A sealed bag cannot take the volume of an open-ended one: η scales its volume, η_ε = 1 − σ (1 − η) its stroke. e is the edge restraint of
+//! the actuator: 1 sealed, 0 freed by gussets. Robin's paper-bag volume gives β = 0.142π = 0.446, Kepert's bounds 0.354–0.394 at W = L₀; its
+//! short side is L₀. Using a *volume* ratio as a *stroke* ratio (σ = 1) is an assumption of this project. For pouches `sealed_sides` derives
+//! both from mechanics; the two together count it twice.
 
 use super::entry::*;
 use crate::actuators::{Actuator, ActuatorShape, Family};
@@ -24,7 +11,6 @@ use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "end_constraint",
-    group: Group::Actuator,
     formula: "η = 1 − β e (L₀/W)(1 − 10^(−W/L₀)) on volume, 1 − σ (1 − η) on stroke; fPAM: η = 1 − 4β r₀/L",
     sentence: "The sealed side edges (or tube ends) hold the actuator back, so only part of its volume and stroke is usable.",
     differs: "The same share of the bend is missing at every pressure (σ = 1), or most at low ones (σ = 0), at every place.",
@@ -32,27 +18,13 @@ pub(super) const ENTRY: Effect = Effect {
     validity: "W ≥ L₀; η is kept above 0.05",
     reference: "Robin 2004 (paper bag volume); end factor derived here",
     parameters: &[
-        Parameter {
-            key: "beta",
-            symbol: "β",
-            typical: 0.446,
-            upper: 1.0,
-            possible: [0.0, 1.0],
-            meaning: "edge-loss coefficient",
-            ..PLAIN
-        },
-        Parameter {
-            key: "stroke",
-            symbol: "σ",
-            neutral: 1.0,
-            typical: 1.0,
-            upper: 1.0,
-            possible: [0.0, 1.0],
-            starts: &[0.0, 0.3, 0.7],
-            fitted: Fitted::WithKeptBending,
-            meaning: "share of the loss that stroke has too",
-            ..PLAIN
-        },
+        parameter("beta", "β", "-", 1.0).usual(0.446, [0.0, 1.0]).possible([0.0, 1.0]).means("edge-loss coefficient"),
+        parameter("stroke", "σ", "-", 1.0)
+            .around(1.0, [0.0, 1.0])
+            .possible([0.0, 1.0])
+            .starts(&[0.0, 0.3, 0.7])
+            .fitted(Fitted::WithKeptBending)
+            .means("share of the loss that stroke has too"),
     ],
     needs: Needs::Actuator,
     add: |values, assembly| {

@@ -1,32 +1,21 @@
 //! End fittings: a muscle clamped on round plugs cannot widen near its ends, so short ones pull less.
 //!
-//! ```text
-//! η = 1 − σ (1 − φ),  φ = (2/π) arctan(0.1903 (L/2r₀ − 0.75))
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | φ | share of a long muscle's force at 620 kPa: 0.70 at L/2r₀ = 11.2, 0.46 at 5.4 | – |
-//! | σ | share of that loss: 1 for plugs, 0 for ends sealed flat | – |
-//! | L, r₀ | length and radius at rest | m |
-//!
-//! A **prior**: published of another muscle, the 10 mm Festo one. Its author's fit, made without dimension by its diameter;
-//! the single force printed at L/2r₀ = 5.4 (103 N) is half of this fit (220 N), so there it may claim too much. **Validity**: L/2r₀ from 4 to 60.
-//! Reference: Bolen 2026 (Actuators); that it scales with the diameter is assumed.
+//! φ is the share of a long muscle's force at 620 kPa: 0.70 at L/2r₀ = 11.2, 0.46 at 5.4. σ is 1 for plugs, 0 for ends sealed flat. A
+//! **prior**: published of another muscle, the 10 mm Festo one, as its author's fit, made without dimension by its diameter; the single
+//! force printed at L/2r₀ = 5.4 (103 N) is half of this fit (220 N), so there it may claim too much.
 
 use super::entry::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "end_fittings",
-    group: Group::Actuator,
     formula: "η = 1 − σ (1 − φ), φ = (2/π) arctan(0.1903 (L/2r₀ − 0.75))",
     sentence: "A muscle that is clamped on plugs stays narrow near them, so a short one pulls less.",
     differs: "The same share of the force is missing at every pressure, more in short muscles.",
     remedy: "Pull muscles of two lengths at the same pressure.",
     validity: "L/2r₀ from 4 to 60; ends on plugs; a prior from another muscle",
     reference: "Bolen 2026 (Festo muscle of 10 mm); scaling with the diameter assumed",
-    parameters: &[Parameter { meaning: "share of the loss of plugs", ..SHARE }],
+    parameters: &[SHARE.means("share of the loss of plugs")],
     needs: Needs::Family(Family::Mckibben),
     add: |values, assembly| {
         for site in assembly.active_sites(Family::Mckibben) {
@@ -41,7 +30,6 @@ pub(super) const ENTRY: Effect = Effect {
 const FESTO_M: f64 = 0.01;
 const GROWTH_PER_M: f64 = 19.03;
 const LOST_M: f64 = 0.0075;
-/// What a stub is left with.
 const LEAST: f64 = 0.05;
 
 /// Force over a long muscle's, by length over diameter.

@@ -1,5 +1,6 @@
 //! An effect as plain data: its words, its parameters, and the function that adds it. Each effect sees this through `use super::entry::*`.
 
+pub(super) use crate::Text;
 pub(super) use crate::actuators::Family;
 pub(super) use crate::assembly::Assembly;
 pub(super) use crate::section::Section;
@@ -21,11 +22,7 @@ pub enum Stage {
 impl Stage {
     /// Lower-case word for tables and JSON.
     pub fn word(self) -> &'static str {
-        match self {
-            Stage::Supply => "supply",
-            Stage::Balance => "balance",
-            Stage::Camera => "camera",
-        }
+        ["supply", "balance", "camera"][self as usize]
     }
 }
 
@@ -53,13 +50,7 @@ impl Group {
 
     /// Lower-case word for tables and JSON.
     pub fn word(self) -> &'static str {
-        match self {
-            Group::Actuator => "actuator",
-            Group::Body => "body",
-            Group::Load => "load",
-            Group::Supply => "supply",
-            Group::Measurement => "measurement",
-        }
+        ["actuator", "body", "load", "supply", "measurement"][self as usize]
     }
 }
 
@@ -118,6 +109,12 @@ pub(super) const BALANCE: Effect<'static> = Effect {
     add: |_, _| {},
 };
 
+/// The same for the air on its way to the actuator.
+pub(super) const SUPPLY: Effect<'static> = Effect { group: Group::Supply, stage: Stage::Supply, ..BALANCE };
+
+/// The same for camera, markers and mount.
+pub(super) const CAMERA: Effect<'static> = Effect { group: Group::Measurement, stage: Stage::Camera, ..BALANCE };
+
 /// What most parameters are; entries say how they differ.
 pub(crate) const PLAIN: Parameter<'static> = Parameter {
     key: "",
@@ -135,6 +132,56 @@ pub(crate) const PLAIN: Parameter<'static> = Parameter {
     in_room: false,
     meaning: "",
 };
+
+/// A parameter: key, symbol, unit and its factor to SI. Unless stated it is neutral at 0, usually 1 of 0 to 1, and not negative.
+pub(super) const fn parameter(key: Text, symbol: Text, unit: Text, si: f64) -> Parameter<'static> {
+    Parameter { key, symbol, unit, si, ..PLAIN }
+}
+
+/// A number that shapes a law, neutral where the law has its usual form.
+pub(super) const fn shape(key: Text, symbol: Text, unit: Text, si: f64) -> Parameter<'static> {
+    Parameter { typical: 0.0, fitted: Fitted::Shape, ..parameter(key, symbol, unit, si) }
+}
+
+impl Parameter<'static> {
+    pub(super) const fn usual(self, typical: f64, [lower, upper]: [f64; 2]) -> Self {
+        Parameter { typical, lower, upper, ..self }
+    }
+
+    /// The same where the typical size is neutral: another parameter decides whether the effect acts.
+    pub(super) const fn around(self, neutral: f64, bounds: [f64; 2]) -> Self {
+        self.usual(neutral, bounds).neutral(neutral)
+    }
+
+    pub(super) const fn neutral(self, neutral: f64) -> Self {
+        Parameter { neutral, ..self }
+    }
+
+    pub(super) const fn possible(self, possible: [f64; 2]) -> Self {
+        Parameter { possible, ..self }
+    }
+
+    pub(super) const fn starts(self, starts: &'static [f64]) -> Self {
+        Parameter { starts, ..self }
+    }
+
+    pub(super) const fn by_actuator(self, by_actuator: &'static [(&'static str, f64)]) -> Self {
+        Parameter { by_actuator, ..self }
+    }
+
+    pub(super) const fn fitted(self, fitted: Fitted) -> Self {
+        Parameter { fitted, ..self }
+    }
+
+    pub(super) const fn in_room(self) -> Self {
+        Parameter { in_room: true, ..self }
+    }
+
+    pub(super) const fn means(self, meaning: Text) -> Self {
+        Parameter { meaning, ..self }
+    }
+}
+
 /// Whether a mechanism is there, from 0 to 1, by design.
 pub(super) const SHARE: Parameter<'static> =
     Parameter { key: "share", symbol: "σ", possible: [0.0, 1.0], fitted: Fitted::FromDesign, ..PLAIN };
@@ -145,9 +192,6 @@ pub(super) const POSITIVE: [f64; 2] = [0.0, f64::INFINITY];
 pub(super) const ABOVE_ZERO: [f64; 2] = [f64::MIN_POSITIVE, f64::INFINITY];
 /// Possible values of a quantity that has a direction or a sign.
 pub(super) const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-
-/// A number that shapes a law, neutral where the law has its usual form.
-pub(super) const SHAPE: Parameter<'static> = Parameter { typical: 0.0, fitted: Fitted::Shape, ..PLAIN };
 
 /// Which data can determine a parameter, and so whether a diagnosis fits it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -255,7 +299,6 @@ impl Parameter<'_> {
 }
 
 impl Effect<'static> {
-    /// Line of its term in the energy ledger.
     pub(super) const fn line(&self, account: Account) -> LedgerLine {
         LedgerLine::new(self.name, account)
     }

@@ -7,17 +7,10 @@
 //!        ρ = a₀ + ρ₀,  cosψ₀ = ρ₀/ρ,  a₀ = r (1 − cosθ),  ρ₀ = p_b R' cosα/2P̄
 //! ```
 //!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | D | bending stiffness of one sheet | N·m |
-//! | T | tension across the fold | N/m |
-//! | a₀ | half height of the lens in its middle | m |
-//! | ρ, ψ₀ | radius and angle of the arcs at the sides there; where ρ₀ is small, ½π, and the sum over the sides is exact to θ⁶ | m, rad |
-//! | R', α | radius and half chord angle of the wall's section (`section.rs`) | m, rad |
-//!
-//! Includes the work of T on the way that the round of the fold cuts short; the tension follows the pressure. **Validity**: folds
-//! farther apart than √(D/T), a fraction of a millimetre at high pressures; stiff welds; 0 < θ < π. Elastica: Love 1927, §262, in
-//! `verification::exact::fold`; the sum derived here.
+//! T is the tension across the fold, a₀ the half height of the lens in its middle, ρ and ψ₀ are radius and angle of the arcs at the sides
+//! there (where ρ₀ is small, ½π, and the sum over the sides is exact to θ⁶), R' and α radius and half chord angle of the wall's section
+//! (`section.rs`). Includes the work of T on the way that the round of the fold cuts short; the tension follows the pressure. Folds are a
+//! fraction of a millimetre at high pressures; 0 < θ < π. The elastica is in `verification::exact::fold`, the sum derived here.
 
 use super::entry::*;
 use crate::trig::sin_cos;
@@ -25,25 +18,33 @@ use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "fold_energy",
-    group: Group::Actuator,
     formula: "U = 4 √(D T)(1 − cos ½φ) per width of each fold; ends φ = θ, T = P r and (P − p_b) r; sides φ = ψ₀, T = P̄ρ",
     sentence: "The sheets must be folded at the welds, and a fabric that is stiff in bending resists.",
     differs: "The bend comes late and less, more so at low pressures and with stiff fabrics.",
     remedy: "Measure the bending length of the fabric: let a strip droop over an edge.",
     validity: "stiff welds, folds farther apart than √(D/T)",
     reference: "Love 1927, §262 (elastica); derived here",
-    parameters: &[Parameter {
-        key: "bending_nm",
-        symbol: "D",
-        unit: "N m",
-        typical: 1e-4,
-        upper: 1e-2,
-        fitted: Fitted::FromDesign,
-        meaning: "bending stiffness of one sheet",
-        ..PLAIN
-    }],
+    parameters: &[parameter("bending_nm", "D", "N m", 1.0)
+        .usual(1e-4, [0.0, 1e-2])
+        .fitted(Fitted::FromDesign)
+        .means("bending stiffness of one sheet")],
     needs: Needs::Family(Family::Pouch),
-    add,
+    add: |values, assembly| {
+        if values[0] == 0.0 {
+            return;
+        }
+        for site in assembly.active_sites(Family::Pouch) {
+            let term = FoldEnergy {
+                root: values[0].sqrt(),
+                length_m: site.shape.length_m,
+                width_m: site.shape.width_m,
+                sealed: site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape)),
+                inner: site.inner_share,
+                wall_m: site.drawn_in(site.strip_m).map_or(0.0, |flat| 0.5 * flat.radius_m * flat.cos),
+            };
+            site.act(term, SideEffects::SHIFT);
+        }
+    },
     ..BALANCE
 };
 
@@ -57,23 +58,6 @@ struct FoldEnergy {
     inner: f64,
     /// ½ R' cosα of the wall's section \[m\], which gives ρ₀.
     wall_m: f64,
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    if values[0] == 0.0 {
-        return;
-    }
-    for site in assembly.active_sites(Family::Pouch) {
-        let term = FoldEnergy {
-            root: values[0].sqrt(),
-            length_m: site.shape.length_m,
-            width_m: site.shape.width_m,
-            sealed: site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape)),
-            inner: site.inner_share,
-            wall_m: site.drawn_in(site.strip_m).map_or(0.0, |flat| 0.5 * flat.radius_m * flat.cos),
-        };
-        site.act(term, SideEffects { shifts_balance: true, ..SideEffects::default() });
-    }
 }
 
 impl FoldEnergy {

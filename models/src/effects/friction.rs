@@ -6,17 +6,9 @@
 //! E = ½ M_f u²/κ_s (u ≤ κ_s, sticks),  E = ½ M_f κ_s + M_f (u − κ_s) (slides): stored + lost
 //! ```
 //!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | M_f | moment at which it slides | N·m |
-//! | κ | curvature per length of the taut generator | 1/m |
-//! | q | curvature at which the friction is free: what it remembers | 1/m |
-//! | κ_s | elastic slide before it gives way (numerical; 0.02 1/m is below 1 % of a bent robot) | 1/m |
-//!
-//! Independent of rate. The same bend needs more pressure going up than coming down; after unloading the robot stays bent
-//! if M_f exceeds the wall's restoring moment there. **Validity**: M_f independent of pressure; one sliding moment, no
-//! gradual onset. Reference: Coulomb's law with elastic slide (Prandtl); friction of the braid of McKibben muscles: Tondu
-//! & Lopez 2000.
+//! q is the curvature at which the friction is free, which it remembers; κ_s the elastic slide before it gives way. The same bend needs more
+//! pressure going up than coming down; after unloading the robot stays bent if M_f exceeds the wall's restoring moment there. Nothing gives way
+//! gradually.
 
 use super::entry::*;
 
@@ -30,19 +22,19 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Repeat the test with pressures going up and down, and tap the robot in each hold: friction lets go.",
     validity: "independent of rate and of pressure; one sliding moment",
     reference: "Coulomb friction with elastic slide; Tondu & Lopez 2000 for braided muscles",
-    parameters: &[Parameter {
-        key: "moment_nm",
-        symbol: "M_f",
-        unit: "N m",
-        typical: 0.5,
-        upper: 5.0,
-        starts: &[0.05, 0.2, 0.6, 1.5],
-        by_actuator: &[("spam", 1.15), ("epam", 0.58), ("cpam", 0.52), ("fpam", 0.07)],
-        meaning: "moment at which it slides",
-        ..PLAIN
-    }],
-    needs: Needs::Body,
-    add,
+    parameters: &[parameter("moment_nm", "M_f", "N m", 1.0)
+        .usual(0.5, [0.0, 5.0])
+        .starts(&[0.05, 0.2, 0.6, 1.5])
+        .by_actuator(&[("spam", 1.15), ("epam", 0.58), ("cpam", 0.52), ("fpam", 0.07)])
+        .means("moment at which it slides")],
+    add: |values, assembly| {
+        if values[0] == 0.0 {
+            return;
+        }
+        for site in &mut assembly.sites {
+            site.body_terms.push(Box::new(Friction { moment: values[0] }));
+        }
+    },
     ..BALANCE
 };
 
@@ -51,15 +43,6 @@ const SLIDE: f64 = 0.02;
 
 struct Friction {
     moment: f64,
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    if values[0] == 0.0 {
-        return;
-    }
-    for site in &mut assembly.sites {
-        site.body_terms.push(Box::new(Friction { moment: values[0] }));
-    }
 }
 
 impl Friction {

@@ -1,14 +1,6 @@
 //! The pressure sensor is not linear: right at zero and at 20 kPa, and off between and beyond.
 //!
-//! ```text
-//! P = P_set (1 + c (P_set/P_r − 1))      P_r = 20 kPa
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | c | error of the slope: −c of the reading near zero | - |
-//!
-//! **Validity**: the first term beyond a straight line; an error in proportion to the pressure is `pressure_loss`. Definition.
+//! −c is the error of the slope near zero. An error in proportion to the pressure is `pressure_loss`.
 
 use super::entry::*;
 
@@ -17,30 +9,20 @@ const REFERENCE_PA: f64 = 20e3;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "gauge_curve",
-    group: Group::Supply,
-    stage: Stage::Supply,
     formula: "P = P_set (1 + c (P_set/P_r − 1)), P_r = 20 kPa",
     sentence: "The pressure sensor is not linear.",
     differs: "The curve over pressure is bowed: off one way in its middle and the other way at its end.",
     remedy: "Compare the sensor with a second gauge at five pressures.",
     validity: "the first term beyond a straight line",
     reference: "definition",
-    parameters: &[Parameter {
-        key: "curve",
-        symbol: "c",
-        typical: 0.02,
-        lower: -0.15,
-        upper: 0.15,
-        possible: [-1.0, 1.0],
-        meaning: "share by which the pressure is off at twice the reference",
-        ..PLAIN
-    }],
+    parameters: &[parameter("curve", "c", "-", 1.0)
+        .usual(0.02, [-0.15, 0.15])
+        .possible([-1.0, 1.0])
+        .means("share by which the pressure is off at twice the reference")],
     needs: Needs::Actuator,
-    add,
-    ..BALANCE
+    add: |values, assembly| {
+        let curve = values[0];
+        assembly.supply.push(Box::new(move |p, _| (p * (1.0 + curve * (p / REFERENCE_PA - 1.0))).max(0.0)));
+    },
+    ..SUPPLY
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let curve = values[0];
-    assembly.supply.push(Box::new(move |p, _| (p * (1.0 + curve * (p / REFERENCE_PA - 1.0))).max(0.0)));
-}

@@ -1,17 +1,8 @@
 //! Weight of the robot.
 //!
-//! ```text
-//! E = −Σ w hᵢ ĝ·xᵢ      w [N/m] per length, ĝ unit vector of gravity
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | w | weight per length of body | N/m |
-//! | ĝ | direction: −y unless scenario or data set state another; z acts with strips round the body | - |
-//! | xᵢ, hᵢ | node position and its share of the length | m |
-//!
-//! Validity: needs a fine enough division (12 segments give 0.1 % of the droop of a 360 mm robot). Vanishes when the
-//! robot bends in a horizontal plane. Derived here; kept as dead load on the deformed shape.
+//! xᵢ and hᵢ are the place of a node and its share of the length, ĝ the direction of gravity: −y unless scenario or data set state another;
+//! z acts with strips round the body. Needs a fine enough division (12 segments give 0.1 % of the droop of a 360 mm robot); kept as dead load
+//! on the deformed shape.
 
 use super::entry::*;
 
@@ -24,34 +15,23 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Weigh the robot; repeat the test with the robot rolled by 180°.",
     validity: "bending plane vertical, or strips round the body; dead load",
     reference: "statics",
-    parameters: &[Parameter {
-        key: "weight_n_per_m",
-        symbol: "w",
-        unit: "N/m",
-        typical: 1.5,
-        upper: 8.0,
-        meaning: "weight per length",
-        ..PLAIN
-    }],
-    needs: Needs::Body,
-    add,
+    parameters: &[parameter("weight_n_per_m", "w", "N/m", 1.0).usual(1.5, [0.0, 8.0]).means("weight per length")],
+    add: |values, assembly| {
+        if values[0] == 0.0 {
+            return;
+        }
+        let direction = &assembly.gravity_direction[..assembly.axes];
+        // Of each node, x, y and in space z [N].
+        let weights: Vec<f64> =
+            assembly.node_lengths().iter().flat_map(|h| direction.iter().map(move |g| values[0] * h * g)).collect();
+        assembly.node_terms.push(ENTRY.law(Account::Load, move |at, force| {
+            let mut energy = 0.0;
+            for ((f, q), w) in force.iter_mut().zip(at.q).zip(&weights) {
+                *f += w;
+                energy -= w * q;
+            }
+            energy
+        }));
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    if values[0] == 0.0 {
-        return;
-    }
-    let direction = &assembly.gravity_direction[..assembly.axes];
-    // Of each node, x, y and in space z [N].
-    let weights: Vec<f64> =
-        assembly.node_lengths().iter().flat_map(|h| direction.iter().map(move |g| values[0] * h * g)).collect();
-    assembly.node_terms.push(ENTRY.law(Account::Load, move |at, force| {
-        let mut energy = 0.0;
-        for ((f, q), w) in force.iter_mut().zip(at.q).zip(&weights) {
-            *f += w;
-            energy -= w * q;
-        }
-        energy
-    }));
-}

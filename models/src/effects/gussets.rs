@@ -11,17 +11,11 @@
 //! section  sealed + 4 a u     chord  W − (π − 2) a + 2a (u/a − 1 + cos(u/a))
 //! ```
 //!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | σ | 1: folds with these diagonals, 0: sides that open freely | – |
-//! | f, u | depth of a fold, how much of it has opened | m |
-//! | a, r, θ, φ | half height, radius, half angle, place of the lens (`sealed_sides`) | m, m, –, – |
-//!
-//! Without a fold it is the sealed pouch. A flat pouch opens a seventh of its half height, u = (π − 2) a/4, and a deep fold opens
-//! late: a shallow one can hold more. The wall's sheet reaches up the side by W/2, so its weld is the end of the chord.
-//! **Validity**: inextensible fabric; half circles are taken from sections of finite elements, where a free membrane would dent at the
-//! flap. The welds sit below the middle of the pouch, which displaces less of the body's gas than `displaced_gas` assumes; this is left
-//! out. Derived here.
+//! a, r, θ and φ are half height, radius, half angle and place of the lens. Without a fold it is the sealed pouch. A flat pouch opens a
+//! seventh of its half height, u = (π − 2) a/4, and a deep fold opens late: a shallow one can hold more. The wall's sheet reaches up the side
+//! by W/2, so its weld is the end of the chord. Half circles are taken from sections of finite elements, where a free membrane would dent at
+//! the flap. The welds sit below the middle of the pouch, which displaces less of the body's gas than `displaced_gas` assumes; this is left
+//! out.
 
 use super::entry::*;
 use super::sealed_sides::SealedSides;
@@ -30,35 +24,32 @@ use crate::gusset_table::GussetTable;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "gussets",
-    group: Group::Actuator,
     formula: "sealed_sides with 4 a u more of section, u = min(f, f − (B² − M²)/(2B)), B = 2f − (½π − 1) a, M² = r²[(θ − φ)² − (sinθ − sinφ)²]",
     sentence: "Side gussets are welded shut at both ends of a pouch, so they open only as far as their diagonals allow.",
     differs: "Folded pouches hold less than free ones and bend less, most at low pressures and where they are short.",
     remedy: "Try another depth of the folds: a shallower one opens earlier.",
     validity: "inextensible fabric, round sides; pouches with side folds",
     reference: "derived here",
-    parameters: &[Parameter { meaning: "1: folds that their ends hold, 0: sides that open freely", ..SHARE }],
+    parameters: &[SHARE.means("1: folds that their ends hold, 0: sides that open freely")],
     needs: Needs::Family(Family::Pouch),
-    add,
+    add: |values, assembly| {
+        for site in assembly.active_sites(Family::Pouch) {
+            if values[0] * site.shape.fold_m > 0.0 {
+                site.gusset_share = values[0];
+                let sealed = SealedSides::new(values[0], site);
+                // As with sealed sides; a flat pouch narrows by less.
+                let closes = sealed.closes(values[0], site.shape.width_m) * narrowed(1.0, 0.5 * GATHERED);
+                let table = GussetTable::new(sealed.length_m, site.shape.fold_m);
+                site.act(Gussets { sealed, table }, SideEffects { closes, ..SideEffects::SHIFT });
+            }
+        }
+    },
     ..BALANCE
 };
 
 struct Gussets {
     sealed: SealedSides,
     table: GussetTable,
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in assembly.active_sites(Family::Pouch) {
-        if values[0] * site.shape.fold_m > 0.0 {
-            site.gusset_share = values[0];
-            let sealed = SealedSides::new(values[0], site);
-            // As with sealed sides; a flat pouch narrows by less.
-            let closes = sealed.closes(values[0], site.shape.width_m) * narrowed(1.0, 0.5 * GATHERED);
-            let table = GussetTable::new(sealed.length_m, site.shape.fold_m);
-            site.act(Gussets { sealed, table }, SideEffects { closes, shifts_balance: true, ..SideEffects::default() });
-        }
-    }
 }
 
 impl Term for Gussets {

@@ -1,15 +1,4 @@
 //! The unpressurised robot is not straight: the wall springs back to a curvature κ₀, not to zero.
-//!
-//! ```text
-//! ½B(κ − κ₀)² = ½Bκ² − Bκ₀κ + const      E = −B κ₀ κ per metre
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | κ₀ | curvature at rest | 1/m |
-//! | B | effective bending stiffness of the place | N·m² |
-//!
-//! Acts only where B > 0. Validity: small κ₀. Derived here.
 
 use super::entry::*;
 
@@ -22,19 +11,11 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Measure the markers at zero actuator pressure.",
     validity: "small κ₀; needs B > 0",
     reference: "derived here",
-    parameters: &[Parameter {
-        key: "curvature_per_m",
-        symbol: "κ₀",
-        unit: "1/m",
-        typical: 0.3,
-        lower: -2.0,
-        upper: 2.0,
-        possible: ANY,
-        by_actuator: &[("spam", 0.16), ("epam", 0.36), ("cpam", 0.48), ("fpam", 0.19)],
-        meaning: "curvature at rest",
-        ..PLAIN
-    }],
-    needs: Needs::Body,
+    parameters: &[parameter("curvature_per_m", "κ₀", "1/m", 1.0)
+        .usual(0.3, [-2.0, 2.0])
+        .possible(ANY)
+        .by_actuator(&[("spam", 0.16), ("epam", 0.36), ("cpam", 0.48), ("fpam", 0.19)])
+        .means("curvature at rest")],
     add: |values, assembly| {
         for site in &mut assembly.sites {
             let moment = site.bending.stiffness * values[0];

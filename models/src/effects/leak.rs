@@ -1,17 +1,7 @@
 //! Leak: the actuator loses air while its pressure is held with the valve shut.
 //!
-//! ```text
-//! dP/dt = −r P (P/P_r)^{k−1}      P_r = 20 kPa;  k = 1: P(t) = P_set e^{−r t}      t: time since the pressure was set
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | r | leak rate: share of the pressure lost per second | 1/s |
-//! | k | exponent of the flow: 1 through pores, ½ through a hole | - |
-//!
-//! **Validity**: valve shut after filling, small gauge pressure. With a regulator that goes on feeding the
-//! loss is steady: use `pressure_loss`. Supply stage. Reference: discharge of a volume through a leak (k = 1: Poiseuille,
-//! k = ½: Torricelli); for small r t it is 1 − r t.
+//! t is the time since the pressure was set. k is 1 through pores (Poiseuille), ½ through a hole (Torricelli), at small gauge pressures. With
+//! a regulator that goes on feeding the loss is steady: use `pressure_loss`.
 
 use super::entry::*;
 
@@ -20,8 +10,6 @@ const REFERENCE_PA: f64 = 20e3;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "leak",
-    group: Group::Supply,
-    stage: Stage::Supply,
     history: true,
     formula: "dP/dt = −r P (P/P_r)^{k−1}, P_r = 20 kPa;  k = 1: P = P_set e^{−r t}",
     sentence: "The actuator leaks, so its pressure sinks in a hold and the robot slowly straightens.",
@@ -30,26 +18,13 @@ pub(super) const ENTRY: Effect = Effect {
     validity: "valve shut in a hold",
     reference: "discharge of a volume through pores or a hole (k = 1, ½)",
     parameters: &[
-        Parameter {
-            key: "rate_per_s",
-            symbol: "r",
-            unit: "1/s",
-            typical: 0.02,
-            upper: 0.5,
-            meaning: "share of the pressure lost per second, at 20 kPa",
-            ..PLAIN
-        },
-        Parameter {
-            key: "exponent",
-            symbol: "k",
-            neutral: 1.0,
-            typical: 1.0,
-            lower: 0.3,
-            upper: 3.0,
-            possible: ABOVE_ZERO,
-            meaning: "exponent of the flow through the leak",
-            ..SHAPE
-        },
+        parameter("rate_per_s", "r", "1/s", 1.0)
+            .usual(0.02, [0.0, 0.5])
+            .means("share of the pressure lost per second, at 20 kPa"),
+        shape("exponent", "k", "-", 1.0)
+            .around(1.0, [0.3, 3.0])
+            .possible(ABOVE_ZERO)
+            .means("exponent of the flow through the leak"),
     ],
     needs: Needs::Actuator,
     add: |values, assembly| {
@@ -60,6 +35,7 @@ pub(super) const ENTRY: Effect = Effect {
         assembly.timed = true;
         assembly.supply.push(Box::new(move |p, at| p * left(p / REFERENCE_PA, rate * at.held_s, exponent)));
     },
+    ..SUPPLY
 };
 
 /// Share of a pressure (over P_r) that is left after r t: 1 − (1 − k) r t u^{k−1} to the power of 1/(1 − k), or e^{−r t}.

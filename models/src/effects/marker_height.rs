@@ -1,23 +1,11 @@
 //! Markers sit off the centre line, so they move when the body rotates.
 //!
-//! ```text
-//! x = x_c − e sinψ + a (cosψ − 1)      y = y_c + e (cosψ − 1) + a sinψ      a = e tanβ
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | e | height of the markers above the axis, towards the actuator | m |
-//! | β | lean of the markers towards the tip: they are off by a along the body too | rad |
-//! | ψ | heading of the body at the marker | rad |
-//!
-//! Both are taken relative to the straight robot, whose markers are where they were said to be. Validity: same e for all markers. Geometry.
+//! ψ is the heading of the body at the marker. Both are taken relative to the straight robot, whose markers are where they were said to be.
 
 use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "marker_height",
-    group: Group::Measurement,
-    stage: Stage::Camera,
     formula: "x = x_c − e sinψ + a (cosψ − 1);  y = y_c + e (cosψ − 1) + a sinψ;  a = e tanβ",
     sentence: "The markers sit above or below the robot's axis, so rotation moves them along the robot.",
     differs: "Markers move along the robot as it turns: x is off by the sine of the local angle.",
@@ -25,31 +13,15 @@ pub(super) const ENTRY: Effect = Effect {
     validity: "the same height for all markers",
     reference: "geometry",
     parameters: &[
-        Parameter {
-            key: "height_mm",
-            symbol: "e",
-            unit: "mm",
-            si: 1e-3,
-            typical: 10.0,
-            lower: -60.0,
-            upper: 60.0,
-            possible: ANY,
-            meaning: "marker height above the axis",
-            ..PLAIN
-        },
-        Parameter {
-            key: "lean_deg",
-            symbol: "β",
-            unit: "deg",
-            si: std::f64::consts::PI / 180.0,
-            lower: -45.0,
-            upper: 45.0,
-            possible: [-89.0, 89.0],
-            meaning: "lean of the markers towards the tip",
-            ..SHAPE
-        },
+        parameter("height_mm", "e", "mm", 1e-3)
+            .usual(10.0, [-60.0, 60.0])
+            .possible(ANY)
+            .means("marker height above the axis"),
+        shape("lean_deg", "β", "deg", std::f64::consts::PI / 180.0)
+            .usual(0.0, [-45.0, 45.0])
+            .possible([-89.0, 89.0])
+            .means("lean of the markers towards the tip"),
     ],
-    needs: Needs::Body,
     add: |values, assembly| {
         let height = values[0];
         let along = height * values[1].tan();
@@ -59,5 +31,5 @@ pub(super) const ENTRY: Effect = Effect {
             seen.xy[1] += height * (cos - 1.0) + along * sin;
         }));
     },
-    ..BALANCE
+    ..CAMERA
 };

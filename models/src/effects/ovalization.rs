@@ -2,21 +2,13 @@
 //!
 //! ```text
 //! D = (D₀ + β·lift)/(1 + o g_r² (g/g_r)ⁿ)      g = ηε/(D₀ + β·lift): curvature of the round body at the same stroke
-//! n = 2: κ = g (1 + o g²), and the moment of the line on κ is N (D₀ + β·lift)/(1 + 3 o g²)      g_r = 2 /m
+//! n = 2: the moment of the line on κ is N (D₀ + β·lift)/(1 + 3 o g²)
 //! ```
 //!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | o | flattening per squared curvature | m² |
-//! | n | exponent of the curvature: 2 for an elastic tube, 1 for an inflated one that dents under a line load | - |
-//! | D₀ | arm of the round body | m |
-//! | g, κ | curvature without and with flattening | 1/m |
-//!
-//! Written over g, κ is an explicit, rising function of the stroke: an arm that shrinks as `D₀(1 − oκ²)`, the first order of the
-//! same law, lets κD fall again beyond `κ = 1/√(3o)` and has two equilibria there. Brazier's elastic tube under pressure has
-//! `o = E t R³/(4 p R²)` before it wrinkles, and next to none after: a fitted o is a number for a section that collapses between
-//! the pouches. **Validity**: o g² below about 1; the body's own pressure moment stays the round section's. Reference:
-//! Brazier 1927 for the squared curvature; this form is derived here.
+//! n is 2 for an elastic tube, 1 for an inflated one that dents under a line load. Written over g, κ is an explicit, rising function of the
+//! stroke: an arm that shrinks as `D₀(1 − oκ²)`, the first order of the same law, lets κD fall again beyond `κ = 1/√(3o)` and has two
+//! equilibria there. Brazier's elastic tube under pressure has `o = E t R³/(4 p R²)` before it wrinkles, and next to none after: a fitted o
+//! is a number for a section that collapses between the pouches.
 
 use super::entry::*;
 use crate::site::SectionLaw;
@@ -34,29 +26,12 @@ pub(super) const ENTRY: Effect = Effect {
     validity: "o g² below about 1; body pressure moment of the round section",
     reference: "Brazier 1927 for the squared curvature; derived here",
     parameters: &[
-        Parameter {
-            key: "flattening_m2",
-            symbol: "o",
-            unit: "m²",
-            typical: 0.02,
-            upper: 0.5,
-            by_actuator: &[("spam", 0.07), ("epam", 0.014), ("cpam", 0.0078), ("fpam", 0.05)],
-            meaning: "flattening per squared curvature, at 2 /m",
-            ..PLAIN
-        },
-        Parameter {
-            key: "exponent",
-            symbol: "n",
-            neutral: 2.0,
-            typical: 2.0,
-            lower: 0.5,
-            upper: 3.0,
-            possible: POSITIVE,
-            meaning: "exponent of the curvature",
-            ..SHAPE
-        },
+        parameter("flattening_m2", "o", "m²", 1.0)
+            .usual(0.02, [0.0, 0.5])
+            .by_actuator(&[("spam", 0.07), ("epam", 0.014), ("cpam", 0.0078), ("fpam", 0.05)])
+            .means("flattening per squared curvature, at 2 /m"),
+        shape("exponent", "n", "-", 1.0).around(2.0, [0.5, 3.0]).means("exponent of the curvature"),
     ],
-    needs: Needs::Body,
     add: |values, assembly| {
         for site in &mut assembly.sites {
             site.linkage.section = Some(SectionLaw { law: flattened, parameters: [values[0], values[1]] });

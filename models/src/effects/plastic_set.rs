@@ -1,19 +1,8 @@
 //! Plastic set: the wall keeps a share of the largest bend it has seen.
 //!
-//! ```text
-//! M = −B (κ − s κ_max)      κ_max = largest κ so far
-//! stored ½B(κ − sκ_max)²      lost at the rate B s (1 − s) κ_max κ_max'
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | s | share of the largest bend that stays without load | - |
-//! | κ, κ_max | curvature and its largest value so far, towards the actuator | 1/m |
-//! | B | effective bending stiffness of the place | N·m² |
-//!
-//! The incremental potential from the remembered κ_max = m, less the ½Bκ² of the base, is `−Bsmκ + ½Bs²m²` below m and
-//! `−½Bsκ² − ½Bs(1 − s)m²` beyond, where the largest bend goes along. Acts only where B > 0. **Validity**: creases and
-//! yarns that stay bent; no recovery with time. Reference: linear plastic hardening without threshold; derived here.
+//! κ_max is the largest κ so far, towards the actuator. Stored is ½B(κ − sκ_max)², lost B s (1 − s) κ_max κ_max' per time. The incremental
+//! potential from the remembered κ_max = m, less the ½Bκ² of the base, is `−Bsmκ + ½Bs²m²` below m and `−½Bsκ² − ½Bs(1 − s)m²` beyond, where
+//! the largest bend goes along, without a threshold.
 
 use super::entry::*;
 
@@ -27,33 +16,25 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Compare the straight robot before and after the first full pressure, after a rest of some minutes.",
     validity: "no recovery with time; bends towards the actuator; needs B > 0",
     reference: "linear plastic hardening; derived here",
-    parameters: &[Parameter {
-        key: "share",
-        symbol: "s",
-        typical: 0.12,
-        upper: 0.5,
-        possible: [0.0, 1.0],
-        meaning: "share of the largest bend that stays",
-        ..PLAIN
-    }],
-    needs: Needs::Body,
-    add,
+    parameters: &[parameter("share", "s", "-", 1.0)
+        .usual(0.12, [0.0, 0.5])
+        .possible([0.0, 1.0])
+        .means("share of the largest bend that stays")],
+    add: |values, assembly| {
+        if values[0] == 0.0 {
+            return;
+        }
+        for site in &mut assembly.sites {
+            let stiffness = site.bending.stiffness;
+            site.body_terms.push(Box::new(PlasticSet { stiffness, share: values[0] }));
+        }
+    },
     ..BALANCE
 };
 
 struct PlasticSet {
     stiffness: f64,
     share: f64,
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    if values[0] == 0.0 {
-        return;
-    }
-    for site in &mut assembly.sites {
-        let stiffness = site.bending.stiffness;
-        site.body_terms.push(Box::new(PlasticSet { stiffness, share: values[0] }));
-    }
 }
 
 impl Term for PlasticSet {

@@ -1,16 +1,6 @@
 //! Steady pressure drop between regulator and actuator: air leaves through a leak and loses pressure in the hose.
 //!
-//! ```text
-//! P = P_set − f P_r (P_set/P_r)ⁿ      P_r = 20 kPa;  n = 1: P_set (1 − f)
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | f | share of the set pressure that is lost at P_r | - |
-//! | n | exponent of the loss: hose ΔP ~ qᵃ (a = 1 laminar, 2 turbulent), leak q ~ Pᵇ (b = 1 pores, ½ a hole), n = a b | - |
-//!
-//! **Validity**: steady flow, small gauge pressures. With n = 1 it looks like a stiffer body. Supply stage: acts before the balance.
-//! Reference: Hagen–Poiseuille and orifice flow in series, incompressible.
+//! n = a b of a hose ΔP ~ qᵃ and a leak q ~ Pᵇ in series, incompressible and at small gauge pressures (Hagen–Poiseuille, orifice flow).
 
 use super::entry::*;
 
@@ -19,8 +9,6 @@ const REFERENCE_PA: f64 = 20e3;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "pressure_loss",
-    group: Group::Supply,
-    stage: Stage::Supply,
     formula: "P = P_set − f P_r (P_set/P_r)ⁿ, P_r = 20 kPa",
     sentence: "A leak takes part of the set pressure.",
     differs: "The curve over pressure is stretched sideways, by the same factor everywhere if n = 1.",
@@ -28,27 +16,15 @@ pub(super) const ENTRY: Effect = Effect {
     validity: "steady flow; looks like a stiffer body if n = 1",
     reference: "laminar or turbulent hose (n = 1, 2 times) and a leak through pores or a hole (1, ½), in series",
     parameters: &[
-        Parameter {
-            key: "fraction",
-            symbol: "f",
-            typical: 0.15,
-            upper: 0.8,
-            possible: [0.0, 1.0],
-            meaning: "share of the set pressure that is lost at 20 kPa",
-            ..PLAIN
-        },
-        Parameter {
-            key: "exponent",
-            symbol: "n",
-            neutral: 1.0,
-            typical: 1.0,
-            lower: 0.5,
-            upper: 2.0,
-            possible: [0.5, 2.0],
-            starts: &[0.5, 1.5],
-            meaning: "exponent of the loss",
-            ..SHAPE
-        },
+        parameter("fraction", "f", "-", 1.0)
+            .usual(0.15, [0.0, 0.8])
+            .possible([0.0, 1.0])
+            .means("share of the set pressure that is lost at 20 kPa"),
+        shape("exponent", "n", "-", 1.0)
+            .around(1.0, [0.5, 2.0])
+            .possible([0.5, 2.0])
+            .starts(&[0.5, 1.5])
+            .means("exponent of the loss"),
     ],
     needs: Needs::Actuator,
     add: |values, assembly| {
@@ -60,5 +36,5 @@ pub(super) const ENTRY: Effect = Effect {
             assembly.supply.push(Box::new(move |p, _| law(p.max(0.0)).max(0.0)));
         }
     },
-    ..BALANCE
+    ..SUPPLY
 };

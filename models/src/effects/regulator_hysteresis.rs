@@ -1,21 +1,9 @@
-//! The regulator holds another pressure on the way down than on the way up.
-//!
-//! ```text
-//! falling:  P = P_set + h      rising: P = P_set
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | h | pressure that stays when the set point is lowered | Pa |
-//!
-//! **Validity**: one value at all pressures above zero; the supply is open at zero. Definition.
+//! The regulator holds another pressure on the way down than on the way up; the supply is open at zero.
 
 use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "regulator_hysteresis",
-    group: Group::Supply,
-    stage: Stage::Supply,
     history: true,
     formula: "P = P_set + h where the pressure was lowered",
     sentence: "The regulator lets more pressure stand when its set point is lowered than when it is raised.",
@@ -23,27 +11,18 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Put a gauge on the actuator and read it at the same set point on both ways.",
     validity: "one value at all pressures above zero",
     reference: "definition",
-    parameters: &[Parameter {
-        key: "offset_kpa",
-        symbol: "h",
-        unit: "kPa",
-        si: 1e3,
-        typical: 0.5,
-        lower: -5.0,
-        upper: 5.0,
-        possible: ANY,
-        meaning: "pressure that stays when the set point is lowered",
-        ..PLAIN
-    }],
+    parameters: &[parameter("offset_kpa", "h", "kPa", 1e3)
+        .usual(0.5, [-5.0, 5.0])
+        .possible(ANY)
+        .means("pressure that stays when the set point is lowered")],
     needs: Needs::Actuator,
-    add,
+    add: |values, assembly| {
+        let stays_pa = values[0];
+        if stays_pa != 0.0 {
+            assembly.timed = true;
+            let law = move |p: f64, falling: bool| if p > 0.0 && falling { (p + stays_pa).max(0.0) } else { p };
+            assembly.supply.push(Box::new(move |p, at| law(p, at.falling)));
+        }
+    },
+    ..SUPPLY
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let stays_pa = values[0];
-    if stays_pa != 0.0 {
-        assembly.timed = true;
-        let law = move |p: f64, falling: bool| if p > 0.0 && falling { (p + stays_pa).max(0.0) } else { p };
-        assembly.supply.push(Box::new(move |p, at| law(p, at.falling)));
-    }
-}

@@ -1,46 +1,28 @@
 //! The body is sealed, or its regulator is slow: its pressure rises as the actuator bends the robot and takes its room.
 //!
-//! ```text
-//! p_b = p_set + c P
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | c | rise of the body's pressure per set actuator pressure | - |
-//! | P | largest set pressure of any actuator | Pa |
-//!
-//! A gas of volume V that loses ΔV rises by (p_atm + p_b) ΔV/V; over the pressures of a test the bend, and with it ΔV, grows nearly
-//! in proportion to P. **Validity**: first order in P. Derived here.
+//! P is the largest set pressure of any actuator. A gas of volume V that loses ΔV rises by (p_atm + p_b) ΔV/V; over the pressures of a test
+//! the bend, and with it ΔV, grows nearly in proportion to P.
 
 use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "sealed_body",
-    group: Group::Supply,
-    stage: Stage::Supply,
     formula: "p_b = p_set + c P",
     sentence: "The body is sealed, so its pressure rises as the actuator bends the robot.",
     differs: "The robot bends less the higher the pressure: the body that resists it gets harder.",
     remedy: "Read a gauge on the body without and with actuator pressure.",
     validity: "first order in the actuator's pressure",
     reference: "derived here",
-    parameters: &[Parameter {
-        key: "rise",
-        symbol: "c",
-        typical: 0.01,
-        upper: 0.2,
-        possible: ANY,
-        meaning: "rise of the body's pressure per actuator pressure",
-        ..PLAIN
-    }],
+    parameters: &[parameter("rise", "c", "-", 1.0)
+        .usual(0.01, [0.0, 0.2])
+        .possible(ANY)
+        .means("rise of the body's pressure per actuator pressure")],
     needs: Needs::Actuator,
-    add,
-    ..BALANCE
+    add: |values, assembly| {
+        let rise = values[0];
+        if rise != 0.0 {
+            assembly.body.push(Box::new(move |p, actuator_pa, _| p + rise * actuator_pa));
+        }
+    },
+    ..SUPPLY
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let rise = values[0];
-    if rise != 0.0 {
-        assembly.body.push(Box::new(move |p, actuator_pa, _| p + rise * actuator_pa));
-    }
-}

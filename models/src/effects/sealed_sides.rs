@@ -10,19 +10,12 @@
 //! I₁ = ∫ a dx = r² (θ − sinθ cosθ)     I₂ = ∫ a² dx = 2r³ (sinθ − ⅓sin³θ − θ cosθ)
 //! ```
 //!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | σ | 1: sealed sides, 0: sides that open freely | – |
-//! | e | edge restraint of the actuator: 1 sealed, 0 freed by gussets | – |
-//! | L, W | flat length and width of the pouch | m |
-//! | A(w), Q(w) | area and moment of area Aȳ of the body's section with a chord w (`section.rs`), derivatives at the strip's width | m², m³ |
-//! | χ | share of the pouch inside the body (`displaced_gas`) | – |
-//!
-//! The wall pulls the sides apart with p_b R' cosα, so that their arcs have a radius of a + ρ₀, ρ₀ = p_b R' cosα/2P̄, and end before
-//! they are level: the section then loses ½(4 − π) ρ₀² more, 1 % at P = 5 p_b, which is left out. Without a body the volume is
-//! largest at 21.9 % of contraction for W = L (36.3 % with free sides): sealed sides cost *stroke* more than volume.
-//! Below P = p_b (χ + (π − 2) A'/2W), A' = R' cosα, the body's gas at the sides keeps the pouch flat.
-//! **Validity**: inextensible fabric; a ≤ W/π, so W ≥ ⅔L. Derived here; `verification::exact::pouch::sealed_volume_m3` is its volume.
+//! e is the edge restraint of the actuator (1 sealed, 0 freed by gussets), χ the share of the pouch inside the body (`displaced_gas`), A(w)
+//! and Q(w) area and moment of area Aȳ of the body's section with a chord w (`section.rs`), with derivatives at the strip's width. The wall
+//! pulls the sides apart with p_b R' cosα, so that their arcs have a radius of a + ρ₀, ρ₀ = p_b R' cosα/2P̄, and end before they are level:
+//! the section then loses ½(4 − π) ρ₀² more, 1 % at P = 5 p_b, which is left out. Without a body the volume is largest at 21.9 % of
+//! contraction for W = L (36.3 % with free sides): sealed sides cost *stroke* more than volume. Below P = p_b (χ + (π − 2) A'/2W),
+//! A' = R' cosα, the body's gas at the sides keeps the pouch flat. a ≤ W/π. `verification::exact::pouch::sealed_volume_m3` is its volume.
 
 use super::entry::*;
 use crate::gusset::NARROWED;
@@ -31,16 +24,27 @@ use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "sealed_sides",
-    group: Group::Actuator,
     formula: "E = (P − χ p_b) π∫a²dx − p_b ∫(ΔA − κΔQ)dx(1 + κD + κ²D²) per pitch, a = r(cosφ − cosθ), w = W − (π − 2)a",
     sentence: "The sealed sides of a pouch are round as well, so it cannot become a free lens: it contracts less and holds less.",
     differs: "Much of the bend is missing at high pressures, where the free lens would still contract.",
     remedy: "Compare with pouches whose sides are freed by gussets, or that are wider.",
     validity: "inextensible fabric; at least two thirds as wide as long",
     reference: "derived here",
-    parameters: &[Parameter { meaning: "1: sealed sides, 0: sides that open freely", ..SHARE }],
+    parameters: &[SHARE.means("1: sealed sides, 0: sides that open freely")],
     needs: Needs::Family(Family::Pouch),
-    add,
+    add: |values, assembly| {
+        for site in assembly.active_sites(Family::Pouch) {
+            let restraint = site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape));
+            // `gussets` models these sides in more detail.
+            let share = values[0] * restraint * (1.0 - site.gusset_share);
+            if share > 0.0 {
+                let term = SealedSides::new(share, site);
+                let closes = term.closes(share, site.shape.width_m);
+                let effects = SideEffects { closes, narrows: share * NARROWED, ..SideEffects::SHIFT };
+                site.act(term, effects);
+            }
+        }
+    },
     ..BALANCE
 };
 
@@ -54,21 +58,6 @@ pub(super) struct SealedSides {
     /// ΔA and ΔQ as factors of a and a².
     pub area: [f64; 2],
     pub moment: [f64; 2],
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in assembly.active_sites(Family::Pouch) {
-        let restraint = site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape));
-        // `gussets` models these sides in more detail.
-        let share = values[0] * restraint * (1.0 - site.gusset_share);
-        if share > 0.0 {
-            let term = SealedSides::new(share, site);
-            let closes = term.closes(share, site.shape.width_m);
-            let effects =
-                SideEffects { closes, narrows: share * NARROWED, shifts_balance: true, ..SideEffects::default() };
-            site.act(term, effects);
-        }
-    }
 }
 
 impl SealedSides {

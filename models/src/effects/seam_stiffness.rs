@@ -1,37 +1,21 @@
 //! Fold and seam stiffness of a pouch: every arc has to be bent against its welds.
 //!
-//! ```text
-//! E = ½ k θ² / L₀ per metre of body
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | k | rotational stiffness of the folds of one pouch | N·m/rad |
-//! | θ | half arc angle | rad |
-//!
-//! For small θ the contraction goes as θ²/6, so this is a constant moment 3kD/L₀: there it cannot be distinguished from
-//! `tail_tension`. Validity: elastic folds. Derived here.
+//! θ is the half arc angle. For small θ the contraction goes as θ²/6, so this is a constant moment 3kD/L₀: there it cannot be distinguished
+//! from `tail_tension`.
 
 use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "seam_stiffness",
-    group: Group::Actuator,
     formula: "E = ½ k θ²/L₀ per metre",
     sentence: "Welds and folds of the pouches resist rolling up, like a small spring in every pouch.",
     differs: "A steady moment is missing: nothing moves at first, then the bend comes late.",
     remedy: "Measure the force of one inflated pouch at small contraction, or bend an unpressurised weld by hand.",
     validity: "elastic folds; for small bends not separable from tail_tension",
     reference: "derived here",
-    parameters: &[Parameter {
-        key: "stiffness_nm_per_rad",
-        symbol: "k",
-        unit: "N m/rad",
-        typical: 0.5,
-        upper: 3.0,
-        meaning: "fold stiffness of one pouch",
-        ..PLAIN
-    }],
+    parameters: &[parameter("stiffness_nm_per_rad", "k", "N m/rad", 1.0)
+        .usual(0.5, [0.0, 3.0])
+        .means("fold stiffness of one pouch")],
     needs: Needs::Family(Family::Pouch),
     add: |values, assembly| {
         for site in assembly.active_sites(Family::Pouch) {

@@ -1,26 +1,15 @@
 //! Shear locking of an fPAM's weave: beyond an angle the yarns jam and the muscle shortens no further.
 //!
-//! ```text
-//! cosα = (1 − ε) cosα₀      γ = 2(α − α₀)      E = K (γ − γ_L)²₊ W per metre   (½K(γ − γ_L)² over both layers, 2W)
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | α, α₀ | yarn angle to the axis, at rest | rad |
-//! | γ | shear angle; 0.34 rad at the free stroke of an ideal muscle cut at 45° | rad |
-//! | γ_L | angle at which the yarns touch; above 0.34 rad it is never reached | rad |
-//! | K | stiffness of the jammed weave; 2000 N/m, some 40 times a coated weave's, is a hard stop | N/m |
-//! | W | flat width | m |
-//!
-//! **Validity**: sudden locking with a large K; yarns that are pressed together little by little have a smaller one. Bias-extension tests lock near 45° for a plain weave, far beyond the muscle's stroke; a coating or
-//! a tight weave locks earlier. Reference: trellis kinematics, Cao et al. 2008; the penalty is an assumption.
+//! α and α₀ are the yarns' angles to the axis now and at rest; K acts over both layers of the flat tube, 2W. The free stroke of an ideal
+//! muscle cut at 45° shears it by 0.34 rad: a larger γ_L is never reached. A large K, 2000 N/m, some 40 times a coated weave's, is a hard
+//! stop; yarns that are pressed together little by little have a smaller one. Bias-extension tests lock near 45° for a plain weave, far
+//! beyond the muscle's stroke; a coating or a tight weave locks earlier.
 
 use super::entry::*;
 use std::f64::consts::FRAC_PI_2;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "shear_lock",
-    group: Group::Actuator,
     formula: "E = K (γ − γ_L)²₊ W per metre, γ = 2(α − α₀), cosα = (1 − ε) cosα₀",
     sentence: "The yarns of the muscle jam at a certain shear angle and stop it.",
     differs: "The bend stops at a value that no further pressure exceeds; below it nothing changes.",
@@ -28,51 +17,34 @@ pub(super) const ENTRY: Effect = Effect {
     validity: "locking at one angle, then a linear stiffness",
     reference: "trellis kinematics, Cao et al. 2008; usual K assumed",
     parameters: &[
-        Parameter {
-            key: "lock_rad",
-            symbol: "γ_L",
-            unit: "rad",
-            neutral: 1.0,
-            typical: 0.22,
-            lower: 0.05,
-            upper: 1.0,
-            possible: [0.0, FRAC_PI_2],
-            starts: &[0.08, 0.14, 0.2, 0.26, 0.32],
-            meaning: "shear angle at which the yarns touch",
-            ..PLAIN
-        },
-        Parameter {
-            key: "stiffness_n_per_m",
-            symbol: "K",
-            unit: "N/m",
-            neutral: JAMMED,
-            typical: JAMMED,
-            lower: 20.0,
-            upper: 20e3,
-            possible: ABOVE_ZERO,
-            starts: &[60.0, 200.0, 600.0],
-            meaning: "stiffness of the jammed weave",
-            ..PLAIN
-        },
+        parameter("lock_rad", "γ_L", "rad", 1.0)
+            .usual(0.22, [0.05, 1.0])
+            .neutral(1.0)
+            .possible([0.0, FRAC_PI_2])
+            .starts(&[0.08, 0.14, 0.2, 0.26, 0.32])
+            .means("shear angle at which the yarns touch"),
+        parameter("stiffness_n_per_m", "K", "N/m", 1.0)
+            .around(JAMMED, [20.0, 20e3])
+            .possible(ABOVE_ZERO)
+            .starts(&[60.0, 200.0, 600.0])
+            .means("stiffness of the jammed weave"),
     ],
     needs: Needs::Family(Family::Mckibben),
-    add,
+    add: |values, assembly| {
+        let [lock, stiffness] = [values[0], values[1]];
+        for site in assembly.active_sites(Family::Mckibben) {
+            let shape = site.shape;
+            site.actuator_terms.push(ENTRY.law(Account::Wall, move |at, force| {
+                let [shear, d_shear] = shape.yarn_shear(at.q[actuator_q::CONTRACTION]);
+                let beyond = (shear - lock).max(0.0);
+                let moment = 2.0 * stiffness * shape.width_m * beyond;
+                force[actuator_q::CONTRACTION] -= moment * d_shear;
+                0.5 * moment * beyond
+            }));
+        }
+    },
     ..BALANCE
 };
 
 /// Usual stiffness of the jammed weave \[N/m\].
 const JAMMED: f64 = 2000.0;
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let [lock, stiffness] = [values[0], values[1]];
-    for site in assembly.active_sites(Family::Mckibben) {
-        let shape = site.shape;
-        site.actuator_terms.push(ENTRY.law(Account::Wall, move |at, force| {
-            let [shear, d_shear] = shape.yarn_shear(at.q[actuator_q::CONTRACTION]);
-            let beyond = (shear - lock).max(0.0);
-            let moment = 2.0 * stiffness * shape.width_m * beyond;
-            force[actuator_q::CONTRACTION] -= moment * d_shear;
-            0.5 * moment * beyond
-        }));
-    }
-}

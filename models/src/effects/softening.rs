@@ -1,17 +1,7 @@
 //! Softening of the wall: creases and buckles that a bend has made take its stiffness from it.
 //!
-//! ```text
-//! M = B κ/(1 + a κ)         E = B (κ/a − ln(1 + a κ)/a²)
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | B | bending stiffness of the straight wall | N·m² |
-//! | a | softening: at κ = 1/a half of the stiffness is gone | m |
-//!
-//! The moment rises ever more slowly and never falls, up to B/a: from a linear wall (a = 0) to one that yields at a moment.
-//!
-//! Validity: no memory, so folds open again; bends towards the actuator; needs B > 0.
+//! `E = B (κ/a − ln(1 + a κ)/a²)`. The moment rises ever more slowly and never falls, up to B/a: from a linear wall (a = 0) to one that yields
+//! at a moment.
 
 use super::entry::*;
 
@@ -24,34 +14,25 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Bend the inflated body with known tip forces, small and large: is the second half of the way easier?",
     validity: "no memory; bends towards the actuator; needs B > 0",
     reference: "derived here",
-    parameters: &[Parameter {
-        key: "softening_m",
-        symbol: "a",
-        unit: "m",
-        typical: 0.3,
-        upper: 3.0,
-        meaning: "inverse of the curvature at which half of the stiffness is gone",
-        ..PLAIN
-    }],
-    needs: Needs::Body,
-    add,
+    parameters: &[parameter("softening_m", "a", "m", 1.0)
+        .usual(0.3, [0.0, 3.0])
+        .means("inverse of the curvature at which half of the stiffness is gone")],
+    add: |values, assembly| {
+        let a = values[0];
+        if a == 0.0 {
+            return;
+        }
+        for site in &mut assembly.sites {
+            let stiffness = site.bending.stiffness;
+            site.body_terms.push(ENTRY.law(Account::Wall, move |at, force| {
+                let kappa = at.q[0].abs();
+                force[0] += stiffness * a * kappa * at.q[0] / (1.0 + a * kappa);
+                stiffness / (a * a) * lost(a * kappa)
+            }));
+        }
+    },
     ..BALANCE
 };
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    let a = values[0];
-    if a == 0.0 {
-        return;
-    }
-    for site in &mut assembly.sites {
-        let stiffness = site.bending.stiffness;
-        site.body_terms.push(ENTRY.law(Account::Wall, move |at, force| {
-            let kappa = at.q[0].abs();
-            force[0] += stiffness * a * kappa * at.q[0] / (1.0 + a * kappa);
-            stiffness / (a * a) * lost(a * kappa)
-        }));
-    }
-}
 
 /// x − ln(1 + x) − x²/2; near zero by its series, where the three cancel.
 fn lost(x: f64) -> f64 {

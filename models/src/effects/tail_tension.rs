@@ -1,15 +1,6 @@
 //! A constant moment along the body that does not depend on the actuator: tail or tether tension, offset seams.
 //!
-//! ```text
-//! E = ΔM k₀ ln cosh(κ/k₀)      M = −ΔM tanh(κ/k₀)
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | ΔM | extra resisting moment, negative if it helps to bend | N·m |
-//! | k₀ | step width, 0.05 1/m as for the body | 1/m |
-//!
-//! Validity: tension constant along the robot. Derived here.
+//! `M = −ΔM tanh(κ/k₀)` with the step width k₀ of the body; ΔM is negative if it helps to bend.
 
 use super::entry::*;
 use crate::body::soft_step;
@@ -23,18 +14,10 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Free the tail or weigh its pull; repeat at another body pressure.",
     validity: "constant along the robot and in pressure",
     reference: "derived here",
-    parameters: &[Parameter {
-        key: "moment_nm",
-        symbol: "ΔM",
-        unit: "N m",
-        typical: 0.45,
-        lower: -0.3,
-        upper: 1.5,
-        possible: ANY,
-        meaning: "extra resisting moment",
-        ..PLAIN
-    }],
-    needs: Needs::Body,
+    parameters: &[parameter("moment_nm", "ΔM", "N m", 1.0)
+        .usual(0.45, [-0.3, 1.5])
+        .possible(ANY)
+        .means("extra resisting moment")],
     add: |values, assembly| {
         let moment = values[0];
         for site in &mut assembly.sites {

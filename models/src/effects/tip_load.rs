@@ -1,14 +1,4 @@
-//! A known force at the tip, constant in direction.
-//!
-//! ```text
-//! E = −F_x x_tip − F_y y_tip − F_z z_tip
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | F_x, F_y, F_z | force on the tip, y towards azimuth 0; z acts with strips round the body | N |
-//!
-//! Validity: dead load at the end of the centre line. Statics.
+//! A known force at the end of the centre line, constant in direction, y towards azimuth 0; z acts with strips round the body.
 
 use super::entry::*;
 
@@ -26,7 +16,6 @@ pub(super) const ENTRY: Effect = Effect {
         force("force_y_n", "F_y", -0.4, true),
         Parameter { fitted: Fitted::FromDesign, ..force("force_z_n", "F_z", 0.0, true) },
     ],
-    needs: Needs::Body,
     add: |values, assembly| {
         let (axes, [x, y, z]) = (assembly.axes, [values[0], values[1], values[2]]);
         if [x, y, z][..axes].iter().any(|f| *f != 0.0) {
@@ -43,17 +32,9 @@ pub(super) const ENTRY: Effect = Effect {
     ..BALANCE
 };
 
-const fn force(key: &'static str, symbol: &'static str, typical: f64, in_room: bool) -> Parameter<'static> {
+const fn force(key: Text, symbol: Text, typical: f64, in_room: bool) -> Parameter<'static> {
     Parameter {
-        key,
-        symbol,
-        unit: "N",
-        typical,
-        lower: -5.0,
-        upper: 5.0,
-        possible: ANY,
         in_room,
-        meaning: "force on the tip",
-        ..PLAIN
+        ..parameter(key, symbol, "N", 1.0).usual(typical, [-5.0, 5.0]).possible(ANY).means("force on the tip")
     }
 }

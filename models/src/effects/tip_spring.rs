@@ -1,14 +1,4 @@
 //! A hose or a cable holds the tip back like a spring.
-//!
-//! ```text
-//! E = ½ k (y_tip² + (x_tip − L)²)
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | k | stiffness of what holds the tip | N/m |
-//!
-//! **Validity**: slack at the tip of the straight robot, alike in all directions. Statics.
 
 use super::entry::*;
 
@@ -21,42 +11,22 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Take the hose off the tip, or support it, and repeat one hold.",
     validity: "slack at the tip of the straight robot, alike in all directions",
     reference: "statics",
-    parameters: &[Parameter {
-        key: "stiffness_n_per_m",
-        symbol: "k",
-        unit: "N/m",
-        typical: 3.0,
-        upper: 100.0,
-        meaning: "stiffness of what holds the tip",
-        ..PLAIN
-    }],
-    add,
+    parameters: &[parameter("stiffness_n_per_m", "k", "N/m", 1.0)
+        .usual(3.0, [0.0, 100.0])
+        .means("stiffness of what holds the tip")],
+    add: |values, assembly| {
+        let (stiffness, length_m) = (values[0], assembly.length_m());
+        if stiffness == 0.0 {
+            return;
+        }
+        assembly.springs = true;
+        assembly.node_terms.push(ENTRY.law(Account::Load, move |at, force| {
+            let tip = at.q.len() - 2;
+            let away = [at.q[tip] - length_m, at.q[tip + 1]];
+            force[tip] -= stiffness * away[0];
+            force[tip + 1] -= stiffness * away[1];
+            0.5 * stiffness * (away[0] * away[0] + away[1] * away[1])
+        }));
+    },
     ..BALANCE
 };
-
-struct TipSpring {
-    stiffness: f64,
-    length_m: f64,
-}
-
-fn add(values: &[f64], assembly: &mut Assembly) {
-    if values[0] != 0.0 {
-        let length_m = assembly.length_m();
-        assembly.springs = true;
-        assembly.node_terms.push(Box::new(TipSpring { stiffness: values[0], length_m }));
-    }
-}
-
-impl Term for TipSpring {
-    fn line(&self) -> LedgerLine {
-        ENTRY.line(Account::Load)
-    }
-
-    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        let tip = at.q.len() - 2;
-        let away = [at.q[tip] - self.length_m, at.q[tip + 1]];
-        force[tip] -= self.stiffness * away[0];
-        force[tip + 1] -= self.stiffness * away[1];
-        0.5 * self.stiffness * (away[0] * away[0] + away[1] * away[1])
-    }
-}

@@ -1,38 +1,22 @@
 //! Weld width: what the welds take of the pitch neither contracts nor fills.
 //!
-//! ```text
-//! L = L₀ − b     W' = W − b     ε = (L/L₀)(1 − sinθ/θ)     V = W' L² (θ − sinθ cosθ)/(2θ²) per pitch L₀
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | b | width of the welds between two pouches, and of both side welds together | m |
-//! | L₀, W | pitch of the pouches, width of the strip | m |
-//!
-//! **Validity**: welds that keep their length, b < L₀. Derived here.
+//! b is the width of the welds between two pouches, and of both side welds together; the volume per pitch L₀ is
+//! `V = W' L² (θ − sinθ cosθ)/(2θ²)`.
 
 use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "weld_width",
-    group: Group::Actuator,
     formula: "L = L₀ − b, W' = W − b; ε = (L/L₀)(1 − sinθ/θ)",
     sentence: "Welds have a width: what they take of the strip neither contracts nor fills.",
     differs: "A little of the bend is missing at every pressure, more of it with more and shorter pouches.",
     remedy: "Measure the width of the welds.",
     validity: "welds that keep their length",
     reference: "derived here",
-    parameters: &[Parameter {
-        key: "width_mm",
-        symbol: "b",
-        unit: "mm",
-        si: 1e-3,
-        typical: 3.0,
-        upper: 10.0,
-        fitted: Fitted::FromDesign,
-        meaning: "width of the welds",
-        ..PLAIN
-    }],
+    parameters: &[parameter("width_mm", "b", "mm", 1e-3)
+        .usual(3.0, [0.0, 10.0])
+        .fitted(Fitted::FromDesign)
+        .means("width of the welds")],
     needs: Needs::Family(Family::Pouch),
     add: |values, assembly| {
         for site in assembly.active_sites(Family::Pouch) {

@@ -1,42 +1,28 @@
 //! Yarn stretch: the yarns of a fabric muscle give way under its pressure, which lengthens it again at high pressure.
 //!
 //! ```text
-//! m = c P r₀ (1 − ε)/(2 sin²α₀)      E = −π P² r₀³ c (1 − ε)²/(2 sin⁴α₀) per metre      c = (1 − ν)/(E t)
+//! m = c P r₀ (1 − ε)/(2 sin²α₀)      Green strain of both yarn families, free to take its value at every contraction
 //! ```
 //!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | m | Green strain of both yarn families, free to take its value at every contraction | – |
-//! | c | strain of the yarns per tension in both families | m/N |
-//! | E t | modulus along the yarns times thickness, mean of warp and fill | N/m |
-//! | ν | contraction along one family per stretch along the other, at equal tension | – |
-//! | α₀, r₀ | angle of the yarns and radius at rest | rad, m |
-//!
-//! E is the potential at given pressure: the wider tube takes P Δv from the supply and stores half of it in its yarns, hence
-//! the sign. (96.5 + 120)/2 MPa × 50 µm and ν = 0.2 give 1.48e-4 m/N; [`crate::muscle`] has the derivation. **Validity**: yarns
-//! linear in Green strain, equal in both families (unequal ones twist: `verification::exact::tube`). Derived here.
+//! E is the potential at given pressure: the wider tube takes P Δv from the supply and stores half of it in its yarns, hence the sign. ν is
+//! the contraction along one family per stretch along the other, at equal tension. (96.5 + 120)/2 MPa × 50 µm and ν = 0.2 give 1.48e-4 m/N;
+//! [`crate::muscle`] has the derivation. Yarns are linear in Green strain, equal in both families (unequal ones twist:
+//! `verification::exact::tube`).
 
 use super::entry::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "yarn_stretch",
-    group: Group::Actuator,
     formula: "E = −π P² r₀³ c (1 − ε)²/(2 sin⁴α₀) per metre",
     sentence: "The yarns of the muscle stretch under its pressure, so it widens and grows longer instead of pulling.",
     differs: "At high pressure the bend rises no further, or falls.",
     remedy: "Take E t along warp and fill from tensile tests, and ν from the width of a strip under load.",
     validity: "yarns linear and alike in both families; ν of a coated weave is unpublished, and c is proportional to 1 − ν",
     reference: "derived here",
-    parameters: &[Parameter {
-        key: "compliance_m_per_n",
-        symbol: "c",
-        unit: "m/N",
-        typical: 1.5e-4,
-        upper: 3e-4,
-        fitted: Fitted::FromDesign,
-        meaning: "compliance of the yarns, (1 − ν)/(E t)",
-        ..PLAIN
-    }],
+    parameters: &[parameter("compliance_m_per_n", "c", "m/N", 1.0)
+        .usual(1.5e-4, [0.0, 3e-4])
+        .fitted(Fitted::FromDesign)
+        .means("compliance of the yarns, (1 − ν)/(E t)")],
     needs: Needs::Family(Family::Mckibben),
     add: |values, assembly| {
         for site in assembly.active_sites(Family::Mckibben) {

@@ -114,7 +114,6 @@ fn round(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// What may stand in a comment.
 fn plain(text: &str) -> String {
     text.replace("*/", "* /").chars().filter(|c| !c.is_control() && *c != '\\').collect()
 }

@@ -1,12 +1,41 @@
 //! Fitting a table: the model's answers over u, and pieces halved until polynomials follow them.
 
-use super::untabulated::{MOST_BYTES, Untabulated};
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::model::{Model, Prediction};
 use crate::term::Loads;
 use std::f64::consts::PI;
+use thiserror::Error;
 
-/// Pressures sampled to find where actuators open.
+/// Most bytes of constants of a table that is given out.
+pub const MOST_BYTES: usize = 2048;
+/// Its largest miss, as a share of the robot's length or in rad.
+pub const MOST_MISS: f64 = 1e-3;
+
+/// Reason for which a model cannot be written as a table over the pressure.
+#[expect(missing_docs, reason = "fields have the words and units of their message")]
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Untabulated {
+    /// The model has no prediction somewhere in the range.
+    #[error(transparent)]
+    Unsolved(#[from] Unsolved),
+    /// Range of pressures that is empty, falls, or begins below 0.
+    #[error("pressures from {low_kpa} to {high_kpa} kPa are no range: they rise, from 0 or more")]
+    Order { low_kpa: f64, high_kpa: f64 },
+    /// A range in which the actuator stays flat.
+    #[error(
+        "pressures from {low_kpa} to {high_kpa} kPa are no range that opens the actuator (it is flat up to {open_kpa:.3} kPa)"
+    )]
+    Range { low_kpa: f64, high_kpa: f64, open_kpa: f64 },
+    /// One pressure does not say where the robot is.
+    #[error("{channels} supply channels move this robot, and a table knows one pressure")]
+    Channels { channels: usize },
+    /// Response with a jump or a corner that no table of the allowed size follows.
+    #[error(
+        "no table of {MOST_BYTES} bytes follows this robot to {MOST_MISS} of its length: it has a jump or a corner at {at_kpa:.3} kPa"
+    )]
+    TooRough { at_kpa: f64 },
+}
+
 const OPENING_SAMPLES: usize = 256;
 
 /// What the pieces are made of: the model's answers over u.
@@ -26,7 +55,7 @@ impl Sampler<'_> {
     }
 
     /// Tip and markers at a pressure.
-    pub(super) fn at(&mut self, p: f64, row: &mut Vec<f64>) -> Result<(), Unsolved> {
+    pub(super) fn at(&mut self, p: f64, row: &mut Vec<f64>) -> Solved {
         self.model.predict(&self.loads(p), &mut self.state)?;
         let tip = self.state.tip;
         row.clear();
@@ -40,14 +69,12 @@ impl Sampler<'_> {
         self.open_pa + u * u * (self.high_pa - self.open_pa)
     }
 
-    /// How many places have an open actuator.
-    pub(super) fn open(&mut self, p: f64) -> Result<usize, Unsolved> {
+    pub(super) fn open(&mut self, p: f64) -> Solved<usize> {
         self.model.predict(&self.loads(p), &mut self.state)?;
         Ok(self.model.states(&self.state).iter().filter(|state| state.coordinate != 0.0).count())
     }
 
-    /// Pressures at which actuators open, rising.
-    pub(super) fn openings(&mut self, range_pa: [f64; 2]) -> Result<Vec<f64>, Unsolved> {
+    pub(super) fn openings(&mut self, range_pa: [f64; 2]) -> Solved<Vec<f64>> {
         let (mut found, mut before) = (Vec::new(), (range_pa[0], self.open(range_pa[0])?));
         for i in 1..=OPENING_SAMPLES {
             let p = range_pa[0] + (range_pa[1] - range_pa[0]) * (i as f64 / OPENING_SAMPLES as f64).powi(3);
@@ -81,7 +108,6 @@ pub(super) struct Fitter<'a, 'm> {
 }
 
 impl Fitter<'_, '_> {
-    /// Adds the pieces from the last edge to `high`.
     pub(super) fn cover(&mut self, high: f32) -> Result<(), Untabulated> {
         let low = self.edges[self.edges.len() - 1];
         let piece = self.piece([low, high])?;
@@ -98,7 +124,6 @@ impl Fitter<'_, '_> {
         Ok(())
     }
 
-    /// Where the pieces are narrowest \[Pa\].
     fn narrowest_pa(&self) -> f64 {
         let width = |pair: &&[f32]| pair[1] - pair[0];
         let narrowest = self.edges.windows(2).min_by(|a, b| width(a).total_cmp(&width(b)));

@@ -8,7 +8,7 @@
 //! angle and by the pressure; b makes the line pass through the working point. Loads across the body (`gravity`, `tip_load`)
 //! bend the working point but stand in none of the three: a simulator has its own.
 
-use crate::error::Unsolved;
+use crate::error::Solved;
 use crate::follow::Step;
 use crate::model::{MOST_ACTUATOR_PA, Model, Prediction};
 use crate::scenario::Scenario;
@@ -67,7 +67,6 @@ pub struct Linear {
     pub joints: Vec<Joint>,
 }
 
-/// Effects that load the body across.
 const ACROSS: [&str; 2] = ["gravity", "tip_load"];
 /// Step of the differences over the value, and over the least value that counts \[1/m, Pa\].
 const NUDGE: f64 = 1e-4;
@@ -81,7 +80,7 @@ impl Linear {
     /// let chain = models::export::Linear::new(&robot, 6, &models::Loads::uniform(2e3, 10e3)).unwrap();
     /// assert!(chain.joints.len() == 6 && chain.joints[2].stiffness_nm > 0.0 && chain.joints[2].per_pa[0] > 0.0);
     /// ```
-    pub fn new(scenario: &Scenario, joints: usize, loads: &Loads) -> Result<Linear, Unsolved> {
+    pub fn new(scenario: &Scenario, joints: usize, loads: &Loads) -> Solved<Linear> {
         let cuts: Vec<f64> = (1..joints).map(|i| scenario.length_m * i as f64 / joints as f64).collect();
         let whole = Model::in_pieces(scenario, &cuts);
         let mut state = whole.prediction();
@@ -103,7 +102,6 @@ impl Linear {
     }
 }
 
-/// The chain held at its working point.
 struct Held {
     model: Model,
     state: Prediction,
@@ -113,7 +111,7 @@ struct Held {
 
 impl Held {
     /// Moment that is missing at a joint when it has another curvature and the robot other pressures \[N·m\].
-    fn missing(&mut self, index: usize, curvature: f64, loads: &Loads) -> Result<f64, Unsolved> {
+    fn missing(&mut self, index: usize, curvature: f64, loads: &Loads) -> Solved<f64> {
         let (mut bent, mut found) = (self.bent.clone(), f64::NAN);
         bent[index] = curvature;
         let step = [Step { t_s: 0.0, loads: *loads }];
@@ -121,9 +119,9 @@ impl Held {
         Ok(found)
     }
 
-    fn joint(&mut self, index: usize, creeping_s: Option<f64>) -> Result<Joint, Unsolved> {
+    fn joint(&mut self, index: usize, creeping_s: Option<f64>) -> Solved<Joint> {
         let segment = self.model.segments()[index];
-        let site = &self.model.assembly().sites[segment.site];
+        let site = self.model.assembly().site(index);
         let (h, channel, bending) = (segment.length_m, site.channel, site.bending.stiffness);
         let [_, line_offset_m, _] = site.centre_line.shortening(self.bent[index]);
         let (is_active, bent, loads) = (self.model.is_active(index), self.bent[index], self.loads);
@@ -149,7 +147,7 @@ impl Held {
     }
 
     /// How much more moment a joint has per pascal of its channel.
-    fn by_pressure(&mut self, index: usize, channel: usize) -> Result<f64, Unsolved> {
+    fn by_pressure(&mut self, index: usize, channel: usize) -> Solved<f64> {
         let step = NUDGE * self.loads.actuator_pa[channel].max(LEAST[1]);
         let [mut up, mut down] = [self.loads; 2];
         up.actuator_pa[channel] = (up.actuator_pa[channel] + step).min(MOST_ACTUATOR_PA);

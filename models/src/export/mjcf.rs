@@ -5,7 +5,6 @@
 use super::linear::Linear;
 use super::rigid::{Surroundings, xml};
 
-/// Time step of the simulator \[s\].
 const STEP_S: f64 = 5e-4;
 /// Largest share of a joint's fastest oscillation in a step: its armature is as large as that needs.
 const SHARE: f64 = 0.2;

@@ -7,11 +7,10 @@ mod linear;
 mod mjcf;
 mod rigid;
 mod table;
-mod untabulated;
 mod urdf;
 
 pub use c::Origin;
+pub use fit::{MOST_BYTES, MOST_MISS, Untabulated};
 pub use linear::{Joint, Linear};
 pub use rigid::Surroundings;
 pub use table::{Bound, Table};
-pub use untabulated::{MOST_BYTES, MOST_MISS, Untabulated};

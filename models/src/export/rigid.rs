@@ -45,7 +45,6 @@ pub(super) struct Link {
 const SETTLING_S: f64 = 0.02;
 
 impl Surroundings<'_> {
-    /// The comment at the head of a file.
     pub(super) fn words(&self) -> String {
         let text = format!(
             "made by ibr: {}. x along the straight robot, y towards the actuator, hinges on the taut generator. Linear about its working \

@@ -6,8 +6,7 @@
 //!
 //! P₀ is the pressure up to which every actuator is flat, P₁ the largest. The root takes the steep start of a pouch away.
 
-use super::fit::{Fitter, Sampler, horner};
-use super::untabulated::{MOST_BYTES, MOST_MISS, Untabulated};
+use super::fit::{Fitter, MOST_BYTES, MOST_MISS, Sampler, Untabulated, horner};
 use crate::model::Model;
 use serde::Serialize;
 use spelling::si;
@@ -132,7 +131,7 @@ impl Table {
         marks.sort_by(f32::total_cmp);
         marks.dedup();
         let length_m = sampler.model.assembly().length_m();
-        let mut best: Result<Table, Untabulated> = Err(Untabulated::TooRough { at_kpa: 0.0 });
+        let (mut tables, mut failed) = (Vec::new(), Untabulated::TooRough { at_kpa: 0.0 });
         for degree in DEGREES {
             let edges = vec![marks[0]];
             let mut fitter = Fitter { sampler, degree, goal, length_m, edges, coefficients: Vec::new() };
@@ -142,14 +141,12 @@ impl Table {
             let (bound, rising) = (Bound::default(), [0, 0]);
             let table =
                 Table { body_pa, range_pa, open_pa, length_m, degree, bound, edges, coefficients, outputs, rising };
-            match (built, &best) {
-                (Ok(()), Ok(other)) if other.bytes() <= table.bytes() => {}
-                (Ok(()), _) => best = Ok(table),
-                (Err(error), Err(_)) => best = Err(error),
-                (Err(_), Ok(_)) => {}
+            match built {
+                Ok(()) => tables.push(table),
+                Err(error) => failed = error,
             }
         }
-        best
+        tables.into_iter().min_by_key(Table::bytes).ok_or(failed)
     }
 
     /// Bytes of its constants, in single precision.

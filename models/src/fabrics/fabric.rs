@@ -6,6 +6,14 @@ use std::sync::Arc;
 /// Largest strain each yarn family has seen (warp, fill); what a fabric with different unloading remembers.
 pub type Past = [f64; 2];
 
+/// Matrix by its rows.
+pub(super) type Matrix = [[f64; 3]; 3];
+
+#[inline(always)]
+pub(super) fn matrix(of: impl Fn(usize, usize) -> f64) -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| of(i, j)))
+}
+
 /// The membrane law of one sheet of fabric, in warp and fill axes.
 pub trait Fabric: Send + Sync + Debug {
     /// Thickness t of the unstretched fabric \[m\].

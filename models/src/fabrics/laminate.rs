@@ -17,34 +17,31 @@
 
 use std::sync::Arc;
 
-use super::fabric::{Fabric, Kind, Mixed, NeoHookean, Orthotropic, Past, Ply, WrinklingFilm};
-use super::recipe::{Law, Need, Recipe, THICKNESS, modulus, ratio};
+use super::fabric::{Fabric, Kind, Mixed, NeoHookean, Orthotropic, Past, Ply, WrinklingFilm, matrix};
+use super::recipe::*;
 
 /// Several fabrics bonded face to face, each at its own angle: they share one strain and add their tensions.
 pub(super) const LAMINATE: Law = Law {
     name: "laminate",
     parameters: &[],
-    curves: &[],
     plies: [1, usize::MAX],
-    strain_limit: 0.05,
     example: || Recipe { plies: example_plies(), ..Recipe::default() },
     make: |recipe| {
         let values = LAMINATE.read(recipe)?;
         Ok(Arc::new(Laminate::new(values.plies().to_vec()).map_err(|m| values.says(m))?))
     },
+    ..SHEET
 };
 
 /// Two fabrics with a film of glue between them: the glue adds stiffness in every direction, also off the yarns.
 pub(super) const GLUED: Law = Law {
     name: "glued",
     parameters: &[
-        super::recipe::Parameter { key: "glue_thickness_mm", meaning: "thickness of the glue film", ..THICKNESS },
-        modulus("glue_e_MPa", Need::Required, "Young's modulus of the glue"),
-        ratio("glue_nu", [0.0, 0.5], Need::Default(0.5), "Poisson's ratio of the glue; 0.5: rubber"),
+        number("glue_thickness_mm", "mm", 1e-3, [1e-4, 100.0]).required("thickness of the glue film"),
+        modulus("glue_e_MPa").required("Young's modulus of the glue"),
+        ratio("glue_nu", [0.0, 0.5]).or(0.5, "Poisson's ratio of the glue; 0.5: rubber"),
     ],
-    curves: &[],
     plies: [2, 2],
-    strain_limit: 0.05,
     example: || Recipe { plies: example_plies(), ..Recipe::of(&[("glue_thickness_mm", 0.1), ("glue_e_MPa", 1.0)]) },
     make: |recipe| {
         let v = GLUED.read(recipe)?;
@@ -53,6 +50,7 @@ pub(super) const GLUED: Law = Law {
         plies.insert(1, Ply { fabric: Arc::new(film), angle_rad: 0.0 });
         Ok(Arc::new(Laminate::new(plies).map_err(|m| v.says(m))?))
     },
+    ..SHEET
 };
 
 /// Plies bonded without slip: equal strain, and the sum of their stress resultants.
@@ -95,7 +93,7 @@ impl Laminate {
         let mut sum = [[0.0; 3]; 3];
         for (fabric, turn) in &self.plies {
             let turned = turn.tangent(&of(&**fabric, turn.strain(e)));
-            sum = std::array::from_fn(|i| std::array::from_fn(|j| sum[i][j] + turned[i][j]));
+            sum = matrix(|i, j| sum[i][j] + turned[i][j]);
         }
         sum
     }
@@ -135,7 +133,7 @@ impl Mixed {
                 Kind::WrinklingFilm(_) | Kind::Other => return None,
             };
             let turned = turn.tangent(&linear);
-            sum.linear = std::array::from_fn(|i| std::array::from_fn(|j| sum.linear[i][j] + turned[i][j]));
+            sum.linear = matrix(|i, j| sum.linear[i][j] + turned[i][j]);
         }
         Some(sum)
     }
@@ -240,7 +238,7 @@ impl Turn {
             let unit = self.strain(std::array::from_fn(|k| f64::from(k == j)));
             self.back(std::array::from_fn(|i| (0..3).map(|k| own[i][k] * unit[k]).sum()))
         });
-        std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i]))
+        matrix(|i, j| columns[j][i])
     }
 }
 

@@ -15,20 +15,19 @@
 
 use std::sync::Arc;
 
-use super::fabric::{Fabric, Kind, NeoHookean, Past};
-use super::recipe::{Law, Need, Recipe, THICKNESS, modulus};
+use super::fabric::{Fabric, Kind, NeoHookean, Past, matrix};
+use super::recipe::*;
 
 pub(super) const ENTRY: Law = Law {
     name: "neo-hookean",
-    parameters: &[modulus("c10_MPa", Need::Required, "neo-Hookean constant, a sixth of Young's modulus"), THICKNESS],
-    curves: &[],
-    plies: [0, 0],
+    parameters: &[modulus("c10_MPa").required("neo-Hookean constant, a sixth of Young's modulus"), THICKNESS],
     strain_limit: 0.4,
     example: || Recipe::of(&[("c10_MPa", 50.3), ("thickness_mm", 0.2)]),
     make: |recipe| {
         let v = ENTRY.read(recipe)?;
         Ok(Arc::new(NeoHookean::new(v.get("c10_MPa")?, v.get("thickness_mm")?)))
     },
+    ..SHEET
 };
 
 impl Fabric for NeoHookean {
@@ -61,7 +60,7 @@ impl Fabric for NeoHookean {
         let k = 2.0 * self.thickness_m * self.c10_pa * inverse * inverse;
         let a = [1.0 + 2.0 * e[1], 1.0 + 2.0 * e[0], -e[2]];
         let slopes = [[0.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, -1.0]];
-        std::array::from_fn(|i| std::array::from_fn(|j| k * (4.0 * a[i] * a[j] * inverse - slopes[i][j])))
+        matrix(|i, j| k * (4.0 * a[i] * a[j] * inverse - slopes[i][j]))
     }
 
     fn kind(&self) -> Kind<'_> {

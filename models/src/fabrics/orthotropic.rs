@@ -20,46 +20,42 @@
 use std::sync::Arc;
 
 use super::fabric::{Fabric, Kind, Orthotropic, Past};
-use super::recipe::{Law, Need, Parameter, Recipe, THICKNESS, Values, modulus, ratio};
+use super::recipe::*;
 
 /// A linear fabric: stiff along warp and fill, soft in between, with contraction across the pull.
 pub(super) const ORTHOTROPIC: Law = Law {
     name: "orthotropic",
     parameters: &MODULI,
-    curves: &[],
-    plies: [0, 0],
-    strain_limit: 0.05,
     example: || {
         Recipe::of(&[("e0_MPa", 96.5), ("e90_MPa", 120.0), ("e45_MPa", 4.05), ("nu12", 0.3), ("thickness_mm", 0.05)])
     },
     make: |recipe| Ok(Arc::new(from_values(&ORTHOTROPIC.read(recipe)?)?)),
+    ..SHEET
 };
 
 /// A linear film that is equally stiff in every direction.
 pub(super) const ISOTROPIC: Law = Law {
     name: "isotropic",
     parameters: &[
-        modulus("e_MPa", Need::Required, "Young's modulus"),
-        ratio("nu", [0.0, 0.5], Need::Required, "Poisson's ratio"),
+        modulus("e_MPa").required("Young's modulus"),
+        ratio("nu", [0.0, 0.5]).required("Poisson's ratio"),
         THICKNESS,
     ],
-    curves: &[],
-    plies: [0, 0],
-    strain_limit: 0.05,
     example: || Recipe::of(&[("e_MPa", 588.0), ("nu", 0.4), ("thickness_mm", 0.6)]),
     make: |recipe| {
         let v = ISOTROPIC.read(recipe)?;
         Ok(Arc::new(Orthotropic::isotropic(v.get("e_MPa")?, v.get("nu")?, v.get("thickness_mm")?)))
     },
+    ..SHEET
 };
 
 /// Keys of a linear fabric: moduli, contraction ratio and thickness.
 pub(super) const MODULI: [Parameter; 6] = [
-    modulus("e0_MPa", Need::Required, "modulus pulled along warp"),
-    modulus("e90_MPa", Need::Required, "modulus pulled along fill"),
-    modulus("e45_MPa", Need::Optional, "modulus pulled at 45 degrees to the yarns; in place of g_MPa"),
-    modulus("g_MPa", Need::Optional, "shear modulus between warp and fill; in place of e45_MPa"),
-    ratio("nu12", [0.0, 2.0], Need::Default(0.0), "contraction along fill per stretch along warp, pulled along warp"),
+    modulus("e0_MPa").required("modulus pulled along warp"),
+    modulus("e90_MPa").required("modulus pulled along fill"),
+    modulus("e45_MPa").optional("modulus pulled at 45 degrees to the yarns; in place of g_MPa"),
+    modulus("g_MPa").optional("shear modulus between warp and fill; in place of e45_MPa"),
+    ratio("nu12", [0.0, 2.0]).or(0.0, "contraction along fill per stretch along warp, pulled along warp"),
     THICKNESS,
 ];
 

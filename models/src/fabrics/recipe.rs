@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::curve::Curve;
 use super::fabric::{Fabric, Ply};
+use crate::Text;
 
 /// What a user wrote about one fabric, in the units of the keys.
 #[derive(Debug, Clone, Default)]
@@ -168,7 +169,6 @@ impl Values<'_> {
         Ok(Some(typed.scaled(input.x_si, input.y_si)))
     }
 
-    /// The plies, as many as the law wants.
     pub(super) fn plies(&self) -> &[Ply] {
         &self.recipe.plies
     }
@@ -204,20 +204,58 @@ fn known<'a>(law: &str, what: &str, given: impl Iterator<Item = &'a String>, key
     Ok(())
 }
 
-pub(super) const THICKNESS: Parameter = Parameter {
-    key: "thickness_mm",
-    unit: "mm",
-    si: 1e-3,
-    lower: 1e-4,
-    upper: 100.0,
-    need: Need::Required,
-    meaning: "thickness of the sheet",
+pub(super) const THICKNESS: Parameter =
+    number("thickness_mm", "mm", 1e-3, [1e-4, 100.0]).required("thickness of the sheet");
+
+/// A number with its factor to SI, and its bounds as written.
+pub(super) const fn number(key: Text, unit: Text, si: f64, [lower, upper]: [f64; 2]) -> Parameter {
+    Parameter { key, unit, si, lower, upper, need: Need::Required, meaning: "" }
+}
+
+pub(super) const fn modulus(key: Text) -> Parameter {
+    number(key, "MPa", 1e6, [1e-6, 1e6])
+}
+
+pub(super) const fn ratio(key: Text, bounds: [f64; 2]) -> Parameter {
+    number(key, "-", 1.0, bounds)
+}
+
+impl Parameter {
+    pub(super) const fn required(self, meaning: Text) -> Parameter {
+        Parameter { meaning, ..self }
+    }
+
+    pub(super) const fn optional(self, meaning: Text) -> Parameter {
+        let need = Need::Optional;
+        Parameter { need, meaning, ..self }
+    }
+
+    pub(super) const fn or(self, value: f64, meaning: Text) -> Parameter {
+        let need = Need::Default(value);
+        Parameter { need, meaning, ..self }
+    }
+}
+
+type Column = (Text, f64);
+
+/// Columns of a table, each a unit with its factor to SI.
+pub(super) const fn table(key: Text, (x_unit, x_si): Column, (y_unit, y_si): Column) -> CurveInput {
+    CurveInput { key, x_unit, x_si, y_unit, y_si, meaning: "" }
+}
+
+impl CurveInput {
+    pub(super) const fn means(self, meaning: Text) -> CurveInput {
+        CurveInput { meaning, ..self }
+    }
+}
+
+/// What most laws are: one sheet described by numbers; entries say how they differ.
+pub(super) const SHEET: Law = Law {
+    name: "",
+    parameters: &[],
+    curves: &[],
+    plies: [0, 0],
+    strain_limit: 0.05,
+    example: Recipe::default,
+    make: |_| Err(String::new()),
 };
-
-pub(super) const fn modulus(key: &'static str, need: Need, meaning: &'static str) -> Parameter {
-    Parameter { key, unit: "MPa", si: 1e6, lower: 1e-6, upper: 1e6, need, meaning }
-}
-
-pub(super) const fn ratio(key: &'static str, bounds: [f64; 2], need: Need, meaning: &'static str) -> Parameter {
-    Parameter { key, unit: "-", si: 1.0, lower: bounds[0], upper: bounds[1], need, meaning }
-}

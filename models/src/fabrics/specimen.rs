@@ -158,7 +158,6 @@ fn noise(rows: &[[f64; 2]]) -> f64 {
     bends.get(bends.len() / 2).map_or(0.0, |bend| bend / (0.6745 * 6.0_f64.sqrt()))
 }
 
-/// Standard error of a slope over `width` rows.
 fn slope_error(rows: &[[f64; 2]], width: usize) -> f64 {
     let [Some(first), Some(last)] = [rows.first(), rows.last()].map(|row| row.map(|r| r[0])) else { return 0.0 };
     let (n, step) = (width as f64, (last - first) / (rows.len() - 1) as f64);

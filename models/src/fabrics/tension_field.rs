@@ -24,27 +24,25 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use super::fabric::{Fabric, Orthotropic, Past};
-use super::recipe::{Law, Need, Recipe, THICKNESS, modulus, ratio};
+use super::fabric::{Fabric, Orthotropic, Past, matrix};
+use super::recipe::*;
 
 pub(super) const ENTRY: Law = Law {
     name: "tension-field",
     parameters: &[
-        modulus("e0_MPa", Need::Required, "modulus pulled along warp"),
-        modulus("e90_MPa", Need::Optional, "modulus pulled along fill; else isotropic"),
-        modulus("e45_MPa", Need::Optional, "modulus pulled at 45 degrees to the yarns; with e90_MPa"),
-        modulus("g_MPa", Need::Optional, "shear modulus between warp and fill, in place of e45_MPa; with e90_MPa"),
-        ratio("nu12", [0.0, 2.0], Need::Default(0.0), "contraction along fill per stretch along warp"),
-        ratio("compression_share", [0.0, 1.0], Need::Default(0.01), "share of the sheet that carries compression"),
+        modulus("e0_MPa").required("modulus pulled along warp"),
+        modulus("e90_MPa").optional("modulus pulled along fill; else isotropic"),
+        modulus("e45_MPa").optional("modulus pulled at 45 degrees to the yarns; with e90_MPa"),
+        modulus("g_MPa").optional("shear modulus between warp and fill, in place of e45_MPa; with e90_MPa"),
+        ratio("nu12", [0.0, 2.0]).or(0.0, "contraction along fill per stretch along warp"),
+        ratio("compression_share", [0.0, 1.0]).or(0.01, "share of the sheet that carries compression"),
         THICKNESS,
     ],
-    curves: &[],
-    plies: [0, 0],
-    strain_limit: 0.05,
     example: || {
         Recipe::of(&[("e0_MPa", 96.5), ("e90_MPa", 120.0), ("e45_MPa", 4.05), ("nu12", 0.3), ("thickness_mm", 0.05)])
     },
     make,
+    ..SHEET
 };
 
 /// A linear sheet without (or with a share of) compressive stiffness.
@@ -102,7 +100,6 @@ impl TensionField {
         State::Wrinkled { along, x }
     }
 
-    /// Energy and tension of the wrinkling part.
     fn relaxed(&self, e: [f64; 3]) -> (f64, [f64; 3]) {
         match self.state(e) {
             State::Taut => (self.sheet.energy(e, &[0.0; 2]), self.sheet.tension(e, &[0.0; 2])),
@@ -125,7 +122,7 @@ impl TensionField {
         let (w, w1) = ([0.5 * (1.0 + cos), 0.5 * (1.0 - cos), 0.5 * sin], [-0.5 * sin, 0.5 * sin, 0.5 * cos]);
         let mixed: [f64; 3] = std::array::from_fn(|i| (e1 - sigma * s1) / s * w[i] + sigma * w1[i]);
         let bent = 0.5 * e * self.slope(along, x).1 / (s * s);
-        std::array::from_fn(|i| std::array::from_fn(|j| w[i] * w[j] / s - mixed[i] * mixed[j] / bent))
+        matrix(|i, j| w[i] * w[j] / s - mixed[i] * mixed[j] / bent)
     }
 
     /// x = 2φ with the most energy ½tE(φ)e(φ)².
@@ -207,7 +204,7 @@ impl Fabric for TensionField {
             State::Slack => [[0.0; 3]; 3],
             State::Wrinkled { along, x } => self.wrinkled_tangent(&along, x),
         };
-        std::array::from_fn(|i| std::array::from_fn(|j| (1.0 - self.share) * own[i][j] + self.share * full[i][j]))
+        matrix(|i, j| (1.0 - self.share) * own[i][j] + self.share * full[i][j])
     }
 
     fn steepest(&self, e: [f64; 3], past: &Past, _reach: f64) -> [[f64; 3]; 3] {
@@ -215,7 +212,6 @@ impl Fabric for TensionField {
     }
 }
 
-/// What a point of the sheet does.
 enum State {
     Taut,
     Slack,

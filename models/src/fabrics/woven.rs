@@ -34,60 +34,41 @@ use std::sync::Arc;
 
 use super::bias_extension::BiasExtension;
 use super::curve::Curve;
-use super::fabric::{Fabric, Past};
+use super::fabric::{Fabric, Past, matrix};
 use super::orthotropic::{coupling_fits, shear_modulus};
-use super::recipe::{CurveInput, Law, Need, Parameter, Recipe, THICKNESS, Values, modulus, ratio};
+use super::recipe::*;
 use super::yarn::Yarn;
 
 pub(super) const ENTRY: Law = Law {
     name: "woven",
     parameters: &[
-        modulus("e0_MPa", Need::Optional, "modulus pulled along warp; in place of the curve warp"),
-        modulus("e90_MPa", Need::Optional, "modulus pulled along fill; in place of the curve fill"),
-        modulus("e45_MPa", Need::Optional, "modulus pulled at 45 degrees; in place of g_MPa and the curve shear"),
-        modulus("g_MPa", Need::Optional, "stress per shear angle [rad]; in place of e45_MPa and the curve shear"),
-        ratio("nu12", [0.0, 2.0], Need::Default(0.0), "contraction along fill per stretch along warp"),
-        ratio("compression_share", [1e-6, 1.0], Need::Optional, "slope below zero strain over initial slope; else 1"),
-        Parameter {
-            key: "locking_deg",
-            unit: "deg",
-            si: std::f64::consts::PI / 180.0,
-            lower: 1.0,
-            upper: 89.0,
-            need: Need::Optional,
-            meaning: "shear angle at which the yarns jam; else they never do",
-        },
-        modulus("locking_MPa", Need::Optional, "slope added beyond locking_deg; else 10 times the steepest of shear"),
-        Parameter { key: "bias_length_mm", need: Need::Optional, meaning: "free length of the strip", ..STRIP },
-        Parameter { key: "bias_width_mm", need: Need::Optional, meaning: "width of the strip", ..STRIP },
+        modulus("e0_MPa").optional("modulus pulled along warp; in place of the curve warp"),
+        modulus("e90_MPa").optional("modulus pulled along fill; in place of the curve fill"),
+        modulus("e45_MPa").optional("modulus pulled at 45 degrees; in place of g_MPa and the curve shear"),
+        modulus("g_MPa").optional("stress per shear angle [rad]; in place of e45_MPa and the curve shear"),
+        ratio("nu12", [0.0, 2.0]).or(0.0, "contraction along fill per stretch along warp"),
+        ratio("compression_share", [1e-6, 1.0]).optional("slope below zero strain over initial slope; else 1"),
+        number("locking_deg", "deg", std::f64::consts::PI / 180.0, [1.0, 89.0])
+            .optional("shear angle at which the yarns jam; else they never do"),
+        modulus("locking_MPa").optional("slope added beyond locking_deg; else 10 times the steepest of shear"),
+        strip("bias_length_mm", "free length of the strip"),
+        strip("bias_width_mm", "width of the strip"),
         THICKNESS,
     ],
     curves: &[
-        tensile("warp", "stress over nominal strain, pulled along warp; in place of e0_MPa"),
-        tensile("fill", "stress over nominal strain, pulled along fill; in place of e90_MPa"),
-        tensile("warp_unloading", "shape of the way back along warp; else as loading"),
-        tensile("fill_unloading", "shape of the way back along fill; else as loading"),
-        CurveInput {
-            key: "shear",
-            x_unit: "deg",
-            x_si: std::f64::consts::PI / 180.0,
-            y_unit: "MPa",
-            y_si: 1e6,
-            meaning: "moment per volume over shear angle; in place of g_MPa and e45_MPa",
-        },
-        CurveInput {
-            key: "bias_extension",
-            x_unit: "mm",
-            x_si: 1e-3,
-            y_unit: "N",
-            y_si: 1.0,
-            meaning: "clamp force over displacement of a strip pulled at 45 degrees; in place of the curve shear",
-        },
+        tensile("warp").means("stress over nominal strain, pulled along warp; in place of e0_MPa"),
+        tensile("fill").means("stress over nominal strain, pulled along fill; in place of e90_MPa"),
+        tensile("warp_unloading").means("shape of the way back along warp; else as loading"),
+        tensile("fill_unloading").means("shape of the way back along fill; else as loading"),
+        table("shear", ("deg", std::f64::consts::PI / 180.0), ("MPa", 1e6))
+            .means("moment per volume over shear angle; in place of g_MPa and e45_MPa"),
+        table("bias_extension", ("mm", 1e-3), ("N", 1.0))
+            .means("clamp force over displacement of a strip pulled at 45 degrees; in place of the curve shear"),
     ],
-    plies: [0, 0],
     strain_limit: 0.3,
     example,
     make: |recipe| Ok(Arc::new(from_values(&ENTRY.read(recipe)?)?)),
+    ..SHEET
 };
 
 /// Woven fabric with a law for each yarn family, one for their shear, and a linear coupling.
@@ -131,8 +112,7 @@ impl Woven {
     fn stiffness(&self, yarns: &Stretch, past: &Past, slopes: [f64; 2], steep: f64) -> [[f64; 3]; 3] {
         let t12 = self.shear.value(yarns.gamma);
         let (turn, turns) = yarns.turn();
-        let mut k: [[f64; 3]; 3] =
-            std::array::from_fn(|i| std::array::from_fn(|j| steep * turn[i] * turn[j] + t12 * turns[i][j]));
+        let mut k = matrix(|i, j| steep * turn[i] * turn[j] + t12 * turns[i][j]);
         for (i, (yarn, l)) in self.yarns.iter().zip(yarns.lambda).enumerate() {
             let (own, other) = (yarns.nominal[i], yarns.nominal[1 - i]);
             let stress = yarn.stress(own, past[i]) + self.coupling_pa * other;
@@ -283,10 +263,12 @@ fn locked(v: &Values, shear: Curve) -> Result<Curve, String> {
     }
 }
 
-const STRIP: Parameter = Parameter { lower: 1.0, upper: 1e4, ..THICKNESS };
+const fn strip(key: &'static str, meaning: &'static str) -> Parameter {
+    number(key, "mm", 1e-3, [1.0, 1e4]).optional(meaning)
+}
 
-const fn tensile(key: &'static str, meaning: &'static str) -> CurveInput {
-    CurveInput { key, x_unit: "-", x_si: 1.0, y_unit: "MPa", y_si: 1e6, meaning }
+const fn tensile(key: &'static str) -> CurveInput {
+    table(key, ("-", 1.0), ("MPa", 1e6))
 }
 
 fn example() -> Recipe {

@@ -36,26 +36,17 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use super::fabric::{Fabric, Kind, NeoHookean, Past, WrinklingFilm};
-use super::recipe::{Law, Need, Parameter, Recipe, THICKNESS, modulus};
+use super::fabric::{Fabric, Kind, NeoHookean, Past, WrinklingFilm, matrix};
+use super::recipe::*;
 
 pub(super) const ENTRY: Law = Law {
     name: "wrinkling-film",
     parameters: &[
-        modulus("c10_MPa", Need::Required, "neo-Hookean constant, a sixth of Young's modulus"),
-        Parameter {
-            key: "wrinkling_load_n_per_m",
-            unit: "N/m",
-            si: 1.0,
-            lower: 0.0,
-            upper: 1e6,
-            need: Need::Required,
-            meaning: "compressive load of the wrinkled film, 2π √(D T)/ℓ",
-        },
+        modulus("c10_MPa").required("neo-Hookean constant, a sixth of Young's modulus"),
+        number("wrinkling_load_n_per_m", "N/m", 1.0, [0.0, 1e6])
+            .required("compressive load of the wrinkled film, 2π √(D T)/ℓ"),
         THICKNESS,
     ],
-    curves: &[],
-    plies: [0, 0],
     strain_limit: 0.4,
     example: || Recipe::of(&[("c10_MPa", 50.3), ("wrinkling_load_n_per_m", 5.0), ("thickness_mm", 0.2)]),
     make: |recipe| {
@@ -63,6 +54,7 @@ pub(super) const ENTRY: Law = Law {
         let film = NeoHookean::new(v.get("c10_MPa")?, v.get("thickness_mm")?);
         Ok(Arc::new(WrinklingFilm { film, load_n_per_m: v.get("wrinkling_load_n_per_m")? }))
     },
+    ..SHEET
 };
 
 /// Load of wrinkles across a tension \[N/m\] over a length \[m\], for a bending stiffness \[N m\]: N_w of the module \[N/m\].
@@ -176,9 +168,7 @@ impl Fabric for WrinklingFilm {
         let (carried, tension) = (flat / root, self.film.tension(e, past));
         let excess: [f64; 3] = std::array::from_fn(|i| tension[i] - sigma * n[i]);
         let fall = 0.5 * carried / (root * root);
-        std::array::from_fn(|i| {
-            std::array::from_fn(|j| own(i, j) + carried * (full[i][j] - own(i, j)) - fall * excess[i] * excess[j])
-        })
+        matrix(|i, j| own(i, j) + carried * (full[i][j] - own(i, j)) - fall * excess[i] * excess[j])
     }
 
     fn kind(&self) -> Kind<'_> {

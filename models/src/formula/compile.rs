@@ -6,15 +6,8 @@
 //! ```
 
 use super::program::{DEPTH, FUNCTIONS, Op, PAIRS, Two};
+use crate::error::{Checked, fault};
 use spelling::units::Dimension;
-
-/// A fault, what to type, and where: byte range in the formula.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Slip {
-    pub message: String,
-    pub help: String,
-    pub at: (usize, usize),
-}
 
 /// A name that the formula may use; its place in the inputs is its place in the list.
 pub(crate) struct Name<'a> {
@@ -22,7 +15,6 @@ pub(crate) struct Name<'a> {
     pub dimension: Dimension,
 }
 
-/// A compiled formula and the inputs it uses.
 #[derive(Debug, Clone)]
 pub(crate) struct Compiled {
     pub program: Vec<Op>,
@@ -30,24 +22,18 @@ pub(crate) struct Compiled {
     pub used: Vec<bool>,
 }
 
-pub(crate) fn compile(text: &str, names: &[Name]) -> Result<Compiled, Slip> {
+pub(crate) fn compile(text: &str, names: &[Name]) -> Checked<Compiled> {
     let used = vec![false; names.len()];
     let mut reader = Reader { text, at: 0, names, program: Vec::new(), used, depth: 0, nesting: 0 };
     let part = reader.sum()?;
     reader.skip_space();
     if reader.at < text.len() {
         let (found, at) = reader.next_word();
-        return Err(slip(
-            format!("`{found}` is not expected here"),
-            "write an operator + - * / ^ between two parts",
-            at,
-        ));
+        return fault(format!("`{found}` is not expected here"))
+            .help("write an operator + - * / ^ between two parts")
+            .within(at);
     }
     Ok(Compiled { program: reader.program, dimension: part.dimension, used: reader.used })
-}
-
-fn slip(message: String, help: &str, at: (usize, usize)) -> Slip {
-    Slip { message, help: help.into(), at }
 }
 
 #[derive(Clone, Copy)]
@@ -68,32 +54,38 @@ struct Reader<'a> {
     nesting: usize,
 }
 
-/// Deepest nesting of parentheses, signs and powers.
 const NESTING: usize = 64;
 
 impl<'a> Reader<'a> {
-    fn sum(&mut self) -> Result<Part, Slip> {
+    fn sum(&mut self) -> Checked<Part> {
         let mut left = self.product()?;
         while let Some(sign) = self.take(&['+', '-']) {
             let right = self.product()?;
-            alike(&left, &right, if sign == '+' { "added to" } else { "subtracted from" })?;
-            left = self.joined(left, right, if sign == '+' { |a, b| a + b } else { |a, b| a - b });
+            let (verb, law): (_, Two) = match sign {
+                '+' => ("added to", |a, b| a + b),
+                _ => ("subtracted from", |a, b| a - b),
+            };
+            alike(&left, &right, verb)?;
+            left = self.joined(left, right, law);
         }
         Ok(left)
     }
 
-    fn product(&mut self) -> Result<Part, Slip> {
+    fn product(&mut self) -> Checked<Part> {
         let mut left = self.sign()?;
         while let Some(sign) = self.take(&['*', '/']) {
             let right = self.sign()?;
-            let dimension = left.dimension.times(right.dimension, if sign == '*' { 1.0 } else { -1.0 });
-            left = self.joined(left, right, if sign == '*' { |a, b| a * b } else { |a, b| a / b });
-            left.dimension = dimension;
+            let (power, law): (_, Two) = match sign {
+                '*' => (1.0, |a, b| a * b),
+                _ => (-1.0, |a, b| a / b),
+            };
+            let dimension = left.dimension.times(right.dimension, power);
+            left = Part { dimension, ..self.joined(left, right, law) };
         }
         Ok(left)
     }
 
-    fn sign(&mut self) -> Result<Part, Slip> {
+    fn sign(&mut self) -> Checked<Part> {
         let start = self.here();
         let Some(sign) = self.take(&['-', '+']) else { return self.power() };
         self.enter(start)?;
@@ -106,7 +98,7 @@ impl<'a> Reader<'a> {
         Ok(Part { value: part.value.map(|v| if minus { -v } else { v }), at: (start, part.at.1), ..part })
     }
 
-    fn power(&mut self) -> Result<Part, Slip> {
+    fn power(&mut self) -> Checked<Part> {
         let base = self.atom()?;
         if self.take(&['^']).is_none() {
             return Ok(base);
@@ -116,16 +108,18 @@ impl<'a> Reader<'a> {
         let exponent = self.sign()?;
         self.nesting -= 1;
         if !exponent.dimension.is(Dimension::NONE) {
-            let message = format!("an exponent must be a pure number, not {}", exponent.dimension.words());
-            return Err(slip(message, "divide it by a quantity of the same unit", exponent.at));
+            return fault(format!("an exponent must be a pure number, not {}", exponent.dimension.words()))
+                .help("divide it by a quantity of the same unit")
+                .within(exponent.at);
         }
         let at = (base.at.0, exponent.at.1);
         let dimension = match exponent.value {
             Some(power) => Dimension::NONE.times(base.dimension, power),
             None if base.dimension.is(Dimension::NONE) => Dimension::NONE,
             None => {
-                let message = format!("{} to a power that is not a number has no unit", base.dimension.words());
-                return Err(slip(message, "write the exponent as a number, for example ^3", at));
+                return fault(format!("{} to a power that is not a number has no unit", base.dimension.words()))
+                    .help("write the exponent as a number, for example ^3")
+                    .within(at);
             }
         };
         let part = self.joined(base, exponent, f64::powf);
@@ -136,7 +130,7 @@ impl<'a> Reader<'a> {
         Ok(Part { dimension, ..part })
     }
 
-    fn atom(&mut self) -> Result<Part, Slip> {
+    fn atom(&mut self) -> Checked<Part> {
         let start = self.here();
         match self.text[start..].chars().next() {
             Some('(') => {
@@ -151,15 +145,15 @@ impl<'a> Reader<'a> {
             Some(c) if c.is_alphabetic() || c == '_' => self.name(start),
             Some(c) => {
                 let at = (start, start + c.len_utf8());
-                Err(slip(format!("`{c}` is not expected here"), "a number, a name or `(` belongs here", at))
+                fault(format!("`{c}` is not expected here")).help("a number, a name or `(` belongs here").within(at)
             }
             None => {
-                Err(slip("the formula ends too early".into(), "a number, a name or `(` is missing", (start, start)))
+                fault("the formula ends too early").help("a number, a name or `(` is missing").within((start, start))
             }
         }
     }
 
-    fn number(&mut self, start: usize) -> Result<Part, Slip> {
+    fn number(&mut self, start: usize) -> Checked<Part> {
         let bytes = self.text.as_bytes();
         let mut end = start;
         while end < bytes.len() && (bytes[end].is_ascii_digit() || bytes[end] == b'.') {
@@ -174,14 +168,15 @@ impl<'a> Reader<'a> {
             }
         }
         self.at = end;
-        let value: f64 = self.text[start..end].parse().ok().filter(|v: &f64| v.is_finite()).ok_or_else(|| {
-            slip(format!("`{}` is not a number", &self.text[start..end]), "write for example 0.5 or 2e-3", (start, end))
-        })?;
-        self.push(Op::Number(value), (start, end))?;
-        Ok(Part { dimension: Dimension::NONE, value: Some(value), at: (start, end) })
+        let (text, at) = (&self.text[start..end], (start, end));
+        let Some(value) = text.parse().ok().filter(|v: &f64| v.is_finite()) else {
+            return fault(format!("`{text}` is not a number")).help("write for example 0.5 or 2e-3").within(at);
+        };
+        self.push(Op::Number(value), at)?;
+        Ok(Part { dimension: Dimension::NONE, value: Some(value), at })
     }
 
-    fn name(&mut self, start: usize) -> Result<Part, Slip> {
+    fn name(&mut self, start: usize) -> Checked<Part> {
         let (name, at) = self.next_word();
         self.at = at.1;
         self.skip_space();
@@ -193,23 +188,23 @@ impl<'a> Reader<'a> {
         }
         let Some(place) = self.names.iter().position(|known| known.name == name) else {
             let known: Vec<&str> = self.names.iter().map(|n| n.name).collect();
-            return Err(slip(format!("`{name}` is not known"), &spelling::known(name, &known), at));
+            return fault(format!("`{name}` is not known")).help(spelling::known(name, &known)).within(at);
         };
         self.used[place] = true;
         self.push(Op::Load(place), at)?;
         Ok(Part { dimension: self.names[place].dimension, value: None, at })
     }
 
-    /// A function, from its opening parenthesis.
-    fn call(&mut self, name: &str, at: (usize, usize)) -> Result<Part, Slip> {
+    fn call(&mut self, name: &str, at: (usize, usize)) -> Checked<Part> {
         let open = self.at;
         self.at += 1;
         let first = self.sum()?;
         if let Some((_, law, power)) = FUNCTIONS.iter().find(|known| known.0 == name) {
             self.close(open)?;
             if power.is_none() && !first.dimension.is(Dimension::NONE) {
-                let message = format!("{name} needs a pure number, not {}", first.dimension.words());
-                return Err(slip(message, "divide by a parameter of the same unit", first.at));
+                return fault(format!("{name} needs a pure number, not {}", first.dimension.words()))
+                    .help("divide by a parameter of the same unit")
+                    .within(first.at);
             }
             self.program.push(Op::Apply(*law));
             let dimension = Dimension::NONE.times(first.dimension, power.unwrap_or(0.0));
@@ -217,11 +212,12 @@ impl<'a> Reader<'a> {
         }
         let Some((_, law)) = PAIRS.iter().find(|known| known.0 == name) else {
             let known: Vec<&str> = FUNCTIONS.iter().map(|f| f.0).chain(PAIRS.iter().map(|f| f.0)).collect();
-            return Err(slip(format!("unknown function `{name}`"), &spelling::known(name, &known), at));
+            return fault(format!("unknown function `{name}`")).help(spelling::known(name, &known)).within(at);
         };
         if self.take(&[',']).is_none() {
-            let help = format!("write {name}(a, b)");
-            return Err(slip(format!("{name} takes two arguments"), &help, (at.0, self.at)));
+            return fault(format!("{name} takes two arguments"))
+                .help(format!("write {name}(a, b)"))
+                .within((at.0, self.at));
         }
         let second = self.sum()?;
         self.close(open)?;
@@ -229,26 +225,26 @@ impl<'a> Reader<'a> {
         Ok(Part { value: None, at: (at.0, self.at), ..self.joined(first, second, *law) })
     }
 
-    fn close(&mut self, open: usize) -> Result<(), Slip> {
+    fn close(&mut self, open: usize) -> Checked<()> {
         match self.take(&[')']) {
             Some(_) => Ok(()),
-            None => Err(slip("this parenthesis is not closed".into(), "add `)`", (open, open + 1))),
+            None => fault("this parenthesis is not closed").help("add `)`").within((open, open + 1)),
         }
     }
 
-    fn enter(&mut self, at: usize) -> Result<(), Slip> {
+    fn enter(&mut self, at: usize) -> Checked<()> {
         self.nesting += 1;
         if self.nesting > NESTING {
-            return Err(slip("the formula is nested too deeply".into(), "write it flatter", (at, at + 1)));
+            return fault("the formula is nested too deeply").help("write it flatter").within((at, at + 1));
         }
         Ok(())
     }
 
-    fn push(&mut self, op: Op, at: (usize, usize)) -> Result<(), Slip> {
+    fn push(&mut self, op: Op, at: (usize, usize)) -> Checked<()> {
         self.program.push(op);
         self.depth += 1;
         if self.depth > DEPTH {
-            return Err(slip("the formula is nested too deeply".into(), "write it flatter", at));
+            return fault("the formula is nested too deeply").help("write it flatter").within(at);
         }
         Ok(())
     }
@@ -288,11 +284,12 @@ impl<'a> Reader<'a> {
 }
 
 /// Only like can be added and compared.
-fn alike(left: &Part, right: &Part, verb: &str) -> Result<(), Slip> {
+fn alike(left: &Part, right: &Part, verb: &str) -> Checked<()> {
     if left.dimension.is(right.dimension) {
         return Ok(());
     }
     let (a, b) = (right.dimension.words(), left.dimension.words());
-    let message = format!("{a} cannot be {verb} {b}");
-    Err(slip(message, "both parts need the same unit; check the units of the parameters", (left.at.0, right.at.1)))
+    fault(format!("{a} cannot be {verb} {b}"))
+        .help("both parts need the same unit; check the units of the parameters")
+        .within((left.at.0, right.at.1))
 }

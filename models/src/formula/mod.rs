@@ -21,23 +21,21 @@ mod compile;
 mod integral;
 mod program;
 mod pull;
-mod variables;
 
 use crate::assembly::Assembly;
-use crate::effects::{Effect, Group, Needs, PLAIN, Parameter, Stage};
+use crate::effects::{Effect, Group, Needs, Parameter, Stage};
+use crate::error::{Checked, fault};
 use crate::root::POLE;
 use crate::site::SideEffects;
 use crate::term::{Account, Extreme, LedgerLine, Pose, Remembering, Term};
 use compile::{Compiled, Name, compile};
 use integral::integral;
-use program::{Op, run};
+use program::{INPUTS, KAPPA, Op, PULL, STATION, VARIABLES, run};
 use pull::PullTerm;
 use spelling::units::{self, Dimension};
 use std::sync::Arc;
-use variables::{INPUTS, KAPPA, PULL, STATION, VARIABLES};
 
-pub(crate) use compile::Slip;
-pub(crate) use variables::{MOST_PARAMETERS, is_variable};
+pub(crate) use program::{MOST_PARAMETERS, is_variable};
 
 /// An effect of the scenario's own.
 #[derive(Debug, Clone)]
@@ -59,42 +57,22 @@ pub struct Formula {
     uses_pull: bool,
 }
 
-/// A parameter of a [`Formula`]; the fields are as in [`Parameter`].
+/// A parameter of a [`Formula`]: its words, and its numbers as in [`Parameter`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct FormulaParameter {
     /// Name in the formula and key in the scenario.
     pub key: String,
     /// Unit of the value in the scenario; the formula has it in SI.
     pub unit: String,
-    /// Factor from the value in the scenario to SI.
-    pub si: f64,
-    /// Value at which the effect vanishes.
-    pub neutral: f64,
-    /// Size that the effect typically has, in the unit of the scenario.
-    pub typical: f64,
-    /// Smallest value that is physically possible, in the unit of the scenario.
-    pub lower: f64,
-    /// Largest value that is physically possible, in the unit of the scenario.
-    pub upper: f64,
     /// Meaning in a few words, for reports and messages.
     pub meaning: String,
+    /// Its numbers; the words there are empty.
+    pub numbers: Parameter<'static>,
 }
 
 impl FormulaParameter {
     fn entry(&self) -> Parameter<'_> {
-        Parameter {
-            key: &self.key,
-            symbol: &self.key,
-            unit: &self.unit,
-            si: self.si,
-            neutral: self.neutral,
-            typical: self.typical,
-            lower: self.lower,
-            upper: self.upper,
-            possible: [self.lower, self.upper],
-            meaning: &self.meaning,
-            ..PLAIN
-        }
+        Parameter { key: &self.key, symbol: &self.key, unit: &self.unit, meaning: &self.meaning, ..self.numbers }
     }
 }
 
@@ -110,10 +88,10 @@ impl Formula {
     pub(crate) fn new(
         [name, moment, sentence, differs, remedy]: [String; 5],
         parameters: Vec<FormulaParameter>,
-    ) -> Result<Formula, Slip> {
+    ) -> Checked<Formula> {
         let Compiled { program, dimension, used } = compile(&moment, &names(&parameters))?;
         let whole = (0, moment.len());
-        let slip = |message: String, help: &str| Err(Slip { message, help: help.into(), at: whole });
+        let slip = |message: String, help: &str| fault(message).help(help).within(whole);
         if !dimension.is(Dimension::MOMENT) {
             let message = format!("the moment comes out in {}, not in N m", dimension.words());
             return slip(message, &units_help(&parameters));
@@ -171,7 +149,7 @@ impl Formula {
             let (name, program, unit_m) = (Arc::clone(&name), Arc::clone(&self.program), site.shape.length_m);
             if self.uses_pull {
                 if let Some(term) = PullTerm::new(program, site, inputs) {
-                    site.act(term, SideEffects { shifts_balance: true, ..SideEffects::default() });
+                    site.act(term, SideEffects::SHIFT);
                 }
                 continue;
             }
@@ -184,6 +162,7 @@ impl Formula {
         for (k, set) in ["neutral", "typical", "lower", "upper"].into_iter().enumerate() {
             let mut inputs = [0.0; INPUTS];
             for (input, p) in inputs[VARIABLES.len()..].iter_mut().zip(&self.parameters) {
+                let p = p.numbers;
                 *input = [p.neutral, p.typical, p.lower, p.upper][k] * p.si;
             }
             for place in PLACES {
@@ -281,7 +260,6 @@ impl Remembering for FormulaTerm {
 
 /// How much farther a pole is looked for: before it a moment grows too.
 const BEYOND: f64 = 1.5;
-/// Points among which the largest value is looked for.
 const POINTS: u32 = 400;
 /// Thirds cut off around the best of them: a pole is found to rounding.
 const THIRDS: u32 = 200;

@@ -5,15 +5,13 @@
 //! ```
 
 use super::integral::integral;
-use super::variables::{INPUTS, KAPPA, PULL};
+use super::program::{INPUTS, KAPPA, Op, PULL, run};
 use crate::actuators::{Actuator, ActuatorShape};
-use crate::formula::program::{Op, run};
 use crate::linkage::Linkage;
 use crate::site::Site;
 use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 use std::sync::Arc;
 
-/// Such a formula at one place.
 pub(super) struct PullTerm {
     program: Arc<[Op]>,
     actuator: &'static Actuator,
@@ -26,7 +24,6 @@ pub(super) struct PullTerm {
 const FLAT: f64 = 1e-9;
 
 impl PullTerm {
-    /// At a place; `None` without an actuator.
     pub(super) fn new(program: Arc<[Op]>, site: &Site, inputs: [f64; INPUTS]) -> Option<PullTerm> {
         let actuator = site.actuator?;
         Some(PullTerm { program, actuator, shape: site.shape, linkage: site.linkage, inputs })

@@ -1,15 +1,16 @@
 //! What a formula may say, what is refused and where.
 
 use super::*;
+use crate::effects::PLAIN;
 use crate::{Loads, Model, Scenario, shipped};
 
 fn parameter(key: &str, unit: &str, typical: f64) -> FormulaParameter {
     let (si, _) = units::parse(unit).unwrap();
     let (key, unit, meaning) = (key.to_string(), unit.to_string(), String::new());
-    FormulaParameter { key, unit, si, neutral: 0.0, typical, lower: 0.0, upper: 10.0 * typical, meaning }
+    FormulaParameter { key, unit, meaning, numbers: Parameter { si, typical, upper: 10.0 * typical, ..PLAIN } }
 }
 
-fn made(moment: &str, parameters: &[(&str, &str)]) -> Result<Formula, Slip> {
+fn made(moment: &str, parameters: &[(&str, &str)]) -> Checked<Formula> {
     let texts = ["own", moment, "", "", ""].map(str::to_string);
     Formula::new(texts, parameters.iter().map(|(key, unit)| parameter(key, unit, 0.5)).collect())
 }
@@ -93,8 +94,8 @@ fn each_slip_is_refused_with_its_place() {
         ("", "N m", "", "ends too early"),
     ] {
         let slip = made(moment, &[("k", unit)]).unwrap_err();
-        let at = &moment[slip.at.0..slip.at.1];
-        assert!(slip.message.contains(message) && !slip.help.is_empty(), "{moment}: {slip:?}");
+        let at = &moment[slip.span.unwrap().0..slip.span.unwrap().1];
+        assert!(slip.message.contains(message) && !slip.help.as_ref().unwrap().is_empty(), "{moment}: {slip:?}");
         assert_eq!(at, place, "{moment}: {slip:?}");
     }
     for deep in [format!("{}k", "(".repeat(500)), format!("{}k", "-".repeat(500)), format!("k{}", "^2".repeat(500))] {
@@ -116,7 +117,7 @@ fn a_misspelt_variable_or_function_is_answered_with_what_was_meant() {
     for (moment, meant) in [("-k*kapa", "did you mean kappa? known: kappa, "), ("-k*sqr(theta)", "did you mean sqrt?")]
     {
         let slip = made(moment, &[("k", "N m")]).unwrap_err();
-        assert!(slip.help.starts_with(meant), "{slip:?}");
+        assert!(slip.help.as_ref().unwrap().starts_with(meant), "{slip:?}");
     }
 }
 

@@ -2,10 +2,10 @@
 
 use super::{Model, Prediction, Tip, post};
 use crate::assembly::Segment;
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::robot::Workspace;
 use crate::space::{Bend, Section, SectionState, Stretch, StripState, place, stretch};
-use crate::term::{Row, RowKind};
+use crate::term::{CHANNELS, Row, RowKind};
 
 impl Model {
     /// Whether strips run round the body: see [`crate::space`].
@@ -13,8 +13,7 @@ impl Model {
         !self.assembly().around.is_empty()
     }
 
-    /// Refuses a call that covers planar robots only.
-    pub(crate) fn planar(&self, subject: &'static str) -> Result<(), Unsolved> {
+    pub(crate) fn planar(&self, subject: &'static str) -> Solved {
         if self.is_spatial() { Err(Unsolved::InSpace { subject }) } else { Ok(()) }
     }
 
@@ -34,7 +33,6 @@ impl Model {
         stretch(self.assembly(), &work.space, segment)
     }
 
-    /// A point of the centre line \[m\].
     pub(crate) fn point(&self, work: &Workspace, segment: usize, offset_m: f64) -> [f64; 3] {
         if self.is_spatial() {
             return self.stretch_in_space(work, segment).at(offset_m).at;
@@ -43,7 +41,6 @@ impl Model {
         [x, y, 0.0]
     }
 
-    /// Places the nodes and the tip.
     pub(crate) fn place_in_space(&self, out: &mut Prediction) {
         place(self.assembly(), &mut out.work.space);
         let mut turned = 0.0;
@@ -66,19 +63,15 @@ impl Model {
         }
     }
 
-    /// Sets the strips' pressures from the channels'.
-    pub(crate) fn supply_strips(&self, actuator_pa: &[f64], work: &mut Workspace) {
-        let moment = work.history.moment;
-        for (states, strips) in work.space.strips.iter_mut().zip(&self.assembly().around) {
+    pub(crate) fn supply_strips(&self, actuator_pa: &[f64; CHANNELS], work: &mut Workspace) {
+        let assembly = self.assembly();
+        for (states, strips) in work.space.strips.iter_mut().zip(&assembly.around) {
             for (state, strip) in states.iter_mut().zip(strips) {
-                let site = &self.assembly().sites[strip.site];
-                let set = if site.actuator.is_some() { actuator_pa[site.channel] } else { 0.0 };
-                state.p_act_pa = self.assembly().supply.iter().fold(set, |p, law| law(p, &moment));
+                state.p_act_pa = assembly.supplied(&assembly.sites[strip.site], actuator_pa, &work.history.moment);
             }
         }
     }
 
-    /// Ledger of a robot in space.
     pub(crate) fn ledger_in_space(&self, body_pa: f64, at: &Prediction, rows: &mut Vec<Row>) {
         for (i, segment) in self.assembly().segments.iter().enumerate() {
             let section = Section::new(self.assembly(), i, body_pa);

@@ -2,10 +2,10 @@
 
 use super::workspace::Workspace;
 use crate::assembly::Assembly;
-use crate::error::Unsolved;
+use crate::error::{Place, Solved, Unsolved};
 use crate::history::History;
 use crate::root::NoRoot;
-use crate::shape::{advance, arc, slid, turned};
+use crate::shape::{Arc, advance, arc, slid, turned};
 use crate::site::{Site, SiteLoads, SiteState};
 use crate::term::Pose;
 
@@ -22,7 +22,7 @@ const SPRING_ROUNDS: usize = 4;
 const SLIDE_STEPS: usize = 4;
 
 /// Newton on the moments m of the transverse loads: `G(κ(m)) − m = 0`, each κ(m) by the bracketed solve of its place.
-pub(super) fn coupled(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace, warm: bool) -> Result<(), Unsolved> {
+pub(super) fn coupled(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace, warm: bool) -> Solved {
     let mut worst = if warm {
         update(assembly, p_body_pa, work)?
     } else {
@@ -54,7 +54,7 @@ fn damped_step(
     work: &mut Workspace,
     before: f64,
     iterations: usize,
-) -> Result<f64, Unsolved> {
+) -> Solved<f64> {
     let mut share = 1.0;
     let mut taken = 0.0;
     let mut failed = None;
@@ -74,7 +74,7 @@ fn damped_step(
 }
 
 /// Solves every place without moment; neighbours of equal design and pressure are solved once.
-fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Result<(), Unsolved> {
+fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Solved {
     work.coupled.moments.fill(0.0);
     for i in 0..work.states.len() {
         let alike = i > 0 && assembly.segments[i - 1].site == assembly.segments[i].site;
@@ -86,7 +86,7 @@ fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Result
 }
 
 /// Solves every place for its moment from where it is; returns the largest disagreement of moments.
-fn update(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Result<f64, Unsolved> {
+fn update(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Solved<f64> {
     for i in 0..work.states.len() {
         let moment = work.coupled.moments[i];
         work.states[i] = solve_segment(assembly, work, i, p_body_pa, moment, Some(&work.states[i]))?;
@@ -128,13 +128,12 @@ pub(super) fn solve_segment(
     p_body_pa: f64,
     moment: f64,
     near: Option<&SiteState>,
-) -> Result<SiteState, Unsolved> {
+) -> Solved<SiteState> {
     let (site, loads) = place_of(assembly, work, index, p_body_pa, moment);
     let solved = site.solve(&loads, work.history.of_segment(index), near);
     solved.map_err(|error| unsolved(error, site, assembly.segments[index].start_m, &loads))
 }
 
-/// A place, and what acts there.
 pub(super) fn place_of<'a>(
     assembly: &'a Assembly,
     work: &Workspace,
@@ -156,38 +155,35 @@ fn unsolved(error: NoRoot, site: &Site, start_m: f64, loads: &SiteLoads) -> Unso
         NoRoot::SameSign { at_low, at_high } => (at_low, at_high),
         NoRoot::Stalled { f } => (f, f),
     };
-    let (s_mm, p_act_kpa, p_body_kpa) = (start_m * 1e3, loads.p_act_pa / 1e3, loads.p_body_pa / 1e3);
+    let [s_mm, p_act_kpa, p_body_kpa] = [start_m * 1e3, loads.p_act_pa / 1e3, loads.p_body_pa / 1e3];
+    let place = Place { s_mm, p_act_kpa, p_body_kpa };
     let imbalance = low.abs().max(high.abs());
     let extreme = site.extreme(loads).filter(|extreme| extreme.moment > TO_BLAME * imbalance || !imbalance.is_finite());
     let law = if imbalance.is_finite() { None } else { site.without_value(loads) };
     match (extreme, law) {
-        (Some(extreme), _) => Unsolved::Formula { extreme, s_mm, p_act_kpa, p_body_kpa },
-        (None, Some(law)) => Unsolved::NoValue { law, s_mm, p_act_kpa, p_body_kpa },
-        (None, None) => Unsolved::NoEquilibrium { s_mm, p_act_kpa, p_body_kpa, low, high },
+        (Some(extreme), _) => Unsolved::Formula { extreme, place },
+        (None, Some(law)) => Unsolved::NoValue { law, place },
+        (None, None) => Unsolved::NoEquilibrium { place, low, high },
     }
 }
 
-/// Integrates the heading along the arc.
 pub(super) fn place_nodes(assembly: &Assembly, work: &mut Workspace) {
     let (mut heading, mut xy) = (0.0, [0.0; 2]);
     let mut direction = [1.0, 0.0];
     for (i, segment) in assembly.segments.iter().enumerate() {
         let kappa = work.states[i].curvature;
-        let centre = assembly.sites[segment.site].centre_line;
-        let [along, across, sin, cos] = match work.coupled.arcs.get_mut(i) {
+        let centre = assembly.site(i).centre_line;
+        // Without transverse loads the derivatives are not needed, and the compiler drops them.
+        let Arc { chord, turn, .. } = match work.coupled.arcs.get_mut(i) {
             Some(kept) => {
                 *kept = arc(kappa, segment.length_m, centre);
-                [kept.along, kept.across, kept.turn[0], kept.turn[1]]
+                *kept
             }
-            // Without transverse loads the derivatives are not needed, and the compiler drops them here.
-            None => {
-                let step = arc(kappa, segment.length_m, centre);
-                [step.along, step.across, step.turn[0], step.turn[1]]
-            }
+            None => arc(kappa, segment.length_m, centre),
         };
-        xy = advance(xy, slid(direction, work.shear(i)), along, across);
+        xy = advance(xy, slid(direction, work.shear(i)), chord);
         heading += kappa * segment.length_m;
-        direction = turned(direction, [sin, cos]);
+        direction = turned(direction, turn);
         work.nodes[2 * i + 2] = xy[0];
         work.nodes[2 * i + 3] = xy[1];
         work.headings[i + 1] = heading;
@@ -202,10 +198,10 @@ fn shear(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) {
     for (i, segment) in assembly.segments.iter().enumerate().rev() {
         let (node, own) = (2 * (i + 1), &work.coupled.arcs[i]);
         beyond = [beyond[0] + work.coupled.forces[node], beyond[1] + work.coupled.forces[node + 1]];
-        let chord = advance([0.0; 2], work.directions[i], own.along, own.across).map(|d| d / segment.length_m);
+        let chord = advance([0.0; 2], work.directions[i], own.chord).map(|d| d / segment.length_m);
         let across = chord[0] * beyond[1] - chord[1] * beyond[0];
         let along = chord[0] * beyond[0] + chord[1] * beyond[1];
-        let stiffness = assembly.sites[segment.site].shear_stiffness_n(p_body_pa);
+        let stiffness = assembly.site(i).shear_stiffness_n(p_body_pa);
         let step = |angle: f64| {
             let (sin, cos) = angle.sin_cos();
             angle - (stiffness * angle - across * cos + along * sin) / (stiffness + across * sin + along * cos)
@@ -233,8 +229,8 @@ fn load_moments(assembly: &Assembly, work: &mut Workspace) {
         let per_h = 1.0 / assembly.segments[i].length_m;
         let own = &load.arcs[i];
         let direction = slid(work.directions[i], load.shear.get(i).copied().unwrap_or(0.0));
-        let change = advance([0.0; 2], direction, own.d_along, own.d_across);
-        let second = advance([0.0; 2], direction, own.dd_along, own.dd_across);
+        let change = advance([0.0; 2], direction, own.slope);
+        let second = advance([0.0; 2], direction, own.bend);
         load.residual[i] = (sum[0] * change[0] + sum[1] * change[1]) * per_h + turn - load.moments[i];
         load.coupling[i] = (sum[1] * change[0] - sum[0] * change[1]) * per_h - reach;
         load.diagonal[i] = (sum[0] * second[0] + sum[1] * second[1]) * per_h - reach * assembly.segments[i].length_m;

@@ -65,7 +65,7 @@ impl Workspace {
             held: Held::default(),
             space: SpaceWork::new(assembly),
             coupled: Coupled {
-                arcs: vec![Arc::NONE; n],
+                arcs: vec![Arc::default(); n],
                 forces: vec![0.0; if coupled { 2 * (n + 1) } else { 0 }],
                 moments: vec![0.0; n],
                 step: vec![0.0; n],
@@ -90,7 +90,6 @@ impl Workspace {
         self.coupled.shear.get(index).copied().unwrap_or(0.0)
     }
 
-    /// Whether transverse loads shear the body.
     pub(crate) fn is_sheared(&self) -> bool {
         !self.coupled.shear.is_empty()
     }

@@ -3,15 +3,15 @@
 use super::built::is_off;
 use super::choice::ActuatorChoice;
 use super::formulas::formulas;
-use super::given::{Checked, Given, refuse, si, unit};
+use super::given::{Checked, Given, fault, si, unit};
 use super::keys::{REMARKS, SEGMENTS};
 use super::raw::{Entries, Raw};
 use super::stated::{BASES, EffectChoice, Scenario, Wall, Zone, order};
 use super::strips::{actuator, check_space, more_strips};
-use super::supply::line;
 use crate::catalogue::Catalogue;
 use crate::effects::Effect;
 use crate::formula::Formula;
+use crate::line::{Line, REFERENCE_PA};
 use spelling::units::Range;
 use std::sync::Arc;
 use toml::Spanned;
@@ -55,11 +55,9 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
     };
     check_space(&scenario, raw, &body)?;
     match (scenario.can_be_built(), &raw.actuator) {
-        (Err(fault), Some(actuator)) => refuse(
-            format!("robot: {fault}"),
-            "change the sizes of the body, the actuator or its zones",
-            actuator.span(),
-        ),
+        (Err(wrong), Some(actuator)) => fault(format!("robot: {wrong}"))
+            .help("change the sizes of the body, the actuator or its zones")
+            .at(actuator.span()),
         _ => Ok(scenario),
     }
 }
@@ -68,14 +66,14 @@ fn wall(body: &Given) -> Checked<Wall> {
     let stiffness_n_per_m = body.number("wall_stiffness_n_per_m")?;
     let shear_n_per_m = body.number("wall_shear_n_per_m")?;
     if let (Some(wall), true) = (stiffness_n_per_m, body.has_any(&["hinge_curvature_per_m"])) {
-        let message = format!("hinge_curvature_per_m repeats a wall of {wall} N/m");
-        let help = "remove it: a wall has its own, pressure_kpa over E t";
-        return refuse(message, help, body.span_of("hinge_curvature_per_m"));
+        return fault(format!("hinge_curvature_per_m repeats a wall of {wall} N/m"))
+            .help("remove it: a wall has its own, pressure_kpa over E t")
+            .at(body.span_of("hinge_curvature_per_m"));
     }
     let is_known = stiffness_n_per_m.or(shear_n_per_m).is_some();
     let basis = match body.raw("wall_basis") {
         Some(word) if !is_known => {
-            return refuse("wall_basis without a wall".into(), "add wall_stiffness_n_per_m, or remove it", word.span());
+            return fault("wall_basis without a wall").help("add wall_stiffness_n_per_m, or remove it").at(word.span());
         }
         Some(word) => basis_of(word)?,
         None if is_known => "assumed".into(),
@@ -96,8 +94,9 @@ fn gravity(body: &Given, is_spatial: bool) -> Checked<[f64; 3]> {
         return Ok(direction);
     }
     let room = if is_spatial { "[x, y] or [x, y, z]" } else { "in the x–y plane" };
-    let message = format!("gravity must be a unit vector {room}, not {given:?}");
-    refuse(message, "[0, -1] points against the bend, [1, 0] along the robot", body.span_of("gravity"))
+    fault(format!("gravity must be a unit vector {room}, not {given:?}"))
+        .help("[0, -1] points against the bend, [1, 0] along the robot")
+        .at(body.span_of("gravity"))
 }
 
 fn zone(table: &Spanned<Entries>, length_m: f64, actuator: &ActuatorChoice) -> Checked<Zone> {
@@ -105,12 +104,13 @@ fn zone(table: &Spanned<Entries>, length_m: f64, actuator: &ActuatorChoice) -> C
     let passive = zone.read("passive")?;
     let of_actuator = zone.has_any(&["length_mm", "width_mm", "fold_mm", "arm_mm", "channel"]);
     if !actuator.exists() && (of_actuator || passive == Some(false)) {
-        return refuse("a zone of an actuator that is not there".into(), "add [actuator]", zone.span);
+        return fault("a zone of an actuator that is not there").help("add [actuator]").at(zone.span);
     }
     let (from_m, to_m) = (zone.need("from_mm")?, zone.need("to_mm")?);
     if from_m >= to_m || is_off(to_m, length_m) {
-        let message = format!("a zone from {} to {} mm is not on the body", from_m * 1e3, to_m * 1e3);
-        return refuse(message, format!("0 ≤ from_mm < to_mm ≤ {}", length_m * 1e3), zone.span_of("to_mm"));
+        return fault(format!("a zone from {} to {} mm is not on the body", from_m * 1e3, to_m * 1e3))
+            .help(format!("0 ≤ from_mm < to_mm ≤ {}", length_m * 1e3))
+            .at(zone.span_of("to_mm"));
     }
     Ok(Zone {
         from_m,
@@ -131,18 +131,19 @@ fn stations(raw: &[Spanned<f64>], length_m: f64) -> Checked<Vec<f64>> {
     for value in raw {
         let s = si(value, &Range::STATION)?;
         if is_off(s, length_m) {
-            let message = format!("marker at {} mm is off the body of {} mm", value.get_ref(), length_m * 1e3);
-            return refuse(message, "stations are measured along the undeformed body from its base", value.span());
+            return fault(format!("marker at {} mm is off the body of {} mm", value.get_ref(), length_m * 1e3))
+                .help("stations are measured along the undeformed body from its base")
+                .at(value.span());
         }
         if stations.last().is_some_and(|last| *last >= s) {
-            return refuse("marker stations must rise".into(), "sort them from base to tip", value.span());
+            return fault("marker stations must rise").help("sort them from base to tip").at(value.span());
         }
         stations.push(s);
     }
     if let (Some(last), Some(value)) = (stations.last(), raw.last())
         && are_too_low(*last, length_m)
     {
-        return refuse("marker stations are all below 2 mm".into(), Range::LENGTH.too_small, value.span());
+        return fault("marker stations are all below 2 mm").help(Range::LENGTH.too_small).at(value.span());
     }
     Ok(stations)
 }
@@ -167,12 +168,14 @@ fn effects_of(raw: &Raw, actuator: &ActuatorChoice, formulas: &[Arc<Formula>]) -
     for (name, table) in &raw.effects {
         let Some(effect) = catalogue.by_name(name.get_ref()) else {
             let known: Vec<&str> = catalogue.effects().map(|e| e.name).collect();
-            let help = spelling::known(name.get_ref(), &known);
-            return refuse(format!("unknown effect \"{}\"", name.get_ref()), help, name.span());
+            return fault(format!("unknown effect \"{}\"", name.get_ref()))
+                .help(spelling::known(name.get_ref(), &known))
+                .at(name.span());
         };
         if !actuator.takes(&effect) {
-            let message = format!("{} does not exist for actuator {}", effect.name, actuator.kind.name);
-            return refuse(message, format!("remove [effects.{}]", effect.name), name.span());
+            return fault(format!("{} does not exist for actuator {}", effect.name, actuator.kind.name))
+                .help(format!("remove [effects.{}]", effect.name))
+                .at(name.span());
         }
         let mut values = effect.neutral();
         let basis = table.iter().find(|(key, _)| key.get_ref() == "basis").map(|(_, value)| basis_of(value));
@@ -184,9 +187,10 @@ fn effects_of(raw: &Raw, actuator: &ActuatorChoice, formulas: &[Arc<Formula>]) -
                 (word, None) if REMARKS.contains(&word) => {}
                 (word, None) => {
                     let keys: Vec<&str> = effect.parameters.iter().map(|p| p.key).collect();
-                    let message = format!("{} has no parameter \"{word}\"", effect.name);
                     let meant = spelling::meant(word, keys.iter().copied());
-                    return refuse(message, format!("{meant}its parameters: {}", keys.join(", ")), key.span());
+                    return fault(format!("{} has no parameter \"{word}\"", effect.name))
+                        .help(format!("{meant}its parameters: {}", keys.join(", ")))
+                        .at(key.span());
                 }
             }
         }
@@ -199,11 +203,10 @@ fn effects_of(raw: &Raw, actuator: &ActuatorChoice, formulas: &[Arc<Formula>]) -
 fn basis_of(value: &Spanned<toml::Value>) -> Checked<String> {
     match value.get_ref().as_str() {
         Some(word) if BASES.contains(&word) => Ok(word.to_string()),
-        Some(word) => {
-            let message = format!("basis \"{word}\" is none of the words that say how a value is known");
-            refuse(message, spelling::known(word, BASES), value.span())
-        }
-        None => refuse("basis must be a word".into(), format!("write one of {}", BASES.join(", ")), value.span()),
+        Some(word) => fault(format!("basis \"{word}\" is none of the words that say how a value is known"))
+            .help(spelling::known(word, BASES))
+            .at(value.span()),
+        None => fault("basis must be a word").help(format!("write one of {}", BASES.join(", "))).at(value.span()),
     }
 }
 
@@ -213,19 +216,42 @@ fn parameter(effect: &Effect, index: usize, value: &Spanned<toml::Value>, is_kno
         toml::Value::Float(v) => *v,
         toml::Value::Integer(v) => *v as f64,
         other => {
-            let message = format!("{} must be a number, not {}", p.key, other.type_str());
-            return refuse(message, format!("for example {} = {}", p.key, p.typical), value.span());
+            return fault(format!("{} must be a number, not {}", p.key, other.type_str()))
+                .help(format!("for example {} = {}", p.key, p.typical))
+                .at(value.span());
         }
     };
     let help = format!("{}; typical {}{}", p.meaning, p.typical, unit(p.unit));
     if !p.is_possible(number) {
-        let message = format!("{} = {number} is outside its physical bounds {}", p.key, p.possible_words());
-        return refuse(message, help, value.span());
+        return fault(format!("{} = {number} is outside its physical bounds {}", p.key, p.possible_words()))
+            .help(help)
+            .at(value.span());
     }
     if !is_known && !p.is_usual(number) {
-        let message = format!("{} = {number} is outside its usual bounds {}", p.key, p.usual_words());
-        let help = format!("{help}; if that was found on the robot, say so: basis = \"measured\"");
-        return refuse(message, help, value.span());
+        return fault(format!("{} = {number} is outside its usual bounds {}", p.key, p.usual_words()))
+            .help(format!("{help}; if that was found on the robot, say so: basis = \"measured\""))
+            .at(value.span());
     }
     Ok(number * p.si)
 }
+
+/// `[supply]`: time constant of the valve and flow of its line; conductance and volume belong together.
+fn line(table: &Spanned<Entries>) -> Checked<Line> {
+    let supply = Given::new("supply", table)?;
+    let [valve, conductance, ratio, volume] =
+        ["valve_time_s", "conductance_l_per_s_bar", "critical_ratio", "volume_ml"].map(|key| supply.number(key));
+    let (valve, ratio) = (valve?, ratio?);
+    let flow_per_s = match (conductance?, volume?) {
+        (Some(conductance), Some(volume)) => REFERENCE_PA * conductance / volume,
+        (None, None) if ratio.is_none() && valve.is_some() => f64::INFINITY,
+        _ => {
+            return fault("[supply] is not complete")
+                .help("give valve_time_s, or conductance_l_per_s_bar with volume_ml, or all three")
+                .at(supply.span);
+        }
+    };
+    Ok(Line { valve_time_s: valve.unwrap_or(0.0), flow_per_s, critical_ratio: ratio.unwrap_or(USUAL_RATIO) })
+}
+
+/// b where the data sheet has none: between a tube and a sharp orifice.
+const USUAL_RATIO: f64 = 0.3;

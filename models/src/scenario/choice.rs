@@ -6,7 +6,7 @@ use crate::effects::Effect;
 use std::f64::consts::TAU;
 
 /// Actuator of a scenario: its kind, its units, and where they are on the body.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ActuatorChoice {
     /// Entry of the actuator in [`crate::actuators::ACTUATORS`].
     pub kind: &'static Actuator,
@@ -53,18 +53,7 @@ impl ActuatorChoice {
     pub fn takes(&self, effect: &Effect) -> bool {
         effect.applies_to(self.kind.family) && (self.exists() || !effect.needs_actuator())
     }
-}
 
-impl PartialEq for ActuatorChoice {
-    fn eq(&self, other: &Self) -> bool {
-        self.kind.name == other.kind.name
-            && (self.shape, self.count, self.start_m, self.arm_m, self.channel)
-                == (other.shape, other.count, other.start_m, other.arm_m, other.channel)
-            && (self.azimuth_rad, self.turns) == (other.azimuth_rad, other.turns)
-    }
-}
-
-impl ActuatorChoice {
     /// Whether its strip runs along azimuth 0.
     pub(super) fn is_planar(&self) -> bool {
         self.azimuth_rad == 0.0 && self.turns == 0.0

@@ -2,20 +2,14 @@
 
 use super::keys::{Key, key, names};
 use super::raw::{Entries, syntax};
-use crate::error::ScenarioError;
+pub(super) use crate::error::{Checked, ScenarioError, fault};
 use serde::de::DeserializeOwned;
 use std::ops::Range;
 use toml::{Spanned, Value};
 
-pub(super) type Checked<T> = Result<T, ScenarioError>;
-
-pub(super) fn refuse<T>(message: String, help: impl Into<String>, span: Range<usize>) -> Checked<T> {
-    Err(ScenarioError { message, help: Some(help.into()), span: Some((span.start, span.end)) })
-}
-
 /// A number in SI, within a range.
 pub(super) fn si(value: &Spanned<f64>, range: &spelling::units::Range) -> Checked<f64> {
-    range.si(range.name, *value.get_ref()).or_else(|(message, help)| refuse(message, help, value.span()))
+    range.si(range.name, *value.get_ref()).or_else(|(message, help)| fault(message).help(help).at(value.span()))
 }
 
 /// A unit after its number; nothing where there is none.
@@ -23,7 +17,6 @@ pub(super) fn unit(name: &str) -> String {
     if name == "-" { String::new() } else { format!(" {name}") }
 }
 
-/// The entries of one table of the text.
 pub(super) struct Given<'a> {
     /// Where it is in the text.
     pub span: Range<usize>,
@@ -38,9 +31,10 @@ impl<'a> Given<'a> {
             None => {
                 let all = names(table);
                 let listed: Vec<String> = all.iter().map(|name| format!("`{name}`")).collect();
-                let message = format!("unknown field `{}`, expected one of {}", name.get_ref(), listed.join(", "));
                 let meant = spelling::meant(name.get_ref(), all);
-                refuse(message, format!("{meant}every key carries its unit, for example length_mm"), name.span())
+                fault(format!("unknown field `{}`, expected one of {}", name.get_ref(), listed.join(", ")))
+                    .help(format!("{meant}every key carries its unit, for example length_mm"))
+                    .at(name.span())
             }
         };
         let entries = raw.get_ref().iter().map(known).collect::<Checked<_>>()?;
@@ -59,7 +53,6 @@ impl<'a> Given<'a> {
         self.entries.iter().find(|(key, _)| key.name == name)
     }
 
-    /// Whether one of these keys is there.
     pub(super) fn has_any(&self, names: &[&str]) -> bool {
         names.iter().any(|name| self.at(name).is_some())
     }

@@ -4,6 +4,7 @@
 //! `docs/scenario.md`. `[effects]` and `[[formula]]` have the catalogue's keys.
 
 use super::stated::Scenario;
+use crate::Text;
 use crate::term::CHANNELS;
 use spelling::units::Range;
 use std::f64::consts::PI;
@@ -12,7 +13,7 @@ use std::f64::consts::PI;
 #[derive(Debug, Clone, Copy)]
 pub struct Key {
     /// Tables in which it may stand; first the one that it is described for.
-    pub tables: &'static [&'static str],
+    pub tables: &'static [Text],
     /// Name with its unit, as in the text.
     pub name: &'static str,
     /// Accepted numbers; `None` of a word or a list.
@@ -63,7 +64,6 @@ pub fn key(table: &str, name: &str) -> Option<&'static Key> {
     KEYS.iter().find(|key| key.name == name && key.tables.contains(&table))
 }
 
-/// Names of the keys of a table.
 pub(super) fn names(table: &str) -> Vec<&'static str> {
     KEYS.iter().filter(|key| key.tables.contains(&table)).map(|key| key.name).collect()
 }
@@ -78,28 +78,18 @@ pub fn moves_nothing(place: &str) -> bool {
 /// Words that may stand next to the parameters of an effect: how they are known.
 pub(super) const REMARKS: &[&str] = &["basis", "interval", "data", "date", "note"];
 
-const fn number(
-    tables: &'static [&'static str],
-    name: &'static str,
-    range: Range,
-    meaning: &'static str,
-    field: Field,
-) -> Key {
-    Key { tables, name, range: Some(range), meaning, field: Some(field) }
+const fn number(tables: &'static [Text], name: Text, range: Range, meaning: Text, field: Field) -> Key {
+    let (range, field) = (Some(range), Some(field));
+    Key { tables, name, range, meaning, field }
 }
 
-const fn other(
-    tables: &'static [&'static str],
-    name: &'static str,
-    range: Option<Range>,
-    meaning: &'static str,
-) -> Key {
+const fn other(tables: &'static [Text], name: Text, range: Option<Range>, meaning: Text) -> Key {
     Key { tables, name, range, meaning, field: None }
 }
 
 /// Accepted numbers with their factor to SI, and the advice below and above them.
-const fn range(name: &'static str, unit: &'static str, si: f64, ends: [f64; 2], advice: [&'static str; 2]) -> Range {
-    Range { name, unit, si, low: ends[0], high: ends[1], too_small: advice[0], too_large: advice[1] }
+const fn range(name: Text, unit: Text, si: f64, [low, high]: [f64; 2], [too_small, too_large]: [Text; 2]) -> Range {
+    Range { name, unit, si, low, high, too_small, too_large }
 }
 
 const BODY: &[&str] = &["body"];

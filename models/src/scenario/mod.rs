@@ -31,7 +31,6 @@ mod set;
 mod spans;
 mod stated;
 mod strips;
-mod supply;
 
 pub use choice::ActuatorChoice;
 pub use dials::Dial;
@@ -51,27 +50,26 @@ pub fn shipped(name: &str) -> Option<&'static str> {
     of(name).or_else(|| of(name.strip_suffix("-textbook")?).map(textbook))
 }
 
-/// A scenario and the mechanics of a pouch or a muscle in a pressurised wall.
-macro_rules! in_the_wall {
-    ($file:literal, $mechanics:literal) => {
-        concat!(include_str!($file), include_str!($mechanics))
+macro_rules! toml {
+    ($($name:literal),+) => { concat!("../../scenarios/", $($name,)+ ".toml") };
+}
+
+/// Name and text of a robot: its scenario, and the mechanics of a pouch or a muscle in a pressurised wall.
+macro_rules! robot {
+    ($name:literal, $kind:literal) => {
+        ($name, concat!(include_str!(toml!($name)), include_str!(toml!($kind, "-mechanics"))))
     };
 }
 
 /// Names and texts of the shipped scenarios.
-pub const SHIPPED: &[(&str, &str)] = &[
-    ("spam", in_the_wall!("../../scenarios/spam.toml", "../../scenarios/pouch-mechanics.toml")),
-    ("cpam", in_the_wall!("../../scenarios/cpam.toml", "../../scenarios/pouch-mechanics.toml")),
-    ("epam", in_the_wall!("../../scenarios/epam.toml", "../../scenarios/pouch-mechanics.toml")),
-    ("fpam", in_the_wall!("../../scenarios/fpam.toml", "../../scenarios/muscle-mechanics.toml")),
-];
+pub const SHIPPED: &[(&str, &str)] =
+    &[robot!("spam", "pouch"), robot!("cpam", "pouch"), robot!("epam", "pouch"), robot!("fpam", "muscle")];
 
 /// Names that [`shipped`] knows: the four robots, and each without the mechanics that textbook models lack.
 pub const ROBOTS: [&str; 8] =
     ["spam", "cpam", "epam", "fpam", "spam-textbook", "cpam-textbook", "epam-textbook", "fpam-textbook"];
 
-const MECHANICS: [&str; 2] =
-    [include_str!("../../scenarios/pouch-mechanics.toml"), include_str!("../../scenarios/muscle-mechanics.toml")];
+const MECHANICS: [&str; 2] = [include_str!(toml!("pouch-mechanics")), include_str!(toml!("muscle-mechanics"))];
 
 impl Scenario {
     /// Reads a scenario from TOML text.

@@ -184,7 +184,6 @@ impl Scenario {
     }
 }
 
-/// Place of an effect in the catalogue.
 pub(super) fn order(name: &str, formulas: &[Arc<Formula>]) -> usize {
     let listed = EFFECTS.iter().position(|e| e.name == name);
     listed.unwrap_or_else(|| EFFECTS.len() + formulas.iter().take_while(|formula| formula.name != name).count())

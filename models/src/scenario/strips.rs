@@ -2,7 +2,7 @@
 
 use super::built::is_off;
 use super::choice::ActuatorChoice;
-use super::given::{Checked, Given, refuse};
+use super::given::{Checked, Given, fault};
 use super::raw::{Entries, Raw};
 use super::stated::Scenario;
 use crate::actuators::{self, ACTUATORS, Actuator, ActuatorShape, BIAS, Family};
@@ -10,13 +10,13 @@ use crate::effects::IN_SPACE;
 use std::f64::consts::TAU;
 use toml::Spanned;
 
-/// A strip of units on a body.
 pub(super) fn actuator(given: &Given, radius_m: f64, length_m: f64) -> Checked<ActuatorChoice> {
     let name: String = given.needed("kind", given.read("kind")?)?;
     let Some(kind) = actuators::by_name(&name) else {
         let known: Vec<&str> = ACTUATORS.iter().map(|a| a.name).collect();
-        let help = spelling::known(&name, &known);
-        return refuse(format!("unknown actuator \"{name}\""), help, given.span_of("kind"));
+        return fault(format!("unknown actuator \"{name}\""))
+            .help(spelling::known(&name, &known))
+            .at(given.span_of("kind"));
     };
     of_family(given, kind)?;
     let choice = ActuatorChoice {
@@ -39,12 +39,12 @@ pub(super) fn actuator(given: &Given, radius_m: f64, length_m: f64) -> Checked<A
     let end_m = choice.start_m + choice.covered_m(radius_m);
     if is_off(end_m, length_m) {
         let [unit, start, end, length] = [choice.shape.length_m, choice.start_m, end_m, length_m].map(|m| m * 1e3);
-        let message = format!(
+        return fault(format!(
             "{} units of {unit} mm from {start} mm end at {end:.1} mm, beyond the body's {length:.1} mm",
             choice.count
-        );
-        let help = "lower count, length_mm or start_mm, or raise body.length_mm";
-        return refuse(message, help, given.span_of("count"));
+        ))
+        .help("lower count, length_mm or start_mm, or raise body.length_mm")
+        .at(given.span_of("count"));
     }
     Ok(choice)
 }
@@ -56,10 +56,9 @@ fn of_family(given: &Given, kind: &Actuator) -> Checked<()> {
         Family::Mckibben => ("fold_mm", "the depth of a pouch's folds"),
     };
     match given.has_any(&[key]) {
-        true => {
-            let message = format!("{key} is {meaning}; a {} has none", kind.name);
-            refuse(message, "leave the line out", given.span_of(key))
-        }
+        true => fault(format!("{key} is {meaning}; a {} has none", kind.name))
+            .help("leave the line out")
+            .at(given.span_of(key)),
         false => Ok(()),
     }
 }
@@ -71,11 +70,10 @@ fn check_turns(given: &Given, choice: &ActuatorChoice, radius_m: f64) -> Checked
         return Ok(());
     }
     let (strip, round) = (choice.strip_m() * 1e3, TAU * radius_m * choice.turns.abs() * 1e3);
-    let message = format!(
+    fault(format!(
         "{} turns take {round:.1} mm round the body, of a strip of {strip:.1} mm: it would lie more than 60° off the axis",
         choice.turns
-    );
-    refuse(message, "write fewer turns, or more or longer units", given.span_of("turns"))
+    )).help("write fewer turns, or more or longer units").at(given.span_of("turns"))
 }
 
 /// `[[strip]]`: missing keys come from `[actuator]`.
@@ -89,17 +87,14 @@ pub(super) fn more_strips(
     let mut strips: Vec<ActuatorChoice> = Vec::new();
     for table in tables {
         let Some(model) = model else {
-            return refuse("a strip of an actuator that is not there".into(), "add [actuator]", table.span());
+            return fault("a strip of an actuator that is not there").help("add [actuator]").at(table.span());
         };
         let own = Given::new("strip", table)?;
         own.need("azimuth_deg")?;
         let next = actuator(&own.or(model), radius_m, length_m)?;
         if let Some(other) = std::iter::once(first).chain(&strips).find(|other| overlap(other, &next, radius_m)) {
             let (a, b) = (other.azimuth_rad.to_degrees(), next.azimuth_rad.to_degrees());
-            let message = format!("the strips from azimuth {a:.0} and {b:.0} degrees lie on each other");
-            let help =
-                "move azimuth_deg or start_mm, or make them narrower: width_mm over the radius is the angle they take";
-            return refuse(message, help, table.span());
+            return fault(format!("the strips from azimuth {a:.0} and {b:.0} degrees lie on each other")).help("move azimuth_deg or start_mm, or make them narrower: width_mm over the radius is the angle they take").at(table.span());
         }
         strips.push(next);
     }
@@ -126,12 +121,11 @@ fn overlap(a: &ActuatorChoice, b: &ActuatorChoice, radius_m: f64) -> bool {
 fn no_z(scenario: &Scenario, raw: &Raw) -> Checked<()> {
     let name = raw.effects.keys().find(|name| name.get_ref() == "tip_load");
     match (scenario.idle_force_n(), name) {
-        (Some(force), Some(name)) => {
-            let message = format!(
-                "cannot push the tip along z: force_z_n is {force}, and this robot bends in the x–y plane alone"
-            );
-            refuse(message, "remove force_z_n, or give the robot a [[strip]]", name.span())
-        }
+        (Some(force), Some(name)) => fault(format!(
+            "cannot push the tip along z: force_z_n is {force}, and this robot bends in the x–y plane alone"
+        ))
+        .help("remove force_z_n, or give the robot a [[strip]]")
+        .at(name.span()),
         _ => Ok(()),
     }
 }
@@ -142,20 +136,21 @@ pub(super) fn check_space(scenario: &Scenario, raw: &Raw, body: &Given) -> Check
         return no_z(scenario, raw);
     }
     if let Some(name) = raw.effects.keys().find(|name| !IN_SPACE.contains(&name.get_ref().as_str())) {
-        let message = format!("the effect {} is not built for strips round the body", name.get_ref());
-        return refuse(message, format!("strips round the body take {}", IN_SPACE.join(", ")), name.span());
+        return fault(format!("the effect {} is not built for strips round the body", name.get_ref()))
+            .help(format!("strips round the body take {}", IN_SPACE.join(", ")))
+            .at(name.span());
     }
     for key in ["wall_stiffness_n_per_m", "wall_shear_n_per_m", "hinge_moment_share"] {
         if body.has_any(&[key]) {
-            let message = format!("{key} is not built for strips round the body");
-            return refuse(message, "leave it out: the wall is then inextensible", body.span_of(key));
+            return fault(format!("{key} is not built for strips round the body"))
+                .help("leave it out: the wall is then inextensible")
+                .at(body.span_of(key));
         }
     }
     match raw.zone.first() {
-        Some(zone) => {
-            let message = "zones are not built for strips round the body".into();
-            refuse(message, "give strips start_mm and count instead", zone.span())
-        }
+        Some(zone) => fault("zones are not built for strips round the body")
+            .help("give strips start_mm and count instead")
+            .at(zone.span()),
         None => Ok(()),
     }
 }

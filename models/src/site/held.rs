@@ -18,7 +18,7 @@ impl Site {
             return (at_rest, f64::NAN);
         }
         let share = (curvature / most).max(0.0).sqrt();
-        let start = Start { x: low + share * (high - low), f: None, slope: -2.0 * share * most / (high - low) };
+        let start = Start::guess(low + share * (high - low), -2.0 * share * most / (high - low));
         let Ok(root) = find_root(&mut |a| curvature - bent(a), actuator.range, start) else {
             return (at_rest, f64::NAN);
         };

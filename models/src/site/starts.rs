@@ -9,7 +9,6 @@
 
 use crate::root::Start;
 
-/// Starts at equal distances of v.
 pub(super) struct Starts {
     first: f64,
     per_step: f64,
@@ -52,7 +51,7 @@ impl Starts {
         let weights = [-b * c * d / 6.0, a * c * d / 2.0, -a * b * d / 2.0, a * b * c / 6.0];
         let near = self.nodes[from..from + 4].iter().zip(weights);
         let [x, slope] = near.fold([0.0; 2], |[x, s], (node, w)| [x + w * node[0], s + w * node[1]]);
-        Some(Start { x, f: None, slope: slope * pressure_pa })
+        Some(Start::guess(x, slope * pressure_pa))
     }
 }
 

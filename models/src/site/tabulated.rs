@@ -1,7 +1,7 @@
 //! Starts of a place, tabulated where the guess of its actuator fails.
 
 use super::starts::Starts;
-use super::{SideEffects, Site, SiteLoads, SiteState, TYPICAL_STROKE};
+use super::{SideEffects, Site, SiteLoads, TYPICAL_STROKE};
 use crate::root::Start;
 use crate::term::Memory;
 
@@ -15,7 +15,7 @@ impl Site {
         if !self.side_effects.shifts_balance || remembers {
             return;
         }
-        let loads = |p_act_pa: f64| SiteLoads { p_body_pa, p_act_pa, ..SiteState::REST.loads };
+        let loads = |p_act_pa: f64| SiteLoads::new(p_body_pa, p_act_pa);
         let moment = self.resisting(&loads(0.0), &[]);
         let SideEffects { closes, tabulated_from, .. } = self.side_effects;
         let opened = ((2.0 * closes).max(tabulated_from) * p_body_pa).max(LOWEST_SHARE * p_max_pa);

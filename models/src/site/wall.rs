@@ -70,8 +70,7 @@ impl Site {
         let curvature = if at_rest == 0.0 {
             x
         } else {
-            let slope = -stiffness(x);
-            let start = Start { x, f: Some(at_rest), slope };
+            let start = Start::known(x, at_rest, -stiffness(x));
             let root = find_root(&mut imbalance, (-self.folded(), self.folded()), start)?;
             root.x + root.step
         };

@@ -25,21 +25,4 @@ impl Section<'_> {
         post(BODY_PRESSURE, self.p_body_pa * gas);
         post(Bending { stiffness: 0.0 }.line(), 0.5 * self.bending * dot(bend.kappa, bend.kappa));
     }
-
-    /// Energy per metre at any bend and contraction, strips settled \[J/m\]; for tests.
-    #[cfg(test)]
-    pub(crate) fn energy(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> f64 {
-        self.pulls(strips, kappa, contraction);
-        let mut sum = 0.0;
-        self.energies(&Bend { kappa, contraction }, strips, &mut |_, energy| sum += energy);
-        sum
-    }
-
-    /// Forces on κ and ε₀ there, of everything but the constraint; for tests.
-    #[cfg(test)]
-    pub(crate) fn forces(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> [f64; 3] {
-        let pulls = self.pulls(strips, kappa, contraction);
-        let by = |i: usize| pulls.moment[i] - self.p_body_pa * self.moment_m3[i] - self.bending * kappa[i];
-        [by(0), by(1), pulls.force - self.p_body_pa * self.area_m2]
-    }
 }

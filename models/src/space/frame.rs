@@ -36,7 +36,6 @@ pub(crate) fn direction(azimuth_rad: f64) -> [f64; 2] {
     }
 }
 
-/// Bend and contraction of a section.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Bend {
     /// κ_y, κ_z per unpressurised length \[1/m\].
@@ -50,7 +49,6 @@ impl Bend {
     }
 }
 
-/// Stretch of the body with one bend and contraction.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stretch {
     pub from: Frame,

@@ -8,7 +8,7 @@
 //! ε is the contraction of the centre line, x the end of the segment, x_k a node beyond it.
 
 use super::frame::Stretch;
-use crate::shape::{SERIES_BELOW, alternating, sinc_pair};
+use crate::shape::{SERIES_BELOW, alternating, inverse_of, sinc_pair};
 
 pub(super) type Vector = [f64; 3];
 /// Matrix by its rows: the first index is the row.
@@ -57,7 +57,6 @@ pub(super) struct Beyond {
 }
 
 impl Beyond {
-    /// Adds a force at the end itself.
     pub(super) fn add(&mut self, force: &[f64]) {
         self.force.iter_mut().zip(force).for_each(|(sum, f)| *sum += f);
     }
@@ -160,9 +159,49 @@ fn even(u: f64) -> [f64; 5] {
     let z = u * u;
     let (b, a1) = if u > 0.0 { (across / u, d_along / u) } else { (0.5, -1.0 / 3.0) };
     if u < SERIES_BELOW {
-        let b1 = -alternating(z, [1.0 / 12.0, 1.0 / 180.0, 1.0 / 6720.0, 1.0 / 453_600.0, 1.0 / 47_900_160.0]);
-        let c = alternating(z, [1.0 / 6.0, 1.0 / 120.0, 1.0 / 5040.0, 1.0 / 362_880.0, 1.0 / 39_916_800.0]);
+        let b1 = -alternating(z, const { inverse_of([12.0, 180.0, 6720.0, 453_600.0, 4.790_016e7]) });
+        let c = alternating(z, const { inverse_of([6.0, 120.0, 5040.0, 362_880.0, 3.991_68e7]) });
         return [a, b, a1, b1, c];
     }
     [a, b, a1, (a - 2.0 * b) / z, (1.0 - a) / z]
+}
+
+/// Generalised forces of outer loads per length of body: on κ_y and κ_z \[N·m\] and on the contraction of the centre line \[N\].
+pub(crate) type Outer = [f64; 3];
+
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Loaded {
+    pub(super) sections: Vec<Coupling>,
+    pub(super) nodes: Vec<f64>,
+    pub(super) forces: Vec<f64>,
+}
+
+/// Loads of a section that the rest of the robot decides, and their slopes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Coupling {
+    /// Loads assumed, and their Newton step.
+    pub(super) outer: Outer,
+    pub(super) step: Outer,
+    /// Loads of the shape less the assumed ones.
+    pub(super) residual: Vector,
+    pub(super) compliance: Matrix,
+    /// Turn of the body beyond, per change of q; one a row.
+    pub(super) turn: Matrix,
+    /// ∂G/∂φ of the segments before, times the length.
+    pub(super) turned: Matrix,
+    /// ∂G/∂q of itself, times the length.
+    pub(super) own: Matrix,
+    pub(super) slope: Matrix,
+}
+
+impl Loaded {
+    pub(super) fn new(segments: usize) -> Loaded {
+        let nodes = if segments == 0 { 0 } else { 3 * (segments + 1) };
+        Loaded { sections: vec![Coupling::default(); segments], nodes: vec![0.0; nodes], forces: vec![0.0; nodes] }
+    }
+
+    /// Loads on a section: moments on κ_y and κ_z \[N·m\], and the force that shortens the centre line \[N\].
+    pub(crate) fn outer(&self, section: usize) -> Outer {
+        self.sections[section].outer
+    }
 }

@@ -8,12 +8,11 @@
 //!
 //! Equilibrium is G(q(g)) = g: every section at its own minimum under the loads g, as in the plane (`robot/coupled.rs`).
 
-use super::coupling::Coupling;
-use super::lever::{Beyond, Lever, apply, dot, inverse, of_each, times, transposed};
+use super::lever::{Beyond, Coupling, Lever, apply, dot, inverse, of_each, times, transposed};
 use super::section::Section;
 use super::state::{SpaceWork, place, stretch};
 use crate::assembly::Assembly;
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::term::Pose;
 use std::f64::consts::PI;
 
@@ -27,7 +26,7 @@ const MOMENT_TOLERANCE: f64 = 1e-12;
 const ROUNDING: f64 = 1e-10;
 
 /// Newton on the loads of all sections, from the bends without loads in `work`.
-pub(super) fn equilibrium(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Result<(), Unsolved> {
+pub(super) fn equilibrium(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Solved {
     work.loaded.sections.fill(Coupling::default());
     let radius_m = assembly.sites[0].radius_m;
     let of_pressure = PI * p_body_pa * radius_m.powi(3);
@@ -84,7 +83,7 @@ fn damped_step(
 }
 
 /// Every section at its minimum under the assumed loads; returns the largest disagreement of moments \[N·m\], NaN if any is.
-fn update(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Result<f64, Unsolved> {
+fn update(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Solved<f64> {
     for i in 0..assembly.segments.len() {
         let section = Section::new(assembly, i, p_body_pa).under(work.loaded.sections[i].outer);
         let (bend, compliance) = section.solve_under(&mut work.strips[i], work.bends[i])?;
@@ -98,7 +97,7 @@ fn update(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Result<f
 }
 
 /// Loads of the shape in `work`, and how they change with it.
-fn couple(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) {
+pub(super) fn couple(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) {
     let mut loaded = std::mem::take(&mut work.loaded);
     for (node, frame) in loaded.nodes.chunks_exact_mut(3).zip(&work.frames) {
         node.copy_from_slice(&frame.at);
@@ -153,13 +152,4 @@ fn newton_step(assembly: &Assembly, sections: &mut [Coupling]) -> bool {
         before = std::array::from_fn(|s| before[s] + turn[s]);
     }
     before.iter().all(|x: &f64| x.is_finite())
-}
-
-/// Generalised forces per length at the bends in `work`; for tests.
-#[cfg(test)]
-pub(super) fn forces(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Vec<super::coupling::Outer> {
-    place(assembly, work);
-    couple(assembly, p_body_pa, work);
-    let sum = |c: &Coupling| std::array::from_fn(|q| c.residual[q] + c.outer[q]);
-    work.loaded.sections.iter().map(sum).collect()
 }

@@ -4,7 +4,7 @@ use super::frame::{Bend, direction};
 use super::lever::{Matrix, of_each};
 use super::section::{Acting, FLAT, STRAIGHT, Section, dot};
 use super::state::StripState;
-use crate::error::Unsolved;
+use crate::error::Solved;
 
 /// Moment across the plane of a strip that is rounding, relative to the pressure's moment.
 const IN_PLANE: f64 = 1e-12;
@@ -15,7 +15,7 @@ const FIRST_BEND: f64 = 0.1;
 
 impl Section<'_> {
     /// The equilibrium, from a state nearby, and its compliance: the change of κ and ε per change of the loads.
-    pub(super) fn solve_under(&self, strips: &mut [StripState], near: Bend) -> Result<(Bend, Matrix), Unsolved> {
+    pub(super) fn solve_under(&self, strips: &mut [StripState], near: Bend) -> Solved<(Bend, Matrix)> {
         let bend = match self.acting(strips) {
             Acting::Nothing => return self.passive(strips, near),
             Acting::One(one) => match self.in_plane(one, strips) {
@@ -43,7 +43,7 @@ impl Section<'_> {
         (dot(bend.kappa, e) > 0.0).then(|| (bend, of_each(|i, j| compliance * way[i] * way[j])))
     }
 
-    fn bent(&self, strips: &mut [StripState], near: Bend) -> Result<Bend, Unsolved> {
+    fn bent(&self, strips: &mut [StripState], near: Bend) -> Solved<Bend> {
         let straight = self.balance(strips, [0.0; 2])?;
         let size = straight.slope[0].hypot(straight.slope[1]);
         let is_taut = straight.taut_n > 0.0;
@@ -59,7 +59,7 @@ impl Section<'_> {
     }
 
     /// Inverse of the second derivatives of its energy, the contraction at its best.
-    pub(super) fn compliance(&self, strips: &mut [StripState], bend: &Bend) -> Result<Matrix, Unsolved> {
+    pub(super) fn compliance(&self, strips: &mut [StripState], bend: &Bend) -> Solved<Matrix> {
         let at = self.balance(strips, bend.kappa)?;
         if bend.size() <= STRAIGHT && at.taut_n > 0.0 {
             return Ok([[0.0; 3]; 3]);

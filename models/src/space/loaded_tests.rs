@@ -1,7 +1,8 @@
 //! Laws of robots in space under loads.
 
 use super::frame::direction;
-use super::loaded::forces;
+use super::lever::{Coupling, Outer};
+use super::loaded::couple;
 use super::section::Section;
 use super::tests::{at, full, robot};
 use super::*;
@@ -274,4 +275,12 @@ fn any_loads_end_in_a_state_or_an_error() {
         }
         assert!(solved[0] == 30 && solved[1] >= 29, "{}: {solved:?}", base.name);
     }
+}
+
+/// Generalised forces per length at the bends in `work`.
+fn forces(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Vec<Outer> {
+    place(assembly, work);
+    couple(assembly, p_body_pa, work);
+    let sum = |c: &Coupling| std::array::from_fn(|q| c.residual[q] + c.outer[q]);
+    work.loaded.sections.iter().map(sum).collect()
 }

@@ -31,7 +31,6 @@
 //! those with one upright strip alone, loaded in its plane; in others the step is sharp. A section with such a strip has the planar
 //! balance, in which the generator opposite stays taut even where the strip pulls harder than p_b A. Derived here.
 
-mod coupling;
 mod energies;
 mod frame;
 mod lever;
@@ -48,11 +47,9 @@ mod tests;
 use crate::assembly::{Assembly, Segment, Strip};
 use crate::body::BodyLaw;
 pub use crate::effects::IN_SPACE;
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::scenario::ActuatorChoice;
-#[cfg(doc)]
-use crate::site::Site;
-use crate::site::SiteState;
+use crate::site::{Site, SiteState};
 pub use frame::Frame;
 pub(crate) use frame::{Bend, Stretch, direction};
 pub(crate) use section::Section;
@@ -75,7 +72,7 @@ pub(crate) fn equilibrium(
     p_body_pa: f64,
     work: &mut SpaceWork,
     states: &mut [SiteState],
-) -> Result<(), Unsolved> {
+) -> Solved {
     refuse_the_rest(assembly)?;
     unloaded(assembly, p_body_pa, work)?;
     if !assembly.node_terms.is_empty() {
@@ -88,7 +85,7 @@ pub(crate) fn equilibrium(
 }
 
 /// Equilibrium of every section without loads.
-fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Result<(), Unsolved> {
+fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Solved {
     for i in 0..assembly.segments.len() {
         let alike = i > 0 && same_section(assembly, work, i);
         if alike {
@@ -104,18 +101,19 @@ fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) -> Result
 }
 
 /// Refuses parts of a model that the sections do not see.
-fn refuse_the_rest(assembly: &Assembly) -> Result<(), Unsolved> {
-    let subject = match () {
-        _ if assembly.springs => "a spring at the tip",
-        _ if !assembly.camera.is_empty() => "an effect of the camera",
-        _ if assembly.sites.iter().any(|site| !site.body_terms.is_empty()) => "an effect on the bend of the body",
-        _ if assembly.sites.iter().any(|site| site.linkage.section.is_some()) => "a section that changes as it bends",
-        _ if assembly.sites.iter().any(|site| !matches!(site.body_pressure, BodyLaw::Hinge(_))) => {
-            "a wall that stretches"
-        }
-        _ => return Ok(()),
-    };
-    Err(Unsolved::InSpace { subject })
+fn refuse_the_rest(assembly: &Assembly) -> Solved {
+    let any = |has: fn(&Site) -> bool| assembly.sites.iter().any(has);
+    let refused = [
+        (assembly.springs, "a spring at the tip"),
+        (!assembly.camera.is_empty(), "an effect of the camera"),
+        (any(|site| !site.body_terms.is_empty()), "an effect on the bend of the body"),
+        (any(|site| site.linkage.section.is_some()), "a section that changes as it bends"),
+        (any(|site| !matches!(site.body_pressure, BodyLaw::Hinge(_))), "a wall that stretches"),
+    ];
+    refused.iter().try_for_each(|(is_there, subject)| match is_there {
+        true => Err(Unsolved::InSpace { subject }),
+        false => Ok(()),
+    })
 }
 
 /// Whether a segment has the design, azimuths and pressures of the one before.

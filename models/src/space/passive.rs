@@ -17,7 +17,7 @@ use super::lever::Matrix;
 use super::section::{Acting, Balance, STRAIGHT, Section, dot};
 use super::state::StripState;
 use crate::body::soft_step;
-use crate::error::Unsolved;
+use crate::error::Solved;
 
 /// Share of the wall's moment up to which the first bend tried comes from the soft step.
 const SOFT_SHARE: f64 = 0.99;
@@ -68,7 +68,7 @@ impl Section<'_> {
     }
 
     /// The equilibrium without open strips, and its compliance.
-    pub(super) fn passive(&self, strips: &mut [StripState], near: Bend) -> Result<(Bend, Matrix), Unsolved> {
+    pub(super) fn passive(&self, strips: &mut [StripState], near: Bend) -> Solved<(Bend, Matrix)> {
         for state in &mut *strips {
             (state.coordinate, state.tension) = (0.0, 0.0);
         }

@@ -1,11 +1,11 @@
 //! Equilibrium of one section: the minimum of a convex energy over κ, the contraction ε₀ found inside.
 
-use super::coupling::Outer;
 use super::frame::{Bend, direction};
+use super::lever::Outer;
 use super::state::StripState;
 use crate::actuators::Actuator;
 use crate::assembly::{Assembly, Segment, Strip};
-use crate::error::Unsolved;
+use crate::error::{Solved, Unsolved};
 use crate::root::{Start, find_root};
 use crate::site::{Site, SiteLoads, SiteState};
 use std::f64::consts::PI;
@@ -26,7 +26,6 @@ const FIRST_CONTRACTION: f64 = 1e-2;
 pub(super) const FLAT: f64 = 1e-8;
 const HALVINGS: usize = 40;
 
-/// One section of the body and what acts there.
 pub(crate) struct Section<'a> {
     pub(super) sites: &'a [Site],
     pub(super) strips: &'a [Strip],
@@ -57,7 +56,6 @@ pub(super) struct Fit {
     pub tension: f64,
 }
 
-/// All strips at one bend and contraction.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Pulls {
     pub force: f64,
@@ -69,9 +67,7 @@ pub(super) struct Pulls {
     bend: [[f64; 2]; 2],
 }
 
-/// Which strips of a section are open.
 pub(super) enum Acting {
-    /// No strip is open: the wall alone resists.
     Nothing,
     /// One upright strip in a section that no other strip draws in.
     One(usize),
@@ -126,16 +122,15 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// The same under loads from outside.
     pub(super) fn under(self, outer: Outer) -> Section<'a> {
         Section { outer, ..self }
     }
 
     fn loads(&self, p_act_pa: f64, moment: f64) -> SiteLoads {
-        SiteLoads { p_body_pa: self.p_body_pa, p_act_pa, moment, s_m: self.segment.middle_m(), dt_s: 0.0, stamp: 0 }
+        let s_m = self.segment.middle_m();
+        SiteLoads { moment, s_m, ..SiteLoads::new(self.p_body_pa, p_act_pa) }
     }
 
-    /// Its actuator, if the pressure opens it.
     fn open(&self, strip: &Strip, state: &StripState) -> Option<&'static Actuator> {
         let site = &self.sites[strip.site];
         let actuator = site.actuator.filter(|_| site.is_open(self.p_body_pa, state.p_act_pa))?;
@@ -166,7 +161,7 @@ impl<'a> Section<'a> {
         let x = if state.coordinate > low && state.coordinate < high { state.coordinate } else { 0.5 * (low + high) };
         let step = STEP * (high - low);
         let slope = (of(x) - of(x + step)) / step;
-        match find_root(&mut |a| contraction - of(a), actuator.range, Start { x, f: None, slope }) {
+        match find_root(&mut |a| contraction - of(a), actuator.range, Start::guess(x, slope)) {
             Ok(root) => root.x + root.step,
             Err(_) if contraction < of(0.5 * (low + high)) => low,
             Err(_) => high,
@@ -200,7 +195,7 @@ impl<'a> Section<'a> {
     }
 
     /// Slope of the energy by κ where ε₀ is at its best: R|κ|, or more where the strips pull harder than the gas.
-    pub(super) fn balance(&self, strips: &mut [StripState], kappa: [f64; 2]) -> Result<Balance, Unsolved> {
+    pub(super) fn balance(&self, strips: &mut [StripState], kappa: [f64; 2]) -> Solved<Balance> {
         if self.is_passive(strips) {
             return Ok(self.passive_balance(kappa));
         }
@@ -213,7 +208,7 @@ impl<'a> Section<'a> {
         if is_slack {
             let mut excess = |e0: f64| self.pulls(strips, kappa, e0).force - thrust;
             // No slope: for flat pouches it is infinite.
-            let start = Start { x: floor + FIRST_CONTRACTION, f: None, slope: 0.0 };
+            let start = Start::guess(floor + FIRST_CONTRACTION, 0.0);
             // A bend that is tried may be too sharp for any body.
             let root = find_root(&mut excess, (floor, f64::max(1.0, 2.0 * floor)), start)
                 .map_err(|_| self.unsolved(strips, pulls.force))?;
@@ -252,7 +247,7 @@ impl<'a> Section<'a> {
     }
 
     /// The equilibrium; `strips` has the pressures, and gets the rest.
-    pub(crate) fn solve(&self, strips: &mut [StripState]) -> Result<Bend, Unsolved> {
+    pub(crate) fn solve(&self, strips: &mut [StripState]) -> Solved<Bend> {
         for state in &mut *strips {
             (state.coordinate, state.tension) = (0.0, 0.0);
         }
@@ -281,7 +276,7 @@ impl<'a> Section<'a> {
     }
 
     /// The planar balance of one strip, turned, with its compliance.
-    pub(super) fn alone(&self, one: usize, state: &mut StripState) -> Result<(Bend, f64), Unsolved> {
+    pub(super) fn alone(&self, one: usize, state: &mut StripState) -> Solved<(Bend, f64)> {
         let (strip, [y, z, axial]) = (&self.strips[one], self.outer);
         let moment = dot([y, z], direction(strip.azimuth_rad)) + (self.radius_m + self.offset_m) * axial;
         let loads = self.loads(state.p_act_pa, moment);
@@ -304,7 +299,7 @@ impl<'a> Section<'a> {
         if sum[0].hypot(sum[1]) < 1e-9 { [0.0; 2] } else { sum }
     }
 
-    pub(super) fn minimum(&self, strips: &mut [StripState], start: [f64; 2]) -> Result<Bend, Unsolved> {
+    pub(super) fn minimum(&self, strips: &mut [StripState], start: [f64; 2]) -> Solved<Bend> {
         let scale = self.p_body_pa * self.area_m2 * self.radius_m;
         let mut kappa = start;
         let mut at = self.balance(strips, kappa)?;

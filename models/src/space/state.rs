@@ -1,7 +1,7 @@
 //! What a robot in space is at equilibrium: its sections and strips.
 
-use super::coupling::Loaded;
 use super::frame::{Bend, Frame, Stretch};
+use super::lever::Loaded;
 use crate::assembly::{Assembly, Segment};
 
 /// Bend, contraction and strips of one section at equilibrium.
@@ -57,13 +57,12 @@ impl SpaceWork {
 }
 
 pub(crate) fn stretch(assembly: &Assembly, work: &SpaceWork, segment: usize) -> Stretch {
-    let site = &assembly.sites[assembly.segments[segment].site];
+    let site = assembly.site(segment);
     let bend = work.bends[segment];
     let contraction = bend.contraction + (site.centre_line.from_taut_m - site.radius_m) * bend.size();
     Stretch { from: work.frames[segment], bend, contraction }
 }
 
-/// Places the frames along the arc.
 pub(crate) fn place(assembly: &Assembly, work: &mut SpaceWork) {
     for (i, segment) in assembly.segments.iter().enumerate() {
         work.frames[i + 1] = stretch(assembly, work, i).at(segment.length_m);

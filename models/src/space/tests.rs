@@ -325,3 +325,20 @@ fn a_bare_helix_is_solved() {
         before = angle;
     }
 }
+
+impl Section<'_> {
+    /// Energy per metre at any bend and contraction, strips settled \[J/m\].
+    pub(crate) fn energy(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> f64 {
+        self.pulls(strips, kappa, contraction);
+        let mut sum = 0.0;
+        self.energies(&Bend { kappa, contraction }, strips, &mut |_, energy| sum += energy);
+        sum
+    }
+
+    /// Forces on κ and ε₀ there, of everything but the constraint.
+    pub(crate) fn forces(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> [f64; 3] {
+        let pulls = self.pulls(strips, kappa, contraction);
+        let by = |i: usize| pulls.moment[i] - self.p_body_pa * self.moment_m3[i] - self.bending * kappa[i];
+        [by(0), by(1), pulls.force - self.p_body_pa * self.area_m2]
+    }
+}
