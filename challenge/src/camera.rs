@@ -24,7 +24,7 @@ const LEAN_RAD: f64 = 0.349;
 
 /// Camera laws; all off at 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Camera {
+pub(crate) struct Camera {
     /// Length L of the straight body \[m\].
     pub length_m: f64,
     /// Height e of the markers above the centre line \[m\].
@@ -43,7 +43,7 @@ pub struct Camera {
 
 /// A marker's place on the robot, before the camera distorts it.
 #[derive(Debug, Clone, Copy)]
-pub struct SeenPoint {
+pub(crate) struct SeenPoint {
     /// Place on the centre line \[m\].
     pub xy: [f64; 2],
     /// Angle of the centre line from the straight robot \[rad\].
@@ -54,7 +54,7 @@ pub struct SeenPoint {
 
 impl Camera {
     /// The marker as recorded \[m\], at the set pressure.
-    pub fn see(&self, point: &SeenPoint, p_set_pa: f64) -> [f64; 2] {
+    pub(crate) fn see(&self, point: &SeenPoint, p_set_pa: f64) -> [f64; 2] {
         let (u, l) = (p_set_pa / 30e3, self.length_m);
         let (sin, cos) = point.heading.sin_cos();
         let [tapering, leaning] = self.height_m;

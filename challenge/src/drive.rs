@@ -33,7 +33,7 @@ const LEAST_ROOM: f64 = 0.01;
 
 /// Geometry of one cell's actuator and amounts of its hidden laws.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Drive {
+pub(crate) struct Drive {
     /// Mechanism of contraction, a pouch or a McKibben muscle.
     pub family: Family,
     /// Flat length of one unit L₀ \[m\].

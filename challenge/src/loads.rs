@@ -5,7 +5,7 @@ const TABLE_M: f64 = 0.3;
 
 /// Weights and forces; all off at 0.
 #[derive(Debug, Clone, PartialEq)]
-pub struct DeadLoads {
+pub(crate) struct DeadLoads {
     /// Weight per length of each cell \[N/m\].
     pub weight_n_per_m: Vec<f64>,
     /// Unit vector of gravity in the plane of bending.
@@ -33,7 +33,7 @@ pub(crate) fn in_plane([x, y, _]: [f64; 3]) -> [f64; 2] {
 
 impl DeadLoads {
     /// No weights and no forces, with gravity along `down`.
-    pub fn none(cells: usize, down: [f64; 2]) -> DeadLoads {
+    pub(crate) fn none(cells: usize, down: [f64; 2]) -> DeadLoads {
         DeadLoads {
             weight_n_per_m: vec![0.0; cells],
             down,

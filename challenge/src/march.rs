@@ -39,7 +39,7 @@ struct Instant {
 ///
 /// # Errors
 /// A hold at which nothing balances.
-pub fn run(robot: &TrueRobot, holds: &[Hold], gains: &[f64]) -> Result<Vec<f64>, CompareError> {
+pub(crate) fn run(robot: &TrueRobot, holds: &[Hold], gains: &[f64]) -> Result<Vec<f64>, CompareError> {
     let n = robot.cells.len();
     let mut march = March {
         robot,

@@ -10,7 +10,7 @@ use models::Scenario;
 
 /// Scatter and camera faults with which a robot is measured.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Measurement {
+pub(crate) struct Measurement {
     /// Runs, protocol, scatter and its seed.
     pub generator: Generator,
     /// Camera noise from Student's t with 3 degrees of freedom, scaled to the same standard deviation: now and then a
@@ -29,7 +29,7 @@ const LOSSES: u64 = 0x1057;
 ///
 /// # Errors
 /// A hold at which nothing balances.
-pub fn ideal(robot: &TrueRobot, generator: &Generator) -> Result<Vec<f64>, CompareError> {
+pub(crate) fn ideal(robot: &TrueRobot, generator: &Generator) -> Result<Vec<f64>, CompareError> {
     march::run(robot, &holds(generator), &vec![1.0; generator.protocol.len()])
 }
 
@@ -38,7 +38,7 @@ pub fn ideal(robot: &TrueRobot, generator: &Generator) -> Result<Vec<f64>, Compa
 ///
 /// # Errors
 /// A hold at which nothing balances; no marker stations.
-pub fn measure(
+pub(crate) fn measure(
     robot: &TrueRobot,
     scenario: &Scenario,
     name: &str,
@@ -51,7 +51,7 @@ pub fn measure(
 ///
 /// # Errors
 /// As [`measure`].
-pub fn measure_holds(
+pub(crate) fn measure_holds(
     robot: &TrueRobot,
     scenario: &Scenario,
     name: &str,

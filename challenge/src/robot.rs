@@ -12,11 +12,11 @@ use models::{Loads, Model, Scenario};
 use std::f64::consts::PI;
 
 /// Cells of a robot: four times the model's segments, and not a multiple of the pouches' places of the markers.
-pub const CELLS: usize = 48;
+pub(crate) const CELLS: usize = 48;
 
 /// A stretch of body with its laws.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cell {
+pub(crate) struct Cell {
     /// Start along the taut generator \[m\].
     pub start_m: f64,
     /// Length of the taut generator \[m\].
@@ -31,7 +31,7 @@ pub struct Cell {
 
 /// Everything the generator knows about a robot.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TrueRobot {
+pub(crate) struct TrueRobot {
     /// Cells of the body, from base to tip.
     pub cells: Vec<Cell>,
     /// Length of the straight body from base to tip \[m\].
@@ -56,7 +56,7 @@ impl TrueRobot {
     ///
     /// # Errors
     /// Another effect in the scenario; no equilibrium at the top of the standard protocol.
-    pub fn new(scenario: &Scenario) -> Result<TrueRobot, CompareError> {
+    pub(crate) fn new(scenario: &Scenario) -> Result<TrueRobot, CompareError> {
         if scenario.wall != models::scenario::Wall::default() || !scenario.actuator.exists() {
             let problem =
                 "the generator knows neither wall_stiffness_n_per_m nor a beam without [actuator]".to_string();
@@ -85,7 +85,7 @@ impl TrueRobot {
     }
 
     /// Rolls the robot by 180°: gravity, a pulley, an obstacle and the camera stay where they are in the room.
-    pub fn roll_over(&mut self) {
+    pub(crate) fn roll_over(&mut self) {
         let loads = &mut self.loads;
         loads.down[1] = -loads.down[1];
         loads.pulley_m[1] = -loads.pulley_m[1];
@@ -95,7 +95,7 @@ impl TrueRobot {
     }
 
     /// Calls `change` on every cell with its middle \[m\].
-    pub fn each(&mut self, mut change: impl FnMut(&mut Cell, f64)) {
+    pub(crate) fn each(&mut self, mut change: impl FnMut(&mut Cell, f64)) {
         for cell in &mut self.cells {
             let middle = cell.start_m + 0.5 * cell.length_m;
             change(cell, middle);
@@ -167,7 +167,7 @@ const FOLDED_PER_M: f64 = 100.0;
 
 impl Cell {
     /// Whether the actuator is a muscle.
-    pub fn is(&self, family: Family) -> bool {
+    pub(crate) fn is(&self, family: Family) -> bool {
         self.drive.is_some_and(|drive| drive.family == family)
     }
 

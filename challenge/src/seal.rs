@@ -10,12 +10,12 @@
 use sha2::{Digest, Sha256};
 
 /// Format of the seal; 2 covers all files of the challenge, 1 covered the markers alone.
-pub const VERSION: u32 = 2;
+pub(crate) const VERSION: u32 = 2;
 
 /// Contents of `seal.toml`: the truth in masked form and a hash that commits to it.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Seal {
+pub(crate) struct Seal {
     /// Always `ibr.challenge`, which identifies the file.
     pub schema: String,
     /// Format of the seal, [`VERSION`] when written.
@@ -29,15 +29,15 @@ pub struct Seal {
 }
 
 /// Name of the file that holds the seal.
-pub const FILE: &str = "seal.toml";
+pub(crate) const FILE: &str = "seal.toml";
 /// The files handed out with it, all of them sealed.
-pub const SEALED: [&str; 3] = ["scenario.toml", "about.toml", "markers.csv"];
+pub(crate) const SEALED: [&str; 3] = ["scenario.toml", "about.toml", "markers.csv"];
 /// Number of random bytes in a salt.
-pub const SALT: usize = 16;
+pub(crate) const SALT: usize = 16;
 
 impl Seal {
     /// Seals a text with a hash of salt and text.
-    pub fn close(text: &str, salt: &[u8; SALT]) -> Seal {
+    pub(crate) fn close(text: &str, salt: &[u8; SALT]) -> Seal {
         Seal {
             schema: "ibr.challenge".into(),
             version: VERSION,
@@ -48,7 +48,7 @@ impl Seal {
     }
 
     /// The sealed text, if it is what was sealed.
-    pub fn open(&self) -> Option<String> {
+    pub(crate) fn open(&self) -> Option<String> {
         let salt = bytes(&self.salt)?;
         let text = masked(&bytes(&self.truth)?, &salt);
         if hex(&commitment(&salt, &text)) != self.sha256 {
@@ -58,7 +58,7 @@ impl Seal {
     }
 
     /// Text of the file `seal.toml`, with a comment for its reader.
-    pub fn to_toml(&self) -> String {
+    pub(crate) fn to_toml(&self) -> String {
         let Seal { schema, version, sha256, salt, truth } = self;
         format!(
             "# Opened only by `ibr challenge reveal`.\nschema = \"{schema}\"\nversion = {version}\n\
@@ -78,7 +78,7 @@ fn masked(text: &[u8], salt: &[u8]) -> Vec<u8> {
 }
 
 /// Two lower-case hexadecimal digits per byte, without separators.
-pub fn hex(bytes: &[u8]) -> String {
+pub(crate) fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

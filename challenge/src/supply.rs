@@ -17,7 +17,7 @@ use super::laws::ByLaw;
 
 /// Supply laws; all off at 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct TrueSupply {
+pub(crate) struct TrueSupply {
     /// Pressure p₀ that a dead band withholds \[Pa\].
     pub dead_band_pa: ByLaw,
     /// Coefficient f of the pressure lost on the way \[-\].
@@ -32,7 +32,7 @@ pub struct TrueSupply {
 
 impl TrueSupply {
     /// Pressure in the actuator `held_s` after the set pressure was reached; `gain` is the run's own error.
-    pub fn pressure(&self, set_pa: f64, gain: f64, held_s: f64) -> f64 {
+    pub(crate) fn pressure(&self, set_pa: f64, gain: f64, held_s: f64) -> f64 {
         let stuck = if self.stuck != 0.0 && (set_pa - self.stuck_at_pa).abs() < 1.0 { 1.0 - self.stuck } else { 1.0 };
         let p = set_pa * gain * stuck;
         let seat = self.past_the_seat(p);

@@ -164,7 +164,7 @@ impl Truth {
     ///
     /// # Errors
     /// Unknown names, or an effect that this actuator cannot have.
-    pub fn robot(&self) -> Result<TrueRobot, CompareError> {
+    pub(crate) fn robot(&self) -> Result<TrueRobot, CompareError> {
         let scenario = robot(&self.actuator)?.0.with_bending(self.bending_nm2);
         let mut robot = TrueRobot::new(&scenario)?;
         for choice in &self.effects {
@@ -174,13 +174,13 @@ impl Truth {
                 return Err(CompareError::NotSimulated { problem });
             }
             let amount = choice.times_typical * effect.typical(self.laws, &self.actuator, &robot)?;
-            (effect.law(self.laws).put)(&mut robot, amount);
+            effect.put(self.laws, &mut robot, amount);
         }
         Ok(robot)
     }
 
     /// How it is measured under a protocol.
-    pub fn measurement(&self, protocol: &[[f64; 2]]) -> Measurement {
+    pub(crate) fn measurement(&self, protocol: &[[f64; 2]]) -> Measurement {
         let generator = Generator {
             seed: self.seed,
             runs: self.runs,
@@ -221,7 +221,7 @@ pub(super) fn usual(actuator: &str) -> Result<Scenario, CompareError> {
 ///
 /// # Errors
 /// Not an actuator of [`ROBOTS`].
-pub fn applicable(actuator: &str, list: &[HiddenEffect]) -> Result<Vec<HiddenEffect>, CompareError> {
+pub(crate) fn applicable(actuator: &str, list: &[HiddenEffect]) -> Result<Vec<HiddenEffect>, CompareError> {
     let (scenario, _) = robot(actuator)?;
     Ok(list.iter().filter(|effect| effect.applies_to(&scenario)).copied().collect())
 }
@@ -230,7 +230,7 @@ pub fn applicable(actuator: &str, list: &[HiddenEffect]) -> Result<Vec<HiddenEff
 ///
 /// # Errors
 /// None has it.
-pub fn known(name: &str) -> Result<&'static HiddenEffect, CompareError> {
+pub(crate) fn known(name: &str) -> Result<&'static HiddenEffect, CompareError> {
     by_name(name).ok_or_else(|| {
         let names: Vec<&str> = HIDDEN.iter().chain(ALSO).chain(OUTSIDE).map(|effect| effect.name).collect();
         let problem = format!("no hidden effect `{name}`; {}", spelling::known(name, &names));

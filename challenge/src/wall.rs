@@ -56,7 +56,7 @@ const RECOVERY_S: f64 = 40.0;
 
 /// Stiffness of one cell's body and amounts of its hidden laws.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct CellWall {
+pub(crate) struct CellWall {
     /// Bending stiffness B of the body \[N·m²\].
     pub bending: f64,
     /// Hinge moment per body pressure, share·π R³ \[m³\].
@@ -89,7 +89,7 @@ pub struct CellWall {
 
 /// State of a cell that its next step in time starts from.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct CellMemory {
+pub(crate) struct CellMemory {
     slid: [f64; 4],
     crept: [[f64; 8]; 2],
     largest: f64,
