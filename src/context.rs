@@ -90,7 +90,6 @@ impl Outcome {
         Outcome { text, json: Some(json), notes: Vec::new(), code: 0 }
     }
 
-    /// Nothing to show, and how to go on.
     pub(crate) fn interrupted(note: String) -> Outcome {
         Outcome { notes: vec![note], code: INTERRUPTED, ..Outcome::default() }
     }

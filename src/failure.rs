@@ -89,7 +89,6 @@ impl From<Unsolved> for Failure {
 }
 
 impl Failure {
-    /// A wrong argument and what to type instead.
     pub(crate) fn usage(message: impl Into<String>, help: impl Into<String>) -> Failure {
         Failure::Compare(CompareError::refused(message, help))
     }
@@ -122,7 +121,6 @@ impl Failure {
         }
     }
 
-    /// The same for programs.
     pub(crate) fn json(&self) -> serde_json::Value {
         let place = match self {
             Failure::Fem(error) => error.place(),
@@ -166,7 +164,6 @@ impl Failure {
     }
 }
 
-/// Shown with the lines around it.
 fn in_text(
     file: &str,
     text: &str,

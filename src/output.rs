@@ -131,7 +131,6 @@ pub(crate) fn read_input(path: &Path) -> Input {
     Input::of(&path.display().to_string(), &std::fs::read(path).unwrap_or_default())
 }
 
-/// Refuses to write over a file that was read.
 pub(crate) fn spares_inputs(folder: &Path, files: &Files, inputs: &[String]) -> Result<()> {
     let read: Vec<_> = inputs.iter().filter_map(|file| std::fs::canonicalize(file).ok()).collect();
     let same = |name: &&String| std::fs::canonicalize(folder.join(name)).is_ok_and(|path| read.contains(&path));
@@ -208,7 +207,6 @@ pub(crate) fn program() -> String {
     format!("ibr {}", env!("CARGO_PKG_VERSION"))
 }
 
-/// Processor and number of cores, for timings.
 pub(crate) fn machine() -> String {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let cpu = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {

@@ -21,7 +21,6 @@ pub fn pressure_words(loads: &Loads) -> String {
     p.map(|x| format!("{:.3}", x / 1e3).trim_end_matches('0').trim_end_matches('.').to_string()).join("/")
 }
 
-/// An effect as it is called in words.
 pub(crate) fn effect(name: &str) -> String {
     name.replace('_', " ")
 }

@@ -22,10 +22,8 @@ use super::laws::ByLaw;
 /// Angle by which pins lean in the second law of the height \[rad\].
 const LEAN_RAD: f64 = 0.349;
 
-/// Camera laws; all off at 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Camera {
-    /// Length L of the straight body \[m\].
     pub length_m: f64,
     /// Height e of the markers above the centre line \[m\].
     pub height_m: ByLaw,
@@ -44,11 +42,9 @@ pub(crate) struct Camera {
 /// A marker's place on the robot, before the camera distorts it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SeenPoint {
-    /// Place on the centre line \[m\].
     pub xy: [f64; 2],
     /// Angle of the centre line from the straight robot \[rad\].
     pub heading: f64,
-    /// Station of the marker on the undeformed body \[m\].
     pub station_m: f64,
 }
 

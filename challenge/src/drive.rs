@@ -34,13 +34,11 @@ const LEAST_ROOM: f64 = 0.01;
 /// Geometry of one cell's actuator and amounts of its hidden laws.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Drive {
-    /// Mechanism of contraction, a pouch or a McKibben muscle.
     pub family: Family,
     /// Flat length of one unit L₀ \[m\].
     pub length_m: f64,
     /// Width W of the flat unit \[m\].
     pub width_m: f64,
-    /// Factor on the volume of the unit \[-\].
     pub gain: f64,
     /// Distance D₀ of the line of action from the taut generator at rest \[m\].
     pub arm_m: f64,
@@ -62,15 +60,12 @@ pub(crate) struct Drive {
     pub lock_n_per_m: ByLaw,
 }
 
-/// What the actuator does at one coordinate.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DriveState {
-    /// Contraction and its slope by the coordinate.
     pub contraction: f64,
     pub d_contraction: f64,
     /// P dv/da − dU/da \[N·m/m…\], the generalised push on the coordinate.
     pub push: f64,
-    /// Arm \[m\] and its slope by the coordinate.
     pub arm: f64,
     pub d_arm: f64,
     /// Factor that makes the balance nearly linear.

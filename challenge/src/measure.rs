@@ -11,7 +11,6 @@ use models::Scenario;
 /// Scatter and camera faults with which a robot is measured.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Measurement {
-    /// Runs, protocol, scatter and its seed.
     pub generator: Generator,
     /// Camera noise from Student's t with 3 degrees of freedom, scaled to the same standard deviation: now and then a
     /// marker is seen far off.
@@ -92,7 +91,6 @@ pub(crate) fn measure_holds(
     Ok(if cells.is_empty() { made } else { made.losing(&cells) })
 }
 
-/// Cells (run, hold, marker) that the camera loses.
 fn lost(dataset: &Dataset, seed: u64) -> Vec<[usize; 3]> {
     let mut scatter = Scatter::new(seed ^ LOSSES);
     let top_pa = dataset.holds.iter().fold(0.0, |top: f64, hold| top.max(hold.p_act_pa));

@@ -14,35 +14,24 @@ use std::f64::consts::PI;
 /// Cells of a robot: four times the model's segments, and not a multiple of the pouches' places of the markers.
 pub(crate) const CELLS: usize = 48;
 
-/// A stretch of body with its laws.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Cell {
-    /// Start along the taut generator \[m\].
     pub start_m: f64,
-    /// Length of the taut generator \[m\].
     pub length_m: f64,
     /// Distance of the centre line from the taut generator \[m\].
     pub centre_line_m: f64,
-    /// Actuator over this cell; `None` on a passive stretch.
     pub drive: Option<Drive>,
-    /// Body of the cell, with the laws of its wall.
     pub wall: CellWall,
 }
 
-/// Everything the generator knows about a robot.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct TrueRobot {
-    /// Cells of the body, from base to tip.
     pub cells: Vec<Cell>,
-    /// Length of the straight body from base to tip \[m\].
     pub length_m: f64,
     /// Marker stations where they really are \[m\].
     pub markers_m: Vec<f64>,
-    /// From the regulator to the actuator.
     pub supply: TrueSupply,
-    /// Weights and forces that act from outside.
     pub loads: DeadLoads,
-    /// What the camera makes of it.
     pub camera: Camera,
     /// Curvature of the robot without hidden effects at 30 kPa on 2 kPa \[1/m\]: the scale of what depends on size.
     pub scale_per_m: f64,
@@ -166,7 +155,6 @@ const SLACK_PA: f64 = 1e-6;
 const FOLDED_PER_M: f64 = 100.0;
 
 impl Cell {
-    /// Whether the actuator is a muscle.
     pub(crate) fn is(&self, family: Family) -> bool {
         self.drive.is_some_and(|drive| drive.family == family)
     }

@@ -16,9 +16,7 @@ pub(crate) const VERSION: u32 = 2;
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Seal {
-    /// Always `ibr.challenge`, which identifies the file.
     pub schema: String,
-    /// Format of the seal, [`VERSION`] when written.
     pub version: u32,
     /// SHA-256 of salt and truth, in hexadecimal digits.
     pub sha256: String,
@@ -28,11 +26,9 @@ pub(crate) struct Seal {
     pub truth: String,
 }
 
-/// Name of the file that holds the seal.
 pub(crate) const FILE: &str = "seal.toml";
 /// The files handed out with it, all of them sealed.
 pub(crate) const SEALED: [&str; 3] = ["scenario.toml", "about.toml", "markers.csv"];
-/// Number of random bytes in a salt.
 pub(crate) const SALT: usize = 16;
 
 impl Seal {
@@ -47,7 +43,6 @@ impl Seal {
         }
     }
 
-    /// The sealed text, if it is what was sealed.
     pub(crate) fn open(&self) -> Option<String> {
         let salt = bytes(&self.salt)?;
         let text = masked(&bytes(&self.truth)?, &salt);
@@ -67,7 +62,6 @@ impl Seal {
     }
 }
 
-/// SHA-256 of the salt and what follows.
 fn commitment(salt: &[u8], text: &[u8]) -> Vec<u8> {
     Sha256::new().chain_update(salt).chain_update(text).finalize().to_vec()
 }

@@ -15,7 +15,6 @@
 
 use super::laws::ByLaw;
 
-/// Supply laws; all off at 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct TrueSupply {
     /// Pressure p₀ that a dead band withholds \[Pa\].
@@ -24,9 +23,7 @@ pub(crate) struct TrueSupply {
     pub loss: ByLaw,
     /// Rate r of the leak at the actuator \[1/s\].
     pub leak_per_s: ByLaw,
-    /// Missing share at one set point \[-\].
     pub stuck: f64,
-    /// Set point with the missing share \[Pa\].
     pub stuck_at_pa: f64,
 }
 
@@ -46,7 +43,6 @@ impl TrueSupply {
         left * (1.0 - 0.5 * emptied * held_s * (20e3 / left).sqrt()).max(0.0).powi(2)
     }
 
-    /// What a valve lets pass of a pressure \[Pa\].
     fn past_the_seat(&self, p: f64) -> f64 {
         let [soft, rubber] = self.dead_band_pa;
         match rubber == 0.0 {

@@ -174,7 +174,7 @@ fn one_fault_is_a_simpler_answer_than_two_effects() {
     truth.add(fault, 1.0);
     let truth = Truth { runs: 5, camera_sd_m: 1e-3, holds_scatter: false, ..truth };
     let data = truth.dataset("made", &standard_protocol()).unwrap();
-    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
+    let options = Options::default().without_advice();
     let d = diagnose(&truth.told().unwrap(), &[Evidence::of(data, None)], &options, &mut |_, _| ()).unwrap();
     assert_eq!(d.verdict, Some(Verdict::OutOfCatalog), "{fault}: {:?}", d.summary);
     let pattern = d.pattern.as_ref().unwrap();

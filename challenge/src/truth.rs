@@ -179,7 +179,6 @@ impl Truth {
         Ok(robot)
     }
 
-    /// How it is measured under a protocol.
     pub(crate) fn measurement(&self, protocol: &[[f64; 2]]) -> Measurement {
         let generator = Generator {
             seed: self.seed,

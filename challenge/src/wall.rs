@@ -51,7 +51,6 @@ const BRISTLES: f64 = 0.08;
 const SLIP_SHARES: [f64; 4] = [0.02, 0.06, 0.15, 0.3];
 /// κ_h of softening, as a share of [`CellWall::scale_per_m`].
 const CREASED_FROM: f64 = 0.4;
-/// Time in which a set fades \[s\].
 const RECOVERY_S: f64 = 40.0;
 
 /// Stiffness of one cell's body and amounts of its hidden laws.
@@ -135,7 +134,6 @@ impl CellWall {
         moment
     }
 
-    /// What the cell remembers after `dt_s` at `kappa`.
     pub(super) fn remember(&self, kappa: f64, memory: &mut CellMemory, dt_s: f64) {
         let before = *memory;
         if self.friction_nm[0] != 0.0 {
@@ -174,7 +172,6 @@ impl CellWall {
         if dragged == 0.0 { steady } else { dragged * (DRAGGED * kappa.abs() * self.dragged_m).exp() }
     }
 
-    /// Moment of folds that touch \[N·m\].
     fn stop(&self, kappa: f64) -> f64 {
         let ([folds, round], x) = (self.stop_nm, kappa / self.scale_per_m);
         if round != 0.0 {

@@ -81,7 +81,6 @@ fn number_text(number: f64, is_whole: bool) -> String {
     if is_whole { format!("{number:.0}") } else { format!("{number:?}") }
 }
 
-/// A value to set in a scenario.
 pub(crate) struct Change {
     /// Such as `body.radius_mm`.
     pub place: String,

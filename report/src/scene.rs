@@ -6,7 +6,6 @@ use crate::text;
 /// A point in design pixels, x to the right, y downwards.
 pub(crate) type Point = [f64; 2];
 
-/// Which end of a text its position names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -43,7 +42,6 @@ pub(crate) enum Stroke {
     Text { at: Point, text: String, size: f64, ink: Ink, anchor: Anchor },
 }
 
-/// A drawing of `width` × `height` design pixels.
 pub(crate) struct Scene {
     pub(crate) width: f64,
     pub(crate) height: f64,

@@ -2,7 +2,7 @@ use super::inputs;
 use crate::cli::AddArgs;
 use crate::prelude::*;
 use crate::shown::extension::{AddAnswer, steps_text};
-use compare::diagnosis::{Options, taken_away};
+use compare::diagnosis::taken_away;
 use compare::extension::{Extension, Wish, add};
 use compare::foreign::Correction;
 use compare::progress::part;
@@ -17,7 +17,7 @@ pub(super) fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome> {
         None if args.fit.also.is_empty() && args.fit.base.is_empty() => Vec::new(),
         None => return Err(Failure::usage("--also or --base without data", "name the first data before them")),
     };
-    let options = Options { next_experiment: false, missing_moment: false, ..inputs::fit_options(&args.fit)? };
+    let options = inputs::fit_options(&args.fit)?.without_advice();
     let found = add(&file, &wish, &evidence, &options, &mut part(context.progress, [READ, 1.0]))?;
     let names: Vec<&str> = found.additions.iter().map(|a| a.name.as_str()).collect();
     let target = target(args, &names.join("-").replace(' ', "-"), context.force)?;

@@ -75,7 +75,6 @@ pub(super) fn diagnosed(args: &DiagnoseArgs, context: &mut Context) -> Result<Op
     Ok(Some(Outcome::answer(diagnosis_text(&found, &table), "ibr.diagnose.bench", &answer)))
 }
 
-/// The typed scenario, or the table's.
 fn scenario(typed: Option<&String>, spec: &str, bench: &Bench) -> Result<Option<Scenario>> {
     Ok(match (typed, &bench.scenario) {
         (Some(typed), _) => Some(ibr::studies::scenario(typed)?.planar()?.scenario),

@@ -66,7 +66,6 @@ fn linear(args: &LinearArgs) -> Result<Outcome> {
     Ok(outcome)
 }
 
-/// Writes the chain for a simulator of rigid bodies.
 fn rigid(
     args: &RigidArgs,
     ending: &str,

@@ -90,7 +90,6 @@ fn origin<'a>(command: &'a str, path: &'a Path, scenario: &'a Scenario, history:
     Origin { prefix, robot: &scenario.name, command, history }
 }
 
-/// Refuses poses that a robot does not hold.
 pub(super) fn trusted(model: &Model, poses: impl IntoIterator<Item = Loads>, help: &str) -> Result<()> {
     let mut at = model.prediction();
     for loads in poses {

@@ -10,7 +10,6 @@ const PUBLISHED: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
 /// Robots as typed and as read, and their entries in the manifest.
 type Robots = (Vec<(Source, Scenario)>, Vec<Input>);
 
-/// Robots by name, or the paper's.
 pub(super) fn robots(specs: &[String]) -> Result<Robots> {
     let own: Vec<String> = PUBLISHED.map(String::from).to_vec();
     let specs = if specs.is_empty() { &own } else { specs };

@@ -3,7 +3,6 @@
 use crate::prelude::*;
 use data::About;
 
-/// Writes a dataset with what made it.
 pub(super) fn write_dataset(
     folder: &Path,
     dataset: &Dataset,

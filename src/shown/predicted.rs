@@ -242,7 +242,6 @@ pub fn above_limit(scenario: &Scenario, loads: &[Loads]) -> Option<String> {
 /// A tip that is nearer than this is on target \[m\].
 const MET_M: f64 = 1e-6;
 
-/// What keeps the tip away, channel by channel.
 fn held(found: &Steered) -> impl Iterator<Item = (usize, &'static str, f64)> + '_ {
     found.held.iter().enumerate().filter_map(|(channel, end)| {
         let word = match (*end)? {

@@ -109,7 +109,6 @@ fn hidden(truth: &Truth, kind: Hiding, diagnose: Diagnoser) -> Result<Named, Com
     Ok(named)
 }
 
-/// A set without a next experiment.
 fn alone(truth: &Truth, about: About, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let data = truth.dataset("hidden", &standard_protocol())?;
     Ok(scored(truth, &diagnosed(truth, vec![(data, about)], false, diagnose)?))

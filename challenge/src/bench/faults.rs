@@ -111,7 +111,6 @@ pub(super) fn count(sets: usize) -> usize {
     if sets < FEWEST { 0 } else { SETS * sets.div_ceil(100) }
 }
 
-/// Makes, spoils and diagnoses a set.
 pub(super) fn fault(seed: u64, index: usize, diagnose: Diagnoser) -> Result<FaultSet, CompareError> {
     let (name, kind) = &KINDS[index / ROBOTS.len() % KINDS.len()];
     let robot = ROBOTS[index % ROBOTS.len()].0;
@@ -120,12 +119,11 @@ pub(super) fn fault(seed: u64, index: usize, diagnose: Diagnoser) -> Result<Faul
         truth.add(name, 1.0);
     }
     let evidence = [Evidence::of(recorded(&truth, kind)?, Some(about(&truth)?))];
-    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
+    let options = Options::default().without_advice();
     let found = diagnose(&truth.told()?, &evidence, &options, &mut |_, _| ())?;
     Ok(FaultSet { fault: (*name).into(), truth, verdict: found.verdict, stated: found.indistinguishable })
 }
 
-/// The data as they are recorded.
 fn recorded(truth: &Truth, fault: &Fault) -> Result<Dataset, CompareError> {
     let set: Vec<[f64; 2]> = PROTOCOL_PA.map(|p| [BODY_PA, p]).to_vec();
     let there = match fault {

@@ -20,7 +20,6 @@ use data::Dataset;
 
 /// Sizes at which the laws are asked \[typical sizes\]: the range that is drawn from.
 const SIZES: [f64; 4] = [0.8, 1.0, 1.2, 1.5];
-/// Draws of noise for each set.
 const DRAWS: usize = 200;
 /// Steps of the differences in ln p and in B.
 const STEP: f64 = 0.01;

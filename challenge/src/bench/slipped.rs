@@ -11,7 +11,6 @@ use compare::error::CompareError;
 use data::{Dataset, Hold};
 use serde::{Deserialize, Serialize};
 
-/// What becomes of a hold's pressures.
 type Spoil = fn(&mut Hold);
 
 /// The kinds, by the content of the column of kilopascals of gauge pressure.
@@ -77,7 +76,7 @@ fn one(seed: u64, index: usize, kind: usize, diagnose: Diagnoser, name: &str) ->
         read_with(&right, PLACEHOLDERS[kind - KINDS.len()].1)?
     };
     let words = (!is_column).then(|| data::losses(&data).join(" ")).filter(|words| words.contains("taken as not seen"));
-    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
+    let options = Options::default().without_advice();
     let evidence = [Evidence::of(data, Some(about(&truth)?))];
     let (words, named) = match diagnose(&truth.told()?, &evidence, &options, &mut |_, _| ()) {
         Ok(found) => {

@@ -40,7 +40,6 @@ impl HiddenEffect {
         (self.sizes)(robot)[self.number(laws)]
     }
 
-    /// Puts an amount of it into a robot.
     pub(crate) fn put(&self, laws: Laws, robot: &mut TrueRobot, amount: f64) {
         (self.put)(robot, self.number(laws), amount);
     }
@@ -61,7 +60,6 @@ impl HiddenEffect {
 }
 
 impl TrueRobot {
-    /// Changes the actuator of every cell that has one.
     pub(super) fn drives(&mut self, change: impl Fn(&mut Drive)) {
         self.each(|cell, _| cell.drive.iter_mut().for_each(&change));
     }

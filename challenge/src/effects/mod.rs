@@ -17,7 +17,6 @@ pub use hidden::HIDDEN;
 pub use kind::HiddenEffect;
 pub use others::{ALSO, OUTSIDE};
 
-/// The entry of that name, from any list.
 pub(crate) fn by_name(name: &str) -> Option<&'static HiddenEffect> {
     HIDDEN.iter().chain(ALSO).chain(OUTSIDE).find(|effect| effect.name == name)
 }

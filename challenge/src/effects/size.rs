@@ -9,10 +9,8 @@ use compare::error::CompareError;
 use compare::study::generate::Generator;
 use std::sync::{Mutex, PoisonError};
 
-/// Target agreement of the logarithms of two movements.
 const AGREED: f64 = 0.005;
 const ROUNDS: usize = 40;
-/// Largest step of the logarithm of an amount.
 const STEP: f64 = 1.5;
 
 /// Sizes of second laws found so far: they depend on actuator and effect alone.

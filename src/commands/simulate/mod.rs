@@ -105,7 +105,6 @@ fn notes(run: &FeRun, folder: &Path) -> Vec<String> {
     notes
 }
 
-/// Options that make the case what it is.
 fn typed_again(args: &SimulateArgs) -> String {
     let pressure = args.pressure.iter().map(|p| ("pressure", p));
     let others = args.mesh.iter().map(|m| ("mesh", m)).chain(args.set.iter().map(|s| ("set", s)));

@@ -94,7 +94,6 @@ impl Design {
     }
 }
 
-/// A robot at one point of the ranges.
 struct Tried {
     file: ScenarioFile,
     model: Model,
@@ -208,7 +207,6 @@ impl Problem<'_> {
         self.wish.objective(shares) + self.near.map_or(0.0, |near| NEAR * self.wish.way(near, shares))
     }
 
-    /// From one point by simplex after simplex.
     fn solved(self) -> (f64, Vec<f64>) {
         let mut at: Vec<f64> = self.ranges.iter().map(|k| self.fixed[*k]).collect();
         let mut best = self.objective(&self.fixed);
