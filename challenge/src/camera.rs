@@ -1,21 +1,6 @@
 //! What the camera makes of a marker.
 //!
-//! ```text
-//! by the first laws
-//! height     (x, y) → (x − e sinψ, y + e (cosψ − 1)), e (1 + 0.3 (s/L − ½))    markers on a body that tapers
-//! mount      turned about the base by φ · 1.4 u/(1 + 0.4 u), u = P/30 kPa      a clamp that gives way less and less
-//! scale      (1 + c)(1 + 0.4 c x/L)                                            the plane of the markers is tilted: keystone
-//! rotation   turned about the base by δ (1 + 0.15 x/L)                         roll and a little bending of the image
-//! lens       about (½L, L/6) by 1 + k r²                                        barrel distortion
-//! by the second laws
-//! lens       about (½L, L/6) by 1 + k r⁴                                        a wide lens that was calibrated in its middle
-//! height     pins that lean by 20°: e sin20° along the body, e cos20° across it
-//! mount      turned about the base by φ (u − ¼)₊/¾                              friction holds a gripped base
-//! scale      x (1 + c), y (1 + c/2)                                            pixels that are not square
-//! rotation   turned about (½L, 0) by δ                                         knocked after it was calibrated
-//! outside the catalogue
-//! drift      y + d u²                                                           the camera's stand moves with the robot's reaction
-//! ```
+//! The equations of the hidden laws are those of [`crate::HIDDEN`], [`crate::ALSO`] and [`crate::OUTSIDE`].
 
 use super::laws::ByLaw;
 

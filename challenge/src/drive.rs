@@ -3,22 +3,7 @@
 //! Base laws are the project's (pouch lens, McKibben at 45°, linear lift of an external actuator), but derived again
 //! from the geometry, so that a slip in `models` does not hide here. The other fields are hidden laws, off at 0:
 //!
-//! ```text
-//! by the first laws
-//! sealed edges    v → v (1 − β h/W), fPAM: v (1 − 4β r/L)         only the volume is lost, by the lens's height
-//! swelling arm    D += s h²/(h² + h₀²)                            Hill curve: late, then saturated
-//! stretch         e = c (0.4 T + 300 (1 − e^(−T/500)))            yarns uncrimp, then stretch; T = N/W in N/m
-//! crease          U' = m tanh(θ/0.6)/L₀                           a fold that gives way plastically
-//! shear           τ = G γ (1 + (γ/0.3)²)                          a coated weave that stiffens
-//! lock            τ += τ_L exp((γ − 0.22)/0.035)                  yarns press on each other ever harder
-//! by the second laws
-//! sealed edges    v → v (1 − β (h/W)²), fPAM: v (1 − β (4r/L)²)   a bowed sheet draws its ends in by the square of its rise
-//! swelling arm    D += s (sinθ/θ − cosθ)/2θ                       centroid of the bulged wall, over L₀
-//! stretch         e = c T₀ ln(1 + T/T₀), T₀ = 300 N/m             Fung's exponential, solved for the strain
-//! crease          U' = m θ^0.4/L₀                                 a sheet that hardens by a power law
-//! shear           τ = G γ/(1 + |γ|/0.15)                          Kondner's hyperbola: crossings let go
-//! lock            τ += τ_L ((1 − γ/0.36)⁻³ − 1)                   van Wyk: fibres that are pressed together
-//! ```
+//! The equations of the hidden laws are those of [`crate::HIDDEN`], [`crate::ALSO`] and [`crate::OUTSIDE`].
 
 use super::laws::ByLaw;
 use models::actuators::Family;

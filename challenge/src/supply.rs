@@ -1,17 +1,6 @@
 //! From the regulator's set pressure to the pressure in the actuator.
 //!
-//! ```text
-//! by the first laws
-//! dead band   √(p² + p₀²) − p₀                                 a soft valve seat
-//! loss        p − f √(p·20 kPa)                                orifice and laminar hose in series
-//! leak        p (0.6 + 0.4 e^(−r t/0.4))                       runs down towards a level the regulator can hold
-//! by the second laws
-//! dead band   p − p₀ (1 − e^(−p/p₀))                           a diaphragm on a rubber seat
-//! loss        p − f p √(p/30 kPa)                              a seam that gapes, and a laminar hose
-//! leak        p (1 − ½ r t √(20 kPa/p))²                       Torricelli
-//! outside the catalogue
-//! stuck       p (1 − s) if the set pressure is `stuck_at_pa`   one set point is not reached, in every run
-//! ```
+//! The equations of the hidden laws are those of [`crate::HIDDEN`], [`crate::ALSO`] and [`crate::OUTSIDE`].
 
 use super::laws::ByLaw;
 

@@ -11,7 +11,6 @@ mod inputs;
 mod progress;
 mod runs;
 mod scenario;
-mod source;
 mod states;
 mod sweeps;
 
