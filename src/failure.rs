@@ -1,7 +1,7 @@
 //! What can go wrong in the command, as the user sees it, with its exit code.
 
-use crate::printable::printable;
 use crate::shown::as_json;
+use crate::words::printable;
 use compare::CompareError;
 use data::{Fault, Location};
 use fem::FemError;

@@ -174,7 +174,9 @@ impl Drive {
         let elastic = stiffens * shear * (1.0 + (shear / 0.3).powi(2));
         let [ever_harder, pressed] = self.lock_n_per_m;
         let lock = if ever_harder == 0.0 { 0.0 } else { ((shear - 0.22) / 0.035).exp() };
-        elastic + ever_harder * lock + softens * shear / (1.0 + shear.abs() / 0.15) + pressed * dense(shear)
+        // Fibres push by the cube of their density, relative to the sheet at rest; not on the other side.
+        let dense = (1.0 - shear.max(0.0) / DENSE_RAD).max(LEAST_ROOM).powi(-3) - 1.0;
+        elastic + ever_harder * lock + softens * shear / (1.0 + shear.abs() / 0.15) + pressed * dense
     }
 
     /// dU/da of what the actuator's fabric stores or loses, per length.
@@ -191,9 +193,4 @@ impl Drive {
             }
         }
     }
-}
-
-/// Push of fibres by the cube of their density, relative to the sheet at rest; nothing on the other side.
-fn dense(shear: f64) -> f64 {
-    (1.0 - shear.max(0.0) / DENSE_RAD).max(LEAST_ROOM).powi(-3) - 1.0
 }

@@ -166,6 +166,7 @@ pub(crate) fn diagnose(
     let (file, evidence, options) = (ScenarioFile::clone(scenario.file()?), all_evidence(&data), asked.options());
     let made = beside(py, progress.as_ref(), |tell| {
         let diagnosis = ibr::diagnose(&file, &evidence, &options, &mut |what, share| _ = tell(what, share))?;
+        let no_data = || ibr::Error::refused("no data to diagnose", "name at least one set");
         let first = evidence.into_iter().next().ok_or_else(no_data)?;
         let witness = witness(&diagnosis, &file, &first.dataset, first.about.as_ref(), &known_runs(None)?)?;
         Ok(Whole { diagnosis, witness, file, first })
@@ -176,10 +177,6 @@ pub(crate) fn diagnose(
     let warnings = d.warnings.iter().cloned().chain(unused_sigma(options.sigma_m, &whole.first)).collect();
     let told = Answer::of(diagnosis::text(d, whole.witness.as_ref(), false), &json, warnings);
     Ok(Answer { diagnosis: Some(d.clone()), page: Some(Box::new(move || whole.page())), ..told })
-}
-
-fn no_data() -> ibr::Error {
-    ibr::Error::refused("no data to diagnose", "name at least one set")
 }
 
 fn extended(file: &ScenarioFile, evidence: &[Evidence], found: Extension) -> PyResult<Answer> {

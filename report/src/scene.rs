@@ -65,7 +65,8 @@ impl Scene {
             let (mut a, b) = (pair[0], pair[1]);
             let mut rest = distance(a, b);
             while rest > left {
-                a = between(a, b, left / rest);
+                let t = left / rest;
+                a = [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
                 rest -= left;
                 dash.push(a);
                 let done = std::mem::replace(&mut dash, vec![a]);
@@ -142,10 +143,6 @@ impl Scene {
 
 fn distance(a: Point, b: Point) -> f64 {
     (b[0] - a[0]).hypot(b[1] - a[1])
-}
-
-fn between(a: Point, b: Point, t: f64) -> Point {
-    [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! `ibr data fem`: marker data from finite element runs.
 
+use super::data::write_dataset;
 use super::fem_inputs::{kept, list, pressures};
 use super::inputs;
 use super::inputs::scattered;
-use super::written::write_dataset;
 use crate::cli::DataFemArgs;
 use crate::prelude::*;
 use compare::study::Generator;

@@ -68,13 +68,12 @@ pub(super) fn slipped(seed: u64, index: usize, diagnose: Diagnoser) -> Result<Sl
 /// A refusal that names the column is an answer too.
 fn one(seed: u64, index: usize, kind: usize, diagnose: Diagnoser, name: &str) -> Result<SlippedSet, CompareError> {
     let truth = Truth::draw(ROBOTS[index % ROBOTS.len()].0, &mut Draw::new(seed, STREAM + index as u64))?;
-    let right = truth.dataset("slipped", &standard_protocol())?;
+    let mut data = truth.dataset("slipped", &standard_protocol())?;
     let is_column = kind < KINDS.len();
-    let data = if is_column {
-        with_slip(right, KINDS[kind].1)
-    } else {
-        read_with(&right, PLACEHOLDERS[kind - KINDS.len()].1)?
-    };
+    match KINDS.get(kind) {
+        Some((_, spoil)) => data.holds.iter_mut().for_each(spoil),
+        None => data = read_with(&data, PLACEHOLDERS[kind - KINDS.len()].1)?,
+    }
     let words = (!is_column).then(|| data::losses(&data).join(" ")).filter(|words| words.contains("taken as not seen"));
     let options = Options::default().without_advice();
     let evidence = [Evidence::of(data, Some(about(&truth)?))];
@@ -87,11 +86,6 @@ fn one(seed: u64, index: usize, kind: usize, diagnose: Diagnoser, name: &str) ->
         Err(error) => return Err(error),
     };
     Ok(SlippedSet { kind: name.into(), is_column, truth, told: words.is_some(), words, named })
-}
-
-fn with_slip(mut data: Dataset, spoil: Spoil) -> Dataset {
-    data.holds.iter_mut().for_each(spoil);
-    data
 }
 
 /// The data as they are read from a table in which one marker in twenty has the placeholder for a hold.
