@@ -112,15 +112,13 @@ fn read_with(right: &Dataset, placeholder: &str) -> Result<Dataset, CompareError
 
 pub(super) fn rows(sets: &[SlippedSet]) -> Vec<Rate> {
     let (columns, placeholders): (Vec<&SlippedSet>, Vec<&SlippedSet>) = sets.iter().partition(|set| set.is_column);
-    let share = |case, figure, target, sets: &[&SlippedSet], hit: fn(&SlippedSet) -> bool| {
-        Rate::share(case, figure, target, &sets.iter().map(|set| hit(set)).collect::<Vec<_>>())
+    let of = |case, reported, named_at_most: f64, sets: &[&SlippedSet]| {
+        let share = |figure, target, hit: fn(&SlippedSet) -> bool| {
+            Rate::share(case, figure, target, &sets.iter().map(|set| hit(set)).collect::<Vec<_>>())
+        };
+        let named = share("an effect named", Goal::AtMost(named_at_most), |set| !set.named.is_empty());
+        [share(reported, Goal::AtLeast(0.9), |set| set.told), named]
     };
-    let is_named = |set: &SlippedSet| !set.named.is_empty();
-    let (column, place) = ("a column of pressures written wrongly", "placeholders for lost markers");
-    vec![
-        share(column, "reported as a slip", Goal::AtLeast(0.9), &columns, |set| set.told),
-        share(column, "an effect named", Goal::AtMost(0.0), &columns, is_named),
-        share(place, "reported as not seen", Goal::AtLeast(0.9), &placeholders, |set| set.told),
-        share(place, "an effect named", Goal::AtMost(0.05), &placeholders, is_named),
-    ]
+    let columns = of("a column of pressures written wrongly", "reported as a slip", 0.0, &columns);
+    [columns, of("placeholders for lost markers", "reported as not seen", 0.05, &placeholders)].concat()
 }
