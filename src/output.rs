@@ -54,8 +54,13 @@ pub(crate) fn write_texts(files: &[(PathBuf, String)], context: &mut Context) ->
         let message = format!("{} exists, and ibr did not write it", path.display());
         return Err(Failure::usage(message, "choose another file with --out, or move that one away"));
     }
+    write_whole(files, context)
+}
+
+/// Writes files, each whole or not at all; an interrupt waits until all are written.
+pub(crate) fn write_whole(files: &[(PathBuf, impl AsRef<[u8]>)], context: &mut Context) -> Result<()> {
     let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
-    files.iter().try_for_each(|(path, text)| data::write_atomically(path, text.as_bytes()))?;
+    files.iter().try_for_each(|(path, bytes)| data::write_atomically(path, bytes.as_ref()))?;
     *written = true;
     Ok(())
 }

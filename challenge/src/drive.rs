@@ -57,11 +57,22 @@ pub(super) struct DriveState {
     pub weight: f64,
 }
 
-/// Lens of a pouch at half arc angle θ, or tube at contraction ε: contraction, volume per length, height; with slopes.
+/// Lens of a pouch at half arc angle θ, or tube at contraction ε; numbers with their slopes.
 struct Bag {
     contraction: [f64; 2],
+    /// Per length of the actuator.
     volume: [f64; 2],
     height: [f64; 2],
+    /// Height by which the line of action is lifted.
+    lift: [f64; 2],
+    /// Height of the centroid of the bulged wall over L₀; of a muscle its growth over its radius at rest.
+    centroid: [f64; 2],
+    /// What the sealed edges see of the height, 1/W or 4/L.
+    per_m: f64,
+    /// Height that swells the arm, of a muscle its growth, and the height of half of the effect.
+    swollen_m: [f64; 2],
+    /// Factor that makes the balance nearly linear.
+    weight: f64,
 }
 
 impl Drive {
@@ -74,30 +85,22 @@ impl Drive {
     }
 
     pub(super) fn at(&self, a: f64, p_act_pa: f64) -> DriveState {
-        let bag = self.bag(a);
-        let ([v, dv], [h, dh]) = (bag.volume, bag.height);
-        let per = match self.family {
-            Family::Pouch => 1.0 / self.width_m,
-            Family::Mckibben => 4.0 / self.length_m,
+        let bag = match self.family {
+            Family::Pouch => self.lens(a),
+            Family::Mckibben => self.tube(a),
         };
+        let ([v, dv], [h, dh], per) = (bag.volume, bag.height, bag.per_m);
         let [pinched, bowed] = self.edge_loss;
         let kept = 1.0 - pinched * h * per - bowed * (h * per).powi(2);
         let d_volume = dv * kept - v * pinched * dh * per - 2.0 * v * bowed * h * dh * per * per;
-        let [swell, d_swell] = self.swell(a, bag.height);
-        let lift = match self.family {
-            Family::Pouch => [0.5 * h, 0.5 * dh],
-            Family::Mckibben => [h - self.width_m / PI, dh],
-        };
+        let [swell, d_swell] = self.swell(&bag);
         DriveState {
             contraction: bag.contraction[0],
             d_contraction: bag.contraction[1],
             push: self.strength * p_act_pa * d_volume - self.resistance(a),
-            arm: self.arm_m + self.lift_share * lift[0] + swell,
-            d_arm: self.lift_share * lift[1] + d_swell,
-            weight: match self.family {
-                Family::Pouch => a,
-                Family::Mckibben => 1.0,
-            },
+            arm: self.arm_m + self.lift_share * bag.lift[0] + swell,
+            d_arm: self.lift_share * bag.lift[1] + d_swell,
+            weight: bag.weight,
         }
     }
 
@@ -109,13 +112,6 @@ impl Drive {
             + fung * FUNG_N_PER_M * (line / FUNG_N_PER_M).ln_1p()
     }
 
-    fn bag(&self, a: f64) -> Bag {
-        match self.family {
-            Family::Pouch => self.lens(a),
-            Family::Mckibben => self.tube(a),
-        }
-    }
-
     /// Two arcs of length L₀ and half angle θ: chord L₀ sinθ/θ, area of the lens L₀² (θ − sinθ cosθ)/(2θ²), height.
     fn lens(&self, t: f64) -> Bag {
         let (sin, cos) = t.sin_cos();
@@ -125,10 +121,17 @@ impl Drive {
         let d_section = sin * sin / (t * t) - 2.0 * section / t;
         let height = l * (1.0 - cos) / t;
         let flat = self.gain * self.width_m * l;
+        let slope = (l * sin - height) / t;
+        let rise = (sin / t - cos) / (2.0 * t);
         Bag {
             contraction: [1.0 - sin / t, -d_chord],
             volume: [flat * section, flat * d_section],
-            height: [height, (l * sin - height) / t],
+            height: [height, slope],
+            lift: [0.5 * height, 0.5 * slope],
+            centroid: [rise, (cos / t - sin / (t * t) + sin) / (2.0 * t) - rise / t],
+            per_m: 1.0 / self.width_m,
+            swollen_m: [height, 0.35 * self.length_m],
+            weight: t,
         }
     }
 
@@ -139,33 +142,26 @@ impl Drive {
         let d_radius = rest * rest * short / radius;
         let volume = PI * radius * radius * short;
         let d_volume = 2.0 * PI * radius * d_radius * short - PI * radius * radius;
-        Bag { contraction: [e, 1.0], volume: [self.gain * volume, self.gain * d_volume], height: [radius, d_radius] }
+        Bag {
+            contraction: [e, 1.0],
+            volume: [self.gain * volume, self.gain * d_volume],
+            height: [radius, d_radius],
+            lift: [radius - rest, d_radius],
+            centroid: [radius * PI / self.width_m - 1.0, d_radius * PI / self.width_m],
+            per_m: 4.0 / self.length_m,
+            swollen_m: [(radius - rest).max(0.0), 0.05 * self.width_m / PI],
+            weight: 1.0,
+        }
     }
 
-    /// Growth of the arm with its slope: a Hill curve in the height of the bag (of a muscle: in its growth); and the
-    /// centroid of the bulged wall.
-    fn swell(&self, a: f64, [height, slope]: [f64; 2]) -> [f64; 2] {
-        let (x, half) = match self.family {
-            Family::Pouch => (height, 0.35 * self.length_m),
-            Family::Mckibben => ((height - self.width_m / PI).max(0.0), 0.05 * self.width_m / PI),
-        };
+    /// Growth of the arm with its slope: a Hill curve in the height of the bag; and the centroid of the bulged wall.
+    fn swell(&self, bag: &Bag) -> [f64; 2] {
+        let ([x, half], slope) = (bag.swollen_m, bag.height[1]);
         let sum = x * x + half * half;
         let [hill, wall] = self.swell_m;
         let first = [hill * x * x / sum, hill * 2.0 * x * half * half / (sum * sum) * slope];
-        let second = self.centroid(a, [height, slope]).map(|rise| wall * rise);
+        let second = bag.centroid.map(|rise| wall * rise);
         [first[0] + second[0], first[1] + second[1]]
-    }
-
-    /// Height of the centroid of a bulged wall over L₀, and its slope; of a muscle its growth over its radius at rest.
-    fn centroid(&self, a: f64, [height, slope]: [f64; 2]) -> [f64; 2] {
-        match self.family {
-            Family::Pouch => {
-                let (sin, cos) = a.sin_cos();
-                let rise = (sin / a - cos) / (2.0 * a);
-                [rise, (cos / a - sin / (a * a) + sin) / (2.0 * a) - rise / a]
-            }
-            Family::Mckibben => [height * PI / self.width_m - 1.0, slope * PI / self.width_m],
-        }
     }
 
     /// Shear load of the weave at a shear angle \[N/m\].

@@ -35,9 +35,6 @@ struct Instant {
 
 /// Marker positions of one run as an ideal camera records them, `[hold][sample][marker][x, y]` \[m\]; `gains` are
 /// the run's factors on the actuator pressure of the holds.
-///
-/// # Errors
-/// A hold at which nothing balances.
 pub(crate) fn run(robot: &TrueRobot, holds: &[Hold], gains: &[f64]) -> Result<Vec<f64>, CompareError> {
     let n = robot.cells.len();
     let mut march = March {

@@ -25,18 +25,12 @@ const LOST: f64 = 0.05;
 const LOSSES: u64 = 0x1057;
 
 /// Positions without any scatter, in run layout \[m\].
-///
-/// # Errors
-/// A hold at which nothing balances.
 pub(crate) fn ideal(robot: &TrueRobot, generator: &Generator) -> Result<Vec<f64>, CompareError> {
     march::run(robot, &holds(generator), &vec![1.0; generator.protocol.len()])
 }
 
 /// Measures a robot under the protocol of its measurement; `scenario` gives what the experimenter believes: actuator and
 /// marker stations.
-///
-/// # Errors
-/// A hold at which nothing balances; no marker stations.
 pub(crate) fn measure(
     robot: &TrueRobot,
     scenario: &Scenario,
@@ -47,9 +41,6 @@ pub(crate) fn measure(
 }
 
 /// Measures a robot under holds of any length.
-///
-/// # Errors
-/// As [`measure`].
 pub(crate) fn measure_holds(
     robot: &TrueRobot,
     scenario: &Scenario,

@@ -42,9 +42,6 @@ const SCALE_PA: [f64; 2] = [2e3, 30e3];
 
 impl TrueRobot {
     /// The robot of a scenario. The only effect understood is `arm_growth`, the geometry of an external actuator.
-    ///
-    /// # Errors
-    /// Another effect in the scenario; no equilibrium at the top of the standard protocol.
     pub(crate) fn new(scenario: &Scenario) -> Result<TrueRobot, CompareError> {
         if scenario.wall != models::scenario::Wall::default() || !scenario.actuator.exists() {
             let problem =

@@ -18,9 +18,6 @@ const JAMMED_N_PER_M: f64 = 100.0;
 const STEP_RAD: f64 = 1e-3;
 
 /// Results of tests by their names, each with its error.
-///
-/// # Errors
-/// Not an actuator of the bench.
 pub(crate) fn bench_tests(truth: &Truth, names: &[String]) -> Result<Vec<MeasuredValue>, CompareError> {
     let robot = truth.robot()?;
     let mut scatter = Scatter::new(truth.seed ^ 0xFAB);

@@ -82,9 +82,7 @@ fn number_text(number: f64, is_whole: bool) -> String {
 }
 
 pub(crate) struct Change {
-    /// Such as `body.radius_mm`.
     pub place: String,
-    /// As in TOML.
     pub text: String,
     /// A number, and whether it is written as a whole one.
     number: Option<(f64, bool)>,

@@ -7,7 +7,6 @@ use compare::extension::{Extension, Wish, add};
 use compare::foreign::Correction;
 use compare::progress::part;
 use compare::progress::shares::READ;
-use std::sync::PoisonError;
 
 pub(super) fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome> {
     let file = ibr::studies::scenario(&args.scenario)?;
@@ -22,9 +21,7 @@ pub(super) fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome> {
     let names: Vec<&str> = found.additions.iter().map(|a| a.name.as_str()).collect();
     let target = target(args, &names.join("-").replace(' ', "-"), context.force)?;
     let correction = is_correction(&target).then(|| Correction::of(&file, &found, &evidence)?.text()).transpose()?;
-    let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
-    data::write_atomically(&target, correction.as_ref().unwrap_or(&found.file.text).as_bytes())?;
-    *written = true;
+    write_whole(&[(target.clone(), correction.as_ref().unwrap_or(&found.file.text))], context)?;
     let target = target.display().to_string();
     let answer = AddAnswer::of(&file, &evidence, &found, &target)?;
     let mut outcome = Outcome::answer(words(args, &found, &target), "ibr.add", &answer);

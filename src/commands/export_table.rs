@@ -6,7 +6,6 @@ use crate::prelude::{Context, Failure, Loads, Model, Outcome, Quantity, Result, 
 use crate::shown::predicted::beyond_words;
 use models::export::{Bound, Origin, Table, Untabulated};
 use std::path::{Path, PathBuf};
-use std::sync::PoisonError;
 
 pub(super) fn c(args: &ExportArgs, context: &mut Context) -> Result<Outcome> {
     let path = target(args.out.as_ref(), "c")?;
@@ -64,10 +63,7 @@ pub(super) fn write(files: &[(PathBuf, Vec<u8>)], context: &mut Context) -> Resu
         let message = format!("cannot write {}: it exists", path.display());
         return Err(Failure::usage(message, "add --force, or choose another file with --out"));
     }
-    let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
-    files.iter().try_for_each(|(path, bytes)| data::write_atomically(path, bytes))?;
-    *written = true;
-    Ok(())
+    crate::output::write_whole(files, context)
 }
 
 /// The file to write, with the ending of its format.

@@ -44,11 +44,8 @@ fn without(typed: &[String]) -> Vec<String> {
 pub(super) struct Work<'w> {
     /// Folder of the job and its logs, seen by all machines.
     pub folder: &'w Path,
-    /// What it consists of, for example runs.
     pub parts: &'w str,
-    /// How many of them there are.
     pub all: usize,
-    /// How many are not there yet.
     pub missing: &'w dyn Fn() -> usize,
     /// One that fails is never there, so that a job may end with some missing.
     pub may_fail: bool,

@@ -26,9 +26,6 @@ const STEP: f64 = 0.01;
 
 /// Shares of all noise in which the law of a single hidden effect has the least misfit, and one of the three least; `data`
 /// gives holds and markers.
-///
-/// # Errors
-/// A hold at which nothing balances.
 pub(super) fn at_best(truth: &Truth, data: &Dataset) -> Result<[f64; 2], CompareError> {
     let eyes = Eyes::of(truth, data)?;
     let mut laws = Vec::new();
@@ -47,9 +44,6 @@ pub(super) fn at_best(truth: &Truth, data: &Dataset) -> Result<[f64; 2], Compare
 }
 
 /// Shares of all noise in which the nearest pair of laws holds one of two hidden effects at least, and both.
-///
-/// # Errors
-/// A hold at which nothing balances.
 pub(super) fn two_at_best(truth: &Truth, data: &Dataset) -> Result<[f64; 2], CompareError> {
     let bare = Truth { effects: Vec::new(), ..truth.clone() };
     let eyes = Eyes::of(&bare, data)?;

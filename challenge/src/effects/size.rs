@@ -19,9 +19,6 @@ static FOUND: Mutex<Vec<(String, &'static str, f64)>> = Mutex::new(Vec::new());
 impl HiddenEffect {
     /// Amount of a typical size in a robot of that actuator, SI. The size of a second law moves the markers of the usual robot
     /// as far as the first one's does, root mean square, under the standard protocol.
-    ///
-    /// # Errors
-    /// Not an actuator of [`truth::ROBOTS`]; no amount moves the markers so far.
     pub(crate) fn typical(&self, laws: Laws, actuator: &str, robot: &TrueRobot) -> Result<f64, CompareError> {
         if laws.are_first() || self.is_outside() {
             return Ok(self.size(laws, robot));
