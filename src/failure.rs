@@ -26,6 +26,11 @@ pub(crate) const UNSOLVED: u8 = 4;
 /// Exit code after an interrupt, as shells have it: 128 + SIGINT.
 pub(crate) const INTERRUPTED: u8 = 130;
 
+/// A wrong argument, and what to type instead.
+pub(crate) fn refuse_if(is_wrong: bool, message: impl Into<String>, help: impl Into<String>) -> Result<()> {
+    if is_wrong { Err(Failure::usage(message, help)) } else { Ok(()) }
+}
+
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
     #[error("cannot write to {path}: {cause}")]

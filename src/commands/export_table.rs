@@ -2,7 +2,9 @@
 
 use super::inputs::{self, quantity};
 use crate::cli::ExportArgs;
-use crate::prelude::{Context, Failure, Loads, Model, Outcome, Quantity, Result, Scenario, Serialize};
+use crate::prelude::{
+    Context, Failure, Loads, Model, Outcome, Quantity, Result, Scenario, Serialize, refuse_if, write_whole,
+};
 use crate::shown::predicted::beyond_words;
 use models::export::{Bound, Origin, Table, Untabulated};
 use std::path::{Path, PathBuf};
@@ -63,17 +65,16 @@ pub(super) fn write(files: &[(PathBuf, Vec<u8>)], context: &mut Context) -> Resu
         let message = format!("cannot write {}: it exists", path.display());
         return Err(Failure::usage(message, "add --force, or choose another file with --out"));
     }
-    crate::output::write_whole(files, context)
+    write_whole(files, context)
 }
 
 /// The file to write, with the ending of its format.
 pub(super) fn target(out: Option<&PathBuf>, ending: &str) -> Result<PathBuf> {
     let example = format!("robot.{ending}");
     let path = out.cloned().unwrap_or_else(|| example.clone().into());
-    if path.extension().is_none_or(|end| end != ending) {
-        let message = format!("--out {} does not end with .{ending}", path.display());
-        return Err(Failure::usage(message, format!("write for example --out {example}")));
-    }
+    let message = format!("--out {} does not end with .{ending}", path.display());
+    let help = format!("write for example --out {example}");
+    refuse_if(path.extension().is_none_or(|end| end != ending), message, help)?;
     Ok(path)
 }
 

@@ -16,10 +16,9 @@ pub(super) fn robots(specs: &[String]) -> Result<Robots> {
     let (mut found, mut inputs) = (Vec::new(), Vec::new());
     for spec in specs {
         let source = fe_source(spec)?;
-        if !source.is_robot() {
-            let message = format!("{spec} is not the scenario of a robot");
-            return Err(Failure::usage(message, "give scenarios such as spam cpam epam fpam"));
-        }
+        let message = format!("{spec} is not the scenario of a robot");
+        let help = "give scenarios such as spam cpam epam fpam";
+        refuse_if(!source.is_robot(), message, help)?;
         inputs.push(Input::of(spec, source.text.as_bytes()));
         let (scenario, _) = source.robot_run()?;
         found.push((source, scenario));

@@ -22,10 +22,9 @@ pub(super) fn setting<'t>(text: &'t str, help: &str) -> Result<(&'t str, &'t str
 pub(super) fn each_once<'t>(option: &str, names: impl IntoIterator<Item = &'t str>) -> Result<()> {
     let mut seen = Vec::new();
     for name in names {
-        if seen.contains(&name) {
-            let help = "leave one of the two out";
-            return Err(Failure::usage(format!("{option} gives {name} twice"), help));
-        }
+        let help = "leave one of the two out";
+        let message = format!("{option} gives {name} twice");
+        refuse_if(seen.contains(&name), message, help)?;
         seen.push(name);
     }
     Ok(())

@@ -59,9 +59,8 @@ pub(super) fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome> 
 }
 
 fn follow(scenario: &Scenario, context: &Context) -> Result<Outcome> {
-    if context.json {
-        return Err(Failure::usage("--follow writes lines of numbers", "leave out --json"));
-    }
+    let message = "--follow writes lines of numbers";
+    refuse_if(context.json, message, "leave out --json")?;
     let followed = ibr::follow(scenario, std::io::stdin().lock(), std::io::stdout().lock())?;
     Ok(Outcome { notes: followed.words(), ..Outcome::default() })
 }
@@ -85,9 +84,8 @@ fn target(text: &str) -> Result<Target> {
 /// The pressures of a file, else of the command line or the scenario.
 fn asked(scenario: &Scenario, args: &PredictArgs) -> Result<Vec<Loads>> {
     let Some(file) = &args.pressures else { return wanted(scenario, args.pressure.as_deref()) };
-    if !scenario.actuator.exists() {
-        return Err(Failure::usage("--pressures for a beam, which has no actuator", "leave it out"));
-    }
+    let message = "--pressures for a beam, which has no actuator";
+    refuse_if(!scenario.actuator.exists(), message, "leave it out")?;
     Ok(ibr::pressures_of(scenario, file, MOST)?)
 }
 
@@ -104,21 +102,16 @@ pub(super) fn wanted(scenario: &Scenario, pressures: Option<&str>) -> Result<Vec
     if !scenario.actuator.exists() {
         pressures = vec![[0.0; CHANNELS]];
     }
-    if pressures.is_empty() {
-        return Err(Failure::usage(
-            "no pressure given",
-            "add --pressure 10kPa,20kPa or [predict] pressures_kpa to the scenario",
-        ));
-    }
+    let help = "add --pressure 10kPa,20kPa or [predict] pressures_kpa to the scenario";
+    refuse_if(pressures.is_empty(), "no pressure given", help)?;
     Ok(pressures.into_iter().map(|p| Loads { body_pa: scenario.p_body_pa, actuator_pa: p }).collect())
 }
 
 /// From which length on loads fold the robot.
 fn limits(typed: &str, scenario: &Scenario, wanted: &[Loads]) -> Result<Outcome> {
-    if !scenario.effects.iter().any(|e| ["gravity", "tip_load"].contains(&e.name.as_str())) {
-        let help = "add what bends it, for example --effect gravity:weight_n_per_m=1.5";
-        return Err(Failure::usage("a robot without load collapses at no length", help));
-    }
+    let help = "add what bends it, for example --effect gravity:weight_n_per_m=1.5";
+    let message = "a robot without load collapses at no length";
+    refuse_if(!scenario.effects.iter().any(|e| ["gravity", "tip_load"].contains(&e.name.as_str())), message, help)?;
     let straight = Loads::uniform(scenario.p_body_pa, 0.0);
     let steered = wanted.iter().filter(|loads| loads.actuator_pa.iter().any(|p| *p > 0.0));
     let lengths: Vec<(Loads, Option<f64>)> =

@@ -119,10 +119,9 @@ pub(super) fn shared(
     if !args.asked() {
         return Ok(None);
     }
-    if settings.force {
-        let help = "leave --force out, and give another --out or remove the runs to make them again";
-        return Err(Failure::usage("--force would make the runs of all shards again in every one", help));
-    }
+    let help = "leave --force out, and give another --out or remove the runs to make them again";
+    let message = "--force would make the runs of all shards again in every one";
+    refuse_if(settings.force, message, help)?;
     let root = settings.folder.clone().unwrap_or_default();
     let all: Vec<(&Job, PathBuf)> = problems(jobs, &root)?;
     let work = Work {

@@ -17,10 +17,9 @@ pub(super) fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome>
     if let Some(file) = &args.export {
         return exported(args, &plan, file, context.force);
     }
-    if args.from.is_some() && !matches!(plan, RunPlan::Single(_)) {
-        let help = "name one mesh and leave separate out, then go on from one run to another";
-        return Err(Failure::usage("--from goes on with one run, and this is several", help));
-    }
+    let help = "name one mesh and leave separate out, then go on from one run to another";
+    let message = "--from goes on with one run, and this is several";
+    refuse_if(args.from.is_some() && !matches!(plan, RunPlan::Single(_)), message, help)?;
     let folder = args.out.clone().unwrap_or_else(|| plan.folder(args));
     let settings = Settings {
         resume: args.resume,
@@ -54,10 +53,9 @@ fn exported(args: &SimulateArgs, plan: &RunPlan, file: &Path, force: bool) -> Re
         let help = "leave out --seeds, --uncertain and further values of --mesh";
         return Err(Failure::usage("--export writes one run, and this is several", help));
     };
-    if file.exists() && !force {
-        let help = "give --force to replace it, or another name";
-        return Err(Failure::usage(format!("{} exists already", file.display()), help));
-    }
+    let help = "give --force to replace it, or another name";
+    let message = format!("{} exists already", file.display());
+    refuse_if(file.exists() && !force, message, help)?;
     let solver = if args.solver.as_deref() == Some("calculix") { Solver::CalculiX } else { Solver::Abaqus };
     let Export { nodes, elements, notices, left_out } = export(source, file, solver)?;
     let text = format!("{}: {nodes} nodes, {elements} elements\n", file.display());
