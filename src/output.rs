@@ -28,6 +28,20 @@ pub(crate) fn replace_files(folder: &Path, files: &Files, inputs: &[Input], cont
     Ok(())
 }
 
+/// Writes a dataset with what made it.
+pub(crate) fn write_dataset(
+    folder: &Path,
+    dataset: &data::Dataset,
+    about: &data::About,
+    truth: String,
+    inputs: &[Input],
+    context: &mut Context,
+) -> Result<()> {
+    let mut files = Files { files: data::set_files(dataset, about)?.into(), ..Files::default() };
+    files.text("truth.toml", truth);
+    replace_files(folder, &files, inputs, context)
+}
+
 /// Refuses to replace files of these names that no manifest in the folder lists.
 fn check_own<'n>(folder: &Path, names: impl Iterator<Item = &'n str>) -> Result<()> {
     let listed = listed(folder);

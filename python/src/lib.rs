@@ -11,6 +11,7 @@ mod inputs;
 mod progress;
 mod runs;
 mod scenario;
+mod source;
 mod states;
 mod sweeps;
 

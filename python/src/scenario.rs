@@ -3,6 +3,7 @@
 use crate::arrays::{Numbers, matrix, numbers};
 use crate::errors::{raised, refused};
 use crate::inputs::{Change, Pressures, hash_of, places};
+use crate::source::Source;
 use crate::states::{State, states};
 use ibr::models::{Aim, CHANNELS, Limits, Loads, Prediction, Target};
 use ibr::{Follower, Predictor, ScenarioFile};
@@ -351,23 +352,5 @@ impl Scenario {
     fn __repr__(&self) -> String {
         let effects = self.effects().join(", ");
         format!("Scenario({}: {}, effects: {effects})", self.source.base.name, self.robot.scenario.name)
-    }
-}
-
-/// The text of a scenario, or its source text with the numbers that were set.
-pub(crate) struct Source {
-    pub base: Arc<ScenarioFile>,
-    pub changes: Vec<(String, String)>,
-    pub file: OnceLock<Arc<ScenarioFile>>,
-}
-
-impl Source {
-    /// With its text, which is written at the first use.
-    pub(crate) fn file(&self) -> PyResult<&Arc<ScenarioFile>> {
-        if let Some(file) = self.file.get() {
-            return Ok(file);
-        }
-        let file = self.base.with_in_space(&self.changes).map_err(raised)?;
-        Ok(self.file.get_or_init(|| Arc::new(file)))
     }
 }

@@ -1,7 +1,7 @@
 use crate::arrays::{matrix, rows_mm, vector, with_z};
 use crate::errors::raised;
 use crate::inputs::hash_of;
-use crate::scenario::Source;
+use crate::source::Source;
 use ibr::models::{CHANNELS, Loads, Prediction, Tip};
 use ibr::pages::predicted_files;
 use ibr::shown::predicted::{PredictedState, above_limit, beyond_words, text};

@@ -3,12 +3,13 @@
 use super::inputs::{self, scattered};
 use super::list;
 use crate::cli::{DataCommand, GenerateArgs};
+use crate::output::write_dataset;
 use crate::prelude::*;
 use compare::diagnosis::{Options, pressure_slip};
 use compare::slips::pressure::pressure_words;
 use compare::slips::slips;
 use compare::study::generate::{Generator, about, generate};
-use data::{About, CheckReport};
+use data::CheckReport;
 use ibr::check_fed;
 
 pub(super) fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome> {
@@ -85,19 +86,6 @@ fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome> {
     let text = format!("{values} values of {} runs in {}\n", dataset.runs.len(), args.out.display());
     let answer = Generated { folder: args.out.display().to_string(), runs: dataset.runs.len() };
     Ok(Outcome::answer(text, "ibr.data.generate", &answer))
-}
-
-pub(super) fn write_dataset(
-    folder: &Path,
-    dataset: &Dataset,
-    about: &About,
-    truth: String,
-    inputs: &[Input],
-    context: &mut Context,
-) -> Result<()> {
-    let mut files = Files { files: data::set_files(dataset, about)?.into(), ..Files::default() };
-    files.text("truth.toml", truth);
-    replace_files(folder, &files, inputs, context)
 }
 
 /// `ibr.data.generate`: `ibr data generate SCENARIO`

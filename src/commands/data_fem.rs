@@ -1,10 +1,10 @@
 //! `ibr data fem`: marker data from finite element runs.
 
-use super::data::write_dataset;
 use super::fem_inputs::{kept, list, pressures};
 use super::inputs;
 use super::inputs::scattered;
 use crate::cli::DataFemArgs;
+use crate::output::write_dataset;
 use crate::prelude::*;
 use compare::study::Generator;
 use compare::study::engines::{EngineRun, of_the_program, runs_of, seed_jobs};

@@ -1,6 +1,7 @@
 //! The finite elements of du Pasquier et al. 2023 against this engine with their modelling choices, `[fem] model = "paper"`:
 //! displacements next to those that the paper's accuracies imply, and every sentence of the paper that can be checked.
 
+mod checked;
 mod facts;
 mod implied;
 mod in_print;
@@ -9,7 +10,8 @@ mod jobs;
 
 use crate::policy;
 use crate::study::engines::{EngineRun, EngineState, Listed};
-pub use facts::{FactRow, FactVerdict, facts};
+pub use checked::facts;
+pub use facts::{FactRow, FactVerdict};
 use fem::FemError;
 use fem::record::RecordShape;
 pub use implied::{HeightRow, Implied, against, heights};

@@ -1,0 +1,24 @@
+//! The text that a scenario comes from.
+
+use crate::errors::raised;
+use ibr::ScenarioFile;
+use pyo3::prelude::*;
+use std::sync::{Arc, OnceLock};
+
+/// The text of a scenario, or its source text with the numbers that were set.
+pub(crate) struct Source {
+    pub base: Arc<ScenarioFile>,
+    pub changes: Vec<(String, String)>,
+    pub file: OnceLock<Arc<ScenarioFile>>,
+}
+
+impl Source {
+    /// With its text, which is written at the first use.
+    pub(crate) fn file(&self) -> PyResult<&Arc<ScenarioFile>> {
+        if let Some(file) = self.file.get() {
+            return Ok(file);
+        }
+        let file = self.base.with_in_space(&self.changes).map_err(raised)?;
+        Ok(self.file.get_or_init(|| Arc::new(file)))
+    }
+}
