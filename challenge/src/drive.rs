@@ -2,8 +2,7 @@
 //!
 //! Base laws are the project's (pouch lens, McKibben at 45°, linear lift of an external actuator), but derived again
 //! from the geometry, so that a slip in `models` does not hide here. The other fields are hidden laws, off at 0:
-//!
-//! The equations of the hidden laws are those of [`crate::HIDDEN`], [`crate::ALSO`] and [`crate::OUTSIDE`].
+//! [`crate::HIDDEN`], [`crate::ALSO`] and [`crate::OUTSIDE`] have the equations of the hidden laws.
 
 use super::laws::ByLaw;
 use models::actuators::Family;

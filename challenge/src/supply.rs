@@ -1,6 +1,6 @@
 //! From the regulator's set pressure to the pressure in the actuator.
 //!
-//! The equations of the hidden laws are those of [`crate::HIDDEN`], [`crate::ALSO`] and [`crate::OUTSIDE`].
+//! [`crate::HIDDEN`], [`crate::ALSO`] and [`crate::OUTSIDE`] have the equations of the hidden laws.
 
 use super::laws::ByLaw;
 

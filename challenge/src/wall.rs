@@ -1,8 +1,7 @@
 //! The body of one cell: the moment that resists a curvature, with memory.
 //!
 //! Base laws: bending B κ and the hinge of the body pressure, share·π R³ p_b tanh(κ/k₀). Hidden laws, off at 0:
-//!
-//! The equations of the hidden laws are those of [`crate::HIDDEN`], [`crate::ALSO`] and [`crate::OUTSIDE`].
+//! [`crate::HIDDEN`], [`crate::ALSO`] and [`crate::OUTSIDE`] have the equations of the hidden laws.
 
 use super::laws::ByLaw;
 
