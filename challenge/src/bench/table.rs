@@ -189,10 +189,12 @@ fn median(values: &[f64]) -> Option<f64> {
     (n > 0).then(|| 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]))
 }
 
+/// How often a truth had a name; λ, BIC behind and smallest size of these sets.
+type Cell = (usize, [Vec<f64>; 3]);
+
 /// Truth against the name on top, single effects, by truth and then by frequency.
 pub(super) fn confusion(outcomes: &[SetOutcome]) -> Vec<Confusion> {
-    // Of every truth and name how often it is so, λ, BIC behind and smallest size.
-    let mut cells: BTreeMap<(String, String), (usize, [Vec<f64>; 3])> = BTreeMap::new();
+    let mut cells: BTreeMap<(String, String), Cell> = BTreeMap::new();
     for (outcome, found) in found(outcomes, ONE) {
         let truth = names(&outcome.truth).join(" + ");
         let named = match found.answer.verdict.as_deref().unwrap_or_default() {
