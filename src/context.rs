@@ -12,7 +12,6 @@ use std::time::{Duration, Instant};
 
 /// What a command may use of the outside.
 pub(crate) struct Context<'a> {
-    /// What was typed after the name of the program.
     pub typed: Vec<String>,
     pub json: bool,
     pub threads: usize,
@@ -23,7 +22,6 @@ pub(crate) struct Context<'a> {
     pub say: &'a mut (dyn FnMut(&str) + Send),
     /// Held while files are written; true once they are.
     pub written: &'a Mutex<bool>,
-    /// For commands that end themselves on Ctrl-C.
     pub interrupt: &'a Interrupt,
 }
 
@@ -90,7 +88,6 @@ impl Outcome {
         Outcome { text, json: Some(json), notes: Vec::new(), code: 0 }
     }
 
-    /// Nothing to show, and how to go on.
     pub(crate) fn interrupted(note: String) -> Outcome {
         Outcome { notes: vec![note], code: INTERRUPTED, ..Outcome::default() }
     }

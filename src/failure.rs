@@ -1,7 +1,7 @@
 //! What can go wrong in the command, as the user sees it, with its exit code.
 
-use crate::printable::printable;
 use crate::shown::as_json;
+use crate::words::printable;
 use compare::CompareError;
 use data::{Fault, Location};
 use fem::FemError;
@@ -25,6 +25,11 @@ pub(crate) const UNSOLVED: u8 = 4;
 
 /// Exit code after an interrupt, as shells have it: 128 + SIGINT.
 pub(crate) const INTERRUPTED: u8 = 130;
+
+/// A wrong argument, and what to type instead.
+pub(crate) fn refuse_if(is_wrong: bool, message: impl Into<String>, help: impl Into<String>) -> Result<()> {
+    if is_wrong { Err(Failure::usage(message, help)) } else { Ok(()) }
+}
 
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
@@ -89,7 +94,6 @@ impl From<Unsolved> for Failure {
 }
 
 impl Failure {
-    /// A wrong argument and what to type instead.
     pub(crate) fn usage(message: impl Into<String>, help: impl Into<String>) -> Failure {
         Failure::Compare(CompareError::refused(message, help))
     }
@@ -122,7 +126,6 @@ impl Failure {
         }
     }
 
-    /// The same for programs.
     pub(crate) fn json(&self) -> serde_json::Value {
         let place = match self {
             Failure::Fem(error) => error.place(),
@@ -166,7 +169,6 @@ impl Failure {
     }
 }
 
-/// Shown with the lines around it.
 fn in_text(
     file: &str,
     text: &str,

@@ -62,7 +62,6 @@ pub mod pages;
 mod predict;
 mod predictor;
 mod prelude;
-mod printable;
 pub mod program;
 pub mod shown;
 mod stream;

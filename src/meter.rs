@@ -1,6 +1,6 @@
 //! How far long work is, for a terminal.
 
-use crate::printable::printable;
+use crate::words::printable;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};

@@ -28,6 +28,20 @@ pub(crate) fn replace_files(folder: &Path, files: &Files, inputs: &[Input], cont
     Ok(())
 }
 
+/// Writes a dataset with what made it.
+pub(crate) fn write_dataset(
+    folder: &Path,
+    dataset: &data::Dataset,
+    about: &data::About,
+    truth: String,
+    inputs: &[Input],
+    context: &mut Context,
+) -> Result<()> {
+    let mut files = Files { files: data::set_files(dataset, about)?.into(), ..Files::default() };
+    files.text("truth.toml", truth);
+    replace_files(folder, &files, inputs, context)
+}
+
 /// Refuses to replace files of these names that no manifest in the folder lists.
 fn check_own<'n>(folder: &Path, names: impl Iterator<Item = &'n str>) -> Result<()> {
     let listed = listed(folder);
@@ -54,8 +68,13 @@ pub(crate) fn write_texts(files: &[(PathBuf, String)], context: &mut Context) ->
         let message = format!("{} exists, and ibr did not write it", path.display());
         return Err(Failure::usage(message, "choose another file with --out, or move that one away"));
     }
+    write_whole(files, context)
+}
+
+/// Writes files, each whole or not at all; an interrupt waits until all are written.
+pub(crate) fn write_whole(files: &[(PathBuf, impl AsRef<[u8]>)], context: &mut Context) -> Result<()> {
     let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
-    files.iter().try_for_each(|(path, text)| data::write_atomically(path, text.as_bytes()))?;
+    files.iter().try_for_each(|(path, bytes)| data::write_atomically(path, bytes.as_ref()))?;
     *written = true;
     Ok(())
 }
@@ -131,7 +150,6 @@ pub(crate) fn read_input(path: &Path) -> Input {
     Input::of(&path.display().to_string(), &std::fs::read(path).unwrap_or_default())
 }
 
-/// Refuses to write over a file that was read.
 pub(crate) fn spares_inputs(folder: &Path, files: &Files, inputs: &[String]) -> Result<()> {
     let read: Vec<_> = inputs.iter().filter_map(|file| std::fs::canonicalize(file).ok()).collect();
     let same = |name: &&String| std::fs::canonicalize(folder.join(name)).is_ok_and(|path| read.contains(&path));
@@ -208,7 +226,6 @@ pub(crate) fn program() -> String {
     format!("ibr {}", env!("CARGO_PKG_VERSION"))
 }
 
-/// Processor and number of cores, for timings.
 pub(crate) fn machine() -> String {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let cpu = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {

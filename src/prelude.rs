@@ -1,10 +1,10 @@
 //! Names that most commands, tables and pages use.
 
 pub(crate) use crate::context::{Context, Outcome};
-pub(crate) use crate::failure::{Failure, MISSED, Result};
+pub(crate) use crate::failure::{Failure, MISSED, Result, refuse_if};
 pub(crate) use crate::output::{
     Input, check_folder, check_set_folder, machine, maker, program, read_input, replace_files, set_name, sha256,
-    spares_inputs, write_example, write_files, write_texts,
+    spares_inputs, write_example, write_files, write_texts, write_whole,
 };
 pub(crate) use crate::pages::Files;
 pub(crate) use crate::tables::{Table, lines, wrapped};

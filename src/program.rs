@@ -3,7 +3,7 @@
 use crate::context::{Context, Interrupt, Outcome};
 use crate::meter::Meter;
 pub use crate::output::maker;
-use crate::printable::printable;
+use crate::words::printable;
 use crate::{cli, commands, failure};
 use std::ffi::OsString;
 use std::io::Write;

@@ -7,7 +7,6 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
-/// Largest length of one line of the stream \[bytes\].
 const MOST_LINE: u64 = 4096;
 
 /// What a line of the stream is marked with, and what that means; in the order of the counts of [`crate::Followed`].
@@ -28,10 +27,8 @@ pub(crate) const UNSOLVED: usize = 4;
 pub(crate) const LIMIT: usize = 5;
 pub(crate) const BEYOND: usize = 6;
 
-/// Which of [`MARKS`] a line has.
 pub(crate) type Marked = [bool; MARKS.len()];
 
-/// What a column of the stream is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Column {
     Time,
@@ -177,7 +174,6 @@ pub(crate) fn columns(header: &str, fed: &[usize], timed: bool) -> Result<Vec<(C
     }
 }
 
-/// Puts a pressure \[Pa\] where its column belongs.
 fn put(column: Column, pa: f64, loads: &mut Loads) {
     match column {
         Column::Time => {}
@@ -187,7 +183,6 @@ fn put(column: Column, pa: f64, loads: &mut Loads) {
     }
 }
 
-/// Pressures of a line of a file.
 fn read(line: &str, columns: &[(Column, Unit)], body_pa: f64) -> Result<Loads, String> {
     let cells: Vec<&str> = line.split(',').map(str::trim).collect();
     if cells.len() != columns.len() {
@@ -206,7 +201,6 @@ const NEAR_ZERO_PA: f64 = 500.0;
 /// After so many late lines in a row that follow each other the clock has begun again.
 const NEW_CLOCK: usize = 5;
 
-/// The last good reading of a stream.
 #[derive(Debug)]
 pub(crate) struct Reading {
     pub t_s: f64,

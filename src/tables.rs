@@ -54,7 +54,6 @@ impl<R> Table<R> {
         self.column(head, true, |row| cell(row).into().map_or("–".into(), |v| format!("{v:+.digits$}")))
     }
 
-    /// The table with further columns on a condition.
     pub(crate) fn when(self, wanted: bool, more: impl FnOnce(Self) -> Self) -> Self {
         if wanted { more(self) } else { self }
     }

@@ -321,7 +321,6 @@ fn tip_of(at: &Prediction) -> ibr_tip {
     ibr_tip { x_m, y_m, angle_rad }
 }
 
-/// The error for a null pointer.
 const NULL: Unsolved = Unsolved::BadAim { what: "a pointer for pressures or for the answer is null" };
 
 /// Works with a robot; its error text then belongs to this call.

@@ -1,31 +1,14 @@
 //! What the camera makes of a marker.
 //!
-//! ```text
-//! by the first laws
-//! height     (x, y) → (x − e sinψ, y + e (cosψ − 1)), e (1 + 0.3 (s/L − ½))    markers on a body that tapers
-//! mount      turned about the base by φ · 1.4 u/(1 + 0.4 u), u = P/30 kPa      a clamp that gives way less and less
-//! scale      (1 + c)(1 + 0.4 c x/L)                                            the plane of the markers is tilted: keystone
-//! rotation   turned about the base by δ (1 + 0.15 x/L)                         roll and a little bending of the image
-//! lens       about (½L, L/6) by 1 + k r²                                        barrel distortion
-//! by the second laws
-//! lens       about (½L, L/6) by 1 + k r⁴                                        a wide lens that was calibrated in its middle
-//! height     pins that lean by 20°: e sin20° along the body, e cos20° across it
-//! mount      turned about the base by φ (u − ¼)₊/¾                              friction holds a gripped base
-//! scale      x (1 + c), y (1 + c/2)                                            pixels that are not square
-//! rotation   turned about (½L, 0) by δ                                         knocked after it was calibrated
-//! outside the catalogue
-//! drift      y + d u²                                                           the camera's stand moves with the robot's reaction
-//! ```
+//! [`crate::HIDDEN`], [`crate::ALSO`] and [`crate::OUTSIDE`] have the equations of the hidden laws.
 
 use super::laws::ByLaw;
 
 /// Angle by which pins lean in the second law of the height \[rad\].
 const LEAN_RAD: f64 = 0.349;
 
-/// Camera laws; all off at 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Camera {
-    /// Length L of the straight body \[m\].
+pub(crate) struct Camera {
     pub length_m: f64,
     /// Height e of the markers above the centre line \[m\].
     pub height_m: ByLaw,
@@ -43,18 +26,16 @@ pub struct Camera {
 
 /// A marker's place on the robot, before the camera distorts it.
 #[derive(Debug, Clone, Copy)]
-pub struct SeenPoint {
-    /// Place on the centre line \[m\].
+pub(crate) struct SeenPoint {
     pub xy: [f64; 2],
     /// Angle of the centre line from the straight robot \[rad\].
     pub heading: f64,
-    /// Station of the marker on the undeformed body \[m\].
     pub station_m: f64,
 }
 
 impl Camera {
     /// The marker as recorded \[m\], at the set pressure.
-    pub fn see(&self, point: &SeenPoint, p_set_pa: f64) -> [f64; 2] {
+    pub(crate) fn see(&self, point: &SeenPoint, p_set_pa: f64) -> [f64; 2] {
         let (u, l) = (p_set_pa / 30e3, self.length_m);
         let (sin, cos) = point.heading.sin_cos();
         let [tapering, leaning] = self.height_m;

@@ -2,23 +2,7 @@
 //!
 //! Base laws are the project's (pouch lens, McKibben at 45°, linear lift of an external actuator), but derived again
 //! from the geometry, so that a slip in `models` does not hide here. The other fields are hidden laws, off at 0:
-//!
-//! ```text
-//! by the first laws
-//! sealed edges    v → v (1 − β h/W), fPAM: v (1 − 4β r/L)         only the volume is lost, by the lens's height
-//! swelling arm    D += s h²/(h² + h₀²)                            Hill curve: late, then saturated
-//! stretch         e = c (0.4 T + 300 (1 − e^(−T/500)))            yarns uncrimp, then stretch; T = N/W in N/m
-//! crease          U' = m tanh(θ/0.6)/L₀                           a fold that gives way plastically
-//! shear           τ = G γ (1 + (γ/0.3)²)                          a coated weave that stiffens
-//! lock            τ += τ_L exp((γ − 0.22)/0.035)                  yarns press on each other ever harder
-//! by the second laws
-//! sealed edges    v → v (1 − β (h/W)²), fPAM: v (1 − β (4r/L)²)   a bowed sheet draws its ends in by the square of its rise
-//! swelling arm    D += s (sinθ/θ − cosθ)/2θ                       centroid of the bulged wall, over L₀
-//! stretch         e = c T₀ ln(1 + T/T₀), T₀ = 300 N/m             Fung's exponential, solved for the strain
-//! crease          U' = m θ^0.4/L₀                                 a sheet that hardens by a power law
-//! shear           τ = G γ/(1 + |γ|/0.15)                          Kondner's hyperbola: crossings let go
-//! lock            τ += τ_L ((1 − γ/0.36)⁻³ − 1)                   van Wyk: fibres that are pressed together
-//! ```
+//! [`crate::HIDDEN`], [`crate::ALSO`] and [`crate::OUTSIDE`] have the equations of the hidden laws.
 
 use super::laws::ByLaw;
 use models::actuators::Family;
@@ -33,14 +17,12 @@ const LEAST_ROOM: f64 = 0.01;
 
 /// Geometry of one cell's actuator and amounts of its hidden laws.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Drive {
-    /// Mechanism of contraction, a pouch or a McKibben muscle.
+pub(crate) struct Drive {
     pub family: Family,
     /// Flat length of one unit L₀ \[m\].
     pub length_m: f64,
     /// Width W of the flat unit \[m\].
     pub width_m: f64,
-    /// Factor on the volume of the unit \[-\].
     pub gain: f64,
     /// Distance D₀ of the line of action from the taut generator at rest \[m\].
     pub arm_m: f64,
@@ -62,26 +44,34 @@ pub struct Drive {
     pub lock_n_per_m: ByLaw,
 }
 
-/// What the actuator does at one coordinate.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DriveState {
-    /// Contraction and its slope by the coordinate.
     pub contraction: f64,
     pub d_contraction: f64,
     /// P dv/da − dU/da \[N·m/m…\], the generalised push on the coordinate.
     pub push: f64,
-    /// Arm \[m\] and its slope by the coordinate.
     pub arm: f64,
     pub d_arm: f64,
     /// Factor that makes the balance nearly linear.
     pub weight: f64,
 }
 
-/// Lens of a pouch at half arc angle θ, or tube at contraction ε: contraction, volume per length, height; with slopes.
+/// Lens of a pouch at half arc angle θ, or tube at contraction ε; numbers with their slopes.
 struct Bag {
     contraction: [f64; 2],
+    /// Per length of the actuator.
     volume: [f64; 2],
     height: [f64; 2],
+    /// Height by which the line of action is lifted.
+    lift: [f64; 2],
+    /// Height of the centroid of the bulged wall over L₀; of a muscle its growth over its radius at rest.
+    centroid: [f64; 2],
+    /// What the sealed edges see of the height, 1/W or 4/L.
+    per_m: f64,
+    /// Height that swells the arm, of a muscle its growth, and the height of half of the effect.
+    swollen_m: [f64; 2],
+    /// Factor that makes the balance nearly linear.
+    weight: f64,
 }
 
 impl Drive {
@@ -94,30 +84,22 @@ impl Drive {
     }
 
     pub(super) fn at(&self, a: f64, p_act_pa: f64) -> DriveState {
-        let bag = self.bag(a);
-        let ([v, dv], [h, dh]) = (bag.volume, bag.height);
-        let per = match self.family {
-            Family::Pouch => 1.0 / self.width_m,
-            Family::Mckibben => 4.0 / self.length_m,
+        let bag = match self.family {
+            Family::Pouch => self.lens(a),
+            Family::Mckibben => self.tube(a),
         };
+        let ([v, dv], [h, dh], per) = (bag.volume, bag.height, bag.per_m);
         let [pinched, bowed] = self.edge_loss;
         let kept = 1.0 - pinched * h * per - bowed * (h * per).powi(2);
         let d_volume = dv * kept - v * pinched * dh * per - 2.0 * v * bowed * h * dh * per * per;
-        let [swell, d_swell] = self.swell(a, bag.height);
-        let lift = match self.family {
-            Family::Pouch => [0.5 * h, 0.5 * dh],
-            Family::Mckibben => [h - self.width_m / PI, dh],
-        };
+        let [swell, d_swell] = self.swell(&bag);
         DriveState {
             contraction: bag.contraction[0],
             d_contraction: bag.contraction[1],
             push: self.strength * p_act_pa * d_volume - self.resistance(a),
-            arm: self.arm_m + self.lift_share * lift[0] + swell,
-            d_arm: self.lift_share * lift[1] + d_swell,
-            weight: match self.family {
-                Family::Pouch => a,
-                Family::Mckibben => 1.0,
-            },
+            arm: self.arm_m + self.lift_share * bag.lift[0] + swell,
+            d_arm: self.lift_share * bag.lift[1] + d_swell,
+            weight: bag.weight,
         }
     }
 
@@ -129,13 +111,6 @@ impl Drive {
             + fung * FUNG_N_PER_M * (line / FUNG_N_PER_M).ln_1p()
     }
 
-    fn bag(&self, a: f64) -> Bag {
-        match self.family {
-            Family::Pouch => self.lens(a),
-            Family::Mckibben => self.tube(a),
-        }
-    }
-
     /// Two arcs of length L₀ and half angle θ: chord L₀ sinθ/θ, area of the lens L₀² (θ − sinθ cosθ)/(2θ²), height.
     fn lens(&self, t: f64) -> Bag {
         let (sin, cos) = t.sin_cos();
@@ -145,10 +120,17 @@ impl Drive {
         let d_section = sin * sin / (t * t) - 2.0 * section / t;
         let height = l * (1.0 - cos) / t;
         let flat = self.gain * self.width_m * l;
+        let slope = (l * sin - height) / t;
+        let rise = (sin / t - cos) / (2.0 * t);
         Bag {
             contraction: [1.0 - sin / t, -d_chord],
             volume: [flat * section, flat * d_section],
-            height: [height, (l * sin - height) / t],
+            height: [height, slope],
+            lift: [0.5 * height, 0.5 * slope],
+            centroid: [rise, (cos / t - sin / (t * t) + sin) / (2.0 * t) - rise / t],
+            per_m: 1.0 / self.width_m,
+            swollen_m: [height, 0.35 * self.length_m],
+            weight: t,
         }
     }
 
@@ -159,33 +141,26 @@ impl Drive {
         let d_radius = rest * rest * short / radius;
         let volume = PI * radius * radius * short;
         let d_volume = 2.0 * PI * radius * d_radius * short - PI * radius * radius;
-        Bag { contraction: [e, 1.0], volume: [self.gain * volume, self.gain * d_volume], height: [radius, d_radius] }
+        Bag {
+            contraction: [e, 1.0],
+            volume: [self.gain * volume, self.gain * d_volume],
+            height: [radius, d_radius],
+            lift: [radius - rest, d_radius],
+            centroid: [radius * PI / self.width_m - 1.0, d_radius * PI / self.width_m],
+            per_m: 4.0 / self.length_m,
+            swollen_m: [(radius - rest).max(0.0), 0.05 * self.width_m / PI],
+            weight: 1.0,
+        }
     }
 
-    /// Growth of the arm with its slope: a Hill curve in the height of the bag (of a muscle: in its growth); and the
-    /// centroid of the bulged wall.
-    fn swell(&self, a: f64, [height, slope]: [f64; 2]) -> [f64; 2] {
-        let (x, half) = match self.family {
-            Family::Pouch => (height, 0.35 * self.length_m),
-            Family::Mckibben => ((height - self.width_m / PI).max(0.0), 0.05 * self.width_m / PI),
-        };
+    /// Growth of the arm with its slope: a Hill curve in the height of the bag; and the centroid of the bulged wall.
+    fn swell(&self, bag: &Bag) -> [f64; 2] {
+        let ([x, half], slope) = (bag.swollen_m, bag.height[1]);
         let sum = x * x + half * half;
         let [hill, wall] = self.swell_m;
         let first = [hill * x * x / sum, hill * 2.0 * x * half * half / (sum * sum) * slope];
-        let second = self.centroid(a, [height, slope]).map(|rise| wall * rise);
+        let second = bag.centroid.map(|rise| wall * rise);
         [first[0] + second[0], first[1] + second[1]]
-    }
-
-    /// Height of the centroid of a bulged wall over L₀, and its slope; of a muscle its growth over its radius at rest.
-    fn centroid(&self, a: f64, [height, slope]: [f64; 2]) -> [f64; 2] {
-        match self.family {
-            Family::Pouch => {
-                let (sin, cos) = a.sin_cos();
-                let rise = (sin / a - cos) / (2.0 * a);
-                [rise, (cos / a - sin / (a * a) + sin) / (2.0 * a) - rise / a]
-            }
-            Family::Mckibben => [height * PI / self.width_m - 1.0, slope * PI / self.width_m],
-        }
     }
 
     /// Shear load of the weave at a shear angle \[N/m\].
@@ -194,7 +169,9 @@ impl Drive {
         let elastic = stiffens * shear * (1.0 + (shear / 0.3).powi(2));
         let [ever_harder, pressed] = self.lock_n_per_m;
         let lock = if ever_harder == 0.0 { 0.0 } else { ((shear - 0.22) / 0.035).exp() };
-        elastic + ever_harder * lock + softens * shear / (1.0 + shear.abs() / 0.15) + pressed * dense(shear)
+        // Fibres push by the cube of their density, relative to the sheet at rest; not on the other side.
+        let dense = (1.0 - shear.max(0.0) / DENSE_RAD).max(LEAST_ROOM).powi(-3) - 1.0;
+        elastic + ever_harder * lock + softens * shear / (1.0 + shear.abs() / 0.15) + pressed * dense
     }
 
     /// dU/da of what the actuator's fabric stores or loses, per length.
@@ -211,9 +188,4 @@ impl Drive {
             }
         }
     }
-}
-
-/// Push of fibres by the cube of their density, relative to the sheet at rest; nothing on the other side.
-fn dense(shear: f64) -> f64 {
-    (1.0 - shear.max(0.0) / DENSE_RAD).max(LEAST_ROOM).powi(-3) - 1.0
 }

@@ -12,33 +12,31 @@
 #![warn(unreachable_pub)]
 
 pub mod bench;
-pub mod camera;
-pub mod drive;
-pub mod effects;
+mod camera;
+mod drive;
+mod effects;
 pub mod entry;
 mod laws;
-pub mod loads;
-pub mod march;
-pub mod measure;
+mod loads;
+mod march;
+mod measure;
 mod poses;
 mod reveal;
-pub mod riddle;
-pub mod robot;
+mod riddle;
+mod robot;
 mod root;
-pub mod score;
-pub mod seal;
-pub mod supply;
+mod score;
+mod seal;
+mod supply;
 mod tested;
 pub mod truth;
-pub mod wall;
+mod wall;
 
 #[cfg(test)]
 mod tests;
 
-pub use effects::{ALSO, HIDDEN, HiddenEffect, Laws, OUTSIDE, by_name};
-pub use measure::{Measurement, ideal, measure};
+pub use effects::{ALSO, HIDDEN, HiddenEffect, Laws, OUTSIDE};
 pub use reveal::reveal;
 pub use riddle::{Handout, Riddle};
-pub use robot::TrueRobot;
 pub use score::{Claim, ClaimScore, score};
 pub use truth::{Draw, Hiding, Truth};

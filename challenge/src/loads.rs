@@ -3,26 +3,19 @@
 /// Height of the base over the table \[m\].
 const TABLE_M: f64 = 0.3;
 
-/// Weights and forces; all off at 0.
 #[derive(Debug, Clone, PartialEq)]
-pub struct DeadLoads {
-    /// Weight per length of each cell \[N/m\].
+pub(crate) struct DeadLoads {
     pub weight_n_per_m: Vec<f64>,
     /// Unit vector of gravity in the plane of bending.
     pub down: [f64; 2],
-    /// Pull of a cable on the tip \[N\].
     pub cable_n: f64,
-    /// Place of the pulley over which the cable runs \[m\].
     pub pulley_m: [f64; 2],
-    /// Weight of what the tip carries \[N\].
     pub cap_n: f64,
     /// Weight per length of a hose that hangs from the tip down to a table below the base \[N/m\].
     pub hose_n_per_m: f64,
     /// Known force on the tip, as `about.toml` states \[N\].
     pub tip_n: [f64; 2],
-    /// Stiffness of a soft obstacle in the tip's way \[N/m\].
     pub obstacle_n_per_m: f64,
-    /// y at which the obstacle begins \[m\].
     pub obstacle_y_m: f64,
 }
 
@@ -32,8 +25,7 @@ pub(crate) fn in_plane([x, y, _]: [f64; 3]) -> [f64; 2] {
 }
 
 impl DeadLoads {
-    /// No weights and no forces, with gravity along `down`.
-    pub fn none(cells: usize, down: [f64; 2]) -> DeadLoads {
+    pub(crate) fn none(cells: usize, down: [f64; 2]) -> DeadLoads {
         DeadLoads {
             weight_n_per_m: vec![0.0; cells],
             down,
@@ -54,7 +46,6 @@ impl DeadLoads {
             || self.weight_n_per_m.iter().any(|w| *w != 0.0)
     }
 
-    /// Force on a tip there \[N\].
     pub(super) fn on_tip(&self, tip: [f64; 2]) -> [f64; 2] {
         let to_pulley = [self.pulley_m[0] - tip[0], self.pulley_m[1] - tip[1]];
         let distance = to_pulley[0].hypot(to_pulley[1]).max(1e-9);

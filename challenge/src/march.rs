@@ -16,7 +16,6 @@ const MAX_ROUNDS: usize = 2000;
 /// Target agreement \[N·m\]: a millionth of a hinge moment.
 const AGREED_NM: f64 = 1e-7;
 
-/// State of a robot in time.
 struct March<'a> {
     robot: &'a TrueRobot,
     gain: f64,
@@ -36,10 +35,7 @@ struct Instant {
 
 /// Marker positions of one run as an ideal camera records them, `[hold][sample][marker][x, y]` \[m\]; `gains` are
 /// the run's factors on the actuator pressure of the holds.
-///
-/// # Errors
-/// A hold at which nothing balances.
-pub fn run(robot: &TrueRobot, holds: &[Hold], gains: &[f64]) -> Result<Vec<f64>, CompareError> {
+pub(crate) fn run(robot: &TrueRobot, holds: &[Hold], gains: &[f64]) -> Result<Vec<f64>, CompareError> {
     let n = robot.cells.len();
     let mut march = March {
         robot,
@@ -74,7 +70,6 @@ pub(super) fn held_s(time_s: f64, begin_s: f64) -> f64 {
 }
 
 impl TrueRobot {
-    /// Whether a state depends on what was before.
     fn remembers(&self) -> bool {
         let memory =
             |wall: &CellWall| [wall.friction_nm, wall.creep_nm2, wall.set].as_flattened().iter().any(|v| *v != 0.0);

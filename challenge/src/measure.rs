@@ -10,8 +10,7 @@ use models::Scenario;
 
 /// Scatter and camera faults with which a robot is measured.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Measurement {
-    /// Runs, protocol, scatter and its seed.
+pub(crate) struct Measurement {
     pub generator: Generator,
     /// Camera noise from Student's t with 3 degrees of freedom, scaled to the same standard deviation: now and then a
     /// marker is seen far off.
@@ -26,19 +25,13 @@ const LOST: f64 = 0.05;
 const LOSSES: u64 = 0x1057;
 
 /// Positions without any scatter, in run layout \[m\].
-///
-/// # Errors
-/// A hold at which nothing balances.
-pub fn ideal(robot: &TrueRobot, generator: &Generator) -> Result<Vec<f64>, CompareError> {
+pub(crate) fn ideal(robot: &TrueRobot, generator: &Generator) -> Result<Vec<f64>, CompareError> {
     march::run(robot, &holds(generator), &vec![1.0; generator.protocol.len()])
 }
 
 /// Measures a robot under the protocol of its measurement; `scenario` gives what the experimenter believes: actuator and
 /// marker stations.
-///
-/// # Errors
-/// A hold at which nothing balances; no marker stations.
-pub fn measure(
+pub(crate) fn measure(
     robot: &TrueRobot,
     scenario: &Scenario,
     name: &str,
@@ -48,10 +41,7 @@ pub fn measure(
 }
 
 /// Measures a robot under holds of any length.
-///
-/// # Errors
-/// As [`measure`].
-pub fn measure_holds(
+pub(crate) fn measure_holds(
     robot: &TrueRobot,
     scenario: &Scenario,
     name: &str,
@@ -92,7 +82,6 @@ pub fn measure_holds(
     Ok(if cells.is_empty() { made } else { made.losing(&cells) })
 }
 
-/// Cells (run, hold, marker) that the camera loses.
 fn lost(dataset: &Dataset, seed: u64) -> Vec<[usize; 3]> {
     let mut scatter = Scatter::new(seed ^ LOSSES);
     let top_pa = dataset.holds.iter().fold(0.0, |top: f64, hold| top.max(hold.p_act_pa));

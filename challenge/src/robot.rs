@@ -12,37 +12,26 @@ use models::{Loads, Model, Scenario};
 use std::f64::consts::PI;
 
 /// Cells of a robot: four times the model's segments, and not a multiple of the pouches' places of the markers.
-pub const CELLS: usize = 48;
+pub(crate) const CELLS: usize = 48;
 
-/// A stretch of body with its laws.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cell {
-    /// Start along the taut generator \[m\].
+pub(crate) struct Cell {
     pub start_m: f64,
-    /// Length of the taut generator \[m\].
     pub length_m: f64,
     /// Distance of the centre line from the taut generator \[m\].
     pub centre_line_m: f64,
-    /// Actuator over this cell; `None` on a passive stretch.
     pub drive: Option<Drive>,
-    /// Body of the cell, with the laws of its wall.
     pub wall: CellWall,
 }
 
-/// Everything the generator knows about a robot.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TrueRobot {
-    /// Cells of the body, from base to tip.
+pub(crate) struct TrueRobot {
     pub cells: Vec<Cell>,
-    /// Length of the straight body from base to tip \[m\].
     pub length_m: f64,
     /// Marker stations where they really are \[m\].
     pub markers_m: Vec<f64>,
-    /// From the regulator to the actuator.
     pub supply: TrueSupply,
-    /// Weights and forces that act from outside.
     pub loads: DeadLoads,
-    /// What the camera makes of it.
     pub camera: Camera,
     /// Curvature of the robot without hidden effects at 30 kPa on 2 kPa \[1/m\]: the scale of what depends on size.
     pub scale_per_m: f64,
@@ -53,10 +42,7 @@ const SCALE_PA: [f64; 2] = [2e3, 30e3];
 
 impl TrueRobot {
     /// The robot of a scenario. The only effect understood is `arm_growth`, the geometry of an external actuator.
-    ///
-    /// # Errors
-    /// Another effect in the scenario; no equilibrium at the top of the standard protocol.
-    pub fn new(scenario: &Scenario) -> Result<TrueRobot, CompareError> {
+    pub(crate) fn new(scenario: &Scenario) -> Result<TrueRobot, CompareError> {
         if scenario.wall != models::scenario::Wall::default() || !scenario.actuator.exists() {
             let problem =
                 "the generator knows neither wall_stiffness_n_per_m nor a beam without [actuator]".to_string();
@@ -85,7 +71,7 @@ impl TrueRobot {
     }
 
     /// Rolls the robot by 180°: gravity, a pulley, an obstacle and the camera stay where they are in the room.
-    pub fn roll_over(&mut self) {
+    pub(crate) fn roll_over(&mut self) {
         let loads = &mut self.loads;
         loads.down[1] = -loads.down[1];
         loads.pulley_m[1] = -loads.pulley_m[1];
@@ -95,7 +81,7 @@ impl TrueRobot {
     }
 
     /// Calls `change` on every cell with its middle \[m\].
-    pub fn each(&mut self, mut change: impl FnMut(&mut Cell, f64)) {
+    pub(crate) fn each(&mut self, mut change: impl FnMut(&mut Cell, f64)) {
         for cell in &mut self.cells {
             let middle = cell.start_m + 0.5 * cell.length_m;
             change(cell, middle);
@@ -166,8 +152,7 @@ const SLACK_PA: f64 = 1e-6;
 const FOLDED_PER_M: f64 = 100.0;
 
 impl Cell {
-    /// Whether the actuator is a muscle.
-    pub fn is(&self, family: Family) -> bool {
+    pub(crate) fn is(&self, family: Family) -> bool {
         self.drive.is_some_and(|drive| drive.family == family)
     }
 

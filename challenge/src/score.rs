@@ -19,7 +19,7 @@ pub struct Claim {
 }
 
 /// How an answer compares with the truth.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ClaimScore {
     /// It reports that something is missing.
     pub alarm: bool,

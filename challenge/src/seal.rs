@@ -10,15 +10,13 @@
 use sha2::{Digest, Sha256};
 
 /// Format of the seal; 2 covers all files of the challenge, 1 covered the markers alone.
-pub const VERSION: u32 = 2;
+pub(crate) const VERSION: u32 = 2;
 
 /// Contents of `seal.toml`: the truth in masked form and a hash that commits to it.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Seal {
-    /// Always `ibr.challenge`, which identifies the file.
+pub(crate) struct Seal {
     pub schema: String,
-    /// Format of the seal, [`VERSION`] when written.
     pub version: u32,
     /// SHA-256 of salt and truth, in hexadecimal digits.
     pub sha256: String,
@@ -28,16 +26,14 @@ pub struct Seal {
     pub truth: String,
 }
 
-/// Name of the file that holds the seal.
-pub const FILE: &str = "seal.toml";
+pub(crate) const FILE: &str = "seal.toml";
 /// The files handed out with it, all of them sealed.
-pub const SEALED: [&str; 3] = ["scenario.toml", "about.toml", "markers.csv"];
-/// Number of random bytes in a salt.
-pub const SALT: usize = 16;
+pub(crate) const SEALED: [&str; 3] = ["scenario.toml", "about.toml", "markers.csv"];
+pub(crate) const SALT: usize = 16;
 
 impl Seal {
     /// Seals a text with a hash of salt and text.
-    pub fn close(text: &str, salt: &[u8; SALT]) -> Seal {
+    pub(crate) fn close(text: &str, salt: &[u8; SALT]) -> Seal {
         Seal {
             schema: "ibr.challenge".into(),
             version: VERSION,
@@ -47,8 +43,7 @@ impl Seal {
         }
     }
 
-    /// The sealed text, if it is what was sealed.
-    pub fn open(&self) -> Option<String> {
+    pub(crate) fn open(&self) -> Option<String> {
         let salt = bytes(&self.salt)?;
         let text = masked(&bytes(&self.truth)?, &salt);
         if hex(&commitment(&salt, &text)) != self.sha256 {
@@ -58,7 +53,7 @@ impl Seal {
     }
 
     /// Text of the file `seal.toml`, with a comment for its reader.
-    pub fn to_toml(&self) -> String {
+    pub(crate) fn to_toml(&self) -> String {
         let Seal { schema, version, sha256, salt, truth } = self;
         format!(
             "# Opened only by `ibr challenge reveal`.\nschema = \"{schema}\"\nversion = {version}\n\
@@ -67,7 +62,6 @@ impl Seal {
     }
 }
 
-/// SHA-256 of the salt and what follows.
 fn commitment(salt: &[u8], text: &[u8]) -> Vec<u8> {
     Sha256::new().chain_update(salt).chain_update(text).finalize().to_vec()
 }
@@ -78,7 +72,7 @@ fn masked(text: &[u8], salt: &[u8]) -> Vec<u8> {
 }
 
 /// Two lower-case hexadecimal digits per byte, without separators.
-pub fn hex(bytes: &[u8]) -> String {
+pub(crate) fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

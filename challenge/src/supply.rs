@@ -1,38 +1,24 @@
 //! From the regulator's set pressure to the pressure in the actuator.
 //!
-//! ```text
-//! by the first laws
-//! dead band   √(p² + p₀²) − p₀                                 a soft valve seat
-//! loss        p − f √(p·20 kPa)                                orifice and laminar hose in series
-//! leak        p (0.6 + 0.4 e^(−r t/0.4))                       runs down towards a level the regulator can hold
-//! by the second laws
-//! dead band   p − p₀ (1 − e^(−p/p₀))                           a diaphragm on a rubber seat
-//! loss        p − f p √(p/30 kPa)                              a seam that gapes, and a laminar hose
-//! leak        p (1 − ½ r t √(20 kPa/p))²                       Torricelli
-//! outside the catalogue
-//! stuck       p (1 − s) if the set pressure is `stuck_at_pa`   one set point is not reached, in every run
-//! ```
+//! [`crate::HIDDEN`], [`crate::ALSO`] and [`crate::OUTSIDE`] have the equations of the hidden laws.
 
 use super::laws::ByLaw;
 
-/// Supply laws; all off at 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct TrueSupply {
+pub(crate) struct TrueSupply {
     /// Pressure p₀ that a dead band withholds \[Pa\].
     pub dead_band_pa: ByLaw,
     /// Coefficient f of the pressure lost on the way \[-\].
     pub loss: ByLaw,
     /// Rate r of the leak at the actuator \[1/s\].
     pub leak_per_s: ByLaw,
-    /// Missing share at one set point \[-\].
     pub stuck: f64,
-    /// Set point with the missing share \[Pa\].
     pub stuck_at_pa: f64,
 }
 
 impl TrueSupply {
     /// Pressure in the actuator `held_s` after the set pressure was reached; `gain` is the run's own error.
-    pub fn pressure(&self, set_pa: f64, gain: f64, held_s: f64) -> f64 {
+    pub(crate) fn pressure(&self, set_pa: f64, gain: f64, held_s: f64) -> f64 {
         let stuck = if self.stuck != 0.0 && (set_pa - self.stuck_at_pa).abs() < 1.0 { 1.0 - self.stuck } else { 1.0 };
         let p = set_pa * gain * stuck;
         let seat = self.past_the_seat(p);
@@ -46,7 +32,6 @@ impl TrueSupply {
         left * (1.0 - 0.5 * emptied * held_s * (20e3 / left).sqrt()).max(0.0).powi(2)
     }
 
-    /// What a valve lets pass of a pressure \[Pa\].
     fn past_the_seat(&self, p: f64) -> f64 {
         let [soft, rubber] = self.dead_band_pa;
         match rubber == 0.0 {

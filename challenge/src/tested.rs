@@ -15,13 +15,9 @@ const SHEARED_RAD: f64 = 0.05;
 const MOST_RAD: f64 = 0.35;
 /// Shear load at which a weave counts as jammed; its tangent there leads to the locking angle \[N/m\].
 const JAMMED_N_PER_M: f64 = 100.0;
-/// Step of the search for it \[rad\].
 const STEP_RAD: f64 = 1e-3;
 
 /// Results of tests by their names, each with its error.
-///
-/// # Errors
-/// Not an actuator of the bench.
 pub(crate) fn bench_tests(truth: &Truth, names: &[String]) -> Result<Vec<MeasuredValue>, CompareError> {
     let robot = truth.robot()?;
     let mut scatter = Scatter::new(truth.seed ^ 0xFAB);

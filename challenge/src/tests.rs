@@ -1,5 +1,7 @@
 //! The generator against the model, and against what must hold in general.
 
+use super::measure::ideal;
+use super::robot::TrueRobot;
 use super::truth::{HiddenChoice, standard_protocol};
 use super::*;
 use compare::Evidence;
@@ -55,7 +57,7 @@ fn every_effect_moves_the_markers_by_a_visible_but_not_absurd_amount() {
             let moved = |times: f64| {
                 let mut robot = TrueRobot::new(&scenario).unwrap();
                 let amount = times * effect.typical(laws, kind, &robot).unwrap();
-                (effect.law(laws).put)(&mut robot, amount);
+                effect.put(laws, &mut robot, amount);
                 1e3 * rms(&ideal(&robot, &Generator::default()).unwrap(), &base)
             };
             let (none, one, most) = (moved(0.0), moved(1.0), moved(1.5));
@@ -76,7 +78,7 @@ fn a_second_law_moves_the_markers_as_far_as_the_first() {
         for effect in HIDDEN.iter().chain(ALSO).filter(|effect| effect.applies_to(&usual)) {
             let [first, second] = [Laws::First, Laws::Second].map(|laws| {
                 let mut robot = bare.clone();
-                (effect.law(laws).put)(&mut robot, effect.typical(laws, kind, &bare).unwrap());
+                effect.put(laws, &mut robot, effect.typical(laws, kind, &bare).unwrap());
                 rms(&ideal(&robot, &Generator::default()).unwrap(), &base)
             });
             assert!((second / first - 1.0).abs() < 0.006, "{kind} {}: {first} {second}", effect.name);
@@ -172,7 +174,7 @@ fn one_fault_is_a_simpler_answer_than_two_effects() {
     truth.add(fault, 1.0);
     let truth = Truth { runs: 5, camera_sd_m: 1e-3, holds_scatter: false, ..truth };
     let data = truth.dataset("made", &standard_protocol()).unwrap();
-    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
+    let options = Options::default().without_advice();
     let d = diagnose(&truth.told().unwrap(), &[Evidence::of(data, None)], &options, &mut |_, _| ()).unwrap();
     assert_eq!(d.verdict, Some(Verdict::OutOfCatalog), "{fault}: {:?}", d.summary);
     let pattern = d.pattern.as_ref().unwrap();

@@ -114,10 +114,7 @@ impl Truth {
     }
 
     /// Hides effects of that kind, each of 0.8–1.5 typical sizes; effects outside the catalogue have their typical size.
-    ///
-    /// # Errors
-    /// The scenario is damaged.
-    pub fn hide(&mut self, kind: Hiding, draw: &mut Draw) -> Result<(), CompareError> {
+    pub(crate) fn hide(&mut self, kind: Hiding, draw: &mut Draw) -> Result<(), CompareError> {
         let inside = applicable(&self.actuator, HIDDEN)?;
         let first = draw.one_of(&inside).name;
         match kind {
@@ -148,10 +145,7 @@ impl Truth {
     }
 
     /// The same as a scenario file.
-    ///
-    /// # Errors
-    /// Not an actuator of [`ROBOTS`].
-    pub fn told_text(&self) -> Result<String, CompareError> {
+    pub(crate) fn told_text(&self) -> Result<String, CompareError> {
         let (_, usual) = robot(&self.actuator)?;
         let line = |line: &str| match line.starts_with("bending_stiffness_nm2") {
             true => format!("bending_stiffness_nm2 = {usual}    # assumed: usual for such a robot; fit it\n"),
@@ -161,10 +155,7 @@ impl Truth {
     }
 
     /// The robot as it is.
-    ///
-    /// # Errors
-    /// Unknown names, or an effect that this actuator cannot have.
-    pub fn robot(&self) -> Result<TrueRobot, CompareError> {
+    pub(crate) fn robot(&self) -> Result<TrueRobot, CompareError> {
         let scenario = robot(&self.actuator)?.0.with_bending(self.bending_nm2);
         let mut robot = TrueRobot::new(&scenario)?;
         for choice in &self.effects {
@@ -174,13 +165,12 @@ impl Truth {
                 return Err(CompareError::NotSimulated { problem });
             }
             let amount = choice.times_typical * effect.typical(self.laws, &self.actuator, &robot)?;
-            (effect.law(self.laws).put)(&mut robot, amount);
+            effect.put(self.laws, &mut robot, amount);
         }
         Ok(robot)
     }
 
-    /// How it is measured under a protocol.
-    pub fn measurement(&self, protocol: &[[f64; 2]]) -> Measurement {
+    pub(crate) fn measurement(&self, protocol: &[[f64; 2]]) -> Measurement {
         let generator = Generator {
             seed: self.seed,
             runs: self.runs,
@@ -209,28 +199,19 @@ pub fn standard_protocol() -> Vec<[f64; 2]> {
 }
 
 /// The shipped robot of that actuator with its usual bending stiffness.
-///
-/// # Errors
-/// Not an actuator of [`ROBOTS`].
 pub(super) fn usual(actuator: &str) -> Result<Scenario, CompareError> {
     let (scenario, usual) = robot(actuator)?;
     Ok(scenario.with_bending(usual))
 }
 
 /// The effects of a list that a robot of that actuator can have.
-///
-/// # Errors
-/// Not an actuator of [`ROBOTS`].
-pub fn applicable(actuator: &str, list: &[HiddenEffect]) -> Result<Vec<HiddenEffect>, CompareError> {
+pub(crate) fn applicable(actuator: &str, list: &[HiddenEffect]) -> Result<Vec<HiddenEffect>, CompareError> {
     let (scenario, _) = robot(actuator)?;
     Ok(list.iter().filter(|effect| effect.applies_to(&scenario)).copied().collect())
 }
 
 /// The effect of that name.
-///
-/// # Errors
-/// None has it.
-pub fn known(name: &str) -> Result<&'static HiddenEffect, CompareError> {
+pub(crate) fn known(name: &str) -> Result<&'static HiddenEffect, CompareError> {
     by_name(name).ok_or_else(|| {
         let names: Vec<&str> = HIDDEN.iter().chain(ALSO).chain(OUTSIDE).map(|effect| effect.name).collect();
         let problem = format!("no hidden effect `{name}`; {}", spelling::known(name, &names));

@@ -1,28 +1,7 @@
 //! The body of one cell: the moment that resists a curvature, with memory.
 //!
 //! Base laws: bending B κ and the hinge of the body pressure, share·π R³ p_b tanh(κ/k₀). Hidden laws, off at 0:
-//!
-//! ```text
-//! by the first laws
-//! wrinkling       hinge → M₀ x/(1 + |x|^1.5)^(2/3), x = κ/κ_w                 another curve than Comer–Levy's
-//! softening       B → B (1 − s κ²/(κ² + κ_h²))                                 creases take stiffness away
-//! tail            + t p_b tanh(κ/k₀)                                           the tail is pulled by the body's own pressure
-//! ovalization     D → D (1 − o κ²/(κ² + κ_c²))                                 flattens, then keeps its shape
-//! stop            + m exp((κ − κ_s)/w)                                         folds that press on each other ever harder
-//! rest curvature  − B κ₀
-//! friction        + Σ clamp(k_j (κ − z_j), ±f_j)                               Maxwell slip: four layers slide one after another
-//! creep           + Σ g_i (κ − q_i), q_i' = (κ − q_i)/τ_i, τ = 0.7, 3, 15 s    three relaxation times
-//! set             − B s (κ_max − κ_y)₊, fading with 40 s while κ < κ_max       yields late, recovers slowly
-//! by the second laws
-//! wrinkling       hinge → M₀ x/3, beyond x = 1 M₀ (1 − ⅔/√x)                   a rectangular section without compression
-//! softening       B κ → B ((1 − s) κ + s κ_y tanh(κ/κ_y)), κ_y = 0.2 κ_c       a share of the wall yields
-//! tail            + t p_b tanh(κ/k₀) e^(μ |κ| (L − s)), μ = 0.3                capstan: dragged round all bends beyond
-//! ovalization     D → D (1 − o x/(1 + x)), x = |κ|/κ_c                         dents under a line load
-//! stop            + m ((κ/κ_c − 0.6)₊/0.1)^1.5                                 Hertz
-//! friction        + F, dF = M_f/κ_d (1 − F sgn(dκ)/M_f) dκ, κ_d = 0.08 κ_c     Dahl
-//! creep           + Σ g_i (κ − q_i), τ = 0.1 s · 4ⁱ, i = 0 … 7                 g (1 + t/0.1 s)^−0.2
-//! set             − B κ_p, κ_max = κ_e + κ_p, κ_p = s κ_e²/κ_c                 Ramberg–Osgood, for good
-//! ```
+//! [`crate::HIDDEN`], [`crate::ALSO`] and [`crate::OUTSIDE`] have the equations of the hidden laws.
 
 use super::laws::ByLaw;
 
@@ -51,12 +30,11 @@ const BRISTLES: f64 = 0.08;
 const SLIP_SHARES: [f64; 4] = [0.02, 0.06, 0.15, 0.3];
 /// κ_h of softening, as a share of [`CellWall::scale_per_m`].
 const CREASED_FROM: f64 = 0.4;
-/// Time in which a set fades \[s\].
 const RECOVERY_S: f64 = 40.0;
 
 /// Stiffness of one cell's body and amounts of its hidden laws.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct CellWall {
+pub(crate) struct CellWall {
     /// Bending stiffness B of the body \[N·m²\].
     pub bending: f64,
     /// Hinge moment per body pressure, share·π R³ \[m³\].
@@ -89,7 +67,7 @@ pub struct CellWall {
 
 /// State of a cell that its next step in time starts from.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct CellMemory {
+pub(crate) struct CellMemory {
     slid: [f64; 4],
     crept: [[f64; 8]; 2],
     largest: f64,
@@ -135,7 +113,6 @@ impl CellWall {
         moment
     }
 
-    /// What the cell remembers after `dt_s` at `kappa`.
     pub(super) fn remember(&self, kappa: f64, memory: &mut CellMemory, dt_s: f64) {
         let before = *memory;
         if self.friction_nm[0] != 0.0 {
@@ -174,7 +151,6 @@ impl CellWall {
         if dragged == 0.0 { steady } else { dragged * (DRAGGED * kappa.abs() * self.dragged_m).exp() }
     }
 
-    /// Moment of folds that touch \[N·m\].
     fn stop(&self, kappa: f64) -> f64 {
         let ([folds, round], x) = (self.stop_nm, kappa / self.scale_per_m);
         if round != 0.0 {

@@ -11,7 +11,8 @@ use ibr::pages::{Climbed, Diagnosed, Files, PageError, compare_page, diagnosis_p
 use ibr::program::maker;
 use ibr::shown::comparison::{CompareAnswer, text};
 use ibr::shown::extension::LadderAnswer;
-use ibr::shown::{as_json, diagnosis, extension, validation};
+use ibr::shown::validation::{self, ValidateAnswer};
+use ibr::shown::{as_json, diagnosis, extension};
 use ibr::study::ladder::MOST_EFFECTS;
 use ibr::study::study::Knob;
 use ibr::study::study::engines::known_runs;
@@ -21,7 +22,6 @@ use ibr::{Diagnosis, DiagnosisOptions, Evidence, Extension, ScenarioFile, Wish};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
-/// Makes the files of a report.
 type Page = Box<dyn Fn() -> Result<Files, PageError> + Send + Sync>;
 
 /// A result as the command gives it.
@@ -48,7 +48,12 @@ impl Answer {
         Answer { text, json: json.to_string(), warnings, table, page, extended, diagnosis }
     }
 
-    /// The diagnosis that it is.
+    /// Of a scenario or a correction on other data.
+    pub(crate) fn of_validation(answer: &ValidateAnswer) -> Answer {
+        let warnings = answer.datasets.iter().flat_map(|v| v.warnings.iter().map(|w| format!("{}: {w}", v.data)));
+        Answer::of(validation::text(answer), &as_json("ibr.validate", answer), warnings.collect())
+    }
+
     pub(crate) fn found(&self) -> Option<&Diagnosis> {
         self.diagnosis.as_ref()
     }
@@ -114,20 +119,13 @@ struct Whole {
 
 impl Whole {
     fn page(&self) -> Result<Files, PageError> {
-        let found = Diagnosed {
-            diagnosis: &self.diagnosis,
-            scenario: &self.file,
-            dataset: &self.first.dataset,
-            about: self.first.about.as_ref(),
-            witness: self.witness.as_ref(),
-            typed: [&self.file.name, &self.first.name],
-            more: String::new(),
-        };
+        let typed = [self.file.name.as_str(), &self.first.name];
+        let found = Diagnosed::of(&self.diagnosis, &self.file, &self.first, typed);
+        let found = Diagnosed { witness: self.witness.as_ref(), ..found };
         diagnosis_page(&found, &maker(), &mut |_, _| ())
     }
 }
 
-/// Options of a diagnosis, read from a dictionary.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Asked {
@@ -151,7 +149,7 @@ impl Asked {
     }
 }
 
-fn all_evidence(data: &[PyRef<'_, Data>]) -> Vec<Evidence> {
+pub(crate) fn all_evidence(data: &[PyRef<'_, Data>]) -> Vec<Evidence> {
     data.iter().map(|data| data.evidence.clone()).collect()
 }
 
@@ -168,6 +166,7 @@ pub(crate) fn diagnose(
     let (file, evidence, options) = (ScenarioFile::clone(scenario.file()?), all_evidence(&data), asked.options());
     let made = beside(py, progress.as_ref(), |tell| {
         let diagnosis = ibr::diagnose(&file, &evidence, &options, &mut |what, share| _ = tell(what, share))?;
+        let no_data = || ibr::Error::refused("no data to diagnose", "name at least one set");
         let first = evidence.into_iter().next().ok_or_else(no_data)?;
         let witness = witness(&diagnosis, &file, &first.dataset, first.about.as_ref(), &known_runs(None)?)?;
         Ok(Whole { diagnosis, witness, file, first })
@@ -178,10 +177,6 @@ pub(crate) fn diagnose(
     let warnings = d.warnings.iter().cloned().chain(unused_sigma(options.sigma_m, &whole.first)).collect();
     let told = Answer::of(diagnosis::text(d, whole.witness.as_ref(), false), &json, warnings);
     Ok(Answer { diagnosis: Some(d.clone()), page: Some(Box::new(move || whole.page())), ..told })
-}
-
-fn no_data() -> ibr::Error {
-    ibr::Error::refused("no data to diagnose", "name at least one set")
 }
 
 fn extended(file: &ScenarioFile, evidence: &[Evidence], found: Extension) -> PyResult<Answer> {
@@ -217,7 +212,7 @@ pub(crate) fn add(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Answer> {
     let (file, evidence) = (scenario.file()?, all_evidence(&data));
-    let options = DiagnosisOptions { next_experiment: false, missing_moment: false, ..asked.options() };
+    let options = asked.options().without_advice();
     let found = beside(py, progress.as_ref(), |tell| {
         let wish = Wish::read(file, effect, !evidence.is_empty())?;
         ibr::add(file, &wish, &evidence, &options, &mut |what, share| _ = tell(what, share))
@@ -236,7 +231,7 @@ pub(crate) fn ladder(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Answer> {
     let (file, evidence) = (scenario.file()?, all_evidence(&data));
-    let options = DiagnosisOptions { next_experiment: false, missing_moment: false, ..asked.options() };
+    let options = asked.options().without_advice();
     let climbed = beside(py, progress.as_ref(), |tell| {
         ibr::ladder(file, &evidence, &options, MOST_EFFECTS, &mut |what, share| _ = tell(what, share))
     })?;
@@ -282,7 +277,5 @@ pub(crate) fn validate(
         Ok((both, found))
     });
     let (both, found) = judged.map_err(|error: ibr::Error| raised(error))?;
-    let warnings = found.iter().flat_map(|v| v.warnings.iter().map(|w| format!("{}: {w}", v.data))).collect();
-    let answer = validation::ValidateAnswer::of(&file.name, &both, &found);
-    Ok(Answer::of(validation::text(&answer), &as_json("ibr.validate", &answer), warnings))
+    Ok(Answer::of_validation(&ValidateAnswer::of(&file.name, &both, &found)))
 }

@@ -1,12 +1,12 @@
 //! Another simulator's predictions as the base of a diagnosis, and their correction.
 
-use crate::answers::Answer;
+use crate::answers::{Answer, all_evidence};
 use crate::arrays::{Numbers, numbers, table};
 use crate::errors::{raised, refused};
 use crate::inputs::{Data, Made};
 use crate::scenario::Scenario;
 use ibr::data::parse_correction;
-use ibr::shown::{as_json, validation};
+use ibr::shown::validation::ValidateAnswer;
 use ibr::study::foreign::{BaseTable, Correction as Fitted, judge, on_base, read_correction};
 use numpy::ndarray::Array3;
 use numpy::{IntoPyArray, PyArray3};
@@ -52,7 +52,7 @@ impl Correction {
     #[staticmethod]
     fn of(py: Python<'_>, scenario: &Scenario, diagnosed: &Answer, data: Vec<PyRef<'_, Data>>) -> PyResult<Correction> {
         let found = diagnosed.found().ok_or_else(|| refused("not a diagnosis", "give the result of diagnose()"))?;
-        let evidence: Vec<_> = data.iter().map(|data| data.evidence.clone()).collect();
+        let evidence = all_evidence(&data);
         let file = scenario.file()?;
         let fitted = py.detach(|| Fitted::of(file, &ibr::extend(file, found)?, &evidence));
         fitted.map(|fitted| Correction { fitted }).map_err(raised)
@@ -89,7 +89,7 @@ pub(crate) fn validate_correction(
     bases: Vec<PyRef<'_, Base>>,
     sigma_mm: Option<f64>,
 ) -> PyResult<Answer> {
-    let data: Vec<_> = data.iter().map(|data| data.evidence.clone()).collect();
+    let data = all_evidence(&data);
     let tables: Vec<_> = bases.iter().map(|base| base.table.clone()).collect();
     let judged = py.detach(|| {
         let correction = match text {
@@ -101,7 +101,5 @@ pub(crate) fn validate_correction(
         Ok((correction, found))
     });
     let (correction, found) = judged.map_err(|error: ibr::Error| raised(error))?;
-    let warnings = found.iter().flat_map(|v| v.warnings.iter().map(|w| format!("{}: {w}", v.data))).collect();
-    let answer = validation::ValidateAnswer::of_correction(&correction, &found);
-    Ok(Answer::of(validation::text(&answer), &as_json("ibr.validate", &answer), warnings))
+    Ok(Answer::of_validation(&ValidateAnswer::of_correction(&correction, &found)))
 }

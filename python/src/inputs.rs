@@ -81,11 +81,8 @@ fn number_text(number: f64, is_whole: bool) -> String {
     if is_whole { format!("{number:.0}") } else { format!("{number:?}") }
 }
 
-/// A value to set in a scenario.
 pub(crate) struct Change {
-    /// Such as `body.radius_mm`.
     pub place: String,
-    /// As in TOML.
     pub text: String,
     /// A number, and whether it is written as a whole one.
     number: Option<(f64, bool)>,

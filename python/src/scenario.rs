@@ -31,7 +31,6 @@ impl Scenario {
         Scenario { source: Arc::new(source), robot: robot.clone(), often: OnceLock::from(robot) }
     }
 
-    /// With its text.
     pub(crate) fn file(&self) -> PyResult<&Arc<ScenarioFile>> {
         self.source.file()
     }
@@ -93,7 +92,6 @@ impl Scenario {
     }
 }
 
-/// How many channels pressures are given for.
 fn channels(pressure_kpa: &Numbers<'_>) -> usize {
     pressure_kpa.as_array().shape().get(1).copied().unwrap_or(1)
 }

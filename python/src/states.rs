@@ -41,7 +41,6 @@ impl State {
         Ok(state)
     }
 
-    /// All that the model knows of it.
     fn whole(&self) -> PyResult<&AtPressure> {
         match self.whole.get() {
             Some(whole) => Ok(whole),

@@ -5,7 +5,6 @@ use crate::ReportError;
 /// Largest magnitude an axis accepts: beyond it, differences of plotted numbers lose their meaning.
 const LARGEST: f64 = 1e15;
 
-/// A scale from data to pixels along one direction.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Axis {
     /// Data range, lower end first (log10 of it on a logarithmic axis).
@@ -102,7 +101,6 @@ fn round_step(rough: f64) -> f64 {
     factor * power
 }
 
-/// Decimals that distinguish multiples of `step`.
 fn step_decimals(step: f64) -> usize {
     (0..12).find(|d| ((step * 10f64.powi(*d)).round() / 10f64.powi(*d) - step).abs() < 1e-6 * step).unwrap_or(12)
         as usize

@@ -212,7 +212,6 @@ impl Mark {
         }
     }
 
-    /// What an axis has to hold.
     pub(crate) fn reach(&self, k: usize) -> Vec<f64> {
         match self {
             Mark::Line(points, _) | Mark::Dashed(points, _) | Mark::Band(points) => {

@@ -96,26 +96,20 @@ pub fn lines(data: &Lines) -> Result<Drawn, ReportError> {
         let colour = series.colour.unwrap_or(i);
         let (ink, symbol) = (Ink::Series(colour), Symbol::of(colour + colour / SERIES));
         let half = |k: usize| series.half_width.get(k).copied().filter(|h| h.is_finite()).map_or(0.0, f64::abs);
-        match series.style {
-            LineStyle::Points | LineStyle::OpenPoints => {}
-            LineStyle::Dashed => marks.push(Mark::Dashed(series.points.clone(), ink)),
-            LineStyle::Line | LineStyle::LinePoints => marks.push(Mark::Line(series.points.clone(), ink)),
-        }
-        if !matches!(series.style, LineStyle::Line | LineStyle::Dashed) {
-            let open = series.style == LineStyle::OpenPoints;
-            for (k, at) in series.points.iter().enumerate() {
-                let (at, error) = (*at, [0.0, half(k)]);
-                points.push(Mark::Point(Point { at, error, ink, symbol, open, ..Point::default() }));
-            }
-        }
-        let look = match series.style {
-            LineStyle::Line => KeyLook::Line,
-            LineStyle::Dashed => KeyLook::Dashed,
-            LineStyle::Points if !series.half_width.is_empty() => KeyLook::Measured(symbol),
-            LineStyle::Points => KeyLook::Symbol(symbol, false),
-            LineStyle::OpenPoints => KeyLook::Symbol(symbol, true),
-            LineStyle::LinePoints => KeyLook::SymbolLine(symbol, false),
+        let measured = !series.half_width.is_empty();
+        let (line, open, look): (Option<fn(_, _) -> _>, _, _) = match series.style {
+            LineStyle::Line => (Some(Mark::Line), None, KeyLook::Line),
+            LineStyle::Dashed => (Some(Mark::Dashed), None, KeyLook::Dashed),
+            LineStyle::Points if measured => (None, Some(false), KeyLook::Measured(symbol)),
+            LineStyle::Points => (None, Some(false), KeyLook::Symbol(symbol, false)),
+            LineStyle::OpenPoints => (None, Some(true), KeyLook::Symbol(symbol, true)),
+            LineStyle::LinePoints => (Some(Mark::Line), Some(false), KeyLook::SymbolLine(symbol, false)),
         };
+        marks.extend(line.map(|line| line(series.points.clone(), ink)));
+        for (k, at) in series.points.iter().enumerate().filter(|_| open.is_some()) {
+            let (at, error, open) = (*at, [0.0, half(k)], open == Some(true));
+            points.push(Mark::Point(Point { at, error, ink, symbol, open, ..Point::default() }));
+        }
         keys.push(Key::new(look, ink, series.name.trim()));
     }
     keys.retain(|key| !key.name.is_empty());

@@ -2,7 +2,6 @@
 
 const TAGS: [&str; 5] = ["measured", "published", "assumed", "calibrated", "predicted"];
 
-/// The text with `&`, `<`, `>` and quotes escaped.
 pub(crate) fn escape(text: &str) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
     text.replace('"', "&quot;").replace('\'', "&#39;")

@@ -12,7 +12,6 @@ const PNG_SCALE: usize = if cfg!(test) { 1 } else { 3 };
 /// The bitmap is painted this many times larger and averaged, for smooth edges.
 const OVERSAMPLE: usize = 2;
 
-/// Where and how letters go on a backend.
 struct Surface {
     scale: f64,
     /// plotters' font size for one em of one unit.

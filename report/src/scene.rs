@@ -6,7 +6,6 @@ use crate::text;
 /// A point in design pixels, x to the right, y downwards.
 pub(crate) type Point = [f64; 2];
 
-/// Which end of a text its position names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -43,7 +42,6 @@ pub(crate) enum Stroke {
     Text { at: Point, text: String, size: f64, ink: Ink, anchor: Anchor },
 }
 
-/// A drawing of `width` × `height` design pixels.
 pub(crate) struct Scene {
     pub(crate) width: f64,
     pub(crate) height: f64,
@@ -67,7 +65,8 @@ impl Scene {
             let (mut a, b) = (pair[0], pair[1]);
             let mut rest = distance(a, b);
             while rest > left {
-                a = between(a, b, left / rest);
+                let t = left / rest;
+                a = [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
                 rest -= left;
                 dash.push(a);
                 let done = std::mem::replace(&mut dash, vec![a]);
@@ -144,10 +143,6 @@ impl Scene {
 
 fn distance(a: Point, b: Point) -> f64 {
     (b[0] - a[0]).hypot(b[1] - a[1])
-}
-
-fn between(a: Point, b: Point, t: f64) -> Point {
-    [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]
 }
 
 #[cfg(test)]

@@ -88,7 +88,6 @@ fn host() -> String {
     name.trim().replace('.', "_")
 }
 
-/// Bytes of the checksum of [`sealed`].
 const SEAL: usize = 4;
 
 /// Bytes followed by their CRC-32, little-endian.

@@ -17,7 +17,6 @@ const GROUPS: &[(&str, &[&str])] = &[
     ("For your shell", &["completions", "man", "help"]),
 ];
 
-/// The command line, with its help by groups.
 pub(crate) fn command() -> clap::Command {
     let mut command = Cli::command();
     command.build();

@@ -2,12 +2,11 @@ use super::inputs;
 use crate::cli::AddArgs;
 use crate::prelude::*;
 use crate::shown::extension::{AddAnswer, steps_text};
-use compare::diagnosis::{Options, taken_away};
+use compare::diagnosis::taken_away;
 use compare::extension::{Extension, Wish, add};
 use compare::foreign::Correction;
 use compare::progress::part;
 use compare::progress::shares::READ;
-use std::sync::PoisonError;
 
 pub(super) fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome> {
     let file = ibr::studies::scenario(&args.scenario)?;
@@ -17,14 +16,12 @@ pub(super) fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome> {
         None if args.fit.also.is_empty() && args.fit.base.is_empty() => Vec::new(),
         None => return Err(Failure::usage("--also or --base without data", "name the first data before them")),
     };
-    let options = Options { next_experiment: false, missing_moment: false, ..inputs::fit_options(&args.fit)? };
+    let options = inputs::fit_options(&args.fit)?.without_advice();
     let found = add(&file, &wish, &evidence, &options, &mut part(context.progress, [READ, 1.0]))?;
     let names: Vec<&str> = found.additions.iter().map(|a| a.name.as_str()).collect();
     let target = target(args, &names.join("-").replace(' ', "-"), context.force)?;
     let correction = is_correction(&target).then(|| Correction::of(&file, &found, &evidence)?.text()).transpose()?;
-    let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
-    data::write_atomically(&target, correction.as_ref().unwrap_or(&found.file.text).as_bytes())?;
-    *written = true;
+    write_whole(&[(target.clone(), correction.as_ref().unwrap_or(&found.file.text))], context)?;
     let target = target.display().to_string();
     let answer = AddAnswer::of(&file, &evidence, &found, &target)?;
     let mut outcome = Outcome::answer(words(args, &found, &target), "ibr.add", &answer);

@@ -13,12 +13,9 @@ pub(super) fn run(args: &BenchArgs, context: &mut Context) -> Result<Outcome> {
     if args.what == "discovery" {
         return discovery(args, context);
     }
-    if args.out.is_some() || args.shards.asked() {
-        return Err(Failure::usage(
-            format!("the bench of {} keeps nothing", args.what),
-            "leave --out, --shard and --engine out, or write ibr bench discovery",
-        ));
-    }
+    let message = format!("the bench of {} keeps nothing", args.what);
+    let help = "leave --out, --shard and --engine out, or write ibr bench discovery";
+    refuse_if(args.out.is_some() || args.shards.asked(), message, help)?;
     let progress = &mut |what: &str, share| (context.progress)(what, share);
     let answer = match args.what.as_str() {
         "fem" => engine::measure(args.all, &machine(), progress),
@@ -30,9 +27,9 @@ pub(super) fn run(args: &BenchArgs, context: &mut Context) -> Result<Outcome> {
 fn discovery(args: &BenchArgs, context: &mut Context) -> Result<Outcome> {
     let laws = if args.laws == "second" { Laws::Second } else { Laws::First };
     let options = DiscoveryOptions { seed: args.seed, sets: args.sets as usize, laws };
-    if args.out.is_none() && args.shards.asked() {
-        return Err(Failure::usage("shards need a folder that all of them see", "add --out FOLDER"));
-    }
+    let message = "shards need a folder that all of them see";
+    let help = "add --out FOLDER";
+    refuse_if(args.out.is_none() && args.shards.asked(), message, help)?;
     let (threads, program) = (context.threads, args.out.as_ref().map(|_| this_program()).transpose()?);
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let bench = discovery::Work::plan(options, args.out.as_deref().zip(program.as_deref()))?;

@@ -20,19 +20,13 @@ pub(super) fn compared(args: &CompareArgs, context: &mut Context) -> Result<Opti
         return Ok(None);
     };
     let Some(bench) = bench(spec)? else { return Ok(None) };
-    refuse_options(
-        spec,
-        &[
-            ("--sigma", args.noise.sigma.is_some(), "the table has the scatter of a row"),
-            ("--max-error", args.max_error.is_some(), "a table has no error beyond noise"),
-            ("--out", args.out.is_some(), "a table has no report; --json gives everything that was found"),
-            (
-                "--calibrate=body-pressure",
-                args.calibrate == Some(Knob::BodyPressure),
-                "--calibrate fits the number of a table",
-            ),
-        ],
-    )?;
+    let given = [
+        ("--sigma", args.noise.sigma.is_some()),
+        ("--max-error", args.max_error.is_some()),
+        ("--out", args.out.is_some()),
+        ("--calibrate=body-pressure", args.calibrate == Some(Knob::BodyPressure)),
+    ];
+    refuse_options(spec, &given)?;
     (context.progress)("comparing", None);
     let mut scenario = scenario(typed.first(), spec, &bench)?;
     inputs::each_once("--effect", inputs::effect_names(&args.effect))?;
@@ -54,18 +48,16 @@ pub(super) fn diagnosed(args: &DiagnoseArgs, context: &mut Context) -> Result<Op
     let Some(table) = bench(spec)? else {
         return args.fit.also.iter().try_for_each(|also| needs_markers(also)).map(|()| None);
     };
-    refuse_options(
-        spec,
-        &[
-            ("--also", !args.fit.also.is_empty(), "put the rows of all tests of one kind into one table"),
-            ("--base", !args.fit.base.is_empty(), "a base predicts markers"),
-            ("--keep-bending", args.fit.keep_bending, "a table has nothing fitted that was not asked for"),
-            ("--not", !args.fit.not.is_empty(), "a table's ranking shows every effect separately"),
-            ("--tolerance", args.fit.tolerance.is_some(), "say what a row scatters by instead, --sigma 3%"),
-            ("--runs", args.runs.is_some(), "finite elements are compared with robots"),
-            ("--out", args.out.is_some(), "a table has no report; --json gives everything that was found"),
-        ],
-    )?;
+    let given = [
+        ("--also", !args.fit.also.is_empty()),
+        ("--base", !args.fit.base.is_empty()),
+        ("--keep-bending", args.fit.keep_bending),
+        ("--not", !args.fit.not.is_empty()),
+        ("--tolerance", args.fit.tolerance.is_some()),
+        ("--runs", args.runs.is_some()),
+        ("--out", args.out.is_some()),
+    ];
+    refuse_options(spec, &given)?;
     let sigma = args.fit.noise.sigma.as_deref().map(share).transpose()?;
     let scenario = scenario(args.data.as_ref().map(|_| &args.scenario), spec, &table)?;
     (context.progress)("fitting every effect", Some(READ));
@@ -75,7 +67,6 @@ pub(super) fn diagnosed(args: &DiagnoseArgs, context: &mut Context) -> Result<Op
     Ok(Some(Outcome::answer(diagnosis_text(&found, &table), "ibr.diagnose.bench", &answer)))
 }
 
-/// The typed scenario, or the table's.
 fn scenario(typed: Option<&String>, spec: &str, bench: &Bench) -> Result<Option<Scenario>> {
     Ok(match (typed, &bench.scenario) {
         (Some(typed), _) => Some(ibr::studies::scenario(typed)?.planar()?.scenario),
@@ -84,15 +75,23 @@ fn scenario(typed: Option<&String>, spec: &str, bench: &Bench) -> Result<Option<
     })
 }
 
-/// Refuses options that are about markers: each with whether it is given, and what to do instead.
-fn refuse_options(spec: &str, options: &[(&str, bool, &str)]) -> Result<()> {
-    match options.iter().find(|(_, given, _)| *given) {
-        None => Ok(()),
-        Some((option, _, help)) => {
-            let message = format!("{option} is about marker data, {spec} is a table of bench tests");
-            Err(Failure::usage(message, format!("leave {option} out: {help}")))
-        }
-    }
+/// Refuses options that are about markers, each with whether it is given.
+fn refuse_options(spec: &str, options: &[(&str, bool)]) -> Result<()> {
+    let Some((option, _)) = options.iter().find(|(_, given)| *given) else { return Ok(()) };
+    let help = match *option {
+        "--also" => "put the rows of all tests of one kind into one table",
+        "--base" => "a base predicts markers",
+        "--calibrate=body-pressure" => "--calibrate fits the number of a table",
+        "--keep-bending" => "a table has nothing fitted that was not asked for",
+        "--max-error" => "a table has no error beyond noise",
+        "--not" => "a table's ranking shows every effect separately",
+        "--out" => "a table has no report; --json gives everything that was found",
+        "--runs" => "finite elements are compared with robots",
+        "--sigma" => "the table has the scatter of a row",
+        _ => "say what a row scatters by instead, --sigma 3%",
+    };
+    let message = format!("{option} is about marker data, {spec} is a table of bench tests");
+    Err(Failure::usage(message, format!("leave {option} out: {help}")))
 }
 
 /// Refuses a table of bench tests where markers are needed.

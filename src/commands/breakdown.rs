@@ -38,9 +38,9 @@ fn runs(args: &BreakdownArgs, context: &mut Context) -> Result<Result<Made, Outc
         return Ok(Ok((stored()?.into_iter().filter(|run| run.seed == 1).collect(), Vec::new())));
     }
     let meshes = args.mesh.as_deref().map(sizes).transpose()?.unwrap_or_default();
-    if meshes.len() > 1 {
-        return Err(Failure::usage("--mesh takes one size here", "write for example --mesh 8mm/4mm"));
-    }
+    let message = "--mesh takes one size here";
+    let help = "write for example --mesh 8mm/4mm";
+    refuse_if(meshes.len() > 1, message, help)?;
     let ranges = Ranges {
         body_kpa: list("--body-pressure", &args.body_pressure, Quantity::Pressure, 1e-3)?,
         pouch_mm: list("--pouch", &args.pouch, Quantity::Length, 1e3)?,

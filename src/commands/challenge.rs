@@ -111,12 +111,12 @@ fn list() -> Outcome {
     text.push_str(&rows(&OUTSIDE.iter().collect::<Vec<_>>()));
     text.push_str("\nThe second law of each mechanism, for `ibr bench discovery --laws second`\n");
     text +=
-        &Table::of(&inside).words("effect", |e| e.name).words("law: its source", |e| e.law(Laws::Second).words).text();
+        &Table::of(&inside).words("effect", |e| e.name).words("law: its source", |e| e.equation(Laws::Second)).text();
     let entry = |effect: &'static HiddenEffect| HiddenEntry {
         name: effect.name,
         sentence: effect.sentence,
-        law: effect.law(Laws::First).words,
-        second_law: (!effect.is_outside()).then(|| effect.law(Laws::Second).words),
+        law: effect.equation(Laws::First),
+        second_law: (!effect.is_outside()).then(|| effect.equation(Laws::Second)),
         in_catalog: !effect.is_outside(),
     };
     let effects = inside.into_iter().chain(OUTSIDE).map(entry).collect();
@@ -125,7 +125,7 @@ fn list() -> Outcome {
 
 fn rows(effects: &[&HiddenEffect]) -> String {
     let table = Table::of(effects).words("effect", |e| e.name).words("what happens", |e| e.sentence);
-    table.words("law", |e| e.law(Laws::First).words).text()
+    table.words("law", |e| e.equation(Laws::First)).text()
 }
 
 /// `ibr.challenge.new`: `ibr challenge new`

@@ -36,13 +36,11 @@ pub(super) fn run(args: &CharacterizeArgs, context: &mut Context) -> Result<Outc
 }
 
 fn settings(args: &CharacterizeArgs) -> Result<Reduction> {
-    if !(args.modulus_to > 0.0 && args.modulus_to <= 50.0) {
-        let message = format!("--modulus-to is {} per cent strain", args.modulus_to);
-        return Err(Failure::usage(message, "write a number above 0 and up to 50, for example 1"));
-    }
-    if args.name.trim().is_empty() {
-        return Err(Failure::usage("--name is empty", "write a name for the fabric, for example silicone-nylon-mine"));
-    }
+    let message = format!("--modulus-to is {} per cent strain", args.modulus_to);
+    let help = "write a number above 0 and up to 50, for example 1";
+    refuse_if(!(args.modulus_to > 0.0 && args.modulus_to <= 50.0), message, help)?;
+    let help = "write a name for the fabric, for example silicone-nylon-mine";
+    refuse_if(args.name.trim().is_empty(), "--name is empty", help)?;
     let (name, modulus_strain) = (args.name.trim().to_string(), 0.01 * args.modulus_to);
     Ok(Reduction { name, modulus_strain, any_modulus: args.any_modulus })
 }

@@ -9,10 +9,9 @@ use ibr::compared::{Compared, contenders, unused_sigma};
 use ibr::pages::compare_page;
 
 pub(super) fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome> {
-    if args.runs.stored || args.runs.runs.is_some() || args.pressure.is_some() {
-        let message = "--runs, --stored and --pressure are about finite element runs";
-        return Err(Failure::usage(message, "add --engines or --paper, or leave them out"));
-    }
+    let message = "--runs, --stored and --pressure are about finite element runs";
+    let help = "add --engines or --paper, or leave them out";
+    refuse_if(args.runs.stored || args.runs.runs.is_some() || args.pressure.is_some(), message, help)?;
     if let Some(outcome) = super::bench_tables::compared(args, context)? {
         return Ok(outcome);
     }

@@ -2,8 +2,8 @@
 
 use super::inputs::{self, scattered};
 use super::list;
-use super::written::write_dataset;
 use crate::cli::{DataCommand, GenerateArgs};
+use crate::output::write_dataset;
 use crate::prelude::*;
 use compare::diagnosis::{Options, pressure_slip};
 use compare::slips::pressure::pressure_words;
@@ -75,13 +75,9 @@ fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome> {
     let named = ibr::studies::scenario(&args.scenario)?;
     let model = Model::new(&named.scenario);
     (0..generator.protocol.len()).try_for_each(|hold| check_fed(&model, &generator.loads(hold, 1.0).actuator_pa))?;
-    if named.markers_m.is_empty() {
-        let message = format!("the scenario {} has no marker stations", args.scenario);
-        return Err(Failure::usage(
-            message,
-            "add [markers] with s_mm = [30, 90, 150] to it: places in mm from the base",
-        ));
-    }
+    let message = format!("the scenario {} has no marker stations", args.scenario);
+    let help = "add [markers] with s_mm = [30, 90, 150] to it: places in mm from the base";
+    refuse_if(named.markers_m.is_empty(), message, help)?;
     let dataset = generate(&named.scenario, &set_name(&args.out, "synthetic"), &generator)?;
     let about = about(&named.scenario, &dataset, &generator);
     let inputs = inputs::named(&named, [])?;

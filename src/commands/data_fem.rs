@@ -3,8 +3,8 @@
 use super::fem_inputs::{kept, list, pressures};
 use super::inputs;
 use super::inputs::scattered;
-use super::written::write_dataset;
 use crate::cli::DataFemArgs;
+use crate::output::write_dataset;
 use crate::prelude::*;
 use compare::study::Generator;
 use compare::study::engines::{EngineRun, of_the_program, runs_of, seed_jobs};
@@ -17,10 +17,9 @@ pub(super) fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome> 
     let truth = ibr::studies::scenario(&args.scenario)?.planar()?;
     let (robot, scenario) = robot(args)?;
     let kpa = pressures(&args.pressure)?;
-    if !kpa.is_sorted_by(|a, b| a < b) {
-        let help = "write rising ones, for example 10kPa,20kPa,30kPa: a robot is loaded once";
-        return Err(Failure::usage(format!("--pressure {} does not rise", args.pressure), help));
-    }
+    let help = "write rising ones, for example 10kPa,20kPa,30kPa: a robot is loaded once";
+    let message = format!("--pressure {} does not rise", args.pressure);
+    refuse_if(!kpa.is_sorted_by(|a, b| a < b), message, help)?;
     let body_pa = scenario.p_body_pa;
     let generator = Generator {
         seed: args.seed,

@@ -42,19 +42,13 @@ pub(super) fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome>
     }
     if let Some(folder) = &args.out {
         let also = fit.also.iter().map(|data| format!(" --also {data}"));
-        let found = Diagnosed {
-            diagnosis: &diagnosis,
-            scenario: &file,
-            dataset: &first.dataset,
-            about: first.about.as_ref(),
-            witness: witness.as_ref(),
-            typed: [&args.scenario, data],
-            more: also
-                .chain(fit.base.iter().map(|base| format!(" --base {base}")))
-                .chain(fit.keep_bending.then(|| " --keep-bending".into()))
-                .chain(fit.not.iter().map(|not| format!(" --not {not}")))
-                .collect(),
-        };
+        let more = also
+            .chain(fit.base.iter().map(|base| format!(" --base {base}")))
+            .chain(fit.keep_bending.then(|| " --keep-bending".into()))
+            .chain(fit.not.iter().map(|not| format!(" --not {not}")))
+            .collect();
+        let found = Diagnosed::of(&diagnosis, &file, first, [&args.scenario, data]);
+        let found = Diagnosed { witness: witness.as_ref(), more, ..found };
         // What was found took long, and is printed where it cannot be written.
         match report(folder, &found, json, &inputs::named(&file, &evidence)?, context) {
             Ok(()) => outcome.report(folder),

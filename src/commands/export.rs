@@ -66,7 +66,6 @@ fn linear(args: &LinearArgs) -> Result<Outcome> {
     Ok(outcome)
 }
 
-/// Writes the chain for a simulator of rigid bodies.
 fn rigid(
     args: &RigidArgs,
     ending: &str,
@@ -86,10 +85,9 @@ fn rigid(
     }
     let weight = scenario.effects.iter().find(|effect| effect.name == "gravity").map(|effect| effect.values[0]);
     let mass_kg_per_m = args.mass.or(weight.map(|w| w / G_M_S2)).unwrap_or(MASS_KG_PER_M);
-    if !(mass_kg_per_m > 0.0 && mass_kg_per_m < MOST_MASS_KG_PER_M) {
-        let message = format!("--mass is {mass_kg_per_m} kg/m (allowed above 0, below {MOST_MASS_KG_PER_M})");
-        return Err(Failure::usage(message, "write for example --mass 0.1"));
-    }
+    let message = format!("--mass is {mass_kg_per_m} kg/m (allowed above 0, below {MOST_MASS_KG_PER_M})");
+    let help = "write for example --mass 0.1";
+    refuse_if(!(mass_kg_per_m > 0.0 && mass_kg_per_m < MOST_MASS_KG_PER_M), message, help)?;
     let [x, y, _] = scenario.gravity_direction;
     let g = if weight.is_some() { G_M_S2 } else { 0.0 };
     let about = Surroundings {

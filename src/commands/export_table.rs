@@ -2,11 +2,12 @@
 
 use super::inputs::{self, quantity};
 use crate::cli::ExportArgs;
-use crate::prelude::{Context, Failure, Loads, Model, Outcome, Quantity, Result, Scenario, Serialize};
+use crate::prelude::{
+    Context, Failure, Loads, Model, Outcome, Quantity, Result, Scenario, Serialize, refuse_if, write_whole,
+};
 use crate::shown::predicted::beyond_words;
 use models::export::{Bound, Origin, Table, Untabulated};
 use std::path::{Path, PathBuf};
-use std::sync::PoisonError;
 
 pub(super) fn c(args: &ExportArgs, context: &mut Context) -> Result<Outcome> {
     let path = target(args.out.as_ref(), "c")?;
@@ -64,20 +65,16 @@ pub(super) fn write(files: &[(PathBuf, Vec<u8>)], context: &mut Context) -> Resu
         let message = format!("cannot write {}: it exists", path.display());
         return Err(Failure::usage(message, "add --force, or choose another file with --out"));
     }
-    let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
-    files.iter().try_for_each(|(path, bytes)| data::write_atomically(path, bytes))?;
-    *written = true;
-    Ok(())
+    write_whole(files, context)
 }
 
 /// The file to write, with the ending of its format.
 pub(super) fn target(out: Option<&PathBuf>, ending: &str) -> Result<PathBuf> {
     let example = format!("robot.{ending}");
     let path = out.cloned().unwrap_or_else(|| example.clone().into());
-    if path.extension().is_none_or(|end| end != ending) {
-        let message = format!("--out {} does not end with .{ending}", path.display());
-        return Err(Failure::usage(message, format!("write for example --out {example}")));
-    }
+    let message = format!("--out {} does not end with .{ending}", path.display());
+    let help = format!("write for example --out {example}");
+    refuse_if(path.extension().is_none_or(|end| end != ending), message, help)?;
     Ok(path)
 }
 
@@ -90,7 +87,6 @@ fn origin<'a>(command: &'a str, path: &'a Path, scenario: &'a Scenario, history:
     Origin { prefix, robot: &scenario.name, command, history }
 }
 
-/// Refuses poses that a robot does not hold.
 pub(super) fn trusted(model: &Model, poses: impl IntoIterator<Item = Loads>, help: &str) -> Result<()> {
     let mut at = model.prediction();
     for loads in poses {

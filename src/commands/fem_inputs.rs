@@ -10,17 +10,15 @@ const PUBLISHED: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
 /// Robots as typed and as read, and their entries in the manifest.
 type Robots = (Vec<(Source, Scenario)>, Vec<Input>);
 
-/// Robots by name, or the paper's.
 pub(super) fn robots(specs: &[String]) -> Result<Robots> {
     let own: Vec<String> = PUBLISHED.map(String::from).to_vec();
     let specs = if specs.is_empty() { &own } else { specs };
     let (mut found, mut inputs) = (Vec::new(), Vec::new());
     for spec in specs {
         let source = fe_source(spec)?;
-        if !source.is_robot() {
-            let message = format!("{spec} is not the scenario of a robot");
-            return Err(Failure::usage(message, "give scenarios such as spam cpam epam fpam"));
-        }
+        let message = format!("{spec} is not the scenario of a robot");
+        let help = "give scenarios such as spam cpam epam fpam";
+        refuse_if(!source.is_robot(), message, help)?;
         inputs.push(Input::of(spec, source.text.as_bytes()));
         let (scenario, _) = source.robot_run()?;
         found.push((source, scenario));

@@ -22,10 +22,9 @@ pub(super) fn setting<'t>(text: &'t str, help: &str) -> Result<(&'t str, &'t str
 pub(super) fn each_once<'t>(option: &str, names: impl IntoIterator<Item = &'t str>) -> Result<()> {
     let mut seen = Vec::new();
     for name in names {
-        if seen.contains(&name) {
-            let help = "leave one of the two out";
-            return Err(Failure::usage(format!("{option} gives {name} twice"), help));
-        }
+        let help = "leave one of the two out";
+        let message = format!("{option} gives {name} twice");
+        refuse_if(seen.contains(&name), message, help)?;
         seen.push(name);
     }
     Ok(())
@@ -114,7 +113,6 @@ pub(super) fn bases(files: &[String], data: usize) -> Result<Vec<Option<BaseTabl
     }
 }
 
-/// What a manifest names: the scenario, then the data.
 pub(super) fn named<'e>(file: &ScenarioFile, evidence: impl IntoIterator<Item = &'e Evidence>) -> Result<Vec<Input>> {
     let data = evidence.into_iter().map(|e| Ok(Input { name: format!("{} (as read)", e.name), sha256: e.sha256()? }));
     std::iter::once(Ok(Input { name: file.name.clone(), sha256: file.sha256() })).chain(data).collect()
@@ -172,7 +170,6 @@ pub(super) fn scatter(option: &str, text: &str) -> Result<f64> {
     }
 }
 
-/// A name of data as part of a folder's.
 pub(super) fn plain(name: &str) -> String {
     name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect()
 }

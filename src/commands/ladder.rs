@@ -2,7 +2,6 @@ use super::inputs::{self, plain};
 use crate::cli::LadderArgs;
 use crate::prelude::*;
 use crate::shown::extension::{LadderAnswer, climb_text};
-use compare::diagnosis::Options;
 use compare::ladder::{MOST_EFFECTS, ladder};
 use compare::progress::part;
 use compare::progress::shares::{CLIMBED, READ};
@@ -12,7 +11,7 @@ pub(super) fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let file = ibr::studies::scenario(&args.scenario)?;
     let evidence = inputs::all_evidence(&file, &args.data, &args.fit, context)?;
-    let options = Options { next_experiment: false, missing_moment: false, ..inputs::fit_options(&args.fit)? };
+    let options = inputs::fit_options(&args.fit)?.without_advice();
     let climb = ladder(&file, &evidence, &options, MOST_EFFECTS, &mut part(context.progress, [READ, CLIMBED]))?;
     let (LadderArgs { scenario, data, .. }, also) = (args, &args.fit.also);
     let answer = LadderAnswer { climb: &climb, scenario_file: scenario, data, also };
@@ -30,7 +29,6 @@ pub(super) fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome> {
     Ok(outcome)
 }
 
-/// Writes report and scenarios, and names their places.
 fn report(folder: &Path, page: &Climbed, inputs: &[Input], context: &mut Context, outcome: &mut Outcome) -> Result<()> {
     write_files(folder, &ladder_page(page, &maker())?, inputs, context)?;
     let names: Vec<&str> = page.climb.files.iter().map(|(name, _)| name.as_str()).collect();

@@ -80,7 +80,6 @@ struct NamedText {
 const TEXTBOOK: &str = "the same without the mechanics that textbook models lack";
 
 impl Lists {
-    /// The list of this name, or all of them.
     fn of(what: Option<&str>) -> Lists {
         let wanted = |name: &str| what.is_none_or(|w| w == name);
         let title = |toml: &'static str| toml.lines().find_map(|line| line.strip_prefix("name = ")).unwrap_or_default();

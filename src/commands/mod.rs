@@ -20,7 +20,6 @@ mod fem_inputs;
 pub(crate) mod import_options;
 mod inputs;
 mod ladder;
-mod limits;
 mod list;
 mod paper;
 mod pattern;
@@ -33,7 +32,6 @@ mod sweep;
 mod tradeoff;
 mod validate;
 mod verify;
-mod written;
 
 use crate::cli::Command;
 pub(crate) use crate::context::{Context, Outcome};

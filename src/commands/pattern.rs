@@ -23,15 +23,13 @@ pub(super) fn run(args: &PatternArgs, context: &mut Context) -> Result<Outcome> 
         None => usual_weld(&file.scenario),
     };
     let allowance_m = quantity("--allowance", &args.allowance, Quantity::Length)?;
-    if !(0.0..=MOST_ALLOWANCE_M).contains(&allowance_m) {
-        let message = format!("--allowance {} is not from 0 to {} mm", args.allowance, 1e3 * MOST_ALLOWANCE_M);
-        return Err(Failure::usage(message, "write for example --allowance 10mm"));
-    }
+    let message = format!("--allowance {} is not from 0 to {} mm", args.allowance, 1e3 * MOST_ALLOWANCE_M);
+    let help = "write for example --allowance 10mm";
+    refuse_if(!(0.0..=MOST_ALLOWANCE_M).contains(&allowance_m), message, help)?;
     let kerf_m = quantity("--kerf", &args.kerf, Quantity::Length)?;
-    if !(0.0..=MOST_KERF_M).contains(&kerf_m) {
-        let message = format!("--kerf {} is not from 0 to {} mm", args.kerf, 1e3 * MOST_KERF_M);
-        return Err(Failure::usage(message, "write for example --kerf 0.2mm"));
-    }
+    let message = format!("--kerf {} is not from 0 to {} mm", args.kerf, 1e3 * MOST_KERF_M);
+    let help = "write for example --kerf 0.2mm";
+    refuse_if(!(0.0..=MOST_KERF_M).contains(&kerf_m), message, help)?;
     let weld_mm = 1e3 * weld.0;
     let (plan, notes, sheet) = laid_out(&file.scenario, weld, (allowance_m, &args.allowance), kerf_m)
         .map_err(|fault| Failure::usage(format!("{}: {fault}", args.scenario), "see docs/scenario.md"))?;

@@ -1,5 +1,4 @@
 use super::inputs::{self, quantity};
-use super::limits;
 use crate::cli::PredictArgs;
 use crate::prelude::*;
 use crate::shown::predicted::{
@@ -8,7 +7,7 @@ use crate::shown::predicted::{
 use ibr::pages::predicted_files;
 use ibr::{check_fed, predict, predict_for, predict_near};
 use models::scenario::quantity::{MOST, parse_pressures};
-use models::{CHANNELS, Target};
+use models::{CHANNELS, Target, collapse_length_m};
 
 pub(super) fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
@@ -19,7 +18,7 @@ pub(super) fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome> 
         return follow(&scenario, context);
     }
     if args.limits {
-        return limits::run(typed, &scenario, &asked(&scenario, args)?);
+        return limits(typed, &scenario, &asked(&scenario, args)?);
     }
     let aimed = args.inverse.as_deref().and_then(|text| text.split_once(',')).map(place).transpose()?;
     let mut steered = None;
@@ -60,9 +59,8 @@ pub(super) fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome> 
 }
 
 fn follow(scenario: &Scenario, context: &Context) -> Result<Outcome> {
-    if context.json {
-        return Err(Failure::usage("--follow writes lines of numbers", "leave out --json"));
-    }
+    let message = "--follow writes lines of numbers";
+    refuse_if(context.json, message, "leave out --json")?;
     let followed = ibr::follow(scenario, std::io::stdin().lock(), std::io::stdout().lock())?;
     Ok(Outcome { notes: followed.words(), ..Outcome::default() })
 }
@@ -86,9 +84,8 @@ fn target(text: &str) -> Result<Target> {
 /// The pressures of a file, else of the command line or the scenario.
 fn asked(scenario: &Scenario, args: &PredictArgs) -> Result<Vec<Loads>> {
     let Some(file) = &args.pressures else { return wanted(scenario, args.pressure.as_deref()) };
-    if !scenario.actuator.exists() {
-        return Err(Failure::usage("--pressures for a beam, which has no actuator", "leave it out"));
-    }
+    let message = "--pressures for a beam, which has no actuator";
+    refuse_if(!scenario.actuator.exists(), message, "leave it out")?;
     Ok(ibr::pressures_of(scenario, file, MOST)?)
 }
 
@@ -105,11 +102,57 @@ pub(super) fn wanted(scenario: &Scenario, pressures: Option<&str>) -> Result<Vec
     if !scenario.actuator.exists() {
         pressures = vec![[0.0; CHANNELS]];
     }
-    if pressures.is_empty() {
-        return Err(Failure::usage(
-            "no pressure given",
-            "add --pressure 10kPa,20kPa or [predict] pressures_kpa to the scenario",
-        ));
-    }
+    let help = "add --pressure 10kPa,20kPa or [predict] pressures_kpa to the scenario";
+    refuse_if(pressures.is_empty(), "no pressure given", help)?;
     Ok(pressures.into_iter().map(|p| Loads { body_pa: scenario.p_body_pa, actuator_pa: p }).collect())
+}
+
+/// From which length on loads fold the robot.
+fn limits(typed: &str, scenario: &Scenario, wanted: &[Loads]) -> Result<Outcome> {
+    let help = "add what bends it, for example --effect gravity:weight_n_per_m=1.5";
+    let message = "a robot without load collapses at no length";
+    refuse_if(!scenario.effects.iter().any(|e| ["gravity", "tip_load"].contains(&e.name.as_str())), message, help)?;
+    let straight = Loads::uniform(scenario.p_body_pa, 0.0);
+    let steered = wanted.iter().filter(|loads| loads.actuator_pa.iter().any(|p| *p > 0.0));
+    let lengths: Vec<(Loads, Option<f64>)> =
+        std::iter::once(&straight).chain(steered).map(|loads| (*loads, collapse_length_m(scenario, loads))).collect();
+    let mut text = format!("{} at body pressure {} kPa\n", scenario.name, scenario.p_body_pa / 1e3);
+    text += &Table::of(&lengths)
+        .right("P [kPa]", |(loads, _)| pressure_words(loads))
+        .right("collapse length [mm]", |(_, length)| length.map_or("none".into(), |m| format!("{:.0}", m * 1e3)))
+        .right("over its length", |(_, m)| m.map_or("-".into(), |m| format!("{:.2}", m / scenario.length_m)))
+        .text();
+    text.push_str("Predicted. As many more units as the length asks for; \"none\": not up to 50 times its length.\n");
+    let kpa = |loads: &Loads| loads.actuator_pa.iter().map(|p| p / 1e3).collect();
+    let collapse = lengths
+        .iter()
+        .map(|(loads, m)| CollapseLength { p_act_channels_kpa: kpa(loads), length_mm: m.map(|m| m * 1e3) })
+        .collect();
+    let (p_body_kpa, length_mm) = (scenario.p_body_pa / 1e3, scenario.length_m * 1e3);
+    let answer = LimitsAnswer { scenario: typed, name: &scenario.name, p_body_kpa, length_mm, collapse };
+    Ok(Outcome::answer(text, "ibr.predict.limits", &answer))
+}
+
+/// `ibr.predict.limits`: `ibr predict SCENARIO --limits`
+#[derive(Serialize)]
+struct LimitsAnswer<'a> {
+    /// Path or name of the scenario as typed
+    scenario: &'a str,
+    /// Name of the robot in the scenario
+    name: &'a str,
+    /// Body pressure at which the loads act
+    p_body_kpa: f64,
+    /// Length of the robot in the scenario
+    length_mm: f64,
+    /// Length at which it folds: straight, then at each pressure
+    collapse: Vec<CollapseLength>,
+}
+
+/// Length at which loads fold the robot.
+#[derive(Serialize)]
+struct CollapseLength {
+    /// Actuator pressure of every channel at that length
+    p_act_channels_kpa: Vec<f64>,
+    /// Length at which the loads fold it; null: none within 50 times its length
+    length_mm: Option<f64>,
 }

@@ -61,7 +61,6 @@ fn text(one: &OneNumber) -> String {
     out
 }
 
-/// What a second pressure would decide.
 fn told(one: &OneNumber) -> String {
     let mut out = String::new();
     for k in 0..one.p_act_kpa.len() - 1 {

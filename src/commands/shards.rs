@@ -44,11 +44,8 @@ fn without(typed: &[String]) -> Vec<String> {
 pub(super) struct Work<'w> {
     /// Folder of the job and its logs, seen by all machines.
     pub folder: &'w Path,
-    /// What it consists of, for example runs.
     pub parts: &'w str,
-    /// How many of them there are.
     pub all: usize,
-    /// How many are not there yet.
     pub missing: &'w dyn Fn() -> usize,
     /// One that fails is never there, so that a job may end with some missing.
     pub may_fail: bool,
@@ -122,10 +119,9 @@ pub(super) fn shared(
     if !args.asked() {
         return Ok(None);
     }
-    if settings.force {
-        let help = "leave --force out, and give another --out or remove the runs to make them again";
-        return Err(Failure::usage("--force would make the runs of all shards again in every one", help));
-    }
+    let help = "leave --force out, and give another --out or remove the runs to make them again";
+    let message = "--force would make the runs of all shards again in every one";
+    refuse_if(settings.force, message, help)?;
     let root = settings.folder.clone().unwrap_or_default();
     let all: Vec<(&Job, PathBuf)> = problems(jobs, &root)?;
     let work = Work {

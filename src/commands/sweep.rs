@@ -68,7 +68,6 @@ fn whole(
     Ok(outcome)
 }
 
-/// Failed cases by their reason, the most frequent first.
 fn failures(table: &Table) -> Vec<(String, usize)> {
     let texts = |name: &str| match table.columns.iter().find(|column| column.0 == name) {
         Some((_, Column::Str(all))) => &all[..],

@@ -20,11 +20,9 @@ pub(super) fn run(args: &ValidateArgs, context: &mut Context) -> Result<Outcome>
         })?;
         return Ok(answered(&ValidateAnswer::of_correction(&correction, &found)));
     }
-    if !args.base.is_empty() {
-        let help =
-            "name the correction that `ibr add … --base TABLE --out correction.csv` wrote in place of the scenario";
-        return Err(Failure::usage("--base is for a correction of another simulator's predictions", help));
-    }
+    let help = "name the correction that `ibr add … --base TABLE --out correction.csv` wrote in place of the scenario";
+    let message = "--base is for a correction of another simulator's predictions";
+    refuse_if(!args.base.is_empty(), message, help)?;
     let file = ibr::studies::scenario(&args.scenario)?;
     let both = BeforeAfter::of(&file, &args.without)?;
     let found = each(args, context, |evidence| Ok(both.judge(evidence, sigma_m)?))?;

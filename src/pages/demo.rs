@@ -10,9 +10,7 @@ use ::compare::progress::shares::PICTURES as SHARES;
 use ::compare::progress::{Progress, part};
 use report::{bars, lines};
 
-/// Pictures of the diagnosis that the page has.
 const PICTURES: [&str; 1] = ["missing_moment"];
-/// The robot in finite elements at 30 kPa.
 const ROBOT_PNG: &[u8] = include_bytes!("../../docs/robots/epam.png");
 /// Labels of its parts: text, where it is written, where its line ends.
 const LABELS: [(&str, [u32; 2], [u32; 2]); 4] = [
@@ -30,12 +28,17 @@ pub fn demo_plots(demo: &Demo, progress: &mut Progress) -> Result<Files> {
     files.plot("residuals", residual_figure::map("Textbook model: where it misses", map, &demo.compared.dataset)?);
     progress("plots of both engines", Some(0.0));
     files.plot("breaking", lines(&breaking(demo))?);
-    draw(&found(demo), "", &PICTURES, &mut files, &mut part(progress, SHARES))?;
+    draw(
+        &Diagnosed::of(&demo.diagnosis, &demo.robot, &demo.data, ROBOT),
+        "",
+        &PICTURES,
+        &mut files,
+        &mut part(progress, SHARES),
+    )?;
     files.plot("waterfall", waterfall(demo)?);
     Ok(files)
 }
 
-/// The page of the demonstration and its plots.
 pub(crate) fn demo_page(demo: &Demo, maker: &Maker, progress: &mut Progress) -> Result<Files> {
     let mut files = demo_plots(demo, progress)?;
     let overview = overview(&demo.engines, &mut files)?;
@@ -52,18 +55,6 @@ pub(crate) fn demo_page(demo: &Demo, maker: &Maker, progress: &mut Progress) -> 
 }
 
 const MARKERS: &str = "finite elements of this program with camera noise; no measurement";
-
-fn found(demo: &Demo) -> Diagnosed<'_> {
-    Diagnosed {
-        diagnosis: &demo.diagnosis,
-        scenario: &demo.robot,
-        dataset: &demo.data.dataset,
-        about: demo.data.about.as_ref(),
-        witness: None,
-        typed: ROBOT,
-        more: String::new(),
-    }
-}
 
 /// Errors of the model with one more mechanism in every group.
 fn waterfall(demo: &Demo) -> Result<Drawn> {

@@ -39,6 +39,19 @@ pub struct Diagnosed<'a> {
     pub more: String,
 }
 
+impl<'a> Diagnosed<'a> {
+    /// A diagnosis of the first data, without finite elements and with nothing else typed.
+    pub fn of(
+        diagnosis: &'a Diagnosis,
+        scenario: &'a Scenario,
+        first: &'a Evidence,
+        typed: [&'a str; 2],
+    ) -> Diagnosed<'a> {
+        let (dataset, about) = (&first.dataset, first.about.as_ref());
+        Diagnosed { diagnosis, scenario, dataset, about, witness: None, typed, more: String::new() }
+    }
+}
+
 /// The page of a diagnosis and its plots.
 pub fn diagnosis_page(found: &Diagnosed, maker: &Maker, progress: &mut Progress) -> Result<Files> {
     let mut files = diagnosis_plots(found, progress)?;
@@ -98,7 +111,6 @@ const PICTURES: [(&str, Picture); 9] = [
     }),
 ];
 
-/// Names of the pictures that a report may have.
 pub(crate) fn diagnosis_pictures() -> [&'static str; 9] {
     PICTURES.map(|(name, _)| name)
 }

@@ -110,10 +110,6 @@ pub(super) fn ranking(d: &Diagnosis) -> Result<Option<Drawn>> {
     Ok(Some(plots::rows(title, label, names, marks, keys).draw("ranking")?))
 }
 
-pub(super) fn first_level(d: &Diagnosis, dataset: &Dataset) -> usize {
-    d.level(dataset.holds.first().map_or(0.0, |h| h.p_body_pa * 1e-3))
-}
-
 /// Answers worth a curve: the stated set or the attempt, then the nearest others.
 pub(super) fn shown(d: &Diagnosis) -> Vec<Answer<'_>> {
     let mut kept: Vec<Answer> = d.answers().into_iter().filter(Answer::helps).collect();
@@ -132,8 +128,8 @@ pub(super) fn left_out(d: &Diagnosis, drawn: &[Answer]) -> Option<String> {
 /// What the answers predict over pressure, as the difference from the calibrated base: height of the outermost marker on first
 /// loading at the first body pressure, after the time that the samples have waited in their holds.
 pub(super) fn candidate_curves(d: &Diagnosis, scenario: &Scenario, dataset: &Dataset) -> Result<Option<Drawn>> {
-    let level = first_level(d, dataset);
     let Some(first) = dataset.holds.first() else { return Ok(None) };
+    let level = d.level(first.p_body_pa * 1e-3);
     let top_pa = BEYOND * dataset.holds.iter().map(|h| h.p_act_pa).fold(0.0, f64::max);
     let candidates = shown(d);
     if candidates.is_empty() || top_pa <= 0.0 {

@@ -65,7 +65,7 @@ fn of_two() -> (Diagnosis, Scenario, Dataset) {
     let plain = textbook_scenario("spam").unwrap().with_bending(6.0);
     let truth = plain.with_effect("seam_stiffness", &[0.6]).with_effect("camera_scale", &[0.03]);
     let data = generate(&truth, "two", &Generator { runs: 5, seed: 7, ..Generator::default() }).unwrap();
-    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
+    let options = Options::default().without_advice();
     let evidence = [Evidence::of(data.clone(), None)];
     (diagnose(&plain, &evidence, &options, &mut |_, _| ()).unwrap(), plain, data)
 }
@@ -128,7 +128,7 @@ fn an_attempt_has_a_bar_that_says_it_is_not_enough() {
 fn the_ledgers_beside_finite_elements_begin_with_the_whole_stated_set() {
     let (dataset, about) = data::load("synthetic-epam", &mut |_, _| {}).unwrap();
     let scenario = textbook_scenario("epam").unwrap();
-    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
+    let options = Options::default().without_advice();
     let evidence = [Evidence::of(dataset.clone(), about.clone())];
     let d = diagnose(&scenario, &evidence, &options, &mut |_, _| ()).unwrap();
     assert_eq!(d.indistinguishable, ["end_constraint", "self_contact", "pressure_loss"]);

@@ -192,7 +192,6 @@ fn model_curve(scenario: &Scenario, dataset: &Dataset, p_body_pa: f64) -> Result
     Ok(points)
 }
 
-/// How a number is known, as figures say it.
 pub(super) fn known(known: Known) -> (&'static str, Ink) {
     let ink = match known {
         Known::Measured => Ink::Ink,

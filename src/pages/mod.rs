@@ -68,7 +68,6 @@ impl Files {
         self.files.push((format!("{name}.png"), drawn.png));
     }
 
-    /// Names pictures that go with an earlier result.
     pub(crate) fn retire(&mut self, pictures: &[&str]) {
         self.retired = pictures.iter().flat_map(|name| ["svg", "png"].map(|kind| format!("{name}.{kind}"))).collect();
     }
@@ -105,7 +104,6 @@ impl Files {
     }
 }
 
-/// What a template is filled with, by name.
 #[derive(Debug, Clone, Default, Serialize)]
 #[serde(transparent)]
 pub(crate) struct Values(Map<String, Value>);

@@ -126,7 +126,6 @@ fn rectangle(x: [f64; 2], y: [f64; 2]) -> [[f64; 2]; 4] {
     [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]]
 }
 
-/// An area, a line or a cross.
 fn lines(sheet: &mut PatternSheet, layer: usize, x: [f64; 2], y: [f64; 2]) {
     match (x[0] == x[1], y[0] == y[1]) {
         (true, true) => {

@@ -19,7 +19,6 @@ const MOST_MARKERS: usize = 24;
 const MOST_HOLDS: usize = 40;
 /// Residuals are drawn to this many times the noise; more is more of the same colour.
 const MAP_LIMIT: f64 = 10.0;
-/// What the colours of a residual map mean.
 pub(super) const MAP_COLOURS: &str = "Across (y), blue: the robot bends more than the model; orange: less. Along (x), blue: the \
     robot's marker is farther out than the model's; orange: nearer to the base.";
 

@@ -28,7 +28,6 @@ pub(crate) fn sweep_pictures(study: &Study, table: &Table) -> Result<Files> {
     Ok(files)
 }
 
-/// Names of all pictures that a sweep may have.
 pub(crate) fn sweep_picture_names() -> [&'static str; 8] {
     ["influence", "influence_fe", "map", "map_fe", "influence_z", "influence_z_fe", "map_z", "map_z_fe"]
 }

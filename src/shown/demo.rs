@@ -9,9 +9,7 @@ use compare::study::Comparison;
 use compare::study::engines::EngineLine;
 use compare::where_it_fails::Statement;
 
-/// Number of mechanisms that panel 3 lists, best first.
 const CANDIDATES: usize = 3;
-/// Actuator pressures that panel 2 lists \[kPa\].
 const SHOWN_KPA: [f64; 4] = [5.0, 10.0, 20.0, 30.0];
 /// Share by which the models differ where the reduced one is called broken down.
 const BREAKDOWN: f64 = 0.15;
@@ -54,7 +52,6 @@ fn robot(demo: &Demo) -> String {
     )
 }
 
-/// Height of the outermost marker by hold.
 fn heights(found: &Comparison) -> Table<(&HoldLabel, &ResidualCell, f64)> {
     let (map, data) = (&found.variants[0].evaluation.residual_map, &found.dataset);
     let mean = data.mean_over_runs();
@@ -107,7 +104,6 @@ impl Breaking<'_> {
         Some([reduced.marker_mm?, fe.marker_mm?, fe.spread_mm.unwrap_or(0.0)])
     }
 
-    /// Whether the reduced model has broken down there.
     pub(crate) fn is_broken(&self, kpa: f64) -> bool {
         self.marker_mm(kpa).is_some_and(|[reduced, fe, _]| (reduced / fe - 1.0).abs() > BREAKDOWN)
     }
@@ -125,7 +121,6 @@ impl Breaking<'_> {
     }
 }
 
-/// How the sources of lines begin.
 const REDUCED: &str = "reduced, as shipped";
 const ELEMENTS: &str = "finite elements";
 const PAPER: &str = "the paper's";
@@ -143,7 +138,6 @@ pub(crate) fn breaking(demo: &Demo) -> Vec<Breaking<'_>> {
     robots
 }
 
-/// Both engines at the pressures of the paper.
 fn breaking_table(demo: &Demo) -> Table<Breaking<'_>> {
     Table::of(breaking(demo))
         .words("robot", |b| b.robot)
@@ -173,7 +167,6 @@ pub fn panels(demo: &Demo) -> [Panel; 5] {
     ]
 }
 
-/// Text of the demonstration as the command prints it.
 pub(crate) fn text(demo: &Demo) -> String {
     let rest = format!(
         "Everything else: `ibr list datasets`, `ibr tradeoff`, `ibr breakdown`, and `ibr diagnose {}-textbook {} \
@@ -194,7 +187,6 @@ const BREAKING: &str = "Four published robots: pouches taped onto the body (sPAM
      (fPAM). Outermost marker, sideways, in mm: reduced model / finite elements ± spread of 5 seeds; * more than 15 % apart. The \
      paper's accuracy, 1 − ((model − measured)/model)²: reduced, finite elements at 30 kPa; the paper's own at 10, 20, 30 kPa.";
 
-/// Names of the pictures, and their captions.
 const ROBOT_PICTURE: [&str; 2] =
     ["robot", "The ePAM at 30 kPa in finite elements; colours are von Mises stress in MPa."];
 const RESIDUALS: [&str; 2] = ["residuals", "Model minus markers, over their noise, for every marker and hold."];

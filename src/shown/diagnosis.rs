@@ -89,7 +89,6 @@ pub fn verdict(d: &Diagnosis) -> String {
     }
 }
 
-/// The explanations that leave least, the answer's first.
 fn closest(d: &Diagnosis) -> String {
     if d.is_quiet() {
         return String::new();

@@ -23,7 +23,6 @@ pub(crate) fn tables(d: &Diagnosis, witness: Option<&Witness>) -> String {
 /// What the first column of effects and pairs means.
 pub(crate) const MARKS: &str = "= fits as well as the best · ! on a physical bound, rejected\n";
 
-/// Title of the table that [`unseen`] makes.
 pub(crate) const UNSEEN: &str = "Effects not found; smallest size that would have been seen (90 %)";
 
 /// It is stated in words: of the answer, or of the set where no pair is stated.
@@ -31,7 +30,6 @@ pub(crate) fn is_told(d: &Diagnosis, r: &Ranked) -> bool {
     d.speaks_of(&r.effect) || r.in_set && d.pairs.is_empty()
 }
 
-/// Every effect alone, in two blocks with their titles.
 pub(crate) fn ranking(d: &Diagnosis) -> [(&'static str, Table<&Ranked>); 2] {
     [("Supply and measurement, to be ruled out first", true), ("Physics and loads", false)].map(|(title, nuisance)| {
         let rows = Table::of(d.ranked.iter().filter(|r| r.group.is_nuisance() == nuisance))

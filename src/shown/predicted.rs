@@ -13,6 +13,8 @@ pub fn text(scenario: &Scenario, states: &[AtPressure]) -> String {
     let is_spatial = scenario.is_spatial();
     let tip = |s: &AtPressure| s.prediction.tip;
     let states = || states.iter();
+    // With all channels moved together.
+    let slope = |s: &AtPressure| s.slopes.iter().map(|slope| slope.y_per_pa).sum::<f64>();
     let mut out =
         format!("{} at body pressure {} kPa{}\n", scenario.name, scenario.p_body_pa / 1e3, wall_words(scenario));
     out += &Table::of(states())
@@ -21,7 +23,7 @@ pub fn text(scenario: &Scenario, states: &[AtPressure]) -> String {
         .number("tip y [mm]", 2, |s| tip(s).y_m * 1e3)
         .when(is_spatial, |table| table.number("tip z [mm]", 2, |s| tip(s).z_m * 1e3))
         .number("angle [deg]", 3, |s| tip(s).angle_rad.to_degrees())
-        .right("dy/dP [mm/kPa]", |s| slope_words(total_slope(s) * 1e6))
+        .right("dy/dP [mm/kPa]", |s| slope_words(slope(s) * 1e6))
         .text();
     if scenario.markers_m.is_empty() {
         return out;
@@ -76,11 +78,6 @@ fn wall_words(scenario: &Scenario) -> String {
     let parts = [part("E t", wall.stiffness_n_per_m), part("G t", wall.shear_n_per_m)];
     let parts: String = parts.into_iter().flatten().collect();
     if parts.is_empty() { parts } else { format!("{parts} ({})", wall.basis) }
-}
-
-/// ∂y/∂P with all channels moved together \[m/Pa\].
-fn total_slope(state: &AtPressure) -> f64 {
-    state.slopes.iter().map(|s| s.y_per_pa).sum()
 }
 
 /// `ibr.predict`: `ibr predict SCENARIO`
@@ -242,7 +239,6 @@ pub fn above_limit(scenario: &Scenario, loads: &[Loads]) -> Option<String> {
 /// A tip that is nearer than this is on target \[m\].
 const MET_M: f64 = 1e-6;
 
-/// What keeps the tip away, channel by channel.
 fn held(found: &Steered) -> impl Iterator<Item = (usize, &'static str, f64)> + '_ {
     found.held.iter().enumerate().filter_map(|(channel, end)| {
         let word = match (*end)? {

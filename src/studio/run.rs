@@ -12,7 +12,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Stack of a run, as much as a program has: set-up and pictures need more than a thread is given.
 const STACK: usize = 16 << 20;
 
-/// What the page wants to see in finite elements.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Wish {

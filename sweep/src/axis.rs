@@ -253,7 +253,6 @@ fn axis(raw: &RawAxis, sampled: bool) -> Result<Axis, (String, &'static str)> {
     Ok(Axis { key, levels })
 }
 
-/// A value as a number, if it is one.
 pub(crate) fn as_number(value: &Value) -> Option<f64> {
     match value {
         Value::Integer(whole) => Some(*whole as f64),

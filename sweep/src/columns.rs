@@ -15,7 +15,6 @@ pub(crate) const ACCOUNTS: [(&str, Account); 8] = [
     ("load", Account::Load),
 ];
 
-/// Column of whether a pose can be trusted.
 pub(crate) const TRUSTED: &str = "trusted";
 pub(crate) const CPU_S: &str = "cpu_s";
 

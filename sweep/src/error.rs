@@ -29,7 +29,6 @@ pub enum SweepError {
 }
 
 impl SweepError {
-    /// A file that cannot be written.
     pub(crate) fn unwritable(path: &Path, cause: &std::io::Error) -> SweepError {
         SweepError::Write { path: path.to_path_buf(), cause: cause.to_string() }
     }

@@ -16,7 +16,6 @@ pub type ReadRobot = fn(&str) -> Result<ScenarioFile, CompareError>;
 /// What such a file is called, and how it is read.
 pub(crate) struct Form<Raw, T> {
     pub what: &'static str,
-    /// The page that shows every key.
     pub page: &'static str,
     pub scenario: fn(&Raw) -> &Spanned<String>,
     /// From the robot, and the folder that paths in its file count from.

@@ -84,7 +84,6 @@ pub(crate) fn parts(study: &Study) -> Vec<Part> {
 }
 
 impl Rows {
-    /// A row without numbers, and why.
     pub(crate) fn fail(&mut self, width: usize, why: String) {
         self.failed.push((self.numbers.len() / width, why));
         self.row(width, |_| ());
@@ -97,7 +96,6 @@ impl Rows {
         self.numbers.resize(end, f64::NAN);
     }
 
-    /// Writes them, whole or not at all.
     pub(crate) fn write(&self, path: &Path) -> Result<(), SweepError> {
         let Rows { numbers, failed, cpu_s } = self;
         let head = Head { ibr_sweep_part: FORMAT, numbers: numbers.len(), failed: failed.clone(), cpu_s: *cpu_s };

@@ -13,7 +13,6 @@ pub(crate) enum Method {
     Sobol,
 }
 
-/// Points of the unit cube, one row a case.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Points {
     axes: usize,
@@ -21,7 +20,6 @@ pub(crate) struct Points {
 }
 
 impl Points {
-    /// `cases` points over so many axes.
     pub(crate) fn new(method: Method, cases: usize, axes: usize, seed: u32) -> Points {
         match method {
             Method::LatinHypercube => latin(cases, axes, seed),

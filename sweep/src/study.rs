@@ -108,14 +108,9 @@ fn listed_once<T: Copy + PartialEq>(given: Option<&Spanned<Vec<T>>>, usual: &[T]
 struct RawSample {
     method: Method,
     cases: usize,
-    #[serde(default = "one")]
-    seed: u32,
+    seed: Option<u32>,
     /// How many of them, from the first on, finite elements compute too.
     checked: Option<usize>,
-}
-
-fn one() -> u32 {
-    1
 }
 
 const FORM: Form<Raw, Study> =
@@ -199,7 +194,7 @@ impl Study {
                     let help = "add engines = [\"reduced\", \"finite elements\"], or leave checked out";
                     return Err((Some(sample.span()), "`checked` without finite elements".into(), help));
                 }
-                (Some(cases), (cases <= MOST_CASES).then(|| Points::new(method, cases, axes.len(), seed)))
+                (Some(cases), (cases <= MOST_CASES).then(|| Points::new(method, cases, axes.len(), seed.unwrap_or(1))))
             }
         };
         let per_robot = pressures_kpa.len().max(1);

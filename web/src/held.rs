@@ -2,9 +2,9 @@
 
 use crate::data_of::Measured;
 use crate::robot::Robot;
+use compare::CompareError;
 use compare::diagnosis::words::listed;
 use compare::diagnosis::{Answer, Diagnosis, Options, Standing, diagnose};
-use compare::{CompareError, Evidence};
 use data::Dataset;
 use ibr::compared::Compared;
 use ibr::pages::{Diagnosed, Files, PageError, compare_files, demo_plots, diagnosis_plots, measured};
@@ -47,17 +47,7 @@ pub fn diagnosed(robot: &Robot, data: &Measured) -> Result<Value, CompareError> 
     told["verdict_words"] = json!(verdict(&d));
     let level = d.level(1e-3 * file.p_body_pa);
     told["candidates"] = d.answers().iter().filter(|a| a.helps()).map(|a| candidate(&d, a, level)).collect();
-    let Evidence { dataset, about, .. } = &evidence;
-    let typed = [file.name.as_str(), data.name.as_str()];
-    let found = Diagnosed {
-        diagnosis: &d,
-        scenario: &file,
-        dataset,
-        about: about.as_ref(),
-        witness: None,
-        typed,
-        more: String::new(),
-    };
+    let found = Diagnosed::of(&d, &file, &evidence, [&file.name, &data.name]);
     told["pictures"] = pictures(diagnosis_plots(&found, &mut |_, _| ()))?;
     Ok(told)
 }

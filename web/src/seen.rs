@@ -6,7 +6,6 @@ use models::space::Frame;
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
 
-/// Pieces in which a muscle is drawn.
 const PIECES: usize = 24;
 /// Points of a unit along and across it.
 const GRID: [usize; 2] = [9, 7];

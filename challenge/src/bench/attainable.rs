@@ -54,9 +54,6 @@ pub struct Attainable {
 }
 
 /// Distances of a set; `data` gives its holds and markers.
-///
-/// # Errors
-/// A hold at which nothing balances.
 pub(super) fn distances_of(truth: &Truth, data: &Dataset, pairs: bool) -> Result<Distances, CompareError> {
     let g = truth.measurement(&standard_protocol()).generator;
     let mean = Dataset { runs: vec!["1".into()], coordinates_m: ideal(&truth.robot()?, &g)?, ..data.clone() };

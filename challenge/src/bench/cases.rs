@@ -109,7 +109,6 @@ fn hidden(truth: &Truth, kind: Hiding, diagnose: Diagnoser) -> Result<Named, Com
     Ok(named)
 }
 
-/// A set without a next experiment.
 fn alone(truth: &Truth, about: About, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let data = truth.dataset("hidden", &standard_protocol())?;
     Ok(scored(truth, &diagnosed(truth, vec![(data, about)], false, diagnose)?))
@@ -196,7 +195,6 @@ fn scored(truth: &Truth, found: &Diagnosis) -> Named {
             .bending
             .first()
             .and_then(|b| b.lo.zip(b.hi).map(|(lo, hi)| (lo..=hi).contains(&truth.bending_nm2))),
-        covered: None,
         bic_behind: found.ranked.iter().find(|row| is_true(&row.effect)).map(|row| row.bic_difference),
         smallest_detectable: found
             .undetectable
@@ -204,10 +202,7 @@ fn scored(truth: &Truth, found: &Diagnosis) -> Named {
             .find(|row| is_true(&row.effect))
             .and_then(|row| row.times_typical),
         separations: now.map(|s| (s.rival.clone(), s.lambda)).collect(),
-        after: None,
-        distances: None,
-        at_best: None,
-        after_in_silence: None,
         answer,
+        ..Named::default()
     }
 }

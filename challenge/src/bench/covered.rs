@@ -11,9 +11,7 @@ use crate::Hiding;
 use compare::policy;
 use compare::stats::quantile;
 
-/// Share of the sets that a margin covers.
 const TARGET: f64 = 0.95;
-/// How well a printed figure must be met.
 const WITHIN: f64 = 0.03;
 
 /// Rows of the table; `others`: whether the stated sets of other parts contain the truth.

@@ -89,17 +89,13 @@ pub struct FaultSet {
 }
 
 impl FaultSet {
-    fn names(&self, is_it: impl Fn(&str) -> bool) -> bool {
-        self.stated.iter().any(|entry| entry.split(" + ").any(&is_it))
-    }
-
     /// Whether the stated set holds the truth; `None` without one.
     pub(super) fn holds(&self) -> Option<bool> {
         (self.verdict == Some(Verdict::Effect)).then(|| self.is_named())
     }
 
     fn is_named(&self) -> bool {
-        self.names(|part| part == self.fault)
+        self.stated.iter().any(|entry| entry.split(" + ").any(|part| part == self.fault))
     }
 }
 
@@ -111,7 +107,6 @@ pub(super) fn count(sets: usize) -> usize {
     if sets < FEWEST { 0 } else { SETS * sets.div_ceil(100) }
 }
 
-/// Makes, spoils and diagnoses a set.
 pub(super) fn fault(seed: u64, index: usize, diagnose: Diagnoser) -> Result<FaultSet, CompareError> {
     let (name, kind) = &KINDS[index / ROBOTS.len() % KINDS.len()];
     let robot = ROBOTS[index % ROBOTS.len()].0;
@@ -120,12 +115,11 @@ pub(super) fn fault(seed: u64, index: usize, diagnose: Diagnoser) -> Result<Faul
         truth.add(name, 1.0);
     }
     let evidence = [Evidence::of(recorded(&truth, kind)?, Some(about(&truth)?))];
-    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
+    let options = Options::default().without_advice();
     let found = diagnose(&truth.told()?, &evidence, &options, &mut |_, _| ())?;
     Ok(FaultSet { fault: (*name).into(), truth, verdict: found.verdict, stated: found.indistinguishable })
 }
 
-/// The data as they are recorded.
 fn recorded(truth: &Truth, fault: &Fault) -> Result<Dataset, CompareError> {
     let set: Vec<[f64; 2]> = PROTOCOL_PA.map(|p| [BODY_PA, p]).to_vec();
     let there = match fault {
@@ -164,9 +158,6 @@ fn show_late(made: &mut Dataset, lag_s: f64) {
 
 pub(super) fn rows(sets: &[FaultSet]) -> Vec<Rate> {
     let is_physics = |part: &str| models::effects::by_name(part).is_none_or(|effect| !effect.group.is_nuisance());
-    let share = |case, figure, goal, sets: &[&FaultSet], hit: &dyn Fn(&FaultSet) -> bool| {
-        Rate::share(case, figure, goal, &sets.iter().map(|set| hit(set)).collect::<Vec<_>>())
-    };
     let all: Vec<&FaultSet> = sets.iter().collect();
     let is_place = |set: &&FaultSet| matches!(set.fault.as_str(), "weak_place" | "tapered_wall" | "tip_spring");
     let (places, instruments): (Vec<&FaultSet>, Vec<&FaultSet>) = all.iter().partition(|set| is_place(set));
@@ -176,12 +167,16 @@ pub(super) fn rows(sets: &[FaultSet]) -> Vec<Rate> {
             && !set.is_named()
             && set.stated.iter().all(|e| e.split(" + ").all(is_physics))
     };
-    vec![
-        share("an instrument reads wrongly", "alarm", Goal::AtLeast(0.95), &instruments, &is_alarm),
-        share("an instrument reads wrongly", "named", Goal::AtLeast(0.7), &instruments, &FaultSet::is_named),
-        share("an instrument reads wrongly", "only physics named instead", Goal::AtMost(0.1), &instruments, &instead),
-        share("a place bends otherwise", "alarm", Goal::AtLeast(0.95), &places, &is_alarm),
-        share("a place bends otherwise", "named", Goal::AtLeast(0.7), &places, &FaultSet::is_named),
-        share("a place bends otherwise", "only others named instead", Goal::AtMost(0.1), &places, &instead),
-    ]
+    let of = |case, only_others, sets: &[&FaultSet]| {
+        let share = |figure, goal, hit: &dyn Fn(&FaultSet) -> bool| {
+            Rate::share(case, figure, goal, &sets.iter().map(|set| hit(set)).collect::<Vec<_>>())
+        };
+        [
+            share("alarm", Goal::AtLeast(0.95), &is_alarm),
+            share("named", Goal::AtLeast(0.7), &FaultSet::is_named),
+            share(only_others, Goal::AtMost(0.1), &instead),
+        ]
+    };
+    let instruments = of("an instrument reads wrongly", "only physics named instead", &instruments);
+    [instruments, of("a place bends otherwise", "only others named instead", &places)].concat()
 }

@@ -25,9 +25,6 @@ const TIP_N: [f64; 2] = [0.0, 0.3];
 const LONG_HOLD_S: f64 = 60.0;
 
 /// Measures again as recommended: all data to be diagnosed, with their descriptions.
-///
-/// # Errors
-/// A protocol that cannot be read; a hold at which nothing balances.
 pub(super) fn follow_up(truth: &Truth, experiment: &Experiment) -> Result<Vec<(Dataset, About)>, CompareError> {
     if experiment.name == BENDING_TEST_NAME {
         return Ok(vec![(truth.dataset("hidden", &standard_protocol())?, tested(truth)?)]);
@@ -83,9 +80,6 @@ pub(super) fn follow_up(truth: &Truth, experiment: &Experiment) -> Result<Vec<(D
 }
 
 /// The description of a set, with the robot's bending stiffness from a separate test.
-///
-/// # Errors
-/// Not an actuator of the bench.
 pub(super) fn tested(truth: &Truth) -> Result<About, CompareError> {
     let error = BENDING_TEST * Scatter::new(truth.seed ^ 0xB).normal();
     let found_nm2 = truth.bending_nm2 * (1.0 + error);

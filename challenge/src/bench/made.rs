@@ -21,7 +21,6 @@ use serde::{Deserialize, Serialize};
 
 /// Robots that come with finite element runs.
 pub(super) const MADE: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
-/// Body pressure of the second data \[Pa\].
 const SECOND_PA: f64 = 4e3;
 const RUNS: usize = 5;
 const SEED: u64 = 22;
@@ -106,7 +105,7 @@ const ALL: &str = "all mechanisms";
 fn all_off(robot: &str, whole: &Scenario, evidence: &[Evidence], diagnose: Diagnoser) -> Result<OneOff, CompareError> {
     let bare = shipped_scenario(&format!("{robot}-textbook"))?;
     let does_mm = apart_mm(whole, &bare, &evidence[0])?;
-    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
+    let options = Options::default().without_advice();
     let found = diagnose(&bare, evidence, &options, &mut |_, _| ())?;
     let is_told = found.other_design.is_some();
     let question = Question { robot, whole, lacking: ALL, evidence, kept: false, whole_mm: f64::NAN };
@@ -114,7 +113,7 @@ fn all_off(robot: &str, whole: &Scenario, evidence: &[Evidence], diagnose: Diagn
 }
 
 fn options(kept: bool) -> Options {
-    Options { keep_bending: kept, next_experiment: false, missing_moment: false, ..Options::default() }
+    Options { keep_bending: kept, ..Options::default().without_advice() }
 }
 
 /// The same robot at another body pressure, where its runs come with the program.

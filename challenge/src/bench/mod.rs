@@ -108,7 +108,6 @@ pub struct Bench {
     pieces: Vec<Piece>,
 }
 
-/// A piece of work that needs no other one.
 #[derive(Debug, Clone)]
 enum Piece {
     /// A set that was drawn for the plan.
@@ -124,18 +123,21 @@ enum Piece {
 }
 
 /// What a piece gave, or why it failed.
+pub type Answer = Result<Given, String>;
+
+/// What a piece of work gave.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub enum Answer {
+pub enum Given {
     /// Of a set that was drawn for the plan.
-    Set(Result<Box<Named>, String>),
+    Set(Box<Named>),
     /// Of finite element data, mechanism by mechanism.
-    Made(Result<Vec<OneOff>, String>),
+    Made(Vec<OneOff>),
     /// Of a column of pressures written wrongly.
-    Slipped(Result<Box<SlippedSet>, String>),
+    Slipped(Box<SlippedSet>),
     /// Of a scenario with an effect too many.
-    Surplus(Result<Box<SurplusSet>, String>),
+    Surplus(Box<SurplusSet>),
     /// Of an instrument or a place.
-    Fault(Result<Box<FaultSet>, String>),
+    Fault(Box<FaultSet>),
 }
 
 impl Bench {
@@ -161,21 +163,22 @@ impl Bench {
 
     /// Makes the data of a piece and diagnoses them.
     pub fn answer(&self, piece: usize, diagnose: Diagnoser) -> Answer {
-        match &self.pieces[piece] {
-            Piece::Set(set) => Answer::Set(cases::named(set, diagnose).map(Box::new)),
-            Piece::Made(robot) => {
-                Answer::Made(made::made(robot, diagnose).map_err(|error| format!("fem-{robot}: {error}")))
+        let (found, what) = match &self.pieces[piece] {
+            Piece::Set(set) => return cases::named(set, diagnose).map(|named| Given::Set(Box::new(named))),
+            Piece::Slipped(seed, index) => {
+                return slipped::slipped(*seed, *index, diagnose).map(|set| Given::Slipped(Box::new(set)));
             }
+            Piece::Made(robot) => (made::made(robot, diagnose).map(Given::Made), format!("fem-{robot}")),
             Piece::Surplus(seed, index) => {
                 let found = surplus::surplus(*seed, *index, diagnose);
-                Answer::Surplus(found.map(Box::new).map_err(|error| format!("an effect too many: {error}")))
+                (found.map(|set| Given::Surplus(Box::new(set))), "an effect too many".into())
             }
             Piece::Fault(seed, index) => {
                 let found = faults::fault(*seed, *index, diagnose);
-                Answer::Fault(found.map(Box::new).map_err(|error| format!("a fault: {error}")))
+                (found.map(|set| Given::Fault(Box::new(set))), "a fault".into())
             }
-            Piece::Slipped(seed, index) => Answer::Slipped(slipped::slipped(*seed, *index, diagnose).map(Box::new)),
-        }
+        };
+        found.map_err(|error| format!("{what}: {error}"))
     }
 
     /// The table, of the answers to all pieces in order.
@@ -183,19 +186,22 @@ impl Bench {
         let (mut outcomes, mut made, mut failed) = (Vec::new(), Vec::new(), Vec::new());
         let (mut slipped, mut surplus, mut faults) = (Vec::new(), Vec::new(), Vec::new());
         for (piece, answer) in self.pieces.into_iter().zip(answers) {
-            let failure = match (piece, answer) {
-                (Piece::Set(PlannedSet { part, truth }), Answer::Set(found)) => {
-                    let (named, failure) = found.map_or_else(|e| (None, Some(e)), |named| (Some(*named), None));
-                    outcomes.push(SetOutcome { part, truth, named });
-                    failure
-                }
-                (Piece::Made(_), Answer::Made(found)) => found.map(|found| made.extend(found)).err(),
-                (Piece::Surplus(..), Answer::Surplus(found)) => found.map(|found| surplus.push(*found)).err(),
-                (Piece::Slipped(..), Answer::Slipped(found)) => found.map(|found| slipped.push(*found)).err(),
-                (Piece::Fault(..), Answer::Fault(found)) => found.map(|found| faults.push(*found)).err(),
-                (piece, _) => Some(format!("{piece:?}: an answer to something else")),
-            };
+            let (given, failure) = answer.map_or_else(|why| (None, Some(why)), |given| (Some(given), None));
             failed.extend(failure);
+            match (piece, given) {
+                (Piece::Set(PlannedSet { part, truth }), None) => {
+                    outcomes.push(SetOutcome { part, truth, named: None });
+                }
+                (Piece::Set(PlannedSet { part, truth }), Some(Given::Set(named))) => {
+                    outcomes.push(SetOutcome { part, truth, named: Some(*named) });
+                }
+                (Piece::Made(_), Some(Given::Made(found))) => made.extend(found),
+                (Piece::Surplus(..), Some(Given::Surplus(found))) => surplus.push(*found),
+                (Piece::Slipped(..), Some(Given::Slipped(found))) => slipped.push(*found),
+                (Piece::Fault(..), Some(Given::Fault(found))) => faults.push(*found),
+                (_, None) => {}
+                (piece, Some(_)) => failed.push(format!("{piece:?}: an answer to something else")),
+            }
         }
         let silence: Vec<bool> = table::missed_in_silence(&outcomes);
         Discovery {

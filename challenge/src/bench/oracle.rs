@@ -11,7 +11,7 @@
 
 use crate::march;
 use crate::measure::ideal;
-use crate::truth::{HiddenChoice, standard_protocol};
+use crate::truth::standard_protocol;
 use crate::{HIDDEN, Truth, truth};
 use compare::error::CompareError;
 use compare::noise::NoiseModel;
@@ -20,16 +20,12 @@ use data::Dataset;
 
 /// Sizes at which the laws are asked \[typical sizes\]: the range that is drawn from.
 const SIZES: [f64; 4] = [0.8, 1.0, 1.2, 1.5];
-/// Draws of noise for each set.
 const DRAWS: usize = 200;
 /// Steps of the differences in ln p and in B.
 const STEP: f64 = 0.01;
 
 /// Shares of all noise in which the law of a single hidden effect has the least misfit, and one of the three least; `data`
 /// gives holds and markers.
-///
-/// # Errors
-/// A hold at which nothing balances.
 pub(super) fn at_best(truth: &Truth, data: &Dataset) -> Result<[f64; 2], CompareError> {
     let eyes = Eyes::of(truth, data)?;
     let mut laws = Vec::new();
@@ -37,29 +33,17 @@ pub(super) fn at_best(truth: &Truth, data: &Dataset) -> Result<[f64; 2], Compare
         let is_true = truth.effects.iter().find(|choice| choice.name == effect.name);
         let mut sizes: Vec<f64> = SIZES.into_iter().chain(is_true.map(|choice| choice.times_typical)).collect();
         sizes.sort_by(f64::total_cmp);
-        let of_size = |size: &f64| -> Option<Vec<f64>> {
-            let choice = HiddenChoice { name: effect.name.to_string(), times_typical: *size };
-            let other = Truth { effects: vec![choice], ..truth.clone() };
-            eyes.see(&other)
-        };
+        let of_size = |size: &f64| eyes.see(truth, effect.name, *size);
         laws.push((is_true.is_some(), Polyline::new(sizes.iter().filter_map(of_size).collect())));
     }
-    let mut scatter = Scatter::new(truth.seed);
-    let mut hits = [0; 2];
-    for _ in 0..DRAWS {
-        let drawn = eyes.noise(&mut scatter);
-        let own = laws.iter().filter(|law| law.0).map(|law| law.1.misfit(&drawn)).fold(f64::INFINITY, f64::min);
-        let before = laws.iter().filter(|law| !law.0 && law.1.misfit(&drawn) < own).count();
-        hits[0] += usize::from(before == 0);
-        hits[1] += usize::from(before < 3);
-    }
-    Ok(hits.map(|hit| hit as f64 / DRAWS as f64))
+    Ok(eyes.shares(truth.seed, |drawn| {
+        let own = laws.iter().filter(|law| law.0).map(|law| law.1.misfit(drawn)).fold(f64::INFINITY, f64::min);
+        let before = laws.iter().filter(|law| !law.0 && law.1.misfit(drawn) < own).count();
+        [before == 0, before < 3]
+    }))
 }
 
 /// Shares of all noise in which the nearest pair of laws holds one of two hidden effects at least, and both.
-///
-/// # Errors
-/// A hold at which nothing balances.
 pub(super) fn two_at_best(truth: &Truth, data: &Dataset) -> Result<[f64; 2], CompareError> {
     let bare = Truth { effects: Vec::new(), ..truth.clone() };
     let eyes = Eyes::of(&bare, data)?;
@@ -67,21 +51,17 @@ pub(super) fn two_at_best(truth: &Truth, data: &Dataset) -> Result<[f64; 2], Com
     for effect in truth::applicable(&truth.actuator, HIDDEN)? {
         let own = truth.effects.iter().find(|choice| choice.name == effect.name).map(|choice| choice.times_typical);
         let size = own.unwrap_or(MIDDLE);
-        let choice = HiddenChoice { name: effect.name.to_string(), times_typical: size };
-        if let Some(law) = eyes.see(&Truth { effects: vec![choice], ..bare.clone() }) {
+        if let Some(law) = eyes.see(&bare, effect.name, size) {
             laws.push(law.iter().map(|v| v / size).collect::<Vec<f64>>());
             sizes.push(own);
         }
     }
     let true_ones: Vec<usize> = (0..laws.len()).filter(|i| sizes[*i].is_some()).collect();
     let gram: Vec<Vec<f64>> = laws.iter().map(|a| laws.iter().map(|b| dot(a, b)).collect()).collect();
-    let mut scatter = Scatter::new(truth.seed);
-    let mut hits = [0; 2];
-    for _ in 0..DRAWS {
-        let drawn = eyes.noise(&mut scatter);
+    Ok(eyes.shares(truth.seed, |drawn| {
         let along = |i: usize| {
             let truth: f64 = true_ones.iter().map(|t| sizes[*t].unwrap_or(0.0) * gram[i][*t]).sum();
-            truth + dot(&laws[i], &drawn)
+            truth + dot(&laws[i], drawn)
         };
         let along: Vec<f64> = (0..laws.len()).map(along).collect();
         let mut best = (f64::INFINITY, [0, 0]);
@@ -92,10 +72,8 @@ pub(super) fn two_at_best(truth: &Truth, data: &Dataset) -> Result<[f64; 2], Com
             }
         }
         let right = best.1.iter().filter(|i| true_ones.contains(i)).count();
-        hits[0] += usize::from(right > 0);
-        hits[1] += usize::from(right == 2);
-    }
-    Ok(hits.map(|hit| hit as f64 / DRAWS as f64))
+        [right > 0, right == 2]
+    }))
 }
 
 /// Size at which the law of an effect that is not there is asked \[typical sizes\].
@@ -144,15 +122,24 @@ impl Eyes {
         Ok(Eyes { g, mean, noise, bending })
     }
 
-    /// Another robot's mean against this one's; `None` if it does not balance.
-    fn see(&self, other: &Truth) -> Option<Vec<f64>> {
+    /// Mean of a robot with one effect alone against this one's; `None` if it does not balance.
+    fn see(&self, truth: &Truth, effect: &str, times_typical: f64) -> Option<Vec<f64>> {
+        let mut other = Truth { effects: Vec::new(), ..truth.clone() };
+        other.add(effect, times_typical);
         let positions = ideal(&other.robot().ok()?, &self.g).ok()?;
         let apart: Vec<f64> = positions.iter().zip(&self.mean).map(|(a, b)| a - b).collect();
         Some(without(&self.bending, self.noise.whiten(&apart)))
     }
 
-    fn noise(&self, scatter: &mut Scatter) -> Vec<f64> {
-        without(&self.bending, self.mean.iter().map(|_| scatter.normal()).collect())
+    /// Shares of drawn noise in which each of two is so.
+    fn shares(&self, seed: u64, is_so: impl Fn(&[f64]) -> [bool; 2]) -> [f64; 2] {
+        let mut scatter = Scatter::new(seed);
+        let mut hits = [0.0; 2];
+        for _ in 0..DRAWS {
+            let drawn = without(&self.bending, self.mean.iter().map(|_| scatter.normal()).collect());
+            hits.iter_mut().zip(is_so(&drawn)).for_each(|(hits, is_so)| *hits += f64::from(u8::from(is_so)));
+        }
+        hits.map(|hits| hits / DRAWS as f64)
     }
 }
 

@@ -55,7 +55,7 @@ pub struct SetOutcome {
 }
 
 /// The answer to a set, with all that the table counts.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Named {
     /// Those parts of the diagnosis that are scored.
     pub answer: Claim,

@@ -62,7 +62,6 @@ impl Rate {
     }
 }
 
-/// The exact binomial 95 % interval.
 fn clopper_pearson(hits: usize, n: usize) -> [f64; 2] {
     let quantile =
         |a: usize, b: usize, p: f64| Beta::new(a as f64, b as f64).map_or(f64::NAN, |beta| beta.inverse_cdf(p));

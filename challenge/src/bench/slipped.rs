@@ -11,7 +11,6 @@ use compare::error::CompareError;
 use data::{Dataset, Hold};
 use serde::{Deserialize, Serialize};
 
-/// What becomes of a hold's pressures.
 type Spoil = fn(&mut Hold);
 
 /// The kinds, by the content of the column of kilopascals of gauge pressure.
@@ -69,15 +68,14 @@ pub(super) fn slipped(seed: u64, index: usize, diagnose: Diagnoser) -> Result<Sl
 /// A refusal that names the column is an answer too.
 fn one(seed: u64, index: usize, kind: usize, diagnose: Diagnoser, name: &str) -> Result<SlippedSet, CompareError> {
     let truth = Truth::draw(ROBOTS[index % ROBOTS.len()].0, &mut Draw::new(seed, STREAM + index as u64))?;
-    let right = truth.dataset("slipped", &standard_protocol())?;
+    let mut data = truth.dataset("slipped", &standard_protocol())?;
     let is_column = kind < KINDS.len();
-    let data = if is_column {
-        with_slip(right, KINDS[kind].1)
-    } else {
-        read_with(&right, PLACEHOLDERS[kind - KINDS.len()].1)?
-    };
+    match KINDS.get(kind) {
+        Some((_, spoil)) => data.holds.iter_mut().for_each(spoil),
+        None => data = read_with(&data, PLACEHOLDERS[kind - KINDS.len()].1)?,
+    }
     let words = (!is_column).then(|| data::losses(&data).join(" ")).filter(|words| words.contains("taken as not seen"));
-    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
+    let options = Options::default().without_advice();
     let evidence = [Evidence::of(data, Some(about(&truth)?))];
     let (words, named) = match diagnose(&truth.told()?, &evidence, &options, &mut |_, _| ()) {
         Ok(found) => {
@@ -88,11 +86,6 @@ fn one(seed: u64, index: usize, kind: usize, diagnose: Diagnoser, name: &str) ->
         Err(error) => return Err(error),
     };
     Ok(SlippedSet { kind: name.into(), is_column, truth, told: words.is_some(), words, named })
-}
-
-fn with_slip(mut data: Dataset, spoil: Spoil) -> Dataset {
-    data.holds.iter_mut().for_each(spoil);
-    data
 }
 
 /// The data as they are read from a table in which one marker in twenty has the placeholder for a hold.
@@ -119,15 +112,13 @@ fn read_with(right: &Dataset, placeholder: &str) -> Result<Dataset, CompareError
 
 pub(super) fn rows(sets: &[SlippedSet]) -> Vec<Rate> {
     let (columns, placeholders): (Vec<&SlippedSet>, Vec<&SlippedSet>) = sets.iter().partition(|set| set.is_column);
-    let share = |case, figure, target, sets: &[&SlippedSet], hit: fn(&SlippedSet) -> bool| {
-        Rate::share(case, figure, target, &sets.iter().map(|set| hit(set)).collect::<Vec<_>>())
+    let of = |case, reported, named_at_most: f64, sets: &[&SlippedSet]| {
+        let share = |figure, target, hit: fn(&SlippedSet) -> bool| {
+            Rate::share(case, figure, target, &sets.iter().map(|set| hit(set)).collect::<Vec<_>>())
+        };
+        let named = share("an effect named", Goal::AtMost(named_at_most), |set| !set.named.is_empty());
+        [share(reported, Goal::AtLeast(0.9), |set| set.told), named]
     };
-    let is_named = |set: &SlippedSet| !set.named.is_empty();
-    let (column, place) = ("a column of pressures written wrongly", "placeholders for lost markers");
-    vec![
-        share(column, "reported as a slip", Goal::AtLeast(0.9), &columns, |set| set.told),
-        share(column, "an effect named", Goal::AtMost(0.0), &columns, is_named),
-        share(place, "reported as not seen", Goal::AtLeast(0.9), &placeholders, |set| set.told),
-        share(place, "an effect named", Goal::AtMost(0.05), &placeholders, is_named),
-    ]
+    let columns = of("a column of pressures written wrongly", "reported as a slip", 0.0, &columns);
+    [columns, of("placeholders for lost markers", "reported as not seen", 0.05, &placeholders)].concat()
 }

@@ -54,7 +54,7 @@ pub(super) fn surplus(seed: u64, index: usize, diagnose: Diagnoser) -> Result<Su
     let effect = models::effects::by_name(name).ok_or_else(missing)?;
     let scenario = truth.told()?.with_effect(name, &effect.typical_for(robot));
     let evidence = [Evidence::of(truth.dataset("surplus", &standard_protocol())?, Some(about(&truth)?))];
-    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
+    let options = Options::default().without_advice();
     let found = diagnose(&scenario, &evidence, &options, &mut |_, _| ())?;
     Ok(SurplusSet { effect: name.into(), truth, verdict: found.verdict, stated: found.indistinguishable })
 }

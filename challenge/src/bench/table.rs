@@ -5,6 +5,7 @@ use super::row::{Goal, Rate};
 use crate::Hiding;
 use Goal::{AtLeast, AtMost, Between};
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// One named effect with the hidden one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -51,10 +52,8 @@ const OUTSIDE: Counted = ("with an alarm: called outside the catalogue", AtMost(
 const NOTHING: Lot = Lot::Hidden(Hiding::Nothing);
 const ONE: Lot = Lot::Hidden(Hiding::One);
 
-/// Diagnosed sets of which a row is made.
 type Sets<'o> = Vec<(&'o SetOutcome, &'o Named)>;
 
-/// The rows, in the order of the table.
 pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
     let mut rows = nothing(outcomes);
     rows.extend(one(outcomes, ONE, "one hidden effect"));
@@ -90,7 +89,6 @@ pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
     rows
 }
 
-/// Sets of a part that were diagnosed.
 pub(super) fn found(outcomes: &[SetOutcome], part: Lot) -> Sets<'_> {
     outcomes.iter().filter(|o| o.part == part).filter_map(|o| Some((o, o.named.as_ref()?))).collect()
 }
@@ -191,46 +189,31 @@ fn median(values: &[f64]) -> Option<f64> {
     (n > 0).then(|| 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]))
 }
 
-/// A cell of the confusion table while it is counted.
-#[derive(Default)]
-struct Count {
-    truth: String,
-    named: String,
-    count: usize,
-    lambdas: Vec<f64>,
-    behind: Vec<f64>,
-    detectable: Vec<f64>,
-}
+/// How often a truth had a name; λ, BIC behind and smallest size of these sets.
+type Cell = (usize, [Vec<f64>; 3]);
 
 /// Truth against the name on top, single effects, by truth and then by frequency.
 pub(super) fn confusion(outcomes: &[SetOutcome]) -> Vec<Confusion> {
-    let mut cells: Vec<Count> = Vec::new();
+    let mut cells: BTreeMap<(String, String), Cell> = BTreeMap::new();
     for (outcome, found) in found(outcomes, ONE) {
         let truth = names(&outcome.truth).join(" + ");
         let named = match found.answer.verdict.as_deref().unwrap_or_default() {
             "effect" => found.answer.ranked.first().cloned().unwrap_or_default(),
             other => other.to_string(),
         };
-        let at = cells.iter().position(|cell| cell.truth == truth && cell.named == named).unwrap_or_else(|| {
-            cells.push(Count { truth: truth.clone(), named: named.clone(), ..Count::default() });
-            cells.len() - 1
-        });
-        let cell = &mut cells[at];
-        cell.count += 1;
-        cell.lambdas.extend(found.separations.iter().find(|(rival, _)| *rival == truth).map(|(_, lambda)| *lambda));
-        cell.behind.extend(found.bic_behind);
-        cell.detectable.extend(found.smallest_detectable.filter(|_| named == "none"));
+        let lambda = found.separations.iter().find(|(rival, _)| *rival == truth).map(|(_, lambda)| *lambda);
+        let own = [lambda, found.bic_behind, found.smallest_detectable.filter(|_| named == "none")];
+        let (count, numbers) = cells.entry((truth, named)).or_default();
+        *count += 1;
+        numbers.iter_mut().zip(own).for_each(|(all, one)| all.extend(one));
     }
-    cells.sort_by(|a, b| (&a.truth, b.count, &a.named).cmp(&(&b.truth, a.count, &b.named)));
-    let finish = |cell: Count| Confusion {
-        lambda: median(&cell.lambdas),
-        bic_behind: median(&cell.behind),
-        smallest_detectable: median(&cell.detectable),
-        truth: cell.truth,
-        named: cell.named,
-        count: cell.count,
-    };
-    cells.into_iter().map(finish).collect()
+    let cells = cells.into_iter().map(|((truth, named), (count, numbers))| {
+        let [lambda, bic_behind, smallest_detectable] = numbers.map(|all| median(&all));
+        Confusion { truth, named, count, lambda, bic_behind, smallest_detectable }
+    });
+    let mut all: Vec<Confusion> = cells.collect();
+    all.sort_by(|a, b| (&a.truth, b.count, &a.named).cmp(&(&b.truth, a.count, &b.named)));
+    all
 }
 
 /// Figures of single effects by actuator, camera noise and runs.

@@ -9,10 +9,8 @@ use compare::error::CompareError;
 use compare::study::generate::Generator;
 use std::sync::{Mutex, PoisonError};
 
-/// Target agreement of the logarithms of two movements.
 const AGREED: f64 = 0.005;
 const ROUNDS: usize = 40;
-/// Largest step of the logarithm of an amount.
 const STEP: f64 = 1.5;
 
 /// Sizes of second laws found so far: they depend on actuator and effect alone.
@@ -21,12 +19,9 @@ static FOUND: Mutex<Vec<(String, &'static str, f64)>> = Mutex::new(Vec::new());
 impl HiddenEffect {
     /// Amount of a typical size in a robot of that actuator, SI. The size of a second law moves the markers of the usual robot
     /// as far as the first one's does, root mean square, under the standard protocol.
-    ///
-    /// # Errors
-    /// Not an actuator of [`truth::ROBOTS`]; no amount moves the markers so far.
-    pub fn typical(&self, laws: Laws, actuator: &str, robot: &TrueRobot) -> Result<f64, CompareError> {
+    pub(crate) fn typical(&self, laws: Laws, actuator: &str, robot: &TrueRobot) -> Result<f64, CompareError> {
         if laws.are_first() || self.is_outside() {
-            return Ok((self.law(laws).size)(robot));
+            return Ok(self.size(laws, robot));
         }
         let known = |found: &[(String, &'static str, f64)]| {
             found.iter().find(|(kind, name, _)| kind == actuator && *name == self.name).map(|(.., size)| *size)
@@ -42,8 +37,8 @@ impl HiddenEffect {
     /// Amount of the second law that moves the markers as far as a typical one of the first.
     fn matched(&self, usual: &TrueRobot) -> Result<f64, CompareError> {
         let base = ideal(usual, &Generator::default())?;
-        let wanted = self.moved(Laws::First, (self.law(Laws::First).size)(usual), usual, &base)?;
-        let mut amount = (self.law(Laws::Second).size)(usual).ln();
+        let wanted = self.moved(Laws::First, self.size(Laws::First, usual), usual, &base)?;
+        let mut amount = self.size(Laws::Second, usual).ln();
         let mut before: Option<[f64; 2]> = None;
         for _ in 0..ROUNDS {
             let Ok(moved) = self.moved(Laws::Second, amount.exp(), usual, &base) else {
@@ -66,7 +61,7 @@ impl HiddenEffect {
     /// How far an amount moves the markers, root mean square \[m\].
     fn moved(&self, laws: Laws, amount: f64, usual: &TrueRobot, base: &[f64]) -> Result<f64, CompareError> {
         let mut robot = usual.clone();
-        (self.law(laws).put)(&mut robot, amount);
+        self.put(laws, &mut robot, amount);
         let moved = ideal(&robot, &Generator::default())?;
         let square: f64 = moved.iter().zip(base).map(|(a, b)| (a - b).powi(2)).sum();
         Ok((square / base.len() as f64).sqrt())

@@ -11,7 +11,7 @@ use crate::wall::{CellMemory, CellWall};
 /// The usual robot with an amount of a second law.
 fn robot(kind: &str, name: &str, amount: f64) -> TrueRobot {
     let mut robot = TrueRobot::new(&usual(kind).unwrap()).unwrap();
-    (by_name(name).unwrap().law(Laws::Second).put)(&mut robot, amount);
+    by_name(name).unwrap().put(Laws::Second, &mut robot, amount);
     robot
 }
 
@@ -58,8 +58,8 @@ fn names_are_unique_and_every_entry_says_what_it_is() {
     for (i, effect) in all.iter().enumerate() {
         assert!(all[..i].iter().all(|other| other.name != effect.name), "{}", effect.name);
         let wanted = if i < HIDDEN.len() + ALSO.len() { 2 } else { 1 };
-        assert_eq!(effect.laws.len(), wanted, "{}", effect.name);
-        let is_told = effect.laws.iter().all(|law| !law.words.is_empty() && !law.unit.is_empty());
+        assert_eq!(effect.equations.len(), wanted, "{}", effect.name);
+        let is_told = effect.equations.iter().all(|words| !words.is_empty());
         assert!(effect.sentence.ends_with('.') && is_told, "{}", effect.name);
         assert_eq!(by_name(effect.name).map(|found| found.name), Some(effect.name));
     }
@@ -68,7 +68,7 @@ fn names_are_unique_and_every_entry_says_what_it_is() {
 #[test]
 fn both_laws_of_an_effect_differ_and_a_second_one_says_its_source() {
     for effect in HIDDEN {
-        let [first, second] = [Laws::First, Laws::Second].map(|laws| effect.law(laws).words);
+        let [first, second] = [Laws::First, Laws::Second].map(|laws| effect.equation(laws));
         assert!(first != second && second.contains(": "), "{}", effect.name);
     }
 }

@@ -64,6 +64,13 @@ impl Options {
     }
 }
 
+impl Options {
+    /// The same without a next experiment and without the missing moment, for a call that needs neither.
+    pub fn without_advice(self) -> Options {
+        Options { next_experiment: false, missing_moment: false, ..self }
+    }
+}
+
 impl Default for Options {
     fn default() -> Self {
         Options {

@@ -48,7 +48,6 @@ impl Knob {
         }
     }
 
-    /// Largest value searched, and the step of its derivative.
     fn reach(self, scenario: &Scenario) -> [f64; 2] {
         match self {
             Knob::Bending => [policy::MOST_BENDING, 1e-4],

@@ -240,7 +240,6 @@ pub fn loads(hold: &Hold, factor: f64) -> Loads {
     in_channels(hold.p_body_pa, hold.channels_pa().map(|p| p * factor))
 }
 
-/// The predicted markers' coordinates, marker by marker \[m\].
 pub(crate) fn coordinates(at: &Prediction, axes: usize) -> impl Iterator<Item = f64> + '_ {
     let place = |([x, y], z): (&[f64; 2], &f64)| [*x, *y, *z];
     at.markers.iter().zip(&at.markers_z_m).flat_map(move |marker| place(marker).into_iter().take(axes))

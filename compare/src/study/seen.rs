@@ -69,7 +69,6 @@ pub fn seen(runs: &[EngineRun], name: &str, generator: &Generator) -> Result<Dat
     })
 }
 
-/// Marker positions of a run at a pressure \[m\].
 fn at(run: &EngineRun, kpa: f64) -> Result<Vec<[f64; 2]>, CompareError> {
     let mut states: Vec<_> = run.states.iter().filter(|s| s.seen_mm.len() == run.stations_mm.len()).collect();
     let rising = states.windows(2).take_while(|pair| pair[1].actuator_kpa > pair[0].actuator_kpa).count();

@@ -1,4 +1,3 @@
-mod export;
 mod plan;
 mod several;
 
@@ -7,7 +6,7 @@ use crate::cli::SimulateArgs;
 use crate::prelude::*;
 use crate::shown::run::{cost_text, text};
 use fem::FemError;
-use fem::session::{Cost, FeRun, Further, SUMMARY, Settings, Source, Summary, simulate};
+use fem::session::{Cost, Export, FeRun, Further, SUMMARY, Settings, Solver, Source, Summary, export, simulate};
 use ibr::fe_source;
 use ibr::pages::run_plots;
 use plan::RunPlan;
@@ -16,12 +15,11 @@ use std::time::Duration;
 pub(super) fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome> {
     let plan = plan::plan(args, fe_source(&args.case)?)?;
     if let Some(file) = &args.export {
-        return export::written(args, &plan, file, context.force);
+        return exported(args, &plan, file, context.force);
     }
-    if args.from.is_some() && !matches!(plan, RunPlan::Single(_)) {
-        let help = "name one mesh and leave separate out, then go on from one run to another";
-        return Err(Failure::usage("--from goes on with one run, and this is several", help));
-    }
+    let help = "name one mesh and leave separate out, then go on from one run to another";
+    let message = "--from goes on with one run, and this is several";
+    refuse_if(args.from.is_some() && !matches!(plan, RunPlan::Single(_)), message, help)?;
     let folder = args.out.clone().unwrap_or_else(|| plan.folder(args));
     let settings = Settings {
         resume: args.resume,
@@ -48,6 +46,21 @@ pub(super) fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome>
         RunPlan::Table(base, variations) => several::table(&base, &variations, &settings, &args.shards, context),
         RunPlan::Uncertain(cube) => several::uncertain(&cube, args, settings, context),
     }
+}
+
+fn exported(args: &SimulateArgs, plan: &RunPlan, file: &Path, force: bool) -> Result<Outcome> {
+    let RunPlan::Single(source) = plan else {
+        let help = "leave out --seeds, --uncertain and further values of --mesh";
+        return Err(Failure::usage("--export writes one run, and this is several", help));
+    };
+    let help = "give --force to replace it, or another name";
+    let message = format!("{} exists already", file.display());
+    refuse_if(file.exists() && !force, message, help)?;
+    let solver = if args.solver.as_deref() == Some("calculix") { Solver::CalculiX } else { Solver::Abaqus };
+    let Export { nodes, elements, notices, left_out } = export(source, file, solver)?;
+    let text = format!("{}: {nodes} nodes, {elements} elements\n", file.display());
+    let left_out = left_out.into_iter().map(|what| format!("the file does not say: {what}"));
+    Ok(Outcome { text, notes: notices.into_iter().chain(left_out).collect(), ..Outcome::default() })
 }
 
 fn one(args: &SimulateArgs, source: &Source, settings: &Settings, context: &mut Context) -> Result<Outcome> {
@@ -105,7 +118,6 @@ fn notes(run: &FeRun, folder: &Path) -> Vec<String> {
     notes
 }
 
-/// Options that make the case what it is.
 fn typed_again(args: &SimulateArgs) -> String {
     let pressure = args.pressure.iter().map(|p| ("pressure", p));
     let others = args.mesh.iter().map(|m| ("mesh", m)).chain(args.set.iter().map(|s| ("set", s)));

@@ -19,7 +19,6 @@ pub(super) enum RunPlan {
 }
 
 impl RunPlan {
-    /// The folder of a case if none is named.
     pub(super) fn folder(&self, args: &SimulateArgs) -> PathBuf {
         let stem = Path::new(&args.case).file_stem().unwrap_or_default().to_string_lossy();
         let kind = match self {

@@ -24,7 +24,6 @@ mod search;
 #[cfg(test)]
 mod tests;
 mod wish;
-mod written;
 
 pub use misses::{Miss, misses_of_reading};
 pub use rounds::{Checked, End, Round, Rounds};

@@ -2,7 +2,6 @@
 
 use super::misses::{Miss, parts, worst_m};
 use super::wish::Wish;
-use super::written::commented;
 use crate::SweepError;
 use crate::axis::{Axis, Changes, as_number, channel};
 use crate::pieces::beside;
@@ -94,7 +93,6 @@ impl Design {
     }
 }
 
-/// A robot at one point of the ranges.
 struct Tried {
     file: ScenarioFile,
     model: Model,
@@ -208,7 +206,6 @@ impl Problem<'_> {
         self.wish.objective(shares) + self.near.map_or(0.0, |near| NEAR * self.wish.way(near, shares))
     }
 
-    /// From one point by simplex after simplex.
     fn solved(self) -> (f64, Vec<f64>) {
         let mut at: Vec<f64> = self.ranges.iter().map(|k| self.fixed[*k]).collect();
         let mut best = self.objective(&self.fixed);
@@ -338,4 +335,21 @@ fn held(wish: &Wish, shares: &[f64]) -> Vec<Held> {
     let mut found: Vec<Held> = wish.free.iter().enumerate().filter_map(one).collect();
     found.sort_by(|a, b| b.gain_m.total_cmp(&a.gain_m));
     found
+}
+
+/// The text with a comment at every chosen value. Other comments of the original robot stay: they name the sources of its values.
+fn commented(text: &str, chosen: &[(String, String)]) -> String {
+    let key = |place: &str| place.rsplit('.').next().unwrap_or(place).to_string();
+    let is_chosen = |line: &str| {
+        let (name, value) = line.split_once('=').map_or(("", ""), |(name, value)| (name.trim(), value.trim()));
+        let own =
+            chosen.iter().any(|(place, chosen)| channel(place).is_none() && key(place) == name && value == chosen);
+        own || name == "pressures_kpa" && chosen.iter().any(|(place, _)| channel(place).is_some())
+    };
+    let line = |line: &str| {
+        let bare = line.split('#').next().unwrap_or_default().trim_end();
+        if is_chosen(bare) { format!("{bare} # chosen\n") } else { format!("{line}\n") }
+    };
+    let head = "# Values marked `chosen` were chosen for a wish. Comments and notes about other values come from the original robot.\n";
+    text.lines().map(line).fold(head.to_string(), |all, line| all + &line)
 }

@@ -22,7 +22,6 @@ pub fn facts(paper: &Published, runs: &[PaperRun]) -> Vec<FactRow> {
     paper.facts.iter().map(row).collect()
 }
 
-/// What a check that finds nothing lacks.
 fn missing(id: &str) -> &'static str {
     match id {
         "patterns" => "readings hold no shape of the folds; the pictures of ibr simulate show them",

@@ -48,7 +48,6 @@ pub struct FactRow {
 /// What a check found, in words, and what follows; `None` without the numbers or runs that it needs.
 pub(super) type FactFound = Option<(String, FactVerdict)>;
 
-/// Name of a fact and its check.
 pub(super) type FactCheck = (&'static str, fn(&FactCase) -> FactFound);
 
 pub(super) fn holds_if(holds: bool, found: String, else_by: impl Into<String>) -> FactFound {

@@ -34,27 +34,31 @@ pub(super) fn additions(paper: &Published, actuator: &ActuatorChoice) -> Vec<Mec
     match actuator.kind.family {
         Family::Mckibben => muscle(fabric),
         Family::Pouch if actuator.in_wall() => pouch(fabric),
-        Family::Pouch => std::iter::once(GROWTH).chain(pouch(fabric)).collect(),
+        Family::Pouch => {
+            let why = "geometry of an actuator outside the body: its axis rides on its own bulge";
+            std::iter::once(MechanicsPart::predicted("arm_growth", 1.0, why)).chain(pouch(fabric)).collect()
+        }
     }
 }
 
-const GROWTH: MechanicsPart = MechanicsPart {
-    effect: "arm_growth",
-    value: 1.0,
-    range: None,
-    known: Known::Predicted,
-    why: "geometry of an actuator outside the body: its axis rides on its own bulge",
-};
+impl MechanicsPart {
+    fn predicted(effect: &'static str, value: f64, why: &'static str) -> MechanicsPart {
+        MechanicsPart { effect, value, range: None, known: Known::Predicted, why }
+    }
+
+    fn assumed(effect: &'static str, value: f64, range: Option<[f64; 2]>, why: &'static str) -> MechanicsPart {
+        MechanicsPart { effect, value, range, known: Known::Assumed, why }
+    }
+}
 
 fn pouch(fabric: &PublishedFabric) -> Vec<MechanicsPart> {
-    let predicted = |effect, value, why| MechanicsPart { effect, value, range: None, known: Known::Predicted, why };
-    let assumed =
-        |effect, value, range, why| MechanicsPart { effect, value, range: Some(range), known: Known::Assumed, why };
+    let (predicted, assumed) = (MechanicsPart::predicted, MechanicsPart::assumed);
     // A neo-Hookean sheet in its plane is 8 C10 stiff, as in the finite elements.
     let modulus_pa = fabric.c10_printed.map_or(0.5 * (fabric.e0_pa + fabric.e90_pa), |c10| 8e6 * c10);
     let bending = |factor: f64| factor * modulus_pa * fabric.thickness_m.powi(3) / 12.0;
+    let crimped = |width_m: f64| 0.5 * modulus_pa * fabric.thickness_m.powi(3) * width_m;
     vec![
-        assumed("weld_width", WELD_M.0, WELD_M.1, "welds of 3 mm; a line to a wide impulse seal"),
+        assumed("weld_width", WELD_M.0, Some(WELD_M.1), "welds of 3 mm; a line to a wide impulse seal"),
         predicted("chord_arm", 1.0, "the weld lines are chords of the body, not arcs"),
         predicted("displaced_gas", 0.5, "half of a lens in the wall is in the body"),
         predicted("gussets", 1.0, "side folds open as far as the diagonals allow which the ends hold"),
@@ -62,13 +66,13 @@ fn pouch(fabric: &PublishedFabric) -> Vec<MechanicsPart> {
         assumed(
             "fold_energy",
             bending(BENDING.0),
-            BENDING.1.map(bending),
+            Some(BENDING.1.map(bending)),
             "0.2 of a solid sheet; droop of a coated nylon, measured by others: 0.1 to 0.5",
         ),
         assumed(
             "crimped_sides",
-            0.5 * modulus_pa * fabric.thickness_m.powi(3) * WELD_M.0,
-            WELD_M.1.map(|width_m| 0.5 * modulus_pa * fabric.thickness_m.powi(3) * width_m),
+            crimped(WELD_M.0),
+            Some(WELD_M.1.map(crimped)),
             "two bonded plies in side welds as wide as the others",
         ),
         predicted(
@@ -80,25 +84,16 @@ fn pouch(fabric: &PublishedFabric) -> Vec<MechanicsPart> {
 }
 
 fn muscle(fabric: &PublishedFabric) -> Vec<MechanicsPart> {
-    let predicted = |effect, value, why| MechanicsPart { effect, value, range: None, known: Known::Predicted, why };
+    let (predicted, assumed) = (MechanicsPart::predicted, MechanicsPart::assumed);
     let wall_n_per_m = 0.5 * (fabric.e0_pa + fabric.e90_pa) * fabric.thickness_m;
+    let range = Some([(1.0 - 2.0 * NU12) / wall_n_per_m, 1.0 / wall_n_per_m]);
+    let published = "published E0, E90 and thickness; nu12 = 0.2 (0 to 0.4) is not printed";
+    let glued = "glued over its whole width to a wall of the same fabric";
     let mut list = vec![
         predicted("sunk_muscle", 1.0, "a tube glued over its flat width is half in the wall"),
         predicted("flat_ends", 2.0, "both ends stay flat"),
-        MechanicsPart {
-            effect: "yarn_stretch",
-            value: (1.0 - NU12) / wall_n_per_m,
-            range: Some([(1.0 - 2.0 * NU12) / wall_n_per_m, 1.0 / wall_n_per_m]),
-            known: Known::Assumed,
-            why: "published E0, E90 and thickness; nu12 = 0.2 (0 to 0.4) is not printed",
-        },
-        MechanicsPart {
-            effect: "glued_face",
-            value: wall_n_per_m,
-            range: None,
-            known: Known::Assumed,
-            why: "glued over its whole width to a wall of the same fabric",
-        },
+        assumed("yarn_stretch", (1.0 - NU12) / wall_n_per_m, range, published),
+        assumed("glued_face", wall_n_per_m, None, glued),
     ];
     let shear_pa = fabric.e45_pa.map(|e45_pa| shear_modulus(fabric.e0_pa, fabric.e90_pa, e45_pa, 0.0));
     if let Some(Ok(shear_pa)) = shear_pa {
