@@ -49,6 +49,8 @@ site() {
   docs/site.sh > "$files/site.log" || { [ $? = 3 ] && cat "$files/site.log" && return; }
   tar czf "$files/ibr-site-$version.tar.gz" -C target/site book
 }
+# The text of the tag is the version's chapter of the change log.
+{ echo "ibr $version" && sed -n "/^## $version /,/^## /{/^## /d;p}" CHANGELOG.md; } > "$files/tag.txt"
 for part in ${*:-page program wheel capi site}; do
   "$part"
 done
