@@ -86,7 +86,6 @@ pub(crate) struct SideEffects {
 }
 
 impl SideEffects {
-    /// Of a term that shifts the balance.
     pub(crate) const SHIFT: SideEffects =
         SideEffects { closes: 0.0, narrows: 0.0, shifts_balance: true, tabulated_from: 0.0 };
 }
@@ -135,7 +134,6 @@ pub(crate) struct SiteLoads {
 }
 
 impl SiteLoads {
-    /// Pressures alone.
     pub(crate) const fn new(p_body_pa: f64, p_act_pa: f64) -> SiteLoads {
         SiteLoads { p_body_pa, p_act_pa, moment: 0.0, s_m: 0.0, dt_s: 0.0, stamp: 0 }
     }
@@ -181,7 +179,6 @@ impl Balance {
     }
 }
 
-/// Pressures close enough for one solution to start the other.
 fn close(p: f64, q: f64) -> bool {
     (p - q).abs() < 0.2 * q
 }
@@ -231,7 +228,6 @@ impl Site {
     }
 
     /// Shear stiffness of the body `πR²p_b + πR G t` \[N\]; infinite where it is rigid.
-    ///
     /// Fichter 1966; Le van & Wielgosz 2005: the pressure's part is exact for a membrane, a round wall's is half of its area.
     pub fn shear_stiffness_n(&self, p_body_pa: f64) -> f64 {
         let (r, wall) = (self.radius_m, self.wall_shear_n_per_m);

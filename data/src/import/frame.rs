@@ -392,7 +392,6 @@ impl Moved {
         Some([x, towards(cross(normal, x), by)])
     }
 
-    /// The markers nearest to the base and farthest from it along an axis.
     fn ends(&self, axis: usize) -> Option<[usize; 2]> {
         let by = |a: &usize, b: &usize| self.rest[*a][axis].abs().total_cmp(&self.rest[*b][axis].abs());
         let seen = || (0..self.rest.len()).filter(|k| self.rest[*k][0].is_finite());
