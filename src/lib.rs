@@ -43,8 +43,6 @@
 //! | [`program`] | the command line as one call |
 //! | [`studies`] | robots in finite elements that come with the library by name |
 
-#![warn(unreachable_pub)]
-
 // The commands say `ibr::` as any program would.
 extern crate self as ibr;
 

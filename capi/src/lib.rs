@@ -3,7 +3,6 @@
 //! A robot is put together once by [`ibr_open`]. Every other call allocates nothing and returns [`IBR_OK`] or why not; the words
 //! are then in [`ibr_error`]. No panic crosses the border. One handle belongs to one thread at a time.
 
-#![warn(unreachable_pub)]
 #![allow(non_camel_case_types, reason = "names as C has them")]
 
 mod text;

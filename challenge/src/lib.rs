@@ -9,8 +9,6 @@
 //! catalogue's entry of the same name, as real robots do. There are two such laws of each, chosen by [`Laws`]. Quasi-static: at every instant each cell balances, with what it
 //! remembers of friction, creep and set.
 
-#![warn(unreachable_pub)]
-
 pub mod bench;
 mod camera;
 mod drive;

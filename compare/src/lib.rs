@@ -7,8 +7,6 @@
 //! What a user does: [`ScenarioFile`] and [`Evidence`] → [`compare`] → [`diagnose`] → [`extend`] → [`validate`] on other data;
 //! [`ladder`](fn@ladder) repeats the middle.
 
-#![warn(unreachable_pub)]
-
 pub mod characterize;
 pub mod demo;
 pub mod diagnosis;

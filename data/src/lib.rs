@@ -3,8 +3,6 @@
 //! `data` reads marker tables ([`read_markers`], [`load()`]), their descriptions ([`About`]) and the numbers of the
 //! reference paper ([`published()`]); it converts units on reading and never sees a model.
 
-#![warn(unreachable_pub)]
-
 pub mod about;
 mod agreement;
 mod align;

@@ -20,8 +20,6 @@
 //!
 //! `fem` never sees a measurement.
 
-#![warn(unreachable_pub)]
-
 mod amplitude;
 mod bytes;
 pub mod case;

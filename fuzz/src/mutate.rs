@@ -2,11 +2,11 @@
 
 /// Splitmix64: small, and the same everywhere.
 #[derive(Debug, Clone)]
-pub struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
     /// The numbers of one case: they depend on nothing but these two.
-    pub fn of(seed: u64, case: u64) -> Random {
+    pub(crate) fn of(seed: u64, case: u64) -> Random {
         let mut random = Random(seed ^ case.wrapping_mul(0x9e37_79b9_7f4a_7c15));
         random.next();
         random
@@ -21,7 +21,7 @@ impl Random {
     }
 
     /// A whole number below `count`; 0 if that is 0.
-    pub fn below(&mut self, count: usize) -> usize {
+    pub(crate) fn below(&mut self, count: usize) -> usize {
         if count == 0 { 0 } else { (self.next() % count as u64) as usize }
     }
 
@@ -105,7 +105,7 @@ const PIECES: &[&str] = &[
 const MOST_BYTES: usize = 200_000;
 
 /// A broken input: one of the good ones, changed once or a few times.
-pub fn broken(corpus: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
+pub(crate) fn broken(corpus: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
     let mut bytes = random.one_of(corpus).clone();
     for _ in 0..1 + random.below(2) * random.below(6) {
         bytes = changed(bytes, corpus, random);

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 #[derive(Debug)]
-pub struct Reader {
+pub(crate) struct Reader {
     pub name: &'static str,
     good: Good,
     /// Reads, as the program does; whether it was read without an error.
@@ -32,7 +32,7 @@ const fn made(name: &'static str, make: fn() -> Vec<Vec<u8>>, read: fn(&[u8]) ->
     Reader { name, good: Good::Made(make), read }
 }
 
-pub const READERS: &[Reader] = &[
+pub(crate) const READERS: &[Reader] = &[
     made("scenario", scenarios, scenario),
     made("formula", formulas, formula),
     of(
@@ -125,7 +125,7 @@ pub const READERS: &[Reader] = &[
 ];
 
 impl Reader {
-    pub fn corpus(&self) -> Vec<Vec<u8>> {
+    pub(crate) fn corpus(&self) -> Vec<Vec<u8>> {
         match self.good {
             Good::Files(files) => {
                 files.iter().map(|file| std::fs::read(repository(file)).unwrap_or_default()).collect()

@@ -11,11 +11,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// No small file takes longer to read.
-pub const LONGEST: Duration = Duration::from_secs(20);
+pub(crate) const LONGEST: Duration = Duration::from_secs(20);
 /// No small file needs more memory, all requests added up.
-pub const MOST_MEMORY: usize = 1 << 30;
+pub(crate) const MOST_MEMORY: usize = 1 << 30;
 
-pub struct Fault {
+pub(crate) struct Fault {
     /// Different faults: places of panics, and reasons.
     pub kinds: usize,
     /// Inputs that were read without an error.
@@ -26,7 +26,7 @@ pub struct Fault {
 /// The case that a reader works on.
 type Current = Option<(u64, Instant, Vec<u8>)>;
 
-pub struct Watched<'r> {
+pub(crate) struct Watched<'r> {
     reader: &'r Reader,
     keep: PathBuf,
     current: Arc<Mutex<Current>>,
@@ -39,7 +39,7 @@ pub struct Watched<'r> {
 static PANIC: Mutex<String> = Mutex::new(String::new());
 
 impl<'r> Watched<'r> {
-    pub fn new(reader: &'r Reader, keep: &Path) -> Watched<'r> {
+    pub(crate) fn new(reader: &'r Reader, keep: &Path) -> Watched<'r> {
         std::panic::set_hook(Box::new(|panic| {
             let place = panic.location().map(ToString::to_string).unwrap_or_default();
             *PANIC.lock().unwrap_or_else(PoisonError::into_inner) = place;
@@ -76,7 +76,7 @@ impl<'r> Watched<'r> {
         });
     }
 
-    pub fn feed(&mut self, case: u64, input: Vec<u8>, counting: &StatsAlloc<System>) {
+    pub(crate) fn feed(&mut self, case: u64, input: Vec<u8>, counting: &StatsAlloc<System>) {
         let now = |value: Current| *self.current.lock().unwrap_or_else(PoisonError::into_inner) = value;
         now(Some((case, Instant::now(), input.clone())));
         let region = Region::new(counting);
@@ -105,7 +105,7 @@ impl<'r> Watched<'r> {
         }
     }
 
-    pub fn end(self) -> Fault {
+    pub(crate) fn end(self) -> Fault {
         self.over.store(true, Ordering::Relaxed);
         Fault { kinds: self.kinds.len(), read: self.read, seconds: self.began.elapsed().as_secs_f64() }
     }

@@ -11,8 +11,6 @@
 //! assert!((state.markers[5][1] - 0.16155).abs() < 1e-6);
 //! ```
 
-#![warn(unreachable_pub)]
-
 pub mod actuators;
 mod assemble;
 pub mod assembly;

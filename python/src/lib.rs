@@ -1,8 +1,6 @@
 //! The native part of the Python package `ibr`: every call is one of the library `ibr`, with kPa, mm and degrees outside and numpy
 //! arrays for lists. It holds no physics and decides nothing; `python/ibr/` gives results their Python form.
 
-#![warn(unreachable_pub)]
-
 mod answers;
 mod arrays;
 mod errors;

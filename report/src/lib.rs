@@ -5,8 +5,6 @@
 //! [`ReportError::NothingToDraw`]. The drawings are 520 design pixels wide, so that text stays readable at 360 px and at 1200 px.
 //! A page is a template of `templates/`, which has its words, filled with plain values ([`page::render`]).
 
-#![warn(unreachable_pub)]
-
 mod axis;
 pub mod chart;
 mod draw;

@@ -1,8 +1,6 @@
 //! What people type: the nearest known name for a misspelling, rows of exactly so many numbers, units. And files and folders: read
 //! whole, and written whole or not at all.
 
-#![warn(unreachable_pub)]
-
 pub mod files;
 pub mod folders;
 pub mod quantity;

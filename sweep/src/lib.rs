@@ -7,8 +7,6 @@
 //! A part is some cases that are computed together. Its file is named by the hash of all that its numbers depend on. So nothing is
 //! computed twice, a killed sweep goes on where it was, and a shard is nothing but every N-th part.
 
-#![warn(unreachable_pub)]
-
 mod axis;
 mod columns;
 pub mod design;

@@ -4,7 +4,7 @@ use crate::refused::refuse;
 use crate::support::Folder;
 
 /// An ePAM on a coarse mesh, inflated in a hundredth of a second, and an angle of its tip: what it gives is no result.
-pub fn with_wish(tolerance: f64) -> Folder {
+pub(crate) fn with_wish(tolerance: f64) -> Folder {
     let folder = Folder::new();
     let quick = "\n[fem]\nbody_mesh_mm = 14\nactuator_mesh_mm = 14\nbody_ramp_s = 0.004\nactuator_ramp_s = 0.006\nguard_hourglass = 1\n";
     folder.write("quick.toml", models::shipped("epam").unwrap().to_string() + quick);

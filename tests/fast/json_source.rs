@@ -1,7 +1,7 @@
 //! What `json_types` reads in the sources: fields, variants and doc comments as `rustfmt` leaves them, and units in names of keys.
 
 #[derive(Debug, Clone, Default)]
-pub struct Field {
+pub(crate) struct Field {
     pub name: String,
     pub kind: String,
     pub docs: String,
@@ -9,7 +9,7 @@ pub struct Field {
 }
 
 #[derive(Debug, Clone)]
-pub enum Shape {
+pub(crate) enum Shape {
     Record(Vec<Field>),
     /// An enum without data: these words.
     Words(Vec<String>),
@@ -18,21 +18,21 @@ pub enum Shape {
     Alias(String),
 }
 
-pub fn between<'t>(text: &'t str, start: &str, end: char) -> Option<&'t str> {
+pub(crate) fn between<'t>(text: &'t str, start: &str, end: char) -> Option<&'t str> {
     let (_, rest) = text.split_once(start)?;
     rest.split_once(end).map(|(inside, _)| inside)
 }
 
 /// Documentation and attributes before an item.
 #[derive(Default)]
-pub struct Before {
+pub(crate) struct Before {
     pub docs: Vec<String>,
     pub attributes: String,
 }
 
 impl Before {
     /// Takes a line that belongs to it; false for any other line.
-    pub fn takes(&mut self, line: &str) -> bool {
+    pub(crate) fn takes(&mut self, line: &str) -> bool {
         if let Some(doc) = line.strip_prefix("///") {
             self.docs.push(doc.trim().to_string());
         } else if line.starts_with("#[") {
@@ -43,13 +43,13 @@ impl Before {
         true
     }
 
-    pub fn docs(&self) -> String {
+    pub(crate) fn docs(&self) -> String {
         self.docs.iter().take_while(|line| !line.is_empty()).cloned().collect::<Vec<_>>().join(" ")
     }
 }
 
 /// `snake_case` or `lowercase` of a variant.
-pub fn renamed(variant: &str, attributes: &str) -> String {
+pub(crate) fn renamed(variant: &str, attributes: &str) -> String {
     match between(attributes, "rename_all = \"", '"') {
         Some("lowercase") => variant.to_lowercase(),
         Some("snake_case") => {
@@ -60,7 +60,7 @@ pub fn renamed(variant: &str, attributes: &str) -> String {
     }
 }
 
-pub fn fields<'l>(lines: &mut impl Iterator<Item = &'l str>) -> Vec<Field> {
+pub(crate) fn fields<'l>(lines: &mut impl Iterator<Item = &'l str>) -> Vec<Field> {
     let (mut fields, mut before) = (Vec::new(), Before::default());
     while let Some(line) = lines.next().filter(|line| *line != "}") {
         let line = line.trim();
@@ -79,7 +79,7 @@ pub fn fields<'l>(lines: &mut impl Iterator<Item = &'l str>) -> Vec<Field> {
     fields
 }
 
-pub fn variants<'l>(lines: &mut impl Iterator<Item = &'l str>, attributes: &str) -> Shape {
+pub(crate) fn variants<'l>(lines: &mut impl Iterator<Item = &'l str>, attributes: &str) -> Shape {
     let (mut words, mut types, mut before) = (Vec::new(), Vec::new(), Before::default());
     for line in lines.take_while(|line| *line != "}") {
         let line = line.trim();
@@ -116,7 +116,7 @@ pub fn variants<'l>(lines: &mut impl Iterator<Item = &'l str>, attributes: &str)
 }
 
 /// What a doc comment says of a key, and its unit.
-pub fn meaning(docs: &str, name: &str) -> (String, String) {
+pub(crate) fn meaning(docs: &str, name: &str) -> (String, String) {
     let stated = between(docs, "\\[", '\\').filter(|unit| *unit != "-");
     let mut text = docs.to_string();
     if let Some(unit) = stated {
@@ -129,7 +129,7 @@ pub fn meaning(docs: &str, name: &str) -> (String, String) {
 }
 
 /// Ends of keys, the longest first, and their units.
-pub const UNITS: [(&str, &str); 31] = [
+pub(crate) const UNITS: [(&str, &str); 31] = [
     ("_mm_per_kpa", "mm/kPa"),
     ("_deg_per_kpa", "°/kPa"),
     ("_nm_per_kpa", "N·m/kPa"),
@@ -163,6 +163,6 @@ pub const UNITS: [(&str, &str); 31] = [
     ("_g", "g"),
 ];
 
-pub fn unit_of(name: &str) -> Option<&'static str> {
+pub(crate) fn unit_of(name: &str) -> Option<&'static str> {
     UNITS.iter().find(|(end, _)| name.ends_with(end)).map(|(_, unit)| *unit)
 }

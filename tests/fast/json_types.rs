@@ -29,7 +29,7 @@ This page is made from the types: `IBR_WRITE_JSON_MD=1 cargo test --test fast js
 
 /// One key of a record, as a row of the page.
 #[derive(Debug, Clone)]
-pub struct JsonKey {
+pub(crate) struct JsonKey {
     pub name: String,
     /// Type of its value, as the page prints it.
     pub kind: String,
@@ -50,7 +50,7 @@ struct Type {
 }
 
 /// All types that are written as JSON.
-pub struct Types {
+pub(crate) struct Types {
     by_name: BTreeMap<String, Vec<Type>>,
     uses: BTreeMap<String, Vec<String>>,
     /// Records that were met, and the file of each.
@@ -59,7 +59,7 @@ pub struct Types {
 
 impl Types {
     /// Reads the types of all sources of [`CRATES`].
-    pub fn read() -> Types {
+    pub(crate) fn read() -> Types {
         let mut types = Types { by_name: BTreeMap::new(), uses: BTreeMap::new(), met: RefCell::default() };
         for part in CRATES {
             let root = repository().join(part);
@@ -243,7 +243,7 @@ impl Types {
     }
 
     /// Answers by their schema: what is typed for one, and its keys.
-    pub fn answers(&self) -> BTreeMap<String, (String, Vec<JsonKey>)> {
+    pub(crate) fn answers(&self) -> BTreeMap<String, (String, Vec<JsonKey>)> {
         let schema = |found: &Type| {
             let rest = found.docs.strip_prefix("`ibr.")?;
             let (name, typed) = rest.split_once("`: ")?;
@@ -253,7 +253,7 @@ impl Types {
     }
 
     /// All records that these keys lead to, by name.
-    pub fn records<'k>(&self, from: impl Iterator<Item = &'k JsonKey>) -> BTreeMap<String, Vec<JsonKey>> {
+    pub(crate) fn records<'k>(&self, from: impl Iterator<Item = &'k JsonKey>) -> BTreeMap<String, Vec<JsonKey>> {
         let mut found: BTreeMap<String, Vec<JsonKey>> = BTreeMap::new();
         let mut next: BTreeSet<String> = from.flat_map(records_of).collect();
         while let Some(name) = next.pop_first() {
@@ -266,7 +266,7 @@ impl Types {
     }
 
     /// The whole page as Markdown: answers, then records.
-    pub fn page(&self) -> String {
+    pub(crate) fn page(&self) -> String {
         let (mut page, answers) = (HEAD.to_string() + "## Answers\n", self.answers());
         for (schema, (typed, keys)) in &answers {
             let version = if schema == "ibr.bench" { 2 } else { 1 };

@@ -3,11 +3,11 @@
 use crate::support::Folder;
 
 /// The manifest of a folder with a report.
-pub const MANIFEST: &str =
+pub(crate) const MANIFEST: &str =
     r#"{"schema": "ibr.manifest", "version": 1, "outputs": [{"name": "report.html", "sha256": ""}]}"#;
 
 /// A folder with an earlier report, which no refused command may touch.
-pub fn with_report() -> Folder {
+pub(crate) fn with_report() -> Folder {
     let folder = Folder::new();
     folder.write("report/report.html", "<p>an earlier report");
     folder.write("report/manifest.json", MANIFEST);
@@ -16,7 +16,7 @@ pub fn with_report() -> Folder {
 
 /// Runs a command that must be refused: with this code, nothing on standard output but an object with `--json`, these words in the message (which
 /// may be wrapped), no panic, and not one byte changed on disk.
-pub fn refuse(folder: &Folder, args: &[&str], code: i32, words: &[&str]) {
+pub(crate) fn refuse(folder: &Folder, args: &[&str], code: i32, words: &[&str]) {
     let before = folder.contents();
     let ran = folder.run(args);
     let message = unwrapped(&ran.stderr);

@@ -5,7 +5,7 @@ use crate::support::{Folder, assert_hashes};
 use serde_json::Value;
 
 /// A pillow airbag of few elements for a hundredth of a second.
-pub fn small() -> String {
+pub(crate) fn small() -> String {
     let text = fem::case::shipped_case("pillow").unwrap();
     let mut small = text.replace("elements = 32 ", "elements = 8 ").replace("end_s = 0.15", "end_s = 0.01");
     small = small.replace("output_every_s = 0.005", "output_every_s = 0.002");

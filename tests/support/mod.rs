@@ -6,49 +6,49 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// A folder that is deleted with the test.
-pub struct Folder(tempfile::TempDir);
+pub(crate) struct Folder(tempfile::TempDir);
 
 /// What one run of `ibr` did.
-pub struct Ran {
+pub(crate) struct Ran {
     /// Exit code; -1 if a signal ended it.
     pub code: i32,
     pub stdout: String,
     pub stderr: String,
 }
 
-pub fn repository() -> PathBuf {
+pub(crate) fn repository() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
 impl Folder {
-    pub fn new() -> Folder {
+    pub(crate) fn new() -> Folder {
         Folder(tempfile::tempdir().expect("a temporary folder"))
     }
 
-    pub fn path(&self, name: &str) -> PathBuf {
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }
 
     /// Writes a file, with the folders above it.
-    pub fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+    pub(crate) fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
         let path = self.path(name);
         std::fs::create_dir_all(path.parent().expect("a parent")).expect("a folder");
         std::fs::write(path, bytes).expect("a file");
     }
 
     /// The command `ibr` with this folder as its current one.
-    pub fn ibr(&self, args: &[&str]) -> Command {
+    pub(crate) fn ibr(&self, args: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_ibr"));
         command.args(args).current_dir(self.0.path()).env("NO_COLOR", "1");
         command
     }
 
-    pub fn run(&self, args: &[&str]) -> Ran {
+    pub(crate) fn run(&self, args: &[&str]) -> Ran {
         Ran::from(self.ibr(args).output().expect("ibr starts"))
     }
 
     /// Every file below this folder, hidden ones too, with its contents.
-    pub fn contents(&self) -> BTreeMap<PathBuf, Vec<u8>> {
+    pub(crate) fn contents(&self) -> BTreeMap<PathBuf, Vec<u8>> {
         let mut found = BTreeMap::new();
         collect(self.0.path(), &mut found);
         found
@@ -79,7 +79,7 @@ impl From<Output> for Ran {
 
 impl Ran {
     /// Standard output, which must be one JSON object with this schema, version 1, and nothing else.
-    pub fn json(&self, schema: &str) -> serde_json::Value {
+    pub(crate) fn json(&self, schema: &str) -> serde_json::Value {
         // A bench that misses what is wanted ends with 1; a shared machine is slow at times.
         let bench = schema.starts_with("ibr.bench");
         let failed = schema == "ibr.error" && self.code > 1;
@@ -94,7 +94,7 @@ impl Ran {
 }
 
 /// A page that fetches nothing: no link, script or picture of another place.
-pub fn assert_opens_offline(html: &str) {
+pub(crate) fn assert_opens_offline(html: &str) {
     assert!(html.starts_with("<!doctype html>") || html.starts_with("<!DOCTYPE html>"), "{}", &html[..60]);
     assert!(html.trim_end().ends_with("</html>"), "the page is cut short");
     for fetched in
@@ -106,7 +106,7 @@ pub fn assert_opens_offline(html: &str) {
 }
 
 /// The names in the manifest of a folder, each a file with the hash that the manifest gives.
-pub fn assert_hashes(folder: &Path) -> Vec<String> {
+pub(crate) fn assert_hashes(folder: &Path) -> Vec<String> {
     let text = std::fs::read_to_string(folder.join("manifest.json")).expect("a manifest");
     let manifest: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let outputs = manifest["outputs"].as_array().expect("outputs");

@@ -8,8 +8,6 @@
 //!
 //! Uses the libraries as anybody would; none of them knows of it.
 
-#![warn(unreachable_pub)]
-
 pub mod checks;
 mod cost;
 pub mod exact;

@@ -5,12 +5,12 @@ use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 /// P(F > f).
-pub fn f_tail(f: f64, numerator: usize, denominator: usize) -> f64 {
+pub(crate) fn f_tail(f: f64, numerator: usize, denominator: usize) -> f64 {
     FisherSnedecor::new(numerator as f64, denominator as f64).unwrap().sf(f)
 }
 
 /// Mean over some of the runs.
-pub fn mean(data: &Dataset, is_in: impl Fn(usize) -> bool) -> DVector<f64> {
+pub(crate) fn mean(data: &Dataset, is_in: impl Fn(usize) -> bool) -> DVector<f64> {
     let runs: Vec<usize> = (0..data.runs.len()).filter(|run| is_in(*run)).collect();
     let sum = runs
         .iter()
@@ -19,7 +19,7 @@ pub fn mean(data: &Dataset, is_in: impl Fn(usize) -> bool) -> DVector<f64> {
 }
 
 /// Scatter of single holds: of every kind Z Zᵀ of all values, and its variance in one run, best estimate and as in tests.
-pub struct Held {
+pub(crate) struct Held {
     pub kinds: Vec<(DMatrix<f64>, f64, f64)>,
     /// σ² of single values with its degrees of freedom, where errors last through a hold.
     pub lasting: Option<(f64, usize)>,
@@ -27,7 +27,7 @@ pub struct Held {
 
 impl Held {
     /// MINQUE of the hold means with dense matrices; `u` are the errors of runs, σ² that of single values with so many degrees of freedom.
-    pub fn of(data: &Dataset, u: &DMatrix<f64>, (sigma2, sigma_dof): (f64, usize)) -> Held {
+    pub(crate) fn of(data: &Dataset, u: &DMatrix<f64>, (sigma2, sigma_dof): (f64, usize)) -> Held {
         let (holds, samples, width) = (data.holds.len(), data.samples_per_hold, 2 * data.markers.len());
         let (n, cells, dof) = (data.values_per_run(), holds * width, (data.runs.len() - 1) as f64);
         if holds < 3 || data.runs.len() < 3 {
@@ -99,7 +99,7 @@ impl Held {
     }
 
     /// Covariance of all values of one run as in tests.
-    pub fn tested(&self, values: usize) -> DMatrix<f64> {
+    pub(crate) fn tested(&self, values: usize) -> DMatrix<f64> {
         self.kinds.iter().fold(DMatrix::zeros(values, values), |sum, (zz, _, tested)| sum + zz * *tested)
     }
 }

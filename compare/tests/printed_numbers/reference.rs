@@ -4,7 +4,7 @@
 //! Σ = σ²/R I + U diag(v) Uᵀ + Σ_k w_k/R Z_k Z_kᵀ      U = [∂f/∂ln p, δx, δy, rotation]      θ̂ = argmin (f − y)ᵀ Σ⁻¹ (f − y)
 //! ```
 
-pub use crate::held::f_tail;
+pub(crate) use crate::held::f_tail;
 use crate::held::{Held, mean};
 use crate::robots::positions;
 use data::{Dataset, Hold};
@@ -20,7 +20,7 @@ fn quantile_of_t(p: f64, dof: f64) -> f64 {
 }
 
 /// Noise of the mean of a dataset.
-pub struct Noise {
+pub(crate) struct Noise {
     runs: usize,
     sigma2: f64,
     /// Degrees of freedom of the estimate of σ².
@@ -79,7 +79,7 @@ impl Noise {
     }
 
     /// Mean variance of some values of the mean, best estimate \[m²\].
-    pub fn mean_square(&self, rows: &[usize]) -> f64 {
+    pub(crate) fn mean_square(&self, rows: &[usize]) -> f64 {
         let shared = |i: &usize| (0..4).map(|j| self.u[(*i, j)].powi(2) * self.of_mean[j]).sum::<f64>();
         let held =
             |i: &usize| self.held.kinds.iter().map(|(zz, w, _)| zz[(*i, *i)] * w).sum::<f64>() / self.runs as f64;
@@ -89,7 +89,7 @@ impl Noise {
 }
 
 /// Where a fit ended: whitened residuals, and their derivatives.
-pub struct Fit {
+pub(crate) struct Fit {
     /// Bending stiffnesses, then the values of the effect.
     pub at: Vec<f64>,
     rest: DVector<f64>,
@@ -97,11 +97,11 @@ pub struct Fit {
 }
 
 impl Fit {
-    pub fn cost(&self) -> f64 {
+    pub(crate) fn cost(&self) -> f64 {
         self.rest.norm_squared()
     }
 
-    pub fn covariance(&self) -> DMatrix<f64> {
+    pub(crate) fn covariance(&self) -> DMatrix<f64> {
         self.slope.tr_mul(&self.slope).try_inverse().unwrap()
     }
 }
@@ -146,7 +146,7 @@ fn here(residuals: &Residuals, at: &[f64]) -> Fit {
 }
 
 /// A base, data and their noise; one bending stiffness for every level of the body pressure.
-pub struct Reference<'a> {
+pub(crate) struct Reference<'a> {
     base: &'a Scenario,
     data: Vec<&'a Dataset>,
     levels_pa: Vec<f64>,
@@ -160,12 +160,12 @@ pub struct Reference<'a> {
 
 impl<'a> Reference<'a> {
     /// The noise needs ∂f/∂ln p, which needs the fitted B, which needs the noise: two rounds.
-    pub fn of(base: &'a Scenario, data: &[&'a Dataset], levels_pa: &[f64]) -> Reference<'a> {
+    pub(crate) fn of(base: &'a Scenario, data: &[&'a Dataset], levels_pa: &[f64]) -> Reference<'a> {
         Reference::with_tests(base, data, levels_pa, [None; 2])
     }
 
     /// The same with values and standard deviations that separate tests found: of the first B, and of the first effect.
-    pub fn with_tests(
+    pub(crate) fn with_tests(
         base: &'a Scenario,
         data: &[&'a Dataset],
         levels_pa: &[f64],
@@ -223,24 +223,24 @@ impl<'a> Reference<'a> {
     }
 
     /// The base with its bending stiffnesses fitted.
-    pub fn base(&self) -> Fit {
+    pub(crate) fn base(&self) -> Fit {
         let start = vec![self.base.bending_stiffness; self.levels_pa.len()];
         least_squares(&|at| self.residuals(&[], at), &start, None)
     }
 
     /// The base with effects of one parameter each.
-    pub fn with(&self, effects: &[&str]) -> Fit {
+    pub(crate) fn with(&self, effects: &[&str]) -> Fit {
         let start = [self.base().at, vec![0.0; effects.len()]].concat();
         least_squares(&|at| self.residuals(effects, at), &start, None)
     }
 
     /// Error of a fit in the first data beyond the noise of their mean \[mm\].
-    pub fn error_mm(&self, effects: &[&str], at: &[f64]) -> f64 {
+    pub(crate) fn error_mm(&self, effects: &[&str], at: &[f64]) -> f64 {
         self.error_in_mm(0, effects, at)
     }
 
     /// The same in the data with that number.
-    pub fn error_in_mm(&self, which: usize, effects: &[&str], at: &[f64]) -> f64 {
+    pub(crate) fn error_in_mm(&self, which: usize, effects: &[&str], at: &[f64]) -> f64 {
         let data = self.data[which];
         let off = DVector::from_vec(self.positions(data, effects, at, 1.0)) - mean(data, |_| true);
         let all: Vec<usize> = (0..off.len()).collect();
@@ -248,7 +248,7 @@ impl<'a> Reference<'a> {
     }
 
     /// 95 % interval of a number of a fit of the first data; followed along the profile where it is wide, or where a bound is near.
-    pub fn interval(&self, effects: &[&str], fit: &Fit, k: usize, [lower, upper]: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn interval(&self, effects: &[&str], fit: &Fit, k: usize, [lower, upper]: [f64; 2]) -> [f64; 2] {
         let (noise, covariance) = (&self.noise[0], fit.covariance());
         let weights = self.whitening[0].tr_mul(&(&fit.slope * covariance.column(k)));
         let runs = noise.runs as f64;
@@ -280,7 +280,7 @@ impl<'a> Reference<'a> {
     }
 
     /// Error beyond noise at actuator pressures left out of a fit of the first data, one after the other \[mm\].
-    pub fn left_out_pressure_mm(&self, effects: &[&str], fit: &Fit) -> f64 {
+    pub(crate) fn left_out_pressure_mm(&self, effects: &[&str], fit: &Fit) -> f64 {
         let (data, all) = (self.data[0], mean(self.data[0], |_| true));
         let mut levels: Vec<f64> = data.holds.iter().map(|hold| hold.p_act_pa).filter(|p| *p > 0.0).collect();
         levels.dedup();
@@ -295,7 +295,7 @@ impl<'a> Reference<'a> {
     }
 
     /// The same for runs: the mean of the others is fitted, and a run alone scatters more than their mean.
-    pub fn left_out_run_mm(&self, effects: &[&str], fit: &Fit) -> f64 {
+    pub(crate) fn left_out_run_mm(&self, effects: &[&str], fit: &Fit) -> f64 {
         let data = self.data[0];
         let every: Vec<usize> = (0..data.values_per_run()).collect();
         let noise_of_run_m2 = self.noise[0].mean_square(&every) * data.runs.len() as f64;
@@ -327,7 +327,7 @@ impl<'a> Reference<'a> {
     }
 
     /// p of the residuals in the first data, averaged over values with the same key.
-    pub fn lack_of_means(&self, effects: &[&str], at: &[f64], key: impl Fn(usize) -> usize, dof: usize) -> f64 {
+    pub(crate) fn lack_of_means(&self, effects: &[&str], at: &[f64], key: impl Fn(usize) -> usize, dof: usize) -> f64 {
         let off = DVector::from_vec(self.positions(self.data[0], effects, at, 1.0)) - mean(self.data[0], |_| true);
         let all: Vec<usize> = (0..off.len()).collect();
         let count = 1 + all.iter().map(|i| key(*i)).max().unwrap();
@@ -338,7 +338,7 @@ impl<'a> Reference<'a> {
     }
 
     /// Change of the whitened residuals by an effect, with the base fitted out.
-    pub fn trace(&self, effects: &[&str], values: &[f64]) -> DVector<f64> {
+    pub(crate) fn trace(&self, effects: &[&str], values: &[f64]) -> DVector<f64> {
         let base = self.base();
         let change = self.residuals(effects, &[&base.at, values].concat()) - &base.rest;
         let fitted = &base.slope * base.covariance() * base.slope.tr_mul(&change);

@@ -4,22 +4,22 @@ use data::{About, Dataset, Hold, Lost, Marker, Phase};
 use models::{Loads, Model, Scenario, Step};
 
 /// Bending stiffness of the scenarios as given \[N·m²\].
-pub const BENDING: f64 = 1.0;
+pub(crate) const BENDING: f64 = 1.0;
 
 /// Text of the scenario of every test.
-pub fn text() -> String {
+pub(crate) fn text() -> String {
     let text = models::shipped("epam-textbook").unwrap();
     let given = text.replace("bending_stiffness_nm2 = 0 ", &format!("bending_stiffness_nm2 = {BENDING} "));
     assert_ne!(given, text);
     given
 }
 
-pub fn scenario() -> Scenario {
+pub(crate) fn scenario() -> Scenario {
     Scenario::parse(&text()).unwrap()
 }
 
 /// Holds at body and actuator pressures \[Pa\], with samples a second apart.
-pub fn holds(pressures: &[[f64; 2]], samples: usize) -> Vec<Hold> {
+pub(crate) fn holds(pressures: &[[f64; 2]], samples: usize) -> Vec<Hold> {
     let hold = |(i, [p_body_pa, p_act_pa]): (usize, &[f64; 2])| Hold {
         p_body_pa: *p_body_pa,
         p_act_pa: *p_act_pa,
@@ -32,7 +32,7 @@ pub fn holds(pressures: &[[f64; 2]], samples: usize) -> Vec<Hold> {
 }
 
 /// Positions of a robot at the holds, their actuator pressures times a factor, in run layout \[m\].
-pub fn positions(robot: &Scenario, holds: &[Hold], factor: f64) -> Vec<f64> {
+pub(crate) fn positions(robot: &Scenario, holds: &[Hold], factor: f64) -> Vec<f64> {
     let step = |hold: &Hold, t_s: f64| Step { t_s, loads: Loads::uniform(hold.p_body_pa, factor * hold.p_act_pa) };
     let steps: Vec<Step> = holds.iter().flat_map(|hold| hold.t_s.iter().map(move |t| step(hold, *t))).collect();
     let model = Model::new(robot);
@@ -42,7 +42,7 @@ pub fn positions(robot: &Scenario, holds: &[Hold], factor: f64) -> Vec<f64> {
 }
 
 /// Curvature at pressures \[1/m\]: the robot is uniform.
-pub fn curvature(robot: &Scenario, p_body_pa: f64, p_act_pa: f64) -> f64 {
+pub(crate) fn curvature(robot: &Scenario, p_body_pa: f64, p_act_pa: f64) -> f64 {
     let model = Model::new(robot);
     let mut at = model.prediction();
     model.predict(&Loads::uniform(p_body_pa, p_act_pa), &mut at).unwrap();
@@ -50,7 +50,7 @@ pub fn curvature(robot: &Scenario, p_body_pa: f64, p_act_pa: f64) -> f64 {
 }
 
 /// What a robot misses where it is held at a curvature \[N·m\].
-pub fn missing_moment(robot: &Scenario, p_body_pa: f64, p_act_pa: f64, curvature: f64) -> f64 {
+pub(crate) fn missing_moment(robot: &Scenario, p_body_pa: f64, p_act_pa: f64, curvature: f64) -> f64 {
     let model = Model::new(robot);
     let step = Step { t_s: 0.0, loads: Loads::uniform(p_body_pa, p_act_pa) };
     let (held, mut missing) = (vec![curvature; model.segments().len()], 0.0);
@@ -72,7 +72,7 @@ impl Normal {
 }
 
 /// Runs of a robot at the holds.
-pub fn scattered(truth: &Scenario, name: &str, holds: &[Hold], runs: usize, seed: u64) -> Dataset {
+pub(crate) fn scattered(truth: &Scenario, name: &str, holds: &[Hold], runs: usize, seed: u64) -> Dataset {
     let at = |factor: f64| positions(truth, holds, factor);
     let slope: Vec<f64> = at(1.0 + 1e-4).iter().zip(at(1.0 - 1e-4)).map(|(high, low)| (high - low) / 2e-4).collect();
     measured(name, holds, (&at(1.0), &slope), runs, seed)
@@ -91,7 +91,7 @@ fn measured(name: &str, holds: &[Hold], (truth_m, slope_m): (&[f64], &[f64]), ru
     Dataset { coordinates_m, runs: (1..=runs).map(|run| run.to_string()).collect(), ..exact(name, holds, truth_m) }
 }
 
-pub fn exact(name: &str, holds: &[Hold], truth_m: &[f64]) -> Dataset {
+pub(crate) fn exact(name: &str, holds: &[Hold], truth_m: &[f64]) -> Dataset {
     let marker = |(i, s): (usize, &f64)| Marker { name: (i + 1).to_string(), station_m: Some(*s) };
     Dataset {
         name: name.into(),
@@ -109,7 +109,7 @@ pub fn exact(name: &str, holds: &[Hold], truth_m: &[f64]) -> Dataset {
 }
 
 /// An `about.toml` with these lines more.
-pub fn about(lines: &str) -> About {
+pub(crate) fn about(lines: &str) -> About {
     let text =
         format!("title = \"made up\"\nprovenance = \"synthetic\"\nsource = \"test\"\nlicence = \"CC0-1.0\"\n{lines}");
     data::parse_about("about.toml", &text).unwrap()

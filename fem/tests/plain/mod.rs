@@ -12,7 +12,7 @@ use fem::vec3::{cross, dot};
 use fem::{Mesh, Problem};
 
 /// The shells of a problem without viscosity and history.
-pub struct PlainSheet<'a> {
+pub(crate) struct PlainSheet<'a> {
     sheet: &'a Sheet,
     rows: Vec<CurvatureRow>,
     /// Pressure behind minus pressure in front of each element \[Pa\].
@@ -21,7 +21,7 @@ pub struct PlainSheet<'a> {
 
 impl<'a> PlainSheet<'a> {
     /// The twin of `sheet`, which was made of `mesh` (in the same node order) and the problem's sections.
-    pub fn new(sheet: &'a Sheet, mesh: &Mesh, problem: &Problem) -> PlainSheet<'a> {
+    pub(crate) fn new(sheet: &'a Sheet, mesh: &Mesh, problem: &Problem) -> PlainSheet<'a> {
         let stiffness: Vec<f64> = problem.sections.iter().map(bending_stiffness).collect();
         let of = |name: &Option<String>| {
             let air = sheet.air.iter().find(|air| Some(air.name()) == name.as_deref());

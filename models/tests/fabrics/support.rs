@@ -2,16 +2,16 @@
 
 use models::Fabric;
 
-pub const FRESH: [f64; 2] = [0.0; 2];
+pub(crate) const FRESH: [f64; 2] = [0.0; 2];
 
-pub struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
-    pub fn new(seed: u64) -> Random {
+    pub(crate) fn new(seed: u64) -> Random {
         Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
     }
 
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
@@ -19,7 +19,7 @@ impl Random {
     }
 
     /// A strain with entries up to `limit`, of all sizes, pulled or pushed.
-    pub fn strain(&mut self, limit: f64) -> [f64; 3] {
+    pub(crate) fn strain(&mut self, limit: f64) -> [f64; 3] {
         let size = limit * 10f64.powf(self.between(-3.0, 0.0));
         [self.between(-size, size), self.between(-size, size), self.between(-size, size)]
     }
@@ -27,7 +27,7 @@ impl Random {
 
 /// Tension over stretch per thickness at a small strain, pulled at `angle` to warp: E \[Pa\] of a uniaxial test, from the
 /// tangent: 1/(tE) = v·T⁻¹v with v = [c², s², cs].
-pub fn modulus(fabric: &dyn Fabric, angle_deg: f64, at: f64) -> f64 {
+pub(crate) fn modulus(fabric: &dyn Fabric, angle_deg: f64, at: f64) -> f64 {
     let (s, c) = angle_deg.to_radians().sin_cos();
     let v = [c * c, s * s, c * s];
     // Newton on S(e) = N v, from rest: strain along the pull is then [c², s², cs]·e, with the shear as engineering strain.
@@ -45,7 +45,7 @@ pub fn modulus(fabric: &dyn Fabric, angle_deg: f64, at: f64) -> f64 {
 }
 
 /// x of m x = b by Cramer's rule.
-pub fn solve(m: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
+pub(crate) fn solve(m: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
     let det = |m: [[f64; 3]; 3]| {
         m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
             + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
@@ -58,7 +58,7 @@ pub fn solve(m: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 /// Largest difference over the largest entry of `a`, or over `floor`.
-pub fn apart<const N: usize>(a: [f64; N], b: [f64; N], floor: f64) -> f64 {
+pub(crate) fn apart<const N: usize>(a: [f64; N], b: [f64; N], floor: f64) -> f64 {
     let size = a.iter().fold(floor, |m, x| m.max(x.abs()));
     a.iter().zip(b).fold(0.0_f64, |m, (x, y)| m.max((x - y).abs())) / size
 }

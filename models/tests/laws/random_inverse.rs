@@ -6,7 +6,7 @@ use models::effects::Stage;
 use models::{Loads, Model, Prediction, Scenario, Target, Unsolved};
 
 /// A robot of any kind and size that can be built, with up to three effects in half of the cases.
-pub fn any_robot(random: &mut Random) -> Scenario {
+pub(crate) fn any_robot(random: &mut Random) -> Scenario {
     let pick = |random: &mut Random, count: usize| (random.unit() * count as f64) as usize;
     let kind = ACTUATORS[pick(random, ACTUATORS.len())].name;
     let mut scenario = robot(kind).bare();

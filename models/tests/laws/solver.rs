@@ -31,7 +31,7 @@ fn a_law_without_a_value_at_the_geometry_is_named() {
 }
 
 /// Predicts at every pressure; returns how many had no equilibrium.
-pub fn sweep(name: &str, scenario: &Scenario) -> usize {
+pub(crate) fn sweep(name: &str, scenario: &Scenario) -> usize {
     let model = Model::new(scenario);
     let mut out = model.prediction();
     let mut refused = 0;

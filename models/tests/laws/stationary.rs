@@ -7,7 +7,7 @@ use models::site::SiteState;
 use models::{Loads, Model, Scenario};
 
 /// Largest |∂Π/∂q|·q relative to the work of the body moment, over all free coordinates.
-pub fn imbalance(scenario: &Scenario, loads: Loads) -> f64 {
+pub(crate) fn imbalance(scenario: &Scenario, loads: Loads) -> f64 {
     let model = Model::new(scenario);
     let state = predicted(&model, &loads).unwrap_or_else(|e| panic!("{e}"));
     let potential = Potential { assembly: model.assembly(), loads };

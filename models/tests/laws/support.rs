@@ -6,34 +6,34 @@ use models::effects::{EFFECTS, Effect, Stage};
 use models::site::{Linkage, Site};
 use models::{Loads, Model, Pose, Prediction, Scenario, Unsolved, shipped};
 
-pub fn actuators() -> impl Iterator<Item = &'static str> {
+pub(crate) fn actuators() -> impl Iterator<Item = &'static str> {
     ACTUATORS.iter().map(|a| a.name)
 }
 
 /// The textbook model of that actuator's robot; what the shipped one has more is visited effect by effect, and as it is where
 /// a law says `full`.
-pub fn robot(actuator: &str) -> Scenario {
+pub(crate) fn robot(actuator: &str) -> Scenario {
     Scenario::parse(shipped(&format!("{actuator}-textbook")).unwrap()).unwrap()
 }
 
 /// The shipped robot of that actuator.
-pub fn full(actuator: &str) -> Scenario {
+pub(crate) fn full(actuator: &str) -> Scenario {
     Scenario::parse(shipped(actuator).unwrap()).unwrap()
 }
 
 /// Effects that exist for the actuator of `scenario`.
-pub fn applicable(scenario: &Scenario) -> impl Iterator<Item = &'static Effect<'static>> {
+pub(crate) fn applicable(scenario: &Scenario) -> impl Iterator<Item = &'static Effect<'static>> {
     let family = scenario.actuator.kind.family;
     EFFECTS.iter().filter(move |e| e.applies_to(family))
 }
 
 /// Values of all parameters by a rule, SI.
-pub fn values(effect: &Effect, pick: fn(&models::effects::Parameter) -> f64) -> Vec<f64> {
+pub(crate) fn values(effect: &Effect, pick: fn(&models::effects::Parameter) -> f64) -> Vec<f64> {
     effect.parameters.iter().map(|p| pick(p) * p.si).collect()
 }
 
 /// Every applicable effect of the balance at typical values, and a bending stiffness.
-pub fn everything(actuator: &str) -> Scenario {
+pub(crate) fn everything(actuator: &str) -> Scenario {
     let bent = robot(actuator).with_bending(0.7);
     let in_balance = |e: &&Effect| e.stage == Stage::Balance;
     let all = applicable(&bent).filter(in_balance).fold(bent.clone(), |s, e| s.with_effect(e.name, &e.typical()));
@@ -45,7 +45,7 @@ pub fn everything(actuator: &str) -> Scenario {
 
 /// The same without what hangs on the actuator's pressure beside its work on the ideal volume: the cell of a muscle, with yarns
 /// that give, glue and flat ends, and the sides and folds of a pouch.
-pub fn without_cell(scenario: &Scenario) -> Scenario {
+pub(crate) fn without_cell(scenario: &Scenario) -> Scenario {
     let mut stiff = scenario.clone();
     stiff.effects.retain(|e| {
         !["yarn_stretch", "glued_face", "flat_ends", "gussets", "sealed_sides", "fold_energy", "crimped_sides"]
@@ -55,62 +55,62 @@ pub fn without_cell(scenario: &Scenario) -> Scenario {
 }
 
 /// A prediction, or why there is none.
-pub fn predicted(model: &Model, loads: &Loads) -> Result<Prediction, Unsolved> {
+pub(crate) fn predicted(model: &Model, loads: &Loads) -> Result<Prediction, Unsolved> {
     let mut out = model.prediction();
     model.predict(loads, &mut out)?;
     Ok(out)
 }
 
 /// A prediction that has to work.
-pub fn predict(scenario: &Scenario, p_body_pa: f64, p_act_pa: f64) -> Prediction {
+pub(crate) fn predict(scenario: &Scenario, p_body_pa: f64, p_act_pa: f64) -> Prediction {
     let model = Model::new(scenario);
     predicted(&model, &Loads::uniform(p_body_pa, p_act_pa)).unwrap_or_else(|e| panic!("{}: {e}", scenario.name))
 }
 
 /// Numerical Recipes' linear congruential generator, upper bits.
-pub struct Random(pub u64);
+pub(crate) struct Random(pub u64);
 
 impl Random {
-    pub fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
-    pub fn decades(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn decades(&mut self, low: f64, high: f64) -> f64 {
         (self.between(low.ln(), high.ln())).exp()
     }
 }
 
 /// Slope of `f` at `x` by Richardson-extrapolated central differences (error h⁴).
-pub fn slope(mut f: impl FnMut(f64) -> f64, x: f64, h: f64) -> f64 {
+pub(crate) fn slope(mut f: impl FnMut(f64) -> f64, x: f64, h: f64) -> f64 {
     let mut central = |h: f64| (f(x + h) - f(x - h)) / (2.0 * h);
     let (coarse, fine) = (central(h), central(0.5 * h));
     fine + (fine - coarse) / 3.0
 }
 
 /// The total potential of a robot over free coordinates: one (coordinate, curvature) pair per segment.
-pub struct Potential<'a> {
+pub(crate) struct Potential<'a> {
     pub assembly: &'a Assembly,
     /// Pressures, the same in every channel; supply effects must be off.
     pub loads: Loads,
 }
 
 impl Potential<'_> {
-    pub fn is_active(&self, segment: usize) -> bool {
+    pub(crate) fn is_active(&self, segment: usize) -> bool {
         let site = self.site(segment);
         site.actuator.is_some() && self.loads.actuator_pa[site.channel] > 0.0
     }
 
-    pub fn site(&self, segment: usize) -> &Site {
+    pub(crate) fn site(&self, segment: usize) -> &Site {
         &self.assembly.sites[self.assembly.segments[segment].site]
     }
 
     /// Curvature of inextensible fabric at actuator coordinate `a`, and the arm there.
-    pub fn geometric(&self, segment: usize, a: f64) -> (f64, f64) {
+    pub(crate) fn geometric(&self, segment: usize, a: f64) -> (f64, f64) {
         let site = self.site(segment);
         let stroke = (site.actuator.unwrap().stroke)(&site.shape, a);
         let arm = site.linkage.arm_m + site.linkage.arm_growth * stroke.lift;
@@ -119,7 +119,7 @@ impl Potential<'_> {
     }
 
     /// Π(a, κ) of one segment per length; with extensible fabric a and κ are independent, else κ must be that of `a`.
-    pub fn of_segment(&self, segment: usize, a: f64, kappa: f64) -> f64 {
+    pub(crate) fn of_segment(&self, segment: usize, a: f64, kappa: f64) -> f64 {
         let site = self.site(segment);
         let p_act_pa = self.loads.actuator_pa[site.channel];
         let s_m = self.assembly.segments[segment].middle_m();
@@ -146,7 +146,7 @@ impl Potential<'_> {
     }
 
     /// Energy of the node terms at curvatures `kappas`, the centre line integrated independently of the library.
-    pub fn of_nodes(&self, kappas: &[f64]) -> f64 {
+    pub(crate) fn of_nodes(&self, kappas: &[f64]) -> f64 {
         let mut nodes = vec![0.0, 0.0];
         let (mut x, mut y, mut heading) = (0.0, 0.0, 0.0_f64);
         for (segment, kappa) in self.assembly.segments.iter().zip(kappas) {
