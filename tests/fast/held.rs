@@ -59,7 +59,7 @@ fn what_a_table_is_not_for_is_refused_with_the_command_that_is() {
     ] {
         refuse(&folder, &["diagnose", "festo-bolen-2026", option, value], 2, &[option, words]);
     }
-    refuse(&folder, &["diagnose", "epam"], 2, &["not a table of bench tests", "ibr diagnose epam synthetic-epam"]);
+    refuse(&folder, &["diagnose", "epam"], 2, &["a scenario and data are needed", "ibr diagnose epam synthetic-epam"]);
     folder.write("muscle.csv", "p_act_kpa,contraction_pct,force_n\n20,5,30\n");
     refuse(&folder, &["diagnose", "muscle.csv"], 3, &["muscle.csv", "line 2", "diameter_mm"]);
     refuse(&folder, &["characterize", "bad.csv"], 3, &["deflection_mm"]);
