@@ -14,7 +14,7 @@ const LONGEST: Duration = Duration::from_secs(60);
 
 /// What is wrong with the file.
 #[derive(Debug, Clone)]
-pub enum Broken {
+pub(crate) enum Broken {
     /// There is a file with these bytes.
     Bytes(Vec<u8>),
     /// There is a folder of that name.
@@ -27,7 +27,7 @@ pub enum Broken {
 
 /// A bad input with the command that must refuse it, or must read it.
 #[derive(Debug, Clone)]
-pub struct Case {
+pub(crate) struct Case {
     pub name: String,
     pub file: String,
     pub broken: Broken,
@@ -38,7 +38,7 @@ pub struct Case {
     pub says: Vec<String>,
 }
 
-pub struct Ran {
+pub(crate) struct Ran {
     pub code: i32,
     pub stdout: String,
     pub stderr: String,
@@ -46,7 +46,7 @@ pub struct Ran {
 
 impl Case {
     /// Runs it; the reason if the program did something else.
-    pub fn run(&self) -> Result<(), String> {
+    pub(crate) fn run(&self) -> Result<(), String> {
         let folder = tempfile::tempdir().unwrap();
         let at = folder.path();
         self.lay_out(at)?;
@@ -126,7 +126,7 @@ impl Case {
 }
 
 /// What holds of everything that is said: short, with a remedy, no panic, nothing that a terminal obeys.
-pub fn clean(ran: &Ran) -> Result<(), String> {
+pub(crate) fn clean(ran: &Ran) -> Result<(), String> {
     let told = unwrapped(&ran.stderr) + &unwrapped(&ran.stdout);
     if ran.code != 0 && ran.stderr.len() > 20_000 {
         return Err(format!("a message of {} bytes", ran.stderr.len()));
@@ -160,12 +160,12 @@ pub fn clean(ran: &Ran) -> Result<(), String> {
 }
 
 /// A message without the frame and the line breaks that are drawn around it.
-pub fn unwrapped(text: &str) -> String {
+pub(crate) fn unwrapped(text: &str) -> String {
     text.split_whitespace().filter(|word| *word != "│" && *word != "·").map(|word| format!("{word} ")).collect()
 }
 
 /// Waits for the end, which may not take long.
-pub fn ended(mut child: Child) -> Result<Ran, String> {
+pub(crate) fn ended(mut child: Child) -> Result<Ran, String> {
     let read = |mut from: Box<dyn std::io::Read + Send>| {
         std::thread::spawn(move || {
             let mut bytes = Vec::new();

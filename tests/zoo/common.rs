@@ -25,7 +25,7 @@ const WRONG: &[(&str, Break)] = &[
 ];
 
 /// All of them for one kind of file. What is read all the same must give the same answer as the good file.
-pub fn cases(table: &Table, base: &Case, good: &[u8]) -> Vec<Case> {
+pub(crate) fn cases(table: &Table, base: &Case, good: &[u8]) -> Vec<Case> {
     let wanted = WRONG.iter().filter(|(name, _)| !table.skips.iter().any(|skipped| skipped == name));
     let case = |(name, make): &(&str, Break)| {
         let broken = match make(good) {

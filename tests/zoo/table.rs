@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// A kind of file, or of command line.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Table {
+pub(crate) struct Table {
     #[serde(skip)]
     pub name: String,
     /// What is broken, and the good contents of it: `shipped:NAME`, `case:NAME`, `set:SET/FILE` or a file of the repository.
@@ -43,7 +43,7 @@ pub struct Table {
 /// One fault, and how the good file is changed to have it.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Bad {
+pub(crate) struct Bad {
     name: String,
     /// A change of the good file: what stood there, and what stands there now. The first must be there.
     #[serde(default)]
@@ -71,7 +71,7 @@ fn refused() -> i32 {
 }
 
 /// Reads all tables of this folder, in the order of their names.
-pub fn tables() -> Vec<Table> {
+pub(crate) fn tables() -> Vec<Table> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/zoo");
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let mut files: Vec<PathBuf> = files.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
@@ -100,7 +100,7 @@ fn contents(good: &str) -> Vec<u8> {
 
 impl Table {
     /// Its own list, and what can be wrong with any file.
-    pub fn cases(&self) -> Vec<Case> {
+    pub(crate) fn cases(&self) -> Vec<Case> {
         let own = self.bad.iter().map(|bad| self.own(bad));
         if self.file.is_empty() {
             return own.collect();

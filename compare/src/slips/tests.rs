@@ -114,7 +114,7 @@ fn numbers_from_the_tip_turned_axes_and_units_are_found_in_all_runs_or_one() {
         (|points| each(points, |[x, y]| [-x, y]), "(-x, y) in place of (x, y)"),
         (|points| each(points, |[x, y]| [y, x]), "(y, x) in place of (x, y)"),
         (|points| each(points, |[x, y]| [-y, x]), "(y, -x) in place of (x, y)"),
-        (|points| each(points, |p| p.map(|v| 0.1 * v)), "cm under a header of mm in"),
+        (|points| each(points, |p| p.map(|v| 0.1 * v)), "cm under a header of mm, or the stations"),
         (|points| each(points, |p| p.map(|v| 3.0 * v)), "pixels"),
     ];
     for name in SETS {

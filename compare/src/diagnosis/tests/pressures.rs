@@ -131,7 +131,11 @@ fn a_stiffness_that_moved_is_an_alarm_of_its_own_that_leads_to_a_bending_test() 
     let told = plain.with_bending(2.0 * plain.bending_stiffness);
     let d = run(&told, &data);
     let alarm = d.bending_alarm.clone().unwrap();
-    assert!(alarm.words.contains("[bending] of the data's about.toml") && d.summary.contains(&alarm.words), "{:?}", d.summary);
+    assert!(
+        alarm.words.contains("[bending] of the data's about.toml") && d.summary.contains(&alarm.words),
+        "{:?}",
+        d.summary
+    );
     assert!((alarm.answer_nm2 / plain.bending_stiffness - 1.0).abs() < 0.2 && alarm.told_nm2 == told.bending_stiffness);
     assert_eq!(of_one(&told, &data, None, &Options { keep_bending: true, ..quick() }).unwrap().bending_alarm, None);
 }
