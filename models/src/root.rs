@@ -1,6 +1,6 @@
 //! A bracketed secant iteration with the bend of three points: never leaves the bracket, halves it when it stalls.
 
-/// An interval halved so many times; `is_low` says which half goes.
+/// An interval halved so many times; `is_low` decides which half goes.
 pub(crate) fn halved([mut low, mut high]: [f64; 2], count: usize, is_low: impl Fn(f64) -> bool) -> [f64; 2] {
     for _ in 0..count {
         let middle = 0.5 * (low + high);

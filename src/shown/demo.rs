@@ -43,7 +43,7 @@ fn robot(demo: &Demo) -> String {
     let Scenario { name, length_m, radius_m, p_body_pa, actuator, markers_m, .. } = &demo.robot;
     format!(
         "Air at {} kPa keeps a thin fabric tube, the body, straight. Pouches along one side become round under up to 30 kPa, so they \
-         shorten, and bend it. {name}: {:.0} mm long, {:.0} mm thick, {} pouches; a camera follows {} markers.",
+         shorten and bend it. {name}: {:.0} mm long, {:.0} mm thick, {} pouches, {} markers.",
         p_body_pa / 1e3,
         1e3 * length_m,
         2e3 * radius_m,
@@ -184,7 +184,7 @@ const ALONE: &str = "Each added alone, none of their numbers fitted:";
 const ADDED: &str = "Each row adds the mechanism that leaves least. Left-out data: twice the body pressure. The last row fits the body's \
      stiffness B instead: it follows these data and fails on the others.";
 const BREAKING: &str = "Four published robots: pouches taped onto the body (sPAM), folded (cPAM) or in its wall (ePAM), and a fabric muscle \
-     (fPAM). Outermost marker, sideways, in mm: reduced model / finite elements ± spread of 5 seeds; * more than 15 % apart. The \
+     (fPAM). Outermost marker, sideways, in mm: reduced model / finite elements ± scatter of 5 seeds; * over 15 % apart. The \
      paper's accuracy, 1 − ((model − measured)/model)²: reduced, finite elements at 30 kPa; the paper's own at 10, 20, 30 kPa.";
 
 const ROBOT_PICTURE: [&str; 2] =

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use thiserror::Error;
 
 /// Most bytes of constants of a table that is given out.
-pub const MOST_BYTES: usize = 2048;
+pub const MOST_BYTES: usize = 4096;
 /// Its largest miss, as a share of the robot's length or in rad.
 pub const MOST_MISS: f64 = 1e-3;
 

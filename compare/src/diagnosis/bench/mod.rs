@@ -18,7 +18,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-pub use result::{BenchDiagnosis, BenchRanked, LeftOut};
+pub use result::{BenchDiagnosis, BenchOptions, BenchRanked, LeftOut};
 
 use crate::CompareError;
 use crate::bench::refuse;
@@ -31,23 +31,6 @@ use crate::stats::{chi2_tail, reported_p};
 use data::Bench;
 use models::Scenario;
 use table::{Fit, Table};
-
-/// Level, assumed scatter and refit of the scenario's own numbers in [`diagnose_bench`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BenchOptions {
-    /// Level of the one corrected p-value.
-    pub alpha: f64,
-    /// Standard deviation of a row that states none, as a share of the measured value.
-    pub sigma: Option<f64>,
-    /// Fit what the scenario has along with every law.
-    pub refit: bool,
-}
-
-impl Default for BenchOptions {
-    fn default() -> Self {
-        BenchOptions { alpha: crate::diagnosis::options::Options::default().alpha, sigma: None, refit: false }
-    }
-}
 
 /// Diagnoses a table of bench tests.
 ///

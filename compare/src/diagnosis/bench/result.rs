@@ -3,6 +3,23 @@
 use crate::diagnosis::result::{Group, ParameterValue, Verdict};
 use serde::Serialize;
 
+/// Level, assumed scatter and refit of the scenario's own numbers in [`super::diagnose_bench`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BenchOptions {
+    /// Level of the one corrected p-value.
+    pub alpha: f64,
+    /// Standard deviation of a row that states none, as a share of the measured value.
+    pub sigma: Option<f64>,
+    /// Fit what the scenario has along with every law.
+    pub refit: bool,
+}
+
+impl Default for BenchOptions {
+    fn default() -> Self {
+        BenchOptions { alpha: crate::diagnosis::options::Options::default().alpha, sigma: None, refit: false }
+    }
+}
+
 /// Errors of a model at what its fit had not seen.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LeftOut {

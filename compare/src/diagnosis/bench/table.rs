@@ -8,9 +8,9 @@
 //! where both are well above e, and a share of e below: half and double are as far off. Without standard deviations σ is what
 //! the best explanation leaves: differences are then ordered, and no p-value is formed.
 
-use super::BenchOptions;
 use super::laws::{apply, laws, starts};
 use super::reading::{Reading, steady};
+use super::result::BenchOptions;
 use crate::CompareError;
 use crate::bench::{ANY_WIDTH_M, Trial, is_beam, is_free, measured, modelled, own_or_braid, refuse};
 use crate::diagnosis::candidates::{Candidate, Free};
