@@ -38,7 +38,7 @@ pub struct Riddle {
 pub struct Handout {
     /// Measured markers, which the files contain as `markers.csv`.
     pub dataset: Dataset,
-    /// Files by name: [`SEALED`] in its order, then [`FILE`].
+    /// Files by name: `scenario.toml`, `about.toml` and `markers.csv`, which are sealed in this order, then `seal.toml`.
     pub files: Vec<(String, Vec<u8>)>,
     /// The seal's hash; who keeps it can prove the truth unchanged.
     pub sha256: String,

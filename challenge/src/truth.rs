@@ -50,7 +50,7 @@ pub struct Truth {
     pub camera_sd_m: f64,
     /// Heavy-tailed camera noise (Student's t, 3 degrees of freedom).
     pub heavy_tails: bool,
-    /// A camera that loses markers ([`Measurement::lost_markers`]).
+    /// A camera that loses markers.
     #[serde(default)]
     pub lost_markers: bool,
     /// Holds of one run scatter as in [`HoldScatter::USUAL`].
@@ -187,7 +187,7 @@ impl Truth {
     /// The dataset under a protocol.
     ///
     /// # Errors
-    /// As [`Truth::robot`]; a hold at which nothing balances.
+    /// A robot that does not balance; a hold at which nothing balances.
     pub fn dataset(&self, name: &str, protocol: &[[f64; 2]]) -> Result<Dataset, CompareError> {
         measure(&self.robot()?, &self.told()?, name, &self.measurement(protocol))
     }

@@ -25,7 +25,7 @@ impl Simulation {
     /// Steps until the time is reached or `go_on` returns false.
     ///
     /// # Errors
-    /// [`FemError::Stopped`] when a guard fires.
+    /// [`crate::FemError::Stopped`] when a guard fires.
     pub fn advance_until(&mut self, time_s: f64, go_on: GoOn) -> Result<Advance> {
         self.clock.waits = false;
         self.advance(time_s, go_on)
