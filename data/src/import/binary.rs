@@ -51,7 +51,8 @@ const KINDS: [Binary; 15] = [
     Binary {
         name: "TDMS (LabVIEW)",
         is: |head| head.starts_with(b"TDSm") || head.starts_with(b"TDSh"),
-        export: "write a text measurement (.lvm) in LabVIEW; in Python: nptdms.TdmsFile.read('log.tdms').as_dataframe(time_index=True).to_csv('log.csv')",
+        export: "write a text measurement (.lvm) in LabVIEW; in Python: nptdms.TdmsFile.read('log.tdms').as_dataframe(time_index=True)\
+                 .rename(columns=lambda c: c.split('/')[-1].strip('\\'')).rename_axis('time_s').to_csv('log.csv')",
     },
     Binary {
         name: "C3D (motion capture)",

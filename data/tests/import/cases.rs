@@ -156,7 +156,7 @@ fn binary_files_are_named_by_their_first_bytes() {
         (b"CDF\x01\0".to_vec(), "netCDF", "to_dlc_file"),
         (b"MATLAB 5.0 MAT-file, Platform: GLNXA64".to_vec(), "MATLAB", "writetable"),
         ([b"MATLAB 7.3 MAT-file", &[b' '; 493][..], &hdf5(b"")].concat(), "MATLAB", "writetable"),
-        (b"TDSm\x0e\0\0\0".to_vec(), "TDMS", "as_dataframe"),
+        (b"TDSm\x0e\0\0\0".to_vec(), "TDMS", "rename_axis('time_s')"),
         (b"PK\x03\x04\x14\0xl/workbook.xml".to_vec(), "Excel", "CSV UTF-8"),
         (b"PK\x03\x04\x14\0run1.csv".to_vec(), "zip", "unpack"),
         (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1".to_vec(), "Excel", "CSV UTF-8"),
