@@ -180,7 +180,7 @@ pub(crate) fn text(demo: &Demo) -> String {
 
 const CAMERA: &str = "The textbook model, and the same robot simulated in finite elements with every mechanism and with a camera's noise, 5 \
      runs; nothing in panels 2 to 4 was measured. Outermost marker, sideways:";
-const ALONE: &str = "Each added alone, none of their numbers fitted:";
+const ALONE: &str = "The nearest three, each added alone, no number fitted:";
 const ADDED: &str = "Each row adds the mechanism that leaves least. Left-out data: twice the body pressure. The last row fits the body's \
      stiffness B instead: it follows these data and fails on the others.";
 const BREAKING: &str = "Four published robots: pouches taped onto the body (sPAM), folded (cPAM) or in its wall (ePAM), and a fabric muscle \
