@@ -11,7 +11,7 @@ files=target/release-files
 mkdir -p "$files"
 
 # Static: runs on any Linux of this processor, whatever its C library. The page is in it where it was built before; completions and
-# manual pages are beside it, in the folders where a system looks for them below /usr/local.
+# manual pages come with it, in the folders where a system looks for them below /usr/local.
 program() {
   local target folder
   target=$(rustc -vV | sed -n 's/^host: //p')

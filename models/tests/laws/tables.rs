@@ -11,7 +11,7 @@ fn the_table_of_every_robot_is_small_and_near() {
         let model = Model::new(&scenario);
         let table = Table::new(&model, 2e3, [0.0, 40e3]).unwrap();
         assert!(table.bytes() <= MOST_BYTES && table.bound.tip_m <= 1e-3 * 0.36, "{actuator}: {:?}", table.bound);
-        // Those of the muscle do not fit.
+        // Markers of the muscle do not fit.
         assert!(table.markers() == scenario.markers_m.len() || actuator == "fpam", "{actuator}");
         if actuator == "epam" {
             assert!(table.bytes() <= 2048, "with its code in 3 kB of a Cortex-M4F: {} bytes", table.bytes());
