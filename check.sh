@@ -38,10 +38,6 @@ else
   python/test.sh
   step speed
   ./target/release/ibr bench || [ $? = 1 ]
-  step discovery, short form
-  ./target/release/ibr bench discovery --sets 8 || [ $? = 1 ]
-  step benches compile
-  cargo bench --workspace --no-run --quiet
   step each case of the diagnosis bench runs
   cargo bench --workspace --quiet --bench diagnose -- --test > /dev/null
   if [ "${1:-}" = all ]; then

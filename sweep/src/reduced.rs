@@ -3,8 +3,7 @@
 use crate::columns::{ACCOUNTS, columns};
 use crate::part::{Part, Rows};
 use crate::study::{Output, Study};
-use compare::ScenarioFile;
-use models::{CHANNELS, Loads, Model, Prediction};
+use models::{CHANNELS, Loads, Model, Prediction, Scenario};
 
 pub(crate) fn compute(study: &Study, part: &Part) -> Rows {
     let started = std::time::Instant::now();
@@ -12,8 +11,8 @@ pub(crate) fn compute(study: &Study, part: &Part) -> Rows {
     let mut rows = Rows { numbers: Vec::with_capacity(part.cases.len() * width), ..Rows::default() };
     for robot in part.robots(study.per_robot()) {
         let own = part.pressures(robot, study.per_robot());
-        match study.robot(robot) {
-            Ok((file, kpa)) => of_robot(study, &file, &kpa[own], width, &mut rows),
+        match study.scenario(robot) {
+            Ok((scenario, kpa)) => of_robot(study, &scenario, &kpa[own], width, &mut rows),
             Err(error) => own.for_each(|_| rows.fail(width, error.to_string())),
         }
     }
@@ -21,12 +20,12 @@ pub(crate) fn compute(study: &Study, part: &Part) -> Rows {
     rows
 }
 
-fn of_robot(study: &Study, file: &ScenarioFile, pressures_kpa: &[[f64; CHANNELS]], width: usize, rows: &mut Rows) {
-    let model = Model::new(&file.scenario);
+fn of_robot(study: &Study, scenario: &Scenario, pressures_kpa: &[[f64; CHANNELS]], width: usize, rows: &mut Rows) {
+    let model = Model::new(scenario);
     let mut at = model.prediction();
     for channels in pressures_kpa {
-        let loads = Loads { body_pa: file.p_body_pa, actuator_pa: channels.map(|kpa| 1e3 * kpa) };
-        let idle = !file.actuator.exists() && channels.iter().any(|kpa| *kpa > 0.0);
+        let loads = Loads { body_pa: scenario.p_body_pa, actuator_pa: channels.map(|kpa| 1e3 * kpa) };
+        let idle = !scenario.actuator.exists() && channels.iter().any(|kpa| *kpa > 0.0);
         match model.predict_held(&loads, &mut at) {
             _ if idle => rows.fail(width, "an actuator pressure for a beam without [actuator]".into()),
             Err(error) => rows.fail(width, error.to_string()),

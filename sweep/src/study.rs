@@ -6,7 +6,7 @@ use crate::form::{Form, ReadRobot, Wrong};
 use crate::policy::MOST_CASES;
 use crate::sample::{Method, Points};
 use compare::{CompareError, ScenarioFile};
-use models::CHANNELS;
+use models::{CHANNELS, Scenario};
 use serde::Deserialize;
 use std::path::Path;
 use toml::{Spanned, Value};
@@ -268,9 +268,21 @@ impl Study {
     /// # Errors
     /// Values that its scenario refuses.
     pub fn robot(&self, robot: usize) -> Result<(ScenarioFile, Vec<[f64; CHANNELS]>), CompareError> {
+        self.made(robot, |values| if values.is_empty() { Ok(self.base.clone()) } else { self.base.with(values) })
+    }
+
+    /// The same without the text of the scenario. Errors as for [`Study::robot`].
+    pub(crate) fn scenario(&self, robot: usize) -> Result<(Scenario, Vec<[f64; CHANNELS]>), CompareError> {
+        self.made(robot, |values| self.base.scenario_with(values))
+    }
+
+    fn made<T>(
+        &self,
+        robot: usize,
+        make: impl Fn(&[(String, String)]) -> Result<T, CompareError>,
+    ) -> Result<(T, Vec<[f64; CHANNELS]>), CompareError> {
         let Changes { values, pressures_kpa } = self.changes(robot);
         let all = || self.pressures_kpa.iter().map(|kpa| [*kpa; CHANNELS]).collect();
-        let file = if values.is_empty() { self.base.clone() } else { self.base.with(&values)? };
-        Ok((file, pressures_kpa.map_or_else(all, |own| vec![own])))
+        Ok((make(&values)?, pressures_kpa.map_or_else(all, |own| vec![own])))
     }
 }

@@ -96,8 +96,8 @@ pub fn diagnose(
     warnings.extend(limits::warnings(&case));
     let decision = decide(&case, singles, options, &mut part(progress, of_pairs))?;
     let mut pressure_slip = pressures.found(&case, || Ok(decision.rivals()))?;
-    if pressure_slip.is_none() && options.other_design && pressures.may_slip_in_another_design(&case, decision.verdict)
-    {
+    let is_alarm = matches!(decision.verdict, Some(Verdict::Effect | Verdict::OutOfCatalog));
+    if pressure_slip.is_none() && options.other_design && is_alarm && pressures.may_slip_in_another_design(&case) {
         pressure_slip = slip_of_another_design(scenario, evidence, options)?;
     }
     let decision = if pressure_slip.is_some() { decision.withheld() } else { decision };

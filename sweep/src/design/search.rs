@@ -10,7 +10,7 @@ use argmin::core::{CostFunction, Executor};
 use argmin::solver::neldermead::NelderMead;
 use compare::{CompareError, ScenarioFile};
 use fem::session::Progress;
-use models::{CHANNELS, Loads, Model, Prediction};
+use models::{CHANNELS, Loads, Model, Prediction, Scenario};
 use spelling::si;
 use toml::Value;
 
@@ -94,7 +94,7 @@ impl Design {
 }
 
 struct Tried {
-    file: ScenarioFile,
+    scenario: Scenario,
     model: Model,
     loads: Loads,
     pose: Prediction,
@@ -102,14 +102,14 @@ struct Tried {
 
 impl Wish {
     fn tried(&self, Changes { values, pressures_kpa }: &Changes) -> Option<Tried> {
-        let file = if values.is_empty() { self.base.clone() } else { self.base.with(values).ok()? };
-        let own = || file.pressures_pa.iter().copied().reduce(f64::max).map(|pa| [pa; CHANNELS]);
+        let scenario = self.base.scenario_with(values).ok()?;
+        let own = || scenario.pressures_pa.iter().copied().reduce(f64::max).map(|pa| [pa; CHANNELS]);
         let actuator_pa = pressures_kpa.map(|all| all.map(|kpa| 1e3 * kpa)).or_else(own).unwrap_or_default();
-        let loads = Loads { body_pa: file.p_body_pa, actuator_pa };
-        let model = Model::new(&file.scenario);
+        let loads = Loads { body_pa: scenario.p_body_pa, actuator_pa };
+        let model = Model::new(&scenario);
         let mut pose = model.prediction();
         model.predict_held(&loads, &mut pose).ok()?;
-        Some(Tried { file, model, loads, pose })
+        Some(Tried { scenario, model, loads, pose })
     }
 
     /// The objective; shares beyond the ranges are put back and cost.
@@ -118,16 +118,16 @@ impl Wish {
         let beyond: f64 = shares.iter().zip(&inside).map(|(share, put)| (share - put).powi(2)).sum();
         let usual = vec![0.5; self.assumed.len()];
         let Some(tried) = self.tried(&self.changes(&inside, &usual)) else { return NONE * (1.0 + beyond) };
-        let tolerance_m = self.tolerance * tried.file.length_m;
+        let tolerance_m = self.tolerance * tried.scenario.length_m;
         let off: f64 = self.misses(&tried).iter().map(|miss| (miss.miss_m / tolerance_m).powi(2)).sum();
         let highest = tried.loads.actuator_pa.iter().copied().fold(0.0, f64::max);
-        let area = |file: &ScenarioFile| {
-            file.actuator.count as f64 * file.actuator.shape.length_m * file.actuator.shape.width_m
+        let area = |Scenario { actuator, .. }: &Scenario| {
+            actuator.count as f64 * actuator.shape.length_m * actuator.shape.width_m
         };
-        let pressure = self.cost.pressure * (highest / tried.file.p_max_pa.max(1.0)).powi(2);
+        let pressure = self.cost.pressure * (highest / tried.scenario.p_max_pa.max(1.0)).powi(2);
         let footprint = match self.cost.footprint {
             0.0 => 0.0,
-            weight => weight * area(&tried.file) / area(&self.base).max(1e-9),
+            weight => weight * area(&tried.scenario) / area(&self.base).max(1e-9),
         };
         let robustness = match self.cost.robustness {
             0.0 => 0.0,
@@ -149,13 +149,13 @@ impl Wish {
     }
 
     fn misses(&self, tried: &Tried) -> Vec<Miss> {
-        let Tried { file, model, pose, .. } = tried;
+        let Tried { scenario: Scenario { length_m, .. }, model, pose, .. } = tried;
         let line = match self.wanted.places.is_empty() {
             true => Vec::new(),
             false => model.centre_line(pose, LINE),
         };
         let place = |s_m: f64| {
-            let at = (s_m / file.length_m).clamp(0.0, 1.0) * (LINE - 1) as f64;
+            let at = (s_m / length_m).clamp(0.0, 1.0) * (LINE - 1) as f64;
             let i = (at as usize).min(LINE - 2);
             let rest = at - i as f64;
             [0, 1].map(|k| line[i][k] + rest * (line[i + 1][k] - line[i][k]))
@@ -163,7 +163,7 @@ impl Wish {
         let heading = |s_m: f64| -> f64 {
             model.curvatures(pose).map(|(s, kappa)| kappa * (s_m - s.start_m).clamp(0.0, s.length_m)).sum()
         };
-        parts(self, file.length_m, [pose.tip.x_m, pose.tip.y_m], pose.tip.angle_rad, &place, &heading)
+        parts(self, *length_m, [pose.tip.x_m, pose.tip.y_m], pose.tip.angle_rad, &place, &heading)
     }
 
     /// Over points of the assumed numbers; `None` without any, or where one of them has no equilibrium.
@@ -283,9 +283,10 @@ fn told_of(wish: &Wish, shares: &[f64], starts: [usize; 2]) -> Result<Design, Co
         .map(|((axis, (_, value)), share)| axis.share_of(value).unwrap_or(*share))
         .collect();
     let gone = || CompareError::refused("the design has no equilibrium when its values are rounded", "report this");
-    let tried = wish.tried(&wish.changes(&rounded, &usual)).ok_or_else(gone)?;
+    let changes = wish.changes(&rounded, &usual);
+    let tried = wish.tried(&changes).ok_or_else(gone)?;
     let misses = wish.misses(&tried);
-    let mut file = tried.file;
+    let mut file = wish.base.with(&changes.values)?;
     let all = tried.loads.actuator_pa;
     if chosen.iter().any(|(key, _)| channel(key).is_some()) && all.iter().all(|pa| *pa == all[0]) {
         let kpa = fem::session::rounded(1e-3 * all[0]);

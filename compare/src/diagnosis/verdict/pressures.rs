@@ -21,7 +21,6 @@ use crate::diagnosis::options::{Options, PRESSURES_ARE_RIGHT};
 use crate::diagnosis::order;
 use crate::diagnosis::other_design::designs;
 use crate::diagnosis::problem::Fit;
-use crate::diagnosis::result::Verdict;
 use crate::diagnosis::result::words::change;
 use crate::diagnosis::singles::fit_all;
 use crate::diagnosis::source::Source;
@@ -83,14 +82,13 @@ impl Pressures<'_> {
 
     /// Whether a slip is asked of other designs too: numbers alone look like one, or the base leaves
     /// a quarter of the movement.
-    pub(crate) fn may_slip_in_another_design(&self, case: &Case, verdict: Option<Verdict>) -> bool {
+    pub(crate) fn may_slip_in_another_design(&self, case: &Case) -> bool {
         let looks = |Source { scenario, dataset, .. }: &Source| {
             PressureSlip::all(dataset, scenario.p_body_pa).iter().any(|slip| slip.is_in_numbers(dataset, scenario))
         };
         let left_mm = case.error_in_all_mm(&case.base);
         let is_far = || !policy::is_mostly_gone(left_mm, 1e3 * moved_m(&self.sources[0].dataset));
-        let is_alarm = matches!(verdict, Some(Verdict::Effect | Verdict::OutOfCatalog));
-        is_alarm && (is_far() || self.sources.iter().any(looks)) && !self.options.excludes(PRESSURES_ARE_RIGHT)
+        !self.options.excludes(PRESSURES_ARE_RIGHT) && (is_far() || self.sources.iter().any(looks))
     }
 
     /// A slip that the numbers alone prove, whatever a model leaves.
@@ -199,8 +197,8 @@ pub fn pressure_slip(
 ) -> Result<Option<PressureSlipFound>, CompareError> {
     let evidence = std::slice::from_ref(evidence);
     match slip_of(scenario, evidence, options)? {
-        None => slip_of_another_design(scenario, evidence, options),
-        found => Ok(found),
+        (None, true) => slip_of_another_design(scenario, evidence, options),
+        (found, _) => Ok(found),
     }
 }
 
@@ -212,18 +210,19 @@ pub(crate) fn slip_of_another_design(
 ) -> Result<Option<PressureSlipFound>, CompareError> {
     // A design without equilibrium sees nothing.
     let found = designs(scenario, options)?.into_iter().filter_map(|(other, switched)| {
-        let found = slip_of(&other, evidence, options).ok()??;
+        let found = slip_of(&other, evidence, options).ok()?.0?;
         let words = format!("{} (seen by the same robot {}).", found.words.trim_end_matches('.'), change(&switched));
         Some(PressureSlipFound { words, ..found })
     });
     Ok(least(found, |found| found.after_mm.unwrap_or(f64::MAX)))
 }
 
+/// The slip that one design sees, and whether other designs are to be asked.
 fn slip_of(
     scenario: &Scenario,
     evidence: &[Evidence],
     options: &Options,
-) -> Result<Option<PressureSlipFound>, CompareError> {
+) -> Result<(Option<PressureSlipFound>, bool), CompareError> {
     let (sources, _) = Source::all(scenario, evidence)?;
     let (candidates, own) = catalogue(&sources, options);
     let pressures = Pressures { sources: &sources, options };
@@ -234,7 +233,7 @@ fn slip_of(
         let singles = fit_all(&mut case, &mut wider, &mut |_, _| ());
         Ok(decide(&case, singles, options, &mut |_, _| ())?.rivals())
     };
-    pressures.found(&case, rivals)
+    Ok((pressures.found(&case, rivals)?, pressures.may_slip_in_another_design(&case)))
 }
 
 impl Undone {
