@@ -271,9 +271,13 @@ impl Study {
         self.made(robot, |values| if values.is_empty() { Ok(self.base.clone()) } else { self.base.with(values) })
     }
 
-    /// The same without the text of the scenario. Errors as for [`Study::robot`].
+    /// The same for the reduced model: without the text of the scenario, and without keys that only finite elements read. Errors as
+    /// for [`Study::robot`].
     pub(crate) fn scenario(&self, robot: usize) -> Result<(Scenario, Vec<[f64; CHANNELS]>), CompareError> {
-        self.made(robot, |values| self.base.scenario_with(values))
+        self.made(robot, |values| {
+            let read = values.iter().filter(|(key, _)| !key.starts_with("fem.")).cloned();
+            self.base.scenario_with(&read.collect::<Vec<_>>())
+        })
     }
 
     fn made<T>(
@@ -284,5 +288,19 @@ impl Study {
         let Changes { values, pressures_kpa } = self.changes(robot);
         let all = || self.pressures_kpa.iter().map(|kpa| [*kpa; CHANNELS]).collect();
         Ok((make(&values)?, pressures_kpa.map_or_else(all, |own| vec![own])))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn studies_that_come_along_are_read() {
+        for (name, cases) in [("epam-designs", [300, 30]), ("night", [100_000, 1_000])] {
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../studies/{name}.toml"));
+            let study = Study::read(&path, ScenarioFile::read).unwrap();
+            assert_eq!([Engine::Reduced, Engine::Elements].map(|engine| study.cases(engine)), cases, "{name}");
+        }
     }
 }
