@@ -38,9 +38,8 @@ const NOWHERE: (f64, f64) = (f64::NAN, f64::NAN);
 /// First pressure tried, as a share of the largest.
 const START: f64 = 0.2;
 
-/// Whether a difference about a pressure would cross the bound.
-fn is_bounded(p_pa: f64) -> bool {
-    p_pa * (1.0 + JACOBIAN_STEP) > MOST_ACTUATOR_PA
+fn pressure(loads: &mut Loads, gas: usize) -> &mut f64 {
+    loads.actuator_pa.get_mut(gas).unwrap_or(&mut loads.body_pa)
 }
 
 impl TipSlope {
@@ -159,38 +158,52 @@ impl Model {
         self.settle(loads, out, false)?;
         let flat = self.flat(loads, out);
         for channel in self.channels() {
-            let slope = &mut slopes[channel];
-            let step = JACOBIAN_STEP * loads.actuator_pa[channel];
-            if flat[channel] {
-                *slope = TipSlope::NONE;
-                continue;
-            }
-            let (wide, narrow) = (self.chord(loads, channel, step, out)?, self.chord(loads, channel, 0.5 * step, out)?);
-            // At the bound of the pressure the chords have one side, and an error of first order.
-            let is_bounded = is_bounded(loads.actuator_pa[channel]);
-            let [of_narrow, of_wide] = if is_bounded { [2.0, -1.0] } else { [4.0 / 3.0, -1.0 / 3.0] };
-            let [x_per_pa, y_per_pa, angle_per_pa] = [0, 1, 2].map(|i| of_narrow * narrow[i] + of_wide * wide[i]);
-            *slope = TipSlope { x_per_pa, y_per_pa, angle_per_pa };
+            slopes[channel] = match flat[channel] {
+                true => TipSlope::NONE,
+                false => {
+                    let tip = |_: &Loads, at: &Prediction| [at.tip.x_m, at.tip.y_m, at.tip.angle_rad];
+                    let [x_per_pa, y_per_pa, angle_per_pa] = self.slopes(loads, channel, out, &tip)?;
+                    TipSlope { x_per_pa, y_per_pa, angle_per_pa }
+                }
+            };
         }
         Ok(slopes)
     }
 
-    /// Mean slopes of x, y and angle between P − step (not below 0) and P + step, or P where the wider step crosses the bound.
-    fn chord(&self, loads: &Loads, channel: usize, step: f64, out: &mut Prediction) -> Solved<[f64; 3]> {
-        let (mut up, mut down) = (*loads, *loads);
-        up.actuator_pa[channel] += if is_bounded(loads.actuator_pa[channel]) { 0.0 } else { step };
-        down.actuator_pa[channel] = (down.actuator_pa[channel] - step).max(0.0);
-        let mut tip = |loads: &Loads| {
-            self.settle(loads, out, true)?;
-            Ok([out.tip.x_m, out.tip.y_m, out.tip.angle_rad])
+    /// Slopes of numbers of a state by the pressure of a gas, the body's at [`BODY_GAS`](crate::BODY_GAS): Richardson-extrapolated
+    /// differences, central but at the bound of the pressure.
+    #[inline]
+    pub(crate) fn slopes<const N: usize>(
+        &self,
+        loads: &Loads,
+        gas: usize,
+        out: &mut Prediction,
+        of: &impl Fn(&Loads, &Prediction) -> [f64; N],
+    ) -> Solved<[f64; N]> {
+        let p_pa = *pressure(&mut { *loads }, gas);
+        let step = JACOBIAN_STEP * p_pa;
+        let is_bounded = p_pa * (1.0 + JACOBIAN_STEP) > MOST_ACTUATOR_PA;
+        // Mean slope between P − step (not below 0) and P + step, or P where the wider step crosses the bound.
+        let mut chord = |step: f64| -> Solved<[f64; N]> {
+            let (mut up, mut down) = (*loads, *loads);
+            *pressure(&mut up, gas) += if is_bounded { 0.0 } else { step };
+            *pressure(&mut down, gas) = (p_pa - step).max(0.0);
+            let per = 1.0 / (*pressure(&mut up, gas) - *pressure(&mut down, gas));
+            let mut at = |loads: &Loads| {
+                self.settle(loads, out, true)?;
+                Ok(of(loads, out))
+            };
+            let (high, low) = (at(&up)?, at(&down)?);
+            Ok(std::array::from_fn(|i| (high[i] - low[i]) * per))
         };
-        let (high, low) = (tip(&up)?, tip(&down)?);
-        let per = 1.0 / (up.actuator_pa[channel] - down.actuator_pa[channel]);
-        Ok([0, 1, 2].map(|i| (high[i] - low[i]) * per))
+        let (wide, narrow) = (chord(step)?, chord(0.5 * step)?);
+        // At the bound of the pressure the chords have one side, and an error of first order.
+        let [of_narrow, of_wide] = if is_bounded { [2.0, -1.0] } else { [4.0 / 3.0, -1.0 / 3.0] };
+        Ok(std::array::from_fn(|i| of_narrow * narrow[i] + of_wide * wide[i]))
     }
 
     /// Channels with an actuator that its pressure has not opened.
-    fn flat(&self, loads: &Loads, at: &Prediction) -> [bool; CHANNELS] {
+    pub(crate) fn flat(&self, loads: &Loads, at: &Prediction) -> [bool; CHANNELS] {
         let (mut flat, body_pa) = ([false; CHANNELS], self.body_pa(loads, &at.work));
         let around =
             at.work.space.strips.iter().zip(&self.assembly().around).flat_map(|(states, strips)| {

@@ -26,6 +26,7 @@ pub mod export;
 pub mod fabrics;
 mod follow;
 pub mod formula;
+mod gases;
 mod gusset;
 mod gusset_table;
 mod held;
@@ -51,6 +52,7 @@ mod statics;
 mod steer;
 mod supply;
 pub mod term;
+mod tip_stiffness;
 pub mod trig;
 pub mod weave;
 
@@ -61,6 +63,7 @@ pub use error::{ScenarioError, Unsolved};
 pub use fabrics::Fabric;
 pub use follow::{Each, HOLD_S, Step};
 pub use formula::Formula;
+pub use gases::{BODY_GAS, GASES, Volumes};
 pub use inverse::{Target, TipSlope};
 pub use known::Known;
 pub use limits::{Beyond, Limit, collapse_length_m};
@@ -72,6 +75,7 @@ pub use scenario::{EffectChoice, Scenario, shipped};
 pub use steer::{Aim, End, Limits, Steered, Steering};
 pub use supply::Supply;
 pub use term::{Account, CHANNELS, LedgerLine, Loads, Memory, Pose, Remembering, Row, RowKind, Term};
+pub use tip_stiffness::TipStiffness;
 
 /// Words of a catalogue.
 pub(crate) type Text = &'static str;

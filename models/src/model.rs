@@ -173,7 +173,9 @@ impl Model {
             return lines;
         }
         for (i, p_act_pa) in at.work.p_act_pa.iter().enumerate() {
-            self.site_energies(i, [body_pa, *p_act_pa], &at.work, &mut lines);
+            self.site_energies(i, [body_pa, *p_act_pa], &at.work, &mut |line, energy| {
+                post(&mut lines, line, RowKind::Stored, energy);
+            });
         }
         self.lost_energies(&at.work, &mut lines);
         if at.work.is_sheared() {
@@ -270,11 +272,11 @@ impl Model {
         index: usize,
         [p_body_pa, p_act_pa]: [f64; 2],
         work: &Workspace,
-        lines: &mut Vec<Row>,
+        post: &mut dyn FnMut(LedgerLine, f64),
     ) {
         let (site, segment) = (self.assembly.site(index), &self.assembly.segments[index]);
         let (state, h) = (&work.states[index], segment.length_m);
-        let mut post = |line, energy: f64| post(lines, line, RowKind::Stored, energy * h);
+        let mut post = |line, energy: f64| post(line, energy * h);
         let at = Pose { s_m: segment.middle_m(), ..Pose::new(&[], p_body_pa, p_act_pa) };
         if let Some(actuator) = site.actuator.filter(|_| p_act_pa > 0.0) {
             let stroke = (actuator.stroke)(&site.shape, state.coordinate);
@@ -302,7 +304,7 @@ impl Model {
     }
 
     /// ½ K γ² over the length \[J\].
-    fn shear_energy(&self, p_body_pa: f64, work: &Workspace) -> f64 {
+    pub(crate) fn shear_energy(&self, p_body_pa: f64, work: &Workspace) -> f64 {
         let of = |(i, segment): (usize, &Segment)| {
             let shear = work.shear(i);
             let stiffness = self.assembly.sites[segment.site].shear_stiffness_n(p_body_pa);

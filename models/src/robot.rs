@@ -1,6 +1,7 @@
 //! Equilibrium of the whole robot: every place alone, or coupled through transverse loads and the shape.
 
 mod coupled;
+mod tip;
 mod workspace;
 
 use crate::assembly::Assembly;
@@ -8,6 +9,7 @@ use crate::error::Solved;
 use crate::site::SiteState;
 use crate::space;
 use coupled::{coupled, disagreement, place_nodes, place_of, solve_segment};
+pub(crate) use tip::tip_compliance;
 pub(crate) use workspace::{Held, Workspace};
 
 /// Places the nodes at an equilibrium without transverse loads, which does not need them; with such loads they are placed.

@@ -24,10 +24,10 @@ impl<N: Numbers> Numbers for Option<N> {
     }
 }
 
-impl<const N: usize> Numbers for [f64; N] {
-    type Written = Vec<f64>;
-    fn converted(&self, to: fn(f64) -> f64) -> Vec<f64> {
-        self.iter().copied().map(to).collect()
+impl<T: Numbers, const N: usize> Numbers for [T; N] {
+    type Written = Vec<T::Written>;
+    fn converted(&self, to: fn(f64) -> f64) -> Self::Written {
+        self.iter().map(|numbers| numbers.converted(to)).collect()
     }
 }
 
@@ -44,6 +44,21 @@ pub fn kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error
 /// Serialises a rate per pascal as a rate per kilopascal.
 pub fn per_kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
     value.converted(|per_pa| 1e3 * per_pa).serialize(to)
+}
+
+/// Cubic metres as cubic centimetres.
+pub fn cm3<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
+    value.converted(|m3| 1e6 * m3).serialize(to)
+}
+
+/// Cubic metres per pascal as cubic centimetres per kilopascal.
+pub fn cm3_per_kpa<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
+    value.converted(|m3_per_pa| 1e9 * m3_per_pa).serialize(to)
+}
+
+/// Newtons per metre as newtons per millimetre.
+pub fn n_per_mm<S: Serializer>(value: &impl Numbers, to: S) -> Result<S::Ok, S::Error> {
+    value.converted(|n_per_m| n_per_m / 1e3).serialize(to)
 }
 
 /// Metres per pascal as millimetres per kilopascal.

@@ -242,7 +242,7 @@ fn load_moments(assembly: &Assembly, work: &mut Workspace) {
 /// With g the coupling and z = h C δ the turn of a segment, `∂Gᵢ/∂κⱼ = hⱼ g_max(i,j)` off the diagonal. So row i needs of
 /// the others only the turn Z before it and Σ g z beyond it: δ is affine in Z, found from tip to base, then filled in.
 /// `step` and `residual` hold the two coefficients meanwhile. False if the step is not finite: the loads are critical.
-fn newton_step(assembly: &Assembly, work: &mut Workspace) -> bool {
+pub(super) fn newton_step(assembly: &Assembly, work: &mut Workspace) -> bool {
     let load = &mut work.coupled;
     let (mut beyond, mut beyond_slope) = (0.0, 0.0);
     for i in (0..work.states.len()).rev() {

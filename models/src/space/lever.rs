@@ -12,14 +12,18 @@ use crate::shape::{SERIES_BELOW, alternating, inverse_of, sinc_pair};
 
 pub(super) type Vector = [f64; 3];
 /// Matrix by its rows: the first index is the row.
-pub(super) type Matrix = [[f64; 3]; 3];
+pub type Matrix = [[f64; 3]; 3];
 
 pub(super) fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub(super) fn cross(a: Vector, b: Vector) -> Vector {
+pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+pub(crate) fn outer(a: Vector, b: Vector) -> Matrix {
+    of_each(|i, j| a[i] * b[j])
 }
 
 pub(super) fn of_each(make: impl Fn(usize, usize) -> f64) -> Matrix {

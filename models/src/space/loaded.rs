@@ -125,7 +125,7 @@ pub(super) fn couple(assembly: &Assembly, p_body_pa: f64, work: &mut SpaceWork) 
 /// With A the turn and g the turned work of a section, `hᵢ ∂Gᵢ/∂qⱼ` is `Aᵢᵀ gⱼ` for i < j and `gᵢᵀ Aⱼ` for i > j. So row i needs of the
 /// others only the turn Φ before it and Y = Σ g C δ beyond it: δ is affine in Φ, found from tip to base, then filled in. False if
 /// the step is not finite: the loads are critical.
-fn newton_step(assembly: &Assembly, sections: &mut [Coupling]) -> bool {
+pub(super) fn newton_step(assembly: &Assembly, sections: &mut [Coupling]) -> bool {
     let (mut beyond, mut beyond_slope) = ([0.0; 3], [[0.0; 3]; 3]);
     for (section, segment) in sections.iter_mut().zip(&assembly.segments).rev() {
         let per_h = 1.0 / segment.length_m;

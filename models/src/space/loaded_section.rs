@@ -59,7 +59,7 @@ impl Section<'_> {
     }
 
     /// Inverse of the second derivatives of its energy, the contraction at its best.
-    pub(super) fn compliance(&self, strips: &mut [StripState], bend: &Bend) -> Solved<Matrix> {
+    pub(crate) fn compliance(&self, strips: &mut [StripState], bend: &Bend) -> Solved<Matrix> {
         let at = self.balance(strips, bend.kappa)?;
         if bend.size() <= STRAIGHT && at.taut_n > 0.0 {
             return Ok([[0.0; 3]; 3]);

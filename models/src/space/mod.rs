@@ -43,6 +43,7 @@ mod section;
 mod state;
 #[cfg(test)]
 mod tests;
+mod tip;
 
 use crate::assembly::{Assembly, Segment, Strip};
 use crate::body::BodyLaw;
@@ -52,9 +53,12 @@ use crate::scenario::ActuatorChoice;
 use crate::site::{Site, SiteState};
 pub use frame::Frame;
 pub(crate) use frame::{Bend, Stretch, direction};
+pub use lever::Matrix;
+pub(crate) use lever::{cross, outer};
 pub(crate) use section::Section;
 pub use state::{SectionState, StripState};
 pub(crate) use state::{SpaceWork, place, stretch};
+pub(crate) use tip::tip_compliance;
 
 /// Strips of every segment; `spans` sites per strip, in the order of the strips.
 pub(crate) fn around(strips: &[ActuatorChoice], radius_m: f64, spans: usize, segments: &[Segment]) -> Vec<Vec<Strip>> {

@@ -35,7 +35,7 @@ pub(crate) struct Section<'a> {
     pub(super) bending: f64,
     /// Curvature over which the hinge of the wall sets in \[1/m\].
     pub(super) hinge_per_m: f64,
-    pub(super) area_m2: f64,
+    pub(crate) area_m2: f64,
     /// First moment of the area about the axis, (y, z) \[m³\].
     pub(super) moment_m3: [f64; 2],
     /// Distance of the centre line from the axis, away from the taut generator \[m\].

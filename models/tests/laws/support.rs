@@ -21,6 +21,15 @@ pub(crate) fn full(actuator: &str) -> Scenario {
     Scenario::parse(shipped(actuator).unwrap()).unwrap()
 }
 
+/// Robots with strips round the body, from the studies: two upright strips, and a helix.
+pub(crate) fn in_space() -> [(&'static str, Scenario); 2] {
+    let studies = [
+        ("two strips", include_str!("../../../studies/epam-two-strips.toml")),
+        ("helix", include_str!("../../../studies/epam-helix.toml")),
+    ];
+    studies.map(|(name, text)| (name, Scenario::parse(text).unwrap()))
+}
+
 /// Effects that exist for the actuator of `scenario`.
 pub(crate) fn applicable(scenario: &Scenario) -> impl Iterator<Item = &'static Effect<'static>> {
     let family = scenario.actuator.kind.family;

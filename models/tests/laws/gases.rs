@@ -1,0 +1,112 @@
+//! Volumes are the slopes of the potential by the pressures, and obey Maxwell's relations.
+
+use crate::support::*;
+use models::{BODY_GAS, GASES, Loads, Model, Scenario};
+use std::f64::consts::{LN_2, PI};
+
+/// Every actuator bare, with everything, as shipped, and under loads; and robots in space.
+fn robots() -> Vec<(String, Scenario)> {
+    let planar = actuators().flat_map(|a| {
+        let loaded = full(a).with_effect("gravity", &[1.0]).with_effect("tip_load", &[0.1, -0.15]);
+        [(format!("{a} bare"), robot(a)), (format!("{a} full"), full(a)), (format!("{a} loaded"), loaded)]
+            .into_iter()
+            .chain([(format!("{a} everything"), everything(a))])
+    });
+    let space = in_space().map(|(name, scenario)| {
+        [(name.to_string(), scenario.clone()), (format!("{name} loaded"), scenario.with_effect("gravity", &[0.5]))]
+    });
+    planar.chain(space.into_iter().flatten()).collect()
+}
+
+const LOADS: Loads = Loads { body_pa: 2e3, actuator_pa: [22e3, 17e3, 22e3, 22e3] };
+
+fn with(mut loads: Loads, gas: usize, by: f64) -> Loads {
+    *loads.actuator_pa.get_mut(gas).unwrap_or(&mut loads.body_pa) *= by;
+    loads
+}
+
+#[test]
+fn a_volume_grows_with_one_pressure_as_the_gas_of_that_pressure_grows_with_the_other() {
+    for (name, scenario) in robots() {
+        let model = Model::new(&scenario);
+        let found = model.volumes(&LOADS, &mut model.prediction()).unwrap();
+        let gases: Vec<usize> = model.channels().chain([BODY_GAS]).collect();
+        for (i, j) in gases.iter().flat_map(|i| gases.iter().map(move |j| (*i, *j))) {
+            let size = found.per_pa[i][i].abs().max(found.per_pa[j][j].abs());
+            let off = (found.per_pa[i][j] - found.per_pa[j][i]).abs();
+            assert!(off < 1e-5 * size, "{name}: {i} {j} {:?}", found.per_pa);
+        }
+        // Where energies are linear in the pressures, a gas grows with its own.
+        assert!(!name.ends_with("bare") || gases.iter().all(|i| found.per_pa[*i][*i] > 0.0), "{name}: {found:?}");
+        assert!((0..GASES).filter(|i| !gases.contains(i)).all(|i| found.m3[i] == 0.0), "{name}");
+    }
+}
+
+#[test]
+fn a_volume_is_the_slope_of_the_potential_at_equilibrium() {
+    for (name, scenario) in robots() {
+        let model = Model::new(&scenario);
+        let potential = |loads: &Loads| -> f64 {
+            let at = predicted(&model, loads).unwrap();
+            model.ledger(loads, &at).iter().map(|row| row.energy_j).sum()
+        };
+        // What a gas has at rest is the same in both states.
+        let at_rest = |loads: &Loads, gas: usize| {
+            let pressure = loads.actuator_pa.get(gas).copied().unwrap_or(loads.body_pa);
+            let by_energy = slope(|share| potential(&with(*loads, gas, share)), 1.0, 1e-3) / pressure;
+            let volume = model.volumes(loads, &mut model.prediction()).unwrap().m3[gas];
+            [volume + by_energy, volume]
+        };
+        let higher = Loads { body_pa: 2.2e3, actuator_pa: LOADS.actuator_pa.map(|p| 1.4 * p) };
+        for gas in model.channels().chain([BODY_GAS]) {
+            let ([low, size], [high, _]) = (at_rest(&LOADS, gas), at_rest(&higher, gas));
+            assert!((low - high).abs() < 1e-5 * size, "{name} {gas}: {low} {high} of {size}");
+        }
+    }
+}
+
+#[test]
+fn slopes_are_those_of_two_states() {
+    for (name, scenario) in robots() {
+        let model = Model::new(&scenario);
+        let at = |loads: &Loads| model.volumes(loads, &mut model.prediction()).unwrap();
+        let found = at(&LOADS);
+        for gas in model.channels().chain([BODY_GAS]) {
+            let pressure = LOADS.actuator_pa.get(gas).copied().unwrap_or(LOADS.body_pa);
+            let [high, low] = [1.001, 0.999].map(|by| at(&with(LOADS, gas, by)).m3);
+            for i in 0..GASES {
+                let chord = (high[i] - low[i]) / (2e-3 * pressure);
+                let off = (chord - found.per_pa[i][gas]).abs();
+                assert!(
+                    off <= 1e-4 * found.per_pa[i][i].abs(),
+                    "{name} {i} by {gas}: {chord} {:?}",
+                    found.per_pa[i][gas]
+                );
+            }
+        }
+    }
+}
+
+/// One arc of a bare robot: V_b = πR²L (1 − R k ln cosh(κ/k)) and V_a of the lens, both in closed form.
+#[test]
+fn a_bare_robot_has_the_volumes_of_its_geometry() {
+    let scenario = robot("epam");
+    let model = Model::new(&scenario);
+    let (loads, mut at) = (Loads::uniform(2e3, 20e3), model.prediction());
+    let found = model.volumes(&loads, &mut at).unwrap();
+    model.predict(&loads, &mut at).unwrap();
+    let (mut lens, mut lost) = (0.0, 0.0);
+    for ((segment, kappa), state) in model.curvatures(&at).zip(model.states(&at)) {
+        lost += scenario.radius_m * segment.length_m * (kappa - scenario.hinge_curvature * LN_2).max(0.0);
+        let theta = state.coordinate;
+        if theta > 0.0 {
+            // Lens of arcs of length L: area L² (θ − sinθ cosθ)/2θ², W wide, one every L.
+            let shape = model.assembly().sites[segment.site].shape;
+            let area = shape.length_m.powi(2) * (theta - theta.sin() * theta.cos()) / (2.0 * theta * theta);
+            lens += area * shape.width_m / shape.length_m * segment.length_m;
+        }
+    }
+    let body = PI * scenario.radius_m.powi(2) * (scenario.length_m - lost);
+    assert!((found.m3[0] / lens - 1.0).abs() < 1e-9, "{} {lens}", found.m3[0]);
+    assert!((found.m3[BODY_GAS] / body - 1.0).abs() < 1e-9, "{} {body}", found.m3[BODY_GAS]);
+}
