@@ -2,7 +2,10 @@
 
 use crate::predict::{AtPressure, state};
 use compare::CompareError;
-use models::{Aim, Batch, CHANNELS, Limits, Loads, Model, Prediction, Scenario, Steered, Target, TipSlope};
+use models::{
+    Aim, Batch, CHANNELS, GasVolumes, Limits, Loads, Model, Prediction, Scenario, Steered, Target, TipSlope,
+    TipStiffness,
+};
 
 /// A robot ready to be asked. Pressures are refused where the scenario has nothing that they could act on.
 pub struct Predictor {
@@ -104,6 +107,16 @@ impl Predictor {
     /// ```
     pub fn jacobian(&self, loads: &Loads) -> Result<[TipSlope; CHANNELS], CompareError> {
         Ok(self.model.jacobian(loads, &mut self.model.prediction())?)
+    }
+
+    /// Volumes of the gases and their slopes by the pressures. Errors as for [`Model::predict`].
+    pub fn volumes(&self, loads: &Loads) -> Result<GasVolumes, CompareError> {
+        Ok(self.model.volumes(loads, &mut self.model.prediction())?)
+    }
+
+    /// How the tip gives way to a force. Errors as for [`Model::predict`].
+    pub fn tip_stiffness(&self, loads: &Loads) -> Result<TipStiffness, CompareError> {
+        Ok(self.model.tip_stiffness(loads, &mut self.model.prediction())?)
     }
 
     /// Many states in parallel on so many threads, one per core if 0; bits do not depend on the number.

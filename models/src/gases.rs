@@ -33,12 +33,12 @@ const STEP: f64 = 1e-3;
 
 /// Volumes of the gases of every channel and, last, of the body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Volumes {
+pub struct GasVolumes {
     /// Volume of gas in the actuators of every channel and, last, in the body \[m³\].
-    #[serde(rename = "cm3", serialize_with = "si::cm3")]
+    #[serde(rename = "gas_cm3", serialize_with = "si::cm3")]
     pub m3: [f64; GASES],
     /// Slope of a volume (row) by a pressure (column), in the same order \[m³/Pa\]; NaN by the pressure of a flat actuator.
-    #[serde(rename = "cm3_per_kpa", serialize_with = "si::cm3_per_kpa")]
+    #[serde(rename = "slope_cm3_per_kpa", serialize_with = "si::cm3_per_kpa")]
     pub per_pa: [[f64; GASES]; GASES],
 }
 
@@ -55,18 +55,18 @@ impl Model {
     ///
     /// # Errors
     /// As [`Model::predict`].
-    pub fn volumes(&self, loads: &Loads, out: &mut Prediction) -> Solved<Volumes> {
+    pub fn volumes(&self, loads: &Loads, out: &mut Prediction) -> Solved<GasVolumes> {
         self.settle(loads, out, false)?;
         let (m3, flat) = (self.gases_m3(loads, out), self.flat(loads, out));
         let mut per_pa = [[0.0; GASES]; GASES];
         for gas in self.channels().chain([BODY_GAS]) {
             let column = match flat.get(gas) {
                 Some(true) => [f64::NAN; GASES],
-                _ => self.slopes(loads, gas, out, &|loads, at| self.gases_m3(loads, at))?,
+                _ => self.slopes(loads, gas, &flat, out, &|loads, at| self.gases_m3(loads, at))?,
             };
             per_pa.iter_mut().zip(column).for_each(|(row, slope)| row[gas] = slope);
         }
-        Ok(Volumes { m3, per_pa })
+        Ok(GasVolumes { m3, per_pa })
     }
 
     /// Volumes of a predicted state \[m³\].

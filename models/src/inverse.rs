@@ -151,8 +151,8 @@ impl Model {
         self.predict(&Loads::uniform(p_body_pa, p), out).map(|()| p)
     }
 
-    /// Slopes of the tip pose by each channel's pressure, by Richardson-extrapolated differences, central but at the bound of
-    /// the pressure; [`TipSlope::NONE`] where an actuator of the channel is flat. `out` is overwritten.
+    /// Slopes of the tip pose by each channel's pressure, by Richardson-extrapolated differences; [`TipSlope::NONE`] where an
+    /// actuator of the channel is flat. `out` is overwritten.
     pub fn jacobian(&self, loads: &Loads, out: &mut Prediction) -> Solved<[TipSlope; CHANNELS]> {
         let mut slopes = [TipSlope { x_per_pa: 0.0, y_per_pa: 0.0, angle_per_pa: 0.0 }; CHANNELS];
         self.settle(loads, out, false)?;
@@ -162,7 +162,7 @@ impl Model {
                 true => TipSlope::NONE,
                 false => {
                     let tip = |_: &Loads, at: &Prediction| [at.tip.x_m, at.tip.y_m, at.tip.angle_rad];
-                    let [x_per_pa, y_per_pa, angle_per_pa] = self.slopes(loads, channel, out, &tip)?;
+                    let [x_per_pa, y_per_pa, angle_per_pa] = self.slopes(loads, channel, &flat, out, &tip)?;
                     TipSlope { x_per_pa, y_per_pa, angle_per_pa }
                 }
             };
@@ -171,48 +171,61 @@ impl Model {
     }
 
     /// Slopes of numbers of a state by the pressure of a gas, the body's at [`BODY_GAS`](crate::BODY_GAS): Richardson-extrapolated
-    /// differences, central but at the bound of the pressure.
+    /// differences. They are central, and from one side, with an error of first order, at the bound of the pressure and where an
+    /// actuator opens or closes within them; NaN between two such pressures.
     #[inline]
     pub(crate) fn slopes<const N: usize>(
         &self,
         loads: &Loads,
         gas: usize,
+        flat: &[bool; CHANNELS],
         out: &mut Prediction,
         of: &impl Fn(&Loads, &Prediction) -> [f64; N],
     ) -> Solved<[f64; N]> {
         let p_pa = *pressure(&mut { *loads }, gas);
         let step = JACOBIAN_STEP * p_pa;
-        let is_bounded = p_pa * (1.0 + JACOBIAN_STEP) > MOST_ACTUATOR_PA;
-        // Mean slope between P − step (not below 0) and P + step, or P where the wider step crosses the bound.
-        let mut chord = |step: f64| -> Solved<[f64; N]> {
-            let (mut up, mut down) = (*loads, *loads);
-            *pressure(&mut up, gas) += if is_bounded { 0.0 } else { step };
-            *pressure(&mut down, gas) = (p_pa - step).max(0.0);
-            let per = 1.0 / (*pressure(&mut up, gas) - *pressure(&mut down, gas));
-            let mut at = |loads: &Loads| {
-                self.settle(loads, out, true)?;
-                Ok(of(loads, out))
-            };
-            let (high, low) = (at(&up)?, at(&down)?);
-            Ok(std::array::from_fn(|i| (high[i] - low[i]) * per))
+        // Mean slope between P − step (not below 0) and P + step, or to P on one side.
+        let mut chord = |ends: [f64; 2], step: f64| -> Solved<([f64; N], [bool; 2])> {
+            let at = ends.map(|end| (p_pa + end * step).max(0.0));
+            let (mut found, mut is_alike) = ([[0.0; N]; 2], [true; 2]);
+            for k in [1, 0] {
+                let mut moved = *loads;
+                *pressure(&mut moved, gas) = at[k];
+                self.settle(&moved, out, true)?;
+                is_alike[k] = self.flat(&moved, out) == *flat;
+                found[k] = of(&moved, out);
+            }
+            let per = 1.0 / (at[1] - at[0]);
+            Ok((std::array::from_fn(|i| (found[1][i] - found[0][i]) * per), is_alike))
         };
-        let (wide, narrow) = (chord(step)?, chord(0.5 * step)?);
-        // At the bound of the pressure the chords have one side, and an error of first order.
-        let [of_narrow, of_wide] = if is_bounded { [2.0, -1.0] } else { [4.0 / 3.0, -1.0 / 3.0] };
+        let mut ends = [-1.0, if p_pa * (1.0 + JACOBIAN_STEP) > MOST_ACTUATOR_PA { 0.0 } else { 1.0 }];
+        let (mut wide, is_alike) = chord(ends, step)?;
+        match is_alike {
+            [true, true] => {}
+            [false, false] => return Ok([f64::NAN; N]),
+            [is_low, _] => {
+                ends = if is_low { [-1.0, 0.0] } else { [0.0, 1.0] };
+                wide = chord(ends, step)?.0;
+            }
+        }
+        let (narrow, _) = chord(ends, 0.5 * step)?;
+        let [of_narrow, of_wide] = if ends == [-1.0, 1.0] { [4.0 / 3.0, -1.0 / 3.0] } else { [2.0, -1.0] };
         Ok(std::array::from_fn(|i| of_narrow * narrow[i] + of_wide * wide[i]))
     }
 
     /// Channels with an actuator that its pressure has not opened.
     pub(crate) fn flat(&self, loads: &Loads, at: &Prediction) -> [bool; CHANNELS] {
-        let (mut flat, body_pa) = ([false; CHANNELS], self.body_pa(loads, &at.work));
-        let around =
-            at.work.space.strips.iter().zip(&self.assembly().around).flat_map(|(states, strips)| {
-                states.iter().zip(strips).map(|(state, strip)| (strip.site, state.p_act_pa))
-            });
-        let planar = self.assembly().segments.iter().filter(|_| !self.is_spatial()).zip(&at.work.p_act_pa);
-        for (site, p_act_pa) in around.chain(planar.map(|(segment, p)| (segment.site, *p))) {
+        let (mut flat, body_pa, work) = ([false; CHANNELS], self.body_pa(loads, &at.work), &at.work);
+        let around = work.space.strips.iter().zip(&self.assembly().around).flat_map(|(states, strips)| {
+            states.iter().zip(strips).map(|(state, strip)| (strip.site, state.p_act_pa, state.coordinate))
+        });
+        let along = self.assembly().segments.iter().filter(|_| !self.is_spatial()).zip(&work.p_act_pa);
+        let along = along.zip(&work.states).map(|((segment, p), state)| (segment.site, *p, state.coordinate));
+        for (site, p_act_pa, coordinate) in around.chain(along) {
             let site = &self.assembly().sites[site];
-            flat[site.channel] |= site.actuator.is_some() && !site.is_open(body_pa, p_act_pa);
+            // Its sides or folds may hold a pouch shut beyond the pressure from which it could open.
+            let is_shut = |pouch: bool| !site.is_open(body_pa, p_act_pa) || pouch && coordinate == 0.0;
+            flat[site.channel] |= site.actuator.is_some_and(|actuator| is_shut(actuator.has_pouches()));
         }
         flat
     }

@@ -63,7 +63,7 @@ pub use error::{ScenarioError, Unsolved};
 pub use fabrics::Fabric;
 pub use follow::{Each, HOLD_S, Step};
 pub use formula::Formula;
-pub use gases::{BODY_GAS, GASES, Volumes};
+pub use gases::{BODY_GAS, GASES, GasVolumes};
 pub use inverse::{Target, TipSlope};
 pub use known::Known;
 pub use limits::{Beyond, Limit, collapse_length_m};

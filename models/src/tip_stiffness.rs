@@ -31,10 +31,10 @@ use spelling::si;
 pub struct TipStiffness {
     /// Displacement of the tip along x, y, z (row) per force on it (column); 0 across the plane of a planar robot \[m/N\].
     #[serde(rename = "compliance_mm_per_n", serialize_with = "si::mm")]
-    pub compliance_m_per_n: Matrix,
-    /// Force along x, y and z per displacement that way, free to move the other ways: dF/dy is the second \[N/m\].
-    #[serde(rename = "n_per_mm", serialize_with = "si::n_per_mm")]
-    pub n_per_m: [f64; 3],
+    pub compliance_m_per_n: [[f64; 3]; 3],
+    /// Force along y per displacement that way, free to move the other ways: dF/dy \[N/m\].
+    #[serde(rename = "y_n_per_mm", serialize_with = "si::n_per_mm")]
+    pub y_n_per_m: f64,
 }
 
 /// Points and weights of Gauss on −1 … 1.
@@ -61,7 +61,7 @@ impl Model {
             (false, true) => space::tip_compliance(assembly, &mut out.work.space),
             (false, false) => robot::tip_compliance(assembly, body_pa, &mut out.work),
         };
-        Ok(TipStiffness { compliance_m_per_n, n_per_m: [0, 1, 2].map(|i| 1.0 / compliance_m_per_n[i][i]) })
+        Ok(TipStiffness { compliance_m_per_n, y_n_per_m: 1.0 / compliance_m_per_n[1][1] })
     }
 
     /// Without loads on the body: every section for itself.

@@ -132,6 +132,11 @@ class Scenario:
         body_pressure_kpa: Optional[float] = None,
     ) -> State:
         """The state in which the tip has this height y (mm) or the robot this total bend (degrees); its `pressure_kpa` is the answer."""
+    def inverse_interval(
+        self, *, tip_mm: Optional[float] = None, angle_deg: Optional[float] = None
+    ) -> Optional[List[float]]:
+        """Least and largest pressure (kPa) for such a target over the `interval` of every assumed or calibrated number of an effect, at
+        the scenario's body pressure; None without such numbers, or where no robot reaches the target."""
     def steer(
         self,
         *,
@@ -147,6 +152,12 @@ class Scenario:
     def jacobian(self, pressure_kpa: Pressure, body_pressure_kpa: Optional[float] = None) -> Array:
         """Change of tip x, tip y (mm/kPa) and angle (deg/kPa) with the pressure of each channel, shape (channels, 3); NaN
         where an actuator is flat."""
+    def volumes(self, pressure_kpa: Pressure, body_pressure_kpa: Optional[float] = None) -> Tuple[Array, Array]:
+        """Gas of every channel and, last, of the body (cm³), shape (channels + 1,), and its slopes: volume (row) by pressure
+        (column, cm³/kPa), shape (channels + 1, channels + 1); NaN by the pressure of a flat actuator."""
+    def tip_compliance(self, pressure_kpa: Pressure, body_pressure_kpa: Optional[float] = None) -> Array:
+        """Displacement of the tip along x, y, z (row) per force on it (column, mm/N), shape (3, 3), at constant pressures; 0
+        across the plane of a planar robot. dF/dy is `1 / compliance[1, 1]`."""
 
 class Data:
     """Measurements of one robot: a dataset by name, file or import."""

@@ -1,13 +1,13 @@
 //! A robot's scenario, ready to be asked.
 
-use crate::arrays::{Numbers, matrix, numbers};
+use crate::arrays::{Numbers, matrix, numbers, vector};
 use crate::errors::{raised, refused};
 use crate::inputs::{Change, Pressures, hash_of, places};
 use crate::source::Source;
 use crate::states::{State, states};
-use ibr::models::{Aim, CHANNELS, Limits, Loads, Prediction, Target};
+use ibr::models::{Aim, CHANNELS, GASES, Limits, Loads, Prediction, Target};
 use ibr::{Follower, Predictor, ScenarioFile};
-use numpy::PyArray2;
+use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
@@ -94,6 +94,14 @@ impl Scenario {
 
 fn channels(pressure_kpa: &Numbers<'_>) -> usize {
     pressure_kpa.as_array().shape().get(1).copied().unwrap_or(1)
+}
+
+fn target(tip_mm: Option<f64>, angle_deg: Option<f64>) -> PyResult<Target> {
+    match (tip_mm, angle_deg) {
+        (Some(mm), None) => Ok(Target::TipHeight(mm / 1e3)),
+        (None, Some(deg)) => Ok(Target::Angle(deg.to_radians())),
+        _ => Err(refused("one target is needed", "give tip_mm=100 (height) or angle_deg=60 (total bend)")),
+    }
 }
 
 #[pymethods]
@@ -269,14 +277,18 @@ impl Scenario {
     /// answer.
     #[pyo3(signature = (*, tip_mm = None, angle_deg = None, body_pressure_kpa = None))]
     fn inverse(&self, tip_mm: Option<f64>, angle_deg: Option<f64>, body_pressure_kpa: Option<f64>) -> PyResult<State> {
-        let target = match (tip_mm, angle_deg) {
-            (Some(mm), None) => Target::TipHeight(mm / 1e3),
-            (None, Some(deg)) => Target::Angle(deg.to_radians()),
-            _ => return Err(refused("one target is needed", "give tip_mm=100 (height) or angle_deg=60 (total bend)")),
-        };
+        let target = target(tip_mm, angle_deg)?;
         let body_pa = body_pressure_kpa.map(|kpa| kpa * 1e3);
         let (loads, at) = self.robot.inverse(target, body_pa).map_err(raised)?;
         self.state(loads, &at)
+    }
+
+    /// Least and largest pressure (kPa) for such a target over the `interval` of every assumed or calibrated number of an effect, at the
+    /// scenario's body pressure; None without such numbers, or where no robot reaches the target.
+    #[pyo3(signature = (*, tip_mm = None, angle_deg = None))]
+    fn inverse_interval(&self, tip_mm: Option<f64>, angle_deg: Option<f64>) -> PyResult<Option<[f64; 2]>> {
+        let found = ibr::pressure_interval(&self.robot.scenario, target(tip_mm, angle_deg)?).map_err(raised)?;
+        Ok(found.and_then(|found| found.p_pa).map(|ends| ends.map(|pa| pa / 1e3)))
     }
 
     /// Several channels: the state nearest to a tip (x, y) or to places of all markers, and the distance that is left (mm,
@@ -334,6 +346,34 @@ impl Scenario {
         let slopes = self.robot.jacobian(&loads).map_err(raised)?;
         let row = |s: &ibr::models::TipSlope| [s.x_per_pa * 1e6, s.y_per_pa * 1e6, s.angle_per_pa.to_degrees() * 1e3];
         Ok(matrix(py, CHANNELS, 3, slopes.iter().flat_map(row).collect()))
+    }
+
+    /// Gas of every channel and, last, of the body (cm³), shape (channels + 1,), and its slopes: volume (row) by pressure (column,
+    /// cm³/kPa), shape (channels + 1, channels + 1); NaN by the pressure of a flat actuator.
+    #[pyo3(signature = (pressure_kpa, body_pressure_kpa = None))]
+    fn volumes<'py>(
+        &self,
+        py: Python<'py>,
+        pressure_kpa: Pressures,
+        body_pressure_kpa: Option<f64>,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
+        let found = self.robot.volumes(&self.loads(&pressure_kpa, body_pressure_kpa)?).map_err(raised)?;
+        let slopes = found.per_pa.as_flattened().iter().map(|m3_per_pa| m3_per_pa * 1e9).collect();
+        Ok((vector(py, found.m3.map(|m3| m3 * 1e6).to_vec()), matrix(py, GASES, GASES, slopes)))
+    }
+
+    /// Displacement of the tip along x, y, z (row) per force on it (column, mm/N), shape (3, 3), at constant pressures; 0 across the
+    /// plane of a planar robot. dF/dy is `1 / compliance[1, 1]`.
+    #[pyo3(signature = (pressure_kpa, body_pressure_kpa = None))]
+    fn tip_compliance<'py>(
+        &self,
+        py: Python<'py>,
+        pressure_kpa: Pressures,
+        body_pressure_kpa: Option<f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let found = self.robot.tip_stiffness(&self.loads(&pressure_kpa, body_pressure_kpa)?).map_err(raised)?;
+        let mm_per_n = found.compliance_m_per_n.as_flattened().iter().map(|m_per_n| m_per_n * 1e3).collect();
+        Ok(matrix(py, 3, 3, mm_per_n))
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Scenario>) -> PyResult<(Bound<'py, PyAny>, (String, String))> {

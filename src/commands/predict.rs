@@ -5,7 +5,7 @@ use crate::shown::predicted::{
     NearestPlace, PredictAnswer, PredictedState, above_limit, beyond_words, columns, nearest_words, text,
 };
 use ibr::pages::predicted_files;
-use ibr::{check_fed, predict, predict_for, predict_near};
+use ibr::{PressureInterval, check_fed, predict, predict_for, predict_near, pressure_interval};
 use models::scenario::quantity::{MOST, parse_pressures};
 use models::{CHANNELS, Target, collapse_length_m};
 
@@ -21,14 +21,18 @@ pub(super) fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome> 
         return limits(typed, &scenario, &asked(&scenario, args)?);
     }
     let aimed = args.inverse.as_deref().and_then(|text| text.split_once(',')).map(place).transpose()?;
-    let mut steered = None;
+    let (mut steered, mut interval) = (None, None);
     let states = match (&args.inverse, aimed) {
         (_, Some(place)) => {
             let found = predict_near(&scenario, place)?;
             steered = Some((place, found.1));
             vec![found.0]
         }
-        (Some(text), None) => vec![predict_for(&scenario, target(text)?)?],
+        (Some(text), None) => {
+            let target = target(text)?;
+            interval = pressure_interval(&scenario, target)?;
+            vec![predict_for(&scenario, target)?]
+        }
         (None, None) => predict(&scenario, &asked(&scenario, args)?)?,
     };
     let model = Model::new(&scenario);
@@ -44,8 +48,10 @@ pub(super) fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome> 
         effects: scenario.effects.iter().map(|e| e.name.as_str()).collect(),
         states: told.collect(),
         nearest: steered.as_ref().map(|(place, found)| NearestPlace::of(*place, found)),
+        pressure_interval: interval.as_ref(),
     };
-    let mut outcome = Outcome::answer(text(&scenario, &states), "ibr.predict", &answer);
+    let words = interval.as_ref().map(interval_words).unwrap_or_default();
+    let mut outcome = Outcome::answer(text(&scenario, &states) + &words, "ibr.predict", &answer);
     if args.csv {
         let mut csv = Vec::new();
         columns(&scenario, &states).to_csv(&mut csv)?;
@@ -63,6 +69,20 @@ fn follow(scenario: &Scenario, context: &Context) -> Result<Outcome> {
     refuse_if(context.json, message, "leave out --json")?;
     let followed = ibr::follow(scenario, std::io::stdin().lock(), std::io::stdout().lock())?;
     Ok(Outcome { notes: followed.words(), ..Outcome::default() })
+}
+
+/// The pressures of robots whose unmeasured numbers fill their intervals.
+fn interval_words(found: &PressureInterval) -> String {
+    let numbers: Vec<String> =
+        found.numbers.iter().map(|n| format!("{} {} to {}", n.key, n.interval[0], n.interval[1])).collect();
+    let pressures = found
+        .p_pa
+        .map_or("no pressure".to_string(), |[low, high]| format!("{:.3} to {:.3} kPa", low / 1e3, high / 1e3));
+    let missed = match found.missed {
+        0 => String::new(),
+        missed => format!("; {missed} of {} robots do not reach the target", found.robots),
+    };
+    format!("Over the intervals of numbers that were not measured: {pressures}{missed}\n  {}\n", numbers.join("\n  "))
 }
 
 fn place((x, y): (&str, &str)) -> Result<[f64; 2]> {

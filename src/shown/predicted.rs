@@ -3,10 +3,10 @@
 use crate::prelude::*;
 use ::sweep::PRESSURE;
 use data::Column;
-use ibr::AtPressure;
+use ibr::{AtPressure, PressureInterval};
 use models::assembly::Segment;
 use models::space::SectionState;
-use models::{Beyond, CHANNELS, End, Limit, Prediction, Row, Steered, TipSlope};
+use models::{Beyond, CHANNELS, End, GasVolumes, Limit, Prediction, Row, Steered, TipSlope, TipStiffness};
 
 /// Text of predicted states as the command prints it: pressures, tip and warnings.
 pub fn text(scenario: &Scenario, states: &[AtPressure]) -> String {
@@ -96,6 +96,9 @@ pub struct PredictAnswer<'a> {
     /// With `--inverse X,Y`: what became of the place
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nearest: Option<NearestPlace>,
+    /// With `--inverse` of one number: the pressures over the intervals of numbers that were not measured
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pressure_interval: Option<&'a PressureInterval>,
 }
 
 /// Shape, tip and markers at one set of pressures, as JSON.
@@ -117,6 +120,10 @@ pub struct PredictedState {
     pub segments: Vec<Segment>,
     /// Change of the tip with the pressure of each channel
     pub jacobian: Vec<TipSlope>,
+    /// Gas of every channel and, last, of the body, with slopes by their pressures; null where one has no slope
+    pub volumes: Option<GasVolumes>,
+    /// How the tip gives way to a force; null where it has no slope
+    pub tip_stiffness: Option<TipStiffness>,
     /// Energies at equilibrium, a row per term
     pub ledger: Vec<Row>,
     /// Stretches that the robot would not hold
@@ -190,6 +197,7 @@ impl PredictedState {
             tension_n: section.strips.iter().map(|strip| strip.tension).collect(),
         };
         let (segments, curvature_per_m) = model.curvatures(at).unzip();
+        let mut out = model.prediction();
         PredictedState {
             p_act_kpa: s.loads.actuator_pa[0] / 1e3,
             p_act_channels_kpa: s.loads.actuator_pa.iter().map(|p| p / 1e3).collect(),
@@ -204,6 +212,8 @@ impl PredictedState {
             curvature_per_m,
             segments,
             jacobian: s.slopes.to_vec(),
+            volumes: model.volumes(&s.loads, &mut out).ok(),
+            tip_stiffness: model.tip_stiffness(&s.loads, &mut out).ok(),
             ledger: model.ledger(&s.loads, at),
             beyond: model.beyond(&s.loads, at),
             sections: is_spatial.then(|| model.sections(at).map(section).collect()),

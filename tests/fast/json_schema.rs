@@ -12,7 +12,7 @@ const RARE: &str = "ibr.demo ibr.simulations ibr.uncertain AsClose BendingAlarm 
     PressureSlipFound Reading RobotSummary RunRecord Rung SeedGroup Snap Through Varied Weight";
 
 /// What runs, in this order in one folder, and the schema of its answer.
-const COMMANDS: [(&str, &str); 54] = [
+const COMMANDS: [(&str, &str); 55] = [
     ("predict no-such-robot", "ibr.error"),
     ("predict epam --set body.radius_mn=45", "ibr.error"),
     ("predict epam --no-such-option", "ibr.error"),
@@ -21,6 +21,7 @@ const COMMANDS: [(&str, &str); 54] = [
     ("predict epam-two-strips --pressure 20kPa/10kPa", "ibr.predict"),
     ("predict epam --limits --effect tip_load:force_y_n=1", "ibr.predict.limits"),
     ("predict epam-textbook --inverse 100mm,400mm", "ibr.predict"),
+    ("predict epam --inverse tip=100mm", "ibr.predict"),
     ("export c epam --out epam.c", "ibr.export.c"),
     ("export linear fpam --pressure 20kPa", "ibr.export.linear"),
     ("export mjcf epam --pressure 20kPa --out epam.xml", "ibr.export.rigid"),

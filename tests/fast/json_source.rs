@@ -129,13 +129,16 @@ pub(crate) fn meaning(docs: &str, name: &str) -> (String, String) {
 }
 
 /// Ends of keys, the longest first, and their units.
-pub(crate) const UNITS: [(&str, &str); 31] = [
+pub(crate) const UNITS: [(&str, &str); 34] = [
+    ("_cm3_per_kpa", "cm³/kPa"),
     ("_mm_per_kpa", "mm/kPa"),
     ("_deg_per_kpa", "°/kPa"),
     ("_nm_per_kpa", "N·m/kPa"),
     ("_nms_per_rad", "N·m·s/rad"),
     ("_nm_per_rad", "N·m/rad"),
     ("_kg_per_m", "kg/m"),
+    ("_mm_per_n", "mm/N"),
+    ("_n_per_mm", "N/mm"),
     ("_n_per_m", "N/m"),
     ("_per_cpu_s", "1/s"),
     ("_per_m", "1/m"),

@@ -178,8 +178,9 @@ fn effects_of(raw: &Raw, actuator: &ActuatorChoice, formulas: &[Arc<Formula>]) -
                 .at(name.span());
         }
         let mut values = effect.neutral();
-        let basis = table.iter().find(|(key, _)| key.get_ref() == "basis").map(|(_, value)| basis_of(value));
-        let basis = basis.transpose()?.unwrap_or_default();
+        let remark = |word: &str| table.iter().find(|(key, _)| key.get_ref() == word).map(|(_, value)| value);
+        let basis = remark("basis").map(basis_of).transpose()?.unwrap_or_default();
+        let interval = remark("interval").and_then(|value| value.get_ref().as_str()).unwrap_or_default().to_string();
         let is_known = is_known(&basis);
         for (key, value) in table {
             match (key.get_ref().as_str(), effect.parameters.iter().position(|p| p.key == key.get_ref())) {
@@ -194,7 +195,7 @@ fn effects_of(raw: &Raw, actuator: &ActuatorChoice, formulas: &[Arc<Formula>]) -
                 }
             }
         }
-        chosen.push(EffectChoice { name: effect.name.to_string(), values, basis });
+        chosen.push(EffectChoice { name: effect.name.to_string(), values, basis, interval });
     }
     chosen.sort_by_key(|e| order(&e.name, formulas));
     Ok(chosen)

@@ -97,6 +97,26 @@ pub struct EffectChoice {
     pub values: Vec<f64>,
     /// How the values are known: a word of [`BASES`], or empty.
     pub basis: String,
+    /// Remark on the interval of values, such as `width_mm 0 to 8`; empty without one.
+    pub interval: String,
+}
+
+impl EffectChoice {
+    /// Interval of a parameter by the remark, in the unit of its key: `KEY LOW to HIGH`, several with commas. `None` without one.
+    ///
+    /// ```
+    /// let robot = models::Scenario::parse(models::shipped("epam").unwrap()).unwrap();
+    /// let weld = robot.effects.iter().find(|effect| effect.name == "weld_width").unwrap();
+    /// assert_eq!(weld.interval_of("width_mm"), Some([0.0, 8.0]));
+    /// assert_eq!(weld.interval_of("height_mm"), None);
+    /// ```
+    pub fn interval_of(&self, key: &str) -> Option<[f64; 2]> {
+        let of_key = self.interval.split(',').find_map(|part| part.trim().strip_prefix(key)?.strip_prefix(' '))?;
+        let mut words = of_key.split_whitespace();
+        let low = words.next()?.parse().ok()?;
+        let high = words.next().filter(|word| *word == "to").and_then(|_| words.next())?.parse().ok()?;
+        (low < high && f64::is_finite(high - low)).then_some([low, high])
+    }
 }
 
 /// The words of `basis`, which say how a value is known.
@@ -127,7 +147,7 @@ impl Scenario {
         let values = values.iter().copied().chain(usual).collect();
         let mut changed = self.clone();
         changed.effects.retain(|e| e.name != name);
-        let choice = EffectChoice { name: name.to_string(), values, basis: String::new() };
+        let choice = EffectChoice { name: name.to_string(), values, basis: String::new(), interval: String::new() };
         changed.effects.push(choice);
         changed.effects.sort_by_key(|e| order(&e.name, &self.formulas));
         changed

@@ -12,7 +12,7 @@ use crate::shape::{SERIES_BELOW, alternating, inverse_of, sinc_pair};
 
 pub(super) type Vector = [f64; 3];
 /// Matrix by its rows: the first index is the row.
-pub type Matrix = [[f64; 3]; 3];
+pub(crate) type Matrix = [[f64; 3]; 3];
 
 pub(super) fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

@@ -53,7 +53,7 @@ use crate::scenario::ActuatorChoice;
 use crate::site::{Site, SiteState};
 pub use frame::Frame;
 pub(crate) use frame::{Bend, Stretch, direction};
-pub use lever::Matrix;
+pub(crate) use lever::Matrix;
 pub(crate) use lever::{cross, outer};
 pub(crate) use section::Section;
 pub use state::{SectionState, StripState};

@@ -100,3 +100,33 @@ fn the_jacobian_is_the_slope_of_the_tip() {
         }
     }
 }
+
+/// A load against the bend presses a pouch flat: it opens with a step, which no slope contains.
+#[test]
+fn no_slope_crosses_the_pressure_at_which_a_pouch_opens() {
+    let model = Model::new(&full("epam").with_effect("gravity", &[1.5]));
+    let mut at = model.prediction();
+    let mut coordinate = |p: f64| {
+        model.predict(&Loads::uniform(2e3, p), &mut at).unwrap();
+        model.states(&at)[0].coordinate
+    };
+    let (mut low, mut high) = (1e3, 3e3);
+    while high - low > 1e-9 * high {
+        let middle = 0.5 * (low + high);
+        *(if coordinate(middle) == 0.0 { &mut low } else { &mut high }) = middle;
+    }
+    let mut out = model.prediction();
+    let mut slope = |p: f64| model.jacobian(&Loads::uniform(2e3, p), &mut out).unwrap()[0].y_per_pa;
+    for off in [1e-6, 1e-5, 1e-4, 3e-4, 1e-3] {
+        // Below it is flat, as far as it is held shut: that has no slope.
+        assert!(slope(low * (1.0 - off)).is_nan(), "{off} below");
+        let above = slope(high * (1.0 + off));
+        assert!(above.abs() < 2e-6, "{off} above: {above:e} m/Pa");
+        let rises = |p: f64| {
+            let tip = |p: f64| predicted(&model, &Loads::uniform(2e3, p)).unwrap().tip.y_m;
+            (tip(p * 1.00001) - tip(p)) / (1e-5 * p)
+        };
+        let size = rises(high * 1.002).abs();
+        assert!((above - rises(high * (1.0 + off))).abs() < 0.1 * size, "{off}: {above:e} {size:e}");
+    }
+}
