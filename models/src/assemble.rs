@@ -10,8 +10,10 @@ use crate::term::CHANNELS;
 
 pub(crate) fn assemble(scenario: &Scenario, spans: &[Span], segments: usize) -> Assembly {
     let mut sites: Vec<Site> = spans.iter().map(|span| site(scenario, span)).collect();
+    // Where strips begin and end is stated for the robot as it is, whatever length it is given here.
+    let own = scenario.spans();
     for strip in &scenario.more_strips {
-        sites.extend(spans.iter().map(|span| site(scenario, &span.of_strip(strip, scenario.radius_m))));
+        sites.extend(own.iter().map(|span| site(scenario, &span.of_strip(strip, scenario.radius_m))));
     }
     let segments = divide(spans, segments);
     let axes = if scenario.is_spatial() { 3 } else { 2 };

@@ -66,7 +66,7 @@ pub use formula::Formula;
 pub use gases::{BODY_GAS, GASES, GasVolumes};
 pub use inverse::{Target, TipSlope};
 pub use known::Known;
-pub use limits::{Beyond, Limit, collapse_length_m};
+pub use limits::{Beyond, LOADS, Limit, collapse_length_m, collapse_loads};
 pub use line::{InLine, Line};
 pub use machine::Machine;
 pub use model::{Model, Prediction, Tip};

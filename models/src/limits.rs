@@ -134,35 +134,27 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2])
 }
 
-/// Longest robot tried, over the scenario's length, and how much longer every next one is.
-const LONGEST: f64 = 50.0;
-const LONGER: f64 = 1.03;
-/// Relative width of the interval to which a length is narrowed.
+/// Largest factor tried, the inverse of the first one, and how much larger every next one is.
+const LARGEST: f64 = 50.0;
+const LARGER: f64 = 1.03;
+/// Relative width of the interval to which a factor is narrowed.
 const NARROW: f64 = 1e-4;
 /// Fewest segments: loads act on nodes.
 const SEGMENTS: usize = 60;
 
-/// Length \[m\] from which a robot of this design collapses under the loads of the scenario (`gravity`, `tip_load`) at
-/// these pressures: all stretches grow alike, with as many more units. `None`: not up to 50 times its length, or it carries
-/// no load.
-///
-/// A straight robot across gravity folds at its base when w L²/2 + F L = πp_bR³; a steered one has a shorter lever.
-pub fn collapse_length_m(scenario: &Scenario, loads: &Loads) -> Option<f64> {
-    let fine = Scenario { segments: scenario.segments.max(SEGMENTS), markers_m: Vec::new(), ..scenario.clone() };
+/// The first factor at which a robot made with it has collapsed, or has no equilibrium; `None`: up to the largest it has not.
+fn first_collapse(loads: &Loads, make: impl Fn(f64) -> Model) -> Option<f64> {
     let holds = |factor: f64| -> Solved<bool> {
-        let model = Model::stretched(&fine, factor);
+        let model = make(factor);
         let mut at = model.prediction();
         model.predict(loads, &mut at)?;
         Ok(model.beyond(loads, &at).iter().all(|beyond| beyond.limit != Limit::Collapse))
     };
     let holds = |factor: f64| holds(factor).unwrap_or(false);
-    if Model::new(&fine).assembly().node_terms.is_empty() {
-        return None;
-    }
-    let (mut low, mut high) = (0.0, 1.0 / LONGEST);
+    let (mut low, mut high) = (0.0, 1.0 / LARGEST);
     while holds(high) {
-        (low, high) = (high, high * LONGER);
-        if high > LONGEST {
+        (low, high) = (high, high * LARGER);
+        if high > LARGEST {
             return None;
         }
     }
@@ -170,5 +162,43 @@ pub fn collapse_length_m(scenario: &Scenario, loads: &Loads) -> Option<f64> {
         let middle = 0.5 * (low + high);
         if holds(middle) { low = middle } else { high = middle }
     }
-    Some(0.5 * (low + high) * scenario.length_m)
+    Some(0.5 * (low + high))
 }
+
+/// The scenario without markers, fine enough for loads on nodes; `None` if it carries none.
+fn loaded(scenario: &Scenario) -> Option<Scenario> {
+    let is_loaded = !Model::for_few(scenario).assembly().node_terms.is_empty();
+    let segments = scenario.segments.max(SEGMENTS);
+    is_loaded.then(|| Scenario { segments, markers_m: Vec::new(), ..scenario.clone() })
+}
+
+/// Length \[m\] from which a robot of this design collapses under the loads of the scenario (`gravity`, `tip_load`) at
+/// these pressures: all stretches grow alike, with as many more units. `None`: not up to 50 times its length, or it carries
+/// no load.
+///
+/// A straight robot across gravity folds at its base when w L²/2 + F L = πp_bR³; a steered one has a shorter lever.
+pub fn collapse_length_m(scenario: &Scenario, loads: &Loads) -> Option<f64> {
+    let fine = loaded(scenario)?;
+    let factor = first_collapse(loads, |factor| Model::stretched(&fine, factor))?;
+    Some(factor * scenario.length_m)
+}
+
+/// Factor of the loads of the scenario at which the robot collapses at these pressures, as they are and reversed. `None`: not up to
+/// 50 times, or it carries no load.
+///
+/// A straight robot folds at its base when the factor times (w L²/2 + F L) is πp_bR³, to both sides alike; a steered one folds
+/// at p_b A (D − ȳ) against the bend.
+pub fn collapse_loads(scenario: &Scenario, loads: &Loads) -> [Option<f64>; 2] {
+    let Some(fine) = loaded(scenario) else { return [None; 2] };
+    [1.0, -1.0].map(|sign| {
+        first_collapse(loads, |factor| {
+            let mut scaled = fine.clone();
+            let carried = scaled.effects.iter_mut().filter(|effect| LOADS.contains(&effect.name.as_str()));
+            carried.for_each(|effect| effect.values.iter_mut().for_each(|value| *value *= sign * factor));
+            Model::for_few(&scaled)
+        })
+    })
+}
+
+/// Effects that are dead loads, in proportion to their values.
+pub const LOADS: [&str; 2] = ["gravity", "tip_load"];

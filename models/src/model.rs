@@ -99,7 +99,12 @@ impl Model {
             assembly.segments = own;
         }
         if scenario.is_spatial() {
-            let strips: Vec<ActuatorChoice> = scenario.strips().copied().collect();
+            let mut strips: Vec<ActuatorChoice> = scenario.strips().copied().collect();
+            // A stretched helix begins later.
+            let factor = assembly.length_m() / scenario.length_m;
+            if (factor - 1.0).abs() > SAME_LENGTH {
+                strips.iter_mut().for_each(|strip| strip.start_m *= factor);
+            }
             assembly.around = around(&strips, scenario.radius_m, spans.len(), &assembly.segments);
         }
         let markers = scenario.markers_m.iter().map(|s| locate(&assembly.segments, *s)).collect();
@@ -322,6 +327,9 @@ impl Model {
         nodes
     }
 }
+
+/// Relative difference of lengths that is rounding.
+const SAME_LENGTH: f64 = 1e-9;
 
 /// The solver's own bounds of a body pressure: the limit without pressure has closed forms.
 const ANY_BODY_PRESSURE: Range = Range { low: 0.0, high: 1000.0, ..Range::BODY_PRESSURE };

@@ -7,12 +7,12 @@ use crate::shown::predicted::{
 use ibr::pages::predicted_files;
 use ibr::{PressureInterval, check_fed, predict, predict_for, predict_near, pressure_interval};
 use models::scenario::quantity::{MOST, parse_pressures};
-use models::{CHANNELS, Target, collapse_length_m};
+use models::{CHANNELS, LOADS, Target, collapse_length_m, collapse_loads};
 
 pub(super) fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
-    // A stream and a length at collapse are built in the plane.
-    let (file, scenario) = inputs::robot(&args.robot, args.follow || args.limits)?;
+    // A stream is built in the plane.
+    let (file, scenario) = inputs::robot(&args.robot, args.follow)?;
     let typed = &args.robot.scenario;
     if args.follow {
         return follow(&scenario, context);
@@ -127,26 +127,38 @@ pub(super) fn wanted(scenario: &Scenario, pressures: Option<&str>) -> Result<Vec
     Ok(pressures.into_iter().map(|p| Loads { body_pa: scenario.p_body_pa, actuator_pa: p }).collect())
 }
 
-/// From which length on loads fold the robot.
+/// From which length on, and from which loads on, the robot folds.
 fn limits(typed: &str, scenario: &Scenario, wanted: &[Loads]) -> Result<Outcome> {
     let help = "add what bends it, for example --effect gravity:weight_n_per_m=1.5";
     let message = "a robot without load collapses at no length";
-    refuse_if(!scenario.effects.iter().any(|e| ["gravity", "tip_load"].contains(&e.name.as_str())), message, help)?;
+    refuse_if(!scenario.effects.iter().any(|e| LOADS.contains(&e.name.as_str())), message, help)?;
     let straight = Loads::uniform(scenario.p_body_pa, 0.0);
     let steered = wanted.iter().filter(|loads| loads.actuator_pa.iter().any(|p| *p > 0.0));
-    let lengths: Vec<(Loads, Option<f64>)> =
-        std::iter::once(&straight).chain(steered).map(|loads| (*loads, collapse_length_m(scenario, loads))).collect();
+    let found: Vec<(Loads, Option<f64>, [Option<f64>; 2])> = std::iter::once(&straight)
+        .chain(steered)
+        .map(|loads| (*loads, collapse_length_m(scenario, loads), collapse_loads(scenario, loads)))
+        .collect();
     let mut text = format!("{} at body pressure {} kPa\n", scenario.name, scenario.p_body_pa / 1e3);
-    text += &Table::of(&lengths)
-        .right("P [kPa]", |(loads, _)| pressure_words(loads))
-        .right("collapse length [mm]", |(_, length)| length.map_or("none".into(), |m| format!("{:.0}", m * 1e3)))
-        .right("over its length", |(_, m)| m.map_or("-".into(), |m| format!("{:.2}", m / scenario.length_m)))
+    let factor = |factor: Option<f64>| factor.map_or("none".into(), |factor| format!("{factor:.2}"));
+    text += &Table::of(&found)
+        .right("P [kPa]", |(loads, ..)| pressure_words(loads))
+        .right("collapse length [mm]", |(_, length, _)| length.map_or("none".into(), |m| format!("{:.0}", m * 1e3)))
+        .right("over its length", |(_, m, _)| m.map_or("-".into(), |m| format!("{:.2}", m / scenario.length_m)))
+        .right("or at its loads times", |(.., [along, _])| factor(*along))
+        .right("reversed", |(.., [_, reversed])| factor(*reversed))
         .text();
-    text.push_str("Predicted. As many more units as the length asks for; \"none\": not up to 50 times its length.\n");
+    text.push_str(
+        "Predicted. As many more units as the length asks for; \"none\": not up to 50 times its length or loads.\n",
+    );
     let kpa = |loads: &Loads| loads.actuator_pa.iter().map(|p| p / 1e3).collect();
-    let collapse = lengths
+    let collapse = found
         .iter()
-        .map(|(loads, m)| CollapseLength { p_act_channels_kpa: kpa(loads), length_mm: m.map(|m| m * 1e3) })
+        .map(|(loads, m, [load_factor, reversed_load_factor])| CollapseLength {
+            p_act_channels_kpa: kpa(loads),
+            length_mm: m.map(|m| m * 1e3),
+            load_factor: *load_factor,
+            reversed_load_factor: *reversed_load_factor,
+        })
         .collect();
     let (p_body_kpa, length_mm) = (scenario.p_body_pa / 1e3, scenario.length_m * 1e3);
     let answer = LimitsAnswer { scenario: typed, name: &scenario.name, p_body_kpa, length_mm, collapse };
@@ -175,4 +187,8 @@ struct CollapseLength {
     p_act_channels_kpa: Vec<f64>,
     /// Length at which the loads fold it; null: none within 50 times its length
     length_mm: Option<f64>,
+    /// Factor of its loads at which they fold it at its own length; null: none up to 50
+    load_factor: Option<f64>,
+    /// The same with the loads reversed
+    reversed_load_factor: Option<f64>,
 }
