@@ -205,6 +205,10 @@ class ForeignBase(x.TypedDict):
     sha256: str
     table: str
 
+class GasVolumes(x.TypedDict):
+    gas_cm3: t.List[float]
+    slope_cm3_per_kpa: t.List[t.List[float]]
+
 class GaugeFit(x.TypedDict):
     after_kpa: float
     before_kpa: float
@@ -518,6 +522,8 @@ class PredictedState(x.TypedDict):
     sections: x.NotRequired[t.List[SpaceSection]]
     segments: t.List[Segment]
     tip: PredictedTip
+    tip_stiffness: t.Optional[TipStiffness]
+    volumes: t.Optional[GasVolumes]
 
 class PredictedTip(x.TypedDict):
     angle_deg: float
@@ -728,6 +734,10 @@ class TipSlope(x.TypedDict):
     angle_deg_per_kpa: float
     x_mm_per_kpa: float
     y_mm_per_kpa: float
+
+class TipStiffness(x.TypedDict):
+    compliance_mm_per_n: t.List[t.List[float]]
+    y_n_per_mm: float
 
 class TwoStiffnesses(x.TypedDict):
     after: float

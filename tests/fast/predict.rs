@@ -232,8 +232,19 @@ fn values_of_the_scenario_can_be_typed() {
 fn what_is_not_built_in_space_is_refused() {
     let robot = "epam-two-strips";
     let words = ["strips round the body", "ibr predict, compare and diagnose take it"];
-    for args in [vec!["predict", robot, "--limits"], vec!["export", "linear", robot]] {
+    for args in [vec!["predict", robot, "--follow"], vec!["export", "linear", robot]] {
         let ran = Folder::new().run(&args);
         assert!(ran.code != 0 && words.iter().all(|word| ran.stderr.contains(word)), "{args:?}: {}", ran.stderr);
     }
+}
+
+#[test]
+fn an_inverse_has_the_interval_of_the_unmeasured_numbers_and_a_bare_robot_has_none() {
+    let answer = Folder::new().run(&["predict", "epam", "--inverse", "tip=100mm", "--json"]).json("ibr.predict");
+    let (found, state) = (&answer["pressure_interval"], &answer["states"][0]);
+    let [low, high, at] =
+        [&found["p_kpa"][0], &found["p_kpa"][1], &state["p_act_kpa"]].map(|kpa| kpa.as_f64().unwrap());
+    assert!(low < at && at < high && found["numbers"].as_array().unwrap().len() == 3, "{found}");
+    let bare = Folder::new().run(&["predict", "epam-textbook", "--inverse", "tip=100mm", "--json"]).json("ibr.predict");
+    assert!(bare.get("pressure_interval").is_none());
 }
