@@ -113,7 +113,7 @@ pub(super) fn disagreement(assembly: &Assembly, p_body_pa: f64, work: &mut Works
     work.coupled.residual.iter().fold(0.0, |w, r| if r.abs() > w || r.is_nan() { r.abs() } else { w })
 }
 
-fn node_forces(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) {
+pub(super) fn node_forces(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) {
     work.coupled.forces.fill(0.0);
     let pose = Pose::new(&work.nodes, p_body_pa, 0.0);
     for term in &assembly.node_terms {

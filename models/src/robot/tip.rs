@@ -1,11 +1,10 @@
 //! How the tip of a robot under loads gives way to a force: one Newton step of the loads for each direction.
 
-use super::coupled::newton_step;
+use super::coupled::{newton_step, node_forces};
 use super::workspace::Workspace;
 use crate::assembly::Assembly;
 use crate::shape::{advance, slid};
-use crate::space::Matrix;
-use crate::term::Pose;
+use crate::space::{Matrix, inverse, of_each, outer, times};
 
 /// Step of a displacement of the tip for the slope of a spring \[m\].
 const STEP_M: f64 = 1e-6;
@@ -13,26 +12,30 @@ const STEP_M: f64 = 1e-6;
 /// Compliance of the tip at the equilibrium in `work` \[m/N\]; see `tip_stiffness.rs`.
 pub(crate) fn tip_compliance(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Matrix {
     let mut found = [[0.0; 3]; 3];
-    for axis in 0..2 {
+    // Symmetric under dead loads (Betti), so a row is a column.
+    for (axis, row) in found.iter_mut().enumerate().take(2) {
         for i in 0..work.states.len() {
             work.coupled.residual[i] = lever(assembly, work, i)[axis];
         }
         newton_step(assembly, work);
         for (i, segment) in assembly.segments.iter().enumerate() {
-            let (turn, way) =
-                (segment.length_m * work.states[i].compliance * work.coupled.step[i], lever(assembly, work, i));
-            (found[0][axis], found[1][axis]) = (found[0][axis] + turn * way[0], found[1][axis] + turn * way[1]);
+            let turn = segment.length_m * work.states[i].compliance * work.coupled.step[i];
+            let way = lever(assembly, work, i);
+            (row[0], row[1]) = (row[0] + turn * way[0], row[1] + turn * way[1]);
         }
     }
     for (i, segment) in assembly.segments.iter().enumerate().filter(|_| work.is_sheared()) {
         let [x, y] = chord(work, i);
         let per = 1.0 / (assembly.site(i).shear_stiffness_n(p_body_pa) * segment.length_m);
-        let slide = [-y, x];
-        for (j, k) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            found[j][k] += per * slide[j] * slide[k];
-        }
+        let slide = outer([-y, x, 0.0], [-y, x, 0.0]);
+        found = of_each(|j, k| found[j][k] + per * slide[j][k]);
     }
-    if assembly.springs { sprung(assembly, p_body_pa, work, found) } else { found }
+    if !assembly.springs {
+        return found;
+    }
+    // With springs at the tip of stiffness k: (1 + C k)⁻¹ C.
+    let held = times(&found, &springs(assembly, p_body_pa, work));
+    times(&inverse(&of_each(|j, k| held[j][k] + if j == k { 1.0 } else { 0.0 })), &found)
 }
 
 /// From the start of a segment to its end.
@@ -49,28 +52,19 @@ fn lever(assembly: &Assembly, work: &Workspace, i: usize) -> [f64; 2] {
     [own[0] - way[1], own[1] + way[0]]
 }
 
-/// The compliance C under dead loads with springs at the tip of stiffness k: (1 + C k)⁻¹ C.
-fn sprung(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace, dead: Matrix) -> Matrix {
+/// Force that holds the tip back per displacement of it; symmetric \[N/m\].
+fn springs(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Matrix {
     let tip = work.nodes.len() - 2;
-    let mut stiffness = [[0.0; 2]; 2];
-    for axis in 0..2 {
+    let mut found = [[0.0; 3]; 3];
+    for (axis, row) in found.iter_mut().enumerate().take(2) {
         let at = work.nodes[tip + axis];
         let [high, low] = [STEP_M, -STEP_M].map(|step| {
             work.nodes[tip + axis] = at + step;
-            work.coupled.forces.fill(0.0);
-            let pose = Pose::new(&work.nodes, p_body_pa, 0.0);
-            assembly.node_terms.iter().for_each(|term| term.add_force(&pose, &mut work.coupled.forces));
+            node_forces(assembly, p_body_pa, work);
             [work.coupled.forces[tip], work.coupled.forces[tip + 1]]
         });
         work.nodes[tip + axis] = at;
-        (stiffness[0][axis], stiffness[1][axis]) =
-            ((low[0] - high[0]) / (2.0 * STEP_M), (low[1] - high[1]) / (2.0 * STEP_M));
+        (row[0], row[1]) = ((low[0] - high[0]) / (2.0 * STEP_M), (low[1] - high[1]) / (2.0 * STEP_M));
     }
-    let c = |j: usize, k: usize| dead[j][k];
-    let held =
-        |j: usize, k: usize| (if j == k { 1.0 } else { 0.0 }) + c(j, 0) * stiffness[0][k] + c(j, 1) * stiffness[1][k];
-    let det = held(0, 0) * held(1, 1) - held(0, 1) * held(1, 0);
-    let [a, b, d, e] = [held(1, 1), -held(0, 1), -held(1, 0), held(0, 0)].map(|x| x / det);
-    let row = |p: f64, q: f64| [p * c(0, 0) + q * c(1, 0), p * c(0, 1) + q * c(1, 1), 0.0];
-    [row(a, b), row(d, e), [0.0; 3]]
+    found
 }

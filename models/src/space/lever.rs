@@ -26,7 +26,7 @@ pub(crate) fn outer(a: Vector, b: Vector) -> Matrix {
     of_each(|i, j| a[i] * b[j])
 }
 
-pub(super) fn of_each(make: impl Fn(usize, usize) -> f64) -> Matrix {
+pub(crate) fn of_each(make: impl Fn(usize, usize) -> f64) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| make(i, j)))
 }
 
@@ -34,7 +34,7 @@ pub(super) fn column(of: &Matrix, j: usize) -> Vector {
     [of[0][j], of[1][j], of[2][j]]
 }
 
-pub(super) fn times(a: &Matrix, b: &Matrix) -> Matrix {
+pub(crate) fn times(a: &Matrix, b: &Matrix) -> Matrix {
     of_each(|i, j| dot(a[i], column(b, j)))
 }
 
@@ -47,7 +47,7 @@ pub(super) fn apply(a: &Matrix, x: Vector) -> Vector {
 }
 
 /// Inverse; not finite where there is none.
-pub(super) fn inverse(a: &Matrix) -> Matrix {
+pub(crate) fn inverse(a: &Matrix) -> Matrix {
     let rows = [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])];
     let per = 1.0 / dot(a[0], rows[0]);
     of_each(|i, j| rows[j][i] * per)
