@@ -96,6 +96,8 @@ fn channels(pressure_kpa: &Numbers<'_>) -> usize {
     pressure_kpa.as_array().shape().get(1).copied().unwrap_or(1)
 }
 
+type GasArrays<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>);
+
 fn target(tip_mm: Option<f64>, angle_deg: Option<f64>) -> PyResult<Target> {
     match (tip_mm, angle_deg) {
         (Some(mm), None) => Ok(Target::TipHeight(mm / 1e3)),
@@ -356,7 +358,7 @@ impl Scenario {
         py: Python<'py>,
         pressure_kpa: Pressures,
         body_pressure_kpa: Option<f64>,
-    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
+    ) -> PyResult<GasArrays<'py>> {
         let found = self.robot.volumes(&self.loads(&pressure_kpa, body_pressure_kpa)?).map_err(raised)?;
         let slopes = found.per_pa.as_flattened().iter().map(|m3_per_pa| m3_per_pa * 1e9).collect();
         Ok((vector(py, found.m3.map(|m3| m3 * 1e6).to_vec()), matrix(py, GASES, GASES, slopes)))
