@@ -159,7 +159,7 @@ fn meant(scenario: &Scenario, bending: Option<&BodyValue>, additions: &[Addition
 
 fn bare_of_words(scenario: &Scenario) -> Scenario {
     let mut bare = scenario.clone();
-    bare.effects.iter_mut().for_each(|e| e.basis.clear());
+    bare.effects.iter_mut().for_each(|e| (e.basis, e.interval) = Default::default());
     bare
 }
 
