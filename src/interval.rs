@@ -101,8 +101,7 @@ mod tests {
     /// One number whose pressure is in closed form: a supply that loses a share x needs P/(1 − x).
     #[test]
     fn a_supply_that_loses_an_unknown_share_needs_the_pressures_of_both_ends() {
-        let lossy =
-            "[effects.pressure_loss]\nshare = 0.1\nbasis = \"assumed\"\ninterval = \"share 0.05 to 0.2 (95 %)\"\n";
+        let lossy = "[effects.pressure_loss]\nfraction = 0.1\nbasis = \"assumed\"\ninterval = \"fraction 0.05 to 0.2 (95 %)\"\n";
         let robot = robot("epam-textbook", |text| text + lossy);
         let target = Target::TipHeight(0.08);
         let exact = predict_for(&robot.bare(), target).unwrap().loads.actuator_pa[0];
