@@ -25,6 +25,9 @@ pub(super) struct Pack {
     pub(crate) damped_n: Lane,
     /// Position of the record in the chunk.
     pub record: [u32; LANES],
+    /// Path of the fastest node at which a lane may touch: −∞ while one does; `last_m` is then of the step before in all lanes,
+    /// else in those alone that touched.
+    pub(crate) due_m: f64,
 }
 
 /// Geometry of eight pairs at one moment.
@@ -64,6 +67,7 @@ impl Pack {
             last_m: lanes(|r| r.last_m),
             damped_n: lanes(|r| r.damped_n),
             record: std::array::from_fn(|lane| members.get(lane).copied().unwrap_or(first)),
+            due_m: f64::MIN,
         };
         for lane in members.len()..LANES {
             (pack.rest_m[lane], pack.damped_n[lane], pack.record[lane]) = (f64::NEG_INFINITY, 0.0, u32::MAX);
@@ -83,10 +87,9 @@ impl Pack {
         }
     }
 
-    /// Depth, normal and weights of all lanes; false if none of them touches or did in the step before.
+    /// Depth, normal and weights of all lanes.
     #[inline(always)]
-    pub(super) fn measure<S: Simd>(&self, simd: S, x: &Nodes, touches: &mut Touches) -> bool {
-        let mut any = false;
+    pub(super) fn measure<S: Simd>(&self, simd: S, x: &Nodes, touches: &mut Touches) {
         for part in 0..LANES / S::F64_LANES {
             let p = rows(simd, x, &self.node[0], part);
             let a = rows(simd, x, &self.node[1], part);
@@ -100,7 +103,6 @@ impl Pack {
             let per = V::load(simd, &self.sign, part) * inverse.sqrt();
             let normal = axes!(k => m[k] * per);
             let depth = V::load(simd, &self.rest_m, part) - inner(r, normal);
-            any |= depth.max(V::load(simd, &self.last_m, part)).largest() > 0.0;
             depth.store(&mut touches.depth_m, part);
             (inner(product(r, e2), m) * inverse).store(&mut touches.w1, part);
             (inner(product(e1, r), m) * inverse).store(&mut touches.w2, part);
@@ -108,7 +110,40 @@ impl Pack {
                 normal.store(to, part);
             }
         }
-        any
+    }
+
+    /// One bit for every lane that touches or did in the step before.
+    #[inline(always)]
+    pub(super) fn touching(&self, touches: &Touches) -> u32 {
+        let mut bits = 0;
+        for lane in 0..LANES {
+            bits |= u32::from((touches.depth_m[lane] > 0.0) | (self.last_m[lane] > 0.0)) << lane;
+        }
+        bits
+    }
+
+    /// Depths in the step before, of lanes that did not touch then.
+    #[inline(always)]
+    pub(super) fn look_back<S: Simd>(&mut self, simd: S, before: &Nodes) {
+        let mut touches = Touches::NONE;
+        self.measure(simd, before, &mut touches);
+        for lane in 0..LANES {
+            let known_m = self.last_m[lane];
+            self.last_m[lane] = if known_m > 0.0 { known_m } else { touches.depth_m[lane] };
+        }
+    }
+
+    /// How far all nodes may move until the first lane touches: its distance from the plane changes by (1 + Σ|wᵢ|) of that, and
+    /// the weights change little meanwhile.
+    #[inline(always)]
+    pub(super) fn free_m(touches: &Touches) -> f64 {
+        let mut free_m = f64::INFINITY;
+        for lane in 0..LANES {
+            let (w1, w2) = (touches.w1[lane], touches.w2[lane]);
+            let whole = 2.0 + (1.0 - w1 - w2).abs() + w1.abs() + w2.abs();
+            free_m = free_m.min(-touches.depth_m[lane] / whole);
+        }
+        free_m
     }
 }
 
