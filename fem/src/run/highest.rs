@@ -82,7 +82,10 @@ impl Whole<'_> {
     /// Accelerations of the forces, M⁻¹ f, with selective masses where they are used.
     fn light(&self, force: &Nodes) -> Vec<[f64; 4]> {
         let u: Vec<[f64; 4]> = force.iter().zip(&self.inverse).map(|(f, w)| f.map(|f| w * f)).collect();
-        self.selective.map_or(u.clone(), |selective| selective.smoothed(&u))
+        match self.selective {
+            Some(selective) => selective.smoothed(&u),
+            None => u,
+        }
     }
 
     /// Random forces with a part along every mode, drawn in the axes of the elements: they turn with the mesh, and so do all
