@@ -288,6 +288,7 @@ fn order(record: &Record) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::tests::rig::Noise;
 
     #[test]
     fn pieces_hold_every_pair_once_and_no_node_is_cut() {
@@ -297,6 +298,42 @@ mod tests {
             let pieces = pieces(&pairs);
             assert_eq!(pieces.concat(), pairs);
             assert!(pieces.windows(2).all(|w| w[0].last().unwrap().0 < w[1].first().map_or(u32::MAX, |pair| pair.0)));
+        }
+    }
+
+    #[test]
+    fn pieces_are_those_that_joining_every_two_elements_with_a_corner_finds() {
+        let mut noise = Noise(9);
+        let mut surface = Surface::default();
+        let mut work = Work { corner: vec![(0, 0); 64], ..Work::default() };
+        for number in 0..200_u32 {
+            let node = |share: f64| ((share + 1.0) * 32.0) as u32 % 64;
+            let [a, b, c] = noise.point(1.0).map(node);
+            let [d, layer, _] = noise.point(1.0);
+            surface.elements.push([a, b, c, if number % 4 == 0 { NONE } else { node(d) }]);
+            surface.layer.push(u32::from(layer > 0.2));
+        }
+        work.place = vec![0; 200];
+        for (first, count) in [(0, 3), (3, 12), (20, 9), (40, 30), (100, 100)] {
+            let group: Vec<(u32, u32)> = (first..first + count).map(|e| (0, e)).collect();
+            assert!(!work.are_known(&group, &[], &[]));
+            work.split(&surface);
+            let meet = |a: u32, b: u32| {
+                let (own, other) = (surface.corners(a as usize), surface.corners(b as usize));
+                surface.layer[a as usize] == surface.layer[b as usize] && own.iter().any(|n| other.contains(n))
+            };
+            let mut least: Vec<usize> = (0..group.len()).collect();
+            for _ in 0..group.len() {
+                for (i, a) in group.iter().enumerate() {
+                    for j in (0..group.len()).filter(|j| meet(a.1, group[*j].1)) {
+                        (least[i], least[j]) = (least[i].min(least[j]), least[i].min(least[j]));
+                    }
+                }
+            }
+            let firsts: Vec<usize> = (0..group.len()).filter(|i| least[*i] == *i).collect();
+            let number = |i: &usize| firsts.iter().position(|first| first == i).unwrap() as u32;
+            assert_eq!(work.piece, least.iter().map(number).collect::<Vec<u32>>());
+            assert_eq!(work.pieces as usize, firsts.len());
         }
     }
 }

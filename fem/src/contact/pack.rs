@@ -157,3 +157,70 @@ pub(super) fn rows<S: Simd>(simd: S, x: &Nodes, node: &[u32; LANES], part: usize
     }
     V::load_all(simd, &out, 0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::tests::rig::Noise;
+    use crate::vec3::{norm, scale};
+
+    struct Measure<'a>(&'a Pack, &'a [[f64; 4]], Touches);
+
+    impl pulp::WithSimd for Measure<'_> {
+        type Output = Touches;
+        #[inline(always)]
+        fn with_simd<S: Simd>(mut self, simd: S) -> Touches {
+            self.0.measure(simd, self.1, &mut self.2);
+            self.2
+        }
+    }
+
+    fn measured(pack: &Pack, x: &Nodes) -> Touches {
+        pulp::Arch::new().dispatch(Measure(pack, x, Touches::NONE))
+    }
+
+    /// Eight nodes up to a sixth of a side above the rest gap of triangles, or beside them.
+    fn above(noise: &mut Noise) -> (Vec<Record>, Vec<[f64; 4]>) {
+        let (mut records, mut x) = (Vec::new(), Vec::new());
+        for i in 0..8_u32 {
+            for corner in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.3, 0.3]] {
+                let [a, b, c] = noise.point(0.3);
+                let height = if corner[0] == 0.3 { 0.18 + 0.25 * c } else { 0.1 * c };
+                x.push([corner[0] + a, corner[1] + b, height, 0.0]);
+            }
+            let corners = [4 * i, 4 * i + 1, 4 * i + 2];
+            records.push(Record { node: 4 * i + 3, corners, sign: 1.0, rest_m: 0.1, ..Record::new() });
+        }
+        (records, x)
+    }
+
+    #[test]
+    fn nothing_touches_until_the_fastest_node_moved_what_is_free() {
+        let (mut noise, mut idle) = (Noise(17), 0);
+        for _ in 0..300 {
+            let (records, x) = above(&mut noise);
+            let pack = Pack::new(&records, &[0, 1, 2, 3, 4, 5, 6, 7]);
+            let touches = measured(&pack, &x);
+            if touches.depth_m.iter().any(|depth| *depth > 0.0) {
+                continue;
+            }
+            idle += 1;
+            let free_m = Pack::free_m(&touches);
+            for towards in [0.0, 0.5, 1.0] {
+                let mut moved = x.clone();
+                for (record, lane) in records.iter().zip(0..) {
+                    let normal = [0, 1, 2].map(|k| touches.normal[k][lane]);
+                    for (node, sign) in std::iter::once((record.node, -1.0)).chain(record.corners.map(|n| (n, 1.0))) {
+                        let any = noise.point(1.0);
+                        let way = [0, 1, 2].map(|k| towards * sign * normal[k] + (1.0 - towards) * any[k]);
+                        let way = scale(way, free_m / norm(way));
+                        (0..3).for_each(|k| moved[node as usize][k] += way[k]);
+                    }
+                }
+                let depth_m = measured(&pack, &moved).depth_m;
+                assert!(depth_m.iter().all(|depth| *depth <= 0.0), "{depth_m:?} after {free_m}");
+            }
+        }
+        assert!(idle > 50, "{idle}");
+    }
+}
