@@ -102,16 +102,12 @@ impl Chunk {
         }
         if !self.packs.is_empty() {
             step.arch.dispatch(Pass { chunk: self, step });
-            // Every node gets its forces in the order of records.
-            if !self.pushes.is_sorted_by_key(|push| push.record) {
-                self.pushes.sort_unstable_by_key(|push| push.record);
-            }
         }
         for at in &self.near[self.faces as usize..] {
             let record = &mut self.records[*at as usize];
             let touch = touch(record, step.x);
             if touch.depth_m > 0.0 || record.last_m > 0.0 {
-                press_round(*at, record, &touch, step, &mut self.sums, &mut self.pushes);
+                press_round(record, &touch, step, &mut self.sums, &mut self.pushes);
             }
             record.last_m = touch.depth_m;
         }
@@ -123,8 +119,8 @@ impl Chunk {
         if self.span.end <= first || last <= self.span.start {
             return;
         }
-        for Push { nodes: [p, a, b, c], weights: [w1, w2], force_n, .. } in &self.pushes {
-            for (node, weight) in [(p, 1.0), (a, -(1.0 - w1 - w2)), (b, -w1), (c, -w2)] {
+        for Push { nodes: [p, a, b, c], weights, force_n } in &self.pushes {
+            for (node, weight) in [(p, 1.0), (a, -weights[0]), (b, -weights[1]), (c, -weights[2])] {
                 // A node before the first wraps round to beyond the last.
                 if let Some(force) = force.get_mut(node.wrapping_sub(first) as usize) {
                     push(force, weight, *force_n);
@@ -204,12 +200,6 @@ impl Chunk {
             }
             if record.feature == Feature::Face { self.near.push(at as u32) } else { round.push(at as u32) }
         }
-        // Those that touch first, then the closer: the others' packs are measured more rarely.
-        let gap_m = |at: &u32| {
-            let record = &self.records[*at as usize];
-            if record.last_m > 0.0 { f64::NEG_INFINITY } else { record.gap_m() }
-        };
-        self.near.sort_by(|a, b| gap_m(a).total_cmp(&gap_m(b)));
         self.faces = self.near.len() as u32;
         self.near.extend(round);
         self.load();
@@ -369,23 +359,14 @@ impl pulp::WithSimd for Pass<'_, '_> {
         let mut touches = Touches::NONE;
         let Chunk { packs, records, sums, pushes, .. } = self.chunk;
         for pack in packs {
-            if self.step.path_m < pack.due_m {
+            if !pack.measure(simd, self.step.x, &mut touches) {
+                pack.last_m = touches.depth_m;
                 continue;
             }
-            pack.measure(simd, self.step.x, &mut touches);
-            let mut touching = pack.touching(&touches);
-            if touching == 0 {
-                pack.due_m = self.step.path_m + Pack::free_m(&touches);
-                continue;
-            }
-            if pack.due_m > f64::NEG_INFINITY {
-                pack.look_back(simd, self.step.before);
-                pack.due_m = f64::NEG_INFINITY;
-            }
-            while touching != 0 {
-                let lane = touching.trailing_zeros() as usize % LANES;
-                press_lane(pack, lane, &touches, records, self.step, sums, pushes);
-                touching &= touching - 1;
+            for lane in 0..LANES {
+                if touches.depth_m[lane] > 0.0 || pack.last_m[lane] > 0.0 {
+                    press_lane(pack, lane, &touches, records, self.step, sums, pushes);
+                }
             }
             pack.last_m = touches.depth_m;
         }

@@ -28,8 +28,7 @@
 //! **Cost.** Candidates are found by a search that is repeated only when nodes moved half the skin. A record is looked at
 //! when it may have moved far enough to matter, against what its chunk, a compact stretch of a layer, moved; candidates
 //! that cannot be the closest then are passed over, the others measured eight at a time. A step evaluates the pairs that may
-//! touch, in vector groups, the touching ones first, and hands over forces where they touch. A group in which nothing
-//! touches waits until the fastest node can have closed its smallest gap.
+//! touch, in vector groups, and hands over forces where they touch.
 //!
 //! **Validity**: penalty depths p dt²/(0.1 m_A) far below the thickness (m_A areal mass, p pressure); elements larger
 //! than about three thicknesses; edges against edges are caught only through their nodes, unless [`edges`] are asked for.

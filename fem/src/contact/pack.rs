@@ -25,9 +25,6 @@ pub(super) struct Pack {
     pub(crate) damped_n: Lane,
     /// Position of the record in the chunk.
     pub record: [u32; LANES],
-    /// Path of the fastest node at which a lane may touch: −∞ while one does; `last_m` is then of the step before in all lanes,
-    /// else in those alone that touched.
-    pub(crate) due_m: f64,
 }
 
 /// Geometry of eight pairs at one moment.
@@ -67,7 +64,6 @@ impl Pack {
             last_m: lanes(|r| r.last_m),
             damped_n: lanes(|r| r.damped_n),
             record: std::array::from_fn(|lane| members.get(lane).copied().unwrap_or(first)),
-            due_m: f64::MIN,
         };
         for lane in members.len()..LANES {
             (pack.rest_m[lane], pack.damped_n[lane], pack.record[lane]) = (f64::NEG_INFINITY, 0.0, u32::MAX);
@@ -87,9 +83,10 @@ impl Pack {
         }
     }
 
-    /// Depth, normal and weights of all lanes.
+    /// Depth, normal and weights of all lanes; false if none of them touches or did in the step before.
     #[inline(always)]
-    pub(super) fn measure<S: Simd>(&self, simd: S, x: &Nodes, touches: &mut Touches) {
+    pub(super) fn measure<S: Simd>(&self, simd: S, x: &Nodes, touches: &mut Touches) -> bool {
+        let mut any = false;
         for part in 0..LANES / S::F64_LANES {
             let p = rows(simd, x, &self.node[0], part);
             let a = rows(simd, x, &self.node[1], part);
@@ -103,6 +100,7 @@ impl Pack {
             let per = V::load(simd, &self.sign, part) * inverse.sqrt();
             let normal = axes!(k => m[k] * per);
             let depth = V::load(simd, &self.rest_m, part) - inner(r, normal);
+            any |= depth.max(V::load(simd, &self.last_m, part)).largest() > 0.0;
             depth.store(&mut touches.depth_m, part);
             (inner(product(r, e2), m) * inverse).store(&mut touches.w1, part);
             (inner(product(e1, r), m) * inverse).store(&mut touches.w2, part);
@@ -110,40 +108,7 @@ impl Pack {
                 normal.store(to, part);
             }
         }
-    }
-
-    /// One bit for every lane that touches or did in the step before.
-    #[inline(always)]
-    pub(super) fn touching(&self, touches: &Touches) -> u32 {
-        let mut bits = 0;
-        for lane in 0..LANES {
-            bits |= u32::from((touches.depth_m[lane] > 0.0) | (self.last_m[lane] > 0.0)) << lane;
-        }
-        bits
-    }
-
-    /// Depths in the step before, of lanes that did not touch then.
-    #[inline(always)]
-    pub(super) fn look_back<S: Simd>(&mut self, simd: S, before: &Nodes) {
-        let mut touches = Touches::NONE;
-        self.measure(simd, before, &mut touches);
-        for lane in 0..LANES {
-            let known_m = self.last_m[lane];
-            self.last_m[lane] = if known_m > 0.0 { known_m } else { touches.depth_m[lane] };
-        }
-    }
-
-    /// How far all nodes may move until the first lane touches: its distance from the plane changes by (1 + Σ|wᵢ|) of that, and
-    /// the weights change little meanwhile.
-    #[inline(always)]
-    pub(super) fn free_m(touches: &Touches) -> f64 {
-        let mut free_m = f64::INFINITY;
-        for lane in 0..LANES {
-            let (w1, w2) = (touches.w1[lane], touches.w2[lane]);
-            let whole = 2.0 + (1.0 - w1 - w2).abs() + w1.abs() + w2.abs();
-            free_m = free_m.min(-touches.depth_m[lane] / whole);
-        }
-        free_m
+        any
     }
 }
 
@@ -156,71 +121,4 @@ pub(super) fn rows<S: Simd>(simd: S, x: &Nodes, node: &[u32; LANES], part: usize
         (out[0][lane], out[1][lane], out[2][lane]) = (p[0], p[1], p[2]);
     }
     V::load_all(simd, &out, 0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::contact::tests::rig::Noise;
-    use crate::vec3::{norm, scale};
-
-    struct Measure<'a>(&'a Pack, &'a [[f64; 4]], Touches);
-
-    impl pulp::WithSimd for Measure<'_> {
-        type Output = Touches;
-        #[inline(always)]
-        fn with_simd<S: Simd>(mut self, simd: S) -> Touches {
-            self.0.measure(simd, self.1, &mut self.2);
-            self.2
-        }
-    }
-
-    fn measured(pack: &Pack, x: &Nodes) -> Touches {
-        pulp::Arch::new().dispatch(Measure(pack, x, Touches::NONE))
-    }
-
-    /// Eight nodes up to a sixth of a side above the rest gap of triangles, or beside them.
-    fn above(noise: &mut Noise) -> (Vec<Record>, Vec<[f64; 4]>) {
-        let (mut records, mut x) = (Vec::new(), Vec::new());
-        for i in 0..8_u32 {
-            for corner in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.3, 0.3]] {
-                let [a, b, c] = noise.point(0.3);
-                let height = if corner[0] == 0.3 { 0.18 + 0.25 * c } else { 0.1 * c };
-                x.push([corner[0] + a, corner[1] + b, height, 0.0]);
-            }
-            let corners = [4 * i, 4 * i + 1, 4 * i + 2];
-            records.push(Record { node: 4 * i + 3, corners, sign: 1.0, rest_m: 0.1, ..Record::new() });
-        }
-        (records, x)
-    }
-
-    #[test]
-    fn nothing_touches_until_the_fastest_node_moved_what_is_free() {
-        let (mut noise, mut idle) = (Noise(17), 0);
-        for _ in 0..300 {
-            let (records, x) = above(&mut noise);
-            let pack = Pack::new(&records, &[0, 1, 2, 3, 4, 5, 6, 7]);
-            let touches = measured(&pack, &x);
-            if touches.depth_m.iter().any(|depth| *depth > 0.0) {
-                continue;
-            }
-            idle += 1;
-            let free_m = Pack::free_m(&touches);
-            for towards in [0.0, 0.5, 1.0] {
-                let mut moved = x.clone();
-                for (record, lane) in records.iter().zip(0..) {
-                    let normal = [0, 1, 2].map(|k| touches.normal[k][lane]);
-                    for (node, sign) in std::iter::once((record.node, -1.0)).chain(record.corners.map(|n| (n, 1.0))) {
-                        let any = noise.point(1.0);
-                        let way = [0, 1, 2].map(|k| towards * sign * normal[k] + (1.0 - towards) * any[k]);
-                        let way = scale(way, free_m / norm(way));
-                        (0..3).for_each(|k| moved[node as usize][k] += way[k]);
-                    }
-                }
-                let depth_m = measured(&pack, &moved).depth_m;
-                assert!(depth_m.iter().all(|depth| *depth <= 0.0), "{depth_m:?} after {free_m}");
-            }
-        }
-        assert!(idle > 50, "{idle}");
-    }
 }

@@ -8,13 +8,11 @@ use crate::vec3::{Nodes, V3, add, along, node, scale, sub};
 /// Share of what a pair is too close by which its rest gap grows in a step.
 const GROWTH: f64 = 0.02;
 
-/// Force of a pair on its node; the corners of the triangle take their shares of its opposite, those of the last two are here.
+/// Force of a pair on its node; the corners of the triangle take their shares of its opposite.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Push {
-    /// Position of the record in the chunk.
-    pub record: u32,
     pub nodes: [u32; 4],
-    pub weights: [f64; 2],
+    pub weights: [f64; 3],
     pub force_n: V3,
 }
 
@@ -46,23 +44,11 @@ pub(super) fn press_lane(
         force = add(force, rub(&mut records[pack.record[lane] as usize], &touch, normal_n, step, sums));
     }
     let nodes = [pack.node[0][lane], pack.node[1][lane], pack.node[2][lane], pack.node[3][lane]];
-    pushes.push(Push {
-        record: pack.record[lane],
-        nodes,
-        weights: [touch.weights[1], touch.weights[2]],
-        force_n: force,
-    });
+    pushes.push(Push { nodes, weights: touch.weights, force_n: force });
 }
 
 /// The same for an edge or corner.
-pub(super) fn press_round(
-    at: u32,
-    record: &mut Record,
-    touch: &Touch,
-    step: &Step,
-    sums: &mut Sums,
-    pushes: &mut Vec<Push>,
-) {
+pub(super) fn press_round(record: &mut Record, touch: &Touch, step: &Step, sums: &mut Sums, pushes: &mut Vec<Push>) {
     let mut touch = *touch;
     let (k, c) = (record.stiffness_n_m, record.damping_n_s_m);
     let kept = [&mut record.rest_m, &mut record.last_m, &mut record.damped_n];
@@ -73,8 +59,7 @@ pub(super) fn press_round(
         force = add(force, rub(record, &touch, normal_n, step, sums));
     }
     let [a, b, c] = record.corners;
-    let weights = [touch.weights[1], touch.weights[2]];
-    pushes.push(Push { record: at, nodes: [record.node, a, b, c], weights, force_n: force });
+    pushes.push(Push { nodes: [record.node, a, b, c], weights: touch.weights, force_n: force });
 }
 
 /// Growth of the rest gap of a pair that is pressed too close, and the depth with it. The work comes from nowhere: it is

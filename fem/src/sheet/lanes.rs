@@ -93,6 +93,11 @@ impl<S: Simd> V<S> {
         V(self.0, self.0.select_f64s(self.0.greater_than_or_equal_f64s(self.1, zero), yes.1, no.1))
     }
 
+    #[inline(always)]
+    pub(crate) fn largest(self) -> f64 {
+        self.0.reduce_max_f64s(self.1)
+    }
+
     /// Part number `part` of eight lanes.
     #[inline(always)]
     pub(crate) fn load(simd: S, from: &Lane, part: usize) -> V<S> {

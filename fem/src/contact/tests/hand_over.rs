@@ -14,17 +14,16 @@ fn forces_handed_over_in_pieces_are_those_handed_over_at_once() {
         let nodes: Vec<u32> = (0..40).map(any).collect();
         let pushes: Vec<Push> = (0..nodes.len() - 3)
             .map(|i| Push {
-                record: i as u32,
                 nodes: [nodes[i], nodes[i + 1], nodes[i + 2], nodes[i + 3]],
-                weights: [0.25, 0.5],
+                weights: [0.2, 0.3, 0.5],
                 force_n: [f64::from(c + 1).sin(), f64::from(nodes[i]).cos(), 0.1],
             })
             .collect();
-        for Push { nodes: [p, a, b, c], weights: [w1, w2], force_n, .. } in &pushes {
+        for Push { nodes: [p, a, b, c], weights, force_n } in &pushes {
             push(&mut whole[*p as usize], 1.0, *force_n);
-            push(&mut whole[*a as usize], -(1.0 - w1 - w2), *force_n);
-            push(&mut whole[*b as usize], -w1, *force_n);
-            push(&mut whole[*c as usize], -w2, *force_n);
+            push(&mut whole[*a as usize], -weights[0], *force_n);
+            push(&mut whole[*b as usize], -weights[1], *force_n);
+            push(&mut whole[*c as usize], -weights[2], *force_n);
         }
         let span = nodes.iter().min().copied().unwrap()..nodes.iter().max().unwrap() + 1;
         chunks.push(Chunk { nodes, span, pushes, ..Chunk::default() });
