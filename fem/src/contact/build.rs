@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::chunk::{Candidate, Chunk, RECORDS};
 use super::record::Record;
-use super::surface::Surface;
+use super::surface::{NONE, Surface};
 
 /// Candidates that close a chunk, so that chunks stay small on very fine meshes.
 const CANDIDATES: usize = 4096;
@@ -26,7 +26,8 @@ pub(super) struct Penalty {
 pub(super) fn chunks(surface: &Surface, pairs: &[(u32, u32)], old: &Memory, penalty: &Penalty) -> (Vec<Chunk>, f64) {
     let mut gone: Vec<bool> = vec![true; old.place.len()];
     pairs.iter().for_each(|(node, _)| gone[*node as usize] = false);
-    let room = || Work { place: vec![0; surface.elements.len()], ..Work::default() };
+    let room =
+        || Work { place: vec![0; surface.elements.len()], corner: vec![(0, 0); old.place.len()], ..Work::default() };
     let pieces =
         pieces(pairs).into_par_iter().map_init(room, |work, pairs| some_chunks(surface, pairs, old, penalty, work));
     let (mut all, mut lost) = (Vec::new(), old.slides_j(&gone));
@@ -64,9 +65,15 @@ fn some_chunks(
     let mut lost = 0.0;
     for group in pairs.chunk_by(|a, b| a.0 == b.0) {
         let node = group[0].0;
-        work.split(surface, group);
-        lost += work.records(surface, node, old.of(node).0, penalty);
-        work.inherit(old.of(node), old.clear_m);
+        let (remembered, candidates) = old.of(node);
+        if work.are_known(group, remembered, candidates) {
+            work.piece.clone_from(&work.from);
+            work.pieces = remembered.len() as u32;
+        } else {
+            work.split(surface);
+        }
+        lost += work.records(surface, node, remembered, penalty);
+        work.inherit(remembered, old.clear_m);
         if chunks.last().is_none_or(|c| c.records.len() >= RECORDS || c.candidates.len() >= CANDIDATES) {
             chunks.push(Chunk::default());
         }
@@ -124,14 +131,15 @@ struct Work {
     piece: Vec<u32>,
     pieces: u32,
     made: Vec<Record>,
-    /// As in [`Candidate::clear_m`], for each element.
+    /// The remembered record that had each element, [`NONE`] for a new one, and [`Candidate::clear_m`] there.
+    from: Vec<u32>,
     clear_m: Vec<f64>,
-    /// Members whose neighbours were not asked yet.
-    open: Vec<usize>,
-    /// Layers, and how many elements of each are without a piece.
-    left: Vec<(u32, usize)>,
+    layers: Vec<u32>,
     /// Where each element of the mesh is in `elements`, if it is there.
     place: Vec<u32>,
+    /// Of each node of the mesh: at which stamp an element had this corner, and the first that had.
+    corner: Vec<(u32, u32)>,
+    stamp: u32,
 }
 
 impl Work {
@@ -140,57 +148,62 @@ impl Work {
         self.elements.get(at).is_some_and(|e| *e == element).then_some(at)
     }
 
-    /// Numbers connected pieces; elements of one layer that share a corner are connected.
-    fn split(&mut self, surface: &Surface, group: &[(u32, u32)]) {
+    /// Lists the elements of a node with what is remembered of them; true if they are those of the search before, whose pieces are
+    /// then the records.
+    fn are_known(&mut self, group: &[(u32, u32)], remembered: &[Record], candidates: &[Candidate]) -> bool {
         self.elements.clear();
         self.elements.extend(group.iter().map(|p| p.1));
-        for (at, pair) in group.iter().enumerate() {
-            self.place[pair.1 as usize] = at as u32;
+        for (at, element) in self.elements.iter().enumerate() {
+            self.place[*element as usize] = at as u32;
         }
+        self.from.clear();
+        self.from.resize(group.len(), NONE);
+        self.clear_m.clear();
+        self.clear_m.resize(group.len(), f64::NAN);
+        let (mut known, mut all) = (0, 0);
+        for (from, old) in remembered.iter().enumerate() {
+            for candidate in &candidates[old.first as usize..(old.first + old.count) as usize] {
+                all += 1;
+                let Some(at) = self.find(candidate.element) else { continue };
+                (self.from[at], self.clear_m[at]) = (from as u32, candidate.clear_m);
+                known += 1;
+            }
+        }
+        known == group.len() && all == group.len()
+    }
+
+    /// Numbers connected pieces; elements of one layer that share a corner are connected. Each first has its own number, then the
+    /// least one among those connected with it.
+    fn split(&mut self, surface: &Surface) {
+        let count = self.elements.len() as u32;
         self.piece.clear();
-        self.piece.resize(group.len(), u32::MAX);
-        self.pieces = 0;
-        self.left.clear();
-        for (_, element) in group {
+        self.piece.extend(0..count);
+        self.layers.clear();
+        for element in &self.elements {
             let layer = surface.layer[*element as usize];
-            match self.left.iter_mut().find(|(l, _)| *l == layer) {
-                Some((_, count)) => *count += 1,
-                None => self.left.push((layer, 1)),
+            if !self.layers.contains(&layer) {
+                self.layers.push(layer);
             }
         }
-        for (seed, (_, element)) in group.iter().enumerate() {
-            if self.piece[seed] != u32::MAX {
-                continue;
-            }
-            let layer = surface.layer[*element as usize];
-            let mut left = self.left.iter().find(|(l, _)| *l == layer).map_or(0, |(_, count)| *count);
-            self.take(seed, &mut left);
-            while let Some(at) = self.open.pop().filter(|_| left > 0) {
-                self.reach(surface, self.elements[at], layer, &mut left);
-            }
-            self.open.clear();
-            self.pieces += 1;
-            for (_, count) in self.left.iter_mut().filter(|(l, _)| *l == layer) {
-                *count = left;
-            }
-        }
-    }
-
-    fn take(&mut self, at: usize, left: &mut usize) {
-        self.piece[at] = self.pieces;
-        *left -= 1;
-        self.open.push(at);
-    }
-
-    /// Adds the neighbours of an element of this layer to the piece at hand.
-    fn reach(&mut self, surface: &Surface, element: u32, layer: u32, left: &mut usize) {
-        for n in surface.corners(element as usize) {
-            for other in surface.around.of(*n as usize) {
-                let Some(at) = self.find(*other) else { continue };
-                if self.piece[at] == u32::MAX && surface.layer[*other as usize] == layer {
-                    self.take(at, left);
+        for layer in &self.layers {
+            self.stamp += 1;
+            for (at, element) in (0..).zip(&self.elements).filter(|(_, e)| surface.layer[**e as usize] == *layer) {
+                for n in surface.corners(*element as usize) {
+                    let (stamp, first) = &mut self.corner[*n as usize];
+                    if *stamp == self.stamp {
+                        join(&mut self.piece, *first, at);
+                    } else {
+                        (*stamp, *first) = (self.stamp, at);
+                    }
                 }
             }
+        }
+        self.pieces = 0;
+        for at in 0..self.piece.len() {
+            let least = self.piece[at] as usize;
+            // What `least` had was turned into the number of its piece.
+            self.piece[at] = if least == at { self.pieces } else { self.piece[least] };
+            self.pieces += u32::from(least == at);
         }
     }
 
@@ -226,23 +239,19 @@ impl Work {
 
     /// Takes over how far elements were, and when records are due. A record is due at once if it is new or if there are
     /// elements in its piece that were in another, and soon if there are new ones.
-    fn inherit(&mut self, (remembered, candidates): (&[Record], &[Candidate]), clear_m: f64) {
-        self.clear_m.clear();
-        self.clear_m.resize(self.elements.len(), f64::NAN);
-        for old in remembered {
-            for candidate in &candidates[old.first as usize..(old.first + old.count) as usize] {
-                let Some(at) = self.find(candidate.element) else { continue };
-                self.clear_m[at] = candidate.clear_m;
-                let record = &mut self.made[self.piece[at] as usize];
-                if old.element != record.element || old.layer != record.layer {
+    fn inherit(&mut self, remembered: &[Record], clear_m: f64) {
+        for ((known_m, from), piece) in self.clear_m.iter_mut().zip(&self.from).zip(&self.piece) {
+            let record = &mut self.made[*piece as usize];
+            match remembered.get(*from as usize) {
+                Some(old) if old.element != record.element || old.layer != record.layer => {
                     record.due_m = f64::NEG_INFINITY;
                 }
+                Some(_) => {}
+                None => {
+                    *known_m = clear_m;
+                    record.due_m = record.due_m.min(0.25 * clear_m);
+                }
             }
-        }
-        for (known, piece) in self.clear_m.iter_mut().zip(&self.piece).filter(|(known, _)| known.is_nan()) {
-            *known = clear_m;
-            let record = &mut self.made[*piece as usize];
-            record.due_m = record.due_m.min(0.25 * clear_m);
         }
     }
 
@@ -256,6 +265,21 @@ impl Work {
     }
 }
 
+/// The pieces of two elements become one.
+fn join(piece: &mut [u32], one: u32, other: u32) {
+    let (one, other) = (root(piece, one), root(piece, other));
+    piece[one.max(other) as usize] = one.min(other);
+}
+
+fn root(piece: &mut [u32], mut at: u32) -> u32 {
+    while piece[at as usize] != at {
+        let up = piece[piece[at as usize] as usize];
+        piece[at as usize] = up;
+        at = up;
+    }
+    at
+}
+
 /// Decided records first, then the closer one.
 fn order(record: &Record) -> f64 {
     if record.side == 0 { f64::INFINITY } else { record.distance_m.abs() }
@@ -264,6 +288,7 @@ fn order(record: &Record) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::tests::rig::Noise;
 
     #[test]
     fn pieces_hold_every_pair_once_and_no_node_is_cut() {
@@ -273,6 +298,42 @@ mod tests {
             let pieces = pieces(&pairs);
             assert_eq!(pieces.concat(), pairs);
             assert!(pieces.windows(2).all(|w| w[0].last().unwrap().0 < w[1].first().map_or(u32::MAX, |pair| pair.0)));
+        }
+    }
+
+    #[test]
+    fn pieces_are_those_that_joining_every_two_elements_with_a_corner_finds() {
+        let mut noise = Noise(9);
+        let mut surface = Surface::default();
+        let mut work = Work { corner: vec![(0, 0); 64], ..Work::default() };
+        for number in 0..200_u32 {
+            let node = |share: f64| ((share + 1.0) * 32.0) as u32 % 64;
+            let [a, b, c] = noise.point(1.0).map(node);
+            let [d, layer, _] = noise.point(1.0);
+            surface.elements.push([a, b, c, if number % 4 == 0 { NONE } else { node(d) }]);
+            surface.layer.push(u32::from(layer > 0.2));
+        }
+        work.place = vec![0; 200];
+        for (first, count) in [(0, 3), (3, 12), (20, 9), (40, 30), (100, 100)] {
+            let group: Vec<(u32, u32)> = (first..first + count).map(|e| (0, e)).collect();
+            assert!(!work.are_known(&group, &[], &[]));
+            work.split(&surface);
+            let meet = |a: u32, b: u32| {
+                let (own, other) = (surface.corners(a as usize), surface.corners(b as usize));
+                surface.layer[a as usize] == surface.layer[b as usize] && own.iter().any(|n| other.contains(n))
+            };
+            let mut least: Vec<usize> = (0..group.len()).collect();
+            for _ in 0..group.len() {
+                for (i, a) in group.iter().enumerate() {
+                    for j in (0..group.len()).filter(|j| meet(a.1, group[*j].1)) {
+                        (least[i], least[j]) = (least[i].min(least[j]), least[i].min(least[j]));
+                    }
+                }
+            }
+            let firsts: Vec<usize> = (0..group.len()).filter(|i| least[*i] == *i).collect();
+            let number = |i: &usize| firsts.iter().position(|first| first == i).unwrap() as u32;
+            assert_eq!(work.piece, least.iter().map(number).collect::<Vec<u32>>());
+            assert_eq!(work.pieces as usize, firsts.len());
         }
     }
 }

@@ -196,7 +196,9 @@ impl Transient for Contact {
             }
         }
         let force = force.as_chunks_mut::<4>().0;
-        let most = PIECE.max(force.len().div_ceil(PIECES));
+        // One thread need not look at any force twice.
+        let pieces = if rayon::current_num_threads() == 1 { 1 } else { PIECES };
+        let most = PIECE.max(force.len().div_ceil(pieces));
         hand_over(&pushing, 0, force, most);
         std::mem::swap(&mut self.before_m, &mut self.now_m);
         self.sums.stored

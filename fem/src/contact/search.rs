@@ -14,7 +14,7 @@ const PIECE: usize = 1024;
 pub(super) fn pairs(surface: &Surface, x: &Nodes, radius_m: f64) -> Vec<(u32, u32)> {
     let used = (0..x.len() as u32).filter(|n| !surface.around.of(*n as usize).is_empty());
     let places = used.map(|n| Placed { place: node(x, n as usize), item: n }).collect();
-    let grid = Grid::new(places, radius_m.max(surface.size_m));
+    let grid = Grid::new(places, 0.5 * radius_m.max(surface.size_m));
     let mark = || vec![NONE; x.len()];
     let pieces = surface.elements.len().div_ceil(PIECE);
     let found: Vec<Vec<(u32, u32)>> = (0..pieces)

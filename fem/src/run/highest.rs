@@ -11,6 +11,8 @@
 //! Between two estimates the bounds follow the shape, and γ stays; `cfl` covers what it changes.
 //! Source: the global estimator of explicit codes; Lanczos as in Golub, Van Loan, Matrix Computations, ch. 10.
 
+use std::borrow::Cow;
+
 use super::constraint;
 use super::selective::Selective;
 use crate::mesh::Tie;
@@ -66,11 +68,7 @@ struct Whole<'a> {
 impl Whole<'_> {
     /// Stiffness of one step with its viscosity, (K + 2 C/Δt) v.
     fn stiff(&self, v: &Nodes) -> Vec<[f64; 4]> {
-        let mut u = v.to_vec();
-        for tie in self.ties {
-            let follow = |k: usize| tie.to.iter().map(|(n, w)| w * u[*n as usize][k]).sum::<f64>();
-            u[tie.node as usize] = [follow(0), follow(1), follow(2), 0.0];
-        }
+        let u = self.tied(v);
         let mut force: Vec<[f64; 4]> = u.iter().zip(&self.rest).map(|(u, k)| u.map(|u| k * u)).collect();
         for t in self.tangents.iter() {
             t.add(self.rate_1_s, &u, &mut force);
@@ -79,10 +77,24 @@ impl Whole<'_> {
         force
     }
 
+    /// `v` with the tied nodes following those that they are tied to.
+    fn tied<'v>(&self, v: &'v Nodes) -> Cow<'v, Nodes> {
+        let mut u = Cow::Borrowed(v);
+        for tie in self.ties {
+            let follow = |k: usize| tie.to.iter().map(|(n, w)| w * u[*n as usize][k]).sum::<f64>();
+            let place = [follow(0), follow(1), follow(2), 0.0];
+            u.to_mut()[tie.node as usize] = place;
+        }
+        u
+    }
+
     /// Accelerations of the forces, M⁻¹ f, with selective masses where they are used.
     fn light(&self, force: &Nodes) -> Vec<[f64; 4]> {
         let u: Vec<[f64; 4]> = force.iter().zip(&self.inverse).map(|(f, w)| f.map(|f| w * f)).collect();
-        self.selective.map_or(u.clone(), |selective| selective.smoothed(&u))
+        match self.selective {
+            Some(selective) => selective.smoothed(&u),
+            None => u,
+        }
     }
 
     /// Random forces with a part along every mode, drawn in the axes of the elements: they turn with the mesh, and so do all

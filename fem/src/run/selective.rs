@@ -96,10 +96,7 @@ impl Selective {
         let shared = shared(mesh, |node| mass[node as usize] > 0.0 && !carried[node as usize]);
         let count: Vec<f64> = shared.iter().map(|row| row.iter().map(|(_, c)| c).sum()).collect();
         let light = |i: usize| mass[i] / count[i];
-        let mut first = vec![0];
-        let mut ends = Vec::new();
-        let mut weights = Vec::new();
-        let mut rows = Vec::new();
+        let (mut first, mut ends, mut weights, mut rows) = (vec![0], Vec::new(), Vec::new(), Vec::new());
         for (i, row) in shared.iter().enumerate() {
             let from = weights.len();
             ends.extend(row.iter().map(|(node, _)| *node));
@@ -108,7 +105,6 @@ impl Selective {
             rows.push(Row { mass: mass[i], inverse, shed: inverse * weights[from..].iter().sum::<f64>() });
             first.push(ends.len() as u32);
         }
-        let still = vec![[0.0; 4]; mass.len()];
         Selective {
             first,
             ends,
@@ -116,12 +112,18 @@ impl Selective {
             rows,
             passes: factors(passes),
             fixed: fixed.to_vec(),
-            u: still.clone(),
-            half: still.clone(),
-            next: still,
+            u: Vec::new(),
+            half: Vec::new(),
+            next: Vec::new(),
             held: Vec::new(),
             twice_j: 0.0,
         }
+    }
+
+    /// With momenta, all at rest, which smoothing alone does not need.
+    pub(super) fn at_rest(self) -> Selective {
+        let still = vec![[0.0; 4]; self.rows.len()];
+        Selective { u: still.clone(), half: still.clone(), next: still, ..self }
     }
 
     /// D M⁻¹ u, with prescribed axes at rest.
@@ -134,10 +136,11 @@ impl Selective {
             self.smooth(pulp::Arch::Scalar, alpha, &from, &mut to);
             std::mem::swap(&mut from, &mut to);
         }
-        let mixed = |(smooth, u): (&[f64; 4], &[f64; 4])| [0, 1, 2, 3].map(|k| mixed(smooth[k], u[k]));
-        let mut v: Vec<[f64; 4]> = from.iter().zip(&first).map(mixed).collect();
-        self.rest(&mut v);
-        v
+        for (smooth, u) in from.iter_mut().zip(&first) {
+            *smooth = [0, 1, 2, 3].map(|k| mixed(smooth[k], u[k]));
+        }
+        self.rest(&mut from);
+        from
     }
 
     /// Begins with velocities, which become smooth.

@@ -65,7 +65,7 @@ impl Simulation {
             arch: pulp::Arch::new(),
             tie_offset: tie_offsets(&mesh, &x),
             v: vec![[0.0; 4]; count],
-            selective: still.selective(settings, &mesh, &mass),
+            selective: still.selective(settings, &mesh, &mass).map(Selective::at_rest),
             force: vec![[0.0; 4]; count],
             clock: Clock { dt_s, longest_s: dt_s, gain, ..Clock::default() },
             books: Books { scale: guard::least_scale_j(problem, &mesh, &sheet, &true_mass), ..Books::default() },

@@ -66,11 +66,17 @@ pub struct BendingMatrix {
 
 /// Curvature rows of every node that bends; `stiffness[part]` is D of each part \[N m\].
 pub fn curvature_rows(mesh: &Mesh, stiffness: &[f64]) -> Vec<CurvatureRow> {
+    let mut rows = Vec::new();
+    each_row(mesh, stiffness, |row| rows.push(row));
+    rows
+}
+
+fn each_row(mesh: &Mesh, stiffness: &[f64], mut take: impl FnMut(CurvatureRow)) {
     let mut pieces: BTreeMap<(u32, u64), Vec<usize>> = BTreeMap::new();
     for (index, part) in mesh.parts.iter().enumerate().filter(|(index, _)| stiffness[*index] > 0.0) {
         pieces.entry((part.layer, stiffness[index].to_bits())).or_default().push(index);
     }
-    pieces.values().flat_map(|parts| piece_rows(mesh, parts, stiffness[parts[0]])).collect()
+    pieces.values().for_each(|parts| piece_rows(mesh, parts, stiffness[parts[0]], &mut take));
 }
 
 /// What a node sees of the elements of one piece: parts of one layer that bend alike.
@@ -83,14 +89,24 @@ struct Fan {
     facets: Vec<Facet>,
 }
 
-fn piece_rows(mesh: &Mesh, parts: &[usize], stiffness: f64) -> Vec<CurvatureRow> {
-    let mut fans: BTreeMap<u32, Fan> = BTreeMap::new();
-    for part in parts {
-        for i in 0..mesh.parts[*part].len() {
-            add_element(mesh, mesh.parts[*part].nodes(i), *part, &mut fans);
-        }
+fn piece_rows(mesh: &Mesh, parts: &[usize], stiffness: f64, take: impl FnMut(CurvatureRow)) {
+    let elements = || parts.iter().flat_map(|part| (0..mesh.parts[*part].len()).map(|i| (*part, i)));
+    let mut around: Vec<(u32, u32)> = Vec::new();
+    for (number, (part, i)) in elements().enumerate() {
+        around.extend(mesh.parts[part].nodes(i).iter().map(|node| (*node, number as u32)));
     }
-    fans.into_iter().filter_map(|(node, fan)| fan.row(mesh, node, stiffness)).collect()
+    around.sort_unstable();
+    around.dedup();
+    let elements: Vec<(usize, usize)> = elements().collect();
+    let row = |around: &[(u32, u32)]| {
+        let mut fan = Fan::default();
+        for (node, number) in around {
+            let (part, i) = elements[*number as usize];
+            fan.add_element(mesh, mesh.parts[part].nodes(i), part, *node);
+        }
+        fan.row(mesh, around[0].0, stiffness)
+    };
+    around.chunk_by(|a, b| a.0 == b.0).filter_map(row).for_each(take);
 }
 
 impl Fan {
@@ -121,6 +137,46 @@ impl Fan {
         let weights = edge::weights(ends, &around, direction(normal))?;
         Some(weights.into_iter().map(|(n, w)| (n, w * self.area)).collect())
     }
+
+    /// Adds what an element gives its corner `node`.
+    fn add_element(&mut self, mesh: &Mesh, nodes: &[u32], part: usize, node: u32) {
+        let count = nodes.len();
+        for k in (0..count).filter(|k| nodes[*k] == node) {
+            for beside in [k + 1, k + count - 1] {
+                *self.spokes.entry(nodes[beside % count]).or_default() += 1;
+            }
+            self.facets.push(facet(nodes, part));
+        }
+        if count == 3 {
+            return self.add_triangle(mesh, [nodes[0], nodes[1], nodes[2]], 1.0, node);
+        }
+        for [a, b, c] in [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]] {
+            self.add_triangle(mesh, [nodes[a], nodes[b], nodes[c]], 0.5, node);
+        }
+    }
+
+    /// Adds `share` of a triangle's cotangent weights at `node`, ½ cot(angle opposite the edge), and a third of its area.
+    fn add_triangle(&mut self, mesh: &Mesh, nodes: [u32; 3], share: f64, node: u32) {
+        if !nodes.contains(&node) {
+            return;
+        }
+        let x = nodes.map(|n| mesh.points[n as usize]);
+        let normal = cross(sub(x[1], x[0]), sub(x[2], x[0]));
+        let twice_area = dot(normal, normal).sqrt();
+        for k in 0..3 {
+            let (i, j, apex) = (k, (k + 1) % 3, (k + 2) % 3);
+            let (to_i, to_j) = (sub(x[i], x[apex]), sub(x[j], x[apex]));
+            let weight = 0.5 * share * dot(to_i, to_j) / twice_area;
+            for [from, to] in [[i, j], [j, i]] {
+                if nodes[from] == node {
+                    *self.weights.entry(nodes[to]).or_default() += weight;
+                }
+            }
+            if nodes[i] == node {
+                self.area += share * twice_area / 6.0;
+            }
+        }
+    }
 }
 
 impl Facet {
@@ -131,23 +187,6 @@ impl Facet {
     }
 }
 
-fn add_element(mesh: &Mesh, nodes: &[u32], part: usize, fans: &mut BTreeMap<u32, Fan>) {
-    let count = nodes.len();
-    for k in 0..count {
-        let fan = fans.entry(nodes[k]).or_default();
-        for beside in [k + 1, k + count - 1] {
-            *fan.spokes.entry(nodes[beside % count]).or_default() += 1;
-        }
-        fan.facets.push(facet(nodes, part));
-    }
-    if count == 3 {
-        return add_triangle(mesh, [nodes[0], nodes[1], nodes[2]], 1.0, fans);
-    }
-    for [a, b, c] in [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]] {
-        add_triangle(mesh, [nodes[a], nodes[b], nodes[c]], 0.5, fans);
-    }
-}
-
 fn facet(nodes: &[u32], part: usize) -> Facet {
     match *nodes {
         [a, b, c, d] => Facet { nodes: [a, c, b, d], share: 0.125, part },
@@ -155,46 +194,40 @@ fn facet(nodes: &[u32], part: usize) -> Facet {
     }
 }
 
-/// Adds `share` of a triangle's cotangent weights, ½ cot(angle opposite the edge), and a third of its area to each corner.
-fn add_triangle(mesh: &Mesh, nodes: [u32; 3], share: f64, fans: &mut BTreeMap<u32, Fan>) {
-    let x = nodes.map(|n| mesh.points[n as usize]);
-    let normal = cross(sub(x[1], x[0]), sub(x[2], x[0]));
-    let twice_area = dot(normal, normal).sqrt();
-    for k in 0..3 {
-        let (i, j, apex) = (k, (k + 1) % 3, (k + 2) % 3);
-        let (to_i, to_j) = (sub(x[i], x[apex]), sub(x[j], x[apex]));
-        let weight = 0.5 * share * dot(to_i, to_j) / twice_area;
-        for [from, to] in [[i, j], [j, i]] {
-            let fan = fans.entry(nodes[from]).or_default();
-            *fan.weights.entry(nodes[to]).or_default() += weight;
-        }
-        fans.entry(nodes[i]).or_default().area += share * twice_area / 6.0;
-    }
-}
-
 impl BendingMatrix {
+    /// K of a mesh; `stiffness[part]` is D of each part \[N m\].
+    pub(super) fn of(mesh: &Mesh, stiffness: &[f64]) -> BendingMatrix {
+        let mut rows = Vec::new();
+        // Their facets are not needed here, and as large as the rest.
+        each_row(mesh, stiffness, |row| rows.push(CurvatureRow { facets: Vec::new(), ..row }));
+        BendingMatrix::new(mesh.points.len(), &rows)
+    }
+
     /// K = Σ_i (D_i/A_i) L_iᵀ L_i over `nodes` rows.
     pub fn new(nodes: usize, rows: &[CurvatureRow]) -> BendingMatrix {
-        let mut entries: Vec<(u32, u32, f64)> = Vec::new();
-        for row in rows {
-            let scale = row.stiffness / row.area;
-            for (i, wi) in &row.weights {
-                entries.extend(row.weights.iter().map(|(j, wj)| (*i, *j, scale * wi * wj)));
-            }
+        // Which curvature rows have each node, ascending: the order of the additions is a function of the mesh alone.
+        let mut parts: Vec<(u32, u32)> = Vec::new();
+        for (number, row) in rows.iter().enumerate() {
+            parts.extend(row.weights.iter().map(|(i, _)| (*i, number as u32)));
         }
-        // A stable sort keeps the order of the additions a function of the mesh alone.
-        entries.sort_by_key(|e| (e.0, e.1));
+        parts.sort_unstable();
         let mut matrix = BendingMatrix { start: vec![0; nodes + 1], column: Vec::new(), value: Vec::new() };
-        let mut last = None;
-        for (i, j, value) in entries {
-            if last == Some((i, j)) {
-                let sum = matrix.value.last_mut();
-                *sum.expect("an entry was pushed for this place") += value;
-            } else {
-                matrix.column.push(j);
-                matrix.value.push(value);
-                matrix.start[i as usize + 1] += 1;
-                last = Some((i, j));
+        let mut entries: Vec<(u32, f64)> = Vec::new();
+        for parts in parts.chunk_by(|a, b| a.0 == b.0) {
+            let node = parts[0].0;
+            entries.clear();
+            for (_, number) in parts {
+                let row = &rows[*number as usize];
+                let scale = row.stiffness / row.area;
+                for (_, wi) in row.weights.iter().filter(|(i, _)| *i == node) {
+                    entries.extend(row.weights.iter().map(|(j, wj)| (*j, scale * wi * wj)));
+                }
+            }
+            entries.sort_by_key(|e| e.0);
+            for same in entries.chunk_by(|a, b| a.0 == b.0) {
+                matrix.column.push(same[0].0);
+                matrix.value.push(same[1..].iter().fold(same[0].1, |sum, e| sum + e.1));
+                matrix.start[node as usize + 1] += 1;
             }
         }
         for i in 0..nodes {

@@ -75,7 +75,7 @@ impl Sheet {
         let areal_density: Vec<f64> = sections.iter().map(weight).collect();
         let elements = elements(mesh, sections, &fabrics, settings);
         let stiffness: Vec<f64> = sections.iter().map(reference::bending_stiffness).collect();
-        let bending = BendingMatrix::new(mesh.points.len(), &bending::curvature_rows(mesh, &stiffness));
+        let bending = BendingMatrix::of(mesh, &stiffness);
         let mut sheet = Sheet {
             air: chambers.iter().map(|chamber| Air::new(chamber, mesh, &elements)).collect(),
             elements,
@@ -106,21 +106,31 @@ impl Sheet {
         let keys =
             mesh.parts.iter().zip(law::loops(&self.fabrics)).map(|(part, fabric)| key_of(fabric, part, chambers));
         let keys = keys.collect::<Result<Vec<LoopKey>>>()?;
-        let mut items: Vec<BTreeMap<LoopKey, Vec<Item>>> = vec![BTreeMap::new(); order.patches.len()];
+        // Elements that touch each patch, and whether it counts them.
+        let mut touching: Vec<Vec<(u32, bool)>> = vec![Vec::new(); order.patches.len()];
         for (index, element) in self.elements.iter().enumerate() {
-            let mut touched: Vec<u32> = element.nodes().iter().map(|n| patch_of[*n as usize]).collect();
-            let owner = touched[0];
-            touched.sort();
-            touched.dedup();
-            for patch in touched {
-                let key = LoopKey { corners: element.corners, ..keys[element.part] };
-                let item = self.item(index, patch == owner);
-                items[patch as usize].entry(key).or_default().push(item);
+            let mut touched = [0; 4].map(|_: u32| u32::MAX);
+            let nodes = element.nodes();
+            for (touched, node) in touched.iter_mut().zip(nodes) {
+                *touched = patch_of[*node as usize];
+            }
+            for (k, patch) in
+                touched[..nodes.len()].iter().enumerate().filter(|(k, patch)| !touched[..*k].contains(patch))
+            {
+                touching[*patch as usize].push((index as u32, k == 0));
             }
         }
         let memory = self.fabrics.iter().any(|f| f.has_memory());
-        let pairs = order.patches.iter().zip(items);
-        Ok(pairs.map(|(nodes, items)| Patch::new(nodes.clone(), items, bending, &order.old, memory)).collect())
+        let patch = |(nodes, touching): (&std::ops::Range<usize>, Vec<(u32, bool)>)| {
+            let mut items: BTreeMap<LoopKey, Vec<Item>> = BTreeMap::new();
+            for (index, own) in touching {
+                let element = &self.elements[index as usize];
+                let key = LoopKey { corners: element.corners, ..keys[element.part] };
+                items.entry(key).or_default().push(self.item(index as usize, own));
+            }
+            Patch::new(nodes.clone(), items, bending, &order.old, memory)
+        };
+        Ok(order.patches.iter().zip(touching).map(patch).collect())
     }
 
     fn item(&self, index: usize, own: bool) -> Item {

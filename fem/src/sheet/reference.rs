@@ -23,8 +23,8 @@ pub struct Reference {
     pub s: [f64; 2],
     /// Area of the stress-free element \[m²\].
     pub area: f64,
-    /// Warp, fill and normal directions in space.
-    pub axes: [[f64; 3]; 3],
+    /// Warp and fill directions in space.
+    pub axes: [[f64; 3]; 2],
 }
 
 impl Reference {
@@ -63,7 +63,7 @@ impl Reference {
     }
 }
 
-fn axes(normal: V3, warp: Option<V3>, angle_rad: f64) -> [V3; 3] {
+fn axes(normal: V3, warp: Option<V3>, angle_rad: f64) -> [V3; 2] {
     // Any direction will do across x: a sheet with directions is refused without a warp there.
     let any = if policy::is_in_sheet(norm(cross(X, normal))) { X } else { [0.0, 1.0, 0.0] };
     let wanted = warp.unwrap_or(any);
@@ -71,10 +71,10 @@ fn axes(normal: V3, warp: Option<V3>, angle_rad: f64) -> [V3; 3] {
     let fill = cross(normal, warp);
     let (sin, cos) = angle_rad.sin_cos();
     let first = along([warp[0] * cos, warp[1] * cos, warp[2] * cos], sin, fill);
-    [first, cross(normal, first), normal]
+    [first, cross(normal, first)]
 }
 
-fn quad(x: &[[f64; 2]], axes: [V3; 3]) -> Reference {
+fn quad(x: &[[f64; 2]], axes: [V3; 2]) -> Reference {
     let d13 = [x[2][0] - x[0][0], x[2][1] - x[0][1]];
     let d24 = [x[3][0] - x[1][0], x[3][1] - x[1][1]];
     let twice = d13[0] * d24[1] - d13[1] * d24[0];
@@ -87,7 +87,7 @@ fn quad(x: &[[f64; 2]], axes: [V3; 3]) -> Reference {
     }
 }
 
-fn triangle(x: &[[f64; 2]], axes: [V3; 3]) -> Reference {
+fn triangle(x: &[[f64; 2]], axes: [V3; 2]) -> Reference {
     let p = [x[1][0] - x[0][0], x[1][1] - x[0][1]];
     let q = [x[2][0] - x[0][0], x[2][1] - x[0][1]];
     let twice = p[0] * q[1] - p[1] * q[0];

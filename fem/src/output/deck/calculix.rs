@@ -243,8 +243,8 @@ fn directions(problem: &Problem, index: usize, part: &Part) -> BTreeMap<String, 
     let mut found = BTreeMap::<String, Vec<u32>>::new();
     for i in 0..part.len() {
         let corners: Vec<[f64; 3]> = part.nodes(i).iter().map(|n| place(problem, *n)).collect();
-        let [warp, fill, _] = Reference::new(&corners, part.warp_of(i), 0.0).axes;
-        let axes: Vec<String> = [warp, fill].as_flattened().iter().map(|x| format!("{:.9}", x + 0.0)).collect();
+        let axes = Reference::new(&corners, part.warp_of(i), 0.0).axes;
+        let axes: Vec<String> = axes.as_flattened().iter().map(|x| format!("{:.9}", x + 0.0)).collect();
         found.entry(axes.join(", ")).or_default().push((before + i) as u32);
     }
     found
