@@ -54,7 +54,7 @@ pub(crate) const FEWEST_STEPS: f64 = 64.0;
 pub(crate) const MOST_OUTPUTS: f64 = 100_000.0;
 /// Largest number of nodes a generator makes: a slip in a count is a message, not a full memory.
 pub(crate) const MOST_NODES: usize = 20_000_000;
-/// Memory that a run takes at least for every element; robots of many layers take up to 2.5 times as much \[bytes\].
+/// Memory that a run takes at least for every element; robots of many layers take up to 3.5 times as much \[bytes\].
 pub(crate) const LEAST_BYTES: u64 = 1200;
 /// Nodes this deep in an obstacle at the start only touch \[m\].
 pub(crate) const TOUCHING_M: f64 = 1e-5;

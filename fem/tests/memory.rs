@@ -12,6 +12,9 @@ fn peak() -> u64 {
     line.split_whitespace().nth(1).unwrap().parse::<u64>().unwrap() * 1024
 }
 
+/// The most of a robot of many layers: peaks of 3810 to 4110 were seen of one run, as pages are as large as the system likes \[bytes an element\].
+const MOST_BYTES: f64 = 4500.0;
+
 /// The first is a plain tube; the second, larger, is the robot with the most layers.
 #[test]
 fn what_is_said_before_a_run_is_a_lower_bound_of_what_it_takes() {
@@ -24,11 +27,12 @@ fn what_is_said_before_a_run_is_a_lower_bound_of_what_it_takes() {
     for source in [Source::new("tube", &tube), cpam] {
         let folder = tempfile::tempdir().unwrap();
         let settings = Settings { folder: Some(folder.path().join("run")), end_s: Some(2e-5), ..Settings::default() };
-        let least = least_bytes(&source.load().unwrap().case.problem);
+        let problem = source.load().unwrap().case.problem;
+        let (least, most) = (least_bytes(&problem) as f64, MOST_BYTES * problem.mesh.elements() as f64);
+        drop(problem);
         simulate(&source, &settings, &mut |_, _| ControlFlow::Continue(())).unwrap();
-        let share = (peak() - program) as f64 / least as f64;
-        println!("{}: {share:.2} of the bound", source.name);
-        // The bound is what counts. Peaks of 2.54 to 2.74 were seen of one run: pages are as large as the system likes.
-        assert!((1.0..3.0).contains(&share), "{}: {share:.2} of the bound of {least} bytes", source.name);
+        let taken = (peak() - program) as f64;
+        println!("{}: {:.2} of the bound", source.name, taken / least);
+        assert!((least..most).contains(&taken), "{}: {taken} bytes, at least {least}", source.name);
     }
 }

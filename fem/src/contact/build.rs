@@ -148,8 +148,7 @@ impl Work {
         self.elements.get(at).is_some_and(|e| *e == element).then_some(at)
     }
 
-    /// Lists the elements of a node with what is remembered of them; true if they are those of the search before, whose pieces are
-    /// then the records.
+    /// Lists the elements of a node with their records; true if the search before had the same, whose pieces are then the records.
     fn are_known(&mut self, group: &[(u32, u32)], remembered: &[Record], candidates: &[Candidate]) -> bool {
         self.elements.clear();
         self.elements.extend(group.iter().map(|p| p.1));
