@@ -24,7 +24,7 @@ const SOFT_SHARE: f64 = 0.99;
 
 impl Section<'_> {
     pub(super) fn is_passive(&self, strips: &[StripState]) -> bool {
-        matches!(self.acting(strips), Acting::Nothing)
+        matches!(self.acting(&mut strips.to_vec()), Acting::Nothing)
     }
 
     /// Area of gas that a bend of the wall alone takes: `h (A R + m·n)` \[m²\].

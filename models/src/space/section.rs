@@ -20,6 +20,14 @@ const LEAST_STEP: f64 = 1e-13;
 pub(super) const STRAIGHT: f64 = 1e-12;
 /// Relative step of the stiffness of a strip.
 const STEP: f64 = 1e-6;
+/// Strips of a section whose coordinates are found together; with more, each is found for itself.
+const MOST_TOGETHER: usize = 8;
+/// Newton's steps for the coordinates of all strips at once; two are usual from a bend nearby.
+const MOST_STEPS: usize = 12;
+/// A step of a coordinate, over it, after which the tangent is exact to rounding.
+const LAST_STEP: f64 = 1e-7;
+/// Part of a coordinate's range below which it counts as zero when steps are compared with it.
+const FLOOR: f64 = 1e-6;
 /// Contraction tried first beyond a taut wall.
 const FIRST_CONTRACTION: f64 = 1e-2;
 /// Determinant over the square of the trace, and trace over p_b A R², below which an energy is flat along some bend.
@@ -45,7 +53,7 @@ pub(crate) struct Section<'a> {
 }
 
 /// A strip at one coordinate, in a section bent by k = κ·e.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct Fit {
     /// Contraction ε₀ of the axis that goes with it.
     contraction: f64,
@@ -54,6 +62,34 @@ pub(super) struct Fit {
     /// Distance b of its line of action from the axis \[m\].
     from_axis_m: f64,
     pub tension: f64,
+}
+
+impl Fit {
+    /// `self + by·slope`.
+    fn moved(self, by: f64, slope: Fit) -> Fit {
+        Fit {
+            contraction: self.contraction + by * slope.contraction,
+            force: self.force + by * slope.force,
+            from_axis_m: self.from_axis_m + by * slope.from_axis_m,
+            tension: self.tension + by * slope.tension,
+        }
+    }
+}
+
+/// A strip at a coordinate, and the change of its fit per coordinate.
+#[derive(Clone, Copy, Default)]
+struct Tangent {
+    a: f64,
+    at: Fit,
+    slope: Fit,
+}
+
+/// What decides the contraction ε₀ of the axis.
+#[derive(Clone, Copy)]
+enum Held {
+    At(f64),
+    /// All strips pull with this force \[N\] together, at an ε₀ beyond the floor.
+    By { thrust_n: f64, floor: f64 },
 }
 
 #[derive(Clone, Copy, Default)]
@@ -65,6 +101,22 @@ pub(super) struct Pulls {
     stiffness: f64,
     mixed: [f64; 2],
     bend: [[f64; 2]; 2],
+}
+
+impl Pulls {
+    fn add(&mut self, strip: &Strip, fit: Fit, tangent: &Tangent) {
+        let stiffness = (-tangent.slope.force / tangent.slope.contraction).max(0.0);
+        let arm = direction(strip.azimuth_rad).map(|e| e * fit.from_axis_m);
+        self.force += fit.force;
+        self.stiffness += stiffness;
+        for i in 0..2 {
+            self.moment[i] += fit.force * arm[i];
+            self.mixed[i] += stiffness * arm[i];
+            for j in 0..2 {
+                self.bend[i][j] += stiffness * arm[i] * arm[j];
+            }
+        }
+    }
 }
 
 pub(super) enum Acting {
@@ -131,11 +183,17 @@ impl<'a> Section<'a> {
         SiteLoads { moment, s_m, ..SiteLoads::new(self.p_body_pa, p_act_pa) }
     }
 
-    fn open(&self, strip: &Strip, state: &StripState) -> Option<&'static Actuator> {
+    fn is_open(&self, strip: &Strip, state: &StripState) -> bool {
         let site = &self.sites[strip.site];
-        let actuator = site.actuator.filter(|_| site.is_open(self.p_body_pa, state.p_act_pa))?;
+        let Some(actuator) = site.actuator.filter(|_| site.is_open(self.p_body_pa, state.p_act_pa)) else { return false };
         // Even flat it is held shut: by the body's gas at its sides, or by its folds.
-        (self.fit(strip, actuator, state.p_act_pa, actuator.range.0, 0.0).tension > 0.0).then_some(actuator)
+        self.fit(strip, actuator, state.p_act_pa, actuator.range.0, 0.0).tension > 0.0
+    }
+
+    /// Its open strips with their actuators: what `acting` noted.
+    fn opened<'s>(&'s self, strips: &'s [StripState]) -> impl Iterator<Item = (usize, &'s Strip, &'static Actuator)> {
+        let open = |(i, strip): (usize, &'s Strip)| Some((i, strip, self.sites[strip.site].actuator?));
+        self.strips.iter().enumerate().filter(|(i, _)| strips[*i].is_open).filter_map(open)
     }
 
     pub(super) fn fit(&self, strip: &Strip, actuator: &Actuator, p_act_pa: f64, a: f64, k: f64) -> Fit {
@@ -168,54 +226,112 @@ impl<'a> Section<'a> {
         }
     }
 
+    fn tangent(&self, strip: &Strip, actuator: &Actuator, p_act_pa: f64, a: f64, k: f64) -> Tangent {
+        let (at, step) = (|a: f64| self.fit(strip, actuator, p_act_pa, a, k), STEP * a.abs().max(STEP));
+        let (up, down) = (at(a + step), at(a - step));
+        let slope = Fit::default().moved(0.5 / step, up).moved(-0.5 / step, down);
+        Tangent { a, at: at(a), slope }
+    }
+
+    /// Pulls of all open strips, their coordinates found together by Newton's steps from those in `strips`, with ε₀.
+    ///
+    /// None where that does not settle: at the end of a range, or where a pull does not fall with the contraction.
+    fn settled(&self, strips: &mut [StripState], kappa: [f64; 2], held: Held) -> Option<(f64, Pulls)> {
+        let mut tangents = [Tangent::default(); MOST_TOGETHER];
+        for (i, _, actuator) in self.opened(strips) {
+            let ((low, high), a) = (actuator.range, strips[i].coordinate);
+            tangents.get_mut(i)?.a = if a > low && a < high { a } else { 0.5 * (low + high) };
+        }
+        for _ in 0..MOST_STEPS {
+            let (mut force, mut rise) = (0.0, 0.0);
+            for (i, strip, actuator) in self.opened(strips) {
+                let k = dot(kappa, direction(strip.azimuth_rad));
+                let tangent = self.tangent(strip, actuator, strips[i].p_act_pa, tangents[i].a, k);
+                let per_contraction = tangent.slope.force / tangent.slope.contraction;
+                force += tangent.at.force - per_contraction * tangent.at.contraction;
+                rise += per_contraction;
+                tangents[i] = tangent;
+            }
+            let contraction = match held {
+                Held::At(contraction) => contraction,
+                Held::By { thrust_n, floor } => Some((thrust_n - force) / rise).filter(|e| rise < 0.0 && *e > floor)?,
+            };
+            let step = |tangent: &Tangent| (contraction - tangent.at.contraction) / tangent.slope.contraction;
+            let is_short = |(i, _, actuator): (usize, _, &Actuator)| {
+                let (a, (low, high)) = (tangents[i].a, actuator.range);
+                step(&tangents[i]).abs() <= LAST_STEP * (a.abs() + FLOOR * (high - low))
+            };
+            if self.opened(strips).all(is_short) {
+                let mut sum = Pulls::default();
+                for (strip, (state, tangent)) in self.strips.iter().zip(strips.iter_mut().zip(&tangents)) {
+                    if state.is_open {
+                        let fit = tangent.at.moved(step(tangent), tangent.slope);
+                        (state.coordinate, state.tension) = (tangent.a + step(tangent), fit.tension);
+                        sum.add(strip, fit, tangent);
+                    }
+                }
+                return Some((contraction, sum));
+            }
+            for (i, _, actuator) in self.opened(strips) {
+                let ((low, high), a) = (actuator.range, tangents[i].a);
+                let next = a + step(&tangents[i]);
+                tangents[i].a = next.clamp(0.5 * (a + low), 0.5 * (a + high));
+            }
+        }
+        None
+    }
+
     pub(super) fn pulls(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> Pulls {
+        if let Some((_, pulls)) = self.settled(strips, kappa, Held::At(contraction)) {
+            return pulls;
+        }
         let mut sum = Pulls::default();
         for (strip, state) in self.strips.iter().zip(strips) {
-            let Some(actuator) = self.open(strip, state) else { continue };
-            let e = direction(strip.azimuth_rad);
-            let k = dot(kappa, e);
+            let Some(actuator) = self.sites[strip.site].actuator.filter(|_| state.is_open) else { continue };
+            let k = dot(kappa, direction(strip.azimuth_rad));
             let a = self.coordinate(strip, actuator, state, contraction, k);
-            let at = |a: f64| self.fit(strip, actuator, state.p_act_pa, a, k);
-            let (fit, step) = (at(a), STEP * a.abs().max(STEP));
-            let (up, down) = (at(a + step), at(a - step));
-            let stiffness = ((down.force - up.force) / (up.contraction - down.contraction)).max(0.0);
-            (state.coordinate, state.tension) = (a, fit.tension);
-            let arm = e.map(|e| e * fit.from_axis_m);
-            sum.force += fit.force;
-            sum.stiffness += stiffness;
-            for i in 0..2 {
-                sum.moment[i] += fit.force * arm[i];
-                sum.mixed[i] += stiffness * arm[i];
-                for j in 0..2 {
-                    sum.bend[i][j] += stiffness * arm[i] * arm[j];
-                }
-            }
+            let tangent = self.tangent(strip, actuator, state.p_act_pa, a, k);
+            (state.coordinate, state.tension) = (a, tangent.at.tension);
+            sum.add(strip, tangent.at, &tangent);
         }
         sum
     }
 
+    /// Contraction and pulls on the taut floor, or beyond it where the strips pull harder than `thrust_n`; whether beyond.
+    fn held(
+        &self,
+        strips: &mut [StripState],
+        kappa: [f64; 2],
+        thrust_n: f64,
+        floor: f64,
+    ) -> Solved<(f64, Pulls, bool)> {
+        let pulls = self.pulls(strips, kappa, floor);
+        if pulls.force <= thrust_n {
+            return Ok((floor, pulls, false));
+        }
+        let mut excess = |e0: f64| self.pulls(strips, kappa, e0).force - thrust_n;
+        // No slope: for flat pouches it is infinite.
+        let start = Start::guess(floor + FIRST_CONTRACTION, 0.0);
+        // A bend that is tried may be too sharp for any body.
+        let root = find_root(&mut excess, (floor, f64::max(1.0, 2.0 * floor)), start)
+            .map_err(|_| self.unsolved(strips, pulls.force))?;
+        let contraction = root.x + root.step;
+        Ok((contraction, self.pulls(strips, kappa, contraction), true))
+    }
+
     /// Slope of the energy by κ where ε₀ is at its best: R|κ|, or more where the strips pull harder than the gas.
     pub(super) fn balance(&self, strips: &mut [StripState], kappa: [f64; 2]) -> Solved<Balance> {
-        if self.is_passive(strips) {
+        if strips.iter().all(|state| !state.is_open) {
             return Ok(self.passive_balance(kappa));
         }
         let (size, [outer_y, outer_z, axial]) = (kappa[0].hypot(kappa[1]), self.outer);
-        let thrust = self.p_body_pa * self.area_m2 - axial;
+        let thrust_n = self.p_body_pa * self.area_m2 - axial;
         let floor = self.radius_m * size;
-        let mut contraction = floor;
-        let mut pulls = self.pulls(strips, kappa, contraction);
-        let is_slack = pulls.force > thrust;
-        if is_slack {
-            let mut excess = |e0: f64| self.pulls(strips, kappa, e0).force - thrust;
-            // No slope: for flat pouches it is infinite.
-            let start = Start::guess(floor + FIRST_CONTRACTION, 0.0);
-            // A bend that is tried may be too sharp for any body.
-            let root = find_root(&mut excess, (floor, f64::max(1.0, 2.0 * floor)), start)
-                .map_err(|_| self.unsolved(strips, pulls.force))?;
-            contraction = root.x + root.step;
-            pulls = self.pulls(strips, kappa, contraction);
-        }
-        let taut_n = if is_slack { 0.0 } else { thrust - pulls.force };
+        let (contraction, pulls, is_slack) = match self.settled(strips, kappa, Held::By { thrust_n, floor }) {
+            Some((contraction, pulls)) => (contraction, pulls, true),
+            None => self.held(strips, kappa, thrust_n, floor)?,
+        };
+        let taut_n = if is_slack { 0.0 } else { thrust_n - pulls.force };
         let n = if size > STRAIGHT { kappa.map(|k| k / size) } else { [0.0; 2] };
         let held = taut_n * self.radius_m - axial * self.offset_m;
         let slope = std::array::from_fn(|i| {
@@ -259,9 +375,12 @@ impl<'a> Section<'a> {
         self.minimum(strips, kappa)
     }
 
-    pub(super) fn acting(&self, strips: &[StripState]) -> Acting {
-        let open = |(strip, state): (&Strip, &StripState)| self.open(strip, state).is_some();
-        let mut opened = self.strips.iter().zip(strips).enumerate().filter(|(_, pair)| open(*pair)).map(|(i, _)| i);
+    /// What acts at the pressures in `strips`; notes which of them are open.
+    pub(super) fn acting(&self, strips: &mut [StripState]) -> Acting {
+        for (strip, state) in self.strips.iter().zip(&mut *strips) {
+            state.is_open = self.is_open(strip, state);
+        }
+        let mut opened = self.opened(strips).map(|(i, ..)| i);
         match (opened.next(), opened.next()) {
             (None, _) => Acting::Nothing,
             (Some(one), None) if self.strips[one].cos_slant == 1.0 && self.is_round_but(one) => Acting::One(one),
@@ -288,11 +407,12 @@ impl<'a> Section<'a> {
     }
 
     /// The bends of all strips alone, added.
-    pub(super) fn first_guess(&self, strips: &[StripState]) -> [f64; 2] {
+    pub(super) fn first_guess(&self, strips: &mut [StripState]) -> [f64; 2] {
         let mut sum = [0.0; 2];
         for (strip, state) in self.strips.iter().zip(strips) {
             let site = &self.sites[strip.site];
             let Ok(at) = site.solve(&self.loads(state.p_act_pa, 0.0), &[], None) else { continue };
+            state.coordinate = if state.is_open { at.coordinate } else { 0.0 };
             let e = direction(strip.azimuth_rad);
             sum = [sum[0] + at.curvature * e[0], sum[1] + at.curvature * e[1]];
         }

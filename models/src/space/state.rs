@@ -26,6 +26,8 @@ pub struct StripState {
     pub coordinate: f64,
     /// Tension along the strip, positive where it pulls \[N\].
     pub tension: f64,
+    /// Whether its actuators are open, as `Section::acting` noted it at this pressure.
+    pub(super) is_open: bool,
 }
 
 /// Buffers of a robot in space; empty for a planar one.

@@ -284,6 +284,7 @@ fn every_set_of_pressures_has_one_equilibrium() {
             }
             let start = [8.0 * random() - 4.0, 8.0 * random() - 4.0];
             let mut strips = pulled;
+            section.acting(&mut strips);
             let other = section.minimum(&mut strips, start).unwrap_or_else(|e| panic!("{pressures:?} {start:?}: {e}"));
             let off = (other.kappa[0] - at.kappa[0]).hypot(other.kappa[1] - at.kappa[1]);
             assert!(off < 1e-6, "{pressures:?} from {start:?}: {off:e} {at:?} {other:?}");
@@ -329,6 +330,7 @@ fn a_bare_helix_is_solved() {
 impl Section<'_> {
     /// Energy per metre at any bend and contraction, strips settled \[J/m\].
     pub(crate) fn energy(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> f64 {
+        self.acting(strips);
         self.pulls(strips, kappa, contraction);
         let mut sum = 0.0;
         self.energies(&Bend { kappa, contraction }, strips, &mut |_, energy| sum += energy);
@@ -337,6 +339,7 @@ impl Section<'_> {
 
     /// Forces on κ and ε₀ there, of everything but the constraint.
     pub(crate) fn forces(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> [f64; 3] {
+        self.acting(strips);
         let pulls = self.pulls(strips, kappa, contraction);
         let by = |i: usize| pulls.moment[i] - self.p_body_pa * self.moment_m3[i] - self.bending * kappa[i];
         [by(0), by(1), pulls.force - self.p_body_pa * self.area_m2]
