@@ -141,6 +141,7 @@ impl Transient for Edges {
             && held.forces.iter().all(|(node, _)| (*node as usize) < count);
         fits.then_some(())?;
         self.chunks = chunks.into_iter().map(|saved| self.fitting(saved)).collect::<Option<_>>()?;
+        self.arrange();
         (self.searched, self.stored_j, self.lost_j, self.held) = (searched, stored_j, lost_j, held);
         Some(())
     }
