@@ -1,8 +1,8 @@
 //! Pairs that can meet, and the search for them.
 
 use super::super::follow::Searched;
-use super::super::surface::Surface;
-use super::chunk::{Chunk, PAIRS};
+use super::super::surface::{Lists, Surface};
+use super::chunk::{Chunk, PAIRS, nodes};
 use super::pair::Pair;
 use super::sides::Sides;
 use crate::vec3::{Nodes, V3, padded};
@@ -10,6 +10,9 @@ use crate::{FemError, Mesh, problem};
 
 /// (ω dt)² of one pair on its lightest node.
 const SHARE: f64 = 0.05;
+
+/// Distance that meetings leave, as a share of the gap.
+const LEAST: f64 = 0.2;
 
 /// Share of critical damping of a pair.
 const DAMPING: f64 = 0.1;
@@ -36,6 +39,8 @@ pub struct Edges {
     pub(super) reach_m: f64,
     pub(super) skin_m: f64,
     pub(super) chunks: Vec<Chunk>,
+    /// Chunks of every node.
+    pub(super) around: Lists,
     pub(super) searched: Searched,
     pub(super) stored_j: f64,
     pub(super) lost_j: f64,
@@ -69,7 +74,7 @@ impl Edges {
             // The own mesh of a layer must not push itself.
             thickness_m: settings.thickness_m.min(0.25 * surface.size_m),
             reach_m: settings.thickness_m.max(4.0 * settings.gap_m),
-            skin_m: 0.25 * surface.size_m,
+            skin_m: 0.5 * surface.size_m,
             ..Edges::default()
         };
         edges.search(&x);
@@ -92,18 +97,36 @@ impl Edges {
     }
 
     pub(super) fn search(&mut self, x: &Nodes) {
-        let mut old: Vec<Pair> = self.chunks.iter().flat_map(|c| &c.pairs).filter(|p| !p.face).copied().collect();
-        old.sort_unstable_by_key(|p| p.key);
+        let old = std::mem::take(&mut self.chunks).into_iter().flat_map(|chunk| chunk.pairs);
+        let mut old = old.filter(|pair| !pair.face).peekable();
         let [sides, faces] = self.sides.pairs(x, self.reach_m + self.skin_m);
-        let kept = |key: &[u32; 2]| old.binary_search_by(|p| p.key.cmp(key)).map(|at| old[at]);
-        let fresh = |key: &[u32; 2]| kept(key).unwrap_or_else(|_| self.fresh(*key, false));
-        let pairs: Vec<Pair> = sides.iter().map(fresh).collect();
-        let dropped = old.iter().filter(|p| p.deep_m > 0.0 && sides.binary_search(&p.key).is_err());
-        self.lost_j += dropped.map(|p| 0.5 * p.stiffness_n_m * p.deep_m * p.deep_m).sum::<f64>();
-        let faces: Vec<Pair> = faces.iter().map(|key| self.fresh(*key, true)).collect();
+        let mut pairs = Vec::with_capacity(sides.len());
+        // Both are in the order of the keys.
+        for (key, distance_m) in sides {
+            while let Some(gone) = old.next_if(|pair| pair.key < key) {
+                self.lost_j += gone.holds_j();
+            }
+            let kept = old.next_if(|pair| pair.key == key);
+            pairs.push((kept.unwrap_or_else(|| self.fresh(key, false)), distance_m));
+        }
+        self.lost_j += old.map(|gone| gone.holds_j()).sum::<f64>();
+        let faces: Vec<_> = faces.into_iter().map(|(key, m)| (self.fresh(key, true), m)).collect();
         let chunks = pairs.chunks(PAIRS).chain(faces.chunks(PAIRS));
-        self.chunks = chunks.map(|pairs| Chunk::new(pairs.to_vec())).collect();
+        self.chunks = chunks.map(|pairs| Chunk::new(pairs, x, self.least_m())).collect();
+        self.arrange();
         self.searched.note(x, self.skin_m);
+    }
+
+    /// Distance that meetings leave.
+    pub(super) fn least_m(&self) -> f64 {
+        LEAST * self.gap_m.min(self.thickness_m)
+    }
+
+    /// Lists the chunks of every node.
+    pub(super) fn arrange(&mut self) {
+        let of = |(i, chunk): (usize, &Chunk)| chunk.nodes.iter().map(|n| (*n, i as u32)).collect::<Vec<_>>();
+        let pairs: Vec<(u32, u32)> = self.chunks.iter().enumerate().flat_map(of).collect();
+        self.around = Lists::new(self.mass_kg.len(), &pairs);
     }
 
     fn fresh(&self, key: [u32; 2], face: bool) -> Pair {
@@ -139,9 +162,9 @@ impl Edges {
             Some(Pair { nodes, stiffness_n_m, damping_n_s_m, ..*saved })
         };
         let pairs: Vec<Pair> = saved.pairs.iter().map(pair).collect::<Option<_>>()?;
-        let nodes = Chunk::new(pairs.clone()).nodes;
-        let fits = [saved.press_at_m.len(), saved.cross_at_m.len()] == [pairs.len(); 2]
-            && (saved.seen_m.is_empty() || saved.seen_m.len() == nodes.len());
+        let nodes = nodes(pairs.iter());
+        let fits =
+            [saved.press_at_m.len(), saved.cross_at_m.len()] == [pairs.len(); 2] && saved.seen_m.len() == nodes.len();
         fits.then_some(Chunk { pairs, nodes, ..saved })
     }
 }

@@ -1,7 +1,7 @@
 //! Some dozens of pairs that are looked at and stepped together.
 
 use super::pair::{Pair, Touch};
-use crate::vec3::{Nodes, V3, add, dot, node, scale, sub};
+use crate::vec3::{Nodes, V3, add, node, norm, scale, sub};
 
 pub(super) const PAIRS: usize = 64;
 /// A meeting is a distance below this share of the present one.
@@ -59,15 +59,18 @@ pub(super) struct Chunk {
 }
 
 impl Chunk {
-    pub(super) fn new(pairs: Vec<Pair>) -> Chunk {
-        let mut nodes: Vec<u32> = pairs.iter().flat_map(|p| p.nodes).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
+    /// Pairs with their distances at `x`.
+    pub(super) fn new(near: &[(Pair, f64)], x: &Nodes, least_m: f64) -> Chunk {
         let due = f64::NEG_INFINITY;
-        let press = |p: &Pair| if p.face { f64::INFINITY } else { due };
-        let press_at_m = pairs.iter().map(press).collect();
-        let cross_at_m = vec![due; pairs.len()];
-        Chunk { pairs, press_at_m, cross_at_m, nodes, press_due_m: due, cross_due_m: due, ..Chunk::default() }
+        let mut chunk = Chunk { press_due_m: due, cross_due_m: due, ..Chunk::default() };
+        for (mut pair, distance_m) in near.iter().copied() {
+            chunk.press_at_m.push(pair.far_m(distance_m));
+            chunk.cross_at_m.push(distance_m - stop_m(distance_m, least_m));
+            chunk.pairs.push(pair);
+        }
+        chunk.nodes = nodes(chunk.pairs.iter());
+        chunk.rebase(x, 0.0);
+        chunk
     }
 
     pub(super) fn press(&mut self, x: &Nodes, path_m: f64, dt_s: f64, floor_m: f64) {
@@ -113,7 +116,7 @@ impl Chunk {
             return;
         }
         let before_m = self.spread_m(|n| node(x, n));
-        if before_m > 0.0 || self.seen_m.is_empty() {
+        if before_m > 0.0 {
             self.rebase(x, before_m);
             moved_m = self.spread_m(there);
         }
@@ -133,7 +136,7 @@ impl Chunk {
             self.cross_at_m[at] = self.way_m + step.one_m;
             return;
         }
-        let stop_m = (STOP * now.distance_m).max(step.least_m.min(0.8 * now.distance_m));
+        let stop_m = stop_m(now.distance_m, step.least_m);
         self.cross_at_m[at] = self.way_m + now.distance_m - stop_m;
         if self.cross_at_m[at] > self.way_m + moved_m {
             return;
@@ -154,21 +157,30 @@ impl Chunk {
 
     /// Most that two nodes can have moved against each other.
     fn spread_m(&self, at: impl Fn(usize) -> V3) -> f64 {
-        if self.seen_m.is_empty() {
-            return 0.0;
-        }
-        let mut mean = [0.0; 3];
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for (n, seen) in self.nodes.iter().zip(&self.seen_m) {
-            mean = add(mean, sub(at(*n as usize), [seen[0], seen[1], seen[2]]));
+            let at = at(*n as usize);
+            for k in 0..3 {
+                let moved = at[k] - seen[k];
+                low[k] = if moved < low[k] { moved } else { low[k] };
+                high[k] = if moved > high[k] { moved } else { high[k] };
+            }
         }
-        let mean = scale(mean, 1.0 / self.nodes.len() as f64);
-        let mut far: f64 = 0.0;
-        for (n, seen) in self.nodes.iter().zip(&self.seen_m) {
-            let moved = sub(sub(at(*n as usize), [seen[0], seen[1], seen[2]]), mean);
-            far = far.max(dot(moved, moved));
-        }
-        2.0 * far.sqrt()
+        norm(sub(high, low))
     }
+}
+
+/// Nodes of pairs, each once.
+pub(super) fn nodes<'a>(pairs: impl Iterator<Item = &'a Pair>) -> Vec<u32> {
+    let mut nodes: Vec<u32> = pairs.flat_map(|p| p.nodes).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes
+}
+
+/// Distance at which a pair meets.
+fn stop_m(distance_m: f64, least_m: f64) -> f64 {
+    (STOP * distance_m).max(least_m.min(0.8 * distance_m))
 }
 
 fn least(values: &[f64]) -> f64 {

@@ -9,8 +9,6 @@ use super::chunk::{Chunk, Hit, Look};
 use crate::contact::push;
 use crate::vec3::{Nodes, V3, along, dot, node, sub};
 
-/// Distance that meetings leave, as a share of the gap.
-const LEAST: f64 = 0.2;
 /// Rounds in which pairs are pushed one by one; then what still meets moves as one.
 const ROUNDS: usize = 20;
 const MOST_ROUNDS: usize = 200;
@@ -29,27 +27,19 @@ pub(crate) struct Step<'a> {
 impl Edges {
     /// Adds the forces that keep pairs from meeting in the step; all other forces are in `force`.
     pub(crate) fn hold(&mut self, step: &Step, force: &mut Nodes) {
-        let gap_m = self.gap_m.min(self.thickness_m);
+        let (one_m, least_m) = (ONE * self.gap_m.min(self.thickness_m), self.least_m());
         let mut motion: Vec<V3> = (0..step.x.len()).map(|i| self.motion(step, force, i)).collect();
         let start_m = self.searched.path_m;
         self.searched.path_m += furthest_m(&motion);
-        // Nodes that the last round moved; empty: all.
-        let mut moved: Vec<bool> = Vec::new();
+        // Chunks with nodes that the last round moved.
+        let mut due = vec![true; self.chunks.len()];
         let (mut changed, mut zones) = (BTreeSet::new(), Zones::default());
         for round in 0..MOST_ROUNDS {
-            let look = Look {
-                x: step.x,
-                by: &motion,
-                path_m: self.searched.path_m,
-                one_m: ONE * gap_m,
-                least_m: LEAST * gap_m,
-            };
-            let hits = meetings(&mut self.chunks, &look, &moved);
+            let look = Look { x: step.x, by: &motion, path_m: self.searched.path_m, one_m, least_m };
+            let hits = meetings(&mut self.chunks, &look, &due);
             if hits.is_empty() {
                 break;
             }
-            moved.clear();
-            moved.resize(motion.len(), false);
             let mut touched: Vec<u32> = hits.iter().flat_map(|hit| hit.nodes).collect();
             if round < ROUNDS {
                 hits.iter().for_each(|hit| self.part(hit, &mut motion));
@@ -60,9 +50,14 @@ impl Edges {
                     touched.extend(zone);
                 }
             }
-            touched.iter().for_each(|n| moved[*n as usize] = true);
+            due.fill(false);
+            for chunk in touched.iter().flat_map(|n| self.around.of(*n as usize)) {
+                due[*chunk as usize] = true;
+                self.chunks[*chunk as usize].cross_due_m = f64::NEG_INFINITY;
+            }
+            let moved: Vec<V3> = touched.iter().map(|n| motion[*n as usize]).collect();
+            self.searched.path_m = self.searched.path_m.max(start_m + furthest_m(&moved));
             changed.extend(touched);
-            self.searched.path_m = self.searched.path_m.max(start_m + furthest_m(&motion));
         }
         self.book(step, &changed, &motion, force);
     }
@@ -139,16 +134,9 @@ impl Edges {
     }
 }
 
-/// Pairs with a node in `moved` (all if that is empty) that would meet.
-fn meetings(chunks: &mut [Chunk], look: &Look, moved: &[bool]) -> Vec<Hit> {
-    chunks.par_iter_mut().for_each(|chunk| {
-        if moved.is_empty() {
-            chunk.meet(look);
-        } else if chunk.nodes.iter().any(|n| moved[*n as usize]) {
-            chunk.cross_due_m = f64::NEG_INFINITY;
-            chunk.meet(look);
-        }
-    });
+/// Pairs of the chunks that are due that would meet.
+fn meetings(chunks: &mut [Chunk], look: &Look, due: &[bool]) -> Vec<Hit> {
+    chunks.par_iter_mut().zip(due).filter(|(_, due)| **due).for_each(|(chunk, _)| chunk.meet(look));
     chunks.iter_mut().flat_map(|chunk| chunk.hits.drain(..)).collect()
 }
 

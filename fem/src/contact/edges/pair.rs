@@ -106,7 +106,7 @@ impl Pair {
             self.on = false;
             self.rest_m = if touch.inside { self.wanted_m.min(touch.distance_m) } else { self.wanted_m };
             // Lets go of what the spring holds.
-            sums[1] += 0.5 * self.stiffness_n_m * self.deep_m * self.deep_m;
+            sums[1] += self.holds_j();
             (self.deep_m, self.damped_n) = (0.0, 0.0);
             return 0.0;
         }
@@ -123,7 +123,7 @@ impl Pair {
         let work = 0.5 * (damped + self.damped_n + elastic + self.stiffness_n_m * self.deep_m) * closed;
         let stored = 0.5 * elastic * deep;
         sums[0] += stored;
-        sums[1] += work - stored + 0.5 * self.stiffness_n_m * self.deep_m * self.deep_m;
+        sums[1] += work - stored + self.holds_j();
         (self.last_m, self.deep_m, self.damped_n) = (depth_m, deep, damped);
         elastic + damped
     }
@@ -146,6 +146,23 @@ impl Pair {
     pub(crate) fn idle_m(&self, touch: &Touch) -> f64 {
         let gap_m = if touch.inside { self.rest_m } else { self.wanted_m };
         if self.on { 0.0 } else { (touch.distance_m - gap_m).max(SLACK * self.wanted_m) }
+    }
+
+    /// The same after a search, at a distance; none if the spring must be looked at.
+    pub(super) fn far_m(&mut self, distance_m: f64) -> f64 {
+        if self.face {
+            return f64::INFINITY;
+        }
+        if self.on || distance_m < self.wanted_m {
+            return f64::NEG_INFINITY;
+        }
+        self.rest_m = self.wanted_m;
+        (distance_m - self.wanted_m).max(SLACK * self.wanted_m)
+    }
+
+    /// What the spring holds \[J\].
+    pub(super) fn holds_j(&self) -> f64 {
+        0.5 * self.stiffness_n_m * self.deep_m * self.deep_m
     }
 
     /// Touch when the distance falls to `stop` within the motion `by` (additive continuous collision

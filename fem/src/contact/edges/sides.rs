@@ -6,7 +6,7 @@ use super::super::closest::TRIANGLES;
 use super::super::search::{Grid, Placed};
 use super::super::surface::{NONE, Surface};
 use super::pair::touch;
-use crate::vec3::{self, Nodes, V3, add, node, scale};
+use crate::vec3::{Nodes, V3, node};
 
 const PIECE: usize = 256;
 
@@ -39,49 +39,52 @@ impl Sides {
     }
 
     /// Pairs of sides (lower, higher number) within `radius_m`, and of nodes and triangles, both sorted.
-    pub(super) fn pairs(&self, x: &Nodes, radius_m: f64) -> [Vec<[u32; 2]>; 2] {
+    pub(super) fn pairs(&self, x: &Nodes, radius_m: f64) -> [Vec<Near>; 2] {
         let place = |n: u32| node(x, n as usize);
         let sides = Boxes::new(self.list.iter().map(|s| s.as_slice()), x, radius_m);
-        let side = |i: u32, near: &mut Vec<u32>| {
+        let side = |i: u32, near: &mut Vec<u32>, out: &mut Vec<Near>| {
             let own = self.list[i as usize];
-            sides.near(bounds(x, &own), i + 1, near);
-            near.retain(|j| {
+            sides.near(x, &own, i + 1, near);
+            for j in near.iter() {
                 let other = self.list[*j as usize];
-                let apart = !other.iter().any(|n| own.contains(n));
-                apart && touch(false, [own[0], own[1], other[0], other[1]].map(place)).distance_m <= radius_m
-            });
-            i
+                if !other.iter().any(|n| own.contains(n)) {
+                    let nodes = [own[0], own[1], other[0], other[1]];
+                    out.push(([i, *j], touch(false, nodes.map(place)).distance_m));
+                }
+            }
         };
         let triangles = Boxes::new(self.triangles.iter().map(|t| t.as_slice()), x, radius_m);
-        let point = |i: u32, near: &mut Vec<u32>| {
+        let point = |i: u32, near: &mut Vec<u32>, out: &mut Vec<Near>| {
             let own = self.nodes[i as usize];
-            triangles.near(bounds(x, &[own]), 0, near);
-            near.retain(|j| {
+            triangles.near(x, &[own], 0, near);
+            for j in near.iter() {
                 let [a, b, c] = self.triangles[*j as usize];
-                ![a, b, c].contains(&own) && touch(true, [own, a, b, c].map(place)).distance_m <= radius_m
-            });
-            own
+                if ![a, b, c].contains(&own) {
+                    out.push(([own, *j], touch(true, [own, a, b, c].map(place)).distance_m));
+                }
+            }
         };
-        [gather(self.list.len(), side), gather(self.nodes.len(), point)]
+        [gather(self.list.len(), radius_m, side), gather(self.nodes.len(), radius_m, point)]
     }
 }
 
-/// `of` lists the neighbours of an item, and returns the item's number.
-fn gather(count: usize, of: impl Fn(u32, &mut Vec<u32>) -> u32 + Sync) -> Vec<[u32; 2]> {
+/// `of` lists the neighbours of an item; those within the radius stay.
+fn gather(count: usize, radius_m: f64, of: impl Fn(u32, &mut Vec<u32>, &mut Vec<Near>) + Sync) -> Vec<Near> {
     let piece = |p: usize| {
         let (mut near, mut out) = (Vec::new(), Vec::new());
-        for i in p * PIECE..((p + 1) * PIECE).min(count) {
-            let name = of(i as u32, &mut near);
-            near.sort_unstable();
-            out.extend(near.iter().map(|j| [name, *j]));
-        }
+        (p * PIECE..((p + 1) * PIECE).min(count)).for_each(|i| of(i as u32, &mut near, &mut out));
+        out.retain(|(_, distance_m)| *distance_m <= radius_m);
         out
     };
-    let found: Vec<Vec<[u32; 2]>> = (0..count.div_ceil(PIECE)).into_par_iter().map(piece).collect();
+    let found: Vec<Vec<Near>> = (0..count.div_ceil(PIECE)).into_par_iter().map(piece).collect();
     found.concat()
 }
 
-type Bounds = [V3; 2];
+/// Numbers of a pair, and its distance \[m\].
+pub(super) type Near = ([u32; 2], f64);
+
+/// Least and largest heights along the axes and the four diagonals of space; the last is 0.
+type Bounds = [[f64; 8]; 2];
 
 /// Items by the column of their middle, with their boxes, which are larger by the radius.
 struct Boxes {
@@ -91,48 +94,70 @@ struct Boxes {
     half_m: V3,
 }
 
-fn touch_each_other(a: Bounds, b: Bounds) -> bool {
-    (0..3).all(|k| a[0][k] <= b[1][k] && b[0][k] <= a[1][k])
+fn touch_each_other(a: &Bounds, b: &Bounds) -> bool {
+    // Written without jumps.
+    (0..8).fold(true, |near, k| near & (a[0][k] <= b[1][k]) & (b[0][k] <= a[1][k]))
 }
 
-fn bounds(x: &Nodes, nodes: &[u32]) -> Bounds {
-    vec3::bounds(nodes.iter().map(|n| node(x, *n as usize)))
+/// Larger by a radius.
+fn bounds(x: &Nodes, nodes: &[u32], radius_m: f64) -> Bounds {
+    let (mut low, mut high) = ([f64::INFINITY; 8], [f64::NEG_INFINITY; 8]);
+    for n in nodes {
+        let [x, y, z] = node(x, *n as usize);
+        let heights = [x, y, z, x + y + z, x + y - z, x - y + z, y + z - x, 0.0];
+        for k in 0..8 {
+            low[k] = if heights[k] < low[k] { heights[k] } else { low[k] };
+            high[k] = if heights[k] > high[k] { heights[k] } else { high[k] };
+        }
+    }
+    for k in 0..8 {
+        let by = if k < 3 { radius_m } else { 3_f64.sqrt() * radius_m };
+        (low[k], high[k]) = (low[k] - by, high[k] + by);
+    }
+    [low, high]
 }
 
 impl Boxes {
     fn new<'a>(items: impl Iterator<Item = &'a [u32]>, x: &Nodes, radius_m: f64) -> Boxes {
-        let larger = |[low, high]: Bounds| [low.map(|v| v - radius_m), high.map(|v| v + radius_m)];
-        let boxes: Vec<Bounds> = items.map(|nodes| larger(bounds(x, nodes))).collect();
+        let boxes: Vec<Bounds> = items.map(|nodes| bounds(x, nodes, radius_m)).collect();
         let mut half_m = [0.0_f64; 3];
         for [low, high] in &boxes {
             for k in 0..3 {
                 half_m[k] = half_m[k].max(0.5 * (high[k] - low[k]));
             }
         }
-        let middle =
-            |(i, [low, high]): (usize, &Bounds)| Placed { place: scale(add(*low, *high), 0.5), item: i as u32 };
+        let place = |[low, high]: &Bounds| [0, 1, 2].map(|k| 0.5 * (low[k] + high[k]));
+        let middle = |(i, bounds)| Placed { place: place(bounds), item: i as u32 };
         let places = boxes.iter().enumerate().map(middle).collect();
         let size_m = half_m.iter().fold(0.0, |most: f64, h| most.max(*h));
         Boxes { grid: Grid::new(places, size_m), boxes, half_m }
     }
 
-    /// Items from number `first` on whose boxes touch `own`.
-    fn near(&self, own: Bounds, first: u32, out: &mut Vec<u32>) {
+    /// Items from number `first` on whose boxes touch that of `nodes`, sorted.
+    fn near(&self, x: &Nodes, nodes: &[u32], first: u32, out: &mut Vec<u32>) {
+        let own = bounds(x, nodes, 0.0);
         out.clear();
         // A little more than half a box, lest rounding lose a column.
         let [low, high] = [-1.001, 1.001].map(|side| {
             let corner = own[usize::from(side > 0.0)];
             [0, 1, 2].map(|k| corner[k] + side * self.half_m[k])
         });
-        for Placed { place, item } in self.grid.rows(low, high).flatten() {
-            let mut near = *item >= first;
-            for k in 0..3 {
-                near &= (place[k] >= low[k]) & (place[k] <= high[k]);
+        for row in self.grid.rows(low, high) {
+            // Written without jumps: most items are missed, and branch prediction fails.
+            let mut end = out.len();
+            out.resize(end + row.len(), 0);
+            for Placed { place, item } in row {
+                let mut near = *item >= first;
+                for k in 0..3 {
+                    near &= (place[k] >= low[k]) & (place[k] <= high[k]);
+                }
+                out[end] = *item;
+                end += usize::from(near);
             }
-            if near && touch_each_other(own, self.boxes[*item as usize]) {
-                out.push(*item);
-            }
+            out.truncate(end);
         }
+        out.retain(|item| touch_each_other(&own, &self.boxes[*item as usize]));
+        out.sort_unstable();
     }
 }
 
@@ -173,6 +198,7 @@ mod tests {
             }
         }
         assert!(edges.len() > 100 && faces.len() > 100);
-        assert_eq!(sides.pairs(&x, 0.7), [edges, faces]);
+        let keys = sides.pairs(&x, 0.7).map(|near| near.iter().map(|(key, _)| *key).collect::<Vec<_>>());
+        assert_eq!(keys, [edges, faces]);
     }
 }

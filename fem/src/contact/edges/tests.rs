@@ -181,6 +181,7 @@ fn a_resumed_run_and_any_number_of_threads_end_on_the_same_bits() {
         assert!(run.save() == resumed.save(), "resumed");
         let lost = run.ledger().rows.iter().find(|r| r.name == "edge damping").map_or(0.0, |r| r.energy_j);
         assert!(lost != 0.0, "edges touched");
+        assert_eq!(piercings(&problem.mesh, &run.positions()), 0);
         ends.push(run.save());
     }
     assert!(ends[0] == ends[1], "threads");
