@@ -18,7 +18,7 @@ home=$PWD/target/python
 if [ "${1:-}" = --wheel ]; then
   shift
   rm -rf target/wheels
-  PATH="$home/bin:$PATH" CARGO_TARGET_DIR=target "$home/bin/maturin" build --release --quiet --out target/wheels
+  PATH="$home/bin:$PATH" CARGO_TARGET_DIR=target "$home/bin/maturin" build --quiet --out target/wheels
   IBR_WHEEL=$(ls "$PWD"/target/wheels/ibr-*.whl)
   export IBR_WHEEL
   "$home/bin/pip" install --quiet --no-deps "$IBR_WHEEL"
