@@ -82,13 +82,14 @@ impl Scenario {
         }
         let body = |i: usize| bodies.as_ref().map(|all| 1e3 * if all.len() == 1 { all[0] } else { all[i] });
         let mut pa = [0.0; CHANNELS];
-        let one = |(i, row): (usize, &[f64])| {
+        let mut all = Vec::with_capacity(count);
+        for (i, row) in kpa.chunks_exact(columns).enumerate() {
             row.iter().zip(&mut pa).for_each(|(kpa, pa)| *pa = 1e3 * kpa);
-            self.robot.loads(body(i), &pa[..columns]).map_err(|error| {
+            all.push(self.robot.loads(body(i), &pa[..columns]).map_err(|error| {
                 refused(format!("state {i} of the batch: {error}"), "leave it out, or give another pressure")
-            })
-        };
-        kpa.chunks_exact(columns).enumerate().map(one).collect()
+            })?);
+        }
+        Ok(all)
     }
 }
 

@@ -186,8 +186,8 @@ pub(crate) fn states(
     times: Option<Vec<f64>>,
 ) -> PyResult<Py<PyAny>> {
     let axes = if markers_z_m.is_some() { 3 } else { 2 };
-    let place = |tip: &Tip| [tip.x_m, tip.y_m, tip.z_m].into_iter().take(axes).map(|v| v * 1e3);
-    let places = tips.iter().flat_map(place).collect();
+    let mut places = Vec::with_capacity(axes * tips.len());
+    tips.iter().for_each(|tip| places.extend([tip.x_m, tip.y_m, tip.z_m].into_iter().take(axes).map(|v| v * 1e3)));
     let angles = tips.iter().map(|tip| tip.angle_rad.to_degrees()).collect();
     let each = robot.scenario.markers_m.len();
     let mut flat = match markers_z_m {
@@ -196,7 +196,8 @@ pub(crate) fn states(
     };
     flat.iter_mut().for_each(|v| *v *= 1e3);
     let markers = Array3::from_shape_vec((tips.len(), each, axes), flat).unwrap_or_default();
-    let given = loads.iter().flat_map(|loads| &loads.actuator_pa[..channels]).map(|pa| pa / 1e3).collect();
+    let mut given = Vec::with_capacity(channels * loads.len());
+    loads.iter().for_each(|loads| given.extend(loads.actuator_pa[..channels].iter().map(|pa| pa / 1e3)));
     let given = match channels {
         1 => vector(py, given).into_any(),
         _ => matrix(py, loads.len(), channels, given).into_any(),

@@ -89,7 +89,10 @@ struct Tangent {
 enum Held {
     At(f64),
     /// All strips pull with this force \[N\] together, at an ε₀ beyond the floor.
-    By { thrust_n: f64, floor: f64 },
+    By {
+        thrust_n: f64,
+        floor: f64,
+    },
 }
 
 #[derive(Clone, Copy, Default)]
@@ -185,7 +188,9 @@ impl<'a> Section<'a> {
 
     fn is_open(&self, strip: &Strip, state: &StripState) -> bool {
         let site = &self.sites[strip.site];
-        let Some(actuator) = site.actuator.filter(|_| site.is_open(self.p_body_pa, state.p_act_pa)) else { return false };
+        let Some(actuator) = site.actuator.filter(|_| site.is_open(self.p_body_pa, state.p_act_pa)) else {
+            return false;
+        };
         // Even flat it is held shut: by the body's gas at its sides, or by its folds.
         self.fit(strip, actuator, state.p_act_pa, actuator.range.0, 0.0).tension > 0.0
     }

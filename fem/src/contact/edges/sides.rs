@@ -133,7 +133,7 @@ impl Boxes {
         Boxes { grid: Grid::new(places, size_m), boxes, half_m }
     }
 
-    /// Items from number `first` on whose boxes touch that of `nodes`, sorted.
+    /// Items from number `first` on whose boxes touch the box of `nodes`, sorted.
     fn near(&self, x: &Nodes, nodes: &[u32], first: u32, out: &mut Vec<u32>) {
         let own = bounds(x, nodes, 0.0);
         out.clear();
