@@ -39,8 +39,10 @@ mod loaded_section;
 #[cfg(test)]
 mod loaded_tests;
 mod passive;
+mod pulls;
 mod section;
 mod state;
+mod strips;
 #[cfg(test)]
 mod tests;
 mod tip;

@@ -82,6 +82,24 @@ fn a_strip_without_pressure_changes_no_bit() {
     assert_eq!(alone, [planar.work.states[0].curvature, 0.0]);
 }
 
+/// Beyond eight strips each finds its coordinate for itself.
+#[test]
+fn many_strips_of_which_two_pull_bend_as_these_two() {
+    let pulling = "[[strip]]\nazimuth_deg = 270\nchannel = 1\n[[strip]]\nazimuth_deg = 310\nchannel = 2";
+    let flat: String = (1..9).map(|i| format!("[[strip]]\nazimuth_deg = {}\nchannel = 0\n", 27 * i)).collect();
+    let narrow = |strips: &str| {
+        let text = crate::shipped("epam-textbook").unwrap().replace("width_mm = 60", "width_mm = 15");
+        let text = text.replace("max_pressure_kpa = 100", &format!("max_pressure_kpa = 100\n{strips}"));
+        Scenario::parse(&text).unwrap_or_else(|e| panic!("{}", e.in_text(&text)))
+    };
+    for (p, q) in [(20.0, 10.0), (30.0, 30.0), (8.0, 40.0), (90.0, 90.0)] {
+        let (few, shorter) = bend(&narrow(pulling), [0.0, p, q, 0.0]);
+        let (many, short) = bend(&narrow(&(flat.clone() + pulling)), [0.0, p, q, 0.0]);
+        let off = (few[0] - many[0]).hypot(few[1] - many[1]) + (short - shorter).abs();
+        assert!(few[1] < -0.1 && off < 1e-9, "{p}, {q}: {few:?} {many:?}");
+    }
+}
+
 #[test]
 fn two_equal_strips_at_a_right_angle_bend_half_way_between() {
     for scenario in [robot("epam", "", QUARTER), robot("fpam", "", QUARTER), full("", QUARTER)] {
