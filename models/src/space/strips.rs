@@ -62,7 +62,8 @@ impl Section<'_> {
 
     /// Pulls of all open strips, their coordinates found together by Newton's steps from those in `strips`, with ε₀.
     ///
-    /// None where that does not settle: at the end of a range, or where a pull does not fall with the contraction.
+    /// None where that does not settle: at the end of a range, beyond [`MOST_TOGETHER`] strips, or where the pull does not fall with the
+    /// contraction.
     pub(super) fn settled(&self, strips: &mut [StripState], kappa: [f64; 2], held: Held) -> Option<(f64, Pulls)> {
         let mut tangents = [Tangent::default(); MOST_TOGETHER];
         for (i, _, actuator) in self.opened(strips) {
@@ -101,7 +102,7 @@ impl Section<'_> {
             }
             for (i, _, actuator) in self.opened(strips) {
                 let ((low, high), a) = (actuator.range, tangents[i].a);
-                let next = a + step(&tangents[i]);
+                let next = Some(a + step(&tangents[i])).filter(|next| !next.is_nan())?;
                 tangents[i].a = next.clamp(0.5 * (a + low), 0.5 * (a + high));
             }
         }
