@@ -24,7 +24,7 @@ def test_the_command_line_is_in_it(told):
 
 def test_it_is_small_and_starts_quickly():
     wheel = Path(os.environ["IBR_WHEEL"]) if "IBR_WHEEL" in os.environ else pytest.skip("no wheel")
-    assert wheel.stat().st_size <= 8_000_000, f"{wheel.stat().st_size} bytes"
+    assert wheel.stat().st_size <= 4_000_000, f"{wheel.stat().st_size} bytes"
     code = "import numpy, time; t = time.perf_counter(); import ibr; print(time.perf_counter() - t)"
     times = [float(subprocess.check_output([sys.executable, "-c", code])) for _ in range(5)]
     assert min(times) <= 0.05, times

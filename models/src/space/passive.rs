@@ -14,7 +14,7 @@
 
 use super::frame::Bend;
 use super::lever::Matrix;
-use super::section::{Acting, Balance, STRAIGHT, Section, dot};
+use super::section::{Balance, STRAIGHT, Section, dot};
 use super::state::StripState;
 use crate::body::soft_step;
 use crate::error::Solved;
@@ -24,7 +24,7 @@ const SOFT_SHARE: f64 = 0.99;
 
 impl Section<'_> {
     pub(super) fn is_passive(&self, strips: &[StripState]) -> bool {
-        matches!(self.acting(&mut strips.to_vec()), Acting::Nothing)
+        self.strips.iter().zip(strips).all(|(strip, state)| !self.is_open(strip, state))
     }
 
     /// Area of gas that a bend of the wall alone takes: `h (A R + m·n)` \[m²\].

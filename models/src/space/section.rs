@@ -104,7 +104,7 @@ impl<'a> Section<'a> {
         SiteLoads { moment, s_m, ..SiteLoads::new(self.p_body_pa, p_act_pa) }
     }
 
-    fn is_open(&self, strip: &Strip, state: &StripState) -> bool {
+    pub(super) fn is_open(&self, strip: &Strip, state: &StripState) -> bool {
         let site = &self.sites[strip.site];
         let Some(actuator) = site.actuator.filter(|_| site.is_open(self.p_body_pa, state.p_act_pa)) else {
             return false;

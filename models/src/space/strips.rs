@@ -40,7 +40,14 @@ impl Section<'_> {
     }
 
     /// Coordinate of a strip at a contraction of the axis and a bend: the end of its range where it goes no further.
-    fn coordinate(&self, strip: &Strip, actuator: &Actuator, state: &StripState, contraction: f64, k: f64) -> f64 {
+    pub(super) fn coordinate(
+        &self,
+        strip: &Strip,
+        actuator: &Actuator,
+        state: &StripState,
+        contraction: f64,
+        k: f64,
+    ) -> f64 {
         let (low, high) = actuator.range;
         let of = |a: f64| self.fit(strip, actuator, state.p_act_pa, a, k).contraction;
         let x = if state.coordinate > low && state.coordinate < high { state.coordinate } else { 0.5 * (low + high) };

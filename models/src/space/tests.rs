@@ -310,6 +310,53 @@ fn every_set_of_pressures_has_one_equilibrium() {
     }
 }
 
+/// The reference halves the contraction, and finds every coordinate for itself within its range.
+#[test]
+fn strips_found_together_have_the_contraction_of_strips_found_one_by_one() {
+    let mut seed = 11_u64;
+    let mut random = || {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let more = "[[strip]]\nazimuth_deg = 95\nchannel = 1\n[[strip]]\nazimuth_deg = 190\nchannel = 2";
+    let grown = robot("epam", "", more).with_effect("arm_growth", &[0.5]);
+    let (mut slack, mut taut) = (0, 0);
+    for scenario in [robot("epam", "", more), full("", more), robot("fpam", "", more), robot("spam", "", more), grown] {
+        let model = Model::new(&scenario);
+        let section = Section::new(model.assembly(), 0, 2e3);
+        let thrust_n = 2e3 * section.area_m2;
+        for _ in 0..300 {
+            let pressures: [f64; 3] = std::array::from_fn(|_| 60e3 * (random() * random()).powi(2));
+            let mut strips = pressures.map(|p_act_pa: f64| StripState { p_act_pa, ..StripState::default() });
+            section.acting(&mut strips);
+            if strips.iter().all(|strip| !strip.is_open) {
+                continue;
+            }
+            let kappa = [6.0 * random() - 3.0, 6.0 * random() - 3.0];
+            let pull = |contraction: f64| -> f64 {
+                let open = section.opened(&strips);
+                let each = open.map(|(i, strip, actuator)| {
+                    let (k, own) = (super::section::dot(kappa, direction(strip.azimuth_rad)), &strips[i]);
+                    let a = section.coordinate(strip, actuator, own, contraction, k);
+                    section.fit(strip, actuator, own.p_act_pa, a, k).force
+                });
+                each.sum()
+            };
+            let floor = section.radius_m * kappa[0].hypot(kappa[1]);
+            let expected = match pull(floor) > thrust_n {
+                true => crate::root::halved([floor, 1.0_f64.max(2.0 * floor)], 60, |e0| pull(e0) > thrust_n)[0],
+                false => floor,
+            };
+            let mut found = strips;
+            let Ok(balance) = section.balance(&mut found, kappa) else { continue };
+            *(if expected > floor { &mut slack } else { &mut taut }) += 1;
+            let off = (balance.contraction - expected).abs();
+            assert!(off < 1e-9, "{pressures:?} {kappa:?}: {} and {expected}", balance.contraction);
+        }
+    }
+    assert!(slack > 200 && taut > 200, "{slack} slack, {taut} taut");
+}
+
 /// Curvatures at 20 kPa \[1/m\], guarded: the planar law of these robots.
 const PLANAR: [(&str, f64); 8] = [
     ("spam", 1.7612622806847158),
