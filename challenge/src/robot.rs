@@ -49,7 +49,7 @@ impl TrueRobot {
             return Err(CompareError::NotSimulated { problem });
         }
         let mut lift_share = 0.0;
-        for effect in &scenario.effects {
+        for effect in scenario.effects.iter() {
             if effect.name != "arm_growth" {
                 let problem =
                     format!("the scenario already has the effect {}; start from one without effects", effect.name);

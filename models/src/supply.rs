@@ -13,7 +13,7 @@ impl Supply {
     /// Of the effects that are switched on.
     pub fn of(scenario: &Scenario) -> Supply {
         let mut assembly = Assembly::empty(scenario.gravity_direction);
-        for chosen in &scenario.effects {
+        for chosen in scenario.effects.iter() {
             if let Some(effect) = by_name(&chosen.name).filter(|effect| effect.stage == Stage::Supply) {
                 (effect.add)(&chosen.values, &mut assembly);
             }

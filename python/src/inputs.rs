@@ -81,18 +81,38 @@ fn number_text(number: f64, is_whole: bool) -> String {
     if is_whole { format!("{number:.0}") } else { format!("{number:?}") }
 }
 
+/// A value to set at a place of a scenario's text.
+#[derive(Clone)]
 pub(crate) struct Change {
-    pub place: String,
-    pub text: String,
+    place: String,
+    value: Value,
+}
+
+#[derive(Clone)]
+enum Value {
     /// A number, and whether it is written as a whole one.
-    number: Option<(f64, bool)>,
+    Number(f64, bool),
+    /// As it is written in TOML.
+    Text(String),
 }
 
 impl Change {
     /// As the model takes it, where it is a number.
     pub(crate) fn setting(&self) -> Option<Setting<'_>> {
-        let ((table, key), (number, is_whole)) = (self.place.rsplit_once('.')?, self.number?);
-        Some(Setting { table, key, number, is_whole })
+        let (table, key) = self.place.rsplit_once('.')?;
+        match self.value {
+            Value::Number(number, is_whole) => Some(Setting { table, key, number, is_whole }),
+            Value::Text(_) => None,
+        }
+    }
+
+    /// Place and value as they are written.
+    pub(crate) fn written(&self) -> (String, String) {
+        let text = match &self.value {
+            Value::Number(number, is_whole) => number_text(*number, *is_whole),
+            Value::Text(text) => text.clone(),
+        };
+        (self.place.clone(), text)
     }
 }
 
@@ -100,15 +120,20 @@ impl Change {
 /// `body.radius_mm`.
 pub(crate) fn places(table: &str, given: &Bound<'_, PyDict>, found: &mut Vec<Change>) -> PyResult<()> {
     for (key, value) in given.iter() {
-        let key: String = key.extract()?;
+        let key = key.cast::<PyString>()?.to_cow()?;
         let place = match table {
             "" => key.replacen('_', ".", 1),
             _ => format!("{table}.{key}"),
         };
-        match value.cast::<PyDict>() {
-            Ok(inner) => places(&place, inner, found)?,
-            Err(_) => found.push(Change { place, text: toml_text(&value)?, number: plain_number(&value) }),
+        if let Ok(inner) = value.cast::<PyDict>() {
+            places(&place, inner, found)?;
+            continue;
         }
+        let value = match plain_number(&value) {
+            Some((number, is_whole)) => Value::Number(number, is_whole),
+            None => Value::Text(toml_text(&value)?),
+        };
+        found.push(Change { place, value });
     }
     Ok(())
 }

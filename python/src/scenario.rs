@@ -47,8 +47,7 @@ impl Scenario {
     fn with_numbers(&self, set: &[Change]) -> Option<Scenario> {
         let settings = set.iter().map(Change::setting).collect::<Option<Vec<_>>>()?;
         let scenario = self.robot.scenario.with_numbers(&settings)?;
-        let new = set.iter().map(|change| (change.place.clone(), change.text.clone()));
-        let changes = self.source.changes.iter().cloned().chain(new).collect();
+        let changes = [&self.source.changes[..], set].concat();
         let source = Source { base: self.source.base.clone(), changes, file: OnceLock::new() };
         let robot = Arc::new(Predictor::for_few(scenario));
         Some(Scenario { source: Arc::new(source), robot, often: OnceLock::new() })
@@ -143,7 +142,7 @@ impl Scenario {
         if let Some(new) = self.with_numbers(&set) {
             return Ok(new);
         }
-        let set: Vec<_> = set.into_iter().map(|change| (change.place, change.text)).collect();
+        let set: Vec<_> = set.iter().map(Change::written).collect();
         self.file()?.with_in_space(&set).map(Scenario::of).map_err(raised)
     }
 

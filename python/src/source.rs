@@ -1,6 +1,7 @@
 //! The text that a scenario comes from.
 
 use crate::errors::raised;
+use crate::inputs::Change;
 use ibr::ScenarioFile;
 use pyo3::prelude::*;
 use std::sync::{Arc, OnceLock};
@@ -8,7 +9,7 @@ use std::sync::{Arc, OnceLock};
 /// The text of a scenario, or its source text with the numbers that were set.
 pub(crate) struct Source {
     pub base: Arc<ScenarioFile>,
-    pub changes: Vec<(String, String)>,
+    pub changes: Vec<Change>,
     pub file: OnceLock<Arc<ScenarioFile>>,
 }
 
@@ -18,7 +19,8 @@ impl Source {
         if let Some(file) = self.file.get() {
             return Ok(file);
         }
-        let file = self.base.with_in_space(&self.changes).map_err(raised)?;
+        let changes: Vec<_> = self.changes.iter().map(Change::written).collect();
+        let file = self.base.with_in_space(&changes).map_err(raised)?;
         Ok(self.file.get_or_init(|| Arc::new(file)))
     }
 }

@@ -59,9 +59,9 @@ fn own_mm(found: &Diagnosis) -> f64 {
 /// The scenario with every mechanism of the shipped robot of this kind, and with none of them, as far as that switches several; each with
 /// what it switches, as candidates are called.
 pub(super) fn designs(scenario: &Scenario, options: &Options) -> Result<Vec<(Scenario, Vec<String>)>, CompareError> {
-    let has = |e: &EffectChoice| scenario.effects.iter().any(|own| own.name == e.name);
+    let has = |e: &&EffectChoice| scenario.effects.iter().any(|own| own.name == e.name);
     let all = shipped_scenario(scenario.actuator.kind.name)?.effects;
-    let (own, mut lacking): (Vec<_>, Vec<_>) = all.into_iter().partition(has);
+    let (own, mut lacking): (Vec<_>, Vec<_>) = all.iter().partition(has);
     let catalogue = scenario.catalogue();
     lacking.retain(|e| catalogue.by_name(&e.name).is_some_and(|e| scenario.takes(&e)) && !options.excludes(&e.name));
     let gone: Vec<String> =
@@ -69,7 +69,7 @@ pub(super) fn designs(scenario: &Scenario, options: &Options) -> Result<Vec<(Sce
     let with = lacking.iter().fold(scenario.clone(), |with, e| with.with_effect(&e.name, &e.values));
     let mut without = scenario.clone();
     without.effects.retain(|e| !gone.contains(&format!("{WITHOUT}{}", e.name)));
-    let new: Vec<String> = lacking.into_iter().map(|e| e.name).collect();
+    let new: Vec<String> = lacking.into_iter().map(|e| e.name.clone()).collect();
     Ok([(with, new), (without, gone)].into_iter().filter(|(_, switched)| switched.len() > 1).collect())
 }
 

@@ -25,7 +25,7 @@ pub(super) fn is_rolled([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> bool 
 /// A scenario as the robot sees it when it is rolled by 180°: forces and cameras that stay in the room change sides.
 pub(super) fn seen_rolled(scenario: &Scenario) -> Scenario {
     let mut seen = scenario.clone();
-    for effect in &mut seen.effects {
+    for effect in seen.effects.iter_mut() {
         let parameters = models::effects::by_name(&effect.name).map_or(&[][..], |entry| entry.parameters);
         let in_room = parameters.iter().zip(&mut effect.values).filter(|(p, _)| p.in_room);
         in_room.for_each(|(_, value)| *value = -*value);

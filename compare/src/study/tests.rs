@@ -221,7 +221,7 @@ fn the_shipped_robots_are_the_top_of_their_ladders() {
         shipped.effects.retain(|e| kind != "fpam" || e.name != "arm_growth");
         let top = published::model_ladder(kind).unwrap().pop().unwrap().scenario;
         assert_eq!(shipped.effects.len(), top.effects.len(), "{kind}");
-        for (own, rung) in shipped.effects.iter().zip(&top.effects) {
+        for (own, rung) in shipped.effects.iter().zip(top.effects.iter()) {
             let close = (own.values[0] / rung.values[0] - 1.0).abs() < 5e-3;
             assert!(own.name == rung.name && close, "{kind}: {own:?} {rung:?}");
         }

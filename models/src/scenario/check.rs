@@ -50,7 +50,7 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
         segments: segments(raw)?,
         p_max_pa: first.as_ref().map_or(Ok(None), |a| a.number("max_pressure_kpa"))?.unwrap_or(100e3),
         line: raw.supply.as_ref().map(line).transpose()?,
-        effects: effects_of(raw, &choice, &formulas)?,
+        effects: effects_of(raw, &choice, &formulas)?.into_iter().collect(),
         formulas,
     };
     check_space(&scenario, raw, &body)?;

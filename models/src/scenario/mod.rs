@@ -37,7 +37,7 @@ pub use dials::Dial;
 pub use keys::{KEYS, Key, key, moves_nothing};
 pub use set::Setting;
 pub use spans::Span;
-pub use stated::{BASES, EffectChoice, Scenario, Wall, Zone};
+pub use stated::{BASES, EffectChoice, Effects, Scenario, Wall, Zone};
 
 use crate::error::ScenarioError;
 

@@ -5,6 +5,7 @@ use crate::catalogue::Catalogue;
 use crate::effects::{EFFECTS, Effect, Fitted, IN_SPACE, Parameter};
 use crate::formula::Formula;
 use crate::line::Line;
+use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
 
 /// A scenario in SI units, checked.
@@ -47,7 +48,7 @@ pub struct Scenario {
     /// How fast a set pressure arrives, for what happens in time; `None`: at once.
     pub line: Option<Line>,
     /// Effects that are switched on, in the order of the catalogue.
-    pub effects: Vec<EffectChoice>,
+    pub effects: Effects,
     /// The scenario's own effects, in the order of the text: they follow the catalogue's.
     pub formulas: Vec<Arc<Formula>>,
 }
@@ -119,13 +120,37 @@ impl EffectChoice {
     }
 }
 
+/// The effects of a scenario. Its copies share them until one of them is changed, so that copying takes no time.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Effects(Arc<Vec<EffectChoice>>);
+
+impl FromIterator<EffectChoice> for Effects {
+    fn from_iter<I: IntoIterator<Item = EffectChoice>>(all: I) -> Effects {
+        Effects(Arc::new(all.into_iter().collect()))
+    }
+}
+
+impl Deref for Effects {
+    type Target = Vec<EffectChoice>;
+
+    fn deref(&self) -> &Vec<EffectChoice> {
+        &self.0
+    }
+}
+
+impl DerefMut for Effects {
+    fn deref_mut(&mut self) -> &mut Vec<EffectChoice> {
+        Arc::make_mut(&mut self.0)
+    }
+}
+
 /// The words of `basis`, which say how a value is known.
 pub const BASES: &[&str] = &["assumed", "calibrated", "measured", "predicted", "published"];
 
 impl Scenario {
     /// The same robot without any effect and with B = 0.
     pub fn bare(&self) -> Scenario {
-        Scenario { bending_stiffness: 0.0, effects: Vec::new(), ..self.clone() }
+        Scenario { bending_stiffness: 0.0, effects: Effects::default(), ..self.clone() }
     }
 
     /// The same with an effect set (added, or its values replaced); values in SI, catalogue order is kept. What shapes its

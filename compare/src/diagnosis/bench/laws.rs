@@ -147,7 +147,7 @@ pub(super) fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Cand
     hold(&mut laws, true, body_pressures, &[]);
     // Laws have their usual forms in a table of one quantity.
     hold_shapes(&mut laws);
-    for chosen in &scenario.effects {
+    for chosen in scenario.effects.iter() {
         laws.iter_mut().filter(|c| c.name == chosen.name).for_each(|c| c.as_given(&chosen.values));
     }
     laws.retain(|candidate| candidate.count() > 0);

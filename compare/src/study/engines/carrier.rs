@@ -90,7 +90,7 @@ fn without(scenario: &Scenario, account: Account, body_kpa: f64, actuator_kpa: f
     if account == Account::Wall {
         kept.bending_stiffness = 0.0;
     }
-    for effect in &scenario.effects {
+    for effect in scenario.effects.iter() {
         let mut fewer = kept.clone();
         fewer.effects.retain(|other| other.name != effect.name);
         if lines(&fewer)?.0 < lines(&kept)?.0 {
