@@ -4,7 +4,7 @@ use super::frame::direction;
 use super::lever::{Coupling, Outer};
 use super::loaded::couple;
 use super::section::Section;
-use super::tests::{at, full, robot};
+use super::tests::{at, full, random, robot};
 use super::*;
 use crate::term::RowKind;
 use crate::{Loads, Model, Pose, Prediction, Scenario, Unsolved};
@@ -251,11 +251,7 @@ fn the_ledger_has_a_line_for_every_load() {
 /// Random loads and pressures: a state or an error, the same from any buffers, and a state wherever the loads are small.
 #[test]
 fn any_loads_end_in_a_state_or_an_error() {
-    let mut seed = 11_u64;
-    let mut random = || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut random = random(11);
     for base in
         [robot("epam", "", THREE).with_bending(0.3), full("", THREE), robot("fpam", "", THREE).with_bending(1.0)]
     {

@@ -41,6 +41,8 @@ mod loaded_tests;
 mod passive;
 mod pulls;
 mod section;
+#[cfg(test)]
+mod section_tests;
 mod state;
 mod strips;
 #[cfg(test)]
